@@ -1,0 +1,80 @@
+//! Axis-aligned boxes.
+
+use glam::Vec3;
+
+/// The closed box of points between `min` and `max`; empty when a component of `min` exceeds that of `max`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Aabb {
+    pub min: Vec3,
+    pub max: Vec3,
+}
+
+impl Aabb {
+    /// The box that contains nothing: the identity of [`Aabb::union`].
+    pub const EMPTY: Self = Self { min: Vec3::INFINITY, max: Vec3::NEG_INFINITY };
+
+    #[inline]
+    pub fn of_points(points: impl IntoIterator<Item = Vec3>) -> Self {
+        points.into_iter().fold(Self::EMPTY, Self::with_point)
+    }
+
+    #[inline]
+    pub fn with_point(self, point: Vec3) -> Self {
+        Self { min: self.min.min(point), max: self.max.max(point) }
+    }
+
+    #[inline]
+    pub fn union(self, other: Self) -> Self {
+        Self { min: self.min.min(other.min), max: self.max.max(other.max) }
+    }
+
+    #[inline]
+    pub fn intersection(self, other: Self) -> Self {
+        Self { min: self.min.max(other.min), max: self.max.min(other.max) }
+    }
+
+    pub fn is_empty(&self) -> bool {
+        !self.min.cmple(self.max).all()
+    }
+
+    #[inline]
+    pub fn extent(&self) -> Vec3 {
+        self.max - self.min
+    }
+
+    pub fn centre(&self) -> Vec3 {
+        self.min * 0.5 + self.max * 0.5
+    }
+
+    /// Half of the surface area: the measure of the surface area heuristic (Goldsmith, Salmon 1987). 0 when empty.
+    #[inline]
+    pub fn half_area(&self) -> f32 {
+        let e = self.extent().max(Vec3::ZERO);
+        e.x * e.y + e.y * e.z + e.z * e.x
+    }
+
+    #[inline]
+    pub fn longest_axis(&self) -> usize {
+        let e = self.extent();
+        if e.x >= e.y && e.x >= e.z {
+            0
+        } else if e.y >= e.z {
+            1
+        } else {
+            2
+        }
+    }
+
+    /// The parts of the box on both sides of the plane `axis = split`, which both contain the plane.
+    #[inline]
+    pub fn cut(&self, axis: usize, split: f32) -> (Self, Self) {
+        let (mut below, mut above) = (*self, *self);
+        below.max[axis] = split;
+        above.min[axis] = split;
+        (below, above)
+    }
+
+    pub fn contains(&self, other: &Self) -> bool {
+        other.is_empty() || (self.min.cmple(other.min).all() && self.max.cmpge(other.max).all())
+    }
+}

@@ -1,0 +1,9 @@
+//! Rays, boxes, meshes: what everything else is about.
+
+mod aabb;
+mod mesh;
+mod ray;
+
+pub use aabb::Aabb;
+pub use mesh::{Mesh, MeshError};
+pub use ray::{Hit, PrimId, Ray};

@@ -1,0 +1,104 @@
+//! Rays and what they hit.
+
+use std::num::NonZeroU32;
+
+use glam::Vec3;
+
+/// The points `origin + t * direction` with `t_min <= t < t_max`.
+///
+/// `direction` need not be of unit length; `t` is measured in its lengths. A negative `t_min` counts as 0. A ray whose
+/// origin or direction is not finite, whose direction is zero or whose interval is empty (or NaN) hits nothing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C, align(16))]
+pub struct Ray {
+    pub origin: Vec3,
+    pub t_min: f32,
+    pub direction: Vec3,
+    pub t_max: f32,
+}
+
+const _: () = assert!(size_of::<Ray>() == 32);
+
+impl Ray {
+    /// The whole half-line: `t` in [0, infinity).
+    pub fn new(origin: Vec3, direction: Vec3) -> Self {
+        Self { origin, t_min: 0.0, direction, t_max: f32::INFINITY }
+    }
+
+    /// The same ray, ending before `t_max`.
+    pub fn until(self, t_max: f32) -> Self {
+        Self { t_max, ..self }
+    }
+
+    /// The interval that queries search: `t_min` raised to at least 0, and `t_max`.
+    #[inline(always)]
+    pub fn interval(&self) -> (f32, f32) {
+        (if self.t_min > 0.0 { self.t_min } else { 0.0 }, self.t_max)
+    }
+
+    /// Whether the ray can hit anything at all; every structure answers "no hit" for the others without a traversal.
+    #[inline(always)]
+    pub fn is_valid(&self) -> bool {
+        let (t_min, t_max) = self.interval();
+        let finite = self.origin.is_finite() && self.direction.is_finite();
+        finite && self.direction != Vec3::ZERO && !self.t_min.is_nan() && t_min < t_max
+    }
+
+    /// The point at `t`, rounded.
+    #[inline(always)]
+    pub fn at(&self, t: f32) -> Vec3 {
+        self.origin + self.direction * t
+    }
+}
+
+/// The number of a triangle in its mesh. Stored inverted, so that `Option<Hit>` takes 8 bytes.
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+pub struct PrimId(NonZeroU32);
+
+impl PrimId {
+    /// # Panics
+    /// If `index` is `u32::MAX`; a [`Mesh`](crate::geometry::Mesh) never has that many triangles.
+    #[inline(always)]
+    pub fn new(index: u32) -> Self {
+        Self(NonZeroU32::new(!index).expect("a primitive number is below u32::MAX"))
+    }
+
+    #[inline(always)]
+    pub fn index(self) -> u32 {
+        !self.0.get()
+    }
+}
+
+impl std::fmt::Debug for PrimId {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "#{}", self.index())
+    }
+}
+
+/// A primitive hit by a ray, and where.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// Ray parameter, in lengths of the direction.
+    pub t: f32,
+    pub prim: PrimId,
+}
+
+const _: () = assert!(size_of::<Option<Hit>>() == 8);
+
+impl Hit {
+    #[inline(always)]
+    pub fn new(t: f32, index: u32) -> Self {
+        Self { t, prim: PrimId::new(index) }
+    }
+
+    /// Whether this hit wins over `other`: nearer, or as near with the lower primitive number.
+    #[inline(always)]
+    pub fn beats(self, other: Hit) -> bool {
+        self.t < other.t || (self.t == other.t && self.prim.index() < other.prim.index())
+    }
+
+    /// Whether both hits name the same primitive at the same `t`, bit for bit.
+    pub fn same_bits(self, other: Hit) -> bool {
+        self.t.to_bits() == other.t.to_bits() && self.prim == other.prim
+    }
+}

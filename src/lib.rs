@@ -1,0 +1,4 @@
+//! **sahara** (SAH And Ray Acceleration): benchmark, validate and image-test ray-tracing acceleration structures.
+
+pub mod geometry;
+pub mod scene;

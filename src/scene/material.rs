@@ -1,0 +1,33 @@
+//! Surface materials of the course's renderer.
+
+use glam::Vec3;
+
+/// Phong-style material: what the report's scenes need and no more. Colours are linear RGB, components from 0 to 1.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Material {
+    pub name: String,
+    /// `Ka`: share of the diffuse colour that is there without any light.
+    pub ambient: Vec3,
+    /// `Kd`: Lambert reflection.
+    pub diffuse: Vec3,
+    /// `Ks`: Blinn-Phong highlight.
+    pub specular: Vec3,
+    /// `Ns`: exponent of the highlight.
+    pub shininess: f32,
+    /// `r`: weight of the mirror ray; 0 casts none.
+    pub mirror: f32,
+}
+
+impl Material {
+    /// A plain light grey, for meshes that come without materials.
+    pub fn named(name: impl Into<String>) -> Self {
+        Self {
+            name: name.into(),
+            ambient: Vec3::splat(0.15),
+            diffuse: Vec3::splat(0.75),
+            specular: Vec3::splat(0.1),
+            shininess: 20.0,
+            mirror: 0.0,
+        }
+    }
+}

@@ -1,0 +1,1 @@
+//! Meshes made by our own code.
