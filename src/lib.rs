@@ -1,4 +1,9 @@
 //! **sahara** (SAH And Ray Acceleration): benchmark, validate and image-test ray-tracing acceleration structures.
 
+pub mod accel;
 pub mod geometry;
+pub mod registry;
 pub mod scene;
+pub mod simd;
+pub mod structures;
+pub mod triangle;

@@ -1,0 +1,13 @@
+//! What an acceleration structure is, and the kinds of numbers it gives: answers, counts per ray, bytes, tree shape.
+
+mod counts;
+mod footprint;
+mod observer;
+mod shape;
+mod traits;
+
+pub use counts::Counts;
+pub use footprint::Footprint;
+pub use observer::{Observed, Observer};
+pub use shape::TreeShape;
+pub use traits::{Accel, BuildError, DynAccel};

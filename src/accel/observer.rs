@@ -1,0 +1,36 @@
+//! Watching a traversal at no cost when nobody watches.
+
+/// Told by a traversal what it does. Every method does nothing by default, so that `()` compiles to nothing.
+pub trait Observer {
+    /// An inner node is entered.
+    #[inline(always)]
+    fn inner(&mut self) {}
+
+    /// A leaf that holds `references` triangles is entered.
+    #[inline(always)]
+    fn leaf(&mut self, _references: u32) {}
+
+    /// `n` triangles are tested.
+    #[inline(always)]
+    fn test(&mut self, _n: u32) {}
+}
+
+impl Observer for () {}
+
+/// Which events a structure reports. What is not observed is unknown, not zero.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Observed {
+    /// Inner nodes and leaves.
+    pub steps: bool,
+    /// Triangle tests.
+    pub tests: bool,
+}
+
+impl Observed {
+    /// Steps and tests.
+    pub const ALL: Self = Self { steps: true, tests: true };
+    /// Triangle tests alone.
+    pub const TESTS: Self = Self { steps: false, tests: true };
+    /// Nothing.
+    pub const NONE: Self = Self { steps: false, tests: false };
+}

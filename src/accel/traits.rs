@@ -1,0 +1,125 @@
+//! The one interface of all structures.
+
+use std::fmt::Debug;
+use std::sync::Arc;
+
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+use super::{Counts, Footprint, Observed, Observer, TreeShape};
+use crate::geometry::{Hit, Mesh, Ray};
+
+/// Why a structure could not be built.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum BuildError {
+    /// A value of the configuration is out of range; the sentence says which, and what is allowed.
+    #[error("{0}")]
+    Config(String),
+    /// The structure's limits do not admit the mesh; the sentence says why.
+    #[error("{0}")]
+    Mesh(String),
+}
+
+/// An acceleration structure: answers two questions about a ray.
+///
+/// The contract, held by the conformance suite:
+/// 1. `closest_hit` gives the least `t` in [`t_min`, `t_max`) as the structure's triangle test computes it, over all
+///    triangles of the mesh that are not degenerate;
+/// 2. among equal `t` any primitive (the structures of this crate give the lowest number);
+/// 3. `any_hit(ray) == closest_hit(ray).is_some()`;
+/// 4. answers depend on nothing but the mesh, the configuration and the ray;
+/// 5. every mesh that [`Mesh`] admits builds, the empty one included.
+///
+/// A ray for which [`Ray::is_valid`] is false hits nothing.
+pub trait Accel: Sized + Send + Sync + 'static {
+    /// Build parameters. Serialisation gives them names: the command line sets them as `key=value`, and records show them.
+    type Config: Clone + Debug + Default + Serialize + DeserializeOwned + Send + Sync + 'static;
+
+    /// Name of the triangle test whose results the structure returns: those with the same test must agree bit for bit in
+    /// `t`. A structure with a test that nobody shares keeps `"own"`.
+    const TRIANGLE_TEST: &'static str = "own";
+
+    /// What the observer is told.
+    const OBSERVED: Observed = Observed::ALL;
+
+    /// # Errors
+    /// If a value of `config` is out of range.
+    fn build(mesh: &Arc<Mesh>, config: &Self::Config) -> Result<Self, BuildError>;
+
+    /// The nearest hit of `ray`.
+    fn closest_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit>;
+
+    /// Whether `ray` hits anything.
+    fn any_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> bool;
+
+    /// The nearest hits of a batch.
+    ///
+    /// # Panics
+    /// If the slices differ in length.
+    #[inline]
+    fn closest_hits<O: Observer>(&self, rays: &[Ray], hits: &mut [Option<Hit>], observer: &mut O) {
+        assert_eq!(rays.len(), hits.len(), "one answer a ray");
+        for (ray, hit) in rays.iter().zip(hits) {
+            *hit = self.closest_hit(ray, observer);
+        }
+    }
+
+    /// For each ray of a batch, whether it hits anything.
+    ///
+    /// # Panics
+    /// If the slices differ in length.
+    #[inline]
+    fn any_hits<O: Observer>(&self, rays: &[Ray], hits: &mut [bool], observer: &mut O) {
+        assert_eq!(rays.len(), hits.len(), "one answer a ray");
+        for (ray, hit) in rays.iter().zip(hits) {
+            *hit = self.any_hit(ray, observer);
+        }
+    }
+
+    fn footprint(&self) -> Footprint;
+
+    fn shape(&self) -> TreeShape;
+}
+
+/// [`Accel`] without its type: one virtual call hands over a batch, inside everything is monomorphised.
+pub trait DynAccel: Send + Sync {
+    fn closest_hits(&self, rays: &[Ray], hits: &mut [Option<Hit>]);
+    fn any_hits(&self, rays: &[Ray], hits: &mut [bool]);
+    /// As `closest_hits`, adding to `counts` what was done.
+    fn closest_hits_counted(&self, rays: &[Ray], hits: &mut [Option<Hit>], counts: &mut Counts);
+    /// As `any_hits`, adding to `counts` what was done.
+    fn any_hits_counted(&self, rays: &[Ray], hits: &mut [bool], counts: &mut Counts);
+    fn observed(&self) -> Observed;
+    fn footprint(&self) -> Footprint;
+    fn shape(&self) -> TreeShape;
+}
+
+impl<A: Accel> DynAccel for A {
+    fn closest_hits(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
+        Accel::closest_hits(self, rays, hits, &mut ());
+    }
+
+    fn any_hits(&self, rays: &[Ray], hits: &mut [bool]) {
+        Accel::any_hits(self, rays, hits, &mut ());
+    }
+
+    fn closest_hits_counted(&self, rays: &[Ray], hits: &mut [Option<Hit>], counts: &mut Counts) {
+        Accel::closest_hits(self, rays, hits, counts);
+    }
+
+    fn any_hits_counted(&self, rays: &[Ray], hits: &mut [bool], counts: &mut Counts) {
+        Accel::any_hits(self, rays, hits, counts);
+    }
+
+    fn observed(&self) -> Observed {
+        A::OBSERVED
+    }
+
+    fn footprint(&self) -> Footprint {
+        Accel::footprint(self)
+    }
+
+    fn shape(&self) -> TreeShape {
+        Accel::shape(self)
+    }
+}

@@ -1,0 +1,235 @@
+//! The structures by name: the only place that names them all.
+
+use std::sync::Arc;
+
+use serde_json::{Map, Value};
+
+use crate::accel::{Accel, BuildError, DynAccel, Observed};
+use crate::geometry::Mesh;
+use crate::structures::BruteForce;
+use crate::triangle::MollerTrumbore;
+
+/// The structures that a run can choose from, in the order of tables.
+pub struct Registry {
+    entries: Vec<Entry>,
+}
+
+/// One structure over one triangle test, with its default configuration.
+#[derive(Clone)]
+pub struct Entry {
+    /// As written on the command line; entries of one structure over several tests share it.
+    pub name: String,
+    /// [`Accel::TRIANGLE_TEST`].
+    pub triangle_test: &'static str,
+    /// [`Accel::OBSERVED`].
+    pub observed: Observed,
+    config: Value,
+    build: Build,
+}
+
+type Build = Arc<dyn Fn(&Arc<Mesh>, &Value) -> Result<Box<dyn DynAccel>, BuildError> + Send + Sync>;
+
+/// A structure that a run has chosen: what is built, and the name to print.
+#[derive(Clone)]
+pub struct Choice {
+    pub entry: Entry,
+    /// The whole configuration, defaults included.
+    pub config: Value,
+    /// `name`, or `name:key=value,..` with the values that differ from the default.
+    pub label: String,
+}
+
+/// Why a choice of structure is refused.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum ChoiceError {
+    #[error("there is no structure {name:?}; there are: {known}")]
+    Unknown { name: String, known: String },
+    #[error("{name} is not offered over the triangle test {test:?}; it is over: {known}")]
+    Test { name: String, test: String, known: String },
+    #[error("{name} has no key {key:?}; its keys are: {known}")]
+    Key { name: String, key: String, known: String },
+    #[error("{part:?} in {spec:?} is not of the form key=value")]
+    Form { spec: String, part: String },
+    #[error("{name} cannot be configured so: {reason}")]
+    Value { name: String, reason: String },
+}
+
+impl Registry {
+    /// No structure at all.
+    pub fn empty() -> Self {
+        Self { entries: vec![] }
+    }
+
+    /// The structures of this crate.
+    pub fn builtin() -> Self {
+        Self::empty().with::<BruteForce<MollerTrumbore>>("brute-force", Default::default())
+    }
+
+    /// Adds a structure under `name`, with `config` as what a user gets who names no keys.
+    ///
+    /// # Panics
+    /// If `name` holds a character that the command line gives a meaning (`:`, `,`, `=` or white space), if the name is
+    /// taken for the same triangle test, or if `config` does not serialise to a map of keys.
+    pub fn with<A: Accel>(mut self, name: &str, config: A::Config) -> Self {
+        assert!(
+            !name.is_empty() && !name.contains([':', ',', '=', ' ', '\t', '\n']),
+            "the name {name:?} must not hold ':', ',', '=' or white space"
+        );
+        let test = A::TRIANGLE_TEST;
+        let taken = self.entries.iter().any(|e| e.name == name && e.triangle_test == test);
+        assert!(!taken, "there is already a structure {name:?} over the test {test:?}");
+        let config = match serde_json::to_value(config).expect("a configuration serialises") {
+            Value::Null => Value::Object(Map::new()),
+            value @ Value::Object(_) => value,
+            other => panic!("the configuration of {name:?} must be a struct with named fields, not {other}"),
+        };
+        let build: Build = Arc::new(|mesh, config| {
+            let config = parse::<A>(config).map_err(BuildError::Config)?;
+            Ok(Box::new(A::build(mesh, &config)?))
+        });
+        self.entries.push(Entry {
+            name: name.into(),
+            triangle_test: A::TRIANGLE_TEST,
+            observed: A::OBSERVED,
+            config,
+            build,
+        });
+        self
+    }
+
+    /// All entries, in order.
+    pub fn entries(&self) -> &[Entry] {
+        &self.entries
+    }
+
+    /// The entry `name` over `test`.
+    pub fn find(&self, name: &str, test: &str) -> Option<&Entry> {
+        self.entries.iter().find(|e| e.name == name && e.triangle_test == test)
+    }
+
+    /// Reads `NAME` or `NAME:key=value,..`. The key `test` chooses the triangle test; without it the first entry of that
+    /// name is taken.
+    ///
+    /// # Errors
+    /// If the name, a key or the test is unknown, listing those there are; or if a value does not fit.
+    pub fn choose(&self, spec: &str) -> Result<Choice, ChoiceError> {
+        let (name, pairs) = spec.split_once(':').unwrap_or((spec, ""));
+        let mut overrides = vec![];
+        for part in pairs.split(',').filter(|part| !part.is_empty()) {
+            let form = || ChoiceError::Form { spec: spec.into(), part: part.into() };
+            overrides.push(part.split_once('=').ok_or_else(form)?);
+        }
+        let test = overrides.iter().position(|(key, _)| *key == "test").map(|i| overrides.remove(i).1);
+
+        let named: Vec<&Entry> = self.entries.iter().filter(|e| e.name == name).collect();
+        let Some(&first) = named.first() else {
+            return Err(ChoiceError::Unknown { name: name.into(), known: self.names().join(", ") });
+        };
+        let entry = match test {
+            None => first,
+            Some(test) => named.iter().find(|e| e.triangle_test == test).copied().ok_or_else(|| ChoiceError::Test {
+                name: name.into(),
+                test: test.into(),
+                known: named.iter().map(|e| e.triangle_test).collect::<Vec<_>>().join(", "),
+            })?,
+        };
+        entry.configure(&overrides, !std::ptr::eq(entry, first))
+    }
+
+    /// The default choice of every entry, in order.
+    pub fn all(&self) -> Vec<Choice> {
+        let first = |e: &Entry| self.entries.iter().find(|f| f.name == e.name).is_some_and(|f| std::ptr::eq(f, e));
+        self.entries.iter().map(|e| e.configure(&[], !first(e)).expect("a default configuration is accepted")).collect()
+    }
+
+    /// Names without repetition, in order.
+    pub fn names(&self) -> Vec<&str> {
+        let mut names: Vec<&str> = vec![];
+        for entry in &self.entries {
+            if !names.contains(&entry.name.as_str()) {
+                names.push(&entry.name);
+            }
+        }
+        names
+    }
+}
+
+impl Entry {
+    /// The default configuration, by key.
+    pub fn config(&self) -> &Value {
+        &self.config
+    }
+
+    fn configure(&self, overrides: &[(&str, &str)], name_test: bool) -> Result<Choice, ChoiceError> {
+        let mut config = self.config.clone();
+        let keys = config.as_object_mut().expect("checked when it was registered");
+        let mut shown = vec![];
+        if name_test {
+            shown.push(format!("test={}", self.triangle_test));
+        }
+        for &(key, text) in overrides {
+            let known: Vec<&str> = keys.keys().map(String::as_str).collect();
+            let unknown = || ChoiceError::Key { name: self.name.clone(), key: key.into(), known: known.join(", ") };
+            if !keys.contains_key(key) {
+                return Err(unknown());
+            }
+            let value = serde_json::from_str(text).unwrap_or_else(|_| Value::String(text.into()));
+            if keys[key] != value {
+                shown.push(format!("{key}={text}"));
+            }
+            keys.insert(key.into(), value);
+        }
+        let label = if shown.is_empty() { self.name.clone() } else { format!("{}:{}", self.name, shown.join(",")) };
+        let choice = Choice { entry: self.clone(), config, label };
+        let empty = Arc::new(Mesh::new(vec![], vec![]).expect("the empty mesh is valid"));
+        match choice.build(&empty) {
+            Ok(_) => Ok(choice),
+            Err(error) => Err(ChoiceError::Value { name: self.name.clone(), reason: error.to_string() }),
+        }
+    }
+}
+
+impl Choice {
+    /// # Errors
+    /// If the structure does not admit the mesh.
+    pub fn build(&self, mesh: &Arc<Mesh>) -> Result<Box<dyn DynAccel>, BuildError> {
+        (self.entry.build)(mesh, &self.config)
+    }
+
+    /// The triangle test whose answers this structure gives.
+    pub fn triangle_test(&self) -> &'static str {
+        self.entry.triangle_test
+    }
+}
+
+/// A configuration from its map of keys; a type without fields serialises to null.
+fn parse<A: Accel>(config: &Value) -> Result<A::Config, String> {
+    serde_json::from_value(config.clone()).or_else(|error| match config {
+        Value::Object(map) if map.is_empty() => serde_json::from_value(Value::Null).map_err(|_| error.to_string()),
+        _ => Err(error.to_string()),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn unknown_names_and_keys_are_answered_with_the_known_ones() {
+        let registry = Registry::builtin();
+        let error = registry.choose("brute").map(|_| ()).unwrap_err().to_string();
+        assert!(error.contains("\"brute\"") && error.contains("brute-force"), "{error}");
+        let error = registry.choose("brute-force:leaf=3").map(|_| ()).unwrap_err();
+        assert!(matches!(error, ChoiceError::Key { .. }), "{error}");
+        let error = registry.choose("brute-force:leaf").map(|_| ()).unwrap_err();
+        assert!(matches!(error, ChoiceError::Form { .. }), "{error}");
+        let error = registry.choose("brute-force:test=none").map(|_| ()).unwrap_err();
+        assert!(matches!(error, ChoiceError::Test { .. }), "{error}");
+    }
+
+    #[test]
+    fn labels_name_only_what_differs() {
+        let choice = Registry::builtin().choose("brute-force:test=moller-trumbore").unwrap();
+        assert_eq!(choice.label, "brute-force");
+    }
+}

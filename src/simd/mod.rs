@@ -1,0 +1,82 @@
+//! Lanes of `f32`: written once over a small trait, so that every width gives the same bits.
+
+#[cfg(all(target_arch = "x86_64", target_feature = "avx"))]
+mod avx;
+mod portable;
+#[cfg(target_arch = "x86_64")]
+mod sse;
+mod vector;
+
+#[cfg(target_arch = "x86_64")]
+pub use sse::F32x4;
+#[cfg(not(target_arch = "x86_64"))]
+pub type F32x4 = portable::Portable<4>;
+
+#[cfg(all(target_arch = "x86_64", target_feature = "avx"))]
+pub use avx::F32x8;
+#[cfg(not(all(target_arch = "x86_64", target_feature = "avx")))]
+pub type F32x8 = portable::Portable<8>;
+
+pub use portable::Portable;
+pub use vector::LaneVec3;
+
+/// `N` lanes of `f32`. Arithmetic is IEEE 754 single precision, lane by lane and never fused.
+pub trait Lanes<const N: usize>: Copy {
+    fn splat(value: f32) -> Self;
+    fn load(values: &[f32; N]) -> Self;
+    fn store(self) -> [f32; N];
+    fn add(self, other: Self) -> Self;
+    fn sub(self, other: Self) -> Self;
+    fn mul(self, other: Self) -> Self;
+    fn div(self, other: Self) -> Self;
+    /// `self`, negated in the lanes where the sign bit of `other` is set.
+    fn flip_sign(self, other: Self) -> Self;
+    /// Lanes where `self <= other`, as bits, lane 0 lowest; false where one is NaN.
+    fn le(self, other: Self) -> u32;
+    /// Lanes where `self < other`, likewise.
+    fn lt(self, other: Self) -> u32;
+}
+
+/// The instruction set that this build of the lanes uses, for records.
+pub fn level() -> &'static str {
+    if cfg!(all(target_arch = "x86_64", target_feature = "avx")) {
+        "avx"
+    } else if cfg!(target_arch = "x86_64") {
+        "sse2"
+    } else {
+        "portable"
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SPECIAL: [f32; 12] =
+        [0.0, -0.0, 1.0, -1.5, 1e-40, 3e38, f32::INFINITY, f32::NEG_INFINITY, f32::NAN, 0.1, 7.0, -1e-20];
+
+    fn same_as_portable<const N: usize, L: Lanes<N>>() {
+        for i in 0..SPECIAL.len() {
+            for j in 0..SPECIAL.len() {
+                let a = std::array::from_fn(|k| SPECIAL[(i + k) % SPECIAL.len()]);
+                let b = std::array::from_fn(|k| SPECIAL[(j + 5 * k) % SPECIAL.len()]);
+                let (x, y) = (L::load(&a), L::load(&b));
+                let (p, q) = (Portable::load(&a), Portable::load(&b));
+                let bits = |v: [f32; N]| v.map(|f| if f.is_nan() { 0x7fc0_0000 } else { f.to_bits() });
+                assert_eq!(bits(x.add(y).store()), bits(p.add(q).store()));
+                assert_eq!(bits(x.sub(y).store()), bits(p.sub(q).store()));
+                assert_eq!(bits(x.mul(y).store()), bits(p.mul(q).store()));
+                assert_eq!(bits(x.div(y).store()), bits(p.div(q).store()));
+                assert_eq!(bits(x.flip_sign(y).store()), bits(p.flip_sign(q).store()));
+                assert_eq!((x.le(y), x.lt(y)), (p.le(q), p.lt(q)));
+                assert_eq!(bits(L::splat(a[0]).store()), bits([a[0]; N]));
+            }
+        }
+    }
+
+    #[test]
+    fn every_width_gives_the_bits_of_the_portable_lanes() {
+        same_as_portable::<4, F32x4>();
+        same_as_portable::<8, F32x8>();
+    }
+}

@@ -1,0 +1,55 @@
+use std::marker::PhantomData;
+use std::ops::Sub;
+
+use glam::Vec3;
+
+use super::Lanes;
+
+/// A 3-vector in every lane. Sums of products are taken from x to z.
+#[derive(Clone, Copy, Debug)]
+pub struct LaneVec3<const N: usize, L> {
+    pub x: L,
+    pub y: L,
+    pub z: L,
+    width: PhantomData<[f32; N]>,
+}
+
+impl<const N: usize, L: Lanes<N>> LaneVec3<N, L> {
+    #[inline(always)]
+    pub fn new(x: L, y: L, z: L) -> Self {
+        Self { x, y, z, width: PhantomData }
+    }
+
+    #[inline(always)]
+    pub fn splat(v: Vec3) -> Self {
+        Self::new(L::splat(v.x), L::splat(v.y), L::splat(v.z))
+    }
+
+    #[inline(always)]
+    pub fn load([x, y, z]: &[[f32; N]; 3]) -> Self {
+        Self::new(L::load(x), L::load(y), L::load(z))
+    }
+
+    #[inline(always)]
+    pub fn dot(self, other: Self) -> L {
+        self.x.mul(other.x).add(self.y.mul(other.y)).add(self.z.mul(other.z))
+    }
+
+    #[inline(always)]
+    pub fn cross(self, other: Self) -> Self {
+        Self::new(
+            self.y.mul(other.z).sub(self.z.mul(other.y)),
+            self.z.mul(other.x).sub(self.x.mul(other.z)),
+            self.x.mul(other.y).sub(self.y.mul(other.x)),
+        )
+    }
+}
+
+impl<const N: usize, L: Lanes<N>> Sub for LaneVec3<N, L> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        Self::new(self.x.sub(other.x), self.y.sub(other.y), self.z.sub(other.z))
+    }
+}

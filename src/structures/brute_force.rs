@@ -1,0 +1,69 @@
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+use super::leaf::{LeafBlock, observe, search, start};
+use crate::accel::{Accel, BuildError, Footprint, Observer, TreeShape};
+use crate::geometry::{Hit, Mesh, Ray};
+use crate::simd::F32x8;
+use crate::triangle::TriangleTest;
+
+/// Every triangle, tested in order: the reference that all others are held against.
+///
+/// Eight triangles at a time, which gives the bits of the scalar test.
+pub struct BruteForce<T: TriangleTest> {
+    blocks: Vec<LeafBlock<T, 8>>,
+    references: usize,
+}
+
+/// Nothing to configure.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BruteForceConfig {}
+
+impl<T: TriangleTest> BruteForce<T> {
+    fn query<const ANY: bool, O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit> {
+        let (prepared, t_min, mut nearest) = start::<T>(ray)?;
+        observe(observer, self.references as u32);
+        search::<ANY, 8, F32x8, T>(&self.blocks, &prepared, t_min, &mut nearest);
+        nearest.hit()
+    }
+}
+
+impl<T: TriangleTest> Accel for BruteForce<T> {
+    type Config = BruteForceConfig;
+
+    const TRIANGLE_TEST: &'static str = T::NAME;
+
+    fn build(mesh: &Arc<Mesh>, _: &BruteForceConfig) -> Result<Self, BuildError> {
+        let ids: Vec<u32> = mesh.solid().collect();
+        let mut blocks = Vec::with_capacity(ids.len().div_ceil(8));
+        LeafBlock::fill(mesh, &ids, &mut blocks);
+        Ok(Self { blocks, references: ids.len() })
+    }
+
+    fn closest_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit> {
+        self.query::<false, O>(ray, observer)
+    }
+
+    fn any_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> bool {
+        self.query::<true, O>(ray, observer).is_some()
+    }
+
+    fn footprint(&self) -> Footprint {
+        let (triangles, references) = LeafBlock::<T, 8>::BYTES;
+        let n = self.blocks.len();
+        Footprint { triangles: n * triangles, references: n * references, ..Footprint::default() }
+    }
+
+    fn shape(&self) -> TreeShape {
+        TreeShape {
+            leaves: 1,
+            empty: usize::from(self.references == 0),
+            references: self.references,
+            largest_leaf: self.references,
+            sah_cost: Some(self.references as f64),
+            ..TreeShape::default()
+        }
+    }
+}
