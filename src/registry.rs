@@ -6,7 +6,8 @@ use serde_json::{Map, Value};
 
 use crate::accel::{Accel, BuildError, DynAccel, Observed};
 use crate::geometry::Mesh;
-use crate::structures::BruteForce;
+use crate::structures::obvhs::{Native, ObvhsBvh2, ObvhsConfig, ObvhsCwBvh, Over, RtTest};
+use crate::structures::{BruteForce, KdConfig, KdTree};
 use crate::triangle::MollerTrumbore;
 
 /// The structures that a run can choose from, in the order of tables.
@@ -62,7 +63,15 @@ impl Registry {
 
     /// The structures of this crate.
     pub fn builtin() -> Self {
-        Self::empty().with::<BruteForce<MollerTrumbore>>("brute-force", Default::default())
+        Self::empty()
+            .with::<BruteForce<MollerTrumbore>>("brute-force", Default::default())
+            .with::<KdTree<MollerTrumbore>>("median-kd", KdConfig::REPORT)
+            .with::<KdTree<MollerTrumbore>>("sah-kd", KdConfig::SAH)
+            .with::<ObvhsBvh2<Native>>("obvhs-bvh2", ObvhsConfig::default())
+            .with::<ObvhsBvh2<Over<MollerTrumbore>>>("obvhs-bvh2", ObvhsConfig::default())
+            .with::<ObvhsCwBvh<Native>>("obvhs-cwbvh", ObvhsConfig::default())
+            .with::<ObvhsCwBvh<Over<MollerTrumbore>>>("obvhs-cwbvh", ObvhsConfig::default())
+            .with::<BruteForce<RtTest>>("brute-force", Default::default())
     }
 
     /// Adds a structure under `name`, with `config` as what a user gets who names no keys.

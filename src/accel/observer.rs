@@ -2,6 +2,9 @@
 
 /// Told by a traversal what it does. Every method does nothing by default, so that `()` compiles to nothing.
 pub trait Observer {
+    /// Whether anybody watches. A structure that cannot watch its fast path takes another one when this is true.
+    const ACTIVE: bool = true;
+
     /// An inner node is entered.
     #[inline(always)]
     fn inner(&mut self) {}
@@ -15,7 +18,9 @@ pub trait Observer {
     fn test(&mut self, _n: u32) {}
 }
 
-impl Observer for () {}
+impl Observer for () {
+    const ACTIVE: bool = false;
+}
 
 /// Which events a structure reports. What is not observed is unknown, not zero.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

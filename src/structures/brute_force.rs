@@ -2,7 +2,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::leaf::{LeafBlock, observe, search, start};
+use super::leaf::{LeafBlock, search, start};
 use crate::accel::{Accel, BuildError, Footprint, Observer, TreeShape};
 use crate::geometry::{Hit, Mesh, Ray};
 use crate::simd::F32x8;
@@ -24,8 +24,10 @@ pub struct BruteForceConfig {}
 impl<T: TriangleTest> BruteForce<T> {
     fn query<const ANY: bool, O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit> {
         let (prepared, t_min, mut nearest) = start::<T>(ray)?;
-        observe(observer, self.references as u32);
-        search::<ANY, 8, F32x8, T>(&self.blocks, &prepared, t_min, &mut nearest);
+        observer.leaf(self.references as u32);
+        let count = self.references as u32;
+        let tests = search::<ANY, 8, F32x8, T, ()>(&self.blocks, count, &prepared, t_min, &mut nearest, &mut ());
+        observer.test(tests);
         nearest.hit()
     }
 }

@@ -1,6 +1,5 @@
 //! Triangles as leaves hold them, and the search through them.
 
-use crate::accel::Observer;
 use crate::geometry::{Hit, Mesh, Ray};
 use crate::simd::Lanes;
 use crate::triangle::TriangleTest;
@@ -66,15 +65,56 @@ impl<T: TriangleTest, const N: usize> LeafBlock<T, N> {
     pub const BYTES: (usize, usize) = (size_of::<Self>() - size_of::<[u32; N]>(), size_of::<[u32; N]>());
 }
 
-/// Searches the blocks of one leaf; with `ANY`, returns at the first hit in the interval.
+/// Remembers triangles that a ray has been tested against.
+pub(crate) trait Mailbox {
+    /// Whether anything is remembered at all.
+    const ACTIVE: bool;
+
+    /// Whether triangle `id` is remembered; from now on it is.
+    fn visit(&mut self, id: u32) -> bool;
+}
+
+/// No mailbox.
+impl Mailbox for () {
+    const ACTIVE: bool = false;
+
+    #[inline(always)]
+    fn visit(&mut self, _: u32) -> bool {
+        false
+    }
+}
+
+/// A direct-mapped cache of the last triangle for each of eight hash values (Havran 2000).
+impl Mailbox for [u32; 8] {
+    const ACTIVE: bool = true;
+
+    #[inline(always)]
+    fn visit(&mut self, id: u32) -> bool {
+        std::mem::replace(&mut self[(id & 7) as usize], id) == id
+    }
+}
+
+/// Searches the `count` triangles in the blocks of one leaf and returns how many were tested. With `ANY`, returns at the
+/// first block with a hit in the interval.
 #[inline(always)]
-pub(crate) fn search<const ANY: bool, const N: usize, L: Lanes<N>, T: TriangleTest>(
+pub(crate) fn search<const ANY: bool, const N: usize, L: Lanes<N>, T: TriangleTest, M: Mailbox>(
     blocks: &[LeafBlock<T, N>],
+    count: u32,
     ray: &T::Ray,
     t_min: f32,
     nearest: &mut Nearest,
-) {
-    for block in blocks {
+    mailbox: &mut M,
+) -> u32 {
+    let mut tested = 0;
+    for (i, block) in blocks.iter().enumerate() {
+        let mut fresh = (count - (i * N) as u32).min(N as u32);
+        if M::ACTIVE {
+            fresh = block.ids.iter().filter(|&&id| id != Nearest::NONE && !mailbox.visit(id)).count() as u32;
+        }
+        if fresh == 0 {
+            continue;
+        }
+        tested += fresh;
         let (hit, t) = T::hits::<N, L>(ray, &block.triangles);
         let mut hit = hit & L::splat(t_min).le(t) & t.le(L::splat(nearest.t));
         if hit != 0 {
@@ -85,10 +125,11 @@ pub(crate) fn search<const ANY: bool, const N: usize, L: Lanes<N>, T: TriangleTe
                 hit &= hit - 1;
             }
             if ANY {
-                return;
+                break;
             }
         }
     }
+    tested
 }
 
 /// What every query starts with: the prepared ray and its interval, or nothing when the ray can hit nothing.
@@ -96,11 +137,4 @@ pub(crate) fn search<const ANY: bool, const N: usize, L: Lanes<N>, T: TriangleTe
 pub(crate) fn start<T: TriangleTest>(ray: &Ray) -> Option<(T::Ray, f32, Nearest)> {
     let (t_min, t_max) = ray.interval();
     ray.is_valid().then(|| (T::prepare(ray), t_min, Nearest::before(t_max)))
-}
-
-/// Tells the observer of a leaf visit.
-#[inline(always)]
-pub(crate) fn observe<O: Observer>(observer: &mut O, references: u32) {
-    observer.leaf(references);
-    observer.test(references);
 }

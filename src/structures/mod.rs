@@ -1,6 +1,10 @@
 //! The structures themselves.
 
 mod brute_force;
+pub mod kd;
 mod leaf;
+mod line;
+pub mod obvhs;
 
 pub use brute_force::{BruteForce, BruteForceConfig};
+pub use kd::{KdConfig, KdTree};

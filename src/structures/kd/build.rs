@@ -1,0 +1,164 @@
+//! Growing a tree: one recursion for all plane rules.
+
+use rayon::join;
+
+use super::config::{KdConfig, Limit, Stop};
+use super::node::Node;
+use crate::geometry::{Aabb, Mesh};
+
+/// What every step of a build knows.
+pub(super) struct Context<'a> {
+    pub mesh: &'a Mesh,
+    pub config: &'a KdConfig,
+    depth_cap: u32,
+}
+
+/// A plane that cuts a cell.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Cut {
+    pub axis: usize,
+    pub split: f32,
+    /// Whether triangles that lie in the plane go below; otherwise they go above. Only clipped contents ask.
+    pub planar_below: bool,
+}
+
+/// The triangles of a node, in whatever form a plane rule works on.
+pub(super) trait Content: Sized + Send {
+    /// Number of references.
+    fn len(&self) -> usize;
+
+    /// The triangles, in ascending order.
+    fn ids(&self) -> impl Iterator<Item = u32>;
+
+    /// Where to cut, or nothing when a leaf is better.
+    fn choose(&self, context: &Context, place: &Place) -> Option<Cut>;
+
+    /// The contents below and above. Nothing when the rule discards the cut after all.
+    fn divide(self, context: &Context, place: &Place, cut: Cut) -> Result<(Self, Self), Self>;
+
+    /// Whether this content, new from a division, may be divided further.
+    fn may_divide(&self, _context: &Context) -> bool {
+        true
+    }
+}
+
+/// Where in the tree a node is.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place {
+    pub cell: Aabb,
+    pub depth: u32,
+    /// How many splits in a row have left a child with all triangles of its parent.
+    stalled: u32,
+    /// References that the leaves below this node may hold together.
+    budget: f64,
+}
+
+/// Nodes in depth-first order and the references of their leaves.
+#[derive(Default)]
+pub(super) struct Plan {
+    pub nodes: Vec<Node>,
+    pub references: Vec<u32>,
+}
+
+/// Both sides of a node with fewer references than this are grown by the same thread.
+const PARALLEL: usize = 2048;
+
+impl<'a> Context<'a> {
+    pub fn new(mesh: &'a Mesh, config: &'a KdConfig) -> Self {
+        Self { mesh, config, depth_cap: depth_cap(mesh.len()) }
+    }
+}
+
+/// The greatest depth of a leaf: 8 + 1.3 log2 n (Pharr, Jakob, Humphreys), at most 47 for the largest mesh.
+fn depth_cap(triangles: usize) -> u32 {
+    // The logarithm is rounded up to a whole number: no library function decides about the shape of a tree.
+    let log2 = usize::BITS - triangles.max(1).leading_zeros();
+    8 + log2 * 13 / 10
+}
+
+/// Grows the tree over `content` in the cell of the mesh. The result does not depend on the number of threads.
+pub(super) fn grow<C: Content>(context: &Context, content: C) -> Plan {
+    let mut plan = Plan::default();
+    let budget = f64::from(context.config.duplication) * content.len() as f64;
+    let place = Place { cell: context.mesh.bounds(), depth: 0, stalled: 0, budget };
+    subdivide(context, content, place, true, &mut plan);
+    plan
+}
+
+fn subdivide<C: Content>(context: &Context, content: C, place: Place, may_divide: bool, plan: &mut Plan) {
+    let count = content.len();
+    let (cut, below, above) = match try_divide(context, content, &place, may_divide) {
+        Ok(parts) => parts,
+        Err(content) => return plan.leaf(&content),
+    };
+
+    // Give each side its share of the references that are still allowed.
+    let (below_cell, above_cell) = place.cell.cut(cut.axis, cut.split);
+    let stalled = if below.len().max(above.len()) == count { place.stalled + 1 } else { 0 };
+    let share = place.budget / (below.len() + above.len()).max(1) as f64;
+    let child = |cell, len: usize| Place { cell, depth: place.depth + 1, stalled, budget: share * len as f64 };
+    let (below_place, above_place) = (child(below_cell, below.len()), child(above_cell, above.len()));
+    let (below_may, above_may) = (below.may_divide(context), above.may_divide(context));
+
+    let inner = plan.nodes.len();
+    plan.nodes.push(Node::inner(cut.axis, cut.split, 0));
+    if count < PARALLEL {
+        subdivide(context, below, below_place, below_may, plan);
+        plan.nodes[inner] = Node::inner(cut.axis, cut.split, plan.nodes.len() as u32);
+        subdivide(context, above, above_place, above_may, plan);
+    } else {
+        let mut other = Plan::default();
+        join(
+            || subdivide(context, below, below_place, below_may, plan),
+            || subdivide(context, above, above_place, above_may, &mut other),
+        );
+        plan.nodes[inner] = Node::inner(cut.axis, cut.split, plan.nodes.len() as u32);
+        plan.append(other);
+    }
+}
+
+/// The cut and both sides, or the content back when the node stays a leaf.
+fn try_divide<C: Content>(context: &Context, content: C, place: &Place, may_divide: bool) -> Result<(Cut, C, C), C> {
+    let config = context.config;
+    let count = content.len();
+    let few = match (config.stop, config.limit) {
+        (Stop::Report, Limit::Below) => count < config.leaf as usize,
+        (Stop::Report, Limit::AtMost) => count <= config.leaf as usize,
+        (Stop::Sah, _) => count <= 1,
+    };
+    if count == 0 || few || !may_divide || place.depth >= context.depth_cap {
+        return Err(content);
+    }
+    let Some(cut) = content.choose(context, place) else { return Err(content) };
+    let (below, above) = content.divide(context, place, cut)?;
+    Ok((cut, below, above))
+}
+
+impl Place {
+    /// Whether sides of these sizes may be made: they stay within the budget, and if they make no progress, then not for
+    /// the third time in a row.
+    pub fn admits(&self, count: usize, below: usize, above: usize) -> bool {
+        let progress = below.max(above) < count;
+        (below + above) as f64 <= self.budget && (progress || self.stalled < 2)
+    }
+}
+
+impl Plan {
+    fn leaf<C: Content>(&mut self, content: &C) {
+        self.nodes.push(Node::leaf(self.references.len() as u32, content.len() as u32));
+        self.references.extend(content.ids());
+    }
+
+    /// Adds the nodes of `other` behind these.
+    fn append(&mut self, other: Plan) {
+        let (nodes, references) = (self.nodes.len() as u32, self.references.len() as u32);
+        self.nodes.extend(other.nodes.into_iter().map(|node| {
+            if node.is_leaf() {
+                Node::leaf(node.first() + references, node.references())
+            } else {
+                Node::inner(node.axis(), node.split(), node.above() + nodes)
+            }
+        }));
+        self.references.extend(other.references);
+    }
+}

@@ -1,0 +1,106 @@
+//! KD-trees: the report's median tree and the SAH tree are two configurations of one type.
+
+mod build;
+mod clip;
+mod config;
+mod node;
+mod sah;
+mod sah_sweep;
+mod shape;
+mod traverse;
+mod vertex_median;
+
+use std::sync::Arc;
+
+pub use config::{AxisRule, CountOf, Equal, Exit, KdConfig, Limit, Median, Plane, Stop, Traversal};
+
+use super::leaf::LeafBlock;
+use crate::accel::{Accel, BuildError, Footprint, Observer, TreeShape};
+use crate::geometry::{Aabb, Hit, Mesh, Ray};
+use crate::triangle::TriangleTest;
+use build::{Context, Plan, grow};
+use node::Node;
+use sah_sweep::Events;
+use vertex_median::Triangles;
+
+/// Triangles that a leaf tests at once.
+const WIDTH: usize = 4;
+
+/// A binary space partition by axis-aligned planes: 8-byte nodes in depth-first order, leaves of blocks of triangles.
+///
+/// Its configuration says where planes go, when nodes stay leaves and how rays walk. Building takes O(n log n) time and
+/// memory for a bounded duplication of references; the tree is the same for every number of threads.
+///
+/// # References
+/// Wald, Havran: On building fast kd-trees for ray tracing, and on doing that in O(N log N), 2006. Havran: Heuristic Ray Shooting
+/// Algorithms, 2000. Not for moving geometry: nothing can be updated.
+pub struct KdTree<T: TriangleTest> {
+    nodes: Vec<Node>,
+    blocks: Vec<LeafBlock<T, WIDTH>>,
+    bounds: Aabb,
+    config: KdConfig,
+}
+
+impl<T: TriangleTest> KdTree<T> {
+    /// Turns the references of a plan into blocks, leaf by leaf.
+    fn finish(mesh: &Mesh, config: &KdConfig, plan: Plan) -> Self {
+        let Plan { mut nodes, references } = plan;
+        let leaves = nodes.iter().filter(|node| node.is_leaf());
+        let count = leaves.map(|leaf| (leaf.references() as usize).div_ceil(WIDTH)).sum();
+        let mut blocks = Vec::with_capacity(count);
+        for node in nodes.iter_mut().filter(|node| node.is_leaf()) {
+            let (first, count) = (node.first() as usize, node.references());
+            *node = Node::leaf(blocks.len() as u32, count);
+            LeafBlock::fill(mesh, &references[first..first + count as usize], &mut blocks);
+        }
+        nodes.shrink_to_fit();
+        Self { nodes, blocks, bounds: mesh.bounds(), config: *config }
+    }
+
+    #[inline(always)]
+    fn blocks_of(&self, leaf: Node) -> &[LeafBlock<T, WIDTH>] {
+        let first = leaf.first() as usize;
+        &self.blocks[first..first + (leaf.references() as usize).div_ceil(WIDTH)]
+    }
+}
+
+impl<T: TriangleTest> Accel for KdTree<T> {
+    type Config = KdConfig;
+
+    const TRIANGLE_TEST: &'static str = T::NAME;
+
+    fn build(mesh: &Arc<Mesh>, config: &KdConfig) -> Result<Self, BuildError> {
+        config.check()?;
+        let context = Context::new(mesh, config);
+        let plan = match config.plane {
+            Plane::VertexMedian => grow(&context, Triangles::all(&context)),
+            Plane::SahSweep => grow(&context, Events::all(&context)),
+        };
+        Ok(Self::finish(mesh, config, plan))
+    }
+
+    #[inline]
+    fn closest_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit> {
+        self.query::<false, O>(ray, observer)
+    }
+
+    #[inline]
+    fn any_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> bool {
+        self.query::<true, O>(ray, observer).is_some()
+    }
+
+    fn footprint(&self) -> Footprint {
+        let (triangles, references) = LeafBlock::<T, WIDTH>::BYTES;
+        let n = self.blocks.len();
+        Footprint {
+            nodes: size_of_val(&self.nodes[..]),
+            triangles: n * triangles,
+            references: n * references,
+            other: size_of::<Self>(),
+        }
+    }
+
+    fn shape(&self) -> TreeShape {
+        shape::of(&self.nodes, self.bounds, &self.config)
+    }
+}

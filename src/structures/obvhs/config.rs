@@ -1,0 +1,41 @@
+use obvhs::BvhBuildParams;
+use serde::{Deserialize, Serialize};
+
+/// How obvhs builds.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ObvhsConfig {
+    /// One of the crate's presets.
+    pub preset: Preset,
+}
+
+/// The presets of obvhs, from the fastest build to the best tree. Only `slow` and `very-slow` split large triangles, so
+/// that these are the fair partners of a KD-tree.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+#[allow(missing_docs)]
+pub enum Preset {
+    Fastest,
+    VeryFast,
+    Fast,
+    Medium,
+    Slow,
+    #[default]
+    VerySlow,
+}
+
+impl Preset {
+    /// All presets, the fastest build first.
+    pub const ALL: [Self; 6] = [Self::Fastest, Self::VeryFast, Self::Fast, Self::Medium, Self::Slow, Self::VerySlow];
+
+    pub(super) fn params(self) -> BvhBuildParams {
+        match self {
+            Self::Fastest => BvhBuildParams::fastest_build(),
+            Self::VeryFast => BvhBuildParams::very_fast_build(),
+            Self::Fast => BvhBuildParams::fast_build(),
+            Self::Medium => BvhBuildParams::medium_build(),
+            Self::Slow => BvhBuildParams::slow_build(),
+            Self::VerySlow => BvhBuildParams::very_slow_build(),
+        }
+    }
+}

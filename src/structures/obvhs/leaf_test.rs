@@ -1,0 +1,74 @@
+use std::marker::PhantomData;
+
+use glam::{Vec3, Vec3A};
+use obvhs::ray::Ray as PreparedRay;
+use obvhs::rt_triangle::RtTriangle;
+
+use super::RtTest;
+use crate::geometry::Ray;
+use crate::triangle::TriangleTest;
+
+/// A triangle test in the form in which obvhs calls it: infinity for a miss, and the beginning of the interval enforced,
+/// which obvhs' own traversals leave to the test.
+pub trait LeafTest: Send + Sync + 'static {
+    /// The name of the triangle test.
+    const NAME: &'static str;
+    /// A triangle as the test wants it.
+    type Triangle: Copy + Send + Sync;
+    /// What the test prepares once a ray.
+    type Ray: Copy;
+
+    fn triangle(corners: [Vec3; 3]) -> Self::Triangle;
+
+    fn prepare(ray: &Ray) -> Self::Ray;
+
+    fn test(triangle: &Self::Triangle, ray: &PreparedRay, prepared: &Self::Ray) -> f32;
+}
+
+/// One of our triangle tests.
+pub struct Over<T>(PhantomData<T>);
+
+impl<T: TriangleTest> LeafTest for Over<T> {
+    const NAME: &'static str = T::NAME;
+    type Triangle = T::Block<1>;
+    type Ray = T::Ray;
+
+    fn triangle(corners: [Vec3; 3]) -> T::Block<1> {
+        T::block(&[corners])
+    }
+
+    #[inline(always)]
+    fn prepare(ray: &Ray) -> T::Ray {
+        T::prepare(ray)
+    }
+
+    #[inline(always)]
+    fn test(triangle: &T::Block<1>, ray: &PreparedRay, prepared: &T::Ray) -> f32 {
+        match T::hit(prepared, triangle) {
+            Some(t) if t >= ray.tmin => t,
+            _ => f32::INFINITY,
+        }
+    }
+}
+
+/// obvhs' own test on its precomputed triangle, called as its documentation does: its fastest form.
+pub struct Native;
+
+impl LeafTest for Native {
+    const NAME: &'static str = <RtTest as TriangleTest>::NAME;
+    type Triangle = RtTriangle;
+    type Ray = ();
+
+    fn triangle(corners: [Vec3; 3]) -> RtTriangle {
+        let [a, b, c] = corners.map(Vec3A::from);
+        RtTriangle::new(a, b, c)
+    }
+
+    #[inline(always)]
+    fn prepare(_: &Ray) {}
+
+    #[inline(always)]
+    fn test(triangle: &RtTriangle, ray: &PreparedRay, (): &()) -> f32 {
+        triangle.intersect(ray)
+    }
+}
