@@ -98,3 +98,66 @@ fn round_down(x: f64) -> f32 {
     let rounded = x as f32;
     if f64::from(rounded) > x { rounded.next_down() } else { rounded }
 }
+
+#[cfg(test)]
+mod tests {
+    use rand_core::{RngCore, SeedableRng};
+
+    use super::*;
+
+    fn point(rng: &mut rand_pcg::Pcg32) -> Vec3 {
+        Vec3::from_array(std::array::from_fn(|_| rng.next_u32() as f32 / u32::MAX as f32 * 4.0 - 2.0))
+    }
+
+    #[test]
+    fn nothing_of_the_triangle_in_the_cell_is_lost_and_the_box_is_tight() {
+        let mut rng = rand_pcg::Pcg32::seed_from_u64(11);
+        let mut seen = 0;
+        for _ in 0..20_000 {
+            let corners: [Vec3; 3] = std::array::from_fn(|_| point(&mut rng));
+            let (a, b) = (point(&mut rng), point(&mut rng));
+            let cell = Aabb { min: a.min(b), max: a.max(b) };
+            let known = Aabb::of_points(corners);
+            let clipped = clipped_bounds(corners, &cell, &known);
+            if known.intersection(cell).is_empty() {
+                continue;
+            }
+            assert!(cell.contains(&clipped) && known.contains(&clipped));
+
+            // Points of the triangle, in f64: those in the cell must be in the box.
+            let [p, q, r] = corners.map(Vec3::as_dvec3);
+            for _ in 0..20 {
+                let (mut u, mut v) =
+                    (f64::from(rng.next_u32()) / 4294967295.0, f64::from(rng.next_u32()) / 4294967295.0);
+                if u + v > 1.0 {
+                    (u, v) = (1.0 - u, 1.0 - v);
+                }
+                let x = p * (1.0 - u - v) + q * u + r * v;
+                let inside = |b: &Aabb| b.min.as_dvec3().cmple(x).all() && b.max.as_dvec3().cmpge(x).all();
+                if inside(&cell) {
+                    assert!(inside(&clipped), "{x} of {corners:?} in {cell:?} is outside {clipped:?}");
+                    seen += 1;
+                }
+            }
+        }
+        assert!(seen > 5_000, "too few points to prove anything: {seen}");
+    }
+
+    #[test]
+    fn a_corner_cut_off_shrinks_the_box() {
+        let corners = [Vec3::ZERO, Vec3::new(4.0, 0.0, 0.0), Vec3::new(0.0, 4.0, 0.0)];
+        let cell = Aabb { min: Vec3::new(3.0, 0.0, -1.0), max: Vec3::new(5.0, 5.0, 1.0) };
+        let clipped = clipped_bounds(corners, &cell, &Aabb::of_points(corners));
+        assert_eq!(clipped.min, Vec3::new(3.0, 0.0, 0.0));
+        assert_eq!(clipped.max.x, 4.0);
+        assert!((1.0..1.0 + 2.0 * f32::EPSILON).contains(&clipped.max.y), "{clipped:?}");
+    }
+
+    #[test]
+    fn a_triangle_that_only_touches_the_cell_is_kept() {
+        let corners = [Vec3::ZERO, Vec3::new(-1.0, 1.0, 0.0), Vec3::new(-1.0, -1.0, 0.0)];
+        let cell = Aabb { min: Vec3::new(0.0, -1.0, -1.0), max: Vec3::ONE };
+        let clipped = clipped_bounds(corners, &cell, &Aabb::of_points(corners));
+        assert!(clipped.contains(&Aabb::of_points([Vec3::ZERO])), "{clipped:?}");
+    }
+}

@@ -7,6 +7,8 @@ mod node;
 mod sah;
 mod sah_sweep;
 mod shape;
+#[cfg(test)]
+mod tests;
 mod traverse;
 mod vertex_median;
 
