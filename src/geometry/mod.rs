@@ -3,7 +3,9 @@
 mod aabb;
 mod mesh;
 mod ray;
+mod transform;
 
 pub use aabb::Aabb;
 pub use mesh::{Mesh, MeshError};
 pub use ray::{Hit, PrimId, Ray};
+pub use transform::Transform;
