@@ -45,6 +45,8 @@ struct Reader {
     /// Material names in the order of their first use, and the same by name.
     used: Vec<String>,
     number_of: HashMap<String, u32>,
+    /// The name of the material of the faces to come, and its number once a face has it.
+    current: Option<String>,
     material: Option<u32>,
     libraries: Vec<String>,
     vertices: Highest,
@@ -77,7 +79,7 @@ impl Reader {
             "vn" => vector(words).map(|n| self.model.normals.push(n)),
             "f" => self.face(number, words),
             "usemtl" => {
-                self.material = Some(self.material_number(rest()));
+                (self.current, self.material) = (Some(rest().to_owned()), None);
                 Ok(())
             }
             "mtllib" => {
@@ -90,13 +92,16 @@ impl Reader {
         result.map_err(|problem| Fault::line(number, problem))
     }
 
-    fn material_number(&mut self, name: &str) -> u32 {
-        if let Some(&number) = self.number_of.get(name) {
+    fn material(&mut self) -> u32 {
+        if let Some(number) = self.material {
             return number;
         }
-        let number = self.used.len() as u32;
-        self.used.push(name.to_owned());
-        self.number_of.insert(name.to_owned(), number);
+        let name = self.current.as_deref().unwrap_or("default");
+        let number = *self.number_of.entry(name.to_owned()).or_insert_with(|| {
+            self.used.push(name.to_owned());
+            self.used.len() as u32 - 1
+        });
+        self.material = Some(number);
         number
     }
 
@@ -120,10 +125,7 @@ impl Reader {
             return Ok(());
         }
 
-        let material = match self.material {
-            Some(material) => material,
-            None => self.material_number("default"),
-        };
+        let material = self.material();
         let smooth = self.corners.iter().all(|&(_, normal)| normal != Model::FLAT);
         let first = self.corners[0];
         for pair in self.corners[1..].windows(2) {

@@ -14,7 +14,7 @@ const MTL: &str =
 
 /// What a file is damaged with: bytes at random, and words that readers are known to stumble over.
 fn patch() -> impl Strategy<Value = Vec<u8>> {
-    let words = [
+    const WORDS: &[&str] = &[
         "",
         "0",
         "-1",
@@ -40,7 +40,7 @@ fn patch() -> impl Strategy<Value = Vec<u8>> {
     ];
     prop_oneof![
         prop::collection::vec(any::<u8>(), 0..9),
-        prop::sample::select(&words[..]).prop_map(|word| word.as_bytes().to_vec()),
+        prop::sample::select(WORDS).prop_map(|word| word.as_bytes().to_vec()),
         Just(vec![0xff; 4]),
     ]
 }
