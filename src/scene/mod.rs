@@ -2,6 +2,7 @@
 
 mod camera;
 mod light;
+pub mod load;
 mod material;
 pub mod meshes;
 mod model;
@@ -11,6 +12,7 @@ mod scene;
 
 pub use camera::{Camera, CameraError, View};
 pub use light::Light;
+pub use load::{LoadError, load};
 pub use material::Material;
 pub use model::Model;
 pub use normals::CornerNormals;
