@@ -1,23 +1,19 @@
 //! The icosahedron, seen from outside and from inside.
 
-use glam::{DVec3, Vec3};
+use glam::DVec3;
 
-use super::{flat, on_circle};
+use super::flat;
 use crate::scene::Model;
 
-/// Corners at distance 1, the first and the last on the y axis; the upper ring has one on the x axis.
+/// Corners with the poles on the y axis, as the course's files have them: a unit icosahedron, cut to steps of 1/200,000.
+///
+/// The cut shows in the report's ray counts: the mirroring room of Infinitycandy is one of these.
 pub(super) fn corners() -> Vec<DVec3> {
-    // Both rings lie 1 / sqrt 5 from the middle and have the radius 2 / sqrt 5.
-    let height = 1.0 / 5.0f64.sqrt();
-    let ring = |y: f64, first: u32| {
-        (0..5).map(move |i| {
-            let (cosine, sine) = on_circle(2 * i + first, 10);
-            DVec3::new(2.0 * height * cosine, y, -2.0 * height * sine)
-        })
-    };
+    const HEIGHT: f64 = 0.447215;
+    let lower = [[0.7236, 0.52572], [-0.276385, 0.85064], [-0.894425, 0.0], [-0.276385, -0.85064], [0.7236, -0.52572]];
     let mut corners = vec![-DVec3::Y];
-    corners.extend(ring(-height, 1));
-    corners.extend(ring(height, 0));
+    corners.extend(lower.map(|[x, z]| DVec3::new(x, -HEIGHT, z)));
+    corners.extend(lower.map(|[x, z]| DVec3::new(-x, HEIGHT, -z)));
     corners.push(DVec3::Y);
     corners
 }
@@ -25,14 +21,15 @@ pub(super) fn corners() -> Vec<DVec3> {
 /// The twenty sides, looking outward.
 pub(super) fn sides() -> Vec<[u32; 3]> {
     let lower = |i: u32| 1 + i % 5;
-    let upper = |i: u32| 6 + i % 5;
+    // The corner above the edge from lower corner i to the next one.
+    let upper = |i: u32| 6 + (i + 3) % 5;
     (0..5)
         .flat_map(|i| {
             [
-                [0, lower(i + 1), lower(i)],
-                [lower(i), lower(i + 1), upper(i + 1)],
-                [upper(i), lower(i), upper(i + 1)],
-                [11, upper(i), upper(i + 1)],
+                [0, lower(i), lower(i + 1)],
+                [lower(i + 1), lower(i), upper(i)],
+                [lower(i + 1), upper(i), upper(i + 1)],
+                [upper(i + 1), upper(i), 11],
             ]
         })
         .collect()
@@ -40,7 +37,7 @@ pub(super) fn sides() -> Vec<[u32; 3]> {
 
 /// The icosahedron of radius 1 with poles on the y axis, flat: 20 triangles.
 pub fn icosahedron() -> Model {
-    flat(corners().into_iter().map(|c| c.as_vec3()).collect::<Vec<Vec3>>(), sides())
+    flat(corners().into_iter().map(|c| c.as_vec3()).collect(), sides())
 }
 
 /// The same, looking inward.

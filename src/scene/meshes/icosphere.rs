@@ -1,34 +1,72 @@
-//! The sphere made by halving the edges of an icosahedron.
+//! The sphere made by dividing the sides of an icosahedron.
 
 use std::collections::HashMap;
 
-use super::{icosahedron, smooth};
+use glam::DVec3;
+
+use super::{icosahedron, normals, smooth};
 use crate::scene::Model;
 
 /// A closed, smooth sphere of radius 1: `20 * 4^subdivisions` triangles, `10 * 4^subdivisions + 2` vertices.
+///
+/// Each side of the icosahedron is cut into a flat, even net, whose points are then moved out to the sphere: so the
+/// course's sphere was made, as the silhouette of the report's scene shows. (Halving the edges and moving out after each
+/// halving gives another sphere.)
 ///
 /// # Panics
 /// Above 12 subdivisions, where a mesh holds no more triangles.
 pub fn icosphere(subdivisions: u32) -> Model {
     assert!(subdivisions <= 12, "an icosphere has at most 12 subdivisions, not {subdivisions}");
-    let mut points = icosahedron::corners();
-    let mut triangles = icosahedron::sides();
+    let mut net = Net { points: icosahedron::corners(), rows: HashMap::new(), steps: 1 << subdivisions };
+    let triangles: Vec<[u32; 3]> = icosahedron::sides().into_iter().flat_map(|side| net.divide(side)).collect();
+    let normals = normals::of_vertices(&net.points, &triangles);
+    smooth(net.points, normals, triangles)
+}
 
-    for _ in 0..subdivisions {
-        let mut middles = HashMap::new();
-        let mut middle = |a: u32, b: u32| {
-            *middles.entry((a.min(b), a.max(b))).or_insert_with(|| {
-                points.push((points[a as usize] + points[b as usize]).normalize());
-                points.len() as u32 - 1
-            })
-        };
-        triangles = triangles
-            .into_iter()
-            .flat_map(|[a, b, c]| {
-                let (ab, bc, ca) = (middle(a, b), middle(b, c), middle(c, a));
-                [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]
-            })
-            .collect();
+struct Net {
+    points: Vec<DVec3>,
+    /// The points along an edge of the icosahedron, from the end with the lower number.
+    rows: HashMap<(u32, u32), Vec<u32>>,
+    steps: u32,
+}
+
+impl Net {
+    /// Point numbers from `first` to `last` in `steps` even steps, those between moved out to the sphere.
+    fn row(&mut self, first: u32, last: u32, steps: u32) -> Vec<u32> {
+        let (from, to) = (self.points[first as usize], self.points[last as usize]);
+        let between = 1..steps.max(1);
+        let numbers = (self.points.len() as u32..).take(between.len());
+        let row = std::iter::once(first).chain(numbers).chain((steps > 0).then_some(last)).collect();
+        self.points.extend(between.map(|i| (from + (to - from) * (f64::from(i) / f64::from(steps))).normalize()));
+        row
     }
-    smooth(points.clone(), points, triangles)
+
+    /// The row along an edge, which two sides share.
+    fn edge(&mut self, first: u32, last: u32) -> Vec<u32> {
+        let key = (first.min(last), first.max(last));
+        if !self.rows.contains_key(&key) {
+            let row = self.row(key.0, key.1, self.steps);
+            self.rows.insert(key, row);
+        }
+        let mut row = self.rows[&key].clone();
+        if first > last {
+            row.reverse();
+        }
+        row
+    }
+
+    /// The triangles of side `abc`, row by row from `a`.
+    fn divide(&mut self, [a, b, c]: [u32; 3]) -> Vec<[u32; 3]> {
+        let (ab, ac, bc) = (self.edge(a, b), self.edge(a, c), self.edge(b, c));
+        let mut triangles = Vec::new();
+        let mut above = vec![a];
+        for step in 1..=self.steps {
+            let i = step as usize;
+            let below = if step == self.steps { bc.clone() } else { self.row(ab[i], ac[i], step) };
+            triangles.extend((0..i).map(|k| [above[k], below[k], below[k + 1]]));
+            triangles.extend((1..i).map(|k| [above[k - 1], below[k], above[k]]));
+            above = below;
+        }
+        triangles
+    }
 }

@@ -3,6 +3,7 @@
 mod catmull_clark;
 mod icosahedron;
 mod icosphere;
+mod normals;
 mod plane;
 mod teapot;
 mod torus;

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use glam::{DVec3, Vec3};
 
-use super::{catmull_clark, halves, smooth};
+use super::{catmull_clark, halves, normals, smooth};
 use crate::geometry::Aabb;
 use crate::scene::Model;
 
@@ -21,8 +21,7 @@ const STEPS: usize = 4;
 ///
 /// Its mesh was found to be this: Newell's 32 patches, each evaluated on a 4 x 4 grid and welded into four shells (body
 /// with rim and bottom, handle, spout, lid); one Catmull-Clark step, to 2016 quadrilaterals; each of these cut along its
-/// longer diagonal; normals weighted by the angles of the triangles. All vertices agree with the course's file to its
-/// last digit.
+/// longer diagonal. All vertices agree with the course's file to its last digit.
 ///
 /// One control point differs from the published ones: see [`PUBLISHED`].
 pub fn teapot() -> Model {
@@ -30,7 +29,7 @@ pub fn teapot() -> Model {
     let (points, quads) = catmull_clark::subdivide(&points, &faces);
     let points = into_bounds(&points);
     let triangles: Vec<[u32; 3]> = quads.into_iter().flat_map(|quad| along_longer_diagonal(&points, quad)).collect();
-    let normals = angle_weighted_normals(&points, &triangles);
+    let normals = normals::of_vertices(&points, &triangles);
     smooth(points, normals, triangles)
 }
 
@@ -122,19 +121,6 @@ fn into_bounds(points: &[DVec3]) -> Vec<DVec3> {
 fn along_longer_diagonal(points: &[DVec3], [a, b, c, d]: [u32; 4]) -> [[u32; 3]; 2] {
     let squared = |i: u32, j: u32| points[i as usize].distance_squared(points[j as usize]);
     halves(if squared(a, c) > squared(b, d) { [a, b, c, d] } else { [b, c, d, a] })
-}
-
-fn angle_weighted_normals(points: &[DVec3], triangles: &[[u32; 3]]) -> Vec<DVec3> {
-    let mut normals = vec![DVec3::ZERO; points.len()];
-    for triangle in triangles {
-        let [a, b, c] = triangle.map(|i| points[i as usize]);
-        let normal = (b - a).cross(c - a).normalize();
-        for (i, [p, q, r]) in [[a, b, c], [b, c, a], [c, a, b]].into_iter().enumerate() {
-            let cosine = (q - p).normalize().dot((r - p).normalize());
-            normals[triangle[i] as usize] += normal * libm::acos(cosine.clamp(-1.0, 1.0));
-        }
-    }
-    normals.into_iter().map(DVec3::normalize).collect()
 }
 
 #[cfg(test)]

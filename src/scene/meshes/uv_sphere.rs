@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{halves, on_circle, smooth};
+use super::{halves, normals, on_circle, smooth};
 use crate::scene::Model;
 
 /// A smooth sphere of radius 1 with poles on the y axis: `segments * (bands + 1)` vertices, `2 * segments * bands`
@@ -26,8 +26,9 @@ pub fn uv_sphere(segments: u32, bands: u32) -> Model {
 
     let vertex = |band, segment| band * segments + segment % segments;
     let cells = (0..bands).flat_map(|band| (0..segments).map(move |segment| (band, segment)));
-    let triangles = cells
-        .flat_map(|(b, s)| halves([vertex(b, s), vertex(b, s + 1), vertex(b + 1, s + 1), vertex(b + 1, s)]))
+    let triangles: Vec<[u32; 3]> = cells
+        .flat_map(|(b, s)| halves([vertex(b, s + 1), vertex(b + 1, s + 1), vertex(b + 1, s), vertex(b, s)]))
         .collect();
-    smooth(points.clone(), points, triangles)
+    let normals = normals::of_vertices(&points, &triangles);
+    smooth(points, normals, triangles)
 }

@@ -1,0 +1,31 @@
+//! Vertex normals as the course's mesh files have them.
+
+use glam::DVec3;
+
+/// Steps of a component: the program that wrote those files kept normals as 16-bit integers.
+const STEPS: f64 = 32767.0;
+
+/// One normal a vertex: the normals of its triangles, weighted by their angles there, in steps of 1/32767 (towards zero),
+/// then written with six decimals. Triangles without area count nothing.
+///
+/// The course's teapot file shows these steps. They matter: mirror rays follow the normals, and with exact ones the
+/// report's ray counts are missed by up to 140.
+///
+/// # Panics
+/// If a vertex is in no triangle with an area.
+pub(super) fn of_vertices(points: &[DVec3], triangles: &[[u32; 3]]) -> Vec<DVec3> {
+    let mut sums = vec![DVec3::ZERO; points.len()];
+    for triangle in triangles {
+        let [a, b, c] = triangle.map(|i| points[i as usize]);
+        let Some(normal) = (b - a).cross(c - a).try_normalize() else { continue };
+        for (i, [p, q, r]) in [[a, b, c], [b, c, a], [c, a, b]].into_iter().enumerate() {
+            let cosine = (q - p).normalize().dot((r - p).normalize());
+            sums[triangle[i] as usize] += normal * libm::acos(cosine.clamp(-1.0, 1.0));
+        }
+    }
+    let written = |sum: DVec3| {
+        let normal = sum.try_normalize().expect("every vertex has a triangle with an area");
+        ((normal * STEPS).trunc() / STEPS * 1e6).round() / 1e6
+    };
+    sums.into_iter().map(written).collect()
+}
