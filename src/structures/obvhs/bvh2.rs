@@ -114,6 +114,8 @@ impl<T: LeafTest> Accel for ObvhsBvh2<T> {
     fn shape(&self) -> TreeShape {
         let mut shape = TreeShape::default();
         let nodes = &self.bvh.nodes;
+        let area = |at: usize| f64::from(nodes[at].aabb().half_area());
+        let mut cost = 0.0;
         let mut stack: Vec<(usize, usize)> = (!nodes.is_empty()).then_some((0, 0)).into_iter().collect();
         while let Some((at, depth)) = stack.pop() {
             let node = &nodes[at];
@@ -123,12 +125,15 @@ impl<T: LeafTest> Accel for ObvhsBvh2<T> {
                 shape.references += count;
                 shape.largest_leaf = shape.largest_leaf.max(count);
                 shape.depth = shape.depth.max(depth);
+                cost += area(at) * TreeShape::leaf_cost(count);
             } else {
                 shape.inner += 1;
+                cost += area(at) * TreeShape::INNER_COST;
                 let first = node.first_index as usize;
                 stack.extend([(first, depth + 1), (first + 1, depth + 1)]);
             }
         }
+        shape.sah_cost = nodes.first().map(|_| area(0)).filter(|&root| root > 0.0).map(|root| cost / root);
         shape
     }
 }
