@@ -33,8 +33,20 @@ impl Mesh {
     /// The door: what passes needs no further check.
     ///
     /// # Errors
-    /// The first vertex that is not finite, the first index out of range, or more than 2^30 elements.
+    /// As [`Mesh::check`].
     pub fn new(positions: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Result<Self, MeshError> {
+        Self::check(&positions, &triangles)?;
+        let corners = |t: &[u32; 3]| t.map(|i| positions[i as usize]);
+        let bounds = Aabb::of_points(triangles.iter().flat_map(corners));
+        let degenerate = (0..triangles.len() as u32).filter(|&i| collinear(corners(&triangles[i as usize]))).collect();
+        Ok(Self { positions, triangles, degenerate, bounds })
+    }
+
+    /// Whether [`Mesh::new`] would take these arrays.
+    ///
+    /// # Errors
+    /// The first vertex that is not finite, the first index out of range, or more than 2^30 elements.
+    pub fn check(positions: &[Vec3], triangles: &[[u32; 3]]) -> Result<(), MeshError> {
         for (what, count) in [("vertices", positions.len()), ("triangles", triangles.len())] {
             if count > LIMIT {
                 return Err(MeshError::TooMany { what, count, limit: LIMIT });
@@ -49,11 +61,7 @@ impl Mesh {
                 return Err(MeshError::OutOfRange { triangle, index, vertices: positions.len() });
             }
         }
-
-        let corners = |t: &[u32; 3]| t.map(|i| positions[i as usize]);
-        let bounds = Aabb::of_points(triangles.iter().flat_map(corners));
-        let degenerate = (0..triangles.len() as u32).filter(|&i| collinear(corners(&triangles[i as usize]))).collect();
-        Ok(Self { positions, triangles, degenerate, bounds })
+        Ok(())
     }
 
     pub fn positions(&self) -> &[Vec3] {

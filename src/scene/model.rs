@@ -18,6 +18,8 @@ pub struct Model {
     pub materials: Vec<Material>,
     /// One number into `materials` a triangle, or empty when all triangles have the first.
     pub material_of: Vec<u32>,
+    /// What was left out of a file or replaced when the model was made, a sentence each.
+    pub notes: Vec<String>,
 }
 
 impl Model {

@@ -1,0 +1,70 @@
+//! Why a file cannot be loaded.
+
+use std::fmt;
+use std::path::PathBuf;
+
+use crate::geometry::MeshError;
+
+/// What is wrong with a mesh file, in one line: the file, the place in it, the problem and what to do.
+#[derive(Debug, thiserror::Error)]
+pub enum LoadError {
+    #[error("{}: the name does not tell a known format: give an .obj, .ply, .gltf or .glb file", file.display())]
+    UnknownFormat { file: PathBuf },
+    #[error("{}: the file cannot be read ({cause}): check that it exists and may be opened", file.display())]
+    Unreadable { file: PathBuf, cause: std::io::Error },
+    #[error("{}{place}: {problem}", file.display())]
+    Malformed { file: PathBuf, place: Place, problem: String },
+    /// The arrays of the file are no mesh; numbers count from 0.
+    #[error("{}: {cause}", file.display())]
+    Mesh { file: PathBuf, cause: MeshError },
+}
+
+/// Where in a file a problem is.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// The file as a whole.
+    File,
+    /// A line, counted from 1.
+    Line(usize),
+    /// A part by the name its format gives it, such as `accessor 3`, counted from 0.
+    Part(String),
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::File => Ok(()),
+            Self::Line(line) => write!(f, ", line {line}"),
+            Self::Part(part) => write!(f, ", {part}"),
+        }
+    }
+}
+
+/// A problem found by one of the readers, which do not know the name of their file.
+#[derive(Debug)]
+pub(super) struct Fault {
+    pub place: Place,
+    pub problem: String,
+}
+
+impl Fault {
+    pub fn file(problem: impl Into<String>) -> Self {
+        Self { place: Place::File, problem: problem.into() }
+    }
+
+    pub fn line(line: usize, problem: impl Into<String>) -> Self {
+        Self { place: Place::Line(line), problem: problem.into() }
+    }
+
+    pub fn part(part: impl Into<String>, problem: impl Into<String>) -> Self {
+        Self { place: Place::Part(part.into()), problem: problem.into() }
+    }
+}
+
+/// Text from a file or from a library as it may stand in a one-line message: escaped, and cut after 60 characters.
+pub(super) fn quoted(text: &str) -> String {
+    const LONGEST: usize = 60;
+    let escaped: String = text.trim().chars().take(LONGEST).flat_map(char::escape_debug).collect();
+    let more = if text.trim().chars().nth(LONGEST).is_some() { "..." } else { "" };
+    format!("`{escaped}{more}`")
+}

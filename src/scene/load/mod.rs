@@ -1,0 +1,74 @@
+//! Mesh files: Wavefront OBJ with MTL, PLY, and glTF 2.0.
+
+mod error;
+mod gltf;
+mod mtl;
+mod obj;
+mod ply;
+#[cfg(test)]
+mod tests;
+
+use std::fs;
+use std::io;
+use std::path::Path;
+
+use self::error::Fault;
+use super::Model;
+use crate::geometry::Mesh;
+
+pub use error::{LoadError, Place};
+
+/// Reads a mesh file; the end of its name (in any case) tells the format: `.obj`, `.ply`, `.gltf` or `.glb`.
+///
+/// Polygons become triangle fans, glTF node graphs are expanded, textures are left out. What was left out or replaced
+/// stands in [`Model::notes`]. The model has at least one material, and [`Mesh::new`] takes its arrays.
+///
+/// # Errors
+/// A file that cannot be read or breaks its format, a vertex that is not finite, an index out of range.
+pub fn load(path: &Path) -> Result<Model, LoadError> {
+    let ending = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
+    let read: fn(&[u8], &Path) -> Result<Model, Fault> = match ending.as_deref() {
+        Some("obj") => obj::read,
+        Some("ply") => |bytes, _| ply::read(bytes),
+        Some("gltf" | "glb") => gltf::read,
+        _ => return Err(LoadError::UnknownFormat { file: path.into() }),
+    };
+
+    let bytes = read_file(path).map_err(|cause| LoadError::Unreadable { file: path.into(), cause })?;
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let mut model = read(&bytes, folder).map_err(|fault| LoadError::Malformed {
+        file: path.into(),
+        place: fault.place,
+        problem: fault.problem,
+    })?;
+    Mesh::check(&model.positions, &model.triangles).map_err(|cause| LoadError::Mesh { file: path.into(), cause })?;
+    flatten_bad_normals(&mut model);
+    Ok(model)
+}
+
+/// Whole files only: a pipe or a device might never end.
+fn read_file(path: &Path) -> io::Result<Vec<u8>> {
+    if !fs::metadata(path)?.is_file() {
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, "it is not a regular file"));
+    }
+    fs::read(path)
+}
+
+/// Shading divides by the length of a normal: a triangle with a normal of no length is shaded flat instead.
+fn flatten_bad_normals(model: &mut Model) {
+    let usable = |n: u32| {
+        n == Model::FLAT || model.normals.get(n as usize).is_some_and(|n| n.is_finite() && n.length_squared() > 0.0)
+    };
+    let mut flattened = 0;
+    for corners in &mut model.normal_indices {
+        if !corners.iter().all(|&n| usable(n)) {
+            *corners = [Model::FLAT; 3];
+            flattened += 1;
+        }
+    }
+    if flattened > 0 {
+        model
+            .notes
+            .push(format!("{flattened} triangles have a normal without length or direction: they are shaded flat"));
+    }
+}

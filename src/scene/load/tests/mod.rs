@@ -1,0 +1,76 @@
+//! Loaders on files that the tests write themselves.
+
+mod gltf;
+mod mutated;
+mod obj;
+mod ply;
+
+use std::fs;
+use std::path::Path;
+
+use glam::Vec3;
+
+use super::{LoadError, load};
+use crate::geometry::Mesh;
+use crate::scene::Model;
+
+/// Loads the first of the given files, which lie in one folder.
+fn load_files(files: &[(&str, &[u8])]) -> Result<Model, LoadError> {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, bytes) in files {
+        fs::write(folder.path().join(name), bytes).unwrap();
+    }
+    load(&folder.path().join(files[0].0))
+}
+
+/// The message of a file that must be refused, without the name of the folder; it has to be one line.
+fn refusal(name: &str, bytes: &[u8]) -> String {
+    let message = load_files(&[(name, bytes)]).expect_err("this file must be refused").to_string();
+    assert!(!message.contains('\n'), "{message:?}");
+    message[message.find(name).expect("the message names the file")..].to_owned()
+}
+
+fn assert_refused(name: &str, bytes: &[u8], words: &[&str]) {
+    let message = refusal(name, bytes);
+    for word in words {
+        assert!(message.contains(word), "{message:?} does not contain {word:?}");
+    }
+}
+
+/// The corners of all triangles.
+fn corners(model: &Model) -> Vec<[Vec3; 3]> {
+    model.triangles.iter().map(|t| t.map(|i| model.positions[i as usize])).collect()
+}
+
+/// The normals that the faces have by their winding, not normalised.
+fn face_normals(model: &Model) -> Vec<Vec3> {
+    corners(model).iter().map(|[a, b, c]| (b - a).cross(c - a)).collect()
+}
+
+#[test]
+fn the_ending_tells_the_format_in_any_case() {
+    let file = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    assert_eq!(load_files(&[("A.OBJ", file)]).unwrap().triangles, [[0, 1, 2]]);
+    for name in ["mesh.stl", "mesh", "obj"] {
+        let error = load_files(&[(name, file)]).unwrap_err();
+        assert!(matches!(error, LoadError::UnknownFormat { .. }), "{error}");
+    }
+}
+
+#[test]
+fn what_is_no_file_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::create_dir(folder.path().join("folder.obj")).unwrap();
+    for name in ["missing.obj", "folder.obj"] {
+        let error = load(&folder.path().join(name)).unwrap_err();
+        assert!(matches!(error, LoadError::Unreadable { .. }) && error.to_string().contains(name), "{error}");
+    }
+    assert!(load(Path::new("")).is_err());
+}
+
+#[test]
+fn a_loaded_model_is_a_mesh() {
+    let model = load_files(&[("a.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\nf 1 2 3\nf 1 2 4\n")]).unwrap();
+    let mesh = Mesh::new(model.positions, model.triangles).unwrap();
+    assert_eq!((mesh.len(), mesh.degenerate()), (2, &[1][..]));
+}

@@ -1,0 +1,130 @@
+use glam::Vec3;
+
+use super::{assert_refused, corners, load_files};
+use crate::scene::{Material, Model};
+
+fn obj(text: &str) -> Model {
+    load_files(&[("a.obj", text.as_bytes())]).unwrap()
+}
+
+const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 9 9 9\n";
+
+#[test]
+fn polygons_are_fans_and_vertices_keep_their_number() {
+    let model = obj(&format!("{SQUARE}g a\nf 1 2 3 4\ng b\nl 1 2\np 3\nf 4 3 2\nf 1 2\n"));
+    assert_eq!(model.triangles, [[0, 1, 2], [0, 2, 3], [3, 2, 1]]);
+    assert_eq!(model.positions.len(), 5);
+    assert!(model.normals.is_empty() && model.normal_indices.is_empty() && model.material_of.is_empty());
+    assert_eq!(model.materials, [Material::named("default")]);
+    assert_eq!(model.notes, ["1 faces with fewer than three corners are left out"]);
+}
+
+#[test]
+fn indices_may_be_negative_forward_and_continued() {
+    assert_eq!(obj(&format!("{SQUARE}f -5 -4 -3\n")).triangles, [[0, 1, 2]]);
+    assert_eq!(obj(&format!("f 1 2 3 # first\r\n{SQUARE}")).triangles, [[0, 1, 2]]);
+    assert_eq!(obj(&format!("{SQUARE}f 1 2 \\\n3 4 \\")).triangles, [[0, 1, 2], [0, 2, 3]]);
+    // A negative index counts the vertices so far, not those of the file.
+    assert_eq!(obj("v 0 0 0\nv 1 0 0\nv 1 1 0\nf -3 -2 -1\nv 5 5 5\n").triangles, [[0, 1, 2]]);
+}
+
+#[test]
+fn corners_have_normals_or_the_face_is_flat() {
+    let model = obj(&format!("{SQUARE}vt 0 0\nvn 0 0 1\nvn 0 1 0\nf 1//1 2//2 3//-1\nf 1/1/1 2/1/1 3/1\nf 1 2 3\n"));
+    assert_eq!(model.normal_indices, [[0, 1, 1], [Model::FLAT; 3], [Model::FLAT; 3]]);
+    assert_eq!(model.normals, [Vec3::Z, Vec3::Y]);
+    // Normals of no length are found and told.
+    let model =
+        obj(&format!("{SQUARE}vn 0 0 0\nvn nan 0 1\nvn 0 0 2\nf 1//1 2//3 3//3\nf 1//2 2//3 3//3\nf 1//3 2//3 3//3\n"));
+    assert_eq!(model.normal_indices, [[Model::FLAT; 3], [Model::FLAT; 3], [2; 3]]);
+    assert!(model.notes[0].starts_with("2 triangles"), "{:?}", model.notes);
+}
+
+#[test]
+fn materials_come_from_the_mtl_file() {
+    let text = format!(
+        "mtllib my colours.mtl\n{SQUARE}f 1 2 3\nusemtl red wall\nf 1 2 3 4\nusemtl grey\nf 1 2 3\nusemtl lost\nf 1 2 3\n"
+    );
+    let mtl = "# by hand\nnewmtl unused\nKd 1 1 1\nnewmtl red wall\n  Ka 0.1 0 0\n\tKd 1.5 0.25 -1\nKs 0.5 0.5 0.5\nNs 64\nmap_Kd\nillum\nnewmtl grey\nKd 0.5\nKs spectral x.rfl\nNs\n";
+    let model = load_files(&[("a.obj", text.as_bytes()), ("my colours.mtl", mtl.as_bytes())]).unwrap();
+    assert_eq!(model.material_of, [0, 1, 1, 2, 3]);
+    let names: Vec<_> = model.materials.iter().map(|m| m.name.as_str()).collect();
+    assert_eq!(names, ["default", "red wall", "grey", "lost"]);
+    let red = &model.materials[1];
+    assert_eq!((red.ambient, red.diffuse), (Vec3::new(0.1, 0.0, 0.0), Vec3::new(1.0, 0.25, 0.0)));
+    assert_eq!((red.specular, red.shininess, red.mirror), (Vec3::splat(0.5), 64.0, 0.0));
+    assert_eq!(model.materials[2], Material { diffuse: Vec3::splat(0.5), ..Material::named("grey") });
+    assert_eq!(model.notes.len(), 3, "{:?}", model.notes);
+    assert!(
+        model.notes[0].contains("line 13") && model.notes[1].contains("line 14") && model.notes[2].contains("`lost`")
+    );
+}
+
+#[test]
+fn a_missing_mtl_file_is_a_note() {
+    let model = obj(&format!("mtllib a.mtl b.mtl\n{SQUARE}usemtl x\nf 1 2 3\n"));
+    assert_eq!(model.triangles.len(), 1);
+    assert_eq!(model.notes.len(), 3, "{:?}", model.notes);
+}
+
+#[test]
+fn malformed_files_are_refused_with_their_line() {
+    for (text, words) in [
+        ("v 0 0 0\nv 1 0\n", ["a.obj, line 2:", "three numbers"]),
+        ("v 0 0 x\n", ["line 1:", "`x` is not a number"]),
+        ("v 0 0 nan\n", ["line 1:", "vertex 1 is not finite"]),
+        ("v 0 0 0\nv 0 -inf 0\n", ["line 2:", "vertex 2 is not finite"]),
+        ("v 0 0 1e39\n", ["line 1:", "not finite"]),
+        ("v 0 0 0\nf 0 1 1\n", ["line 2:", "vertex index 0"]),
+        ("v 0 0 0\nf 1 1 2\nf 1 1 1\n", ["line 2:", "vertex 2, but the file has only 1"]),
+        ("v 0 0 0\nf 1 1 -2\n", ["line 2:", "-2 reaches before the first of the 1"]),
+        ("v 0 0 0\nf 1//1 1//1 1//1\n", ["line 2:", "normal 1, but the file has only 0"]),
+        ("v 0 0 0\nf 1//0 1//1 1//1\n", ["line 2:", "normal index 0"]),
+        ("v 0 0 0\nf 1 1 5000000000\n", ["line 2:", "vertex 5000000000 is more"]),
+        ("v 0 0 0\nf 1 1 99999999999999999999\n", ["line 2:", "not a vertex index"]),
+        ("v 0 0 0\nf 1 1 -9223372036854775808\n", ["line 2:", "reaches before"]),
+        ("v 0 0 0\nf 1 1 1/1/1/1\n", ["line 2:", "more than three indices"]),
+        ("v 0 0 0\nf 1 1 1.5\n", ["line 2:", "`1.5` is not a vertex index"]),
+        ("v 0 0 0\nf 1 / 1\n", ["line 2:", "`` is not a vertex index"]),
+    ] {
+        assert_refused("a.obj", text.as_bytes(), &words);
+    }
+    assert_refused("a.obj", b"v 0 0 \xff\xfe\n", &["line 1:", "is not a number"]);
+    // In a name a stray byte does no harm.
+    assert!(load_files(&[("a.obj", b"# caf\xe9\nv 0 0 0\nusemtl \xe9\nf 1 1 1\n")]).is_ok());
+    assert_eq!(obj("").triangles.len(), 0);
+}
+
+#[test]
+fn the_geometry_is_what_tobj_reads() {
+    let mut text = String::new();
+    for i in 0..40 {
+        text += &format!(
+            "v {} {} {}\nvn {i} 1 0\nvt 0.5 {i}\n",
+            i as f32 * 0.1,
+            (i * 7 % 11) as f32 / 3.0,
+            -1.5e-3 * i as f32
+        );
+    }
+    for i in 0..36 {
+        let (a, b) = (i + 1, i - 38);
+        text += &match i % 4 {
+            0 => format!("g part {i}\nf {a}/{a}/{a} {b}/1/2 {a}/2/{b}\n"),
+            1 => format!("f {a}/1/1 {b}/1/1 {}/1/3 {}/1/4\n", a + 1, a + 2),
+            2 => format!("o thing\nf {a}/1/5 {b}/1/1 {}/1/3 {}/1/4 1/1/1 {}/1/2\nl 1 2\n", a + 1, a + 2, a + 3),
+            _ => format!("usemtl m{i}\nf {a}/1/1 {b}/1/1 {}/1/3\n", a + 1),
+        };
+    }
+    let ours = obj(&text);
+    let options = tobj::LoadOptions { triangulate: true, ignore_lines: true, ..Default::default() };
+    let no_materials = |_: &std::path::Path| Ok(Default::default());
+    let (models, _) = tobj::load_obj_buf(&mut text.as_bytes(), &options, no_materials).unwrap();
+    let vectors = |list: &[f32], indices: &[u32]| -> Vec<Vec3> {
+        indices.iter().map(|&i| Vec3::from_slice(&list[3 * i as usize..])).collect()
+    };
+    let theirs: Vec<_> = models.iter().flat_map(|m| vectors(&m.mesh.positions, &m.mesh.indices)).collect();
+    assert_eq!(corners(&ours).as_flattened(), theirs);
+    let theirs: Vec<_> = models.iter().flat_map(|m| vectors(&m.mesh.normals, &m.mesh.normal_indices)).collect();
+    let normals: Vec<_> = ours.normal_indices.as_flattened().iter().map(|&i| ours.normals[i as usize]).collect();
+    assert_eq!(normals, theirs);
+}

@@ -1,0 +1,139 @@
+use glam::Vec3;
+
+use super::{assert_refused, load_files};
+use crate::scene::Model;
+
+/// A square and a triangle, one vertex unused, with more properties and elements than a mesh needs.
+pub(super) const ASCII: &str = "ply\nformat ascii 1.0\ncomment by hand\nelement vertex 5\nproperty float x\nproperty double y\n\
+    property float z\nproperty uchar red\nproperty list uchar int tags\nelement face 2\nproperty uchar flags\n\
+    property list uchar int vertex_indices\nelement edge 1\nproperty int vertex1\nproperty int vertex2\nend_header\n\
+    0 0 0 255 0\n1 0 0 255 2 7 8\n1 1 0 0 0\n0 1 -0.5e0 0 1 3\n9 9 9 0 0\n1 4 0 1 2 3\n0 3 2 1 0\n0 1\n";
+
+fn ply(bytes: &[u8]) -> Model {
+    load_files(&[("a.ply", bytes)]).unwrap()
+}
+
+/// The same two faces with 64-bit coordinates, normals, and the given width of list lengths and corners.
+pub(super) fn binary(big: bool, length: &str, corner: &str) -> Vec<u8> {
+    let order = if big { "big" } else { "little" };
+    let mut bytes = format!(
+        "ply\nformat binary_{order}_endian 1.0\nelement vertex 5\nproperty double x\nproperty double y\nproperty double z\n\
+         property float nx\nproperty float ny\nproperty float nz\nproperty short extra\n\
+         element face 2\nproperty list {length} {corner} vertex_index\nend_header\n"
+    )
+    .into_bytes();
+    let mut put = |little: &[u8]| match big {
+        true => bytes.extend(little.iter().rev()),
+        false => bytes.extend(little),
+    };
+    for [x, y, z] in [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, -0.5], [9.0, 9.0, 9.0_f64]] {
+        [x, y, z].iter().for_each(|c| put(&c.to_le_bytes()));
+        [0.0, 0.0, 1.0_f32].iter().for_each(|c| put(&c.to_le_bytes()));
+        put(&[1, 2]);
+    }
+    let width = |kind: &str| {
+        if kind.ends_with("char") {
+            1
+        } else if kind.ends_with("short") {
+            2
+        } else {
+            4
+        }
+    };
+    for face in [&[0, 1, 2, 3_u32][..], &[2, 1, 0]] {
+        put(&(face.len() as u32).to_le_bytes()[..width(length)]);
+        face.iter().for_each(|corner_number| put(&corner_number.to_le_bytes()[..width(corner)]));
+    }
+    bytes
+}
+
+#[test]
+fn text_with_more_than_a_mesh() {
+    let model = ply(ASCII.as_bytes());
+    assert_eq!(model.triangles, [[0, 1, 2], [0, 2, 3], [2, 1, 0]]);
+    assert_eq!(model.positions.len(), 5, "unused vertices stay");
+    assert_eq!(model.positions[3], Vec3::new(0.0, 1.0, -0.5));
+    assert!(model.normals.is_empty() && model.normal_indices.is_empty());
+    assert_eq!(ply(ASCII.replace('\n', "\r\n").as_bytes()), model);
+    assert_eq!(ply(ASCII.trim_end().as_bytes()), model);
+    let mut comment = ASCII.replace("by hand", "caf?").into_bytes();
+    let at = comment.iter().position(|&b| b == b'?').unwrap();
+    comment[at] = 0xe9;
+    assert_eq!(ply(&comment), model);
+}
+
+#[test]
+fn binary_of_both_orders_and_all_integers() {
+    for big in [false, true] {
+        for length in ["char", "uchar", "short", "ushort", "int", "uint"] {
+            for corner in ["char", "uchar", "short", "ushort", "int", "uint"] {
+                let model = ply(&binary(big, length, corner));
+                assert_eq!(model.triangles, [[0, 1, 2], [0, 2, 3], [2, 1, 0]], "{big} {length} {corner}");
+                assert_eq!(model.positions[3], Vec3::new(0.0, 1.0, -0.5));
+                assert_eq!((model.normals.len(), model.normals[4]), (5, Vec3::Z));
+                assert_eq!(model.normal_indices, model.triangles);
+            }
+        }
+    }
+}
+
+#[test]
+fn every_truncation_is_refused() {
+    let text = ASCII.trim_end();
+    for (file, data) in [(text.as_bytes().to_vec(), text.len() - 2), (binary(false, "uchar", "int"), usize::MAX)] {
+        // Without its last digit a text may still be a text.
+        for end in 0..file.len().min(data) {
+            assert_refused("a.ply", &file[..end], &["a.ply"]);
+        }
+    }
+    let file = binary(true, "uint", "int");
+    assert_refused("a.ply", &file[..file.len() - 1], &["face 1:", "truncated"]);
+}
+
+#[test]
+fn malformed_files_are_refused_by_name_and_number() {
+    let cases = [
+        ("ply\n", "plx\n", ["line 1:", "begins with the line `ply`"]),
+        ("vertex 5", "vertex 50", ["element vertex:", "50 rows"]),
+        ("vertex 5", "vertex 6", ["vertex 5:", "too few"]),
+        ("face 2", "face 1", ["edge 0:", "too many"]),
+        ("edge 1\n", "edge 0\n", ["4 bytes follow", "counts"]),
+        ("face 2", "face 4000000000000", ["element face:", "truncated"]),
+        ("face 2", "face 99999999999999999999999", ["line 10:", "too large"]),
+        ("ascii 1.0", "ascii 99999999999999999999999.0", ["line 2:", "too large"]),
+        ("element face 2", "element faces 2", ["no element `face`", "point clouds"]),
+        ("element vertex 5", "element points 5", ["no element `vertex`", "no mesh"]),
+        ("double y", "double w", ["element vertex:", "`y` is missing"]),
+        ("double y", "list uchar int y", ["element vertex:", "not a list"]),
+        ("vertex_indices", "indices", ["element face:", "`vertex_indices` is missing"]),
+        ("uchar int vertex_indices", "uchar float vertex_indices", ["element face:", "integers"]),
+        ("property uchar flags", "property list uchar int vertex_index", ["element face:", "two lists"]),
+        ("uchar flags", "uchar vertex_indices", ["declares", "twice"]),
+        ("element edge", "element vertex", ["declares", "twice"]),
+        ("end_header", "end_head", ["line 16:", "no line of a PLY header"]),
+        ("\n1 4 0 1 2 3\n", "\n1 4 0 1 2 5\n", ["face 0:", "corner 5 is none of the 5"]),
+        ("\n1 4 0 1 2 3\n", "\n1 4 0 1 2 -1\n", ["face 0:", "corner -1"]),
+        ("\n1 4 0 1 2 3\n", "\n1 18446744073709551615 0 1 2 3\n", ["face 0:", "too few"]),
+        ("\n1 4 0 1 2 3\n", "\n1 -4 0 1 2 3\n", ["face 0:", "not the length"]),
+        ("\n1 1 0", "\n1 x 0", ["vertex 2:", "numbers"]),
+        ("\n1 1 0", "\nnan 1 0", ["vertex 2:", "numbers"]),
+        ("\n1 1 0", "\n1e39 1 0", ["vertex 2 ", "finite"]),
+    ];
+    for (from, to, words) in cases {
+        assert!(ASCII.contains(from), "{from}");
+        assert_refused("a.ply", ASCII.replacen(from, to, 1).as_bytes(), &words);
+    }
+    // The header lies about nothing, but the bodies do: a list of 4 thousand million, one of -1, a NaN.
+    let mut file = binary(false, "uint", "int");
+    let first_list = file.len() - 36;
+    file[first_list..first_list + 4].fill(0xff);
+    assert_refused("a.ply", &file, &["face 0:", "truncated"]);
+    let mut file = binary(true, "int", "int");
+    let first_list = file.len() - 36;
+    file[first_list..first_list + 4].fill(0xff);
+    assert_refused("a.ply", &file, &["face 0:", "-1 entries"]);
+    let mut file = binary(false, "uchar", "int");
+    let first_vertex = file.windows(11).position(|w| w == b"end_header\n").unwrap() + 11;
+    file[first_vertex..first_vertex + 8].copy_from_slice(&f64::NAN.to_le_bytes());
+    assert_refused("a.ply", &file, &["vertex 0 ", "finite"]);
+}
