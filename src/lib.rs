@@ -2,6 +2,7 @@
 
 pub mod accel;
 pub mod geometry;
+pub mod oracle;
 pub mod registry;
 pub mod scene;
 pub mod simd;
