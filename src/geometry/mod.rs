@@ -3,7 +3,9 @@
 mod aabb;
 mod mesh;
 mod ray;
+mod ray_text;
 
 pub use aabb::Aabb;
 pub use mesh::{Mesh, MeshError};
 pub use ray::{Hit, PrimId, Ray};
+pub use ray_text::RayTextError;
