@@ -8,3 +8,4 @@ pub mod scene;
 pub mod simd;
 pub mod structures;
 pub mod triangle;
+pub mod validate;
