@@ -1,5 +1,7 @@
 //! Who is to blame for a difference.
 
+use std::cmp::Ordering;
+
 use super::{Kind, Reference, ScalarTest};
 use crate::geometry::{Hit, Mesh, Ray};
 use crate::oracle::{ExactT, exact};
@@ -60,7 +62,7 @@ fn same_test(test: ScalarTest, mesh: &Mesh, ray: &Ray, expected: Option<Hit>, fo
         return verdict(Kind::Invented, "the reference has no such hit".into());
     };
     match found {
-        Some(f) if f.t == e.t => verdict(Kind::Tie, "both primitives have this t".into()),
+        Some(f) if f.t == e.t => tie(mesh, ray, e, f),
         Some(f) if f.t < e.t => verdict(Kind::Invented, "the reference has no such hit".into()),
         _ => lost(mesh, ray, e, found),
     }
@@ -73,11 +75,24 @@ fn lost(mesh: &Mesh, ray: &Ray, expected: Hit, found: Option<Hit>) -> Verdict {
     };
     let sure = format!("exactly, {:?} is hit at {:?}", expected.prim, nearer.round());
     let Some(f) = found else { return verdict(Kind::Lost, sure) };
+    if nearer.compare(f.t).is_some_and(Ordering::is_ge) {
+        // What lies behind a hit as computed may be culled.
+        return verdict(Kind::Kernel, format!("{sure}, not before the computed t of {:?}", f.prim));
+    }
     match true_hit(mesh, ray, f) {
         Some(t) if t <= nearer => verdict(Kind::Kernel, format!("{sure}, {:?} not later", f.prim)),
         Some(t) => verdict(Kind::NearerLost, format!("{sure}, {:?} later, at {:?}", f.prim, t.round())),
         None => verdict(Kind::NearerLost, format!("{sure}, {:?} is not hit in the interval", f.prim)),
     }
+}
+
+/// The same computed `t` at two primitives. The lower number is owed if the walk had to come to it.
+fn tie(mesh: &Mesh, ray: &Ray, expected: Hit, found: Hit) -> Verdict {
+    let owed = true_hit(mesh, ray, expected).filter(|t| t.compare(found.t).is_some_and(Ordering::is_le));
+    if owed.is_some() && expected.prim.index() < found.prim.index() {
+        return verdict(Kind::HigherId, format!("exactly, {:?} is hit too, no later", expected.prim));
+    }
+    verdict(Kind::Tie, "both primitives have this computed t".into())
 }
 
 /// Two tests round differently: only the exact answer can judge, and it judges structure and test together.

@@ -62,11 +62,15 @@ fn validate_batch(subject: &dyn DynAccel, reference: &Reference, mesh: &Mesh, ra
         note(verdict.kind, verdict.sentence);
         match verdict.kind {
             Kind::Tie => sums.ties += 1,
+            Kind::HigherId => {
+                sums.ties += 1;
+                sums.higher_ids += 1;
+            }
             Kind::Kernel => sums.kernel_differences += 1,
             _ if reference.test.is_some() => sums.structure_errors += 1,
             _ => sums.answer_errors += 1,
         }
-        sums.differing += u64::from(verdict.kind != Kind::Tie);
+        sums.differing += u64::from(!matches!(verdict.kind, Kind::Tie | Kind::HigherId));
     }
     sums.keep_worst();
     sums

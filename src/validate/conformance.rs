@@ -87,8 +87,8 @@ pub fn answers(subject: &Subject, meshes: &[Named], count: usize) -> Result<(), 
     let wrong = |finding: &Finding| {
         let v = &finding.validation;
         let blamed = if finding.stratum == Stratum::Random { v.answer_errors } else { 0 };
-        let ties = if subject.lowest_id { v.ties } else { 0 };
-        v.structure_errors + v.any_hit_errors + v.unrepeatable + blamed + ties > 0
+        let ids = if subject.lowest_id { v.higher_ids } else { 0 };
+        v.structure_errors + v.any_hit_errors + v.unrepeatable + blamed + ids > 0
     };
     let findings = findings(subject, meshes, count)?;
     let lines = findings.iter().filter(|f| wrong(f)).map(|f| f.line(&subject.name));
@@ -102,7 +102,7 @@ impl Finding {
         let worst = v.worst.first().map_or("no ray".into(), ToString::to_string);
         format!(
             "{subject} on {:?}, {} rays: of {} rays, {} structure errors, {} answer errors, {} any-hit errors, {} unrepeatable, \
-             {} kernel differences, {} ties; worst: {worst}",
+             {} kernel differences, {} ties ({} at a higher number); worst: {worst}",
             self.mesh,
             self.stratum.name(),
             v.rays,
@@ -112,6 +112,7 @@ impl Finding {
             v.unrepeatable,
             v.kernel_differences,
             v.ties,
+            v.higher_ids,
         )
     }
 }

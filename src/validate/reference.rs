@@ -7,6 +7,7 @@ use glam::Vec3;
 use crate::accel::{Accel, BuildError, DynAccel};
 use crate::geometry::{Mesh, Ray};
 use crate::structures::BruteForce;
+use crate::structures::obvhs::RtTest;
 use crate::triangle::{MollerTrumbore, TriangleTest};
 
 /// One triangle, tested alone: `t` where the line of the ray hits it.
@@ -28,11 +29,11 @@ impl Reference {
     /// # Errors
     /// If the mesh is refused.
     pub fn of_test(test: &str, mesh: &Arc<Mesh>) -> Result<Self, BuildError> {
-        let mut reference = Self::brute_force::<MollerTrumbore>(mesh)?;
-        if test != MollerTrumbore::NAME {
-            reference.test = None;
+        match test {
+            MollerTrumbore::NAME => Self::brute_force::<MollerTrumbore>(mesh),
+            RtTest::NAME => Self::brute_force::<RtTest>(mesh),
+            _ => Ok(Self { test: None, ..Self::brute_force::<MollerTrumbore>(mesh)? }),
         }
-        Ok(reference)
     }
 
     /// Brute force with a triangle test that the structure shares.

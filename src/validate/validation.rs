@@ -26,6 +26,9 @@ pub struct Validation {
     pub unrepeatable: u64,
     /// Rays with the `t` of the reference at another primitive that also has it: not an error.
     pub ties: u64,
+    /// Those of the ties where the reference names a lower number that truly is hit no later: an error only of a structure
+    /// that promises the lowest number.
+    pub higher_ids: u64,
     /// At most [`Validation::WORST`] rays, worst first.
     pub worst: Vec<WorstRay>,
 }
@@ -64,6 +67,8 @@ pub enum Kind {
     Unrepeatable,
     /// The triangle test's own error; the structure is not to blame.
     Kernel,
+    /// The same `t` at a higher number than the lowest that is hit there: wrong only where the lowest is promised.
+    HigherId,
     /// The same `t` at another primitive: not an error.
     Tie,
 }
@@ -84,6 +89,7 @@ impl Kind {
             Self::AnyHitDisagrees => "any-hit-disagrees",
             Self::Unrepeatable => "unrepeatable",
             Self::Kernel => "kernel",
+            Self::HigherId => "higher-id",
             Self::Tie => "tie",
         }
     }
@@ -117,6 +123,7 @@ impl Validation {
         self.any_hit_errors += later.any_hit_errors;
         self.unrepeatable += later.unrepeatable;
         self.ties += later.ties;
+        self.higher_ids += later.higher_ids;
         self.worst.append(&mut later.worst);
         self.keep_worst();
     }
