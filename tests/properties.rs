@@ -70,7 +70,12 @@ fn any_finite() -> impl Strategy<Value = f32> + Clone {
 
 /// The same cases on every run.
 fn config() -> ProptestConfig {
-    ProptestConfig { cases: 400, failure_persistence: None, rng_seed: RngSeed::Fixed(2003), ..ProptestConfig::default() }
+    ProptestConfig {
+        cases: 400,
+        failure_persistence: None,
+        rng_seed: RngSeed::Fixed(2003),
+        ..ProptestConfig::default()
+    }
 }
 
 proptest! {
