@@ -181,7 +181,7 @@ pub fn shapes(subject: &Subject, meshes: &[Named]) -> Result<(), String> {
                 "leaves too small for the references",
             ),
             (shape.depth > shape.inner, "deeper than there are inner nodes"),
-            (shape.sah_cost.is_some_and(|cost| !(cost >= 0.0)), "a SAH cost that is no cost"),
+            (shape.sah_cost.is_some_and(|cost| cost.is_nan() || cost < 0.0), "a SAH cost that is no cost"),
             (solid > 0 && footprint.total() == 0, "no bytes"),
         ];
         for (_, what) in wrong.iter().filter(|(wrong, _)| *wrong) {

@@ -136,7 +136,7 @@ fn rounding_is_to_nearest_even() {
     assert_eq!(fraction(1.into(), 3.into()).round(), 1.0 / 3.0);
     assert_eq!(fraction(16_777_217.into(), 1.into()).round(), 16_777_216.0);
     assert_eq!(fraction(16_777_219.into(), 1.into()).round(), 16_777_220.0);
-    assert_eq!(fraction((-314_159_265).into(), 100_000_000.into()).round(), -3.141_592_65);
+    assert_eq!(fraction((-7).into(), 1000.into()).round(), -0.007);
     // Half of the smallest denormal is a tie to zero; more is not.
     assert_eq!(fraction(1.into(), IBig::ONE << (SCALE + 1)).round(), 0.0);
     assert_eq!(fraction(3.into(), IBig::ONE << (SCALE + 2)).round(), f32::from_bits(1));
