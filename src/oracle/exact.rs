@@ -24,7 +24,10 @@ pub struct ExactT {
 /// Costs some microseconds.
 ///
 /// The line passes through the triangle when it passes all three edges on the same side, or meets them: three volumes
-/// have no opposite signs (Segura, Feito 2001, in the order of Woop, Benthin, Wald 2013).
+/// have no opposite signs.
+///
+/// # References
+/// Segura, Feito: Algorithms to test ray-triangle intersection. Comparative study. WSCG 2001.
 pub fn hit(ray: &Ray, corners: [Vec3; 3]) -> Option<ExactT> {
     if !ray.origin.is_finite() || !ray.direction.is_finite() || !corners.iter().all(|p| p.is_finite()) {
         return None;
