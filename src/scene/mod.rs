@@ -1,10 +1,28 @@
 //! Scenes: meshes, materials, lights, cameras, and the rays made from them.
 
+mod assemble;
+mod builtin;
+mod camera;
+mod error;
+pub mod format;
+mod frame;
+mod light;
 pub mod load;
 mod material;
 pub mod meshes;
 mod model;
+mod normals;
+#[allow(clippy::module_inception)]
+mod scene;
+#[cfg(test)]
+mod tests;
 
+pub use builtin::{BUILTIN, Builtin, Difficulty, real_mesh_folder};
+pub use camera::{Camera, CameraError, View};
+pub use error::SceneError;
+pub use light::Light;
 pub use load::{LoadError, load};
 pub use material::Material;
 pub use model::Model;
+pub use normals::CornerNormals;
+pub use scene::{Scene, Surface};

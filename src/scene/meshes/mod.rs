@@ -1,1 +1,82 @@
-//! Meshes made by our own code.
+//! Meshes made by our own code, each the same bit for bit on every machine.
+
+mod catmull_clark;
+mod icosahedron;
+mod icosphere;
+mod plane;
+mod teapot;
+mod torus;
+mod uv_sphere;
+
+#[cfg(test)]
+mod tests;
+
+use glam::{DVec3, Vec3};
+
+use super::Model;
+
+pub use icosahedron::{icosahedron, inside_out_icosahedron};
+pub use icosphere::icosphere;
+pub use plane::{cornellbox, cube, plane_y};
+pub use teapot::teapot;
+pub use torus::torus;
+pub use uv_sphere::uv_sphere;
+
+/// A mesh generator and the name that scene files call it by.
+pub struct Generator {
+    pub name: &'static str,
+    pub make: fn() -> Model,
+}
+
+/// All generators that a scene file can name.
+pub const GENERATORS: &[Generator] = &[
+    Generator { name: "cube", make: cube },
+    Generator { name: "plane_y", make: plane_y },
+    Generator { name: "cornellbox", make: cornellbox },
+    Generator { name: "icosahedron", make: icosahedron },
+    Generator { name: "inside_out_icosahedron", make: inside_out_icosahedron },
+    Generator { name: "icosphere", make: || icosphere(3) },
+    Generator { name: "uv_sphere", make: || uv_sphere(40, 26) },
+    Generator { name: "torus", make: || torus(48, 24, 0.37) },
+    Generator { name: "teapot", make: teapot },
+];
+
+/// The mesh called `name`, or none when there is no such generator.
+pub fn by_name(name: &str) -> Option<Model> {
+    GENERATORS.iter().find(|g| g.name == name).map(|g| (g.make)())
+}
+
+/// Cosine and sine of `step` of `steps` equal parts of a full turn, exact at the quarters.
+fn on_circle(step: u32, steps: u32) -> (f64, f64) {
+    match (4 * u64::from(step % steps), u64::from(steps)) {
+        (0, _) => (1.0, 0.0),
+        (s, n) if s == n => (0.0, 1.0),
+        (s, n) if s == 2 * n => (-1.0, 0.0),
+        (s, n) if s == 3 * n => (0.0, -1.0),
+        _ => {
+            let (sine, cosine) = libm::sincos(f64::from(step) * std::f64::consts::TAU / f64::from(steps));
+            (cosine, sine)
+        }
+    }
+}
+
+/// A model whose vertices carry a normal each.
+fn smooth(positions: Vec<DVec3>, normals: Vec<DVec3>, triangles: Vec<[u32; 3]>) -> Model {
+    Model {
+        positions: positions.into_iter().map(|p| p.as_vec3()).collect(),
+        normals: normals.into_iter().map(|n| n.as_vec3()).collect(),
+        normal_indices: triangles.clone(),
+        triangles,
+        ..Model::default()
+    }
+}
+
+/// A model without normals.
+fn flat(positions: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Model {
+    Model { positions, triangles, ..Model::default() }
+}
+
+/// Both triangles of a quadrilateral, cut from its first corner to its third.
+fn halves([a, b, c, d]: [u32; 4]) -> [[u32; 3]; 2] {
+    [[a, b, c], [a, c, d]]
+}

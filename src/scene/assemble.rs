@@ -1,0 +1,211 @@
+//! From a scene file to a scene.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use super::format::{LightFile, ObjectFile, RealMesh, SceneFile};
+use super::{Camera, CornerNormals, Light, Material, Model, Scene, SceneError, frame, load, meshes};
+use crate::geometry::{Mesh, Transform};
+
+/// Where a scene file came from, and where to look for other files.
+pub(super) struct Origin<'a> {
+    /// For messages.
+    pub file: &'a str,
+    /// Paths in the file count from here; none in a built-in scene.
+    pub folder: Option<&'a Path>,
+    /// The folder of real meshes; none to use stand-ins in any case.
+    pub real_meshes: Option<&'a Path>,
+}
+
+impl Origin<'_> {
+    fn value(&self, key: &str, problem: String) -> SceneError {
+        SceneError::Value { file: self.file.into(), key: key.into(), problem }
+    }
+}
+
+/// Loads or generates all meshes, places them and checks the whole.
+pub(super) fn assemble(file: &SceneFile, origin: &Origin) -> Result<Scene, SceneError> {
+    let mut parts = Parts::new(file);
+    for (i, object) in file.objects.iter().enumerate() {
+        parts.add(object, &format!("objects[{i}]"), origin)?;
+    }
+
+    if let Some(wanted) = file.triangles.filter(|_| !parts.uses_real) {
+        let count = parts.triangles.len();
+        let problem = format!("the file says {wanted} triangles, but its objects have {count}: correct one of them");
+        if count != wanted {
+            return Err(origin.value("triangles", problem));
+        }
+    }
+    let mesh = Mesh::new(parts.positions, parts.triangles)
+        .map_err(|cause| SceneError::Mesh { file: origin.file.into(), cause })?;
+    let c = &file.camera;
+    let camera = Camera::new(c.eye.into(), c.target.into(), c.up.into(), c.vertical_fov)
+        .map_err(|cause| SceneError::Camera { file: origin.file.into(), cause })?;
+    let light = |l: &LightFile| Light { position: l.pos.into(), colour: l.col.into(), linear: l.lat, quadratic: l.qat };
+    let smooth = parts.normal_indices.iter().any(|&n| n != CornerNormals::FLAT);
+    Ok(Scene {
+        name: file.name.clone(),
+        normals: smooth.then(|| CornerNormals::new(parts.normals, parts.normal_indices)),
+        materials: parts.materials,
+        material_of: parts.material_of,
+        lights: file.lights.iter().map(light).collect(),
+        camera,
+        background: file.background.into(),
+        recursion_limit: file.recursion_limit,
+        shadow_terminator_fix: file.shadow_terminator_fix,
+        ray_offset: file.ray_offset.unwrap_or_else(|| frame::ray_offset(&mesh)),
+        size: file.size,
+        stand_ins: parts.stand_ins,
+        notes: parts.notes,
+        mesh: Arc::new(mesh),
+    })
+}
+
+/// The scene so far, in world space.
+#[derive(Default)]
+struct Parts {
+    positions: Vec<glam::Vec3>,
+    triangles: Vec<[u32; 3]>,
+    normals: Vec<glam::Vec3>,
+    normal_indices: Vec<[u32; 3]>,
+    materials: Vec<Material>,
+    material_of: Vec<u32>,
+    stand_ins: Vec<String>,
+    notes: Vec<String>,
+    uses_real: bool,
+}
+
+impl Parts {
+    fn new(file: &SceneFile) -> Self {
+        let materials = file.materials.iter().map(|(name, m)| m.material(name)).collect();
+        let textures: Vec<&str> =
+            file.materials.values().flat_map(|m| m.texture.iter().chain(&m.normal_map)).map(String::as_str).collect();
+        let left_out = format!("textures left out, their materials show Kd as it is: {}", textures.join(", "));
+        Self { materials, notes: (!textures.is_empty()).then_some(left_out).into_iter().collect(), ..Self::default() }
+    }
+
+    fn add(&mut self, object: &ObjectFile, key: &str, origin: &Origin) -> Result<(), SceneError> {
+        let (mut model, placement) = self.choose(object, key, origin)?;
+        self.notes.append(&mut model.notes);
+
+        let first = self.positions.len();
+        let shifted = |indices: &[u32; 3], by: usize| indices.map(|i| i + by as u32);
+        if (first + model.positions.len()).max(self.normals.len() + model.normals.len()) > i32::MAX as usize {
+            return Err(origin.value(key, "the scene has more than 2^31 vertices or normals: split it".into()));
+        }
+        self.positions.extend(model.positions.iter().map(|&p| placement.point(p)));
+        self.triangles.extend(model.triangles.iter().map(|t| shifted(t, first)));
+
+        let first = self.normals.len();
+        self.normals.extend(model.normals.iter().map(|&n| placement.normal(n)));
+        if model.normal_indices.is_empty() {
+            self.normal_indices.resize(self.triangles.len(), CornerNormals::FLAT);
+        } else {
+            let flat = |n: &[u32; 3]| n.contains(&Model::FLAT);
+            let placed = |n| if flat(n) { CornerNormals::FLAT } else { shifted(n, first) };
+            self.normal_indices.extend(model.normal_indices.iter().map(placed));
+        }
+        self.paint(object, &model, key, origin)
+    }
+
+    /// The mesh to use, and where it stands.
+    fn choose(&mut self, object: &ObjectFile, key: &str, origin: &Origin) -> Result<(Model, Transform), SceneError> {
+        if let (Some(real), Some(folder)) = (&object.real, origin.real_meshes) {
+            let path = folder.join(&real.file);
+            if path.is_file() {
+                let model = load_file(&path, &format!("{key}.real.file"), origin)?;
+                let placement = Transform::new(real.rot.into(), real.sca.into(), real.tra.into());
+                return Ok((self.take_real(real, &path, model), placement));
+            }
+        }
+        if let Some(whole) = &object.stands_in_for {
+            self.stand_ins.push(object.mesh.clone());
+            self.notes.push(format!("mesh `{}` stands in for {whole}", object.mesh));
+        }
+
+        let key = format!("{key}.mesh");
+        let placement = Transform::new(object.rot.into(), object.sca.into(), object.tra.into());
+        let is_file = Path::new(&object.mesh).extension().is_some();
+        match (is_file, origin.folder) {
+            (true, Some(folder)) => Ok((load_file(&folder.join(&object.mesh), &key, origin)?, placement)),
+            _ => {
+                let names: Vec<&str> = meshes::GENERATORS.iter().map(|g| g.name).collect();
+                let problem = format!("there is no mesh `{}`: give a file or one of {}", object.mesh, names.join(", "));
+                let model = meshes::by_name(&object.mesh).ok_or_else(|| origin.value(&key, problem))?;
+                Ok((model, placement))
+            }
+        }
+    }
+
+    fn take_real(&mut self, real: &RealMesh, path: &Path, mut model: Model) -> Model {
+        let before = model.triangles.len();
+        without_materials(&mut model, &real.exclude_materials);
+        let (count, reported) = (model.triangles.len(), real.reported_triangles);
+        let left_out = before - count;
+        self.uses_real = true;
+        self.notes.push(format!("real mesh {}: {count} triangles in place of the report's {reported}", path.display()));
+        if left_out > 0 {
+            let materials = real.exclude_materials.join(", ");
+            self.notes.push(format!("{left_out} triangles of the real mesh left out, of the materials {materials}"));
+        }
+        model
+    }
+
+    /// Gives the triangles just added their materials.
+    fn paint(&mut self, object: &ObjectFile, model: &Model, key: &str, origin: &Origin) -> Result<(), SceneError> {
+        // The file's materials come first, sorted by name, and its check has seen that each name is there.
+        let number = |materials: &[Material], name: &str| {
+            materials.iter().position(|m| m.name == name).expect("the file names its materials") as u32
+        };
+        let own = model.materials.len().max(1);
+        let numbers: Vec<u32> = if let Some(name) = &object.material {
+            vec![number(&self.materials, name); own]
+        } else if let Some(by_part) = &object.materials {
+            let part_names: Vec<&str> = model.materials.iter().map(|m| m.name.as_str()).collect();
+            let key = format!("{key}.materials");
+            if let Some(name) = by_part.keys().find(|name| !part_names.contains(&name.as_str())) {
+                let problem = format!("the mesh has no part `{name}`, only: {}", part_names.join(", "));
+                return Err(origin.value(&key, problem));
+            }
+            let chosen = |part: &&str| {
+                let name = by_part.get(*part);
+                let problem = || origin.value(&key, format!("part `{part}` has no material: add one"));
+                name.map(|name| number(&self.materials, name)).ok_or_else(problem)
+            };
+            part_names.iter().map(chosen).collect::<Result<_, _>>()?
+        } else {
+            let first = self.materials.len() as u32;
+            self.materials.extend(model.materials.iter().cloned());
+            if model.materials.is_empty() {
+                self.materials.push(Material::named("grey"));
+            }
+            (first..self.materials.len() as u32).collect()
+        };
+
+        if model.material_of.is_empty() {
+            self.material_of.resize(self.triangles.len(), numbers[0]);
+        } else {
+            self.material_of.extend(model.material_of.iter().map(|&part| numbers[part as usize]));
+        }
+        Ok(())
+    }
+}
+
+fn load_file(path: &Path, key: &str, origin: &Origin) -> Result<Model, SceneError> {
+    load(path).map_err(|cause| SceneError::Load { file: origin.file.into(), key: key.into(), cause })
+}
+
+/// Drops the triangles of the materials `names`; vertices and materials stay.
+fn without_materials(model: &mut Model, names: &[String]) {
+    let dropped: Vec<bool> = model.materials.iter().map(|m| names.contains(&m.name)).collect();
+    let of = |t: usize| model.material_of.get(t).map_or(0, |&m| m as usize);
+    let kept: Vec<bool> = (0..model.triangles.len()).map(|t| !dropped.get(of(t)).is_some_and(|&d| d)).collect();
+    fn keep<T>(values: &mut Vec<T>, kept: &[bool]) {
+        let mut kept = kept.iter();
+        values.retain(|_| *kept.next().unwrap_or(&true));
+    }
+    keep(&mut model.triangles, &kept);
+    keep(&mut model.normal_indices, &kept);
+    keep(&mut model.material_of, &kept);
+}

@@ -1,0 +1,116 @@
+//! The twelve scenes of the source report.
+
+use std::path::{Path, PathBuf};
+
+use super::assemble::{Origin, assemble};
+use super::format::SceneFile;
+use super::{Scene, SceneError};
+
+/// How the source report groups its scenes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Difficulty {
+    Easy,
+    Normal,
+    Hard,
+}
+
+/// A scene that is part of the program.
+#[derive(Debug)]
+pub struct Builtin {
+    pub name: &'static str,
+    pub difficulty: Difficulty,
+    /// The text of its scene file.
+    pub text: &'static str,
+}
+
+macro_rules! builtin {
+    ($($difficulty:ident $name:literal $folder:literal;)*) => {
+        &[$(Builtin {
+            name: $name,
+            difficulty: Difficulty::$difficulty,
+            text: include_str!(concat!("../../scenes/", $folder, "/scene.toml")),
+        }),*]
+    };
+}
+
+/// All of them, in the order of the report.
+pub const BUILTIN: &[Builtin] = builtin! {
+    Easy "Cube" "cube";
+    Easy "Sphere" "sphere";
+    Easy "Torus" "torus";
+    Easy "Teapot" "teapot";
+    Normal "Billards" "billards";
+    Normal "Cornellbox" "cornellbox";
+    Normal "Infinitycandy" "infinitycandy";
+    Normal "Metallic" "metallic";
+    Normal "Starters" "starters";
+    Hard "Dragon" "dragon";
+    Hard "Lucy" "lucy";
+    Hard "Sponza" "sponza";
+};
+
+impl Builtin {
+    /// The scene called `name`, in any case.
+    ///
+    /// # Errors
+    /// [`SceneError::Unknown`], which names the nearest and lists all.
+    pub fn find(name: &str) -> Result<&'static Self, SceneError> {
+        let wanted = name.to_lowercase();
+        BUILTIN.iter().find(|b| b.name.to_lowercase() == wanted).ok_or_else(|| {
+            let nearest = BUILTIN.iter().min_by_key(|b| edits(&b.name.to_lowercase(), &wanted));
+            SceneError::Unknown {
+                name: name.chars().take(60).flat_map(char::escape_debug).collect(),
+                nearest: nearest.map_or("none", |b| b.name),
+                all: BUILTIN.iter().map(|b| b.name).collect::<Vec<_>>().join(", "),
+            }
+        })
+    }
+
+    /// Its scene file, parsed.
+    pub fn file(&self) -> SceneFile {
+        SceneFile::parse(self.text, self.name).expect("a test reads all built-in scenes")
+    }
+
+    /// Makes the scene, with the real meshes that the folder `real_meshes` holds; without a folder always with its own.
+    ///
+    /// # Errors
+    /// A file of `real_meshes` that cannot be loaded.
+    pub fn scene(&self, real_meshes: Option<&Path>) -> Result<Scene, SceneError> {
+        assemble(&self.file(), &Origin { file: self.name, folder: None, real_meshes })
+    }
+}
+
+impl Scene {
+    /// The scene in a scene file; `real_meshes` as in [`Builtin::scene`].
+    ///
+    /// # Errors
+    /// A file that cannot be read, a key or value that it should not have, a mesh that cannot be loaded.
+    pub fn read(path: &Path, real_meshes: Option<&Path>) -> Result<Self, SceneError> {
+        let text =
+            std::fs::read_to_string(path).map_err(|cause| SceneError::Unreadable { file: path.into(), cause })?;
+        let file = path.display().to_string();
+        let folder = Some(path.parent().unwrap_or(Path::new("")));
+        assemble(&SceneFile::parse(&text, &file)?, &Origin { file: &file, folder, real_meshes })
+    }
+}
+
+/// The folder of real meshes: the environment variable `SAHARA_DATA`, or `scenes/data`. It need not exist.
+pub fn real_mesh_folder() -> PathBuf {
+    std::env::var_os("SAHARA_DATA").filter(|v| !v.is_empty()).map_or_else(|| "scenes/data".into(), PathBuf::from)
+}
+
+/// How many letters to insert, remove or replace to get from one word to the other (Levenshtein 1966).
+fn edits(one: &str, other: &str) -> usize {
+    let other: Vec<char> = other.chars().take(60).collect();
+    let mut row: Vec<usize> = (0..=other.len()).collect();
+    for (i, letter) in one.chars().enumerate() {
+        let mut diagonal = row[0];
+        row[0] = i + 1;
+        for (j, &candidate) in other.iter().enumerate() {
+            let replaced = diagonal + usize::from(letter != candidate);
+            diagonal = row[j + 1];
+            row[j + 1] = replaced.min(row[j] + 1).min(diagonal + 1);
+        }
+    }
+    row[other.len()]
+}

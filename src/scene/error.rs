@@ -1,0 +1,25 @@
+//! Why a scene cannot be made.
+
+use std::path::PathBuf;
+
+use super::{CameraError, LoadError};
+use crate::geometry::MeshError;
+
+/// What is wrong with a scene, in one line: the file, the key in it, the problem and what to do.
+#[derive(Debug, thiserror::Error)]
+pub enum SceneError {
+    #[error("{}: the scene cannot be read ({cause}): check that it exists and may be opened", file.display())]
+    Unreadable { file: PathBuf, cause: std::io::Error },
+    #[error("{file}, line {line}: {problem}")]
+    Syntax { file: String, line: usize, problem: String },
+    #[error("{file}, `{key}`: {problem}")]
+    Value { file: String, key: String, problem: String },
+    #[error("{file}, `camera`: {cause}")]
+    Camera { file: String, cause: CameraError },
+    #[error("{file}, `{key}`: {cause}")]
+    Load { file: String, key: String, cause: LoadError },
+    #[error("{file}: {cause}")]
+    Mesh { file: String, cause: MeshError },
+    #[error("there is no built-in scene `{name}`: did you mean {nearest}? The scenes are {all}")]
+    Unknown { name: String, nearest: &'static str, all: String },
+}

@@ -1,0 +1,229 @@
+//! The text form of a scene: `scene.toml`.
+
+use std::collections::BTreeMap;
+
+use serde::Deserialize;
+
+use super::SceneError;
+use crate::scene::Material;
+
+/// A scene file as it is written; [`SceneFile::parse`] checks its values, [`super::Scene::read`] makes the scene.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SceneFile {
+    pub name: String,
+    /// Where the scene comes from; for readers.
+    pub source: Option<String>,
+    /// How many triangles the scene has with its own meshes; checked when present.
+    pub triangles: Option<usize>,
+    /// Width and height of the image, 1 to 16384.
+    #[serde(default = "default_size")]
+    pub size: [u32; 2],
+    /// Linear RGB.
+    #[serde(default)]
+    pub background: [f32; 3],
+    /// Level up to which mirror rays are followed, 0 to 64.
+    #[serde(default = "default_recursion_limit")]
+    pub recursion_limit: u32,
+    /// See [`super::Scene::shadow_terminator_fix`].
+    #[serde(default = "yes")]
+    pub shadow_terminator_fix: bool,
+    /// How far each ray origin is moved; without it 1e-4 of the diagonal of the scene's box.
+    pub ray_offset: Option<f32>,
+    pub camera: CameraFile,
+    #[serde(default)]
+    pub lights: Vec<LightFile>,
+    pub objects: Vec<ObjectFile>,
+    #[serde(default)]
+    pub materials: BTreeMap<String, MaterialFile>,
+}
+
+/// The camera: see [`super::Camera`].
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CameraFile {
+    pub eye: [f32; 3],
+    pub target: [f32; 3],
+    #[serde(default = "default_up")]
+    pub up: [f32; 3],
+    /// Degrees.
+    pub vertical_fov: f32,
+}
+
+/// A light: see [`super::Light`].
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LightFile {
+    pub pos: [f32; 3],
+    pub col: [f32; 3],
+    #[serde(default)]
+    pub lat: f32,
+    #[serde(default)]
+    pub qat: f32,
+}
+
+/// A material: see [`Material`]. Textures are accepted and left out; the scene's notes say so.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[allow(non_snake_case, reason = "the keys are those of MTL files")]
+pub struct MaterialFile {
+    pub Ka: [f32; 3],
+    pub Kd: [f32; 3],
+    pub Ks: [f32; 3],
+    #[serde(default)]
+    pub Ns: f32,
+    #[serde(default)]
+    pub r: f32,
+    pub texture: Option<String>,
+    pub normal_map: Option<String>,
+}
+
+impl MaterialFile {
+    pub(super) fn material(&self, name: &str) -> Material {
+        Material {
+            name: name.into(),
+            ambient: self.Ka.into(),
+            diffuse: self.Kd.into(),
+            specular: self.Ks.into(),
+            shininess: self.Ns,
+            mirror: self.r,
+        }
+    }
+}
+
+/// A mesh and where it stands.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ObjectFile {
+    /// The name of a generator ([`super::meshes::GENERATORS`]), or a path relative to the scene file.
+    pub mesh: String,
+    /// The material of the whole mesh. Without `material` and `materials` the mesh keeps its own, or is grey.
+    pub material: Option<String>,
+    /// Materials by part, where parts are the materials that the mesh itself names.
+    pub materials: Option<BTreeMap<String, String>>,
+    /// With `sca` and `tra` the numbers of a [`crate::geometry::Transform`]; degrees.
+    #[serde(default)]
+    pub rot: [f32; 3],
+    #[serde(default = "ones")]
+    pub sca: [f32; 3],
+    #[serde(default)]
+    pub tra: [f32; 3],
+    /// What the mesh stands in for, if it does.
+    pub stands_in_for: Option<String>,
+    /// The mesh file to use instead when it is there.
+    pub real: Option<RealMesh>,
+}
+
+/// A mesh file that is not part of the project, how to get it and where it stands.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RealMesh {
+    /// Name in the folder of real meshes.
+    pub file: String,
+    /// What can be downloaded: the file itself, or an archive that `unpack` tells how to treat.
+    pub url: String,
+    pub unpack: Option<String>,
+    pub licence: String,
+    pub origin: String,
+    /// Of the file, in hexadecimal; absent where the file has to be unpacked.
+    pub sha256: Option<String>,
+    pub bytes: Option<u64>,
+    /// How many triangles the mesh that the source report used had.
+    pub reported_triangles: usize,
+    /// Replaces the placement of the stand-in, as do `sca` and `tra`.
+    #[serde(default)]
+    pub rot: [f32; 3],
+    #[serde(default = "ones")]
+    pub sca: [f32; 3],
+    #[serde(default)]
+    pub tra: [f32; 3],
+    /// Triangles of these materials of the file are left out.
+    #[serde(default)]
+    pub exclude_materials: Vec<String>,
+}
+
+fn default_size() -> [u32; 2] {
+    [512, 512]
+}
+
+fn default_recursion_limit() -> u32 {
+    8
+}
+
+fn default_up() -> [f32; 3] {
+    [0.0, 1.0, 0.0]
+}
+
+fn ones() -> [f32; 3] {
+    [1.0; 3]
+}
+
+fn yes() -> bool {
+    true
+}
+
+impl SceneFile {
+    /// Reads `text`, which came from `file`.
+    ///
+    /// # Errors
+    /// Text that is not TOML, a key that is unknown, missing or of the wrong type, a number out of range.
+    pub fn parse(text: &str, file: &str) -> Result<Self, SceneError> {
+        let scene: Self = toml::from_str(text).map_err(|error| SceneError::Syntax {
+            file: file.into(),
+            line: error.span().map_or(1, |span| 1 + text[..span.start].matches('\n').count()),
+            problem: error.message().trim().replace('\n', "; "),
+        })?;
+        scene.check().map_err(|(key, problem)| SceneError::Value { file: file.into(), key, problem })?;
+        Ok(scene)
+    }
+
+    fn check(&self) -> Result<(), (String, String)> {
+        let in_size = self.size.iter().all(|n| (1..=16384).contains(n));
+        demand(in_size, "size", "width and height lie between 1 and 16384: change them")?;
+        demand(self.recursion_limit <= 64, "recursion_limit", "give at most 64")?;
+        let offset = self.ray_offset.unwrap_or(0.0);
+        demand(offset.is_finite() && offset >= 0.0, "ray_offset", "give a distance that is not negative")?;
+        demand(!self.objects.is_empty(), "objects", "a scene needs at least one object: add one")?;
+        numbers(&self.background, 0.0, "background")?;
+
+        for (i, light) in self.lights.iter().enumerate() {
+            numbers(&light.pos, f32::MIN, &format!("lights[{i}].pos"))?;
+            numbers(&light.col, 0.0, &format!("lights[{i}].col"))?;
+            numbers(&[light.lat, light.qat], 0.0, &format!("lights[{i}].lat or qat"))?;
+        }
+        for (name, material) in &self.materials {
+            for (key, colour) in [("Ka", material.Ka), ("Kd", material.Kd), ("Ks", material.Ks)] {
+                numbers(&colour, 0.0, &format!("materials.{name}.{key}"))?;
+            }
+            numbers(&[material.Ns, material.r], 0.0, &format!("materials.{name}.Ns or r"))?;
+        }
+        for (i, object) in self.objects.iter().enumerate() {
+            let placements =
+                [Some((object.rot, object.sca, object.tra)), object.real.as_ref().map(|r| (r.rot, r.sca, r.tra))];
+            for (rot, sca, tra) in placements.into_iter().flatten() {
+                numbers(&[rot, sca, tra].concat(), f32::MIN, &format!("objects[{i}].rot, sca or tra"))?;
+            }
+            let both = object.material.is_some() && object.materials.is_some();
+            demand(!both, &format!("objects[{i}].materials"), "give `material` or `materials`, not both")?;
+            let named = object.material.iter().chain(object.materials.iter().flat_map(BTreeMap::values));
+            for name in named {
+                let problem = format!("there is no material `{name}` in the file: add `materials.{name}`");
+                demand(self.materials.contains_key(name), &format!("objects[{i}].material"), &problem)?;
+            }
+            if let Some(real) = &object.real {
+                let plain = !real.file.contains(['/', '\\']);
+                demand(plain, &format!("objects[{i}].real.file"), "give a file name without folders")?;
+            }
+        }
+        Ok(())
+    }
+}
+
+fn demand(met: bool, key: &str, problem: &str) -> Result<(), (String, String)> {
+    if met { Ok(()) } else { Err((key.into(), problem.into())) }
+}
+
+fn numbers(values: &[f32], least: f32, key: &str) -> Result<(), (String, String)> {
+    let problem = if least == 0.0 { "give finite numbers that are not negative" } else { "give finite numbers" };
+    demand(values.iter().all(|v| v.is_finite() && *v >= least), key, problem)
+}

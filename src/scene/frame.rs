@@ -1,0 +1,90 @@
+//! A scene around a bare mesh.
+
+use std::sync::Arc;
+
+use glam::{DVec3, Vec3};
+
+use super::{Camera, CornerNormals, Light, Material, Model, Scene, SceneError};
+use crate::geometry::{Aabb, Mesh, Transform};
+
+/// Degrees.
+const VERTICAL_FOV: f32 = 40.0;
+
+/// From the mesh to the camera: from the right, a little above.
+const TOWARDS_CAMERA: DVec3 = DVec3::new(0.5, 0.35, 1.0);
+
+/// How much of the image's width or height the box of the mesh may fill.
+const FILLED: f64 = 0.95;
+
+/// Share of the diagonal of a mesh's box by which rays leave a surface.
+const OFFSET: f32 = 1e-4;
+
+/// How far ray origins are moved in a scene that does not say it.
+pub(super) fn ray_offset(mesh: &Mesh) -> f32 {
+    if mesh.is_empty() { 0.0 } else { mesh.bounds().extent().as_dvec3().length() as f32 * OFFSET }
+}
+
+impl Scene {
+    /// A scene around `model`, called `name`: y is up, the camera sees the whole box, one light, own materials or grey.
+    ///
+    /// Without the terminator fix, which depends on the unit of length.
+    ///
+    /// # Errors
+    /// When the model is no mesh, or is so large or so far away that no camera can be placed before it.
+    pub fn framed(name: &str, model: Model) -> Result<Self, SceneError> {
+        let mesh = Mesh::new(model.positions, model.triangles)
+            .map_err(|cause| SceneError::Mesh { file: name.into(), cause })?;
+        let bounds = if mesh.is_empty() { Aabb { min: Vec3::NEG_ONE, max: Vec3::ONE } } else { mesh.bounds() };
+        let (camera, light) = place(bounds).map_err(|cause| SceneError::Camera { file: name.into(), cause })?;
+
+        let mut materials = model.materials;
+        if materials.is_empty() {
+            materials.push(Material::named("grey"));
+        }
+        let mut material_of = model.material_of;
+        material_of.resize(mesh.len(), 0);
+        let normals = (!model.normal_indices.is_empty()).then(|| {
+            let unit = model.normals.iter().map(|&n| Transform::IDENTITY.normal(n)).collect();
+            CornerNormals::new(unit, model.normal_indices)
+        });
+        Ok(Self {
+            name: name.into(),
+            normals,
+            materials,
+            material_of,
+            lights: vec![light],
+            camera,
+            background: Vec3::new(0.2, 0.25, 0.3),
+            recursion_limit: 8,
+            shadow_terminator_fix: false,
+            ray_offset: ray_offset(&mesh),
+            size: [512, 512],
+            stand_ins: Vec::new(),
+            notes: model.notes,
+            mesh: Arc::new(mesh),
+        })
+    }
+}
+
+/// A camera that sees all eight corners of `bounds`, and a light beside and above it.
+fn place(bounds: Aabb) -> Result<(Camera, Light), super::CameraError> {
+    let (min, max) = (bounds.min.as_dvec3(), bounds.max.as_dvec3());
+    let centre = (min + max) / 2.0;
+    let towards = TOWARDS_CAMERA.normalize();
+    let right = DVec3::Y.cross(towards).normalize();
+    let up = towards.cross(right);
+    let reach = libm::tan(f64::from(VERTICAL_FOV).to_radians() / 2.0) * FILLED;
+
+    let fits = |corner: DVec3| corner.dot(right).abs().max(corner.dot(up).abs()) / reach + corner.dot(towards);
+    let sign = |i: u32| if i == 0 { -0.5 } else { 0.5 };
+    let corners = (0..8).map(|i| (max - min) * DVec3::new(sign(i & 1), sign(i & 2), sign(i & 4)));
+    // A single point has no size to fit.
+    let distance = corners.map(fits).fold(f64::from(f32::MIN_POSITIVE), f64::max);
+    let distance = if max == min { centre.abs().max_element().max(1.0) } else { distance };
+
+    let eye = centre + towards * distance;
+    let light = centre + (towards + up * 0.8 + right * 0.4) * distance;
+    let camera = Camera::new(eye.as_vec3(), centre.as_vec3(), Vec3::Y, VERTICAL_FOV)?;
+    let light = Light { position: light.as_vec3(), colour: Vec3::ONE, linear: 0.0, quadratic: 0.0 };
+    Ok((camera, light))
+}

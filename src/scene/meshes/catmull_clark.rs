@@ -1,0 +1,107 @@
+//! One step of Catmull-Clark subdivision.
+
+use std::collections::HashMap;
+
+use glam::DVec3;
+
+/// What a vertex needs to know of its surroundings.
+#[derive(Clone, Copy, Default)]
+struct Around {
+    faces: f64,
+    face_points: DVec3,
+    neighbours: DVec3,
+    boundary_neighbours: DVec3,
+    boundary: bool,
+}
+
+struct Edge {
+    number: u32,
+    ends: [u32; 2],
+    faces: u32,
+    face_points: DVec3,
+}
+
+/// Splits every polygon of a surface into as many quadrilaterals as it has corners, and smooths.
+///
+/// The new points are the old vertices, moved, then one a edge, then one a face. Boundary edges are split in the middle
+/// and boundary vertices follow the cubic B-spline of the boundary.
+///
+/// # References
+/// Catmull, Clark: Recursively generated B-spline surfaces on arbitrary topological meshes (1978).
+pub fn subdivide(points: &[DVec3], faces: &[Vec<u32>]) -> (Vec<DVec3>, Vec<[u32; 4]>) {
+    let point = |i: u32| points[i as usize];
+    let face_points: Vec<DVec3> =
+        faces.iter().map(|f| f.iter().map(|&i| point(i)).sum::<DVec3>() / f.len() as f64).collect();
+
+    // Number the edges in the order of the faces.
+    let mut numbers = HashMap::new();
+    let mut edges: Vec<Edge> = Vec::new();
+    for (face, &face_point) in faces.iter().zip(&face_points) {
+        for ends in sides(face) {
+            let number = *numbers.entry(key(ends)).or_insert(edges.len() as u32);
+            if number as usize == edges.len() {
+                edges.push(Edge { number, ends, faces: 0, face_points: DVec3::ZERO });
+            }
+            let edge = &mut edges[number as usize];
+            edge.faces += 1;
+            edge.face_points += face_point;
+        }
+    }
+
+    // Gather what surrounds each vertex.
+    let mut around = vec![Around::default(); points.len()];
+    for (face, &face_point) in faces.iter().zip(&face_points) {
+        for &corner in face {
+            around[corner as usize].faces += 1.0;
+            around[corner as usize].face_points += face_point;
+        }
+    }
+    for edge in &edges {
+        for [from, to] in [edge.ends, [edge.ends[1], edge.ends[0]]] {
+            let vertex = &mut around[from as usize];
+            vertex.neighbours += point(to);
+            if edge.faces == 1 {
+                vertex.boundary = true;
+                vertex.boundary_neighbours += point(to);
+            }
+        }
+    }
+
+    // Place the new points. An inner vertex has as many edges as faces.
+    let vertex_point = |(p, a): (&DVec3, &Around)| {
+        if a.boundary {
+            return *p * 0.75 + a.boundary_neighbours * 0.125;
+        }
+        let edge_middles = (*p * a.faces + a.neighbours) / 2.0;
+        (a.face_points / a.faces + edge_middles * (2.0 / a.faces) + *p * (a.faces - 3.0)) / a.faces
+    };
+    let edge_point = |edge: &Edge| {
+        let ends = point(edge.ends[0]) + point(edge.ends[1]);
+        if edge.faces == 1 { ends / 2.0 } else { (ends + edge.face_points) / 4.0 }
+    };
+    let mut new_points: Vec<DVec3> = points.iter().zip(&around).map(vertex_point).collect();
+    new_points.extend(edges.iter().map(edge_point));
+    new_points.extend(&face_points);
+
+    // Connect each corner with the middles of its edges and of its face.
+    let first_edge = points.len() as u32;
+    let first_face = first_edge + edges.len() as u32;
+    let mut quads = Vec::new();
+    for (number, face) in faces.iter().enumerate() {
+        let middles: Vec<u32> =
+            sides(face).map(|ends| first_edge + edges[numbers[&key(ends)] as usize].number).collect();
+        for (corner, &vertex) in face.iter().enumerate() {
+            let before = middles[(corner + face.len() - 1) % face.len()];
+            quads.push([vertex, middles[corner], first_face + number as u32, before]);
+        }
+    }
+    (new_points, quads)
+}
+
+fn sides(face: &[u32]) -> impl Iterator<Item = [u32; 2]> + '_ {
+    face.iter().copied().zip(face.iter().copied().cycle().skip(1)).map(|(a, b)| [a, b])
+}
+
+fn key([a, b]: [u32; 2]) -> (u32, u32) {
+    (a.min(b), a.max(b))
+}

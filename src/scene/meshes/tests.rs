@@ -1,0 +1,146 @@
+//! What is known of each mesh, checked.
+
+use std::collections::HashMap;
+
+use glam::DVec3;
+use sha2::{Digest, Sha256};
+
+use super::*;
+use crate::geometry::{Aabb, Mesh};
+
+/// Edges with one triangle, and edges with more than two, once triangles with two equal corners are left out and corners
+/// in the same point are taken as one.
+fn loose_and_crowded_edges(mesh: &Mesh) -> (usize, usize) {
+    let mut edges: HashMap<_, u32> = HashMap::new();
+    for triangle in mesh.solid() {
+        let [a, b, c] = mesh.corners(triangle).map(|p| (p + 0.0).to_array().map(f32::to_bits));
+        for (p, q) in [(a, b), (b, c), (c, a)] {
+            *edges.entry((p.min(q), p.max(q))).or_default() += 1;
+        }
+    }
+    let count = |wanted: fn(u32) -> bool| edges.values().filter(|&&n| wanted(n)).count();
+    (count(|n| n == 1), count(|n| n > 2))
+}
+
+fn area(mesh: &Mesh) -> f64 {
+    let doubled = |[a, b, c]: [DVec3; 3]| (b - a).cross(c - a).length();
+    (0..mesh.len() as u32).map(|t| doubled(mesh.corners(t).map(Vec3::as_dvec3)) / 2.0).sum()
+}
+
+/// Positive when a closed mesh looks outward.
+fn volume(mesh: &Mesh) -> f64 {
+    let sixfold = |[a, b, c]: [DVec3; 3]| a.dot(b.cross(c));
+    (0..mesh.len() as u32).map(|t| sixfold(mesh.corners(t).map(Vec3::as_dvec3)) / 6.0).sum()
+}
+
+/// Of vertices and indices; the first 16 digits tell a change as well as all 64 would.
+fn fingerprint(model: &Model) -> String {
+    let mut hasher = Sha256::new();
+    model.positions.iter().flat_map(|p| p.to_array()).for_each(|x| hasher.update(x.to_bits().to_le_bytes()));
+    model.triangles.as_flattened().iter().for_each(|i| hasher.update(i.to_le_bytes()));
+    hasher.finalize().iter().take(8).map(|b| format!("{b:02x}")).collect()
+}
+
+struct Known {
+    name: &'static str,
+    vertices: usize,
+    triangles: usize,
+    degenerate: usize,
+    loose_edges: usize,
+    bounds: Aabb,
+    fingerprint: &'static str,
+}
+
+const UNIT: Aabb = Aabb { min: Vec3::NEG_ONE, max: Vec3::ONE };
+
+const fn bounds(x: [f32; 2], y: [f32; 2], z: [f32; 2]) -> Aabb {
+    Aabb { min: Vec3::new(x[0], y[0], z[0]), max: Vec3::new(x[1], y[1], z[1]) }
+}
+
+#[rustfmt::skip]
+const KNOWN: &[Known] = &[
+    Known { name: "cube", vertices: 8, triangles: 12, degenerate: 0, loose_edges: 0, bounds: UNIT, fingerprint: "c33b2908906d0646" },
+    Known { name: "plane_y", vertices: 4, triangles: 2, degenerate: 0, loose_edges: 4, bounds: bounds([-1.0, 1.0], [0.0, 0.0], [-1.0, 1.0]), fingerprint: "ffb7b73d3ac68d6b" },
+    Known { name: "cornellbox", vertices: 8, triangles: 10, degenerate: 0, loose_edges: 4, bounds: UNIT, fingerprint: "70ea93f70f24b40c" },
+    Known { name: "icosahedron", vertices: 12, triangles: 20, degenerate: 0, loose_edges: 0, bounds: bounds([-0.894_427_2, 0.894_427_2], [-1.0, 1.0], [-0.850_650_8, 0.850_650_8]), fingerprint: "dac0f836625d9f7e" },
+    Known { name: "inside_out_icosahedron", vertices: 12, triangles: 20, degenerate: 0, loose_edges: 0, bounds: bounds([-0.894_427_2, 0.894_427_2], [-1.0, 1.0], [-0.850_650_8, 0.850_650_8]), fingerprint: "e13a0d98d1e64672" },
+    Known { name: "icosphere", vertices: 642, triangles: 1280, degenerate: 0, loose_edges: 0, bounds: UNIT, fingerprint: "fd8285b32adb5083" },
+    Known { name: "uv_sphere", vertices: 1080, triangles: 2080, degenerate: 80, loose_edges: 0, bounds: UNIT, fingerprint: "a07e3d6b8abff441" },
+    Known { name: "torus", vertices: 1152, triangles: 2304, degenerate: 0, loose_edges: 0, bounds: bounds([-1.37, 1.37], [-0.37, 0.37], [-1.37, 1.37]), fingerprint: "494ecd3399d3ce76" },
+    Known { name: "teapot", vertices: 2082, triangles: 4032, degenerate: 0, loose_edges: 128, bounds: teapot::BOUNDS, fingerprint: "0665179f76707926" },
+];
+
+#[test]
+fn each_mesh_is_what_it_is_known_to_be() {
+    for known in KNOWN {
+        let name = known.name;
+        let model = by_name(name).unwrap();
+        let mesh = Mesh::new(model.positions.clone(), model.triangles.clone()).unwrap();
+        assert_eq!(model.positions.len(), known.vertices, "vertices of {name}");
+        assert_eq!(mesh.len(), known.triangles, "triangles of {name}");
+        assert_eq!(mesh.degenerate().len(), known.degenerate, "degenerate triangles of {name}");
+        assert_eq!(loose_and_crowded_edges(&mesh), (known.loose_edges, 0), "edges of {name}");
+        assert_eq!(mesh.bounds(), known.bounds, "bounds of {name}");
+    }
+    let found = KNOWN.iter().map(|k| (k.name, fingerprint(&by_name(k.name).unwrap())));
+    let known = KNOWN.iter().map(|k| (k.name, k.fingerprint.to_string()));
+    assert_eq!(found.collect::<Vec<_>>(), known.collect::<Vec<_>>());
+}
+
+#[test]
+fn areas_and_volumes_are_the_polyhedra_s() {
+    let mesh = |name: &str| by_name(name).map(|m| Mesh::new(m.positions, m.triangles).unwrap()).unwrap();
+    let close = |value: f64, wanted: f64| assert!((value / wanted - 1.0).abs() < 1e-6, "{value} is not {wanted}");
+    close(area(&mesh("cube")), 24.0);
+    close(volume(&mesh("cube")), 8.0);
+    close(area(&mesh("cornellbox")), 20.0);
+    close(area(&mesh("plane_y")), 4.0);
+
+    // An icosahedron of radius 1 has edges of length 4 / sqrt(10 + 2 sqrt 5).
+    let edge = 4.0 / (10.0 + 2.0 * 5f64.sqrt()).sqrt();
+    close(area(&mesh("icosahedron")), 5.0 * 3f64.sqrt() * edge * edge);
+    close(volume(&mesh("icosahedron")), 5.0 / 12.0 * (3.0 + 5f64.sqrt()) * edge.powi(3));
+    close(volume(&mesh("inside_out_icosahedron")), -5.0 / 12.0 * (3.0 + 5f64.sqrt()) * edge.powi(3));
+
+    // A torus of quadrilaterals holds the prisms of its cross-section: 24 sides of the tube, 48 of the ring.
+    let part = |n: f64| n / std::f64::consts::TAU * (std::f64::consts::TAU / n).sin();
+    close(volume(&mesh("torus")), std::f64::consts::TAU * std::f64::consts::PI * 0.37 * 0.37 * part(48.0) * part(24.0));
+    for name in ["icosphere", "uv_sphere"] {
+        let share = volume(&mesh(name)) / (std::f64::consts::PI * 4.0 / 3.0);
+        assert!((0.98..1.0).contains(&share), "{name} fills {share} of the ball");
+    }
+}
+
+#[test]
+fn normals_are_of_unit_length_and_look_the_way_the_triangles_do() {
+    for generator in GENERATORS {
+        let model = (generator.make)();
+        for (corners, normals) in model.triangles.iter().zip(&model.normal_indices) {
+            let [a, b, c] = corners.map(|i| model.positions[i as usize]);
+            let face = (b - a).cross(c - a);
+            for normal in normals.map(|i| model.normals[i as usize]) {
+                assert!((normal.length() - 1.0).abs() < 1e-6, "{}", generator.name);
+                assert!(face.dot(normal) >= 0.0, "{}", generator.name);
+            }
+        }
+    }
+}
+
+#[test]
+fn flat_meshes_look_the_right_way() {
+    let normals = |name: &str| -> Vec<Vec3> {
+        let m = by_name(name).unwrap();
+        let corners = |t: &[u32; 3]| t.map(|i| m.positions[i as usize]);
+        m.triangles.iter().map(corners).map(|[a, b, c]| (b - a).cross(c - a).normalize()).collect()
+    };
+    assert_eq!(normals("plane_y"), [Vec3::Y; 2]);
+    let inward = [Vec3::Y, -Vec3::Y, Vec3::Z, -Vec3::X, Vec3::X];
+    assert_eq!(normals("cornellbox"), inward.map(|n| [n, n]).as_flattened());
+}
+
+#[test]
+fn names_are_unique_and_all_are_known() {
+    let names: Vec<&str> = GENERATORS.iter().map(|g| g.name).collect();
+    assert_eq!(names, KNOWN.iter().map(|k| k.name).collect::<Vec<_>>());
+    assert!(by_name("kettle").is_none());
+}

@@ -1,0 +1,42 @@
+//! Unit normals at the corners of triangles.
+
+use glam::Vec3;
+
+use super::Model;
+
+/// Unit normals in world space, three a triangle; a triangle may be flat, that is have none.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CornerNormals {
+    normals: Vec<Vec3>,
+    indices: Vec<[u32; 3]>,
+}
+
+impl CornerNormals {
+    /// The entry of a triangle without corner normals.
+    pub const FLAT: [u32; 3] = [Model::FLAT; 3];
+
+    /// Normals and three numbers into them a triangle. A triangle with a normal of length zero becomes flat.
+    ///
+    /// # Panics
+    /// If an entry other than [`CornerNormals::FLAT`] names a normal that does not exist.
+    pub fn new(normals: Vec<Vec3>, mut indices: Vec<[u32; 3]>) -> Self {
+        for corners in indices.iter_mut().filter(|c| **c != Self::FLAT) {
+            if corners.iter().any(|&i| normals[i as usize] == Vec3::ZERO) {
+                *corners = Self::FLAT;
+            }
+        }
+        Self { normals, indices }
+    }
+
+    /// The three normals of triangle `index`, or none when it is flat.
+    #[inline]
+    pub fn corners(&self, index: u32) -> Option<[Vec3; 3]> {
+        let corners = self.indices[index as usize];
+        (corners != Self::FLAT).then(|| corners.map(|i| self.normals[i as usize]))
+    }
+
+    /// Bytes of both arrays.
+    pub fn bytes(&self) -> usize {
+        size_of_val(&self.normals[..]) + size_of_val(&self.indices[..])
+    }
+}

@@ -1,0 +1,244 @@
+//! Scene files, placement, framing and what a scene tells of a hit.
+
+use std::fs;
+
+use glam::{Vec2, Vec3};
+
+use super::assemble::{Origin, assemble};
+use super::format::SceneFile;
+use super::*;
+use crate::geometry::{Aabb, Hit, Ray};
+
+const PLAIN: &str = r#"
+name = "Test"
+camera = { eye = [0.0, 0.0, 5.0], target = [0, 0, 0], vertical_fov = 60 }
+objects = [{ mesh = "cube" }]
+"#;
+
+fn scene(text: &str) -> Result<Scene, SceneError> {
+    made(text, None)
+}
+
+fn made(text: &str, real_meshes: Option<&std::path::Path>) -> Result<Scene, SceneError> {
+    assemble(&SceneFile::parse(text, "test.toml")?, &Origin { file: "test.toml", folder: None, real_meshes })
+}
+
+fn message(text: &str) -> String {
+    scene(text).unwrap_err().to_string()
+}
+
+#[test]
+fn all_twelve_have_the_triangles_and_cameras_of_the_report() {
+    let triangles = [12, 1280, 2304, 4032, 4164, 5130, 140, 7682, 4480, 130_862, 275_694, 174_840];
+    let degenerate = [0, 0, 0, 0, 160, 0, 0, 0, 0, 0, 0, 0];
+    let lights = [1, 1, 1, 1, 4, 3, 1, 2, 1, 1, 1, 1];
+    assert_eq!(BUILTIN.len(), 12);
+    for (i, builtin) in BUILTIN.iter().enumerate() {
+        let scene = builtin.scene(None).unwrap();
+        assert_eq!(scene.name, builtin.name);
+        assert_eq!(builtin.file().triangles, Some(triangles[i]), "{}", builtin.name);
+        assert_eq!(scene.mesh.len(), triangles[i], "{}", builtin.name);
+        assert_eq!(scene.mesh.degenerate().len(), degenerate[i], "{}", builtin.name);
+        assert_eq!(scene.material_of.len(), triangles[i], "{}", builtin.name);
+        assert_eq!(scene.lights.len(), lights[i], "{}", builtin.name);
+        assert_eq!((scene.size, scene.ray_offset), ([512, 512], 0.01), "{}", builtin.name);
+        let is_dragon = builtin.name == "Dragon";
+        assert_eq!(scene.recursion_limit, if is_dragon { 1 } else { 8 }, "{}", builtin.name);
+        assert_eq!(scene.shadow_terminator_fix, !is_dragon, "{}", builtin.name);
+        let mirrors = ["Billards", "Cornellbox", "Infinitycandy", "Metallic", "Starters", "Dragon"];
+        assert_eq!(scene.has_mirrors(), mirrors.contains(&builtin.name), "{}", builtin.name);
+        let stand_ins: &[&str] = match builtin.name {
+            "Starters" => &["rabbit", "fox", "elephant"],
+            "Dragon" => &["dragon"],
+            "Lucy" => &["lucy"],
+            "Sponza" => &["sponza"],
+            _ => &[],
+        };
+        assert_eq!(scene.stand_ins, stand_ins, "{}", builtin.name);
+    }
+}
+
+#[test]
+fn names_are_found_in_any_case_and_a_wrong_one_gets_advice() {
+    assert_eq!(Builtin::find("cornellBOX").unwrap().name, "Cornellbox");
+    let error = Builtin::find("billiards").unwrap_err().to_string();
+    assert!(error.contains("`billiards`: did you mean Billards?"), "{error}");
+    assert!(error.contains("Cube, Sphere, Torus"), "{error}");
+}
+
+#[test]
+fn a_plain_file_gets_the_defaults() {
+    let scene = scene(PLAIN).unwrap();
+    assert_eq!((scene.size, scene.recursion_limit, scene.shadow_terminator_fix), ([512, 512], 8, true));
+    assert_eq!(scene.ray_offset, 12f32.sqrt() * 1e-4);
+    assert_eq!(scene.materials[0].name, "grey");
+    assert!(scene.normals.is_none() && scene.stand_ins.is_empty() && scene.notes.is_empty());
+}
+
+#[test]
+fn errors_name_file_place_and_remedy() {
+    let changed = |from: &str, to: &str| message(&PLAIN.replace(from, to));
+    let starts = |text: String, start: &str| assert!(text.starts_with(start), "{text}");
+    starts(changed("name = \"Test\"", "nmae = \"Test\""), "test.toml, line 2: unknown field `nmae`, expected one of");
+    starts(changed("mesh", "mseh"), "test.toml, line 4: unknown field `mseh`");
+    starts(changed("name = \"Test\"", ""), "test.toml, line 1: missing field `name`");
+    starts(changed("60", "'60'"), "test.toml, line 3: invalid type");
+    starts(changed("cube", "cub"), "test.toml, `objects[0].mesh`: there is no mesh `cub`: give a file or one of cube,");
+    starts(changed("60", "180"), "test.toml, `camera`: the camera's vertical field of view must lie");
+    starts(changed("[0, 0, 0]", "[0, 0, 5]"), "test.toml, `camera`: the camera's eye and target are the same");
+    starts(changed("[0, 0, 0]", "[0, 1, 5]"), "test.toml, `camera`: the camera's up points along");
+    starts(
+        changed("\"cube\"", "\"cube\", material = \"Red\""),
+        "test.toml, `objects[0].material`: there is no material",
+    );
+    starts(changed("\"cube\"", "\"cube\", tra = [nan, 0, 0]"), "test.toml, `objects[0].rot, sca or tra`: give finite");
+    starts(changed("\"cube\"", "\"cube\", sca = [3e38, 3e38, 3e38], tra = [3e38, 0, 0]"), "test.toml: vertex");
+    starts(changed("name", "size = [0, 1]\nname"), "test.toml, `size`: width and height lie between");
+    starts(changed("name", "triangles = 13\nname"), "test.toml, `triangles`: the file says 13 triangles, but");
+
+    let missing = Scene::read(std::path::Path::new("no/such.toml"), None).unwrap_err().to_string();
+    assert!(missing.starts_with("no/such.toml: the scene cannot be read"), "{missing}");
+}
+
+#[test]
+fn materials_go_to_parts_by_name() {
+    let white = "Ka = [0, 0, 0], Kd = [1, 1, 1], Ks = [0, 0, 0]";
+    let text = |parts: &str| {
+        PLAIN.replace("mesh = \"cube\"", &format!("mesh = \"cornellbox\", materials = {{ {parts} }}"))
+            + &format!("[materials]\nB = {{ {white}, r = 0.5, texture = \"b.png\" }}\nA = {{ {white} }}")
+    };
+    let whole = "floor = \"A\", ceiling = \"A\", back = \"B\", right = \"A\"";
+    let scene = scene(&text(&format!("{whole}, left = \"A\""))).unwrap();
+    assert_eq!(scene.material_of, [0, 0, 0, 0, 1, 1, 0, 0, 0, 0]);
+    assert_eq!(scene.material(Hit::new(1.0, 4).prim).name, "B");
+    assert!(scene.has_mirrors());
+    assert_eq!(scene.notes, ["textures left out, their materials show Kd as it is: b.png"]);
+    assert!(message(&text(whole)).contains("part `left` has no material"));
+    assert!(message(&text("roof = \"A\"")).contains("no part `roof`, only: floor, ceiling, back, right, left"));
+}
+
+#[test]
+fn a_real_mesh_takes_the_place_of_its_stand_in() {
+    let folder = tempfile::tempdir().unwrap();
+    let real = r#"mesh = "cube", stands_in_for = "a thing", real = { file = "thing.obj", url = "", licence = "", origin = "",
+        reported_triangles = 3, tra = [0, 0, 7], exclude_materials = ["dust"] }"#;
+    let text = "triangles = 12".to_string() + &PLAIN.replace("mesh = \"cube\"", &real.replace('\n', " "));
+
+    let without = made(&text, Some(folder.path())).unwrap();
+    assert_eq!((without.mesh.len(), without.stand_ins), (12, vec!["cube".to_string()]));
+    assert_eq!(without.notes, ["mesh `cube` stands in for a thing"]);
+
+    fs::write(folder.path().join("thing.mtl"), "newmtl dust\nnewmtl stone\nKd 1 0 0\n").unwrap();
+    let faces = "usemtl dust\nf 1 2 3\nusemtl stone\nf 3 2 1\n";
+    fs::write(folder.path().join("thing.obj"), format!("mtllib thing.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\n{faces}"))
+        .unwrap();
+    let with = made(&text, Some(folder.path())).unwrap();
+    assert_eq!((with.mesh.len(), with.stand_ins.len()), (1, 0));
+    assert_eq!(with.mesh.corners(0), [Vec3::new(0.0, 1.0, 7.0), Vec3::new(1.0, 0.0, 7.0), Vec3::new(0.0, 0.0, 7.0)]);
+    assert_eq!(with.material(Hit::new(1.0, 0).prim).diffuse, Vec3::X);
+    assert!(
+        with.notes.iter().any(|n| n.ends_with("thing.obj: 1 triangles in place of the report's 3")),
+        "{:?}",
+        with.notes
+    );
+    assert!(made(&text, None).unwrap().mesh.len() == 12);
+}
+
+#[test]
+fn a_file_s_meshes_count_from_its_folder() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("one.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").unwrap();
+    let path = folder.path().join("scene.toml");
+    fs::write(&path, PLAIN.replace("cube", "one.obj")).unwrap();
+    assert_eq!(Scene::read(&path, None).unwrap().mesh.len(), 1);
+    fs::write(&path, PLAIN.replace("cube", "two.obj")).unwrap();
+    let error = Scene::read(&path, None).unwrap_err().to_string();
+    assert!(error.contains("`objects[0].mesh`") && error.contains("two.obj"), "{error}");
+}
+
+#[test]
+fn rays_go_through_the_pixels() {
+    let camera = Camera::new(Vec3::new(0.0, 0.0, 5.0), Vec3::ZERO, Vec3::Y, 90.0).unwrap();
+    let view = camera.view([4, 2]);
+    let through = |x, y, offset| {
+        let ray: Ray = view.ray(x, y, offset);
+        assert!((ray.direction.length() - 1.0).abs() < 1e-6);
+        (ray.at(5.0 / -ray.direction.z) * 1e5).round() / 1e5
+    };
+    assert_eq!(through(0, 0, Vec2::ZERO), Vec3::new(-10.0, 5.0, 0.0));
+    assert_eq!(through(3, 1, Vec2::ONE), Vec3::new(10.0, -5.0, 0.0));
+    assert_eq!(through(2, 1, View::CENTRE), Vec3::new(2.5, -2.5, 0.0));
+    assert_eq!(view.ray(1, 0, Vec2::ONE), view.ray(2, 1, Vec2::ZERO));
+}
+
+#[test]
+fn a_surface_has_the_point_and_both_normals() {
+    let flat = scene(PLAIN).unwrap();
+    let ray = Ray::new(Vec3::new(0.25, 0.5, 5.0), -Vec3::Z);
+    let front = (0..12).find(|&i| flat.geometric_normal(Hit::new(0.0, i).prim) == Vec3::Z).unwrap();
+    let surface = flat.surface(&ray, Hit::new(4.0, front));
+    assert_eq!(surface.point, Vec3::new(0.25, 0.5, 1.0));
+    assert_eq!((surface.geometric_normal, surface.shading_normal, surface.smooth), (Vec3::Z, Vec3::Z, false));
+    assert_eq!(flat.area(Hit::new(4.0, front).prim), 2.0);
+
+    // At a corner of the sphere the normal is the corner's own; on an edge it lies between.
+    let round = scene(&PLAIN.replace("cube", "icosphere")).unwrap();
+    let [a, b, c] = round.mesh.corners(7);
+    let towards = |p: Vec3| round.surface(&Ray::new(p * 3.0, -p), Hit::new(2.0, 7));
+    assert!(towards(a).shading_normal.distance(a) < 1e-6);
+    assert!(towards(b * 0.5 + c * 0.5).shading_normal.distance((b + c).normalize()) < 1e-6);
+    assert!(towards(a).smooth);
+}
+
+#[test]
+fn launched_rays_start_off_the_surface() {
+    let scene = Scene { ray_offset: 0.5, ..scene(PLAIN).unwrap() };
+    assert_eq!(scene.launch(Vec3::Y, Vec3::X * 4.0), Ray::new(Vec3::new(0.5, 1.0, 0.0), Vec3::X));
+}
+
+#[test]
+fn the_hash_sees_mesh_and_camera() {
+    let hash = |text: &str| scene(text).unwrap().hash();
+    let first = hash(PLAIN);
+    assert_eq!(first.len(), 64);
+    assert_eq!(first, hash(&PLAIN.replace("Test", "Other")));
+    assert_ne!(first, hash(&PLAIN.replace("60", "61")));
+    assert_ne!(first, hash(&PLAIN.replace("\"cube\"", "\"cube\", sca = [1, 1, 1.0001]")));
+}
+
+#[test]
+fn a_framed_mesh_is_whole_in_view_at_any_size_and_place() {
+    for (scale, shift) in
+        [(1.0, Vec3::ZERO), (1e-6, Vec3::ZERO), (1e6, Vec3::ZERO), (1.0, Vec3::new(500.0, -70.0, 3.0))]
+    {
+        let mut model = meshes::teapot();
+        model.positions.iter_mut().for_each(|p| *p = *p * scale + shift);
+        let scene = Scene::framed("teapot", model).unwrap();
+        let diagonal = scene.mesh.bounds().extent().length();
+        assert!((scene.ray_offset / diagonal - 1e-4).abs() < 1e-8);
+
+        // The four side planes of the view touch no corner, and one of them is near.
+        let camera = &scene.camera;
+        let forward = (camera.target() - camera.eye()).normalize();
+        let right = forward.cross(camera.up()).normalize();
+        let (up, reach) = (right.cross(forward), (camera.vertical_fov().to_radians() / 2.0).tan());
+        let Aabb { min, max } = scene.mesh.bounds();
+        let sides = (0..8).map(|i| {
+            let pick = |bit: usize| if i >> bit & 1 == 0 { min[bit] } else { max[bit] };
+            let corner = Vec3::new(pick(0), pick(1), pick(2)) - camera.eye();
+            assert!(corner.dot(forward) > 0.0);
+            corner.dot(right).abs().max(corner.dot(up).abs()) / corner.dot(forward) / reach
+        });
+        let widest = sides.fold(0.0, f32::max);
+        assert!((0.94..0.96).contains(&widest), "the box fills {widest} of the image");
+    }
+}
+
+#[test]
+fn nothing_and_a_single_point_can_be_framed() {
+    assert!(Scene::framed("nothing", Model::default()).unwrap().mesh.is_empty());
+    let point = Model { positions: vec![Vec3::new(5.0, 5.0, 5.0)], triangles: vec![[0, 0, 0]], ..Model::default() };
+    assert_eq!(Scene::framed("point", point).unwrap().material_of, [0]);
+    let broken = Model { positions: vec![], triangles: vec![[0, 0, 0]], ..Model::default() };
+    assert!(Scene::framed("broken", broken).unwrap_err().to_string().starts_with("broken: triangle 0 names"));
+}
