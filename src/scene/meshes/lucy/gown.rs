@@ -88,9 +88,14 @@ fn folds(p: Vec3, turn: f32) -> f32 {
 /// The bent leg that shows through the cloth, and the feet.
 fn legs(clay: &mut Clay) {
     let v = Vec3::new;
-    clay.part(Joint::smooth(0.55));
-    clay.cone(v(0.75, 10.2, 0.25), 0.95, v(0.95, 6.5, 1.0), 0.72);
-    clay.cone(v(0.95, 6.5, 1.0), 0.72, v(0.95, 2.6, 0.75), 0.42);
+    let leg = [
+        Round(0.70, 10.2, 0.20, 0.95),
+        Round(0.85, 8.4, 0.62, 0.86),
+        Round(0.93, 6.7, 0.90, 0.74),
+        Round(0.95, 4.8, 0.86, 0.58),
+        Round(0.95, 2.6, 0.60, 0.42),
+    ];
+    clay.part(Joint::smooth(0.55)).tube(&Tube::through(&leg, 8));
     clay.part(Joint::smooth(0.06));
     for (x, turn) in [(0.95, 0.12), (-0.85, -0.18)] {
         clay.cone(v(x, 1.98, 1.5), 0.34, v(x + turn, 1.92, 2.35), 0.22);
@@ -165,18 +170,18 @@ fn sash(clay: &mut Clay) {
 
 /// Pleats that hang from the left forearm, each a little shorter than the one before, with turned hems.
 fn hanging_cloth(clay: &mut Clay) {
-    clay.part(Joint::smooth(0.09));
+    clay.part(Joint::smooth(0.14));
     for i in 0..7 {
         let s = i as f32;
         let (x, z) = (2.55 - 0.13 * s, 0.25 + 0.24 * s);
-        let sway = 0.12 * sine(2.1 * s);
-        let foot = 4.6 + 0.62 * s + 0.3 * sine(2.6 * s);
+        let sway = 0.05 * sine(2.1 * s);
+        let foot = 4.7 + 0.42 * s + 0.15 * sine(2.6 * s);
         let pleat = [
             Round(x, 12.75 + 0.03 * s, z, 0.22),
             Round(x + 0.12, 11.6, z + 0.02, 0.20),
             Round(x + 0.06 + sway, 9.6, z - 0.05, 0.19),
             Round(x + 0.02 - sway, 7.8, z + 0.05, 0.22),
-            Round(x + 0.1 + sway, foot, z, 0.27),
+            Round(x + 0.1 + sway, foot, z, 0.20),
         ];
         clay.tube(&Tube::through(&pleat, 5));
     }

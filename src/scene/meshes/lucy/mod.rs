@@ -58,6 +58,6 @@ mod tests {
         let mesh = checks::sound(&model, TRIANGLES);
         assert_eq!(mesh.bounds(), BOUNDS);
         assert_eq!(checks::closed_pieces(&model), 1);
-        assert_eq!(checks::fingerprint(&model), "dc57542b2c979f81");
+        assert_eq!(checks::fingerprint(&model), "84b49e7f5aae0aa1");
     }
 }
