@@ -14,7 +14,17 @@ pub struct TreeShape {
     pub depth: usize,
     /// References in the fullest leaf.
     pub largest_leaf: usize,
-    /// Expected cost of a random line through the root box (MacDonald, Booth 1990), in units of one triangle test and
-    /// with the structure's own traversal cost; `None` where it is not defined.
+    /// Expected cost of a random line through the root box, in triangle tests (MacDonald, Booth 1990), with the same
+    /// constants for every structure: [`TreeShape::INNER_COST`] and [`TreeShape::leaf_cost`]. `None` where it is not defined.
     pub sah_cost: Option<f64>,
+}
+
+impl TreeShape {
+    /// Cost of an inner node in triangle tests: the value of Aila, Karras, Laine (2013).
+    pub const INNER_COST: f64 = 1.2;
+
+    /// Cost of a leaf: one for each triangle.
+    pub fn leaf_cost(references: usize) -> f64 {
+        references as f64
+    }
 }

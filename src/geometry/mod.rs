@@ -3,9 +3,11 @@
 mod aabb;
 mod mesh;
 mod ray;
+mod ray_text;
 mod transform;
 
 pub use aabb::Aabb;
 pub use mesh::{Mesh, MeshError};
 pub use ray::{Hit, PrimId, Ray};
+pub use ray_text::RayTextError;
 pub use transform::Transform;

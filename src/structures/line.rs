@@ -54,7 +54,7 @@ impl Line {
         self.backward[axis]
     }
 
-    /// The part of [`t0`, `t1`], `t0` >= 0, in the closed box, with slack; nothing if the line surely misses the box.
+    /// The part of [`t0`, `t1`] in the closed box, with slack; nothing if the line surely misses the box.
     ///
     /// A parallel line inside the slab crosses at -inf and +inf in the order of travel; a parallel line in a face crosses that
     /// face at NaN, which leaves the interval as it is.

@@ -1,10 +1,19 @@
 //! Meshes made by our own code, each the same bit for bit on every machine.
 
 mod catmull_clark;
+#[cfg(test)]
+mod checks;
+mod clay;
+mod creatures;
+mod dragon;
 mod icosahedron;
 mod icosphere;
+mod lucy;
+mod noise;
 mod normals;
 mod plane;
+mod sponza;
+mod stone;
 mod teapot;
 mod torus;
 mod uv_sphere;
@@ -16,9 +25,13 @@ use glam::{DVec3, Vec3};
 
 use super::Model;
 
+pub use creatures::{elephant, fox, rabbit};
+pub use dragon::dragon;
 pub use icosahedron::{icosahedron, inside_out_icosahedron};
 pub use icosphere::icosphere;
+pub use lucy::lucy;
 pub use plane::{cornellbox, cube, plane_y};
+pub use sponza::sponza;
 pub use teapot::teapot;
 pub use torus::torus;
 pub use uv_sphere::uv_sphere;
@@ -40,6 +53,12 @@ pub const GENERATORS: &[Generator] = &[
     Generator { name: "uv_sphere", make: || uv_sphere(40, 26) },
     Generator { name: "torus", make: || torus(48, 24, 0.37) },
     Generator { name: "teapot", make: teapot },
+    Generator { name: "rabbit", make: rabbit },
+    Generator { name: "fox", make: fox },
+    Generator { name: "elephant", make: elephant },
+    Generator { name: "dragon", make: dragon },
+    Generator { name: "lucy", make: lucy },
+    Generator { name: "sponza", make: sponza },
 ];
 
 /// The mesh called `name`, or none when there is no such generator.

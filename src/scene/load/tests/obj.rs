@@ -107,7 +107,7 @@ fn the_geometry_is_what_tobj_reads() {
         );
     }
     for i in 0..36 {
-        let (a, b) = (i + 1, i as i32 - 38);
+        let (a, b) = (i + 1, i - 38);
         text += &match i % 4 {
             0 => format!("g part {i}\nf {a}/{a}/{a} {b}/1/2 {a}/2/{b}\n"),
             1 => format!("f {a}/1/1 {b}/1/1 {}/1/3 {}/1/4\n", a + 1, a + 2),

@@ -1,0 +1,191 @@
+use dashu_ratio::RBig;
+use rand_core::{RngCore, SeedableRng};
+use rand_pcg::Pcg32;
+
+use super::*;
+
+/// The other formulation: Cramer's rule for `o + t d = a + u e1 + v e2`, in rationals and from the definition of a float.
+fn naive(ray: &Ray, corners: [Vec3; 3]) -> Option<RBig> {
+    type V = [RBig; 3];
+    let rational = |p: Vec3| -> V { p.to_array().map(|x| RBig::try_from(x).expect("finite")) };
+    let sub = |a: &V, b: &V| -> V { std::array::from_fn(|i| &a[i] - &b[i]) };
+    // The determinant of three columns, by the rule of Sarrus.
+    let det = |[a, b, c]: [&V; 3]| {
+        &a[0] * &b[1] * &c[2] + &b[0] * &c[1] * &a[2] + &c[0] * &a[1] * &b[2]
+            - &c[0] * &b[1] * &a[2]
+            - &b[0] * &a[1] * &c[2]
+            - &a[0] * &c[1] * &b[2]
+    };
+    let [a, b, c] = corners.map(rational);
+    let (o, d) = (rational(ray.origin), rational(ray.direction));
+    let (e1, e2, s, back) = (sub(&b, &a), sub(&c, &a), sub(&o, &a), d.clone().map(|x| -x));
+    let whole = det([&e1, &e2, &back]);
+    if whole == RBig::ZERO {
+        return None;
+    }
+    let u = det([&s, &e2, &back]) / &whole;
+    let v = det([&e1, &s, &back]) / &whole;
+    let t = det([&e1, &e2, &s]) / &whole;
+    (u >= RBig::ZERO && v >= RBig::ZERO && u + v <= RBig::ONE).then_some(t)
+}
+
+fn assert_agree(ray: &Ray, corners: [Vec3; 3]) -> bool {
+    let ours = hit(ray, corners);
+    let twin = naive(ray, corners);
+    let as_rational = |t: ExactT| RBig::from(t.numerator) / RBig::from(t.denominator);
+    assert_eq!(ours.clone().map(as_rational), twin, "{ray:?} {corners:?}");
+    ours.is_some()
+}
+
+fn point(rng: &mut Pcg32, mut number: impl FnMut(&mut Pcg32) -> f32) -> Vec3 {
+    Vec3::from_array(std::array::from_fn(|_| number(rng)))
+}
+
+/// Any finite float, denormals and both zeros included.
+fn any_bits(rng: &mut Pcg32) -> f32 {
+    loop {
+        let x = f32::from_bits(rng.next_u32());
+        if x.is_finite() {
+            return x;
+        }
+    }
+}
+
+#[test]
+fn both_formulations_agree_on_a_grid() {
+    let mut rng = Pcg32::seed_from_u64(11);
+    let grid = |rng: &mut Pcg32| (rng.next_u32() % 5) as f32 - 2.0;
+    let mut hits = 0;
+    for _ in 0..10_000 {
+        let corners = std::array::from_fn(|_| point(&mut rng, grid));
+        let ray = Ray::new(point(&mut rng, grid), point(&mut rng, grid));
+        hits += usize::from(assert_agree(&ray, corners));
+    }
+    assert!(hits > 500, "the grid must produce hits, or the test proves nothing: {hits}");
+}
+
+#[test]
+fn both_formulations_agree_at_all_scales() {
+    let mut rng = Pcg32::seed_from_u64(12);
+    let unit = |rng: &mut Pcg32| rng.next_u32() as f32 / u32::MAX as f32 * 2.0 - 1.0;
+    let mut hits = 0;
+    for round in 0..4_000 {
+        if round % 2 == 0 {
+            // From denormals, where rounding moves the corners to a coarse grid, to numbers whose cubes overflow.
+            let scale = f32::from_bits([1 << 10, 1 << 23, 97 << 23, 127 << 23, 157 << 23, 253 << 23][round / 2 % 6]);
+            let corners = std::array::from_fn(|_| point(&mut rng, unit) * scale);
+            let ray = Ray::new(point(&mut rng, unit) * scale, point(&mut rng, unit));
+            hits += usize::from(assert_agree(&ray, corners));
+        } else {
+            let corners = std::array::from_fn(|_| point(&mut rng, any_bits));
+            assert_agree(&Ray::new(point(&mut rng, any_bits), point(&mut rng, any_bits)), corners);
+        }
+    }
+    assert!(hits > 100, "{hits}");
+}
+
+#[test]
+fn the_triangle_is_closed_and_its_plane_is_missed() {
+    let corners = [Vec3::ZERO, Vec3::new(4.0, 0.0, 0.0), Vec3::new(0.0, 4.0, 0.0)];
+    let down = |x: f32, y: f32| hit(&Ray::new(Vec3::new(x, y, 3.0), Vec3::new(0.0, -0.0, -2.0)), corners);
+    for (x, y) in [(0.0, 0.0), (4.0, 0.0), (0.0, 4.0), (2.0, 0.0), (0.0, 1.0), (3.0, 1.0), (1.0, 1.0)] {
+        let t = down(x, y).unwrap_or_else(|| panic!("({x}, {y}) is in the closed triangle"));
+        assert_eq!((t.round(), t.compare(1.5)), (1.5, Some(Ordering::Equal)));
+    }
+    let beside = f32::from_bits(1);
+    for (x, y) in [(-beside, 0.0), (0.0, -beside), (4.0, beside), (4.0_f32.next_up(), 0.0), (2.0, 2.0_f32.next_up())] {
+        assert_eq!(down(x, y), None, "({x}, {y}) is outside");
+    }
+    // In the plane, and parallel to it.
+    for z in [0.0, 1.0] {
+        assert_eq!(hit(&Ray::new(Vec3::new(-1.0, 1.0, z), Vec3::X), corners), None);
+    }
+}
+
+#[test]
+fn what_has_no_area_and_what_is_not_finite_is_missed() {
+    let ray = Ray::new(Vec3::ZERO, Vec3::ONE);
+    let p = Vec3::ONE;
+    for corners in [[p, p, p], [p, p, Vec3::X], [Vec3::ZERO, p, p * 2.0], [-p, p * 3.0, p]] {
+        assert_eq!(hit(&ray, corners), None);
+    }
+    let corners = [Vec3::X, Vec3::Y, Vec3::Z];
+    assert_eq!(hit(&ray, corners).map(|t| t.round()), Some(1.0 / 3.0));
+    assert_eq!(hit(&Ray::new(Vec3::ZERO, Vec3::ZERO), corners), None);
+    for bad in [f32::NAN, f32::INFINITY] {
+        assert_eq!(hit(&Ray::new(Vec3::ZERO, Vec3::new(1.0, bad, 1.0)), corners), None);
+        assert_eq!(hit(&Ray::new(Vec3::new(0.0, bad, 0.0), p), corners), None);
+        assert_eq!(hit(&ray, [Vec3::new(bad, 0.0, 0.0), Vec3::Y, Vec3::Z]), None);
+    }
+}
+
+fn fraction(numerator: IBig, denominator: IBig) -> ExactT {
+    ExactT { numerator, denominator }
+}
+
+#[test]
+fn rounding_is_to_nearest_even() {
+    let exact = |x: f32| fraction(integer(x), IBig::ONE << SCALE);
+    for x in [0.0, 1.0, -1.5, 0.1, f32::MIN_POSITIVE, f32::from_bits(1), f32::from_bits(0x7f_ffff), f32::MAX, f32::MIN]
+    {
+        assert_eq!(exact(x).round(), x);
+        assert_eq!(exact(x).compare(x), Some(Ordering::Equal));
+        assert_eq!(exact(x).compare(x.next_up()), Some(Ordering::Less));
+    }
+    // Decimal fractions are rounded by the compiler: an independent judge.
+    assert_eq!(fraction(1.into(), 3.into()).round(), 1.0 / 3.0);
+    assert_eq!(fraction(16_777_217.into(), 1.into()).round(), 16_777_216.0);
+    assert_eq!(fraction(16_777_219.into(), 1.into()).round(), 16_777_220.0);
+    assert_eq!(fraction((-7).into(), 1000.into()).round(), -0.007);
+    // Half of the smallest denormal is a tie to zero; more is not.
+    assert_eq!(fraction(1.into(), IBig::ONE << (SCALE + 1)).round(), 0.0);
+    assert_eq!(fraction(3.into(), IBig::ONE << (SCALE + 2)).round(), f32::from_bits(1));
+    // 2^128 - 2^103 is half an ulp above the largest float.
+    let limit = (IBig::ONE << 128) - (IBig::ONE << 103);
+    assert_eq!(fraction(limit.clone() - 1, 1.into()).round(), f32::MAX);
+    assert_eq!(fraction(limit, 1.into()).round(), f32::INFINITY);
+}
+
+#[test]
+fn order_is_exact_where_floats_are_not() {
+    let third = fraction(1.into(), 3.into());
+    assert_eq!(third, fraction(2.into(), 6.into()));
+    assert!(third < fraction(333_333_334.into(), 1_000_000_000.into()));
+    assert_eq!(third.compare(1.0 / 3.0), Some(Ordering::Less), "the float 1/3 is above one third");
+    assert_eq!(third.compare(f32::NAN), None);
+    assert_eq!(third.compare(f32::INFINITY), Some(Ordering::Less));
+    assert_eq!(third.compare(f32::NEG_INFINITY), Some(Ordering::Greater));
+}
+
+#[test]
+fn the_interval_is_half_open() {
+    let corners = [Vec3::new(-1.0, -1.0, 2.0), Vec3::new(3.0, -1.0, 2.0), Vec3::new(-1.0, 3.0, 2.0)];
+    let ray = Ray::new(Vec3::ZERO, Vec3::Z);
+    let t = hit(&ray, corners).unwrap();
+    for (t_min, t_max, inside) in [(0.0, 2.0, false), (0.0, 2.0_f32.next_up(), true), (2.0, 3.0, true)] {
+        assert_eq!(t.is_within(&Ray { t_min, t_max, ..ray }), inside);
+    }
+    assert!(!t.is_within(&Ray { t_min: 2.0_f32.next_up(), ..ray }));
+    // A negative t_min counts as 0: what lies behind the origin is not hit.
+    let behind = Ray { t_min: -5.0, direction: Vec3::NEG_Z, ..ray };
+    assert!(!hit(&behind, corners).unwrap().is_within(&behind));
+}
+
+#[test]
+fn the_nearest_names_all_triangles_at_its_t() {
+    let points = vec![
+        Vec3::ZERO,
+        Vec3::X,
+        Vec3::Y,
+        Vec3::new(1.0, 1.0, 0.0),
+        Vec3::new(0.0, 0.0, -1.0),
+        Vec3::new(5.0, 0.0, -1.0),
+        Vec3::new(0.0, 5.0, -1.0),
+    ];
+    let mesh = Mesh::new(points, vec![[4, 5, 6], [0, 1, 2], [0, 0, 1], [1, 2, 3]]).unwrap();
+    let ray = Ray::new(Vec3::new(0.5, 0.5, 1.0), Vec3::NEG_Z);
+    let (t, ids) = nearest(&ray, &mesh).unwrap();
+    assert_eq!((t.round(), ids), (1.0, vec![1, 3]));
+    assert_eq!(nearest(&ray.until(1.0), &mesh), None);
+    assert_eq!(nearest(&ray.until(f32::NAN), &mesh), None);
+}

@@ -1,0 +1,154 @@
+//! Clay sampled on a cubic grid, near its surface only, with every cell made simple.
+
+use glam::{UVec3, Vec3};
+use rayon::prelude::*;
+
+use super::{Active, Clay};
+use crate::geometry::Aabb;
+
+/// Samples along an edge of a block; all samples of a block use one list of lumps.
+const BLOCK: usize = 8;
+
+/// Distances at grid points, x fastest. Far from the surface only the sign is right.
+pub(super) struct Grid {
+    pub origin: Vec3,
+    pub step: f32,
+    pub size: [usize; 3],
+    pub values: Vec<f32>,
+    blocks: [usize; 3],
+    active: Vec<Active>,
+}
+
+impl Grid {
+    /// Samples `clay` over `bounds` and two steps more.
+    pub fn sample(clay: &Clay, bounds: Aabb, step: f32) -> Self {
+        let origin = bounds.min - Vec3::splat(2.0 * step);
+        let cells = (bounds.extent() / step).ceil().as_uvec3() + UVec3::splat(4);
+        let blocks = cells.to_array().map(|n| (n as usize + 1).div_ceil(BLOCK));
+        let size = blocks.map(|n| n * BLOCK);
+
+        // One layer of blocks is one task; the layers are independent.
+        let mut values = vec![0.0; size[0] * size[1] * size[2]];
+        let layer_size = size[0] * size[1] * BLOCK;
+        let fill = |(z, layer): (usize, &mut [f32])| {
+            let mut lists = Vec::with_capacity(blocks[0] * blocks[1]);
+            for y in 0..blocks[1] {
+                for x in 0..blocks[0] {
+                    lists.push(fill_block(clay, origin, step, [x, y, z], size, layer));
+                }
+            }
+            lists
+        };
+        let active = values.par_chunks_mut(layer_size).enumerate().map(fill).flatten_iter().collect();
+        Self { origin, step, size, values, blocks, active }
+    }
+
+    pub fn index(&self, [x, y, z]: [usize; 3]) -> usize {
+        (z * self.size[1] + y) * self.size[0] + x
+    }
+
+    pub fn place(&self, [x, y, z]: [usize; 3]) -> Vec3 {
+        self.origin + Vec3::new(x as f32, y as f32, z as f32) * self.step
+    }
+
+    /// The lumps that matter near `p`.
+    pub fn active(&self, p: Vec3) -> &Active {
+        let at = ((p - self.origin) / self.step).max(Vec3::ZERO).as_uvec3().to_array();
+        let [x, y, z] = [0, 1, 2].map(|i| (at[i] as usize / BLOCK).min(self.blocks[i] - 1));
+        &self.active[(z * self.blocks[1] + y) * self.blocks[0] + x]
+    }
+
+    /// Which of the eight corners of a cell are inside; bit 1 is the next x, 2 the next y, 4 the next z.
+    pub fn corners(&self, [x, y, z]: [usize; 3]) -> u8 {
+        let mut mask = 0;
+        for corner in 0..8 {
+            let at = [x + (corner & 1), y + (corner >> 1 & 1), z + (corner >> 2)];
+            mask |= u8::from(self.values[self.index(at)] < 0.0) << corner;
+        }
+        mask
+    }
+
+    /// Cells that the surface passes, ascending.
+    pub fn cells(&self) -> Vec<[usize; 3]> {
+        let [nx, ny, nz] = self.size;
+        let layer = |z: usize| {
+            let mut found = Vec::new();
+            for y in 0..ny - 1 {
+                let rows = [[0, y, z], [0, y + 1, z], [0, y, z + 1], [0, y + 1, z + 1]]
+                    .map(|start| &self.values[self.index(start)..self.index(start) + nx]);
+                let inside = |x: usize| rows.iter().filter(|row| row[x] < 0.0).count();
+                let mut before = inside(0);
+                for x in 0..nx - 1 {
+                    let after = inside(x + 1);
+                    if !matches!(before + after, 0 | 8) {
+                        found.push([x, y, z]);
+                    }
+                    before = after;
+                }
+            }
+            found
+        };
+        (0..nz - 1).into_par_iter().map(layer).flatten_iter().collect()
+    }
+
+    /// Fills corners until the surface passes every cell in one piece, so that one vertex a cell gives a closed
+    /// two-manifold. Only ever turns outside into inside, so it ends.
+    pub fn simplify(&mut self) {
+        let simple: Vec<bool> = (0..=255).map(|mask| connected(mask) && connected(!mask)).collect();
+        let mut queue = self.cells();
+        while let Some([x, y, z]) = queue.pop() {
+            if simple[self.corners([x, y, z]) as usize] {
+                continue;
+            }
+            let corners = [0, 1, 2, 3, 4, 5, 6, 7].map(|c: usize| [x + (c & 1), y + (c >> 1 & 1), z + (c >> 2)]);
+            let outside = corners.into_iter().filter(|&c| self.values[self.index(c)] >= 0.0);
+            let nearest = outside.min_by(|&a, &b| self.values[self.index(a)].total_cmp(&self.values[self.index(b)]));
+            let [x, y, z] = nearest.expect("a cell without a corner outside is simple");
+            let index = self.index([x, y, z]);
+            self.values[index] = -0.01 * self.step;
+            for c in 0..8 {
+                queue.push([x - (c & 1), y - (c >> 1 & 1), z - (c >> 2)]);
+            }
+        }
+    }
+}
+
+/// Samples one block into its layer of blocks, and returns its lumps.
+fn fill_block(clay: &Clay, origin: Vec3, step: f32, block: [usize; 3], size: [usize; 3], layer: &mut [f32]) -> Active {
+    let first = origin + Vec3::from(block.map(|b| (b * BLOCK) as f32)) * step;
+    let half = 0.5 * (BLOCK - 1) as f32 * step;
+    let radius = half * 1.733;
+    let active = clay.near(first + half, radius + 3.0 * step);
+
+    // Far from the surface the sign at the centre is the sign everywhere.
+    let middle = clay.bare_distance(&active, first + half).0;
+    let far = middle.abs() > 2.0 * radius + 3.0 * clay.reach;
+    for z in 0..BLOCK {
+        for y in 0..BLOCK {
+            let row = (z * size[1] + block[1] * BLOCK + y) * size[0] + block[0] * BLOCK;
+            for x in 0..BLOCK {
+                let p = first + Vec3::new(x as f32, y as f32, z as f32) * step;
+                layer[row + x] = if far { middle } else { clay.distance(&active, p) };
+            }
+        }
+    }
+    active
+}
+
+/// Whether the corners in `mask` hang together along the edges of a cube.
+fn connected(mask: u8) -> bool {
+    let mut reached = mask & mask.wrapping_neg();
+    loop {
+        let mut next = reached;
+        for corner in (0..8).filter(|c| reached >> c & 1 == 1) {
+            for axis in [1, 2, 4] {
+                next |= 1 << (corner ^ axis);
+            }
+        }
+        next &= mask;
+        if next == reached {
+            return reached == mask;
+        }
+        reached = next;
+    }
+}

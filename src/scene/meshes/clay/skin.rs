@@ -1,0 +1,216 @@
+//! From clay to triangles: surface nets (Gibson 1998) with relaxed vertices.
+
+use glam::Vec3;
+use rayon::prelude::*;
+
+use super::Clay;
+use super::grid::Grid;
+use crate::geometry::Aabb;
+
+/// A closed triangle mesh: every edge belongs to exactly two triangles.
+#[derive(Clone, Debug)]
+pub struct Skin {
+    pub positions: Vec<Vec3>,
+    pub triangles: Vec<[u32; 3]>,
+    /// Unit length, one for every position.
+    pub normals: Vec<Vec3>,
+}
+
+impl Skin {
+    /// The surface of `clay` inside `bounds`, with edges of about `step`; `relax` rounds even it out.
+    pub fn of(clay: &Clay, bounds: Aabb, step: f32, relax: usize) -> Self {
+        let mut grid = Grid::sample(clay, bounds, step);
+        grid.simplify();
+        let (mut positions, quads) = net(&grid);
+        let neighbours = neighbours(positions.len(), &quads);
+        for _ in 0..relax {
+            positions = relaxed(clay, &grid, &positions, &quads, &neighbours);
+        }
+
+        let mut triangles = Vec::with_capacity(2 * quads.len());
+        for [a, b, c, d] in quads {
+            let [pa, pb, pc, pd] = [a, b, c, d].map(|i| positions[i as usize]);
+            if pa.distance_squared(pc) <= pb.distance_squared(pd) {
+                triangles.extend([[a, b, c], [a, c, d]]);
+            } else {
+                triangles.extend([[a, b, d], [b, c, d]]);
+            }
+        }
+        let normals = vertex_normals(&positions, &triangles);
+        Self { positions, triangles, normals }.largest_piece()
+    }
+
+    /// Drops what does not hang together with the piece of most vertices: bubbles in the clay, crumbs beside it.
+    fn largest_piece(self) -> Self {
+        let mut parent: Vec<u32> = (0..self.positions.len() as u32).collect();
+        let mut root = |mut v: u32, join: Option<u32>| {
+            while parent[v as usize] != v {
+                parent[v as usize] = parent[parent[v as usize] as usize];
+                v = parent[v as usize];
+            }
+            if let Some(other) = join {
+                parent[v as usize] = other;
+            }
+            v
+        };
+        for &[a, b, c] in &self.triangles {
+            for (v, w) in [(a, b), (b, c)] {
+                let w = root(w, None);
+                root(v, Some(w));
+            }
+        }
+        let roots: Vec<u32> = (0..self.positions.len() as u32).map(|v| root(v, None)).collect();
+        let mut sizes = vec![0u32; roots.len()];
+        roots.iter().for_each(|&r| sizes[r as usize] += 1);
+        let largest = (0..sizes.len()).rev().max_by_key(|&r| sizes[r]).unwrap_or(0) as u32;
+
+        // Renumber the vertices that stay.
+        let mut number = vec![u32::MAX; roots.len()];
+        let (mut positions, mut normals) = (Vec::new(), Vec::new());
+        for (v, _) in roots.iter().enumerate().filter(|&(_, &r)| r == largest) {
+            number[v] = positions.len() as u32;
+            positions.push(self.positions[v]);
+            normals.push(self.normals[v]);
+        }
+        let stays = |t: &[u32; 3]| roots[t[0] as usize] == largest;
+        let triangles = self.triangles.into_iter().filter(stays).map(|t| t.map(|v| number[v as usize])).collect();
+        Self { positions, triangles, normals }
+    }
+
+    /// Moves the vertices onto the surface of `clay` and takes its normals: for skins too coarse to have good ones of
+    /// their own.
+    pub fn settled(mut self, clay: &Clay, step: f32) -> Self {
+        let settle = |&start: &Vec3| {
+            let active = clay.near(start, 2.0 * step);
+            let normal = |p| clay.normal(&active, p, 0.02 * step);
+            let mut p = start;
+            for _ in 0..3 {
+                p -= normal(p) * clay.distance(&active, p).clamp(-0.25 * step, 0.25 * step);
+            }
+            (p, normal(p))
+        };
+        (self.positions, self.normals) = self.positions.par_iter().map(settle).unzip();
+        self
+    }
+}
+
+/// One vertex in every cell that the surface passes, one quad for every grid edge that it cuts.
+fn net(grid: &Grid) -> (Vec<Vec3>, Vec<[u32; 4]>) {
+    let cells = grid.cells();
+    let positions = cells.par_iter().map(|&cell| middle(grid, cell)).collect();
+    let mut vertex_of = vec![u32::MAX; grid.values.len()];
+    for (vertex, &cell) in cells.iter().enumerate() {
+        vertex_of[grid.index(cell)] = vertex as u32;
+    }
+
+    let inside = |at| grid.values[grid.index(at)] < 0.0;
+    let mut quads = Vec::with_capacity(cells.len());
+    for &cell in &cells {
+        for axis in 0..3 {
+            // The edge from this cell's first corner along the axis; the four cells around it all have vertices.
+            let mut next = cell;
+            next[axis] += 1;
+            if inside(cell) == inside(next) {
+                continue;
+            }
+            let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
+            let around = [(1, 1), (0, 1), (0, 0), (1, 0)].map(|(du, dv)| {
+                let mut other = cell;
+                other[u] -= du;
+                other[v] -= dv;
+                vertex_of[grid.index(other)]
+            });
+            let [a, b, c, d] = around;
+            quads.push(if inside(cell) { [a, b, c, d] } else { [d, c, b, a] });
+        }
+    }
+    (positions, quads)
+}
+
+/// Mean of the points where the edges of a cell cut the surface.
+fn middle(grid: &Grid, cell: [usize; 3]) -> Vec3 {
+    let (mut sum, mut count) = (Vec3::ZERO, 0.0);
+    for axis in 0..3 {
+        for corner in (0..8).filter(|c| c >> axis & 1 == 0) {
+            let low = [cell[0] + (corner & 1), cell[1] + (corner >> 1 & 1), cell[2] + (corner >> 2)];
+            let mut high = low;
+            high[axis] += 1;
+            let (a, b) = (grid.values[grid.index(low)], grid.values[grid.index(high)]);
+            if (a < 0.0) != (b < 0.0) {
+                sum += grid.place(low).lerp(grid.place(high), a / (a - b));
+                count += 1.0;
+            }
+        }
+    }
+    sum / count
+}
+
+/// The vertices next to each vertex, by quad edges, as one list with its starts.
+fn neighbours(vertices: usize, quads: &[[u32; 4]]) -> (Vec<u32>, Vec<u32>) {
+    let mut starts = vec![0u32; vertices + 1];
+    for quad in quads {
+        quad.iter().for_each(|&v| starts[v as usize + 1] += 1);
+    }
+    for i in 0..vertices {
+        starts[i + 1] += starts[i];
+    }
+
+    // In a closed surface every edge is walked once in each direction, so following edges forward finds all of them.
+    let mut next = starts.clone();
+    let mut list = vec![0; 4 * quads.len()];
+    for quad in quads {
+        for i in 0..4 {
+            let from = quad[i] as usize;
+            list[next[from] as usize] = quad[(i + 1) % 4];
+            next[from] += 1;
+        }
+    }
+    (starts, list)
+}
+
+/// Moves every vertex along the surface towards the mean of its neighbours, and back onto the surface.
+fn relaxed(
+    clay: &Clay,
+    grid: &Grid,
+    positions: &[Vec3],
+    quads: &[[u32; 4]],
+    (starts, list): &(Vec<u32>, Vec<u32>),
+) -> Vec<Vec3> {
+    let mut normals = vec![Vec3::ZERO; positions.len()];
+    for quad in quads {
+        let [a, b, c, d] = quad.map(|i| positions[i as usize]);
+        let normal = (c - a).cross(d - b);
+        quad.iter().for_each(|&v| normals[v as usize] += normal);
+    }
+
+    let step = grid.step;
+    let moved = |i: usize| {
+        let (p, n) = (positions[i], normals[i].normalize_or(Vec3::Y));
+        let around = &list[starts[i] as usize..starts[i + 1] as usize];
+        let mean = around.iter().map(|&v| positions[v as usize]).sum::<Vec3>() / around.len() as f32;
+        let pull = (mean - p) * 0.4;
+        let slid = p + pull - n * pull.dot(n);
+
+        // One secant step back to the surface, along the normal and never far.
+        let active = grid.active(p);
+        let here = clay.distance(active, slid).clamp(-step, step);
+        if here == 0.0 {
+            return slid;
+        }
+        let there = clay.distance(active, slid - n * here);
+        let slope = ((here - there) / here).clamp(0.4, 2.0);
+        slid - n * (here / slope).clamp(-0.5 * step, 0.5 * step)
+    };
+    (0..positions.len()).into_par_iter().map(moved).collect()
+}
+
+/// Unit normals of vertices, weighted by area.
+pub(super) fn vertex_normals(positions: &[Vec3], triangles: &[[u32; 3]]) -> Vec<Vec3> {
+    let mut normals = vec![Vec3::ZERO; positions.len()];
+    for triangle in triangles {
+        let [a, b, c] = triangle.map(|i| positions[i as usize]);
+        let normal = (b - a).cross(c - a);
+        triangle.iter().for_each(|&v| normals[v as usize] += normal);
+    }
+    normals.into_iter().map(|n| n.normalize_or(Vec3::Y)).collect()
+}

@@ -1,0 +1,201 @@
+//! The serpent body with its scales, the crest of spines along the back, and the legs.
+
+use glam::Vec3;
+
+use crate::scene::meshes::clay::{Clay, Frame, Joint, Round, Tube, cosine, sine};
+
+/// Centre line and radius from the tip of the tail to the head.
+const SPINE: [Round; 22] = [
+    Round(0.62, 0.62, 0.84, 0.03),
+    Round(0.78, 0.34, 0.80, 0.05),
+    Round(0.55, 0.13, 0.74, 0.07),
+    Round(0.05, 0.11, 0.70, 0.095),
+    Round(-0.55, 0.14, 0.66, 0.125),
+    Round(-1.15, 0.17, 0.58, 0.155),
+    Round(-1.62, 0.22, 0.30, 0.185),
+    Round(-1.80, 0.42, -0.06, 0.21),
+    Round(-1.66, 0.80, -0.34, 0.235),
+    Round(-1.30, 1.02, -0.48, 0.26),
+    Round(-0.90, 0.86, -0.46, 0.285),
+    Round(-0.55, 0.70, -0.34, 0.32),
+    Round(-0.15, 0.78, -0.20, 0.335),
+    Round(0.25, 0.98, -0.10, 0.325),
+    Round(0.62, 1.02, 0.00, 0.335),
+    Round(0.95, 1.06, 0.05, 0.335),
+    Round(1.22, 1.28, 0.06, 0.285),
+    Round(1.27, 1.62, 0.03, 0.235),
+    Round(1.08, 1.92, 0.00, 0.205),
+    Round(0.95, 2.18, 0.02, 0.19),
+    Round(1.05, 2.40, 0.08, 0.185),
+    Round(1.26, 2.44, 0.17, 0.18),
+];
+
+/// Curve pieces between two points of the centre line.
+const PIECES: usize = 6;
+
+/// Scales around the body.
+const AROUND: f32 = 16.0;
+
+/// Adds the body and returns the frame at the end of the neck.
+pub fn model(clay: &mut Clay) -> Frame {
+    let tube = Tube::through(&SPINE, PIECES);
+    let frames = tube.frames(12 * PIECES, Vec3::Y);
+    scaly_tube(clay, &tube, &frames);
+    legs(clay);
+    crest(clay, &tube, &frames);
+    tail_tuft(clay, &tube);
+    frames[frames.len() - 1]
+}
+
+/// The body: cones whose distance is lowered by the height of the scales at the foot point.
+fn scaly_tube(clay: &mut Clay, tube: &Tube, frames: &[Frame]) {
+    clay.part(Joint { grain: 0.15, ..Joint::smooth(0.0) });
+    let mut rows = 0.0;
+    for i in 0..tube.pieces() {
+        let piece = tube.piece(i);
+        let length = piece.a.distance(piece.b);
+        let radius = 0.5 * (piece.radius_a + piece.radius_b);
+        let next_rows = rows + length * AROUND / (std::f32::consts::TAU * radius);
+        let (start, end) = (frames[i], frames[i + 1]);
+        let height = (0.16 * radius).min(0.042);
+        let bounding = 0.5 * length + piece.radius_a.max(piece.radius_b) + height;
+        clay.lump((piece.a + piece.b) * 0.5, bounding, move |p| {
+            let distance = piece.distance(p);
+            if distance.abs() > 3.0 * height {
+                return distance;
+            }
+            let t = ((p - piece.a).dot(piece.b - piece.a) / (length * length)).clamp(0.0, 1.0);
+            let q = start.local(p).lerp(end.local(p), t);
+            distance - height * scales(rows + (next_rows - rows) * t, q.x, q.y)
+        });
+        rows = next_rows;
+    }
+}
+
+/// Height from 0 to 1 of the scales at `row` along the body, on the side (`x`, `y`) seen along it; y is the back.
+fn scales(row: f32, x: f32, y: f32) -> f32 {
+    let turn = (libm::atan2(f64::from(x), f64::from(y)) / std::f64::consts::TAU) as f32;
+    let belly = ((turn.abs() - 0.36) / 0.03).clamp(0.0, 1.0);
+
+    // Broad plates across the belly, with a furrow between two of them.
+    let part = row * 0.6 - (row * 0.6).floor();
+    let plate = (1.0 - (2.0 * part - 1.0) * (2.0 * part - 1.0)).sqrt();
+
+    // Round scales elsewhere, each row shifted by half a scale and lying over the next.
+    let mut scale = 0.0f32;
+    for step in -1..=1 {
+        let line = row.floor() + step as f32;
+        let shift = 0.5 * (line - 2.0 * (0.5 * line).floor());
+        let across = turn * AROUND + shift;
+        let across = 2.0 * (across - across.floor()) - 1.0;
+        let along = row - line - 0.5;
+        let round = 1.0 - across * across * 0.95 - along * along * 0.8;
+        if round > 0.0 {
+            scale = scale.max((round * 1.6).min(1.0) * (0.62 - 0.45 * along));
+        }
+    }
+    scale * (1.0 - belly) + plate * belly
+}
+
+/// Spines along the back, long on neck and hump, short on the tail.
+fn crest(clay: &mut Clay, tube: &Tube, frames: &[Frame]) {
+    clay.part(Joint::bare(0.035));
+    let mut since = 0.0;
+    for (i, frame) in frames.iter().enumerate().take(tube.pieces() - 3).skip(4) {
+        since += tube.centres[i].distance(tube.centres[i - 1]);
+        let radius = tube.radii[i];
+        if since < 0.06 + 0.28 * radius {
+            continue;
+        }
+        since = 0.0;
+        let height = 0.05 + 0.52 * radius;
+        let foot = frame.at(0.0, radius * 0.92, 0.03);
+        let tip = frame.at(0.0, radius + height, -0.75 * height);
+        let ahead = frame.at(0.0, radius * 0.95, 0.03 + 0.3 * height);
+        clay.cone(foot, 0.032 + 0.05 * radius, tip, 0.013);
+        clay.cone(ahead, 0.025 + 0.03 * radius, (foot + tip) * 0.5, 0.02);
+    }
+}
+
+/// Flame-shaped blades at the tip of the tail.
+fn tail_tuft(clay: &mut Clay, tube: &Tube) {
+    clay.part(Joint::bare(0.03));
+    let tip = tube.centres[0];
+    let away = -tube.tangent(0);
+    let frame = Frame::looking(tip, away, Vec3::X);
+    for (side, length) in [(-0.85, 0.2), (-0.42, 0.3), (0.0, 0.38), (0.42, 0.3), (0.85, 0.2)] {
+        let bend = frame.at(side * 0.12, 0.0, 0.5 * length - 0.06);
+        clay.cone(frame.at(0.0, 0.0, -0.04), 0.035, bend, 0.04);
+        clay.cone(bend, 0.04, frame.at(side * 0.2, 0.03 * side, length), 0.012);
+    }
+}
+
+/// Hip or shoulder, knee, ankle, and where the foot points, for one leg.
+struct Leg {
+    joints: [Vec3; 3],
+    thick: f32,
+    ahead: Vec3,
+}
+
+fn legs(clay: &mut Clay) {
+    let v = Vec3::new;
+    let legs = [
+        Leg {
+            joints: [v(0.98, 0.98, 0.24), v(0.86, 0.55, 0.56), v(1.12, 0.17, 0.60)],
+            thick: 0.2,
+            ahead: v(0.9, 0.0, 0.35),
+        },
+        Leg {
+            joints: [v(0.98, 0.98, -0.20), v(0.92, 0.55, -0.48), v(1.30, 0.17, -0.48)],
+            thick: 0.2,
+            ahead: v(1.0, 0.0, -0.2),
+        },
+        Leg {
+            joints: [v(-0.52, 0.68, -0.12), v(-0.12, 0.52, 0.28), v(-0.38, 0.16, 0.34)],
+            thick: 0.24,
+            ahead: v(0.95, 0.0, 0.2),
+        },
+        Leg {
+            joints: [v(-0.52, 0.68, -0.5), v(-0.2, 0.5, -0.72), v(-0.42, 0.16, -0.7)],
+            thick: 0.24,
+            ahead: v(1.0, 0.0, -0.1),
+        },
+    ];
+    for leg in &legs {
+        let [hip, knee, ankle] = leg.joints;
+        let thick = leg.thick;
+        clay.part(Joint::smooth(0.12)).cone(hip, thick, knee, 0.58 * thick);
+        clay.part(Joint::smooth(0.05)).cone(knee, 0.56 * thick, ankle, 0.42 * thick);
+        let frame = Frame::looking(ankle, leg.ahead, Vec3::Y);
+        clay.part(Joint::smooth(0.06)).cone(frame.at(0.0, -0.07, 0.0), 0.085, frame.at(0.0, -0.09, 0.14), 0.07);
+        foot(clay, &frame);
+        elbow_tufts(clay, knee, knee - ankle, frame.ahead);
+    }
+}
+
+/// Three toes and a spur, each with a claw.
+fn foot(clay: &mut Clay, frame: &Frame) {
+    let toes = [(-0.5, 1.0), (0.0, 1.1), (0.5, 1.0), (2.7, 0.7)];
+    let toe = |turn: f32, long: f32, y: f32| frame.at(long * sine(turn), y, 0.04 + long * cosine(turn));
+    clay.part(Joint::smooth(0.04));
+    for (turn, size) in toes {
+        clay.cone(toe(turn, 0.08, -0.09), 0.05, toe(turn, 0.24 * size, -0.105), 0.048);
+    }
+    clay.part(Joint::bare(0.012));
+    for (turn, size) in toes {
+        let knuckle = toe(turn, 0.255 * size, -0.09);
+        let bend = toe(turn, 0.32 * size, -0.09);
+        clay.cone(knuckle, 0.038, bend, 0.026);
+        clay.cone(bend, 0.026, toe(turn, 0.38 * size, -0.145), 0.012);
+    }
+}
+
+/// Three flame-shaped spikes behind a knee.
+fn elbow_tufts(clay: &mut Clay, knee: Vec3, up: Vec3, ahead: Vec3) {
+    clay.part(Joint::bare(0.04));
+    let back = -ahead.normalize();
+    for (rise, length) in [(-0.25, 0.2), (0.2, 0.27), (0.7, 0.2)] {
+        let way = (back + up.normalize() * rise).normalize();
+        clay.cone(knee + way * 0.05, 0.05, knee + way * (0.08 + length), 0.012);
+    }
+}

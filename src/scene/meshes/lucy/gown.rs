@@ -1,0 +1,188 @@
+//! The gown: a body of elliptic sections with folds, an overfold, a belt, a sash, and cloth that hangs from the arm.
+
+use glam::Vec3;
+
+use crate::scene::meshes::{
+    clay::{Clay, Joint, Round, Tube, sine},
+    noise,
+};
+
+/// One horizontal section: height, half width, half depth, and its middle in x and z.
+struct Section(f32, f32, f32, f32, f32);
+
+const BODY: [Section; 12] = [
+    Section(1.2, 2.45, 2.15, 0.0, 0.05),
+    Section(2.0, 2.35, 2.05, 0.0, 0.05),
+    Section(3.2, 2.05, 1.80, 0.0, 0.05),
+    Section(5.5, 1.82, 1.55, 0.0, 0.05),
+    Section(8.0, 1.72, 1.42, 0.0, 0.0),
+    Section(10.0, 1.70, 1.36, -0.05, -0.05),
+    Section(11.3, 1.45, 1.20, -0.10, -0.05),
+    Section(12.6, 1.18, 0.98, -0.10, 0.0),
+    Section(14.0, 1.38, 1.12, -0.03, 0.05),
+    Section(15.2, 1.50, 1.05, 0.0, 0.0),
+    Section(16.0, 1.42, 0.75, 0.0, -0.05),
+    Section(16.7, 0.75, 0.50, 0.0, -0.05),
+];
+
+/// Adds the gown.
+pub fn model(clay: &mut Clay) {
+    let middle = Vec3::new(0.0, 9.0, 0.0);
+    clay.part(Joint::smooth(0.0)).lump(middle, 8.6, |p| {
+        let (distance, turn) = section_distance(p, 0.0);
+        capped(distance - folds(p, turn), p.y, 1.2, 16.6)
+    });
+    legs(clay);
+    overfold(clay);
+    bodice(clay);
+    sash(clay);
+    hanging_cloth(clay);
+}
+
+fn smoothstep(low: f32, high: f32, x: f32) -> f32 {
+    let t = ((x - low) / (high - low)).clamp(0.0, 1.0);
+    t * t * (3.0 - 2.0 * t)
+}
+
+/// Distance to the side of the body made `wider`, and the angle around it: 0 in front, growing to +x.
+fn section_distance(p: Vec3, wider: f32) -> (f32, f32) {
+    let i = BODY.iter().rposition(|s| s.0 <= p.y).unwrap_or(0).min(BODY.len() - 2);
+    let (low, high) = (&BODY[i], &BODY[i + 1]);
+    let t = smoothstep(low.0, high.0, p.y) * 0.5 + 0.5 * ((p.y - low.0) / (high.0 - low.0)).clamp(0.0, 1.0);
+    let mix = |a: f32, b: f32| a + (b - a) * t;
+    let (a, b) = (mix(low.1, high.1) + wider, mix(low.2, high.2) + wider);
+    let (x, z) = (p.x - mix(low.3, high.3), p.z - mix(low.4, high.4));
+    let k = ((x / a) * (x / a) + (z / b) * (z / b)).sqrt();
+    let slope = ((x / (a * a)) * (x / (a * a)) + (z / (b * b)) * (z / (b * b))).sqrt();
+    let distance = if slope < 1e-6 { -a.min(b) } else { k * (k - 1.0) / slope };
+    (0.9 * distance, libm::atan2(f64::from(x / a), f64::from(z / b)) as f32)
+}
+
+fn capped(side: f32, y: f32, low: f32, high: f32) -> f32 {
+    side.max(low - y).max(y - high)
+}
+
+/// Round ridges with sharp valleys between them, from 0 to 1.
+fn pleat(phase: f32) -> f32 {
+    sine(phase).abs()
+}
+
+/// Height of the folds: long pleats that fan out downwards, shallow at the hips, swung around the bent knee.
+fn folds(p: Vec3, turn: f32) -> f32 {
+    let drop = 1.0 - smoothstep(2.0, 12.0, p.y);
+    let wander = noise::smooth(Vec3::new(turn * 1.3, p.y * 0.16, 0.0), 3);
+    let fine_wander = noise::smooth(Vec3::new(turn * 2.6, p.y * 0.33, 5.0), 4);
+    let wide = pleat(5.0 * turn + 1.5 * wander + 0.05 * p.y);
+    let narrow = pleat(11.0 * turn - 2.2 * wander + 1.1 * fine_wander);
+    let knee = Vec3::new((p.x - 0.95) / 0.75, (p.y - 6.6) / 2.6, (p.z - 1.5) / 1.0).length_squared();
+    let tight = 1.0 - 0.75 / (1.0 + knee * knee);
+    let depth = 0.07 + 0.46 * drop;
+    let long = depth * tight * (0.62 * wide + 0.38 * narrow * (0.6 + 0.4 * wander) - 0.35);
+
+    // Above the belt the cloth hangs from both shoulders, in folds that sag towards the middle.
+    let breast = smoothstep(12.8, 13.6, p.y);
+    let sag = pleat(3.4 * (p.y - 0.55 * p.x.abs() - 0.3 * p.x * p.x) + 0.8 * fine_wander);
+    long * (1.0 - breast) + breast * 0.09 * sag * (1.0 - smoothstep(15.4, 16.0, p.y))
+}
+
+/// The bent leg that shows through the cloth, and the feet.
+fn legs(clay: &mut Clay) {
+    let v = Vec3::new;
+    let leg = [
+        Round(0.70, 10.2, 0.20, 0.95),
+        Round(0.85, 8.4, 0.62, 0.86),
+        Round(0.93, 6.7, 0.90, 0.74),
+        Round(0.95, 4.8, 0.86, 0.58),
+        Round(0.95, 2.6, 0.60, 0.42),
+    ];
+    clay.part(Joint::smooth(0.55)).tube(&Tube::through(&leg, 8));
+    clay.part(Joint::smooth(0.06));
+    for (x, turn) in [(0.95, 0.12), (-0.85, -0.18)] {
+        clay.cone(v(x, 1.98, 1.5), 0.34, v(x + turn, 1.92, 2.35), 0.22);
+        for i in 0..4 {
+            let across = x + turn + 0.15 * (i as f32 - 1.5);
+            let long = 2.55 - 0.04 * (i as f32 - 1.5) * (i as f32 - 1.5);
+            clay.cone(v(across, 1.9, 2.3), 0.13, v(across + 0.2 * turn, 1.87, long), 0.11);
+        }
+    }
+}
+
+/// The part of the gown that falls over the belt, with its waving hem.
+fn overfold(clay: &mut Clay) {
+    clay.part(Joint::smooth(0.05)).lump(Vec3::new(0.0, 11.0, 0.0), 3.2, |p| {
+        let flare = 0.10 + 0.09 * (12.6 - p.y).max(0.0);
+        let (distance, turn) = section_distance(p, flare);
+        let wander = noise::smooth(Vec3::new(turn * 1.5, p.y * 0.3, 9.0), 5);
+        let ridges = pleat(8.0 * turn + 1.2 * wander + 0.5);
+        let depth = 0.03 + 0.08 * (12.8 - p.y).max(0.0);
+        let hem = 9.55 + 0.75 * sine(2.0 * turn + 0.6) + 0.4 * ridges + 0.2 * wander;
+        capped(distance - depth * (ridges - 0.4), p.y, hem, 12.9).max(-distance - flare - 0.3)
+    });
+    clay.part(Joint::smooth(0.03)).lump(Vec3::new(-0.1, 12.75, 0.0), 1.8, |p| {
+        let (distance, turn) = section_distance(p, 0.13);
+        let cord = 0.04 * pleat(14.0 * turn + 9.0 * p.y);
+        let across = (p.y - 12.75).abs() - 0.13;
+        let out = distance.abs() - 0.1;
+        (out.max(0.0) * out.max(0.0) + across.max(0.0) * across.max(0.0)).sqrt() + out.max(across).min(0.0)
+            - 0.08
+            - cord
+    });
+}
+
+/// Bust and shoulders under thin cloth, and the neckline.
+fn bodice(clay: &mut Clay) {
+    let v = Vec3::new;
+    clay.part(Joint::smooth(0.25));
+    clay.sphere(v(0.56, 14.6, 0.80), 0.58).sphere(v(-0.56, 14.6, 0.80), 0.58);
+    clay.part(Joint::smooth(0.4));
+    clay.cone(v(-1.35, 15.85, -0.05), 0.52, v(1.35, 15.8, -0.05), 0.52);
+    clay.part(Joint::smooth(0.12));
+    let neckline = [
+        Round(-1.0, 16.3, 0.25, 0.11),
+        Round(-0.62, 15.75, 0.78, 0.11),
+        Round(0.0, 15.3, 1.08, 0.11),
+        Round(0.62, 15.75, 0.78, 0.11),
+        Round(1.0, 16.3, 0.25, 0.11),
+    ];
+    clay.tube(&Tube::through(&neckline, 5));
+}
+
+/// Three strands of cloth from the left shoulder across the breast to the right hip and around the back.
+fn sash(clay: &mut Clay) {
+    clay.part(Joint::smooth(0.06));
+    for i in 0..4 {
+        let down = 0.24 * i as f32;
+        let strand = [
+            Round(0.75, 15.9 - down, -1.15, 0.17),
+            Round(1.15 - 0.2 * down, 16.45 - 0.5 * down, -0.2, 0.18),
+            Round(0.98 - 0.5 * down, 15.75 - 0.6 * down, 0.85, 0.17),
+            Round(0.35 - 0.4 * down, 14.75 - down, 1.32, 0.17),
+            Round(-0.45 - 0.1 * down, 13.7 - down, 1.25, 0.17),
+            Round(-1.15, 12.85 - down, 0.85, 0.18),
+            Round(-1.52, 12.2 - down, 0.0, 0.19),
+            Round(-1.1, 12.3 - down, -0.95, 0.18),
+            Round(0.0, 13.4 - down, -1.3, 0.17),
+            Round(0.75, 15.9 - down, -1.15, 0.17),
+        ];
+        clay.tube(&Tube::through(&strand, 6));
+    }
+}
+
+/// Pleats that hang from the left forearm, each a little shorter than the one before, with turned hems.
+fn hanging_cloth(clay: &mut Clay) {
+    clay.part(Joint::smooth(0.14));
+    for i in 0..7 {
+        let s = i as f32;
+        let (x, z) = (2.55 - 0.13 * s, 0.25 + 0.24 * s);
+        let sway = 0.05 * sine(2.1 * s);
+        let foot = 4.7 + 0.42 * s + 0.15 * sine(2.6 * s);
+        let pleat = [
+            Round(x, 12.75 + 0.03 * s, z, 0.22),
+            Round(x + 0.12, 11.6, z + 0.02, 0.20),
+            Round(x + 0.06 + sway, 9.6, z - 0.05, 0.19),
+            Round(x + 0.02 - sway, 7.8, z + 0.05, 0.22),
+            Round(x + 0.1 + sway, foot, z, 0.20),
+        ];
+        clay.tube(&Tube::through(&pleat, 5));
+    }
+}

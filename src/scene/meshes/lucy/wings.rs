@@ -1,0 +1,98 @@
+//! Two wings of single feathers: flat blades with a shaft and barbs, shingled in three rows on an arm.
+
+use glam::Vec3;
+
+use crate::scene::meshes::clay::{Clay, Cone, Frame, Joint, Round, Tube};
+
+/// Adds both wings.
+pub fn model(clay: &mut Clay) {
+    for side in [-1.0, 1.0] {
+        wing(clay, side);
+    }
+}
+
+/// The arm of the wing from the shoulder blade over the wrist to the end of the hand: distance from the middle, height,
+/// radius.
+const ARM: [[f32; 3]; 6] = [
+    [0.45, 14.2, 0.5],
+    [1.5, 15.6, 0.52],
+    [2.6, 17.4, 0.48],
+    [3.8, 18.35, 0.42],
+    [4.9, 18.2, 0.34],
+    [5.75, 17.3, 0.22],
+];
+
+/// Tips of the long feathers in the plane of the wing, from the innermost to the outermost.
+const TIPS: [[f32; 2]; 9] =
+    [[0.9, 10.9], [1.6, 9.6], [2.4, 8.4], [3.2, 7.5], [4.1, 6.9], [5.0, 6.9], [5.8, 7.8], [6.4, 9.4], [6.85, 11.4]];
+
+/// A place in the plane of the wing: swept back outwards and bent forward at the tip, `front` of the plane.
+fn place(side: f32, out: f32, up: f32, front: f32) -> Vec3 {
+    let back = 1.05 + 0.62 * out - 0.028 * out * out + 0.05 * (15.0 - up).max(0.0) * 0.6;
+    Vec3::new(side * out, up, front - back)
+}
+
+/// A point of a polyline at `t` from 0 to 1.
+fn along<const N: usize>(line: &[[f32; N]], t: f32) -> [f32; N] {
+    let s = t.clamp(0.0, 1.0) * (line.len() - 1) as f32;
+    let i = (s as usize).min(line.len() - 2);
+    std::array::from_fn(|k| line[i][k] + (line[i + 1][k] - line[i][k]) * (s - i as f32))
+}
+
+fn wing(clay: &mut Clay, side: f32) {
+    clay.part(Joint::smooth(0.15));
+    let arm = ARM.map(|[out, up, radius]| {
+        let p = place(side, out, up, 0.05);
+        Round(p.x, p.y, p.z, radius)
+    });
+    clay.tube(&Tube::through(&arm, 5));
+
+    // Rows from long to short: number of feathers, length, half width, thickness.
+    for (count, length, wide, thick) in [(12, 1.0, 0.46, 0.07), (11, 0.56, 0.46, 0.19), (12, 0.31, 0.42, 0.30)] {
+        clay.part(Joint::smooth(0.03));
+        for i in 0..count {
+            let t = (i as f32 + 0.25) / (count as f32 - 0.5);
+            let [out, up, _] = along(&ARM, 0.06 + 0.94 * t);
+            let [tip_out, tip_up] = along(&TIPS, t);
+            let (tip_out, tip_up) = (out + (tip_out - out) * length, up + (tip_up - up) * length);
+            let (root, tip) = (place(side, out, up, 0.0), place(side, tip_out, tip_up, 0.0));
+            feather(clay, side, root, tip, wide, thick);
+        }
+    }
+    // The smallest feathers: scales on the arm.
+    clay.part(Joint::smooth(0.04));
+    for row in 0..2 {
+        for i in 0..15 {
+            let t = (i as f32 + 0.5 + 0.5 * row as f32) / 15.5;
+            let [out, up, radius] = along(&ARM, t);
+            let start = place(side, out, up + 0.2 - 0.35 * row as f32, 0.0);
+            feather(
+                clay,
+                side,
+                start,
+                start + Vec3::new(side * 0.12, -0.85, -0.1),
+                0.27,
+                radius + 0.02 - 0.06 * row as f32,
+            );
+        }
+    }
+}
+
+/// A blade from `root` to `tip`, turned a little about its shaft so that the feathers lie over one another.
+fn feather(clay: &mut Clay, side: f32, root: Vec3, tip: Vec3, wide: f32, thick: f32) {
+    let frame = Frame::looking(root, tip - root, Vec3::new(0.42 * side, 0.0, 1.0));
+    let length = root.distance(tip);
+    let outline = Cone::new(Vec3::ZERO, 0.7 * wide, Vec3::new(0.0, 0.0, length - 0.8 * wide), wide);
+    let radius = 0.5 * length + wide + thick;
+    clay.lump((root + tip) * 0.5, radius, move |p| {
+        let q = frame.local(p);
+        let in_plane = outline.distance(Vec3::new(q.x, 0.0, q.z));
+        let shaft = 0.07 * (1.0 - (q.x.abs() / 0.12)).max(0.0);
+        let barb = (q.z - q.x.abs()) * 2.1;
+        let barb = 0.018 * (2.0 * (barb - barb.floor()) - 1.0).abs();
+        let bulge = 0.05 * (1.0 - (q.x / wide) * (q.x / wide)).max(0.0);
+        let across = q.y.abs() - thick - bulge - shaft - barb;
+        let (u, v) = (in_plane.max(0.0), across.max(0.0));
+        (u * u + v * v).sqrt() + in_plane.max(across).min(0.0) - 0.06
+    });
+}

@@ -1,0 +1,126 @@
+//! Architecture out of surface patches and boxes, each with its own vertices, in several materials.
+
+use glam::Vec3;
+
+use super::clay::{Frame, cosine, sine};
+use crate::scene::{Material, Model};
+
+/// How a patch is shaded.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Finish {
+    Flat,
+    Smooth,
+}
+
+/// A building under construction.
+#[derive(Default)]
+pub struct Stone {
+    pub model: Model,
+    material: u32,
+}
+
+impl Stone {
+    /// What is added from now on is of `material`, which is looked up by its name.
+    pub fn of(&mut self, material: &Material) -> &mut Self {
+        let known = self.model.materials.iter().position(|m| m.name == material.name);
+        let number = known.unwrap_or_else(|| {
+            self.model.materials.push(material.clone());
+            self.model.materials.len() - 1
+        });
+        self.material = number as u32;
+        self
+    }
+
+    /// A net of `columns` x `rows` quads, two triangles each, over the points `at(column, row)`; the front is the side
+    /// from which columns run to the right when rows run up. When `round`, the last column meets the first.
+    pub fn patch(
+        &mut self,
+        [columns, rows]: [usize; 2],
+        round: bool,
+        finish: Finish,
+        at: impl Fn(usize, usize) -> Vec3,
+    ) -> &mut Self {
+        let across = if round { columns } else { columns + 1 };
+        let first = self.model.positions.len() as u32;
+        for row in 0..=rows {
+            self.model.positions.extend((0..across).map(|column| at(column, row)));
+        }
+        let from = self.model.triangles.len();
+        for row in 0..rows {
+            for column in 0..columns {
+                let corner = |c: usize, r: usize| first + ((row + r) * across + (column + c) % across) as u32;
+                let [a, b, c, d] = [corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)];
+                self.model.triangles.extend([[a, b, c], [a, c, d]]);
+            }
+        }
+        self.shade(from, first, finish);
+        self
+    }
+
+    /// Gives normals and the material to the triangles from number `from`, whose vertices start at `first`.
+    fn shade(&mut self, from: usize, first: u32, finish: Finish) {
+        let model = &mut self.model;
+        model.material_of.resize(model.triangles.len(), self.material);
+        if finish == Finish::Flat {
+            model.normal_indices.resize(model.triangles.len(), [Model::FLAT; 3]);
+            return;
+        }
+        let mut normals = vec![Vec3::ZERO; model.positions.len() - first as usize];
+        for triangle in &model.triangles[from..] {
+            let [a, b, c] = triangle.map(|i| model.positions[i as usize]);
+            let normal = (b - a).cross(c - a);
+            triangle.iter().for_each(|&v| normals[(v - first) as usize] += normal);
+        }
+        let start = model.normals.len() as u32;
+        model.normals.extend(normals.into_iter().map(|n| n.normalize_or(Vec3::Y)));
+        let number = |t: &[u32; 3]| t.map(|v| v - first + start);
+        let indices: Vec<_> = model.triangles[from..].iter().map(number).collect();
+        model.normal_indices.extend(indices);
+    }
+
+    /// A flat quad; the corners run counter-clockwise when seen from the front.
+    pub fn quad(&mut self, [a, b, c, d]: [Vec3; 4]) -> &mut Self {
+        self.patch([1, 1], false, Finish::Flat, |column, row| match (column, row) {
+            (0, 0) => a,
+            (1, 0) => b,
+            (1, 1) => c,
+            _ => d,
+        })
+    }
+
+    /// A box between two corners given in the coordinates of `frame`, low one first.
+    pub fn block(&mut self, frame: &Frame, low: [f32; 3], high: [f32; 3]) -> &mut Self {
+        let at = |corner: usize| {
+            let [x, y, z] = std::array::from_fn(|i| if corner >> i & 1 == 1 { high[i] } else { low[i] });
+            frame.at(x, y, z)
+        };
+        for [a, b, c, d] in [[4, 5, 7, 6], [1, 0, 2, 3], [5, 1, 3, 7], [0, 4, 6, 2], [6, 7, 3, 2], [0, 1, 5, 4]] {
+            self.quad([at(a), at(b), at(c), at(d)]);
+        }
+        self
+    }
+
+    /// A turned body around the vertical through `foot`: (radius, height) from bottom to top.
+    pub fn lathe(&mut self, foot: Vec3, profile: &[[f32; 2]], sides: usize) -> &mut Self {
+        self.patch([sides, profile.len() - 1], true, Finish::Smooth, |column, row| {
+            let [radius, height] = profile[row];
+            let (sine, cosine) = turn(column, sides);
+            foot + Vec3::new(radius * sine, height, radius * cosine)
+        })
+    }
+
+    /// A straight moulding along the right axis of `frame`: (height, depth) from bottom to top.
+    pub fn moulding(&mut self, frame: &Frame, [from, to]: [f32; 2], profile: &[[f32; 2]]) -> &mut Self {
+        for pair in profile.windows(2) {
+            let [[y0, z0], [y1, z1]] = [pair[0], pair[1]];
+            self.quad([frame.at(from, y0, z0), frame.at(to, y0, z0), frame.at(to, y1, z1), frame.at(from, y1, z1)]);
+        }
+        self
+    }
+}
+
+/// Sine and cosine of `part` of `whole` turns.
+pub fn turn(part: usize, whole: usize) -> (f32, f32) {
+    let angle = part as f32 / whole as f32 * std::f32::consts::TAU;
+    (sine(angle), cosine(angle))
+}

@@ -1,0 +1,137 @@
+//! Who is to blame for a difference.
+
+use std::cmp::Ordering;
+
+use super::{Kind, Reference, ScalarTest};
+use crate::geometry::{Hit, Mesh, Ray};
+use crate::oracle::{ExactT, exact};
+
+/// Relative difference of `t` from which on an answer counts as wrong where the triangle tests differ, if it names the
+/// right primitive: what `f32` tests round, away from grazing rays.
+const DEPTH: f64 = 1e-2;
+/// The same for another primitive, which may be as near as the right one.
+const DEPTH_ELSEWHERE: f64 = 1e-3;
+
+/// What is to be said of a difference.
+pub(super) struct Verdict {
+    pub kind: Kind,
+    pub sentence: String,
+}
+
+/// Judges the answer `found` where the reference answers `expected`; nothing if they agree.
+pub(super) fn adjudicate(
+    reference: &Reference,
+    mesh: &Mesh,
+    ray: &Ray,
+    expected: Option<Hit>,
+    found: Option<Hit>,
+) -> Option<Verdict> {
+    match (reference.test, expected, found) {
+        (_, None, None) => None,
+        (_, Some(e), Some(f)) if e.same_bits(f) => None,
+        (Some(test), ..) => Some(same_test(test, mesh, ray, expected, found)),
+        (None, Some(e), Some(f)) if close(e.t, f.t, e.prim == f.prim) => None,
+        (None, ..) => Some(other_test(mesh, ray, expected, found)),
+    }
+}
+
+/// Relative distance of two answers.
+pub(super) fn gap(expected: Option<Hit>, found: Option<Hit>) -> f64 {
+    match (expected, found) {
+        (Some(e), Some(f)) => (f64::from(e.t) - f64::from(f.t)).abs() / f64::from(e.t.abs().max(f32::MIN_POSITIVE)),
+        _ => f64::INFINITY,
+    }
+}
+
+/// Both owe each other the same bits, and the reference has tested every triangle.
+fn same_test(test: ScalarTest, mesh: &Mesh, ray: &Ray, expected: Option<Hit>, found: Option<Hit>) -> Verdict {
+    // A hit must be one that the test gives at that primitive.
+    if let Some(f) = found {
+        let solid = (f.prim.index() as usize) < mesh.len() && !mesh.is_degenerate(f.prim.index());
+        let tested = if solid && ray.is_valid() { test(ray, mesh.corners(f.prim.index())) } else { None };
+        match tested {
+            Some(t) if t.to_bits() == f.t.to_bits() && inside(ray, t) => {}
+            Some(t) if inside(ray, t) => {
+                return verdict(Kind::WrongT, format!("the triangle test gives t = {t:?} at {:?}", f.prim));
+            }
+            _ => return verdict(Kind::Invented, format!("the triangle test gives no hit at {:?}", f.prim)),
+        }
+    }
+
+    let Some(e) = expected else {
+        return verdict(Kind::Invented, "the reference has no such hit".into());
+    };
+    match found {
+        Some(f) if f.t == e.t => tie(mesh, ray, e, f),
+        Some(f) if f.t < e.t => verdict(Kind::Invented, "the reference has no such hit".into()),
+        _ => lost(mesh, ray, e, found),
+    }
+}
+
+/// The structure returns less than its test found: an error if that hit is real.
+fn lost(mesh: &Mesh, ray: &Ray, expected: Hit, found: Option<Hit>) -> Verdict {
+    let Some(nearer) = true_hit(mesh, ray, expected) else {
+        return verdict(Kind::Kernel, format!("exactly, {:?} is not hit in the interval", expected.prim));
+    };
+    let sure = format!("exactly, {:?} is hit at {:?}", expected.prim, nearer.round());
+    let Some(f) = found else { return verdict(Kind::Lost, sure) };
+    if nearer.compare(f.t).is_some_and(Ordering::is_ge) {
+        // What lies behind a hit as computed may be culled.
+        return verdict(Kind::Kernel, format!("{sure}, not before the computed t of {:?}", f.prim));
+    }
+    match true_hit(mesh, ray, f) {
+        Some(t) if t <= nearer => verdict(Kind::Kernel, format!("{sure}, {:?} not later", f.prim)),
+        Some(t) => verdict(Kind::NearerLost, format!("{sure}, {:?} later, at {:?}", f.prim, t.round())),
+        None => verdict(Kind::NearerLost, format!("{sure}, {:?} is not hit in the interval", f.prim)),
+    }
+}
+
+/// The same computed `t` at two primitives. The lower number is owed if the walk had to come to it.
+fn tie(mesh: &Mesh, ray: &Ray, expected: Hit, found: Hit) -> Verdict {
+    let owed = true_hit(mesh, ray, expected).filter(|t| t.compare(found.t).is_some_and(Ordering::is_le));
+    if owed.is_some() && expected.prim.index() < found.prim.index() {
+        return verdict(Kind::HigherId, format!("exactly, {:?} is hit too, no later", expected.prim));
+    }
+    verdict(Kind::Tie, "both primitives have this computed t".into())
+}
+
+/// Two tests round differently: only the exact answer can judge, and it judges structure and test together.
+fn other_test(mesh: &Mesh, ray: &Ray, expected: Option<Hit>, found: Option<Hit>) -> Verdict {
+    let truths = [expected, found].map(|hit| Some((true_hit(mesh, ray, hit?)?, hit?.prim)));
+    let nearest = truths.into_iter().flatten().min_by(|(a, _), (b, _)| a.cmp(b));
+    match (nearest, found) {
+        (None, None) => verdict(Kind::Kernel, "exactly, neither is a hit in the interval".into()),
+        (None, Some(f)) => verdict(Kind::Invented, format!("exactly, {:?} is not hit in the interval", f.prim)),
+        (Some((t, prim)), None) => verdict(Kind::Lost, format!("exactly, {prim:?} is hit at {:?}", t.round())),
+        (Some((t, prim)), Some(f)) => {
+            let t = t.round();
+            let sure = format!("exactly, {prim:?} is hit at {t:?}");
+            match (close(t, f.t, f.prim == prim), f.t > t, f.prim == prim) {
+                (true, ..) => verdict(Kind::Kernel, format!("{sure}: the reference is wrong")),
+                (false, _, true) => verdict(Kind::WrongT, sure),
+                (false, true, false) => verdict(Kind::NearerLost, sure),
+                (false, false, false) => verdict(Kind::Invented, sure),
+            }
+        }
+    }
+}
+
+fn verdict(kind: Kind, sentence: String) -> Verdict {
+    Verdict { kind, sentence }
+}
+
+/// The exact `t` of the primitive of a hit, if the ray really meets it in its interval.
+fn true_hit(mesh: &Mesh, ray: &Ray, hit: Hit) -> Option<ExactT> {
+    let exists = (hit.prim.index() as usize) < mesh.len() && ray.is_valid();
+    exists.then(|| exact::hit(ray, mesh.corners(hit.prim.index())))?.filter(|t| t.is_within(ray))
+}
+
+fn inside(ray: &Ray, t: f32) -> bool {
+    let (t_min, t_max) = ray.interval();
+    t_min <= t && t < t_max
+}
+
+fn close(expected: f32, found: f32, same_primitive: bool) -> bool {
+    let (e, f) = (f64::from(expected), f64::from(found));
+    (e - f).abs() <= e.abs() * if same_primitive { DEPTH } else { DEPTH_ELSEWHERE }
+}

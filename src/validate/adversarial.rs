@@ -1,0 +1,352 @@
+//! Rays that break traversals, for any mesh: named strata, seeded, the same on every machine.
+
+use glam::Vec3;
+
+use super::Sampler;
+use crate::geometry::{Aabb, Mesh, Ray};
+use crate::triangle::{MollerTrumbore, TriangleTest};
+
+/// A kind of ray. Strata are never pooled: each has its own way to fail.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Stratum {
+    /// Random lines through the box: what every structure survives.
+    Random,
+    /// Through a vertex.
+    Vertices,
+    /// Through a point of an edge.
+    Edges,
+    /// Axis-parallel, coordinates taken from vertices, zeros of both signs.
+    AxisParallel,
+    /// In the plane of a face of the box of the mesh or of a triangle.
+    FacePlanes,
+    /// From a vertex.
+    FromVertices,
+    /// From a point of a triangle.
+    FromSurface,
+    /// From a coordinate at which a builder may split: a middle, a median, a quarter, a corner of a triangle's box.
+    FromSplits,
+    /// Nearly in the plane of a triangle.
+    Grazing,
+    /// Along diagonals: components of equal size, one of them perhaps a zero of either sign.
+    Diagonals,
+    /// Two components nearly zero: 1e-9, 1e-30 or denormal.
+    NearlyAxis,
+    /// Directions 1e-30 to 1e30 long.
+    Lengths,
+    /// From 1e3 to 1e8 box sizes away.
+    FarOrigins,
+    /// From very near a triangle: small `t`.
+    NearSurface,
+    /// Intervals that begin or end at a hit, or an ulp beside it.
+    Windows,
+    /// NaN, infinity, zero directions, empty intervals: nothing may be hit.
+    Invalid,
+}
+
+impl Stratum {
+    /// All strata, in the order of the tables.
+    pub const ALL: [Self; 16] = [
+        Self::Random,
+        Self::Vertices,
+        Self::Edges,
+        Self::AxisParallel,
+        Self::FacePlanes,
+        Self::FromVertices,
+        Self::FromSurface,
+        Self::FromSplits,
+        Self::Grazing,
+        Self::Diagonals,
+        Self::NearlyAxis,
+        Self::Lengths,
+        Self::FarOrigins,
+        Self::NearSurface,
+        Self::Windows,
+        Self::Invalid,
+    ];
+
+    /// As printed.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Random => "random",
+            Self::Vertices => "vertices",
+            Self::Edges => "edges",
+            Self::AxisParallel => "axis-parallel",
+            Self::FacePlanes => "face-planes",
+            Self::FromVertices => "from-vertices",
+            Self::FromSurface => "from-surface",
+            Self::FromSplits => "from-splits",
+            Self::Grazing => "grazing",
+            Self::Diagonals => "diagonals",
+            Self::NearlyAxis => "nearly-axis",
+            Self::Lengths => "lengths",
+            Self::FarOrigins => "far-origins",
+            Self::NearSurface => "near-surface",
+            Self::Windows => "windows",
+            Self::Invalid => "invalid",
+        }
+    }
+
+    /// `count` rays of this kind for `mesh`. An empty mesh is treated as if a triangle of unit size were there.
+    pub fn rays(self, mesh: &Mesh, count: usize, seed: u64) -> Vec<Ray> {
+        let mut generator = Generator::new(mesh, seed ^ (self as u64) << 32);
+        (0..count).map(|_| generator.ray(self)).collect()
+    }
+}
+
+struct Generator<'a> {
+    mesh: &'a Mesh,
+    bounds: Aabb,
+    /// Length of the box's longest side; 1 when the box is a point.
+    size: f32,
+    sampler: Sampler,
+}
+
+impl<'a> Generator<'a> {
+    fn new(mesh: &'a Mesh, seed: u64) -> Self {
+        let bounds = if mesh.is_empty() { Aabb::of_points(Self::UNIT) } else { mesh.bounds() };
+        let size = bounds.extent().max_element();
+        let size = if size > 0.0 { size.min(f32::MAX) } else { 1.0 };
+        Self { mesh, bounds, size, sampler: Sampler::new(seed) }
+    }
+
+    const UNIT: [Vec3; 3] = [Vec3::ZERO, Vec3::X, Vec3::Y];
+
+    fn ray(&mut self, stratum: Stratum) -> Ray {
+        match stratum {
+            Stratum::Random => self.random(),
+            Stratum::Vertices => {
+                let target = self.vertex();
+                self.towards(target)
+            }
+            Stratum::Edges => {
+                let target = self.on_edge();
+                self.towards(target)
+            }
+            Stratum::AxisParallel => self.axis_parallel(),
+            Stratum::FacePlanes => self.face_plane(),
+            Stratum::FromVertices => {
+                let origin = self.vertex();
+                Ray::new(origin, self.any_direction(origin))
+            }
+            Stratum::FromSurface => {
+                let origin = self.on_surface();
+                Ray::new(origin, self.any_direction(origin))
+            }
+            Stratum::FromSplits => {
+                let origin = Vec3::from_array(std::array::from_fn(|axis| self.split(axis)));
+                Ray::new(origin, self.any_direction(origin))
+            }
+            Stratum::Grazing => self.grazing(),
+            Stratum::Diagonals => {
+                let direction = self.diagonal();
+                self.through(direction)
+            }
+            Stratum::NearlyAxis => {
+                let (axis, tiny) = (self.sampler.below(3), self.sampler.pick(&[1e-9, 1e-30, 1e-40]));
+                let mut direction = self.sampler.cube() * tiny;
+                direction[axis] = self.sampler.sign();
+                self.through(direction)
+            }
+            Stratum::Lengths => {
+                let ray = self.random();
+                let length = self.sampler.pick(&[1e-30, 1e-20, 1e-10, 1e-6, 1e-3, 1e3, 1e6, 1e15, 1e30]);
+                Ray { direction: ray.direction.normalize_or(Vec3::X) * length, ..ray }
+            }
+            Stratum::FarOrigins => {
+                let (target, away) = (self.on_surface(), self.sampler.pick(&[1e3, 1e4, 1e5, 1e6, 1e7, 1e8]));
+                let direction = self.sampler.direction();
+                let direction = if self.sampler.coin() { self.axis_of(direction) } else { direction };
+                Ray::new(target - direction * (self.size * away), direction)
+            }
+            Stratum::NearSurface => {
+                let (target, away) =
+                    (self.on_surface(), self.sampler.pick(&[1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7]));
+                let direction = self.sampler.direction();
+                Ray::new(target - direction * (self.size * away), direction)
+            }
+            Stratum::Windows => self.window(),
+            Stratum::Invalid => self.invalid(),
+        }
+    }
+
+    fn corners(&mut self) -> [Vec3; 3] {
+        match self.mesh.len() {
+            0 => Self::UNIT,
+            n => self.mesh.corners(self.sampler.below(n) as u32),
+        }
+    }
+
+    fn vertex(&mut self) -> Vec3 {
+        let corners = self.corners();
+        self.sampler.pick(&corners)
+    }
+
+    fn on_edge(&mut self) -> Vec3 {
+        let [a, b, _] = self.rotated();
+        let s = if self.sampler.coin() { self.sampler.unit() } else { self.sampler.pick(&[0.25, 0.5, 0.75]) };
+        a * (1.0 - s) + b * s
+    }
+
+    fn on_surface(&mut self) -> Vec3 {
+        let ([a, b, c], [u, v, w]) = (self.corners(), self.sampler.barycentric());
+        a * u + b * v + c * w
+    }
+
+    fn rotated(&mut self) -> [Vec3; 3] {
+        let mut corners = self.corners();
+        corners.rotate_left(self.sampler.below(3));
+        corners
+    }
+
+    /// In the box, or around it up to twice its size.
+    fn origin(&mut self) -> Vec3 {
+        let reach = if self.sampler.coin() { 0.5 } else { 2.0 };
+        self.bounds.centre() + self.sampler.cube() * (self.size * reach)
+    }
+
+    /// A coordinate at which a builder may split, on a grid of eighths of the box or from a triangle.
+    fn split(&mut self, axis: usize) -> f32 {
+        let (low, high) = (self.bounds.min[axis], self.bounds.max[axis]);
+        let [a, b, c] = self.corners().map(|p| p[axis]);
+        match self.sampler.below(4) {
+            0 => low + (high - low) * (self.sampler.below(9) as f32 / 8.0),
+            1 => 0.5 * (a.min(b).min(c) + a.max(b).max(c)),
+            2 => (a + b + c) / 3.0,
+            _ => a,
+        }
+    }
+
+    fn random(&mut self) -> Ray {
+        let target = self.bounds.centre() + self.sampler.cube() * (self.bounds.extent() * 0.5);
+        self.towards(target)
+    }
+
+    fn towards(&mut self, target: Vec3) -> Ray {
+        let origin = self.origin();
+        Ray::new(origin, target - origin)
+    }
+
+    /// Through a vertex, an edge point or a split, along `direction`, from outside the box or inside.
+    fn through(&mut self, direction: Vec3) -> Ray {
+        let target = match self.sampler.below(3) {
+            0 => self.vertex(),
+            1 => self.on_edge(),
+            _ => Vec3::from_array(std::array::from_fn(|axis| self.split(axis))),
+        };
+        let away = self.sampler.pick(&[0.0, 0.25, 1.0, 2.0, 10.0]);
+        // The steps along equal components are equal, which keeps the ray in its plane when coordinates are simple.
+        Ray::new(target - direction * (self.size * away), direction)
+    }
+
+    fn axis_of(&mut self, direction: Vec3) -> Vec3 {
+        let axis = self.sampler.below(3);
+        let mut along = Vec3::new(self.sampler.zero(), self.sampler.zero(), self.sampler.zero());
+        along[axis] = 1.0_f32.copysign(direction[axis]);
+        along
+    }
+
+    fn any_direction(&mut self, origin: Vec3) -> Vec3 {
+        let direction = self.sampler.direction();
+        match self.sampler.below(4) {
+            0 => self.axis_of(direction),
+            1 => self.diagonal(),
+            2 => self.vertex() - origin,
+            _ => direction,
+        }
+    }
+
+    fn axis_parallel(&mut self) -> Ray {
+        let direction = self.sampler.direction();
+        let direction = self.axis_of(direction);
+        let mut ray = self.through(direction);
+        // Often mix the coordinates of several vertices: corners of boxes that belong to different triangles.
+        if self.sampler.coin() {
+            let axis = direction.abs().max_position();
+            for other in [(axis + 1) % 3, (axis + 2) % 3] {
+                ray.origin[other] = self.vertex()[other];
+            }
+        }
+        ray
+    }
+
+    fn face_plane(&mut self) -> Ray {
+        let bounds = if self.sampler.coin() { self.bounds } else { Aabb::of_points(self.corners()) };
+        let axis = self.sampler.below(3);
+        let direction = self.sampler.direction();
+        let direction = if self.sampler.coin() { self.axis_of(direction) } else { direction };
+        let mut ray = Ray::new(self.origin(), direction);
+        ray.origin[axis] = if self.sampler.coin() { bounds.min[axis] } else { bounds.max[axis] };
+        ray.direction[axis] = self.sampler.zero();
+        if self.sampler.coin() {
+            let other = (axis + 1) % 3;
+            ray.origin[other] = if self.sampler.coin() { bounds.min[other] } else { bounds.max[other] };
+        }
+        // Aim at the mesh more often than not.
+        if self.sampler.coin() {
+            let target = self.on_surface();
+            let mut aimed = target - ray.origin;
+            aimed[axis] = ray.direction[axis];
+            ray.direction = aimed;
+        }
+        ray
+    }
+
+    fn diagonal(&mut self) -> Vec3 {
+        let mut direction = Vec3::new(self.sampler.sign(), self.sampler.sign(), self.sampler.sign());
+        let axis = self.sampler.below(4);
+        if axis < 3 {
+            direction[axis] = self.sampler.zero();
+        }
+        direction
+    }
+
+    fn grazing(&mut self) -> Ray {
+        let [a, b, c] = self.rotated();
+        let [u, v, w] = self.sampler.barycentric();
+        let target = a * u + b * v + c * w;
+        let along = (b - a) * self.sampler.signed() + (c - a) * self.sampler.signed();
+        let along = if along == Vec3::ZERO { self.sampler.direction() } else { along };
+        let slope = self.sampler.pick(&[0.0, 1e-3, 1e-5, 1e-6, 1e-7]);
+        let up = (b - a).cross(c - a).normalize_or_zero() * (along.length() * slope);
+        let direction = along + up * self.sampler.sign();
+        Ray::new(target - direction * self.sampler.pick(&[0.0, 1.0, 4.0]), direction)
+    }
+
+    /// Uses the `t` of Möller-Trumbore at a triangle aimed at; other tests are met within their rounding.
+    fn window(&mut self) -> Ray {
+        let [a, b, c] = self.corners();
+        let [u, v, w] = self.sampler.barycentric();
+        let ray = self.towards(a * u + b * v + c * w);
+        let test = MollerTrumbore::hit(&MollerTrumbore::prepare(&ray), &MollerTrumbore::block(&[[a, b, c]]));
+        let t = test.unwrap_or(1.0);
+        let (t_min, t_max) = match self.sampler.below(7) {
+            0 => (0.0, t),
+            1 => (0.0, t.next_up()),
+            2 => (0.0, t.next_down()),
+            3 => (t, f32::INFINITY),
+            4 => (t.next_up(), f32::INFINITY),
+            5 => (t, t.next_up()),
+            _ => (t * 0.5, t * 2.0),
+        };
+        Ray { t_min, t_max, ..ray }
+    }
+
+    fn invalid(&mut self) -> Ray {
+        let mut ray = self.random();
+        let axis = self.sampler.below(3);
+        let bad = self.sampler.pick(&[f32::NAN, f32::INFINITY, f32::NEG_INFINITY]);
+        match self.sampler.below(7) {
+            0 => ray.origin[axis] = bad,
+            1 => ray.direction[axis] = bad,
+            2 => ray.direction = Vec3::new(self.sampler.zero(), self.sampler.zero(), self.sampler.zero()),
+            3 => (ray.t_min, ray.t_max) = (1.0, 0.5),
+            4 => (ray.t_min, ray.t_max) = (1.0, 1.0),
+            5 => ray.t_min = f32::NAN,
+            _ => ray.t_max = self.sampler.pick(&[f32::NAN, 0.0, -0.0, -1.0, f32::NEG_INFINITY]),
+        }
+        ray
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,87 @@
+//! The comparison itself.
+
+use rayon::prelude::*;
+
+use super::adjudicate::{adjudicate, gap};
+use super::{Kind, Reference, Validation, WorstRay};
+use crate::accel::DynAccel;
+use crate::geometry::{Hit, Mesh, Ray};
+
+/// Rays a batch: part of the result's definition, so that no thread count changes it.
+const BATCH: usize = 256;
+
+/// Holds `subject` against `reference` on every ray: the closest hit, that any hit agrees with it, and that asking again
+/// for one ray alone gives the same answer.
+///
+/// `mesh` is the one that both were built from. Runs on all threads of the pool; the result does not depend on how many.
+/// Costs two closest and two any-hit queries of `subject` a ray, one closest hit of `reference`, and some microseconds a
+/// ray on which they differ.
+pub fn validate(subject: &dyn DynAccel, reference: &Reference, mesh: &Mesh, rays: &[Ray]) -> Validation {
+    let batches: Vec<Validation> =
+        rays.par_chunks(BATCH).map(|rays| validate_batch(subject, reference, mesh, rays)).collect();
+    let mut whole = Validation::default();
+    for batch in batches {
+        whole.append(batch);
+    }
+    whole
+}
+
+fn validate_batch(subject: &dyn DynAccel, reference: &Reference, mesh: &Mesh, rays: &[Ray]) -> Validation {
+    // Prefilled with an answer that nobody gives: a structure must write every slot.
+    let unwritten = Some(Hit::new(f32::NEG_INFINITY, u32::MAX - 1));
+    let (mut expected, mut found) = (vec![unwritten; rays.len()], vec![unwritten; rays.len()]);
+    reference.accel.closest_hits(rays, &mut expected);
+    subject.closest_hits(rays, &mut found);
+    let mut any: Vec<bool> = found.iter().map(Option::is_none).collect();
+    subject.any_hits(rays, &mut any);
+
+    let mut sums = Validation { rays: rays.len() as u64, ..Validation::default() };
+    for (index, ray) in rays.iter().enumerate() {
+        let (expected, found) = (expected[index], found[index]);
+        sums.hits += u64::from(expected.is_some());
+        let mut note = |kind, verdict: String| {
+            let index = index as u64;
+            sums.worst.push(WorstRay { index, ray: *ray, expected, found, kind, verdict, gap: gap(expected, found) });
+        };
+
+        // Ask again, alone.
+        let (mut alone, mut alone_any) = ([unwritten], [found.is_none()]);
+        subject.closest_hits(&[*ray], &mut alone);
+        subject.any_hits(&[*ray], &mut alone_any);
+        if !same(alone[0], found) || alone_any[0] != any[index] {
+            let [again] = alone;
+            note(Kind::Unrepeatable, format!("asked alone, closest hit says {again:?}, any hit {}", alone_any[0]));
+            sums.unrepeatable += 1;
+        }
+        if any[index] != found.is_some() {
+            note(Kind::AnyHitDisagrees, format!("any hit says {}", any[index]));
+            sums.any_hit_errors += 1;
+        }
+
+        let Some(verdict) = adjudicate(reference, mesh, ray, expected, found) else { continue };
+        note(verdict.kind, verdict.sentence);
+        match verdict.kind {
+            Kind::Tie => sums.ties += 1,
+            Kind::HigherId => {
+                sums.ties += 1;
+                sums.higher_ids += 1;
+            }
+            Kind::Kernel => sums.kernel_differences += 1,
+            _ if reference.test.is_some() => sums.structure_errors += 1,
+            _ => sums.answer_errors += 1,
+        }
+        sums.differing += u64::from(!matches!(verdict.kind, Kind::Tie | Kind::HigherId));
+    }
+    sums.keep_worst();
+    sums
+}
+
+fn same(a: Option<Hit>, b: Option<Hit>) -> bool {
+    match (a, b) {
+        (Some(a), Some(b)) => a.same_bits(b),
+        (a, b) => a.is_none() && b.is_none(),
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,162 @@
+use std::sync::Arc;
+
+use super::*;
+use crate::accel::{Accel, BuildError, Counts, Footprint, TreeShape};
+use crate::structures::BruteForce;
+use crate::triangle::MollerTrumbore;
+use crate::validate::{Stratum, degenerate_meshes};
+
+type Correct = BruteForce<MollerTrumbore>;
+
+/// What a broken structure does to the right answer of ray `x`, the origin's bits.
+struct Broken {
+    correct: Correct,
+    damage: fn(u32, Option<Hit>) -> Option<Hit>,
+    any: fn(bool) -> bool,
+}
+
+impl DynAccel for Broken {
+    fn closest_hits(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
+        for (ray, hit) in rays.iter().zip(hits) {
+            *hit = (self.damage)(ray.origin.x.to_bits(), self.correct.closest_hit(ray, &mut ()));
+        }
+    }
+
+    fn any_hits(&self, rays: &[Ray], hits: &mut [bool]) {
+        for (ray, hit) in rays.iter().zip(hits) {
+            let found = (self.damage)(ray.origin.x.to_bits(), self.correct.closest_hit(ray, &mut ()));
+            *hit = (self.any)(found.is_some());
+        }
+    }
+
+    fn closest_hits_counted(&self, rays: &[Ray], hits: &mut [Option<Hit>], _: &mut Counts) {
+        self.closest_hits(rays, hits);
+    }
+
+    fn any_hits_counted(&self, rays: &[Ray], hits: &mut [bool], _: &mut Counts) {
+        self.any_hits(rays, hits);
+    }
+
+    fn observed(&self) -> crate::accel::Observed {
+        crate::accel::Observed::NONE
+    }
+
+    fn footprint(&self) -> Footprint {
+        Accel::footprint(&self.correct)
+    }
+
+    fn shape(&self) -> TreeShape {
+        Accel::shape(&self.correct)
+    }
+}
+
+/// Compares a damaged structure on random rays through a soup, with the same test or another.
+fn damaged(
+    damage: fn(u32, Option<Hit>) -> Option<Hit>,
+    any: fn(bool) -> bool,
+    share: bool,
+) -> Result<Validation, BuildError> {
+    let mesh = soup();
+    let mut reference = Reference::brute_force::<MollerTrumbore>(&mesh)?;
+    if !share {
+        reference.test = None;
+    }
+    let subject = Broken { correct: Correct::build(&mesh, &Default::default())?, damage, any };
+    Ok(validate(&subject, &reference, &mesh, &Stratum::Random.rays(&mesh, 3000, 1)))
+}
+
+fn soup() -> Arc<Mesh> {
+    degenerate_meshes().into_iter().find(|(name, _)| name == "soup").unwrap().1
+}
+
+#[test]
+fn a_correct_structure_has_no_errors_whoever_judges() {
+    for share in [true, false] {
+        let v = damaged(|_, hit| hit, |any| any, share).unwrap();
+        assert_eq!((v.rays, v.differing, v.errors(), v.ties), (3000, 0, 0, 0));
+        assert!(v.hits > 1000 && v.worst.is_empty());
+    }
+}
+
+#[test]
+fn lost_hits_are_found_and_named() {
+    for share in [true, false] {
+        let v =
+            damaged(|bits, hit| hit.filter(|_| bits.wrapping_mul(0x9e37_79b9) >> 24 != 7), |any| any, share).unwrap();
+        let wrong = if share { v.structure_errors } else { v.answer_errors };
+        assert!(wrong > 0 && wrong == v.errors() && wrong == v.differing, "{v:?}");
+        let worst = v.worst_error().unwrap();
+        assert_eq!((worst.kind, worst.found), (Kind::Lost, None));
+        assert!(worst.verdict.contains("is hit at"), "{worst}");
+        let replayed: Ray = worst.to_string().split('"').nth(1).unwrap().parse().unwrap();
+        assert_eq!(replayed, worst.ray);
+    }
+}
+
+#[test]
+fn other_damage_is_told_apart() {
+    type Damage = fn(u32, Option<Hit>) -> Option<Hit>;
+    let ulp: Damage = |_, hit| hit.map(|h| Hit { t: h.t.next_up(), ..h });
+    let far: Damage = |_, hit| hit.map(|h| Hit { t: h.t * 1.5, ..h });
+    let invented: Damage = |_, hit| hit.or(Some(Hit::new(0.25, 3)));
+    let beyond: Damage = |_, hit| hit.map(|h| Hit::new(h.t, 499 - h.prim.index()));
+    let outside: Damage = |_, hit| hit.map(|h| Hit::new(h.t, 10_000));
+    for (damage, share, kind) in [
+        (ulp, true, Some(Kind::WrongT)),
+        (ulp, false, None),
+        (far, true, Some(Kind::WrongT)),
+        (far, false, Some(Kind::WrongT)),
+        (invented, true, Some(Kind::Invented)),
+        (invented, false, Some(Kind::Invented)),
+        (beyond, true, Some(Kind::Invented)),
+        (outside, true, Some(Kind::Invented)),
+    ] {
+        let v = damaged(damage, |any| any, share).unwrap();
+        assert_eq!(v.worst_error().map(|w| w.kind), kind);
+        assert_eq!(v.errors() > 0, kind.is_some());
+    }
+}
+
+#[test]
+fn contradictions_and_moods_are_found() {
+    let v = damaged(|_, hit| hit, |_| true, true).unwrap();
+    assert!(v.any_hit_errors == v.rays - v.hits && v.structure_errors == 0);
+    assert_eq!(v.worst_error().unwrap().kind, Kind::AnyHitDisagrees);
+
+    use std::sync::atomic::{AtomicU32, Ordering};
+    static CALLS: AtomicU32 = AtomicU32::new(0);
+    let moody = |_, hit: Option<Hit>| hit.filter(|_| !CALLS.fetch_add(1, Ordering::Relaxed).is_multiple_of(3));
+    assert!(damaged(moody, |any| any, true).unwrap().unrepeatable > 0);
+}
+
+#[test]
+fn a_farther_hit_is_a_lost_nearer_one() {
+    let mesh = soup();
+    // The second half of the triangles only, under their numbers: what is left out becomes a point.
+    let keep = mesh.triangles().iter().enumerate().map(|(i, t)| if i < 250 { [t[0]; 3] } else { *t });
+    let kept = Mesh::new(mesh.positions().to_vec(), keep.collect()).unwrap();
+    let half = Correct::build(&Arc::new(kept), &Default::default()).unwrap();
+    let reference = Reference::brute_force::<MollerTrumbore>(&mesh).unwrap();
+    let rays = Stratum::Random.rays(&mesh, 3000, 2);
+    let v = validate(&half, &reference, &mesh, &rays);
+    assert!(v.structure_errors > 500 && v.any_hit_errors == 0);
+    let answers = validate(&half, &Reference::structure(reference.accel), &mesh, &rays);
+    assert!(answers.answer_errors > 500 && answers.structure_errors == 0);
+    let kinds = |v: &Validation| v.worst.iter().all(|w| w.kind == Kind::Lost);
+    assert!(kinds(&v) && kinds(&answers), "lost outright comes before lost behind another");
+    // Rays that hit both halves: the kept triangle lies behind.
+    let only = |v: &Validation| v.structure_errors + v.answer_errors;
+    let both: Vec<Ray> = rays.into_iter().filter(|ray| half.closest_hit(ray, &mut ()).is_some()).collect();
+    let reference = Reference::brute_force::<MollerTrumbore>(&mesh).unwrap();
+    let v = validate(&half, &reference, &mesh, &both);
+    assert!(only(&v) > 100 && v.worst.iter().all(|w| w.kind == Kind::NearerLost), "{v:?}");
+}
+
+#[test]
+fn the_number_of_threads_changes_nothing() {
+    let run = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| damaged(|bits, hit| hit.filter(|_| bits % 5 != 0), |any| any, true).unwrap())
+    };
+    assert_eq!(run(1), run(3));
+}

@@ -1,0 +1,52 @@
+//! What a structure is held against.
+
+use std::sync::Arc;
+
+use glam::Vec3;
+
+use crate::accel::{Accel, BuildError, DynAccel};
+use crate::geometry::{Mesh, Ray};
+use crate::structures::BruteForce;
+use crate::structures::obvhs::RtTest;
+use crate::triangle::{MollerTrumbore, TriangleTest};
+
+/// One triangle, tested alone: `t` where the line of the ray hits it.
+pub type ScalarTest = fn(&Ray, [Vec3; 3]) -> Option<f32>;
+
+/// The answers that a structure's own are compared with, and how strictly.
+pub struct Reference {
+    /// Answers for all rays.
+    pub accel: Box<dyn DynAccel>,
+    /// The triangle test that the structure and the reference share: they owe each other the same bits, and the reference
+    /// has tested every triangle. `None` when the tests differ, or when the reference may itself have lost hits.
+    pub test: Option<ScalarTest>,
+}
+
+impl Reference {
+    /// Brute force with the triangle test named `test` ([`Accel::TRIANGLE_TEST`]); for a test that this crate does not
+    /// have, brute force with Möller-Trumbore, which shares nothing.
+    ///
+    /// # Errors
+    /// If the mesh is refused.
+    pub fn of_test(test: &str, mesh: &Arc<Mesh>) -> Result<Self, BuildError> {
+        match test {
+            MollerTrumbore::NAME => Self::brute_force::<MollerTrumbore>(mesh),
+            RtTest::NAME => Self::brute_force::<RtTest>(mesh),
+            _ => Ok(Self { test: None, ..Self::brute_force::<MollerTrumbore>(mesh)? }),
+        }
+    }
+
+    /// Brute force with a triangle test that the structure shares.
+    ///
+    /// # Errors
+    /// If the mesh is refused.
+    pub fn brute_force<T: TriangleTest>(mesh: &Arc<Mesh>) -> Result<Self, BuildError> {
+        let accel = <BruteForce<T> as Accel>::build(mesh, &Default::default())?;
+        Ok(Self { accel: Box::new(accel), test: Some(|ray, corners| T::hit(&T::prepare(ray), &T::block(&[corners]))) })
+    }
+
+    /// Any other structure: it may have lost hits, so that the exact oracle decides wherever the answers differ.
+    pub fn structure(accel: Box<dyn DynAccel>) -> Self {
+        Self { accel, test: None }
+    }
+}

@@ -1,0 +1,73 @@
+//! Seeded random numbers, points and picks: the same on every machine.
+
+use glam::Vec3;
+use rand_core::{RngCore, SeedableRng};
+use rand_pcg::Pcg32;
+
+/// A seeded source of what ray and mesh generators need. Uses no function whose bits vary by platform.
+pub struct Sampler(Pcg32);
+
+impl Sampler {
+    pub fn new(seed: u64) -> Self {
+        Self(Pcg32::seed_from_u64(seed))
+    }
+
+    /// In [0, 1), a multiple of 2^-24.
+    pub fn unit(&mut self) -> f32 {
+        (self.0.next_u32() >> 8) as f32 / (1 << 24) as f32
+    }
+
+    /// In [-1, 1).
+    pub fn signed(&mut self) -> f32 {
+        self.unit() * 2.0 - 1.0
+    }
+
+    /// A number below `n`; 0 when `n` is 0.
+    pub fn below(&mut self, n: usize) -> usize {
+        ((u64::from(self.0.next_u32()) * n as u64) >> 32) as usize
+    }
+
+    pub fn coin(&mut self) -> bool {
+        self.0.next_u32() & 1 == 1
+    }
+
+    /// One of `items`, which must not be empty.
+    pub fn pick<T: Copy>(&mut self, items: &[T]) -> T {
+        items[self.below(items.len())]
+    }
+
+    /// +0.0 or -0.0.
+    pub fn zero(&mut self) -> f32 {
+        if self.coin() { 0.0 } else { -0.0 }
+    }
+
+    /// +1.0 or -1.0.
+    pub fn sign(&mut self) -> f32 {
+        if self.coin() { 1.0 } else { -1.0 }
+    }
+
+    /// In the cube [-1, 1)^3.
+    pub fn cube(&mut self) -> Vec3 {
+        Vec3::new(self.signed(), self.signed(), self.signed())
+    }
+
+    /// A direction, uniform on the sphere up to rounding: a point of the ball, found by rejection, made longer.
+    pub fn direction(&mut self) -> Vec3 {
+        loop {
+            let p = self.cube();
+            let length_squared = p.length_squared();
+            if length_squared > 1e-4 && length_squared <= 1.0 {
+                return p / length_squared.sqrt();
+            }
+        }
+    }
+
+    /// Weights of three corners, not negative, of sum 1 up to rounding.
+    pub fn barycentric(&mut self) -> [f32; 3] {
+        let (mut u, mut v) = (self.unit(), self.unit());
+        if u + v > 1.0 {
+            (u, v) = (1.0 - u, 1.0 - v);
+        }
+        [1.0 - u - v, u, v]
+    }
+}

@@ -1,0 +1,146 @@
+//! What a comparison found.
+
+use std::fmt::{Display, Formatter};
+
+use crate::geometry::{Hit, Ray};
+
+/// Sums over the rays of a comparison.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Validation {
+    /// Rays compared.
+    pub rays: u64,
+    /// Rays that hit something by the reference.
+    pub hits: u64,
+    /// Rays with another `t` than the reference, bit for bit, or with a hit where it has none or the reverse. Where the
+    /// triangle tests differ: rays on which the two differ by more than both tests round, all of them adjudicated.
+    pub differing: u64,
+    /// Hits lost or invented by the structure; zero in a correct one.
+    pub structure_errors: u64,
+    /// Differences that the triangle test is to blame for: its hit exactly is none, or exactly is not the nearer one.
+    pub kernel_differences: u64,
+    /// Wrong answers of a structure whose triangle test the reference does not share.
+    pub answer_errors: u64,
+    /// Rays for which any hit and closest hit contradict each other.
+    pub any_hit_errors: u64,
+    /// Rays answered otherwise when asked again, alone instead of in a batch.
+    pub unrepeatable: u64,
+    /// Rays with the `t` of the reference at another primitive that also has it: not an error.
+    pub ties: u64,
+    /// Those of the ties where the reference names a lower number that truly is hit no later: an error only of a structure
+    /// that promises the lowest number.
+    pub higher_ids: u64,
+    /// At most [`Validation::WORST`] rays, worst first.
+    pub worst: Vec<WorstRay>,
+}
+
+/// A ray on which structure and reference differ.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WorstRay {
+    /// Position among the rays compared.
+    pub index: u64,
+    pub ray: Ray,
+    /// The answer of the reference.
+    pub expected: Option<Hit>,
+    /// The answer of the structure.
+    pub found: Option<Hit>,
+    pub kind: Kind,
+    /// What is exactly so, in one sentence.
+    pub verdict: String,
+    /// Relative distance of the two `t`; infinite for a hit against a miss.
+    pub gap: f64,
+}
+
+/// How an answer differs, the worst first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Kind {
+    /// A true hit, and the structure returns none.
+    Lost,
+    /// A true hit, and the structure returns one behind it, or one that is none.
+    NearerLost,
+    /// A hit that the triangle test over all triangles does not give.
+    Invented,
+    /// The right primitive at a `t` that the triangle test does not give.
+    WrongT,
+    /// Any hit contradicts closest hit.
+    AnyHitDisagrees,
+    /// Asked again, the structure answers otherwise.
+    Unrepeatable,
+    /// The triangle test's own error; the structure is not to blame.
+    Kernel,
+    /// The same `t` at a higher number than the lowest that is hit there: wrong only where the lowest is promised.
+    HigherId,
+    /// The same `t` at another primitive: not an error.
+    Tie,
+}
+
+impl Kind {
+    /// Whether the structure's answer is wrong.
+    pub fn is_error(self) -> bool {
+        self < Self::Kernel
+    }
+
+    /// As printed.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Lost => "lost",
+            Self::NearerLost => "nearer-lost",
+            Self::Invented => "invented",
+            Self::WrongT => "wrong-t",
+            Self::AnyHitDisagrees => "any-hit-disagrees",
+            Self::Unrepeatable => "unrepeatable",
+            Self::Kernel => "kernel",
+            Self::HigherId => "higher-id",
+            Self::Tie => "tie",
+        }
+    }
+}
+
+impl Validation {
+    /// How many rays are kept.
+    pub const WORST: usize = 10;
+
+    /// Wrong answers of all kinds; 0 in a correct structure that shares its test with the reference.
+    pub fn errors(&self) -> u64 {
+        self.structure_errors + self.answer_errors + self.any_hit_errors + self.unrepeatable
+    }
+
+    /// The worst ray whose answer is wrong.
+    pub fn worst_error(&self) -> Option<&WorstRay> {
+        self.worst.first().filter(|w| w.kind.is_error())
+    }
+
+    /// Adds a comparison of further rays, which come after these.
+    pub fn append(&mut self, mut later: Self) {
+        for ray in &mut later.worst {
+            ray.index += self.rays;
+        }
+        self.rays += later.rays;
+        self.hits += later.hits;
+        self.differing += later.differing;
+        self.structure_errors += later.structure_errors;
+        self.kernel_differences += later.kernel_differences;
+        self.answer_errors += later.answer_errors;
+        self.any_hit_errors += later.any_hit_errors;
+        self.unrepeatable += later.unrepeatable;
+        self.ties += later.ties;
+        self.higher_ids += later.higher_ids;
+        self.worst.append(&mut later.worst);
+        self.keep_worst();
+    }
+
+    pub(super) fn keep_worst(&mut self) {
+        self.worst.sort_by(|a, b| a.kind.cmp(&b.kind).then(b.gap.total_cmp(&a.gap)).then(a.index.cmp(&b.index)));
+        self.worst.truncate(Self::WORST);
+    }
+}
+
+impl Display for WorstRay {
+    fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
+        let answer = |hit: Option<Hit>| match hit {
+            Some(hit) => format!("t = {:?} at {:?}", hit.t, hit.prim),
+            None => "nothing".into(),
+        };
+        let (kind, expected, found) = (self.kind.name(), answer(self.expected), answer(self.found));
+        write!(f, "{kind}: ray \"{}\": expected {expected}, found {found}; {}", self.ray, self.verdict)
+    }
+}

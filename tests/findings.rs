@@ -1,0 +1,154 @@
+//! The known defects of the baseline obvhs 0.4.0, by name and cause: shown, not hidden. When one is gone, this fails and the
+//! list must shrink; when one is new, this fails too.
+
+use std::sync::Arc;
+
+use sahara::geometry::{Mesh, Ray};
+use sahara::oracle::exact;
+use sahara::registry::Registry;
+use sahara::validate::conformance::{Subject, findings};
+use sahara::validate::{Kind, Reference, Stratum, degenerate_meshes, validate};
+
+const BVH2: [&str; 2] = ["obvhs-bvh2", "obvhs-bvh2:test=moller-trumbore"];
+const CWBVH: [&str; 2] = ["obvhs-cwbvh", "obvhs-cwbvh:test=moller-trumbore"];
+const BOTH: [&str; 4] = [BVH2[0], BVH2[1], CWBVH[0], CWBVH[1]];
+
+/// One ray that a structure answers wrongly whatever its triangle test.
+struct Finding {
+    name: &'static str,
+    /// Why, as its source shows.
+    cause: &'static str,
+    structures: &'static [&'static str],
+    mesh: &'static str,
+    ray: &'static str,
+    kind: Kind,
+}
+
+const FINDINGS: [Finding; 6] = [
+    Finding {
+        name: "negative zero",
+        cause: "the octant is found by d < 0, the inverse by 1 / d: with -0.0 the two disagree",
+        structures: &CWBVH,
+        mesh: "box of a grid",
+        ray: "0.25,0.125,-3.0 -0.0,-0.0,1.0",
+        kind: Kind::Lost,
+    },
+    Finding {
+        name: "small t",
+        cause: "a box must be left after t = 1e-4, an absolute bound",
+        structures: &CWBVH,
+        mesh: "box of a grid",
+        ray: "0.3,0.2,1.00005 0.1,0.2,-1.0",
+        kind: Kind::NearerLost,
+    },
+    Finding {
+        name: "in a box face",
+        cause: "1 / 0 is replaced by a large number, which makes boxes half-open: a ray in the far face leaves at t = 0",
+        structures: &BOTH,
+        mesh: "box of a grid",
+        ray: "0.375,3.875,1.0 0.0,-1.0,0.0",
+        kind: Kind::Lost,
+    },
+    Finding {
+        name: "short direction",
+        cause: "direction components below 1.2e-7 are replaced by 1.2e-7",
+        structures: &BOTH,
+        mesh: "box of a grid",
+        ray: "0.2,0.3,3.0 1e-10,2e-10,-1e-9",
+        kind: Kind::Lost,
+    },
+    Finding {
+        name: "box without a margin",
+        cause: "box entry and exit are rounded without slack, so that a hit at a corner of the box falls out",
+        structures: &BOTH,
+        mesh: "box of a grid",
+        ray: "3.6959038,2.4580703,-0.22391748 -4.645062,-1.4580703,-0.7760825",
+        kind: Kind::Lost,
+    },
+    Finding {
+        name: "far origin",
+        cause: "the same rounding, which grows with the distance: boxes are missed from afar",
+        structures: &BOTH,
+        mesh: "one triangle",
+        ray: "0.055807248,2499999.5,0.341033 0.0,-1.0,0.0",
+        kind: Kind::Lost,
+    },
+];
+
+fn mesh(name: &str) -> Arc<Mesh> {
+    degenerate_meshes().into_iter().find(|(known, _)| known == name).expect("a mesh of the suite").1
+}
+
+#[test]
+fn each_finding_is_still_there_and_ours_find_the_hit() {
+    let registry = Registry::builtin();
+    for finding in FINDINGS {
+        let (mesh, ray): (_, Ray) = (mesh(finding.mesh), finding.ray.parse().unwrap());
+        let kind = |spec: &str| {
+            let choice = registry.choose(spec).unwrap();
+            let reference = Reference::of_test(choice.triangle_test(), &mesh).unwrap();
+            let v = validate(&*choice.build(&mesh).unwrap(), &reference, &mesh, &[ray]);
+            assert_eq!(v.hits, 1, "{}: the ray hits by {} itself", finding.name, choice.triangle_test());
+            v.worst_error().map(|w| w.kind)
+        };
+        for spec in BOTH {
+            let expected = finding.structures.contains(&spec).then_some(finding.kind);
+            assert_eq!(kind(spec), expected, "{}, {}: {spec}", finding.name, finding.cause);
+        }
+        for spec in ["median-kd", "sah-kd"] {
+            assert_eq!(kind(spec), None, "{}: {spec}", finding.name);
+        }
+    }
+}
+
+/// Kinds of rays on which obvhs errs by none of the causes above.
+const CLEAN: [Stratum; 2] = [Stratum::Random, Stratum::Invalid];
+/// Where only `CwBvh` errs, by "small t".
+const CLEAN_BVH2: [Stratum; 1] = [Stratum::NearSurface];
+
+#[test]
+fn rays_without_a_named_cause_are_answered_rightly() {
+    let registry = Registry::builtin();
+    // Directions as short as the one mesh is small, and boxes of all sizes in the other, spoil every kind of ray.
+    let mut meshes = degenerate_meshes();
+    meshes.retain(|(name, _)| name != "soup times 2^-30" && name != "exponential sequence");
+    for spec in BOTH {
+        let choice = registry.choose(spec).unwrap();
+        let subject = Subject {
+            name: spec.into(),
+            triangle_test: choice.triangle_test(),
+            lowest_id: false,
+            build: Box::new(|mesh| choice.build(mesh)),
+        };
+        let all = findings(&subject, &meshes, 200).unwrap();
+        for stratum in Stratum::ALL {
+            let clean = CLEAN.contains(&stratum) || BVH2.contains(&spec) && CLEAN_BVH2.contains(&stratum);
+            let wrong: Vec<String> = all
+                .iter()
+                .filter(|f| f.stratum == stratum && f.validation.errors() > 0)
+                .map(|f| f.line(spec))
+                .collect();
+            assert_eq!(wrong.is_empty(), clean, "{spec}, {}: {wrong:#?}", stratum.name());
+        }
+    }
+}
+
+/// An error of the triangle test, which brute force shares and no structure can repair: coordinates are quotients, so that
+/// their sum rounds beyond 1 on an edge, and signs are read from the sign bit, so that -0.0 is outside.
+#[test]
+fn rt_triangle_misses_hits_on_edges() {
+    let corners = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0]].map(glam::Vec3::from_array);
+    for ray in ["3.0,0.0,1.0 1.0,2.0,-3.0", "3.0,3.0,2.0 -1.0,-2.0,-3.0", "2.0,2.0,-2.0 1.0,-1.0,3.0"] {
+        let ray: Ray = ray.parse().unwrap();
+        for order in [[0, 1, 2], [0, 2, 1]] {
+            let mesh = Arc::new(Mesh::new(corners.to_vec(), vec![order]).unwrap());
+            assert!(exact::nearest(&ray, &mesh).is_some(), "a closed triangle has its edges");
+            let hits = ["moller-trumbore", "rt-triangle"].map(|test| {
+                let mut hits = [None];
+                Reference::of_test(test, &mesh).unwrap().accel.closest_hits(&[ray], &mut hits);
+                hits[0].is_some()
+            });
+            assert_eq!(hits, [true, false], "{ray} {order:?}");
+        }
+    }
+}
