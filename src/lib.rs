@@ -4,6 +4,7 @@ pub mod accel;
 pub mod geometry;
 pub mod oracle;
 pub mod registry;
+pub mod render;
 pub mod scene;
 pub mod simd;
 pub mod structures;

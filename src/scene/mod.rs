@@ -3,6 +3,7 @@
 mod assemble;
 mod builtin;
 mod camera;
+mod cast;
 mod error;
 pub mod format;
 mod frame;
