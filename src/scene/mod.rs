@@ -17,6 +17,7 @@ mod normals;
 mod scene;
 #[cfg(test)]
 mod tests;
+mod workload;
 
 pub use builtin::{BUILTIN, Builtin, Difficulty, real_mesh_folder};
 pub use camera::{Camera, CameraError, View};
@@ -27,3 +28,4 @@ pub use material::Material;
 pub use model::Model;
 pub use normals::CornerNormals;
 pub use scene::{Scene, Surface};
+pub use workload::{Sampling, UnknownWorkload, Workload, WorkloadKind};
