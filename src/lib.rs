@@ -3,6 +3,7 @@
 pub mod accel;
 pub mod geometry;
 pub mod oracle;
+pub mod golden;
 pub mod registry;
 pub mod render;
 pub mod scene;

@@ -107,11 +107,8 @@ fn shade_level(
 ) -> (Level, Vec<Ray>) {
     let mut hits = vec![None; rays.len()];
     accel.closest_hits(rays, &mut hits);
-    let surfaces: Vec<(usize, Hit, Surface)> = hits
-        .iter()
-        .enumerate()
-        .filter_map(|(i, hit)| hit.map(|hit| (i, hit, scene.surface(&rays[i], hit))))
-        .collect();
+    let surfaces: Vec<(usize, Hit, Surface)> =
+        hits.iter().enumerate().filter_map(|(i, hit)| hit.map(|hit| (i, hit, scene.surface(&rays[i], hit)))).collect();
 
     // One shadow ray a hit and light.
     let shadow_rays: Vec<Ray> = surfaces
@@ -154,8 +151,7 @@ fn reflected(material: &Material, surface: &Surface, light: &Light, eye: Vec3) -
 
     let half = (to_light + (eye - surface.point).normalize()).normalize();
     let along = normal.dot(half);
-    let highlight =
-        if along > 0.0 { libm::pow(along.into(), material.shininess.into()) as f32 } else { 0.0 };
+    let highlight = if along > 0.0 { libm::pow(along.into(), material.shininess.into()) as f32 } else { 0.0 };
     light.at(distance) * (material.diffuse * facing + material.specular * highlight)
 }
 
