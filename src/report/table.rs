@@ -99,7 +99,7 @@ impl Table {
         let mut used = INDENT + widest(0);
         for column in 1..self.columns.len() {
             let block = blocks.last_mut().expect("there is a block");
-            if width.is_some_and(|width| block.len() > 1 && used + widest(column) > width) {
+            if width.is_some_and(|width| block.len() > 1 && used + widest(column) - PADDING > width) {
                 blocks.push(vec![0, column]);
                 used = INDENT + widest(0) + widest(column);
             } else {

@@ -1,6 +1,8 @@
 //! `compare`: every structure builds, is checked, counted and timed on every workload of a scene.
 
 mod table;
+#[cfg(test)]
+mod tests;
 mod trace;
 
 use super::built::Built;

@@ -25,7 +25,7 @@ pub use tables::tables;
 
 /// How long the study may take.
 pub struct Settings {
-    /// Samples of a picture, at least 1; of the hard scenes twice as many.
+    /// Samples of a picture, at least 1; of the hard scenes twice as many, of the sweep half as many.
     pub runs: usize,
     /// What one sample may take, nanoseconds; a slower case is timed on fewer rays and extrapolated.
     pub sample_ns: u64,
@@ -225,7 +225,7 @@ impl Study<'_> {
         let specs: Vec<String> =
             SWEEP.iter().map(|s| format!("{REPORT_TREE}:leaf={},threshold={}", s.leaf, s.threshold)).collect();
         let settings = self.choose(&specs.iter().map(String::as_str).collect::<Vec<_>>())?;
-        let timings = self.time(scene, &picture, &settings, self.settings.runs, progress)?;
+        let timings = self.time(scene, &picture, &settings, self.settings.runs.div_ceil(2), progress)?;
         for (setting, timing) in SWEEP.iter().zip(&timings) {
             result.parameters.push(Setting {
                 scene: scene.name.clone(),

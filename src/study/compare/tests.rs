@@ -1,0 +1,136 @@
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use serde::{Deserialize, Serialize};
+
+use super::*;
+use crate::accel::{Accel, BuildError, Footprint, Observed, Observer, TreeShape};
+use crate::geometry::{Hit, Mesh};
+use crate::measure::SystemClock;
+use crate::registry::Registry;
+use crate::scene::Builtin;
+use crate::structures::BruteForce;
+use crate::triangle::{MollerTrumbore, TriangleTest};
+
+/// Brute force with a flaw.
+struct Flawed {
+    inner: BruteForce<MollerTrumbore>,
+    flaw: Flaw,
+    asked: AtomicUsize,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum Flaw {
+    #[default]
+    None,
+    /// Loses the hits of about every second ray, always the same.
+    Lossy,
+    /// Loses the hit of every 13th ray that it is asked for.
+    Fickle,
+}
+
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
+struct FlawedConfig {
+    flaw: Flaw,
+}
+
+impl Flawed {
+    fn loses(&self, ray: &Ray) -> bool {
+        match self.flaw {
+            Flaw::None => false,
+            Flaw::Lossy => ray.direction.x.to_bits() % 2 == 0,
+            Flaw::Fickle => self.asked.fetch_add(1, Ordering::Relaxed) % 13 == 0,
+        }
+    }
+}
+
+impl Accel for Flawed {
+    type Config = FlawedConfig;
+
+    const TRIANGLE_TEST: &'static str = MollerTrumbore::NAME;
+    const OBSERVED: Observed = Observed::NONE;
+
+    fn build(mesh: &Arc<Mesh>, config: &FlawedConfig) -> Result<Self, BuildError> {
+        let inner = Accel::build(mesh, &Default::default())?;
+        Ok(Self { inner, flaw: config.flaw, asked: AtomicUsize::new(0) })
+    }
+
+    fn closest_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit> {
+        if self.loses(ray) { None } else { self.inner.closest_hit(ray, observer) }
+    }
+
+    fn any_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> bool {
+        !self.loses(ray) && self.inner.any_hit(ray, observer)
+    }
+
+    fn footprint(&self) -> Footprint {
+        Accel::footprint(&self.inner)
+    }
+
+    fn shape(&self) -> TreeShape {
+        Accel::shape(&self.inner)
+    }
+}
+
+/// Compares the structures on the primary and shadow rays of the cube.
+fn run(specs: &[&str]) -> Result<Vec<Record>, StudyError> {
+    let registry = Registry::builtin().with::<Flawed>("flawed", FlawedConfig::default());
+    let settings = Settings {
+        structures: specs.iter().map(|spec| registry.choose(spec).unwrap()).collect(),
+        guide: registry.choose("sah-kd").unwrap(),
+        workloads: vec![WorkloadKind::Primary, WorkloadKind::Mirror, WorkloadKind::Shadow],
+        rays: 1024,
+        runs: 3,
+        budget_ns: 1_000_000_000,
+        seed: 1,
+        threads: Threads::new(1).unwrap(),
+    };
+    let scene = Builtin::find("cube").unwrap().scene(None).unwrap();
+    compare_scene(&scene, &settings, &SystemClock::start(), &mut |_| {})
+}
+
+#[test]
+fn a_right_structure_has_a_time_and_the_hits_of_all_others() {
+    let records = run(&["brute-force", "median-kd", "flawed"]).unwrap();
+    // The cube has no mirrors, and so no mirror rays.
+    let cases: Vec<(&str, &str)> = records.iter().map(|r| (&r.label[..], &r.workload[..])).collect();
+    let structures = ["brute-force", "median-kd", "flawed"];
+    assert_eq!(cases, structures.map(|s| [(s, "primary"), (s, "shadow")]).concat());
+    for record in &records {
+        assert_eq!(record.structure_errors, Some(0));
+        assert!(record.trace_ns > Some(0.0) && record.mrays_per_s > Some(0.0) && record.runs == 3);
+        assert!(record.checked_rays > Some(0) && record.rays <= record.workload_rays);
+    }
+    // 1024 rays take no time worth cutting.
+    let of = |workload: &str| records.iter().filter(|r| r.workload == workload).map(|r| r.hits).collect::<Vec<_>>();
+    for workload in ["primary", "shadow"] {
+        let hits = of(workload);
+        assert!(hits.iter().all(|&n| n == hits[0]), "{workload} {hits:?}");
+    }
+    assert!(of("primary")[0] > 0);
+    assert_eq!(records[0].tests_per_ray, Some(12.0));
+    assert_eq!(records[4].tests_per_ray, None, "what is not observed is unknown");
+}
+
+#[test]
+fn a_wrong_structure_has_errors_and_no_time() {
+    let records = run(&["brute-force", "flawed:flaw=lossy"]).unwrap();
+    let wrong: Vec<&Record> = records.iter().filter(|r| r.structure_errors > Some(0)).collect();
+    assert!(!wrong.is_empty() && wrong.iter().all(|r| r.label == "flawed:flaw=lossy"));
+    for record in wrong {
+        assert!(record.is_disqualified());
+        assert_eq!((record.trace_ns, record.mrays_per_s, record.runs), (None, None, 0));
+    }
+    assert!(records[0].trace_ns.is_some() && !records[0].is_disqualified());
+}
+
+#[test]
+fn a_structure_that_changes_its_mind_is_no_measurement() {
+    match run(&["flawed:flaw=fickle"]) {
+        Err(StudyError::Unsteady { structure, .. }) => assert_eq!(structure, "flawed:flaw=fickle"),
+        // The check may find it first.
+        Ok(records) => assert!(records.iter().all(Record::is_disqualified), "{records:?}"),
+        Err(other) => panic!("{other}"),
+    }
+}

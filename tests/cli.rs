@@ -1,0 +1,240 @@
+//! The command from outside: exit status, messages, files.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+use tempfile::TempDir;
+
+const RIGHT: i32 = 0;
+const USAGE: i32 = 1;
+const WRONG: i32 = 2;
+
+fn sahara(args: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_sahara"));
+    command.args(args).env_remove("SAHARA_DATA").env_remove("NO_COLOR").stdin(Stdio::null());
+    command.output().expect("the command runs")
+}
+
+fn stdout(output: &Output) -> String {
+    String::from_utf8(output.stdout.clone()).expect("output is UTF-8")
+}
+
+fn stderr(output: &Output) -> String {
+    String::from_utf8(output.stderr.clone()).expect("messages are UTF-8")
+}
+
+/// The command fails with `status`, prints nothing as a result, and one message that holds all of `parts`.
+#[track_caller]
+fn refuses(args: &[&str], parts: &[&str]) {
+    let output = sahara(args);
+    let message = stderr(&output);
+    assert_eq!(output.status.code(), Some(USAGE), "{args:?}: {message}");
+    assert!(output.stdout.is_empty(), "{args:?} prints {}", stdout(&output));
+    assert!(message.starts_with("error: "), "{args:?}: {message}");
+    assert!(!message.contains("panicked") && !message.contains("backtrace"), "{args:?}: {message}");
+    for part in parts {
+        assert!(message.contains(part), "{args:?}: {part:?} is not in {message:?}");
+    }
+}
+
+/// As [`refuses`], in one line.
+#[track_caller]
+fn refuses_in_a_line(args: &[&str], parts: &[&str]) {
+    refuses(args, parts);
+    assert_eq!(stderr(&sahara(args)).lines().count(), 1);
+}
+
+fn write(directory: &TempDir, name: &str, text: &str) -> String {
+    let path = directory.path().join(name);
+    fs::write(&path, text).unwrap();
+    path_text(&path)
+}
+
+fn path_text(path: &Path) -> String {
+    path.to_str().unwrap().to_owned()
+}
+
+const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
+
+/// A comparison that takes no time.
+fn small(scene: &str) -> Vec<&str> {
+    vec!["compare", scene, "--rays", "400", "--runs", "2", "--budget", "1", "-w", "primary", "-w", "shadow"]
+}
+
+#[test]
+fn what_is_not_known_is_refused_with_what_is() {
+    refuses_in_a_line(&["compare", "sponsa"], &["sponsa", "did you mean Sponza", "Cube", "Lucy"]);
+    refuses_in_a_line(&["compare", "cube", "--structure", "octree"], &["octree", "median-kd", "obvhs-bvh2"]);
+    refuses_in_a_line(&["compare", "cube", "--structure", "median-kd:leef=3"], &["leef", "leaf, ", "threshold"]);
+    refuses_in_a_line(&["compare", "cube", "--structure", "median-kd:leaf=0"], &["leaf must be at least 1"]);
+    refuses_in_a_line(&["compare", "cube", "--structure", "median-kd:leaf"], &["key=value"]);
+    refuses(&["compare", "cube", "--workload", "primry"], &["primry", "primary, ", "shadow"]);
+    refuses(&["compare", "--frobnicate"], &["--frobnicate"]);
+    refuses(&["compare", "cube", "--threads", "0"], &["0"]);
+    refuses(&["frobnicate"], &["frobnicate"]);
+    refuses(&["render", "cube"], &["--output"]);
+    refuses(&["render", "cube", "-o", "x.png", "--view", "pretty"], &["pretty", "shaded", "heat"]);
+    refuses(&["render", "cube", "-o", "x.png", "--size", "12"], &["WIDTHxHEIGHT"]);
+    refuses(&["validate", "cube", "--ray", "1,2,3"], &["ox,oy,oz dx,dy,dz"]);
+    refuses_in_a_line(&["validate", "cube", "--against", "nothing"], &["nothing", "brute-force"]);
+}
+
+#[test]
+fn bad_files_are_named_with_the_place_of_the_fault() {
+    let directory = tempfile::tempdir().unwrap();
+    refuses_in_a_line(&["compare", "no/such/mesh.obj"], &["no/such/mesh.obj", "check that it exists"]);
+    let unknown = write(&directory, "mesh.xyz", "");
+    refuses_in_a_line(&["compare", &unknown], &["mesh.xyz", ".obj, .ply, .gltf or .glb"]);
+    let nan = write(&directory, "nan.obj", &SQUARE.replace("v 1 1 0", "v 1 nan 0"));
+    refuses_in_a_line(&["compare", &nan], &["nan.obj", "finite"]);
+    let range = write(&directory, "range.obj", &SQUARE.replace("f 1 2 3 4", "f 1 2 9"));
+    refuses_in_a_line(&["validate", &range], &["range.obj", "9"]);
+    let cut = write(
+        &directory,
+        "cut.ply",
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n\
+         element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n",
+    );
+    refuses_in_a_line(&["render", &cut, "-o", &path_text(&directory.path().join("x.png"))], &["cut.ply"]);
+    assert!(!directory.path().join("x.png").exists());
+}
+
+#[test]
+fn results_go_to_files_that_read_back() {
+    let directory = tempfile::tempdir().unwrap();
+    let file = |name: &str| path_text(&directory.path().join(name));
+    let (json, csv, markdown) = (file("r.json"), file("r.csv"), file("r.md"));
+    let mut args = small("Cube");
+    args.extend(["--export-json", &json, "--export-csv", &csv, "--export-markdown", &markdown]);
+    let output = sahara(&args);
+    assert_eq!(output.status.code(), Some(RIGHT), "{}", stderr(&output));
+    assert!(stderr(&output).is_empty(), "no progress where nobody looks: {}", stderr(&output));
+
+    let records: Vec<serde_json::Value> = serde_json::from_slice(&fs::read(&json).unwrap()).unwrap();
+    let structures = ["brute-force", "median-kd", "sah-kd", "obvhs-bvh2", "obvhs-cwbvh"];
+    assert_eq!(records.len(), structures.len() * 2);
+    for (i, record) in records.iter().enumerate() {
+        assert_eq!(record["scene"], "Cube");
+        assert_eq!(record["triangles"], 12);
+        assert_eq!(record["stand_in"], false);
+        assert_eq!(record["structure"], structures[i / 2]);
+        assert_eq!(record["query"], ["closest", "any"][i % 2]);
+        assert_eq!(record["structure_errors"], 0, "{record}");
+        assert!(record["trace_ns"].as_f64().unwrap() > 0.0 && record["build_ns"].as_u64().unwrap() > 0, "{record}");
+        assert!(record["provenance"]["command"].as_str().unwrap().contains("--export-json"), "{record}");
+    }
+
+    let mut reader = csv::Reader::from_path(&csv).unwrap();
+    let names = reader.headers().unwrap().clone();
+    let fields = records[0].as_object().unwrap();
+    assert!(fields.keys().filter(|k| *k != "provenance").all(|k| names.iter().any(|name| name == k)), "{names:?}");
+    assert_eq!(reader.records().map(Result::unwrap).count(), records.len());
+
+    let text = fs::read_to_string(&markdown).unwrap();
+    let printed = stdout(&output);
+    for structure in structures {
+        assert!(text.contains(&format!("| {structure} |")) && printed.contains(structure), "{text}\n{printed}");
+    }
+    assert!(!printed.contains('\x1b'), "no colour where nobody looks");
+    let mut left: Vec<PathBuf> = fs::read_dir(directory.path()).unwrap().map(|entry| entry.unwrap().path()).collect();
+    left.sort();
+    assert_eq!(left, [&csv, &json, &markdown].map(PathBuf::from), "nothing else is left behind");
+}
+
+#[test]
+fn what_cannot_be_written_is_refused_before_the_long_run() {
+    let directory = tempfile::tempdir().unwrap();
+    let missing = path_text(&directory.path().join("no/r.json"));
+    for flag in ["--export-json", "--export-csv", "--export-markdown"] {
+        refuses_in_a_line(&["compare", flag, &missing], &["no/r.json"]);
+    }
+    refuses_in_a_line(&["compare", "--export-json", &path_text(directory.path())], &["directory"]);
+    refuses_in_a_line(&["replicate", "--export-json", &missing], &["no/r.json"]);
+    refuses_in_a_line(&["render", "cube", "-o", &missing], &["no/r.json"]);
+}
+
+#[test]
+fn a_file_without_camera_is_compared_and_rendered() {
+    let directory = tempfile::tempdir().unwrap();
+    let square = write(&directory, "square.obj", SQUARE);
+    let output = sahara(&small(&square));
+    assert_eq!(output.status.code(), Some(RIGHT), "{}", stderr(&output));
+    assert!(stdout(&output).starts_with("square: 2 triangles"), "{}", stdout(&output));
+
+    let picture = path_text(&directory.path().join("square.png"));
+    let output = sahara(&["render", &square, "-o", &picture, "--size", "20x10", "--view", "primitive"]);
+    assert_eq!(output.status.code(), Some(RIGHT), "{}", stderr(&output));
+    let decoded = image::open(&picture).unwrap().into_rgb8();
+    assert_eq!(decoded.dimensions(), (20, 10));
+    let mut colours: Vec<_> = decoded.pixels().copied().collect();
+    colours.sort_by_key(|p| p.0);
+    colours.dedup();
+    assert_eq!(colours.len(), 3, "two triangles and nothing");
+}
+
+#[test]
+fn an_empty_mesh_is_no_reason_to_fail() {
+    let directory = tempfile::tempdir().unwrap();
+    let flat = write(&directory, "flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
+    let output = sahara(&small(&flat));
+    assert_eq!(output.status.code(), Some(RIGHT), "{}", stderr(&output));
+    assert!(stdout(&output).contains("1 triangle (1 degenerate)"), "{}", stdout(&output));
+}
+
+#[test]
+fn validation_tells_right_from_wrong() {
+    let right = sahara(&["validate", "cube", "torus", "--rays", "2000", "-s", "median-kd", "-s", "sah-kd"]);
+    assert_eq!(right.status.code(), Some(RIGHT), "{}", stdout(&right));
+
+    // obvhs' CwBvh misses every ray with a component of -0.0: this one hits the cube in the middle of a face.
+    let ray = ["validate", "cube", "--ray", "0.5,0.25,5 -0,0,-1", "-s"];
+    let wrong = sahara(&[&ray[..], &["obvhs-cwbvh"]].concat());
+    assert_eq!(wrong.status.code(), Some(WRONG), "{}", stdout(&wrong));
+    let printed = stdout(&wrong);
+    assert!(printed.contains("0.5,0.25,5.0 -0.0,0.0,-1.0"), "the ray can be asked again: {printed}");
+    let against = sahara(&[&ray[..], &["sah-kd", "--against", "obvhs-bvh2"]].concat());
+    assert_eq!(against.status.code(), Some(RIGHT), "{}", stdout(&against));
+}
+
+#[test]
+fn lists_and_completions_name_everything() {
+    let list = stdout(&sahara(&["list"]));
+    for name in ["Cube", "Sponza", "median-kd", "threshold", "image-shadow", "heat", "moller-trumbore", "rt-triangle"] {
+        assert!(list.contains(name), "{name} is not in {list}");
+    }
+    for shell in ["bash", "zsh", "fish"] {
+        let script = sahara(&["completions", shell]);
+        assert_eq!(script.status.code(), Some(RIGHT));
+        assert!(stdout(&script).contains("replicate"));
+    }
+    for args in [&["--help"][..], &["--version"], &["compare", "--help"]] {
+        let output = sahara(args);
+        assert_eq!(output.status.code(), Some(RIGHT));
+        assert!(stderr(&output).is_empty() && stdout(&output).contains("sahara"), "{args:?}");
+    }
+}
+
+#[test]
+fn colour_is_as_asked() {
+    let mut args = small("cube");
+    args.extend(["--color", "always"]);
+    assert!(stdout(&sahara(&args)).contains("\x1b["));
+    args.pop();
+    args.push("never");
+    assert!(!stdout(&sahara(&args)).contains('\x1b'));
+}
+
+#[test]
+fn a_reader_that_goes_away_is_no_error() {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_sahara"))
+        .args(small("cube"))
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(child.stdout.take());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(RIGHT), "{}", stderr(&output));
+    assert!(stderr(&output).is_empty(), "{}", stderr(&output));
+}
