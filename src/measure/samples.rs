@@ -154,8 +154,8 @@ mod tests {
         log: Rc<RefCell<Vec<char>>>,
         name: char,
         ns: u64,
-        all: usize,
-        rays: usize,
+        whole: usize,
+        restricted: usize,
         answer: u64,
         /// Changes its answer in this pass.
         fickle_at: usize,
@@ -164,11 +164,11 @@ mod tests {
 
     impl Timed for Mock {
         fn rays(&self) -> usize {
-            self.all
+            self.whole
         }
 
         fn restrict(&mut self, rays: usize) {
-            self.rays = rays;
+            self.restricted = rays;
         }
 
         fn clear(&mut self) {
@@ -180,7 +180,7 @@ mod tests {
         fn run(&mut self) {
             self.passes += 1;
             self.log.borrow_mut().push(self.name);
-            self.clock.0.set(self.clock.0.get() + self.ns * self.rays as u64);
+            self.clock.0.set(self.clock.0.get() + self.ns * self.restricted as u64);
             self.answer = if self.passes == self.fickle_at { 1 } else { 7 };
         }
 
@@ -201,7 +201,7 @@ mod tests {
 
         fn case(&self, name: char, ns: u64, all: usize, fickle_at: usize) -> Box<dyn Timed> {
             let (clock, log) = (self.clock.clone(), self.log.clone());
-            Box::new(Mock { clock, log, name, ns, all, rays: all, answer: 0, fickle_at, passes: 0 })
+            Box::new(Mock { clock, log, name, ns, whole: all, restricted: all, answer: 0, fickle_at, passes: 0 })
         }
 
         fn take(&self, cases: &mut [Box<dyn Timed>], plan: &Plan) -> Result<Vec<Samples>, UnsteadyAnswers> {

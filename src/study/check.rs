@@ -56,7 +56,7 @@ pub fn check_all(
             if affordable > pilot.len() as u64 && batch.len() > pilot.len() {
                 found = check(&spread(batch, affordable as usize));
             }
-            Check { rays: found.rays as usize, errors: found.errors() as usize }
+            Check { rays: found.rays as usize, errors: found.errors().min(found.rays) as usize }
         };
         checks.push(batches.iter().map(of_batch).collect());
     }
