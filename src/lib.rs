@@ -2,8 +2,8 @@
 
 pub mod accel;
 pub mod geometry;
-pub mod oracle;
 pub mod golden;
+pub mod oracle;
 pub mod registry;
 pub mod render;
 pub mod scene;
