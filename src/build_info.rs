@@ -1,1 +1,54 @@
-fn main() {}
+//! Build script: tells the crate which commit and compiler it was built with. Works without git, and then says "unknown".
+
+use std::env;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+fn main() {
+    let root = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").expect("cargo sets CARGO_MANIFEST_DIR"));
+    let rustc = env::var("RUSTC").unwrap_or_else(|_| "rustc".into());
+    let set = |name: &str, value: Option<String>| {
+        println!("cargo::rustc-env={name}={}", value.as_deref().unwrap_or("unknown"))
+    };
+
+    set("SAHARA_COMMIT", commit(&root));
+    set("SAHARA_RUSTC", output(&root, &rustc, &["--version"]));
+    set("SAHARA_TARGET", env::var("TARGET").ok());
+    set("SAHARA_TARGET_FEATURES", env::var("CARGO_CFG_TARGET_FEATURE").ok());
+    set("SAHARA_PROFILE", env::var("PROFILE").ok());
+
+    // Whether the sources differ from the commit is part of its name, so look again when they change.
+    for path in ["src", "Cargo.toml", "Cargo.lock", ".cargo/config.toml"] {
+        rerun_if_changed(&root.join(path));
+    }
+}
+
+/// The commit of the sources, with `+changes` when they differ from it; nothing when the crate is not a git work tree of
+/// its own.
+fn commit(root: &Path) -> Option<String> {
+    let git = |args: &[&str]| output(root, "git", args);
+    let top = PathBuf::from(git(&["rev-parse", "--show-toplevel"])?);
+    if top.canonicalize().ok()? != root.canonicalize().ok()? {
+        return None;
+    }
+    for file in ["HEAD", "logs/HEAD", "index"] {
+        rerun_if_changed(&root.join(git(&["rev-parse", "--git-path", file])?));
+    }
+    let commit = git(&["rev-parse", "--short=12", "HEAD"])?;
+    let sources = ["status", "--porcelain", "--untracked-files=no", "--", "src", "Cargo.toml", "Cargo.lock"];
+    let changes = git(&sources).is_some_and(|text| !text.is_empty());
+    Some(if changes { commit + "+changes" } else { commit })
+}
+
+/// A path that is not there would rerun the script on every build.
+fn rerun_if_changed(path: &Path) {
+    if path.exists() {
+        println!("cargo::rerun-if-changed={}", path.display());
+    }
+}
+
+/// What a program prints, without the white space around it; nothing when it fails or is not there.
+fn output(directory: &Path, program: &str, args: &[&str]) -> Option<String> {
+    let output = Command::new(program).args(args).current_dir(directory).output().ok()?;
+    output.status.success().then(|| String::from_utf8_lossy(&output.stdout).trim().to_owned())
+}

@@ -1,13 +1,17 @@
 //! **sahara** (SAH And Ray Acceleration): benchmark, validate and image-test ray-tracing acceleration structures.
 
 pub mod accel;
+pub mod cli;
 pub mod geometry;
 pub mod golden;
+pub mod measure;
 pub mod oracle;
 pub mod registry;
 pub mod render;
+pub mod report;
 pub mod scene;
 pub mod simd;
 pub mod structures;
+pub mod study;
 pub mod triangle;
 pub mod validate;

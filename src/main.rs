@@ -1,1 +1,7 @@
-fn main() {}
+use std::process::ExitCode;
+
+use sahara::registry::Registry;
+
+fn main() -> ExitCode {
+    sahara::cli::main(Registry::builtin())
+}

@@ -1,0 +1,114 @@
+//! `compare`.
+
+use std::path::PathBuf;
+
+use clap::Parser;
+
+use super::progress::Progress;
+use super::terminal::Terminal;
+use super::{Verdict, sources};
+use crate::measure::{Provenance, SystemClock, Threads};
+use crate::registry::Registry;
+use crate::report::{OutputFile, Record, Table, to_csv, to_json, to_markdown};
+use crate::scene::WorkloadKind;
+use crate::study::compare::{Settings, compare_scene, legend, mean_table, scene_table};
+
+#[derive(Debug, Parser)]
+pub struct Args {
+    /// Built-in scenes and mesh files (.obj, .ply, .gltf, .glb); all built-in scenes if none is named
+    #[arg(value_name = "SCENE|FILE")]
+    scenes: Vec<String>,
+    /// A structure, with keys that differ from their defaults; may be repeated [default: one of each name]
+    #[arg(long, short, value_name = "NAME[:key=value,..]")]
+    structure: Vec<String>,
+    /// A kind of rays; may be repeated [default: primary, shadow, diffuse, random]
+    #[arg(long, short, value_name = "KIND")]
+    workload: Vec<WorkloadKind>,
+    /// Threads that build and trace; 1 is the unit of comparison
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: u16,
+    /// Samples of every case
+    #[arg(long, value_name = "N", default_value_t = 7, value_parser = clap::value_parser!(u16).range(1..))]
+    runs: u16,
+    /// Rays of a workload, at most
+    #[arg(long, value_name = "N", default_value_t = 36_864, value_parser = clap::value_parser!(u32).range(1..=1 << 24))]
+    rays: u32,
+    /// Seconds that a scene may take: slow cases are timed on fewer rays to keep within them
+    #[arg(long, value_name = "SECONDS", default_value_t = 12, value_parser = clap::value_parser!(u32).range(1..=86400))]
+    budget: u32,
+    /// Seed of the rays and of the order of samples
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+    /// Write one record per case as JSON
+    #[arg(long, value_name = "FILE")]
+    export_json: Option<PathBuf>,
+    /// Write one row per case as CSV
+    #[arg(long, value_name = "FILE")]
+    export_csv: Option<PathBuf>,
+    /// Write the tables as Markdown
+    #[arg(long, value_name = "FILE")]
+    export_markdown: Option<PathBuf>,
+}
+
+impl Default for Args {
+    fn default() -> Self {
+        Self::parse_from(["compare"])
+    }
+}
+
+/// Without `--workload`.
+const DEFAULT_WORKLOADS: [WorkloadKind; 4] =
+    [WorkloadKind::Primary, WorkloadKind::Shadow, WorkloadKind::Diffuse, WorkloadKind::Random];
+
+pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Result<Verdict> {
+    // Everything that can be refused is refused before the long run.
+    let structures = sources::structures(registry, &args.structure)?;
+    let threads = Threads::new(args.threads.into()).map_err(anyhow::Error::msg)?;
+    let check = |path: &Option<PathBuf>| path.as_deref().map(OutputFile::check).transpose();
+    let (json, csv, markdown) = (check(&args.export_json)?, check(&args.export_csv)?, check(&args.export_markdown)?);
+    let scenes = sources::scenes(&args.scenes)?;
+    let settings = Settings {
+        structures,
+        guide: sources::guide(registry)?,
+        workloads: if args.workload.is_empty() { DEFAULT_WORKLOADS.to_vec() } else { args.workload.clone() },
+        rays: args.rays,
+        runs: args.runs.into(),
+        budget_ns: u64::from(args.budget) * 1_000_000_000,
+        seed: args.seed,
+        threads,
+    };
+
+    let clock = SystemClock::start();
+    let mut progress = Progress::over(scenes.len(), terminal);
+    let (mut records, mut tables): (Vec<Record>, Vec<Table>) = (vec![], vec![]);
+    for scene in &scenes {
+        progress.scene(&scene.name);
+        let of_scene = compare_scene(scene, &settings, &clock, &mut |stage| progress.stage(&stage))?;
+        progress.scene_done();
+        let table = scene_table(&of_scene, &scene.notes);
+        progress.aside(|| terminal.print_table(&table))?;
+        records.extend(of_scene);
+        tables.push(table);
+    }
+    progress.finish();
+
+    if scenes.len() > 1 {
+        let means = mean_table(&records);
+        terminal.print_table(&means)?;
+        tables.push(means);
+    }
+    let mut foot = records.first().map_or(vec![], |first| legend(&first.workload));
+    foot.push(Provenance::capture(settings.threads.count()).line());
+    terminal.print_lines(&foot)?;
+
+    if let Some(file) = json {
+        file.write(&to_json(&records))?;
+    }
+    if let Some(file) = csv {
+        file.write(&to_csv(&records))?;
+    }
+    if let Some(file) = markdown {
+        file.write(&to_markdown(&tables, &foot))?;
+    }
+    Ok(if records.iter().any(Record::is_disqualified) { Verdict::Wrong } else { Verdict::Right })
+}

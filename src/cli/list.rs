@@ -1,0 +1,78 @@
+//! `list`.
+
+use serde_json::Value;
+
+use super::Verdict;
+use super::terminal::Terminal;
+use crate::accel::Query;
+use crate::registry::Registry;
+use crate::render::ViewKind;
+use crate::report::number::count;
+use crate::report::{Cell, Table};
+use crate::scene::{BUILTIN, WorkloadKind, real_mesh_folder};
+
+pub fn run(registry: &Registry, terminal: &Terminal) -> anyhow::Result<Verdict> {
+    terminal.print_table(&scenes()?)?;
+    terminal.print_table(&structures(registry))?;
+    terminal.print_table(&workloads())?;
+    terminal.print_table(&table("Views", &["name"], ViewKind::ALL.map(|view| vec![view.name().into()]).into()))?;
+    let mut tests: Vec<&str> = vec![];
+    for entry in registry.entries() {
+        if !tests.contains(&entry.triangle_test) {
+            tests.push(entry.triangle_test);
+        }
+    }
+    let tests = tests.into_iter().map(|test| vec![test.into()]).collect();
+    terminal.print_table(&table("Triangle tests (structures take them as the key `test`)", &["name"], tests))?;
+    Ok(Verdict::Right)
+}
+
+fn scenes() -> anyhow::Result<Table> {
+    let real_meshes = real_mesh_folder();
+    let mut rows = vec![];
+    for builtin in BUILTIN {
+        let scene = builtin.scene(Some(&real_meshes))?;
+        let difficulty = format!("{:?}", builtin.difficulty).to_lowercase();
+        let meshes = if scene.stand_ins.is_empty() { "as described" } else { "stand-in" };
+        let mirrors = if scene.has_mirrors() { "yes" } else { "no" };
+        rows.push(
+            [
+                builtin.name,
+                &difficulty,
+                &count(scene.mesh.len() as u64),
+                &scene.lights.len().to_string(),
+                mirrors,
+                meshes,
+            ]
+            .map(Cell::from)
+            .into(),
+        );
+    }
+    Ok(table("Scenes", &["name", "difficulty", "triangles", "lights", "mirrors", "meshes"], rows))
+}
+
+/// Every structure, then its keys with their defaults.
+fn structures(registry: &Registry) -> Table {
+    let mut rows = vec![];
+    for entry in registry.entries() {
+        rows.push(vec![entry.name.as_str().into(), entry.triangle_test.into()]);
+        for (key, value) in entry.config().as_object().into_iter().flatten() {
+            let value = match value {
+                Value::String(text) => text.clone(),
+                other => other.to_string(),
+            };
+            rows.push(vec![format!("  {key}").into(), value.into()]);
+        }
+    }
+    table("Structures and their keys", &["name", "test, default"], rows)
+}
+
+fn workloads() -> Table {
+    let query = |kind: WorkloadKind| if kind.query() == Query::Any { "any hit" } else { "closest hit" };
+    let rows = WorkloadKind::ALL.map(|kind| vec![kind.name().into(), query(kind).into()]);
+    table("Workloads", &["name", "query"], rows.into())
+}
+
+fn table(title: &str, columns: &[&str], rows: Vec<Vec<Cell>>) -> Table {
+    Table { title: title.into(), columns: columns.iter().map(|c| (*c).into()).collect(), rows, notes: vec![] }
+}

@@ -1,0 +1,107 @@
+//! The command `sahara`.
+//!
+//! Results go to stdout, progress and errors to stderr. The exit status is 0 when all is well, 1 for usage, input or
+//! output that cannot be had, 2 for wrong answers.
+
+mod compare;
+mod completions;
+mod golden;
+mod list;
+mod progress;
+mod render;
+mod replicate;
+mod sources;
+mod terminal;
+mod validate;
+
+use std::ffi::OsString;
+use std::io;
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+use crate::registry::Registry;
+use terminal::{Colour, Terminal};
+
+/// Benchmark, validate and image-test ray-tracing acceleration structures.
+///
+/// Without a command: `compare` on the built-in scenes.
+#[derive(Debug, Parser)]
+#[command(name = "sahara", version, max_term_width = 100)]
+struct Cli {
+    #[command(subcommand)]
+    command: Option<Command>,
+    /// When to use colour; `auto` asks the terminal and honours NO_COLOR
+    #[arg(long, global = true, value_enum, default_value_t, value_name = "WHEN")]
+    color: Colour,
+    /// Show no progress
+    #[arg(long, short, global = true)]
+    quiet: bool,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Build, check, count and time every structure on every scene
+    Compare(compare::Args),
+    /// Measure the source report's tables again, and test its conclusion
+    Replicate(replicate::Args),
+    /// Hold every structure against a reference, hit for hit
+    Validate(validate::Args),
+    /// Draw a picture
+    Render(render::Args),
+    /// Check or make the golden images
+    Golden(golden::Args),
+    /// Name the scenes, structures, workloads, views and triangle tests
+    List,
+    /// Print a completion script for a shell
+    Completions(completions::Args),
+}
+
+/// What a command found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Verdict {
+    Right,
+    /// A structure gave wrong answers.
+    Wrong,
+}
+
+/// Runs the command line of this process over the structures of `registry`.
+pub fn main(registry: Registry) -> ExitCode {
+    run(&registry, std::env::args_os())
+}
+
+fn run(registry: &Registry, args: impl IntoIterator<Item = OsString>) -> ExitCode {
+    let cli = match Cli::try_parse_from(args) {
+        Ok(cli) => cli,
+        Err(message) => {
+            // Help and version are answers, not errors; a reader that has gone away is no error either.
+            let _ = message.print();
+            return ExitCode::from(u8::from(message.use_stderr()));
+        }
+    };
+    let terminal = Terminal::new(cli.color, cli.quiet);
+    let command = cli.command.unwrap_or_else(|| Command::Compare(compare::Args::default()));
+    let found = match command {
+        Command::Compare(args) => compare::run(registry, &args, &terminal),
+        Command::Replicate(args) => replicate::run(registry, &args, &terminal),
+        Command::Validate(args) => validate::run(registry, &args, &terminal),
+        Command::Render(args) => render::run(registry, &args, &terminal),
+        Command::Golden(args) => golden::run(registry, &args, &terminal),
+        Command::List => list::run(registry, &terminal),
+        Command::Completions(args) => completions::run(&args, &terminal),
+    };
+    match found {
+        Ok(Verdict::Right) => ExitCode::SUCCESS,
+        Ok(Verdict::Wrong) => ExitCode::from(2),
+        Err(error) if is_broken_pipe(&error) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error:#}");
+            ExitCode::from(1)
+        }
+    }
+}
+
+/// Whether the reader of our output has gone away, as `head` does.
+fn is_broken_pipe(error: &anyhow::Error) -> bool {
+    error.downcast_ref::<io::Error>().is_some_and(|error| error.kind() == io::ErrorKind::BrokenPipe)
+}

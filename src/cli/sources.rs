@@ -1,0 +1,76 @@
+//! Scenes, structures and kinds of rays from what the command line names.
+
+use std::path::Path;
+
+use anyhow::Context;
+
+use crate::registry::{Choice, Registry};
+use crate::scene::{BUILTIN, Builtin, Scene, load, real_mesh_folder};
+use crate::study::SAH_TREE;
+
+/// The scenes named, or all built-in ones.
+///
+/// # Errors
+/// If a name is not known, or a file cannot be loaded.
+pub fn scenes(named: &[String]) -> anyhow::Result<Vec<Scene>> {
+    if named.is_empty() {
+        return BUILTIN.iter().map(|builtin| scene(builtin.name)).collect();
+    }
+    named.iter().map(|name| scene(name)).collect()
+}
+
+/// A built-in scene by its name in any case, a scene file, or a scene around a mesh file. What is neither a known name nor
+/// looks like a path is taken for a name.
+///
+/// # Errors
+/// If there is no such scene, or a file cannot be loaded.
+pub fn scene(name: &str) -> anyhow::Result<Scene> {
+    let real_meshes = real_mesh_folder();
+    let path = Path::new(name);
+    match Builtin::find(name) {
+        Ok(builtin) => Ok(builtin.scene(Some(&real_meshes))?),
+        Err(unknown) if path.extension().is_none() && path.components().count() < 2 && !path.exists() => {
+            Err(unknown.into())
+        }
+        Err(_) if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml")) => {
+            Ok(Scene::read(path, Some(&real_meshes))?)
+        }
+        Err(_) => {
+            let stem = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy();
+            Ok(Scene::framed(&stem, load(path)?)?)
+        }
+    }
+}
+
+/// The structures named, or the first of every name; the same one twice would only take time.
+///
+/// # Errors
+/// If a name, key or value is not known.
+pub fn structures(registry: &Registry, specs: &[String]) -> anyhow::Result<Vec<Choice>> {
+    let names: Vec<String> = registry.names().into_iter().map(String::from).collect();
+    let mut choices: Vec<Choice> = vec![];
+    for spec in if specs.is_empty() { &names } else { specs } {
+        let choice = structure(registry, spec)?;
+        if choices.iter().all(|other| other.label != choice.label) {
+            choices.push(choice);
+        }
+    }
+    Ok(choices)
+}
+
+/// One structure.
+///
+/// # Errors
+/// As [`structures`].
+pub fn structure(registry: &Registry, spec: &str) -> anyhow::Result<Choice> {
+    Ok(registry.choose(spec)?)
+}
+
+/// The structure that tells where secondary rays start: the SAH tree, or the first of a registry without it.
+///
+/// # Errors
+/// If the registry is empty.
+pub fn guide(registry: &Registry) -> anyhow::Result<Choice> {
+    let guide = registry.choose(SAH_TREE).ok().or_else(|| registry.all().into_iter().next());
+    guide.context("no structure is registered: there is nothing to run")
+}

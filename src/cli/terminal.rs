@@ -1,0 +1,69 @@
+//! Where output goes, and what it may look like.
+
+use std::io::{self, IsTerminal, Write};
+
+use clap::ValueEnum;
+use comfy_table::Table as Probe;
+
+use crate::report::{Screen, Table, wrapped};
+
+/// When to use colour.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum Colour {
+    /// On a terminal, unless NO_COLOR is set
+    #[default]
+    Auto,
+    /// Even into a file
+    Always,
+    /// Nowhere
+    Never,
+}
+
+/// Standard output, and how to treat it.
+pub struct Terminal {
+    screen: Screen,
+    /// Whether progress is left out.
+    pub quiet: bool,
+}
+
+impl Terminal {
+    pub fn new(colour: Colour, quiet: bool) -> Self {
+        let shown = io::stdout().is_terminal();
+        let no_color = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
+        let colour = match colour {
+            Colour::Auto => shown && !no_color,
+            Colour::Always => true,
+            Colour::Never => false,
+        };
+        let width = if shown { Probe::new().width() } else { None };
+        Self { screen: Screen { width, colour }, quiet }
+    }
+
+    /// Prints text as it is.
+    ///
+    /// # Errors
+    /// If it cannot be written; a reader that has gone away is told by its kind.
+    pub fn print(&self, text: &str) -> io::Result<()> {
+        let mut out = io::stdout().lock();
+        out.write_all(text.as_bytes())?;
+        out.flush()
+    }
+
+    /// Prints a table with a blank line after it.
+    ///
+    /// # Errors
+    /// As [`Terminal::print`].
+    pub fn print_table(&self, table: &Table) -> io::Result<()> {
+        self.print(&(table.to_terminal(self.screen) + "\n"))
+    }
+
+    /// Prints lines of text, broken where the screen ends.
+    ///
+    /// # Errors
+    /// As [`Terminal::print`].
+    pub fn print_lines(&self, lines: &[String]) -> io::Result<()> {
+        let width = usize::from(self.screen.width.unwrap_or(120));
+        let lines = lines.iter().flat_map(|line| wrapped(line, width));
+        self.print(&lines.map(|line| line + "\n").collect::<String>())
+    }
+}

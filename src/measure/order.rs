@@ -1,0 +1,61 @@
+//! The order in which samples are taken.
+
+use rand_core::{RngCore, SeedableRng};
+use rand_pcg::Pcg64Mcg;
+
+/// Gives the numbers from 0 to `n` in a new random order each time.
+pub struct RandomOrder {
+    generator: Pcg64Mcg,
+}
+
+impl RandomOrder {
+    pub fn new(seed: u64) -> Self {
+        Self { generator: Pcg64Mcg::seed_from_u64(seed) }
+    }
+
+    /// A number from 0 to `n`, `n` excluded; every one as likely, but for a bias below `n` / 2^64.
+    ///
+    /// # Panics
+    /// If `n` is 0.
+    pub fn below(&mut self, n: usize) -> usize {
+        assert!(n > 0, "there is no number below 0");
+        ((u128::from(self.generator.next_u64()) * n as u128) >> 64) as usize
+    }
+
+    /// The numbers from 0 to `n` shuffled (Fisher, Yates 1938; Durstenfeld 1964).
+    pub fn shuffled(&mut self, n: usize) -> Vec<usize> {
+        let mut order: Vec<usize> = (0..n).collect();
+        for last in (1..n).rev() {
+            order.swap(last, self.below(last + 1));
+        }
+        order
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_order_holds_every_number_once_and_repeats_with_its_seed() {
+        let order = RandomOrder::new(1).shuffled(20);
+        let mut sorted = order.clone();
+        sorted.sort_unstable();
+        assert_eq!(sorted, (0..20).collect::<Vec<_>>());
+        assert_ne!(order, sorted);
+        assert_eq!(order, RandomOrder::new(1).shuffled(20));
+        assert_ne!(order, RandomOrder::new(2).shuffled(20));
+    }
+
+    #[test]
+    fn every_order_of_three_comes_about_as_often() {
+        let mut orders = RandomOrder::new(7);
+        let mut counts = std::collections::BTreeMap::new();
+        for _ in 0..6000 {
+            *counts.entry(orders.shuffled(3)).or_insert(0) += 1;
+        }
+        // Five standard deviations of a count of 6000 with probability 1/6 are 144.
+        assert_eq!(counts.len(), 6);
+        assert!(counts.values().all(|&n| (856..=1144).contains(&n)), "{counts:?}");
+    }
+}

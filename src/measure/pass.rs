@@ -1,0 +1,207 @@
+//! One structure answering one batch of rays.
+
+use rayon::prelude::*;
+
+use super::{RandomOrder, Timed};
+use crate::accel::{DynAccel, Query};
+use crate::geometry::{Hit, PrimId, Ray};
+
+/// The threads that build and trace.
+pub struct Threads {
+    pool: rayon::ThreadPool,
+    count: usize,
+}
+
+impl Threads {
+    /// # Errors
+    /// If the system does not give that many threads; the sentence is its own.
+    pub fn new(count: usize) -> Result<Self, String> {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build().map_err(|error| error.to_string())?;
+        Ok(Self { pool, count })
+    }
+
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
+    /// Runs `work` on these threads: all parallel iterators in it stay on them.
+    pub fn install<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R {
+        self.pool.install(work)
+    }
+}
+
+/// The answers to a batch.
+enum Answers {
+    Closest(Vec<Option<Hit>>),
+    Any(Vec<bool>),
+}
+
+/// A structure, a batch of rays and a query: what is timed.
+pub struct Pass<'a> {
+    accel: &'a dyn DynAccel,
+    threads: &'a Threads,
+    all: &'a [Ray],
+    /// The rays of a restricted pass.
+    some: Option<Vec<Ray>>,
+    answers: Answers,
+    /// What `clear` fills in changes each time: a pass that leaves an answer as it was cannot give the same sum twice.
+    filled: bool,
+}
+
+/// Rays that a thread takes at once: enough to hide the hand-over, few enough to share out evenly.
+const CHUNK: usize = 1024;
+
+impl<'a> Pass<'a> {
+    /// # Panics
+    /// If there are no rays.
+    pub fn new(accel: &'a dyn DynAccel, rays: &'a [Ray], query: Query, threads: &'a Threads) -> Self {
+        assert!(!rays.is_empty(), "a pass has rays");
+        let answers = match query {
+            Query::Closest => Answers::Closest(vec![None; rays.len()]),
+            Query::Any => Answers::Any(vec![false; rays.len()]),
+        };
+        Self { accel, threads, all: rays, some: None, answers, filled: false }
+    }
+
+    /// Rays of the last pass that hit something.
+    pub fn hits(&self) -> usize {
+        match &self.answers {
+            Answers::Closest(hits) => hits.iter().flatten().count(),
+            Answers::Any(hits) => hits.iter().filter(|hit| **hit).count(),
+        }
+    }
+}
+
+/// `count` of `rays`, in order: one from each of `count` parts of equal length, at a seeded random place in it, so that the
+/// rows and columns of an image are not favoured. All rays when there are not more.
+pub fn spread(rays: &[Ray], count: usize) -> Vec<Ray> {
+    if count >= rays.len() {
+        return rays.to_vec();
+    }
+    let mut random = RandomOrder::new(0);
+    let part = |i: usize| (i as u128 * rays.len() as u128 / count as u128) as usize;
+    (0..count).map(|i| rays[part(i) + random.below(part(i + 1) - part(i))]).collect()
+}
+
+impl Timed for Pass<'_> {
+    fn rays(&self) -> usize {
+        self.all.len()
+    }
+
+    fn restrict(&mut self, rays: usize) {
+        self.some = (rays < self.all.len()).then(|| spread(self.all, rays));
+        let rays = rays.min(self.all.len());
+        match &mut self.answers {
+            Answers::Closest(hits) => hits.resize(rays, None),
+            Answers::Any(hits) => hits.resize(rays, false),
+        }
+    }
+
+    fn clear(&mut self) {
+        self.filled = !self.filled;
+        let nowhere = Hit { t: f32::NAN, prim: PrimId::new(0) };
+        match &mut self.answers {
+            Answers::Closest(hits) => hits.fill(self.filled.then_some(nowhere)),
+            Answers::Any(hits) => hits.fill(self.filled),
+        }
+    }
+
+    fn run(&mut self) {
+        let rays = self.some.as_deref().unwrap_or(self.all);
+        let accel = self.accel;
+        match (&mut self.answers, self.threads.count) {
+            (Answers::Closest(hits), 1) => accel.closest_hits(rays, hits),
+            (Answers::Any(hits), 1) => accel.any_hits(rays, hits),
+            (Answers::Closest(hits), _) => self.threads.install(|| {
+                let chunks = rays.par_chunks(CHUNK).zip(hits.par_chunks_mut(CHUNK));
+                chunks.for_each(|(rays, hits)| accel.closest_hits(rays, hits));
+            }),
+            (Answers::Any(hits), _) => self.threads.install(|| {
+                let chunks = rays.par_chunks(CHUNK).zip(hits.par_chunks_mut(CHUNK));
+                chunks.for_each(|(rays, hits)| accel.any_hits(rays, hits));
+            }),
+        }
+    }
+
+    /// FNV-1a over the answers as numbers (Fowler, Noll, Vo).
+    fn checksum(&self) -> u64 {
+        let mix = |sum: u64, value: u64| (sum ^ value).wrapping_mul(0x0000_0100_0000_01b3);
+        let start = 0xcbf2_9ce4_8422_2325;
+        match &self.answers {
+            Answers::Closest(hits) => hits.iter().fold(start, |sum, hit| {
+                mix(sum, hit.map_or(u64::MAX, |hit| u64::from(hit.t.to_bits()) << 32 | u64::from(hit.prim.index())))
+            }),
+            Answers::Any(hits) => hits.iter().fold(start, |sum, &hit| mix(sum, hit.into())),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use glam::Vec3;
+
+    use super::*;
+    use crate::accel::Accel;
+    use crate::geometry::Mesh;
+    use crate::structures::BruteForce;
+    use crate::triangle::MollerTrumbore;
+
+    fn triangle() -> Box<dyn DynAccel> {
+        let mesh = Mesh::new(vec![Vec3::ZERO, Vec3::X, Vec3::Y], vec![[0, 1, 2]]).unwrap();
+        Box::new(BruteForce::<MollerTrumbore>::build(&Arc::new(mesh), &Default::default()).unwrap())
+    }
+
+    /// `n` rays of which every second hits.
+    fn rays(n: usize) -> Vec<Ray> {
+        (0..n).map(|i| Ray::new(Vec3::new(0.2, 0.2, if i % 2 == 0 { -1.0 } else { 1.0 }), Vec3::Z)).collect()
+    }
+
+    #[test]
+    fn any_number_of_threads_gives_the_same_answers() {
+        let (accel, rays) = (triangle(), rays(5000));
+        let (one, three) = (Threads::new(1).unwrap(), Threads::new(3).unwrap());
+        for query in [Query::Closest, Query::Any] {
+            let sums = [&one, &three].map(|threads| {
+                let mut pass = Pass::new(accel.as_ref(), &rays, query, threads);
+                pass.clear();
+                pass.run();
+                assert_eq!(pass.hits(), 2500);
+                pass.checksum()
+            });
+            assert_eq!(sums[0], sums[1]);
+        }
+    }
+
+    #[test]
+    fn a_pass_that_answers_nothing_is_unsteady() {
+        let (accel, rays, threads) = (triangle(), rays(10), Threads::new(1).unwrap());
+        for query in [Query::Closest, Query::Any] {
+            let mut pass = Pass::new(accel.as_ref(), &rays, query, &threads);
+            let idle: Vec<u64> = (0..2)
+                .map(|_| {
+                    pass.clear();
+                    pass.checksum()
+                })
+                .collect();
+            assert_ne!(idle[0], idle[1]);
+        }
+    }
+
+    #[test]
+    fn a_restricted_pass_spreads_its_rays() {
+        let all: Vec<Ray> = (0..10).map(|i| Ray::new(Vec3::splat(i as f32), Vec3::X)).collect();
+        let parts: Vec<usize> =
+            spread(&all, 4).iter().map(|ray| [0, 0, 1, 1, 1, 2, 2, 3, 3, 3][ray.origin.x as usize]).collect();
+        assert_eq!(parts, [0, 1, 2, 3]);
+        assert_eq!(spread(&all, 20), all);
+
+        let (accel, rays, threads) = (triangle(), rays(9), Threads::new(1).unwrap());
+        let mut pass = Pass::new(accel.as_ref(), &rays, Query::Any, &threads);
+        pass.restrict(3);
+        pass.run();
+        assert_eq!(pass.rays(), 9);
+        assert_eq!(pass.hits(), spread(&rays, 3).iter().filter(|ray| ray.origin.z < 0.0).count());
+    }
+}

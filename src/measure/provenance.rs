@@ -1,0 +1,106 @@
+//! Where a number comes from.
+
+use serde::{Deserialize, Serialize};
+
+use crate::simd;
+
+/// What must be known to judge a measurement, and to repeat it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Provenance {
+    /// The command line.
+    pub command: String,
+    /// Version of this crate.
+    pub version: String,
+    /// Commit that was built, `+changes` when the sources differed from it; `unknown` outside git.
+    pub commit: String,
+    /// Compiler.
+    pub rustc: String,
+    /// `release` or `debug`.
+    pub profile: String,
+    /// Target triple.
+    pub target: String,
+    /// Instruction set extensions that the compiler was allowed to use; the same for all structures.
+    pub target_features: String,
+    /// Instruction set of our own lanes.
+    pub simd: String,
+    /// Name of the processor; `unknown` where the system does not tell.
+    pub cpu: String,
+    /// Processors that the system offers to this process.
+    pub cores: usize,
+    /// Threads that built and traced; 1 is the unit of all comparisons.
+    pub threads: usize,
+    /// Operating system.
+    pub os: String,
+}
+
+impl Provenance {
+    /// Of this process, which builds and traces on `threads` threads.
+    pub fn capture(threads: usize) -> Self {
+        let command: Vec<String> = std::env::args().map(|arg| quoted(&arg)).collect();
+        Self {
+            command: command.join(" "),
+            version: env!("CARGO_PKG_VERSION").into(),
+            commit: env!("SAHARA_COMMIT").into(),
+            rustc: env!("SAHARA_RUSTC").into(),
+            profile: env!("SAHARA_PROFILE").into(),
+            target: env!("SAHARA_TARGET").into(),
+            target_features: env!("SAHARA_TARGET_FEATURES").into(),
+            simd: simd::level().into(),
+            cpu: cpu_name().unwrap_or_else(|| "unknown".into()),
+            cores: std::thread::available_parallelism().map_or(1, usize::from),
+            threads,
+            os: std::env::consts::OS.into(),
+        }
+    }
+
+    /// One line for the foot of a table.
+    pub fn line(&self) -> String {
+        let threads = if self.threads == 1 { "1 thread".into() } else { format!("{} threads", self.threads) };
+        let Self { cpu, simd, rustc, version, commit, profile, .. } = self;
+        format!("{cpu}, {simd}, {threads}; sahara {version} ({commit}, {profile}), {rustc}")
+    }
+}
+
+/// An argument as a shell would read it back.
+fn quoted(arg: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./:=,+@%".contains(c);
+    if !arg.is_empty() && arg.chars().all(plain) { arg.into() } else { format!("'{}'", arg.replace('\'', "'\\''")) }
+}
+
+/// From Linux's description of the processor.
+fn cpu_name() -> Option<String> {
+    model_name(&std::fs::read_to_string("/proc/cpuinfo").ok()?)
+}
+
+fn model_name(cpuinfo: &str) -> Option<String> {
+    let line = cpuinfo.lines().find(|line| line.starts_with("model name"))?;
+    let (_, name) = line.split_once(':')?;
+    Some(name.split_whitespace().collect::<Vec<_>>().join(" "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_processor_is_named_when_the_system_tells() {
+        let text = "processor\t: 0\nmodel name\t: Some  CPU @ 3.00GHz\nmodel name\t: Other\n";
+        assert_eq!(model_name(text).as_deref(), Some("Some CPU @ 3.00GHz"));
+        assert_eq!(model_name("processor\t: 0\n"), None);
+    }
+
+    #[test]
+    fn arguments_can_be_pasted_back() {
+        assert_eq!(quoted("sah-kd:leaf=8"), "sah-kd:leaf=8");
+        assert_eq!(quoted("0,0,0 1,0,0"), "'0,0,0 1,0,0'");
+        assert_eq!(quoted("it's"), "'it'\\''s'");
+        assert_eq!(quoted(""), "''");
+    }
+
+    #[test]
+    fn the_build_is_known() {
+        let provenance = Provenance::capture(1);
+        assert!(provenance.rustc.starts_with("rustc "), "{provenance:?}");
+        assert!(!provenance.commit.is_empty() && provenance.cores > 0);
+    }
+}

@@ -1,0 +1,84 @@
+//! Records as JSON and CSV.
+
+use serde::Serialize;
+use serde_json::Value;
+
+use super::Record;
+
+/// Anything as indented JSON with a final newline.
+pub fn to_json(value: &impl Serialize) -> Vec<u8> {
+    let mut bytes = serde_json::to_vec_pretty(value).expect("records have text keys and finite numbers");
+    bytes.push(b'\n');
+    bytes
+}
+
+/// One row per record under a row of names; see the [module](super) for the form of nested fields.
+pub fn to_csv(records: &[Record]) -> Vec<u8> {
+    let mut writer = csv::Writer::from_writer(vec![]);
+    for (i, record) in records.iter().enumerate() {
+        let fields = flat(record);
+        if i == 0 {
+            writer.write_record(fields.iter().map(|(name, _)| name)).expect("memory takes every write");
+        }
+        writer.write_record(fields.iter().map(|(_, value)| value)).expect("all records have the same fields");
+    }
+    writer.into_inner().expect("memory takes every write")
+}
+
+/// Name and text of every field, in the order of the record.
+fn flat(record: &Record) -> Vec<(String, String)> {
+    let Ok(Value::Object(fields)) = serde_json::to_value(record) else { unreachable!("a record is a map of fields") };
+    let mut flat = vec![];
+    for (name, value) in fields {
+        match value {
+            Value::Object(inner) if name == "provenance" => {
+                flat.extend(inner.into_iter().map(|(key, value)| (format!("{name}.{key}"), text(value))));
+            }
+            value => flat.push((name, text(value))),
+        }
+    }
+    flat
+}
+
+fn text(value: Value) -> String {
+    match value {
+        Value::Null => String::new(),
+        Value::String(text) => text,
+        other => other.to_string(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::record::example;
+    use super::*;
+
+    #[test]
+    fn json_is_an_array_of_records() {
+        let records = vec![example(), example()];
+        let bytes = to_json(&records);
+        assert!(bytes.ends_with(b"]\n"));
+        assert_eq!(serde_json::from_slice::<Vec<Record>>(&bytes).unwrap(), records);
+    }
+
+    #[test]
+    fn csv_has_a_column_for_every_field_and_blanks_for_what_is_unknown() {
+        let bytes = to_csv(&[example(), example()]);
+        let mut reader = csv::Reader::from_reader(&bytes[..]);
+        let names = reader.headers().unwrap().clone();
+        let rows: Vec<csv::StringRecord> = reader.records().map(Result::unwrap).collect();
+        assert_eq!(rows.len(), 2);
+        let cell = |name: &str| rows[1][names.iter().position(|n| n == name).unwrap()].to_owned();
+        assert_eq!(cell("scene"), "Cube");
+        assert_eq!(cell("tests_per_ray"), "");
+        assert_eq!(cell("steps_per_ray"), "1.5");
+        assert_eq!(cell("config"), r#"{"leaf":8,"threshold":0.7}"#);
+        assert_eq!(cell("provenance.threads"), "1");
+    }
+
+    #[test]
+    fn nothing_exports_as_nothing() {
+        assert_eq!(to_json(&Vec::<Record>::new()), b"[]\n");
+        assert!(to_csv(&[]).is_empty());
+    }
+}

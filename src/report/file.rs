@@ -1,0 +1,159 @@
+//! Files written whole or not at all.
+
+use std::fs;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use tempfile::{Builder, NamedTempFile};
+
+/// A file that results will go to.
+///
+/// It is first written beside its place and then moved there, so that a reader never sees half of it and an older one
+/// stays when something fails. What is not a regular file (a pipe, `/dev/stdout`) is written to directly.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct OutputFile {
+    path: PathBuf,
+}
+
+/// Why a file cannot be written.
+#[derive(Debug, thiserror::Error)]
+pub enum OutputError {
+    #[error("cannot write {}: it is a directory: name a file in it", .0.display())]
+    Directory(PathBuf),
+    #[error("cannot write {}: {cause}: choose a place that exists, may be written and has room", path.display())]
+    Write { path: PathBuf, cause: io::Error },
+}
+
+impl OutputFile {
+    /// Checks that `path` can be written now, before the long run whose results it is for; leaves nothing behind.
+    ///
+    /// # Errors
+    /// If `path` is a directory, or its directory takes no file.
+    pub fn check(path: &Path) -> Result<Self, OutputError> {
+        let file = Self { path: path.into() };
+        match fs::metadata(path) {
+            Ok(there) if there.is_dir() => return Err(OutputError::Directory(path.into())),
+            Ok(there) if !there.is_file() => {}
+            _ => drop(file.beside().map_err(|cause| file.error(cause))?),
+        }
+        Ok(file)
+    }
+
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// # Errors
+    /// If the system refuses, or there is no room; then an older file is as it was.
+    pub fn write(&self, bytes: &[u8]) -> Result<(), OutputError> {
+        self.place(bytes).map_err(|cause| self.error(cause))
+    }
+
+    fn place(&self, bytes: &[u8]) -> io::Result<()> {
+        if fs::metadata(&self.path).is_ok_and(|there| !there.is_file()) {
+            return fs::OpenOptions::new().write(true).open(&self.path)?.write_all(bytes);
+        }
+        let mut file = self.beside()?;
+        file.write_all(bytes)?;
+        file.as_file().sync_all()?;
+        file.persist(self.target())?;
+        Ok(())
+    }
+
+    /// The file itself, where `path` is a link to it.
+    fn target(&self) -> PathBuf {
+        self.path.canonicalize().unwrap_or_else(|_| self.path.clone())
+    }
+
+    /// A new file in the same directory, with the permissions of any new file.
+    fn beside(&self) -> io::Result<NamedTempFile> {
+        let target = self.target();
+        let directory = target.parent().filter(|d| !d.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let mut builder = Builder::new();
+        builder.prefix(".sahara-").suffix(".part");
+        #[cfg(unix)]
+        {
+            use std::os::unix::fs::PermissionsExt;
+            builder.permissions(fs::Permissions::from_mode(0o666));
+        }
+        builder.tempfile_in(directory).map_err(plain)
+    }
+
+    fn error(&self, cause: io::Error) -> OutputError {
+        OutputError::Write { path: self.path.clone(), cause }
+    }
+}
+
+/// The error of the system itself: tempfile adds the path of a file that the user did not name.
+fn plain(error: io::Error) -> io::Error {
+    let text = error.to_string();
+    match text.split_once(" at path ") {
+        Some((cause, _)) => io::Error::new(error.kind(), cause),
+        None => error,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names(directory: &Path) -> Vec<String> {
+        let mut names: Vec<String> =
+            fs::read_dir(directory).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn a_check_leaves_nothing_and_a_write_leaves_one_file() {
+        let directory = tempfile::tempdir().unwrap();
+        let file = OutputFile::check(&directory.path().join("a.json")).unwrap();
+        assert!(names(directory.path()).is_empty());
+        file.write(b"one").unwrap();
+        file.write(b"two").unwrap();
+        assert_eq!(fs::read(file.path()).unwrap(), b"two");
+        assert_eq!(names(directory.path()), ["a.json"]);
+    }
+
+    #[test]
+    fn what_cannot_be_written_is_found_by_the_check() {
+        let directory = tempfile::tempdir().unwrap();
+        let error = OutputFile::check(directory.path()).unwrap_err();
+        assert!(matches!(error, OutputError::Directory(_)), "{error}");
+        let missing = directory.path().join("no/such/a.json");
+        let error = OutputFile::check(&missing).unwrap_err().to_string();
+        assert!(error.contains("no/such/a.json") && !error.contains(".part"), "{error}");
+        let under_a_file = directory.path().join("f");
+        fs::write(&under_a_file, b"x").unwrap();
+        assert!(OutputFile::check(&under_a_file.join("a.json")).is_err());
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_link_stays_a_link_and_a_new_file_is_readable_by_others() {
+        use std::os::unix::fs::{PermissionsExt, symlink};
+        let directory = tempfile::tempdir().unwrap();
+        let (real, link) = (directory.path().join("real"), directory.path().join("link"));
+        fs::write(&real, b"old").unwrap();
+        symlink(&real, &link).unwrap();
+        OutputFile::check(&link).unwrap().write(b"new").unwrap();
+        assert_eq!(fs::read(&real).unwrap(), b"new");
+        assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+
+        let plain = directory.path().join("plain");
+        fs::write(&plain, b"").unwrap();
+        let mode = |path: &Path| fs::metadata(path).unwrap().permissions().mode() & 0o777;
+        assert_eq!(mode(&real), mode(&plain));
+    }
+
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn a_full_device_is_an_error_and_stays_a_device() {
+        let full = Path::new("/dev/full");
+        if full.exists() {
+            let error = OutputFile::check(full).unwrap().write(b"x").unwrap_err().to_string();
+            assert!(error.contains("/dev/full"), "{error}");
+            assert!(!fs::metadata(full).unwrap().is_file());
+        }
+    }
+}

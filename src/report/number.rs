@@ -1,0 +1,97 @@
+//! Numbers as people read them: three significant digits and a unit.
+
+/// Three significant digits without an exponent where that stays short: `0.00123`, `1.23`, `12.3`, `1230`, `4.96e-9`.
+pub fn figures(x: f64) -> String {
+    let size = x.abs();
+    if x == 0.0 {
+        "0".into()
+    } else if !x.is_finite() || !(1e-3..1e7).contains(&size) {
+        format!("{x:.2e}")
+    } else {
+        // The number of decimals follows from the rounded value: 9.996 has one digit more than it seems.
+        let rounded: f64 = format!("{size:.2e}").parse().expect("a formatted number");
+        let decimals = 2 - libm::floor(libm::log10(rounded)) as i32;
+        format!("{x:.*}", decimals.max(0) as usize)
+    }
+}
+
+/// Nanoseconds as `ns`, `us`, `ms` or `s`.
+pub fn duration(ns: f64) -> String {
+    let (scale, unit) = match ns {
+        ns if ns < 999.5 => (1.0, "ns"),
+        ns if ns < 999.5e3 => (1e3, "us"),
+        ns if ns < 999.5e6 => (1e6, "ms"),
+        _ => (1e9, "s"),
+    };
+    format!("{} {unit}", figures(ns / scale))
+}
+
+/// Bytes as `B`, `KiB`, `MiB` or `GiB`.
+pub fn bytes(bytes: usize) -> String {
+    let (scale, unit) = match bytes {
+        0..1024 => (0, "B"),
+        1024..0x10_0000 => (10, "KiB"),
+        0x10_0000..0x4000_0000 => (20, "MiB"),
+        _ => (30, "GiB"),
+    };
+    format!("{} {unit}", figures(bytes as f64 / f64::from(1u32 << scale)))
+}
+
+/// A whole number in groups of three digits: `130,858`.
+pub fn count(n: u64) -> String {
+    let digits = n.to_string();
+    let mut text = String::new();
+    for (i, digit) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
+            text.push(',');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+/// `1 scene`, `2 scenes`.
+pub fn plural(n: usize, noun: &str) -> String {
+    format!("{} {noun}{}", count(n as u64), if n == 1 { "" } else { "s" })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn three_digits_whatever_the_size() {
+        let cases = [
+            (0.0, "0"),
+            (0.001_234, "0.00123"),
+            (0.0996, "0.0996"),
+            (0.999_6, "1.00"),
+            (1.0, "1.00"),
+            (9.996, "10.0"),
+            (12.345, "12.3"),
+            (999.6, "1000"),
+            (262_144.0, "262144"),
+            (-1.5, "-1.50"),
+            (4.959e-9, "4.96e-9"),
+            (1.25e8, "1.25e8"),
+        ];
+        for (x, text) in cases {
+            assert_eq!(figures(x), text);
+        }
+    }
+
+    #[test]
+    fn units_change_where_three_digits_end() {
+        assert_eq!(
+            [duration(12.0), duration(999.9), duration(2.5e6), duration(1.5e10)],
+            ["12.0 ns", "1.00 us", "2.50 ms", "15.0 s"]
+        );
+        assert_eq!([bytes(0), bytes(1023), bytes(1536), bytes(5 << 20)], ["0 B", "1023 B", "1.50 KiB", "5.00 MiB"]);
+    }
+
+    #[test]
+    fn counts_are_grouped() {
+        assert_eq!([count(7), count(1000), count(130_858), count(1_234_567)], ["7", "1,000", "130,858", "1,234,567"]);
+        assert_eq!([plural(1, "ray"), plural(2000, "ray")], ["1 ray", "2,000 rays"]);
+    }
+}

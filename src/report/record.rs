@@ -1,0 +1,113 @@
+//! One record per case.
+
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+use crate::accel::Query;
+use crate::measure::Provenance;
+
+/// What is known of one case; the fields are described in the [module](super).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[allow(missing_docs)]
+pub struct Record {
+    pub schema: u32,
+    pub scene: String,
+    pub scene_hash: String,
+    pub triangles: usize,
+    pub degenerate: usize,
+    pub stand_in: bool,
+    pub structure: String,
+    pub label: String,
+    pub config: Value,
+    pub triangle_test: String,
+    pub workload: String,
+    pub query: Query,
+    pub workload_hash: String,
+    pub workload_rays: usize,
+    pub rays: usize,
+    pub sampled: bool,
+    pub hits: usize,
+    pub build_ns: u64,
+    pub trace_ns: Option<f64>,
+    pub runs: usize,
+    pub mrays_per_s: Option<f64>,
+    pub tests_per_ray: Option<f64>,
+    pub steps_per_ray: Option<f64>,
+    pub bytes: usize,
+    pub checked_rays: Option<usize>,
+    pub structure_errors: Option<usize>,
+    pub provenance: Provenance,
+}
+
+impl Record {
+    /// Version of the schema.
+    pub const SCHEMA: u32 = 1;
+
+    /// Whether wrong answers cost the case its time: those of a baseline whose defect is documented do not.
+    pub fn is_disqualified(&self) -> bool {
+        self.structure_errors.is_some_and(|errors| errors > 0) && self.trace_ns.is_none()
+    }
+}
+
+#[cfg(test)]
+pub(crate) fn example() -> Record {
+    Record {
+        schema: Record::SCHEMA,
+        scene: "Cube".into(),
+        scene_hash: "00".into(),
+        triangles: 12,
+        degenerate: 0,
+        stand_in: false,
+        structure: "median-kd".into(),
+        label: "median-kd:leaf=8".into(),
+        config: serde_json::json!({ "leaf": 8, "threshold": 0.7 }),
+        triangle_test: "moller-trumbore".into(),
+        workload: "primary".into(),
+        query: Query::Closest,
+        workload_hash: "11".into(),
+        workload_rays: 1000,
+        rays: 500,
+        sampled: true,
+        hits: 20,
+        build_ns: 1500,
+        trace_ns: Some(2e6),
+        runs: 7,
+        mrays_per_s: Some(0.25),
+        tests_per_ray: None,
+        steps_per_ray: Some(1.5),
+        bytes: 4096,
+        checked_rays: Some(100),
+        structure_errors: Some(0),
+        provenance: Provenance::capture(1),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Names in the first column of the tables of the document, up to a line that starts with `end`.
+    fn documented(text: &str) -> Vec<&str> {
+        text.lines().filter_map(|line| line.strip_prefix("| `")?.split_once('`').map(|(name, _)| name)).collect()
+    }
+
+    fn serialised(value: &Value) -> Vec<&str> {
+        value.as_object().unwrap().keys().map(String::as_str).collect()
+    }
+
+    #[test]
+    fn the_documented_fields_are_the_serialised_ones() {
+        let record = serde_json::to_value(example()).unwrap();
+        let (record_part, provenance_part) =
+            include_str!("SCHEMA.md").split_once("`provenance`:").expect("the document has both tables");
+        assert_eq!(documented(record_part), serialised(&record));
+        assert_eq!(documented(provenance_part), serialised(&record["provenance"]));
+    }
+
+    #[test]
+    fn a_record_reads_back() {
+        let text = serde_json::to_string(&example()).unwrap();
+        assert_eq!(serde_json::from_str::<Record>(&text).unwrap(), example());
+    }
+}

@@ -1,0 +1,268 @@
+//! One table, printed on a terminal or as Markdown.
+
+use comfy_table::{Attribute, Cell as Printed, CellAlignment, Color, ContentArrangement, Table as Grid, presets};
+
+/// A table with a title above and notes below.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Table {
+    /// One line.
+    pub title: String,
+    /// The first column is text, the others are numbers and stand to the right.
+    pub columns: Vec<String>,
+    /// As many cells as there are columns.
+    pub rows: Vec<Vec<Cell>>,
+    /// One sentence each.
+    pub notes: Vec<String>,
+}
+
+/// What a cell says, and how loud.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Cell {
+    pub text: String,
+    pub tone: Tone,
+}
+
+/// How a cell stands out. Colour repeats what the text says: without it nothing is lost.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Tone {
+    #[default]
+    Plain,
+    /// The best of its column.
+    Best,
+    /// A wrong answer.
+    Wrong,
+}
+
+/// Where a table is printed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Screen {
+    /// Columns; no limit where nobody looks.
+    pub width: Option<u16>,
+    pub colour: bool,
+}
+
+impl From<String> for Cell {
+    fn from(text: String) -> Self {
+        Self { text, tone: Tone::Plain }
+    }
+}
+
+impl From<&str> for Cell {
+    fn from(text: &str) -> Self {
+        text.to_owned().into()
+    }
+}
+
+impl Cell {
+    /// Nothing: what is not known.
+    pub fn blank() -> Self {
+        Self::default()
+    }
+
+    /// The same cell, as loud as `tone`.
+    pub fn with(self, tone: Tone) -> Self {
+        Self { tone, ..self }
+    }
+}
+
+/// Blanks before the first column, and after every one.
+const INDENT: usize = 2;
+const PADDING: usize = 2;
+
+impl Table {
+    /// The table in lines of at most the screen's width: columns for which there is no room follow below, after the first
+    /// column once more.
+    pub fn to_terminal(&self, screen: Screen) -> String {
+        let title = if screen.colour { format!("\x1b[1m{}\x1b[0m", self.title) } else { self.title.clone() };
+        let mut text = title + "\n";
+        for columns in self.blocks(screen.width.map(usize::from)) {
+            for line in self.grid(&columns, screen).lines() {
+                text.push_str(line.trim_end());
+                text.push('\n');
+            }
+        }
+        for note in &self.notes {
+            for line in wrapped(note, usize::from(screen.width.unwrap_or(120)).saturating_sub(4).max(20)) {
+                text.push_str(&format!("  {line}\n"));
+            }
+        }
+        text
+    }
+
+    /// The columns in groups that fit side by side, the first column in each.
+    fn blocks(&self, width: Option<usize>) -> Vec<Vec<usize>> {
+        let widest = |i: usize| {
+            let cells = self.rows.iter().map(|row| row[i].text.chars().count());
+            cells.chain([self.columns[i].chars().count()]).max().unwrap_or(0) + PADDING
+        };
+        let mut blocks = vec![vec![0]];
+        let mut used = INDENT + widest(0);
+        for column in 1..self.columns.len() {
+            let block = blocks.last_mut().expect("there is a block");
+            if width.is_some_and(|width| block.len() > 1 && used + widest(column) > width) {
+                blocks.push(vec![0, column]);
+                used = INDENT + widest(0) + widest(column);
+            } else {
+                block.push(column);
+                used += widest(column);
+            }
+        }
+        blocks
+    }
+
+    fn grid(&self, columns: &[usize], screen: Screen) -> String {
+        let mut grid = Grid::new();
+        grid.load_preset(presets::NOTHING).set_content_arrangement(ContentArrangement::Disabled);
+        grid.set_header(columns.iter().map(|&i| {
+            let cell = Printed::new(&self.columns[i]);
+            if screen.colour { cell.add_attribute(Attribute::Bold) } else { cell }
+        }));
+        for row in &self.rows {
+            grid.add_row(columns.iter().map(|&i| {
+                let printed = Printed::new(&row[i].text);
+                match row[i].tone {
+                    Tone::Best if screen.colour => printed.fg(Color::Green),
+                    Tone::Wrong if screen.colour => printed.fg(Color::Red),
+                    _ => printed,
+                }
+            }));
+        }
+        for (i, column) in grid.column_iter_mut().enumerate() {
+            column.set_padding((if i == 0 { INDENT as u16 } else { 0 }, PADDING as u16));
+            column.set_cell_alignment(if i == 0 { CellAlignment::Left } else { CellAlignment::Right });
+        }
+        if screen.colour {
+            grid.enforce_styling();
+        } else {
+            grid.force_no_tty();
+        }
+        grid.to_string()
+    }
+
+    /// The table in GitHub's Markdown.
+    pub fn to_markdown(&self) -> String {
+        let line = |cells: Vec<String>| format!("| {} |\n", cells.join(" | "));
+        let mut text = format!("### {}\n\n", self.title);
+        text += &line(self.columns.iter().map(|name| escaped(name)).collect());
+        text += &line((0..self.columns.len()).map(|i| if i == 0 { "---" } else { "---:" }.to_owned()).collect());
+        for row in &self.rows {
+            text += &line(
+                row.iter()
+                    .map(|cell| match cell.tone {
+                        Tone::Plain => escaped(&cell.text),
+                        Tone::Best | Tone::Wrong => format!("**{}**", escaped(&cell.text)),
+                    })
+                    .collect(),
+            );
+        }
+        for note in &self.notes {
+            text += &format!("\n{}\n", escaped(note));
+        }
+        text
+    }
+}
+
+/// Tables and the lines below them as one Markdown document.
+pub fn to_markdown(tables: &[Table], foot: &[String]) -> Vec<u8> {
+    let tables: String = tables.iter().map(|table| table.to_markdown() + "\n").collect();
+    let foot: Vec<String> = foot.iter().map(|line| escaped(line)).collect();
+    (tables + &foot.join("\n\n") + "\n").into_bytes()
+}
+
+/// Text that Markdown would read as a table or as markup.
+fn escaped(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        if "|*_`<>\\~".contains(c) {
+            out.push('\\');
+        }
+        out.push(c);
+    }
+    out
+}
+
+/// The words of `text` in lines of at most `width` characters, or one word.
+pub fn wrapped(text: &str, width: usize) -> Vec<String> {
+    let mut lines: Vec<String> = vec![];
+    for word in text.split_whitespace() {
+        match lines.last_mut() {
+            Some(line) if line.chars().count() + 1 + word.chars().count() <= width => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.to_owned()),
+        }
+    }
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn table() -> Table {
+        Table {
+            title: "Cube".into(),
+            columns: ["structure", "Mrays/s"].map(String::from).into(),
+            rows: vec![
+                vec!["brute|force".into(), Cell::from("1.25").with(Tone::Best)],
+                vec!["tree".into(), Cell::from("3 wrong").with(Tone::Wrong)],
+            ],
+            notes: vec!["a note of some words".into()],
+        }
+    }
+
+    #[test]
+    fn without_colour_there_is_no_escape_and_no_line_ends_in_blanks() {
+        let text = table().to_terminal(Screen { width: None, colour: false });
+        assert!(!text.contains('\x1b'), "{text:?}");
+        assert!(text.lines().all(|line| line == line.trim_end()), "{text:?}");
+        let lines: Vec<&str> = text.lines().collect();
+        assert_eq!(lines[0], "Cube");
+        assert_eq!(lines[1].split_whitespace().collect::<Vec<_>>(), ["structure", "Mrays/s"]);
+        assert_eq!(lines[4], "  a note of some words");
+        // Numbers stand to the right.
+        assert_eq!(lines[1].len(), lines[2].len());
+    }
+
+    #[test]
+    fn colour_says_nothing_new() {
+        let plain = table().to_terminal(Screen { width: Some(80), colour: false });
+        let loud = table().to_terminal(Screen { width: Some(80), colour: true });
+        let mut stripped = String::new();
+        let mut rest = loud.as_str();
+        while let Some((before, after)) = rest.split_once('\x1b') {
+            stripped += before;
+            rest = after.split_once('m').unwrap().1;
+        }
+        stripped += rest;
+        let words = |text: &str| text.split_whitespace().map(str::to_owned).collect::<Vec<_>>();
+        assert_ne!(loud, plain);
+        assert_eq!(words(&stripped), words(&plain));
+    }
+
+    #[test]
+    fn a_narrow_screen_is_not_exceeded() {
+        let mut wide = table();
+        wide.columns.extend(["one", "two", "three"].map(String::from));
+        wide.rows.iter_mut().for_each(|row| row.extend(["123456", "1234", "12"].map(Cell::from)));
+        for width in [26, 40, 80] {
+            let text = wide.to_terminal(Screen { width: Some(width), colour: false });
+            assert!(text.lines().all(|line| line.chars().count() <= width.into()), "{text}");
+            // Nothing is lost, and no cell is torn apart.
+            assert!(
+                ["structure", "3 wrong", "123456", "three", "1234"].iter().all(|cell| text.contains(cell)),
+                "{text}"
+            );
+        }
+        let narrow = wide.to_terminal(Screen { width: Some(26), colour: false });
+        assert!(narrow.matches("brute|force").count() > 1, "every block begins with the first column: {narrow}");
+    }
+
+    #[test]
+    fn markdown_has_a_rule_and_escapes_its_marks() {
+        let text = table().to_markdown();
+        assert!(text.starts_with("### Cube\n\n| structure | Mrays/s |\n| --- | ---: |\n"), "{text}");
+        assert!(text.contains("| brute\\|force | **1.25** |\n"), "{text}");
+    }
+}

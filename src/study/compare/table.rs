@@ -1,0 +1,280 @@
+//! Records as tables for people.
+
+use crate::accel::Query;
+use crate::measure::geometric_mean;
+use crate::report::number::{bytes, count, duration, figures, plural};
+use crate::report::{Cell, Record, Table, Tone};
+use crate::study::baselines::{REPORT_TREE, documented_defect, is_obvhs};
+
+/// What the columns mean, once for all tables of [`scene_table`]. `first` is the first workload.
+pub fn legend(first: &str) -> Vec<String> {
+    vec![
+        format!("build: seen from outside; tests, steps: triangle tests and nodes entered for each {first} ray."),
+        "Under each workload: million rays a second, median; n/m wrong: wrong answers to n of m rays, and then no time. \
+         A workload with a star is timed by any hit, the others by closest hit."
+            .into(),
+        format!(
+            "x {REPORT_TREE}, x obvhs: speed against the report's tree and against the better BVH of obvhs, geometric mean \
+             over the workloads of the row. Blank: unknown."
+        ),
+        "checked: least number of rays of a workload held against brute force with the same triangle test. timed on: \
+         least share of a workload's rays; the rest would take too long."
+            .into(),
+    ]
+}
+
+/// The records of one scene, one row for each structure. `notes` are those of the scene.
+pub fn scene_table(records: &[Record], notes: &[String]) -> Table {
+    let Some(first) = records.first() else { return Table::default() };
+    let workloads = names(records, |r| &r.workload);
+    let structures = names(records, |r| &r.label);
+    let of = |label: &str| -> Vec<&Record> { records.iter().filter(|r| r.label == label).collect() };
+    let has_report_tree = records.iter().any(|r| r.label == REPORT_TREE);
+    let has_obvhs = records.iter().any(|r| is_obvhs(&r.structure));
+
+    let mut columns: Vec<String> = ["structure", "build", "memory", "tests", "steps"].map(String::from).into();
+    for workload in &workloads {
+        let any = records.iter().any(|r| r.workload == *workload && r.query == Query::Any);
+        columns.push(format!("{workload}{}", if any { "*" } else { "" }));
+    }
+    columns.extend(has_report_tree.then(|| format!("x {REPORT_TREE}")));
+    columns.extend(has_obvhs.then(|| "x obvhs".into()));
+    columns.extend(["checked", "timed on"].map(String::from));
+
+    let best: Vec<f64> = workloads.iter().map(|w| best_speed(records, w, |_| true).unwrap_or(f64::INFINITY)).collect();
+    let rows = structures
+        .iter()
+        .map(|label| {
+            let of = of(label);
+            let known = |x: Option<f64>| x.map_or(Cell::blank(), |x| figures(x).into());
+            let mut row: Vec<Cell> = vec![
+                label.as_str().into(),
+                duration(of[0].build_ns as f64).into(),
+                bytes(of[0].bytes).into(),
+                known(of[0].tests_per_ray),
+                known(of[0].steps_per_ray),
+            ];
+            for (workload, best) in workloads.iter().zip(&best) {
+                row.push(of.iter().find(|r| r.workload == *workload).map_or(Cell::blank(), |r| speed(r, *best)));
+            }
+            let against = |baseline: &dyn Fn(&Record) -> bool| known(speed_against(records, &of, baseline));
+            row.extend(has_report_tree.then(|| against(&|r| r.label == REPORT_TREE)));
+            row.extend(has_obvhs.then(|| against(&|r| is_obvhs(&r.structure))));
+            let checked = of.iter().map(|r| r.checked_rays).min().flatten();
+            row.push(checked.map_or(Cell::blank(), |n| count(n as u64).into()));
+            row.push(share(&of).into());
+            row
+        })
+        .collect();
+
+    let degenerate = match first.degenerate {
+        0 => String::new(),
+        n => format!(" ({} degenerate)", count(n as u64)),
+    };
+    let stand_in = if first.stand_in { ", stand-in" } else { "" };
+    let title = format!("{}: {}{degenerate}{stand_in}", first.scene, plural(first.triangles, "triangle"));
+    let mut notes = notes.to_vec();
+    notes.extend(defects(records));
+    Table { title, columns, rows, notes }
+}
+
+/// A footnote for each baseline that gives wrong answers for a documented reason.
+fn defects(records: &[Record]) -> Vec<String> {
+    let mut notes = vec![];
+    for label in names(records, |r| &r.label) {
+        let wrong = |r: &&Record| r.label == label && r.mrays_per_s.is_some() && r.structure_errors.unwrap_or(0) > 0;
+        let share = |r: &Record| {
+            let (errors, checked) = (r.structure_errors.unwrap_or(0), r.checked_rays.unwrap_or(0));
+            format!("{} of {} {}", count(errors as u64), count(checked as u64), r.workload)
+        };
+        let shares: Vec<String> = records.iter().filter(wrong).map(share).collect();
+        let structure = records.iter().find(wrong).map(|r| r.structure.as_str());
+        if let Some(defect) = structure.and_then(documented_defect) {
+            notes.push(format!("! {label} answers {} rays wrong, a known defect: {defect}.", shares.join(", ")));
+        }
+    }
+    notes
+}
+
+/// Speed against the report's tree over all scenes: one row for each structure, one column for each workload.
+///
+/// Only cases in which both have a time count; the notes say how many have none.
+pub fn mean_table(records: &[Record]) -> Table {
+    let workloads = names(records, |r| &r.workload);
+    let structures = names(records, |r| &r.label);
+    let scenes = names(records, |r| &r.scene);
+    let mean = |label: &str, workload: Option<&str>, baseline: &dyn Fn(&Record) -> bool| -> Option<f64> {
+        let ratios: Vec<f64> = records
+            .iter()
+            .filter(|r| r.label == label && workload.is_none_or(|w| r.workload == w))
+            .filter_map(|r| {
+                let same: Vec<Record> = records.iter().filter(|b| b.scene == r.scene).cloned().collect();
+                Some(r.mrays_per_s? / best_speed(&same, &r.workload, baseline)?)
+            })
+            .collect();
+        geometric_mean(&ratios)
+    };
+    let report_tree = |r: &Record| r.label == REPORT_TREE;
+    let obvhs = |r: &Record| is_obvhs(&r.structure);
+
+    let mut columns = vec!["structure".to_owned()];
+    columns.extend(workloads.iter().cloned());
+    columns.extend(["all", "all x obvhs"].map(String::from));
+    let known = |x: Option<f64>| x.map_or(Cell::blank(), |x| Cell::from(figures(x)));
+    let rows = structures
+        .iter()
+        .map(|label| {
+            let mut row = vec![Cell::from(label.as_str())];
+            row.extend(workloads.iter().map(|w| known(mean(label, Some(w), &report_tree))));
+            row.extend([known(mean(label, None, &report_tree)), known(mean(label, None, &obvhs))]);
+            row
+        })
+        .collect();
+
+    let untimed = records.iter().filter(|r| r.mrays_per_s.is_none()).count();
+    let mut notes = vec![];
+    if untimed > 0 {
+        notes.push(format!("{} with wrong answers left out.", plural(untimed, "case")));
+    }
+    let over = plural(scenes.len(), "scene");
+    let title = format!("Speed x {REPORT_TREE}: geometric means over {over}; all: over scenes and workloads");
+    Table { title, columns, rows, notes }
+}
+
+/// Distinct names in the order of their first appearance.
+fn names<'a>(records: &'a [Record], name: impl Fn(&'a Record) -> &'a String) -> Vec<String> {
+    let mut names: Vec<String> = vec![];
+    for record in records {
+        if !names.contains(name(record)) {
+            names.push(name(record).clone());
+        }
+    }
+    names
+}
+
+/// The greatest speed on `workload` among the records that `counts` admits.
+fn best_speed(records: &[Record], workload: &str, counts: impl Fn(&Record) -> bool) -> Option<f64> {
+    let speeds = records.iter().filter(|r| r.workload == workload && counts(r)).filter_map(|r| r.mrays_per_s);
+    speeds.max_by(f64::total_cmp)
+}
+
+/// Geometric mean over the workloads of one structure's speed against the best that `counts` admits.
+fn speed_against(records: &[Record], of: &[&Record], counts: &dyn Fn(&Record) -> bool) -> Option<f64> {
+    let ratios: Option<Vec<f64>> =
+        of.iter().map(|r| Some(r.mrays_per_s? / best_speed(records, &r.workload, counts)?)).collect();
+    geometric_mean(&ratios?)
+}
+
+fn speed(record: &Record, best: f64) -> Cell {
+    let errors = record.structure_errors.unwrap_or(0);
+    match record.mrays_per_s {
+        Some(speed) if errors > 0 => Cell::from(format!("{}!", figures(speed))).with(Tone::Wrong),
+        Some(speed) => Cell::from(figures(speed)).with(if speed >= best { Tone::Best } else { Tone::Plain }),
+        None => Cell::from(format!("{errors}/{} wrong", record.checked_rays.unwrap_or(0))).with(Tone::Wrong),
+    }
+}
+
+/// The least share of a workload's rays that was timed.
+fn share(of: &[&Record]) -> String {
+    let timed = of.iter().filter(|r| r.mrays_per_s.is_some());
+    let least = timed.map(|r| r.rays as f64 / r.workload_rays as f64).min_by(f64::total_cmp);
+    match least {
+        None => String::new(),
+        Some(1.0) => "all".into(),
+        Some(share) => format!("sampled {}%", figures(share * 100.0)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::example_record;
+
+    fn record(scene: &str, label: &str, workload: &str, mrays_per_s: Option<f64>) -> Record {
+        let structure = label.split(':').next().unwrap().to_owned();
+        let errors = if mrays_per_s.is_none() { 3 } else { 0 };
+        Record {
+            scene: scene.into(),
+            label: label.into(),
+            structure,
+            workload: workload.into(),
+            mrays_per_s,
+            trace_ns: mrays_per_s.map(|speed| 1e3 / speed),
+            structure_errors: Some(errors),
+            ..example_record()
+        }
+    }
+
+    fn cell<'a>(table: &'a Table, row: &str, column: &str) -> &'a str {
+        let column = table.columns.iter().position(|c| c == column).unwrap_or_else(|| panic!("no column {column}"));
+        let row = table.rows.iter().find(|r| r[0].text == row).unwrap_or_else(|| panic!("no row {row}"));
+        &row[column].text
+    }
+
+    fn records() -> Vec<Record> {
+        vec![
+            record("A", "median-kd", "primary", Some(1.0)),
+            record("A", "median-kd", "random", Some(2.0)),
+            record("A", "sah-kd", "primary", Some(8.0)),
+            record("A", "sah-kd", "random", Some(4.0)),
+            record("A", "obvhs-bvh2", "primary", Some(4.0)),
+            record("A", "obvhs-bvh2", "random", Some(1.0)),
+            record("A", "obvhs-cwbvh", "primary", Some(2.0)),
+            record("A", "obvhs-cwbvh", "random", Some(4.0)),
+        ]
+    }
+
+    #[test]
+    fn ratios_are_geometric_means_against_the_tree_and_the_better_bvh() {
+        let table = scene_table(&records(), &[]);
+        assert_eq!(cell(&table, "sah-kd", "x median-kd"), "4.00");
+        assert_eq!(cell(&table, "sah-kd", "x obvhs"), "1.41");
+        assert_eq!(cell(&table, "median-kd", "x median-kd"), "1.00");
+        assert_eq!(cell(&table, "sah-kd", "primary"), "8.00");
+        assert_eq!(cell(&table, "sah-kd", "tests"), "", "unknown is blank");
+        assert_eq!(cell(&table, "sah-kd", "timed on"), "sampled 50.0%");
+    }
+
+    #[test]
+    fn a_wrong_structure_shows_its_errors_and_no_time() {
+        let mut records = records();
+        records[2].mrays_per_s = None;
+        records[2].structure_errors = Some(3);
+        let table = scene_table(&records, &[]);
+        assert_eq!(cell(&table, "sah-kd", "primary"), "3/100 wrong");
+        assert_eq!(cell(&table, "sah-kd", "x median-kd"), "");
+        assert_eq!(cell(&table, "sah-kd", "random"), "4.00");
+    }
+
+    #[test]
+    fn a_documented_defect_of_a_baseline_shows_time_and_errors() {
+        let mut records = records();
+        records[4].structure_errors = Some(3);
+        let table = scene_table(&records, &[]);
+        assert_eq!(cell(&table, "obvhs-bvh2", "primary"), "4.00!");
+        assert_eq!(table.notes.len(), 1);
+        assert!(table.notes[0].starts_with("! obvhs-bvh2 answers 3 of 100 primary rays wrong"), "{:?}", table.notes);
+        assert!(!records[4].is_disqualified());
+    }
+
+    #[test]
+    fn means_over_scenes_say_what_they_leave_out() {
+        let mut all = records();
+        all.push(record("B", "median-kd", "primary", Some(1.0)));
+        all.push(record("B", "sah-kd", "primary", Some(2.0)));
+        all.push(record("B", "obvhs-bvh2", "primary", None));
+        let table = mean_table(&all);
+        assert_eq!(cell(&table, "sah-kd", "primary"), "4.00");
+        assert_eq!(cell(&table, "sah-kd", "random"), "2.00");
+        assert_eq!(cell(&table, "obvhs-bvh2", "primary"), "4.00");
+        assert!(table.title.contains("2 scenes"));
+        assert_eq!(table.notes, ["1 case with wrong answers left out."]);
+    }
+
+    #[test]
+    fn without_baselines_there_are_no_columns_for_them() {
+        let table = scene_table(&[record("A", "sah-kd", "primary", Some(1.0))], &["flat".into()]);
+        assert!(!table.columns.iter().any(|c| c.starts_with("x ")), "{:?}", table.columns);
+        assert_eq!(table.notes, ["flat"]);
+    }
+}

@@ -1,0 +1,113 @@
+//! How fast are the answers, and how much work do they take?
+
+use super::Settings;
+use crate::accel::{Counts, DynAccel, Query};
+use crate::geometry::Ray;
+use crate::measure::{Clock, Pass, Plan, Timed, spread, take};
+use crate::scene::{Scene, Workload};
+use crate::study::baselines::documented_defect;
+use crate::study::built::Built;
+use crate::study::check::Check;
+use crate::study::{Stage, StudyError};
+
+/// Of one structure on one workload.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Trace {
+    /// Rays of a sample.
+    pub rays: usize,
+    /// Those that hit.
+    pub hits: usize,
+    /// Samples; none when an answer was wrong.
+    pub ns: Vec<f64>,
+    pub tests_per_ray: Option<f64>,
+    pub steps_per_ray: Option<f64>,
+}
+
+/// A full pass that takes longer runs on a sample of its rays, whatever the budget.
+const LONGEST_SAMPLE_NS: u64 = 1_000_000_000;
+
+/// Rays that a case without times is counted on.
+const COUNTED: usize = 4096;
+
+/// Times every case whose answers are right, or wrong for a documented reason, all interleaved, and counts every case on the rays it was timed on.
+#[allow(clippy::too_many_arguments)]
+pub(super) fn trace_all(
+    scene: &Scene,
+    built: &[Built],
+    workloads: &[Workload],
+    checks: &[Vec<Check>],
+    settings: &Settings,
+    clock: &dyn Clock,
+    budget_ns: u64,
+    progress: &mut dyn FnMut(Stage),
+) -> Result<Vec<Vec<Trace>>, StudyError> {
+    let right: Vec<(usize, usize)> = (0..built.len())
+        .flat_map(|s| (0..workloads.len()).map(move |w| (s, w)))
+        .filter(|&(s, w)| checks[s][w].errors == 0 || documented_defect(&built[s].choice.entry.name).is_some())
+        .collect();
+    let mut cases: Vec<Box<dyn Timed>> = right
+        .iter()
+        .map(|&(s, w)| {
+            let workload = &workloads[w];
+            let pass = Pass::new(built[s].accel.as_ref(), &workload.rays, workload.query, &settings.threads);
+            Box::new(pass) as Box<dyn Timed>
+        })
+        .collect();
+
+    // The warm-up costs about two passes more than the samples.
+    let slots = (cases.len() * (settings.runs + 2)).max(1) as u64;
+    let plan = Plan {
+        runs: settings.runs,
+        sample_budget_ns: (budget_ns / slots).clamp(1, LONGEST_SAMPLE_NS),
+        warmup: 1,
+        seed: settings.seed,
+    };
+    let total = cases.len() * settings.runs;
+    let samples = take(clock, &mut cases, &plan, &mut |taken| progress(Stage::Trace(taken, total)));
+    let samples = samples.map_err(|cause| {
+        let (s, w) = right[cause.case];
+        StudyError::Unsteady {
+            structure: built[s].choice.label.clone(),
+            scene: scene.name.clone(),
+            rays: workloads[w].kind.name().into(),
+            cause,
+        }
+    })?;
+
+    let mut traces = vec![vec![Trace::default(); workloads.len()]; built.len()];
+    for (&(s, w), samples) in right.iter().zip(samples) {
+        traces[s][w].rays = samples.rays;
+        traces[s][w].ns = samples.ns.iter().map(|&ns| ns as f64).collect();
+    }
+    for (s, built) in built.iter().enumerate() {
+        for (w, workload) in workloads.iter().enumerate() {
+            let trace = &mut traces[s][w];
+            if trace.ns.is_empty() {
+                trace.rays = COUNTED.min(workload.rays.len());
+            }
+            count(built.accel.as_ref(), &spread(&workload.rays, trace.rays), workload.query, trace);
+        }
+    }
+    Ok(traces)
+}
+
+/// Hits and counts of one pass over `rays`.
+fn count(accel: &dyn DynAccel, rays: &[Ray], query: Query, trace: &mut Trace) {
+    let mut counts = Counts::default();
+    trace.hits = match query {
+        Query::Closest => {
+            let mut hits = vec![None; rays.len()];
+            accel.closest_hits_counted(rays, &mut hits, &mut counts);
+            hits.iter().flatten().count()
+        }
+        Query::Any => {
+            let mut hits = vec![false; rays.len()];
+            accel.any_hits_counted(rays, &mut hits, &mut counts);
+            hits.iter().filter(|hit| **hit).count()
+        }
+    };
+    let observed = accel.observed();
+    let per_ray = |n: u64| n as f64 / rays.len() as f64;
+    trace.tests_per_ray = observed.tests.then(|| per_ray(counts.tests));
+    trace.steps_per_ray = observed.steps.then(|| per_ray(counts.steps()));
+}

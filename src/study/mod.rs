@@ -1,0 +1,13 @@
+//! Studies: what is built, checked, counted and timed to answer a question, and the tables that answer it.
+
+mod baselines;
+mod built;
+mod check;
+pub mod compare;
+mod error;
+pub mod replicate;
+mod stage;
+
+pub use baselines::{BRUTE_FORCE, SAH_TREE, documented_defect};
+pub use error::StudyError;
+pub use stage::Stage;
