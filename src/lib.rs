@@ -2,8 +2,10 @@
 
 pub mod accel;
 pub mod geometry;
+pub mod golden;
 pub mod oracle;
 pub mod registry;
+pub mod render;
 pub mod scene;
 pub mod simd;
 pub mod structures;

@@ -3,11 +3,13 @@
 mod counts;
 mod footprint;
 mod observer;
+mod query;
 mod shape;
 mod traits;
 
 pub use counts::Counts;
 pub use footprint::Footprint;
 pub use observer::{Observed, Observer};
+pub use query::Query;
 pub use shape::TreeShape;
 pub use traits::{Accel, BuildError, DynAccel};

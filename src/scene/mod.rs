@@ -3,6 +3,7 @@
 mod assemble;
 mod builtin;
 mod camera;
+mod cast;
 mod error;
 pub mod format;
 mod frame;
@@ -16,6 +17,7 @@ mod normals;
 mod scene;
 #[cfg(test)]
 mod tests;
+mod workload;
 
 pub use builtin::{BUILTIN, Builtin, Difficulty, real_mesh_folder};
 pub use camera::{Camera, CameraError, View};
@@ -26,3 +28,4 @@ pub use material::Material;
 pub use model::Model;
 pub use normals::CornerNormals;
 pub use scene::{Scene, Surface};
+pub use workload::{Sampling, UnknownWorkload, Workload, WorkloadKind};

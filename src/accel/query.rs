@@ -1,0 +1,23 @@
+//! The two questions.
+
+use serde::{Deserialize, Serialize};
+
+/// Which of the two questions is asked of a batch.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Query {
+    /// The nearest hit of each ray.
+    Closest,
+    /// Whether each ray hits anything.
+    Any,
+}
+
+impl Query {
+    /// As written in records.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Closest => "closest",
+            Self::Any => "any",
+        }
+    }
+}

@@ -1,0 +1,162 @@
+//! Golden images: what each built-in scene must look like with every structure, byte for byte.
+
+use std::path::{Path, PathBuf};
+
+use crate::accel::DynAccel;
+use crate::render::{Difference, Picture, PictureError, render};
+use crate::scene::Scene;
+
+/// Where golden images are kept, and where the pictures of a failure go.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Goldens {
+    scenes: PathBuf,
+    out: PathBuf,
+}
+
+/// Width and height of a golden image.
+pub const SIZE: [u32; 2] = [160, 160];
+
+/// Why a picture is not accepted.
+#[derive(Debug, thiserror::Error)]
+pub enum GoldenError {
+    #[error("{cause}: make the golden images with `sahara golden update`")]
+    Missing { cause: PictureError },
+    #[error("the golden image {} has {found:?} pixels, not {SIZE:?}", path.display())]
+    Size { path: PathBuf, found: [u32; 2] },
+    #[error(
+        "{label}: {} of {} pixels differ from {}, first at column {}, row {}, by up to {} of 255: see {}-actual.png, \
+         -expected.png and -difference.png",
+        difference.pixels, SIZE[0] * SIZE[1], path.display(), difference.first[0], difference.first[1],
+        difference.largest, shown.display()
+    )]
+    Differs { label: String, path: PathBuf, difference: Difference, shown: PathBuf },
+    #[error(transparent)]
+    Picture(#[from] PictureError),
+    #[error("cannot make the directory {}: {cause}", path.display())]
+    Directory { path: PathBuf, cause: std::io::Error },
+}
+
+impl Goldens {
+    /// Golden images `NAME/golden.png` in the directory `scenes`, by the scene's name in small letters; the pictures of
+    /// failures go to the directory `out`.
+    pub fn new(scenes: impl Into<PathBuf>, out: impl Into<PathBuf>) -> Self {
+        Self { scenes: scenes.into(), out: out.into() }
+    }
+
+    /// Those of this project, whatever the current directory; failures go to `out/golden` in the current directory.
+    pub fn builtin() -> Self {
+        Self::new(concat!(env!("CARGO_MANIFEST_DIR"), "/scenes"), "out/golden")
+    }
+
+    /// The golden image of a scene.
+    pub fn path(&self, scene: &Scene) -> PathBuf {
+        self.scenes.join(scene.name.to_lowercase()).join("golden.png")
+    }
+
+    /// Holds the shaded view of `scene`, answered by `accel`, against its golden image. `structure` names the pictures of
+    /// a failure.
+    ///
+    /// The scene must be the built-in one with its own meshes, never with the real ones that some machine may have.
+    ///
+    /// # Errors
+    /// If a pixel differs, then `actual`, `expected` and `difference` are written; if the golden image is missing or broken.
+    pub fn check(&self, scene: &Scene, structure: &str, accel: &dyn DynAccel) -> Result<(), GoldenError> {
+        let path = self.path(scene);
+        let expected = Picture::read(&path).map_err(|cause| match cause {
+            PictureError::Read { .. } => GoldenError::Missing { cause },
+            cause => GoldenError::Picture(cause),
+        })?;
+        if expected.size() != SIZE {
+            return Err(GoldenError::Size { path, found: expected.size() });
+        }
+        let actual = draw(scene, accel);
+        let Some(difference) = actual.difference(&expected) else { return Ok(()) };
+
+        // Leave something to look at.
+        let label = format!("{} with {structure}", scene.name);
+        let shown = self.out.join(file_name(&format!("{}-{structure}", scene.name.to_lowercase())));
+        make(&self.out)?;
+        for (what, picture) in
+            [("actual", &actual), ("expected", &expected), ("difference", &actual.difference_picture(&expected))]
+        {
+            picture.write(&PathBuf::from(format!("{}-{what}.png", shown.display())))?;
+        }
+        Err(GoldenError::Differs { label, path, difference, shown })
+    }
+
+    /// Makes the golden image of `scene` anew; tells whether it has changed.
+    ///
+    /// # Errors
+    /// If it cannot be written.
+    pub fn update(&self, scene: &Scene, accel: &dyn DynAccel) -> Result<bool, GoldenError> {
+        let path = self.path(scene);
+        let picture = draw(scene, accel);
+        if Picture::read(&path).is_ok_and(|there| there == picture) {
+            return Ok(false);
+        }
+        make(&self.scenes.join(scene.name.to_lowercase()))?;
+        picture.write(&path)?;
+        Ok(true)
+    }
+}
+
+fn draw(scene: &Scene, accel: &dyn DynAccel) -> Picture {
+    Picture::from(&render(scene, accel, SIZE).0)
+}
+
+fn make(directory: &Path) -> Result<(), GoldenError> {
+    std::fs::create_dir_all(directory).map_err(|cause| GoldenError::Directory { path: directory.into(), cause })
+}
+
+/// `text` with everything but letters, digits and `.`, `-`, `_` replaced.
+fn file_name(text: &str) -> String {
+    text.chars().map(|c| if c.is_alphanumeric() || ".-_".contains(c) { c } else { '_' }).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::accel::Accel;
+    use crate::scene::Builtin;
+    use crate::structures::{BruteForce, KdConfig, KdTree};
+    use crate::triangle::MollerTrumbore;
+
+    #[test]
+    fn a_golden_image_holds_until_the_scene_changes() {
+        let directory = tempfile::tempdir().unwrap();
+        let goldens = Goldens::new(directory.path().join("scenes"), directory.path().join("out"));
+        let mut scene = Builtin::find("cube").unwrap().scene(None).unwrap();
+        let tree = KdTree::<MollerTrumbore>::build(&scene.mesh, &KdConfig::SAH).unwrap();
+        let all = BruteForce::<MollerTrumbore>::build(&scene.mesh, &Default::default()).unwrap();
+
+        let missing = goldens.check(&scene, "sah-kd", &tree).unwrap_err();
+        assert!(matches!(missing, GoldenError::Missing { .. }), "{missing}");
+        assert!(goldens.update(&scene, &tree).unwrap());
+        assert!(!goldens.update(&scene, &all).unwrap(), "the same picture is not written again");
+        goldens.check(&scene, "brute-force", &all).unwrap();
+
+        // Another background changes every pixel that misses, the first of all among them.
+        scene.background.x += 0.5;
+        let error = goldens.check(&scene, "sah-kd:leaf=1", &tree).unwrap_err();
+        let GoldenError::Differs { difference, shown, .. } = &error else { panic!("{error}") };
+        assert_eq!(difference.first, [0, 0]);
+        assert!(difference.pixels > 10_000 && difference.largest >= 127, "{error}");
+        let picture = |what: &str| Picture::read(&PathBuf::from(format!("{}-{what}.png", shown.display()))).unwrap();
+        assert_eq!(picture("actual").difference(&picture("expected")), Some(*difference));
+        assert_eq!(picture("difference"), picture("actual").difference_picture(&picture("expected")));
+        assert!(error.to_string().contains("Cube with sah-kd:leaf=1"), "{error}");
+        assert_eq!(std::fs::read_dir(directory.path().join("out")).unwrap().count(), 3);
+    }
+
+    #[test]
+    fn an_image_of_another_size_is_refused() {
+        let directory = tempfile::tempdir().unwrap();
+        let goldens = Goldens::new(directory.path(), directory.path().join("out"));
+        let scene = Builtin::find("cube").unwrap().scene(None).unwrap();
+        let tree = KdTree::<MollerTrumbore>::build(&scene.mesh, &KdConfig::SAH).unwrap();
+        std::fs::create_dir(directory.path().join("cube")).unwrap();
+        Picture::new([1, 1], vec![[0; 3]]).write(&goldens.path(&scene)).unwrap();
+        let error = goldens.check(&scene, "sah-kd", &tree).unwrap_err().to_string();
+        assert!(error.contains("[1, 1]"), "{error}");
+    }
+}

@@ -1,0 +1,163 @@
+//! The course's renderer: Phong materials, hard shadows, mirrors.
+
+use std::ops::AddAssign;
+
+use glam::Vec3;
+use rayon::prelude::*;
+
+use super::Image;
+use crate::accel::DynAccel;
+use crate::geometry::{Hit, Ray};
+use crate::scene::{Light, Material, Scene, Surface, View};
+
+/// How many rays of each kind an image takes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct RayCounts {
+    /// Closest hit, one a pixel.
+    pub primary: u64,
+    /// Closest hit, one for each hit of a mirror material above the recursion limit.
+    pub mirror: u64,
+    /// Any hit, one for each light and each hit of a primary or mirror ray.
+    pub shadow: u64,
+}
+
+impl RayCounts {
+    pub fn total(&self) -> u64 {
+        self.primary + self.mirror + self.shadow
+    }
+}
+
+impl AddAssign for RayCounts {
+    fn add_assign(&mut self, other: Self) {
+        self.primary += other.primary;
+        self.mirror += other.mirror;
+        self.shadow += other.shadow;
+    }
+}
+
+/// Pixels whose rays go through the structure together. The image does not depend on it.
+const CHUNK: u32 = 4096;
+
+/// Renders `scene` with the rays answered by `accel`, which must be built over the scene's mesh.
+///
+/// All rays of one kind and level of a few thousand pixels go out as one batch; chunks of pixels run in parallel, and the
+/// image does not depend on the number of threads.
+pub fn render(scene: &Scene, accel: &dyn DynAccel, size: [u32; 2]) -> (Image, RayCounts) {
+    let pixels = size[0] * size[1];
+    let chunks: Vec<(Vec<Vec3>, RayCounts)> = (0..pixels.div_ceil(CHUNK))
+        .into_par_iter()
+        .map(|chunk| {
+            let range = chunk * CHUNK..pixels.min((chunk + 1) * CHUNK);
+            trace(scene, accel, scene.primary_rays(size, View::CENTRE, range))
+        })
+        .collect();
+
+    let mut counts = RayCounts::default();
+    let mut colours = Vec::with_capacity(pixels as usize);
+    for (chunk, rays) in chunks {
+        colours.extend(chunk);
+        counts += rays;
+    }
+    (Image::new(size, colours), counts)
+}
+
+/// Rays of one recursion level with what they see.
+#[derive(Default)]
+struct Level {
+    /// What each ray sees without its mirror ray.
+    colours: Vec<Vec3>,
+    /// For each mirror ray that leaves this level, the ray it comes from and its weight.
+    mirrors: Vec<(usize, f32)>,
+}
+
+/// The colours of primary rays.
+fn trace(scene: &Scene, accel: &dyn DynAccel, rays: Vec<Ray>) -> (Vec<Vec3>, RayCounts) {
+    let mut counts = RayCounts { primary: rays.len() as u64, ..RayCounts::default() };
+
+    // Go down: each level leaves the mirror rays of the next.
+    let mut levels = vec![];
+    let mut rays = rays;
+    while !rays.is_empty() {
+        let follow = (levels.len() as u32) < scene.recursion_limit;
+        let (level, mirrored) = shade_level(scene, accel, &rays, follow, &mut counts);
+        counts.mirror += mirrored.len() as u64;
+        levels.push(level);
+        rays = mirrored;
+    }
+
+    // Come back: every ray's colour is brought into range before its parent takes a share of it.
+    let mut seen: Vec<Vec3> = vec![];
+    for mut level in levels.into_iter().rev() {
+        for ((parent, weight), colour) in level.mirrors.into_iter().zip(seen) {
+            level.colours[parent] += colour * weight;
+        }
+        level.colours.iter_mut().for_each(|colour| *colour = balance(*colour));
+        seen = level.colours;
+    }
+    (seen, counts)
+}
+
+/// Shades the hits of one level and, if `follow`, gives the mirror rays that leave them.
+fn shade_level(
+    scene: &Scene,
+    accel: &dyn DynAccel,
+    rays: &[Ray],
+    follow: bool,
+    counts: &mut RayCounts,
+) -> (Level, Vec<Ray>) {
+    let mut hits = vec![None; rays.len()];
+    accel.closest_hits(rays, &mut hits);
+    let surfaces: Vec<(usize, Hit, Surface)> =
+        hits.iter().enumerate().filter_map(|(i, hit)| hit.map(|hit| (i, hit, scene.surface(&rays[i], hit)))).collect();
+
+    // One shadow ray a hit and light.
+    let shadow_rays: Vec<Ray> = surfaces
+        .iter()
+        .flat_map(|(_, hit, surface)| scene.lights.iter().map(|light| scene.shadow_ray(hit.prim, surface, light)))
+        .collect();
+    let mut hidden = vec![false; shadow_rays.len()];
+    accel.any_hits(&shadow_rays, &mut hidden);
+    counts.shadow += shadow_rays.len() as u64;
+
+    let mut level = Level { colours: vec![scene.background; rays.len()], mirrors: vec![] };
+    let mut mirrored = vec![];
+    for (n, (i, hit, surface)) in surfaces.iter().enumerate() {
+        let material = scene.material(hit.prim);
+        let hidden = &hidden[n * scene.lights.len()..][..scene.lights.len()];
+        let visible = scene.lights.iter().zip(hidden).filter(|(_, hidden)| !**hidden).map(|(light, _)| light);
+        let lit: Vec3 = visible.map(|light| reflected(material, surface, light, scene.camera.eye())).sum();
+        level.colours[*i] = material.ambient * material.diffuse + lit;
+        if follow && material.mirror > 0.0 {
+            level.mirrors.push((*i, material.mirror));
+            mirrored.push(scene.mirror_ray(&rays[*i], surface));
+        }
+    }
+    (level, mirrored)
+}
+
+/// Light that a surface sends to the eye: Lambert (`Kd`) and Blinn-Phong (`Ks`, `Ns`).
+///
+/// The view vector goes to the eye even where a mirror shows the surface, as in the course.
+fn reflected(material: &Material, surface: &Surface, light: &Light, eye: Vec3) -> Vec3 {
+    let normal = surface.shading_normal;
+    let to_light = light.position - surface.point;
+    let distance = to_light.length();
+    let to_light = to_light / distance;
+    let facing = normal.dot(to_light);
+    // A light in the surface point itself makes this NaN, and gives nothing.
+    if !(facing > 0.0) {
+        return Vec3::ZERO;
+    }
+
+    let half = (to_light + (eye - surface.point).normalize()).normalize();
+    let along = normal.dot(half);
+    let highlight = if along > 0.0 { libm::pow(along.into(), material.shininess.into()) as f32 } else { 0.0 };
+    light.at(distance) * (material.diffuse * facing + material.specular * highlight)
+}
+
+/// Divides by the largest component if that exceeds 1, then clamps to 0..1.
+fn balance(colour: Vec3) -> Vec3 {
+    let largest = colour.max_element();
+    let colour = if largest > 1.0 { colour / largest } else { colour };
+    colour.clamp(Vec3::ZERO, Vec3::ONE)
+}

@@ -1,0 +1,12 @@
+//! Pictures: shading as the report's course does it, and views that show what a structure does.
+
+mod colour_map;
+mod image;
+mod integrator;
+mod picture;
+mod view;
+
+pub use image::Image;
+pub use integrator::{RayCounts, render};
+pub use picture::{Difference, Picture, PictureError};
+pub use view::{ViewError, ViewKind, costs, draw, hottest};

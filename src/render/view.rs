@@ -1,0 +1,179 @@
+//! Views: what of a scene, or of a structure at work, a picture shows.
+
+use std::str::FromStr;
+
+use glam::Vec3;
+use rayon::prelude::*;
+
+use super::{Image, Picture, colour_map, render};
+use crate::accel::{Counts, DynAccel, Observed};
+use crate::geometry::{Hit, Ray};
+use crate::scene::{Scene, View};
+
+/// What a picture shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum ViewKind {
+    /// The course's shading.
+    Shaded,
+    /// Distance of the hit, near white to far dark, over what the picture holds; nothing is black.
+    Depth,
+    /// Shading normal, its x, y, z from -1..1 to red, green, blue; nothing is black.
+    Normal,
+    /// A colour of its own for each primitive, the same in every picture; nothing is black.
+    Primitive,
+    /// Tests and steps of the closest-hit query, from black to pale yellow, see [`costs`].
+    Heat,
+}
+
+impl ViewKind {
+    pub const ALL: [Self; 5] = [Self::Shaded, Self::Depth, Self::Normal, Self::Primitive, Self::Heat];
+
+    /// As written on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Shaded => "shaded",
+            Self::Depth => "depth",
+            Self::Normal => "normal",
+            Self::Primitive => "primitive",
+            Self::Heat => "heat",
+        }
+    }
+}
+
+/// A view that cannot be named or drawn.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum ViewError {
+    #[error("there is no view {0:?}; there are: {known}", known = ViewKind::ALL.map(ViewKind::name).join(", "))]
+    Unknown(String),
+    #[error("the structure does not report its tests and steps, so there is no heat to show: choose another view")]
+    Unobserved,
+}
+
+impl FromStr for ViewKind {
+    type Err = ViewError;
+
+    fn from_str(name: &str) -> Result<Self, ViewError> {
+        Self::ALL.into_iter().find(|view| view.name() == name).ok_or_else(|| ViewError::Unknown(name.into()))
+    }
+}
+
+/// Draws a view of `scene` of `size` pixels with the rays answered by `accel`, built over the scene's mesh.
+///
+/// `hottest` is the number of tests and steps that the heat view shows brightest: give one number to all structures that
+/// are to be compared, for example the [`hottest`] of all. The other views do not look at it.
+///
+/// # Errors
+/// The heat of a structure that does not report tests and steps.
+pub fn draw(
+    scene: &Scene,
+    accel: &dyn DynAccel,
+    view: ViewKind,
+    size: [u32; 2],
+    hottest: u64,
+) -> Result<Picture, ViewError> {
+    Ok(match view {
+        ViewKind::Shaded => Picture::from(&render(scene, accel, size).0),
+        ViewKind::Depth => depth(scene, accel, size),
+        ViewKind::Normal => from_hits(scene, accel, size, |ray, hit| {
+            (scene.surface(ray, hit).shading_normal * 0.5 + 0.5).to_array().map(quantised)
+        }),
+        ViewKind::Primitive => from_hits(scene, accel, size, |_, hit| identity(hit.prim.index())),
+        ViewKind::Heat => {
+            let colours = costs(scene, accel, size)?.into_iter().map(|cost| colour_map::heat(cost, hottest));
+            Picture::new(size, colours.collect())
+        }
+    })
+}
+
+/// Tests and steps of the closest-hit query of each pixel, row by row.
+///
+/// # Errors
+/// If the structure does not report both.
+pub fn costs(scene: &Scene, accel: &dyn DynAccel, size: [u32; 2]) -> Result<Vec<u64>, ViewError> {
+    if accel.observed() != Observed::ALL {
+        return Err(ViewError::Unobserved);
+    }
+    let cost = |ray: &Ray| {
+        let mut counts = Counts::default();
+        accel.closest_hits_counted(std::slice::from_ref(ray), &mut [None], &mut counts);
+        counts.tests + counts.steps()
+    };
+    Ok(primary(scene, size).par_iter().map(cost).collect())
+}
+
+/// The cost that all but one in two hundred pixels stay below, at least 1: a scale for the heat view that a few extreme
+/// pixels do not darken.
+pub fn hottest(costs: &[u64]) -> u64 {
+    let mut sorted = costs.to_vec();
+    sorted.sort_unstable();
+    let place = (sorted.len() - sorted.len() / 200).saturating_sub(1);
+    sorted.get(place).copied().unwrap_or(1).max(1)
+}
+
+fn primary(scene: &Scene, size: [u32; 2]) -> Vec<Ray> {
+    scene.primary_rays(size, View::CENTRE, 0..size[0] * size[1])
+}
+
+fn hits(scene: &Scene, accel: &dyn DynAccel, size: [u32; 2]) -> Vec<(Ray, Option<Hit>)> {
+    let rays = primary(scene, size);
+    let mut hits = vec![None; rays.len()];
+    rays.par_chunks(4096).zip(hits.par_chunks_mut(4096)).for_each(|(rays, hits)| accel.closest_hits(rays, hits));
+    rays.into_iter().zip(hits).collect()
+}
+
+/// A colour for each hit, black for each miss.
+fn from_hits(scene: &Scene, accel: &dyn DynAccel, size: [u32; 2], colour: impl Fn(&Ray, Hit) -> [u8; 3]) -> Picture {
+    let hits = hits(scene, accel, size);
+    Picture::new(size, hits.iter().map(|(ray, hit)| hit.map_or([0; 3], |hit| colour(ray, hit))).collect())
+}
+
+fn depth(scene: &Scene, accel: &dyn DynAccel, size: [u32; 2]) -> Picture {
+    let hits = hits(scene, accel, size);
+    let seen = hits.iter().filter_map(|(_, hit)| hit.map(|hit| hit.t));
+    let (near, far) = seen.fold((f32::INFINITY, 0.0f32), |(near, far), t| (near.min(t), far.max(t)));
+
+    // The farthest keeps some light, so that it is told from nothing.
+    let brightness = |t: f32| if far > near { 1.0 - 0.85 * ((t - near) / (far - near)) } else { 1.0 };
+    let colour = |hit: &Option<Hit>| hit.map_or(Vec3::ZERO, |hit| Vec3::splat(brightness(hit.t)));
+    Picture::from(&Image::new(size, hits.iter().map(|(_, hit)| colour(hit)).collect()))
+}
+
+fn quantised(value: f32) -> u8 {
+    (value * 255.0 + 0.5) as u8
+}
+
+/// A colour that no other primitive below 2^24 - 1 has, and not black: the steps of an odd constant go through all colours.
+fn identity(index: u32) -> [u8; 3] {
+    let [_, red, green, blue] = ((index.wrapping_add(1)).wrapping_mul(0x9E_37_79) & 0xFF_FF_FF).to_be_bytes();
+    [red, green, blue]
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::HashSet;
+
+    use super::*;
+
+    #[test]
+    fn names_are_read_back_and_others_are_refused_with_the_list() {
+        for view in ViewKind::ALL {
+            assert_eq!(view.name().parse(), Ok(view));
+        }
+        let error = "heats".parse::<ViewKind>().unwrap_err().to_string();
+        assert!(error.contains("heats") && error.contains("primitive"), "{error}");
+    }
+
+    #[test]
+    fn primitives_have_colours_of_their_own() {
+        let colours: HashSet<[u8; 3]> = (0..300_000).map(identity).collect();
+        assert_eq!(colours.len(), 300_000);
+        assert!(!colours.contains(&[0; 3]));
+    }
+
+    #[test]
+    fn the_hottest_leaves_out_one_in_two_hundred() {
+        let costs: Vec<u64> = (1..=1000).rev().collect();
+        assert_eq!(hottest(&costs), 995);
+        assert_eq!([hottest(&[]), hottest(&[0, 0]), hottest(&[7])], [1, 1, 7]);
+    }
+}

@@ -1,0 +1,66 @@
+//! Rays that only know the scene's box.
+
+use glam::{DVec3, Vec3};
+
+use super::super::Scene;
+use super::sampler::Sampler;
+use crate::geometry::Ray;
+
+/// `count` rays, each from one random point of the sphere around the scene's box towards another.
+pub fn random(scene: &Scene, count: u32, seed: u64) -> Vec<Ray> {
+    let Some((centre, radius)) = sphere(scene) else { return vec![] };
+    let mut sampler = Sampler::new("random", seed);
+    let mut ray = || loop {
+        let (from, to) = (sampler.direction(), sampler.direction());
+        if let Some(direction) = (to - from).try_normalize() {
+            break Ray::new((centre + from * radius).as_vec3(), direction.as_vec3());
+        }
+    };
+    (0..count).map(|_| ray()).collect()
+}
+
+/// About `count` rays along the axes: a square lattice of lines for each axis and way.
+///
+/// Lines are spread evenly over the box, in the middle of their cells; every fourth has the coordinate of a vertex in
+/// place of that, so that rays run through vertices, along edges and in the planes of triangles.
+pub fn axis(scene: &Scene, count: u32) -> Vec<Ray> {
+    let Some((centre, radius)) = sphere(scene) else { return vec![] };
+    let side = (count / 6).isqrt().max(1);
+    let mut rays = vec![];
+    for axis in 0..3 {
+        let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
+        for way in [1.0f32, -1.0] {
+            let mut direction = Vec3::ZERO;
+            direction[axis] = way;
+            for j in 0..side {
+                for i in 0..side {
+                    let mut origin = Vec3::ZERO;
+                    origin[axis] = (centre[axis] - f64::from(way) * radius) as f32;
+                    origin[u] = line(scene, u, i, side);
+                    origin[v] = line(scene, v, j, side);
+                    rays.push(Ray::new(origin, direction));
+                }
+            }
+        }
+    }
+    rays
+}
+
+/// The coordinate of line `i` of `side`.
+fn line(scene: &Scene, axis: usize, i: u32, side: u32) -> f32 {
+    let positions = scene.mesh.positions();
+    if i % 4 == 0 {
+        let vertex = (u64::from(i) * positions.len() as u64 / u64::from(side)) as usize;
+        return positions[vertex][axis];
+    }
+    let bounds = scene.mesh.bounds();
+    let (min, max) = (f64::from(bounds.min[axis]), f64::from(bounds.max[axis]));
+    (min + (max - min) * (f64::from(i) + 0.5) / f64::from(side)) as f32
+}
+
+/// Centre and radius of the sphere around the scene's box; none for an empty scene.
+fn sphere(scene: &Scene) -> Option<(DVec3, f64)> {
+    let bounds = scene.mesh.bounds();
+    let (min, max) = (bounds.min.as_dvec3(), bounds.max.as_dvec3());
+    (!bounds.is_empty()).then(|| ((min + max) * 0.5, (max - min).length() * 0.5))
+}

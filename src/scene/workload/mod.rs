@@ -1,0 +1,174 @@
+//! Workloads: rays of one kind for a scene.
+
+mod bounce;
+mod lines;
+mod picture;
+mod sampler;
+#[cfg(test)]
+mod tests;
+
+use std::fmt::Write;
+use std::str::FromStr;
+
+use glam::Vec2;
+use sha2::{Digest, Sha256};
+
+use super::{Scene, View};
+use crate::accel::{DynAccel, Query};
+use crate::geometry::Ray;
+
+/// Where the rays of a workload come from and go to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum WorkloadKind {
+    /// From the eye through the middle of each pixel.
+    Primary,
+    /// From the eye through the top left corner of each pixel: on the tidy meshes of tests these meet edges and vertices.
+    Corners,
+    /// From each primary hit to each light, any hit.
+    Shadow,
+    /// From each primary hit, mirrored about the shading normal, whatever the material.
+    Mirror,
+    /// From each primary hit in a random direction, cosine-distributed about the shading normal.
+    Diffuse,
+    /// As [`WorkloadKind::Diffuse`], any hit, ending at a tenth of the box's diagonal: ambient occlusion.
+    Ambient,
+    /// Lines through two random points of the sphere around the scene's box.
+    Random,
+    /// Rays along the axes, both ways, on a lattice; every fourth line of it has the coordinate of a vertex.
+    Axis,
+    /// The closest-hit rays of the whole picture: each pixel's primary ray and then its mirror rays.
+    Image,
+    /// The any-hit rays of the whole picture, in the order of the hits that cast them.
+    ImageShadow,
+}
+
+impl WorkloadKind {
+    pub const ALL: [Self; 10] = [
+        Self::Primary,
+        Self::Corners,
+        Self::Shadow,
+        Self::Mirror,
+        Self::Diffuse,
+        Self::Ambient,
+        Self::Random,
+        Self::Axis,
+        Self::Image,
+        Self::ImageShadow,
+    ];
+
+    /// As written on the command line and in records.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Primary => "primary",
+            Self::Corners => "corners",
+            Self::Shadow => "shadow",
+            Self::Mirror => "mirror",
+            Self::Diffuse => "diffuse",
+            Self::Ambient => "ambient",
+            Self::Random => "random",
+            Self::Axis => "axis",
+            Self::Image => "image",
+            Self::ImageShadow => "image-shadow",
+        }
+    }
+
+    /// The question that these rays ask.
+    pub fn query(self) -> Query {
+        match self {
+            Self::Shadow | Self::Ambient | Self::ImageShadow => Query::Any,
+            _ => Query::Closest,
+        }
+    }
+}
+
+/// A name that is no workload.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("there is no workload {0:?}; there are: {known}", known = WorkloadKind::ALL.map(WorkloadKind::name).join(", "))]
+pub struct UnknownWorkload(pub String);
+
+impl FromStr for WorkloadKind {
+    type Err = UnknownWorkload;
+
+    fn from_str(name: &str) -> Result<Self, UnknownWorkload> {
+        Self::ALL.into_iter().find(|kind| kind.name() == name).ok_or_else(|| UnknownWorkload(name.into()))
+    }
+}
+
+/// How many rays a workload gets, and its random numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Sampling {
+    /// Width and height of the picture whose hits secondary rays start from; random and lattice rays are as many as it
+    /// has pixels.
+    pub size: [u32; 2],
+    /// No more rays than this, spread evenly over the workload.
+    pub limit: usize,
+    pub seed: u64,
+}
+
+impl Sampling {
+    /// All rays of the picture that the scene asks for.
+    pub fn of(scene: &Scene) -> Self {
+        Self { size: scene.size, limit: usize::MAX, seed: 0 }
+    }
+
+    fn pixels(&self) -> u32 {
+        self.size[0] * self.size[1]
+    }
+}
+
+/// Rays of one kind for a scene: the same bits on every machine and with every structure of the same triangle test.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Workload {
+    pub kind: WorkloadKind,
+    pub query: Query,
+    pub rays: Vec<Ray>,
+}
+
+impl Workload {
+    /// Makes the rays. `accel`, built over the scene's mesh, finds the hits that secondary rays start from.
+    ///
+    /// A workload is empty where the scene has no such rays: no shadow rays without lights, none from hits when nothing is
+    /// seen, none at all about an empty mesh.
+    pub fn new(scene: &Scene, kind: WorkloadKind, sampling: &Sampling, accel: &dyn DynAccel) -> Self {
+        let primary = |offset| scene.primary_rays(sampling.size, offset, 0..sampling.pixels());
+        let rays = match kind {
+            WorkloadKind::Primary => primary(View::CENTRE),
+            WorkloadKind::Corners => primary(Vec2::ZERO),
+            WorkloadKind::Shadow => bounce::shadow(scene, &primary(View::CENTRE), accel),
+            WorkloadKind::Mirror => bounce::mirror(scene, &primary(View::CENTRE), accel),
+            WorkloadKind::Diffuse => bounce::diffuse(scene, &primary(View::CENTRE), accel, sampling.seed),
+            WorkloadKind::Ambient => bounce::ambient(scene, &primary(View::CENTRE), accel, sampling.seed),
+            WorkloadKind::Random => lines::random(scene, sampling.pixels(), sampling.seed),
+            WorkloadKind::Axis => lines::axis(scene, sampling.pixels()),
+            WorkloadKind::Image => picture::closest(scene, &primary(View::CENTRE), accel),
+            WorkloadKind::ImageShadow => picture::shadow(scene, &primary(View::CENTRE), accel),
+        };
+        Self { kind, query: kind.query(), rays: spread(rays, sampling.limit) }
+    }
+
+    /// The first 16 hexadecimal digits of the SHA-256 of all ray bits, little-endian, in order: names the workload in
+    /// records.
+    pub fn hash(&self) -> String {
+        let mut hasher = Sha256::new();
+        for ray in &self.rays {
+            for value in ray.origin.to_array().into_iter().chain([ray.t_min]) {
+                hasher.update(value.to_bits().to_le_bytes());
+            }
+            for value in ray.direction.to_array().into_iter().chain([ray.t_max]) {
+                hasher.update(value.to_bits().to_le_bytes());
+            }
+        }
+        hasher.finalize()[..8].iter().fold(String::new(), |mut text, byte| {
+            write!(text, "{byte:02x}").expect("a string takes every write");
+            text
+        })
+    }
+}
+
+/// At most `limit` of `rays`, at equal distances.
+fn spread(rays: Vec<Ray>, limit: usize) -> Vec<Ray> {
+    if rays.len() <= limit {
+        return rays;
+    }
+    (0..limit).map(|i| rays[(i as u128 * rays.len() as u128 / limit as u128) as usize]).collect()
+}
