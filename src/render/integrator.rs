@@ -145,7 +145,7 @@ fn reflected(material: &Material, surface: &Surface, light: &Light, eye: Vec3) -
     let to_light = to_light / distance;
     let facing = normal.dot(to_light);
     // A light in the surface point itself makes this NaN, and gives nothing.
-    if !(facing > 0.0) {
+    if facing.is_nan() || facing <= 0.0 {
         return Vec3::ZERO;
     }
 

@@ -6,6 +6,9 @@ mod integrator;
 mod picture;
 mod view;
 
+#[cfg(test)]
+mod count_tests;
+
 pub use image::Image;
 pub use integrator::{RayCounts, render};
 pub use picture::{Difference, Picture, PictureError};

@@ -15,7 +15,7 @@ use crate::scene::{Scene, View};
 pub enum ViewKind {
     /// The course's shading.
     Shaded,
-    /// Distance of the hit, near white to far dark, over what the picture holds; nothing is black.
+    /// Reciprocal distance of the hit, from white for the nearest in the picture to dark for the farthest; nothing is black.
     Depth,
     /// Shading normal, its x, y, z from -1..1 to red, green, blue; nothing is black.
     Normal,
@@ -132,8 +132,13 @@ fn depth(scene: &Scene, accel: &dyn DynAccel, size: [u32; 2]) -> Picture {
     let seen = hits.iter().filter_map(|(_, hit)| hit.map(|hit| hit.t));
     let (near, far) = seen.fold((f32::INFINITY, 0.0f32), |(near, far), t| (near.min(t), far.max(t)));
 
-    // The farthest keeps some light, so that it is told from nothing.
-    let brightness = |t: f32| if far > near { 1.0 - 0.85 * ((t - near) / (far - near)) } else { 1.0 };
+    // Reciprocals keep what is near apart where a floor runs to the horizon. The farthest keeps some light, so that it is
+    // told from nothing.
+    let near = near.max(far * 1e-3);
+    let brightness = |t: f32| {
+        let share = (near / t.max(near) - near / far) / (1.0 - near / far);
+        0.15 + 0.85 * if far > near { share } else { 1.0 }
+    };
     let colour = |hit: &Option<Hit>| hit.map_or(Vec3::ZERO, |hit| Vec3::splat(brightness(hit.t)));
     Picture::from(&Image::new(size, hits.iter().map(|(_, hit)| colour(hit)).collect()))
 }
@@ -153,6 +158,75 @@ mod tests {
     use std::collections::HashSet;
 
     use super::*;
+    use crate::accel::Accel;
+    use crate::scene::Builtin;
+    use crate::structures::{BruteForce, KdConfig, KdTree};
+    use crate::triangle::MollerTrumbore;
+
+    #[test]
+    fn every_view_shows_the_cube_and_what_is_around_it() {
+        let scene = Builtin::find("cube").unwrap().scene(None).unwrap();
+        let tree = KdTree::<MollerTrumbore>::build(&scene.mesh, &KdConfig::SAH).unwrap();
+        let all = BruteForce::<MollerTrumbore>::build(&scene.mesh, &Default::default()).unwrap();
+        let colours = |view: ViewKind, accel: &dyn DynAccel| {
+            let picture = draw(&scene, accel, view, [64, 64], 14).unwrap();
+            (picture.pixels()[0], picture.pixels().iter().copied().collect::<HashSet<_>>())
+        };
+        for view in [ViewKind::Shaded, ViewKind::Depth, ViewKind::Normal, ViewKind::Primitive] {
+            assert_eq!(draw(&scene, &tree, view, [64, 64], 1), draw(&scene, &all, view, [64, 64], 9), "{view:?}");
+            assert_eq!(
+                colours(view, &tree).0,
+                if view == ViewKind::Shaded { [51, 64, 77] } else { [0; 3] },
+                "{view:?}"
+            );
+        }
+        // The eye sees three sides, so six triangles.
+        assert_eq!(colours(ViewKind::Normal, &tree).1.len(), 3 + 1);
+        assert_eq!(colours(ViewKind::Primitive, &tree).1.len(), 6 + 1);
+        assert!(colours(ViewKind::Depth, &tree).1.contains(&[255; 3]));
+
+        // Brute force tests twelve triangles in one leaf, everywhere.
+        assert_eq!(costs(&scene, &all, [4, 4]).unwrap(), [13; 16]);
+        assert_eq!(colours(ViewKind::Heat, &all).1, HashSet::from([colour_map::heat(13, 14)]));
+    }
+
+    /// A structure that tells nothing of what it does.
+    struct Silent;
+
+    impl Accel for Silent {
+        type Config = crate::structures::BruteForceConfig;
+        const OBSERVED: Observed = Observed::TESTS;
+
+        fn build(
+            _: &std::sync::Arc<crate::geometry::Mesh>,
+            _: &Self::Config,
+        ) -> Result<Self, crate::accel::BuildError> {
+            Ok(Self)
+        }
+
+        fn closest_hit<O: crate::accel::Observer>(&self, _: &Ray, _: &mut O) -> Option<Hit> {
+            None
+        }
+
+        fn any_hit<O: crate::accel::Observer>(&self, _: &Ray, _: &mut O) -> bool {
+            false
+        }
+
+        fn footprint(&self) -> crate::accel::Footprint {
+            Default::default()
+        }
+
+        fn shape(&self) -> crate::accel::TreeShape {
+            Default::default()
+        }
+    }
+
+    #[test]
+    fn heat_is_refused_where_steps_are_unknown() {
+        let scene = Builtin::find("cube").unwrap().scene(None).unwrap();
+        assert_eq!(draw(&scene, &Silent, ViewKind::Heat, [4, 4], 1), Err(ViewError::Unobserved));
+        assert!(draw(&scene, &Silent, ViewKind::Depth, [4, 4], 1).is_ok());
+    }
 
     #[test]
     fn names_are_read_back_and_others_are_refused_with_the_list() {

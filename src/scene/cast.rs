@@ -11,7 +11,7 @@ impl Scene {
     pub fn primary_rays(&self, size: [u32; 2], offset: Vec2, range: std::ops::Range<u32>) -> Vec<Ray> {
         let view = self.camera.view(size);
         let ray = |pixel| view.ray(pixel % size[0], pixel / size[0], offset);
-        range.map(|pixel| ray(pixel)).map(|ray| self.launch(ray.origin, ray.direction)).collect()
+        range.map(ray).map(|ray| self.launch(ray.origin, ray.direction)).collect()
     }
 
     /// The any-hit ray that asks whether `light` is hidden from the surface of `prim`.

@@ -36,13 +36,27 @@ pub(super) fn sides() -> Vec<[u32; 3]> {
 }
 
 /// The icosahedron of radius 1 with poles on the y axis, flat: 20 triangles.
+///
+/// Each carries its normal, as in the course's file: that of the corners once they are placed and rounded tilts a little,
+/// and after eight mirrors another ray or two meets an edge.
 pub fn icosahedron() -> Model {
-    flat(corners().into_iter().map(|c| c.as_vec3()).collect(), sides())
+    let points = corners();
+    let normal = |triangle: &[u32; 3]| {
+        let [a, b, c] = triangle.map(|i| points[i as usize]);
+        (b - a).cross(c - a).normalize().as_vec3()
+    };
+    let triangles = sides();
+    Model {
+        normals: triangles.iter().map(normal).collect(),
+        normal_indices: (0..triangles.len() as u32).map(|i| [i; 3]).collect(),
+        ..flat(points.iter().map(|c| c.as_vec3()).collect(), triangles)
+    }
 }
 
 /// The same, looking inward.
 pub fn inside_out_icosahedron() -> Model {
     let mut model = icosahedron();
     model.triangles.iter_mut().for_each(|t| t.swap(1, 2));
+    model.normals.iter_mut().for_each(|n| *n = -*n);
     model
 }

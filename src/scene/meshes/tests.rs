@@ -114,15 +114,15 @@ fn areas_and_volumes_are_the_polyhedra_s() {
 
 #[test]
 fn normals_are_of_unit_length_and_look_the_way_the_triangles_do() {
-    for generator in GENERATORS {
-        let model = (generator.make)();
+    for name in KNOWN.iter().map(|k| k.name) {
+        let model = by_name(name).unwrap();
         for (corners, normals) in model.triangles.iter().zip(&model.normal_indices) {
             let [a, b, c] = corners.map(|i| model.positions[i as usize]);
             let face = (b - a).cross(c - a);
             for normal in normals.map(|i| model.normals[i as usize]) {
                 // Steps of 1/32767 leave a normal a little short.
-                assert!((0.9999..=1.0).contains(&normal.length()), "{}", generator.name);
-                assert!(face.dot(normal) >= 0.0, "{}", generator.name);
+                assert!((0.9999..=1.0).contains(&normal.length()), "{name}");
+                assert!(face.dot(normal) >= 0.0, "{name}");
             }
         }
     }
@@ -141,8 +141,8 @@ fn flat_meshes_look_the_right_way() {
 }
 
 #[test]
-fn names_are_unique_and_all_are_known() {
-    let names: Vec<&str> = GENERATORS.iter().map(|g| g.name).collect();
-    assert_eq!(names, KNOWN.iter().map(|k| k.name).collect::<Vec<_>>());
+fn every_generator_has_a_name_of_its_own() {
+    let names: std::collections::HashSet<&str> = GENERATORS.iter().map(|g| g.name).collect();
+    assert_eq!(names.len(), GENERATORS.len());
     assert!(by_name("kettle").is_none());
 }

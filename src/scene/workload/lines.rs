@@ -49,7 +49,7 @@ pub fn axis(scene: &Scene, count: u32) -> Vec<Ray> {
 /// The coordinate of line `i` of `side`.
 fn line(scene: &Scene, axis: usize, i: u32, side: u32) -> f32 {
     let positions = scene.mesh.positions();
-    if i % 4 == 0 {
+    if i.is_multiple_of(4) {
         let vertex = (u64::from(i) * positions.len() as u64 / u64::from(side)) as usize;
         return positions[vertex][axis];
     }

@@ -5,7 +5,7 @@ use glam::Vec3;
 use super::*;
 use crate::accel::Accel;
 use crate::geometry::Mesh;
-use crate::scene::{Camera, Light, Material};
+use crate::scene::{Builtin, Camera, Light, Material};
 use crate::structures::{KdConfig, KdTree};
 use crate::triangle::MollerTrumbore;
 
@@ -128,4 +128,16 @@ fn an_empty_scene_and_one_without_lights_have_no_secondary_rays() {
         let seen = matches!(kind, WorkloadKind::Primary | WorkloadKind::Corners | WorkloadKind::Image);
         assert_eq!(workload(&empty, kind).rays.is_empty(), !seen, "{kind:?}");
     }
+}
+
+#[test]
+fn picture_workloads_hold_the_rays_that_the_renderer_counts() {
+    let scene = Builtin::find("infinitycandy").unwrap().scene(None).unwrap();
+    let (size, accel) = ([40, 40], tree(&scene));
+    let counts = crate::render::render(&scene, &accel, size).1;
+    let count =
+        |kind| Workload::new(&scene, kind, &Sampling { size, ..Sampling::of(&scene) }, &accel).rays.len() as u64;
+    assert!(counts.mirror > 5 * counts.primary);
+    assert_eq!(count(WorkloadKind::Image), counts.primary + counts.mirror);
+    assert_eq!(count(WorkloadKind::ImageShadow), counts.shadow);
 }

@@ -1,0 +1,26 @@
+//! Build times: `cargo bench --bench build -- dragon`. All threads of the machine.
+
+mod common;
+
+use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
+
+fn build(criterion: &mut Criterion) {
+    for scene in common::scenes() {
+        let mut group = criterion.benchmark_group(format!("build/{}", scene.name.to_lowercase()));
+        group.sample_size(10).throughput(Throughput::Elements(scene.mesh.len() as u64));
+        for choice in common::structures(&scene.mesh) {
+            // Dropping the finished tree is not part of building it.
+            group.bench_function(choice.label.as_str(), |bencher| {
+                bencher.iter_batched(
+                    || (),
+                    |()| choice.build(&scene.mesh).expect("a valid mesh builds"),
+                    BatchSize::PerIteration,
+                );
+            });
+        }
+        group.finish();
+    }
+}
+
+criterion_group!(benches, build);
+criterion_main!(benches);

@@ -1,0 +1,22 @@
+//! What the benches share: scenes and structures by name.
+
+use std::sync::Arc;
+
+use sahara::geometry::Mesh;
+use sahara::registry::{Choice, Registry};
+use sahara::scene::{Builtin, Scene};
+
+/// Two easy scenes and the three hard ones, with their procedural meshes.
+pub fn scenes() -> Vec<Scene> {
+    ["sphere", "teapot", "dragon", "lucy", "sponza"]
+        .into_iter()
+        .map(|name| Builtin::find(name).and_then(|builtin| builtin.scene(None)).expect("a built-in scene is whole"))
+        .collect()
+}
+
+/// Every structure over its first triangle test. Brute force only where it ends within seconds.
+pub fn structures(mesh: &Arc<Mesh>) -> Vec<Choice> {
+    let registry = Registry::builtin();
+    let names = registry.names().into_iter().filter(|&name| name != "brute-force" || mesh.len() < 10_000);
+    names.map(|name| registry.choose(name).expect("a registered name")).collect()
+}

@@ -1,0 +1,76 @@
+//! The inner loops alone: `cargo bench --bench kernels`.
+//!
+//! The group `observer` traces the same rays through the same tree with `()`, with an observer that does nothing, and with one
+//! that counts: the first two must take the same time.
+
+use std::hint::black_box;
+use std::sync::Arc;
+
+use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use glam::Vec3;
+use sahara::accel::{Accel, Counts, Observer};
+use sahara::geometry::Ray;
+use sahara::registry::Registry;
+use sahara::scene::{Builtin, Sampling, Workload, WorkloadKind};
+use sahara::simd::{F32x4, F32x8, Lanes, Portable};
+use sahara::structures::{KdConfig, KdTree};
+use sahara::triangle::{MollerTrumbore, TriangleTest};
+
+/// Triangles around the origin, most of which a ray misses.
+fn triangles() -> Vec<[Vec3; 3]> {
+    let corner = |i: u32| {
+        let turn = |k: u32| (i.wrapping_mul(k) % 1009) as f32 / 504.5 - 1.0;
+        Vec3::new(turn(271), turn(577), turn(911))
+    };
+    (0..512).map(|i| [corner(3 * i), corner(3 * i + 1), corner(3 * i + 2)]).collect()
+}
+
+fn test_all<const N: usize, L: Lanes<N>>(ray: &Ray, blocks: &[<MollerTrumbore as TriangleTest>::Block<N>]) -> u32 {
+    let prepared = MollerTrumbore::prepare(ray);
+    blocks.iter().map(|block| MollerTrumbore::hits::<N, L>(&prepared, block).0.count_ones()).sum()
+}
+
+fn triangle_tests(criterion: &mut Criterion) {
+    let triangles = triangles();
+    let ray = Ray::new(Vec3::new(0.1, 0.2, -3.0), Vec3::new(0.02, -0.05, 1.0));
+    let mut group = criterion.benchmark_group("kernels/moller-trumbore");
+    group.throughput(Throughput::Elements(triangles.len() as u64));
+    macro_rules! width {
+        ($name:literal, $n:literal, $lanes:ty) => {
+            let blocks: Vec<_> = triangles.chunks($n).map(MollerTrumbore::block::<$n>).collect();
+            group.bench_function($name, |bencher| {
+                bencher.iter(|| black_box(test_all::<$n, $lanes>(black_box(&ray), black_box(&blocks))));
+            });
+        };
+    }
+    width!("scalar", 1, Portable<1>);
+    width!("x4", 4, F32x4);
+    width!("x8", 8, F32x8);
+    group.finish();
+}
+
+/// An observer of its own type that does nothing.
+struct Silent;
+
+impl Observer for Silent {}
+
+fn observer(criterion: &mut Criterion) {
+    let scene = Builtin::find("teapot").and_then(|b| b.scene(None)).expect("a built-in scene is whole");
+    let tree = <KdTree<MollerTrumbore> as Accel>::build(&Arc::clone(&scene.mesh), &KdConfig::SAH).expect("it builds");
+    let caster =
+        Registry::builtin().choose("sah-kd").expect("a registered name").build(&scene.mesh).expect("it builds");
+    let sampling = Sampling { limit: 16_384, ..Sampling::of(&scene) };
+    let rays = Workload::new(&scene, WorkloadKind::Primary, &sampling, &*caster).rays;
+    let mut group = criterion.benchmark_group("kernels/observer");
+    group.throughput(Throughput::Elements(rays.len() as u64));
+    let mut hits = vec![None; rays.len()];
+    group.bench_function("unit", |b| b.iter(|| tree.closest_hits(black_box(&rays), &mut hits, &mut ())));
+    group.bench_function("silent", |b| b.iter(|| tree.closest_hits(black_box(&rays), &mut hits, &mut Silent)));
+    group.bench_function("counts", |b| {
+        b.iter(|| tree.closest_hits(black_box(&rays), &mut hits, &mut Counts::default()))
+    });
+    group.finish();
+}
+
+criterion_group!(benches, triangle_tests, observer);
+criterion_main!(benches);

@@ -1,0 +1,59 @@
+//! Trace times, one thread, in rays a second: `cargo bench --bench traverse -- dragon`.
+
+mod common;
+
+use std::hint::black_box;
+
+use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use sahara::accel::{DynAccel, Query};
+use sahara::registry::Registry;
+use sahara::scene::{Sampling, Scene, Workload, WorkloadKind};
+
+const KINDS: [WorkloadKind; 4] =
+    [WorkloadKind::Primary, WorkloadKind::Shadow, WorkloadKind::Diffuse, WorkloadKind::Random];
+
+/// Enough rays for a sample, few enough that even the median tree ends.
+const RAYS: usize = 16_384;
+
+fn workloads(scene: &Scene) -> Vec<Workload> {
+    let caster =
+        Registry::builtin().choose("sah-kd").expect("a registered name").build(&scene.mesh).expect("it builds");
+    let sampling = Sampling { limit: RAYS, ..Sampling::of(scene) };
+    KINDS.iter().map(|&kind| Workload::new(scene, kind, &sampling, &*caster)).collect()
+}
+
+fn trace(accel: &dyn DynAccel, workload: &Workload) -> usize {
+    match workload.query {
+        Query::Closest => {
+            let mut hits = vec![None; workload.rays.len()];
+            accel.closest_hits(&workload.rays, &mut hits);
+            hits.iter().flatten().count()
+        }
+        Query::Any => {
+            let mut hits = vec![false; workload.rays.len()];
+            accel.any_hits(&workload.rays, &mut hits);
+            hits.iter().filter(|&&hit| hit).count()
+        }
+    }
+}
+
+fn traverse(criterion: &mut Criterion) {
+    for scene in common::scenes() {
+        let workloads = workloads(&scene);
+        for choice in common::structures(&scene.mesh) {
+            let accel = choice.build(&scene.mesh).expect("a valid mesh builds");
+            for workload in workloads.iter().filter(|workload| !workload.rays.is_empty()) {
+                let name = format!("traverse/{}/{}", scene.name.to_lowercase(), workload.kind.name());
+                let mut group = criterion.benchmark_group(name);
+                group.sample_size(10).throughput(Throughput::Elements(workload.rays.len() as u64));
+                group.bench_function(choice.label.as_str(), |bencher| {
+                    bencher.iter(|| black_box(trace(&*accel, black_box(workload))));
+                });
+                group.finish();
+            }
+        }
+    }
+}
+
+criterion_group!(benches, traverse);
+criterion_main!(benches);

@@ -1,0 +1,74 @@
+//! The ray counts of the source report: the proof that scenes, meshes and the course's rules are right.
+
+use super::{RayCounts, render};
+use crate::accel::Accel;
+use crate::scene::Builtin;
+use crate::structures::{BruteForce, KdConfig, KdTree};
+use crate::triangle::MollerTrumbore;
+
+/// What the report's scenes took when recounted with the course's own renderer, and the report's own total.
+struct Known {
+    scene: &'static str,
+    mirror: u64,
+    shadow: u64,
+    report: u64,
+    /// How far each number may be off.
+    within: u64,
+}
+
+#[rustfmt::skip]
+const KNOWN: &[Known] = &[
+    Known { scene: "Cube", mirror: 0, shadow: 20_648, report: 282_793, within: 1 },
+    Known { scene: "Sphere", mirror: 0, shadow: 25_612, report: 287_756, within: 0 },
+    Known { scene: "Torus", mirror: 0, shadow: 47_144, report: 309_289, within: 1 },
+    Known { scene: "Teapot", mirror: 0, shadow: 52_671, report: 314_816, within: 1 },
+    Known { scene: "Billards", mirror: 62_227, shadow: 1_070_836, report: 1_395_208, within: 1 },
+    Known { scene: "Cornellbox", mirror: 38_488, shadow: 720_831, report: 1_021_492, within: 40 },
+    Known { scene: "Infinitycandy", mirror: 1_868_987, shadow: 2_130_720, report: 4_261_851, within: 2 },
+    Known { scene: "Metallic", mirror: 60_264, shadow: 495_048, report: 817_456, within: 0 },
+];
+
+#[test]
+fn rays_are_as_many_as_in_the_report() {
+    let mut wrong = vec![];
+    for known in KNOWN {
+        let scene = Builtin::find(known.scene).unwrap().scene(None).unwrap();
+        let tree = KdTree::<MollerTrumbore>::build(&scene.mesh, &KdConfig::SAH).unwrap();
+        let counts = render(&scene, &tree, scene.size).1;
+        assert_eq!(counts.primary, 512 * 512);
+        let pairs = [(counts.mirror, known.mirror), (counts.shadow, known.shadow), (counts.total(), known.report)];
+        if pairs.into_iter().any(|(ours, theirs)| ours.abs_diff(theirs) > known.within) {
+            wrong.push(format!("{}: {counts:?}, in all {}", known.scene, counts.total()));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn rays_are_cast_for_what_a_scene_needs_and_no_more() {
+    let mut scene = Builtin::find("infinitycandy").unwrap().scene(None).unwrap();
+    let all = BruteForce::<MollerTrumbore>::build(&scene.mesh, &Default::default()).unwrap();
+    let mut count = |change: &dyn Fn(&mut crate::scene::Scene)| {
+        change(&mut scene);
+        render(&scene, &all, [16, 16]).1
+    };
+    let three = count(&|scene| scene.recursion_limit = 3);
+    assert!(three.mirror > 2 * 256 && three.mirror <= 3 * 256, "{three:?}");
+    let dark = count(&|scene| scene.lights.clear());
+    assert_eq!(dark, RayCounts { shadow: 0, ..three });
+    let flat = count(&|scene| scene.materials.iter_mut().for_each(|m| m.mirror = 0.0));
+    assert_eq!(flat, RayCounts { primary: 256, mirror: 0, shadow: 0 });
+}
+
+#[test]
+fn the_picture_does_not_depend_on_threads_or_structure() {
+    let scene = Builtin::find("metallic").unwrap().scene(None).unwrap();
+    let tree = KdTree::<MollerTrumbore>::build(&scene.mesh, &KdConfig::SAH).unwrap();
+    let all = BruteForce::<MollerTrumbore>::build(&scene.mesh, &Default::default()).unwrap();
+    let with = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| render(&scene, &tree, [90, 70]))
+    };
+    assert_eq!(with(1), with(3));
+    assert_eq!(with(1), render(&scene, &all, [90, 70]));
+}

@@ -1,0 +1,50 @@
+//! Golden images: every structure over the common triangle test draws every built-in scene byte for byte as committed.
+
+use std::path::Path;
+
+use sahara::golden::{GoldenError, Goldens};
+use sahara::registry::Registry;
+use sahara::scene::BUILTIN;
+use sahara::triangle::{MollerTrumbore, TriangleTest};
+
+/// Pixels that a structure of the baseline gets wrong: structure, scene, number of pixels and cause. A pixel more, a pixel
+/// fewer or another scene fails the test.
+const FINDINGS: &[(&str, &str, usize, &str)] = &[(
+    "obvhs-cwbvh",
+    "Cornellbox",
+    39,
+    "its boxes have no slack: rays of the picture's diagonal meet the edge between wall and ceiling exactly, and miss",
+)];
+
+#[test]
+fn every_structure_draws_every_scene_as_committed() {
+    let registry = Registry::builtin();
+    let common: Vec<_> =
+        registry.all().into_iter().filter(|choice| choice.triangle_test() == MollerTrumbore::NAME).collect();
+    assert!(common.len() >= 5, "brute force, two KD-trees and both BVHs share the test");
+
+    let out = Path::new(env!("CARGO_TARGET_TMPDIR")).join("golden");
+    let goldens = Goldens::new(Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes"), out);
+    let mut wrong = vec![];
+    let mut found = 0;
+    for builtin in BUILTIN {
+        // Real meshes that happen to be there must not change the picture.
+        let scene = builtin.scene(None).expect("a built-in scene is whole");
+        for choice in &common {
+            let accel = choice.build(&scene.mesh).expect("a valid mesh builds");
+            let finding = FINDINGS.iter().find(|f| f.0 == choice.entry.name && f.1 == scene.name);
+            match goldens.check(&scene, &choice.label, &*accel) {
+                Ok(()) if finding.is_none() => {}
+                Err(GoldenError::Differs { difference, .. }) if finding.is_some_and(|f| f.2 == difference.pixels) => {
+                    found += 1;
+                }
+                Ok(()) => {
+                    wrong.push(format!("{} draws {} right: the finding is out of date", choice.label, scene.name))
+                }
+                Err(error) => wrong.push(error.to_string()),
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    assert_eq!(found, FINDINGS.len());
+}
