@@ -1,6 +1,10 @@
 //! Every structure that the registry offers, held to the contract on every mesh of the suite and every kind of ray.
 
+use std::sync::Arc;
+
+use sahara::geometry::Mesh;
 use sahara::registry::{Choice, Registry};
+use sahara::scene::{BUILTIN, Difficulty};
 use sahara::structures::{BruteForce, KdConfig, KdTree};
 use sahara::triangle::MollerTrumbore;
 use sahara::validate::conformance::{Subject, answers, counting, shapes};
@@ -56,6 +60,28 @@ fn every_configuration_of_ours_is_right() {
         passes(answers(&subject, &meshes, 60));
         passes(counting(&subject, &meshes, 10));
         passes(shapes(&subject, &meshes));
+    }
+}
+
+/// The built-in scenes, with real-world sizes and materials that split them.
+fn scenes(hard: bool) -> Vec<(String, Arc<Mesh>)> {
+    let wanted = BUILTIN.iter().filter(|builtin| (builtin.difficulty == Difficulty::Hard) == hard);
+    wanted.map(|b| (b.name.to_string(), b.scene(None).expect("a built-in scene is whole").mesh)).collect()
+}
+
+#[test]
+fn every_configuration_of_ours_is_right_on_the_small_scenes() {
+    let (registry, meshes) = (Registry::builtin(), scenes(false));
+    for spec in OURS.iter().chain(&["median-kd", "sah-kd"]) {
+        passes(answers(&subject(&registry.choose(spec).unwrap(), true), &meshes, 60));
+    }
+}
+
+#[test]
+fn our_trees_are_right_on_the_hard_scenes() {
+    let (registry, meshes) = (Registry::builtin(), scenes(true));
+    for spec in ["median-kd", "sah-kd"] {
+        passes(answers(&subject(&registry.choose(spec).unwrap(), true), &meshes, 60));
     }
 }
 
