@@ -16,11 +16,17 @@ const INFERNO: [[u8; 3]; 9] = [
     [252, 255, 164],
 ];
 
-/// The colour of `cost` on a scale from 0 to `hottest`; above it as at it.
+/// The colour of `cost` on a logarithmic scale from 0 to `hottest`; above it as at it.
+///
+/// Costs of structures differ by factors of a hundred: on a linear scale that fits the worst, the best is black.
 pub fn heat(cost: u64, hottest: u64) -> [u8; 3] {
-    // Whole numbers: 255 steps between neighbouring colours, on every machine the same.
-    let steps = (INFERNO.len() as u128 - 1) * 255;
-    let place = (u128::from(cost.min(hottest)) * steps / u128::from(hottest.max(1))) as usize;
+    // 255 steps between neighbouring colours. The logarithm is libm's: the same on every machine.
+    let steps = ((INFERNO.len() - 1) * 255) as f64;
+    let share = match hottest {
+        0 => 0.0,
+        _ => libm::log1p(cost.min(hottest) as f64) / libm::log1p(hottest as f64),
+    };
+    let place = libm::round(share * steps) as usize;
     let (index, part) = (place / 255, (place % 255) as u32);
     let below = INFERNO[index];
     let above = INFERNO[(index + 1).min(INFERNO.len() - 1)];
@@ -33,7 +39,8 @@ mod tests {
 
     #[test]
     fn the_scale_runs_from_black_to_pale_yellow_and_stays_there() {
-        assert_eq!([heat(0, 10), heat(5, 10), heat(10, 10)], [INFERNO[0], INFERNO[4], INFERNO[8]]);
+        // 9 is in the middle between 0 and 99: a factor of ten up to 1 + cost, and another one.
+        assert_eq!([heat(0, 99), heat(9, 99), heat(99, 99)], [INFERNO[0], INFERNO[4], INFERNO[8]]);
         assert_eq!([heat(11, 10), heat(u64::MAX, 10), heat(u64::MAX, u64::MAX)], [INFERNO[8]; 3]);
         assert_eq!(heat(3, 0), INFERNO[0]);
     }
