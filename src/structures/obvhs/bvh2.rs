@@ -1,36 +1,54 @@
-use std::sync::Arc;
 use std::time::Duration;
 
+use obvhs::BvhBuildParams;
 use obvhs::bvh2::Bvh2;
 use obvhs::bvh2::builder::build_bvh2_from_tris;
 use obvhs::ray::{Ray as PreparedRay, RayHit};
+use obvhs::triangle::Triangle;
 
-use super::{LeafTest, Leaves, ObvhsConfig, input};
-use crate::accel::{Accel, BuildError, Footprint, Observer, TreeShape};
-use crate::geometry::{Hit, Mesh, Ray};
+use super::Tree;
+use crate::accel::{Observer, TreeShape};
 
-/// The binary BVH of obvhs: PLOC with reinsertion, 48-byte nodes.
+/// Binary: PLOC with reinsertion, 48-byte nodes.
 ///
 /// # References
 /// Meister, Bittner: Parallel locally-ordered clustering for bounding volume hierarchy construction, 2018; Parallel
 /// reinsertion for bounding volume hierarchy optimization, 2018.
-pub struct ObvhsBvh2<T: LeafTest> {
-    bvh: Bvh2,
-    leaves: Leaves<T>,
-}
+impl Tree for Bvh2 {
+    fn build(triangles: &[Triangle], params: BvhBuildParams) -> Self {
+        build_bvh2_from_tris(triangles, params, &mut Duration::default())
+    }
 
-impl<T: LeafTest> ObvhsBvh2<T> {
+    fn order(&self) -> &[u32] {
+        &self.primitive_indices
+    }
+
+    fn node_bytes(&self) -> usize {
+        size_of_val(&self.nodes[..])
+    }
+
+    #[inline(always)]
+    fn closest(&self, ray: PreparedRay, test: impl FnMut(&PreparedRay, usize) -> f32) -> Option<RayHit> {
+        let mut hit = RayHit::none();
+        self.ray_traverse(ray, &mut hit, test).then_some(hit)
+    }
+
+    #[inline(always)]
+    fn any(&self, ray: PreparedRay, test: impl FnMut(&PreparedRay, usize) -> f32) -> bool {
+        !self.ray_traverse_miss(ray, test)
+    }
+
     /// The walk of obvhs over its public nodes, repeated here because its own cannot be watched. Gives the same hits, which
     /// a test holds; never timed.
-    fn watched<const ANY: bool, O: Observer>(
+    fn watched<const ANY: bool>(
         &self,
         ray: &PreparedRay,
-        prepared: &T::Ray,
-        observer: &mut O,
-    ) -> Option<Hit> {
+        mut test: impl FnMut(&PreparedRay, usize) -> f32,
+        observer: &mut impl Observer,
+    ) -> Option<RayHit> {
         let mut ray = *ray;
         let mut hit = RayHit::none();
-        let nodes = &self.bvh.nodes;
+        let nodes = &self.nodes;
         // The root is entered like a child of nothing; then pairs of children, each by the number of its first.
         let mut stack = vec![];
         let mut pair = vec![(0, nodes[0].aabb().intersect_ray(&ray))];
@@ -51,11 +69,11 @@ impl<T: LeafTest> ObvhsBvh2<T> {
                 observer.leaf(node.prim_count);
                 for index in node.first_index..node.first_index + node.prim_count {
                     observer.test(1);
-                    let t = self.leaves.test(&ray, prepared, index as usize);
+                    let t = test(&ray, index as usize);
                     if t < ray.tmax {
                         (hit.primitive_id, hit.t, ray.tmax) = (index, t, t);
                         if ANY {
-                            return self.leaves.hit(true, &hit);
+                            return Some(hit);
                         }
                     }
                 }
@@ -68,56 +86,12 @@ impl<T: LeafTest> ObvhsBvh2<T> {
             let (a, b) = (entry(first), entry(first + 1));
             pair = if a.1 > b.1 { vec![b, a] } else { vec![a, b] };
         }
-        self.leaves.hit(hit.t < f32::INFINITY, &hit)
-    }
-}
-
-impl<T: LeafTest> Accel for ObvhsBvh2<T> {
-    type Config = ObvhsConfig;
-
-    const TRIANGLE_TEST: &'static str = T::NAME;
-
-    fn build(mesh: &Arc<Mesh>, config: &ObvhsConfig) -> Result<Self, BuildError> {
-        let (triangles, solid) = input(mesh);
-        let bvh = build_bvh2_from_tris(&triangles, config.preset.params(), &mut Duration::default());
-        let leaves = Leaves::new(mesh, &solid, &bvh.primitive_indices);
-        Ok(Self { bvh, leaves })
-    }
-
-    #[inline]
-    fn closest_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit> {
-        let (ray, prepared) = Leaves::<T>::start(ray)?;
-        if self.bvh.nodes.is_empty() {
-            return None;
-        }
-        if O::ACTIVE {
-            return self.watched::<false, O>(&ray, &prepared, observer);
-        }
-        let mut hit = RayHit::none();
-        let found = self.bvh.ray_traverse(ray, &mut hit, |ray, index| self.leaves.test(ray, &prepared, index));
-        self.leaves.hit(found, &hit)
-    }
-
-    #[inline]
-    fn any_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> bool {
-        let Some((ray, prepared)) = Leaves::<T>::start(ray) else { return false };
-        if self.bvh.nodes.is_empty() {
-            return false;
-        }
-        if O::ACTIVE {
-            return self.watched::<true, O>(&ray, &prepared, observer).is_some();
-        }
-        !self.bvh.ray_traverse_miss(ray, |ray, index| self.leaves.test(ray, &prepared, index))
-    }
-
-    fn footprint(&self) -> Footprint {
-        let (triangles, references) = self.leaves.bytes();
-        Footprint { nodes: size_of_val(&self.bvh.nodes[..]), references, triangles, other: 0 }
+        (hit.t < f32::INFINITY).then_some(hit)
     }
 
     fn shape(&self) -> TreeShape {
         let mut shape = TreeShape::default();
-        let nodes = &self.bvh.nodes;
+        let nodes = &self.nodes;
         let area = |at: usize| f64::from(nodes[at].aabb().half_area());
         let mut cost = 0.0;
         let mut stack: Vec<(usize, usize)> = (!nodes.is_empty()).then_some((0, 0)).into_iter().collect();

@@ -1,40 +1,58 @@
-use std::sync::Arc;
 use std::time::Duration;
 
 use glam::UVec2;
+use obvhs::BvhBuildParams;
 use obvhs::cwbvh::CwBvh;
 use obvhs::cwbvh::builder::build_cwbvh_from_tris;
 use obvhs::ray::{Ray as PreparedRay, RayHit};
 use obvhs::traverse;
+use obvhs::triangle::Triangle;
 
-use super::{LeafTest, Leaves, ObvhsConfig, input};
-use crate::accel::{Accel, BuildError, Footprint, Observer, TreeShape};
-use crate::geometry::{Hit, Mesh, Ray};
+use super::Tree;
+use crate::accel::{Observer, TreeShape};
 
-/// The compressed 8-wide BVH of obvhs: 80-byte nodes, at most three triangles a leaf.
+/// Compressed, 8 wide: 80-byte nodes, at most three triangles a leaf.
 ///
 /// # References
 /// Ylitie, Karras, Laine: Efficient incoherent ray traversal on GPUs through compressed wide BVHs. HPG 2017.
-pub struct ObvhsCwBvh<T: LeafTest> {
-    bvh: CwBvh,
-    leaves: Leaves<T>,
-}
+impl Tree for CwBvh {
+    fn build(triangles: &[Triangle], params: BvhBuildParams) -> Self {
+        build_cwbvh_from_tris(triangles, params, &mut Duration::default())
+    }
 
-impl<T: LeafTest> ObvhsCwBvh<T> {
-    /// The walk of obvhs through its own macro, watched. A group of triangles that a node hands over counts as no node of
-    /// its own, so only inner nodes are steps.
-    fn watched<const ANY: bool, O: Observer>(
+    fn order(&self) -> &[u32] {
+        &self.primitive_indices
+    }
+
+    fn node_bytes(&self) -> usize {
+        size_of_val(&self.nodes[..])
+    }
+
+    #[inline(always)]
+    fn closest(&self, ray: PreparedRay, test: impl FnMut(&PreparedRay, usize) -> f32) -> Option<RayHit> {
+        let mut hit = RayHit::none();
+        self.ray_traverse(ray, &mut hit, test).then_some(hit)
+    }
+
+    #[inline(always)]
+    fn any(&self, ray: PreparedRay, test: impl FnMut(&PreparedRay, usize) -> f32) -> bool {
+        !self.ray_traverse_miss(ray, test)
+    }
+
+    /// The walk of obvhs through its own macro. A group of triangles that a node hands over counts as no node of its own, so
+    /// only inner nodes are steps.
+    fn watched<const ANY: bool>(
         &self,
         ray: &PreparedRay,
-        prepared: &T::Ray,
-        observer: &mut O,
-    ) -> Option<Hit> {
+        mut test: impl FnMut(&PreparedRay, usize) -> f32,
+        observer: &mut impl Observer,
+    ) -> Option<RayHit> {
         let mut ray = *ray;
         let mut hit = RayHit::none();
-        let mut state = self.bvh.new_traversal(ray.direction);
+        let mut state = self.new_traversal(ray.direction);
         let mut node;
         traverse!(
-            self.bvh,
+            self,
             node,
             state,
             {
@@ -43,67 +61,23 @@ impl<T: LeafTest> ObvhsCwBvh<T> {
             },
             {
                 observer.test(1);
-                let t = self.leaves.test(&ray, prepared, state.primitive_id as usize);
+                let t = test(&ray, state.primitive_id as usize);
                 if t < ray.tmax {
                     (hit.primitive_id, hit.t, ray.tmax) = (state.primitive_id, t, t);
                     if ANY {
-                        return self.leaves.hit(true, &hit);
+                        return Some(hit);
                     }
                 }
             }
         );
-        self.leaves.hit(hit.t < f32::INFINITY, &hit)
-    }
-}
-
-impl<T: LeafTest> Accel for ObvhsCwBvh<T> {
-    type Config = ObvhsConfig;
-
-    const TRIANGLE_TEST: &'static str = T::NAME;
-
-    fn build(mesh: &Arc<Mesh>, config: &ObvhsConfig) -> Result<Self, BuildError> {
-        let (triangles, solid) = input(mesh);
-        let bvh = build_cwbvh_from_tris(&triangles, config.preset.params(), &mut Duration::default());
-        let leaves = Leaves::new(mesh, &solid, &bvh.primitive_indices);
-        Ok(Self { bvh, leaves })
-    }
-
-    #[inline]
-    fn closest_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit> {
-        let (ray, prepared) = Leaves::<T>::start(ray)?;
-        if self.bvh.nodes.is_empty() {
-            return None;
-        }
-        if O::ACTIVE {
-            return self.watched::<false, O>(&ray, &prepared, observer);
-        }
-        let mut hit = RayHit::none();
-        let found = self.bvh.ray_traverse(ray, &mut hit, |ray, index| self.leaves.test(ray, &prepared, index));
-        self.leaves.hit(found, &hit)
-    }
-
-    #[inline]
-    fn any_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> bool {
-        let Some((ray, prepared)) = Leaves::<T>::start(ray) else { return false };
-        if self.bvh.nodes.is_empty() {
-            return false;
-        }
-        if O::ACTIVE {
-            return self.watched::<true, O>(&ray, &prepared, observer).is_some();
-        }
-        !self.bvh.ray_traverse_miss(ray, |ray, index| self.leaves.test(ray, &prepared, index))
-    }
-
-    fn footprint(&self) -> Footprint {
-        let (triangles, references) = self.leaves.bytes();
-        Footprint { nodes: size_of_val(&self.bvh.nodes[..]), references, triangles, other: 0 }
+        (hit.t < f32::INFINITY).then_some(hit)
     }
 
     fn shape(&self) -> TreeShape {
-        let mut shape = TreeShape { references: self.leaves.ids.len(), ..TreeShape::default() };
-        let mut stack: Vec<(usize, usize)> = (!self.bvh.nodes.is_empty()).then_some((0, 0)).into_iter().collect();
+        let mut shape = TreeShape { references: self.primitive_indices.len(), ..TreeShape::default() };
+        let mut stack: Vec<(usize, usize)> = (!self.nodes.is_empty()).then_some((0, 0)).into_iter().collect();
         while let Some((at, depth)) = stack.pop() {
-            let node = &self.bvh.nodes[at];
+            let node = &self.nodes[at];
             shape.inner += 1;
             for child in 0..8 {
                 if node.is_child_empty(child) {

@@ -12,69 +12,95 @@ mod bvh2;
 mod config;
 mod cwbvh;
 mod leaf_test;
+mod leaves;
 mod rt_test;
 
 use std::sync::Arc;
 
-use glam::Vec3A;
+use obvhs::BvhBuildParams;
+use obvhs::bvh2::Bvh2;
+use obvhs::cwbvh::CwBvh;
 use obvhs::ray::{Ray as PreparedRay, RayHit};
 use obvhs::triangle::Triangle;
 
-pub use bvh2::ObvhsBvh2;
 pub use config::{ObvhsConfig, Preset};
-pub use cwbvh::ObvhsCwBvh;
 pub use leaf_test::{LeafTest, Native, Over};
 pub use rt_test::RtTest;
 
+use crate::accel::{Accel, BuildError, Footprint, Observer, TreeShape};
 use crate::geometry::{Hit, Mesh, Ray};
+use leaves::{Leaves, input};
 
-/// Triangles in the order of a tree, ready for the test `T`.
-struct Leaves<T: LeafTest> {
-    triangles: Vec<T::Triangle>,
-    /// The triangle of the mesh for each of them.
-    ids: Vec<u32>,
+/// The binary BVH of obvhs.
+pub type ObvhsBvh2<T> = Obvhs<Bvh2, T>;
+
+/// The compressed 8-wide BVH of obvhs.
+pub type ObvhsCwBvh<T> = Obvhs<CwBvh, T>;
+
+/// A BVH of obvhs over the triangle test `T`.
+pub struct Obvhs<B, T: LeafTest> {
+    tree: B,
+    leaves: Leaves<T>,
 }
 
-/// What the builders of obvhs take: the triangles with an area, and their numbers.
-fn input(mesh: &Mesh) -> (Vec<Triangle>, Vec<u32>) {
-    let ids: Vec<u32> = mesh.solid().collect();
-    let triangle = |&id: &u32| {
-        let [v0, v1, v2] = mesh.corners(id).map(Vec3A::from);
-        Triangle { v0, v1, v2 }
-    };
-    (ids.iter().map(triangle).collect(), ids)
+/// What the two trees of obvhs have in common. Tests give `t` of a triangle in the order of the tree, infinity for a miss.
+pub trait Tree: Send + Sync + Sized + 'static {
+    fn build(triangles: &[Triangle], params: BvhBuildParams) -> Self;
+
+    /// The triangle for each place in the tree.
+    fn order(&self) -> &[u32];
+
+    fn node_bytes(&self) -> usize;
+
+    fn closest(&self, ray: PreparedRay, test: impl FnMut(&PreparedRay, usize) -> f32) -> Option<RayHit>;
+
+    fn any(&self, ray: PreparedRay, test: impl FnMut(&PreparedRay, usize) -> f32) -> bool;
+
+    /// As `closest`, or with `ANY` up to the first hit, telling the observer. The tree is not empty.
+    fn watched<const ANY: bool>(
+        &self,
+        ray: &PreparedRay,
+        test: impl FnMut(&PreparedRay, usize) -> f32,
+        observer: &mut impl Observer,
+    ) -> Option<RayHit>;
+
+    fn shape(&self) -> TreeShape;
 }
 
-impl<T: LeafTest> Leaves<T> {
-    fn new(mesh: &Arc<Mesh>, solid: &[u32], order: &[u32]) -> Self {
-        let ids: Vec<u32> = order.iter().map(|&i| solid[i as usize]).collect();
-        let triangles = ids.iter().map(|&id| T::triangle(mesh.corners(id))).collect();
-        Self { triangles, ids }
+impl<B: Tree, T: LeafTest> Accel for Obvhs<B, T> {
+    type Config = ObvhsConfig;
+
+    const TRIANGLE_TEST: &'static str = T::NAME;
+
+    fn build(mesh: &Arc<Mesh>, config: &ObvhsConfig) -> Result<Self, BuildError> {
+        let (triangles, solid) = input(mesh);
+        let tree = B::build(&triangles, config.preset.params());
+        let leaves = Leaves::new(mesh, &solid, tree.order());
+        Ok(Self { tree, leaves })
     }
 
-    /// The ray in the form of obvhs and of the test; nothing if it can hit nothing.
-    #[inline(always)]
-    fn start(ray: &Ray) -> Option<(PreparedRay, T::Ray)> {
-        let (t_min, t_max) = ray.interval();
-        ray.is_valid().then(|| {
-            let prepared = PreparedRay::new(ray.origin.into(), ray.direction.into(), t_min, t_max);
-            (prepared, T::prepare(ray))
-        })
+    #[inline]
+    fn closest_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit> {
+        let (ray, prepared) = self.leaves.start(ray)?;
+        let test = self.leaves.test(prepared);
+        let found =
+            if O::ACTIVE { self.tree.watched::<false>(&ray, test, observer) } else { self.tree.closest(ray, test) };
+        found.map(|hit| self.leaves.hit(hit))
     }
 
-    /// `t` of triangle `index` of the tree, infinity for a miss.
-    #[inline(always)]
-    fn test(&self, ray: &PreparedRay, prepared: &T::Ray, index: usize) -> f32 {
-        T::test(&self.triangles[index], ray, prepared)
+    #[inline]
+    fn any_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> bool {
+        let Some((ray, prepared)) = self.leaves.start(ray) else { return false };
+        let test = self.leaves.test(prepared);
+        if O::ACTIVE { self.tree.watched::<true>(&ray, test, observer).is_some() } else { self.tree.any(ray, test) }
     }
 
-    /// Bytes of the triangles and of their numbers.
-    fn bytes(&self) -> (usize, usize) {
-        (size_of_val(&self.triangles[..]), size_of_val(&self.ids[..]))
+    fn footprint(&self) -> Footprint {
+        let (triangles, references) = self.leaves.bytes();
+        Footprint { nodes: self.tree.node_bytes(), references, triangles, other: 0 }
     }
 
-    #[inline(always)]
-    fn hit(&self, found: bool, hit: &RayHit) -> Option<Hit> {
-        found.then(|| Hit::new(hit.t, self.ids[hit.primitive_id as usize]))
+    fn shape(&self) -> TreeShape {
+        self.tree.shape()
     }
 }
