@@ -4,11 +4,14 @@ use clap::ValueEnum;
 
 use super::Verdict;
 use super::terminal::Terminal;
-use crate::golden::{GoldenError, Goldens};
+use crate::accel::DynAccel;
+use crate::golden::{GoldenError, Goldens, SIZE};
 use crate::registry::{Choice, Registry};
-use crate::scene::{BUILTIN, Builtin};
+use crate::report::number::count;
+use crate::scene::{BUILTIN, Builtin, Scene, View};
 use crate::study::{BRUTE_FORCE, documented_defect};
 use crate::triangle::{MollerTrumbore, TriangleTest};
+use crate::validate::{Reference, validate};
 
 #[derive(Debug, clap::Args)]
 pub struct Args {
@@ -51,13 +54,12 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
             Action::Check => {
                 let mut right = vec![];
                 for choice in &common {
-                    match goldens.check(&scene, &choice.label, choice.build(&scene.mesh)?.as_ref()) {
+                    let accel = choice.build(&scene.mesh)?;
+                    match goldens.check(&scene, &choice.label, accel.as_ref()) {
                         Ok(()) => right.push(choice.label.as_str()),
                         Err(error @ GoldenError::Differs { .. }) => {
-                            let defect = documented_defect(&choice.entry.name);
-                            let known = defect.map_or(String::new(), |defect| format!(" (known defect: {defect})"));
-                            terminal.print(&format!("{error}{known}\n"))?;
-                            if defect.is_none() {
+                            terminal.print(&format!("{error}\n  {}\n", cause(&scene, accel.as_ref())?))?;
+                            if documented_defect(&choice.entry.name).is_none() {
                                 verdict = Verdict::Wrong;
                             }
                         }
@@ -69,4 +71,16 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
         }
     }
     Ok(verdict)
+}
+
+/// Why a picture differs: wrong answers are a fault, another triangle at the same `t` is within the contract.
+fn cause(scene: &Scene, accel: &dyn DynAccel) -> anyhow::Result<String> {
+    let rays = scene.primary_rays(SIZE, View::CENTRE, 0..SIZE[0] * SIZE[1]);
+    let found = validate(accel, &Reference::of_test(MollerTrumbore::NAME, &scene.mesh)?, &scene.mesh, &rays);
+    let (wrong, ties) = (count(found.errors()), count(found.ties));
+    let kernel = count(found.kernel_differences);
+    Ok(format!(
+        "of the primary rays {wrong} are answered wrong, {ties} by another triangle at the same t, {kernel} otherwise for \
+         the triangle test's own reasons"
+    ))
 }
