@@ -7,14 +7,20 @@ use sahara::registry::Registry;
 use sahara::scene::BUILTIN;
 use sahara::triangle::{MollerTrumbore, TriangleTest};
 
-/// Pixels that a structure of the baseline gets wrong: structure, scene, number of pixels and cause. A pixel more, a pixel
-/// fewer or another scene fails the test.
-const FINDINGS: &[(&str, &str, usize, &str)] = &[(
-    "obvhs-cwbvh",
-    "Cornellbox",
-    39,
-    "its boxes have no slack: rays of the picture's diagonal meet the edge between wall and ceiling exactly, and miss",
-)];
+/// Pixels of the baseline that differ: structure, scene, number of pixels and cause. A pixel more, a pixel fewer or another
+/// scene fails the test.
+///
+/// In the Cornell box, rays of the picture's diagonals meet the edges between walls exactly. There two walls of different
+/// colours are hit at one t. Our structures owe the lower primitive number; obvhs gives either, which the contract allows.
+const FINDINGS: &[(&str, &str, usize, &str)] = &[
+    ("obvhs-bvh2", "Cornellbox", 65, "ties at the edges between walls; no ray is lost"),
+    (
+        "obvhs-cwbvh",
+        "Cornellbox",
+        39,
+        "ties at the edges between walls; and one ray lost there, since boxes have no slack",
+    ),
+];
 
 #[test]
 fn every_structure_draws_every_scene_as_committed() {

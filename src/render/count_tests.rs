@@ -2,7 +2,7 @@
 
 use super::{RayCounts, render};
 use crate::accel::Accel;
-use crate::scene::Builtin;
+use crate::scene::{Builtin, Sampling, Workload, WorkloadKind};
 use crate::structures::{BruteForce, KdConfig, KdTree};
 use crate::triangle::MollerTrumbore;
 
@@ -71,4 +71,17 @@ fn the_picture_does_not_depend_on_threads_or_structure() {
     };
     assert_eq!(with(1), with(3));
     assert_eq!(with(1), render(&scene, &all, [90, 70]));
+}
+
+#[test]
+fn picture_workloads_hold_the_rays_that_the_renderer_counts() {
+    let scene = Builtin::find("infinitycandy").unwrap().scene(None).unwrap();
+    let size = [40, 40];
+    let tree = KdTree::<MollerTrumbore>::build(&scene.mesh, &KdConfig::SAH).unwrap();
+    let counts = render(&scene, &tree, size).1;
+    let sampling = Sampling { size, ..Sampling::of(&scene) };
+    let count = |kind| Workload::new(&scene, kind, &sampling, &tree).rays.len() as u64;
+    assert!(counts.mirror > 5 * counts.primary);
+    assert_eq!(count(WorkloadKind::Image), counts.primary + counts.mirror);
+    assert_eq!(count(WorkloadKind::ImageShadow), counts.shadow);
 }

@@ -129,15 +129,3 @@ fn an_empty_scene_and_one_without_lights_have_no_secondary_rays() {
         assert_eq!(workload(&empty, kind).rays.is_empty(), !seen, "{kind:?}");
     }
 }
-
-#[test]
-fn picture_workloads_hold_the_rays_that_the_renderer_counts() {
-    let scene = Builtin::find("infinitycandy").unwrap().scene(None).unwrap();
-    let (size, accel) = ([40, 40], tree(&scene));
-    let counts = crate::render::render(&scene, &accel, size).1;
-    let count =
-        |kind| Workload::new(&scene, kind, &Sampling { size, ..Sampling::of(&scene) }, &accel).rays.len() as u64;
-    assert!(counts.mirror > 5 * counts.primary);
-    assert_eq!(count(WorkloadKind::Image), counts.primary + counts.mirror);
-    assert_eq!(count(WorkloadKind::ImageShadow), counts.shadow);
-}
