@@ -23,7 +23,7 @@ const STEPS: usize = 4;
 /// with rim and bottom, handle, spout, lid); one Catmull-Clark step, to 2016 quadrilaterals; each of these cut along its
 /// longer diagonal. All vertices agree with the course's file to its last digit.
 ///
-/// One control point differs from the published ones: see [`PUBLISHED`].
+/// One control point differs from the published ones: see `PUBLISHED`.
 pub fn teapot() -> Model {
     let (points, faces) = welded_patches();
     let (points, quads) = catmull_clark::subdivide(&points, &faces);

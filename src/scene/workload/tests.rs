@@ -5,7 +5,7 @@ use glam::Vec3;
 use super::*;
 use crate::accel::Accel;
 use crate::geometry::Mesh;
-use crate::scene::{Builtin, Camera, Light, Material};
+use crate::scene::{Camera, Light, Material};
 use crate::structures::{KdConfig, KdTree};
 use crate::triangle::MollerTrumbore;
 
