@@ -6,6 +6,7 @@ pub mod geometry;
 pub mod golden;
 pub mod measure;
 pub mod oracle;
+pub mod output;
 pub mod registry;
 pub mod render;
 pub mod report;

@@ -8,8 +8,9 @@ use super::progress::Progress;
 use super::terminal::Terminal;
 use super::{Verdict, sources};
 use crate::measure::{Provenance, SystemClock, Threads};
+use crate::output::OutputFile;
 use crate::registry::Registry;
-use crate::report::{OutputFile, Record, Table, to_csv, to_json, to_markdown};
+use crate::report::{Record, Table, to_csv, to_json, to_markdown};
 use crate::scene::WorkloadKind;
 use crate::study::compare::{Settings, compare_scene, legend, mean_table, scene_table};
 

@@ -9,9 +9,9 @@ use glam::Vec3;
 use super::terminal::Terminal;
 use super::{Verdict, sources};
 use crate::accel::Observed;
+use crate::output::OutputFile;
 use crate::registry::Registry;
 use crate::render::{ViewKind, costs, draw, hottest};
-use crate::report::OutputFile;
 use crate::scene::{Camera, Scene};
 use crate::study::{BRUTE_FORCE, SAH_TREE};
 

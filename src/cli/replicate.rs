@@ -6,8 +6,9 @@ use super::progress::Progress;
 use super::terminal::Terminal;
 use super::{Verdict, sources};
 use crate::measure::{Provenance, SystemClock, Threads};
+use crate::output::OutputFile;
 use crate::registry::Registry;
-use crate::report::{OutputFile, to_json, to_markdown};
+use crate::report::{to_json, to_markdown};
 use crate::study::StudyError;
 use crate::study::replicate::{Settings, Study, tables};
 

@@ -1,11 +1,12 @@
 //! Pictures of 8 bits a channel: written, read, compared.
 
-use std::io::{Cursor, Write};
+use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
 use image::{ExtendedColorType, ImageEncoder, ImageError, ImageFormat};
 
 use super::Image;
+use crate::output::{OutputError, OutputFile};
 
 /// RGB pixels, row by row, the top row first.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -21,8 +22,8 @@ pub enum PictureError {
     Read { path: PathBuf, cause: std::io::Error },
     #[error("{} is not a PNG picture: {cause}", path.display())]
     Decode { path: PathBuf, cause: ImageError },
-    #[error("cannot write the picture {}: {cause}: choose a directory that exists and may be written", path.display())]
-    Write { path: PathBuf, cause: std::io::Error },
+    #[error(transparent)]
+    Write(#[from] OutputError),
 }
 
 /// In what two pictures of one size differ.
@@ -79,22 +80,12 @@ impl Picture {
         Ok(Self::new([decoded.width(), decoded.height()], decoded.pixels().map(|p| p.0).collect()))
     }
 
-    /// Writes a PNG file, whole or not at all: beside its place first, then moved there.
+    /// Writes a PNG file, whole or not at all.
     ///
     /// # Errors
     /// If the directory does not exist or takes no file, or there is no room.
     pub fn write(&self, path: &Path) -> Result<(), PictureError> {
-        let directory = path.parent().filter(|d| !d.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        let place = || {
-            let mut builder = tempfile::Builder::new();
-            #[cfg(unix)]
-            builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-            let mut file = builder.tempfile_in(directory)?;
-            file.write_all(&self.png())?;
-            file.persist(path)?;
-            Ok(())
-        };
-        place().map_err(|cause| PictureError::Write { path: path.into(), cause })
+        Ok(OutputFile::check(path)?.write(&self.png())?)
     }
 
     /// In what the pictures differ, or none when they are equal.

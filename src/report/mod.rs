@@ -2,13 +2,11 @@
 #![doc = include_str!("SCHEMA.md")]
 
 mod export;
-mod file;
 pub mod number;
 mod record;
 mod table;
 
 pub use export::{to_csv, to_json};
-pub use file::{OutputError, OutputFile};
 pub use record::Record;
 pub use table::{Cell, Screen, Table, Tone, to_markdown, wrapped};
 
