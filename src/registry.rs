@@ -1,5 +1,6 @@
 //! The structures by name: the only place that names them all.
 
+use std::panic::{self, AssertUnwindSafe};
 use std::sync::Arc;
 
 use serde_json::{Map, Value};
@@ -94,7 +95,9 @@ impl Registry {
         };
         let build: Build = Arc::new(|mesh, config| {
             let config = parse::<A>(config).map_err(BuildError::Config)?;
-            Ok(Box::new(A::build(mesh, &config)?))
+            // Builders of other crates may panic on a mesh that they did not expect; one structure must not end a run.
+            let built = panic::catch_unwind(AssertUnwindSafe(|| A::build(mesh, &config)));
+            Ok(Box::new(built.unwrap_or_else(|_| Err(BuildError::Panic))?))
         });
         self.entries.push(Entry {
             name: name.into(),

@@ -18,6 +18,9 @@ pub enum BuildError {
     /// The structure's limits do not admit the mesh; the sentence says why.
     #[error("{0}")]
     Mesh(String),
+    /// The structure's own code panicked.
+    #[error("its builder panicked on this mesh: leave the structure out, or look at extreme coordinates")]
+    Panic,
 }
 
 /// An acceleration structure: answers two questions about a ray.

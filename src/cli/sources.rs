@@ -37,7 +37,12 @@ pub fn scene(name: &str) -> anyhow::Result<Scene> {
         }
         Err(_) => {
             let stem = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy();
-            Ok(Scene::framed(&stem, load(path)?)?)
+            let model = load(path)?;
+            anyhow::ensure!(
+                !model.triangles.is_empty(),
+                "{name} holds no triangles: nothing can be traced; check that it is the mesh you mean"
+            );
+            Ok(Scene::framed(&stem, model)?)
         }
     }
 }

@@ -81,7 +81,9 @@ fn rays(scene: &Scene, registry: &Registry, args: &Args) -> anyhow::Result<Vec<R
     }
     let guide = sources::guide(registry)?.build(&scene.mesh)?;
     let limit = (args.rays as usize).div_ceil(WorkloadKind::ALL.len());
-    let sampling = Sampling { limit, seed: args.seed, ..Sampling::of(scene) };
+    // Four pixels a ray: most kinds start where a pixel sees something.
+    let pixels = u32::try_from(4 * limit).unwrap_or(u32::MAX).min(scene.size[0] * scene.size[1]);
+    let sampling = Sampling { limit, ..Sampling::about(scene, pixels, args.seed) };
     let of_kind = |&kind| Workload::new(scene, kind, &sampling, guide.as_ref()).rays;
     Ok(WorkloadKind::ALL.iter().flat_map(of_kind).collect())
 }

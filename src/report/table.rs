@@ -95,6 +95,9 @@ impl Table {
             let cells = self.rows.iter().map(|row| row[i].text.chars().count());
             cells.chain([self.columns[i].chars().count()]).max().unwrap_or(0) + PADDING
         };
+        if self.columns.is_empty() {
+            return vec![];
+        }
         let mut blocks = vec![vec![0]];
         let mut used = INDENT + widest(0);
         for column in 1..self.columns.len() {

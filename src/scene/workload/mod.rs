@@ -111,6 +111,14 @@ impl Sampling {
         Self { size: scene.size, limit: usize::MAX, seed: 0 }
     }
 
+    /// At most `rays` rays, from a picture of the scene's shape with about as many pixels, in even numbers of rows and columns.
+    pub fn about(scene: &Scene, rays: u32, seed: u64) -> Self {
+        let [width, height] = scene.size.map(f64::from);
+        let scale = (f64::from(rays) / (width * height)).sqrt();
+        let size = [width, height].map(|side| ((side * scale / 2.0).round() as u32 * 2).max(2));
+        Self { size, limit: rays as usize, seed }
+    }
+
     fn pixels(&self) -> u32 {
         self.size[0] * self.size[1]
     }

@@ -35,16 +35,6 @@ pub struct Settings {
     pub threads: Threads,
 }
 
-impl Settings {
-    /// A picture of the scene's shape with about as many pixels as there shall be rays, in even numbers of rows and columns.
-    fn sampling(&self, scene: &Scene) -> Sampling {
-        let [width, height] = scene.size.map(f64::from);
-        let scale = (f64::from(self.rays) / (width * height)).sqrt();
-        let size = [width, height].map(|side| ((side * scale / 2.0).round() as u32 * 2).max(2));
-        Sampling { size, limit: self.rays as usize, seed: self.seed }
-    }
-}
-
 /// One record for each structure and workload, in the order of the settings, structure by structure.
 ///
 /// # Errors
@@ -72,7 +62,7 @@ pub fn compare_scene(
         }
     };
     let mut workloads: Vec<Workload> = vec![];
-    let sampling = settings.sampling(scene);
+    let sampling = Sampling::about(scene, settings.rays, settings.seed);
     for &kind in settings.workloads.iter().filter(|&&kind| kind != WorkloadKind::Mirror || scene.has_mirrors()) {
         progress(Stage::Rays(kind.name()));
         workloads.push(Workload::new(scene, kind, &sampling, guide));

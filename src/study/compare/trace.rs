@@ -5,7 +5,6 @@ use crate::accel::{Counts, DynAccel, Query};
 use crate::geometry::Ray;
 use crate::measure::{Clock, Pass, Plan, Timed, spread, take};
 use crate::scene::{Scene, Workload};
-use crate::study::baselines::documented_defect;
 use crate::study::built::Built;
 use crate::study::check::Check;
 use crate::study::{Stage, StudyError};
@@ -29,7 +28,7 @@ const LONGEST_SAMPLE_NS: u64 = 1_000_000_000;
 /// Rays that a case without times is counted on.
 const COUNTED: usize = 4096;
 
-/// Times every case whose answers are right, or wrong for a documented reason, all interleaved, and counts every case on the rays it was timed on.
+/// Times every case whose answers are right, all interleaved, and counts it on the rays it was timed on.
 #[allow(clippy::too_many_arguments)]
 pub(super) fn trace_all(
     scene: &Scene,
@@ -43,7 +42,7 @@ pub(super) fn trace_all(
 ) -> Result<Vec<Vec<Trace>>, StudyError> {
     let right: Vec<(usize, usize)> = (0..built.len())
         .flat_map(|s| (0..workloads.len()).map(move |w| (s, w)))
-        .filter(|&(s, w)| checks[s][w].errors == 0 || documented_defect(&built[s].choice.entry.name).is_some())
+        .filter(|&(s, w)| checks[s][w].errors == 0)
         .collect();
     let mut cases: Vec<Box<dyn Timed>> = right
         .iter()
