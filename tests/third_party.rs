@@ -5,7 +5,10 @@ use std::sync::Arc;
 use glam::{DVec3, UVec3, Vec3};
 use sahara::accel::{Accel, BuildError, Footprint, Observer, TreeShape};
 use sahara::geometry::{Hit, Mesh, Ray};
+use sahara::measure::{SystemClock, Threads};
 use sahara::registry::Registry;
+use sahara::scene::{Builtin, WorkloadKind};
+use sahara::study::compare::{Settings, compare_scene};
 use sahara::triangle::{MollerTrumbore, TriangleTest};
 use sahara::validate::{Kind, Reference, Stratum, degenerate_meshes, validate};
 use serde::{Deserialize, Serialize};
@@ -249,4 +252,25 @@ fn a_structure_that_loses_one_ray_in_a_thousand_is_rejected_with_the_ray() {
     let subject = sahara::validate::conformance::Subject::of::<Forgetful>("forgetful", MyConfig::default());
     let report = sahara::validate::conformance::answers(&subject, &degenerate_meshes(), 200).unwrap_err();
     assert!(report.contains("forgetful on ") && report.contains("worst: lost: ray \""), "{report}");
+}
+
+#[test]
+fn it_is_compared_like_our_own() {
+    let registry = Registry::builtin().with::<MyGrid>("my-grid", MyConfig::default());
+    let settings = Settings {
+        structures: ["my-grid", "sah-kd"].map(|name| registry.choose(name).unwrap()).into(),
+        guide: registry.choose("sah-kd").unwrap(),
+        workloads: vec![WorkloadKind::Primary, WorkloadKind::Shadow],
+        rays: 1024,
+        runs: 3,
+        budget_ns: 1_000_000_000,
+        seed: 1,
+        threads: Threads::new(1).unwrap(),
+    };
+    let scene = Builtin::find("sphere").unwrap().scene(None).unwrap();
+    let records = compare_scene(&scene, &settings, &SystemClock::start(), &mut |_| {}).unwrap();
+    assert_eq!(records.len(), 4);
+    assert!(records.iter().all(|r| r.structure_errors == Some(0) && r.mrays_per_s > Some(0.0)));
+    assert_eq!(records[0].label, "my-grid");
+    assert_eq!(records[0].hits, records[2].hits);
 }
