@@ -52,7 +52,8 @@ pub fn compare_scene(
         built.push(Built::new(choice, scene, &settings.threads, clock)?);
     }
 
-    // The same rays for all structures; those that start on a surface start where the guide finds it. A workload may come out empty: nothing casts shadows where nothing is hit.
+    // The same rays for all structures; those that start on a surface start where the guide finds it. A workload may come
+    // out empty: nothing casts shadows where nothing is hit.
     let own_guide;
     let guide = match built.iter().find(|built| built.choice.label == settings.guide.label) {
         Some(built) => built.accel.as_ref(),
