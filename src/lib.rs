@@ -2,6 +2,7 @@
 
 pub mod accel;
 pub mod cli;
+pub mod exact;
 pub mod geometry;
 pub mod golden;
 pub mod measure;

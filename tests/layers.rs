@@ -4,8 +4,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The layers of the house, as ARCHITECTURE.md draws them.
-const LAYERS: [(&str, u32); 18] = [
+const LAYERS: [(&str, u32); 19] = [
     ("geometry", 0),
+    ("exact", 0),
     ("output", 0),
     ("simd", 0),
     ("triangle", 0),

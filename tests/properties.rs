@@ -7,7 +7,7 @@ use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use sahara::accel::DynAccel;
 use sahara::geometry::{Hit, Mesh, Ray};
-use sahara::oracle::exact;
+use sahara::oracle;
 use sahara::registry::Registry;
 use sahara::validate::{Reference, validate};
 
@@ -85,7 +85,7 @@ proptest! {
     #[test]
     fn on_an_integer_grid_every_structure_is_exact(mesh in meshes(integers(), 60), rays in rays(integers(), 40)) {
         let exact: Vec<Option<(f32, u32)>> =
-            rays.iter().map(|ray| exact::nearest(ray, &mesh).map(|(t, ids)| (t.round(), ids[0]))).collect();
+            rays.iter().map(|ray| oracle::nearest(ray, &mesh).map(|(t, ids)| (t.round(), ids[0]))).collect();
         for spec in OURS {
             let accel = built(spec, &mesh);
             for ((ray, exact), hit) in rays.iter().zip(&exact).zip(closest(&*accel, &rays)) {
@@ -107,7 +107,7 @@ proptest! {
             let accel = built(spec, &mesh);
             for (ray, hit) in rays.iter().zip(closest(&*accel, &rays)) {
                 // A quotient that is not a half may round onto an end: exact halves only.
-                let Some((t, ids)) = exact::nearest(ray, &mesh) else { continue };
+                let Some((t, ids)) = oracle::nearest(ray, &mesh) else { continue };
                 if t.compare(t.round()) == Some(std::cmp::Ordering::Equal) {
                     let found = hit.map(|h| (h.t, h.prim.index()));
                     prop_assert_eq!(found, Some((t.round(), ids[0])), "{}: ray \"{}\"", spec, ray);

@@ -3,8 +3,8 @@
 use std::cmp::Ordering;
 
 use super::{Kind, Reference, ScalarTest};
+use crate::exact::{self, ExactT};
 use crate::geometry::{Hit, Mesh, Ray};
-use crate::oracle::{ExactT, exact};
 
 /// Relative difference of `t` from which on an answer counts as wrong where the triangle tests differ, if it names the
 /// right primitive: what `f32` tests round, away from grazing rays.

@@ -1,11 +1,12 @@
-//! One ray against one triangle, in integers.
+//! One ray against one triangle, in integers: a scene of `f32` numbers is a set of dyadic rationals, so what a ray meets, and in
+//! which order, is decidable.
 
 use std::cmp::Ordering;
 
 use dashu_int::IBig;
 use glam::Vec3;
 
-use crate::geometry::{Mesh, Ray};
+use crate::geometry::Ray;
 
 /// Every finite `f32` is a multiple of 2^-149: times 2^149 it is an integer.
 const SCALE: usize = 149;
@@ -47,25 +48,6 @@ pub fn hit(ray: &Ray, corners: [Vec3; 3]) -> Option<ExactT> {
         Ordering::Equal => None,
         Ordering::Greater => Some(ExactT { numerator, denominator }),
     }
-}
-
-/// The nearest hit of `ray` within its interval, and the numbers of all triangles that are hit there, ascending.
-///
-/// Tests every triangle: for small meshes.
-pub fn nearest(ray: &Ray, mesh: &Mesh) -> Option<(ExactT, Vec<u32>)> {
-    if !ray.is_valid() {
-        return None;
-    }
-    let mut nearest: Option<(ExactT, Vec<u32>)> = None;
-    for id in mesh.solid() {
-        let Some(t) = hit(ray, mesh.corners(id)).filter(|t| t.is_within(ray)) else { continue };
-        match nearest.as_mut().map(|(best, ids)| (t.cmp(best), ids)) {
-            Some((Ordering::Greater, _)) => {}
-            Some((Ordering::Equal, ids)) => ids.push(id),
-            Some((Ordering::Less, _)) | None => nearest = Some((t, vec![id])),
-        }
-    }
-    nearest
 }
 
 impl ExactT {

@@ -170,22 +170,3 @@ fn the_interval_is_half_open() {
     let behind = Ray { t_min: -5.0, direction: Vec3::NEG_Z, ..ray };
     assert!(!hit(&behind, corners).unwrap().is_within(&behind));
 }
-
-#[test]
-fn the_nearest_names_all_triangles_at_its_t() {
-    let points = vec![
-        Vec3::ZERO,
-        Vec3::X,
-        Vec3::Y,
-        Vec3::new(1.0, 1.0, 0.0),
-        Vec3::new(0.0, 0.0, -1.0),
-        Vec3::new(5.0, 0.0, -1.0),
-        Vec3::new(0.0, 5.0, -1.0),
-    ];
-    let mesh = Mesh::new(points, vec![[4, 5, 6], [0, 1, 2], [0, 0, 1], [1, 2, 3]]).unwrap();
-    let ray = Ray::new(Vec3::new(0.5, 0.5, 1.0), Vec3::NEG_Z);
-    let (t, ids) = nearest(&ray, &mesh).unwrap();
-    assert_eq!((t.round(), ids), (1.0, vec![1, 3]));
-    assert_eq!(nearest(&ray.until(1.0), &mesh), None);
-    assert_eq!(nearest(&ray.until(f32::NAN), &mesh), None);
-}
