@@ -27,7 +27,7 @@ fn triangles() -> Vec<[Vec3; 3]> {
 
 fn test_all<const N: usize, L: Lanes<N>>(ray: &Ray, blocks: &[<MollerTrumbore as TriangleTest>::Block<N>]) -> u32 {
     let prepared = MollerTrumbore::prepare(ray);
-    blocks.iter().map(|block| MollerTrumbore::hits::<N, L>(&prepared, block).0.count_ones()).sum()
+    blocks.iter().map(|block| MollerTrumbore::candidates::<N, L>(&prepared, block, 0.0, f32::MAX).0.count_ones()).sum()
 }
 
 fn triangle_tests(criterion: &mut Criterion) {

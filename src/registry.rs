@@ -9,7 +9,9 @@ use crate::accel::{Accel, BuildError, DynAccel, Observed};
 use crate::geometry::Mesh;
 use crate::structures::obvhs::{Native, ObvhsBvh2, ObvhsConfig, ObvhsCwBvh, Over, RtTest};
 use crate::structures::{BruteForce, KdConfig, KdTree};
-use crate::triangle::MollerTrumbore;
+use crate::triangle::{
+    BaldwinWeber, EdgeF64, Exact, FilteredF64, MollerTrumbore, MollerTrumboreF64, Plucker, TriangleTest, Watertight,
+};
 
 /// The structures that a run can choose from, in the order of tables.
 pub struct Registry {
@@ -64,15 +66,27 @@ impl Registry {
 
     /// The structures of this crate.
     pub fn builtin() -> Self {
-        Self::empty()
-            .with::<BruteForce<MollerTrumbore>>("brute-force", Default::default())
-            .with::<KdTree<MollerTrumbore>>("median-kd", KdConfig::REPORT)
-            .with::<KdTree<MollerTrumbore>>("sah-kd", KdConfig::SAH)
-            .with::<ObvhsBvh2<Native>>("obvhs-bvh2", ObvhsConfig::default())
+        let ours = Self::empty()
+            .over::<MollerTrumbore>()
+            .over::<Watertight>()
+            .over::<BaldwinWeber>()
+            .over::<Plucker>()
+            .over::<MollerTrumboreF64>()
+            .over::<EdgeF64>()
+            .over::<FilteredF64>()
+            .over::<Exact>();
+        ours.with::<ObvhsBvh2<Native>>("obvhs-bvh2", ObvhsConfig::default())
             .with::<ObvhsBvh2<Over<MollerTrumbore>>>("obvhs-bvh2", ObvhsConfig::default())
             .with::<ObvhsCwBvh<Native>>("obvhs-cwbvh", ObvhsConfig::default())
             .with::<ObvhsCwBvh<Over<MollerTrumbore>>>("obvhs-cwbvh", ObvhsConfig::default())
             .with::<BruteForce<RtTest>>("brute-force", Default::default())
+    }
+
+    /// The structures of this crate over the triangle test `T`.
+    fn over<T: TriangleTest>(self) -> Self {
+        self.with::<BruteForce<T>>("brute-force", Default::default())
+            .with::<KdTree<T>>("median-kd", KdConfig::REPORT)
+            .with::<KdTree<T>>("sah-kd", KdConfig::SAH)
     }
 
     /// Adds a structure under `name`, with `config` as what a user gets who names no keys.

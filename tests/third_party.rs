@@ -97,8 +97,9 @@ impl MyGrid {
                         observer.leaf(cell.len() as u32);
                         observer.test(cell.len() as u32);
                         for &id in cell {
-                            let t = MollerTrumbore::hit(&prepared, &self.blocks[id as usize]);
-                            let Some(t) = t.filter(|&t| t_min <= t && t < t_max) else { continue };
+                            let triangle = &self.blocks[id as usize];
+                            let t = MollerTrumbore::hit(&prepared, triangle, t_min, t_max.next_down());
+                            let Some(t) = t else { continue };
                             let hit = Hit::new(t, id);
                             if nearest.is_none_or(|n| hit.beats(n)) {
                                 nearest = Some(hit);

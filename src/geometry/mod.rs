@@ -4,10 +4,12 @@ mod aabb;
 mod mesh;
 mod ray;
 mod ray_text;
+mod round;
 mod transform;
 
 pub use aabb::Aabb;
 pub use mesh::{Mesh, MeshError};
 pub use ray::{Hit, PrimId, Ray};
 pub use ray_text::RayTextError;
+pub use round::{round_down, round_up};
 pub use transform::Transform;

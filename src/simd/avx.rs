@@ -1,6 +1,7 @@
 use std::arch::x86_64::*;
 
-use super::Lanes;
+use super::avx_double::F64x8;
+use super::{Arithmetic, Lanes};
 
 /// 8 lanes in one AVX register.
 #[derive(Clone, Copy, Debug)]
@@ -8,17 +9,18 @@ pub struct F32x8(__m256);
 
 // SAFETY of every block below: the module is compiled only where the target feature avx is enabled for the whole build,
 // so the instructions exist; loads and stores are unaligned ones, of arrays of exactly the register's size.
-impl Lanes<8> for F32x8 {
+impl Arithmetic<8> for F32x8 {
+    type Scalar = f32;
+
+    #[inline(always)]
+    fn zero() -> Self {
+        Self::splat(0.0)
+    }
+
     #[inline(always)]
     fn splat(value: f32) -> Self {
         // SAFETY: see above.
         Self(unsafe { _mm256_set1_ps(value) })
-    }
-
-    #[inline(always)]
-    fn load(values: &[f32; 8]) -> Self {
-        // SAFETY: see above.
-        Self(unsafe { _mm256_loadu_ps(values.as_ptr()) })
     }
 
     #[inline(always)]
@@ -69,5 +71,30 @@ impl Lanes<8> for F32x8 {
     fn lt(self, other: Self) -> u32 {
         // SAFETY: see above.
         unsafe { _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LT_OQ>(self.0, other.0)) as u32 }
+    }
+}
+
+impl Lanes<8> for F32x8 {
+    type Double = F64x8;
+
+    #[inline(always)]
+    fn load(values: &[f32; 8]) -> Self {
+        // SAFETY: see above.
+        Self(unsafe { _mm256_loadu_ps(values.as_ptr()) })
+    }
+
+    #[inline(always)]
+    fn widen(self) -> F64x8 {
+        // SAFETY: see above.
+        unsafe {
+            let halves = [_mm256_castps256_ps128(self.0), _mm256_extractf128_ps::<1>(self.0)];
+            F64x8(halves.map(|half| _mm256_cvtps_pd(half)))
+        }
+    }
+
+    #[inline(always)]
+    fn narrow(F64x8([low, high]): F64x8) -> Self {
+        // SAFETY: see above.
+        Self(unsafe { _mm256_set_m128(_mm256_cvtpd_ps(high), _mm256_cvtpd_ps(low)) })
     }
 }

@@ -1,7 +1,9 @@
-//! Lanes of `f32`: written once over a small trait, so that every width gives the same bits.
+//! Lanes of `f32` and `f64`: written once over a small trait, so that every width gives the same bits.
 
 #[cfg(all(target_arch = "x86_64", target_feature = "avx"))]
 mod avx;
+#[cfg(all(target_arch = "x86_64", target_feature = "avx"))]
+mod avx_double;
 mod portable;
 #[cfg(target_arch = "x86_64")]
 mod sse;
@@ -20,11 +22,14 @@ pub type F32x8 = portable::Portable<8>;
 pub use portable::Portable;
 pub use vector::LaneVec3;
 
-/// `N` lanes of `f32`. Arithmetic is IEEE 754 single precision, lane by lane and never fused.
-pub trait Lanes<const N: usize>: Copy {
-    fn splat(value: f32) -> Self;
-    fn load(values: &[f32; N]) -> Self;
-    fn store(self) -> [f32; N];
+/// `N` lanes of one type of float. Arithmetic is that of IEEE 754, lane by lane and never fused.
+pub trait Arithmetic<const N: usize>: Copy {
+    type Scalar: Copy;
+
+    /// Zero in every lane.
+    fn zero() -> Self;
+    fn splat(value: Self::Scalar) -> Self;
+    fn store(self) -> [Self::Scalar; N];
     fn add(self, other: Self) -> Self;
     fn sub(self, other: Self) -> Self;
     fn mul(self, other: Self) -> Self;
@@ -35,6 +40,17 @@ pub trait Lanes<const N: usize>: Copy {
     fn le(self, other: Self) -> u32;
     /// Lanes where `self < other`, likewise.
     fn lt(self, other: Self) -> u32;
+}
+
+/// `N` lanes of `f32`.
+pub trait Lanes<const N: usize>: Arithmetic<N, Scalar = f32> {
+    type Double: Arithmetic<N, Scalar = f64>;
+
+    fn load(values: &[f32; N]) -> Self;
+    /// The same numbers.
+    fn widen(self) -> Self::Double;
+    /// The nearest floats.
+    fn narrow(wide: Self::Double) -> Self;
 }
 
 /// The instruction set that this build of the lanes uses, for records.

@@ -1,6 +1,6 @@
 use std::arch::x86_64::*;
 
-use super::Lanes;
+use super::{Arithmetic, Lanes, Portable};
 
 /// 4 lanes in one SSE register.
 #[derive(Clone, Copy, Debug)]
@@ -8,17 +8,18 @@ pub struct F32x4(__m128);
 
 // SAFETY of every block below: the module is compiled only where the target is x86-64, which always has SSE2,
 // so the instructions exist; loads and stores are unaligned ones, of arrays of exactly the register's size.
-impl Lanes<4> for F32x4 {
+impl Arithmetic<4> for F32x4 {
+    type Scalar = f32;
+
+    #[inline(always)]
+    fn zero() -> Self {
+        Self::splat(0.0)
+    }
+
     #[inline(always)]
     fn splat(value: f32) -> Self {
         // SAFETY: see above.
         Self(unsafe { _mm_set1_ps(value) })
-    }
-
-    #[inline(always)]
-    fn load(values: &[f32; 4]) -> Self {
-        // SAFETY: see above.
-        Self(unsafe { _mm_loadu_ps(values.as_ptr()) })
     }
 
     #[inline(always)]
@@ -69,5 +70,25 @@ impl Lanes<4> for F32x4 {
     fn lt(self, other: Self) -> u32 {
         // SAFETY: see above.
         unsafe { _mm_movemask_ps(_mm_cmplt_ps(self.0, other.0)) as u32 }
+    }
+}
+
+impl Lanes<4> for F32x4 {
+    type Double = Portable<4, f64>;
+
+    #[inline(always)]
+    fn load(values: &[f32; 4]) -> Self {
+        // SAFETY: see above.
+        Self(unsafe { _mm_loadu_ps(values.as_ptr()) })
+    }
+
+    #[inline(always)]
+    fn widen(self) -> Portable<4, f64> {
+        Portable::<4>::load(&self.store()).widen()
+    }
+
+    #[inline(always)]
+    fn narrow(wide: Portable<4, f64>) -> Self {
+        Self::load(&Portable::narrow(wide).store())
     }
 }

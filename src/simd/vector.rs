@@ -3,7 +3,7 @@ use std::ops::Sub;
 
 use glam::Vec3;
 
-use super::Lanes;
+use super::{Arithmetic, Lanes};
 
 /// A 3-vector in every lane. Sums of products are taken from x to z.
 #[derive(Clone, Copy, Debug)]
@@ -16,11 +16,6 @@ pub struct LaneVec3<const N: usize, L> {
 
 impl<const N: usize, L: Lanes<N>> LaneVec3<N, L> {
     #[inline(always)]
-    pub fn new(x: L, y: L, z: L) -> Self {
-        Self { x, y, z, width: PhantomData }
-    }
-
-    #[inline(always)]
     pub fn splat(v: Vec3) -> Self {
         Self::new(L::splat(v.x), L::splat(v.y), L::splat(v.z))
     }
@@ -28,6 +23,19 @@ impl<const N: usize, L: Lanes<N>> LaneVec3<N, L> {
     #[inline(always)]
     pub fn load([x, y, z]: &[[f32; N]; 3]) -> Self {
         Self::new(L::load(x), L::load(y), L::load(z))
+    }
+
+    /// The same numbers in `f64`.
+    #[inline(always)]
+    pub fn widen(self) -> LaneVec3<N, L::Double> {
+        LaneVec3::new(self.x.widen(), self.y.widen(), self.z.widen())
+    }
+}
+
+impl<const N: usize, L: Arithmetic<N>> LaneVec3<N, L> {
+    #[inline(always)]
+    pub fn new(x: L, y: L, z: L) -> Self {
+        Self { x, y, z, width: PhantomData }
     }
 
     #[inline(always)]
@@ -45,7 +53,7 @@ impl<const N: usize, L: Lanes<N>> LaneVec3<N, L> {
     }
 }
 
-impl<const N: usize, L: Lanes<N>> Sub for LaneVec3<N, L> {
+impl<const N: usize, L: Arithmetic<N>> Sub for LaneVec3<N, L> {
     type Output = Self;
 
     #[inline(always)]

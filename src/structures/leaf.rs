@@ -2,42 +2,48 @@
 
 use crate::geometry::{Hit, Mesh, Ray};
 use crate::simd::Lanes;
-use crate::triangle::TriangleTest;
+use crate::triangle::{Depth, TriangleTest};
 
 /// The nearest hit so far, or the end of the interval.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Nearest {
+pub(crate) struct Nearest<D> {
     /// A hit must lie at or before this `t`.
     pub t: f32,
-    id: u32,
+    hit: Option<(D, u32)>,
 }
 
-impl Nearest {
-    const NONE: u32 = u32::MAX;
-
-    /// Nothing found yet. The open end `t_max` > 0 becomes the closed end just before it.
+impl<D: Depth> Nearest<D> {
+    /// Nothing found yet, up to and with `last`.
     #[inline(always)]
-    pub fn before(t_max: f32) -> Self {
-        Self { t: t_max.next_down(), id: Self::NONE }
+    pub fn until(last: f32) -> Self {
+        Self { t: last, hit: None }
     }
 
+    /// Takes a hit that is nearer, or as near with a lower number.
     #[inline(always)]
-    fn offer(&mut self, t: f32, id: u32) {
-        if t < self.t || (t == self.t && id < self.id) {
-            *self = Self { t, id };
+    fn offer(&mut self, depth: D, id: u32) {
+        let better = match &self.hit {
+            Some((nearest, lowest)) => depth.order(nearest).then(id.cmp(lowest)).is_lt(),
+            None => true,
+        };
+        if better {
+            *self = Self { t: depth.bound(), hit: Some((depth, id)) };
         }
     }
 
     #[inline(always)]
     pub fn found(&self) -> bool {
-        self.id != Self::NONE
+        self.hit.is_some()
     }
 
     #[inline(always)]
     pub fn hit(&self) -> Option<Hit> {
-        self.found().then(|| Hit::new(self.t, self.id))
+        self.hit.map(|(depth, id)| Hit::new(depth.t(), id))
     }
 }
+
+/// Stands for no triangle in the lanes left over.
+const NONE: u32 = u32::MAX;
 
 /// At most `N` triangles, tested at once.
 #[derive(Clone, Copy)]
@@ -52,7 +58,7 @@ impl<T: TriangleTest, const N: usize> LeafBlock<T, N> {
     pub fn fill(mesh: &Mesh, ids: &[u32], blocks: &mut Vec<Self>) {
         blocks.extend(ids.chunks(N).map(|ids| {
             let mut corners = [[glam::Vec3::ZERO; 3]; N];
-            let mut padded = [Nearest::NONE; N];
+            let mut padded = [NONE; N];
             for (lane, &id) in ids.iter().enumerate() {
                 corners[lane] = mesh.corners(id);
                 padded[lane] = id;
@@ -102,29 +108,30 @@ pub(crate) fn search<const ANY: bool, const N: usize, L: Lanes<N>, T: TriangleTe
     count: u32,
     ray: &T::Ray,
     t_min: f32,
-    nearest: &mut Nearest,
+    nearest: &mut Nearest<T::Depth>,
     mailbox: &mut M,
 ) -> u32 {
     let mut tested = 0;
     for (i, block) in blocks.iter().enumerate() {
         let mut fresh = (count - (i * N) as u32).min(N as u32);
         if M::ACTIVE {
-            fresh = block.ids.iter().filter(|&&id| id != Nearest::NONE && !mailbox.visit(id)).count() as u32;
+            fresh = block.ids.iter().filter(|&&id| id != NONE && !mailbox.visit(id)).count() as u32;
         }
         if fresh == 0 {
             continue;
         }
         tested += fresh;
-        let (hit, t) = T::hits::<N, L>(ray, &block.triangles);
-        let mut hit = hit & L::splat(t_min).le(t) & t.le(L::splat(nearest.t));
-        if hit != 0 {
-            let t = t.store();
-            while hit != 0 {
-                let lane = hit.trailing_zeros() as usize;
-                nearest.offer(t[lane], block.ids[lane]);
-                hit &= hit - 1;
+        let (mut candidates, known) = T::candidates::<N, L>(ray, &block.triangles, t_min, nearest.t);
+        if candidates != 0 {
+            let known = known.store();
+            while candidates != 0 {
+                let lane = candidates.trailing_zeros() as usize;
+                if let Some(depth) = T::decide(ray, &block.triangles, lane, known[lane]) {
+                    nearest.offer(depth, block.ids[lane]);
+                }
+                candidates &= candidates - 1;
             }
-            if ANY {
+            if ANY && nearest.found() {
                 break;
             }
         }
@@ -134,7 +141,7 @@ pub(crate) fn search<const ANY: bool, const N: usize, L: Lanes<N>, T: TriangleTe
 
 /// What every query starts with: the prepared ray and its interval, or nothing when the ray can hit nothing.
 #[inline(always)]
-pub(crate) fn start<T: TriangleTest>(ray: &Ray) -> Option<(T::Ray, f32, Nearest)> {
+pub(crate) fn start<T: TriangleTest>(ray: &Ray) -> Option<(T::Ray, f32, Nearest<T::Depth>)> {
     let (t_min, t_max) = ray.interval();
-    ray.is_valid().then(|| (T::prepare(ray), t_min, Nearest::before(t_max)))
+    ray.is_valid().then(|| (T::prepare(ray), t_min, Nearest::until(T::last(t_max))))
 }

@@ -1,17 +1,39 @@
 //! Triangle tests: common property of all structures, so that hits with the same test are bit-identical.
 
+mod baldwin_weber;
+mod corners;
+mod depth;
+mod edge_f64;
+mod exact;
+mod filter;
+mod filtered_f64;
 mod moller_trumbore;
+mod moller_trumbore_f64;
+mod plucker;
+#[cfg(test)]
+mod tests;
+mod watertight;
 
 use glam::Vec3;
 
+pub use baldwin_weber::BaldwinWeber;
+pub use corners::Corners;
+pub use depth::Depth;
+pub use edge_f64::EdgeF64;
+pub use exact::Exact;
+pub use filtered_f64::FilteredF64;
 pub use moller_trumbore::MollerTrumbore;
+pub use moller_trumbore_f64::MollerTrumboreF64;
+pub use plucker::Plucker;
+pub use watertight::Watertight;
 
 use crate::geometry::Ray;
-use crate::simd::{Lanes, Portable};
+use crate::simd::{Arithmetic, Lanes, Portable};
 
 /// A way to decide whether and where a ray meets a triangle.
 ///
-/// A test is written once, over lanes; one lane is the scalar form. All widths give the same bits.
+/// A test works in two stages: all lanes of a block at once, then lane by lane what is left. Most tests decide everything in
+/// the first stage. A test is written once, over lanes; one lane is the scalar form. All widths give the same bits.
 pub trait TriangleTest: Send + Sync + 'static {
     /// The name used by the command line and records.
     const NAME: &'static str;
@@ -22,6 +44,10 @@ pub trait TriangleTest: Send + Sync + 'static {
     /// `N` triangles, stored as the test wants them.
     type Block<const N: usize>: Copy + Send + Sync;
 
+    /// Where a hit is, as the test orders hits: `f32` where that is what it computes.
+    type Depth: Depth;
+
+    /// Prepares a valid ray.
     fn prepare(ray: &Ray) -> Self::Ray;
 
     /// The block of at most `N` triangles, given by their corners. The lanes left over hit nothing.
@@ -30,14 +56,31 @@ pub trait TriangleTest: Send + Sync + 'static {
     /// If there are more than `N` triangles.
     fn block<const N: usize>(triangles: &[[Vec3; 3]]) -> Self::Block<N>;
 
-    /// The lanes that the whole line of the ray hits, as bits, and in those lanes `t`, which is not NaN.
-    /// The caller holds `t` against its interval.
-    fn hits<const N: usize, L: Lanes<N>>(ray: &Self::Ray, block: &Self::Block<N>) -> (u32, L);
-
-    /// The scalar form: `t` where the line of the ray hits the triangle.
+    /// The last `t` to look at for a ray that ends before `t_max`: the float before it where hits are ordered as floats.
     #[inline(always)]
-    fn hit(ray: &Self::Ray, triangle: &Self::Block<1>) -> Option<f32> {
-        let (hit, t) = Self::hits::<1, Portable<1>>(ray, triangle);
-        (hit != 0).then(|| t.store()[0])
+    fn last(t_max: f32) -> f32 {
+        t_max.next_down()
     }
+
+    /// The lanes that may be hit at a `t` in [`from`, `to`], as bits, and what [`decide`](Self::decide) wants to know of them.
+    fn candidates<const N: usize, L: Lanes<N>>(ray: &Self::Ray, block: &Self::Block<N>, from: f32, to: f32)
+    -> (u32, L);
+
+    /// Whether a candidate is hit, and where. `known` is what its lane holds. What lies outside the ray's interval is no hit;
+    /// what lies beyond the `to` of the candidates may be one.
+    fn decide<const N: usize>(ray: &Self::Ray, block: &Self::Block<N>, lane: usize, known: f32) -> Option<Self::Depth>;
+
+    /// The scalar form: the hit of one triangle at a `t` in [`from`, `to`].
+    #[inline(always)]
+    fn hit(ray: &Self::Ray, triangle: &Self::Block<1>, from: f32, to: f32) -> Option<Self::Depth> {
+        let (candidate, known) = Self::candidates::<1, Portable<1>>(ray, triangle, from, to);
+        if candidate == 0 { None } else { Self::decide(ray, triangle, 0, known.store()[0]) }
+    }
+}
+
+/// `t` where `ray`, if it is valid, meets the triangle within its interval.
+pub fn scalar_hit<T: TriangleTest>(ray: &Ray, corners: [Vec3; 3]) -> Option<f32> {
+    let (t_min, t_max) = ray.interval();
+    let hit = || T::hit(&T::prepare(ray), &T::block(&[corners]), t_min, T::last(t_max));
+    ray.is_valid().then(hit)?.map(|depth| depth.t())
 }

@@ -4,7 +4,7 @@ use glam::Vec3;
 
 use super::Sampler;
 use crate::geometry::{Aabb, Mesh, Ray};
-use crate::triangle::{MollerTrumbore, TriangleTest};
+use crate::triangle::{MollerTrumbore, scalar_hit};
 
 /// A kind of ray. Strata are never pooled: each has its own way to fail.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -317,8 +317,7 @@ impl<'a> Generator<'a> {
         let [a, b, c] = self.corners();
         let [u, v, w] = self.sampler.barycentric();
         let ray = self.towards(a * u + b * v + c * w);
-        let test = MollerTrumbore::hit(&MollerTrumbore::prepare(&ray), &MollerTrumbore::block(&[[a, b, c]]));
-        let t = test.unwrap_or(1.0);
+        let t = scalar_hit::<MollerTrumbore>(&ray, [a, b, c]).unwrap_or(1.0);
         let (t_min, t_max) = match self.sampler.below(7) {
             0 => (0.0, t),
             1 => (0.0, t.next_up()),

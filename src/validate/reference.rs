@@ -8,9 +8,12 @@ use crate::accel::{Accel, BuildError, DynAccel};
 use crate::geometry::{Mesh, Ray};
 use crate::structures::BruteForce;
 use crate::structures::obvhs::RtTest;
-use crate::triangle::{MollerTrumbore, TriangleTest};
+use crate::triangle::{
+    BaldwinWeber, EdgeF64, Exact, FilteredF64, MollerTrumbore, MollerTrumboreF64, Plucker, TriangleTest, Watertight,
+    scalar_hit,
+};
 
-/// One triangle, tested alone: `t` where the line of the ray hits it.
+/// One triangle, tested alone: `t` where the ray hits it within its interval.
 pub type ScalarTest = fn(&Ray, [Vec3; 3]) -> Option<f32>;
 
 /// The answers that a structure's own are compared with, and how strictly.
@@ -29,11 +32,25 @@ impl Reference {
     /// # Errors
     /// If the mesh is refused.
     pub fn of_test(test: &str, mesh: &Arc<Mesh>) -> Result<Self, BuildError> {
-        match test {
-            MollerTrumbore::NAME => Self::brute_force::<MollerTrumbore>(mesh),
-            RtTest::NAME => Self::brute_force::<RtTest>(mesh),
-            _ => Ok(Self { test: None, ..Self::brute_force::<MollerTrumbore>(mesh)? }),
+        macro_rules! among {
+            ($($known:ty),*) => {
+                match test {
+                    $(<$known>::NAME => Self::brute_force::<$known>(mesh),)*
+                    _ => Ok(Self { test: None, ..Self::brute_force::<MollerTrumbore>(mesh)? }),
+                }
+            };
         }
+        among!(
+            MollerTrumbore,
+            MollerTrumboreF64,
+            Watertight,
+            BaldwinWeber,
+            Plucker,
+            EdgeF64,
+            FilteredF64,
+            Exact,
+            RtTest
+        )
     }
 
     /// Brute force with a triangle test that the structure shares.
@@ -42,7 +59,7 @@ impl Reference {
     /// If the mesh is refused.
     pub fn brute_force<T: TriangleTest>(mesh: &Arc<Mesh>) -> Result<Self, BuildError> {
         let accel = <BruteForce<T> as Accel>::build(mesh, &Default::default())?;
-        Ok(Self { accel: Box::new(accel), test: Some(|ray, corners| T::hit(&T::prepare(ray), &T::block(&[corners]))) })
+        Ok(Self { accel: Box::new(accel), test: Some(scalar_hit::<T>) })
     }
 
     /// Any other structure: it may have lost hits, so that the exact oracle decides wherever the answers differ.

@@ -2,7 +2,7 @@
 
 use glam::{DVec3, Vec3};
 
-use crate::geometry::Aabb;
+use crate::geometry::{Aabb, round_down, round_up};
 
 /// At most this many corners are left when six planes have cut a triangle.
 const CORNERS: usize = 9;
@@ -88,15 +88,9 @@ impl Polygon {
         }
         Aabb {
             min: Vec3::from_array(min.to_array().map(round_down)),
-            max: Vec3::from_array(max.to_array().map(|x| -round_down(-x))),
+            max: Vec3::from_array(max.to_array().map(round_up)),
         }
     }
-}
-
-/// The largest `f32` that does not exceed `x`.
-fn round_down(x: f64) -> f32 {
-    let rounded = x as f32;
-    if f64::from(rounded) > x { rounded.next_down() } else { rounded }
 }
 
 #[cfg(test)]

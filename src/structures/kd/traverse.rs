@@ -26,7 +26,7 @@ struct Query<'a, const ANY: bool, T: TriangleTest, M, O> {
     line: Line,
     prepared: T::Ray,
     t_min: f32,
-    nearest: Nearest,
+    nearest: Nearest<T::Depth>,
     mailbox: M,
     observer: &'a mut O,
 }

@@ -6,7 +6,7 @@ use obvhs::rt_triangle::RtTriangle;
 
 use super::RtTest;
 use crate::geometry::Ray;
-use crate::triangle::TriangleTest;
+use crate::triangle::{Depth, TriangleTest};
 
 /// A triangle test in the form in which obvhs calls it: infinity for a miss, and the beginning of the interval enforced,
 /// which obvhs' own traversals leave to the test.
@@ -44,10 +44,7 @@ impl<T: TriangleTest> LeafTest for Over<T> {
 
     #[inline(always)]
     fn test(triangle: &T::Block<1>, ray: &PreparedRay, prepared: &T::Ray) -> f32 {
-        match T::hit(prepared, triangle) {
-            Some(t) if t >= ray.tmin => t,
-            _ => f32::INFINITY,
-        }
+        T::hit(prepared, triangle, ray.tmin, ray.tmax).map_or(f32::INFINITY, |depth| depth.t())
     }
 }
 

@@ -21,6 +21,7 @@ impl TriangleTest for RtTest {
 
     type Ray = PreparedRay;
     type Block<const N: usize> = [RtTriangle; N];
+    type Depth = f32;
 
     #[inline(always)]
     fn prepare(ray: &Ray) -> PreparedRay {
@@ -40,9 +41,18 @@ impl TriangleTest for RtTest {
     }
 
     #[inline(always)]
-    fn hits<const N: usize, L: Lanes<N>>(ray: &PreparedRay, block: &[RtTriangle; N]) -> (u32, L) {
-        let t: [f32; N] = array::from_fn(|lane| block[lane].intersect(ray));
-        let hit = L::load(&t).le(L::splat(f32::MAX));
-        (hit, L::load(&t))
+    fn candidates<const N: usize, L: Lanes<N>>(
+        ray: &PreparedRay,
+        block: &[RtTriangle; N],
+        from: f32,
+        to: f32,
+    ) -> (u32, L) {
+        let t = L::load(&array::from_fn(|lane| block[lane].intersect(ray)));
+        (L::splat(from).le(t) & t.le(L::splat(to.min(f32::MAX))), t)
+    }
+
+    #[inline(always)]
+    fn decide<const N: usize>(_: &PreparedRay, _: &[RtTriangle; N], _: usize, t: f32) -> Option<f32> {
+        Some(t)
     }
 }

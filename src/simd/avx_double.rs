@@ -1,0 +1,88 @@
+use std::arch::x86_64::*;
+
+use super::Arithmetic;
+
+/// 8 lanes of `f64` in two AVX registers.
+#[derive(Clone, Copy, Debug)]
+pub struct F64x8(pub(super) [__m256d; 2]);
+
+impl F64x8 {
+    #[inline(always)]
+    fn zip(self, other: Self, f: impl Fn(__m256d, __m256d) -> __m256d) -> Self {
+        Self([f(self.0[0], other.0[0]), f(self.0[1], other.0[1])])
+    }
+
+    #[inline(always)]
+    fn bits(self, other: Self, f: impl Fn(__m256d, __m256d) -> i32) -> u32 {
+        (f(self.0[0], other.0[0]) | f(self.0[1], other.0[1]) << 4) as u32
+    }
+}
+
+// SAFETY of every block below: the module is compiled only where the target feature avx is enabled for the whole build,
+// so the instructions exist; stores are unaligned ones, into halves of an array of exactly two registers' size.
+impl Arithmetic<8> for F64x8 {
+    type Scalar = f64;
+
+    #[inline(always)]
+    fn zero() -> Self {
+        Self::splat(0.0)
+    }
+
+    #[inline(always)]
+    fn splat(value: f64) -> Self {
+        // SAFETY: see above.
+        Self([unsafe { _mm256_set1_pd(value) }; 2])
+    }
+
+    #[inline(always)]
+    fn store(self) -> [f64; 8] {
+        let mut values = [0.0; 8];
+        for (half, values) in self.0.into_iter().zip(values.chunks_exact_mut(4)) {
+            // SAFETY: see above.
+            unsafe { _mm256_storeu_pd(values.as_mut_ptr(), half) };
+        }
+        values
+    }
+
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        // SAFETY: see above.
+        self.zip(other, |a, b| unsafe { _mm256_add_pd(a, b) })
+    }
+
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        // SAFETY: see above.
+        self.zip(other, |a, b| unsafe { _mm256_sub_pd(a, b) })
+    }
+
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        // SAFETY: see above.
+        self.zip(other, |a, b| unsafe { _mm256_mul_pd(a, b) })
+    }
+
+    #[inline(always)]
+    fn div(self, other: Self) -> Self {
+        // SAFETY: see above.
+        self.zip(other, |a, b| unsafe { _mm256_div_pd(a, b) })
+    }
+
+    #[inline(always)]
+    fn flip_sign(self, other: Self) -> Self {
+        // SAFETY: see above.
+        self.zip(other, |a, b| unsafe { _mm256_xor_pd(a, _mm256_and_pd(b, _mm256_set1_pd(-0.0))) })
+    }
+
+    #[inline(always)]
+    fn le(self, other: Self) -> u32 {
+        // SAFETY: see above.
+        self.bits(other, |a, b| unsafe { _mm256_movemask_pd(_mm256_cmp_pd::<_CMP_LE_OQ>(a, b)) })
+    }
+
+    #[inline(always)]
+    fn lt(self, other: Self) -> u32 {
+        // SAFETY: see above.
+        self.bits(other, |a, b| unsafe { _mm256_movemask_pd(_mm256_cmp_pd::<_CMP_LT_OQ>(a, b)) })
+    }
+}

@@ -1,0 +1,50 @@
+use glam::Vec3;
+
+use crate::simd::{LaneVec3, Lanes};
+
+/// `N` triangles as their corners, coordinate by coordinate: 36 bytes each, nothing rounded.
+#[derive(Clone, Copy, Debug)]
+#[repr(C)]
+pub struct Corners<const N: usize>([[[f32; N]; 3]; 3]);
+
+const _: () = assert!(size_of::<Corners<1>>() == 36);
+
+impl<const N: usize> Corners<N> {
+    /// Lanes left over hold triangles of no extent.
+    ///
+    /// # Panics
+    /// If there are more than `N` triangles.
+    pub fn new(triangles: &[[Vec3; 3]]) -> Self {
+        assert!(triangles.len() <= N, "a block of {N} lanes cannot hold {} triangles", triangles.len());
+        let mut block = Self([[[0.0; N]; 3]; 3]);
+        for (lane, corners) in triangles.iter().enumerate() {
+            for (slots, corner) in block.0.iter_mut().zip(corners) {
+                for axis in 0..3 {
+                    slots[axis][lane] = corner[axis];
+                }
+            }
+        }
+        block
+    }
+
+    #[inline(always)]
+    pub(super) fn load<L: Lanes<N>>(&self) -> [LaneVec3<N, L>; 3] {
+        let [a, b, c] = &self.0;
+        [LaneVec3::load(a), LaneVec3::load(b), LaneVec3::load(c)]
+    }
+
+    /// One coordinate of the three corners.
+    #[inline(always)]
+    pub(super) fn axis<L: Lanes<N>>(&self, axis: usize) -> [L; 3] {
+        let [a, b, c] = &self.0;
+        [L::load(&a[axis]), L::load(&b[axis]), L::load(&c[axis])]
+    }
+
+    /// One triangle.
+    #[inline(always)]
+    pub(super) fn lane(&self, lane: usize) -> [Vec3; 3] {
+        let corner = |[x, y, z]: &[[f32; N]; 3]| Vec3::new(x[lane], y[lane], z[lane]);
+        let [a, b, c] = &self.0;
+        [corner(a), corner(b), corner(c)]
+    }
+}

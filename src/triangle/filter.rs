@@ -1,0 +1,108 @@
+//! The first stage of the tests that are exact: rejects nearly all triangles of a block in `f32`, and never one that is hit.
+
+use glam::Vec3;
+
+use super::Corners;
+use crate::geometry::Ray;
+use crate::simd::{LaneVec3, Lanes};
+
+/// A ray as the first stage sees it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct FilterRay {
+    pub origin: Vec3,
+    /// The direction, a power of two times longer: its largest component is in [1, 2), or below 1 for denormal directions.
+    scaled: Vec3,
+    /// [`TINY`], or infinity if an overflow cannot be ruled out: then nothing is rejected.
+    tiny: f32,
+}
+
+/// `N` triangles with what bounds the rounding.
+#[derive(Clone, Copy, Debug)]
+#[repr(C)]
+pub struct FilterBlock<const N: usize> {
+    corners: Corners<N>,
+    /// The largest component of an edge, twice.
+    extent: f32,
+    /// See [`survivors`]; infinite if an overflow cannot be ruled out.
+    slack: f32,
+    /// The lanes in use.
+    lanes: u32,
+}
+
+/// Twice the 40 units of 2^-24 of the argument at [`survivors`], times 2 for the direction.
+const SLACK: f32 = 2.0 * 40.0 * 2.0 / (1 << 24) as f32;
+/// More than all underflows together: each loses at most 2^-150, and 200 of them are taken by factors below 4 |s| + 4 E + 8.
+const TINY: f32 = f32::MIN_POSITIVE / (1 << 14) as f32;
+/// Coordinates up to here cannot overflow: with them |s| + 2 E is below 2^62, and no intermediate exceeds its square times 16.
+const LARGE: f32 = (1_u64 << 58) as f32;
+
+impl FilterRay {
+    #[inline(always)]
+    pub fn new(ray: &Ray) -> Self {
+        // Multiply by two to the negative exponent of the largest component: exact, but for components that become denormal.
+        let exponent = ray.direction.abs().max_element().to_bits() >> 23;
+        let scale = match exponent {
+            254 => f32::MIN_POSITIVE / 2.0,
+            _ => f32::from_bits((254 - exponent.max(1)) << 23),
+        };
+        let tiny = if ray.origin.abs().max_element() <= LARGE { TINY } else { f32::INFINITY };
+        Self { origin: ray.origin, scaled: ray.direction * scale, tiny }
+    }
+}
+
+impl<const N: usize> FilterBlock<N> {
+    /// # Panics
+    /// If there are more than `N` triangles.
+    pub fn new(triangles: &[[Vec3; 3]]) -> Self {
+        let (mut edge, mut reach) = (0.0_f32, 0.0_f32);
+        for &[a, b, c] in triangles {
+            edge = edge.max((b - a).abs().max((c - a).abs()).max_element());
+            reach = reach.max(a.abs().max(b.abs()).max(c.abs()).max_element());
+        }
+        let slack = if reach <= LARGE { edge * SLACK + TINY } else { f32::INFINITY };
+        let lanes = ((1_u64 << triangles.len()) - 1) as u32;
+        Self { corners: Corners::new(triangles), extent: 2.0 * edge, slack, lanes }
+    }
+
+    #[inline(always)]
+    pub fn lane(&self, lane: usize) -> [Vec3; 3] {
+        self.corners.lane(lane)
+    }
+}
+
+/// The lanes whose triangle the line of the ray may meet, all of those that it meets among them.
+///
+/// **Why none is lost.** Let s = o - a, e and f the edges from a, det = e . (d x f), u = s . (d x f), v = d . (s x e), exact for
+/// the `f32` corners and ray; the line meets the closed triangle if u, v and det - u - v, taken with the sign of det, are not
+/// negative. Let E bound the components of e and f, D = 2 those of d, |s| be the sum of the components of s, w = 2^-24, and
+/// bars mean computed. A difference of inputs is off by w of itself, a product and a sum by w of themselves. The components of d x f
+/// are bounded by 2 D E and off by 3.1 w 2 D E; those of s x e by 2 E |s|, in sum, and off by 4.1 w of that. Hence
+/// u is off by 7.1 w 2 D E |s|, v by 7.1 w 2 D E |s|, and det by 7.1 w 6 D E E. The sum of all three and of the rounding of u + v
+/// is within k = 40 w D E (|s| + 2 E), in which more than 6 w D E |s| are left for the rounding of k itself.
+///
+/// Where the computed sign of det is right, a hit has u and v not below -k, and u + v not beyond |det| + k. Where it is wrong,
+/// the exact |det| is at most k; then so are |u|, |v| and |u + v| of a hit, and the computed ones are at most 2 k. So rejecting what is
+/// beyond 2 k rejects no hit. Underflow adds less than [`TINY`] (1 + |s| + 2 E); where an intermediate might overflow the bound is
+/// infinite, and comparisons that involve infinity or NaN reject nothing.
+#[inline(always)]
+pub(super) fn survivors<const N: usize, L: Lanes<N>>(ray: &FilterRay, block: &FilterBlock<N>) -> u32 {
+    let direction = LaneVec3::splat(ray.scaled);
+    let [a, b, c] = block.corners.load::<L>();
+    let to_origin = LaneVec3::splat(ray.origin) - a;
+    let (edge1, edge2) = (b - a, c - a);
+
+    // Möller-Trumbore without the division.
+    let p = direction.cross(edge2);
+    let q = to_origin.cross(edge1);
+    let det = edge1.dot(p);
+    let u = to_origin.dot(p).flip_sign(det);
+    let v = direction.dot(q).flip_sign(det);
+    let abs_det = det.flip_sign(det);
+
+    let abs = |x: L| x.flip_sign(x);
+    let size = abs(to_origin.x).add(abs(to_origin.y)).add(abs(to_origin.z)).add(L::splat(block.extent));
+    let slack = size.mul(L::splat(block.slack)).add(L::splat(ray.tiny));
+    let zero = L::zero();
+    let outside = u.add(slack).lt(zero) | v.add(slack).lt(zero) | abs_det.add(slack).lt(u.add(v));
+    block.lanes & !outside
+}
