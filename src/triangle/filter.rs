@@ -21,10 +21,8 @@ pub(super) struct FilterRay {
 #[repr(C)]
 pub struct FilterBlock<const N: usize> {
     corners: Corners<N>,
-    /// The largest component of an edge, twice.
-    extent: f32,
-    /// See [`survivors`]; infinite if an overflow cannot be ruled out.
-    slack: f32,
+    /// The largest component of the two edges, which bounds the rounding; infinite if an overflow cannot be ruled out.
+    extents: [f32; N],
     /// The lanes in use.
     lanes: u32,
 }
@@ -54,14 +52,14 @@ impl<const N: usize> FilterBlock<N> {
     /// # Panics
     /// If there are more than `N` triangles.
     pub fn new(triangles: &[[Vec3; 3]]) -> Self {
-        let (mut edge, mut reach) = (0.0_f32, 0.0_f32);
-        for &[a, b, c] in triangles {
-            edge = edge.max((b - a).abs().max((c - a).abs()).max_element());
-            reach = reach.max(a.abs().max(b.abs()).max(c.abs()).max_element());
+        let corners = Corners::new(triangles);
+        let mut extents = [0.0; N];
+        for (extent, &[a, b, c]) in extents.iter_mut().zip(triangles) {
+            let reach = a.abs().max(b.abs()).max(c.abs()).max_element();
+            let edge = (b - a).abs().max((c - a).abs()).max_element();
+            *extent = if reach <= LARGE { edge } else { f32::INFINITY };
         }
-        let slack = if reach <= LARGE { edge * SLACK + TINY } else { f32::INFINITY };
-        let lanes = ((1_u64 << triangles.len()) - 1) as u32;
-        Self { corners: Corners::new(triangles), extent: 2.0 * edge, slack, lanes }
+        Self { corners, extents, lanes: ((1_u64 << triangles.len()) - 1) as u32 }
     }
 
     #[inline(always)]
@@ -100,8 +98,10 @@ pub(super) fn survivors<const N: usize, L: Lanes<N>>(ray: &FilterRay, block: &Fi
     let abs_det = det.flip_sign(det);
 
     let abs = |x: L| x.flip_sign(x);
-    let size = abs(to_origin.x).add(abs(to_origin.y)).add(abs(to_origin.z)).add(L::splat(block.extent));
-    let slack = size.mul(L::splat(block.slack)).add(L::splat(ray.tiny));
+    let extent = L::load(&block.extents);
+    let size = abs(to_origin.x).add(abs(to_origin.y)).add(abs(to_origin.z)).add(extent.add(extent));
+    let tiny = L::splat(ray.tiny);
+    let slack = size.mul(extent.mul(L::splat(SLACK)).add(tiny)).add(tiny);
     let zero = L::zero();
     let outside = u.add(slack).lt(zero) | v.add(slack).lt(zero) | abs_det.add(slack).lt(u.add(v));
     block.lanes & !outside
