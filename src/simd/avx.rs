@@ -56,6 +56,12 @@ impl Arithmetic<8> for F32x8 {
     }
 
     #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        // SAFETY: see above.
+        Self(unsafe { _mm256_min_ps(self.0, other.0) })
+    }
+
+    #[inline(always)]
     fn flip_sign(self, other: Self) -> Self {
         // SAFETY: see above.
         Self(unsafe { _mm256_xor_ps(self.0, _mm256_and_ps(other.0, _mm256_set1_ps(-0.0))) })
@@ -96,5 +102,25 @@ impl Lanes<8> for F32x8 {
     fn narrow(F64x8([low, high]): F64x8) -> Self {
         // SAFETY: see above.
         Self(unsafe { _mm256_set_m128(_mm256_cvtpd_ps(high), _mm256_cvtpd_ps(low)) })
+    }
+
+    #[inline(always)]
+    fn mul_add_loosely(self, factor: Self, term: Self) -> Self {
+        if cfg!(target_feature = "fma") {
+            // SAFETY: the target feature fma is enabled for the whole build.
+            Self(unsafe { _mm256_fmadd_ps(self.0, factor.0, term.0) })
+        } else {
+            self.mul(factor).add(term)
+        }
+    }
+
+    #[inline(always)]
+    fn mul_sub_loosely(self, factor: Self, term: Self) -> Self {
+        if cfg!(target_feature = "fma") {
+            // SAFETY: the target feature fma is enabled for the whole build.
+            Self(unsafe { _mm256_fmsub_ps(self.0, factor.0, term.0) })
+        } else {
+            self.mul(factor).sub(term)
+        }
     }
 }

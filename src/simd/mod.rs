@@ -34,6 +34,8 @@ pub trait Arithmetic<const N: usize>: Copy {
     fn sub(self, other: Self) -> Self;
     fn mul(self, other: Self) -> Self;
     fn div(self, other: Self) -> Self;
+    /// The lesser; `other` where they are equal or one is NaN.
+    fn min(self, other: Self) -> Self;
     /// `self`, negated in the lanes where the sign bit of `other` is set.
     fn flip_sign(self, other: Self) -> Self;
     /// Lanes where `self <= other`, as bits, lane 0 lowest; false where one is NaN.
@@ -51,6 +53,10 @@ pub trait Lanes<const N: usize>: Arithmetic<N, Scalar = f32> {
     fn widen(self) -> Self::Double;
     /// The nearest floats.
     fn narrow(wide: Self::Double) -> Self;
+    /// `self * factor + term`, rounded once where the machine does that in one step, else twice: only for what no hit depends on.
+    fn mul_add_loosely(self, factor: Self, term: Self) -> Self;
+    /// `self * factor - term`, likewise.
+    fn mul_sub_loosely(self, factor: Self, term: Self) -> Self;
 }
 
 /// The instruction set that this build of the lanes uses, for records.
@@ -83,6 +89,7 @@ mod tests {
                 assert_eq!(bits(x.sub(y).store()), bits(p.sub(q).store()));
                 assert_eq!(bits(x.mul(y).store()), bits(p.mul(q).store()));
                 assert_eq!(bits(x.div(y).store()), bits(p.div(q).store()));
+                assert_eq!(bits(x.min(y).store()), bits(p.min(q).store()));
                 assert_eq!(bits(x.flip_sign(y).store()), bits(p.flip_sign(q).store()));
                 assert_eq!((x.le(y), x.lt(y)), (p.le(q), p.lt(q)));
                 assert_eq!(bits(L::splat(a[0]).store()), bits([a[0]; N]));

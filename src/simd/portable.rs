@@ -57,6 +57,11 @@ macro_rules! arithmetic {
             }
 
             #[inline(always)]
+            fn min(self, other: Self) -> Self {
+                self.zip(other, |a, b| if a < b { a } else { b })
+            }
+
+            #[inline(always)]
             fn flip_sign(self, other: Self) -> Self {
                 self.zip(other, |a, b| <$scalar>::from_bits(a.to_bits() ^ (b.to_bits() & $sign)))
             }
@@ -93,5 +98,15 @@ impl<const N: usize> Lanes<N> for Portable<N> {
     #[inline(always)]
     fn narrow(wide: Portable<N, f64>) -> Self {
         Self(wide.0.map(|x| x as f32))
+    }
+
+    #[inline(always)]
+    fn mul_add_loosely(self, factor: Self, term: Self) -> Self {
+        self.mul(factor).add(term)
+    }
+
+    #[inline(always)]
+    fn mul_sub_loosely(self, factor: Self, term: Self) -> Self {
+        self.mul(factor).sub(term)
     }
 }

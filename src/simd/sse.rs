@@ -55,6 +55,12 @@ impl Arithmetic<4> for F32x4 {
     }
 
     #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        // SAFETY: see above.
+        Self(unsafe { _mm_min_ps(self.0, other.0) })
+    }
+
+    #[inline(always)]
     fn flip_sign(self, other: Self) -> Self {
         // SAFETY: see above.
         Self(unsafe { _mm_xor_ps(self.0, _mm_and_ps(other.0, _mm_set1_ps(-0.0))) })
@@ -90,5 +96,15 @@ impl Lanes<4> for F32x4 {
     #[inline(always)]
     fn narrow(wide: Portable<4, f64>) -> Self {
         Self::load(&Portable::narrow(wide).store())
+    }
+
+    #[inline(always)]
+    fn mul_add_loosely(self, factor: Self, term: Self) -> Self {
+        self.mul(factor).add(term)
+    }
+
+    #[inline(always)]
+    fn mul_sub_loosely(self, factor: Self, term: Self) -> Self {
+        self.mul(factor).sub(term)
     }
 }

@@ -121,22 +121,33 @@ pub(crate) fn search<const ANY: bool, const N: usize, L: Lanes<N>, T: TriangleTe
             continue;
         }
         tested += fresh;
-        let (mut candidates, known) = T::candidates::<N, L>(ray, &block.triangles, t_min, nearest.t);
+        let (candidates, known) = T::candidates::<N, L>(ray, &block.triangles, t_min, nearest.t);
         if candidates != 0 {
-            let known = known.store();
-            while candidates != 0 {
-                let lane = candidates.trailing_zeros() as usize;
-                if let Some(depth) = T::decide(ray, &block.triangles, lane, known[lane]) {
-                    nearest.offer(depth, block.ids[lane]);
-                }
-                candidates &= candidates - 1;
-            }
+            settle(block, ray, candidates, known.store(), nearest);
             if ANY && nearest.found() {
                 break;
             }
         }
     }
     tested
+}
+
+/// Decides about the candidates of a block. Rare, and out of line, so that it does not cost the walk its registers.
+#[inline(never)]
+fn settle<const N: usize, T: TriangleTest>(
+    block: &LeafBlock<T, N>,
+    ray: &T::Ray,
+    mut candidates: u32,
+    known: [f32; N],
+    nearest: &mut Nearest<T::Depth>,
+) {
+    while candidates != 0 {
+        let lane = candidates.trailing_zeros() as usize;
+        if let Some(depth) = T::decide(ray, &block.triangles, lane, known[lane]) {
+            nearest.offer(depth, block.ids[lane]);
+        }
+        candidates &= candidates - 1;
+    }
 }
 
 /// What every query starts with: the prepared ray and its interval, or nothing when the ray can hit nothing.

@@ -68,7 +68,8 @@ impl<const N: usize> FilterBlock<N> {
     }
 }
 
-/// The lanes whose triangle the line of the ray may meet, all of those that it meets among them.
+/// The lanes whose triangle the line of the ray may meet, all of those that it meets among them; and a number that is positive
+/// where it certainly does.
 ///
 /// **Why none is lost.** Let s = o - a, e and f the edges from a, det = e . (d x f), u = s . (d x f), v = d . (s x e), exact for
 /// the `f32` corners and ray; the line meets the closed triangle if u, v and det - u - v, taken with the sign of det, are not
@@ -80,29 +81,31 @@ impl<const N: usize> FilterBlock<N> {
 ///
 /// Where the computed sign of det is right, a hit has u and v not below -k, and u + v not beyond |det| + k. Where it is wrong,
 /// the exact |det| is at most k; then so are |u|, |v| and |u + v| of a hit, and the computed ones are at most 2 k. So rejecting what is
-/// beyond 2 k rejects no hit. Underflow adds less than [`TINY`] (1 + |s| + 2 E); where an intermediate might overflow the bound is
-/// infinite, and comparisons that involve infinity or NaN reject nothing.
+/// beyond 2 k rejects no hit, and what is inside by more than 2 k is one. Underflow adds less than [`TINY`] (1 + |s| + 2 E); where an intermediate might overflow the bound is
+/// infinite, and comparisons that involve infinity or NaN decide nothing.
 #[inline(always)]
-pub(super) fn survivors<const N: usize, L: Lanes<N>>(ray: &FilterRay, block: &FilterBlock<N>) -> u32 {
+pub(super) fn survivors<const N: usize, L: Lanes<N>>(ray: &FilterRay, block: &FilterBlock<N>) -> (u32, L) {
     let direction = LaneVec3::splat(ray.scaled);
     let [a, b, c] = block.corners.load::<L>();
     let to_origin = LaneVec3::splat(ray.origin) - a;
     let (edge1, edge2) = (b - a, c - a);
 
-    // Möller-Trumbore without the division.
-    let p = direction.cross(edge2);
-    let q = to_origin.cross(edge1);
-    let det = edge1.dot(p);
-    let u = to_origin.dot(p).flip_sign(det);
-    let v = direction.dot(q).flip_sign(det);
+    // Möller-Trumbore without the division. Fusing leaves out roundings, which the bound need not know.
+    let p = direction.cross_loosely(edge2);
+    let q = to_origin.cross_loosely(edge1);
+    let det = edge1.dot_loosely(p);
+    let u = to_origin.dot_loosely(p).flip_sign(det);
+    let v = direction.dot_loosely(q).flip_sign(det);
     let abs_det = det.flip_sign(det);
 
     let abs = |x: L| x.flip_sign(x);
     let extent = L::load(&block.extents);
-    let size = abs(to_origin.x).add(abs(to_origin.y)).add(abs(to_origin.z)).add(extent.add(extent));
+    let size = abs(to_origin.x).add(abs(to_origin.y)).add(abs(to_origin.z).add(extent.add(extent)));
     let tiny = L::splat(ray.tiny);
-    let slack = size.mul(extent.mul(L::splat(SLACK)).add(tiny)).add(tiny);
-    let zero = L::zero();
-    let outside = u.add(slack).lt(zero) | v.add(slack).lt(zero) | abs_det.add(slack).lt(u.add(v));
-    block.lanes & !outside
+    let slack = size.mul_add_loosely(extent.mul_add_loosely(L::splat(SLACK), tiny), tiny);
+    let below = L::zero().sub(slack);
+    let outside = u.lt(below) | v.lt(below) | abs_det.add(slack).lt(u.add(v));
+    // A NaN in u or v makes the third one, which wins.
+    let inside = u.min(v).min(abs_det.sub(u.add(v))).sub(slack);
+    (block.lanes & !outside, inside)
 }

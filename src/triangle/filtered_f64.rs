@@ -37,7 +37,7 @@ impl TriangleTest for FilteredF64 {
 
     #[inline(always)]
     fn candidates<const N: usize, L: Lanes<N>>(ray: &FilteredRay, block: &FilterBlock<N>, _: f32, _: f32) -> (u32, L) {
-        (survivors::<N, L>(&ray.filter, block), L::zero())
+        survivors(&ray.filter, block)
     }
 
     #[inline(always)]

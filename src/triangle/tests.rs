@@ -259,7 +259,7 @@ fn the_first_stage_rejects_nearly_all_that_is_missed() {
         if integers::hit(&ray, corners).is_none() {
             let block = filter::FilterBlock::<1>::new(&[corners]);
             misses += 1;
-            kept += filter::survivors::<1, Portable<1>>(&filter::FilterRay::new(&ray), &block);
+            kept += filter::survivors::<1, Portable<1>>(&filter::FilterRay::new(&ray), &block).0;
         }
     }
     assert!(misses > 40_000 && kept < 20, "{kept} of {misses} misses survive");

@@ -29,6 +29,15 @@ impl ExactDepth {
     }
 }
 
+/// Whether one look tells that two triangles lie in one plane, so that a line meets both at the same `t`: they have the same corners
+/// (one triangle in several leaves, or a sheet with two sides), or lie in the same axis-aligned plane.
+#[inline(always)]
+fn surely_coplanar(a: &[Vec3; 3], b: &[Vec3; 3]) -> bool {
+    let first = a[0];
+    let level = |axis: usize| a.iter().chain(b).all(|p| p[axis] == first[axis]);
+    a.iter().all(|p| b.contains(p)) && b.iter().all(|p| a.contains(p)) || (0..3).any(level)
+}
+
 impl Depth for ExactDepth {
     #[inline(always)]
     fn order(&self, other: &Self) -> Ordering {
@@ -36,7 +45,7 @@ impl Depth for ExactDepth {
             Ordering::Less
         } else if self.low > other.high {
             Ordering::Greater
-        } else if self.corners == other.corners {
+        } else if surely_coplanar(&self.corners, &other.corners) {
             Ordering::Equal
         } else {
             self.exact().cmp(&other.exact())

@@ -12,7 +12,7 @@ use super::filter::{FilterBlock, FilterRay, survivors};
 use crate::exact;
 use crate::geometry::Ray;
 use crate::simd::Lanes;
-use enclosure::{Sight, look};
+use enclosure::{Sight, look, place};
 
 /// Exact answers at the price of a filter: what the `f32` stage cannot reject is decided in `f64` with a bound on its error, and what
 /// that cannot decide in integers.
@@ -60,14 +60,15 @@ impl TriangleTest for Exact {
 
     #[inline(always)]
     fn candidates<const N: usize, L: Lanes<N>>(ray: &ExactRay, block: &FilterBlock<N>, _: f32, _: f32) -> (u32, L) {
-        (survivors::<N, L>(&ray.filter, block), L::zero())
+        survivors(&ray.filter, block)
     }
 
     #[inline(always)]
-    fn decide<const N: usize>(ray: &ExactRay, block: &FilterBlock<N>, lane: usize, _: f32) -> Option<ExactDepth> {
+    fn decide<const N: usize>(ray: &ExactRay, block: &FilterBlock<N>, lane: usize, inside: f32) -> Option<ExactDepth> {
         let (ray, corners) = (&ray.ray, block.lane(lane));
         let (t_min, t_max) = ray.interval();
-        match look(ray, corners) {
+        let sight = if inside > 0.0 { place(ray, corners) } else { look(ray, corners) };
+        match sight {
             Sight::Miss => None,
             Sight::Hit { low, high } if f64::from(t_min) <= low && high < f64::from(t_max) => {
                 Some(ExactDepth::new(ray, corners, low, high))
