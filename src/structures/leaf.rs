@@ -143,10 +143,15 @@ fn settle<const N: usize, T: TriangleTest>(
 ) {
     while candidates != 0 {
         let lane = candidates.trailing_zeros() as usize;
-        if let Some(depth) = T::decide(ray, &block.triangles, lane, known[lane]) {
-            nearest.offer(depth, block.ids[lane]);
-        }
         candidates &= candidates - 1;
+        // A triangle of several leaves is met again.
+        let id = block.ids[lane];
+        if nearest.hit.as_ref().is_some_and(|(_, nearest)| *nearest == id) {
+            continue;
+        }
+        if let Some(depth) = T::decide(ray, &block.triangles, lane, known[lane]) {
+            nearest.offer(depth, id);
+        }
     }
 }
 

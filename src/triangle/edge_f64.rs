@@ -3,7 +3,7 @@ use glam::Vec3;
 use super::plucker::solve;
 use super::{Corners, TriangleTest};
 use crate::geometry::Ray;
-use crate::simd::{LaneVec3, Lanes};
+use crate::simd::{Arithmetic, LaneVec3, Lanes};
 
 /// The edge test of [`Plucker`](super::Plucker) in `f64` over corners in `f32`: scalar triple products for the sides, `t` from the
 /// plane equation relative to the origin, rounded to `f32` at the end.
@@ -42,8 +42,10 @@ impl TriangleTest for EdgeF64 {
     ) -> (u32, L) {
         let wide = |v| LaneVec3::<N, L>::splat(v).widen();
         let (inside, t) = solve(wide(origin), wide(direction), block.load::<L>().map(LaneVec3::widen));
+        // The beginning before rounding, which may make a zero of what lies behind.
+        let inside = inside & L::splat(from).widen().le(t);
         let t = L::narrow(t);
-        (inside & L::splat(from).le(t) & t.le(L::splat(to)), t)
+        (inside & t.le(L::splat(to)), t)
     }
 
     #[inline(always)]

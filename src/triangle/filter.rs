@@ -31,8 +31,8 @@ pub struct FilterBlock<const N: usize> {
 const SLACK: f32 = 2.0 * 40.0 * 2.0 / (1 << 24) as f32;
 /// More than all underflows together: each loses at most 2^-150, and 200 of them are taken by factors below 4 |s| + 4 E + 8.
 const TINY: f32 = f32::MIN_POSITIVE / (1 << 14) as f32;
-/// Coordinates up to here cannot overflow: with them |s| + 2 E is below 2^62, and no intermediate exceeds its square times 16.
-const LARGE: f32 = (1_u64 << 58) as f32;
+/// Coordinates up to here cannot overflow: with them E is at most 2^41, |s| below 2^43, and no intermediate exceeds 2 E E |s|.
+const LARGE: f32 = (1_u64 << 40) as f32;
 
 impl FilterRay {
     #[inline(always)]
@@ -68,8 +68,8 @@ impl<const N: usize> FilterBlock<N> {
     }
 }
 
-/// The lanes whose triangle the line of the ray may meet, all of those that it meets among them; and a number that is positive
-/// where it certainly does.
+/// The lanes whose triangle the ray may meet, all of those that it meets among them; and a number that is positive where its line
+/// certainly does.
 ///
 /// **Why none is lost.** Let s = o - a, e and f the edges from a, det = e . (d x f), u = s . (d x f), v = d . (s x e), exact for
 /// the `f32` corners and ray; the line meets the closed triangle if u, v and det - u - v, taken with the sign of det, are not
@@ -105,7 +105,16 @@ pub(super) fn survivors<const N: usize, L: Lanes<N>>(ray: &FilterRay, block: &Fi
     let slack = size.mul_add_loosely(extent.mul_add_loosely(L::splat(SLACK), tiny), tiny);
     let below = L::zero().sub(slack);
     let outside = u.lt(below) | v.lt(below) | abs_det.add(slack).lt(u.add(v));
+    let lanes = block.lanes & !outside;
+    if lanes == 0 {
+        return (0, slack);
+    }
+
+    // Few blocks come here. Reject what lies behind the origin: h = f . (s x e), which has the sign of det in front of it, is off by
+    // 8.1 w 2 E E |s|, of which the slack has ten times E.
+    let height = edge2.dot_loosely(q).flip_sign(det);
+    let behind = height.add(slack.mul(extent)).lt(L::zero()) & slack.lt(abs_det);
     // A NaN in u or v makes the third one, which wins.
     let inside = u.min(v).min(abs_det.sub(u.add(v))).sub(slack);
-    (block.lanes & !outside, inside)
+    (lanes & !behind, inside)
 }
