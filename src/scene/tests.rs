@@ -41,7 +41,7 @@ fn all_twelve_have_the_triangles_and_cameras_of_the_report() {
         assert_eq!(scene.mesh.degenerate().len(), degenerate[i], "{}", builtin.name);
         assert_eq!(scene.material_of.len(), triangles[i], "{}", builtin.name);
         assert_eq!(scene.lights.len(), lights[i], "{}", builtin.name);
-        assert_eq!((scene.size, scene.ray_offset), ([512, 512], 0.01), "{}", builtin.name);
+        assert_eq!((scene.size, scene.offset), ([512, 512], Offset::Direction(0.01)), "{}", builtin.name);
         let is_dragon = builtin.name == "Dragon";
         assert_eq!(scene.recursion_limit, if is_dragon { 1 } else { 8 }, "{}", builtin.name);
         assert_eq!(scene.shadow_terminator_fix, !is_dragon, "{}", builtin.name);
@@ -70,7 +70,7 @@ fn names_are_found_in_any_case_and_a_wrong_one_gets_advice() {
 fn a_plain_file_gets_the_defaults() {
     let scene = scene(PLAIN).unwrap();
     assert_eq!((scene.size, scene.recursion_limit, scene.shadow_terminator_fix), ([512, 512], 8, true));
-    assert_eq!(scene.ray_offset, 12f32.sqrt() * 1e-4);
+    assert_eq!(scene.offset, Offset::ErrorBounded);
     assert_eq!(scene.materials[0].name, "grey");
     assert!(scene.normals.is_none() && scene.stand_ins.is_empty() && scene.notes.is_empty());
 }
@@ -192,12 +192,6 @@ fn a_surface_has_the_point_and_both_normals() {
 }
 
 #[test]
-fn launched_rays_start_off_the_surface() {
-    let scene = Scene { ray_offset: 0.5, ..scene(PLAIN).unwrap() };
-    assert_eq!(scene.launch(Vec3::Y, Vec3::X * 4.0), Ray::new(Vec3::new(0.5, 1.0, 0.0), Vec3::X));
-}
-
-#[test]
 fn the_hash_sees_mesh_and_camera() {
     let hash = |text: &str| scene(text).unwrap().hash();
     let first = hash(PLAIN);
@@ -215,8 +209,7 @@ fn a_framed_mesh_is_whole_in_view_at_any_size_and_place() {
         let mut model = meshes::teapot();
         model.positions.iter_mut().for_each(|p| *p = *p * scale + shift);
         let scene = Scene::framed("teapot", model).unwrap();
-        let diagonal = scene.mesh.bounds().extent().length();
-        assert!((scene.ray_offset / diagonal - 1e-4).abs() < 1e-8);
+        assert_eq!(scene.offset, Offset::ErrorBounded);
 
         // The four side planes of the view touch no corner, and one of them is near.
         let camera = &scene.camera;

@@ -5,7 +5,7 @@ use glam::Vec3;
 use super::*;
 use crate::accel::Accel;
 use crate::geometry::Mesh;
-use crate::scene::{Camera, Light, Material};
+use crate::scene::{Camera, Light, Material, Offset};
 use crate::structures::{KdConfig, KdTree};
 use crate::triangle::MollerTrumbore;
 
@@ -26,7 +26,7 @@ fn room() -> Scene {
         background: Vec3::ZERO,
         recursion_limit: 8,
         shadow_terminator_fix: true,
-        ray_offset: 0.01,
+        offset: Offset::Direction(0.01),
         size: [24, 16],
         stand_ins: vec![],
         notes: vec![],
