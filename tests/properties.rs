@@ -82,17 +82,18 @@ fn cases() -> impl Strategy<Value = Case> {
         let rays = prop::collection::vec((0_u8..16, free.clone(), free, picks, window), 1..40);
         (vertices, triangles, rays).prop_map(move |(positions, triangles, rays)| {
             let at = |pick: &prop::sample::Index| *pick.get(&positions);
-            let ray = |(kind, from, to, [a, b, c], window): &(u8, Vec3, Vec3, [prop::sample::Index; 3], Option<[f32; 2]>)| {
-                let from = if kind >> 2 == 0 { at(a) } else { *from };
-                let to = match kind & 3 {
-                    0 => *to,
-                    1 => at(b) - from,
-                    2 => (at(b) + at(c)) * 0.5 - from,
-                    _ => Vec3::AXES[a.index(3)] * if kind & 4 == 0 { 1.0 } else { -1.0 },
+            let ray =
+                |(kind, from, to, [a, b, c], window): &(u8, Vec3, Vec3, [prop::sample::Index; 3], Option<[f32; 2]>)| {
+                    let from = if kind >> 2 == 0 { at(a) } else { *from };
+                    let to = match kind & 3 {
+                        0 => *to,
+                        1 => at(b) - from,
+                        2 => (at(b) + at(c)) * 0.5 - from,
+                        _ => Vec3::AXES[a.index(3)] * if kind & 4 == 0 { 1.0 } else { -1.0 },
+                    };
+                    let whole = Ray::new(from, to);
+                    window.map_or(whole, |[t_min, t_max]| Ray { t_min, t_max, ..whole })
                 };
-                let whole = Ray::new(from, to);
-                window.map_or(whole, |[t_min, t_max]| Ray { t_min, t_max, ..whole })
-            };
             let rays = rays.iter().map(ray).collect();
             // In a wild mesh an index may name no vertex.
             let vertices = positions.len() + usize::from(wild);

@@ -108,7 +108,11 @@ impl Case {
                 _ => Vec3::AXES[bytes.byte() as usize % 3] * if kind & 8 == 0 { 1.0 } else { -1.0 },
             };
             let whole = Ray::new(from, to);
-            rays.push(if kind >> 4 & 3 == 0 { Ray { t_min: bytes.float(), t_max: bytes.float(), ..whole } } else { whole });
+            rays.push(if kind >> 4 & 3 == 0 {
+                Ray { t_min: bytes.float(), t_max: bytes.float(), ..whole }
+            } else {
+                whole
+            });
         }
         Self { positions, triangles, rays }
     }
