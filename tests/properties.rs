@@ -7,7 +7,8 @@ use std::sync::Arc;
 
 use glam::Vec3;
 use proptest::prelude::*;
-use proptest::test_runner::RngSeed;
+use proptest::strategy::ValueTree;
+use proptest::test_runner::{RngSeed, TestRunner};
 use sahara::accel::DynAccel;
 use sahara::geometry::{Hit, Mesh, Ray};
 use sahara::oracle;
@@ -101,6 +102,24 @@ fn cases() -> impl Strategy<Value = Case> {
             Case { positions, triangles, rays }
         })
     })
+}
+
+/// Cases that meet nothing would prove nothing.
+#[test]
+fn most_drawn_cases_are_meshes_that_rays_hit() {
+    let mut runner = TestRunner::new(config());
+    let (mut meshes, mut hits, mut refused) = (0, 0, 0);
+    for _ in 0..200 {
+        let case = cases().new_tree(&mut runner).unwrap().current();
+        match Mesh::new(case.positions.clone(), case.triangles.clone()) {
+            Ok(mesh) => {
+                meshes += 1;
+                hits += case.rays.iter().filter(|ray| oracle::nearest(ray, &mesh).is_some()).count();
+            }
+            Err(_) => refused += 1,
+        }
+    }
+    assert!(meshes > 180 && refused > 0 && hits > 600, "{meshes} meshes, {refused} refused, {hits} hits");
 }
 
 /// A number that the environment gives, for longer runs than those of every day: see tests/fuzz/README.md.

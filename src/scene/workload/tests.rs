@@ -3,9 +3,9 @@ use std::sync::Arc;
 use glam::Vec3;
 
 use super::*;
-use crate::accel::Accel;
+use crate::accel::{Accel, DynAccel};
 use crate::geometry::Mesh;
-use crate::scene::{Camera, Light, Material, Offset};
+use crate::scene::{Camera, Light, Material, Offset, meshes};
 use crate::structures::{KdConfig, KdTree};
 use crate::triangle::MollerTrumbore;
 
@@ -96,6 +96,27 @@ fn bounces_leave_on_the_side_they_came_from() {
             assert!(ray.origin.y > 0.0 && ray.origin.y < 2.0, "{kind:?} {ray:?}");
         }
     }
+}
+
+#[test]
+fn bounces_off_a_framed_convex_mesh_meet_nothing_at_any_size_and_place() {
+    let hidden = |offset: Option<Offset>, radius: f32, centre: f32| {
+        let mut model = meshes::icosphere(2);
+        model.positions.iter_mut().for_each(|p| *p = *p * radius + centre);
+        model.normal_indices.clear();
+        let framed = Scene::framed("sphere", model).unwrap();
+        let scene = Scene { size: [64, 64], offset: offset.unwrap_or(framed.offset), ..framed };
+        let (rays, tree) = (workload(&scene, WorkloadKind::Diffuse).rays, tree(&scene));
+        assert!(rays.len() > 1000);
+        let mut hidden = vec![false; rays.len()];
+        DynAccel::any_hits(&tree, &rays, &mut hidden);
+        hidden.into_iter().filter(|hidden| *hidden).count()
+    };
+    for (radius, centre) in [(1.0, 0.0), (1e-6, 0.0), (1e6, 0.0), (1.0, 1e3), (10.0, 1e5)] {
+        assert_eq!(hidden(None, radius, centre), 0, "r = {radius} at {centre}");
+    }
+    // What the report's scenes keep is a length of theirs: here it is lost in rounding.
+    assert!(hidden(Some(Offset::Direction(0.01)), 10.0, 1e5) > 100);
 }
 
 #[test]

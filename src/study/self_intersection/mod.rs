@@ -1,7 +1,8 @@
 //! `study self-intersection`: which way to start a secondary ray neither meets its own surface again nor passes another one.
 //!
 //! A closed convex sphere gives the truth for nothing: a ray that leaves it outwards meets nothing, one that goes in meets the
-//! far side. An outward ray with a hit is *acne*, an inward ray without one a *leak*.
+//! far side. An outward ray with a hit is *acne*, an inward ray without one a *leak*. Where the exact test, over all triangles,
+//! gives the right answer to the same ray, the start was good and the triangle test is to blame.
 
 mod sphere;
 mod table;
@@ -10,11 +11,13 @@ mod tests;
 
 use serde::Serialize;
 
+use crate::accel::DynAccel;
 use crate::geometry::{Hit, Ray};
 use crate::measure::Provenance;
 use crate::registry::Choice;
 use crate::scene::offset::{Offset, Start, barycentrics};
-use crate::validate::Sampler;
+use crate::triangle::{Exact, TriangleTest};
+use crate::validate::{Reference, Sampler};
 pub use sphere::Sphere;
 pub use table::table;
 
@@ -52,12 +55,16 @@ pub struct Row {
     pub offset: String,
     /// Rays outwards.
     pub outward: usize,
-    /// Those of them that hit something.
+    /// Those of them that hit something, and exactly so.
     pub acne: usize,
+    /// Those that hit something although exactly there is nothing: the triangle test's own.
+    pub acne_of_test: usize,
     /// Rays inwards.
     pub inward: usize,
-    /// Those of them that hit nothing.
+    /// Those of them that hit nothing, and exactly so.
     pub leaks: usize,
+    /// Those that hit nothing although exactly there is something: the triangle test's own.
+    pub leaks_of_test: usize,
 }
 
 /// The study, as `--export-json` writes it.
@@ -77,18 +84,28 @@ pub fn study(structures: &[Choice], settings: Settings) -> Result<SelfIntersecti
     let mut rows = vec![];
     for sphere in Sphere::ALL {
         let mesh = sphere.mesh();
+        let judge = Reference::of_test(Exact::NAME, &mesh).map_err(|error| error.to_string())?;
         for choice in structures {
             let accel = choice.build(&mesh).map_err(|error| format!("{} over {sphere}: {error}", choice.label))?;
-            let closest = |rays: &[Ray]| {
-                let mut hits = vec![None; rays.len()];
-                accel.closest_hits(rays, &mut hits);
-                hits
+            // Rays with the wrong answer: exactly so, and by the test's own fault.
+            let wrong = |rays: &[Ray], hit_is_wrong: bool| {
+                let of = |accel: &dyn DynAccel, rays: &[Ray]| {
+                    let hits = closest(accel, rays);
+                    rays.iter()
+                        .zip(hits)
+                        .filter(|(_, hit)| hit.is_some() == hit_is_wrong)
+                        .map(|(ray, _)| *ray)
+                        .collect()
+                };
+                let found: Vec<Ray> = of(accel.as_ref(), rays);
+                let exactly: Vec<Ray> = of(judge.accel.as_ref(), &found);
+                (exactly.len(), found.len() - exactly.len())
             };
 
             // Land on the sphere from outside. At its silhouette a ray may miss: take more than are needed.
             let mut sampler = Sampler::new(settings.seed);
             let views: Vec<Ray> = (0..settings.rays * 2).map(|_| sphere.view(&mut sampler)).collect();
-            let hits = closest(&views);
+            let hits = closest(accel.as_ref(), &views);
             let landed: Vec<(Ray, Hit)> =
                 views.into_iter().zip(hits).filter_map(|(ray, hit)| Some((ray, hit?))).collect();
             let directions: Vec<_> = (0..settings.rays * 2).map(|_| sampler.direction()).collect();
@@ -109,7 +126,8 @@ pub fn study(structures: &[Choice], settings: Settings) -> Result<SelfIntersecti
                         };
                         starts.iter().zip(&directions).take(settings.rays).map(turned).collect()
                     };
-                    let (outward, inward) = (closest(&leaving(1.0)), closest(&leaving(-1.0)));
+                    let (outward, inward) = (leaving(1.0), leaving(-1.0));
+                    let ((acne, acne_of_test), (leaks, leaks_of_test)) = (wrong(&outward, true), wrong(&inward, false));
                     rows.push(Row {
                         sphere,
                         structure: choice.label.clone(),
@@ -117,13 +135,21 @@ pub fn study(structures: &[Choice], settings: Settings) -> Result<SelfIntersecti
                         point,
                         offset: offset.name(),
                         outward: outward.len(),
-                        acne: outward.iter().flatten().count(),
+                        acne,
+                        acne_of_test,
                         inward: inward.len(),
-                        leaks: inward.iter().filter(|hit| hit.is_none()).count(),
+                        leaks,
+                        leaks_of_test,
                     });
                 }
             }
         }
     }
     Ok(SelfIntersection { schema: 1, rows, provenance: Provenance::capture(1) })
+}
+
+fn closest(accel: &dyn DynAccel, rays: &[Ray]) -> Vec<Option<Hit>> {
+    let mut hits = vec![None; rays.len()];
+    accel.closest_hits(rays, &mut hits);
+    hits
 }

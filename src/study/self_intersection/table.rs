@@ -18,28 +18,59 @@ pub fn table(study: &SelfIntersection) -> Table {
             rows.push([sphere.to_string().into(), name.into()].into_iter().chain(cells).collect());
         }
     }
-    let mut over: Vec<String> = vec![];
-    for row in &study.rows {
-        let name = format!("{} over {}", row.structure, row.triangle_test);
-        if !over.contains(&name) {
-            over.push(name);
-        }
-    }
-    let rays = study.rows.first().map_or(0, |row| row.outward);
+    let rays = study.rows.iter().map(|row| row.outward).max().unwrap_or(0);
+    let mut notes = vec![
+        format!("{} rays outwards, as many inwards; {}", count(rays as u64), over(study).join(", ")),
+        "acne: a ray that leaves the sphere hits it. leak: a ray that goes in hits nothing. point: what the way starts from; \
+         error-bounded promises something only for points made from the corners."
+            .into(),
+    ];
+    notes.extend(over(study).into_iter().filter_map(|name| own_errors(study, &name)));
     Table {
         title: "Secondary rays of a closed sphere: acne / leaks, percent".into(),
         columns: ["sphere", "point"].map(String::from).into_iter().chain(OFFSETS.map(|o| o.name())).collect(),
         rows,
-        notes: vec![
-            format!("{} rays outwards, as many inwards; {}", count(rays as u64), over.join(", ")),
-            "acne: a ray that leaves the sphere hits it. leak: a ray that goes in hits nothing. point: what the way starts from; \
-             error-bounded promises something only for points made from the corners."
-                .into(),
-        ],
+        notes,
     }
 }
 
+/// Each structure and test once.
+fn over(study: &SelfIntersection) -> Vec<String> {
+    let mut names: Vec<String> = vec![];
+    for row in &study.rows {
+        if !names.contains(&traced(row)) {
+            names.push(traced(row));
+        }
+    }
+    names
+}
+
+fn traced(row: &Row) -> String {
+    // Tests other than a structure's first are part of its label.
+    if row.structure.contains(row.triangle_test) {
+        row.structure.clone()
+    } else {
+        format!("{} over {}", row.structure, row.triangle_test)
+    }
+}
+
+/// What a triangle test does wrong by itself, left out of the table.
+fn own_errors(study: &SelfIntersection, name: &str) -> Option<String> {
+    let rows = || study.rows.iter().filter(|row| traced(row) == name);
+    let wrong: usize = rows().map(|row| row.acne_of_test + row.leaks_of_test).sum();
+    let all: usize = rows().map(|row| row.outward + row.inward).sum();
+    let mut blind: Vec<String> = rows().filter(|row| row.outward == 0).map(|row| row.sphere.to_string()).collect();
+    blind.dedup();
+    let mut text = format!("{name}: left out are {} of {} rays", count(wrong as u64), count(all as u64));
+    text += " whose wrong answer is its own: exactly, the answer is right";
+    if !blind.is_empty() {
+        text += &format!("; it does not see the sphere {} at all", blind.join(", "));
+    }
+    (wrong > 0 || !blind.is_empty()).then_some(text)
+}
+
 fn shown(cases: &[&Row]) -> Cell {
+    let cases: Vec<&&Row> = cases.iter().filter(|row| row.outward > 0).collect();
     let acne: Vec<f64> = cases.iter().map(|r| percent(r.acne, r.outward)).collect();
     let leaks: Vec<f64> = cases.iter().map(|r| percent(r.leaks, r.inward)).collect();
     let right = !cases.is_empty() && acne.iter().chain(&leaks).all(|x| *x == 0.0);

@@ -14,10 +14,20 @@ fn traced() -> SelfIntersection {
 #[test]
 fn error_bounded_rays_alone_have_neither_acne_nor_leaks_on_any_sphere() {
     let study = traced();
+    eprintln!("{}", table(&study).to_markdown()); // TEMP
+
+    // Exactly, for whatever triangle test.
+    let bounded = Offset::ErrorBounded.name();
+    for row in study.rows.iter().filter(|r| r.offset == bounded && r.point == PointFrom::Corners) {
+        assert_eq!((row.acne, row.leaks), (0, 0), "{row:?}");
+    }
+
+    // As answered, too. Baldwin and Weber's planes count from zero: far from there the test has errors of its own.
+    let sees = |r: &&Row| r.triangle_test != "baldwin-weber";
     let cases = |offset: Offset, sphere: usize, point: Option<PointFrom>| {
         let name = offset.name();
         let rows = study.rows.iter().filter(move |r| r.sphere == Sphere::ALL[sphere] && r.offset == name);
-        let rows: Vec<&Row> = rows.filter(move |r| point.is_none_or(|p| p == r.point)).collect();
+        let rows: Vec<&Row> = rows.filter(move |r| point.is_none_or(|p| p == r.point)).filter(sees).collect();
         assert!(!rows.is_empty());
         assert!(rows.iter().all(|r| (r.outward, r.inward) == (RAYS, RAYS)), "every case has all of its rays");
         rows
@@ -25,7 +35,7 @@ fn error_bounded_rays_alone_have_neither_acne_nor_leaks_on_any_sphere() {
     let corners = Some(PointFrom::Corners);
     for sphere in 0..6 {
         for row in cases(Offset::ErrorBounded, sphere, corners) {
-            assert_eq!((row.acne, row.leaks), (0, 0), "{row:?}");
+            assert_eq!((row.acne, row.acne_of_test, row.leaks, row.leaks_of_test), (0, 0, 0, 0), "{row:?}");
         }
         // Half of all rays start on the wrong side.
         for row in cases(Offset::None, sphere, None) {
