@@ -14,7 +14,6 @@ fn traced() -> SelfIntersection {
 #[test]
 fn error_bounded_rays_alone_have_neither_acne_nor_leaks_on_any_sphere() {
     let study = traced();
-    eprintln!("{}", table(&study).to_markdown()); // TEMP
 
     // Exactly, for whatever triangle test.
     let bounded = Offset::ErrorBounded.name();
