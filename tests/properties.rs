@@ -73,7 +73,7 @@ fn points(kinds: u8, wild: bool) -> impl Strategy<Value = Vec3> + Clone {
 /// A mesh and rays: from anywhere or from a vertex, to anywhere, through a vertex, the middle of two, or along an axis; one in
 /// four with an interval. Each case has its own mixture of floats, so that numbers of one size meet each other.
 fn cases() -> impl Strategy<Value = Case> {
-    (1_u8..1 << KINDS - 1, any::<u8>(), prop::bool::weighted(0.02)).prop_flat_map(|(kinds, more, wild)| {
+    (1_u8..1 << (KINDS - 1), any::<u8>(), prop::bool::weighted(0.02)).prop_flat_map(|(kinds, more, wild)| {
         let vertices = prop::collection::vec(points(kinds, wild), 3..24);
         let triangles = prop::collection::vec(any::<[prop::sample::Index; 3]>(), 0..40);
         // Rays draw from more kinds than the mesh now and then, NaN and infinity among them.
