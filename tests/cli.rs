@@ -198,6 +198,30 @@ fn validation_tells_right_from_wrong() {
 }
 
 #[test]
+fn a_study_prints_its_table_and_writes_its_cases() {
+    let directory = tempfile::tempdir().unwrap();
+    let json = path_text(&directory.path().join("s.json"));
+    let few = ["study", "self-intersection", "--rays", "20", "-s", "sah-kd", "-s", "brute-force"];
+    let output = sahara(&[&few[..], &["--export-json", &json]].concat());
+    assert_eq!(output.status.code(), Some(RIGHT), "{}", stderr(&output));
+    assert!(
+        stdout(&output).contains("waechter-binder") && stdout(&output).contains("r=10 @1e5"),
+        "{}",
+        stdout(&output)
+    );
+
+    let study: serde_json::Value = serde_json::from_slice(&fs::read(&json).unwrap()).unwrap();
+    let rows = study["rows"].as_array().unwrap();
+    assert_eq!(rows.len(), 6 * 2 * 2 * 5);
+    let bounded = |row: &&serde_json::Value| row["offset"] == "error-bounded" && row["point"] == "corners";
+    let mut bounded = rows.iter().filter(bounded);
+    assert!(bounded.all(|row| row["outward"] == 20 && row["acne"] == 0 && row["leaks"] == 0), "{rows:?}");
+
+    refuses(&["study", "nothing"], &["nothing"]);
+    refuses_in_a_line(&["study", "self-intersection", "--export-json", "no/such/s.json"], &["no/such/s.json"]);
+}
+
+#[test]
 fn lists_and_completions_name_everything() {
     let list = stdout(&sahara(&["list"]));
     for name in ["Cube", "Sponza", "median-kd", "threshold", "image-shadow", "heat", "moller-trumbore", "rt-triangle"] {

@@ -1,15 +1,19 @@
 //! Properties that hold for every mesh and ray, tried on generated ones.
 
+#[path = "fuzz/target.rs"]
+mod target;
+
 use std::sync::Arc;
 
 use glam::Vec3;
 use proptest::prelude::*;
-use proptest::test_runner::RngSeed;
+use proptest::strategy::ValueTree;
+use proptest::test_runner::{RngSeed, TestRunner};
 use sahara::accel::DynAccel;
 use sahara::geometry::{Hit, Mesh, Ray};
 use sahara::oracle;
 use sahara::registry::Registry;
-use sahara::validate::{Reference, validate};
+use target::{Case, KINDS, float_of};
 
 /// The structures of this crate; small leaves, so that small meshes make deep trees.
 const OURS: [&str; 6] = [
@@ -53,19 +57,77 @@ fn integers() -> impl Strategy<Value = f32> + Clone {
     prop_oneof![9 => (-4_i8..=4).prop_map(f32::from), 1 => Just(-0.0_f32)]
 }
 
-/// What floats are made of: a coarse grid, zeros, denormals, powers of two, anything moderate.
-fn floats() -> impl Strategy<Value = f32> + Clone {
-    prop_oneof![
-        4 => (-16_i8..=16).prop_map(|k| f32::from(k) / 8.0),
-        4 => -2.0_f32..2.0,
-        1 => prop::sample::select(vec![0.0_f32, -0.0, 1e-45, -1e-40, f32::MIN_POSITIVE]),
-        1 => (-40_i32..40, any::<bool>()).prop_map(|(k, minus)| libm::scalbnf(if minus { -1.0 } else { 1.0 }, k)),
-    ]
+/// Floats of some of the kinds of [`float_of`], those whose bit is set in `kinds`; none but finite ones unless they may be `wild`.
+fn floats(kinds: u8, wild: bool) -> impl Strategy<Value = f32> + Clone {
+    let kinds: Vec<u8> = (0..KINDS).filter(|kind| kinds >> kind & 1 == 1).collect();
+    (prop::sample::select(kinds), any::<u32>()).prop_map(move |(kind, bits)| {
+        let x = float_of(kind, bits);
+        if wild || x.is_finite() { x } else { 0.0 }
+    })
 }
 
-/// Every finite float, whatever its size.
-fn any_finite() -> impl Strategy<Value = f32> + Clone {
-    any::<u32>().prop_map(f32::from_bits).prop_filter("finite", |x| x.is_finite())
+fn points(kinds: u8, wild: bool) -> impl Strategy<Value = Vec3> + Clone {
+    prop::array::uniform3(floats(kinds, wild)).prop_map(Vec3::from_array)
+}
+
+/// A mesh and rays: from anywhere or from a vertex, to anywhere, through a vertex, the middle of two, or along an axis; one in
+/// four with an interval. Each case has its own mixture of floats, so that numbers of one size meet each other.
+fn cases() -> impl Strategy<Value = Case> {
+    (1_u8..1 << (KINDS - 1), any::<u8>(), prop::bool::weighted(0.02)).prop_flat_map(|(kinds, more, wild)| {
+        let vertices = prop::collection::vec(points(kinds, wild), 3..24);
+        let triangles = prop::collection::vec(any::<[prop::sample::Index; 3]>(), 0..40);
+        // Rays draw from more kinds than the mesh now and then, NaN and infinity among them.
+        let ray_kinds = if more < 64 { kinds | more | 1 << (KINDS - 1) } else { kinds };
+        let (free, picks) = (points(ray_kinds, true), any::<[prop::sample::Index; 3]>());
+        let window = prop::option::weighted(0.25, prop::array::uniform2(floats(ray_kinds, true)));
+        let rays = prop::collection::vec((0_u8..16, free.clone(), free, picks, window), 1..40);
+        (vertices, triangles, rays).prop_map(move |(positions, triangles, rays)| {
+            let at = |pick: &prop::sample::Index| *pick.get(&positions);
+            let ray =
+                |(kind, from, to, [a, b, c], window): &(u8, Vec3, Vec3, [prop::sample::Index; 3], Option<[f32; 2]>)| {
+                    let from = if kind >> 2 == 0 { at(a) } else { *from };
+                    let to = match kind & 3 {
+                        0 => *to,
+                        1 => at(b) - from,
+                        2 => (at(b) + at(c)) * 0.5 - from,
+                        _ => Vec3::AXES[a.index(3)] * if kind & 4 == 0 { 1.0 } else { -1.0 },
+                    };
+                    let whole = Ray::new(from, to);
+                    window.map_or(whole, |[t_min, t_max]| Ray { t_min, t_max, ..whole })
+                };
+            let rays = rays.iter().map(ray).collect();
+            // In a wild mesh an index may name no vertex.
+            let vertices = positions.len() + usize::from(wild);
+            let triangles = triangles.iter().map(|t| t.each_ref().map(|i| i.index(vertices) as u32)).collect();
+            Case { positions, triangles, rays }
+        })
+    })
+}
+
+/// Cases that meet nothing would prove nothing.
+#[test]
+fn most_drawn_cases_are_meshes_that_rays_hit() {
+    let mut runner = TestRunner::new(config());
+    let (mut meshes, mut hits, mut refused) = (0, 0, 0);
+    for _ in 0..200 {
+        let case = cases().new_tree(&mut runner).unwrap().current();
+        match Mesh::new(case.positions.clone(), case.triangles.clone()) {
+            Ok(mesh) => {
+                meshes += 1;
+                hits += case.rays.iter().filter(|ray| oracle::nearest(ray, &mesh).is_some()).count();
+            }
+            Err(_) => refused += 1,
+        }
+    }
+    assert!(meshes > 180 && refused > 0 && hits > 600, "{meshes} meshes, {refused} refused, {hits} hits");
+}
+
+/// A number that the environment gives, for longer runs than those of every day: see tests/fuzz/README.md.
+fn from_environment(name: &str, otherwise: u32) -> u32 {
+    match std::env::var(name) {
+        Ok(text) => text.parse().unwrap_or_else(|_| panic!("{name}={text} is not a whole number")),
+        Err(_) => otherwise,
+    }
 }
 
 /// The same cases on every run.
@@ -116,24 +178,6 @@ proptest! {
         }
     }
 
-    #[test]
-    fn no_structure_loses_or_invents_a_hit(mesh in meshes(floats(), 60), rays in rays(floats(), 60)) {
-        let reference = Reference::of_test("moller-trumbore", &mesh).unwrap();
-        for spec in OURS {
-            let v = validate(&*built(spec, &mesh), &reference, &mesh, &rays);
-            prop_assert_eq!(v.errors() + v.higher_ids, 0, "{}: {:?}", spec, v.worst.first().map(ToString::to_string));
-        }
-    }
-
-    #[test]
-    fn no_size_of_numbers_breaks_a_structure(mesh in meshes(any_finite(), 30), rays in rays(any_finite(), 30)) {
-        let reference = Reference::of_test("moller-trumbore", &mesh).unwrap();
-        for spec in OURS {
-            let v = validate(&*built(spec, &mesh), &reference, &mesh, &rays);
-            prop_assert_eq!(v.errors() + v.higher_ids, 0, "{}: {:?}", spec, v.worst.first().map(ToString::to_string));
-        }
-    }
-
     /// Scaling by a power of two scales nothing but the coordinates: the same `t`, the same primitive, to the bit.
     #[test]
     fn powers_of_two_change_nothing(mesh in meshes(-2.0_f32..2.0, 40), rays in rays(-2.0_f32..2.0, 40), k in -12_i32..12) {
@@ -154,6 +198,30 @@ proptest! {
         prop_assert_eq!(back.to_string(), ray.to_string());
         if !bits.map(f32::from_bits).iter().any(|x| x.is_nan()) {
             prop_assert_eq!(back, ray);
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig {
+        cases: from_environment("SAHARA_FUZZ_CASES", 300),
+        rng_seed: RngSeed::Fixed(from_environment("SAHARA_FUZZ_SEED", 2003).into()),
+        ..config()
+    })]
+
+    /// What the fuzzer holds true of any numbers at all, on cases drawn here.
+    #[test]
+    fn anything_is_answered_right(case in cases()) {
+        if let Err(report) = case.check() {
+            prop_assert!(false, "{}", report);
+        }
+    }
+
+    /// The fuzzer's reader makes a case of any bytes.
+    #[test]
+    fn any_bytes_are_a_case(bytes in prop::collection::vec(any::<u8>(), 0..400)) {
+        if let Err(report) = Case::read(&bytes).check() {
+            prop_assert!(false, "{}", report);
         }
     }
 }

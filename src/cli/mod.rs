@@ -11,6 +11,7 @@ mod progress;
 mod render;
 mod replicate;
 mod sources;
+mod study;
 mod terminal;
 mod validate;
 
@@ -47,6 +48,8 @@ enum Command {
     Replicate(replicate::Args),
     /// Hold every structure against a reference, hit for hit
     Validate(validate::Args),
+    /// Run an experiment with a question of its own
+    Study(study::Args),
     /// Draw a picture
     Render(render::Args),
     /// Check or make the golden images
@@ -85,6 +88,7 @@ fn run(registry: &Registry, args: impl IntoIterator<Item = OsString>) -> ExitCod
         Command::Compare(args) => compare::run(registry, &args, &terminal),
         Command::Replicate(args) => replicate::run(registry, &args, &terminal),
         Command::Validate(args) => validate::run(registry, &args, &terminal),
+        Command::Study(args) => study::run(registry, &args, &terminal),
         Command::Render(args) => render::run(registry, &args, &terminal),
         Command::Golden(args) => golden::run(registry, &args, &terminal),
         Command::List => list::run(registry, &terminal),

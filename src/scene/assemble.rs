@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::format::{LightFile, ObjectFile, RealMesh, SceneFile};
-use super::{Camera, CornerNormals, Light, Material, Model, Scene, SceneError, frame, load, meshes};
+use super::{Camera, CornerNormals, Light, Material, Model, Offset, Scene, SceneError, load, meshes};
 use crate::geometry::{Mesh, Transform};
 
 /// Where a scene file came from, and where to look for other files.
@@ -54,7 +54,7 @@ pub(super) fn assemble(file: &SceneFile, origin: &Origin) -> Result<Scene, Scene
         background: file.background.into(),
         recursion_limit: file.recursion_limit,
         shadow_terminator_fix: file.shadow_terminator_fix,
-        ray_offset: file.ray_offset.unwrap_or_else(|| frame::ray_offset(&mesh)),
+        offset: file.ray_offset.map_or(Offset::ErrorBounded, Offset::Direction),
         size: file.size,
         stand_ins: parts.stand_ins,
         notes: parts.notes,

@@ -11,26 +11,26 @@ impl Scene {
     pub fn primary_rays(&self, size: [u32; 2], offset: Vec2, range: std::ops::Range<u32>) -> Vec<Ray> {
         let view = self.camera.view(size);
         let ray = |pixel| view.ray(pixel % size[0], pixel / size[0], offset);
-        range.map(ray).map(|ray| self.launch(ray.origin, ray.direction)).collect()
+        range.map(ray).map(|ray| self.offset.leave_free(ray.origin, ray.direction)).collect()
     }
 
     /// The any-hit ray that asks whether `light` is hidden from the surface of `prim`.
     ///
     /// It is cast whether or not the light lies behind the surface. It ends at the distance of the light from the surface
-    /// point, although it may start off the surface (see [`Scene::shadow_terminator_fix`]) and starts
-    /// [`Scene::ray_offset`] further on: an occluder so little beyond the light counts, as in the course.
+    /// point, although it may start off the surface (see [`Scene::shadow_terminator_fix`]) and is moved by [`Scene::offset`]:
+    /// an occluder so little beyond the light counts, as in the course.
     pub fn shadow_ray(&self, prim: PrimId, surface: &Surface, light: &Light) -> Ray {
-        let mut start = surface.point;
+        let mut start = surface.start();
         if surface.smooth && self.shadow_terminator_fix {
-            start += surface.shading_normal * libm::pow(self.area(prim).into(), 0.05) as f32;
+            start.point += surface.shading_normal * libm::pow(self.area(prim).into(), 0.05) as f32;
         }
         let distance = (light.position - surface.point).length();
-        self.launch(start, light.position - start).until(distance)
+        self.offset.leave(&start, light.position - start.point).until(distance)
     }
 
     /// `ray` reflected where it meets `surface`, about the shading normal.
     pub fn mirror_ray(&self, ray: &Ray, surface: &Surface) -> Ray {
-        self.launch(surface.point, reflect(ray.direction, surface.shading_normal))
+        self.offset.leave(&surface.start(), reflect(ray.direction, surface.shading_normal))
     }
 }
 

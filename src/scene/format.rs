@@ -28,7 +28,9 @@ pub struct SceneFile {
     /// See [`super::Scene::shadow_terminator_fix`].
     #[serde(default = "yes")]
     pub shadow_terminator_fix: bool,
-    /// How far each ray origin is moved; without it 1e-4 of the diagonal of the scene's box.
+    /// How far each ray origin is moved along its direction, those at the eye included: the course's guard against hitting the
+    /// surface that a ray leaves, which the report's ray counts depend on. Without it rays leave surfaces error-bounded, which
+    /// is right at every scale: see [`super::Offset`].
     pub ray_offset: Option<f32>,
     pub camera: CameraFile,
     #[serde(default)]

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DVec3, Vec3};
 
-use super::{Camera, CornerNormals, Light, Material, Model, Scene, SceneError};
+use super::{Camera, CornerNormals, Light, Material, Model, Offset, Scene, SceneError};
 use crate::geometry::{Aabb, Mesh, Transform};
 
 /// Degrees.
@@ -15,14 +15,6 @@ const TOWARDS_CAMERA: DVec3 = DVec3::new(0.5, 0.35, 1.0);
 
 /// How much of the image's width or height the box of the mesh may fill.
 const FILLED: f64 = 0.95;
-
-/// Share of the diagonal of a mesh's box by which rays leave a surface.
-const OFFSET: f32 = 1e-4;
-
-/// How far ray origins are moved in a scene that does not say it.
-pub(super) fn ray_offset(mesh: &Mesh) -> f32 {
-    if mesh.is_empty() { 0.0 } else { mesh.bounds().extent().as_dvec3().length() as f32 * OFFSET }
-}
 
 impl Scene {
     /// A scene around `model`, called `name`: y is up, the camera sees the whole box, one light, own materials or grey.
@@ -57,7 +49,7 @@ impl Scene {
             background: Vec3::new(0.2, 0.25, 0.3),
             recursion_limit: 8,
             shadow_terminator_fix: false,
-            ray_offset: ray_offset(&mesh),
+            offset: Offset::ErrorBounded,
             size: [512, 512],
             stand_ins: Vec::new(),
             notes: model.notes,

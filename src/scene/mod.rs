@@ -13,6 +13,7 @@ mod material;
 pub mod meshes;
 mod model;
 mod normals;
+pub mod offset;
 #[allow(clippy::module_inception)]
 mod scene;
 #[cfg(test)]
@@ -27,5 +28,6 @@ pub use load::{LoadError, load};
 pub use material::Material;
 pub use model::Model;
 pub use normals::CornerNormals;
+pub use offset::{Offset, Start};
 pub use scene::{Scene, Surface};
 pub use workload::{Sampling, UnknownWorkload, Workload, WorkloadKind};

@@ -3,9 +3,10 @@
 use std::fmt::Write;
 use std::sync::Arc;
 
-use glam::{DVec3, Vec3};
+use glam::Vec3;
 use sha2::{Digest, Sha256};
 
+use super::offset::{Offset, Start, barycentrics};
 use super::{Camera, CornerNormals, Light, Material};
 use crate::geometry::{Hit, Mesh, PrimId, Ray};
 
@@ -30,8 +31,8 @@ pub struct Scene {
     /// Whether shadow rays of smooth triangles start off the surface, at `point + normal * area^0.05`, as the course does
     /// against dark facets near the shadow boundary. Default true.
     pub shadow_terminator_fix: bool,
-    /// Every ray origin is first moved so far along the unit direction, see [`Scene::launch`].
-    pub ray_offset: f32,
+    /// How rays leave surfaces: error-bounded, but in a scene that says otherwise.
+    pub offset: Offset,
     /// Width and height of the image that the scene asks for.
     pub size: [u32; 2],
     /// Meshes that stand in for a real one which is not there.
@@ -43,8 +44,10 @@ pub struct Scene {
 /// What shading needs to know about a hit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Surface {
-    /// `origin + t * direction`, rounded.
+    /// From barycentrics, see [`Start::on_triangle`]; in a scene with the course's offset `origin + t * direction`, as there.
     pub point: Vec3,
+    /// See [`Start::error`].
+    pub error: Vec3,
     /// Unit normal of the triangle, by the order of its corners.
     pub geometric_normal: Vec3,
     /// Unit normal interpolated between the corners; the geometric normal on a flat triangle.
@@ -53,15 +56,14 @@ pub struct Surface {
     pub smooth: bool,
 }
 
-impl Scene {
-    /// A ray as the renderer casts it: `direction` brought to unit length, the origin moved [`Scene::ray_offset`] along it.
-    ///
-    /// The course's guard against hitting the surface a ray starts on. Distances along the ray count from the moved origin.
-    pub fn launch(&self, origin: Vec3, direction: Vec3) -> Ray {
-        let direction = direction.normalize();
-        Ray::new(origin + direction * self.ray_offset, direction)
+impl Surface {
+    /// Where rays leave from.
+    pub fn start(&self) -> Start {
+        Start { point: self.point, error: self.error, normal: self.geometric_normal }
     }
+}
 
+impl Scene {
     /// The material of a primitive.
     #[inline]
     pub fn material(&self, prim: PrimId) -> &Material {
@@ -82,16 +84,18 @@ impl Scene {
 
     /// Point and normals where `ray` hits, computed in `f64` from the ray and the corners.
     pub fn surface(&self, ray: &Ray, hit: Hit) -> Surface {
-        let geometric_normal = self.geometric_normal(hit.prim);
-        let corners = self.normals.as_ref().and_then(|n| n.corners(hit.prim.index()));
-        let shading_normal = corners.map_or(geometric_normal, |normals| {
-            let weights = barycentrics(ray, self.mesh.corners(hit.prim.index()));
+        let corners = self.mesh.corners(hit.prim.index());
+        let weights = barycentrics(ray, corners);
+        let start = Start::on_triangle(corners, weights);
+        let normals = self.normals.as_ref().and_then(|n| n.corners(hit.prim.index()));
+        let shading_normal = normals.map_or(start.normal, |normals| {
             let [n0, n1, n2] = normals.map(Vec3::as_dvec3);
             let mixed = n0 * weights.x + n1 * weights.y + n2 * weights.z;
-            mixed.try_normalize().map_or(geometric_normal, |n| n.as_vec3())
+            mixed.try_normalize().map_or(start.normal, |n| n.as_vec3())
         });
-        let smooth = corners.is_some_and(|[n0, n1, n2]| n0 != n1 || n1 != n2);
-        Surface { point: ray.at(hit.t), geometric_normal, shading_normal, smooth }
+        let smooth = normals.is_some_and(|[n0, n1, n2]| n0 != n1 || n1 != n2);
+        let point = if matches!(self.offset, Offset::Direction(_)) { ray.at(hit.t) } else { start.point };
+        Surface { point, error: start.error, geometric_normal: start.normal, shading_normal, smooth }
     }
 
     /// Whether any triangle casts mirror rays.
@@ -125,19 +129,4 @@ fn update(hasher: &mut Sha256, vector: Vec3) {
     for component in vector.to_array() {
         hasher.update(component.to_bits().to_le_bytes());
     }
-}
-
-/// Weights of the corners where the ray meets their plane, by Cramer's rule; equal ones when it runs in the plane.
-fn barycentrics(ray: &Ray, corners: [Vec3; 3]) -> DVec3 {
-    let [a, b, c] = corners.map(Vec3::as_dvec3);
-    let (origin, direction) = (ray.origin.as_dvec3(), ray.direction.as_dvec3());
-    let (ab, ac, from_a) = (b - a, c - a, origin - a);
-    let p = direction.cross(ac);
-    let determinant = ab.dot(p);
-    if determinant == 0.0 {
-        return DVec3::splat(1.0 / 3.0);
-    }
-    let v = from_a.dot(p) / determinant;
-    let w = direction.dot(from_a.cross(ab)) / determinant;
-    DVec3::new(1.0 - v - w, v, w)
 }

@@ -41,7 +41,7 @@ fn all_twelve_have_the_triangles_and_cameras_of_the_report() {
         assert_eq!(scene.mesh.degenerate().len(), degenerate[i], "{}", builtin.name);
         assert_eq!(scene.material_of.len(), triangles[i], "{}", builtin.name);
         assert_eq!(scene.lights.len(), lights[i], "{}", builtin.name);
-        assert_eq!((scene.size, scene.ray_offset), ([512, 512], 0.01), "{}", builtin.name);
+        assert_eq!((scene.size, scene.offset), ([512, 512], Offset::Direction(0.01)), "{}", builtin.name);
         let is_dragon = builtin.name == "Dragon";
         assert_eq!(scene.recursion_limit, if is_dragon { 1 } else { 8 }, "{}", builtin.name);
         assert_eq!(scene.shadow_terminator_fix, !is_dragon, "{}", builtin.name);
@@ -70,7 +70,7 @@ fn names_are_found_in_any_case_and_a_wrong_one_gets_advice() {
 fn a_plain_file_gets_the_defaults() {
     let scene = scene(PLAIN).unwrap();
     assert_eq!((scene.size, scene.recursion_limit, scene.shadow_terminator_fix), ([512, 512], 8, true));
-    assert_eq!(scene.ray_offset, 12f32.sqrt() * 1e-4);
+    assert_eq!(scene.offset, Offset::ErrorBounded);
     assert_eq!(scene.materials[0].name, "grey");
     assert!(scene.normals.is_none() && scene.stand_ins.is_empty() && scene.notes.is_empty());
 }
@@ -175,7 +175,8 @@ fn rays_go_through_the_pixels() {
 fn a_surface_has_the_point_and_both_normals() {
     let flat = scene(PLAIN).unwrap();
     let ray = Ray::new(Vec3::new(0.25, 0.5, 5.0), -Vec3::Z);
-    let front = (0..12).find(|&i| flat.geometric_normal(Hit::new(0.0, i).prim) == Vec3::Z).unwrap();
+    let is_hit = |&i: &u32| crate::exact::hit(&ray, flat.mesh.corners(i)).is_some();
+    let front = (0..12).filter(is_hit).find(|&i| flat.geometric_normal(Hit::new(0.0, i).prim) == Vec3::Z).unwrap();
     let surface = flat.surface(&ray, Hit::new(4.0, front));
     assert_eq!(surface.point, Vec3::new(0.25, 0.5, 1.0));
     assert_eq!((surface.geometric_normal, surface.shading_normal, surface.smooth), (Vec3::Z, Vec3::Z, false));
@@ -189,12 +190,6 @@ fn a_surface_has_the_point_and_both_normals() {
     assert!(towards(a).shading_normal.distance(at_a) < 1e-6);
     assert!(towards(b * 0.5 + c * 0.5).shading_normal.distance((at_b + at_c).normalize()) < 1e-6);
     assert!(towards(a).smooth);
-}
-
-#[test]
-fn launched_rays_start_off_the_surface() {
-    let scene = Scene { ray_offset: 0.5, ..scene(PLAIN).unwrap() };
-    assert_eq!(scene.launch(Vec3::Y, Vec3::X * 4.0), Ray::new(Vec3::new(0.5, 1.0, 0.0), Vec3::X));
 }
 
 #[test]
@@ -215,8 +210,7 @@ fn a_framed_mesh_is_whole_in_view_at_any_size_and_place() {
         let mut model = meshes::teapot();
         model.positions.iter_mut().for_each(|p| *p = *p * scale + shift);
         let scene = Scene::framed("teapot", model).unwrap();
-        let diagonal = scene.mesh.bounds().extent().length();
-        assert!((scene.ray_offset / diagonal - 1e-4).abs() < 1e-8);
+        assert_eq!(scene.offset, Offset::ErrorBounded);
 
         // The four side planes of the view touch no corner, and one of them is near.
         let camera = &scene.camera;

@@ -6,6 +6,7 @@ mod check;
 pub mod compare;
 mod error;
 pub mod replicate;
+pub mod self_intersection;
 mod stage;
 
 pub use baselines::{BRUTE_FORCE, SAH_TREE, documented_defect};

@@ -66,6 +66,6 @@ fn hemisphere(scene: &Scene, rays: &[Ray], accel: &dyn DynAccel, mut sampler: Sa
     };
     land(scene, rays, accel)
         .iter()
-        .map(|l| scene.launch(l.surface.point, direction(&l.ray, l.surface.shading_normal, &mut sampler)))
+        .map(|l| scene.offset.leave(&l.surface.start(), direction(&l.ray, l.surface.shading_normal, &mut sampler)))
         .collect()
 }

@@ -3,9 +3,9 @@ use std::sync::Arc;
 use glam::Vec3;
 
 use super::*;
-use crate::accel::Accel;
+use crate::accel::{Accel, DynAccel};
 use crate::geometry::Mesh;
-use crate::scene::{Camera, Light, Material};
+use crate::scene::{Camera, Light, Material, Offset, meshes};
 use crate::structures::{KdConfig, KdTree};
 use crate::triangle::MollerTrumbore;
 
@@ -26,7 +26,7 @@ fn room() -> Scene {
         background: Vec3::ZERO,
         recursion_limit: 8,
         shadow_terminator_fix: true,
-        ray_offset: 0.01,
+        offset: Offset::Direction(0.01),
         size: [24, 16],
         stand_ins: vec![],
         notes: vec![],
@@ -96,6 +96,27 @@ fn bounces_leave_on_the_side_they_came_from() {
             assert!(ray.origin.y > 0.0 && ray.origin.y < 2.0, "{kind:?} {ray:?}");
         }
     }
+}
+
+#[test]
+fn bounces_off_a_framed_convex_mesh_meet_nothing_at_any_size_and_place() {
+    let hidden = |offset: Option<Offset>, radius: f32, centre: f32| {
+        let mut model = meshes::icosphere(2);
+        model.positions.iter_mut().for_each(|p| *p = *p * radius + centre);
+        model.normal_indices.clear();
+        let framed = Scene::framed("sphere", model).unwrap();
+        let scene = Scene { size: [64, 64], offset: offset.unwrap_or(framed.offset), ..framed };
+        let (rays, tree) = (workload(&scene, WorkloadKind::Diffuse).rays, tree(&scene));
+        assert!(rays.len() > 1000);
+        let mut hidden = vec![false; rays.len()];
+        DynAccel::any_hits(&tree, &rays, &mut hidden);
+        hidden.into_iter().filter(|hidden| *hidden).count()
+    };
+    for (radius, centre) in [(1.0, 0.0), (1e-6, 0.0), (1e6, 0.0), (1.0, 1e3), (10.0, 1e5)] {
+        assert_eq!(hidden(None, radius, centre), 0, "r = {radius} at {centre}");
+    }
+    // Half of the bounces that start at the point as computed meet their own triangle.
+    assert!(hidden(Some(Offset::None), 10.0, 1e5) > 300);
 }
 
 #[test]

@@ -1,0 +1,73 @@
+//! `study`: experiments with one question each.
+
+use std::path::PathBuf;
+
+use clap::Subcommand;
+
+use super::terminal::Terminal;
+use super::{Verdict, sources};
+use crate::output::OutputFile;
+use crate::registry::{Choice, Registry};
+use crate::report::{to_json, to_markdown};
+use crate::study::SAH_TREE;
+use crate::study::self_intersection::{self, Settings};
+
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    #[command(subcommand)]
+    name: Name,
+}
+
+#[derive(Debug, Subcommand)]
+enum Name {
+    /// Which way to start a secondary ray neither meets its own surface again nor passes another one?
+    SelfIntersection(SelfIntersection),
+}
+
+#[derive(Debug, clap::Args)]
+struct SelfIntersection {
+    /// A structure, with keys that differ from their defaults; may be repeated [default: sah-kd over every triangle test]
+    #[arg(long, short, value_name = "NAME[:key=value,..]")]
+    structure: Vec<String>,
+    /// Rays outwards of each case; as many go in
+    #[arg(long, value_name = "N", default_value_t = 6000, value_parser = clap::value_parser!(u32).range(1..=1 << 24))]
+    rays: u32,
+    /// Seed of the rays
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+    /// Write every case as JSON
+    #[arg(long, value_name = "FILE")]
+    export_json: Option<PathBuf>,
+    /// Write the table as Markdown
+    #[arg(long, value_name = "FILE")]
+    export_markdown: Option<PathBuf>,
+}
+
+pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Result<Verdict> {
+    match &args.name {
+        Name::SelfIntersection(args) => self_intersection(registry, args, terminal),
+    }
+}
+
+fn self_intersection(registry: &Registry, args: &SelfIntersection, terminal: &Terminal) -> anyhow::Result<Verdict> {
+    let structures = if args.structure.is_empty() {
+        registry.all().into_iter().filter(|choice| choice.entry.name == SAH_TREE).collect::<Vec<Choice>>()
+    } else {
+        sources::structures(registry, &args.structure)?
+    };
+    anyhow::ensure!(!structures.is_empty(), "{SAH_TREE} is not registered: name a structure with --structure");
+    let check = |path: &Option<PathBuf>| path.as_deref().map(OutputFile::check).transpose();
+    let (json, markdown) = (check(&args.export_json)?, check(&args.export_markdown)?);
+
+    let settings = Settings { rays: args.rays as usize, seed: args.seed };
+    let study = self_intersection::study(&structures, settings).map_err(anyhow::Error::msg)?;
+    let table = self_intersection::table(&study);
+    terminal.print_table(&table)?;
+    if let Some(file) = json {
+        file.write(&to_json(&study))?;
+    }
+    if let Some(file) = markdown {
+        file.write(&to_markdown(&[table], &[study.provenance.line()]))?;
+    }
+    Ok(Verdict::Right)
+}

@@ -1,0 +1,86 @@
+//! Where a ray starts that leaves a surface: far enough not to hit it again, near enough to miss nothing else.
+
+pub mod error_bounded;
+mod start;
+pub mod wachter_binder;
+
+use glam::Vec3;
+
+pub use start::{Start, barycentrics};
+
+use crate::geometry::Ray;
+
+/// A way to start secondary rays. `sahara study self-intersection` measures them against each other.
+///
+/// A ray that starts on a surface as computed starts, exactly, before or behind it: half of all rays meet their own surface
+/// again (acne). A start that is moved too far passes through what it should meet (leak).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Offset {
+    /// At the point as computed. Promises nothing; costs nothing.
+    None,
+    /// So far along the normal, to the side that the ray leaves to: a length of the scene, right for one scale only.
+    Normal(f32),
+    /// At the point as computed, but without hits before this `t`; directions have unit length, so that it is a length of
+    /// the scene too. A grazing ray leaves the surface slowly, and meets it again behind `t`.
+    TMin(f32),
+    /// So far along the direction, rays from the eye included: the source report's course, with 0.01. As [`Offset::TMin`].
+    Direction(f32),
+    /// Some units in the last place along the normal: [`wachter_binder`].
+    WachterBinder,
+    /// As far as the point may be wrong: [`error_bounded`]. The only one that is right at every scale and place.
+    ErrorBounded,
+}
+
+impl Offset {
+    /// As written in tables and records.
+    pub fn name(self) -> String {
+        match self {
+            Self::None => "none".into(),
+            Self::Normal(distance) => format!("normal {distance:e}"),
+            Self::TMin(t) => format!("t_min {t:e}"),
+            Self::Direction(distance) => format!("direction {distance:e}"),
+            Self::WachterBinder => "waechter-binder".into(),
+            Self::ErrorBounded => "error-bounded".into(),
+        }
+    }
+
+    /// The ray that leaves `start` in `direction`, which is brought to unit length.
+    ///
+    /// It starts on the side of the triangle that it leaves to. Costs a few additions and multiplications.
+    pub fn leave(self, start: &Start, direction: Vec3) -> Ray {
+        match self {
+            Self::None => Ray::new(start.point, unit(direction)),
+            Self::Normal(distance) => Ray::new(start.point + start.towards(direction) * distance, unit(direction)),
+            Self::TMin(t_min) => Ray { t_min, ..Ray::new(start.point, unit(direction)) },
+            Self::Direction(distance) => moved_along(start.point, direction, distance),
+            Self::WachterBinder => Ray::new(wachter_binder::origin(start, direction), unit(direction)),
+            // What touches the start itself is the surface that the ray leaves.
+            Self::ErrorBounded => Ray {
+                t_min: error_bounded::T_MIN,
+                ..Ray::new(error_bounded::origin(start, direction), unit(direction))
+            },
+        }
+    }
+
+    /// The ray that leaves `origin`, a point on no surface, in `direction`, which is brought to unit length.
+    pub fn leave_free(self, origin: Vec3, direction: Vec3) -> Ray {
+        match self {
+            Self::Direction(distance) => moved_along(origin, direction, distance),
+            _ => Ray::new(origin, unit(direction)),
+        }
+    }
+}
+
+/// As the course does it, in `f32` throughout. Distances along the ray count from the moved origin.
+fn moved_along(origin: Vec3, direction: Vec3, distance: f32) -> Ray {
+    let direction = direction.normalize();
+    Ray::new(origin + direction * distance, direction)
+}
+
+/// Through `f64`, where the square of no `f32` overflows or vanishes.
+fn unit(direction: Vec3) -> Vec3 {
+    direction.as_dvec3().normalize_or_zero().as_vec3()
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,177 @@
+//! One case of the fuzzer: a mesh and rays of any floats whatever, and all that must hold for them.
+//!
+//! Shared by `tests/properties.rs`, which draws cases by proptest, and by the fuzz target of this folder, which reads them from
+//! bytes.
+
+use std::sync::Arc;
+
+use glam::Vec3;
+use sahara::accel::DynAccel;
+use sahara::geometry::{Hit, Mesh, Ray};
+use sahara::oracle;
+use sahara::registry::Registry;
+use sahara::validate::{Reference, validate};
+
+/// The structures of this crate and their variants, over every triangle test that they are offered with. Small leaves, so that
+/// small meshes make deep trees.
+const VARIANTS: [(&str, &str); 8] = [
+    ("brute-force", ""),
+    ("median-kd", ""),
+    ("median-kd", "leaf=1,threshold=1"),
+    ("median-kd", "leaf=2,threshold=1,traversal=plane-intervals,mailbox=true"),
+    ("sah-kd", ""),
+    ("sah-kd", "mailbox=true,empty_bonus=0"),
+    ("sah-kd", "intersection_cost=50,traversal=child-boxes"),
+    ("sah-kd", "intersection_cost=50,plane=vertex-median"),
+];
+
+/// What is drawn. Numbers may be anything, indices may be out of range.
+#[derive(Clone, Debug)]
+pub struct Case {
+    pub positions: Vec<Vec3>,
+    pub triangles: Vec<[u32; 3]>,
+    pub rays: Vec<Ray>,
+}
+
+impl Case {
+    /// What must hold: a mesh is refused with a sentence or every structure is built over it; no structure over any triangle
+    /// test loses or invents a hit against brute force with the same test, or returns a higher number than the lowest;
+    /// `exact` gives the mathematical answer; `filtered-f64` gives the bits of the test that it filters. Nothing panics.
+    ///
+    /// # Errors
+    /// What does not hold, with the case.
+    pub fn check(&self) -> Result<(), String> {
+        let mesh = match Mesh::new(self.positions.clone(), self.triangles.clone()) {
+            Ok(mesh) => Arc::new(mesh),
+            Err(refusal) if refusal.to_string().contains(' ') => return Ok(()),
+            Err(refusal) => return Err(format!("{refusal:?} is no sentence: {self:?}")),
+        };
+        let registry = Registry::builtin();
+        let blame = |what: String| format!("{what}\n{self:?}");
+
+        let tests = registry.entries().iter().filter(|e| e.name == "sah-kd").map(|e| e.triangle_test);
+        for test in tests {
+            let reference = Reference::of_test(test, &mesh).map_err(|e| blame(e.to_string()))?;
+            for (name, keys) in VARIANTS {
+                let spec = format!("{name}:test={test},{keys}");
+                let choice = registry.choose(&spec).map_err(|e| blame(e.to_string()))?;
+                let accel = choice.build(&mesh).map_err(|e| blame(format!("{spec}: {e}")))?;
+                let found = validate(&*accel, &reference, &mesh, &self.rays);
+                if found.errors() + found.higher_ids > 0 {
+                    return Err(blame(format!("{spec}: {}", found.worst[0])));
+                }
+            }
+        }
+
+        // Brute force gives the answers of a test alone.
+        let answers = |test: &str| {
+            let known = registry.find("brute-force", test).is_some();
+            known.then(|| Reference::of_test(test, &mesh).map(|reference| closest(&*reference.accel, &self.rays)))
+        };
+        if let Some(exact) = answers("exact") {
+            for (ray, hit) in self.rays.iter().zip(exact.map_err(|e| blame(e.to_string()))?) {
+                let truth = oracle::nearest(ray, &mesh).map(|(t, ids)| (t.round(), ids[0]));
+                let found = hit.map(|h| (h.t, h.prim.index()));
+                if found != truth {
+                    return Err(blame(format!("exact: ray \"{ray}\": {found:?} in place of {truth:?}")));
+                }
+            }
+        }
+        if let (Some(filtered), Some(plain)) = (answers("filtered-f64"), answers("moller-trumbore-f64")) {
+            for ((ray, filtered), plain) in self.rays.iter().zip(filtered.unwrap()).zip(plain.unwrap()) {
+                let bits = |hit: Option<Hit>| hit.map(|h| (h.t.to_bits(), h.prim.index()));
+                if bits(filtered) != bits(plain) {
+                    return Err(blame(format!("filtered-f64: ray \"{ray}\": {filtered:?} in place of {plain:?}")));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Reads a case from any bytes at all: bytes that are not there count as 0.
+    pub fn read(bytes: &[u8]) -> Self {
+        let mut bytes = Bytes(bytes);
+        let points = 3 + bytes.byte() as usize % 29;
+        // Most meshes must be valid, or nothing is tested.
+        let wild = bytes.byte() == 0xff;
+        let positions = (0..points).map(|_| bytes.point(wild)).collect::<Vec<Vec3>>();
+        let limit = if wild { points + 1 } else { points } as u32;
+        let triangles = (0..bytes.byte() % 48).map(|_| [0; 3].map(|_: u32| u32::from(bytes.byte()) % limit)).collect();
+        let mut rays = vec![];
+        while !bytes.0.is_empty() && rays.len() < 48 {
+            let kind = bytes.byte();
+            let from = if kind & 1 == 0 { bytes.point(true) } else { bytes.pick(&positions) };
+            let to = match kind >> 1 & 3 {
+                0 => bytes.point(true),
+                1 => bytes.pick(&positions) - from,
+                2 => (bytes.pick(&positions) + bytes.pick(&positions)) * 0.5 - from,
+                _ => Vec3::AXES[bytes.byte() as usize % 3] * if kind & 8 == 0 { 1.0 } else { -1.0 },
+            };
+            let whole = Ray::new(from, to);
+            rays.push(if kind >> 4 & 3 == 0 {
+                Ray { t_min: bytes.float(), t_max: bytes.float(), ..whole }
+            } else {
+                whole
+            });
+        }
+        Self { positions, triangles, rays }
+    }
+}
+
+fn closest(accel: &dyn DynAccel, rays: &[Ray]) -> Vec<Option<Hit>> {
+    let mut hits = vec![None; rays.len()];
+    accel.closest_hits(rays, &mut hits);
+    hits
+}
+
+/// Kinds of floats that break traversals; the number of [`float_of`].
+pub const KINDS: u8 = 7;
+
+/// A float of the kind `kind` below [`KINDS`]: k/8, a zero, a denormal, a power of two, any number of moderate size, any bits at
+/// all, NaN or infinity. `bits` chooses which.
+pub fn float_of(kind: u8, bits: u32) -> f32 {
+    let signed = |x: f32| if bits >> 31 == 1 { -x } else { x };
+    match kind {
+        0 => (bits as u8 as i8 % 33) as f32 / 8.0,
+        1 => signed(0.0),
+        2 => f32::from_bits(bits & 0x807f_ffff),
+        3 => f32::from_bits(bits & 0xff80_0000),
+        4 => signed((bits >> 7 & 0xff_ffff) as f32 / (1 << 22) as f32),
+        5 => f32::from_bits(bits),
+        _ => [f32::NAN, f32::INFINITY, f32::NEG_INFINITY][bits as usize % 3],
+    }
+}
+
+/// What is left to read.
+struct Bytes<'a>(&'a [u8]);
+
+impl Bytes<'_> {
+    fn byte(&mut self) -> u8 {
+        let Some((&first, rest)) = self.0.split_first() else { return 0 };
+        self.0 = rest;
+        first
+    }
+
+    fn float(&mut self) -> f32 {
+        let kind = self.byte() % KINDS;
+        let bits = match kind {
+            0 => self.byte().into(),
+            1 => u32::from(self.byte()) << 24,
+            6 => self.byte().into(),
+            _ => u32::from_le_bytes([0; 4].map(|_: u8| self.byte())),
+        };
+        float_of(kind, bits)
+    }
+
+    /// A point; of finite numbers unless it may be `wild`.
+    fn point(&mut self, wild: bool) -> Vec3 {
+        Vec3::from_array([0; 3].map(|_: u8| {
+            let x = self.float();
+            if wild || x.is_finite() { x } else { 0.0 }
+        }))
+    }
+
+    fn pick(&mut self, points: &[Vec3]) -> Vec3 {
+        points[self.byte() as usize % points.len()]
+    }
+}
