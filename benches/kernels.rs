@@ -14,7 +14,9 @@ use sahara::registry::Registry;
 use sahara::scene::{Builtin, Sampling, Workload, WorkloadKind};
 use sahara::simd::{F32x4, F32x8, Lanes, Portable};
 use sahara::structures::{KdConfig, KdTree};
-use sahara::triangle::{MollerTrumbore, TriangleTest};
+use sahara::triangle::{
+    BaldwinWeber, EdgeF64, Exact, FilteredF64, MollerTrumbore, MollerTrumboreF64, Plucker, TriangleTest, Watertight,
+};
 
 /// Triangles around the origin, most of which a ray misses.
 fn triangles() -> Vec<[Vec3; 3]> {
@@ -25,21 +27,30 @@ fn triangles() -> Vec<[Vec3; 3]> {
     (0..512).map(|i| [corner(3 * i), corner(3 * i + 1), corner(3 * i + 2)]).collect()
 }
 
-fn test_all<const N: usize, L: Lanes<N>>(ray: &Ray, blocks: &[<MollerTrumbore as TriangleTest>::Block<N>]) -> u32 {
-    let prepared = MollerTrumbore::prepare(ray);
-    blocks.iter().map(|block| MollerTrumbore::candidates::<N, L>(&prepared, block, 0.0, f32::MAX).0.count_ones()).sum()
+/// All candidates of all blocks, decided.
+fn test_all<T: TriangleTest, const N: usize, L: Lanes<N>>(ray: &Ray, blocks: &[T::Block<N>]) -> usize {
+    let prepared = T::prepare(ray);
+    let hits = |block| {
+        let (candidates, known) = T::candidates::<N, L>(&prepared, block, 0.0, f32::MAX);
+        if candidates == 0 {
+            return 0;
+        }
+        let hit = |lane| T::decide(&prepared, block, lane, known.store()[lane]).is_some();
+        (0..N).filter(|&lane| candidates >> lane & 1 == 1 && hit(lane)).count()
+    };
+    blocks.iter().map(hits).sum()
 }
 
-fn triangle_tests(criterion: &mut Criterion) {
+fn triangle_test<T: TriangleTest>(criterion: &mut Criterion) {
     let triangles = triangles();
     let ray = Ray::new(Vec3::new(0.1, 0.2, -3.0), Vec3::new(0.02, -0.05, 1.0));
-    let mut group = criterion.benchmark_group("kernels/moller-trumbore");
+    let mut group = criterion.benchmark_group(format!("kernels/{}", T::NAME));
     group.throughput(Throughput::Elements(triangles.len() as u64));
     macro_rules! width {
         ($name:literal, $n:literal, $lanes:ty) => {
-            let blocks: Vec<_> = triangles.chunks($n).map(MollerTrumbore::block::<$n>).collect();
+            let blocks: Vec<_> = triangles.chunks($n).map(T::block::<$n>).collect();
             group.bench_function($name, |bencher| {
-                bencher.iter(|| black_box(test_all::<$n, $lanes>(black_box(&ray), black_box(&blocks))));
+                bencher.iter(|| black_box(test_all::<T, $n, $lanes>(black_box(&ray), black_box(&blocks))));
             });
         };
     }
@@ -47,6 +58,17 @@ fn triangle_tests(criterion: &mut Criterion) {
     width!("x4", 4, F32x4);
     width!("x8", 8, F32x8);
     group.finish();
+}
+
+fn triangle_tests(criterion: &mut Criterion) {
+    triangle_test::<MollerTrumbore>(criterion);
+    triangle_test::<Watertight>(criterion);
+    triangle_test::<BaldwinWeber>(criterion);
+    triangle_test::<Plucker>(criterion);
+    triangle_test::<MollerTrumboreF64>(criterion);
+    triangle_test::<EdgeF64>(criterion);
+    triangle_test::<FilteredF64>(criterion);
+    triangle_test::<Exact>(criterion);
 }
 
 /// An observer of its own type that does nothing.

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use crate::accel::DynAccel;
 use crate::render::{Difference, Picture, PictureError, render};
 use crate::scene::Scene;
+use crate::triangle::{Exact, TriangleTest};
 
 /// Where golden images are kept, and where the pictures of a failure go.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -12,6 +13,9 @@ pub struct Goldens {
     scenes: PathBuf,
     out: PathBuf,
 }
+
+/// Golden images are drawn with this triangle test, so that they show what is there, and nothing that rounding adds.
+pub const TRIANGLE_TEST: &str = Exact::NAME;
 
 /// Width and height of a golden image.
 pub const SIZE: [u32; 2] = [160, 160];
@@ -119,15 +123,14 @@ mod tests {
     use crate::accel::Accel;
     use crate::scene::Builtin;
     use crate::structures::{BruteForce, KdConfig, KdTree};
-    use crate::triangle::MollerTrumbore;
 
     #[test]
     fn a_golden_image_holds_until_the_scene_changes() {
         let directory = tempfile::tempdir().unwrap();
         let goldens = Goldens::new(directory.path().join("scenes"), directory.path().join("out"));
         let mut scene = Builtin::find("cube").unwrap().scene(None).unwrap();
-        let tree = KdTree::<MollerTrumbore>::build(&scene.mesh, &KdConfig::SAH).unwrap();
-        let all = BruteForce::<MollerTrumbore>::build(&scene.mesh, &Default::default()).unwrap();
+        let tree = KdTree::<Exact>::build(&scene.mesh, &KdConfig::SAH).unwrap();
+        let all = BruteForce::<Exact>::build(&scene.mesh, &Default::default()).unwrap();
 
         let missing = goldens.check(&scene, "sah-kd", &tree).unwrap_err();
         assert!(matches!(missing, GoldenError::Missing { .. }), "{missing}");
@@ -153,7 +156,7 @@ mod tests {
         let directory = tempfile::tempdir().unwrap();
         let goldens = Goldens::new(directory.path(), directory.path().join("out"));
         let scene = Builtin::find("cube").unwrap().scene(None).unwrap();
-        let tree = KdTree::<MollerTrumbore>::build(&scene.mesh, &KdConfig::SAH).unwrap();
+        let tree = KdTree::<Exact>::build(&scene.mesh, &KdConfig::SAH).unwrap();
         std::fs::create_dir(directory.path().join("cube")).unwrap();
         Picture::new([1, 1], vec![[0; 3]]).write(&goldens.path(&scene)).unwrap();
         let error = goldens.check(&scene, "sah-kd", &tree).unwrap_err().to_string();

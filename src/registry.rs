@@ -66,19 +66,22 @@ impl Registry {
 
     /// The structures of this crate.
     pub fn builtin() -> Self {
+        // The default comes first: on the front of speed against error it has the errors of f64 at the speed of f32.
         let ours = Self::empty()
+            .over::<FilteredF64>()
             .over::<MollerTrumbore>()
             .over::<Watertight>()
             .over::<BaldwinWeber>()
             .over::<Plucker>()
             .over::<MollerTrumboreF64>()
             .over::<EdgeF64>()
-            .over::<FilteredF64>()
             .over::<Exact>();
         ours.with::<ObvhsBvh2<Native>>("obvhs-bvh2", ObvhsConfig::default())
             .with::<ObvhsBvh2<Over<MollerTrumbore>>>("obvhs-bvh2", ObvhsConfig::default())
+            .with::<ObvhsBvh2<Over<Exact>>>("obvhs-bvh2", ObvhsConfig::default())
             .with::<ObvhsCwBvh<Native>>("obvhs-cwbvh", ObvhsConfig::default())
             .with::<ObvhsCwBvh<Over<MollerTrumbore>>>("obvhs-cwbvh", ObvhsConfig::default())
+            .with::<ObvhsCwBvh<Over<Exact>>>("obvhs-cwbvh", ObvhsConfig::default())
             .with::<BruteForce<RtTest>>("brute-force", Default::default())
     }
 

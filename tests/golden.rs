@@ -1,11 +1,11 @@
-//! Golden images: every structure over the common triangle test draws every built-in scene byte for byte as committed.
+//! Golden images: every structure over the exact triangle test draws every built-in scene byte for byte as committed, and the
+//! default test differs where rounding decides a tie.
 
 use std::path::Path;
 
-use sahara::golden::{GoldenError, Goldens};
+use sahara::golden::{GoldenError, Goldens, TRIANGLE_TEST};
 use sahara::registry::Registry;
 use sahara::scene::BUILTIN;
-use sahara::triangle::{MollerTrumbore, TriangleTest};
 
 /// Pixels of the baseline that differ: structure, scene, number of pixels and cause. A pixel more, a pixel fewer or another
 /// scene fails the test.
@@ -25,9 +25,10 @@ const FINDINGS: &[(&str, &str, usize, &str)] = &[
 #[test]
 fn every_structure_draws_every_scene_as_committed() {
     let registry = Registry::builtin();
-    let common: Vec<_> =
-        registry.all().into_iter().filter(|choice| choice.triangle_test() == MollerTrumbore::NAME).collect();
+    let mut common: Vec<_> =
+        registry.all().into_iter().filter(|choice| choice.triangle_test() == TRIANGLE_TEST).collect();
     assert!(common.len() >= 5, "brute force, two KD-trees and both BVHs share the test");
+    common.push(registry.choose("sah-kd").expect("the default test"));
 
     let out = Path::new(env!("CARGO_TARGET_TMPDIR")).join("golden");
     let goldens = Goldens::new(Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes"), out);
@@ -38,7 +39,7 @@ fn every_structure_draws_every_scene_as_committed() {
         let scene = builtin.scene(None).expect("a built-in scene is whole");
         for choice in &common {
             let accel = choice.build(&scene.mesh).expect("a valid mesh builds");
-            let finding = FINDINGS.iter().find(|f| f.0 == choice.entry.name && f.1 == scene.name);
+            let finding = FINDINGS.iter().find(|f| f.0 == choice.label && f.1 == scene.name);
             match goldens.check(&scene, &choice.label, &*accel) {
                 Ok(()) if finding.is_none() => {}
                 Err(GoldenError::Differs { difference, .. }) if finding.is_some_and(|f| f.2 == difference.pixels) => {

@@ -5,12 +5,11 @@ use clap::ValueEnum;
 use super::Verdict;
 use super::terminal::Terminal;
 use crate::accel::DynAccel;
-use crate::golden::{GoldenError, Goldens, SIZE};
+use crate::golden::{GoldenError, Goldens, SIZE, TRIANGLE_TEST};
 use crate::registry::{Choice, Registry};
 use crate::report::number::count;
 use crate::scene::{BUILTIN, Builtin, Scene, View};
 use crate::study::{BRUTE_FORCE, documented_defect};
-use crate::triangle::{MollerTrumbore, TriangleTest};
 use crate::validate::{Reference, validate};
 
 #[derive(Debug, clap::Args)]
@@ -24,7 +23,7 @@ pub struct Args {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Action {
-    /// Hold every structure with the common triangle test against them, byte for byte
+    /// Hold every structure over the exact triangle test against them, byte for byte
     Check,
     /// Make them anew, by brute force
     Update,
@@ -38,7 +37,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     };
     // A golden image belongs to the scene: all structures with one triangle test owe it the same bytes.
     let all = registry.all();
-    let common: Vec<&Choice> = all.iter().filter(|choice| choice.triangle_test() == MollerTrumbore::NAME).collect();
+    let common: Vec<&Choice> = all.iter().filter(|choice| choice.triangle_test() == TRIANGLE_TEST).collect();
     let goldens = Goldens::builtin();
     let mut verdict = Verdict::Right;
     for builtin in scenes {
@@ -46,7 +45,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
         let scene = builtin.scene(None)?;
         match args.action {
             Action::Update => {
-                let brute_force = registry.choose(&format!("{BRUTE_FORCE}:test={}", MollerTrumbore::NAME))?;
+                let brute_force = registry.choose(&format!("{BRUTE_FORCE}:test={}", TRIANGLE_TEST))?;
                 let changed = goldens.update(&scene, brute_force.build(&scene.mesh)?.as_ref())?;
                 let what = if changed { "made anew" } else { "as it was" };
                 terminal.print(&format!("{}: {what}, {}\n", scene.name, goldens.path(&scene).display()))?;
@@ -76,7 +75,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
 /// Why a picture differs: wrong answers are a fault, another triangle at the same `t` is within the contract.
 fn cause(scene: &Scene, accel: &dyn DynAccel) -> anyhow::Result<String> {
     let rays = scene.primary_rays(SIZE, View::CENTRE, 0..SIZE[0] * SIZE[1]);
-    let found = validate(accel, &Reference::of_test(MollerTrumbore::NAME, &scene.mesh)?, &scene.mesh, &rays);
+    let found = validate(accel, &Reference::of_test(TRIANGLE_TEST, &scene.mesh)?, &scene.mesh, &rays);
     let (wrong, ties) = (count(found.errors()), count(found.ties));
     let kernel = count(found.kernel_differences);
     Ok(format!(

@@ -16,14 +16,6 @@ pub fn run(registry: &Registry, terminal: &Terminal) -> anyhow::Result<Verdict> 
     terminal.print_table(&structures(registry))?;
     terminal.print_table(&workloads())?;
     terminal.print_table(&table("Views", &["name"], ViewKind::ALL.map(|view| vec![view.name().into()]).into()))?;
-    let mut tests: Vec<&str> = vec![];
-    for entry in registry.entries() {
-        if !tests.contains(&entry.triangle_test) {
-            tests.push(entry.triangle_test);
-        }
-    }
-    let tests = tests.into_iter().map(|test| vec![test.into()]).collect();
-    terminal.print_table(&table("Triangle tests (structures take them as the key `test`)", &["name"], tests))?;
     Ok(Verdict::Right)
 }
 
@@ -51,12 +43,17 @@ fn scenes() -> anyhow::Result<Table> {
     Ok(table("Scenes", &["name", "difficulty", "triangles", "lights", "mirrors", "meshes"], rows))
 }
 
-/// Every structure, then its keys with their defaults.
+/// Every structure with the triangle tests it is offered over, the default first; then its keys with their defaults.
 fn structures(registry: &Registry) -> Table {
     let mut rows = vec![];
-    for entry in registry.entries() {
-        rows.push(vec![entry.name.as_str().into(), entry.triangle_test.into()]);
-        for (key, value) in entry.config().as_object().into_iter().flatten() {
+    for name in registry.names() {
+        let mut entries = registry.entries().iter().filter(|entry| entry.name == name).peekable();
+        let Some(&first) = entries.peek() else { continue };
+        rows.push(vec![name.into(), "".into()]);
+        for entry in entries {
+            rows.push(vec!["  test".into(), entry.triangle_test.into()]);
+        }
+        for (key, value) in first.config().as_object().into_iter().flatten() {
             let value = match value {
                 Value::String(text) => text.clone(),
                 other => other.to_string(),
@@ -64,7 +61,7 @@ fn structures(registry: &Registry) -> Table {
             rows.push(vec![format!("  {key}").into(), value.into()]);
         }
     }
-    table("Structures and their keys", &["name", "test, default"], rows)
+    table("Structures, their triangle tests (the first is the default) and keys", &["name", "default"], rows)
 }
 
 fn workloads() -> Table {
