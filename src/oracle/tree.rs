@@ -13,8 +13,6 @@
 //! nothing in it is hit in the interval of the ray, or only behind the bound, which never is less than the exact `t` of some hit
 //! that has been found.
 
-use glam::Vec3;
-
 use super::filter::Span;
 use crate::geometry::{Aabb, Mesh, Ray};
 
@@ -148,6 +146,8 @@ fn near(ray: &Ray, bounds: &Aabb, bound: f64) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
+    use glam::Vec3;
+
     use super::*;
     use crate::exact;
     use crate::oracle::tests::Numbers;
