@@ -1,5 +1,6 @@
 //! Studies: what is built, checked, counted and timed to answer a question, and the tables that answer it.
 
+pub mod accuracy;
 mod baselines;
 mod built;
 mod check;
