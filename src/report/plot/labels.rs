@@ -39,16 +39,17 @@ pub fn place(points: &[[f64; 2]], sizes: &[[f64; 2]], obstacles: &[Rect], frame:
     for (&point, &[width, height]) in points.iter().zip(sizes) {
         let covered = |rect: &Rect| obstacles.iter().chain(&placed).map(|other| rect.overlap(other)).sum::<f64>();
         let half = [width * 0.5, height * 0.5];
-        // To the right, then to the left, then higher and lower on both sides, then above and below, by half lines.
-        let steps =
-            (0..40).flat_map(|i| if i == 0 { vec![0.0] } else { vec![-0.5 * f64::from(i), 0.5 * f64::from(i)] });
+        // To the right, to the left, above and below, then ever higher and lower, by half lines.
+        let steps = (0..40).flat_map(|i| [-0.5 * f64::from(i), 0.5 * f64::from(i)]);
         let beside = steps.flat_map(|step| {
             let [x, y] = [point[0], point[1] + step * height];
             let shift = GAP + half[0];
             [[x + shift, y], [x - shift, y], [x + shift + 30.0, y], [x - shift - 30.0, y], [x, y]]
         });
-        let candidates: Vec<Rect> =
-            beside.map(|centre| Rect::around(centre, half)).filter(|rect| rect.is_inside(&frame)).collect();
+        let candidates: Vec<Rect> = beside
+            .map(|centre| Rect::around(centre, half))
+            .filter(|rect| rect.is_inside(&frame) && rect.distance(point) > 0.5 * GAP)
+            .collect();
         // A label that covers something is worse than one that is anywhere else.
         let cost = |rect: &Rect| (covered(rect), rect.distance(point));
         let best = candidates.into_iter().min_by(|a, b| {
