@@ -78,6 +78,11 @@ fn what_is_not_known_is_refused_with_what_is() {
     refuses(&["render", "cube", "-o", "x.png", "--size", "12"], &["WIDTHxHEIGHT"]);
     refuses(&["validate", "cube", "--ray", "1,2,3"], &["ox,oy,oz dx,dy,dz"]);
     refuses_in_a_line(&["validate", "cube", "--against", "nothing"], &["nothing", "brute-force"]);
+    refuses_in_a_line(&["accuracy", "cube", "--test", "woop"], &["woop", "exact", "watertight"]);
+    refuses_in_a_line(&["accuracy", "cube", "-s", "obvhs-bvh2", "-t", "exact"], &["sahara list"]);
+    refuses_in_a_line(&["accuracy", "cube", "--plot", "front.pdf"], &["front.pdf", ".svg or .png"]);
+    refuses_in_a_line(&["accuracy", "cube", "--plot", "no/such/front.svg"], &["no/such/front.svg"]);
+    refuses(&["accuracy", "cube", "--stratum", "edges"], &["edges", "uniform, edge"]);
 }
 
 #[test]
@@ -171,6 +176,51 @@ fn a_file_without_camera_is_compared_and_rendered() {
     colours.sort_by_key(|p| p.0);
     colours.dedup();
     assert_eq!(colours.len(), 3, "two triangles and nothing");
+}
+
+#[test]
+fn accuracy_prints_exports_and_draws_what_it_finds() {
+    let directory = tempfile::tempdir().unwrap();
+    let file = |name: &str| path_text(&directory.path().join(name));
+    let (json, svg, png) = (file("a.json"), file("a.svg"), file("a.png"));
+    let mut args = vec!["accuracy", "cube", "--rays", "300", "--runs", "2", "--budget", "1"];
+    args.extend([
+        "-s",
+        "sah-kd",
+        "-t",
+        "exact",
+        "-t",
+        "moller-trumbore",
+        "--stratum",
+        "vertex",
+        "--stratum",
+        "uniform",
+    ]);
+    args.extend(["--export-json", &json, "--plot", &svg, "--plot", &png]);
+    let output = sahara(&args);
+    assert_eq!(output.status.code(), Some(RIGHT), "{}", stderr(&output));
+    let printed = stdout(&output);
+    for text in ["vertex: 300 rays through vertices", "uniform: 300 rays", "sah-kd:test=exact", "dominated by"] {
+        assert!(printed.contains(text), "{text} is not in {printed}");
+    }
+    let records: serde_json::Value = serde_json::from_slice(&std::fs::read(json).unwrap()).unwrap();
+    assert_eq!(records.as_array().unwrap().len(), 4);
+    let exact = records.as_array().unwrap().iter().filter(|record| record["triangle_test"] == "exact");
+    assert!(exact.clone().all(|record| record["error"] == 0.0 && record["error_bound"] == 0.01), "{records}");
+    assert_eq!(exact.count(), 2);
+    assert!(std::fs::read_to_string(svg).unwrap().contains("moller-trumbore"));
+    assert_eq!(image::open(png).unwrap().width(), 1600);
+}
+
+#[test]
+fn the_error_view_says_what_its_colours_mean() {
+    let directory = tempfile::tempdir().unwrap();
+    let picture = path_text(&directory.path().join("error.png"));
+    let args = ["render", "cube", "-o", &picture, "--size", "24x24", "--view", "error", "-s", "sah-kd:test=exact"];
+    let output = sahara(&args);
+    assert_eq!(output.status.code(), Some(RIGHT), "{}", stderr(&output));
+    assert!(stdout(&output).contains("missed 0 (vermilion)"), "{}", stdout(&output));
+    assert_eq!(image::open(&picture).unwrap().width(), 24);
 }
 
 #[test]
