@@ -23,8 +23,8 @@ pub struct Args {
     /// Built-in scenes and mesh files (.obj, .ply, .gltf, .glb); all built-in scenes if none is named
     #[arg(value_name = "SCENE|FILE")]
     scenes: Vec<String>,
-    /// A structure, over every triangle test unless it names one; may be repeated [default: all; brute-force only on meshes of
-    /// at most 5,000 triangles]
+    /// A structure, over every triangle test unless it names one; may be repeated [default: all; brute-force only on
+    /// meshes of at most 5,000 triangles]
     #[arg(long, short, value_name = "NAME[:key=value,..]")]
     structure: Vec<String>,
     /// A triangle test; may be repeated [default: all]

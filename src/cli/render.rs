@@ -23,7 +23,7 @@ pub struct Args {
     /// The picture, a PNG file
     #[arg(long, short, value_name = "F.png")]
     output: PathBuf,
-    /// shaded, depth, normal, primitive, heat (tests and steps of each pixel) or error (where the answer is wrong, by exact
+    /// shaded, depth, normal, primitive, heat (tests and steps of each pixel) or error (where answers are wrong, by exact
     /// arithmetic)
     #[arg(long, default_value = "shaded", value_name = "VIEW")]
     view: ViewKind,

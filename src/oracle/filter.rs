@@ -1,25 +1,26 @@
 //! The first judge: one ray, one triangle, in `f64`, with a proven bound of what rounding may have done.
 //!
 //! # Proof
-//! Let `u` = 2^-53. The numbers are finite `f32`, hence exact in `f64`. Write `a`, `b`, `c` for the corners relative to the
-//! origin of the ray; each of their components is one subtraction, that is, the true one times (1 + e), |e| <= u.
+//! Let `u` = 2^-53. The numbers are finite `f32`, hence exact in `f64`. Write `a`, `b`, `c` for the corners relative to
+//! the origin of the ray; each of their components is one subtraction, that is, the true one times (1 + e), |e| <= u.
 //!
-//! *Nothing overflows, nothing underflows.* A component of `a`, of an edge or of the direction is 0 or between 2^-149 and
-//! 2^129 in magnitude. Every rounded product of two is a multiple of 2^-350 (it is at least 2^-298, and has 53 bits), and so
-//! is the difference of two such products, which hence is 0 or at least 2^-350; times a third component, at least 2^-499.
-//! Everything is below 2^(129 + 129 + 129 + 3) = 2^390. All of this is far from the ends of `f64`, 2^-1022 and 2^1024, so that
-//! every operation has a relative error of at most `u`, and a product is 0 only if a factor is.
+//! *Nothing overflows, nothing underflows.* A component of `a`, of an edge or of the direction is 0 or between 2^-149
+//! and 2^129 in magnitude. Every rounded product of two is a multiple of 2^-350 (it is at least 2^-298, and has 53
+//! bits), and so is the difference of two such products, which hence is 0 or at least 2^-350; times a third component,
+//! at least 2^-499. Everything is below 2^(129 + 129 + 129 + 3) = 2^390. All of this is far from the ends of `f64`,
+//! 2^-1022 and 2^1024, so that every operation has a relative error of at most `u`, and a product is 0 only if a factor
+//! is.
 //!
-//! *A triple product* `x . (y z)` is the sum of six terms `x_i y_j z_k`. On its way into the sum, a term is multiplied by at
-//! most eight factors (1 + e): one a component for its subtraction (3), the two products (2), the difference of two (1), the sum
-//! of three (2). So the computed sum is off by at most g P, where P is the sum of the magnitudes of the six true terms and
-//! g = 8u / (1 - 8u) (Higham 2002, section 3.1). The same sum of magnitudes, computed by the same operations, is at least
-//! (1 - g) P. Hence the error is at most g / (1 - g) times the *computed* sum of magnitudes, which is less than 16 u times it.
-//! The product by 16 u, a power of two, is exact.
+//! *A triple product* `x . (y z)` is the sum of six terms `x_i y_j z_k`. On its way into the sum, a term is multiplied
+//! by at most eight factors (1 + e): one a component for its subtraction (3), the two products (2), the difference of
+//! two (1), the sum of three (2). So the computed sum is off by at most g P, where P is the sum of the magnitudes of
+//! the six true terms and g = 8u / (1 - 8u) (Higham 2002, section 3.1). The same sum of magnitudes, computed by the
+//! same operations, is at least (1 - g) P. Hence the error is at most g / (1 - g) times the *computed* sum of
+//! magnitudes, which is less than 16 u times it. The product by 16 u, a power of two, is exact.
 //!
 //! # References
-//! Shewchuk: Adaptive precision floating-point arithmetic and fast robust geometric predicates. 1997 (the idea of the filter).
-//! Higham: Accuracy and stability of numerical algorithms. 2nd ed. 2002.
+//! Shewchuk: Adaptive precision floating-point arithmetic and fast robust geometric predicates. 1997 (the idea of the
+//! filter). Higham: Accuracy and stability of numerical algorithms. 2nd ed. 2002.
 
 use glam::{DVec3, Vec3};
 
@@ -95,8 +96,8 @@ impl Estimate {
     }
 }
 
-/// Judges the whole line of `ray` by the three volumes of [`exact::hit`](crate::exact::hit), and encloses `t`. All numbers must
-/// be finite.
+/// Judges the whole line of `ray` by the three volumes of [`exact::hit`](crate::exact::hit), and encloses `t`. All
+/// numbers must be finite.
 pub fn judge(ray: &Ray, corners: [Vec3; 3]) -> Verdict {
     let (origin, direction) = (ray.origin.as_dvec3(), ray.direction.as_dvec3());
     let corners = corners.map(|p| p.as_dvec3());
@@ -124,8 +125,8 @@ pub fn judge(ray: &Ray, corners: [Vec3; 3]) -> Verdict {
 fn quotient(numerator: Estimate, denominator: Estimate) -> Span {
     let sign = denominator.value.signum();
     let (value, denominator) = (numerator.value * sign, Estimate { value: denominator.value * sign, ..denominator });
-    // Each of these is one rounding away from what it should be, each quotient one more: together three. None is 0 unless it
-    // should be: they are multiples of 2^-700.
+    // Each of these is one rounding away from what it should be, each quotient one more: together three. None is 0
+    // unless it should be: they are multiples of 2^-700.
     let (top_low, top_high) = (value - numerator.error, value + numerator.error);
     let (small, large) = (denominator.value - denominator.error, denominator.value + denominator.error);
     let low = top_low / if top_low < 0.0 { small } else { large };

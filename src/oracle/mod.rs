@@ -17,8 +17,8 @@ pub use truth::Truth;
 
 /// Answers rays over one mesh exactly: some microseconds a ray.
 ///
-/// Three stages, each of which only passes on what it cannot decide: a tree of boxes that loses no hit ([`tree`]), `f64`
-/// arithmetic with a proven error bound ([`filter`]), integers ([`exact`](crate::exact)). It shares no code with the
+/// Three stages, each of which only passes on what it cannot decide: a tree of boxes that loses no hit, `f64`
+/// arithmetic with a proven error bound, integers ([`exact`](crate::exact)). It shares no code with the
 /// structures that it judges.
 pub struct Oracle {
     mesh: Arc<Mesh>,
@@ -31,7 +31,8 @@ impl Oracle {
         Self { mesh: mesh.clone(), tree: tree::Tree::new(mesh) }
     }
 
-    /// The exact nearest hit of `ray` in its half-open interval, on closed triangles, with all triangles that are hit there.
+    /// The exact nearest hit of `ray` in its half-open interval, on closed triangles, with all triangles that are hit
+    /// there.
     ///
     /// Nothing for a ray that is not valid. A ray in the plane of a triangle misses it.
     pub fn nearest(&self, ray: &Ray) -> Option<Truth> {

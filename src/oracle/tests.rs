@@ -113,8 +113,8 @@ fn cube(n: i32) -> Mesh {
     Mesh::new(positions, triangles).unwrap()
 }
 
-/// In a closed mesh whose corners are on a grid, along the axes: `t` is known, through faces, edges, vertices, and in the planes of
-/// sides.
+/// In a closed mesh whose corners are on a grid, along the axes: `t` is known, through faces, edges, vertices, and in
+/// the planes of sides.
 #[test]
 fn rays_in_a_cube_hit_the_far_side_where_they_must() {
     let mesh = Arc::new(cube(4));

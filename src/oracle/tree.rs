@@ -1,17 +1,18 @@
 //! Which triangles a ray may hit.
 //!
 //! # No hit is lost
-//! The box of a node is the exact box of the corners of its triangles: minima and maxima of `f32` are not rounded. A point of a
-//! closed triangle is in the triangle's box, and so in the box of every node above it, since a box is convex.
+//! The box of a node is the exact box of the corners of its triangles: minima and maxima of `f32` are not rounded. A
+//! point of a closed triangle is in the triangle's box, and so in the box of every node above it, since a box is
+//! convex.
 //!
-//! Let a ray hit a triangle at the exact `t`. For each axis, the coordinate `o + t d` is in the slab `[low, high]` of each of those
-//! boxes. If `d` is 0, of either sign, then `o` is in it, and the comparison of the two floats says so exactly. If not, `t` is
-//! between `(low - o) / d` and `(high - o) / d`. Each is computed in `f64` with one rounding for the difference and one for the
-//! quotient: both are exactly 0 or in magnitude between 2^-149 / 2^128 and 2^129 / 2^-149, where nothing overflows or underflows.
-//! They are moved outward by four times what these two roundings can do. So the interval of a node, the intersection of the three
-//! slabs and of `[t_min, bound]`, contains `t` whenever `bound >= t`. A node is passed over only if its interval is empty: if
-//! nothing in it is hit in the interval of the ray, or only behind the bound, which never is less than the exact `t` of some hit
-//! that has been found.
+//! Let a ray hit a triangle at the exact `t`. For each axis, the coordinate `o + t d` is in the slab `[low, high]` of
+//! each of those boxes. If `d` is 0, of either sign, then `o` is in it, and the comparison of the two floats says so
+//! exactly. If not, `t` is between `(low - o) / d` and `(high - o) / d`. Each is computed in `f64` with one rounding
+//! for the difference and one for the quotient: both are exactly 0 or in magnitude between 2^-149 / 2^128 and 2^129 /
+//! 2^-149, where nothing overflows or underflows. They are moved outward by four times what these two roundings can do.
+//! So the interval of a node, the intersection of the three slabs and of `[t_min, bound]`, contains `t` whenever `bound
+//! >= t`. A node is passed over only if its interval is empty: if nothing in it is hit in the interval of the ray, or
+//! only behind the bound, which never is less than the exact `t` of some hit that has been found.
 
 use super::filter::Span;
 use crate::geometry::{Aabb, Mesh, Ray};
@@ -83,7 +84,8 @@ impl Tree {
         self.grow(above);
     }
 
-    /// Shows `visitor` every triangle that `ray`, which must be valid, hits in its interval up to the visitor's bound, and others.
+    /// Shows `visitor` every triangle that `ray`, which must be valid, hits in its interval up to the visitor's bound,
+    /// and others.
     pub fn visit(&self, ray: &Ray, visitor: &mut impl Visitor) {
         let enter = |index: u32, bound: f64| Some((index, near(ray, &self.nodes.get(index as usize)?.bounds, bound)?));
         let mut stack = [(0, 0.0); STACK];

@@ -36,8 +36,8 @@ pub enum Outcome {
     FalseHit,
     /// A hit at a wrong depth, whatever the primitive.
     WrongDepth,
-    /// A hit at the right depth, but at a primitive that is not among the nearest: float numbers cannot tell them apart, or
-    /// did not.
+    /// A hit at the right depth, but at a primitive that is not among the nearest: float numbers cannot tell them
+    /// apart, or did not.
     WrongPrimitive,
 }
 
@@ -67,7 +67,8 @@ pub struct Judged {
     pub ulps: Option<Ulps>,
 }
 
-/// Distances of `t` from the truth, in units in the last place of the true `t` as an `f32`: at most 0.5 is correctly rounded.
+/// Distances of `t` from the truth, in units in the last place of the true `t` as an `f32`: at most 0.5 is correctly
+/// rounded.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
 pub struct Ulps {
     pub median: f64,
@@ -183,7 +184,8 @@ mod tests {
     use crate::geometry::{Mesh, Ray};
     use crate::oracle::Oracle;
 
-    /// Two triangles one behind the other; the truth of a ray that hits both at 1 and 1 + `gap`, and of one that hits none.
+    /// Two triangles one behind the other; the truth of a ray that hits both at 1 and 1 + `gap`, and of one that hits
+    /// none.
     fn truths(gap: f32) -> [Option<Truth>; 2] {
         let corners = |z: f32| [Vec3::new(-1.0, -1.0, z), Vec3::new(3.0, -1.0, z), Vec3::new(-1.0, 3.0, z)];
         let positions = [corners(1.0), corners(1.0 + gap)].concat();

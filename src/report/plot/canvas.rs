@@ -26,8 +26,8 @@ pub const INK: RGBColor = RGBColor(50, 50, 50);
 pub const FAINT: RGBColor = RGBColor(225, 225, 225);
 pub const MIDDLE: RGBColor = RGBColor(140, 140, 140);
 
-/// Colours that colour-blind people tell apart too, dark enough for text on white (after Okabe, Ito: Color universal design,
-/// 2008); they repeat.
+/// Colours that colour-blind people tell apart too, dark enough for text on white (after Okabe, Ito: Color universal
+/// design, 2008); they repeat.
 pub fn group_colour(group: usize) -> RGBColor {
     const COLOURS: [RGBColor; 7] = [
         RGBColor(0, 114, 178),

@@ -1,6 +1,7 @@
 //! Plots: panels of points on two logarithmic axes, as SVG and as PNG, the same picture.
 //!
-//! Pictures are 800 wide in their own units and drawn at twice that, so that they are sharp where they are shown smaller.
+//! Pictures are 800 wide in their own units and drawn at twice that, so that they are sharp where they are shown
+//! smaller.
 
 mod axis;
 mod canvas;

@@ -1,7 +1,7 @@
 //! What cannot be bettered in one respect without losing in the other.
 
-/// For each point (cost, error), the point of the front that dominates it: at most as costly and at most as wrong, and better in
-/// one of the two; of several, the cheapest. Nothing for the points of the front.
+/// For each point (cost, error), the point of the front that dominates it: at most as costly and at most as wrong, and
+/// better in one of the two; of several, the cheapest. Nothing for the points of the front.
 ///
 /// # References
 /// Kung, Luccio, Preparata: On finding the maxima of a set of vectors. J. ACM 22, 1975.

@@ -25,8 +25,8 @@ impl Batch {
         Self { rays, truths }
     }
 
-    /// Judges the answers of `accel`, on all threads: to all rays, or where that would take longer than `budget_ns` to as many as
-    /// fit, evenly spread.
+    /// Judges the answers of `accel`, on all threads: to all rays, or where that would take longer than `budget_ns` to
+    /// as many as fit, evenly spread.
     pub fn judge(&self, accel: &dyn DynAccel, clock: &dyn Clock, budget_ns: u64) -> Judged {
         let all = self.rays.len();
         let pilot = PILOT.min(all);

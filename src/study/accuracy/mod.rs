@@ -1,5 +1,5 @@
-//! `accuracy`: how wrong, how fast. Every structure over every triangle test answers the same rays; the exact oracle judges, one
-//! thread is timed.
+//! `accuracy`: how wrong, how fast. Every structure over every triangle test answers the same rays; the exact oracle
+//! judges, one thread is timed.
 
 mod figure;
 mod front;
@@ -34,8 +34,8 @@ pub struct Settings {
     pub rays: usize,
     /// Samples of every case.
     pub runs: usize,
-    /// What a scene may take for samples, nanoseconds, and again half as much for the judging of what is slow: slow cases run on a
-    /// part of the rays to keep within it.
+    /// What a scene may take for samples, nanoseconds, and again half as much for the judging of what is slow: slow
+    /// cases run on a part of the rays to keep within it.
     pub budget_ns: u64,
     /// Seed of the rays and of the order of samples.
     pub seed: u64,

@@ -53,7 +53,8 @@ pub struct AccuracyRecord {
     pub timed: usize,
     /// Samples.
     pub runs: usize,
-    /// The label of a structure on the front that is at most as slow and at most as wrong; nothing for the front itself.
+    /// The label of a structure on the front that is at most as slow and at most as wrong; nothing for the front
+    /// itself.
     pub dominated_by: Option<String>,
     pub provenance: Provenance,
 }
