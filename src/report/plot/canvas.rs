@@ -20,7 +20,7 @@ const SCALE: f64 = 2.0;
 /// Sizes of text, in units, from the top of the highest letter to the bottom of the lowest.
 pub const HEAD: f64 = 20.0;
 pub const BODY: f64 = 17.0;
-pub const SMALL: f64 = 15.0;
+pub const SMALL: f64 = 16.0;
 
 pub const INK: RGBColor = RGBColor(50, 50, 50);
 pub const FAINT: RGBColor = RGBColor(225, 225, 225);
@@ -148,6 +148,12 @@ impl Canvas<'_> {
         self.line(&[from, [x, y + length - 4.0]], colour, 2.0);
         let tip = [[x - 4.5, y + length - 7.0], [x + 4.5, y + length - 7.0], [x, y + length]];
         self.area.polygon(tip.iter().map(at).collect(), colour.filled());
+    }
+
+    /// White between two corners: what is under a label must not cross it.
+    pub fn plate(&self, min: [f64; 2], max: [f64; 2]) {
+        let corners = [min, [max[0], min[1]], max, [min[0], max[1]]];
+        self.area.polygon(corners.iter().map(at).collect(), WHITE.filled());
     }
 
     /// One line of text, its middle at the height of `point`.

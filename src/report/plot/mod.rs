@@ -36,7 +36,7 @@ pub struct Point {
     pub x: f64,
     /// Positive and finite, at most 1: a share.
     pub y: f64,
-    /// Whether `y` is only an upper bound: then an arrow points down from it.
+    /// Whether nothing but an upper bound is known of `y`: then an arrow points down from it.
     pub is_bound: bool,
     /// Whether no other point is better in both: these are filled, and a line joins them.
     pub is_front: bool,

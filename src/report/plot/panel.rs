@@ -44,13 +44,14 @@ pub fn draw(panel: &Panel, canvas: &Canvas, top: f64) {
 /// Axes with room around all points: on the right for a label, below for the arrows of bounds.
 fn axes(points: &[Point], frame: Rect) -> (LogAxis, LogAxis) {
     let least = |value: fn(&Point) -> f64| points.iter().map(value).fold(f64::INFINITY, f64::min);
-    let most = points.iter().map(|p| p.x).fold(0.0, f64::max);
-    let (fast, low) = (least(|p| p.x), least(|p| p.y));
-    // The lowest decade has at least a third of itself below the lowest point.
-    let decade = libm::floor(libm::log10(low) - 0.34) as i32;
-    let spread = (most / fast).max(1.6);
-    let x = LogAxis::new(fast / libm::pow(spread, 0.12), most * libm::pow(spread, 0.22), [frame.min[0], frame.max[0]]);
-    (x, LogAxis::new(power(decade), 1.5, [frame.max[1], frame.min[1]]))
+    let most = |value: fn(&Point) -> f64| points.iter().map(value).fold(0.0, f64::max);
+    let (fast, slow) = (least(|p| p.x), most(|p| p.x));
+    let spread = (slow / fast).max(1.6);
+    let x = LogAxis::new(fast / libm::pow(spread, 0.12), slow * libm::pow(spread, 0.22), [frame.min[0], frame.max[0]]);
+    // A third of a decade stays free below the lowest point and above the highest, and there are at least two decades.
+    let low = libm::floor(libm::log10(least(|p| p.y)) - 0.34);
+    let high = libm::ceil(libm::log10(most(|p| p.y)) + 0.34).min(0.0).max(low + 2.0);
+    (x, LogAxis::new(power(low as i32), 1.3 * power(high as i32), [frame.max[1], frame.min[1]]))
 }
 
 fn grid(canvas: &Canvas, x: LogAxis, y: LogAxis, frame: Rect) {
@@ -124,14 +125,17 @@ fn labels(panel: &Panel, canvas: &Canvas, places: &[[f64; 2]], frame: Rect) {
     let of = |i: &usize| &panel.points[*i];
     let sizes: Vec<[f64; 2]> = order.iter().map(|i| [canvas.width_of(&of(i).label, canvas::SMALL), LINE]).collect();
     let points: Vec<[f64; 2]> = order.iter().map(|&i| places[i]).collect();
-    for ((i, rect), point) in order.iter().zip(place(&points, &sizes, &obstacles, frame)).zip(points) {
-        let colour = group_colour(of(i).group);
+    let placed = place(&points, &sizes, &obstacles, frame);
+    // A label that had to go elsewhere is tied to its point.
+    for (rect, point) in placed.iter().zip(&points).filter(|(rect, point)| rect.distance(**point) > 14.0) {
+        let middle = [(rect.min[0] + rect.max[0]) * 0.5, (rect.min[1] + rect.max[1]) * 0.5];
+        let end =
+            std::array::from_fn(|axis| point[axis].clamp(rect.min[axis], rect.max[axis]) * 0.9 + middle[axis] * 0.1);
+        canvas.line(&[*point, end], MIDDLE, 0.75);
+    }
+    for (i, rect) in order.iter().zip(placed) {
         let middle = (rect.min[1] + rect.max[1]) * 0.5;
-        // A label that had to go elsewhere is tied to its point.
-        if rect.distance(point) > 14.0 {
-            let end = [point[0].clamp(rect.min[0] - 2.0, rect.max[0] + 2.0), middle.clamp(rect.min[1], rect.max[1])];
-            canvas.line(&[point, end], MIDDLE, 0.75);
-        }
-        canvas.text(&of(i).label, [rect.min[0], middle], canvas::SMALL, colour, Side::Left);
+        canvas.plate([rect.min[0] - 1.0, rect.min[1] + 1.0], [rect.max[0] - 1.0, rect.max[1] - 1.0]);
+        canvas.text(&of(i).label, [rect.min[0], middle], canvas::SMALL, group_colour(of(i).group), Side::Left);
     }
 }

@@ -17,7 +17,7 @@ pub fn figure(records: &[AccuracyRecord]) -> Figure {
         let what = first.rays.parse().map_or("rays", RayKind::description);
         let point = |record: &AccuracyRecord| Point {
             x: record.ns_per_ray,
-            y: record.plotted(),
+            y: record.error_bound,
             is_bound: record.errors() == 0,
             is_front: record.dominated_by.is_none(),
             label: record.triangle_test.clone(),
@@ -26,7 +26,7 @@ pub fn figure(records: &[AccuracyRecord]) -> Figure {
         Panel {
             title: format!("{}{stand_in}: {} {what}", first.scene, count(rays)),
             x_title: "nanoseconds a ray, one thread".into(),
-            y_title: "wrong answers: missed, invented, or at a wrong depth".into(),
+            y_title: "wrong answers (missed, invented, or at a wrong depth), at most: 95 % confidence".into(),
             points: of_kind.iter().map(point).collect(),
         }
     };

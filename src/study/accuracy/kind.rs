@@ -1,6 +1,6 @@
 use std::str::FromStr;
 
-use crate::geometry::Ray;
+use crate::geometry::{Mesh, Ray};
 use crate::measure::spread;
 use crate::scene::{Scene, View};
 use crate::validate::Stratum;
@@ -20,7 +20,9 @@ pub enum RayKind {
     Grazing,
     /// With directions 1e-30 to 1e30 long ([`Stratum::Lengths`]).
     Scale,
-    /// From 1e3 to 1e8 box sizes away ([`Stratum::FarOrigins`]).
+    /// From 1e3 to 1e6 box sizes away: those of [`Stratum::FarOrigins`] that are not farther. Farther away, one step of
+    /// an `f32` is as large as what there is to be hit, and a traversal that must not lose anything visits nearly
+    /// everything.
     Offset,
 }
 
@@ -55,7 +57,7 @@ impl RayKind {
             Self::Axis => "rays along the axes, with coordinates of vertices",
             Self::Grazing => "rays nearly in the plane of a triangle",
             Self::Scale => "rays with directions 1e-30 to 1e30 long",
-            Self::Offset => "rays from 1e3 to 1e8 scene sizes away",
+            Self::Offset => "rays from 1e3 to 1e6 scene sizes away",
         }
     }
 
@@ -70,6 +72,9 @@ impl RayKind {
             Self::Scale => Stratum::Lengths,
             Self::Offset => Stratum::FarOrigins,
         };
+        if self == Self::Offset {
+            return near_enough(&scene.mesh, count, seed);
+        }
         let mut rays = vec![];
         if self == Self::Uniform {
             let pixels = scene.size[0] * scene.size[1];
@@ -77,6 +82,23 @@ impl RayKind {
         }
         rays.extend(stratum.rays(&scene.mesh, count - rays.len(), seed));
         rays
+    }
+}
+
+/// The first `count` rays of [`Stratum::FarOrigins`] that start less than 2e6 box sizes away: about two of three do.
+fn near_enough(mesh: &Mesh, count: usize, seed: u64) -> Vec<Ray> {
+    let (centre, reach) = (mesh.bounds().centre(), mesh.bounds().extent().max_element() * 2e6);
+    let mut tried = 2 * count + 64;
+    loop {
+        let mut rays = Stratum::FarOrigins.rays(mesh, tried, seed);
+        rays.retain(|ray| (ray.origin - centre).abs().max_element() < reach);
+        // A mesh of size 0 has no distance to compare with.
+        if rays.len() >= count || tried > 64 * count + 64 {
+            rays.extend(Stratum::FarOrigins.rays(mesh, count.saturating_sub(rays.len()), seed));
+            rays.truncate(count);
+            return rays;
+        }
+        tried *= 2;
     }
 }
 

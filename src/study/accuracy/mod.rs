@@ -14,7 +14,7 @@ use super::built::Built;
 use super::{Stage, StudyError};
 use crate::accel::Query;
 use crate::geometry::Ray;
-use crate::measure::{Clock, Pass, Plan, Provenance, Samples, Threads, Timed, median, take};
+use crate::measure::{Clock, Pass, Plan, Provenance, Samples, Threads, Timed, median, spread, take};
 use crate::oracle::Oracle;
 use crate::registry::Choice;
 use crate::scene::Scene;
@@ -41,8 +41,11 @@ pub struct Settings {
     pub seed: u64,
 }
 
-/// A sample that takes longer runs on a part of its rays, whatever the budget.
+/// A sample that takes longer runs on a part of the rays that the others are timed on.
 const LONGEST_SAMPLE_NS: u64 = 1_000_000_000;
+
+/// What judging a case may always take.
+const SHORT_JUDGING_NS: u64 = 500_000_000;
 
 /// One record for each kind of rays and structure, kind by kind.
 ///
@@ -74,7 +77,8 @@ pub fn accuracy_scene(
     for batch in &batches {
         for built in &built {
             progress(Stage::Check(&built.choice.label));
-            verdicts.push(batch.judge(built.accel.as_ref(), clock, settings.budget_ns / 2 / cases));
+            let budget_ns = (settings.budget_ns / 2 / cases).max(SHORT_JUDGING_NS);
+            verdicts.push(batch.judge(built.accel.as_ref(), clock, budget_ns));
         }
     }
     let rays: Vec<&[Ray]> = batches.iter().map(|batch| &batch.rays[..]).collect();
@@ -86,8 +90,10 @@ pub fn accuracy_scene(
         let (kind, built) = (settings.kinds[case / built.len()], &built[case % built.len()]);
         records.push(record(scene, &hash, built, kind, settings, judged, &samples, &provenance));
     }
+    // What is not proven is not credited: an error that was seen once may be less than one that was not seen in fewer
+    // rays.
     for of_kind in records.chunks_mut(built.len().max(1)) {
-        let points: Vec<(f64, f64)> = of_kind.iter().map(|r| (r.ns_per_ray, r.plotted())).collect();
+        let points: Vec<(f64, f64)> = of_kind.iter().map(|r| (r.ns_per_ray, r.error_bound)).collect();
         let labels: Vec<String> = of_kind.iter().map(|r| r.label.clone()).collect();
         for (record, dominator) in of_kind.iter_mut().zip(front::dominators(&points)) {
             record.dominated_by = dominator.map(|i| labels[i].clone());
@@ -106,22 +112,47 @@ fn time(
     clock: &dyn Clock,
     progress: &mut dyn FnMut(Stage),
 ) -> Result<Vec<Samples>, StudyError> {
+    // The warm-up costs about two passes more than the samples.
+    let passes = (batches.len() * (settings.runs + 2)).max(1) as u64;
+    let common: Vec<Vec<Ray>> =
+        batches.iter().map(|rays| common(built, rays, clock, settings.budget_ns / passes)).collect();
     let mut cases: Vec<Box<dyn Timed>> = vec![];
-    for rays in batches {
+    for rays in &common {
         for built in built {
             cases.push(Box::new(Pass::new(built.accel.as_ref(), rays, Query::Closest, threads)));
         }
     }
-    // The warm-up costs about two passes more than the samples.
-    let slots = (cases.len() * (settings.runs + 2)).max(1) as u64;
-    let sample_budget_ns = (settings.budget_ns / slots).clamp(1, LONGEST_SAMPLE_NS);
-    let plan = Plan { runs: settings.runs, sample_budget_ns, warmup: 1, seed: settings.seed };
+    let plan = Plan { runs: settings.runs, sample_budget_ns: LONGEST_SAMPLE_NS, warmup: 1, seed: settings.seed };
     let total = cases.len() * settings.runs;
     take(clock, &mut cases, &plan, &mut |taken| progress(Stage::Trace(taken, total))).map_err(|cause| {
         let structure = built[cause.case % built.len()].choice.label.clone();
         let rays = settings.kinds[cause.case / built.len()].name().into();
         StudyError::Unsteady { structure, scene: scene.name.clone(), rays, cause }
     })
+}
+
+/// Rays from which the speed of all structures is learnt.
+const PILOT: usize = 256;
+
+/// Structures that are slower than this times the fastest do not decide how many rays are timed.
+const SLOW: u64 = 30;
+
+/// As many of the rays, evenly spread, as all structures together answer in `budget_ns`: rays differ so much in what
+/// they cost that only times on the same ones can be compared.
+fn common(built: &[Built], rays: &[Ray], clock: &dyn Clock, budget_ns: u64) -> Vec<Ray> {
+    let pilot = spread(rays, PILOT);
+    let mut hits = vec![None; pilot.len()];
+    let mut pass = |built: &Built| {
+        let start = clock.now_ns();
+        built.accel.closest_hits(&pilot, &mut hits);
+        (clock.now_ns() - start).max(1)
+    };
+    // The first pass finds cold caches.
+    let ns: Vec<u64> = built.iter().map(|built| pass(built).min(pass(built))).collect();
+    let fastest = ns.iter().copied().min().unwrap_or(1);
+    let together: u64 = ns.iter().filter(|&&ns| ns <= SLOW * fastest).sum();
+    let count = pilot.len() as u128 * u128::from(budget_ns) / u128::from(together.max(1));
+    spread(rays, count.clamp(pilot.len() as u128, rays.len() as u128) as usize)
 }
 
 #[allow(clippy::too_many_arguments)]

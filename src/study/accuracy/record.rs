@@ -66,9 +66,4 @@ impl AccuracyRecord {
     pub fn errors(&self) -> u64 {
         self.missed + self.false_hits + self.wrong_depth
     }
-
-    /// The error as it may be relied on: what was seen, or where nothing was seen its bound.
-    pub fn plotted(&self) -> f64 {
-        if self.errors() == 0 { self.error_bound } else { self.error }
-    }
 }

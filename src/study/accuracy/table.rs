@@ -45,6 +45,11 @@ fn table(records: &[AccuracyRecord]) -> Table {
     for record in records.iter().filter(|record| record.sampled) {
         notes.push(format!("{}: judged on {} of the rays", record.label, count(record.judged)));
     }
+    let timed = records.iter().map(|record| record.timed).max().unwrap_or(0);
+    for record in records.iter().filter(|record| record.timed < timed) {
+        let [own, others] = [record.timed, timed].map(|n| count(n as u64));
+        notes.push(format!("{}: timed on {own} of the {others} rays that the others are timed on", record.label));
+    }
     Table { title, columns: COLUMNS.map(String::from).into(), rows, notes }
 }
 

@@ -31,11 +31,10 @@ fn exact_is_right_and_single_precision_is_not() {
                 assert_eq!((record.errors(), record.wrong_primitive), (0, 0), "{record:?}");
                 assert!(record.ulps.unwrap().max <= 0.5);
                 assert_eq!((record.error, record.error_bound), (0.0, 3.0 / 400.0));
-                assert_eq!(record.plotted(), record.error_bound);
             }
             MollerTrumbore::NAME => {
                 assert!(record.errors() > 0, "{record:?}");
-                assert_eq!(record.plotted(), record.error);
+                assert!(record.error < record.error_bound, "{record:?}");
             }
             other => panic!("{other}"),
         }
