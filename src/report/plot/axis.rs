@@ -21,10 +21,14 @@ impl LogAxis {
         self.places[0] + share * (self.places[1] - self.places[0])
     }
 
-    /// The powers of ten on the axis; where they are few, 2 and 5 times these as well. Ascending.
+    /// The powers of ten on the axis; where they are few, round numbers between them as well. Ascending.
     pub fn ticks(&self) -> Vec<f64> {
         let [low, high] = self.ends;
-        let factors: &[f64] = if high - low > 2.5 { &[1.0] } else { &[1.0, 2.0, 5.0] };
+        let factors: &[f64] = match high - low {
+            decades if decades > 2.5 => &[1.0],
+            decades if decades > 1.2 => &[1.0, 2.0, 5.0],
+            _ => &[1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 7.0],
+        };
         let slack = 1e-9;
         (libm::floor(low) as i32..=libm::ceil(high) as i32)
             .flat_map(|exponent| factors.iter().map(move |factor| factor * power(exponent)))
@@ -52,7 +56,8 @@ mod tests {
 
     #[test]
     fn ticks_are_round_numbers_on_the_axis() {
-        assert_eq!(LogAxis::new(90.0, 600.0, [0.0, 1.0]).ticks(), [100.0, 200.0, 500.0]);
+        assert_eq!(LogAxis::new(90.0, 6000.0, [0.0, 1.0]).ticks(), [100.0, 200.0, 500.0, 1000.0, 2000.0, 5000.0]);
+        assert_eq!(LogAxis::new(140.0, 410.0, [0.0, 1.0]).ticks(), [150.0, 200.0, 300.0, 400.0]);
         assert_eq!(LogAxis::new(1e-4, 1.0, [0.0, 1.0]).ticks(), [1e-4, 1e-3, 1e-2, 1e-1, 1.0]);
     }
 }

@@ -125,7 +125,8 @@ fn labels(panel: &Panel, canvas: &Canvas, places: &[[f64; 2]], frame: Rect) {
     let of = |i: &usize| &panel.points[*i];
     let sizes: Vec<[f64; 2]> = order.iter().map(|i| [canvas.width_of(&of(i).label, canvas::SMALL), LINE]).collect();
     let points: Vec<[f64; 2]> = order.iter().map(|&i| places[i]).collect();
-    let placed = place(&points, &sizes, &obstacles, frame);
+    let inner = Rect { min: [frame.min[0] + 6.0, frame.min[1]], max: [frame.max[0] - 2.0, frame.max[1] - 4.0] };
+    let placed = place(&points, &sizes, &obstacles, inner);
     // A label that had to go elsewhere is tied to its point.
     for (rect, point) in placed.iter().zip(&points).filter(|(rect, point)| rect.distance(**point) > 14.0) {
         let middle = [(rect.min[0] + rect.max[0]) * 0.5, (rect.min[1] + rect.max[1]) * 0.5];

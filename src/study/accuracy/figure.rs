@@ -34,9 +34,8 @@ pub fn figure(records: &[AccuracyRecord]) -> Figure {
         panels: records.chunk_by(|a, b| a.rays == b.rays && a.scene == b.scene).map(panel).collect(),
         groups,
         notes: vec![
-            "Labels name the triangle test, colours the structure. Filled: nothing is both faster and less wrong."
-                .into(),
-            "Arrow: not one error was seen; with 95 % confidence there are fewer than at the dot (3/n).".into(),
+            "Labels name the triangle test, colours the structure. Filled: nothing is faster and less wrong.".into(),
+            "Arrow: not one wrong answer was seen in n rays; the dot is the bound that this proves, 3/n.".into(),
         ],
     }
 }
