@@ -48,7 +48,7 @@ pub fn place(points: &[[f64; 2]], sizes: &[[f64; 2]], obstacles: &[Rect], frame:
         });
         let candidates: Vec<Rect> = beside
             .map(|centre| Rect::around(centre, half))
-            .filter(|rect| rect.is_inside(&frame) && rect.distance(point) > 0.5 * GAP)
+            .filter(|rect| rect.is_inside(&frame) && rect.distance(point) > 0.999 * GAP)
             .collect();
         // A label that covers something is worse than one that is anywhere else.
         let cost = |rect: &Rect| (covered(rect), rect.distance(point));

@@ -128,7 +128,7 @@ fn labels(panel: &Panel, canvas: &Canvas, places: &[[f64; 2]], frame: Rect) {
     let inner = Rect { min: [frame.min[0] + 6.0, frame.min[1]], max: [frame.max[0] - 2.0, frame.max[1] - 4.0] };
     let placed = place(&points, &sizes, &obstacles, inner);
     // A label that had to go elsewhere is tied to its point.
-    for (rect, point) in placed.iter().zip(&points).filter(|(rect, point)| rect.distance(**point) > 14.0) {
+    for (rect, point) in placed.iter().zip(&points).filter(|(rect, point)| rect.distance(**point) > 18.0) {
         let middle = [(rect.min[0] + rect.max[0]) * 0.5, (rect.min[1] + rect.max[1]) * 0.5];
         let end =
             std::array::from_fn(|axis| point[axis].clamp(rect.min[axis], rect.max[axis]) * 0.9 + middle[axis] * 0.1);

@@ -45,7 +45,7 @@ pub struct Settings {
 const LONGEST_SAMPLE_NS: u64 = 1_000_000_000;
 
 /// What judging a case may always take.
-const SHORT_JUDGING_NS: u64 = 500_000_000;
+const SHORT_JUDGING_NS: u64 = 2_000_000_000;
 
 /// One record for each kind of rays and structure, kind by kind.
 ///
