@@ -12,6 +12,7 @@ pub mod conformance;
 mod degenerate;
 mod judge;
 mod rate;
+pub(crate) mod degenerate;
 mod reference;
 mod sampler;
 mod validation;
