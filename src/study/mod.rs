@@ -6,6 +6,7 @@ mod built;
 mod check;
 pub mod compare;
 mod error;
+pub mod hard_cases;
 pub mod replicate;
 pub mod self_intersection;
 mod stage;

@@ -35,7 +35,8 @@ pub fn degenerate_meshes() -> Vec<(String, Arc<Mesh>)> {
     meshes
 }
 
-pub(crate) const TRIANGLE: [Vec3; 3] = [Vec3::new(-1.0, -0.5, 0.25), Vec3::new(1.5, -0.75, 0.5), Vec3::new(0.25, 1.0, -0.5)];
+pub(crate) const TRIANGLE: [Vec3; 3] =
+    [Vec3::new(-1.0, -0.5, 0.25), Vec3::new(1.5, -0.75, 0.5), Vec3::new(0.25, 1.0, -0.5)];
 
 /// Triangles that share no vertex.
 pub(crate) fn mesh(triangles: impl IntoIterator<Item = [Vec3; 3]>) -> Arc<Mesh> {

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::Vec3;
 
-use super::set::{indexed, moved, on_surface, star, triangle};
+use super::set::{indexed, on_surface, star, triangle};
 use super::{Case, Content, Rank, Set};
 use crate::geometry::{Mesh, Ray};
 use crate::scene::meshes::teapot;
@@ -60,9 +60,7 @@ pub(super) const CASES: &[Case] = &[
         number: 48,
         name: "empty",
         rank: Rank::Unranked,
-        content: Content::miss(|n| {
-            Set::new(mesh([]), n, 33, |sampler| Ray::new(sampler.cube(), sampler.direction()))
-        }),
+        content: Content::miss(|n| Set::new(mesh([]), n, 33, |sampler| Ray::new(sampler.cube(), sampler.direction()))),
         reason: "No triangle at all: no root box, no node, no hit, no panic.",
         source: "kdtree-ray: asserts; Embree, verify.cpp, empty_scene",
     },

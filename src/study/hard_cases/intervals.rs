@@ -21,9 +21,7 @@ pub(super) const CASES: &[Case] = &[
         number: 59,
         name: "tmax_exact_hit",
         rank: Rank::Unranked,
-        content: Content::miss(|n| {
-            to_the_lid(n, |t| (0.0, t))
-        }),
+        content: Content::miss(|n| to_the_lid(n, |t| (0.0, t))),
         reason: "The only hit is at t_max exactly: the interval is half-open, so nothing is hit. Others close it.",
         source: "Embree, CHANGELOG: robust mode is closed; obvhs half-open, as here",
     },

@@ -139,9 +139,7 @@ pub(super) const CASES: &[Case] = &[
 
 /// Inside the star, mesh and origins times `scale`.
 fn scaled(count: usize, scale: f32) -> Set {
-    Set::new(moved(&star(), |p| p * scale), count, 11, |sampler| {
-        Ray::new(inside(sampler) * scale, sampler.direction())
-    })
+    Set::new(moved(&star(), |p| p * scale), count, 11, |sampler| Ray::new(inside(sampler) * scale, sampler.direction()))
 }
 
 /// Inside the star, with directions of this length.

@@ -52,7 +52,9 @@ pub(super) const CASES: &[Case] = &[
         name: "batch_equals_single",
         rank: Rank::Added,
         content: Content::Property(|subject, rays| {
-            validated(subject, &[star(), soup(500, 1)], rays, |v| (v.unrepeatable, "asked alone, the answer is another"))
+            validated(subject, &[star(), soup(500, 1)], rays, |v| {
+                (v.unrepeatable, "asked alone, the answer is another")
+            })
         }),
         reason: "Packets and batches must answer as single rays do.",
         source: "Embree, verify.cpp: the same tests for every packet size",
@@ -308,8 +310,7 @@ const DEPTH: usize = 1024;
 
 fn limits(subject: &Subject, _rays: usize) -> Property {
     let mut property = Property::default();
-    let meshes =
-        [("needles", needles(2200)), ("a sequence", exponential(300)), ("a huge triangle", huge_and_small())];
+    let meshes = [("needles", needles(2200)), ("a sequence", exponential(300)), ("a huge triangle", huge_and_small())];
     for (name, mesh) in meshes {
         let accel = match built(subject, &mesh) {
             Ok(accel) => accel,
@@ -317,7 +318,11 @@ fn limits(subject: &Subject, _rays: usize) -> Property {
         };
         let shape = accel.shape();
         property.note(shape.references <= REFERENCES * mesh.len(), || {
-            format!("{} references to {} triangles over {name}: at most {REFERENCES} each", shape.references, mesh.len())
+            format!(
+                "{} references to {} triangles over {name}: at most {REFERENCES} each",
+                shape.references,
+                mesh.len()
+            )
         });
         property.note(shape.depth <= DEPTH, || format!("{} levels over {name}: at most {DEPTH}", shape.depth));
     }

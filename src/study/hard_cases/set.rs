@@ -52,7 +52,13 @@ pub(super) fn star() -> Arc<Mesh> {
         // The vertices of a pole are one point.
         let pole = p.x == 0.0 && p.z == 0.0;
         let radius = 1.0 + 5.0 * sampler.unit();
-        p * if !pole { radius } else if p.y > 0.0 { top } else { bottom }
+        p * if !pole {
+            radius
+        } else if p.y > 0.0 {
+            top
+        } else {
+            bottom
+        }
     });
     indexed(points.collect(), sphere.triangles().to_vec())
 }
