@@ -18,7 +18,7 @@ mod sampler;
 mod validation;
 
 pub use adversarial::Stratum;
-pub use compare::validate;
+pub use compare::{validate, validate_answers};
 pub use degenerate::degenerate_meshes;
 pub use judge::{DepthRule, Judged, Outcome, Ulps, judge, outcome};
 pub use rate::Rate;
