@@ -7,6 +7,7 @@ mod accuracy;
 mod compare;
 mod completions;
 mod golden;
+mod hard;
 mod list;
 mod progress;
 mod render;
@@ -53,6 +54,11 @@ enum Command {
     Study(study::Args),
     /// How wrong, how fast: every structure over every triangle test, judged by exact arithmetic
     Accuracy(accuracy::Args),
+    /// Put the hard cases to every structure, and say what each gets wrong
+    Hard(hard::Args),
+    /// Answer for one structure and one hard case; what `hard` runs in a process of its own
+    #[command(name = hard::CHILD, hide = true)]
+    HardAnswer(hard::ChildArgs),
     /// Draw a picture
     Render(render::Args),
     /// Check or make the golden images
@@ -93,6 +99,8 @@ fn run(registry: &Registry, args: impl IntoIterator<Item = OsString>) -> ExitCod
         Command::Validate(args) => validate::run(registry, &args, &terminal),
         Command::Study(args) => study::run(registry, &args, &terminal),
         Command::Accuracy(args) => accuracy::run(registry, &args, &terminal),
+        Command::Hard(args) => hard::run(registry, &args, &terminal),
+        Command::HardAnswer(args) => hard::run_child(registry, &args),
         Command::Render(args) => render::run(registry, &args, &terminal),
         Command::Golden(args) => golden::run(registry, &args, &terminal),
         Command::List => list::run(registry, &terminal),

@@ -4,6 +4,7 @@
 //! numbers 1 to 84 are those of the survey that the catalogue was made from; number 23 stands at two scales.
 //! [`ask`] puts a case to a structure, [`Score`] holds the answers against the truth.
 
+mod ask;
 mod boxes;
 mod closed;
 mod crowds;
@@ -13,12 +14,19 @@ mod intervals;
 mod invalid;
 mod lengths;
 mod properties;
+mod record;
+mod score;
 mod set;
 mod slender;
+mod table;
 #[cfg(test)]
 mod tests;
 
+pub use ask::{Answers, AnswersError, Head, ask};
+pub use record::{HardRecord, HardRun};
+pub use score::{Court, Failure, RayScore, Score, Totals};
 pub use set::Set;
+pub use table::{Column, legend, tables};
 
 use crate::validate::conformance::Subject;
 
