@@ -78,7 +78,7 @@ pub(super) const CASES: &[Case] = &[
                 Ray::new(Vec3::new(x, sampler.signed(), sampler.signed()), sampler.direction())
             })
         }),
-        reason: "All triangles lie in the only plane at x that can split: on which side are they?",
+        reason: "All triangles lie in the only plane across x that can split, and belong to neither side.",
         source: "Wald, Havran 2006: planar triangles on either side; Hapala, Havran 2011",
     },
 ];
