@@ -312,3 +312,49 @@ fn a_reader_that_goes_away_is_no_error() {
     assert_eq!(output.status.code(), Some(RIGHT), "{}", stderr(&output));
     assert!(stderr(&output).is_empty(), "{}", stderr(&output));
 }
+
+#[test]
+fn hard_cases_are_named_and_explained() {
+    refuses_in_a_line(&["hard", "flat_grasing"], &["flat_grasing", "flat_grazing_1e-3", "--list"]);
+    refuses_in_a_line(&["hard", "--test", "moeller"], &["\"moeller\"", "moller-trumbore", "exact"]);
+    let output = sahara(&["hard", "--list"]);
+    assert_eq!(output.status.code(), Some(RIGHT));
+    let list = stdout(&output);
+    assert!(list.contains("41 duplicates_20000: 200 rays\n") && list.contains("84 limits: a property\n"), "{list}");
+}
+
+#[test]
+fn a_hard_case_tells_what_each_structure_gets_wrong() {
+    let directory = tempfile::tempdir().unwrap();
+    let json = path_text(&directory.path().join("hard.json"));
+    let structures = ["--structure", "sah-kd", "--structure", "obvhs-cwbvh"];
+    let mut args = vec!["hard", "cube_axis_negzero", "limits", "--rays", "50", "--json", &json];
+    args.extend(structures);
+    let output = sahara(&args);
+    // What is known of a baseline does not fail the run.
+    assert_eq!(output.status.code(), Some(RIGHT), "{}", stderr(&output));
+    let text = stdout(&output);
+    let row = text.lines().find(|line| line.trim_start().starts_with("cube_axis_negzero")).expect("a row");
+    assert_eq!(row.split_whitespace().collect::<Vec<_>>(), ["cube_axis_negzero", ".", "m", "100", "S", "100"]);
+
+    let run: serde_json::Value = serde_json::from_slice(&fs::read(&json).unwrap()).unwrap();
+    let results = run["results"].as_array().unwrap();
+    assert_eq!(results.len(), 4);
+    let of = |case: &str, structure: &str| {
+        results.iter().find(|r| r["case"] == case && r["structure"] == structure).expect("a record").clone()
+    };
+    let lost = of("cube_axis_negzero", "obvhs-cwbvh");
+    assert_eq!((lost["missed"].as_u64(), lost["structure_errors"].as_u64()), (Some(50), Some(50)));
+    assert_eq!(of("cube_axis_negzero", "sah-kd")["clean"], true);
+    assert_eq!(of("limits", "sah-kd")["property"]["broken"], 0);
+    assert!(of("limits", "sah-kd")["rays"].is_null());
+}
+
+#[test]
+fn the_hard_cases_run_over_the_tests_asked_for() {
+    let args = ["hard", "one_triangle", "--rays", "20", "--test", "exact", "--test", "edge-f64", "-s", "median-kd"];
+    let output = sahara(&args);
+    assert_eq!(output.status.code(), Some(RIGHT), "{}", stderr(&output));
+    let text = stdout(&output);
+    assert!(text.contains("median-kd:test=exact  median-kd:test=edge-f64"), "{text}");
+}

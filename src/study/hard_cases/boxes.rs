@@ -2,11 +2,10 @@
 
 use glam::Vec3;
 
-use super::set::{along_axis, z_to};
+use super::set::{along_axis, cube, z_to};
 use super::{Case, Content, Expected, Rank, Set};
 use crate::geometry::Ray;
 use crate::validate::Sampler;
-use crate::validate::degenerate::box_grid;
 
 pub(super) const CASES: &[Case] = &[
     Case {
@@ -68,7 +67,7 @@ const SQUARES: usize = 16;
 
 /// From a random point well inside.
 fn in_cube(count: usize, direction: impl Fn(&mut Sampler) -> Vec3) -> Set {
-    Set::new(box_grid(SQUARES), count, 3, |sampler| {
+    Set::new(cube(SQUARES), count, 3, |sampler| {
         let origin = sampler.cube() * 0.99;
         Ray::new(origin, direction(sampler))
     })
@@ -88,7 +87,7 @@ fn on_grid(sampler: &mut Sampler) -> f32 {
 
 /// From outside along an axis, at t = 2 through the face. A negative direction has zeros of the other sign, as `-axis` gives.
 fn face_planes(count: usize) -> Set {
-    Set::new(box_grid(SQUARES), count, 4, |sampler| {
+    Set::new(cube(SQUARES), count, 4, |sampler| {
         let (axis, sign) = (sampler.below(3), sampler.sign());
         let origin = Vec3::new(on_grid(sampler), on_grid(sampler), -3.0 * sign);
         Ray::new(z_to(axis, origin), along_axis(axis, 1.0) * sign)
@@ -97,7 +96,7 @@ fn face_planes(count: usize) -> Set {
 
 /// Through a grid point of the cube from four steps away; without a component when `flat`.
 fn diagonals(count: usize, flat: bool) -> Set {
-    Set::new(box_grid(SQUARES), count, 5, |sampler| {
+    Set::new(cube(SQUARES), count, 5, |sampler| {
         let through = Vec3::new(on_grid(sampler), on_grid(sampler), on_grid(sampler));
         let mut direction = Vec3::new(sampler.sign(), sampler.sign(), sampler.sign());
         if flat {

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::Vec3;
 
-use super::set::{indexed, on_surface, star, triangle};
+use super::set::{indexed, moved, on_surface, star};
 use super::{Case, Content, Rank, Set};
 use crate::geometry::{Mesh, Ray};
 use crate::scene::meshes::teapot;
@@ -93,10 +93,12 @@ pub(super) const CASES: &[Case] = &[
         name: "shells_nested_in",
         rank: Rank::Moderate,
         content: Content::hit(|n| {
-            let innermost = libm::scalbnf(0.1, -30);
-            Set::new(shells(), n, 34, |sampler| Ray::new(sampler.cube() * innermost, sampler.direction()))
+            Set::new(shells(), n, 34, |sampler| {
+                let inside = libm::scalbnf(0.1, sampler.below(61) as i32 - 30);
+                Ray::new(sampler.cube() * inside, sampler.direction())
+            })
         }),
-        reason: "Octahedra from 2^-30 to 2^30 around the origin: the innermost is hit, within any absolute epsilon.",
+        reason: "Octahedra from 2^-30 to 2^30 around zero, from among them: the next is hit, within any absolute epsilon.",
         source: "obvhs, CwBvh node.rs EPSILON",
     },
     Case {
@@ -118,7 +120,7 @@ pub(super) const CASES: &[Case] = &[
         number: 55,
         name: "exp_sequence_1.3",
         rank: Rank::Moderate,
-        content: Content::oracle(exponential_rays),
+        content: Content::hit(exponential_rays),
         reason: "Each of 300 triangles is 1.3 times as large as the one before: trees become chains, and fixed stacks overflow.",
         source: "svenstaro/bvh, iter.rs: a stack of 32 panics",
     },
@@ -144,7 +146,7 @@ pub(super) const CASES: &[Case] = &[
 /// Integer corners, so that eighths of edges are exact.
 const SIMPLE: [Vec3; 3] = [Vec3::ZERO, Vec3::new(8.0, 0.0, 4.0), Vec3::new(0.0, 8.0, -4.0)];
 
-/// Towards a corner or an eighth of an edge, from a place so simple that the difference is exact: t is 1.
+/// Towards a corner or an eighth of an edge, from a place in front so simple that the difference is exact: t is 1.
 fn exactly_on_the_rim(sampler: &mut Sampler) -> Ray {
     let [a, b, c] = SIMPLE;
     let normal = (b - a).cross(c - a);
@@ -153,14 +155,14 @@ fn exactly_on_the_rim(sampler: &mut Sampler) -> Ray {
     let target = p + (q - p) * (sampler.below(8) as f32 / 8.0);
     loop {
         let away = (sampler.cube() * 16.0).round() / 4.0;
-        if away.dot(normal) != 0.0 {
+        if away.dot(normal) > 0.0 {
             return Ray::new(target + away, -away);
         }
     }
 }
 
 fn from_afar(count: usize, distance: f32) -> Set {
-    let mesh = star();
+    let mesh = moved(&star(), |p| p * 0.3);
     Set::new(mesh.clone(), count, 36, |sampler| {
         let direction = sampler.direction();
         Ray::new(on_surface(&mesh, sampler) - direction * distance, direction)
@@ -184,13 +186,15 @@ fn stadium(count: usize) -> Set {
     })
 }
 
-/// Towards one triangle of the sequence, from as far as another is large.
+/// From just outside of one triangle of the sequence through all that are smaller: it is the first, and where products of three
+/// of its lengths overflow, the next that do not are seen in its place.
 fn exponential_rays(count: usize) -> Set {
-    let mesh = exponential(300);
+    let mesh = moved(&exponential(300), |p| p * 1e16);
     Set::new(mesh.clone(), count, 38, |sampler| {
-        let [distance, ..] = triangle(&mesh, sampler);
-        let direction = sampler.direction();
-        Ray::new(on_surface(&mesh, sampler) - direction * distance.x, direction)
+        let [corner, ..] = mesh.corners(sampler.below(300) as u32);
+        let side = |sampler: &mut Sampler| 0.05 + 0.2 * sampler.unit();
+        let from = Vec3::new(1.3, side(sampler), side(sampler));
+        Ray::new(from * corner.x, -from)
     })
 }
 

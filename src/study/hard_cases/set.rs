@@ -7,6 +7,7 @@ use glam::Vec3;
 use crate::geometry::{Mesh, Ray};
 use crate::scene::meshes::uv_sphere;
 use crate::validate::Sampler;
+use crate::validate::degenerate::box_grid;
 
 /// What a case traces.
 #[derive(Clone, Debug)]
@@ -79,6 +80,16 @@ pub(super) fn sheet(n: u32) -> Arc<Mesh> {
         [[a, b, c], [a, c, d]]
     });
     indexed(points, triangles.collect())
+}
+
+/// The cube [-1, 1]^3 of a grid of `n` by `n` squares a side, every triangle wound so that its front looks outward.
+pub(super) fn cube(n: usize) -> Arc<Mesh> {
+    let grid = box_grid(n);
+    let outward = |&[i, j, k]: &[u32; 3]| {
+        let [a, b, c] = [i, j, k].map(|index| grid.positions()[index as usize]);
+        if (b - a).cross(c - a).dot(a) > 0.0 { [i, j, k] } else { [i, k, j] }
+    };
+    indexed(grid.positions().to_vec(), grid.triangles().iter().map(outward).collect())
 }
 
 /// A rotation without simple numbers: three perpendicular unit vectors up to rounding.

@@ -48,7 +48,7 @@ pub(super) const CASES: &[Case] = &[
         })
         .of(2000),
         reason: "800 triangles meet in the vertex that is aimed at: all of them hit, at edges, and none may fall out of its box.",
-        source: "obvhs, rt_triangle.rs: from behind, 0 times a negative number is -0.0, and counts as outside",
+        source: "obvhs, rt_triangle.rs: seen from behind, 0 times a negative number is -0.0, and counts as outside",
     },
     Case {
         number: 39,
@@ -87,7 +87,7 @@ fn slivers(count: usize, placed: fn(Vec3) -> Vec3) -> Set {
     let flat = indexed(points.collect(), strips.collect());
     Set::new(moved(&flat, placed), count, 12, |sampler| {
         let target = Vec3::new(1000.0 * sampler.unit(), sampler.unit(), 0.0);
-        let from = target + Vec3::new(sampler.signed(), sampler.signed(), 1.0 + sampler.unit());
+        let from = target + Vec3::new(sampler.signed(), sampler.signed(), 10.0 * (1.0 + sampler.unit()));
         Ray::new(placed(from), placed(target) - placed(from))
     })
 }
@@ -105,18 +105,18 @@ fn hair(count: usize) -> Set {
     })
 }
 
-/// A roof of 800 triangles that fall from their common corner, zero, to a rim of radius 1, seen from inside at their backs.
+/// A disk of 800 triangles around their common corner, zero.
 fn fan() -> Arc<Mesh> {
     const SEGMENTS: u32 = 800;
     let rim = (0..SEGMENTS).map(|i| {
         let (sine, cosine) = libm::sincos(f64::from(i) * std::f64::consts::TAU / f64::from(SEGMENTS));
-        Vec3::new(cosine as f32, sine as f32, -0.25)
+        Vec3::new(cosine as f32, sine as f32, 0.0)
     });
     let points = std::iter::once(Vec3::ZERO).chain(rim).collect();
     indexed(points, (0..SEGMENTS).map(|i| [0, 1 + i, 1 + (i + 1) % SEGMENTS]).collect())
 }
 
-/// A point under the roof.
+/// A point from which the backs of the fan are seen.
 fn below(sampler: &mut Sampler) -> Vec3 {
     Vec3::new(sampler.signed(), sampler.signed(), -3.0 - 2.0 * sampler.unit())
 }
