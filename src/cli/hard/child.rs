@@ -62,6 +62,11 @@ pub fn answers(
 ) -> io::Result<Result<Answers, Failure>> {
     let mut command = Command::new(program);
     command.args([COMMAND, case.name, &choice.label, "--rays", &rays.to_string()]);
+    outcome(command, limit)
+}
+
+/// What comes of a child within the limit.
+fn outcome(mut command: Command, limit: Duration) -> io::Result<Result<Answers, Failure>> {
     let mut child = command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn()?;
 
     // Empty both pipes at once: a full one would stop the child.
@@ -101,5 +106,35 @@ fn wait(child: &mut Child, limit: Duration) -> io::Result<Option<Option<i32>>> {
             return Ok(None);
         }
         thread::sleep(PAUSE);
+    }
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::*;
+    use crate::study::hard_cases::Head;
+
+    fn of(script: &str) -> Result<Answers, Failure> {
+        let mut command = Command::new("/bin/sh");
+        command.args(["-c", script]);
+        outcome(command, Duration::from_millis(2000)).unwrap()
+    }
+
+    #[test]
+    fn every_end_of_a_child_has_its_name() {
+        let head = Head::default();
+        let bytes = String::from_utf8(Answers { head: head.clone(), hits: vec![] }.to_bytes()).unwrap();
+        assert_eq!(of(&format!("printf '%s\\n' '{}'", bytes.trim_end())), Ok(Answers { head, hits: vec![] }));
+        assert_eq!(of("exec sleep 600"), Err(Failure::Hang));
+        assert_eq!(of("echo 'thread main panicked' >&2; exit 101"), Err(Failure::Panic));
+        assert_eq!(of("kill -9 $$"), Err(Failure::Crash));
+        assert_eq!(of("echo nonsense"), Err(Failure::Crash));
+        assert_eq!(of("exit 3"), Err(Failure::Crash));
+        assert_eq!(of("echo 'error: too large' >&2; exit 1"), Err(Failure::Refused("too large".into())));
+    }
+
+    #[test]
+    fn a_child_that_says_much_is_not_stopped_by_a_full_pipe() {
+        assert_eq!(of("yes | head -c 1000000 >&2; exit 101"), Err(Failure::Panic));
     }
 }
