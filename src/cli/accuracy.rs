@@ -107,16 +107,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
 
 /// Every structure over every triangle test that it is offered with and that is asked for.
 fn choices(registry: &Registry, structures: &[String], tests: &[String]) -> anyhow::Result<Vec<Choice>> {
-    let mut known: Vec<&str> = registry.entries().iter().map(|entry| entry.triangle_test).collect();
-    known.sort_unstable();
-    known.dedup();
-    for test in tests {
-        anyhow::ensure!(
-            known.contains(&test.as_str()),
-            "there is no triangle test {test:?}; there are: {}",
-            known.join(", ")
-        );
-    }
+    sources::known_tests(registry, tests)?;
     let names: Vec<String> = registry.names().into_iter().map(String::from).collect();
     let mut choices: Vec<Choice> = vec![];
     for spec in if structures.is_empty() { &names } else { structures } {

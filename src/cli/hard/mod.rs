@@ -23,6 +23,7 @@ use crate::study::documented_defect;
 use crate::study::hard_cases::{
     Answers, Case, Column, Content, Court, Failure, HardRecord, HardRun, Score, catalogue, find, legend, tables,
 };
+use crate::triangle::{Exact, TriangleTest};
 
 pub use child::{Args as ChildArgs, COMMAND as CHILD, run as run_child};
 
@@ -53,9 +54,6 @@ pub struct Args {
 
 /// Children at a time.
 const CHILDREN: usize = 2;
-
-/// The triangle test that owes the truth itself.
-const EXACT: &str = "exact";
 
 pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Result<Verdict> {
     let cases = if args.cases.is_empty() {
@@ -107,24 +105,14 @@ fn owed(choice: &Choice, score: &Score) -> bool {
         Score::Rays(rays) => rays.inexact > 0,
         _ => false,
     };
-    let sound = score.is_sound() && !(choice.triangle_test() == EXACT && inexact(score));
+    let sound = score.is_sound() && !(choice.triangle_test() == Exact::NAME && inexact(score));
     !sound && documented_defect(&choice.entry.name).is_none()
 }
 
 /// The structures asked for, each over all the tests asked for that it is offered over; the baselines with defects of their
 /// own, and structures that are offered over none of the tests, stay as they are.
 fn choices(registry: &Registry, structures: &[String], tests: &[String]) -> anyhow::Result<Vec<Choice>> {
-    if let Some(unknown) =
-        tests.iter().find(|test| registry.entries().iter().all(|entry| entry.triangle_test != **test))
-    {
-        let mut known: Vec<&str> = vec![];
-        for entry in registry.entries() {
-            if !known.contains(&entry.triangle_test) {
-                known.push(entry.triangle_test);
-            }
-        }
-        anyhow::bail!("there is no triangle test {unknown:?}; there are: {}", known.join(", "));
-    }
+    sources::known_tests(registry, tests)?;
     let mut choices = vec![];
     for choice in sources::structures(registry, structures)? {
         let name = &choice.entry.name;

@@ -8,6 +8,7 @@ use super::set::star;
 use super::{Case, Content, Property, Rank};
 use crate::accel::DynAccel;
 use crate::geometry::{Hit, Mesh, Ray};
+use crate::triangle::{Exact, TriangleTest};
 use crate::validate::conformance::Subject;
 use crate::validate::degenerate::{exponential, huge_and_small, mesh, needles, soup};
 use crate::validate::{Reference, Sampler, Stratum, validate};
@@ -263,9 +264,6 @@ fn each_point(triangles: &[[Vec3; 3]], change: fn(Vec3) -> Vec3) -> Vec<[Vec3; 3
     triangles.iter().map(|corners| corners.map(change)).collect()
 }
 
-/// The triangle test whose answers do not depend on how it computes.
-const EXACT: &str = "exact";
-
 fn metamorphic(subject: &Subject, rays: usize) -> Property {
     let mut sampler = Sampler::new(75);
     let mut grid = |reach: f32| (sampler.cube() * (reach * 1024.0)).round() / 1024.0;
@@ -287,7 +285,7 @@ fn metamorphic(subject: &Subject, rays: usize) -> Property {
         Err(broken) => return broken,
     };
     let mut property = Property::default();
-    for change in CHANGES.iter().filter(|change| change.same_rounding || subject.triangle_test == EXACT) {
+    for change in CHANGES.iter().filter(|change| change.same_rounding || subject.triangle_test == Exact::NAME) {
         let changed = match built(subject, &mesh((change.mesh)(&triangles))) {
             Ok(accel) => accel,
             Err(broken) => return broken,
