@@ -26,7 +26,7 @@ pub struct Head {
     pub build_ns: u64,
     /// Rays for which any hit contradicts closest hit.
     pub any_hit_errors: u64,
-    /// Rays that are answered otherwise alone than in a batch.
+    /// Rays that are answered otherwise alone than in a batch, among some of them.
     pub unrepeatable: u64,
     /// Time of these rays over that of the ordinary ones of the case, where it has such; median of interleaved passes.
     pub slowness: Option<f64>,
@@ -68,6 +68,9 @@ pub fn ask(case: &Case, choice: &Choice, rays: usize, clock: &dyn Clock) -> Resu
     }
 }
 
+/// Rays that are asked again, at most, spread evenly.
+const AGAIN: usize = 500;
+
 fn of_rays(accel: &dyn DynAccel, set: &Set, build_ns: u64, clock: &dyn Clock) -> Answers {
     let mut hits = vec![None; set.rays.len()];
     accel.closest_hits(&set.rays, &mut hits);
@@ -80,7 +83,8 @@ fn of_rays(accel: &dyn DynAccel, set: &Set, build_ns: u64, clock: &dyn Clock) ->
         accel.closest_hits(&[**ray], &mut again);
         !same(again[0], **hit)
     };
-    let unrepeatable = set.rays.iter().zip(&hits).filter(alone).count() as u64;
+    let step = hits.len().div_ceil(AGAIN).max(1);
+    let unrepeatable = set.rays.iter().zip(&hits).step_by(step).filter(alone).count() as u64;
 
     let head = Head {
         rays: hits.len(),

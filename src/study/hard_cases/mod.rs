@@ -13,6 +13,7 @@ mod flats;
 mod intervals;
 mod invalid;
 mod lengths;
+mod metamorphic;
 mod properties;
 mod record;
 mod score;
@@ -46,6 +47,10 @@ pub struct Case {
 }
 
 /// Which totals a case counts in.
+///
+/// The survey measured 71 cases and ranked 59: not the empty scene, vertices that are not finite, the ends of intervals, origins
+/// on a surface, and the six kinds of invalid rays. Of the 59, ten are extreme: scales of 1e-20 and less and of 1e15 and
+/// more, directions of such lengths (from 1e-20 and 1e15 on), and origins 1e8 away.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rank {
     /// Valid input of sizes that a careful user may have: in the totals of both 59 and 49 cases.

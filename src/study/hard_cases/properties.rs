@@ -2,15 +2,13 @@
 
 use std::sync::Arc;
 
-use glam::Vec3;
-
+use super::metamorphic::metamorphic;
 use super::set::star;
 use super::{Case, Content, Property, Rank};
 use crate::accel::DynAccel;
 use crate::geometry::{Hit, Mesh, Ray};
-use crate::triangle::{Exact, TriangleTest};
 use crate::validate::conformance::Subject;
-use crate::validate::degenerate::{exponential, huge_and_small, mesh, needles, soup};
+use crate::validate::degenerate::{exponential, huge_and_small, needles, soup};
 use crate::validate::{Reference, Sampler, Stratum, validate};
 
 pub(super) const CASES: &[Case] = &[
@@ -82,12 +80,12 @@ pub(super) const CASES: &[Case] = &[
 ];
 
 /// Rays of one property; the strata and meshes share them out.
-fn shared(rays: usize, among: usize) -> usize {
+pub(super) fn shared(rays: usize, among: usize) -> usize {
     rays.div_ceil(among).max(4)
 }
 
 /// Builds, or says in a property that it cannot be built.
-fn built(subject: &Subject, mesh: &Arc<Mesh>) -> Result<Box<dyn DynAccel>, Property> {
+pub(super) fn built(subject: &Subject, mesh: &Arc<Mesh>) -> Result<Box<dyn DynAccel>, Property> {
     (subject.build)(mesh).map_err(|error| {
         let example = Some(format!("{} does not build: {error}", subject.name));
         Property { checked: 1, broken: 1, example }
@@ -122,7 +120,7 @@ fn validated(
     property
 }
 
-fn closest(accel: &dyn DynAccel, ray: Ray) -> Option<Hit> {
+pub(super) fn closest(accel: &dyn DynAccel, ray: Ray) -> Option<Hit> {
     let mut hit = [None];
     accel.closest_hits(&[ray], &mut hit);
     hit[0]
@@ -181,122 +179,6 @@ fn parity(subject: &Subject, rays: usize) -> Property {
         let own = crossings(&*accel);
         let holds = own.is_multiple_of(2) || crossings(&*reference.accel) == own;
         property.note(holds, || format!("{own} crossings of a closed mesh by the ray \"{ray}\""));
-    }
-    property
-}
-
-/// A scene changed so that every `t` stays as it is, or is multiplied by a power of two.
-struct Change {
-    name: &'static str,
-    /// Whether no rounding is different: every test owes the same bits. Otherwise only an exact one does.
-    same_rounding: bool,
-    mesh: fn(&[[Vec3; 3]]) -> Vec<[Vec3; 3]>,
-    ray: fn(Ray) -> Ray,
-    /// What `t` is multiplied by.
-    factor: f32,
-}
-
-/// Coordinates of the scene are multiples of 2^-10 below 8: what these changes compute is exact.
-const CHANGES: [Change; 7] = [
-    Change {
-        name: "in another order",
-        same_rounding: true,
-        mesh: |triangles| triangles.iter().rev().copied().collect(),
-        ray: |ray| ray,
-        factor: 1.0,
-    },
-    Change {
-        name: "mirrored",
-        same_rounding: true,
-        mesh: |triangles| each_point(triangles, |p| p * MIRROR),
-        ray: |ray| Ray { origin: ray.origin * MIRROR, direction: ray.direction * MIRROR, ..ray },
-        factor: 1.0,
-    },
-    Change {
-        name: "1024 times as large",
-        same_rounding: true,
-        mesh: |triangles| each_point(triangles, |p| p * 1024.0),
-        ray: |ray| Ray { origin: ray.origin * 1024.0, ..ray },
-        factor: 1024.0,
-    },
-    Change {
-        name: "with axes exchanged",
-        same_rounding: false,
-        mesh: |triangles| each_point(triangles, |p| Vec3::new(p.y, p.z, p.x)),
-        ray: |ray| {
-            let turn = |p: Vec3| Vec3::new(p.y, p.z, p.x);
-            Ray { origin: turn(ray.origin), direction: turn(ray.direction), ..ray }
-        },
-        factor: 1.0,
-    },
-    Change {
-        name: "wound the other way",
-        same_rounding: false,
-        mesh: |triangles| triangles.iter().map(|&[a, b, c]| [a, c, b]).collect(),
-        ray: |ray| ray,
-        factor: 1.0,
-    },
-    Change {
-        name: "moved",
-        same_rounding: false,
-        mesh: |triangles| each_point(triangles, |p| p + Vec3::new(32.0, -64.0, 16.0)),
-        ray: |ray| Ray { origin: ray.origin + Vec3::new(32.0, -64.0, 16.0), ..ray },
-        factor: 1.0,
-    },
-    Change {
-        name: "with every triangle cut in two",
-        same_rounding: false,
-        mesh: |triangles| {
-            let halves = |&[a, b, c]: &[Vec3; 3]| {
-                let middle = (b + c) * 0.5;
-                [[a, b, middle], [a, middle, c]]
-            };
-            triangles.iter().flat_map(halves).collect()
-        },
-        ray: |ray| ray,
-        factor: 1.0,
-    },
-];
-
-const MIRROR: Vec3 = Vec3::new(-1.0, 1.0, 1.0);
-
-fn each_point(triangles: &[[Vec3; 3]], change: fn(Vec3) -> Vec3) -> Vec<[Vec3; 3]> {
-    triangles.iter().map(|corners| corners.map(change)).collect()
-}
-
-fn metamorphic(subject: &Subject, rays: usize) -> Property {
-    let mut sampler = Sampler::new(75);
-    let mut grid = |reach: f32| (sampler.cube() * (reach * 1024.0)).round() / 1024.0;
-    let triangles: Vec<[Vec3; 3]> = (0..400)
-        .map(|_| {
-            let centre = grid(3.0);
-            [(); 3].map(|()| centre + grid(1.0))
-        })
-        .collect();
-    let rays: Vec<Ray> = (0..shared(rays, CHANGES.len()))
-        .map(|_| {
-            let origin = grid(7.0);
-            Ray::new(origin, grid(3.0) - origin)
-        })
-        .collect();
-
-    let plain = match built(subject, &mesh(triangles.iter().copied())) {
-        Ok(accel) => accel,
-        Err(broken) => return broken,
-    };
-    let mut property = Property::default();
-    for change in CHANGES.iter().filter(|change| change.same_rounding || subject.triangle_test == Exact::NAME) {
-        let changed = match built(subject, &mesh((change.mesh)(&triangles))) {
-            Ok(accel) => accel,
-            Err(broken) => return broken,
-        };
-        for &ray in &rays {
-            let expected = closest(&*plain, ray).map(|hit| hit.t * change.factor);
-            let found = closest(&*changed, (change.ray)(ray)).map(|hit| hit.t);
-            property.note(expected.map(f32::to_bits) == found.map(f32::to_bits), || {
-                format!("{}: t is {found:?} and not {expected:?} on the ray \"{ray}\"", change.name)
-            });
-        }
     }
     property
 }
