@@ -78,6 +78,11 @@ fn what_is_not_known_is_refused_with_what_is() {
     refuses(&["render", "cube", "-o", "x.png", "--size", "12"], &["WIDTHxHEIGHT"]);
     refuses(&["validate", "cube", "--ray", "1,2,3"], &["ox,oy,oz dx,dy,dz"]);
     refuses_in_a_line(&["validate", "cube", "--against", "nothing"], &["nothing", "brute-force"]);
+    refuses_in_a_line(&["accuracy", "cube", "--test", "woop"], &["woop", "exact", "watertight"]);
+    refuses_in_a_line(&["accuracy", "cube", "-s", "obvhs-bvh2", "-t", "exact"], &["sahara list"]);
+    refuses_in_a_line(&["accuracy", "cube", "--plot", "front.pdf"], &["front.pdf", ".svg or .png"]);
+    refuses_in_a_line(&["accuracy", "cube", "--plot", "no/such/front.svg"], &["no/such/front.svg"]);
+    refuses(&["accuracy", "cube", "--stratum", "edges"], &["edges", "uniform, edge"]);
 }
 
 #[test]
@@ -174,6 +179,51 @@ fn a_file_without_camera_is_compared_and_rendered() {
 }
 
 #[test]
+fn accuracy_prints_exports_and_draws_what_it_finds() {
+    let directory = tempfile::tempdir().unwrap();
+    let file = |name: &str| path_text(&directory.path().join(name));
+    let (json, svg, png) = (file("a.json"), file("a.svg"), file("a.png"));
+    let mut args = vec!["accuracy", "cube", "--rays", "300", "--runs", "2", "--budget", "1"];
+    args.extend([
+        "-s",
+        "sah-kd",
+        "-t",
+        "exact",
+        "-t",
+        "moller-trumbore",
+        "--stratum",
+        "vertex",
+        "--stratum",
+        "uniform",
+    ]);
+    args.extend(["--export-json", &json, "--plot", &svg, "--plot", &png]);
+    let output = sahara(&args);
+    assert_eq!(output.status.code(), Some(RIGHT), "{}", stderr(&output));
+    let printed = stdout(&output);
+    for text in ["vertex: 300 rays through vertices", "uniform: 300 rays", "sah-kd:test=exact", "dominated by"] {
+        assert!(printed.contains(text), "{text} is not in {printed}");
+    }
+    let records: serde_json::Value = serde_json::from_slice(&std::fs::read(json).unwrap()).unwrap();
+    assert_eq!(records.as_array().unwrap().len(), 4);
+    let exact = records.as_array().unwrap().iter().filter(|record| record["triangle_test"] == "exact");
+    assert!(exact.clone().all(|record| record["error"] == 0.0 && record["error_bound"] == 0.01), "{records}");
+    assert_eq!(exact.count(), 2);
+    assert!(std::fs::read_to_string(svg).unwrap().contains("moller-trumbore"));
+    assert_eq!(image::open(png).unwrap().width(), 1600);
+}
+
+#[test]
+fn the_error_view_says_what_its_colours_mean() {
+    let directory = tempfile::tempdir().unwrap();
+    let picture = path_text(&directory.path().join("error.png"));
+    let args = ["render", "cube", "-o", &picture, "--size", "24x24", "--view", "error", "-s", "sah-kd:test=exact"];
+    let output = sahara(&args);
+    assert_eq!(output.status.code(), Some(RIGHT), "{}", stderr(&output));
+    assert!(stdout(&output).contains("missed 0 (vermilion)"), "{}", stdout(&output));
+    assert_eq!(image::open(&picture).unwrap().width(), 24);
+}
+
+#[test]
 fn an_empty_mesh_is_no_reason_to_fail() {
     let directory = tempfile::tempdir().unwrap();
     let flat = write(&directory, "flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
@@ -261,4 +311,50 @@ fn a_reader_that_goes_away_is_no_error() {
     let output = child.wait_with_output().unwrap();
     assert_eq!(output.status.code(), Some(RIGHT), "{}", stderr(&output));
     assert!(stderr(&output).is_empty(), "{}", stderr(&output));
+}
+
+#[test]
+fn hard_cases_are_named_and_explained() {
+    refuses_in_a_line(&["hard", "flat_grasing"], &["flat_grasing", "flat_grazing_1e-3", "--list"]);
+    refuses_in_a_line(&["hard", "--test", "moeller"], &["\"moeller\"", "moller-trumbore", "exact"]);
+    let output = sahara(&["hard", "--list"]);
+    assert_eq!(output.status.code(), Some(RIGHT));
+    let list = stdout(&output);
+    assert!(list.contains("41 duplicates_20000: 200 rays\n") && list.contains("84 limits: a property\n"), "{list}");
+}
+
+#[test]
+fn a_hard_case_tells_what_each_structure_gets_wrong() {
+    let directory = tempfile::tempdir().unwrap();
+    let json = path_text(&directory.path().join("hard.json"));
+    let structures = ["--structure", "sah-kd", "--structure", "obvhs-cwbvh"];
+    let mut args = vec!["hard", "cube_axis_negzero", "limits", "--rays", "50", "--json", &json];
+    args.extend(structures);
+    let output = sahara(&args);
+    // What is known of a baseline does not fail the run.
+    assert_eq!(output.status.code(), Some(RIGHT), "{}", stderr(&output));
+    let text = stdout(&output);
+    let row = text.lines().find(|line| line.trim_start().starts_with("cube_axis_negzero")).expect("a row");
+    assert_eq!(row.split_whitespace().collect::<Vec<_>>(), ["cube_axis_negzero", ".", "m", "100", "S", "100"]);
+
+    let run: serde_json::Value = serde_json::from_slice(&fs::read(&json).unwrap()).unwrap();
+    let results = run["results"].as_array().unwrap();
+    assert_eq!(results.len(), 4);
+    let of = |case: &str, structure: &str| {
+        results.iter().find(|r| r["case"] == case && r["structure"] == structure).expect("a record").clone()
+    };
+    let lost = of("cube_axis_negzero", "obvhs-cwbvh");
+    assert_eq!((lost["missed"].as_u64(), lost["structure_errors"].as_u64()), (Some(50), Some(50)));
+    assert_eq!(of("cube_axis_negzero", "sah-kd")["clean"], true);
+    assert_eq!(of("limits", "sah-kd")["property"]["broken"], 0);
+    assert!(of("limits", "sah-kd")["rays"].is_null());
+}
+
+#[test]
+fn the_hard_cases_run_over_the_tests_asked_for() {
+    let args = ["hard", "one_triangle", "--rays", "20", "--test", "exact", "--test", "edge-f64", "-s", "median-kd"];
+    let output = sahara(&args);
+    assert_eq!(output.status.code(), Some(RIGHT), "{}", stderr(&output));
+    let text = stdout(&output);
+    assert!(text.contains("median-kd:test=exact  median-kd:test=edge-f64"), "{text}");
 }

@@ -3,9 +3,11 @@
 //! Results go to stdout, progress and errors to stderr. The exit status is 0 when all is well, 1 for usage, input or
 //! output that cannot be had, 2 for wrong answers.
 
+mod accuracy;
 mod compare;
 mod completions;
 mod golden;
+mod hard;
 mod list;
 mod progress;
 mod render;
@@ -50,6 +52,13 @@ enum Command {
     Validate(validate::Args),
     /// Run an experiment with a question of its own
     Study(study::Args),
+    /// How wrong, how fast: every structure over every triangle test, judged by exact arithmetic
+    Accuracy(accuracy::Args),
+    /// Put the hard cases to every structure, and say what each gets wrong
+    Hard(hard::Args),
+    /// Answer for one structure and one hard case; what `hard` runs in a process of its own
+    #[command(name = hard::CHILD, hide = true)]
+    HardAnswer(hard::ChildArgs),
     /// Draw a picture
     Render(render::Args),
     /// Check or make the golden images
@@ -89,6 +98,9 @@ fn run(registry: &Registry, args: impl IntoIterator<Item = OsString>) -> ExitCod
         Command::Replicate(args) => replicate::run(registry, &args, &terminal),
         Command::Validate(args) => validate::run(registry, &args, &terminal),
         Command::Study(args) => study::run(registry, &args, &terminal),
+        Command::Accuracy(args) => accuracy::run(registry, &args, &terminal),
+        Command::Hard(args) => hard::run(registry, &args, &terminal),
+        Command::HardAnswer(args) => hard::run_child(registry, &args),
         Command::Render(args) => render::run(registry, &args, &terminal),
         Command::Golden(args) => golden::run(registry, &args, &terminal),
         Command::List => list::run(registry, &terminal),

@@ -11,7 +11,7 @@ use super::{Verdict, sources};
 use crate::accel::Observed;
 use crate::output::OutputFile;
 use crate::registry::Registry;
-use crate::render::{ViewKind, costs, draw, hottest};
+use crate::render::{ErrorMap, ViewKind, costs, draw, hottest};
 use crate::scene::{Camera, Scene};
 use crate::study::{BRUTE_FORCE, SAH_TREE};
 
@@ -23,7 +23,8 @@ pub struct Args {
     /// The picture, a PNG file
     #[arg(long, short, value_name = "F.png")]
     output: PathBuf,
-    /// shaded, depth, normal, primitive or heat (tests and steps of each pixel)
+    /// shaded, depth, normal, primitive, heat (tests and steps of each pixel) or error (where answers are wrong, by exact
+    /// arithmetic)
     #[arg(long, default_value = "shaded", value_name = "VIEW")]
     view: ViewKind,
     /// The structure that answers
@@ -96,12 +97,19 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
         (ViewKind::Heat, None) => common_scale(registry, &scene, size)?,
         (_, hottest) => hottest.unwrap_or(1).max(1),
     };
-    let picture = draw(&scene, accel.as_ref(), args.view, size, scale)?;
+    let errors = (args.view == ViewKind::Error).then(|| ErrorMap::new(&scene, accel.as_ref(), size));
+    let picture = match &errors {
+        Some(errors) => errors.picture(),
+        None => draw(&scene, accel.as_ref(), args.view, size, scale)?,
+    };
     file.write(&picture.png())?;
 
     let scale = if args.view == ViewKind::Heat { format!(", brightest at {scale} tests and steps") } else { "".into() };
     let what = format!("{} view of {} by {}", args.view.name(), scene.name, choice.label);
     terminal.print(&format!("{}: {} x {} pixels, {what}{scale}\n", args.output.display(), size[0], size[1]))?;
+    if let Some(errors) = errors {
+        terminal.print(&format!("{}\n", errors.legend()))?;
+    }
     Ok(Verdict::Right)
 }
 

@@ -71,6 +71,24 @@ pub fn structure(registry: &Registry, spec: &str) -> anyhow::Result<Choice> {
     Ok(registry.choose(spec)?)
 }
 
+/// Refuses names that are no triangle test of any structure.
+///
+/// # Errors
+/// If there is one, listing those there are.
+pub fn known_tests(registry: &Registry, tests: &[String]) -> anyhow::Result<()> {
+    let mut known: Vec<&str> = registry.entries().iter().map(|entry| entry.triangle_test).collect();
+    known.sort_unstable();
+    known.dedup();
+    for test in tests {
+        anyhow::ensure!(
+            known.contains(&test.as_str()),
+            "there is no triangle test {test:?}; there are: {}",
+            known.join(", ")
+        );
+    }
+    Ok(())
+}
+
 /// The structure that tells where secondary rays start: the SAH tree, or the first of a registry without it.
 ///
 /// # Errors

@@ -67,6 +67,12 @@ impl ExactT {
         }
     }
 
+    /// This `t` with a relative error below 2^-50. Neither overflows nor underflows: the numerator and the denominator have
+    /// fewer than 850 bits.
+    pub fn approximate(&self) -> f64 {
+        self.numerator.to_f64().value() / self.denominator.to_f64().value()
+    }
+
     /// The nearest `f32`, ties to even: infinite from half an ulp beyond the largest finite number on.
     pub fn round(&self) -> f32 {
         // Look for the largest finite float whose magnitude does not exceed that of `t`; the bits of floats are ordered.

@@ -1,51 +1,49 @@
-//! The truth about a mesh: exact answers for whole rays. Used to adjudicate, where two answers differ; never timed.
+//! The truth about a mesh: exact answers for whole rays. Used to judge answers; never timed.
+//!
+//! [`Oracle`] is fast, [`nearest`] its slow twin: every triangle in integers.
 
-use std::cmp::Ordering;
+mod filter;
+mod naive;
+mod query;
+mod tree;
+mod truth;
 
-use crate::exact::{ExactT, hit};
+use std::sync::Arc;
+
 use crate::geometry::{Mesh, Ray};
 
-/// The nearest hit of `ray` within its interval, and the numbers of all triangles that are hit there, ascending.
+pub use naive::nearest;
+pub use truth::Truth;
+
+/// Answers rays over one mesh exactly: some microseconds a ray.
 ///
-/// Tests every triangle: for small meshes.
-pub fn nearest(ray: &Ray, mesh: &Mesh) -> Option<(ExactT, Vec<u32>)> {
-    if !ray.is_valid() {
-        return None;
+/// Three stages, each of which only passes on what it cannot decide: a tree of boxes that loses no hit, `f64`
+/// arithmetic with a proven error bound, integers ([`exact`](crate::exact)). It shares no code with the
+/// structures that it judges.
+pub struct Oracle {
+    mesh: Arc<Mesh>,
+    tree: tree::Tree,
+}
+
+impl Oracle {
+    /// Takes some seconds a million triangles.
+    pub fn new(mesh: &Arc<Mesh>) -> Self {
+        Self { mesh: mesh.clone(), tree: tree::Tree::new(mesh) }
     }
-    let mut nearest: Option<(ExactT, Vec<u32>)> = None;
-    for id in mesh.solid() {
-        let Some(t) = hit(ray, mesh.corners(id)).filter(|t| t.is_within(ray)) else { continue };
-        match nearest.as_mut().map(|(best, ids)| (t.cmp(best), ids)) {
-            Some((Ordering::Greater, _)) => {}
-            Some((Ordering::Equal, ids)) => ids.push(id),
-            Some((Ordering::Less, _)) | None => nearest = Some((t, vec![id])),
+
+    /// The exact nearest hit of `ray` in its half-open interval, on closed triangles, with all triangles that are hit
+    /// there.
+    ///
+    /// Nothing for a ray that is not valid. A ray in the plane of a triangle misses it.
+    pub fn nearest(&self, ray: &Ray) -> Option<Truth> {
+        if !ray.is_valid() {
+            return None;
         }
+        let mut query = query::Query::new(ray, &self.mesh);
+        self.tree.visit(ray, &mut query);
+        query.truth()
     }
-    nearest
 }
 
 #[cfg(test)]
-mod tests {
-    use glam::Vec3;
-
-    use super::*;
-
-    #[test]
-    fn the_nearest_names_all_triangles_at_its_t() {
-        let points = vec![
-            Vec3::ZERO,
-            Vec3::X,
-            Vec3::Y,
-            Vec3::new(1.0, 1.0, 0.0),
-            Vec3::new(0.0, 0.0, -1.0),
-            Vec3::new(5.0, 0.0, -1.0),
-            Vec3::new(0.0, 5.0, -1.0),
-        ];
-        let mesh = Mesh::new(points, vec![[4, 5, 6], [0, 1, 2], [0, 0, 1], [1, 2, 3]]).unwrap();
-        let ray = Ray::new(Vec3::new(0.5, 0.5, 1.0), Vec3::NEG_Z);
-        let (t, ids) = nearest(&ray, &mesh).unwrap();
-        assert_eq!((t.round(), ids), (1.0, vec![1, 3]));
-        assert_eq!(nearest(&ray.until(1.0), &mesh), None);
-        assert_eq!(nearest(&ray.until(f32::NAN), &mesh), None);
-    }
-}
+mod tests;

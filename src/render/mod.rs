@@ -1,6 +1,7 @@
 //! Pictures: shading as the report's course does it, and views that show what a structure does.
 
 mod colour_map;
+mod error_map;
 mod image;
 mod integrator;
 mod picture;
@@ -9,6 +10,7 @@ mod view;
 #[cfg(test)]
 mod count_tests;
 
+pub use error_map::ErrorMap;
 pub use image::Image;
 pub use integrator::{RayCounts, render};
 pub use picture::{Difference, Picture, PictureError};

@@ -5,7 +5,7 @@ use std::str::FromStr;
 use glam::Vec3;
 use rayon::prelude::*;
 
-use super::{Image, Picture, colour_map, render};
+use super::{ErrorMap, Image, Picture, colour_map, render};
 use crate::accel::{Counts, DynAccel, Observed};
 use crate::geometry::{Hit, Ray};
 use crate::scene::{Scene, View};
@@ -23,10 +23,12 @@ pub enum ViewKind {
     Primitive,
     /// Tests and steps of the closest-hit query, from black to pale yellow, see [`costs`].
     Heat,
+    /// Errors against the exact oracle, see [`ErrorMap`].
+    Error,
 }
 
 impl ViewKind {
-    pub const ALL: [Self; 5] = [Self::Shaded, Self::Depth, Self::Normal, Self::Primitive, Self::Heat];
+    pub const ALL: [Self; 6] = [Self::Shaded, Self::Depth, Self::Normal, Self::Primitive, Self::Heat, Self::Error];
 
     /// As written on the command line.
     pub fn name(self) -> &'static str {
@@ -36,6 +38,7 @@ impl ViewKind {
             Self::Normal => "normal",
             Self::Primitive => "primitive",
             Self::Heat => "heat",
+            Self::Error => "error",
         }
     }
 }
@@ -82,6 +85,7 @@ pub fn draw(
             let colours = costs(scene, accel, size)?.into_iter().map(|cost| colour_map::heat(cost, hottest));
             Picture::new(size, colours.collect())
         }
+        ViewKind::Error => ErrorMap::new(scene, accel, size).picture(),
     })
 }
 

@@ -3,6 +3,7 @@
 
 mod export;
 pub mod number;
+pub mod plot;
 mod record;
 mod table;
 

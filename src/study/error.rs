@@ -9,6 +9,8 @@ pub enum StudyError {
     Build { structure: String, scene: String, cause: BuildError },
     #[error("{structure} on the {rays} rays of {scene}: {cause}")]
     Unsteady { structure: String, scene: String, rays: String, cause: UnsteadyAnswers },
+    #[error("the system gives no thread to trace on: {0}")]
+    Threads(String),
     #[error("the study needs a structure that is not registered as it expects: {0}")]
     Structure(#[from] ChoiceError),
     #[error("{structure} gives {errors} wrong answers to {checked} rays of {scene}: its times would mean nothing")]

@@ -1,10 +1,12 @@
 //! Studies: what is built, checked, counted and timed to answer a question, and the tables that answer it.
 
+pub mod accuracy;
 mod baselines;
 mod built;
 mod check;
 pub mod compare;
 mod error;
+pub mod hard_cases;
 pub mod replicate;
 pub mod self_intersection;
 mod stage;

@@ -26,6 +26,33 @@ pub fn validate(subject: &dyn DynAccel, reference: &Reference, mesh: &Mesh, rays
     whole
 }
 
+/// Holds closest hits that were found elsewhere against `reference`: as [`validate`], without what only asking can tell.
+///
+/// # Panics
+/// If there are not as many answers as rays.
+pub fn validate_answers(reference: &Reference, mesh: &Mesh, rays: &[Ray], found: &[Option<Hit>]) -> Validation {
+    assert_eq!(rays.len(), found.len(), "one answer a ray");
+    let batches = rays.par_chunks(BATCH).zip(found.par_chunks(BATCH));
+    let batches: Vec<Validation> = batches
+        .map(|(rays, found)| {
+            let mut expected = vec![None; rays.len()];
+            reference.accel.closest_hits(rays, &mut expected);
+            let hits = expected.iter().flatten().count() as u64;
+            let mut sums = Validation { rays: rays.len() as u64, hits, ..Validation::default() };
+            for (index, ray) in rays.iter().enumerate() {
+                tally(&mut sums, reference, mesh, index, ray, expected[index], found[index]);
+            }
+            sums.keep_worst();
+            sums
+        })
+        .collect();
+    let mut whole = Validation::default();
+    for batch in batches {
+        whole.append(batch);
+    }
+    whole
+}
+
 fn validate_batch(subject: &dyn DynAccel, reference: &Reference, mesh: &Mesh, rays: &[Ray]) -> Validation {
     // Prefilled with an answer that nobody gives: a structure must write every slot.
     let unwritten = Some(Hit::new(f32::NEG_INFINITY, u32::MAX - 1));
@@ -58,22 +85,36 @@ fn validate_batch(subject: &dyn DynAccel, reference: &Reference, mesh: &Mesh, ra
             sums.any_hit_errors += 1;
         }
 
-        let Some(verdict) = adjudicate(reference, mesh, ray, expected, found) else { continue };
-        note(verdict.kind, verdict.sentence);
-        match verdict.kind {
-            Kind::Tie => sums.ties += 1,
-            Kind::HigherId => {
-                sums.ties += 1;
-                sums.higher_ids += 1;
-            }
-            Kind::Kernel => sums.kernel_differences += 1,
-            _ if reference.test.is_some() => sums.structure_errors += 1,
-            _ => sums.answer_errors += 1,
-        }
-        sums.differing += u64::from(!matches!(verdict.kind, Kind::Tie | Kind::HigherId));
+        tally(&mut sums, reference, mesh, index, ray, expected, found);
     }
     sums.keep_worst();
     sums
+}
+
+/// Adjudicates one answer and adds what is said of it.
+fn tally(
+    sums: &mut Validation,
+    reference: &Reference,
+    mesh: &Mesh,
+    index: usize,
+    ray: &Ray,
+    expected: Option<Hit>,
+    found: Option<Hit>,
+) {
+    let Some(verdict) = adjudicate(reference, mesh, ray, expected, found) else { return };
+    let (kind, index, gap) = (verdict.kind, index as u64, gap(expected, found));
+    sums.worst.push(WorstRay { index, ray: *ray, expected, found, kind, verdict: verdict.sentence, gap });
+    match kind {
+        Kind::Tie => sums.ties += 1,
+        Kind::HigherId => {
+            sums.ties += 1;
+            sums.higher_ids += 1;
+        }
+        Kind::Kernel => sums.kernel_differences += 1,
+        _ if reference.test.is_some() => sums.structure_errors += 1,
+        _ => sums.answer_errors += 1,
+    }
+    sums.differing += u64::from(!matches!(kind, Kind::Tie | Kind::HigherId));
 }
 
 fn same(a: Option<Hit>, b: Option<Hit>) -> bool {

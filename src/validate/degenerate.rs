@@ -15,7 +15,7 @@ pub fn degenerate_meshes() -> Vec<(String, Arc<Mesh>)> {
         ("2000 coincident".into(), mesh([TRIANGLE; 2000])),
         ("coplanar, axis-aligned".into(), coplanar(200, Vec3::X, Vec3::Y)),
         ("coplanar, tilted".into(), coplanar(200, Vec3::new(0.9, 0.1, 0.3), Vec3::new(-0.2, 0.8, 0.7))),
-        ("half without area".into(), half_without_area()),
+        ("half without area".into(), half_without_area(200)),
         ("only without area".into(), mesh([[Vec3::ONE; 3], [Vec3::ZERO, Vec3::ONE, Vec3::splat(2.0)]])),
         ("crossing needles".into(), needles(300)),
         ("nested shells".into(), shells()),
@@ -35,16 +35,17 @@ pub fn degenerate_meshes() -> Vec<(String, Arc<Mesh>)> {
     meshes
 }
 
-const TRIANGLE: [Vec3; 3] = [Vec3::new(-1.0, -0.5, 0.25), Vec3::new(1.5, -0.75, 0.5), Vec3::new(0.25, 1.0, -0.5)];
+pub(crate) const TRIANGLE: [Vec3; 3] =
+    [Vec3::new(-1.0, -0.5, 0.25), Vec3::new(1.5, -0.75, 0.5), Vec3::new(0.25, 1.0, -0.5)];
 
 /// Triangles that share no vertex.
-fn mesh(triangles: impl IntoIterator<Item = [Vec3; 3]>) -> Arc<Mesh> {
+pub(crate) fn mesh(triangles: impl IntoIterator<Item = [Vec3; 3]>) -> Arc<Mesh> {
     let positions: Vec<Vec3> = triangles.into_iter().flatten().collect();
     let indices = (0..positions.len() as u32 / 3).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
     Arc::new(Mesh::new(positions, indices).expect("made of finite numbers"))
 }
 
-fn soup_triangles(n: usize, seed: u64) -> impl Iterator<Item = [Vec3; 3]> {
+pub(crate) fn soup_triangles(n: usize, seed: u64) -> impl Iterator<Item = [Vec3; 3]> {
     let mut sampler = Sampler::new(seed);
     (0..n).map(move |_| {
         let centre = sampler.cube();
@@ -52,7 +53,7 @@ fn soup_triangles(n: usize, seed: u64) -> impl Iterator<Item = [Vec3; 3]> {
     })
 }
 
-fn soup(n: usize, seed: u64) -> Arc<Mesh> {
+pub(crate) fn soup(n: usize, seed: u64) -> Arc<Mesh> {
     mesh(soup_triangles(n, seed))
 }
 
@@ -60,7 +61,7 @@ fn offset(n: usize, by: Vec3) -> Arc<Mesh> {
     mesh(soup_triangles(n, 3).map(|t| t.map(|p| p + by)))
 }
 
-fn coplanar(n: usize, u: Vec3, v: Vec3) -> Arc<Mesh> {
+pub(crate) fn coplanar(n: usize, u: Vec3, v: Vec3) -> Arc<Mesh> {
     let mut sampler = Sampler::new(4);
     mesh((0..n).map(|_| {
         let (x, y) = (sampler.signed() * 3.0, sampler.signed() * 3.0);
@@ -69,9 +70,9 @@ fn coplanar(n: usize, u: Vec3, v: Vec3) -> Arc<Mesh> {
 }
 
 /// Points, doubled corners and corners on a line among triangles that have an area.
-fn half_without_area() -> Arc<Mesh> {
+pub(crate) fn half_without_area(n: usize) -> Arc<Mesh> {
     let mut sampler = Sampler::new(5);
-    mesh(soup_triangles(200, 5).enumerate().map(|(i, [a, b, c])| match i % 6 {
+    mesh(soup_triangles(n, 5).enumerate().map(|(i, [a, b, c])| match i % 6 {
         0 => [a, a, a],
         2 => [a, b, b],
         4 => {
@@ -84,7 +85,7 @@ fn half_without_area() -> Arc<Mesh> {
 }
 
 /// Long thin triangles through one point: they overlap whatever the boxes.
-fn needles(n: usize) -> Arc<Mesh> {
+pub(crate) fn needles(n: usize) -> Arc<Mesh> {
     let mut sampler = Sampler::new(6);
     mesh((0..n).map(|_| {
         let along = sampler.direction() * 10.0;
@@ -94,14 +95,14 @@ fn needles(n: usize) -> Arc<Mesh> {
 }
 
 /// Octahedra around the origin, each of the double size of the one before: 2^-30 to 2^30.
-fn shells() -> Arc<Mesh> {
+pub(crate) fn shells() -> Arc<Mesh> {
     mesh((-30..=30).flat_map(|exponent| {
         let r = libm::scalbnf(1.0, exponent);
         octahedron().map(move |t| t.map(|p| p * r))
     }))
 }
 
-fn octahedron() -> impl Iterator<Item = [Vec3; 3]> {
+pub(crate) fn octahedron() -> impl Iterator<Item = [Vec3; 3]> {
     (0..8).map(|octant: u32| {
         let sign = |axis: u32| if octant >> axis & 1 == 1 { -1.0 } else { 1.0 };
         [Vec3::X * sign(0), Vec3::Y * sign(1), Vec3::Z * sign(2)]
@@ -109,7 +110,7 @@ fn octahedron() -> impl Iterator<Item = [Vec3; 3]> {
 }
 
 /// Triangle `k` lies at 1.3^k and has that size: every middle split takes off a few triangles only.
-fn exponential(n: usize) -> Arc<Mesh> {
+pub(crate) fn exponential(n: usize) -> Arc<Mesh> {
     let mut at = 1e-16_f32;
     mesh((0..n).map(|_| {
         at *= 1.3;
@@ -118,7 +119,7 @@ fn exponential(n: usize) -> Arc<Mesh> {
 }
 
 /// The cube [-1, 1]^3 with `n` by `n` squares a side, corners on simple coordinates.
-fn box_grid(n: usize) -> Arc<Mesh> {
+pub(crate) fn box_grid(n: usize) -> Arc<Mesh> {
     let mut triangles = vec![];
     for axis in 0..3 {
         for side in [-1.0, 1.0] {
@@ -139,7 +140,7 @@ fn box_grid(n: usize) -> Arc<Mesh> {
 }
 
 /// No plane between centroids separates them.
-fn same_centroid(n: usize) -> Arc<Mesh> {
+pub(crate) fn same_centroid(n: usize) -> Arc<Mesh> {
     let mut sampler = Sampler::new(7);
     mesh((0..n).map(|_| {
         // On a grid, the sum of the corners is exactly zero.
@@ -148,7 +149,7 @@ fn same_centroid(n: usize) -> Arc<Mesh> {
     }))
 }
 
-fn huge_and_small() -> Arc<Mesh> {
+pub(crate) fn huge_and_small() -> Arc<Mesh> {
     let huge = TRIANGLE.map(|p| p * 1e6);
     mesh(soup_triangles(200, 8).chain([huge]))
 }

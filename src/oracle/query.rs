@@ -1,0 +1,111 @@
+use std::cmp::Ordering;
+
+use glam::Vec3;
+
+use super::Truth;
+use super::filter::{Span, Verdict, judge};
+use super::tree::Visitor;
+use crate::exact::{self, ExactT};
+use crate::geometry::{Mesh, Ray};
+
+/// The search for the nearest hit of one ray.
+pub struct Query<'a> {
+    ray: &'a Ray,
+    mesh: &'a Mesh,
+    /// The end of the ray's interval.
+    t_max: f64,
+    nearest: Option<Found>,
+}
+
+/// A hit within the interval of the ray, and all others at the same `t`.
+struct Found {
+    corners: [Vec3; 3],
+    span: Span,
+    /// In integers; not worked out before it is needed.
+    t: Option<ExactT>,
+    ids: Vec<u32>,
+}
+
+impl<'a> Query<'a> {
+    /// `ray` must be valid.
+    pub fn new(ray: &'a Ray, mesh: &'a Mesh) -> Self {
+        Self { ray, mesh, t_max: ray.interval().1.into(), nearest: None }
+    }
+
+    pub fn truth(self) -> Option<Truth> {
+        let mut found = self.nearest?;
+        found.work_out(self.ray);
+        let t = found.t?;
+        let rounded = found.span.rounded().unwrap_or_else(|| t.round()).to_bits();
+        found.ids.sort_unstable();
+        Some(Truth { t, ids: found.ids, rounded })
+    }
+
+    /// Triangle `id`, if it is hit within the interval of the ray.
+    fn find(&self, id: u32) -> Option<Found> {
+        let corners = self.mesh.corners(id);
+        let (span, t) = match judge(self.ray, corners) {
+            Verdict::Missed => return None,
+            Verdict::Hit(span) => (span, None),
+            Verdict::Undecided => {
+                let t = exact::hit(self.ray, corners)?;
+                let near = t.approximate();
+                (Span::outward(near, near), Some(t))
+            }
+        };
+        let (t_min, t_max) = (f64::from(self.ray.interval().0), self.t_max);
+        if span.high < t_min || t_max <= span.low {
+            return None;
+        }
+        let mut found = Found { corners, span, t, ids: vec![id] };
+        if span.low < t_min || t_max <= span.high {
+            found.work_out(self.ray);
+            return found.t.as_ref().is_some_and(|t| t.is_within(self.ray)).then_some(found);
+        }
+        Some(found)
+    }
+}
+
+impl Visitor for Query<'_> {
+    fn triangle(&mut self, id: u32) {
+        // A copy of the nearest is hit where that is.
+        if let Some(nearest) = self.nearest.as_mut().filter(|n| n.corners == self.mesh.corners(id)) {
+            nearest.ids.push(id);
+            return;
+        }
+        let Some(mut found) = self.find(id) else { return };
+        let order = self.nearest.as_mut().map_or(Ordering::Less, |nearest| found.compare(nearest, self.ray));
+        match (order, &mut self.nearest) {
+            (Ordering::Equal, Some(nearest)) => nearest.ids.push(id),
+            (Ordering::Less, _) => self.nearest = Some(found),
+            _ => {}
+        }
+    }
+
+    fn bound(&self) -> f64 {
+        self.nearest.as_ref().map_or(self.t_max, |nearest| nearest.span.high)
+    }
+}
+
+impl Found {
+    /// Makes sure that `t` is known in integers.
+    fn work_out(&mut self, ray: &Ray) {
+        if self.t.is_none() {
+            self.t = exact::hit(ray, self.corners);
+            debug_assert!(self.t.is_some(), "the filter has proven this hit");
+        }
+    }
+
+    /// The exact order of two hits of one ray: by the spans, and by integers where these overlap.
+    fn compare(&mut self, other: &mut Self, ray: &Ray) -> Ordering {
+        if self.span.high < other.span.low {
+            return Ordering::Less;
+        }
+        if other.span.high < self.span.low {
+            return Ordering::Greater;
+        }
+        self.work_out(ray);
+        other.work_out(ray);
+        self.t.cmp(&other.t)
+    }
+}

@@ -1,0 +1,189 @@
+use glam::Vec3;
+use rand_core::{RngCore, SeedableRng};
+use rand_pcg::Pcg32;
+
+use super::*;
+
+/// A source of floats.
+pub struct Numbers {
+    random: Pcg32,
+    kind: Kind,
+}
+
+#[derive(Clone, Copy)]
+enum Kind {
+    /// Even in [-1, 1], times a power of two; denormals are coarse.
+    Scaled(f32),
+    /// Integers from -2 to 2: much is equal, nothing is rounded.
+    Grid,
+    /// Any finite float, both zeros included.
+    Bits,
+}
+
+impl Numbers {
+    /// From harmless to hostile.
+    pub fn all() -> impl Iterator<Item = Self> {
+        let scales =
+            [1.0, f32::from_bits(1 << 10), f32::MIN_POSITIVE, f32::from_bits(97 << 23), f32::from_bits(157 << 23)];
+        let scaled = scales.into_iter().chain([f32::from_bits(253 << 23)]).map(Kind::Scaled);
+        scaled
+            .chain([Kind::Grid, Kind::Bits])
+            .enumerate()
+            .map(|(seed, kind)| Self { random: Pcg32::seed_from_u64(seed as u64), kind })
+    }
+
+    fn number(&mut self) -> f32 {
+        match self.kind {
+            Kind::Scaled(scale) => (self.random.next_u32() as f32 / (1u32 << 31) as f32 - 1.0) * scale,
+            Kind::Grid => (self.random.next_u32() % 5) as f32 - 2.0,
+            Kind::Bits => loop {
+                let x = f32::from_bits(self.random.next_u32());
+                if x.is_finite() {
+                    return x;
+                }
+            },
+        }
+    }
+
+    pub fn point(&mut self) -> Vec3 {
+        Vec3::new(self.number(), self.number(), self.number())
+    }
+
+    /// A point, some of whose components may be zeros of either sign.
+    pub fn direction(&mut self) -> Vec3 {
+        let mut direction = self.point();
+        for axis in 0..3 {
+            match self.random.next_u32() % 6 {
+                0 => direction[axis] = 0.0,
+                1 => direction[axis] = -0.0,
+                _ => {}
+            }
+        }
+        direction
+    }
+}
+
+/// Both say the same about `ray`; returns whether it hits.
+fn agree(oracle: &Oracle, ray: &Ray, mesh: &Mesh) -> bool {
+    let (fast, slow) = (oracle.nearest(ray), nearest(ray, mesh));
+    if let (Some(fast), Some((t, _))) = (&fast, &slow) {
+        assert_eq!(fast.rounded().to_bits(), t.round().to_bits(), "{ray:?}");
+    }
+    assert_eq!(fast.map(|truth| (truth.t, truth.ids)), slow, "{ray:?}");
+    slow.is_some()
+}
+
+#[test]
+fn the_fast_oracle_says_what_the_slow_one_says() {
+    for (kind, mut numbers) in Numbers::all().enumerate() {
+        let positions: Vec<Vec3> = (0..90).map(|_| numbers.point()).collect();
+        let triangles = (0..60).map(|i| [i, (i * 7 + 1) % 90, (i * 5 + 2) % 90]).collect();
+        let mesh = Arc::new(Mesh::new(positions, triangles).unwrap());
+        let oracle = Oracle::new(&mesh);
+        let mut hits = 0;
+        for round in 0..200 {
+            let origin = if round % 5 == 0 { mesh.positions()[round % 90] } else { numbers.point() };
+            let target = mesh.positions()[round % 90];
+            let mut ray = Ray::new(origin, if round % 2 == 0 { numbers.direction() } else { target - origin });
+            if round % 7 == 0 {
+                (ray.t_min, ray.t_max) = (numbers.number().abs(), numbers.number().abs());
+            }
+            hits += u32::from(agree(&oracle, &ray, &mesh));
+        }
+        assert!(hits > if kind == 7 { 3 } else { 40 }, "numbers of kind {kind} hit {hits} times");
+    }
+}
+
+/// The cube [-1, 1]^3, `n` squares an edge, with shared vertices: closed.
+fn cube(n: i32) -> Mesh {
+    let (mut positions, mut triangles) = (vec![], vec![]);
+    for (axis, side) in [(0, -1.0), (0, 1.0), (1, -1.0), (1, 1.0), (2, -1.0), (2, 1.0)] {
+        let first = positions.len() as u32;
+        for k in 0..(n + 1) * (n + 1) {
+            let mut p = Vec3::splat(side);
+            p[(axis + 1) % 3] = (k % (n + 1)) as f32 * 2.0 / n as f32 - 1.0;
+            p[(axis + 2) % 3] = (k / (n + 1)) as f32 * 2.0 / n as f32 - 1.0;
+            positions.push(p);
+        }
+        for k in (0..(n + 1) * n).filter(|k| k % (n + 1) != n) {
+            let [p, q] = [0, n + 1].map(|row| first + (k + row) as u32);
+            triangles.extend([[p, p + 1, q + 1], [p, q + 1, q]]);
+        }
+    }
+    Mesh::new(positions, triangles).unwrap()
+}
+
+/// In a closed mesh whose corners are on a grid, along the axes: `t` is known, through faces, edges, vertices, and in
+/// the planes of sides.
+#[test]
+fn rays_in_a_cube_hit_the_far_side_where_they_must() {
+    let mesh = Arc::new(cube(4));
+    let oracle = Oracle::new(&mesh);
+    let grid = || (-8..=8).map(|k| k as f32 / 8.0);
+    for (x, y) in grid().flat_map(|x| grid().map(move |y| (x, y))) {
+        for zero in [0.0, -0.0] {
+            let truth = oracle.nearest(&Ray::new(Vec3::new(x, y, 0.25), Vec3::new(zero, zero, -0.5))).expect("closed");
+            assert_eq!(truth.rounded(), 2.5);
+            // Vertices of the grid within a side have six triangles, or four or eight fewer at the rim.
+            let through = |c: f32| (c * 2.0).fract() == 0.0;
+            let inside = x.abs() < 1.0 && y.abs() < 1.0;
+            match (through(x), through(y)) {
+                (true, true) if inside => assert_eq!(truth.ids.len(), 6),
+                (true, false) | (false, true) if inside => assert_eq!(truth.ids.len(), 2),
+                _ => assert!(!truth.ids.is_empty()),
+            }
+        }
+    }
+}
+
+#[test]
+fn no_ray_leaves_a_closed_mesh_and_none_outside_enters() {
+    let mesh = Arc::new(cube(3));
+    let oracle = Oracle::new(&mesh);
+    let mut numbers = Numbers::all().next().unwrap();
+    for round in 0..3000 {
+        let inside = numbers.point() * 0.99;
+        let target = match round % 3 {
+            0 => numbers.point() * 2.0,
+            _ => mesh.positions()[round % mesh.positions().len()],
+        };
+        assert!(oracle.nearest(&Ray::new(inside, target - inside)).is_some(), "{inside} to {target}");
+        let outside = inside + Vec3::new(3.0, 0.0, 0.0);
+        assert_eq!(oracle.nearest(&Ray::new(outside, Vec3::new(1.0, inside.y, inside.z))), None);
+    }
+}
+
+#[test]
+fn all_triangles_at_the_nearest_t_are_named() {
+    let points = vec![
+        Vec3::ZERO,
+        Vec3::X,
+        Vec3::Y,
+        Vec3::new(1.0, 1.0, 0.0),
+        -Vec3::Z,
+        Vec3::new(5.0, 0.0, -1.0),
+        Vec3::new(0.0, 5.0, -1.0),
+    ];
+    let mesh = Arc::new(Mesh::new(points, vec![[4, 5, 6], [0, 1, 2], [0, 0, 1], [1, 2, 3], [0, 1, 2]]).unwrap());
+    let oracle = Oracle::new(&mesh);
+    let ray = Ray::new(Vec3::new(0.5, 0.5, 1.0), Vec3::NEG_Z);
+    let truth = oracle.nearest(&ray).unwrap();
+    assert_eq!((truth.rounded(), truth.ids), (1.0, vec![1, 3, 4]));
+    assert_eq!(nearest(&ray, &mesh).unwrap().1, [1, 3, 4]);
+    // Half-open, at both ends.
+    assert_eq!(oracle.nearest(&ray.until(1.0)), None);
+    assert!(oracle.nearest(&ray.until(1.0_f32.next_up())).is_some());
+    assert_eq!(oracle.nearest(&Ray { t_min: 1.0, ..ray }).unwrap().ids, [1, 3, 4]);
+    assert_eq!(oracle.nearest(&Ray { t_min: 1.0_f32.next_up(), ..ray }).unwrap().ids, [0]);
+    for bad in [ray.until(f32::NAN), Ray { direction: Vec3::ZERO, ..ray }, Ray { origin: Vec3::INFINITY, ..ray }] {
+        assert_eq!(oracle.nearest(&bad), None);
+    }
+}
+
+#[test]
+fn no_triangle_no_hit() {
+    let flat = Mesh::new(vec![Vec3::ZERO, Vec3::X, Vec3::X * 2.0], vec![[0, 1, 2]]).unwrap();
+    for mesh in [Mesh::new(vec![], vec![]).unwrap(), flat] {
+        assert_eq!(Oracle::new(&Arc::new(mesh)).nearest(&Ray::new(Vec3::Y, Vec3::NEG_Y)), None);
+    }
+}

@@ -1,0 +1,214 @@
+//! Which triangles a ray may hit.
+//!
+//! # No hit is lost
+//! The box of a node is the exact box of the corners of its triangles: minima and maxima of `f32` are not rounded. A
+//! point of a closed triangle is in the triangle's box, and so in the box of every node above it, since a box is
+//! convex.
+//!
+//! Let a ray hit a triangle at the exact `t`. For each axis, the coordinate `o + t d` is in the slab `[low, high]` of
+//! each of those boxes. If `d` is 0, of either sign, then `o` is in it, and the comparison of the two floats says so
+//! exactly. If not, `t` is between `(low - o) / d` and `(high - o) / d`. Each is computed in `f64` with one rounding
+//! for the difference and one for the quotient: both are exactly 0 or in magnitude between 2^-149 / 2^128 and 2^129 /
+//! 2^-149, where nothing overflows or underflows. They are moved outward by four times what these two roundings can do.
+//! So the interval of a node, the intersection of the three slabs and of `[t_min, bound]`, contains `t` whenever `bound
+//! >= t`. A node is passed over only if its interval is empty: if nothing in it is hit in the interval of the ray, or
+//! only behind the bound, which never is less than the exact `t` of some hit that has been found.
+
+use super::filter::Span;
+use crate::geometry::{Aabb, Mesh, Ray};
+
+/// A tree of boxes; each node has half of the triangles of the one above.
+pub struct Tree {
+    /// Nodes in the order of a walk that goes below first.
+    nodes: Vec<Node>,
+    /// Numbers of the triangles, leaf by leaf.
+    ids: Vec<u32>,
+}
+
+struct Node {
+    bounds: Aabb,
+    content: Content,
+}
+
+enum Content {
+    /// The child below is the next node.
+    Inner {
+        above: u32,
+    },
+    Leaf {
+        first: u32,
+        count: u32,
+    },
+}
+
+/// Triangles of a leaf, at most.
+const LEAF: usize = 4;
+
+/// Nodes that wait at once, at most: one a level, and 2^30 triangles halved 28 times fit in a leaf.
+const STACK: usize = 32;
+
+/// What is asked of the triangles that the ray may hit.
+pub trait Visitor {
+    fn triangle(&mut self, id: u32);
+    /// Beyond this `t`, nothing is asked for any more. It may only decrease.
+    fn bound(&self) -> f64;
+}
+
+impl Tree {
+    pub fn new(mesh: &Mesh) -> Self {
+        let mut boxes: Vec<(u32, Aabb)> = mesh.solid().map(|id| (id, mesh.triangle_bounds(id))).collect();
+        let mut tree = Self { nodes: vec![], ids: Vec::with_capacity(boxes.len()) };
+        if !boxes.is_empty() {
+            tree.grow(&mut boxes);
+        }
+        tree
+    }
+
+    fn grow(&mut self, boxes: &mut [(u32, Aabb)]) {
+        let bounds = boxes.iter().fold(Aabb::EMPTY, |sum, (_, b)| sum.union(*b));
+        let index = self.nodes.len();
+        let leaf = Content::Leaf { first: self.ids.len() as u32, count: boxes.len() as u32 };
+        self.nodes.push(Node { bounds, content: leaf });
+        if boxes.len() <= LEAF {
+            self.ids.extend(boxes.iter().map(|(id, _)| *id));
+            return;
+        }
+        // Halve along the axis on which the middles spread most; how well does not matter to the answers.
+        let middle = |b: &Aabb| b.min * 0.5 + b.max * 0.5;
+        let axis = Aabb::of_points(boxes.iter().map(|(_, b)| middle(b))).longest_axis();
+        let half = boxes.len() / 2;
+        boxes.select_nth_unstable_by(half, |(_, a), (_, b)| middle(a)[axis].total_cmp(&middle(b)[axis]));
+        let (below, above) = boxes.split_at_mut(half);
+        self.grow(below);
+        self.nodes[index].content = Content::Inner { above: self.nodes.len() as u32 };
+        self.grow(above);
+    }
+
+    /// Shows `visitor` every triangle that `ray`, which must be valid, hits in its interval up to the visitor's bound,
+    /// and others.
+    pub fn visit(&self, ray: &Ray, visitor: &mut impl Visitor) {
+        let enter = |index: u32, bound: f64| Some((index, near(ray, &self.nodes.get(index as usize)?.bounds, bound)?));
+        let mut stack = [(0, 0.0); STACK];
+        let mut waiting = 0;
+        let mut next = enter(0, visitor.bound());
+        loop {
+            let Some((index, near)) = next.take().or_else(|| {
+                waiting = usize::checked_sub(waiting, 1)?;
+                Some(stack[waiting])
+            }) else {
+                return;
+            };
+            // The bound may have come nearer while the node waited.
+            if near > visitor.bound() {
+                continue;
+            }
+            match self.nodes[index as usize].content {
+                Content::Leaf { first, count } => {
+                    for id in &self.ids[first as usize..][..count as usize] {
+                        visitor.triangle(*id);
+                    }
+                }
+                Content::Inner { above } => {
+                    let bound = visitor.bound();
+                    next = match (enter(index + 1, bound), enter(above, bound)) {
+                        (Some(below), Some(above)) => {
+                            let (first, second) = if above.1 < below.1 { (above, below) } else { (below, above) };
+                            stack[waiting] = second;
+                            waiting += 1;
+                            Some(first)
+                        }
+                        (below, above) => below.or(above),
+                    };
+                }
+            }
+        }
+    }
+}
+
+/// A lower bound of the `t` in [`t_min`, `bound`] at which `ray` is in the box; nothing if it provably never is.
+fn near(ray: &Ray, bounds: &Aabb, bound: f64) -> Option<f64> {
+    let (mut near, mut far) = (f64::from(ray.interval().0), bound);
+    let Ray { origin, direction, .. } = ray;
+    for axis in 0..3 {
+        let (o, d, low, high) = (origin[axis], direction[axis], bounds.min[axis], bounds.max[axis]);
+        if d == 0.0 {
+            if o < low || high < o {
+                return None;
+            }
+            continue;
+        }
+        let (first, last) = if d > 0.0 { (low, high) } else { (high, low) };
+        let cross = |plane: f32| (f64::from(plane) - f64::from(o)) / f64::from(d);
+        let slab = Span::outward(cross(first), cross(last));
+        near = near.max(slab.low);
+        far = far.min(slab.high);
+    }
+    (near <= far).then_some(near)
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::Vec3;
+
+    use super::*;
+    use crate::exact;
+    use crate::oracle::tests::Numbers;
+
+    struct All(Vec<u32>);
+
+    impl Visitor for All {
+        fn triangle(&mut self, id: u32) {
+            self.0.push(id);
+        }
+
+        fn bound(&self) -> f64 {
+            f64::INFINITY
+        }
+    }
+
+    #[test]
+    fn every_triangle_that_is_hit_is_visited_once() {
+        let mut hits = 0;
+        for mut numbers in Numbers::all() {
+            let positions: Vec<Vec3> = (0..150).map(|_| numbers.point()).collect();
+            let mesh = Mesh::new(positions, (0..50).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect()).unwrap();
+            let tree = Tree::new(&mesh);
+            for round in 0..60 {
+                let origin = if round % 3 == 0 { mesh.positions()[round] } else { numbers.point() };
+                let ray = Ray::new(origin, numbers.direction());
+                if !ray.is_valid() {
+                    continue;
+                }
+                let mut all = All(vec![]);
+                tree.visit(&ray, &mut all);
+                let visited = all.0.len();
+                all.0.sort_unstable();
+                all.0.dedup();
+                assert_eq!(all.0.len(), visited, "no triangle is visited twice");
+                for id in mesh.solid() {
+                    if exact::hit(&ray, mesh.corners(id)).is_some_and(|t| t.is_within(&ray)) {
+                        hits += 1;
+                        assert!(all.0.binary_search(&id).is_ok(), "{ray:?} loses triangle {id}");
+                    }
+                }
+            }
+        }
+        assert!(hits > 500, "{hits}");
+    }
+
+    #[test]
+    fn rays_in_a_face_of_a_box_are_in_the_box() {
+        let bounds = Aabb { min: Vec3::ZERO, max: Vec3::ONE };
+        for zero in [0.0, -0.0] {
+            for at in [0.0, 0.25, 1.0] {
+                let ray = Ray::new(Vec3::new(at, 1.0, -2.0), Vec3::new(zero, zero, 1.0));
+                assert_eq!(near(&ray, &bounds, f64::INFINITY).map(|t| t as f32), Some(2.0));
+                let beside = Ray { origin: Vec3::new(at, 1.0_f32.next_up(), -2.0), ..ray };
+                assert_eq!(near(&beside, &bounds, f64::INFINITY), None);
+            }
+        }
+        let ray = Ray::new(Vec3::new(0.5, 0.5, -2.0), Vec3::Z);
+        assert_eq!(near(&ray, &bounds, 1.5), None, "behind the bound");
+        assert_eq!(near(&Ray { t_min: 3.5, ..ray }, &bounds, 9.0), None, "before the interval");
+    }
+}

@@ -1,0 +1,111 @@
+//! Plots: panels of points on two logarithmic axes, as SVG and as PNG, the same picture.
+//!
+//! Pictures are 800 wide in their own units and drawn at twice that, so that they are sharp where they are shown
+//! smaller.
+
+mod axis;
+mod canvas;
+mod labels;
+mod panel;
+
+use canvas::Canvas;
+
+/// A picture of panels, one below the other, with one legend.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Figure {
+    pub panels: Vec<Panel>,
+    /// The colours: names of the groups that points belong to.
+    pub groups: Vec<String>,
+    /// Lines at the foot.
+    pub notes: Vec<String>,
+}
+
+/// Points on two logarithmic axes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Panel {
+    pub title: String,
+    pub x_title: String,
+    pub y_title: String,
+    pub points: Vec<Point>,
+}
+
+/// A point with a label.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Point {
+    /// Positive and finite.
+    pub x: f64,
+    /// Positive and finite, at most 1: a share.
+    pub y: f64,
+    /// Whether nothing but an upper bound is known of `y`: then an arrow points down from it.
+    pub is_bound: bool,
+    /// Whether no other point is better in both: these are filled, and a line joins them.
+    pub is_front: bool,
+    pub label: String,
+    /// Index into the groups of the figure.
+    pub group: usize,
+}
+
+/// A form in which a figure can be had.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    Svg,
+    Png,
+}
+
+/// What the ending of a file name does not tell.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("cannot plot to {0}: name a file that ends in .svg or .png")]
+pub struct UnknownFormat(String);
+
+impl Format {
+    /// The form that the ending of a file name asks for.
+    ///
+    /// # Errors
+    /// If it is neither `.svg` nor `.png`.
+    pub fn of(path: &std::path::Path) -> Result<Self, UnknownFormat> {
+        let ending = path.extension().map(|ending| ending.to_ascii_lowercase());
+        match ending.as_deref().and_then(|ending| ending.to_str()) {
+            Some("svg") => Ok(Self::Svg),
+            Some("png") => Ok(Self::Png),
+            _ => Err(UnknownFormat(path.display().to_string())),
+        }
+    }
+}
+
+/// Height of the legend, and of each note.
+const LEGEND: f64 = 30.0;
+const NOTE: f64 = 20.0;
+const MARGIN: f64 = 12.0;
+
+impl Figure {
+    /// The bytes of a file of this form; the same for the same figure.
+    pub fn bytes(&self, format: Format) -> Vec<u8> {
+        let height = self.panels.len() as f64 * panel::HEIGHT + LEGEND + self.notes.len() as f64 * NOTE + 2.0 * MARGIN;
+        match format {
+            Format::Svg => canvas::svg(height, |canvas| self.draw(canvas)).into_bytes(),
+            Format::Png => canvas::png(height, |canvas| self.draw(canvas)),
+        }
+    }
+
+    fn draw(&self, canvas: &Canvas) {
+        let mut top = MARGIN;
+        for panel in &self.panels {
+            panel::draw(panel, canvas, top);
+            top += panel::HEIGHT;
+        }
+        // The legend: a dot and a name for each group.
+        let (mut x, y) = (panel::LEFT, top + LEGEND * 0.5);
+        for (group, name) in self.groups.iter().enumerate() {
+            canvas.dot([x + 6.0, y], 6.0, canvas::group_colour(group), true);
+            canvas.text(name, [x + 18.0, y], canvas::BODY, canvas::group_colour(group), canvas::Side::Left);
+            x += 18.0 + canvas.width_of(name, canvas::BODY) + 24.0;
+        }
+        for (row, note) in self.notes.iter().enumerate() {
+            let y = top + LEGEND + (row as f64 + 0.5) * NOTE;
+            canvas.text(note, [panel::LEFT, y], canvas::SMALL, canvas::INK, canvas::Side::Left);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,55 @@
+use std::path::Path;
+
+use super::*;
+
+fn figure() -> Figure {
+    let point = |(x, y, label): (f64, f64, &str)| Point {
+        x,
+        y,
+        is_bound: label == "exact",
+        is_front: label != "slow",
+        label: label.into(),
+        group: 0,
+    };
+    Figure {
+        panels: vec![Panel {
+            title: "uniform rays".into(),
+            x_title: "ns per ray".into(),
+            y_title: "error".into(),
+            points: [(200.0, 0.02, "fast"), (250.0, 3e-5, "exact"), (4000.0, 0.02, "slow")].map(point).into(),
+        }],
+        groups: vec!["tree".into()],
+        notes: vec!["a note".into()],
+    }
+}
+
+#[test]
+fn both_forms_hold_the_picture() {
+    let svg = String::from_utf8(figure().bytes(Format::Svg)).unwrap();
+    for text in ["uniform rays", "ns per ray", "error", "fast", "exact", "slow", "tree", "a note", "0.001 %", "10 %"] {
+        assert!(svg.contains(&format!("\n{text}\n")), "{text} is not in {svg}");
+    }
+    let png = figure().bytes(Format::Png);
+    let picture = image::load_from_memory(&png).unwrap().into_rgb8();
+    assert_eq!(picture.width(), 1600);
+    // The colour of the only group is there, and text is not pale boxes: dark pixels are many.
+    assert!(picture.pixels().any(|p| p.0 == [0, 114, 178]));
+    assert!(picture.pixels().filter(|p| p.0.iter().all(|&c| c < 90)).count() > 2000);
+    assert_eq!(png, figure().bytes(Format::Png));
+}
+
+#[test]
+fn a_figure_without_points_says_so() {
+    let mut empty = figure();
+    empty.panels[0].points.clear();
+    assert!(String::from_utf8(empty.bytes(Format::Svg)).unwrap().contains("nothing to show"));
+}
+
+#[test]
+fn the_ending_tells_the_form() {
+    assert_eq!(Format::of(Path::new("a/b.SVG")), Ok(Format::Svg));
+    assert_eq!(Format::of(Path::new("b.png")), Ok(Format::Png));
+    for wrong in ["b", "b.pdf", "svg", ".png"] {
+        assert!(Format::of(Path::new(wrong)).unwrap_err().to_string().contains(".svg or .png"));
+    }
+}

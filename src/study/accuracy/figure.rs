@@ -1,0 +1,48 @@
+use super::{AccuracyRecord, RayKind};
+use crate::report::number::count;
+use crate::report::plot::{Figure, Panel, Point};
+
+/// Error against time: one panel for each scene and kind of rays.
+pub fn figure(records: &[AccuracyRecord]) -> Figure {
+    let mut groups: Vec<String> = vec![];
+    for record in records {
+        if !groups.contains(&structure(record)) {
+            groups.push(structure(record));
+        }
+    }
+    let panel = |of_kind: &[AccuracyRecord]| {
+        let first = &of_kind[0];
+        let stand_in = if first.stand_in { " (stand-in)" } else { "" };
+        let rays = of_kind.iter().map(|record| record.judged).max().unwrap_or(0);
+        let what = first.rays.parse().map_or("rays", RayKind::description);
+        let point = |record: &AccuracyRecord| Point {
+            x: record.ns_per_ray,
+            y: record.error_bound,
+            is_bound: record.errors() == 0,
+            is_front: record.dominated_by.is_none(),
+            label: record.triangle_test.clone(),
+            group: groups.iter().position(|group| *group == structure(record)).expect("all are listed"),
+        };
+        Panel {
+            title: format!("{}{stand_in}: {} {what}", first.scene, count(rays)),
+            x_title: "nanoseconds a ray, one thread".into(),
+            y_title: "wrong answers (missed, invented, or at a wrong depth), at most: 95 % confidence".into(),
+            points: of_kind.iter().map(point).collect(),
+        }
+    };
+    Figure {
+        panels: records.chunk_by(|a, b| a.rays == b.rays && a.scene == b.scene).map(panel).collect(),
+        groups,
+        notes: vec![
+            "Labels name the triangle test, colours the structure. Filled: nothing is faster and less wrong.".into(),
+            "Arrow: not one wrong answer was seen in n rays; the dot is the bound that this proves, 3/n.".into(),
+        ],
+    }
+}
+
+/// The label without its triangle test.
+fn structure(record: &AccuracyRecord) -> String {
+    let (name, keys) = record.label.split_once(':').unwrap_or((&record.label, ""));
+    let keys: Vec<&str> = keys.split(',').filter(|key| !key.is_empty() && !key.starts_with("test=")).collect();
+    if keys.is_empty() { name.into() } else { format!("{name}:{}", keys.join(",")) }
+}

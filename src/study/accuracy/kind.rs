@@ -1,0 +1,111 @@
+use std::str::FromStr;
+
+use crate::geometry::{Mesh, Ray};
+use crate::measure::spread;
+use crate::scene::{Scene, View};
+use crate::validate::Stratum;
+
+/// A kind of rays whose errors are counted together. Kinds are never pooled: each fails in its own way.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum RayKind {
+    /// Half from the camera, half random lines through the box ([`Stratum::Random`]): what pictures are made of.
+    Uniform,
+    /// Through points of edges ([`Stratum::Edges`]).
+    Edge,
+    /// Through vertices ([`Stratum::Vertices`]).
+    Vertex,
+    /// Along the axes, with coordinates of vertices ([`Stratum::AxisParallel`]).
+    Axis,
+    /// Nearly in the plane of a triangle ([`Stratum::Grazing`]).
+    Grazing,
+    /// With directions 1e-30 to 1e30 long ([`Stratum::Lengths`]).
+    Scale,
+    /// From 1e3 to 1e6 box sizes away: those of [`Stratum::FarOrigins`] that are not farther. Farther away, one step of
+    /// an `f32` is as large as what there is to be hit, and a traversal that must not lose anything visits nearly
+    /// everything.
+    Offset,
+}
+
+/// A kind of rays that is not known.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("there is no kind of rays {0:?}; there are: {known}", known = RayKind::ALL.map(RayKind::name).join(", "))]
+pub struct UnknownKind(String);
+
+impl RayKind {
+    pub const ALL: [Self; 7] =
+        [Self::Uniform, Self::Edge, Self::Vertex, Self::Axis, Self::Grazing, Self::Scale, Self::Offset];
+
+    /// As written on the command line and in records.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Uniform => "uniform",
+            Self::Edge => "edge",
+            Self::Vertex => "vertex",
+            Self::Axis => "axis",
+            Self::Grazing => "grazing",
+            Self::Scale => "scale",
+            Self::Offset => "offset",
+        }
+    }
+
+    /// What the rays are, in a few words.
+    pub fn description(self) -> &'static str {
+        match self {
+            Self::Uniform => "rays of the camera and random lines, half of each",
+            Self::Edge => "rays through points of edges",
+            Self::Vertex => "rays through vertices",
+            Self::Axis => "rays along the axes, with coordinates of vertices",
+            Self::Grazing => "rays nearly in the plane of a triangle",
+            Self::Scale => "rays with directions 1e-30 to 1e30 long",
+            Self::Offset => "rays from 1e3 to 1e6 scene sizes away",
+        }
+    }
+
+    /// `count` rays of this kind for `scene`.
+    pub fn rays(self, scene: &Scene, count: usize, seed: u64) -> Vec<Ray> {
+        let stratum = match self {
+            Self::Uniform => Stratum::Random,
+            Self::Edge => Stratum::Edges,
+            Self::Vertex => Stratum::Vertices,
+            Self::Axis => Stratum::AxisParallel,
+            Self::Grazing => Stratum::Grazing,
+            Self::Scale => Stratum::Lengths,
+            Self::Offset => Stratum::FarOrigins,
+        };
+        if self == Self::Offset {
+            return near_enough(&scene.mesh, count, seed);
+        }
+        let mut rays = vec![];
+        if self == Self::Uniform {
+            let pixels = scene.size[0] * scene.size[1];
+            rays = spread(&scene.primary_rays(scene.size, View::CENTRE, 0..pixels), count / 2);
+        }
+        rays.extend(stratum.rays(&scene.mesh, count - rays.len(), seed));
+        rays
+    }
+}
+
+/// The first `count` rays of [`Stratum::FarOrigins`] that start less than 2e6 box sizes away: about two of three do.
+fn near_enough(mesh: &Mesh, count: usize, seed: u64) -> Vec<Ray> {
+    let (centre, reach) = (mesh.bounds().centre(), mesh.bounds().extent().max_element() * 2e6);
+    let mut tried = 2 * count + 64;
+    loop {
+        let mut rays = Stratum::FarOrigins.rays(mesh, tried, seed);
+        rays.retain(|ray| (ray.origin - centre).abs().max_element() < reach);
+        // A mesh of size 0 has no distance to compare with.
+        if rays.len() >= count || tried > 64 * count + 64 {
+            rays.extend(Stratum::FarOrigins.rays(mesh, count.saturating_sub(rays.len()), seed));
+            rays.truncate(count);
+            return rays;
+        }
+        tried *= 2;
+    }
+}
+
+impl FromStr for RayKind {
+    type Err = UnknownKind;
+
+    fn from_str(name: &str) -> Result<Self, UnknownKind> {
+        Self::ALL.into_iter().find(|kind| kind.name() == name).ok_or_else(|| UnknownKind(name.into()))
+    }
+}

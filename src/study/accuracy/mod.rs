@@ -1,0 +1,202 @@
+//! `accuracy`: how wrong, how fast. Every structure over every triangle test answers the same rays; the exact oracle
+//! judges, one thread is timed.
+
+mod figure;
+mod front;
+mod judged;
+mod kind;
+mod record;
+mod table;
+#[cfg(test)]
+mod tests;
+
+use super::built::Built;
+use super::{Stage, StudyError};
+use crate::accel::Query;
+use crate::geometry::Ray;
+use crate::measure::{Clock, Pass, Plan, Provenance, Samples, Threads, Timed, median, spread, take};
+use crate::oracle::Oracle;
+use crate::registry::Choice;
+use crate::scene::Scene;
+use crate::validate::{Judged, Rate};
+
+pub use figure::figure;
+pub use kind::{RayKind, UnknownKind};
+pub use record::AccuracyRecord;
+pub use table::{legend, tables};
+
+/// What is measured, and for how long.
+pub struct Settings {
+    /// Structures over triangle tests, in the order of the tables.
+    pub choices: Vec<Choice>,
+    pub kinds: Vec<RayKind>,
+    /// Rays of each kind.
+    pub rays: usize,
+    /// Samples of every case.
+    pub runs: usize,
+    /// What a scene may take for samples, nanoseconds, and again half as much for the judging of what is slow: slow
+    /// cases run on a part of the rays to keep within it.
+    pub budget_ns: u64,
+    /// Seed of the rays and of the order of samples.
+    pub seed: u64,
+}
+
+/// A sample that takes longer runs on a part of the rays that the others are timed on.
+const LONGEST_SAMPLE_NS: u64 = 1_000_000_000;
+
+/// What judging a case may always take.
+const SHORT_JUDGING_NS: u64 = 2_000_000_000;
+
+/// One record for each kind of rays and structure, kind by kind.
+///
+/// # Errors
+/// If a structure refuses the mesh, or answers the same rays differently.
+pub fn accuracy_scene(
+    scene: &Scene,
+    settings: &Settings,
+    clock: &dyn Clock,
+    progress: &mut dyn FnMut(Stage),
+) -> Result<Vec<AccuracyRecord>, StudyError> {
+    let threads = Threads::new(1).map_err(StudyError::Threads)?;
+    let mut built = vec![];
+    for choice in &settings.choices {
+        progress(Stage::Build(&choice.label));
+        built.push(Built::new(choice, scene, &threads, clock)?);
+    }
+
+    progress(Stage::Rays("the truth about all"));
+    let oracle = Oracle::new(&scene.mesh);
+    let batches: Vec<judged::Batch> = settings
+        .kinds
+        .iter()
+        .map(|kind| judged::Batch::new(kind.rays(scene, settings.rays, settings.seed), &oracle))
+        .collect();
+
+    let cases = (built.len() * batches.len()).max(1) as u64;
+    let mut verdicts = vec![];
+    for batch in &batches {
+        for built in &built {
+            progress(Stage::Check(&built.choice.label));
+            let budget_ns = (settings.budget_ns / 2 / cases).max(SHORT_JUDGING_NS);
+            verdicts.push(batch.judge(built.accel.as_ref(), clock, budget_ns));
+        }
+    }
+    let rays: Vec<&[Ray]> = batches.iter().map(|batch| &batch.rays[..]).collect();
+    let samples = time(scene, &built, &rays, settings, &threads, clock, progress)?;
+
+    let (provenance, hash) = (Provenance::capture(threads.count()), scene.hash());
+    let mut records = vec![];
+    for (case, (judged, samples)) in verdicts.iter().zip(samples).enumerate() {
+        let (kind, built) = (settings.kinds[case / built.len()], &built[case % built.len()]);
+        records.push(record(scene, &hash, built, kind, settings, judged, &samples, &provenance));
+    }
+    // What is not proven is not credited: an error that was seen once may be less than one that was not seen in fewer
+    // rays.
+    for of_kind in records.chunks_mut(built.len().max(1)) {
+        let points: Vec<(f64, f64)> = of_kind.iter().map(|r| (r.ns_per_ray, r.error_bound)).collect();
+        let labels: Vec<String> = of_kind.iter().map(|r| r.label.clone()).collect();
+        for (record, dominator) in of_kind.iter_mut().zip(front::dominators(&points)) {
+            record.dominated_by = dominator.map(|i| labels[i].clone());
+        }
+    }
+    Ok(records)
+}
+
+/// Samples of all structures on all batches, interleaved; in the order of the batches, structure by structure.
+fn time(
+    scene: &Scene,
+    built: &[Built],
+    batches: &[&[Ray]],
+    settings: &Settings,
+    threads: &Threads,
+    clock: &dyn Clock,
+    progress: &mut dyn FnMut(Stage),
+) -> Result<Vec<Samples>, StudyError> {
+    // The warm-up costs about two passes more than the samples.
+    let passes = (batches.len() * (settings.runs + 2)).max(1) as u64;
+    let common: Vec<Vec<Ray>> =
+        batches.iter().map(|rays| common(built, rays, clock, settings.budget_ns / passes)).collect();
+    let mut cases: Vec<Box<dyn Timed>> = vec![];
+    for rays in &common {
+        for built in built {
+            cases.push(Box::new(Pass::new(built.accel.as_ref(), rays, Query::Closest, threads)));
+        }
+    }
+    let plan = Plan { runs: settings.runs, sample_budget_ns: LONGEST_SAMPLE_NS, warmup: 1, seed: settings.seed };
+    let total = cases.len() * settings.runs;
+    take(clock, &mut cases, &plan, &mut |taken| progress(Stage::Trace(taken, total))).map_err(|cause| {
+        let structure = built[cause.case % built.len()].choice.label.clone();
+        let rays = settings.kinds[cause.case / built.len()].name().into();
+        StudyError::Unsteady { structure, scene: scene.name.clone(), rays, cause }
+    })
+}
+
+/// Rays from which the speed of all structures is learnt.
+const PILOT: usize = 256;
+
+/// Structures that are slower than this times the fastest do not decide how many rays are timed.
+const SLOW: u64 = 30;
+
+/// As many of the rays, evenly spread, as all structures together answer in `budget_ns`: rays differ so much in what
+/// they cost that only times on the same ones can be compared.
+fn common(built: &[Built], rays: &[Ray], clock: &dyn Clock, budget_ns: u64) -> Vec<Ray> {
+    let pilot = spread(rays, PILOT);
+    let mut hits = vec![None; pilot.len()];
+    let mut pass = |built: &Built| {
+        let start = clock.now_ns();
+        built.accel.closest_hits(&pilot, &mut hits);
+        (clock.now_ns() - start).max(1)
+    };
+    // The first pass finds cold caches.
+    let ns: Vec<u64> = built.iter().map(|built| pass(built).min(pass(built))).collect();
+    let fastest = ns.iter().copied().min().unwrap_or(1);
+    let together: u64 = ns.iter().filter(|&&ns| ns <= SLOW * fastest).sum();
+    let count = pilot.len() as u128 * u128::from(budget_ns) / u128::from(together.max(1));
+    spread(rays, count.clamp(pilot.len() as u128, rays.len() as u128) as usize)
+}
+
+#[allow(clippy::too_many_arguments)]
+fn record(
+    scene: &Scene,
+    hash: &str,
+    built: &Built,
+    kind: RayKind,
+    settings: &Settings,
+    judged: &Judged,
+    samples: &Samples,
+    provenance: &Provenance,
+) -> AccuracyRecord {
+    let both = |rate: Rate| Some([rate.share()?, rate.bound()?]);
+    let [error, error_bound] = both(judged.error()).expect("some rays are judged");
+    AccuracyRecord {
+        schema: AccuracyRecord::SCHEMA,
+        scene: scene.name.clone(),
+        scene_hash: hash.into(),
+        triangles: scene.mesh.len(),
+        stand_in: !scene.stand_ins.is_empty(),
+        structure: built.choice.entry.name.clone(),
+        label: built.choice.label.clone(),
+        config: built.choice.config.clone(),
+        triangle_test: built.choice.triangle_test().into(),
+        rays: kind.name().into(),
+        seed: settings.seed,
+        judged: judged.rays,
+        sampled: judged.rays < settings.rays as u64,
+        hits: judged.hits,
+        missed: judged.missed,
+        false_hits: judged.false_hits,
+        wrong_depth: judged.wrong_depth,
+        wrong_primitive: judged.wrong_primitive,
+        error,
+        error_bound,
+        miss_rate: both(judged.miss_rate()),
+        false_hit_rate: both(judged.false_hit_rate()),
+        wrong_depth_rate: both(judged.wrong_depth_rate()),
+        ulps: judged.ulps,
+        ns_per_ray: median(&samples.ns_per_ray()).expect("there is a sample"),
+        timed: samples.rays,
+        runs: samples.ns.len(),
+        dominated_by: None,
+        provenance: provenance.clone(),
+    }
+}

@@ -1,0 +1,70 @@
+use super::*;
+use crate::measure::SystemClock;
+use crate::registry::Registry;
+use crate::scene::Builtin;
+use crate::triangle::{Exact, MollerTrumbore, TriangleTest};
+
+fn records(specs: &[&str], kinds: &[RayKind], rays: usize) -> Vec<AccuracyRecord> {
+    let registry = Registry::builtin();
+    let settings = Settings {
+        choices: specs.iter().map(|spec| registry.choose(spec).unwrap()).collect(),
+        kinds: kinds.into(),
+        rays,
+        runs: 2,
+        budget_ns: 2_000_000_000,
+        seed: 1,
+    };
+    let scene = Builtin::find("torus").unwrap().scene(None).unwrap();
+    accuracy_scene(&scene, &settings, &SystemClock::start(), &mut |_| ()).unwrap()
+}
+
+#[test]
+fn exact_is_right_and_single_precision_is_not() {
+    let records =
+        records(&["sah-kd:test=exact", "sah-kd:test=moller-trumbore"], &[RayKind::Edge, RayKind::Grazing], 400);
+    assert_eq!(records.len(), 4);
+    for record in &records {
+        assert!(record.hits > 50 && record.ns_per_ray > 0.0, "{record:?}");
+        assert_eq!((record.judged, record.sampled), (400, false));
+        match record.triangle_test.as_str() {
+            Exact::NAME => {
+                assert_eq!((record.errors(), record.wrong_primitive), (0, 0), "{record:?}");
+                assert!(record.ulps.unwrap().max <= 0.5);
+                assert_eq!((record.error, record.error_bound), (0.0, 3.0 / 400.0));
+            }
+            MollerTrumbore::NAME => {
+                assert!(record.errors() > 0, "{record:?}");
+                assert!(record.error < record.error_bound, "{record:?}");
+            }
+            other => panic!("{other}"),
+        }
+    }
+    // Whatever the times are: the exact one cannot be dominated, since nothing else is as right.
+    assert!(records.iter().step_by(2).all(|record| record.dominated_by.is_none()));
+}
+
+#[test]
+fn tables_and_pictures_name_every_case() {
+    let specs = ["sah-kd:test=exact", "brute-force", "sah-kd:mailbox=true,test=exact"];
+    let records = records(&specs, &[RayKind::Uniform], 100);
+    let tables = tables(&records, &["a note".into()]);
+    assert_eq!((tables.len(), tables[0].rows.len()), (1, 3));
+    assert!(tables[0].rows.iter().all(|row| row.len() == tables[0].columns.len()));
+    assert_eq!(tables[0].notes, ["a note"]);
+    let figure = figure(&records);
+    assert_eq!(figure.groups, ["sah-kd", "brute-force", "sah-kd:mailbox=true"]);
+    assert_eq!(figure.panels[0].points.len(), 3);
+    assert!(figure.panels[0].points[0].is_bound);
+}
+
+#[test]
+fn kinds_of_rays_have_names_that_are_read_back() {
+    let scene = Builtin::find("cube").unwrap().scene(None).unwrap();
+    for kind in RayKind::ALL {
+        assert_eq!(kind.name().parse(), Ok(kind));
+        let rays = kind.rays(&scene, 31, 5);
+        assert_eq!(rays.len(), 31);
+        assert_eq!(rays, kind.rays(&scene, 31, 5));
+    }
+    assert!("edges".parse::<RayKind>().unwrap_err().to_string().contains("uniform, edge"));
+}

@@ -1,0 +1,190 @@
+//! Puts a case to a structure, and carries the answers from one process to another.
+
+use serde::{Deserialize, Serialize};
+
+use super::{Case, Content, Property, Set};
+use crate::accel::{BuildError, DynAccel};
+use crate::geometry::{Hit, Ray};
+use crate::measure::{Clock, median};
+use crate::registry::Choice;
+use crate::validate::conformance::Subject;
+
+/// What a structure did with a case.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Answers {
+    pub head: Head,
+    /// One a ray; none for a property.
+    pub hits: Vec<Option<Hit>>,
+}
+
+/// All that is not a hit.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Head {
+    /// Number of answers.
+    pub rays: usize,
+    /// Seen from outside, nanoseconds.
+    pub build_ns: u64,
+    /// Rays for which any hit contradicts closest hit.
+    pub any_hit_errors: u64,
+    /// Rays that are answered otherwise alone than in a batch, among some of them.
+    pub unrepeatable: u64,
+    /// Time of these rays over that of the ordinary ones of the case, where it has such; median of interleaved passes.
+    pub slowness: Option<f64>,
+    pub property: Option<Property>,
+}
+
+/// Why there are no answers.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum AnswersError {
+    #[error("the answers end after {got} of {expected} bytes")]
+    Short { got: usize, expected: usize },
+    #[error("the answers do not begin as they should: {0}")]
+    Head(String),
+}
+
+/// Builds `choice` over the mesh of `case` and asks at most `rays` of its rays.
+///
+/// # Errors
+/// If the structure cannot be built.
+pub fn ask(case: &Case, choice: &Choice, rays: usize, clock: &dyn Clock) -> Result<Answers, BuildError> {
+    match case.content {
+        Content::Rays { rays: most, make, .. } => {
+            let set = make(rays.min(most));
+            let start = clock.now_ns();
+            let accel = choice.build(&set.mesh)?;
+            let build_ns = clock.now_ns() - start;
+            Ok(of_rays(&*accel, &set, build_ns, clock))
+        }
+        Content::Property(check) => {
+            let subject = Subject {
+                name: choice.label.clone(),
+                triangle_test: choice.triangle_test(),
+                lowest_id: false,
+                build: Box::new(|mesh| choice.build(mesh)),
+            };
+            let property = Some(check(&subject, rays));
+            Ok(Answers { head: Head { property, ..Head::default() }, hits: vec![] })
+        }
+    }
+}
+
+/// Rays that are asked again, at most, spread evenly.
+const AGAIN: usize = 500;
+
+fn of_rays(accel: &dyn DynAccel, set: &Set, build_ns: u64, clock: &dyn Clock) -> Answers {
+    let mut hits = vec![None; set.rays.len()];
+    accel.closest_hits(&set.rays, &mut hits);
+    let mut any: Vec<bool> = hits.iter().map(Option::is_none).collect();
+    accel.any_hits(&set.rays, &mut any);
+
+    let any_hit_errors = hits.iter().zip(&any).filter(|(hit, any)| hit.is_some() != **any).count() as u64;
+    let alone = |(ray, hit): &(&Ray, &Option<Hit>)| {
+        let mut again = [None];
+        accel.closest_hits(&[**ray], &mut again);
+        !same(again[0], **hit)
+    };
+    let step = hits.len().div_ceil(AGAIN).max(1);
+    let unrepeatable = set.rays.iter().zip(&hits).step_by(step).filter(alone).count() as u64;
+
+    let head = Head {
+        rays: hits.len(),
+        build_ns,
+        any_hit_errors,
+        unrepeatable,
+        slowness: slowness(accel, set, clock),
+        property: None,
+    };
+    Answers { head, hits }
+}
+
+fn same(a: Option<Hit>, b: Option<Hit>) -> bool {
+    match (a, b) {
+        (Some(a), Some(b)) => a.same_bits(b),
+        (a, b) => a.is_none() && b.is_none(),
+    }
+}
+
+/// Passes over either kind of rays.
+const PASSES: usize = 15;
+
+/// Time of the case's rays over that of its ordinary ones.
+fn slowness(accel: &dyn DynAccel, set: &Set, clock: &dyn Clock) -> Option<f64> {
+    if set.ordinary.is_empty() {
+        return None;
+    }
+    let mut hits = vec![None; set.rays.len().max(set.ordinary.len())];
+    let mut ns_per_ray = |rays: &[Ray]| {
+        let start = clock.now_ns();
+        accel.closest_hits(rays, &mut hits[..rays.len()]);
+        (clock.now_ns() - start) as f64 / rays.len() as f64
+    };
+    let ratios: Vec<f64> = (0..PASSES)
+        .filter_map(|_| {
+            let (own, ordinary) = (ns_per_ray(&set.rays), ns_per_ray(&set.ordinary));
+            (ordinary > 0.0).then_some(own / ordinary)
+        })
+        .collect();
+    median(&ratios)
+}
+
+impl Answers {
+    /// A line of JSON, then for each hit the bits of `t` and the number of the primitive, little-endian.
+    pub fn to_bytes(&self) -> Vec<u8> {
+        let mut bytes = serde_json::to_vec(&self.head).expect("numbers and texts");
+        bytes.push(b'\n');
+        for hit in &self.hits {
+            let [t, prim] = hit.map_or([0, NO_HIT], |hit| [hit.t.to_bits(), hit.prim.index()]);
+            bytes.extend_from_slice(&t.to_le_bytes());
+            bytes.extend_from_slice(&prim.to_le_bytes());
+        }
+        bytes
+    }
+
+    /// # Errors
+    /// If `bytes` is not what [`Answers::to_bytes`] makes.
+    pub fn from_bytes(bytes: &[u8]) -> Result<Self, AnswersError> {
+        let end = bytes.iter().position(|&byte| byte == b'\n').unwrap_or(bytes.len());
+        let head: Head =
+            serde_json::from_slice(&bytes[..end]).map_err(|error| AnswersError::Head(error.to_string()))?;
+        let body = bytes.get(end + 1..).unwrap_or(&[]);
+        let (pairs, rest) = body.as_chunks::<8>();
+        if !rest.is_empty() || pairs.len() != head.rays {
+            return Err(AnswersError::Short { got: body.len(), expected: head.rays * 8 });
+        }
+        let hit = |&[a, b, c, d, e, f, g, h]: &[u8; 8]| {
+            let [t, prim] = [[a, b, c, d], [e, f, g, h]].map(u32::from_le_bytes);
+            (prim != NO_HIT).then(|| Hit::new(f32::from_bits(t), prim))
+        };
+        Ok(Self { hits: pairs.iter().map(hit).collect(), head })
+    }
+}
+
+/// Stands for no hit: no primitive has this number.
+const NO_HIT: u32 = u32::MAX;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::measure::SystemClock;
+    use crate::registry::Registry;
+    use crate::study::hard_cases::find;
+
+    #[test]
+    fn answers_come_back_as_they_went() {
+        let choice = Registry::builtin().choose("sah-kd").unwrap();
+        for name in ["flat_grazing_1e-6", "rays_nan_dir", "limits"] {
+            let answers = ask(find(name).unwrap(), &choice, 50, &SystemClock::start()).unwrap();
+            assert_eq!(Answers::from_bytes(&answers.to_bytes()).as_ref(), Ok(&answers), "{name}");
+            assert_eq!((answers.head.any_hit_errors, answers.head.unrepeatable), (0, 0), "{name}");
+            assert_eq!(answers.head.slowness.is_some(), name == "rays_nan_dir");
+        }
+    }
+
+    #[test]
+    fn what_is_cut_off_is_refused() {
+        let head = Head { rays: 2, ..Head::default() };
+        let bytes = Answers { head, hits: vec![None, Some(Hit::new(1.5, 7))] }.to_bytes();
+        assert!(matches!(Answers::from_bytes(&bytes[..bytes.len() - 1]), Err(AnswersError::Short { .. })));
+        assert!(matches!(Answers::from_bytes(b"thread panicked"), Err(AnswersError::Head(_))));
+    }
+}

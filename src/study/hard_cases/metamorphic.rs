@@ -1,0 +1,128 @@
+//! Scenes changed so that their answers are known from the answers before.
+
+use glam::Vec3;
+
+use super::Property;
+use super::properties::{built, closest, shared};
+use crate::geometry::Ray;
+use crate::triangle::{Exact, TriangleTest};
+use crate::validate::Sampler;
+use crate::validate::conformance::Subject;
+use crate::validate::degenerate::mesh;
+
+/// A scene changed so that every `t` stays as it is, or is multiplied by a power of two.
+struct Change {
+    name: &'static str,
+    /// Whether no rounding is different: every test owes the same bits. Otherwise only an exact one does.
+    same_rounding: bool,
+    mesh: fn(&[[Vec3; 3]]) -> Vec<[Vec3; 3]>,
+    ray: fn(Ray) -> Ray,
+    /// What `t` is multiplied by.
+    factor: f32,
+}
+
+/// Coordinates of the scene are multiples of 2^-10 below 8: what these changes compute is exact.
+const CHANGES: [Change; 7] = [
+    Change {
+        name: "in another order",
+        same_rounding: true,
+        mesh: |triangles| triangles.iter().rev().copied().collect(),
+        ray: |ray| ray,
+        factor: 1.0,
+    },
+    Change {
+        name: "mirrored",
+        same_rounding: true,
+        mesh: |triangles| each_point(triangles, |p| p * MIRROR),
+        ray: |ray| Ray { origin: ray.origin * MIRROR, direction: ray.direction * MIRROR, ..ray },
+        factor: 1.0,
+    },
+    Change {
+        name: "1024 times as large",
+        same_rounding: true,
+        mesh: |triangles| each_point(triangles, |p| p * 1024.0),
+        ray: |ray| Ray { origin: ray.origin * 1024.0, ..ray },
+        factor: 1024.0,
+    },
+    Change {
+        name: "with axes exchanged",
+        same_rounding: false,
+        mesh: |triangles| each_point(triangles, |p| Vec3::new(p.y, p.z, p.x)),
+        ray: |ray| {
+            let turn = |p: Vec3| Vec3::new(p.y, p.z, p.x);
+            Ray { origin: turn(ray.origin), direction: turn(ray.direction), ..ray }
+        },
+        factor: 1.0,
+    },
+    Change {
+        name: "wound the other way",
+        same_rounding: false,
+        mesh: |triangles| triangles.iter().map(|&[a, b, c]| [a, c, b]).collect(),
+        ray: |ray| ray,
+        factor: 1.0,
+    },
+    Change {
+        name: "moved",
+        same_rounding: false,
+        mesh: |triangles| each_point(triangles, |p| p + Vec3::new(32.0, -64.0, 16.0)),
+        ray: |ray| Ray { origin: ray.origin + Vec3::new(32.0, -64.0, 16.0), ..ray },
+        factor: 1.0,
+    },
+    Change {
+        name: "with every triangle cut in two",
+        same_rounding: false,
+        mesh: |triangles| {
+            let halves = |&[a, b, c]: &[Vec3; 3]| {
+                let middle = (b + c) * 0.5;
+                [[a, b, middle], [a, middle, c]]
+            };
+            triangles.iter().flat_map(halves).collect()
+        },
+        ray: |ray| ray,
+        factor: 1.0,
+    },
+];
+
+const MIRROR: Vec3 = Vec3::new(-1.0, 1.0, 1.0);
+
+fn each_point(triangles: &[[Vec3; 3]], change: fn(Vec3) -> Vec3) -> Vec<[Vec3; 3]> {
+    triangles.iter().map(|corners| corners.map(change)).collect()
+}
+
+/// Compares the answers to a scene with those to its changes.
+pub(super) fn metamorphic(subject: &Subject, rays: usize) -> Property {
+    let mut sampler = Sampler::new(75);
+    let mut grid = |reach: f32| (sampler.cube() * (reach * 1024.0)).round() / 1024.0;
+    let triangles: Vec<[Vec3; 3]> = (0..400)
+        .map(|_| {
+            let centre = grid(3.0);
+            [(); 3].map(|()| centre + grid(1.0))
+        })
+        .collect();
+    let rays: Vec<Ray> = (0..shared(rays, CHANGES.len()))
+        .map(|_| {
+            let origin = grid(7.0);
+            Ray::new(origin, grid(3.0) - origin)
+        })
+        .collect();
+
+    let plain = match built(subject, &mesh(triangles.iter().copied())) {
+        Ok(accel) => accel,
+        Err(broken) => return broken,
+    };
+    let mut property = Property::default();
+    for change in CHANGES.iter().filter(|change| change.same_rounding || subject.triangle_test == Exact::NAME) {
+        let changed = match built(subject, &mesh((change.mesh)(&triangles))) {
+            Ok(accel) => accel,
+            Err(broken) => return broken,
+        };
+        for &ray in &rays {
+            let expected = closest(&*plain, ray).map(|hit| hit.t * change.factor);
+            let found = closest(&*changed, (change.ray)(ray)).map(|hit| hit.t);
+            property.note(expected.map(f32::to_bits) == found.map(f32::to_bits), || {
+                format!("{}: t is {found:?} and not {expected:?} on the ray \"{ray}\"", change.name)
+            });
+        }
+    }
+    property
+}

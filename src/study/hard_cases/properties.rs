@@ -1,0 +1,210 @@
+//! What the answers of a structure must have in common, whatever they are.
+
+use std::sync::Arc;
+
+use super::metamorphic::metamorphic;
+use super::set::star;
+use super::{Case, Content, Property, Rank};
+use crate::accel::DynAccel;
+use crate::geometry::{Hit, Mesh, Ray};
+use crate::validate::conformance::Subject;
+use crate::validate::degenerate::{exponential, huge_and_small, needles, soup};
+use crate::validate::{Reference, Sampler, Stratum, validate};
+
+pub(super) const CASES: &[Case] = &[
+    Case {
+        number: 73,
+        name: "continuation",
+        rank: Rank::Added,
+        content: Content::Property(continuation),
+        reason: "Going on behind each hit must visit all crossings of a ray, each once.",
+        source: "Embree, verify.cpp, sphere_filter_multi_hit",
+    },
+    Case {
+        number: 74,
+        name: "parity",
+        rank: Rank::Added,
+        content: Content::Property(parity),
+        reason: "A ray from outside crosses a closed surface an even number of times.",
+        source: "survey: tests of volumes and of points in solids rest on it",
+    },
+    Case {
+        number: 75,
+        name: "metamorphic",
+        rank: Rank::Added,
+        content: Content::Property(metamorphic),
+        reason: "Reordered, mirrored and doubled scenes have the same t; so have turned, moved and cut ones where answers are exact.",
+        source: "survey: finds what a comparison with one's own test cannot",
+    },
+    Case {
+        number: 76,
+        name: "any_equals_closest",
+        rank: Rank::Added,
+        content: Content::Property(|subject, rays| {
+            validated(subject, &[star(), soup(500, 1)], rays, |v| (v.any_hit_errors, "any hit contradicts closest hit"))
+        }),
+        reason: "Any hit has a loop of its own in most systems, and its own mistakes.",
+        source: "pbrt-v4: a second copy of the loop",
+    },
+    Case {
+        number: 77,
+        name: "batch_equals_single",
+        rank: Rank::Added,
+        content: Content::Property(|subject, rays| {
+            validated(subject, &[star(), soup(500, 1)], rays, |v| {
+                (v.unrepeatable, "asked alone, the answer is another")
+            })
+        }),
+        reason: "Packets and batches must answer as single rays do.",
+        source: "Embree, verify.cpp: the same tests for every packet size",
+    },
+    Case {
+        number: 81,
+        name: "sizes_0_to_40",
+        rank: Rank::Added,
+        content: Content::Property(|subject, rays| {
+            let meshes: Vec<Arc<Mesh>> = (0..=40).map(|n| soup(n, 100 + n as u64)).collect();
+            validated(subject, &meshes, rays, |v| (v.errors(), "an answer is wrong"))
+        }),
+        reason: "No, one, two, three triangles and all sizes of a leaf: where blocks and nodes are partly filled.",
+        source: "survey",
+    },
+    Case {
+        number: 84,
+        name: "limits",
+        rank: Rank::Added,
+        content: Content::Property(limits),
+        reason: "Numbers of nodes and references must stay bounded where triangles cannot be separated, before memory ends.",
+        source: "pbrt-v4, kd-tree: depth 8 + 1.3 log2 N and bad refines; Embree, regression with failing allocations",
+    },
+];
+
+/// Rays of one property; the strata and meshes share them out.
+pub(super) fn shared(rays: usize, among: usize) -> usize {
+    rays.div_ceil(among).max(4)
+}
+
+/// Builds, or says in a property that it cannot be built.
+pub(super) fn built(subject: &Subject, mesh: &Arc<Mesh>) -> Result<Box<dyn DynAccel>, Property> {
+    (subject.build)(mesh).map_err(|error| {
+        let example = Some(format!("{} does not build: {error}", subject.name));
+        Property { checked: 1, broken: 1, example }
+    })
+}
+
+/// Holds all strata on some meshes against brute force, and counts one kind of error.
+fn validated(
+    subject: &Subject,
+    meshes: &[Arc<Mesh>],
+    rays: usize,
+    errors: fn(&crate::validate::Validation) -> (u64, &'static str),
+) -> Property {
+    let mut property = Property::default();
+    let each = shared(rays, meshes.len() * Stratum::ALL.len());
+    for mesh in meshes {
+        let accel = match built(subject, mesh) {
+            Ok(accel) => accel,
+            Err(broken) => return broken,
+        };
+        let Ok(reference) = Reference::of_test(subject.triangle_test, mesh) else { continue };
+        for stratum in Stratum::ALL {
+            let validation = validate(&*accel, &reference, mesh, &stratum.rays(mesh, each, 76));
+            let (broken, what) = errors(&validation);
+            let example = (broken > 0).then(|| {
+                let worst = validation.worst_error().map_or(String::new(), |worst| format!(": {worst}"));
+                format!("{} triangles, {}: {what}{worst}", mesh.len(), stratum.name())
+            });
+            property.append(Property { checked: validation.rays, broken, example });
+        }
+    }
+    property
+}
+
+pub(super) fn closest(accel: &dyn DynAccel, ray: Ray) -> Option<Hit> {
+    let mut hit = [None];
+    accel.closest_hits(&[ray], &mut hit);
+    hit[0]
+}
+
+/// No ray of these scenes has more crossings; a structure that does not move on is stopped here.
+const CROSSINGS: usize = 4096;
+
+/// The rays that go on behind each hit of `ray` as `accel` finds them, the first being `ray` itself.
+fn continued(accel: &dyn DynAccel, ray: Ray) -> Vec<Ray> {
+    let mut rays = vec![ray];
+    while let Some(hit) = closest(accel, rays[rays.len() - 1]) {
+        if rays.len() == CROSSINGS {
+            break;
+        }
+        rays.push(Ray { t_min: hit.t.next_up(), ..ray });
+    }
+    rays
+}
+
+/// Through the star from outside.
+fn through_star(count: usize, seed: u64) -> Vec<Ray> {
+    let mut sampler = Sampler::new(seed);
+    let ray = |_| {
+        let origin = sampler.direction() * 20.0;
+        Ray::new(origin, sampler.cube() * 5.0 - origin)
+    };
+    (0..count).map(ray).collect()
+}
+
+/// Each continued ray is held against brute force, which says where to go on.
+fn continuation(subject: &Subject, rays: usize) -> Property {
+    let mesh = star();
+    let (accel, reference) = match (built(subject, &mesh), Reference::of_test(subject.triangle_test, &mesh)) {
+        (Ok(accel), Ok(reference)) => (accel, reference),
+        (Err(broken), _) => return broken,
+        (_, Err(error)) => return Property { checked: 1, broken: 1, example: Some(error.to_string()) },
+    };
+    let through = through_star(shared(rays, 10), 73);
+    let steps: Vec<Ray> = through.into_iter().flat_map(|ray| continued(&*reference.accel, ray)).collect();
+    let found = validate(&*accel, &reference, &mesh, &steps);
+    Property { checked: found.rays, broken: found.errors(), example: found.worst_error().map(ToString::to_string) }
+}
+
+/// Where brute force with the same test counts an odd number too, the test is to blame.
+fn parity(subject: &Subject, rays: usize) -> Property {
+    let mesh = star();
+    let (accel, reference) = match (built(subject, &mesh), Reference::of_test(subject.triangle_test, &mesh)) {
+        (Ok(accel), Ok(reference)) => (accel, reference),
+        (Err(broken), _) => return broken,
+        (_, Err(error)) => return Property { checked: 1, broken: 1, example: Some(error.to_string()) },
+    };
+    let mut property = Property::default();
+    for ray in through_star(shared(rays, 10), 74) {
+        let crossings = |accel: &dyn DynAccel| continued(accel, ray).len() - 1;
+        let own = crossings(&*accel);
+        let holds = own.is_multiple_of(2) || crossings(&*reference.accel) == own;
+        property.note(holds, || format!("{own} crossings of a closed mesh by the ray \"{ray}\""));
+    }
+    property
+}
+
+/// References a triangle from which on a tree has lost control, whatever it is built over.
+const REFERENCES: usize = 64;
+/// Edges from root to leaf likewise.
+const DEPTH: usize = 1024;
+
+fn limits(subject: &Subject, _rays: usize) -> Property {
+    let mut property = Property::default();
+    let meshes = [("needles", needles(2200)), ("a sequence", exponential(300)), ("a huge triangle", huge_and_small())];
+    for (name, mesh) in meshes {
+        let accel = match built(subject, &mesh) {
+            Ok(accel) => accel,
+            Err(broken) => return broken,
+        };
+        let shape = accel.shape();
+        property.note(shape.references <= REFERENCES * mesh.len(), || {
+            format!(
+                "{} references to {} triangles over {name}: at most {REFERENCES} each",
+                shape.references,
+                mesh.len()
+            )
+        });
+        property.note(shape.depth <= DEPTH, || format!("{} levels over {name}: at most {DEPTH}", shape.depth));
+    }
+    property
+}

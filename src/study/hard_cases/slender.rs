@@ -1,0 +1,122 @@
+//! Slivers, needles and fans.
+
+use std::sync::Arc;
+
+use glam::Vec3;
+
+use super::set::{indexed, moved, on_surface, tilted};
+use super::{Case, Content, Rank, Set};
+use crate::geometry::{Mesh, Ray};
+use crate::validate::Sampler;
+use crate::validate::degenerate::{mesh, needles};
+
+pub(super) const CASES: &[Case] = &[
+    Case {
+        number: 35,
+        name: "slivers_1e6_axis",
+        rank: Rank::Moderate,
+        content: Content::oracle(|n| slivers(n, |p| p)),
+        reason: "Strips of 1000 x 1e-3 along the axes: a million times longer than wide.",
+        source: "Woop, Benthin, Wald 2013: t is as accurate as the least accurate axis",
+    },
+    Case {
+        number: 36,
+        name: "slivers_1e6_rot",
+        rank: Rank::Moderate,
+        content: Content::oracle(|n| slivers(n, tilted)),
+        reason: "The same strips tilted: the f32 normal has no digit left, and t is wrong by percents.",
+        source: "Embree, stable_triangle_normal; measured: 36 to 44 % of the depths wrong",
+    },
+    Case {
+        number: 37,
+        name: "hair_diag",
+        rank: Rank::Moderate,
+        content: Content::oracle(hair),
+        reason: "Needles of 2 x 1e-3 along a diagonal: their boxes are almost empty, and all overlap.",
+        source: "survey",
+    },
+    Case {
+        number: 38,
+        name: "fan_apex",
+        rank: Rank::Moderate,
+        content: Content::hit(|n| {
+            // The apex is zero: -p aims at it exactly.
+            Set::new(fan(), n, 14, |sampler| {
+                let origin = below(sampler);
+                Ray::new(origin, -origin)
+            })
+        })
+        .of(2000),
+        reason: "800 triangles meet in the vertex that is aimed at: all of them hit, at edges, and none may fall out of its box.",
+        source: "obvhs, rt_triangle.rs: seen from behind, 0 times a negative number is -0.0, and counts as outside",
+    },
+    Case {
+        number: 39,
+        name: "fan_random",
+        rank: Rank::Moderate,
+        content: Content::hit(|n| {
+            Set::new(fan(), n, 15, |sampler| {
+                let origin = below(sampler);
+                let target = Vec3::new(sampler.signed(), sampler.signed(), 0.0) * 0.4;
+                Ray::new(origin, target - origin)
+            })
+        }),
+        reason: "The same fan, aimed at beside its apex.",
+        source: "survey",
+    },
+    Case {
+        number: 56,
+        name: "needle_stack_kd",
+        rank: Rank::Moderate,
+        content: Content::oracle(|n| {
+            Set::new(needles(2200), n, 16, |sampler| {
+                let origin = sampler.direction() * 12.0;
+                Ray::new(origin, sampler.cube() * 3.0 - origin)
+            })
+        }),
+        reason: "Needles that cross in one place: no plane separates them, and every split doubles references.",
+        source: "pbrt-v4, kd-tree: bad refines; Wald, Havran 2006",
+    },
+];
+
+/// A thousand strips side by side, over a field of 1000 x 1, from above.
+fn slivers(count: usize, placed: fn(Vec3) -> Vec3) -> Set {
+    const WIDTH: f32 = 1e-3;
+    let points = (0..=1000).flat_map(|i| [0.0, 1000.0].map(|x| Vec3::new(x, i as f32 * WIDTH, 0.0)));
+    let strips = (0..1000).map(|i| 2 * i).flat_map(|a: u32| [[a, a + 1, a + 3], [a, a + 3, a + 2]]);
+    let flat = indexed(points.collect(), strips.collect());
+    Set::new(moved(&flat, placed), count, 12, |sampler| {
+        let target = Vec3::new(1000.0 * sampler.unit(), sampler.unit(), 0.0);
+        let from = target + Vec3::new(sampler.signed(), sampler.signed(), 10.0 * (1.0 + sampler.unit()));
+        Ray::new(placed(from), placed(target) - placed(from))
+    })
+}
+
+fn hair(count: usize) -> Set {
+    let mut sampler = Sampler::new(13);
+    let hairs = (0..3000).map(|_| {
+        let root = sampler.cube() * 2.0;
+        [root, root + Vec3::splat(2.0 / 1.732_050_8), root + sampler.direction() * 1e-3]
+    });
+    let mesh: Arc<Mesh> = mesh(hairs);
+    Set::new(Arc::clone(&mesh), count, 13, |sampler| {
+        let origin = sampler.direction() * 8.0;
+        Ray::new(origin, on_surface(&mesh, sampler) - origin)
+    })
+}
+
+/// A disk of 800 triangles around their common corner, zero.
+fn fan() -> Arc<Mesh> {
+    const SEGMENTS: u32 = 800;
+    let rim = (0..SEGMENTS).map(|i| {
+        let (sine, cosine) = libm::sincos(f64::from(i) * std::f64::consts::TAU / f64::from(SEGMENTS));
+        Vec3::new(cosine as f32, sine as f32, 0.0)
+    });
+    let points = std::iter::once(Vec3::ZERO).chain(rim).collect();
+    indexed(points, (0..SEGMENTS).map(|i| [0, 1 + i, 1 + (i + 1) % SEGMENTS]).collect())
+}
+
+/// A point from which the backs of the fan are seen.
+fn below(sampler: &mut Sampler) -> Vec3 {
+    Vec3::new(sampler.signed(), sampler.signed(), -3.0 - 2.0 * sampler.unit())
+}

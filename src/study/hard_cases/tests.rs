@@ -1,0 +1,148 @@
+//! The catalogue is whole, and its generators make what they say.
+
+use std::collections::BTreeSet;
+
+use sha2::{Digest, Sha256};
+
+use super::{Case, Content, Expected, Rank, Set, catalogue, find};
+use crate::geometry::{Mesh, MeshError, Ray};
+use crate::oracle::Oracle;
+
+use glam::Vec3;
+
+/// Rays of a case in these tests.
+const FEW: usize = 40;
+
+fn sets(count: usize) -> impl Iterator<Item = (&'static Case, Expected, Set)> {
+    catalogue().into_iter().filter_map(move |case| match case.content {
+        Content::Rays { rays, expected, make } => Some((case, expected, make(rays.min(count)))),
+        Content::Property(_) => None,
+    })
+}
+
+#[test]
+fn there_are_84_numbers_and_every_case_has_a_name_of_its_own() {
+    let cases = catalogue();
+    let numbers: BTreeSet<u32> = cases.iter().map(|case| case.number).collect();
+    assert!(numbers.into_iter().eq(1..=84));
+    // Number 23 stands at two scales.
+    assert_eq!(cases.len(), 85);
+    let names: BTreeSet<&str> = cases.iter().map(|case| case.name).collect();
+    assert_eq!(names.len(), cases.len());
+    for case in cases {
+        assert!(case.reason.ends_with('.') && !case.source.is_empty(), "{}", case.name);
+        assert!(case.name.chars().all(|c| c.is_ascii_alphanumeric() || "_-.".contains(c)), "{}", case.name);
+    }
+}
+
+#[test]
+fn the_totals_are_over_49_and_59_cases() {
+    let ranked = |rank: Rank| catalogue().iter().filter(|case| case.rank == rank).count();
+    assert_eq!(ranked(Rank::Moderate), 49);
+    assert_eq!(ranked(Rank::Moderate) + ranked(Rank::Extreme), 59);
+}
+
+#[test]
+fn as_many_rays_as_asked_and_the_first_of_more() {
+    for (case, _, set) in sets(FEW) {
+        let Content::Rays { make, .. } = case.content else { continue };
+        assert_eq!(set.rays.len(), FEW, "{}", case.name);
+        assert_eq!(bits(&make(FEW / 2).rays), bits(&set.rays[..FEW / 2]), "{}", case.name);
+    }
+}
+
+fn bits(rays: &[Ray]) -> Vec<u32> {
+    let of_ray = |ray: &Ray| {
+        let points = ray.origin.to_array().into_iter().chain(ray.direction.to_array());
+        points.chain([ray.t_min, ray.t_max]).map(f32::to_bits).collect::<Vec<u32>>()
+    };
+    rays.iter().flat_map(of_ray).collect()
+}
+
+/// The hash names all meshes and rays: a change of it changes what all published numbers mean.
+#[test]
+fn every_machine_makes_the_same_cases() {
+    let mut hasher = Sha256::new();
+    for (case, _, set) in sets(FEW) {
+        hasher.update(case.name);
+        for point in set.mesh.positions() {
+            point.to_array().iter().for_each(|x| hasher.update(x.to_bits().to_le_bytes()));
+        }
+        set.mesh.triangles().iter().flatten().for_each(|index| hasher.update(index.to_le_bytes()));
+        // Which NaN it is does not matter.
+        let number = |x: u32| if f32::from_bits(x).is_nan() { u32::MAX } else { x };
+        bits(&set.rays).into_iter().for_each(|x| hasher.update(number(x).to_le_bytes()));
+    }
+    let hash: String = hasher.finalize()[..8].iter().map(|byte| format!("{byte:02x}")).collect();
+    assert_eq!(hash, "26de2b24f6cb77c7");
+}
+
+#[test]
+fn what_must_be_hit_is_and_what_must_be_missed_is_not() {
+    let (mut hit, mut missed) = (0, 0);
+    for (case, expected, set) in sets(FEW) {
+        let oracle = Oracle::new(&set.mesh);
+        let truths: Vec<_> = set.rays.iter().map(|ray| oracle.nearest(ray)).collect();
+        let hits = truths.iter().flatten().count();
+        match expected {
+            Expected::Hit => {
+                hit += 1;
+                assert_eq!(hits, FEW, "{}", case.name);
+            }
+            Expected::Miss => {
+                missed += 1;
+                assert_eq!(hits, 0, "{}", case.name);
+            }
+            Expected::SameAs(twin) => {
+                hit += 1;
+                let Content::Rays { make, .. } = find(twin).unwrap().content else { panic!("{twin} has no rays") };
+                let twin = make(FEW);
+                assert_eq!(twin.mesh, set.mesh);
+                assert_ne!(bits(&twin.rays), bits(&set.rays));
+                let oracle = Oracle::new(&twin.mesh);
+                for (ray, truth) in twin.rays.iter().zip(&truths) {
+                    let (twin, own) = (oracle.nearest(ray).unwrap(), truth.as_ref().unwrap());
+                    assert!(twin.t == own.t && twin.ids == own.ids, "{}: {ray}", case.name);
+                }
+            }
+            Expected::Oracle => assert!(hits > 0, "{}: nothing at all is hit", case.name),
+        }
+    }
+    assert_eq!((hit, missed), (47, 10));
+}
+
+#[test]
+fn the_lengths_of_directions_and_scenes_change_nothing_but_t() {
+    let ids = |name: &str| {
+        let Content::Rays { make, .. } = find(name).unwrap().content else { panic!("{name} has no rays") };
+        let set = make(FEW);
+        let oracle = Oracle::new(&set.mesh);
+        set.rays.iter().map(|ray| oracle.nearest(ray).unwrap().ids).collect::<Vec<_>>()
+    };
+    for name in ["dirlen_1e-30", "dirlen_1e6", "dirlen_1e30", "scale_1e5", "scale_1e18"] {
+        assert_eq!(ids(name), ids("dirlen_1e-6"), "{name}");
+    }
+}
+
+#[test]
+fn the_door_refuses_what_is_not_finite() {
+    for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
+        for axis in 0..3 {
+            let mut points = vec![Vec3::ZERO, Vec3::X, Vec3::Y];
+            points[1][axis] = bad;
+            let refusal = Mesh::new(points, vec![[0, 1, 2]]).unwrap_err();
+            assert!(matches!(refusal, MeshError::NotFinite { vertex: 1, .. }), "{refusal}");
+        }
+    }
+    let Content::Rays { make, .. } = find("nonfinite_verts").unwrap().content else { panic!("it has rays") };
+    assert!(make(FEW).mesh.positions().iter().any(|p| p.abs().max_element() == f32::MAX));
+}
+
+#[test]
+fn an_unknown_name_is_answered_with_the_nearest() {
+    let error = find("flat_grazing").map(|case| case.name).unwrap_err().to_string();
+    assert!(error.contains("\"flat_grazing\"") && error.contains("flat_grazing_1e-3, flat_grazing_1e-6"), "{error}");
+    let error = find("fan_apxe").map(|case| case.name).unwrap_err().to_string();
+    assert!(error.contains("fan_apex"), "{error}");
+    assert_eq!(find("41").unwrap().name, "duplicates_20000");
+}

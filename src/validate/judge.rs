@@ -1,0 +1,249 @@
+//! Error rates: answers against the truth, whatever structure or triangle test they come from.
+
+use super::Rate;
+use crate::geometry::Hit;
+use crate::oracle::Truth;
+
+/// When a depth counts as wrong.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DepthRule {
+    /// Relative error that is allowed at a primitive that truly is hit first.
+    right: f64,
+    /// Relative error that is allowed at any other.
+    other: f64,
+    /// Error that is allowed in any case, in units in the last place of the true `t` as an `f32`.
+    ulps: f64,
+}
+
+impl DepthRule {
+    /// Only what shows in a picture: more than 1 % at the right primitive, more than 0.1 % at another.
+    pub const COARSE: Self = Self { right: 1e-2, other: 1e-3, ulps: 0.0 };
+
+    /// More than 4 units in the last place and more than 1e-6, at whatever primitive.
+    pub const STRICT: Self = Self { right: 1e-6, other: 1e-6, ulps: 4.0 };
+}
+
+/// What became of one ray.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Outcome {
+    /// Nothing is hit, and nothing was found.
+    Nothing,
+    /// The right primitive at the right depth.
+    Right,
+    /// A hit, and nothing was found.
+    Missed,
+    /// Nothing is hit, and something was found.
+    FalseHit,
+    /// A hit at a wrong depth, whatever the primitive.
+    WrongDepth,
+    /// A hit at the right depth, but at a primitive that is not among the nearest: float numbers cannot tell them
+    /// apart, or did not.
+    WrongPrimitive,
+}
+
+impl Outcome {
+    /// Whether it counts into the error: a wrong primitive at the right depth does not.
+    pub fn is_error(self) -> bool {
+        matches!(self, Self::Missed | Self::FalseHit | Self::WrongDepth)
+    }
+}
+
+/// Sums over rays. Rates of kinds of rays that fail in different ways must not be added up.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Judged {
+    /// Rays judged.
+    pub rays: u64,
+    /// Those that truly hit something.
+    pub hits: u64,
+    /// Hits that were not found.
+    pub missed: u64,
+    /// Hits that are none.
+    pub false_hits: u64,
+    /// Hits at a wrong depth, by the rule asked for.
+    pub wrong_depth: u64,
+    /// Hits at a primitive that is not among the nearest, their depth right or wrong.
+    pub wrong_primitive: u64,
+    /// Error of `t` where the primitive is right; nothing where it never is.
+    pub ulps: Option<Ulps>,
+}
+
+/// Distances of `t` from the truth, in units in the last place of the true `t` as an `f32`: at most 0.5 is correctly
+/// rounded.
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
+pub struct Ulps {
+    pub median: f64,
+    /// Not exceeded by 99 %.
+    pub p99: f64,
+    pub max: f64,
+}
+
+impl Judged {
+    /// Misses, false hits and wrong depths: no ray has two of them.
+    pub fn errors(&self) -> u64 {
+        self.missed + self.false_hits + self.wrong_depth
+    }
+
+    /// Wrong answers among all rays.
+    pub fn error(&self) -> Rate {
+        Rate { events: self.errors(), of: self.rays }
+    }
+
+    /// Misses among the true hits.
+    pub fn miss_rate(&self) -> Rate {
+        Rate { events: self.missed, of: self.hits }
+    }
+
+    /// False hits among the rays that truly hit nothing.
+    pub fn false_hit_rate(&self) -> Rate {
+        Rate { events: self.false_hits, of: self.rays - self.hits }
+    }
+
+    /// Wrong depths among the true hits.
+    pub fn wrong_depth_rate(&self) -> Rate {
+        Rate { events: self.wrong_depth, of: self.hits }
+    }
+}
+
+/// Judges the answers to some rays.
+///
+/// # Panics
+/// If there are not as many answers as truths.
+pub fn judge(truths: &[Option<Truth>], answers: &[Option<Hit>], rule: DepthRule) -> Judged {
+    assert_eq!(truths.len(), answers.len(), "one answer a ray");
+    let mut judged = Judged { rays: truths.len() as u64, ..Judged::default() };
+    let mut ulps = vec![];
+    for (truth, answer) in truths.iter().zip(answers) {
+        match outcome(truth.as_ref(), *answer, rule) {
+            Outcome::Missed => judged.missed += 1,
+            Outcome::FalseHit => judged.false_hits += 1,
+            Outcome::WrongDepth => judged.wrong_depth += 1,
+            Outcome::Nothing | Outcome::Right | Outcome::WrongPrimitive => {}
+        }
+        judged.hits += u64::from(truth.is_some());
+        if let (Some(truth), Some(hit)) = (truth, answer) {
+            if names(truth, *hit) {
+                ulps.push(off(truth, hit.t) / ulp(truth.t.approximate()));
+            } else {
+                judged.wrong_primitive += 1;
+            }
+        }
+    }
+    judged.ulps = summary(ulps);
+    judged
+}
+
+/// What became of a ray with this answer.
+pub fn outcome(truth: Option<&Truth>, answer: Option<Hit>, rule: DepthRule) -> Outcome {
+    match (truth, answer) {
+        (None, None) => Outcome::Nothing,
+        (Some(_), None) => Outcome::Missed,
+        (None, Some(_)) => Outcome::FalseHit,
+        (Some(truth), Some(hit)) => {
+            let right = names(truth, hit);
+            let t = truth.t.approximate();
+            let allowed = (t * if right { rule.right } else { rule.other }).max(ulp(t) * rule.ulps);
+            match off(truth, hit.t) {
+                off if off.is_nan() || off > allowed => Outcome::WrongDepth,
+                _ if !right => Outcome::WrongPrimitive,
+                _ => Outcome::Right,
+            }
+        }
+    }
+}
+
+fn names(truth: &Truth, hit: Hit) -> bool {
+    truth.ids.binary_search(&hit.prim.index()).is_ok()
+}
+
+/// How far `t` is from the truth. The nearest float is never wrong, not even where that is infinite.
+fn off(truth: &Truth, t: f32) -> f64 {
+    if t.is_infinite() && t == truth.rounded() { 0.0 } else { (f64::from(t) - truth.t.approximate()).abs() }
+}
+
+/// The distance of the floats around `t`, which is not negative; that of denormals for what is smaller than all others.
+fn ulp(t: f64) -> f64 {
+    let exponent = if t > 0.0 { libm::ilogb(t).clamp(-126, 127) } else { -126 };
+    libm::ldexp(1.0, exponent - 23)
+}
+
+fn summary(mut ulps: Vec<f64>) -> Option<Ulps> {
+    ulps.sort_unstable_by(f64::total_cmp);
+    let max = *ulps.last()?;
+    // The least value that at least this share does not exceed.
+    let quantile = |percent: usize| ulps[(ulps.len() * percent).div_ceil(100) - 1];
+    Some(Ulps { median: quantile(50), p99: quantile(99), max })
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use glam::Vec3;
+
+    use super::*;
+    use crate::geometry::{Mesh, Ray};
+    use crate::oracle::Oracle;
+
+    /// Two triangles one behind the other; the truth of a ray that hits both at 1 and 1 + `gap`, and of one that hits
+    /// none.
+    fn truths(gap: f32) -> [Option<Truth>; 2] {
+        let corners = |z: f32| [Vec3::new(-1.0, -1.0, z), Vec3::new(3.0, -1.0, z), Vec3::new(-1.0, 3.0, z)];
+        let positions = [corners(1.0), corners(1.0 + gap)].concat();
+        let oracle = Oracle::new(&Arc::new(Mesh::new(positions, vec![[0, 1, 2], [3, 4, 5]]).unwrap()));
+        [Vec3::Z, -Vec3::Z].map(|direction| oracle.nearest(&Ray::new(Vec3::ZERO, direction)))
+    }
+
+    #[test]
+    fn every_answer_has_its_outcome() {
+        let [hit, none] = &truths(0.5);
+        let of = |truth: &Option<Truth>, answer| outcome(truth.as_ref(), answer, DepthRule::STRICT);
+        assert_eq!(of(none, None), Outcome::Nothing);
+        assert_eq!(of(none, Some(Hit::new(1.0, 0))), Outcome::FalseHit);
+        assert_eq!(of(hit, None), Outcome::Missed);
+        assert_eq!(of(hit, Some(Hit::new(1.0, 0))), Outcome::Right);
+        assert_eq!(of(hit, Some(Hit::new(1.5, 1))), Outcome::WrongDepth);
+        assert_eq!(of(hit, Some(Hit::new(1.0, 1))), Outcome::WrongPrimitive);
+        assert_eq!(of(hit, Some(Hit::new(f32::NAN, 0))), Outcome::WrongDepth);
+    }
+
+    #[test]
+    fn the_rules_draw_their_lines_where_they_say() {
+        let [hit, _] = truths(1e-4);
+        let of = |t: f32, id, rule| outcome(hit.as_ref(), Some(Hit::new(t, id)), rule);
+        for (t, id, coarse, strict) in [
+            (1.0 + 8.0 * f32::EPSILON, 0, Outcome::Right, Outcome::Right),
+            (1.0 + 9.0 * f32::EPSILON, 0, Outcome::Right, Outcome::WrongDepth),
+            (0.991, 0, Outcome::Right, Outcome::WrongDepth),
+            (1.011, 0, Outcome::WrongDepth, Outcome::WrongDepth),
+            (1.0009, 1, Outcome::WrongPrimitive, Outcome::WrongDepth),
+            (1.0011, 1, Outcome::WrongDepth, Outcome::WrongDepth),
+        ] {
+            assert_eq!(of(t, id, DepthRule::COARSE), coarse, "{t} {id}");
+            assert_eq!(of(t, id, DepthRule::STRICT), strict, "{t} {id}");
+        }
+    }
+
+    #[test]
+    fn sums_and_rates() {
+        let [hit, none] = truths(0.5);
+        let truths = [hit.clone(), hit.clone(), hit.clone(), hit, none.clone(), none];
+        let answers = [None, Some((1.0, 0)), Some((1.0 + 2.0 * f32::EPSILON, 0)), Some((1.5, 1)), None, Some((9.0, 1))];
+        let answers = answers.map(|answer| answer.map(|(t, id)| Hit::new(t, id)));
+        let judged = judge(&truths, &answers, DepthRule::STRICT);
+        let counts = (judged.hits, judged.missed, judged.false_hits, judged.wrong_depth, judged.wrong_primitive);
+        assert_eq!(counts, (4, 1, 1, 1, 1));
+        assert_eq!(judged.error(), Rate { events: 3, of: 6 });
+        assert_eq!(judged.false_hit_rate(), Rate { events: 1, of: 2 });
+        assert_eq!(judged.ulps, Some(Ulps { median: 0.0, p99: 2.0, max: 2.0 }));
+        assert_eq!(judge(&[], &[], DepthRule::STRICT), Judged::default());
+    }
+
+    #[test]
+    fn ulps_follow_the_float() {
+        for x in [f32::from_bits(1), f32::MIN_POSITIVE, 1.0, 1.999, 2.0, 1e30] {
+            assert_eq!(ulp(x.into()), f64::from(x.next_up()) - f64::from(x), "{x}");
+        }
+        assert_eq!(ulp(0.0), f64::from(f32::from_bits(1)));
+        assert_eq!(ulp(1e300), f64::from(f32::MAX) - f64::from(f32::MAX.next_down()));
+    }
+}

@@ -1,0 +1,64 @@
+//! The hard cases as a gate: our structures lose no hit, whatever the triangle test, and the exact test gives the truth.
+
+use rayon::prelude::*;
+use sahara::measure::SystemClock;
+use sahara::registry::{Choice, Registry};
+use sahara::study::documented_defect;
+use sahara::study::hard_cases::{Case, Content, Court, Rank, Score, ask, catalogue};
+
+/// Rays of a case.
+const RAYS: usize = 200;
+/// Rays of the cases in which every ray needs thousands of exact decisions.
+const FEW: usize = 10;
+const LABORIOUS: [&str; 3] = ["duplicates_20000", "fan_apex", "far_1e8"];
+
+/// Our structures over every test they are offered over.
+fn ours() -> Vec<Choice> {
+    let registry = Registry::builtin();
+    registry.all().into_iter().filter(|choice| documented_defect(&choice.entry.name).is_none()).collect()
+}
+
+/// What is wrong with the structures on one case, one line each.
+fn faults(case: &Case, choices: &[Choice]) -> Vec<String> {
+    let rays = if LABORIOUS.contains(&case.name) { FEW } else { RAYS };
+    let mut court = Court::new(case, rays);
+    let mut faults = vec![];
+    for choice in choices {
+        let fault = match ask(case, choice, rays, &SystemClock::start()) {
+            Err(error) => Some(error.to_string()),
+            Ok(answers) => match court.score(choice.triangle_test(), answers).unwrap() {
+                Score::Rays(score) => {
+                    let lost = score.structure_errors != Some(0) || score.contradictions > 0;
+                    let inexact = choice.triangle_test() == "exact" && score.inexact > 0;
+                    (lost || inexact).then(|| format!("{score:?}"))
+                }
+                Score::Property(property) => (property.broken > 0).then(|| format!("{property:?}")),
+                Score::Failed(failure) => Some(failure.name().into()),
+            },
+        };
+        faults.extend(fault.map(|fault| format!("{} on {}: {fault}", choice.label, case.name)));
+    }
+    faults
+}
+
+#[track_caller]
+fn none_of(cases: Vec<&Case>) {
+    let choices = ours();
+    let faults: Vec<String> = cases.into_par_iter().flat_map_iter(|case| faults(case, &choices)).collect();
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+#[test]
+fn our_structures_lose_no_hit_on_any_case_with_any_test() {
+    none_of(catalogue().into_iter().filter(|case| matches!(case.content, Content::Rays { .. })).collect());
+}
+
+#[test]
+fn our_structures_have_every_property_with_any_test() {
+    none_of(catalogue().into_iter().filter(|case| matches!(case.content, Content::Property(_))).collect());
+}
+
+#[test]
+fn the_moderate_cases_are_among_them() {
+    assert_eq!(catalogue().iter().filter(|case| case.rank == Rank::Moderate).count(), 49);
+}

@@ -1,0 +1,49 @@
+//! The fast oracle against its slow twin, on every mesh of the suite and every kind of ray.
+
+use std::sync::Arc;
+
+use sahara::geometry::{Mesh, Ray};
+use sahara::oracle::{Oracle, nearest};
+use sahara::scene::BUILTIN;
+use sahara::validate::{Stratum, degenerate_meshes};
+
+/// Rays that hit, of rays on which both agree: the exact `t`, its rounded value and the set of triangles.
+fn agree(mesh: &Arc<Mesh>, rays: impl IntoIterator<Item = Ray>, name: &str) -> usize {
+    let oracle = Oracle::new(mesh);
+    let mut hits = 0;
+    for ray in rays {
+        let (fast, slow) = (oracle.nearest(&ray), nearest(&ray, mesh));
+        hits += usize::from(slow.is_some());
+        let rounded = fast.as_ref().map(|truth| truth.rounded().to_bits());
+        assert_eq!(rounded, slow.as_ref().map(|(t, _)| t.round().to_bits()), "{name}, ray \"{ray}\"");
+        assert_eq!(fast.map(|truth| (truth.t, truth.ids)), slow, "{name}, ray \"{ray}\"");
+    }
+    hits
+}
+
+#[test]
+fn fast_and_slow_agree_on_degenerate_meshes() {
+    let mut hits = [0; Stratum::ALL.len()];
+    for (name, mesh) in degenerate_meshes() {
+        // The slow twin takes some microseconds a triangle.
+        let count = (4000 / (mesh.len() + 1)).clamp(4, 60);
+        for (sum, stratum) in hits.iter_mut().zip(Stratum::ALL) {
+            *sum += agree(&mesh, stratum.rays(&mesh, count, 7), &format!("{name}, {}", stratum.name()));
+        }
+    }
+    for (stratum, hits) in Stratum::ALL.into_iter().zip(hits) {
+        assert_eq!(hits == 0, stratum == Stratum::Invalid, "{} rays hit {hits} times", stratum.name());
+    }
+}
+
+#[test]
+fn fast_and_slow_agree_on_scenes() {
+    for builtin in
+        BUILTIN.iter().filter(|builtin| ["cornellbox", "teapot"].contains(&builtin.name.to_lowercase().as_str()))
+    {
+        let mesh = builtin.scene(None).unwrap().mesh;
+        let count = (8000 / (mesh.len() + 1)).clamp(2, 40);
+        let rays = Stratum::ALL.iter().flat_map(|stratum| stratum.rays(&mesh, count, 11));
+        assert!(agree(&mesh, rays, builtin.name) > 10);
+    }
+}
