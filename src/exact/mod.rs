@@ -1,12 +1,16 @@
 //! One ray against one triangle, in integers: a scene of `f32` numbers is a set of dyadic rationals, so what a ray meets, and in
 //! which order, is decidable.
 
+mod small;
+
 use std::cmp::Ordering;
+use std::ops::{Add, Mul, Neg, Sub};
 
 use dashu_int::IBig;
 use glam::Vec3;
 
 use crate::geometry::Ray;
+use small::Small;
 
 /// Every finite `f32` is a multiple of 2^-149: times 2^149 it is an integer.
 const SCALE: usize = 149;
@@ -22,7 +26,7 @@ pub struct ExactT {
 /// Where the whole line of `ray` meets the closed triangle, or nothing if it misses or lies in the plane of the triangle.
 ///
 /// The interval of the ray is not looked at: see [`ExactT::is_within`]. Numbers that are not finite hit nothing.
-/// Costs some microseconds.
+/// Costs a tenth of a microsecond where 128 bits are enough, else some microseconds.
 ///
 /// The line passes through the triangle when it passes all three edges on the same side, or meets them: three volumes
 /// have no opposite signs.
@@ -33,20 +37,41 @@ pub fn hit(ray: &Ray, corners: [Vec3; 3]) -> Option<ExactT> {
     if !ray.origin.is_finite() || !ray.direction.is_finite() || !corners.iter().all(|p| p.is_finite()) {
         return None;
     }
-    let (origin, direction) = (integers(ray.origin), integers(ray.direction));
-    let [a, b, c] = corners.map(|p| sub(&integers(p), &origin));
+    if let Some(small) = Small::of(ray, corners) {
+        let (numerator, denominator) = fraction(small.origin, small.direction, small.corners)?;
+        let (numerator, denominator) = (IBig::from(numerator), IBig::from(denominator));
+        return Some(match small.exponent {
+            up @ 0.. => ExactT { numerator: numerator << up as usize, denominator },
+            down => ExactT { numerator, denominator: denominator << down.unsigned_abs() as usize },
+        });
+    }
+    let (numerator, denominator) = fraction(integers(ray.origin), integers(ray.direction), corners.map(integers))?;
+    Some(ExactT { numerator, denominator })
+}
 
+/// The numerator and the positive denominator of `t`, for a line in integers that meets the closed triangle.
+fn fraction<I>(origin: [I; 3], direction: [I; 3], corners: [[I; 3]; 3]) -> Option<(I, I)>
+where
+    I: Default + Ord + Neg<Output = I> + Add<Output = I> + Sub<Output = I>,
+    for<'a> &'a I: Mul<&'a I, Output = I> + Sub<&'a I, Output = I>,
+{
+    let sub = |a: &[I; 3], b: &[I; 3]| -> [I; 3] { std::array::from_fn(|i| &a[i] - &b[i]) };
+    let dot = |a: &[I; 3], b: &[I; 3]| &a[0] * &b[0] + &a[1] * &b[1] + &a[2] * &b[2];
+    let cross = |a: &[I; 3], b: &[I; 3]| [(1, 2), (2, 0), (0, 1)].map(|(i, j)| &a[i] * &b[j] - &a[j] * &b[i]);
+    let zero = I::default();
+
+    let [a, b, c] = corners.map(|p| sub(&p, &origin));
     let sides = [(&c, &b), (&a, &c), (&b, &a)].map(|(p, q)| dot(&direction, &cross(p, q)));
-    if sides.iter().any(|s| *s < IBig::ZERO) && sides.iter().any(|s| *s > IBig::ZERO) {
+    if sides.iter().any(|s| *s < zero) && sides.iter().any(|s| *s > zero) {
         return None;
     }
 
     let normal = cross(&sub(&b, &a), &sub(&c, &a));
     let (numerator, denominator) = (dot(&a, &normal), dot(&direction, &normal));
-    match denominator.cmp(&IBig::ZERO) {
-        Ordering::Less => Some(ExactT { numerator: -numerator, denominator: -denominator }),
+    match denominator.cmp(&zero) {
+        Ordering::Less => Some((-numerator, -denominator)),
         Ordering::Equal => None,
-        Ordering::Greater => Some(ExactT { numerator, denominator }),
+        Ordering::Greater => Some((numerator, denominator)),
     }
 }
 
@@ -63,6 +88,7 @@ impl ExactT {
             _ if t.is_nan() => None,
             f32::INFINITY => Some(Ordering::Less),
             f32::NEG_INFINITY => Some(Ordering::Greater),
+            0.0 => Some(self.numerator.cmp(&IBig::ZERO)),
             _ => Some((&self.numerator << SCALE).cmp(&(integer(t) * &self.denominator))),
         }
     }
@@ -128,18 +154,6 @@ fn integer(x: f32) -> IBig {
 
 fn integers(p: Vec3) -> [IBig; 3] {
     p.to_array().map(integer)
-}
-
-fn sub(a: &[IBig; 3], b: &[IBig; 3]) -> [IBig; 3] {
-    std::array::from_fn(|i| &a[i] - &b[i])
-}
-
-fn dot(a: &[IBig; 3], b: &[IBig; 3]) -> IBig {
-    &a[0] * &b[0] + &a[1] * &b[1] + &a[2] * &b[2]
-}
-
-fn cross(a: &[IBig; 3], b: &[IBig; 3]) -> [IBig; 3] {
-    [(1, 2), (2, 0), (0, 1)].map(|(i, j)| &a[i] * &b[j] - &a[j] * &b[i])
 }
 
 #[cfg(test)]
