@@ -60,6 +60,13 @@ impl<const N: usize, L: Arithmetic<N>> LaneVec3<N, L> {
         self.x.mul(other.x).add(self.y.mul(other.y)).add(self.z.mul(other.z))
     }
 
+    /// The sum of the components' magnitudes.
+    #[inline(always)]
+    pub fn abs_sum(self) -> L {
+        let abs = |x: L| x.flip_sign(x);
+        abs(self.x).add(abs(self.y)).add(abs(self.z))
+    }
+
     #[inline(always)]
     pub fn cross(self, other: Self) -> Self {
         Self::new(

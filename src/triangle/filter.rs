@@ -98,9 +98,8 @@ pub(super) fn survivors<const N: usize, L: Lanes<N>>(ray: &FilterRay, block: &Fi
     let v = direction.dot_loosely(q).flip_sign(det);
     let abs_det = det.flip_sign(det);
 
-    let abs = |x: L| x.flip_sign(x);
     let extent = L::load(&block.extents);
-    let size = abs(to_origin.x).add(abs(to_origin.y)).add(abs(to_origin.z).add(extent.add(extent)));
+    let size = to_origin.abs_sum().add(extent.add(extent));
     let tiny = L::splat(ray.tiny);
     let slack = size.mul_add_loosely(extent.mul_add_loosely(L::splat(SLACK), tiny), tiny);
     let below = L::zero().sub(slack);

@@ -2,7 +2,7 @@ use glam::Vec3;
 
 use super::TriangleTest;
 use crate::geometry::Ray;
-use crate::simd::{Arithmetic, LaneVec3, Lanes};
+use crate::simd::{LaneVec3, Lanes};
 
 /// Möller-Trumbore in `f32`: no precomputation, two-sided, division only for `t`.
 ///
@@ -29,7 +29,7 @@ const _: () = assert!(size_of::<Edges<1>>() == 36);
 
 /// The lanes whose triangle the line meets, and where: `to_origin` goes from the first corner to the ray's origin.
 #[inline(always)]
-pub(super) fn solve<const N: usize, L: Arithmetic<N>>(
+fn solve<const N: usize, L: Lanes<N>>(
     direction: LaneVec3<N, L>,
     to_origin: LaneVec3<N, L>,
     [edge1, edge2]: [LaneVec3<N, L>; 2],

@@ -2,7 +2,7 @@ use glam::Vec3;
 
 use super::{Corners, TriangleTest};
 use crate::geometry::Ray;
-use crate::simd::{Arithmetic, LaneVec3, Lanes};
+use crate::simd::{LaneVec3, Lanes};
 
 /// Edge test in `f32`: the ray passes the three edges on the same side, by triple products of the corners as seen from the
 /// origin; `t` from the plane through the first corner.
@@ -21,7 +21,7 @@ pub struct Plucker;
 ///
 /// Any of the three volumes may be zero: the triangle is closed.
 #[inline(always)]
-pub(super) fn solve<const N: usize, L: Arithmetic<N>>(
+fn solve<const N: usize, L: Lanes<N>>(
     origin: LaneVec3<N, L>,
     direction: LaneVec3<N, L>,
     corners: [LaneVec3<N, L>; 3],

@@ -288,14 +288,17 @@ fn closed<T: TriangleTest>(vertices: bool) {
 #[test]
 fn edge_tests_and_watertight_are_closed_at_edges() {
     closed::<Plucker>(false);
+    closed::<MollerTrumboreF64>(false);
     closed::<EdgeF64>(false);
     closed::<Watertight>(false);
     closed::<Exact>(false);
 }
 
 #[test]
-fn watertight_and_exact_are_closed_at_vertices() {
+fn watertight_f64_and_exact_are_closed_at_vertices() {
     closed::<Watertight>(true);
+    closed::<MollerTrumboreF64>(true);
+    closed::<EdgeF64>(true);
     closed::<Exact>(true);
 }
 
