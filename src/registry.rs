@@ -258,7 +258,7 @@ mod tests {
 
     #[test]
     fn labels_name_only_what_differs() {
-        let choice = Registry::builtin().choose("brute-force:test=moller-trumbore").unwrap();
+        let choice = Registry::builtin().choose("brute-force:test=filtered-f64").unwrap();
         assert_eq!(choice.label, "brute-force");
     }
 }

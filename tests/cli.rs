@@ -79,7 +79,7 @@ fn what_is_not_known_is_refused_with_what_is() {
     refuses(&["validate", "cube", "--ray", "1,2,3"], &["ox,oy,oz dx,dy,dz"]);
     refuses_in_a_line(&["validate", "cube", "--against", "nothing"], &["nothing", "brute-force"]);
     refuses_in_a_line(&["accuracy", "cube", "--test", "woop"], &["woop", "exact", "watertight"]);
-    refuses_in_a_line(&["accuracy", "cube", "-s", "obvhs-bvh2", "-t", "exact"], &["sahara list"]);
+    refuses_in_a_line(&["accuracy", "cube", "-s", "obvhs-bvh2", "-t", "watertight"], &["sahara list"]);
     refuses_in_a_line(&["accuracy", "cube", "--plot", "front.pdf"], &["front.pdf", ".svg or .png"]);
     refuses_in_a_line(&["accuracy", "cube", "--plot", "no/such/front.svg"], &["no/such/front.svg"]);
     refuses(&["accuracy", "cube", "--stratum", "edges"], &["edges", "uniform, edge"]);

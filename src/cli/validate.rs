@@ -93,7 +93,8 @@ fn check(scene: &Scene, choice: &Choice, against: &Choice, rays: &[Ray]) -> anyh
         let built = choice.build(&scene.mesh);
         built.with_context(|| format!("{} cannot be built over {}", choice.label, scene.name))
     };
-    let reference = if against.entry.name == BRUTE_FORCE {
+    // Brute force by its bare name shares each structure's test; with a test of its own it is a structure like any other.
+    let reference = if against.label == BRUTE_FORCE {
         Reference::of_test(choice.triangle_test(), &scene.mesh)?
     } else {
         Reference::structure(build(against)?)

@@ -8,8 +8,9 @@ use crate::geometry::{Aabb, Ray};
 /// of the result, so that it is within 3.01 * 2^-24 < 2^-22 of the exact parameter, relatively, unless the product
 /// underflows, when it is within 2^-126 absolutely. [`before`] and [`after`] move it outward by 4 * 2^-23 = 2^-21 and 2^-126,
 /// at least twice the error, rounding of the move included. The sign of the crossing is exact, because a difference of floats has the exact
-/// sign; an infinite one (`d` = 0, plane aside) orders correctly. There are two cases without an answer, and both give NaN, which
-/// every user reads as "may cross anywhere": the ray lies in the plane (0 * inf), and 1 / d overflows.
+/// sign; an infinite one (`d` = 0, plane aside) orders correctly. Three cases have no answer, and all give NaN, which every user
+/// reads as "may cross anywhere": the ray lies in the plane (0 * inf), 1 / d overflows or is too small for full precision, and
+/// the difference to some plane may overflow.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Line {
     origin: [f32; 3],
@@ -32,13 +33,19 @@ pub(crate) fn after(t: f32) -> f32 {
 }
 
 impl Line {
+    /// For planes that cut the box `bounds` or are its faces.
     #[inline(always)]
-    pub fn new(ray: &Ray) -> Self {
+    pub fn new(ray: &Ray, bounds: &Aabb) -> Self {
         let direction = ray.direction.to_array();
-        let inverse = direction.map(|d| {
+        let mut inverse = direction.map(|d| {
             let inverse = 1.0 / d;
-            if inverse.is_infinite() && d != 0.0 { f32::NAN } else { inverse }
+            if inverse.is_normal() || d == 0.0 { inverse } else { f32::NAN }
         });
+        let reach = ray.origin.abs() + bounds.min.abs().max(bounds.max.abs());
+        if !reach.is_finite() {
+            // Also where the box is empty.
+            inverse = [f32::NAN; 3];
+        }
         Self { origin: ray.origin.to_array(), inverse, backward: direction.map(f32::is_sign_negative) }
     }
 
@@ -84,7 +91,7 @@ mod tests {
 
     fn clip(origin: [f32; 3], direction: [f32; 3]) -> Option<(f32, f32)> {
         let ray = Ray::new(origin.into(), direction.into());
-        Line::new(&ray).clip(&unit_box(), 0.0, f32::MAX)
+        Line::new(&ray, &unit_box()).clip(&unit_box(), 0.0, f32::MAX)
     }
 
     #[test]
@@ -112,8 +119,11 @@ mod tests {
     }
 
     #[test]
-    fn an_empty_box_is_missed() {
-        let ray = Ray::new(Vec3::ZERO, Vec3::X);
-        assert_eq!(Line::new(&ray).clip(&Aabb::EMPTY, 0.0, f32::MAX), None);
+    fn differences_and_inverses_without_full_precision_are_kept() {
+        let large = Aabb { min: Vec3::splat(-3e37), max: Vec3::splat(3e37) };
+        let ray = Ray::new(Vec3::new(-3.39e38, 0.0, 0.0), Vec3::new(1e38, 0.0, 0.0));
+        assert_eq!(Line::new(&ray, &large).clip(&large, 0.0, f32::MAX), Some((0.0, f32::MAX)));
+        let ray = Ray::new(Vec3::new(-2.0, 0.5, 0.5), Vec3::new(3e38, 0.0, 0.0));
+        assert_eq!(Line::new(&ray, &unit_box()).clip(&unit_box(), 0.0, f32::MAX), Some((0.0, f32::MAX)));
     }
 }

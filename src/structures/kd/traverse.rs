@@ -5,7 +5,9 @@
 //! point of the ray in [t_min, nearest t]: a child is skipped only when its interval, moved outward by more than the rounding
 //! of plane crossings (see [`Line`]), is empty or begins after the nearest hit so far. So the leaf of p is visited, unless a
 //! hit with a computed t before t* has been found. Where t* exceeds a computed t of another triangle, that triangle is the
-//! answer up to the error of the triangle test, which is not the traversal's.
+//! answer up to the error of the triangle test, which is not the traversal's. With the exact test nothing is computed: nearest t is
+//! a float that is not before the nearest exact hit so far, so that the walk comes to every hit that is nearer or as near, and the
+//! answer is the exact one with the lowest number.
 
 use super::config::{Exit, Traversal};
 use super::node::Node;
@@ -50,7 +52,7 @@ impl<T: TriangleTest> KdTree<T> {
         observer: &mut O,
     ) -> Option<Hit> {
         let (prepared, t_min, nearest) = start::<T>(ray)?;
-        let line = Line::new(ray);
+        let line = Line::new(ray, &self.bounds);
         let mut query: Query<ANY, T, M, O> = Query { tree: self, line, prepared, t_min, nearest, mailbox, observer };
         match self.config.traversal {
             Traversal::PlaneIntervals => query.walk_intervals(),
