@@ -66,7 +66,7 @@ impl Registry {
 
     /// The structures of this crate.
     pub fn builtin() -> Self {
-        // The default comes first: on the front of speed against error it has the errors of f64 at the speed of f32.
+        // The default comes first: of the tests that are right it is the fastest, and a tenth slower than the fastest wrong one.
         let ours = Self::empty()
             .over::<FilteredF64>()
             .over::<MollerTrumbore>()
