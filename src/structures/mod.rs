@@ -1,5 +1,6 @@
 //! The structures themselves.
 
+mod binary;
 mod brute_force;
 pub mod kd;
 mod leaf;
