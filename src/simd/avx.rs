@@ -62,6 +62,12 @@ impl Arithmetic<8> for F32x8 {
     }
 
     #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        // SAFETY: see above.
+        Self(unsafe { _mm256_max_ps(self.0, other.0) })
+    }
+
+    #[inline(always)]
     fn flip_sign(self, other: Self) -> Self {
         // SAFETY: see above.
         Self(unsafe { _mm256_xor_ps(self.0, _mm256_and_ps(other.0, _mm256_set1_ps(-0.0))) })
@@ -121,6 +127,40 @@ impl Lanes<8> for F32x8 {
             Self(unsafe { _mm256_fmsub_ps(self.0, factor.0, term.0) })
         } else {
             self.mul(factor).sub(term)
+        }
+    }
+}
+
+/// For each set of lanes, the numbers of its members, lowest first.
+static COMPRESS: [[u8; 8]; 256] = {
+    let mut table = [[0; 8]; 256];
+    let mut set = 0;
+    while set < 256 {
+        let (mut lane, mut at) = (0, 0);
+        while lane < 8 {
+            if set >> lane & 1 == 1 {
+                table[set][at] = lane as u8;
+                at += 1;
+            }
+            lane += 1;
+        }
+        set += 1;
+    }
+    table
+};
+
+impl super::Sieve for F32x8 {
+    #[inline(always)]
+    unsafe fn sieve(self, limit: Self, values: *const u32, order: u32, keys: *mut f32, chosen: *mut u32) -> u32 {
+        unsafe {
+            let hit = _mm256_cmp_ps::<_CMP_LE_OQ>(self.0, limit.0);
+            let order = _mm256_srlv_epi32(_mm256_set1_epi32(order as i32), _mm256_setr_epi32(0, 3, 6, 9, 12, 15, 18, 21));
+            let mask = _mm256_movemask_ps(_mm256_permutevar8x32_ps(hit, order)) as usize;
+            let lanes = _mm256_cvtepu8_epi32(_mm_loadl_epi64(COMPRESS.as_ptr().add(mask).cast()));
+            let lanes = _mm256_permutevar8x32_epi32(order, lanes);
+            _mm256_storeu_ps(keys, _mm256_permutevar8x32_ps(self.0, lanes));
+            _mm256_storeu_si256(chosen.cast(), _mm256_permutevar8x32_epi32(_mm256_loadu_si256(values.cast()), lanes));
+            mask as u32
         }
     }
 }

@@ -75,6 +75,12 @@ impl Arithmetic<8> for F64x8 {
     }
 
     #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        // SAFETY: see above.
+        self.zip(other, |a, b| unsafe { _mm256_max_pd(a, b) })
+    }
+
+    #[inline(always)]
     fn flip_sign(self, other: Self) -> Self {
         // SAFETY: see above.
         self.zip(other, |a, b| unsafe { _mm256_xor_pd(a, _mm256_and_pd(b, _mm256_set1_pd(-0.0))) })

@@ -36,6 +36,8 @@ pub trait Arithmetic<const N: usize>: Copy {
     fn div(self, other: Self) -> Self;
     /// The lesser; `other` where they are equal or one is NaN.
     fn min(self, other: Self) -> Self;
+    /// The greater; `other` where they are equal or one is NaN.
+    fn max(self, other: Self) -> Self;
     /// `self`, negated in the lanes where the sign bit of `other` is set.
     fn flip_sign(self, other: Self) -> Self;
     /// Lanes where `self <= other`, as bits, lane 0 lowest; false where one is NaN.
@@ -57,6 +59,16 @@ pub trait Lanes<const N: usize>: Arithmetic<N, Scalar = f32> {
     fn mul_add_loosely(self, factor: Self, term: Self) -> Self;
     /// `self * factor - term`, likewise.
     fn mul_sub_loosely(self, factor: Self, term: Self) -> Self;
+}
+
+/// Eight lanes that can be written to memory in a given order, some left out.
+pub trait Sieve: Lanes<8> {
+    /// Appends the lanes where `self <= limit`, in the order given (three bits a lane, the first one lowest), to `keys`, and
+    /// their `values` to `chosen`; returns how many they are.
+    ///
+    /// # Safety
+    /// Eight floats and eight numbers may be written, whatever the answer.
+    unsafe fn sieve(self, limit: Self, values: *const u32, order: u32, keys: *mut f32, chosen: *mut u32) -> u32;
 }
 
 /// The instruction set that this build of the lanes uses, for records.

@@ -62,6 +62,11 @@ macro_rules! arithmetic {
             }
 
             #[inline(always)]
+            fn max(self, other: Self) -> Self {
+                self.zip(other, |a, b| if a > b { a } else { b })
+            }
+
+            #[inline(always)]
             fn flip_sign(self, other: Self) -> Self {
                 self.zip(other, |a, b| <$scalar>::from_bits(a.to_bits() ^ (b.to_bits() & $sign)))
             }

@@ -61,6 +61,12 @@ impl Arithmetic<4> for F32x4 {
     }
 
     #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        // SAFETY: see above.
+        Self(unsafe { _mm_max_ps(self.0, other.0) })
+    }
+
+    #[inline(always)]
     fn flip_sign(self, other: Self) -> Self {
         // SAFETY: see above.
         Self(unsafe { _mm_xor_ps(self.0, _mm_and_ps(other.0, _mm_set1_ps(-0.0))) })

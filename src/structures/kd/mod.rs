@@ -4,6 +4,7 @@ mod build;
 mod clip;
 mod config;
 mod node;
+mod partition;
 mod sah;
 mod sah_sweep;
 mod shape;
@@ -16,6 +17,7 @@ use std::sync::Arc;
 
 pub use config::{AxisRule, CountOf, Equal, Exit, KdConfig, Limit, Median, Plane, Stop, Traversal};
 
+use super::binary::BinaryTree;
 use super::leaf::LeafBlock;
 use crate::accel::{Accel, BuildError, Footprint, Observer, TreeShape};
 use crate::geometry::{Aabb, Hit, Mesh, Ray};
@@ -41,6 +43,21 @@ pub struct KdTree<T: TriangleTest> {
     blocks: Vec<LeafBlock<T, WIDTH>>,
     bounds: Aabb,
     config: KdConfig,
+}
+
+/// Grows the tree that `config` describes.
+fn plan(mesh: &Mesh, config: &KdConfig) -> Result<Plan, BuildError> {
+    config.check()?;
+    let context = Context::new(mesh, config);
+    Ok(match config.plane {
+        Plane::VertexMedian => grow(&context, Triangles::all(&context)),
+        Plane::SahSweep => grow(&context, Events::all(&context)),
+    })
+}
+
+/// The non-empty cells of that tree, as tight boxes.
+pub(super) fn partition(mesh: &Mesh, config: &KdConfig) -> Result<BinaryTree, BuildError> {
+    Ok(partition::tight(mesh, plan(mesh, config)?))
 }
 
 impl<T: TriangleTest> KdTree<T> {
@@ -72,13 +89,7 @@ impl<T: TriangleTest> Accel for KdTree<T> {
     const TRIANGLE_TEST: &'static str = T::NAME;
 
     fn build(mesh: &Arc<Mesh>, config: &KdConfig) -> Result<Self, BuildError> {
-        config.check()?;
-        let context = Context::new(mesh, config);
-        let plan = match config.plane {
-            Plane::VertexMedian => grow(&context, Triangles::all(&context)),
-            Plane::SahSweep => grow(&context, Events::all(&context)),
-        };
-        Ok(Self::finish(mesh, config, plan))
+        Ok(Self::finish(mesh, config, plan(mesh, config)?))
     }
 
     #[inline]

@@ -1,0 +1,77 @@
+//! The node of wide trees.
+
+use crate::geometry::Aabb;
+
+/// Children of a node.
+pub(super) const WIDTH: usize = 8;
+
+/// Eight boxes, coordinate by coordinate, and what is in them: 256 bytes, four cache lines.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(64))]
+pub(super) struct Node {
+    /// By axis, the lower and the upper planes of the boxes.
+    pub planes: [[[f32; WIDTH]; 2]; 3],
+    pub children: [Child; WIDTH],
+    /// For each octant of directions (bit 0 is set for a negative x), the lanes from the last to the first that such a ray
+    /// should visit: three bits each, the last one lowest.
+    pub orders: [u32; 8],
+}
+
+const _: () = assert!(size_of::<Node>() == 256);
+
+/// A node by number, or a leaf as its first block and the number of its blocks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(transparent)]
+pub(super) struct Child(u32);
+
+impl Child {
+    const LEAF: u32 = 1 << 31;
+    const COUNT_BITS: u32 = 4;
+    /// Blocks of the largest leaf.
+    pub const BLOCKS: usize = (1 << Self::COUNT_BITS) - 1;
+    /// Nodes, and blocks, that can be told apart.
+    pub const LARGEST: usize = 1 << (31 - Self::COUNT_BITS);
+
+    /// A leaf of nothing.
+    pub const NOTHING: Self = Self(Self::LEAF);
+
+    pub fn node(at: usize) -> Self {
+        debug_assert!(at < Self::LARGEST);
+        Self(at as u32)
+    }
+
+    pub fn leaf(first: usize, blocks: usize) -> Self {
+        debug_assert!(first < Self::LARGEST && blocks <= Self::BLOCKS);
+        Self(Self::LEAF | (first as u32) << Self::COUNT_BITS | blocks as u32)
+    }
+
+    /// The blocks of a leaf; nothing for a node.
+    #[inline(always)]
+    pub fn blocks(self) -> Option<(usize, usize)> {
+        let blocks = (self.0 & !Self::LEAF) >> Self::COUNT_BITS;
+        (self.0 & Self::LEAF != 0).then_some((blocks as usize, (self.0 & (1 << Self::COUNT_BITS) - 1) as usize))
+    }
+
+    /// The number of a node.
+    #[inline(always)]
+    pub fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+impl Node {
+    /// A node without children: no line meets its boxes, and who looks into them nevertheless finds nothing.
+    pub const EMPTY: Self = Self {
+        planes: [[[f32::INFINITY; WIDTH], [f32::NEG_INFINITY; WIDTH]]; 3],
+        children: [Child::NOTHING; WIDTH],
+        orders: [0; 8],
+    };
+
+    pub fn set(&mut self, lane: usize, bounds: &Aabb, child: Child) {
+        for (axis, [low, high]) in self.planes.iter_mut().enumerate() {
+            low[lane] = bounds.min[axis];
+            high[lane] = bounds.max[axis];
+        }
+        self.children[lane] = child;
+    }
+}
