@@ -6,6 +6,7 @@ pub mod kd;
 mod leaf;
 mod line;
 pub mod obvhs;
+pub mod split;
 
 pub use brute_force::{BruteForce, BruteForceConfig};
 pub use kd::{KdConfig, KdTree};
