@@ -6,6 +6,7 @@ pub mod kd;
 mod leaf;
 mod line;
 pub mod obvhs;
+pub mod split;
 pub mod wide;
 
 pub use brute_force::{BruteForce, BruteForceConfig};

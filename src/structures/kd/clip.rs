@@ -18,7 +18,7 @@ const ERROR: f64 = 64.0 / (1u64 << 53) as f64;
 ///
 /// Clips in f64 (Sutherland, Hodgman 1974) and rounds outward, so that nothing of the triangle is lost; where rounding
 /// leaves no polygon at all, the answer is `known` cut by the cell: a triangle that reaches into the cell is never dropped.
-pub(super) fn clipped_bounds(corners: [Vec3; 3], cell: &Aabb, known: &Aabb) -> Aabb {
+pub(in crate::structures) fn clipped_bounds(corners: [Vec3; 3], cell: &Aabb, known: &Aabb) -> Aabb {
     let cut = known.intersection(*cell);
     let mut polygon = Polygon::new(corners);
     for axis in 0..3 {

@@ -1,7 +1,7 @@
 //! KD-trees: the report's median tree and the SAH tree are two configurations of one type.
 
 mod build;
-mod clip;
+pub(super) mod clip;
 mod config;
 mod node;
 mod partition;

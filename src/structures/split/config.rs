@@ -1,0 +1,100 @@
+use serde::{Deserialize, Serialize};
+
+use crate::accel::BuildError;
+
+/// How a binary tree of tight boxes is built. [`SplitConfig::new`] has the values that were measured.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SplitConfig {
+    /// Which splits are allowed.
+    pub splits: Splits,
+    /// Candidate planes and bins of an axis, in 2..=64; more finds cheaper splits and takes longer.
+    pub candidates: u32,
+    /// Nodes of at most this many references try every object split; larger ones try `candidates`.
+    pub exact: u32,
+    /// Nodes of at most this many references see the clipped triangle in every slab of a spatial split; larger ones see its
+    /// box cut by the slab.
+    pub chopped: u32,
+    /// Spatial splits beside object splits are tried where the children of the best object split overlap by more than this
+    /// share of the root's area, in [0, 1]. Stich, Friedrich, Dietrich use 1e-5; more makes fewer references.
+    pub alpha: f32,
+    /// Cost of a step from a node to its two children. Positive; more gives bigger leaves. A step of an 8-wide tree is about
+    /// three of these.
+    pub node_cost: f32,
+    /// Cost of testing a block of eight triangles. Positive; more gives smaller leaves.
+    pub block_cost: f32,
+    /// References that a leaf may hold, in 8..=64.
+    pub leaf: u32,
+    /// References a build may make, as a multiple of the triangles: the guard against inputs that explode. At least 1.
+    pub duplication: f32,
+}
+
+/// Which splits a builder may use.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Splits {
+    /// By planes: the leaves are disjoint.
+    Spatial,
+    /// By planes or by groups, whichever is cheaper.
+    SpatialAndObject,
+    /// By groups: every triangle is in one leaf.
+    Object,
+}
+
+/// How much time a build may take for a better tree.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Quality {
+    /// Few candidates, boxes of slabs not clipped.
+    Fast,
+    /// Many candidates where it matters.
+    #[default]
+    Balanced,
+    /// Everything that still made a tree cheaper.
+    High,
+}
+
+impl SplitConfig {
+    /// The values measured for `quality`.
+    pub const fn new(splits: Splits, quality: Quality) -> Self {
+        let (candidates, exact, chopped) = match quality {
+            Quality::Fast => (16, 0, 0),
+            Quality::Balanced => (32, 64, 1024),
+            Quality::High => (64, 1024, 16384),
+        };
+        Self {
+            splits,
+            candidates,
+            exact,
+            chopped,
+            alpha: 1e-4,
+            node_cost: 0.4,
+            block_cost: 1.0,
+            leaf: 64,
+            duplication: 4.0,
+        }
+    }
+
+    /// # Errors
+    /// If a value is out of its range, naming it.
+    pub fn check(&self) -> Result<(), BuildError> {
+        let refuse = |what: &str| Err(BuildError::Config(what.into()));
+        let positive = |x: f32| x > 0.0 && x.is_finite();
+        if !(2..=64).contains(&self.candidates) {
+            return refuse("candidates must be in 2..=64");
+        }
+        if !(0.0..=1.0).contains(&self.alpha) {
+            return refuse("alpha must be in 0..=1");
+        }
+        if !positive(self.node_cost) || !positive(self.block_cost) {
+            return refuse("node_cost and block_cost must be positive numbers");
+        }
+        if !(8..=64).contains(&self.leaf) {
+            return refuse("leaf must be in 8..=64");
+        }
+        if !(self.duplication >= 1.0 && self.duplication.is_finite()) {
+            return refuse("duplication must be a number of at least 1");
+        }
+        Ok(())
+    }
+}

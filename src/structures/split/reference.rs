@@ -1,0 +1,36 @@
+use super::extent::Extent;
+use crate::geometry::{Aabb, Mesh};
+use crate::structures::kd::clip::clipped_bounds;
+
+/// A triangle and the box of the part of it that a node answers for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Reference {
+    pub id: u32,
+    pub bounds: Aabb,
+}
+
+impl Reference {
+    #[inline(always)]
+    pub fn extent(&self) -> Extent {
+        self.bounds.into()
+    }
+
+    /// The centre of the box on an axis.
+    #[inline(always)]
+    pub fn centre(&self, axis: usize) -> f32 {
+        self.bounds.min[axis] * 0.5 + self.bounds.max[axis] * 0.5
+    }
+
+    /// The parts below and above a plane that meets the inside of the box.
+    pub fn cut(&self, mesh: &Mesh, axis: usize, plane: f32) -> (Self, Self) {
+        let (below, above) = self.bounds.cut(axis, plane);
+        let corners = mesh.corners(self.id);
+        let part = |bounds| Self { id: self.id, bounds: clipped_bounds(corners, &bounds, &bounds) };
+        (part(below), part(above))
+    }
+}
+
+/// The box of all references.
+pub(super) fn bounds(references: &[Reference]) -> Extent {
+    references.iter().fold(Extent::EMPTY, |all, r| all.union(r.extent()))
+}
