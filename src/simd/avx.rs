@@ -163,4 +163,14 @@ impl super::Sieve for F32x8 {
             mask as u32
         }
     }
+
+    #[inline(always)]
+    unsafe fn sift(self, limit: Self, values: *const u32, chosen: *mut u32) -> u32 {
+        unsafe {
+            let mask = _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(self.0, limit.0)) as usize;
+            let lanes = _mm256_cvtepu8_epi32(_mm_loadl_epi64(COMPRESS.as_ptr().add(mask).cast()));
+            _mm256_storeu_si256(chosen.cast(), _mm256_permutevar8x32_epi32(_mm256_loadu_si256(values.cast()), lanes));
+            mask as u32
+        }
+    }
 }

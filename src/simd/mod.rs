@@ -69,6 +69,12 @@ pub trait Sieve: Lanes<8> {
     /// # Safety
     /// Eight floats and eight numbers may be written, whatever the answer.
     unsafe fn sieve(self, limit: Self, values: *const u32, order: u32, keys: *mut f32, chosen: *mut u32) -> u32;
+
+    /// As `sieve`, in the order of the lanes and without the keys.
+    ///
+    /// # Safety
+    /// As there.
+    unsafe fn sift(self, limit: Self, values: *const u32, chosen: *mut u32) -> u32;
 }
 
 /// The instruction set that this build of the lanes uses, for records.

@@ -109,6 +109,9 @@ impl<'a> Collapse<'a> {
     pub fn children(&self, at: u32, parts: &mut Vec<Part>) -> [u32; 8] {
         parts.clear();
         self.gather(at, WIDTH, 0, &mut |part| parts.push(part));
+        let area = |at: u32| half_area(&self.node(at).bounds);
+        let priority = |part: &Part| match *part { Part::Leaf(at) => (true, area(at)), Part::Node(at) => (false, area(at)) };
+        parts.sort_by(|a, b| priority(a).partial_cmp(&priority(b)).unwrap());
         std::array::from_fn(|octant| {
             // Empty lanes come before the first.
             let mut order = (parts.len()..WIDTH).fold(0, |order, lane| order << 3 | lane as u32);

@@ -23,8 +23,10 @@ pub struct WideTree<T: TriangleTest> {
     bounds: Aabb,
 }
 #[derive(Clone, Debug, serde::Serialize, serde::Deserialize)]
-pub struct WideConfig { pub block: f64, pub kd: kd::KdConfig }
-impl Default for WideConfig { fn default() -> Self { Self { block: 0.6, kd: kd::KdConfig::SAH } } }
+pub struct WideConfig { pub block: f64, pub partition: Partition }
+#[derive(Clone, Debug, serde::Serialize, serde::Deserialize)]
+pub enum Partition { Cells(kd::KdConfig), Split(super::split::SplitConfig) }
+impl Default for WideConfig { fn default() -> Self { Self { block: 0.6, partition: Partition::Cells(kd::KdConfig::SAH) } } }
 
 impl<T: TriangleTest> Accel for WideTree<T> {
     type Config = WideConfig;
@@ -32,7 +34,7 @@ impl<T: TriangleTest> Accel for WideTree<T> {
     const TRIANGLE_TEST: &'static str = T::NAME;
 
     fn build(mesh: &Arc<Mesh>, config: &WideConfig) -> Result<Self, BuildError> {
-        let tree = kd::partition(mesh, &config.kd)?;
+        let tree = match &config.partition { Partition::Cells(kd) => kd::partition(mesh, kd)?, Partition::Split(split) => super::split::build(mesh, split) };
         let collapse = Collapse::new(&tree, &Cost { node: 1.0, block: config.block, largest: 8 });
         let mut layout = Layout::<T>::new(mesh, &collapse);
         let root = if tree.nodes.is_empty() { Child::NOTHING } else { layout.write(collapse.root()) };

@@ -88,11 +88,14 @@ impl<T: TriangleTest> WideTree<T> {
                 observer.inner();
                 let node = unsafe { &*nodes.add(child.index()) };
                 let (tn, limit) = beam.enter(node, end);
-                let order = node.orders[beam.octant];
-                let mask = unsafe { tn.sieve(limit, node.children.as_ptr().cast(), order, depths.as_mut_ptr().add(top).cast(), children.as_mut_ptr().add(top).cast()) };
+                let mask = if ANY {
+                    unsafe { tn.sift(limit, node.children.as_ptr().cast(), children.as_mut_ptr().add(top).cast()) }
+                } else {
+                    unsafe { tn.sieve(limit, node.children.as_ptr().cast(), node.orders[beam.octant], depths.as_mut_ptr().add(top).cast(), children.as_mut_ptr().add(top).cast()) }
+                };
                 if mask != 0 {
-                    let first = 31 - mask.leading_zeros();
-                    let lane = order >> (3 * first) & 7;
+                    let last = 31 - mask.leading_zeros();
+                    let lane = if ANY { last } else { node.orders[beam.octant] >> (3 * last) & 7 };
                     child = node.children[lane as usize];
                     top += mask.count_ones() as usize - 1;
                     continue;
@@ -102,9 +105,8 @@ impl<T: TriangleTest> WideTree<T> {
                 if top == 0 { break 'walk; }
                 top -= 1;
                 // SAFETY: written below top
-                let depth = unsafe { depths.get_unchecked(top).assume_init() };
                 child = unsafe { children.get_unchecked(top).assume_init() };
-                if depth <= after(nearest.t) { break; }
+                if ANY || unsafe { depths.get_unchecked(top).assume_init() } <= after(nearest.t) { break; }
             }
         }
         nearest.hit()
