@@ -1,15 +1,17 @@
 use std::arch::x86_64::*;
 
 use super::avx_double::F64x8;
-use super::{Arithmetic, Lanes};
+use super::{Arithmetic, Lanes, Sieve};
 
-/// 8 lanes in one AVX register.
+/// 8 lanes in one AVX register, for machines with AVX2 and FMA; with `MASKS`, for those with AVX-512 VL as well.
+///
+/// Values of this type exist only inside of [`dispatch`](super::dispatch), which has looked for the instructions.
 #[derive(Clone, Copy, Debug)]
-pub struct F32x8(__m256);
+pub struct Avx<const MASKS: bool>(__m256);
 
-// SAFETY of every block below: the module is compiled only where the target feature avx is enabled for the whole build,
-// so the instructions exist; loads and stores are unaligned ones, of arrays of exactly the register's size.
-impl Arithmetic<8> for F32x8 {
+// SAFETY of every block below: whoever names this type has seen to it that the instructions exist; loads and stores are
+// unaligned ones, of arrays of exactly the register's size unless another comment says so.
+impl<const MASKS: bool> Arithmetic<8> for Avx<MASKS> {
     type Scalar = f32;
 
     #[inline(always)]
@@ -86,7 +88,7 @@ impl Arithmetic<8> for F32x8 {
     }
 }
 
-impl Lanes<8> for F32x8 {
+impl<const MASKS: bool> Lanes<8> for Avx<MASKS> {
     type Double = F64x8;
 
     #[inline(always)]
@@ -112,27 +114,19 @@ impl Lanes<8> for F32x8 {
 
     #[inline(always)]
     fn mul_add_loosely(self, factor: Self, term: Self) -> Self {
-        if cfg!(target_feature = "fma") {
-            // SAFETY: the target feature fma is enabled for the whole build.
-            Self(unsafe { _mm256_fmadd_ps(self.0, factor.0, term.0) })
-        } else {
-            self.mul(factor).add(term)
-        }
+        // SAFETY: see above.
+        Self(unsafe { _mm256_fmadd_ps(self.0, factor.0, term.0) })
     }
 
     #[inline(always)]
     fn mul_sub_loosely(self, factor: Self, term: Self) -> Self {
-        if cfg!(target_feature = "fma") {
-            // SAFETY: the target feature fma is enabled for the whole build.
-            Self(unsafe { _mm256_fmsub_ps(self.0, factor.0, term.0) })
-        } else {
-            self.mul(factor).sub(term)
-        }
+        // SAFETY: see above.
+        Self(unsafe { _mm256_fmsub_ps(self.0, factor.0, term.0) })
     }
 }
 
 /// For each set of lanes, the numbers of its members, lowest first.
-static COMPRESS: [[u8; 8]; 256] = {
+static MEMBERS: [[u8; 8]; 256] = {
     let mut table = [[0; 8]; 256];
     let mut set = 0;
     while set < 256 {
@@ -149,28 +143,39 @@ static COMPRESS: [[u8; 8]; 256] = {
     table
 };
 
-impl super::Sieve for F32x8 {
+impl<const MASKS: bool> Sieve for Avx<MASKS> {
     #[inline(always)]
-    unsafe fn sieve(self, limit: Self, values: *const u32, order: u32, keys: *mut f32, chosen: *mut u32) -> u32 {
+    unsafe fn sieve(self, limit: Self, values: &[u32; 8], order: u32, keys: *mut f32, chosen: *mut u32) -> u32 {
+        // SAFETY: the caller lets eight floats and eight numbers be written; the table has a row for every mask.
         unsafe {
             let hit = _mm256_cmp_ps::<_CMP_LE_OQ>(self.0, limit.0);
-            let order = _mm256_srlv_epi32(_mm256_set1_epi32(order as i32), _mm256_setr_epi32(0, 3, 6, 9, 12, 15, 18, 21));
-            let mask = _mm256_movemask_ps(_mm256_permutevar8x32_ps(hit, order)) as usize;
-            let lanes = _mm256_cvtepu8_epi32(_mm_loadl_epi64(COMPRESS.as_ptr().add(mask).cast()));
-            let lanes = _mm256_permutevar8x32_epi32(order, lanes);
+            let shifts = _mm256_setr_epi32(0, 3, 6, 9, 12, 15, 18, 21);
+            // Only the three low bits of a lane's number count.
+            let order = _mm256_srlv_epi32(_mm256_set1_epi32(order as i32), shifts);
+            let set = _mm256_movemask_ps(_mm256_permutevar8x32_ps(hit, order)) as u32;
+            let lanes = if MASKS { _mm256_maskz_compress_epi32(set as u8, order) } else { _mm256_permutevar8x32_epi32(order, members(set)) };
             _mm256_storeu_ps(keys, _mm256_permutevar8x32_ps(self.0, lanes));
-            _mm256_storeu_si256(chosen.cast(), _mm256_permutevar8x32_epi32(_mm256_loadu_si256(values.cast()), lanes));
-            mask as u32
+            _mm256_storeu_si256(chosen.cast(), _mm256_permutevar8x32_epi32(_mm256_loadu_si256(values.as_ptr().cast()), lanes));
+            set
         }
     }
 
     #[inline(always)]
-    unsafe fn sift(self, limit: Self, values: *const u32, chosen: *mut u32) -> u32 {
+    unsafe fn sift(self, limit: Self, values: &[u32; 8], chosen: *mut u32) -> u32 {
+        // SAFETY: as above, without the floats.
         unsafe {
-            let mask = _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(self.0, limit.0)) as usize;
-            let lanes = _mm256_cvtepu8_epi32(_mm_loadl_epi64(COMPRESS.as_ptr().add(mask).cast()));
-            _mm256_storeu_si256(chosen.cast(), _mm256_permutevar8x32_epi32(_mm256_loadu_si256(values.cast()), lanes));
-            mask as u32
+            let set = self.le(limit);
+            let values = _mm256_loadu_si256(values.as_ptr().cast());
+            let left = if MASKS { _mm256_maskz_compress_epi32(set as u8, values) } else { _mm256_permutevar8x32_epi32(values, members(set)) };
+            _mm256_storeu_si256(chosen.cast(), left);
+            set
         }
     }
+}
+
+/// The numbers of the members of a set, lowest first, then zeros.
+#[inline(always)]
+fn members(set: u32) -> __m256i {
+    // SAFETY: see above; a row of the table has eight bytes, and eight are read.
+    unsafe { _mm256_cvtepu8_epi32(_mm_loadl_epi64(MEMBERS[(set & 0xff) as usize].as_ptr().cast())) }
 }

@@ -2,7 +2,7 @@ use std::arch::x86_64::*;
 
 use super::Arithmetic;
 
-/// 8 lanes of `f64` in two AVX registers.
+/// 8 lanes of `f64` in two AVX registers, for machines with AVX2.
 #[derive(Clone, Copy, Debug)]
 pub struct F64x8(pub(super) [__m256d; 2]);
 
@@ -18,8 +18,8 @@ impl F64x8 {
     }
 }
 
-// SAFETY of every block below: the module is compiled only where the target feature avx is enabled for the whole build,
-// so the instructions exist; stores are unaligned ones, into halves of an array of exactly two registers' size.
+// SAFETY of every block below: whoever names this type has seen to it that the instructions exist; stores are unaligned
+// ones, into halves of an array of exactly two registers' size.
 impl Arithmetic<8> for F64x8 {
     type Scalar = f64;
 

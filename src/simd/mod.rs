@@ -1,9 +1,10 @@
 //! Lanes of `f32` and `f64`: written once over a small trait, so that every width gives the same bits.
 
-#[cfg(all(target_arch = "x86_64", target_feature = "avx"))]
+#[cfg(target_arch = "x86_64")]
 mod avx;
-#[cfg(all(target_arch = "x86_64", target_feature = "avx"))]
+#[cfg(target_arch = "x86_64")]
 mod avx_double;
+mod level;
 mod portable;
 #[cfg(target_arch = "x86_64")]
 mod sse;
@@ -14,11 +15,7 @@ pub use sse::F32x4;
 #[cfg(not(target_arch = "x86_64"))]
 pub type F32x4 = portable::Portable<4>;
 
-#[cfg(all(target_arch = "x86_64", target_feature = "avx"))]
-pub use avx::F32x8;
-#[cfg(not(all(target_arch = "x86_64", target_feature = "avx")))]
-pub type F32x8 = portable::Portable<8>;
-
+pub use level::{Kernel, Level, UnknownLevel, dispatch};
 pub use portable::Portable;
 pub use vector::LaneVec3;
 
@@ -61,31 +58,20 @@ pub trait Lanes<const N: usize>: Arithmetic<N, Scalar = f32> {
     fn mul_sub_loosely(self, factor: Self, term: Self) -> Self;
 }
 
-/// Eight lanes that can be written to memory in a given order, some left out.
+/// Eight lanes of which those that pass a comparison can be written to memory, packed.
 pub trait Sieve: Lanes<8> {
-    /// Appends the lanes where `self <= limit`, in the order given (three bits a lane, the first one lowest), to `keys`, and
-    /// their `values` to `chosen`; returns how many they are.
+    /// Takes the lanes where `self <= limit`, in a given order: three bits a lane, the first one lowest. Writes them to `keys` and
+    /// their `values` to `chosen`, and returns which they are: bit `i` stands for the `i`-th in that order.
     ///
     /// # Safety
     /// Eight floats and eight numbers may be written, whatever the answer.
-    unsafe fn sieve(self, limit: Self, values: *const u32, order: u32, keys: *mut f32, chosen: *mut u32) -> u32;
+    unsafe fn sieve(self, limit: Self, values: &[u32; 8], order: u32, keys: *mut f32, chosen: *mut u32) -> u32;
 
     /// As `sieve`, in the order of the lanes and without the keys.
     ///
     /// # Safety
-    /// As there.
-    unsafe fn sift(self, limit: Self, values: *const u32, chosen: *mut u32) -> u32;
-}
-
-/// The instruction set that this build of the lanes uses, for records.
-pub fn level() -> &'static str {
-    if cfg!(all(target_arch = "x86_64", target_feature = "avx")) {
-        "avx"
-    } else if cfg!(target_arch = "x86_64") {
-        "sse2"
-    } else {
-        "portable"
-    }
+    /// Eight numbers may be written, whatever the answer.
+    unsafe fn sift(self, limit: Self, values: &[u32; 8], chosen: *mut u32) -> u32;
 }
 
 #[cfg(test)]
@@ -115,9 +101,53 @@ mod tests {
         }
     }
 
+    /// Draws the same lanes as the portable ones, for all comparisons and some orders.
+    fn same_sieve<L: Sieve>() {
+        let values = std::array::from_fn(|i| 100 + i as u32);
+        for seed in 0..SPECIAL.len() * SPECIAL.len() {
+            let a: [f32; 8] = std::array::from_fn(|k| SPECIAL[(seed + 3 * k) % SPECIAL.len()]);
+            let b: [f32; 8] = std::array::from_fn(|k| SPECIAL[(seed / SPECIAL.len() + 7 * k) % SPECIAL.len()]);
+            let order = (0..8).fold(0, |order, i| order << 3 | ((i * 3 + seed) % 8) as u32);
+            let (mut keys, mut others) = ([0.0_f32; 8], [0.0_f32; 8]);
+            let (mut chosen, mut expected) = ([0_u32; 8], [0_u32; 8]);
+            // SAFETY: the arrays have eight places.
+            let (set, right) = unsafe {
+                let sieve = L::load(&a).sieve(L::load(&b), &values, order, keys.as_mut_ptr(), chosen.as_mut_ptr());
+                let limit = Portable::load(&b);
+                let right =
+                    Portable::load(&a).sieve(limit, &values, order, others.as_mut_ptr(), expected.as_mut_ptr());
+                (sieve, right)
+            };
+            let count = set.count_ones() as usize;
+            assert_eq!((set, &chosen[..count]), (right, &expected[..count]));
+            assert_eq!(keys[..count].iter().map(|k| k.to_bits()).collect::<Vec<_>>(), others[..count].iter().map(|k| k.to_bits()).collect::<Vec<_>>());
+
+            // SAFETY: likewise.
+            let (set, right) = unsafe {
+                let set = L::load(&a).sift(L::load(&b), &values, chosen.as_mut_ptr());
+                (set, Portable::load(&a).sift(Portable::load(&b), &values, expected.as_mut_ptr()))
+            };
+            assert_eq!((set, &chosen[..set.count_ones() as usize]), (right, &expected[..set.count_ones() as usize]));
+        }
+    }
+
+    struct SameAsPortable;
+
+    impl Kernel for SameAsPortable {
+        type Output = ();
+
+        #[inline(always)]
+        fn run<L: Sieve>(self) {
+            same_as_portable::<8, L>();
+            same_sieve::<L>();
+        }
+    }
+
     #[test]
-    fn every_width_gives_the_bits_of_the_portable_lanes() {
+    fn every_width_and_level_gives_the_bits_of_the_portable_lanes() {
         same_as_portable::<4, F32x4>();
-        same_as_portable::<8, F32x8>();
+        for level in Level::available() {
+            dispatch(level, SameAsPortable);
+        }
     }
 }

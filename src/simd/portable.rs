@@ -1,4 +1,4 @@
-use super::{Arithmetic, Lanes};
+use super::{Arithmetic, Lanes, Sieve};
 
 /// Lanes as an array: the slow twin of the others, and what machines without them run.
 #[derive(Clone, Copy, Debug)]
@@ -113,5 +113,39 @@ impl<const N: usize> Lanes<N> for Portable<N> {
     #[inline(always)]
     fn mul_sub_loosely(self, factor: Self, term: Self) -> Self {
         self.mul(factor).sub(term)
+    }
+}
+
+impl Sieve for Portable<8> {
+    #[inline(always)]
+    unsafe fn sieve(self, limit: Self, values: &[u32; 8], order: u32, keys: *mut f32, chosen: *mut u32) -> u32 {
+        let (mut set, mut count) = (0, 0);
+        for at in 0..8 {
+            let lane = (order >> (3 * at) & 7) as usize;
+            if self.0[lane] <= limit.0[lane] {
+                // SAFETY: the caller lets eight of both be written, and here are at most eight lanes.
+                unsafe {
+                    keys.add(count).write(self.0[lane]);
+                    chosen.add(count).write(values[lane]);
+                }
+                set |= 1 << at;
+                count += 1;
+            }
+        }
+        set
+    }
+
+    #[inline(always)]
+    unsafe fn sift(self, limit: Self, values: &[u32; 8], chosen: *mut u32) -> u32 {
+        let (mut set, mut count) = (0, 0);
+        for lane in 0..8 {
+            if self.0[lane] <= limit.0[lane] {
+                // SAFETY: as above.
+                unsafe { chosen.add(count).write(values[lane]) };
+                set |= 1 << lane;
+                count += 1;
+            }
+        }
+        set
     }
 }

@@ -3,9 +3,10 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use super::leaf::{LeafBlock, search, start};
+use super::walk::{Walk, single};
 use crate::accel::{Accel, BuildError, Footprint, Observer, TreeShape};
 use crate::geometry::{Hit, Mesh, Ray};
-use crate::simd::F32x8;
+use crate::simd::Sieve;
 use crate::triangle::TriangleTest;
 
 /// Every triangle, tested in order: the reference that all others are held against.
@@ -21,12 +22,13 @@ pub struct BruteForce<T: TriangleTest> {
 #[serde(deny_unknown_fields)]
 pub struct BruteForceConfig {}
 
-impl<T: TriangleTest> BruteForce<T> {
-    fn query<const ANY: bool, O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit> {
+impl<T: TriangleTest> Walk for BruteForce<T> {
+    #[inline(always)]
+    fn walk<const ANY: bool, L: Sieve, O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit> {
         let (prepared, t_min, mut nearest) = start::<T>(ray)?;
         observer.leaf(self.references as u32);
         let count = self.references as u32;
-        let tests = search::<ANY, 8, F32x8, T, ()>(&self.blocks, count, &prepared, t_min, &mut nearest, &mut ());
+        let tests = search::<ANY, 8, L, T, ()>(&self.blocks, count, &prepared, t_min, &mut nearest, &mut ());
         observer.test(tests);
         nearest.hit()
     }
@@ -45,11 +47,11 @@ impl<T: TriangleTest> Accel for BruteForce<T> {
     }
 
     fn closest_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit> {
-        self.query::<false, O>(ray, observer)
+        single::<false, _, O>(self, ray, observer)
     }
 
     fn any_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> bool {
-        self.query::<true, O>(ray, observer).is_some()
+        single::<true, _, O>(self, ray, observer).is_some()
     }
 
     fn footprint(&self) -> Footprint {

@@ -47,7 +47,7 @@ const NONE: u32 = u32::MAX;
 
 /// At most `N` triangles, tested at once.
 #[derive(Clone, Copy)]
-#[repr(C, align(16))]
+#[repr(C, align(64))]
 pub(crate) struct LeafBlock<T: TriangleTest, const N: usize> {
     triangles: T::Block<N>,
     ids: [u32; N],
@@ -65,6 +65,12 @@ impl<T: TriangleTest, const N: usize> LeafBlock<T, N> {
             }
             Self { triangles: T::block(&corners[..ids.len()]), ids: padded }
         }));
+    }
+
+    /// Triangles in it.
+    #[inline(always)]
+    pub fn len(&self) -> u32 {
+        self.ids.iter().map(|&id| u32::from(id != NONE)).sum()
     }
 
     /// Bytes of triangle data and of triangle numbers in a block.

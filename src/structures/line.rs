@@ -32,21 +32,27 @@ pub(crate) fn after(t: f32) -> f32 {
     t * (1.0 + 4.0 * f32::EPSILON) + TINY
 }
 
+/// 1 / d for each component of the direction, for planes that cut the box `bounds` or are its faces; NaN where a crossing
+/// computed with it has no answer.
+#[inline(always)]
+pub(crate) fn inverses(ray: &Ray, bounds: &Aabb) -> [f32; 3] {
+    let reach = ray.origin.abs() + bounds.min.abs().max(bounds.max.abs());
+    if !reach.is_finite() {
+        // Also where the box is empty.
+        return [f32::NAN; 3];
+    }
+    ray.direction.to_array().map(|d| {
+        let inverse = 1.0 / d;
+        if inverse.is_normal() || d == 0.0 { inverse } else { f32::NAN }
+    })
+}
+
 impl Line {
     /// For planes that cut the box `bounds` or are its faces.
     #[inline(always)]
     pub fn new(ray: &Ray, bounds: &Aabb) -> Self {
-        let direction = ray.direction.to_array();
-        let mut inverse = direction.map(|d| {
-            let inverse = 1.0 / d;
-            if inverse.is_normal() || d == 0.0 { inverse } else { f32::NAN }
-        });
-        let reach = ray.origin.abs() + bounds.min.abs().max(bounds.max.abs());
-        if !reach.is_finite() {
-            // Also where the box is empty.
-            inverse = [f32::NAN; 3];
-        }
-        Self { origin: ray.origin.to_array(), inverse, backward: direction.map(f32::is_sign_negative) }
+        let backward = ray.direction.to_array().map(f32::is_sign_negative);
+        Self { origin: ray.origin.to_array(), inverse: inverses(ray, bounds), backward }
     }
 
     /// Where the line crosses the plane; NaN where that has no answer.

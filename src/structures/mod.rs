@@ -7,7 +7,9 @@ mod leaf;
 mod line;
 pub mod obvhs;
 pub mod split;
+mod walk;
 pub mod wide;
 
 pub use brute_force::{BruteForce, BruteForceConfig};
 pub use kd::{KdConfig, KdTree};
+pub use wide::{Partition, WideConfig, WideTree};

@@ -19,6 +19,7 @@ pub use config::{AxisRule, CountOf, Equal, Exit, KdConfig, Limit, Median, Plane,
 
 use super::binary::BinaryTree;
 use super::leaf::LeafBlock;
+use super::walk::single;
 use crate::accel::{Accel, BuildError, Footprint, Observer, TreeShape};
 use crate::geometry::{Aabb, Hit, Mesh, Ray};
 use crate::triangle::TriangleTest;
@@ -94,12 +95,12 @@ impl<T: TriangleTest> Accel for KdTree<T> {
 
     #[inline]
     fn closest_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit> {
-        self.query::<false, O>(ray, observer)
+        single::<false, _, O>(self, ray, observer)
     }
 
     #[inline]
     fn any_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> bool {
-        self.query::<true, O>(ray, observer).is_some()
+        single::<true, _, O>(self, ray, observer).is_some()
     }
 
     fn footprint(&self) -> Footprint {

@@ -14,9 +14,10 @@ use super::node::Node;
 use super::{KdTree, WIDTH};
 use crate::accel::Observer;
 use crate::geometry::{Aabb, Hit, Ray};
-use crate::simd::F32x8;
+use crate::simd::Sieve;
 use crate::structures::leaf::{Mailbox, Nearest, search, start};
 use crate::structures::line::{Line, after, before};
+use crate::structures::walk::Walk;
 use crate::triangle::TriangleTest;
 
 /// More than the greatest depth of a tree.
@@ -33,19 +34,20 @@ struct Query<'a, const ANY: bool, T: TriangleTest, M, O> {
     observer: &'a mut O,
 }
 
-impl<T: TriangleTest> KdTree<T> {
-    /// The nearest hit, or with `ANY` some hit.
+impl<T: TriangleTest> Walk for KdTree<T> {
     #[inline(always)]
-    pub(super) fn query<const ANY: bool, O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit> {
+    fn walk<const ANY: bool, L: Sieve, O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit> {
         if self.config.mailbox {
-            self.query_with::<ANY, [u32; 8], O>([u32::MAX; 8], ray, observer)
+            self.walk_with::<ANY, L, [u32; 8], O>([u32::MAX; 8], ray, observer)
         } else {
-            self.query_with::<ANY, (), O>((), ray, observer)
+            self.walk_with::<ANY, L, (), O>((), ray, observer)
         }
     }
+}
 
+impl<T: TriangleTest> KdTree<T> {
     #[inline(always)]
-    fn query_with<const ANY: bool, M: Mailbox, O: Observer>(
+    fn walk_with<const ANY: bool, L: Sieve, M: Mailbox, O: Observer>(
         &self,
         mailbox: M,
         ray: &Ray,
@@ -55,8 +57,8 @@ impl<T: TriangleTest> KdTree<T> {
         let line = Line::new(ray, &self.bounds);
         let mut query: Query<ANY, T, M, O> = Query { tree: self, line, prepared, t_min, nearest, mailbox, observer };
         match self.config.traversal {
-            Traversal::PlaneIntervals => query.walk_intervals(),
-            Traversal::ChildBoxes => query.walk_boxes(),
+            Traversal::PlaneIntervals => query.walk_intervals::<L>(),
+            Traversal::ChildBoxes => query.walk_boxes::<L>(),
         }
         query.nearest.hit()
     }
@@ -65,11 +67,11 @@ impl<T: TriangleTest> KdTree<T> {
 impl<const ANY: bool, T: TriangleTest, M: Mailbox, O: Observer> Query<'_, ANY, T, M, O> {
     /// Searches a leaf. True when the ray is done.
     #[inline(always)]
-    fn leaf(&mut self, node: Node) -> bool {
+    fn leaf<L: Sieve>(&mut self, node: Node) -> bool {
         self.observer.leaf(node.references());
         let blocks = self.tree.blocks_of(node);
         let count = node.references();
-        let tests = search::<ANY, WIDTH, F32x8, T, M>(
+        let tests = search::<ANY, WIDTH, L, T, M>(
             blocks,
             count,
             &self.prepared,
@@ -81,7 +83,8 @@ impl<const ANY: bool, T: TriangleTest, M: Mailbox, O: Observer> Query<'_, ANY, T
         self.nearest.found() && (ANY || self.tree.config.exit == Exit::FirstLeaf)
     }
 
-    fn walk_intervals(&mut self) {
+    #[inline(always)]
+    fn walk_intervals<L: Sieve>(&mut self) {
         let nodes = &self.tree.nodes[..];
         let (t_min, t_max) = (before(self.t_min), after(self.nearest.t));
         let Some((mut t0, mut t1)) = self.line.clip(&self.tree.bounds, t_min, t_max) else { return };
@@ -113,7 +116,7 @@ impl<const ANY: bool, T: TriangleTest, M: Mailbox, O: Observer> Query<'_, ANY, T
                 continue;
             }
 
-            if self.leaf(node) {
+            if self.leaf::<L>(node) {
                 return;
             }
             loop {
@@ -129,7 +132,8 @@ impl<const ANY: bool, T: TriangleTest, M: Mailbox, O: Observer> Query<'_, ANY, T
         }
     }
 
-    fn walk_boxes(&mut self) {
+    #[inline(always)]
+    fn walk_boxes<L: Sieve>(&mut self) {
         let nodes = &self.tree.nodes[..];
         let Some((t0, _)) = self.line.clip(&self.tree.bounds, self.t_min, self.nearest.t) else { return };
         let mut stack = [(0, Aabb::EMPTY, 0.0); STACK];
@@ -143,7 +147,7 @@ impl<const ANY: bool, T: TriangleTest, M: Mailbox, O: Observer> Query<'_, ANY, T
             }
             let node = nodes[at as usize];
             if node.is_leaf() {
-                if self.leaf(node) {
+                if self.leaf::<L>(node) {
                     return;
                 }
                 continue;

@@ -4,7 +4,7 @@
 //! Ylitie, Karras, Laine: Efficient incoherent ray traversal on GPUs through compressed wide BVHs. HPG 2017, section 4.
 
 use crate::geometry::Aabb;
-use crate::structures::binary::{BinaryNode, BinaryTree, Content};
+use crate::structures::binary::{BinaryTree, Content};
 
 use super::node::WIDTH;
 
@@ -44,6 +44,7 @@ pub(super) enum Part {
     Leaf(u32),
 }
 
+/// In `f64`, where no box that a mesh admits overflows.
 pub(super) fn half_area(bounds: &Aabb) -> f64 {
     let e = bounds.max.as_dvec3() - bounds.min.as_dvec3();
     e.x * e.y + e.y * e.z + e.z * e.x
@@ -55,25 +56,29 @@ impl<'a> Collapse<'a> {
         let mut collapse = Self { tree, best: vec![none; tree.nodes.len()] };
         let mut counts = vec![0_u32; tree.nodes.len()];
         let mut ids = vec![];
+        let most = cost.largest * WIDTH;
         for at in (0..tree.nodes.len()).rev() {
             let node = &tree.nodes[at];
             let area = half_area(&node.bounds);
-            counts[at] = match node.content {
-                Content::Leaf { count, .. } => count,
-                Content::Inner(children) => children.map(|child| counts[child as usize]).iter().sum(),
-            };
-            let limit = cost.largest * WIDTH;
-            let mut as_leaf = f64::INFINITY;
-            if counts[at] as usize <= 2 * limit {
-                collapse.ids(at as u32, &mut ids);
-                if ids.len() <= limit {
-                    as_leaf = area * cost.block * ids.len().div_ceil(WIDTH) as f64;
+            let as_leaf = |count: usize| (area * cost.block * count.div_ceil(WIDTH) as f64) as f32;
+            match node.content {
+                Content::Leaf { count, .. } => {
+                    counts[at] = count;
+                    collapse.best[at].cost = [as_leaf(count as usize); WIDTH - 1];
+                }
+                Content::Inner(children) => {
+                    counts[at] = children.iter().map(|&child| counts[child as usize]).sum();
+                    // A triangle may be in several leaves: count again before giving up.
+                    let mut merged = f32::INFINITY;
+                    if counts[at] as usize <= 2 * most {
+                        collapse.ids(at as u32, &mut ids);
+                        if ids.len() <= most {
+                            merged = as_leaf(ids.len());
+                        }
+                    }
+                    collapse.best[at] = collapse.choose(children, area * cost.node, merged);
                 }
             }
-            collapse.best[at] = match node.content {
-                Content::Leaf { .. } => Best { cost: [as_leaf as f32; WIDTH - 1], left: [0; WIDTH], leaf: true },
-                Content::Inner(children) => collapse.choose(children, area * cost.node, as_leaf as f32),
-            };
         }
         collapse
     }
@@ -105,13 +110,13 @@ impl<'a> Collapse<'a> {
         self.part(0)
     }
 
-    /// The children of the wide node `at`, and for each octant of directions the order of its lanes as nodes hold it.
+    /// The children of the wide node `at`, in the order of lanes, and for each octant of directions the order that nodes hold.
     pub fn children(&self, at: u32, parts: &mut Vec<Part>) -> [u32; 8] {
         parts.clear();
         self.gather(at, WIDTH, 0, &mut |part| parts.push(part));
-        let area = |at: u32| half_area(&self.node(at).bounds);
-        let priority = |part: &Part| match *part { Part::Leaf(at) => (true, area(at)), Part::Node(at) => (false, area(at)) };
-        parts.sort_by(|a, b| priority(a).partial_cmp(&priority(b)).unwrap());
+        let size = |part: &Part| half_area(self.bounds(*part));
+        let is_leaf = |part: &Part| matches!(part, Part::Leaf(_));
+        parts.sort_by(|a, b| is_leaf(a).cmp(&is_leaf(b)).then(size(a).total_cmp(&size(b))));
         std::array::from_fn(|octant| {
             // Empty lanes come before the first.
             let mut order = (parts.len()..WIDTH).fold(0, |order, lane| order << 3 | lane as u32);
@@ -168,7 +173,8 @@ impl<'a> Collapse<'a> {
         ids.dedup();
     }
 
-    pub fn node(&self, at: u32) -> &BinaryNode {
-        &self.tree.nodes[at as usize]
+    pub fn bounds(&self, part: Part) -> &Aabb {
+        let (Part::Node(at) | Part::Leaf(at)) = part;
+        &self.tree.nodes[at as usize].bounds
     }
 }

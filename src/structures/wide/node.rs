@@ -1,5 +1,7 @@
 //! The node of wide trees.
 
+use glam::Vec3;
+
 use crate::geometry::Aabb;
 
 /// Children of a node.
@@ -52,6 +54,13 @@ impl Child {
         (self.0 & Self::LEAF != 0).then_some((blocks as usize, (self.0 & (1 << Self::COUNT_BITS) - 1) as usize))
     }
 
+    /// Eight children as they are in memory.
+    #[inline(always)]
+    pub fn bits(children: &[Self; WIDTH]) -> &[u32; WIDTH] {
+        // SAFETY: a child is a number, transparently.
+        unsafe { &*(&raw const *children).cast() }
+    }
+
     /// The number of a node.
     #[inline(always)]
     pub fn index(self) -> usize {
@@ -73,5 +82,12 @@ impl Node {
             high[lane] = bounds.max[axis];
         }
         self.children[lane] = child;
+    }
+
+    /// The boxes in use, and what is in them.
+    pub fn boxes(&self) -> impl Iterator<Item = (Aabb, Child)> + '_ {
+        let corner = |side: usize, lane: usize| Vec3::from_array(std::array::from_fn(|axis| self.planes[axis][side][lane]));
+        let used = (0..WIDTH).filter(|&lane| self.children[lane] != Child::NOTHING);
+        used.map(move |lane| (Aabb { min: corner(0, lane), max: corner(1, lane) }, self.children[lane]))
     }
 }

@@ -1,0 +1,154 @@
+//! Which instructions a batch runs on, chosen while the program runs.
+
+use std::fmt::{self, Display};
+use std::str::FromStr;
+use std::sync::atomic::{AtomicU8, Ordering};
+
+#[cfg(target_arch = "x86_64")]
+use super::avx::Avx;
+use super::{Portable, Sieve};
+
+/// A set of instructions that lanes are compiled for. All give the same hits, bit for bit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[repr(u8)]
+pub enum Level {
+    /// Arrays and loops; what the compiler makes of them.
+    Portable,
+    /// AVX2 and FMA (x86-64-v3).
+    Avx2,
+    /// Also AVX-512 F and VL: packs lanes in one step.
+    Avx512,
+}
+
+/// A name that is no level, or one that this machine or build does not have.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("there is no level {name:?} here; there are: {known}")]
+pub struct UnknownLevel {
+    name: String,
+    known: String,
+}
+
+/// What is written once over eight lanes and runs on any level.
+pub trait Kernel {
+    type Output;
+
+    /// Mark it, and all that it calls with lanes, `#[inline(always)]`: only what is inlined is compiled for the level.
+    fn run<L: Sieve>(self) -> Self::Output;
+}
+
+/// The level in use, or [`UNCHOSEN`].
+static CURRENT: AtomicU8 = AtomicU8::new(UNCHOSEN);
+const UNCHOSEN: u8 = u8::MAX;
+
+/// Whether this build has the level at all. A build for one machine that lacks it leaves it out.
+const WITH_AVX512: bool =
+    cfg!(all(target_arch = "x86_64", any(target_feature = "avx512vl", not(target_feature = "avx2"))));
+
+impl Level {
+    const ALL: [Self; 3] = [Self::Portable, Self::Avx2, Self::Avx512];
+
+    /// As written on the command line and in records.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Portable => "portable",
+            Self::Avx2 => "avx2",
+            Self::Avx512 => "avx512",
+        }
+    }
+
+    /// The levels that this machine and this build have, from the lowest to the highest.
+    pub fn available() -> Vec<Self> {
+        Self::ALL.into_iter().filter(|level| level.is_available()).collect()
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    fn is_available(self) -> bool {
+        let avx2 = is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma");
+        let masks = || is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512vl");
+        match self {
+            Self::Portable => true,
+            Self::Avx2 => avx2,
+            Self::Avx512 => WITH_AVX512 && avx2 && masks(),
+        }
+    }
+
+    #[cfg(not(target_arch = "x86_64"))]
+    fn is_available(self) -> bool {
+        self == Self::Portable
+    }
+
+    /// The level that structures use: the highest available, unless another was chosen.
+    #[inline(always)]
+    pub fn current() -> Self {
+        match CURRENT.load(Ordering::Relaxed) {
+            0 => Self::Portable,
+            1 => Self::Avx2,
+            2 => Self::Avx512,
+            _ => Self::choose_highest(),
+        }
+    }
+
+    #[cold]
+    fn choose_highest() -> Self {
+        let highest = *Self::available().last().expect("the portable level is always there");
+        highest.choose();
+        highest
+    }
+
+    /// Makes this the level of the whole process.
+    ///
+    /// # Panics
+    /// If it is not available.
+    pub fn choose(self) {
+        assert!(self.is_available(), "the level {self} is not available");
+        CURRENT.store(self as u8, Ordering::Relaxed);
+    }
+}
+
+impl Display for Level {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl FromStr for Level {
+    type Err = UnknownLevel;
+
+    fn from_str(name: &str) -> Result<Self, UnknownLevel> {
+        let known = Self::available();
+        known.iter().copied().find(|level| level.name() == name).ok_or_else(|| UnknownLevel {
+            name: name.into(),
+            known: known.iter().map(|level| level.name()).collect::<Vec<_>>().join(", "),
+        })
+    }
+}
+
+/// Runs `kernel` compiled for `level`.
+///
+/// # Panics
+/// In debug builds, if the level is not available; levels come from [`Level::current`] and [`Level::available`].
+#[inline(always)]
+pub fn dispatch<K: Kernel>(level: Level, kernel: K) -> K::Output {
+    debug_assert!(level.is_available());
+    match level {
+        // SAFETY: the level is available, so the machine has the instructions.
+        #[cfg(target_arch = "x86_64")]
+        Level::Avx2 => unsafe { avx2(kernel) },
+        // SAFETY: likewise.
+        #[cfg(all(target_arch = "x86_64", any(target_feature = "avx512vl", not(target_feature = "avx2"))))]
+        Level::Avx512 => unsafe { avx512(kernel) },
+        _ => kernel.run::<Portable<8>>(),
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
+fn avx2<K: Kernel>(kernel: K) -> K::Output {
+    kernel.run::<Avx<false>>()
+}
+
+#[cfg(all(target_arch = "x86_64", any(target_feature = "avx512vl", not(target_feature = "avx2"))))]
+#[target_feature(enable = "avx512f,avx512vl,avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
+fn avx512<K: Kernel>(kernel: K) -> K::Output {
+    kernel.run::<Avx<true>>()
+}

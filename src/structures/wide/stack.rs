@@ -1,0 +1,71 @@
+//! What a walk has still to visit.
+
+use std::mem::MaybeUninit;
+
+use super::node::{Child, Node, WIDTH};
+use crate::simd::Sieve;
+
+/// The deepest tree that a walk can follow, in wide nodes.
+pub(super) const DEPTH: usize = 100;
+
+/// Each node leaves at most seven children behind, and eight are written at once.
+const SIZE: usize = DEPTH * (WIDTH - 1) + WIDTH;
+
+/// Children, the next one on top, and where the ray enters them. Not initialised: that would cost more than a short walk.
+pub(super) struct Stack {
+    children: [MaybeUninit<Child>; SIZE],
+    enters: [MaybeUninit<f32>; SIZE],
+    len: usize,
+}
+
+impl Stack {
+    #[inline(always)]
+    pub fn new() -> Self {
+        Self { children: [const { MaybeUninit::uninit() }; SIZE], enters: [const { MaybeUninit::uninit() }; SIZE], len: 0 }
+    }
+
+    /// Pushes the children that are met, and returns the first to visit instead of pushing it. With `ANY` in the order of lanes,
+    /// the highest first, else in that of the octant.
+    ///
+    /// # Safety
+    /// Every node on the way here has been pushed by this function once, and there are at most [`DEPTH`].
+    #[inline(always)]
+    pub unsafe fn push<const ANY: bool, L: Sieve>(
+        &mut self,
+        node: &Node,
+        octant: usize,
+        (enter, leave): (L, L),
+    ) -> Option<Child> {
+        let children = Child::bits(&node.children);
+        let order = node.orders[octant & 7];
+        // SAFETY: `len` is at most (DEPTH - 1) * (WIDTH - 1), so that eight more fit; a child is a number in memory.
+        let met = unsafe {
+            let chosen = self.children.as_mut_ptr().add(self.len).cast();
+            if ANY {
+                enter.sift(leave, children, chosen)
+            } else {
+                enter.sieve(leave, children, order, self.enters.as_mut_ptr().add(self.len).cast(), chosen)
+            }
+        };
+        let last = met.checked_ilog2()?;
+        let lane = if ANY { last } else { order >> (3 * last) };
+        // Reading the child from the node is faster than waiting for what has just been written.
+        self.len += met.count_ones() as usize - 1;
+        Some(node.children[(lane & 7) as usize])
+    }
+
+    /// The next child that the ray enters not after `end`.
+    #[inline(always)]
+    pub fn pop<const ANY: bool>(&mut self, end: f32) -> Option<Child> {
+        while self.len > 0 {
+            self.len -= 1;
+            // SAFETY: all below the old length was written; with `ANY` the entries were not.
+            unsafe {
+                if ANY || self.enters.get_unchecked(self.len).assume_init() <= end {
+                    return Some(self.children.get_unchecked(self.len).assume_init());
+                }
+            }
+        }
+        None
+    }
+}
