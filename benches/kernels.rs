@@ -12,7 +12,7 @@ use sahara::accel::{Accel, Counts, Observer};
 use sahara::geometry::Ray;
 use sahara::registry::Registry;
 use sahara::scene::{Builtin, Sampling, Workload, WorkloadKind};
-use sahara::simd::{F32x4, F32x8, Lanes, Portable};
+use sahara::simd::{F32x4, Kernel, Lanes, Level, Portable, Sieve, dispatch};
 use sahara::structures::{KdConfig, KdTree};
 use sahara::triangle::{
     BaldwinWeber, EdgeF64, Exact, FilteredF64, MollerTrumbore, MollerTrumboreF64, Plucker, TriangleTest, Watertight,
@@ -41,6 +41,18 @@ fn test_all<T: TriangleTest, const N: usize, L: Lanes<N>>(ray: &Ray, blocks: &[T
     blocks.iter().map(hits).sum()
 }
 
+/// The same with eight lanes of a level.
+struct Eight<'a, T: TriangleTest>(&'a Ray, &'a [T::Block<8>]);
+
+impl<T: TriangleTest> Kernel for Eight<'_, T> {
+    type Output = usize;
+
+    #[inline(always)]
+    fn run<L: Sieve>(self) -> usize {
+        test_all::<T, 8, L>(self.0, self.1)
+    }
+}
+
 fn triangle_test<T: TriangleTest>(criterion: &mut Criterion) {
     let triangles = triangles();
     let ray = Ray::new(Vec3::new(0.1, 0.2, -3.0), Vec3::new(0.02, -0.05, 1.0));
@@ -56,7 +68,12 @@ fn triangle_test<T: TriangleTest>(criterion: &mut Criterion) {
     }
     width!("scalar", 1, Portable<1>);
     width!("x4", 4, F32x4);
-    width!("x8", 8, F32x8);
+    let blocks: Vec<_> = triangles.chunks(8).map(T::block::<8>).collect();
+    for level in Level::available() {
+        group.bench_function(format!("x8-{level}"), |bencher| {
+            bencher.iter(|| black_box(dispatch(level, Eight::<T>(black_box(&ray), black_box(&blocks)))));
+        });
+    }
     group.finish();
 }
 

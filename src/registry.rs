@@ -8,7 +8,7 @@ use serde_json::{Map, Value};
 use crate::accel::{Accel, BuildError, DynAccel, Observed};
 use crate::geometry::Mesh;
 use crate::structures::obvhs::{Native, ObvhsBvh2, ObvhsConfig, ObvhsCwBvh, Over, RtTest};
-use crate::structures::{BruteForce, KdConfig, KdTree};
+use crate::structures::{BruteForce, KdConfig, KdTree, Partition, WideConfig, WideTree};
 use crate::triangle::{
     BaldwinWeber, EdgeF64, Exact, FilteredF64, MollerTrumbore, MollerTrumboreF64, Plucker, TriangleTest, Watertight,
 };
@@ -90,6 +90,10 @@ impl Registry {
         self.with::<BruteForce<T>>("brute-force", Default::default())
             .with::<KdTree<T>>("median-kd", KdConfig::REPORT)
             .with::<KdTree<T>>("sah-kd", KdConfig::SAH)
+            .with::<WideTree<T>>("sah-kd-wide", WideConfig::new(Partition::Cells))
+            .with::<WideTree<T>>("sah-kd-tight", WideConfig::new(Partition::Tight))
+            .with::<WideTree<T>>("sah-hybrid", WideConfig::new(Partition::Hybrid))
+            .with::<WideTree<T>>("sah-bvh", WideConfig::new(Partition::Objects))
     }
 
     /// Adds a structure under `name`, with `config` as what a user gets who names no keys.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use sahara::geometry::Mesh;
 use sahara::registry::{Choice, Registry};
 use sahara::scene::{BUILTIN, Difficulty};
-use sahara::structures::{BruteForce, KdConfig, KdTree};
+use sahara::structures::{BruteForce, KdConfig, KdTree, Partition, WideConfig, WideTree};
 use sahara::triangle::MollerTrumbore;
 use sahara::validate::conformance::{Subject, answers, counting, shapes};
 use sahara::validate::degenerate_meshes;
@@ -13,9 +13,13 @@ use sahara::validate::degenerate_meshes;
 sahara::conformance!(brute_force, BruteForce<MollerTrumbore>, Default::default(), lowest_id);
 sahara::conformance!(median_kd, KdTree<MollerTrumbore>, KdConfig::REPORT, lowest_id);
 sahara::conformance!(sah_kd, KdTree<MollerTrumbore>, KdConfig::SAH, lowest_id);
+sahara::conformance!(sah_kd_wide, WideTree<MollerTrumbore>, WideConfig::new(Partition::Cells), lowest_id);
+sahara::conformance!(sah_kd_tight, WideTree<MollerTrumbore>, WideConfig::new(Partition::Tight), lowest_id);
+sahara::conformance!(sah_hybrid, WideTree<MollerTrumbore>, WideConfig::new(Partition::Hybrid), lowest_id);
+sahara::conformance!(sah_bvh, WideTree<MollerTrumbore>, WideConfig::new(Partition::Objects), lowest_id);
 
 /// Configurations that differ in what they build or how they walk. `exit=first-leaf` is left out: it is wrong by design.
-const OURS: [&str; 18] = [
+const OURS: [&str; 26] = [
     "brute-force:test=rt-triangle",
     "median-kd:leaf=1",
     "median-kd:leaf=1,threshold=1",
@@ -34,7 +38,17 @@ const OURS: [&str; 18] = [
     "sah-kd:intersection_cost=50,duplication=1",
     "sah-kd:intersection_cost=0.1",
     "sah-kd:plane=vertex-median",
+    "sah-kd-wide:block_cost=50",
+    "sah-kd-wide:block_cost=0.01",
+    "sah-kd-tight:quality=fast",
+    "sah-kd-tight:quality=high,duplication=1",
+    "sah-hybrid:quality=fast,block_cost=50",
+    "sah-hybrid:quality=high",
+    "sah-bvh:quality=fast,block_cost=0.01",
+    "sah-bvh:quality=high",
 ];
+
+const TREES: [&str; 6] = ["median-kd", "sah-kd", "sah-kd-wide", "sah-kd-tight", "sah-hybrid", "sah-bvh"];
 
 fn subject(choice: &Choice, lowest_id: bool) -> Subject<'_> {
     Subject {
@@ -72,7 +86,7 @@ fn scenes(hard: bool) -> Vec<(String, Arc<Mesh>)> {
 #[test]
 fn every_configuration_of_ours_is_right_on_the_small_scenes() {
     let (registry, meshes) = (Registry::builtin(), scenes(false));
-    for spec in OURS.iter().chain(&["median-kd", "sah-kd"]) {
+    for spec in OURS.iter().chain(&TREES) {
         passes(answers(&subject(&registry.choose(spec).unwrap(), true), &meshes, 60));
     }
 }
@@ -80,7 +94,7 @@ fn every_configuration_of_ours_is_right_on_the_small_scenes() {
 #[test]
 fn our_trees_are_right_on_the_hard_scenes() {
     let (registry, meshes) = (Registry::builtin(), scenes(true));
-    for spec in ["median-kd", "sah-kd"] {
+    for spec in TREES {
         passes(answers(&subject(&registry.choose(spec).unwrap(), true), &meshes, 60));
     }
 }

@@ -95,7 +95,7 @@ fn each_finding_is_still_there_and_ours_find_the_hit() {
             let expected = finding.structures.contains(&spec).then_some(finding.kind);
             assert_eq!(kind(spec), expected, "{}, {}: {spec}", finding.name, finding.cause);
         }
-        for spec in ["median-kd", "sah-kd"] {
+        for spec in ["median-kd", "sah-kd", "sah-kd-wide", "sah-kd-tight", "sah-hybrid", "sah-bvh"] {
             assert_eq!(kind(spec), None, "{}: {spec}", finding.name);
         }
     }

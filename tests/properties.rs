@@ -16,13 +16,18 @@ use sahara::registry::Registry;
 use target::{Case, KINDS, float_of};
 
 /// The structures of this crate; small leaves, so that small meshes make deep trees.
-const OURS: [&str; 6] = [
+const OURS: [&str; 11] = [
     "brute-force",
     "median-kd",
     "median-kd:leaf=1,threshold=1",
     "median-kd:leaf=2,threshold=1,traversal=plane-intervals,mailbox=true",
     "sah-kd",
     "sah-kd:intersection_cost=50,traversal=child-boxes",
+    "sah-kd-wide:block_cost=50",
+    "sah-kd-wide:block_cost=0.01",
+    "sah-kd-tight:block_cost=50",
+    "sah-hybrid:block_cost=50",
+    "sah-bvh",
 ];
 
 fn built(spec: &str, mesh: &Arc<Mesh>) -> Box<dyn DynAccel> {

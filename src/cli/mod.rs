@@ -24,6 +24,7 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 
 use crate::registry::Registry;
+use crate::simd::Level;
 use terminal::{Colour, Terminal};
 
 /// Benchmark, validate and image-test ray-tracing acceleration structures.
@@ -40,6 +41,9 @@ struct Cli {
     /// Show no progress
     #[arg(long, short, global = true)]
     quiet: bool,
+    /// Run on these instructions instead of the best ones here: portable, avx2 or avx512; the answers are the same
+    #[arg(long, global = true)]
+    level: Option<Level>,
 }
 
 #[derive(Debug, Subcommand)]
@@ -91,6 +95,9 @@ fn run(registry: &Registry, args: impl IntoIterator<Item = OsString>) -> ExitCod
             return ExitCode::from(u8::from(message.use_stderr()));
         }
     };
+    if let Some(level) = cli.level {
+        level.choose();
+    }
     let terminal = Terminal::new(cli.color, cli.quiet);
     let command = cli.command.unwrap_or_else(|| Command::Compare(compare::Args::default()));
     let found = match command {

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::simd;
+use crate::simd::Level;
 
 /// What must be known to judge a measurement, and to repeat it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -45,7 +45,7 @@ impl Provenance {
             profile: env!("SAHARA_PROFILE").into(),
             target: env!("SAHARA_TARGET").into(),
             target_features: env!("SAHARA_TARGET_FEATURES").into(),
-            simd: simd::level().into(),
+            simd: Level::current().name().into(),
             cpu: cpu_name().unwrap_or_else(|| "unknown".into()),
             cores: std::thread::available_parallelism().map_or(1, usize::from),
             threads,

@@ -153,9 +153,16 @@ impl<const MASKS: bool> Sieve for Avx<MASKS> {
             // Only the three low bits of a lane's number count.
             let order = _mm256_srlv_epi32(_mm256_set1_epi32(order as i32), shifts);
             let set = _mm256_movemask_ps(_mm256_permutevar8x32_ps(hit, order)) as u32;
-            let lanes = if MASKS { _mm256_maskz_compress_epi32(set as u8, order) } else { _mm256_permutevar8x32_epi32(order, members(set)) };
+            let lanes = if MASKS {
+                _mm256_maskz_compress_epi32(set as u8, order)
+            } else {
+                _mm256_permutevar8x32_epi32(order, members(set))
+            };
             _mm256_storeu_ps(keys, _mm256_permutevar8x32_ps(self.0, lanes));
-            _mm256_storeu_si256(chosen.cast(), _mm256_permutevar8x32_epi32(_mm256_loadu_si256(values.as_ptr().cast()), lanes));
+            _mm256_storeu_si256(
+                chosen.cast(),
+                _mm256_permutevar8x32_epi32(_mm256_loadu_si256(values.as_ptr().cast()), lanes),
+            );
             set
         }
     }
@@ -166,7 +173,11 @@ impl<const MASKS: bool> Sieve for Avx<MASKS> {
         unsafe {
             let set = self.le(limit);
             let values = _mm256_loadu_si256(values.as_ptr().cast());
-            let left = if MASKS { _mm256_maskz_compress_epi32(set as u8, values) } else { _mm256_permutevar8x32_epi32(values, members(set)) };
+            let left = if MASKS {
+                _mm256_maskz_compress_epi32(set as u8, values)
+            } else {
+                _mm256_permutevar8x32_epi32(values, members(set))
+            };
             _mm256_storeu_si256(chosen.cast(), left);
             set
         }

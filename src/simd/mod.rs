@@ -114,13 +114,15 @@ mod tests {
             let (set, right) = unsafe {
                 let sieve = L::load(&a).sieve(L::load(&b), &values, order, keys.as_mut_ptr(), chosen.as_mut_ptr());
                 let limit = Portable::load(&b);
-                let right =
-                    Portable::load(&a).sieve(limit, &values, order, others.as_mut_ptr(), expected.as_mut_ptr());
+                let right = Portable::load(&a).sieve(limit, &values, order, others.as_mut_ptr(), expected.as_mut_ptr());
                 (sieve, right)
             };
             let count = set.count_ones() as usize;
             assert_eq!((set, &chosen[..count]), (right, &expected[..count]));
-            assert_eq!(keys[..count].iter().map(|k| k.to_bits()).collect::<Vec<_>>(), others[..count].iter().map(|k| k.to_bits()).collect::<Vec<_>>());
+            assert_eq!(
+                keys[..count].iter().map(|k| k.to_bits()).collect::<Vec<_>>(),
+                others[..count].iter().map(|k| k.to_bits()).collect::<Vec<_>>()
+            );
 
             // SAFETY: likewise.
             let (set, right) = unsafe {

@@ -27,10 +27,6 @@ impl<const ANY: bool, W: Walk, O: Observer> Kernel for Single<'_, ANY, W, O> {
 
 /// One ray, on the level in use.
 #[inline(always)]
-pub(super) fn single<const ANY: bool, W: Walk, O: Observer>(
-    structure: &W,
-    ray: &Ray,
-    observer: &mut O,
-) -> Option<Hit> {
+pub(super) fn single<const ANY: bool, W: Walk, O: Observer>(structure: &W, ray: &Ray, observer: &mut O) -> Option<Hit> {
     dispatch(Level::current(), Single::<ANY, W, O> { structure, ray, observer })
 }

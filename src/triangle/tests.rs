@@ -1,12 +1,14 @@
 //! What holds for every triangle test, and what only some promise.
 
+use std::marker::PhantomData;
+
 use glam::Vec3;
 use rand_core::{RngCore, SeedableRng};
 use rand_pcg::Pcg32;
 
 use super::*;
 use crate::exact as integers;
-use crate::simd::{F32x4, F32x8};
+use crate::simd::{F32x4, Kernel, Level, Sieve, dispatch};
 
 type Number = fn(&mut Pcg32) -> f32;
 
@@ -73,6 +75,16 @@ fn all_widths_agree<T: TriangleTest>() {
         }
         hits
     }
+    /// Eight lanes on a level.
+    struct Eight<'a, T>(&'a Ray, &'a [[Vec3; 3]], PhantomData<T>);
+    impl<T: TriangleTest> Kernel for Eight<'_, T> {
+        type Output = usize;
+
+        #[inline(always)]
+        fn run<L: Sieve>(self) -> usize {
+            check::<T, 8, L>(self.0, self.1)
+        }
+    }
     let mut rng = Pcg32::seed_from_u64(3);
     let mut hits = 0;
     for round in 0..6_000 {
@@ -81,8 +93,9 @@ fn all_widths_agree<T: TriangleTest>() {
         let ray = ray(&mut rng, number);
         if ray.is_valid() {
             hits += check::<T, 4, F32x4>(&ray, &triangles);
-            hits += check::<T, 8, F32x8>(&ray, &triangles);
-            hits += check::<T, 8, Portable<8>>(&ray, &triangles);
+            for level in Level::available() {
+                hits += dispatch(level, Eight::<T>(&ray, &triangles, PhantomData));
+            }
         }
     }
     assert!(hits > 5_000, "{}: too few hits to prove anything: {hits}", T::NAME);

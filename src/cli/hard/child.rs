@@ -10,6 +10,7 @@ use crate::accel::BuildError;
 use crate::cli::Verdict;
 use crate::measure::SystemClock;
 use crate::registry::{Choice, Registry};
+use crate::simd::Level;
 use crate::study::hard_cases::{Answers, Case, Failure, ask, find};
 
 /// The hidden command that a child runs.
@@ -61,7 +62,7 @@ pub fn answers(
     limit: Duration,
 ) -> io::Result<Result<Answers, Failure>> {
     let mut command = Command::new(program);
-    command.args([COMMAND, case.name, &choice.label, "--rays", &rays.to_string()]);
+    command.args([COMMAND, case.name, &choice.label, "--rays", &rays.to_string(), "--level", Level::current().name()]);
     outcome(command, limit)
 }
 

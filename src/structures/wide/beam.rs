@@ -52,8 +52,7 @@ impl<L: Lanes<WIDTH>> Beam<L> {
         let (mut enter, mut leave) = (self.t_min, end);
         for axis in 0..3 {
             // SAFETY: rows are numbered from 0 to 5, and there are six.
-            let (near, far) =
-                unsafe { (planes.get_unchecked(self.near[axis]), planes.get_unchecked(self.far[axis])) };
+            let (near, far) = unsafe { (planes.get_unchecked(self.near[axis]), planes.get_unchecked(self.far[axis])) };
             enter = L::load(near).sub(self.origin[axis]).mul(self.inverse[axis]).max(enter);
             leave = L::load(far).sub(self.origin[axis]).mul(self.enlarged[axis]).min(leave);
         }

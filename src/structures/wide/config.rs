@@ -1,10 +1,10 @@
 use serde::{Deserialize, Serialize};
 
 use crate::accel::BuildError;
+use crate::geometry::Mesh;
 use crate::structures::binary::BinaryTree;
 use crate::structures::kd::{self, KdConfig};
 use crate::structures::split::{self, Quality, SplitConfig, Splits};
-use crate::geometry::Mesh;
 
 /// How a [`WideTree`](super::WideTree) is built. What differs between `sah-kd-wide`, `sah-kd-tight`, `sah-hybrid` and `sah-bvh` is the
 /// partition alone.

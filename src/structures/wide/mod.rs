@@ -58,7 +58,9 @@ impl<T: TriangleTest> Accel for WideTree<T> {
         let Layout { mut nodes, mut blocks, depth, .. } = layout;
         if depth > stack::DEPTH || nodes.len().max(blocks.len()) > Child::LARGEST {
             let limits = format!("at most {} levels and {} nodes or blocks", stack::DEPTH, Child::LARGEST);
-            return Err(BuildError::Mesh(format!("the mesh is too large or too odd for this structure: it has {limits}")));
+            return Err(BuildError::Mesh(format!(
+                "the mesh is too large or too odd for this structure: it has {limits}"
+            )));
         }
         nodes.shrink_to_fit();
         blocks.shrink_to_fit();

@@ -86,7 +86,8 @@ impl Node {
 
     /// The boxes in use, and what is in them.
     pub fn boxes(&self) -> impl Iterator<Item = (Aabb, Child)> + '_ {
-        let corner = |side: usize, lane: usize| Vec3::from_array(std::array::from_fn(|axis| self.planes[axis][side][lane]));
+        let corner =
+            |side: usize, lane: usize| Vec3::from_array(std::array::from_fn(|axis| self.planes[axis][side][lane]));
         let used = (0..WIDTH).filter(|&lane| self.children[lane] != Child::NOTHING);
         used.map(move |lane| (Aabb { min: corner(0, lane), max: corner(1, lane) }, self.children[lane]))
     }

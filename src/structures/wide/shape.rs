@@ -7,7 +7,12 @@ use crate::triangle::TriangleTest;
 use super::collapse::half_area;
 
 /// Counts the tree and sums its SAH cost, a node costing as much as any inner node.
-pub(super) fn of<T: TriangleTest>(root: Child, nodes: &[Node], blocks: &[LeafBlock<T, WIDTH>], bounds: &Aabb) -> TreeShape {
+pub(super) fn of<T: TriangleTest>(
+    root: Child,
+    nodes: &[Node],
+    blocks: &[LeafBlock<T, WIDTH>],
+    bounds: &Aabb,
+) -> TreeShape {
     let mut shape = TreeShape::default();
     let mut cost = 0.0;
     let mut stack = vec![(root, *bounds, 0)];

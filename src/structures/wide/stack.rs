@@ -21,7 +21,11 @@ pub(super) struct Stack {
 impl Stack {
     #[inline(always)]
     pub fn new() -> Self {
-        Self { children: [const { MaybeUninit::uninit() }; SIZE], enters: [const { MaybeUninit::uninit() }; SIZE], len: 0 }
+        Self {
+            children: [const { MaybeUninit::uninit() }; SIZE],
+            enters: [const { MaybeUninit::uninit() }; SIZE],
+            len: 0,
+        }
     }
 
     /// Pushes the children that are met, and returns the first to visit instead of pushing it. With `ANY` in the order of lanes,

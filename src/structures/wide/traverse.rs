@@ -35,8 +35,7 @@ impl<T: TriangleTest> Walk for WideTree<T> {
                 if O::ACTIVE {
                     observer.leaf(blocks.iter().map(|block| block.len()).sum());
                 }
-                let tests =
-                    search::<ANY, WIDTH, L, T, ()>(blocks, u32::MAX, &prepared, t_min, &mut nearest, &mut ());
+                let tests = search::<ANY, WIDTH, L, T, ()>(blocks, u32::MAX, &prepared, t_min, &mut nearest, &mut ());
                 observer.test(tests);
                 if ANY && nearest.found() {
                     return nearest.hit();
