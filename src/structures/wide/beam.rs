@@ -28,20 +28,36 @@ pub(super) struct Beam<L> {
     pub octant: usize,
 }
 
+/// How much longer than it is the way to a far plane is taken to be.
+pub(super) const ENLARGED: f32 = 1.0 + 8.0 * f32::EPSILON;
+
+/// By axis, which of the six rows of planes are near and which are far for rays of an octant.
+#[inline(always)]
+pub(super) fn rows(octant: usize) -> ([usize; 3], [usize; 3]) {
+    let [x, y, z] = [0, 1, 2].map(|axis| octant >> axis & 1);
+    ([x, 2 + y, 4 + z], [1 - x, 3 - y, 5 - z])
+}
+
 impl<L: Lanes<WIDTH>> Beam<L> {
     /// For boxes in `bounds`.
     #[inline(always)]
     pub fn new(ray: &Ray, bounds: &Aabb, t_min: f32) -> Self {
-        let inverse = inverses(ray, bounds);
         let [x, y, z] = ray.direction.to_array().map(|d| usize::from(d.is_sign_negative()));
+        Self::of(ray.origin.to_array(), inverses(ray, bounds), t_min, x | y << 1 | z << 2)
+    }
+
+    /// From its parts.
+    #[inline(always)]
+    pub fn of(origin: [f32; 3], inverse: [f32; 3], t_min: f32, octant: usize) -> Self {
+        let (near, far) = rows(octant);
         Self {
-            origin: ray.origin.to_array().map(L::splat),
+            origin: origin.map(L::splat),
             inverse: inverse.map(L::splat),
-            enlarged: inverse.map(|i| L::splat(i * (1.0 + 8.0 * f32::EPSILON))),
-            near: [x, 2 + y, 4 + z],
-            far: [1 - x, 3 - y, 5 - z],
+            enlarged: inverse.map(|i| L::splat(i * ENLARGED)),
+            near,
+            far,
             t_min: L::splat(t_min),
-            octant: x | y << 1 | z << 2,
+            octant,
         }
     }
 

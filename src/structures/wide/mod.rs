@@ -1,10 +1,14 @@
 //! Eight-wide trees of tight boxes: one node, one walk, four partitions.
 
+mod batch;
 mod beam;
+mod beams;
 mod collapse;
 mod config;
+mod frustum;
 mod layout;
 mod node;
+mod packet;
 mod shape;
 mod stack;
 mod traverse;
@@ -75,6 +79,14 @@ impl<T: TriangleTest> Accel for WideTree<T> {
     #[inline]
     fn any_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> bool {
         single::<true, _, O>(self, ray, observer).is_some()
+    }
+
+    fn closest_hits<O: Observer>(&self, rays: &[Ray], hits: &mut [Option<Hit>], observer: &mut O) {
+        batch::answer::<false, _, _, O>(self, rays, hits, observer, |hit| hit);
+    }
+
+    fn any_hits<O: Observer>(&self, rays: &[Ray], hits: &mut [bool], observer: &mut O) {
+        batch::answer::<true, _, _, O>(self, rays, hits, observer, |hit| hit.is_some());
     }
 
     fn footprint(&self) -> Footprint {

@@ -9,7 +9,7 @@ use crate::simd::Sieve;
 pub(super) const DEPTH: usize = 100;
 
 /// Each node leaves at most seven children behind, and eight are written at once.
-const SIZE: usize = DEPTH * (WIDTH - 1) + WIDTH;
+pub(super) const SIZE: usize = DEPTH * (WIDTH - 1) + WIDTH;
 
 /// Children, the next one on top, and where the ray enters them. Not initialised: that would cost more than a short walk.
 pub(super) struct Stack {

@@ -10,12 +10,12 @@
 
 use super::WideTree;
 use super::beam::Beam;
-use super::node::WIDTH;
+use super::node::{Child, WIDTH};
 use super::stack::Stack;
 use crate::accel::Observer;
 use crate::geometry::{Hit, Ray};
 use crate::simd::Sieve;
-use crate::structures::leaf::{search, start};
+use crate::structures::leaf::{Nearest, search, start};
 use crate::structures::line::after;
 use crate::structures::walk::Walk;
 use crate::triangle::TriangleTest;
@@ -25,8 +25,24 @@ impl<T: TriangleTest> Walk for WideTree<T> {
     fn walk<const ANY: bool, L: Sieve, O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit> {
         let (prepared, t_min, mut nearest) = start::<T>(ray)?;
         let beam = Beam::<L>::new(ray, &self.bounds, t_min);
+        self.descend::<ANY, L, O>(self.root, &beam, &prepared, t_min, &mut nearest, observer);
+        nearest.hit()
+    }
+}
+
+impl<T: TriangleTest> WideTree<T> {
+    /// Searches the subtree at `child`.
+    #[inline(always)]
+    pub(super) fn descend<const ANY: bool, L: Sieve, O: Observer>(
+        &self,
+        mut child: Child,
+        beam: &Beam<L>,
+        prepared: &T::Ray,
+        t_min: f32,
+        nearest: &mut Nearest<T::Depth>,
+        observer: &mut O,
+    ) {
         let mut stack = Stack::new();
-        let mut child = self.root;
         let mut end = after(nearest.t);
         loop {
             let next = if let Some((first, count)) = child.blocks() {
@@ -35,10 +51,10 @@ impl<T: TriangleTest> Walk for WideTree<T> {
                 if O::ACTIVE {
                     observer.leaf(blocks.iter().map(|block| block.len()).sum());
                 }
-                let tests = search::<ANY, WIDTH, L, T, ()>(blocks, u32::MAX, &prepared, t_min, &mut nearest, &mut ());
+                let tests = search::<ANY, WIDTH, L, T, ()>(blocks, u32::MAX, prepared, t_min, nearest, &mut ());
                 observer.test(tests);
                 if ANY && nearest.found() {
-                    return nearest.hit();
+                    return;
                 }
                 end = after(nearest.t);
                 None
@@ -52,7 +68,7 @@ impl<T: TriangleTest> Walk for WideTree<T> {
             };
             match next.or_else(|| stack.pop::<ANY>(end)) {
                 Some(next) => child = next,
-                None => return nearest.hit(),
+                None => return,
             }
         }
     }

@@ -1,0 +1,109 @@
+//! Sixteen rays as the boxes of nodes see them.
+
+use super::beam::{Beam, ENLARGED};
+use super::node::{Node, WIDTH};
+use crate::geometry::{Aabb, Ray};
+use crate::simd::Lanes;
+use crate::structures::line::after;
+
+/// Rays of a packet.
+pub(super) const RAYS: usize = 16;
+const HALVES: usize = RAYS / WIDTH;
+
+/// A number of each ray.
+type Row = [[f32; WIDTH]; HALVES];
+
+/// The rays of a packet: each as its [`Beam`] has it.
+pub(super) struct Beams<L> {
+    pub origin: [[L; HALVES]; 3],
+    pub inverse: [[L; HALVES]; 3],
+    pub enlarged: [[L; HALVES]; 3],
+    pub t_min: [L; HALVES],
+    ends: Row,
+    pub octant: usize,
+}
+
+impl<L: Lanes<WIDTH>> Beams<L> {
+    /// Without their ends: rays of one octant whose crossings with planes in `bounds` all have a finite answer; nothing if they are not that.
+    #[inline(always)]
+    pub fn new(rays: &[Ray; RAYS], bounds: &Aabb) -> Option<Self> {
+        let octant = |ray: &Ray| {
+            let d = ray.direction;
+            d.x.to_bits() >> 31 | d.y.to_bits() >> 31 << 1 | d.z.to_bits() >> 31 << 2
+        };
+        let first = octant(&rays[0]);
+        if rays.iter().any(|ray| octant(ray) != first) {
+            return None;
+        }
+
+        let mut rows = [[[0.0; WIDTH]; HALVES]; 8];
+        for (i, ray) in rays.iter().enumerate() {
+            let (half, lane) = (i / WIDTH, i % WIDTH);
+            for axis in 0..3 {
+                rows[axis][half][lane] = ray.origin[axis];
+                rows[3 + axis][half][lane] = ray.direction[axis];
+            }
+            rows[6][half][lane] = ray.t_min;
+            rows[7][half][lane] = ray.t_max;
+        }
+        let row = |i: usize| rows[i].each_ref().map(|half| L::load(half));
+        let origin = [row(0), row(1), row(2)];
+        let one = L::splat(1.0);
+        let inverse = [row(3), row(4), row(5)].map(|half| half.map(|d| one.div(d)));
+        let enlarged = inverse.map(|half| half.map(|i| i.mul(L::splat(ENLARGED))));
+        let (t_min, t_max) = (row(6).map(|t| t.max(L::zero())), row(7));
+
+        // What `Ray::is_valid` and `inverses` ask, and that no inverse is infinite or NaN.
+        let abs = |x: L| x.flip_sign(x);
+        let mut good = u32::MAX;
+        for half in 0..HALVES {
+            for axis in 0..3 {
+                let reach = abs(origin[axis][half]).add(L::splat(bounds.min[axis].abs().max(bounds.max[axis].abs())));
+                let inverse = abs(inverse[axis][half]);
+                good &= reach.le(L::splat(f32::MAX));
+                good &= L::splat(f32::MIN_POSITIVE).le(inverse) & inverse.le(L::splat(f32::MAX));
+            }
+            good &= row(6)[half].le(L::splat(f32::INFINITY)) & t_min[half].lt(t_max[half]);
+        }
+        if good & 0xff != 0xff {
+            return None;
+        }
+        Some(Self { origin, inverse, enlarged, t_min, ends: [[0.0; WIDTH]; HALVES], octant: first as usize })
+    }
+
+    /// The rays that meet the box of `lane` before their ends, as bits.
+    #[inline(always)]
+    pub fn meet(&self, node: &Node, lane: usize) -> u16 {
+        let mut met = 0;
+        for half in 0..HALVES {
+            let (mut enter, mut leave) = (self.t_min[half], L::load(&self.ends[half]));
+            for axis in 0..3 {
+                let backward = self.octant >> axis & 1;
+                let near = L::splat(node.planes[axis][backward][lane % WIDTH]);
+                let far = L::splat(node.planes[axis][1 - backward][lane % WIDTH]);
+                enter = near.sub(self.origin[axis][half]).mul(self.inverse[axis][half]).max(enter);
+                leave = far.sub(self.origin[axis][half]).mul(self.enlarged[axis][half]).min(leave);
+            }
+            met |= enter.le(leave) << (half * WIDTH);
+        }
+        met as u16
+    }
+
+    /// One of the rays.
+    #[inline(always)]
+    pub fn single(&self, i: usize) -> Beam<L> {
+        let pick = |row: &[L; HALVES]| row[i / WIDTH].store()[i % WIDTH];
+        Beam::of(self.origin.each_ref().map(pick), self.inverse.each_ref().map(pick), self.t_min(i), self.octant)
+    }
+
+    #[inline(always)]
+    pub fn t_min(&self, i: usize) -> f32 {
+        self.t_min[i / WIDTH].store()[i % WIDTH]
+    }
+
+    /// Ray `i` is of no interest after `t`.
+    #[inline(always)]
+    pub fn end(&mut self, i: usize, t: f32) {
+        self.ends[i / WIDTH][i % WIDTH] = after(t);
+    }
+}

@@ -1,0 +1,132 @@
+//! Sixteen rays that travel together.
+//!
+//! **The same answers as one by one.** A packet visits the children of a node in the order of the octant, which its rays
+//! share, and a ray takes part in a visit just when its own test of the box says so, with its own end. What the packet decides
+//! for all rays at once only leaves out boxes that each of them would leave out (see [`Frustum`]). So every ray goes through the
+//! same leaves in the same order as alone.
+
+use std::mem::MaybeUninit;
+
+use super::WideTree;
+use super::beams::{Beams, RAYS};
+use super::frustum::Frustum;
+use super::node::{Child, WIDTH};
+use super::stack::SIZE;
+use crate::geometry::{Hit, Ray};
+use crate::simd::Sieve;
+use crate::structures::leaf::{Nearest, search};
+use crate::triangle::TriangleTest;
+
+/// At most this many rays that are left go on alone.
+const FEW: u32 = 3;
+
+/// The order of the lanes.
+const IN_LANES: u32 = 0o76543210;
+
+/// A child to visit, which box it has, and for which rays.
+#[derive(Clone, Copy)]
+struct Entry {
+    child: Child,
+    parent: u32,
+    lane: u16,
+    rays: u16,
+}
+
+/// What each ray of a packet has for itself.
+struct Travellers<T: TriangleTest> {
+    prepared: [T::Ray; RAYS],
+    nearest: [Nearest<T::Depth>; RAYS],
+    /// Those that still look for a hit, as bits.
+    looking: u16,
+}
+
+impl<T: TriangleTest> WideTree<T> {
+    /// The hits of sixteen rays; nothing if they cannot travel together.
+    #[inline(always)]
+    pub(super) fn packet<const ANY: bool, L: Sieve>(&self, rays: &[Ray; RAYS]) -> Option<[Option<Hit>; RAYS]> {
+        let mut beams = Beams::<L>::new(rays, &self.bounds)?;
+        let frustum = Frustum::new(&beams);
+        let mut travellers = Travellers::<T> {
+            prepared: rays.each_ref().map(T::prepare),
+            nearest: rays.each_ref().map(|ray| Nearest::until(T::last(ray.t_max))),
+            looking: u16::MAX,
+        };
+        for (i, nearest) in travellers.nearest.iter().enumerate() {
+            beams.end(i, nearest.t);
+        }
+        let mut stack = [const { MaybeUninit::<Entry>::uninit() }; SIZE];
+        let mut len = 0;
+        let (mut child, mut taking_part) = (self.root, u16::MAX);
+        loop {
+            if child.blocks().is_some() || taking_part.count_ones() <= FEW {
+                self.separately::<ANY, L>(child, taking_part, &mut beams, &mut travellers);
+            } else {
+                // SAFETY: children name nodes that are there; the depth was checked when the tree was built, so that no
+                // more than seven entries a level are on the stack when eight are written.
+                unsafe {
+                    let node = self.nodes.get_unchecked(child.index());
+                    let met = frustum.meet(node);
+                    let order = if ANY { IN_LANES } else { node.orders[beams.octant & 7] };
+                    for i in 0..WIDTH {
+                        let lane = (order >> (3 * i) & 7) as usize;
+                        let entry = Entry {
+                            child: node.children[lane],
+                            parent: child.index() as u32,
+                            lane: lane as u16,
+                            rays: taking_part,
+                        };
+                        stack.get_unchecked_mut(len).write(entry);
+                        len += (met >> lane & 1) as usize;
+                    }
+                }
+            }
+            loop {
+                if len == 0 || travellers.looking == 0 {
+                    return Some(travellers.nearest.each_ref().map(Nearest::hit));
+                }
+                len -= 1;
+                // SAFETY: what is below the length was written, and names a node.
+                let (entry, node) = unsafe {
+                    let entry = stack.get_unchecked(len).assume_init();
+                    (entry, self.nodes.get_unchecked(entry.parent as usize))
+                };
+                taking_part = entry.rays & travellers.looking;
+                if taking_part != 0 {
+                    taking_part &= beams.meet(node, entry.lane as usize);
+                }
+                if taking_part != 0 {
+                    child = entry.child;
+                    break;
+                }
+            }
+        }
+    }
+
+    /// Searches what is below `child` for the rays `taking_part`, one after the other.
+    #[inline(always)]
+    fn separately<const ANY: bool, L: Sieve>(
+        &self,
+        child: Child,
+        mut taking_part: u16,
+        beams: &mut Beams<L>,
+        travellers: &mut Travellers<T>,
+    ) {
+        while taking_part != 0 {
+            let i = taking_part.trailing_zeros() as usize % RAYS;
+            taking_part &= taking_part - 1;
+            let (prepared, nearest) = (&travellers.prepared[i], &mut travellers.nearest[i]);
+            let t_min = beams.t_min(i);
+            if let Some((first, count)) = child.blocks() {
+                // SAFETY: leaves name blocks that are there.
+                let blocks = unsafe { self.blocks.get_unchecked(first..first + count) };
+                search::<ANY, WIDTH, L, T, ()>(blocks, u32::MAX, prepared, t_min, nearest, &mut ());
+            } else {
+                self.descend::<ANY, L, ()>(child, &beams.single(i), prepared, t_min, nearest, &mut ());
+            }
+            if ANY && nearest.found() {
+                travellers.looking &= !(1 << i);
+            }
+            beams.end(i, nearest.t);
+        }
+    }
+}
