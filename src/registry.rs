@@ -1,5 +1,7 @@
 //! The structures by name: the only place that names them all.
 
+mod peers;
+
 use std::panic::{self, AssertUnwindSafe};
 use std::sync::Arc;
 
@@ -27,6 +29,8 @@ pub struct Entry {
     pub triangle_test: &'static str,
     /// [`Accel::OBSERVED`].
     pub observed: Observed,
+    /// [`Accel::CONVENTIONS`].
+    pub conventions: &'static [&'static str],
     config: Value,
     build: Build,
 }
@@ -76,13 +80,15 @@ impl Registry {
             .over::<MollerTrumboreF64>()
             .over::<EdgeF64>()
             .over::<Exact>();
-        ours.with::<ObvhsBvh2<Native>>("obvhs-bvh2", ObvhsConfig::default())
+        let with_obvhs = ours
+            .with::<ObvhsBvh2<Native>>("obvhs-bvh2", ObvhsConfig::default())
             .with::<ObvhsBvh2<Over<MollerTrumbore>>>("obvhs-bvh2", ObvhsConfig::default())
             .with::<ObvhsBvh2<Over<Exact>>>("obvhs-bvh2", ObvhsConfig::default())
             .with::<ObvhsCwBvh<Native>>("obvhs-cwbvh", ObvhsConfig::default())
             .with::<ObvhsCwBvh<Over<MollerTrumbore>>>("obvhs-cwbvh", ObvhsConfig::default())
             .with::<ObvhsCwBvh<Over<Exact>>>("obvhs-cwbvh", ObvhsConfig::default())
-            .with::<BruteForce<RtTest>>("brute-force", Default::default())
+            .with::<BruteForce<RtTest>>("brute-force", Default::default());
+        with_obvhs.with_peers()
     }
 
     /// The structures of this crate over the triangle test `T`.
@@ -120,6 +126,7 @@ impl Registry {
             name: name.into(),
             triangle_test: A::TRIANGLE_TEST,
             observed: A::OBSERVED,
+            conventions: A::CONVENTIONS,
             config,
             build,
         });
@@ -212,7 +219,8 @@ impl Entry {
         let choice = Choice { entry: self.clone(), config, label };
         let empty = Arc::new(Mesh::new(vec![], vec![]).expect("the empty mesh is valid"));
         match choice.build(&empty) {
-            Ok(_) => Ok(choice),
+            // What is absent is refused when it is built, so that one absence does not end a run over many.
+            Ok(_) | Err(BuildError::Unavailable(_)) => Ok(choice),
             Err(error) => Err(ChoiceError::Value { name: self.name.clone(), reason: error.to_string() }),
         }
     }

@@ -18,6 +18,9 @@ pub enum BuildError {
     /// The structure's limits do not admit the mesh; the sentence says why.
     #[error("{0}")]
     Mesh(String),
+    /// What the structure needs of the system is not there; the sentence says what, and how to get it.
+    #[error("{0}")]
+    Unavailable(String),
     /// The structure's own code panicked.
     #[error("its builder panicked on this mesh: leave the structure out, or look at extreme coordinates")]
     Panic,
@@ -41,6 +44,9 @@ pub trait Accel: Sized + Send + Sync + 'static {
     /// Name of the triangle test whose results the structure returns: those with the same test must agree bit for bit in
     /// `t`. A structure with a test that nobody shares keeps `"own"`.
     const TRIANGLE_TEST: &'static str = "own";
+
+    /// What it does otherwise than the contract by design, one clause each: declared and shown, not counted as errors.
+    const CONVENTIONS: &'static [&'static str] = &[];
 
     /// What the observer is told.
     const OBSERVED: Observed = Observed::ALL;

@@ -6,6 +6,7 @@ pub mod kd;
 mod leaf;
 mod line;
 pub mod obvhs;
+pub mod peers;
 
 pub use brute_force::{BruteForce, BruteForceConfig};
 pub use kd::{KdConfig, KdTree};

@@ -31,7 +31,40 @@ pub(super) fn adjudicate(
         (_, Some(e), Some(f)) if e.same_bits(f) => None,
         (Some(test), ..) => Some(same_test(test, mesh, ray, expected, found)),
         (None, Some(e), Some(f)) if close(e.t, f.t, e.prim == f.prim) => None,
-        (None, ..) => Some(other_test(mesh, ray, expected, found)),
+        (None, ..) => {
+            let verdict = other_test(mesh, ray, expected, found);
+            Some(match reference.disputed {
+                Some(own) => own_test(own, mesh, ray, expected, found, verdict),
+                None => verdict,
+            })
+        }
+    }
+}
+
+/// The verdict on two tests, given what the structure's own says of the triangles in dispute.
+fn own_test(
+    own: ScalarTest,
+    mesh: &Mesh,
+    ray: &Ray,
+    expected: Option<Hit>,
+    found: Option<Hit>,
+    other: Verdict,
+) -> Verdict {
+    let of = |hit: Option<Hit>| hit.and_then(|hit| own(ray, mesh.corners(hit.prim.index())));
+    let kernel = |sentence: &str| verdict(Kind::Kernel, format!("{}, but {sentence}", other.sentence));
+    match (other.kind, found) {
+        // What its test does not find, or not in front of what was found, no walk can return.
+        (Kind::Lost | Kind::NearerLost, _) => match (of(expected), found) {
+            (None, _) => kernel("the structure's own test does not hit it"),
+            (Some(t), Some(f)) if t >= f.t => kernel(&format!("the structure's own test hits it at {t:?}")),
+            _ => other,
+        },
+        // What its test gives, whatever is true, it may return.
+        (Kind::WrongT | Kind::Invented, Some(f)) => match of(found) {
+            Some(t) if close(t, f.t, true) => kernel("so says the structure's own test"),
+            _ => other,
+        },
+        _ => other,
     }
 }
 

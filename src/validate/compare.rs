@@ -111,7 +111,7 @@ fn tally(
             sums.higher_ids += 1;
         }
         Kind::Kernel => sums.kernel_differences += 1,
-        _ if reference.test.is_some() => sums.structure_errors += 1,
+        _ if reference.knows_structure_errors() => sums.structure_errors += 1,
         _ => sums.answer_errors += 1,
     }
     sums.differing += u64::from(!matches!(kind, Kind::Tie | Kind::HigherId));
