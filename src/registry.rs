@@ -101,12 +101,12 @@ impl Registry {
     /// Adds a structure under `name`, with `config` as what a user gets who names no keys.
     ///
     /// # Panics
-    /// If `name` holds a character that the command line gives a meaning (`:`, `,`, `=` or white space), if the name is
-    /// taken for the same triangle test, or if `config` does not serialise to a map of keys.
+    /// If `name` is `all` or holds a character that the command line gives a meaning (`:`, `,`, `=` or white space), if the name
+    /// is taken for the same triangle test, or if `config` does not serialise to a map of keys.
     pub fn with<A: Accel>(mut self, name: &str, config: A::Config) -> Self {
         assert!(
-            !name.is_empty() && !name.contains([':', ',', '=', ' ', '\t', '\n']),
-            "the name {name:?} must not hold ':', ',', '=' or white space"
+            !name.is_empty() && name != "all" && !name.contains([':', ',', '=', ' ', '\t', '\n']),
+            "the name {name:?} must not be \"all\" nor hold ':', ',', '=' or white space"
         );
         let test = A::TRIANGLE_TEST;
         let taken = self.entries.iter().any(|e| e.name == name && e.triangle_test == test);
@@ -196,6 +196,14 @@ impl Entry {
         &self.config
     }
 
+    /// Why the structure cannot take part on this system; nothing if it can.
+    pub fn absence(&self) -> Option<String> {
+        match (self.build)(&Arc::new(empty()), &self.config) {
+            Err(BuildError::Unavailable(sentence)) => Some(sentence),
+            _ => None,
+        }
+    }
+
     fn configure(&self, overrides: &[(&str, &str)], name_test: bool) -> Result<Choice, ChoiceError> {
         let mut config = self.config.clone();
         let keys = config.as_object_mut().expect("checked when it was registered");
@@ -217,8 +225,7 @@ impl Entry {
         }
         let label = if shown.is_empty() { self.name.clone() } else { format!("{}:{}", self.name, shown.join(",")) };
         let choice = Choice { entry: self.clone(), config, label };
-        let empty = Arc::new(Mesh::new(vec![], vec![]).expect("the empty mesh is valid"));
-        match choice.build(&empty) {
+        match choice.build(&Arc::new(empty())) {
             // What is absent is refused when it is built, so that one absence does not end a run over many.
             Ok(_) | Err(BuildError::Unavailable(_)) => Ok(choice),
             Err(error) => Err(ChoiceError::Value { name: self.name.clone(), reason: error.to_string() }),
@@ -237,6 +244,10 @@ impl Choice {
     pub fn triangle_test(&self) -> &'static str {
         self.entry.triangle_test
     }
+}
+
+fn empty() -> Mesh {
+    Mesh::new(vec![], vec![]).expect("the empty mesh is valid")
 }
 
 /// A configuration from its map of keys; a type without fields serialises to null.

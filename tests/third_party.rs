@@ -269,7 +269,7 @@ fn it_is_compared_like_our_own() {
         threads: Threads::new(1).unwrap(),
     };
     let scene = Builtin::find("sphere").unwrap().scene(None).unwrap();
-    let records = compare_scene(&scene, &settings, &SystemClock::start(), &mut |_| {}).unwrap();
+    let records = compare_scene(&scene, &settings, &SystemClock::start(), &mut |_| {}).unwrap().records;
     assert_eq!(records.len(), 4);
     assert!(records.iter().all(|r| r.structure_errors == Some(0) && r.mrays_per_s > Some(0.0)));
     assert_eq!(records[0].label, "my-grid");

@@ -68,7 +68,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
 
     let clock = SystemClock::start();
     let mut progress = Progress::over(scenes.len(), terminal);
-    let mut records: Vec<AccuracyRecord> = vec![];
+    let (mut records, mut any_refused): (Vec<AccuracyRecord>, bool) = (vec![], false);
     for scene in &scenes {
         progress.scene(&scene.name);
         let (choices, note) = fitting(&choices, scene, args.structure.is_empty());
@@ -80,9 +80,14 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
             budget_ns: u64::from(args.budget) * 1_000_000_000,
             seed: args.seed,
         };
-        let of_scene = accuracy_scene(scene, &settings, &clock, &mut |stage| progress.stage(&stage))?;
+        let (of_scene, refused) = accuracy_scene(scene, &settings, &clock, &mut |stage| progress.stage(&stage))?;
         progress.scene_done();
-        let notes: Vec<String> = scene.notes.iter().cloned().chain(note).collect();
+        any_refused |= !refused.is_empty();
+        let refused = refused.iter().map(|refused| format!("{} is refused: {}", refused.label, refused.reason));
+        let notes: Vec<String> = scene.notes.iter().cloned().chain(note).chain(refused).collect();
+        if of_scene.is_empty() {
+            progress.aside(|| terminal.print_lines(&notes))?;
+        }
         for table in tables(&of_scene, &notes) {
             progress.aside(|| terminal.print_table(&table))?;
         }
@@ -103,16 +108,19 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     // Only one test promises the truth, and only in a structure that loses nothing.
     let owed = |r: &AccuracyRecord| r.triangle_test == Exact::NAME && documented_defect(&r.structure).is_none();
     let broken = |r: &AccuracyRecord| owed(r) && r.errors() + r.wrong_primitive > 0;
-    Ok(if records.iter().any(broken) { Verdict::Wrong } else { Verdict::Right })
+    Ok(match (records.iter().any(broken), any_refused) {
+        (true, _) => Verdict::Wrong,
+        (false, true) => Verdict::Refused,
+        (false, false) => Verdict::Right,
+    })
 }
 
 /// Every structure over every triangle test that it is offered with and that is asked for.
 fn choices(registry: &Registry, structures: &[String], tests: &[String]) -> anyhow::Result<Vec<Choice>> {
     sources::known_tests(registry, tests)?;
-    let names: Vec<String> = registry.names().into_iter().map(String::from).collect();
     let mut choices: Vec<Choice> = vec![];
-    for spec in if structures.is_empty() { &names } else { structures } {
-        let choice = sources::structure(registry, spec)?;
+    for spec in sources::specs(registry, structures) {
+        let choice = sources::structure(registry, &spec)?;
         let keys = spec.split_once(':').map_or("", |(_, keys)| keys);
         let names_test = keys.split(',').any(|key| key.starts_with("test="));
         for entry in registry.entries().iter().filter(|entry| entry.name == choice.entry.name) {

@@ -20,7 +20,7 @@ pub struct Args {
     /// Built-in scenes and mesh files (.obj, .ply, .gltf, .glb); all built-in scenes if none is named
     #[arg(value_name = "SCENE|FILE")]
     scenes: Vec<String>,
-    /// A structure, with keys that differ from their defaults; may be repeated [default: one of each name]
+    /// A structure, with keys that differ from their defaults; may be repeated [default: all, one of each name]
     #[arg(long, short, value_name = "NAME[:key=value,..]")]
     structure: Vec<String>,
     /// A kind of rays; may be repeated [default: primary, shadow, diffuse, random]
@@ -83,7 +83,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     let clock = SystemClock::start();
     let mut progress = Progress::over(scenes.len(), terminal);
     let (mut records, mut tables): (Vec<Record>, Vec<Table>) = (vec![], vec![]);
-    let mut failure = None;
+    let (mut failure, mut refused) = (None, false);
     for scene in &scenes {
         progress.scene(&scene.name);
         let of_scene = match compare_scene(scene, &settings, &clock, &mut |stage| progress.stage(&stage)) {
@@ -95,12 +95,16 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
             }
         };
         progress.scene_done();
-        let mut table = scene_table(&of_scene, &scene.notes);
-        if of_scene.is_empty() {
+        let mut table = scene_table(&of_scene.records, &of_scene.refused, &scene.notes);
+        refused |= !of_scene.refused.is_empty();
+        if of_scene.records.is_empty() && of_scene.refused.is_empty() {
             table.title = format!("{}: none of the workloads asked for has a ray in this scene", scene.name);
         }
+        if of_scene.records.is_empty() && !of_scene.refused.is_empty() {
+            table.title = format!("{}: every structure is refused, or no ray is left", scene.name);
+        }
         progress.aside(|| terminal.print_table(&table))?;
-        records.extend(of_scene);
+        records.extend(of_scene.records);
         tables.push(table);
     }
     progress.finish();
@@ -126,7 +130,11 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     if let Some(error) = failure {
         return Err(error.into());
     }
-    Ok(if records.iter().any(unexpected) { Verdict::Wrong } else { Verdict::Right })
+    Ok(match (records.iter().any(unexpected), refused) {
+        (true, _) => Verdict::Wrong,
+        (false, true) => Verdict::Refused,
+        (false, false) => Verdict::Right,
+    })
 }
 
 /// Whether a structure gives wrong answers that nothing explains: then the run fails. What a baseline is documented to get

@@ -1,7 +1,7 @@
 //! The command `sahara`.
 //!
 //! Results go to stdout, progress and errors to stderr. The exit status is 0 when all is well, 1 for usage, input or
-//! output that cannot be had, 2 for wrong answers.
+//! output that cannot be had, 2 for wrong answers, 5 when all is well but for a structure that could not take part.
 
 mod accuracy;
 mod compare;
@@ -75,6 +75,8 @@ enum Verdict {
     Right,
     /// A structure gave wrong answers.
     Wrong,
+    /// A structure could not be built or panicked; the others are right.
+    Refused,
 }
 
 /// Runs the command line of this process over the structures of `registry`.
@@ -109,6 +111,7 @@ fn run(registry: &Registry, args: impl IntoIterator<Item = OsString>) -> ExitCod
     match found {
         Ok(Verdict::Right) => ExitCode::SUCCESS,
         Ok(Verdict::Wrong) => ExitCode::from(2),
+        Ok(Verdict::Refused) => ExitCode::from(5),
         Err(error) if is_broken_pipe(&error) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("error: {error:#}");

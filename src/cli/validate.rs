@@ -9,7 +9,7 @@ use crate::registry::{Choice, Registry};
 use crate::report::number::{count, plural};
 use crate::report::{Cell, Table, Tone};
 use crate::scene::{Sampling, Scene, Workload, WorkloadKind};
-use crate::study::BRUTE_FORCE;
+use crate::study::{BRUTE_FORCE, guarded};
 use crate::validate::{Reference, Stratum, Validation, validate};
 
 #[derive(Debug, clap::Args)]
@@ -17,7 +17,7 @@ pub struct Args {
     /// Built-in scenes and mesh files; all built-in scenes if none is named
     #[arg(value_name = "SCENE|FILE")]
     scenes: Vec<String>,
-    /// A structure, with keys that differ from their defaults; may be repeated [default: one of each name]
+    /// A structure, with keys that differ from their defaults; may be repeated [default: all, one of each name]
     #[arg(long, short, value_name = "NAME[:key=value,..]")]
     structure: Vec<String>,
     /// Rays of each scene, shared out among the kinds
@@ -49,7 +49,17 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
         let mut rows = vec![];
         let mut notes = scene.notes.clone();
         for choice in &structures {
-            let found = check(scene, choice, &against, &rays)?;
+            let found = match check(scene, choice, &against, &rays)? {
+                Ok(found) => found,
+                Err(reason) => {
+                    if verdict == Verdict::Right {
+                        verdict = Verdict::Refused;
+                    }
+                    rows.push(refused(choice));
+                    notes.push(format!("{}: {reason}", choice.label));
+                    continue;
+                }
+            };
             if found.errors() > 0 {
                 verdict = Verdict::Wrong;
             }
@@ -59,12 +69,14 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
         let stand_in = if scene.stand_ins.is_empty() { "" } else { ", stand-in" };
         let (triangles, rays) = (plural(scene.mesh.len(), "triangle"), plural(rays.len(), "ray"));
         let title = format!("{}: {triangles}{stand_in}; {rays} against {}", scene.name, against.label);
-        let columns = ["structure", "triangle test", "hits", "structure errors", "answer errors", "kernel", "ties"];
-        terminal.print_table(&Table { title, columns: columns.map(String::from).into(), rows, notes })?;
+        terminal.print_table(&Table { title, columns: COLUMNS.map(String::from).into(), rows, notes })?;
     }
     terminal.print_lines(&LEGEND.map(String::from))?;
     Ok(verdict)
 }
+
+const COLUMNS: [&str; 7] =
+    ["structure", "triangle test", "hits", "structure errors", "answer errors", "kernel", "ties"];
 
 const LEGEND: [&str; 3] = [
     "structure errors: hits lost or invented although the structure's own triangle test, run over all triangles, says \
@@ -88,18 +100,28 @@ fn rays(scene: &Scene, registry: &Registry, args: &Args) -> anyhow::Result<Vec<R
     Ok(WorkloadKind::ALL.iter().flat_map(of_kind).collect())
 }
 
-fn check(scene: &Scene, choice: &Choice, against: &Choice, rays: &[Ray]) -> anyhow::Result<Validation> {
-    let build = |choice: &Choice| {
-        let built = choice.build(&scene.mesh);
-        built.with_context(|| format!("{} cannot be built over {}", choice.label, scene.name))
-    };
+/// What was found, or why the structure takes no part.
+fn check(scene: &Scene, choice: &Choice, against: &Choice, rays: &[Ray]) -> anyhow::Result<Result<Validation, String>> {
     // Brute force by its bare name shares each structure's test; with a test of its own it is a structure like any other.
     let reference = if against.label == BRUTE_FORCE {
         Reference::of_test(choice.triangle_test(), &scene.mesh)?
     } else {
-        Reference::structure(build(against)?)
+        let built = against.build(&scene.mesh);
+        Reference::structure(built.with_context(|| format!("{} cannot be built over {}", against.label, scene.name))?)
     };
-    Ok(validate(build(choice)?.as_ref(), &reference, &scene.mesh, rays))
+    Ok(match choice.build(&scene.mesh) {
+        Err(error) => Err(error.to_string()),
+        Ok(accel) => guarded(|| validate(accel.as_ref(), &reference, &scene.mesh, rays))
+            .ok_or_else(|| "its traversal panicked: ask rays one by one with --ray to find the one".into()),
+    })
+}
+
+fn refused(choice: &Choice) -> Vec<Cell> {
+    let mut row = vec![Cell::blank(); COLUMNS.len()];
+    row[0] = choice.label.as_str().into();
+    row[1] = choice.triangle_test().into();
+    row[2] = Cell::from("refused").with(Tone::Wrong);
+    row
 }
 
 fn row(choice: &Choice, found: &Validation) -> Vec<Cell> {

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::built::Built;
-use super::{Stage, StudyError};
+use super::{Stage, StudyError, guarded};
 use crate::geometry::Ray;
 use crate::measure::{Clock, spread};
 use crate::scene::Scene;
@@ -22,7 +22,7 @@ pub struct Check {
 const PILOT: usize = 32;
 
 /// Holds every structure against brute force with its own triangle test, on as many rays of each batch as `budget_ns`
-/// allows for all together. One row for each structure, one check for each batch.
+/// allows for all together. One row for each structure, one check for each batch; nothing for a structure that panicked.
 pub fn check_all(
     scene: &Scene,
     built: &[Built],
@@ -30,7 +30,7 @@ pub fn check_all(
     clock: &dyn Clock,
     budget_ns: u64,
     progress: &mut dyn FnMut(Stage),
-) -> Result<Vec<Vec<Check>>, StudyError> {
+) -> Result<Vec<Option<Vec<Check>>>, StudyError> {
     let budget_ns = budget_ns / (built.len() * batches.len()).max(1) as u64;
     let mut references: BTreeMap<&'static str, Reference> = BTreeMap::new();
     let mut checks = vec![];
@@ -58,7 +58,7 @@ pub fn check_all(
             }
             Check { rays: found.rays as usize, errors: found.errors().min(found.rays) as usize }
         };
-        checks.push(batches.iter().map(of_batch).collect());
+        checks.push(guarded(|| batches.iter().map(of_batch).collect()));
     }
     Ok(checks)
 }

@@ -50,7 +50,8 @@ fn own_test(
     found: Option<Hit>,
     other: Verdict,
 ) -> Verdict {
-    let of = |hit: Option<Hit>| hit.and_then(|hit| own(ray, mesh.corners(hit.prim.index())));
+    let exists = |hit: &Hit| (hit.prim.index() as usize) < mesh.len();
+    let of = |hit: Option<Hit>| hit.filter(exists).and_then(|hit| own(ray, mesh.corners(hit.prim.index())));
     let kernel = |sentence: &str| verdict(Kind::Kernel, format!("{}, but {sentence}", other.sentence));
     match (other.kind, found) {
         // What its test does not find, or not in front of what was found, no walk can return.

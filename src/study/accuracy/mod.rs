@@ -11,7 +11,7 @@ mod table;
 mod tests;
 
 use super::built::Built;
-use super::{Stage, StudyError};
+use super::{PANICKED, Refused, Stage, StudyError, guarded};
 use crate::accel::Query;
 use crate::geometry::Ray;
 use crate::measure::{Clock, Pass, Plan, Provenance, Samples, Threads, Timed, median, spread, take};
@@ -47,21 +47,27 @@ const LONGEST_SAMPLE_NS: u64 = 1_000_000_000;
 /// What judging a case may always take.
 const SHORT_JUDGING_NS: u64 = 2_000_000_000;
 
-/// One record for each kind of rays and structure, kind by kind.
+/// One record for each kind of rays and structure, kind by kind; and the structures that cannot be built or panic, which have none.
 ///
 /// # Errors
-/// If a structure refuses the mesh, or answers the same rays differently.
+/// If a structure answers the same rays differently, or panics only when it is timed.
 pub fn accuracy_scene(
     scene: &Scene,
     settings: &Settings,
     clock: &dyn Clock,
     progress: &mut dyn FnMut(Stage),
-) -> Result<Vec<AccuracyRecord>, StudyError> {
+) -> Result<(Vec<AccuracyRecord>, Vec<Refused>), StudyError> {
     let threads = Threads::new(1).map_err(StudyError::Threads)?;
-    let mut built = vec![];
+    let (mut built, mut refused) = (vec![], vec![]);
     for choice in &settings.choices {
         progress(Stage::Build(&choice.label));
-        built.push(Built::new(choice, scene, &threads, clock)?);
+        match Built::new(choice, scene, &threads, clock) {
+            Ok(structure) => built.push(structure),
+            Err(StudyError::Build { structure, cause, .. }) => {
+                refused.push(Refused { label: structure, reason: cause.to_string() });
+            }
+            Err(other) => return Err(other),
+        }
     }
 
     progress(Stage::Rays("the truth about all"));
@@ -73,16 +79,26 @@ pub fn accuracy_scene(
         .collect();
 
     let cases = (built.len() * batches.len()).max(1) as u64;
-    let mut verdicts = vec![];
-    for batch in &batches {
-        for built in &built {
-            progress(Stage::Check(&built.choice.label));
-            let budget_ns = (settings.budget_ns / 2 / cases).max(SHORT_JUDGING_NS);
-            verdicts.push(batch.judge(built.accel.as_ref(), clock, budget_ns));
+    let budget_ns = (settings.budget_ns / 2 / cases).max(SHORT_JUDGING_NS);
+    let (mut judged, mut of_structures) = (vec![], vec![]);
+    for built in built {
+        progress(Stage::Check(&built.choice.label));
+        let judge = |batch: &judged::Batch| batch.judge(built.accel.as_ref(), clock, budget_ns);
+        match guarded(|| batches.iter().map(judge).collect::<Vec<_>>()) {
+            Some(of_structure) => {
+                judged.push(built);
+                of_structures.push(of_structure);
+            }
+            None => refused.push(Refused { label: built.choice.label, reason: PANICKED.into() }),
         }
     }
+    let built = judged;
+    let verdicts: Vec<&Judged> =
+        (0..batches.len()).flat_map(|batch| of_structures.iter().map(move |verdicts| &verdicts[batch])).collect();
     let rays: Vec<&[Ray]> = batches.iter().map(|batch| &batch.rays[..]).collect();
-    let samples = time(scene, &built, &rays, settings, &threads, clock, progress)?;
+    let panicked = || StudyError::Panicked { structure: "a structure".into(), scene: scene.name.clone() };
+    let samples =
+        guarded(|| time(scene, &built, &rays, settings, &threads, clock, progress)).ok_or_else(panicked)??;
 
     let (provenance, hash) = (Provenance::capture(threads.count()), scene.hash());
     let mut records = vec![];
@@ -99,7 +115,7 @@ pub fn accuracy_scene(
             record.dominated_by = dominator.map(|i| labels[i].clone());
         }
     }
-    Ok(records)
+    Ok((records, refused))
 }
 
 /// Samples of all structures on all batches, interleaved; in the order of the batches, structure by structure.

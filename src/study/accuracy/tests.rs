@@ -15,7 +15,7 @@ fn records(specs: &[&str], kinds: &[RayKind], rays: usize) -> Vec<AccuracyRecord
         seed: 1,
     };
     let scene = Builtin::find("torus").unwrap().scene(None).unwrap();
-    accuracy_scene(&scene, &settings, &SystemClock::start(), &mut |_| ()).unwrap()
+    accuracy_scene(&scene, &settings, &SystemClock::start(), &mut |_| ()).unwrap().0
 }
 
 #[test]

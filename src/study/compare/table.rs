@@ -4,6 +4,7 @@ use crate::accel::Query;
 use crate::measure::geometric_mean;
 use crate::report::number::{bytes, count, duration, figures, plural};
 use crate::report::{Cell, Record, Table, Tone};
+use crate::study::Refused;
 use crate::study::baselines::{REPORT_TREE, documented_defect, is_obvhs};
 
 /// What the columns mean, once for all tables of [`scene_table`]. `first` is the first workload.
@@ -23,9 +24,10 @@ pub fn legend(first: &str) -> Vec<String> {
     ]
 }
 
-/// The records of one scene, one row for each structure. `notes` are those of the scene.
-pub fn scene_table(records: &[Record], notes: &[String]) -> Table {
-    let Some(first) = records.first() else { return Table::default() };
+/// The records of one scene, one row for each structure, those that are refused last. `notes` are those of the scene.
+pub fn scene_table(records: &[Record], refused: &[Refused], notes: &[String]) -> Table {
+    let notes = || notes.iter().cloned().chain(refused.iter().map(|r| format!("{}: {}", r.label, r.reason)));
+    let Some(first) = records.first() else { return Table { notes: notes().collect(), ..Table::default() } };
     let workloads = names(records, |r| &r.workload);
     let structures = names(records, |r| &r.label);
     let of = |label: &str| -> Vec<&Record> { records.iter().filter(|r| r.label == label).collect() };
@@ -42,7 +44,7 @@ pub fn scene_table(records: &[Record], notes: &[String]) -> Table {
     columns.extend(["checked", "sampled"].map(String::from));
 
     let best: Vec<f64> = workloads.iter().map(|w| best_speed(records, w, |_| true).unwrap_or(f64::INFINITY)).collect();
-    let rows = structures
+    let mut rows: Vec<Vec<Cell>> = structures
         .iter()
         .map(|label| {
             let of = of(label);
@@ -66,6 +68,12 @@ pub fn scene_table(records: &[Record], notes: &[String]) -> Table {
             row
         })
         .collect();
+    rows.extend(refused.iter().map(|refused| {
+        let mut row = vec![Cell::blank(); columns.len()];
+        row[0] = refused.label.as_str().into();
+        row[1] = Cell::from("refused").with(Tone::Wrong);
+        row
+    }));
 
     let degenerate = match first.degenerate {
         0 => String::new(),
@@ -73,7 +81,7 @@ pub fn scene_table(records: &[Record], notes: &[String]) -> Table {
     };
     let stand_in = if first.stand_in { ", stand-in" } else { "" };
     let title = format!("{}: {}{degenerate}{stand_in}", first.scene, plural(first.triangles, "triangle"));
-    let mut notes = notes.to_vec();
+    let mut notes: Vec<String> = notes().collect();
     notes.extend(defects(records));
     Table { title, columns, rows, notes }
 }
@@ -225,7 +233,7 @@ mod tests {
 
     #[test]
     fn ratios_are_geometric_means_against_the_tree_and_the_better_bvh() {
-        let table = scene_table(&records(), &[]);
+        let table = scene_table(&records(), &[], &[]);
         assert_eq!(cell(&table, "sah-kd", "x median"), "4.00");
         assert_eq!(cell(&table, "sah-kd", "x obvhs"), "1.41");
         assert_eq!(cell(&table, "median-kd", "x median"), "1.00");
@@ -239,7 +247,7 @@ mod tests {
         let mut records = records();
         records[2].mrays_per_s = None;
         records[2].structure_errors = Some(3);
-        let table = scene_table(&records, &[]);
+        let table = scene_table(&records, &[], &[]);
         assert_eq!(cell(&table, "sah-kd", "primary"), "3/100 wrong");
         assert_eq!(cell(&table, "sah-kd", "x median"), "");
         assert_eq!(cell(&table, "sah-kd", "random"), "4.00");
@@ -250,7 +258,7 @@ mod tests {
         let mut records = records();
         records[4].mrays_per_s = None;
         records[4].structure_errors = Some(3);
-        let table = scene_table(&records, &[]);
+        let table = scene_table(&records, &[], &[]);
         assert_eq!(cell(&table, "obvhs-bvh2", "primary"), "3/100 wrong");
         assert_eq!(table.notes.len(), 1);
         assert!(table.notes[0].starts_with("obvhs-bvh2 answers 3 of 100 primary rays wrong"), "{:?}", table.notes);
@@ -272,7 +280,7 @@ mod tests {
 
     #[test]
     fn without_baselines_there_are_no_columns_for_them() {
-        let table = scene_table(&[record("A", "sah-kd", "primary", Some(1.0))], &["flat".into()]);
+        let table = scene_table(&[record("A", "sah-kd", "primary", Some(1.0))], &[], &["flat".into()]);
         assert!(!table.columns.iter().any(|c| c.starts_with("x ")), "{:?}", table.columns);
         assert_eq!(table.notes, ["flat"]);
     }

@@ -87,7 +87,7 @@ fn run(specs: &[&str]) -> Result<Vec<Record>, StudyError> {
         threads: Threads::new(1).unwrap(),
     };
     let scene = Builtin::find("cube").unwrap().scene(None).unwrap();
-    compare_scene(&scene, &settings, &SystemClock::start(), &mut |_| {})
+    compare_scene(&scene, &settings, &SystemClock::start(), &mut |_| {}).map(|compared| compared.records)
 }
 
 #[test]

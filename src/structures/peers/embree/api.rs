@@ -60,7 +60,6 @@ api! {
     new_device = "rtcNewDevice": fn(*const c_char) -> Handle;
     release_device = "rtcReleaseDevice": fn(Handle);
     device_error = "rtcGetDeviceError": fn(Handle) -> c_int;
-    device_property = "rtcGetDeviceProperty": fn(Handle, c_int) -> isize;
     on_error = "rtcSetDeviceErrorFunction": fn(Handle, OnError, *mut c_void);
     on_memory = "rtcSetDeviceMemoryMonitorFunction": fn(Handle, OnMemory, *mut c_void);
     new_scene = "rtcNewScene": fn(Handle) -> Handle;
