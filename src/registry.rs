@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use serde_json::{Map, Value};
 
-use crate::accel::{Accel, BuildError, DynAccel, Observed};
+use crate::accel::{Accel, BuildError, Capabilities, DynAccel, Observed};
 use crate::geometry::Mesh;
 use crate::structures::obvhs::{Native, ObvhsBvh2, ObvhsConfig, ObvhsCwBvh, Over, RtTest};
 use crate::structures::{BruteForce, KdConfig, KdTree};
@@ -31,6 +31,8 @@ pub struct Entry {
     pub observed: Observed,
     /// [`Accel::CONVENTIONS`].
     pub conventions: &'static [&'static str],
+    /// [`Accel::CAPABILITIES`].
+    pub capabilities: Capabilities,
     config: Value,
     build: Build,
 }
@@ -127,6 +129,7 @@ impl Registry {
             triangle_test: A::TRIANGLE_TEST,
             observed: A::OBSERVED,
             conventions: A::CONVENTIONS,
+            capabilities: A::CAPABILITIES,
             config,
             build,
         });

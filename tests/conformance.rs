@@ -36,13 +36,10 @@ const OURS: [&str; 18] = [
     "sah-kd:plane=vertex-median",
 ];
 
-fn subject(choice: &Choice, lowest_id: bool) -> Subject<'_> {
-    Subject {
-        name: format!("{} over {}", choice.label, choice.triangle_test()),
-        triangle_test: choice.triangle_test(),
-        lowest_id,
-        build: Box::new(|mesh| choice.build(mesh)),
-    }
+fn subject(choice: &Choice, lowest_id: bool) -> Subject {
+    let (name, own) = (format!("{} over {}", choice.label, choice.triangle_test()), choice.clone());
+    let subject = Subject::new(&name, choice.triangle_test(), move |mesh| own.build(mesh));
+    Subject { lowest_id, ..subject }
 }
 
 fn passes(outcome: Result<(), String>) {

@@ -114,12 +114,7 @@ fn rays_without_a_named_cause_are_answered_rightly() {
     meshes.retain(|(name, _)| name != "soup times 2^-30" && name != "exponential sequence");
     for spec in BOTH {
         let choice = registry.choose(spec).unwrap();
-        let subject = Subject {
-            name: spec.into(),
-            triangle_test: choice.triangle_test(),
-            lowest_id: false,
-            build: Box::new(|mesh| choice.build(mesh)),
-        };
+        let subject = Subject::new(spec, choice.triangle_test(), move |mesh| choice.build(mesh));
         let all = findings(&subject, &meshes, 200).unwrap();
         for stratum in Stratum::ALL {
             let clean = CLEAN.contains(&stratum) || BVH2.contains(&spec) && CLEAN_BVH2.contains(&stratum);

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use super::{Counts, Footprint, Observed, Observer, TreeShape};
+use super::{Capabilities, Counts, Footprint, Observed, Observer, TreeShape};
 use crate::geometry::{Hit, Mesh, Ray};
 
 /// Why a structure could not be built.
@@ -36,7 +36,13 @@ pub enum BuildError {
 /// 4. answers depend on nothing but the mesh, the configuration and the ray;
 /// 5. every mesh that [`Mesh`] admits builds, the empty one included.
 ///
-/// A ray for which [`Ray::is_valid`] is false hits nothing.
+/// A ray for which [`Ray::is_valid`] is false hits nothing. What a structure cannot do it declines, by
+/// [`CAPABILITIES`](Accel::CAPABILITIES), [`OBSERVED`](Accel::OBSERVED) and [`TRIANGLE_TEST`](Accel::TRIANGLE_TEST).
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not an acceleration structure",
+    label = "does not implement `sahara::accel::Accel`",
+    note = "implement `sahara::accel::Accel` for `{Self}`: the front page of sahara's documentation walks through an example"
+)]
 pub trait Accel: Sized + Send + Sync + 'static {
     /// Build parameters. Serialisation gives them names: the command line sets them as `key=value`, and records show them.
     type Config: Clone + Debug + Default + Serialize + DeserializeOwned + Send + Sync + 'static;
@@ -51,6 +57,9 @@ pub trait Accel: Sized + Send + Sync + 'static {
     /// What the observer is told.
     const OBSERVED: Observed = Observed::ALL;
 
+    /// What the structure can be asked. By default everything.
+    const CAPABILITIES: Capabilities = Capabilities::ALL;
+
     /// # Errors
     /// If a value of `config` is out of range.
     fn build(mesh: &Arc<Mesh>, config: &Self::Config) -> Result<Self, BuildError>;
@@ -59,7 +68,13 @@ pub trait Accel: Sized + Send + Sync + 'static {
     fn closest_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit>;
 
     /// Whether `ray` hits anything.
-    fn any_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> bool;
+    ///
+    /// By default the closest hit is asked for, and whether it lies before `t_max`. A structure that leaves it so should
+    /// decline [`Capabilities::any_hit`], so that nobody takes its time for that of an any-hit query.
+    #[inline]
+    fn any_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> bool {
+        self.closest_hit(ray, observer).is_some_and(|hit| hit.t < ray.t_max)
+    }
 
     /// The nearest hits of a batch.
     ///
@@ -99,6 +114,9 @@ pub trait DynAccel: Send + Sync {
     /// As `any_hits`, adding to `counts` what was done.
     fn any_hits_counted(&self, rays: &[Ray], hits: &mut [bool], counts: &mut Counts);
     fn observed(&self) -> Observed;
+    fn capabilities(&self) -> Capabilities {
+        Capabilities::ALL
+    }
     fn footprint(&self) -> Footprint;
     fn shape(&self) -> TreeShape;
 }
@@ -122,6 +140,10 @@ impl<A: Accel> DynAccel for A {
 
     fn observed(&self) -> Observed {
         A::OBSERVED
+    }
+
+    fn capabilities(&self) -> Capabilities {
+        A::CAPABILITIES
     }
 
     fn footprint(&self) -> Footprint {

@@ -15,6 +15,7 @@ mod rate;
 mod reference;
 mod sampler;
 mod validation;
+mod watch;
 
 pub use adversarial::Stratum;
 pub use compare::{validate, validate_answers};
@@ -24,3 +25,4 @@ pub use rate::Rate;
 pub use reference::{Reference, ScalarTest};
 pub use sampler::Sampler;
 pub use validation::{Kind, Validation, WorstRay};
+pub use watch::{Ended, LIMIT, validate_watched, watched};

@@ -56,12 +56,8 @@ pub fn ask(case: &Case, choice: &Choice, rays: usize, clock: &dyn Clock) -> Resu
             Ok(of_rays(&*accel, &set, build_ns, clock))
         }
         Content::Property(check) => {
-            let subject = Subject {
-                name: choice.label.clone(),
-                triangle_test: choice.triangle_test(),
-                lowest_id: false,
-                build: Box::new(|mesh| choice.build(mesh)),
-            };
+            let own = choice.clone();
+            let subject = Subject::new(&choice.label, choice.triangle_test(), move |mesh| own.build(mesh));
             let property = Some(check(&subject, rays));
             Ok(Answers { head: Head { property, ..Head::default() }, hits: vec![] })
         }
