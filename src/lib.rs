@@ -17,3 +17,7 @@ pub mod structures;
 pub mod study;
 pub mod triangle;
 pub mod validate;
+
+// What a structure of another crate needs besides: the versions that this crate uses.
+pub use glam;
+pub use serde;

@@ -11,6 +11,7 @@ use crate::accel::{Accel, BuildError, Capabilities, DynAccel, Observed};
 use crate::geometry::Mesh;
 use crate::structures::obvhs::{Native, ObvhsBvh2, ObvhsConfig, ObvhsCwBvh, Over, RtTest};
 use crate::structures::{BruteForce, KdConfig, KdTree};
+use crate::validate::conformance::Subject;
 use crate::triangle::{
     BaldwinWeber, EdgeF64, Exact, FilteredF64, MollerTrumbore, MollerTrumboreF64, Plucker, TriangleTest, Watertight,
 };
@@ -241,6 +242,12 @@ impl Choice {
     /// If the structure does not admit the mesh.
     pub fn build(&self, mesh: &Arc<Mesh>) -> Result<Box<dyn DynAccel>, BuildError> {
         (self.entry.build)(mesh, &self.config)
+    }
+
+    /// The structure as the functions of [`crate::validate::conformance`] take it.
+    pub fn subject(&self) -> Subject {
+        let own = self.clone();
+        Subject::new(&self.label, self.triangle_test(), move |mesh| own.build(mesh))
     }
 
     /// The triangle test whose answers this structure gives.

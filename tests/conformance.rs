@@ -37,9 +37,7 @@ const OURS: [&str; 18] = [
 ];
 
 fn subject(choice: &Choice, lowest_id: bool) -> Subject {
-    let (name, own) = (format!("{} over {}", choice.label, choice.triangle_test()), choice.clone());
-    let subject = Subject::new(&name, choice.triangle_test(), move |mesh| own.build(mesh));
-    Subject { lowest_id, ..subject }
+    Subject { name: format!("{} over {}", choice.label, choice.triangle_test()), lowest_id, ..choice.subject() }
 }
 
 fn passes(outcome: Result<(), String>) {

@@ -21,6 +21,9 @@ pub enum BuildError {
     /// What the structure needs of the system is not there; the sentence says what, and how to get it.
     #[error("{0}")]
     Unavailable(String),
+    /// The rays need what the structure declines.
+    #[error("declined: it has no {0}, which these rays need")]
+    Declined(&'static str),
     /// The structure's own code panicked.
     #[error("its builder panicked on this mesh: leave the structure out, or look at extreme coordinates")]
     Panic,

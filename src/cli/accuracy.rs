@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use anyhow::Context;
 
 use super::progress::Progress;
+use super::rays::{RaySource, replayed};
 use super::terminal::Terminal;
 use super::{Verdict, sources};
 use crate::measure::{Provenance, SystemClock};
@@ -33,9 +34,10 @@ pub struct Args {
     /// A kind of rays: uniform, edge, vertex, axis, grazing, scale or offset; may be repeated [default: all]
     #[arg(long, value_name = "KIND")]
     stratum: Vec<RayKind>,
-    /// Rays of each kind: without an error among n, the error is below 3/n with 95 % confidence
-    #[arg(long, value_name = "N", default_value_t = 20_000, value_parser = clap::value_parser!(u32).range(1..=1 << 24))]
-    rays: u32,
+    /// Rays of each kind: without an error among n, the error is below 3/n with 95 % confidence; or a file of rays to
+    /// replay, in place of kinds
+    #[arg(long, value_name = "N|F.rays", default_value = "20000")]
+    rays: RaySource,
     /// Samples of every case
     #[arg(long, value_name = "N", default_value_t = 7, value_parser = clap::value_parser!(u16).range(1..))]
     runs: u16,
@@ -64,7 +66,13 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     for path in &args.plot {
         plots.push((OutputFile::check(path)?, Format::of(path)?));
     }
-    let scenes = sources::scenes(&args.scenes)?;
+    let (scenes, replayed) = match replayed(&args.rays, &args.scenes)? {
+        Some((scene, file)) => {
+            anyhow::ensure!(args.stratum.is_empty(), "the rays are those of the file: leave --stratum out");
+            (vec![scene], Some(file.workload))
+        }
+        None => (sources::scenes(&args.scenes)?, None),
+    };
 
     let clock = SystemClock::start();
     let mut progress = Progress::over(scenes.len(), terminal);
@@ -75,7 +83,8 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
         let settings = Settings {
             choices,
             kinds: if args.stratum.is_empty() { RayKind::ALL.into() } else { args.stratum.clone() },
-            rays: args.rays as usize,
+            replayed: replayed.clone(),
+            rays: args.rays.count(1) as usize,
             runs: args.runs.into(),
             budget_ns: u64::from(args.budget) * 1_000_000_000,
             seed: args.seed,

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Parser;
 
 use super::progress::Progress;
+use super::rays::{RaySource, replayed};
 use super::terminal::Terminal;
 use super::{Verdict, sources};
 use crate::measure::{Provenance, SystemClock, Threads};
@@ -32,9 +33,9 @@ pub struct Args {
     /// Samples of every case
     #[arg(long, value_name = "N", default_value_t = 7, value_parser = clap::value_parser!(u16).range(1..))]
     runs: u16,
-    /// Rays of a workload, at most
-    #[arg(long, value_name = "N", default_value_t = 36_864, value_parser = clap::value_parser!(u32).range(1..=1 << 24))]
-    rays: u32,
+    /// Rays of a workload, at most; or a file of rays to replay, in place of workloads
+    #[arg(long, value_name = "N|F.rays", default_value = "36864")]
+    rays: RaySource,
     /// Seconds that a scene may take: slow cases are timed on fewer rays to keep within them
     #[arg(long, value_name = "SECONDS", default_value_t = 12, value_parser = clap::value_parser!(u32).range(1..=86400))]
     budget: u32,
@@ -68,12 +69,19 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     let threads = Threads::new(args.threads.into()).map_err(anyhow::Error::msg)?;
     let check = |path: &Option<PathBuf>| path.as_deref().map(OutputFile::check).transpose();
     let (json, csv, markdown) = (check(&args.export_json)?, check(&args.export_csv)?, check(&args.export_markdown)?);
-    let scenes = sources::scenes(&args.scenes)?;
+    let (scenes, replayed) = match replayed(&args.rays, &args.scenes)? {
+        Some((scene, file)) => {
+            anyhow::ensure!(args.workload.is_empty(), "the rays are those of the file: leave --workload out");
+            (vec![scene], Some(file.workload))
+        }
+        None => (sources::scenes(&args.scenes)?, None),
+    };
     let settings = Settings {
         structures,
         guide: sources::guide(registry)?,
         workloads: if args.workload.is_empty() { DEFAULT_WORKLOADS.to_vec() } else { args.workload.clone() },
-        rays: args.rays,
+        replayed,
+        rays: args.rays.count(1),
         runs: args.runs.into(),
         budget_ns: u64::from(args.budget) * 1_000_000_000,
         seed: args.seed,

@@ -4,7 +4,7 @@ use serde_json::Value;
 
 use super::Verdict;
 use super::terminal::Terminal;
-use crate::accel::Query;
+use crate::accel::{Observed, Query};
 use crate::registry::Registry;
 use crate::render::ViewKind;
 use crate::report::number::count;
@@ -53,6 +53,13 @@ fn structures(registry: &Registry) -> Table {
         rows.push(vec![name.into(), "".into()]);
         for entry in entries {
             rows.push(vec!["  test".into(), entry.triangle_test.into()]);
+        }
+        for declined in first.capabilities.declined() {
+            rows.push(vec!["  declines".into(), declined.into()]);
+        }
+        if first.observed != Observed::ALL {
+            let what = if first.observed.tests { "steps" } else if first.observed.steps { "triangle tests" } else { "all counts" };
+            rows.push(vec!["  declines".into(), what.into()]);
         }
         for convention in first.conventions {
             rows.push(vec!["  otherwise".into(), (*convention).into()]);

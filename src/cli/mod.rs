@@ -10,6 +10,7 @@ mod golden;
 mod hard;
 mod list;
 mod progress;
+mod rays;
 mod render;
 mod replicate;
 mod sources;
@@ -50,6 +51,8 @@ enum Command {
     Replicate(replicate::Args),
     /// Hold every structure against a reference, hit for hit
     Validate(validate::Args),
+    /// Record, import and show files of rays
+    Rays(rays::Args),
     /// Run an experiment with a question of its own
     Study(study::Args),
     /// How wrong, how fast: every structure over every triangle test, judged by exact arithmetic
@@ -84,7 +87,8 @@ pub fn main(registry: Registry) -> ExitCode {
     run(&registry, std::env::args_os())
 }
 
-fn run(registry: &Registry, args: impl IntoIterator<Item = OsString>) -> ExitCode {
+/// Runs `args`, the name of the program first, over the structures of `registry`.
+pub fn run(registry: &Registry, args: impl IntoIterator<Item = OsString>) -> ExitCode {
     let cli = match Cli::try_parse_from(args) {
         Ok(cli) => cli,
         Err(message) => {
@@ -99,6 +103,7 @@ fn run(registry: &Registry, args: impl IntoIterator<Item = OsString>) -> ExitCod
         Command::Compare(args) => compare::run(registry, &args, &terminal),
         Command::Replicate(args) => replicate::run(registry, &args, &terminal),
         Command::Validate(args) => validate::run(registry, &args, &terminal),
+        Command::Rays(args) => rays::run(registry, &args, &terminal),
         Command::Study(args) => study::run(registry, &args, &terminal),
         Command::Accuracy(args) => accuracy::run(registry, &args, &terminal),
         Command::Hard(args) => hard::run(registry, &args, &terminal),

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::built::Built;
-use super::{Stage, StudyError, guarded};
+use super::{Stage, StudyError};
 use crate::geometry::Ray;
 use crate::measure::{Clock, spread};
 use crate::scene::Scene;
@@ -46,7 +46,7 @@ pub fn check_all(
             references.insert(test, reference);
         }
         let check = |rays: &[Ray]| validate(built.accel.as_ref(), &references[test], &scene.mesh, rays);
-        let of_batch = |batch: &&[Ray]| {
+        let of_batch = |batch: &&[Ray]| -> Option<Check> {
             // Learn from a few rays how many can be afforded.
             let start = clock.now_ns();
             let pilot = spread(batch, PILOT);
@@ -56,9 +56,10 @@ pub fn check_all(
             if affordable > pilot.len() as u64 && batch.len() > pilot.len() {
                 found = check(&spread(batch, affordable as usize));
             }
-            Check { rays: found.rays as usize, errors: found.errors().min(found.rays) as usize }
+            let errors = found.errors().min(found.rays) as usize;
+            (found.panics == 0).then_some(Check { rays: found.rays as usize, errors })
         };
-        checks.push(guarded(|| batches.iter().map(of_batch).collect()));
+        checks.push(batches.iter().map(of_batch).collect());
     }
     Ok(checks)
 }

@@ -7,6 +7,7 @@
 
 mod adjudicate;
 pub mod adversarial;
+mod any;
 mod compare;
 pub mod conformance;
 pub(crate) mod degenerate;
@@ -18,6 +19,7 @@ mod validation;
 mod watch;
 
 pub use adversarial::Stratum;
+pub use any::validate_any_answers;
 pub use compare::{validate, validate_answers};
 pub use degenerate::degenerate_meshes;
 pub use judge::{DepthRule, Judged, Outcome, Ulps, judge, outcome};

@@ -9,6 +9,7 @@ fn records(specs: &[&str], kinds: &[RayKind], rays: usize) -> Vec<AccuracyRecord
     let settings = Settings {
         choices: specs.iter().map(|spec| registry.choose(spec).unwrap()).collect(),
         kinds: kinds.into(),
+        replayed: None,
         rays,
         runs: 2,
         budget_ns: 2_000_000_000,

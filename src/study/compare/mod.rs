@@ -8,6 +8,7 @@ mod trace;
 use super::built::Built;
 use super::check::{Check, check_all};
 use super::{PANICKED, Refused, Stage, StudyError};
+use crate::accel::{DynAccel, Query};
 use crate::geometry::Ray;
 use crate::measure::{Clock, Provenance, Threads, median};
 use crate::registry::Choice;
@@ -24,6 +25,8 @@ pub struct Settings {
     pub guide: Choice,
     /// The kinds of rays. `Mirror` is left out of scenes without mirrors.
     pub workloads: Vec<WorkloadKind>,
+    /// Rays made before, in place of those kinds where there are any.
+    pub replayed: Option<Workload>,
     /// Rays of a workload, at most.
     pub rays: u32,
     /// Samples of every case.
@@ -79,9 +82,13 @@ pub fn compare_scene(
     };
     let mut workloads: Vec<Workload> = vec![];
     let sampling = Sampling::about(scene, settings.rays, settings.seed);
-    for &kind in settings.workloads.iter().filter(|&&kind| kind != WorkloadKind::Mirror || scene.has_mirrors()) {
+    let made = |kind: &&WorkloadKind| settings.replayed.is_none() && (**kind != WorkloadKind::Mirror || scene.has_mirrors());
+    for &kind in settings.workloads.iter().filter(made) {
         progress(Stage::Rays(kind.name()));
         workloads.push(Workload::new(scene, kind, &sampling, guide));
+    }
+    if let Some(replayed) = &settings.replayed {
+        workloads = vec![replayed.clone()];
     }
     workloads.retain(|workload| !workload.rays.is_empty());
 
@@ -115,7 +122,7 @@ pub fn compare_scene(
                 label: built.choice.label.clone(),
                 config: built.choice.config.clone(),
                 triangle_test: built.choice.triangle_test().into(),
-                workload: workload.kind.name().into(),
+                workload: workload.name.clone(),
                 query: workload.query,
                 workload_hash: hashes[w].clone(),
                 workload_rays: workload.rays.len(),
@@ -129,6 +136,7 @@ pub fn compare_scene(
                 tests_per_ray: trace.tests_per_ray,
                 steps_per_ray: trace.steps_per_ray,
                 bytes: built.accel.footprint().total(),
+                declined: declined(built.accel.as_ref(), workload).map(String::from),
                 checked_rays: Some(check.rays),
                 structure_errors: Some(check.errors),
                 provenance: provenance.clone(),
@@ -136,6 +144,15 @@ pub fn compare_scene(
         }
     }
     Ok(Compared { records, refused })
+}
+
+/// What of a workload a structure declines, if anything is: then it has no time.
+fn declined(accel: &dyn DynAccel, workload: &Workload) -> Option<&'static str> {
+    let can = accel.capabilities();
+    if workload.query == Query::Any && !can.any_hit {
+        return Some("any hit");
+    }
+    workload.rays.iter().find_map(|ray| can.declines(ray))
 }
 
 /// Those that have a result, with it; the others are refused.

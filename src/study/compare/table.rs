@@ -62,7 +62,7 @@ pub fn scene_table(records: &[Record], refused: &[Refused], notes: &[String]) ->
             let against = |baseline: &dyn Fn(&Record) -> bool| known(speed_against(records, &of, baseline));
             row.extend(has_report_tree.then(|| against(&|r| r.label == REPORT_TREE)));
             row.extend(has_obvhs.then(|| against(&|r| is_obvhs(&r.structure))));
-            let checked = of.iter().map(|r| r.checked_rays).min().flatten();
+            let checked = of.iter().filter(|r| r.declined.is_none()).map(|r| r.checked_rays).min().flatten();
             row.push(checked.map_or(Cell::blank(), |n| count(n as u64).into()));
             row.push(share(&of).into());
             row
@@ -82,6 +82,10 @@ pub fn scene_table(records: &[Record], refused: &[Refused], notes: &[String]) ->
     let stand_in = if first.stand_in { ", stand-in" } else { "" };
     let title = format!("{}: {}{degenerate}{stand_in}", first.scene, plural(first.triangles, "triangle"));
     let mut notes: Vec<String> = notes().collect();
+    for record in records {
+        let Some(what) = &record.declined else { continue };
+        notes.push(format!("{} declines {what}, which {} rays need.", record.label, record.workload));
+    }
     notes.extend(defects(records));
     Table { title, columns, rows, notes }
 }
@@ -139,10 +143,14 @@ pub fn mean_table(records: &[Record]) -> Table {
         })
         .collect();
 
-    let untimed = records.iter().filter(|r| r.mrays_per_s.is_none()).count();
+    let untimed = || records.iter().filter(|r| r.mrays_per_s.is_none());
+    let wrong = untimed().filter(|r| r.is_disqualified() || r.declined.is_none()).count();
+    let declined = untimed().count() - wrong;
     let mut notes = vec![];
-    if untimed > 0 {
-        notes.push(format!("{} with wrong answers left out.", plural(untimed, "case")));
+    for (n, why) in [(wrong, "with wrong answers"), (declined, "that a structure declines")] {
+        if n > 0 {
+            notes.push(format!("{} {why} left out.", plural(n, "case")));
+        }
     }
     let over = plural(scenes.len(), "scene");
     let title = format!("Speed x {REPORT_TREE}: geometric means over {over}; all: over scenes and workloads");
@@ -168,8 +176,9 @@ fn best_speed(records: &[Record], workload: &str, counts: impl Fn(&Record) -> bo
 
 /// Geometric mean over the workloads of one structure's speed against the best that `counts` admits.
 fn speed_against(records: &[Record], of: &[&Record], counts: &dyn Fn(&Record) -> bool) -> Option<f64> {
+    let asked = of.iter().filter(|r| r.declined.is_none());
     let ratios: Option<Vec<f64>> =
-        of.iter().map(|r| Some(r.mrays_per_s? / best_speed(records, &r.workload, counts)?)).collect();
+        asked.map(|r| Some(r.mrays_per_s? / best_speed(records, &r.workload, counts)?)).collect();
     geometric_mean(&ratios?)
 }
 
@@ -177,6 +186,7 @@ fn speed(record: &Record, best: f64) -> Cell {
     let errors = record.structure_errors.unwrap_or(0);
     match record.mrays_per_s {
         Some(speed) => Cell::from(figures(speed)).with(if speed >= best { Tone::Best } else { Tone::Plain }),
+        None if errors == 0 && record.declined.is_some() => "declined".into(),
         None => Cell::from(format!("{errors}/{} wrong", record.checked_rays.unwrap_or(0))).with(Tone::Wrong),
     }
 }
@@ -240,6 +250,17 @@ mod tests {
         assert_eq!(cell(&table, "sah-kd", "primary"), "8.00");
         assert_eq!(cell(&table, "sah-kd", "tests"), "", "unknown is blank");
         assert_eq!(cell(&table, "sah-kd", "sampled"), "50.0%");
+    }
+
+    #[test]
+    fn what_is_declined_is_neither_right_nor_wrong() {
+        let mut records = records();
+        records[3] = Record { mrays_per_s: None, declined: Some("any hit".into()), structure_errors: Some(0), ..records[3].clone() };
+        let table = scene_table(&records, &[], &[]);
+        assert_eq!(cell(&table, "sah-kd", "random"), "declined");
+        assert_eq!(cell(&table, "sah-kd", "x median"), "8.00", "of the workloads that it does not decline");
+        assert_eq!(table.notes, ["sah-kd declines any hit, which random rays need."]);
+        assert_eq!(mean_table(&records).notes, ["1 case that a structure declines left out."]);
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! How fast are the answers, and how much work do they take?
 
-use super::Settings;
+use super::{Settings, declined};
 use crate::accel::{Counts, DynAccel, Query};
 use crate::geometry::Ray;
 use crate::measure::{Clock, Pass, Plan, Timed, spread, take};
@@ -44,7 +44,7 @@ pub(super) fn trace_all(
 ) -> Result<Vec<Option<Vec<Trace>>>, StudyError> {
     let right: Vec<(usize, usize)> = (0..built.len())
         .flat_map(|s| (0..workloads.len()).map(move |w| (s, w)))
-        .filter(|&(s, w)| checks[s][w].errors == 0)
+        .filter(|&(s, w)| checks[s][w].errors == 0 && declined(built[s].accel.as_ref(), &workloads[w]).is_none())
         .collect();
     let (mut cases, panicked): (Vec<Box<dyn Timed>>, Vec<_>) = right
         .iter()
@@ -71,7 +71,7 @@ pub(super) fn trace_all(
         StudyError::Unsteady {
             structure: built[s].choice.label.clone(),
             scene: scene.name.clone(),
-            rays: workloads[w].kind.name().into(),
+            rays: workloads[w].name.clone(),
             cause,
         }
     })?;
@@ -89,6 +89,9 @@ pub(super) fn trace_all(
     let counted = |(built, traces): (&Built, Option<Vec<Trace>>)| {
         let mut traces = traces?;
         for (trace, workload) in traces.iter_mut().zip(workloads) {
+            if declined(built.accel.as_ref(), workload).is_some() {
+                continue;
+            }
             if trace.ns.is_empty() {
                 trace.rays = COUNTED.min(workload.rays.len());
             }

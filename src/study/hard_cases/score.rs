@@ -37,6 +37,8 @@ pub enum Failure {
     Crash,
     /// It does not admit the mesh; the sentence says why.
     Refused(String),
+    /// It declines what the rays need; the sentence says what. Neither right nor wrong.
+    Declined(String),
 }
 
 /// Numbers of one structure on the rays of one case.
@@ -67,6 +69,7 @@ impl Failure {
             Self::Panic => "panic",
             Self::Crash => "crash",
             Self::Refused(_) => "refused",
+            Self::Declined(_) => "declined",
         }
     }
 }
@@ -137,7 +140,7 @@ impl Score {
         match self {
             Self::Rays(score) => score.is_sound(),
             Self::Property(property) => property.broken == 0,
-            Self::Failed(_) => false,
+            Self::Failed(failure) => matches!(failure, Failure::Declined(_)),
         }
     }
 }

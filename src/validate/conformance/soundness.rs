@@ -69,8 +69,9 @@ pub fn counting(subject: &Subject, meshes: &[Named], count: usize) -> Result<(),
             }
 
             let hit = asked.plain.iter().any(Option::is_some);
-            let all = [("closest", asked.counts, true), ("any", asked.any_counts, asks_any)];
-            for (which, c, _) in all.into_iter().filter(|(_, _, is_asked)| *is_asked) {
+            let mut all = vec![("closest", asked.counts)];
+            all.extend(asks_any.then_some(("any", asked.any_counts)));
+            for (which, c) in all {
                 if !observed.steps && c.steps() > 0 || !observed.tests && c.tests > 0 {
                     lines.push(format!("{place}: {which} hit counts what it declares unobserved: {c:?}"));
                 }
