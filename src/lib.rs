@@ -3,6 +3,7 @@
 pub mod accel;
 pub mod cli;
 pub mod exact;
+pub mod fetch;
 pub mod geometry;
 pub mod golden;
 pub mod measure;

@@ -59,6 +59,14 @@ pub fn specs(registry: &Registry, named: &[String]) -> Vec<String> {
     named.iter().flat_map(|spec| if spec == ALL { names().collect() } else { vec![spec.clone()] }).collect()
 }
 
+/// The text of a scene file.
+///
+/// # Errors
+/// If it cannot be read.
+pub fn text(path: &Path) -> anyhow::Result<String> {
+    std::fs::read_to_string(path).with_context(|| format!("cannot read {}", path.display()))
+}
+
 /// The structures named, or the first of every name; the same one twice would only take time.
 ///
 /// # Errors

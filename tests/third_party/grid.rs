@@ -2,8 +2,8 @@
 use std::sync::Arc;
 
 use sahara::accel::{Accel, BuildError, Footprint, Observer, TreeShape};
-use sahara::geometry::{Hit, Mesh, Ray};
-use sahara::glam::DVec3;
+use sahara::geometry::{Aabb, Hit, Mesh, Ray};
+use sahara::glam::{DVec3, Vec3};
 use sahara::serde::{Deserialize, Serialize};
 use sahara::triangle::{Depth, TriangleTest};
 
@@ -68,6 +68,7 @@ impl<T: TriangleTest> Grid<T> {
             let layer = if direction[main] > 0.0 { step } else { self.resolution - 1 - step };
             let ([a, b], [c, d]) = (plane(layer), plane(layer + 1));
             let (enter, leave) = (a.min(c).max(t_min.into()), b.max(d).min(t_max.into()));
+            // What was found lies before this layer.
             if nearest.is_some_and(|(depth, _)| f64::from(depth.bound()) < enter) {
                 break;
             }
@@ -112,13 +113,13 @@ impl<T: TriangleTest> Accel for Grid<T> {
         if !(1..=256).contains(&resolution) {
             return Err(BuildError::Config("resolution must be from 1 to 256".into()));
         }
-        let bounds = if mesh.is_empty() { [DVec3::ZERO; 2] } else { [mesh.bounds().min, mesh.bounds().max].map(|p| p.as_dvec3()) };
-        let size = bounds[1] - bounds[0];
+        let bounds = if mesh.is_empty() { Aabb::of_points([Vec3::ZERO]) } else { mesh.bounds() };
+        let (origin, size) = (bounds.min.as_dvec3(), bounds.max.as_dvec3() - bounds.min.as_dvec3());
         // A flat box still has cells.
         let cell = (size / resolution as f64).max(DVec3::splat(size.max_element().max(1e-300) * 1e-6));
         let triangles = (0..mesh.len() as u32).map(|id| T::block(&[mesh.corners(id)])).collect();
         let cells = vec![vec![]; resolution.pow(3)];
-        let mut grid = Self { origin: bounds[0], cell, resolution, cells, triangles };
+        let mut grid = Self { origin, cell, resolution, cells, triangles };
         for id in mesh.solid() {
             let bounds = mesh.triangle_bounds(id);
             let range = |axis: usize| grid.cells_between(axis, bounds.min[axis].into(), bounds.max[axis].into());

@@ -20,7 +20,6 @@ use sahara::validate::conformance::{Named, Subject, answers, counting, shapes};
 use sahara::validate::degenerate_meshes;
 
 sahara::conformance!(my_grid, Grid<MollerTrumbore>, GridConfig::default(), lowest_id);
-sahara::conformance!(my_grid_that_is_exact, Grid<Exact>, GridConfig { resolution: 5 }, lowest_id);
 sahara::conformance!(my_grid_of_one_cell, Grid<FilteredF64>, GridConfig { resolution: 1 });
 sahara::conformance!(modest, Modest, GridConfig::default());
 
