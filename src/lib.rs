@@ -1,4 +1,12 @@
 //! **sahara** (SAH And Ray Acceleration): benchmark, validate and image-test ray-tracing acceleration structures.
+//!
+//! The command is described in the README. This page is for those who bring something of their own.
+#![doc = ""]
+#![doc = include_str!("STRUCTURES.md")]
+#![doc = "```"]
+#![doc = include_str!("../tests/third_party/grid.rs")]
+#![doc = "```"]
+#![doc = include_str!("STRUCTURES2.md")]
 
 pub mod accel;
 pub mod cli;

@@ -11,10 +11,10 @@ use crate::accel::{Accel, BuildError, Capabilities, DynAccel, Observed};
 use crate::geometry::Mesh;
 use crate::structures::obvhs::{Native, ObvhsBvh2, ObvhsConfig, ObvhsCwBvh, Over, RtTest};
 use crate::structures::{BruteForce, KdConfig, KdTree};
-use crate::validate::conformance::Subject;
 use crate::triangle::{
     BaldwinWeber, EdgeF64, Exact, FilteredF64, MollerTrumbore, MollerTrumboreF64, Plucker, TriangleTest, Watertight,
 };
+use crate::validate::conformance::Subject;
 
 /// The structures that a run can choose from, in the order of tables.
 pub struct Registry {

@@ -58,7 +58,13 @@ fn structures(registry: &Registry) -> Table {
             rows.push(vec!["  declines".into(), declined.into()]);
         }
         if first.observed != Observed::ALL {
-            let what = if first.observed.tests { "steps" } else if first.observed.steps { "triangle tests" } else { "all counts" };
+            let what = if first.observed.tests {
+                "steps"
+            } else if first.observed.steps {
+                "triangle tests"
+            } else {
+                "all counts"
+            };
             rows.push(vec!["  declines".into(), what.into()]);
         }
         for convention in first.conventions {

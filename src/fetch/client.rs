@@ -62,7 +62,8 @@ impl Client {
         }
         let response = request.call().map_err(connection)?;
         let header = |name: &str| response.headers().get(name)?.to_str().ok().map(str::to_owned);
-        let begins = header("content-range").and_then(|range| range.strip_prefix("bytes ")?.split('-').next()?.parse().ok());
+        let begins =
+            header("content-range").and_then(|range| range.strip_prefix("bytes ")?.split('-').next()?.parse().ok());
         let start = match response.status().as_u16() {
             200 => 0,
             206 if begins == Some(from) => from,
@@ -104,7 +105,9 @@ impl Client {
                 Err(cause) if got == start => {
                     return Err(FetchError::Connection { url: file.url.clone(), cause: cause.to_string() });
                 }
-                Err(_) => return Err(FetchError::Cut { url: file.url.clone(), got, expected: file.bytes.unwrap_or(got) }),
+                Err(_) => {
+                    return Err(FetchError::Cut { url: file.url.clone(), got, expected: file.bytes.unwrap_or(got) });
+                }
             };
             got += n as u64;
             if let Some(expected) = file.bytes.filter(|&bytes| got > bytes) {

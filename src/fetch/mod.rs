@@ -37,7 +37,9 @@ pub enum FetchError {
     Cut { url: String, got: u64, expected: u64 },
     #[error("{url}: more than the {expected} bytes that the scene file says came: nothing of it is kept")]
     Long { url: String, expected: u64 },
-    #[error("{url}: what came has the SHA-256 {found}, not {expected}: nothing of it is kept; the file there has changed, or was changed on the way")]
+    #[error(
+        "{url}: what came has the SHA-256 {found}, not {expected}: nothing of it is kept; the file there has changed, or was changed on the way"
+    )]
     Hash { url: String, found: String, expected: String },
     #[error("cannot write {}: {cause}: choose a folder that may be written and has room (SAHARA_DATA)", path.display())]
     Write { path: PathBuf, cause: std::io::Error },

@@ -170,7 +170,8 @@ fn features(picture: &Plane<Colour>) -> Plane<[f64; 2]> {
     };
     let around = || (-radius..=radius).flat_map(|y| (-radius..=radius).map(move |x| (x, y)));
     // What is positive sums to 1, what is negative to -1.
-    let sum = |which: usize, sign: f64| -> f64 { around().map(|(x, y)| (sign * derivatives(x, y)[which]).max(0.0)).sum() };
+    let sum =
+        |which: usize, sign: f64| -> f64 { around().map(|(x, y)| (sign * derivatives(x, y)[which]).max(0.0)).sum() };
     let sums = [0, 1].map(|which| [sum(which, 1.0), sum(which, -1.0)]);
     let scaled = |which: usize, value: f64| value / if value > 0.0 { sums[which][0] } else { sums[which][1] };
     let weights = |x, y| {

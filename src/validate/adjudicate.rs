@@ -30,9 +30,8 @@ pub(super) fn adjudicate(
         (_, None, None) => None,
         (_, Some(e), Some(f)) if e.same_bits(f) => None,
         (Some(test), ..) => Some(same_test(test, mesh, ray, expected, found)),
-        (None, Some(e), Some(f)) if close(e.t, f.t, e.prim == f.prim) => (!may_be_at(mesh, ray, f)).then(|| {
-            verdict(Kind::WrongPrimitive, format!("the point hit lies outside the box of {:?}", f.prim))
-        }),
+        (None, Some(e), Some(f)) if close(e.t, f.t, e.prim == f.prim) => (!may_be_at(mesh, ray, f))
+            .then(|| verdict(Kind::WrongPrimitive, format!("the point hit lies outside the box of {:?}", f.prim))),
         (None, ..) => {
             let verdict = other_test(mesh, ray, expected, found);
             Some(match reference.disputed {

@@ -89,7 +89,8 @@ impl<T: TriangleTest> Grid<T> {
                 for &id in cell {
                     let hit = T::hit(&prepared, &self.triangles[id as usize], t_min, T::last(t_max));
                     // The nearest wins, and of equals the lowest number.
-                    let order = |depth: &T::Depth, (best, lowest): &(T::Depth, u32)| depth.order(best).then(id.cmp(lowest));
+                    let order =
+                        |depth: &T::Depth, (best, lowest): &(T::Depth, u32)| depth.order(best).then(id.cmp(lowest));
                     if let Some(depth) = hit.filter(|d| nearest.as_ref().is_none_or(|n| order(d, n).is_lt())) {
                         nearest = Some((depth, id));
                     }
@@ -141,12 +142,23 @@ impl<T: TriangleTest> Accel for Grid<T> {
 
     fn footprint(&self) -> Footprint {
         let references = self.cells.iter().map(Vec::len).sum::<usize>() * size_of::<u32>();
-        Footprint { nodes: size_of_val(&self.cells[..]), references, triangles: size_of_val(&self.triangles[..]), other: 0 }
+        Footprint {
+            nodes: size_of_val(&self.cells[..]),
+            references,
+            triangles: size_of_val(&self.triangles[..]),
+            other: 0,
+        }
     }
 
     fn shape(&self) -> TreeShape {
         let full = || self.cells.iter().map(Vec::len);
         let (leaves, empty) = (self.cells.len(), full().filter(|&n| n == 0).count());
-        TreeShape { leaves, empty, references: full().sum(), largest_leaf: full().max().unwrap_or(0), ..TreeShape::default() }
+        TreeShape {
+            leaves,
+            empty,
+            references: full().sum(),
+            largest_leaf: full().max().unwrap_or(0),
+            ..TreeShape::default()
+        }
     }
 }

@@ -131,7 +131,9 @@ fn a_structure_that_hangs_is_given_up_and_the_ray_is_named() {
 #[test]
 fn builders_that_panic_or_hang_are_told_from_each_other() {
     let of = |fault| answers(&subject(fault), &meshes(), 1).unwrap_err();
-    assert!(of(Fault::BuilderPanics).contains("does not build over \"crossing needles\": it panics: it says \"no triangle"));
+    assert!(
+        of(Fault::BuilderPanics).contains("does not build over \"crossing needles\": it panics: it says \"no triangle")
+    );
     assert!(of(Fault::BuilderHangs).contains("does not build over \"crossing needles\": it hangs"));
     assert!(shapes(&subject(Fault::BuilderHangs), &meshes()).unwrap_err().contains("it hangs"));
 }
@@ -178,7 +180,10 @@ fn the_command_knows_the_structures_and_what_they_decline() {
     let (printed, right) = sahara("validate torus -s grid -s modest --rays 2000");
     assert!(right && printed.contains("modest declines any hit, t_min, t_max: "), "{printed}");
     let (printed, right) = sahara("compare cube -s grid -s modest -w primary -w shadow --rays 400 --runs 2");
-    assert!(right && printed.contains("declined") && printed.contains("modest declines any hit, which shadow"), "{printed}");
+    assert!(
+        right && printed.contains("declined") && printed.contains("modest declines any hit, which shadow"),
+        "{printed}"
+    );
     let (printed, right) = sahara("list");
     assert!(right && printed.contains("declines") && printed.contains("resolution"), "{printed}");
 }

@@ -5,8 +5,8 @@ use std::str::FromStr;
 
 use super::shown;
 use crate::cli::sources;
-use crate::scene::files::RayFile;
 use crate::scene::Scene;
+use crate::scene::files::RayFile;
 
 /// What `--rays` takes: how many rays to make, or a file of rays. A file whose name is a number is written `./NUMBER`.
 #[derive(Clone, Debug, PartialEq, Eq)]

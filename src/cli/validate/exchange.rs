@@ -47,7 +47,12 @@ pub fn export(
     }
     HitFile::new(&file.workload, hits).write(&output)?;
     let what = plural(rays.len(), "answer");
-    terminal.print(&format!("{}: {what} of {} to the rays {}\n", output.path().display(), choice.label, file.workload.hash()))?;
+    terminal.print(&format!(
+        "{}: {what} of {} to the rays {}\n",
+        output.path().display(),
+        choice.label,
+        file.workload.hash()
+    ))?;
     Ok(Verdict::Right)
 }
 

@@ -24,7 +24,9 @@ pub(super) fn head(bytes: &[u8], magic: &[u8; 8], what: &str) -> Result<Head, St
     }
     let (version, query) = (number(bytes, 8), number(bytes, 12));
     if version != VERSION {
-        return Err(format!("version {version} of files of {what} is not known here, only {VERSION}: use a newer sahara"));
+        return Err(format!(
+            "version {version} of files of {what} is not known here, only {VERSION}: use a newer sahara"
+        ));
     }
     let query = match query {
         0 => Query::Closest,
@@ -55,7 +57,9 @@ pub(super) fn body(bytes: &[u8], at: usize, count: u64, size: u64) -> Result<&[u
     let found = bytes.len().saturating_sub(at) as u64;
     match count.checked_mul(size) {
         Some(owed) if owed == found => Ok(&bytes[at..]),
-        Some(owed) if owed < found => Err(format!("{} bytes follow after the last of {count}: it was changed", found - owed)),
+        Some(owed) if owed < found => {
+            Err(format!("{} bytes follow after the last of {count}: it was changed", found - owed))
+        }
         _ => Err(format!("the file is cut short: it should hold {count}, and holds {}", found / size)),
     }
 }

@@ -76,8 +76,7 @@ impl HitFile {
     }
 
     pub(super) fn to_bytes(&self) -> Vec<u8> {
-        let mut bytes =
-            head_bytes(&Head { query: self.query, count: self.hits.len() as u64, hash: self.hash }, MAGIC);
+        let mut bytes = head_bytes(&Head { query: self.query, count: self.hits.len() as u64, hash: self.hash }, MAGIC);
         for hit in &self.hits {
             let (t, prim) = hit.map_or((0.0, NOTHING), |hit| (hit.t, hit.prim.index()));
             bytes.extend(t.to_bits().to_le_bytes());

@@ -82,7 +82,8 @@ pub fn compare_scene(
     };
     let mut workloads: Vec<Workload> = vec![];
     let sampling = Sampling::about(scene, settings.rays, settings.seed);
-    let made = |kind: &&WorkloadKind| settings.replayed.is_none() && (**kind != WorkloadKind::Mirror || scene.has_mirrors());
+    let made =
+        |kind: &&WorkloadKind| settings.replayed.is_none() && (**kind != WorkloadKind::Mirror || scene.has_mirrors());
     for &kind in settings.workloads.iter().filter(made) {
         progress(Stage::Rays(kind.name()));
         workloads.push(Workload::new(scene, kind, &sampling, guide));

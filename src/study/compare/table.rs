@@ -255,7 +255,12 @@ mod tests {
     #[test]
     fn what_is_declined_is_neither_right_nor_wrong() {
         let mut records = records();
-        records[3] = Record { mrays_per_s: None, declined: Some("any hit".into()), structure_errors: Some(0), ..records[3].clone() };
+        records[3] = Record {
+            mrays_per_s: None,
+            declined: Some("any hit".into()),
+            structure_errors: Some(0),
+            ..records[3].clone()
+        };
         let table = scene_table(&records, &[], &[]);
         assert_eq!(cell(&table, "sah-kd", "random"), "declined");
         assert_eq!(cell(&table, "sah-kd", "x median"), "8.00", "of the workloads that it does not decline");
