@@ -80,24 +80,18 @@ impl<T: TriangleTest> Grid<T> {
                     let between = self.cells_between(axis, p.min(q) - slack, p.max(q) + slack);
                     between.inspect(|range| ranges[axis] = *range).is_some()
                 });
-            if !touched {
-                continue;
-            }
-            for cell in self.block(ranges).map(|at| &self.cells[at]) {
+            for cell in self.block(ranges).filter(|_| touched).map(|at| &self.cells[at]) {
                 observer.leaf(cell.len() as u32);
                 observer.test(cell.len() as u32);
                 for &id in cell {
                     let hit = T::hit(&prepared, &self.triangles[id as usize], t_min, T::last(t_max));
                     // The nearest wins, and of equals the lowest number.
-                    let order =
-                        |depth: &T::Depth, (best, lowest): &(T::Depth, u32)| depth.order(best).then(id.cmp(lowest));
-                    if let Some(depth) = hit.filter(|d| nearest.as_ref().is_none_or(|n| order(d, n).is_lt())) {
-                        nearest = Some((depth, id));
-                    }
+                    let wins = |d: &T::Depth| nearest.is_none_or(|(n, i)| d.order(&n).then(id.cmp(&i)).is_lt());
+                    nearest = hit.filter(wins).map(|depth| (depth, id)).or(nearest);
                 }
-                if ANY && nearest.is_some() {
-                    break;
-                }
+            }
+            if ANY && nearest.is_some() {
+                break;
             }
         }
         nearest.map(|(depth, id)| Hit::new(depth.t(), id))
@@ -142,23 +136,14 @@ impl<T: TriangleTest> Accel for Grid<T> {
 
     fn footprint(&self) -> Footprint {
         let references = self.cells.iter().map(Vec::len).sum::<usize>() * size_of::<u32>();
-        Footprint {
-            nodes: size_of_val(&self.cells[..]),
-            references,
-            triangles: size_of_val(&self.triangles[..]),
-            other: 0,
-        }
+        let (nodes, triangles) = (size_of_val(&self.cells[..]), size_of_val(&self.triangles[..]));
+        Footprint { nodes, references, triangles, other: 0 }
     }
 
     fn shape(&self) -> TreeShape {
         let full = || self.cells.iter().map(Vec::len);
         let (leaves, empty) = (self.cells.len(), full().filter(|&n| n == 0).count());
-        TreeShape {
-            leaves,
-            empty,
-            references: full().sum(),
-            largest_leaf: full().max().unwrap_or(0),
-            ..TreeShape::default()
-        }
+        let (references, largest_leaf) = (full().sum(), full().max().unwrap_or(0));
+        TreeShape { leaves, empty, references, largest_leaf, ..TreeShape::default() }
     }
 }
