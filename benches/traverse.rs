@@ -43,7 +43,7 @@ fn traverse(criterion: &mut Criterion) {
         for choice in common::structures(&scene.mesh) {
             let accel = choice.build(&scene.mesh).expect("a valid mesh builds");
             for workload in workloads.iter().filter(|workload| !workload.rays.is_empty()) {
-                let name = format!("traverse/{}/{}", scene.name.to_lowercase(), workload.kind.name());
+                let name = format!("traverse/{}/{}", scene.name.to_lowercase(), workload.name);
                 let mut group = criterion.benchmark_group(name);
                 group.sample_size(10).throughput(Throughput::Elements(workload.rays.len() as u64));
                 group.bench_function(choice.label.as_str(), |bencher| {

@@ -1,8 +1,17 @@
 //! **sahara** (SAH And Ray Acceleration): benchmark, validate and image-test ray-tracing acceleration structures.
+//!
+//! The command is described in the README. This page is for those who bring something of their own.
+#![doc = ""]
+#![doc = include_str!("STRUCTURES.md")]
+#![doc = "```"]
+#![doc = include_str!("../tests/third_party/grid.rs")]
+#![doc = "```"]
+#![doc = include_str!("STRUCTURES2.md")]
 
 pub mod accel;
 pub mod cli;
 pub mod exact;
+pub mod fetch;
 pub mod geometry;
 pub mod golden;
 pub mod measure;
@@ -17,3 +26,7 @@ pub mod structures;
 pub mod study;
 pub mod triangle;
 pub mod validate;
+
+// What a structure of another crate needs besides: the versions that this crate uses.
+pub use glam;
+pub use serde;

@@ -1,17 +1,20 @@
 //! The structures by name: the only place that names them all.
 
+mod peers;
+
 use std::panic::{self, AssertUnwindSafe};
 use std::sync::Arc;
 
 use serde_json::{Map, Value};
 
-use crate::accel::{Accel, BuildError, DynAccel, Observed};
+use crate::accel::{Accel, BuildError, Capabilities, DynAccel, Observed};
 use crate::geometry::Mesh;
 use crate::structures::obvhs::{Native, ObvhsBvh2, ObvhsConfig, ObvhsCwBvh, Over, RtTest};
 use crate::structures::{BruteForce, KdConfig, KdTree, Partition, WideConfig, WideTree};
 use crate::triangle::{
     BaldwinWeber, EdgeF64, Exact, FilteredF64, MollerTrumbore, MollerTrumboreF64, Plucker, TriangleTest, Watertight,
 };
+use crate::validate::conformance::Subject;
 
 /// The structures that a run can choose from, in the order of tables.
 pub struct Registry {
@@ -27,6 +30,10 @@ pub struct Entry {
     pub triangle_test: &'static str,
     /// [`Accel::OBSERVED`].
     pub observed: Observed,
+    /// [`Accel::CONVENTIONS`].
+    pub conventions: &'static [&'static str],
+    /// [`Accel::CAPABILITIES`].
+    pub capabilities: Capabilities,
     config: Value,
     build: Build,
 }
@@ -76,13 +83,15 @@ impl Registry {
             .over::<MollerTrumboreF64>()
             .over::<EdgeF64>()
             .over::<Exact>();
-        ours.with::<ObvhsBvh2<Native>>("obvhs-bvh2", ObvhsConfig::default())
+        let with_obvhs = ours
+            .with::<ObvhsBvh2<Native>>("obvhs-bvh2", ObvhsConfig::default())
             .with::<ObvhsBvh2<Over<MollerTrumbore>>>("obvhs-bvh2", ObvhsConfig::default())
             .with::<ObvhsBvh2<Over<Exact>>>("obvhs-bvh2", ObvhsConfig::default())
             .with::<ObvhsCwBvh<Native>>("obvhs-cwbvh", ObvhsConfig::default())
             .with::<ObvhsCwBvh<Over<MollerTrumbore>>>("obvhs-cwbvh", ObvhsConfig::default())
             .with::<ObvhsCwBvh<Over<Exact>>>("obvhs-cwbvh", ObvhsConfig::default())
-            .with::<BruteForce<RtTest>>("brute-force", Default::default())
+            .with::<BruteForce<RtTest>>("brute-force", Default::default());
+        with_obvhs.with_peers()
     }
 
     /// The structures of this crate over the triangle test `T`.
@@ -99,12 +108,12 @@ impl Registry {
     /// Adds a structure under `name`, with `config` as what a user gets who names no keys.
     ///
     /// # Panics
-    /// If `name` holds a character that the command line gives a meaning (`:`, `,`, `=` or white space), if the name is
-    /// taken for the same triangle test, or if `config` does not serialise to a map of keys.
+    /// If `name` is `all` or holds a character that the command line gives a meaning (`:`, `,`, `=` or white space), if the name
+    /// is taken for the same triangle test, or if `config` does not serialise to a map of keys.
     pub fn with<A: Accel>(mut self, name: &str, config: A::Config) -> Self {
         assert!(
-            !name.is_empty() && !name.contains([':', ',', '=', ' ', '\t', '\n']),
-            "the name {name:?} must not hold ':', ',', '=' or white space"
+            !name.is_empty() && name != "all" && !name.contains([':', ',', '=', ' ', '\t', '\n']),
+            "the name {name:?} must not be \"all\" nor hold ':', ',', '=' or white space"
         );
         let test = A::TRIANGLE_TEST;
         let taken = self.entries.iter().any(|e| e.name == name && e.triangle_test == test);
@@ -124,6 +133,8 @@ impl Registry {
             name: name.into(),
             triangle_test: A::TRIANGLE_TEST,
             observed: A::OBSERVED,
+            conventions: A::CONVENTIONS,
+            capabilities: A::CAPABILITIES,
             config,
             build,
         });
@@ -193,6 +204,14 @@ impl Entry {
         &self.config
     }
 
+    /// Why the structure cannot take part on this system; nothing if it can.
+    pub fn absence(&self) -> Option<String> {
+        match (self.build)(&Arc::new(empty()), &self.config) {
+            Err(BuildError::Unavailable(sentence)) => Some(sentence),
+            _ => None,
+        }
+    }
+
     fn configure(&self, overrides: &[(&str, &str)], name_test: bool) -> Result<Choice, ChoiceError> {
         let mut config = self.config.clone();
         let keys = config.as_object_mut().expect("checked when it was registered");
@@ -214,9 +233,9 @@ impl Entry {
         }
         let label = if shown.is_empty() { self.name.clone() } else { format!("{}:{}", self.name, shown.join(",")) };
         let choice = Choice { entry: self.clone(), config, label };
-        let empty = Arc::new(Mesh::new(vec![], vec![]).expect("the empty mesh is valid"));
-        match choice.build(&empty) {
-            Ok(_) => Ok(choice),
+        match choice.build(&Arc::new(empty())) {
+            // What is absent is refused when it is built, so that one absence does not end a run over many.
+            Ok(_) | Err(BuildError::Unavailable(_)) => Ok(choice),
             Err(error) => Err(ChoiceError::Value { name: self.name.clone(), reason: error.to_string() }),
         }
     }
@@ -229,10 +248,20 @@ impl Choice {
         (self.entry.build)(mesh, &self.config)
     }
 
+    /// The structure as the functions of [`crate::validate::conformance`] take it.
+    pub fn subject(&self) -> Subject {
+        let own = self.clone();
+        Subject::new(&self.label, self.triangle_test(), move |mesh| own.build(mesh))
+    }
+
     /// The triangle test whose answers this structure gives.
     pub fn triangle_test(&self) -> &'static str {
         self.entry.triangle_test
     }
+}
+
+fn empty() -> Mesh {
+    Mesh::new(vec![], vec![]).expect("the empty mesh is valid")
 }
 
 /// A configuration from its map of keys; a type without fields serialises to null.

@@ -50,13 +50,8 @@ const OURS: [&str; 26] = [
 
 const TREES: [&str; 6] = ["median-kd", "sah-kd", "sah-kd-wide", "sah-kd-tight", "sah-hybrid", "sah-bvh"];
 
-fn subject(choice: &Choice, lowest_id: bool) -> Subject<'_> {
-    Subject {
-        name: format!("{} over {}", choice.label, choice.triangle_test()),
-        triangle_test: choice.triangle_test(),
-        lowest_id,
-        build: Box::new(|mesh| choice.build(mesh)),
-    }
+fn subject(choice: &Choice, lowest_id: bool) -> Subject {
+    Subject { name: format!("{} over {}", choice.label, choice.triangle_test()), lowest_id, ..choice.subject() }
 }
 
 fn passes(outcome: Result<(), String>) {

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use sahara::geometry::{Mesh, Ray};
 use sahara::oracle;
 use sahara::registry::Registry;
-use sahara::validate::conformance::{Subject, findings};
+use sahara::validate::conformance::findings;
 use sahara::validate::{Kind, Reference, Stratum, degenerate_meshes, validate};
 
 const BVH2: [&str; 2] = ["obvhs-bvh2", "obvhs-bvh2:test=moller-trumbore"];
@@ -114,13 +114,7 @@ fn rays_without_a_named_cause_are_answered_rightly() {
     meshes.retain(|(name, _)| name != "soup times 2^-30" && name != "exponential sequence");
     for spec in BOTH {
         let choice = registry.choose(spec).unwrap();
-        let subject = Subject {
-            name: spec.into(),
-            triangle_test: choice.triangle_test(),
-            lowest_id: false,
-            build: Box::new(|mesh| choice.build(mesh)),
-        };
-        let all = findings(&subject, &meshes, 200).unwrap();
+        let all = findings(&choice.subject(), &meshes, 200).unwrap();
         for stratum in Stratum::ALL {
             let clean = CLEAN.contains(&stratum) || BVH2.contains(&spec) && CLEAN_BVH2.contains(&stratum);
             let wrong: Vec<String> = all

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The layers of the house, as ARCHITECTURE.md draws them.
-const LAYERS: [(&str, u32); 19] = [
+const LAYERS: [(&str, u32); 20] = [
     ("geometry", 0),
     ("exact", 0),
     ("output", 0),
@@ -19,6 +19,7 @@ const LAYERS: [(&str, u32); 19] = [
     ("measure", 4),
     ("golden", 4),
     ("validate", 4),
+    ("fetch", 4),
     ("registry", 5),
     ("study", 5),
     ("report", 5),

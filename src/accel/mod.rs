@@ -1,5 +1,6 @@
 //! What an acceleration structure is, and the kinds of numbers it gives: answers, counts per ray, bytes, tree shape.
 
+mod capabilities;
 mod counts;
 mod footprint;
 mod observer;
@@ -7,6 +8,7 @@ mod query;
 mod shape;
 mod traits;
 
+pub use capabilities::Capabilities;
 pub use counts::Counts;
 pub use footprint::Footprint;
 pub use observer::{Observed, Observer};

@@ -1,6 +1,11 @@
 //! Watching a traversal at no cost when nobody watches.
 
 /// Told by a traversal what it does. Every method does nothing by default, so that `()` compiles to nothing.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` cannot watch a traversal",
+    label = "this is no `Observer`",
+    note = "pass `&mut ()` to watch nothing, or `&mut Counts::default()` to count steps and tests"
+)]
 pub trait Observer {
     /// Whether anybody watches. A structure that cannot watch its fast path takes another one when this is true.
     const ACTIVE: bool = true;

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use super::{Counts, Footprint, Observed, Observer, TreeShape};
+use super::{Capabilities, Counts, Footprint, Observed, Observer, TreeShape};
 use crate::geometry::{Hit, Mesh, Ray};
 
 /// Why a structure could not be built.
@@ -18,6 +18,12 @@ pub enum BuildError {
     /// The structure's limits do not admit the mesh; the sentence says why.
     #[error("{0}")]
     Mesh(String),
+    /// What the structure needs of the system is not there; the sentence says what, and how to get it.
+    #[error("{0}")]
+    Unavailable(String),
+    /// The rays need what the structure declines.
+    #[error("declined: it has no {0}, which these rays need")]
+    Declined(&'static str),
     /// The structure's own code panicked.
     #[error("its builder panicked on this mesh: leave the structure out, or look at extreme coordinates")]
     Panic,
@@ -33,7 +39,13 @@ pub enum BuildError {
 /// 4. answers depend on nothing but the mesh, the configuration and the ray;
 /// 5. every mesh that [`Mesh`] admits builds, the empty one included.
 ///
-/// A ray for which [`Ray::is_valid`] is false hits nothing.
+/// A ray for which [`Ray::is_valid`] is false hits nothing. What a structure cannot do it declines, by
+/// [`CAPABILITIES`](Accel::CAPABILITIES), [`OBSERVED`](Accel::OBSERVED) and [`TRIANGLE_TEST`](Accel::TRIANGLE_TEST).
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not an acceleration structure",
+    label = "does not implement `sahara::accel::Accel`",
+    note = "implement `sahara::accel::Accel` for `{Self}`: the front page of sahara's documentation walks through an example"
+)]
 pub trait Accel: Sized + Send + Sync + 'static {
     /// Build parameters. Serialisation gives them names: the command line sets them as `key=value`, and records show them.
     type Config: Clone + Debug + Default + Serialize + DeserializeOwned + Send + Sync + 'static;
@@ -42,8 +54,14 @@ pub trait Accel: Sized + Send + Sync + 'static {
     /// `t`. A structure with a test that nobody shares keeps `"own"`.
     const TRIANGLE_TEST: &'static str = "own";
 
+    /// What it does otherwise than the contract by design, one clause each: declared and shown, not counted as errors.
+    const CONVENTIONS: &'static [&'static str] = &[];
+
     /// What the observer is told.
     const OBSERVED: Observed = Observed::ALL;
+
+    /// What the structure can be asked. By default everything.
+    const CAPABILITIES: Capabilities = Capabilities::ALL;
 
     /// # Errors
     /// If a value of `config` is out of range.
@@ -53,7 +71,13 @@ pub trait Accel: Sized + Send + Sync + 'static {
     fn closest_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit>;
 
     /// Whether `ray` hits anything.
-    fn any_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> bool;
+    ///
+    /// By default the closest hit is asked for, and whether it lies before `t_max`. A structure that leaves it so should
+    /// decline [`Capabilities::any_hit`], so that nobody takes its time for that of an any-hit query.
+    #[inline]
+    fn any_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> bool {
+        self.closest_hit(ray, observer).is_some_and(|hit| hit.t < ray.t_max)
+    }
 
     /// The nearest hits of a batch.
     ///
@@ -93,6 +117,9 @@ pub trait DynAccel: Send + Sync {
     /// As `any_hits`, adding to `counts` what was done.
     fn any_hits_counted(&self, rays: &[Ray], hits: &mut [bool], counts: &mut Counts);
     fn observed(&self) -> Observed;
+    fn capabilities(&self) -> Capabilities {
+        Capabilities::ALL
+    }
     fn footprint(&self) -> Footprint;
     fn shape(&self) -> TreeShape;
 }
@@ -116,6 +143,10 @@ impl<A: Accel> DynAccel for A {
 
     fn observed(&self) -> Observed {
         A::OBSERVED
+    }
+
+    fn capabilities(&self) -> Capabilities {
+        A::CAPABILITIES
     }
 
     fn footprint(&self) -> Footprint {

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use anyhow::Context;
 
 use super::progress::Progress;
+use super::rays::{RaySource, replayed};
 use super::terminal::Terminal;
 use super::{Verdict, sources};
 use crate::measure::{Provenance, SystemClock};
@@ -33,9 +34,10 @@ pub struct Args {
     /// A kind of rays: uniform, edge, vertex, axis, grazing, scale or offset; may be repeated [default: all]
     #[arg(long, value_name = "KIND")]
     stratum: Vec<RayKind>,
-    /// Rays of each kind: without an error among n, the error is below 3/n with 95 % confidence
-    #[arg(long, value_name = "N", default_value_t = 20_000, value_parser = clap::value_parser!(u32).range(1..=1 << 24))]
-    rays: u32,
+    /// Rays of each kind: without an error among n, the error is below 3/n with 95 % confidence; or a file of rays to
+    /// replay, in place of kinds
+    #[arg(long, value_name = "N|F.rays", default_value = "20000")]
+    rays: RaySource,
     /// Samples of every case
     #[arg(long, value_name = "N", default_value_t = 7, value_parser = clap::value_parser!(u16).range(1..))]
     runs: u16,
@@ -64,25 +66,37 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     for path in &args.plot {
         plots.push((OutputFile::check(path)?, Format::of(path)?));
     }
-    let scenes = sources::scenes(&args.scenes)?;
+    let (scenes, replayed) = match replayed(&args.rays, &args.scenes)? {
+        Some((scene, file)) => {
+            anyhow::ensure!(args.stratum.is_empty(), "the rays are those of the file: leave --stratum out");
+            (vec![scene], Some(file.workload))
+        }
+        None => (sources::scenes(&args.scenes)?, None),
+    };
 
     let clock = SystemClock::start();
     let mut progress = Progress::over(scenes.len(), terminal);
-    let mut records: Vec<AccuracyRecord> = vec![];
+    let (mut records, mut any_refused): (Vec<AccuracyRecord>, bool) = (vec![], false);
     for scene in &scenes {
         progress.scene(&scene.name);
         let (choices, note) = fitting(&choices, scene, args.structure.is_empty());
         let settings = Settings {
             choices,
             kinds: if args.stratum.is_empty() { RayKind::ALL.into() } else { args.stratum.clone() },
-            rays: args.rays as usize,
+            replayed: replayed.clone(),
+            rays: args.rays.count(1) as usize,
             runs: args.runs.into(),
             budget_ns: u64::from(args.budget) * 1_000_000_000,
             seed: args.seed,
         };
-        let of_scene = accuracy_scene(scene, &settings, &clock, &mut |stage| progress.stage(&stage))?;
+        let (of_scene, refused) = accuracy_scene(scene, &settings, &clock, &mut |stage| progress.stage(&stage))?;
         progress.scene_done();
-        let notes: Vec<String> = scene.notes.iter().cloned().chain(note).collect();
+        any_refused |= !refused.is_empty();
+        let refused = refused.iter().map(|refused| format!("{} is refused: {}", refused.label, refused.reason));
+        let notes: Vec<String> = scene.notes.iter().cloned().chain(note).chain(refused).collect();
+        if of_scene.is_empty() {
+            progress.aside(|| terminal.print_lines(&notes))?;
+        }
         for table in tables(&of_scene, &notes) {
             progress.aside(|| terminal.print_table(&table))?;
         }
@@ -103,16 +117,19 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     // Only one test promises the truth, and only in a structure that loses nothing.
     let owed = |r: &AccuracyRecord| r.triangle_test == Exact::NAME && documented_defect(&r.structure).is_none();
     let broken = |r: &AccuracyRecord| owed(r) && r.errors() + r.wrong_primitive > 0;
-    Ok(if records.iter().any(broken) { Verdict::Wrong } else { Verdict::Right })
+    Ok(match (records.iter().any(broken), any_refused) {
+        (true, _) => Verdict::Wrong,
+        (false, true) => Verdict::Refused,
+        (false, false) => Verdict::Right,
+    })
 }
 
 /// Every structure over every triangle test that it is offered with and that is asked for.
 fn choices(registry: &Registry, structures: &[String], tests: &[String]) -> anyhow::Result<Vec<Choice>> {
     sources::known_tests(registry, tests)?;
-    let names: Vec<String> = registry.names().into_iter().map(String::from).collect();
     let mut choices: Vec<Choice> = vec![];
-    for spec in if structures.is_empty() { &names } else { structures } {
-        let choice = sources::structure(registry, spec)?;
+    for spec in sources::specs(registry, structures) {
+        let choice = sources::structure(registry, &spec)?;
         let keys = spec.split_once(':').map_or("", |(_, keys)| keys);
         let names_test = keys.split(',').any(|key| key.starts_with("test="));
         for entry in registry.entries().iter().filter(|entry| entry.name == choice.entry.name) {

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Parser;
 
 use super::progress::Progress;
+use super::rays::{RaySource, replayed};
 use super::terminal::Terminal;
 use super::{Verdict, sources};
 use crate::measure::{Provenance, SystemClock, Threads};
@@ -20,7 +21,7 @@ pub struct Args {
     /// Built-in scenes and mesh files (.obj, .ply, .gltf, .glb); all built-in scenes if none is named
     #[arg(value_name = "SCENE|FILE")]
     scenes: Vec<String>,
-    /// A structure, with keys that differ from their defaults; may be repeated [default: one of each name]
+    /// A structure, with keys that differ from their defaults; may be repeated [default: all, one of each name]
     #[arg(long, short, value_name = "NAME[:key=value,..]")]
     structure: Vec<String>,
     /// A kind of rays; may be repeated [default: primary, shadow, diffuse, random]
@@ -32,9 +33,9 @@ pub struct Args {
     /// Samples of every case
     #[arg(long, value_name = "N", default_value_t = 7, value_parser = clap::value_parser!(u16).range(1..))]
     runs: u16,
-    /// Rays of a workload, at most
-    #[arg(long, value_name = "N", default_value_t = 36_864, value_parser = clap::value_parser!(u32).range(1..=1 << 24))]
-    rays: u32,
+    /// Rays of a workload, at most; or a file of rays to replay, in place of workloads
+    #[arg(long, value_name = "N|F.rays", default_value = "36864")]
+    rays: RaySource,
     /// Seconds that a scene may take: slow cases are timed on fewer rays to keep within them
     #[arg(long, value_name = "SECONDS", default_value_t = 12, value_parser = clap::value_parser!(u32).range(1..=86400))]
     budget: u32,
@@ -68,12 +69,19 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     let threads = Threads::new(args.threads.into()).map_err(anyhow::Error::msg)?;
     let check = |path: &Option<PathBuf>| path.as_deref().map(OutputFile::check).transpose();
     let (json, csv, markdown) = (check(&args.export_json)?, check(&args.export_csv)?, check(&args.export_markdown)?);
-    let scenes = sources::scenes(&args.scenes)?;
+    let (scenes, replayed) = match replayed(&args.rays, &args.scenes)? {
+        Some((scene, file)) => {
+            anyhow::ensure!(args.workload.is_empty(), "the rays are those of the file: leave --workload out");
+            (vec![scene], Some(file.workload))
+        }
+        None => (sources::scenes(&args.scenes)?, None),
+    };
     let settings = Settings {
         structures,
         guide: sources::guide(registry)?,
         workloads: if args.workload.is_empty() { DEFAULT_WORKLOADS.to_vec() } else { args.workload.clone() },
-        rays: args.rays,
+        replayed,
+        rays: args.rays.count(1),
         runs: args.runs.into(),
         budget_ns: u64::from(args.budget) * 1_000_000_000,
         seed: args.seed,
@@ -83,7 +91,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     let clock = SystemClock::start();
     let mut progress = Progress::over(scenes.len(), terminal);
     let (mut records, mut tables): (Vec<Record>, Vec<Table>) = (vec![], vec![]);
-    let mut failure = None;
+    let (mut failure, mut refused) = (None, false);
     for scene in &scenes {
         progress.scene(&scene.name);
         let of_scene = match compare_scene(scene, &settings, &clock, &mut |stage| progress.stage(&stage)) {
@@ -95,12 +103,16 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
             }
         };
         progress.scene_done();
-        let mut table = scene_table(&of_scene, &scene.notes);
-        if of_scene.is_empty() {
+        let mut table = scene_table(&of_scene.records, &of_scene.refused, &scene.notes);
+        refused |= !of_scene.refused.is_empty();
+        if of_scene.records.is_empty() && of_scene.refused.is_empty() {
             table.title = format!("{}: none of the workloads asked for has a ray in this scene", scene.name);
         }
+        if of_scene.records.is_empty() && !of_scene.refused.is_empty() {
+            table.title = format!("{}: every structure is refused, or no ray is left", scene.name);
+        }
         progress.aside(|| terminal.print_table(&table))?;
-        records.extend(of_scene);
+        records.extend(of_scene.records);
         tables.push(table);
     }
     progress.finish();
@@ -126,7 +138,11 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     if let Some(error) = failure {
         return Err(error.into());
     }
-    Ok(if records.iter().any(unexpected) { Verdict::Wrong } else { Verdict::Right })
+    Ok(match (records.iter().any(unexpected), refused) {
+        (true, _) => Verdict::Wrong,
+        (false, true) => Verdict::Refused,
+        (false, false) => Verdict::Right,
+    })
 }
 
 /// Whether a structure gives wrong answers that nothing explains: then the run fails. What a baseline is documented to get

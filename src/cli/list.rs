@@ -4,11 +4,11 @@ use serde_json::Value;
 
 use super::Verdict;
 use super::terminal::Terminal;
-use crate::accel::Query;
+use crate::accel::{Observed, Query};
 use crate::registry::Registry;
 use crate::render::ViewKind;
 use crate::report::number::count;
-use crate::report::{Cell, Table};
+use crate::report::{Cell, Table, Tone};
 use crate::scene::{BUILTIN, WorkloadKind, real_mesh_folder};
 
 pub fn run(registry: &Registry, terminal: &Terminal) -> anyhow::Result<Verdict> {
@@ -43,7 +43,8 @@ fn scenes() -> anyhow::Result<Table> {
     Ok(table("Scenes", &["name", "difficulty", "triangles", "lights", "mirrors", "meshes"], rows))
 }
 
-/// Every structure with the triangle tests it is offered over, the default first; then its keys with their defaults.
+/// Every structure with the triangle tests it is offered over, the default first; then what it does otherwise than the others
+/// by design, whether it is absent, and its keys with their defaults.
 fn structures(registry: &Registry) -> Table {
     let mut rows = vec![];
     for name in registry.names() {
@@ -52,6 +53,25 @@ fn structures(registry: &Registry) -> Table {
         rows.push(vec![name.into(), "".into()]);
         for entry in entries {
             rows.push(vec!["  test".into(), entry.triangle_test.into()]);
+        }
+        for declined in first.capabilities.declined() {
+            rows.push(vec!["  declines".into(), declined.into()]);
+        }
+        if first.observed != Observed::ALL {
+            let what = if first.observed.tests {
+                "steps"
+            } else if first.observed.steps {
+                "triangle tests"
+            } else {
+                "all counts"
+            };
+            rows.push(vec!["  declines".into(), what.into()]);
+        }
+        for convention in first.conventions {
+            rows.push(vec!["  otherwise".into(), (*convention).into()]);
+        }
+        if let Some(absence) = first.absence() {
+            rows.push(vec!["  absent".into(), Cell::from(absence).with(Tone::Wrong)]);
         }
         for (key, value) in first.config().as_object().into_iter().flatten() {
             let value = match value {

@@ -1,15 +1,17 @@
 //! The command `sahara`.
 //!
 //! Results go to stdout, progress and errors to stderr. The exit status is 0 when all is well, 1 for usage, input or
-//! output that cannot be had, 2 for wrong answers.
+//! output that cannot be had, 2 for wrong answers, 5 when all is well but for a structure that could not take part.
 
 mod accuracy;
 mod compare;
 mod completions;
+mod fetch;
 mod golden;
 mod hard;
 mod list;
 mod progress;
+mod rays;
 mod render;
 mod replicate;
 mod sources;
@@ -54,6 +56,8 @@ enum Command {
     Replicate(replicate::Args),
     /// Hold every structure against a reference, hit for hit
     Validate(validate::Args),
+    /// Record, import and show files of rays
+    Rays(rays::Args),
     /// Run an experiment with a question of its own
     Study(study::Args),
     /// How wrong, how fast: every structure over every triangle test, judged by exact arithmetic
@@ -63,6 +67,8 @@ enum Command {
     /// Answer for one structure and one hard case; what `hard` runs in a process of its own
     #[command(name = hard::CHILD, hide = true)]
     HardAnswer(hard::ChildArgs),
+    /// Download the real meshes that scene files name, verified; licences are shown first
+    Fetch(fetch::Args),
     /// Draw a picture
     Render(render::Args),
     /// Check or make the golden images
@@ -79,6 +85,8 @@ enum Verdict {
     Right,
     /// A structure gave wrong answers.
     Wrong,
+    /// A structure could not be built or panicked; the others are right.
+    Refused,
 }
 
 /// Runs the command line of this process over the structures of `registry`.
@@ -86,7 +94,8 @@ pub fn main(registry: Registry) -> ExitCode {
     run(&registry, std::env::args_os())
 }
 
-fn run(registry: &Registry, args: impl IntoIterator<Item = OsString>) -> ExitCode {
+/// Runs `args`, the name of the program first, over the structures of `registry`.
+pub fn run(registry: &Registry, args: impl IntoIterator<Item = OsString>) -> ExitCode {
     let cli = match Cli::try_parse_from(args) {
         Ok(cli) => cli,
         Err(message) => {
@@ -104,10 +113,12 @@ fn run(registry: &Registry, args: impl IntoIterator<Item = OsString>) -> ExitCod
         Command::Compare(args) => compare::run(registry, &args, &terminal),
         Command::Replicate(args) => replicate::run(registry, &args, &terminal),
         Command::Validate(args) => validate::run(registry, &args, &terminal),
+        Command::Rays(args) => rays::run(registry, &args, &terminal),
         Command::Study(args) => study::run(registry, &args, &terminal),
         Command::Accuracy(args) => accuracy::run(registry, &args, &terminal),
         Command::Hard(args) => hard::run(registry, &args, &terminal),
         Command::HardAnswer(args) => hard::run_child(registry, &args),
+        Command::Fetch(args) => fetch::run(&args, &terminal),
         Command::Render(args) => render::run(registry, &args, &terminal),
         Command::Golden(args) => golden::run(registry, &args, &terminal),
         Command::List => list::run(registry, &terminal),
@@ -116,6 +127,7 @@ fn run(registry: &Registry, args: impl IntoIterator<Item = OsString>) -> ExitCod
     match found {
         Ok(Verdict::Right) => ExitCode::SUCCESS,
         Ok(Verdict::Wrong) => ExitCode::from(2),
+        Ok(Verdict::Refused) => ExitCode::from(5),
         Err(error) if is_broken_pipe(&error) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("error: {error:#}");

@@ -5,6 +5,17 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use super::terminal::Terminal;
 use crate::study::Stage;
 
+/// The bar of a download of `bytes`, if that is known; told how many there are.
+#[cfg(feature = "fetch")]
+pub fn download(name: &str, bytes: Option<u64>, terminal: &Terminal) -> ProgressBar {
+    let target = if terminal.quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
+    let bar = ProgressBar::with_draw_target(bytes, target);
+    let style = ProgressStyle::with_template("{bar:24} {bytes} of {total_bytes} {wide_msg}");
+    bar.set_style(style.expect("the template is valid"));
+    bar.set_message(name.to_owned());
+    bar
+}
+
 /// Steps of the bar for each scene.
 const STEPS: u64 = 100;
 

@@ -47,15 +47,34 @@ pub fn scene(name: &str) -> anyhow::Result<Scene> {
     }
 }
 
+/// Stands for one structure of every name.
+pub const ALL: &str = "all";
+
+/// What is named, with [`ALL`] spelt out; every name if there is nothing.
+pub fn specs(registry: &Registry, named: &[String]) -> Vec<String> {
+    let names = || registry.names().into_iter().map(String::from);
+    if named.is_empty() {
+        return names().collect();
+    }
+    named.iter().flat_map(|spec| if spec == ALL { names().collect() } else { vec![spec.clone()] }).collect()
+}
+
+/// The text of a scene file.
+///
+/// # Errors
+/// If it cannot be read.
+pub fn text(path: &Path) -> anyhow::Result<String> {
+    std::fs::read_to_string(path).with_context(|| format!("cannot read {}", path.display()))
+}
+
 /// The structures named, or the first of every name; the same one twice would only take time.
 ///
 /// # Errors
 /// If a name, key or value is not known.
 pub fn structures(registry: &Registry, specs: &[String]) -> anyhow::Result<Vec<Choice>> {
-    let names: Vec<String> = registry.names().into_iter().map(String::from).collect();
     let mut choices: Vec<Choice> = vec![];
-    for spec in if specs.is_empty() { &names } else { specs } {
-        let choice = structure(registry, spec)?;
+    for spec in self::specs(registry, specs) {
+        let choice = structure(registry, &spec)?;
         if choices.iter().all(|other| other.label != choice.label) {
             choices.push(choice);
         }

@@ -1,4 +1,4 @@
-//! The text form of a scene: `scene.toml`.
+#![doc = include_str!("SCENE.md")]
 
 use std::collections::BTreeMap;
 
@@ -228,4 +228,46 @@ fn demand(met: bool, key: &str, problem: &str) -> Result<(), (String, String)> {
 fn numbers(values: &[f32], least: f32, key: &str) -> Result<(), (String, String)> {
     let problem = if least == 0.0 { "give finite numbers that are not negative" } else { "give finite numbers" };
     demand(values.iter().all(|v| v.is_finite() && *v >= least), key, problem)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const DOCUMENT: &str = include_str!("SCENE.md");
+
+    /// Keys in the first column of the table under a heading of the document.
+    fn documented(heading: &str) -> Vec<&'static str> {
+        let (_, part) = DOCUMENT.split_once(&format!("\n## {heading}\n")).unwrap_or_else(|| panic!("no {heading}"));
+        let part = part.split("\n## ").next().unwrap_or(part);
+        part.lines().filter_map(|line| line.strip_prefix("| `")?.split_once('`').map(|(key, _)| key)).collect()
+    }
+
+    /// Keys that the parser knows where `table` begins a table, from what it says of one that it does not know.
+    fn known(table: &str) -> Vec<String> {
+        let error = SceneFile::parse(&format!("{table}nobodys_key = 1\n"), "x").unwrap_err().to_string();
+        let (_, list) = error.split_once("expected one of").unwrap_or_else(|| panic!("{error}"));
+        list.split('`').skip(1).step_by(2).map(String::from).collect()
+    }
+
+    #[test]
+    fn the_document_lists_the_keys_that_the_parser_knows() {
+        for (heading, table) in [
+            ("The scene", ""),
+            ("`[camera]`", "[camera]\n"),
+            ("`[[lights]]`", "[[lights]]\n"),
+            ("`[[objects]]`", "[[objects]]\n"),
+            ("`[objects.real]`", "[[objects]]\n[objects.real]\n"),
+            ("`[materials.NAME]`", "[materials.X]\n"),
+        ] {
+            assert_eq!(documented(heading), known(table), "{heading}");
+        }
+    }
+
+    #[test]
+    fn the_example_of_the_document_is_a_scene() {
+        let text = DOCUMENT.split("```toml\n").nth(1).and_then(|rest| rest.split("```").next()).unwrap();
+        let file = SceneFile::parse(text, "SCENE.md").unwrap();
+        assert_eq!((file.name.as_str(), file.objects.len(), file.size), ("Mine", 2, [512, 512]));
+    }
 }

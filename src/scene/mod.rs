@@ -5,6 +5,7 @@ mod builtin;
 mod camera;
 mod cast;
 mod error;
+pub mod files;
 pub mod format;
 mod frame;
 mod light;

@@ -21,7 +21,7 @@ impl<D: Depth> Nearest<D> {
 
     /// Takes a hit that is nearer, or as near with a lower number.
     #[inline(always)]
-    fn offer(&mut self, depth: D, id: u32) {
+    pub fn offer(&mut self, depth: D, id: u32) {
         let better = match &self.hit {
             Some((nearest, lowest)) => depth.order(nearest).then(id.cmp(lowest)).is_lt(),
             None => true,

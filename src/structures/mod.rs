@@ -6,6 +6,7 @@ pub mod kd;
 mod leaf;
 mod line;
 pub mod obvhs;
+pub mod peers;
 pub mod split;
 mod walk;
 pub mod wide;

@@ -17,6 +17,22 @@ pub fn documented_defect(structure: &str) -> Option<&'static str> {
             "obvhs 0.4.0 clamps the inverse of small direction components, loses rays in the plane of a box face, and its \
              CwBvh rays with a component of -0.0",
         ),
+        "bvh" => Some(
+            "bvh 0.13 lets a ray in the plane of a box face meet no box, its triangle test has absolute epsilons, and its \
+             stack holds 32 nodes",
+        ),
+        "parry" => Some(
+            "parry3d 0.31 clamps the inverse of small direction components, and loses rays in the plane of a box face",
+        ),
+        "kdtree-ray" => Some("kdtree-ray 1.2 loses rays in the plane of a box face and with a component of -0.0"),
+        "tinybvh" => Some(
+            "tinybvh 1.6 widens no box, cancels far from the origin, refuses small determinants and divides approximately",
+        ),
+        "embree" => Some(
+            "Embree without ROBUST widens no box, loses hits far from the origin, rays in the plane of a box face and hits at \
+             the origin",
+        ),
+        "embree-robust" => Some("Embree loses rays in the plane of a box face and with very short directions"),
         _ => None,
     }
 }

@@ -22,7 +22,7 @@ pub struct Check {
 const PILOT: usize = 32;
 
 /// Holds every structure against brute force with its own triangle test, on as many rays of each batch as `budget_ns`
-/// allows for all together. One row for each structure, one check for each batch.
+/// allows for all together. One row for each structure, one check for each batch; nothing for a structure that panicked.
 pub fn check_all(
     scene: &Scene,
     built: &[Built],
@@ -30,7 +30,7 @@ pub fn check_all(
     clock: &dyn Clock,
     budget_ns: u64,
     progress: &mut dyn FnMut(Stage),
-) -> Result<Vec<Vec<Check>>, StudyError> {
+) -> Result<Vec<Option<Vec<Check>>>, StudyError> {
     let budget_ns = budget_ns / (built.len() * batches.len()).max(1) as u64;
     let mut references: BTreeMap<&'static str, Reference> = BTreeMap::new();
     let mut checks = vec![];
@@ -46,7 +46,7 @@ pub fn check_all(
             references.insert(test, reference);
         }
         let check = |rays: &[Ray]| validate(built.accel.as_ref(), &references[test], &scene.mesh, rays);
-        let of_batch = |batch: &&[Ray]| {
+        let of_batch = |batch: &&[Ray]| -> Option<Check> {
             // Learn from a few rays how many can be afforded.
             let start = clock.now_ns();
             let pilot = spread(batch, PILOT);
@@ -56,7 +56,8 @@ pub fn check_all(
             if affordable > pilot.len() as u64 && batch.len() > pilot.len() {
                 found = check(&spread(batch, affordable as usize));
             }
-            Check { rays: found.rays as usize, errors: found.errors().min(found.rays) as usize }
+            let errors = found.errors().min(found.rays) as usize;
+            (found.panics == 0).then_some(Check { rays: found.rays as usize, errors })
         };
         checks.push(batches.iter().map(of_batch).collect());
     }

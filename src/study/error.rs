@@ -1,3 +1,4 @@
+use super::guarded::PANICKED;
 use crate::accel::BuildError;
 use crate::measure::UnsteadyAnswers;
 use crate::registry::ChoiceError;
@@ -9,6 +10,8 @@ pub enum StudyError {
     Build { structure: String, scene: String, cause: BuildError },
     #[error("{structure} on the {rays} rays of {scene}: {cause}")]
     Unsteady { structure: String, scene: String, rays: String, cause: UnsteadyAnswers },
+    #[error("{structure} on {scene}: {PANICKED}")]
+    Panicked { structure: String, scene: String },
     #[error("the system gives no thread to trace on: {0}")]
     Threads(String),
     #[error("the study needs a structure that is not registered as it expects: {0}")]

@@ -6,6 +6,7 @@ mod built;
 mod check;
 pub mod compare;
 mod error;
+mod guarded;
 pub mod hard_cases;
 pub mod replicate;
 pub mod self_intersection;
@@ -13,4 +14,5 @@ mod stage;
 
 pub use baselines::{BRUTE_FORCE, SAH_TREE, documented_defect};
 pub use error::StudyError;
+pub use guarded::{PANICKED, Refused, guarded};
 pub use stage::Stage;

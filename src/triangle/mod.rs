@@ -34,6 +34,11 @@ use crate::simd::{Arithmetic, Lanes, Portable};
 ///
 /// A test works in two stages: all lanes of a block at once, then lane by lane what is left. Most tests decide everything in
 /// the first stage. A test is written once, over lanes; one lane is the scalar form. All widths give the same bits.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a triangle test",
+    label = "does not implement `sahara::triangle::TriangleTest`",
+    note = "use one of the tests in `sahara::triangle`, for example `FilteredF64`; a structure with a test of its own needs none: it leaves `Accel::TRIANGLE_TEST` as it is"
+)]
 pub trait TriangleTest: Send + Sync + 'static {
     /// The name used by the command line and records.
     const NAME: &'static str;

@@ -30,8 +30,43 @@ pub(super) fn adjudicate(
         (_, None, None) => None,
         (_, Some(e), Some(f)) if e.same_bits(f) => None,
         (Some(test), ..) => Some(same_test(test, mesh, ray, expected, found)),
-        (None, Some(e), Some(f)) if close(e.t, f.t, e.prim == f.prim) => None,
-        (None, ..) => Some(other_test(mesh, ray, expected, found)),
+        (None, Some(e), Some(f)) if close(e.t, f.t, e.prim == f.prim) => (!may_be_at(mesh, ray, f))
+            .then(|| verdict(Kind::WrongPrimitive, format!("the point hit lies outside the box of {:?}", f.prim))),
+        (None, ..) => {
+            let verdict = other_test(mesh, ray, expected, found);
+            Some(match reference.disputed {
+                Some(own) => own_test(own, mesh, ray, expected, found, verdict),
+                None => verdict,
+            })
+        }
+    }
+}
+
+/// The verdict on two tests, given what the structure's own says of the triangles in dispute.
+fn own_test(
+    own: ScalarTest,
+    mesh: &Mesh,
+    ray: &Ray,
+    expected: Option<Hit>,
+    found: Option<Hit>,
+    other: Verdict,
+) -> Verdict {
+    let exists = |hit: &Hit| (hit.prim.index() as usize) < mesh.len();
+    let of = |hit: Option<Hit>| hit.filter(exists).and_then(|hit| own(ray, mesh.corners(hit.prim.index())));
+    let kernel = |sentence: &str| verdict(Kind::Kernel, format!("{}, but {sentence}", other.sentence));
+    match (other.kind, found) {
+        // What its test does not find, or not in front of what was found, no walk can return.
+        (Kind::Lost | Kind::NearerLost, _) => match (of(expected), found) {
+            (None, _) => kernel("the structure's own test does not hit it"),
+            (Some(t), Some(f)) if t >= f.t => kernel(&format!("the structure's own test hits it at {t:?}")),
+            _ => other,
+        },
+        // What its test gives, whatever is true, it may return.
+        (Kind::WrongT | Kind::Invented, Some(f)) => match of(found) {
+            Some(t) if close(t, f.t, true) => kernel("so says the structure's own test"),
+            _ => other,
+        },
+        _ => other,
     }
 }
 
@@ -49,10 +84,17 @@ fn same_test(test: ScalarTest, mesh: &Mesh, ray: &Ray, expected: Option<Hit>, fo
     if let Some(f) = found {
         let solid = (f.prim.index() as usize) < mesh.len() && !mesh.is_degenerate(f.prim.index());
         let tested = if solid { test(ray, mesh.corners(f.prim.index())) } else { None };
+        let right_t = expected.is_some_and(|e| e.t.to_bits() == f.t.to_bits());
         match tested {
             Some(t) if t.to_bits() == f.t.to_bits() => {}
+            _ if right_t => {
+                let there = tested.map_or("no hit".into(), |t| format!("t = {t:?}"));
+                return verdict(Kind::WrongPrimitive, format!("the triangle test gives {there} at {:?}", f.prim));
+            }
             Some(t) => {
-                return verdict(Kind::WrongT, format!("the triangle test gives t = {t:?} at {:?}", f.prim));
+                let ulps = t.to_bits().abs_diff(f.t.to_bits());
+                let sentence = format!("the triangle test gives t = {t:?} at {:?}, {ulps} ulps away", f.prim);
+                return verdict(Kind::WrongT, sentence);
             }
             _ => return verdict(Kind::Invented, format!("the triangle test gives no hit at {:?}", f.prim)),
         }
@@ -93,6 +135,21 @@ fn tie(mesh: &Mesh, ray: &Ray, expected: Hit, found: Hit) -> Verdict {
         return verdict(Kind::HigherId, format!("exactly, {:?} is hit too, no later", expected.prim));
     }
     verdict(Kind::Tie, "both primitives have this computed t".into())
+}
+
+/// Whether the primitive of a hit reaches where the hit is, give or take what float tests round: a neighbour across an edge
+/// does, a wrong number hardly ever.
+fn may_be_at(mesh: &Mesh, ray: &Ray, hit: Hit) -> bool {
+    if hit.prim.index() as usize >= mesh.len() {
+        return false;
+    }
+    let bounds = mesh.triangle_bounds(hit.prim.index());
+    (0..3).all(|axis| {
+        let (start, way) = (f64::from(ray.origin[axis]), f64::from(ray.direction[axis]) * f64::from(hit.t));
+        let slack = DEPTH_ELSEWHERE * (start.abs() + way.abs());
+        let (low, high) = (f64::from(bounds.min[axis]), f64::from(bounds.max[axis]));
+        (low - slack..=high + slack).contains(&(start + way))
+    })
 }
 
 /// Two tests round differently: only the exact answer can judge, and it judges structure and test together.

@@ -1,25 +1,31 @@
 //! The comparison itself.
 
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
 use rayon::prelude::*;
 
 use super::adjudicate::{adjudicate, gap};
+use super::watch::{Asked, Call, message};
 use super::{Kind, Reference, Validation, WorstRay};
 use crate::accel::DynAccel;
 use crate::geometry::{Hit, Mesh, Ray};
 
 /// Rays a batch: part of the result's definition, so that no thread count changes it.
-const BATCH: usize = 256;
+pub(super) const BATCH: usize = 256;
 
 /// Holds `subject` against `reference` on every ray: the closest hit, that any hit agrees with it, and that asking again
 /// for one ray alone gives the same answer.
 ///
-/// `mesh` is the one that both were built from. Runs on all threads of the pool; the result does not depend on how many.
+/// `mesh` is the one that both were built from. Rays that the structure declines are left out and counted. A panic is caught
+/// and ends its batch; against endless loops see [`validate_watched`](super::validate_watched). Runs on all threads of the
+/// pool; the result does not depend on how many.
 /// Costs two closest and two any-hit queries of `subject` a ray, one closest hit of `reference`, and some microseconds a
 /// ray on which they differ.
 pub fn validate(subject: &dyn DynAccel, reference: &Reference, mesh: &Mesh, rays: &[Ray]) -> Validation {
-    let batches: Vec<Validation> =
-        rays.par_chunks(BATCH).map(|rays| validate_batch(subject, reference, mesh, rays)).collect();
-    let mut whole = Validation::default();
+    let admitted = subject.capabilities().admitted(rays);
+    let of_batch = |rays: &[Ray]| validate_batch(subject, reference, mesh, rays, &Asked::default());
+    let batches: Vec<Validation> = admitted.par_chunks(BATCH).map(of_batch).collect();
+    let mut whole = Validation { declined: (rays.len() - admitted.len()) as u64, ..Validation::default() };
     for batch in batches {
         whole.append(batch);
     }
@@ -53,35 +59,49 @@ pub fn validate_answers(reference: &Reference, mesh: &Mesh, rays: &[Ray], found:
     whole
 }
 
-fn validate_batch(subject: &dyn DynAccel, reference: &Reference, mesh: &Mesh, rays: &[Ray]) -> Validation {
-    // Prefilled with an answer that nobody gives: a structure must write every slot.
-    let unwritten = Some(Hit::new(f32::NEG_INFINITY, u32::MAX - 1));
-    let (mut expected, mut found) = (vec![unwritten; rays.len()], vec![unwritten; rays.len()]);
-    reference.accel.closest_hits(rays, &mut expected);
-    subject.closest_hits(rays, &mut found);
-    let mut any: Vec<bool> = found.iter().map(Option::is_none).collect();
-    subject.any_hits(rays, &mut any);
-
+/// One batch; `asked` shows to another thread what the structure is being asked.
+pub(super) fn validate_batch(
+    subject: &dyn DynAccel,
+    reference: &Reference,
+    mesh: &Mesh,
+    rays: &[Ray],
+    asked: &Asked,
+) -> Validation {
     let mut sums = Validation { rays: rays.len() as u64, ..Validation::default() };
+
+    // Ask each ray alone, and only then the batch: what panics or hangs does so at a ray that can be named.
+    let mut alone = Vec::with_capacity(rays.len());
     for (index, ray) in rays.iter().enumerate() {
-        let (expected, found) = (expected[index], found[index]);
-        sums.hits += u64::from(expected.is_some());
+        match ask(asked, Call::Ray(index), || answers(subject, &[*ray])) {
+            Ok((closest, any)) => alone.push((closest[0], any[0])),
+            Err(message) => return sums.ended(reference, rays, Call::Ray(index), Kind::Panicked, message),
+        }
+    }
+    let (found, any) = match ask(asked, Call::Batch, || answers(subject, rays)) {
+        Ok(answers) => answers,
+        Err(message) => return sums.ended(reference, rays, Call::Batch, Kind::Panicked, message),
+    };
+
+    let mut expected = vec![None; rays.len()];
+    reference.accel.closest_hits(rays, &mut expected);
+    sums.hits = expected.iter().flatten().count() as u64;
+    let checks_any = subject.capabilities().any_hit;
+    for (index, ray) in rays.iter().enumerate() {
+        let (expected, found, any) = (expected[index], found[index], any[index]);
         let mut note = |kind, verdict: String| {
             let index = index as u64;
             sums.worst.push(WorstRay { index, ray: *ray, expected, found, kind, verdict, gap: gap(expected, found) });
         };
 
-        // Ask again, alone.
-        let (mut alone, mut alone_any) = ([unwritten], [found.is_none()]);
-        subject.closest_hits(&[*ray], &mut alone);
-        subject.any_hits(&[*ray], &mut alone_any);
-        if !same(alone[0], found) || alone_any[0] != any[index] {
-            let [again] = alone;
-            note(Kind::Unrepeatable, format!("asked alone, closest hit says {again:?}, any hit {}", alone_any[0]));
+        // Of an answer that is not always the same nothing more can be said.
+        let (again, any_again) = alone[index];
+        if !same(again, found) || checks_any && any_again != any {
+            note(Kind::Unrepeatable, format!("asked alone, closest hit says {again:?}, any hit {any_again}"));
             sums.unrepeatable += 1;
+            continue;
         }
-        if any[index] != found.is_some() {
-            note(Kind::AnyHitDisagrees, format!("any hit says {}", any[index]));
+        if checks_any && any != found.is_some() {
+            note(Kind::AnyHitDisagrees, format!("any hit says {any}"));
             sums.any_hit_errors += 1;
         }
 
@@ -89,6 +109,25 @@ fn validate_batch(subject: &dyn DynAccel, reference: &Reference, mesh: &Mesh, ra
     }
     sums.keep_worst();
     sums
+}
+
+/// Closest and any hits of a batch.
+fn answers(subject: &dyn DynAccel, rays: &[Ray]) -> (Vec<Option<Hit>>, Vec<bool>) {
+    // Prefilled with an answer that nobody gives: a structure must write every slot.
+    let unwritten = Some(Hit::new(f32::NEG_INFINITY, u32::MAX - 1));
+    let mut found = vec![unwritten; rays.len()];
+    subject.closest_hits(rays, &mut found);
+    let mut any: Vec<bool> = found.iter().map(Option::is_none).collect();
+    subject.any_hits(rays, &mut any);
+    (found, any)
+}
+
+/// Puts a question to the structure, or gives the message of its panic.
+fn ask<R>(asked: &Asked, call: Call, question: impl FnOnce() -> R) -> Result<R, String> {
+    asked.begin(call);
+    let answer = catch_unwind(AssertUnwindSafe(question));
+    asked.end();
+    answer.map_err(|payload| message(payload.as_ref()))
 }
 
 /// Adjudicates one answer and adds what is said of it.
@@ -111,7 +150,7 @@ fn tally(
             sums.higher_ids += 1;
         }
         Kind::Kernel => sums.kernel_differences += 1,
-        _ if reference.test.is_some() => sums.structure_errors += 1,
+        _ if reference.knows_structure_errors() => sums.structure_errors += 1,
         _ => sums.answer_errors += 1,
     }
     sums.differing += u64::from(!matches!(kind, Kind::Tie | Kind::HigherId));

@@ -7,6 +7,7 @@
 
 mod adjudicate;
 pub mod adversarial;
+mod any;
 mod compare;
 pub mod conformance;
 pub(crate) mod degenerate;
@@ -15,8 +16,10 @@ mod rate;
 mod reference;
 mod sampler;
 mod validation;
+mod watch;
 
 pub use adversarial::Stratum;
+pub use any::validate_any_answers;
 pub use compare::{validate, validate_answers};
 pub use degenerate::degenerate_meshes;
 pub use judge::{DepthRule, Judged, Outcome, Ulps, judge, outcome};
@@ -24,3 +27,4 @@ pub use rate::Rate;
 pub use reference::{Reference, ScalarTest};
 pub use sampler::Sampler;
 pub use validation::{Kind, Validation, WorstRay};
+pub use watch::{Ended, LIMIT, validate_watched, watched};

@@ -8,6 +8,12 @@ use crate::accel::{Accel, BuildError, DynAccel};
 use crate::geometry::{Mesh, Ray};
 use crate::structures::BruteForce;
 use crate::structures::obvhs::RtTest;
+#[cfg(feature = "peer-bvh")]
+use crate::structures::peers::bvh::SvenstaroTest;
+#[cfg(feature = "peer-embree")]
+use crate::structures::peers::embree;
+#[cfg(feature = "peer-parry")]
+use crate::structures::peers::parry::ParryTest;
 use crate::triangle::{
     BaldwinWeber, EdgeF64, Exact, FilteredF64, MollerTrumbore, MollerTrumboreF64, Plucker, TriangleTest, Watertight,
     scalar_hit,
@@ -23,11 +29,15 @@ pub struct Reference {
     /// The triangle test that the structure and the reference share: they owe each other the same bits, and the reference
     /// has tested every triangle. `None` when the tests differ, or when the reference may itself have lost hits.
     pub test: Option<ScalarTest>,
+    /// The structure's own triangle test, where it is known but too slow to be run over all triangles: asked about the
+    /// triangles in dispute, it tells what the structure lost from what its test did not find.
+    pub disputed: Option<ScalarTest>,
 }
 
 impl Reference {
     /// Brute force with the triangle test named `test` ([`Accel::TRIANGLE_TEST`]); for a test that this crate does not
-    /// have, brute force with Möller-Trumbore, which shares nothing.
+    /// have, brute force with Möller-Trumbore, which shares nothing; for one that it has only as a scene of one triangle,
+    /// brute force with `filtered-f64`, and that test in disputes.
     ///
     /// # Errors
     /// If the mesh is refused.
@@ -36,6 +46,14 @@ impl Reference {
             ($($known:ty),*) => {
                 match test {
                     $(<$known>::NAME => Self::brute_force::<$known>(mesh),)*
+                    #[cfg(feature = "peer-bvh")]
+                    SvenstaroTest::NAME => Self::brute_force::<SvenstaroTest>(mesh),
+                    #[cfg(feature = "peer-parry")]
+                    ParryTest::NAME => Self::brute_force::<ParryTest>(mesh),
+                    #[cfg(feature = "peer-embree")]
+                    <embree::Fast as embree::Mode>::TEST => Self::in_disputes(embree::alone::<embree::Fast>, mesh),
+                    #[cfg(feature = "peer-embree")]
+                    <embree::Robust as embree::Mode>::TEST => Self::in_disputes(embree::alone::<embree::Robust>, mesh),
                     _ => Ok(Self { test: None, ..Self::brute_force::<MollerTrumbore>(mesh)? }),
                 }
             };
@@ -59,11 +77,21 @@ impl Reference {
     /// If the mesh is refused.
     pub fn brute_force<T: TriangleTest>(mesh: &Arc<Mesh>) -> Result<Self, BuildError> {
         let accel = <BruteForce<T> as Accel>::build(mesh, &Default::default())?;
-        Ok(Self { accel: Box::new(accel), test: Some(scalar_hit::<T>) })
+        Ok(Self { accel: Box::new(accel), test: Some(scalar_hit::<T>), disputed: None })
+    }
+
+    #[cfg(feature = "peer-embree")]
+    fn in_disputes(disputed: ScalarTest, mesh: &Arc<Mesh>) -> Result<Self, BuildError> {
+        Ok(Self { test: None, disputed: Some(disputed), ..Self::brute_force::<FilteredF64>(mesh)? })
+    }
+
+    /// Whether what a structure lost can be told from what its triangle test did not find.
+    pub fn knows_structure_errors(&self) -> bool {
+        self.test.is_some() || self.disputed.is_some()
     }
 
     /// Any other structure: it may have lost hits, so that the exact oracle decides wherever the answers differ.
     pub fn structure(accel: Box<dyn DynAccel>) -> Self {
-        Self { accel, test: None }
+        Self { accel, test: None, disputed: None }
     }
 }

@@ -2,13 +2,17 @@
 
 use std::fmt::{Display, Formatter};
 
+use super::Reference;
+use super::watch::Call;
 use crate::geometry::{Hit, Ray};
 
 /// Sums over the rays of a comparison.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Validation {
-    /// Rays compared.
+    /// Rays compared; where a panic or an endless loop ended a batch, all of the batch.
     pub rays: u64,
+    /// Rays that the structure declines ([`Capabilities`](crate::accel::Capabilities)): it was not asked.
+    pub declined: u64,
     /// Rays that hit something by the reference.
     pub hits: u64,
     /// Rays with another `t` than the reference, bit for bit, or with a hit where it has none or the reverse. Where the
@@ -22,8 +26,12 @@ pub struct Validation {
     pub answer_errors: u64,
     /// Rays for which any hit and closest hit contradict each other.
     pub any_hit_errors: u64,
-    /// Rays answered otherwise when asked again, alone instead of in a batch.
+    /// Rays answered otherwise when asked again, in a batch instead of alone; of such an answer nothing more is said.
     pub unrepeatable: u64,
+    /// Batches that a panic of the structure ended.
+    pub panics: u64,
+    /// Batches that the structure did not answer in time: 1 ends the comparison.
+    pub hangs: u64,
     /// Rays with the `t` of the reference at another primitive that also has it: not an error.
     pub ties: u64,
     /// Those of the ties where the reference names a lower number that truly is hit no later: an error only of a structure
@@ -53,6 +61,10 @@ pub struct WorstRay {
 /// How an answer differs, the worst first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Kind {
+    /// The structure does not answer in time.
+    Hangs,
+    /// The structure panics.
+    Panicked,
     /// A true hit, and the structure returns none.
     Lost,
     /// A true hit, and the structure returns one behind it, or one that is none.
@@ -61,6 +73,8 @@ pub enum Kind {
     Invented,
     /// The right primitive at a `t` that the triangle test does not give.
     WrongT,
+    /// The right `t`, at a primitive that is not hit there.
+    WrongPrimitive,
     /// Any hit contradicts closest hit.
     AnyHitDisagrees,
     /// Asked again, the structure answers otherwise.
@@ -82,10 +96,13 @@ impl Kind {
     /// As printed.
     pub fn name(self) -> &'static str {
         match self {
+            Self::Hangs => "hangs",
+            Self::Panicked => "panics",
             Self::Lost => "lost",
             Self::NearerLost => "nearer-lost",
             Self::Invented => "invented",
             Self::WrongT => "wrong-t",
+            Self::WrongPrimitive => "wrong-primitive",
             Self::AnyHitDisagrees => "any-hit-disagrees",
             Self::Unrepeatable => "unrepeatable",
             Self::Kernel => "kernel",
@@ -101,7 +118,7 @@ impl Validation {
 
     /// Wrong answers of all kinds; 0 in a correct structure that shares its test with the reference.
     pub fn errors(&self) -> u64 {
-        self.structure_errors + self.answer_errors + self.any_hit_errors + self.unrepeatable
+        self.structure_errors + self.answer_errors + self.any_hit_errors + self.unrepeatable + self.panics + self.hangs
     }
 
     /// The worst ray whose answer is wrong.
@@ -115,6 +132,7 @@ impl Validation {
             ray.index += self.rays;
         }
         self.rays += later.rays;
+        self.declined += later.declined;
         self.hits += later.hits;
         self.differing += later.differing;
         self.structure_errors += later.structure_errors;
@@ -122,10 +140,35 @@ impl Validation {
         self.answer_errors += later.answer_errors;
         self.any_hit_errors += later.any_hit_errors;
         self.unrepeatable += later.unrepeatable;
+        self.panics += later.panics;
+        self.hangs += later.hangs;
         self.ties += later.ties;
         self.higher_ids += later.higher_ids;
         self.worst.append(&mut later.worst);
         self.keep_worst();
+    }
+
+    /// The same, of a batch that `kind`, a panic or an endless loop, has ended.
+    pub(super) fn ended(mut self, reference: &Reference, rays: &[Ray], call: Call, kind: Kind, why: String) -> Self {
+        let (index, verdict) = match call {
+            Call::Ray(index) => (index, why),
+            Call::Batch => (0, format!("{why}, in the batch of {} rays that begins here, not alone", rays.len())),
+        };
+        let mut expected = [None];
+        reference.accel.closest_hits(&[rays[index]], &mut expected);
+        let ray = WorstRay {
+            index: index as u64,
+            ray: rays[index],
+            expected: expected[0],
+            found: None,
+            kind,
+            verdict,
+            gap: f64::INFINITY,
+        };
+        self.worst.push(ray);
+        self.panics += u64::from(kind == Kind::Panicked);
+        self.hangs += u64::from(kind == Kind::Hangs);
+        self
     }
 
     pub(super) fn keep_worst(&mut self) {
@@ -140,7 +183,8 @@ impl Display for WorstRay {
             Some(hit) => format!("t = {:?} at {:?}", hit.t, hit.prim),
             None => "nothing".into(),
         };
-        let (kind, expected, found) = (self.kind.name(), answer(self.expected), answer(self.found));
+        let (kind, expected) = (self.kind.name(), answer(self.expected));
+        let found = if self.kind <= Kind::Panicked { "no answer".into() } else { answer(self.found) };
         write!(f, "{kind}: ray \"{}\": expected {expected}, found {found}; {}", self.ray, self.verdict)
     }
 }

@@ -86,7 +86,9 @@ fn outcome(mut command: Command, limit: Duration) -> io::Result<Result<Answers, 
             Some(Some(0)) => Answers::from_bytes(&out).map_err(|_| Failure::Crash),
             Some(Some(1)) => {
                 let sentence = String::from_utf8_lossy(&err);
-                Err(Failure::Refused(sentence.trim().trim_start_matches("error: ").to_owned()))
+                let sentence = sentence.trim().trim_start_matches("error: ").to_owned();
+                let declined = sentence.starts_with("declined: ");
+                Err(if declined { Failure::Declined(sentence) } else { Failure::Refused(sentence) })
             }
             Some(Some(PANICKED)) => Err(Failure::Panic),
             Some(_) => Err(Failure::Crash),

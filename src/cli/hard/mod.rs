@@ -32,7 +32,7 @@ pub struct Args {
     /// Hard cases by name or number; all if none is named
     #[arg(value_name = "CASE")]
     cases: Vec<String>,
-    /// A structure, with keys that differ from their defaults; may be repeated [default: one of each name]
+    /// A structure, with keys that differ from their defaults; may be repeated [default: all, one of each name]
     #[arg(long, short, value_name = "NAME[:key=value,..]")]
     structure: Vec<String>,
     /// A triangle test for all structures that are offered over it; may be repeated [default: each structure's own]

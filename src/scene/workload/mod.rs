@@ -127,7 +127,9 @@ impl Sampling {
 /// Rays of one kind for a scene: the same bits on every machine and with every structure of the same triangle test.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Workload {
-    pub kind: WorkloadKind,
+    /// [`WorkloadKind::name`], or what a file calls its rays.
+    pub name: String,
+    /// What is asked.
     pub query: Query,
     pub rays: Vec<Ray>,
 }
@@ -151,22 +153,22 @@ impl Workload {
             WorkloadKind::Image => picture::closest(scene, &primary(View::CENTRE), accel),
             WorkloadKind::ImageShadow => picture::shadow(scene, &primary(View::CENTRE), accel),
         };
-        Self { kind, query: kind.query(), rays: spread(rays, sampling.limit) }
+        Self { name: kind.name().into(), query: kind.query(), rays: spread(rays, sampling.limit) }
     }
 
-    /// The first 16 hexadecimal digits of the SHA-256 of all ray bits, little-endian, in order: names the workload in
+    /// All ray bits, little-endian: origin, `t_min`, direction, `t_max`.
+    pub fn bytes(&self) -> Vec<u8> {
+        let numbers = |ray: &Ray| {
+            let [o, d] = [ray.origin, ray.direction];
+            [o.x, o.y, o.z, ray.t_min, d.x, d.y, d.z, ray.t_max]
+        };
+        self.rays.iter().flat_map(numbers).flat_map(|value| value.to_bits().to_le_bytes()).collect()
+    }
+
+    /// The first 16 hexadecimal digits of the SHA-256 of [`bytes`](Self::bytes): names the workload in
     /// records.
     pub fn hash(&self) -> String {
-        let mut hasher = Sha256::new();
-        for ray in &self.rays {
-            for value in ray.origin.to_array().into_iter().chain([ray.t_min]) {
-                hasher.update(value.to_bits().to_le_bytes());
-            }
-            for value in ray.direction.to_array().into_iter().chain([ray.t_max]) {
-                hasher.update(value.to_bits().to_le_bytes());
-            }
-        }
-        hasher.finalize()[..8].iter().fold(String::new(), |mut text, byte| {
+        Sha256::digest(self.bytes())[..8].iter().fold(String::new(), |mut text, byte| {
             write!(text, "{byte:02x}").expect("a string takes every write");
             text
         })

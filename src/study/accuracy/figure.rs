@@ -14,7 +14,7 @@ pub fn figure(records: &[AccuracyRecord]) -> Figure {
         let first = &of_kind[0];
         let stand_in = if first.stand_in { " (stand-in)" } else { "" };
         let rays = of_kind.iter().map(|record| record.judged).max().unwrap_or(0);
-        let what = first.rays.parse().map_or("rays", RayKind::description);
+        let what = first.rays.parse().map_or("rays of a file", RayKind::description);
         let point = |record: &AccuracyRecord| Point {
             x: record.ns_per_ray,
             y: record.error_bound,

@@ -11,13 +11,13 @@ mod table;
 mod tests;
 
 use super::built::Built;
-use super::{Stage, StudyError};
-use crate::accel::Query;
+use super::{PANICKED, Refused, Stage, StudyError, guarded};
+use crate::accel::{BuildError, Query};
 use crate::geometry::Ray;
 use crate::measure::{Clock, Pass, Plan, Provenance, Samples, Threads, Timed, median, spread, take};
 use crate::oracle::Oracle;
 use crate::registry::Choice;
-use crate::scene::Scene;
+use crate::scene::{Scene, Workload};
 use crate::validate::{Judged, Rate};
 
 pub use figure::figure;
@@ -30,6 +30,8 @@ pub struct Settings {
     /// Structures over triangle tests, in the order of the tables.
     pub choices: Vec<Choice>,
     pub kinds: Vec<RayKind>,
+    /// Rays made before, in place of those kinds where there are any.
+    pub replayed: Option<Workload>,
     /// Rays of each kind.
     pub rays: usize,
     /// Samples of every case.
@@ -47,47 +49,72 @@ const LONGEST_SAMPLE_NS: u64 = 1_000_000_000;
 /// What judging a case may always take.
 const SHORT_JUDGING_NS: u64 = 2_000_000_000;
 
-/// One record for each kind of rays and structure, kind by kind.
+/// One record for each kind of rays and structure, kind by kind; and the structures that cannot be built or panic, which have none.
 ///
 /// # Errors
-/// If a structure refuses the mesh, or answers the same rays differently.
+/// If a structure answers the same rays differently, or panics only when it is timed.
 pub fn accuracy_scene(
     scene: &Scene,
     settings: &Settings,
     clock: &dyn Clock,
     progress: &mut dyn FnMut(Stage),
-) -> Result<Vec<AccuracyRecord>, StudyError> {
+) -> Result<(Vec<AccuracyRecord>, Vec<Refused>), StudyError> {
     let threads = Threads::new(1).map_err(StudyError::Threads)?;
-    let mut built = vec![];
+    let (mut built, mut refused) = (vec![], vec![]);
     for choice in &settings.choices {
         progress(Stage::Build(&choice.label));
-        built.push(Built::new(choice, scene, &threads, clock)?);
+        match Built::new(choice, scene, &threads, clock) {
+            Ok(structure) => built.push(structure),
+            Err(StudyError::Build { structure, cause, .. }) => {
+                refused.push(Refused { label: structure, reason: cause.to_string() });
+            }
+            Err(other) => return Err(other),
+        }
     }
 
     progress(Stage::Rays("the truth about all"));
     let oracle = Oracle::new(&scene.mesh);
-    let batches: Vec<judged::Batch> = settings
-        .kinds
-        .iter()
-        .map(|kind| judged::Batch::new(kind.rays(scene, settings.rays, settings.seed), &oracle))
-        .collect();
+    let of_kind = |kind: &RayKind| (kind.name().to_owned(), kind.rays(scene, settings.rays, settings.seed));
+    let made: Vec<(String, Vec<Ray>)> = match &settings.replayed {
+        Some(replayed) => vec![(replayed.name.clone(), replayed.rays.clone())],
+        None => settings.kinds.iter().map(of_kind).collect(),
+    };
+    let (names, rays): (Vec<String>, Vec<Vec<Ray>>) = made.into_iter().unzip();
+    let batches: Vec<judged::Batch> = rays.into_iter().map(|rays| judged::Batch::new(rays, &oracle)).collect();
 
     let cases = (built.len() * batches.len()).max(1) as u64;
-    let mut verdicts = vec![];
-    for batch in &batches {
-        for built in &built {
-            progress(Stage::Check(&built.choice.label));
-            let budget_ns = (settings.budget_ns / 2 / cases).max(SHORT_JUDGING_NS);
-            verdicts.push(batch.judge(built.accel.as_ref(), clock, budget_ns));
+    let budget_ns = (settings.budget_ns / 2 / cases).max(SHORT_JUDGING_NS);
+    let (mut judged, mut of_structures) = (vec![], vec![]);
+    for built in built {
+        progress(Stage::Check(&built.choice.label));
+        let can = built.accel.capabilities();
+        if let Some(what) = batches.iter().flat_map(|batch| &batch.rays).find_map(|ray| can.declines(ray)) {
+            let reason = BuildError::Declined(what).to_string();
+            refused.push(Refused { label: built.choice.label, reason });
+            continue;
+        }
+        let judge = |batch: &judged::Batch| batch.judge(built.accel.as_ref(), clock, budget_ns);
+        match guarded(|| batches.iter().map(judge).collect::<Vec<_>>()) {
+            Some(of_structure) => {
+                judged.push(built);
+                of_structures.push(of_structure);
+            }
+            None => refused.push(Refused { label: built.choice.label, reason: PANICKED.into() }),
         }
     }
+    let built = judged;
+    let verdicts: Vec<&Judged> =
+        (0..batches.len()).flat_map(|batch| of_structures.iter().map(move |verdicts| &verdicts[batch])).collect();
     let rays: Vec<&[Ray]> = batches.iter().map(|batch| &batch.rays[..]).collect();
-    let samples = time(scene, &built, &rays, settings, &threads, clock, progress)?;
+    let panicked = || StudyError::Panicked { structure: "a structure".into(), scene: scene.name.clone() };
+    let samples =
+        guarded(|| time(scene, &built, &rays, settings, &threads, clock, progress)).ok_or_else(panicked)??;
 
     let (provenance, hash) = (Provenance::capture(threads.count()), scene.hash());
     let mut records = vec![];
     for (case, (judged, samples)) in verdicts.iter().zip(samples).enumerate() {
-        let (kind, built) = (settings.kinds[case / built.len()], &built[case % built.len()]);
+        let (batch, built) = (case / built.len(), &built[case % built.len()]);
+        let kind = (names[batch].as_str(), batches[batch].rays.len());
         records.push(record(scene, &hash, built, kind, settings, judged, &samples, &provenance));
     }
     // What is not proven is not credited: an error that was seen once may be less than one that was not seen in fewer
@@ -99,7 +126,7 @@ pub fn accuracy_scene(
             record.dominated_by = dominator.map(|i| labels[i].clone());
         }
     }
-    Ok(records)
+    Ok((records, refused))
 }
 
 /// Samples of all structures on all batches, interleaved; in the order of the batches, structure by structure.
@@ -160,7 +187,7 @@ fn record(
     scene: &Scene,
     hash: &str,
     built: &Built,
-    kind: RayKind,
+    (kind, rays): (&str, usize),
     settings: &Settings,
     judged: &Judged,
     samples: &Samples,
@@ -178,10 +205,10 @@ fn record(
         label: built.choice.label.clone(),
         config: built.choice.config.clone(),
         triangle_test: built.choice.triangle_test().into(),
-        rays: kind.name().into(),
+        rays: kind.into(),
         seed: settings.seed,
         judged: judged.rays,
-        sampled: judged.rays < settings.rays as u64,
+        sampled: judged.rays < rays as u64,
         hits: judged.hits,
         missed: judged.missed,
         false_hits: judged.false_hits,

@@ -30,7 +30,7 @@ const COLUMNS: [&str; 12] = [
 fn table(records: &[AccuracyRecord]) -> Table {
     let first = &records[0];
     let stand_in = if first.stand_in { ", stand-in" } else { "" };
-    let what = first.rays.parse().map_or("", RayKind::description);
+    let what = first.rays.parse().map_or("rays of a file", RayKind::description);
     let rays = records.iter().map(|record| record.judged).max().unwrap_or(0);
     let title = format!(
         "{}: {} triangles{stand_in}; {}: {} {what}, {} hit",

@@ -9,13 +9,14 @@ fn records(specs: &[&str], kinds: &[RayKind], rays: usize) -> Vec<AccuracyRecord
     let settings = Settings {
         choices: specs.iter().map(|spec| registry.choose(spec).unwrap()).collect(),
         kinds: kinds.into(),
+        replayed: None,
         rays,
         runs: 2,
         budget_ns: 2_000_000_000,
         seed: 1,
     };
     let scene = Builtin::find("torus").unwrap().scene(None).unwrap();
-    accuracy_scene(&scene, &settings, &SystemClock::start(), &mut |_| ()).unwrap()
+    accuracy_scene(&scene, &settings, &SystemClock::start(), &mut |_| ()).unwrap().0
 }
 
 #[test]

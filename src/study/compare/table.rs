@@ -4,6 +4,7 @@ use crate::accel::Query;
 use crate::measure::geometric_mean;
 use crate::report::number::{bytes, count, duration, figures, plural};
 use crate::report::{Cell, Record, Table, Tone};
+use crate::study::Refused;
 use crate::study::baselines::{REPORT_TREE, documented_defect, is_obvhs};
 
 /// What the columns mean, once for all tables of [`scene_table`]. `first` is the first workload.
@@ -23,9 +24,10 @@ pub fn legend(first: &str) -> Vec<String> {
     ]
 }
 
-/// The records of one scene, one row for each structure. `notes` are those of the scene.
-pub fn scene_table(records: &[Record], notes: &[String]) -> Table {
-    let Some(first) = records.first() else { return Table::default() };
+/// The records of one scene, one row for each structure, those that are refused last. `notes` are those of the scene.
+pub fn scene_table(records: &[Record], refused: &[Refused], notes: &[String]) -> Table {
+    let notes = || notes.iter().cloned().chain(refused.iter().map(|r| format!("{}: {}", r.label, r.reason)));
+    let Some(first) = records.first() else { return Table { notes: notes().collect(), ..Table::default() } };
     let workloads = names(records, |r| &r.workload);
     let structures = names(records, |r| &r.label);
     let of = |label: &str| -> Vec<&Record> { records.iter().filter(|r| r.label == label).collect() };
@@ -42,7 +44,7 @@ pub fn scene_table(records: &[Record], notes: &[String]) -> Table {
     columns.extend(["checked", "sampled"].map(String::from));
 
     let best: Vec<f64> = workloads.iter().map(|w| best_speed(records, w, |_| true).unwrap_or(f64::INFINITY)).collect();
-    let rows = structures
+    let mut rows: Vec<Vec<Cell>> = structures
         .iter()
         .map(|label| {
             let of = of(label);
@@ -60,12 +62,18 @@ pub fn scene_table(records: &[Record], notes: &[String]) -> Table {
             let against = |baseline: &dyn Fn(&Record) -> bool| known(speed_against(records, &of, baseline));
             row.extend(has_report_tree.then(|| against(&|r| r.label == REPORT_TREE)));
             row.extend(has_obvhs.then(|| against(&|r| is_obvhs(&r.structure))));
-            let checked = of.iter().map(|r| r.checked_rays).min().flatten();
+            let checked = of.iter().filter(|r| r.declined.is_none()).map(|r| r.checked_rays).min().flatten();
             row.push(checked.map_or(Cell::blank(), |n| count(n as u64).into()));
             row.push(share(&of).into());
             row
         })
         .collect();
+    rows.extend(refused.iter().map(|refused| {
+        let mut row = vec![Cell::blank(); columns.len()];
+        row[0] = refused.label.as_str().into();
+        row[1] = Cell::from("refused").with(Tone::Wrong);
+        row
+    }));
 
     let degenerate = match first.degenerate {
         0 => String::new(),
@@ -73,7 +81,11 @@ pub fn scene_table(records: &[Record], notes: &[String]) -> Table {
     };
     let stand_in = if first.stand_in { ", stand-in" } else { "" };
     let title = format!("{}: {}{degenerate}{stand_in}", first.scene, plural(first.triangles, "triangle"));
-    let mut notes = notes.to_vec();
+    let mut notes: Vec<String> = notes().collect();
+    for record in records {
+        let Some(what) = &record.declined else { continue };
+        notes.push(format!("{} declines {what}, which {} rays need.", record.label, record.workload));
+    }
     notes.extend(defects(records));
     Table { title, columns, rows, notes }
 }
@@ -131,10 +143,14 @@ pub fn mean_table(records: &[Record]) -> Table {
         })
         .collect();
 
-    let untimed = records.iter().filter(|r| r.mrays_per_s.is_none()).count();
+    let untimed = || records.iter().filter(|r| r.mrays_per_s.is_none());
+    let wrong = untimed().filter(|r| r.is_disqualified() || r.declined.is_none()).count();
+    let declined = untimed().count() - wrong;
     let mut notes = vec![];
-    if untimed > 0 {
-        notes.push(format!("{} with wrong answers left out.", plural(untimed, "case")));
+    for (n, why) in [(wrong, "with wrong answers"), (declined, "that a structure declines")] {
+        if n > 0 {
+            notes.push(format!("{} {why} left out.", plural(n, "case")));
+        }
     }
     let over = plural(scenes.len(), "scene");
     let title = format!("Speed x {REPORT_TREE}: geometric means over {over}; all: over scenes and workloads");
@@ -160,8 +176,9 @@ fn best_speed(records: &[Record], workload: &str, counts: impl Fn(&Record) -> bo
 
 /// Geometric mean over the workloads of one structure's speed against the best that `counts` admits.
 fn speed_against(records: &[Record], of: &[&Record], counts: &dyn Fn(&Record) -> bool) -> Option<f64> {
+    let asked = of.iter().filter(|r| r.declined.is_none());
     let ratios: Option<Vec<f64>> =
-        of.iter().map(|r| Some(r.mrays_per_s? / best_speed(records, &r.workload, counts)?)).collect();
+        asked.map(|r| Some(r.mrays_per_s? / best_speed(records, &r.workload, counts)?)).collect();
     geometric_mean(&ratios?)
 }
 
@@ -169,6 +186,7 @@ fn speed(record: &Record, best: f64) -> Cell {
     let errors = record.structure_errors.unwrap_or(0);
     match record.mrays_per_s {
         Some(speed) => Cell::from(figures(speed)).with(if speed >= best { Tone::Best } else { Tone::Plain }),
+        None if errors == 0 && record.declined.is_some() => "declined".into(),
         None => Cell::from(format!("{errors}/{} wrong", record.checked_rays.unwrap_or(0))).with(Tone::Wrong),
     }
 }
@@ -225,7 +243,7 @@ mod tests {
 
     #[test]
     fn ratios_are_geometric_means_against_the_tree_and_the_better_bvh() {
-        let table = scene_table(&records(), &[]);
+        let table = scene_table(&records(), &[], &[]);
         assert_eq!(cell(&table, "sah-kd", "x median"), "4.00");
         assert_eq!(cell(&table, "sah-kd", "x obvhs"), "1.41");
         assert_eq!(cell(&table, "median-kd", "x median"), "1.00");
@@ -235,11 +253,27 @@ mod tests {
     }
 
     #[test]
+    fn what_is_declined_is_neither_right_nor_wrong() {
+        let mut records = records();
+        records[3] = Record {
+            mrays_per_s: None,
+            declined: Some("any hit".into()),
+            structure_errors: Some(0),
+            ..records[3].clone()
+        };
+        let table = scene_table(&records, &[], &[]);
+        assert_eq!(cell(&table, "sah-kd", "random"), "declined");
+        assert_eq!(cell(&table, "sah-kd", "x median"), "8.00", "of the workloads that it does not decline");
+        assert_eq!(table.notes, ["sah-kd declines any hit, which random rays need."]);
+        assert_eq!(mean_table(&records).notes, ["1 case that a structure declines left out."]);
+    }
+
+    #[test]
     fn a_wrong_structure_shows_its_errors_and_no_time() {
         let mut records = records();
         records[2].mrays_per_s = None;
         records[2].structure_errors = Some(3);
-        let table = scene_table(&records, &[]);
+        let table = scene_table(&records, &[], &[]);
         assert_eq!(cell(&table, "sah-kd", "primary"), "3/100 wrong");
         assert_eq!(cell(&table, "sah-kd", "x median"), "");
         assert_eq!(cell(&table, "sah-kd", "random"), "4.00");
@@ -250,7 +284,7 @@ mod tests {
         let mut records = records();
         records[4].mrays_per_s = None;
         records[4].structure_errors = Some(3);
-        let table = scene_table(&records, &[]);
+        let table = scene_table(&records, &[], &[]);
         assert_eq!(cell(&table, "obvhs-bvh2", "primary"), "3/100 wrong");
         assert_eq!(table.notes.len(), 1);
         assert!(table.notes[0].starts_with("obvhs-bvh2 answers 3 of 100 primary rays wrong"), "{:?}", table.notes);
@@ -272,7 +306,7 @@ mod tests {
 
     #[test]
     fn without_baselines_there_are_no_columns_for_them() {
-        let table = scene_table(&[record("A", "sah-kd", "primary", Some(1.0))], &["flat".into()]);
+        let table = scene_table(&[record("A", "sah-kd", "primary", Some(1.0))], &[], &["flat".into()]);
         assert!(!table.columns.iter().any(|c| c.starts_with("x ")), "{:?}", table.columns);
         assert_eq!(table.notes, ["flat"]);
     }

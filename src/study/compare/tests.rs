@@ -80,6 +80,7 @@ fn run(specs: &[&str]) -> Result<Vec<Record>, StudyError> {
         structures: specs.iter().map(|spec| registry.choose(spec).unwrap()).collect(),
         guide: registry.choose("sah-kd").unwrap(),
         workloads: vec![WorkloadKind::Primary, WorkloadKind::Mirror, WorkloadKind::Shadow],
+        replayed: None,
         rays: 1024,
         runs: 3,
         budget_ns: 1_000_000_000,
@@ -87,7 +88,7 @@ fn run(specs: &[&str]) -> Result<Vec<Record>, StudyError> {
         threads: Threads::new(1).unwrap(),
     };
     let scene = Builtin::find("cube").unwrap().scene(None).unwrap();
-    compare_scene(&scene, &settings, &SystemClock::start(), &mut |_| {})
+    compare_scene(&scene, &settings, &SystemClock::start(), &mut |_| {}).map(|compared| compared.records)
 }
 
 #[test]

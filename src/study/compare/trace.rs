@@ -1,13 +1,14 @@
 //! How fast are the answers, and how much work do they take?
 
-use super::Settings;
+use super::{Settings, declined};
 use crate::accel::{Counts, DynAccel, Query};
 use crate::geometry::Ray;
 use crate::measure::{Clock, Pass, Plan, Timed, spread, take};
 use crate::scene::{Scene, Workload};
 use crate::study::built::Built;
 use crate::study::check::Check;
-use crate::study::{Stage, StudyError};
+use crate::study::guarded::Guarded;
+use crate::study::{Stage, StudyError, guarded};
 
 /// Of one structure on one workload.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -28,7 +29,8 @@ const LONGEST_SAMPLE_NS: u64 = 1_000_000_000;
 /// Rays that a case without times is counted on.
 const COUNTED: usize = 4096;
 
-/// Times every case whose answers are right, all interleaved, and counts it on the rays it was timed on.
+/// Times every case whose answers are right, all interleaved, and counts it on the rays it was timed on. Nothing for a
+/// structure that panicked.
 #[allow(clippy::too_many_arguments)]
 pub(super) fn trace_all(
     scene: &Scene,
@@ -39,17 +41,18 @@ pub(super) fn trace_all(
     clock: &dyn Clock,
     budget_ns: u64,
     progress: &mut dyn FnMut(Stage),
-) -> Result<Vec<Vec<Trace>>, StudyError> {
+) -> Result<Vec<Option<Vec<Trace>>>, StudyError> {
     let right: Vec<(usize, usize)> = (0..built.len())
         .flat_map(|s| (0..workloads.len()).map(move |w| (s, w)))
-        .filter(|&(s, w)| checks[s][w].errors == 0)
+        .filter(|&(s, w)| checks[s][w].errors == 0 && declined(built[s].accel.as_ref(), &workloads[w]).is_none())
         .collect();
-    let mut cases: Vec<Box<dyn Timed>> = right
+    let (mut cases, panicked): (Vec<Box<dyn Timed>>, Vec<_>) = right
         .iter()
         .map(|&(s, w)| {
             let workload = &workloads[w];
             let pass = Pass::new(built[s].accel.as_ref(), &workload.rays, workload.query, &settings.threads);
-            Box::new(pass) as Box<dyn Timed>
+            let (pass, panicked) = Guarded::new(pass);
+            (Box::new(pass) as Box<dyn Timed>, panicked)
         })
         .collect();
 
@@ -68,26 +71,36 @@ pub(super) fn trace_all(
         StudyError::Unsteady {
             structure: built[s].choice.label.clone(),
             scene: scene.name.clone(),
-            rays: workloads[w].kind.name().into(),
+            rays: workloads[w].name.clone(),
             cause,
         }
     })?;
 
-    let mut traces = vec![vec![Trace::default(); workloads.len()]; built.len()];
-    for (&(s, w), samples) in right.iter().zip(samples) {
-        traces[s][w].rays = samples.rays;
-        traces[s][w].ns = samples.ns.iter().map(|&ns| ns as f64).collect();
+    let mut traces = vec![Some(vec![Trace::default(); workloads.len()]); built.len()];
+    for ((&(s, w), samples), panicked) in right.iter().zip(samples).zip(panicked) {
+        if panicked.get() {
+            traces[s] = None;
+        }
+        if let Some(traces) = &mut traces[s] {
+            traces[w].rays = samples.rays;
+            traces[w].ns = samples.ns.iter().map(|&ns| ns as f64).collect();
+        }
     }
-    for (s, built) in built.iter().enumerate() {
-        for (w, workload) in workloads.iter().enumerate() {
-            let trace = &mut traces[s][w];
+    let counted = |(built, traces): (&Built, Option<Vec<Trace>>)| {
+        let mut traces = traces?;
+        for (trace, workload) in traces.iter_mut().zip(workloads) {
+            if declined(built.accel.as_ref(), workload).is_some() {
+                continue;
+            }
             if trace.ns.is_empty() {
                 trace.rays = COUNTED.min(workload.rays.len());
             }
-            count(built.accel.as_ref(), &spread(&workload.rays, trace.rays), workload.query, trace);
+            let rays = spread(&workload.rays, trace.rays);
+            guarded(|| count(built.accel.as_ref(), &rays, workload.query, trace))?;
         }
-    }
-    Ok(traces)
+        Some(traces)
+    };
+    Ok(built.iter().zip(traces).map(counted).collect())
 }
 
 /// Hits and counts of one pass over `rays`.

@@ -7,7 +7,6 @@ use crate::accel::{BuildError, DynAccel};
 use crate::geometry::{Hit, Ray};
 use crate::measure::{Clock, median};
 use crate::registry::Choice;
-use crate::validate::conformance::Subject;
 
 /// What a structure did with a case.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,16 +52,13 @@ pub fn ask(case: &Case, choice: &Choice, rays: usize, clock: &dyn Clock) -> Resu
             let start = clock.now_ns();
             let accel = choice.build(&set.mesh)?;
             let build_ns = clock.now_ns() - start;
+            if let Some(what) = set.rays.iter().find_map(|ray| accel.capabilities().declines(ray)) {
+                return Err(BuildError::Declined(what));
+            }
             Ok(of_rays(&*accel, &set, build_ns, clock))
         }
         Content::Property(check) => {
-            let subject = Subject {
-                name: choice.label.clone(),
-                triangle_test: choice.triangle_test(),
-                lowest_id: false,
-                build: Box::new(|mesh| choice.build(mesh)),
-            };
-            let property = Some(check(&subject, rays));
+            let property = Some(check(&choice.subject(), rays));
             Ok(Answers { head: Head { property, ..Head::default() }, hits: vec![] })
         }
     }
@@ -75,9 +71,11 @@ fn of_rays(accel: &dyn DynAccel, set: &Set, build_ns: u64, clock: &dyn Clock) ->
     let mut hits = vec![None; set.rays.len()];
     accel.closest_hits(&set.rays, &mut hits);
     let mut any: Vec<bool> = hits.iter().map(Option::is_none).collect();
+    let asks_any = accel.capabilities().any_hit;
     accel.any_hits(&set.rays, &mut any);
 
-    let any_hit_errors = hits.iter().zip(&any).filter(|(hit, any)| hit.is_some() != **any).count() as u64;
+    let contradicts = |(hit, any): &(&Option<Hit>, &bool)| asks_any && hit.is_some() != **any;
+    let any_hit_errors = hits.iter().zip(&any).filter(contradicts).count() as u64;
     let alone = |(ray, hit): &(&Ray, &Option<Hit>)| {
         let mut again = [None];
         accel.closest_hits(&[**ray], &mut again);

@@ -27,7 +27,7 @@ pub struct HardRecord {
     pub structure: String,
     pub label: String,
     pub triangle_test: String,
-    /// `answered`, `hang`, `panic`, `crash` or `refused`.
+    /// `answered`, `hang`, `panic`, `crash`, `refused` or `declined`.
     pub outcome: &'static str,
     pub clean: bool,
     pub rays: Option<u64>,

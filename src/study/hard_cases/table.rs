@@ -34,7 +34,7 @@ pub fn legend() -> Vec<String> {
          than 1 %), S: structure errors, in percent of the true hits; f: false hits, in percent of the rays.",
         "S counts what the structure's own triangle test, run over all triangles, finds, exact arithmetic confirms, and the \
          structure did not return. c: rays on which any hit, closest hit and batches contradict each other.",
-        "hang, panic, crash: no answers; refused: the structure does not admit the mesh. Truth is exact; the interval is half-open.",
+        "hang, panic, crash: no answers; refused: the structure does not admit the mesh; declined: it offers no answer to such rays. Truth is exact; the interval is half-open.",
         "A star: not in the totals, because the input is not valid, systems differ about what is right, or nothing can be hit; \
          a plus: added to the catalogue's measured cases.",
     ]
@@ -90,7 +90,7 @@ fn answers(cases: &[&Case], columns: &[Column]) -> Table {
         for column in columns {
             let said = match &column.scores[i] {
                 Score::Rays(RayScore { example: Some(example), .. }) if !column.documented => example,
-                Score::Failed(Failure::Refused(sentence)) => sentence,
+                Score::Failed(Failure::Refused(sentence) | Failure::Declined(sentence)) => sentence,
                 _ => continue,
             };
             notes.push(format!("{} on {}: {said}", column.label, case.name));
@@ -102,6 +102,7 @@ fn answers(cases: &[&Case], columns: &[Column]) -> Table {
 fn answer(score: &Score) -> Cell {
     let score = match score {
         Score::Rays(_) if score.is_clean() => return CLEAN.into(),
+        Score::Failed(failure @ Failure::Declined(_)) => return failure.name().into(),
         Score::Failed(failure) => return Cell::from(failure.name()).with(Tone::Wrong),
         Score::Property(_) => return Cell::blank(),
         Score::Rays(score) => score,

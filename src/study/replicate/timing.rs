@@ -47,7 +47,8 @@ pub(super) fn time(
     let rays: Vec<&[_]> = batches.iter().map(|(rays, _)| *rays).collect();
     let checks = check_all(scene, &built, &rays, clock, settings.check_ns, progress)?;
     for (built, checks) in built.iter().zip(&checks) {
-        if let Some(check) = checks.iter().find(|check| check.errors > 0) {
+        let panicked = || StudyError::Panicked { structure: built.choice.label.clone(), scene: scene.name.clone() };
+        if let Some(check) = checks.as_ref().ok_or_else(panicked)?.iter().find(|check| check.errors > 0) {
             return Err(StudyError::Wrong {
                 structure: built.choice.label.clone(),
                 scene: scene.name.clone(),

@@ -108,8 +108,10 @@ fn other_damage_is_told_apart() {
         (far, false, Some(Kind::WrongT)),
         (invented, true, Some(Kind::Invented)),
         (invented, false, Some(Kind::Invented)),
-        (beyond, true, Some(Kind::Invented)),
-        (outside, true, Some(Kind::Invented)),
+        (beyond, true, Some(Kind::WrongPrimitive)),
+        (beyond, false, Some(Kind::WrongPrimitive)),
+        (outside, true, Some(Kind::WrongPrimitive)),
+        (outside, false, Some(Kind::WrongPrimitive)),
     ] {
         let v = damaged(damage, |any| any, share).unwrap();
         assert_eq!(v.worst_error().map(|w| w.kind), kind);

@@ -1,4 +1,8 @@
-//! Golden images: what each built-in scene must look like with every structure, byte for byte.
+//! Golden images: what each built-in scene must look like with every structure, byte for byte; and, for the tests of other
+//! crates, [`assert_image`].
+
+mod flip;
+mod image;
 
 use std::path::{Path, PathBuf};
 
@@ -6,6 +10,9 @@ use crate::accel::DynAccel;
 use crate::render::{Difference, Picture, PictureError, render};
 use crate::scene::Scene;
 use crate::triangle::{Exact, TriangleTest};
+
+pub use flip::flip;
+pub use image::{Match, UPDATE, assert_image, check_image};
 
 /// Where golden images are kept, and where the pictures of a failure go.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -34,6 +41,23 @@ pub enum GoldenError {
         difference.largest, shown.display()
     )]
     Differs { label: String, path: PathBuf, difference: Difference, shown: PathBuf },
+    #[error("{cause}: run the test once with SAHARA_GOLDEN=update to make the golden image")]
+    NoImage { cause: PictureError },
+    #[error("the golden image {} has {expected:?} pixels, and what was drawn has {found:?}", path.display())]
+    OtherSize { path: PathBuf, expected: [u32; 2], found: [u32; 2] },
+    #[error(
+        "{} of {} pixels differ from {}, first at column {}, row {}, by up to {} of 255: see {}-actual.png, -expected.png and \
+         -difference.png",
+        difference.pixels, size[0] * size[1], path.display(), difference.first[0], difference.first[1],
+        difference.largest, shown.display()
+    )]
+    ImageDiffers { path: PathBuf, difference: Difference, size: [u32; 2], shown: PathBuf },
+    #[error(
+        "the picture looks different from {}: its mean FLIP error is {error:.4}, {allowed} is allowed; see {}-actual.png, \
+         -expected.png and -difference.png",
+        path.display(), shown.display()
+    )]
+    LooksDifferent { path: PathBuf, error: f64, allowed: f64, shown: PathBuf },
     #[error(transparent)]
     Picture(#[from] PictureError),
     #[error("cannot make the directory {}: {cause}", path.display())]
@@ -78,13 +102,8 @@ impl Goldens {
 
         // Leave something to look at.
         let label = format!("{} with {structure}", scene.name);
-        let shown = self.out.join(file_name(&format!("{}-{structure}", scene.name.to_lowercase())));
-        make(&self.out)?;
-        for (what, picture) in
-            [("actual", &actual), ("expected", &expected), ("difference", &actual.difference_picture(&expected))]
-        {
-            picture.write(&PathBuf::from(format!("{}-{what}.png", shown.display())))?;
-        }
+        let name = file_name(&format!("{}-{structure}", scene.name.to_lowercase()));
+        let shown = leave(&self.out, &name, &actual, &expected)?;
         Err(GoldenError::Differs { label, path, difference, shown })
     }
 
@@ -106,6 +125,18 @@ impl Goldens {
 
 fn draw(scene: &Scene, accel: &dyn DynAccel) -> Picture {
     Picture::from(&render(scene, accel, SIZE).0)
+}
+
+/// Leaves something to look at: `NAME-actual.png`, `-expected.png` and `-difference.png` in `out`. Gives their common part.
+fn leave(out: &Path, name: &str, actual: &Picture, expected: &Picture) -> Result<PathBuf, GoldenError> {
+    let shown = out.join(name);
+    make(out)?;
+    for (what, picture) in
+        [("actual", actual), ("expected", expected), ("difference", &actual.difference_picture(expected))]
+    {
+        picture.write(&PathBuf::from(format!("{}-{what}.png", shown.display())))?;
+    }
+    Ok(shown)
 }
 
 fn make(directory: &Path) -> Result<(), GoldenError> {

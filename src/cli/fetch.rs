@@ -1,0 +1,107 @@
+//! `fetch`.
+
+use std::path::{Path, PathBuf};
+
+use super::terminal::Terminal;
+use super::{Verdict, sources};
+use crate::fetch::DataFile;
+#[cfg(feature = "fetch")]
+use crate::fetch::{Client, Fetched};
+use crate::report::number::bytes;
+use crate::scene::format::{RealMesh, SceneFile};
+use crate::scene::{BUILTIN, Builtin, real_mesh_folder};
+
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    /// Built-in scenes and scene files (.toml); all built-in scenes if none is named
+    #[arg(value_name = "SCENE|F.toml")]
+    scenes: Vec<String>,
+    /// Only say what would be fetched, from where and under what licence
+    #[arg(long)]
+    list: bool,
+    /// The folder of real meshes [default: SAHARA_DATA, or scenes/data]
+    #[arg(long, value_name = "FOLDER")]
+    data: Option<PathBuf>,
+}
+
+pub fn run(args: &Args, terminal: &Terminal) -> anyhow::Result<Verdict> {
+    let folder = args.data.clone().unwrap_or_else(real_mesh_folder);
+    let mut files = vec![];
+    for scene in scenes(&args.scenes)? {
+        files.extend(scene.objects.into_iter().filter_map(|object| object.real).map(|real| (scene.name.clone(), real)));
+    }
+    if files.is_empty() {
+        terminal.print("these scenes name no real mesh: there is nothing to fetch\n")?;
+        return Ok(Verdict::Right);
+    }
+    // The licences of all come before the first download.
+    terminal.print_lines(&files.iter().flat_map(|(scene, real)| described(scene, real)).collect::<Vec<_>>())?;
+    if args.list {
+        return Ok(Verdict::Right);
+    }
+    let mut failed = 0;
+    for (_, real) in &files {
+        if let Err(error) = fetch(real, &folder, terminal) {
+            eprintln!("error: {error:#}");
+            failed += 1;
+        }
+    }
+    anyhow::ensure!(failed == 0, "{failed} of {} files could not be fetched: see above", files.len());
+    Ok(Verdict::Right)
+}
+
+/// The scene files named, or those of all built-in scenes.
+fn scenes(named: &[String]) -> anyhow::Result<Vec<SceneFile>> {
+    if named.is_empty() {
+        return Ok(BUILTIN.iter().map(Builtin::file).collect());
+    }
+    let read = |name: &String| -> anyhow::Result<SceneFile> {
+        match Path::new(name).extension() {
+            Some(_) => Ok(SceneFile::parse(&sources::text(Path::new(name))?, name)?),
+            None => Ok(Builtin::find(name)?.file()),
+        }
+    };
+    named.iter().map(read).collect()
+}
+
+/// What is fetched, from where, and what may be done with it.
+fn described(scene: &str, real: &RealMesh) -> [String; 3] {
+    let size = real.bytes.map_or(String::new(), |n| format!(", {}", bytes(n as usize)));
+    [
+        format!("{scene}: {}{size}: {}", real.file, real.origin),
+        format!("  licence: {}", real.licence),
+        format!("  from {}", real.url),
+    ]
+}
+
+#[cfg(feature = "fetch")]
+fn fetch(real: &RealMesh, folder: &Path, terminal: &Terminal) -> anyhow::Result<()> {
+    let file = DataFile::new(real, folder)?;
+    let bar = super::progress::download(&real.file, real.bytes, terminal);
+    let fetched = Client::default().fetch(&file, &mut |got| bar.set_position(got));
+    bar.finish_and_clear();
+    let what = match fetched? {
+        Fetched::AlreadyThere => "is there".to_owned(),
+        Fetched::Downloaded { bytes: n, resumed: 0 } => format!("fetched, {}, SHA-256 verified", bytes(n as usize)),
+        Fetched::Downloaded { bytes: n, resumed } => {
+            let (whole, before) = (bytes(n as usize), bytes(resumed as usize));
+            format!("fetched, {whole}, {before} of them before, SHA-256 verified")
+        }
+    };
+    terminal.print(&format!("{}: {what}\n", file.path.display()))?;
+    Ok(())
+}
+
+#[cfg(not(feature = "fetch"))]
+fn fetch(real: &RealMesh, folder: &Path, terminal: &Terminal) -> anyhow::Result<()> {
+    let file = DataFile::new(real, folder)?;
+    if file.is_there()? {
+        terminal.print(&format!("{}: is there\n", file.path.display()))?;
+        return Ok(());
+    }
+    anyhow::bail!(
+        "this sahara was built without the feature `fetch`: download {} to {} yourself",
+        file.url,
+        file.path.display()
+    )
+}

@@ -1,0 +1,230 @@
+//! `validate`.
+
+mod exchange;
+
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::Duration;
+
+use anyhow::Context;
+
+use super::rays::{RaySource, replayed};
+use super::terminal::Terminal;
+use super::{Verdict, sources};
+use crate::accel::DynAccel;
+use crate::geometry::Ray;
+use crate::registry::{Choice, Registry};
+use crate::report::number::{count, plural};
+use crate::report::{Cell, Table, Tone};
+use crate::scene::{Sampling, Scene, Workload, WorkloadKind};
+use crate::study::BRUTE_FORCE;
+use crate::validate::{LIMIT, Reference, Stratum, Validation, validate_watched, watched};
+
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    /// Built-in scenes and mesh files; all built-in scenes if none is named
+    #[arg(value_name = "SCENE|FILE")]
+    scenes: Vec<String>,
+    /// A structure, with keys that differ from their defaults; may be repeated [default: all, one of each name]
+    #[arg(long, short, value_name = "NAME[:key=value,..]")]
+    structure: Vec<String>,
+    /// Rays of each scene, shared out among the kinds; or a file of rays to replay
+    #[arg(long, value_name = "N|F.rays", default_value = "10000")]
+    rays: RaySource,
+    /// What is right: `brute-force` with each structure's own triangle test, or another structure, judged by exact
+    /// arithmetic where the two differ
+    #[arg(long, value_name = "NAME[:key=value,..]", default_value = BRUTE_FORCE)]
+    against: String,
+    /// Rays that break traversals, in place of those of the workloads
+    #[arg(long, conflicts_with = "ray")]
+    adversarial: bool,
+    /// Ask this ray alone; may be repeated
+    #[arg(long, value_name = "ox,oy,oz dx,dy,dz", allow_hyphen_values = true)]
+    ray: Vec<Ray>,
+    /// Hold the answers of a file, to the rays of the file of --rays, against the reference, in place of structures
+    #[arg(long, value_name = "F.hits", conflicts_with_all = ["structure", "export_hits"])]
+    hits: Option<PathBuf>,
+    /// The triangle test that the answers of --hits come from [default: one of their own, judged by exact arithmetic]
+    #[arg(long, value_name = "NAME", requires = "hits")]
+    test: Option<String>,
+    /// Write the answers of the one structure to the rays of the file of --rays
+    #[arg(long, value_name = "F.hits")]
+    export_hits: Option<PathBuf>,
+    /// Seconds that a structure may take for its build, or for 256 rays, before it counts as hanging
+    #[arg(long, value_name = "SECONDS", default_value_t = LIMIT.as_secs() as u32, value_parser = clap::value_parser!(u32).range(1..=86400))]
+    limit: u32,
+    /// Seed of the rays
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+}
+
+pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Result<Verdict> {
+    let structures = sources::structures(registry, &args.structure)?;
+    let against = sources::structure(registry, &args.against)?;
+    let replay = replayed(&args.rays, &args.scenes)?;
+    anyhow::ensure!(
+        replay.is_none() || args.ray.is_empty() && !args.adversarial,
+        "the rays are those of the file: leave --ray and --adversarial out"
+    );
+    if args.hits.is_some() || args.export_hits.is_some() {
+        let (scene, file) = replay.context("answers belong to rays of a file: give one with --rays F.rays")?;
+        return match &args.export_hits {
+            Some(output) => exchange::export(&scene, &file, &structures, output, terminal),
+            None => exchange::check(registry, args, &scene, &file, &against, terminal),
+        };
+    }
+    let (scenes, recorded) = match replay {
+        Some((scene, file)) => (vec![scene], Some(file.workload.rays)),
+        None => (sources::scenes(&args.scenes)?, None),
+    };
+
+    let mut verdict = Verdict::Right;
+    for scene in &scenes {
+        let rays = match &recorded {
+            Some(recorded) => recorded.clone(),
+            None if args.ray.is_empty() => rays(scene, registry, args)?,
+            None => args.ray.clone(),
+        };
+        let (mut rows, mut notes) = (vec![], scene.notes.clone());
+        for choice in &structures {
+            match check(scene, choice, &against, &rays, args.limit())? {
+                Taken::Compared(found) => {
+                    if found.errors() > 0 {
+                        verdict = Verdict::Wrong;
+                    }
+                    rows.push(row(&choice.label, choice.triangle_test(), &found));
+                    notes.extend(declined(choice, &found));
+                    notes.extend(found.worst.iter().map(|worst| format!("{}: {worst}", choice.label)));
+                }
+                Taken::Hangs => {
+                    verdict = Verdict::Wrong;
+                    rows.push(set_apart(choice, "hangs"));
+                    let limit = args.limit;
+                    notes.push(format!("{}: its builder did not end within {limit} s: see --limit", choice.label));
+                }
+                Taken::Refused(reason) => {
+                    if verdict == Verdict::Right {
+                        verdict = Verdict::Refused;
+                    }
+                    rows.push(set_apart(choice, "refused"));
+                    notes.push(format!("{}: {reason}", choice.label));
+                }
+            }
+        }
+        print(scene, &rays, &against, rows, notes, terminal)?;
+    }
+    terminal.print_lines(&LEGEND.map(String::from))?;
+    Ok(verdict)
+}
+
+impl Args {
+    fn limit(&self) -> Duration {
+        Duration::from_secs(self.limit.into())
+    }
+}
+
+/// The table of one scene.
+fn print(
+    scene: &Scene,
+    rays: &[Ray],
+    against: &Choice,
+    rows: Vec<Vec<Cell>>,
+    notes: Vec<String>,
+    terminal: &Terminal,
+) -> anyhow::Result<()> {
+    let stand_in = if scene.stand_ins.is_empty() { "" } else { ", stand-in" };
+    let (triangles, rays) = (plural(scene.mesh.len(), "triangle"), plural(rays.len(), "ray"));
+    let title = format!("{}: {triangles}{stand_in}; {rays} against {}", scene.name, against.label);
+    Ok(terminal.print_table(&Table { title, columns: COLUMNS.map(String::from).into(), rows, notes })?)
+}
+
+const COLUMNS: [&str; 7] =
+    ["structure", "triangle test", "hits", "structure errors", "answer errors", "kernel", "ties"];
+
+const LEGEND: [&str; 3] = [
+    "structure errors: hits lost or invented although the structure's own triangle test, run over all triangles, says \
+     otherwise, contradictions, panics and questions without an end; none in a correct structure. answer errors: wrong answers where the reference has another triangle test.",
+    "kernel: differences that the triangle test is to blame for. ties: as near a hit on another triangle; no error.",
+    "To ask a ray again: sahara validate SCENE --structure NAME --ray \"ox,oy,oz dx,dy,dz\"",
+];
+
+/// Of every kind the same number, at least one.
+fn rays(scene: &Scene, registry: &Registry, args: &Args) -> anyhow::Result<Vec<Ray>> {
+    if args.adversarial {
+        let each = (args.rays.count(1) as usize).div_ceil(Stratum::ALL.len());
+        return Ok(Stratum::ALL.iter().flat_map(|stratum| stratum.rays(&scene.mesh, each, args.seed)).collect());
+    }
+    let guide = sources::guide(registry)?.build(&scene.mesh)?;
+    let limit = (args.rays.count(1) as usize).div_ceil(WorkloadKind::ALL.len());
+    // Four pixels a ray: most kinds start where a pixel sees something.
+    let pixels = u32::try_from(4 * limit).unwrap_or(u32::MAX).min(scene.size[0] * scene.size[1]);
+    let sampling = Sampling { limit, ..Sampling::about(scene, pixels, args.seed) };
+    let of_kind = |&kind| Workload::new(scene, kind, &sampling, guide.as_ref()).rays;
+    Ok(WorkloadKind::ALL.iter().flat_map(of_kind).collect())
+}
+
+/// What came of one structure on one scene.
+enum Taken {
+    Compared(Validation),
+    /// Its builder does not end.
+    Hangs,
+    /// It cannot be built; the sentence says why.
+    Refused(String),
+}
+
+fn check(scene: &Scene, choice: &Choice, against: &Choice, rays: &[Ray], limit: Duration) -> anyhow::Result<Taken> {
+    let reference = Arc::new(reference(scene, choice.triangle_test(), against)?);
+    let (own, mesh) = (choice.clone(), Arc::clone(&scene.mesh));
+    // A panic of the builder is caught by the registry: what ends without a result hangs.
+    let Ok(built) = watched(limit, move || own.build(&mesh)) else { return Ok(Taken::Hangs) };
+    let accel: Arc<dyn DynAccel> = match built {
+        Ok(accel) => Arc::from(accel),
+        Err(error) => return Ok(Taken::Refused(error.to_string())),
+    };
+    Ok(Taken::Compared(validate_watched(&accel, &reference, &scene.mesh, rays, limit)))
+}
+
+/// What a structure with this triangle test is held against.
+fn reference(scene: &Scene, test: &str, against: &Choice) -> anyhow::Result<Reference> {
+    // Brute force by its bare name shares each structure's test; with a test of its own it is a structure like any other.
+    if against.label == BRUTE_FORCE {
+        return Ok(Reference::of_test(test, &scene.mesh)?);
+    }
+    let built = against.build(&scene.mesh);
+    Ok(Reference::structure(built.with_context(|| format!("{} cannot be built over {}", against.label, scene.name))?))
+}
+
+/// The row of a structure that was not compared.
+fn set_apart(choice: &Choice, why: &str) -> Vec<Cell> {
+    let mut row = vec![Cell::blank(); COLUMNS.len()];
+    row[0] = choice.label.as_str().into();
+    row[1] = choice.triangle_test().into();
+    row[2] = Cell::from(why).with(Tone::Wrong);
+    row
+}
+
+/// What a structure was not asked.
+fn declined(choice: &Choice, found: &Validation) -> Option<String> {
+    let can = choice.entry.capabilities;
+    let what = can.declined();
+    let rays = match found.declined {
+        0 => String::new(),
+        n => format!(": {} not asked", plural(n as usize, "ray")),
+    };
+    (!what.is_empty()).then(|| format!("{} declines {}{rays}", choice.label, what.join(", ")))
+}
+
+fn row(label: &str, test: &str, found: &Validation) -> Vec<Cell> {
+    let errors = |n: u64| Cell::from(count(n)).with(if n > 0 { Tone::Wrong } else { Tone::Plain });
+    let own = found.errors() - found.answer_errors;
+    let hits = if found.rays == 0 && found.declined > 0 { "declined".into() } else { count(found.hits) };
+    vec![
+        label.into(),
+        test.into(),
+        hits.into(),
+        errors(own),
+        errors(found.answer_errors),
+        count(found.kernel_differences).into(),
+        count(found.ties).into(),
+    ]
+}

@@ -1,0 +1,128 @@
+//! The download itself.
+
+use std::fs::{self, OpenOptions};
+use std::io::{self, Read, Write};
+use std::time::Duration;
+
+use super::{DataFile, FetchError, Fetched};
+
+/// Asks servers for files.
+pub struct Client {
+    agent: ureq::Agent,
+}
+
+/// Redirects that are followed: repositories need one or two.
+const REDIRECTS: u32 = 5;
+
+impl Default for Client {
+    fn default() -> Self {
+        let config = ureq::Agent::config_builder()
+            .max_redirects(REDIRECTS)
+            .http_status_as_error(false)
+            .timeout_connect(Some(Duration::from_secs(30)))
+            .timeout_recv_response(Some(Duration::from_secs(60)))
+            // A download that stops is given up some time, and gone on with by the next run.
+            .timeout_recv_body(Some(Duration::from_secs(3600)))
+            .user_agent(concat!("sahara/", env!("CARGO_PKG_VERSION")))
+            .build();
+        Self { agent: config.into() }
+    }
+}
+
+impl Client {
+    /// Brings `file` to its place: from where an earlier download ended, verified, and in one step. `progress` is told the bytes
+    /// that there are.
+    ///
+    /// # Errors
+    /// If the file is there with other contents, the server does not give it, or gives something else. A part that may be
+    /// gone on with is kept.
+    pub fn fetch(&self, file: &DataFile, progress: &mut dyn FnMut(u64)) -> Result<Fetched, FetchError> {
+        if file.is_there()? {
+            return Ok(Fetched::AlreadyThere);
+        }
+        if let Some(folder) = file.path.parent() {
+            fs::create_dir_all(folder).map_err(|cause| FetchError::Write { path: folder.into(), cause })?;
+        }
+        let there = fs::metadata(file.part()).map_or(0, |part| part.len());
+        let mut resumed = if file.bytes.is_none_or(|bytes| there <= bytes) { there } else { 0 };
+        if resumed == 0 || file.bytes != Some(resumed) {
+            resumed = self.download(file, resumed, progress)?;
+        }
+        let bytes = fs::metadata(file.part()).map_or(0, |part| part.len());
+        file.finish()?;
+        Ok(Fetched::Downloaded { bytes, resumed })
+    }
+
+    /// Downloads from byte `from` on, or all where the server has no parts. Gives where it began.
+    fn download(&self, file: &DataFile, from: u64, progress: &mut dyn FnMut(u64)) -> Result<u64, FetchError> {
+        let connection = |cause: ureq::Error| FetchError::Connection { url: file.url.clone(), cause: sentence(&cause) };
+        let mut request = self.agent.get(&file.url);
+        if from > 0 {
+            request = request.header("Range", format!("bytes={from}-"));
+        }
+        let response = request.call().map_err(connection)?;
+        let header = |name: &str| response.headers().get(name)?.to_str().ok().map(str::to_owned);
+        let begins =
+            header("content-range").and_then(|range| range.strip_prefix("bytes ")?.split('-').next()?.parse().ok());
+        let start = match response.status().as_u16() {
+            200 => 0,
+            206 if begins == Some(from) => from,
+            // The part is of another file, or of more than there is: begin anew.
+            206 | 416 if from > 0 => return self.download(file, 0, progress),
+            status => return Err(FetchError::Status { url: file.url.clone(), status }),
+        };
+        let length: Option<u64> = header("content-length").and_then(|length| length.parse().ok());
+        let expected = length.map(|length| start + length).or(file.bytes);
+
+        let body = response.into_body().into_reader();
+        let got = self.append(file, start, body, progress)?;
+        match expected {
+            Some(expected) if got < expected => Err(FetchError::Cut { url: file.url.clone(), got, expected }),
+            _ => Ok(start),
+        }
+    }
+
+    /// Writes the body behind the first `start` bytes of the part. Gives the bytes that there are when it ends, however it ends.
+    fn append(
+        &self,
+        file: &DataFile,
+        start: u64,
+        mut body: impl Read,
+        progress: &mut dyn FnMut(u64),
+    ) -> Result<u64, FetchError> {
+        let part = file.part();
+        let refused = |cause: io::Error| FetchError::Write { path: part.clone(), cause };
+        let open = OpenOptions::new().create(true).append(true).open(&part);
+        let mut out = open.map_err(refused)?;
+        out.set_len(start).map_err(refused)?;
+        let (mut got, mut buffer) = (start, vec![0; 1 << 16]);
+        loop {
+            let n = match body.read(&mut buffer) {
+                Ok(0) => return Ok(got),
+                Ok(n) => n,
+                Err(cause) if cause.kind() == io::ErrorKind::Interrupted => continue,
+                // A body that breaks off is one that ends too early.
+                Err(cause) if got == start => {
+                    return Err(FetchError::Connection { url: file.url.clone(), cause: cause.to_string() });
+                }
+                Err(_) => {
+                    return Err(FetchError::Cut { url: file.url.clone(), got, expected: file.bytes.unwrap_or(got) });
+                }
+            };
+            got += n as u64;
+            if let Some(expected) = file.bytes.filter(|&bytes| got > bytes) {
+                fs::remove_file(&part).map_err(refused)?;
+                return Err(FetchError::Long { url: file.url.clone(), expected });
+            }
+            out.write_all(&buffer[..n]).map_err(refused)?;
+            progress(got);
+        }
+    }
+}
+
+fn sentence(error: &ureq::Error) -> String {
+    match error {
+        ureq::Error::TooManyRedirects => format!("it redirects more than {REDIRECTS} times, perhaps in a circle"),
+        other => other.to_string(),
+    }
+}

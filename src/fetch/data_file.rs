@@ -1,0 +1,87 @@
+use std::fs::{self, File};
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
+
+use sha2::{Digest, Sha256};
+
+use super::FetchError;
+use crate::scene::format::RealMesh;
+
+/// A file of the folder of real meshes: where it is to be, and what it must be.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct DataFile {
+    /// What can be downloaded.
+    pub url: String,
+    /// The finished file.
+    pub path: PathBuf,
+    /// SHA-256 in hexadecimal.
+    pub sha256: String,
+    /// Its size, where the scene file gives it.
+    pub bytes: Option<u64>,
+}
+
+impl DataFile {
+    /// # Errors
+    /// If there is no hash to verify it by.
+    pub fn new(real: &RealMesh, folder: &Path) -> Result<Self, FetchError> {
+        let (url, path) = (real.url.clone(), folder.join(&real.file));
+        match &real.sha256 {
+            Some(sha256) if real.unpack.is_none() => {
+                Ok(Self { url, path, sha256: sha256.to_lowercase(), bytes: real.bytes })
+            }
+            _ => Err(FetchError::NoHash {
+                file: real.file.clone(),
+                url,
+                unpack: real.unpack.clone(),
+                folder: folder.into(),
+            }),
+        }
+    }
+
+    /// Where it grows: beside its place, so that it can be moved there in one step.
+    pub fn part(&self) -> PathBuf {
+        let name = self.path.file_name().unwrap_or_default().to_string_lossy();
+        self.path.with_file_name(format!(".{name}.part"))
+    }
+
+    /// Whether the file is there with the right contents.
+    ///
+    /// # Errors
+    /// If it is there with others, or cannot be read.
+    pub fn is_there(&self) -> Result<bool, FetchError> {
+        if !self.path.exists() {
+            return Ok(false);
+        }
+        let found = hash(&self.path).map_err(|cause| FetchError::Write { path: self.path.clone(), cause })?;
+        match found == self.sha256 {
+            true => Ok(true),
+            false => Err(FetchError::Other { path: self.path.clone(), found, expected: self.sha256.clone() }),
+        }
+    }
+
+    /// Moves the finished part to its place, if it is what it must be; else removes it.
+    ///
+    /// # Errors
+    /// If the hash does not fit, or the system refuses.
+    pub fn finish(&self) -> Result<(), FetchError> {
+        let part = self.part();
+        let refused = |cause: io::Error| FetchError::Write { path: self.path.clone(), cause };
+        let found = hash(&part).map_err(refused)?;
+        if found != self.sha256 {
+            fs::remove_file(&part).map_err(refused)?;
+            return Err(FetchError::Hash { url: self.url.clone(), found, expected: self.sha256.clone() });
+        }
+        File::open(&part).and_then(|file| file.sync_all()).map_err(refused)?;
+        fs::rename(&part, &self.path).map_err(refused)
+    }
+}
+
+fn hash(path: &Path) -> io::Result<String> {
+    let (mut file, mut hasher, mut buffer) = (File::open(path)?, Sha256::new(), vec![0; 1 << 16]);
+    loop {
+        match file.read(&mut buffer)? {
+            0 => return Ok(hasher.finalize().iter().map(|byte| format!("{byte:02x}")).collect()),
+            n => hasher.update(&buffer[..n]),
+        }
+    }
+}

@@ -1,0 +1,55 @@
+//! Downloads of real meshes: resumable, verified, whole or not at all.
+//!
+//! Behind the feature `fetch`, which is on by default and brings an HTTP client with TLS of its own: no library of the system,
+//! no certificates of the system. Without the feature everything else works, and `sahara fetch` says what to download by hand.
+
+#[cfg(feature = "fetch")]
+mod client;
+mod data_file;
+
+use std::path::PathBuf;
+
+#[cfg(feature = "fetch")]
+pub use client::Client;
+pub use data_file::DataFile;
+
+/// What came of a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fetched {
+    /// It was there, with the right contents.
+    AlreadyThere,
+    /// It was downloaded, all but the first `resumed` bytes, which were there from before.
+    Downloaded { bytes: u64, resumed: u64 },
+}
+
+/// Why a file was not fetched. What has been downloaded of it is kept where it can be used.
+#[derive(Debug, thiserror::Error)]
+pub enum FetchError {
+    #[error("{file} cannot be fetched: its scene file gives no sha256 to verify it by{}", unpack.as_ref().map_or(String::new(), |how| format!("; download {url} yourself, then {how}, into {}", folder.display())))]
+    NoHash { file: String, url: String, unpack: Option<String>, folder: PathBuf },
+    #[error("{} is there with other contents (SHA-256 {found}, not {expected}): rename or remove it and fetch again", path.display())]
+    Other { path: PathBuf, found: String, expected: String },
+    #[error("{url}: the server answers {status}: {}", advice(*status))]
+    Status { url: String, status: u16 },
+    #[error("{url}: {cause}: check the connection and fetch again")]
+    Connection { url: String, cause: String },
+    #[error("{url}: the connection ended after {got} of {expected} bytes: fetch again to go on from there")]
+    Cut { url: String, got: u64, expected: u64 },
+    #[error("{url}: more than the {expected} bytes that the scene file says came: nothing of it is kept")]
+    Long { url: String, expected: u64 },
+    #[error(
+        "{url}: what came has the SHA-256 {found}, not {expected}: nothing of it is kept; the file there has changed, or was changed on the way"
+    )]
+    Hash { url: String, found: String, expected: String },
+    #[error("cannot write {}: {cause}: choose a folder that may be written and has room (SAHARA_DATA)", path.display())]
+    Write { path: PathBuf, cause: std::io::Error },
+}
+
+fn advice(status: u16) -> &'static str {
+    match status {
+        404 | 410 => "there is no such file any more; look for the mesh by its origin",
+        401 | 403 => "it does not give the file to everybody",
+        429 | 500.. => "try again later",
+        _ => "look at the address in a browser",
+    }
+}

@@ -1,0 +1,120 @@
+//! Golden images of other crates: one function for their tests.
+
+use std::path::{Path, PathBuf};
+
+use super::flip::flip;
+use super::{GoldenError, file_name, leave, make};
+use crate::render::Picture;
+
+/// When a picture is accepted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Match {
+    /// Every byte is the same: what a deterministic renderer owes.
+    Exact,
+    /// The mean FLIP error is at most this: 0 to 1, where 0.01 is hard to see and 0.1 plain ([`flip`]).
+    Perceptual(f64),
+}
+
+/// Set to `update`, this environment variable makes [`assert_image`] write golden images in place of comparing.
+pub const UPDATE: &str = "SAHARA_GOLDEN";
+
+/// Where the pictures of failures go, from the current directory; that of a test is the folder of its crate.
+const OUT: &str = "out/golden";
+
+/// Holds `actual` against the golden image `path`, a PNG file; for tests.
+///
+/// With the environment variable `SAHARA_GOLDEN=update` the file is written instead, folders included.
+///
+/// ```
+/// use sahara::golden::{Match, assert_image};
+/// use sahara::render::Picture;
+///
+/// # let folder = tempfile::tempdir().unwrap();
+/// # let golden = folder.path().join("sunset.png");
+/// let drawn = Picture::new([64, 64], vec![[200, 90, 40]; 64 * 64]);
+/// # drawn.write(&golden).unwrap();
+/// assert_image(&golden, &drawn, Match::Exact);
+///
+/// // Another machine rounds one pixel otherwise: that is not the same, but looks so.
+/// let mut pixels = drawn.pixels().to_vec();
+/// pixels[100][0] += 1;
+/// let rounded = Picture::new([64, 64], pixels);
+/// assert_image(&golden, &rounded, Match::Perceptual(0.01));
+/// # assert!(sahara::golden::check_image(&golden, &rounded, Match::Exact, &folder.path().join("out")).is_err());
+/// ```
+///
+/// # Panics
+/// If the picture is not accepted, is of another size, or there is no golden image. What was drawn, what was expected and the
+/// difference are then in `out/golden`.
+#[track_caller]
+pub fn assert_image(path: impl AsRef<Path>, actual: &Picture, how: Match) {
+    let path = path.as_ref();
+    let result = match std::env::var(UPDATE).as_deref() {
+        Ok("update") => update(path, actual),
+        _ => check_image(path, actual, how, Path::new(OUT)),
+    };
+    if let Err(error) = result {
+        panic!("{error}");
+    }
+}
+
+fn update(path: &Path, actual: &Picture) -> Result<(), GoldenError> {
+    if let Some(folder) = path.parent() {
+        make(folder)?;
+    }
+    Ok(actual.write(path)?)
+}
+
+/// As [`assert_image`], without a panic and with the pictures of a failure in `out`.
+///
+/// # Errors
+/// If the picture is not accepted, or the golden image cannot be read.
+pub fn check_image(path: &Path, actual: &Picture, how: Match, out: &Path) -> Result<(), GoldenError> {
+    let expected = Picture::read(path).map_err(|cause| GoldenError::NoImage { cause })?;
+    if expected.size() != actual.size() {
+        return Err(GoldenError::OtherSize { path: path.into(), expected: expected.size(), found: actual.size() });
+    }
+    let Some(difference) = actual.difference(&expected) else { return Ok(()) };
+    let looks = match how {
+        Match::Exact => None,
+        Match::Perceptual(allowed) => match flip(&expected, actual) {
+            error if error <= allowed => return Ok(()),
+            error => Some((error, allowed)),
+        },
+    };
+    let stem = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy();
+    let shown = leave(out, &file_name(&stem), actual, &expected)?;
+    let path: PathBuf = path.into();
+    Err(match looks {
+        None => GoldenError::ImageDiffers { path, difference, size: actual.size(), shown },
+        Some((error, allowed)) => GoldenError::LooksDifferent { path, error, allowed, shown },
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn picture(shade: u8) -> Picture {
+        Picture::new([16, 16], vec![[shade, 50, 50]; 256])
+    }
+
+    #[test]
+    fn each_refusal_says_why_and_leaves_pictures() {
+        let directory = tempfile::tempdir().unwrap();
+        let (golden, out) = (directory.path().join("a/b.png"), directory.path().join("out"));
+        let refusal = |actual: &Picture, how| check_image(&golden, actual, how, &out).unwrap_err().to_string();
+        assert!(refusal(&picture(10), Match::Exact).contains("SAHARA_GOLDEN=update"));
+        update(&golden, &picture(10)).unwrap();
+        check_image(&golden, &picture(10), Match::Exact, &out).unwrap();
+        assert!(!out.exists());
+
+        assert!(refusal(&picture(11), Match::Exact).contains("256 of 256 pixels differ"));
+        check_image(&golden, &picture(11), Match::Perceptual(0.2), &out).unwrap();
+        let far = refusal(&picture(255), Match::Perceptual(0.2));
+        assert!(far.contains("looks different") && far.contains("0.2 is allowed"), "{far}");
+        assert_eq!(Picture::read(&out.join("b-actual.png")).unwrap(), picture(255));
+        assert_eq!(std::fs::read_dir(&out).unwrap().count(), 3);
+        assert!(refusal(&Picture::new([1, 1], vec![[0; 3]]), Match::Exact).contains("[1, 1]"));
+    }
+}

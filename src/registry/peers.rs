@@ -1,0 +1,54 @@
+//! The structures of other projects, as far as their features are on.
+
+use super::Registry;
+
+impl Registry {
+    /// Each over its own triangle test first, then over those of ours that it takes.
+    pub(super) fn with_peers(self) -> Self {
+        let this = self;
+
+        #[cfg(feature = "peer-bvh")]
+        let this = {
+            use crate::structures::BruteForce;
+            use crate::structures::peers::bvh::{SvenstaroBvh, SvenstaroBvhConfig, SvenstaroTest};
+            use crate::triangle::{Exact, MollerTrumbore};
+            let config = SvenstaroBvhConfig::default();
+            this.with::<SvenstaroBvh<SvenstaroTest>>("bvh", config)
+                .with::<SvenstaroBvh<MollerTrumbore>>("bvh", config)
+                .with::<SvenstaroBvh<Exact>>("bvh", config)
+                .with::<BruteForce<SvenstaroTest>>("brute-force", Default::default())
+        };
+
+        #[cfg(feature = "peer-parry")]
+        let this = {
+            use crate::structures::BruteForce;
+            use crate::structures::peers::parry::{ParryBvh, ParryConfig, ParryTest};
+            use crate::triangle::{Exact, MollerTrumbore};
+            let config = ParryConfig::default();
+            this.with::<ParryBvh<ParryTest>>("parry", config)
+                .with::<ParryBvh<MollerTrumbore>>("parry", config)
+                .with::<ParryBvh<Exact>>("parry", config)
+                .with::<BruteForce<ParryTest>>("brute-force", Default::default())
+        };
+
+        #[cfg(feature = "peer-kdtree-ray")]
+        let this = {
+            use crate::structures::peers::kdtree_ray::{KdTreeRay, KdTreeRayConfig};
+            use crate::triangle::{Exact, MollerTrumbore};
+            let config = KdTreeRayConfig::default();
+            this.with::<KdTreeRay<MollerTrumbore>>("kdtree-ray", config).with::<KdTreeRay<Exact>>("kdtree-ray", config)
+        };
+
+        #[cfg(feature = "peer-tinybvh")]
+        let this = this.with::<crate::structures::peers::tinybvh::TinyBvh>("tinybvh", Default::default());
+
+        #[cfg(feature = "peer-embree")]
+        let this = {
+            use crate::structures::peers::embree::{Embree, EmbreeConfig, Fast, Robust};
+            this.with::<Embree<Fast>>("embree", EmbreeConfig::default())
+                .with::<Embree<Robust>>("embree-robust", EmbreeConfig::default())
+        };
+
+        this
+    }
+}

@@ -1,0 +1,65 @@
+//! What both kinds of files share: the first 32 bytes, and reading numbers without running over the end.
+
+use crate::accel::Query;
+
+/// The first 32 bytes of either file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Head {
+    pub query: Query,
+    pub count: u64,
+    pub hash: [u8; 8],
+}
+
+pub(super) const HEAD: usize = 32;
+
+const VERSION: u32 = 1;
+
+/// Takes the head off `bytes`, which must begin with `magic` and are a file of `what`.
+pub(super) fn head(bytes: &[u8], magic: &[u8; 8], what: &str) -> Result<Head, String> {
+    if bytes.len() < 8 || bytes[..8] != magic[..] {
+        return Err(format!("this is no file of {what}: it does not begin with {:?}", String::from_utf8_lossy(magic)));
+    }
+    if bytes.len() < HEAD {
+        return Err(format!("the file is cut short: {} bytes, fewer than its head has", bytes.len()));
+    }
+    let (version, query) = (number(bytes, 8), number(bytes, 12));
+    if version != VERSION {
+        return Err(format!(
+            "version {version} of files of {what} is not known here, only {VERSION}: use a newer sahara"
+        ));
+    }
+    let query = match query {
+        0 => Query::Closest,
+        1 => Query::Any,
+        other => return Err(format!("the query {other} is not known: 0 is the closest hit, 1 any hit")),
+    };
+    let eight = |at: usize| -> [u8; 8] { bytes[at..at + 8].try_into().expect("eight bytes") };
+    Ok(Head { query, count: u64::from_le_bytes(eight(16)), hash: eight(24) })
+}
+
+/// The bytes of a head.
+pub(super) fn head_bytes(head: &Head, magic: &[u8; 8]) -> Vec<u8> {
+    let mut bytes = magic.to_vec();
+    bytes.extend(VERSION.to_le_bytes());
+    bytes.extend(u32::from(head.query == Query::Any).to_le_bytes());
+    bytes.extend(head.count.to_le_bytes());
+    bytes.extend(head.hash);
+    bytes
+}
+
+/// The `u32` at `at`, which lies within.
+pub(super) fn number(bytes: &[u8], at: usize) -> u32 {
+    u32::from_le_bytes(bytes[at..at + 4].try_into().expect("four bytes"))
+}
+
+/// The part after `at`, which must have `count` items of `size` bytes.
+pub(super) fn body(bytes: &[u8], at: usize, count: u64, size: u64) -> Result<&[u8], String> {
+    let found = bytes.len().saturating_sub(at) as u64;
+    match count.checked_mul(size) {
+        Some(owed) if owed == found => Ok(&bytes[at..]),
+        Some(owed) if owed < found => {
+            Err(format!("{} bytes follow after the last of {count}: it was changed", found - owed))
+        }
+        _ => Err(format!("the file is cut short: it should hold {count}, and holds {}", found / size)),
+    }
+}

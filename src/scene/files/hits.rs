@@ -1,0 +1,97 @@
+//! Files of answers.
+
+use std::path::Path;
+
+use sha2::{Digest, Sha256};
+
+use super::bytes::{HEAD, Head, body, head, head_bytes, number};
+use super::rays::hex;
+use super::{FileError, content, read};
+use crate::accel::Query;
+use crate::geometry::Hit;
+use crate::output::OutputFile;
+use crate::scene::Workload;
+
+/// Answers to the rays of a file, in their order.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HitFile {
+    query: Query,
+    hash: [u8; 8],
+    hits: Vec<Option<Hit>>,
+}
+
+const MAGIC: &[u8; 8] = b"SAHAHITS";
+
+/// In place of a primitive: nothing is hit.
+const NOTHING: u32 = u32::MAX;
+
+impl HitFile {
+    /// The answers to all rays of `workload`.
+    ///
+    /// # Panics
+    /// If there are not as many answers as rays.
+    pub fn new(workload: &Workload, hits: Vec<Option<Hit>>) -> Self {
+        assert_eq!(workload.rays.len(), hits.len(), "one answer a ray");
+        let hash = Sha256::digest(workload.bytes())[..8].try_into().expect("eight bytes");
+        Self { query: workload.query, hash, hits }
+    }
+
+    /// # Errors
+    /// If the file cannot be read, is no file of hits or is not whole.
+    pub fn read(path: &Path) -> Result<Self, FileError> {
+        Self::from_bytes(&read(path)?).map_err(content(path))
+    }
+
+    /// # Errors
+    /// If the file cannot be written.
+    pub fn write(&self, file: &OutputFile) -> Result<(), FileError> {
+        Ok(file.write(&self.to_bytes())?)
+    }
+
+    /// What was asked.
+    pub fn query(&self) -> Query {
+        self.query
+    }
+
+    /// The answers, if they are those to `workload`.
+    ///
+    /// # Errors
+    /// If they answer other rays or another question.
+    pub fn answers(&self, workload: &Workload) -> Result<&[Option<Hit>], String> {
+        let own = Self::new(workload, vec![None; workload.rays.len()]);
+        if self.hash != own.hash || self.hits.len() != own.hits.len() {
+            return Err(format!(
+                "these are {} answers to rays with the hash {}, not to the {} rays with the hash {}",
+                self.hits.len(),
+                hex(&self.hash),
+                own.hits.len(),
+                hex(&own.hash)
+            ));
+        }
+        if self.query != own.query {
+            let (theirs, ours) = (self.query.name(), own.query.name());
+            return Err(format!("these are answers to the query {theirs:?}, and the rays ask {ours:?}"));
+        }
+        Ok(&self.hits)
+    }
+
+    pub(super) fn to_bytes(&self) -> Vec<u8> {
+        let mut bytes = head_bytes(&Head { query: self.query, count: self.hits.len() as u64, hash: self.hash }, MAGIC);
+        for hit in &self.hits {
+            let (t, prim) = hit.map_or((0.0, NOTHING), |hit| (hit.t, hit.prim.index()));
+            bytes.extend(t.to_bits().to_le_bytes());
+            bytes.extend(prim.to_le_bytes());
+        }
+        bytes
+    }
+
+    pub(super) fn from_bytes(bytes: &[u8]) -> Result<Self, String> {
+        let Head { query, count, hash } = head(bytes, MAGIC, "hits")?;
+        let answers = body(bytes, HEAD, count, 8)?.chunks_exact(8);
+        let answer = |answer: &[u8]| match number(answer, 4) {
+            NOTHING => None,
+            prim => Some(Hit::new(f32::from_bits(number(answer, 0)), prim)),
+        };
+        Ok(Self { query, hash, hits: answers.map(answer).collect() })
+    }
+}

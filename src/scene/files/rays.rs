@@ -1,0 +1,136 @@
+//! Files of rays.
+
+use std::path::Path;
+
+use glam::Vec3;
+use sha2::{Digest, Sha256};
+
+use super::bytes::{HEAD, Head, body, head, head_bytes, number};
+use super::{FileError, content, read};
+use crate::geometry::Ray;
+use crate::output::OutputFile;
+use crate::scene::{Scene, Workload};
+
+/// Rays and where they come from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RayFile {
+    /// Name of the scene; may be empty.
+    pub scene: String,
+    /// [`Scene::hash`], in hexadecimal; nothing for rays of no scene in particular.
+    pub scene_hash: Option<String>,
+    /// The rays, their kind and query.
+    pub workload: Workload,
+}
+
+const MAGIC: &[u8; 8] = b"SAHARAYS";
+
+/// Where the names begin.
+const NAMES: usize = 72;
+
+impl RayFile {
+    /// The rays of `workload`, made for `scene`.
+    pub fn new(scene: &Scene, workload: Workload) -> Self {
+        Self { scene: scene.name.clone(), scene_hash: Some(scene.hash()), workload }
+    }
+
+    /// # Errors
+    /// If the file cannot be read, is no ray file, is not whole, or holds a ray that is none.
+    pub fn read(path: &Path) -> Result<Self, FileError> {
+        Self::from_bytes(&read(path)?).map_err(content(path))
+    }
+
+    /// # Errors
+    /// If the file cannot be written.
+    pub fn write(&self, file: &OutputFile) -> Result<(), FileError> {
+        Ok(file.write(&self.to_bytes())?)
+    }
+
+    /// Whether `rays` can be kept in a file.
+    ///
+    /// # Errors
+    /// If there is none, or one is not made of finite numbers, by its place, counted from 1; `t_max` may be infinite.
+    pub fn check(rays: &[Ray]) -> Result<(), String> {
+        let bad = |ray: &Ray| {
+            let finite = ray.origin.is_finite() && ray.direction.is_finite();
+            !finite || ray.t_min.is_nan() || ray.t_max.is_nan()
+        };
+        match rays.iter().position(bad) {
+            _ if rays.is_empty() => Err("there is no ray in it".into()),
+            Some(at) => Err(format!("ray {} of {} is not made of finite numbers: {}", at + 1, rays.len(), rays[at])),
+            None => Ok(()),
+        }
+    }
+
+    /// # Errors
+    /// If these are rays of another scene, or of another version of it.
+    pub fn check_scene(&self, scene: &Scene) -> Result<(), String> {
+        match &self.scene_hash {
+            Some(hash) if *hash != scene.hash() => Err(format!(
+                "the rays were recorded for the scene {:?} with the hash {}, and {:?} as it is here has {}: record them \
+                 again, or use the meshes that they were recorded with",
+                self.scene,
+                &hash[..16],
+                scene.name,
+                &scene.hash()[..16]
+            )),
+            _ => Ok(()),
+        }
+    }
+
+    pub(super) fn to_bytes(&self) -> Vec<u8> {
+        let Workload { name, query, rays } = &self.workload;
+        let body = self.workload.bytes();
+        let hash = Sha256::digest(&body)[..8].try_into().expect("eight bytes");
+        let mut bytes = head_bytes(&Head { query: *query, count: rays.len() as u64, hash }, MAGIC);
+        bytes.extend(self.scene_hash.as_deref().map_or([0; 32], unhex));
+        bytes.extend((self.scene.len() as u32).to_le_bytes());
+        bytes.extend((name.len() as u32).to_le_bytes());
+        bytes.extend(self.scene.as_bytes());
+        bytes.extend(name.as_bytes());
+        bytes.resize(bytes.len().next_multiple_of(HEAD), 0);
+        bytes.extend(body);
+        bytes
+    }
+
+    pub(super) fn from_bytes(bytes: &[u8]) -> Result<Self, String> {
+        let Head { query, count, hash } = head(bytes, MAGIC, "rays")?;
+        let short = || "the file is cut short within its head".to_owned();
+        if bytes.len() < NAMES {
+            return Err(short());
+        }
+        let lengths = [number(bytes, NAMES - 8), number(bytes, NAMES - 4)].map(|n| n as usize);
+        let rest = &bytes[NAMES..];
+        let scene = rest.get(..lengths[0]).ok_or_else(short)?;
+        let name = rest[lengths[0]..].get(..lengths[1]).ok_or_else(short)?;
+        let text = |bytes: &[u8]| {
+            String::from_utf8(bytes.to_vec()).map_err(|_| "a name in the head is no UTF-8: it was changed".to_owned())
+        };
+        let (scene, name) = (text(scene)?, text(name)?);
+
+        let start = (NAMES + lengths[0] + lengths[1]).next_multiple_of(HEAD);
+        let body = body(bytes, start, count, 32)?;
+        if Sha256::digest(body)[..8] != hash {
+            return Err("the rays do not have the hash that the head says: the file was changed".into());
+        }
+        let rays: Vec<Ray> = body.chunks_exact(32).map(ray).collect();
+        Self::check(&rays)?;
+        let known = bytes[HEAD..HEAD + 32].iter().any(|&byte| byte != 0);
+        let scene_hash = known.then(|| hex(&bytes[HEAD..HEAD + 32]));
+        Ok(Self { scene, scene_hash, workload: Workload { name, query, rays } })
+    }
+}
+
+fn ray(bytes: &[u8]) -> Ray {
+    let float = |i: usize| f32::from_bits(number(bytes, 4 * i));
+    let vector = |i: usize| Vec3::new(float(i), float(i + 1), float(i + 2));
+    Ray { origin: vector(0), t_min: float(3), direction: vector(4), t_max: float(7) }
+}
+
+pub(super) fn hex(bytes: &[u8]) -> String {
+    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// The bytes of a hash that [`Scene::hash`] has made.
+fn unhex(text: &str) -> [u8; 32] {
+    std::array::from_fn(|i| text.get(2 * i..2 * i + 2).and_then(|two| u8::from_str_radix(two, 16).ok()).unwrap_or(0))
+}

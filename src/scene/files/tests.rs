@@ -1,0 +1,134 @@
+use std::process::Command;
+
+use super::*;
+use crate::accel::{Accel, DynAccel, Query};
+use crate::geometry::{Hit, Ray};
+use crate::output::OutputFile;
+use crate::scene::{Builtin, Sampling, Scene, Workload, WorkloadKind};
+use crate::structures::{KdConfig, KdTree};
+use crate::triangle::FilteredF64;
+
+fn scene() -> Scene {
+    Builtin::find("cornellbox").unwrap().scene(None).unwrap()
+}
+
+fn tree(scene: &Scene) -> KdTree<FilteredF64> {
+    KdTree::build(&scene.mesh, &KdConfig::SAH).unwrap()
+}
+
+fn recorded(kind: WorkloadKind) -> (Scene, RayFile) {
+    let scene = scene();
+    let workload = Workload::new(&scene, kind, &Sampling::about(&scene, 400, 1), &tree(&scene));
+    (scene.clone(), RayFile::new(&scene, workload))
+}
+
+#[test]
+fn what_is_replayed_is_what_was_recorded_and_is_answered_the_same() {
+    let directory = tempfile::tempdir().unwrap();
+    for kind in WorkloadKind::ALL {
+        let (scene, file) = recorded(kind);
+        let path = directory.path().join(kind.name());
+        file.write(&OutputFile::check(&path).unwrap()).unwrap();
+        let back = RayFile::read(&path).unwrap();
+        assert_eq!(back, file);
+        assert_eq!(back.workload.hash(), file.workload.hash(), "{}", kind.name());
+        back.check_scene(&scene).unwrap();
+        if file.workload.rays.is_empty() {
+            continue;
+        }
+
+        let answers = |workload: &Workload| {
+            let mut hits = vec![None; workload.rays.len()];
+            DynAccel::closest_hits(&tree(&scene), &workload.rays, &mut hits);
+            HitFile::new(workload, hits)
+        };
+        let (first, again) = (answers(&file.workload), answers(&back.workload));
+        assert_eq!(first, again);
+        assert_eq!(HitFile::from_bytes(&first.to_bytes()).unwrap(), first);
+        assert_eq!(first.answers(&back.workload).unwrap().len(), back.workload.rays.len());
+    }
+}
+
+#[test]
+fn what_is_damaged_is_refused_in_a_sentence() {
+    let (_, file) = recorded(WorkloadKind::Diffuse);
+    let whole = file.to_bytes();
+    let refusal = |bytes: &[u8]| RayFile::from_bytes(bytes).unwrap_err();
+    assert!(refusal(b"").contains("SAHARAYS") && refusal(b"PNG and so on, long enough").contains("SAHARAYS"));
+    assert!(refusal(&whole[..20]).contains("cut short"));
+    assert!(refusal(&whole[..70]).contains("cut short"));
+    assert!(refusal(&whole[..80]).contains("cut short"));
+    assert!(refusal(&whole[..whole.len() - 1]).contains("cut short"));
+    assert!(refusal(&[&whole[..], &[0]].concat()).contains("1 bytes follow"));
+    let changed = |at: usize, to: u8| {
+        let mut bytes = whole.clone();
+        bytes[at] = to;
+        refusal(&bytes)
+    };
+    assert!(changed(8, 9).contains("version 9"));
+    assert!(changed(12, 7).contains("query 7"));
+    assert!(changed(23, 0xff).contains("cut short"));
+    assert!(changed(67, 0xff).contains("cut short"));
+    assert!(changed(72, 0xff).contains("UTF-8"));
+    assert!(changed(whole.len() - 5, whole[whole.len() - 5] ^ 1).contains("changed"));
+
+    let mut bad = file.clone();
+    bad.workload.rays[3].direction.y = f32::NAN;
+    assert!(refusal(&bad.to_bytes()).contains("ray 4 of "));
+    bad.workload.rays.clear();
+    assert!(refusal(&bad.to_bytes()).contains("no ray"));
+}
+
+#[test]
+fn rays_and_answers_of_another_scene_are_refused() {
+    let (scene, file) = recorded(WorkloadKind::Primary);
+    let other = Builtin::find("cube").unwrap().scene(None).unwrap();
+    let refusal = file.check_scene(&other).unwrap_err();
+    assert!(refusal.contains("Cornellbox") && refusal.contains("Cube"), "{refusal}");
+    let free = RayFile { scene_hash: None, ..file.clone() };
+    assert_eq!(RayFile::from_bytes(&free.to_bytes()).unwrap(), free);
+    free.check_scene(&other).unwrap();
+
+    let hits = HitFile::new(&file.workload, vec![Some(Hit::new(1.5, 7)); file.workload.rays.len()]);
+    let mut turned = file.workload.clone();
+    turned.rays[0] = Ray::new(turned.rays[0].origin, -turned.rays[0].direction);
+    assert!(hits.answers(&turned).unwrap_err().contains("hash"));
+    let any = Workload { query: Query::Any, ..file.workload.clone() };
+    assert!(hits.answers(&any).unwrap_err().contains("\"any\""));
+    let cut = HitFile::from_bytes(&hits.to_bytes()[..100]).unwrap_err();
+    assert!(cut.contains("cut short"), "{cut}");
+    assert!(HitFile::from_bytes(&file.to_bytes()).unwrap_err().contains("SAHAHITS"));
+    drop(scene);
+}
+
+/// The reader of the document, run as it stands there.
+#[test]
+fn the_python_of_the_document_reads_our_rays_and_writes_hits_that_we_read() {
+    if Command::new("python3").arg("--version").output().is_err() {
+        println!("skipped: there is no python3 here");
+        return;
+    }
+    let text = include_str!("FORMAT.md");
+    let code = text.split("```python\n").nth(1).and_then(|rest| rest.split("```").next()).unwrap();
+    let functions = code.lines().filter(|line| !line.trim().is_empty() && !line.starts_with("import")).count();
+    assert!(functions <= 20, "the document says twenty lines, not {functions}");
+
+    let directory = tempfile::tempdir().unwrap();
+    let (_, file) = recorded(WorkloadKind::Shadow);
+    let (rays, hits) = (directory.path().join("f.rays"), directory.path().join("f.hits"));
+    file.write(&OutputFile::check(&rays).unwrap()).unwrap();
+    let answer = "\nwrite_hits(sys.argv[2], query, digest, [(r[7], i) if i % 2 else (0.0, 0xFFFFFFFF) for i, r in enumerate(rays)])\n";
+    let script = directory.path().join("read.py");
+    std::fs::write(&script, code.to_owned() + answer).unwrap();
+    let output = Command::new("python3").arg(&script).args([&rays, &hits]).output().unwrap();
+    let printed = String::from_utf8_lossy(&output.stdout);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let expected = format!("Cornellbox shadow 1 {} {} ", file.workload.hash(), file.workload.rays.len());
+    assert!(printed.starts_with(&expected), "{printed}");
+
+    let back = HitFile::read(&hits).unwrap();
+    let answers = back.answers(&file.workload).unwrap();
+    for (i, (ray, answer)) in file.workload.rays.iter().zip(answers).enumerate() {
+        assert_eq!(*answer, (i % 2 == 1).then(|| Hit::new(ray.t_max, i as u32)));
+    }
+}

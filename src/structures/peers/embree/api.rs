@@ -1,0 +1,160 @@
+//! The few calls of Embree 4 that are needed, found in its shared library when the first structure is built.
+
+use std::env;
+use std::ffi::{CStr, OsString, c_char, c_int, c_uint, c_void};
+use std::sync::OnceLock;
+
+use libloading::Library;
+
+/// Names the library to load.
+pub const VARIABLE: &str = "SAHARA_EMBREE";
+
+/// What the system's search path is asked for.
+const NAMES: [&str; 4] = ["libembree4.so.4", "libembree4.so", "libembree4.4.dylib", "embree4.dll"];
+
+/// An object of Embree.
+pub type Handle = *mut c_void;
+
+/// Told of errors: the pointer handed in, the code, a sentence.
+pub type OnError = unsafe extern "C" fn(*mut c_void, c_int, *const c_char);
+
+/// Told of memory: the pointer handed in, bytes taken or given back, whether it has happened already. May refuse.
+pub type OnMemory = unsafe extern "C" fn(*mut c_void, isize, bool) -> bool;
+
+/// How a query is made: the head of `RTCIntersectArguments` and `RTCOccludedArguments`, which agree, with room for what
+/// later versions add.
+#[repr(C)]
+pub struct Arguments {
+    pub flags: c_uint,
+    pub features: c_uint,
+    pub rest: [usize; 5],
+}
+
+/// Kinds of geometry, buffers and formats, as its headers number them.
+pub const TRIANGLES: c_int = 0;
+pub const INDICES: c_int = 0;
+pub const VERTICES: c_int = 1;
+pub const UINT3: c_int = 0x5003;
+pub const FLOAT3: c_int = 0x9003;
+const VERSION: c_int = 0;
+
+macro_rules! api {
+    ($($field:ident = $symbol:literal: fn($($argument:ty),*) $(-> $result:ty)?;)*) => {
+        /// Its functions.
+        pub struct Api {
+            $(pub $field: unsafe extern "C" fn($($argument),*) $(-> $result)?,)*
+        }
+
+        impl Api {
+            /// # Safety
+            /// `library` must be Embree 4.
+            unsafe fn find(library: &Library) -> Result<Self, libloading::Error> {
+                // SAFETY: the types are those of Embree 4's headers, by the caller's word.
+                unsafe { Ok(Self { $($field: *library.get(concat!($symbol, "\0").as_bytes())?,)* }) }
+            }
+        }
+    };
+}
+
+api! {
+    new_device = "rtcNewDevice": fn(*const c_char) -> Handle;
+    release_device = "rtcReleaseDevice": fn(Handle);
+    device_error = "rtcGetDeviceError": fn(Handle) -> c_int;
+    on_error = "rtcSetDeviceErrorFunction": fn(Handle, OnError, *mut c_void);
+    on_memory = "rtcSetDeviceMemoryMonitorFunction": fn(Handle, OnMemory, *mut c_void);
+    new_scene = "rtcNewScene": fn(Handle) -> Handle;
+    release_scene = "rtcReleaseScene": fn(Handle);
+    set_scene_flags = "rtcSetSceneFlags": fn(Handle, c_int);
+    set_scene_quality = "rtcSetSceneBuildQuality": fn(Handle, c_int);
+    commit_scene = "rtcCommitScene": fn(Handle);
+    new_geometry = "rtcNewGeometry": fn(Handle, c_int) -> Handle;
+    release_geometry = "rtcReleaseGeometry": fn(Handle);
+    new_buffer = "rtcSetNewGeometryBuffer": fn(Handle, c_int, c_uint, c_int, usize, usize) -> *mut c_void;
+    set_geometry_quality = "rtcSetGeometryBuildQuality": fn(Handle, c_int);
+    commit_geometry = "rtcCommitGeometry": fn(Handle);
+    attach_geometry = "rtcAttachGeometry": fn(Handle, Handle) -> c_uint;
+    intersect1 = "rtcIntersect1": fn(Handle, *mut c_void, *const Arguments);
+    occluded1 = "rtcOccluded1": fn(Handle, *mut c_void, *const Arguments);
+    intersect16 = "rtcIntersect16": fn(*const c_int, Handle, *mut c_void, *const Arguments);
+    occluded16 = "rtcOccluded16": fn(*const c_int, Handle, *mut c_void, *const Arguments);
+}
+
+/// Embree 4, loaded once and never unloaded: its threads outlive its objects.
+///
+/// # Errors
+/// If it is not there or is another version: the sentence says what to do.
+pub fn api() -> Result<&'static Api, String> {
+    static LOADED: OnceLock<Result<(Library, Api), String>> = OnceLock::new();
+    LOADED.get_or_init(load).as_ref().map(|(_, api)| api).map_err(String::clone)
+}
+
+fn load() -> Result<(Library, Api), String> {
+    let named = env::var_os(VARIABLE).filter(|path| !path.is_empty());
+    let candidates: Vec<OsString> = match &named {
+        Some(path) => vec![path.clone()],
+        None => NAMES.map(OsString::from).into(),
+    };
+    let mut failure = None;
+    let library = candidates.iter().find_map(|name| {
+        // SAFETY: the user names the library, or it is the system's; its initialisers are Embree's.
+        let loaded = unsafe { Library::new(name) };
+        loaded.map_err(|error| failure = Some(error)).ok()
+    });
+    let Some(library) = library else {
+        return Err(match named {
+            Some(path) => format!(
+                "Embree 4 cannot be loaded from {} ({VARIABLE}): {}",
+                path.display(),
+                failure.map_or("no reason is given".into(), |error| error.to_string())
+            ),
+            None => format!(
+                "Embree 4 is not installed: the system finds no {}; install it, or set {VARIABLE} to the path of the library",
+                NAMES[0]
+            ),
+        });
+    };
+    let other = |what: &str| {
+        let place = named.as_ref().map_or(NAMES[0].into(), |path| path.display().to_string());
+        format!("{place} is not Embree 4: {what}; set {VARIABLE} to the path of libembree4")
+    };
+    // SAFETY: `version` calls nothing that changed its type since Embree 3; only then the rest is trusted.
+    let version = unsafe { version(&library) }.map_err(|error| other(&error.to_string()))?;
+    if version / 10_000 != 4 {
+        return Err(other(&format!("its version is {}.{}", version / 10_000, version / 100 % 100)));
+    }
+    // SAFETY: it says that it is Embree 4.
+    let api = unsafe { Api::find(&library) }.map_err(|error| other(&error.to_string()))?;
+    Ok((library, api))
+}
+
+/// As it numbers itself: 40400 for 4.4.0.
+///
+/// # Safety
+/// If `library` has these symbols, they must be Embree's, of version 3 or later.
+unsafe fn version(library: &Library) -> Result<isize, libloading::Error> {
+    // SAFETY: by the caller's word, these types have not changed since.
+    unsafe {
+        let new_device = library.get::<unsafe extern "C" fn(*const c_char) -> Handle>(b"rtcNewDevice\0")?;
+        let property = library.get::<unsafe extern "C" fn(Handle, c_int) -> isize>(b"rtcGetDeviceProperty\0")?;
+        let release = library.get::<unsafe extern "C" fn(Handle)>(b"rtcReleaseDevice\0")?;
+        let device = new_device(c"threads=1".as_ptr());
+        if device.is_null() {
+            return Ok(0);
+        }
+        let version = property(device, VERSION);
+        release(device);
+        Ok(version)
+    }
+}
+
+/// The sentence that Embree hands to [`OnError`].
+///
+/// # Safety
+/// `text` must be null or a string of C.
+pub unsafe fn sentence(text: *const c_char) -> String {
+    if text.is_null() {
+        return "it gives no reason".into();
+    }
+    // SAFETY: by the caller's word.
+    unsafe { CStr::from_ptr(text) }.to_string_lossy().into_owned()
+}

@@ -1,0 +1,135 @@
+use std::ffi::{CString, c_char, c_int, c_void};
+use std::ptr;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicIsize, Ordering};
+
+use glam::Vec3;
+
+use super::api::{Api, FLOAT3, Handle, INDICES, TRIANGLES, UINT3, VERTICES, api, sentence};
+use crate::accel::BuildError;
+use crate::geometry::Mesh;
+
+/// What a device tells while it works.
+#[derive(Default)]
+struct Told {
+    /// The first error since the last look.
+    error: Mutex<Option<String>>,
+    /// Bytes that it holds.
+    bytes: AtomicIsize,
+}
+
+/// A device of Embree and one finished scene on it.
+pub struct Scene {
+    api: &'static Api,
+    device: Handle,
+    scene: Handle,
+    told: Box<Told>,
+}
+
+// SAFETY: Embree's objects may be used and released by any thread, and a committed scene may be asked by many at once.
+unsafe impl Send for Scene {}
+// SAFETY: as above; `Told` is made of atomics and a lock.
+unsafe impl Sync for Scene {}
+
+unsafe extern "C" fn on_error(told: *mut c_void, _: c_int, text: *const c_char) {
+    // SAFETY: `told` is the box of the scene, which outlives its device; `text` is Embree's.
+    let (told, text) = unsafe { (&*told.cast::<Told>(), sentence(text)) };
+    if let Ok(mut error) = told.error.lock() {
+        error.get_or_insert(text);
+    }
+}
+
+unsafe extern "C" fn on_memory(told: *mut c_void, bytes: isize, _: bool) -> bool {
+    // SAFETY: as above.
+    unsafe { &*told.cast::<Told>() }.bytes.fetch_add(bytes, Ordering::Relaxed);
+    true
+}
+
+impl Scene {
+    /// Builds over the triangles `ids` of `mesh` on `threads` threads.
+    ///
+    /// # Errors
+    /// If Embree is not there, or refuses.
+    pub fn new(mesh: &Mesh, ids: &[u32], flags: c_int, quality: c_int, threads: usize) -> Result<Self, BuildError> {
+        let api = api().map_err(BuildError::Unavailable)?;
+        let options = CString::new(format!("threads={threads},set_affinity=0")).expect("no zero inside");
+        // SAFETY: the calls and their order are those of Embree's manual; `scene` releases what has been made, whatever fails.
+        unsafe {
+            let device = (api.new_device)(options.as_ptr());
+            if device.is_null() {
+                let code = (api.device_error)(ptr::null_mut());
+                return Err(BuildError::Unavailable(format!("Embree gives no device: error {code}")));
+            }
+            let told: Box<Told> = Box::default();
+            let listener = (&raw const *told).cast_mut().cast();
+            (api.on_error)(device, on_error, listener);
+            (api.on_memory)(device, on_memory, listener);
+
+            let scene = Self { api, device, scene: (api.new_scene)(device), told };
+            (api.set_scene_flags)(scene.scene, flags);
+            (api.set_scene_quality)(scene.scene, quality);
+            if !ids.is_empty() {
+                scene.attach(mesh, ids, quality)?;
+            }
+            (api.commit_scene)(scene.scene);
+            scene.checked()
+        }
+    }
+
+    /// Hands over the triangles. Embree pads and aligns the buffers that it makes itself.
+    fn attach(&self, mesh: &Mesh, ids: &[u32], quality: c_int) -> Result<(), BuildError> {
+        let (api, positions) = (self.api, mesh.positions());
+        // SAFETY: both buffers have the number of items asked for, of 12 bytes each; the geometry is released here and kept
+        // alive by the scene.
+        unsafe {
+            let geometry = (api.new_geometry)(self.device, TRIANGLES);
+            let vertices: *mut Vec3 = (api.new_buffer)(geometry, VERTICES, 0, FLOAT3, 12, positions.len()).cast();
+            let indices: *mut [u32; 3] = (api.new_buffer)(geometry, INDICES, 0, UINT3, 12, ids.len()).cast();
+            if vertices.is_null() || indices.is_null() {
+                (api.release_geometry)(geometry);
+                return Err(self.refusal().unwrap_or(BuildError::Mesh("Embree gives no buffer".into())));
+            }
+            vertices.copy_from_nonoverlapping(positions.as_ptr(), positions.len());
+            for (i, &id) in ids.iter().enumerate() {
+                indices.add(i).write(mesh.triangles()[id as usize]);
+            }
+            (api.set_geometry_quality)(geometry, quality);
+            (api.commit_geometry)(geometry);
+            (api.attach_geometry)(self.scene, geometry);
+            (api.release_geometry)(geometry);
+        }
+        Ok(())
+    }
+
+    fn refusal(&self) -> Option<BuildError> {
+        let error = self.told.error.lock().ok()?.take()?;
+        Some(BuildError::Mesh(format!("Embree refuses: {error}")))
+    }
+
+    fn checked(self) -> Result<Self, BuildError> {
+        self.refusal().map_or(Ok(self), Err)
+    }
+
+    pub fn api(&self) -> &'static Api {
+        self.api
+    }
+
+    pub fn handle(&self) -> Handle {
+        self.scene
+    }
+
+    /// All that the device holds: nodes, triangles, buffers.
+    pub fn bytes(&self) -> usize {
+        self.told.bytes.load(Ordering::Relaxed).max(0) as usize
+    }
+}
+
+impl Drop for Scene {
+    fn drop(&mut self) {
+        // SAFETY: both were made by `new` and are released once; the listener's box goes after them.
+        unsafe {
+            (self.api.release_scene)(self.scene);
+            (self.api.release_device)(self.device);
+        }
+    }
+}

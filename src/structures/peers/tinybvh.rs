@@ -1,0 +1,168 @@
+//! [tinybvh](https://github.com/jbikker/tinybvh) 1.6.8 by the crate `tinybvh-rs` 0.1: an 8-wide BVH with four triangles a leaf
+//! (`BVH8_CPU`), which is its fastest layout on a processor with AVX2.
+//!
+//! A C++ compiler builds it, for the instructions of this machine. The crate hands out its closest hit alone: any hit is a
+//! closest hit. Its ray (unit direction, inverse) is made by its own constructor inside of the timed region. It builds on one
+//! thread. Triangles are copied as corners of 16 bytes, as it wants them.
+//!
+//! # References
+//! Fuetterling, Lojewski, Pfreundt, Ebert: Accelerated single ray tracing for wide vector units. HPG 2017.
+
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+use tinybvh_rs::{Positions, Ray as PreparedRay, bvh, bvh8_cpu, mbvh};
+
+use crate::accel::{Accel, BuildError, Footprint, Observed, Observer, TreeShape};
+use crate::geometry::{Hit, Mesh, Ray};
+
+/// The 8-wide BVH of tinybvh.
+pub struct TinyBvh {
+    /// Nothing when there is no triangle.
+    tree: Option<Tree>,
+    /// The triangle of the mesh for each of its own.
+    ids: Vec<u32>,
+    shape: TreeShape,
+    nodes: usize,
+}
+
+struct Tree(bvh8_cpu::BVH);
+
+// SAFETY: the tree owns its nodes and triangles, and its only method that is called, `intersect`, takes it by shared
+// reference, reads them and writes to the caller's ray alone.
+unsafe impl Send for Tree {}
+// SAFETY: as above.
+unsafe impl Sync for Tree {}
+
+/// How tinybvh builds.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TinyBvhConfig {
+    /// Its builder.
+    pub quality: Quality,
+}
+
+/// The builders of tinybvh.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Quality {
+    /// Binned surface area heuristic.
+    Medium,
+    /// With spatial splits (SBVH).
+    #[default]
+    High,
+}
+
+/// Bytes of a node, and of a leaf of four triangles.
+const NODE_BYTES: usize = 256;
+const LEAF_BYTES: usize = 192;
+
+/// Beyond this it takes a hit for none.
+const FAR: f32 = tinybvh_rs::INFINITE;
+
+impl TinyBvh {
+    fn query(&self, ray: &Ray) -> Option<Hit> {
+        let tree = self.tree.as_ref().filter(|_| ray.is_valid())?;
+        let (t_min, t_max) = ray.interval();
+        let length = ray.direction.length();
+        // It knows no beginning: the ray starts where its interval does.
+        let origin = if t_min > 0.0 { ray.at(t_min) } else { ray.origin };
+        let mut prepared = PreparedRay::new(origin.to_array(), ray.direction.to_array());
+        let end = ((t_max - t_min) * length).min(FAR);
+        prepared.hit.t = end;
+        intersect(&tree.0, &mut prepared);
+        let hit = prepared.hit;
+        (hit.t < end).then(|| Hit::new(hit.t / length + t_min, self.ids[hit.prim as usize]))
+    }
+}
+
+#[cfg(target_feature = "avx2")]
+fn intersect(tree: &bvh8_cpu::BVH, ray: &mut PreparedRay) {
+    use tinybvh_rs::Intersector;
+    tree.intersect(ray);
+}
+
+/// Never called: nothing is built without AVX2.
+#[cfg(not(target_feature = "avx2"))]
+fn intersect(_: &bvh8_cpu::BVH, _: &mut PreparedRay) {}
+
+/// Builds by way of the two layouts that its own is converted from.
+fn built(corners: Positions, quality: Quality) -> Result<(bvh8_cpu::BVH, TreeShape, usize), tinybvh_rs::Error> {
+    let mut binary = match quality {
+        Quality::Medium => bvh::BVH::new(corners)?,
+        Quality::High => bvh::BVH::new_hq(corners)?,
+    };
+    binary.split_leaves(4);
+    let wide = mbvh::BVH::new(&binary);
+    let tree = bvh8_cpu::BVH::new(&wide)?;
+    let (shape, leaves) = shape(wide.nodes());
+    let bytes = shape.inner * NODE_BYTES + leaves * LEAF_BYTES;
+    Ok((tree, shape, bytes))
+}
+
+fn shape(nodes: &[mbvh::Node]) -> (TreeShape, usize) {
+    let mut shape = TreeShape::default();
+    let mut stack = vec![(0, 0)];
+    while let Some((at, depth)) = stack.pop() {
+        let node = &nodes[at as usize];
+        if node.is_leaf() {
+            let count = node.tri_count as usize;
+            shape.leaves += 1;
+            shape.references += count;
+            shape.largest_leaf = shape.largest_leaf.max(count);
+            shape.depth = shape.depth.max(depth);
+        } else {
+            shape.inner += 1;
+            stack.extend(node.child.iter().filter(|&&child| child != 0).map(|&child| (child, depth + 1)));
+        }
+    }
+    (shape, shape.leaves)
+}
+
+impl Accel for TinyBvh {
+    type Config = TinyBvhConfig;
+
+    const OBSERVED: Observed = Observed::NONE;
+    const CONVENTIONS: &'static [&'static str] = &[
+        "open interval, t > 0; a ray with t_min starts at the point of t_min, rounded",
+        "walks unit directions: t is divided by the direction's length; nothing farther than 1e30",
+        "any hit is a closest hit",
+        "builds on one thread",
+    ];
+
+    fn build(mesh: &Arc<Mesh>, config: &TinyBvhConfig) -> Result<Self, BuildError> {
+        if !cfg!(target_feature = "avx2") {
+            let sentence = "tinybvh's 8-wide layout needs AVX2: build sahara for a processor that has it";
+            return Err(BuildError::Unavailable(sentence.into()));
+        }
+        let ids: Vec<u32> = mesh.solid().collect();
+        if ids.is_empty() {
+            let shape = TreeShape { leaves: 1, empty: 1, ..TreeShape::default() };
+            return Ok(Self { tree: None, ids, shape, nodes: 0 });
+        }
+        let corners: Vec<[f32; 4]> =
+            ids.iter().flat_map(|&id| mesh.corners(id)).map(|v| v.extend(0.0).to_array()).collect();
+        let (tree, shape, nodes) =
+            built(corners.as_slice().into(), config.quality).map_err(|error| BuildError::Mesh(error.to_string()))?;
+        Ok(Self { tree: Some(Tree(tree)), ids, shape, nodes })
+    }
+
+    #[inline]
+    fn closest_hit<O: Observer>(&self, ray: &Ray, _: &mut O) -> Option<Hit> {
+        self.query(ray)
+    }
+
+    #[inline]
+    fn any_hit<O: Observer>(&self, ray: &Ray, _: &mut O) -> bool {
+        self.query(ray).is_some()
+    }
+
+    /// By the sizes of its nodes and of its leaves, which hold the triangles.
+    fn footprint(&self) -> Footprint {
+        Footprint { nodes: self.nodes, references: size_of_val(&self.ids[..]), ..Footprint::default() }
+    }
+
+    fn shape(&self) -> TreeShape {
+        self.shape
+    }
+}

@@ -1,0 +1,198 @@
+//! What every structure must pass: functions that return what they found, and a macro that makes tests of them.
+
+mod soundness;
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use super::{LIMIT, Reference, Stratum, Validation, validate_watched, watched};
+use crate::accel::{Accel, BuildError, DynAccel};
+use crate::geometry::Mesh;
+
+pub use soundness::{counting, shapes};
+
+/// A structure under test.
+pub struct Subject {
+    /// What failures call it.
+    pub name: String,
+    /// [`Accel::TRIANGLE_TEST`].
+    pub triangle_test: &'static str,
+    /// Whether it promises the lowest number among primitives at equal `t`.
+    pub lowest_id: bool,
+    /// How long it may take for a build or a question before it counts as hanging.
+    pub limit: Duration,
+    /// Builds it.
+    pub build: Build,
+}
+
+/// Builds a structure.
+pub type Build = Arc<dyn Fn(&Arc<Mesh>) -> Result<Box<dyn DynAccel>, BuildError> + Send + Sync>;
+
+/// One mesh and one kind of rays, compared.
+pub struct Finding {
+    /// Name of the mesh.
+    pub mesh: String,
+    pub stratum: Stratum,
+    pub validation: Validation,
+}
+
+/// A mesh by name.
+pub type Named = (String, Arc<Mesh>);
+
+const SEED: u64 = 2003;
+
+impl Subject {
+    /// What `build` builds; `triangle_test` as in [`Accel::TRIANGLE_TEST`].
+    pub fn new(
+        name: &str,
+        triangle_test: &'static str,
+        build: impl Fn(&Arc<Mesh>) -> Result<Box<dyn DynAccel>, BuildError> + Send + Sync + 'static,
+    ) -> Self {
+        Self { name: name.into(), triangle_test, lowest_id: false, limit: LIMIT, build: Arc::new(build) }
+    }
+
+    /// The structure `A` with one configuration.
+    pub fn of<A: Accel>(name: &str, config: A::Config) -> Self {
+        Self::new(name, A::TRIANGLE_TEST, move |mesh| Ok(Box::new(A::build(mesh, &config)?)))
+    }
+
+    /// Demands the lowest number among primitives at equal `t`, as the structures of this crate give it.
+    pub fn with_lowest_id(self) -> Self {
+        Self { lowest_id: true, ..self }
+    }
+
+    /// Builds, watched.
+    fn built(&self, name: &str, mesh: &Arc<Mesh>) -> Result<Arc<dyn DynAccel>, String> {
+        let (build, own) = (Arc::clone(&self.build), Arc::clone(mesh));
+        let refusal = |why: String| format!("{} does not build over {name:?}: {why}", self.name);
+        let built = watched(self.limit, move || build(&own)).map_err(|ended| refusal(ended.to_string()))?;
+        built.map(Arc::from).map_err(|error| refusal(error.to_string()))
+    }
+}
+
+/// Compares `count` rays of every stratum on every mesh, and hides nothing; a structure that hangs is asked nothing more.
+///
+/// # Errors
+/// If a mesh does not build.
+pub fn findings(subject: &Subject, meshes: &[Named], count: usize) -> Result<Vec<Finding>, String> {
+    let mut findings = vec![];
+    for (name, mesh) in meshes {
+        let accel = subject.built(name, mesh)?;
+        let reference = Reference::of_test(subject.triangle_test, mesh).map_err(|error| error.to_string())?;
+        let reference = Arc::new(reference);
+        for stratum in Stratum::ALL {
+            let rays = stratum.rays(mesh, count, SEED);
+            let validation = validate_watched(&accel, &reference, mesh, &rays, subject.limit);
+            let hangs = validation.hangs > 0;
+            findings.push(Finding { mesh: name.clone(), stratum, validation });
+            if hangs {
+                return Ok(findings);
+            }
+        }
+    }
+    Ok(findings)
+}
+
+/// The answers are right: no structure error on any mesh and stratum, any hit agrees with closest hit, asking again gives
+/// the same, nothing panics or hangs, and where it is promised the lowest primitive wins. What is declined is not asked.
+///
+/// A structure whose triangle test this crate does not have is held to right answers on random rays alone: elsewhere its
+/// test may be to blame.
+///
+/// # Errors
+/// One line for each mesh and stratum that fails, with the worst ray.
+pub fn answers(subject: &Subject, meshes: &[Named], count: usize) -> Result<(), String> {
+    let wrong = |finding: &Finding| {
+        let v = &finding.validation;
+        let blamed = if finding.stratum == Stratum::Random { v.answer_errors } else { 0 };
+        let ids = if subject.lowest_id { v.higher_ids } else { 0 };
+        v.errors() - v.answer_errors + blamed + ids > 0
+    };
+    let findings = findings(subject, meshes, count)?;
+    let asked: u64 = findings.iter().map(|f| f.validation.rays).sum();
+    if asked == 0 && findings.iter().any(|f| f.validation.declined > 0) {
+        return Err(format!("{} declines every ray: there is nothing to hold it to", subject.name));
+    }
+    let lines = findings.iter().filter(|f| wrong(f)).map(|f| f.line(&subject.name));
+    outcome(lines.collect())
+}
+
+impl Finding {
+    /// What failed, and the worst ray in the form in which it can be asked again.
+    pub fn line(&self, subject: &str) -> String {
+        let v = &self.validation;
+        let worst = v.worst.first().map_or("no ray".into(), ToString::to_string);
+        format!(
+            "{subject} on {:?}, {} rays: of {} rays, {} structure errors, {} answer errors, {} any-hit errors, {} unrepeatable, \
+             {} panics, {} hangs, {} kernel differences, {} ties ({} at a higher number), {} declined; worst: {worst}",
+            self.mesh,
+            self.stratum.name(),
+            v.rays,
+            v.structure_errors,
+            v.answer_errors,
+            v.any_hit_errors,
+            v.unrepeatable,
+            v.panics,
+            v.hangs,
+            v.kernel_differences,
+            v.ties,
+            v.higher_ids,
+            v.declined,
+        )
+    }
+}
+
+/// Few lines in full, many cut short.
+fn outcome(lines: Vec<String>) -> Result<(), String> {
+    const SHOWN: usize = 10;
+    if lines.is_empty() {
+        return Ok(());
+    }
+    let more = lines.len().saturating_sub(SHOWN);
+    let shown = lines[..lines.len().min(SHOWN)].join("\n");
+    Err(if more > 0 { format!("{shown}\nand {more} more") } else { shown })
+}
+
+/// Makes a module of tests that hold a structure to the contract of [`Accel`]:
+/// `sahara::conformance!(my_tree, MyTree, MyConfig::default());`
+///
+/// With `lowest_id` as a fourth argument, the lowest primitive number must win among equal `t`.
+#[macro_export]
+macro_rules! conformance {
+    ($module:ident, $accel:ty, $config:expr) => {
+        $crate::conformance!(@tests $module, $crate::validate::conformance::Subject::of::<$accel>(stringify!($module), $config));
+    };
+    ($module:ident, $accel:ty, $config:expr, lowest_id) => {
+        $crate::conformance!(
+            @tests $module,
+            $crate::validate::conformance::Subject::of::<$accel>(stringify!($module), $config).with_lowest_id()
+        );
+    };
+    (@tests $module:ident, $subject:expr) => {
+        mod $module {
+            use super::*;
+            use $crate::validate::{conformance, degenerate_meshes};
+
+            fn passes(outcome: Result<(), String>) {
+                if let Err(report) = outcome {
+                    panic!("{report}");
+                }
+            }
+
+            #[test]
+            fn answers_are_right() {
+                passes(conformance::answers(&$subject, &degenerate_meshes(), 200));
+            }
+
+            #[test]
+            fn counting_changes_nothing() {
+                passes(conformance::counting(&$subject, &degenerate_meshes(), 20));
+            }
+
+            #[test]
+            fn shapes_are_possible() {
+                passes(conformance::shapes(&$subject, &degenerate_meshes()));
+            }
+        }
+    };
+}

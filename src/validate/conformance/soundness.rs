@@ -1,0 +1,120 @@
+//! What can be checked of a structure without knowing the right answers.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use super::{Named, SEED, Subject, outcome};
+use crate::accel::{Counts, DynAccel};
+use crate::geometry::{Hit, Ray};
+use crate::validate::{Ended, Stratum, watched};
+
+/// Answers with and without counting.
+struct Asked {
+    plain: Vec<Option<Hit>>,
+    counted: Vec<Option<Hit>>,
+    counts: Counts,
+    any: Vec<bool>,
+    any_counted: Vec<bool>,
+    any_counts: Counts,
+}
+
+/// Asks everything, watched; any hit only where it is offered.
+fn ask(accel: &Arc<dyn DynAccel>, rays: &[Ray], limit: Duration) -> Result<Asked, Ended> {
+    let (accel, rays) = (Arc::clone(accel), rays.to_vec());
+    watched(limit, move || {
+        let (none, no) = (vec![None; rays.len()], vec![false; rays.len()]);
+        let (mut plain, mut counted, mut any, mut any_counted) = (none.clone(), none, no.clone(), no);
+        let (mut counts, mut any_counts) = (Counts::default(), Counts::default());
+        accel.closest_hits(&rays, &mut plain);
+        accel.closest_hits_counted(&rays, &mut counted, &mut counts);
+        if accel.capabilities().any_hit {
+            accel.any_hits(&rays, &mut any);
+            accel.any_hits_counted(&rays, &mut any_counted, &mut any_counts);
+        }
+        Asked { plain, counted, counts, any, any_counted, any_counts }
+    })
+}
+
+/// Watching changes nothing: with counts, the hits are the same, at the same primitive where the lowest is promised; what is
+/// declared unobserved stays zero.
+///
+/// # Errors
+/// One line for each mesh that fails.
+pub fn counting(subject: &Subject, meshes: &[Named], count: usize) -> Result<(), String> {
+    let mut lines = vec![];
+    for (name, mesh) in meshes {
+        let accel = subject.built(name, mesh)?;
+        let (observed, asks_any) = (accel.observed(), accel.capabilities().any_hit);
+        for stratum in Stratum::ALL {
+            let rays = stratum.rays(mesh, count, SEED);
+            let rays = accel.capabilities().admitted(&rays);
+            let place = format!("{} on {name:?}, {} rays", subject.name, stratum.name());
+            let asked = match ask(&accel, &rays, subject.limit) {
+                Ok(asked) => asked,
+                Err(ended) => {
+                    // One of the rays may do it alone.
+                    let alone = rays.iter().find(|ray| ask(&accel, &[**ray], subject.limit).is_err());
+                    let which = alone.map_or("all of them".into(), |ray| format!("ray \"{ray}\""));
+                    return Err(format!("{place}: asked with counts for {which}, {ended}"));
+                }
+            };
+
+            // Which of several primitives at one `t` is free, unless the lowest is promised.
+            let number = |h: Hit| if subject.lowest_id { h.prim.index() } else { 0 };
+            let answer = |hit: Option<Hit>| hit.map(|h| (h.t, number(h)));
+            let differ = asked.plain.iter().zip(&asked.counted).position(|(a, b)| answer(*a) != answer(*b));
+            let differ = differ.or_else(|| asked.any.iter().zip(&asked.any_counted).position(|(a, b)| a != b));
+            if let Some(i) = differ {
+                lines.push(format!("{place}: counting changes the answer of ray \"{}\"", rays[i]));
+            }
+
+            let hit = asked.plain.iter().any(Option::is_some);
+            let mut all = vec![("closest", asked.counts)];
+            all.extend(asks_any.then_some(("any", asked.any_counts)));
+            for (which, c) in all {
+                if !observed.steps && c.steps() > 0 || !observed.tests && c.tests > 0 {
+                    lines.push(format!("{place}: {which} hit counts what it declares unobserved: {c:?}"));
+                }
+                if hit && (observed.steps && c.steps() == 0 || observed.tests && c.tests == 0) {
+                    lines.push(format!("{place}: {which} hit finds something, but counts no step or no test: {c:?}"));
+                }
+                if c.empty_leaves > c.leaves {
+                    lines.push(format!("{place}: {which} hit counts more empty leaves than leaves: {c:?}"));
+                }
+            }
+        }
+    }
+    outcome(lines)
+}
+
+/// The numbers about the structure are possible: every triangle with an area is referenced, something takes memory.
+///
+/// # Errors
+/// One line for each mesh that fails.
+pub fn shapes(subject: &Subject, meshes: &[Named]) -> Result<(), String> {
+    let mut lines = vec![];
+    for (name, mesh) in meshes {
+        let accel = subject.built(name, mesh)?;
+        let own = Arc::clone(&accel);
+        let numbers = watched(subject.limit, move || (own.shape(), own.footprint()));
+        let ended = |ended| format!("{} on {name:?}: asked for its shape, {ended}", subject.name);
+        let ((shape, footprint), solid) = (numbers.map_err(ended)?, mesh.solid().count());
+        let wrong = [
+            (shape.references < solid, "fewer references than triangles that have an area"),
+            (solid > 0 && shape.leaves == 0, "no leaf"),
+            (shape.empty > shape.leaves, "more empty leaves than leaves"),
+            (shape.largest_leaf > shape.references, "a leaf with more than all references"),
+            (
+                shape.largest_leaf * (shape.leaves - shape.empty.min(shape.leaves)) < shape.references,
+                "leaves too small for the references",
+            ),
+            (shape.depth > shape.inner, "deeper than there are inner nodes"),
+            (shape.sah_cost.is_some_and(|cost| cost.is_nan() || cost < 0.0), "a SAH cost that is no cost"),
+            (solid > 0 && footprint.total() == 0, "no bytes"),
+        ];
+        for (_, what) in wrong.iter().filter(|(wrong, _)| *wrong) {
+            lines.push(format!("{} on {name:?}: {what}: {shape:?}, {footprint:?}", subject.name));
+        }
+    }
+    outcome(lines)
+}

@@ -1,0 +1,121 @@
+//! Files of rays and hits, from outside: what is recorded is replayed to the bit, and what is damaged is refused.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+use tempfile::TempDir;
+
+fn sahara(folder: &Path, args: &[&str]) -> (Option<i32>, String, String) {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_sahara"));
+    command.args(args).current_dir(folder).env_remove("SAHARA_DATA").stdin(Stdio::null());
+    let output = command.output().unwrap();
+    let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).unwrap();
+    (output.status.code(), text(&output.stdout), text(&output.stderr))
+}
+
+/// What the command prints; it must succeed.
+#[track_caller]
+fn right(folder: &TempDir, args: &[&str]) -> String {
+    let (code, printed, errors) = sahara(folder.path(), args);
+    assert_eq!(code, Some(0), "{args:?}: {printed}{errors}");
+    printed
+}
+
+/// The command refuses in one line that holds all of `parts`.
+#[track_caller]
+fn refuses(folder: &TempDir, args: &[&str], parts: &[&str]) {
+    let (code, printed, errors) = sahara(folder.path(), args);
+    assert!(code == Some(1) && printed.is_empty() && errors.lines().count() == 1, "{args:?}: {printed}{errors}");
+    assert!(parts.iter().all(|part| errors.contains(part)), "{args:?}: {errors}");
+}
+
+fn records(folder: &TempDir, name: &str) -> Vec<serde_json::Value> {
+    serde_json::from_slice(&fs::read(folder.path().join(name)).unwrap()).unwrap()
+}
+
+#[test]
+fn a_replayed_workload_is_the_workload() {
+    let folder = tempfile::tempdir().unwrap();
+    let common = ["--runs", "2", "--budget", "2", "-s", "sah-kd", "-s", "brute-force"];
+    for kind in ["diffuse", "shadow"] {
+        let printed = right(&folder, &["rays", "record", "torus", "-w", kind, "-o", "f.rays", "--rays", "900"]);
+        let mut made = vec!["compare", "torus", "-w", kind, "--rays", "900", "--export-json", "made.json"];
+        made.extend(common);
+        right(&folder, &made);
+        let mut replayed = vec!["compare", "--rays", "f.rays", "--export-json", "replayed.json"];
+        replayed.extend(common);
+        right(&folder, &replayed);
+
+        let (made, replayed) = (records(&folder, "made.json"), records(&folder, "replayed.json"));
+        assert_eq!((made.len(), replayed.len()), (2, 2));
+        for (made, replayed) in made.iter().zip(&replayed) {
+            for field in ["scene", "scene_hash", "workload", "query", "workload_hash", "workload_rays", "hits"] {
+                assert_eq!(made[field], replayed[field], "{kind} {field}");
+            }
+            assert!(printed.contains(made["workload_hash"].as_str().unwrap()), "{printed}");
+        }
+    }
+    right(&folder, &["validate", "--rays", "f.rays", "-s", "sah-kd"]);
+    let printed = right(&folder, &["accuracy", "torus", "--rays", "f.rays", "-s", "sah-kd:test=exact", "--runs", "1"]);
+    assert!(printed.contains("rays of a file"), "{printed}");
+}
+
+#[test]
+fn answers_go_out_and_come_back_and_wrong_ones_are_found() {
+    let folder = tempfile::tempdir().unwrap();
+    for kind in ["primary", "shadow"] {
+        right(&folder, &["rays", "record", "torus", "-w", kind, "-o", "f.rays", "--rays", "900"]);
+        let exchange = ["validate", "--rays", "f.rays"];
+        right(&folder, &[&exchange[..], &["-s", "sah-kd", "--export-hits", "f.hits"]].concat());
+        right(&folder, &[&exchange[..], &["--hits", "f.hits", "--test", "filtered-f64"]].concat());
+        right(&folder, &[&exchange[..], &["--hits", "f.hits"]].concat());
+
+        // One hit is taken away.
+        let path = folder.path().join("f.hits");
+        let mut bytes = fs::read(&path).unwrap();
+        let hit = bytes[32..].chunks_exact(8).position(|answer| answer[4..] != [0xff; 4]).unwrap();
+        bytes[32 + 8 * hit + 4..32 + 8 * hit + 8].fill(0xff);
+        fs::write(&path, bytes).unwrap();
+        for test in [&["--test", "filtered-f64"][..], &[]] {
+            let args = [&exchange[..], &["--hits", "f.hits"], test].concat();
+            let (code, printed, _) = sahara(folder.path(), &args);
+            assert!(code == Some(2) && printed.contains("lost: ray \""), "{printed}");
+        }
+    }
+    refuses(&folder, &["validate", "torus", "--hits", "f.hits"], &["--rays F.rays"]);
+    refuses(&folder, &["validate", "--rays", "f.rays", "--export-hits", "g.hits"], &["--structure"]);
+    refuses(&folder, &["validate", "--rays", "f.hits"], &["f.hits", "SAHARAYS"]);
+    refuses(&folder, &["validate", "--rays", "f.rays", "--hits", "f.rays"], &["f.rays", "SAHAHITS"]);
+    right(&folder, &["rays", "record", "torus", "-o", "g.rays", "--rays", "500"]);
+    refuses(&folder, &["validate", "--rays", "g.rays", "--hits", "f.hits"], &["f.hits", "hash"]);
+}
+
+#[test]
+fn text_becomes_rays_and_rays_become_text() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = "# two rays\n0,0,5 0,0,-1\n\n0.5,0,5 0,0,-1 [0.25,7.0] # bounded\n";
+    fs::write(folder.path().join("rays.txt"), text).unwrap();
+    right(&folder, &["rays", "import", "rays.txt", "-o", "f.rays", "--scene", "torus"]);
+    let shown = right(&folder, &["rays", "show", "f.rays"]);
+    assert!(shown.contains("2 rays") && shown.contains("Torus") && shown.contains("closest"), "{shown}");
+    let shown = right(&folder, &["rays", "show", "f.rays", "--text"]);
+    assert_eq!(shown, "0.0,0.0,5.0 0.0,0.0,-1.0\n0.5,0.0,5.0 0.0,0.0,-1.0 [0.25,7.0]\n");
+    right(&folder, &["validate", "--rays", "f.rays", "-s", "sah-kd"]);
+    refuses(&folder, &["validate", "cube", "--rays", "f.rays"], &["Torus", "Cube", "hash"]);
+    refuses(&folder, &["validate", "cube", "torus", "--rays", "f.rays"], &["one scene"]);
+    refuses(&folder, &["compare", "--rays", "f.rays", "-w", "primary"], &["--workload"]);
+    refuses(&folder, &["compare", "--rays", "no.rays"], &["no.rays", "check that it exists"]);
+    right(&folder, &["rays", "import", "rays.txt", "-o", "free.rays", "--any"]);
+    refuses(&folder, &["validate", "--rays", "free.rays"], &["name a scene"]);
+    right(&folder, &["validate", "cube", "--rays", "free.rays", "-s", "sah-kd"]);
+
+    for (line, part) in [("1,2,3 nan,0,1", "line 1: ray 1"), ("1,2 3,4,5", "line 1"), ("# none", "no ray")] {
+        fs::write(folder.path().join("bad.txt"), line).unwrap();
+        refuses(&folder, &["rays", "import", "bad.txt", "-o", "bad.rays"], &["bad.txt", part]);
+        assert!(!folder.path().join("bad.rays").exists());
+    }
+    let bytes = fs::read(folder.path().join("f.rays")).unwrap();
+    fs::write(folder.path().join("cut.rays"), &bytes[..bytes.len() - 3]).unwrap();
+    refuses(&folder, &["rays", "show", "cut.rays"], &["cut.rays", "cut short"]);
+}

@@ -1,0 +1,189 @@
+//! What somebody else writes to add a structure: a type of their own, the public interface, one macro; and what becomes of
+//! structures that are broken.
+
+mod broken;
+mod grid;
+
+use std::process::{Command, ExitCode, Stdio};
+use std::time::Duration;
+
+use broken::{Broken, BrokenConfig, Fault, Modest, picks};
+use grid::{Grid, GridConfig};
+use sahara::geometry::Ray;
+use sahara::golden::Goldens;
+use sahara::measure::{SystemClock, Threads};
+use sahara::registry::Registry;
+use sahara::scene::{Builtin, WorkloadKind};
+use sahara::study::compare::{Settings, compare_scene};
+use sahara::triangle::{Exact, FilteredF64, MollerTrumbore};
+use sahara::validate::conformance::{Named, Subject, answers, counting, shapes};
+use sahara::validate::degenerate_meshes;
+
+sahara::conformance!(my_grid, Grid<MollerTrumbore>, GridConfig::default(), lowest_id);
+sahara::conformance!(my_grid_of_one_cell, Grid<FilteredF64>, GridConfig { resolution: 1 });
+sahara::conformance!(modest, Modest, GridConfig::default());
+
+fn registry() -> Registry {
+    Registry::builtin()
+        .with::<Grid<FilteredF64>>("grid", GridConfig::default())
+        .with::<Grid<Exact>>("grid", GridConfig::default())
+        .with::<Broken>("broken", BrokenConfig::default())
+        .with::<Modest>("modest", GridConfig::default())
+}
+
+#[test]
+fn a_registered_structure_is_chosen_like_the_others() {
+    let choice = registry().choose("grid:resolution=3").unwrap();
+    assert_eq!((choice.label.as_str(), choice.triangle_test()), ("grid:resolution=3", "filtered-f64"));
+    let refusal = registry().choose("grid:resolution=0").map(|_| ()).unwrap_err().to_string();
+    assert!(refusal.contains("resolution must be from 1 to 256"), "{refusal}");
+}
+
+#[test]
+fn it_draws_the_golden_images() {
+    let choice = registry().choose("grid:test=exact").unwrap();
+    for name in ["cube", "torus", "cornellbox"] {
+        let scene = Builtin::find(name).unwrap().scene(None).unwrap();
+        Goldens::builtin().check(&scene, "grid", choice.build(&scene.mesh).unwrap().as_ref()).unwrap();
+    }
+}
+
+#[test]
+fn it_is_compared_like_our_own() {
+    let registry = registry();
+    let settings = Settings {
+        structures: ["grid", "sah-kd", "modest"].map(|name| registry.choose(name).unwrap()).into(),
+        guide: registry.choose("sah-kd").unwrap(),
+        workloads: vec![WorkloadKind::Primary, WorkloadKind::Shadow],
+        replayed: None,
+        rays: 1024,
+        runs: 3,
+        budget_ns: 1_000_000_000,
+        seed: 1,
+        threads: Threads::new(1).unwrap(),
+    };
+    let scene = Builtin::find("sphere").unwrap().scene(None).unwrap();
+    let records = compare_scene(&scene, &settings, &SystemClock::start(), &mut |_| {}).unwrap().records;
+    assert_eq!(records.len(), 6);
+    assert!(records[..4].iter().all(|r| r.structure_errors == Some(0) && r.mrays_per_s > Some(0.0)));
+    assert_eq!(records[0].label, "grid");
+    assert_eq!(records[0].hits, records[2].hits);
+
+    // Declined is neither a time nor an error.
+    assert!(records[4].mrays_per_s.is_some() && records[4].declined.is_none());
+    assert_eq!((records[5].mrays_per_s, records[5].declined.as_deref()), (None, Some("any hit")));
+    assert_eq!(records[5].structure_errors, Some(0));
+}
+
+/// Some meshes, so that the faults that take one ray in 10,000 are met.
+fn meshes() -> Vec<Named> {
+    let wanted = ["closed sphere", "soup", "nested shells", "crossing needles", "same centroid"];
+    degenerate_meshes().into_iter().filter(|(name, _)| wanted.contains(&name.as_str())).collect()
+}
+
+fn subject(fault: Fault) -> Subject {
+    Subject { limit: Duration::from_secs(5), ..Subject::of::<Broken>("broken", BrokenConfig { fault }) }
+}
+
+/// The report on a broken structure; the worst ray that it names.
+fn rejected(fault: Fault, count: usize) -> (String, Ray) {
+    let report = answers(&subject(fault), &meshes(), count).unwrap_err();
+    let ray = report.split('"').find_map(|part| part.parse().ok()).unwrap_or_else(|| panic!("no ray in {report}"));
+    (report, ray)
+}
+
+#[test]
+fn the_grid_that_the_broken_ones_are_made_from_is_right() {
+    answers(&subject(Fault::None), &meshes(), 200).unwrap();
+}
+
+#[test]
+fn each_fault_is_rejected_for_its_own_reason_with_the_worst_ray() {
+    for (fault, count, reason) in [
+        (Fault::Drops, 2000, "worst: lost: ray \""),
+        (Fault::WrongId, 200, "worst: wrong-primitive: ray \""),
+        (Fault::Late, 200, "worst: wrong-t: ray \""),
+        (Fault::AnyHitDisagrees, 200, "worst: any-hit-disagrees: ray \""),
+        (Fault::Panics, 200, "worst: panics: ray \""),
+        (Fault::Moody, 200, "worst: unrepeatable: ray \""),
+    ] {
+        let (report, ray) = rejected(fault, count);
+        assert!(report.contains(reason), "{fault:?}: {report}");
+        match fault {
+            Fault::Drops => assert!(picks(&ray, 10_000), "{report}"),
+            Fault::AnyHitDisagrees => assert!(picks(&ray, 500), "{report}"),
+            Fault::Panics => assert!(picks(&ray, 500) && report.contains("an index out of bounds, say"), "{report}"),
+            Fault::Late => assert!(report.contains("3 ulps away"), "{report}"),
+            _ => {}
+        }
+    }
+}
+
+#[test]
+fn a_structure_that_hangs_is_given_up_and_the_ray_is_named() {
+    let (report, ray) = rejected(Fault::Hangs, 200);
+    assert!(report.contains("worst: hangs: ray \"") && report.contains("no answer within 5s"), "{report}");
+    assert!(picks(&ray, 500), "{report}");
+    let counted = counting(&subject(Fault::Hangs), &meshes()[..1], 2000).unwrap_err();
+    assert!(counted.contains("it hangs") && counted.contains("for ray \""), "{counted}");
+}
+
+#[test]
+fn builders_that_panic_or_hang_are_told_from_each_other() {
+    let of = |fault| answers(&subject(fault), &meshes(), 1).unwrap_err();
+    assert!(
+        of(Fault::BuilderPanics).contains("does not build over \"crossing needles\": it panics: it says \"no triangle")
+    );
+    assert!(of(Fault::BuilderHangs).contains("does not build over \"crossing needles\": it hangs"));
+    assert!(shapes(&subject(Fault::BuilderHangs), &meshes()).unwrap_err().contains("it hangs"));
+}
+
+/// The command of a crate with these structures: what the tests below run in a process of their own.
+#[test]
+fn command() {
+    let Some(args) = std::env::var_os("SAHARA_THIRD_PARTY") else { return };
+    let args = args.into_string().unwrap();
+    let status = sahara::cli::run(&registry(), ["sahara"].into_iter().chain(args.split(' ')).map(Into::into));
+    std::process::exit(if status == ExitCode::SUCCESS { 0 } else { 42 });
+}
+
+/// What the command prints, and whether it is content.
+fn sahara(args: &str) -> (String, bool) {
+    let mut command = Command::new(std::env::current_exe().unwrap());
+    command.args(["--exact", "command", "--nocapture", "--test-threads=1"]).env("SAHARA_THIRD_PARTY", args);
+    let output = command.env_remove("SAHARA_DATA").stdin(Stdio::null()).output().unwrap();
+    let printed = String::from_utf8(output.stdout).unwrap() + &String::from_utf8_lossy(&output.stderr);
+    assert!(matches!(output.status.code(), Some(0 | 42)), "{args}: {printed}");
+    (printed, output.status.code() == Some(0))
+}
+
+#[test]
+fn the_command_rejects_each_fault_for_its_own_reason() {
+    for (fault, rays, reason) in [
+        ("drops", 100_000, "lost: ray"),
+        ("wrong-id", 1000, "wrong-primitive: ray"),
+        ("late", 1000, "wrong-t: ray"),
+        ("any-hit-disagrees", 10_000, "any-hit-disagrees: ray"),
+        ("panics", 10_000, "panics: ray"),
+        ("hangs", 10_000, "hangs: ray"),
+        ("moody", 10_000, "unrepeatable: ray"),
+        ("builder-panics", 100, "refused"),
+        ("builder-hangs", 100, "hangs"),
+    ] {
+        let (printed, right) = sahara(&format!("validate sphere -s broken:fault={fault} --rays {rays} --limit 5"));
+        assert!(!right && printed.contains(reason), "{fault}: {printed}");
+    }
+}
+
+#[test]
+fn the_command_knows_the_structures_and_what_they_decline() {
+    let (printed, right) = sahara("validate torus -s grid -s modest --rays 2000");
+    assert!(right && printed.contains("modest declines any hit, t_min, t_max: "), "{printed}");
+    let (printed, right) = sahara("compare cube -s grid -s modest -w primary -w shadow --rays 400 --runs 2");
+    assert!(
+        right && printed.contains("declined") && printed.contains("modest declines any hit, which shadow"),
+        "{printed}"
+    );
+    let (printed, right) = sahara("list");
+    assert!(right && printed.contains("declines") && printed.contains("resolution"), "{printed}");
+}
