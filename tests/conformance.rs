@@ -19,7 +19,7 @@ sahara::conformance!(sah_hybrid, WideTree<MollerTrumbore>, WideConfig::new(Parti
 sahara::conformance!(sah_bvh, WideTree<MollerTrumbore>, WideConfig::new(Partition::Objects), lowest_id);
 
 /// Configurations that differ in what they build or how they walk. `exit=first-leaf` is left out: it is wrong by design.
-const OURS: [&str; 26] = [
+const OURS: [&str; 28] = [
     "brute-force:test=rt-triangle",
     "median-kd:leaf=1",
     "median-kd:leaf=1,threshold=1",
@@ -46,6 +46,8 @@ const OURS: [&str; 26] = [
     "sah-hybrid:quality=high",
     "sah-bvh:quality=fast,block_cost=0.01",
     "sah-bvh:quality=high",
+    "sah-kd-tight:packets=true",
+    "sah-hybrid:packets=true",
 ];
 
 const TREES: [&str; 6] = ["median-kd", "sah-kd", "sah-kd-wide", "sah-kd-tight", "sah-hybrid", "sah-bvh"];

@@ -2,6 +2,7 @@
 
 use super::WideTree;
 use super::beams::RAYS;
+
 use crate::accel::Observer;
 use crate::geometry::{Hit, Ray};
 use crate::simd::{Kernel, Level, Sieve, dispatch};
@@ -22,18 +23,18 @@ impl<const ANY: bool, T: TriangleTest, A, O: Observer, F: Fn(Option<Hit>) -> A> 
     #[inline(always)]
     fn run<L: Sieve>(self) {
         let Self { tree, rays, answers, observer, form } = self;
+        // Counts are those of single rays.
+        let packets = tree.packets && !O::ACTIVE;
         for (rays, answers) in rays.chunks(RAYS).zip(answers.chunks_mut(RAYS)) {
-            if !O::ACTIVE
-                && let Ok(packet) = rays.try_into()
-                && let Some(hits) = tree.packet::<ANY, L>(packet)
-            {
-                for (answer, hit) in answers.iter_mut().zip(hits) {
-                    *answer = form(hit);
+            let together =
+                if packets { rays.try_into().ok().and_then(|rays| tree.packet::<ANY, L>(rays)) } else { None };
+            match together {
+                Some(hits) => answers.iter_mut().zip(hits).for_each(|(answer, hit)| *answer = form(hit)),
+                None => {
+                    for (answer, ray) in answers.iter_mut().zip(rays) {
+                        *answer = form(tree.walk::<ANY, L, O>(ray, observer));
+                    }
                 }
-                continue;
-            }
-            for (answer, ray) in answers.iter_mut().zip(rays) {
-                *answer = form(tree.walk::<ANY, L, O>(ray, observer));
             }
         }
     }

@@ -19,6 +19,9 @@ pub struct WideConfig {
     pub block_cost: f32,
     /// References a build may make, as a multiple of the triangles: the guard against inputs that explode. At least 1.
     pub duplication: f32,
+    /// Whether sixteen rays in a row of a slice travel together where they share an octant, instead of one by one: faster for
+    /// rays that lie side by side, no slower for others, and the same answers.
+    pub packets: bool,
 }
 
 /// How the triangles of a scene are divided, by the surface area heuristic.
@@ -38,7 +41,7 @@ pub enum Partition {
 impl WideConfig {
     /// The values measured for a partition.
     pub const fn new(partition: Partition) -> Self {
-        Self { partition, quality: Quality::Balanced, block_cost: 1.0, duplication: 4.0 }
+        Self { partition, quality: Quality::Balanced, block_cost: 1.0, duplication: 4.0, packets: false }
     }
 
     pub(super) fn check(&self) -> Result<(), BuildError> {

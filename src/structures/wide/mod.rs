@@ -45,6 +45,7 @@ pub struct WideTree<T: TriangleTest> {
     nodes: Vec<Node>,
     blocks: Vec<LeafBlock<T, WIDTH>>,
     bounds: Aabb,
+    packets: bool,
 }
 
 impl<T: TriangleTest> Accel for WideTree<T> {
@@ -68,7 +69,7 @@ impl<T: TriangleTest> Accel for WideTree<T> {
         }
         nodes.shrink_to_fit();
         blocks.shrink_to_fit();
-        Ok(Self { root, nodes, blocks, bounds: mesh.bounds() })
+        Ok(Self { root, nodes, blocks, bounds: mesh.bounds(), packets: config.packets })
     }
 
     #[inline]

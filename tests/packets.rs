@@ -1,0 +1,82 @@
+//! Rays that travel in packets get the answers that they get one by one, bit for bit, on every level of instructions.
+//!
+//! One test alone in its process, because the level is that of the process.
+
+use std::sync::Arc;
+
+use sahara::accel::DynAccel;
+use sahara::geometry::{Mesh, Ray};
+use sahara::registry::Registry;
+use sahara::scene::{Builtin, Sampling, Workload, WorkloadKind};
+use sahara::simd::Level;
+use sahara::validate::{Stratum, degenerate_meshes};
+
+/// Adversarial rays, in such an order that packets of one octant come about, and the same in the order they were made.
+fn bundles(mesh: &Mesh) -> Vec<Ray> {
+    let mixed: Vec<Ray> = Stratum::ALL.into_iter().flat_map(|stratum| stratum.rays(mesh, 32, 5)).collect();
+    let mut sorted = mixed.clone();
+    sorted.sort_by_key(|ray| ray.direction.to_array().map(f32::is_sign_negative));
+    // Rays that differ by little, with ends that cut through the scene.
+    let neighbours = mixed.iter().flat_map(|ray| {
+        let step = |i: u32| {
+            let direction = ray.direction * (1.0 + i as f32 * 1e-3);
+            let end = if i % 3 == 0 { 1.0 + i as f32 * 0.1 } else { f32::INFINITY };
+            Ray { direction, t_min: if i % 5 == 0 { 0.25 } else { 0.0 }, ..*ray }.until(end)
+        };
+        (0..16).map(step)
+    });
+    let near: Vec<Ray> = neighbours.collect();
+    [mixed, sorted, near].concat()
+}
+
+fn bits(accel: &dyn DynAccel, rays: &[Ray]) -> (Vec<Option<(u32, u32)>>, Vec<bool>) {
+    let (mut hits, mut any) = (vec![None; rays.len()], vec![false; rays.len()]);
+    accel.closest_hits(rays, &mut hits);
+    accel.any_hits(rays, &mut any);
+    (hits.iter().map(|hit| hit.map(|hit| (hit.t.to_bits(), hit.prim.index()))).collect(), any)
+}
+
+#[test]
+fn packets_answer_as_single_rays_do() {
+    let registry = Registry::builtin();
+    let mut cases: Vec<(String, Arc<Mesh>, Vec<Ray>)> = vec![];
+    for (name, mesh) in degenerate_meshes() {
+        let rays = bundles(&mesh);
+        cases.push((name, mesh, rays));
+    }
+    for name in ["teapot", "cornellbox", "dragon"] {
+        let scene = Builtin::find(name).unwrap().scene(None).unwrap();
+        let caster = registry.choose("sah-kd").unwrap().build(&scene.mesh).unwrap();
+        let sampling = Sampling::about(&scene, 4_000, 3);
+        let mut rays = bundles(&scene.mesh);
+        for kind in [WorkloadKind::Primary, WorkloadKind::Shadow, WorkloadKind::Diffuse] {
+            rays.extend(Workload::new(&scene, kind, &sampling, &*caster).rays);
+        }
+        cases.push((name.into(), scene.mesh, rays));
+    }
+
+    let mut hits = 0;
+    for structure in ["sah-kd-wide", "sah-kd-tight", "sah-hybrid", "sah-bvh"] {
+        for test in ["moller-trumbore", "filtered-f64", "exact"] {
+            let choose = |keys: &str| registry.choose(&format!("{structure}:test={test}{keys}")).unwrap();
+            for (name, mesh, rays) in &cases {
+                let single = choose("").build(mesh).unwrap();
+                let packets = choose(",packets=true").build(mesh).unwrap();
+                let right = bits(&*single, rays);
+                for level in Level::available() {
+                    level.choose();
+                    let found = bits(&*packets, rays);
+                    let wrong = (0..rays.len()).find(|&i| found.0[i] != right.0[i] || found.1[i] != right.1[i]);
+                    if let Some(i) = wrong {
+                        panic!(
+                            "{structure} over {test}, {level}, on {name}: {:?} gives {:?} and {}, alone {:?} and {}",
+                            rays[i], found.0[i], found.1[i], right.0[i], right.1[i]
+                        );
+                    }
+                }
+                hits += right.1.iter().filter(|&&hit| hit).count();
+            }
+        }
+    }
+    assert!(hits > 100_000, "too few hits to prove anything: {hits}");
+}
