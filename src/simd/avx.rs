@@ -144,6 +144,8 @@ static MEMBERS: [[u8; 8]; 256] = {
 };
 
 impl<const MASKS: bool> Sieve for Avx<MASKS> {
+    const FAST: bool = true;
+
     #[inline(always)]
     unsafe fn sieve(self, limit: Self, values: &[u32; 8], order: u32, keys: *mut f32, chosen: *mut u32) -> u32 {
         // SAFETY: the caller lets eight floats and eight numbers be written; the table has a row for every mask.

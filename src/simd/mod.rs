@@ -60,6 +60,9 @@ pub trait Lanes<const N: usize>: Arithmetic<N, Scalar = f32> {
 
 /// Eight lanes of which those that pass a comparison can be written to memory, packed.
 pub trait Sieve: Lanes<8> {
+    /// Whether the lanes are instructions of the machine, so that work on many at once pays.
+    const FAST: bool;
+
     /// Takes the lanes where `self <= limit`, in a given order: three bits a lane, the first one lowest. Writes them to `keys` and
     /// their `values` to `chosen`, and returns which they are: bit `i` stands for the `i`-th in that order.
     ///

@@ -117,6 +117,8 @@ impl<const N: usize> Lanes<N> for Portable<N> {
 }
 
 impl Sieve for Portable<8> {
+    const FAST: bool = false;
+
     #[inline(always)]
     unsafe fn sieve(self, limit: Self, values: &[u32; 8], order: u32, keys: *mut f32, chosen: *mut u32) -> u32 {
         let (mut set, mut count) = (0, 0);

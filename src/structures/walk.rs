@@ -2,7 +2,7 @@
 
 use crate::accel::Observer;
 use crate::geometry::{Hit, Ray};
-use crate::simd::{Kernel, Level, Sieve, dispatch};
+use crate::simd::{Kernel, Level, Portable, Sieve, dispatch};
 
 /// A structure whose search is written over lanes.
 pub(super) trait Walk {
@@ -28,5 +28,10 @@ impl<const ANY: bool, W: Walk, O: Observer> Kernel for Single<'_, ANY, W, O> {
 /// One ray, on the level in use.
 #[inline(always)]
 pub(super) fn single<const ANY: bool, W: Walk, O: Observer>(structure: &W, ray: &Ray, observer: &mut O) -> Option<Hit> {
-    dispatch(Level::current(), Single::<ANY, W, O> { structure, ray, observer })
+    if O::ACTIVE {
+        // All levels take the same steps. Who counts does not hurry, and compiling is half the work.
+        structure.walk::<ANY, Portable<8>, O>(ray, observer)
+    } else {
+        dispatch(Level::current(), Single::<ANY, W, O> { structure, ray, observer })
+    }
 }
