@@ -1,12 +1,16 @@
 //! The structures themselves.
 
 mod binary;
+#[cfg(test)]
+mod binary_check;
 mod brute_force;
+mod extent;
 pub mod kd;
 mod leaf;
 mod line;
 pub mod obvhs;
 pub mod peers;
+mod reinsert;
 pub mod split;
 mod walk;
 pub mod wide;

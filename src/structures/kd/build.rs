@@ -30,6 +30,11 @@ pub(super) trait Content: Sized + Send {
     /// The triangles, in ascending order.
     fn ids(&self) -> impl Iterator<Item = u32>;
 
+    /// The box of what the triangles have in the cell, if that is known; empty without triangles.
+    fn bounds(&self) -> Option<Aabb> {
+        None
+    }
+
     /// Where to cut, or nothing when a leaf is better.
     fn choose(&self, context: &Context, place: &Place) -> Option<Cut>;
 
@@ -58,6 +63,8 @@ pub(super) struct Place {
 pub(super) struct Plan {
     pub nodes: Vec<Node>,
     pub references: Vec<u32>,
+    /// The tight box of each leaf, where the contents know it.
+    pub tight: Vec<Aabb>,
 }
 
 /// Both sides of a node with fewer references than this are grown by the same thread.
@@ -140,6 +147,14 @@ impl Place {
         (below + above) as f64 <= self.budget
     }
 
+    /// Whether the rules take a cut that makes sides of these sizes of `count` clipped triangles.
+    pub fn accepts(&self, context: &Context, count: usize, [below, above]: [usize; 2]) -> bool {
+        let both = (below + above - count) as f64;
+        let discarded =
+            context.config.stop == Stop::Report && both >= f64::from(context.config.threshold) * count as f64;
+        !discarded && self.affords(below, above)
+    }
+
     /// Whether sides of these sizes are progress, or the lack of it may be had once more: not for the third time in a row.
     pub fn progresses(&self, count: usize, below: usize, above: usize) -> bool {
         below.max(above) < count || self.stalled < 2
@@ -150,6 +165,7 @@ impl Plan {
     fn leaf<C: Content>(&mut self, content: &C) {
         self.nodes.push(Node::leaf(self.references.len() as u32, content.len() as u32));
         self.references.extend(content.ids());
+        self.tight.extend(content.bounds());
     }
 
     /// Adds the nodes of `other` behind these.
@@ -163,5 +179,6 @@ impl Plan {
             }
         }));
         self.references.extend(other.references);
+        self.tight.extend(other.tight);
     }
 }

@@ -4,11 +4,11 @@ use glam::{DVec3, Vec3};
 
 use crate::geometry::{Aabb, round_down, round_up};
 
-/// At most this many corners are left when six planes have cut a triangle.
-const CORNERS: usize = 9;
+/// At most this many corners are left when seven planes have cut a triangle.
+const CORNERS: usize = 10;
 
 /// A computed corner is off by at most this share of the triangle's largest coordinate: one interpolation a + (b - a) w
-/// with w = (s - a) / (b - a) takes five roundings, at most six interpolations follow each other, and 64 units of 2^-53
+/// with w = (s - a) / (b - a) takes five roundings, at most seven interpolations follow each other, and 64 units of 2^-53
 /// cover them twice. (Where an edge is almost parallel to the plane, w itself may be far off; what is then lost lies within
 /// the same distance of the plane, which is 2^20 times less than the slack with which rays cross it.)
 const ERROR: f64 = 64.0 / (1u64 << 53) as f64;
@@ -19,20 +19,24 @@ const ERROR: f64 = 64.0 / (1u64 << 53) as f64;
 /// Clips in f64 (Sutherland, Hodgman 1974) and rounds outward, so that nothing of the triangle is lost; where rounding
 /// leaves no polygon at all, the answer is `known` cut by the cell: a triangle that reaches into the cell is never dropped.
 pub(in crate::structures) fn clipped_bounds(corners: [Vec3; 3], cell: &Aabb, known: &Aabb) -> Aabb {
-    let cut = known.intersection(*cell);
-    let mut polygon = Polygon::new(corners);
-    for axis in 0..3 {
-        polygon.keep(axis, cell.min[axis].into(), 1.0);
-        polygon.keep(axis, cell.max[axis].into(), -1.0);
-    }
-    if polygon.len == 0 {
-        return cut;
-    }
-    let tight = polygon.bounds().intersection(cut);
-    if tight.is_empty() { cut } else { tight }
+    Polygon::clipped(corners, cell).bounds_in(known.intersection(*cell))
+}
+
+/// The boxes of both sides of a plane: [`clipped_bounds`] of the parts of `bounds` below and above, where `bounds` is a box of the
+/// part of the triangle in some cell and the plane meets its inside.
+pub(in crate::structures) fn cut_bounds(corners: [Vec3; 3], bounds: &Aabb, axis: usize, plane: f32) -> (Aabb, Aabb) {
+    let polygon = Polygon::clipped(corners, bounds);
+    let (below, above) = bounds.cut(axis, plane);
+    let half = |cut: Aabb, side: f64| {
+        let mut half = polygon.clone();
+        half.keep(axis, plane.into(), side);
+        half.bounds_in(cut)
+    };
+    (half(below, -1.0), half(above, 1.0))
 }
 
 /// Corners, and for each whether it was computed (and hence rounded) rather than given.
+#[derive(Clone)]
 struct Polygon {
     corners: [(DVec3, bool); CORNERS],
     len: usize,
@@ -48,6 +52,25 @@ impl Polygon {
             slot.0 = corner;
         }
         Self { corners: slots, len: 3, slack: largest * ERROR }
+    }
+
+    /// The part of a triangle in `cell`.
+    fn clipped(corners: [Vec3; 3], cell: &Aabb) -> Self {
+        let mut polygon = Self::new(corners);
+        for axis in 0..3 {
+            polygon.keep(axis, cell.min[axis].into(), 1.0);
+            polygon.keep(axis, cell.max[axis].into(), -1.0);
+        }
+        polygon
+    }
+
+    /// The box of the polygon in `cut`, or `cut` where rounding has left nothing.
+    fn bounds_in(&self, cut: Aabb) -> Aabb {
+        if self.len == 0 {
+            return cut;
+        }
+        let tight = self.bounds().intersection(cut);
+        if tight.is_empty() { cut } else { tight }
     }
 
     /// Cuts away what lies beyond the plane: keeps points with `side * (p[axis] - plane) >= 0`.

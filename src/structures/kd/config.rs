@@ -1,6 +1,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::accel::BuildError;
+use crate::structures::split::Quality;
 
 /// How a [`KdTree`](super::KdTree) is built and traversed: `median-kd` and `sah-kd` are two values of it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -35,6 +36,10 @@ pub struct KdConfig {
     pub traversal_cost: f32,
     /// Cost of testing a block of eight triangles. Positive; more gives smaller leaves.
     pub intersection_cost: f32,
+    /// Nodes of at most this many references try every plane of the surface area heuristic; larger ones try `candidates`.
+    pub exact: u32,
+    /// Planes that a larger node tries on an axis, in 2..=62.
+    pub candidates: u32,
     /// Share of the cost that a split saves when it cuts off empty space, in [0, 1); Wald and Havran use 0.2.
     pub empty_bonus: f32,
     /// References a build may make, as a multiple of the triangles: the guard against inputs that explode. At least 1.
@@ -150,6 +155,8 @@ impl KdConfig {
         mailbox: false,
         traversal_cost: 1.0,
         intersection_cost: 1.0,
+        exact: u32::MAX,
+        candidates: 32,
         empty_bonus: 0.0,
         duplication: 100.0,
     };
@@ -166,6 +173,17 @@ impl KdConfig {
         ..Self::REPORT
     };
 
+    /// The cells that a wide tree is made of: cheap steps, since three of them are one step of that tree, and the exact plane
+    /// only where nodes are small.
+    pub const fn cells(quality: Quality) -> Self {
+        let (exact, candidates) = match quality {
+            Quality::Fast => (0, 16),
+            Quality::Balanced => (64, 32),
+            Quality::High => (1 << 16, 62),
+        };
+        Self { traversal_cost: 0.2, empty_bonus: 0.2, duplication: 4.0, exact, candidates, ..Self::SAH }
+    }
+
     pub(super) fn check(&self) -> Result<(), BuildError> {
         let refuse = |what: &str| Err(BuildError::Config(what.into()));
         let positive = |x: f32| x > 0.0 && x.is_finite();
@@ -177,6 +195,9 @@ impl KdConfig {
         }
         if !positive(self.traversal_cost) || !positive(self.intersection_cost) {
             return refuse("traversal_cost and intersection_cost must be positive numbers");
+        }
+        if !(2..=62).contains(&self.candidates) {
+            return refuse("candidates must be in 2..=62");
         }
         if !(0.0..1.0).contains(&self.empty_bonus) {
             return refuse("empty_bonus must be at least 0 and below 1");

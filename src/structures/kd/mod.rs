@@ -6,6 +6,7 @@ mod config;
 mod node;
 mod partition;
 mod sah;
+mod sah_binned;
 mod sah_sweep;
 mod shape;
 #[cfg(test)]
@@ -25,7 +26,7 @@ use crate::geometry::{Aabb, Hit, Mesh, Ray};
 use crate::triangle::TriangleTest;
 use build::{Context, Plan, grow};
 use node::Node;
-use sah_sweep::Events;
+use sah_binned::Binned;
 use vertex_median::Triangles;
 
 /// Triangles that a leaf tests at once.
@@ -52,19 +53,19 @@ fn plan(mesh: &Mesh, config: &KdConfig) -> Result<Plan, BuildError> {
     let context = Context::new(mesh, config);
     Ok(match config.plane {
         Plane::VertexMedian => grow(&context, Triangles::all(&context)),
-        Plane::SahSweep => grow(&context, Events::all(&context)),
+        Plane::SahSweep => grow(&context, Binned::all(&context)),
     })
 }
 
 /// The non-empty cells of that tree, as tight boxes.
-pub(super) fn partition(mesh: &Mesh, config: &KdConfig) -> Result<BinaryTree, BuildError> {
+pub(crate) fn partition(mesh: &Mesh, config: &KdConfig) -> Result<BinaryTree, BuildError> {
     Ok(partition::tight(mesh, plan(mesh, config)?))
 }
 
 impl<T: TriangleTest> KdTree<T> {
     /// Turns the references of a plan into blocks, leaf by leaf.
     fn finish(mesh: &Mesh, config: &KdConfig, plan: Plan) -> Self {
-        let Plan { mut nodes, references } = plan;
+        let Plan { mut nodes, references, .. } = plan;
         let leaves = nodes.iter().filter(|node| node.is_leaf());
         let count = leaves.map(|leaf| (leaf.references() as usize).div_ceil(WIDTH)).sum();
         let mut blocks = Vec::with_capacity(count);

@@ -12,13 +12,7 @@ use super::clip::clipped_bounds;
 use super::config::Stop;
 use super::sah::{CostModel, SideAreas};
 use crate::geometry::Aabb;
-
-/// A triangle and the box of its part in the cell.
-#[derive(Clone, Copy, Debug)]
-struct Reference {
-    id: u32,
-    bounds: Aabb,
-}
+use crate::structures::split::Reference;
 
 /// Where a reference begins or ends on an axis: coordinate, kind and number of the reference, in this order from the
 /// highest bit, so that the order of the numbers is the order of the sweep.
@@ -72,7 +66,7 @@ pub(super) struct Events {
 }
 
 /// Below this many references a node is swept by one thread.
-const PARALLEL: usize = 8192;
+pub(super) const PARALLEL: usize = 8192;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Side {
@@ -82,9 +76,8 @@ enum Side {
 }
 
 impl Events {
-    pub fn all(context: &Context) -> Self {
-        let references: Vec<Reference> =
-            context.mesh.solid().map(|id| Reference { id, bounds: context.mesh.triangle_bounds(id) }).collect();
+    /// References in ascending order of triangles.
+    pub fn new(references: Vec<Reference>) -> Self {
         let axes = [0, 1, 2].map(|axis| {
             let mut events = Vec::with_capacity(2 * references.len());
             push_events(&references, 0, axis, &mut events);
@@ -92,6 +85,10 @@ impl Events {
             events
         });
         Self { references, axes }
+    }
+
+    pub fn references(&self) -> &[Reference] {
+        &self.references
     }
 
     /// The cheapest plane of one axis: its cost and the cut.
@@ -220,6 +217,10 @@ impl Content for Events {
         self.references.iter().map(|r| r.id)
     }
 
+    fn bounds(&self) -> Option<Aabb> {
+        Some(self.references.iter().fold(Aabb::EMPTY, |bounds, r| bounds.union(r.bounds)))
+    }
+
     fn choose(&self, context: &Context, place: &Place) -> Option<Cut> {
         let model = CostModel::new(context.config);
         let sweep = |axis| self.sweep(&model, &place.cell, axis);
@@ -238,9 +239,7 @@ impl Content for Events {
         let both = sides.iter().filter(|&&side| side == Side::Both).count();
         let below = both + sides.iter().filter(|&&side| side == Side::Below).count();
         let above = self.len() + both - below;
-        let discarded = context.config.stop == Stop::Report
-            && both as f64 >= f64::from(context.config.threshold) * self.len() as f64;
-        if discarded || !place.affords(below, above) {
+        if !place.accepts(context, self.len(), [below, above]) {
             return Err(self);
         }
 

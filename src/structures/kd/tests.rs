@@ -3,7 +3,8 @@ use rand_core::{RngCore, SeedableRng};
 
 use super::*;
 use crate::accel::Counts;
-use crate::structures::BruteForce;
+use crate::structures::split::Quality;
+use crate::structures::{BruteForce, binary_check};
 use crate::triangle::MollerTrumbore;
 
 type Tree = KdTree<MollerTrumbore>;
@@ -129,5 +130,51 @@ fn a_bad_configuration_is_refused_in_a_sentence() {
     for config in bad {
         let error = Tree::build(&mesh, &config).err().expect("refused").to_string();
         assert!(error.contains("must"), "{error}");
+    }
+}
+
+/// What a wide tree may be made of.
+fn cells() -> Vec<KdConfig> {
+    let report = KdConfig { leaf: 8, ..KdConfig::REPORT };
+    let sah = [Quality::Fast, Quality::Balanced, Quality::High].map(KdConfig::cells);
+    [&sah[..], &[report, KdConfig::SAH, KdConfig { exact: 100, candidates: 3, ..KdConfig::SAH }]].concat()
+}
+
+#[test]
+fn cells_as_tight_boxes_partition_space_and_lose_nothing() {
+    for (mesh, seed) in [(binary_check::soup(1500, 12), 13), (binary_check::room(8), 14)] {
+        for config in cells() {
+            let tree = partition(&mesh, &config).unwrap();
+            binary_check::disjoint(&binary_check::leaves(&tree, 64));
+            binary_check::covers(&tree, &mesh, seed);
+        }
+    }
+}
+
+#[test]
+fn cells_do_not_depend_on_the_number_of_threads() {
+    let mesh = binary_check::soup(30_000, 15);
+    for config in cells() {
+        let build = |threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            let tree = pool.install(|| partition(&mesh, &config).unwrap());
+            (format!("{:?}", tree.nodes), tree.references)
+        };
+        let one = build(1);
+        assert!(one == build(2) && one == build(3), "{config:?}");
+    }
+}
+
+#[test]
+fn cells_that_cannot_be_cut_are_dealt_out() {
+    let coincident = binary_check::mesh(1000, |_| [Vec3::X, Vec3::Y, Vec3::Z]);
+    for config in cells() {
+        let tree = partition(&coincident, &config).unwrap();
+        assert_eq!(tree.references.len(), 1000, "{config:?}");
+        assert!(binary_check::leaves(&tree, 64).len() >= 16);
+        binary_check::covers(&tree, &coincident, 16);
+
+        let nothing = Mesh::new(vec![Vec3::ZERO, Vec3::X, Vec3::X * 2.0], vec![[0, 1, 2]]).unwrap();
+        assert!(partition(&nothing, &config).unwrap().nodes.is_empty(), "degenerate triangles are in no leaf");
     }
 }

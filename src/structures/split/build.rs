@@ -1,13 +1,14 @@
 //! Growing the tree.
 
 use super::config::{SplitConfig, Splits};
-use super::cost::{CostModel, Offer, WIDTH};
+use super::cost::{CostModel, Offer, WIDTH, cheaper};
 use super::divide::{Part, at_plane, by_group};
 use super::object::{Group, cheapest_group, median};
 use super::reference::Reference;
-use super::spatial::{Cut, cheapest_cut};
+use super::spatial::{Cut, Slots, cheapest_cut};
 use crate::geometry::Mesh;
 use crate::structures::binary::{BinaryNode, BinaryTree, Content};
+use crate::structures::extent::Extent;
 
 /// Nodes of at least this many references are worked on by several threads.
 pub(super) const PARALLEL: usize = 4096;
@@ -15,15 +16,21 @@ pub(super) const PARALLEL: usize = 4096;
 /// References that one thread works on at a time.
 pub(super) const CHUNK: usize = 2048;
 
-/// Levels of splits that the heuristic chooses; below them nodes are halved, so that any input ends.
-const DEPTH: u32 = 64;
-
 /// What every step of a build knows.
 pub(super) struct Context<'a> {
     pub mesh: &'a Mesh,
     pub config: &'a SplitConfig,
     pub costs: CostModel,
     root_area: f64,
+    /// Levels of splits that the heuristic chooses; below them nodes are halved, so that any input ends.
+    depth: u32,
+}
+
+/// A tree that grows, and how many references its nodes have looked at: what the time of a build is proportional to.
+#[derive(Default)]
+pub(super) struct Growth {
+    pub tree: BinaryTree,
+    pub work: u64,
 }
 
 /// Where in the tree a node is.
@@ -42,37 +49,52 @@ enum Split {
 
 /// The tree over the triangles of `mesh` that have an area. It does not depend on the number of threads.
 ///
-/// Takes O(n log n) time and memory: no path is longer than 64 levels and those of halving a rest, and all leaves together
-/// hold at most `config.duplication` times the triangles.
+/// Takes O(n log n) time and memory: paths have at most 16 + 2 log2 n levels and those of halving a rest, and all leaves
+/// together hold at most `config.duplication` times the triangles.
 pub(crate) fn build(mesh: &Mesh, config: &SplitConfig) -> BinaryTree {
-    let references = mesh.solid().map(|id| Reference { id, bounds: mesh.triangle_bounds(id) }).collect();
-    let root = Part::new(references);
-    let mut tree = BinaryTree::default();
-    if root.references.is_empty() {
-        return tree;
+    growth(mesh, config).tree
+}
+
+pub(super) fn growth(mesh: &Mesh, config: &SplitConfig) -> Growth {
+    let context = Context::new(mesh, config);
+    let root = Part::new(context.references());
+    let mut growth = Growth::default();
+    if !root.references.is_empty() {
+        let budget = f64::from(config.duplication) * root.references.len() as f64;
+        grow(&context, root, Place { depth: 0, budget }, &mut growth, &mut Slots::new());
     }
-    let context = Context { mesh, config, costs: CostModel::new(config), root_area: root.extent.half_area() };
-    let budget = f64::from(config.duplication) * root.references.len() as f64;
-    grow(&context, root, Place { depth: 0, budget }, &mut tree);
-    tree
+    growth
+}
+
+impl<'a> Context<'a> {
+    pub fn new(mesh: &'a Mesh, config: &'a SplitConfig) -> Self {
+        let root_area = Extent::from(mesh.bounds()).half_area();
+        let depth = 16 + 2 * (usize::BITS - mesh.len().leading_zeros());
+        Self { mesh, config, costs: CostModel::new(config), root_area, depth }
+    }
+
+    /// The triangles that have an area, whole.
+    pub fn references(&self) -> Vec<Reference> {
+        let whole = |id| Reference { id, bounds: self.mesh.triangle_bounds(id) };
+        self.mesh.solid().map(whole).collect()
+    }
 }
 
 /// Appends the tree over `part`, its root first; what it costs.
-fn grow(context: &Context, part: Part, place: Place, tree: &mut BinaryTree) -> f64 {
+fn grow(context: &Context, part: Part, place: Place, growth: &mut Growth, slots: &mut Slots) -> f64 {
     let Part { references, extent } = part;
-    let area = extent.half_area();
-    let count = references.len();
-    let leaf_cost = context.costs.leaf(area, count);
-    let own = tree.nodes.len();
-    let Some(split) = choose(context, &references, &Part { references: vec![], extent }, place) else {
-        let first = tree.references.len() as u32;
-        tree.references.extend(references.iter().map(|r| r.id));
-        tree.nodes.push(BinaryNode { bounds: extent.into(), content: Content::Leaf { first, count: count as u32 } });
-        return leaf_cost;
+    let (area, count) = (extent.half_area(), references.len());
+    let (own, first) = (growth.tree.nodes.len(), growth.tree.references.len());
+    growth.work += count as u64;
+    let Some((split, counts)) = choose(context, &references, extent, place, slots) else {
+        growth.tree.references.extend(references.iter().map(|r| r.id));
+        let content = Content::Leaf { first: first as u32, count: count as u32 };
+        growth.tree.nodes.push(BinaryNode { bounds: extent.into(), content });
+        return context.costs.leaf(area, count);
     };
     let [below, above] = match split {
-        Split::Space(cut) => at_plane(context, references, cut),
-        Split::Set(group) => by_group(references, group),
+        Split::Space(cut) => at_plane(context.mesh, references, cut, counts),
+        Split::Set(group) => by_group(references, group, counts),
     };
 
     // Give each side its share of the references that are still allowed.
@@ -80,52 +102,62 @@ fn grow(context: &Context, part: Part, place: Place, tree: &mut BinaryTree) -> f
     let child = |part: &Part| Place { depth: place.depth + 1, budget: share * part.references.len() as f64 };
     let (below_place, above_place) = (child(&below), child(&above));
 
-    tree.nodes.push(BinaryNode { bounds: extent.into(), content: Content::Inner([own as u32 + 1, 0]) });
-    let first = tree.references.len();
+    growth.tree.nodes.push(BinaryNode { bounds: extent.into(), content: Content::Inner([0; 2]) });
     let (second, children) = if count < PARALLEL {
-        let left = grow(context, below, below_place, tree);
-        let second = tree.nodes.len();
-        (second, left + grow(context, above, above_place, tree))
+        let left = grow(context, below, below_place, growth, slots);
+        let second = growth.tree.nodes.len();
+        (second, left + grow(context, above, above_place, growth, slots))
     } else {
-        let mut other = BinaryTree::default();
-        let (left, right) =
-            rayon::join(|| grow(context, below, below_place, tree), || grow(context, above, above_place, &mut other));
-        let second = tree.nodes.len();
-        append(tree, other);
+        let mut other = Growth::default();
+        let (left, right) = rayon::join(
+            || grow(context, below, below_place, growth, slots),
+            || grow(context, above, above_place, &mut other, &mut Slots::new()),
+        );
+        let second = growth.tree.nodes.len();
+        growth.append(other);
         (second, left + right)
     };
-    tree.nodes[own].content = Content::Inner([own as u32 + 1, second as u32]);
+    growth.tree.nodes[own].content = Content::Inner([own as u32 + 1, second as u32]);
     let cost = context.costs.node(area, children);
-    merge(context, tree, own, first, area, cost).unwrap_or(cost)
+    merge(context, &mut growth.tree, own, first, area, cost).unwrap_or(cost)
 }
 
-/// How to split; nothing when a leaf is better.
-fn choose(context: &Context, references: &[Reference], whole: &Part, place: Place) -> Option<Split> {
+/// How to split, and the references on both sides; nothing when a leaf is better.
+fn choose(
+    context: &Context,
+    references: &[Reference],
+    extent: Extent,
+    place: Place,
+    slots: &mut Slots,
+) -> Option<(Split, [usize; 2])> {
     let (count, config) = (references.len(), context.config);
     if count <= WIDTH {
         return None;
     }
-    let area = whole.extent.half_area();
-    let offer = if place.depth < DEPTH { cheapest(context, references, whole, place) } else { None };
-    match offer {
-        Some(offer) if offer.cost < context.costs.leaf(area, count) || count > config.leaf as usize => {
-            Some(offer.split)
-        }
-        _ => (count > config.leaf as usize).then(|| Split::Set(median(references, WIDTH))),
+    let leaf_cost = context.costs.leaf(extent.half_area(), count);
+    let full = count > config.leaf as usize;
+    if place.depth < context.depth
+        && let Some(offer) = cheapest(context, references, extent, place.budget, slots)
+        && (offer.cost < leaf_cost || full)
+    {
+        return Some((offer.split, offer.counts));
     }
+    full.then(|| {
+        let (group, counts) = median(references, WIDTH);
+        (Split::Set(group), counts)
+    })
 }
 
 /// The cheapest of the allowed splits.
-fn cheapest(context: &Context, references: &[Reference], whole: &Part, place: Place) -> Option<Offer<Split>> {
-    let bounds = whole.extent.into();
-    let space = || {
-        let Offer { cost, split, sides } = cheapest_cut(context, references, &bounds, place.budget)?;
-        Some(Offer { cost, split: Split::Space(split), sides })
-    };
-    let set = || {
-        let Offer { cost, split, sides } = cheapest_group(context, references, whole.extent.half_area())?;
-        Some(Offer { cost, split: Split::Set(split), sides })
-    };
+fn cheapest(
+    context: &Context,
+    references: &[Reference],
+    extent: Extent,
+    budget: f64,
+    slots: &mut Slots,
+) -> Option<Offer<Split>> {
+    let mut space = || cheapest_cut(context, references, extent, budget, slots).map(|o| o.map(Split::Space));
+    let set = || cheapest_group(context, references, extent.half_area()).map(|o| o.map(Split::Set));
     match context.config.splits {
         Splits::Spatial => space(),
         Splits::Object => set(),
@@ -135,7 +167,7 @@ fn cheapest(context: &Context, references: &[Reference], whole: &Part, place: Pl
             if overlap.is_some_and(|area| area <= f64::from(context.config.alpha) * context.root_area) {
                 return set;
             }
-            super::cost::cheaper(set, space())
+            cheaper(set, space())
         }
     }
 }
@@ -160,15 +192,19 @@ fn merge(context: &Context, tree: &mut BinaryTree, own: usize, first: usize, are
     Some(leaf_cost)
 }
 
-/// Adds the nodes of `other` behind these.
-fn append(tree: &mut BinaryTree, other: BinaryTree) {
-    let (nodes, references) = (tree.nodes.len() as u32, tree.references.len() as u32);
-    tree.nodes.extend(other.nodes.into_iter().map(|node| {
-        let content = match node.content {
-            Content::Inner(children) => Content::Inner(children.map(|child| child + nodes)),
-            Content::Leaf { first, count } => Content::Leaf { first: first + references, count },
-        };
-        BinaryNode { content, ..node }
-    }));
-    tree.references.extend(other.references);
+impl Growth {
+    /// Adds the nodes of `other` behind these.
+    fn append(&mut self, other: Growth) {
+        let tree = &mut self.tree;
+        let (nodes, references) = (tree.nodes.len() as u32, tree.references.len() as u32);
+        tree.nodes.extend(other.tree.nodes.into_iter().map(|node| {
+            let content = match node.content {
+                Content::Inner(children) => Content::Inner(children.map(|child| child + nodes)),
+                Content::Leaf { first, count } => Content::Leaf { first: first + references, count },
+            };
+            BinaryNode { content, ..node }
+        }));
+        tree.references.extend(other.tree.references);
+        self.work += other.work;
+    }
 }

@@ -2,8 +2,8 @@
 
 use glam::Vec3A;
 
-use super::extent::Extent;
 use super::planes::Planes;
+use crate::structures::extent::Extent;
 
 /// A triangle with its corners in ascending order on an axis.
 struct Slicer<const AXIS: usize> {
@@ -62,9 +62,6 @@ pub(super) fn chop<const AXIS: usize>(
     let mut face = slicer.section(from);
     for bin in first..=last {
         let to = if bin == last { on::<AXIS>(part.max) } else { planes.value(bin) };
-        if to.is_nan() {
-            continue;
-        }
         let next = slicer.section(to);
         let mut slice = face.union(next);
         if from <= on::<AXIS>(middle) && on::<AXIS>(middle) <= to {

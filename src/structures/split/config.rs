@@ -8,13 +8,17 @@ use crate::accel::BuildError;
 pub struct SplitConfig {
     /// Which splits are allowed.
     pub splits: Splits,
-    /// Candidate planes and bins of an axis, in 2..=64; more finds cheaper splits and takes longer.
+    /// Candidate planes and bins of an axis, in 2..=62; more finds cheaper splits and takes longer.
     pub candidates: u32,
     /// Nodes of at most this many references try every object split; larger ones try `candidates`.
     pub exact: u32,
     /// Nodes of at most this many references see the clipped triangle in every slab of a spatial split; larger ones see its
     /// box cut by the slab.
     pub chopped: u32,
+    /// Nodes of at least this many references look closer around the best plane of a spatial split.
+    pub refined: u32,
+    /// Of larger nodes, only about so many references tell where to split. At least 16.
+    pub sample: u32,
     /// Spatial splits beside object splits are tried where the children of the best object split overlap by more than this
     /// share of the root's area, in [0, 1]. Stich, Friedrich, Dietrich use 1e-5; more makes fewer references.
     pub alpha: f32,
@@ -57,16 +61,19 @@ pub enum Quality {
 impl SplitConfig {
     /// The values measured for `quality`.
     pub const fn new(splits: Splits, quality: Quality) -> Self {
-        let (candidates, exact, chopped) = match quality {
-            Quality::Fast => (16, 0, 0),
-            Quality::Balanced => (32, 64, 1024),
-            Quality::High => (64, 1024, 16384),
+        let (candidates, exact, chopped, refined, sample) = match (quality, splits) {
+            (Quality::Fast, _) => (12, 32, 0, u32::MAX, 16384),
+            (Quality::Balanced, Splits::Spatial) => (20, 0, 0, 16, 65536),
+            (Quality::Balanced, _) => (20, 64, 64, 16, 65536),
+            (Quality::High, _) => (62, 4096, 4096, 16, 1 << 20),
         };
         Self {
             splits,
             candidates,
             exact,
             chopped,
+            refined,
+            sample,
             alpha: 1e-4,
             node_cost: 0.4,
             block_cost: 1.0,
@@ -80,8 +87,11 @@ impl SplitConfig {
     pub fn check(&self) -> Result<(), BuildError> {
         let refuse = |what: &str| Err(BuildError::Config(what.into()));
         let positive = |x: f32| x > 0.0 && x.is_finite();
-        if !(2..=64).contains(&self.candidates) {
-            return refuse("candidates must be in 2..=64");
+        if !(2..=62).contains(&self.candidates) {
+            return refuse("candidates must be in 2..=62");
+        }
+        if self.sample < 16 {
+            return refuse("sample must be at least 16");
         }
         if !(0.0..=1.0).contains(&self.alpha) {
             return refuse("alpha must be in 0..=1");

@@ -1,5 +1,5 @@
 use super::config::SplitConfig;
-use super::extent::Extent;
+use crate::structures::extent::Extent;
 
 /// References that a leaf tests at once.
 pub(super) const WIDTH: usize = 8;
@@ -28,10 +28,10 @@ impl CostModel {
         self.node * area + children
     }
 
-    /// Of a box that is cut into two leaves.
+    /// Of a box that is cut into two leaves with these areas and counts.
     #[inline(always)]
-    pub fn split(&self, area: f64, below: (f64, usize), above: (f64, usize)) -> f64 {
-        self.node(area, self.leaf(below.0, below.1) + self.leaf(above.0, above.1))
+    pub fn split(&self, area: f64, areas: [f64; 2], counts: [usize; 2]) -> f64 {
+        self.node(area, self.leaf(areas[0], counts[0]) + self.leaf(areas[1], counts[1]))
     }
 }
 
@@ -42,6 +42,14 @@ pub(super) struct Offer<T> {
     pub split: T,
     /// The boxes of both sides, as far as the search knows them.
     pub sides: [Extent; 2],
+    /// The references of both sides.
+    pub counts: [usize; 2],
+}
+
+impl<T> Offer<T> {
+    pub fn map<U>(self, name: impl FnOnce(T) -> U) -> Offer<U> {
+        Offer { cost: self.cost, split: name(self.split), sides: self.sides, counts: self.counts }
+    }
 }
 
 /// The cheaper of two, the first where they cost the same.

@@ -2,14 +2,15 @@
 
 use rayon::prelude::*;
 
-use super::build::{CHUNK, Context, PARALLEL};
-use super::extent::Extent;
+use super::build::{CHUNK, PARALLEL};
 use super::object::{Group, order};
 use super::reference::Reference;
 use super::spatial::Cut;
+use crate::geometry::Mesh;
+use crate::structures::extent::Extent;
 
 /// References and their box.
-pub(super) struct Part {
+pub(in crate::structures) struct Part {
     pub references: Vec<Reference>,
     pub extent: Extent,
 }
@@ -25,29 +26,32 @@ impl Part {
         self.references.push(reference);
     }
 
-    fn empty() -> Self {
-        Self { references: vec![], extent: Extent::EMPTY }
+    fn with_capacity(capacity: usize) -> Self {
+        Self { references: Vec::with_capacity(capacity), extent: Extent::EMPTY }
     }
 }
 
-/// Sorts references into two parts; `place` puts one where it belongs.
-fn deal(references: Vec<Reference>, place: impl Fn(&Reference, &mut [Part; 2]) + Sync) -> [Part; 2] {
-    let dealt = |references: &[Reference]| {
-        let mut parts = [Part::empty(), Part::empty()];
+/// Sorts references into two parts of the given sizes; `place` puts one where it belongs.
+fn deal(
+    references: Vec<Reference>,
+    counts: [usize; 2],
+    place: impl Fn(&Reference, &mut [Part; 2]) + Sync,
+) -> [Part; 2] {
+    let dealt = |references: &[Reference], counts: [usize; 2]| {
+        let mut parts = counts.map(Part::with_capacity);
         references.iter().for_each(|r| place(r, &mut parts));
         parts
     };
     if references.len() < PARALLEL {
-        return dealt(&references);
+        return dealt(&references, counts);
     }
 
     // Chunks are dealt in any order and joined in their own.
-    let chunks: Vec<[Part; 2]> = references.par_chunks(CHUNK).map(dealt).collect();
+    let chunks: Vec<[Part; 2]> = references.par_chunks(CHUNK).map(|chunk| dealt(chunk, [CHUNK / 2; 2])).collect();
     drop(references);
     let (below, above): (Vec<Part>, Vec<Part>) = chunks.into_iter().map(|[below, above]| (below, above)).unzip();
     let join = |parts: Vec<Part>| {
-        let mut all =
-            Part { references: Vec::with_capacity(parts.iter().map(|p| p.references.len()).sum()), ..Part::empty() };
+        let mut all = Part::with_capacity(parts.iter().map(|p| p.references.len()).sum());
         for part in parts {
             all.extent.grow(part.extent);
             all.references.extend(part.references);
@@ -59,27 +63,32 @@ fn deal(references: Vec<Reference>, place: impl Fn(&Reference, &mut [Part; 2]) +
 }
 
 /// Cuts at a plane. References on both sides are clipped to each; none is dropped.
-pub(super) fn at_plane(context: &Context, references: Vec<Reference>, cut: Cut) -> [Part; 2] {
-    deal(references, |r, [below, above]| {
-        let (low, high) = (r.bounds.min[cut.axis], r.bounds.max[cut.axis]);
-        match (high <= cut.plane, low >= cut.plane) {
-            (true, true) if cut.flat_below => below.push(*r),
-            (true, true) | (false, true) => above.push(*r),
-            (true, false) => below.push(*r),
-            (false, false) => {
-                let (lower, upper) = r.cut(context.mesh, cut.axis, cut.plane);
-                below.push(lower);
-                above.push(upper);
-            }
+pub(in crate::structures) fn at_plane(
+    mesh: &Mesh,
+    references: Vec<Reference>,
+    cut: Cut,
+    counts: [usize; 2],
+) -> [Part; 2] {
+    deal(references, counts, |r, [below, above]| match cut.sides(r) {
+        [true, true] => {
+            let (lower, upper) = r.cut(mesh, cut.axis, cut.plane);
+            below.push(lower);
+            above.push(upper);
         }
+        [true, false] => below.push(*r),
+        _ => above.push(*r),
     })
 }
 
 /// Sorts into two groups.
-pub(super) fn by_group(references: Vec<Reference>, group: Group) -> [Part; 2] {
+pub(super) fn by_group(references: Vec<Reference>, group: Group, counts: [usize; 2]) -> [Part; 2] {
     match group {
         Group::Bins { bins, last } => {
-            deal(references, |r, [below, above]| if bins.of(r) <= last { below.push(*r) } else { above.push(*r) })
+            deal(
+                references,
+                counts,
+                |r, [below, above]| if bins.of(r) <= last { below.push(*r) } else { above.push(*r) },
+            )
         }
         Group::First { axis, count } => {
             let order = order(&references, axis);

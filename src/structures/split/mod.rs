@@ -16,10 +16,10 @@ mod chop;
 mod config;
 mod cost;
 mod divide;
-mod extent;
 mod object;
 mod planes;
 mod reference;
+mod sample;
 mod spatial;
 #[cfg(test)]
 mod tests;
@@ -27,3 +27,8 @@ mod tests;
 pub use config::{Quality, SplitConfig, Splits};
 
 pub(crate) use build::build;
+pub(super) use divide::{Part, at_plane};
+pub(super) use planes::{PLANES, Planes};
+pub(super) use reference::Reference;
+pub(super) use sample::Sample;
+pub(super) use spatial::Cut as PlaneCut;

@@ -1,11 +1,10 @@
 //! The cheapest way to sort the references of a node into two groups.
 
-use rayon::prelude::*;
-
-use super::build::{CHUNK, Context, PARALLEL};
+use super::build::{Context, PARALLEL};
 use super::cost::{Offer, cheaper};
-use super::extent::Extent;
 use super::reference::Reference;
+use super::sample::Sample;
+use crate::structures::extent::Extent;
 
 /// A rule that sorts references into two groups, by the centres of their boxes on an axis.
 #[derive(Clone, Copy, Debug)]
@@ -28,12 +27,6 @@ pub(super) struct Bins {
 /// At most this many bins.
 const BINS: usize = 64;
 
-#[derive(Clone, Copy)]
-struct Filled {
-    counts: [u32; BINS],
-    extents: [Extent; BINS],
-}
-
 impl Bins {
     fn new(axis: usize, (min, max): (f32, f32), count: usize) -> Option<Self> {
         let scale = count as f64 / (f64::from(max) - f64::from(min));
@@ -44,36 +37,15 @@ impl Bins {
     pub fn of(&self, reference: &Reference) -> usize {
         (((f64::from(reference.centre(self.axis)) - self.min) * self.scale) as usize).min(self.count - 1)
     }
-
-    fn fill(&self, references: &[Reference]) -> Box<Filled> {
-        let mut filled = Box::new(Filled::EMPTY);
-        for r in references {
-            let bin = self.of(r);
-            filled.counts[bin] += 1;
-            filled.extents[bin].grow(r.extent());
-        }
-        filled
-    }
-}
-
-impl Filled {
-    const EMPTY: Self = Self { counts: [0; BINS], extents: [Extent::EMPTY; BINS] };
-
-    fn merge(mut self: Box<Self>, other: Box<Self>) -> Box<Self> {
-        for bin in 0..BINS {
-            self.counts[bin] += other.counts[bin];
-            self.extents[bin].grow(other.extents[bin]);
-        }
-        self
-    }
 }
 
 /// The cheapest grouping of references in a box of half area `area`.
 pub(super) fn cheapest_group(context: &Context, references: &[Reference], area: f64) -> Option<Offer<Group>> {
     let exact = references.len() <= context.config.exact as usize;
+    let sample = Sample::new(references, context.config.sample);
     let along =
-        |axis| if exact { sorted(context, references, area, axis) } else { binned(context, references, area, axis) };
-    let [x, y, z] = if references.len() < PARALLEL {
+        |axis| if exact { sorted(context, references, area, axis) } else { binned(context, &sample, area, axis) };
+    let [x, y, z] = if sample.len() < PARALLEL {
         [along(0), along(1), along(2)]
     } else {
         let (x, (y, z)) = rayon::join(|| along(0), || rayon::join(|| along(1), || along(2)));
@@ -82,31 +54,33 @@ pub(super) fn cheapest_group(context: &Context, references: &[Reference], area: 
     cheaper(cheaper(x, y), z)
 }
 
-fn binned(context: &Context, references: &[Reference], area: f64, axis: usize) -> Option<Offer<Group>> {
-    let range = centres(references, axis);
-    let bins = Bins::new(axis, range, context.config.candidates as usize)?;
-    let filled = if references.len() < PARALLEL {
-        bins.fill(references)
-    } else {
-        references.par_chunks(CHUNK).map(|part| bins.fill(part)).reduce(|| Box::new(Filled::EMPTY), Filled::merge)
-    };
+fn binned(context: &Context, sample: &Sample, area: f64, axis: usize) -> Option<Offer<Group>> {
+    let bins = Bins::new(axis, centres(sample.iter(), axis), context.config.candidates as usize)?;
+    let (mut counts, mut extents) = ([0; BINS], [Extent::EMPTY; BINS]);
+    for r in sample.iter() {
+        let bin = bins.of(r);
+        counts[bin] += 1;
+        extents[bin].grow(r.extent());
+    }
 
     let mut above = [Extent::EMPTY; BINS];
     for bin in (1..bins.count).rev() {
-        above[bin - 1] = above[bin].union(filled.extents[bin]);
+        above[bin - 1] = above[bin].union(extents[bin]);
     }
     let mut best: Option<Offer<Group>> = None;
     let (mut below, mut left) = (Extent::EMPTY, 0);
     for last in 0..bins.count - 1 {
-        below.grow(filled.extents[last]);
-        left += filled.counts[last] as usize;
-        let right = references.len() - left;
-        if filled.counts[last] == 0 || right == 0 {
+        below.grow(extents[last]);
+        left += counts[last];
+        let right = sample.len() - left;
+        if counts[last] == 0 || right == 0 {
             continue;
         }
-        let cost = context.costs.split(area, (below.half_area(), left), (above[last].half_area(), right));
+        let sides = [below, above[last]];
+        let counts = [left, right].map(|count| sample.scaled(count));
+        let cost = context.costs.split(area, sides.map(|side| side.half_area()), counts);
         if best.is_none_or(|b| cost < b.cost) {
-            best = Some(Offer { cost, split: Group::Bins { bins, last }, sides: [below, above[last]] });
+            best = Some(Offer { cost, split: Group::Bins { bins, last }, sides, counts });
         }
     }
     best
@@ -123,29 +97,30 @@ fn sorted(context: &Context, references: &[Reference], area: f64, axis: usize) -
     let mut below = Extent::EMPTY;
     for (i, &at) in order[..order.len() - 1].iter().enumerate() {
         below.grow(references[at as usize].extent());
-        let (left, right) = (i + 1, order.len() - i - 1);
-        let cost = context.costs.split(area, (below.half_area(), left), (above[i].half_area(), right));
+        let (sides, counts) = ([below, above[i]], [i + 1, order.len() - i - 1]);
+        let cost = context.costs.split(area, sides.map(|side| side.half_area()), counts);
         if best.is_none_or(|b| cost < b.cost) {
-            best = Some(Offer { cost, split: Group::First { axis, count: left }, sides: [below, above[i]] });
+            best = Some(Offer { cost, split: Group::First { axis, count: i + 1 }, sides, counts });
         }
     }
     best
 }
 
-/// The half with the lower centres on the axis on which these are farthest apart, in whole blocks.
-pub(super) fn median(references: &[Reference], block: usize) -> Group {
+/// The half with the lower centres on the axis on which these are farthest apart, in whole blocks; the counts.
+pub(super) fn median(references: &[Reference], block: usize) -> (Group, [usize; 2]) {
     let width = |axis| {
-        let (min, max) = centres(references, axis);
+        let (min, max) = centres(references.iter(), axis);
         f64::from(max) - f64::from(min)
     };
     let axis = (1..3).fold(0, |best, axis| if width(axis) > width(best) { axis } else { best });
-    Group::First { axis, count: (references.len() / 2).next_multiple_of(block).min(references.len() - 1) }
+    let count = (references.len() / 2).next_multiple_of(block).min(references.len() - 1);
+    (Group::First { axis, count }, [count, references.len() - count])
 }
 
 /// The least and the greatest centre.
-fn centres(references: &[Reference], axis: usize) -> (f32, f32) {
+fn centres<'a>(references: impl Iterator<Item = &'a Reference>, axis: usize) -> (f32, f32) {
     let with = |(min, max): (f32, f32), r: &Reference| (min.min(r.centre(axis)), max.max(r.centre(axis)));
-    references.iter().fold((f32::INFINITY, f32::NEG_INFINITY), with)
+    references.fold((f32::INFINITY, f32::NEG_INFINITY), with)
 }
 
 /// The places of the references in ascending order of centres, equal ones as they stand.

@@ -1,10 +1,10 @@
-use super::extent::Extent;
 use crate::geometry::{Aabb, Mesh};
-use crate::structures::kd::clip::clipped_bounds;
+use crate::structures::extent::Extent;
+use crate::structures::kd::clip::cut_bounds;
 
 /// A triangle and the box of the part of it that a node answers for.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Reference {
+pub(in crate::structures) struct Reference {
     pub id: u32,
     pub bounds: Aabb,
 }
@@ -23,14 +23,12 @@ impl Reference {
 
     /// The parts below and above a plane that meets the inside of the box.
     pub fn cut(&self, mesh: &Mesh, axis: usize, plane: f32) -> (Self, Self) {
-        let (below, above) = self.bounds.cut(axis, plane);
-        let corners = mesh.corners(self.id);
-        let part = |bounds| Self { id: self.id, bounds: clipped_bounds(corners, &bounds, &bounds) };
-        (part(below), part(above))
+        let (below, above) = cut_bounds(mesh.corners(self.id), &self.bounds, axis, plane);
+        (Self { bounds: below, ..*self }, Self { bounds: above, ..*self })
     }
 }
 
 /// The box of all references.
-pub(super) fn bounds(references: &[Reference]) -> Extent {
-    references.iter().fold(Extent::EMPTY, |all, r| all.union(r.extent()))
+pub(super) fn bounds<'a>(references: impl IntoIterator<Item = &'a Reference>) -> Extent {
+    references.into_iter().fold(Extent::EMPTY, |all, r| all.union(r.extent()))
 }

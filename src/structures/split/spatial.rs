@@ -1,98 +1,114 @@
 //! The cheapest plane of a node.
 
 use glam::Vec3A;
-use rayon::prelude::*;
 
-use super::build::{CHUNK, Context, PARALLEL};
+use super::build::{Context, PARALLEL};
 use super::chop::chop;
 use super::cost::{Offer, cheaper};
-use super::extent::Extent;
 use super::planes::{PLANES, Planes};
 use super::reference::Reference;
-use crate::geometry::Aabb;
+use super::sample::Sample;
+use crate::geometry::{Aabb, Mesh};
+use crate::structures::extent::Extent;
 
 /// A plane that cuts the references of a node.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Cut {
+pub(in crate::structures) struct Cut {
     pub axis: usize,
     pub plane: f32,
     /// Whether references that lie in the plane go below; otherwise they go above.
     pub flat_below: bool,
 }
 
+impl Cut {
+    /// On which sides a reference has a part.
+    #[inline(always)]
+    pub fn sides(&self, reference: &Reference) -> [bool; 2] {
+        let (low, high) = (reference.bounds.min[self.axis], reference.bounds.max[self.axis]);
+        match (high <= self.plane, low >= self.plane) {
+            (true, true) => [self.flat_below, !self.flat_below],
+            (below, above) => [!above, !below],
+        }
+    }
+
+    /// How many references each side gets.
+    pub fn counts(&self, references: &[Reference]) -> [usize; 2] {
+        references.iter().fold([0; 2], |[below, above], r| {
+            let [b, a] = self.sides(r);
+            [below + usize::from(b), above + usize::from(a)]
+        })
+    }
+}
+
 /// Bins and planes in ascending order: slot `2 i` is bin `i`, slot `2 i + 1` holds what lies in plane `i`.
-const SLOTS: usize = 2 * PLANES + 1;
+const SLOTS: usize = 2 * PLANES + 2;
 
 /// What begins, ends and lies in each slot.
-struct Slots {
+pub(super) struct Slots {
     begin: [u32; SLOTS],
     end: [u32; SLOTS],
     extents: [Extent; SLOTS],
+    /// What lies in the slots after each.
+    above: [Extent; SLOTS],
 }
 
 impl Slots {
-    const EMPTY: Self = Self { begin: [0; SLOTS], end: [0; SLOTS], extents: [Extent::EMPTY; SLOTS] };
+    pub fn new() -> Box<Self> {
+        let empty = [Extent::EMPTY; SLOTS];
+        Box::new(Self { begin: [0; SLOTS], end: [0; SLOTS], extents: empty, above: empty })
+    }
+
+    fn clear(&mut self, planes: &Planes) {
+        let slots = 2 * planes.bins();
+        self.begin[..slots].fill(0);
+        self.end[..slots].fill(0);
+        self.extents[..slots].fill(Extent::EMPTY);
+    }
 
     #[inline(always)]
     fn grow(&mut self, slot: usize, extent: Extent) {
         self.extents[slot].grow(extent);
     }
 
-    fn add<const AXIS: usize>(&mut self, context: &Context, references: &[Reference], planes: &Planes, chopped: bool) {
-        for r in references {
+    fn add<const AXIS: usize, const CHOP: bool>(&mut self, mesh: &Mesh, sample: &Sample, planes: &Planes) {
+        for r in sample.iter() {
             let (low, high) = (r.bounds.min.to_array()[AXIS], r.bounds.max.to_array()[AXIS]);
             let extent = r.extent();
-            let (first, last) = if low < high {
-                (2 * planes.first_bin(low), 2 * planes.last_bin(high))
-            } else {
-                let slot = planes.flat(low).map_or_else(|bin| 2 * bin, |plane| 2 * plane + 1);
-                (slot, slot)
-            };
-            self.begin[first] += 1;
-            self.end[last] += 1;
-            if first == last {
-                self.grow(first, extent);
-            } else if chopped {
-                let corners = context.mesh.corners(r.id).map(Vec3A::from);
-                chop::<AXIS>(corners, extent, planes, (first / 2, last / 2), |bin, slice| self.grow(2 * bin, slice));
+            let (first, last) = (planes.first_bin(low), planes.last_bin(high));
+            if first >= last {
+                // Only what is flat begins above the bin in which it ends, and then it lies in the plane between.
+                let slot = first + last;
+                self.begin[slot] += 1;
+                self.end[slot] += 1;
+                self.grow(slot, extent);
+                continue;
+            }
+
+            self.begin[2 * first] += 1;
+            self.end[2 * last] += 1;
+            if CHOP {
+                let corners = mesh.corners(r.id).map(Vec3A::from);
+                chop::<AXIS>(corners, extent, planes, (first, last), |bin, slice| self.grow(2 * bin, slice));
             } else {
                 let mut from = low;
-                for bin in first / 2..=last / 2 {
-                    let to = if 2 * bin == last { high } else { planes.value(bin) };
-                    if !to.is_nan() {
-                        let (mut min, mut max) = (extent.min, extent.max);
-                        (min[AXIS], max[AXIS]) = (from, to);
-                        self.grow(2 * bin, Extent { min, max });
-                        from = to;
-                    }
+                for bin in first..last {
+                    let to = planes.value(bin);
+                    self.grow(2 * bin, extent.slab::<AXIS>(from, to));
+                    from = to;
                 }
+                self.grow(2 * last, extent.slab::<AXIS>(from, high));
             }
         }
     }
 
-    fn merge(mut self: Box<Self>, other: Box<Self>) -> Box<Self> {
-        for slot in 0..SLOTS {
-            self.begin[slot] += other.begin[slot];
-            self.end[slot] += other.end[slot];
-            self.extents[slot].grow(other.extents[slot]);
-        }
-        self
-    }
-
-    /// The cheapest plane that `affords` the counts of both sides.
-    fn sweep(
-        &self,
-        context: &Context,
-        planes: &Planes,
-        area: f64,
-        count: usize,
-        affords: impl Fn(usize, usize) -> bool,
-    ) -> Option<Offer<(Cut, usize)>> {
+    /// The cheapest plane for `node`, and its place among the planes.
+    fn sweep(&mut self, context: &Context, planes: &Planes, node: &Node) -> Option<Offer<(Cut, usize)>> {
         // What lies above each boundary, from the top.
         let slots = 2 * planes.bins() - 1;
-        let mut above = [Extent::EMPTY; SLOTS];
+        let mut above = Extent::EMPTY;
         for slot in (1..slots).rev() {
-            above[slot - 1] = above[slot].union(self.extents[slot]);
+            above.grow(self.extents[slot]);
+            self.above[slot - 1] = above;
         }
 
         // Every boundary between slots is a candidate: of a plane, with what lies in it above or below.
@@ -104,71 +120,96 @@ impl Slots {
             begun += self.begin[slot] as usize;
             ended += self.end[slot] as usize;
             let (plane, flat_below) = (slot / 2, slot % 2 == 1);
-            let (left, right) = (begun, count - ended);
+            let (left, right) = (begun, node.sample.len() - ended);
             let same = flat_below && self.begin[slot] == 0;
-            if same || left == 0 || right == 0 || left.min(right) == count || planes.value(plane).is_nan() {
+            if same || left == 0 || right == 0 || left.min(right) == node.sample.len() || !planes.is_new(plane) {
                 continue;
             }
-            let sides = [below, above[slot]];
-            let cost = context.costs.split(area, (below.half_area(), left), (above[slot].half_area(), right));
-            if best.is_none_or(|b| cost < b.cost) && affords(left, right) {
+            let sides = [below, self.above[slot]];
+            let counts = [left, right].map(|count| node.sample.scaled(count));
+            let cost = context.costs.split(node.area, sides.map(|side| side.half_area()), counts);
+            if best.is_none_or(|b| cost < b.cost) && node.affords(counts) {
                 let cut = Cut { axis: planes.axis, plane: planes.value(plane), flat_below };
-                best = Some(Offer { cost, split: (cut, plane), sides });
+                best = Some(Offer { cost, split: (cut, plane), sides, counts });
             }
         }
         best
     }
 }
 
-/// The cheapest plane for references in `bounds` that makes at most `budget` references.
+/// The cheapest plane for references in `extent` that makes at most `budget` references.
 pub(super) fn cheapest_cut(
     context: &Context,
     references: &[Reference],
-    bounds: &Aabb,
+    extent: Extent,
     budget: f64,
+    slots: &mut Slots,
 ) -> Option<Offer<Cut>> {
-    let axis = |axis| {
-        let planes = (context.config.candidates as usize).min(4 * references.len());
-        along(context, references, bounds, budget, axis, planes)
-    };
-    let [x, y, z] = if references.len() < PARALLEL {
-        [axis(0), axis(1), axis(2)]
-    } else {
-        let (x, (y, z)) = rayon::join(|| axis(0), || rayon::join(|| axis(1), || axis(2)));
-        [x, y, z]
-    };
-    cheaper(cheaper(x, y), z)
+    let all = Node { sample: Sample::all(references), area: extent.half_area(), budget };
+    let some = Node { sample: Sample::new(references, context.config.sample), ..all };
+    let mut offer = some.cheapest(context, extent, slots)?;
+    if some.sample.len() < references.len() {
+        // A sample only estimates how many references there will be.
+        offer.counts = offer.split.counts(references);
+        if !some.affords(offer.counts) {
+            return all.cheapest(context, extent, slots);
+        }
+    }
+    Some(offer)
 }
 
-fn along(
-    context: &Context,
-    references: &[Reference],
-    bounds: &Aabb,
+/// What a cut is sought for.
+struct Node<'a> {
+    sample: Sample<'a>,
+    area: f64,
     budget: f64,
-    axis: usize,
-    count: usize,
-) -> Option<Offer<Cut>> {
-    let planes = Planes::new(axis, bounds, count, references)?;
-    let chopped = references.len() <= context.config.chopped as usize;
-    let add = |slots: &mut Slots, part: &[Reference]| match axis {
-        0 => slots.add::<0>(context, part, &planes, chopped),
-        1 => slots.add::<1>(context, part, &planes, chopped),
-        _ => slots.add::<2>(context, part, &planes, chopped),
-    };
-    let area = Extent::from(*bounds).half_area();
-    let affords = |below, above| (below + above) as f64 <= budget;
-    let found = if references.len() < PARALLEL {
-        let mut slots = Slots::EMPTY;
-        add(&mut slots, references);
-        slots.sweep(context, &planes, area, references.len(), affords)
-    } else {
-        let filled = |part: &[Reference]| {
-            let mut slots = Box::new(Slots::EMPTY);
-            add(&mut slots, part);
-            slots
+}
+
+impl Node<'_> {
+    fn affords(&self, [below, above]: [usize; 2]) -> bool {
+        (below + above) as f64 <= self.budget
+    }
+
+    fn cheapest(&self, context: &Context, extent: Extent, slots: &mut Slots) -> Option<Offer<Cut>> {
+        let config = context.config;
+        let bounds = Aabb::from(extent);
+        let candidates = (config.candidates as usize).min(self.sample.len());
+        let along = |axis, slots: &mut Slots| {
+            let planes = Planes::new(axis, (bounds.min[axis], bounds.max[axis]), candidates, &self.sample)?;
+            self.along(context, &planes, slots).map(|offer| offer.map(|(cut, at)| (cut, planes.around(at))))
         };
-        let slots = references.par_chunks(CHUNK).map(filled).reduce(|| Box::new(Slots::EMPTY), Slots::merge);
-        slots.sweep(context, &planes, area, references.len(), affords)
-    };
-    found.map(|Offer { cost, split: (split, _), sides }| Offer { cost, split, sides })
+        let [x, y, z] = if self.sample.len() < PARALLEL {
+            [0, 1, 2].map(|axis| along(axis, slots))
+        } else {
+            let along = |axis| along(axis, &mut Slots::new());
+            let (x, (y, z)) = rayon::join(|| along(0), || rayon::join(|| along(1), || along(2)));
+            [x, y, z]
+        };
+        let coarse = cheaper(cheaper(x, y), z)?;
+        let (Cut { axis, .. }, around) = coarse.split;
+        let coarse = coarse.map(|(cut, _)| cut);
+        if self.sample.len() < config.refined as usize {
+            return Some(coarse);
+        }
+
+        // Look closer between the neighbours of the plane that was found.
+        let planes = Planes::new(axis, around, candidates, &self.sample);
+        let fine = planes.and_then(|planes| self.along(context, &planes, slots)).map(|o| o.map(|(cut, _)| cut));
+        cheaper(Some(coarse), fine)
+    }
+
+    /// The cheapest of the planes, and its place among them.
+    fn along(&self, context: &Context, planes: &Planes, slots: &mut Slots) -> Option<Offer<(Cut, usize)>> {
+        let (mesh, sample) = (context.mesh, &self.sample);
+        slots.clear(planes);
+        match (planes.axis, sample.whole() <= context.config.chopped as usize) {
+            (0, false) => slots.add::<0, false>(mesh, sample, planes),
+            (1, false) => slots.add::<1, false>(mesh, sample, planes),
+            (_, false) => slots.add::<2, false>(mesh, sample, planes),
+            (0, true) => slots.add::<0, true>(mesh, sample, planes),
+            (1, true) => slots.add::<1, true>(mesh, sample, planes),
+            (_, true) => slots.add::<2, true>(mesh, sample, planes),
+        }
+        slots.sweep(context, planes, self)
+    }
 }

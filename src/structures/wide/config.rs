@@ -4,6 +4,7 @@ use crate::accel::BuildError;
 use crate::geometry::Mesh;
 use crate::structures::binary::BinaryTree;
 use crate::structures::kd::{self, KdConfig};
+use crate::structures::reinsert::reinsert;
 use crate::structures::split::{self, Quality, SplitConfig, Splits};
 
 /// How a [`WideTree`](super::WideTree) is built. What differs between `sah-kd-wide`, `sah-kd-tight`, `sah-hybrid` and `sah-bvh` is the
@@ -57,11 +58,15 @@ impl WideConfig {
 
     /// Divides the triangles of `mesh`.
     pub(super) fn divide(&self, mesh: &Mesh) -> Result<BinaryTree, BuildError> {
+        let passes = match self.quality {
+            Quality::Fast => 1,
+            Quality::Balanced => 2,
+            Quality::High => 4,
+        };
         let splits = match self.partition {
             Partition::Cells => {
-                // Leaves are chosen afterwards, when nodes are collapsed: cut a little further than a binary tree should.
-                let config = KdConfig { intersection_cost: 1.5, duplication: self.duplication, ..KdConfig::SAH };
-                return kd::partition(mesh, &config);
+                let config = KdConfig { duplication: self.duplication, ..KdConfig::cells(self.quality) };
+                return Ok(reinsert(kd::partition(mesh, &config)?, passes));
             }
             Partition::Tight => Splits::Spatial,
             Partition::Hybrid => Splits::SpatialAndObject,
@@ -69,7 +74,7 @@ impl WideConfig {
         };
         let config = SplitConfig { duplication: self.duplication, ..SplitConfig::new(splits, self.quality) };
         config.check()?;
-        Ok(split::build(mesh, &config))
+        Ok(reinsert(split::build(mesh, &config), passes))
     }
 }
 

@@ -1,10 +1,10 @@
-use glam::{Vec3, Vec3A};
+use glam::{DVec3, Vec3, Vec3A};
 
 use crate::geometry::Aabb;
 
 /// An [`Aabb`] in registers, for the inner loops of a builder.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Extent {
+pub(in crate::structures) struct Extent {
     pub min: Vec3A,
     pub max: Vec3A,
 }
@@ -34,6 +34,14 @@ impl Extent {
         Self { min: self.min.max(other.min), max: self.max.min(other.max) }
     }
 
+    /// The same box with other faces on an axis.
+    #[inline(always)]
+    pub fn slab<const AXIS: usize>(&self, low: f32, high: f32) -> Self {
+        let (mut min, mut max) = (self.min.to_array(), self.max.to_array());
+        (min[AXIS], max[AXIS]) = (low, high);
+        Self { min: min.into(), max: max.into() }
+    }
+
     #[inline(always)]
     pub fn union(mut self, other: Self) -> Self {
         self.grow(other);
@@ -43,7 +51,7 @@ impl Extent {
     /// Half of the surface area, in `f64` so that it overflows for no mesh; 0 when empty.
     #[inline(always)]
     pub fn half_area(&self) -> f64 {
-        let e = (self.max - self.min).max(Vec3A::ZERO).as_dvec3();
+        let e = (self.max.as_dvec3() - self.min.as_dvec3()).max(DVec3::ZERO);
         e.x * e.y + e.y * e.z + e.z * e.x
     }
 }

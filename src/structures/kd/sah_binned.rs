@@ -1,0 +1,221 @@
+//! The SAH among a few planes of each axis where a node is large, and among all where it is small: a fraction of the time and
+//! memory of keeping all events sorted, for trees that cost the same.
+
+use rayon::prelude::*;
+
+use super::build::{Content, Context, Cut, Place};
+use super::config::Stop;
+use super::sah::{CostModel, SideAreas};
+use super::sah_sweep::{Events, PARALLEL};
+use crate::geometry::Aabb;
+use crate::structures::split::{PLANES, Part, PlaneCut, Planes, Reference, Sample, at_plane};
+
+/// References in ascending order of triangles; with their events once they are few.
+pub(super) enum Binned {
+    Coarse(Part),
+    Fine(Events),
+}
+
+/// References that one thread counts at a time.
+const CHUNK: usize = 4096;
+
+/// Edges that are looked at when planes are placed.
+const SAMPLE: u32 = 16384;
+
+/// How many references begin and end in each bin, and how many lie in each plane.
+#[derive(Clone, Copy)]
+struct Counts {
+    begin: [u32; PLANES + 1],
+    end: [u32; PLANES + 1],
+    flat: [u32; PLANES + 1],
+}
+
+impl Counts {
+    const NONE: Self = Self { begin: [0; PLANES + 1], end: [0; PLANES + 1], flat: [0; PLANES + 1] };
+
+    fn of(references: &[Reference], planes: &Planes) -> Self {
+        let mut counts = Self::NONE;
+        for r in references {
+            let first = planes.first_bin(r.bounds.min[planes.axis]);
+            let last = planes.last_bin(r.bounds.max[planes.axis]);
+            if first > last {
+                // Only what is flat begins above the bin in which it ends, and then it lies in the plane between.
+                counts.flat[last] += 1;
+            } else {
+                counts.begin[first] += 1;
+                counts.end[last] += 1;
+            }
+        }
+        counts
+    }
+
+    fn plus(mut self, other: Self) -> Self {
+        for i in 0..=PLANES {
+            self.begin[i] += other.begin[i];
+            self.end[i] += other.end[i];
+            self.flat[i] += other.flat[i];
+        }
+        self
+    }
+}
+
+impl Binned {
+    pub fn all(context: &Context) -> Self {
+        let whole = |id| Reference { id, bounds: context.mesh.triangle_bounds(id) };
+        Self::new(context, Part::new(context.mesh.solid().map(whole).collect()))
+    }
+
+    fn new(context: &Context, part: Part) -> Self {
+        if part.references.len() <= context.config.exact as usize {
+            Self::Fine(Events::new(part.references))
+        } else {
+            Self::Coarse(part)
+        }
+    }
+}
+
+/// The cheapest of the planes of one axis: its cost and the cut.
+fn along(context: &Context, part: &Part, cell: &Aabb, axis: usize) -> Option<(f64, Cut)> {
+    let model = CostModel::new(context.config);
+    let references = &part.references[..];
+    let bounds = Aabb::from(part.extent);
+    let range = (bounds.min[axis], bounds.max[axis]);
+    let (areas, min, max) = (SideAreas::new(cell, axis), cell.min[axis], cell.max[axis]);
+    let inverse = 1.0 / areas.whole();
+    let mut best: Option<(f64, Cut)> = None;
+    let mut offer = |split: f32, below: usize, above: usize, planar_below: bool| {
+        // A plane on the cell's own face cuts nothing.
+        if min < split && split < max {
+            let (below_area, above_area) = areas.at(split.into());
+            let cost = model.split(inverse, (below_area, below), (above_area, above));
+            if best.is_none_or(|(least, _)| cost < least) {
+                best = Some((cost, Cut { axis, split, planar_below }));
+            }
+        }
+    };
+    let count = references.len();
+    let candidates = (context.config.candidates as usize).min(count);
+    let Some(planes) = Planes::new(axis, range, candidates, &Sample::new(references, SAMPLE)) else {
+        // All lie in one plane, if the axis is not too long or short for a grid.
+        if range.0 == range.1 {
+            offer(range.0, count, 0, true);
+            offer(range.0, 0, count, false);
+        }
+        return best;
+    };
+
+    let counts = if count < PARALLEL {
+        Counts::of(references, &planes)
+    } else {
+        references.par_chunks(CHUNK).map(|part| Counts::of(part, &planes)).reduce(|| Counts::NONE, Counts::plus)
+    };
+    let (mut below, mut above) = (0, count);
+    for plane in 0..planes.bins() - 1 {
+        let flat = counts.flat[plane] as usize;
+        below += counts.begin[plane] as usize;
+        above -= counts.end[plane] as usize + flat;
+        if planes.is_new(plane) {
+            offer(planes.value(plane), below + flat, above, true);
+            if flat > 0 {
+                offer(planes.value(plane), below, above + flat, false);
+            }
+        }
+        below += flat;
+    }
+    best
+}
+
+impl Content for Binned {
+    fn len(&self) -> usize {
+        match self {
+            Self::Coarse(part) => part.references.len(),
+            Self::Fine(events) => events.len(),
+        }
+    }
+
+    fn ids(&self) -> impl Iterator<Item = u32> {
+        let references = match self {
+            Self::Coarse(part) => &part.references[..],
+            Self::Fine(events) => events.references(),
+        };
+        references.iter().map(|r| r.id)
+    }
+
+    fn bounds(&self) -> Option<Aabb> {
+        match self {
+            Self::Coarse(part) => Some(part.extent.into()),
+            Self::Fine(events) => events.bounds(),
+        }
+    }
+
+    fn choose(&self, context: &Context, place: &Place) -> Option<Cut> {
+        let part = match self {
+            Self::Coarse(part) => part,
+            Self::Fine(events) => return events.choose(context, place),
+        };
+        let along = |axis| along(context, part, &place.cell, axis);
+        let found = if part.references.len() < PARALLEL {
+            [along(0), along(1), along(2)]
+        } else {
+            let (x, (y, z)) = rayon::join(|| along(0), || rayon::join(|| along(1), || along(2)));
+            [x, y, z]
+        };
+        let (cost, cut) = found.into_iter().flatten().reduce(|a, b| if b.0 < a.0 { b } else { a })?;
+        let leaf = CostModel::new(context.config).leaf(part.references.len());
+        (context.config.stop != Stop::Sah || cost < leaf).then_some(cut)
+    }
+
+    fn divide(self, context: &Context, place: &Place, cut: Cut) -> Result<(Self, Self), Self> {
+        let part = match self {
+            Self::Coarse(part) => part,
+            Self::Fine(events) => {
+                let (below, above) = events.divide(context, place, cut).map_err(Self::Fine)?;
+                return Ok((Self::Fine(below), Self::Fine(above)));
+            }
+        };
+        let plane = PlaneCut { axis: cut.axis, plane: cut.split, flat_below: cut.planar_below };
+        let counts = plane.counts(&part.references);
+        if !place.accepts(context, part.references.len(), counts) {
+            return Err(Self::Coarse(part));
+        }
+        let [below, above] = at_plane(context.mesh, part.references, plane, counts);
+        Ok((Self::new(context, below), Self::new(context, above)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::structures::binary_check::{room, soup};
+    use crate::structures::kd::KdConfig;
+
+    /// The naive twin: every plane by itself, counting all references.
+    #[test]
+    fn no_plane_is_cheaper_than_the_one_that_is_chosen() {
+        for mesh in [soup(40, 1), soup(700, 2), room(5)] {
+            let config = KdConfig { exact: 0, ..KdConfig::SAH };
+            let context = Context::new(&mesh, &config);
+            let Binned::Coarse(part) = Binned::all(&context) else { panic!("no node is exact") };
+            let (model, cell) = (CostModel::new(&config), mesh.bounds());
+            for axis in 0..3 {
+                let (cost, _) = along(&context, &part, &cell, axis).unwrap();
+                let bounds = Aabb::from(part.extent);
+                let candidates = (config.candidates as usize).min(part.references.len());
+                let range = (bounds.min[axis], bounds.max[axis]);
+                let planes = Planes::new(axis, range, candidates, &Sample::all(&part.references)).unwrap();
+                let areas = SideAreas::new(&cell, axis);
+                let mut least = f64::INFINITY;
+                for (i, flat_below) in (0..planes.bins() - 1).flat_map(|i| [(i, false), (i, true)]) {
+                    let plane = planes.value(i);
+                    if plane <= cell.min[axis] || plane >= cell.max[axis] {
+                        continue;
+                    }
+                    let [below, above] = PlaneCut { axis, plane, flat_below }.counts(&part.references);
+                    let (below_area, above_area) = areas.at(plane.into());
+                    least = least.min(model.split(1.0 / areas.whole(), (below_area, below), (above_area, above)));
+                }
+                assert_eq!(cost, least);
+            }
+        }
+    }
+}
