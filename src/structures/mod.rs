@@ -9,6 +9,7 @@ pub mod kd;
 mod leaf;
 mod line;
 pub mod obvhs;
+mod pages;
 pub mod peers;
 mod reinsert;
 pub mod split;

@@ -1,0 +1,28 @@
+//! Large arrays on large pages of memory.
+
+/// What is read at random places, moved to fresh memory for which the system is asked for huge pages: a walk through a few
+/// megabytes in pages of four kilobytes misses the cache of addresses at nearly every node.
+///
+/// Only Linux is asked, and it may decline; the values are the same.
+pub(super) fn settle<T>(mut values: Vec<T>) -> Vec<T> {
+    let mut settled = Vec::with_capacity(values.len());
+    advise(settled.as_ptr(), size_of_val(&values[..]));
+    settled.append(&mut values);
+    settled
+}
+
+#[cfg(target_os = "linux")]
+fn advise<T>(start: *const T, bytes: usize) {
+    const PAGE: usize = 4096;
+    // SAFETY: the advice changes no values; it is given for whole pages that lie in one allocation.
+    unsafe {
+        let first = start.addr().next_multiple_of(PAGE);
+        let end = (start.addr() + bytes) / PAGE * PAGE;
+        if first < end {
+            libc::madvise(start.with_addr(first).cast_mut().cast(), end - first, libc::MADV_HUGEPAGE);
+        }
+    }
+}
+
+#[cfg(not(target_os = "linux"))]
+fn advise<T>(_: *const T, _: usize) {}
