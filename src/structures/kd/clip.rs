@@ -22,8 +22,8 @@ pub(in crate::structures) fn clipped_bounds(corners: [Vec3; 3], cell: &Aabb, kno
     Polygon::clipped(corners, cell).bounds_in(known.intersection(*cell))
 }
 
-/// The boxes of both sides of a plane: [`clipped_bounds`] of the parts of `bounds` below and above, where `bounds` is a box of the
-/// part of the triangle in some cell and the plane meets its inside.
+/// The boxes of both sides of a plane: [`clipped_bounds`] of the parts of `bounds` below and above, where `bounds` is a box
+/// of the part of the triangle in some cell and the plane meets its inside.
 pub(in crate::structures) fn cut_bounds(corners: [Vec3; 3], bounds: &Aabb, axis: usize, plane: f32) -> (Aabb, Aabb) {
     let polygon = Polygon::clipped(corners, bounds);
     let (below, above) = bounds.cut(axis, plane);

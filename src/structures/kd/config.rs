@@ -176,12 +176,12 @@ impl KdConfig {
     /// The cells that a wide tree is made of: cheap steps, since three of them are one step of that tree, and the exact plane
     /// only where nodes are small.
     pub const fn cells(quality: Quality) -> Self {
-        let (exact, candidates) = match quality {
-            Quality::Fast => (0, 16),
-            Quality::Balanced => (64, 32),
-            Quality::High => (1 << 16, 62),
+        let (exact, candidates, traversal_cost) = match quality {
+            Quality::Fast => (0, 12, 1.0),
+            Quality::Balanced => (64, 32, 0.2),
+            Quality::High => (1 << 16, 62, 0.2),
         };
-        Self { traversal_cost: 0.2, empty_bonus: 0.2, duplication: 4.0, exact, candidates, ..Self::SAH }
+        Self { traversal_cost, empty_bonus: 0.2, duplication: 4.0, exact, candidates, ..Self::SAH }
     }
 
     pub(super) fn check(&self) -> Result<(), BuildError> {

@@ -45,16 +45,18 @@ pub enum Splits {
     Object,
 }
 
-/// How much time a build may take for a better tree.
+/// How much time a build may take for a better tree. Ratios are CPU time on one thread for a scan of 100,000 triangles and a
+/// kitchen of 57,000, against the presets of obvhs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Quality {
-    /// Few candidates, boxes of slabs not clipped.
+    /// Few candidates, boxes of slabs not clipped; with planes alone also half of the references and leaves twice as full.
+    /// 2.3 to 3.9 times obvhs `medium`; costs 2 to 20 % more by the heuristic than `Balanced`, most with planes alone.
     Fast,
-    /// Many candidates where it matters.
+    /// A closer look around the best plane, then parts of the tree move to better places. 0.3 to 0.95 times obvhs `very-slow`.
     #[default]
     Balanced,
-    /// Everything that still made a tree cheaper.
+    /// Many candidates, slices of triangles instead of boxes, more moves. About twice the time of `Balanced` for up to 1 %.
     High,
 }
 
@@ -62,11 +64,14 @@ impl SplitConfig {
     /// The values measured for `quality`.
     pub const fn new(splits: Splits, quality: Quality) -> Self {
         let (candidates, exact, chopped, refined, sample) = match (quality, splits) {
+            (Quality::Fast, Splits::Spatial) => (8, 0, 0, u32::MAX, 16384),
             (Quality::Fast, _) => (12, 32, 0, u32::MAX, 16384),
             (Quality::Balanced, Splits::Spatial) => (20, 0, 0, 16, 65536),
             (Quality::Balanced, _) => (20, 64, 64, 16, 65536),
-            (Quality::High, _) => (62, 4096, 4096, 16, 1 << 20),
+            (Quality::High, _) => (62, 128, 4096, 16, 1 << 20),
         };
+        // What costs time where only planes may split is making references: a fast build makes fewer, and larger leaves.
+        let node_cost = if let (Quality::Fast, Splits::Spatial) = (quality, splits) { 1.5 } else { 0.4 };
         Self {
             splits,
             candidates,
@@ -75,7 +80,7 @@ impl SplitConfig {
             refined,
             sample,
             alpha: 1e-4,
-            node_cost: 0.4,
+            node_cost,
             block_cost: 1.0,
             leaf: 64,
             duplication: 4.0,

@@ -39,7 +39,7 @@ fn spatial_splits_alone_partition_space() {
         for config in configs().filter(|c| c.splits == Splits::Spatial) {
             let tree = build(&mesh, &config);
             let leaves = leaves(&tree, config.leaf);
-            assert!(leaves.len() > 100);
+            assert!(leaves.len() > 30, "too few leaves to prove anything");
             disjoint(&leaves);
         }
     }

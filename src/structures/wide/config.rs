@@ -58,10 +58,13 @@ impl WideConfig {
 
     /// Divides the triangles of `mesh`.
     pub(super) fn divide(&self, mesh: &Mesh) -> Result<BinaryTree, BuildError> {
-        let passes = match self.quality {
-            Quality::Fast => 1,
-            Quality::Balanced => 2,
-            Quality::High => 4,
+        // Trees without object splits have twice the nodes and less to gain.
+        let passes = match (self.quality, self.partition) {
+            (Quality::Fast, Partition::Objects) => 1,
+            (Quality::Fast, _) => 0,
+            (Quality::Balanced, Partition::Objects | Partition::Hybrid) => 2,
+            (Quality::Balanced, _) => 1,
+            (Quality::High, _) => 4,
         };
         let splits = match self.partition {
             Partition::Cells => {
