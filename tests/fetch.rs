@@ -18,10 +18,13 @@ fn mesh() -> Vec<u8> {
     (0..100_000_u32).flat_map(|i| format!("v {i} {} 0\n", i * 7 % 13).into_bytes()).collect()
 }
 
+/// A path, and where the answer was asked to start.
+type Asked = (String, Option<usize>);
+
 /// A server that answers each request for `path`, from byte `range` on, with the bytes that `answer` gives.
 struct Server {
     address: String,
-    asked: Arc<Mutex<Vec<(String, Option<usize>)>>>,
+    asked: Arc<Mutex<Vec<Asked>>>,
 }
 
 impl Server {

@@ -47,7 +47,7 @@ fn all_levels_say_the_same() {
     let mut hits = 0;
     for choice in registry.all().iter().filter(|choice| !choice.entry.name.starts_with("obvhs")) {
         for (name, mesh) in &meshes {
-            let rays: Vec<Ray> = Stratum::ALL.into_iter().flat_map(|stratum| stratum.rays(mesh, 20, 7)).collect();
+            let rays: Vec<Ray> = Stratum::ALL.into_iter().flat_map(|stratum| stratum.rays(mesh, 8, 7)).collect();
             let accel = choice.build(mesh).unwrap();
             let said = levels.iter().map(|level| {
                 level.choose();
@@ -60,5 +60,5 @@ fn all_levels_say_the_same() {
             hits += said[0].any.iter().filter(|&&hit| hit).count();
         }
     }
-    assert!(hits > 50_000, "too few hits to prove anything: {hits}");
+    assert!(hits > 20_000, "too few hits to prove anything: {hits}");
 }

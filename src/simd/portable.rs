@@ -140,10 +140,10 @@ impl Sieve for Portable<8> {
     #[inline(always)]
     unsafe fn sift(self, limit: Self, values: &[u32; 8], chosen: *mut u32) -> u32 {
         let (mut set, mut count) = (0, 0);
-        for lane in 0..8 {
+        for (lane, &value) in values.iter().enumerate() {
             if self.0[lane] <= limit.0[lane] {
                 // SAFETY: as above.
-                unsafe { chosen.add(count).write(values[lane]) };
+                unsafe { chosen.add(count).write(value) };
                 set |= 1 << lane;
                 count += 1;
             }

@@ -47,11 +47,12 @@ impl Child {
         Self(Self::LEAF | (first as u32) << Self::COUNT_BITS | blocks as u32)
     }
 
-    /// The blocks of a leaf; nothing for a node.
+    /// The first block of a leaf and how many it has; nothing for a node.
     #[inline(always)]
     pub fn blocks(self) -> Option<(usize, usize)> {
-        let blocks = (self.0 & !Self::LEAF) >> Self::COUNT_BITS;
-        (self.0 & Self::LEAF != 0).then_some((blocks as usize, (self.0 & (1 << Self::COUNT_BITS) - 1) as usize))
+        let first = (self.0 & !Self::LEAF) >> Self::COUNT_BITS;
+        let count = self.0 & Self::BLOCKS as u32;
+        (self.0 & Self::LEAF != 0).then_some((first as usize, count as usize))
     }
 
     /// Eight children as they are in memory.
