@@ -2,8 +2,9 @@
 //! (`BVH8_CPU`), which is its fastest layout on a processor with AVX2.
 //!
 //! A C++ compiler builds it, for the instructions of this machine. The crate hands out its closest hit alone: any hit is a
-//! closest hit. Its ray (unit direction, inverse) is made by its own constructor inside of the timed region. It builds on one
-//! thread. Triangles are copied as corners of 16 bytes, as it wants them.
+//! closest hit. Its ray (unit direction, inverse) is made inside of the timed region, and not by the crate's constructor: that
+//! of `tinybvh-rs` 0.1.0-beta.3 clears the 128 bytes of the ray in C++ in the 64 bytes of its own, and so the caller's stack.
+//! Triangles are copied as corners of 16 bytes, as it wants them; large scenes it builds on threads of its own.
 //!
 //! # References
 //! Fuetterling, Lojewski, Pfreundt, Ebert: Accelerated single ray tracing for wide vector units. HPG 2017.
@@ -11,7 +12,7 @@
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
-use tinybvh_rs::{Positions, Ray as PreparedRay, bvh, bvh8_cpu, mbvh};
+use tinybvh_rs::{Intersection, Positions, Ray as PreparedRay, bvh, bvh8_cpu, mbvh};
 
 use crate::accel::{Accel, BuildError, Footprint, Observed, Observer, TreeShape};
 use crate::geometry::{Hit, Mesh, Ray};
@@ -60,6 +61,24 @@ const LEAF_BYTES: usize = 192;
 /// Beyond this it takes a hit for none.
 const FAR: f32 = tinybvh_rs::INFINITE;
 
+/// The mask of a ray that meets all instances.
+const EVERYTHING: u32 = 0xffff;
+
+/// The ray as it is in C++, whose second half nobody needs: the first has the same fields at the same places.
+#[repr(C, align(64))]
+struct PaddedRay {
+    ray: PreparedRay,
+    rest: [u64; 8],
+}
+
+const _: () = assert!(size_of::<PaddedRay>() == 128 && size_of::<PreparedRay>() == 64);
+
+/// What tinybvh puts for an inverse: nothing infinite.
+#[inline(always)]
+fn inverse(x: f32) -> f32 {
+    if x.abs() > 1e-12 { 1.0 / x } else { FAR.copysign(if x >= 0.0 { 1.0 } else { -1.0 }) }
+}
+
 impl TinyBvh {
     fn query(&self, ray: &Ray) -> Option<Hit> {
         let tree = self.tree.as_ref().filter(|_| ray.is_valid())?;
@@ -67,24 +86,32 @@ impl TinyBvh {
         let length = ray.direction.length();
         // It knows no beginning: the ray starts where its interval does.
         let origin = if t_min > 0.0 { ray.at(t_min) } else { ray.origin };
-        let mut prepared = PreparedRay::new(origin.to_array(), ray.direction.to_array());
+        let unit = ray.direction * (1.0 / length);
         let end = ((t_max - t_min) * length).min(FAR);
-        prepared.hit.t = end;
-        intersect(&tree.0, &mut prepared);
-        let hit = prepared.hit;
+        let prepared = PreparedRay {
+            origin: origin.to_array(),
+            padding_0: EVERYTHING,
+            dir: unit.to_array(),
+            r_d: unit.to_array().map(inverse),
+            hit: Intersection { t: end, ..Intersection::default() },
+            ..PreparedRay::default()
+        };
+        let mut padded = PaddedRay { ray: prepared, rest: [0; 8] };
+        intersect(&tree.0, &mut padded);
+        let hit = padded.ray.hit;
         (hit.t < end).then(|| Hit::new(hit.t / length + t_min, self.ids[hit.prim as usize]))
     }
 }
 
 #[cfg(target_feature = "avx2")]
-fn intersect(tree: &bvh8_cpu::BVH, ray: &mut PreparedRay) {
+fn intersect(tree: &bvh8_cpu::BVH, padded: &mut PaddedRay) {
     use tinybvh_rs::Intersector;
-    tree.intersect(ray);
+    tree.intersect(&mut padded.ray);
 }
 
 /// Never called: nothing is built without AVX2.
 #[cfg(not(target_feature = "avx2"))]
-fn intersect(_: &bvh8_cpu::BVH, _: &mut PreparedRay) {}
+fn intersect(_: &bvh8_cpu::BVH, _: &mut PaddedRay) {}
 
 /// Builds by way of the two layouts that its own is converted from.
 fn built(corners: Positions, quality: Quality) -> Result<(bvh8_cpu::BVH, TreeShape, usize), tinybvh_rs::Error> {
@@ -127,7 +154,7 @@ impl Accel for TinyBvh {
         "open interval, t > 0; a ray with t_min starts at the point of t_min, rounded",
         "walks unit directions: t is divided by the direction's length; nothing farther than 1e30",
         "any hit is a closest hit",
-        "builds on one thread",
+        "builds large scenes on threads of its own, whatever --threads says",
     ];
 
     fn build(mesh: &Arc<Mesh>, config: &TinyBvhConfig) -> Result<Self, BuildError> {
