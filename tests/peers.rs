@@ -14,7 +14,7 @@ use std::slice;
 use sahara::accel::BuildError;
 use sahara::geometry::Ray;
 use sahara::registry::{Choice, Registry};
-use sahara::validate::conformance::{Named, Subject, counting, findings, shapes};
+use sahara::validate::conformance::{Named, counting, findings, shapes};
 use sahara::validate::{Kind, Reference, Stratum, Validation, degenerate_meshes, validate};
 
 /// Every way in which peers are asked; those whose feature is off or whose library is absent are left out.
@@ -56,15 +56,6 @@ fn present(specs: &[&str]) -> Vec<Choice> {
     present
 }
 
-fn subject(choice: &Choice) -> Subject<'_> {
-    Subject {
-        name: choice.label.clone(),
-        triangle_test: choice.triangle_test(),
-        lowest_id: false,
-        build: Box::new(|mesh| choice.build(mesh)),
-    }
-}
-
 /// The meshes that the peer admits, but for those whose sizes spoil every kind of ray.
 fn meshes(choice: &Choice) -> Vec<Named> {
     let mut meshes = degenerate_meshes();
@@ -100,7 +91,7 @@ const CLEAN: [(&str, &[Stratum], bool); 6] = {
 fn rays_without_a_named_cause_are_answered_rightly() {
     for (name, clean, all_others_err) in CLEAN {
         for choice in present(&[name]) {
-            let all = findings(&subject(&choice), &meshes(&choice), 200).unwrap();
+            let all = findings(&choice.subject(), &meshes(&choice), 200).unwrap();
             for stratum in Stratum::ALL {
                 let of_stratum = all.iter().filter(|f| f.stratum == stratum && f.validation.errors() > 0);
                 let wrong: Vec<String> = of_stratum.map(|f| f.line(name)).collect();
@@ -115,7 +106,7 @@ fn rays_without_a_named_cause_are_answered_rightly() {
 #[test]
 fn every_way_to_ask_is_right_on_random_rays_counts_and_has_a_possible_shape() {
     for choice in present(&PEERS) {
-        let (subject, meshes) = (subject(&choice), meshes(&choice));
+        let (subject, meshes) = (choice.subject(), meshes(&choice));
         passes(counting(&subject, &meshes, 10));
         passes(shapes(&subject, &meshes));
         for finding in findings(&subject, &meshes, 40).unwrap() {
