@@ -46,7 +46,7 @@ fn scenes() -> anyhow::Result<Table> {
 /// Every structure with the triangle tests it is offered over, the default first; then what it does otherwise than the others
 /// by design, whether it is absent, and its keys with their defaults.
 fn structures(registry: &Registry) -> Table {
-    let mut rows = vec![];
+    let (mut rows, mut notes) = (vec![], vec![]);
     for name in registry.names() {
         let mut entries = registry.entries().iter().filter(|entry| entry.name == name).peekable();
         let Some(&first) = entries.peek() else { continue };
@@ -67,11 +67,12 @@ fn structures(registry: &Registry) -> Table {
             };
             rows.push(vec!["  declines".into(), what.into()]);
         }
-        for convention in first.conventions {
-            rows.push(vec!["  otherwise".into(), (*convention).into()]);
+        if !first.conventions.is_empty() {
+            notes.push(format!("{name}, otherwise by design: {}.", first.conventions.join("; ")));
         }
         if let Some(absence) = first.absence() {
-            rows.push(vec!["  absent".into(), Cell::from(absence).with(Tone::Wrong)]);
+            rows.push(vec!["  absent".into(), Cell::from("see below").with(Tone::Wrong)]);
+            notes.push(format!("{name} is absent: {absence}."));
         }
         for (key, value) in first.config().as_object().into_iter().flatten() {
             let value = match value {
@@ -81,7 +82,8 @@ fn structures(registry: &Registry) -> Table {
             rows.push(vec![format!("  {key}").into(), value.into()]);
         }
     }
-    table("Structures, their triangle tests (the first is the default) and keys", &["name", "default"], rows)
+    let title = "Structures, their triangle tests (the first is the default) and keys";
+    Table { notes, ..table(title, &["name", "default"], rows) }
 }
 
 fn workloads() -> Table {

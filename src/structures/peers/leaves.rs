@@ -19,6 +19,7 @@ impl<T: TriangleTest> Leaves<T> {
         Self { triangles, ids }
     }
 
+    #[cfg(feature = "peer-parry")]
     pub fn len(&self) -> usize {
         self.ids.len()
     }

@@ -2,16 +2,18 @@
 //! (`BVH8_CPU`), which is its fastest layout on a processor with AVX2.
 //!
 //! A C++ compiler builds it, for the instructions of this machine. The crate hands out its closest hit alone: any hit is a
-//! closest hit. Its ray (unit direction, inverse) is made by its own constructor inside of the timed region. It builds on one
-//! thread. Triangles are copied as corners of 16 bytes, as it wants them.
+//! closest hit. Its ray (unit direction, inverse) is made inside of the timed region, and not by the crate's constructor: that
+//! of `tinybvh-rs` 0.1.0-beta.3 clears the 128 bytes of the ray in C++ in the 64 bytes of its own, and so the caller's stack.
+//! Triangles are copied as corners of 16 bytes, as it wants them; large scenes it builds on threads of its own.
 //!
 //! # References
 //! Fuetterling, Lojewski, Pfreundt, Ebert: Accelerated single ray tracing for wide vector units. HPG 2017.
 
 use std::sync::Arc;
 
+use glam::Vec3;
 use serde::{Deserialize, Serialize};
-use tinybvh_rs::{Positions, Ray as PreparedRay, bvh, bvh8_cpu, mbvh};
+use tinybvh_rs::{Intersection, Positions, Ray as PreparedRay, bvh, bvh8_cpu, mbvh};
 
 use crate::accel::{Accel, BuildError, Footprint, Observed, Observer, TreeShape};
 use crate::geometry::{Hit, Mesh, Ray};
@@ -23,7 +25,6 @@ pub struct TinyBvh {
     /// The triangle of the mesh for each of its own.
     ids: Vec<u32>,
     shape: TreeShape,
-    nodes: usize,
 }
 
 struct Tree(bvh8_cpu::BVH);
@@ -60,6 +61,24 @@ const LEAF_BYTES: usize = 192;
 /// Beyond this it takes a hit for none.
 const FAR: f32 = tinybvh_rs::INFINITE;
 
+/// The mask of a ray that meets all instances.
+const EVERYTHING: u32 = 0xffff;
+
+/// The ray as it is in C++, whose second half nobody needs: the first has the same fields at the same places.
+#[repr(C, align(64))]
+struct PaddedRay {
+    ray: PreparedRay,
+    rest: [u64; 8],
+}
+
+const _: () = assert!(size_of::<PaddedRay>() == 128 && size_of::<PreparedRay>() == 64);
+
+/// What tinybvh puts for an inverse: nothing infinite.
+#[inline(always)]
+fn inverse(x: f32) -> f32 {
+    if x.abs() > 1e-12 { 1.0 / x } else { FAR.copysign(if x >= 0.0 { 1.0 } else { -1.0 }) }
+}
+
 impl TinyBvh {
     fn query(&self, ray: &Ray) -> Option<Hit> {
         let tree = self.tree.as_ref().filter(|_| ray.is_valid())?;
@@ -67,44 +86,70 @@ impl TinyBvh {
         let length = ray.direction.length();
         // It knows no beginning: the ray starts where its interval does.
         let origin = if t_min > 0.0 { ray.at(t_min) } else { ray.origin };
-        let mut prepared = PreparedRay::new(origin.to_array(), ray.direction.to_array());
+        let unit = ray.direction * (1.0 / length);
+        let inverse = Vec3::from_array(unit.to_array().map(inverse));
         let end = ((t_max - t_min) * length).min(FAR);
-        prepared.hit.t = end;
-        intersect(&tree.0, &mut prepared);
-        let hit = prepared.hit;
+        // Its own check ends the process where this sum, so and in this order, is no number; and where the direction or these
+        // products overflow, the empty children of a node are no longer missed, and it reads what is not there.
+        let checked = unit.x + unit.y + unit.z + end + origin.x + origin.y + origin.z;
+        if checked.is_nan() || !unit.is_finite() || !(origin * inverse).is_finite() {
+            return None;
+        }
+        let prepared = PreparedRay {
+            origin: origin.to_array(),
+            padding_0: EVERYTHING,
+            dir: unit.to_array(),
+            r_d: inverse.to_array(),
+            hit: Intersection { t: end, ..Intersection::default() },
+            ..PreparedRay::default()
+        };
+        let mut padded = PaddedRay { ray: prepared, rest: [0; 8] };
+        intersect(&tree.0, &mut padded);
+        let hit = padded.ray.hit;
         (hit.t < end).then(|| Hit::new(hit.t / length + t_min, self.ids[hit.prim as usize]))
     }
 }
 
 #[cfg(target_feature = "avx2")]
-fn intersect(tree: &bvh8_cpu::BVH, ray: &mut PreparedRay) {
+fn intersect(tree: &bvh8_cpu::BVH, padded: &mut PaddedRay) {
     use tinybvh_rs::Intersector;
-    tree.intersect(ray);
+    tree.intersect(&mut padded.ray);
 }
 
 /// Never called: nothing is built without AVX2.
 #[cfg(not(target_feature = "avx2"))]
-fn intersect(_: &bvh8_cpu::BVH, _: &mut PreparedRay) {}
+fn intersect(_: &bvh8_cpu::BVH, _: &mut PaddedRay) {}
 
 /// Builds by way of the two layouts that its own is converted from.
-fn built(corners: Positions, quality: Quality) -> Result<(bvh8_cpu::BVH, TreeShape, usize), tinybvh_rs::Error> {
+fn built(corners: Positions, quality: Quality) -> Result<(bvh8_cpu::BVH, TreeShape), BuildError> {
+    let refusal = |error: tinybvh_rs::Error| BuildError::Mesh(format!("tinybvh refuses: {error}"));
     let mut binary = match quality {
-        Quality::Medium => bvh::BVH::new(corners)?,
-        Quality::High => bvh::BVH::new_hq(corners)?,
-    };
+        Quality::Medium => bvh::BVH::new(corners),
+        Quality::High => bvh::BVH::new_hq(corners),
+    }
+    .map_err(refusal)?;
     binary.split_leaves(4);
     let wide = mbvh::BVH::new(&binary);
-    let tree = bvh8_cpu::BVH::new(&wide)?;
-    let (shape, leaves) = shape(wide.nodes());
-    let bytes = shape.inner * NODE_BYTES + leaves * LEAF_BYTES;
-    Ok((tree, shape, bytes))
+    let (shape, waiting) = shape(wide.nodes());
+    if waiting > STACK {
+        let sentence =
+            format!("tinybvh walks with a stack of {STACK} nodes, and its tree over this mesh needs {waiting}");
+        return Err(BuildError::Mesh(sentence));
+    }
+    Ok((bvh8_cpu::BVH::new(&wide).map_err(refusal)?, shape))
 }
 
+/// Nodes that its walk and the conversion to its fastest layout keep on a stack without looking at its end.
+const STACK: usize = 256;
+
+/// The shape, and how many nodes may wait on a stack: in the walk all children but one of every node of a path, and room for
+/// eight; in the conversion two words for each child that is no leaf.
 fn shape(nodes: &[mbvh::Node]) -> (TreeShape, usize) {
-    let mut shape = TreeShape::default();
-    let mut stack = vec![(0, 0)];
-    while let Some((at, depth)) = stack.pop() {
+    let (mut shape, mut most) = (TreeShape::default(), 0);
+    let mut stack = vec![(0, 0, 0)];
+    while let Some((at, depth, waiting)) = stack.pop() {
         let node = &nodes[at as usize];
+        most = most.max(waiting);
         if node.is_leaf() {
             let count = node.tri_count as usize;
             shape.leaves += 1;
@@ -113,10 +158,13 @@ fn shape(nodes: &[mbvh::Node]) -> (TreeShape, usize) {
             shape.depth = shape.depth.max(depth);
         } else {
             shape.inner += 1;
-            stack.extend(node.child.iter().filter(|&&child| child != 0).map(|&child| (child, depth + 1)));
+            let children = || node.child.iter().filter(|&&child| child != 0);
+            let inner = children().filter(|&&child| !nodes[child as usize].is_leaf()).count();
+            let more = children().count().max(2 * inner).saturating_sub(1);
+            stack.extend(children().map(|&child| (child, depth + 1, waiting + more)));
         }
     }
-    (shape, shape.leaves)
+    (shape, most + 8)
 }
 
 impl Accel for TinyBvh {
@@ -127,7 +175,8 @@ impl Accel for TinyBvh {
         "open interval, t > 0; a ray with t_min starts at the point of t_min, rounded",
         "walks unit directions: t is divided by the direction's length; nothing farther than 1e30",
         "any hit is a closest hit",
-        "builds on one thread",
+        "rays that would end the process (NaN, or the unit direction or origin over direction overflows) are not asked, and hit nothing",
+        "builds large scenes on threads of its own, whatever --threads says",
     ];
 
     fn build(mesh: &Arc<Mesh>, config: &TinyBvhConfig) -> Result<Self, BuildError> {
@@ -138,13 +187,12 @@ impl Accel for TinyBvh {
         let ids: Vec<u32> = mesh.solid().collect();
         if ids.is_empty() {
             let shape = TreeShape { leaves: 1, empty: 1, ..TreeShape::default() };
-            return Ok(Self { tree: None, ids, shape, nodes: 0 });
+            return Ok(Self { tree: None, ids, shape });
         }
         let corners: Vec<[f32; 4]> =
             ids.iter().flat_map(|&id| mesh.corners(id)).map(|v| v.extend(0.0).to_array()).collect();
-        let (tree, shape, nodes) =
-            built(corners.as_slice().into(), config.quality).map_err(|error| BuildError::Mesh(error.to_string()))?;
-        Ok(Self { tree: Some(Tree(tree)), ids, shape, nodes })
+        let (tree, shape) = built(corners.as_slice().into(), config.quality)?;
+        Ok(Self { tree: Some(Tree(tree)), ids, shape })
     }
 
     #[inline]
@@ -159,7 +207,8 @@ impl Accel for TinyBvh {
 
     /// By the sizes of its nodes and of its leaves, which hold the triangles.
     fn footprint(&self) -> Footprint {
-        Footprint { nodes: self.nodes, references: size_of_val(&self.ids[..]), ..Footprint::default() }
+        let nodes = self.shape.inner * NODE_BYTES + self.shape.leaves * LEAF_BYTES;
+        Footprint { nodes, references: size_of_val(&self.ids[..]), ..Footprint::default() }
     }
 
     fn shape(&self) -> TreeShape {

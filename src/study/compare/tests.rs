@@ -28,6 +28,10 @@ enum Flaw {
     Lossy,
     /// Loses the hit of every 13th ray that it is asked for.
     Fickle,
+    /// Panics on every ray.
+    Panicking,
+    /// Panics over every mesh with triangles.
+    Unbuildable,
 }
 
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
@@ -38,7 +42,8 @@ struct FlawedConfig {
 impl Flawed {
     fn loses(&self, ray: &Ray) -> bool {
         match self.flaw {
-            Flaw::None => false,
+            Flaw::None | Flaw::Unbuildable => false,
+            Flaw::Panicking => panic!("a traversal panics"),
             Flaw::Lossy => ray.direction.x.to_bits() & 1 == 0,
             Flaw::Fickle => self.asked.fetch_add(1, Ordering::Relaxed).is_multiple_of(13),
         }
@@ -52,6 +57,7 @@ impl Accel for Flawed {
     const OBSERVED: Observed = Observed::NONE;
 
     fn build(mesh: &Arc<Mesh>, config: &FlawedConfig) -> Result<Self, BuildError> {
+        assert!(config.flaw != Flaw::Unbuildable || mesh.is_empty(), "a builder panics");
         let inner = Accel::build(mesh, &Default::default())?;
         Ok(Self { inner, flaw: config.flaw, asked: AtomicUsize::new(0) })
     }
@@ -73,8 +79,13 @@ impl Accel for Flawed {
     }
 }
 
-/// Compares the structures on the primary and shadow rays of the cube.
+/// The records of the structures on the primary and shadow rays of the cube.
 fn run(specs: &[&str]) -> Result<Vec<Record>, StudyError> {
+    compared(specs).map(|compared| compared.records)
+}
+
+/// Compares them.
+fn compared(specs: &[&str]) -> Result<Compared, StudyError> {
     let registry = Registry::builtin().with::<Flawed>("flawed", FlawedConfig::default());
     let settings = Settings {
         structures: specs.iter().map(|spec| registry.choose(spec).unwrap()).collect(),
@@ -88,7 +99,7 @@ fn run(specs: &[&str]) -> Result<Vec<Record>, StudyError> {
         threads: Threads::new(1).unwrap(),
     };
     let scene = Builtin::find("cube").unwrap().scene(None).unwrap();
-    compare_scene(&scene, &settings, &SystemClock::start(), &mut |_| {}).map(|compared| compared.records)
+    compare_scene(&scene, &settings, &SystemClock::start(), &mut |_| {})
 }
 
 #[test]
@@ -134,4 +145,17 @@ fn a_structure_that_changes_its_mind_is_no_measurement() {
         Ok(records) => assert!(records[0].is_disqualified(), "{records:?}"),
         Err(other) => panic!("{other}"),
     }
+}
+
+#[test]
+fn a_structure_that_panics_is_refused_and_the_others_go_on() {
+    let specs = ["flawed:flaw=panicking", "brute-force", "flawed:flaw=unbuildable"];
+    let compared = compared(&specs).unwrap();
+    let mut refused: Vec<&str> = compared.refused.iter().map(|refused| &refused.label[..]).collect();
+    refused.sort_unstable();
+    assert_eq!(refused, [specs[0], specs[2]]);
+    assert!(compared.records.len() == 2 && compared.records.iter().all(|r| r.label == "brute-force"));
+    let table = scene_table(&compared.records, &compared.refused, &[]);
+    assert_eq!(table.rows.len(), 3);
+    assert!(compared.refused.iter().all(|r| table.notes.iter().any(|note| note.contains(&r.reason))), "{table:?}");
 }
