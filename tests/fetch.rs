@@ -18,20 +18,20 @@ fn mesh() -> Vec<u8> {
     (0..100_000_u32).flat_map(|i| format!("v {i} {} 0\n", i * 7 % 13).into_bytes()).collect()
 }
 
-/// A path, and where the answer was asked to start.
-type Asked = (String, Option<usize>);
+/// Path of a request, and from where on it wants the file.
+type Request = (String, Option<usize>);
 
 /// A server that answers each request for `path`, from byte `range` on, with the bytes that `answer` gives.
 struct Server {
     address: String,
-    asked: Arc<Mutex<Vec<Asked>>>,
+    asked: Arc<Mutex<Vec<Request>>>,
 }
 
 impl Server {
     fn start(answer: fn(&str, &str, Option<usize>) -> Vec<u8>) -> Self {
         let listener = TcpListener::bind("127.0.0.1:0").unwrap();
         let address = format!("http://{}", listener.local_addr().unwrap());
-        let (asked, own): (Arc<Mutex<Vec<_>>>, _) = (Arc::default(), address.clone());
+        let (asked, own): (Arc<Mutex<Vec<Request>>>, _) = (Arc::default(), address.clone());
         let log = Arc::clone(&asked);
         thread::spawn(move || {
             for stream in listener.incoming() {
@@ -62,7 +62,7 @@ impl Server {
         }
     }
 
-    fn asked(&self) -> Vec<(String, Option<usize>)> {
+    fn asked(&self) -> Vec<Request> {
         self.asked.lock().unwrap().clone()
     }
 }

@@ -35,12 +35,17 @@ pub fn run(args: &Args, terminal: &Terminal) -> anyhow::Result<Verdict> {
         return Ok(Verdict::Right);
     }
     // The licences of all come before the first download.
-    terminal.print_lines(&files.iter().flat_map(|(scene, real)| described(scene, real)).collect::<Vec<_>>())?;
+    terminal.print(&files.iter().map(|(scene, real)| described(scene, real)).collect::<String>())?;
     if args.list {
         return Ok(Verdict::Right);
     }
     let mut failed = 0;
     for (_, real) in &files {
+        let path = folder.join(&real.file);
+        if real.sha256.is_none() && path.is_file() {
+            terminal.print(&format!("{}: is there, not verified: its scene file gives no sha256\n", path.display()))?;
+            continue;
+        }
         if let Err(error) = fetch(real, &folder, terminal) {
             eprintln!("error: {error:#}");
             failed += 1;
@@ -65,13 +70,10 @@ fn scenes(named: &[String]) -> anyhow::Result<Vec<SceneFile>> {
 }
 
 /// What is fetched, from where, and what may be done with it.
-fn described(scene: &str, real: &RealMesh) -> [String; 3] {
+fn described(scene: &str, real: &RealMesh) -> String {
     let size = real.bytes.map_or(String::new(), |n| format!(", {}", bytes(n as usize)));
-    [
-        format!("{scene}: {}{size}: {}", real.file, real.origin),
-        format!("  licence: {}", real.licence),
-        format!("  from {}", real.url),
-    ]
+    let RealMesh { file, origin, licence, url, .. } = real;
+    format!("{scene}: {file}{size}: {origin}\n  licence: {licence}\n  from {url}\n")
 }
 
 #[cfg(feature = "fetch")]

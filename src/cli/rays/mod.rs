@@ -147,8 +147,9 @@ fn show(args: &Show, terminal: &Terminal) -> anyhow::Result<Verdict> {
 
 fn described(file: &RayFile) -> String {
     let (workload, scene) = (&file.workload, if file.scene.is_empty() { "no scene" } else { &file.scene });
-    let (rays, query, hash) = (plural(workload.rays.len(), "ray"), workload.query.name(), workload.hash());
-    format!("{rays} of the kind {:?} for {scene}, asking for the {query} hit, hash {hash}", workload.name)
+    let query = if workload.query == Query::Any { "any hit" } else { "the closest hit" };
+    let (rays, hash) = (plural(workload.rays.len(), "ray"), workload.hash());
+    format!("{rays} of the kind {:?} for {scene}, asking for {query}, hash {hash}", workload.name)
 }
 
 /// As messages show it.
