@@ -9,6 +9,8 @@ mod table;
 
 pub use export::{to_csv, to_json};
 pub use record::Record;
+#[cfg(test)]
+pub(crate) use record::example;
 pub use table::{Cell, Screen, Table, Tone, to_markdown, wrapped};
 
 #[cfg(test)]

@@ -133,6 +133,7 @@ pub fn compare_scene(
                 build_ns: built.build_ns,
                 trace_ns,
                 runs: trace.ns.len(),
+                samples_ns: trace.ns.clone(),
                 mrays_per_s: trace_ns.map(|ns| trace.rays as f64 * 1e3 / ns),
                 tests_per_ray: trace.tests_per_ray,
                 steps_per_ray: trace.steps_per_ray,

@@ -1,11 +1,13 @@
 //! `study`: experiments with one question each.
 
+mod partitions;
+
 use std::path::PathBuf;
 
 use clap::Subcommand;
 
-use super::terminal::Terminal;
-use super::{Verdict, sources};
+use crate::cli::terminal::Terminal;
+use crate::cli::{Verdict, sources};
 use crate::output::OutputFile;
 use crate::registry::{Choice, Registry};
 use crate::report::{to_json, to_markdown};
@@ -22,6 +24,8 @@ pub struct Args {
 enum Name {
     /// Which way to start a secondary ray neither meets its own surface again nor passes another one?
     SelfIntersection(SelfIntersection),
+    /// Which way to divide the triangles is the fastest, for the same node, leaf and walk?
+    Partitions(partitions::Args),
 }
 
 #[derive(Debug, clap::Args)]
@@ -46,6 +50,7 @@ struct SelfIntersection {
 pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Result<Verdict> {
     match &args.name {
         Name::SelfIntersection(args) => self_intersection(registry, args, terminal),
+        Name::Partitions(args) => partitions::run(registry, args, terminal),
     }
 }
 

@@ -1,0 +1,118 @@
+//! `partitions`: the same node, leaf and walk over four ways to divide the triangles, against the best of obvhs.
+
+mod table;
+#[cfg(test)]
+mod tests;
+
+use serde::Serialize;
+
+use super::baselines::is_obvhs;
+use crate::measure::{Interval, mean_ratio, paired_ratio};
+use crate::registry::{Choice, ChoiceError, Registry};
+use crate::report::Record;
+
+pub use table::{LEGEND, tables};
+
+/// Those whose speed is asked for: the binary tree, and the wide one over each partition.
+const OURS: [&str; 5] = ["sah-kd", "sah-kd-wide", "sah-kd-tight", "sah-hybrid", "sah-bvh"];
+
+/// The presets and layouts of which the fastest counts, cell by cell.
+const PRESETS: [&str; 6] = ["fastest", "very-fast", "fast", "medium", "slow", "very-slow"];
+const LAYOUTS: [&str; 2] = ["obvhs-bvh2", "obvhs-cwbvh"];
+
+/// The build whose time is the unit.
+const DEAREST: &str = "very-slow";
+
+/// One structure on one scene.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Row {
+    pub scene: String,
+    pub triangles: usize,
+    /// As chosen.
+    pub structure: String,
+    /// Build time as a share of that of `obvhs-bvh2` with its dearest preset.
+    pub build: Option<f64>,
+    /// Bytes of the finished structure per triangle.
+    pub bytes: f64,
+    pub cells: Vec<Cell>,
+    /// Geometric mean of the speeds over the cells; nothing where one is missing.
+    pub all: Option<Interval>,
+}
+
+/// One structure and one kind of rays.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Cell {
+    pub workload: String,
+    /// Speed as a multiple of that of the fastest obvhs on these rays. Nothing where either gives wrong answers.
+    pub speed: Option<Interval>,
+    /// Label of that obvhs.
+    pub baseline: Option<String>,
+    /// Nodes and leaves entered for each ray.
+    pub steps: Option<f64>,
+    /// Triangles tested for each ray.
+    pub tests: Option<f64>,
+}
+
+/// Ours over the triangle test `test`, the wide ones with what is in `keys` (`,key=value..`), and all of obvhs with its own test.
+///
+/// # Errors
+/// If a structure is not registered or refuses the keys.
+pub fn structures(registry: &Registry, test: &str, keys: &str) -> Result<Vec<Choice>, ChoiceError> {
+    let ours = OURS.iter().map(|&name| {
+        let keys = if name == OURS[0] { "" } else { keys };
+        registry.choose(&format!("{name}:test={test}{keys}"))
+    });
+    let presets = LAYOUTS.iter().flat_map(|layout| PRESETS.map(|preset| format!("{layout}:preset={preset}")));
+    ours.chain(presets.map(|spec| registry.choose(&spec))).collect()
+}
+
+/// Compares the records of one run over [`structures`].
+pub fn rows(records: &[Record], seed: u64) -> Vec<Row> {
+    let mut rows: Vec<Row> = vec![];
+    let mut ratios: Vec<Vec<Option<Vec<f64>>>> = vec![];
+    for record in records.iter().filter(|r| !is_obvhs(&r.structure)) {
+        let rivals = || records.iter().filter(|b| b.scene == record.scene && is_obvhs(&b.structure));
+        let timed = rivals().filter(|b| b.workload == record.workload && b.trace_ns.is_some());
+        let best = timed.min_by(|a, b| pace(a).total_cmp(&pace(b)));
+        let pairs = best.filter(|_| record.trace_ns.is_some()).map(|best| (paces(best), paces(record)));
+        let cell = Cell {
+            workload: record.workload.clone(),
+            speed: pairs.as_ref().and_then(|(best, own)| paired_ratio(best, own, seed)),
+            baseline: best.map(|best| best.label.clone()),
+            steps: record.steps_per_ray,
+            tests: record.tests_per_ray,
+        };
+        let begun = rows.last().is_some_and(|row| row.scene == record.scene && row.structure == record.label);
+        if !begun {
+            let dearest = |b: &&Record| b.structure == LAYOUTS[0] && b.config["preset"] == DEAREST;
+            rows.push(Row {
+                scene: record.scene.clone(),
+                triangles: record.triangles,
+                structure: record.label.clone(),
+                build: rivals().find(dearest).map(|b| record.build_ns as f64 / b.build_ns as f64),
+                bytes: record.bytes as f64 / record.triangles as f64,
+                cells: vec![],
+                all: None,
+            });
+            ratios.push(vec![]);
+        }
+        let (row, ratios) = (rows.last_mut().expect("begun"), ratios.last_mut().expect("begun"));
+        row.cells.push(cell);
+        ratios.push(pairs.map(|(best, own)| best.iter().zip(own).map(|(best, own)| best / own).collect()));
+    }
+    for (row, ratios) in rows.iter_mut().zip(ratios) {
+        let groups: Option<Vec<Vec<f64>>> = ratios.into_iter().collect();
+        row.all = groups.and_then(|groups| mean_ratio(&groups, seed));
+    }
+    rows
+}
+
+/// Nanoseconds a ray in every sample.
+fn paces(record: &Record) -> Vec<f64> {
+    record.samples_ns.iter().map(|ns| ns / record.rays as f64).collect()
+}
+
+/// The median of them.
+fn pace(record: &Record) -> f64 {
+    record.trace_ns.map_or(f64::INFINITY, |ns| ns / record.rays as f64)
+}

@@ -1,0 +1,60 @@
+use super::*;
+use crate::report::example;
+
+fn record(label: &str, workload: &str, ns: &[f64], preset: Option<&str>) -> Record {
+    let mut sorted = ns.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    Record {
+        structure: label.split(':').next().unwrap().into(),
+        label: label.into(),
+        workload: workload.into(),
+        rays: 100,
+        samples_ns: ns.to_vec(),
+        trace_ns: sorted.get(sorted.len() / 2).copied(),
+        config: preset.map_or(serde_json::json!({}), |preset| serde_json::json!({ "preset": preset })),
+        triangles: 10,
+        bytes: 800,
+        build_ns: if preset.is_some() { 50 } else { 100 },
+        ..example()
+    }
+}
+
+#[test]
+fn each_cell_is_held_against_the_fastest_rival_there() {
+    let rivals = |workload: &str, a: f64, b: f64| {
+        [
+            record("obvhs-bvh2:preset=very-slow", workload, &[a; 3], Some("very-slow")),
+            record("obvhs-cwbvh:preset=fast", workload, &[b; 3], Some("fast")),
+        ]
+    };
+    let ours = ["primary", "random"].map(|w| record("sah-hybrid", w, &[100.0; 3], None));
+    let records = [&rivals("primary", 200.0, 300.0)[..], &rivals("random", 900.0, 800.0), &ours].concat();
+    let rows = rows(&records, 1);
+    assert_eq!(rows.len(), 1);
+    let speed = |i: usize| (rows[0].cells[i].speed.unwrap().estimate, rows[0].cells[i].baseline.as_deref().unwrap());
+    assert_eq!(speed(0), (2.0, "obvhs-bvh2:preset=very-slow"));
+    assert_eq!(speed(1), (8.0, "obvhs-cwbvh:preset=fast"));
+    assert!((rows[0].all.unwrap().estimate - 4.0).abs() < 1e-12);
+    assert_eq!((rows[0].build, rows[0].bytes), (Some(2.0), 80.0));
+    assert_eq!(tables(&rows).len(), 1);
+}
+
+#[test]
+fn what_has_no_time_has_no_speed_and_no_mean() {
+    let records = [
+        record("obvhs-bvh2:preset=fast", "primary", &[10.0; 3], Some("fast")),
+        record("sah-bvh", "primary", &[5.0; 3], None),
+        record("sah-bvh", "random", &[5.0; 3], None),
+    ];
+    let rows = rows(&records, 1);
+    assert!(rows[0].cells[0].speed.is_some() && rows[0].cells[1].speed.is_none());
+    assert_eq!(rows[0].all, None);
+}
+
+#[test]
+fn ours_and_every_preset_of_obvhs_are_asked() {
+    let choices = structures(&Registry::builtin(), "moller-trumbore", ",quality=fast").unwrap();
+    assert_eq!(choices.len(), OURS.len() + PRESETS.len() * LAYOUTS.len());
+    assert!(choices[1].label.contains("quality=fast"), "{}", choices[1].label);
+    assert!(structures(&Registry::builtin(), "no-such-test", "").is_err());
+}
