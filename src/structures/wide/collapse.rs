@@ -5,6 +5,7 @@
 
 use crate::geometry::Aabb;
 use crate::structures::binary::{BinaryTree, Content};
+use crate::structures::extent::Extent;
 
 use super::node::WIDTH;
 
@@ -44,12 +45,6 @@ pub(super) enum Part {
     Leaf(u32),
 }
 
-/// In `f64`, where no box that a mesh admits overflows.
-pub(super) fn half_area(bounds: &Aabb) -> f64 {
-    let e = bounds.max.as_dvec3() - bounds.min.as_dvec3();
-    e.x * e.y + e.y * e.z + e.z * e.x
-}
-
 impl<'a> Collapse<'a> {
     pub fn new(tree: &'a BinaryTree, cost: &Cost) -> Self {
         let none = Best { cost: [0.0; WIDTH - 1], left: [0; WIDTH], leaf: true };
@@ -59,7 +54,7 @@ impl<'a> Collapse<'a> {
         let most = cost.largest * WIDTH;
         for at in (0..tree.nodes.len()).rev() {
             let node = &tree.nodes[at];
-            let area = half_area(&node.bounds);
+            let area = Extent::from(node.bounds).half_area();
             let as_leaf = |count: usize| (area * cost.block * count.div_ceil(WIDTH) as f64) as f32;
             match node.content {
                 Content::Leaf { count, .. } => {
@@ -114,7 +109,7 @@ impl<'a> Collapse<'a> {
     pub fn children(&self, at: u32, parts: &mut Vec<Part>) -> [u32; 8] {
         parts.clear();
         self.gather(at, WIDTH, 0, &mut |part| parts.push(part));
-        let size = |part: &Part| half_area(self.bounds(*part));
+        let size = |part: &Part| Extent::from(*self.bounds(*part)).half_area();
         let is_leaf = |part: &Part| matches!(part, Part::Leaf(_));
         parts.sort_by(|a, b| is_leaf(a).cmp(&is_leaf(b)).then(size(a).total_cmp(&size(b))));
         std::array::from_fn(|octant| {
