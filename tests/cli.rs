@@ -117,7 +117,8 @@ fn results_go_to_files_that_read_back() {
     assert!(stderr(&output).is_empty(), "no progress where nobody looks: {}", stderr(&output));
 
     let records: Vec<serde_json::Value> = serde_json::from_slice(&fs::read(&json).unwrap()).unwrap();
-    let structures = ["brute-force", "median-kd", "sah-kd", "obvhs-bvh2", "obvhs-cwbvh"];
+    let ours = ["brute-force", "median-kd", "sah-kd", "sah-kd-wide", "sah-kd-tight", "sah-hybrid", "sah-bvh"];
+    let structures = [&ours[..], &["obvhs-bvh2", "obvhs-cwbvh"]].concat();
     assert_eq!(records.len(), structures.len() * 2);
     for (i, record) in records.iter().enumerate() {
         assert_eq!(record["scene"], "Cube");

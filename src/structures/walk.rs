@@ -1,6 +1,6 @@
 //! Searches that are written once over lanes and run on the level in use.
 
-use crate::accel::Observer;
+use crate::accel::{Counts, Observer};
 use crate::geometry::{Hit, Ray};
 use crate::simd::{Kernel, Level, Portable, Sieve, dispatch};
 
@@ -10,18 +10,28 @@ pub(super) trait Walk {
     fn walk<const ANY: bool, L: Sieve, O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit>;
 }
 
-struct Single<'a, const ANY: bool, W, O> {
+struct Single<'a, const ANY: bool, W> {
     structure: &'a W,
     ray: &'a Ray,
-    observer: &'a mut O,
 }
 
-impl<const ANY: bool, W: Walk, O: Observer> Kernel for Single<'_, ANY, W, O> {
+impl<const ANY: bool, W: Walk> Kernel for Single<'_, ANY, W> {
     type Output = Option<Hit>;
 
     #[inline(always)]
     fn run<L: Sieve>(self) -> Option<Hit> {
-        self.structure.walk::<ANY, L, O>(self.ray, self.observer)
+        silent::<ANY, L, W>(self.structure, self.ray)
+    }
+}
+
+/// A walk that nobody watches.
+#[inline(always)]
+pub(super) fn silent<const ANY: bool, L: Sieve, W: Walk>(structure: &W, ray: &Ray) -> Option<Hit> {
+    if L::FAST {
+        structure.walk::<ANY, L, ()>(ray, &mut ())
+    } else {
+        // The counting walk is compiled anyway; on portable lanes counting is not what takes the time.
+        structure.walk::<ANY, L, Counts>(ray, &mut Counts::default())
     }
 }
 
@@ -32,6 +42,6 @@ pub(super) fn single<const ANY: bool, W: Walk, O: Observer>(structure: &W, ray: 
         // All levels take the same steps. Who counts does not hurry, and compiling is half the work.
         structure.walk::<ANY, Portable<8>, O>(ray, observer)
     } else {
-        dispatch(Level::current(), Single::<ANY, W, O> { structure, ray, observer })
+        dispatch(Level::current(), Single::<ANY, W> { structure, ray })
     }
 }

@@ -6,7 +6,7 @@ use super::beams::RAYS;
 use crate::accel::Observer;
 use crate::geometry::{Hit, Ray};
 use crate::simd::{Kernel, Level, Sieve, dispatch};
-use crate::structures::walk::{Walk, single};
+use crate::structures::walk::{silent, single};
 use crate::triangle::TriangleTest;
 
 struct Batch<'a, const ANY: bool, T: TriangleTest, A, F> {
@@ -27,7 +27,7 @@ impl<const ANY: bool, T: TriangleTest, A, F: Fn(Option<Hit>) -> A> Kernel for Ba
                 Some(hits) => answers.iter_mut().zip(hits).for_each(|(answer, hit)| *answer = form(hit)),
                 None => {
                     for (answer, ray) in answers.iter_mut().zip(rays) {
-                        *answer = form(tree.walk::<ANY, L, ()>(ray, &mut ()));
+                        *answer = form(silent::<ANY, L, _>(tree, ray));
                     }
                 }
             }
