@@ -2,10 +2,11 @@
 
 mod common;
 
+use std::borrow::Cow;
 use std::hint::black_box;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use sahara::accel::{DynAccel, Query};
+use sahara::accel::{Loaded, Query};
 use sahara::registry::Registry;
 use sahara::scene::{Sampling, Scene, Workload, WorkloadKind};
 
@@ -22,16 +23,16 @@ fn workloads(scene: &Scene) -> Vec<Workload> {
     KINDS.iter().map(|&kind| Workload::new(scene, kind, &sampling, &*caster)).collect()
 }
 
-fn trace(accel: &dyn DynAccel, workload: &Workload) -> usize {
-    match workload.query {
+fn trace(loaded: &dyn Loaded, query: Query, rays: usize) -> usize {
+    match query {
         Query::Closest => {
-            let mut hits = vec![None; workload.rays.len()];
-            accel.closest_hits(&workload.rays, &mut hits);
+            let mut hits = vec![None; rays];
+            loaded.closest_hits(&mut hits);
             hits.iter().flatten().count()
         }
         Query::Any => {
-            let mut hits = vec![false; workload.rays.len()];
-            accel.any_hits(&workload.rays, &mut hits);
+            let mut hits = vec![false; rays];
+            loaded.any_hits(&mut hits);
             hits.iter().filter(|&&hit| hit).count()
         }
     }
@@ -46,8 +47,9 @@ fn traverse(criterion: &mut Criterion) {
                 let name = format!("traverse/{}/{}", scene.name.to_lowercase(), workload.name);
                 let mut group = criterion.benchmark_group(name);
                 group.sample_size(10).throughput(Throughput::Elements(workload.rays.len() as u64));
+                let (loaded, rays) = (accel.load(Cow::Borrowed(&workload.rays)), workload.rays.len());
                 group.bench_function(choice.label.as_str(), |bencher| {
-                    bencher.iter(|| black_box(trace(&*accel, black_box(workload))));
+                    bencher.iter(|| black_box(trace(black_box(&*loaded), workload.query, rays)));
                 });
                 group.finish();
             }

@@ -2,11 +2,11 @@
 //!
 //! The command is described in the README. This page is for those who bring something of their own.
 #![doc = ""]
-#![doc = include_str!("STRUCTURES.md")]
+#![doc = include_str!("WALK_THROUGH_1_STRUCTURE.md")]
 #![doc = "```"]
 #![doc = include_str!("../tests/third_party/grid.rs")]
 #![doc = "```"]
-#![doc = include_str!("STRUCTURES2.md")]
+#![doc = include_str!("WALK_THROUGH_2_COMMAND_AND_TESTS.md")]
 
 pub mod accel;
 pub mod cli;

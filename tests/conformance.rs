@@ -1,14 +1,16 @@
 //! Every structure that the registry offers, held to the contract on every mesh of the suite and every kind of ray.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
-use sahara::geometry::Mesh;
+use sahara::accel::Loaded;
+use sahara::geometry::{Hit, Mesh, Ray};
 use sahara::registry::{Choice, Registry};
 use sahara::scene::{BUILTIN, Difficulty};
 use sahara::structures::{BruteForce, KdConfig, KdTree, Partition, WideConfig, WideTree};
 use sahara::triangle::MollerTrumbore;
 use sahara::validate::conformance::{Subject, answers, counting, shapes};
-use sahara::validate::degenerate_meshes;
+use sahara::validate::{Stratum, degenerate_meshes};
 
 sahara::conformance!(brute_force, BruteForce<MollerTrumbore>, Default::default(), lowest_id);
 sahara::conformance!(median_kd, KdTree<MollerTrumbore>, KdConfig::REPORT, lowest_id);
@@ -108,5 +110,51 @@ fn everything_offered_counts_and_has_a_possible_shape() {
         let subject = subject(&choice, false);
         passes(counting(&subject, &meshes, 10));
         passes(shapes(&subject, &meshes));
+    }
+}
+
+/// Answers as bits: closest hits, any hits.
+type Said = (Vec<Option<(u32, u32)>>, Vec<bool>);
+
+/// Asks into slots filled with what nobody says.
+fn said(rays: usize, closest: impl Fn(&mut [Option<Hit>]), any: impl Fn(&mut [bool])) -> Said {
+    let mut hits = vec![Some(Hit::new(f32::NEG_INFINITY, 0)); rays];
+    closest(&mut hits);
+    let mut anything: Vec<bool> = hits.iter().map(Option::is_none).collect();
+    any(&mut anything);
+    (hits.iter().map(|hit| hit.map(|hit| (hit.t.to_bits(), hit.prim.index()))).collect(), anything)
+}
+
+fn of_loaded(loaded: &dyn Loaded, rays: usize) -> Said {
+    said(rays, |hits| loaded.closest_hits(hits), |any| loaded.any_hits(any))
+}
+
+/// Peers and packets too; twice, because what is loaded must stay as it is; and rays that are not valid among the others.
+#[test]
+fn loaded_rays_are_answered_as_direct_ones_by_every_structure() {
+    let registry = Registry::builtin();
+    let packets = ["sah-kd-tight:packets=true", "embree:packet=16", "embree-robust:packet=16,rays=coherent"];
+    let packets = packets.iter().filter_map(|spec| registry.choose(spec).ok());
+    let meshes =
+        degenerate_meshes().into_iter().filter(|(name, _)| name == "box of a grid" || name == "only without area");
+    let meshes: Vec<_> = meshes.collect();
+    assert_eq!(meshes.len(), 2);
+    for choice in registry.all().into_iter().chain(packets).filter(|choice| choice.entry.absence().is_none()) {
+        for (name, mesh) in &meshes {
+            let accel = choice.build(mesh).unwrap();
+            let rays: Vec<Ray> = Stratum::ALL.iter().flat_map(|stratum| stratum.rays(mesh, 37, 5)).collect();
+            let rays = accel.capabilities().admitted(&rays);
+            let direct = said(rays.len(), |hits| accel.closest_hits(&rays, hits), |any| accel.any_hits(&rays, any));
+            for loaded in [accel.load(Cow::Borrowed(&rays)), accel.load(Cow::Owned(rays.to_vec()))] {
+                assert!(of_loaded(&*loaded, rays.len()) == direct, "{} on {name:?}", choice.label);
+                assert!(of_loaded(&*loaded, rays.len()) == direct, "{} on {name:?}, asked again", choice.label);
+            }
+            assert!(name != "box of a grid" || direct.1.iter().filter(|hit| **hit).count() > 50, "{}", choice.label);
+            // One after the other, they are the same rays.
+            for (i, ray) in rays.iter().enumerate().step_by(29) {
+                let alone = of_loaded(&*accel.load(Cow::Borrowed(&[*ray])), 1);
+                assert_eq!((alone.0[0], alone.1[0]), (direct.0[i], direct.1[i]), "{}: {ray}", choice.label);
+            }
+        }
     }
 }

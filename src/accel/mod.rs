@@ -3,6 +3,7 @@
 mod capabilities;
 mod counts;
 mod footprint;
+mod loaded;
 mod observer;
 mod query;
 mod shape;
@@ -11,6 +12,7 @@ mod traits;
 pub use capabilities::Capabilities;
 pub use counts::Counts;
 pub use footprint::Footprint;
+pub use loaded::Loaded;
 pub use observer::{Observed, Observer};
 pub use query::Query;
 pub use shape::TreeShape;

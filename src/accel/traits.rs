@@ -1,12 +1,14 @@
 //! The one interface of all structures.
 
+use std::borrow::Cow;
 use std::fmt::Debug;
 use std::sync::Arc;
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use super::{Capabilities, Counts, Footprint, Observed, Observer, TreeShape};
+use super::loaded::AsTheyAre;
+use super::{Capabilities, Counts, Footprint, Loaded, Observed, Observer, TreeShape};
 use crate::geometry::{Hit, Mesh, Ray};
 
 /// Why a structure could not be built.
@@ -103,6 +105,16 @@ pub trait Accel: Sized + Send + Sync + 'static {
         }
     }
 
+    /// Takes a batch of rays, to answer it many times: before the clock starts, so that what is done here is not timed.
+    ///
+    /// By default the rays stay as they are, and whatever a query prepares of a ray counts as its time: right for every structure
+    /// that is asked with a [`Ray`], as all of this crate are; there is nothing to do then. An adapter to a library with a ray of
+    /// its own converts the rays here, once, so that the library is timed and not the conversion. Only what follows from the
+    /// rays alone may be done here: no walk, no answers.
+    fn load<'a>(&'a self, rays: Cow<'a, [Ray]>) -> Box<dyn Loaded + 'a> {
+        Box::new(AsTheyAre { accel: self, rays })
+    }
+
     fn footprint(&self) -> Footprint;
 
     fn shape(&self) -> TreeShape;
@@ -116,6 +128,10 @@ pub trait DynAccel: Send + Sync {
     fn closest_hits_counted(&self, rays: &[Ray], hits: &mut [Option<Hit>], counts: &mut Counts);
     /// As `any_hits`, adding to `counts` what was done.
     fn any_hits_counted(&self, rays: &[Ray], hits: &mut [bool], counts: &mut Counts);
+    /// As [`Accel::load`].
+    fn load<'a>(&'a self, rays: Cow<'a, [Ray]>) -> Box<dyn Loaded + 'a> {
+        Box::new(AsTheyAre { accel: self, rays })
+    }
     fn observed(&self) -> Observed;
     fn capabilities(&self) -> Capabilities {
         Capabilities::ALL
@@ -139,6 +155,10 @@ impl<A: Accel> DynAccel for A {
 
     fn any_hits_counted(&self, rays: &[Ray], hits: &mut [bool], counts: &mut Counts) {
         Accel::any_hits(self, rays, hits, counts);
+    }
+
+    fn load<'a>(&'a self, rays: Cow<'a, [Ray]>) -> Box<dyn Loaded + 'a> {
+        Accel::load(self, rays)
     }
 
     fn observed(&self) -> Observed {

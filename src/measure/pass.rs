@@ -1,9 +1,11 @@
 //! One structure answering one batch of rays.
 
+use std::borrow::Cow;
+
 use rayon::prelude::*;
 
 use super::{RandomOrder, Timed};
-use crate::accel::{DynAccel, Query};
+use crate::accel::{DynAccel, Loaded, Query};
 use crate::geometry::{Hit, PrimId, Ray};
 
 /// The threads that build and trace.
@@ -41,8 +43,10 @@ pub struct Pass<'a> {
     accel: &'a dyn DynAccel,
     threads: &'a Threads,
     all: &'a [Ray],
-    /// The rays of a restricted pass.
-    some: Option<Vec<Ray>>,
+    /// Rays of a pass.
+    count: usize,
+    /// The rays as the structure takes them: all at once on one thread, else in chunks. Nothing before the first pass over them.
+    loaded: Vec<Box<dyn Loaded + 'a>>,
     answers: Answers,
     /// What `clear` fills in changes each time: a pass that leaves an answer as it was cannot give the same sum twice.
     filled: bool,
@@ -60,7 +64,17 @@ impl<'a> Pass<'a> {
             Query::Closest => Answers::Closest(vec![None; rays.len()]),
             Query::Any => Answers::Any(vec![false; rays.len()]),
         };
-        Self { accel, threads, all: rays, some: None, answers, filled: false }
+        Self { accel, threads, all: rays, count: rays.len(), loaded: vec![], answers, filled: false }
+    }
+
+    /// Hands the rays over to the structure.
+    fn load(&mut self) {
+        let chunk = if self.threads.count == 1 { self.count } else { CHUNK };
+        self.loaded = if self.count == self.all.len() {
+            self.all.chunks(chunk).map(|rays| self.accel.load(Cow::Borrowed(rays))).collect()
+        } else {
+            spread(self.all, self.count).chunks(chunk).map(|rays| self.accel.load(Cow::Owned(rays.to_vec()))).collect()
+        };
     }
 
     /// Rays of the last pass that hit something.
@@ -89,15 +103,21 @@ impl Timed for Pass<'_> {
     }
 
     fn restrict(&mut self, rays: usize) {
-        self.some = (rays < self.all.len()).then(|| spread(self.all, rays));
         let rays = rays.min(self.all.len());
+        if rays != self.count {
+            (self.count, self.loaded) = (rays, vec![]);
+        }
         match &mut self.answers {
             Answers::Closest(hits) => hits.resize(rays, None),
             Answers::Any(hits) => hits.resize(rays, false),
         }
     }
 
+    /// Here the rays are loaded, before the first pass over them: [`clear`](Timed::clear) is not timed.
     fn clear(&mut self) {
+        if self.loaded.is_empty() {
+            self.load();
+        }
         self.filled = !self.filled;
         let nowhere = Hit { t: f32::NAN, prim: PrimId::new(0) };
         match &mut self.answers {
@@ -107,18 +127,18 @@ impl Timed for Pass<'_> {
     }
 
     fn run(&mut self) {
-        let rays = self.some.as_deref().unwrap_or(self.all);
-        let accel = self.accel;
+        let loaded = &self.loaded[..];
+        assert!(!loaded.is_empty(), "a pass is cleared before it is run");
         match (&mut self.answers, self.threads.count) {
-            (Answers::Closest(hits), 1) => accel.closest_hits(rays, hits),
-            (Answers::Any(hits), 1) => accel.any_hits(rays, hits),
+            (Answers::Closest(hits), 1) => loaded[0].closest_hits(hits),
+            (Answers::Any(hits), 1) => loaded[0].any_hits(hits),
             (Answers::Closest(hits), _) => self.threads.install(|| {
-                let chunks = rays.par_chunks(CHUNK).zip(hits.par_chunks_mut(CHUNK));
-                chunks.for_each(|(rays, hits)| accel.closest_hits(rays, hits));
+                let chunks = loaded.par_iter().zip(hits.par_chunks_mut(CHUNK));
+                chunks.for_each(|(rays, hits)| rays.closest_hits(hits));
             }),
             (Answers::Any(hits), _) => self.threads.install(|| {
-                let chunks = rays.par_chunks(CHUNK).zip(hits.par_chunks_mut(CHUNK));
-                chunks.for_each(|(rays, hits)| accel.any_hits(rays, hits));
+                let chunks = loaded.par_iter().zip(hits.par_chunks_mut(CHUNK));
+                chunks.for_each(|(rays, hits)| rays.any_hits(hits));
             }),
         }
     }
@@ -200,6 +220,7 @@ mod tests {
         let (accel, rays, threads) = (triangle(), rays(9), Threads::new(1).unwrap());
         let mut pass = Pass::new(accel.as_ref(), &rays, Query::Any, &threads);
         pass.restrict(3);
+        pass.clear();
         pass.run();
         assert_eq!(pass.rays(), 9);
         assert_eq!(pass.hits(), spread(&rays, 3).iter().filter(|ray| ray.origin.z < 0.0).count());

@@ -10,7 +10,7 @@ pub trait Timed {
     /// From now on a pass takes `rays` of them, spread evenly over the whole. Not timed.
     fn restrict(&mut self, rays: usize);
 
-    /// Forgets all answers, so that a pass which does nothing is found out. Not timed.
+    /// Forgets all answers, so that a pass which does nothing is found out, and gets ready. Called before every pass. Not timed.
     fn clear(&mut self);
 
     /// One pass. The only call that is timed.

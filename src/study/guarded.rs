@@ -47,7 +47,9 @@ impl Timed for Guarded<'_> {
     }
 
     fn clear(&mut self) {
-        self.pass.clear();
+        if !self.panicked.get() && guarded(|| self.pass.clear()).is_none() {
+            self.panicked.set(true);
+        }
     }
 
     fn run(&mut self) {

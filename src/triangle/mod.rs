@@ -44,7 +44,7 @@ pub trait TriangleTest: Send + Sync + 'static {
     const NAME: &'static str;
 
     /// What is prepared once a ray.
-    type Ray: Copy;
+    type Ray: Copy + Send + Sync;
 
     /// `N` triangles, stored as the test wants them.
     type Block<const N: usize>: Copy + Send + Sync;

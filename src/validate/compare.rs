@@ -1,5 +1,6 @@
 //! The comparison itself.
 
+use std::borrow::Cow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use rayon::prelude::*;
@@ -14,7 +15,7 @@ use crate::geometry::{Hit, Mesh, Ray};
 pub(super) const BATCH: usize = 256;
 
 /// Holds `subject` against `reference` on every ray: the closest hit, that any hit agrees with it, and that asking again
-/// for one ray alone gives the same answer.
+/// for one ray alone gives the same answer; batches are loaded ([`Accel::load`](crate::accel::Accel::load)), as they are timed.
 ///
 /// `mesh` is the one that both were built from. Rays that the structure declines are left out and counted. A panic is caught
 /// and ends its batch; against endless loops see [`validate_watched`](super::validate_watched). Runs on all threads of the
@@ -72,12 +73,13 @@ pub(super) fn validate_batch(
     // Ask each ray alone, and only then the batch: what panics or hangs does so at a ray that can be named.
     let mut alone = Vec::with_capacity(rays.len());
     for (index, ray) in rays.iter().enumerate() {
-        match ask(asked, Call::Ray(index), || answers(subject, &[*ray])) {
-            Ok((closest, any)) => alone.push((closest[0], any[0])),
+        match ask(asked, Call::Ray(index), || answer(subject, ray)) {
+            Ok(answer) => alone.push(answer),
             Err(message) => return sums.ended(reference, rays, Call::Ray(index), Kind::Panicked, message),
         }
     }
-    let (found, any) = match ask(asked, Call::Batch, || answers(subject, rays)) {
+    // In the form in which it is timed.
+    let (found, any) = match ask(asked, Call::Batch, || loaded_answers(subject, rays)) {
         Ok(answers) => answers,
         Err(message) => return sums.ended(reference, rays, Call::Batch, Kind::Panicked, message),
     };
@@ -111,14 +113,27 @@ pub(super) fn validate_batch(
     sums
 }
 
-/// Closest and any hits of a batch.
-fn answers(subject: &dyn DynAccel, rays: &[Ray]) -> (Vec<Option<Hit>>, Vec<bool>) {
-    // Prefilled with an answer that nobody gives: a structure must write every slot.
-    let unwritten = Some(Hit::new(f32::NEG_INFINITY, u32::MAX - 1));
-    let mut found = vec![unwritten; rays.len()];
-    subject.closest_hits(rays, &mut found);
+/// Prefilled with an answer that nobody gives: a structure must write every slot.
+fn unwritten() -> Option<Hit> {
+    Some(Hit::new(f32::NEG_INFINITY, u32::MAX - 1))
+}
+
+/// Closest and any hit of one ray.
+fn answer(subject: &dyn DynAccel, ray: &Ray) -> (Option<Hit>, bool) {
+    let mut found = [unwritten()];
+    subject.closest_hits(&[*ray], &mut found);
+    let mut any = [found[0].is_none()];
+    subject.any_hits(&[*ray], &mut any);
+    (found[0], any[0])
+}
+
+/// Closest and any hits of a loaded batch.
+fn loaded_answers(subject: &dyn DynAccel, rays: &[Ray]) -> (Vec<Option<Hit>>, Vec<bool>) {
+    let loaded = subject.load(Cow::Borrowed(rays));
+    let mut found = vec![unwritten(); rays.len()];
+    loaded.closest_hits(&mut found);
     let mut any: Vec<bool> = found.iter().map(Option::is_none).collect();
-    subject.any_hits(rays, &mut any);
+    loaded.any_hits(&mut any);
     (found, any)
 }
 

@@ -2,9 +2,10 @@
 //! heuristic.
 //!
 //! The crate has no nearest hit: it yields candidates, and its caller tests triangles. Two of its walks are offered
-//! ([`Traversal`]), both with early termination. Its ray (unit direction and inverse, by its own constructor) is made inside
-//! of the timed region. Its builder gets the threads of the caller.
+//! ([`Traversal`]), both with early termination. Its ray (unit direction and inverse, by its own constructor) is made before
+//! the clock starts. Its builder gets the threads of the caller.
 
+use std::borrow::Cow;
 use std::cell::Cell;
 use std::sync::Arc;
 
@@ -16,11 +17,11 @@ use glam::Vec3;
 use nalgebra::{Point3, Vector3};
 use serde::{Deserialize, Serialize};
 
-use super::leaves::Leaves;
-use crate::accel::{Accel, BuildError, Footprint, Observed, Observer, TreeShape};
+use super::leaves::{Leaves, Start};
+use crate::accel::{Accel, BuildError, Footprint, Loaded, Observed, Observer, TreeShape};
 use crate::geometry::{Hit, Mesh, Ray};
 use crate::simd::Lanes;
-use crate::structures::leaf::start;
+use crate::structures::prepared::{Prepare, Prepared};
 use crate::triangle::TriangleTest;
 
 /// The BVH of the crate `bvh` over the triangle test `T`.
@@ -106,41 +107,57 @@ fn prepare(ray: &Ray) -> PreparedRay<f32, 3> {
     PreparedRay::new(Point3::new(o.x, o.y, o.z), Vector3::new(d.x, d.y, d.z))
 }
 
-impl<T: TriangleTest> SvenstaroBvh<T> {
-    fn closest<O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit> {
-        let (prepared, t_min, mut nearest) = start::<T>(ray)?;
-        let walked = prepare(ray);
-        let length = ray.direction.length();
+/// A ray as the crate and the triangle test want it.
+pub(crate) struct Ready<T: TriangleTest> {
+    walked: PreparedRay<f32, 3>,
+    /// Of the direction.
+    length: f32,
+    start: Start<T>,
+}
+
+impl<T: TriangleTest> Prepare for SvenstaroBvh<T> {
+    type Ready = Ready<T>;
+
+    #[inline(always)]
+    fn ready(&self, ray: &Ray) -> Option<Ready<T>> {
+        Start::new(ray).map(|start| Ready { walked: prepare(ray), length: ray.direction.length(), start })
+    }
+
+    #[inline]
+    fn closest<O: Observer>(&self, ready: &Ready<T>, observer: &mut O) -> Option<Hit> {
+        let Ready { walked, length, start } = ready;
+        let mut nearest = start.nearest();
         let limit = |t: f32| t * length * SLACK;
         match self.traversal {
             Traversal::Pruned => {
-                let query = Pruned { ray: &walked, limit: Cell::new(limit(nearest.t)) };
+                let query = Pruned { ray: walked, limit: Cell::new(limit(nearest.t)) };
                 for shape in self.tree.traverse_iterator(&query, &self.shapes) {
                     observer.test(1);
-                    self.leaves.test(shape.index as usize, &prepared, t_min, &mut nearest);
+                    self.leaves.test(shape.index as usize, start, &mut nearest);
                     query.limit.set(limit(nearest.t));
                 }
             }
             Traversal::Nearest => {
-                for shape in self.tree.nearest_traverse_iterator(&walked, &self.shapes) {
-                    if entry(&walked, &shape.bounds).is_some_and(|entry| entry > limit(nearest.t)) {
+                for shape in self.tree.nearest_traverse_iterator(walked, &self.shapes) {
+                    if entry(walked, &shape.bounds).is_some_and(|entry| entry > limit(nearest.t)) {
                         break;
                     }
                     observer.test(1);
-                    self.leaves.test(shape.index as usize, &prepared, t_min, &mut nearest);
+                    self.leaves.test(shape.index as usize, start, &mut nearest);
                 }
             }
         }
         nearest.hit()
     }
 
-    fn any<O: Observer>(&self, ray: &Ray, observer: &mut O) -> bool {
-        let Some((prepared, t_min, mut nearest)) = start::<T>(ray) else { return false };
-        let walked = prepare(ray);
-        let query = Pruned { ray: &walked, limit: Cell::new(nearest.t * ray.direction.length() * SLACK) };
+    #[inline]
+    fn any<O: Observer>(&self, ready: &Ready<T>, observer: &mut O) -> bool {
+        let Ready { walked, length, start } = ready;
+        let mut nearest = start.nearest();
+        let query = Pruned { ray: walked, limit: Cell::new(nearest.t * length * SLACK) };
         self.tree.traverse_iterator(&query, &self.shapes).any(|shape| {
             observer.test(1);
-            self.leaves.test(shape.index as usize, &prepared, t_min, &mut nearest);
+            self.leaves.test(shape.index as usize, start, &mut nearest);
             nearest.found()
         })
     }
@@ -171,12 +188,16 @@ impl<T: TriangleTest> Accel for SvenstaroBvh<T> {
 
     #[inline]
     fn closest_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit> {
-        self.closest(ray, observer)
+        self.closest(&self.ready(ray)?, observer)
     }
 
     #[inline]
     fn any_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> bool {
-        self.any(ray, observer)
+        self.ready(ray).is_some_and(|ready| self.any(&ready, observer))
+    }
+
+    fn load<'a>(&'a self, rays: Cow<'a, [Ray]>) -> Box<dyn Loaded + 'a> {
+        Box::new(Prepared::new(self, &rays))
     }
 
     fn footprint(&self) -> Footprint {

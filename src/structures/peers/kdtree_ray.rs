@@ -5,6 +5,7 @@
 //! stops at the first triangle that is hit. It computes its inverse direction itself, inside of the timed region. Its builder
 //! starts a pool of all processors, whatever the caller wants, and panics on an empty scene.
 
+use std::borrow::Cow;
 use std::fmt::{self, Write};
 use std::sync::{Arc, OnceLock};
 
@@ -13,10 +14,10 @@ use cgmath::Vector3;
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
-use super::leaves::Leaves;
-use crate::accel::{Accel, BuildError, Footprint, Observed, Observer, TreeShape};
+use super::leaves::{Leaves, Start};
+use crate::accel::{Accel, BuildError, Footprint, Loaded, Observed, Observer, TreeShape};
 use crate::geometry::{Hit, Mesh, Ray};
-use crate::structures::leaf::start;
+use crate::structures::prepared::{Prepare, Prepared};
 use crate::triangle::TriangleTest;
 
 /// The KD-tree of the crate `kdtree-ray` over the triangle test `T`.
@@ -78,18 +79,46 @@ fn vector(v: Vec3) -> Vector3<f32> {
     Vector3::new(v.x, v.y, v.z)
 }
 
+/// A ray as the crate and the triangle test want it.
+pub(crate) struct Ready<T: TriangleTest> {
+    origin: Vector3<f32>,
+    direction: Vector3<f32>,
+    start: Start<T>,
+}
+
 impl<T: TriangleTest> KdTreeRay<T> {
-    fn query<const ANY: bool, O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit> {
-        let (prepared, t_min, mut nearest) = start::<T>(ray)?;
-        let tree = self.tree.as_ref()?;
-        for index in tree.intersect(&vector(ray.origin), &vector(ray.direction)) {
+    #[inline]
+    fn query<const ANY: bool, O: Observer>(&self, ready: &Ready<T>, observer: &mut O) -> Option<Hit> {
+        let Ready { origin, direction, start } = ready;
+        let mut nearest = start.nearest();
+        for index in self.tree.as_ref()?.intersect(origin, direction) {
             observer.test(1);
-            self.leaves.test(index, &prepared, t_min, &mut nearest);
+            self.leaves.test(index, start, &mut nearest);
             if ANY && nearest.found() {
                 break;
             }
         }
         nearest.hit()
+    }
+}
+
+impl<T: TriangleTest> Prepare for KdTreeRay<T> {
+    type Ready = Ready<T>;
+
+    #[inline(always)]
+    fn ready(&self, ray: &Ray) -> Option<Ready<T>> {
+        let start = Start::new(ray)?;
+        Some(Ready { origin: vector(ray.origin), direction: vector(ray.direction), start })
+    }
+
+    #[inline]
+    fn closest<O: Observer>(&self, ready: &Ready<T>, observer: &mut O) -> Option<Hit> {
+        self.query::<false, O>(ready, observer)
+    }
+
+    #[inline]
+    fn any<O: Observer>(&self, ready: &Ready<T>, observer: &mut O) -> bool {
+        self.query::<true, O>(ready, observer).is_some()
     }
 }
 
@@ -113,12 +142,16 @@ impl<T: TriangleTest> Accel for KdTreeRay<T> {
 
     #[inline]
     fn closest_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit> {
-        self.query::<false, O>(ray, observer)
+        self.closest(&self.ready(ray)?, observer)
     }
 
     #[inline]
     fn any_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> bool {
-        self.query::<true, O>(ray, observer).is_some()
+        self.ready(ray).is_some_and(|ready| self.any(&ready, observer))
+    }
+
+    fn load<'a>(&'a self, rays: Cow<'a, [Ray]>) -> Box<dyn Loaded + 'a> {
+        Box::new(Prepared::new(self, &rays))
     }
 
     /// Nodes by the layout of the crate's enum, which it does not export.

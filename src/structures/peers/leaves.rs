@@ -1,7 +1,7 @@
 use glam::Vec3;
 
-use crate::geometry::{Aabb, Mesh};
-use crate::structures::leaf::Nearest;
+use crate::geometry::{Aabb, Mesh, Ray};
+use crate::structures::leaf::{Nearest, start};
 use crate::triangle::TriangleTest;
 
 /// The triangles with an area, in the order of the mesh, ready for the test `T`: what a peer that knows boxes alone leaves
@@ -10,6 +10,28 @@ pub(super) struct Leaves<T: TriangleTest> {
     triangles: Vec<T::Block<1>>,
     /// The triangle of the mesh for each of them.
     ids: Vec<u32>,
+}
+
+/// What the triangle test wants of a ray.
+pub(super) struct Start<T: TriangleTest> {
+    pub ray: T::Ray,
+    pub t_min: f32,
+    /// A hit must lie at or before this `t`.
+    last: f32,
+}
+
+impl<T: TriangleTest> Start<T> {
+    /// Nothing if the ray can hit nothing.
+    #[inline(always)]
+    pub fn new(ray: &Ray) -> Option<Self> {
+        start::<T>(ray).map(|(ray, t_min, nearest)| Self { ray, t_min, last: nearest.t })
+    }
+
+    /// Nothing found yet.
+    #[inline(always)]
+    pub fn nearest(&self) -> Nearest<T::Depth> {
+        Nearest::until(self.last)
+    }
 }
 
 impl<T: TriangleTest> Leaves<T> {
@@ -34,8 +56,8 @@ impl<T: TriangleTest> Leaves<T> {
 
     /// Tests triangle `index`, and keeps its hit if it is the nearest so far.
     #[inline(always)]
-    pub fn test(&self, index: usize, ray: &T::Ray, t_min: f32, nearest: &mut Nearest<T::Depth>) {
-        if let Some(depth) = T::hit(ray, &self.triangles[index], t_min, nearest.t) {
+    pub fn test(&self, index: usize, start: &Start<T>, nearest: &mut Nearest<T::Depth>) {
+        if let Some(depth) = T::hit(&start.ray, &self.triangles[index], start.t_min, nearest.t) {
             nearest.offer(depth, self.ids[index]);
         }
     }

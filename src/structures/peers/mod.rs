@@ -1,9 +1,9 @@
 //! Structures of other projects, each behind a feature of its own (`peer-*`, or `peers` for all), adapted without handicap.
 //!
-//! - **Rays** are converted one by one inside of the timed region, as those of obvhs and ours are prepared there: what a
-//!   structure needs of a ray beyond origin, direction and interval is part of its cost, for all alike. Every adapter fills its
-//!   peer's ray on the stack and nothing else: some 5 ns a ray for Embree's 96 bytes, as much for a unit direction and its
-//!   inverse, where a ray of the hard scenes takes 60 ns and more.
+//! - **Rays** are brought into the peer's form once, before the clock starts ([`Accel::load`](crate::accel::Accel::load)), and so
+//!   are those of obvhs: its own ray with unit or inverse direction where it has one, and what the triangle test wants. Inside
+//!   of the timed region remain what a library computes in its own walk, and a copy to the stack where it writes into the ray.
+//!   The structures of this crate take a ray as it comes and prepare it inside: the handicap is ours.
 //! - **Triangle tests**: the peer's own, wrapped as a test of ours where its API hands it out alone, so that brute force over
 //!   it can be the reference; and ours where the peer takes a closure.
 //! - **Triangles without area** are left out, as for all structures; an empty scene is answered without asking the peer.

@@ -1,10 +1,11 @@
 //! [parry](https://github.com/dimforge/parry) 0.31 (crate `parry3d`): a binary BVH, one triangle a leaf, two children a node.
 //!
 //! Its tree takes the test of a leaf as a closure, and walks from near to far with early termination. The closure honours
-//! `t_min`, which parry's own mesh shape does not know; nothing is culled. The ray is two vectors, copied; its inverse
-//! direction the crate computes itself, inside of the timed region. It has no query that stops at the first hit: any hit
+//! `t_min`, which parry's own mesh shape does not know; nothing is culled. The ray is two vectors; its inverse direction
+//! the crate computes itself, inside of the timed region: it takes none. It has no query that stops at the first hit: any hit
 //! reports its first hit at minus infinity, so that no box remains in front of it.
 
+use std::borrow::Cow;
 use std::cell::Cell;
 use std::sync::Arc;
 
@@ -16,11 +17,11 @@ use ::parry3d::query::details::local_ray_intersection_with_triangle;
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
-use super::leaves::Leaves;
-use crate::accel::{Accel, BuildError, Footprint, Observed, Observer, TreeShape};
+use super::leaves::{Leaves, Start};
+use crate::accel::{Accel, BuildError, Footprint, Loaded, Observed, Observer, TreeShape};
 use crate::geometry::{Hit, Mesh, Ray};
 use crate::simd::Lanes;
-use crate::structures::leaf::start;
+use crate::structures::prepared::{Prepare, Prepared};
 use crate::triangle::TriangleTest;
 
 /// The BVH of parry over the triangle test `T`.
@@ -52,24 +53,52 @@ fn vector(v: Vec3) -> Vector {
     Vector::new(v.x, v.y, v.z)
 }
 
+/// A ray as the crate and the triangle test want it.
+pub(crate) struct Ready<T: TriangleTest> {
+    walked: PreparedRay,
+    t_max: f32,
+    start: Start<T>,
+}
+
 impl<T: TriangleTest> ParryBvh<T> {
-    fn query<const ANY: bool, O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit> {
-        let (prepared, t_min, nearest) = start::<T>(ray)?;
-        let walked = PreparedRay::new(vector(ray.origin), vector(ray.direction));
+    #[inline]
+    fn query<const ANY: bool, O: Observer>(&self, ready: &Ready<T>, observer: &mut O) -> Option<Hit> {
+        let Ready { walked, t_max, start } = ready;
         // The closure may not change what it captures.
-        let (nearest, tests) = (Cell::new(nearest), Cell::new(0));
-        self.tree.cast_ray(&walked, ray.interval().1, |leaf, _| {
+        let (nearest, tests) = (Cell::new(start.nearest()), Cell::new(0));
+        self.tree.cast_ray(walked, *t_max, |leaf, _| {
             let mut best = nearest.get();
             if ANY && best.found() {
                 return None;
             }
             tests.set(tests.get() + 1);
-            self.leaves.test(leaf as usize, &prepared, t_min, &mut best);
+            self.leaves.test(leaf as usize, start, &mut best);
             nearest.set(best);
             best.found().then_some(if ANY { f32::NEG_INFINITY } else { best.t })
         });
         observer.test(tests.get());
         nearest.get().hit()
+    }
+}
+
+impl<T: TriangleTest> Prepare for ParryBvh<T> {
+    type Ready = Ready<T>;
+
+    #[inline(always)]
+    fn ready(&self, ray: &Ray) -> Option<Ready<T>> {
+        let start = Start::new(ray)?;
+        let walked = PreparedRay::new(vector(ray.origin), vector(ray.direction));
+        Some(Ready { walked, t_max: ray.interval().1, start })
+    }
+
+    #[inline]
+    fn closest<O: Observer>(&self, ready: &Ready<T>, observer: &mut O) -> Option<Hit> {
+        self.query::<false, O>(ready, observer)
+    }
+
+    #[inline]
+    fn any<O: Observer>(&self, ready: &Ready<T>, observer: &mut O) -> bool {
+        self.query::<true, O>(ready, observer).is_some()
     }
 }
 
@@ -94,12 +123,16 @@ impl<T: TriangleTest> Accel for ParryBvh<T> {
 
     #[inline]
     fn closest_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit> {
-        self.query::<false, O>(ray, observer)
+        self.closest(&self.ready(ray)?, observer)
     }
 
     #[inline]
     fn any_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> bool {
-        self.query::<true, O>(ray, observer).is_some()
+        self.ready(ray).is_some_and(|ready| self.any(&ready, observer))
+    }
+
+    fn load<'a>(&'a self, rays: Cow<'a, [Ray]>) -> Box<dyn Loaded + 'a> {
+        Box::new(Prepared::new(self, &rays))
     }
 
     /// Nodes with the tables that parry keeps for moving objects.

@@ -2,21 +2,24 @@
 //! (`BVH8_CPU`), which is its fastest layout on a processor with AVX2.
 //!
 //! A C++ compiler builds it, for the instructions of this machine. The crate hands out its closest hit alone: any hit is a
-//! closest hit. Its ray (unit direction, inverse) is made inside of the timed region, and not by the crate's constructor: that
-//! of `tinybvh-rs` 0.1.0-beta.3 clears the 128 bytes of the ray in C++ in the 64 bytes of its own, and so the caller's stack.
-//! Triangles are copied as corners of 16 bytes, as it wants them; large scenes it builds on threads of its own.
+//! closest hit. Its ray (unit direction, inverse) is made before the clock starts, and copied to the stack to be asked, because the
+//! hit is written into it. It is not made by the crate's constructor: that of `tinybvh-rs` 0.1.0-beta.3 clears the 128 bytes of
+//! the ray in C++ in the 64 bytes of its own, and so the caller's stack. Triangles are copied as corners of 16 bytes, as it
+//! wants them; large scenes it builds on threads of its own.
 //!
 //! # References
 //! Fuetterling, Lojewski, Pfreundt, Ebert: Accelerated single ray tracing for wide vector units. HPG 2017.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 use tinybvh_rs::{Intersection, Positions, Ray as PreparedRay, bvh, bvh8_cpu, mbvh};
 
-use crate::accel::{Accel, BuildError, Footprint, Observed, Observer, TreeShape};
+use crate::accel::{Accel, BuildError, Footprint, Loaded, Observed, Observer, TreeShape};
 use crate::geometry::{Hit, Mesh, Ray};
+use crate::structures::prepared::{Prepare, Prepared};
 
 /// The 8-wide BVH of tinybvh.
 pub struct TinyBvh {
@@ -79,9 +82,34 @@ fn inverse(x: f32) -> f32 {
     if x.abs() > 1e-12 { 1.0 / x } else { FAR.copysign(if x >= 0.0 { 1.0 } else { -1.0 }) }
 }
 
+/// A ray as tinybvh wants it, and what gives `t` back.
+pub(crate) struct Ready {
+    ray: PreparedRay,
+    /// Of the direction.
+    length: f32,
+    t_min: f32,
+}
+
 impl TinyBvh {
-    fn query(&self, ray: &Ray) -> Option<Hit> {
-        let tree = self.tree.as_ref().filter(|_| ray.is_valid())?;
+    /// The hit lies in the ray: the prepared one stays as it was.
+    #[inline]
+    fn query(&self, ready: &Ready) -> Option<Hit> {
+        let tree = self.tree.as_ref()?;
+        let mut padded = PaddedRay { ray: ready.ray, rest: [0; 8] };
+        intersect(&tree.0, &mut padded);
+        let hit = padded.ray.hit;
+        (hit.t < ready.ray.hit.t).then(|| Hit::new(hit.t / ready.length + ready.t_min, self.ids[hit.prim as usize]))
+    }
+}
+
+impl Prepare for TinyBvh {
+    type Ready = Ready;
+
+    #[inline]
+    fn ready(&self, ray: &Ray) -> Option<Ready> {
+        if !ray.is_valid() {
+            return None;
+        }
         let (t_min, t_max) = ray.interval();
         let length = ray.direction.length();
         // It knows no beginning: the ray starts where its interval does.
@@ -95,7 +123,7 @@ impl TinyBvh {
         if checked.is_nan() || !unit.is_finite() || !(origin * inverse).is_finite() {
             return None;
         }
-        let prepared = PreparedRay {
+        let ray = PreparedRay {
             origin: origin.to_array(),
             padding_0: EVERYTHING,
             dir: unit.to_array(),
@@ -103,10 +131,17 @@ impl TinyBvh {
             hit: Intersection { t: end, ..Intersection::default() },
             ..PreparedRay::default()
         };
-        let mut padded = PaddedRay { ray: prepared, rest: [0; 8] };
-        intersect(&tree.0, &mut padded);
-        let hit = padded.ray.hit;
-        (hit.t < end).then(|| Hit::new(hit.t / length + t_min, self.ids[hit.prim as usize]))
+        Some(Ready { ray, length, t_min })
+    }
+
+    #[inline]
+    fn closest<O: Observer>(&self, ready: &Ready, _: &mut O) -> Option<Hit> {
+        self.query(ready)
+    }
+
+    #[inline]
+    fn any<O: Observer>(&self, ready: &Ready, _: &mut O) -> bool {
+        self.query(ready).is_some()
     }
 }
 
@@ -197,12 +232,16 @@ impl Accel for TinyBvh {
 
     #[inline]
     fn closest_hit<O: Observer>(&self, ray: &Ray, _: &mut O) -> Option<Hit> {
-        self.query(ray)
+        self.query(&self.ready(ray)?)
     }
 
     #[inline]
     fn any_hit<O: Observer>(&self, ray: &Ray, _: &mut O) -> bool {
-        self.query(ray).is_some()
+        self.ready(ray).is_some_and(|ready| self.query(&ready).is_some())
+    }
+
+    fn load<'a>(&'a self, rays: Cow<'a, [Ray]>) -> Box<dyn Loaded + 'a> {
+        Box::new(Prepared::new(self, &rays))
     }
 
     /// By the sizes of its nodes and of its leaves, which hold the triangles.

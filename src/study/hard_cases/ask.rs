@@ -1,9 +1,11 @@
 //! Puts a case to a structure, and carries the answers from one process to another.
 
+use std::borrow::Cow;
+
 use serde::{Deserialize, Serialize};
 
 use super::{Case, Content, Property, Set};
-use crate::accel::{BuildError, DynAccel};
+use crate::accel::{BuildError, DynAccel, Loaded};
 use crate::geometry::{Hit, Ray};
 use crate::measure::{Clock, median};
 use crate::registry::Choice;
@@ -111,14 +113,16 @@ fn slowness(accel: &dyn DynAccel, set: &Set, clock: &dyn Clock) -> Option<f64> {
         return None;
     }
     let mut hits = vec![None; set.rays.len().max(set.ordinary.len())];
-    let mut ns_per_ray = |rays: &[Ray]| {
+    let mut ns_per_ray = |loaded: &dyn Loaded, rays: usize| {
         let start = clock.now_ns();
-        accel.closest_hits(rays, &mut hits[..rays.len()]);
-        (clock.now_ns() - start) as f64 / rays.len() as f64
+        loaded.closest_hits(&mut hits[..rays]);
+        (clock.now_ns() - start) as f64 / rays as f64
     };
+    let own = accel.load(Cow::Borrowed(&set.rays));
+    let ordinary = accel.load(Cow::Borrowed(&set.ordinary));
     let ratios: Vec<f64> = (0..PASSES)
         .filter_map(|_| {
-            let (own, ordinary) = (ns_per_ray(&set.rays), ns_per_ray(&set.ordinary));
+            let (own, ordinary) = (ns_per_ray(&*own, set.rays.len()), ns_per_ray(&*ordinary, set.ordinary.len()));
             (ordinary > 0.0).then_some(own / ordinary)
         })
         .collect();

@@ -1,5 +1,6 @@
 //! What can be checked of a structure without knowing the right answers.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -8,12 +9,14 @@ use crate::accel::{Counts, DynAccel};
 use crate::geometry::{Hit, Ray};
 use crate::validate::{Ended, Stratum, watched};
 
-/// Answers with and without counting.
+/// Answers with and without counting, and to loaded rays.
 struct Asked {
     plain: Vec<Option<Hit>>,
+    loaded: Vec<Option<Hit>>,
     counted: Vec<Option<Hit>>,
     counts: Counts,
     any: Vec<bool>,
+    any_loaded: Vec<bool>,
     any_counted: Vec<bool>,
     any_counts: Counts,
 }
@@ -23,20 +26,27 @@ fn ask(accel: &Arc<dyn DynAccel>, rays: &[Ray], limit: Duration) -> Result<Asked
     let (accel, rays) = (Arc::clone(accel), rays.to_vec());
     watched(limit, move || {
         let (none, no) = (vec![None; rays.len()], vec![false; rays.len()]);
-        let (mut plain, mut counted, mut any, mut any_counted) = (none.clone(), none, no.clone(), no);
+        let (mut plain, mut loaded, mut counted) = (none.clone(), none.clone(), none);
+        let (mut any, mut any_loaded, mut any_counted) = (no.clone(), no.clone(), no);
         let (mut counts, mut any_counts) = (Counts::default(), Counts::default());
+        let kept = accel.load(Cow::Borrowed(&rays));
         accel.closest_hits(&rays, &mut plain);
+        kept.closest_hits(&mut loaded);
         accel.closest_hits_counted(&rays, &mut counted, &mut counts);
         if accel.capabilities().any_hit {
             accel.any_hits(&rays, &mut any);
+            kept.any_hits(&mut any_loaded);
+            // Asked again after both: what is loaded stays as it is.
+            kept.closest_hits(&mut loaded);
             accel.any_hits_counted(&rays, &mut any_counted, &mut any_counts);
         }
-        Asked { plain, counted, counts, any, any_counted, any_counts }
+        drop(kept);
+        Asked { plain, loaded, counted, counts, any, any_loaded, any_counted, any_counts }
     })
 }
 
 /// Watching changes nothing: with counts, the hits are the same, at the same primitive where the lowest is promised; what is
-/// declared unobserved stays zero.
+/// declared unobserved stays zero. Nor does loading: such rays are answered bit for bit as others are.
 ///
 /// # Errors
 /// One line for each mesh that fails.
@@ -66,6 +76,13 @@ pub fn counting(subject: &Subject, meshes: &[Named], count: usize) -> Result<(),
             let differ = differ.or_else(|| asked.any.iter().zip(&asked.any_counted).position(|(a, b)| a != b));
             if let Some(i) = differ {
                 lines.push(format!("{place}: counting changes the answer of ray \"{}\"", rays[i]));
+            }
+
+            let bits = |hit: Option<Hit>| hit.map(|h| (h.t.to_bits(), h.prim));
+            let differ = asked.plain.iter().zip(&asked.loaded).position(|(a, b)| bits(*a) != bits(*b));
+            let differ = differ.or_else(|| asked.any.iter().zip(&asked.any_loaded).position(|(a, b)| a != b));
+            if let Some(i) = differ {
+                lines.push(format!("{place}: loading changes the answer of ray \"{}\"", rays[i]));
             }
 
             let hit = asked.plain.iter().any(Option::is_some);

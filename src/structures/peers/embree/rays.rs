@@ -1,18 +1,20 @@
 //! Rays as Embree takes them, one or sixteen.
+//!
+//! A query reads the ray and writes its end and the hit behind it: a ray that is kept is copied to be asked.
 
-use std::ffi::{c_int, c_void};
+use std::ffi::c_int;
 
-use super::api::{Arguments, Handle};
+use super::api::Arguments;
 use super::device::Scene;
 use crate::geometry::Ray;
 
 /// Stands for no geometry and no primitive.
 const NONE: u32 = u32::MAX;
 
-/// `RTCRayHit`, with room for what later versions of Embree 4 add to its hit.
+/// `RTCRay`.
 #[repr(C, align(16))]
 #[derive(Clone, Copy)]
-struct Single {
+pub struct Single {
     origin: [f32; 3],
     t_near: f32,
     direction: [f32; 3],
@@ -21,6 +23,12 @@ struct Single {
     mask: u32,
     id: u32,
     flags: u32,
+}
+
+/// `RTCRayHit`, with room for what later versions of Embree 4 add to its hit.
+#[repr(C, align(16))]
+struct AskedSingle {
+    ray: Single,
     normal: [f32; 3],
     barycentrics: [f32; 2],
     primitive: u32,
@@ -29,11 +37,12 @@ struct Single {
     reserve: [u32; 3],
 }
 
-const _: () = assert!(size_of::<Single>() == 96);
+const _: () = assert!(size_of::<Single>() == 48 && size_of::<AskedSingle>() == 96);
 
-/// `RTCRayHit16`, with the same room.
+/// `RTCRay16`.
 #[repr(C, align(64))]
-struct Packet {
+#[derive(Clone, Copy)]
+struct Sixteen {
     origin: [[f32; LANES]; 3],
     t_near: [f32; LANES],
     direction: [[f32; LANES]; 3],
@@ -42,6 +51,12 @@ struct Packet {
     mask: [u32; LANES],
     id: [u32; LANES],
     flags: [u32; LANES],
+}
+
+/// `RTCRayHit16`, with the same room.
+#[repr(C, align(64))]
+struct AskedSixteen {
+    rays: Sixteen,
     normal: [[f32; LANES]; 3],
     barycentrics: [[f32; LANES]; 2],
     primitive: [u32; LANES],
@@ -49,12 +64,18 @@ struct Packet {
     instances: [[u32; LANES]; 2],
 }
 
+const _: () = assert!(size_of::<Sixteen>() == 768 && size_of::<AskedSixteen>() == 1344);
+
 /// Rays of a packet.
 pub const LANES: usize = 16;
 
-/// Which lanes of a packet are asked: -1 for those.
+/// At most [`LANES`] rays; those that are not valid are not asked.
 #[repr(C, align(64))]
-struct Valid([c_int; LANES]);
+pub struct Packet {
+    /// -1 for the lanes that are asked.
+    valid: [c_int; LANES],
+    rays: Sixteen,
+}
 
 /// The last `t` that a ray which ends before `t_max` may have: Embree's end is closed.
 #[inline(always)]
@@ -62,96 +83,104 @@ fn last(t_max: f32) -> f32 {
     if t_max == f32::INFINITY { t_max } else { t_max.next_down() }
 }
 
-#[inline(always)]
-fn single(ray: &Ray) -> Single {
-    let (t_min, t_max) = ray.interval();
-    Single {
-        origin: ray.origin.to_array(),
-        t_near: t_min,
-        direction: ray.direction.to_array(),
-        time: 0.0,
-        t_far: last(t_max),
-        mask: u32::MAX,
-        id: 0,
-        flags: 0,
-        normal: [0.0; 3],
-        barycentrics: [0.0; 2],
-        primitive: NONE,
-        geometry: NONE,
-        instances: [NONE; 2],
-        reserve: [0; 3],
-    }
-}
-
-/// `t` and the number of the triangle that a valid ray hits first.
-#[inline]
-pub fn closest(scene: &Scene, ray: &Ray, arguments: &Arguments) -> Option<(f32, u32)> {
-    let mut single = single(ray);
-    // SAFETY: the scene is committed; the ray is aligned and as large as any Embree 4 writes.
-    unsafe { (scene.api().intersect1)(scene.handle(), (&raw mut single).cast(), arguments) };
-    (single.geometry != NONE).then_some((single.t_far, single.primitive))
-}
-
-/// Whether a valid ray hits anything.
-#[inline]
-pub fn any(scene: &Scene, ray: &Ray, arguments: &Arguments) -> bool {
-    let mut single = single(ray);
-    // SAFETY: as above; the query reads and writes the part before the hit.
-    unsafe { (scene.api().occluded1)(scene.handle(), (&raw mut single).cast(), arguments) };
-    single.t_far == f32::NEG_INFINITY
-}
-
-/// Asks at most [`LANES`] rays at once; those that are not valid are left out.
-fn ask(
-    scene: &Scene,
-    rays: &[Ray],
-    arguments: &Arguments,
-    query: unsafe extern "C" fn(*const c_int, Handle, *mut c_void, *const Arguments),
-) -> Packet {
-    let mut valid = Valid([0; LANES]);
-    let mut packet = Packet {
-        origin: [[0.0; LANES]; 3],
-        t_near: [0.0; LANES],
-        direction: [[0.0; LANES]; 3],
-        time: [0.0; LANES],
-        t_far: [0.0; LANES],
-        mask: [u32::MAX; LANES],
-        id: [0; LANES],
-        flags: [0; LANES],
-        normal: [[0.0; LANES]; 3],
-        barycentrics: [[0.0; LANES]; 2],
-        primitive: [NONE; LANES],
-        geometry: [NONE; LANES],
-        instances: [[NONE; LANES]; 2],
-    };
-    for (lane, ray) in rays.iter().enumerate().filter(|(_, ray)| ray.is_valid()) {
+impl Single {
+    /// Nothing if the ray is not valid.
+    #[inline(always)]
+    pub fn new(ray: &Ray) -> Option<Self> {
         let (t_min, t_max) = ray.interval();
-        for axis in 0..3 {
-            packet.origin[axis][lane] = ray.origin[axis];
-            packet.direction[axis][lane] = ray.direction[axis];
-        }
-        packet.t_near[lane] = t_min;
-        packet.t_far[lane] = last(t_max);
-        valid.0[lane] = -1;
+        ray.is_valid().then(|| Self {
+            origin: ray.origin.to_array(),
+            t_near: t_min,
+            direction: ray.direction.to_array(),
+            time: 0.0,
+            t_far: last(t_max),
+            mask: u32::MAX,
+            id: 0,
+            flags: 0,
+        })
     }
-    // SAFETY: the scene is committed; mask and packet are aligned and as large as any Embree 4 reads and writes.
-    unsafe { query(valid.0.as_ptr(), scene.handle(), (&raw mut packet).cast(), arguments) };
-    packet
+
+    /// `t` and the number of the triangle that the ray hits first.
+    #[inline(always)]
+    pub fn closest(&self, scene: &Scene, arguments: &Arguments) -> Option<(f32, u32)> {
+        let mut asked = AskedSingle {
+            ray: *self,
+            normal: [0.0; 3],
+            barycentrics: [0.0; 2],
+            primitive: NONE,
+            geometry: NONE,
+            instances: [NONE; 2],
+            reserve: [0; 3],
+        };
+        // SAFETY: the scene is committed; the ray is aligned and as large as any Embree 4 writes.
+        unsafe { (scene.api().intersect1)(scene.handle(), (&raw mut asked).cast(), arguments) };
+        (asked.geometry != NONE).then_some((asked.ray.t_far, asked.primitive))
+    }
+
+    /// Whether the ray hits anything.
+    #[inline(always)]
+    pub fn any(&self, scene: &Scene, arguments: &Arguments) -> bool {
+        let mut asked = *self;
+        // SAFETY: as above; this query has no hit.
+        unsafe { (scene.api().occluded1)(scene.handle(), (&raw mut asked).cast(), arguments) };
+        asked.t_far == f32::NEG_INFINITY
+    }
 }
 
-/// As [`closest`], for at most [`LANES`] rays.
-pub fn closest_of_packet(
-    scene: &Scene,
-    rays: &[Ray],
-    arguments: &Arguments,
-) -> impl Iterator<Item = Option<(f32, u32)>> + use<> {
-    let packet = ask(scene, rays, arguments, scene.api().intersect16);
-    let lanes = 0..rays.len();
-    lanes.map(move |lane| (packet.geometry[lane] != NONE).then_some((packet.t_far[lane], packet.primitive[lane])))
-}
+impl Packet {
+    /// # Panics
+    /// If there are more than [`LANES`] rays.
+    pub fn new(rays: &[Ray]) -> Self {
+        assert!(rays.len() <= LANES, "a packet has {LANES} lanes");
+        let mut valid = [0; LANES];
+        let mut packet = Sixteen {
+            origin: [[0.0; LANES]; 3],
+            t_near: [0.0; LANES],
+            direction: [[0.0; LANES]; 3],
+            time: [0.0; LANES],
+            t_far: [0.0; LANES],
+            mask: [u32::MAX; LANES],
+            id: [0; LANES],
+            flags: [0; LANES],
+        };
+        for (lane, ray) in rays.iter().enumerate().filter(|(_, ray)| ray.is_valid()) {
+            let (t_min, t_max) = ray.interval();
+            for axis in 0..3 {
+                packet.origin[axis][lane] = ray.origin[axis];
+                packet.direction[axis][lane] = ray.direction[axis];
+            }
+            packet.t_near[lane] = t_min;
+            packet.t_far[lane] = last(t_max);
+            valid[lane] = -1;
+        }
+        Self { valid, rays: packet }
+    }
 
-/// As [`any`], for at most [`LANES`] rays.
-pub fn any_of_packet(scene: &Scene, rays: &[Ray], arguments: &Arguments) -> impl Iterator<Item = bool> + use<> {
-    let packet = ask(scene, rays, arguments, scene.api().occluded16);
-    (0..rays.len()).map(move |lane| packet.t_far[lane] == f32::NEG_INFINITY)
+    /// As [`Single::closest`], lane by lane.
+    #[inline]
+    pub fn closest(&self, scene: &Scene, arguments: &Arguments) -> impl Iterator<Item = Option<(f32, u32)>> + use<> {
+        let mut asked = AskedSixteen {
+            rays: self.rays,
+            normal: [[0.0; LANES]; 3],
+            barycentrics: [[0.0; LANES]; 2],
+            primitive: [NONE; LANES],
+            geometry: [NONE; LANES],
+            instances: [[NONE; LANES]; 2],
+        };
+        let (query, valid) = (scene.api().intersect16, self.valid.as_ptr());
+        // SAFETY: the scene is committed; mask and packet are aligned and as large as any Embree 4 reads and writes.
+        unsafe { query(valid, scene.handle(), (&raw mut asked).cast(), arguments) };
+        let (geometry, t, primitive) = (asked.geometry, asked.rays.t_far, asked.primitive);
+        (0..LANES).map(move |lane| (geometry[lane] != NONE).then_some((t[lane], primitive[lane])))
+    }
+
+    /// As [`Single::any`], lane by lane.
+    #[inline]
+    pub fn any(&self, scene: &Scene, arguments: &Arguments) -> impl Iterator<Item = bool> + use<> {
+        let mut asked = self.rays;
+        let (query, valid) = (scene.api().occluded16, self.valid.as_ptr());
+        // SAFETY: as above; this query has no hit.
+        unsafe { query(valid, scene.handle(), (&raw mut asked).cast(), arguments) };
+        asked.t_far.into_iter().map(|t| t == f32::NEG_INFINITY)
+    }
 }

@@ -1,0 +1,38 @@
+use std::borrow::Cow;
+
+use super::DynAccel;
+use crate::geometry::{Hit, Ray};
+
+/// A batch of rays that a structure has taken ([`Accel::load`](super::Accel::load)), to be answered as often as one likes:
+/// what is timed.
+///
+/// Every time the answers are those of the structure's own queries to the same rays, bit for bit.
+pub trait Loaded: Send + Sync {
+    /// The nearest hits of the rays.
+    ///
+    /// # Panics
+    /// If there are not as many slots as rays.
+    fn closest_hits(&self, hits: &mut [Option<Hit>]);
+
+    /// For each ray, whether it hits anything.
+    ///
+    /// # Panics
+    /// If there are not as many slots as rays.
+    fn any_hits(&self, hits: &mut [bool]);
+}
+
+/// Rays as they are: the structure prepares them each time it is asked.
+pub(super) struct AsTheyAre<'a, A: ?Sized> {
+    pub accel: &'a A,
+    pub rays: Cow<'a, [Ray]>,
+}
+
+impl<A: DynAccel + ?Sized> Loaded for AsTheyAre<'_, A> {
+    fn closest_hits(&self, hits: &mut [Option<Hit>]) {
+        self.accel.closest_hits(&self.rays, hits);
+    }
+
+    fn any_hits(&self, hits: &mut [bool]) {
+        self.accel.any_hits(&self.rays, hits);
+    }
+}

@@ -1,0 +1,45 @@
+//! Rays in the form of a structure that takes them one by one.
+
+use crate::accel::{Accel, Loaded, Observer};
+use crate::geometry::{Hit, Ray};
+
+/// A structure of others, which wants a ray in a form of its own before it is asked.
+pub(crate) trait Prepare: Accel {
+    /// All that can be known of a ray without the tree.
+    type Ready: Send + Sync;
+
+    /// The ray in that form; nothing if it can hit nothing.
+    fn ready(&self, ray: &Ray) -> Option<Self::Ready>;
+
+    fn closest<O: Observer>(&self, ready: &Self::Ready, observer: &mut O) -> Option<Hit>;
+
+    fn any<O: Observer>(&self, ready: &Self::Ready, observer: &mut O) -> bool;
+}
+
+/// A batch of such rays.
+pub(crate) struct Prepared<'a, S: Prepare> {
+    structure: &'a S,
+    rays: Vec<Option<S::Ready>>,
+}
+
+impl<'a, S: Prepare> Prepared<'a, S> {
+    pub fn new(structure: &'a S, rays: &[Ray]) -> Self {
+        Self { structure, rays: rays.iter().map(|ray| structure.ready(ray)).collect() }
+    }
+}
+
+impl<S: Prepare> Loaded for Prepared<'_, S> {
+    fn closest_hits(&self, hits: &mut [Option<Hit>]) {
+        assert_eq!(self.rays.len(), hits.len(), "one answer a ray");
+        for (ray, hit) in self.rays.iter().zip(hits) {
+            *hit = ray.as_ref().and_then(|ray| self.structure.closest(ray, &mut ()));
+        }
+    }
+
+    fn any_hits(&self, hits: &mut [bool]) {
+        assert_eq!(self.rays.len(), hits.len(), "one answer a ray");
+        for (ray, hit) in self.rays.iter().zip(hits) {
+            *hit = ray.as_ref().is_some_and(|ray| self.structure.any(ray, &mut ()));
+        }
+    }
+}
