@@ -20,6 +20,8 @@ pub struct OutputFile {
 pub enum OutputError {
     #[error("cannot write {}: it is a directory: name a file in it", .0.display())]
     Directory(PathBuf),
+    #[error("cannot write {}: it is one of the files to read: name another one", .0.display())]
+    Input(PathBuf),
     #[error("cannot write {}: {cause}: choose a place that exists, may be written and has room", path.display())]
     Write { path: PathBuf, cause: io::Error },
 }
@@ -37,6 +39,16 @@ impl OutputFile {
             _ => drop(file.beside().map_err(|cause| file.error(cause))?),
         }
         Ok(file)
+    }
+
+    /// The same, if it is none of `inputs`, the files that its contents are made from.
+    ///
+    /// # Errors
+    /// If it is one of them, by whatever path.
+    pub fn apart_from<'a>(self, inputs: impl IntoIterator<Item = &'a Path>) -> Result<Self, OutputError> {
+        let own = self.path.canonicalize().ok().filter(|own| own.is_file());
+        let same = |input: &Path| own.is_some() && input.canonicalize().ok() == own;
+        if inputs.into_iter().any(same) { Err(OutputError::Input(self.path)) } else { Ok(self) }
     }
 
     pub fn path(&self) -> &Path {
@@ -76,11 +88,11 @@ impl OutputFile {
             use std::os::unix::fs::PermissionsExt;
             builder.permissions(fs::Permissions::from_mode(0o666));
         }
-        builder.tempfile_in(directory).map_err(plain)
+        builder.tempfile_in(directory)
     }
 
     fn error(&self, cause: io::Error) -> OutputError {
-        OutputError::Write { path: self.path.clone(), cause }
+        OutputError::Write { path: self.path.clone(), cause: plain(cause) }
     }
 }
 
@@ -126,6 +138,21 @@ mod tests {
         let under_a_file = directory.path().join("f");
         fs::write(&under_a_file, b"x").unwrap();
         assert!(OutputFile::check(&under_a_file.join("a.json")).is_err());
+    }
+
+    #[test]
+    fn what_is_read_is_not_written() {
+        let directory = tempfile::tempdir().unwrap();
+        let (mesh, other) = (directory.path().join("mesh.obj"), directory.path().join("other.obj"));
+        fs::write(&mesh, b"v 0 0 0").unwrap();
+        let apart = |path: &Path| OutputFile::check(path).unwrap().apart_from([other.as_path(), &mesh]);
+        let detour = directory.path().join("../").join(directory.path().file_name().unwrap()).join("mesh.obj");
+        for path in [&mesh, &detour] {
+            let error = apart(path).unwrap_err().to_string();
+            assert!(error.contains("mesh.obj") && error.contains("another"), "{error}");
+        }
+        apart(&other).unwrap();
+        apart(&directory.path().join("new.obj")).unwrap();
     }
 
     #[cfg(unix)]

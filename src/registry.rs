@@ -234,9 +234,10 @@ impl Entry {
         let label = if shown.is_empty() { self.name.clone() } else { format!("{}:{}", self.name, shown.join(",")) };
         let choice = Choice { entry: self.clone(), config, label };
         match choice.build(&Arc::new(empty())) {
-            // What is absent is refused when it is built, so that one absence does not end a run over many.
-            Ok(_) | Err(BuildError::Unavailable(_)) => Ok(choice),
-            Err(error) => Err(ChoiceError::Value { name: self.name.clone(), reason: error.to_string() }),
+            Err(BuildError::Config(reason)) => Err(ChoiceError::Value { name: self.name.clone(), reason }),
+            // What is absent, or cannot do with the empty mesh, is refused when it is built over a mesh: it must not end a run
+            // over many.
+            _ => Ok(choice),
         }
     }
 }
@@ -287,6 +288,48 @@ mod tests {
         assert!(matches!(error, ChoiceError::Form { .. }), "{error}");
         let error = registry.choose("brute-force:test=none").map(|_| ()).unwrap_err();
         assert!(matches!(error, ChoiceError::Test { .. }), "{error}");
+    }
+
+    /// Cannot do with the empty mesh, by a panic or by a sentence.
+    struct NeedsTriangles<const PANICS: bool>;
+
+    impl<const PANICS: bool> Accel for NeedsTriangles<PANICS> {
+        type Config = ();
+
+        fn build(mesh: &Arc<Mesh>, (): &()) -> Result<Self, BuildError> {
+            match mesh.is_empty() {
+                true if PANICS => panic!("a tree has a root"),
+                true => Err(BuildError::Mesh("a tree has a root".into())),
+                false => Ok(Self),
+            }
+        }
+
+        fn closest_hit<O: crate::accel::Observer>(
+            &self,
+            _: &crate::geometry::Ray,
+            _: &mut O,
+        ) -> Option<crate::geometry::Hit> {
+            None
+        }
+
+        fn footprint(&self) -> crate::accel::Footprint {
+            Default::default()
+        }
+
+        fn shape(&self) -> crate::accel::TreeShape {
+            Default::default()
+        }
+    }
+
+    #[test]
+    fn what_cannot_do_with_the_empty_mesh_is_chosen_all_the_same() {
+        let registry = Registry::builtin().with::<NeedsTriangles<true>>("a", ()).with::<NeedsTriangles<false>>("b", ());
+        assert_eq!(registry.all().len(), registry.entries().len());
+        for name in ["a", "b"] {
+            let choice = registry.choose(name).unwrap();
+            assert!(choice.build(&Arc::new(empty())).is_err());
+            assert!(choice.entry.absence().is_none());
+        }
     }
 
     #[test]

@@ -98,6 +98,11 @@ fn answer(own: &str, path: &str, range: Option<usize>) -> Vec<u8> {
         ("/moved", _) => response("302 Found", &format!("Location: {own}/mesh.obj\r\n"), b""),
         ("/circle", _) => response("302 Found", &format!("Location: {own}/circle\r\n"), b""),
         ("/broken", _) => response("503 Service Unavailable", "", b""),
+        // More than any number counts.
+        ("/endless", range) => {
+            let status = range.map_or("200 OK".into(), |from| format!("206 P\r\nContent-Range: bytes {from}-{from}/*"));
+            format!("HTTP/1.1 {status}\r\nContent-Length: {}\r\n\r\nv 0", u64::MAX).into_bytes()
+        }
         ("/nonsense", _) => b"220 this is no web server\r\n\r\n".to_vec(),
         _ => response("404 Not Found", "", b"<html>not here</html>"),
     }
@@ -212,6 +217,18 @@ fn what_is_there_with_other_contents_is_not_touched() {
     assert!(fetch(&nobody).unwrap_err().to_string().contains("check the connection"));
 }
 
+#[test]
+fn a_length_beyond_all_numbers_is_a_body_cut_short() {
+    let (folder, server) = (tempfile::tempdir().unwrap(), Server::start(answer));
+    let file = DataFile { bytes: None, ..server.file(&folder, "/endless") };
+    put(&file.part(), b"mine");
+    for _ in 0..2 {
+        let error = fetch(&file).unwrap_err().to_string();
+        assert!(error.contains("the connection ended after"), "{error}");
+    }
+    assert!(!file.path.exists());
+}
+
 /// The command, over a scene file of one's own.
 #[test]
 fn the_command_shows_the_licence_before_it_fetches() {
@@ -249,6 +266,17 @@ fn the_command_shows_the_licence_before_it_fetches() {
     fs::remove_file(data.join("mesh.obj")).unwrap();
     let (code, _, errors) = run(&scene("/missing", &hash), &[]);
     assert!(code == Some(1) && errors.contains("404") && errors.contains("1 of 1 files"), "{errors}");
+    let (code, _, errors) = run(&scene("/mesh.obj", "sha256 = \"12ab\"\n"), &[]);
+    assert!(code == Some(1) && errors.contains("sha256") && errors.contains("64 hexadecimal"), "{errors}");
+    for (wrong, part) in [("url = \"file:///etc/hosts\"", "https://"), ("file = \"..\"", "without folders")] {
+        let text = fs::read_to_string(scene("/mesh.obj", &hash)).unwrap();
+        let key = wrong.split(' ').next().unwrap();
+        let other: Vec<&str> =
+            text.lines().map(|l| if l.starts_with(&format!("{key} =")) { wrong } else { l }).collect();
+        fs::write(folder.path().join("scene.toml"), other.join("\n")).unwrap();
+        let (code, _, errors) = run(&folder.path().join("scene.toml"), &[]);
+        assert!(code == Some(1) && errors.contains(part), "{wrong}: {errors}");
+    }
     let (code, _, errors) = run(&scene("/mesh.obj", "unpack = \"unpack mesh.obj\"\n"), &[]);
     assert!(code == Some(1) && errors.contains("then unpack mesh.obj"), "{errors}");
 }

@@ -92,6 +92,36 @@ fn answers_go_out_and_come_back_and_wrong_ones_are_found() {
 }
 
 #[test]
+fn rays_of_a_mesh_file_ask_for_it_and_nothing_that_is_read_is_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let mesh = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    fs::write(folder.path().join("mine.obj"), mesh).unwrap();
+    let text = "0,0,1 0,0,-1\n";
+    fs::write(folder.path().join("rays.txt"), text).unwrap();
+    right(&folder, &["rays", "record", "mine.obj", "-o", "f.rays", "--rays", "100"]);
+    refuses(&folder, &["validate", "--rays", "f.rays"], &["f.rays", "\"mine\"", "scene file"]);
+    right(&folder, &["validate", "mine.obj", "--rays", "f.rays", "-s", "sah-kd"]);
+
+    let rays = fs::read(folder.path().join("f.rays")).unwrap();
+    let replay = ["mine.obj", "--rays", "f.rays", "-s", "sah-kd"];
+    let overwriting: [&[&str]; 8] = [
+        &["rays", "record", "mine.obj", "-o", "mine.obj"],
+        &["rays", "import", "rays.txt", "-o", "rays.txt"],
+        &["rays", "import", "rays.txt", "--scene", "mine.obj", "-o", "./mine.obj"],
+        &["render", "mine.obj", "-o", "mine.obj"],
+        &[&["validate"], &replay[..], &["--export-hits", "f.rays"]].concat(),
+        &[&["validate"], &replay[..], &["--export-hits", "mine.obj"]].concat(),
+        &[&["compare"], &replay[..], &["--export-csv", "f.rays"]].concat(),
+        &[&["accuracy"], &replay[..], &["--export-json", "mine.obj"]].concat(),
+    ];
+    for args in overwriting {
+        refuses(&folder, args, &["files to read"]);
+    }
+    let now = |name: &str| fs::read(folder.path().join(name)).unwrap();
+    assert!(now("mine.obj") == mesh.as_bytes() && now("rays.txt") == text.as_bytes() && now("f.rays") == rays);
+}
+
+#[test]
 fn text_becomes_rays_and_rays_become_text() {
     let folder = tempfile::tempdir().unwrap();
     let text = "# two rays\n0,0,5 0,0,-1\n\n0.5,0,5 0,0,-1 [0.25,7.0] # bounded\n";
@@ -110,6 +140,7 @@ fn text_becomes_rays_and_rays_become_text() {
     refuses(&folder, &["validate", "--rays", "free.rays"], &["name a scene"]);
     right(&folder, &["validate", "cube", "--rays", "free.rays", "-s", "sah-kd"]);
 
+    refuses(&folder, &["rays", "import", "rays.txt", "-o", "bad.rays", "--name", "a\nb"], &["control character"]);
     for (line, part) in [("1,2,3 nan,0,1", "line 1: ray 1"), ("1,2 3,4,5", "line 1"), ("# none", "no ray")] {
         fs::write(folder.path().join("bad.txt"), line).unwrap();
         refuses(&folder, &["rays", "import", "bad.txt", "-o", "bad.rays"], &["bad.txt", part]);

@@ -9,7 +9,6 @@ use super::rays::{RaySource, replayed};
 use super::terminal::Terminal;
 use super::{Verdict, sources};
 use crate::measure::{Provenance, SystemClock};
-use crate::output::OutputFile;
 use crate::registry::{Choice, Registry};
 use crate::report::number::count;
 use crate::report::plot::Format;
@@ -61,10 +60,11 @@ const SMALL: usize = 5000;
 pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Result<Verdict> {
     // Everything that can be refused is refused before the long run.
     let choices = choices(registry, &args.structure, &args.test)?;
-    let json = args.export_json.as_deref().map(OutputFile::check).transpose()?;
+    let output = |path: &PathBuf| sources::output(path, &args.scenes, args.rays.file());
+    let json = args.export_json.as_ref().map(output).transpose()?;
     let mut plots = vec![];
     for path in &args.plot {
-        plots.push((OutputFile::check(path)?, Format::of(path)?));
+        plots.push((output(path)?, Format::of(path)?));
     }
     let (scenes, replayed) = match replayed(&args.rays, &args.scenes)? {
         Some((scene, file)) => {

@@ -9,7 +9,6 @@ use super::rays::{RaySource, replayed};
 use super::terminal::Terminal;
 use super::{Verdict, sources};
 use crate::measure::{Provenance, SystemClock, Threads};
-use crate::output::OutputFile;
 use crate::registry::Registry;
 use crate::report::{Record, Table, to_csv, to_json, to_markdown};
 use crate::scene::WorkloadKind;
@@ -67,7 +66,8 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     // Everything that can be refused is refused before the long run.
     let structures = sources::structures(registry, &args.structure)?;
     let threads = Threads::new(args.threads.into()).map_err(anyhow::Error::msg)?;
-    let check = |path: &Option<PathBuf>| path.as_deref().map(OutputFile::check).transpose();
+    let output = |path: &PathBuf| sources::output(path, &args.scenes, args.rays.file());
+    let check = |path: &Option<PathBuf>| path.as_ref().map(output).transpose();
     let (json, csv, markdown) = (check(&args.export_json)?, check(&args.export_csv)?, check(&args.export_markdown)?);
     let (scenes, replayed) = match replayed(&args.rays, &args.scenes)? {
         Some((scene, file)) => {

@@ -9,11 +9,10 @@ use glam::Vec3;
 use super::terminal::Terminal;
 use super::{Verdict, sources};
 use crate::accel::Observed;
-use crate::output::OutputFile;
 use crate::registry::Registry;
-use crate::render::{ErrorMap, ViewKind, costs, draw, hottest};
+use crate::render::{ErrorMap, ViewError, ViewKind, costs, draw, hottest};
 use crate::scene::{Camera, Scene};
-use crate::study::{BRUTE_FORCE, SAH_TREE};
+use crate::study::{BRUTE_FORCE, PANICKED, SAH_TREE, guarded};
 
 #[derive(Debug, clap::Args)]
 pub struct Args {
@@ -84,7 +83,7 @@ impl FromStr for View {
 
 pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Result<Verdict> {
     let choice = sources::structure(registry, &args.structure)?;
-    let file = OutputFile::check(&args.output)?;
+    let file = sources::output(&args.output, std::slice::from_ref(&args.scene), None)?;
     let mut scene = sources::scene(&args.scene)?;
     if let Some(View { eye, target, vertical_fov }) = args.camera {
         let vertical_fov = vertical_fov.unwrap_or(scene.camera.vertical_fov());
@@ -97,11 +96,15 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
         (ViewKind::Heat, None) => common_scale(registry, &scene, size)?,
         (_, hottest) => hottest.unwrap_or(1).max(1),
     };
-    let errors = (args.view == ViewKind::Error).then(|| ErrorMap::new(&scene, accel.as_ref(), size));
-    let picture = match &errors {
-        Some(errors) => errors.picture(),
-        None => draw(&scene, accel.as_ref(), args.view, size, scale)?,
-    };
+    let drawn = guarded(|| -> Result<_, ViewError> {
+        let errors = (args.view == ViewKind::Error).then(|| ErrorMap::new(&scene, accel.as_ref(), size));
+        let picture = match &errors {
+            Some(errors) => errors.picture(),
+            None => draw(&scene, accel.as_ref(), args.view, size, scale)?,
+        };
+        Ok((picture, errors))
+    });
+    let (picture, errors) = drawn.with_context(|| format!("{}: {PANICKED}", choice.label))??;
     file.write(&picture.png())?;
 
     let scale = if args.view == ViewKind::Heat { format!(", brightest at {scale} tests and steps") } else { "".into() };

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use anyhow::Context;
 
+use crate::output::OutputFile;
 use crate::registry::{Choice, Registry};
 use crate::scene::{BUILTIN, Builtin, Scene, load, real_mesh_folder};
 use crate::study::SAH_TREE;
@@ -45,6 +46,19 @@ pub fn scene(name: &str) -> anyhow::Result<Scene> {
             Ok(Scene::framed(&stem, model)?)
         }
     }
+}
+
+/// The file `path` for results, which is none of those read: scenes that are files, and `others`.
+///
+/// # Errors
+/// If it cannot be written, or is one of them.
+pub fn output<'a>(
+    path: &Path,
+    scenes: &'a [String],
+    others: impl IntoIterator<Item = &'a Path>,
+) -> anyhow::Result<OutputFile> {
+    let files = scenes.iter().filter(|name| Builtin::find(name).is_err()).map(Path::new);
+    Ok(OutputFile::check(path)?.apart_from(files.chain(others))?)
 }
 
 /// Stands for one structure of every name.

@@ -72,7 +72,7 @@ impl Client {
             status => return Err(FetchError::Status { url: file.url.clone(), status }),
         };
         let length: Option<u64> = header("content-length").and_then(|length| length.parse().ok());
-        let expected = length.map(|length| start + length).or(file.bytes);
+        let expected = length.map(|length| start.saturating_add(length)).or(file.bytes);
 
         let body = response.into_body().into_reader();
         let got = self.append(file, start, body, progress)?;

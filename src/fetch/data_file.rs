@@ -22,9 +22,12 @@ pub struct DataFile {
 
 impl DataFile {
     /// # Errors
-    /// If there is no hash to verify it by.
+    /// If there is no hash to verify it by, or the address is none of the web.
     pub fn new(real: &RealMesh, folder: &Path) -> Result<Self, FetchError> {
         let (url, path) = (real.url.clone(), folder.join(&real.file));
+        if real.unpack.is_none() && !["https://", "http://"].iter().any(|scheme| url.starts_with(scheme)) {
+            return Err(FetchError::Address { file: real.file.clone(), url });
+        }
         match &real.sha256 {
             Some(sha256) if real.unpack.is_none() => {
                 Ok(Self { url, path, sha256: sha256.to_lowercase(), bytes: real.bytes })

@@ -27,6 +27,10 @@ pub enum Fetched {
 pub enum FetchError {
     #[error("{file} cannot be fetched: its scene file gives no sha256 to verify it by{}", unpack.as_ref().map_or(String::new(), |how| format!("; download {url} yourself, then {how}, into {}", folder.display())))]
     NoHash { file: String, url: String, unpack: Option<String>, folder: PathBuf },
+    #[error(
+        "{file} cannot be fetched: its scene file gives the url {url:?}, which does not begin with https:// or http://"
+    )]
+    Address { file: String, url: String },
     #[error("{} is there with other contents (SHA-256 {found}, not {expected}): rename or remove it and fetch again", path.display())]
     Other { path: PathBuf, found: String, expected: String },
     #[error("{url}: the server answers {status}: {}", advice(*status))]

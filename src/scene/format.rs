@@ -213,8 +213,11 @@ impl SceneFile {
                 demand(self.materials.contains_key(name), &format!("objects[{i}].material"), &problem)?;
             }
             if let Some(real) = &object.real {
-                let plain = !real.file.contains(['/', '\\']);
+                let plain = !real.file.contains(['/', '\\']) && !["", ".", ".."].contains(&real.file.as_str());
                 demand(plain, &format!("objects[{i}].real.file"), "give a file name without folders")?;
+                let digits = |hash: &str| hash.len() == 64 && hash.bytes().all(|byte| byte.is_ascii_hexdigit());
+                let whole = real.sha256.as_deref().is_none_or(digits);
+                demand(whole, &format!("objects[{i}].real.sha256"), "give its 64 hexadecimal digits")?;
             }
         }
         Ok(())

@@ -90,7 +90,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
 }
 
 fn record(registry: &Registry, args: &Record, terminal: &Terminal) -> anyhow::Result<Verdict> {
-    let output = OutputFile::check(&args.output)?;
+    let output = sources::output(&args.output, std::slice::from_ref(&args.scene), None)?;
     let scene = sources::scene(&args.scene)?;
     let guide = sources::guide(registry)?.build(&scene.mesh)?;
     let sampling = Sampling::about(&scene, args.rays, args.seed);
@@ -100,7 +100,7 @@ fn record(registry: &Registry, args: &Record, terminal: &Terminal) -> anyhow::Re
 }
 
 fn import(args: &Import, terminal: &Terminal) -> anyhow::Result<Verdict> {
-    let output = OutputFile::check(&args.output)?;
+    let output = sources::output(&args.output, args.scene.as_slice(), [args.text.as_path()])?;
     let text = std::fs::read_to_string(&args.text).with_context(|| format!("cannot read {}", args.text.display()))?;
     let rays = parse(&text).map_err(|problem| anyhow::anyhow!("{}: {problem}", args.text.display()))?;
     let query = if args.any { Query::Any } else { Query::Closest };
@@ -128,6 +128,7 @@ fn parse(text: &str) -> Result<Vec<Ray>, String> {
 }
 
 fn finish(file: &RayFile, output: &OutputFile, terminal: &Terminal) -> anyhow::Result<Verdict> {
+    RayFile::check_names(&file.scene, &file.workload.name).map_err(anyhow::Error::msg)?;
     file.write(output)?;
     terminal.print(&format!("{}: {}\n", output.path().display(), described(file)))?;
     Ok(Verdict::Right)

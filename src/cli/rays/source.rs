@@ -1,12 +1,12 @@
 //! Where the rays of a run come from: made anew, or replayed from a file.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use super::shown;
 use crate::cli::sources;
-use crate::scene::Scene;
 use crate::scene::files::RayFile;
+use crate::scene::{Builtin, Scene};
 
 /// What `--rays` takes: how many rays to make, or a file of rays. A file whose name is a number is written `./NUMBER`.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -33,6 +33,14 @@ impl FromStr for RaySource {
 }
 
 impl RaySource {
+    /// The file that they are replayed from, if they are.
+    pub fn file(&self) -> Option<&Path> {
+        match self {
+            Self::Count(_) => None,
+            Self::File(path) => Some(path),
+        }
+    }
+
     /// How many rays to make; `default` where they are replayed.
     pub fn count(&self, default: u32) -> u32 {
         match self {
@@ -54,6 +62,12 @@ pub fn replayed(source: &RaySource, named: &[String]) -> anyhow::Result<Option<(
         [] if file.scene.is_empty() => {
             anyhow::bail!("{} holds rays of no scene in particular: name a scene", shown(path))
         }
+        // Names of built-in scenes are names; what else a file says is no path to follow.
+        [] if Builtin::find(&file.scene).is_err() => anyhow::bail!(
+            "{} holds rays of {:?}, which is no built-in scene: name the mesh or scene file that they were recorded for",
+            shown(path),
+            file.scene
+        ),
         [] => &file.scene,
         [one] => one,
         _ => anyhow::bail!("{} holds rays of one scene: name one scene, not {}", shown(path), named.len()),

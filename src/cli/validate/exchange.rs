@@ -1,34 +1,37 @@
 //! Answers in files: those of a structure of ours for others, and those of others held against the reference.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use anyhow::Context;
 
 use super::{Args, print, reference, row};
-use crate::accel::Query;
+use crate::accel::{DynAccel, Query};
 use crate::cli::terminal::Terminal;
 use crate::cli::{Verdict, sources};
-use crate::geometry::Hit;
-use crate::output::OutputFile;
+use crate::geometry::{Hit, Ray};
 use crate::registry::{Choice, Registry};
 use crate::report::number::plural;
 use crate::scene::Scene;
 use crate::scene::files::{HitFile, RayFile};
-use crate::validate::{validate_answers, validate_any_answers};
+use crate::validate::{validate_answers, validate_any_answers, watched};
 
 /// Writes the answers of one structure.
 pub fn export(
     scene: &Scene,
     file: &RayFile,
     structures: &[Choice],
+    args: &Args,
     output: &Path,
     terminal: &Terminal,
 ) -> anyhow::Result<Verdict> {
     let [choice] = structures else {
         anyhow::bail!("a file holds the answers of one structure: name one with --structure");
     };
-    let output = OutputFile::check(output)?;
-    let accel = choice.build(&scene.mesh)?;
+    let output = sources::output(output, &args.scenes, args.rays.file())?;
+    let (own, mesh) = (choice.clone(), Arc::clone(&scene.mesh));
+    let built = watched(args.limit(), move || own.build(&mesh));
+    let accel: Arc<dyn DynAccel> = Arc::from(built.with_context(|| format!("the builder of {}", choice.label))??);
     let rays = &file.workload.rays;
     let can = accel.capabilities();
     let declined = rays.iter().find_map(|ray| can.declines(ray));
@@ -36,14 +39,12 @@ pub fn export(
     if let Some(what) = declined {
         anyhow::bail!("{} declines {what}, which these rays need", choice.label);
     }
-    let mut hits = vec![None; rays.len()];
-    match file.workload.query {
-        Query::Closest => accel.closest_hits(rays, &mut hits),
-        Query::Any => {
-            let mut any = vec![false; rays.len()];
-            accel.any_hits(rays, &mut any);
-            hits = any.into_iter().map(|any| any.then(|| Hit::new(0.0, 0))).collect();
-        }
+    let mut hits = vec![];
+    for batch in rays.chunks(BATCH) {
+        let (accel, query, batch) = (Arc::clone(&accel), file.workload.query, batch.to_vec());
+        let answers = watched(args.limit(), move || answers(accel.as_ref(), query, &batch));
+        let ray = || format!("{}: find the ray by the same command without --export-hits", choice.label);
+        hits.extend(answers.with_context(ray)?);
     }
     HitFile::new(&file.workload, hits).write(&output)?;
     let what = plural(rays.len(), "answer");
@@ -54,6 +55,24 @@ pub fn export(
         file.workload.hash()
     ))?;
     Ok(Verdict::Right)
+}
+
+/// Rays that are asked at a time, under one limit.
+const BATCH: usize = 256;
+
+fn answers(accel: &dyn DynAccel, query: Query, rays: &[Ray]) -> Vec<Option<Hit>> {
+    match query {
+        Query::Closest => {
+            let mut hits = vec![None; rays.len()];
+            accel.closest_hits(rays, &mut hits);
+            hits
+        }
+        Query::Any => {
+            let mut any = vec![false; rays.len()];
+            accel.any_hits(rays, &mut any);
+            any.into_iter().map(|any| any.then(|| Hit::new(0.0, 0))).collect()
+        }
+    }
 }
 
 /// Holds the answers of a file against the reference.

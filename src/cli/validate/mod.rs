@@ -69,7 +69,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     if args.hits.is_some() || args.export_hits.is_some() {
         let (scene, file) = replay.context("answers belong to rays of a file: give one with --rays F.rays")?;
         return match &args.export_hits {
-            Some(output) => exchange::export(&scene, &file, &structures, output, terminal),
+            Some(output) => exchange::export(&scene, &file, &structures, args, output, terminal),
             None => exchange::check(registry, args, &scene, &file, &against, terminal),
         };
     }

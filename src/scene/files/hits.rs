@@ -39,7 +39,7 @@ impl HitFile {
     /// # Errors
     /// If the file cannot be read, is no file of hits or is not whole.
     pub fn read(path: &Path) -> Result<Self, FileError> {
-        Self::from_bytes(&read(path)?).map_err(content(path))
+        Self::from_bytes(&read(path, MAGIC)?).map_err(content(path))
     }
 
     /// # Errors

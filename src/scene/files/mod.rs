@@ -6,6 +6,8 @@ mod rays;
 #[cfg(test)]
 mod tests;
 
+use std::fs::File;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use crate::output::OutputError;
@@ -24,8 +26,17 @@ pub enum FileError {
     Write(#[from] OutputError),
 }
 
-fn read(path: &Path) -> Result<Vec<u8>, FileError> {
-    std::fs::read(path).map_err(|cause| FileError::Read { path: path.into(), cause })
+/// The bytes of a file; of one that does not begin with `magic` its beginning only, for it may be large or without an end.
+fn read(path: &Path, magic: &[u8; 8]) -> Result<Vec<u8>, FileError> {
+    let bytes = || {
+        let (mut file, mut bytes) = (File::open(path)?, vec![]);
+        file.by_ref().take(8).read_to_end(&mut bytes)?;
+        if bytes == magic {
+            file.read_to_end(&mut bytes)?;
+        }
+        Ok(bytes)
+    };
+    bytes().map_err(|cause| FileError::Read { path: path.into(), cause })
 }
 
 fn content(path: &Path) -> impl Fn(String) -> FileError {

@@ -36,7 +36,7 @@ impl RayFile {
     /// # Errors
     /// If the file cannot be read, is no ray file, is not whole, or holds a ray that is none.
     pub fn read(path: &Path) -> Result<Self, FileError> {
-        Self::from_bytes(&read(path)?).map_err(content(path))
+        Self::from_bytes(&read(path, MAGIC)?).map_err(content(path))
     }
 
     /// # Errors
@@ -57,6 +57,17 @@ impl RayFile {
         match rays.iter().position(bad) {
             _ if rays.is_empty() => Err("there is no ray in it".into()),
             Some(at) => Err(format!("ray {} of {} is not made of finite numbers: {}", at + 1, rays.len(), rays[at])),
+            None => Ok(()),
+        }
+    }
+
+    /// Whether a file can name its scene and kind of rays so.
+    ///
+    /// # Errors
+    /// If a name holds a control character, which would garble tables.
+    pub fn check_names(scene: &str, kind: &str) -> Result<(), String> {
+        match [scene, kind].into_iter().find(|name| name.chars().any(char::is_control)) {
+            Some(name) => Err(format!("the name {name:?} holds a control character: choose another")),
             None => Ok(()),
         }
     }
@@ -106,6 +117,7 @@ impl RayFile {
             String::from_utf8(bytes.to_vec()).map_err(|_| "a name in the head is no UTF-8: it was changed".to_owned())
         };
         let (scene, name) = (text(scene)?, text(name)?);
+        Self::check_names(&scene, &name)?;
 
         let start = (NAMES + lengths[0] + lengths[1]).next_multiple_of(HEAD);
         let body = body(bytes, start, count, 32)?;

@@ -70,6 +70,7 @@ fn what_is_damaged_is_refused_in_a_sentence() {
     assert!(changed(23, 0xff).contains("cut short"));
     assert!(changed(67, 0xff).contains("cut short"));
     assert!(changed(72, 0xff).contains("UTF-8"));
+    assert!(changed(72, 0x1b).contains("control character"));
     assert!(changed(whole.len() - 5, whole[whole.len() - 5] ^ 1).contains("changed"));
 
     let mut bad = file.clone();
@@ -77,6 +78,16 @@ fn what_is_damaged_is_refused_in_a_sentence() {
     assert!(refusal(&bad.to_bytes()).contains("ray 4 of "));
     bad.workload.rays.clear();
     assert!(refusal(&bad.to_bytes()).contains("no ray"));
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_file_without_an_end_is_refused_at_its_beginning() {
+    for refusal in
+        [RayFile::read(Path::new("/dev/zero")).unwrap_err(), HitFile::read(Path::new("/dev/zero")).unwrap_err()]
+    {
+        assert!(refusal.to_string().contains("it does not begin with"), "{refusal}");
+    }
 }
 
 #[test]
