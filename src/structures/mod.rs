@@ -11,7 +11,6 @@ mod line;
 pub mod obvhs;
 mod pages;
 pub mod peers;
-mod prepared;
 mod reinsert;
 pub mod split;
 mod walk;

@@ -15,9 +15,9 @@ use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
 use super::leaves::{Leaves, Start};
+use super::prepared::{Prepare, Prepared};
 use crate::accel::{Accel, BuildError, Footprint, Loaded, Observed, Observer, TreeShape};
 use crate::geometry::{Hit, Mesh, Ray};
-use crate::structures::prepared::{Prepare, Prepared};
 use crate::triangle::TriangleTest;
 
 /// The KD-tree of the crate `kdtree-ray` over the triangle test `T`.

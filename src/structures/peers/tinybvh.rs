@@ -17,9 +17,9 @@ use glam::Vec3;
 use serde::{Deserialize, Serialize};
 use tinybvh_rs::{Intersection, Positions, Ray as PreparedRay, bvh, bvh8_cpu, mbvh};
 
+use super::prepared::{Prepare, Prepared};
 use crate::accel::{Accel, BuildError, Footprint, Loaded, Observed, Observer, TreeShape};
 use crate::geometry::{Hit, Mesh, Ray};
-use crate::structures::prepared::{Prepare, Prepared};
 
 /// The 8-wide BVH of tinybvh.
 pub struct TinyBvh {
