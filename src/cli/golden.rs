@@ -56,7 +56,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
                     let accel = choice.build(&scene.mesh)?;
                     match goldens.check(&scene, &choice.label, accel.as_ref()) {
                         Ok(()) => right.push(choice.label.as_str()),
-                        Err(error @ GoldenError::Differs { .. }) => {
+                        Err(error @ (GoldenError::Differs { .. } | GoldenError::NotShown { .. })) => {
                             terminal.print(&format!("{error}\n  {}\n", cause(&scene, accel.as_ref())?))?;
                             if documented_defect(&choice.entry.name).is_none() {
                                 verdict = Verdict::Wrong;

@@ -1,9 +1,14 @@
 //! The progress bar: on stderr, drawn only when a study says what it does, which is never inside a timed region.
 
+use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
+use std::thread;
+use std::time::Duration;
+
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::terminal::Terminal;
 use crate::study::Stage;
+use crate::validate::LIMIT;
 
 /// The bar of a download of `bytes`, if that is known; told how many there are.
 #[cfg(feature = "fetch")]
@@ -19,9 +24,38 @@ pub fn download(name: &str, bytes: Option<u64>, terminal: &Terminal) -> Progress
 /// Steps of the bar for each scene.
 const STEPS: u64 = 100;
 
+/// A thread that calls `tell` with what it was told last, if nothing else comes for `limit`; it sleeps otherwise. `None` is nothing
+/// to wait for.
+fn watch(limit: Duration, tell: impl Fn(&str) + Send + 'static) -> Sender<Option<String>> {
+    let (sender, receiver) = channel::<Option<String>>();
+    thread::spawn(move || {
+        let mut waiting: Option<String> = None;
+        loop {
+            let next = match waiting.take() {
+                None => receiver.recv().map_err(|_| RecvTimeoutError::Disconnected),
+                Some(stage) => receiver.recv_timeout(limit).inspect_err(|error| {
+                    if *error == RecvTimeoutError::Timeout {
+                        tell(&stage);
+                    }
+                }),
+            };
+            match next {
+                Ok(stage) => waiting = stage,
+                Err(RecvTimeoutError::Timeout) => {}
+                Err(RecvTimeoutError::Disconnected) => return,
+            }
+        }
+    });
+    sender
+}
+
 /// How far a run over several scenes has come.
 pub struct Progress {
     bar: ProgressBar,
+    /// Told what each structure is asked for, and that it has answered.
+    watch: Sender<Option<String>>,
+    /// Whether it was told of something that has not ended.
+    watched: bool,
     scene: String,
     scenes_done: u64,
 }
@@ -32,7 +66,14 @@ impl Progress {
         let bar = ProgressBar::with_draw_target(Some(scenes as u64 * STEPS), target);
         let style = ProgressStyle::with_template("{bar:24} {percent:>3}% {elapsed:>4} {wide_msg}");
         bar.set_style(style.expect("the template is valid"));
-        Self { bar, scene: String::new(), scenes_done: 0 }
+        let own = bar.clone();
+        let watch = watch(LIMIT, move |stage| {
+            let limit = LIMIT.as_secs();
+            let advice =
+                "if it hangs, end this run; `sahara validate` gives it up after --limit seconds and names the ray";
+            own.suspend(|| eprintln!("{stage} for more than {limit} s: {advice}"));
+        });
+        Self { bar, watch, watched: false, scene: String::new(), scenes_done: 0 }
     }
 
     /// The next scene begins.
@@ -52,12 +93,27 @@ impl Progress {
                 ("is timed".into(), 30 + (STEPS - 30) * *taken as u64 / (*total).max(1) as u64)
             }
         };
-        self.bar.set_message(format!("{} {text}", self.scene));
+        let text = format!("{} {text}", self.scene);
+        // Between samples the watch is not woken.
+        match stage {
+            Stage::Build(_) | Stage::Check(_) => self.watched(Some(&text)),
+            Stage::Rays(_) | Stage::Trace(..) => self.watched(None),
+        }
+        self.bar.set_message(text);
         self.bar.set_position(self.scenes_done * STEPS + step);
+    }
+
+    fn watched(&mut self, stage: Option<&str>) {
+        if stage.is_some() || self.watched {
+            self.watched = stage.is_some();
+            // The watch listens as long as this lives.
+            let _ = self.watch.send(stage.map(str::to_owned));
+        }
     }
 
     /// The scene is done.
     pub fn scene_done(&mut self) {
+        self.watched(None);
         self.scenes_done += 1;
         self.bar.set_position(self.scenes_done * STEPS);
     }
@@ -70,5 +126,21 @@ impl Progress {
     /// The whole run is over: takes the bar away.
     pub fn finish(self) {
         self.bar.finish_and_clear();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_not_followed_by_anything_is_told_once() {
+        let (told, heard) = channel();
+        let watch = watch(Duration::from_millis(1), move |stage| told.send(stage.to_owned()).unwrap());
+        watch.send(None).unwrap();
+        watch.send(Some("checks a".into())).unwrap();
+        assert_eq!(heard.recv().as_deref(), Ok("checks a"));
+        drop(watch);
+        assert_eq!(heard.recv().ok(), None);
     }
 }

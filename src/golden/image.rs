@@ -1,6 +1,6 @@
 //! Golden images of other crates: one function for their tests.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use super::flip::flip;
 use super::{GoldenError, file_name, leave, make};
@@ -44,8 +44,8 @@ const OUT: &str = "out/golden";
 /// ```
 ///
 /// # Panics
-/// If the picture is not accepted, is of another size, or there is no golden image. What was drawn, what was expected and the
-/// difference are then in `out/golden`.
+/// If the picture is not accepted, is of another size, or there is no golden image. What was drawn and what was expected are
+/// then in `out/golden`, by the golden image's file name, and so is the difference of pictures of one size.
 #[track_caller]
 pub fn assert_image(path: impl AsRef<Path>, actual: &Picture, how: Match) {
     let path = path.as_ref();
@@ -71,24 +71,22 @@ fn update(path: &Path, actual: &Picture) -> Result<(), GoldenError> {
 /// If the picture is not accepted, or the golden image cannot be read.
 pub fn check_image(path: &Path, actual: &Picture, how: Match, out: &Path) -> Result<(), GoldenError> {
     let expected = Picture::read(path).map_err(|cause| GoldenError::NoImage { cause })?;
-    if expected.size() != actual.size() {
-        return Err(GoldenError::OtherSize { path: path.into(), expected: expected.size(), found: actual.size() });
-    }
-    let Some(difference) = actual.difference(&expected) else { return Ok(()) };
-    let looks = match how {
-        Match::Exact => None,
-        Match::Perceptual(allowed) => match flip(&expected, actual) {
-            error if error <= allowed => return Ok(()),
-            error => Some((error, allowed)),
-        },
-    };
     let stem = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy();
-    let shown = leave(out, &file_name(&stem), actual, &expected)?;
-    let path: PathBuf = path.into();
-    Err(match looks {
-        None => GoldenError::ImageDiffers { path, difference, size: actual.size(), shown },
-        Some((error, allowed)) => GoldenError::LooksDifferent { path, error, allowed, shown },
-    })
+    let (path, shown) = (path.to_path_buf(), out.join(file_name(&stem)));
+    let refusal = if expected.size() != actual.size() {
+        GoldenError::OtherSize { path, expected: expected.size(), found: actual.size(), shown: shown.clone() }
+    } else {
+        let Some(difference) = actual.difference(&expected) else { return Ok(()) };
+        let shown = shown.clone();
+        match how {
+            Match::Exact => GoldenError::ImageDiffers { path, difference, size: actual.size(), shown },
+            Match::Perceptual(allowed) => match flip(&expected, actual) {
+                error if error <= allowed => return Ok(()),
+                error => GoldenError::LooksDifferent { path, error, allowed, shown },
+            },
+        }
+    };
+    Err(refusal.with(leave(&shown, actual, &expected)))
 }
 
 #[cfg(test)]
@@ -115,6 +113,14 @@ mod tests {
         assert!(far.contains("looks different") && far.contains("0.2 is allowed"), "{far}");
         assert_eq!(Picture::read(&out.join("b-actual.png")).unwrap(), picture(255));
         assert_eq!(std::fs::read_dir(&out).unwrap().count(), 3);
-        assert!(refusal(&Picture::new([1, 1], vec![[0; 3]]), Match::Exact).contains("[1, 1]"));
+        let small = refusal(&Picture::new([1, 1], vec![[0; 3]]), Match::Exact);
+        assert!(small.contains("[1, 1]") && small.contains("SAHARA_GOLDEN=update"), "{small}");
+        assert_eq!(Picture::read(&out.join("b-actual.png")).unwrap().size(), [1, 1]);
+
+        // Where nothing can be left to look at, the reason is still said.
+        std::fs::remove_dir_all(&out).unwrap();
+        std::fs::write(&out, b"no folder").unwrap();
+        let reason = refusal(&picture(11), Match::Exact);
+        assert!(reason.contains("256 of 256 pixels differ") && reason.contains("could not be written"), "{reason}");
     }
 }

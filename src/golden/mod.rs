@@ -43,8 +43,14 @@ pub enum GoldenError {
     Differs { label: String, path: PathBuf, difference: Difference, shown: PathBuf },
     #[error("{cause}: run the test once with SAHARA_GOLDEN=update to make the golden image")]
     NoImage { cause: PictureError },
-    #[error("the golden image {} has {expected:?} pixels, and what was drawn has {found:?}", path.display())]
-    OtherSize { path: PathBuf, expected: [u32; 2], found: [u32; 2] },
+    #[error(
+        "the golden image {} has {expected:?} pixels, and what was drawn has {found:?}: see {}-actual.png and -expected.png; if it is \
+         right, run the test once with SAHARA_GOLDEN=update",
+        path.display(), shown.display()
+    )]
+    OtherSize { path: PathBuf, expected: [u32; 2], found: [u32; 2], shown: PathBuf },
+    #[error("{refusal}; but these could not be written: {cause}")]
+    NotShown { refusal: Box<GoldenError>, cause: Box<GoldenError> },
     #[error(
         "{} of {} pixels differ from {}, first at column {}, row {}, by up to {} of 255: see {}-actual.png, -expected.png and \
          -difference.png",
@@ -103,8 +109,9 @@ impl Goldens {
         // Leave something to look at.
         let label = format!("{} with {structure}", scene.name);
         let name = file_name(&format!("{}-{structure}", scene.name.to_lowercase()));
-        let shown = leave(&self.out, &name, &actual, &expected)?;
-        Err(GoldenError::Differs { label, path, difference, shown })
+        let shown = self.out.join(name);
+        let left = leave(&shown, &actual, &expected);
+        Err(GoldenError::Differs { label, path, difference, shown }.with(left))
     }
 
     /// Makes the golden image of `scene` anew; tells whether it has changed.
@@ -127,16 +134,29 @@ fn draw(scene: &Scene, accel: &dyn DynAccel) -> Picture {
     Picture::from(&render(scene, accel, SIZE).0)
 }
 
-/// Leaves something to look at: `NAME-actual.png`, `-expected.png` and `-difference.png` in `out`. Gives their common part.
-fn leave(out: &Path, name: &str, actual: &Picture, expected: &Picture) -> Result<PathBuf, GoldenError> {
-    let shown = out.join(name);
-    make(out)?;
-    for (what, picture) in
-        [("actual", actual), ("expected", expected), ("difference", &actual.difference_picture(expected))]
-    {
-        picture.write(&PathBuf::from(format!("{}-{what}.png", shown.display())))?;
+/// Leaves something to look at: `SHOWN-actual.png`, `-expected.png` and, of pictures of one size, `-difference.png`.
+fn leave(shown: &Path, actual: &Picture, expected: &Picture) -> Result<(), GoldenError> {
+    if let Some(out) = shown.parent() {
+        make(out)?;
     }
-    Ok(shown)
+    let write =
+        |what: &str, picture: &Picture| picture.write(&PathBuf::from(format!("{}-{what}.png", shown.display())));
+    write("actual", actual)?;
+    write("expected", expected)?;
+    if actual.size() == expected.size() {
+        write("difference", &actual.difference_picture(expected))?;
+    }
+    Ok(())
+}
+
+impl GoldenError {
+    /// The refusal, which stays the reason when its pictures cannot be left.
+    fn with(self, left: Result<(), GoldenError>) -> Self {
+        match left {
+            Ok(()) => self,
+            Err(cause) => Self::NotShown { refusal: Box::new(self), cause: Box::new(cause) },
+        }
+    }
 }
 
 fn make(directory: &Path) -> Result<(), GoldenError> {

@@ -98,7 +98,8 @@ pub(super) fn validate_batch(
         // Of an answer that is not always the same nothing more can be said.
         let (again, any_again) = alone[index];
         if !same(again, found) || checks_any && any_again != any {
-            note(Kind::Unrepeatable, format!("asked alone, closest hit says {again:?}, any hit {any_again}"));
+            let alone = again.map_or("nothing".to_owned(), |hit| format!("t = {:?} at {:?}", hit.t, hit.prim));
+            note(Kind::Unrepeatable, format!("asked alone, closest hit says {alone}, any hit {any_again}"));
             sums.unrepeatable += 1;
             continue;
         }

@@ -187,3 +187,22 @@ fn the_command_knows_the_structures_and_what_they_decline() {
     let (printed, right) = sahara("list");
     assert!(right && printed.contains("declines") && printed.contains("resolution"), "{printed}");
 }
+
+#[test]
+fn a_command_about_one_structure_says_when_it_panics_or_hangs() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).display().to_string();
+    let (rays, hits, picture) = (path("f.rays"), path("f.hits"), path("f.png"));
+    let (printed, right) = sahara(&format!("rays record sphere -o {rays} --rays 10000"));
+    assert!(right, "{printed}");
+    for (fault, reason) in [("panics", "it panics"), ("hangs", "it hangs"), ("builder-hangs", "it hangs")] {
+        let export = format!("validate --rays {rays} -s broken:fault={fault} --limit 3 --export-hits {hits}");
+        let (printed, right) = sahara(&export);
+        assert!(!right && printed.contains(reason) && printed.contains("error: "), "{fault}: {printed}");
+    }
+    let (printed, right) = sahara(&format!("render sphere -o {picture} -s broken:fault=panics --size 128x128"));
+    assert!(!right && printed.contains("its traversal panicked"), "{printed}");
+    let (printed, right) = sahara("study self-intersection -s broken:fault=panics --rays 2000");
+    assert!(!right && printed.contains("the panic above ended the command"), "{printed}");
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1, "nothing is written");
+}
