@@ -5,6 +5,7 @@
 
 use crate::geometry::Aabb;
 use crate::structures::binary::{BinaryTree, Content};
+use crate::structures::extent::Extent;
 
 use super::node::WIDTH;
 
@@ -44,10 +45,8 @@ pub(super) enum Part {
     Leaf(u32),
 }
 
-/// In `f64`, where no box that a mesh admits overflows.
-pub(super) fn half_area(bounds: &Aabb) -> f64 {
-    let e = bounds.max.as_dvec3() - bounds.min.as_dvec3();
-    e.x * e.y + e.y * e.z + e.z * e.x
+fn half_area(bounds: &Aabb) -> f64 {
+    Extent::from(*bounds).half_area()
 }
 
 impl<'a> Collapse<'a> {
@@ -57,9 +56,11 @@ impl<'a> Collapse<'a> {
         let mut counts = vec![0_u32; tree.nodes.len()];
         let mut ids = vec![];
         let most = cost.largest * WIDTH;
+        // Shares of the root's area fit an `f32`, whatever the unit of length.
+        let whole = tree.nodes.first().map_or(1.0, |root| half_area(&root.bounds));
         for at in (0..tree.nodes.len()).rev() {
             let node = &tree.nodes[at];
-            let area = half_area(&node.bounds);
+            let area = half_area(&node.bounds) / whole;
             let as_leaf = |count: usize| (area * cost.block * count.div_ceil(WIDTH) as f64) as f32;
             match node.content {
                 Content::Leaf { count, .. } => {

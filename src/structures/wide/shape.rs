@@ -1,10 +1,9 @@
 use super::node::{Child, Node, WIDTH};
 use crate::accel::TreeShape;
 use crate::geometry::Aabb;
+use crate::structures::extent::Extent;
 use crate::structures::leaf::LeafBlock;
 use crate::triangle::TriangleTest;
-
-use super::collapse::half_area;
 
 /// Counts the tree and sums its SAH cost, a node costing as much as any inner node.
 pub(super) fn of<T: TriangleTest>(
@@ -17,7 +16,7 @@ pub(super) fn of<T: TriangleTest>(
     let mut cost = 0.0;
     let mut stack = vec![(root, *bounds, 0)];
     while let Some((child, bounds, depth)) = stack.pop() {
-        let area = half_area(&bounds);
+        let area = Extent::from(bounds).half_area();
         if let Some((first, count)) = child.blocks() {
             let references = blocks[first..first + count].iter().map(|block| block.len() as usize).sum();
             shape.leaves += 1;
@@ -33,7 +32,7 @@ pub(super) fn of<T: TriangleTest>(
             stack.extend(node.boxes().map(|(bounds, child)| (child, bounds, depth + 1)));
         }
     }
-    let root = half_area(bounds);
+    let root = Extent::from(*bounds).half_area();
     shape.sah_cost = (root > 0.0 && root.is_finite()).then(|| cost / root);
     shape
 }
