@@ -9,14 +9,23 @@ use super::avx::Avx;
 use super::{Portable, Sieve};
 
 /// A set of instructions that lanes are compiled for. All give the same hits, bit for bit.
+///
+/// Whoever has a level has the instructions, so that [`dispatch`] needs no check: other crates cannot name those that a
+/// machine may lack, only be given them.
+///
+/// ```compile_fail,E0603
+/// let level = sahara::simd::Level::Avx512;
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[repr(u8)]
 pub enum Level {
     /// Arrays and loops; what the compiler makes of them.
     Portable,
-    /// AVX2 and FMA (x86-64-v3).
+    /// AVX2, FMA and the instructions for bits that came with them (x86-64-v3).
+    #[non_exhaustive]
     Avx2,
     /// Also AVX-512 F and VL: packs lanes in one step.
+    #[non_exhaustive]
     Avx512,
 }
 
@@ -63,7 +72,12 @@ impl Level {
 
     #[cfg(target_arch = "x86_64")]
     fn is_available(self) -> bool {
-        let avx2 = is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma");
+        // Everything that `avx2` and `avx512` below are compiled with.
+        let bits = is_x86_feature_detected!("bmi1")
+            && is_x86_feature_detected!("bmi2")
+            && is_x86_feature_detected!("lzcnt")
+            && is_x86_feature_detected!("popcnt");
+        let avx2 = bits && is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma");
         let masks = || is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512vl");
         match self {
             Self::Portable => true,

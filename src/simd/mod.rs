@@ -97,6 +97,7 @@ mod tests {
                 assert_eq!(bits(x.mul(y).store()), bits(p.mul(q).store()));
                 assert_eq!(bits(x.div(y).store()), bits(p.div(q).store()));
                 assert_eq!(bits(x.min(y).store()), bits(p.min(q).store()));
+                assert_eq!(bits(x.max(y).store()), bits(p.max(q).store()));
                 assert_eq!(bits(x.flip_sign(y).store()), bits(p.flip_sign(q).store()));
                 assert_eq!((x.le(y), x.lt(y)), (p.le(q), p.lt(q)));
                 assert_eq!(bits(L::splat(a[0]).store()), bits([a[0]; N]));

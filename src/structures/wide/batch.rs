@@ -2,7 +2,6 @@
 
 use super::WideTree;
 use super::beams::RAYS;
-
 use crate::accel::Observer;
 use crate::geometry::{Hit, Ray};
 use crate::simd::{Kernel, Level, Sieve, dispatch};

@@ -53,15 +53,15 @@ impl<L: Lanes<WIDTH>> Beams<L> {
         let enlarged = inverse.map(|half| half.map(|i| i.mul(L::splat(ENLARGED))));
         let (t_min, t_max) = (row(6).map(|t| t.max(L::zero())), row(7));
 
-        // What `Ray::is_valid` and `inverses` ask, and that no inverse is infinite or NaN.
+        // What `Ray::is_valid` and `inverses` ask, and that no inverse, enlarged or not, is infinite or NaN.
         let abs = |x: L| x.flip_sign(x);
         let mut good = u32::MAX;
         for half in 0..HALVES {
             for axis in 0..3 {
                 let reach = abs(origin[axis][half]).add(L::splat(bounds.min[axis].abs().max(bounds.max[axis].abs())));
-                let inverse = abs(inverse[axis][half]);
+                let (inverse, enlarged) = (abs(inverse[axis][half]), abs(enlarged[axis][half]));
                 good &= reach.le(L::splat(f32::MAX));
-                good &= L::splat(f32::MIN_POSITIVE).le(inverse) & inverse.le(L::splat(f32::MAX));
+                good &= L::splat(f32::MIN_POSITIVE).le(inverse) & enlarged.le(L::splat(f32::MAX));
             }
             good &= row(6)[half].le(L::splat(f32::INFINITY)) & t_min[half].lt(t_max[half]);
         }

@@ -45,6 +45,10 @@ pub(super) enum Part {
     Leaf(u32),
 }
 
+fn half_area(bounds: &Aabb) -> f64 {
+    Extent::from(*bounds).half_area()
+}
+
 impl<'a> Collapse<'a> {
     pub fn new(tree: &'a BinaryTree, cost: &Cost) -> Self {
         let none = Best { cost: [0.0; WIDTH - 1], left: [0; WIDTH], leaf: true };
@@ -52,9 +56,11 @@ impl<'a> Collapse<'a> {
         let mut counts = vec![0_u32; tree.nodes.len()];
         let mut ids = vec![];
         let most = cost.largest * WIDTH;
+        // Shares of the root's area fit an `f32`, whatever the unit of length.
+        let whole = tree.nodes.first().map(|root| half_area(&root.bounds)).filter(|&whole| whole > 0.0).unwrap_or(1.0);
         for at in (0..tree.nodes.len()).rev() {
             let node = &tree.nodes[at];
-            let area = Extent::from(node.bounds).half_area();
+            let area = half_area(&node.bounds) / whole;
             let as_leaf = |count: usize| (area * cost.block * count.div_ceil(WIDTH) as f64) as f32;
             match node.content {
                 Content::Leaf { count, .. } => {
@@ -109,7 +115,7 @@ impl<'a> Collapse<'a> {
     pub fn children(&self, at: u32, parts: &mut Vec<Part>) -> [u32; 8] {
         parts.clear();
         self.gather(at, WIDTH, 0, &mut |part| parts.push(part));
-        let size = |part: &Part| Extent::from(*self.bounds(*part)).half_area();
+        let size = |part: &Part| half_area(self.bounds(*part));
         let is_leaf = |part: &Part| matches!(part, Part::Leaf(_));
         parts.sort_by(|a, b| is_leaf(a).cmp(&is_leaf(b)).then(size(a).total_cmp(&size(b))));
         std::array::from_fn(|octant| {

@@ -11,6 +11,8 @@ mod node;
 mod packet;
 mod shape;
 mod stack;
+#[cfg(test)]
+mod tests;
 mod traverse;
 
 use std::sync::Arc;

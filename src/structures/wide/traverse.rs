@@ -48,10 +48,13 @@ impl<T: TriangleTest> WideTree<T> {
             let next = if let Some((first, count)) = child.blocks() {
                 // SAFETY: leaves name blocks that are there.
                 let blocks = unsafe { self.blocks.get_unchecked(first..first + count) };
+                // Only who counts asks which lanes are in use.
+                let mut held = u32::MAX;
                 if O::ACTIVE {
-                    observer.leaf(blocks.iter().map(|block| block.len()).sum());
+                    held = blocks.iter().map(|block| block.len()).sum();
+                    observer.leaf(held);
                 }
-                let tests = search::<ANY, WIDTH, L, T, ()>(blocks, u32::MAX, prepared, t_min, nearest, &mut ());
+                let tests = search::<ANY, WIDTH, L, T, ()>(blocks, held, prepared, t_min, nearest, &mut ());
                 observer.test(tests);
                 if ANY && nearest.found() {
                     return;
