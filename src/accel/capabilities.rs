@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use crate::geometry::Ray;
+use crate::geometry::{Hit, Ray};
 
 /// What a structure can be asked. What it declines it is not asked: tables show it as declined, neither right nor wrong.
 ///
@@ -15,13 +15,20 @@ pub struct Capabilities {
     pub any_hit: bool,
     /// Whether it leaves out hits before a `t_min` above 0.
     pub t_min: bool,
+    /// Whether its intervals hold their start: without that, a ray whose nearest hit lies at its `t_min` exactly is not counted.
+    pub closed_start: bool,
     /// Whether it leaves out hits at or beyond a finite `t_max`.
     pub t_max: bool,
 }
 
 impl Capabilities {
     /// All that the contract of [`Accel`](super::Accel) asks for.
-    pub const ALL: Self = Self { any_hit: true, t_min: true, t_max: true };
+    pub const ALL: Self = Self { any_hit: true, t_min: true, closed_start: true, t_max: true };
+
+    /// Whether the answer to `ray`, of which `nearest` is the nearest hit, is a matter of convention.
+    pub fn excuses(self, ray: &Ray, nearest: Option<Hit>) -> bool {
+        !self.closed_start && nearest.is_some_and(|hit| hit.t == ray.interval().0)
+    }
 
     /// What of `ray` is declined, if anything is.
     pub fn declines(self, ray: &Ray) -> Option<&'static str> {
@@ -44,7 +51,12 @@ impl Capabilities {
 
     /// What is declined, as printed.
     pub fn declined(self) -> Vec<&'static str> {
-        let all = [(self.any_hit, "any hit"), (self.t_min, "t_min"), (self.t_max, "t_max")];
+        let all = [
+            (self.any_hit, "any hit"),
+            (self.t_min, "t_min"),
+            (self.closed_start, "hits at t_min"),
+            (self.t_max, "t_max"),
+        ];
         all.into_iter().filter(|(can, _)| !can).map(|(_, name)| name).collect()
     }
 }
@@ -67,6 +79,10 @@ mod tests {
         assert_eq!(no_start.admitted(&rays).len(), 4);
         assert_eq!(no_end.admitted(&rays)[..], [whole, late, rays[4]]);
         assert_eq!((no_start.declines(&late), no_end.declines(&odd)), (Some("t_min"), Some("t_max")));
+        let open = Capabilities { closed_start: false, ..Capabilities::ALL };
+        let at = |t| Some(Hit::new(t, 7));
+        assert!(open.excuses(&late, at(0.5)) && open.excuses(&whole, at(0.0)) && !open.excuses(&late, at(0.6)));
+        assert!(!open.excuses(&whole, None) && !Capabilities::ALL.excuses(&late, at(0.5)));
         assert!(Capabilities::ALL.declined().is_empty());
         assert_eq!(Capabilities { any_hit: false, ..no_end }.declined(), ["any hit", "t_max"]);
     }

@@ -56,7 +56,8 @@ pub trait Accel: Sized + Send + Sync + 'static {
     /// `t`. A structure with a test that nobody shares keeps `"own"`.
     const TRIANGLE_TEST: &'static str = "own";
 
-    /// What it does otherwise than the contract by design, one clause each: declared and shown, not counted as errors.
+    /// What it does otherwise by design, one clause each, for people to read. What of it changes answers belongs into
+    /// [`CAPABILITIES`](Accel::CAPABILITIES): that is not counted as errors; what is a defect belongs into neither.
     const CONVENTIONS: &'static [&'static str] = &[];
 
     /// What the observer is told.

@@ -87,9 +87,14 @@ pub(super) fn validate_batch(
     let mut expected = vec![None; rays.len()];
     reference.accel.closest_hits(rays, &mut expected);
     sums.hits = expected.iter().flatten().count() as u64;
-    let checks_any = subject.capabilities().any_hit;
+    let can = subject.capabilities();
+    let checks_any = can.any_hit;
     for (index, ray) in rays.iter().enumerate() {
         let (expected, found, any) = (expected[index], found[index], any[index]);
+        if can.excuses(ray, expected) {
+            sums.declined += 1;
+            continue;
+        }
         let mut note = |kind, verdict: String| {
             let index = index as u64;
             sums.worst.push(WorstRay { index, ray: *ray, expected, found, kind, verdict, gap: gap(expected, found) });

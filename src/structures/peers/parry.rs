@@ -107,8 +107,7 @@ impl<T: TriangleTest> Accel for ParryBvh<T> {
 
     const TRIANGLE_TEST: &'static str = T::NAME;
     const OBSERVED: Observed = Observed::TESTS;
-    const CONVENTIONS: &'static [&'static str] =
-        &["components of the direction below 1.2e-7 count as 1.2e-7 in its box test", "builds on one thread"];
+    const CONVENTIONS: &'static [&'static str] = &["builds on one thread"];
 
     fn build(mesh: &Arc<Mesh>, config: &ParryConfig) -> Result<Self, BuildError> {
         let strategy = match config.builder {

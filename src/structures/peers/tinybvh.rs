@@ -18,7 +18,7 @@ use serde::{Deserialize, Serialize};
 use tinybvh_rs::{Intersection, Positions, Ray as PreparedRay, bvh, bvh8_cpu, mbvh};
 
 use super::prepared::{Prepare, Prepared};
-use crate::accel::{Accel, BuildError, Footprint, Loaded, Observed, Observer, TreeShape};
+use crate::accel::{Accel, BuildError, Capabilities, Footprint, Loaded, Observed, Observer, TreeShape};
 use crate::geometry::{Hit, Mesh, Ray};
 
 /// The 8-wide BVH of tinybvh.
@@ -206,8 +206,9 @@ impl Accel for TinyBvh {
     type Config = TinyBvhConfig;
 
     const OBSERVED: Observed = Observed::NONE;
+    const CAPABILITIES: Capabilities = Capabilities { closed_start: false, ..Capabilities::ALL };
     const CONVENTIONS: &'static [&'static str] = &[
-        "open interval, t > 0; a ray with t_min starts at the point of t_min, rounded",
+        "a ray with t_min starts at the point of t_min, rounded",
         "walks unit directions: t is divided by the direction's length; nothing farther than 1e30",
         "any hit is a closest hit",
         "rays that would end the process (NaN, or the unit direction or origin over direction overflows) are not asked, and hit nothing",

@@ -23,7 +23,7 @@ use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
 use super::prepared::{Prepare, Prepared};
-use crate::accel::{Accel, BuildError, Footprint, Loaded, Observed, Observer, TreeShape};
+use crate::accel::{Accel, BuildError, Capabilities, Footprint, Loaded, Observed, Observer, TreeShape};
 use crate::geometry::{Hit, Mesh, Ray};
 use api::Arguments;
 use device::Scene;
@@ -45,7 +45,9 @@ pub trait Mode: Send + Sync + 'static {
     const FLAGS: c_int;
     /// The name of its triangle test.
     const TEST: &'static str;
-    /// What it does with the ends of an interval.
+    /// Whether intervals hold their start.
+    const CLOSED_START: bool;
+    /// What else it does otherwise.
     const CONVENTIONS: &'static [&'static str];
 }
 
@@ -60,12 +62,14 @@ pub struct Robust;
 impl Mode for Fast {
     const FLAGS: c_int = 0;
     const TEST: &'static str = "embree-moller-trumbore";
-    const CONVENTIONS: &'static [&'static str] = &["open at t_min: what lies at the origin is not hit"];
+    const CLOSED_START: bool = false;
+    const CONVENTIONS: &'static [&'static str] = &[];
 }
 
 impl Mode for Robust {
     const FLAGS: c_int = 4;
     const TEST: &'static str = "embree-plucker";
+    const CLOSED_START: bool = true;
     const CONVENTIONS: &'static [&'static str] = &["counts edges within rounding errors as hit"];
 }
 
@@ -199,6 +203,7 @@ impl<M: Mode> Accel for Embree<M> {
 
     const TRIANGLE_TEST: &'static str = M::TEST;
     const OBSERVED: Observed = Observed::NONE;
+    const CAPABILITIES: Capabilities = Capabilities { closed_start: M::CLOSED_START, ..Capabilities::ALL };
     const CONVENTIONS: &'static [&'static str] = M::CONVENTIONS;
 
     fn build(mesh: &Arc<Mesh>, config: &EmbreeConfig) -> Result<Self, BuildError> {
