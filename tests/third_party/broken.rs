@@ -109,7 +109,7 @@ impl Accel for Modest {
     type Config = GridConfig;
 
     const OBSERVED: Observed = Observed::NONE;
-    const CAPABILITIES: Capabilities = Capabilities { any_hit: false, t_min: false, closed_start: false, t_max: false };
+    const CAPABILITIES: Capabilities = Capabilities { any_hit: false, t_min: false, closed_start: true, t_max: false };
 
     fn build(mesh: &Arc<Mesh>, config: &GridConfig) -> Result<Self, BuildError> {
         Grid::build(mesh, config).map(Self)
