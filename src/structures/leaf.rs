@@ -1,5 +1,7 @@
 //! Triangles as leaves hold them, and the search through them.
 
+use std::mem::MaybeUninit;
+
 use crate::geometry::{Hit, Mesh, Ray};
 use crate::simd::Lanes;
 use crate::triangle::{Depth, TriangleTest};
@@ -124,14 +126,16 @@ pub(crate) fn search<const ANY: bool, const N: usize, L: Lanes<N>, T: TriangleTe
     tested
 }
 
-/// What is found of a block before it is settled, for each of `R` rays.
-pub(crate) struct Found<const N: usize, const R: usize> {
-    candidates: [u32; R],
-    known: [[f32; N]; R],
-}
+/// What is found of a block before it is settled, for each of `R` rays. Not initialised: most packets end without a candidate
+/// of most of their rays.
+pub(crate) struct Found<const N: usize, const R: usize>([MaybeUninit<(u32, [f32; N])>; R]);
 
 impl<const N: usize, const R: usize> Found<N, R> {
-    pub const NONE: Self = Self { candidates: [0; R], known: [[0.0; N]; R] };
+    /// Nothing yet.
+    #[inline(always)]
+    pub fn new() -> Self {
+        Self([const { MaybeUninit::uninit() }; R])
+    }
 }
 
 /// Searches the blocks of one leaf for the rays `taking_part`, as bits: each finds what it would find alone. With `ANY`, rays that
@@ -154,13 +158,15 @@ pub(crate) fn search_for_each<const ANY: bool, const N: usize, const R: usize, L
             let i = left.trailing_zeros() as usize % R;
             left &= left - 1;
             let (candidates, known) = T::candidates::<N, L>(&rays[i], &block.triangles, t_min[i], nearest[i].t);
-            (found.candidates[i], found.known[i]) = (candidates, known.store());
+            found.0[i].write((candidates, known.store()));
             met |= u16::from(candidates != 0) << i;
         }
         while met != 0 {
             let i = met.trailing_zeros() as usize % R;
             met &= met - 1;
-            settle(block, &rays[i], found.candidates[i], found.known[i], &mut nearest[i]);
+            // SAFETY: written above for this block, as `met` says.
+            let (candidates, known) = unsafe { found.0[i].assume_init() };
+            settle(block, &rays[i], candidates, known, &mut nearest[i]);
             if ANY && nearest[i].found() {
                 taking_part &= !(1 << i);
             }

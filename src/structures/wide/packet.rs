@@ -45,18 +45,13 @@ struct Travellers<T: TriangleTest> {
 impl<T: TriangleTest> Travellers<T> {
     #[inline(always)]
     fn new(rays: &[Ray; RAYS], t_min: [f32; RAYS]) -> Self {
-        let nearest = |ray: &Ray| Nearest::until(T::last(ray.t_max));
-        let mut new = Self {
-            prepared: [T::prepare(&rays[0]); RAYS],
-            nearest: [nearest(&rays[0]); RAYS],
+        Self {
+            prepared: each(rays, T::prepare),
+            nearest: each(rays, |ray| Nearest::until(T::last(ray.t_max))),
             t_min,
-            found: Found::NONE,
+            found: Found::new(),
             looking: u16::MAX,
-        };
-        for (i, ray) in rays.iter().enumerate().skip(1) {
-            (new.prepared[i], new.nearest[i]) = (T::prepare(ray), nearest(ray));
         }
-        new
     }
 
     /// Searches a leaf for the rays `taking_part`.
@@ -81,10 +76,15 @@ impl<T: TriangleTest> Travellers<T> {
 }
 
 impl<T: TriangleTest> WideTree<T> {
-    /// The hits of sixteen rays; nothing if they cannot travel together.
+    /// Answers sixteen rays; false if they cannot travel together.
     #[inline(always)]
-    pub(super) fn packet<const ANY: bool, L: Sieve>(&self, rays: &[Ray; RAYS]) -> Option<[Option<Hit>; RAYS]> {
-        let mut beams = Beams::<L>::new(rays, &self.bounds)?;
+    pub(super) fn packet<const ANY: bool, L: Sieve, A>(
+        &self,
+        rays: &[Ray; RAYS],
+        answers: &mut [A; RAYS],
+        form: &impl Fn(Option<Hit>) -> A,
+    ) -> bool {
+        let Some(mut beams) = Beams::<L>::new(rays, &self.bounds) else { return false };
         let frustum = Frustum::new(&beams);
         let mut travellers = Travellers::<T>::new(rays, beams.t_min());
         for (i, nearest) in travellers.nearest.iter().enumerate() {
@@ -122,7 +122,10 @@ impl<T: TriangleTest> WideTree<T> {
             }
             loop {
                 if len == 0 || travellers.looking == 0 {
-                    return Some(each(&travellers.nearest, Nearest::hit));
+                    for (answer, nearest) in answers.iter_mut().zip(&travellers.nearest) {
+                        *answer = form(nearest.hit());
+                    }
+                    return true;
                 }
                 len -= 1;
                 // SAFETY: what is below the length was written, and names a node.
