@@ -14,7 +14,7 @@ use super::node::{Child, WIDTH};
 use super::stack::SIZE;
 use crate::geometry::{Hit, Ray};
 use crate::simd::{Sieve, each};
-use crate::structures::leaf::{Found, LeafBlock, Nearest, search_for_each};
+use crate::structures::leaf::{Found, LeafBlock, Nearest, Prepared, search_for_each};
 use crate::triangle::TriangleTest;
 
 /// At most this many rays that are left go on alone.
@@ -33,8 +33,9 @@ struct Entry {
 }
 
 /// What each ray of a packet has for itself.
-struct Travellers<T: TriangleTest> {
-    prepared: [T::Ray; RAYS],
+struct Travellers<'a, T: TriangleTest> {
+    rays: &'a [Ray; RAYS],
+    prepared: Prepared<T, RAYS>,
     nearest: [Nearest<T::Depth>; RAYS],
     t_min: [f32; RAYS],
     found: Found<WIDTH, RAYS>,
@@ -42,11 +43,12 @@ struct Travellers<T: TriangleTest> {
     looking: u16,
 }
 
-impl<T: TriangleTest> Travellers<T> {
+impl<'a, T: TriangleTest> Travellers<'a, T> {
     #[inline(always)]
-    fn new(rays: &[Ray; RAYS], t_min: [f32; RAYS]) -> Self {
+    fn new(rays: &'a [Ray; RAYS], t_min: [f32; RAYS]) -> Self {
         Self {
-            prepared: each(rays, T::prepare),
+            rays,
+            prepared: Prepared::new(),
             nearest: each(rays, |ray| Nearest::until(T::last(ray.t_max))),
             t_min,
             found: Found::new(),
@@ -62,8 +64,12 @@ impl<T: TriangleTest> Travellers<T> {
         mut taking_part: u16,
         beams: &mut Beams<L>,
     ) {
-        let Self { prepared, nearest, t_min, found, .. } = self;
-        search_for_each::<ANY, WIDTH, RAYS, L, T>(blocks, taking_part, prepared, t_min, nearest, found);
+        let Self { rays, prepared, nearest, t_min, found, .. } = self;
+        prepared.prepare(rays, taking_part);
+        // SAFETY: prepared.
+        unsafe {
+            search_for_each::<ANY, WIDTH, RAYS, L, T>(blocks, taking_part, prepared, t_min, nearest, found);
+        }
         while taking_part != 0 {
             let i = taking_part.trailing_zeros() as usize % RAYS;
             taking_part &= taking_part - 1;
@@ -154,10 +160,12 @@ impl<T: TriangleTest> WideTree<T> {
         beams: &mut Beams<L>,
         travellers: &mut Travellers<T>,
     ) {
+        travellers.prepared.prepare(travellers.rays, taking_part);
         while taking_part != 0 {
             let i = taking_part.trailing_zeros() as usize % RAYS;
             taking_part &= taking_part - 1;
-            let (prepared, nearest) = (&travellers.prepared[i], &mut travellers.nearest[i]);
+            // SAFETY: prepared.
+            let (prepared, nearest) = unsafe { (travellers.prepared.get(i), &mut travellers.nearest[i]) };
             let t_min = travellers.t_min[i];
             self.descend::<ANY, L, ()>(child, &beams.single(i), prepared, t_min, nearest, &mut ());
             if ANY && nearest.found() {
