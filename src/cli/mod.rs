@@ -14,6 +14,7 @@ mod progress;
 mod rays;
 mod render;
 mod replicate;
+mod report;
 mod sources;
 mod study;
 mod terminal;
@@ -59,6 +60,8 @@ enum Command {
     Validate(validate::Args),
     /// Record, import and show files of rays
     Rays(rays::Args),
+    /// Write what runs have measured as a page, Markdown, LaTeX and tidy data
+    Report(report::Args),
     /// Run an experiment with a question of its own
     Study(study::Args),
     /// How wrong, how fast: every structure over every triangle test, judged by exact arithmetic
@@ -119,6 +122,7 @@ pub fn run(registry: &Registry, args: impl IntoIterator<Item = OsString>) -> Exi
     let run = || match command {
         Command::Compare(args) => compare::run(registry, &args, &terminal),
         Command::Replicate(args) => replicate::run(registry, &args, &terminal),
+        Command::Report(args) => report::run(registry, &args, &terminal),
         Command::Validate(args) => validate::run(registry, &args, &terminal),
         Command::Rays(args) => rays::run(registry, &args, &terminal),
         Command::Study(args) => study::run(registry, &args, &terminal),

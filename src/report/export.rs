@@ -3,8 +3,6 @@
 use serde::Serialize;
 use serde_json::Value;
 
-use super::Record;
-
 /// Anything as indented JSON with a final newline.
 pub fn to_json(value: &impl Serialize) -> Vec<u8> {
     let mut bytes = serde_json::to_vec_pretty(value).expect("records have text keys and finite numbers");
@@ -12,21 +10,35 @@ pub fn to_json(value: &impl Serialize) -> Vec<u8> {
     bytes
 }
 
-/// One row per record under a row of names; see the [module](super) for the form of nested fields.
-pub fn to_csv(records: &[Record]) -> Vec<u8> {
-    let mut writer = csv::Writer::from_writer(vec![]);
-    for (i, record) in records.iter().enumerate() {
-        let fields = flat(record);
-        if i == 0 {
-            writer.write_record(fields.iter().map(|(name, _)| name)).expect("memory takes every write");
+/// One row per record under a row of names; see the [module](super) for the form of nested fields. Records are structs;
+/// what some of them do not have is blank.
+pub fn to_csv<T: Serialize>(records: &[T]) -> Vec<u8> {
+    let rows: Vec<Vec<(String, String)>> = records.iter().map(flat).collect();
+    let mut names: Vec<&str> = vec![];
+    for (name, _) in rows.iter().flatten() {
+        if !names.contains(&name.as_str()) {
+            names.push(name);
         }
-        writer.write_record(fields.iter().map(|(_, value)| value)).expect("all records have the same fields");
+    }
+    let mut writer = csv::Writer::from_writer(vec![]);
+    if !names.is_empty() {
+        writer.write_record(&names).expect("memory takes every write");
+    }
+    for row in &rows {
+        let cell = |name: &&str| row.iter().find(|(own, _)| own == name).map_or("", |(_, value)| value);
+        writer.write_record(names.iter().map(cell)).expect("all rows have the same columns");
     }
     writer.into_inner().expect("memory takes every write")
 }
 
+/// One record per line.
+pub fn to_jsonl<T: Serialize>(records: &[T]) -> Vec<u8> {
+    let line = |record| serde_json::to_string(record).expect("records have text keys and finite numbers") + "\n";
+    records.iter().map(line).collect::<String>().into_bytes()
+}
+
 /// Name and text of every field, in the order of the record.
-fn flat(record: &Record) -> Vec<(String, String)> {
+fn flat(record: &impl Serialize) -> Vec<(String, String)> {
     let Ok(Value::Object(fields)) = serde_json::to_value(record) else { unreachable!("a record is a map of fields") };
     let mut flat = vec![];
     for (name, value) in fields {
@@ -50,6 +62,7 @@ fn text(value: Value) -> String {
 
 #[cfg(test)]
 mod tests {
+    use super::super::Record;
     use super::super::record::example;
     use super::*;
 
@@ -79,6 +92,6 @@ mod tests {
     #[test]
     fn nothing_exports_as_nothing() {
         assert_eq!(to_json(&Vec::<Record>::new()), b"[]\n");
-        assert!(to_csv(&[]).is_empty());
+        assert!(to_csv(&Vec::<Record>::new()).is_empty());
     }
 }

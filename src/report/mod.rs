@@ -7,11 +7,11 @@ pub mod plot;
 mod record;
 mod table;
 
-pub use export::{to_csv, to_json};
+pub use export::{to_csv, to_json, to_jsonl};
 pub use record::Record;
 #[cfg(test)]
 pub(crate) use record::example;
-pub use table::{Cell, Screen, Table, Tone, to_markdown, wrapped};
+pub use table::{Cell, Screen, Table, Tone, escaped, to_markdown, wrapped};
 
 #[cfg(test)]
 pub(crate) use record::example as example_record;

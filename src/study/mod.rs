@@ -13,7 +13,7 @@ pub mod replicate;
 pub mod self_intersection;
 mod stage;
 
-pub use baselines::{BRUTE_FORCE, SAH_TREE, documented_defect};
+pub use baselines::{BRUTE_FORCE, REPORT_TREE, SAH_TREE, documented_defect};
 pub use error::StudyError;
 pub use guarded::{PANICKED, Refused, guarded};
 pub use stage::Stage;
