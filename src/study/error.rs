@@ -1,4 +1,5 @@
 use super::guarded::PANICKED;
+use super::journal::JournalError;
 use crate::accel::BuildError;
 use crate::measure::UnsteadyAnswers;
 use crate::registry::ChoiceError;
@@ -18,4 +19,6 @@ pub enum StudyError {
     Structure(#[from] ChoiceError),
     #[error("{structure} gives {errors} wrong answers to {checked} rays of {scene}: its times would mean nothing")]
     Wrong { structure: String, scene: String, errors: usize, checked: usize },
+    #[error(transparent)]
+    Journal(#[from] JournalError),
 }

@@ -8,6 +8,7 @@ pub mod compare;
 mod error;
 mod guarded;
 pub mod hard_cases;
+pub mod journal;
 pub mod partitions;
 pub mod replicate;
 pub mod self_intersection;
