@@ -1,6 +1,7 @@
 //! Studies: what is built, checked, counted and timed to answer a question, and the tables that answer it.
 
 pub mod accuracy;
+pub mod attribution;
 mod baselines;
 mod built;
 mod check;
