@@ -42,10 +42,8 @@ const STOPS: [Level; 3] = [
 ];
 
 /// How rays walk: the report's way, then the usual one.
-const TRAVERSALS: [Level; 2] = [
-    level("child boxes", "traversal=child-boxes"),
-    level("plane intervals", "traversal=plane-intervals"),
-];
+const TRAVERSALS: [Level; 2] =
+    [level("child boxes", "traversal=child-boxes"), level("plane intervals", "traversal=plane-intervals")];
 
 /// What all cells share. The rules of the report take no notice of the costs; the guard against inputs that explode is the one of
 /// `sah-kd`.
@@ -89,7 +87,11 @@ impl Cell {
 
     /// All cells; a cell stands at its [number](Self::number).
     pub fn all() -> Vec<Self> {
-        (0..CELLS).map(|i| Self([i / (STOPS.len() * TRAVERSALS.len()), i / TRAVERSALS.len() % STOPS.len(), i % TRAVERSALS.len()])).collect()
+        (0..CELLS)
+            .map(|i| {
+                Self([i / (STOPS.len() * TRAVERSALS.len()), i / TRAVERSALS.len() % STOPS.len(), i % TRAVERSALS.len()])
+            })
+            .collect()
     }
 
     /// Where it stands among all.

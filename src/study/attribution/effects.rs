@@ -70,13 +70,19 @@ pub fn shares(logs: &[f64]) -> Option<[f64; 7]> {
     // The mean over all cells that agree with `cell` in the factors of a set.
     let mean = |cell: Cell, set: usize| {
         let agrees = |other: &Cell| (0..3).all(|f| set >> f & 1 == 0 || other.0[f] == cell.0[f]);
-        let (sum, n) = cells.iter().zip(logs).filter(|(other, _)| agrees(other)).fold((0.0, 0.0), |(sum, n), (_, log)| (sum + log, n + 1.0));
+        let (sum, n) = cells
+            .iter()
+            .zip(logs)
+            .filter(|(other, _)| agrees(other))
+            .fold((0.0, 0.0), |(sum, n), (_, log)| (sum + log, n + 1.0));
         sum / n
     };
     // What a term adds to those within it: means of its subsets with alternating signs.
     let effect = |cell: Cell, term: usize| -> f64 {
         let subsets = (0..8).filter(|set| set & term == *set);
-        subsets.map(|set: usize| if (term ^ set).count_ones() % 2 == 0 { mean(cell, set) } else { -mean(cell, set) }).sum()
+        subsets
+            .map(|set: usize| if (term ^ set).count_ones() % 2 == 0 { mean(cell, set) } else { -mean(cell, set) })
+            .sum()
     };
     let squares = TERMS.map(|term| cells.iter().map(|&cell| effect(cell, term)).map(|x| x * x).sum::<f64>());
     let total: f64 = squares.iter().sum();
@@ -89,9 +95,8 @@ mod tests {
 
     /// Logs made of known effects: each level of each factor, and one interaction.
     fn logs(plane: [f64; 6], stop: [f64; 3], traversal: [f64; 2], both: f64) -> Vec<f64> {
-        let of = |Cell([p, s, t]): Cell| {
-            5.0 + plane[p] + stop[s] + traversal[t] + if p == 5 && s == 2 { both } else { 0.0 }
-        };
+        let of =
+            |Cell([p, s, t]): Cell| 5.0 + plane[p] + stop[s] + traversal[t] + if p == 5 && s == 2 { both } else { 0.0 };
         Cell::all().into_iter().map(of).collect()
     }
 

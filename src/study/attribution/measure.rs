@@ -27,7 +27,8 @@ pub fn measure(
     progress: &mut dyn FnMut(Stage),
 ) -> Result<Case, StudyError> {
     let cells: Vec<Cell> = Cell::all().into_iter().chain([Cell::REPORT, Cell::SAH]).collect();
-    let choices: Result<Vec<Choice>, _> = cells.iter().map(|cell| registry.choose(&cell.spec(&settings.test))).collect();
+    let choices: Result<Vec<Choice>, _> =
+        cells.iter().map(|cell| registry.choose(&cell.spec(&settings.test))).collect();
     let mut built = vec![];
     for choice in &choices? {
         progress(Stage::Build(&choice.label));
@@ -47,8 +48,9 @@ pub fn measure(
         None => Some(counted(scene, &built, &workload, settings, clock, progress)?),
         Some(_) => None,
     };
-    let samples = timed(&built, &workload, settings, epoch, first, clock, progress)
-        .map_err(|(structure, cause)| StudyError::Unsteady { structure, scene: scene.name.clone(), rays: workload.name.clone(), cause })?;
+    let samples = timed(&built, &workload, settings, epoch, first, clock, progress).map_err(|(structure, cause)| {
+        StudyError::Unsteady { structure, scene: scene.name.clone(), rays: workload.name.clone(), cause }
+    })?;
     if let Some(first) = first {
         let changed = first.trees.iter().zip(&samples).position(|(first, now)| first.checksum != now.checksum);
         if let Some(i) = changed {
@@ -105,7 +107,8 @@ fn timed(
     let samples = match first {
         None => take(clock, &mut cases, &plan, &mut told),
         Some(first) => {
-            let none = |tree: &Tree| Samples { rays: tree.rays, checksum: 0, same_answers: true, unsteady: 0, ns: vec![] };
+            let none =
+                |tree: &Tree| Samples { rays: tree.rays, checksum: 0, same_answers: true, unsteady: 0, ns: vec![] };
             let mut samples: Vec<Samples> = first.trees.iter().map(none).collect();
             take_again(clock, &mut cases, &plan, &mut samples, &mut told).map(|()| samples)
         }

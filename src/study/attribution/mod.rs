@@ -19,7 +19,7 @@ use crate::measure::Threads;
 use crate::scene::{Scene, WorkloadKind};
 
 pub use measure::measure;
-pub use result::{Attribution, Effect, Part, Split, Term, attribute, result};
+pub use result::{Attribution, CellResult, Effect, Part, Row, Split, Term, attribute, result, rows};
 pub use table::{headlines, tables};
 
 /// What is measured, and for how long.

@@ -100,6 +100,25 @@ pub struct Part {
     pub most: f64,
 }
 
+/// One tree of one scene: a row of a tidy table.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Row<'a> {
+    pub scene: &'a str,
+    pub triangles: usize,
+    pub stand_in: bool,
+    pub workload: &'a str,
+    pub tree: &'a CellResult,
+}
+
+/// All trees of all scenes.
+pub fn rows(results: &[Attribution]) -> Vec<Row<'_>> {
+    fn of(r: &Attribution) -> Vec<Row<'_>> {
+        let Attribution { scene, triangles, stand_in, workload, cells, .. } = r;
+        cells.iter().map(|tree| Row { scene, triangles: *triangles, stand_in: *stand_in, workload, tree }).collect()
+    }
+    results.iter().flat_map(of).collect()
+}
+
 /// One result for each scene, in the order in which the scenes were begun. A scene whose first epoch is missing has none.
 pub fn result(cases: &[Case], seed: u64) -> Vec<Attribution> {
     let mut scenes: Vec<(&str, bool, &str)> = vec![];
@@ -164,7 +183,8 @@ pub fn attribute(epochs: &[&Case], seed: u64) -> Option<Attribution> {
             sampled: trees[0].rays < first.workload_rays,
         }
     });
-    let levels = Factor::ALL.into_iter().flat_map(|factor| (0..factor.levels().len()).map(move |level| (factor, level)));
+    let levels =
+        Factor::ALL.into_iter().flat_map(|factor| (0..factor.levels().len()).map(move |level| (factor, level)));
     let main_effects = levels.map(|(factor, level)| {
         let weights = effects::main_effect(factor, level);
         let of = |logs: &[f64]| libm::exp(value(&weights, logs));
@@ -260,7 +280,8 @@ fn terms(replicates: &[Vec<f64>], tests: &[f64], steps: &[f64], seed: u64) -> Ve
     let estimate = of(&mean_of(replicates));
     let drawn: Vec<[f64; TERMS.len()]> = (0..RESAMPLES)
         .map(|_| {
-            let draw: Vec<Vec<f64>> = replicates.iter().map(|_| replicates[random.below(replicates.len())].clone()).collect();
+            let draw: Vec<Vec<f64>> =
+                replicates.iter().map(|_| replicates[random.below(replicates.len())].clone()).collect();
             of(&mean_of(&draw))
         })
         .collect();
