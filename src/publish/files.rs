@@ -7,7 +7,7 @@ use super::html::page;
 use super::latex::latex;
 use super::markdown::markdown;
 use super::runs::Runs;
-use crate::report::{Table, to_csv, to_jsonl};
+use crate::report::{Table, to_jsonl, to_tidy_csv};
 
 /// Width of drawings that stand alone, in their units.
 const WIDTH: f64 = 900.0;
@@ -63,7 +63,7 @@ fn of_figure(figure: &Figure) -> Vec<(String, Vec<u8>)> {
 
 fn tidy<T: Serialize>(name: &str, rows: &[T], files: &mut Vec<(String, Vec<u8>)>) {
     if !rows.is_empty() {
-        files.push((format!("data/{name}.csv"), to_csv(rows)));
+        files.push((format!("data/{name}.csv"), to_tidy_csv(rows)));
         files.push((format!("data/{name}.jsonl"), to_jsonl(rows)));
     }
 }

@@ -3,6 +3,8 @@
 use serde::Serialize;
 use serde_json::Value;
 
+use super::Record;
+
 /// Anything as indented JSON with a final newline.
 pub fn to_json(value: &impl Serialize) -> Vec<u8> {
     let mut bytes = serde_json::to_vec_pretty(value).expect("records have text keys and finite numbers");
@@ -10,16 +12,43 @@ pub fn to_json(value: &impl Serialize) -> Vec<u8> {
     bytes
 }
 
-/// One row per record under a row of names; see the [module](super) for the form of nested fields. Records are structs;
-/// what some of them do not have is blank.
-pub fn to_csv<T: Serialize>(records: &[T]) -> Vec<u8> {
-    let rows: Vec<Vec<(String, String)>> = records.iter().map(flat).collect();
+/// One row per record under a row of names; see the [module](super) for the form of nested fields.
+pub fn to_csv(records: &[Record]) -> Vec<u8> {
+    let mut writer = csv::Writer::from_writer(vec![]);
+    for (i, record) in records.iter().enumerate() {
+        let fields = flat(record);
+        if i == 0 {
+            writer.write_record(fields.iter().map(|(name, _)| name)).expect("memory takes every write");
+        }
+        writer.write_record(fields.iter().map(|(_, value)| value)).expect("all records have the same fields");
+    }
+    writer.into_inner().expect("memory takes every write")
+}
+
+/// One record per line.
+pub fn to_jsonl<T: Serialize>(records: &[T]) -> Vec<u8> {
+    let line = |record| serde_json::to_string(record).expect("records have text keys and finite numbers") + "\n";
+    records.iter().map(line).collect::<String>().into_bytes()
+}
+
+/// One row for each of `rows` under a row of names; a field within a field is called `outer.inner`, and what a row does not
+/// have is blank.
+pub fn to_tidy_csv(rows: &[impl Serialize]) -> Vec<u8> {
+    let flat = |row| {
+        let mut fields = vec![];
+        flatten("", serde_json::to_value(row).expect("a row has text keys"), &mut fields);
+        fields
+    };
+    let rows: Vec<Vec<(String, String)>> = rows.iter().map(flat).collect();
     let mut names: Vec<&str> = vec![];
     for (name, _) in rows.iter().flatten() {
         if !names.contains(&name.as_str()) {
             names.push(name);
         }
     }
+    // A field that is unknown in one row and has fields of its own in another is those fields.
+    let has_fields = |name: &str| names.iter().any(|other| other.strip_prefix(name).is_some_and(|rest| rest.starts_with('.')));
+    let names: Vec<&str> = names.iter().copied().filter(|name| !has_fields(name)).collect();
     let mut writer = csv::Writer::from_writer(vec![]);
     if !names.is_empty() {
         writer.write_record(&names).expect("memory takes every write");
@@ -31,14 +60,19 @@ pub fn to_csv<T: Serialize>(records: &[T]) -> Vec<u8> {
     writer.into_inner().expect("memory takes every write")
 }
 
-/// One record per line.
-pub fn to_jsonl<T: Serialize>(records: &[T]) -> Vec<u8> {
-    let line = |record| serde_json::to_string(record).expect("records have text keys and finite numbers") + "\n";
-    records.iter().map(line).collect::<String>().into_bytes()
+/// Name and text of every field of `value`, those within maps as well.
+fn flatten(name: &str, value: Value, fields: &mut Vec<(String, String)>) {
+    match value {
+        Value::Object(inner) => {
+            let dot = if name.is_empty() { "" } else { "." };
+            inner.into_iter().for_each(|(key, value)| flatten(&format!("{name}{dot}{key}"), value, fields));
+        }
+        value => fields.push((name.into(), text(value))),
+    }
 }
 
 /// Name and text of every field, in the order of the record.
-fn flat(record: &impl Serialize) -> Vec<(String, String)> {
+fn flat(record: &Record) -> Vec<(String, String)> {
     let Ok(Value::Object(fields)) = serde_json::to_value(record) else { unreachable!("a record is a map of fields") };
     let mut flat = vec![];
     for (name, value) in fields {
@@ -62,7 +96,6 @@ fn text(value: Value) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Record;
     use super::super::record::example;
     use super::*;
 
@@ -87,6 +120,13 @@ mod tests {
         assert_eq!(cell("steps_per_ray"), "1.5");
         assert_eq!(cell("config"), r#"{"leaf":8,"threshold":0.7}"#);
         assert_eq!(cell("provenance.threads"), "1");
+    }
+
+    #[test]
+    fn tidy_rows_name_inner_fields_by_a_path() {
+        let row = |speed: Option<f64>| serde_json::json!({ "scene": "Cube", "speed": { "low": 1.5, "high": speed } });
+        let text = String::from_utf8(to_tidy_csv(&[row(Some(2.0)), row(None)])).unwrap();
+        assert_eq!(text, "scene,speed.low,speed.high\nCube,1.5,2.0\nCube,1.5,\n");
     }
 
     #[test]
