@@ -1,12 +1,14 @@
 //! What a run leaves: records as JSON, CSV and Markdown, tables for people.
 #![doc = include_str!("SCHEMA.md")]
 
+mod counts;
 mod export;
 pub mod number;
 pub mod plot;
 mod record;
 mod table;
 
+pub use counts::CaseCounts;
 pub use export::{to_csv, to_json};
 pub use record::Record;
 #[cfg(test)]

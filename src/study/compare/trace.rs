@@ -20,6 +20,9 @@ pub(super) struct Trace {
     pub ns: Vec<f64>,
     pub tests_per_ray: Option<f64>,
     pub steps_per_ray: Option<f64>,
+    pub leaf_steps_per_ray: Option<f64>,
+    pub empty_leaf_steps_per_ray: Option<f64>,
+    pub tests_over_minimum: Option<f64>,
 }
 
 /// A full pass that takes longer runs on a sample of its rays, whatever the budget.
@@ -99,6 +102,9 @@ pub(super) fn trace_all(
             trace.hits = counted.hits;
             trace.tests_per_ray = counted.tests_per_ray();
             trace.steps_per_ray = counted.steps_per_ray();
+            trace.leaf_steps_per_ray = counted.leaf_steps_per_ray();
+            trace.empty_leaf_steps_per_ray = counted.empty_leaf_steps_per_ray();
+            trace.tests_over_minimum = counted.tests_over_minimum();
         }
         Some(traces)
     };

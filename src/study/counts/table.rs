@@ -20,7 +20,11 @@ pub const LEGEND: [&str; 3] = [
 /// The tables of one scene: what the structures are, how they look, and what each kind of rays costs.
 pub fn tables(measures: &[Measures], refused: &[Refused]) -> Vec<Table> {
     let Some(first) = measures.first() else {
-        return vec![Table { title: "Every structure is refused.".into(), notes: refusals(refused), ..Table::default() }];
+        return vec![Table {
+            title: "Every structure is refused.".into(),
+            notes: refusals(refused),
+            ..Table::default()
+        }];
     };
     let mut tables = vec![trees(first, measures, refused), looks(measures)];
     let mut kinds: Vec<&RayMeasures> = vec![];
