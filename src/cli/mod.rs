@@ -6,6 +6,7 @@
 mod accuracy;
 mod compare;
 mod completions;
+mod counts;
 mod fetch;
 mod golden;
 mod hard;
@@ -71,6 +72,8 @@ enum Command {
     /// Answer for one structure and one hard case; what `hard` runs in a process of its own
     #[command(name = hard::CHILD, hide = true)]
     HardAnswer(hard::ChildArgs),
+    /// Count what no machine changes: nodes, leaves, references, overlap; steps and tests of rays
+    Counts(counts::Args),
     /// Download the real meshes that scene files name, verified; licences are shown first
     Fetch(fetch::Args),
     /// Draw a picture
@@ -129,6 +132,7 @@ pub fn run(registry: &Registry, args: impl IntoIterator<Item = OsString>) -> Exi
         Command::Accuracy(args) => accuracy::run(registry, &args, &terminal),
         Command::Hard(args) => hard::run(registry, &args, &terminal),
         Command::HardAnswer(args) => hard::run_child(registry, &args),
+        Command::Counts(args) => counts::run(registry, &args, &terminal),
         Command::Fetch(args) => fetch::run(&args, &terminal),
         Command::Render(args) => render::run(registry, &args, &terminal),
         Command::Golden(args) => golden::run(registry, &args, &terminal),

@@ -77,7 +77,7 @@ fn flat(record: &Record) -> Vec<(String, String)> {
     let mut flat = vec![];
     for (name, value) in fields {
         match value {
-            Value::Object(inner) if name == "provenance" => {
+            Value::Object(inner) if name == "provenance" || name == "counts" => {
                 flat.extend(inner.into_iter().map(|(key, value)| (format!("{name}.{key}"), text(value))));
             }
             value => flat.push((name, text(value))),
@@ -120,6 +120,7 @@ mod tests {
         assert_eq!(cell("steps_per_ray"), "1.5");
         assert_eq!(cell("config"), r#"{"leaf":8,"threshold":0.7}"#);
         assert_eq!(cell("provenance.threads"), "1");
+        assert_eq!((cell("counts.leaves"), cell("counts.sah_cost")), ("7".into(), String::new()));
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! What a run leaves: records as JSON, CSV and Markdown, tables for people.
 #![doc = include_str!("SCHEMA.md")]
 
+mod counts;
 mod export;
 pub mod number;
 pub mod plot;
@@ -8,6 +9,7 @@ mod record;
 mod table;
 
 pub use export::{to_csv, to_json, to_jsonl, to_tidy_csv};
+pub use counts::CaseCounts;
 pub use record::Record;
 #[cfg(test)]
 pub(crate) use record::example;

@@ -6,6 +6,8 @@ mod baselines;
 mod built;
 mod check;
 pub mod compare;
+mod counted;
+pub mod counts;
 mod error;
 mod guarded;
 pub mod hard_cases;

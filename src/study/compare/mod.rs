@@ -12,7 +12,7 @@ use crate::accel::{DynAccel, Query};
 use crate::geometry::Ray;
 use crate::measure::{Clock, Provenance, Threads, median};
 use crate::registry::Choice;
-use crate::report::Record;
+use crate::report::{CaseCounts, Record};
 use crate::scene::{Sampling, Scene, Workload, WorkloadKind};
 
 pub use table::{legend, mean_table, scene_table};
@@ -109,6 +109,7 @@ pub fn compare_scene(
     let hashes: Vec<String> = workloads.iter().map(Workload::hash).collect();
     let mut records = vec![];
     for ((built, checks), traces) in checked.iter().zip(&traces) {
+        let shape = CaseCounts::of(&built.accel.shape());
         for (w, workload) in workloads.iter().enumerate() {
             let (check, trace) = (&checks[w], &traces[w]);
             let trace_ns = median(&trace.ns);
@@ -142,6 +143,12 @@ pub fn compare_scene(
                 checked_rays: Some(check.rays),
                 structure_errors: Some(check.errors),
                 provenance: provenance.clone(),
+                counts: CaseCounts {
+                    leaf_steps_per_ray: trace.leaf_steps_per_ray,
+                    empty_leaf_steps_per_ray: trace.empty_leaf_steps_per_ray,
+                    tests_over_minimum: trace.tests_over_minimum,
+                    ..shape
+                },
             });
         }
     }
@@ -149,7 +156,7 @@ pub fn compare_scene(
 }
 
 /// What of a workload a structure declines, if anything is: then it has no time.
-fn declined(accel: &dyn DynAccel, workload: &Workload) -> Option<&'static str> {
+pub(super) fn declined(accel: &dyn DynAccel, workload: &Workload) -> Option<&'static str> {
     let can = accel.capabilities();
     if workload.query == Query::Any && !can.any_hit {
         return Some("any hit");

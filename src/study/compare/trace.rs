@@ -1,12 +1,11 @@
 //! How fast are the answers, and how much work do they take?
 
 use super::{Settings, declined};
-use crate::accel::{Counts, DynAccel, Query};
-use crate::geometry::Ray;
 use crate::measure::{Clock, Pass, Plan, Timed, spread, take};
 use crate::scene::{Scene, Workload};
 use crate::study::built::Built;
 use crate::study::check::Check;
+use crate::study::counted::Counted;
 use crate::study::guarded::Guarded;
 use crate::study::{Stage, StudyError, guarded};
 
@@ -21,6 +20,9 @@ pub(super) struct Trace {
     pub ns: Vec<f64>,
     pub tests_per_ray: Option<f64>,
     pub steps_per_ray: Option<f64>,
+    pub leaf_steps_per_ray: Option<f64>,
+    pub empty_leaf_steps_per_ray: Option<f64>,
+    pub tests_over_minimum: Option<f64>,
 }
 
 /// A full pass that takes longer runs on a sample of its rays, whatever the budget.
@@ -96,30 +98,15 @@ pub(super) fn trace_all(
                 trace.rays = COUNTED.min(workload.rays.len());
             }
             let rays = spread(&workload.rays, trace.rays);
-            guarded(|| count(built.accel.as_ref(), &rays, workload.query, trace))?;
+            let counted = guarded(|| Counted::new(built.accel.as_ref(), &rays, workload.query))?;
+            trace.hits = counted.hits;
+            trace.tests_per_ray = counted.tests_per_ray();
+            trace.steps_per_ray = counted.steps_per_ray();
+            trace.leaf_steps_per_ray = counted.leaf_steps_per_ray();
+            trace.empty_leaf_steps_per_ray = counted.empty_leaf_steps_per_ray();
+            trace.tests_over_minimum = counted.tests_over_minimum();
         }
         Some(traces)
     };
     Ok(built.iter().zip(traces).map(counted).collect())
-}
-
-/// Hits and counts of one pass over `rays`.
-fn count(accel: &dyn DynAccel, rays: &[Ray], query: Query, trace: &mut Trace) {
-    let mut counts = Counts::default();
-    trace.hits = match query {
-        Query::Closest => {
-            let mut hits = vec![None; rays.len()];
-            accel.closest_hits_counted(rays, &mut hits, &mut counts);
-            hits.iter().flatten().count()
-        }
-        Query::Any => {
-            let mut hits = vec![false; rays.len()];
-            accel.any_hits_counted(rays, &mut hits, &mut counts);
-            hits.iter().filter(|hit| **hit).count()
-        }
-    };
-    let observed = accel.observed();
-    let per_ray = |n: u64| n as f64 / rays.len() as f64;
-    trace.tests_per_ray = observed.tests.then(|| per_ray(counts.tests));
-    trace.steps_per_ray = observed.steps.then(|| per_ray(counts.steps()));
 }
