@@ -5,12 +5,15 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
+use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 
 use crate::measure::Provenance;
 use crate::report::Record;
 use crate::study::accuracy::AccuracyRecord;
+use crate::study::attribution;
+use crate::study::journal::{Header, Journal, JournalError, Recorded};
 use crate::study::replicate::Replication;
 
 /// Everything that a report is made of.
@@ -24,6 +27,26 @@ pub struct Runs {
     pub partitions: Vec<Record>,
     pub accuracy: Vec<AccuracyRecord>,
     pub replication: Option<Replication>,
+    pub attribution: Option<Study<attribution::Case>>,
+}
+
+/// A study that keeps a journal.
+#[derive(Clone, Debug)]
+pub struct Study<C> {
+    pub header: Header,
+    pub cases: Vec<C>,
+}
+
+impl<C> Study<C> {
+    /// Seed of its settings, with which it resamples.
+    pub fn seed(&self) -> u64 {
+        self.header.settings.get("seed").and_then(Value::as_u64).unwrap_or(1)
+    }
+
+    /// The command that began it.
+    pub fn command(&self) -> String {
+        shown(&self.header.provenance.command)
+    }
 }
 
 /// A file that was read.
@@ -50,6 +73,10 @@ pub enum RunError {
     Form { path: PathBuf, kind: &'static str, cause: serde_json::Error },
     #[error("{} is JSON but no run of sahara: name files of `--export-json`, or of a study", path.display())]
     Foreign { path: PathBuf },
+    #[error("{} is the journal of the study {study:?}, which this sahara does not know: leave it out", path.display())]
+    Unknown { path: PathBuf, study: String },
+    #[error(transparent)]
+    Journal(#[from] JournalError),
     #[error("there is no run in {}: `sahara study all` makes a whole one, `sahara compare --export-json {}/compare.json` a small one",
         path.display(), path.display())]
     Empty { path: PathBuf },
@@ -90,6 +117,9 @@ impl Runs {
 
     fn add(&mut self, path: &Path) -> Result<(), RunError> {
         let text = fs::read_to_string(path).map_err(|cause| RunError::Read { path: path.into(), cause })?;
+        if let Some(header) = text.lines().next().and_then(header) {
+            return self.add_journal(path, &header);
+        }
         let value: Value = serde_json::from_str(&text).map_err(|cause| RunError::Torn { path: path.into(), cause })?;
         let has = |value: &Value, field: &str| value.get(field).is_some();
         let first = value.get(0);
@@ -115,6 +145,19 @@ impl Runs {
             return Ok(());
         }
         Err(RunError::Foreign { path: path.into() })
+    }
+
+    /// Adds the journal of a study; of several the newest counts.
+    fn add_journal(&mut self, path: &Path, header: &Header) -> Result<(), RunError> {
+        let name = header.study.as_str();
+        match name {
+            attribution::NAME => self.attribution = Some(study(path)?),
+            _ => return Err(RunError::Unknown { path: path.into(), study: name.into() }),
+        }
+        let kind = format!("study {name}");
+        self.replace(&kind, |_| true);
+        self.note(path, &kind, &header.provenance.command);
+        Ok(())
     }
 
     /// Adds records; those of the same scene, structure and workload that are there already are older.
@@ -146,8 +189,9 @@ impl Runs {
         let records = self.records.iter().chain(&self.partitions).map(|record| &record.provenance);
         let accuracy = self.accuracy.iter().map(|record| &record.provenance);
         let replication = self.replication.iter().map(|replication| &replication.provenance);
+        let studies = self.attribution.iter().map(|study| &study.header.provenance);
         let mut found: Vec<&Provenance> = vec![];
-        for provenance in records.chain(accuracy).chain(replication) {
+        for provenance in records.chain(accuracy).chain(replication).chain(studies) {
             if !found.contains(&provenance) {
                 found.push(provenance);
             }
@@ -180,6 +224,16 @@ impl Runs {
             replaced: String::new(),
         });
     }
+}
+
+/// The header of a journal, if this line is one.
+fn header(line: &str) -> Option<Header> {
+    serde_json::from_str(line).ok()
+}
+
+fn study<C: Serialize + DeserializeOwned>(path: &Path) -> Result<Study<C>, RunError> {
+    let Recorded { header, cases, .. } = Journal::read(path)?;
+    Ok(Study { header, cases })
 }
 
 /// The files of a folder that may be runs, by name.

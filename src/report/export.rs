@@ -47,7 +47,8 @@ pub fn to_tidy_csv(rows: &[impl Serialize]) -> Vec<u8> {
         }
     }
     // A field that is unknown in one row and has fields of its own in another is those fields.
-    let has_fields = |name: &str| names.iter().any(|other| other.strip_prefix(name).is_some_and(|rest| rest.starts_with('.')));
+    let has_fields =
+        |name: &str| names.iter().any(|other| other.strip_prefix(name).is_some_and(|rest| rest.starts_with('.')));
     let names: Vec<&str> = names.iter().copied().filter(|name| !has_fields(name)).collect();
     let mut writer = csv::Writer::from_writer(vec![]);
     if !names.is_empty() {

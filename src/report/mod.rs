@@ -8,8 +8,8 @@ pub mod plot;
 mod record;
 mod table;
 
-pub use export::{to_csv, to_json, to_jsonl, to_tidy_csv};
 pub use counts::CaseCounts;
+pub use export::{to_csv, to_json, to_jsonl, to_tidy_csv};
 pub use record::Record;
 #[cfg(test)]
 pub(crate) use record::example;

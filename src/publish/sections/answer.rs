@@ -70,7 +70,7 @@ pub fn answer(runs: &Runs) -> Answer {
         () => "Not decided",
     };
     let names: Vec<String> = hard.iter().map(|hard| scene_name(&hard.scene, hard.stand_in)).collect();
-    let sentences = vec![format!(
+    let mut sentences = vec![format!(
         "On {} the SAH tree answers the same primary rays {} times as fast as the report's tree (geometric mean, 95 % \
          interval {}; the scenes' intervals reach from {} to {}). Construction is left out, as in the report.",
         listed(&names),
@@ -79,6 +79,7 @@ pub fn answer(runs: &Runs) -> Answer {
         figures(least),
         figures(most),
     )];
+    sentences.extend(super::attribution::sentences(runs));
     let numbers = hard.iter().zip(names).map(|(hard, label)| Headline {
         number: format!("{} ×", figures(hard.ratio.estimate)),
         interval: ends(&hard.ratio),

@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod answer;
+mod attribution;
 mod partitions;
 mod provenance;
 mod replicate;
@@ -15,7 +16,7 @@ pub use answer::QUESTION;
 
 /// The whole report; `pictures` are the sections that are drawn and not measured.
 pub fn document(runs: &Runs, pictures: Vec<Section>) -> Document {
-    let mut sections = vec![speed::section(runs)];
+    let mut sections = vec![attribution::section(runs), speed::section(runs)];
     sections.extend(pictures);
     sections.extend([accuracy::section(runs), partitions::section(runs), replicate::section(runs)]);
     let mut document = Document { title: QUESTION.into(), answer: answer::answer(runs), sections };
