@@ -25,6 +25,34 @@ pub fn to_csv(records: &[Record]) -> Vec<u8> {
     writer.into_inner().expect("memory takes every write")
 }
 
+/// One row for each of `rows` under a row of names; a field within a field is called `outer.inner`.
+///
+/// # Panics
+/// If a row does not serialise to a map, or they differ in their fields.
+pub fn to_tidy_csv(rows: &[impl Serialize]) -> Vec<u8> {
+    let mut writer = csv::Writer::from_writer(vec![]);
+    for (i, row) in rows.iter().enumerate() {
+        let mut fields = vec![];
+        flatten("", serde_json::to_value(row).expect("a row has text keys"), &mut fields);
+        if i == 0 {
+            writer.write_record(fields.iter().map(|(name, _)| name)).expect("memory takes every write");
+        }
+        writer.write_record(fields.iter().map(|(_, value)| value)).expect("all rows have the same fields");
+    }
+    writer.into_inner().expect("memory takes every write")
+}
+
+/// Name and text of every field of `value`, those within maps as well.
+fn flatten(name: &str, value: Value, fields: &mut Vec<(String, String)>) {
+    match value {
+        Value::Object(inner) => {
+            let dot = if name.is_empty() { "" } else { "." };
+            inner.into_iter().for_each(|(key, value)| flatten(&format!("{name}{dot}{key}"), value, fields));
+        }
+        value => fields.push((name.into(), text(value))),
+    }
+}
+
 /// Name and text of every field, in the order of the record.
 fn flat(record: &Record) -> Vec<(String, String)> {
     let Ok(Value::Object(fields)) = serde_json::to_value(record) else { unreachable!("a record is a map of fields") };
@@ -75,6 +103,13 @@ mod tests {
         assert_eq!(cell("config"), r#"{"leaf":8,"threshold":0.7}"#);
         assert_eq!(cell("provenance.threads"), "1");
         assert_eq!((cell("counts.leaves"), cell("counts.sah_cost")), ("7".into(), String::new()));
+    }
+
+    #[test]
+    fn tidy_rows_name_inner_fields_by_a_path() {
+        let row = |speed: Option<f64>| serde_json::json!({ "scene": "Cube", "speed": { "low": 1.5, "high": speed } });
+        let text = String::from_utf8(to_tidy_csv(&[row(Some(2.0)), row(None)])).unwrap();
+        assert_eq!(text, "scene,speed.low,speed.high\nCube,1.5,2.0\nCube,1.5,\n");
     }
 
     #[test]

@@ -9,7 +9,7 @@ mod record;
 mod table;
 
 pub use counts::CaseCounts;
-pub use export::{to_csv, to_json};
+pub use export::{to_csv, to_json, to_tidy_csv};
 pub use record::Record;
 #[cfg(test)]
 pub(crate) use record::example;

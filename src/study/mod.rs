@@ -1,6 +1,7 @@
 //! Studies: what is built, checked, counted and timed to answer a question, and the tables that answer it.
 
 pub mod accuracy;
+pub mod attribution;
 mod baselines;
 mod built;
 mod check;
@@ -10,6 +11,7 @@ pub mod counts;
 mod error;
 mod guarded;
 pub mod hard_cases;
+pub mod journal;
 pub mod partitions;
 pub mod replicate;
 pub mod self_intersection;

@@ -1,5 +1,8 @@
 //! `study`: experiments with one question each.
 
+mod attribution;
+mod folder;
+mod meshes;
 mod partitions;
 
 use std::path::PathBuf;
@@ -22,6 +25,8 @@ pub struct Args {
 
 #[derive(Debug, Subcommand)]
 enum Name {
+    /// What of the SAH tree's speed is due to the stop rule, what to the plane and what to the traversal?
+    Attribution(attribution::Args),
     /// Which way to start a secondary ray neither meets its own surface again nor passes another one?
     SelfIntersection(SelfIntersection),
     /// Which way to divide the triangles is the fastest, for the same node, leaf and walk?
@@ -49,6 +54,7 @@ struct SelfIntersection {
 
 pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Result<Verdict> {
     match &args.name {
+        Name::Attribution(args) => attribution::run(registry, args, terminal),
         Name::SelfIntersection(args) => self_intersection(registry, args, terminal),
         Name::Partitions(args) => partitions::run(registry, args, terminal),
     }
