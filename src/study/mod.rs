@@ -8,6 +8,7 @@ mod check;
 pub mod compare;
 mod counted;
 pub mod counts;
+pub mod epoch;
 mod error;
 mod guarded;
 pub mod hard_cases;
