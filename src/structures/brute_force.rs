@@ -28,7 +28,7 @@ impl<T: TriangleTest> Walk for BruteForce<T> {
         let (prepared, t_min, mut nearest) = start::<T>(ray)?;
         observer.leaf(self.references as u32);
         let count = self.references as u32;
-        let tests = search::<ANY, 8, L, T, ()>(&self.blocks, count, &prepared, t_min, &mut nearest, &mut ());
+        let tests = search::<ANY, 8, L, T>(&self.blocks, count, &prepared, t_min, &mut nearest, &mut None);
         observer.test(tests);
         nearest.hit()
     }

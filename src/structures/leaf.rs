@@ -77,50 +77,36 @@ impl<T: TriangleTest, const N: usize> LeafBlock<T, N> {
     pub const BYTES: (usize, usize) = (size_of::<Self>() - size_of::<[u32; N]>(), size_of::<[u32; N]>());
 }
 
-/// Remembers triangles that a ray has been tested against.
-pub(crate) trait Mailbox {
-    /// Whether anything is remembered at all.
-    const ACTIVE: bool;
+/// Remembers triangles that a ray has been tested against: a direct-mapped cache of the last triangle for each of eight hash
+/// values (Havran 2000).
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Mailbox([u32; 8]);
+
+impl Mailbox {
+    pub const EMPTY: Self = Self([NONE; 8]);
 
     /// Whether triangle `id` is remembered; from now on it is.
-    fn visit(&mut self, id: u32) -> bool;
-}
-
-/// No mailbox.
-impl Mailbox for () {
-    const ACTIVE: bool = false;
-
-    #[inline(always)]
-    fn visit(&mut self, _: u32) -> bool {
-        false
-    }
-}
-
-/// A direct-mapped cache of the last triangle for each of eight hash values (Havran 2000).
-impl Mailbox for [u32; 8] {
-    const ACTIVE: bool = true;
-
     #[inline(always)]
     fn visit(&mut self, id: u32) -> bool {
-        std::mem::replace(&mut self[(id & 7) as usize], id) == id
+        std::mem::replace(&mut self.0[(id & 7) as usize], id) == id
     }
 }
 
 /// Searches the `count` triangles in the blocks of one leaf and returns how many were tested. With `ANY`, returns at the
 /// first block with a hit in the interval.
 #[inline(always)]
-pub(crate) fn search<const ANY: bool, const N: usize, L: Lanes<N>, T: TriangleTest, M: Mailbox>(
+pub(crate) fn search<const ANY: bool, const N: usize, L: Lanes<N>, T: TriangleTest>(
     blocks: &[LeafBlock<T, N>],
     count: u32,
     ray: &T::Ray,
     t_min: f32,
     nearest: &mut Nearest<T::Depth>,
-    mailbox: &mut M,
+    mailbox: &mut Option<Mailbox>,
 ) -> u32 {
     let mut tested = 0;
     for (i, block) in blocks.iter().enumerate() {
         let mut fresh = (count - (i * N) as u32).min(N as u32);
-        if M::ACTIVE {
+        if let Some(mailbox) = mailbox {
             fresh = block.ids.iter().filter(|&&id| id != NONE && !mailbox.visit(id)).count() as u32;
         }
         if fresh == 0 {

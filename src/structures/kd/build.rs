@@ -2,7 +2,7 @@
 
 use rayon::join;
 
-use super::config::{KdConfig, Limit, Stop};
+use super::config::{KdConfig, Limit, Plane, Stop};
 use super::node::Node;
 use crate::geometry::{Aabb, Mesh};
 
@@ -101,7 +101,7 @@ fn subdivide<C: Content>(context: &Context, content: C, place: Place, may_divide
 
     // Give each side its share of the references that are still allowed.
     let (below_cell, above_cell) = place.cell.cut(cut.axis, cut.split);
-    let stalled = if below.len().max(above.len()) == count { place.stalled + 1 } else { 0 };
+    let stalled = if is_progress(context, count, below.len(), above.len()) { 0 } else { place.stalled + 1 };
     let share = place.budget / (below.len() + above.len()).max(1) as f64;
     let child = |cell, len: usize| Place { cell, depth: place.depth + 1, stalled, budget: share * len as f64 };
     let (below_place, above_place) = (child(below_cell, below.len()), child(above_cell, above.len()));
@@ -129,8 +129,8 @@ fn try_divide<C: Content>(context: &Context, content: C, place: &Place, may_divi
     let config = context.config;
     let count = content.len();
     let few = match (config.stop, config.limit) {
-        (Stop::Report, Limit::Below) => count < config.leaf as usize,
-        (Stop::Report, Limit::AtMost) => count <= config.leaf as usize,
+        (Stop::Report | Stop::Leaf, Limit::Below) => count < config.leaf as usize,
+        (Stop::Report | Stop::Leaf, Limit::AtMost) => count <= config.leaf as usize,
         (Stop::Sah, _) => count <= 1,
     };
     if count == 0 || few || !may_divide || place.depth >= context.depth_cap {
@@ -156,9 +156,14 @@ impl Place {
     }
 
     /// Whether sides of these sizes are progress, or the lack of it may be had once more: not for the third time in a row.
-    pub fn progresses(&self, count: usize, below: usize, above: usize) -> bool {
-        below.max(above) < count || self.stalled < 2
+    pub fn progresses(&self, context: &Context, count: usize, below: usize, above: usize) -> bool {
+        is_progress(context, count, below, above) || self.stalled < 2
     }
+}
+
+/// Whether neither side has all triangles of the node. The middle of a cell may also cut off empty space.
+fn is_progress(context: &Context, count: usize, below: usize, above: usize) -> bool {
+    below.max(above) < count || (context.config.plane == Plane::SpatialMedian && below.min(above) == 0)
 }
 
 impl Plan {

@@ -9,13 +9,13 @@ use crate::structures::split::Quality;
 pub struct KdConfig {
     /// Where a node is split.
     pub plane: Plane,
-    /// The axis of [`Plane::VertexMedian`].
+    /// The axis of a median.
     pub axis: AxisRule,
     /// When a node stays a leaf.
     pub stop: Stop,
     /// How rays walk the tree.
     pub traversal: Traversal,
-    /// `L` of [`Stop::Report`]: a node with fewer triangles is a leaf. At least 1; the report's main table has 100.
+    /// `L` of [`Stop::Report`] and [`Stop::Leaf`]: a node with fewer triangles is a leaf. At least 1; the report's main table has 100.
     pub leaf: u32,
     /// Whether a node of exactly `leaf` triangles may still be split; the report leaves it open.
     pub limit: Limit,
@@ -36,9 +36,9 @@ pub struct KdConfig {
     pub traversal_cost: f32,
     /// Cost of testing a block of eight triangles. Positive; more gives smaller leaves.
     pub intersection_cost: f32,
-    /// Nodes of at most this many references try every plane of the surface area heuristic; larger ones try `candidates`.
+    /// With [`Plane::SahBinned`], nodes of at most this many references try every plane of the surface area heuristic all the same.
     pub exact: u32,
-    /// Planes that a larger node tries on an axis, in 2..=62.
+    /// Planes that [`Plane::SahBinned`] tries on an axis, in 2..=62.
     pub candidates: u32,
     /// Share of the cost that a split saves when it cuts off empty space, in [0, 1); Wald and Havran use 0.2.
     pub empty_bonus: f32,
@@ -52,6 +52,12 @@ pub struct KdConfig {
 pub enum Plane {
     /// The median of the coordinates of all vertices of the node's triangles.
     VertexMedian,
+    /// The middle of the cell.
+    SpatialMedian,
+    /// The median of the centroids of the node's triangles.
+    CentroidMedian,
+    /// The plane of least cost by the surface area heuristic among a few on each axis (Hunt, Mark, Stoll 2006).
+    SahBinned,
     /// The plane of least cost by the surface area heuristic among all edges of clipped triangles.
     SahSweep,
 }
@@ -72,7 +78,10 @@ pub enum AxisRule {
 pub enum Stop {
     /// Fewer than `leaf` triangles, or a share of `threshold` on both sides, or no progress on three axes in a row.
     Report,
-    /// No plane is cheaper than testing all triangles.
+    /// Fewer than `leaf` triangles, and no other reason.
+    Leaf,
+    /// The plane is not cheaper than testing all triangles, one step ahead. Of the surface area heuristic: no plane is
+    /// cheaper than testing all triangles.
     Sah,
 }
 
@@ -155,7 +164,7 @@ impl KdConfig {
         mailbox: false,
         traversal_cost: 1.0,
         intersection_cost: 1.0,
-        exact: u32::MAX,
+        exact: 0,
         candidates: 32,
         empty_bonus: 0.0,
         duplication: 100.0,
@@ -181,7 +190,8 @@ impl KdConfig {
             Quality::Balanced => (64, 32, 0.2),
             Quality::High => (1 << 16, 62, 0.2),
         };
-        Self { traversal_cost, empty_bonus: 0.2, duplication: 4.0, exact, candidates, ..Self::SAH }
+        let plane = Plane::SahBinned;
+        Self { plane, traversal_cost, empty_bonus: 0.2, duplication: 4.0, exact, candidates, ..Self::SAH }
     }
 
     pub(super) fn check(&self) -> Result<(), BuildError> {

@@ -3,6 +3,7 @@
 mod build;
 pub(super) mod clip;
 mod config;
+mod median;
 mod node;
 mod partition;
 mod sah;
@@ -12,7 +13,6 @@ mod shape;
 #[cfg(test)]
 mod tests;
 mod traverse;
-mod vertex_median;
 
 use std::sync::Arc;
 
@@ -25,9 +25,9 @@ use crate::accel::{Accel, BuildError, Footprint, Observer, TreeShape};
 use crate::geometry::{Aabb, Hit, Mesh, Ray};
 use crate::triangle::TriangleTest;
 use build::{Context, Plan, grow};
+use median::Triangles;
 use node::Node;
 use sah_binned::Binned;
-use vertex_median::Triangles;
 
 /// Triangles that a leaf tests at once.
 const WIDTH: usize = 8;
@@ -52,8 +52,8 @@ fn plan(mesh: &Mesh, config: &KdConfig) -> Result<Plan, BuildError> {
     config.check()?;
     let context = Context::new(mesh, config);
     Ok(match config.plane {
-        Plane::VertexMedian => grow(&context, Triangles::all(&context)),
-        Plane::SahSweep => grow(&context, Binned::all(&context)),
+        Plane::VertexMedian | Plane::SpatialMedian | Plane::CentroidMedian => grow(&context, Triangles::all(&context)),
+        Plane::SahBinned | Plane::SahSweep => grow(&context, Binned::all(&context)),
     })
 }
 

@@ -4,7 +4,7 @@
 use rayon::prelude::*;
 
 use super::build::{Content, Context, Cut, Place};
-use super::config::Stop;
+use super::config::{Plane, Stop};
 use super::sah::{CostModel, SideAreas};
 use super::sah_sweep::{Events, PARALLEL};
 use crate::geometry::Aabb;
@@ -66,7 +66,8 @@ impl Binned {
     }
 
     fn new(context: &Context, part: Part) -> Self {
-        if part.references.len() <= context.config.exact as usize {
+        let config = context.config;
+        if config.plane == Plane::SahSweep || part.references.len() <= config.exact as usize {
             Self::Fine(Events::new(part.references))
         } else {
             Self::Coarse(part)
@@ -193,7 +194,7 @@ mod tests {
     #[test]
     fn no_plane_is_cheaper_than_the_one_that_is_chosen() {
         for mesh in [soup(40, 1), soup(700, 2), room(5)] {
-            let config = KdConfig { exact: 0, ..KdConfig::SAH };
+            let config = KdConfig { plane: Plane::SahBinned, ..KdConfig::SAH };
             let context = Context::new(&mesh, &config);
             let Binned::Coarse(part) = Binned::all(&context) else { panic!("no node is exact") };
             let (model, cell) = (CostModel::new(&config), mesh.bounds());

@@ -40,6 +40,13 @@ fn configs() -> Vec<KdConfig> {
         KdConfig::SAH,
         KdConfig { traversal: Traversal::ChildBoxes, ..KdConfig::SAH },
         KdConfig { stop: Stop::Report, leaf: 6, ..KdConfig::SAH },
+        KdConfig { stop: Stop::Leaf, leaf: 8, ..KdConfig::SAH },
+        KdConfig { plane: Plane::SahBinned, ..KdConfig::SAH },
+        KdConfig { plane: Plane::SpatialMedian, stop: Stop::Leaf, axis: AxisRule::Longest, ..report },
+        KdConfig { plane: Plane::SpatialMedian, stop: Stop::Sah, ..report },
+        KdConfig { plane: Plane::CentroidMedian, axis: AxisRule::Longest, ..report },
+        KdConfig { plane: Plane::CentroidMedian, median: Median::Mean, stop: Stop::Sah, ..report },
+        KdConfig { stop: Stop::Sah, ..report },
     ]
 }
 
@@ -56,6 +63,26 @@ fn every_configuration_answers_as_brute_force() {
             assert_eq!(tree.any_hit(ray, &mut ()), expected.is_some(), "{config:?} {ray:?}");
         }
     }
+}
+
+/// Many small triangles and a far one: the first ten cuts in the middle cut off nothing but space.
+#[test]
+fn cutting_off_empty_space_is_progress() {
+    let mut rng = rand_pcg::Pcg32::seed_from_u64(9);
+    let mut positions: Vec<Vec3> =
+        (0..1500).map(|i| unit(&mut rng) * 0.01 + Vec3::new((i / 3) as f32 / 500.0, 0.0, 0.0)).collect();
+    positions.extend([Vec3::new(1000.0, 0.0, 0.0), Vec3::new(1000.0, 0.1, 0.0), Vec3::new(1000.0, 0.0, 0.1)]);
+    let triangles = (0..501).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
+    let mesh = Arc::new(Mesh::new(positions, triangles).unwrap());
+    let config = KdConfig {
+        plane: Plane::SpatialMedian,
+        axis: AxisRule::Longest,
+        stop: Stop::Leaf,
+        leaf: 50,
+        ..KdConfig::REPORT
+    };
+    let shape = Tree::build(&mesh, &config).unwrap().shape();
+    assert!(shape.largest_leaf < 50 && shape.empty > 3, "{shape:?}");
 }
 
 #[test]
@@ -137,7 +164,11 @@ fn a_bad_configuration_is_refused_in_a_sentence() {
 fn cells() -> Vec<KdConfig> {
     let report = KdConfig { leaf: 8, ..KdConfig::REPORT };
     let sah = [Quality::Fast, Quality::Balanced, Quality::High].map(KdConfig::cells);
-    [&sah[..], &[report, KdConfig::SAH, KdConfig { exact: 100, candidates: 3, ..KdConfig::SAH }]].concat()
+    [
+        &sah[..],
+        &[report, KdConfig::SAH, KdConfig { plane: Plane::SahBinned, exact: 100, candidates: 3, ..KdConfig::SAH }],
+    ]
+    .concat()
 }
 
 #[test]

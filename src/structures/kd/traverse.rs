@@ -9,171 +9,186 @@
 //! a float that is not before the nearest exact hit so far, so that the walk comes to every hit that is nearer or as near, and the
 //! answer is the exact one with the lowest number.
 
+use std::mem::MaybeUninit;
+
 use super::config::{Exit, Traversal};
 use super::node::Node;
 use super::{KdTree, WIDTH};
 use crate::accel::Observer;
 use crate::geometry::{Aabb, Hit, Ray};
 use crate::simd::Sieve;
-use crate::structures::leaf::{Mailbox, Nearest, search, start};
+use crate::structures::leaf::{Mailbox, search, start};
 use crate::structures::line::{Line, after, before};
 use crate::structures::walk::Walk;
 use crate::triangle::TriangleTest;
 
-/// More than the greatest depth of a tree.
+/// More than the greatest depth of a tree: a walk leaves at most one node a level behind.
 const STACK: usize = 64;
-
-/// One ray's search: what a walk needs of it.
-struct Query<'a, const ANY: bool, T: TriangleTest, M, O> {
-    tree: &'a KdTree<T>,
-    line: Line,
-    prepared: T::Ray,
-    t_min: f32,
-    nearest: Nearest<T::Depth>,
-    mailbox: M,
-    observer: &'a mut O,
-}
 
 impl<T: TriangleTest> Walk for KdTree<T> {
     #[inline(always)]
     fn walk<const ANY: bool, L: Sieve, O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit> {
-        if self.config.mailbox {
-            self.walk_with::<ANY, L, [u32; 8], O>([u32::MAX; 8], ray, observer)
-        } else {
-            self.walk_with::<ANY, L, (), O>((), ray, observer)
-        }
-    }
-}
-
-impl<T: TriangleTest> KdTree<T> {
-    #[inline(always)]
-    fn walk_with<const ANY: bool, L: Sieve, M: Mailbox, O: Observer>(
-        &self,
-        mailbox: M,
-        ray: &Ray,
-        observer: &mut O,
-    ) -> Option<Hit> {
-        let (prepared, t_min, nearest) = start::<T>(ray)?;
+        let (prepared, t_min, mut nearest) = start::<T>(ray)?;
         let line = Line::new(ray, &self.bounds);
-        let mut query: Query<ANY, T, M, O> = Query { tree: self, line, prepared, t_min, nearest, mailbox, observer };
-        match self.config.traversal {
-            Traversal::PlaneIntervals => query.walk_intervals::<L>(),
-            Traversal::ChildBoxes => query.walk_boxes::<L>(),
+        let mut mailbox = self.config.mailbox.then_some(Mailbox::EMPTY);
+        let mut leaves = Leaves::enter(self, &line, t_min, nearest.t)?;
+        while let Some(leaf) = leaves.next(self, &line, t_min, nearest.t, observer) {
+            let (blocks, count) = (self.blocks_of(leaf), leaf.references());
+            observer.leaf(count);
+            let tests = search::<ANY, WIDTH, L, T>(blocks, count, &prepared, t_min, &mut nearest, &mut mailbox);
+            observer.test(tests);
+            if nearest.found() && (ANY || self.config.exit == Exit::FirstLeaf) {
+                break;
+            }
         }
-        query.nearest.hit()
+        nearest.hit()
     }
 }
 
-impl<const ANY: bool, T: TriangleTest, M: Mailbox, O: Observer> Query<'_, ANY, T, M, O> {
-    /// Searches a leaf. True when the ray is done.
+/// The leaves that a ray has still to search, in the order in which it meets them.
+///
+/// Both ways share one search of leaves, which is most of the code of a walk.
+enum Leaves {
+    Intervals(Stack<(u32, f32, f32)>),
+    Boxes(Stack<(u32, Aabb, f32)>),
+}
+
+/// Nodes left behind. Not initialised: that would cost as much as a short walk.
+struct Stack<E> {
+    entries: [MaybeUninit<E>; STACK],
+    len: usize,
+}
+
+impl<E: Copy> Stack<E> {
     #[inline(always)]
-    fn leaf<L: Sieve>(&mut self, node: Node) -> bool {
-        self.observer.leaf(node.references());
-        let blocks = self.tree.blocks_of(node);
-        let count = node.references();
-        let tests = search::<ANY, WIDTH, L, T, M>(
-            blocks,
-            count,
-            &self.prepared,
-            self.t_min,
-            &mut self.nearest,
-            &mut self.mailbox,
-        );
-        self.observer.test(tests);
-        self.nearest.found() && (ANY || self.tree.config.exit == Exit::FirstLeaf)
+    fn with(root: E) -> Self {
+        let mut stack = Self { entries: [const { MaybeUninit::uninit() }; STACK], len: 0 };
+        stack.push(root);
+        stack
     }
 
     #[inline(always)]
-    fn walk_intervals<L: Sieve>(&mut self) {
-        let nodes = &self.tree.nodes[..];
-        let (t_min, t_max) = (before(self.t_min), after(self.nearest.t));
-        let Some((mut t0, mut t1)) = self.line.clip(&self.tree.bounds, t_min, t_max) else { return };
-        let mut stack = [(0, 0.0, 0.0); STACK];
-        let mut top = 0;
-        let mut at = 0;
-        loop {
-            let node = nodes[at as usize];
-            if !node.is_leaf() {
-                self.observer.inner();
-                let axis = node.axis();
-                let t = self.line.crossing(axis, node.split());
-                let (first, second) =
-                    if self.line.backward(axis) { (node.above(), at + 1) } else { (at + 1, node.above()) };
+    fn push(&mut self, entry: E) {
+        self.entries[self.len].write(entry);
+        self.len += 1;
+    }
 
-                // The ends of the interval have twice the slack of a crossing, so the crossing needs none here. Comparisons
-                // with NaN are false: then both children get the whole interval.
-                if t > t1 {
-                    at = first;
-                } else if t < t0 {
-                    at = second;
-                } else {
-                    let (lower, upper) = (before(t), after(t));
-                    stack[top] = (second, if lower > t0 { lower } else { t0 }, t1);
-                    top += 1;
-                    at = first;
-                    t1 = if upper < t1 { upper } else { t1 };
-                }
-                continue;
-            }
+    #[inline(always)]
+    fn pop(&mut self) -> Option<E> {
+        self.len = self.len.checked_sub(1)?;
+        // SAFETY: all below the old length was written.
+        Some(unsafe { self.entries[self.len].assume_init() })
+    }
+}
 
-            if self.leaf::<L>(node) {
-                return;
+impl Leaves {
+    /// Those in [`t_min`, `t_max`]; nothing if the ray misses the tree.
+    #[inline(always)]
+    fn enter<T: TriangleTest>(tree: &KdTree<T>, line: &Line, t_min: f32, t_max: f32) -> Option<Self> {
+        Some(match tree.config.traversal {
+            Traversal::PlaneIntervals => {
+                let (t0, t1) = line.clip(&tree.bounds, before(t_min), after(t_max))?;
+                Self::Intervals(Stack::with((0, t0, t1)))
             }
-            loop {
-                if top == 0 {
-                    return;
-                }
-                top -= 1;
-                (at, t0, t1) = stack[top];
-                if t0 <= self.nearest.t {
-                    break;
-                }
+            Traversal::ChildBoxes => {
+                let (t0, _) = line.clip(&tree.bounds, t_min, t_max)?;
+                Self::Boxes(Stack::with((0, tree.bounds, t0)))
             }
+        })
+    }
+
+    /// The next leaf that the ray enters not after `end`, the nearest hit so far.
+    #[inline(always)]
+    fn next<T: TriangleTest, O: Observer>(
+        &mut self,
+        tree: &KdTree<T>,
+        line: &Line,
+        t_min: f32,
+        end: f32,
+        observer: &mut O,
+    ) -> Option<Node> {
+        match self {
+            Self::Intervals(stack) => by_intervals(stack, &tree.nodes, line, end, observer),
+            Self::Boxes(stack) => by_boxes(stack, &tree.nodes, line, t_min, end, observer),
         }
     }
+}
 
-    #[inline(always)]
-    fn walk_boxes<L: Sieve>(&mut self) {
-        let nodes = &self.tree.nodes[..];
-        let Some((t0, _)) = self.line.clip(&self.tree.bounds, self.t_min, self.nearest.t) else { return };
-        let mut stack = [(0, Aabb::EMPTY, 0.0); STACK];
-        stack[0] = (0, self.tree.bounds, t0);
-        let mut top = 1;
-        while top > 0 {
-            top -= 1;
-            let (at, cell, t0) = stack[top];
-            if t0 > self.nearest.t {
-                continue;
-            }
-            let node = nodes[at as usize];
-            if node.is_leaf() {
-                if self.leaf::<L>(node) {
-                    return;
-                }
-                continue;
-            }
+/// Cuts the ray's interval at each plane.
+#[inline(always)]
+fn by_intervals<O: Observer>(
+    stack: &mut Stack<(u32, f32, f32)>,
+    nodes: &[Node],
+    line: &Line,
+    end: f32,
+    observer: &mut O,
+) -> Option<Node> {
+    let (mut at, t0, mut t1) = loop {
+        let entry = stack.pop()?;
+        if entry.1 <= end {
+            break entry;
+        }
+    };
+    loop {
+        let node = nodes[at as usize];
+        if node.is_leaf() {
+            return Some(node);
+        }
+        observer.inner();
+        let axis = node.axis();
+        let t = line.crossing(axis, node.split());
+        let (first, second) = if line.backward(axis) { (node.above(), at + 1) } else { (at + 1, node.above()) };
 
-            // The child that is entered first comes off the stack first; of two entered at once, the one left first.
-            self.observer.inner();
-            let (below, above) = cell.cut(node.axis(), node.split());
-            let in_below = self.line.clip(&below, self.t_min, self.nearest.t);
-            let in_above = self.line.clip(&above, self.t_min, self.nearest.t);
-            let mut push = |at, cell, t0| {
-                stack[top] = (at, cell, t0);
-                top += 1;
-            };
-            match (in_below, in_above) {
-                (None, None) => {}
-                (Some((t0, _)), None) => push(at + 1, below, t0),
-                (None, Some((t0, _))) => push(node.above(), above, t0),
-                (Some(b), Some(a)) if b.0 < a.0 || (b.0 == a.0 && b.1 <= a.1) => {
-                    push(node.above(), above, a.0);
-                    push(at + 1, below, b.0);
-                }
-                (Some(b), Some(a)) => {
-                    push(at + 1, below, b.0);
-                    push(node.above(), above, a.0);
-                }
+        // The ends of the interval have twice the slack of a crossing, so the crossing needs none here. Comparisons
+        // with NaN are false: then both children get the whole interval.
+        if t > t1 {
+            at = first;
+        } else if t < t0 {
+            at = second;
+        } else {
+            let (lower, upper) = (before(t), after(t));
+            stack.push((second, if lower > t0 { lower } else { t0 }, t1));
+            at = first;
+            t1 = if upper < t1 { upper } else { t1 };
+        }
+    }
+}
+
+/// Tests both child boxes of each node.
+#[inline(always)]
+fn by_boxes<O: Observer>(
+    stack: &mut Stack<(u32, Aabb, f32)>,
+    nodes: &[Node],
+    line: &Line,
+    t_min: f32,
+    end: f32,
+    observer: &mut O,
+) -> Option<Node> {
+    loop {
+        let (at, cell, t0) = stack.pop()?;
+        if t0 > end {
+            continue;
+        }
+        let node = nodes[at as usize];
+        if node.is_leaf() {
+            return Some(node);
+        }
+
+        // The child that is entered first comes off the stack first; of two entered at once, the one left first.
+        observer.inner();
+        let (below, above) = cell.cut(node.axis(), node.split());
+        let (in_below, in_above) = (line.clip(&below, t_min, end), line.clip(&above, t_min, end));
+        match (in_below, in_above) {
+            (None, None) => {}
+            (Some((t0, _)), None) => stack.push((at + 1, below, t0)),
+            (None, Some((t0, _))) => stack.push((node.above(), above, t0)),
+            (Some(b), Some(a)) if b.0 < a.0 || (b.0 == a.0 && b.1 <= a.1) => {
+                stack.push((node.above(), above, a.0));
+                stack.push((at + 1, below, b.0));
+            }
+            (Some(b), Some(a)) => {
+                stack.push((at + 1, below, b.0));
+                stack.push((node.above(), above, a.0));
             }
         }
     }

@@ -119,7 +119,7 @@ impl<T: TriangleTest> WideTree<T> {
             if let Some((first, count)) = child.blocks() {
                 // SAFETY: leaves name blocks that are there.
                 let blocks = unsafe { self.blocks.get_unchecked(first..first + count) };
-                search::<ANY, WIDTH, L, T, ()>(blocks, u32::MAX, prepared, t_min, nearest, &mut ());
+                search::<ANY, WIDTH, L, T>(blocks, u32::MAX, prepared, t_min, nearest, &mut None);
             } else {
                 self.descend::<ANY, L, ()>(child, &beams.single(i), prepared, t_min, nearest, &mut ());
             }

@@ -54,7 +54,7 @@ impl<T: TriangleTest> WideTree<T> {
                     held = blocks.iter().map(|block| block.len()).sum();
                     observer.leaf(held);
                 }
-                let tests = search::<ANY, WIDTH, L, T, ()>(blocks, held, prepared, t_min, nearest, &mut ());
+                let tests = search::<ANY, WIDTH, L, T>(blocks, held, prepared, t_min, nearest, &mut None);
                 observer.test(tests);
                 if ANY && nearest.found() {
                     return;

@@ -1,7 +1,9 @@
-//! The report's plane rule: the median of the vertex coordinates, sides decided by whole triangles.
+//! The rules that know no cost: the median of vertex coordinates, as in the report, or of centroids, or the middle of the
+//! cell. Sides are decided by whole triangles.
 
 use super::build::{Content, Context, Cut, Place};
-use super::config::{AxisRule, CountOf, Equal, Median, Stop};
+use super::config::{AxisRule, CountOf, Equal, Median, Plane, Stop};
+use super::sah::{CostModel, SideAreas};
 
 /// The triangles of a node, ascending.
 pub(super) struct Triangles {
@@ -15,10 +17,23 @@ impl Triangles {
         Self { ids: context.mesh.solid().collect(), matches: 0 }
     }
 
-    fn median(&self, context: &Context, axis: usize) -> f32 {
+    fn split(&self, context: &Context, place: &Place, axis: usize) -> f32 {
+        match context.config.plane {
+            Plane::SpatialMedian => place.cell.min[axis] * 0.5 + place.cell.max[axis] * 0.5,
+            Plane::CentroidMedian => middle(self.centroids(context, axis), context.config.median),
+            _ => middle(self.coordinates(context, axis), context.config.median),
+        }
+    }
+
+    fn centroids(&self, context: &Context, axis: usize) -> Vec<f32> {
+        let centroid = |&id| context.mesh.corners(id).map(|p| f64::from(p[axis])).iter().sum::<f64>() / 3.0;
+        self.ids.iter().map(|id| centroid(id) as f32).collect()
+    }
+
+    fn coordinates(&self, context: &Context, axis: usize) -> Vec<f32> {
         let corners = self.ids.iter().flat_map(|&id| context.mesh.triangles()[id as usize]);
         let coordinate = |i: u32| context.mesh.positions()[i as usize][axis];
-        let mut values: Vec<f32> = if context.config.median == Median::Welded {
+        if context.config.median == Median::Welded {
             // A point counts once, however many corners lie in it; adding 0.0 makes -0.0 and 0.0 one.
             let bits = |i: u32| context.mesh.positions()[i as usize].to_array().map(|x| (x + 0.0).to_bits());
             let mut points: Vec<([u32; 3], u32)> = corners.map(|i| (bits(i), i)).collect();
@@ -27,14 +42,27 @@ impl Triangles {
             points.into_iter().map(|(_, i)| coordinate(i)).collect()
         } else {
             corners.map(coordinate).collect()
-        };
-
-        let (middle, even) = ((values.len() - 1) / 2, values.len().is_multiple_of(2));
-        let (_, &mut lower, rest) = values.select_nth_unstable_by(middle, f32::total_cmp);
-        match rest.iter().copied().min_by(f32::total_cmp) {
-            Some(upper) if even && context.config.median == Median::Mean => lower * 0.5 + upper * 0.5,
-            _ => lower,
         }
+    }
+
+    /// Whether a division of the cell into sides with so many triangles is cheaper than testing all of them.
+    fn pays(&self, context: &Context, place: &Place, cut: Cut, below: usize, above: usize) -> bool {
+        // Vertices may lie outside of the cell, and so may their median.
+        let inside = place.cell.min[cut.axis] < cut.split && cut.split < place.cell.max[cut.axis];
+        let (model, areas) = (CostModel::new(context.config), SideAreas::new(&place.cell, cut.axis));
+        let (below_area, above_area) = areas.at(cut.split.into());
+        let cost = model.split(1.0 / areas.whole(), (below_area, below), (above_area, above));
+        inside && cost < model.leaf(self.ids.len())
+    }
+}
+
+/// The middle one of the values, or of the middle two the lower or the mean.
+fn middle(mut values: Vec<f32>, rule: Median) -> f32 {
+    let (middle, even) = ((values.len() - 1) / 2, values.len().is_multiple_of(2));
+    let (_, &mut lower, rest) = values.select_nth_unstable_by(middle, f32::total_cmp);
+    match rest.iter().copied().min_by(f32::total_cmp) {
+        Some(upper) if even && rule == Median::Mean => lower * 0.5 + upper * 0.5,
+        _ => lower,
     }
 }
 
@@ -52,7 +80,7 @@ impl Content for Triangles {
             AxisRule::Cyclic => (place.depth % 3) as usize,
             AxisRule::Longest => place.cell.longest_axis(),
         };
-        Some(Cut { axis, split: self.median(context, axis), planar_below: true })
+        Some(Cut { axis, split: self.split(context, place, axis), planar_below: true })
     }
 
     fn divide(self, context: &Context, place: &Place, cut: Cut) -> Result<(Self, Self), Self> {
@@ -78,7 +106,8 @@ impl Content for Triangles {
             && config.count == CountOf::Parent
             && matches as f64 >= f64::from(config.threshold) * self.ids.len() as f64;
         let (b, a) = (below.len(), above.len());
-        if discarded || !place.affords(b, a) || !place.progresses(self.ids.len(), b, a) {
+        let dear = config.stop == Stop::Sah && !self.pays(context, place, cut, b, a);
+        if discarded || dear || !place.affords(b, a) || !place.progresses(context, self.ids.len(), b, a) {
             return Err(self);
         }
         Ok((Self { ids: below, matches }, Self { ids: above, matches }))
