@@ -43,7 +43,7 @@ struct Cli {
     /// When to use colour; `auto` asks the terminal and honours NO_COLOR
     #[arg(long, global = true, value_enum, default_value_t, value_name = "WHEN")]
     color: Colour,
-    /// Show no progress
+    /// Show no progress and no warnings
     #[arg(long, short, global = true)]
     quiet: bool,
     /// Run on these instructions instead of the best ones here: portable, avx2 or avx512; the answers are the same

@@ -1,11 +1,12 @@
 //! The question that the source report leaves open, and what the runs say.
 
-use crate::measure::{Interval, mean_ratio, paired_ratio};
+use crate::measure::Interval;
 use crate::publish::document::{Answer, Headline};
 use crate::publish::runs::Runs;
 use crate::publish::words::{ends, listed, scene_name};
 use crate::report::Record;
 use crate::report::number::figures;
+use crate::study::compare::{speed, twins};
 use crate::study::{REPORT_TREE, SAH_TREE};
 
 /// The question in the words of the source report.
@@ -28,20 +29,20 @@ fn hard(runs: &Runs) -> (Vec<Hard>, Option<Interval>) {
         });
         return (hard.collect(), replication.conclusion.sah_over_median);
     }
-    let (mut hard, mut rounds) = (vec![], vec![]);
+    let floor = twins(&runs.records).log().unwrap_or(0.0);
+    let (mut hard, mut pairs) = (vec![], vec![]);
     for name in ["Dragon", "Lucy", "Sponza"] {
         let of = |label: &str| {
             let is = |r: &&Record| r.scene == name && r.label == label && r.workload == "primary";
             runs.records.iter().find(is).filter(|r| r.trace_ns.is_some())
         };
         let (Some(tree), Some(sah)) = (of(REPORT_TREE), of(SAH_TREE)) else { continue };
-        let (slow, fast) = (super::paces(tree), super::paces(sah));
-        if let Some(ratio) = paired_ratio(&slow, &fast, 1) {
-            rounds.push(slow.iter().zip(&fast).map(|(slow, fast)| slow / fast).collect());
+        if let Some(ratio) = speed([(sah, tree)], floor) {
+            pairs.push((sah, tree));
             hard.push(Hard { scene: name.into(), stand_in: tree.stand_in, ratio });
         }
     }
-    (hard, mean_ratio(&rounds, 1))
+    (hard, speed(pairs, floor))
 }
 
 /// From this on a tree is called much faster: half of the time.

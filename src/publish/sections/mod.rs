@@ -10,7 +10,6 @@ mod speed;
 
 use super::document::{Document, Section};
 use super::runs::Runs;
-use crate::report::Record;
 
 pub use answer::QUESTION;
 
@@ -23,9 +22,4 @@ pub fn document(runs: &Runs, pictures: Vec<Section>) -> Document {
     let missing = document.missing().into_iter().map(|m| (m.what.clone(), m.command.clone())).collect();
     document.sections.push(provenance::section(runs, missing));
     document
-}
-
-/// Nanoseconds a ray in every sample.
-fn paces(record: &Record) -> Vec<f64> {
-    record.samples_ns.iter().map(|ns| ns / record.rays as f64).collect()
 }

@@ -15,7 +15,7 @@ pub fn section(runs: &Runs) -> Section {
         blocks.push(Block::missing("Four ways to divide the triangles against every preset of obvhs", command));
     } else {
         blocks.push(Block::Text(LEGEND.join(" ")));
-        let rows = rows(&runs.partitions, 1);
+        let rows = rows(&runs.partitions);
         let command = shown(&runs.partitions[0].provenance.command);
         for of_scene in rows.chunk_by(|a, b| a.scene == b.scene) {
             blocks.push(Block::Figure(figure(of_scene, &command)));
