@@ -47,6 +47,8 @@ pub struct Section {
 #[derive(Clone, Debug)]
 pub enum Block {
     Text(String),
+    /// What columns mean, small.
+    Note(String),
     Table(Tabular),
     Figure(Figure),
     /// What is not there, and how to make it.

@@ -36,7 +36,7 @@ pub fn latex(document: &Document) -> String {
 fn blocks(list: &[Block], text: &mut String) {
     for block in list {
         match block {
-            Block::Text(words) => *text += &format!("{}\n\n", escaped(words)),
+            Block::Text(words) | Block::Note(words) => *text += &format!("{}\n\n", escaped(words)),
             Block::Table(tabular) => *text += &table(&tabular.table),
             Block::Figure(f) => figure(f, text),
             Block::Missing(missing) => {

@@ -23,7 +23,7 @@ pub fn markdown(document: &Document) -> String {
 fn blocks(list: &[Block], text: &mut String) {
     for block in list {
         match block {
-            Block::Text(words) => *text += &format!("{}\n\n", escaped(words)),
+            Block::Text(words) | Block::Note(words) => *text += &format!("{}\n\n", escaped(words)),
             Block::Table(tabular) => {
                 *text += &tabular.table.to_markdown();
                 *text += &command(&tabular.command);

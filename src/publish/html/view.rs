@@ -25,7 +25,7 @@ pub struct PageView {
 #[derive(Serialize)]
 struct AnswerView {
     verdict: String,
-    sentences: Vec<String>,
+    sentences: Vec<Vec<SpanView>>,
     numbers: Vec<HeadlineView>,
 }
 
@@ -48,6 +48,7 @@ struct SectionView {
 struct BlockView {
     kind: &'static str,
     text: String,
+    spans: Vec<SpanView>,
     command: String,
     table: Option<TableView>,
     figure: Option<FigureView>,
@@ -57,9 +58,22 @@ struct BlockView {
 #[derive(Serialize)]
 struct TableView {
     title: String,
-    columns: Vec<String>,
+    columns: Vec<ColumnView>,
     rows: Vec<Vec<CellView>>,
     notes: Vec<String>,
+}
+
+#[derive(Serialize)]
+struct ColumnView {
+    name: String,
+    class: &'static str,
+}
+
+/// A piece of a sentence.
+#[derive(Serialize)]
+struct SpanView {
+    text: String,
+    is_code: bool,
 }
 
 #[derive(Serialize)]
@@ -118,17 +132,28 @@ fn answer(answer: &Answer) -> AnswerView {
         interval: n.interval.clone(),
         label: n.label.clone(),
     });
-    AnswerView { verdict: answer.verdict.clone(), sentences: answer.sentences.clone(), numbers: numbers.collect() }
+    AnswerView {
+        verdict: answer.verdict.clone(),
+        sentences: answer.sentences.iter().map(|sentence| spans(sentence)).collect(),
+        numbers: numbers.collect(),
+    }
 }
 
 fn section(section: &document::Section) -> SectionView {
     SectionView { id: section.id, title: section.title, blocks: section.blocks.iter().map(block).collect() }
 }
 
+/// A sentence with what stands between backticks as code.
+fn spans(text: &str) -> Vec<SpanView> {
+    let span = |(i, text): (usize, &str)| SpanView { text: text.into(), is_code: i % 2 == 1 };
+    text.split('`').enumerate().map(span).collect()
+}
+
 fn block(block: &Block) -> BlockView {
     let view = BlockView::default();
     match block {
-        Block::Text(text) => BlockView { kind: "text", text: text.clone(), ..view },
+        Block::Text(text) => BlockView { kind: "text", spans: spans(text), ..view },
+        Block::Note(text) => BlockView { kind: "note", spans: spans(text), ..view },
         Block::Table(tabular) => BlockView {
             kind: "table",
             table: Some(table(&tabular.table, Some(tabular))),
@@ -146,18 +171,23 @@ fn block(block: &Block) -> BlockView {
 }
 
 fn table(table: &Table, shaded: Option<&Tabular>) -> TableView {
+    // Numbers stand to the right, words to the left.
+    let column_of = |column: usize| table.rows.iter().filter_map(move |row| row.get(column));
+    let is_words = |column: usize| {
+        let mut said = column_of(column).filter(|cell| !cell.text.is_empty()).peekable();
+        said.peek().is_some() && said.all(|cell| sort_key(&cell.text).is_none())
+    };
+    let words: Vec<bool> = (0..table.columns.len()).map(is_words).collect();
     let cell = |row: usize, column: usize, cell: &crate::report::Cell| {
         let shade = shaded.and_then(|s| *s.shades.get(row)?.get(column)?);
         let key = sort_key(&cell.text);
-        // Numbers stand to the right, sentences to the left.
-        let is_text = key.is_none() && cell.text.chars().count() > 24;
         let class = match (shade, cell.tone) {
             (Some(0), _) => "",
             (Some(shade), _) if shade > 0 => ["", "f1", "f2", "f3"][shade.min(3) as usize],
             (Some(shade), _) => ["", "w1", "w2", "w3"][shade.unsigned_abs().min(3) as usize],
             (None, Tone::Best) => "best",
             (None, Tone::Wrong) => "wrong",
-            (None, Tone::Plain) if is_text => "text",
+            (None, Tone::Plain) if words[column] => "text",
             (None, Tone::Plain) => "",
         };
         CellView { text: cell.text.clone(), class: class.into(), key }
@@ -167,7 +197,12 @@ fn table(table: &Table, shaded: Option<&Tabular>) -> TableView {
     };
     TableView {
         title: table.title.clone(),
-        columns: table.columns.clone(),
+        columns: table
+            .columns
+            .iter()
+            .zip(&words)
+            .map(|(name, &words)| ColumnView { name: name.clone(), class: if words { "text" } else { "" } })
+            .collect(),
         rows: table.rows.iter().enumerate().map(row).collect(),
         notes: table.notes.clone(),
     }

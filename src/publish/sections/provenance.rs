@@ -22,12 +22,11 @@ pub fn section(runs: &Runs, missing: Vec<(String, String)>) -> Section {
          different runs are no pairs."
             .into(),
     );
-    let mut blocks =
-        vec![Block::table(files, "sahara report"), Block::table(machines(&runs.provenances()), "sahara report")];
+    let mut blocks = vec![Block::table(files, ""), Block::table(machines(&runs.provenances()), "")];
     if !missing.is_empty() {
         let rows = missing.into_iter().map(|(what, command)| [what, command]);
         let title = format!("Not measured: {}", plural(rows.len(), "part"));
-        blocks.push(Block::table(table(&title, ["what", "command"], rows.collect()), "sahara report"));
+        blocks.push(Block::table(table(&title, ["what", "command"], rows.collect()), ""));
     }
     Section { id: "provenance", title: "Where the numbers come from", blocks }
 }

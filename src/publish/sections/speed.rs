@@ -26,7 +26,7 @@ pub fn section(runs: &Runs) -> Section {
         blocks.push(Block::Text(
             "Every structure answers the same rays, in samples that are interleaved in random order; wrong answers get no \
              time. Bars compare with the report's tree on the same scene and the same rays, kind by kind: they are medians \
-             of paired samples with bootstrap 95 % intervals."
+             of paired samples, with the interval that holds the ratio of another run in 95 % of cases."
                 .into(),
         ));
         let means = mean_table(&runs.records);
@@ -37,6 +37,7 @@ pub fn section(runs: &Runs) -> Section {
         order.sort_by_key(|records| std::cmp::Reverse(records[0].triangles));
         let rest = order.split_off(order.len().min(OPEN));
         blocks.extend(order.iter().flat_map(|records| of_scene(records)));
+        blocks.extend(legend(&runs.records[0].workload).into_iter().map(Block::Note));
         if !rest.is_empty() {
             let name = format!("The other {} scenes", rest.len());
             blocks.push(Block::Fold(name, rest.iter().flat_map(|records| of_scene(records)).collect()));
@@ -104,9 +105,7 @@ fn of_scene(records: &[Record]) -> Vec<Block> {
         })),
         data,
     };
-    let mut table = scene_table(records, &[], &[]);
-    table.notes.extend(legend(&workloads[0]));
-    vec![Block::Figure(figure), Block::table(table, &command(records))]
+    vec![Block::Figure(figure), Block::table(scene_table(records, &[], &[]), &command(records))]
 }
 
 fn data(labels: &[String], groups: &[BarGroup], workloads: &[String]) -> Table {

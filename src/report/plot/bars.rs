@@ -67,12 +67,12 @@ impl Bars {
         let (left, columns, line) = (self.label_width(), self.columns(width), self.line());
         let column = (width - left) / columns as f64;
         let colours = colours(&self.labels);
-        let (low, high) = self.range();
+        let ends = self.ends();
         for (i, group) in self.groups.iter().enumerate() {
             let x = left + (i % columns) as f64 * column;
             let top = (i / columns) as f64 * line;
             // Room for the number at the end of the longest bar.
-            let axis = Axis::new(Scale::Log, [low, high], [x, x + column - 62.0]);
+            let axis = Axis::new(Scale::Log, ends, [x, x + column - 62.0]);
             canvas.text(&group.title, [x, top + 12.0], canvas::BODY, INK.light, Side::Left);
             let (above, below) = (top + HEAD - 4.0, top + HEAD + self.labels.len() as f64 * ROW);
             for (tick, text) in axis.ticks_across() {
@@ -89,10 +89,9 @@ impl Bars {
                 match bar {
                     Bar::Missing(why) => canvas.text(why, [zero + 6.0, y], canvas::SMALL, MIDDLE.light, Side::Left),
                     Bar::Of(value) => {
-                        let [at, from, to] = [value.estimate, value.low, value.high].map(|v| axis.place(v));
+                        let at = axis.place(value.estimate);
                         canvas.rect([zero.min(at), y - BAR / 2.0], [zero.max(at), y + BAR / 2.0], colours[row]);
-                        whisker(canvas, [from, to], y);
-                        let end = zero.max(to) + 7.0;
+                        let end = zero.max(at).max(whisker(canvas, *value, axis, y)) + 7.0;
                         canvas.text(&figures(value.estimate), [end, y], canvas::SMALL, INK.light, Side::Left);
                     }
                 }
@@ -104,23 +103,35 @@ impl Bars {
         canvas.text(&self.x_title, [middle, bottom], canvas::SMALL, MIDDLE.light, Side::Centre);
     }
 
-    /// Least and largest value, the reference among them.
-    fn range(&self) -> (f64, f64) {
-        let values = self.groups.iter().flat_map(|group| &group.bars).filter_map(|bar| match bar {
-            Bar::Of(value) => Some([value.low, value.estimate, value.high]),
-            Bar::Missing(_) => None,
-        });
-        let (low, high) = values.flatten().fold((self.reference, self.reference), |(l, h), v| (l.min(v), h.max(v)));
-        (low, high.max(low * 1.5))
+    /// Ends of the axis, the reference between them.
+    fn ends(&self) -> [f64; 2] {
+        let bars = self.groups.iter().flat_map(|group| &group.bars);
+        let values = || bars.clone().filter_map(|bar| if let Bar::Of(value) = bar { Some(*value) } else { None });
+        let estimates = values().map(|value| value.estimate);
+        let [low, high] = estimates.fold([self.reference; 2], |[low, high], v| [low.min(v), high.max(v)]);
+        with_intervals([low, high.max(1.5 * low)], values())
     }
 }
 
-/// An interval: a line with an end at either side, on a plate of its own so that it is seen on the bar.
-pub(super) fn whisker(canvas: &Canvas, [from, to]: [f64; 2], y: f64) {
+/// Ends of an axis that hold the intervals as well, unless these are so wide that nothing else would be seen.
+pub(super) fn with_intervals([low, high]: [f64; 2], intervals: impl Iterator<Item = Interval>) -> [f64; 2] {
+    let room = libm::sqrt(high / low).max(1.5);
+    let held = intervals.fold([low, high], |[low, high], i| [low.min(i.low), high.max(i.high)]);
+    [held[0].max(low / room), held[1].min(high * room)]
+}
+
+/// An interval: a line with an end at either side, on a plate of its own so that it is seen on the bar. Without an end where
+/// it goes on beyond the axis. Gives the place where it stops.
+pub(super) fn whisker(canvas: &Canvas, interval: Interval, axis: Axis, y: f64) -> f64 {
+    let places = [interval.low, interval.high].map(|value| axis.place(value));
+    let [from, to] = places.map(|place| place.clamp(axis.places()[0], axis.places()[1]));
     for (colour, width) in [(super::palette::PAPER.light, 3.5), (INK.light, 1.5)] {
         canvas.line(&[[from, y], [to, y]], colour, width);
     }
-    for x in [from, to] {
-        canvas.line(&[[x, y - 4.0], [x, y + 4.0]], INK.light, 1.5);
+    for (end, place) in [from, to].into_iter().zip(places) {
+        if end == place {
+            canvas.line(&[[end, y - 4.0], [end, y + 4.0]], INK.light, 1.5);
+        }
     }
+    to
 }

@@ -106,9 +106,12 @@ impl Curves {
 
     fn ranges(&self) -> [[f64; 2]; 2] {
         let points = || self.lines.iter().flat_map(|line| &line.points);
-        let heights = points().flat_map(|p| [Some(p.y), p.band.map(|b| b[0]), p.band.map(|b| b[1])]).flatten();
         let level = self.level.as_ref().map(|(level, _)| *level);
-        [padded(self.x_scale, &mut points().map(|p| p.x), 0.02), padded(self.y_scale, &mut heights.chain(level), 0.06)]
+        // Bands may be so wide that nothing else would be seen: they do not make room for themselves.
+        [
+            padded(self.x_scale, &mut points().map(|p| p.x), 0.02),
+            padded(self.y_scale, &mut points().map(|p| p.y).chain(level), 0.08),
+        ]
     }
 }
 
@@ -159,7 +162,9 @@ fn apart(places: &[f64], gap: f64, frame: [f64; 2]) -> Vec<f64> {
 
 fn draw_line(canvas: &Canvas, line: &Line, colour: Colour, x: Axis, y: Axis) {
     let bands: Vec<(f64, [f64; 2])> = line.points.iter().filter_map(|p| Some((x.place(p.x), p.band?))).collect();
-    let side = |end: usize| bands.iter().map(|(at, band)| [*at, y.place(band[end])]).collect::<Vec<_>>();
+    let [bottom, top] = y.places();
+    let within = |value: f64| y.place(value).clamp(top.min(bottom), bottom.max(top));
+    let side = |end: usize| bands.iter().map(|(at, band)| [*at, within(band[end])]).collect::<Vec<_>>();
     if bands.len() > 1 {
         canvas.band(&side(0), &side(1), colour);
     }

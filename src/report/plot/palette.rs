@@ -40,9 +40,16 @@ pub const SERIES: [Role; 11] = [
     role("s10", [140, 100, 0], [230, 190, 60]),
 ];
 
+/// Colours of the parts of a whole, which are no structures: shades of one colour, dark to pale.
+pub const PARTS: [Role; 3] = [
+    role("p0", [44, 62, 84], [204, 216, 230]),
+    role("p1", [98, 124, 152], [134, 154, 176]),
+    role("p2", [172, 190, 208], [76, 92, 110]),
+];
+
 /// All roles.
 pub fn roles() -> impl Iterator<Item = Role> {
-    [PAPER, INK, MIDDLE, FAINT].into_iter().chain(SERIES)
+    [PAPER, INK, MIDDLE, FAINT].into_iter().chain(SERIES).chain(PARTS)
 }
 
 /// The structures with a colour of their own; others take what is left.

@@ -38,6 +38,14 @@ impl Axis {
         }
     }
 
+    /// Where it begins and ends.
+    pub fn places(&self) -> [f64; 2] {
+        match self {
+            Self::Log(axis) => axis.places(),
+            Self::Linear { places, .. } => *places,
+        }
+    }
+
     /// Round values on the axis. Ascending.
     fn candidates(&self) -> Vec<f64> {
         match self {

@@ -1,8 +1,8 @@
 //! Factors of a product as bars side by side: on a logarithmic axis their lengths add up to the whole.
 
-use super::bars::whisker;
+use super::bars::{whisker, with_intervals};
 use super::canvas::{self, Canvas, Side};
-use super::palette::{Colour, FAINT, INK, MIDDLE, PAPER, SERIES};
+use super::palette::{Colour, FAINT, INK, MIDDLE, PAPER, PARTS};
 use super::scale::{Axis, Scale};
 use crate::measure::Interval;
 use crate::report::number::figures;
@@ -31,10 +31,11 @@ const BAR: f64 = 24.0;
 const LEGEND: f64 = 24.0;
 const FOOT: f64 = 50.0;
 
-/// The factors have no structure: colours that structures use least.
-fn colour(part: usize) -> Colour {
-    const PARTS: [usize; 5] = [2, 1, 8, 7, 10];
-    SERIES[PARTS[part % PARTS.len()]].light
+/// The colour of a part, and of text on it.
+fn colours(part: usize) -> [Colour; 2] {
+    let [paper, ink] = [PAPER.light, INK.light];
+    let part = part % PARTS.len();
+    [PARTS[part].light, if part == PARTS.len() - 1 { ink } else { paper }]
 }
 
 impl Stack {
@@ -66,7 +67,7 @@ impl Stack {
     pub(super) fn draw(&self, canvas: &Canvas, width: f64) {
         let top = self.top(width);
         for (part, [x, y]) in self.legend(width).into_iter().enumerate() {
-            canvas.rect([x, y - 6.0], [x + 12.0, y + 6.0], colour(part));
+            canvas.rect([x, y - 6.0], [x + 12.0, y + 6.0], colours(part)[0]);
             canvas.text(&self.parts[part], [x + 20.0, y], canvas::SMALL, INK.light, Side::Left);
         }
         let label = |row: &StackRow| canvas::width_of(&row.label, canvas::BODY);
@@ -75,9 +76,10 @@ impl Stack {
         let reach = |row: &StackRow| {
             let low: f64 = row.factors.iter().filter(|f| **f < 1.0).product();
             let high: f64 = row.factors.iter().filter(|f| **f > 1.0).product();
-            [low.min(row.total.low), high.max(row.total.high)]
+            [low.min(row.total.estimate), high.max(row.total.estimate)]
         };
         let ends = self.rows.iter().map(reach).fold([1.0f64, 1.5f64], |a, b| [a[0].min(b[0]), a[1].max(b[1])]);
+        let ends = with_intervals(ends, self.rows.iter().map(|row| row.total));
         let axis = Axis::new(Scale::Log, ends, [left, width - 64.0]);
         let bottom = top + self.rows.len() as f64 * ROW;
         for (tick, text) in axis.ticks_across() {
@@ -103,17 +105,17 @@ impl Stack {
             let [a, b] = [axis.place(*side), axis.place(*side * factor)];
             *side *= factor;
             let [from, to] = [a.min(b), a.max(b)];
-            canvas.rect([from, y - BAR / 2.0], [to, y + BAR / 2.0], colour(part));
+            let [colour, on_it] = colours(part);
+            canvas.rect([from, y - BAR / 2.0], [to, y + BAR / 2.0], colour);
             let text = figures(factor);
             if canvas::width_of(&text, canvas::SMALL) + 8.0 < to - from {
-                canvas.text(&text, [(from + to) * 0.5, y], canvas::SMALL, PAPER.light, Side::Centre);
+                canvas.text(&text, [(from + to) * 0.5, y], canvas::SMALL, on_it, Side::Centre);
             }
         }
         // The whole below its parts, which it must equal within its interval.
-        let [from, at, to] = [row.total.low, row.total.estimate, row.total.high].map(|v| axis.place(v));
         let under = y + BAR / 2.0 + 5.0;
-        whisker(canvas, [from, to], under);
-        let end = axis.place(up).max(at).max(to) + 8.0;
+        let to = whisker(canvas, row.total, axis, under);
+        let end = axis.place(up).max(axis.place(row.total.estimate)).max(to) + 8.0;
         canvas.text(&figures(row.total.estimate), [end, y], canvas::BODY, INK.light, Side::Left);
     }
 }
