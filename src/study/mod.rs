@@ -7,6 +7,7 @@ pub mod break_even;
 mod built;
 mod check;
 pub mod compare;
+pub mod costs;
 mod counted;
 pub mod counts;
 pub mod crossover;

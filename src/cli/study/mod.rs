@@ -2,6 +2,7 @@
 
 mod attribution;
 mod break_even;
+mod costs;
 mod crossover;
 mod curves;
 mod folder;
@@ -37,6 +38,8 @@ enum Name {
     Crossover(crossover::Args),
     /// After how many rays does a dearer build pay?
     BreakEven(break_even::Args),
+    /// What does a step, and what does a triangle test cost on this machine?
+    Costs(costs::Args),
     /// Which way to start a secondary ray neither meets its own surface again nor passes another one?
     SelfIntersection(SelfIntersection),
     /// Which way to divide the triangles is the fastest, for the same node, leaf and walk?
@@ -68,6 +71,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
         Name::Scaling(args) => scaling::run(registry, args, terminal),
         Name::Crossover(args) => crossover::run(registry, args, terminal),
         Name::BreakEven(args) => break_even::run(registry, args, terminal),
+        Name::Costs(args) => costs::run(registry, args, terminal),
         Name::SelfIntersection(args) => self_intersection(registry, args, terminal),
         Name::Partitions(args) => partitions::run(registry, args, terminal),
     }
