@@ -3,18 +3,23 @@
 pub mod accuracy;
 pub mod attribution;
 mod baselines;
+pub mod break_even;
 mod built;
 mod check;
 pub mod compare;
+pub mod costs;
 mod counted;
 pub mod counts;
+pub mod crossover;
 pub mod epoch;
 mod error;
+mod fit;
 mod guarded;
 pub mod hard_cases;
 pub mod journal;
 pub mod partitions;
 pub mod replicate;
+pub mod scaling;
 pub mod self_intersection;
 mod stage;
 

@@ -124,6 +124,7 @@ impl<'a> Bench<'a> {
                     rays: 0,
                     checksum: 0,
                     ns: vec![],
+                    wrong: declined.is_none() && wrong.is_some(),
                     untimed: declined.or(wrong),
                     counts: None,
                 });

@@ -7,6 +7,7 @@ mod line;
 mod measure;
 #[cfg(test)]
 pub(crate) mod tests;
+mod trouble;
 
 use serde::{Deserialize, Serialize};
 
@@ -16,8 +17,9 @@ use crate::measure::Threads;
 use crate::registry::Choice;
 use crate::scene::{Scene, WorkloadKind};
 
-pub use line::{Draw, Draws, Line, lines};
+pub use line::{Draw, Draws, Line, centre, lines};
 pub use measure::measure;
+pub use trouble::{Trouble, troubles};
 
 /// What is measured, and for how long.
 pub struct Settings {
@@ -113,6 +115,8 @@ pub struct Rays {
     pub ns: Vec<u64>,
     /// Why there is no time: a clause.
     pub untimed: Option<String>,
+    /// Whether that is for wrong answers.
+    pub wrong: bool,
     /// Of the first epoch; they do not change.
     pub counts: Option<RayCounts>,
 }

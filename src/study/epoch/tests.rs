@@ -19,6 +19,7 @@ pub fn example(scene: &str, triangles: usize, epoch: usize, structures: &[(&str,
             checksum: 1,
             ns: ns.to_vec(),
             untimed: None,
+            wrong: false,
             counts: Some(RayCounts { hit_rate: 0.5, tests: Some(4.0), steps: Some(10.0) }),
         }],
     };
