@@ -2,6 +2,7 @@
 
 pub mod accuracy;
 mod baselines;
+pub mod bench;
 mod built;
 mod check;
 pub mod compare;
@@ -9,6 +10,7 @@ mod error;
 mod guarded;
 pub mod hard_cases;
 pub mod partitions;
+pub mod regression;
 pub mod replicate;
 pub mod self_intersection;
 mod stage;
