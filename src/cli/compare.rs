@@ -93,6 +93,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
         warmup: args.warmup.into(),
         twin: true,
         budget_ns: u64::from(args.budget) * 1_000_000_000,
+        sample_ns: None,
         seed: args.seed,
         threads,
     };

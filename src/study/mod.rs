@@ -3,6 +3,7 @@
 pub mod accuracy;
 pub mod attribution;
 mod baselines;
+pub mod bench;
 pub mod break_even;
 mod built;
 mod check;
@@ -18,6 +19,7 @@ mod guarded;
 pub mod hard_cases;
 pub mod journal;
 pub mod partitions;
+pub mod regression;
 pub mod replicate;
 pub mod scaling;
 pub mod self_intersection;

@@ -98,9 +98,14 @@ impl<'a> Trial<'a> {
             samples: vec![],
             tallies: vec![],
             epochs: 0,
-            sample_budget_ns: (budget_ns / passes).clamp(1, LONGEST_SAMPLE_NS),
+            sample_budget_ns: settings.sample_ns.unwrap_or((budget_ns / passes).clamp(1, LONGEST_SAMPLE_NS)),
             conditions: Conditions::default(),
         })
+    }
+
+    /// The name of the scene.
+    pub fn scene_name(&self) -> &'a str {
+        &self.scene.name
     }
 
     /// Builds every structure anew and takes [`Settings::rounds`] samples of every case, after a warm-up.

@@ -41,6 +41,8 @@ pub struct Settings {
     pub twin: bool,
     /// What a scene may take, builds included, nanoseconds: slow cases are timed on fewer rays to keep within it.
     pub budget_ns: u64,
+    /// What a sample may take, nanoseconds, whatever the budget; nothing: what the budget allows.
+    pub sample_ns: Option<u64>,
     /// Seed of the workloads, of the order of builds and of the order of samples.
     pub seed: u64,
     pub threads: Threads,
@@ -76,7 +78,7 @@ pub fn compare_scene(
     for _ in 0..settings.epochs {
         trial.epoch(progress)?;
     }
-    Ok(trial.finish())
+    Ok(trial.results())
 }
 
 /// What of a workload a structure declines, if anything is: then it has no time.

@@ -11,7 +11,7 @@ impl Trial<'_> {
     ///
     /// # Panics
     /// If there was none.
-    pub fn finish(self) -> Compared {
+    pub fn results(&self) -> Compared {
         assert!(self.epochs > 0, "a trial has an epoch");
         let mut provenance = Provenance::of(&self.settings.threads);
         provenance.warnings = self.warnings(&provenance);
@@ -72,7 +72,7 @@ impl Trial<'_> {
         }
         let floor = twins(&records).log().map(|log| libm::exp(log) - 1.0);
         records.iter_mut().for_each(|record| record.noise_floor = floor);
-        Compared { records, refused: self.refused }
+        Compared { records, refused: self.refused.clone() }
     }
 
     fn samples_of(&self, subject: usize, workload: usize) -> Option<&Samples> {
@@ -101,12 +101,11 @@ impl Trial<'_> {
                 "{unsteady} of {all} warm-ups did not become steady: times waver; repeat the run on a quieter machine"
             ));
         }
-        for (case, samples) in self.cases.iter().zip(&self.samples).filter(|(_, samples)| !samples.same_answers) {
+        for (case, _) in self.cases.iter().zip(&self.samples).filter(|(_, samples)| !samples.same_answers) {
             let (label, rays) = (&self.subjects[case.subject].choice.label, &self.workloads[case.workload].name);
             warnings.push(format!(
                 "{label}, built again, gives other answers to the same {rays} rays: its build is not repeatable"
             ));
-            let _ = samples;
         }
         warnings
     }
