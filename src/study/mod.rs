@@ -12,8 +12,10 @@ pub mod hard_cases;
 pub mod journal;
 pub mod partitions;
 pub mod replicate;
+mod replicates;
 pub mod self_intersection;
 mod stage;
+pub mod trial;
 
 pub use baselines::{BRUTE_FORCE, SAH_TREE, documented_defect};
 pub use error::StudyError;
