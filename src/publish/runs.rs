@@ -12,9 +12,10 @@ use serde_json::Value;
 use crate::measure::Provenance;
 use crate::report::Record;
 use crate::study::accuracy::AccuracyRecord;
-use crate::study::attribution;
+use crate::study::epoch::Epoch;
 use crate::study::journal::{Header, Journal, JournalError, Recorded};
 use crate::study::replicate::Replication;
+use crate::study::{attribution, break_even, costs, crossover, scaling};
 
 /// Everything that a report is made of.
 #[derive(Clone, Debug, Default)]
@@ -28,6 +29,10 @@ pub struct Runs {
     pub accuracy: Vec<AccuracyRecord>,
     pub replication: Option<Replication>,
     pub attribution: Option<Study<attribution::Case>>,
+    pub scaling: Option<Study<scaling::Case>>,
+    pub break_even: Option<Study<Epoch>>,
+    pub crossover: Option<Study<crossover::Case>>,
+    pub costs: Option<Study<Epoch>>,
 }
 
 /// A study that keeps a journal.
@@ -152,6 +157,10 @@ impl Runs {
         let name = header.study.as_str();
         match name {
             attribution::NAME => self.attribution = Some(study(path)?),
+            scaling::NAME => self.scaling = Some(study(path)?),
+            break_even::NAME => self.break_even = Some(study(path)?),
+            crossover::NAME => self.crossover = Some(study(path)?),
+            costs::NAME => self.costs = Some(study(path)?),
             _ => return Err(RunError::Unknown { path: path.into(), study: name.into() }),
         }
         let kind = format!("study {name}");
@@ -189,7 +198,7 @@ impl Runs {
         let records = self.records.iter().chain(&self.partitions).map(|record| &record.provenance);
         let accuracy = self.accuracy.iter().map(|record| &record.provenance);
         let replication = self.replication.iter().map(|replication| &replication.provenance);
-        let studies = self.attribution.iter().map(|study| &study.header.provenance);
+        let studies = self.headers().into_iter().map(|header| &header.provenance);
         let mut found: Vec<&Provenance> = vec![];
         for provenance in records.chain(accuracy).chain(replication).chain(studies) {
             if !found.contains(&provenance) {
@@ -197,6 +206,18 @@ impl Runs {
             }
         }
         found
+    }
+
+    /// The headers of all studies.
+    fn headers(&self) -> Vec<&Header> {
+        let of = [
+            self.attribution.as_ref().map(|study| &study.header),
+            self.scaling.as_ref().map(|study| &study.header),
+            self.break_even.as_ref().map(|study| &study.header),
+            self.crossover.as_ref().map(|study| &study.header),
+            self.costs.as_ref().map(|study| &study.header),
+        ];
+        of.into_iter().flatten().collect()
     }
 
     /// The scenes: name, hash where it is known, and the command that named them.

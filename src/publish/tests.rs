@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use super::document::{Art, Block, Figure, Overlay, Section, Thumbnail};
 use super::{Document, Runs, document, files, page};
 use crate::measure::Provenance;
-use crate::report::plot::{Chart, Curves, Line, Scale};
+use crate::report::plot::{Chart, Curves, Line, Mark, Scale};
 use crate::report::{Record, Table, example_record, to_json};
 use crate::study::accuracy::AccuracyRecord;
 use crate::study::attribution;
@@ -44,7 +44,8 @@ fn records(scene: &str) -> Vec<Record> {
     ["primary", "shadow"]
         .iter()
         .flat_map(|workload| {
-            [("median-kd", 8e6), ("sah-kd", 1e6), ("obvhs-bvh2", 9e5)].map(|(label, ns)| record(scene, label, workload, ns))
+            [("median-kd", 8e6), ("sah-kd", 1e6), ("obvhs-bvh2", 9e5)]
+                .map(|(label, ns)| record(scene, label, workload, ns))
         })
         .collect()
 }
@@ -127,7 +128,7 @@ fn whole(scene: &str) -> (Document, Runs) {
         ramp: vec!["#000000".into(), "#ffffff".into()],
         ticks: vec![(0.0, "0".into()), (1.0, "10".into())],
     };
-    let line = Line { label: scene.into(), points: vec![], has_dots: true };
+    let line = Line { label: scene.into(), note: String::new(), points: vec![], mark: Mark::Both };
     let curves = Curves {
         x_title: "x".into(),
         y_title: "y".into(),
@@ -135,6 +136,7 @@ fn whole(scene: &str) -> (Document, Runs) {
         y_scale: Scale::Log,
         lines: vec![line],
         level: None,
+        highest: None,
     };
     let pictures = Section {
         id: "pictures",
@@ -297,7 +299,8 @@ fn tidy_data_reads_back() {
     let names = csv.headers().unwrap().clone();
     let rows: Vec<csv::StringRecord> = csv.records().map(Result::unwrap).collect();
     assert_eq!(rows.len(), runs.records.len());
-    let column = |name: &str| names.iter().position(|n| n == name).unwrap_or_else(|| panic!("no column {name} in {names:?}"));
+    let column =
+        |name: &str| names.iter().position(|n| n == name).unwrap_or_else(|| panic!("no column {name} in {names:?}"));
     assert_eq!(&rows[1][column("label")], "sah-kd");
     assert_eq!(&rows[0][column("counts.leaves")], "7");
     for figure in document.figures().into_iter().filter(|figure| !figure.data.columns.is_empty()) {
