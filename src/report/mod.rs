@@ -9,11 +9,11 @@ mod record;
 mod table;
 
 pub use counts::CaseCounts;
-pub use export::{to_csv, to_json, to_tidy_csv};
+pub use export::{to_csv, to_json, to_jsonl, to_tidy_csv};
 pub use record::Record;
 #[cfg(test)]
 pub(crate) use record::example;
-pub use table::{Cell, Screen, Table, Tone, to_markdown, wrapped};
+pub use table::{Cell, Screen, Table, Tone, escaped, to_markdown, wrapped};
 
 #[cfg(test)]
 pub(crate) use record::example as example_record;

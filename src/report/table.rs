@@ -172,8 +172,8 @@ pub fn to_markdown(tables: &[Table], foot: &[String]) -> Vec<u8> {
     (tables + &foot.join("\n\n") + "\n").into_bytes()
 }
 
-/// Text that Markdown would read as a table or as markup.
-fn escaped(text: &str) -> String {
+/// Text with what Markdown would read as a table or as markup marked as text.
+pub fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
         if "|*_`<>\\~".contains(c) {

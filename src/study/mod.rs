@@ -3,6 +3,7 @@
 pub mod accuracy;
 pub mod attribution;
 mod baselines;
+pub mod bench;
 pub mod break_even;
 mod built;
 mod check;
@@ -18,12 +19,13 @@ mod guarded;
 pub mod hard_cases;
 pub mod journal;
 pub mod partitions;
+pub mod regression;
 pub mod replicate;
 pub mod scaling;
 pub mod self_intersection;
 mod stage;
 
-pub use baselines::{BRUTE_FORCE, SAH_TREE, documented_defect};
+pub use baselines::{BRUTE_FORCE, REPORT_TREE, SAH_TREE, documented_defect};
 pub use error::StudyError;
 pub use guarded::{PANICKED, Refused, guarded};
 pub use stage::Stage;

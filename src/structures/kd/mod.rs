@@ -7,6 +7,7 @@ mod median;
 mod node;
 mod outline;
 mod partition;
+mod planted;
 mod sah;
 mod sah_binned;
 mod sah_sweep;
@@ -96,11 +97,13 @@ impl<T: TriangleTest> Accel for KdTree<T> {
 
     #[inline]
     fn closest_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit> {
+        planted::slow_down::<false, T>(self, ray);
         single::<false, _, O>(self, ray, observer)
     }
 
     #[inline]
     fn any_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> bool {
+        planted::slow_down::<true, T>(self, ray);
         single::<true, _, O>(self, ray, observer).is_some()
     }
 
