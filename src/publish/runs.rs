@@ -22,8 +22,10 @@ use crate::study::{attribution, break_even, costs, crossover, scaling};
 pub struct Runs {
     /// What was read, oldest first.
     pub sources: Vec<Source>,
-    /// Of `compare` and `bench`.
+    /// Of `compare`; scenes that only `bench` has measured, of that.
     pub records: Vec<Record>,
+    /// Of `bench`, as long as files are read.
+    benched: Vec<Record>,
     /// Of `study partitions`.
     pub partitions: Vec<Record>,
     pub accuracy: Vec<AccuracyRecord>,
@@ -117,6 +119,10 @@ impl Runs {
         for file in files {
             runs.add(&file.path)?;
         }
+        // Bench looks at few scenes, to find changes: whatever compare has measured is more.
+        let mut benched = std::mem::take(&mut runs.benched);
+        benched.retain(|bench| runs.records.iter().all(|record| record.scene != bench.scene));
+        runs.records.append(&mut benched);
         Ok(runs)
     }
 
@@ -172,9 +178,12 @@ impl Runs {
     /// Adds records; those of the same scene, structure and workload that are there already are older.
     fn add_records(&mut self, path: &Path, records: Vec<Record>) -> Result<(), RunError> {
         let command = records.first().map_or(String::new(), |record| record.provenance.command.clone());
-        let is_partitions = command.split_whitespace().any(|word| word == "partitions");
-        let kind = if is_partitions { "study partitions" } else { "compare" };
-        let old = if is_partitions { &mut self.partitions } else { &mut self.records };
+        let has = |name: &str| command.split_whitespace().any(|word| word == name);
+        let (kind, old) = match () {
+            () if has("partitions") => ("study partitions", &mut self.partitions),
+            () if has("bench") => ("bench", &mut self.benched),
+            () => ("compare", &mut self.records),
+        };
         // Times of different runs are no pairs: a scene is of one run.
         let before = old.len();
         old.retain(|old| records.iter().all(|new| new.scene != old.scene));
