@@ -8,6 +8,7 @@ use super::latex::latex;
 use super::markdown::markdown;
 use super::runs::Runs;
 use crate::report::{Table, to_jsonl, to_tidy_csv};
+use crate::study::{attribution, break_even, costs, crossover, scaling};
 
 /// Width of drawings that stand alone, in their units.
 const WIDTH: f64 = 900.0;
@@ -30,6 +31,21 @@ pub fn files(document: &Document, runs: &Runs) -> Vec<(String, Vec<u8>)> {
         tidy("main", &replication.main, &mut files);
         tidy("settings", &replication.parameters, &mut files);
         tidy("hard", &replication.hard, &mut files);
+    }
+    if let Some(study) = &runs.attribution {
+        tidy("attribution", &attribution::rows(&attribution::result(&study.cases, study.seed())), &mut files);
+    }
+    if let Some(study) = &runs.scaling {
+        tidy("scaling", &scaling::rows(&scaling::result(&study.cases, study.seed())), &mut files);
+    }
+    if let Some(study) = &runs.break_even {
+        tidy("break-even", &break_even::rows(&break_even::result(&study.cases, study.seed())), &mut files);
+    }
+    if let Some(study) = &runs.crossover {
+        tidy("crossover", &crossover::rows(&crossover::result(&study.cases, study.seed())), &mut files);
+    }
+    if let Some(study) = &runs.costs {
+        tidy("costs", &costs::rows(&costs::result(&study.cases, study.seed())), &mut files);
     }
     files
 }

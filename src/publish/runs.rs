@@ -12,22 +12,29 @@ use serde_json::Value;
 use crate::measure::Provenance;
 use crate::report::Record;
 use crate::study::accuracy::AccuracyRecord;
-use crate::study::attribution;
+use crate::study::epoch::Epoch;
 use crate::study::journal::{Header, Journal, JournalError, Recorded};
 use crate::study::replicate::Replication;
+use crate::study::{attribution, break_even, costs, crossover, scaling};
 
 /// Everything that a report is made of.
 #[derive(Clone, Debug, Default)]
 pub struct Runs {
     /// What was read, oldest first.
     pub sources: Vec<Source>,
-    /// Of `compare` and `bench`.
+    /// Of `compare`; scenes that only `bench` has measured, of that.
     pub records: Vec<Record>,
+    /// Of `bench`, as long as files are read.
+    benched: Vec<Record>,
     /// Of `study partitions`.
     pub partitions: Vec<Record>,
     pub accuracy: Vec<AccuracyRecord>,
     pub replication: Option<Replication>,
     pub attribution: Option<Study<attribution::Case>>,
+    pub scaling: Option<Study<scaling::Case>>,
+    pub break_even: Option<Study<Epoch>>,
+    pub crossover: Option<Study<crossover::Case>>,
+    pub costs: Option<Study<Epoch>>,
 }
 
 /// A study that keeps a journal.
@@ -112,6 +119,10 @@ impl Runs {
         for file in files {
             runs.add(&file.path)?;
         }
+        // Bench looks at few scenes, to find changes: whatever compare has measured is more.
+        let mut benched = std::mem::take(&mut runs.benched);
+        benched.retain(|bench| runs.records.iter().all(|record| record.scene != bench.scene));
+        runs.records.append(&mut benched);
         Ok(runs)
     }
 
@@ -152,6 +163,10 @@ impl Runs {
         let name = header.study.as_str();
         match name {
             attribution::NAME => self.attribution = Some(study(path)?),
+            scaling::NAME => self.scaling = Some(study(path)?),
+            break_even::NAME => self.break_even = Some(study(path)?),
+            crossover::NAME => self.crossover = Some(study(path)?),
+            costs::NAME => self.costs = Some(study(path)?),
             _ => return Err(RunError::Unknown { path: path.into(), study: name.into() }),
         }
         let kind = format!("study {name}");
@@ -163,9 +178,12 @@ impl Runs {
     /// Adds records; those of the same scene, structure and workload that are there already are older.
     fn add_records(&mut self, path: &Path, records: Vec<Record>) -> Result<(), RunError> {
         let command = records.first().map_or(String::new(), |record| record.provenance.command.clone());
-        let is_partitions = command.split_whitespace().any(|word| word == "partitions");
-        let kind = if is_partitions { "study partitions" } else { "compare" };
-        let old = if is_partitions { &mut self.partitions } else { &mut self.records };
+        let has = |name: &str| command.split_whitespace().any(|word| word == name);
+        let (kind, old) = match () {
+            () if has("partitions") => ("study partitions", &mut self.partitions),
+            () if has("bench") => ("bench", &mut self.benched),
+            () => ("compare", &mut self.records),
+        };
         // Times of different runs are no pairs: a scene is of one run.
         let before = old.len();
         old.retain(|old| records.iter().all(|new| new.scene != old.scene));
@@ -189,7 +207,7 @@ impl Runs {
         let records = self.records.iter().chain(&self.partitions).map(|record| &record.provenance);
         let accuracy = self.accuracy.iter().map(|record| &record.provenance);
         let replication = self.replication.iter().map(|replication| &replication.provenance);
-        let studies = self.attribution.iter().map(|study| &study.header.provenance);
+        let studies = self.headers().into_iter().map(|header| &header.provenance);
         let mut found: Vec<&Provenance> = vec![];
         for provenance in records.chain(accuracy).chain(replication).chain(studies) {
             if !found.contains(&provenance) {
@@ -197,6 +215,18 @@ impl Runs {
             }
         }
         found
+    }
+
+    /// The headers of all studies.
+    fn headers(&self) -> Vec<&Header> {
+        let of = [
+            self.attribution.as_ref().map(|study| &study.header),
+            self.scaling.as_ref().map(|study| &study.header),
+            self.break_even.as_ref().map(|study| &study.header),
+            self.crossover.as_ref().map(|study| &study.header),
+            self.costs.as_ref().map(|study| &study.header),
+        ];
+        of.into_iter().flatten().collect()
     }
 
     /// The scenes: name, hash where it is known, and the command that named them.

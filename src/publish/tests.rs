@@ -4,10 +4,11 @@ use std::path::{Path, PathBuf};
 use super::document::{Art, Block, Figure, Overlay, Section, Thumbnail};
 use super::{Document, Runs, document, files, page};
 use crate::measure::Provenance;
-use crate::report::plot::{Chart, Curves, Line, Scale};
+use crate::report::plot::{Chart, Curves, Line, Mark, Scale};
 use crate::report::{Record, Table, example_record, to_json};
 use crate::study::accuracy::AccuracyRecord;
 use crate::study::attribution;
+use crate::study::epoch::{Epoch, tests as epoch};
 
 /// What a user may call a scene.
 const EVIL: &str = "<script>alert(\"&'1'\")</script>";
@@ -44,7 +45,8 @@ fn records(scene: &str) -> Vec<Record> {
     ["primary", "shadow"]
         .iter()
         .flat_map(|workload| {
-            [("median-kd", 8e6), ("sah-kd", 1e6), ("obvhs-bvh2", 9e5)].map(|(label, ns)| record(scene, label, workload, ns))
+            [("median-kd", 8e6), ("sah-kd", 1e6), ("obvhs-bvh2", 9e5)]
+                .map(|(label, ns)| record(scene, label, workload, ns))
         })
         .collect()
 }
@@ -69,10 +71,11 @@ fn attribution_journal(scene: &str) -> String {
     let cells = attribution::design::Cell::all();
     let tree = |i: usize| {
         let ns = 2000 - 30 * (i % 36);
-        serde_json::json!({ "levels": ["", "", ""], "build_ns": 1000, "rays": 100, "checksum": 1, "ns": [ns, ns + 7, ns + 3] })
+        let times = serde_json::json!({ "rays": 100, "checksum": 1, "ns": [ns, ns + 7, ns + 3] });
+        serde_json::json!({ "build_ns": 1000, "times": [times] })
     };
     let counted = serde_json::json!({
-        "tests": 50, "steps": 80, "references": 24, "leaves": 3, "depth": 2, "bytes": 400, "checked_rays": 100
+        "tests": [50], "steps": [80], "references": 24, "leaves": 3, "depth": 2, "bytes": 400, "checked_rays": 100
     });
     let trees: Vec<serde_json::Value> = (0..cells.len() + 2).map(tree).collect();
     let header = serde_json::json!({
@@ -80,9 +83,49 @@ fn attribution_journal(scene: &str) -> String {
     });
     let case = serde_json::json!({
         "scene": scene, "scene_hash": "aa", "triangles": 12, "stand_in": false, "workload": "primary", "workload_hash": "bb",
-        "workload_rays": 100, "epoch": 0, "trees": trees, "counts": vec![counted; cells.len() + 2],
+        "workload_rays": 100,
+        "epoch": { "number": 0, "trees": trees, "counts": vec![counted; cells.len() + 2] },
     });
     format!("{header}\n{}\n", serde_json::json!({ "key": "one", "case": case }))
+}
+
+/// Journals of the studies of curves.
+fn curves(scene: &str) -> [(&'static str, Vec<u8>); 4] {
+    let epoch = |triangles: usize, number: usize| {
+        let ns: [&[u64]; 3] = [&[90_000, 91_000], &[40_000, 41_000], &[30_000, 30_500]];
+        let structures = [("median-kd", 1000, ns[0]), ("sah-kd", 5000, ns[1]), ("obvhs-bvh2", 9000, ns[2])];
+        let grown = structures.map(|(label, build, ns)| (label, build * triangles as u64, ns));
+        epoch::example(&format!("{scene} {triangles}"), triangles, number, &grown)
+    };
+    let epochs: Vec<Epoch> = [20, 320, 5120].iter().flat_map(|&n| [epoch(n, 0), epoch(n, 1)]).collect();
+    let journal = |study: &str, cases: Vec<serde_json::Value>| {
+        let header = serde_json::json!({
+            "schema": 1, "study": study, "settings": { "seed": 1 }, "provenance": provenance(&format!("sahara study {study}"))
+        });
+        let lines = cases.iter().enumerate().map(|(i, case)| serde_json::json!({ "key": i.to_string(), "case": case }));
+        let lines = std::iter::once(header).chain(lines).map(|line| format!("{line}\n"));
+        lines.collect::<String>().into_bytes()
+    };
+    let json = |epoch: &Epoch| serde_json::to_value(epoch).unwrap();
+    let depth = |epoch: &Epoch| serde_json::json!([["primary", (epoch.triangles as f64).log2()]]);
+    [
+        (
+            "scaling.jsonl",
+            journal("scaling", epochs.iter().map(|e| serde_json::json!({ "family": "spheres", "epoch": e })).collect()),
+        ),
+        ("break-even.jsonl", journal("break-even", epochs.iter().map(json).collect())),
+        ("costs.jsonl", journal("costs", epochs.iter().map(json).collect())),
+        (
+            "crossover.jsonl",
+            journal(
+                "crossover",
+                epochs
+                    .iter()
+                    .map(|e| serde_json::json!({ "layers": e.triangles, "complexity": depth(e), "epoch": e }))
+                    .collect(),
+            ),
+        ),
+    ]
 }
 
 fn folder(files: &[(&str, Vec<u8>)]) -> tempfile::TempDir {
@@ -99,14 +142,12 @@ fn read(folder: &Path) -> Runs {
 
 /// Everything there is, from a scene called `scene`.
 fn whole(scene: &str) -> (Document, Runs) {
-    let runs = read(
-        folder(&[
-            ("compare.json", to_json(&records(scene))),
-            ("accuracy.json", to_json(&accuracy(scene))),
-            ("attribution.jsonl", attribution_journal(scene).into_bytes()),
-        ])
-        .path(),
-    );
+    let files = [
+        ("compare.json", to_json(&records(scene))),
+        ("accuracy.json", to_json(&accuracy(scene))),
+        ("attribution.jsonl", attribution_journal(scene).into_bytes()),
+    ];
+    let runs = read(folder(&[&files[..], &curves(scene)].concat()).path());
     let thumbnail = |name: &str| Thumbnail {
         name: name.into(),
         note: "12 triangles".into(),
@@ -127,7 +168,7 @@ fn whole(scene: &str) -> (Document, Runs) {
         ramp: vec!["#000000".into(), "#ffffff".into()],
         ticks: vec![(0.0, "0".into()), (1.0, "10".into())],
     };
-    let line = Line { label: scene.into(), points: vec![], has_dots: true };
+    let line = Line { label: scene.into(), note: String::new(), points: vec![], mark: Mark::Both };
     let curves = Curves {
         x_title: "x".into(),
         y_title: "y".into(),
@@ -135,6 +176,7 @@ fn whole(scene: &str) -> (Document, Runs) {
         y_scale: Scale::Log,
         lines: vec![line],
         level: None,
+        highest: None,
     };
     let pictures = Section {
         id: "pictures",
@@ -187,7 +229,7 @@ fn the_page_asks_for_nothing_from_elsewhere() {
 fn every_figure_has_a_caption_a_command_and_words_for_those_who_do_not_see() {
     let (document, _) = whole("Cube");
     let figures = document.figures();
-    assert!(figures.len() >= 6, "{}", figures.len());
+    assert!(figures.len() >= 12, "{}", figures.len());
     let mut ids: Vec<&str> = figures.iter().map(|figure| figure.id.as_str()).collect();
     for figure in &figures {
         assert!(!figure.caption.is_empty() && figure.command.starts_with("sahara "), "{}", figure.id);
@@ -206,9 +248,8 @@ fn every_figure_has_a_caption_a_command_and_words_for_those_who_do_not_see() {
 #[test]
 fn the_same_runs_give_the_same_bytes() {
     let [one, two] = ["Cube", "Cube"].map(|scene| {
-        let (document, runs) = whole(scene);
         // The folder of the runs is another one each time.
-        let runs = Runs { sources: vec![], ..runs };
+        let (document, runs) = whole(scene);
         let mut sections = document.sections;
         sections.retain(|section| section.id != "provenance");
         files(&Document { sections, ..document }, &runs)
@@ -227,7 +268,7 @@ fn a_part_that_is_not_there_is_named_with_its_command() {
     assert!(missing.iter().any(|command| command.starts_with("sahara study attribution")), "{missing:?}");
     assert!(missing.iter().all(|command| !command.starts_with("sahara compare")), "{missing:?}");
     let page = page(&document);
-    assert!(missing.iter().all(|command| page.contains(command)));
+    assert!(missing.iter().all(|command| page.contains(&command.replace('/', "&#x2f;"))));
 
     let nothing = super::document(&read(folder(&[("a.json", to_json(&accuracy("Cube")))]).path()), vec![]);
     assert_eq!(nothing.answer.verdict, "Not measured");
@@ -256,7 +297,7 @@ fn what_cannot_be_read_is_one_sentence() {
     let torn = whole[..whole.len() / 2].to_vec();
     let journal = attribution_journal("Cube");
     let other = journal.replacen("\"attribution\"", "\"astrology\"", 1);
-    let broken = journal.replacen("\"epoch\"", "\"epic\"", 1);
+    let broken = journal.replacen("\"epoch\":", "\"epic\":", 1);
     let cases: [(&str, Vec<u8>, &str); 8] = [
         ("torn.json", torn, "torn"),
         ("empty.json", vec![], "torn"),
@@ -297,7 +338,8 @@ fn tidy_data_reads_back() {
     let names = csv.headers().unwrap().clone();
     let rows: Vec<csv::StringRecord> = csv.records().map(Result::unwrap).collect();
     assert_eq!(rows.len(), runs.records.len());
-    let column = |name: &str| names.iter().position(|n| n == name).unwrap_or_else(|| panic!("no column {name} in {names:?}"));
+    let column =
+        |name: &str| names.iter().position(|n| n == name).unwrap_or_else(|| panic!("no column {name} in {names:?}"));
     assert_eq!(&rows[1][column("label")], "sah-kd");
     assert_eq!(&rows[0][column("counts.leaves")], "7");
     for figure in document.figures().into_iter().filter(|figure| !figure.data.columns.is_empty()) {

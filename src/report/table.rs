@@ -145,7 +145,7 @@ impl Table {
     /// The table in GitHub's Markdown.
     pub fn to_markdown(&self) -> String {
         let line = |cells: Vec<String>| format!("| {} |\n", cells.join(" | "));
-        let mut text = format!("### {}\n\n", self.title);
+        let mut text = format!("### {}\n\n", escaped(&self.title));
         text += &line(self.columns.iter().map(|name| escaped(name)).collect());
         text += &line((0..self.columns.len()).map(|i| if i == 0 { "---" } else { "---:" }.to_owned()).collect());
         for row in &self.rows {

@@ -177,3 +177,53 @@ pub fn against(
     }
     Ok(comparison)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::example;
+    use crate::study::Refused;
+    use crate::study::regression::Wrong;
+
+    fn record(label: &str) -> Record {
+        Record { label: label.into(), epochs: 3, samples_ns: vec![1e6; 3], ..example() }
+    }
+
+    #[test]
+    fn what_weighs_most_decides() {
+        let (old, mut new) = ([record("a"), record("b")], [record("a"), record("b")]);
+        new[0].samples_ns.iter_mut().for_each(|ns| *ns *= 2.0);
+        let mut comparison = Comparison::new(&old, &new, Some(5.0));
+        assert_eq!(verdict(&comparison), Verdict::Regression);
+        comparison.only_old = vec!["c".into()];
+        assert_eq!(verdict(&comparison), Verdict::Refused);
+        comparison.wrong = vec![Wrong { case: "a".into(), what: "lost".into() }];
+        assert_eq!(verdict(&comparison), Verdict::Wrong);
+        assert_eq!(verdict(&Comparison::new(&old, &new, None)), Verdict::Right);
+        assert_eq!(verdict(&Comparison::new(&old, &old, Some(5.0))), Verdict::Right);
+        new[0].samples_ns = vec![1e6, 2e6, 4e6];
+        assert_eq!(verdict(&Comparison::new(&old, &new, Some(5.0))), Verdict::Undecided);
+    }
+
+    #[test]
+    fn a_structure_that_fell_out_is_found_and_one_that_was_not_asked_is_refused() {
+        let old = [record("a"), record("b")];
+        let mut run = Compared { records: vec![record("a")], refused: vec![] };
+        assert!(matches!(against(&old, &run, None), Err(BaselineError::Old(case)) if case.starts_with("b on ")));
+        run.refused.push(Refused { label: "b".into(), reason: "it panicked".into() });
+        assert_eq!(verdict(&against(&old, &run, None).unwrap()), Verdict::Refused);
+        assert!(matches!(
+            against(&old[..1], &Compared { records: old.to_vec(), refused: vec![] }, None),
+            Err(BaselineError::New(_))
+        ));
+    }
+
+    #[test]
+    fn names_stay_in_the_folder() {
+        let folder = Path::new("runs");
+        assert_eq!(baseline_path(folder, "v1.0_a-b").unwrap(), Path::new("runs/baselines/v1.0_a-b.json"));
+        for name in ["", ".", "..", "a/b", "../a", ".hidden", "a b"] {
+            assert!(matches!(baseline_path(folder, name), Err(BaselineError::Name(_))), "{name:?}");
+        }
+    }
+}

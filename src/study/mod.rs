@@ -21,9 +21,11 @@ pub mod journal;
 pub mod partitions;
 pub mod regression;
 pub mod replicate;
+mod replicates;
 pub mod scaling;
 pub mod self_intersection;
 mod stage;
+pub mod trial;
 
 pub use baselines::{BRUTE_FORCE, REPORT_TREE, SAH_TREE, documented_defect};
 pub use error::StudyError;

@@ -14,6 +14,8 @@ pub struct Curves {
     pub lines: Vec<Line>,
     /// A horizontal line at this height, and what it means: "equal".
     pub level: Option<(f64, String)>,
+    /// What is higher is beyond the picture.
+    pub highest: Option<f64>,
 }
 
 /// A line through points, from left to right.
@@ -21,9 +23,27 @@ pub struct Curves {
 pub struct Line {
     /// Structures have their colours.
     pub label: String,
+    /// What stands behind it.
+    pub note: String,
     pub points: Vec<CurvePoint>,
-    /// Whether the points are measured: then they are dots as well. What is fitted or derived is a line alone.
-    pub has_dots: bool,
+    pub mark: Mark,
+}
+
+/// How points are drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mark {
+    /// A line alone: what is fitted or derived.
+    Line,
+    /// Dots alone: what has no order.
+    Dots,
+    /// Dots that a line joins: what was measured.
+    Both,
+}
+
+impl Line {
+    fn name(&self) -> String {
+        if self.note.is_empty() { self.label.clone() } else { format!("{} {}", self.label, self.note) }
+    }
 }
 
 /// A point with the interval of its height.
@@ -48,8 +68,8 @@ impl Curves {
 
     pub(super) fn draw(&self, canvas: &Canvas, width: f64) {
         let (height, beside) = (plot_height(width), has_room(width));
-        let names: Vec<String> = self.lines.iter().map(|line| line.label.clone()).collect();
-        let colours = colours(&names);
+        let labels: Vec<String> = self.lines.iter().map(|line| line.label.clone()).collect();
+        let (names, colours): (Vec<String>, _) = (self.lines.iter().map(Line::name).collect(), colours(&labels));
         let widest = |names: &mut dyn Iterator<Item = &String>| {
             names.map(|name| canvas::width_of(name, canvas::SMALL)).fold(0.0, f64::max)
         };
@@ -95,22 +115,27 @@ impl Curves {
 
     /// Names at the heights at which the lines end, moved apart where they would touch.
     fn names_beside(&self, canvas: &Canvas, colours: &[Colour], x: f64, y: Axis, frame: [f64; 2]) {
-        let mut ends: Vec<(f64, usize)> =
-            self.lines.iter().enumerate().filter_map(|(i, line)| Some((y.place(line.points.last()?.y), i))).collect();
+        let mut ends: Vec<(f64, usize)> = self
+            .lines
+            .iter()
+            .enumerate()
+            .filter_map(|(i, line)| Some((y.place(line.points.last()?.y).clamp(frame[0], frame[1]), i)))
+            .collect();
         ends.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         let heights = apart(&ends.iter().map(|(at, _)| *at).collect::<Vec<_>>(), LINE, frame);
         for ((_, i), at) in ends.into_iter().zip(heights) {
-            canvas.text(&self.lines[i].label, [x, at], canvas::SMALL, colours[i], Side::Left);
+            canvas.text(&self.lines[i].name(), [x, at], canvas::SMALL, colours[i], Side::Left);
         }
     }
 
     fn ranges(&self) -> [[f64; 2]; 2] {
         let points = || self.lines.iter().flat_map(|line| &line.points);
         let level = self.level.as_ref().map(|(level, _)| *level);
+        let highest = self.highest.unwrap_or(f64::INFINITY);
         // Bands may be so wide that nothing else would be seen: they do not make room for themselves.
         [
             padded(self.x_scale, &mut points().map(|p| p.x), 0.02),
-            padded(self.y_scale, &mut points().map(|p| p.y).chain(level), 0.08),
+            padded(self.y_scale, &mut points().map(|p| p.y.min(highest)).chain(level), 0.08),
         ]
     }
 }
@@ -168,11 +193,15 @@ fn draw_line(canvas: &Canvas, line: &Line, colour: Colour, x: Axis, y: Axis) {
     if bands.len() > 1 {
         canvas.band(&side(0), &side(1), colour);
     }
-    let places: Vec<[f64; 2]> = line.points.iter().map(|p| [x.place(p.x), y.place(p.y)]).collect();
-    canvas.line(&places, colour, 2.0);
-    if line.has_dots {
-        for place in places {
-            canvas.dot(place, 3.0, colour, true);
+    // Neighbours within the picture are joined.
+    let seen = |p: &CurvePoint| (top.min(bottom) - 0.5..=top.max(bottom) + 0.5).contains(&y.place(p.y));
+    for run in line.points.chunk_by(|a, b| seen(a) == seen(b)).filter(|run| seen(&run[0])) {
+        let places: Vec<[f64; 2]> = run.iter().map(|p| [x.place(p.x), y.place(p.y)]).collect();
+        if line.mark != Mark::Dots {
+            canvas.line(&places, colour, 2.0);
+        }
+        if line.mark != Mark::Line {
+            places.into_iter().for_each(|place| canvas.dot(place, 3.0, colour, true));
         }
     }
 }

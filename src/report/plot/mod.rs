@@ -19,7 +19,7 @@ use palette::{INK, colours};
 
 pub use bars::{Bar, BarGroup, Bars};
 pub use chart::Chart;
-pub use curves::{CurvePoint, Curves, Line};
+pub use curves::{CurvePoint, Curves, Line, Mark};
 pub use scale::{Scale, plain as tick_text};
 pub use stack::{Stack, StackRow};
 

@@ -68,7 +68,7 @@ const STRUCTURES: [&str; 9] = [
 /// A colour for each label, all different as long as there are enough: that of its structure, or one that is free.
 pub fn colours(labels: &[String]) -> Vec<Colour> {
     let own = |label: &String| {
-        let name = label.split(':').next().unwrap_or_default();
+        let name = label.split([':', ' ']).next().unwrap_or_default();
         STRUCTURES.iter().position(|structure| *structure == name)
     };
     let mut given: Vec<Option<usize>> = vec![None; labels.len()];

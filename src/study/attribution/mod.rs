@@ -17,6 +17,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::measure::Threads;
 use crate::scene::{Scene, WorkloadKind};
+use crate::study::trial::Epoch;
 
 pub use measure::measure;
 pub use result::{Attribution, CellResult, Effect, Part, Row, Split, Term, attribute, result, rows};
@@ -80,43 +81,8 @@ pub struct Case {
     pub workload_hash: String,
     /// Rays of the workload.
     pub workload_rays: usize,
-    /// Counted from 0.
-    pub epoch: usize,
     /// The cells of the design in their order, then the twins of the report's tree and of the SAH tree.
-    pub trees: Vec<Tree>,
-    /// Of the first epoch; builds and answers do not change.
-    pub counts: Option<Vec<Counted>>,
-}
-
-/// Times of one tree in one epoch.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Tree {
-    /// Names of the levels, in the order of [`design::Factor::ALL`].
-    pub levels: [String; 3],
-    pub build_ns: u64,
-    /// Rays of a sample, fewer than the workload has where the tree is slow.
-    pub rays: usize,
-    /// Of the answers to these rays.
-    pub checksum: u64,
-    /// Nanoseconds of each sample; those of two trees with the same index are a pair.
-    pub ns: Vec<u64>,
-}
-
-/// What no machine changes: the tree, and what it does for all rays of the workload.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Counted {
-    /// Triangles tested.
-    pub tests: u64,
-    /// Nodes and leaves entered.
-    pub steps: u64,
-    /// References in leaves.
-    pub references: usize,
-    pub leaves: usize,
-    /// Edges from the root to the deepest leaf.
-    pub depth: usize,
-    pub bytes: usize,
-    /// Rays held against brute force, all of them right.
-    pub checked_rays: usize,
+    pub epoch: Epoch,
 }
 
 /// Name of the study, and of its journal.

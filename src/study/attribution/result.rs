@@ -4,8 +4,10 @@ use serde::Serialize;
 
 use super::design::{CELLS, Cell, Factor};
 use super::effects::{self, TERMS, Weights, value};
-use super::{Case, Tree, scene_name};
-use crate::measure::{Interval, NoiseFloor, RandomOrder, median, replication};
+use super::{Case, scene_name};
+use crate::measure::{Interval, NoiseFloor, RandomOrder, median};
+use crate::study::replicates::{interval, replicates, values};
+use crate::study::trial::{Counted, Times};
 
 /// What came of one scene.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -140,33 +142,28 @@ pub fn result(cases: &[Case], seed: u64) -> Vec<Attribution> {
 /// # Panics
 /// If an epoch does not hold all cells and twins.
 pub fn attribute(epochs: &[&Case], seed: u64) -> Option<Attribution> {
-    let first = *epochs.iter().find(|case| case.counts.is_some())?;
-    let counts = first.counts.as_ref()?;
-    assert!(epochs.iter().all(|case| case.trees.len() == CELLS + 2), "an epoch holds all cells and two twins");
+    let first = *epochs.iter().find(|case| case.epoch.counts.is_some())?;
+    let counts = first.epoch.counts.as_ref()?;
+    assert!(epochs.iter().all(|case| case.epoch.trees.len() == CELLS + 2), "an epoch holds all cells and two twins");
 
-    let replicates = replicates(epochs);
-    let twin = |cell: Cell, twin: usize| {
-        let log = |logs: &Vec<f64>| vec![logs[cell.number()] - logs[CELLS + twin]];
-        replicates.iter().map(log).collect::<Vec<_>>()
-    };
+    let times = |case: &Case| case.epoch.trees.iter().map(|tree| tree.times[0].clone()).collect::<Vec<Times>>();
+    let logs = |times: &Times| times.paces().into_iter().map(libm::log).collect::<Vec<f64>>();
+    let replicates = replicates(epochs.iter().map(|case| times(case).iter().map(logs).collect()).collect());
+    let twin = |cell: Cell, twin: usize| values(&replicates, |logs| logs[cell.number()] - logs[CELLS + twin]);
     let noise = NoiseFloor::new(&[twin(Cell::REPORT, 0), twin(Cell::SAH, 1)], seed);
     let floor = noise.log().unwrap_or(0.0);
-    // The interval of a contrast: one value for each replicate.
-    let interval = |weights: &Weights| {
-        let values: Vec<Vec<f64>> = replicates.iter().map(|logs| vec![value(weights, logs)]).collect();
-        replication(&[values], floor, seed).expect("there is a replicate")
-    };
-    let log_counts = |of: fn(&super::Counted) -> u64| -> Vec<f64> {
+    let interval = |weights: &Weights| interval(&replicates, |logs| value(weights, logs), floor, seed);
+    let log_counts = |of: fn(&Counted) -> u64| -> Vec<f64> {
         // Nothing done counts as one in all, so that there is a logarithm.
         counts[..CELLS].iter().map(|counted| libm::log(of(counted).max(1) as f64)).collect()
     };
-    let (tests, steps) = (log_counts(|c| c.tests), log_counts(|c| c.steps));
+    let (tests, steps) = (log_counts(|c| c.tests[0]), log_counts(|c| c.steps[0]));
     let rays = first.workload_rays as f64;
 
     let cells = Cell::all().into_iter().enumerate().map(|(i, cell)| {
-        let trees: Vec<&Tree> = epochs.iter().map(|case| &case.trees[i]).collect();
-        let ns: Vec<f64> = trees.iter().flat_map(|tree| paces(tree)).collect();
-        let builds: Vec<f64> = trees.iter().map(|tree| tree.build_ns as f64).collect();
+        let trees = || epochs.iter().map(|case| &case.epoch.trees[i]);
+        let ns: Vec<f64> = trees().flat_map(|tree| tree.times[0].paces()).collect();
+        let builds: Vec<f64> = trees().map(|tree| tree.build_ns as f64).collect();
         let [plane, stop, traversal] = Factor::ALL.map(|factor| factor.levels()[cell.level(factor)].name);
         CellResult {
             plane,
@@ -174,13 +171,13 @@ pub fn attribute(epochs: &[&Case], seed: u64) -> Option<Attribution> {
             traversal,
             ns_per_ray: median(&ns).expect("there is a sample"),
             speedup: interval(&effects::gain(Cell::REPORT, cell)),
-            tests_per_ray: counts[i].tests as f64 / rays,
-            steps_per_ray: counts[i].steps as f64 / rays,
+            tests_per_ray: counts[i].tests[0] as f64 / rays,
+            steps_per_ray: counts[i].steps[0] as f64 / rays,
             duplication: counts[i].references as f64 / first.triangles.max(1) as f64,
             depth: counts[i].depth,
             bytes: counts[i].bytes,
             build_ns: median(&builds).expect("there is an epoch"),
-            sampled: trees[0].rays < first.workload_rays,
+            sampled: first.epoch.trees[i].times[0].rays < first.workload_rays,
         }
     });
     let levels =
@@ -198,7 +195,7 @@ pub fn attribute(epochs: &[&Case], seed: u64) -> Option<Attribution> {
         stand_in: first.stand_in,
         workload: first.workload.clone(),
         epochs: epochs.len(),
-        runs: first.trees[0].ns.len(),
+        runs: first.epoch.trees[0].times[0].ns.len(),
         floor: libm::exp(floor),
         twins_alike: noise.holding_one(),
         cells: cells.collect(),
@@ -209,38 +206,6 @@ pub fn attribute(epochs: &[&Case], seed: u64) -> Option<Attribution> {
         steps: split(|weights| exact(weights, &steps), &steps),
         plane_alone: interval(&effects::gain(Cell([0, 1, 1]), Cell([5, 1, 1]))),
     })
-}
-
-/// Nanoseconds a ray in every sample.
-fn paces(tree: &Tree) -> Vec<f64> {
-    tree.ns.iter().map(|&ns| ns.max(1) as f64 / tree.rays as f64).collect()
-}
-
-/// Logarithms of the time of a ray in all trees, once for each epoch; or once for each round where there is one epoch alone.
-///
-/// Within an epoch: what slowed the whole round is taken out, then each tree has the median of its rounds. All figures are sums over
-/// these, so that parts add up to their whole, epoch by epoch.
-fn replicates(epochs: &[&Case]) -> Vec<Vec<f64>> {
-    let logs = |case: &Case| -> Vec<Vec<f64>> {
-        case.trees.iter().map(|tree| paces(tree).into_iter().map(libm::log).collect()).collect()
-    };
-    let rounds = |trees: &[Vec<f64>]| trees.iter().map(Vec::len).min().unwrap_or(0);
-    if let [only] = epochs {
-        let trees = logs(only);
-        return (0..rounds(&trees)).map(|r| trees.iter().map(|tree| tree[r]).collect()).collect();
-    }
-    let middle = |values: &[f64]| median(values).expect("an epoch has rounds");
-    let of = |case: &&Case| {
-        let mut trees = logs(case);
-        let centres: Vec<f64> = trees.iter().map(|tree| middle(tree)).collect();
-        for round in 0..rounds(&trees) {
-            let shifts: Vec<f64> = trees.iter().zip(&centres).map(|(tree, centre)| tree[round] - centre).collect();
-            let shift = middle(&shifts);
-            trees.iter_mut().for_each(|tree| tree[round] -= shift);
-        }
-        trees.iter().map(|tree| middle(tree)).collect()
-    };
-    epochs.iter().map(of).collect()
 }
 
 /// The mean over the replicates, tree by tree.

@@ -98,7 +98,7 @@ fn compared(specs: &[&str]) -> Result<Compared, StudyError> {
         warmup: 1,
         twin: true,
         budget_ns: 1_000_000_000,
-        sample_ns: None,
+        sample_ns: Some(60_000_000_000),
         seed: 1,
         threads: Threads::new(1).unwrap(),
     };
