@@ -61,13 +61,13 @@ fn first_number(text: &str) -> Option<f64> {
     text.split_whitespace().next()?.parse().ok()
 }
 
-/// The control word of floating-point arithmetic, where there is one.
+/// The control word of floating-point arithmetic, where there is one, without the flags of what has happened so far.
 #[cfg(target_arch = "x86_64")]
 pub fn mxcsr() -> Option<u32> {
     let mut word = 0_u32;
     // SAFETY: the instruction, which every such processor has, stores four bytes at the address.
     unsafe { std::arch::asm!("stmxcsr [{}]", in(reg) &raw mut word, options(nostack, preserves_flags)) };
-    Some(word)
+    Some(word & !0x3f)
 }
 
 #[cfg(not(target_arch = "x86_64"))]

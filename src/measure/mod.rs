@@ -1,6 +1,7 @@
 //! Measuring: a clock, samples in random order whose answers are checked, what is printed of them, where they come from.
 
 pub mod advice;
+mod change;
 mod clock;
 mod floor;
 pub mod instructions;
@@ -16,6 +17,7 @@ mod student;
 mod summary;
 mod warm_up;
 
+pub use change::change;
 pub use clock::{Clock, SystemClock};
 pub use floor::{Difference, NoiseFloor, QUANTILE};
 pub use instructions::Instructions;

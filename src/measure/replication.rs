@@ -35,6 +35,8 @@
 //! and more, plain bootstrap intervals in fewer than 85 %.
 
 use super::RandomOrder;
+use std::borrow::Cow;
+
 use super::student::factor;
 use super::summary::{Interval, RESAMPLES, median};
 
@@ -57,29 +59,25 @@ pub fn log_ratios(numerator: &[f64], denominator: &[f64], epochs: usize) -> Vec<
 /// # Panics
 /// If the cells differ in their epochs.
 pub fn replication(cells: &[Vec<Vec<f64>>], floor: f64, seed: u64) -> Option<Interval> {
-    let epochs = cells.first()?.len();
-    assert!(cells.iter().all(|cell| cell.len() == epochs), "all cells have the same epochs");
-    if epochs == 0 || cells.iter().flatten().any(Vec::is_empty) {
-        return None;
-    }
-    // With one epoch its rounds stand for epochs, as many as all cells have.
-    let split: Vec<Vec<Vec<f64>>>;
-    let cells = if epochs == 1 {
-        let rounds = cells.iter().map(|cell| cell[0].len()).min().expect("there is a cell");
-        split = cells.iter().map(|cell| (0..rounds).map(|r| vec![cell[0][r]]).collect()).collect();
-        &split[..]
-    } else {
-        cells
-    };
-
-    let values = epoch_values(cells);
-    let centre = if epochs == 1 { middle(cells) } else { mean(&values) };
+    let values = epoch_values(cells)?;
+    let one = cells[0].len() == 1;
+    let cells = &by_round(cells)[..];
+    let centre = if one { middle(cells) } else { mean(&values) };
     let (low, high) = ends(&values, centre, cells, seed);
     Some(Interval {
         estimate: libm::exp(centre),
         low: libm::exp(centre - libm::hypot(low, floor)),
         high: libm::exp(centre + libm::hypot(high, floor)),
     })
+}
+
+/// The cells; where they have one epoch, its rounds stand for epochs, as many as all cells have.
+fn by_round(cells: &[Vec<Vec<f64>>]) -> Cow<'_, [Vec<Vec<f64>>]> {
+    if cells.iter().any(|cell| cell.len() != 1) {
+        return Cow::Borrowed(cells);
+    }
+    let rounds = cells.iter().map(|cell| cell[0].len()).min().unwrap_or(0);
+    cells.iter().map(|cell| (0..rounds).map(|r| vec![cell[0][r]]).collect()).collect()
 }
 
 /// One ratio, as [`replication`] over a single cell.
@@ -99,13 +97,20 @@ pub fn replicated_ratio(
     replication(&[log_ratios(numerator, denominator, epochs)], floor, seed)
 }
 
-/// Of each epoch: the mean over the cells of the median of its rounds, a logarithm.
+/// Of each epoch, or of each round where there is one epoch: the mean over the cells of the median of its rounds, a logarithm.
+/// Nothing when there is no cell or one is empty.
 ///
 /// # Panics
-/// If there is no cell, or an epoch without rounds.
-pub fn epoch_values(cells: &[Vec<Vec<f64>>]) -> Vec<f64> {
+/// If the cells differ in their epochs.
+pub fn epoch_values(cells: &[Vec<Vec<f64>>]) -> Option<Vec<f64>> {
+    let epochs = cells.first()?.len();
+    assert!(cells.iter().all(|cell| cell.len() == epochs), "all cells have the same epochs");
+    if epochs == 0 || cells.iter().flatten().any(Vec::is_empty) {
+        return None;
+    }
+    let cells = by_round(cells);
     let of = |e: usize| mean(&cells.iter().map(|cell| middle_of(&cell[e])).collect::<Vec<_>>());
-    (0..cells[0].len()).map(of).collect()
+    Some((0..cells[0].len()).map(of).collect())
 }
 
 /// Distances of the ends from the centre: by Student's t, or by the bootstrap where that reaches farther.

@@ -25,19 +25,38 @@ pub fn to_csv(records: &[Record]) -> Vec<u8> {
     writer.into_inner().expect("memory takes every write")
 }
 
-/// One row for each of `rows` under a row of names; a field within a field is called `outer.inner`.
-///
-/// # Panics
-/// If a row does not serialise to a map, or they differ in their fields.
+/// One record per line.
+pub fn to_jsonl<T: Serialize>(records: &[T]) -> Vec<u8> {
+    let line = |record| serde_json::to_string(record).expect("records have text keys and finite numbers") + "\n";
+    records.iter().map(line).collect::<String>().into_bytes()
+}
+
+/// One row for each of `rows` under a row of names; a field within a field is called `outer.inner`, and what a row does not
+/// have is blank.
 pub fn to_tidy_csv(rows: &[impl Serialize]) -> Vec<u8> {
-    let mut writer = csv::Writer::from_writer(vec![]);
-    for (i, row) in rows.iter().enumerate() {
+    let flat = |row| {
         let mut fields = vec![];
         flatten("", serde_json::to_value(row).expect("a row has text keys"), &mut fields);
-        if i == 0 {
-            writer.write_record(fields.iter().map(|(name, _)| name)).expect("memory takes every write");
+        fields
+    };
+    let rows: Vec<Vec<(String, String)>> = rows.iter().map(flat).collect();
+    let mut names: Vec<&str> = vec![];
+    for (name, _) in rows.iter().flatten() {
+        if !names.contains(&name.as_str()) {
+            names.push(name);
         }
-        writer.write_record(fields.iter().map(|(_, value)| value)).expect("all rows have the same fields");
+    }
+    // A field that is unknown in one row and has fields of its own in another is those fields.
+    let has_fields =
+        |name: &str| names.iter().any(|other| other.strip_prefix(name).is_some_and(|rest| rest.starts_with('.')));
+    let names: Vec<&str> = names.iter().copied().filter(|name| !has_fields(name)).collect();
+    let mut writer = csv::Writer::from_writer(vec![]);
+    if !names.is_empty() {
+        writer.write_record(&names).expect("memory takes every write");
+    }
+    for row in &rows {
+        let cell = |name: &&str| row.iter().find(|(own, _)| own == name).map_or("", |(_, value)| value);
+        writer.write_record(names.iter().map(cell)).expect("all rows have the same columns");
     }
     writer.into_inner().expect("memory takes every write")
 }
@@ -59,7 +78,7 @@ fn flat(record: &Record) -> Vec<(String, String)> {
     let mut flat = vec![];
     for (name, value) in fields {
         match value {
-            Value::Object(inner) if name == "provenance" => {
+            Value::Object(inner) if name == "provenance" || name == "counts" => {
                 flat.extend(inner.into_iter().map(|(key, value)| (format!("{name}.{key}"), text(value))));
             }
             value => flat.push((name, text(value))),
@@ -102,6 +121,7 @@ mod tests {
         assert_eq!(cell("steps_per_ray"), "1.5");
         assert_eq!(cell("config"), r#"{"leaf":8,"threshold":0.7}"#);
         assert_eq!(cell("provenance.threads"), "1");
+        assert_eq!((cell("counts.leaves"), cell("counts.sah_cost")), ("7".into(), String::new()));
     }
 
     #[test]
@@ -114,6 +134,6 @@ mod tests {
     #[test]
     fn nothing_exports_as_nothing() {
         assert_eq!(to_json(&Vec::<Record>::new()), b"[]\n");
-        assert!(to_csv(&[]).is_empty());
+        assert!(to_csv(&Vec::<Record>::new()).is_empty());
     }
 }

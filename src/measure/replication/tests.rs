@@ -87,7 +87,7 @@ fn a_plain_interval_does_not_hold_it() {
     assert!(n < ENOUGH, "{n} of {PAIRS}: rounds taken for independent");
     // Nor does the confidence interval of the mean over epochs.
     let confidence = |a: &[f64], b: &[f64], _: u64| {
-        let values = epoch_values(&[log_ratios(a, b, EPOCHS)]);
+        let values = epoch_values(&[log_ratios(a, b, EPOCHS)]).unwrap();
         let (centre, half) = (mean(&values), factor(4.0) * standard_error(&values).unwrap());
         let end = |x| libm::exp(x);
         Interval { estimate: end(centre), low: end(centre - half), high: end(centre + half) }
@@ -114,7 +114,7 @@ fn what_only_processes_differ_in_is_held_by_the_floor() {
         let [(first, floor, holding), (second, ..)] = run(seed);
         twins += holding;
         for (first, second) in first.iter().zip(&second) {
-            let estimate = mean(&epoch_values(std::slice::from_ref(second)));
+            let estimate = mean(&epoch_values(std::slice::from_ref(second)).unwrap());
             let held = |floor| {
                 let interval = replication(std::slice::from_ref(first), floor, seed).unwrap();
                 (interval.low..=interval.high).contains(&libm::exp(estimate))

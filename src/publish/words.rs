@@ -1,0 +1,76 @@
+//! Words that sections share.
+
+use crate::measure::Interval;
+use crate::report::number::figures;
+use crate::report::{Cell, Table};
+
+/// `20.6 [19.2, 21.4]`.
+pub fn interval(x: &Interval) -> String {
+    format!("{} {}", figures(x.estimate), ends(x))
+}
+
+/// `[19.2, 21.4]`.
+pub fn ends(x: &Interval) -> String {
+    format!("[{}, {}]", figures(x.low), figures(x.high))
+}
+
+/// A table of texts.
+pub fn table<const N: usize>(title: &str, columns: [&str; N], rows: Vec<[String; N]>) -> Table {
+    Table {
+        title: title.into(),
+        columns: columns.map(String::from).into(),
+        rows: rows.into_iter().map(|row| row.map(Cell::from).into()).collect(),
+        notes: vec![],
+    }
+}
+
+/// `A`, `A and B`, `A, B and C`.
+pub fn listed<S: AsRef<str>>(words: &[S]) -> String {
+    let words: Vec<&str> = words.iter().map(AsRef::as_ref).collect();
+    match words.split_last() {
+        None => String::new(),
+        Some((only, [])) => (*only).into(),
+        Some((last, rest)) => format!("{} and {last}", rest.join(", ")),
+    }
+}
+
+/// The name of a scene, and whether a mesh of our own stands in for a real one.
+pub fn scene_name(scene: &str, stand_in: bool) -> String {
+    if stand_in { format!("{scene} (stand-in)") } else { scene.into() }
+}
+
+/// Letters, digits and hyphens, from any text; what is left of different texts may be the same.
+pub fn slug(text: &str) -> String {
+    let mut slug = String::new();
+    for c in text.chars() {
+        match c {
+            c if c.is_ascii_alphanumeric() => slug.push(c.to_ascii_lowercase()),
+            _ if slug.ends_with('-') || slug.is_empty() => {}
+            _ => slug.push('-'),
+        }
+    }
+    let slug = slug.trim_end_matches('-');
+    if slug.is_empty() { "x".into() } else { slug.into() }
+}
+
+/// Distinct names in the order of their first appearance.
+pub fn distinct<'a>(names: impl Iterator<Item = &'a String>) -> Vec<String> {
+    let mut found: Vec<String> = vec![];
+    for name in names {
+        if !found.contains(name) {
+            found.push(name.clone());
+        }
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lists_read_as_sentences_and_slugs_as_names() {
+        assert_eq!([listed::<&str>(&[]), listed(&["a"]), listed(&["a", "b", "c"])], ["", "a", "a, b and c"]);
+        assert_eq!([slug("Dragon (stand-in)"), slug("<script>"), slug("!")], ["dragon-stand-in", "script", "x"]);
+    }
+}
