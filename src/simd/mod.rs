@@ -4,6 +4,7 @@
 mod avx;
 #[cfg(target_arch = "x86_64")]
 mod avx_double;
+mod each;
 mod level;
 mod portable;
 #[cfg(target_arch = "x86_64")]
@@ -15,6 +16,7 @@ pub use sse::F32x4;
 #[cfg(not(target_arch = "x86_64"))]
 pub type F32x4 = portable::Portable<4>;
 
+pub use each::each;
 pub use level::{Kernel, Level, UnknownLevel, dispatch};
 pub use portable::Portable;
 pub use vector::LaneVec3;

@@ -124,6 +124,50 @@ pub(crate) fn search<const ANY: bool, const N: usize, L: Lanes<N>, T: TriangleTe
     tested
 }
 
+/// What is found of a block before it is settled, for each of `R` rays.
+pub(crate) struct Found<const N: usize, const R: usize> {
+    candidates: [u32; R],
+    known: [[f32; N]; R],
+}
+
+impl<const N: usize, const R: usize> Found<N, R> {
+    pub const NONE: Self = Self { candidates: [0; R], known: [[0.0; N]; R] };
+}
+
+/// Searches the blocks of one leaf for the rays `taking_part`, as bits: each finds what it would find alone. With `ANY`, rays that
+/// have a hit look no further.
+///
+/// The candidates of all rays come before what is decided about them: whether there are any cannot be predicted, and one wrong
+/// guess costs as much as the tests of two rays.
+#[inline(always)]
+pub(crate) fn search_for_each<const ANY: bool, const N: usize, const R: usize, L: Lanes<N>, T: TriangleTest>(
+    blocks: &[LeafBlock<T, N>],
+    mut taking_part: u16,
+    rays: &[T::Ray; R],
+    t_min: &[f32; R],
+    nearest: &mut [Nearest<T::Depth>; R],
+    found: &mut Found<N, R>,
+) {
+    for block in blocks {
+        let (mut left, mut met) = (taking_part, 0);
+        while left != 0 {
+            let i = left.trailing_zeros() as usize % R;
+            left &= left - 1;
+            let (candidates, known) = T::candidates::<N, L>(&rays[i], &block.triangles, t_min[i], nearest[i].t);
+            (found.candidates[i], found.known[i]) = (candidates, known.store());
+            met |= u16::from(candidates != 0) << i;
+        }
+        while met != 0 {
+            let i = met.trailing_zeros() as usize % R;
+            met &= met - 1;
+            settle(block, &rays[i], found.candidates[i], found.known[i], &mut nearest[i]);
+            if ANY && nearest[i].found() {
+                taking_part &= !(1 << i);
+            }
+        }
+    }
+}
+
 /// Decides about the candidates of a block. Rare, and out of line, so that it does not cost the walk its registers.
 #[inline(never)]
 fn settle<const N: usize, T: TriangleTest>(

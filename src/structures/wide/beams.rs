@@ -3,7 +3,7 @@
 use super::beam::{Beam, ENLARGED};
 use super::node::{Node, WIDTH};
 use crate::geometry::{Aabb, Ray};
-use crate::simd::Lanes;
+use crate::simd::{Lanes, each};
 use crate::structures::line::after;
 
 /// Rays of a packet.
@@ -46,12 +46,12 @@ impl<L: Lanes<WIDTH>> Beams<L> {
             rows[6][half][lane] = ray.t_min;
             rows[7][half][lane] = ray.t_max;
         }
-        let row = |i: usize| rows[i].each_ref().map(|half| L::load(half));
+        let row = |i: usize| each(&rows[i], L::load);
         let origin = [row(0), row(1), row(2)];
         let one = L::splat(1.0);
-        let inverse = [row(3), row(4), row(5)].map(|half| half.map(|d| one.div(d)));
-        let enlarged = inverse.map(|half| half.map(|i| i.mul(L::splat(ENLARGED))));
-        let (t_min, t_max) = (row(6).map(|t| t.max(L::zero())), row(7));
+        let inverse = each(&[row(3), row(4), row(5)], |halves| each(halves, |d| one.div(*d)));
+        let enlarged = each(&inverse, |halves| each(halves, |i| i.mul(L::splat(ENLARGED))));
+        let (t_min, t_max) = (each(&row(6), |t| t.max(L::zero())), row(7));
 
         // What `Ray::is_valid` and `inverses` ask, and that no inverse, enlarged or not, is infinite or NaN.
         let abs = |x: L| x.flip_sign(x);
@@ -93,12 +93,16 @@ impl<L: Lanes<WIDTH>> Beams<L> {
     #[inline(always)]
     pub fn single(&self, i: usize) -> Beam<L> {
         let pick = |row: &[L; HALVES]| row[i / WIDTH].store()[i % WIDTH];
-        Beam::of(self.origin.each_ref().map(pick), self.inverse.each_ref().map(pick), self.t_min(i), self.octant)
+        Beam::of(each(&self.origin, pick), each(&self.inverse, pick), pick(&self.t_min), self.octant)
     }
 
     #[inline(always)]
-    pub fn t_min(&self, i: usize) -> f32 {
-        self.t_min[i / WIDTH].store()[i % WIDTH]
+    pub fn t_min(&self) -> [f32; RAYS] {
+        let mut row = [0.0; RAYS];
+        for (half, lanes) in row.chunks_exact_mut(WIDTH).zip(&self.t_min) {
+            half.copy_from_slice(&lanes.store());
+        }
+        row
     }
 
     /// Ray `i` is of no interest after `t`.

@@ -13,8 +13,8 @@ use super::frustum::Frustum;
 use super::node::{Child, WIDTH};
 use super::stack::SIZE;
 use crate::geometry::{Hit, Ray};
-use crate::simd::Sieve;
-use crate::structures::leaf::{Nearest, search};
+use crate::simd::{Sieve, each};
+use crate::structures::leaf::{Found, LeafBlock, Nearest, search_for_each};
 use crate::triangle::TriangleTest;
 
 /// At most this many rays that are left go on alone.
@@ -36,8 +36,48 @@ struct Entry {
 struct Travellers<T: TriangleTest> {
     prepared: [T::Ray; RAYS],
     nearest: [Nearest<T::Depth>; RAYS],
+    t_min: [f32; RAYS],
+    found: Found<WIDTH, RAYS>,
     /// Those that still look for a hit, as bits.
     looking: u16,
+}
+
+impl<T: TriangleTest> Travellers<T> {
+    #[inline(always)]
+    fn new(rays: &[Ray; RAYS], t_min: [f32; RAYS]) -> Self {
+        let nearest = |ray: &Ray| Nearest::until(T::last(ray.t_max));
+        let mut new = Self {
+            prepared: [T::prepare(&rays[0]); RAYS],
+            nearest: [nearest(&rays[0]); RAYS],
+            t_min,
+            found: Found::NONE,
+            looking: u16::MAX,
+        };
+        for (i, ray) in rays.iter().enumerate().skip(1) {
+            (new.prepared[i], new.nearest[i]) = (T::prepare(ray), nearest(ray));
+        }
+        new
+    }
+
+    /// Searches a leaf for the rays `taking_part`.
+    #[inline(always)]
+    fn search<const ANY: bool, L: Sieve>(
+        &mut self,
+        blocks: &[LeafBlock<T, WIDTH>],
+        mut taking_part: u16,
+        beams: &mut Beams<L>,
+    ) {
+        let Self { prepared, nearest, t_min, found, .. } = self;
+        search_for_each::<ANY, WIDTH, RAYS, L, T>(blocks, taking_part, prepared, t_min, nearest, found);
+        while taking_part != 0 {
+            let i = taking_part.trailing_zeros() as usize % RAYS;
+            taking_part &= taking_part - 1;
+            if ANY && nearest[i].found() {
+                self.looking &= !(1 << i);
+            }
+            beams.end(i, nearest[i].t);
+        }
+    }
 }
 
 impl<T: TriangleTest> WideTree<T> {
@@ -46,11 +86,7 @@ impl<T: TriangleTest> WideTree<T> {
     pub(super) fn packet<const ANY: bool, L: Sieve>(&self, rays: &[Ray; RAYS]) -> Option<[Option<Hit>; RAYS]> {
         let mut beams = Beams::<L>::new(rays, &self.bounds)?;
         let frustum = Frustum::new(&beams);
-        let mut travellers = Travellers::<T> {
-            prepared: rays.each_ref().map(T::prepare),
-            nearest: rays.each_ref().map(|ray| Nearest::until(T::last(ray.t_max))),
-            looking: u16::MAX,
-        };
+        let mut travellers = Travellers::<T>::new(rays, beams.t_min());
         for (i, nearest) in travellers.nearest.iter().enumerate() {
             beams.end(i, nearest.t);
         }
@@ -58,7 +94,11 @@ impl<T: TriangleTest> WideTree<T> {
         let mut len = 0;
         let (mut child, mut taking_part) = (self.root, u16::MAX);
         loop {
-            if child.blocks().is_some() || taking_part.count_ones() <= FEW {
+            if let Some((first, count)) = child.blocks() {
+                // SAFETY: leaves name blocks that are there.
+                let blocks = unsafe { self.blocks.get_unchecked(first..first + count) };
+                travellers.search::<ANY, L>(blocks, taking_part, &mut beams);
+            } else if taking_part.count_ones() <= FEW {
                 self.separately::<ANY, L>(child, taking_part, &mut beams, &mut travellers);
             } else {
                 // SAFETY: children name nodes that are there; the depth was checked when the tree was built, so that no
@@ -82,7 +122,7 @@ impl<T: TriangleTest> WideTree<T> {
             }
             loop {
                 if len == 0 || travellers.looking == 0 {
-                    return Some(travellers.nearest.each_ref().map(Nearest::hit));
+                    return Some(each(&travellers.nearest, Nearest::hit));
                 }
                 len -= 1;
                 // SAFETY: what is below the length was written, and names a node.
@@ -115,14 +155,8 @@ impl<T: TriangleTest> WideTree<T> {
             let i = taking_part.trailing_zeros() as usize % RAYS;
             taking_part &= taking_part - 1;
             let (prepared, nearest) = (&travellers.prepared[i], &mut travellers.nearest[i]);
-            let t_min = beams.t_min(i);
-            if let Some((first, count)) = child.blocks() {
-                // SAFETY: leaves name blocks that are there.
-                let blocks = unsafe { self.blocks.get_unchecked(first..first + count) };
-                search::<ANY, WIDTH, L, T>(blocks, u32::MAX, prepared, t_min, nearest, &mut None);
-            } else {
-                self.descend::<ANY, L, ()>(child, &beams.single(i), prepared, t_min, nearest, &mut ());
-            }
+            let t_min = travellers.t_min[i];
+            self.descend::<ANY, L, ()>(child, &beams.single(i), prepared, t_min, nearest, &mut ());
             if ANY && nearest.found() {
                 travellers.looking &= !(1 << i);
             }
