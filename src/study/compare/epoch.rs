@@ -115,7 +115,6 @@ impl<'a> Trial<'a> {
         let _pin = self.settings.threads.pin();
         let (built, _placement) = self.build(progress);
         self.forget_refused();
-        let built: Vec<Built> = built.into_iter().flatten().collect();
 
         let (mut passes, panicked): (Vec<Box<dyn Timed>>, Vec<_>) = self
             .cases
@@ -170,9 +169,9 @@ impl<'a> Trial<'a> {
         Ok(())
     }
 
-    /// Every structure, built in an order and between blocks of memory that are this epoch's own; nothing for one that is refused. The
-    /// blocks are to be kept as long as the structures.
-    fn build(&mut self, progress: &mut dyn FnMut(Stage)) -> (Vec<Option<Built>>, Vec<Vec<u8>>) {
+    /// Every structure that is not refused, built in an order and between blocks of memory that are this epoch's own. The blocks are to
+    /// be kept as long as the structures.
+    fn build(&mut self, progress: &mut dyn FnMut(Stage)) -> (Vec<Built>, Vec<Vec<u8>>) {
         let mut random = RandomOrder::new(self.settings.seed.wrapping_add(self.epochs as u64));
         let mut built: Vec<Option<Built>> = self.subjects.iter().map(|_| None).collect();
         let mut blocks = vec![];
@@ -190,9 +189,9 @@ impl<'a> Trial<'a> {
                 Err(error) => refuse(&mut self.refused, subject, &error.to_string()),
             }
         }
-        // Those that are refused leave no gap.
-        built.retain(Option::is_some);
-        (built, blocks)
+        // One of two twins is refused with the other.
+        let lost = |built: &Built| self.refused.iter().any(|refused| refused.label == built.choice.label);
+        (built.into_iter().flatten().filter(|built| !lost(built)).collect(), blocks)
     }
 
     /// Takes those that were refused after they had been admitted, and their cases and samples, out of the run.

@@ -4,7 +4,7 @@
 //! Two runs of different moments on a shared machine cannot be compared by their times. They are compared by their ratios to
 //! references: the structures of obvhs, whose code is the same in both runs and which are measured in the same rounds as all
 //! others. The change of a structure is the geometric mean over its cells of new / old, decided by its
-//! [interval](crate::measure::change); cells alone are shown and decide nothing, for there are many of them.
+//! [interval](fn@crate::measure::change); cells alone are shown and decide nothing, for there are many of them.
 
 mod changes;
 mod table;
