@@ -120,7 +120,7 @@ pub trait Accel: Sized + Send + Sync + 'static {
 
     fn shape(&self) -> TreeShape;
 
-    /// The whole tree as plain data, for measures that need more than counts; nothing where it cannot be walked. Takes some 40
+    /// The whole tree as plain data, for measures that need more than counts; nothing where it cannot be walked. Takes 64
     /// bytes a node.
     fn outline(&self) -> Option<Outline> {
         None

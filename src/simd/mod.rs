@@ -4,6 +4,7 @@
 mod avx;
 #[cfg(target_arch = "x86_64")]
 mod avx_double;
+mod each;
 mod level;
 mod portable;
 #[cfg(target_arch = "x86_64")]
@@ -15,6 +16,7 @@ pub use sse::F32x4;
 #[cfg(not(target_arch = "x86_64"))]
 pub type F32x4 = portable::Portable<4>;
 
+pub use each::each;
 pub use level::{Kernel, Level, UnknownLevel, dispatch};
 pub use portable::Portable;
 pub use vector::LaneVec3;
@@ -75,6 +77,9 @@ pub trait Sieve: Lanes<8> {
     /// # Safety
     /// Eight numbers may be written, whatever the answer.
     unsafe fn sift(self, limit: Self, values: &[u32; 8], chosen: *mut u32) -> u32;
+
+    /// Lane `j` of the `i`-th becomes lane `i` of the `j`-th.
+    fn transpose(rows: [Self; 8]) -> [Self; 8];
 }
 
 #[cfg(test)]
@@ -135,6 +140,10 @@ mod tests {
             };
             assert_eq!((set, &chosen[..set.count_ones() as usize]), (right, &expected[..set.count_ones() as usize]));
         }
+        let square: [[f32; 8]; 8] = std::array::from_fn(|i| std::array::from_fn(|j| (8 * i + j) as f32));
+        let transposed = L::transpose(square.map(|row| L::load(&row))).map(L::store);
+        assert_eq!(transposed, Portable::transpose(square.map(|row| Portable::load(&row))).map(Portable::store));
+        assert_eq!(transposed, std::array::from_fn(|i| std::array::from_fn(|j| square[j][i])));
     }
 
     struct SameAsPortable;

@@ -2,7 +2,7 @@
 
 use super::node::{Node, WIDTH};
 use crate::geometry::{Aabb, Ray};
-use crate::simd::Lanes;
+use crate::simd::{Lanes, each};
 use crate::structures::line::inverses;
 
 /// A ray, prepared for the boxes of nodes.
@@ -51,9 +51,9 @@ impl<L: Lanes<WIDTH>> Beam<L> {
     pub fn of(origin: [f32; 3], inverse: [f32; 3], t_min: f32, octant: usize) -> Self {
         let (near, far) = rows(octant);
         Self {
-            origin: origin.map(L::splat),
-            inverse: inverse.map(L::splat),
-            enlarged: inverse.map(|i| L::splat(i * ENLARGED)),
+            origin: each(&origin, |&o| L::splat(o)),
+            inverse: each(&inverse, |&i| L::splat(i)),
+            enlarged: each(&inverse, |&i| L::splat(i * ENLARGED)),
             near,
             far,
             t_min: L::splat(t_min),

@@ -3,7 +3,7 @@
 use super::beam::rows;
 use super::beams::Beams;
 use super::node::{Node, WIDTH};
-use crate::simd::Lanes;
+use crate::simd::{Lanes, each};
 
 /// Bounds of the crossings of several rays with a plane.
 ///
@@ -25,22 +25,26 @@ pub(super) struct Frustum<L> {
 /// The least and the greatest number, in all lanes.
 #[inline(always)]
 fn range<L: Lanes<WIDTH>>(row: &[L; 2]) -> [L; 2] {
-    let least = row[0].min(row[1]).store().into_iter().fold(f32::INFINITY, f32::min);
-    let greatest = row[0].max(row[1]).store().into_iter().fold(f32::NEG_INFINITY, f32::max);
+    let (low, high) = (row[0].min(row[1]).store(), row[0].max(row[1]).store());
+    let (mut least, mut greatest) = (low[0], high[0]);
+    for i in 1..WIDTH {
+        least = if low[i] < least { low[i] } else { least };
+        greatest = if high[i] > greatest { high[i] } else { greatest };
+    }
     [L::splat(least), L::splat(greatest)]
 }
 
 impl<L: Lanes<WIDTH>> Frustum<L> {
     #[inline(always)]
     pub fn new(beams: &Beams<L>) -> Self {
-        let origin = beams.origin.each_ref().map(range);
-        let backward = [0, 1, 2].map(|axis| beams.octant >> axis & 1);
+        let origin = each(&beams.origin, range);
+        let backward = |axis: usize| beams.octant >> axis & 1;
         let (near, far) = rows(beams.octant);
         Self {
-            near_origin: [0, 1, 2].map(|axis| origin[axis][1 - backward[axis]]),
-            far_origin: [0, 1, 2].map(|axis| origin[axis][backward[axis]]),
-            inverse: beams.inverse.each_ref().map(range),
-            enlarged: beams.enlarged.each_ref().map(range),
+            near_origin: each(&[0, 1, 2], |&axis| origin[axis][1 - backward(axis)]),
+            far_origin: each(&[0, 1, 2], |&axis| origin[axis][backward(axis)]),
+            inverse: each(&beams.inverse, range),
+            enlarged: each(&beams.enlarged, range),
             t_min: range(&beams.t_min)[0],
             near,
             far,

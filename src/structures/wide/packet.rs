@@ -13,8 +13,8 @@ use super::frustum::Frustum;
 use super::node::{Child, WIDTH};
 use super::stack::SIZE;
 use crate::geometry::{Hit, Ray};
-use crate::simd::Sieve;
-use crate::structures::leaf::{Nearest, search};
+use crate::simd::{Sieve, each};
+use crate::structures::leaf::{Found, LeafBlock, Nearest, Prepared, search_for_each};
 use crate::triangle::TriangleTest;
 
 /// At most this many rays that are left go on alone.
@@ -33,24 +33,66 @@ struct Entry {
 }
 
 /// What each ray of a packet has for itself.
-struct Travellers<T: TriangleTest> {
-    prepared: [T::Ray; RAYS],
+struct Travellers<'a, T: TriangleTest> {
+    rays: &'a [Ray; RAYS],
+    prepared: Prepared<T, RAYS>,
     nearest: [Nearest<T::Depth>; RAYS],
+    t_min: [f32; RAYS],
+    found: Found<WIDTH, RAYS>,
     /// Those that still look for a hit, as bits.
     looking: u16,
 }
 
-impl<T: TriangleTest> WideTree<T> {
-    /// The hits of sixteen rays; nothing if they cannot travel together.
+impl<'a, T: TriangleTest> Travellers<'a, T> {
     #[inline(always)]
-    pub(super) fn packet<const ANY: bool, L: Sieve>(&self, rays: &[Ray; RAYS]) -> Option<[Option<Hit>; RAYS]> {
-        let mut beams = Beams::<L>::new(rays, &self.bounds)?;
-        let frustum = Frustum::new(&beams);
-        let mut travellers = Travellers::<T> {
-            prepared: rays.each_ref().map(T::prepare),
-            nearest: rays.each_ref().map(|ray| Nearest::until(T::last(ray.t_max))),
+    fn new(rays: &'a [Ray; RAYS], t_min: [f32; RAYS]) -> Self {
+        Self {
+            rays,
+            prepared: Prepared::new(),
+            nearest: each(rays, |ray| Nearest::until(T::last(ray.t_max))),
+            t_min,
+            found: Found::new(),
             looking: u16::MAX,
-        };
+        }
+    }
+
+    /// Searches a leaf for the rays `taking_part`.
+    #[inline(always)]
+    fn search<const ANY: bool, L: Sieve>(
+        &mut self,
+        blocks: &[LeafBlock<T, WIDTH>],
+        mut taking_part: u16,
+        beams: &mut Beams<L>,
+    ) {
+        let Self { rays, prepared, nearest, t_min, found, .. } = self;
+        prepared.prepare(rays, taking_part);
+        // SAFETY: prepared.
+        unsafe {
+            search_for_each::<ANY, WIDTH, RAYS, L, T>(blocks, taking_part, prepared, t_min, nearest, found);
+        }
+        while taking_part != 0 {
+            let i = taking_part.trailing_zeros() as usize % RAYS;
+            taking_part &= taking_part - 1;
+            if ANY && nearest[i].found() {
+                self.looking &= !(1 << i);
+            }
+            beams.end(i, nearest[i].t);
+        }
+    }
+}
+
+impl<T: TriangleTest> WideTree<T> {
+    /// Answers sixteen rays; false if they cannot travel together.
+    #[inline(always)]
+    pub(super) fn packet<const ANY: bool, L: Sieve, A>(
+        &self,
+        rays: &[Ray; RAYS],
+        answers: &mut [A; RAYS],
+        form: &impl Fn(Option<Hit>) -> A,
+    ) -> bool {
+        let Some(mut beams) = Beams::<L>::new(rays, &self.bounds) else { return false };
+        let frustum = Frustum::new(&beams);
+        let mut travellers = Travellers::<T>::new(rays, beams.t_min());
         for (i, nearest) in travellers.nearest.iter().enumerate() {
             beams.end(i, nearest.t);
         }
@@ -58,7 +100,11 @@ impl<T: TriangleTest> WideTree<T> {
         let mut len = 0;
         let (mut child, mut taking_part) = (self.root, u16::MAX);
         loop {
-            if child.blocks().is_some() || taking_part.count_ones() <= FEW {
+            if let Some((first, count)) = child.blocks() {
+                // SAFETY: leaves name blocks that are there.
+                let blocks = unsafe { self.blocks.get_unchecked(first..first + count) };
+                travellers.search::<ANY, L>(blocks, taking_part, &mut beams);
+            } else if taking_part.count_ones() <= FEW {
                 self.separately::<ANY, L>(child, taking_part, &mut beams, &mut travellers);
             } else {
                 // SAFETY: children name nodes that are there; the depth was checked when the tree was built, so that no
@@ -82,7 +128,10 @@ impl<T: TriangleTest> WideTree<T> {
             }
             loop {
                 if len == 0 || travellers.looking == 0 {
-                    return Some(travellers.nearest.each_ref().map(Nearest::hit));
+                    for (answer, nearest) in answers.iter_mut().zip(&travellers.nearest) {
+                        *answer = form(nearest.hit());
+                    }
+                    return true;
                 }
                 len -= 1;
                 // SAFETY: what is below the length was written, and names a node.
@@ -111,18 +160,14 @@ impl<T: TriangleTest> WideTree<T> {
         beams: &mut Beams<L>,
         travellers: &mut Travellers<T>,
     ) {
+        travellers.prepared.prepare(travellers.rays, taking_part);
         while taking_part != 0 {
             let i = taking_part.trailing_zeros() as usize % RAYS;
             taking_part &= taking_part - 1;
-            let (prepared, nearest) = (&travellers.prepared[i], &mut travellers.nearest[i]);
-            let t_min = beams.t_min(i);
-            if let Some((first, count)) = child.blocks() {
-                // SAFETY: leaves name blocks that are there.
-                let blocks = unsafe { self.blocks.get_unchecked(first..first + count) };
-                search::<ANY, WIDTH, L, T>(blocks, u32::MAX, prepared, t_min, nearest, &mut None);
-            } else {
-                self.descend::<ANY, L, ()>(child, &beams.single(i), prepared, t_min, nearest, &mut ());
-            }
+            // SAFETY: prepared.
+            let (prepared, nearest) = unsafe { (travellers.prepared.get(i), &mut travellers.nearest[i]) };
+            let t_min = travellers.t_min[i];
+            self.descend::<ANY, L, ()>(child, &beams.single(i), prepared, t_min, nearest, &mut ());
             if ANY && nearest.found() {
                 travellers.looking &= !(1 << i);
             }

@@ -58,7 +58,7 @@ fn answers(races: &[Race]) -> Table {
     });
     Table {
         title: "Does a KD-tree overtake a BVH where rays would meet more surfaces?".into(),
-        columns: ["pair, rays", "one layer", "most layers", "power", "crosses 1 at a depth complexity of"].map(String::from).into(),
+        columns: ["pair, rays", "first member", "last member", "power", "crosses 1 at a depth complexity of"].map(String::from).into(),
         rows: rows.collect(),
         notes: vec![
             "Ratios are the KD-tree's time over the BVH's: below 1 the KD-tree is faster. power: the ratio grows like this power of the \
