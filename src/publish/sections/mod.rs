@@ -6,6 +6,7 @@ mod attribution;
 mod break_even;
 mod costs;
 mod crossover;
+mod parameters;
 mod partitions;
 mod provenance;
 mod replicate;
@@ -18,7 +19,7 @@ use super::runs::Runs;
 pub use answer::QUESTION;
 
 /// The order in which they are read: what was looked at, why it is faster, by how much, and what follows.
-const ORDER: [&str; 12] = [
+const ORDER: [&str; 13] = [
     "scenes",
     "attribution",
     "heat",
@@ -27,6 +28,7 @@ const ORDER: [&str; 12] = [
     "break-even",
     "crossover",
     "costs",
+    "parameters",
     "accuracy",
     "partitions",
     "report",
@@ -42,6 +44,7 @@ pub fn document(runs: &Runs, pictures: Vec<Section>) -> Document {
         break_even::section(runs),
         crossover::section(runs),
         costs::section(runs),
+        parameters::section(runs),
         accuracy::section(runs),
         partitions::section(runs),
         replicate::section(runs),
