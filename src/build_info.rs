@@ -16,6 +16,7 @@ fn main() {
     set("SAHARA_TARGET", env::var("TARGET").ok());
     set("SAHARA_TARGET_FEATURES", env::var("CARGO_CFG_TARGET_FEATURE").ok());
     set("SAHARA_PROFILE", env::var("PROFILE").ok());
+    set("SAHARA_OBVHS", locked(&root, "obvhs"));
 
     // Whether the sources differ from the commit is part of its name, so look again when they change.
     for path in ["src", "Cargo.toml", "Cargo.lock", ".cargo/config.toml"] {
@@ -38,6 +39,13 @@ fn commit(root: &Path) -> Option<String> {
     let sources = ["status", "--porcelain", "--untracked-files=no", "--", "src", "Cargo.toml", "Cargo.lock"];
     let changes = git(&sources).is_some_and(|text| !text.is_empty());
     Some(if changes { commit + "+changes" } else { commit })
+}
+
+/// The version of a package that the lock file names.
+fn locked(root: &Path, package: &str) -> Option<String> {
+    let lock = std::fs::read_to_string(root.join("Cargo.lock")).ok()?;
+    let (_, entry) = lock.split_once(&format!("name = \"{package}\"\nversion = \""))?;
+    Some(entry.split('"').next()?.to_owned())
 }
 
 /// A path that is not there would rerun the script on every build.

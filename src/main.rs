@@ -1,6 +1,11 @@
 use std::process::ExitCode;
 
+use sahara::measure::CountingAllocator;
 use sahara::registry::Registry;
+
+/// Tells the peak memory of builds.
+#[global_allocator]
+static ALLOCATOR: CountingAllocator = CountingAllocator;
 
 fn main() -> ExitCode {
     sahara::cli::main(Registry::builtin())

@@ -8,7 +8,7 @@ use super::progress::Progress;
 use super::rays::{RaySource, replayed};
 use super::terminal::Terminal;
 use super::{Verdict, sources};
-use crate::measure::{Provenance, SystemClock, Threads};
+use crate::measure::{Provenance, SystemClock, Threads, instructions};
 use crate::registry::Registry;
 use crate::report::{Record, Table, to_csv, to_json, to_markdown};
 use crate::scene::WorkloadKind;
@@ -29,11 +29,17 @@ pub struct Args {
     /// Threads that build and trace; 1 is the unit of comparison
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: u16,
-    /// Samples of every case
-    #[arg(long, value_name = "N", default_value_t = 7, value_parser = clap::value_parser!(u16).range(1..))]
+    /// Samples of every case, as many in each epoch
+    #[arg(long, value_name = "N", default_value_t = 15, value_parser = clap::value_parser!(u16).range(1..))]
     runs: u16,
+    /// How often everything is built anew, so that the luck of placement is in the samples
+    #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u16).range(1..))]
+    epochs: u16,
+    /// Passes of every case before its samples, at least; more until they are steady
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    warmup: u16,
     /// Rays of a workload, at most; or a file of rays to replay, in place of workloads
-    #[arg(long, value_name = "N|F.rays", default_value = "36864")]
+    #[arg(long, value_name = "N|F.rays", default_value = "16384")]
     rays: RaySource,
     /// Seconds that a scene may take: slow cases are timed on fewer rays to keep within them
     #[arg(long, value_name = "SECONDS", default_value_t = 12, value_parser = clap::value_parser!(u32).range(1..=86400))]
@@ -65,7 +71,7 @@ const DEFAULT_WORKLOADS: [WorkloadKind; 4] =
 pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Result<Verdict> {
     // Everything that can be refused is refused before the long run.
     let structures = sources::structures(registry, &args.structure)?;
-    let threads = Threads::new(args.threads.into()).map_err(anyhow::Error::msg)?;
+    let threads = Threads::pinned(args.threads.into()).map_err(anyhow::Error::msg)?;
     let output = |path: &PathBuf| sources::output(path, &args.scenes, args.rays.file());
     let check = |path: &Option<PathBuf>| path.as_ref().map(output).transpose();
     let (json, csv, markdown) = (check(&args.export_json)?, check(&args.export_csv)?, check(&args.export_markdown)?);
@@ -83,7 +89,11 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
         replayed,
         rays: args.rays.count(1),
         runs: args.runs.into(),
+        epochs: args.epochs.into(),
+        warmup: args.warmup.into(),
+        twin: true,
         budget_ns: u64::from(args.budget) * 1_000_000_000,
+        sample_ns: None,
         seed: args.seed,
         threads,
     };
@@ -103,6 +113,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
             }
         };
         progress.scene_done();
+        progress.warn(of_scene.records.first().iter().flat_map(|record| &record.provenance.warnings));
         let mut table = scene_table(&of_scene.records, &of_scene.refused, &scene.notes);
         refused |= !of_scene.refused.is_empty();
         if of_scene.records.is_empty() && of_scene.refused.is_empty() {
@@ -123,7 +134,10 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
         tables.push(means);
     }
     let mut foot = records.first().map_or(vec![], |first| legend(&first.workload));
-    foot.push(Provenance::capture(settings.threads.count()).line());
+    if !records.is_empty() && records.iter().all(|r| r.instructions_per_ray.is_none()) {
+        foot.push(instructions::ABSENT.into());
+    }
+    foot.push(Provenance::of(&settings.threads).line());
     terminal.print_lines(&foot)?;
 
     if let Some(file) = json {

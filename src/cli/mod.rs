@@ -1,11 +1,15 @@
 //! The command `sahara`.
 //!
 //! Results go to stdout, progress and errors to stderr. The exit status is 0 when all is well, 1 for usage, input or
-//! output that cannot be had, 2 for wrong answers, 5 when all is well but for a structure that could not take part.
+//! output that cannot be had, 2 for wrong answers, 3 for a regression, 4 when the samples do not tell whether there is one, 5 when
+//! all is well but for a structure that could not take part.
 
 mod accuracy;
+mod bench;
 mod compare;
+mod compare_runs;
 mod completions;
+mod counts;
 mod fetch;
 mod golden;
 mod hard;
@@ -14,6 +18,7 @@ mod progress;
 mod rays;
 mod render;
 mod replicate;
+mod report;
 mod sources;
 mod study;
 mod terminal;
@@ -41,7 +46,7 @@ struct Cli {
     /// When to use colour; `auto` asks the terminal and honours NO_COLOR
     #[arg(long, global = true, value_enum, default_value_t, value_name = "WHEN")]
     color: Colour,
-    /// Show no progress
+    /// Show no progress and no warnings
     #[arg(long, short, global = true)]
     quiet: bool,
     /// Run on these instructions instead of the best ones here: portable, avx2 or avx512; the answers are the same
@@ -53,12 +58,18 @@ struct Cli {
 enum Command {
     /// Build, check, count and time every structure on every scene
     Compare(compare::Args),
+    /// Time a small set again and again: keep runs as baselines, and find what became slower or wrong
+    Bench(bench::Args),
+    /// Hold two exported runs of `compare` against each other
+    CompareRuns(compare_runs::Args),
     /// Measure the source report's tables again, and test its conclusion
     Replicate(replicate::Args),
     /// Hold every structure against a reference, hit for hit
     Validate(validate::Args),
     /// Record, import and show files of rays
     Rays(rays::Args),
+    /// Write what runs have measured as a page, Markdown, LaTeX and tidy data
+    Report(report::Args),
     /// Run an experiment with a question of its own
     Study(study::Args),
     /// How wrong, how fast: every structure over every triangle test, judged by exact arithmetic
@@ -68,6 +79,8 @@ enum Command {
     /// Answer for one structure and one hard case; what `hard` runs in a process of its own
     #[command(name = hard::CHILD, hide = true)]
     HardAnswer(hard::ChildArgs),
+    /// Count what no machine changes: nodes, leaves, references, overlap; steps and tests of rays
+    Counts(counts::Args),
     /// Download the real meshes that scene files name, verified; licences are shown first
     Fetch(fetch::Args),
     /// Draw a picture
@@ -88,6 +101,10 @@ enum Verdict {
     Wrong,
     /// A structure could not be built or panicked; the others are right.
     Refused,
+    /// A structure became slower.
+    Regression,
+    /// The samples do not tell whether a structure became slower.
+    Undecided,
 }
 
 /// Runs the command line of this process over the structures of `registry`.
@@ -118,13 +135,17 @@ pub fn run(registry: &Registry, args: impl IntoIterator<Item = OsString>) -> Exi
     let may_panic = matches!(command, Command::HardAnswer(_));
     let run = || match command {
         Command::Compare(args) => compare::run(registry, &args, &terminal),
+        Command::Bench(args) => bench::run(registry, &args, &terminal),
+        Command::CompareRuns(args) => compare_runs::run(&args, &terminal),
         Command::Replicate(args) => replicate::run(registry, &args, &terminal),
+        Command::Report(args) => report::run(registry, &args, &terminal),
         Command::Validate(args) => validate::run(registry, &args, &terminal),
         Command::Rays(args) => rays::run(registry, &args, &terminal),
         Command::Study(args) => study::run(registry, &args, &terminal),
         Command::Accuracy(args) => accuracy::run(registry, &args, &terminal),
         Command::Hard(args) => hard::run(registry, &args, &terminal),
         Command::HardAnswer(args) => hard::run_child(registry, &args),
+        Command::Counts(args) => counts::run(registry, &args, &terminal),
         Command::Fetch(args) => fetch::run(&args, &terminal),
         Command::Render(args) => render::run(registry, &args, &terminal),
         Command::Golden(args) => golden::run(registry, &args, &terminal),
@@ -136,6 +157,8 @@ pub fn run(registry: &Registry, args: impl IntoIterator<Item = OsString>) -> Exi
     match found {
         Ok(Verdict::Right) => ExitCode::SUCCESS,
         Ok(Verdict::Wrong) => ExitCode::from(2),
+        Ok(Verdict::Regression) => ExitCode::from(3),
+        Ok(Verdict::Undecided) => ExitCode::from(4),
         Ok(Verdict::Refused) => ExitCode::from(5),
         Err(error) if is_broken_pipe(&error) => ExitCode::SUCCESS,
         Err(error) => {

@@ -58,6 +58,11 @@ pub struct Progress {
     watched: bool,
     scene: String,
     scenes_done: u64,
+    /// Farthest step of this scene: structures are built again between samples.
+    step: u64,
+    /// Warnings that were shown.
+    warned: Vec<String>,
+    quiet: bool,
 }
 
 impl Progress {
@@ -73,7 +78,16 @@ impl Progress {
                 "if it hangs, end this run; `sahara validate` gives it up after --limit seconds and names the ray";
             own.suspend(|| eprintln!("{stage} for more than {limit} s: {advice}"));
         });
-        Self { bar, watch, watched: false, scene: String::new(), scenes_done: 0 }
+        Self {
+            bar,
+            watch,
+            watched: false,
+            scene: String::new(),
+            scenes_done: 0,
+            step: 0,
+            warned: vec![],
+            quiet: terminal.quiet,
+        }
     }
 
     /// The next scene begins.
@@ -100,7 +114,8 @@ impl Progress {
             Stage::Rays(_) | Stage::Trace(..) => self.watched(None),
         }
         self.bar.set_message(text);
-        self.bar.set_position(self.scenes_done * STEPS + step);
+        self.step = self.step.max(step);
+        self.bar.set_position(self.scenes_done * STEPS + self.step);
     }
 
     fn watched(&mut self, stage: Option<&str>) {
@@ -115,7 +130,18 @@ impl Progress {
     pub fn scene_done(&mut self) {
         self.watched(None);
         self.scenes_done += 1;
+        self.step = 0;
         self.bar.set_position(self.scenes_done * STEPS);
+    }
+
+    /// Shows what spoilt the run, each sentence once, unless nothing is to be shown beside results.
+    pub fn warn<'a>(&mut self, warnings: impl IntoIterator<Item = &'a String>) {
+        for warning in warnings {
+            if !self.quiet && !self.warned.contains(warning) {
+                self.bar.suspend(|| eprintln!("warning: {warning}"));
+                self.warned.push(warning.clone());
+            }
+        }
     }
 
     /// Takes the bar away while `print` writes, so that the two do not mix on a terminal.

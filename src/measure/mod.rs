@@ -1,15 +1,33 @@
 //! Measuring: a clock, samples in random order whose answers are checked, what is printed of them, where they come from.
 
+pub mod advice;
+mod change;
 mod clock;
+mod floor;
+pub mod instructions;
+pub mod machine;
+mod memory;
 mod order;
 mod pass;
+mod pin;
 mod provenance;
+pub mod replication;
 mod samples;
+mod student;
 mod summary;
+mod warm_up;
 
-pub use clock::{Clock, SystemClock};
+pub use change::change;
+pub use clock::{Clock, SystemClock, ThreadClock};
+pub use floor::{Difference, NoiseFloor, QUANTILE};
+pub use instructions::Instructions;
+pub use memory::{CountingAllocator, peak_bytes};
 pub use order::RandomOrder;
 pub use pass::{Pass, Threads, spread};
+pub use pin::Pin;
 pub use provenance::Provenance;
-pub use samples::{Plan, Samples, Timed, UnsteadyAnswers, take};
+pub use replication::{epoch_values, log_ratios, replicated_ratio, replication, standard_error};
+pub use samples::{Plan, Samples, Timed, UnsteadyAnswers, take, take_again};
+pub use student::factor;
 pub use summary::{Interval, geometric_mean, mean_ratio, median, paired_ratio};
+pub use warm_up::{MOST_PASSES, WarmUp};

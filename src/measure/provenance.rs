@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::{ThreadClock, Threads, machine};
 use crate::simd::Level;
 
 /// What must be known to judge a measurement, and to repeat it.
@@ -31,6 +32,34 @@ pub struct Provenance {
     pub threads: usize,
     /// Operating system.
     pub os: String,
+    /// Version of obvhs, whose structures are the references of comparisons between runs.
+    #[serde(default = "unknown")]
+    pub obvhs: String,
+    /// What samples are measured by: `cpu`, the time that the thread had a processor for, or `elapsed`.
+    #[serde(default = "elapsed")]
+    pub clock: String,
+    /// The core of each thread; nothing where threads were not bound to cores.
+    pub pinned: Option<Vec<usize>>,
+    /// Control word of floating-point arithmetic, where the processor has one.
+    pub mxcsr: Option<u32>,
+    /// What it makes of numbers below the normal ones; `kept` is right.
+    #[serde(default = "unknown")]
+    pub denormals: String,
+    /// How the system chooses clock rates, in its own word.
+    pub governor: Option<String>,
+    /// Load average of the last minute before the run.
+    pub load: Option<f64>,
+    /// What spoilt the run, one sentence each.
+    #[serde(default)]
+    pub warnings: Vec<String>,
+}
+
+fn elapsed() -> String {
+    "elapsed".into()
+}
+
+fn unknown() -> String {
+    "unknown".into()
 }
 
 impl Provenance {
@@ -50,14 +79,35 @@ impl Provenance {
             cores: std::thread::available_parallelism().map_or(1, usize::from),
             threads,
             os: std::env::consts::OS.into(),
+            obvhs: env!("SAHARA_OBVHS").into(),
+            clock: elapsed(),
+            pinned: None,
+            mxcsr: machine::mxcsr(),
+            denormals: machine::denormals(machine::mxcsr()).into(),
+            governor: machine::governor(0),
+            load: machine::load_at_start(),
+            warnings: vec![],
         }
+    }
+
+    /// Of this process, which builds and traces on `threads`.
+    pub fn of(threads: &Threads) -> Self {
+        let pinned = threads.cores().map(<[usize]>::to_vec);
+        let core = pinned.as_ref().map_or(0, |cores| cores[0]);
+        let clock = if ThreadClock::of(threads).is_some() { "cpu".into() } else { elapsed() };
+        Self { pinned, clock, governor: machine::governor(core), ..Self::capture(threads.count()) }
     }
 
     /// One line for the foot of a table.
     pub fn line(&self) -> String {
         let threads = if self.threads == 1 { "1 thread".into() } else { format!("{} threads", self.threads) };
+        let pinned = match self.pinned.as_deref() {
+            Some([core]) => format!(", pinned to core {core}"),
+            Some(_) => ", each pinned to a core".into(),
+            None => ", not pinned".into(),
+        };
         let Self { cpu, simd, rustc, version, commit, profile, .. } = self;
-        format!("{cpu}, {simd}, {threads}; sahara {version} ({commit}, {profile}), {rustc}")
+        format!("{cpu}, {simd}, {threads}{pinned}; sahara {version} ({commit}, {profile}), {rustc}")
     }
 }
 

@@ -1,5 +1,6 @@
 //! Taking samples of many cases, interleaved.
 
+use super::warm_up::WarmUp;
 use super::{Clock, RandomOrder};
 
 /// Something to time: a batch of rays that can be made smaller.
@@ -23,11 +24,11 @@ pub trait Timed {
 /// How samples are taken.
 #[derive(Clone, Copy, Debug)]
 pub struct Plan {
-    /// Samples of every case.
+    /// Samples of every case, in each call of [`take`] or [`take_again`].
     pub runs: usize,
     /// What one sample may take, nanoseconds. A case that takes longer for all its rays runs on fewer.
     pub sample_budget_ns: u64,
-    /// Passes of every case before its first sample, at least one.
+    /// Passes of every case before its first sample, at least. More are run until they are [steady](WarmUp).
     pub warmup: usize,
     /// Seed of the order.
     pub seed: u64,
@@ -38,8 +39,12 @@ pub struct Plan {
 pub struct Samples {
     /// Rays of a sample: fewer than the case has when it was slow.
     pub rays: usize,
-    /// Of the answers; the same in every sample.
+    /// Of the answers of the first epoch; the same in every sample of it.
     pub checksum: u64,
+    /// Whether structures that were built again gave the same answers.
+    pub same_answers: bool,
+    /// Epochs in which the case did not become steady before its samples.
+    pub unsteady: usize,
     /// Nanoseconds of each sample, in the order of the rounds: those of two cases with the same index are a pair.
     pub ns: Vec<u64>,
 }
@@ -64,8 +69,8 @@ pub struct UnsteadyAnswers {
 /// The first pass of a case takes so many rays, to find out how slow it is.
 const PILOT: usize = 64;
 
-/// Takes `plan.runs` samples of every case: in each round every case once, in random order, after a warm-up that also finds
-/// how many rays fit the budget. `progress` is told the number of samples taken, between them.
+/// Takes `plan.runs` samples of every case: in each round every case once, in random order, after a search for how many rays
+/// fit the budget, and a warm-up. `progress` is told the number of samples taken, between them.
 ///
 /// # Errors
 /// If a case gives different answers to the same rays.
@@ -79,29 +84,78 @@ pub fn take(
         .iter_mut()
         .map(|case| {
             let rays = fit(clock, case.as_mut(), plan.sample_budget_ns);
-            case.restrict(rays);
-            pass(clock, case.as_mut());
-            Samples { rays, checksum: case.checksum(), ns: Vec::with_capacity(plan.runs) }
+            Samples { rays, checksum: 0, same_answers: true, unsteady: 0, ns: Vec::with_capacity(plan.runs) }
         })
         .collect();
+    epoch(clock, cases, plan, &mut samples, progress)?;
+    Ok(samples)
+}
 
-    let mut order = RandomOrder::new(plan.seed);
-    let mut taken = 0;
-    for round in 0..plan.runs + plan.warmup.saturating_sub(1) {
-        for i in order.shuffled(cases.len()) {
-            let (case, samples) = (cases[i].as_mut(), &mut samples[i]);
-            let ns = pass(clock, case);
-            if case.checksum() != samples.checksum {
-                return Err(UnsteadyAnswers { case: i, pass: round + 2 });
-            }
-            if round + 1 >= plan.warmup {
-                samples.ns.push(ns);
-                taken += 1;
-                progress(taken);
+/// Another epoch: adds `plan.runs` samples to those taken before of the same cases, whose structures have been built again, on
+/// as many rays as before.
+///
+/// # Errors
+/// As [`take`].
+///
+/// # Panics
+/// If there are not as many samples as cases.
+pub fn take_again(
+    clock: &dyn Clock,
+    cases: &mut [Box<dyn Timed + '_>],
+    plan: &Plan,
+    samples: &mut [Samples],
+    progress: &mut dyn FnMut(usize),
+) -> Result<(), UnsteadyAnswers> {
+    assert_eq!(cases.len(), samples.len(), "samples are of the same cases");
+    epoch(clock, cases, plan, samples, progress)
+}
+
+/// Warms every case up and adds samples, round by round.
+fn epoch(
+    clock: &dyn Clock,
+    cases: &mut [Box<dyn Timed + '_>],
+    plan: &Plan,
+    samples: &mut [Samples],
+    progress: &mut dyn FnMut(usize),
+) -> Result<(), UnsteadyAnswers> {
+    let mut checksums = vec![];
+    let mut passes = vec![];
+    for (i, (case, samples)) in cases.iter_mut().zip(samples.iter_mut()).enumerate() {
+        case.restrict(samples.rays);
+        let mut warm_up = WarmUp::default();
+        warm_up.pass(pass(clock, case.as_mut()));
+        let checksum = case.checksum();
+        while !warm_up.is_over(plan.warmup) {
+            warm_up.pass(pass(clock, case.as_mut()));
+            if case.checksum() != checksum {
+                return Err(UnsteadyAnswers { case: i, pass: warm_up.passes() });
             }
         }
+        if samples.ns.is_empty() {
+            samples.checksum = checksum;
+        }
+        samples.same_answers &= samples.checksum == checksum;
+        samples.unsteady += usize::from(!warm_up.is_steady());
+        checksums.push(checksum);
+        passes.push(warm_up.passes());
     }
-    Ok(samples)
+
+    // Every epoch has an order of its own.
+    let before = samples.first().map_or(0, |samples| samples.ns.len());
+    let mut order = RandomOrder::new(plan.seed.wrapping_add(before as u64));
+    let mut taken = 0;
+    for round in 0..plan.runs {
+        for i in order.shuffled(cases.len()) {
+            let ns = pass(clock, cases[i].as_mut());
+            if cases[i].checksum() != checksums[i] {
+                return Err(UnsteadyAnswers { case: i, pass: passes[i] + round + 1 });
+            }
+            samples[i].ns.push(ns);
+            taken += 1;
+            progress(taken);
+        }
+    }
+    Ok(())
 }
 
 /// The nanoseconds of one pass.
@@ -112,7 +166,7 @@ fn pass(clock: &dyn Clock, case: &mut dyn Timed) -> u64 {
     clock.now_ns() - start
 }
 
-/// How many rays of `case` take about `budget_ns`: found by passes over more and more rays.
+/// How many rays of `case` take about `budget_ns`, or half of it: found by passes over more and more rays.
 fn fit(clock: &dyn Clock, case: &mut dyn Timed, budget_ns: u64) -> usize {
     let all = case.rays();
     let mut rays = PILOT.min(all);
@@ -126,143 +180,12 @@ fn fit(clock: &dyn Clock, case: &mut dyn Timed, budget_ns: u64) -> usize {
         let fitting = (rays as u128 * u128::from(budget_ns) / u128::from(ns)).max(1) as usize;
         // Few rays say little of many: trust only a pass that takes a fair share of the budget.
         if rays == all || ns >= budget_ns / 4 {
-            return fitting.min(all);
+            // A power of two: another run, a little faster or slower, takes the same rays.
+            return if fitting >= all { all } else { 1 << fitting.ilog2() };
         }
         rays = (rays * 4).min(fitting.max(rays * 2)).min(all);
     }
 }
 
 #[cfg(test)]
-mod tests {
-    use std::cell::{Cell, RefCell};
-    use std::rc::Rc;
-
-    use super::*;
-
-    #[derive(Default)]
-    struct MockClock(Cell<u64>);
-
-    impl Clock for Rc<MockClock> {
-        fn now_ns(&self) -> u64 {
-            self.0.get()
-        }
-    }
-
-    /// A case that takes `ns` a ray on the mock clock and writes its name into a log.
-    struct Mock {
-        clock: Rc<MockClock>,
-        log: Rc<RefCell<Vec<char>>>,
-        name: char,
-        ns: u64,
-        whole: usize,
-        restricted: usize,
-        answer: u64,
-        /// Changes its answer in this pass.
-        fickle_at: usize,
-        passes: usize,
-    }
-
-    impl Timed for Mock {
-        fn rays(&self) -> usize {
-            self.whole
-        }
-
-        fn restrict(&mut self, rays: usize) {
-            self.restricted = rays;
-        }
-
-        fn clear(&mut self) {
-            self.answer = 0;
-            // Time that must not be counted.
-            self.clock.0.set(self.clock.0.get() + 1_000_000);
-        }
-
-        fn run(&mut self) {
-            self.passes += 1;
-            self.log.borrow_mut().push(self.name);
-            self.clock.0.set(self.clock.0.get() + self.ns * self.restricted as u64);
-            self.answer = if self.passes == self.fickle_at { 1 } else { 7 };
-        }
-
-        fn checksum(&self) -> u64 {
-            self.answer
-        }
-    }
-
-    struct Bench {
-        clock: Rc<MockClock>,
-        log: Rc<RefCell<Vec<char>>>,
-    }
-
-    impl Bench {
-        fn new() -> Self {
-            Self { clock: Rc::default(), log: Rc::default() }
-        }
-
-        fn case(&self, name: char, ns: u64, all: usize, fickle_at: usize) -> Box<dyn Timed> {
-            let (clock, log) = (self.clock.clone(), self.log.clone());
-            Box::new(Mock { clock, log, name, ns, whole: all, restricted: all, answer: 0, fickle_at, passes: 0 })
-        }
-
-        fn take(&self, cases: &mut [Box<dyn Timed>], plan: &Plan) -> Result<Vec<Samples>, UnsteadyAnswers> {
-            let mut told = vec![];
-            let samples = take(&self.clock, cases, plan, &mut |n| told.push(n))?;
-            assert_eq!(told, (1..=plan.runs * cases.len()).collect::<Vec<_>>());
-            Ok(samples)
-        }
-    }
-
-    const PLAN: Plan = Plan { runs: 5, sample_budget_ns: 100_000, warmup: 1, seed: 3 };
-
-    #[test]
-    fn only_the_pass_is_timed_and_every_case_has_all_its_samples() {
-        let bench = Bench::new();
-        let mut cases = [bench.case('a', 10, 1000, 0), bench.case('b', 20, 1000, 0)];
-        let samples = bench.take(&mut cases, &PLAN).unwrap();
-        assert_eq!(samples[0], Samples { rays: 1000, checksum: 7, ns: vec![10_000; 5] });
-        assert_eq!(samples[1], Samples { rays: 1000, checksum: 7, ns: vec![20_000; 5] });
-        assert_eq!(samples[1].ns_per_ray(), [20.0; 5]);
-    }
-
-    #[test]
-    fn a_slow_case_runs_on_the_rays_that_fit() {
-        let bench = Bench::new();
-        let mut cases = [bench.case('a', 10, 1_000_000, 0), bench.case('b', 50_000, 1_000_000, 0)];
-        let samples = bench.take(&mut cases, &PLAN).unwrap();
-        assert_eq!((samples[0].rays, samples[1].rays), (10_000, 2));
-    }
-
-    #[test]
-    fn rounds_are_interleaved_in_changing_order() {
-        let bench = Bench::new();
-        let mut cases = [bench.case('a', 10, 64, 0), bench.case('b', 10, 64, 0), bench.case('c', 10, 64, 0)];
-        let plan = Plan { runs: 12, ..PLAN };
-        bench.take(&mut cases, &plan).unwrap();
-        let log = bench.log.borrow();
-        let rounds: Vec<&[char]> = log[log.len() - 36..].chunks(3).collect();
-        for round in &rounds {
-            let mut names = round.to_vec();
-            names.sort_unstable();
-            assert_eq!(names, ['a', 'b', 'c']);
-        }
-        assert!(rounds.iter().any(|r| *r != rounds[0]), "{rounds:?}");
-    }
-
-    #[test]
-    fn other_answers_to_the_same_rays_are_no_measurement() {
-        let bench = Bench::new();
-        // The third pass: after the pilot and the first full one, the first sample.
-        let mut cases = [bench.case('a', 10, 64, 3)];
-        assert_eq!(bench.take(&mut cases, &PLAN), Err(UnsteadyAnswers { case: 0, pass: 2 }));
-    }
-
-    #[test]
-    fn warm_up_passes_are_run_and_dropped() {
-        let bench = Bench::new();
-        let mut cases = [bench.case('a', 10, 64, 0)];
-        let samples = bench.take(&mut cases, &Plan { warmup: 4, ..PLAN }).unwrap();
-        assert_eq!(samples[0].ns.len(), 5);
-        // A pilot, four passes of warm-up, five samples.
-        assert_eq!(bench.log.borrow().len(), 10);
-    }
-}
+mod tests;

@@ -28,7 +28,7 @@ pub fn geometric_mean(values: &[f64]) -> Option<f64> {
 }
 
 /// An estimate with its 95 % interval.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Interval {
     pub estimate: f64,
     pub low: f64,
@@ -36,7 +36,7 @@ pub struct Interval {
 }
 
 /// Resamples of a bootstrap: the ends of a 95 % interval are then the 50th value from either end.
-const RESAMPLES: usize = 2000;
+pub(super) const RESAMPLES: usize = 2000;
 
 /// The median of `numerator[i] / denominator[i]` with a percentile bootstrap interval over the pairs (Efron 1979).
 ///

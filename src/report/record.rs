@@ -3,8 +3,9 @@
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
+use super::CaseCounts;
 use crate::accel::Query;
-use crate::measure::Provenance;
+use crate::measure::{Provenance, log_ratios};
 
 /// What is known of one case; the fields are described in the [module](super).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -28,18 +29,33 @@ pub struct Record {
     pub rays: usize,
     pub sampled: bool,
     pub hits: usize,
+    pub answers: Option<String>,
     pub build_ns: u64,
+    #[serde(default)]
+    pub build_samples_ns: Vec<u64>,
+    pub build_peak_bytes: Option<usize>,
     pub trace_ns: Option<f64>,
     pub runs: usize,
+    #[serde(default = "one")]
+    pub epochs: usize,
     pub samples_ns: Vec<f64>,
+    pub twin_samples_ns: Option<Vec<f64>>,
+    pub noise_floor: Option<f64>,
     pub mrays_per_s: Option<f64>,
     pub tests_per_ray: Option<f64>,
     pub steps_per_ray: Option<f64>,
+    pub instructions_per_ray: Option<f64>,
     pub bytes: usize,
     pub declined: Option<String>,
     pub checked_rays: Option<usize>,
     pub structure_errors: Option<usize>,
     pub provenance: Provenance,
+    pub counts: CaseCounts,
+}
+
+/// Before there were epochs, structures were built once.
+fn one() -> usize {
+    1
 }
 
 impl Record {
@@ -49,6 +65,19 @@ impl Record {
     /// Whether wrong answers cost the case its time.
     pub fn is_disqualified(&self) -> bool {
         self.structure_errors.is_some_and(|errors| errors > 0)
+    }
+
+    /// Nanoseconds a ray of every sample.
+    pub fn paces(&self) -> Vec<f64> {
+        self.samples_ns.iter().map(|ns| ns / self.rays as f64).collect()
+    }
+
+    /// How many times faster this case is than `other`, as logarithms, round by round in each epoch. Nothing where one has no time,
+    /// or they were not measured in the same rounds.
+    pub fn speed_against(&self, other: &Self) -> Option<Vec<Vec<f64>>> {
+        let same = self.samples_ns.len() == other.samples_ns.len() && self.epochs == other.epochs;
+        let whole = !self.samples_ns.is_empty() && self.epochs > 0 && self.samples_ns.len().is_multiple_of(self.epochs);
+        (same && whole).then(|| log_ratios(&other.paces(), &self.paces(), self.epochs))
     }
 }
 
@@ -72,18 +101,26 @@ pub(crate) fn example() -> Record {
         rays: 500,
         sampled: true,
         hits: 20,
+        answers: Some("0123456789abcdef".into()),
         build_ns: 1500,
+        build_samples_ns: vec![1500],
+        build_peak_bytes: Some(8192),
         trace_ns: Some(2e6),
         runs: 3,
+        epochs: 1,
         samples_ns: vec![2e6, 1.5e6, 3e6],
+        twin_samples_ns: None,
+        noise_floor: Some(0.01),
         mrays_per_s: Some(0.25),
         tests_per_ray: None,
         steps_per_ray: Some(1.5),
+        instructions_per_ray: None,
         bytes: 4096,
         declined: None,
         checked_rays: Some(100),
         structure_errors: Some(0),
         provenance: Provenance::capture(1),
+        counts: CaseCounts { leaves: 7, tests_over_minimum: Some(2.5), ..CaseCounts::default() },
     }
 }
 
@@ -103,10 +140,12 @@ mod tests {
     #[test]
     fn the_documented_fields_are_the_serialised_ones() {
         let record = serde_json::to_value(example()).unwrap();
-        let (record_part, provenance_part) =
-            include_str!("SCHEMA.md").split_once("`provenance`:").expect("the document has both tables");
+        let (record_part, rest) =
+            include_str!("SCHEMA.md").split_once("`provenance`:").expect("the document has all tables");
+        let (provenance_part, counts_part) = rest.split_once("`counts`:").expect("the document has all tables");
         assert_eq!(documented(record_part), serialised(&record));
         assert_eq!(documented(provenance_part), serialised(&record["provenance"]));
+        assert_eq!(documented(counts_part), serialised(&record["counts"]));
     }
 
     #[test]

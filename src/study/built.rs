@@ -22,20 +22,26 @@ impl Built {
     pub fn new(choice: &Choice, scene: &Scene, threads: &Threads, clock: &dyn Clock) -> Result<Self, StudyError> {
         let mut times = vec![];
         loop {
-            let mesh = Arc::clone(&scene.mesh);
-            let start = clock.now_ns();
-            let accel = threads.install(|| choice.build(&mesh));
-            let ns = clock.now_ns() - start;
-            let accel = accel.map_err(|cause| StudyError::Build {
-                structure: choice.label.clone(),
-                scene: scene.name.clone(),
-                cause,
-            })?;
-            times.push(ns as f64);
-            if ns > SHORT_BUILD_NS || times.len() == 3 {
+            let built = Self::once(choice, scene, threads, clock)?;
+            times.push(built.build_ns as f64);
+            if built.build_ns > SHORT_BUILD_NS || times.len() == 3 {
                 let build_ns = median(&times).expect("there is a build") as u64;
-                return Ok(Self { choice: choice.clone(), accel, build_ns });
+                return Ok(Self { build_ns, ..built });
             }
         }
+    }
+
+    /// Builds once.
+    pub fn once(choice: &Choice, scene: &Scene, threads: &Threads, clock: &dyn Clock) -> Result<Self, StudyError> {
+        let mesh = Arc::clone(&scene.mesh);
+        let start = clock.now_ns();
+        let accel = threads.install(|| choice.build(&mesh));
+        let build_ns = clock.now_ns() - start;
+        let accel = accel.map_err(|cause| StudyError::Build {
+            structure: choice.label.clone(),
+            scene: scene.name.clone(),
+            cause,
+        })?;
+        Ok(Self { choice: choice.clone(), accel, build_ns })
     }
 }

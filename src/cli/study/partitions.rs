@@ -31,6 +31,12 @@ pub struct Args {
     /// Samples of every case
     #[arg(long, value_name = "N", default_value_t = 15, value_parser = clap::value_parser!(u16).range(1..))]
     runs: u16,
+    /// How often everything is built anew; the samples are spread over them
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u16).range(1..))]
+    epochs: u16,
+    /// Passes of every case before its samples, at least; more until they are steady
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    warmup: u16,
     /// Rays of a workload, at most
     #[arg(long, value_name = "N", default_value_t = 65536, value_parser = clap::value_parser!(u32).range(1..=1 << 24))]
     rays: u32,
@@ -70,9 +76,13 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
         replayed: None,
         rays: args.rays,
         runs: args.runs.into(),
+        epochs: args.epochs.into(),
+        warmup: args.warmup.into(),
+        twin: true,
         budget_ns: u64::from(args.budget) * 1_000_000_000,
+        sample_ns: None,
         seed: args.seed,
-        threads: Threads::new(args.threads.into()).map_err(anyhow::Error::msg)?,
+        threads: Threads::pinned(args.threads.into()).map_err(anyhow::Error::msg)?,
     };
 
     let clock = SystemClock::start();
@@ -82,20 +92,21 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
         progress.scene(&scene.name);
         let of_scene = compare_scene(scene, &settings, &clock, &mut |stage| progress.stage(&stage))?;
         progress.scene_done();
-        for table in tables(&rows(&of_scene.records, settings.seed)) {
+        progress.warn(of_scene.records.first().iter().flat_map(|record| &record.provenance.warnings));
+        for table in tables(&rows(&of_scene.records)) {
             progress.aside(|| terminal.print_table(&table))?;
         }
         records.extend(of_scene.records);
     }
     progress.finish();
     let mut foot: Vec<String> = LEGEND.map(String::from).into();
-    foot.push(Provenance::capture(settings.threads.count()).line());
+    foot.push(Provenance::of(&settings.threads).line());
     terminal.print_lines(&foot)?;
     if let Some(file) = json {
         file.write(&to_json(&records))?;
     }
     if let Some(file) = markdown {
-        file.write(&to_markdown(&tables(&rows(&records, settings.seed)), &foot))?;
+        file.write(&to_markdown(&tables(&rows(&records)), &foot))?;
     }
     let wrong = records.iter().any(|r| r.is_disqualified() && documented_defect(&r.structure).is_none());
     Ok(if wrong { Verdict::Wrong } else { Verdict::Right })

@@ -5,11 +5,12 @@ pub(super) mod clip;
 mod config;
 mod median;
 mod node;
+mod outline;
 mod partition;
+mod planted;
 mod sah;
 mod sah_binned;
 mod sah_sweep;
-mod shape;
 #[cfg(test)]
 mod tests;
 mod traverse;
@@ -21,7 +22,7 @@ pub use config::{AxisRule, CountOf, Equal, Exit, KdConfig, Limit, Median, Plane,
 use super::binary::BinaryTree;
 use super::leaf::LeafBlock;
 use super::walk::single;
-use crate::accel::{Accel, BuildError, Footprint, Observer, TreeShape};
+use crate::accel::{Accel, BuildError, Footprint, Observer, Outline, TreeShape};
 use crate::geometry::{Aabb, Hit, Mesh, Ray};
 use crate::triangle::TriangleTest;
 use build::{Context, Plan, grow};
@@ -96,11 +97,13 @@ impl<T: TriangleTest> Accel for KdTree<T> {
 
     #[inline]
     fn closest_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit> {
+        planted::slow_down::<false, T>(self, ray);
         single::<false, _, O>(self, ray, observer)
     }
 
     #[inline]
     fn any_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> bool {
+        planted::slow_down::<true, T>(self, ray);
         single::<true, _, O>(self, ray, observer).is_some()
     }
 
@@ -116,6 +119,10 @@ impl<T: TriangleTest> Accel for KdTree<T> {
     }
 
     fn shape(&self) -> TreeShape {
-        shape::of(&self.nodes, self.bounds)
+        outline::of(self).shape()
+    }
+
+    fn outline(&self) -> Option<Outline> {
+        Some(outline::of(self))
     }
 }

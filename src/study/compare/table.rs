@@ -1,7 +1,8 @@
 //! Records as tables for people.
 
+use super::cells::{speed as speed_of, twins};
 use crate::accel::Query;
-use crate::measure::geometric_mean;
+use crate::measure::{Difference, Interval, QUANTILE, geometric_mean};
 use crate::report::number::{bytes, count, duration, figures, plural};
 use crate::report::{Cell, Record, Table, Tone};
 use crate::study::Refused;
@@ -10,13 +11,19 @@ use crate::study::baselines::{REPORT_TREE, documented_defect, is_obvhs};
 /// What the columns mean, once for all tables of [`scene_table`]. `first` is the first workload.
 pub fn legend(first: &str) -> Vec<String> {
     vec![
-        format!("build: seen from outside; tests, steps: triangle tests and nodes entered for each {first} ray."),
-        "Under each workload: million rays a second, median; n/m wrong: wrong answers to n of m rays, and then no time. \
+        format!(
+            "build: seen from outside, median over epochs; peak: most memory held during a build. tests, steps: triangle tests and \
+             nodes entered for each {first} ray."
+        ),
+        "Under each workload: million rays a second, median, on one thread a second that the thread has a core for; n/m wrong: wrong answers to n of m rays, and then no time. \
          A workload with a star is timed by any hit, the others by closest hit."
             .into(),
         format!(
             "x median, x obvhs: speed against the report's tree, {REPORT_TREE}, and against the better BVH of obvhs, geometric mean \
-             over the workloads of the row. Blank: unknown."
+             over the workloads of the row, with the interval that holds the ratio of another run in 95 % of cases. =: no difference, \
+             for the interval holds 1 or lies within the noise floor, what {:.0} % of the A/A ratios (one structure built and timed as two) \
+             differ from 1 by. Blank: unknown.",
+            QUANTILE * 100.0
         ),
         "checked: least number of rays of a workload held against brute force with the same triangle test. sampled: \
          least share of a workload's rays that was timed; all would take too long."
@@ -34,7 +41,10 @@ pub fn scene_table(records: &[Record], refused: &[Refused], notes: &[String]) ->
     let has_report_tree = records.iter().any(|r| r.label == REPORT_TREE);
     let has_obvhs = records.iter().any(|r| is_obvhs(&r.structure));
 
-    let mut columns: Vec<String> = ["structure", "build", "memory", "tests", "steps"].map(String::from).into();
+    let floor = first.noise_floor.map_or(0.0, libm::log1p);
+    let instructions = records.iter().any(|r| r.instructions_per_ray.is_some());
+    let mut columns: Vec<String> = ["structure", "build", "peak", "memory", "tests", "steps"].map(String::from).into();
+    columns.extend(instructions.then(|| "instructions".into()));
     for workload in &workloads {
         let any = records.iter().any(|r| r.workload == *workload && r.query == Query::Any);
         columns.push(format!("{workload}{}", if any { "*" } else { "" }));
@@ -52,14 +62,17 @@ pub fn scene_table(records: &[Record], refused: &[Refused], notes: &[String]) ->
             let mut row: Vec<Cell> = vec![
                 label.as_str().into(),
                 duration(of[0].build_ns as f64).into(),
+                of[0].build_peak_bytes.map_or(Cell::blank(), |peak| bytes(peak).into()),
                 bytes(of[0].bytes).into(),
                 known(of[0].tests_per_ray),
                 known(of[0].steps_per_ray),
             ];
+            row.extend(instructions.then(|| known(of[0].instructions_per_ray)));
             for (workload, best) in workloads.iter().zip(&best) {
                 row.push(of.iter().find(|r| r.workload == *workload).map_or(Cell::blank(), |r| speed(r, *best)));
             }
-            let against = |baseline: &dyn Fn(&Record) -> bool| known(speed_against(records, &of, baseline));
+            let against =
+                |baseline: &dyn Fn(&Record) -> bool| ratio(speed_against(records, &of, baseline, floor), floor);
             row.extend(has_report_tree.then(|| against(&|r| r.label == REPORT_TREE)));
             row.extend(has_obvhs.then(|| against(&|r| is_obvhs(&r.structure))));
             let checked = of.iter().filter(|r| r.declined.is_none()).map(|r| r.checked_rays).min().flatten();
@@ -87,7 +100,19 @@ pub fn scene_table(records: &[Record], refused: &[Refused], notes: &[String]) ->
         notes.push(format!("{} declines {what}, which {} rays need.", record.label, record.workload));
     }
     notes.extend(defects(records));
+    notes.extend(control(records));
     Table { title, columns, rows, notes }
+}
+
+/// A footnote about the A/A ratios, where there are any.
+fn control(records: &[Record]) -> Option<String> {
+    let (twins, label) = (twins(records), &records.iter().find(|r| r.twin_samples_ns.is_some())?.label);
+    let floor = libm::exp(twins.log()?) - 1.0;
+    let (holding, all) = (twins.holding_one(), twins.ratios.len());
+    Some(format!(
+        "A/A ({label} twice): noise floor {}%; {holding} of {all} ratios hold 1 in their intervals.",
+        figures(floor * 100.0)
+    ))
 }
 
 /// A footnote for each baseline that gives wrong answers for a documented reason.
@@ -128,6 +153,14 @@ pub fn mean_table(records: &[Record]) -> Table {
     };
     let report_tree = |r: &Record| r.label == REPORT_TREE;
     let obvhs = |r: &Record| is_obvhs(&r.structure);
+    let floor = twins(records).log().unwrap_or(0.0);
+    let all = |label: &str, baseline: &dyn Fn(&Record) -> bool| -> Cell {
+        let pairs = records.iter().filter(|r| r.label == label && r.mrays_per_s.is_some()).filter_map(|r| {
+            let rivals = records.iter().filter(|b| b.scene == r.scene && b.workload == r.workload && baseline(b));
+            Some((r, fastest(rivals)?))
+        });
+        ratio(speed_of(pairs, floor), floor)
+    };
 
     let mut columns = vec!["structure".to_owned()];
     columns.extend(workloads.iter().cloned());
@@ -138,7 +171,7 @@ pub fn mean_table(records: &[Record]) -> Table {
         .map(|label| {
             let mut row = vec![Cell::from(label.as_str())];
             row.extend(workloads.iter().map(|w| known(mean(label, Some(w), &report_tree))));
-            row.extend([known(mean(label, None, &report_tree)), known(mean(label, None, &obvhs))]);
+            row.extend([all(label, &report_tree), all(label, &obvhs)]);
             row
         })
         .collect();
@@ -152,6 +185,7 @@ pub fn mean_table(records: &[Record]) -> Table {
             notes.push(format!("{} {why} left out.", plural(n, "case")));
         }
     }
+    notes.extend(control(records));
     let over = plural(scenes.len(), "scene");
     let title = format!("Speed x {REPORT_TREE}: geometric means over {over}; all: over scenes and workloads");
     Table { title, columns, rows, notes }
@@ -174,12 +208,34 @@ fn best_speed(records: &[Record], workload: &str, counts: impl Fn(&Record) -> bo
     speeds.max_by(f64::total_cmp)
 }
 
+/// The fastest of records that have a time.
+fn fastest<'a>(records: impl Iterator<Item = &'a Record>) -> Option<&'a Record> {
+    records
+        .filter(|r| r.mrays_per_s.is_some())
+        .max_by(|a, b| a.mrays_per_s.partial_cmp(&b.mrays_per_s).expect("numbers"))
+}
+
 /// Geometric mean over the workloads of one structure's speed against the best that `counts` admits.
-fn speed_against(records: &[Record], of: &[&Record], counts: &dyn Fn(&Record) -> bool) -> Option<f64> {
+fn speed_against(records: &[Record], of: &[&Record], counts: &dyn Fn(&Record) -> bool, floor: f64) -> Option<Interval> {
     let asked = of.iter().filter(|r| r.declined.is_none());
-    let ratios: Option<Vec<f64>> =
-        asked.map(|r| Some(r.mrays_per_s? / best_speed(records, &r.workload, counts)?)).collect();
-    geometric_mean(&ratios?)
+    let pairs: Option<Vec<(&Record, &Record)>> = asked
+        .map(|r| {
+            let rivals = records.iter().filter(|b| b.workload == r.workload && counts(b));
+            r.mrays_per_s.and(fastest(rivals)).map(|rival| (*r, rival))
+        })
+        .collect();
+    speed_of(pairs?, floor)
+}
+
+/// A ratio with its interval, and a sign where it is no difference.
+fn ratio(speed: Option<Interval>, floor: f64) -> Cell {
+    let Some(speed) = speed else { return Cell::blank() };
+    // A structure against itself is not uncertain.
+    if speed.estimate == 1.0 && libm::fabs(libm::log(speed.high) - floor) < 1e-12 {
+        return figures(1.0).into();
+    }
+    let same = if Difference::of(speed, floor) == Difference::None { " =" } else { "" };
+    format!("{} [{}, {}]{same}", figures(speed.estimate), figures(speed.low), figures(speed.high)).into()
 }
 
 fn speed(record: &Record, best: f64) -> Cell {
@@ -203,111 +259,4 @@ fn share(of: &[&Record]) -> String {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::report::example_record;
-
-    fn record(scene: &str, label: &str, workload: &str, mrays_per_s: Option<f64>) -> Record {
-        let structure = label.split(':').next().unwrap().to_owned();
-        let errors = if mrays_per_s.is_none() { 3 } else { 0 };
-        Record {
-            scene: scene.into(),
-            label: label.into(),
-            structure,
-            workload: workload.into(),
-            mrays_per_s,
-            trace_ns: mrays_per_s.map(|speed| 1e3 / speed),
-            structure_errors: Some(errors),
-            ..example_record()
-        }
-    }
-
-    fn cell<'a>(table: &'a Table, row: &str, column: &str) -> &'a str {
-        let column = table.columns.iter().position(|c| c == column).unwrap_or_else(|| panic!("no column {column}"));
-        let row = table.rows.iter().find(|r| r[0].text == row).unwrap_or_else(|| panic!("no row {row}"));
-        &row[column].text
-    }
-
-    fn records() -> Vec<Record> {
-        vec![
-            record("A", "median-kd", "primary", Some(1.0)),
-            record("A", "median-kd", "random", Some(2.0)),
-            record("A", "sah-kd", "primary", Some(8.0)),
-            record("A", "sah-kd", "random", Some(4.0)),
-            record("A", "obvhs-bvh2", "primary", Some(4.0)),
-            record("A", "obvhs-bvh2", "random", Some(1.0)),
-            record("A", "obvhs-cwbvh", "primary", Some(2.0)),
-            record("A", "obvhs-cwbvh", "random", Some(4.0)),
-        ]
-    }
-
-    #[test]
-    fn ratios_are_geometric_means_against_the_tree_and_the_better_bvh() {
-        let table = scene_table(&records(), &[], &[]);
-        assert_eq!(cell(&table, "sah-kd", "x median"), "4.00");
-        assert_eq!(cell(&table, "sah-kd", "x obvhs"), "1.41");
-        assert_eq!(cell(&table, "median-kd", "x median"), "1.00");
-        assert_eq!(cell(&table, "sah-kd", "primary"), "8.00");
-        assert_eq!(cell(&table, "sah-kd", "tests"), "", "unknown is blank");
-        assert_eq!(cell(&table, "sah-kd", "sampled"), "50.0%");
-    }
-
-    #[test]
-    fn what_is_declined_is_neither_right_nor_wrong() {
-        let mut records = records();
-        records[3] = Record {
-            mrays_per_s: None,
-            declined: Some("any hit".into()),
-            structure_errors: Some(0),
-            ..records[3].clone()
-        };
-        let table = scene_table(&records, &[], &[]);
-        assert_eq!(cell(&table, "sah-kd", "random"), "declined");
-        assert_eq!(cell(&table, "sah-kd", "x median"), "8.00", "of the workloads that it does not decline");
-        assert_eq!(table.notes, ["sah-kd declines any hit, which random rays need."]);
-        assert_eq!(mean_table(&records).notes, ["1 case that a structure declines left out."]);
-    }
-
-    #[test]
-    fn a_wrong_structure_shows_its_errors_and_no_time() {
-        let mut records = records();
-        records[2].mrays_per_s = None;
-        records[2].structure_errors = Some(3);
-        let table = scene_table(&records, &[], &[]);
-        assert_eq!(cell(&table, "sah-kd", "primary"), "3/100 wrong");
-        assert_eq!(cell(&table, "sah-kd", "x median"), "");
-        assert_eq!(cell(&table, "sah-kd", "random"), "4.00");
-    }
-
-    #[test]
-    fn a_documented_defect_of_a_baseline_is_named_and_gets_no_time_either() {
-        let mut records = records();
-        records[4].mrays_per_s = None;
-        records[4].structure_errors = Some(3);
-        let table = scene_table(&records, &[], &[]);
-        assert_eq!(cell(&table, "obvhs-bvh2", "primary"), "3/100 wrong");
-        assert_eq!(table.notes.len(), 1);
-        assert!(table.notes[0].starts_with("obvhs-bvh2 answers 3 of 100 primary rays wrong"), "{:?}", table.notes);
-    }
-
-    #[test]
-    fn means_over_scenes_say_what_they_leave_out() {
-        let mut all = records();
-        all.push(record("B", "median-kd", "primary", Some(1.0)));
-        all.push(record("B", "sah-kd", "primary", Some(2.0)));
-        all.push(record("B", "obvhs-bvh2", "primary", None));
-        let table = mean_table(&all);
-        assert_eq!(cell(&table, "sah-kd", "primary"), "4.00");
-        assert_eq!(cell(&table, "sah-kd", "random"), "2.00");
-        assert_eq!(cell(&table, "obvhs-bvh2", "primary"), "4.00");
-        assert!(table.title.contains("2 scenes"));
-        assert_eq!(table.notes, ["1 case with wrong answers left out."]);
-    }
-
-    #[test]
-    fn without_baselines_there_are_no_columns_for_them() {
-        let table = scene_table(&[record("A", "sah-kd", "primary", Some(1.0))], &[], &["flat".into()]);
-        assert!(!table.columns.iter().any(|c| c.starts_with("x ")), "{:?}", table.columns);
-        assert_eq!(table.notes, ["flat"]);
-    }
-}
+mod tests;

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::*;
 use crate::accel::{Accel, BuildError, Footprint, Observed, Observer, TreeShape};
-use crate::geometry::{Hit, Mesh};
+use crate::geometry::{Hit, Mesh, Ray};
 use crate::measure::SystemClock;
 use crate::registry::Registry;
 use crate::scene::Builtin;
@@ -94,7 +94,11 @@ fn compared(specs: &[&str]) -> Result<Compared, StudyError> {
         replayed: None,
         rays: 1024,
         runs: 3,
+        epochs: 2,
+        warmup: 1,
+        twin: true,
         budget_ns: 1_000_000_000,
+        sample_ns: Some(60_000_000_000),
         seed: 1,
         threads: Threads::new(1).unwrap(),
     };
@@ -111,7 +115,9 @@ fn a_right_structure_has_a_time_and_the_hits_of_all_others() {
     assert_eq!(cases, structures.map(|s| [(s, "primary"), (s, "shadow")]).concat());
     for record in &records {
         assert_eq!(record.structure_errors, Some(0));
-        assert!(record.trace_ns > Some(0.0) && record.mrays_per_s > Some(0.0) && record.runs == 3);
+        assert!(
+            record.trace_ns > Some(0.0) && record.mrays_per_s > Some(0.0) && record.runs == 4 && record.epochs == 2
+        );
         assert!(record.checked_rays > Some(0) && record.rays <= record.workload_rays);
     }
     // 1024 rays take no time worth cutting.

@@ -7,7 +7,8 @@ mod tests;
 use serde::Serialize;
 
 use super::baselines::is_obvhs;
-use crate::measure::{Interval, mean_ratio, paired_ratio};
+use super::compare::{speed, twins};
+use crate::measure::Interval;
 use crate::registry::{Choice, ChoiceError, Registry};
 use crate::report::Record;
 
@@ -67,17 +68,18 @@ pub fn structures(registry: &Registry, test: &str, keys: &str) -> Result<Vec<Cho
 }
 
 /// Compares the records of one run over [`structures`].
-pub fn rows(records: &[Record], seed: u64) -> Vec<Row> {
+pub fn rows(records: &[Record]) -> Vec<Row> {
+    let floor = twins(records).log().unwrap_or(0.0);
     let mut rows: Vec<Row> = vec![];
-    let mut ratios: Vec<Vec<Option<Vec<f64>>>> = vec![];
+    let mut pairs: Vec<Vec<Option<(&Record, &Record)>>> = vec![];
     for record in records.iter().filter(|r| !is_obvhs(&r.structure)) {
         let rivals = || records.iter().filter(|b| b.scene == record.scene && is_obvhs(&b.structure));
         let timed = rivals().filter(|b| b.workload == record.workload && b.trace_ns.is_some());
         let best = timed.min_by(|a, b| pace(a).total_cmp(&pace(b)));
-        let pairs = best.filter(|_| record.trace_ns.is_some()).map(|best| (paces(best), paces(record)));
+        let pair = best.filter(|_| record.trace_ns.is_some()).map(|best| (record, best));
         let cell = Cell {
             workload: record.workload.clone(),
-            speed: pairs.as_ref().and_then(|(best, own)| paired_ratio(best, own, seed)),
+            speed: pair.and_then(|pair| speed([pair], floor)),
             baseline: best.map(|best| best.label.clone()),
             steps: record.steps_per_ray,
             tests: record.tests_per_ray,
@@ -94,25 +96,19 @@ pub fn rows(records: &[Record], seed: u64) -> Vec<Row> {
                 cells: vec![],
                 all: None,
             });
-            ratios.push(vec![]);
+            pairs.push(vec![]);
         }
-        let (row, ratios) = (rows.last_mut().expect("begun"), ratios.last_mut().expect("begun"));
-        row.cells.push(cell);
-        ratios.push(pairs.map(|(best, own)| best.iter().zip(own).map(|(best, own)| best / own).collect()));
+        rows.last_mut().expect("begun").cells.push(cell);
+        pairs.last_mut().expect("begun").push(pair);
     }
-    for (row, ratios) in rows.iter_mut().zip(ratios) {
-        let groups: Option<Vec<Vec<f64>>> = ratios.into_iter().collect();
-        row.all = groups.and_then(|groups| mean_ratio(&groups, seed));
+    for (row, pairs) in rows.iter_mut().zip(pairs) {
+        let pairs: Option<Vec<(&Record, &Record)>> = pairs.into_iter().collect();
+        row.all = pairs.and_then(|pairs| speed(pairs, floor));
     }
     rows
 }
 
-/// Nanoseconds a ray in every sample.
-fn paces(record: &Record) -> Vec<f64> {
-    record.samples_ns.iter().map(|ns| ns / record.rays as f64).collect()
-}
-
-/// The median of them.
+/// Nanoseconds a ray, the median of the samples.
 fn pace(record: &Record) -> f64 {
     record.trace_ns.map_or(f64::INFINITY, |ns| ns / record.rays as f64)
 }

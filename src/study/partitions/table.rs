@@ -44,8 +44,8 @@ fn interval(x: Option<Interval>) -> String {
 
 /// What the columns mean.
 pub const LEGEND: [&str; 2] = [
-    "Speed as a multiple of the fastest obvhs on the same rays, over all its presets and both layouts, cell by cell: ratios of \
-     medians of interleaved samples, with bootstrap 95 % intervals; all: geometric mean.",
+    "Speed as a multiple of the fastest obvhs on the same rays, over all its presets and both layouts, cell by cell: medians of \
+     paired ratios, with the interval that holds the ratio of another run in 95 % of cases; all: geometric mean.",
     "build x: build time over that of obvhs-bvh2 with preset very-slow. steps: nodes and leaves entered, tests: triangles \
      tested, for each ray.",
 ];

@@ -1,0 +1,115 @@
+//! What the system tells of the machine: load, clock rates, how floats are rounded. What it does not tell is nothing.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::sync::OnceLock;
+use std::time::Duration;
+
+/// Mean number of programs that wanted to run during the last minute, when it was first asked for: later the own load is in it.
+pub fn load_at_start() -> Option<f64> {
+    static LOAD: OnceLock<Option<f64>> = OnceLock::new();
+    *LOAD.get_or_init(|| first_number(&fs::read_to_string("/proc/loadavg").ok()?))
+}
+
+/// How the system chooses clock rates, as it calls it.
+pub fn governor(core: usize) -> Option<String> {
+    let path = format!("/sys/devices/system/cpu/cpu{core}/cpufreq/scaling_governor");
+    Some(fs::read_to_string(path).ok()?.trim().to_owned())
+}
+
+/// Clock rate of a core now, kHz.
+pub fn clock_rate(core: usize) -> Option<f64> {
+    first_number(&fs::read_to_string(format!("/sys/devices/system/cpu/cpu{core}/cpufreq/scaling_cur_freq")).ok()?)
+}
+
+/// Of the calling thread so far: how often it had to make way for another.
+#[cfg(target_os = "linux")]
+pub fn interruptions() -> Option<u64> {
+    // SAFETY: all zeroes is a valid value, and the call writes one.
+    let usage = unsafe {
+        let mut usage: libc::rusage = std::mem::zeroed();
+        (libc::getrusage(libc::RUSAGE_THREAD, &mut usage) == 0).then_some(usage)?
+    };
+    u64::try_from(usage.ru_nivcsw).ok()
+}
+
+#[cfg(not(target_os = "linux"))]
+pub fn interruptions() -> Option<u64> {
+    None
+}
+
+/// Clock ticks of each core in which it had nothing to do, during the next `time`.
+pub(super) fn idle_ticks(time: Duration) -> BTreeMap<usize, u64> {
+    let read = || fs::read_to_string("/proc/stat").map(|text| idle(&text)).unwrap_or_default();
+    let before = read();
+    std::thread::sleep(time);
+    let mut ticks = read();
+    ticks.iter_mut().for_each(|(core, ticks)| *ticks = ticks.saturating_sub(before.get(core).copied().unwrap_or(0)));
+    ticks
+}
+
+/// The column of idle time in Linux's table.
+fn idle(stat: &str) -> BTreeMap<usize, u64> {
+    let core = |line: &str| {
+        let (name, times) = line.split_once(' ')?;
+        Some((name.strip_prefix("cpu")?.parse().ok()?, times.split_whitespace().nth(3)?.parse().ok()?))
+    };
+    stat.lines().filter_map(core).collect()
+}
+
+fn first_number(text: &str) -> Option<f64> {
+    text.split_whitespace().next()?.parse().ok()
+}
+
+/// The control word of floating-point arithmetic, where there is one, without the flags of what has happened so far.
+#[cfg(target_arch = "x86_64")]
+pub fn mxcsr() -> Option<u32> {
+    let mut word = 0_u32;
+    // SAFETY: the instruction, which every such processor has, stores four bytes at the address.
+    unsafe { std::arch::asm!("stmxcsr [{}]", in(reg) &raw mut word, options(nostack, preserves_flags)) };
+    Some(word & !0x3f)
+}
+
+#[cfg(not(target_arch = "x86_64"))]
+pub fn mxcsr() -> Option<u32> {
+    None
+}
+
+/// What the control word makes of numbers below the normal ones, and of rounding.
+pub fn denormals(mxcsr: Option<u32>) -> &'static str {
+    let Some(word) = mxcsr else { return "unknown" };
+    match (word & 1 << 15 != 0, word & 1 << 6 != 0) {
+        (false, false) => "kept",
+        (true, false) => "results flushed to zero",
+        (false, true) => "operands taken for zero",
+        (true, true) => "operands taken for zero, results flushed to zero",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn idle_time_is_read_by_core() {
+        let text = "cpu  10 0 20 300 4 0 0\ncpu0 5 0 10 100 2 0 0\ncpu13 5 0 10 200 2 0 0\nintr 5 5\nctxt 1\n";
+        assert_eq!(idle(text), BTreeMap::from([(0, 100), (13, 200)]));
+    }
+
+    #[test]
+    fn loads_and_rates_are_first_numbers() {
+        assert_eq!(first_number("0.52 0.58 0.59 1/977 12345\n"), Some(0.52));
+        assert_eq!(first_number("2450000\n"), Some(2.45e6));
+        assert_eq!(first_number(""), None);
+    }
+
+    #[test]
+    fn what_happens_to_small_numbers_is_said_in_words() {
+        assert_eq!(denormals(Some(0x1f80)), "kept");
+        assert_eq!(denormals(Some(0x9f80)), "results flushed to zero");
+        assert_eq!(denormals(Some(0x9fc0)), "operands taken for zero, results flushed to zero");
+        assert_eq!(denormals(None), "unknown");
+        // Nothing in this crate may flush: answers would differ between machines.
+        assert!(matches!(denormals(mxcsr()), "kept" | "unknown"));
+    }
+}

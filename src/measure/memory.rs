@@ -1,0 +1,99 @@
+//! The most memory that a piece of work holds at once.
+
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::sync::atomic::{AtomicBool, AtomicIsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+/// The system's allocator, which counts while [`peak_bytes`] runs, and otherwise costs a load of a flag. A program installs it with
+/// `#[global_allocator]`, as the command `sahara` does; in others peaks are unknown. Memory that C or C++ code allocates is not seen.
+pub struct CountingAllocator;
+
+static COUNTS: AtomicBool = AtomicBool::new(false);
+static LIVE: AtomicIsize = AtomicIsize::new(0);
+static PEAK: AtomicIsize = AtomicIsize::new(0);
+
+impl CountingAllocator {
+    #[inline]
+    fn add(bytes: isize) {
+        if COUNTS.load(Ordering::Relaxed) {
+            let live = LIVE.fetch_add(bytes, Ordering::Relaxed) + bytes;
+            PEAK.fetch_max(live, Ordering::Relaxed);
+        }
+    }
+}
+
+// SAFETY: every call goes to the system's allocator as it is.
+unsafe impl GlobalAlloc for CountingAllocator {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        Self::add(layout.size() as isize);
+        // SAFETY: the caller's promises are those of the system's allocator.
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        Self::add(-(layout.size() as isize));
+        // SAFETY: as above.
+        unsafe { System.dealloc(pointer, layout) }
+    }
+
+    unsafe fn alloc_zeroed(&self, layout: Layout) -> *mut u8 {
+        Self::add(layout.size() as isize);
+        // SAFETY: as above.
+        unsafe { System.alloc_zeroed(layout) }
+    }
+
+    unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
+        Self::add(size as isize - layout.size() as isize);
+        // SAFETY: as above.
+        unsafe { System.realloc(pointer, layout, size) }
+    }
+}
+
+/// What `work` gives, and the most bytes that it held at once beyond what was held before, on all threads: nothing where the
+/// [`CountingAllocator`] is not installed. One call at a time; others wait. Not for timed work.
+pub fn peak_bytes<R>(work: impl FnOnce() -> R) -> (R, Option<usize>) {
+    static ONE: Mutex<()> = Mutex::new(());
+    /// Counts no longer, even after a panic.
+    struct Counting;
+    impl Drop for Counting {
+        fn drop(&mut self) {
+            COUNTS.store(false, Ordering::Relaxed);
+        }
+    }
+
+    let _one = ONE.lock().unwrap_or_else(PoisonError::into_inner);
+    LIVE.store(0, Ordering::Relaxed);
+    PEAK.store(0, Ordering::Relaxed);
+    COUNTS.store(true, Ordering::Relaxed);
+    let counting = Counting;
+    // A probe: it is seen if the allocator is installed.
+    drop(std::hint::black_box(Box::new(0_u64)));
+    let installed = PEAK.load(Ordering::Relaxed) > 0;
+    let result = work();
+    drop(counting);
+    let peak = usize::try_from(PEAK.load(Ordering::Relaxed)).expect("a peak is at least what there was at first");
+    (result, installed.then_some(peak))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_peak_is_the_most_at_once() {
+        // This program does not install the allocator: call it by hand.
+        let of = |bytes| Layout::from_size_align(bytes, 8).unwrap();
+        let (counted, peak) = peak_bytes(|| {
+            // SAFETY: every block is given back with the layout that it has then.
+            unsafe {
+                let (a, b) = (CountingAllocator.alloc(of(1000)), CountingAllocator.alloc_zeroed(of(500)));
+                CountingAllocator.dealloc(a, of(1000));
+                let b = CountingAllocator.realloc(b, of(500), 800);
+                CountingAllocator.dealloc(b, of(800));
+            }
+            (PEAK.load(Ordering::Relaxed), LIVE.load(Ordering::Relaxed))
+        });
+        assert_eq!(peak, None, "the probe was not seen");
+        assert_eq!(counted, (1500, 0));
+    }
+}

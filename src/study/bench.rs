@@ -1,0 +1,229 @@
+//! `bench`: a comparison that is to be repeated, and held against one that was kept.
+//!
+//! All scenes take part in every epoch, so that what happens to the machine for a minute happens to all of them, and epochs can be added
+//! where those taken so far do not decide.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use super::compare::{Compared, Settings, Trial};
+use super::regression::{Comparison, Finding, Unlike, unlike};
+use super::{Stage, StudyError};
+use crate::measure::Clock;
+use crate::report::Record;
+use crate::scene::Scene;
+
+/// Scenes whose structures are built in a moment, with few triangles, many, and walls.
+pub const SCENES: [&str; 3] = ["teapot", "starters", "cornellbox"];
+
+/// The comparison on all scenes while it runs.
+pub struct Bench<'a> {
+    trials: Vec<Trial<'a>>,
+}
+
+impl<'a> Bench<'a> {
+    /// Prepares every scene; `progress` is told its name and what is done.
+    ///
+    /// # Errors
+    /// If the structure that tells where secondary rays start cannot be built.
+    pub fn new(
+        scenes: &'a [Scene],
+        settings: &'a Settings,
+        clock: &'a dyn Clock,
+        progress: &mut dyn FnMut(&str, Stage),
+    ) -> Result<Self, StudyError> {
+        let trials =
+            scenes.iter().map(|scene| Trial::new(scene, settings, clock, &mut |stage| progress(&scene.name, stage)));
+        Ok(Self { trials: trials.collect::<Result<_, _>>()? })
+    }
+
+    /// One epoch of every scene.
+    ///
+    /// # Errors
+    /// If a structure answers the same rays differently.
+    pub fn epoch(&mut self, progress: &mut dyn FnMut(&str, Stage)) -> Result<(), StudyError> {
+        for trial in &mut self.trials {
+            let name = trial.scene_name();
+            trial.epoch(&mut |stage| progress(name, stage))?;
+        }
+        Ok(())
+    }
+
+    /// The records so far, scene by scene.
+    ///
+    /// # Panics
+    /// If there was no epoch.
+    pub fn results(&self) -> Compared {
+        let mut all = Compared::default();
+        for of_scene in self.trials.iter().map(Trial::results) {
+            all.records.extend(of_scene.records);
+            all.refused.extend(of_scene.refused);
+        }
+        all
+    }
+}
+
+/// How a run compares to the baseline.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    Right,
+    /// Answers are wrong, or others than those of the baseline.
+    Wrong,
+    /// A structure of the baseline could not be built or panicked.
+    Refused,
+    Regression,
+    /// A change may be a regression or none: the samples do not tell.
+    Undecided,
+}
+
+/// What a comparison with a baseline comes to: wrong answers weigh more than missing ones, those more than slow ones.
+pub fn verdict(comparison: &Comparison) -> Verdict {
+    match () {
+        () if !comparison.wrong.is_empty() => Verdict::Wrong,
+        () if !comparison.only_old.is_empty() => Verdict::Refused,
+        () if comparison.has(Finding::Regression) => Verdict::Regression,
+        () if comparison.has(Finding::Undecided) => Verdict::Undecided,
+        () if comparison.threshold_percent.is_some() && comparison.has(Finding::Unknown) => Verdict::Undecided,
+        () => Verdict::Right,
+    }
+}
+
+/// Why a run cannot be held against a baseline.
+#[derive(Debug, thiserror::Error)]
+pub enum BaselineError {
+    #[error("the name {0:?} of a baseline must be made of letters, digits, '-', '_' and '.', and not begin with '.'")]
+    Name(String),
+    #[error("there is no baseline {name:?} in {}: {known}", folder.display())]
+    Missing { name: String, folder: PathBuf, known: String },
+    #[error("the baseline {} cannot be read: {cause}: save it again with --save-baseline", path.display())]
+    Read { path: PathBuf, cause: String },
+    #[error("the folder {} for baselines cannot be made: {cause}: choose another with --dir", path.display())]
+    Folder { path: PathBuf, cause: std::io::Error },
+    #[error(transparent)]
+    Unlike(#[from] Unlike),
+    #[error("the baseline lacks {0}: save it again with --save-baseline, or bench what it holds")]
+    New(String),
+    #[error("the baseline holds {0}, which is not benched now: bench the same scenes, workloads and structures")]
+    Old(String),
+}
+
+/// The file of a baseline in the folder of runs.
+///
+/// # Errors
+/// If the name cannot be one of a file on every system.
+pub fn baseline_path(folder: &Path, name: &str) -> Result<PathBuf, BaselineError> {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "-_.".contains(c);
+    if name.is_empty() || name.starts_with('.') || !name.chars().all(plain) {
+        return Err(BaselineError::Name(name.into()));
+    }
+    Ok(folder.join("baselines").join(format!("{name}.json")))
+}
+
+/// The file for a new baseline, with its folder made.
+///
+/// # Errors
+/// As [`baseline_path`], or if the folder cannot be made.
+pub fn new_baseline_path(folder: &Path, name: &str) -> Result<PathBuf, BaselineError> {
+    let path = baseline_path(folder, name)?;
+    let folder = folder.join("baselines");
+    fs::create_dir_all(&folder).map_err(|cause| BaselineError::Folder { path: folder, cause })?;
+    Ok(path)
+}
+
+/// The records of a baseline.
+///
+/// # Errors
+/// If there is none of that name, or the file does not hold records.
+pub fn read_baseline(folder: &Path, name: &str) -> Result<Vec<Record>, BaselineError> {
+    let path = baseline_path(folder, name)?;
+    let text = match fs::read(&path) {
+        Ok(text) => text,
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
+            let (folder, known) = (folder.join("baselines"), known(&folder.join("baselines")));
+            return Err(BaselineError::Missing { name: name.into(), folder, known });
+        }
+        Err(cause) => return Err(BaselineError::Read { path, cause: cause.to_string() }),
+    };
+    serde_json::from_slice(&text).map_err(|cause| BaselineError::Read { path, cause: cause.to_string() })
+}
+
+/// What baselines there are, or how to make one.
+fn known(folder: &Path) -> String {
+    let files = fs::read_dir(folder).into_iter().flatten().flatten();
+    let mut names: Vec<String> =
+        files.filter_map(|file| Some(file.file_name().to_str()?.strip_suffix(".json")?.to_owned())).collect();
+    names.sort();
+    if names.is_empty() { "save one with --save-baseline".into() } else { format!("there are: {}", names.join(", ")) }
+}
+
+/// Holds a run against a baseline of the same cases. `refused` are the structures that could not take part: that they are missing is
+/// found, not refused.
+///
+/// # Errors
+/// If the two are [unlike], or one has cases that the other has not.
+pub fn against(
+    baseline: &[Record],
+    run: &Compared,
+    threshold_percent: Option<f64>,
+) -> Result<Comparison, BaselineError> {
+    unlike(baseline, &run.records)?;
+    let comparison = Comparison::new(baseline, &run.records, threshold_percent);
+    if let Some(case) = comparison.only_new.first() {
+        return Err(BaselineError::New(case.clone()));
+    }
+    let is_refused = |case: &str| run.refused.iter().any(|r| case.starts_with(&format!("{} on ", r.label)));
+    if let Some(case) = comparison.only_old.iter().find(|case| !is_refused(case)) {
+        return Err(BaselineError::Old(case.clone()));
+    }
+    Ok(comparison)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::example;
+    use crate::study::Refused;
+    use crate::study::regression::Wrong;
+
+    fn record(label: &str) -> Record {
+        Record { label: label.into(), epochs: 3, samples_ns: vec![1e6; 3], ..example() }
+    }
+
+    #[test]
+    fn what_weighs_most_decides() {
+        let (old, mut new) = ([record("a"), record("b")], [record("a"), record("b")]);
+        new[0].samples_ns.iter_mut().for_each(|ns| *ns *= 2.0);
+        let mut comparison = Comparison::new(&old, &new, Some(5.0));
+        assert_eq!(verdict(&comparison), Verdict::Regression);
+        comparison.only_old = vec!["c".into()];
+        assert_eq!(verdict(&comparison), Verdict::Refused);
+        comparison.wrong = vec![Wrong { case: "a".into(), what: "lost".into() }];
+        assert_eq!(verdict(&comparison), Verdict::Wrong);
+        assert_eq!(verdict(&Comparison::new(&old, &new, None)), Verdict::Right);
+        assert_eq!(verdict(&Comparison::new(&old, &old, Some(5.0))), Verdict::Right);
+        new[0].samples_ns = vec![1e6, 2e6, 4e6];
+        assert_eq!(verdict(&Comparison::new(&old, &new, Some(5.0))), Verdict::Undecided);
+    }
+
+    #[test]
+    fn a_structure_that_fell_out_is_found_and_one_that_was_not_asked_is_refused() {
+        let old = [record("a"), record("b")];
+        let mut run = Compared { records: vec![record("a")], refused: vec![] };
+        assert!(matches!(against(&old, &run, None), Err(BaselineError::Old(case)) if case.starts_with("b on ")));
+        run.refused.push(Refused { label: "b".into(), reason: "it panicked".into() });
+        assert_eq!(verdict(&against(&old, &run, None).unwrap()), Verdict::Refused);
+        assert!(matches!(
+            against(&old[..1], &Compared { records: old.to_vec(), refused: vec![] }, None),
+            Err(BaselineError::New(_))
+        ));
+    }
+
+    #[test]
+    fn names_stay_in_the_folder() {
+        let folder = Path::new("runs");
+        assert_eq!(baseline_path(folder, "v1.0_a-b").unwrap(), Path::new("runs/baselines/v1.0_a-b.json"));
+        for name in ["", ".", "..", "a/b", "../a", ".hidden", "a b"] {
+            assert!(matches!(baseline_path(folder, name), Err(BaselineError::Name(_))), "{name:?}");
+        }
+    }
+}

@@ -1,0 +1,29 @@
+//! Ratios between records, with their intervals. Pure functions: whoever reads records later gets the same.
+
+use crate::measure::{Interval, NoiseFloor, log_ratios, replication};
+use crate::report::Record;
+
+/// Seed of the bootstrap: intervals belong to the samples and not to a run's seed.
+const SEED: u64 = 1;
+
+/// The A/A ratios of records: how the twin's times relate to those of the structure that it is the twin of, cell by cell.
+pub fn twins(records: &[Record]) -> NoiseFloor {
+    let cell = |record: &Record| {
+        let twin = record.twin_samples_ns.as_ref().filter(|twin| !twin.is_empty())?;
+        Some(log_ratios(&record.samples_ns, twin, record.epochs))
+    };
+    NoiseFloor::new(&records.iter().filter_map(cell).collect::<Vec<_>>(), SEED)
+}
+
+/// The geometric mean of how many times faster the first of each pair is than the second, with the
+/// [interval](mod@crate::measure::replication) that holds the figure of another run; `floor` is the logarithm of the A/A floor. Nothing where one
+/// of them has no time, or their samples are not of the same rounds.
+pub fn speed<'a>(pairs: impl IntoIterator<Item = (&'a Record, &'a Record)>, floor: f64) -> Option<Interval> {
+    let cells: Option<Vec<_>> = pairs.into_iter().map(|(own, other)| own.speed_against(other)).collect();
+    let cells = cells?;
+    let epochs = cells.first()?.len();
+    if cells.iter().any(|cell| cell.len() != epochs) {
+        return None;
+    }
+    replication(&cells, floor, SEED)
+}

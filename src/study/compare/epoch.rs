@@ -1,0 +1,319 @@
+//! Samples, epoch by epoch: each builds all structures anew, so that the luck of where they lie in memory is in the samples.
+
+use super::Settings;
+use super::prepare::{Prepared, Subject, prepare, twin_of};
+use crate::accel::{DynAccel, Query};
+use crate::geometry::Ray;
+use crate::measure::advice::Conditions;
+use crate::measure::{
+    Clock, Instructions, Pass, Plan, RandomOrder, Samples, ThreadClock, Timed, machine, spread, take, take_again,
+};
+use crate::report::CaseCounts;
+use crate::scene::{Scene, Workload};
+use crate::study::built::Built;
+use crate::study::counted::Counted;
+use crate::study::guarded::Guarded;
+use crate::study::{PANICKED, Refused, Stage, StudyError, guarded};
+
+/// A full pass that takes longer runs on a sample of its rays, whatever the budget.
+const LONGEST_SAMPLE_NS: u64 = 1_000_000_000;
+
+/// Passes of a case besides its samples, in each epoch: what a warm-up takes as a rule, and the counts.
+const OTHER_PASSES: usize = 3;
+
+/// Rays that a case without times is counted on.
+const COUNTED: usize = 4096;
+
+/// Of one structure on one workload, over a pass that nobody times.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Tally {
+    pub rays: usize,
+    /// Rays that hit.
+    pub hits: usize,
+    pub tests_per_ray: Option<f64>,
+    pub steps_per_ray: Option<f64>,
+    pub instructions_per_ray: Option<f64>,
+    pub counts: CaseCounts,
+}
+
+/// A case that is timed: structure and workload by their numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Case {
+    pub subject: usize,
+    pub workload: usize,
+}
+
+/// The comparison on one scene while it runs.
+pub struct Trial<'a> {
+    pub(super) scene: &'a Scene,
+    pub(super) settings: &'a Settings,
+    clock: &'a dyn Clock,
+    pub(super) workloads: Vec<Workload>,
+    /// The twin comes last.
+    pub(super) subjects: Vec<Subject>,
+    /// Number of the structure that has a twin.
+    pub(super) twin: Option<usize>,
+    pub(super) refused: Vec<Refused>,
+    pub(super) cases: Vec<Case>,
+    /// Of each case; none before the first epoch.
+    pub(super) samples: Vec<Samples>,
+    /// Of each structure on each workload; none before the first epoch.
+    pub(super) tallies: Vec<Vec<Tally>>,
+    pub(super) epochs: usize,
+    sample_budget_ns: u64,
+    pub(super) conditions: Conditions,
+}
+
+impl<'a> Trial<'a> {
+    /// Builds every structure, makes the rays and checks the answers. No sample is taken.
+    ///
+    /// # Errors
+    /// If the structure that tells where secondary rays start cannot be built.
+    pub fn new(
+        scene: &'a Scene,
+        settings: &'a Settings,
+        clock: &'a dyn Clock,
+        progress: &mut dyn FnMut(Stage),
+    ) -> Result<Self, StudyError> {
+        let start = clock.now_ns();
+        let Prepared { workloads, mut subjects, refused, builds_ns } = prepare(scene, settings, clock, progress)?;
+        let twin = twin_of(&subjects).filter(|_| settings.twin);
+        subjects.extend(twin.map(|of| subjects[of].twin()));
+        let cases: Vec<Case> = (0..subjects.len())
+            .flat_map(|subject| (0..workloads.len()).map(move |workload| Case { subject, workload }))
+            .filter(|case| subjects[case.subject].is_timed(case.workload))
+            .collect();
+
+        // What checks and builds leave of the time is for passes, but at least a third.
+        let spent = (clock.now_ns() - start).saturating_add(builds_ns.saturating_mul(settings.epochs as u64));
+        let budget_ns = settings.budget_ns.saturating_sub(spent).max(settings.budget_ns / 3);
+        let passes = (cases.len() * settings.epochs * (settings.rounds() + OTHER_PASSES)).max(1) as u64;
+        Ok(Self {
+            scene,
+            settings,
+            clock,
+            workloads,
+            subjects,
+            twin,
+            refused,
+            cases,
+            samples: vec![],
+            tallies: vec![],
+            epochs: 0,
+            sample_budget_ns: settings.sample_ns.unwrap_or((budget_ns / passes).clamp(1, LONGEST_SAMPLE_NS)),
+            conditions: Conditions::default(),
+        })
+    }
+
+    /// The name of the scene.
+    pub fn scene_name(&self) -> &'a str {
+        &self.scene.name
+    }
+
+    /// Builds every structure anew and takes [`Settings::rounds`] samples of every case, after a warm-up.
+    ///
+    /// # Errors
+    /// If a structure answers the same rays differently.
+    pub fn epoch(&mut self, progress: &mut dyn FnMut(Stage)) -> Result<(), StudyError> {
+        let _pin = self.settings.threads.pin();
+        let (built, _placement) = self.build(progress);
+        self.forget_refused();
+
+        let (mut passes, panicked): (Vec<Box<dyn Timed>>, Vec<_>) = self
+            .cases
+            .iter()
+            .map(|case| {
+                let workload = &self.workloads[case.workload];
+                let accel = built[case.subject].accel.as_ref();
+                let pass = Pass::new(accel, &workload.rays, workload.query, &self.settings.threads);
+                let (pass, panicked) = Guarded::new(pass);
+                (Box::new(pass) as Box<dyn Timed>, panicked)
+            })
+            .collect();
+        let plan = Plan {
+            runs: self.settings.rounds(),
+            sample_budget_ns: self.sample_budget_ns,
+            warmup: self.settings.warmup,
+            seed: self.settings.seed,
+        };
+        let total = self.cases.len() * self.settings.rounds() * self.settings.epochs.max(self.epochs + 1);
+        let before = self.cases.len() * self.settings.rounds() * self.epochs;
+        let mut told = |taken| progress(Stage::Trace(before + taken, total));
+        let core = self.settings.threads.cores().map_or(0, |cores| cores[0]);
+        let watch = Watch::start(self.clock, core);
+        // What others take of the core is not time of the pass.
+        let own = ThreadClock::of(&self.settings.threads);
+        let clock = own.as_ref().map_or(self.clock, |clock| clock as &dyn Clock);
+        let taken = if self.epochs == 0 {
+            take(clock, &mut passes, &plan, &mut told).map(|samples| self.samples = samples)
+        } else {
+            take_again(clock, &mut passes, &plan, &mut self.samples, &mut told)
+        };
+        taken.map_err(|cause| StudyError::Unsteady {
+            structure: self.subjects[self.cases[cause.case].subject].choice.label.clone(),
+            scene: self.scene.name.clone(),
+            rays: self.workloads[self.cases[cause.case].workload].name.clone(),
+            cause,
+        })?;
+        watch.end(self.clock, &mut self.conditions);
+        drop(passes);
+
+        for (case, panicked) in self.cases.iter().zip(&panicked) {
+            if panicked.get() {
+                refuse(&mut self.refused, &self.subjects[case.subject], PANICKED);
+            }
+        }
+        if self.epochs == 0 {
+            self.count(&built);
+        }
+        self.epochs += 1;
+        drop(built);
+        self.forget_refused();
+        Ok(())
+    }
+
+    /// Every structure that is not refused, built in an order and between blocks of memory that are this epoch's own. The blocks are to
+    /// be kept as long as the structures.
+    fn build(&mut self, progress: &mut dyn FnMut(Stage)) -> (Vec<Built>, Vec<Vec<u8>>) {
+        let mut random = RandomOrder::new(self.settings.seed.wrapping_add(self.epochs as u64));
+        let mut built: Vec<Option<Built>> = self.subjects.iter().map(|_| None).collect();
+        let mut blocks = vec![];
+        for s in random.shuffled(self.subjects.len()) {
+            let subject = &mut self.subjects[s];
+            progress(Stage::Build(&subject.choice.label));
+            // Small blocks move what follows on the heap, large ones move mapped pages.
+            blocks.push(vec![0; 16 * (1 + random.below(1 << 12))]);
+            blocks.push(vec![0; (256 << 10) + 4096 * random.below(64)]);
+            match Built::once(&subject.choice, self.scene, &self.settings.threads, self.clock) {
+                Ok(structure) => {
+                    subject.build_ns.push(structure.build_ns);
+                    built[s] = Some(structure);
+                }
+                Err(error) => refuse(&mut self.refused, subject, &error.to_string()),
+            }
+        }
+        // One of two twins is refused with the other.
+        let lost = |built: &Built| self.refused.iter().any(|refused| refused.label == built.choice.label);
+        (built.into_iter().flatten().filter(|built| !lost(built)).collect(), blocks)
+    }
+
+    /// Takes those that were refused after they had been admitted, and their cases and samples, out of the run.
+    fn forget_refused(&mut self) {
+        let lost = |subject: &Subject| self.refused.iter().any(|refused| refused.label == subject.choice.label);
+        let place: Vec<Option<usize>> = self
+            .subjects
+            .iter()
+            .scan(0, |next, subject| {
+                let place = (!lost(subject)).then_some(*next);
+                *next += usize::from(place.is_some());
+                Some(place)
+            })
+            .collect();
+        if place.iter().all(Option::is_some) {
+            return;
+        }
+        let kept: Vec<bool> = self.cases.iter().map(|case| place[case.subject].is_some()).collect();
+        let moved = |case: &Case| Some(Case { subject: place[case.subject]?, ..*case });
+        self.cases = self.cases.iter().filter_map(moved).collect();
+        keep(&mut self.samples, &kept);
+        let kept: Vec<bool> = place.iter().map(Option::is_some).collect();
+        keep(&mut self.subjects, &kept);
+        keep(&mut self.tallies, &kept);
+        self.twin = self.twin.and_then(|twin| place[twin]);
+    }
+
+    /// Counts hits, steps, tests and instructions on the rays that were timed.
+    fn count(&mut self, built: &[Built]) {
+        let counter = Instructions::open().filter(|_| self.settings.threads.count() == 1);
+        let rays = |subject: usize, workload: usize| {
+            let case = self.cases.iter().position(|case| *case == Case { subject, workload });
+            case.map_or(COUNTED, |case| self.samples[case].rays)
+        };
+        let mut tallies = vec![];
+        for (s, built) in built.iter().enumerate() {
+            let of = |(w, workload): (usize, &Workload)| {
+                if self.subjects[s].declined[w].is_some() {
+                    return Some(Tally::default());
+                }
+                let rays = spread(&workload.rays, rays(s, w));
+                guarded(|| {
+                    let mut tally = count(built.accel.as_ref(), &rays, workload.query);
+                    let mut pass = Pass::new(built.accel.as_ref(), &rays, workload.query, &self.settings.threads);
+                    pass.clear();
+                    let instructions = counter.as_ref().and_then(|counter| counter.count(|| pass.run()));
+                    tally.instructions_per_ray = instructions.map(|n| n as f64 / rays.len() as f64);
+                    tally
+                })
+            };
+            let all: Option<Vec<Tally>> = self.workloads.iter().enumerate().map(of).collect();
+            if all.is_none() {
+                refuse(&mut self.refused, &self.subjects[s], PANICKED);
+            }
+            tallies.push(all.unwrap_or_default());
+        }
+        self.tallies = tallies;
+    }
+}
+
+/// Says once of a structure why it no longer takes part.
+fn refuse(refused: &mut Vec<Refused>, subject: &Subject, reason: &str) {
+    let label = &subject.choice.label;
+    if refused.iter().all(|refused| refused.label != *label) {
+        refused.push(Refused { label: label.clone(), reason: reason.into() });
+    }
+}
+
+/// Those of `values` that are to be kept.
+fn keep<T>(values: &mut Vec<T>, kept: &[bool]) {
+    let mut i = 0;
+    values.retain(|_| {
+        i += 1;
+        kept[i - 1]
+    });
+}
+
+/// Hits and counts of one pass over `rays`.
+fn count(accel: &dyn DynAccel, rays: &[Ray], query: Query) -> Tally {
+    let counted = Counted::new(accel, rays, query);
+    Tally {
+        rays: rays.len(),
+        hits: counted.hits,
+        tests_per_ray: counted.tests_per_ray(),
+        steps_per_ray: counted.steps_per_ray(),
+        instructions_per_ray: None,
+        counts: CaseCounts {
+            leaf_steps_per_ray: counted.leaf_steps_per_ray(),
+            empty_leaf_steps_per_ray: counted.empty_leaf_steps_per_ray(),
+            tests_over_minimum: counted.tests_over_minimum(),
+            ..CaseCounts::of(&accel.shape())
+        },
+    }
+}
+
+/// What the timed part of an epoch does to the measuring thread.
+struct Watch {
+    start_ns: u64,
+    interruptions: Option<u64>,
+    core: usize,
+    clock_rate: Option<f64>,
+}
+
+impl Watch {
+    fn start(clock: &dyn Clock, core: usize) -> Self {
+        let (interruptions, clock_rate) = (machine::interruptions(), machine::clock_rate(core));
+        Self { start_ns: clock.now_ns(), interruptions, core, clock_rate }
+    }
+
+    /// Adds what happened since to `conditions`.
+    fn end(self, clock: &dyn Clock, conditions: &mut Conditions) {
+        conditions.seconds += (clock.now_ns() - self.start_ns) as f64 * 1e-9;
+        if let (Some(before), Some(after)) = (self.interruptions, machine::interruptions()) {
+            *conditions.interruptions.get_or_insert(0) += after.saturating_sub(before);
+        }
+        // From the first epoch to the last.
+        if let (Some(before), Some(after)) = (self.clock_rate, machine::clock_rate(self.core)) {
+            let first = conditions.clock_rates.map_or(before, |(first, _)| first);
+            conditions.clock_rates = Some((first, after));
+        }
+    }
+}

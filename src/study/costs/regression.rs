@@ -1,0 +1,138 @@
+//! Least squares of relative errors, with costs that are not negative.
+
+/// What a ray, a step and a test cost.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Costs {
+    pub ray: f64,
+    pub step: f64,
+    pub test: f64,
+}
+
+impl Costs {
+    /// The time of a ray of so many steps and tests.
+    pub fn predict(&self, steps: f64, tests: f64) -> f64 {
+        self.ray + self.step * steps + self.test * tests
+    }
+}
+
+/// The costs, none below 0, with the least sum of squares of (predicted - measured) / measured over `rows` of steps, tests and
+/// time: so a case that takes a thousand times as long counts no more than another. Nothing where the rows do not tell the costs
+/// apart.
+///
+/// With three costs every way to leave some of them at 0 is tried, and the best one whose other costs come out positive taken:
+/// that is the least under the constraint (Lawson, Hanson, "Solving least squares problems", 1974, chapter 23).
+pub fn regress(rows: &[[f64; 3]]) -> Option<Costs> {
+    // Of a constant, steps and tests, each as a share of the time, which is then 1.
+    let shares: Vec<[f64; 3]> = rows.iter().map(|[steps, tests, ns]| [1.0 / ns, steps / ns, tests / ns]).collect();
+    let mut best: Option<(f64, [f64; 3])> = None;
+    for used in 1u32..8 {
+        let columns: Vec<usize> = (0..3).filter(|column| used >> column & 1 == 1).collect();
+        let Some(solution) = solve(&shares, &columns) else { continue };
+        let mut costs = [0.0; 3];
+        for (&column, cost) in columns.iter().zip(&solution) {
+            costs[column] = *cost;
+        }
+        let off = |share: &[f64; 3]| {
+            let predicted: f64 = share.iter().zip(&costs).map(|(share, cost)| share * cost).sum();
+            (predicted - 1.0) * (predicted - 1.0)
+        };
+        let rest: f64 = shares.iter().map(off).sum();
+        if solution.iter().all(|&cost| cost > 0.0) && best.is_none_or(|(least, _)| rest < least) {
+            best = Some((rest, costs));
+        }
+    }
+    let [ray, step, test] = best?.1;
+    Some(Costs { ray, step, test })
+}
+
+/// Least squares of `shares` against 1 in some of their columns, by normal equations in units in which every column is as long: nothing
+/// where they are singular.
+fn solve(shares: &[[f64; 3]], columns: &[usize]) -> Option<Vec<f64>> {
+    let length = |column: usize| libm::sqrt(shares.iter().map(|share| share[column] * share[column]).sum());
+    let lengths: Vec<f64> = columns.iter().map(|&column| length(column)).collect();
+    if lengths.iter().any(|&length| length == 0.0 || !length.is_finite()) {
+        return None;
+    }
+    let n = columns.len();
+    let mut rows = vec![vec![0.0; n + 1]; n];
+    for share in shares {
+        let unit: Vec<f64> = columns.iter().zip(&lengths).map(|(&column, length)| share[column] / length).collect();
+        for i in 0..n {
+            for j in 0..n {
+                rows[i][j] += unit[i] * unit[j];
+            }
+            rows[i][n] += unit[i];
+        }
+    }
+    for pivot in 0..n {
+        let largest = (pivot..n).max_by(|&a, &b| rows[a][pivot].abs().total_cmp(&rows[b][pivot].abs()))?;
+        rows.swap(pivot, largest);
+        if rows[pivot][pivot].abs() < 1e-10 {
+            return None;
+        }
+        for i in (0..n).filter(|&i| i != pivot) {
+            let factor = rows[i][pivot] / rows[pivot][pivot];
+            for j in pivot..=n {
+                rows[i][j] -= factor * rows[pivot][j];
+            }
+        }
+    }
+    Some((0..n).map(|i| rows[i][n] / rows[i][i] / lengths[i]).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn row(costs: Costs, steps: f64, tests: f64) -> [f64; 3] {
+        [steps, tests, costs.predict(steps, tests)]
+    }
+
+    const PLACES: [(f64, f64); 6] = [(1.0, 2.0), (10.0, 3.0), (40.0, 5.0), (5.0, 300.0), (100.0, 1000.0), (2.0, 0.5)];
+
+    #[test]
+    fn costs_are_found_where_times_are_made_of_them() {
+        let true_costs = Costs { ray: 20.0, step: 3.0, test: 1.25 };
+        let rows = PLACES.map(|(steps, tests)| row(true_costs, steps, tests));
+        let found = regress(&rows).unwrap();
+        for (found, expected) in [(found.ray, 20.0), (found.step, 3.0), (found.test, 1.25)] {
+            assert!((found / expected - 1.0).abs() < 1e-9, "{found} {expected}");
+        }
+    }
+
+    #[test]
+    fn no_cost_is_negative() {
+        // The more tests the faster: a step alone explains it best.
+        let rows = PLACES.map(|(steps, tests)| [steps, tests, 10.0 * steps / (1.0 + 0.001 * tests)]);
+        let found = regress(&rows).unwrap();
+        assert!(found.ray >= 0.0 && found.step > 0.0 && found.test == 0.0, "{found:?}");
+        // The constraint costs: every neighbour that keeps it is worse.
+        let off = |costs: Costs| -> f64 {
+            rows.iter().map(|[s, t, ns]| (costs.predict(*s, *t) / ns - 1.0) * (costs.predict(*s, *t) / ns - 1.0)).sum()
+        };
+        for (ray, step, test) in [(0.01, 0.0, 0.0), (0.0, 0.01, 0.0), (0.0, -0.01, 0.0), (0.0, 0.0, 0.001)] {
+            let near = Costs { ray: found.ray + ray, step: found.step + step, test: found.test + test };
+            assert!(off(near) > off(found), "{near:?}");
+        }
+    }
+
+    #[test]
+    fn slow_cases_do_not_rule() {
+        // One case of a thousand times the time and a tenth too slow moves the costs as little as any other.
+        let true_costs = Costs { ray: 20.0, step: 3.0, test: 1.25 };
+        let mut rows = PLACES.map(|(steps, tests)| row(true_costs, steps, tests)).to_vec();
+        rows.push(row(true_costs, 20_000.0, 100_000.0).map(|x| x));
+        rows.last_mut().unwrap()[2] *= 1.1;
+        let found = regress(&rows).unwrap();
+        assert!((found.predict(10.0, 3.0) / true_costs.predict(10.0, 3.0) - 1.0).abs() < 0.03, "{found:?}");
+    }
+
+    #[test]
+    fn what_cannot_be_told_apart_is_left_out() {
+        assert_eq!(regress(&[]), None);
+        // Steps and tests in one proportion: one of the two stands for both.
+        let found = regress(&[[1.0, 2.0, 10.0], [2.0, 4.0, 15.0], [10.0, 20.0, 55.0]]).unwrap();
+        assert!((found.predict(4.0, 8.0) - 25.0).abs() < 1e-9, "{found:?}");
+        assert!(found.step == 0.0 || found.test == 0.0);
+    }
+}

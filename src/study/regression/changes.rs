@@ -1,0 +1,145 @@
+//! Changes of time, each with what its interval says.
+
+use super::{Change, Finding};
+use crate::measure::{Interval, change};
+use crate::report::Record;
+use crate::study::baselines::is_obvhs;
+use crate::study::compare::twins;
+
+/// Labels of the structures that both runs are normalised by.
+pub(super) fn references(pairs: &[(&Record, &Record)]) -> Vec<String> {
+    let mut labels: Vec<String> = vec![];
+    for (old, new) in pairs {
+        let timed = !old.samples_ns.is_empty() && !new.samples_ns.is_empty();
+        if is_obvhs(&old.structure) && timed && !labels.contains(&old.label) {
+            labels.push(old.label.clone());
+        }
+    }
+    labels
+}
+
+/// Of the structures, and of their cells.
+pub(super) fn all(
+    old: &[Record],
+    new: &[Record],
+    pairs: &[(&Record, &Record)],
+    threshold: Option<f64>,
+) -> (Vec<Change>, Vec<Change>) {
+    let references = references(pairs);
+    let floor = floor(old, new);
+    let (mut structures, mut cells): (Vec<Change>, Vec<Change>) = (vec![], vec![]);
+    let mut labels: Vec<&str> = pairs.iter().map(|(old, _)| old.label.as_str()).collect();
+    labels.retain(|label| !references.iter().any(|reference| reference == label));
+    let mut seen = std::collections::BTreeSet::new();
+    labels.retain(|label| seen.insert(*label));
+    for label in labels {
+        let mut all: (Vec<_>, Vec<_>) = (vec![], vec![]);
+        let mut missing = false;
+        for (before, after) in pairs.iter().filter(|(old, _)| old.label == label) {
+            let times = || {
+                Some((relative(before, old, after, new, &references)?, relative(after, new, before, old, &references)?))
+            };
+            let times = times();
+            let time = times
+                .as_ref()
+                .and_then(|(old, new)| change(std::slice::from_ref(old), std::slice::from_ref(new), floor));
+            cells.push(Change {
+                structure: label.into(),
+                scene: Some(before.scene.clone()),
+                workload: Some(before.workload.clone()),
+                cells: usize::from(time.is_some()),
+                time,
+                finding: finding(time, threshold),
+            });
+            // What never had a time is not missing.
+            missing |= times.is_none() && !before.samples_ns.is_empty();
+            if let Some((old, new)) = times {
+                all.0.push(old);
+                all.1.push(new);
+            }
+        }
+        let n = all.0.len();
+        // A mean over cells that differ in their epochs has none of its own.
+        let even = |cells: &[Vec<Vec<f64>>]| cells.iter().all(|cell| cell.len() == cells[0].len());
+        let time = if missing || !even(&all.0) || !even(&all.1) {
+            None
+        } else {
+            // The luck of each cell is its own: that of their mean is smaller.
+            change(&all.0, &all.1, floor / libm::sqrt(n.max(1) as f64))
+        };
+        structures.push(Change {
+            structure: label.into(),
+            scene: None,
+            workload: None,
+            cells: n,
+            time,
+            finding: finding(time, threshold),
+        });
+    }
+    (structures, cells)
+}
+
+/// The floors of both runs together, a logarithm.
+fn floor(old: &[Record], new: &[Record]) -> f64 {
+    let of = |records: &[Record]| twins(records).log().unwrap_or(0.0);
+    libm::hypot(of(old), of(new))
+}
+
+/// ln(time of `own` / geometric mean of the references' times) of each round in each epoch; ln of the time itself where there is no
+/// reference. Only references that have a time in the same cell of `others`, too, count, so that both runs are divided by
+/// the same. Nothing where there is no time.
+fn relative(
+    own: &Record,
+    records: &[Record],
+    other: &Record,
+    others: &[Record],
+    references: &[String],
+) -> Option<Vec<Vec<f64>>> {
+    if own.samples_ns.is_empty() || other.samples_ns.is_empty() {
+        return None;
+    }
+    let rivals: Vec<&Record> = references
+        .iter()
+        .filter(|label| beside(label, other, others).is_some())
+        .filter_map(|label| beside(label, own, records))
+        .collect();
+    if rivals.is_empty() {
+        return references.is_empty().then(|| absolute(own));
+    }
+    let mut sum: Option<Vec<Vec<f64>>> = None;
+    for rival in &rivals {
+        // How many times faster the reference is.
+        let logs = rival.speed_against(own)?;
+        sum = Some(match sum {
+            None => logs,
+            Some(sum) => sum.iter().zip(&logs).map(|(a, b)| a.iter().zip(b).map(|(a, b)| a + b).collect()).collect(),
+        });
+    }
+    let share = 1.0 / rivals.len() as f64;
+    sum.map(|epochs| epochs.iter().map(|epoch| epoch.iter().map(|log| log * share).collect()).collect())
+}
+
+/// The structure `label` with a time in the same cell.
+fn beside<'a>(label: &str, own: &Record, records: &'a [Record]) -> Option<&'a Record> {
+    let same = |r: &&Record| r.label == label && r.scene == own.scene && r.workload == own.workload;
+    records.iter().find(same).filter(|r| !r.samples_ns.is_empty())
+}
+
+/// ln(nanoseconds a ray).
+fn absolute(own: &Record) -> Vec<Vec<f64>> {
+    let logs: Vec<f64> = own.paces().iter().map(|&pace| libm::log(pace)).collect();
+    logs.chunks((logs.len() / own.epochs.max(1)).max(1)).map(<[f64]>::to_vec).collect()
+}
+
+/// What an interval says.
+pub(super) fn finding(time: Option<Interval>, threshold: Option<f64>) -> Finding {
+    let Some(Interval { low, high, .. }) = time else { return Finding::Unknown };
+    let limit = threshold.map(libm::exp);
+    match () {
+        () if limit.is_some_and(|limit| low > limit) => Finding::Regression,
+        () if limit.is_some_and(|limit| high > limit) => Finding::Undecided,
+        () if high < 1.0 => Finding::Faster,
+        () if low > 1.0 => Finding::Slower,
+        () => Finding::NoDifference,
+    }
+}

@@ -1,0 +1,185 @@
+//! What changed between two runs of the same comparison: speed, answers, and whether a ratio of one is found again in the other.
+//! Pure functions of records.
+//!
+//! Two runs of different moments on a shared machine cannot be compared by their times. They are compared by their ratios to
+//! references: the structures of obvhs, whose code is the same in both runs and which are measured in the same rounds as all
+//! others. The change of a structure is the geometric mean over its cells of new / old, decided by its
+//! [interval](fn@crate::measure::change); cells alone are shown and decide nothing, for there are many of them.
+
+mod changes;
+mod table;
+#[cfg(test)]
+mod tests;
+mod unlike;
+
+use serde::Serialize;
+
+use super::baselines::{REPORT_TREE, documented_defect, is_obvhs};
+use super::compare::twins;
+use crate::measure::{Interval, replication};
+use crate::report::Record;
+
+pub use table::tables;
+pub use unlike::{Unlike, unlike};
+
+/// Two runs side by side.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Comparison {
+    /// Structures that both were normalised by; times are compared as they are where there are none.
+    pub references: Vec<String>,
+    /// The regression that is looked for, per cent; nothing where any difference is.
+    pub threshold_percent: Option<f64>,
+    /// One for each structure that is no reference.
+    pub structures: Vec<Change>,
+    /// One for each structure that is no reference, scene and workload.
+    pub cells: Vec<Change>,
+    /// Answers that were right, or others, in the old run.
+    pub wrong: Vec<Wrong>,
+    /// Cases that only one of the runs has.
+    pub only_old: Vec<String>,
+    pub only_new: Vec<String>,
+    pub reproduced: Reproduced,
+}
+
+/// How much longer a structure takes.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Change {
+    pub structure: String,
+    /// Nothing for the mean over all cells.
+    pub scene: Option<String>,
+    pub workload: Option<String>,
+    /// Cells in it that have a time in both runs.
+    pub cells: usize,
+    /// New time / old time; nothing where one of the runs has none.
+    pub time: Option<Interval>,
+    pub finding: Finding,
+}
+
+/// What an interval says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Finding {
+    /// The interval lies below 1.
+    Faster,
+    /// The interval holds 1 or, with a threshold, lies below it.
+    NoDifference,
+    /// The interval lies above 1, without a threshold or below it.
+    Slower,
+    /// The interval lies above the threshold.
+    Regression,
+    /// The interval holds the threshold: more samples or a quieter machine would tell.
+    Undecided,
+    /// There is no time in one of the runs.
+    Unknown,
+}
+
+/// Answers that changed for the worse.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Wrong {
+    /// Structure, scene and rays.
+    pub case: String,
+    /// What is wrong.
+    pub what: String,
+}
+
+/// How many ratios of one run lie within the intervals of the other.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Reproduced {
+    pub ratios: usize,
+    /// Ratios of the old run within the new run's intervals.
+    pub old_in_new: usize,
+    /// The other way round.
+    pub new_in_old: usize,
+}
+
+impl Comparison {
+    /// Compares two runs that are not [unlike]. With a threshold in per cent, regressions of at least as much are looked for.
+    pub fn new(old: &[Record], new: &[Record], threshold_percent: Option<f64>) -> Self {
+        let pairs = pairs(old, new);
+        let only = |own: &[Record], other: &[Record]| -> Vec<String> {
+            own.iter().filter(|record| counterpart(record, other).is_none()).map(case).collect()
+        };
+        let threshold = threshold_percent.map(|percent| libm::log1p(percent / 100.0));
+        let (structures, cells) = changes::all(old, new, &pairs, threshold);
+        Self {
+            references: changes::references(&pairs),
+            threshold_percent,
+            structures,
+            cells,
+            wrong: pairs.iter().filter_map(|(old, new)| wrong(old, new)).collect(),
+            only_old: only(old, new),
+            only_new: only(new, old),
+            reproduced: reproduced(old, new),
+        }
+    }
+
+    /// Whether a structure regressed.
+    pub fn has(&self, finding: Finding) -> bool {
+        self.structures.iter().any(|change| change.finding == finding)
+    }
+}
+
+/// The cases that both runs have.
+fn pairs<'a>(old: &'a [Record], new: &'a [Record]) -> Vec<(&'a Record, &'a Record)> {
+    old.iter().filter_map(|record| Some((record, counterpart(record, new)?))).collect()
+}
+
+/// The same case in another run.
+fn counterpart<'a>(record: &Record, others: &'a [Record]) -> Option<&'a Record> {
+    let same = |other: &&Record| {
+        (&other.scene, &other.workload, &other.label) == (&record.scene, &record.workload, &record.label)
+    };
+    others.iter().find(same)
+}
+
+/// A case as sentences name it.
+fn case(record: &Record) -> String {
+    format!("{} on the {} rays of {}", record.label, record.workload, record.scene)
+}
+
+/// What is wrong with the new answers that was not with the old.
+fn wrong(old: &Record, new: &Record) -> Option<Wrong> {
+    let rate = |r: &Record| r.structure_errors.unwrap_or(0) as f64 / r.checked_rays.unwrap_or(0).max(1) as f64;
+    let (errors, checked) = (new.structure_errors.unwrap_or(0), new.checked_rays.unwrap_or(0));
+    // How many rays are checked depends on time: what an error was before is no new one if its rate is the same, and what a
+    // baseline is documented to get wrong may be met at any time.
+    let known = documented_defect(&new.structure).is_some();
+    let more = errors > 0 && !known && (old.structure_errors == Some(0) || rate(new) > 2.0 * rate(old));
+    let what = if more {
+        format!(
+            "{errors} of {checked} answers are wrong, {} of {} were",
+            old.structure_errors.unwrap_or(0),
+            old.checked_rays.unwrap_or(0)
+        )
+    } else if old.rays == new.rays && old.hits != new.hits {
+        format!("{} of {} rays hit, {} did", new.hits, new.rays, old.hits)
+    } else if old.rays == new.rays && old.answers.is_some() && new.answers.is_some() && old.answers != new.answers {
+        "hits have another t or primitive".into()
+    } else {
+        return None;
+    };
+    Some(Wrong { case: case(new), what })
+}
+
+/// Holds the ratios of each run against the intervals of the other: of every structure to the report's tree and to the structures
+/// of obvhs, cell by cell, as tables print them.
+fn reproduced(old: &[Record], new: &[Record]) -> Reproduced {
+    let floors = [old, new].map(|records| twins(records).log().unwrap_or(0.0));
+    let mut found = Reproduced::default();
+    for (own, own_new) in pairs(old, new) {
+        let to = |base: &&Record| {
+            let same = base.scene == own.scene && base.workload == own.workload && base.label != own.label;
+            same && (base.label == REPORT_TREE || is_obvhs(&base.structure))
+        };
+        for base in old.iter().filter(to) {
+            let ratio = |own: &Record, base: &Record, floor| replication(&[own.speed_against(base)?], floor, 1);
+            let a = ratio(own, base, floors[0]);
+            let b = counterpart(base, new).and_then(|base| ratio(own_new, base, floors[1]));
+            let (Some(a), Some(b)) = (a, b) else { continue };
+            found.ratios += 1;
+            found.old_in_new += usize::from(b.low <= a.estimate && a.estimate <= b.high);
+            found.new_in_old += usize::from(a.low <= b.estimate && b.estimate <= a.high);
+        }
+    }
+    found
+}

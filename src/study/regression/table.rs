@@ -1,0 +1,112 @@
+//! A comparison of runs for people.
+
+use super::{Change, Comparison, Finding, Reproduced};
+use crate::measure::Interval;
+use crate::report::number::{figures, plural};
+use crate::report::{Cell, Table, Tone};
+
+/// One table of the structures, one of their cells.
+pub fn tables(comparison: &Comparison) -> Vec<Table> {
+    vec![structures(comparison), cells(comparison)]
+}
+
+fn structures(comparison: &Comparison) -> Table {
+    let rows = comparison.structures.iter().map(|change| {
+        let own = comparison.cells.iter().filter(|cell| cell.structure == change.structure);
+        let timed = own.filter_map(|cell| Some((cell, cell.time?.estimate)));
+        let worst = timed.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(cell, _)| cell);
+        let worst = worst.map_or(String::new(), |cell| format!("{} {}", percent(cell), place(cell)));
+        vec![
+            change.structure.as_str().into(),
+            percent(change).into(),
+            word(change.finding),
+            change.cells.to_string().into(),
+            worst.into(),
+        ]
+    });
+    let rows = rows.collect();
+    let by = if comparison.references.is_empty() {
+        "Times are compared as they are, for the runs have no structure of obvhs in common: a machine that was slower counts as a change."
+            .to_owned()
+    } else {
+        format!("Normalised by {}, measured in the same rounds.", comparison.references.join(" and "))
+    };
+    let looked_for = comparison.threshold_percent.map(|percent| {
+        format!(
+            "A regression is a change whose whole interval lies above {}%; too noisy: the interval holds {}%.",
+            figures(percent),
+            figures(percent)
+        )
+    });
+    let mut notes = vec![by];
+    notes.extend(looked_for);
+    notes.extend(comparison.wrong.iter().map(|wrong| format!("Wrong: {}: {}.", wrong.case, wrong.what)));
+    for (only, whose) in [(&comparison.only_old, "old"), (&comparison.only_new, "new")] {
+        if let Some(first) = only.first() {
+            notes.push(format!("{} in the {whose} run alone, as {first}.", plural(only.len(), "case")));
+        }
+    }
+    Table {
+        title: "Change of time, geometric mean over cells, with 95 % interval".into(),
+        columns: ["structure", "time", "finding", "cells", "worst cell"].map(String::from).into(),
+        rows,
+        notes,
+    }
+}
+
+fn cells(comparison: &Comparison) -> Table {
+    let mut places: Vec<String> = vec![];
+    for cell in &comparison.cells {
+        if !places.contains(&place(cell)) {
+            places.push(place(cell));
+        }
+    }
+    let mut columns = vec!["scene, rays".to_owned()];
+    columns.extend(comparison.structures.iter().map(|change| change.structure.clone()));
+    let rows = places.iter().map(|row| {
+        let of = |change: &Change| {
+            let own = |cell: &&Change| cell.structure == change.structure && place(cell) == *row;
+            comparison.cells.iter().find(own).map_or(Cell::blank(), |cell| {
+                let tone = if cell.finding == Finding::Regression { Tone::Wrong } else { Tone::Plain };
+                Cell::from(percent(cell)).with(tone)
+            })
+        };
+        let mut cells: Vec<Cell> = vec![row.as_str().into()];
+        cells.extend(comparison.structures.iter().map(of));
+        cells
+    });
+    let rows = rows.collect();
+    let Reproduced { ratios, old_in_new, new_in_old } = comparison.reproduced;
+    let share = |n: usize| format!("{n} of {ratios} ({}%)", figures(100.0 * n as f64 / ratios as f64));
+    let reproduced = (ratios > 0).then(|| {
+        format!(
+            "Of the ratios to the report's tree and to obvhs, {} of the old run lie within the new run's intervals, {} of the new within \
+             the old's.",
+            share(old_in_new),
+            share(new_in_old)
+        )
+    });
+    Table { title: "Change of time, cell by cell".into(), columns, rows, notes: reproduced.into_iter().collect() }
+}
+
+fn place(cell: &Change) -> String {
+    let text = |x: &Option<String>| x.clone().unwrap_or_default();
+    format!("{} {}", text(&cell.scene), text(&cell.workload))
+}
+
+fn percent(change: &Change) -> String {
+    let of = |ratio: f64| format!("{:+.1}%", (ratio - 1.0) * 100.0);
+    let text = |Interval { estimate, low, high }| format!("{} [{}, {}]", of(estimate), of(low), of(high));
+    change.time.map_or(String::new(), text)
+}
+
+fn word(finding: Finding) -> Cell {
+    match finding {
+        Finding::Faster => Cell::from("faster").with(Tone::Best),
+        Finding::NoDifference => "no difference".into(),
+        Finding::Slower => "slower".into(),
+        Finding::Regression => Cell::from("regression").with(Tone::Wrong),
+        Finding::Undecided => "too noisy".into(),
+        Finding::Unknown => "no time".into(),
+    }
+}

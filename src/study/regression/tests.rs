@@ -1,0 +1,185 @@
+use super::changes::finding;
+use super::*;
+use crate::report::example;
+
+const EPOCHS: usize = 5;
+
+/// A case with `ns` a sample in every round, but for what an epoch adds.
+fn record(label: &str, workload: &str, ns: f64) -> Record {
+    let epoch = |e: usize| 1.0 + 0.002 * (e as f64 - 2.0);
+    let samples_ns: Vec<f64> = (0..EPOCHS).flat_map(|e| [ns * epoch(e); 3]).collect();
+    Record {
+        structure: label.split(':').next().unwrap().into(),
+        label: label.into(),
+        workload: workload.into(),
+        epochs: EPOCHS,
+        runs: samples_ns.len(),
+        trace_ns: Some(ns),
+        samples_ns,
+        noise_floor: None,
+        ..example()
+    }
+}
+
+/// A run in which the machine is `slow` times as slow and the SAH tree takes `sah` times its time.
+fn run(slow: f64, sah: f64) -> Vec<Record> {
+    ["primary", "shadow"]
+        .into_iter()
+        .flat_map(|workload| {
+            [
+                record("median-kd", workload, 9e6 * slow),
+                record("sah-kd", workload, 2e6 * slow * sah),
+                record("obvhs-bvh2", workload, 2e6 * slow),
+                record("obvhs-cwbvh", workload, 1e6 * slow),
+            ]
+        })
+        .collect()
+}
+
+fn change_of<'a>(comparison: &'a Comparison, structure: &str) -> &'a Change {
+    comparison.structures.iter().find(|change| change.structure == structure).unwrap()
+}
+
+#[test]
+fn a_slower_machine_is_no_slower_structure() {
+    let comparison = Comparison::new(&run(1.0, 1.0), &run(1.5, 1.1), Some(5.0));
+    assert_eq!(comparison.references, ["obvhs-bvh2", "obvhs-cwbvh"]);
+    let (median, sah) = (change_of(&comparison, "median-kd"), change_of(&comparison, "sah-kd"));
+    assert!((sah.time.unwrap().estimate - 1.1).abs() < 1e-9 && sah.cells == 2);
+    assert!((median.time.unwrap().estimate - 1.0).abs() < 1e-9);
+    assert_eq!((sah.finding, median.finding), (Finding::Regression, Finding::NoDifference));
+    assert_eq!((comparison.structures.len(), comparison.cells.len()), (2, 4), "references are not judged");
+    assert!(comparison.wrong.is_empty() && comparison.only_old.is_empty() && comparison.only_new.is_empty());
+}
+
+#[test]
+fn without_references_times_count_as_they_are() {
+    let without = |slow: f64| run(slow, 1.0).into_iter().filter(|r| !is_obvhs(&r.structure)).collect::<Vec<_>>();
+    let comparison = Comparison::new(&without(1.0), &without(1.5), None);
+    assert!(comparison.references.is_empty());
+    assert!((change_of(&comparison, "sah-kd").time.unwrap().estimate - 1.5).abs() < 1e-9);
+    assert_eq!(change_of(&comparison, "sah-kd").finding, Finding::Slower);
+    assert!(tables(&comparison)[0].notes[0].contains("as they are"));
+}
+
+#[test]
+fn what_an_interval_says() {
+    let interval = |low, high| Some(Interval { estimate: (low + high) / 2.0, low, high });
+    let limit = Some(libm::log(1.05));
+    let cases = [
+        (interval(1.06, 1.14), limit, Finding::Regression),
+        (interval(1.02, 1.14), limit, Finding::Undecided),
+        (interval(0.90, 1.14), limit, Finding::Undecided),
+        (interval(1.01, 1.04), limit, Finding::Slower),
+        (interval(0.97, 1.04), limit, Finding::NoDifference),
+        (interval(0.90, 0.95), limit, Finding::Faster),
+        (interval(1.06, 1.14), None, Finding::Slower),
+        (interval(0.90, 1.14), None, Finding::NoDifference),
+        (None, limit, Finding::Unknown),
+    ];
+    for (interval, limit, expected) in cases {
+        assert_eq!(finding(interval, limit), expected, "{interval:?}");
+    }
+}
+
+#[test]
+fn answers_that_changed_are_wrong() {
+    let old = run(1.0, 1.0);
+    let with = |change: &dyn Fn(&mut Record)| {
+        let mut new = run(1.0, 1.0);
+        change(&mut new[1]);
+        Comparison::new(&old, &new, None).wrong
+    };
+    assert!(with(&|_| {}).is_empty());
+    let wrong = with(&|r| r.structure_errors = Some(3));
+    assert_eq!(wrong.len(), 1);
+    assert_eq!(
+        (&wrong[0].case[..], &wrong[0].what[..]),
+        ("sah-kd on the primary rays of Cube", "3 of 100 answers are wrong, 0 of 100 were")
+    );
+    assert!(with(&|r| r.hits = 19)[0].what.contains("19 of 500"));
+    assert!(with(&|r| r.answers = Some("0".into()))[0].what.contains("another t"));
+    // Other rays have other answers, and an unknown answer is none.
+    assert!(with(&|r| (r.rays, r.hits, r.answers) = (250, 9, Some("0".into()))).is_empty());
+    assert!(with(&|r| r.answers = None).is_empty());
+}
+
+#[test]
+fn known_errors_are_no_new_ones() {
+    let erring = |i: usize, errors, checked| {
+        let mut run = run(1.0, 1.0);
+        (run[i].structure_errors, run[i].checked_rays) = (Some(errors), Some(checked));
+        run
+    };
+    let ours = |errors, checked| erring(1, errors, checked);
+    assert!(Comparison::new(&ours(2, 100), &ours(5, 240), None).wrong.is_empty(), "more rays, more errors");
+    assert_eq!(Comparison::new(&ours(2, 100), &ours(5, 100), None).wrong.len(), 1);
+    assert!(Comparison::new(&erring(2, 0, 100), &erring(2, 5, 100), None).wrong.is_empty(), "obvhs has defects");
+}
+
+#[test]
+fn runs_that_differ_in_more_than_their_code_are_unlike() {
+    let old = run(1.0, 1.0);
+    let with = |change: &dyn Fn(&mut Record)| {
+        let mut new = run(1.0, 1.0);
+        new.iter_mut().for_each(change);
+        unlike(&old, &new).map_err(|error| error.to_string())
+    };
+    assert_eq!(with(&|_| {}), Ok(()));
+    assert_eq!(with(&|r| r.provenance.commit = "other".into()), Ok(()));
+    let refusals: [(&str, &dyn Fn(&mut Record)); 10] = [
+        ("the processor", &|r| r.provenance.cpu = "Other".into()),
+        ("the instruction set", &|r| r.provenance.simd = "portable".into()),
+        ("threads is 1 in the old and 2 in the new", &|r| r.provenance.threads = 2),
+        ("the profile", &|r| r.provenance.profile = "other".into()),
+        ("for the compiler", &|r| r.provenance.target_features = "sse2".into()),
+        ("the version of obvhs", &|r| r.provenance.obvhs = "0.5.0".into()),
+        ("the hash of the scene Cube", &|r| r.scene_hash = "ff".into()),
+        ("the hash of the primary rays of Cube", &|r| r.workload_hash = "ff".into()),
+        ("the key threshold of median-kd is 0.7 in the old and 0.8 in the new", &|r| {
+            r.config = serde_json::json!({ "leaf": 8, "threshold": 0.8 });
+        }),
+        ("every case", &|r| r.scene = "Sphere".into()),
+    ];
+    for (part, change) in refusals {
+        let refused = with(change).unwrap_err();
+        assert!(refused.contains(part), "{part:?} is not in {refused:?}");
+    }
+}
+
+#[test]
+fn ratios_are_found_again_or_not() {
+    let same = Comparison::new(&run(1.0, 1.0), &run(2.0, 1.0), None).reproduced;
+    // In each of two cells: two structures to three bases, less the tree to itself, and the bases among each other.
+    assert_eq!((same.ratios, same.old_in_new, same.new_in_old), (18, 18, 18));
+    let other = Comparison::new(&run(1.0, 1.0), &run(1.0, 1.5), None).reproduced;
+    assert_eq!((other.ratios, other.old_in_new), (18, 12), "those of the SAH tree are not");
+}
+
+#[test]
+fn cases_of_one_run_alone_are_named() {
+    let (old, mut new) = (run(1.0, 1.0), run(1.0, 1.0));
+    new.remove(1);
+    let comparison = Comparison::new(&old, &new, None);
+    assert_eq!(comparison.only_old, ["sah-kd on the primary rays of Cube"]);
+    assert!(comparison.only_new.is_empty());
+    assert!(tables(&comparison)[0].notes.iter().any(|note| note.contains("old run alone")));
+    new = run(1.0, 1.0);
+    (new[1].samples_ns, new[1].trace_ns) = (vec![], None);
+    let comparison = Comparison::new(&old, &new, Some(5.0));
+    assert_eq!(change_of(&comparison, "sah-kd").finding, Finding::Unknown);
+}
+
+#[test]
+fn the_floor_of_both_runs_widens_the_interval() {
+    let mut old = run(1.0, 1.0);
+    let width = |old: &[Record]| {
+        let time = change_of(&Comparison::new(old, &run(1.0, 1.0), None), "sah-kd").time.unwrap();
+        libm::log(time.high / time.low)
+    };
+    let before = width(&old);
+    old[1].twin_samples_ns = Some(old[1].samples_ns.iter().map(|ns| ns * libm::exp(0.03)).collect());
+    // Half the width is joined with 0.03 / sqrt(2 cells).
+    let expected = 2.0 * libm::hypot(before / 2.0, 0.03 / libm::sqrt(2.0));
+    assert!((width(&old) - expected).abs() < 1e-9);
+}
