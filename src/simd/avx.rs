@@ -146,6 +146,32 @@ static MEMBERS: [[u8; 8]; 256] = {
 impl<const MASKS: bool> Sieve for Avx<MASKS> {
     const FAST: bool = true;
 
+    /// In three rounds: pairs of rows by 32 bits, pairs of pairs by 64, halves by 128.
+    #[inline(always)]
+    fn transpose([a, b, c, d, e, f, g, h]: [Self; 8]) -> [Self; 8] {
+        // SAFETY: see above.
+        unsafe {
+            let pairs = |x: Self, y: Self| (_mm256_unpacklo_ps(x.0, y.0), _mm256_unpackhi_ps(x.0, y.0));
+            let ((ab0, ab1), (cd0, cd1), (ef0, ef1), (gh0, gh1)) = (pairs(a, b), pairs(c, d), pairs(e, f), pairs(g, h));
+            let low = |x, y| _mm256_shuffle_ps::<0b01_00_01_00>(x, y);
+            let high = |x, y| _mm256_shuffle_ps::<0b11_10_11_10>(x, y);
+            let (abcd0, abcd1, abcd2, abcd3) = (low(ab0, cd0), high(ab0, cd0), low(ab1, cd1), high(ab1, cd1));
+            let (efgh0, efgh1, efgh2, efgh3) = (low(ef0, gh0), high(ef0, gh0), low(ef1, gh1), high(ef1, gh1));
+            let near = |x, y| Self(_mm256_permute2f128_ps::<0x20>(x, y));
+            let far = |x, y| Self(_mm256_permute2f128_ps::<0x31>(x, y));
+            [
+                near(abcd0, efgh0),
+                near(abcd1, efgh1),
+                near(abcd2, efgh2),
+                near(abcd3, efgh3),
+                far(abcd0, efgh0),
+                far(abcd1, efgh1),
+                far(abcd2, efgh2),
+                far(abcd3, efgh3),
+            ]
+        }
+    }
+
     #[inline(always)]
     unsafe fn sieve(self, limit: Self, values: &[u32; 8], order: u32, keys: *mut f32, chosen: *mut u32) -> u32 {
         // SAFETY: the caller lets eight floats and eight numbers be written; the table has a row for every mask.

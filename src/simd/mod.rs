@@ -77,6 +77,9 @@ pub trait Sieve: Lanes<8> {
     /// # Safety
     /// Eight numbers may be written, whatever the answer.
     unsafe fn sift(self, limit: Self, values: &[u32; 8], chosen: *mut u32) -> u32;
+
+    /// Lane `j` of the `i`-th becomes lane `i` of the `j`-th.
+    fn transpose(rows: [Self; 8]) -> [Self; 8];
 }
 
 #[cfg(test)]
@@ -137,6 +140,10 @@ mod tests {
             };
             assert_eq!((set, &chosen[..set.count_ones() as usize]), (right, &expected[..set.count_ones() as usize]));
         }
+        let square: [[f32; 8]; 8] = std::array::from_fn(|i| std::array::from_fn(|j| (8 * i + j) as f32));
+        let transposed = L::transpose(square.map(|row| L::load(&row))).map(L::store);
+        assert_eq!(transposed, Portable::transpose(square.map(|row| Portable::load(&row))).map(Portable::store));
+        assert_eq!(transposed, std::array::from_fn(|i| std::array::from_fn(|j| square[j][i])));
     }
 
     struct SameAsPortable;

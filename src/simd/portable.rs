@@ -150,4 +150,9 @@ impl Sieve for Portable<8> {
         }
         set
     }
+
+    #[inline(always)]
+    fn transpose(rows: [Self; 8]) -> [Self; 8] {
+        std::array::from_fn(|i| Self(std::array::from_fn(|j| rows[j].0[i])))
+    }
 }

@@ -1,5 +1,7 @@
 //! Triangles as leaves hold them, and the search through them.
 
+use std::mem::MaybeUninit;
+
 use crate::geometry::{Hit, Mesh, Ray};
 use crate::simd::Lanes;
 use crate::triangle::{Depth, TriangleTest};
@@ -124,14 +126,52 @@ pub(crate) fn search<const ANY: bool, const N: usize, L: Lanes<N>, T: TriangleTe
     tested
 }
 
-/// What is found of a block before it is settled, for each of `R` rays.
-pub(crate) struct Found<const N: usize, const R: usize> {
-    candidates: [u32; R],
-    known: [[f32; N]; R],
-}
+/// What is found of a block before it is settled, for each of `R` rays. Not initialised: most packets end without a candidate
+/// of most of their rays.
+pub(crate) struct Found<const N: usize, const R: usize>([MaybeUninit<(u32, [f32; N])>; R]);
 
 impl<const N: usize, const R: usize> Found<N, R> {
-    pub const NONE: Self = Self { candidates: [0; R], known: [[0.0; N]; R] };
+    /// Nothing yet.
+    #[inline(always)]
+    pub fn new() -> Self {
+        Self([const { MaybeUninit::uninit() }; R])
+    }
+}
+
+/// Rays as a test wants them, prepared when they first come to a leaf: many never do.
+pub(crate) struct Prepared<T: TriangleTest, const R: usize> {
+    rays: [MaybeUninit<T::Ray>; R],
+    ready: u16,
+}
+
+impl<T: TriangleTest, const R: usize> Prepared<T, R> {
+    /// None of them yet.
+    #[inline(always)]
+    pub fn new() -> Self {
+        const { assert!(R <= 16) };
+        Self { rays: [const { MaybeUninit::uninit() }; R], ready: 0 }
+    }
+
+    /// Prepares those of `rays` that are in `which`, as bits.
+    #[inline(always)]
+    pub fn prepare(&mut self, rays: &[Ray; R], which: u16) {
+        let mut missing = which & !self.ready;
+        self.ready |= missing;
+        while missing != 0 {
+            let i = missing.trailing_zeros() as usize % R;
+            missing &= missing - 1;
+            self.rays[i].write(T::prepare(&rays[i]));
+        }
+    }
+
+    /// # Safety
+    /// Ray `i` has been prepared.
+    #[inline(always)]
+    pub unsafe fn get(&self, i: usize) -> &T::Ray {
+        debug_assert!(self.ready >> i & 1 == 1);
+        // SAFETY: it was written when it was prepared.
+        unsafe { self.rays[i].assume_init_ref() }
+    }
 }
 
 /// Searches the blocks of one leaf for the rays `taking_part`, as bits: each finds what it would find alone. With `ANY`, rays that
@@ -139,11 +179,14 @@ impl<const N: usize, const R: usize> Found<N, R> {
 ///
 /// The candidates of all rays come before what is decided about them: whether there are any cannot be predicted, and one wrong
 /// guess costs as much as the tests of two rays.
+///
+/// # Safety
+/// The rays that take part have been prepared.
 #[inline(always)]
-pub(crate) fn search_for_each<const ANY: bool, const N: usize, const R: usize, L: Lanes<N>, T: TriangleTest>(
+pub(crate) unsafe fn search_for_each<const ANY: bool, const N: usize, const R: usize, L: Lanes<N>, T: TriangleTest>(
     blocks: &[LeafBlock<T, N>],
     mut taking_part: u16,
-    rays: &[T::Ray; R],
+    rays: &Prepared<T, R>,
     t_min: &[f32; R],
     nearest: &mut [Nearest<T::Depth>; R],
     found: &mut Found<N, R>,
@@ -153,14 +196,18 @@ pub(crate) fn search_for_each<const ANY: bool, const N: usize, const R: usize, L
         while left != 0 {
             let i = left.trailing_zeros() as usize % R;
             left &= left - 1;
-            let (candidates, known) = T::candidates::<N, L>(&rays[i], &block.triangles, t_min[i], nearest[i].t);
-            (found.candidates[i], found.known[i]) = (candidates, known.store());
+            // SAFETY: as the caller says.
+            let ray = unsafe { rays.get(i) };
+            let (candidates, known) = T::candidates::<N, L>(ray, &block.triangles, t_min[i], nearest[i].t);
+            found.0[i].write((candidates, known.store()));
             met |= u16::from(candidates != 0) << i;
         }
         while met != 0 {
             let i = met.trailing_zeros() as usize % R;
             met &= met - 1;
-            settle(block, &rays[i], found.candidates[i], found.known[i], &mut nearest[i]);
+            // SAFETY: written above for this block, as `met` says.
+            let ((candidates, known), ray) = unsafe { (found.0[i].assume_init(), rays.get(i)) };
+            settle(block, ray, candidates, known, &mut nearest[i]);
             if ANY && nearest[i].found() {
                 taking_part &= !(1 << i);
             }

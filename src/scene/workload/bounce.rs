@@ -37,7 +37,9 @@ pub fn to_lights<'a>(scene: &'a Scene, landed: &'a Landed) -> impl Iterator<Item
 }
 
 pub fn shadow(scene: &Scene, rays: &[Ray], accel: &dyn DynAccel) -> Vec<Ray> {
-    land(scene, rays, accel).iter().flat_map(|landed| to_lights(scene, landed)).collect()
+    let landed = land(scene, rays, accel);
+    let shadow = |l: &Landed, light| scene.shadow_ray(l.hit.prim, &l.surface, light);
+    scene.lights.iter().flat_map(|light| landed.iter().map(move |l| shadow(l, light))).collect()
 }
 
 pub fn mirror(scene: &Scene, rays: &[Ray], accel: &dyn DynAccel) -> Vec<Ray> {

@@ -6,6 +6,7 @@ mod picture;
 mod sampler;
 #[cfg(test)]
 mod tests;
+mod tiles;
 
 use std::fmt::Write;
 use std::str::FromStr;
@@ -16,15 +17,16 @@ use sha2::{Digest, Sha256};
 use super::{Scene, View};
 use crate::accel::{DynAccel, Query};
 use crate::geometry::Ray;
+use tiles::in_tiles;
 
 /// Where the rays of a workload come from and go to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum WorkloadKind {
-    /// From the eye through the middle of each pixel.
+    /// From the eye through the middle of each pixel, in tiles of four by four pixels; so are all that follow from these.
     Primary,
     /// From the eye through the top left corner of each pixel: on the tidy meshes of tests these meet edges and vertices.
     Corners,
-    /// From each primary hit to each light, any hit.
+    /// From each primary hit to each light, one light after the other, any hit.
     Shadow,
     /// From each primary hit, mirrored about the shading normal, whatever the material.
     Mirror,
@@ -140,18 +142,19 @@ impl Workload {
     /// A workload is empty where the scene has no such rays: no shadow rays without lights, none from hits when nothing is
     /// seen, none at all about an empty mesh.
     pub fn new(scene: &Scene, kind: WorkloadKind, sampling: &Sampling, accel: &dyn DynAccel) -> Self {
-        let primary = |offset| scene.primary_rays(sampling.size, offset, 0..sampling.pixels());
+        let pixels = |offset| scene.primary_rays(sampling.size, offset, 0..sampling.pixels());
+        let primary = || in_tiles(&pixels(View::CENTRE), sampling.size);
         let rays = match kind {
-            WorkloadKind::Primary => primary(View::CENTRE),
-            WorkloadKind::Corners => primary(Vec2::ZERO),
-            WorkloadKind::Shadow => bounce::shadow(scene, &primary(View::CENTRE), accel),
-            WorkloadKind::Mirror => bounce::mirror(scene, &primary(View::CENTRE), accel),
-            WorkloadKind::Diffuse => bounce::diffuse(scene, &primary(View::CENTRE), accel, sampling.seed),
-            WorkloadKind::Ambient => bounce::ambient(scene, &primary(View::CENTRE), accel, sampling.seed),
+            WorkloadKind::Primary => primary(),
+            WorkloadKind::Corners => in_tiles(&pixels(Vec2::ZERO), sampling.size),
+            WorkloadKind::Shadow => bounce::shadow(scene, &primary(), accel),
+            WorkloadKind::Mirror => bounce::mirror(scene, &primary(), accel),
+            WorkloadKind::Diffuse => bounce::diffuse(scene, &primary(), accel, sampling.seed),
+            WorkloadKind::Ambient => bounce::ambient(scene, &primary(), accel, sampling.seed),
             WorkloadKind::Random => lines::random(scene, sampling.pixels(), sampling.seed),
             WorkloadKind::Axis => lines::axis(scene, sampling.pixels()),
-            WorkloadKind::Image => picture::closest(scene, &primary(View::CENTRE), accel),
-            WorkloadKind::ImageShadow => picture::shadow(scene, &primary(View::CENTRE), accel),
+            WorkloadKind::Image => picture::closest(scene, &pixels(View::CENTRE), accel),
+            WorkloadKind::ImageShadow => picture::shadow(scene, &pixels(View::CENTRE), accel),
         };
         Self { name: kind.name().into(), query: kind.query(), rays: spread(rays, sampling.limit) }
     }

@@ -22,28 +22,30 @@ impl<const ANY: bool, T: TriangleTest, A, F: Fn(Option<Hit>) -> A> Kernel for Ba
     fn run<L: Sieve>(self) {
         let Self { tree, rays, answers, form } = self;
         for (rays, answers) in rays.chunks(RAYS).zip(answers.chunks_mut(RAYS)) {
-            match together::<ANY, L, T>(tree, rays) {
-                Some(hits) => answers.iter_mut().zip(hits).for_each(|(answer, hit)| *answer = form(hit)),
-                None => {
-                    for (answer, ray) in answers.iter_mut().zip(rays) {
-                        *answer = form(silent::<ANY, L, _>(tree, ray));
-                    }
+            if !together::<ANY, L, T, A>(tree, rays, answers, &form) {
+                for (answer, ray) in answers.iter_mut().zip(rays) {
+                    *answer = form(silent::<ANY, L, _>(tree, ray));
                 }
             }
         }
     }
 }
 
-/// The hits of a packet, where the tree, the level and the rays are for it.
+/// Answers the rays of a packet; false where the tree, the level or the rays are not for it.
 #[inline(always)]
-fn together<const ANY: bool, L: Sieve, T: TriangleTest>(
+fn together<const ANY: bool, L: Sieve, T: TriangleTest, A>(
     tree: &WideTree<T>,
     rays: &[Ray],
-) -> Option<[Option<Hit>; RAYS]> {
+    answers: &mut [A],
+    form: &impl Fn(Option<Hit>) -> A,
+) -> bool {
     if !L::FAST || !tree.packets {
-        return None;
+        return false;
     }
-    tree.packet::<ANY, L>(rays.try_into().ok()?)
+    match (rays.try_into(), answers.try_into()) {
+        (Ok(rays), Ok(answers)) => tree.packet::<ANY, L, A>(rays, answers, form),
+        _ => false,
+    }
 }
 
 /// Answers `rays` in order, on the level in use.

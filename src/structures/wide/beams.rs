@@ -3,7 +3,7 @@
 use super::beam::{Beam, ENLARGED};
 use super::node::{Node, WIDTH};
 use crate::geometry::{Aabb, Ray};
-use crate::simd::{Lanes, each};
+use crate::simd::{Sieve, each};
 use crate::structures::line::after;
 
 /// Rays of a packet.
@@ -23,35 +23,32 @@ pub(super) struct Beams<L> {
     pub octant: usize,
 }
 
-impl<L: Lanes<WIDTH>> Beams<L> {
+impl<L: Sieve> Beams<L> {
     /// Without their ends: rays of one octant whose crossings with planes in `bounds` all have a finite answer; nothing if they are not that.
     #[inline(always)]
     pub fn new(rays: &[Ray; RAYS], bounds: &Aabb) -> Option<Self> {
-        let octant = |ray: &Ray| {
-            let d = ray.direction;
-            d.x.to_bits() >> 31 | d.y.to_bits() >> 31 << 1 | d.z.to_bits() >> 31 << 2
-        };
-        let first = octant(&rays[0]);
-        if rays.iter().any(|ray| octant(ray) != first) {
-            return None;
-        }
-
-        let mut rows = [[[0.0; WIDTH]; HALVES]; 8];
-        for (i, ray) in rays.iter().enumerate() {
-            let (half, lane) = (i / WIDTH, i % WIDTH);
-            for axis in 0..3 {
-                rows[axis][half][lane] = ray.origin[axis];
-                rows[3 + axis][half][lane] = ray.direction[axis];
+        let rows = each(&[0, 1], |half| {
+            let row = |i: usize| {
+                let Ray { origin: o, t_min, direction: d, t_max } = rays[WIDTH * half + i];
+                L::load(&[o.x, o.y, o.z, t_min, d.x, d.y, d.z, t_max])
+            };
+            L::transpose([row(0), row(1), row(2), row(3), row(4), row(5), row(6), row(7)])
+        });
+        let row = |i: usize| each(&rows, |half| half[i]);
+        let (origin, direction) = ([row(0), row(1), row(2)], [row(4), row(5), row(6)]);
+        let mut octant = 0;
+        for (axis, [low, high]) in direction.iter().enumerate() {
+            // Zeros of either sign fail below, where their inverses are asked for.
+            match low.lt(L::zero()) | high.lt(L::zero()) << WIDTH {
+                0 => {}
+                0xffff => octant |= 1 << axis,
+                _ => return None,
             }
-            rows[6][half][lane] = ray.t_min;
-            rows[7][half][lane] = ray.t_max;
         }
-        let row = |i: usize| each(&rows[i], L::load);
-        let origin = [row(0), row(1), row(2)];
         let one = L::splat(1.0);
-        let inverse = each(&[row(3), row(4), row(5)], |halves| each(halves, |d| one.div(*d)));
+        let inverse = each(&direction, |halves| each(halves, |d| one.div(*d)));
         let enlarged = each(&inverse, |halves| each(halves, |i| i.mul(L::splat(ENLARGED))));
-        let (t_min, t_max) = (each(&row(6), |t| t.max(L::zero())), row(7));
+        let (t_min, t_max) = (each(&row(3), |t| t.max(L::zero())), row(7));
 
         // What `Ray::is_valid` and `inverses` ask, and that no inverse, enlarged or not, is infinite or NaN.
         let abs = |x: L| x.flip_sign(x);
@@ -63,12 +60,12 @@ impl<L: Lanes<WIDTH>> Beams<L> {
                 good &= reach.le(L::splat(f32::MAX));
                 good &= L::splat(f32::MIN_POSITIVE).le(inverse) & enlarged.le(L::splat(f32::MAX));
             }
-            good &= row(6)[half].le(L::splat(f32::INFINITY)) & t_min[half].lt(t_max[half]);
+            good &= row(3)[half].le(L::splat(f32::INFINITY)) & t_min[half].lt(t_max[half]);
         }
         if good & 0xff != 0xff {
             return None;
         }
-        Some(Self { origin, inverse, enlarged, t_min, ends: [[0.0; WIDTH]; HALVES], octant: first as usize })
+        Some(Self { origin, inverse, enlarged, t_min, ends: [[0.0; WIDTH]; HALVES], octant })
     }
 
     /// The rays that meet the box of `lane` before their ends, as bits.

@@ -42,7 +42,7 @@ pub enum Partition {
 impl WideConfig {
     /// The values measured for a partition.
     pub const fn new(partition: Partition) -> Self {
-        Self { partition, quality: Quality::Balanced, block_cost: 1.0, duplication: 4.0, packets: false }
+        Self { partition, quality: Quality::Balanced, block_cost: 1.0, duplication: 2.4, packets: false }
     }
 
     pub(super) fn check(&self) -> Result<(), BuildError> {

@@ -14,7 +14,7 @@ use super::node::{Child, WIDTH};
 use super::stack::SIZE;
 use crate::geometry::{Hit, Ray};
 use crate::simd::{Sieve, each};
-use crate::structures::leaf::{Found, LeafBlock, Nearest, search_for_each};
+use crate::structures::leaf::{Found, LeafBlock, Nearest, Prepared, search_for_each};
 use crate::triangle::TriangleTest;
 
 /// At most this many rays that are left go on alone.
@@ -33,8 +33,9 @@ struct Entry {
 }
 
 /// What each ray of a packet has for itself.
-struct Travellers<T: TriangleTest> {
-    prepared: [T::Ray; RAYS],
+struct Travellers<'a, T: TriangleTest> {
+    rays: &'a [Ray; RAYS],
+    prepared: Prepared<T, RAYS>,
     nearest: [Nearest<T::Depth>; RAYS],
     t_min: [f32; RAYS],
     found: Found<WIDTH, RAYS>,
@@ -42,21 +43,17 @@ struct Travellers<T: TriangleTest> {
     looking: u16,
 }
 
-impl<T: TriangleTest> Travellers<T> {
+impl<'a, T: TriangleTest> Travellers<'a, T> {
     #[inline(always)]
-    fn new(rays: &[Ray; RAYS], t_min: [f32; RAYS]) -> Self {
-        let nearest = |ray: &Ray| Nearest::until(T::last(ray.t_max));
-        let mut new = Self {
-            prepared: [T::prepare(&rays[0]); RAYS],
-            nearest: [nearest(&rays[0]); RAYS],
+    fn new(rays: &'a [Ray; RAYS], t_min: [f32; RAYS]) -> Self {
+        Self {
+            rays,
+            prepared: Prepared::new(),
+            nearest: each(rays, |ray| Nearest::until(T::last(ray.t_max))),
             t_min,
-            found: Found::NONE,
+            found: Found::new(),
             looking: u16::MAX,
-        };
-        for (i, ray) in rays.iter().enumerate().skip(1) {
-            (new.prepared[i], new.nearest[i]) = (T::prepare(ray), nearest(ray));
         }
-        new
     }
 
     /// Searches a leaf for the rays `taking_part`.
@@ -67,8 +64,12 @@ impl<T: TriangleTest> Travellers<T> {
         mut taking_part: u16,
         beams: &mut Beams<L>,
     ) {
-        let Self { prepared, nearest, t_min, found, .. } = self;
-        search_for_each::<ANY, WIDTH, RAYS, L, T>(blocks, taking_part, prepared, t_min, nearest, found);
+        let Self { rays, prepared, nearest, t_min, found, .. } = self;
+        prepared.prepare(rays, taking_part);
+        // SAFETY: prepared.
+        unsafe {
+            search_for_each::<ANY, WIDTH, RAYS, L, T>(blocks, taking_part, prepared, t_min, nearest, found);
+        }
         while taking_part != 0 {
             let i = taking_part.trailing_zeros() as usize % RAYS;
             taking_part &= taking_part - 1;
@@ -81,10 +82,15 @@ impl<T: TriangleTest> Travellers<T> {
 }
 
 impl<T: TriangleTest> WideTree<T> {
-    /// The hits of sixteen rays; nothing if they cannot travel together.
+    /// Answers sixteen rays; false if they cannot travel together.
     #[inline(always)]
-    pub(super) fn packet<const ANY: bool, L: Sieve>(&self, rays: &[Ray; RAYS]) -> Option<[Option<Hit>; RAYS]> {
-        let mut beams = Beams::<L>::new(rays, &self.bounds)?;
+    pub(super) fn packet<const ANY: bool, L: Sieve, A>(
+        &self,
+        rays: &[Ray; RAYS],
+        answers: &mut [A; RAYS],
+        form: &impl Fn(Option<Hit>) -> A,
+    ) -> bool {
+        let Some(mut beams) = Beams::<L>::new(rays, &self.bounds) else { return false };
         let frustum = Frustum::new(&beams);
         let mut travellers = Travellers::<T>::new(rays, beams.t_min());
         for (i, nearest) in travellers.nearest.iter().enumerate() {
@@ -122,7 +128,10 @@ impl<T: TriangleTest> WideTree<T> {
             }
             loop {
                 if len == 0 || travellers.looking == 0 {
-                    return Some(each(&travellers.nearest, Nearest::hit));
+                    for (answer, nearest) in answers.iter_mut().zip(&travellers.nearest) {
+                        *answer = form(nearest.hit());
+                    }
+                    return true;
                 }
                 len -= 1;
                 // SAFETY: what is below the length was written, and names a node.
@@ -151,10 +160,12 @@ impl<T: TriangleTest> WideTree<T> {
         beams: &mut Beams<L>,
         travellers: &mut Travellers<T>,
     ) {
+        travellers.prepared.prepare(travellers.rays, taking_part);
         while taking_part != 0 {
             let i = taking_part.trailing_zeros() as usize % RAYS;
             taking_part &= taking_part - 1;
-            let (prepared, nearest) = (&travellers.prepared[i], &mut travellers.nearest[i]);
+            // SAFETY: prepared.
+            let (prepared, nearest) = unsafe { (travellers.prepared.get(i), &mut travellers.nearest[i]) };
             let t_min = travellers.t_min[i];
             self.descend::<ANY, L, ()>(child, &beams.single(i), prepared, t_min, nearest, &mut ());
             if ANY && nearest.found() {
