@@ -54,6 +54,10 @@ fn counts(dir: &Path) -> BTreeMap<String, Value> {
             let samples = times.remove("ns").unwrap();
             times.insert("samples".into(), samples.as_array().unwrap().len().into());
         }
+        // How many rays a second of brute force checks is the clock's as well.
+        for counted in line["case"]["epoch"]["counts"].as_array_mut().into_iter().flatten() {
+            assert!(counted["checked_rays"].take().as_u64().unwrap() > 0);
+        }
         let key = line["key"].as_str().unwrap().to_owned();
         assert!(cases.insert(key.clone(), line).is_none(), "{key} is there twice");
     }
