@@ -81,11 +81,16 @@ fn rays(inputs: &Inputs) -> Prediction {
     } else {
         let total: u64 =
             inputs.counted.iter().filter(|case| case.scene == "Cornellbox").map(|case| case.report_rays).sum();
-        format!(
-            "{}: of {} rays that is a few that pass the edge of the mirror on the other side, in a scene whose back wall the report does not describe.",
-            listed(&off),
-            count(total)
-        )
+        let cornell = if off.iter().any(|text| text.starts_with("Cornellbox")) {
+            format!(
+                " The report does not tell that the back wall of Cornellbox is a mirror; with a mirror there, so few of {} rays are \
+                 unexplained.",
+                count(total)
+            )
+        } else {
+            String::new()
+        };
+        format!("{}.{cornell}", listed(&off))
     };
     let complete = inputs.counted.len() == MAIN.len();
     prediction(
