@@ -28,13 +28,18 @@ pub fn regress(rows: &[[f64; 3]]) -> Option<Costs> {
     let mut costs = constrained(&shares, &vec![1.0; rows.len()])?;
     for _ in 0..ROUNDS {
         let ratios: Vec<f64> = shares.iter().map(|share| predicted(share, &costs)).collect();
-        costs = constrained(&shares, &ratios)?;
+        let next = constrained(&shares, &ratios)?;
+        let settled = next.iter().zip(&costs).all(|(next, last)| (next - last).abs() <= 1e-6 * next);
+        costs = next;
+        if settled {
+            break;
+        }
     }
     let [ray, step, test] = costs;
     Some(Costs { ray, step, test })
 }
 
-/// Repetitions of the least squares; what the last one changes is far below what any interval says.
+/// Repetitions of the least squares, at most: they end where costs change by less than a millionth.
 const ROUNDS: usize = 30;
 
 fn predicted(share: &[f64; 3], costs: &[f64; 3]) -> f64 {
@@ -77,7 +82,10 @@ fn solve(shares: &[[f64; 3]], ratios: &[f64], columns: &[usize]) -> Option<Vec<f
     let n = columns.len();
     let mut rows = vec![vec![0.0; n + 1]; n];
     for (share, ratio) in shares.iter().zip(ratios) {
-        let unit: Vec<f64> = columns.iter().zip(&lengths).map(|(&column, length)| share[column] / length).collect();
+        let mut unit = [0.0; 3];
+        for ((unit, &column), length) in unit.iter_mut().zip(columns).zip(&lengths) {
+            *unit = share[column] / length;
+        }
         for i in 0..n {
             for j in 0..n {
                 rows[i][j] += unit[i] * unit[j] / ratio;
