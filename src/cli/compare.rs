@@ -39,7 +39,7 @@ pub struct Args {
     #[arg(long, value_name = "N", default_value_t = 1)]
     warmup: u16,
     /// Rays of a workload, at most; or a file of rays to replay, in place of workloads
-    #[arg(long, value_name = "N|F.rays", default_value = "36864")]
+    #[arg(long, value_name = "N|F.rays", default_value = "16384")]
     rays: RaySource,
     /// Seconds that a scene may take: slow cases are timed on fewer rays to keep within them
     #[arg(long, value_name = "SECONDS", default_value_t = 12, value_parser = clap::value_parser!(u32).range(1..=86400))]

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Threads, machine};
+use super::{ThreadClock, Threads, machine};
 use crate::simd::Level;
 
 /// What must be known to judge a measurement, and to repeat it.
@@ -35,6 +35,9 @@ pub struct Provenance {
     /// Version of obvhs, whose structures are the references of comparisons between runs.
     #[serde(default = "unknown")]
     pub obvhs: String,
+    /// What samples are measured by: `cpu`, the time that the thread had a processor for, or `elapsed`.
+    #[serde(default = "elapsed")]
+    pub clock: String,
     /// The core of each thread; nothing where threads were not bound to cores.
     pub pinned: Option<Vec<usize>>,
     /// Control word of floating-point arithmetic, where the processor has one.
@@ -49,6 +52,10 @@ pub struct Provenance {
     /// What spoilt the run, one sentence each.
     #[serde(default)]
     pub warnings: Vec<String>,
+}
+
+fn elapsed() -> String {
+    "elapsed".into()
 }
 
 fn unknown() -> String {
@@ -73,6 +80,7 @@ impl Provenance {
             threads,
             os: std::env::consts::OS.into(),
             obvhs: env!("SAHARA_OBVHS").into(),
+            clock: elapsed(),
             pinned: None,
             mxcsr: machine::mxcsr(),
             denormals: machine::denormals(machine::mxcsr()).into(),
@@ -86,7 +94,8 @@ impl Provenance {
     pub fn of(threads: &Threads) -> Self {
         let pinned = threads.cores().map(<[usize]>::to_vec);
         let core = pinned.as_ref().map_or(0, |cores| cores[0]);
-        Self { pinned, governor: machine::governor(core), ..Self::capture(threads.count()) }
+        let clock = if ThreadClock::of(threads).is_some() { "cpu".into() } else { elapsed() };
+        Self { pinned, clock, governor: machine::governor(core), ..Self::capture(threads.count()) }
     }
 
     /// One line for the foot of a table.
@@ -95,7 +104,7 @@ impl Provenance {
         let pinned = match self.pinned.as_deref() {
             Some([core]) => format!(", pinned to core {core}"),
             Some(_) => ", each pinned to a core".into(),
-            None => String::new(),
+            None => ", not pinned".into(),
         };
         let Self { cpu, simd, rustc, version, commit, profile, .. } = self;
         format!("{cpu}, {simd}, {threads}{pinned}; sahara {version} ({commit}, {profile}), {rustc}")

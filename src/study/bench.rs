@@ -22,7 +22,7 @@ pub struct Bench<'a> {
 }
 
 impl<'a> Bench<'a> {
-    /// Prepares every scene; `begin` is told its name.
+    /// Prepares every scene; `progress` is told its name and what is done.
     ///
     /// # Errors
     /// If the structure that tells where secondary rays start cannot be built.

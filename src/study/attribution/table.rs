@@ -3,17 +3,17 @@
 use super::Attribution;
 use super::design::Factor;
 use super::result::{CellResult, Split};
-use crate::measure::Interval;
 use crate::report::number::{count, figures};
 use crate::report::{Cell, Table, Tone};
+use crate::study::interval_text;
 
 /// One row and one sentence for each scene: the answer.
 pub fn headlines(results: &[Attribution]) -> Table {
     let rows = results.iter().map(|r| {
-        let parts = r.time.parts.iter().map(|part| Cell::from(interval(part.times)));
-        let mut row = vec![r.scene.as_str().into(), interval(r.time.whole).into()];
+        let parts = r.time.parts.iter().map(|part| Cell::from(interval_text(part.times)));
+        let mut row = vec![r.scene.as_str().into(), interval_text(r.time.whole).into()];
         row.extend(parts);
-        row.push(interval(r.plane_alone).into());
+        row.push(interval_text(r.plane_alone).into());
         row
     });
     let mut columns = vec!["scene".to_owned(), "whole".into()];
@@ -61,7 +61,7 @@ fn cells(r: &Attribution) -> Table {
         vec![
             format!("{}, {}, {}", cell.plane, cell.stop, cell.traversal).into(),
             Cell::from(format!("{mark}{}", figures(cell.ns_per_ray))).with(tone),
-            Cell::from(interval(cell.speedup)),
+            Cell::from(interval_text(cell.speedup)),
             figures(cell.tests_per_ray).into(),
             figures(cell.steps_per_ray).into(),
             figures(cell.duplication).into(),
@@ -87,7 +87,7 @@ fn levels(r: &Attribution) -> Table {
     let rows = r.main_effects.iter().map(|effect| {
         vec![
             format!("{}: {}", effect.factor, effect.level).into(),
-            interval(effect.time).into(),
+            interval_text(effect.time).into(),
             figures(effect.tests).into(),
             figures(effect.steps).into(),
         ]
@@ -117,9 +117,9 @@ fn terms(r: &Attribution) -> Table {
 fn splits(r: &Attribution) -> Table {
     let row = |name: &str, split: &Split| {
         let parts = split.parts.iter().map(|part| {
-            Cell::from(format!("{} ({} to {})", interval(part.times), figures(part.least), figures(part.most)))
+            Cell::from(format!("{} ({} to {})", interval_text(part.times), figures(part.least), figures(part.most)))
         });
-        let mut row: Vec<Cell> = vec![name.into(), interval(split.whole).into()];
+        let mut row: Vec<Cell> = vec![name.into(), interval_text(split.whole).into()];
         row.extend(parts);
         row
     };
@@ -135,12 +135,4 @@ fn splits(r: &Attribution) -> Table {
                 .into(),
         ],
     }
-}
-
-/// `12.3 [11.9, 12.8]`; what does not vary has no interval.
-pub(in crate::study) fn interval(x: Interval) -> String {
-    if x.low == x.high {
-        return figures(x.estimate);
-    }
-    format!("{} [{}, {}]", figures(x.estimate), figures(x.low), figures(x.high))
 }

@@ -16,7 +16,7 @@ pub fn twins(records: &[Record]) -> NoiseFloor {
 }
 
 /// The geometric mean of how many times faster the first of each pair is than the second, with the
-/// [interval](crate::measure::replication) that holds the figure of another run; `floor` is the logarithm of the A/A floor. Nothing where one
+/// [interval](mod@crate::measure::replication) that holds the figure of another run; `floor` is the logarithm of the A/A floor. Nothing where one
 /// of them has no time, or their samples are not of the same rounds.
 pub fn speed<'a>(pairs: impl IntoIterator<Item = (&'a Record, &'a Record)>, floor: f64) -> Option<Interval> {
     let cells: Option<Vec<_>> = pairs.into_iter().map(|(own, other)| own.speed_against(other)).collect();

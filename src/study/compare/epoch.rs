@@ -5,7 +5,9 @@ use super::prepare::{Prepared, Subject, prepare, twin_of};
 use crate::accel::{DynAccel, Query};
 use crate::geometry::Ray;
 use crate::measure::advice::Conditions;
-use crate::measure::{Clock, Instructions, Pass, Plan, RandomOrder, Samples, Timed, machine, spread, take, take_again};
+use crate::measure::{
+    Clock, Instructions, Pass, Plan, RandomOrder, Samples, ThreadClock, Timed, machine, spread, take, take_again,
+};
 use crate::report::CaseCounts;
 use crate::scene::{Scene, Workload};
 use crate::study::built::Built;
@@ -116,7 +118,6 @@ impl<'a> Trial<'a> {
         let _pin = self.settings.threads.pin();
         let (built, _placement) = self.build(progress);
         self.forget_refused();
-        let built: Vec<Built> = built.into_iter().flatten().collect();
 
         let (mut passes, panicked): (Vec<Box<dyn Timed>>, Vec<_>) = self
             .cases
@@ -138,11 +139,15 @@ impl<'a> Trial<'a> {
         let total = self.cases.len() * self.settings.rounds() * self.settings.epochs.max(self.epochs + 1);
         let before = self.cases.len() * self.settings.rounds() * self.epochs;
         let mut told = |taken| progress(Stage::Trace(before + taken, total));
-        let watch = Watch::start(self.clock);
+        let core = self.settings.threads.cores().map_or(0, |cores| cores[0]);
+        let watch = Watch::start(self.clock, core);
+        // What others take of the core is not time of the pass.
+        let own = ThreadClock::of(&self.settings.threads);
+        let clock = own.as_ref().map_or(self.clock, |clock| clock as &dyn Clock);
         let taken = if self.epochs == 0 {
-            take(self.clock, &mut passes, &plan, &mut told).map(|samples| self.samples = samples)
+            take(clock, &mut passes, &plan, &mut told).map(|samples| self.samples = samples)
         } else {
-            take_again(self.clock, &mut passes, &plan, &mut self.samples, &mut told)
+            take_again(clock, &mut passes, &plan, &mut self.samples, &mut told)
         };
         taken.map_err(|cause| StudyError::Unsteady {
             structure: self.subjects[self.cases[cause.case].subject].choice.label.clone(),
@@ -167,9 +172,9 @@ impl<'a> Trial<'a> {
         Ok(())
     }
 
-    /// Every structure, built in an order and between blocks of memory that are this epoch's own; nothing for one that is refused. The
-    /// blocks are to be kept as long as the structures.
-    fn build(&mut self, progress: &mut dyn FnMut(Stage)) -> (Vec<Option<Built>>, Vec<Vec<u8>>) {
+    /// Every structure that is not refused, built in an order and between blocks of memory that are this epoch's own. The blocks are to
+    /// be kept as long as the structures.
+    fn build(&mut self, progress: &mut dyn FnMut(Stage)) -> (Vec<Built>, Vec<Vec<u8>>) {
         let mut random = RandomOrder::new(self.settings.seed.wrapping_add(self.epochs as u64));
         let mut built: Vec<Option<Built>> = self.subjects.iter().map(|_| None).collect();
         let mut blocks = vec![];
@@ -187,9 +192,9 @@ impl<'a> Trial<'a> {
                 Err(error) => refuse(&mut self.refused, subject, &error.to_string()),
             }
         }
-        // Those that are refused leave no gap.
-        built.retain(Option::is_some);
-        (built, blocks)
+        // One of two twins is refused with the other.
+        let lost = |built: &Built| self.refused.iter().any(|refused| refused.label == built.choice.label);
+        (built.into_iter().flatten().filter(|built| !lost(built)).collect(), blocks)
     }
 
     /// Takes those that were refused after they had been admitted, and their cases and samples, out of the run.
@@ -289,11 +294,14 @@ fn count(accel: &dyn DynAccel, rays: &[Ray], query: Query) -> Tally {
 struct Watch {
     start_ns: u64,
     interruptions: Option<u64>,
+    core: usize,
+    clock_rate: Option<f64>,
 }
 
 impl Watch {
-    fn start(clock: &dyn Clock) -> Self {
-        Self { start_ns: clock.now_ns(), interruptions: machine::interruptions() }
+    fn start(clock: &dyn Clock, core: usize) -> Self {
+        let (interruptions, clock_rate) = (machine::interruptions(), machine::clock_rate(core));
+        Self { start_ns: clock.now_ns(), interruptions, core, clock_rate }
     }
 
     /// Adds what happened since to `conditions`.
@@ -301,6 +309,11 @@ impl Watch {
         conditions.seconds += (clock.now_ns() - self.start_ns) as f64 * 1e-9;
         if let (Some(before), Some(after)) = (self.interruptions, machine::interruptions()) {
             *conditions.interruptions.get_or_insert(0) += after.saturating_sub(before);
+        }
+        // From the first epoch to the last.
+        if let (Some(before), Some(after)) = (self.clock_rate, machine::clock_rate(self.core)) {
+            let first = conditions.clock_rates.map_or(before, |(first, _)| first);
+            conditions.clock_rates = Some((first, after));
         }
     }
 }

@@ -55,26 +55,27 @@ fn structures(comparison: &Comparison) -> Table {
 }
 
 fn cells(comparison: &Comparison) -> Table {
-    let mut columns: Vec<String> = vec![];
+    let mut places: Vec<String> = vec![];
     for cell in &comparison.cells {
-        if !columns.contains(&place(cell)) {
-            columns.push(place(cell));
+        if !places.contains(&place(cell)) {
+            places.push(place(cell));
         }
     }
-    let rows = comparison.structures.iter().map(|change| {
-        let mut row: Vec<Cell> = vec![change.structure.as_str().into()];
-        row.extend(columns.iter().map(|column| {
-            let own = |cell: &&Change| cell.structure == change.structure && place(cell) == *column;
+    let mut columns = vec!["scene, rays".to_owned()];
+    columns.extend(comparison.structures.iter().map(|change| change.structure.clone()));
+    let rows = places.iter().map(|row| {
+        let of = |change: &Change| {
+            let own = |cell: &&Change| cell.structure == change.structure && place(cell) == *row;
             comparison.cells.iter().find(own).map_or(Cell::blank(), |cell| {
                 let tone = if cell.finding == Finding::Regression { Tone::Wrong } else { Tone::Plain };
                 Cell::from(percent(cell)).with(tone)
             })
-        }));
-        row
+        };
+        let mut cells: Vec<Cell> = vec![row.as_str().into()];
+        cells.extend(comparison.structures.iter().map(of));
+        cells
     });
     let rows = rows.collect();
-    let mut all = vec!["structure".to_owned()];
-    all.extend(columns);
     let Reproduced { ratios, old_in_new, new_in_old } = comparison.reproduced;
     let share = |n: usize| format!("{n} of {ratios} ({}%)", figures(100.0 * n as f64 / ratios as f64));
     let reproduced = (ratios > 0).then(|| {
@@ -85,7 +86,7 @@ fn cells(comparison: &Comparison) -> Table {
             share(new_in_old)
         )
     });
-    Table { title: "Change of time, cell by cell".into(), columns: all, rows, notes: reproduced.into_iter().collect() }
+    Table { title: "Change of time, cell by cell".into(), columns, rows, notes: reproduced.into_iter().collect() }
 }
 
 fn place(cell: &Change) -> String {

@@ -106,13 +106,15 @@ fn answers_that_changed_are_wrong() {
 
 #[test]
 fn known_errors_are_no_new_ones() {
-    let erring = |errors, checked| {
+    let erring = |i: usize, errors, checked| {
         let mut run = run(1.0, 1.0);
-        (run[2].structure_errors, run[2].checked_rays) = (Some(errors), Some(checked));
+        (run[i].structure_errors, run[i].checked_rays) = (Some(errors), Some(checked));
         run
     };
-    assert!(Comparison::new(&erring(2, 100), &erring(5, 240), None).wrong.is_empty(), "more rays, more errors");
-    assert_eq!(Comparison::new(&erring(2, 100), &erring(5, 100), None).wrong.len(), 1);
+    let ours = |errors, checked| erring(1, errors, checked);
+    assert!(Comparison::new(&ours(2, 100), &ours(5, 240), None).wrong.is_empty(), "more rays, more errors");
+    assert_eq!(Comparison::new(&ours(2, 100), &ours(5, 100), None).wrong.len(), 1);
+    assert!(Comparison::new(&erring(2, 0, 100), &erring(2, 5, 100), None).wrong.is_empty(), "obvhs has defects");
 }
 
 #[test]

@@ -3,8 +3,8 @@
 //! The report times all rays of a picture, construction left out, on a machine of its own: seconds can be compared with its
 //! seconds only in their ratios. `t'` is seconds / (rays x triangles).
 
-mod original;
-mod picture;
+pub(in crate::study) mod original;
+pub(in crate::study) mod picture;
 mod tables;
 mod timing;
 

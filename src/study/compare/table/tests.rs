@@ -1,0 +1,124 @@
+use super::*;
+use crate::report::example_record;
+
+fn record(scene: &str, label: &str, workload: &str, mrays_per_s: Option<f64>) -> Record {
+    let structure = label.split(':').next().unwrap().to_owned();
+    let errors = if mrays_per_s.is_none() { 3 } else { 0 };
+    Record {
+        scene: scene.into(),
+        label: label.into(),
+        structure,
+        workload: workload.into(),
+        mrays_per_s,
+        trace_ns: mrays_per_s.map(|speed| 5e5 / speed),
+        samples_ns: mrays_per_s.map_or(vec![], |speed| vec![5e5 / speed; 10]),
+        epochs: 5,
+        noise_floor: None,
+        structure_errors: Some(errors),
+        ..example_record()
+    }
+}
+
+fn cell<'a>(table: &'a Table, row: &str, column: &str) -> &'a str {
+    let column = table.columns.iter().position(|c| c == column).unwrap_or_else(|| panic!("no column {column}"));
+    let row = table.rows.iter().find(|r| r[0].text == row).unwrap_or_else(|| panic!("no row {row}"));
+    &row[column].text
+}
+
+fn records() -> Vec<Record> {
+    vec![
+        record("A", "median-kd", "primary", Some(1.0)),
+        record("A", "median-kd", "random", Some(2.0)),
+        record("A", "sah-kd", "primary", Some(8.0)),
+        record("A", "sah-kd", "random", Some(4.0)),
+        record("A", "obvhs-bvh2", "primary", Some(4.0)),
+        record("A", "obvhs-bvh2", "random", Some(1.0)),
+        record("A", "obvhs-cwbvh", "primary", Some(2.0)),
+        record("A", "obvhs-cwbvh", "random", Some(4.0)),
+    ]
+}
+
+#[test]
+fn ratios_are_geometric_means_against_the_tree_and_the_better_bvh() {
+    let table = scene_table(&records(), &[], &[]);
+    assert_eq!(cell(&table, "sah-kd", "x median"), "4.00 [4.00, 4.00]");
+    assert_eq!(cell(&table, "sah-kd", "x obvhs"), "1.41 [1.41, 1.41]");
+    assert_eq!(cell(&table, "median-kd", "x median"), "1.00");
+    assert_eq!(cell(&table, "sah-kd", "primary"), "8.00");
+    assert_eq!(cell(&table, "sah-kd", "tests"), "", "unknown is blank");
+    assert_eq!(cell(&table, "sah-kd", "sampled"), "50.0%");
+}
+
+#[test]
+fn what_is_declined_is_neither_right_nor_wrong() {
+    let mut records = records();
+    records[3] =
+        Record { mrays_per_s: None, declined: Some("any hit".into()), structure_errors: Some(0), ..records[3].clone() };
+    let table = scene_table(&records, &[], &[]);
+    assert_eq!(cell(&table, "sah-kd", "random"), "declined");
+    assert_eq!(cell(&table, "sah-kd", "x median"), "8.00 [8.00, 8.00]", "of the workloads that it does not decline");
+    assert_eq!(table.notes, ["sah-kd declines any hit, which random rays need."]);
+    assert_eq!(mean_table(&records).notes, ["1 case that a structure declines left out."]);
+}
+
+#[test]
+fn a_wrong_structure_shows_its_errors_and_no_time() {
+    let mut records = records();
+    records[2].mrays_per_s = None;
+    records[2].structure_errors = Some(3);
+    let table = scene_table(&records, &[], &[]);
+    assert_eq!(cell(&table, "sah-kd", "primary"), "3/100 wrong");
+    assert_eq!(cell(&table, "sah-kd", "x median"), "");
+    assert_eq!(cell(&table, "sah-kd", "random"), "4.00");
+}
+
+#[test]
+fn a_documented_defect_of_a_baseline_is_named_and_gets_no_time_either() {
+    let mut records = records();
+    records[4].mrays_per_s = None;
+    records[4].structure_errors = Some(3);
+    let table = scene_table(&records, &[], &[]);
+    assert_eq!(cell(&table, "obvhs-bvh2", "primary"), "3/100 wrong");
+    assert_eq!(table.notes.len(), 1);
+    assert!(table.notes[0].starts_with("obvhs-bvh2 answers 3 of 100 primary rays wrong"), "{:?}", table.notes);
+}
+
+#[test]
+fn means_over_scenes_say_what_they_leave_out() {
+    let mut all = records();
+    all.push(record("B", "median-kd", "primary", Some(1.0)));
+    all.push(record("B", "sah-kd", "primary", Some(2.0)));
+    all.push(record("B", "obvhs-bvh2", "primary", None));
+    let table = mean_table(&all);
+    assert_eq!(cell(&table, "sah-kd", "primary"), "4.00");
+    assert_eq!(cell(&table, "sah-kd", "random"), "2.00");
+    assert_eq!(cell(&table, "obvhs-bvh2", "primary"), "4.00");
+    assert!(table.title.contains("2 scenes"));
+    assert_eq!(table.notes, ["1 case with wrong answers left out."]);
+}
+
+#[test]
+fn what_lies_within_the_noise_is_said_to_be_no_difference() {
+    let mut records = records();
+    for (i, record) in records.iter_mut().enumerate() {
+        record.noise_floor = Some(0.02);
+        // A twin that is a hundredth slower, and epochs that differ by as much.
+        let samples = vec![1e6, 1.01e6, 1e6, 1.01e6, 1e6];
+        record.twin_samples_ns = (i < 2).then(|| samples.iter().map(|ns| ns * 1.01).collect());
+        (record.samples_ns, record.epochs) = (samples, 5);
+        record.mrays_per_s = Some(1.0);
+    }
+    let table = scene_table(&records, &[], &[]);
+    assert_eq!(cell(&table, "sah-kd", "x obvhs"), "1.00", "the same samples");
+    records[2].samples_ns = vec![1.01e6, 1e6, 1.01e6, 1e6, 1e6];
+    let table = scene_table(&records, &[], &[]);
+    assert!(cell(&table, "sah-kd", "x obvhs").ends_with(" ="), "{table:?}");
+    assert!(table.notes[0].starts_with("A/A (median-kd twice): noise floor 1.00%; 0 of 2"), "{:?}", table.notes);
+}
+
+#[test]
+fn without_baselines_there_are_no_columns_for_them() {
+    let table = scene_table(&[record("A", "sah-kd", "primary", Some(1.0))], &[], &["flat".into()]);
+    assert!(!table.columns.iter().any(|c| c.starts_with("x ")), "{:?}", table.columns);
+    assert_eq!(table.notes, ["flat"]);
+}
