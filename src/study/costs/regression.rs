@@ -99,11 +99,10 @@ fn solve(shares: &[[f64; 3]], ratios: &[f64], columns: &[usize]) -> Option<Vec<f
         if rows[pivot][pivot].abs() < 1e-10 {
             return None;
         }
-        for i in (0..n).filter(|&i| i != pivot) {
-            let factor = rows[i][pivot] / rows[pivot][pivot];
-            for j in pivot..=n {
-                rows[i][j] -= factor * rows[pivot][j];
-            }
+        let own = rows[pivot].clone();
+        for row in rows.iter_mut().enumerate().filter(|(i, _)| *i != pivot).map(|(_, row)| row) {
+            let factor = row[pivot] / own[pivot];
+            row.iter_mut().zip(&own).for_each(|(x, own)| *x -= factor * own);
         }
     }
     Some((0..n).map(|i| rows[i][n] / rows[i][i] / lengths[i]).collect())
