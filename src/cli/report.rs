@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use super::progress::Progress;
 use super::terminal::Terminal;
 use super::{Verdict, sources};
-use crate::publish::{ReportFolder, Runs, document, draw, files};
+use crate::publish::{ReportFolder, Runs, document, draw, files, left_out};
 use crate::registry::Registry;
 
 #[derive(Debug, clap::Args)]
@@ -29,7 +29,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     let paths = if args.runs.is_empty() { vec![PathBuf::from(RUNS)] } else { args.runs.clone() };
     let runs = Runs::read(&paths)?;
 
-    let mut pictures = vec![];
+    let mut pictures = left_out();
     if !args.no_pictures {
         let scenes = runs.scenes().len();
         let mut progress = Progress::over(scenes, terminal);

@@ -8,7 +8,7 @@ use super::latex::latex;
 use super::markdown::markdown;
 use super::runs::Runs;
 use crate::report::{Table, to_jsonl, to_tidy_csv};
-use crate::study::{attribution, break_even, costs, crossover, scaling};
+use crate::study::{attribution, break_even, costs, crossover, parameters, scaling};
 
 /// Width of drawings that stand alone, in their units.
 const WIDTH: f64 = 900.0;
@@ -43,6 +43,9 @@ pub fn files(document: &Document, runs: &Runs) -> Vec<(String, Vec<u8>)> {
     }
     if let Some(study) = &runs.crossover {
         tidy("crossover", &crossover::rows(&crossover::result(&study.cases, study.seed())), &mut files);
+    }
+    if let Some(study) = &runs.parameters {
+        tidy("parameters", parameters::rows(&parameters::result(&study.cases, study.seed())), &mut files);
     }
     if let Some(study) = &runs.costs {
         tidy("costs", &costs::rows(&costs::result(&study.cases, study.seed())), &mut files);

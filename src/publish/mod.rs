@@ -21,6 +21,6 @@ pub use document::Document;
 pub use files::files;
 pub use folder::{FolderError, ReportFolder};
 pub use html::page;
-pub use pictures::draw;
+pub use pictures::{draw, left_out};
 pub use runs::{RunError, Runs, Source};
 pub use sections::document;

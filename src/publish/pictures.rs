@@ -15,6 +15,9 @@ use crate::study::{BRUTE_FORCE, REPORT_TREE, SAH_TREE, guarded};
 const THUMBNAIL: u32 = 208;
 const HEAT: u32 = 320;
 
+const HEAT_TITLE: &str = "Where is the work?";
+const SCENES_TITLE: &str = "The scenes";
+
 /// Scenes with heat maps: the largest.
 const HEAT_SCENES: usize = 3;
 
@@ -58,6 +61,16 @@ pub fn draw(runs: &Runs, registry: &Registry, find: Find, progress: &mut dyn FnM
         heat.extend(heat_figure(one, runs, registry));
     }
     vec![heat_section(heat), scene_section(thumbnails, &lost)]
+}
+
+/// The sections of a report without pictures, which say so.
+pub fn left_out() -> Vec<Section> {
+    let command = "sahara report, without --no-pictures";
+    let missing = |what| vec![Block::missing(what, command)];
+    vec![
+        Section { id: "heat", title: HEAT_TITLE, blocks: missing("Heat maps of the structures") },
+        Section { id: "scenes", title: SCENES_TITLE, blocks: missing("Pictures of the scenes") },
+    ]
 }
 
 /// The arguments of a command that are files named as the scene.
@@ -201,7 +214,7 @@ fn heat_section(figures: Vec<Figure>) -> Section {
         ));
         blocks.extend(figures.into_iter().map(Block::Figure));
     }
-    Section { id: "heat", title: "Where is the work?", blocks }
+    Section { id: "heat", title: HEAT_TITLE, blocks }
 }
 
 fn scene_section(thumbnails: Vec<Thumbnail>, lost: &[String]) -> Section {
@@ -222,5 +235,5 @@ fn scene_section(thumbnails: Vec<Thumbnail>, lost: &[String]) -> Section {
         blocks
             .push(Block::missing(&format!("A picture of {name}: its file is not here"), "sahara render FILE -o F.png"));
     }
-    Section { id: "scenes", title: "The scenes", blocks }
+    Section { id: "scenes", title: SCENES_TITLE, blocks }
 }

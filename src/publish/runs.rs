@@ -15,7 +15,7 @@ use crate::study::accuracy::AccuracyRecord;
 use crate::study::epoch::Epoch;
 use crate::study::journal::{Header, Journal, JournalError, Recorded};
 use crate::study::replicate::Replication;
-use crate::study::{attribution, break_even, costs, crossover, scaling};
+use crate::study::{attribution, break_even, costs, crossover, parameters, scaling};
 
 /// Everything that a report is made of.
 #[derive(Clone, Debug, Default)]
@@ -35,6 +35,7 @@ pub struct Runs {
     pub break_even: Option<Study<Epoch>>,
     pub crossover: Option<Study<crossover::Case>>,
     pub costs: Option<Study<Epoch>>,
+    pub parameters: Option<Study<parameters::Case>>,
 }
 
 /// A study that keeps a journal.
@@ -167,6 +168,7 @@ impl Runs {
             break_even::NAME => self.break_even = Some(study(path)?),
             crossover::NAME => self.crossover = Some(study(path)?),
             costs::NAME => self.costs = Some(study(path)?),
+            parameters::NAME => self.parameters = Some(study(path)?),
             _ => return Err(RunError::Unknown { path: path.into(), study: name.into() }),
         }
         let kind = format!("study {name}");
@@ -225,6 +227,7 @@ impl Runs {
             self.break_even.as_ref().map(|study| &study.header),
             self.crossover.as_ref().map(|study| &study.header),
             self.costs.as_ref().map(|study| &study.header),
+            self.parameters.as_ref().map(|study| &study.header),
         ];
         of.into_iter().flatten().collect()
     }

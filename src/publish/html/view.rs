@@ -66,7 +66,7 @@ struct TableView {
 #[derive(Serialize)]
 struct ColumnView {
     name: String,
-    class: &'static str,
+    class: String,
 }
 
 /// A piece of a sentence.
@@ -173,11 +173,16 @@ fn block(block: &Block) -> BlockView {
 fn table(table: &Table, shaded: Option<&Tabular>) -> TableView {
     // Numbers stand to the right, words to the left.
     let column_of = |column: usize| table.rows.iter().filter_map(move |row| row.get(column));
-    let is_words = |column: usize| {
-        let mut said = column_of(column).filter(|cell| !cell.text.is_empty()).peekable();
-        said.peek().is_some() && said.all(|cell| sort_key(&cell.text).is_none())
+    let class_of = |column: usize| {
+        let said: Vec<&str> =
+            column_of(column).map(|cell| cell.text.as_str()).filter(|text| !text.is_empty()).collect();
+        match () {
+            () if said.is_empty() || said.iter().any(|text| sort_key(text).is_some()) => "",
+            () if said.iter().any(|text| text.chars().count() > 30) => "text",
+            () => "word",
+        }
     };
-    let words: Vec<bool> = (0..table.columns.len()).map(is_words).collect();
+    let words: Vec<&str> = (0..table.columns.len()).map(class_of).collect();
     let cell = |row: usize, column: usize, cell: &crate::report::Cell| {
         let shade = shaded.and_then(|s| *s.shades.get(row)?.get(column)?);
         let key = sort_key(&cell.text);
@@ -187,8 +192,7 @@ fn table(table: &Table, shaded: Option<&Tabular>) -> TableView {
             (Some(shade), _) => ["", "w1", "w2", "w3"][shade.unsigned_abs().min(3) as usize],
             (None, Tone::Best) => "best",
             (None, Tone::Wrong) => "wrong",
-            (None, Tone::Plain) if words[column] => "text",
-            (None, Tone::Plain) => "",
+            (None, Tone::Plain) => words[column],
         };
         CellView { text: cell.text.clone(), class: class.into(), key }
     };
@@ -201,7 +205,7 @@ fn table(table: &Table, shaded: Option<&Tabular>) -> TableView {
             .columns
             .iter()
             .zip(&words)
-            .map(|(name, &words)| ColumnView { name: name.clone(), class: if words { "text" } else { "" } })
+            .map(|(name, &class)| ColumnView { name: name.clone(), class: class.into() })
             .collect(),
         rows: table.rows.iter().enumerate().map(row).collect(),
         notes: table.notes.clone(),

@@ -70,9 +70,14 @@ pub fn answer(runs: &Runs) -> Answer {
         () if mean.high < 1.0 => "No",
         () => "Not decided",
     };
-    let names: Vec<String> = hard.iter().map(|hard| scene_name(&hard.scene, hard.stand_in)).collect();
+    let names: Vec<&str> = hard.iter().map(|hard| hard.scene.as_str()).collect();
+    let stand_ins = match hard.iter().filter(|hard| hard.stand_in).count() {
+        0 => "",
+        n if n == hard.len() => ", stand-ins of our own with as many triangles as the report's meshes,",
+        _ => ", in part stand-ins of our own,",
+    };
     let mut sentences = vec![format!(
-        "On {} the SAH tree answers the same primary rays {} times as fast as the report's tree (geometric mean, 95 % \
+        "On {}{stand_ins} the SAH tree answers the same primary rays {} times as fast as the report's tree (geometric mean, 95 % \
          interval {}; the scenes' intervals reach from {} to {}). Construction is left out, as in the report.",
         listed(&names),
         figures(mean.estimate),
@@ -81,10 +86,10 @@ pub fn answer(runs: &Runs) -> Answer {
         figures(most),
     )];
     sentences.extend(super::attribution::sentences(runs));
-    let numbers = hard.iter().zip(names).map(|(hard, label)| Headline {
+    let numbers = hard.iter().map(|hard| Headline {
         number: format!("{} ×", figures(hard.ratio.estimate)),
         interval: ends(&hard.ratio),
-        label,
+        label: scene_name(&hard.scene, hard.stand_in),
     });
     let mean = Headline {
         number: format!("{} ×", figures(mean.estimate)),

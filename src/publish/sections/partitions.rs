@@ -2,7 +2,7 @@
 
 use crate::publish::document::{Art, Block, Figure, Section};
 use crate::publish::runs::{Runs, shown};
-use crate::publish::words::{distinct, interval, slug};
+use crate::publish::words::{distinct, interval, short_labels, slug};
 use crate::report::Table;
 use crate::report::number::count;
 use crate::report::plot::{Bar, BarGroup, Bars, Chart};
@@ -27,6 +27,7 @@ pub fn section(runs: &Runs) -> Section {
 
 fn figure(rows: &[Row], command: &str) -> Figure {
     let labels: Vec<String> = rows.iter().map(|row| row.structure.clone()).collect();
+    let labels = short_labels(&labels);
     let workloads = distinct(rows.iter().flat_map(|row| &row.cells).map(|cell| &cell.workload));
     let bar = |row: &Row, workload: &String| {
         let speed = row.cells.iter().find(|cell| cell.workload == *workload).and_then(|cell| cell.speed);

@@ -23,6 +23,7 @@ pub fn section(runs: &Runs, missing: Vec<(String, String)>) -> Section {
             .into(),
     );
     let mut blocks = vec![Block::table(files, ""), Block::table(machines(&runs.provenances()), "")];
+    blocks.extend(warnings(&runs.provenances()).map(|table| Block::table(table, "")));
     if !missing.is_empty() {
         let rows = missing.into_iter().map(|(what, command)| [what, command]);
         let title = format!("Not measured: {}", plural(rows.len(), "part"));
@@ -31,21 +32,30 @@ pub fn section(runs: &Runs, missing: Vec<(String, String)>) -> Section {
     Section { id: "provenance", title: "Where the numbers come from", blocks }
 }
 
-/// One row for each run whose provenance differs in more than its command.
+/// One row for each machine and build.
 fn machines(all: &[&Provenance]) -> crate::report::Table {
     let mut rows: Vec<[String; 6]> = vec![];
     for p in all {
+        let pinned = if p.pinned.is_some() { ", pinned" } else { "" };
+        let governor = p.governor.as_ref().map_or(String::new(), |governor| format!("; governor {governor}"));
         let row = [
             p.cpu.clone(),
-            format!("{} ({} of {} processors)", p.simd, p.threads, p.cores),
-            format!("{} {}", p.version, p.commit),
-            format!("{}, {}", p.rustc, p.profile),
-            format!("{}, {}", p.os, p.target),
-            shown(&p.command),
+            p.simd.clone(),
+            format!("{} of {} processors{pinned}; denormals {}{governor}", p.threads, p.cores, p.denormals),
+            format!("{} {}, {}", p.version, p.commit, p.profile),
+            p.rustc.clone(),
+            p.target.clone(),
         ];
         if !rows.contains(&row) {
             rows.push(row);
         }
     }
-    table("Machines and builds", ["processor", "instructions", "sahara", "compiler", "system", "command"], rows)
+    table("Machines and builds", ["processor", "instructions", "threads", "sahara", "compiler", "target"], rows)
+}
+
+/// What spoilt runs, as they say themselves.
+fn warnings(all: &[&Provenance]) -> Option<crate::report::Table> {
+    let rows = all.iter().flat_map(|p| p.warnings.iter().map(|warning| [shown(&p.command), warning.clone()]));
+    let rows: Vec<[String; 2]> = rows.collect();
+    (!rows.is_empty()).then(|| table("What spoilt these runs", ["command", "warning"], rows))
 }

@@ -97,7 +97,7 @@ impl Curves {
         if let Some((level, meaning)) = &self.level {
             let at = y.place(*level);
             canvas.line(&[[left, at], [right, at]], INK.light, 1.0);
-            canvas.text(meaning, [right - 4.0, at - 10.0], canvas::SMALL, INK.light, Side::Right);
+            canvas.text(meaning, [left + 6.0, at - 10.0], canvas::SMALL, INK.light, Side::Left);
         }
         for (line, &colour) in self.lines.iter().zip(&colours) {
             draw_line(canvas, line, colour, x, y);
