@@ -17,6 +17,7 @@ pub mod golden;
 pub mod measure;
 pub mod oracle;
 pub mod output;
+pub mod publish;
 pub mod registry;
 pub mod render;
 pub mod report;

@@ -1,7 +1,9 @@
 //! What a tree looks like.
 
+use super::Histogram;
+
 /// Counts of a finished tree. A structure without a tree is one leaf.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct TreeShape {
     pub inner: usize,
     /// Leaves, empty ones included.
@@ -17,6 +19,10 @@ pub struct TreeShape {
     /// Expected cost of a random line through the root box, in triangle tests (MacDonald, Booth 1990), with the same
     /// constants for every structure: [`TreeShape::INNER_COST`] and [`TreeShape::leaf_cost`]. `None` where it is not defined.
     pub sah_cost: Option<f64>,
+    /// Leaves by their number of references. Empty where it is not known.
+    pub leaf_sizes: Histogram,
+    /// Leaves by their depth. Empty where it is not known.
+    pub leaf_depths: Histogram,
 }
 
 impl TreeShape {

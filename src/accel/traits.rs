@@ -8,7 +8,7 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use super::loaded::AsTheyAre;
-use super::{Capabilities, Counts, Footprint, Loaded, Observed, Observer, TreeShape};
+use super::{Capabilities, Counts, Footprint, Loaded, Observed, Observer, Outline, TreeShape};
 use crate::geometry::{Hit, Mesh, Ray};
 
 /// Why a structure could not be built.
@@ -119,6 +119,12 @@ pub trait Accel: Sized + Send + Sync + 'static {
     fn footprint(&self) -> Footprint;
 
     fn shape(&self) -> TreeShape;
+
+    /// The whole tree as plain data, for measures that need more than counts; nothing where it cannot be walked. Takes 64
+    /// bytes a node.
+    fn outline(&self) -> Option<Outline> {
+        None
+    }
 }
 
 /// [`Accel`] without its type: one virtual call hands over a batch, inside everything is monomorphised.
@@ -139,6 +145,9 @@ pub trait DynAccel: Send + Sync {
     }
     fn footprint(&self) -> Footprint;
     fn shape(&self) -> TreeShape;
+    fn outline(&self) -> Option<Outline> {
+        None
+    }
 }
 
 impl<A: Accel> DynAccel for A {
@@ -176,5 +185,9 @@ impl<A: Accel> DynAccel for A {
 
     fn shape(&self) -> TreeShape {
         Accel::shape(self)
+    }
+
+    fn outline(&self) -> Option<Outline> {
+        Accel::outline(self)
     }
 }

@@ -9,6 +9,7 @@ mod bench;
 mod compare;
 mod compare_runs;
 mod completions;
+mod counts;
 mod fetch;
 mod golden;
 mod hard;
@@ -17,6 +18,7 @@ mod progress;
 mod rays;
 mod render;
 mod replicate;
+mod report;
 mod sources;
 mod study;
 mod terminal;
@@ -66,6 +68,8 @@ enum Command {
     Validate(validate::Args),
     /// Record, import and show files of rays
     Rays(rays::Args),
+    /// Write what runs have measured as a page, Markdown, LaTeX and tidy data
+    Report(report::Args),
     /// Run an experiment with a question of its own
     Study(study::Args),
     /// How wrong, how fast: every structure over every triangle test, judged by exact arithmetic
@@ -75,6 +79,8 @@ enum Command {
     /// Answer for one structure and one hard case; what `hard` runs in a process of its own
     #[command(name = hard::CHILD, hide = true)]
     HardAnswer(hard::ChildArgs),
+    /// Count what no machine changes: nodes, leaves, references, overlap; steps and tests of rays
+    Counts(counts::Args),
     /// Download the real meshes that scene files name, verified; licences are shown first
     Fetch(fetch::Args),
     /// Draw a picture
@@ -132,12 +138,14 @@ pub fn run(registry: &Registry, args: impl IntoIterator<Item = OsString>) -> Exi
         Command::Bench(args) => bench::run(registry, &args, &terminal),
         Command::CompareRuns(args) => compare_runs::run(&args, &terminal),
         Command::Replicate(args) => replicate::run(registry, &args, &terminal),
+        Command::Report(args) => report::run(registry, &args, &terminal),
         Command::Validate(args) => validate::run(registry, &args, &terminal),
         Command::Rays(args) => rays::run(registry, &args, &terminal),
         Command::Study(args) => study::run(registry, &args, &terminal),
         Command::Accuracy(args) => accuracy::run(registry, &args, &terminal),
         Command::Hard(args) => hard::run(registry, &args, &terminal),
         Command::HardAnswer(args) => hard::run_child(registry, &args),
+        Command::Counts(args) => counts::run(registry, &args, &terminal),
         Command::Fetch(args) => fetch::run(&args, &terminal),
         Command::Render(args) => render::run(registry, &args, &terminal),
         Command::Golden(args) => golden::run(registry, &args, &terminal),

@@ -10,6 +10,7 @@ mod view;
 #[cfg(test)]
 mod count_tests;
 
+pub use colour_map::heat as heat_colour;
 pub use error_map::ErrorMap;
 pub use image::Image;
 pub use integrator::{RayCounts, render};

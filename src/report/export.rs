@@ -25,13 +25,60 @@ pub fn to_csv(records: &[Record]) -> Vec<u8> {
     writer.into_inner().expect("memory takes every write")
 }
 
+/// One record per line.
+pub fn to_jsonl<T: Serialize>(records: &[T]) -> Vec<u8> {
+    let line = |record| serde_json::to_string(record).expect("records have text keys and finite numbers") + "\n";
+    records.iter().map(line).collect::<String>().into_bytes()
+}
+
+/// One row for each of `rows` under a row of names; a field within a field is called `outer.inner`, and what a row does not
+/// have is blank.
+pub fn to_tidy_csv(rows: &[impl Serialize]) -> Vec<u8> {
+    let flat = |row| {
+        let mut fields = vec![];
+        flatten("", serde_json::to_value(row).expect("a row has text keys"), &mut fields);
+        fields
+    };
+    let rows: Vec<Vec<(String, String)>> = rows.iter().map(flat).collect();
+    let mut names: Vec<&str> = vec![];
+    for (name, _) in rows.iter().flatten() {
+        if !names.contains(&name.as_str()) {
+            names.push(name);
+        }
+    }
+    // A field that is unknown in one row and has fields of its own in another is those fields.
+    let has_fields =
+        |name: &str| names.iter().any(|other| other.strip_prefix(name).is_some_and(|rest| rest.starts_with('.')));
+    let names: Vec<&str> = names.iter().copied().filter(|name| !has_fields(name)).collect();
+    let mut writer = csv::Writer::from_writer(vec![]);
+    if !names.is_empty() {
+        writer.write_record(&names).expect("memory takes every write");
+    }
+    for row in &rows {
+        let cell = |name: &&str| row.iter().find(|(own, _)| own == name).map_or("", |(_, value)| value);
+        writer.write_record(names.iter().map(cell)).expect("all rows have the same columns");
+    }
+    writer.into_inner().expect("memory takes every write")
+}
+
+/// Name and text of every field of `value`, those within maps as well.
+fn flatten(name: &str, value: Value, fields: &mut Vec<(String, String)>) {
+    match value {
+        Value::Object(inner) => {
+            let dot = if name.is_empty() { "" } else { "." };
+            inner.into_iter().for_each(|(key, value)| flatten(&format!("{name}{dot}{key}"), value, fields));
+        }
+        value => fields.push((name.into(), text(value))),
+    }
+}
+
 /// Name and text of every field, in the order of the record.
 fn flat(record: &Record) -> Vec<(String, String)> {
     let Ok(Value::Object(fields)) = serde_json::to_value(record) else { unreachable!("a record is a map of fields") };
     let mut flat = vec![];
     for (name, value) in fields {
         match value {
-            Value::Object(inner) if name == "provenance" => {
+            Value::Object(inner) if name == "provenance" || name == "counts" => {
                 flat.extend(inner.into_iter().map(|(key, value)| (format!("{name}.{key}"), text(value))));
             }
             value => flat.push((name, text(value))),
@@ -74,11 +121,19 @@ mod tests {
         assert_eq!(cell("steps_per_ray"), "1.5");
         assert_eq!(cell("config"), r#"{"leaf":8,"threshold":0.7}"#);
         assert_eq!(cell("provenance.threads"), "1");
+        assert_eq!((cell("counts.leaves"), cell("counts.sah_cost")), ("7".into(), String::new()));
+    }
+
+    #[test]
+    fn tidy_rows_name_inner_fields_by_a_path() {
+        let row = |speed: Option<f64>| serde_json::json!({ "scene": "Cube", "speed": { "low": 1.5, "high": speed } });
+        let text = String::from_utf8(to_tidy_csv(&[row(Some(2.0)), row(None)])).unwrap();
+        assert_eq!(text, "scene,speed.low,speed.high\nCube,1.5,2.0\nCube,1.5,\n");
     }
 
     #[test]
     fn nothing_exports_as_nothing() {
         assert_eq!(to_json(&Vec::<Record>::new()), b"[]\n");
-        assert!(to_csv(&[]).is_empty());
+        assert!(to_csv(&Vec::<Record>::new()).is_empty());
     }
 }

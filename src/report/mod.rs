@@ -1,17 +1,19 @@
 //! What a run leaves: records as JSON, CSV and Markdown, tables for people.
 #![doc = include_str!("SCHEMA.md")]
 
+mod counts;
 mod export;
 pub mod number;
 pub mod plot;
 mod record;
 mod table;
 
-pub use export::{to_csv, to_json};
+pub use counts::CaseCounts;
+pub use export::{to_csv, to_json, to_jsonl, to_tidy_csv};
 pub use record::Record;
 #[cfg(test)]
 pub(crate) use record::example;
-pub use table::{Cell, Screen, Table, Tone, to_markdown, wrapped};
+pub use table::{Cell, Screen, Table, Tone, escaped, to_markdown, wrapped};
 
 #[cfg(test)]
 pub(crate) use record::example as example_record;

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
+use super::CaseCounts;
 use crate::accel::Query;
 use crate::measure::{Provenance, log_ratios};
 
@@ -49,6 +50,7 @@ pub struct Record {
     pub checked_rays: Option<usize>,
     pub structure_errors: Option<usize>,
     pub provenance: Provenance,
+    pub counts: CaseCounts,
 }
 
 /// Before there were epochs, structures were built once.
@@ -118,6 +120,7 @@ pub(crate) fn example() -> Record {
         checked_rays: Some(100),
         structure_errors: Some(0),
         provenance: Provenance::capture(1),
+        counts: CaseCounts { leaves: 7, tests_over_minimum: Some(2.5), ..CaseCounts::default() },
     }
 }
 
@@ -137,10 +140,12 @@ mod tests {
     #[test]
     fn the_documented_fields_are_the_serialised_ones() {
         let record = serde_json::to_value(example()).unwrap();
-        let (record_part, provenance_part) =
-            include_str!("SCHEMA.md").split_once("`provenance`:").expect("the document has both tables");
+        let (record_part, rest) =
+            include_str!("SCHEMA.md").split_once("`provenance`:").expect("the document has all tables");
+        let (provenance_part, counts_part) = rest.split_once("`counts`:").expect("the document has all tables");
         assert_eq!(documented(record_part), serialised(&record));
         assert_eq!(documented(provenance_part), serialised(&record["provenance"]));
+        assert_eq!(documented(counts_part), serialised(&record["counts"]));
     }
 
     #[test]

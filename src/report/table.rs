@@ -145,7 +145,7 @@ impl Table {
     /// The table in GitHub's Markdown.
     pub fn to_markdown(&self) -> String {
         let line = |cells: Vec<String>| format!("| {} |\n", cells.join(" | "));
-        let mut text = format!("### {}\n\n", self.title);
+        let mut text = format!("### {}\n\n", escaped(&self.title));
         text += &line(self.columns.iter().map(|name| escaped(name)).collect());
         text += &line((0..self.columns.len()).map(|i| if i == 0 { "---" } else { "---:" }.to_owned()).collect());
         for row in &self.rows {
@@ -172,8 +172,8 @@ pub fn to_markdown(tables: &[Table], foot: &[String]) -> Vec<u8> {
     (tables + &foot.join("\n\n") + "\n").into_bytes()
 }
 
-/// Text that Markdown would read as a table or as markup.
-fn escaped(text: &str) -> String {
+/// Text with what Markdown would read as a table or as markup marked as text.
+pub fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
         if "|*_`<>\\~".contains(c) {

@@ -4,8 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use super::leaf::{LeafBlock, search, start};
 use super::walk::{Walk, single};
-use crate::accel::{Accel, BuildError, Footprint, Observer, TreeShape};
-use crate::geometry::{Hit, Mesh, Ray};
+use crate::accel::{Accel, BuildError, Footprint, Observer, Outline, Part, TreeShape};
+use crate::geometry::{Aabb, Hit, Mesh, Ray};
 use crate::simd::Sieve;
 use crate::triangle::TriangleTest;
 
@@ -21,6 +21,18 @@ pub struct BruteForce<T: TriangleTest> {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct BruteForceConfig {}
+
+impl<T: TriangleTest> BruteForce<T> {
+    /// All triangles in the whole of space.
+    fn leaf(&self) -> Outline {
+        let everywhere = Aabb { min: glam::Vec3::NEG_INFINITY, max: glam::Vec3::INFINITY };
+        let outline = Outline::of(Some(((), everywhere)), |(), _, references| {
+            references.extend(self.blocks.iter().flat_map(|block| block.ids()));
+            Part::Leaf
+        });
+        outline.of_cells()
+    }
+}
 
 impl<T: TriangleTest> Walk for BruteForce<T> {
     #[inline(always)]
@@ -61,13 +73,11 @@ impl<T: TriangleTest> Accel for BruteForce<T> {
     }
 
     fn shape(&self) -> TreeShape {
-        TreeShape {
-            leaves: 1,
-            empty: usize::from(self.references == 0),
-            references: self.references,
-            largest_leaf: self.references,
-            sah_cost: Some(self.references as f64),
-            ..TreeShape::default()
-        }
+        // Every ray enters it, whatever its box.
+        TreeShape { sah_cost: Some(self.references as f64), ..self.leaf().shape() }
+    }
+
+    fn outline(&self) -> Option<Outline> {
+        Some(self.leaf())
     }
 }

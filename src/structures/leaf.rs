@@ -69,7 +69,12 @@ impl<T: TriangleTest, const N: usize> LeafBlock<T, N> {
         }));
     }
 
-    /// Triangles in it.
+    /// The triangles in it.
+    pub fn ids(&self) -> impl Iterator<Item = u32> + '_ {
+        self.ids.iter().copied().filter(|&id| id != NONE)
+    }
+
+    /// How many there are.
     #[inline(always)]
     pub fn len(&self) -> u32 {
         self.ids.iter().map(|&id| u32::from(id != NONE)).sum()

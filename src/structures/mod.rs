@@ -9,6 +9,7 @@ pub mod kd;
 mod leaf;
 mod line;
 pub mod obvhs;
+mod overlap;
 mod pages;
 pub mod peers;
 mod reinsert;
@@ -18,4 +19,5 @@ pub mod wide;
 
 pub use brute_force::{BruteForce, BruteForceConfig};
 pub use kd::{KdConfig, KdTree};
+pub use overlap::end_point_overlap;
 pub use wide::{Partition, WideConfig, WideTree};

@@ -1,4 +1,5 @@
 use super::guarded::PANICKED;
+use super::journal::JournalError;
 use crate::accel::BuildError;
 use crate::measure::UnsteadyAnswers;
 use crate::registry::ChoiceError;
@@ -18,4 +19,10 @@ pub enum StudyError {
     Structure(#[from] ChoiceError),
     #[error("{structure} gives {errors} wrong answers to {checked} rays of {scene}: its times would mean nothing")]
     Wrong { structure: String, scene: String, errors: usize, checked: usize },
+    #[error("{scene} has no {rays} rays: leave the scene out, or ask for another kind of rays")]
+    NoRays { scene: String, rays: String },
+    #[error("{structure} on {scene}, built again, gives other answers than before: its times cannot be compared")]
+    Changed { structure: String, scene: String },
+    #[error(transparent)]
+    Journal(#[from] JournalError),
 }

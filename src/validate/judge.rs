@@ -69,12 +69,20 @@ pub struct Judged {
 
 /// Distances of `t` from the truth, in units in the last place of the true `t` as an `f32`: at most 0.5 is correctly
 /// rounded.
-#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Ulps {
+    #[serde(deserialize_with = "infinite_if_null")]
     pub median: f64,
     /// Not exceeded by 99 %.
+    #[serde(deserialize_with = "infinite_if_null")]
     pub p99: f64,
+    #[serde(deserialize_with = "infinite_if_null")]
     pub max: f64,
+}
+
+/// JSON has no infinite numbers: they are written as null.
+fn infinite_if_null<'de, D: serde::Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+    Ok(<Option<f64> as serde::Deserialize>::deserialize(deserializer)?.unwrap_or(f64::INFINITY))
 }
 
 impl Judged {

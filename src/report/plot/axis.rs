@@ -15,6 +15,11 @@ impl LogAxis {
         Self { ends: [libm::log10(low), libm::log10(high)], places }
     }
 
+    /// Where it begins and ends.
+    pub fn places(&self) -> [f64; 2] {
+        self.places
+    }
+
     /// Where `value` is.
     pub fn place(&self, value: f64) -> f64 {
         let share = (libm::log10(value) - self.ends[0]) / (self.ends[1] - self.ends[0]);

@@ -7,11 +7,13 @@ use plotters::drawing::{DrawingArea, IntoDrawingArea};
 use plotters::element::{Circle, PathElement, Polygon, Text};
 use plotters::prelude::{BitMapBackend, DrawingBackend, SVGBackend};
 use plotters::style::text_anchor::{HPos, Pos, VPos};
-use plotters::style::{Color, FontStyle, IntoFont, RGBColor, ShapeStyle, TextStyle, WHITE, register_font};
+use plotters::style::{Color, FontStyle, IntoFont, ShapeStyle, TextStyle, register_font};
+
+use super::palette::{Colour, PAPER};
 
 use crate::render::Picture;
 
-/// Width of a picture in its own units.
+/// Width of a picture in its own units, where nothing else is asked for.
 pub const WIDTH: f64 = 800.0;
 
 /// Pixels a unit.
@@ -21,25 +23,6 @@ const SCALE: f64 = 2.0;
 pub const HEAD: f64 = 20.0;
 pub const BODY: f64 = 17.0;
 pub const SMALL: f64 = 16.0;
-
-pub const INK: RGBColor = RGBColor(50, 50, 50);
-pub const FAINT: RGBColor = RGBColor(225, 225, 225);
-pub const MIDDLE: RGBColor = RGBColor(140, 140, 140);
-
-/// Colours that colour-blind people tell apart too, dark enough for text on white (after Okabe, Ito: Color universal
-/// design, 2008); they repeat.
-pub fn group_colour(group: usize) -> RGBColor {
-    const COLOURS: [RGBColor; 7] = [
-        RGBColor(0, 114, 178),
-        RGBColor(200, 80, 0),
-        RGBColor(0, 130, 95),
-        RGBColor(170, 70, 130),
-        RGBColor(150, 105, 0),
-        RGBColor(40, 130, 190),
-        RGBColor(0, 0, 0),
-    ];
-    COLOURS[group % COLOURS.len()]
-}
 
 /// Where text stands, seen from its point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -101,24 +84,24 @@ fn pixels(units: f64) -> i32 {
     (units * SCALE).round() as i32
 }
 
-/// The text of an SVG file with what `draw` draws.
-pub fn svg(height: f64, draw: impl FnOnce(&Canvas)) -> String {
+/// The text of an SVG file, `width` and `height` large, with what `draw` draws.
+pub fn svg([width, height]: [f64; 2], draw: impl FnOnce(&Canvas)) -> String {
     register();
     let mut text = String::new();
     {
-        let size = (pixels(WIDTH) as u32, pixels(height) as u32);
+        let size = (pixels(width) as u32, pixels(height) as u32);
         let area = SVGBackend::with_string(&mut text, size).into_drawing_area();
-        area.fill(&WHITE).expect(DRAWN);
+        area.fill(&PAPER.light).expect(DRAWN);
         draw(&Canvas { area: &area });
         area.present().expect(DRAWN);
     }
     text
 }
 
-/// The bytes of a PNG file with what `draw` draws.
-pub fn png(height: f64, draw: impl FnOnce(&Canvas)) -> Vec<u8> {
+/// The bytes of a PNG file, `width` and `height` large, with what `draw` draws.
+pub fn png([width, height]: [f64; 2], draw: impl FnOnce(&Canvas)) -> Vec<u8> {
     register();
-    let size = [pixels(WIDTH) as u32, pixels(height) as u32];
+    let size = [pixels(width) as u32, pixels(height) as u32];
     let mut bytes = vec![255; size[0] as usize * size[1] as usize * 3];
     {
         let area = BitMapBackend::with_buffer(&mut bytes, size.into()).into_drawing_area();
@@ -131,33 +114,44 @@ pub fn png(height: f64, draw: impl FnOnce(&Canvas)) -> Vec<u8> {
 
 impl Canvas<'_> {
     /// A line `width` wide through `points`.
-    pub fn line(&self, points: &[[f64; 2]], colour: RGBColor, width: f64) {
+    pub fn line(&self, points: &[[f64; 2]], colour: Colour, width: f64) {
         self.area.line(points.iter().map(at).collect(), colour.stroke_width(pixels(width) as u32));
     }
 
     /// A disc, or a circle with white in it.
-    pub fn dot(&self, centre: [f64; 2], radius: f64, colour: RGBColor, filled: bool) {
-        let inside = if filled { colour } else { WHITE };
+    pub fn dot(&self, centre: [f64; 2], radius: f64, colour: Colour, filled: bool) {
+        let inside = if filled { colour } else { PAPER.light };
         self.area.circle(at(&centre), pixels(radius), inside.filled());
         self.area.circle(at(&centre), pixels(radius), colour.stroke_width(pixels(2.0) as u32));
     }
 
     /// An arrow down from `from`.
-    pub fn arrow(&self, from: [f64; 2], length: f64, colour: RGBColor) {
+    pub fn arrow(&self, from: [f64; 2], length: f64, colour: Colour) {
         let [x, y] = from;
         self.line(&[from, [x, y + length - 4.0]], colour, 2.0);
         let tip = [[x - 4.5, y + length - 7.0], [x + 4.5, y + length - 7.0], [x, y + length]];
         self.area.polygon(tip.iter().map(at).collect(), colour.filled());
     }
 
-    /// White between two corners: what is under a label must not cross it.
+    /// Paper between two corners: what is under a label must not cross it.
     pub fn plate(&self, min: [f64; 2], max: [f64; 2]) {
+        self.rect(min, max, PAPER.light);
+    }
+
+    /// A rectangle between two corners.
+    pub fn rect(&self, min: [f64; 2], max: [f64; 2], colour: Colour) {
         let corners = [min, [max[0], min[1]], max, [min[0], max[1]]];
-        self.area.polygon(corners.iter().map(at).collect(), WHITE.filled());
+        self.area.polygon(corners.iter().map(at).collect(), colour.filled());
+    }
+
+    /// What is between two lines of as many points, so pale that what is under it is seen.
+    pub fn band(&self, low: &[[f64; 2]], high: &[[f64; 2]], colour: Colour) {
+        let outline: Vec<(i32, i32)> = low.iter().chain(high.iter().rev()).map(at).collect();
+        self.area.polygon(outline, colour.mix(0.18).filled());
     }
 
     /// One line of text, its middle at the height of `point`.
-    pub fn text(&self, text: &str, point: [f64; 2], size: f64, colour: RGBColor, side: Side) {
+    pub fn text(&self, text: &str, point: [f64; 2], size: f64, colour: Colour, side: Side) {
         let horizontal = match side {
             Side::Left => HPos::Left,
             Side::Centre => HPos::Center,
@@ -166,12 +160,13 @@ impl Canvas<'_> {
         let style = TextStyle::from((FONT, size * SCALE).into_font()).color(&colour);
         self.area.text(text, at(&point), style.pos(Pos::new(horizontal, VPos::Center)));
     }
+}
 
-    /// Width of a line of text; somewhat more than it takes, since the viewer of an SVG has a font of its own.
-    pub fn width_of(&self, text: &str, size: f64) -> f64 {
-        let (width, _) = (FONT, size * SCALE).into_font().box_size(text).expect(DRAWN);
-        1.06 * f64::from(width) / SCALE
-    }
+/// Width of a line of text; somewhat more than it takes, since the viewer of an SVG has a font of its own.
+pub fn width_of(text: &str, size: f64) -> f64 {
+    register();
+    let (width, _) = (FONT, size * SCALE).into_font().box_size(text).expect(DRAWN);
+    1.06 * f64::from(width) / SCALE
 }
 
 fn at(point: &[f64; 2]) -> (i32, i32) {

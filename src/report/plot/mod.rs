@@ -1,14 +1,27 @@
-//! Plots: panels of points on two logarithmic axes, as SVG and as PNG, the same picture.
+//! Plots: panels of points on two logarithmic axes, as SVG and as PNG, the same picture; bars, curves and stacked factors
+//! as SVG of the width that is asked for, so that text keeps its size on a narrow screen.
 //!
-//! Pictures are 800 wide in their own units and drawn at twice that, so that they are sharp where they are shown
-//! smaller.
+//! Pictures are drawn at twice their own units, so that they are sharp where they are shown smaller.
 
 mod axis;
+mod bars;
 mod canvas;
+mod chart;
+mod curves;
 mod labels;
+pub mod palette;
 mod panel;
+mod scale;
+mod stack;
 
-use canvas::Canvas;
+use canvas::{Canvas, WIDTH};
+use palette::{INK, colours};
+
+pub use bars::{Bar, BarGroup, Bars};
+pub use chart::Chart;
+pub use curves::{CurvePoint, Curves, Line, Mark};
+pub use scale::{Scale, plain as tick_text};
+pub use stack::{Stack, StackRow};
 
 /// A picture of panels, one below the other, with one legend.
 #[derive(Clone, Debug, PartialEq)]
@@ -80,29 +93,33 @@ const MARGIN: f64 = 12.0;
 impl Figure {
     /// The bytes of a file of this form; the same for the same figure.
     pub fn bytes(&self, format: Format) -> Vec<u8> {
-        let height = self.panels.len() as f64 * panel::HEIGHT + LEGEND + self.notes.len() as f64 * NOTE + 2.0 * MARGIN;
+        let size = [WIDTH, self.height()];
         match format {
-            Format::Svg => canvas::svg(height, |canvas| self.draw(canvas)).into_bytes(),
-            Format::Png => canvas::png(height, |canvas| self.draw(canvas)),
+            Format::Svg => canvas::svg(size, |canvas| self.draw(canvas)).into_bytes(),
+            Format::Png => canvas::png(size, |canvas| self.draw(canvas)),
         }
     }
 
+    fn height(&self) -> f64 {
+        self.panels.len() as f64 * panel::HEIGHT + LEGEND + self.notes.len() as f64 * NOTE + 2.0 * MARGIN
+    }
+
     fn draw(&self, canvas: &Canvas) {
-        let mut top = MARGIN;
+        let (mut top, colours) = (MARGIN, colours(&self.groups));
         for panel in &self.panels {
-            panel::draw(panel, canvas, top);
+            panel::draw(panel, &colours, canvas, top);
             top += panel::HEIGHT;
         }
         // The legend: a dot and a name for each group.
         let (mut x, y) = (panel::LEFT, top + LEGEND * 0.5);
         for (group, name) in self.groups.iter().enumerate() {
-            canvas.dot([x + 6.0, y], 6.0, canvas::group_colour(group), true);
-            canvas.text(name, [x + 18.0, y], canvas::BODY, canvas::group_colour(group), canvas::Side::Left);
-            x += 18.0 + canvas.width_of(name, canvas::BODY) + 24.0;
+            canvas.dot([x + 6.0, y], 6.0, colours[group], true);
+            canvas.text(name, [x + 18.0, y], canvas::BODY, colours[group], canvas::Side::Left);
+            x += 18.0 + canvas::width_of(name, canvas::BODY) + 24.0;
         }
         for (row, note) in self.notes.iter().enumerate() {
             let y = top + LEGEND + (row as f64 + 0.5) * NOTE;
-            canvas.text(note, [panel::LEFT, y], canvas::SMALL, canvas::INK, canvas::Side::Left);
+            canvas.text(note, [panel::LEFT, y], canvas::SMALL, INK.light, canvas::Side::Left);
         }
     }
 }

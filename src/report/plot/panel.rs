@@ -1,9 +1,14 @@
 //! One panel: frame, axes, the front, points and their labels.
 
 use super::axis::{LogAxis, power};
-use super::canvas::{self, Canvas, FAINT, INK, MIDDLE, Side, WIDTH, group_colour};
+use super::canvas::{self, Canvas, Side, WIDTH};
 use super::labels::{Rect, place};
+use super::palette::{self, Colour};
 use super::{Panel, Point};
+
+const INK: Colour = palette::INK.light;
+const MIDDLE: Colour = palette::MIDDLE.light;
+const FAINT: Colour = palette::FAINT.light;
 
 /// Height of a panel with its titles.
 pub const HEIGHT: f64 = 440.0;
@@ -22,7 +27,8 @@ const ARROW: f64 = 22.0;
 /// Height of a label.
 const LINE: f64 = 16.0;
 
-pub fn draw(panel: &Panel, canvas: &Canvas, top: f64) {
+/// Draws a panel whose highest line is at `top`; `colours` are those of the groups.
+pub fn draw(panel: &Panel, colours: &[Colour], canvas: &Canvas, top: f64) {
     let frame = Rect { min: [LEFT, top + TOP], max: [RIGHT, top + BOTTOM] };
     canvas.text(&panel.title, [16.0, top + 12.0], canvas::HEAD, INK, Side::Left);
     canvas.text(&panel.y_title, [16.0, top + 36.0], canvas::BODY, INK, Side::Left);
@@ -37,8 +43,8 @@ pub fn draw(panel: &Panel, canvas: &Canvas, top: f64) {
     grid(canvas, x, y, frame);
     let places: Vec<[f64; 2]> = panel.points.iter().map(|p| [x.place(p.x), y.place(p.y)]).collect();
     front(panel, canvas, &places, frame);
-    labels(panel, canvas, &places, frame);
-    marks(panel, canvas, &places);
+    labels(panel, colours, canvas, &places, frame);
+    marks(panel, colours, canvas, &places);
 }
 
 /// Axes with room around all points: on the right for a label, below for the arrows of bounds.
@@ -96,11 +102,11 @@ fn front(panel: &Panel, canvas: &Canvas, places: &[[f64; 2]], frame: Rect) {
     canvas.line(&line, MIDDLE, 2.0);
 }
 
-fn marks(panel: &Panel, canvas: &Canvas, places: &[[f64; 2]]) {
+fn marks(panel: &Panel, colours: &[Colour], canvas: &Canvas, places: &[[f64; 2]]) {
     // What is on the front is drawn last, so that it is on top.
     for front in [false, true] {
         for (point, place) in panel.points.iter().zip(places).filter(|(point, _)| point.is_front == front) {
-            let colour = group_colour(point.group);
+            let colour = colours[point.group];
             if point.is_bound {
                 canvas.arrow(*place, ARROW, colour);
             }
@@ -109,7 +115,7 @@ fn marks(panel: &Panel, canvas: &Canvas, places: &[[f64; 2]]) {
     }
 }
 
-fn labels(panel: &Panel, canvas: &Canvas, places: &[[f64; 2]], frame: Rect) {
+fn labels(panel: &Panel, colours: &[Colour], canvas: &Canvas, places: &[[f64; 2]], frame: Rect) {
     // Those of the front choose first.
     let mut order: Vec<usize> = (0..places.len()).collect();
     order.sort_by_key(|&i| !panel.points[i].is_front);
@@ -123,7 +129,7 @@ fn labels(panel: &Panel, canvas: &Canvas, places: &[[f64; 2]], frame: Rect) {
         })
         .collect();
     let of = |i: &usize| &panel.points[*i];
-    let sizes: Vec<[f64; 2]> = order.iter().map(|i| [canvas.width_of(&of(i).label, canvas::SMALL), LINE]).collect();
+    let sizes: Vec<[f64; 2]> = order.iter().map(|i| [canvas::width_of(&of(i).label, canvas::SMALL), LINE]).collect();
     let points: Vec<[f64; 2]> = order.iter().map(|&i| places[i]).collect();
     let inner = Rect { min: [frame.min[0] + 6.0, frame.min[1]], max: [frame.max[0] - 2.0, frame.max[1] - 4.0] };
     let placed = place(&points, &sizes, &obstacles, inner);
@@ -137,6 +143,6 @@ fn labels(panel: &Panel, canvas: &Canvas, places: &[[f64; 2]], frame: Rect) {
     for (i, rect) in order.iter().zip(placed) {
         let middle = (rect.min[1] + rect.max[1]) * 0.5;
         canvas.plate([rect.min[0] - 1.0, rect.min[1] + 1.0], [rect.max[0] - 1.0, rect.max[1] - 1.0]);
-        canvas.text(&of(i).label, [rect.min[0], middle], canvas::SMALL, group_colour(of(i).group), Side::Left);
+        canvas.text(&of(i).label, [rect.min[0], middle], canvas::SMALL, colours[of(i).group], Side::Left);
     }
 }

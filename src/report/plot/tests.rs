@@ -33,7 +33,8 @@ fn both_forms_hold_the_picture() {
     let picture = image::load_from_memory(&png).unwrap().into_rgb8();
     assert_eq!(picture.width(), 1600);
     // The colour of the only group is there, and text is not pale boxes: dark pixels are many.
-    assert!(picture.pixels().any(|p| p.0 == [0, 114, 178]));
+    let colour = palette::colours(&["tree".to_owned()])[0];
+    assert!(picture.pixels().any(|p| p.0 == [colour.0, colour.1, colour.2]));
     assert!(picture.pixels().filter(|p| p.0.iter().all(|&c| c < 90)).count() > 2000);
     assert_eq!(png, figure().bytes(Format::Png));
 }

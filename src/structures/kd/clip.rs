@@ -37,6 +37,12 @@ pub(in crate::structures) fn cut_bounds(corners: [Vec3; 3], bounds: &Aabb, axis:
     (half(below, -1.0), half(above, 1.0))
 }
 
+/// The area of the part of the triangle `corners` in `cell`, its faces included. Off by less than 1e-12 of the square of the triangle's
+/// largest coordinate.
+pub(in crate::structures) fn clipped_area(corners: [Vec3; 3], cell: &Aabb) -> f64 {
+    Polygon { slack: DVec3::ZERO, ..Polygon::new(corners) }.cut_to(cell).area()
+}
+
 /// Corners, and for each whether it was computed (and hence rounded) rather than given.
 #[derive(Clone)]
 struct Polygon {
@@ -58,12 +64,16 @@ impl Polygon {
 
     /// The part of a triangle in `cell`.
     fn clipped(corners: [Vec3; 3], cell: &Aabb) -> Self {
-        let mut polygon = Self::new(corners);
+        Self::new(corners).cut_to(cell)
+    }
+
+    /// What of it lies in `cell`.
+    fn cut_to(mut self, cell: &Aabb) -> Self {
         for axis in 0..3 {
-            polygon.keep(axis, cell.min[axis].into(), 1.0);
-            polygon.keep(axis, cell.max[axis].into(), -1.0);
+            self.keep(axis, cell.min[axis].into(), 1.0);
+            self.keep(axis, cell.max[axis].into(), -1.0);
         }
-        polygon
+        self
     }
 
     /// The box of the polygon in `cut`, or `cut` where rounding has left nothing.
@@ -73,6 +83,13 @@ impl Polygon {
         }
         let tight = self.bounds().intersection(cut);
         if tight.is_empty() { cut } else { tight }
+    }
+
+    /// By the fan of triangles around its first corner.
+    fn area(&self) -> f64 {
+        let [first, rest @ ..] = &self.corners[..self.len] else { return 0.0 };
+        let fan = rest.windows(2).map(|pair| (pair[0].0 - first.0).cross(pair[1].0 - first.0));
+        fan.sum::<DVec3>().length() * 0.5
     }
 
     /// Cuts away what surely lies beyond the plane: keeps points with `side * (p[axis] - plane) >= 0` and some slack.

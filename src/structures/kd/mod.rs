@@ -5,12 +5,12 @@ pub(super) mod clip;
 mod config;
 mod median;
 mod node;
+mod outline;
 mod partition;
 mod planted;
 mod sah;
 mod sah_binned;
 mod sah_sweep;
-mod shape;
 #[cfg(test)]
 mod tests;
 mod traverse;
@@ -22,7 +22,7 @@ pub use config::{AxisRule, CountOf, Equal, Exit, KdConfig, Limit, Median, Plane,
 use super::binary::BinaryTree;
 use super::leaf::LeafBlock;
 use super::walk::single;
-use crate::accel::{Accel, BuildError, Footprint, Observer, TreeShape};
+use crate::accel::{Accel, BuildError, Footprint, Observer, Outline, TreeShape};
 use crate::geometry::{Aabb, Hit, Mesh, Ray};
 use crate::triangle::TriangleTest;
 use build::{Context, Plan, grow};
@@ -119,6 +119,10 @@ impl<T: TriangleTest> Accel for KdTree<T> {
     }
 
     fn shape(&self) -> TreeShape {
-        shape::of(&self.nodes, self.bounds)
+        outline::of(self).shape()
+    }
+
+    fn outline(&self) -> Option<Outline> {
+        Some(outline::of(self))
     }
 }

@@ -6,8 +6,8 @@ use obvhs::bvh2::builder::build_bvh2_from_tris;
 use obvhs::ray::{Ray as PreparedRay, RayHit};
 use obvhs::triangle::Triangle;
 
-use super::Tree;
-use crate::accel::{Observer, TreeShape};
+use super::{Tree, aabb};
+use crate::accel::{Observer, Outline, Part};
 
 /// Binary: PLOC with reinsertion, 48-byte nodes.
 ///
@@ -89,29 +89,16 @@ impl Tree for Bvh2 {
         (hit.t < f32::INFINITY).then_some(hit)
     }
 
-    fn shape(&self) -> TreeShape {
-        let mut shape = TreeShape::default();
-        let nodes = &self.nodes;
-        let area = |at: usize| f64::from(nodes[at].aabb().half_area());
-        let mut cost = 0.0;
-        let mut stack: Vec<(usize, usize)> = (!nodes.is_empty()).then_some((0, 0)).into_iter().collect();
-        while let Some((at, depth)) = stack.pop() {
-            let node = &nodes[at];
+    fn outline(&self) -> Outline {
+        let root = self.nodes.first().map(|root| (0, aabb(*root.aabb())));
+        Outline::of(root, |at: usize, _, references| {
+            let node = &self.nodes[at];
             if node.is_leaf() {
-                let count = node.prim_count as usize;
-                shape.leaves += 1;
-                shape.references += count;
-                shape.largest_leaf = shape.largest_leaf.max(count);
-                shape.depth = shape.depth.max(depth);
-                cost += area(at) * TreeShape::leaf_cost(count);
-            } else {
-                shape.inner += 1;
-                cost += area(at) * TreeShape::INNER_COST;
-                let first = node.first_index as usize;
-                stack.extend([(first, depth + 1), (first + 1, depth + 1)]);
+                references.extend(node.first_index..node.first_index + node.prim_count);
+                return Part::Leaf;
             }
-        }
-        shape.sah_cost = nodes.first().map(|_| area(0)).filter(|&root| root > 0.0).map(|root| cost / root);
-        shape
+            let first = node.first_index as usize;
+            Part::Inner([first, first + 1].map(|child| (child, aabb(*self.nodes[child].aabb()))).into())
+        })
     }
 }

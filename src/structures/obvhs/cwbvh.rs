@@ -8,8 +8,8 @@ use obvhs::ray::{Ray as PreparedRay, RayHit};
 use obvhs::traverse;
 use obvhs::triangle::Triangle;
 
-use super::Tree;
-use crate::accel::{Observer, TreeShape};
+use super::{Tree, aabb};
+use crate::accel::{Observer, Outline, Part};
 
 /// Compressed, 8 wide: 80-byte nodes, at most three triangles a leaf.
 ///
@@ -73,26 +73,33 @@ impl Tree for CwBvh {
         (hit.t < f32::INFINITY).then_some(hit)
     }
 
-    fn shape(&self) -> TreeShape {
-        let mut shape = TreeShape { references: self.primitive_indices.len(), ..TreeShape::default() };
-        let mut stack: Vec<(usize, usize)> = (!self.nodes.is_empty()).then_some((0, 0)).into_iter().collect();
-        while let Some((at, depth)) = stack.pop() {
-            let node = &self.nodes[at];
-            shape.inner += 1;
-            for child in 0..8 {
-                if node.is_child_empty(child) {
-                    continue;
-                }
-                if node.is_leaf(child) {
-                    let (_, count) = node.child_primitives(child);
-                    shape.leaves += 1;
-                    shape.largest_leaf = shape.largest_leaf.max(count as usize);
-                    shape.depth = shape.depth.max(depth + 1);
-                } else {
-                    stack.push((node.child_node_index(child) as usize, depth + 1));
-                }
+    /// Children of a node that hold triangles are its leaves; their boxes are rounded outward to a grid of 256 cells.
+    fn outline(&self) -> Outline {
+        let root = (!self.nodes.is_empty()).then(|| (Place::Node(0), aabb(self.total_aabb)));
+        Outline::of(root, |place, _, references| match place {
+            Place::Leaf(first, count) => {
+                references.extend(first..first + count);
+                Part::Leaf
             }
-        }
-        shape
+            Place::Node(at) => {
+                let node = &self.nodes[at];
+                let place = |child| {
+                    let (first, count) = node.child_primitives(child);
+                    if node.is_leaf(child) {
+                        Place::Leaf(first, count)
+                    } else {
+                        Place::Node(node.child_node_index(child) as usize)
+                    }
+                };
+                let used = (0..8).filter(|&child| !node.is_child_empty(child));
+                Part::Inner(used.map(|child| (place(child), aabb(node.child_aabb(child)))).collect())
+            }
+        })
     }
+}
+
+/// A node, or a child of one that holds triangles: the first of them and how many there are.
+enum Place {
+    Node(usize),
+    Leaf(u32, u32),
 }

@@ -47,6 +47,11 @@ impl<T: LeafTest> Leaves<T> {
         move |ray, index| T::test(&self.triangles[index], ray, &prepared)
     }
 
+    /// The triangle of the mesh at a place of the tree.
+    pub fn id(&self, place: u32) -> u32 {
+        self.ids[place as usize]
+    }
+
     /// Bytes of the triangles and of their numbers.
     pub fn bytes(&self) -> (usize, usize) {
         (size_of_val(&self.triangles[..]), size_of_val(&self.ids[..]))
@@ -54,6 +59,6 @@ impl<T: LeafTest> Leaves<T> {
 
     #[inline(always)]
     pub fn hit(&self, found: RayHit) -> Hit {
-        Hit::new(found.t, self.ids[found.primitive_id as usize])
+        Hit::new(found.t, self.id(found.primitive_id))
     }
 }

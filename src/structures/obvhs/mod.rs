@@ -29,8 +29,8 @@ pub use config::{ObvhsConfig, Preset};
 pub use leaf_test::{LeafTest, Native, Over};
 pub use rt_test::RtTest;
 
-use crate::accel::{Accel, BuildError, Footprint, Observer, TreeShape};
-use crate::geometry::{Hit, Mesh, Ray};
+use crate::accel::{Accel, BuildError, Footprint, Observer, Outline, TreeShape};
+use crate::geometry::{Aabb, Hit, Mesh, Ray};
 use leaves::{Leaves, input};
 
 /// The binary BVH of obvhs.
@@ -43,6 +43,11 @@ pub type ObvhsCwBvh<T> = Obvhs<CwBvh, T>;
 pub struct Obvhs<B, T: LeafTest> {
     tree: B,
     leaves: Leaves<T>,
+}
+
+/// A box of obvhs as ours.
+fn aabb(bounds: obvhs::aabb::Aabb) -> Aabb {
+    Aabb { min: bounds.min.into(), max: bounds.max.into() }
 }
 
 /// What the two trees of obvhs have in common. Tests give `t` of a triangle in the order of the tree, infinity for a miss.
@@ -66,7 +71,8 @@ pub trait Tree: Send + Sync + Sized + 'static {
         observer: &mut impl Observer,
     ) -> Option<RayHit>;
 
-    fn shape(&self) -> TreeShape;
+    /// Its boxes; references are places in the tree.
+    fn outline(&self) -> Outline;
 }
 
 impl<B: Tree, T: LeafTest> Accel for Obvhs<B, T> {
@@ -103,6 +109,12 @@ impl<B: Tree, T: LeafTest> Accel for Obvhs<B, T> {
     }
 
     fn shape(&self) -> TreeShape {
-        self.tree.shape()
+        self.tree.outline().shape()
+    }
+
+    fn outline(&self) -> Option<Outline> {
+        let mut outline = self.tree.outline();
+        outline.references.iter_mut().for_each(|place| *place = self.leaves.id(*place));
+        Some(outline)
     }
 }

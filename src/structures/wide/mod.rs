@@ -8,8 +8,8 @@ mod config;
 mod frustum;
 mod layout;
 mod node;
+mod outline;
 mod packet;
-mod shape;
 mod stack;
 #[cfg(test)]
 mod tests;
@@ -22,7 +22,7 @@ pub use config::{Partition, WideConfig};
 use super::leaf::LeafBlock;
 use super::pages;
 use super::walk::single;
-use crate::accel::{Accel, BuildError, Footprint, Observer, TreeShape};
+use crate::accel::{Accel, BuildError, Footprint, Observer, Outline, TreeShape};
 use crate::geometry::{Aabb, Hit, Mesh, Ray};
 use crate::triangle::TriangleTest;
 use collapse::{Collapse, Cost};
@@ -121,6 +121,10 @@ impl<T: TriangleTest> Accel for WideTree<T> {
     }
 
     fn shape(&self) -> TreeShape {
-        shape::of(self.root, &self.nodes, &self.blocks, &self.bounds)
+        outline::of(self).shape()
+    }
+
+    fn outline(&self) -> Option<Outline> {
+        Some(outline::of(self))
     }
 }

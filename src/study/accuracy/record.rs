@@ -1,11 +1,11 @@
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use crate::measure::Provenance;
 use crate::validate::Ulps;
 
 /// One structure over one triangle test on the rays of one kind: how wrong, and how fast.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AccuracyRecord {
     /// Version of these fields.
     pub schema: u32,

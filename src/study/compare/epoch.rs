@@ -2,14 +2,16 @@
 
 use super::Settings;
 use super::prepare::{Prepared, Subject, prepare, twin_of};
-use crate::accel::{Counts, DynAccel, Query};
+use crate::accel::{DynAccel, Query};
 use crate::geometry::Ray;
 use crate::measure::advice::Conditions;
 use crate::measure::{
     Clock, Instructions, Pass, Plan, RandomOrder, Samples, ThreadClock, Timed, machine, spread, take, take_again,
 };
+use crate::report::CaseCounts;
 use crate::scene::{Scene, Workload};
 use crate::study::built::Built;
+use crate::study::counted::Counted;
 use crate::study::guarded::Guarded;
 use crate::study::{PANICKED, Refused, Stage, StudyError, guarded};
 
@@ -31,6 +33,7 @@ pub(super) struct Tally {
     pub tests_per_ray: Option<f64>,
     pub steps_per_ray: Option<f64>,
     pub instructions_per_ray: Option<f64>,
+    pub counts: CaseCounts,
 }
 
 /// A case that is timed: structure and workload by their numbers.
@@ -271,27 +274,19 @@ fn keep<T>(values: &mut Vec<T>, kept: &[bool]) {
 
 /// Hits and counts of one pass over `rays`.
 fn count(accel: &dyn DynAccel, rays: &[Ray], query: Query) -> Tally {
-    let mut counts = Counts::default();
-    let hits = match query {
-        Query::Closest => {
-            let mut hits = vec![None; rays.len()];
-            accel.closest_hits_counted(rays, &mut hits, &mut counts);
-            hits.iter().flatten().count()
-        }
-        Query::Any => {
-            let mut hits = vec![false; rays.len()];
-            accel.any_hits_counted(rays, &mut hits, &mut counts);
-            hits.iter().filter(|hit| **hit).count()
-        }
-    };
-    let observed = accel.observed();
-    let per_ray = |n: u64| n as f64 / rays.len() as f64;
+    let counted = Counted::new(accel, rays, query);
     Tally {
         rays: rays.len(),
-        hits,
-        tests_per_ray: observed.tests.then(|| per_ray(counts.tests)),
-        steps_per_ray: observed.steps.then(|| per_ray(counts.steps())),
+        hits: counted.hits,
+        tests_per_ray: counted.tests_per_ray(),
+        steps_per_ray: counted.steps_per_ray(),
         instructions_per_ray: None,
+        counts: CaseCounts {
+            leaf_steps_per_ray: counted.leaf_steps_per_ray(),
+            empty_leaf_steps_per_ray: counted.empty_leaf_steps_per_ray(),
+            tests_over_minimum: counted.tests_over_minimum(),
+            ..CaseCounts::of(&accel.shape())
+        },
     }
 }
 

@@ -82,7 +82,7 @@ pub fn compare_scene(
 }
 
 /// What of a workload a structure declines, if anything is: then it has no time.
-fn declined(accel: &dyn DynAccel, workload: &Workload) -> Option<&'static str> {
+pub(super) fn declined(accel: &dyn DynAccel, workload: &Workload) -> Option<&'static str> {
     let can = accel.capabilities();
     if workload.query == Query::Any && !can.any_hit {
         return Some("any hit");

@@ -23,7 +23,8 @@ impl Trial<'_> {
         for (s, subject) in self.subjects.iter().enumerate().filter(|(s, _)| Some(*s) != twin) {
             let builds: Vec<f64> = subject.build_ns.iter().map(|&ns| ns as f64).collect();
             for (w, workload) in self.workloads.iter().enumerate() {
-                let Tally { rays, hits, tests_per_ray, steps_per_ray, instructions_per_ray } = self.tallies[s][w];
+                let Tally { rays, hits, tests_per_ray, steps_per_ray, instructions_per_ray, counts } =
+                    self.tallies[s][w];
                 let samples = self.samples_of(s, w);
                 let samples_ns = nanoseconds(samples);
                 let trace_ns = median(&samples_ns);
@@ -65,6 +66,7 @@ impl Trial<'_> {
                     checked_rays: Some(subject.checks[w].rays),
                     structure_errors: Some(subject.checks[w].errors),
                     provenance: provenance.clone(),
+                    counts,
                 });
             }
         }

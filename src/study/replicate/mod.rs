@@ -3,12 +3,12 @@
 //! The report times all rays of a picture, construction left out, on a machine of its own: seconds can be compared with its
 //! seconds only in their ratios. `t'` is seconds / (rays x triangles).
 
-mod original;
-mod picture;
+pub(in crate::study) mod original;
+pub(in crate::study) mod picture;
 mod tables;
 mod timing;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::accel::DynAccel;
 use crate::measure::{Clock, Interval, Provenance, Threads, mean_ratio, median, paired_ratio};
@@ -37,7 +37,7 @@ pub struct Settings {
 }
 
 /// The report's three tables, ours beside its own, and its conclusion.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Replication {
     /// Version of this form.
     pub schema: u32,
@@ -52,7 +52,7 @@ pub struct Replication {
 }
 
 /// Rays of a 512 x 512 picture.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Rays {
     pub scene: String,
     pub primary: u64,
@@ -65,7 +65,7 @@ pub struct Rays {
 }
 
 /// Seconds of a picture.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Seconds {
     /// Median.
     pub seconds: f64,
@@ -76,7 +76,7 @@ pub struct Seconds {
 }
 
 /// An easy or normal scene.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Main {
     pub scene: String,
     pub triangles: usize,
@@ -98,7 +98,7 @@ pub struct Main {
 }
 
 /// The report's tree with one pair of parameters on one scene.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Setting {
     pub scene: String,
     /// L.
@@ -111,7 +111,7 @@ pub struct Setting {
 }
 
 /// A hard scene, primary rays.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Hard {
     pub scene: String,
     pub triangles: usize,
@@ -133,7 +133,7 @@ pub struct Hard {
 }
 
 /// The claim that the report ends with: for the hard scenes a SAH tree would have been much faster.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Conclusion {
     /// The scenes of the mean.
     pub scenes: Vec<String>,

@@ -6,7 +6,7 @@ use crate::geometry::Ray;
 use crate::scene::{Sampling, Scene, Workload, WorkloadKind};
 
 /// All rays that the report counts, on its 512 x 512 pixels.
-pub(super) struct Picture {
+pub(in crate::study) struct Picture {
     /// Primary and mirror rays.
     pub closest: Vec<Ray>,
     /// Shadow rays.

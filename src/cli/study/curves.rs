@@ -1,0 +1,127 @@
+//! What the studies of curves share on the command line: epochs of scenes, measured one by one and kept in a journal.
+
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+use super::folder::{Exports, Folder};
+use crate::cli::progress::Progress;
+use crate::cli::terminal::Terminal;
+use crate::cli::{Verdict, sources};
+use crate::measure::{Provenance, SystemClock, Threads};
+use crate::registry::Registry;
+use crate::scene::{Scene, WorkloadKind};
+use crate::study::epoch::{Epoch, Settings, key, measure, troubles};
+use crate::study::journal::Journal;
+use crate::study::{StudyError, documented_defect};
+
+#[derive(Clone, Debug, clap::Args)]
+pub struct Options {
+    /// A structure, with keys that differ from their defaults; may be repeated [default: those of the study]
+    #[arg(long, short, value_name = "NAME[:key=value,..]")]
+    pub structure: Vec<String>,
+    /// A kind of rays; may be repeated [default: those of the study]
+    #[arg(long, short, value_name = "KIND")]
+    pub workload: Vec<WorkloadKind>,
+    /// Rays of a workload, at most
+    #[arg(long, value_name = "N", default_value_t = 16384, value_parser = clap::value_parser!(u32).range(1..=1 << 24))]
+    pub rays: u32,
+    /// Epochs: in each all structures are built anew; more of them can be added later
+    #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u16).range(1..=1000))]
+    pub epochs: u16,
+    /// Samples of every case in an epoch
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u16).range(1..=1000))]
+    pub runs: u16,
+    /// Seconds that the samples of an epoch of a scene may take: slow cases are timed on fewer rays to keep within them
+    #[arg(long, value_name = "SECONDS", default_value_t = 6, value_parser = clap::value_parser!(u32).range(1..=86400))]
+    pub budget: u32,
+    /// Threads that build and trace; 1 is the unit of comparison
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: u16,
+    /// Seed of the rays and of the order of samples
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub seed: u64,
+    #[command(flatten)]
+    pub folder: Folder,
+    #[command(flatten)]
+    pub exports: Exports,
+}
+
+impl Options {
+    /// The settings, with `structures` and `workloads` where none are named.
+    ///
+    /// # Errors
+    /// If a structure is not known, or the system does not give the threads.
+    pub fn settings(
+        &self,
+        registry: &Registry,
+        structures: &[&str],
+        workloads: &[WorkloadKind],
+    ) -> anyhow::Result<Settings> {
+        let own: Vec<String> = structures.iter().map(|&name| name.into()).collect();
+        let named = if self.structure.is_empty() { &own } else { &self.structure };
+        Ok(Settings {
+            structures: sources::structures(registry, named)?,
+            guide: sources::guide(registry)?,
+            workloads: if self.workload.is_empty() { workloads.into() } else { self.workload.clone() },
+            rays: self.rays,
+            runs: self.runs.into(),
+            budget_ns: u64::from(self.budget) * 1_000_000_000,
+            check_ns: 4_000_000_000,
+            seed: self.seed,
+            threads: Threads::pinned(self.threads.into()).map_err(anyhow::Error::msg)?,
+        })
+    }
+}
+
+/// Measures the epochs of `scenes` that the journal of the study `name` lacks, and gives all those asked for. `wrap` makes a case
+/// of the epoch of a scene, by its number; `epoch` is its inverse. All scenes of an epoch come before the next one: what changes
+/// on the machine over hours changes all scenes alike.
+///
+/// # Errors
+/// If the journal cannot be used, or a scene cannot be measured.
+pub fn cases<C: Clone + Serialize + DeserializeOwned>(
+    name: &str,
+    options: &Options,
+    settings: &Settings,
+    scenes: &[Scene],
+    terminal: &Terminal,
+    wrap: impl Fn(usize, Epoch) -> Result<C, StudyError>,
+    epoch_of: impl Fn(&C) -> &Epoch,
+) -> anyhow::Result<Vec<C>> {
+    let provenance = Provenance::capture(settings.threads.count());
+    let mut journal: Journal<C> = options.folder.journal(name, &settings.kept(), provenance)?;
+    let epochs = 0..usize::from(options.epochs);
+    let plan: Vec<(usize, usize, String)> =
+        epochs.flat_map(|e| scenes.iter().enumerate().map(move |(s, scene)| (s, e, key(scene, e)))).collect();
+    let left = journal.left(plan.iter().map(|(.., key)| key.as_str()))?.len();
+    let clock = SystemClock::start();
+    let mut progress = Progress::over(left, terminal);
+    for (s, e, key_of_case) in &plan {
+        if journal.get(key_of_case).is_some() {
+            continue;
+        }
+        let scene = &scenes[*s];
+        progress.scene(&format!("epoch {} of {}: {}", e + 1, options.epochs, scene.name));
+        let first = journal.get(&key(scene, 0)).map(&epoch_of);
+        let epoch = measure(scene, settings, *e, first, &clock, &mut |stage| progress.stage(&stage))?;
+        journal.append(key_of_case, wrap(*s, epoch)?)?;
+        progress.scene_done();
+    }
+    progress.finish();
+    // The journal may hold other scenes as well: those asked for are shown.
+    Ok(plan.iter().filter_map(|(.., key)| journal.get(key).cloned()).collect())
+}
+
+/// What to say of structures that took no part, and what they make of the run.
+pub fn verdict<'a>(epochs: impl IntoIterator<Item = &'a Epoch>) -> (Vec<String>, Verdict) {
+    let troubles = troubles(epochs);
+    let wrong = |t: &crate::study::epoch::Trouble| t.wrong && documented_defect(&t.structure).is_none();
+    let verdict = if troubles.iter().any(wrong) {
+        Verdict::Wrong
+    } else if troubles.iter().any(|trouble| trouble.refused) {
+        Verdict::Refused
+    } else {
+        Verdict::Right
+    };
+    (troubles.into_iter().map(|trouble| trouble.sentence).collect(), verdict)
+}

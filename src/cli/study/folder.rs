@@ -1,0 +1,106 @@
+//! What all resumable studies share on the command line.
+
+use std::path::PathBuf;
+
+use crate::measure::{Provenance, Threads};
+use crate::output::OutputFile;
+use crate::report::{Table, to_json, to_markdown};
+use crate::study::journal::{Header, Journal, JournalError};
+
+/// Where a study keeps its journal.
+#[derive(Clone, Debug, clap::Args)]
+pub struct Folder {
+    /// The folder of journals: the same command again goes on where the last one stopped
+    #[arg(long, value_name = "DIR", default_value = "runs")]
+    pub dir: PathBuf,
+    /// Throw away what was measured before, and start anew
+    #[arg(long)]
+    pub fresh: bool,
+}
+
+impl Folder {
+    /// The journal of the study `name`.
+    ///
+    /// # Errors
+    /// As [`Journal::open`].
+    pub fn journal<C: serde::Serialize + serde::de::DeserializeOwned>(
+        &self,
+        name: &str,
+        settings: &impl serde::Serialize,
+        provenance: Provenance,
+    ) -> Result<Journal<C>, JournalError> {
+        Journal::open(&self.path(name), Header::new(name, settings, provenance), self.fresh)
+    }
+
+    /// The file of that journal.
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.dir.join(format!("{name}.jsonl"))
+    }
+}
+
+/// Where results go besides the terminal.
+#[derive(Clone, Debug, Default, clap::Args)]
+pub struct Exports {
+    /// Write the result as JSON
+    #[arg(long, value_name = "FILE")]
+    pub export_json: Option<PathBuf>,
+    /// Write one row per measured thing as CSV
+    #[arg(long, value_name = "FILE")]
+    pub export_csv: Option<PathBuf>,
+    /// Write the tables as Markdown
+    #[arg(long, value_name = "FILE")]
+    pub export_markdown: Option<PathBuf>,
+}
+
+/// Files that can be written.
+pub struct Files {
+    json: Option<OutputFile>,
+    csv: Option<OutputFile>,
+    markdown: Option<OutputFile>,
+}
+
+impl Exports {
+    /// Checks all files before the long run.
+    ///
+    /// # Errors
+    /// If one cannot be written.
+    pub fn check(&self) -> anyhow::Result<Files> {
+        let check = |path: &Option<PathBuf>| path.as_deref().map(OutputFile::check).transpose();
+        let (json, csv, markdown) =
+            (check(&self.export_json)?, check(&self.export_csv)?, check(&self.export_markdown)?);
+        Ok(Files { json, csv, markdown })
+    }
+}
+
+impl Files {
+    /// Writes those that were asked for; `csv` is a whole file.
+    ///
+    /// # Errors
+    /// If one cannot be written.
+    pub fn write(
+        &self,
+        result: &impl serde::Serialize,
+        csv: impl FnOnce() -> Vec<u8>,
+        tables: &[Table],
+        foot: &[String],
+    ) -> anyhow::Result<()> {
+        if let Some(file) = &self.json {
+            file.write(&to_json(result))?;
+        }
+        if let Some(file) = &self.csv {
+            file.write(&csv())?;
+        }
+        if let Some(file) = &self.markdown {
+            file.write(&to_markdown(tables, foot))?;
+        }
+        Ok(())
+    }
+}
+
+/// One thread, or as many as asked for, each bound to a core.
+///
+/// # Errors
+/// If the system does not give them.
+pub fn threads(count: u16) -> anyhow::Result<Threads> {
+    Threads::pinned(count.into()).map_err(anyhow::Error::msg)
+}

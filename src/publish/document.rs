@@ -1,0 +1,158 @@
+//! What a report says, before it has a form: sections of text, tables and figures.
+
+use crate::report::Table;
+use crate::report::plot::Chart;
+
+/// A whole report.
+#[derive(Clone, Debug, Default)]
+pub struct Document {
+    /// The question.
+    pub title: String,
+    pub answer: Answer,
+    pub sections: Vec<Section>,
+}
+
+/// What a reader must know who reads nothing else.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Answer {
+    /// One or two words.
+    pub verdict: String,
+    /// The sentences that say why, the most important first.
+    pub sentences: Vec<String>,
+    /// Headline numbers.
+    pub numbers: Vec<Headline>,
+}
+
+/// A number that stands for itself.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Headline {
+    /// As large as it is important: `20.6 ×`.
+    pub number: String,
+    /// Its interval, or nothing.
+    pub interval: String,
+    /// What it is.
+    pub label: String,
+}
+
+/// A part of a report with a heading of its own.
+#[derive(Clone, Debug)]
+pub struct Section {
+    /// Letters, digits and hyphens; no two sections share one.
+    pub id: &'static str,
+    pub title: &'static str,
+    pub blocks: Vec<Block>,
+}
+
+/// What follows one upon the other in a section.
+#[derive(Clone, Debug)]
+pub enum Block {
+    Text(String),
+    /// What columns mean, small.
+    Note(String),
+    Table(Tabular),
+    Figure(Figure),
+    /// What is not there, and how to make it.
+    Missing(Missing),
+    /// Blocks that are opened on demand, below their name.
+    Fold(String, Vec<Block>),
+}
+
+/// A table, and the command that measured it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tabular {
+    pub table: Table,
+    pub command: String,
+    /// How far from the middle the colour of a cell is, row by row, from -3 to 3; nothing for tables without colour.
+    pub shades: Vec<Vec<Option<i8>>>,
+}
+
+/// Something to look at, with all that is needed to do without looking.
+#[derive(Clone, Debug)]
+pub struct Figure {
+    /// Letters, digits and hyphens; no two figures share one. The name of its files.
+    pub id: String,
+    /// What it shows, and how to read it.
+    pub caption: String,
+    /// What one sees, for those who do not.
+    pub alt: String,
+    /// The command that measured it.
+    pub command: String,
+    pub art: Art,
+    /// The numbers in it; a table without columns where it has none.
+    pub data: Table,
+}
+
+/// What a figure consists of.
+#[derive(Clone, Debug)]
+pub enum Art {
+    Chart(Chart),
+    Gallery(Vec<Thumbnail>),
+    Overlay(Overlay),
+}
+
+/// Pictures of one size on one scale, side by side, and two of them one upon the other.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Overlay {
+    pub pictures: Vec<Thumbnail>,
+    /// Colours of the scale at equal distances, `#RRGGBB`.
+    pub ramp: Vec<String>,
+    /// Places on the scale, 0 to 1, and what is there.
+    pub ticks: Vec<(f64, String)>,
+}
+
+/// A small picture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Thumbnail {
+    pub name: String,
+    /// One line below it.
+    pub note: String,
+    /// What one sees.
+    pub alt: String,
+    /// The bytes of a PNG file.
+    pub png: Vec<u8>,
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+}
+
+/// A part that no run has measured.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Missing {
+    pub what: String,
+    /// The command that measures it.
+    pub command: String,
+}
+
+impl Block {
+    /// A table without colours.
+    pub fn table(table: Table, command: &str) -> Self {
+        Self::Table(Tabular { table, command: command.into(), shades: vec![] })
+    }
+
+    pub fn missing(what: &str, command: &str) -> Self {
+        Self::Missing(Missing { what: what.into(), command: command.into() })
+    }
+}
+
+impl Document {
+    /// All figures, in their order.
+    pub fn figures(&self) -> Vec<&Figure> {
+        fn collect<'a>(blocks: &'a [Block], found: &mut Vec<&'a Figure>) {
+            for block in blocks {
+                match block {
+                    Block::Figure(figure) => found.push(figure),
+                    Block::Fold(_, inner) => collect(inner, found),
+                    _ => {}
+                }
+            }
+        }
+        let mut found = vec![];
+        self.sections.iter().for_each(|section| collect(&section.blocks, &mut found));
+        found
+    }
+
+    /// What no run has measured.
+    pub fn missing(&self) -> Vec<&Missing> {
+        let blocks = self.sections.iter().flat_map(|section| &section.blocks);
+        blocks.filter_map(|block| if let Block::Missing(missing) = block { Some(missing) } else { None }).collect()
+    }
+}

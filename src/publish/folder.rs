@@ -1,0 +1,197 @@
+//! A folder written whole or not at all.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use tempfile::Builder;
+
+/// The file that tells a folder of ours from others: it lists what is in it.
+pub const MARK: &str = "sahara-report.json";
+
+/// A folder for a report.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ReportFolder {
+    path: PathBuf,
+}
+
+/// Why a folder cannot be written.
+#[derive(Debug, thiserror::Error)]
+pub enum FolderError {
+    #[error("{} is a file: name a folder that does not exist yet", .0.display())]
+    File(PathBuf),
+    #[error("{} holds something that is not a report of sahara, {other}: name another folder, or empty it", path.display())]
+    Foreign { path: PathBuf, other: String },
+    #[error("cannot write {}: {cause}: choose a place that exists, may be written and has room", path.display())]
+    Write { path: PathBuf, cause: io::Error },
+}
+
+impl ReportFolder {
+    /// Checks that `path` may be written: it does not exist, is empty or holds an older report and nothing else. Leaves nothing
+    /// behind.
+    ///
+    /// # Errors
+    /// If it is a file, holds anything else, or its parent takes no folder.
+    pub fn check(path: &Path) -> Result<Self, FolderError> {
+        let folder = Self { path: path.into() };
+        if path.exists() && !path.is_dir() {
+            return Err(FolderError::File(path.into()));
+        }
+        if let Some(other) = folder.foreign().map_err(|cause| folder.error(cause))? {
+            return Err(FolderError::Foreign { path: path.into(), other });
+        }
+        folder.beside().map_err(|cause| folder.error(cause))?;
+        Ok(folder)
+    }
+
+    /// The name of anything in the folder that no report has put there.
+    fn foreign(&self) -> io::Result<Option<String>> {
+        if !self.path.exists() {
+            return Ok(None);
+        }
+        let listed: Vec<String> = match fs::read(self.path.join(MARK)) {
+            Ok(mark) => serde_json::from_slice(&mark).unwrap_or_default(),
+            Err(cause) if cause.kind() == io::ErrorKind::NotFound => vec![],
+            Err(cause) => return Err(cause),
+        };
+        let mut found = vec![];
+        names(&self.path, "", &mut found)?;
+        Ok(found.into_iter().find(|name| !listed.contains(name)))
+    }
+
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Writes files by their paths in the folder, with `/`, in place of what was there.
+    ///
+    /// # Errors
+    /// If the system refuses, or there is no room; then an older report is as it was.
+    pub fn write(&self, files: &[(String, Vec<u8>)]) -> Result<(), FolderError> {
+        self.place(files).map_err(|cause| self.error(cause))
+    }
+
+    fn place(&self, files: &[(String, Vec<u8>)]) -> io::Result<()> {
+        let new = self.beside()?;
+        let mut listed: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).collect();
+        listed.push(MARK);
+        let mark = serde_json::to_vec_pretty(&listed).expect("names are text");
+        for (name, bytes) in files.iter().map(|(name, bytes)| (name.as_str(), bytes)).chain([(MARK, &mark)]) {
+            let path = new.path().join(name);
+            fs::create_dir_all(path.parent().expect("it is in the folder"))?;
+            fs::write(path, bytes)?;
+        }
+
+        // An old report moves aside, and back when the new one cannot take its place.
+        let target = self.path.canonicalize().unwrap_or_else(|_| self.path.clone());
+        if !target.exists() {
+            return fs::rename(new.keep(), &target);
+        }
+        let aside = self.beside()?;
+        let old = aside.path().join("old");
+        fs::rename(&target, &old)?;
+        fs::rename(new.path(), &target).inspect_err(|_| {
+            let _ = fs::rename(&old, &target);
+        })?;
+        // It is under another name now: nothing is left to remove.
+        let _ = new.keep();
+        Ok(())
+    }
+
+    /// A new folder in the same directory, with the permissions of any new folder; it goes when it is dropped.
+    fn beside(&self) -> io::Result<tempfile::TempDir> {
+        let target = self.path.canonicalize().unwrap_or_else(|_| self.path.clone());
+        let directory = target.parent().filter(|d| !d.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let mut builder = Builder::new();
+        builder.prefix(".sahara-").suffix(".part");
+        #[cfg(unix)]
+        {
+            use std::os::unix::fs::PermissionsExt;
+            builder.permissions(fs::Permissions::from_mode(0o777));
+        }
+        builder.tempdir_in(directory)
+    }
+
+    fn error(&self, cause: io::Error) -> FolderError {
+        // tempfile adds the path of a folder that the user did not name.
+        let text = cause.to_string();
+        let cause = match text.split_once(" at path ") {
+            Some((plain, _)) => io::Error::new(cause.kind(), plain),
+            None => cause,
+        };
+        FolderError::Write { path: self.path.clone(), cause }
+    }
+}
+
+/// All files below `folder`, with `/`; empty folders by their name.
+fn names(folder: &Path, prefix: &str, found: &mut Vec<String>) -> io::Result<()> {
+    let mut entries: Vec<fs::DirEntry> = fs::read_dir(folder)?.collect::<io::Result<_>>()?;
+    entries.sort_by_key(fs::DirEntry::file_name);
+    for entry in entries {
+        let name = format!("{prefix}{}", entry.file_name().to_string_lossy());
+        if entry.file_type()?.is_dir() {
+            let before = found.len();
+            names(&entry.path(), &format!("{name}/"), found)?;
+            if found.len() == before {
+                found.push(name);
+            }
+        } else {
+            found.push(name);
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn files(text: &str) -> Vec<(String, Vec<u8>)> {
+        ["index.html", "data/a.csv"].map(|name| (name.to_owned(), text.as_bytes().to_vec())).into()
+    }
+
+    fn entries(folder: &Path) -> usize {
+        fs::read_dir(folder).unwrap().count()
+    }
+
+    #[test]
+    fn a_report_replaces_a_report_and_leaves_nothing_beside() {
+        let parent = tempfile::tempdir().unwrap();
+        let path = parent.path().join("out");
+        for text in ["one", "two"] {
+            ReportFolder::check(&path).unwrap().write(&files(text)).unwrap();
+            assert_eq!(fs::read_to_string(path.join("data/a.csv")).unwrap(), text);
+            assert_eq!(entries(parent.path()), 1);
+        }
+        // What the new one does not have is gone with the old one.
+        ReportFolder::check(&path).unwrap().write(&files("three")[..1]).unwrap();
+        assert!(!path.join("data").exists());
+    }
+
+    #[test]
+    fn what_is_not_ours_stays() {
+        let parent = tempfile::tempdir().unwrap();
+        let path = parent.path().join("out");
+        ReportFolder::check(&path).unwrap().write(&files("one")).unwrap();
+        for name in ["notes.txt", "data/notes.txt"] {
+            fs::write(path.join(name), "mine").unwrap();
+            let error = ReportFolder::check(&path).unwrap_err().to_string();
+            assert!(error.contains(name) && error.contains("another folder"), "{error}");
+            fs::remove_file(path.join(name)).unwrap();
+        }
+        fs::create_dir(path.join("empty")).unwrap();
+        assert!(ReportFolder::check(&path).is_err());
+        let file = parent.path().join("file");
+        fs::write(&file, "mine").unwrap();
+        assert!(matches!(ReportFolder::check(&file), Err(FolderError::File(_))));
+        assert!(matches!(ReportFolder::check(&file.join("x")), Err(FolderError::Write { .. })));
+        assert!(matches!(ReportFolder::check(&parent.path().join("no/such")), Err(FolderError::Write { .. })));
+    }
+
+    #[test]
+    fn an_empty_folder_is_taken() {
+        let parent = tempfile::tempdir().unwrap();
+        ReportFolder::check(parent.path()).unwrap().write(&files("one")).unwrap();
+        assert_eq!(entries(parent.path()), 3);
+    }
+}

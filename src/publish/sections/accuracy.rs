@@ -1,0 +1,79 @@
+//! Speed against error, judged by exact arithmetic.
+
+use crate::publish::document::{Art, Block, Figure, Section};
+use crate::publish::runs::{Runs, shown};
+use crate::publish::words::{scene_name, slug};
+use crate::report::number::{count, figures};
+use crate::report::plot::Chart;
+use crate::study::accuracy::{AccuracyRecord, figure, legend, tables};
+
+pub fn section(runs: &Runs) -> Section {
+    let mut blocks = vec![];
+    if runs.accuracy.is_empty() {
+        let command = "sahara accuracy dragon --export-json runs/accuracy.json";
+        blocks.push(Block::missing("Speed against error of every structure over every triangle test", command));
+    } else {
+        blocks.push(Block::Text(
+            "Exact arithmetic decides for every ray what it truly meets. Kinds of rays are never added up: each fails in its \
+             own way. On the front are those that nothing beats in both speed and error."
+                .into(),
+        ));
+        for (i, of_kind) in runs.accuracy.chunk_by(|a, b| a.rays == b.rays && a.scene == b.scene).enumerate() {
+            blocks.push(Block::Figure(one(i, of_kind)));
+            let table = tables(of_kind, &legend()).remove(0);
+            let name = table.title.clone();
+            let command = shown(&of_kind[0].provenance.command);
+            blocks.push(Block::Fold(format!("Table: {name}"), vec![Block::table(table, &command)]));
+        }
+    }
+    Section { id: "accuracy", title: "What does being right cost?", blocks }
+}
+
+fn one(index: usize, records: &[AccuracyRecord]) -> Figure {
+    let first = &records[0];
+    let name = scene_name(&first.scene, first.stand_in);
+    let front: Vec<String> = records
+        .iter()
+        .filter(|record| record.dominated_by.is_none())
+        .map(|r| {
+            format!(
+                "{}, {} ns a ray, error at most {} %",
+                r.label,
+                figures(r.ns_per_ray),
+                figures(100.0 * r.error_bound)
+            )
+        })
+        .collect();
+    let rows = records.iter().map(|r| {
+        [
+            r.label.clone(),
+            r.triangle_test.clone(),
+            figures(r.ns_per_ray),
+            figures(r.error),
+            figures(r.error_bound),
+            if r.dominated_by.is_none() { "yes".into() } else { String::new() },
+        ]
+    });
+    Figure {
+        id: format!("accuracy-{}-{}-{index}", slug(&first.scene), slug(&first.rays)),
+        caption: format!(
+            "{name}, {} rays: share of wrong answers against time. Lower and further left is better; both axes are \
+             logarithmic.",
+            first.rays
+        ),
+        alt: format!(
+            "Scatter plot of {} structures and triangle tests on {} {} rays. On the front: {}.",
+            records.len(),
+            count(first.judged),
+            first.rays,
+            front.join("; ")
+        ),
+        command: shown(&first.provenance.command),
+        art: Art::Chart(Chart::Points(figure(records))),
+        data: crate::publish::words::table(
+            "",
+            ["structure", "triangle test", "ns per ray", "error", "error at most", "on the front"],
+            rows.collect(),
+        ),
+    }
+}

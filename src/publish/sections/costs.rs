@@ -1,0 +1,89 @@
+//! What a step and a triangle test cost on this machine, and how well counts predict times.
+
+use crate::publish::document::{Art, Block, Figure, Section};
+use crate::publish::runs::Runs;
+use crate::publish::words::{distinct, table};
+use crate::report::number::figures;
+use crate::report::plot::{Chart, CurvePoint, Curves, Line, Mark, Scale};
+use crate::study::costs::{Family, LEGEND, Observation, result, tables};
+
+pub fn section(runs: &Runs) -> Section {
+    let mut blocks = vec![];
+    match &runs.costs {
+        None => {
+            blocks.push(Block::missing("What a step and a triangle test cost on this machine", "sahara study costs"))
+        }
+        Some(study) => {
+            let (families, command) = (result(&study.cases, study.seed()), study.command());
+            blocks.push(Block::Text(
+                "The surface area heuristic predicts time from two costs: of a traversal step, K_T, and of a triangle test, K_I. \
+                 Regression of measured times on counts finds them for this machine, and how far they can be trusted."
+                    .into(),
+            ));
+            // Each structure's own family predicts it; `all` is the first.
+            if families.len() > 1 {
+                blocks.push(Block::Figure(figure(&families[1..], &command)));
+            }
+            blocks.extend(tables(&families).into_iter().map(|table| Block::table(table, &command)));
+            blocks.extend(LEGEND.map(|words| Block::Note(words.into())));
+        }
+    }
+    Section { id: "costs", title: "What do a step and a test cost?", blocks }
+}
+
+/// What all observations of the families lie between.
+fn ends(observations: &[&Observation]) -> [f64; 2] {
+    let times = observations.iter().flat_map(|o| [o.predicted_ns, o.ns_per_ray]).filter(|ns| *ns > 0.0);
+    times.fold([f64::INFINITY, 0.0], |[low, high], ns| [low.min(ns), high.max(ns)])
+}
+
+fn figure(families: &[Family], command: &str) -> Figure {
+    let all: Vec<&Observation> = families.iter().flat_map(|family| &family.observations).collect();
+    let dots = |structure: &String| Line {
+        label: structure.clone(),
+        note: String::new(),
+        points: all
+            .iter()
+            .filter(|o| o.structure == *structure && o.predicted_ns > 0.0)
+            .map(|o| CurvePoint { x: o.predicted_ns, y: o.ns_per_ray, band: None })
+            .collect(),
+        mark: Mark::Dots,
+    };
+    let structures = distinct(all.iter().map(|o| &o.structure));
+    let diagonal = Line {
+        label: "as predicted".into(),
+        note: String::new(),
+        points: ends(&all).map(|ns| CurvePoint { x: ns, y: ns, band: None }).into(),
+        mark: Mark::Line,
+    };
+    let rows = all.iter().map(|o| {
+        let [measured, predicted] = [o.ns_per_ray, o.predicted_ns].map(figures);
+        [o.structure.clone(), o.scene.clone(), o.workload.clone(), measured, predicted]
+    });
+    let told = families.iter().map(|family| {
+        format!(
+            "{}: {} cases, typically off by a factor of {:.2}",
+            family.family,
+            family.observations.len(),
+            family.typical_factor
+        )
+    });
+    Figure {
+        id: "costs".into(),
+        caption: "Measured against predicted time of a ray, each structure by the costs of its family. On the line the prediction is \
+                  exact; both axes are logarithmic."
+            .into(),
+        alt: format!("Scatter plot. {}.", told.collect::<Vec<_>>().join("; ")),
+        command: command.into(),
+        art: Art::Chart(Chart::Curves(Curves {
+            x_title: "predicted nanoseconds a ray".into(),
+            y_title: "measured nanoseconds a ray".into(),
+            x_scale: Scale::Log,
+            y_scale: Scale::Log,
+            lines: structures.iter().map(dots).chain([diagonal]).collect(),
+            level: None,
+            highest: None,
+        })),
+        data: table("", ["structure", "scene", "rays", "measured ns", "predicted ns"], rows.collect()),
+    }
+}

@@ -1,0 +1,58 @@
+//! One file for each section: pure functions from runs to what is said.
+
+mod accuracy;
+mod answer;
+mod attribution;
+mod break_even;
+mod costs;
+mod crossover;
+mod parameters;
+mod partitions;
+mod provenance;
+mod replicate;
+mod scaling;
+mod speed;
+
+use super::document::{Document, Section};
+use super::runs::Runs;
+
+pub use answer::QUESTION;
+
+/// The order in which they are read: what was looked at, why it is faster, by how much, and what follows.
+const ORDER: [&str; 13] = [
+    "scenes",
+    "attribution",
+    "heat",
+    "speed",
+    "scaling",
+    "break-even",
+    "crossover",
+    "costs",
+    "parameters",
+    "accuracy",
+    "partitions",
+    "report",
+    "provenance",
+];
+
+/// The whole report; `pictures` are the sections that are drawn and not measured.
+pub fn document(runs: &Runs, pictures: Vec<Section>) -> Document {
+    let mut sections = vec![
+        attribution::section(runs),
+        speed::section(runs),
+        scaling::section(runs),
+        break_even::section(runs),
+        crossover::section(runs),
+        costs::section(runs),
+        parameters::section(runs),
+        accuracy::section(runs),
+        partitions::section(runs),
+        replicate::section(runs),
+    ];
+    sections.extend(pictures);
+    sections.sort_by_key(|section| ORDER.iter().position(|id| *id == section.id));
+    let mut document = Document { title: QUESTION.into(), answer: answer::answer(runs), sections };
+    let missing = document.missing().into_iter().map(|m| (m.what.clone(), m.command.clone())).collect();
+    document.sections.push(provenance::section(runs, missing));
+    document
+}

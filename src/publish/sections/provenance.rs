@@ -1,0 +1,61 @@
+//! Where the numbers come from.
+
+use crate::measure::Provenance;
+use crate::publish::document::{Block, Section};
+use crate::publish::runs::{Runs, shown};
+use crate::publish::words::table;
+use crate::report::number::plural;
+
+/// Every file and every machine; `missing` is what no run has measured.
+pub fn section(runs: &Runs, missing: Vec<(String, String)>) -> Section {
+    let sources = runs.sources.iter().map(|source| {
+        let path = source.path.display().to_string();
+        [path, source.kind.clone(), source.command.clone(), source.replaced.clone()]
+    });
+    let mut files = table(
+        "Files that this report was made from, oldest first",
+        ["file", "holds", "made by", "left out"],
+        sources.collect(),
+    );
+    files.notes.push(
+        "Where several files measured the same scene with the same command, the one last written counts: samples of \
+         different runs are no pairs."
+            .into(),
+    );
+    let mut blocks = vec![Block::table(files, ""), Block::table(machines(&runs.provenances()), "")];
+    blocks.extend(warnings(&runs.provenances()).map(|table| Block::table(table, "")));
+    if !missing.is_empty() {
+        let rows = missing.into_iter().map(|(what, command)| [what, command]);
+        let title = format!("Not measured: {}", plural(rows.len(), "part"));
+        blocks.push(Block::table(table(&title, ["what", "command"], rows.collect()), ""));
+    }
+    Section { id: "provenance", title: "Where the numbers come from", blocks }
+}
+
+/// One row for each machine and build.
+fn machines(all: &[&Provenance]) -> crate::report::Table {
+    let mut rows: Vec<[String; 6]> = vec![];
+    for p in all {
+        let pinned = if p.pinned.is_some() { ", pinned" } else { "" };
+        let governor = p.governor.as_ref().map_or(String::new(), |governor| format!("; governor {governor}"));
+        let row = [
+            p.cpu.clone(),
+            p.simd.clone(),
+            format!("{} of {} processors{pinned}; denormals {}{governor}", p.threads, p.cores, p.denormals),
+            format!("{} {}, {}", p.version, p.commit, p.profile),
+            p.rustc.clone(),
+            p.target.clone(),
+        ];
+        if !rows.contains(&row) {
+            rows.push(row);
+        }
+    }
+    table("Machines and builds", ["processor", "instructions", "threads", "sahara", "compiler", "target"], rows)
+}
+
+/// What spoilt runs, as they say themselves.
+fn warnings(all: &[&Provenance]) -> Option<crate::report::Table> {
+    let rows = all.iter().flat_map(|p| p.warnings.iter().map(|warning| [shown(&p.command), warning.clone()]));
+    let rows: Vec<[String; 2]> = rows.collect();
+    (!rows.is_empty()).then(|| table("What spoilt these runs", ["command", "warning"], rows))
+}

@@ -1,0 +1,128 @@
+//! How time, build and memory grow with the number of triangles.
+
+use crate::measure::Interval;
+use crate::publish::document::{Art, Block, Figure, Section};
+use crate::publish::runs::Runs;
+use crate::publish::words::{slug, table};
+use crate::report::number::figures;
+use crate::report::plot::{Chart, CurvePoint, Curves, Line, Mark, Scale};
+use crate::study::scaling::{Family, Growth, Point, result, tables};
+
+/// What is drawn over the number of triangles.
+struct Quantity {
+    id: &'static str,
+    words: &'static str,
+    y_title: &'static str,
+    value: fn(&Point) -> f64,
+    power: fn(&Growth) -> Option<Interval>,
+}
+
+const TIME: Quantity = Quantity {
+    id: "time",
+    words: "time of a ray",
+    y_title: "nanoseconds a ray",
+    value: |point| point.ns_per_ray,
+    power: |growth| growth.time,
+};
+
+const BUILD: Quantity = Quantity {
+    id: "build",
+    words: "time of the build",
+    y_title: "milliseconds of the build",
+    value: |point| point.build_ns * 1e-6,
+    power: |growth| growth.build,
+};
+
+const MEMORY: Quantity = Quantity {
+    id: "memory",
+    words: "memory",
+    y_title: "bytes a triangle",
+    value: |point| point.bytes_per_triangle,
+    power: |growth| growth.bytes,
+};
+
+pub fn section(runs: &Runs) -> Section {
+    let mut blocks = vec![];
+    match &runs.scaling {
+        None => blocks.push(Block::missing(
+            "How time, build and memory grow with the number of triangles",
+            "sahara study scaling",
+        )),
+        Some(study) => {
+            let (growths, command) = (result(&study.cases, study.seed()), study.command());
+            blocks.push(Block::Text(
+                "If a query were logarithmic in the number of triangles n, its power of n would be near 0; a power of 1 means that \
+                 twice the triangles take twice the time. One sphere, divided more and more finely and seen alike, asks this \
+                 without anything else that changes; different meshes differ in more than their size."
+                    .into(),
+            ));
+            let groups: Vec<&[Growth]> =
+                growths.chunk_by(|a, b| a.family == b.family && a.workload == b.workload).collect();
+            for group in groups {
+                if group[0].family == Family::Spheres {
+                    blocks.push(Block::Figure(figure(group, &TIME, &command)));
+                    // Builds and memory do not know of rays.
+                    if group[0].workload == growths[0].workload {
+                        blocks.push(Block::Figure(figure(group, &BUILD, &command)));
+                        blocks.push(Block::Figure(figure(group, &MEMORY, &command)));
+                    }
+                }
+            }
+            let (powers, points): (Vec<_>, Vec<_>) = tables(&growths)
+                .into_iter()
+                .partition(|table| table.columns.iter().any(|c| c == "time a ray") && table.columns.len() == 7);
+            blocks.extend(powers.into_iter().map(|table| Block::table(table, &command)));
+            let points = points.into_iter().map(|table| Block::table(table, &command)).collect();
+            blocks.push(Block::Fold("All points".into(), points));
+        }
+    }
+    Section { id: "scaling", title: "Is a query logarithmic?", blocks }
+}
+
+fn figure(group: &[Growth], quantity: &Quantity, command: &str) -> Figure {
+    let first = &group[0];
+    let line = |growth: &Growth| Line {
+        label: growth.structure.clone(),
+        note: (quantity.power)(growth).map_or(String::new(), |power| format!("n^{:.2}", power.estimate)),
+        points: growth
+            .points
+            .iter()
+            .map(|point| CurvePoint { x: point.triangles as f64, y: (quantity.value)(point), band: None })
+            .collect(),
+        mark: Mark::Both,
+    };
+    let rows = group.iter().flat_map(|growth| {
+        growth.points.iter().map(|p| [growth.structure.clone(), p.triangles.to_string(), figures((quantity.value)(p))])
+    });
+    let told = group.iter().filter_map(|growth| {
+        let power = (quantity.power)(growth)?;
+        Some(format!("{}: power {:.2} [{:.2}, {:.2}]", growth.structure, power.estimate, power.low, power.high))
+    });
+    let told: Vec<String> = told.collect();
+    let rays = if quantity.id == TIME.id { format!(" {} rays;", first.workload) } else { String::new() };
+    Figure {
+        id: format!("scaling-{}-{}-{}", quantity.id, slug(first.family.words()), slug(&first.workload)),
+        caption: format!(
+            "{}, {};{rays} both axes are logarithmic, so that a power of n is a straight line. Its exponent stands behind the name.",
+            capital(quantity.words),
+            first.family.words(),
+        ),
+        alt: format!("Line chart over the number of triangles. {}.", told.join("; ")),
+        command: command.into(),
+        art: Art::Chart(Chart::Curves(Curves {
+            x_title: "triangles".into(),
+            y_title: quantity.y_title.into(),
+            x_scale: Scale::Log,
+            y_scale: Scale::Log,
+            lines: group.iter().map(line).collect(),
+            level: None,
+            highest: None,
+        })),
+        data: table("", ["structure", "triangles", quantity.y_title], rows.collect()),
+    }
+}
+
+fn capital(words: &str) -> String {
+    let mut letters = words.chars();
+    letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
+}

@@ -1,0 +1,226 @@
+//! Lines with the band of their intervals, each named where it ends.
+
+use super::canvas::{self, Canvas, Side};
+use super::palette::{Colour, FAINT, INK, MIDDLE, colours};
+use super::scale::{Axis, Scale};
+
+/// Lines over one pair of axes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Curves {
+    pub x_title: String,
+    pub y_title: String,
+    pub x_scale: Scale,
+    pub y_scale: Scale,
+    pub lines: Vec<Line>,
+    /// A horizontal line at this height, and what it means: "equal".
+    pub level: Option<(f64, String)>,
+    /// What is higher is beyond the picture.
+    pub highest: Option<f64>,
+}
+
+/// A line through points, from left to right.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Line {
+    /// Structures have their colours.
+    pub label: String,
+    /// What stands behind it.
+    pub note: String,
+    pub points: Vec<CurvePoint>,
+    pub mark: Mark,
+}
+
+/// How points are drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mark {
+    /// A line alone: what is fitted or derived.
+    Line,
+    /// Dots alone: what has no order.
+    Dots,
+    /// Dots that a line joins: what was measured.
+    Both,
+}
+
+impl Line {
+    fn name(&self) -> String {
+        if self.note.is_empty() { self.label.clone() } else { format!("{} {}", self.label, self.note) }
+    }
+}
+
+/// A point with the interval of its height.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CurvePoint {
+    pub x: f64,
+    pub y: f64,
+    /// Lower and upper end.
+    pub band: Option<[f64; 2]>,
+}
+
+const LINE: f64 = 19.0;
+const BOTTOM: f64 = 52.0;
+const TOP: f64 = 34.0;
+
+impl Curves {
+    /// Height of the drawing where it is `width` wide.
+    pub(super) fn height(&self, width: f64) -> f64 {
+        let names = if has_room(width) { 0.0 } else { self.lines.len() as f64 * LINE + 8.0 };
+        plot_height(width) + names
+    }
+
+    pub(super) fn draw(&self, canvas: &Canvas, width: f64) {
+        let (height, beside) = (plot_height(width), has_room(width));
+        let labels: Vec<String> = self.lines.iter().map(|line| line.label.clone()).collect();
+        let (names, colours): (Vec<String>, _) = (self.lines.iter().map(Line::name).collect(), colours(&labels));
+        let widest = |names: &mut dyn Iterator<Item = &String>| {
+            names.map(|name| canvas::width_of(name, canvas::SMALL)).fold(0.0, f64::max)
+        };
+        let [x_range, y_range] = self.ranges();
+        let trial = Axis::new(self.y_scale, y_range, [height - BOTTOM, TOP]);
+        let left = widest(&mut trial.ticks_up().iter().map(|(_, text)| text)) + 12.0;
+        let right = width - if beside { widest(&mut names.iter()) + 20.0 } else { 12.0 };
+        let (x, y) = (Axis::new(self.x_scale, x_range, [left, right]), trial);
+
+        canvas.text(&self.y_title, [2.0, 10.0], canvas::SMALL, MIDDLE.light, Side::Left);
+        for (tick, text) in y.ticks_up() {
+            let at = y.place(tick);
+            canvas.line(&[[left, at], [right, at]], FAINT.light, 1.0);
+            canvas.text(&text, [left - 8.0, at], canvas::SMALL, MIDDLE.light, Side::Right);
+        }
+        for (tick, text) in x.ticks_across() {
+            let at = x.place(tick);
+            canvas.line(&[[at, height - BOTTOM], [at, height - BOTTOM + 5.0]], MIDDLE.light, 1.0);
+            canvas.text(&text, [at, height - BOTTOM + 16.0], canvas::SMALL, MIDDLE.light, Side::Centre);
+        }
+        canvas.line(&[[left, height - BOTTOM], [right, height - BOTTOM]], MIDDLE.light, 1.0);
+        let below = [(left + right) * 0.5, height - 12.0];
+        canvas.text(&self.x_title, below, canvas::SMALL, MIDDLE.light, Side::Centre);
+
+        if let Some((level, meaning)) = &self.level {
+            let at = y.place(*level);
+            canvas.line(&[[left, at], [right, at]], INK.light, 1.0);
+            canvas.text(meaning, [left + 6.0, at - 10.0], canvas::SMALL, INK.light, Side::Left);
+        }
+        for (line, &colour) in self.lines.iter().zip(&colours) {
+            draw_line(canvas, line, colour, x, y);
+        }
+        if beside {
+            self.names_beside(canvas, &colours, right + 10.0, y, [TOP, height - BOTTOM]);
+        } else {
+            for (i, (name, &colour)) in names.iter().zip(&colours).enumerate() {
+                let at = height + (i as f64 + 0.5) * LINE;
+                canvas.line(&[[left, at], [left + 22.0, at]], colour, 3.0);
+                canvas.text(name, [left + 30.0, at], canvas::SMALL, colour, Side::Left);
+            }
+        }
+    }
+
+    /// Names at the heights at which the lines end, moved apart where they would touch.
+    fn names_beside(&self, canvas: &Canvas, colours: &[Colour], x: f64, y: Axis, frame: [f64; 2]) {
+        let mut ends: Vec<(f64, usize)> = self
+            .lines
+            .iter()
+            .enumerate()
+            .filter_map(|(i, line)| Some((y.place(line.points.last()?.y).clamp(frame[0], frame[1]), i)))
+            .collect();
+        ends.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        let heights = apart(&ends.iter().map(|(at, _)| *at).collect::<Vec<_>>(), LINE, frame);
+        for ((_, i), at) in ends.into_iter().zip(heights) {
+            canvas.text(&self.lines[i].name(), [x, at], canvas::SMALL, colours[i], Side::Left);
+        }
+    }
+
+    fn ranges(&self) -> [[f64; 2]; 2] {
+        let points = || self.lines.iter().flat_map(|line| &line.points);
+        let level = self.level.as_ref().map(|(level, _)| *level);
+        let highest = self.highest.unwrap_or(f64::INFINITY);
+        // Bands may be so wide that nothing else would be seen: they do not make room for themselves.
+        [
+            padded(self.x_scale, &mut points().map(|p| p.x), 0.02),
+            padded(self.y_scale, &mut points().map(|p| p.y.min(highest)).chain(level), 0.08),
+        ]
+    }
+}
+
+/// Whether names stand at the ends of lines; else they stand below.
+fn has_room(width: f64) -> bool {
+    width >= 560.0
+}
+
+/// Height of the axes with their titles.
+fn plot_height(width: f64) -> f64 {
+    if has_room(width) { (0.5 * width).min(430.0) } else { 0.8 * width }
+}
+
+/// The range of values with some room at both ends; from zero where a linear scale comes near it.
+fn padded(scale: Scale, values: &mut dyn Iterator<Item = f64>, room: f64) -> [f64; 2] {
+    let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
+    if low > high {
+        return [1.0, 10.0];
+    }
+    match scale {
+        Scale::Log => {
+            let high = high.max(1.5 * low);
+            let factor = libm::pow(high / low, room);
+            [low / factor, high * factor]
+        }
+        Scale::Linear => {
+            let low = if low > 0.0 && low < 0.5 * high { 0.0 } else { low };
+            let span = if high > low { high - low } else { 1.0 };
+            [if low == 0.0 { 0.0 } else { low - room * span }, high + room * span]
+        }
+    }
+}
+
+/// Sorted places, moved as little as this simple way can so that neighbours are `gap` apart and all within `frame`.
+fn apart(places: &[f64], gap: f64, frame: [f64; 2]) -> Vec<f64> {
+    let mut moved: Vec<f64> = vec![];
+    for &place in places {
+        let least = moved.last().map_or(frame[0], |last| last + gap);
+        moved.push(place.max(least));
+    }
+    let mut limit = frame[1];
+    for place in moved.iter_mut().rev() {
+        *place = place.min(limit);
+        limit = *place - gap;
+    }
+    moved
+}
+
+fn draw_line(canvas: &Canvas, line: &Line, colour: Colour, x: Axis, y: Axis) {
+    let bands: Vec<(f64, [f64; 2])> = line.points.iter().filter_map(|p| Some((x.place(p.x), p.band?))).collect();
+    let [bottom, top] = y.places();
+    let within = |value: f64| y.place(value).clamp(top.min(bottom), bottom.max(top));
+    let side = |end: usize| bands.iter().map(|(at, band)| [*at, within(band[end])]).collect::<Vec<_>>();
+    if bands.len() > 1 {
+        canvas.band(&side(0), &side(1), colour);
+    }
+    // Neighbours within the picture are joined.
+    let seen = |p: &CurvePoint| (top.min(bottom) - 0.5..=top.max(bottom) + 0.5).contains(&y.place(p.y));
+    for run in line.points.chunk_by(|a, b| seen(a) == seen(b)).filter(|run| seen(&run[0])) {
+        let places: Vec<[f64; 2]> = run.iter().map(|p| [x.place(p.x), y.place(p.y)]).collect();
+        if line.mark != Mark::Dots {
+            canvas.line(&places, colour, 2.0);
+        }
+        if line.mark != Mark::Line {
+            places.into_iter().for_each(|place| canvas.dot(place, 3.0, colour, true));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_moved_apart_and_stay_inside() {
+        assert_eq!(apart(&[10.0, 50.0], 20.0, [0.0, 100.0]), [10.0, 50.0]);
+        assert_eq!(apart(&[10.0, 12.0, 14.0], 20.0, [0.0, 100.0]), [10.0, 30.0, 50.0]);
+        assert_eq!(apart(&[95.0, 97.0, 99.0], 20.0, [0.0, 100.0]), [60.0, 80.0, 100.0]);
+    }
+
+    #[test]
+    fn a_linear_axis_begins_at_zero_where_that_is_near() {
+        assert_eq!(padded(Scale::Linear, &mut [1.0, 10.0].into_iter(), 0.1), [0.0, 11.0]);
+        assert_eq!(padded(Scale::Linear, &mut [9.0, 10.0].into_iter(), 0.1), [8.9, 10.1]);
+        assert_eq!(padded(Scale::Log, &mut std::iter::empty(), 0.1), [1.0, 10.0]);
+    }
+}

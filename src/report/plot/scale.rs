@@ -1,0 +1,160 @@
+//! An axis, linear or logarithmic, with ticks that do not run into each other.
+
+use super::axis::{LogAxis, power};
+use super::canvas;
+use crate::report::number::count;
+
+/// How values become places.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scale {
+    Linear,
+    /// For positive values.
+    Log,
+}
+
+/// A scale between two values, drawn between two places.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Axis {
+    Linear { ends: [f64; 2], places: [f64; 2] },
+    Log(LogAxis),
+}
+
+impl Axis {
+    /// From `low` at the first of `places` to `high`, which is larger, at the second.
+    pub fn new(scale: Scale, [low, high]: [f64; 2], places: [f64; 2]) -> Self {
+        match scale {
+            Scale::Linear => Self::Linear { ends: [low, high], places },
+            Scale::Log => Self::Log(LogAxis::new(low, high, places)),
+        }
+    }
+
+    /// Where `value` is.
+    pub fn place(&self, value: f64) -> f64 {
+        match self {
+            Self::Log(axis) => axis.place(value),
+            Self::Linear { ends, places } => {
+                places[0] + (value - ends[0]) / (ends[1] - ends[0]) * (places[1] - places[0])
+            }
+        }
+    }
+
+    /// Where it begins and ends.
+    pub fn places(&self) -> [f64; 2] {
+        match self {
+            Self::Log(axis) => axis.places(),
+            Self::Linear { places, .. } => *places,
+        }
+    }
+
+    /// Round values on the axis. Ascending.
+    fn candidates(&self) -> Vec<f64> {
+        match self {
+            Self::Log(axis) => axis.ticks(),
+            Self::Linear { ends: [low, high], .. } => {
+                let span = high - low;
+                let unit = power(libm::floor(libm::log10(span)) as i32);
+                let step = [0.1, 0.2, 0.5, 1.0, 2.0].map(|f| f * unit).into_iter().find(|s| span / s <= 8.5);
+                let step = step.unwrap_or(unit);
+                (libm::ceil(low / step - 1e-9) as i64..=libm::floor(high / step + 1e-9) as i64)
+                    .map(|i| i as f64 * step)
+                    .collect()
+            }
+        }
+    }
+
+    /// Values with their texts, for a horizontal axis: as many as fit beside each other.
+    pub fn ticks_across(&self) -> Vec<(f64, String)> {
+        self.ticks(|text| canvas::width_of(text, canvas::SMALL) + 10.0)
+    }
+
+    /// Values with their texts, for a vertical axis: as many as fit above each other.
+    pub fn ticks_up(&self) -> Vec<(f64, String)> {
+        self.ticks(|_| 24.0)
+    }
+
+    fn ticks(&self, room: impl Fn(&str) -> f64) -> Vec<(f64, String)> {
+        let all: Vec<(f64, String)> = self.candidates().into_iter().map(|tick| (tick, plain(tick))).collect();
+        // Every one, or every second, third or fifth: what is left out must be even.
+        let fits = |ticks: &[(f64, String)]| {
+            ticks.windows(2).all(|pair| {
+                let gap = (self.place(pair[1].0) - self.place(pair[0].0)).abs();
+                gap >= 0.5 * (room(&pair[0].1) + room(&pair[1].1))
+            })
+        };
+        let sparse = |step: usize| all.iter().step_by(step).cloned().collect::<Vec<_>>();
+        if fits(&all) {
+            return all;
+        }
+        // On a logarithmic axis powers of ten stay together, else the ones that start at zero.
+        let powers: Vec<(f64, String)> = match self {
+            Self::Log(_) => all.iter().filter(|(tick, _)| is_power(*tick)).cloned().collect(),
+            Self::Linear { .. } => vec![],
+        };
+        if powers.len() > 1 && fits(&powers) {
+            return powers;
+        }
+        if powers.len() > 4 {
+            let of_powers = |step: usize| powers.iter().step_by(step).cloned().collect::<Vec<_>>();
+            return [2, 3, 4, 6].into_iter().map(of_powers).find(|ticks| fits(ticks)).unwrap_or_default();
+        }
+        [2, 3, 4, 6].into_iter().map(sparse).find(|ticks| fits(ticks)).unwrap_or_default()
+    }
+}
+
+fn is_power(value: f64) -> bool {
+    let exponent = libm::log10(value);
+    (exponent - libm::round(exponent)).abs() < 1e-9
+}
+
+/// A round number as an axis says it: `0.001`, `20`, `5,000`, `10⁶`.
+pub fn plain(value: f64) -> String {
+    let size = value.abs();
+    let rounded: f64 = format!("{value:.6e}").parse().expect("a number");
+    if size >= 1e5 || (size > 0.0 && size < 1e-3) {
+        let exponent = libm::floor(libm::log10(size) + 1e-9) as i32;
+        let mantissa = value / power(exponent);
+        let factor = if (mantissa - 1.0).abs() < 1e-9 { String::new() } else { format!("{}·", plain(mantissa)) };
+        format!("{factor}10{}", superscript(exponent))
+    } else if size >= 1000.0 {
+        let sign = if value < 0.0 { "−" } else { "" };
+        format!("{sign}{}", count(size.round() as u64))
+    } else {
+        format!("{rounded}").replace('-', "−")
+    }
+}
+
+fn superscript(exponent: i32) -> String {
+    const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    let raised = |c: char| c.to_digit(10).map_or('⁻', |digit| DIGITS[digit as usize]);
+    exponent.to_string().chars().map(raised).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_short() {
+        let texts = [0.0, 0.001, 0.5, 20.0, -3.0, 5000.0, 1e6, 2e6, 1e-5].map(plain);
+        assert_eq!(texts, ["0", "0.001", "0.5", "20", "−3", "5,000", "10⁶", "2·10⁶", "10⁻⁵"]);
+    }
+
+    #[test]
+    fn linear_ticks_are_round_and_few() {
+        let axis = Axis::new(Scale::Linear, [0.0, 1.0], [0.0, 300.0]);
+        let texts: Vec<String> = axis.ticks_up().into_iter().map(|(_, text)| text).collect();
+        assert_eq!(texts, ["0", "0.2", "0.4", "0.6", "0.8", "1"]);
+        assert_eq!(axis.place(0.5), 150.0);
+    }
+
+    #[test]
+    fn crowded_ticks_are_thinned_evenly() {
+        for (low, high) in [(1.0, 1e12), (1.0, 30.0), (3.0, 7.0), (1e-8, 1e3)] {
+            let axis = Axis::new(Scale::Log, [low, high], [100.0, 0.0]);
+            let ticks = axis.ticks_up();
+            assert!(ticks.len() >= 2, "{low} to {high}: {ticks:?}");
+            let gap = |pair: &[(f64, String)]| axis.place(pair[0].0) - axis.place(pair[1].0);
+            assert!(ticks.windows(2).all(|pair| gap(pair) >= 24.0), "{low} to {high}: {ticks:?}");
+        }
+    }
+}

@@ -1,0 +1,164 @@
+//! The cells of the factorial design: every plane with every stop rule and every traversal.
+
+/// What is varied.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Factor {
+    /// Where a node is split.
+    Plane,
+    /// When a node stays a leaf.
+    Stop,
+    /// How rays walk the tree.
+    Traversal,
+}
+
+/// One value of a factor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Level {
+    /// As tables and journals print it.
+    pub name: &'static str,
+    /// Keys of the structure.
+    pub keys: &'static str,
+}
+
+const fn level(name: &'static str, keys: &'static str) -> Level {
+    Level { name, keys }
+}
+
+/// Where a node is split: the report's rule first, the surface area heuristic over all planes last.
+const PLANES: [Level; 6] = [
+    level("vertex median cyclic", "plane=vertex-median,axis=cyclic"),
+    level("vertex median longest", "plane=vertex-median,axis=longest"),
+    level("spatial median longest", "plane=spatial-median,axis=longest"),
+    level("centroid median longest", "plane=centroid-median,axis=longest"),
+    level("SAH binned", "plane=sah-binned"),
+    level("SAH exact", "plane=sah-sweep"),
+];
+
+/// When a node stays a leaf: the report's rule, then "at most eight triangles", then the surface area heuristic.
+const STOPS: [Level; 3] = [
+    level("report", "stop=report,leaf=100,threshold=0.7,limit=below"),
+    level("leaf 8", "stop=leaf,leaf=8,limit=at-most"),
+    level("SAH", "stop=sah"),
+];
+
+/// How rays walk: the report's way, then the usual one.
+const TRAVERSALS: [Level; 2] =
+    [level("child boxes", "traversal=child-boxes"), level("plane intervals", "traversal=plane-intervals")];
+
+/// What all cells share. The rules of the report take no notice of the costs; the guard against inputs that explode is the one of
+/// `sah-kd`.
+const COMMON: &str = "traversal_cost=1.0,intersection_cost=0.7,empty_bonus=0.2,duplication=8.0";
+
+impl Factor {
+    /// In the order of a cell's numbers.
+    pub const ALL: [Self; 3] = [Self::Plane, Self::Stop, Self::Traversal];
+
+    /// As tables print it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Plane => "plane",
+            Self::Stop => "stop rule",
+            Self::Traversal => "traversal",
+        }
+    }
+
+    /// Its values: the report's first, that of the SAH tree last.
+    pub fn levels(self) -> &'static [Level] {
+        match self {
+            Self::Plane => &PLANES,
+            Self::Stop => &STOPS,
+            Self::Traversal => &TRAVERSALS,
+        }
+    }
+}
+
+/// Cells of the design.
+pub const CELLS: usize = PLANES.len() * STOPS.len() * TRAVERSALS.len();
+
+/// One cell: the number of the level of each factor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Cell(pub [usize; 3]);
+
+impl Cell {
+    /// The report's tree.
+    pub const REPORT: Self = Self([0; 3]);
+    /// The SAH tree.
+    pub const SAH: Self = Self([PLANES.len() - 1, STOPS.len() - 1, TRAVERSALS.len() - 1]);
+
+    /// All cells; a cell stands at its [number](Self::number).
+    pub fn all() -> Vec<Self> {
+        (0..CELLS)
+            .map(|i| {
+                Self([i / (STOPS.len() * TRAVERSALS.len()), i / TRAVERSALS.len() % STOPS.len(), i % TRAVERSALS.len()])
+            })
+            .collect()
+    }
+
+    /// Where it stands among all.
+    pub fn number(self) -> usize {
+        let [plane, stop, traversal] = self.0;
+        (plane * STOPS.len() + stop) * TRAVERSALS.len() + traversal
+    }
+
+    /// The number of its level of `factor`.
+    pub fn level(self, factor: Factor) -> usize {
+        self.0[factor as usize]
+    }
+
+    /// The report's tree with the factors of `switched` (bits in the order of [`Factor::ALL`]) as in the SAH tree.
+    pub fn corner(switched: usize) -> Self {
+        Self(std::array::from_fn(|f| if switched >> f & 1 == 1 { Self::SAH.0[f] } else { Self::REPORT.0[f] }))
+    }
+
+    /// The structure, as the command line takes it, over the triangle test `test`.
+    pub fn spec(self, test: &str) -> String {
+        let keys: Vec<&str> = Factor::ALL.iter().map(|&factor| factor.levels()[self.level(factor)].keys).collect();
+        format!("median-kd:test={test},{},{COMMON}", keys.join(","))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::registry::Registry;
+    use crate::structures::KdConfig;
+
+    #[test]
+    fn cells_stand_where_they_say() {
+        let cells = Cell::all();
+        assert_eq!((cells.len(), cells[0], cells[CELLS - 1]), (36, Cell::REPORT, Cell::SAH));
+        for (i, cell) in cells.iter().enumerate() {
+            assert_eq!(cell.number(), i);
+        }
+        assert_eq!((Cell::corner(0), Cell::corner(7)), (Cell::REPORT, Cell::SAH));
+        assert_eq!(Cell::corner(0b010), Cell([0, STOPS.len() - 1, 0]));
+    }
+
+    #[test]
+    fn the_corners_are_the_trees_that_they_stand_for() {
+        let registry = Registry::builtin();
+        // Numbers as the tree reads them: 1 and 1.0 are one.
+        let config = |spec: &str| {
+            let config: KdConfig = serde_json::from_value(registry.choose(spec).unwrap().config).unwrap();
+            serde_json::to_value(config).unwrap()
+        };
+        let different = |cell: Cell, name: &str| {
+            let (ours, theirs) = (config(&cell.spec("filtered-f64")), config(name));
+            let keys = ours.as_object().unwrap().keys().filter(|key| ours[*key] != theirs[*key]);
+            keys.cloned().collect::<Vec<_>>()
+        };
+        // What the report's rules take no notice of, and the guard.
+        assert_eq!(different(Cell::REPORT, "median-kd"), ["intersection_cost", "empty_bonus", "duplication"]);
+        assert_eq!(different(Cell::SAH, "sah-kd"), [""; 0]);
+    }
+
+    #[test]
+    fn every_cell_is_another_tree() {
+        let registry = Registry::builtin();
+        let mut configs: Vec<String> =
+            Cell::all().iter().map(|cell| registry.choose(&cell.spec("exact")).unwrap().config.to_string()).collect();
+        configs.sort();
+        configs.dedup();
+        assert_eq!(configs.len(), CELLS);
+    }
+}

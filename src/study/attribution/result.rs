@@ -1,0 +1,270 @@
+//! From the journal to the answer. Pure functions.
+
+use serde::Serialize;
+
+use super::design::{CELLS, Cell, Factor};
+use super::effects::{self, TERMS, Weights, value};
+use super::{Case, scene_name};
+use crate::measure::{Interval, NoiseFloor, RandomOrder, median};
+use crate::study::replicates::{interval, replicates, values};
+use crate::study::trial::{Counted, Times};
+
+/// What came of one scene.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Attribution {
+    /// Name of the scene, with `(stand-in)` where a mesh of our own stands in for the real one.
+    pub scene: String,
+    pub triangles: usize,
+    pub stand_in: bool,
+    pub workload: String,
+    /// Epochs and samples in each.
+    pub epochs: usize,
+    pub runs: usize,
+    /// What the twins differ by, at most, as a factor; 1 is nothing.
+    pub floor: f64,
+    /// How many of the two twins' intervals hold 1.
+    pub twins_alike: usize,
+    /// One for each cell of the design, in order.
+    pub cells: Vec<CellResult>,
+    /// One for each level of each factor.
+    pub main_effects: Vec<Effect>,
+    /// One for each term of the decomposition.
+    pub terms: Vec<Term>,
+    /// From the report's tree to the SAH tree: time.
+    pub time: Split,
+    /// The same: triangle tests.
+    pub tests: Split,
+    /// The same: nodes entered.
+    pub steps: Split,
+    /// How many times faster the exact SAH plane is than the report's, both with leaves of at most eight triangles and plane
+    /// intervals.
+    pub plane_alone: Interval,
+}
+
+/// One tree.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct CellResult {
+    pub plane: &'static str,
+    pub stop: &'static str,
+    pub traversal: &'static str,
+    /// Median over all samples, nanoseconds.
+    pub ns_per_ray: f64,
+    /// How many times faster than the report's tree.
+    pub speedup: Interval,
+    pub tests_per_ray: f64,
+    pub steps_per_ray: f64,
+    /// References for each triangle.
+    pub duplication: f64,
+    pub depth: usize,
+    pub bytes: usize,
+    /// As [`TreeShape::sah_cost`](crate::accel::TreeShape::sah_cost).
+    pub sah_cost: Option<f64>,
+    /// Median over the epochs, nanoseconds.
+    pub build_ns: f64,
+    /// Whether a part of the rays was timed.
+    pub sampled: bool,
+}
+
+/// What a level of a factor does: its mean as a multiple of the mean of all cells, geometric means.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Effect {
+    pub factor: &'static str,
+    pub level: &'static str,
+    pub time: Interval,
+    pub tests: f64,
+    pub steps: f64,
+}
+
+/// A factor, or an interaction of factors: its share of the variance of the logarithms over the cells.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Term {
+    pub term: String,
+    pub time: Interval,
+    pub tests: f64,
+    pub steps: f64,
+}
+
+/// A whole as the product of three parts.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Split {
+    /// How many times less the SAH tree takes.
+    pub whole: Interval,
+    /// In the order of [`Factor::ALL`].
+    pub parts: Vec<Part>,
+}
+
+/// What a whole owes to one factor.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Part {
+    pub factor: &'static str,
+    /// The geometric mean over all orders in which the factors can be switched (Shapley 1953).
+    pub times: Interval,
+    /// The least and the most over those orders; they differ by the interactions.
+    pub least: f64,
+    pub most: f64,
+}
+
+/// One tree of one scene: a row of a tidy table.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Row<'a> {
+    pub scene: &'a str,
+    pub triangles: usize,
+    pub stand_in: bool,
+    pub workload: &'a str,
+    pub tree: &'a CellResult,
+}
+
+/// All trees of all scenes.
+pub fn rows(results: &[Attribution]) -> Vec<Row<'_>> {
+    fn of(r: &Attribution) -> Vec<Row<'_>> {
+        let Attribution { scene, triangles, stand_in, workload, cells, .. } = r;
+        cells.iter().map(|tree| Row { scene, triangles: *triangles, stand_in: *stand_in, workload, tree }).collect()
+    }
+    results.iter().flat_map(of).collect()
+}
+
+/// One result for each scene, in the order in which the scenes were begun. A scene whose first epoch is missing has none.
+pub fn result(cases: &[Case], seed: u64) -> Vec<Attribution> {
+    let mut scenes: Vec<(&str, bool, &str)> = vec![];
+    for case in cases {
+        let scene = (case.scene.as_str(), case.stand_in, case.scene_hash.as_str());
+        if !scenes.contains(&scene) {
+            scenes.push(scene);
+        }
+    }
+    let of = |&scene: &(&str, bool, &str)| {
+        let epochs = cases.iter().filter(|c| (c.scene.as_str(), c.stand_in, c.scene_hash.as_str()) == scene);
+        attribute(&epochs.collect::<Vec<_>>(), seed)
+    };
+    scenes.iter().filter_map(of).collect()
+}
+
+/// The result of the epochs of one scene. Nothing without its first one.
+///
+/// # Panics
+/// If an epoch does not hold all cells and twins.
+pub fn attribute(epochs: &[&Case], seed: u64) -> Option<Attribution> {
+    let first = *epochs.iter().find(|case| case.epoch.counts.is_some())?;
+    let counts = first.epoch.counts.as_ref()?;
+    assert!(epochs.iter().all(|case| case.epoch.trees.len() == CELLS + 2), "an epoch holds all cells and two twins");
+
+    let times = |case: &Case| case.epoch.trees.iter().map(|tree| tree.times[0].clone()).collect::<Vec<Times>>();
+    let logs = |times: &Times| times.paces().into_iter().map(libm::log).collect::<Vec<f64>>();
+    let replicates = replicates(epochs.iter().map(|case| times(case).iter().map(logs).collect()).collect());
+    let twin = |cell: Cell, twin: usize| values(&replicates, |logs| logs[cell.number()] - logs[CELLS + twin]);
+    let noise = NoiseFloor::new(&[twin(Cell::REPORT, 0), twin(Cell::SAH, 1)], seed);
+    let floor = noise.log().unwrap_or(0.0);
+    let interval = |weights: &Weights| interval(&replicates, |logs| value(weights, logs), floor, seed);
+    let log_counts = |of: fn(&Counted) -> u64| -> Vec<f64> {
+        // Nothing done counts as one in all, so that there is a logarithm.
+        counts[..CELLS].iter().map(|counted| libm::log(of(counted).max(1) as f64)).collect()
+    };
+    let (tests, steps) = (log_counts(|c| c.tests[0]), log_counts(|c| c.steps[0]));
+    let rays = counts[0].rays[0] as f64;
+
+    let cells = Cell::all().into_iter().enumerate().map(|(i, cell)| {
+        let trees = || epochs.iter().map(|case| &case.epoch.trees[i]);
+        let ns: Vec<f64> = trees().flat_map(|tree| tree.times[0].paces()).collect();
+        let builds: Vec<f64> = trees().map(|tree| tree.build_ns as f64).collect();
+        let [plane, stop, traversal] = Factor::ALL.map(|factor| factor.levels()[cell.level(factor)].name);
+        CellResult {
+            plane,
+            stop,
+            traversal,
+            ns_per_ray: median(&ns).expect("there is a sample"),
+            speedup: interval(&effects::gain(Cell::REPORT, cell)),
+            tests_per_ray: counts[i].tests[0] as f64 / rays,
+            steps_per_ray: counts[i].steps[0] as f64 / rays,
+            duplication: counts[i].references as f64 / first.triangles.max(1) as f64,
+            depth: counts[i].depth,
+            bytes: counts[i].bytes,
+            sah_cost: counts[i].sah_cost,
+            build_ns: median(&builds).expect("there is an epoch"),
+            sampled: first.epoch.trees[i].times[0].rays < first.workload_rays,
+        }
+    });
+    let levels =
+        Factor::ALL.into_iter().flat_map(|factor| (0..factor.levels().len()).map(move |level| (factor, level)));
+    let main_effects = levels.map(|(factor, level)| {
+        let weights = effects::main_effect(factor, level);
+        let of = |logs: &[f64]| libm::exp(value(&weights, logs));
+        let time = interval(&weights);
+        let (factor, level) = (factor.name(), factor.levels()[level].name);
+        Effect { factor, level, time, tests: of(&tests), steps: of(&steps) }
+    });
+    Some(Attribution {
+        scene: scene_name(&first.scene, first.stand_in),
+        triangles: first.triangles,
+        stand_in: first.stand_in,
+        workload: first.workload.clone(),
+        epochs: epochs.len(),
+        runs: first.epoch.trees[0].times[0].ns.len(),
+        floor: libm::exp(floor),
+        twins_alike: noise.holding_one(),
+        cells: cells.collect(),
+        main_effects: main_effects.collect(),
+        terms: terms(&replicates, &tests, &steps, seed),
+        time: split(interval, &mean_of(&replicates)),
+        tests: split(|weights| exact(weights, &tests), &tests),
+        steps: split(|weights| exact(weights, &steps), &steps),
+        plane_alone: interval(&effects::gain(Cell([0, 1, 1]), Cell([5, 1, 1]))),
+    })
+}
+
+/// The mean over the replicates, tree by tree.
+fn mean_of(replicates: &[Vec<f64>]) -> Vec<f64> {
+    let n = replicates.len() as f64;
+    (0..CELLS).map(|i| replicates.iter().map(|logs| logs[i]).sum::<f64>() / n).collect()
+}
+
+/// A contrast of numbers that do not vary.
+fn exact(weights: &Weights, logs: &[f64]) -> Interval {
+    let times = libm::exp(value(weights, logs));
+    Interval { estimate: times, low: times, high: times }
+}
+
+fn split(interval: impl Fn(&Weights) -> Interval, logs: &[f64]) -> Split {
+    let part = |factor: Factor| {
+        let orders = effects::parts_by_order(factor);
+        let orders = orders.iter().map(|weights| libm::exp(value(weights, logs)));
+        Part {
+            factor: factor.name(),
+            times: interval(&effects::part(factor)),
+            least: orders.clone().fold(f64::INFINITY, f64::min),
+            most: orders.fold(0.0, f64::max),
+        }
+    };
+    Split { whole: interval(&effects::gain(Cell::REPORT, Cell::SAH)), parts: Factor::ALL.map(part).into() }
+}
+
+/// Resamples of the shares' bootstrap.
+const RESAMPLES: usize = 1000;
+
+/// Shares of the variance: of the mean over the replicates, with a percentile bootstrap over them (Efron 1979).
+fn terms(replicates: &[Vec<f64>], tests: &[f64], steps: &[f64], seed: u64) -> Vec<Term> {
+    let mut random = RandomOrder::new(seed);
+    let none = [0.0; TERMS.len()];
+    let of = |logs: &[f64]| effects::shares(logs).unwrap_or(none);
+    let estimate = of(&mean_of(replicates));
+    let drawn: Vec<[f64; TERMS.len()]> = (0..RESAMPLES)
+        .map(|_| {
+            let draw: Vec<Vec<f64>> =
+                replicates.iter().map(|_| replicates[random.below(replicates.len())].clone()).collect();
+            of(&mean_of(&draw))
+        })
+        .collect();
+    let (tests, steps) = (of(tests), of(steps));
+    let term = |i: usize| {
+        let mut values: Vec<f64> = drawn.iter().map(|shares| shares[i]).collect();
+        values.sort_unstable_by(f64::total_cmp);
+        let tail = RESAMPLES / 40;
+        let (low, high) = (values[tail].min(estimate[i]), values[RESAMPLES - 1 - tail].max(estimate[i]));
+        Term {
+            term: effects::term_name(TERMS[i]),
+            time: Interval { estimate: estimate[i], low, high },
+            tests: tests[i],
+            steps: steps[i],
+        }
+    };
+    (0..TERMS.len()).map(term).collect()
+}

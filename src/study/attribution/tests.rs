@@ -1,0 +1,159 @@
+//! From journals whose truth is known to the answer.
+
+use super::design::{CELLS, Cell, Factor};
+use super::*;
+use crate::measure::RandomOrder;
+use crate::study::trial::{Counted, Times, Tree};
+
+/// How many times faster each factor makes the tree, and what the plane gives more once the stop rule is the SAH's.
+const STOP: f64 = 8.0;
+const PLANE: f64 = 1.5;
+const TRAVERSAL: f64 = 1.25;
+const TOGETHER: f64 = 2.0;
+
+fn factor(cell: Cell) -> f64 {
+    let Cell([plane, stop, traversal]) = cell;
+    let mut times = 1.0;
+    times *= if plane == 5 { PLANE } else { 1.0 };
+    times *= if stop == 2 { STOP } else { 1.0 };
+    times *= if traversal == 1 { TRAVERSAL } else { 1.0 };
+    times * if plane == 5 && stop == 2 { TOGETHER } else { 1.0 }
+}
+
+/// A scene of `epochs` epochs; times vary by up to `noise` with the epoch, and whole rounds by a third.
+fn cases(epochs: usize, noise: f64) -> Vec<Case> {
+    let mut random = RandomOrder::new(3);
+    let cells: Vec<Cell> = Cell::all().into_iter().chain([Cell::REPORT, Cell::SAH]).collect();
+    let mut uniform = move || random.below(1 << 20) as f64 / f64::from(1 << 20);
+    let mut of = |number: usize| {
+        let slow: Vec<f64> = (0..3).map(|_| 1.0 + uniform() / 3.0).collect();
+        let trees = cells.iter().map(|&cell| {
+            let placed = 1.0 + noise * (uniform() - 0.5);
+            let ns = slow.iter().map(|slow| (4e8 / factor(cell) * placed * slow) as u64).collect();
+            Tree { build_ns: 1000, times: vec![Times { rays: 1000, checksum: 7, ns }] }
+        });
+        let counted = |&cell: &Cell| Counted {
+            rays: vec![1000],
+            tests: vec![(24_000_000.0 / factor(cell)) as u64],
+            steps: vec![5000],
+            references: 300,
+            leaves: 10,
+            depth: 5,
+            bytes: 4096,
+            sah_cost: Some(20.0 / factor(cell)),
+            checked_rays: 32,
+        };
+        Case {
+            scene: "Dragon".into(),
+            scene_hash: "00".into(),
+            triangles: 100,
+            stand_in: true,
+            workload: "primary".into(),
+            workload_hash: "11".into(),
+            workload_rays: 1000,
+            epoch: Epoch {
+                number,
+                trees: trees.collect(),
+                counts: (number == 0).then(|| cells.iter().map(counted).collect()),
+            },
+        }
+    };
+    (0..epochs).map(&mut of).collect()
+}
+
+fn one(cases: &[Case]) -> Attribution {
+    let mut results = result(cases, 1);
+    assert_eq!(results.len(), 1);
+    results.remove(0)
+}
+
+/// The result of a scene without noise.
+pub(in crate::study) fn example() -> Attribution {
+    one(&cases(3, 0.0))
+}
+
+fn holds(interval: crate::measure::Interval, truth: f64) -> bool {
+    interval.low <= truth && truth <= interval.high
+}
+
+#[test]
+fn the_split_is_the_one_put_in_and_multiplies_to_the_whole() {
+    for epochs in [1, 2, 5] {
+        let result = one(&cases(epochs, 0.02));
+        let whole = STOP * PLANE * TRAVERSAL * TOGETHER;
+        assert!(holds(result.time.whole, whole), "{:?}", result.time.whole);
+        let half = libm::sqrt(TOGETHER);
+        for (part, truth) in result.time.parts.iter().zip([PLANE * half, STOP * half, TRAVERSAL]) {
+            assert!(holds(part.times, truth), "{} of {epochs} epochs: {part:?}", part.factor);
+            assert!(part.least <= part.times.estimate && part.times.estimate <= part.most);
+        }
+        if epochs == 1 {
+            // Medians of rounds do not add up; those of epochs do.
+            continue;
+        }
+        let product: f64 = result.time.parts.iter().map(|part| part.times.estimate).product();
+        assert!((product / result.time.whole.estimate - 1.0).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn without_noise_every_figure_is_exact() {
+    let result = one(&cases(3, 0.0));
+    let close = |a: f64, b: f64| assert!((a / b - 1.0).abs() < 1e-5, "{a} {b}");
+    close(result.time.whole.estimate, 30.0);
+    close(result.tests.whole.estimate, 30.0);
+    close(result.steps.whole.estimate, 1.0);
+    let stop = &result.time.parts[Factor::Stop as usize];
+    close(stop.least, STOP);
+    close(stop.most, STOP * TOGETHER);
+    close(result.plane_alone.estimate, PLANE);
+    close(result.cells[CELLS - 1].speedup.estimate, 30.0);
+    close(result.cells[0].tests_per_ray, 24_000.0);
+    close(result.cells[0].duplication, 3.0);
+    assert!(result.floor < 1.0 + 1e-5);
+    let shares: f64 = result.terms.iter().map(|term| term.time.estimate).sum();
+    close(shares, 1.0);
+    // No factor but plane and stop rule work together.
+    close(1.0 + result.terms[5].time.estimate, 1.0);
+    assert!(result.terms[3].time.estimate > 1e-3);
+}
+
+#[test]
+fn intervals_are_as_wide_as_the_noise() {
+    let width = |noise: f64| {
+        let whole = one(&cases(5, noise)).time.whole;
+        whole.high / whole.low
+    };
+    assert!(width(0.1) > width(0.01) && width(0.01) > 1.0 && width(0.1) < 1.4, "{} {}", width(0.1), width(0.01));
+}
+
+#[test]
+fn the_sentence_names_the_parts_and_the_stand_in() {
+    let result = one(&cases(3, 0.0));
+    let table = headlines(std::slice::from_ref(&result));
+    let sentence = table.notes.last().unwrap();
+    let parts = ["30.0-fold speedup on Dragon (stand-in)", "stop rule gives 11.3", "plane 2.12", "traversal 1.25"];
+    assert!(parts.iter().all(|part| sentence.contains(part)), "{sentence}");
+    assert!(sentence.contains("8.00 to 16.0"), "{sentence}");
+    let tables = tables(&result);
+    assert!(tables.iter().all(|table| table.rows.iter().all(|row| row.len() == table.columns.len())));
+    assert_eq!(tables[0].rows.len(), CELLS);
+    assert_eq!(rows(&[result]).len(), CELLS);
+}
+
+#[test]
+fn real_meshes_and_stand_ins_are_apart_and_a_scene_without_its_first_epoch_is_left_out() {
+    let mut both = cases(2, 0.0);
+    let real = |case: &Case| Case { stand_in: false, scene_hash: "22".into(), ..case.clone() };
+    both.extend(cases(2, 0.0).iter().map(real));
+    let names: Vec<String> = result(&both, 1).into_iter().map(|result| result.scene).collect();
+    assert_eq!(names, ["Dragon (stand-in)", "Dragon"]);
+    assert!(result(&both[1..2], 1).is_empty() && result(&[], 1).is_empty());
+}
+
+#[test]
+fn a_case_reads_back() {
+    let case = cases(1, 0.1).remove(0);
+    let text = serde_json::to_string(&case).unwrap();
+    assert_eq!(serde_json::from_str::<Case>(&text).unwrap(), case);
+}

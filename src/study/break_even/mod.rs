@@ -1,0 +1,172 @@
+//! `break-even`: after how many rays does a dearer build pay?
+
+mod payoff;
+mod table;
+#[cfg(test)]
+mod tests;
+
+use serde::Serialize;
+
+use super::epoch::{Draw, Draws, Epoch, Line, lines};
+use super::fit;
+
+pub use payoff::Payoff;
+pub use table::{LEGEND, tables};
+
+/// Name of the study, and of its journal; a case is an [`Epoch`].
+pub const NAME: &str = "break-even";
+
+/// The structures compared unless others are named.
+pub const STRUCTURES: [&str; 8] =
+    ["brute-force", "median-kd", "sah-kd", "sah-kd-wide", "sah-hybrid", "sah-bvh", "obvhs-bvh2", "obvhs-cwbvh"];
+
+/// What pays on one kind of rays of one scene.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Market {
+    pub scene: String,
+    pub triangles: usize,
+    pub workload: String,
+    /// By growing time of the build.
+    pub offers: Vec<Offer>,
+    /// Every pair, the cheaper build first.
+    pub pairs: Vec<Pair>,
+    /// Which structure is done first with its build and so many rays, from no ray upward.
+    pub best: Vec<Stretch>,
+}
+
+/// What a structure costs.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Offer {
+    /// As chosen.
+    pub structure: String,
+    pub build_ns: f64,
+    pub ns_per_ray: f64,
+}
+
+/// Two structures, of which one takes longer to build.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Pair {
+    pub cheap: String,
+    pub dear: String,
+    /// Rays after which the dear one is ahead.
+    pub rays: Payoff,
+    /// The 95 % interval of that for another run.
+    pub low: Payoff,
+    pub high: Payoff,
+}
+
+/// Numbers of rays for which one structure is the best.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Stretch {
+    pub structure: String,
+    /// From so many rays.
+    pub from: f64,
+}
+
+/// Every scene and kind of rays.
+pub fn result(epochs: &[Epoch], seed: u64) -> Vec<Market> {
+    let mut groups: Vec<Vec<Line>> = vec![];
+    for line in lines(epochs) {
+        match groups.iter_mut().find(|g| g[0].scene == line.scene && g[0].workload == line.workload) {
+            Some(group) => group.push(line),
+            None => groups.push(vec![line]),
+        }
+    }
+    groups.into_iter().map(|group| market(group, seed)).collect()
+}
+
+fn market(mut lines: Vec<Line>, seed: u64) -> Market {
+    lines.sort_by(|a, b| a.build_ns().total_cmp(&b.build_ns()));
+    // What another run finds of one structure it finds of all in the same epochs and rounds.
+    let mut draws = Draws::new(seed);
+    let drawn: Vec<Draw> = (0..fit::DRAWS).map(|_| draws.draw(&lines[0].trace)).collect();
+    let offers: Vec<Offer> = lines
+        .iter()
+        .map(|line| Offer {
+            structure: line.structure.clone(),
+            build_ns: line.build_ns(),
+            ns_per_ray: line.ns_per_ray(),
+        })
+        .collect();
+    let mut pairs = vec![];
+    for (i, dear) in lines.iter().enumerate() {
+        pairs.extend(lines[..i].iter().map(|cheap| pair(cheap, dear, &drawn)));
+    }
+    let (first, best) = (&lines[0], best(&offers));
+    Market {
+        scene: first.scene.clone(),
+        triangles: first.triangles,
+        workload: first.workload.clone(),
+        offers,
+        pairs,
+        best,
+    }
+}
+
+fn pair(cheap: &Line, dear: &Line, draws: &[Draw]) -> Pair {
+    let payoff = |centre: &dyn Fn(&[Vec<f64>]) -> f64| {
+        let costs = |line: &Line| (libm::exp(centre(&line.build)), libm::exp(centre(&line.trace)));
+        Payoff::of(costs(cheap), costs(dear))
+    };
+    let mut drawn: Vec<Payoff> = draws.iter().map(|draw| payoff(&|epochs| draw.centre(epochs))).collect();
+    drawn.sort_by(Payoff::order);
+    let tail = drawn.len() / 40;
+    let rays = payoff(&super::epoch::centre);
+    let (low, high) = (drawn[tail], drawn[drawn.len() - 1 - tail]);
+    Pair {
+        cheap: cheap.structure.clone(),
+        dear: dear.structure.clone(),
+        rays,
+        low: if low.order(&rays).is_gt() { rays } else { low },
+        high: if high.order(&rays).is_lt() { rays } else { high },
+    }
+}
+
+/// The lower envelope of build + rays * time, of offers in the order of their builds.
+fn best(offers: &[Offer]) -> Vec<Stretch> {
+    let Some(mut now) = offers.first() else { return vec![] };
+    let (mut best, mut from) = (vec![Stretch { structure: now.structure.clone(), from: 0.0 }], 0.0);
+    loop {
+        // Who is next to overtake; of several at once the fastest.
+        let next = offers.iter().filter(|offer| offer.ns_per_ray < now.ns_per_ray).min_by(|a, b| {
+            let at = |o: &Offer| (o.build_ns - now.build_ns) / (now.ns_per_ray - o.ns_per_ray);
+            at(a).total_cmp(&at(b)).then(a.ns_per_ray.total_cmp(&b.ns_per_ray))
+        });
+        let Some(next) = next else { return best };
+        from = ((next.build_ns - now.build_ns) / (now.ns_per_ray - next.ns_per_ray)).max(from);
+        best.push(Stretch { structure: next.structure.clone(), from });
+        now = next;
+    }
+}
+
+/// One pair, for tables that machines read.
+#[derive(Clone, Debug, Serialize)]
+pub struct Row<'a> {
+    pub scene: &'a str,
+    pub triangles: usize,
+    pub workload: &'a str,
+    pub cheap: &'a str,
+    pub dear: &'a str,
+    /// A number of rays, `at once` or `never`.
+    pub rays: String,
+    pub low: String,
+    pub high: String,
+}
+
+/// All pairs.
+pub fn rows(markets: &[Market]) -> Vec<Row<'_>> {
+    let mut rows = vec![];
+    for Market { scene, triangles, workload, pairs, .. } in markets {
+        rows.extend(pairs.iter().map(|pair| Row {
+            scene,
+            triangles: *triangles,
+            workload,
+            cheap: &pair.cheap,
+            dear: &pair.dear,
+            rays: pair.rays.plain(),
+            low: pair.low.plain(),
+            high: pair.high.plain(),
+        }));
+    }
+    rows
+}

@@ -1,0 +1,108 @@
+//! What answers cost, counted.
+
+use crate::accel::{Counts, DynAccel, Observed, Query};
+use crate::geometry::Ray;
+
+/// Of one pass of a structure over a batch of rays.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Counted {
+    /// Rays of the pass.
+    pub rays: usize,
+    /// Those that hit.
+    pub hits: usize,
+    counts: Counts,
+    observed: Observed,
+}
+
+impl Counted {
+    /// Asks `query` of all `rays`, and watches.
+    pub fn new(accel: &dyn DynAccel, rays: &[Ray], query: Query) -> Self {
+        let mut counts = Counts::default();
+        let hits = match query {
+            Query::Closest => {
+                let mut hits = vec![None; rays.len()];
+                accel.closest_hits_counted(rays, &mut hits, &mut counts);
+                hits.iter().flatten().count()
+            }
+            Query::Any => {
+                let mut hits = vec![false; rays.len()];
+                accel.any_hits_counted(rays, &mut hits, &mut counts);
+                hits.iter().filter(|hit| **hit).count()
+            }
+        };
+        Self { rays: rays.len(), hits, counts, observed: accel.observed() }
+    }
+
+    /// Rays that hit, as a share of all.
+    pub fn hit_rate(&self) -> f64 {
+        self.per_ray(self.hits as u64)
+    }
+
+    /// Triangle tests a ray; nothing where they are not observed.
+    pub fn tests_per_ray(&self) -> Option<f64> {
+        self.observed.tests.then(|| self.per_ray(self.counts.tests))
+    }
+
+    /// Traversal steps a ray, which are nodes and leaves entered; nothing where they are not observed.
+    pub fn steps_per_ray(&self) -> Option<f64> {
+        self.observed.steps.then(|| self.per_ray(self.counts.steps()))
+    }
+
+    /// Leaves entered for each ray; nothing where they are not observed, as in trees whose leaves are no nodes of their own.
+    pub fn leaf_steps_per_ray(&self) -> Option<f64> {
+        self.sees_leaves().then(|| self.per_ray(self.counts.leaves))
+    }
+
+    /// Leaves entered for each ray that hold nothing; nothing where leaves are not observed.
+    pub fn empty_leaf_steps_per_ray(&self) -> Option<f64> {
+        self.sees_leaves().then(|| self.per_ray(self.counts.empty_leaves))
+    }
+
+    /// Triangle tests as a multiple of the fewest that could do: one for each ray that hits, which a structure that knew the
+    /// answer would still make, and none for the others (Havran, Purgathofer 2003). Nothing where no ray hits.
+    pub fn tests_over_minimum(&self) -> Option<f64> {
+        (self.observed.tests && self.hits > 0).then(|| self.counts.tests as f64 / self.hits as f64)
+    }
+
+    /// Whoever tests triangles has entered a leaf, if leaves are counted.
+    fn sees_leaves(&self) -> bool {
+        self.observed.steps && (self.counts.leaves > 0 || self.counts.tests == 0)
+    }
+
+    fn per_ray(&self, n: u64) -> f64 {
+        n as f64 / self.rays.max(1) as f64
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn counted(counts: Counts, observed: Observed) -> Counted {
+        Counted { rays: 10, hits: 4, counts, observed }
+    }
+
+    #[test]
+    fn counts_are_a_ray_and_the_minimum_is_a_test_a_hit() {
+        let counts = Counts { inner: 30, leaves: 20, empty_leaves: 5, tests: 100 };
+        let all = counted(counts, Observed::ALL);
+        assert_eq!((all.tests_per_ray(), all.steps_per_ray()), (Some(10.0), Some(5.0)));
+        assert_eq!((all.leaf_steps_per_ray(), all.empty_leaf_steps_per_ray()), (Some(2.0), Some(0.5)));
+        assert_eq!((all.hit_rate(), all.tests_over_minimum()), (0.4, Some(25.0)));
+        assert_eq!(Counted { hits: 0, ..all }.tests_over_minimum(), None);
+    }
+
+    #[test]
+    fn what_is_not_observed_is_unknown() {
+        let counts = Counts { inner: 30, leaves: 0, empty_leaves: 0, tests: 100 };
+        let no_leaves = counted(counts, Observed::ALL);
+        assert_eq!((no_leaves.steps_per_ray(), no_leaves.leaf_steps_per_ray()), (Some(3.0), None));
+        let tests = counted(counts, Observed::TESTS);
+        assert_eq!((tests.steps_per_ray(), tests.tests_per_ray()), (None, Some(10.0)));
+        let nothing = counted(Counts::default(), Observed::NONE);
+        assert_eq!(
+            (nothing.tests_per_ray(), nothing.tests_over_minimum(), nothing.leaf_steps_per_ray()),
+            (None, None, None)
+        );
+    }
+}

@@ -1,0 +1,96 @@
+//! The races as tables for people.
+
+use super::{Crossing, Race};
+use crate::measure::Interval;
+use crate::report::number::{count, figures};
+use crate::report::{Cell, Table, Tone};
+
+/// The answer first, then for each kind of rays the ratios along the family.
+pub fn tables(races: &[Race]) -> Vec<Table> {
+    let mut workloads: Vec<&str> = races.iter().map(|race| race.workload.as_str()).collect();
+    workloads.sort_unstable();
+    workloads.dedup();
+    let ordered = |workload: &&str| races.iter().position(|race| race.workload == **workload);
+    workloads.sort_by_key(ordered);
+    let of = |workload: &str| -> Vec<&Race> { races.iter().filter(|race| race.workload == workload).collect() };
+    let mut tables = vec![answers(races)];
+    tables.extend(workloads.into_iter().map(|workload| ratios(workload, &of(workload))));
+    tables
+}
+
+fn short(x: Interval) -> String {
+    format!("{} [{}, {}]", figures(x.estimate), figures(x.low), figures(x.high))
+}
+
+fn name(label: &str) -> &str {
+    label.split(':').next().unwrap_or(label)
+}
+
+/// What a race says, in words.
+fn verdict(race: &Race) -> String {
+    let sure: Vec<&Crossing> = race.crossings.iter().filter(|crossing| crossing.found >= 0.95).collect();
+    match (race.crossings.is_empty(), &sure[..]) {
+        (true, _) => {
+            let winner = if race.members.iter().all(|m| m.ratio.estimate < 1.0) { &race.kd } else { &race.bvh };
+            format!("never: {} throughout", name(winner))
+        }
+        (false, []) => "too close to tell".into(),
+        (false, sure) => {
+            let one = |crossing: &&Crossing| {
+                let winner = if crossing.kd_wins_beyond { &race.kd } else { &race.bvh };
+                format!("{}: then {}", short(crossing.complexity), name(winner))
+            };
+            sure.iter().map(one).collect::<Vec<_>>().join("; ")
+        }
+    }
+}
+
+fn answers(races: &[Race]) -> Table {
+    let rows = races.iter().map(|race| {
+        let ends = race.members.first().zip(race.members.last());
+        let (from, to) = ends.map_or((Cell::blank(), Cell::blank()), |(first, last)| {
+            (short(first.ratio).into(), short(last.ratio).into())
+        });
+        let trend =
+            race.trend.map_or(Cell::blank(), |x| format!("{:.2} [{:.2}, {:.2}]", x.estimate, x.low, x.high).into());
+        let pair = format!("{} / {}, {}", name(&race.kd), name(&race.bvh), race.workload);
+        vec![pair.into(), from, to, trend, verdict(race).into()]
+    });
+    Table {
+        title: "Does a KD-tree overtake a BVH where rays would meet more surfaces?".into(),
+        columns: ["pair, rays", "first member", "last member", "power", "crosses 1 at a depth complexity of"].map(String::from).into(),
+        rows: rows.collect(),
+        notes: vec![
+            "Ratios are the KD-tree's time over the BVH's: below 1 the KD-tree is faster. power: the ratio grows like this power of the \
+             depth complexity. 95 % intervals for another run; a crossing is named where 95 % of the draws have it."
+                .into(),
+            "Depth complexity: surfaces that a ray would meet if none stopped it, measured. All members have the same number of \
+             triangles."
+                .into(),
+        ],
+    }
+}
+
+fn ratios(workload: &str, races: &[&Race]) -> Table {
+    let mut columns = vec!["layers".to_owned(), "depth complexity".into()];
+    columns.extend(races.iter().flat_map(|race| {
+        let pair = format!("{} / {}", name(&race.kd), name(&race.bvh));
+        [pair, "ns a ray".into()]
+    }));
+    let longest = races.iter().max_by_key(|race| race.members.len());
+    let rows = longest.map_or(&[][..], |race| &race.members[..]).iter().map(|member| {
+        let mut row: Vec<Cell> = vec![count(member.layers.into()).into(), figures(member.complexity).into()];
+        for race in races {
+            let own = race.members.iter().find(|own| own.layers == member.layers);
+            row.push(own.map_or(Cell::blank(), |own| {
+                let tone = if own.ratio.high < 1.0 { Tone::Best } else { Tone::Plain };
+                Cell::from(short(own.ratio)).with(tone)
+            }));
+            row.push(own.map_or(Cell::blank(), |own| {
+                format!("{} / {}", figures(own.kd_ns_per_ray), figures(own.bvh_ns_per_ray)).into()
+            }));
+        }
+        row
+    });
+    Table { title: format!("{workload} rays"), columns, rows: rows.collect(), notes: vec![] }
+}

@@ -1,0 +1,99 @@
+use super::*;
+use crate::measure::SystemClock;
+use crate::registry::Registry;
+use crate::scene::Builtin;
+
+/// An epoch as if it had been measured: a structure, its build, and nanoseconds of every round of 1000 rays, on one kind of rays.
+pub fn example(scene: &str, triangles: usize, epoch: usize, structures: &[(&str, u64, &[u64])]) -> Epoch {
+    let structure = |&(label, build_ns, ns): &(&str, u64, &[u64])| Structure {
+        label: label.into(),
+        name: label.split(':').next().unwrap().into(),
+        refused: None,
+        build_ns,
+        bytes: 100 * triangles,
+        leaves: 8,
+        rays: vec![Rays {
+            workload: "primary".into(),
+            query: Query::Closest,
+            rays: 1000,
+            checksum: 1,
+            ns: ns.to_vec(),
+            untimed: None,
+            wrong: false,
+            counts: Some(RayCounts { hit_rate: 0.5, tests: Some(4.0), steps: Some(10.0) }),
+        }],
+    };
+    Epoch {
+        scene: scene.into(),
+        scene_hash: scene.into(),
+        triangles,
+        epoch,
+        structures: structures.iter().map(structure).collect(),
+    }
+}
+
+fn settings(structures: &[&str]) -> Settings {
+    let registry = Registry::builtin();
+    let choose = |spec: &&str| registry.choose(spec).unwrap();
+    Settings {
+        structures: structures.iter().map(choose).collect(),
+        guide: choose(&"sah-kd"),
+        workloads: vec![WorkloadKind::Primary, WorkloadKind::Shadow],
+        rays: 200,
+        runs: 2,
+        budget_ns: 50_000_000,
+        check_ns: 50_000_000,
+        seed: 1,
+        threads: Threads::new(1).unwrap(),
+    }
+}
+
+#[test]
+fn a_second_epoch_asks_the_same_rays_and_counts_nothing_again() {
+    let scene = Builtin::find("torus").unwrap().scene(None).unwrap();
+    let (settings, clock) = (settings(&["median-kd", "sah-bvh"]), SystemClock::start());
+    let first = measure(&scene, &settings, 0, None, &clock, &mut |_| ()).unwrap();
+    let second = measure(&scene, &settings, 1, Some(&first), &clock, &mut |_| ()).unwrap();
+    assert_eq!((first.epoch, second.epoch, first.triangles), (0, 1, 2304));
+    for (one, other) in first.structures.iter().zip(&second.structures) {
+        assert_eq!((one.rays.len(), &one.label, one.leaves), (2, &other.label, other.leaves));
+        for (one, other) in one.rays.iter().zip(&other.rays) {
+            assert_eq!((one.rays, one.checksum, one.ns.len()), (other.rays, other.checksum, other.ns.len()));
+            assert!(one.counts.is_some() && other.counts.is_none());
+        }
+    }
+    let lines = lines([&second, &first]);
+    assert_eq!(lines.len(), 4);
+    assert!(lines.iter().all(|line| line.trace.len() == 2 && line.trace[0].len() == 2 && line.tests.is_some()));
+    // It reads back as it was written.
+    let text = serde_json::to_string(&first).unwrap();
+    assert_eq!(serde_json::from_str::<Epoch>(&text).unwrap(), first);
+}
+
+#[test]
+fn what_lacks_a_time_in_an_epoch_has_no_line() {
+    let mut epochs =
+        [0, 1].map(|epoch| example("a", 10, epoch, &[("x", 5000, &[1000, 3000, 2000]), ("y", 100, &[500; 3])]));
+    let both = lines(&epochs);
+    assert_eq!(both.len(), 2);
+    assert!((both[0].ns_per_ray() - 2.0).abs() < 1e-12 && (both[0].build_ns() - 5000.0).abs() < 1e-9);
+    let ratio = both[0].log_ratios(&both[1]).unwrap();
+    assert!((libm::exp(centre(&ratio)) - 4.0).abs() < 1e-12);
+    epochs[1].structures[0].refused = Some("it fell over".into());
+    assert_eq!(lines(&epochs).iter().map(|line| line.structure.as_str()).collect::<Vec<_>>(), ["y"]);
+}
+
+#[test]
+fn draws_of_what_does_not_vary_do_not_vary() {
+    let steady = vec![vec![2.0; 3]; 4];
+    let mut draws = Draws::new(1);
+    for _ in 0..20 {
+        assert!((draws.draw(&steady).centre(&steady) - 2.0).abs() < 1e-12);
+    }
+    // Of four epochs with a standard deviation of 1, the mean has 0.5; t(3) = 3.182 makes 95 % of another run's be within 2.25.
+    let epochs: Vec<Vec<f64>> = [-1.0f64, 1.0, -1.0, 1.0].map(|x| vec![x * libm::sqrt(0.75); 3]).into();
+    let mut centres: Vec<f64> = (0..4000).map(|_| draws.draw(&epochs).centre(&epochs)).collect();
+    centres.sort_by(f64::total_cmp);
+    let deviation = libm::sqrt(centres.iter().map(|x| x * x).sum::<f64>() / 4000.0);
+    assert!((deviation * 1.96 - 3.182 * libm::sqrt(0.5)).abs() < 0.1, "{deviation}");
+}

@@ -1,0 +1,37 @@
+use super::Epoch;
+
+/// A structure without times, and why.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Trouble {
+    /// Name in the registry.
+    pub structure: String,
+    /// What to print.
+    pub sentence: String,
+    /// Whether it took no part at all.
+    pub refused: bool,
+    /// Whether it gave wrong answers.
+    pub wrong: bool,
+}
+
+/// Everything without a time, each once.
+pub fn troubles<'a>(epochs: impl IntoIterator<Item = &'a Epoch>) -> Vec<Trouble> {
+    let mut troubles: Vec<Trouble> = vec![];
+    for epoch in epochs {
+        for structure in &epoch.structures {
+            let trouble =
+                |sentence, refused, wrong| Trouble { structure: structure.name.clone(), sentence, refused, wrong };
+            let on = format!("{} on {}", structure.label, epoch.scene);
+            let refused = structure.refused.iter().map(|why| trouble(format!("{on} is refused: {why}."), true, false));
+            let untimed = structure.rays.iter().filter_map(|rays| {
+                let why = rays.untimed.as_ref()?;
+                Some(trouble(format!("{on}, {} rays, has no time: {why}.", rays.workload), false, rays.wrong))
+            });
+            for found in refused.chain(untimed) {
+                if !troubles.contains(&found) {
+                    troubles.push(found);
+                }
+            }
+        }
+    }
+    troubles
+}

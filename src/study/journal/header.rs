@@ -1,0 +1,103 @@
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
+
+use super::JournalError;
+use crate::measure::Provenance;
+
+/// The first line of a journal.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Header {
+    /// Version of this form.
+    pub schema: u32,
+    /// Name of the study.
+    pub study: String,
+    /// Everything that a case's result depends on and its key does not tell, by the name of the option.
+    pub settings: Map<String, Value>,
+    /// Of the run that began the journal.
+    pub provenance: Provenance,
+}
+
+impl Header {
+    /// Version of the form of journals.
+    pub const SCHEMA: u32 = 1;
+
+    /// Of this process.
+    ///
+    /// # Panics
+    /// If `settings` does not serialise to a map of names.
+    pub fn new(study: &str, settings: &impl Serialize, provenance: Provenance) -> Self {
+        let settings = match serde_json::to_value(settings).expect("settings serialise") {
+            Value::Object(settings) => settings,
+            other => panic!("the settings of {study} must be a struct with named fields, not {other}"),
+        };
+        Self { schema: Self::SCHEMA, study: study.into(), settings, provenance }
+    }
+
+    /// Whether a run with this header may go on with a journal that has the header `there`.
+    pub(super) fn admits(&self, there: &Self, path: &Path) -> Result<(), JournalError> {
+        let path = || path.into();
+        if there.study != self.study {
+            return Err(JournalError::Study { path: path(), there: there.study.clone(), here: self.study.clone() });
+        }
+        if there.schema != self.schema {
+            return Err(JournalError::Schema { path: path(), there: there.schema, here: self.schema });
+        }
+        match differences(&there.settings, &self.settings) {
+            differences if differences.is_empty() => Ok(()),
+            differences => Err(JournalError::Settings { path: path(), differences }),
+        }
+    }
+
+    /// Whether times of both headers can be compared.
+    pub(super) fn same_machine(&self, there: &Self, path: &Path) -> Result<(), JournalError> {
+        match differences(&there.machine(), &self.machine()) {
+            differences if differences.is_empty() => Ok(()),
+            differences => Err(JournalError::Machine { path: path.into(), differences }),
+        }
+    }
+
+    /// What makes a program faster or slower, of all that is known of it.
+    fn machine(&self) -> Map<String, Value> {
+        let Self { provenance: p, .. } = self;
+        let parts: [(&str, Value); 8] = [
+            ("version", p.version.as_str().into()),
+            ("commit", p.commit.as_str().into()),
+            ("rustc", p.rustc.as_str().into()),
+            ("profile", p.profile.as_str().into()),
+            ("target_features", p.target_features.as_str().into()),
+            ("simd", p.simd.as_str().into()),
+            ("cpu", p.cpu.as_str().into()),
+            ("threads", p.threads.into()),
+        ];
+        parts.into_iter().map(|(name, value)| (name.to_owned(), value)).collect()
+    }
+
+    /// Whether `line` looks like a header, of whatever version.
+    pub(super) fn is_one(line: &[u8]) -> bool {
+        line.starts_with(br#"{"schema":"#)
+    }
+
+    /// Whether `torn`, which has no line end, can be the beginning of a header of this study, or nothing.
+    pub(super) fn may_begin(&self, torn: &[u8]) -> bool {
+        let whole = serde_json::to_string(self).expect("a header has text keys");
+        let settings = whole.find(r#","settings""#).expect("a header has settings");
+        let start = &whole.as_bytes()[..settings];
+        start.starts_with(torn) || torn.starts_with(start)
+    }
+}
+
+/// `runs was 5 and is 7, seed was 1 and is 2`: what differs.
+fn differences(there: &Map<String, Value>, here: &Map<String, Value>) -> String {
+    let names = there.keys().chain(here.keys().filter(|name| !there.contains_key(*name)));
+    let text = |value: Option<&Value>| match value {
+        None => "not there".to_owned(),
+        Some(Value::String(text)) => text.clone(),
+        Some(other) => other.to_string(),
+    };
+    let different = names.filter(|name| there.get(*name) != here.get(*name));
+    let parts: Vec<String> =
+        different.map(|name| format!("{name} was {} and is {}", text(there.get(name)), text(here.get(name)))).collect();
+    parts.join(", ")
+}

@@ -1,0 +1,222 @@
+//! From the journal to what is real. Pure functions.
+
+use serde::Serialize;
+
+use super::student::{holm, two_sided};
+use super::{Case, DEFAULT, default_row, is_default};
+use crate::measure::{Interval, NoiseFloor, standard_error};
+use crate::study::replicate::original::{MAIN, SWEEP};
+use crate::study::replicates::{interval, replicates, values};
+use crate::study::trial::{Counted, Tree};
+
+/// What came of the sweep.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Parameters {
+    pub epochs: usize,
+    /// What the twins of the default differ by in 95 % of the scenes, as a factor.
+    pub floor: f64,
+    /// Comparisons that were made: so many looks does the correction allow for.
+    pub comparisons: usize,
+    /// Scene by scene, in the order of the sweep.
+    pub settings: Vec<Setting>,
+}
+
+/// One setting on one scene.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Setting {
+    pub scene: String,
+    pub triangles: usize,
+    /// L.
+    pub leaf: u32,
+    /// T.
+    pub threshold: f32,
+    /// For all rays of the picture, geometric mean over the epochs.
+    pub seconds: f64,
+    pub report_s: f64,
+    /// Time as a multiple of the default's; nothing for the default.
+    pub times: Option<Interval>,
+    /// The same in the report: single runs.
+    pub report_times: f64,
+    pub tests_per_ray: f64,
+    /// How likely a difference as large is by chance; nothing for the default, with fewer than two epochs, or where the
+    /// trees are the same.
+    pub probability: Option<f64>,
+    pub verdict: Verdict,
+}
+
+/// Whether a setting differs from the default.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Verdict {
+    /// It is the default.
+    Default,
+    /// Its tree is that of the default: there is nothing to differ.
+    SameTree,
+    /// Beyond chance, over all comparisons, and beyond the noise floor.
+    Faster,
+    /// As [`Verdict::Faster`].
+    Slower,
+    /// Chance or noise may explain what is seen.
+    NotShown,
+}
+
+impl Verdict {
+    /// As tables print it.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Default => "default",
+            Self::SameTree => "same tree",
+            Self::Faster => "faster",
+            Self::Slower => "slower",
+            Self::NotShown => "not shown",
+        }
+    }
+}
+
+/// The chance of even one false claim among all comparisons.
+pub(super) const LEVEL: f64 = 0.05;
+
+/// One row for each setting and scene, for a tidy table.
+pub fn rows(result: &Parameters) -> &[Setting] {
+    &result.settings
+}
+
+/// Compares the settings of all scenes whose first epoch is there.
+pub fn result(cases: &[Case], seed: u64) -> Parameters {
+    let names: Vec<&str> = MAIN.iter().map(|row| row.scene).collect();
+    let of = |scene: &&str| cases.iter().filter(|case| case.scene == **scene).collect::<Vec<_>>();
+    let scenes: Vec<Measured> = names.iter().filter_map(|scene| Measured::of(&of(scene))).collect();
+    let default = default_row();
+
+    // The floor of the whole run: twins in every scene.
+    let twin = |scene: &Measured| values(&scene.replicates, |logs| logs[SWEEP.len()] - logs[default]);
+    let floor = NoiseFloor::new(&scenes.iter().map(twin).collect::<Vec<_>>(), seed).log().unwrap_or(0.0);
+
+    let mut settings = vec![];
+    for scene in &scenes {
+        let column = names.iter().position(|name| *name == scene.name).expect("it is one of them");
+        for (i, row) in SWEEP.iter().enumerate() {
+            let times = interval(&scene.replicates, |logs| logs[i] - logs[default], floor, seed);
+            let same_tree = scene.trees[i] == scene.trees[default];
+            settings.push(Setting {
+                scene: scene.name.clone(),
+                triangles: scene.triangles,
+                leaf: row.leaf,
+                threshold: row.threshold,
+                seconds: scene.seconds(i),
+                report_s: row.seconds[column],
+                times: (!is_default(row)).then_some(times),
+                report_times: row.seconds[column] / SWEEP[default].seconds[column],
+                tests_per_ray: scene.tests_per_ray[i],
+                probability: if is_default(row) || same_tree { None } else { scene.probability(i, default) },
+                verdict: match (is_default(row), same_tree) {
+                    (true, _) => Verdict::Default,
+                    (_, true) => Verdict::SameTree,
+                    _ => Verdict::NotShown,
+                },
+            });
+        }
+    }
+
+    let compared: Vec<usize> = (0..settings.len()).filter(|&i| settings[i].probability.is_some()).collect();
+    let probabilities: Vec<f64> = compared.iter().filter_map(|&i| settings[i].probability).collect();
+    for (&i, real) in compared.iter().zip(holm(&probabilities, LEVEL)) {
+        let times = settings[i].times.expect("only others than the default are compared").estimate;
+        if real && libm::fabs(libm::log(times)) > floor {
+            settings[i].verdict = if times < 1.0 { Verdict::Faster } else { Verdict::Slower };
+        }
+    }
+    let epochs = scenes.iter().map(|scene| scene.epochs).min().unwrap_or(0);
+    Parameters { epochs, floor: libm::exp(floor), comparisons: compared.len(), settings }
+}
+
+impl Parameters {
+    /// The setting of the report's main table, as text.
+    pub fn default_name() -> String {
+        format!("{} / {}", DEFAULT.0, DEFAULT.1)
+    }
+}
+
+/// One scene.
+struct Measured {
+    name: String,
+    triangles: usize,
+    epochs: usize,
+    /// Over the rays of the picture.
+    tests_per_ray: Vec<f64>,
+    /// ln of the seconds of the picture: of each replicate, of each setting and the twin.
+    replicates: Vec<Vec<f64>>,
+    trees: Vec<Made>,
+}
+
+/// Tests for a ray of the picture: those of each query, by its share of the rays.
+fn tests_per_ray(counted: &Counted, rays: &[usize]) -> f64 {
+    let parts = counted.tests.iter().zip(&counted.rays).zip(rays);
+    let tests: f64 = parts.map(|((&tests, &of), &all)| tests as f64 / of as f64 * all as f64).sum();
+    tests / rays.iter().sum::<usize>() as f64
+}
+
+/// What makes a tree: where all of it is the same, so is the tree.
+#[derive(PartialEq)]
+struct Made {
+    tests: u64,
+    steps: u64,
+    references: usize,
+    leaves: usize,
+    depth: usize,
+}
+
+impl Measured {
+    fn of(epochs: &[&Case]) -> Option<Self> {
+        let first = *epochs.iter().find(|case| case.epoch.counts.is_some())?;
+        let trees = first.epoch.counts.as_ref()?.iter().map(|counted| Made {
+            tests: counted.tests.iter().sum(),
+            steps: counted.steps.iter().sum(),
+            references: counted.references,
+            leaves: counted.leaves,
+            depth: counted.depth,
+        });
+        // Seconds of the picture in each round: what its rays take, query by query.
+        let logs = |case: &&Case| -> Vec<Vec<f64>> {
+            let of = |tree: &Tree| {
+                let rounds = tree.times.iter().map(|times| times.ns.len()).min().unwrap_or(0);
+                let second = |round: usize| {
+                    let parts = tree.times.iter().zip(&case.rays);
+                    parts.map(|(times, &rays)| times.paces()[round] * rays as f64 * 1e-9).sum::<f64>()
+                };
+                (0..rounds).map(|round| libm::log(second(round))).collect()
+            };
+            case.epoch.trees.iter().map(of).collect()
+        };
+        Some(Self {
+            name: first.scene.clone(),
+            triangles: first.triangles,
+            epochs: epochs.len(),
+            tests_per_ray: first
+                .epoch
+                .counts
+                .as_ref()?
+                .iter()
+                .map(|counted| tests_per_ray(counted, &first.rays))
+                .collect(),
+            replicates: replicates(epochs.iter().map(logs).collect()),
+            trees: trees.collect(),
+        })
+    }
+
+    fn seconds(&self, setting: usize) -> f64 {
+        let logs: f64 = self.replicates.iter().map(|logs| logs[setting]).sum();
+        libm::exp(logs / self.replicates.len() as f64)
+    }
+
+    /// How likely a difference as large as that of two settings is by chance: Student's t over the replicates.
+    fn probability(&self, one: usize, other: usize) -> Option<f64> {
+        let differences: Vec<f64> = self.replicates.iter().map(|logs| logs[one] - logs[other]).collect();
+        let error = standard_error(&differences)?;
+        let mean = differences.iter().sum::<f64>() / differences.len() as f64;
+        if error == 0.0 {
+            return Some(if mean == 0.0 { 1.0 } else { 0.0 });
+        }
+        Some(two_sided(mean / error, differences.len() - 1))
+    }
+}

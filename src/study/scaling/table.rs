@@ -1,0 +1,77 @@
+//! The growth as tables for people.
+
+use super::Growth;
+use crate::measure::Interval;
+use crate::report::number::{bytes, count, duration, figures};
+use crate::report::{Cell, Table};
+
+/// For each family and kind of rays the exponents, then the points they come from.
+pub fn tables(growths: &[Growth]) -> Vec<Table> {
+    let mut groups: Vec<Vec<&Growth>> = vec![];
+    for growth in growths {
+        match groups.iter_mut().find(|g| g[0].family == growth.family && g[0].workload == growth.workload) {
+            Some(group) => group.push(growth),
+            None => groups.push(vec![growth]),
+        }
+    }
+    groups.iter().flat_map(|group| [exponents(group), points(group)]).collect()
+}
+
+fn power(x: Option<Interval>) -> Cell {
+    x.map_or(Cell::blank(), |x| format!("{:.2} [{:.2}, {:.2}]", x.estimate, x.low, x.high).into())
+}
+
+fn title(group: &[&Growth], what: &str) -> String {
+    format!("{}, {} rays: {what}", group[0].family.words(), group[0].workload)
+}
+
+fn exponents(group: &[&Growth]) -> Table {
+    let rows = group.iter().map(|growth| {
+        let fitted: Vec<usize> = growth.points.iter().filter(|p| p.fitted).map(|p| p.triangles).collect();
+        let over = match (fitted.first(), fitted.last()) {
+            (Some(&first), Some(&last)) => {
+                format!("{}: {} to {}", fitted.len(), count(first as u64), count(last as u64))
+            }
+            _ => "0".into(),
+        };
+        let powers = [growth.time, growth.build, growth.bytes, growth.tests, growth.steps].map(power);
+        [growth.structure.as_str().into()].into_iter().chain(powers).chain([over.into()]).collect()
+    });
+    Table {
+        title: title(group, "powers of the number of triangles"),
+        columns: ["structure", "time a ray", "build", "memory", "tests", "steps", "meshes: triangles"].map(String::from).into(),
+        rows: rows.collect(),
+        notes: vec![
+            "Least squares on logarithms over the meshes on which the structure has more than one leaf, with 95 % intervals: the wider \
+             of a bootstrap over meshes, epochs and rounds, and Student's t on what is left over."
+                .into(),
+        ],
+    }
+}
+
+fn points(group: &[&Growth]) -> Table {
+    let known = |x: Option<f64>| x.map_or(Cell::blank(), |x| figures(x).into());
+    let rows = group.iter().flat_map(|growth| {
+        growth.points.iter().map(|point| {
+            let of = format!("{}{}", growth.structure, if point.fitted { "" } else { " (one leaf)" });
+            vec![
+                of.into(),
+                point.scene.as_str().into(),
+                count(point.triangles as u64).into(),
+                duration(point.ns_per_ray).into(),
+                known(point.tests_per_ray),
+                known(point.steps_per_ray),
+                duration(point.build_ns).into(),
+                bytes(point.bytes_per_triangle as usize).into(),
+            ]
+        })
+    });
+    Table {
+        title: title(group, "what was measured"),
+        columns: ["structure", "mesh", "triangles", "time a ray", "tests", "steps", "build", "memory a triangle"]
+            .map(String::from)
+            .into(),
+        rows: rows.collect(),
+        notes: vec![],
+    }
+}

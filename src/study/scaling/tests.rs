@@ -1,0 +1,82 @@
+use super::*;
+use crate::study::epoch::tests::example;
+
+/// Four levels, two epochs of three rounds: 2 ns times n^b, the build 1000 n^c, both with an odd epoch.
+fn family(b: f64, c: f64, wobble: f64) -> Vec<Case> {
+    let mut cases = vec![];
+    for (i, n) in [100usize, 400, 1600, 6400].into_iter().enumerate() {
+        for epoch in 0..2 {
+            let off = wobble * if (i + epoch) % 2 == 0 { 1.0 } else { -1.0 };
+            let at = |scale: f64, power: f64| (scale * libm::pow(n as f64, power) * libm::exp(off)) as u64;
+            let ns = at(2e6, b);
+            let epoch = example(&format!("sphere {n}"), n, epoch, &[("sah-kd", at(1e6, c), &[ns, ns + 10, ns + 5])]);
+            cases.push(Case { family: Family::Spheres, epoch });
+        }
+    }
+    cases
+}
+
+#[test]
+fn a_power_is_found_where_there_is_one() {
+    let growths = result(&family(0.25, 1.1, 0.0), 1);
+    assert_eq!(growths.len(), 1);
+    let (time, build, bytes) = (growths[0].time.unwrap(), growths[0].build.unwrap(), growths[0].bytes.unwrap());
+    assert!((time.estimate - 0.25).abs() < 1e-3 && time.high - time.low < 1e-3, "{time:?}");
+    assert!((build.estimate - 1.1).abs() < 1e-3, "{build:?}");
+    // 100 bytes a triangle, and counts that do not grow.
+    assert!((bytes.estimate - 1.0).abs() < 1e-9);
+    assert!(growths[0].tests.unwrap().estimate.abs() < 1e-9);
+    assert_eq!(growths[0].points.len(), 4);
+    assert!((growths[0].points[0].bytes_per_triangle - 100.0).abs() < 1e-9);
+    assert_eq!(tables(&growths).len(), 2);
+}
+
+#[test]
+fn noise_widens_the_interval_about_the_true_power() {
+    let time = |wobble| result(&family(0.25, 1.0, wobble), 1)[0].time.unwrap();
+    let (quiet, noisy) = (time(0.01), time(0.1));
+    for interval in [quiet, noisy] {
+        assert!(interval.low < 0.25 && 0.25 < interval.high, "{interval:?}");
+    }
+    assert!(noisy.high - noisy.low > 5.0 * (quiet.high - quiet.low), "{quiet:?} {noisy:?}");
+    assert_eq!(time(0.1), noisy, "the same seed draws the same");
+}
+
+#[test]
+fn a_single_leaf_takes_no_part() {
+    let mut cases = family(0.25, 1.0, 0.0);
+    for case in cases.iter_mut().filter(|case| case.epoch.triangles == 100) {
+        case.epoch.structures[0].leaves = 1;
+        // As slow as brute force would be.
+        case.epoch.structures[0].rays[0].ns = vec![1 << 50; 3];
+    }
+    let growth = &result(&cases, 1)[0];
+    assert!((growth.time.unwrap().estimate - 0.25).abs() < 1e-3);
+    assert_eq!(growth.points.iter().filter(|point| point.fitted).count(), 3);
+    // Two are too few.
+    cases.retain(|case| case.epoch.triangles != 400);
+    let growth = &result(&cases, 1)[0];
+    assert_eq!((growth.time, growth.points.len()), (None, 3));
+}
+
+#[test]
+fn families_and_kinds_of_rays_are_kept_apart() {
+    let mut cases = family(0.25, 1.0, 0.0);
+    for mut case in family(0.9, 1.0, 0.0) {
+        case.family = Family::Meshes;
+        let rays = crate::study::epoch::Rays { workload: "random".into(), ..case.epoch.structures[0].rays[0].clone() };
+        case.epoch.structures[0].rays.push(rays);
+        cases.push(case);
+    }
+    let growths = result(&cases, 1);
+    let of: Vec<_> = growths.iter().map(|g| (g.family, g.workload.as_str())).collect();
+    assert_eq!(of, [(Family::Spheres, "primary"), (Family::Meshes, "primary"), (Family::Meshes, "random")]);
+    assert!((growths[1].time.unwrap().estimate - 0.9).abs() < 1e-3);
+}
+
+#[test]
+fn spheres_are_seen_alike() {
+    let (coarse, fine) = (sphere(0).unwrap(), sphere(3).unwrap());
+    assert_eq!((coarse.mesh.len(), fine.mesh.len()), (20, 1280));
+    assert_eq!(coarse.camera, fine.camera);
+}

@@ -1,0 +1,122 @@
+//! `counts` and the studies of curves from outside: what they print, keep and refuse.
+
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+
+use serde_json::Value;
+use tempfile::TempDir;
+
+fn sahara(args: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_sahara"));
+    command.args(args).arg("--quiet").env_remove("SAHARA_DATA").env_remove("NO_COLOR").stdin(Stdio::null());
+    command.output().expect("the command runs")
+}
+
+/// What a command that succeeds prints.
+#[track_caller]
+fn prints(args: &[&str]) -> String {
+    let output = sahara(args);
+    assert!(output.status.success(), "{args:?}: {}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).expect("output is UTF-8")
+}
+
+/// The command fails in one sentence that holds all of `parts`.
+#[track_caller]
+fn refuses(args: &[&str], parts: &[&str]) {
+    let output = sahara(args);
+    let message = String::from_utf8(output.stderr).expect("messages are UTF-8");
+    assert_eq!(output.status.code(), Some(1), "{args:?}: {message}");
+    assert!(message.starts_with("error: ") && !message.contains("panicked"), "{args:?}: {message}");
+    assert!(output.stdout.is_empty() && parts.iter().all(|part| message.contains(part)), "{args:?}: {message}");
+}
+
+fn json(path: &Path) -> Value {
+    serde_json::from_slice(&std::fs::read(path).unwrap()).unwrap()
+}
+
+#[test]
+fn counts_are_printed_and_exported() {
+    let folder = TempDir::new().unwrap();
+    let file = folder.path().join("counts.json");
+    let small = ["counts", "cube", "-s", "median-kd", "-s", "sah-bvh", "-w", "primary", "--rays", "400"];
+    let text = prints(&[&small[..], &["--export-json", file.to_str().unwrap()]].concat());
+    for part in ["EPO", "Cube, primary rays (closest)", "x minimum", "leaves by size and by depth"] {
+        assert!(text.contains(part), "{part:?} is not in {text}");
+    }
+    let measures = json(&file);
+    assert_eq!(measures[0]["structure"], "median-kd");
+    assert_eq!(measures[0]["tree"]["leaf_sizes"], serde_json::json!([[12, 1]]));
+    assert_eq!(measures[0]["tree"]["end_point_overlap"], 0.0);
+    // The same again, to the bit.
+    assert_eq!(text, prints(&small));
+    let long = prints(&[&small[..], &["--histograms"]].concat());
+    assert!(long.contains("Cube, median-kd: leaves by size"), "{long}");
+
+    refuses(&["counts", "cub"], &["cub", "did you mean Cube"]);
+    refuses(&["counts", "cube", "-s", "octree"], &["octree", "median-kd"]);
+    refuses(&["counts", "cube", "--export-json", "/no/such/folder/f.json"], &["/no/such/folder"]);
+}
+
+/// A study that takes no time, in a folder.
+fn small<'a>(study: &'a [&'a str], folder: &'a str) -> Vec<&'a str> {
+    let sizes = ["-w", "primary", "--rays", "64", "--runs", "1", "--budget", "1", "--dir", folder];
+    [&["study"], study, &sizes[..]].concat()
+}
+
+const STUDIES: [&[&str]; 3] = [
+    &["scaling", "cube", "--finest", "2", "-s", "median-kd", "-s", "sah-bvh"],
+    &["break-even", "cube", "torus", "-s", "median-kd", "-s", "sah-bvh"],
+    &["costs", "cube", "torus", "-s", "median-kd", "-s", "sah-kd", "-s", "sah-bvh"],
+];
+
+#[test]
+fn a_study_goes_on_where_it_stopped_and_repeats_what_it_said() {
+    for study in STUDIES {
+        let folder = TempDir::new().unwrap();
+        let dir = folder.path().to_str().unwrap();
+        let journal = folder.path().join(format!("{}.jsonl", study[0]));
+        let lines = || std::fs::read_to_string(&journal).unwrap().lines().count();
+        let one = [&small(study, dir)[..], &["--epochs", "1"]].concat();
+        let first = prints(&one);
+        let measured = lines();
+        assert!(measured > 1, "{study:?}");
+        assert_eq!(prints(&one), first, "{study:?} measures nothing again");
+        assert_eq!(lines(), measured);
+
+        // A second epoch measures as many cases once more, and changes the answer.
+        prints(&[&small(study, dir)[..], &["--epochs", "2"]].concat());
+        assert_eq!(lines(), 2 * measured - 1, "{study:?}");
+        // Half a line is measured again.
+        let text = std::fs::read_to_string(&journal).unwrap();
+        std::fs::write(&journal, &text[..text.len() - 40]).unwrap();
+        prints(&[&small(study, dir)[..], &["--epochs", "2"]].concat());
+        assert_eq!(lines(), 2 * measured - 1, "{study:?}");
+
+        refuses(&[&one[..], &["--seed", "2"]].concat(), &["seed was 1 and is 2", "--fresh"]);
+    }
+}
+
+#[test]
+fn the_crossover_races_the_pairs_that_are_there() {
+    let folder = TempDir::new().unwrap();
+    let pair =
+        ["crossover", "--deepest", "1", "-s", "sah-kd-wide:test=moller-trumbore", "-s", "sah-bvh:test=moller-trumbore"];
+    let file = folder.path().join("races.json");
+    let exports = ["--epochs", "1", "--export-json", file.to_str().unwrap()];
+    let text = prints(&[&small(&pair, folder.path().to_str().unwrap())[..], &exports].concat());
+    assert!(text.contains("sah-kd-wide / sah-bvh, primary"), "{text}");
+    let races = json(&file);
+    assert_eq!((races.as_array().unwrap().len(), &races[0]["members"][0]["layers"]), (1, &serde_json::json!(1)));
+}
+
+#[test]
+fn what_is_wrong_is_said_before_anything_is_measured() {
+    let folder = TempDir::new().unwrap();
+    let dir = folder.path().to_str().unwrap();
+    refuses(&["study", "scaling", "no-such-scene", "--dir", dir], &["no-such-scene"]);
+    refuses(&["study", "scaling", "--finest", "11", "--dir", dir], &["11", "10"]);
+    refuses(&["study", "crossover", "--deepest", "0", "--dir", dir], &["0"]);
+    refuses(&["study", "break-even", "cube", "-s", "sah-kd:leef=3", "--dir", dir], &["leef"]);
+    refuses(&["study", "costs", "cube", "--epochs", "0", "--dir", dir], &["0"]);
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0, "nothing was begun");
+}
