@@ -177,6 +177,7 @@ fn whole(scene: &str) -> (Document, Runs) {
         lines: vec![line],
         level: None,
         highest: None,
+        diagonal: None,
     };
     let pictures = Section {
         id: "pictures",

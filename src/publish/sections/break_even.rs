@@ -61,7 +61,10 @@ fn figure(market: &Market, command: &str) -> Figure {
     let best: Vec<String> = market
         .best
         .iter()
-        .map(|stretch| format!("from {} rays {}", count(stretch.from.round() as u64), stretch.structure))
+        .map(|stretch| match stretch.from {
+            0.0 => format!("{} at once", stretch.structure),
+            from => format!("{} from {} rays", stretch.structure, count(from.round() as u64)),
+        })
         .collect();
     Figure {
         id: format!("break-even-{}-{}", slug(&market.scene), slug(&market.workload)),
@@ -82,6 +85,7 @@ fn figure(market: &Market, command: &str) -> Figure {
             lines: market.offers.iter().map(line).collect(),
             level: None,
             highest: Some(HIGHEST),
+            diagonal: None,
         })),
         data: table("", ["structure", "build", "time of a ray"], rows.collect()),
     }

@@ -78,6 +78,7 @@ fn figure(races: &[&Race], command: &str) -> Figure {
             lines: races.iter().map(line).collect(),
             level: Some((1.0, "equal".into())),
             highest: None,
+            diagonal: None,
         })),
         data: table("", ["pair", "layers", "depth complexity", "ratio"], rows.collect()),
     }

@@ -117,6 +117,7 @@ fn figure(group: &[Growth], quantity: &Quantity, command: &str) -> Figure {
             lines: group.iter().map(line).collect(),
             level: None,
             highest: None,
+            diagonal: None,
         })),
         data: table("", ["structure", "triangles", quantity.y_title], rows.collect()),
     }
