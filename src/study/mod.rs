@@ -20,6 +20,7 @@ pub mod hard_cases;
 pub mod journal;
 pub mod parameters;
 pub mod partitions;
+pub mod predictions;
 pub mod regression;
 pub mod replicate;
 mod replicates;

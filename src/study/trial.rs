@@ -7,9 +7,12 @@ use super::check::check_all;
 use super::{Stage, StudyError};
 use crate::accel::{Counts, Query};
 use crate::geometry::{Hit, PrimId, Ray};
-use crate::measure::{Clock, Pass, Plan, Samples, Threads, Timed, take, take_again};
+use crate::measure::{Clock, Pass, Plan, Samples, ThreadClock, Threads, Timed, spread, take, take_again};
 use crate::registry::Choice;
 use crate::scene::{Scene, Workload};
+
+/// Rays of a workload that are counted, at most; spread evenly.
+const COUNTED: usize = 16384;
 
 /// How an epoch is measured.
 pub(super) struct Trial<'a> {
@@ -66,9 +69,11 @@ impl Times {
     }
 }
 
-/// What no machine changes: the tree, and what it does for all rays.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+/// What no machine changes: the tree, and what it does for the rays that are counted.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Counted {
+    /// Rays that were counted, for each workload: all, or an even sample of many.
+    pub rays: Vec<usize>,
     /// Triangles tested, for each workload.
     pub tests: Vec<u64>,
     /// Nodes and leaves entered, for each workload.
@@ -79,6 +84,8 @@ pub struct Counted {
     /// Edges from the root to the deepest leaf.
     pub depth: usize,
     pub bytes: usize,
+    /// As [`TreeShape::sah_cost`](crate::accel::TreeShape::sah_cost).
+    pub sah_cost: Option<f64>,
     /// Rays held against brute force, all of them right.
     pub checked_rays: usize,
 }
@@ -159,9 +166,13 @@ impl Trial<'_> {
             seed: self.seed.wrapping_add(number as u64),
         };
         let total = cases.len() * self.runs;
+        // What others take of the core is no time of a pass.
+        let own = ThreadClock::of(self.threads);
+        let clock = own.as_ref().map_or(self.clock, |clock| clock as &dyn Clock);
+        let _pin = self.threads.pin();
         let mut told = |taken| progress(Stage::Trace(taken, total));
         let samples = match first {
-            None => take(self.clock, &mut cases, &plan, &mut told),
+            None => take(clock, &mut cases, &plan, &mut told),
             Some(first) => {
                 let begun = |times: &Times| Samples {
                     rays: times.rays,
@@ -172,7 +183,7 @@ impl Trial<'_> {
                 };
                 let mut samples: Vec<Samples> =
                     first.trees.iter().flat_map(|tree| tree.times.iter().map(begun)).collect();
-                take_again(self.clock, &mut cases, &plan, &mut samples, &mut told).map(|()| samples)
+                take_again(clock, &mut cases, &plan, &mut samples, &mut told).map(|()| samples)
             }
         };
         samples.map_err(|cause| StudyError::Unsteady {
@@ -198,11 +209,11 @@ impl Trial<'_> {
             if let Some(check) = checks.iter().find(|check| check.errors > 0) {
                 return Err(StudyError::Wrong { structure, scene, errors: check.errors, checked: check.rays });
             }
-            let counts: Vec<(Vec<Option<Hit>>, Counts)> =
-                self.workloads.iter().map(|workload| count(built, &workload.rays, workload.query)).collect();
+            let of = |workload: &Workload| count(built, &spread(&workload.rays, COUNTED), workload.query);
+            let counts: Vec<(Vec<Option<Hit>>, Counts)> = self.workloads.iter().map(of).collect();
             let (hits, counts): (Vec<_>, Vec<_>) = counts.into_iter().unzip();
 
-            // What one triangle test decides is alike to the bit, so that all rays check all structures.
+            // What one triangle test decides is alike to the bit, so that the rays that are counted check all structures.
             let test = built.choice.triangle_test();
             match answers.iter().find(|(other, _)| *other == test) {
                 None => answers.push((test, hits)),
@@ -218,12 +229,14 @@ impl Trial<'_> {
             }
             let shape = built.accel.shape();
             counted.push(Counted {
+                rays: answers[0].1.iter().map(Vec::len).collect(),
                 tests: counts.iter().map(|counts| counts.tests).collect(),
                 steps: counts.iter().map(Counts::steps).collect(),
                 references: shape.references,
                 leaves: shape.leaves,
                 depth: shape.depth,
                 bytes: built.accel.footprint().total(),
+                sah_cost: shape.sah_cost,
                 checked_rays: checks.iter().map(|check| check.rays).sum(),
             });
         }

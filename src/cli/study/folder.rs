@@ -97,10 +97,10 @@ impl Files {
     }
 }
 
-/// One thread, or as many as asked for.
+/// One thread, or as many as asked for, each bound to a core.
 ///
 /// # Errors
 /// If the system does not give them.
 pub fn threads(count: u16) -> anyhow::Result<Threads> {
-    Threads::new(count.into()).map_err(anyhow::Error::msg)
+    Threads::pinned(count.into()).map_err(anyhow::Error::msg)
 }

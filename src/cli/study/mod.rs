@@ -1,5 +1,6 @@
 //! `study`: experiments with one question each.
 
+mod all;
 mod attribution;
 mod break_even;
 mod costs;
@@ -7,7 +8,9 @@ mod crossover;
 mod curves;
 mod folder;
 mod meshes;
+mod parameters;
 mod partitions;
+mod predictions;
 mod scaling;
 
 use std::path::PathBuf;
@@ -32,6 +35,12 @@ pub struct Args {
 enum Name {
     /// What of the SAH tree's speed is due to the stop rule, what to the plane and what to the traversal?
     Attribution(attribution::Args),
+    /// Which differences of the report's sweep of leaf limit and threshold are real?
+    Parameters(parameters::Args),
+    /// What was expected, and what came of it: each confirmed or refuted
+    Predictions(predictions::Args),
+    /// Every study, `compare` and `replicate`: a run that can be killed and goes on
+    All(all::Args),
     /// How do time, build and memory grow with the number of triangles?
     Scaling(scaling::Args),
     /// Does a KD-tree overtake a BVH where rays would meet more surfaces?
@@ -68,6 +77,9 @@ struct SelfIntersection {
 pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Result<Verdict> {
     match &args.name {
         Name::Attribution(args) => attribution::run(registry, args, terminal),
+        Name::Parameters(args) => parameters::run(registry, args, terminal),
+        Name::Predictions(args) => predictions::run(registry, args, terminal),
+        Name::All(args) => all::run(registry, args, terminal),
         Name::Scaling(args) => scaling::run(registry, args, terminal),
         Name::Crossover(args) => crossover::run(registry, args, terminal),
         Name::BreakEven(args) => break_even::run(registry, args, terminal),

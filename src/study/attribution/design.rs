@@ -47,7 +47,7 @@ const TRAVERSALS: [Level; 2] =
 
 /// What all cells share. The rules of the report take no notice of the costs; the guard against inputs that explode is the one of
 /// `sah-kd`.
-const COMMON: &str = "traversal_cost=1,intersection_cost=0.7,empty_bonus=0.2,duplication=8";
+const COMMON: &str = "traversal_cost=1.0,intersection_cost=0.7,empty_bonus=0.2,duplication=8.0";
 
 impl Factor {
     /// In the order of a cell's numbers.
@@ -121,6 +121,7 @@ impl Cell {
 mod tests {
     use super::*;
     use crate::registry::Registry;
+    use crate::structures::KdConfig;
 
     #[test]
     fn cells_stand_where_they_say() {
@@ -136,7 +137,11 @@ mod tests {
     #[test]
     fn the_corners_are_the_trees_that_they_stand_for() {
         let registry = Registry::builtin();
-        let config = |spec: &str| registry.choose(spec).unwrap().config;
+        // Numbers as the tree reads them: 1 and 1.0 are one.
+        let config = |spec: &str| {
+            let config: KdConfig = serde_json::from_value(registry.choose(spec).unwrap().config).unwrap();
+            serde_json::to_value(config).unwrap()
+        };
         let different = |cell: Cell, name: &str| {
             let (ours, theirs) = (config(&cell.spec("filtered-f64")), config(name));
             let keys = ours.as_object().unwrap().keys().filter(|key| ours[*key] != theirs[*key]);

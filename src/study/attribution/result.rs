@@ -57,6 +57,8 @@ pub struct CellResult {
     pub duplication: f64,
     pub depth: usize,
     pub bytes: usize,
+    /// As [`TreeShape::sah_cost`](crate::accel::TreeShape::sah_cost).
+    pub sah_cost: Option<f64>,
     /// Median over the epochs, nanoseconds.
     pub build_ns: f64,
     /// Whether a part of the rays was timed.
@@ -158,7 +160,7 @@ pub fn attribute(epochs: &[&Case], seed: u64) -> Option<Attribution> {
         counts[..CELLS].iter().map(|counted| libm::log(of(counted).max(1) as f64)).collect()
     };
     let (tests, steps) = (log_counts(|c| c.tests[0]), log_counts(|c| c.steps[0]));
-    let rays = first.workload_rays as f64;
+    let rays = counts[0].rays[0] as f64;
 
     let cells = Cell::all().into_iter().enumerate().map(|(i, cell)| {
         let trees = || epochs.iter().map(|case| &case.epoch.trees[i]);
@@ -176,6 +178,7 @@ pub fn attribute(epochs: &[&Case], seed: u64) -> Option<Attribution> {
             duplication: counts[i].references as f64 / first.triangles.max(1) as f64,
             depth: counts[i].depth,
             bytes: counts[i].bytes,
+            sah_cost: counts[i].sah_cost,
             build_ns: median(&builds).expect("there is an epoch"),
             sampled: first.epoch.trees[i].times[0].rays < first.workload_rays,
         }

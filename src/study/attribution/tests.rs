@@ -33,12 +33,14 @@ fn cases(epochs: usize, noise: f64) -> Vec<Case> {
             Tree { build_ns: 1000, times: vec![Times { rays: 1000, checksum: 7, ns }] }
         });
         let counted = |&cell: &Cell| Counted {
+            rays: vec![1000],
             tests: vec![(24_000_000.0 / factor(cell)) as u64],
             steps: vec![5000],
             references: 300,
             leaves: 10,
             depth: 5,
             bytes: 4096,
+            sah_cost: Some(20.0 / factor(cell)),
             checked_rays: 32,
         };
         Case {

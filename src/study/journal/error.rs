@@ -52,4 +52,7 @@ pub enum JournalError {
         path.display()
     )]
     Damaged { path: PathBuf, line: usize, problem: String },
+    /// A file that other commands export does not read.
+    #[error("{} is not what sahara exports under that name: {problem}; export it again, or name another folder with --dir", path.display())]
+    Json { path: PathBuf, problem: String },
 }

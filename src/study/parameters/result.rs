@@ -7,6 +7,7 @@ use super::{Case, DEFAULT, default_row, is_default};
 use crate::measure::{Interval, NoiseFloor, standard_error};
 use crate::study::replicate::original::{MAIN, SWEEP};
 use crate::study::replicates::{interval, replicates, values};
+use crate::study::trial::{Counted, Tree};
 
 /// What came of the sweep.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -106,7 +107,7 @@ pub fn result(cases: &[Case], seed: u64) -> Parameters {
                 report_s: row.seconds[column],
                 times: (!is_default(row)).then_some(times),
                 report_times: row.seconds[column] / SWEEP[default].seconds[column],
-                tests_per_ray: scene.trees[i].tests as f64 / scene.rays,
+                tests_per_ray: scene.tests_per_ray[i],
                 probability: if is_default(row) || same_tree { None } else { scene.probability(i, default) },
                 verdict: match (is_default(row), same_tree) {
                     (true, _) => Verdict::Default,
@@ -141,11 +142,18 @@ struct Measured {
     name: String,
     triangles: usize,
     epochs: usize,
-    /// Rays of the picture.
-    rays: f64,
+    /// Over the rays of the picture.
+    tests_per_ray: Vec<f64>,
     /// ln of the seconds of the picture: of each replicate, of each setting and the twin.
     replicates: Vec<Vec<f64>>,
     trees: Vec<Made>,
+}
+
+/// Tests for a ray of the picture: those of each query, by its share of the rays.
+fn tests_per_ray(counted: &Counted, rays: &[usize]) -> f64 {
+    let parts = counted.tests.iter().zip(&counted.rays).zip(rays);
+    let tests: f64 = parts.map(|((&tests, &of), &all)| tests as f64 / of as f64 * all as f64).sum();
+    tests / rays.iter().sum::<usize>() as f64
 }
 
 /// What makes a tree: where all of it is the same, so is the tree.
@@ -170,7 +178,7 @@ impl Measured {
         });
         // Seconds of the picture in each round: what its rays take, query by query.
         let logs = |case: &&Case| -> Vec<Vec<f64>> {
-            let of = |tree: &crate::study::trial::Tree| {
+            let of = |tree: &Tree| {
                 let rounds = tree.times.iter().map(|times| times.ns.len()).min().unwrap_or(0);
                 let second = |round: usize| {
                     let parts = tree.times.iter().zip(&case.rays);
@@ -184,7 +192,13 @@ impl Measured {
             name: first.scene.clone(),
             triangles: first.triangles,
             epochs: epochs.len(),
-            rays: first.rays.iter().sum::<usize>() as f64,
+            tests_per_ray: first
+                .epoch
+                .counts
+                .as_ref()?
+                .iter()
+                .map(|counted| tests_per_ray(counted, &first.rays))
+                .collect(),
             replicates: replicates(epochs.iter().map(logs).collect()),
             trees: trees.collect(),
         })

@@ -19,12 +19,14 @@ fn cases(scene: &str, epochs: usize, slower: f64, noise: f64) -> Vec<Case> {
         });
         let same = scene == "Cube";
         let counted = |i: usize| Counted {
+            rays: vec![100, 50],
             tests: vec![1000, if same || i == SWEEP.len() { 0 } else { SWEEP[i].leaf.into() }],
             steps: vec![10, 10],
             references: 12,
             leaves: 1,
             depth: 0,
             bytes: 100,
+            sah_cost: None,
             checked_rays: 8,
         };
         Case {

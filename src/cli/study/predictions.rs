@@ -1,0 +1,78 @@
+//! `study predictions`.
+
+use super::folder::{Exports, Folder, threads};
+use crate::cli::Verdict;
+use crate::cli::progress::Progress;
+use crate::cli::terminal::Terminal;
+use crate::measure::{Provenance, SystemClock};
+use crate::output::OutputFile;
+use crate::registry::Registry;
+use crate::report::{to_json, to_tidy_csv};
+use crate::scene::Builtin;
+use crate::study::journal::Journal;
+use crate::study::predictions::{Case, Finding, NAME, Prediction, keys, measure, read, result, table};
+
+#[derive(Clone, Debug, clap::Args)]
+pub struct Args {
+    /// Seed of the intervals
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub seed: u64,
+    #[command(flatten)]
+    pub folder: Folder,
+    #[command(flatten)]
+    pub exports: Exports,
+}
+
+/// What is written into the folder, for `sahara report`.
+#[derive(serde::Serialize)]
+struct File<'a> {
+    schema: u32,
+    predictions: &'a [Prediction],
+    provenance: Provenance,
+}
+
+/// One finding, for tables that machines read.
+#[derive(serde::Serialize)]
+struct Row<'a> {
+    prediction: u8,
+    verdict: &'static str,
+    #[serde(flatten)]
+    finding: &'a Finding,
+}
+
+pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Result<Verdict> {
+    let files = args.exports.check()?;
+    let threads = threads(1)?;
+    let provenance = Provenance::capture(1);
+    let foot = provenance.line();
+    let settings = serde_json::Map::new();
+    // Counts alone: no machine changes them, so that a journal of any build can be read.
+    let mut journal: Journal<Case> = args.folder.journal(NAME, &settings, provenance.clone())?;
+    let left = journal.left(keys())?;
+    let clock = SystemClock::start();
+    let mut progress = Progress::over(left.len(), terminal);
+    for name in left {
+        progress.scene(name);
+        let scene = Builtin::find(name)?.scene(None)?;
+        let case = measure(registry, &scene, &threads, &clock, &mut |stage| progress.stage(&stage))?;
+        journal.append(name, case)?;
+        progress.scene_done();
+    }
+    progress.finish();
+
+    let mut inputs = read(&args.folder.dir, args.seed)?;
+    inputs.counted = journal.cases().to_vec();
+    let predictions = result(&inputs);
+    let shown = [table(&predictions)];
+    terminal.print_table(&shown[0])?;
+    let rows: Vec<Row> = predictions
+        .iter()
+        .flat_map(|p| {
+            p.findings.iter().map(|finding| Row { prediction: p.number, verdict: p.verdict.words(), finding })
+        })
+        .collect();
+    files.write(&predictions, || to_tidy_csv(&rows), &shown, &[foot])?;
+    let file = File { schema: 1, predictions: &predictions, provenance };
+    OutputFile::check(&args.folder.dir.join("predictions.json"))?.write(&to_json(&file))?;
+    Ok(Verdict::Right)
+}

@@ -1,0 +1,78 @@
+//! What takes seconds to count, and no machine changes.
+
+use serde::{Deserialize, Serialize};
+
+use crate::accel::{Counts, DynAccel};
+use crate::measure::{Clock, Threads};
+use crate::registry::Registry;
+use crate::scene::Scene;
+use crate::study::baselines::{REPORT_TREE, SAH_TREE};
+use crate::study::built::Built;
+use crate::study::replicate::original::MAIN;
+use crate::study::replicate::picture::Picture;
+use crate::study::{Stage, StudyError};
+
+/// The scene whose tests are counted.
+pub(super) const CROWDED: &str = "Infinitycandy";
+
+/// The trees whose tests are counted on it: the report's, and a setting of its sweep.
+pub(super) const TREES: [&str; 2] = [REPORT_TREE, "median-kd:leaf=50,threshold=0.7"];
+
+/// One scene of the report.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Case {
+    pub scene: String,
+    pub triangles: usize,
+    /// All rays of the picture.
+    pub rays: u64,
+    /// The report's.
+    pub report_rays: u64,
+    /// Triangle tests for all rays with each of [`TREES`]; on [`CROWDED`] alone.
+    pub tests: Vec<u64>,
+}
+
+/// The scenes to count, which are their keys: the report's easy and normal ones.
+pub fn keys() -> Vec<&'static str> {
+    MAIN.iter().map(|row| row.scene).collect()
+}
+
+/// Counts one of them.
+///
+/// # Errors
+/// If a structure is not registered or cannot be built.
+///
+/// # Panics
+/// If it is none of [`keys`].
+pub fn measure(
+    registry: &Registry,
+    scene: &Scene,
+    threads: &Threads,
+    clock: &dyn Clock,
+    progress: &mut dyn FnMut(Stage),
+) -> Result<Case, StudyError> {
+    let row = MAIN.iter().find(|row| row.scene == scene.name).expect("a scene of the report");
+    progress(Stage::Rays("image"));
+    let build = |spec: &str| Built::new(&registry.choose(spec)?, scene, threads, clock);
+    let guide = build(SAH_TREE)?;
+    let picture = Picture::whole(scene, guide.accel.as_ref());
+    let mut tests = vec![];
+    for spec in TREES.iter().filter(|_| scene.name == CROWDED) {
+        progress(Stage::Check(spec));
+        tests.push(count(build(spec)?.accel.as_ref(), &picture));
+    }
+    Ok(Case {
+        scene: scene.name.clone(),
+        triangles: scene.mesh.len(),
+        rays: picture.total(),
+        report_rays: row.rays,
+        tests,
+    })
+}
+
+/// Triangle tests for all rays of the picture.
+fn count(accel: &dyn DynAccel, picture: &Picture) -> u64 {
+    let mut counts = Counts::default();
+    accel.closest_hits_counted(&picture.closest, &mut vec![None; picture.closest.len()], &mut counts);
+    accel.any_hits_counted(&picture.any, &mut vec![false; picture.any.len()], &mut counts);
+    counts.tests
+}

@@ -1,0 +1,96 @@
+//! A study that is killed in the middle goes on where it stopped, and ends as one that was left alone.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+use std::process::{Child, Command, Output, Stdio};
+use std::time::{Duration, Instant};
+
+use serde_json::Value;
+
+const EPOCHS: usize = 3;
+
+/// A study of seconds, into the folder `dir`.
+fn study(dir: &Path, rays: &str) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_sahara"));
+    command.args(["study", "attribution", "cube", "torus", "--runs", "1", "--budget", "1", "--quiet"]);
+    command.args(["--epochs", &EPOCHS.to_string(), "--rays", rays, "--dir"]).arg(dir);
+    command.env_remove("SAHARA_DATA").stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    command
+}
+
+fn finish(dir: &Path, rays: &str) -> Output {
+    study(dir, rays).output().expect("the command runs")
+}
+
+/// Whole lines of the journal, none where there is no journal.
+fn lines(dir: &Path) -> usize {
+    let text = fs::read_to_string(dir.join("attribution.jsonl")).unwrap_or_default();
+    text.matches('\n').count()
+}
+
+/// Kills it as `kill -9` does, as soon as the journal has `wanted` lines.
+fn kill_at(mut child: Child, dir: &Path, wanted: usize) {
+    let start = Instant::now();
+    while lines(dir) < wanted {
+        assert!(child.try_wait().unwrap().is_none(), "it ended before it could be killed");
+        assert!(start.elapsed() < Duration::from_secs(600), "it measures nothing");
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    child.kill().unwrap();
+    assert!(!child.wait().unwrap().success());
+}
+
+/// What no clock decides, of every case: by its key; a key that is there twice is found out.
+fn counts(dir: &Path) -> BTreeMap<String, Value> {
+    let text = fs::read_to_string(dir.join("attribution.jsonl")).unwrap();
+    let mut cases = BTreeMap::new();
+    for line in text.lines().skip(1) {
+        let mut line: Value = serde_json::from_str(line).unwrap();
+        let trees = line["case"]["epoch"]["trees"].as_array_mut().unwrap();
+        for tree in trees {
+            tree["build_ns"] = Value::Null;
+            let times = tree["times"][0].as_object_mut().unwrap();
+            let samples = times.remove("ns").unwrap();
+            times.insert("samples".into(), samples.as_array().unwrap().len().into());
+        }
+        let key = line["key"].as_str().unwrap().to_owned();
+        assert!(cases.insert(key.clone(), line).is_none(), "{key} is there twice");
+    }
+    cases
+}
+
+#[test]
+fn a_killed_study_ends_as_one_that_was_left_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    let (alone, killed) = (folder.path().join("alone"), folder.path().join("killed"));
+    assert!(finish(&alone, "64").status.success());
+
+    // Once with nothing but the header, once in the middle of an epoch.
+    kill_at(study(&killed, "64").spawn().unwrap(), &killed, 1);
+    kill_at(study(&killed, "64").spawn().unwrap(), &killed, 4);
+    // As if the power had failed while a line was written.
+    let journal = killed.join("attribution.jsonl");
+    let mut text = fs::read_to_string(&journal).unwrap();
+    let before = lines(&killed);
+    text.push_str("{\"key\":\"Cube 0000");
+    fs::write(&journal, text).unwrap();
+
+    let output = finish(&killed, "64");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(before < lines(&killed));
+    assert_eq!(counts(&alone).len(), 2 * EPOCHS);
+    assert_eq!(counts(&killed), counts(&alone));
+
+    // A finished study is printed again and measures nothing.
+    let text = fs::read(&journal).unwrap();
+    let again = finish(&killed, "64");
+    assert_eq!(again.stdout, output.stdout);
+    assert_eq!(fs::read(&journal).unwrap(), text);
+
+    // Other settings are refused in one line.
+    let refused = finish(&killed, "65");
+    let message = String::from_utf8(refused.stderr).unwrap();
+    assert_eq!((refused.status.code(), message.lines().count()), (Some(1), 1), "{message}");
+    assert!(message.contains("rays was 64 and is 65") && message.contains("--fresh"), "{message}");
+}
