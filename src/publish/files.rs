@@ -7,6 +7,7 @@ use super::html::page;
 use super::latex::latex;
 use super::markdown::markdown;
 use super::runs::Runs;
+use super::sections;
 use crate::report::{Table, to_jsonl, to_tidy_csv};
 use crate::study::{attribution, break_even, costs, crossover, parameters, scaling};
 
@@ -47,6 +48,7 @@ pub fn files(document: &Document, runs: &Runs) -> Vec<(String, Vec<u8>)> {
     if let Some(study) = &runs.parameters {
         tidy("parameters", parameters::rows(&parameters::result(&study.cases, study.seed())), &mut files);
     }
+    tidy("predictions", &sections::predictions(runs), &mut files);
     if let Some(study) = &runs.costs {
         tidy("costs", &costs::rows(&costs::result(&study.cases, study.seed())), &mut files);
     }

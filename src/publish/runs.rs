@@ -15,7 +15,7 @@ use crate::study::accuracy::AccuracyRecord;
 use crate::study::epoch::Epoch;
 use crate::study::journal::{Header, Journal, JournalError, Recorded};
 use crate::study::replicate::Replication;
-use crate::study::{attribution, break_even, costs, crossover, parameters, scaling};
+use crate::study::{attribution, break_even, costs, crossover, parameters, predictions, scaling};
 
 /// Everything that a report is made of.
 #[derive(Clone, Debug, Default)]
@@ -36,6 +36,7 @@ pub struct Runs {
     pub crossover: Option<Study<crossover::Case>>,
     pub costs: Option<Study<Epoch>>,
     pub parameters: Option<Study<parameters::Case>>,
+    pub predictions: Option<Study<predictions::Case>>,
 }
 
 /// A study that keeps a journal.
@@ -169,6 +170,7 @@ impl Runs {
             crossover::NAME => self.crossover = Some(study(path)?),
             costs::NAME => self.costs = Some(study(path)?),
             parameters::NAME => self.parameters = Some(study(path)?),
+            predictions::NAME => self.predictions = Some(study(path)?),
             _ => return Err(RunError::Unknown { path: path.into(), study: name.into() }),
         }
         let kind = format!("study {name}");
@@ -228,6 +230,7 @@ impl Runs {
             self.crossover.as_ref().map(|study| &study.header),
             self.costs.as_ref().map(|study| &study.header),
             self.parameters.as_ref().map(|study| &study.header),
+            self.predictions.as_ref().map(|study| &study.header),
         ];
         of.into_iter().flatten().collect()
     }
