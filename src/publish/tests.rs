@@ -68,25 +68,17 @@ fn accuracy(scene: &str) -> Vec<AccuracyRecord> {
 
 /// A journal with one epoch of a scene.
 fn attribution_journal(scene: &str) -> String {
-    let cells = attribution::design::Cell::all();
-    let tree = |i: usize| {
-        let ns = 2000 - 30 * (i % 36);
-        let times = serde_json::json!({ "rays": 100, "checksum": 1, "ns": [ns, ns + 7, ns + 3] });
-        serde_json::json!({ "build_ns": 1000, "times": [times] })
-    };
-    let counted = serde_json::json!({
-        "tests": [50], "steps": [80], "references": 24, "leaves": 3, "depth": 2, "bytes": 400, "checked_rays": 100
-    });
-    let trees: Vec<serde_json::Value> = (0..cells.len() + 2).map(tree).collect();
+    let case = attribution::Case { scene: scene.into(), ..attribution::tests::cases(1, 0.02).remove(0) };
+    String::from_utf8(journal("attribution", vec![serde_json::to_value(case).unwrap()])).unwrap()
+}
+
+/// The text of a journal.
+fn journal(study: &str, cases: Vec<serde_json::Value>) -> Vec<u8> {
     let header = serde_json::json!({
-        "schema": 1, "study": "attribution", "settings": { "seed": 1 }, "provenance": provenance("sahara study attribution")
+        "schema": 1, "study": study, "settings": { "seed": 1 }, "provenance": provenance(&format!("sahara study {study}"))
     });
-    let case = serde_json::json!({
-        "scene": scene, "scene_hash": "aa", "triangles": 12, "stand_in": false, "workload": "primary", "workload_hash": "bb",
-        "workload_rays": 100,
-        "epoch": { "number": 0, "trees": trees, "counts": vec![counted; cells.len() + 2] },
-    });
-    format!("{header}\n{}\n", serde_json::json!({ "key": "one", "case": case }))
+    let lines = cases.iter().enumerate().map(|(i, case)| serde_json::json!({ "key": i.to_string(), "case": case }));
+    std::iter::once(header).chain(lines).map(|line| format!("{line}\n")).collect::<String>().into_bytes()
 }
 
 /// Journals of the studies of curves.
@@ -98,14 +90,6 @@ fn curves(scene: &str) -> [(&'static str, Vec<u8>); 4] {
         epoch::example(&format!("{scene} {triangles}"), triangles, number, &grown)
     };
     let epochs: Vec<Epoch> = [20, 320, 5120].iter().flat_map(|&n| [epoch(n, 0), epoch(n, 1)]).collect();
-    let journal = |study: &str, cases: Vec<serde_json::Value>| {
-        let header = serde_json::json!({
-            "schema": 1, "study": study, "settings": { "seed": 1 }, "provenance": provenance(&format!("sahara study {study}"))
-        });
-        let lines = cases.iter().enumerate().map(|(i, case)| serde_json::json!({ "key": i.to_string(), "case": case }));
-        let lines = std::iter::once(header).chain(lines).map(|line| format!("{line}\n"));
-        lines.collect::<String>().into_bytes()
-    };
     let json = |epoch: &Epoch| serde_json::to_value(epoch).unwrap();
     let depth = |epoch: &Epoch| serde_json::json!([["primary", (epoch.triangles as f64).log2()]]);
     [
