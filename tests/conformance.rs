@@ -21,7 +21,7 @@ sahara::conformance!(sah_hybrid, WideTree<MollerTrumbore>, WideConfig::new(Parti
 sahara::conformance!(sah_bvh, WideTree<MollerTrumbore>, WideConfig::new(Partition::Objects), lowest_id);
 
 /// Configurations that differ in what they build or how they walk. `exit=first-leaf` is left out: it is wrong by design.
-const OURS: [&str; 28] = [
+const OURS: [&str; 34] = [
     "brute-force:test=rt-triangle",
     "median-kd:leaf=1",
     "median-kd:leaf=1,threshold=1",

@@ -5,7 +5,7 @@ use crate::publish::runs::Runs;
 use crate::publish::words::{distinct, table};
 use crate::report::number::figures;
 use crate::report::plot::{Chart, CurvePoint, Curves, Line, Mark, Scale};
-use crate::study::costs::{Family, LEGEND, Observation, result, tables};
+use crate::study::costs::{Family, LEGEND, Observation, tables};
 
 pub fn section(runs: &Runs) -> Section {
     let mut blocks = vec![];
@@ -14,7 +14,7 @@ pub fn section(runs: &Runs) -> Section {
             blocks.push(Block::missing("What a step and a triangle test cost on this machine", "sahara study costs"))
         }
         Some(study) => {
-            let (families, command) = (result(&study.cases, study.seed()), study.command());
+            let (families, command) = (&study.result, study.command());
             blocks.push(Block::Text(
                 "The surface area heuristic predicts time from two costs: of a traversal step, K_T, and of a triangle test, K_I. \
                  Regression of measured times on counts finds them for this machine, and how far they can be trusted."
@@ -24,7 +24,7 @@ pub fn section(runs: &Runs) -> Section {
             if families.len() > 1 {
                 blocks.push(Block::Figure(figure(&families[1..], &command)));
             }
-            blocks.extend(tables(&families).into_iter().map(|table| Block::table(table, &command)));
+            blocks.extend(tables(families).into_iter().map(|table| Block::table(table, &command)));
             blocks.extend(LEGEND.map(|words| Block::Note(words.into())));
         }
     }

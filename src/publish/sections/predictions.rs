@@ -1,24 +1,28 @@
 //! What was expected before anything was measured, and what came of it.
 
 use crate::publish::document::{Block, Section};
-use crate::publish::runs::Runs;
+use crate::publish::runs::{Runs, Study};
 use crate::publish::words::{interval, table};
 use crate::report::{Cell, Tone};
 use crate::study::predictions::{Finding, Inputs, Prediction, Verdict, result, table as findings};
-use crate::study::{attribution, crossover, scaling};
 
 /// The verdicts. Nothing where no run tells anything about any of them.
 pub fn predictions(runs: &Runs) -> Vec<Prediction> {
     let inputs = Inputs {
-        counted: runs.predictions.as_ref().map_or(vec![], |study| study.cases.clone()),
+        counted: of(&runs.predictions),
         replicated: runs.replication.as_ref().map(replicated),
-        attribution: runs.attribution.as_ref().map_or(vec![], |study| attribution::result(&study.cases, study.seed())),
-        scaling: runs.scaling.as_ref().map_or(vec![], |study| scaling::result(&study.cases, study.seed())),
-        crossover: runs.crossover.as_ref().map_or(vec![], |study| crossover::result(&study.cases, study.seed())),
+        attribution: of(&runs.attribution),
+        scaling: of(&runs.scaling),
+        crossover: of(&runs.crossover),
         compare: runs.records.clone(),
     };
     let predictions = result(&inputs);
     if predictions.iter().all(|p| p.verdict == Verdict::NotMeasured) { vec![] } else { predictions }
+}
+
+/// What came of a study, or nothing.
+fn of<T: Clone>(study: &Option<Study<Vec<T>>>) -> Vec<T> {
+    study.as_ref().map_or(vec![], |study| study.result.clone())
 }
 
 /// The part of a replication that predictions are about.

@@ -67,6 +67,11 @@ fn one(cases: &[Case]) -> Attribution {
     results.remove(0)
 }
 
+/// The result of a scene without noise.
+pub(in crate::study) fn example() -> Attribution {
+    one(&cases(3, 0.0))
+}
+
 fn holds(interval: crate::measure::Interval, truth: f64) -> bool {
     interval.low <= truth && truth <= interval.high
 }
