@@ -63,11 +63,10 @@ fn small<'a>(study: &'a [&'a str], folder: &'a str) -> Vec<&'a str> {
     [&["study"], study, &sizes[..]].concat()
 }
 
-const STUDIES: [&[&str]; 4] = [
+const STUDIES: [&[&str]; 3] = [
     &["scaling", "cube", "--finest", "2", "-s", "median-kd", "-s", "sah-bvh"],
     &["break-even", "cube", "torus", "-s", "median-kd", "-s", "sah-bvh"],
     &["costs", "cube", "torus", "-s", "median-kd", "-s", "sah-kd", "-s", "sah-bvh"],
-    &["crossover", "--deepest", "1", "-s", "sah-kd-wide:test=moller-trumbore", "-s", "sah-bvh:test=moller-trumbore"],
 ];
 
 #[test]
@@ -95,6 +94,19 @@ fn a_study_goes_on_where_it_stopped_and_repeats_what_it_said() {
 
         refuses(&[&one[..], &["--seed", "2"]].concat(), &["seed was 1 and is 2", "--fresh"]);
     }
+}
+
+#[test]
+fn the_crossover_races_the_pairs_that_are_there() {
+    let folder = TempDir::new().unwrap();
+    let pair =
+        ["crossover", "--deepest", "1", "-s", "sah-kd-wide:test=moller-trumbore", "-s", "sah-bvh:test=moller-trumbore"];
+    let file = folder.path().join("races.json");
+    let exports = ["--epochs", "1", "--export-json", file.to_str().unwrap()];
+    let text = prints(&[&small(&pair, folder.path().to_str().unwrap())[..], &exports].concat());
+    assert!(text.contains("sah-kd-wide / sah-bvh, primary"), "{text}");
+    let races = json(&file);
+    assert_eq!((races.as_array().unwrap().len(), &races[0]["members"][0]["layers"]), (1, &serde_json::json!(1)));
 }
 
 #[test]

@@ -18,7 +18,8 @@ pub struct WideConfig {
     pub quality: Quality,
     /// Cost of testing a block of eight triangles, where visiting a node costs 1. Positive; more gives smaller leaves.
     pub block_cost: f32,
-    /// References a build may make, as a multiple of the triangles: the guard against inputs that explode. At least 1.
+    /// References a build may make, as a multiple of the triangles, with [`Quality::Fast`] at most 1.6: the guard against inputs
+    /// that explode. At least 1.
     pub duplication: f32,
     /// Whether sixteen rays in a row of a slice travel together where they share an octant, instead of one by one: faster for
     /// rays that lie side by side, no slower for others, and the same answers.
@@ -42,7 +43,7 @@ pub enum Partition {
 impl WideConfig {
     /// The values measured for a partition.
     pub const fn new(partition: Partition) -> Self {
-        Self { partition, quality: Quality::Balanced, block_cost: 1.0, duplication: 4.0, packets: false }
+        Self { partition, quality: Quality::Balanced, block_cost: 1.0, duplication: 2.4, packets: false }
     }
 
     pub(super) fn check(&self) -> Result<(), BuildError> {
@@ -66,16 +67,18 @@ impl WideConfig {
             (Quality::Balanced, _) => 1,
             (Quality::High, _) => 4,
         };
+        // Making references is what takes the time where planes cut triangles.
+        let duplication = if self.quality == Quality::Fast { self.duplication.min(1.6) } else { self.duplication };
         let splits = match self.partition {
             Partition::Cells => {
-                let config = KdConfig { duplication: self.duplication, ..KdConfig::cells(self.quality) };
+                let config = KdConfig { duplication, ..KdConfig::cells(self.quality) };
                 return Ok(reinsert(kd::partition(mesh, &config)?, passes));
             }
             Partition::Tight => Splits::Spatial,
             Partition::Hybrid => Splits::SpatialAndObject,
             Partition::Objects => Splits::Object,
         };
-        let config = SplitConfig { duplication: self.duplication, ..SplitConfig::new(splits, self.quality) };
+        let config = SplitConfig { duplication, ..SplitConfig::new(splits, self.quality) };
         config.check()?;
         Ok(reinsert(split::build(mesh, &config), passes))
     }

@@ -2,7 +2,7 @@
 
 use super::collapse::{Collapse, Part};
 use super::node::{Child, Node, WIDTH};
-use crate::geometry::{Aabb, Mesh};
+use crate::geometry::Mesh;
 use crate::structures::leaf::LeafBlock;
 use crate::triangle::TriangleTest;
 
@@ -16,9 +16,6 @@ pub(super) struct Layout<'a, T: TriangleTest> {
     pub depth: usize,
 }
 
-/// The order in which any octant visits children that are all in one place.
-const ANY_ORDER: u32 = 0o01234567;
-
 impl<'a, T: TriangleTest> Layout<'a, T> {
     pub fn new(mesh: &'a Mesh, collapse: &'a Collapse<'a>) -> Self {
         Self { mesh, collapse, nodes: vec![], blocks: vec![], depth: 0 }
@@ -30,7 +27,7 @@ impl<'a, T: TriangleTest> Layout<'a, T> {
             Part::Leaf(at) => {
                 let mut ids = vec![];
                 self.collapse.ids(at, &mut ids);
-                self.leaf(&ids, self.collapse.bounds(part), depth)
+                self.leaf(&ids)
             }
             Part::Node(at) => {
                 let own = self.begin(depth);
@@ -45,21 +42,11 @@ impl<'a, T: TriangleTest> Layout<'a, T> {
         }
     }
 
-    /// Writes a leaf; where it is larger than leaves can be, nodes over parts of it.
-    fn leaf(&mut self, ids: &[u32], bounds: &Aabb, depth: usize) -> Child {
-        let blocks = ids.len().div_ceil(WIDTH);
-        if blocks <= Child::BLOCKS {
-            let first = self.blocks.len();
-            LeafBlock::fill(self.mesh, ids, &mut self.blocks);
-            return Child::leaf(first, blocks);
-        }
-        let own = self.begin(depth);
-        let mut node = Node { orders: [ANY_ORDER; 8], ..Node::EMPTY };
-        for (lane, ids) in ids.chunks(blocks.div_ceil(WIDTH) * WIDTH).enumerate() {
-            node.set(lane, bounds, self.leaf(ids, bounds, depth + 1));
-        }
-        self.nodes[own] = node;
-        Child::node(own)
+    fn leaf(&mut self, ids: &[u32]) -> Child {
+        let (first, blocks) = (self.blocks.len(), ids.len().div_ceil(WIDTH));
+        assert!(blocks <= Child::BLOCKS, "every partition deals out what is more than a leaf takes");
+        LeafBlock::fill(self.mesh, ids, &mut self.blocks);
+        Child::leaf(first, blocks)
     }
 
     fn begin(&mut self, depth: usize) -> usize {

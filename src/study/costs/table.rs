@@ -7,8 +7,8 @@ use crate::report::{Cell, Table};
 
 /// What the columns mean.
 pub const LEGEND: [&str; 2] = [
-    "Time of a ray = K_0 + K_T steps + K_I tests, by least squares of relative errors, no cost below 0; 95 % intervals from drawing cases. \
-     R2: share of the variance of ln time that is explained. off: geometric mean of the factors between predicted and measured time; \
+    "Time of a ray = K_0 + K_T steps + K_I tests, no cost below 0, by the ratios of predicted to measured time, so that slow cases do not \
+     rule; 95 % intervals from drawing cases. R2: share of the variance of ln time that is explained. off: geometric mean of the factors between predicted and measured time; \
      worst: the largest.",
     "What the heuristic should be told on this machine: with a step at 1, a triangle costs K_I / K_T, and a full block of eight eight times \
      as much. sah-kd is built with 0.7 a block.",
