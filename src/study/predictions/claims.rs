@@ -76,7 +76,7 @@ fn rays(inputs: &Inputs) -> Prediction {
         .filter(|f| !f.holds)
         .map(|f| format!("{} is {} rays off", f.what.split(':').next().unwrap_or(""), f.value.estimate))
         .collect();
-    let why = if off.is_empty() {
+    let why: String = if off.is_empty() {
         "Scenes, meshes and the rules by which rays are cast are the report's.".into()
     } else {
         let total: u64 =
@@ -92,6 +92,23 @@ fn rays(inputs: &Inputs) -> Prediction {
         };
         format!("{}.{cornell}", listed(&off))
     };
+    let moved = |case: &&super::Case| case.default_rays != case.rays;
+    let moved: Vec<String> = inputs
+        .counted
+        .iter()
+        .filter(moved)
+        .map(|case| format!("{} ({:+})", case.scene, case.default_rays as f64 - case.rays as f64))
+        .collect();
+    let exact = if moved.is_empty() {
+        String::new()
+    } else {
+        format!(
+            " Counted with a triangle test in single precision, as renderers like the report's have one; the default test, which decides \
+             edges exactly, changes {}.",
+            listed(&moved)
+        )
+    };
+    let why: String = why + &exact;
     let complete = inputs.counted.len() == MAIN.len();
     prediction(
         1,

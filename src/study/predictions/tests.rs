@@ -9,7 +9,7 @@ fn interval(estimate: f64, low: f64, high: f64) -> Interval {
 }
 
 fn counted(scene: &str, rays: u64, report_rays: u64, tests: Vec<u64>) -> Case {
-    Case { scene: scene.into(), triangles: 140, rays, report_rays, tests }
+    Case { scene: scene.into(), triangles: 140, rays, default_rays: rays, report_rays, tests }
 }
 
 fn verdict(inputs: &Inputs, number: u8) -> Prediction {
