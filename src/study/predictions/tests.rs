@@ -51,6 +51,22 @@ fn an_interval_across_a_bound_is_not_sure() {
 }
 
 #[test]
+fn a_verdict_is_as_sure_as_what_decides_it() {
+    let of = |verdict, findings: &[(f64, f64, f64)]| {
+        let within = |&(x, low, high): &(f64, f64, f64)| Finding::within("x", interval(x, low, high), 2.0, 4.0);
+        let findings = findings.iter().map(within).collect();
+        Prediction { number: 1, claim: String::new(), verdict, findings, why: String::new(), command: None }.words()
+    };
+    let (inside, barely) = ((3.0, 2.5, 3.5), (3.0, 1.0, 3.5));
+    let (outside, hardly) = ((9.0, 8.0, 10.0), (5.0, 3.0, 7.0));
+    assert_eq!(of(Verdict::Confirmed, &[inside, inside]), "confirmed");
+    assert_eq!(of(Verdict::Confirmed, &[inside, barely]), "confirmed, not surely");
+    assert_eq!(of(Verdict::Refuted, &[hardly, outside, barely]), "refuted");
+    assert_eq!(of(Verdict::Refuted, &[hardly, inside]), "refuted, not surely");
+    assert_eq!(of(Verdict::NotMeasured, &[]), "not measured");
+}
+
+#[test]
 fn rays_are_counted_to_two_and_the_scene_that_is_off_is_named() {
     let exact = |name: &&str| counted(name, 12, if *name == "Starters" { 50 } else { 13 }, vec![]);
     let right = Inputs { counted: keys().iter().map(exact).collect(), ..Inputs::default() };
