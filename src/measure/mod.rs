@@ -26,7 +26,7 @@ pub use order::RandomOrder;
 pub use pass::{Pass, Threads, spread};
 pub use pin::Pin;
 pub use provenance::Provenance;
-pub use replication::{epoch_values, log_ratios, replicated_ratio, replication, standard_error};
+pub use replication::{epoch_values, log_ratios, prediction, replicated_ratio, replication, standard_error};
 pub use samples::{Plan, Samples, Timed, UnsteadyAnswers, take, take_again};
 pub use student::factor;
 pub use summary::{Interval, geometric_mean, mean_ratio, median, paired_ratio};

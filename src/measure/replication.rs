@@ -59,11 +59,22 @@ pub fn log_ratios(numerator: &[f64], denominator: &[f64], epochs: usize) -> Vec<
 /// # Panics
 /// If the cells differ in their epochs.
 pub fn replication(cells: &[Vec<Vec<f64>>], floor: f64, seed: u64) -> Option<Interval> {
+    prediction(cells, cells.first()?.len(), floor, seed)
+}
+
+/// As [`replication`], for the figure of a run with `epochs` epochs, which errs less the more it has: with E epochs here the half-width is
+/// t(E - 1) s sqrt(1 / E + 1 / `epochs`).
+///
+/// # Panics
+/// If the cells differ in their epochs.
+pub fn prediction(cells: &[Vec<Vec<f64>>], epochs: usize, floor: f64, seed: u64) -> Option<Interval> {
     let values = epoch_values(cells)?;
     let one = cells[0].len() == 1;
+    // How much more a difference of the two figures varies than this figure.
+    let both = if one || epochs == 0 { 2.0 } else { 1.0 + values.len() as f64 / epochs as f64 };
     let cells = &by_round(cells)[..];
     let centre = if one { middle(cells) } else { mean(&values) };
-    let (low, high) = ends(&values, centre, cells, seed);
+    let (low, high) = ends(&values, centre, both, cells, seed);
     Some(Interval {
         estimate: libm::exp(centre),
         low: libm::exp(centre - libm::hypot(low, floor)),
@@ -114,9 +125,9 @@ pub fn epoch_values(cells: &[Vec<Vec<f64>>]) -> Option<Vec<f64>> {
 }
 
 /// Distances of the ends from the centre: by Student's t, or by the bootstrap where that reaches farther.
-fn ends(values: &[f64], centre: f64, cells: &[Vec<Vec<f64>>], seed: u64) -> (f64, f64) {
+fn ends(values: &[f64], centre: f64, both: f64, cells: &[Vec<Vec<f64>>], seed: u64) -> (f64, f64) {
     let Some(error) = standard_error(values) else { return (0.0, 0.0) };
-    let half = factor(values.len() as f64 - 1.0) * std::f64::consts::SQRT_2 * error;
+    let half = factor(values.len() as f64 - 1.0) * libm::sqrt(both) * error;
 
     let mut random = RandomOrder::new(seed);
     let mut draws: Vec<f64> = (0..RESAMPLES).map(|_| resampled(cells, &mut random)).collect();

@@ -7,6 +7,7 @@ use super::html::page;
 use super::latex::latex;
 use super::markdown::markdown;
 use super::runs::Runs;
+use super::sections;
 use crate::report::{Table, to_jsonl, to_tidy_csv};
 use crate::study::{attribution, break_even, costs, crossover, parameters, scaling};
 
@@ -33,22 +34,23 @@ pub fn files(document: &Document, runs: &Runs) -> Vec<(String, Vec<u8>)> {
         tidy("hard", &replication.hard, &mut files);
     }
     if let Some(study) = &runs.attribution {
-        tidy("attribution", &attribution::rows(&attribution::result(&study.cases, study.seed())), &mut files);
+        tidy("attribution", &attribution::rows(&study.result), &mut files);
     }
     if let Some(study) = &runs.scaling {
-        tidy("scaling", &scaling::rows(&scaling::result(&study.cases, study.seed())), &mut files);
+        tidy("scaling", &scaling::rows(&study.result), &mut files);
     }
     if let Some(study) = &runs.break_even {
-        tidy("break-even", &break_even::rows(&break_even::result(&study.cases, study.seed())), &mut files);
+        tidy("break-even", &break_even::rows(&study.result), &mut files);
     }
     if let Some(study) = &runs.crossover {
-        tidy("crossover", &crossover::rows(&crossover::result(&study.cases, study.seed())), &mut files);
+        tidy("crossover", &crossover::rows(&study.result), &mut files);
     }
     if let Some(study) = &runs.parameters {
-        tidy("parameters", parameters::rows(&parameters::result(&study.cases, study.seed())), &mut files);
+        tidy("parameters", parameters::rows(&study.result), &mut files);
     }
+    tidy("predictions", &sections::predictions(runs), &mut files);
     if let Some(study) = &runs.costs {
-        tidy("costs", &costs::rows(&costs::result(&study.cases, study.seed())), &mut files);
+        tidy("costs", &costs::rows(&study.result), &mut files);
     }
     files
 }

@@ -12,10 +12,15 @@ use serde_json::Value;
 use crate::measure::Provenance;
 use crate::report::Record;
 use crate::study::accuracy::AccuracyRecord;
-use crate::study::epoch::Epoch;
+use crate::study::attribution::Attribution;
+use crate::study::break_even::Market;
+use crate::study::costs::Family;
+use crate::study::crossover::Race;
 use crate::study::journal::{Header, Journal, JournalError, Recorded};
+use crate::study::parameters::Parameters;
 use crate::study::replicate::Replication;
-use crate::study::{attribution, break_even, costs, crossover, parameters, scaling};
+use crate::study::scaling::Growth;
+use crate::study::{attribution, break_even, costs, crossover, parameters, predictions, scaling};
 
 /// Everything that a report is made of.
 #[derive(Clone, Debug, Default)]
@@ -30,27 +35,24 @@ pub struct Runs {
     pub partitions: Vec<Record>,
     pub accuracy: Vec<AccuracyRecord>,
     pub replication: Option<Replication>,
-    pub attribution: Option<Study<attribution::Case>>,
-    pub scaling: Option<Study<scaling::Case>>,
-    pub break_even: Option<Study<Epoch>>,
-    pub crossover: Option<Study<crossover::Case>>,
-    pub costs: Option<Study<Epoch>>,
-    pub parameters: Option<Study<parameters::Case>>,
+    pub attribution: Option<Study<Vec<Attribution>>>,
+    pub scaling: Option<Study<Vec<Growth>>>,
+    pub break_even: Option<Study<Vec<Market>>>,
+    pub crossover: Option<Study<Vec<Race>>>,
+    pub costs: Option<Study<Vec<Family>>>,
+    pub parameters: Option<Study<Parameters>>,
+    /// What `study predictions` counts; the verdicts come from all runs.
+    pub predictions: Option<Study<Vec<predictions::Case>>>,
 }
 
-/// A study that keeps a journal.
+/// A study that keeps a journal, and what came of it.
 #[derive(Clone, Debug)]
-pub struct Study<C> {
+pub struct Study<R> {
     pub header: Header,
-    pub cases: Vec<C>,
+    pub result: R,
 }
 
-impl<C> Study<C> {
-    /// Seed of its settings, with which it resamples.
-    pub fn seed(&self) -> u64 {
-        self.header.settings.get("seed").and_then(Value::as_u64).unwrap_or(1)
-    }
-
+impl<R> Study<R> {
     /// The command that began it.
     pub fn command(&self) -> String {
         shown(&self.header.provenance.command)
@@ -163,12 +165,13 @@ impl Runs {
     fn add_journal(&mut self, path: &Path, header: &Header) -> Result<(), RunError> {
         let name = header.study.as_str();
         match name {
-            attribution::NAME => self.attribution = Some(study(path)?),
-            scaling::NAME => self.scaling = Some(study(path)?),
-            break_even::NAME => self.break_even = Some(study(path)?),
-            crossover::NAME => self.crossover = Some(study(path)?),
-            costs::NAME => self.costs = Some(study(path)?),
-            parameters::NAME => self.parameters = Some(study(path)?),
+            attribution::NAME => self.attribution = Some(study(path, attribution::result)?),
+            scaling::NAME => self.scaling = Some(study(path, scaling::result)?),
+            break_even::NAME => self.break_even = Some(study(path, break_even::result)?),
+            crossover::NAME => self.crossover = Some(study(path, crossover::result)?),
+            costs::NAME => self.costs = Some(study(path, costs::result)?),
+            parameters::NAME => self.parameters = Some(study(path, parameters::result)?),
+            predictions::NAME => self.predictions = Some(study(path, |cases: &[predictions::Case], _| cases.to_vec())?),
             _ => return Err(RunError::Unknown { path: path.into(), study: name.into() }),
         }
         let kind = format!("study {name}");
@@ -228,6 +231,7 @@ impl Runs {
             self.crossover.as_ref().map(|study| &study.header),
             self.costs.as_ref().map(|study| &study.header),
             self.parameters.as_ref().map(|study| &study.header),
+            self.predictions.as_ref().map(|study| &study.header),
         ];
         of.into_iter().flatten().collect()
     }
@@ -264,9 +268,15 @@ fn header(line: &str) -> Option<Header> {
     serde_json::from_str(line).ok()
 }
 
-fn study<C: Serialize + DeserializeOwned>(path: &Path) -> Result<Study<C>, RunError> {
+/// Reads a journal, and makes of its cases what the study makes of them.
+fn study<C, R>(path: &Path, result: impl FnOnce(&[C], u64) -> R) -> Result<Study<R>, RunError>
+where
+    C: Serialize + DeserializeOwned,
+{
     let Recorded { header, cases, .. } = Journal::read(path)?;
-    Ok(Study { header, cases })
+    // Resampled as by the study itself.
+    let seed = header.settings.get("seed").and_then(Value::as_u64).unwrap_or(1);
+    Ok(Study { header, result: result(&cases, seed) })
 }
 
 /// The files of a folder that may be runs, by name.

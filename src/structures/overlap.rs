@@ -70,11 +70,12 @@ mod tests {
     use std::sync::Arc;
 
     use glam::Vec3;
+    use rand_core::{RngCore, SeedableRng};
+    use rand_pcg::Pcg32;
 
     use super::*;
     use crate::accel::{Accel, Part};
     use crate::geometry::Aabb;
-    use crate::scene::meshes;
     use crate::structures::obvhs::{Native, ObvhsBvh2, ObvhsConfig, ObvhsCwBvh};
     use crate::structures::{KdConfig, KdTree, Partition, WideConfig, WideTree};
     use crate::triangle::MollerTrumbore;
@@ -94,8 +95,17 @@ mod tests {
         sum / total
     }
 
-    fn mesh(model: crate::scene::Model) -> Arc<Mesh> {
-        Arc::new(Mesh::new(model.positions, model.triangles).unwrap())
+    /// Small triangles at random places.
+    fn soup(triangles: u32) -> Arc<Mesh> {
+        let mut random = Pcg32::seed_from_u64(5);
+        let mut point = || Vec3::from_array(std::array::from_fn(|_| random.next_u32() as f32 / u32::MAX as f32));
+        let mut positions = vec![];
+        for _ in 0..triangles {
+            let place = point() * 4.0;
+            positions.extend([place + point(), place + point(), place + point()]);
+        }
+        let triangles = (0..triangles).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
+        Arc::new(Mesh::new(positions, triangles).unwrap())
     }
 
     #[test]
@@ -122,7 +132,7 @@ mod tests {
 
     #[test]
     fn the_walk_gives_what_the_definition_gives() {
-        let mesh = mesh(meshes::torus(14, 9, 0.37));
+        let mesh = soup(250);
         let wide = |partition| WideTree::<MollerTrumbore>::build(&mesh, &WideConfig::new(partition)).unwrap().outline();
         let bvh2 = ObvhsBvh2::<Native>::build(&mesh, &ObvhsConfig::default()).unwrap().outline();
         let cwbvh = ObvhsCwBvh::<Native>::build(&mesh, &ObvhsConfig::default()).unwrap().outline();
@@ -137,7 +147,7 @@ mod tests {
 
     #[test]
     fn cells_share_no_surface() {
-        let mesh = mesh(meshes::uv_sphere(12, 9));
+        let mesh = soup(200);
         let tree = KdTree::<MollerTrumbore>::build(&mesh, &KdConfig::SAH).unwrap();
         assert_eq!(end_point_overlap(&tree.outline().unwrap(), &mesh), Some(0.0));
         // As tight boxes of the cells they share what rounding lets them share.

@@ -62,7 +62,7 @@ fn it_is_compared_like_our_own() {
         warmup: 1,
         twin: false,
         budget_ns: 1_000_000_000,
-        sample_ns: None,
+        sample_ns: Some(60_000_000_000),
         seed: 1,
         threads: Threads::new(1).unwrap(),
     };

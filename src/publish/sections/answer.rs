@@ -86,6 +86,7 @@ pub fn answer(runs: &Runs) -> Answer {
         figures(most),
     )];
     sentences.extend(super::attribution::sentences(runs));
+    sentences.extend(super::predictions::sentence(runs));
     let numbers = hard.iter().map(|hard| Headline {
         number: format!("{} ×", figures(hard.ratio.estimate)),
         interval: ends(&hard.ratio),

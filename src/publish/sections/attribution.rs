@@ -6,7 +6,7 @@ use crate::publish::words::table;
 use crate::report::number::figures;
 use crate::report::plot::{Chart, Stack, StackRow};
 use crate::study::attribution::design::Factor;
-use crate::study::attribution::{Attribution, headlines, result, tables};
+use crate::study::attribution::{Attribution, headlines, tables};
 
 /// The parts in the order in which they are told.
 const PARTS: [Factor; 3] = [Factor::Stop, Factor::Plane, Factor::Traversal];
@@ -17,7 +17,7 @@ const HARD: [&str; 3] = ["Dragon", "Lucy", "Sponza"];
 /// The results, those of the hard scenes first.
 pub fn results(runs: &Runs) -> Vec<Attribution> {
     let Some(study) = &runs.attribution else { return vec![] };
-    let mut results = result(&study.cases, study.seed());
+    let mut results = study.result.clone();
     results.sort_by_key(|r| HARD.iter().position(|name| r.scene.starts_with(name)).unwrap_or(HARD.len()));
     results
 }

@@ -5,7 +5,7 @@ use crate::publish::runs::Runs;
 use crate::publish::words::{slug, table};
 use crate::report::number::{count, duration};
 use crate::report::plot::{Chart, CurvePoint, Curves, Line, Mark, Scale};
-use crate::study::break_even::{LEGEND, Market, Offer, result, tables};
+use crate::study::break_even::{LEGEND, Market, Offer, tables};
 
 /// Scenes and kinds of rays shown at once; the others are folded.
 const OPEN: usize = 2;
@@ -15,7 +15,7 @@ pub fn section(runs: &Runs) -> Section {
     match &runs.break_even {
         None => blocks.push(Block::missing("After how many rays a dearer build pays", "sahara study break-even")),
         Some(study) => {
-            let (mut markets, command) = (result(&study.cases, study.seed()), study.command());
+            let (mut markets, command) = (study.result.clone(), study.command());
             markets.sort_by_key(|market| (market.workload != "primary", std::cmp::Reverse(market.triangles)));
             blocks.push(Block::Text(
                 "A better tree takes longer to build. The lines show build and rays together, as a multiple of what the quickest \
@@ -61,7 +61,10 @@ fn figure(market: &Market, command: &str) -> Figure {
     let best: Vec<String> = market
         .best
         .iter()
-        .map(|stretch| format!("from {} rays {}", count(stretch.from.round() as u64), stretch.structure))
+        .map(|stretch| match stretch.from {
+            0.0 => format!("{} at once", stretch.structure),
+            from => format!("{} from {} rays", stretch.structure, count(from.round() as u64)),
+        })
         .collect();
     Figure {
         id: format!("break-even-{}-{}", slug(&market.scene), slug(&market.workload)),
@@ -82,6 +85,7 @@ fn figure(market: &Market, command: &str) -> Figure {
             lines: market.offers.iter().map(line).collect(),
             level: None,
             highest: Some(HIGHEST),
+            diagonal: None,
         })),
         data: table("", ["structure", "build", "time of a ray"], rows.collect()),
     }

@@ -5,7 +5,7 @@ use crate::publish::runs::Runs;
 use crate::publish::words::{distinct, table};
 use crate::report::number::figures;
 use crate::report::plot::{Chart, CurvePoint, Curves, Line, Mark, Scale};
-use crate::study::costs::{Family, LEGEND, Observation, result, tables};
+use crate::study::costs::{Family, LEGEND, Observation, tables};
 
 pub fn section(runs: &Runs) -> Section {
     let mut blocks = vec![];
@@ -14,7 +14,7 @@ pub fn section(runs: &Runs) -> Section {
             blocks.push(Block::missing("What a step and a triangle test cost on this machine", "sahara study costs"))
         }
         Some(study) => {
-            let (families, command) = (result(&study.cases, study.seed()), study.command());
+            let (families, command) = (&study.result, study.command());
             blocks.push(Block::Text(
                 "The surface area heuristic predicts time from two costs: of a traversal step, K_T, and of a triangle test, K_I. \
                  Regression of measured times on counts finds them for this machine, and how far they can be trusted."
@@ -24,17 +24,16 @@ pub fn section(runs: &Runs) -> Section {
             if families.len() > 1 {
                 blocks.push(Block::Figure(figure(&families[1..], &command)));
             }
-            blocks.extend(tables(&families).into_iter().map(|table| Block::table(table, &command)));
+            blocks.extend(tables(families).into_iter().map(|table| Block::table(table, &command)));
             blocks.extend(LEGEND.map(|words| Block::Note(words.into())));
         }
     }
     Section { id: "costs", title: "What do a step and a test cost?", blocks }
 }
 
-/// What all observations of the families lie between.
-fn ends(observations: &[&Observation]) -> [f64; 2] {
-    let times = observations.iter().flat_map(|o| [o.predicted_ns, o.ns_per_ray]).filter(|ns| *ns > 0.0);
-    times.fold([f64::INFINITY, 0.0], |[low, high], ns| [low.min(ns), high.max(ns)])
+/// The structure without its keys: those of one family differ little, and eyes tell few colours apart.
+fn name(observation: &Observation) -> String {
+    observation.structure.split(':').next().unwrap_or_default().into()
 }
 
 fn figure(families: &[Family], command: &str) -> Figure {
@@ -44,18 +43,13 @@ fn figure(families: &[Family], command: &str) -> Figure {
         note: String::new(),
         points: all
             .iter()
-            .filter(|o| o.structure == *structure && o.predicted_ns > 0.0)
+            .filter(|o| name(o) == *structure && o.predicted_ns > 0.0)
             .map(|o| CurvePoint { x: o.predicted_ns, y: o.ns_per_ray, band: None })
             .collect(),
         mark: Mark::Dots,
     };
-    let structures = distinct(all.iter().map(|o| &o.structure));
-    let diagonal = Line {
-        label: "as predicted".into(),
-        note: String::new(),
-        points: ends(&all).map(|ns| CurvePoint { x: ns, y: ns, band: None }).into(),
-        mark: Mark::Line,
-    };
+    let names: Vec<String> = all.iter().map(|o| name(o)).collect();
+    let structures = distinct(names.iter());
     let rows = all.iter().map(|o| {
         let [measured, predicted] = [o.ns_per_ray, o.predicted_ns].map(figures);
         [o.structure.clone(), o.scene.clone(), o.workload.clone(), measured, predicted]
@@ -80,9 +74,10 @@ fn figure(families: &[Family], command: &str) -> Figure {
             y_title: "measured nanoseconds a ray".into(),
             x_scale: Scale::Log,
             y_scale: Scale::Log,
-            lines: structures.iter().map(dots).chain([diagonal]).collect(),
+            lines: structures.iter().map(dots).collect(),
             level: None,
             highest: None,
+            diagonal: Some("as predicted".into()),
         })),
         data: table("", ["structure", "scene", "rays", "measured ns", "predicted ns"], rows.collect()),
     }

@@ -5,14 +5,14 @@ use crate::publish::runs::Runs;
 use crate::publish::words::{distinct, interval, slug, table};
 use crate::report::number::figures;
 use crate::report::plot::{Chart, CurvePoint, Curves, Line, Mark, Scale};
-use crate::study::crossover::{Race, result, tables};
+use crate::study::crossover::{Race, tables};
 
 pub fn section(runs: &Runs) -> Section {
     let mut blocks = vec![];
     match &runs.crossover {
         None => blocks.push(Block::missing("KD-trees against BVHs by depth complexity", "sahara study crossover")),
         Some(study) => {
-            let (races, command) = (result(&study.cases, study.seed()), study.command());
+            let (races, command) = (&study.result, study.command());
             blocks.push(Block::Text(
                 "A family of scenes with always the same number of triangles, from one layer of perforated sheets to hundreds: the \
                  more layers, the more surfaces a ray would meet if none stopped it."
@@ -22,7 +22,7 @@ pub fn section(runs: &Runs) -> Section {
                 let of: Vec<&Race> = races.iter().filter(|race| race.workload == workload).collect();
                 blocks.push(Block::Figure(figure(&of, &command)));
             }
-            let mut tables = tables(&races).into_iter();
+            let mut tables = tables(races).into_iter();
             blocks.extend(tables.next().map(|answers| Block::table(answers, &command)));
             let rest = tables.map(|table| Block::table(table, &command)).collect();
             blocks.push(Block::Fold("All ratios".into(), rest));
@@ -78,6 +78,7 @@ fn figure(races: &[&Race], command: &str) -> Figure {
             lines: races.iter().map(line).collect(),
             level: Some((1.0, "equal".into())),
             highest: None,
+            diagonal: None,
         })),
         data: table("", ["pair", "layers", "depth complexity", "ratio"], rows.collect()),
     }

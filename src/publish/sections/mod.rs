@@ -8,6 +8,7 @@ mod costs;
 mod crossover;
 mod parameters;
 mod partitions;
+mod predictions;
 mod provenance;
 mod replicate;
 mod scaling;
@@ -17,10 +18,12 @@ use super::document::{Document, Section};
 use super::runs::Runs;
 
 pub use answer::QUESTION;
+pub use predictions::predictions;
 
 /// The order in which they are read: what was looked at, why it is faster, by how much, and what follows.
-const ORDER: [&str; 13] = [
+const ORDER: [&str; 14] = [
     "scenes",
+    "predictions",
     "attribution",
     "heat",
     "speed",
@@ -45,6 +48,7 @@ pub fn document(runs: &Runs, pictures: Vec<Section>) -> Document {
         crossover::section(runs),
         costs::section(runs),
         parameters::section(runs),
+        predictions::section(runs),
         accuracy::section(runs),
         partitions::section(runs),
         replicate::section(runs),

@@ -5,7 +5,7 @@ use crate::publish::runs::Runs;
 use crate::publish::words::distinct;
 use crate::report::number::figures;
 use crate::report::{Cell, Table};
-use crate::study::parameters::{Parameters, Setting, Verdict, result, tables};
+use crate::study::parameters::{Parameters, Setting, Verdict, tables};
 
 pub fn section(runs: &Runs) -> Section {
     let mut blocks = vec![];
@@ -13,14 +13,14 @@ pub fn section(runs: &Runs) -> Section {
         None => blocks
             .push(Block::missing("The report's sweep of its parameters, with intervals", "sahara study parameters")),
         Some(study) => {
-            let (result, command) = (result(&study.cases, study.seed()), study.command());
+            let (result, command) = (&study.result, study.command());
             blocks.push(Block::Text(
                 "The source report tries six pairs of its leaf limit L and match threshold T, once each. Here each is built anew \
                  in several epochs; a difference counts as real when neither chance nor the noise of the machine explains it."
                     .into(),
             ));
-            blocks.push(Block::Table(matrix(&result, &command)));
-            blocks.extend(tables(&result).into_iter().map(|table| {
+            blocks.push(Block::Table(matrix(result, &command)));
+            blocks.extend(tables(result).into_iter().map(|table| {
                 let name = format!("Table: {}", table.title);
                 Block::Fold(name, vec![Block::table(table, &command)])
             }));

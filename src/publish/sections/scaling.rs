@@ -6,7 +6,7 @@ use crate::publish::runs::Runs;
 use crate::publish::words::{slug, table};
 use crate::report::number::figures;
 use crate::report::plot::{Chart, CurvePoint, Curves, Line, Mark, Scale};
-use crate::study::scaling::{Family, Growth, Point, result, tables};
+use crate::study::scaling::{Family, Growth, Point, tables};
 
 /// What is drawn over the number of triangles.
 struct Quantity {
@@ -49,7 +49,7 @@ pub fn section(runs: &Runs) -> Section {
             "sahara study scaling",
         )),
         Some(study) => {
-            let (growths, command) = (result(&study.cases, study.seed()), study.command());
+            let (growths, command) = (&study.result, study.command());
             blocks.push(Block::Text(
                 "If a query were logarithmic in the number of triangles n, its power of n would be near 0; a power of 1 means that \
                  twice the triangles take twice the time. One sphere, divided more and more finely and seen alike, asks this \
@@ -68,7 +68,7 @@ pub fn section(runs: &Runs) -> Section {
                     }
                 }
             }
-            let (powers, points): (Vec<_>, Vec<_>) = tables(&growths)
+            let (powers, points): (Vec<_>, Vec<_>) = tables(growths)
                 .into_iter()
                 .partition(|table| table.columns.iter().any(|c| c == "time a ray") && table.columns.len() == 7);
             blocks.extend(powers.into_iter().map(|table| Block::table(table, &command)));
@@ -117,6 +117,7 @@ fn figure(group: &[Growth], quantity: &Quantity, command: &str) -> Figure {
             lines: group.iter().map(line).collect(),
             level: None,
             highest: None,
+            diagonal: None,
         })),
         data: table("", ["structure", "triangles", quantity.y_title], rows.collect()),
     }

@@ -100,7 +100,7 @@ impl Bars {
         }
         let middle = left + (width - left) * 0.5;
         let bottom = self.groups.len().div_ceil(columns) as f64 * line + 4.0;
-        canvas.text(&self.x_title, [middle, bottom], canvas::SMALL, MIDDLE.light, Side::Centre);
+        canvas.centred(&self.x_title, [middle, bottom], canvas::SMALL, MIDDLE.light, width);
     }
 
     /// Ends of the axis, the reference between them.

@@ -150,6 +150,12 @@ impl Canvas<'_> {
         self.area.polygon(outline, colour.mix(0.18).filled());
     }
 
+    /// One line of text, centred at `x` unless it would leave what is `width` wide.
+    pub fn centred(&self, text: &str, [x, y]: [f64; 2], size: f64, colour: Colour, width: f64) {
+        let half = 0.5 * width_of(text, size) + 2.0;
+        self.text(text, [x.min(width - half).max(half), y], size, colour, Side::Centre);
+    }
+
     /// One line of text, its middle at the height of `point`.
     pub fn text(&self, text: &str, point: [f64; 2], size: f64, colour: Colour, side: Side) {
         let horizontal = match side {

@@ -16,6 +16,8 @@ pub struct Curves {
     pub level: Option<(f64, String)>,
     /// What is higher is beyond the picture.
     pub highest: Option<f64>,
+    /// A line where both coordinates are the same, and what it means: "as predicted".
+    pub diagonal: Option<String>,
 }
 
 /// A line through points, from left to right.
@@ -92,12 +94,18 @@ impl Curves {
         }
         canvas.line(&[[left, height - BOTTOM], [right, height - BOTTOM]], MIDDLE.light, 1.0);
         let below = [(left + right) * 0.5, height - 12.0];
-        canvas.text(&self.x_title, below, canvas::SMALL, MIDDLE.light, Side::Centre);
+        canvas.centred(&self.x_title, below, canvas::SMALL, MIDDLE.light, width);
 
         if let Some((level, meaning)) = &self.level {
             let at = y.place(*level);
             canvas.line(&[[left, at], [right, at]], INK.light, 1.0);
             canvas.text(meaning, [left + 6.0, at - 10.0], canvas::SMALL, INK.light, Side::Left);
+        }
+        if let Some(meaning) = &self.diagonal {
+            let (from, to) = (x_range[0].max(y_range[0]), x_range[1].min(y_range[1]));
+            let end = [x.place(to), y.place(to)];
+            canvas.line(&[[x.place(from), y.place(from)], end], MIDDLE.light, 1.5);
+            canvas.text(meaning, [end[0] - 10.0, end[1] + 4.0], canvas::SMALL, MIDDLE.light, Side::Right);
         }
         for (line, &colour) in self.lines.iter().zip(&colours) {
             draw_line(canvas, line, colour, x, y);

@@ -95,7 +95,7 @@ impl Stack {
         let one = axis.place(1.0);
         canvas.line(&[[one, top], [one, bottom]], MIDDLE.light, 1.5);
         let middle = (left + width) * 0.5;
-        canvas.text(&self.x_title, [middle, bottom + 36.0], canvas::SMALL, MIDDLE.light, Side::Centre);
+        canvas.centred(&self.x_title, [middle, bottom + 36.0], canvas::SMALL, MIDDLE.light, width);
     }
 
     fn draw_row(&self, canvas: &Canvas, row: &StackRow, axis: Axis, y: f64) {

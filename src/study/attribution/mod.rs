@@ -11,7 +11,7 @@ mod measure;
 mod result;
 mod table;
 #[cfg(test)]
-pub(in crate::study) mod tests;
+pub(crate) mod tests;
 
 use serde::{Deserialize, Serialize};
 

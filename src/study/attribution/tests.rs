@@ -21,7 +21,7 @@ fn factor(cell: Cell) -> f64 {
 }
 
 /// A scene of `epochs` epochs; times vary by up to `noise` with the epoch, and whole rounds by a third.
-fn cases(epochs: usize, noise: f64) -> Vec<Case> {
+pub fn cases(epochs: usize, noise: f64) -> Vec<Case> {
     let mut random = RandomOrder::new(3);
     let cells: Vec<Cell> = Cell::all().into_iter().chain([Cell::REPORT, Cell::SAH]).collect();
     let mut uniform = move || random.below(1 << 20) as f64 / f64::from(1 << 20);

@@ -57,7 +57,7 @@ fn a_crossing_within_the_noise_is_not_named() {
     // The ratio hardly moves and the noise is twenty times as large.
     let races = result(&family(5.0, -0.005, 0.1), 1);
     assert!(races[0].crossings.iter().all(|crossing| crossing.found < 0.95), "{races:?}");
-    assert!(tables(&races)[0].rows[0][4].text != "");
+    assert!(!tables(&races)[0].rows[0][4].text.is_empty());
 }
 
 #[test]

@@ -16,7 +16,7 @@ use serde::Serialize;
 
 use super::baselines::{REPORT_TREE, documented_defect, is_obvhs};
 use super::compare::twins;
-use crate::measure::{Interval, replication};
+use crate::measure::{Interval, prediction};
 use crate::report::Record;
 
 pub use table::tables;
@@ -172,9 +172,11 @@ fn reproduced(old: &[Record], new: &[Record]) -> Reproduced {
             same && (base.label == REPORT_TREE || is_obvhs(&base.structure))
         };
         for base in old.iter().filter(to) {
-            let ratio = |own: &Record, base: &Record, floor| replication(&[own.speed_against(base)?], floor, 1);
-            let a = ratio(own, base, floors[0]);
-            let b = counterpart(base, new).and_then(|base| ratio(own_new, base, floors[1]));
+            let ratio = |own: &Record, base: &Record, other: &Record, floor| {
+                prediction(&[own.speed_against(base)?], other.epochs, floor, 1)
+            };
+            let a = ratio(own, base, own_new, floors[0]);
+            let b = counterpart(base, new).and_then(|base| ratio(own_new, base, own, floors[1]));
             let (Some(a), Some(b)) = (a, b) else { continue };
             found.ratios += 1;
             found.old_in_new += usize::from(b.low <= a.estimate && a.estimate <= b.high);

@@ -127,7 +127,8 @@ fn runs_that_differ_in_more_than_their_code_are_unlike() {
     };
     assert_eq!(with(&|_| {}), Ok(()));
     assert_eq!(with(&|r| r.provenance.commit = "other".into()), Ok(()));
-    let refusals: [(&str, &dyn Fn(&mut Record)); 10] = [
+    type Edit = dyn Fn(&mut Record);
+    let refusals: [(&str, &Edit); 10] = [
         ("the processor", &|r| r.provenance.cpu = "Other".into()),
         ("the instruction set", &|r| r.provenance.simd = "portable".into()),
         ("threads is 1 in the old and 2 in the new", &|r| r.provenance.threads = 2),
