@@ -65,7 +65,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
         threads: threads(args.threads)?,
     };
     let scenes = meshes::scenes(&args.scenes, args.meshes)?;
-    let provenance = Provenance::capture(settings.threads.count());
+    let provenance = Provenance::of(&settings.threads);
     let foot = provenance.line();
     let mut journal: Journal<Case> = args.folder.journal(NAME, &settings.kept(), provenance)?;
 

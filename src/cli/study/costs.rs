@@ -39,7 +39,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     let mut foot: Vec<String> = LEGEND.map(String::from).into();
     foot.extend(troubles);
     foot.extend(meshes::note(&scenes, args.meshes));
-    foot.push(Provenance::capture(settings.threads.count()).line());
+    foot.push(Provenance::of(&settings.threads).line());
     terminal.print_lines(&foot)?;
     files.write(&families, || to_tidy_csv(&rows(&families)), &shown, &foot)?;
     Ok(verdict)

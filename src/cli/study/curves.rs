@@ -88,7 +88,7 @@ pub fn cases<C: Clone + Serialize + DeserializeOwned>(
     wrap: impl Fn(usize, Epoch) -> Result<C, StudyError>,
     epoch_of: impl Fn(&C) -> &Epoch,
 ) -> anyhow::Result<Vec<C>> {
-    let provenance = Provenance::capture(settings.threads.count());
+    let provenance = Provenance::of(&settings.threads);
     let mut journal: Journal<C> = options.folder.journal(name, &settings.kept(), provenance)?;
     let epochs = 0..usize::from(options.epochs);
     let plan: Vec<(usize, usize, String)> =

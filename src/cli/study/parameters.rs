@@ -63,7 +63,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
             chosen.push(builtin.scene(None)?);
         }
     }
-    let provenance = Provenance::capture(settings.threads.count());
+    let provenance = Provenance::of(&settings.threads);
     let foot = provenance.line();
     let mut journal: Journal<Case> = args.folder.journal(NAME, &settings.kept(), provenance)?;
 

@@ -37,7 +37,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
         terminal.print_table(table)?;
     }
     let (mut foot, verdict) = verdict(cases.iter().map(|case| &case.epoch));
-    foot.push(Provenance::capture(settings.threads.count()).line());
+    foot.push(Provenance::of(&settings.threads).line());
     terminal.print_lines(&foot)?;
     files.write(&growths, || to_tidy_csv(&rows(&growths)), &shown, &foot)?;
     Ok(verdict)

@@ -78,7 +78,7 @@ pub fn shares(logs: &[f64]) -> Option<[f64; 7]> {
     // What a term adds to those within it: means of its subsets with alternating signs.
     let effect = |means: &[f64; 8], term: usize| -> f64 {
         let subsets = (0..8_usize).filter(|set| set & term == *set);
-        subsets.map(|set| if (term ^ set).count_ones() % 2 == 0 { means[set] } else { -means[set] }).sum()
+        subsets.map(|set| if (term ^ set).count_ones().is_multiple_of(2) { means[set] } else { -means[set] }).sum()
     };
     let squares = TERMS.map(|term| means.iter().map(|means| effect(means, term)).map(|x| x * x).sum::<f64>());
     let total: f64 = squares.iter().sum();

@@ -59,7 +59,7 @@ fn cells(r: &Attribution) -> Table {
         let tone = if cell.ns_per_ray == best { Tone::Best } else { Tone::Plain };
         let mark = if cell.sampled { "~" } else { "" };
         vec![
-            format!("{}, {}, {}", cell.plane, cell.stop, cell.traversal).into(),
+            short(cell).into(),
             Cell::from(format!("{mark}{}", figures(cell.ns_per_ray))).with(tone),
             Cell::from(interval_text(cell.speedup)),
             figures(cell.tests_per_ray).into(),
@@ -81,6 +81,13 @@ fn cells(r: &Attribution) -> Table {
             r.floor
         )],
     }
+}
+
+/// The levels of a cell in few words.
+fn short(cell: &CellResult) -> String {
+    let plane = cell.plane.replace(" median", "");
+    let traversal = cell.traversal.split(' ').next_back().unwrap_or(cell.traversal);
+    format!("{plane}, {}, {traversal}", cell.stop)
 }
 
 fn levels(r: &Attribution) -> Table {
@@ -115,23 +122,24 @@ fn terms(r: &Attribution) -> Table {
 }
 
 fn splits(r: &Attribution) -> Table {
-    let row = |name: &str, split: &Split| {
-        let parts = split.parts.iter().map(|part| {
-            Cell::from(format!("{} ({} to {})", interval_text(part.times), figures(part.least), figures(part.most)))
-        });
-        let mut row: Vec<Cell> = vec![name.into(), interval_text(split.whole).into()];
-        row.extend(parts);
-        row
+    let rows = |name: &str, split: &Split| {
+        let mut parts: Vec<Cell> = vec![name.into(), interval_text(split.whole).into()];
+        let mut ranges: Vec<Cell> = vec!["  by order".into(), Cell::blank()];
+        for part in &split.parts {
+            parts.push(interval_text(part.times).into());
+            ranges.push(format!("{} to {}", figures(part.least), figures(part.most)).into());
+        }
+        [parts, ranges]
     };
     let mut columns = vec!["times less".to_owned(), "whole".into()];
     columns.extend(Factor::ALL.map(|factor| factor.name().to_owned()));
     Table {
         title: format!("{}: from the report's tree to the SAH tree", r.scene),
         columns,
-        rows: vec![row("time", &r.time), row("tests", &r.tests), row("steps", &r.steps)],
+        rows: [rows("time", &r.time), rows("tests", &r.tests), rows("steps", &r.steps)].concat(),
         notes: vec![
-            "The parts multiply to the whole: geometric means over all orders of switching the factors (Shapley), with their range in \
-             parentheses."
+            "The parts multiply to the whole: geometric means over all orders of switching the factors (Shapley). by order: the least \
+             and the most over those orders."
                 .into(),
         ],
     }

@@ -7,11 +7,11 @@ use crate::measure::Interval;
 use crate::report::Record;
 use crate::report::number::{count, figures};
 use crate::scene::WorkloadKind;
-use crate::study::BRUTE_FORCE;
 use crate::study::attribution::{Attribution, CellResult};
 use crate::study::baselines::{REPORT_TREE, SAH_TREE};
 use crate::study::replicate::original::MAIN;
-use crate::study::scaling::Family;
+use crate::study::scaling::{Family, Growth, Point};
+use crate::study::{BRUTE_FORCE, interval_text};
 
 /// All of them, in order.
 pub fn result(inputs: &Inputs) -> Vec<Prediction> {
@@ -76,7 +76,7 @@ fn rays(inputs: &Inputs) -> Prediction {
         .filter(|f| !f.holds)
         .map(|f| format!("{} is {} rays off", f.what.split(':').next().unwrap_or(""), f.value.estimate))
         .collect();
-    let why = if off.is_empty() {
+    let why: String = if off.is_empty() {
         "Scenes, meshes and the rules by which rays are cast are the report's.".into()
     } else {
         let total: u64 =
@@ -92,6 +92,23 @@ fn rays(inputs: &Inputs) -> Prediction {
         };
         format!("{}.{cornell}", listed(&off))
     };
+    let moved = |case: &&super::Case| case.default_rays != case.rays;
+    let moved: Vec<String> = inputs
+        .counted
+        .iter()
+        .filter(moved)
+        .map(|case| format!("{} ({:+})", case.scene, case.default_rays as f64 - case.rays as f64))
+        .collect();
+    let exact = if moved.is_empty() {
+        String::new()
+    } else {
+        format!(
+            " Counted with a triangle test in single precision, as renderers like the report's have one; the default test, which decides \
+             edges exactly, changes {}.",
+            listed(&moved)
+        )
+    };
+    let why: String = why + &exact;
     let complete = inputs.counted.len() == MAIN.len();
     prediction(
         1,
@@ -209,8 +226,7 @@ fn growth(inputs: &Inputs) -> Prediction {
             power(sah.steps)
         );
         if findings.first().is_some_and(|f| !f.holds) {
-            why += " The median halves a sphere evenly at every level: leaves stay below 100 triangles however fine the mesh, and more of them are cut by \
-                    planes, but a ray meets few of them.";
+            why += &refined(report);
         }
         if findings.get(1).is_some_and(|f| !f.holds) {
             why += " What grows beyond the counts is the time of a step: the tree no longer fits the caches.";
@@ -218,6 +234,23 @@ fn growth(inputs: &Inputs) -> Prediction {
     }
     let complete = findings.len() == 2;
     prediction(4, claim, findings, complete, why, "sahara study scaling")
+}
+
+/// What the finest mesh of a family asks of a tree, against the coarsest.
+fn refined(growth: &Growth) -> String {
+    let mut fitted = growth.points.iter().filter(|point| point.fitted);
+    let (Some(first), Some(last)) = (fitted.next(), fitted.next_back()) else { return String::new() };
+    let tests = |point: &Point| point.tests_per_ray.map_or("?".into(), figures);
+    format!(
+        " From {} to {} triangles the report's tree goes from {} to {} tests a ray, with {} and {} triangles a leaf: the finer the \
+         mesh, the fewer of its triangles a median plane cuts, and a ray sees no more of the leaves.",
+        count(first.triangles as u64),
+        count(last.triangles as u64),
+        tests(first),
+        tests(last),
+        figures(first.triangles as f64 / first.leaves.max(1) as f64),
+        figures(last.triangles as f64 / last.leaves.max(1) as f64),
+    )
 }
 
 const HARD: [&str; 3] = ["Dragon", "Lucy", "Sponza"];
@@ -327,14 +360,16 @@ const BADLY: f64 = 0.5;
 fn ranking(inputs: &Inputs) -> Prediction {
     let claim = "SAH cost ranks trees of one family well (Kendall's tau of cost and time at least 0.7) and trees of different families badly (below 0.5).";
     // One family: the trees of the factorial that are walked alike.
-    let mut within = vec![];
+    let mut within: Vec<(f64, &str)> = vec![];
     for r in &inputs.attribution {
         for traversal in ["child boxes", "plane intervals"] {
             let trees = r.cells.iter().filter(|cell| cell.traversal == traversal);
             let pairs: Vec<(f64, f64)> = trees.filter_map(|cell| Some((cell.sah_cost?, cell.ns_per_ray))).collect();
-            within.extend(kendall(&pairs, |_, _| true));
+            within.extend(kendall(&pairs, |_, _| true).map(|tau| (tau, r.scene.as_str())));
         }
     }
+    let least = within.iter().min_by(|a, b| a.0.total_cmp(&b.0)).copied();
+    let within: Vec<f64> = within.into_iter().map(|(tau, _)| tau).collect();
     let across: Vec<f64> = groups(&inputs.compare).iter().filter_map(|group| across(group)).collect();
     let mut findings = vec![];
     if let Some(tau) = mean(&within) {
@@ -354,8 +389,12 @@ fn ranking(inputs: &Inputs) -> Prediction {
         ));
     }
     let mut why = String::new();
-    if findings.iter().any(|f| f.what.contains("within") && !f.holds) {
-        why += "Within the family the cost counts every test alike, but eight are done at once, and rays of a picture are no random lines. ";
+    if let (Some((tau, scene)), true) = (least, findings.iter().any(|f| f.what.contains("within") && !f.holds)) {
+        why += &format!(
+            "Within the family it is least on {scene}, {}: the cost counts triangles one by one where eight are tested at once, and random \
+             lines where rays come from an eye. ",
+            figures(tau)
+        );
     }
     if findings.iter().any(|f| f.what.contains("across") && !f.holds) {
         why += "Across families the report's tree is so much dearer than the others that cost finds it, whatever else it confuses. ";
@@ -409,43 +448,30 @@ fn family(structure: &str) -> &str {
 fn depth(inputs: &Inputs) -> Prediction {
     let claim = "On a CPU as on GPUs a KD-tree overtakes a BVH at high depth complexity (open in the literature).";
     let mut findings = vec![];
-    let mut why = vec![];
+    let mut crossings = vec![];
     for race in &inputs.crossover {
         let Some(last) = race.members.last() else { continue };
-        let what = format!(
-            "{} / {}, {} rays, at {} surfaces: time",
-            short(&race.kd),
-            short(&race.bvh),
-            race.workload,
-            figures(last.complexity)
-        );
+        let pair = format!("{} / {}, {} rays", short(&race.kd), short(&race.bvh), race.workload);
+        let what = format!("{pair}, {} surfaces: time", figures(last.complexity));
         findings.push(Finding::within(what, last.ratio, f64::NEG_INFINITY, 1.0));
-        let trend = race.trend.map_or(String::new(), |t| {
-            format!(
-                ", the ratio grows like the power {} [{}, {}] of the complexity",
-                figures(t.estimate),
-                figures(t.low),
-                figures(t.high)
-            )
-        });
-        let crossing = race.crossings.iter().rev().find(|c| c.kd_wins_beyond && c.found >= 0.95);
-        let place = match crossing {
-            Some(c) => format!(
-                "{} overtakes {} on {} rays at {} surfaces [{}, {}]",
-                short(&race.kd),
-                short(&race.bvh),
-                race.workload,
-                figures(c.complexity.estimate),
-                figures(c.complexity.low),
-                figures(c.complexity.high)
-            ),
-            None => {
-                format!("{} and {} do not change places on {} rays", short(&race.kd), short(&race.bvh), race.workload)
-            }
-        };
-        why.push(place + &trend);
+        if let Some(crossing) = race.crossings.iter().rev().find(|c| c.kd_wins_beyond && c.found >= 0.95) {
+            crossings.push(format!("{pair}, at {} surfaces", interval_text(crossing.complexity)));
+        }
     }
-    let why = if why.is_empty() { String::new() } else { format!("{}.", why.join("; ")) };
+    // Whether it gains at all: the sign of the trend, where that is sure.
+    let trends = || inputs.crossover.iter().filter_map(|race| race.trend);
+    let gains = trends().filter(|trend| trend.high < 0.0).count();
+    let losses = trends().filter(|trend| trend.low > 0.0).count();
+    let overtakes = match crossings.len() {
+        0 => "It is not seen to overtake anywhere".into(),
+        _ => format!("It overtakes for {}", crossings.join("; ")),
+    };
+    let why = format!(
+        "At the most surfaces the KD-tree is the faster one for {} of {} pairs and kinds of rays. {overtakes}. With growing depth complexity it surely \
+         gains in {gains} of them and surely loses in {losses}.",
+        findings.iter().filter(|finding| finding.holds).count(),
+        findings.len(),
+    );
     prediction(8, claim, findings, true, why, "sahara study crossover")
 }
 

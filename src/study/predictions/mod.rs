@@ -56,6 +56,20 @@ pub struct Prediction {
     pub command: Option<String>,
 }
 
+impl Prediction {
+    /// The verdict in words; `not surely` where the intervals of what decides it reach across their bounds.
+    pub fn words(&self) -> String {
+        let deciding = |finding: &&Finding| finding.holds == (self.verdict == Verdict::Confirmed);
+        let mut deciding = self.findings.iter().filter(deciding);
+        let sure = match self.verdict {
+            Verdict::Confirmed => deciding.all(|finding| finding.sure),
+            Verdict::Refuted => deciding.any(|finding| finding.sure),
+            Verdict::NotMeasured => true,
+        };
+        format!("{}{}", self.verdict.words(), if sure { "" } else { ", not surely" })
+    }
+}
+
 /// What came of an expectation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]

@@ -13,7 +13,7 @@ pub fn table(predictions: &[Prediction]) -> Table {
             Verdict::Refuted => Tone::Wrong,
             Verdict::NotMeasured => Tone::Plain,
         };
-        let verdict = Cell::from(p.verdict.words()).with(tone);
+        let verdict = Cell::from(p.words()).with(tone);
         rows.push(vec![p.number.to_string().into(), verdict, Cell::blank(), Cell::blank()]);
         let row = |f: &Finding| {
             let holds = match (f.holds, f.sure) {
@@ -35,7 +35,7 @@ pub fn table(predictions: &[Prediction]) -> Table {
     for p in predictions {
         let missing = p.command.as_ref().map(|command| format!(" To measure it: {command}.")).unwrap_or_default();
         let why = if p.why.is_empty() { String::new() } else { format!(" {}", p.why) };
-        notes.push(format!("{}. {} {}.{why}{missing}", p.number, p.claim, capitalised(p.verdict.words())));
+        notes.push(format!("{}. {} {}.{why}{missing}", p.number, p.claim, capitalised(&p.words())));
     }
     notes.push("Not surely: the interval reaches across the bound.".into());
     let count = |verdict| predictions.iter().filter(|p| p.verdict == verdict).count();

@@ -9,7 +9,7 @@ fn interval(estimate: f64, low: f64, high: f64) -> Interval {
 }
 
 fn counted(scene: &str, rays: u64, report_rays: u64, tests: Vec<u64>) -> Case {
-    Case { scene: scene.into(), triangles: 140, rays, report_rays, tests }
+    Case { scene: scene.into(), triangles: 140, rays, default_rays: rays, report_rays, tests }
 }
 
 fn verdict(inputs: &Inputs, number: u8) -> Prediction {
@@ -48,6 +48,22 @@ fn an_interval_across_a_bound_is_not_sure() {
     assert_eq!((outside(4.5, 6.0).holds, outside(4.5, 6.0).sure), (false, true));
     assert_eq!((outside(3.5, 6.0).holds, outside(3.5, 6.0).sure), (false, false));
     assert_eq!(outside(1.0, 9.0).expected, "2.00 to 4.00");
+}
+
+#[test]
+fn a_verdict_is_as_sure_as_what_decides_it() {
+    let of = |verdict, findings: &[(f64, f64, f64)]| {
+        let within = |&(x, low, high): &(f64, f64, f64)| Finding::within("x", interval(x, low, high), 2.0, 4.0);
+        let findings = findings.iter().map(within).collect();
+        Prediction { number: 1, claim: String::new(), verdict, findings, why: String::new(), command: None }.words()
+    };
+    let (inside, barely) = ((3.0, 2.5, 3.5), (3.0, 1.0, 3.5));
+    let (outside, hardly) = ((9.0, 8.0, 10.0), (5.0, 3.0, 7.0));
+    assert_eq!(of(Verdict::Confirmed, &[inside, inside]), "confirmed");
+    assert_eq!(of(Verdict::Confirmed, &[inside, barely]), "confirmed, not surely");
+    assert_eq!(of(Verdict::Refuted, &[hardly, outside, barely]), "refuted");
+    assert_eq!(of(Verdict::Refuted, &[hardly, inside]), "refuted, not surely");
+    assert_eq!(of(Verdict::NotMeasured, &[]), "not measured");
 }
 
 #[test]
