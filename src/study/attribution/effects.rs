@@ -67,24 +67,20 @@ pub fn term_name(term: usize) -> String {
 /// the same.
 pub fn shares(logs: &[f64]) -> Option<[f64; 7]> {
     let cells = Cell::all();
-    // The mean over all cells that agree with `cell` in the factors of a set.
+    // The mean over all cells that agree with a cell in the factors of a set.
     let mean = |cell: Cell, set: usize| {
         let agrees = |other: &Cell| (0..3).all(|f| set >> f & 1 == 0 || other.0[f] == cell.0[f]);
-        let (sum, n) = cells
-            .iter()
-            .zip(logs)
-            .filter(|(other, _)| agrees(other))
-            .fold((0.0, 0.0), |(sum, n), (_, log)| (sum + log, n + 1.0));
+        let agreeing = cells.iter().zip(logs).filter(|(other, _)| agrees(other));
+        let (sum, n) = agreeing.fold((0.0, 0.0), |(sum, n), (_, log)| (sum + log, n + 1.0));
         sum / n
     };
+    let means: Vec<[f64; 8]> = cells.iter().map(|&cell| std::array::from_fn(|set| mean(cell, set))).collect();
     // What a term adds to those within it: means of its subsets with alternating signs.
-    let effect = |cell: Cell, term: usize| -> f64 {
-        let subsets = (0..8).filter(|set| set & term == *set);
-        subsets
-            .map(|set: usize| if (term ^ set).count_ones() % 2 == 0 { mean(cell, set) } else { -mean(cell, set) })
-            .sum()
+    let effect = |means: &[f64; 8], term: usize| -> f64 {
+        let subsets = (0..8_usize).filter(|set| set & term == *set);
+        subsets.map(|set| if (term ^ set).count_ones() % 2 == 0 { means[set] } else { -means[set] }).sum()
     };
-    let squares = TERMS.map(|term| cells.iter().map(|&cell| effect(cell, term)).map(|x| x * x).sum::<f64>());
+    let squares = TERMS.map(|term| means.iter().map(|means| effect(means, term)).map(|x| x * x).sum::<f64>());
     let total: f64 = squares.iter().sum();
     (total > 0.0).then(|| squares.map(|square| square / total))
 }

@@ -56,7 +56,7 @@ fn rays_are_counted_to_two_and_the_scene_that_is_off_is_named() {
     let right = Inputs { counted: keys().iter().map(exact).collect(), ..Inputs::default() };
     assert_eq!(verdict(&right, 1).verdict, Verdict::Confirmed);
     let mut part = right.clone();
-    part.counted.pop();
+    part.counted.remove(0);
     let some = verdict(&part, 1);
     assert_eq!((some.verdict, some.findings.len()), (Verdict::NotMeasured, 7));
     let mut wrong = part;
