@@ -227,7 +227,7 @@ fn every_figure_has_a_caption_a_command_and_words_for_those_who_do_not_see() {
         assert!(!figure.caption.is_empty() && figure.command.starts_with("sahara "), "{}", figure.id);
         assert!(!figure.alt.is_empty() || !matches!(figure.art, Art::Chart(_)), "{}", figure.id);
     }
-    let page = page(&document);
+    let page = page(document);
     assert_eq!(page.matches("<figcaption>").count(), figures.len());
     assert_eq!(page.matches("<figure ").count(), figures.len());
     let pictures = page.matches("<img src").count();
