@@ -147,7 +147,7 @@ fn cells_of_one_epoch_share_its_luck() {
 #[test]
 fn a_longer_run_is_easier_to_foresee() {
     let cell: Vec<Vec<f64>> = (0..EPOCHS).map(|e| vec![0.01 * e as f64; ROUNDS]).collect();
-    let half = |epochs| libm::log(prediction(&[cell.clone()], epochs, 0.0, 1).unwrap().high) - 0.02;
+    let half = |epochs| libm::log(prediction(std::slice::from_ref(&cell), epochs, 0.0, 1).unwrap().high) - 0.02;
     let error = 2.776 * 0.01 * libm::sqrt(2.5);
     for epochs in [2, 5, 20] {
         let expected = error * libm::sqrt(1.0 / 5.0 + 1.0 / epochs as f64);

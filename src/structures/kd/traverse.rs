@@ -48,6 +48,7 @@ impl<T: TriangleTest> Walk for KdTree<T> {
 /// The leaves that a ray has still to search, in the order in which it meets them.
 ///
 /// Both ways share one search of leaves, which is most of the code of a walk.
+#[expect(clippy::large_enum_variant, reason = "one for each walk, on the stack, and neither is initialised")]
 enum Leaves {
     Intervals(Stack<(u32, f32, f32)>),
     Boxes(Stack<(u32, Aabb, f32)>),
