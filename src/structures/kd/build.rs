@@ -161,9 +161,11 @@ impl Place {
     }
 }
 
-/// Whether neither side has all triangles of the node. The middle of a cell may also cut off empty space.
+/// Whether neither side has all triangles of the node. The middle of a cell may also leave all of them in one half, but for
+/// those that reach into the other: the cell is smaller, and that is what this rule is after.
 fn is_progress(context: &Context, count: usize, below: usize, above: usize) -> bool {
-    below.max(above) < count || (context.config.plane == Plane::SpatialMedian && below.min(above) == 0)
+    let most = if context.config.plane == Plane::SpatialMedian { below.min(above) } else { below.max(above) };
+    most < count
 }
 
 impl Plan {
