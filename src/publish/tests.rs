@@ -238,6 +238,14 @@ fn every_figure_has_a_caption_a_command_and_words_for_those_who_do_not_see() {
 }
 
 #[test]
+fn scenes_of_much_the_same_name_have_figures_of_their_own() {
+    let both = [records("a b"), records("a-b")].concat();
+    let document = super::document(&read(folder(&[("compare.json", to_json(&both))]).path()), vec![]);
+    let ids: Vec<&str> = document.figures().into_iter().map(|figure| figure.id.as_str()).collect();
+    assert_eq!(ids, ["speed-a-b", "speed-a-b-v2"]);
+}
+
+#[test]
 fn the_same_runs_give_the_same_page() {
     // The folder of the runs is another one each time, and is named where the numbers come from.
     let forms = |document: &Document| {

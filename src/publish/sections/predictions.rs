@@ -72,7 +72,8 @@ const LENGTH: usize = 420;
 
 /// An explanation, up to the end of a clause where it is long.
 fn short(why: &str) -> String {
-    match why.char_indices().nth(LENGTH).and_then(|(end, _)| why[..end].rfind(['.', ';'])) {
+    let clause = |end: usize| [". ", "; ", ", "].iter().filter_map(|mark| why[..end].rfind(mark)).max();
+    match why.char_indices().nth(LENGTH).and_then(|(end, _)| clause(end)) {
         Some(end) => format!("{} … (the rest is below)", &why[..end]),
         None => why.into(),
     }
@@ -103,4 +104,17 @@ fn row(p: &Prediction) -> Vec<Cell> {
         Cell::from(p.verdict.words()).with(tone),
         deciding.into(),
     ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{LENGTH, short};
+
+    #[test]
+    fn long_explanations_end_with_a_clause_and_not_within_a_number() {
+        assert_eq!(short("It is 1.5, not 2."), "It is 1.5, not 2.");
+        let long = format!("{}, 3.25 fewer, and more", "x".repeat(LENGTH - 10));
+        assert_eq!(short(&long), format!("{} … (the rest is below)", "x".repeat(LENGTH - 10)));
+        assert!(short(&"é".repeat(2 * LENGTH)).ends_with('é'));
+    }
 }
