@@ -92,10 +92,15 @@ pub enum RunError {
     Empty { path: PathBuf },
 }
 
+/// The kind of a file of a folder that is passed over.
+const NO_RUN: &str = "no run";
+
 /// A file and when it was last written: the newest counts where two measured the same.
 struct File {
     path: PathBuf,
     modified: SystemTime,
+    /// Whether it was named itself, and not the folder it is in.
+    is_named: bool,
 }
 
 impl Runs {
@@ -106,21 +111,32 @@ impl Runs {
     pub fn read(paths: &[PathBuf]) -> Result<Self, RunError> {
         let mut files = vec![];
         for path in paths {
-            let found = if path.is_dir() { folder(path)? } else { vec![path.clone()] };
+            let is_folder = path.is_dir();
+            let found = if is_folder { folder(path)? } else { vec![path.clone()] };
             if found.is_empty() {
                 return Err(RunError::Empty { path: path.clone() });
             }
             for path in found {
                 let modified = fs::metadata(&path).and_then(|meta| meta.modified());
                 let modified = modified.map_err(|cause| RunError::Read { path: path.clone(), cause })?;
-                files.push(File { path, modified });
+                files.push(File { path, modified, is_named: !is_folder });
             }
         }
         files.sort_by(|a, b| (a.modified, &a.path).cmp(&(b.modified, &b.path)));
         files.dedup_by(|a, b| a.path == b.path);
         let mut runs = Self::default();
         for file in files {
-            runs.add(&file.path)?;
+            match runs.add(&file.path) {
+                // A folder may hold what studies export besides.
+                Err(RunError::Foreign { path }) if !file.is_named => {
+                    runs.note(&path, NO_RUN, "");
+                    runs.sources.last_mut().expect("it was noted").replaced = "all of it".into();
+                }
+                added => added?,
+            }
+        }
+        if let (true, Some(path)) = (runs.sources.iter().all(|source| source.kind == NO_RUN), paths.first()) {
+            return Err(RunError::Empty { path: path.clone() });
         }
         // Bench looks at few scenes, to find changes: whatever compare has measured is more.
         let mut benched = std::mem::take(&mut runs.benched);
@@ -300,6 +316,9 @@ fn typed<T: DeserializeOwned>(path: &Path, kind: &'static str, value: Value) -> 
 
 /// A command line as another machine would type it: without the folder of the program.
 pub fn shown(command: &str) -> String {
+    if command.is_empty() {
+        return String::new();
+    }
     let (program, rest) = command.split_once(' ').unwrap_or((command, ""));
     let program = program.trim_matches('\'').rsplit(['/', '\\']).next().unwrap_or(program);
     let name = if program.starts_with("sahara") { "sahara" } else { program };

@@ -238,6 +238,14 @@ fn every_figure_has_a_caption_a_command_and_words_for_those_who_do_not_see() {
 }
 
 #[test]
+fn scenes_of_much_the_same_name_have_figures_of_their_own() {
+    let both = [records("a b"), records("a-b")].concat();
+    let document = super::document(&read(folder(&[("compare.json", to_json(&both))]).path()), vec![]);
+    let ids: Vec<&str> = document.figures().into_iter().map(|figure| figure.id.as_str()).collect();
+    assert_eq!(ids, ["speed-a-b", "speed-a-b-v2"]);
+}
+
+#[test]
 fn the_same_runs_give_the_same_page() {
     // The folder of the runs is another one each time, and is named where the numbers come from.
     let forms = |document: &Document| {
@@ -308,6 +316,18 @@ fn what_cannot_be_read_is_one_sentence() {
     assert!(missing.contains("no/such/file.json"), "{missing}");
     let empty = tempfile::tempdir().unwrap();
     assert!(Runs::read(&[empty.path().into()]).unwrap_err().to_string().contains("sahara study all"));
+}
+
+#[test]
+fn what_is_no_run_is_left_out_of_a_folder_and_named() {
+    let folder =
+        folder(&[("compare.json", to_json(&records("Cube"))), ("verdicts.json", b"[{\"claim\": \"x\"}]".to_vec())]);
+    let runs = read(folder.path());
+    assert_eq!(runs.records.len(), 6);
+    let left_out: Vec<&str> = runs.sources.iter().filter(|s| !s.replaced.is_empty()).map(|s| s.kind.as_str()).collect();
+    assert_eq!(left_out, ["no run"]);
+    fs::remove_file(folder.path().join("compare.json")).unwrap();
+    assert!(Runs::read(&[folder.path().into()]).unwrap_err().to_string().contains("there is no run"));
 }
 
 #[test]

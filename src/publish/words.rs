@@ -4,9 +4,9 @@ use crate::measure::Interval;
 use crate::report::number::figures;
 use crate::report::{Cell, Table};
 
-/// `20.6 [19.2, 21.4]`.
+/// `20.6 [19.2, 21.4]`; what does not vary has no interval.
 pub fn interval(x: &Interval) -> String {
-    format!("{} {}", figures(x.estimate), ends(x))
+    if x.low == x.high { figures(x.estimate) } else { format!("{} {}", figures(x.estimate), ends(x)) }
 }
 
 /// `[19.2, 21.4]`.

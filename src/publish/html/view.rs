@@ -186,15 +186,15 @@ fn table(table: &Table, shaded: Option<&Tabular>) -> TableView {
     let cell = |row: usize, column: usize, cell: &crate::report::Cell| {
         let shade = shaded.and_then(|s| *s.shades.get(row)?.get(column)?);
         let key = sort_key(&cell.text);
-        let class = match (shade, cell.tone) {
-            (Some(0), _) => "",
+        let tone = match (shade, cell.tone) {
             (Some(shade), _) if shade > 0 => ["", "f1", "f2", "f3"][shade.min(3) as usize],
             (Some(shade), _) => ["", "w1", "w2", "w3"][shade.unsigned_abs().min(3) as usize],
             (None, Tone::Best) => "best",
             (None, Tone::Wrong) => "wrong",
-            (None, Tone::Plain) => words[column],
+            (None, Tone::Plain) => "",
         };
-        CellView { text: cell.text.clone(), class: class.into(), key }
+        let class = [words[column], tone].join(" ").trim().to_owned();
+        CellView { text: cell.text.clone(), class, key }
     };
     let row = |(i, cells): (usize, &Vec<crate::report::Cell>)| {
         cells.iter().enumerate().map(|(column, c)| cell(i, column, c)).collect()

@@ -22,11 +22,17 @@ pub fn results(runs: &Runs) -> Vec<Attribution> {
     results
 }
 
-/// One sentence for each hard scene.
+/// One sentence for each hard scene, of the real mesh where it was measured.
 pub fn sentences(runs: &Runs) -> Vec<String> {
     let results = results(runs);
-    let hard: Vec<Attribution> =
-        results.into_iter().filter(|r| HARD.iter().any(|name| r.scene.starts_with(name))).collect();
+    let hard: Vec<Attribution> = HARD
+        .iter()
+        .filter_map(|name| {
+            let mut forms: Vec<&Attribution> = results.iter().filter(|r| r.scene.starts_with(name)).collect();
+            forms.sort_by_key(|r| r.stand_in);
+            forms.first().copied().cloned()
+        })
+        .collect();
     // The first note says what the columns mean.
     headlines(&hard).notes.into_iter().skip(1).collect()
 }

@@ -14,7 +14,7 @@ mod replicate;
 mod scaling;
 mod speed;
 
-use super::document::{Document, Section};
+use super::document::{Block, Document, Section};
 use super::runs::Runs;
 
 pub use answer::QUESTION;
@@ -57,6 +57,24 @@ pub fn document(runs: &Runs, pictures: Vec<Section>) -> Document {
     sections.sort_by_key(|section| ORDER.iter().position(|id| *id == section.id));
     let mut document = Document { title: QUESTION.into(), answer: answer::answer(runs), sections };
     let missing = document.missing().into_iter().map(|m| (m.what.clone(), m.command.clone())).collect();
+    let mut known = vec![];
+    document.sections.iter_mut().for_each(|section| name_apart(&mut section.blocks, &mut known));
     document.sections.push(provenance::section(runs, missing));
     document
+}
+
+/// Gives figures of one name, as scenes of much the same name have, names of their own.
+fn name_apart(blocks: &mut [Block], known: &mut Vec<String>) {
+    for block in blocks {
+        match block {
+            Block::Fold(_, inner) => name_apart(inner, known),
+            Block::Figure(figure) => {
+                let names = std::iter::once(figure.id.clone()).chain((2..).map(|n| format!("{}-v{n}", figure.id)));
+                let free = names.into_iter().find(|name| !known.contains(name));
+                figure.id = free.expect("there are more numbers than figures");
+                known.push(figure.id.clone());
+            }
+            _ => {}
+        }
+    }
 }

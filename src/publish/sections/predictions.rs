@@ -57,11 +57,26 @@ pub fn section(runs: &Runs) -> Section {
         verdicts.rows = predictions.iter().map(row).collect();
         blocks.push(Block::table(verdicts, &command));
         let whys = predictions.iter().filter(|p| p.verdict == Verdict::Refuted && !p.why.is_empty());
-        blocks.extend(whys.map(|p| Block::Text(format!("{}. {}", p.number, p.why))));
+        blocks.extend(whys.map(|p| Block::Text(format!("{}. {}", p.number, short(&p.why)))));
         let all = Block::table(findings(&predictions), &command);
         blocks.push(Block::Fold("All findings and explanations".into(), vec![all]));
     }
     Section { id: "predictions", title: "What was expected, and what came of it?", blocks }
+}
+
+/// Findings of one prediction that are shown at once.
+const SHOWN: usize = 3;
+
+/// Characters of an explanation that are shown at once.
+const LENGTH: usize = 420;
+
+/// An explanation, up to the end of a clause where it is long.
+fn short(why: &str) -> String {
+    let clause = |end: usize| [". ", "; ", ", "].iter().filter_map(|mark| why[..end].rfind(mark)).max();
+    match why.char_indices().nth(LENGTH).and_then(|(end, _)| clause(end)) {
+        Some(end) => format!("{} … (the rest is below)", &why[..end]),
+        None => why.into(),
+    }
 }
 
 fn row(p: &Prediction) -> Vec<Cell> {
@@ -72,7 +87,12 @@ fn row(p: &Prediction) -> Vec<Cell> {
     };
     let told = |f: &Finding| format!("{}: {}, expected {}", f.what, interval(&f.value), f.expected);
     // What refutes it, or else the first.
-    let refuting: Vec<String> = p.findings.iter().filter(|f| !f.holds).map(told).collect();
+    let mut refuting: Vec<String> = p.findings.iter().filter(|f| !f.holds).map(told).collect();
+    if refuting.len() > SHOWN {
+        let more = refuting.len() - SHOWN;
+        refuting.truncate(SHOWN);
+        refuting.push(format!("and {more} more"));
+    }
     let deciding = if refuting.is_empty() { p.findings.iter().take(1).map(told).collect() } else { refuting };
     let deciding = match (&p.command, deciding.is_empty()) {
         (Some(command), true) => command.clone(),
@@ -84,4 +104,17 @@ fn row(p: &Prediction) -> Vec<Cell> {
         Cell::from(p.verdict.words()).with(tone),
         deciding.into(),
     ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{LENGTH, short};
+
+    #[test]
+    fn long_explanations_end_with_a_clause_and_not_within_a_number() {
+        assert_eq!(short("It is 1.5, not 2."), "It is 1.5, not 2.");
+        let long = format!("{}, 3.25 fewer, and more", "x".repeat(LENGTH - 10));
+        assert_eq!(short(&long), format!("{} … (the rest is below)", "x".repeat(LENGTH - 10)));
+        assert!(short(&"é".repeat(2 * LENGTH)).ends_with('é'));
+    }
 }
