@@ -260,7 +260,7 @@ fn the_same_runs_give_the_same_page() {
 fn a_part_that_is_not_there_is_named_with_its_command() {
     let runs = read(folder(&[("compare.json", to_json(&records("Dragon")))]).path());
     let document = document(&runs, vec![]);
-    assert_eq!(document.answer.verdict, "Yes");
+    assert_eq!(document.answer.verdict, "Yes, on Dragon");
     assert_eq!(document.answer.numbers[0].number, "8.00 ×");
     let missing: Vec<&str> = document.missing().iter().map(|missing| missing.command.as_str()).collect();
     assert!(missing.iter().any(|command| command.starts_with("sahara replicate")), "{missing:?}");
@@ -268,6 +268,10 @@ fn a_part_that_is_not_there_is_named_with_its_command() {
     assert!(missing.iter().all(|command| !command.starts_with("sahara compare")), "{missing:?}");
     let page = page(&document);
     assert!(missing.iter().all(|command| page.contains(&command.replace('/', "&#x2f;"))));
+
+    let attributed = folder(&[("attribution.jsonl", attribution_journal("Lucy").into_bytes())]);
+    let answer = super::document(&read(attributed.path()), vec![]).answer;
+    assert_eq!((answer.verdict.as_str(), answer.numbers.len()), ("Yes, on Lucy", 1));
 
     let nothing = super::document(&read(folder(&[("a.json", to_json(&accuracy("Cube")))]).path()), vec![]);
     assert_eq!(nothing.answer.verdict, "Not measured");

@@ -19,7 +19,8 @@ struct Hard {
     ratio: Interval,
 }
 
-/// What is known of the hard scenes: from `replicate`, or else from the primary rays of `compare`.
+/// What is known of the hard scenes: from `replicate`, or else from the corners of `attribution`, which tell no mean, or else
+/// from the primary rays of `compare`.
 fn hard(runs: &Runs) -> (Vec<Hard>, Option<Interval>) {
     if let Some(replication) = &runs.replication {
         let hard = replication.hard.iter().map(|hard| Hard {
@@ -28,6 +29,15 @@ fn hard(runs: &Runs) -> (Vec<Hard>, Option<Interval>) {
             ratio: hard.sah_over_median,
         });
         return (hard.collect(), replication.conclusion.sah_over_median);
+    }
+    let corners = super::attribution::hard(runs);
+    if !corners.is_empty() {
+        let hard = corners.into_iter().map(|(scene, r)| Hard {
+            scene: scene.into(),
+            stand_in: r.stand_in,
+            ratio: r.time.whole,
+        });
+        return (hard.collect(), None);
     }
     let floor = twins(&runs.records).log().unwrap_or(0.0);
     let (mut hard, mut pairs) = (vec![], vec![]);
@@ -45,13 +55,16 @@ fn hard(runs: &Runs) -> (Vec<Hard>, Option<Interval>) {
     (hard, speed(pairs, floor))
 }
 
+/// The hard scenes.
+const SCENES: usize = 3;
+
 /// From this on a tree is called much faster: half of the time.
 const MUCH: f64 = 2.0;
 
 /// The answer, or that there is none yet.
 pub fn answer(runs: &Runs) -> Answer {
     let (hard, mean) = hard(runs);
-    let Some(mean) = mean else {
+    if hard.is_empty() {
         return Answer {
             verdict: "Not measured".into(),
             sentences: vec![format!(
@@ -60,30 +73,35 @@ pub fn answer(runs: &Runs) -> Answer {
             )],
             numbers: vec![],
         };
-    };
+    }
     let least = hard.iter().map(|hard| hard.ratio.low).fold(f64::INFINITY, f64::min);
     let most = hard.iter().map(|hard| hard.ratio.high).fold(0.0, f64::max);
     let verdict = match () {
         () if least >= MUCH => "Yes",
-        () if mean.low >= MUCH => "Yes, on average",
-        () if mean.low > 1.0 => "Faster, but not much",
-        () if mean.high < 1.0 => "No",
+        () if mean.is_some_and(|mean| mean.low >= MUCH) => "Yes, on average",
+        () if least > 1.0 || mean.is_some_and(|mean| mean.low > 1.0) => "Faster, but not much",
+        () if most < 1.0 || mean.is_some_and(|mean| mean.high < 1.0) => "No",
         () => "Not decided",
     };
     let names: Vec<&str> = hard.iter().map(|hard| hard.scene.as_str()).collect();
+    // The question is about three scenes.
+    let verdict = if hard.len() < SCENES { format!("{verdict}, on {}", listed(&names)) } else { verdict.into() };
     let stand_ins = match hard.iter().filter(|hard| hard.stand_in).count() {
         0 => "",
         n if n == hard.len() => ", stand-ins of our own with as many triangles as the report's meshes,",
         _ => ", in part stand-ins of our own,",
     };
+    let (names, range) = (listed(&names), format!("{} to {}", figures(least), figures(most)));
+    let times = match mean {
+        Some(mean) => format!(
+            "{} times as fast as the report's tree (geometric mean, 95 % interval {}; the scenes' intervals reach from {range})",
+            figures(mean.estimate),
+            ends(&mean),
+        ),
+        None => format!("{range} times as fast as the report's tree (the 95 % intervals of the scenes together)"),
+    };
     let mut sentences = vec![format!(
-        "On {}{stand_ins} the SAH tree answers the same primary rays {} times as fast as the report's tree (geometric mean, 95 % \
-         interval {}; the scenes' intervals reach from {} to {}). Construction is left out, as in the report.",
-        listed(&names),
-        figures(mean.estimate),
-        ends(&mean),
-        figures(least),
-        figures(most),
+        "On {names}{stand_ins} the SAH tree answers the same primary rays {times}. Construction is left out, as in the report."
     )];
     sentences.extend(super::attribution::sentences(runs));
     sentences.extend(super::predictions::sentence(runs));
@@ -92,11 +110,10 @@ pub fn answer(runs: &Runs) -> Answer {
         interval: ends(&hard.ratio),
         label: scene_name(&hard.scene, hard.stand_in),
     });
-    let mean = Headline {
+    let mean = mean.filter(|_| hard.len() > 1).map(|mean| Headline {
         number: format!("{} ×", figures(mean.estimate)),
         interval: ends(&mean),
         label: "geometric mean".into(),
-    };
-    let numbers = if hard.len() > 1 { numbers.chain([mean]).collect() } else { numbers.collect() };
-    Answer { verdict: verdict.into(), sentences, numbers }
+    });
+    Answer { verdict, sentences, numbers: numbers.chain(mean).collect() }
 }
