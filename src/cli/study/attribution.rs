@@ -66,8 +66,8 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     };
     let scenes = meshes::scenes(&args.scenes, args.meshes)?;
     let provenance = Provenance::of(&settings.threads);
-    let foot = provenance.line();
     let mut journal: Journal<Case> = args.folder.journal(NAME, &settings.kept(), provenance)?;
+    let foot = journal.provenance().line();
 
     // All scenes of an epoch before the next one: what changes on the machine over hours changes all scenes alike.
     let epochs = 0..usize::from(args.epochs);

@@ -4,7 +4,6 @@ use super::curves::{Options, cases, verdict};
 use super::meshes::{self, Meshes};
 use crate::cli::Verdict;
 use crate::cli::terminal::Terminal;
-use crate::measure::Provenance;
 use crate::registry::Registry;
 use crate::report::to_tidy_csv;
 use crate::scene::WorkloadKind;
@@ -27,7 +26,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     let files = args.options.exports.check()?;
     let settings = args.options.settings(registry, &STRUCTURES, &[WorkloadKind::Primary, WorkloadKind::Diffuse])?;
     let scenes = meshes::scenes(&args.scenes, args.meshes)?;
-    let epochs: Vec<Epoch> =
+    let (epochs, provenance) =
         cases(NAME, &args.options, &settings, &scenes, terminal, |_, epoch| Ok(epoch), |epoch: &Epoch| epoch)?;
     let markets = result(&epochs, args.options.seed);
     let shown = tables(&markets);
@@ -38,7 +37,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     let mut foot: Vec<String> = LEGEND.map(String::from).into();
     foot.extend(troubles);
     foot.extend(meshes::note(&scenes, args.meshes));
-    foot.push(Provenance::of(&settings.threads).line());
+    foot.push(provenance);
     terminal.print_lines(&foot)?;
     files.write(&markets, || to_tidy_csv(&rows(&markets)), &shown, &foot)?;
     Ok(verdict)

@@ -4,7 +4,6 @@ use super::curves::{Options, cases, verdict};
 use super::meshes::{self, Meshes};
 use crate::cli::Verdict;
 use crate::cli::terminal::Terminal;
-use crate::measure::Provenance;
 use crate::registry::Registry;
 use crate::report::to_tidy_csv;
 use crate::scene::WorkloadKind;
@@ -28,7 +27,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     let kinds = [WorkloadKind::Primary, WorkloadKind::Shadow, WorkloadKind::Diffuse, WorkloadKind::Random];
     let settings = args.options.settings(registry, &STRUCTURES, &kinds)?;
     let scenes = meshes::scenes(&args.scenes, args.meshes)?;
-    let epochs: Vec<Epoch> =
+    let (epochs, provenance) =
         cases(NAME, &args.options, &settings, &scenes, terminal, |_, epoch| Ok(epoch), |epoch: &Epoch| epoch)?;
     let families = result(&epochs, args.options.seed);
     let shown = tables(&families);
@@ -39,7 +38,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     let mut foot: Vec<String> = LEGEND.map(String::from).into();
     foot.extend(troubles);
     foot.extend(meshes::note(&scenes, args.meshes));
-    foot.push(Provenance::of(&settings.threads).line());
+    foot.push(provenance);
     terminal.print_lines(&foot)?;
     files.write(&families, || to_tidy_csv(&rows(&families)), &shown, &foot)?;
     Ok(verdict)

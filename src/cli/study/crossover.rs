@@ -3,7 +3,7 @@
 use super::curves::{Options, cases, verdict};
 use crate::cli::Verdict;
 use crate::cli::terminal::Terminal;
-use crate::measure::{Provenance, spread};
+use crate::measure::spread;
 use crate::registry::Registry;
 use crate::report::to_tidy_csv;
 use crate::scene::{Sampling, Scene, Workload, WorkloadKind};
@@ -45,14 +45,15 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
         let complexity = settings.workloads.iter().filter_map(of).collect();
         Ok(Case { layers: roots[s] * roots[s], complexity, epoch })
     };
-    let cases = cases(NAME, &args.options, &settings, &scenes, terminal, wrap, |case: &Case| &case.epoch)?;
+    let (cases, provenance) =
+        cases(NAME, &args.options, &settings, &scenes, terminal, wrap, |case: &Case| &case.epoch)?;
     let races = result(&cases, args.options.seed);
     let shown = tables(&races);
     for table in &shown {
         terminal.print_table(table)?;
     }
     let (mut foot, verdict) = verdict(cases.iter().map(|case| &case.epoch));
-    foot.push(Provenance::of(&settings.threads).line());
+    foot.push(provenance);
     terminal.print_lines(&foot)?;
     files.write(&races, || to_tidy_csv(&rows(&races)), &shown, &foot)?;
     Ok(verdict)

@@ -73,7 +73,8 @@ impl Options {
     }
 }
 
-/// Measures the epochs of `scenes` that the journal of the study `name` lacks, and gives all those asked for. `wrap` makes a case
+/// Measures the epochs of `scenes` that the journal of the study `name` lacks, and gives all those asked for, with the line that says
+/// where the journal's times come from. `wrap` makes a case
 /// of the epoch of a scene, by its number; `epoch` is its inverse. All scenes of an epoch come before the next one: what changes
 /// on the machine over hours changes all scenes alike.
 ///
@@ -87,7 +88,7 @@ pub fn cases<C: Clone + Serialize + DeserializeOwned>(
     terminal: &Terminal,
     wrap: impl Fn(usize, Epoch) -> Result<C, StudyError>,
     epoch_of: impl Fn(&C) -> &Epoch,
-) -> anyhow::Result<Vec<C>> {
+) -> anyhow::Result<(Vec<C>, String)> {
     let provenance = Provenance::of(&settings.threads);
     let mut journal: Journal<C> = options.folder.journal(name, &settings.kept(), provenance)?;
     let epochs = 0..usize::from(options.epochs);
@@ -109,7 +110,8 @@ pub fn cases<C: Clone + Serialize + DeserializeOwned>(
     }
     progress.finish();
     // The journal may hold other scenes as well: those asked for are shown.
-    Ok(plan.iter().filter_map(|(.., key)| journal.get(key).cloned()).collect())
+    let cases = plan.iter().filter_map(|(.., key)| journal.get(key).cloned()).collect();
+    Ok((cases, journal.provenance().line()))
 }
 
 /// What to say of structures that took no part, and what they make of the run.

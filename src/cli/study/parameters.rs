@@ -64,8 +64,8 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
         }
     }
     let provenance = Provenance::of(&settings.threads);
-    let foot = provenance.line();
     let mut journal: Journal<Case> = args.folder.journal(NAME, &settings.kept(), provenance)?;
+    let foot = journal.provenance().line();
 
     let epochs = 0..usize::from(args.epochs);
     let plan: Vec<_> =

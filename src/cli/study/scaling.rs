@@ -3,7 +3,6 @@
 use super::curves::{Options, cases, verdict};
 use crate::cli::terminal::Terminal;
 use crate::cli::{Verdict, sources};
-use crate::measure::Provenance;
 use crate::registry::Registry;
 use crate::report::to_tidy_csv;
 use crate::scene::{Scene, WorkloadKind};
@@ -30,14 +29,15 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     scenes.extend(sources::scenes(if args.scenes.is_empty() { &default } else { &args.scenes })?);
 
     let wrap = |s: usize, epoch| Ok(Case { family: if s < spheres { Family::Spheres } else { Family::Meshes }, epoch });
-    let cases = cases(NAME, &args.options, &settings, &scenes, terminal, wrap, |case: &Case| &case.epoch)?;
+    let (cases, provenance) =
+        cases(NAME, &args.options, &settings, &scenes, terminal, wrap, |case: &Case| &case.epoch)?;
     let growths = result(&cases, args.options.seed);
     let shown = tables(&growths);
     for table in &shown {
         terminal.print_table(table)?;
     }
     let (mut foot, verdict) = verdict(cases.iter().map(|case| &case.epoch));
-    foot.push(Provenance::of(&settings.threads).line());
+    foot.push(provenance);
     terminal.print_lines(&foot)?;
     files.write(&growths, || to_tidy_csv(&rows(&growths)), &shown, &foot)?;
     Ok(verdict)

@@ -14,6 +14,7 @@ use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
+use crate::measure::Provenance;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
@@ -101,6 +102,11 @@ impl<C: Serialize + DeserializeOwned> Journal<C> {
     /// The case `key`, if it has been measured.
     pub fn get(&self, key: &str) -> Option<&C> {
         self.recorded.get(key)
+    }
+
+    /// Where its cases come from, also where this process has measured none of them.
+    pub fn provenance(&self) -> &Provenance {
+        &self.recorded.header.provenance
     }
 
     /// All cases, in the order in which they were measured.
