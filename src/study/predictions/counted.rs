@@ -33,7 +33,7 @@ pub struct Case {
     pub default_rays: u64,
     /// The report's.
     pub report_rays: u64,
-    /// Triangle tests for all rays with each of [`TREES`]; on [`CROWDED`] alone.
+    /// Triangle tests for all rays with each of the trees compared; on the crowded scene alone.
     pub tests: Vec<u64>,
 }
 
