@@ -36,7 +36,17 @@ fn commit(root: &Path) -> Option<String> {
         rerun_if_changed(&root.join(git(&["rev-parse", "--git-path", file])?));
     }
     let commit = git(&["rev-parse", "--short=12", "HEAD"])?;
-    let sources = ["status", "--porcelain", "--untracked-files=no", "--", "src", "Cargo.toml", "Cargo.lock"];
+    // Without the lock git leaves the index as it is: a new one would rerun this script, and rebuild the crate, next time.
+    let sources = [
+        "--no-optional-locks",
+        "status",
+        "--porcelain",
+        "--untracked-files=no",
+        "--",
+        "src",
+        "Cargo.toml",
+        "Cargo.lock",
+    ];
     let changes = git(&sources).is_some_and(|text| !text.is_empty());
     Some(if changes { commit + "+changes" } else { commit })
 }

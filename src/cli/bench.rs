@@ -40,7 +40,8 @@ pub struct Args {
     /// Folder of runs; baselines are in its folder `baselines`
     #[arg(long, value_name = "DIR", default_value = "runs")]
     dir: PathBuf,
-    /// How often everything is built anew; up to four times as often where a regression can be neither found nor excluded
+    /// How often everything is built anew; four times as often for a baseline that is kept, which no later run can make more certain,
+    /// and up to that where a regression can be neither found nor excluded
     #[arg(long, value_name = "N", default_value_t = 12, value_parser = clap::value_parser!(u16).range(2..))]
     epochs: u16,
     /// Samples of every case in each epoch
@@ -69,6 +70,9 @@ const CHECKS_NS: u64 = 4_000_000_000;
 /// A sample is never cut short by a budget: another run must take the same rays.
 const SAMPLE_NS: u64 = 60_000_000_000;
 
+/// Epochs of a baseline that is kept, and the most where nothing is decided, as a multiple of those asked for.
+const MOST: u16 = 4;
+
 /// More epochs are taken so many at a time.
 const STEP: u16 = 4;
 
@@ -88,14 +92,16 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     let kept = kept.as_deref().map(OutputFile::check).transpose()?;
     let json = args.export_json.as_ref().map(|path| sources::output(path, &args.scenes, [])).transpose()?;
     let scenes = sources::scenes(&names)?;
+    let most = args.epochs.saturating_mul(MOST);
+    let first = if kept.is_some() { most } else { args.epochs };
     let settings = Settings {
         structures,
         guide: sources::guide(registry)?,
         workloads: if args.workload.is_empty() { WORKLOADS.to_vec() } else { args.workload.clone() },
         replayed: None,
         rays: args.rays,
-        runs: usize::from(args.epochs) * usize::from(args.runs),
-        epochs: args.epochs.into(),
+        runs: usize::from(first) * usize::from(args.runs),
+        epochs: first.into(),
         warmup: 1,
         twin: true,
         budget_ns: CHECKS_NS,
@@ -112,7 +118,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     })?;
     let mut epochs = 0;
     let (run, comparison) = loop {
-        let step = if epochs == 0 { args.epochs } else { STEP };
+        let step = if epochs == 0 { first } else { STEP };
         for _ in 0..step {
             bench.epoch(&mut |scene, stage| {
                 progress.scene(scene);
@@ -124,7 +130,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
         let compare = |old: &Vec<Record>| against(old, &run, args.fail_on_regression);
         let comparison = baseline.as_ref().map(compare).transpose()?;
         let open = comparison.as_ref().is_some_and(|c| verdict(c) == bench::Verdict::Undecided);
-        if !open || epochs >= args.epochs.saturating_mul(4) {
+        if !open || epochs >= most {
             break (run, comparison);
         }
     };

@@ -29,7 +29,7 @@ pub struct Args {
 }
 
 pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Result<Verdict> {
-    let threads = Threads::new(args.threads.into()).map_err(anyhow::Error::msg)?;
+    let threads = Threads::pinned(args.threads.into()).map_err(anyhow::Error::msg)?;
     let check = |path: &Option<PathBuf>| path.as_deref().map(OutputFile::check).transpose();
     let (json, markdown) = (check(&args.export_json)?, check(&args.export_markdown)?);
     let settings = Settings { runs: args.runs.into(), sample_ns: 300_000_000, check_ns: 500_000_000, seed: 1, threads };

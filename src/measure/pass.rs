@@ -132,6 +132,11 @@ pub fn spread(rays: &[Ray], count: usize) -> Vec<Ray> {
     (0..count).map(|i| rays[part(i) + random.below(part(i + 1) - part(i))]).collect()
 }
 
+/// FNV-1a over numbers (Fowler, Noll, Vo).
+pub fn checksum(numbers: impl Iterator<Item = u64>) -> u64 {
+    numbers.fold(0xcbf2_9ce4_8422_2325, |sum, number| (sum ^ number).wrapping_mul(0x0000_0100_0000_01b3))
+}
+
 impl Timed for Pass<'_> {
     fn rays(&self) -> usize {
         self.all.len()
@@ -178,15 +183,11 @@ impl Timed for Pass<'_> {
         }
     }
 
-    /// FNV-1a over the answers as numbers (Fowler, Noll, Vo).
     fn checksum(&self) -> u64 {
-        let mix = |sum: u64, value: u64| (sum ^ value).wrapping_mul(0x0000_0100_0000_01b3);
-        let start = 0xcbf2_9ce4_8422_2325;
+        let number = |hit: &Hit| u64::from(hit.t.to_bits()) << 32 | u64::from(hit.prim.index());
         match &self.answers {
-            Answers::Closest(hits) => hits.iter().fold(start, |sum, hit| {
-                mix(sum, hit.map_or(u64::MAX, |hit| u64::from(hit.t.to_bits()) << 32 | u64::from(hit.prim.index())))
-            }),
-            Answers::Any(hits) => hits.iter().fold(start, |sum, &hit| mix(sum, hit.into())),
+            Answers::Closest(hits) => checksum(hits.iter().map(|hit| hit.as_ref().map_or(u64::MAX, number))),
+            Answers::Any(hits) => checksum(hits.iter().map(|&hit| hit.into())),
         }
     }
 }

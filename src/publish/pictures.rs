@@ -3,11 +3,12 @@
 use crate::accel::{DynAccel, Observed};
 use crate::publish::document::{Art, Block, Figure, Overlay, Section, Thumbnail};
 use crate::publish::runs::Runs;
-use crate::publish::words::{distinct, scene_name, slug, table};
+use crate::publish::words::{distinct, slug, table};
 use crate::registry::Registry;
 use crate::render::{Picture, ViewKind, costs, draw as draw_view, heat_colour, hottest};
 use crate::report::number::{count, figures};
 use crate::report::plot::tick_text;
+use crate::report::words::scene_name;
 use crate::scene::Scene;
 use crate::study::{BRUTE_FORCE, REPORT_TREE, SAH_TREE, guarded};
 

@@ -10,6 +10,7 @@ use crate::report::{Record, Table, example_record, to_json};
 use crate::study::accuracy::AccuracyRecord;
 use crate::study::attribution;
 use crate::study::epoch::{Epoch, tests as epoch};
+use crate::study::journal::Header;
 
 /// What a user may call a scene.
 const EVIL: &str = "<script>alert(\"&'1'\")</script>";
@@ -69,14 +70,14 @@ fn accuracy(scene: &str) -> Vec<AccuracyRecord> {
 
 /// A journal with one epoch of a scene.
 fn attribution_journal(scene: &str) -> String {
-    let case = attribution::Case { scene: scene.into(), ..attribution::tests::cases(1, 0.02).remove(0) };
-    String::from_utf8(journal("attribution", vec![serde_json::to_value(case).unwrap()])).unwrap()
+    let epoch = Epoch { scene: scene.into(), ..attribution::tests::cases(1, 0.02).remove(0) };
+    String::from_utf8(journal("attribution", vec![serde_json::to_value(epoch).unwrap()])).unwrap()
 }
 
 /// The text of a journal.
 fn journal(study: &str, cases: Vec<serde_json::Value>) -> Vec<u8> {
     let header = serde_json::json!({
-        "schema": 1, "study": study, "settings": { "seed": 1 }, "provenance": provenance(&format!("sahara study {study}"))
+        "schema": Header::SCHEMA, "study": study, "settings": { "seed": 1 }, "provenance": provenance(&format!("sahara study {study}"))
     });
     let lines = cases.iter().enumerate().map(|(i, case)| serde_json::json!({ "key": i.to_string(), "case": case }));
     std::iter::once(header).chain(lines).map(|line| format!("{line}\n")).collect::<String>().into_bytes()

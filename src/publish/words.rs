@@ -1,18 +1,6 @@
 //! Words that sections share.
 
-use crate::measure::Interval;
-use crate::report::number::figures;
 use crate::report::{Cell, Table};
-
-/// `20.6 [19.2, 21.4]`; what does not vary has no interval.
-pub fn interval(x: &Interval) -> String {
-    if x.low == x.high { figures(x.estimate) } else { format!("{} {}", figures(x.estimate), ends(x)) }
-}
-
-/// `[19.2, 21.4]`.
-pub fn ends(x: &Interval) -> String {
-    format!("[{}, {}]", figures(x.low), figures(x.high))
-}
 
 /// A table of texts.
 pub fn table<const N: usize>(title: &str, columns: [&str; N], rows: Vec<[String; N]>) -> Table {
@@ -22,21 +10,6 @@ pub fn table<const N: usize>(title: &str, columns: [&str; N], rows: Vec<[String;
         rows: rows.into_iter().map(|row| row.map(Cell::from).into()).collect(),
         notes: vec![],
     }
-}
-
-/// `A`, `A and B`, `A, B and C`.
-pub fn listed<S: AsRef<str>>(words: &[S]) -> String {
-    let words: Vec<&str> = words.iter().map(AsRef::as_ref).collect();
-    match words.split_last() {
-        None => String::new(),
-        Some((only, [])) => (*only).into(),
-        Some((last, rest)) => format!("{} and {last}", rest.join(", ")),
-    }
-}
-
-/// The name of a scene, and whether a mesh of our own stands in for a real one.
-pub fn scene_name(scene: &str, stand_in: bool) -> String {
-    if stand_in { format!("{scene} (stand-in)") } else { scene.into() }
 }
 
 /// Letters, digits and hyphens, from any text; what is left of different texts may be the same.
@@ -91,7 +64,6 @@ mod tests {
 
     #[test]
     fn lists_read_as_sentences_and_slugs_as_names() {
-        assert_eq!([listed::<&str>(&[]), listed(&["a"]), listed(&["a", "b", "c"])], ["", "a", "a, b and c"]);
         let short = |labels: [&str; 2]| short_labels(&labels.map(String::from)).join(" ");
         assert_eq!(short(["a:test=x", "b:leaf=4,test=x"]), "a b:leaf=4");
         assert_eq!(short(["a:test=x", "b:test=y"]), "a:test=x b:test=y");

@@ -7,6 +7,7 @@ pub mod number;
 pub mod plot;
 mod record;
 mod table;
+pub mod words;
 
 pub use counts::CaseCounts;
 pub use export::{to_csv, to_json, to_jsonl, to_tidy_csv};

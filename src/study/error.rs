@@ -19,10 +19,26 @@ pub enum StudyError {
     Structure(#[from] ChoiceError),
     #[error("{structure} gives {errors} wrong answers to {checked} rays of {scene}: its times would mean nothing")]
     Wrong { structure: String, scene: String, errors: usize, checked: usize },
-    #[error("{scene} has no {rays} rays: leave the scene out, or ask for another kind of rays")]
-    NoRays { scene: String, rays: String },
+    #[error("{trouble} The study compares all of its trees or none.")]
+    Missing { trouble: String, wrong: bool },
+    #[error(
+        "{one} and {other}, over the same triangle test, give different answers to the {rays} rays of {scene}: one is wrong"
+    )]
+    Disagree { one: String, other: String, scene: String, rays: String },
+    #[error("{scene} has no rays of the kind asked for: leave the scene out, or ask for another kind of rays")]
+    NoRays { scene: String },
     #[error("{structure} on {scene}, built again, gives other answers than before: its times cannot be compared")]
     Changed { structure: String, scene: String },
     #[error(transparent)]
     Journal(#[from] JournalError),
+}
+
+impl StudyError {
+    /// Whether a structure answered wrongly, so that nothing but the structure is to blame.
+    pub fn is_wrong_answer(&self) -> bool {
+        matches!(
+            self,
+            Self::Wrong { .. } | Self::Changed { .. } | Self::Disagree { .. } | Self::Missing { wrong: true, .. }
+        )
+    }
 }

@@ -20,6 +20,7 @@ pub mod hard_cases;
 pub mod journal;
 pub mod parameters;
 pub mod partitions;
+mod placed;
 pub mod predictions;
 pub mod regression;
 pub mod replicate;
@@ -27,18 +28,9 @@ mod replicates;
 pub mod scaling;
 pub mod self_intersection;
 mod stage;
-pub mod trial;
+mod timing;
 
 pub use baselines::{BRUTE_FORCE, REPORT_TREE, SAH_TREE, documented_defect};
 pub use error::StudyError;
 pub use guarded::{PANICKED, Refused, guarded};
 pub use stage::Stage;
-
-/// `12.3 [11.9, 12.8]`; what does not vary has no interval.
-fn interval_text(x: crate::measure::Interval) -> String {
-    use crate::report::number::figures;
-    if x.low == x.high {
-        return figures(x.estimate);
-    }
-    format!("{} [{}, {}]", figures(x.estimate), figures(x.low), figures(x.high))
-}

@@ -30,65 +30,35 @@ struct Step {
     /// What it leaves in the folder.
     file: &'static str,
     /// Options of the quick run.
-    quick: &'static [&'static str],
+    quick: &'static str,
 }
+
+/// The command of a module as a step.
+macro_rules! step {
+    ($command:ident, $name:literal, $file:literal, $quick:expr) => {
+        Step {
+            name: $name,
+            run: |registry, words, terminal| $command::run(registry, &parsed(words)?, terminal),
+            file: $file,
+            quick: $quick,
+        }
+    };
+}
+
+/// A quick study of epochs.
+const FEW: &str = "torus --epochs 2 --runs 2 --budget 1 --rays 1024";
 
 /// In this order: the last one judges by what the others have left.
 const STEPS: [Step; 9] = [
-    Step {
-        name: "replicate",
-        run: |registry, words, terminal| replicate::run(registry, &parsed(words)?, terminal),
-        file: "replicate.json",
-        quick: &["--runs", "1"],
-    },
-    Step {
-        name: "compare",
-        run: |registry, words, terminal| compare::run(registry, &parsed(words)?, terminal),
-        file: "compare.json",
-        quick: &["cube", "torus", "--rays", "1024", "--runs", "2", "--budget", "1"],
-    },
-    Step {
-        name: "attribution",
-        run: |registry, words, terminal| attribution::run(registry, &parsed(words)?, terminal),
-        file: "attribution.jsonl",
-        quick: &["torus", "teapot", "--epochs", "2", "--runs", "2", "--budget", "1", "--rays", "1024"],
-    },
-    Step {
-        name: "parameters",
-        run: |registry, words, terminal| parameters::run(registry, &parsed(words)?, terminal),
-        file: "parameters.jsonl",
-        quick: &["cube", "torus", "--epochs", "2", "--runs", "2", "--budget", "1"],
-    },
-    Step {
-        name: "scaling",
-        run: |registry, words, terminal| scaling::run(registry, &parsed(words)?, terminal),
-        file: "scaling.jsonl",
-        quick: &["torus", "--finest", "4", "--epochs", "2", "--runs", "2", "--budget", "1", "--rays", "1024"],
-    },
-    Step {
-        name: "crossover",
-        run: |registry, words, terminal| crossover::run(registry, &parsed(words)?, terminal),
-        file: "crossover.jsonl",
-        quick: &["--epochs", "2", "--runs", "2", "--budget", "1", "--rays", "1024"],
-    },
-    Step {
-        name: "break-even",
-        run: |registry, words, terminal| break_even::run(registry, &parsed(words)?, terminal),
-        file: "break-even.jsonl",
-        quick: &["torus", "--epochs", "2", "--runs", "2", "--budget", "1", "--rays", "1024"],
-    },
-    Step {
-        name: "costs",
-        run: |registry, words, terminal| costs::run(registry, &parsed(words)?, terminal),
-        file: "costs.jsonl",
-        quick: &["torus", "--epochs", "2", "--runs", "2", "--budget", "1", "--rays", "1024"],
-    },
-    Step {
-        name: "predictions",
-        run: |registry, words, terminal| predictions::run(registry, &parsed(words)?, terminal),
-        file: "predictions.json",
-        quick: &[],
-    },
+    step!(replicate, "replicate", "replicate.json", "--runs 1"),
+    step!(compare, "compare", "compare.json", "cube torus --rays 1024 --runs 2 --budget 1"),
+    step!(attribution, "attribution", "attribution.jsonl", FEW),
+    step!(parameters, "parameters", "parameters.jsonl", "cube torus --epochs 2 --runs 2 --budget 1"),
+    step!(scaling, "scaling", "scaling.jsonl", "torus --finest 4 --epochs 2 --runs 2 --budget 1 --rays 1024"),
+    step!(crossover, "crossover", "crossover.jsonl", "--epochs 2 --runs 2 --budget 1 --rays 1024"),
+    step!(break_even, "break-even", "break-even.jsonl", FEW),
+    step!(costs, "costs", "costs.jsonl", FEW),
+    step!(predictions, "predictions", "predictions.json", ""),
 ];
 
 /// The options of a command, from words.
@@ -105,8 +75,8 @@ impl Step {
 
     fn words(&self, args: &Args) -> Vec<String> {
         let path = |path: &Path| path.to_string_lossy().into_owned();
-        let mut words: Vec<String> =
-            if args.quick { self.quick.iter().map(|&word| word.into()).collect() } else { vec![] };
+        let quick = if args.quick { self.quick } else { "" };
+        let mut words: Vec<String> = quick.split_whitespace().map(String::from).collect();
         if self.is_whole() {
             words.extend(["--export-json".into(), path(&args.dir.join(self.file))]);
         } else {

@@ -1,6 +1,6 @@
 //! `study break-even`.
 
-use super::curves::{Options, cases, verdict};
+use super::epochs::{Field, cases, verdict};
 use super::meshes::{self, Meshes};
 use crate::cli::Verdict;
 use crate::cli::terminal::Terminal;
@@ -19,16 +19,17 @@ pub struct Args {
     #[arg(long, value_name = "WHICH", value_enum, default_value_t)]
     pub meshes: Meshes,
     #[command(flatten)]
-    pub options: Options,
+    pub field: Field,
 }
 
 pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Result<Verdict> {
-    let files = args.options.exports.check()?;
-    let settings = args.options.settings(registry, &STRUCTURES, &[WorkloadKind::Primary, WorkloadKind::Diffuse])?;
+    let options = &args.field.options;
+    let files = options.exports.check()?;
+    let settings = args.field.settings(registry, &STRUCTURES, &[WorkloadKind::Primary, WorkloadKind::Diffuse])?;
     let scenes = meshes::scenes(&args.scenes, args.meshes)?;
     let (epochs, provenance) =
-        cases(NAME, &args.options, &settings, &scenes, terminal, |_, epoch| Ok(epoch), |epoch: &Epoch| epoch)?;
-    let markets = result(&epochs, args.options.seed);
+        cases(NAME, options, &settings, &scenes, terminal, |_, epoch| Ok(epoch), |epoch: &Epoch| epoch)?;
+    let markets = result(&epochs, options.seed);
     let shown = tables(&markets);
     for table in &shown {
         terminal.print_table(table)?;

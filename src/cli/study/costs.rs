@@ -1,6 +1,6 @@
 //! `study costs`.
 
-use super::curves::{Options, cases, verdict};
+use super::epochs::{Field, cases, verdict};
 use super::meshes::{self, Meshes};
 use crate::cli::Verdict;
 use crate::cli::terminal::Terminal;
@@ -19,17 +19,18 @@ pub struct Args {
     #[arg(long, value_name = "WHICH", value_enum, default_value_t)]
     pub meshes: Meshes,
     #[command(flatten)]
-    pub options: Options,
+    pub field: Field,
 }
 
 pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Result<Verdict> {
-    let files = args.options.exports.check()?;
+    let options = &args.field.options;
+    let files = options.exports.check()?;
     let kinds = [WorkloadKind::Primary, WorkloadKind::Shadow, WorkloadKind::Diffuse, WorkloadKind::Random];
-    let settings = args.options.settings(registry, &STRUCTURES, &kinds)?;
+    let settings = args.field.settings(registry, &STRUCTURES, &kinds)?;
     let scenes = meshes::scenes(&args.scenes, args.meshes)?;
     let (epochs, provenance) =
-        cases(NAME, &args.options, &settings, &scenes, terminal, |_, epoch| Ok(epoch), |epoch: &Epoch| epoch)?;
-    let families = result(&epochs, args.options.seed);
+        cases(NAME, options, &settings, &scenes, terminal, |_, epoch| Ok(epoch), |epoch: &Epoch| epoch)?;
+    let families = result(&epochs, options.seed);
     let shown = tables(&families);
     for table in &shown {
         terminal.print_table(table)?;

@@ -1,12 +1,12 @@
 //! `study crossover`.
 
-use super::curves::{Options, cases, verdict};
+use super::epochs::{Field, cases, verdict};
 use crate::cli::Verdict;
 use crate::cli::terminal::Terminal;
 use crate::measure::spread;
 use crate::registry::Registry;
 use crate::report::to_tidy_csv;
-use crate::scene::{Sampling, Scene, Workload, WorkloadKind};
+use crate::scene::{Scene, Workload, WorkloadKind};
 use crate::study::StudyError;
 use crate::study::crossover::{Case, NAME, PAIRS, ROOTS, complexity, member, result, rows, tables};
 
@@ -16,19 +16,20 @@ pub struct Args {
     #[arg(long, value_name = "ROOT", default_value_t = ROOTS[ROOTS.len() - 1], value_parser = clap::value_parser!(u32).range(1..))]
     pub deepest: u32,
     #[command(flatten)]
-    pub options: Options,
+    pub field: Field,
 }
 
 /// Rays of a kind that the depth complexity is measured on, at most.
 const PROBES: usize = 2048;
 
 pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Result<Verdict> {
-    let files = args.options.exports.check()?;
+    let options = &args.field.options;
+    let files = options.exports.check()?;
     let mut structures = PAIRS.as_flattened().to_vec();
     structures.sort_unstable();
     structures.dedup();
     let kinds = [WorkloadKind::Primary, WorkloadKind::Random, WorkloadKind::Shadow, WorkloadKind::Ambient];
-    let settings = args.options.settings(registry, &structures, &kinds)?;
+    let settings = args.field.settings(registry, &structures, &kinds)?;
     let roots: Vec<u32> = ROOTS.into_iter().filter(|&root| root <= args.deepest).collect();
     let scenes: Vec<Scene> = roots.iter().map(|&root| member(root)).collect::<Result<_, _>>()?;
 
@@ -37,17 +38,14 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
         let (structure, name) = (settings.guide.label.clone(), scene.name.clone());
         let guide =
             settings.guide.build(&scene.mesh).map_err(|cause| StudyError::Build { structure, scene: name, cause })?;
-        let sampling = Sampling::about(scene, settings.rays, settings.seed);
-        let of = |&kind: &WorkloadKind| {
-            let workload = Workload::new(scene, kind, &sampling, guide.as_ref());
-            Some((workload.name, complexity(guide.as_ref(), &spread(&workload.rays, PROBES))?))
-        };
-        let complexity = settings.workloads.iter().filter_map(of).collect();
+        let of =
+            |workload: Workload| Some((workload.name, complexity(guide.as_ref(), &spread(&workload.rays, PROBES))?));
+        let workloads = settings.asked.workloads(scene, settings.seed, guide.as_ref(), &mut |_| ());
+        let complexity = workloads.into_iter().filter_map(of).collect();
         Ok(Case { layers: roots[s] * roots[s], complexity, epoch })
     };
-    let (cases, provenance) =
-        cases(NAME, &args.options, &settings, &scenes, terminal, wrap, |case: &Case| &case.epoch)?;
-    let races = result(&cases, args.options.seed);
+    let (cases, provenance) = cases(NAME, options, &settings, &scenes, terminal, wrap, |case: &Case| &case.epoch)?;
+    let races = result(&cases, options.seed);
     let shown = tables(&races);
     for table in &shown {
         terminal.print_table(table)?;

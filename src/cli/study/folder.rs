@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::measure::{Provenance, Threads};
+use crate::measure::Provenance;
 use crate::output::OutputFile;
 use crate::report::{Table, to_json, to_markdown};
 use crate::study::journal::{Header, Journal, JournalError};
@@ -95,12 +95,4 @@ impl Files {
         }
         Ok(())
     }
-}
-
-/// One thread, or as many as asked for, each bound to a core.
-///
-/// # Errors
-/// If the system does not give them.
-pub fn threads(count: u16) -> anyhow::Result<Threads> {
-    Threads::pinned(count.into()).map_err(anyhow::Error::msg)
 }

@@ -5,7 +5,7 @@ mod attribution;
 mod break_even;
 mod costs;
 mod crossover;
-mod curves;
+mod epochs;
 mod folder;
 mod meshes;
 mod parameters;

@@ -1,10 +1,10 @@
 //! `study predictions`.
 
-use super::folder::{Exports, Folder, threads};
+use super::folder::{Exports, Folder};
 use crate::cli::Verdict;
 use crate::cli::progress::Progress;
 use crate::cli::terminal::Terminal;
-use crate::measure::{Provenance, SystemClock};
+use crate::measure::{Provenance, SystemClock, Threads};
 use crate::output::OutputFile;
 use crate::registry::Registry;
 use crate::report::{to_json, to_tidy_csv};
@@ -42,7 +42,7 @@ struct Row<'a> {
 
 pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Result<Verdict> {
     let files = args.exports.check()?;
-    let threads = threads(1)?;
+    let threads = Threads::pinned(1).map_err(anyhow::Error::msg)?;
     let provenance = Provenance::capture(1);
     let foot = provenance.line();
     let settings = serde_json::Map::new();

@@ -1,6 +1,6 @@
 //! `study scaling`.
 
-use super::curves::{Options, cases, verdict};
+use super::epochs::{Field, cases, verdict};
 use crate::cli::terminal::Terminal;
 use crate::cli::{Verdict, sources};
 use crate::registry::Registry;
@@ -17,21 +17,21 @@ pub struct Args {
     #[arg(long, value_name = "LEVEL", default_value_t = *LEVELS.end(), value_parser = clap::value_parser!(u32).range(0..=10))]
     pub finest: u32,
     #[command(flatten)]
-    pub options: Options,
+    pub field: Field,
 }
 
 pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Result<Verdict> {
-    let files = args.options.exports.check()?;
-    let settings = args.options.settings(registry, &STRUCTURES, &[WorkloadKind::Primary, WorkloadKind::Random])?;
+    let options = &args.field.options;
+    let files = options.exports.check()?;
+    let settings = args.field.settings(registry, &STRUCTURES, &[WorkloadKind::Primary, WorkloadKind::Random])?;
     let mut scenes: Vec<Scene> = (0..=args.finest).map(sphere).collect::<Result<_, _>>()?;
     let spheres = scenes.len();
     let default = ["dragon", "lucy", "sponza"].map(String::from);
     scenes.extend(sources::scenes(if args.scenes.is_empty() { &default } else { &args.scenes })?);
 
     let wrap = |s: usize, epoch| Ok(Case { family: if s < spheres { Family::Spheres } else { Family::Meshes }, epoch });
-    let (cases, provenance) =
-        cases(NAME, &args.options, &settings, &scenes, terminal, wrap, |case: &Case| &case.epoch)?;
-    let growths = result(&cases, args.options.seed);
+    let (cases, provenance) = cases(NAME, options, &settings, &scenes, terminal, wrap, |case: &Case| &case.epoch)?;
+    let growths = result(&cases, options.seed);
     let shown = tables(&growths);
     for table in &shown {
         terminal.print_table(table)?;

@@ -2,9 +2,10 @@
 
 use crate::publish::document::{Art, Block, Figure, Section};
 use crate::publish::runs::{Runs, shown};
-use crate::publish::words::{scene_name, slug};
+use crate::publish::words::slug;
 use crate::report::number::{count, figures};
 use crate::report::plot::Chart;
+use crate::report::words::scene_name;
 use crate::study::accuracy::{AccuracyRecord, figure, legend, tables};
 
 pub fn section(runs: &Runs) -> Section {

@@ -3,9 +3,9 @@
 use crate::measure::Interval;
 use crate::publish::document::{Answer, Headline};
 use crate::publish::runs::Runs;
-use crate::publish::words::{ends, listed, scene_name};
 use crate::report::Record;
 use crate::report::number::figures;
+use crate::report::words::{ends, listed, scene_name};
 use crate::study::compare::{speed, twins};
 use crate::study::{REPORT_TREE, SAH_TREE};
 
@@ -96,7 +96,7 @@ pub fn answer(runs: &Runs) -> Answer {
         Some(mean) => format!(
             "{} times as fast as the report's tree (geometric mean, 95 % interval {}; the scenes' intervals reach from {range})",
             figures(mean.estimate),
-            ends(&mean),
+            ends(mean),
         ),
         None => format!("{range} times as fast as the report's tree (the 95 % intervals of the scenes together)"),
     };
@@ -107,12 +107,12 @@ pub fn answer(runs: &Runs) -> Answer {
     sentences.extend(super::predictions::sentence(runs));
     let numbers = hard.iter().map(|hard| Headline {
         number: format!("{} ×", figures(hard.ratio.estimate)),
-        interval: ends(&hard.ratio),
+        interval: ends(hard.ratio),
         label: scene_name(&hard.scene, hard.stand_in),
     });
     let mean = mean.filter(|_| hard.len() > 1).map(|mean| Headline {
         number: format!("{} ×", figures(mean.estimate)),
-        interval: ends(&mean),
+        interval: ends(mean),
         label: "geometric mean".into(),
     });
     Answer { verdict, sentences, numbers: numbers.chain(mean).collect() }

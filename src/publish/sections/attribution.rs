@@ -5,6 +5,7 @@ use crate::publish::runs::Runs;
 use crate::publish::words::table;
 use crate::report::number::figures;
 use crate::report::plot::{Chart, Stack, StackRow};
+use crate::report::words::interval;
 use crate::study::attribution::design::Factor;
 use crate::study::attribution::{Attribution, headlines, tables};
 
@@ -73,9 +74,8 @@ fn figure(results: &[Attribution], command: &str) -> Figure {
         total: r.time.whole,
     };
     let data = results.iter().map(|r| {
-        let [stop, plane, traversal] =
-            PARTS.map(|factor| crate::publish::words::interval(&r.time.parts[factor as usize].times));
-        [r.scene.clone(), crate::publish::words::interval(&r.time.whole), stop, plane, traversal]
+        let [stop, plane, traversal] = PARTS.map(|factor| interval(r.time.parts[factor as usize].times));
+        [r.scene.clone(), interval(r.time.whole), stop, plane, traversal]
     });
     let told = results.iter().map(|r| {
         let [stop, plane, traversal] = PARTS.map(|factor| figures(r.time.parts[factor as usize].times.estimate));

@@ -2,9 +2,10 @@
 
 use crate::publish::document::{Art, Block, Figure, Section};
 use crate::publish::runs::Runs;
-use crate::publish::words::{distinct, interval, slug, table};
+use crate::publish::words::{distinct, slug, table};
 use crate::report::number::figures;
 use crate::report::plot::{Chart, CurvePoint, Curves, Line, Mark, Scale};
+use crate::report::words::interval;
 use crate::study::crossover::{Race, tables};
 
 pub fn section(runs: &Runs) -> Section {
@@ -48,13 +49,11 @@ fn figure(races: &[&Race], command: &str) -> Figure {
     };
     let rows = races.iter().flat_map(|race| {
         let pair = format!("{} / {}", short(&race.kd), short(&race.bvh));
-        race.members
-            .iter()
-            .map(move |m| [pair.clone(), m.layers.to_string(), figures(m.complexity), interval(&m.ratio)])
+        race.members.iter().map(move |m| [pair.clone(), m.layers.to_string(), figures(m.complexity), interval(m.ratio)])
     });
     let told = races.iter().filter_map(|race| {
         let (first, last) = race.members.first().zip(race.members.last())?;
-        let (pair, [from, to]) = (line(race).label, [first, last].map(|m| interval(&m.ratio)));
+        let (pair, [from, to]) = (line(race).label, [first, last].map(|m| interval(m.ratio)));
         Some(format!(
             "{pair}: {from} at depth complexity {}, {to} at {}",
             figures(first.complexity),

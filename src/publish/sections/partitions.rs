@@ -2,10 +2,11 @@
 
 use crate::publish::document::{Art, Block, Figure, Section};
 use crate::publish::runs::{Runs, shown};
-use crate::publish::words::{distinct, interval, short_labels, slug};
+use crate::publish::words::{distinct, short_labels, slug};
 use crate::report::Table;
 use crate::report::number::count;
 use crate::report::plot::{Bar, BarGroup, Bars, Chart};
+use crate::report::words::interval;
 use crate::study::partitions::{LEGEND, Row, rows, tables};
 
 pub fn section(runs: &Runs) -> Section {
@@ -38,7 +39,7 @@ fn figure(rows: &[Row], command: &str) -> Figure {
         bars: rows.iter().map(|row| bar(row, workload)).collect(),
     };
     let text = |row: &Row| {
-        let cells = row.cells.iter().map(|cell| cell.speed.as_ref().map_or(String::new(), interval));
+        let cells = row.cells.iter().map(|cell| cell.speed.map_or(String::new(), interval));
         std::iter::once(row.structure.clone()).chain(cells).map(Into::into).collect()
     };
     let data = Table {

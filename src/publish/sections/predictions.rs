@@ -2,7 +2,8 @@
 
 use crate::publish::document::{Block, Section};
 use crate::publish::runs::{Runs, Study};
-use crate::publish::words::{interval, table};
+use crate::publish::words::table;
+use crate::report::words::interval;
 use crate::report::{Cell, Tone};
 use crate::study::predictions::{Finding, Inputs, Prediction, Verdict, result, table as findings};
 
@@ -85,7 +86,7 @@ fn row(p: &Prediction) -> Vec<Cell> {
         Verdict::Refuted => Tone::Wrong,
         Verdict::NotMeasured => Tone::Plain,
     };
-    let told = |f: &Finding| format!("{}: {}, expected {}", f.what, interval(&f.value), f.expected);
+    let told = |f: &Finding| format!("{}: {}, expected {}", f.what, interval(f.value), f.expected);
     // What refutes it, or else the first.
     let mut refuting: Vec<String> = p.findings.iter().filter(|f| !f.holds).map(told).collect();
     if refuting.len() > SHOWN {

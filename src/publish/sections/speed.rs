@@ -3,9 +3,10 @@
 use crate::measure::Interval;
 use crate::publish::document::{Art, Block, Figure, Section};
 use crate::publish::runs::{Runs, shown};
-use crate::publish::words::{distinct, interval, scene_name, slug};
+use crate::publish::words::{distinct, slug};
 use crate::report::number::count;
 use crate::report::plot::{Bar, BarGroup, Bars, Chart};
+use crate::report::words::{interval, scene_name};
 use crate::report::{Record, Table};
 use crate::study::compare::{legend, mean_table, scene_table, speed};
 use crate::study::{BRUTE_FORCE, REPORT_TREE};
@@ -111,7 +112,7 @@ fn of_scene(records: &[Record]) -> Vec<Block> {
 fn data(labels: &[String], groups: &[BarGroup], workloads: &[String]) -> Table {
     let row = |(i, label): (usize, &String)| {
         let cell = |group: &BarGroup| match &group.bars[i] {
-            Bar::Of(value) => interval(value),
+            Bar::Of(value) => interval(*value),
             Bar::Missing(why) => why.clone(),
         };
         std::iter::once(label.clone()).chain(groups.iter().map(cell)).map(Into::into).collect()
@@ -131,7 +132,7 @@ fn alt(name: &str, labels: &[String], groups: &[BarGroup], baseline: &str) -> St
             Bar::Missing(_) => None,
         });
         let (value, label) = values.max_by(|a, b| a.0.estimate.total_cmp(&b.0.estimate))?;
-        Some(format!("{}: {label}, {}", group.title, interval(value)))
+        Some(format!("{}: {label}, {}", group.title, interval(*value)))
     });
     format!(
         "Bar chart for {name}. Fastest against {baseline} by kind of rays: {}.",

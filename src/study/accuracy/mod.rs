@@ -13,10 +13,11 @@ mod tests;
 use std::borrow::Cow;
 
 use super::built::Built;
+use super::timing::{Case, Timing, sample_budget_ns};
 use super::{PANICKED, Refused, Stage, StudyError, guarded};
 use crate::accel::{BuildError, Query};
 use crate::geometry::Ray;
-use crate::measure::{Clock, Pass, Plan, Provenance, Samples, Threads, Timed, median, spread, take};
+use crate::measure::{Clock, Plan, Provenance, Samples, Threads, median, spread};
 use crate::oracle::Oracle;
 use crate::registry::Choice;
 use crate::scene::{Scene, Workload};
@@ -61,7 +62,7 @@ pub fn accuracy_scene(
     clock: &dyn Clock,
     progress: &mut dyn FnMut(Stage),
 ) -> Result<(Vec<AccuracyRecord>, Vec<Refused>), StudyError> {
-    let threads = Threads::new(1).map_err(StudyError::Threads)?;
+    let threads = Threads::pinned(1).map_err(StudyError::Threads)?;
     let (mut built, mut refused) = (vec![], vec![]);
     for choice in &settings.choices {
         progress(Stage::Build(&choice.label));
@@ -107,10 +108,13 @@ pub fn accuracy_scene(
     let built = judged;
     let verdicts: Vec<&Judged> =
         (0..batches.len()).flat_map(|batch| of_structures.iter().map(move |verdicts| &verdicts[batch])).collect();
-    let rays: Vec<&[Ray]> = batches.iter().map(|batch| &batch.rays[..]).collect();
-    let panicked = || StudyError::Panicked { structure: "a structure".into(), scene: scene.name.clone() };
-    let samples =
-        guarded(|| time(scene, &built, &rays, settings, &threads, clock, progress)).ok_or_else(panicked)??;
+    let batch = |(name, batch): (&String, &judged::Batch)| Workload {
+        name: name.clone(),
+        query: Query::Closest,
+        rays: batch.rays.clone(),
+    };
+    let workloads: Vec<Workload> = names.iter().zip(&batches).map(batch).collect();
+    let samples = time(scene, &built, workloads, settings, &threads, clock, progress)?;
 
     let (provenance, hash) = (Provenance::capture(threads.count()), scene.hash());
     let mut records = vec![];
@@ -131,33 +135,32 @@ pub fn accuracy_scene(
     Ok((records, refused))
 }
 
-/// Samples of all structures on all batches, interleaved; in the order of the batches, structure by structure.
+/// Samples of all structures on all workloads, interleaved; in the order of the workloads, structure by structure.
 fn time(
     scene: &Scene,
     built: &[Built],
-    batches: &[&[Ray]],
+    mut workloads: Vec<Workload>,
     settings: &Settings,
     threads: &Threads,
     clock: &dyn Clock,
     progress: &mut dyn FnMut(Stage),
 ) -> Result<Vec<Samples>, StudyError> {
-    // The warm-up costs about two passes more than the samples.
-    let passes = (batches.len() * (settings.runs + 2)).max(1) as u64;
-    let common: Vec<Vec<Ray>> =
-        batches.iter().map(|rays| common(built, rays, clock, settings.budget_ns / passes)).collect();
-    let mut cases: Vec<Box<dyn Timed>> = vec![];
-    for rays in &common {
-        for built in built {
-            cases.push(Box::new(Pass::new(built.accel.as_ref(), rays, Query::Closest, threads)));
-        }
+    let of_all = sample_budget_ns(settings.budget_ns, workloads.len(), settings.runs);
+    let panicked =
+        |built: &Built| StudyError::Panicked { structure: built.choice.label.clone(), scene: scene.name.clone() };
+    for workload in &mut workloads {
+        workload.rays = common(built, &workload.rays, clock, of_all).map_err(panicked)?;
     }
     let plan = Plan { runs: settings.runs, sample_budget_ns: LONGEST_SAMPLE_NS, warmup: 1, seed: settings.seed };
+    let mut cases = Case::all(built.len(), workloads.len());
+    cases.sort_by_key(|case| case.workload);
     let total = cases.len() * settings.runs;
-    take(clock, &mut cases, &plan, &mut |taken| progress(Stage::Trace(taken, total))).map_err(|cause| {
-        let structure = built[cause.case % built.len()].choice.label.clone();
-        let rays = settings.kinds[cause.case / built.len()].name().into();
-        StudyError::Unsteady { structure, scene: scene.name.clone(), rays, cause }
-    })
+    let timing = Timing { scene, built, workloads: &workloads, threads, clock };
+    let taken = timing.take(&cases, &plan, None, &mut |taken| progress(Stage::Trace(taken, total)))?;
+    match taken.panicked.iter().position(|&panicked| panicked) {
+        Some(case) => Err(panicked(&built[cases[case].structure])),
+        None => Ok(taken.samples),
+    }
 }
 
 /// Rays from which the speed of all structures is learnt.
@@ -168,21 +171,24 @@ const SLOW: u64 = 30;
 
 /// As many of the rays, evenly spread, as all structures together answer in `budget_ns`: rays differ so much in what
 /// they cost that only times on the same ones can be compared.
-fn common(built: &[Built], rays: &[Ray], clock: &dyn Clock, budget_ns: u64) -> Vec<Ray> {
+///
+/// # Errors
+/// The structure that panicked, if one did.
+fn common<'a>(built: &'a [Built], rays: &[Ray], clock: &dyn Clock, budget_ns: u64) -> Result<Vec<Ray>, &'a Built> {
     let pilot = spread(rays, PILOT);
     let mut hits = vec![None; pilot.len()];
-    let mut pass = |built: &Built| {
+    let mut pass = |built: &'a Built| {
         let loaded = built.accel.load(Cow::Borrowed(&pilot));
         let start = clock.now_ns();
-        loaded.closest_hits(&mut hits);
-        (clock.now_ns() - start).max(1)
+        guarded(|| loaded.closest_hits(&mut hits)).ok_or(built)?;
+        Ok((clock.now_ns() - start).max(1))
     };
     // The first pass finds cold caches.
-    let ns: Vec<u64> = built.iter().map(|built| pass(built).min(pass(built))).collect();
+    let ns = built.iter().map(|built| Ok(pass(built)?.min(pass(built)?))).collect::<Result<Vec<u64>, &Built>>()?;
     let fastest = ns.iter().copied().min().unwrap_or(1);
     let together: u64 = ns.iter().filter(|&&ns| ns <= SLOW * fastest).sum();
     let count = pilot.len() as u128 * u128::from(budget_ns) / u128::from(together.max(1));
-    spread(rays, count.clamp(pilot.len() as u128, rays.len() as u128) as usize)
+    Ok(spread(rays, count.clamp(pilot.len() as u128, rays.len() as u128) as usize))
 }
 
 #[allow(clippy::too_many_arguments)]

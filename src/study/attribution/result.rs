@@ -4,10 +4,9 @@ use serde::Serialize;
 
 use super::design::{CELLS, Cell, Factor};
 use super::effects::{self, TERMS, Weights, value};
-use super::{Case, scene_name};
 use crate::measure::{Interval, NoiseFloor, RandomOrder, median};
+use crate::study::epoch::{Epoch, RayCounts, Structure};
 use crate::study::replicates::{interval, replicates, values};
-use crate::study::trial::{Counted, Times};
 
 /// What came of one scene.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -124,63 +123,67 @@ pub fn rows(results: &[Attribution]) -> Vec<Row<'_>> {
 }
 
 /// One result for each scene, in the order in which the scenes were begun. A scene whose first epoch is missing has none.
-pub fn result(cases: &[Case], seed: u64) -> Vec<Attribution> {
+pub fn result(epochs: &[Epoch], seed: u64) -> Vec<Attribution> {
     let mut scenes: Vec<(&str, bool, &str)> = vec![];
-    for case in cases {
-        let scene = (case.scene.as_str(), case.stand_in, case.scene_hash.as_str());
+    for epoch in epochs {
+        let scene = (epoch.scene.as_str(), epoch.stand_in, epoch.scene_hash.as_str());
         if !scenes.contains(&scene) {
             scenes.push(scene);
         }
     }
     let of = |&scene: &(&str, bool, &str)| {
-        let epochs = cases.iter().filter(|c| (c.scene.as_str(), c.stand_in, c.scene_hash.as_str()) == scene);
+        let epochs = epochs.iter().filter(|e| (e.scene.as_str(), e.stand_in, e.scene_hash.as_str()) == scene);
         attribute(&epochs.collect::<Vec<_>>(), seed)
     };
     scenes.iter().filter_map(of).collect()
+}
+
+/// What was counted of a structure on the rays of the study.
+fn counts(structure: &Structure) -> Option<RayCounts> {
+    structure.rays.first()?.counts
 }
 
 /// The result of the epochs of one scene. Nothing without its first one.
 ///
 /// # Panics
 /// If an epoch does not hold all cells and twins.
-pub fn attribute(epochs: &[&Case], seed: u64) -> Option<Attribution> {
-    let first = *epochs.iter().find(|case| case.epoch.counts.is_some())?;
-    let counts = first.epoch.counts.as_ref()?;
-    assert!(epochs.iter().all(|case| case.epoch.trees.len() == CELLS + 2), "an epoch holds all cells and two twins");
+pub fn attribute(epochs: &[&Epoch], seed: u64) -> Option<Attribution> {
+    let first = *epochs.iter().find(|epoch| epoch.structures.iter().all(|tree| counts(tree).is_some()))?;
+    let counts: Vec<RayCounts> = first.structures.iter().filter_map(counts).collect();
+    assert!(epochs.iter().all(|epoch| epoch.structures.len() == CELLS + 2), "an epoch holds all cells and two twins");
 
-    let times = |case: &Case| case.epoch.trees.iter().map(|tree| tree.times[0].clone()).collect::<Vec<Times>>();
-    let logs = |times: &Times| times.paces().into_iter().map(libm::log).collect::<Vec<f64>>();
-    let replicates = replicates(epochs.iter().map(|case| times(case).iter().map(logs).collect()).collect());
+    let logs = |tree: &Structure| tree.rays[0].paces().into_iter().map(libm::log).collect::<Vec<f64>>();
+    let replicates = replicates(epochs.iter().map(|epoch| epoch.structures.iter().map(logs).collect()).collect());
     let twin = |cell: Cell, twin: usize| values(&replicates, |logs| logs[cell.number()] - logs[CELLS + twin]);
     let noise = NoiseFloor::new(&[twin(Cell::REPORT, 0), twin(Cell::SAH, 1)], seed);
     let floor = noise.log().unwrap_or(0.0);
     let interval = |weights: &Weights| interval(&replicates, |logs| value(weights, logs), floor, seed);
-    let log_counts = |of: fn(&Counted) -> u64| -> Vec<f64> {
+    let log_counts = |of: fn(&RayCounts) -> Option<f64>| -> Vec<f64> {
         // Nothing done counts as one in all, so that there is a logarithm.
-        counts[..CELLS].iter().map(|counted| libm::log(of(counted).max(1) as f64)).collect()
+        counts[..CELLS].iter().map(|c| libm::log(of(c).unwrap_or(0.0).max(1.0 / c.rays as f64))).collect()
     };
-    let (tests, steps) = (log_counts(|c| c.tests[0]), log_counts(|c| c.steps[0]));
-    let rays = counts[0].rays[0] as f64;
+    let (tests, steps) = (log_counts(RayCounts::tests_per_ray), log_counts(RayCounts::steps_per_ray));
 
     let cells = Cell::all().into_iter().enumerate().map(|(i, cell)| {
-        let trees = || epochs.iter().map(|case| &case.epoch.trees[i]);
-        let ns: Vec<f64> = trees().flat_map(|tree| tree.times[0].paces()).collect();
+        let trees = || epochs.iter().map(|epoch| &epoch.structures[i]);
+        let ns: Vec<f64> = trees().flat_map(|tree| tree.rays[0].paces()).collect();
         let builds: Vec<f64> = trees().map(|tree| tree.build_ns as f64).collect();
         let [plane, stop, traversal] = Factor::ALL.map(|factor| factor.levels()[cell.level(factor)].name);
+        let Structure { shape, rays, .. } = &first.structures[i];
         CellResult {
             plane,
             stop,
             traversal,
             ns_per_ray: median(&ns).expect("there is a sample"),
             speedup: interval(&effects::gain(Cell::REPORT, cell)),
-            tests_per_ray: counts[i].tests[0] as f64 / rays,
-            steps_per_ray: counts[i].steps[0] as f64 / rays,
-            duplication: counts[i].references as f64 / first.triangles.max(1) as f64,
-            depth: counts[i].depth,
-            bytes: counts[i].bytes,
-            sah_cost: counts[i].sah_cost,
+            tests_per_ray: counts[i].tests_per_ray().unwrap_or(0.0),
+            steps_per_ray: counts[i].steps_per_ray().unwrap_or(0.0),
+            duplication: shape.references as f64 / first.triangles.max(1) as f64,
+            depth: shape.depth,
+            bytes: shape.bytes,
+            sah_cost: shape.sah_cost,
             build_ns: median(&builds).expect("there is an epoch"),
-            sampled: first.epoch.trees[i].times[0].rays < first.workload_rays,
+            sampled: rays[0].rays < rays[0].all,
         }
     });
     let levels =
@@ -193,12 +196,12 @@ pub fn attribute(epochs: &[&Case], seed: u64) -> Option<Attribution> {
         Effect { factor, level, time, tests: of(&tests), steps: of(&steps) }
     });
     Some(Attribution {
-        scene: scene_name(&first.scene, first.stand_in),
+        scene: first.title(),
         triangles: first.triangles,
         stand_in: first.stand_in,
-        workload: first.workload.clone(),
+        workload: first.structures[0].rays[0].workload.clone(),
         epochs: epochs.len(),
-        runs: first.epoch.trees[0].times[0].ns.len(),
+        runs: first.structures[0].rays[0].ns.len(),
         floor: libm::exp(floor),
         twins_alike: noise.holding_one(),
         cells: cells.collect(),

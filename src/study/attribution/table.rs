@@ -4,16 +4,16 @@ use super::Attribution;
 use super::design::Factor;
 use super::result::{CellResult, Split};
 use crate::report::number::{count, figures};
+use crate::report::words::interval;
 use crate::report::{Cell, Table, Tone};
-use crate::study::interval_text;
 
 /// One row and one sentence for each scene: the answer.
 pub fn headlines(results: &[Attribution]) -> Table {
     let rows = results.iter().map(|r| {
-        let parts = r.time.parts.iter().map(|part| Cell::from(interval_text(part.times)));
-        let mut row = vec![r.scene.as_str().into(), interval_text(r.time.whole).into()];
+        let parts = r.time.parts.iter().map(|part| Cell::from(interval(part.times)));
+        let mut row = vec![r.scene.as_str().into(), interval(r.time.whole).into()];
         row.extend(parts);
-        row.push(interval_text(r.plane_alone).into());
+        row.push(interval(r.plane_alone).into());
         row
     });
     let mut columns = vec!["scene".to_owned(), "whole".into()];
@@ -61,7 +61,7 @@ fn cells(r: &Attribution) -> Table {
         vec![
             short(cell).into(),
             Cell::from(format!("{mark}{}", figures(cell.ns_per_ray))).with(tone),
-            Cell::from(interval_text(cell.speedup)),
+            Cell::from(interval(cell.speedup)),
             figures(cell.tests_per_ray).into(),
             figures(cell.steps_per_ray).into(),
             figures(cell.duplication).into(),
@@ -94,7 +94,7 @@ fn levels(r: &Attribution) -> Table {
     let rows = r.main_effects.iter().map(|effect| {
         vec![
             format!("{}: {}", effect.factor, effect.level).into(),
-            interval_text(effect.time).into(),
+            interval(effect.time).into(),
             figures(effect.tests).into(),
             figures(effect.steps).into(),
         ]
@@ -123,10 +123,10 @@ fn terms(r: &Attribution) -> Table {
 
 fn splits(r: &Attribution) -> Table {
     let rows = |name: &str, split: &Split| {
-        let mut parts: Vec<Cell> = vec![name.into(), interval_text(split.whole).into()];
+        let mut parts: Vec<Cell> = vec![name.into(), interval(split.whole).into()];
         let mut ranges: Vec<Cell> = vec!["  by order".into(), Cell::blank()];
         for part in &split.parts {
-            parts.push(interval_text(part.times).into());
+            parts.push(interval(part.times).into());
             ranges.push(format!("{} to {}", figures(part.least), figures(part.most)).into());
         }
         [parts, ranges]

@@ -3,7 +3,8 @@
 use super::design::{CELLS, Cell, Factor};
 use super::*;
 use crate::measure::RandomOrder;
-use crate::study::trial::{Counted, Times, Tree};
+use crate::study::epoch::tests::rays;
+use crate::study::epoch::{Epoch, RayCounts, Rays, Shape, Structure};
 
 /// How many times faster each factor makes the tree, and what the plane gives more once the stop rule is the SAH's.
 const STOP: f64 = 8.0;
@@ -21,7 +22,7 @@ fn factor(cell: Cell) -> f64 {
 }
 
 /// A scene of `epochs` epochs; times vary by up to `noise` with the epoch, and whole rounds by a third.
-pub fn cases(epochs: usize, noise: f64) -> Vec<Case> {
+pub fn cases(epochs: usize, noise: f64) -> Vec<Epoch> {
     let mut random = RandomOrder::new(3);
     let cells: Vec<Cell> = Cell::all().into_iter().chain([Cell::REPORT, Cell::SAH]).collect();
     let mut uniform = move || random.below(1 << 20) as f64 / f64::from(1 << 20);
@@ -30,38 +31,41 @@ pub fn cases(epochs: usize, noise: f64) -> Vec<Case> {
         let trees = cells.iter().map(|&cell| {
             let placed = 1.0 + noise * (uniform() - 0.5);
             let ns = slow.iter().map(|slow| (4e8 / factor(cell) * placed * slow) as u64).collect();
-            Tree { build_ns: 1000, times: vec![Times { rays: 1000, checksum: 7, ns }] }
+            let counts = RayCounts {
+                rays: 1000,
+                hits: 500,
+                distances: 9,
+                tests: Some((24_000_000.0 / factor(cell)) as u64),
+                steps: Some(5000),
+            };
+            Structure {
+                label: cell.spec("exact"),
+                name: "median-kd".into(),
+                refused: None,
+                build_ns: 1000,
+                shape: Shape {
+                    bytes: 4096,
+                    leaves: 10,
+                    references: 300,
+                    depth: 5,
+                    sah_cost: Some(20.0 / factor(cell)),
+                },
+                rays: vec![Rays { ns, counts: (number == 0).then_some(counts), ..rays("primary") }],
+            }
         });
-        let counted = |&cell: &Cell| Counted {
-            rays: vec![1000],
-            tests: vec![(24_000_000.0 / factor(cell)) as u64],
-            steps: vec![5000],
-            references: 300,
-            leaves: 10,
-            depth: 5,
-            bytes: 4096,
-            sah_cost: Some(20.0 / factor(cell)),
-            checked_rays: 32,
-        };
-        Case {
+        Epoch {
             scene: "Dragon".into(),
             scene_hash: "00".into(),
-            triangles: 100,
             stand_in: true,
-            workload: "primary".into(),
-            workload_hash: "11".into(),
-            workload_rays: 1000,
-            epoch: Epoch {
-                number,
-                trees: trees.collect(),
-                counts: (number == 0).then(|| cells.iter().map(counted).collect()),
-            },
+            triangles: 100,
+            epoch: number,
+            structures: trees.collect(),
         }
     };
     (0..epochs).map(&mut of).collect()
 }
 
-fn one(cases: &[Case]) -> Attribution {
+fn one(cases: &[Epoch]) -> Attribution {
     let mut results = result(cases, 1);
     assert_eq!(results.len(), 1);
     results.remove(0)
@@ -144,16 +148,9 @@ fn the_sentence_names_the_parts_and_the_stand_in() {
 #[test]
 fn real_meshes_and_stand_ins_are_apart_and_a_scene_without_its_first_epoch_is_left_out() {
     let mut both = cases(2, 0.0);
-    let real = |case: &Case| Case { stand_in: false, scene_hash: "22".into(), ..case.clone() };
+    let real = |epoch: &Epoch| Epoch { stand_in: false, scene_hash: "22".into(), ..epoch.clone() };
     both.extend(cases(2, 0.0).iter().map(real));
     let names: Vec<String> = result(&both, 1).into_iter().map(|result| result.scene).collect();
     assert_eq!(names, ["Dragon (stand-in)", "Dragon"]);
     assert!(result(&both[1..2], 1).is_empty() && result(&[], 1).is_empty());
-}
-
-#[test]
-fn a_case_reads_back() {
-    let case = cases(1, 0.1).remove(0);
-    let text = serde_json::to_string(&case).unwrap();
-    assert_eq!(serde_json::from_str::<Case>(&text).unwrap(), case);
 }

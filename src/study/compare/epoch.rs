@@ -5,21 +5,17 @@ use super::prepare::{Prepared, Subject, prepare, twin_of};
 use crate::accel::{DynAccel, Query};
 use crate::geometry::Ray;
 use crate::measure::advice::Conditions;
-use crate::measure::{
-    Clock, Instructions, Pass, Plan, RandomOrder, Samples, ThreadClock, Timed, machine, spread, take, take_again,
-};
+use crate::measure::{Clock, Instructions, Pass, Plan, Samples, Timed, machine, spread};
 use crate::report::CaseCounts;
 use crate::scene::{Scene, Workload};
 use crate::study::built::Built;
 use crate::study::counted::Counted;
-use crate::study::guarded::Guarded;
+use crate::study::placed::Placed;
+use crate::study::timing::{Case, Taken, Timing, sample_budget_ns};
 use crate::study::{PANICKED, Refused, Stage, StudyError, guarded};
 
 /// A full pass that takes longer runs on a sample of its rays, whatever the budget.
 const LONGEST_SAMPLE_NS: u64 = 1_000_000_000;
-
-/// Passes of a case besides its samples, in each epoch: what a warm-up takes as a rule, and the counts.
-const OTHER_PASSES: usize = 3;
 
 /// Rays that a case without times is counted on.
 const COUNTED: usize = 4096;
@@ -34,13 +30,6 @@ pub(super) struct Tally {
     pub steps_per_ray: Option<f64>,
     pub instructions_per_ray: Option<f64>,
     pub counts: CaseCounts,
-}
-
-/// A case that is timed: structure and workload by their numbers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Case {
-    pub subject: usize,
-    pub workload: usize,
 }
 
 /// The comparison on one scene while it runs.
@@ -79,15 +68,13 @@ impl<'a> Trial<'a> {
         let Prepared { workloads, mut subjects, refused, builds_ns } = prepare(scene, settings, clock, progress)?;
         let twin = twin_of(&subjects).filter(|_| settings.twin);
         subjects.extend(twin.map(|of| subjects[of].twin()));
-        let cases: Vec<Case> = (0..subjects.len())
-            .flat_map(|subject| (0..workloads.len()).map(move |workload| Case { subject, workload }))
-            .filter(|case| subjects[case.subject].is_timed(case.workload))
-            .collect();
+        let mut cases = Case::all(subjects.len(), workloads.len());
+        cases.retain(|case| subjects[case.structure].is_timed(case.workload));
 
         // What checks and builds leave of the time is for passes, but at least a third.
         let spent = (clock.now_ns() - start).saturating_add(builds_ns.saturating_mul(settings.epochs as u64));
         let budget_ns = settings.budget_ns.saturating_sub(spent).max(settings.budget_ns / 3);
-        let passes = (cases.len() * settings.epochs * (settings.rounds() + OTHER_PASSES)).max(1) as u64;
+        let sample_ns = sample_budget_ns(budget_ns, cases.len() * settings.epochs, settings.rounds());
         Ok(Self {
             scene,
             settings,
@@ -100,7 +87,7 @@ impl<'a> Trial<'a> {
             samples: vec![],
             tallies: vec![],
             epochs: 0,
-            sample_budget_ns: settings.sample_ns.unwrap_or((budget_ns / passes).clamp(1, LONGEST_SAMPLE_NS)),
+            sample_budget_ns: settings.sample_ns.unwrap_or(sample_ns.min(LONGEST_SAMPLE_NS)),
             conditions: Conditions::default(),
         })
     }
@@ -116,20 +103,9 @@ impl<'a> Trial<'a> {
     /// If a structure answers the same rays differently.
     pub fn epoch(&mut self, progress: &mut dyn FnMut(Stage)) -> Result<(), StudyError> {
         let _pin = self.settings.threads.pin();
-        let (built, _placement) = self.build(progress);
+        let (built, _placed) = self.build(progress);
         self.forget_refused();
 
-        let (mut passes, panicked): (Vec<Box<dyn Timed>>, Vec<_>) = self
-            .cases
-            .iter()
-            .map(|case| {
-                let workload = &self.workloads[case.workload];
-                let accel = built[case.subject].accel.as_ref();
-                let pass = Pass::new(accel, &workload.rays, workload.query, &self.settings.threads);
-                let (pass, panicked) = Guarded::new(pass);
-                (Box::new(pass) as Box<dyn Timed>, panicked)
-            })
-            .collect();
         let plan = Plan {
             runs: self.settings.rounds(),
             sample_budget_ns: self.sample_budget_ns,
@@ -137,30 +113,25 @@ impl<'a> Trial<'a> {
             seed: self.settings.seed,
         };
         let total = self.cases.len() * self.settings.rounds() * self.settings.epochs.max(self.epochs + 1);
-        let before = self.cases.len() * self.settings.rounds() * self.epochs;
-        let mut told = |taken| progress(Stage::Trace(before + taken, total));
+        let done = self.cases.len() * self.settings.rounds() * self.epochs;
+        let timing = Timing {
+            scene: self.scene,
+            built: &built,
+            workloads: &self.workloads,
+            threads: &self.settings.threads,
+            clock: self.clock,
+        };
+        let before = (self.epochs > 0).then(|| std::mem::take(&mut self.samples));
         let core = self.settings.threads.cores().map_or(0, |cores| cores[0]);
         let watch = Watch::start(self.clock, core);
-        // What others take of the core is not time of the pass.
-        let own = ThreadClock::of(&self.settings.threads);
-        let clock = own.as_ref().map_or(self.clock, |clock| clock as &dyn Clock);
-        let taken = if self.epochs == 0 {
-            take(clock, &mut passes, &plan, &mut told).map(|samples| self.samples = samples)
-        } else {
-            take_again(clock, &mut passes, &plan, &mut self.samples, &mut told)
-        };
-        taken.map_err(|cause| StudyError::Unsteady {
-            structure: self.subjects[self.cases[cause.case].subject].choice.label.clone(),
-            scene: self.scene.name.clone(),
-            rays: self.workloads[self.cases[cause.case].workload].name.clone(),
-            cause,
-        })?;
+        let Taken { samples, panicked } =
+            timing.take(&self.cases, &plan, before, &mut |taken| progress(Stage::Trace(done + taken, total)))?;
         watch.end(self.clock, &mut self.conditions);
-        drop(passes);
+        self.samples = samples;
 
-        for (case, panicked) in self.cases.iter().zip(&panicked) {
-            if panicked.get() {
-                refuse(&mut self.refused, &self.subjects[case.subject], PANICKED);
+        for (case, panicked) in self.cases.iter().zip(panicked) {
+            if panicked {
+                refuse(&mut self.refused, &self.subjects[case.structure], PANICKED);
             }
         }
         if self.epochs == 0 {
@@ -172,29 +143,26 @@ impl<'a> Trial<'a> {
         Ok(())
     }
 
-    /// Every structure that is not refused, built in an order and between blocks of memory that are this epoch's own. The blocks are to
-    /// be kept as long as the structures.
-    fn build(&mut self, progress: &mut dyn FnMut(Stage)) -> (Vec<Built>, Vec<Vec<u8>>) {
-        let mut random = RandomOrder::new(self.settings.seed.wrapping_add(self.epochs as u64));
-        let mut built: Vec<Option<Built>> = self.subjects.iter().map(|_| None).collect();
-        let mut blocks = vec![];
-        for s in random.shuffled(self.subjects.len()) {
-            let subject = &mut self.subjects[s];
-            progress(Stage::Build(&subject.choice.label));
-            // Small blocks move what follows on the heap, large ones move mapped pages.
-            blocks.push(vec![0; 16 * (1 + random.below(1 << 12))]);
-            blocks.push(vec![0; (256 << 10) + 4096 * random.below(64)]);
-            match Built::once(&subject.choice, self.scene, &self.settings.threads, self.clock) {
+    /// Every structure that is not refused, built anew. The places are to be kept as long as the structures.
+    fn build(&mut self, progress: &mut dyn FnMut(Stage)) -> (Vec<Built>, Placed) {
+        let Settings { seed, threads, .. } = self.settings;
+        let choices = self.subjects.iter().map(|subject| &subject.choice);
+        let seed = seed.wrapping_add(self.epochs as u64);
+        let mut placed = Placed::new(choices, self.scene, threads, self.clock, seed, progress);
+        let mut built = vec![];
+        for (subject, structure) in self.subjects.iter_mut().zip(placed.built.drain(..)) {
+            match structure {
                 Ok(structure) => {
                     subject.build_ns.push(structure.build_ns);
-                    built[s] = Some(structure);
+                    built.push(structure);
                 }
                 Err(error) => refuse(&mut self.refused, subject, &error.to_string()),
             }
         }
         // One of two twins is refused with the other.
         let lost = |built: &Built| self.refused.iter().any(|refused| refused.label == built.choice.label);
-        (built.into_iter().flatten().filter(|built| !lost(built)).collect(), blocks)
+        built.retain(|built| !lost(built));
+        (built, placed)
     }
 
     /// Takes those that were refused after they had been admitted, and their cases and samples, out of the run.
@@ -212,8 +180,8 @@ impl<'a> Trial<'a> {
         if place.iter().all(Option::is_some) {
             return;
         }
-        let kept: Vec<bool> = self.cases.iter().map(|case| place[case.subject].is_some()).collect();
-        let moved = |case: &Case| Some(Case { subject: place[case.subject]?, ..*case });
+        let kept: Vec<bool> = self.cases.iter().map(|case| place[case.structure].is_some()).collect();
+        let moved = |case: &Case| Some(Case { structure: place[case.structure]?, ..*case });
         self.cases = self.cases.iter().filter_map(moved).collect();
         keep(&mut self.samples, &kept);
         let kept: Vec<bool> = place.iter().map(Option::is_some).collect();
@@ -225,8 +193,8 @@ impl<'a> Trial<'a> {
     /// Counts hits, steps, tests and instructions on the rays that were timed.
     fn count(&mut self, built: &[Built]) {
         let counter = Instructions::open().filter(|_| self.settings.threads.count() == 1);
-        let rays = |subject: usize, workload: usize| {
-            let case = self.cases.iter().position(|case| *case == Case { subject, workload });
+        let rays = |structure: usize, workload: usize| {
+            let case = self.cases.iter().position(|case| *case == Case { structure, workload });
             case.map_or(COUNTED, |case| self.samples[case].rays)
         };
         let mut tallies = vec![];

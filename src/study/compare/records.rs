@@ -1,10 +1,11 @@
 //! What is known at the end, one record a case.
 
-use super::epoch::{Case, Tally, Trial};
+use super::epoch::{Tally, Trial};
 use super::{Compared, twins};
 use crate::measure::advice::{Conditions, of_samples};
 use crate::measure::{Provenance, Samples, machine, median};
 use crate::report::Record;
+use crate::study::timing::Case;
 
 impl Trial<'_> {
     /// The records of all epochs so far.
@@ -76,7 +77,7 @@ impl Trial<'_> {
     }
 
     fn samples_of(&self, subject: usize, workload: usize) -> Option<&Samples> {
-        let case = self.cases.iter().position(|case| *case == Case { subject, workload })?;
+        let case = self.cases.iter().position(|case| *case == Case { structure: subject, workload })?;
         Some(&self.samples[case])
     }
 
@@ -102,7 +103,7 @@ impl Trial<'_> {
             ));
         }
         for (case, _) in self.cases.iter().zip(&self.samples).filter(|(_, samples)| !samples.same_answers) {
-            let (label, rays) = (&self.subjects[case.subject].choice.label, &self.workloads[case.workload].name);
+            let (label, rays) = (&self.subjects[case.structure].choice.label, &self.workloads[case.workload].name);
             warnings.push(format!(
                 "{label}, built again, gives other answers to the same {rays} rays: its build is not repeatable"
             ));

@@ -10,7 +10,7 @@ fn epochs(name: &str, off: f64) -> Vec<Epoch> {
         let ns = ((50.0 + 4.0 * steps + 2.0 * tests) * factor * 1e3) as u64;
         let mut epoch = example(&format!("scene {i}"), 100, 0, &[(name, 1, &[ns; 3])]);
         let counts = epoch.structures[0].rays[0].counts.as_mut().unwrap();
-        (counts.steps, counts.tests) = (Some(steps), Some(tests));
+        (counts.steps, counts.tests) = (Some((steps * 1e3) as u64), Some((tests * 1e3) as u64));
         epoch
     };
     places.into_iter().enumerate().map(one).collect()

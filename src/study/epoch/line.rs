@@ -47,27 +47,26 @@ pub fn lines<'a>(epochs: impl IntoIterator<Item = &'a Epoch>) -> Vec<Line> {
 
 /// One line, if it was timed in every epoch.
 fn line(scene: &[&Epoch], label: &str, workload: &str) -> Option<Line> {
-    let ln = |ns: u64, rays: usize| libm::log(ns.max(1) as f64 / rays as f64);
     let (mut trace, mut build) = (vec![], vec![]);
     let mut first = None;
     for epoch in scene {
         let structure = epoch.structures.iter().find(|s| s.label == label && s.refused.is_none())?;
         let rays = structure.rays.iter().find(|rays| rays.workload == workload && !rays.ns.is_empty())?;
         first = first.or(Some((structure, rays)));
-        trace.push(rays.ns.iter().map(|&ns| ln(ns, rays.rays)).collect());
-        build.push(vec![ln(structure.build_ns, 1)]);
+        trace.push(rays.paces().into_iter().map(libm::log).collect());
+        build.push(vec![libm::log(structure.build_ns.max(1) as f64)]);
     }
     let (structure, rays) = first?;
     Some(Line {
-        scene: scene[0].scene.clone(),
+        scene: scene[0].title(),
         triangles: scene[0].triangles,
         structure: structure.label.clone(),
         name: structure.name.clone(),
         workload: workload.into(),
-        bytes: structure.bytes,
-        leaves: structure.leaves,
-        tests: rays.counts.and_then(|counts| counts.tests),
-        steps: rays.counts.and_then(|counts| counts.steps),
+        bytes: structure.shape.bytes,
+        leaves: structure.shape.leaves,
+        tests: rays.counts.and_then(|counts| counts.tests_per_ray()),
+        steps: rays.counts.and_then(|counts| counts.steps_per_ray()),
         trace,
         build,
     })

@@ -1,15 +1,16 @@
 //! Measuring one epoch of one scene.
 
-use super::{Epoch, RayCounts, Rays, Settings, Structure};
+use super::{Epoch, RayCounts, Rays, Settings, Shape, Structure};
+use crate::accel::DynAccel;
 use crate::geometry::Ray;
-use crate::measure::{Clock, Pass, Plan, Samples, Timed, spread, take, take_again};
-use crate::scene::{Sampling, Scene, Workload, WorkloadKind};
-use crate::study::attribution::scene_name;
+use crate::measure::{Clock, Plan, Samples, spread};
+use crate::scene::{Scene, Workload};
 use crate::study::built::Built;
 use crate::study::check::check_all;
 use crate::study::compare::declined;
 use crate::study::counted::Counted;
-use crate::study::guarded::Guarded;
+use crate::study::placed::Placed;
+use crate::study::timing::{Case, Taken, Timing, sample_budget_ns};
 use crate::study::{PANICKED, Stage, StudyError, guarded};
 
 /// Builds all structures, checks and counts them if this is the first epoch, and takes their samples. A later epoch needs the
@@ -27,7 +28,7 @@ pub fn measure(
     progress: &mut dyn FnMut(Stage),
 ) -> Result<Epoch, StudyError> {
     let _pin = settings.threads.pin();
-    let mut bench = Bench::set_up(scene, settings, clock, progress)?;
+    let mut bench = Bench::set_up(scene, settings, epoch, clock, progress)?;
     match first {
         None => bench.check(clock, progress)?,
         Some(first) => bench.resume(first),
@@ -37,8 +38,9 @@ pub fn measure(
         bench.count();
     }
     Ok(Epoch {
-        scene: scene_name(&scene.name, !scene.stand_ins.is_empty()),
+        scene: scene.name.clone(),
         scene_hash: scene.hash(),
+        stand_in: !scene.stand_ins.is_empty(),
         triangles: scene.mesh.len(),
         epoch,
         structures: bench.structures,
@@ -56,26 +58,35 @@ struct Bench<'a> {
     built: Vec<Built>,
     /// The number of each of them among all.
     places: Vec<usize>,
+    /// Where they lie.
+    _placed: Placed,
 }
+
+/// Rays of a workload that are counted, at most; spread evenly.
+const COUNTED: usize = 16384;
+
+/// Triangle tests that a count may take, about: structures that test more for each ray are counted on fewer.
+const COUNTED_TESTS: u64 = 1 << 30;
 
 impl<'a> Bench<'a> {
     /// Builds the structures and makes the rays.
     fn set_up(
         scene: &'a Scene,
         settings: &'a Settings,
+        epoch: usize,
         clock: &dyn Clock,
         progress: &mut dyn FnMut(Stage),
     ) -> Result<Self, StudyError> {
+        let Settings { structures: choices, threads, seed, .. } = settings;
+        let mut placed = Placed::new(choices, scene, threads, clock, seed.wrapping_add(epoch as u64), progress);
         let (mut structures, mut built, mut places) = (vec![], vec![], vec![]);
-        for choice in &settings.structures {
-            progress(Stage::Build(&choice.label));
+        for (choice, one) in choices.iter().zip(placed.built.drain(..)) {
             let (label, name) = (choice.label.clone(), choice.entry.name.clone());
-            let none = Structure { label, name, refused: None, build_ns: 0, bytes: 0, leaves: 0, rays: vec![] };
-            match Built::new(choice, scene, &settings.threads, clock) {
+            let none = Structure { label, name, refused: None, build_ns: 0, shape: Shape::default(), rays: vec![] };
+            match one {
                 Ok(one) => {
-                    let (bytes, leaves) = (one.accel.footprint().total(), one.accel.shape().leaves);
                     places.push(structures.len());
-                    structures.push(Structure { build_ns: one.build_ns, bytes, leaves, ..none });
+                    structures.push(Structure { build_ns: one.build_ns, shape: Shape::of(one.accel.as_ref()), ..none });
                     built.push(one);
                 }
                 Err(StudyError::Build { cause, .. }) => {
@@ -94,14 +105,8 @@ impl<'a> Bench<'a> {
                 own.accel.as_ref()
             }
         };
-        let sampling = Sampling::about(scene, settings.rays, settings.seed);
-        let mut workloads = vec![];
-        for &kind in settings.workloads.iter().filter(|&&kind| kind != WorkloadKind::Mirror || scene.has_mirrors()) {
-            progress(Stage::Rays(kind.name()));
-            workloads.push(Workload::new(scene, kind, &sampling, guide));
-        }
-        workloads.retain(|workload| !workload.rays.is_empty());
-        Ok(Self { scene, settings, workloads, structures, built, places })
+        let workloads = settings.asked.workloads(scene, settings.seed, guide, progress);
+        Ok(Self { scene, settings, workloads, structures, built, places, _placed: placed })
     }
 
     /// Holds all structures against brute force, and says which are timed on which rays.
@@ -120,7 +125,9 @@ impl<'a> Bench<'a> {
                     (check.errors > 0).then(|| format!("{} wrong answers to {} rays", check.errors, check.rays));
                 self.structures[place].rays.push(Rays {
                     workload: workload.name.clone(),
+                    hash: workload.hash(),
                     query: workload.query,
+                    all: workload.rays.len(),
                     rays: 0,
                     checksum: 0,
                     ns: vec![],
@@ -143,21 +150,17 @@ impl<'a> Bench<'a> {
         }
     }
 
-    /// What is timed: by its number among those built, its kind of rays among those of the structure and among all.
-    fn slots(&self) -> Vec<(usize, usize, usize)> {
-        let mut slots = vec![];
-        for (b, &place) in self.places.iter().enumerate() {
-            let structure = &self.structures[place];
-            let timed = structure.rays.iter().enumerate().filter(|(_, rays)| rays.untimed.is_none());
-            for (r, rays) in timed.filter(|_| structure.refused.is_none()) {
-                let workload = self.workloads.iter().position(|workload| workload.name == rays.workload);
-                slots.extend(workload.map(|w| (b, r, w)));
-            }
-        }
-        slots
+    /// What is timed: structures by their numbers among those built.
+    fn cases(&self) -> Vec<Case> {
+        let mut cases = Case::all(self.built.len(), self.workloads.len());
+        cases.retain(|case| {
+            let structure = &self.structures[self.places[case.structure]];
+            structure.refused.is_none() && structure.rays[case.workload].untimed.is_none()
+        });
+        cases
     }
 
-    /// Takes the samples of everything that is timed, interleaved; with `again` on as many rays as before.
+    /// Takes the samples of everything that is timed; with `again` on as many rays as before.
     fn sample(
         &mut self,
         epoch: usize,
@@ -165,73 +168,72 @@ impl<'a> Bench<'a> {
         clock: &dyn Clock,
         progress: &mut dyn FnMut(Stage),
     ) -> Result<(), StudyError> {
-        let slots = self.slots();
-        let threads = &self.settings.threads;
-        let (mut cases, panicked): (Vec<Box<dyn Timed>>, Vec<_>) = slots
-            .iter()
-            .map(|&(b, _, w)| {
-                let workload = &self.workloads[w];
-                let pass = Pass::new(self.built[b].accel.as_ref(), &workload.rays, workload.query, threads);
-                let (pass, panicked) = Guarded::new(pass);
-                (Box::new(pass) as Box<dyn Timed>, panicked)
-            })
-            .collect();
-
-        // The search for the number of rays and the warm-up cost about three passes more than the samples.
-        let passes = (cases.len() * (self.settings.runs + 3)).max(1) as u64;
+        let cases = self.cases();
+        let Settings { runs, budget_ns, seed, threads, .. } = self.settings;
         let plan = Plan {
-            runs: self.settings.runs,
-            sample_budget_ns: (self.settings.budget_ns / passes).max(1),
+            runs: *runs,
+            sample_budget_ns: sample_budget_ns(*budget_ns, cases.len(), *runs),
             warmup: 1,
-            seed: self.settings.seed.wrapping_add(epoch as u64),
+            seed: seed.wrapping_add(epoch as u64),
         };
-        let total = cases.len() * self.settings.runs;
+        let before = |case: &Case| {
+            let rays = self.structures[self.places[case.structure]].rays[case.workload].rays;
+            Samples { rays, checksum: 0, same_answers: true, unsteady: 0, ns: vec![] }
+        };
+        let before = again.then(|| cases.iter().map(before).collect());
+        let total = cases.len() * runs;
         let mut told = |taken| progress(Stage::Trace(taken, total));
-        let structures = &mut self.structures;
-        let samples = if again {
-            let none = |&(b, r, _): &(usize, usize, usize)| {
-                let rays = structures[self.places[b]].rays[r].rays;
-                Samples { rays, checksum: 0, same_answers: true, unsteady: 0, ns: vec![] }
-            };
-            let mut samples: Vec<Samples> = slots.iter().map(none).collect();
-            take_again(clock, &mut cases, &plan, &mut samples, &mut told).map(|()| samples)
-        } else {
-            take(clock, &mut cases, &plan, &mut told)
-        };
-        let scene = &self.scene.name;
-        let samples = samples.map_err(|cause| {
-            let (b, _, w) = slots[cause.case];
-            let (structure, rays) = (self.built[b].choice.label.clone(), self.workloads[w].name.clone());
-            StudyError::Unsteady { structure, scene: scene.clone(), rays, cause }
-        })?;
+        let timing = Timing { scene: self.scene, built: &self.built, workloads: &self.workloads, threads, clock };
+        let Taken { samples, panicked } = timing.take(&cases, &plan, before, &mut told)?;
 
-        for ((&(b, r, _), samples), panicked) in slots.iter().zip(samples).zip(panicked) {
-            let structure = &mut structures[self.places[b]];
-            if panicked.get() {
+        for ((case, samples), panicked) in cases.iter().zip(samples).zip(panicked) {
+            let structure = &mut self.structures[self.places[case.structure]];
+            if panicked {
                 structure.refused = Some(PANICKED.into());
+                continue;
             }
-            let rays = &mut structure.rays[r];
+            let rays = &mut structure.rays[case.workload];
             if again && rays.checksum != samples.checksum {
-                return Err(StudyError::Changed { structure: structure.label.clone(), scene: scene.clone() });
+                let (structure, scene) = (structure.label.clone(), self.scene.name.clone());
+                return Err(StudyError::Changed { structure, scene });
             }
             (rays.rays, rays.checksum, rays.ns) = (samples.rays, samples.checksum, samples.ns);
         }
         Ok(())
     }
 
-    /// Counts what was done for the rays that were timed.
+    /// Counts what is done for the rays.
     fn count(&mut self) {
-        for (b, r, w) in self.slots() {
-            let structure = &mut self.structures[self.places[b]];
-            let (rays, workload) = (&mut structure.rays[r], &self.workloads[w]);
-            let asked = spread(&workload.rays, rays.rays);
-            match guarded(|| Counted::new(self.built[b].accel.as_ref(), &asked, workload.query)) {
-                Some(counted) => {
-                    let (tests, steps) = (counted.tests_per_ray(), counted.steps_per_ray());
-                    rays.counts = Some(RayCounts { hit_rate: counted.hit_rate(), tests, steps });
-                }
+        for case in self.cases() {
+            let structure = &mut self.structures[self.places[case.structure]];
+            let accel = self.built[case.structure].accel.as_ref();
+            match guarded(|| count(accel, &self.workloads[case.workload])) {
+                Some(counts) => structure.rays[case.workload].counts = Some(counts),
                 None => structure.refused = Some(PANICKED.into()),
             }
         }
+    }
+}
+
+/// Counts as many rays as [`COUNTED`] and [`COUNTED_TESTS`] allow: a number that no clock decides, so that another run counts the same.
+fn count(accel: &dyn DynAccel, workload: &Workload) -> RayCounts {
+    let counted = |rays: usize| Counted::new(accel, &spread(&workload.rays, rays), workload.query);
+    let pilot = counted(64);
+    let affordable = (COUNTED_TESTS * pilot.rays as u64 / pilot.counts.tests.max(1)) as usize;
+    let counted = if affordable >= COUNTED { counted(COUNTED) } else { counted(1 << affordable.max(64).ilog2()) };
+    RayCounts {
+        rays: counted.rays,
+        hits: counted.hits,
+        distances: counted.distances,
+        tests: counted.observed.tests.then_some(counted.counts.tests),
+        steps: counted.observed.steps.then_some(counted.counts.steps()),
+    }
+}
+
+impl Shape {
+    fn of(accel: &dyn DynAccel) -> Self {
+        let shape = accel.shape();
+        let (leaves, references, depth, sah_cost) = (shape.leaves, shape.references, shape.depth, shape.sah_cost);
+        Self { bytes: accel.footprint().total(), leaves, references, depth, sah_cost }
     }
 }

@@ -3,6 +3,7 @@
 //! In an epoch all structures are built anew and timed on all kinds of rays in rounds, each round every case once, in random order.
 //! A case of a journal is one epoch of one scene, so that a run that is killed loses one at most.
 
+mod asked;
 mod line;
 mod measure;
 #[cfg(test)]
@@ -11,12 +12,14 @@ mod trouble;
 
 use serde::{Deserialize, Serialize};
 
-use super::attribution::scene_name;
+use super::StudyError;
 use crate::accel::Query;
 use crate::measure::Threads;
 use crate::registry::Choice;
-use crate::scene::{Scene, WorkloadKind};
+use crate::report::words::scene_name;
+use crate::scene::Scene;
 
+pub use asked::Asked;
 pub use line::{Draw, Draws, Line, centre, lines};
 pub use measure::measure;
 pub use trouble::{Trouble, troubles};
@@ -27,10 +30,7 @@ pub struct Settings {
     pub structures: Vec<Choice>,
     /// The structure that tells where secondary rays start.
     pub guide: Choice,
-    /// The kinds of rays; those that a scene has none of are left out.
-    pub workloads: Vec<WorkloadKind>,
-    /// Rays of a workload, at most.
-    pub rays: u32,
+    pub asked: Asked,
     /// Samples of every case in an epoch, at least 1.
     pub runs: usize,
     /// What the samples of an epoch of one scene may take together, nanoseconds: slow cases are timed on fewer rays to keep
@@ -47,8 +47,7 @@ pub struct Settings {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 struct Kept {
     structures: String,
-    workloads: String,
-    rays: u32,
+    rays: String,
     runs: usize,
     budget_ns: u64,
     seed: u64,
@@ -58,11 +57,9 @@ impl Settings {
     /// What a journal keeps of them.
     pub fn kept(&self) -> impl Serialize + use<> {
         let structures: Vec<&str> = self.structures.iter().map(|choice| choice.label.as_str()).collect();
-        let workloads: Vec<&str> = self.workloads.iter().map(|kind| kind.name()).collect();
         Kept {
             structures: structures.join(" "),
-            workloads: workloads.join(" "),
-            rays: self.rays,
+            rays: self.asked.words(),
             runs: self.runs,
             budget_ns: self.budget_ns,
             seed: self.seed,
@@ -73,10 +70,11 @@ impl Settings {
 /// One epoch of one scene.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Epoch {
-    /// Its name, and whether a mesh of our own stands in for a real one.
     pub scene: String,
     /// [`Scene::hash`].
     pub scene_hash: String,
+    /// Whether a mesh of our own stands in for a real one.
+    pub stand_in: bool,
     pub triangles: usize,
     /// Counted from 0.
     pub epoch: usize,
@@ -95,19 +93,35 @@ pub struct Structure {
     pub refused: Option<String>,
     /// Nanoseconds of the build, seen from outside.
     pub build_ns: u64,
+    pub shape: Shape,
+    pub rays: Vec<Rays>,
+}
+
+/// What a structure is once it is built, the same in every epoch.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Shape {
     /// Memory of the finished structure, without the mesh.
     pub bytes: usize,
     /// Leaves, empty ones included.
     pub leaves: usize,
-    pub rays: Vec<Rays>,
+    /// References in leaves.
+    pub references: usize,
+    /// Edges from the root to the deepest leaf.
+    pub depth: usize,
+    /// As [`TreeShape::sah_cost`](crate::accel::TreeShape::sah_cost).
+    pub sah_cost: Option<f64>,
 }
 
 /// One structure and one kind of rays in one epoch.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Rays {
     pub workload: String,
+    /// Of its rays, as [`Workload::hash`](crate::scene::Workload::hash).
+    pub hash: String,
     pub query: Query,
-    /// Rays of a sample, fewer than the workload has where the structure is slow.
+    /// Rays of the workload.
+    pub all: usize,
+    /// Rays of a sample, fewer where the structure is slow.
     pub rays: usize,
     /// Of the answers to these rays.
     pub checksum: u64,
@@ -121,14 +135,67 @@ pub struct Rays {
     pub counts: Option<RayCounts>,
 }
 
-/// What no machine changes, for each ray; nothing where the structure does not tell.
+impl Rays {
+    /// Nanoseconds a ray in every sample.
+    pub fn paces(&self) -> Vec<f64> {
+        self.ns.iter().map(|&ns| ns.max(1) as f64 / self.rays as f64).collect()
+    }
+}
+
+/// What no machine changes: of all rays of the workload, or an even sample of many.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RayCounts {
-    /// Share of the rays that hit.
-    pub hit_rate: f64,
-    pub tests: Option<f64>,
-    /// Nodes and leaves entered.
-    pub steps: Option<f64>,
+    /// Rays that are counted.
+    pub rays: usize,
+    pub hits: usize,
+    /// Of the distances of the hits, bit by bit: the same for all structures of one triangle test.
+    pub distances: u64,
+    /// Triangles tested; nothing where the structure does not tell.
+    pub tests: Option<u64>,
+    /// Nodes and leaves entered, likewise.
+    pub steps: Option<u64>,
+}
+
+impl RayCounts {
+    /// Triangles tested for each ray.
+    pub fn tests_per_ray(&self) -> Option<f64> {
+        Some(self.tests? as f64 / self.rays as f64)
+    }
+
+    /// Nodes and leaves entered for each ray.
+    pub fn steps_per_ray(&self) -> Option<f64> {
+        Some(self.steps? as f64 / self.rays as f64)
+    }
+}
+
+impl Epoch {
+    /// The scene as keys and tables name it.
+    pub fn title(&self) -> String {
+        scene_name(&self.scene, self.stand_in)
+    }
+
+    /// That every structure is timed on rays of all kinds, and that all of them, being over one triangle test, give the same answers to the bit.
+    ///
+    /// # Errors
+    /// The first structure of which that is not true.
+    pub fn is_whole(&self) -> Result<(), StudyError> {
+        if let Some(trouble) = troubles([self]).into_iter().next() {
+            return Err(StudyError::Missing { trouble: trouble.sentence, wrong: trouble.wrong });
+        }
+        if self.structures.iter().any(|structure| structure.rays.is_empty()) {
+            return Err(StudyError::NoRays { scene: self.title() });
+        }
+        for (w, rays) in self.structures.first().iter().flat_map(|first| first.rays.iter().enumerate()) {
+            let answers =
+                |structure: &Structure| structure.rays[w].counts.map(|counts| (counts.rays, counts.distances));
+            let expected = answers(&self.structures[0]);
+            if let Some(other) = self.structures.iter().find(|other| answers(other) != expected) {
+                let (one, other) = (self.structures[0].label.clone(), other.label.clone());
+                return Err(StudyError::Disagree { one, other, scene: self.title(), rays: rays.workload.clone() });
+            }
+        }
+        Ok(())
+    }
 }
 
 /// The key of an epoch of a scene.

@@ -1,7 +1,23 @@
 use super::*;
 use crate::measure::SystemClock;
 use crate::registry::Registry;
-use crate::scene::Builtin;
+use crate::scene::{Builtin, WorkloadKind};
+
+/// 1000 closest-hit rays of a workload as if they had been counted, not timed.
+pub fn rays(workload: &str) -> Rays {
+    Rays {
+        workload: workload.into(),
+        hash: "11".into(),
+        query: Query::Closest,
+        all: 1000,
+        rays: 1000,
+        checksum: 1,
+        ns: vec![],
+        untimed: None,
+        wrong: false,
+        counts: Some(RayCounts { rays: 1000, hits: 500, distances: 9, tests: Some(4000), steps: Some(10_000) }),
+    }
+}
 
 /// An epoch as if it had been measured: a structure, its build, and nanoseconds of every round of 1000 rays, on one kind of rays.
 pub fn example(scene: &str, triangles: usize, epoch: usize, structures: &[(&str, u64, &[u64])]) -> Epoch {
@@ -10,22 +26,13 @@ pub fn example(scene: &str, triangles: usize, epoch: usize, structures: &[(&str,
         name: label.split(':').next().unwrap().into(),
         refused: None,
         build_ns,
-        bytes: 100 * triangles,
-        leaves: 8,
-        rays: vec![Rays {
-            workload: "primary".into(),
-            query: Query::Closest,
-            rays: 1000,
-            checksum: 1,
-            ns: ns.to_vec(),
-            untimed: None,
-            wrong: false,
-            counts: Some(RayCounts { hit_rate: 0.5, tests: Some(4.0), steps: Some(10.0) }),
-        }],
+        shape: Shape { bytes: 100 * triangles, leaves: 8, references: 2 * triangles, depth: 3, sah_cost: None },
+        rays: vec![Rays { ns: ns.to_vec(), ..rays("primary") }],
     };
     Epoch {
         scene: scene.into(),
         scene_hash: scene.into(),
+        stand_in: false,
         triangles,
         epoch,
         structures: structures.iter().map(structure).collect(),
@@ -38,8 +45,7 @@ fn settings(structures: &[&str]) -> Settings {
     Settings {
         structures: structures.iter().map(choose).collect(),
         guide: choose(&"sah-kd"),
-        workloads: vec![WorkloadKind::Primary, WorkloadKind::Shadow],
-        rays: 200,
+        asked: Asked::Kinds(vec![WorkloadKind::Primary, WorkloadKind::Shadow], 200),
         runs: 2,
         budget_ns: 50_000_000,
         check_ns: 50_000_000,
@@ -56,15 +62,25 @@ fn a_second_epoch_asks_the_same_rays_and_counts_nothing_again() {
     let second = measure(&scene, &settings, 1, Some(&first), &clock, &mut |_| ()).unwrap();
     assert_eq!((first.epoch, second.epoch, first.triangles), (0, 1, 2304));
     for (one, other) in first.structures.iter().zip(&second.structures) {
-        assert_eq!((one.rays.len(), &one.label, one.leaves), (2, &other.label, other.leaves));
+        assert_eq!((one.rays.len(), &one.label, &one.shape), (2, &other.label, &other.shape));
         for (one, other) in one.rays.iter().zip(&other.rays) {
             assert_eq!((one.rays, one.checksum, one.ns.len()), (other.rays, other.checksum, other.ns.len()));
             assert!(one.counts.is_some() && other.counts.is_none());
+            assert_eq!((one.all, &one.hash), (other.all, &other.hash));
         }
     }
     let lines = lines([&second, &first]);
     assert_eq!(lines.len(), 4);
     assert!(lines.iter().all(|line| line.trace.len() == 2 && line.trace[0].len() == 2 && line.tests.is_some()));
+    // Both trees are over one triangle test, and find the same distances.
+    first.is_whole().unwrap();
+    let mut other = first.clone();
+    other.structures[1].rays[0].counts.as_mut().unwrap().distances ^= 1;
+    let error = other.is_whole().unwrap_err();
+    assert!(error.is_wrong_answer() && error.to_string().contains("median-kd and sah-bvh"), "{error}");
+    other.structures[1].rays[0].untimed = Some("it was late".into());
+    let error = other.is_whole().unwrap_err();
+    assert!(!error.is_wrong_answer() && error.to_string().contains("has no time: it was late"), "{error}");
     // It reads back as it was written.
     let text = serde_json::to_string(&first).unwrap();
     assert_eq!(serde_json::from_str::<Epoch>(&text).unwrap(), first);

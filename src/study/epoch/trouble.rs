@@ -20,7 +20,7 @@ pub fn troubles<'a>(epochs: impl IntoIterator<Item = &'a Epoch>) -> Vec<Trouble>
         for structure in &epoch.structures {
             let trouble =
                 |sentence, refused, wrong| Trouble { structure: structure.name.clone(), sentence, refused, wrong };
-            let on = format!("{} on {}", structure.label, epoch.scene);
+            let on = format!("{} on {}", structure.label, epoch.title());
             let refused = structure.refused.iter().map(|why| trouble(format!("{on} is refused: {why}."), true, false));
             let untimed = structure.rays.iter().filter_map(|rays| {
                 let why = rays.untimed.as_ref()?;

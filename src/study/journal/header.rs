@@ -21,7 +21,7 @@ pub struct Header {
 
 impl Header {
     /// Version of the form of journals.
-    pub const SCHEMA: u32 = 1;
+    pub const SCHEMA: u32 = 2;
 
     /// Of this process.
     ///

@@ -2,12 +2,11 @@
 
 use serde::Serialize;
 
-use super::student::{holm, two_sided};
-use super::{Case, DEFAULT, default_row, is_default};
-use crate::measure::{Interval, NoiseFloor, standard_error};
+use super::{DEFAULT, default_row, is_default};
+use crate::measure::{Interval, NoiseFloor, holm, standard_error, two_sided};
+use crate::study::epoch::{Epoch, RayCounts, Rays, Shape, Structure};
 use crate::study::replicate::original::{MAIN, SWEEP};
 use crate::study::replicates::{interval, replicates, values};
-use crate::study::trial::{Counted, Tree};
 
 /// What came of the sweep.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -82,9 +81,9 @@ pub fn rows(result: &Parameters) -> &[Setting] {
 }
 
 /// Compares the settings of all scenes whose first epoch is there.
-pub fn result(cases: &[Case], seed: u64) -> Parameters {
+pub fn result(epochs: &[Epoch], seed: u64) -> Parameters {
     let names: Vec<&str> = MAIN.iter().map(|row| row.scene).collect();
-    let of = |scene: &&str| cases.iter().filter(|case| case.scene == **scene).collect::<Vec<_>>();
+    let of = |scene: &&str| epochs.iter().filter(|epoch| epoch.scene == **scene).collect::<Vec<_>>();
     let scenes: Vec<Measured> = names.iter().filter_map(|scene| Measured::of(&of(scene))).collect();
     let default = default_row();
 
@@ -150,57 +149,41 @@ struct Measured {
 }
 
 /// Tests for a ray of the picture: those of each query, by its share of the rays.
-fn tests_per_ray(counted: &Counted, rays: &[usize]) -> f64 {
-    let parts = counted.tests.iter().zip(&counted.rays).zip(rays);
-    let tests: f64 = parts.map(|((&tests, &of), &all)| tests as f64 / of as f64 * all as f64).sum();
-    tests / rays.iter().sum::<usize>() as f64
+fn tests_per_ray(tree: &Structure) -> f64 {
+    let tests = |rays: &Rays| rays.counts.and_then(|counts| counts.tests_per_ray()).unwrap_or(0.0) * rays.all as f64;
+    tree.rays.iter().map(tests).sum::<f64>() / tree.rays.iter().map(|rays| rays.all).sum::<usize>() as f64
 }
 
 /// What makes a tree: where all of it is the same, so is the tree.
 #[derive(PartialEq)]
 struct Made {
-    tests: u64,
-    steps: u64,
-    references: usize,
-    leaves: usize,
-    depth: usize,
+    shape: Shape,
+    counts: Vec<Option<RayCounts>>,
 }
 
 impl Measured {
-    fn of(epochs: &[&Case]) -> Option<Self> {
-        let first = *epochs.iter().find(|case| case.epoch.counts.is_some())?;
-        let trees = first.epoch.counts.as_ref()?.iter().map(|counted| Made {
-            tests: counted.tests.iter().sum(),
-            steps: counted.steps.iter().sum(),
-            references: counted.references,
-            leaves: counted.leaves,
-            depth: counted.depth,
-        });
+    fn of(epochs: &[&Epoch]) -> Option<Self> {
+        let counted = |tree: &Structure| tree.rays.iter().all(|rays| rays.counts.is_some());
+        let first = *epochs.iter().find(|epoch| epoch.structures.iter().all(counted))?;
+        let made = |tree: &Structure| Made {
+            shape: tree.shape.clone(),
+            counts: tree.rays.iter().map(|rays| rays.counts).collect(),
+        };
         // Seconds of the picture in each round: what its rays take, query by query.
-        let logs = |case: &&Case| -> Vec<Vec<f64>> {
-            let of = |tree: &Tree| {
-                let rounds = tree.times.iter().map(|times| times.ns.len()).min().unwrap_or(0);
-                let second = |round: usize| {
-                    let parts = tree.times.iter().zip(&case.rays);
-                    parts.map(|(times, &rays)| times.paces()[round] * rays as f64 * 1e-9).sum::<f64>()
-                };
-                (0..rounds).map(|round| libm::log(second(round))).collect()
+        let logs = |tree: &Structure| -> Vec<f64> {
+            let rounds = tree.rays.iter().map(|rays| rays.ns.len()).min().unwrap_or(0);
+            let second = |round: usize| -> f64 {
+                tree.rays.iter().map(|rays| rays.paces()[round] * rays.all as f64 * 1e-9).sum()
             };
-            case.epoch.trees.iter().map(of).collect()
+            (0..rounds).map(|round| libm::log(second(round))).collect()
         };
         Some(Self {
             name: first.scene.clone(),
             triangles: first.triangles,
             epochs: epochs.len(),
-            tests_per_ray: first
-                .epoch
-                .counts
-                .as_ref()?
-                .iter()
-                .map(|counted| tests_per_ray(counted, &first.rays))
-                .collect(),
-            replicates: replicates(epochs.iter().map(logs).collect()),
-            trees: trees.collect(),
+            tests_per_ray: first.structures.iter().map(tests_per_ray).collect(),
+            replicates: replicates(epochs.iter().map(|epoch| epoch.structures.iter().map(logs).collect()).collect()),
+            trees: first.structures.iter().map(made).collect(),
         })
     }
 

@@ -2,8 +2,8 @@
 
 use super::result::{LEVEL, Parameters, Setting, Verdict};
 use crate::report::number::figures;
+use crate::report::words::interval;
 use crate::report::{Cell, Table, Tone};
-use crate::study::interval_text;
 
 /// All settings, then the answer in words.
 pub fn tables(result: &Parameters) -> Vec<Table> {
@@ -13,7 +13,7 @@ pub fn tables(result: &Parameters) -> Vec<Table> {
             format!("{} {} / {}", s.scene, s.leaf, s.threshold).into(),
             figures(s.seconds).into(),
             figures(s.report_s).into(),
-            s.times.map_or(Cell::blank(), |times| interval_text(times).into()),
+            s.times.map_or(Cell::blank(), |times| interval(times).into()),
             if s.verdict == Verdict::Default { Cell::blank() } else { figures(s.report_times).into() },
             figures(s.tests_per_ray).into(),
             Cell::from(s.verdict.words()).with(tone),

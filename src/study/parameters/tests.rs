@@ -2,43 +2,45 @@
 
 use super::*;
 use crate::measure::RandomOrder;
+use crate::study::epoch::tests::rays;
+use crate::study::epoch::{Epoch, RayCounts, Rays, Shape, Structure};
 use crate::study::replicate::original::SWEEP;
-use crate::study::trial::{Counted, Times, Tree};
 
 /// `epochs` epochs of a scene where the first setting takes `slower` times the default's time, the others the same.
-fn cases(scene: &str, epochs: usize, slower: f64, noise: f64) -> Vec<Case> {
+fn cases(scene: &str, epochs: usize, slower: f64, noise: f64) -> Vec<Epoch> {
     let mut random = RandomOrder::new(scene.len() as u64);
     let mut uniform = move || random.below(1 << 20) as f64 / f64::from(1 << 20) - 0.5;
     let mut of = |number: usize| {
         let slow: Vec<f64> = (0..3).map(|_| 1.2 + 0.4 * uniform()).collect();
-        let trees = (0..=SWEEP.len()).map(|i| {
+        let same = scene == "Cube";
+        let structures = (0..=SWEEP.len()).map(|i| {
             let times = if i == 0 { slower } else { 1.0 } * (1.0 + noise * uniform());
             let ns: Vec<u64> = slow.iter().map(|slow| (1e8 * times * slow) as u64).collect();
-            let half = Times { rays: 50, checksum: 1, ns };
-            Tree { build_ns: 10, times: vec![half.clone(), half] }
+            let counts =
+                |all, tests| RayCounts { rays: all, hits: 10, distances: 3, tests: Some(tests), steps: Some(10) };
+            let rays = |workload, all, tests| Rays {
+                all,
+                rays: 50,
+                ns: ns.clone(),
+                counts: (number == 0).then_some(counts(all, tests)),
+                ..rays(workload)
+            };
+            Structure {
+                label: i.to_string(),
+                name: REPORT_TREE.into(),
+                refused: None,
+                build_ns: 10,
+                shape: Shape { bytes: 100, leaves: 1, references: 12, depth: 0, sah_cost: None },
+                rays: vec![rays("image", 100, 1000), rays("image-shadow", 50, if same { 0 } else { i as u64 })],
+            }
         });
-        let same = scene == "Cube";
-        let counted = |i: usize| Counted {
-            rays: vec![100, 50],
-            tests: vec![1000, if same { 0 } else { i as u64 }],
-            steps: vec![10, 10],
-            references: 12,
-            leaves: 1,
-            depth: 0,
-            bytes: 100,
-            sah_cost: None,
-            checked_rays: 8,
-        };
-        Case {
+        Epoch {
             scene: scene.into(),
             scene_hash: "00".into(),
+            stand_in: false,
             triangles: 12,
-            rays: vec![100, 50],
-            epoch: Epoch {
-                number,
-                trees: trees.collect(),
-                counts: (number == 0).then(|| (0..=SWEEP.len()).map(counted).collect()),
-            },
+            epoch: number,
+            structures: structures.collect(),
         }
     };
     (0..epochs).map(&mut of).collect()
@@ -64,9 +66,9 @@ fn a_large_difference_is_real_and_noise_is_not() {
 fn a_difference_within_the_floor_is_not_shown() {
     // The twin of the default differs from it by more than the first setting does.
     let mut cases = cases("Teapot", 5, 1.02, 0.0);
-    for case in &mut cases {
-        let twin = case.epoch.trees.last_mut().unwrap();
-        twin.times.iter_mut().for_each(|times| times.ns.iter_mut().for_each(|ns| *ns = *ns * 104 / 100));
+    for epoch in &mut cases {
+        let twin = epoch.structures.last_mut().unwrap();
+        twin.rays.iter_mut().for_each(|rays| rays.ns.iter_mut().for_each(|ns| *ns = *ns * 104 / 100));
     }
     let result = result(&cases, 1);
     assert!(result.floor > 1.035 && verdicts(&result)[0] == Verdict::NotShown, "{result:?}");

@@ -2,12 +2,13 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::accel::{Counts, DynAccel};
+use crate::accel::DynAccel;
 use crate::measure::{Clock, Threads};
 use crate::registry::Registry;
 use crate::scene::Scene;
 use crate::study::baselines::{REPORT_TREE, SAH_TREE};
 use crate::study::built::Built;
+use crate::study::counted::Counted;
 use crate::study::replicate::original::MAIN;
 use crate::study::replicate::picture::Picture;
 use crate::study::{Stage, StudyError};
@@ -79,8 +80,6 @@ pub fn measure(
 
 /// Triangle tests for all rays of the picture.
 fn count(accel: &dyn DynAccel, picture: &Picture) -> u64 {
-    let mut counts = Counts::default();
-    accel.closest_hits_counted(&picture.closest, &mut vec![None; picture.closest.len()], &mut counts);
-    accel.any_hits_counted(&picture.any, &mut vec![false; picture.any.len()], &mut counts);
-    counts.tests
+    let counted = picture.workloads.iter().map(|workload| Counted::new(accel, &workload.rays, workload.query));
+    counted.map(|counted| counted.counts.tests).sum()
 }

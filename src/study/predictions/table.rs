@@ -1,8 +1,8 @@
 //! The verdicts as a table for people.
 
 use super::{Finding, Prediction, Verdict};
+use crate::report::words::interval;
 use crate::report::{Cell, Table, Tone};
-use crate::study::interval_text;
 
 /// One row for each finding; claims, explanations and missing commands below.
 pub fn table(predictions: &[Prediction]) -> Table {
@@ -25,7 +25,7 @@ pub fn table(predictions: &[Prediction]) -> Table {
             vec![
                 format!("  {}", f.what).into(),
                 Cell::from(holds),
-                interval_text(f.value).into(),
+                interval(f.value).into(),
                 f.expected.as_str().into(),
             ]
         };

@@ -19,7 +19,7 @@ fn verdict(inputs: &Inputs, number: u8) -> Prediction {
 /// The attribution of a scene whose SAH tree is `whole` times as fast as the report's.
 fn attributed(scene: &str, stand_in: bool, whole: f64, plane_alone: f64) -> attribution::Attribution {
     let mut result = attribution::tests::example();
-    result.scene = attribution::scene_name(scene, stand_in);
+    result.scene = crate::report::words::scene_name(scene, stand_in);
     result.stand_in = stand_in;
     result.time.whole = interval(whole, whole * 0.9, whole * 1.1);
     result.plane_alone = interval(plane_alone, plane_alone * 0.9, plane_alone * 1.1);

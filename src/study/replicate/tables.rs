@@ -2,8 +2,8 @@
 
 use super::original::SWEEP;
 use super::{Replication, Seconds};
-use crate::measure::Interval;
 use crate::report::number::{count, figures};
+use crate::report::words::{interval, scene_name};
 use crate::report::{Cell, Table};
 
 /// The tables in the order of the report, then its conclusion.
@@ -58,7 +58,7 @@ fn seconds(result: &Replication) -> Table {
             figures(m.report_tree_s),
             marked(&m.brute_force),
             figures(m.report_brute_force_s),
-            interval(&m.improvement),
+            interval(m.improvement),
             figures(m.report_improvement),
             marked(&m.sah),
         ]
@@ -116,7 +116,7 @@ fn parameters(result: &Replication) -> Table {
 fn hard(result: &Replication) -> Table {
     let rows = result.hard.iter().map(|h| {
         [
-            if h.stand_in { format!("{} (stand-in)", h.scene) } else { h.scene.clone() },
+            scene_name(&h.scene, h.stand_in),
             count(h.triangles as u64),
             marked(&h.tree),
             figures(h.report_tree_s),
@@ -138,9 +138,9 @@ fn hard(result: &Replication) -> Table {
 
 fn conclusion(result: &Replication) -> Table {
     let mut rows: Vec<[String; 2]> =
-        result.hard.iter().map(|h| [h.scene.clone(), interval(&h.sah_over_median)]).collect();
+        result.hard.iter().map(|h| [h.scene.clone(), interval(h.sah_over_median)]).collect();
     if let Some(mean) = &result.conclusion.sah_over_median {
-        rows.push([format!("geometric mean of {}", result.conclusion.scenes.join(", ")), interval(mean)]);
+        rows.push([format!("geometric mean of {}", result.conclusion.scenes.join(", ")), interval(*mean)]);
     }
     table(
         "The report's conclusion: how much faster is sah-kd than median-kd on the hard scenes?",
@@ -156,8 +156,4 @@ fn marked(seconds: &Seconds) -> String {
 
 fn figures_marked(seconds: f64, extrapolated: bool) -> String {
     format!("{}{}", if extrapolated { "~" } else { "" }, figures(seconds))
-}
-
-fn interval(interval: &Interval) -> String {
-    format!("{} [{}, {}]", figures(interval.estimate), figures(interval.low), figures(interval.high))
 }

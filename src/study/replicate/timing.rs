@@ -1,12 +1,13 @@
 //! Seconds of a whole picture.
 
 use super::{Settings, picture::Picture};
-use crate::accel::Query;
-use crate::measure::{Clock, Pass, Plan, Timed, take};
+use crate::geometry::Ray;
+use crate::measure::{Clock, Plan};
 use crate::registry::Choice;
 use crate::scene::Scene;
 use crate::study::built::Built;
 use crate::study::check::check_all;
+use crate::study::timing::{self, Case};
 use crate::study::{Stage, StudyError};
 
 /// How long one structure takes for all rays of a picture.
@@ -40,15 +41,12 @@ pub(super) fn time(
     }
 
     // A wrong answer ends the study: there is nothing to compare with the report then.
-    let batches: Vec<(&[_], Query)> = [(&picture.closest[..], Query::Closest), (&picture.any[..], Query::Any)]
-        .into_iter()
-        .filter(|(rays, _)| !rays.is_empty())
-        .collect();
-    let rays: Vec<&[_]> = batches.iter().map(|(rays, _)| *rays).collect();
+    let rays: Vec<&[Ray]> = picture.workloads.iter().map(|workload| &workload.rays[..]).collect();
     let checks = check_all(scene, &built, &rays, clock, settings.check_ns, progress)?;
+    let panicked =
+        |built: &Built| StudyError::Panicked { structure: built.choice.label.clone(), scene: scene.name.clone() };
     for (built, checks) in built.iter().zip(&checks) {
-        let panicked = || StudyError::Panicked { structure: built.choice.label.clone(), scene: scene.name.clone() };
-        if let Some(check) = checks.as_ref().ok_or_else(panicked)?.iter().find(|check| check.errors > 0) {
+        if let Some(check) = checks.as_ref().ok_or_else(|| panicked(built))?.iter().find(|check| check.errors > 0) {
             return Err(StudyError::Wrong {
                 structure: built.choice.label.clone(),
                 scene: scene.name.clone(),
@@ -58,30 +56,24 @@ pub(super) fn time(
         }
     }
 
-    let mut cases: Vec<Box<dyn Timed + '_>> = vec![];
-    for built in &built {
-        for &(rays, query) in &batches {
-            cases.push(Box::new(Pass::new(built.accel.as_ref(), rays, query, &settings.threads)));
-        }
-    }
+    let workloads = &picture.workloads[..];
+    let timing = timing::Timing { scene, built: &built, workloads, threads: &settings.threads, clock };
     let plan = Plan { runs, sample_budget_ns: settings.sample_ns, warmup: 1, seed: settings.seed };
+    let cases = Case::all(built.len(), workloads.len());
     let total = runs * cases.len();
-    let samples = take(clock, &mut cases, &plan, &mut |taken| progress(Stage::Trace(taken, total)));
-    let samples = samples.map_err(|cause| StudyError::Unsteady {
-        structure: built[cause.case / batches.len()].choice.label.clone(),
-        scene: scene.name.clone(),
-        rays: "image".into(),
-        cause,
-    })?;
+    let taken = timing.take(&cases, &plan, None, &mut |taken| progress(Stage::Trace(taken, total)))?;
+    if let Some(case) = taken.panicked.iter().position(|&panicked| panicked) {
+        return Err(panicked(&built[cases[case].structure]));
+    }
 
-    let timings = samples.chunks(batches.len()).zip(&built).map(|(samples, built)| {
+    let timings = taken.samples.chunks(workloads.len()).zip(&built).map(|(samples, built)| {
         let second = |round: usize| {
-            let parts = samples.iter().zip(&batches);
-            parts.map(|(s, (rays, _))| s.ns_per_ray()[round] * rays.len() as f64 * 1e-9).sum()
+            let parts = samples.iter().zip(workloads);
+            parts.map(|(s, workload)| s.ns_per_ray()[round] * workload.rays.len() as f64 * 1e-9).sum()
         };
         Timing {
             seconds: (0..runs).map(second).collect(),
-            extrapolated: samples.iter().zip(&batches).any(|(s, (rays, _))| s.rays < rays.len()),
+            extrapolated: samples.iter().zip(workloads).any(|(s, workload)| s.rays < workload.rays.len()),
             build_s: built.build_ns as f64 * 1e-9,
         }
     });

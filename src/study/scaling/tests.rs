@@ -46,7 +46,7 @@ fn noise_widens_the_interval_about_the_true_power() {
 fn a_single_leaf_takes_no_part() {
     let mut cases = family(0.25, 1.0, 0.0);
     for case in cases.iter_mut().filter(|case| case.epoch.triangles == 100) {
-        case.epoch.structures[0].leaves = 1;
+        case.epoch.structures[0].shape.leaves = 1;
         // As slow as brute force would be.
         case.epoch.structures[0].rays[0].ns = vec![1 << 50; 3];
     }

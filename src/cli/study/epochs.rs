@@ -1,4 +1,4 @@
-//! What the studies of curves share on the command line: epochs of scenes, measured one by one and kept in a journal.
+//! What the studies of epochs share on the command line: epochs of scenes, measured one by one and kept in a journal.
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -8,23 +8,16 @@ use crate::cli::progress::Progress;
 use crate::cli::terminal::Terminal;
 use crate::cli::{Verdict, sources};
 use crate::measure::{Provenance, SystemClock, Threads};
-use crate::registry::Registry;
+use crate::registry::{Choice, Registry};
+use crate::report::words::scene_name;
 use crate::scene::{Scene, WorkloadKind};
-use crate::study::epoch::{Epoch, Settings, key, measure, troubles};
+use crate::study::epoch::{Asked, Epoch, Settings, key, measure, troubles};
 use crate::study::journal::Journal;
 use crate::study::{StudyError, documented_defect};
 
+/// Options of all of them.
 #[derive(Clone, Debug, clap::Args)]
 pub struct Options {
-    /// A structure, with keys that differ from their defaults; may be repeated [default: those of the study]
-    #[arg(long, short, value_name = "NAME[:key=value,..]")]
-    pub structure: Vec<String>,
-    /// A kind of rays; may be repeated [default: those of the study]
-    #[arg(long, short, value_name = "KIND")]
-    pub workload: Vec<WorkloadKind>,
-    /// Rays of a workload, at most
-    #[arg(long, value_name = "N", default_value_t = 16384, value_parser = clap::value_parser!(u32).range(1..=1 << 24))]
-    pub rays: u32,
     /// Epochs: in each all structures are built anew; more of them can be added later
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u16).range(1..=1000))]
     pub epochs: u16,
@@ -32,7 +25,7 @@ pub struct Options {
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u16).range(1..=1000))]
     pub runs: u16,
     /// Seconds that the samples of an epoch of a scene may take: slow cases are timed on fewer rays to keep within them
-    #[arg(long, value_name = "SECONDS", default_value_t = 6, value_parser = clap::value_parser!(u32).range(1..=86400))]
+    #[arg(long, value_name = "SECONDS", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..=86400))]
     pub budget: u32,
     /// Threads that build and trace; 1 is the unit of comparison
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=1024))]
@@ -46,7 +39,42 @@ pub struct Options {
     pub exports: Exports,
 }
 
+/// Options of those that compare structures of the user's choice on rays of the user's choice.
+#[derive(Clone, Debug, clap::Args)]
+pub struct Field {
+    /// A structure, with keys that differ from their defaults; may be repeated [default: those of the study]
+    #[arg(long, short, value_name = "NAME[:key=value,..]")]
+    pub structure: Vec<String>,
+    /// A kind of rays; may be repeated [default: those of the study]
+    #[arg(long, short, value_name = "KIND")]
+    pub workload: Vec<WorkloadKind>,
+    /// Rays of a workload, at most
+    #[arg(long, value_name = "N", default_value_t = 16384, value_parser = clap::value_parser!(u32).range(1..=1 << 24))]
+    pub rays: u32,
+    #[command(flatten)]
+    pub options: Options,
+}
+
 impl Options {
+    /// The settings for `structures` and what they are asked.
+    ///
+    /// # Errors
+    /// If the system does not give the threads.
+    pub fn settings(&self, registry: &Registry, structures: Vec<Choice>, asked: Asked) -> anyhow::Result<Settings> {
+        Ok(Settings {
+            structures,
+            guide: sources::guide(registry)?,
+            asked,
+            runs: self.runs.into(),
+            budget_ns: u64::from(self.budget) * 1_000_000_000,
+            check_ns: 4_000_000_000,
+            seed: self.seed,
+            threads: Threads::pinned(self.threads.into()).map_err(anyhow::Error::msg)?,
+        })
+    }
+}
+
+impl Field {
     /// The settings, with `structures` and `workloads` where none are named.
     ///
     /// # Errors
@@ -59,17 +87,8 @@ impl Options {
     ) -> anyhow::Result<Settings> {
         let own: Vec<String> = structures.iter().map(|&name| name.into()).collect();
         let named = if self.structure.is_empty() { &own } else { &self.structure };
-        Ok(Settings {
-            structures: sources::structures(registry, named)?,
-            guide: sources::guide(registry)?,
-            workloads: if self.workload.is_empty() { workloads.into() } else { self.workload.clone() },
-            rays: self.rays,
-            runs: self.runs.into(),
-            budget_ns: u64::from(self.budget) * 1_000_000_000,
-            check_ns: 4_000_000_000,
-            seed: self.seed,
-            threads: Threads::pinned(self.threads.into()).map_err(anyhow::Error::msg)?,
-        })
+        let kinds = if self.workload.is_empty() { workloads.into() } else { self.workload.clone() };
+        self.options.settings(registry, sources::structures(registry, named)?, Asked::Kinds(kinds, self.rays))
     }
 }
 
@@ -102,7 +121,8 @@ pub fn cases<C: Clone + Serialize + DeserializeOwned>(
             continue;
         }
         let scene = &scenes[*s];
-        progress.scene(&format!("epoch {} of {}: {}", e + 1, options.epochs, scene.name));
+        let name = scene_name(&scene.name, !scene.stand_ins.is_empty());
+        progress.scene(&format!("epoch {} of {}: {name}", e + 1, options.epochs));
         let first = journal.get(&key(scene, 0)).map(&epoch_of);
         let epoch = measure(scene, settings, *e, first, &clock, &mut |stage| progress.stage(&stage))?;
         journal.append(key_of_case, wrap(*s, epoch)?)?;
@@ -112,6 +132,30 @@ pub fn cases<C: Clone + Serialize + DeserializeOwned>(
     // The journal may hold other scenes as well: those asked for are shown.
     let cases = plan.iter().filter_map(|(.., key)| journal.get(key).cloned()).collect();
     Ok((cases, journal.provenance().line()))
+}
+
+/// As [`cases`], of a study that is nothing without all of its structures: nothing once one of them has answered wrongly, which is said.
+///
+/// # Errors
+/// As [`cases`], and if a structure is missing.
+pub fn measured(
+    name: &str,
+    options: &Options,
+    settings: &Settings,
+    scenes: &[Scene],
+    terminal: &Terminal,
+) -> anyhow::Result<Option<(Vec<Epoch>, String)>> {
+    let whole = |_, epoch: Epoch| epoch.is_whole().map(|()| epoch);
+    match cases(name, options, settings, scenes, terminal, whole, |epoch: &Epoch| epoch) {
+        Ok(cases) => Ok(Some(cases)),
+        Err(error) => match error.downcast_ref::<StudyError>() {
+            Some(wrong) if wrong.is_wrong_answer() => {
+                eprintln!("error: {error}");
+                Ok(None)
+            }
+            _ => Err(error),
+        },
+    }
 }
 
 /// What to say of structures that took no part, and what they make of the run.

@@ -1,0 +1,43 @@
+//! Words that tables, studies and pages share.
+
+use super::number::figures;
+use crate::measure::Interval;
+
+/// A scene as keys, tables and figures name it: they say where a mesh of our own stands in for a real one.
+pub fn scene_name(scene: &str, stand_in: bool) -> String {
+    if stand_in { format!("{scene} (stand-in)") } else { scene.into() }
+}
+
+/// `20.6 [19.2, 21.4]`; what does not vary has no interval.
+pub fn interval(x: Interval) -> String {
+    if x.low == x.high { figures(x.estimate) } else { format!("{} {}", figures(x.estimate), ends(x)) }
+}
+
+/// `[19.2, 21.4]`.
+pub fn ends(x: Interval) -> String {
+    format!("[{}, {}]", figures(x.low), figures(x.high))
+}
+
+/// `A`, `A and B`, `A, B and C`.
+pub fn listed<S: AsRef<str>>(words: &[S]) -> String {
+    let words: Vec<&str> = words.iter().map(AsRef::as_ref).collect();
+    match words.split_last() {
+        None => String::new(),
+        Some((only, [])) => (*only).into(),
+        Some((last, rest)) => format!("{} and {last}", rest.join(", ")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lists_and_intervals_read_as_text() {
+        assert_eq!([listed::<&str>(&[]), listed(&["a"]), listed(&["a", "b", "c"])], ["", "a", "a, b and c"]);
+        let spread = Interval { estimate: 2.0, low: 1.5, high: 2.5 };
+        assert_eq!(interval(spread), "2.00 [1.50, 2.50]");
+        assert_eq!(interval(Interval { low: 2.0, high: 2.0, ..spread }), "2.00");
+        assert_eq!(scene_name("Dragon", true), "Dragon (stand-in)");
+    }
+}

@@ -1,0 +1,51 @@
+//! What is asked of structures.
+
+use crate::accel::DynAccel;
+use crate::scene::{Sampling, Scene, Workload, WorkloadKind};
+use crate::study::Stage;
+use crate::study::replicate::picture::Picture;
+
+/// The rays of a study.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Asked {
+    /// These kinds of rays about the scene, of each so many at most.
+    Kinds(Vec<WorkloadKind>, u32),
+    /// All rays of the picture that the source report draws.
+    Picture,
+}
+
+impl Asked {
+    /// The same rays for all structures; those that start on a surface start where `guide` finds it. What a scene has no rays of is
+    /// left out.
+    pub fn workloads(
+        &self,
+        scene: &Scene,
+        seed: u64,
+        guide: &dyn DynAccel,
+        progress: &mut dyn FnMut(Stage),
+    ) -> Vec<Workload> {
+        let Self::Kinds(kinds, rays) = self else {
+            progress(Stage::Rays("image"));
+            return Picture::whole(scene, guide).workloads;
+        };
+        let sampling = Sampling::about(scene, *rays, seed);
+        let mut workloads = vec![];
+        for &kind in kinds.iter().filter(|&&kind| kind != WorkloadKind::Mirror || scene.has_mirrors()) {
+            progress(Stage::Rays(kind.name()));
+            workloads.push(Workload::new(scene, kind, &sampling, guide));
+        }
+        workloads.retain(|workload| !workload.rays.is_empty());
+        workloads
+    }
+
+    /// As journals keep it.
+    pub(super) fn words(&self) -> String {
+        match self {
+            Self::Kinds(kinds, rays) => {
+                let names: Vec<&str> = kinds.iter().map(|kind| kind.name()).collect();
+                format!("{}, at most {rays}", names.join(" "))
+            }
+            Self::Picture => "picture".into(),
+        }
+    }
+}

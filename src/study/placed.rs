@@ -1,0 +1,41 @@
+//! The structures of an epoch.
+
+use super::built::Built;
+use super::{Stage, StudyError};
+use crate::measure::{Clock, RandomOrder, Threads};
+use crate::registry::Choice;
+use crate::scene::Scene;
+
+/// Structures built in an order, and between blocks of memory, that are this epoch's own: where a structure happens to lie can change
+/// its speed by some percent, and only samples from several places say by how much.
+pub(super) struct Placed {
+    /// One for each choice, in their order.
+    pub built: Vec<Result<Built, StudyError>>,
+    /// Kept as long as the structures.
+    _blocks: Vec<Vec<u8>>,
+}
+
+impl Placed {
+    /// Builds every one of `choices` over `scene`.
+    pub fn new<'a>(
+        choices: impl IntoIterator<Item = &'a Choice>,
+        scene: &Scene,
+        threads: &Threads,
+        clock: &dyn Clock,
+        seed: u64,
+        progress: &mut dyn FnMut(Stage),
+    ) -> Self {
+        let choices: Vec<&Choice> = choices.into_iter().collect();
+        let mut random = RandomOrder::new(seed);
+        let mut built: Vec<Option<Result<Built, StudyError>>> = choices.iter().map(|_| None).collect();
+        let mut blocks = vec![];
+        for i in random.shuffled(choices.len()) {
+            progress(Stage::Build(&choices[i].label));
+            // Small blocks move what follows on the heap, large ones move mapped pages.
+            blocks.push(vec![0; 16 * (1 + random.below(1 << 12))]);
+            blocks.push(vec![0; (256 << 10) + 4096 * random.below(64)]);
+            built[i] = Some(Built::new(choices[i], scene, threads, clock));
+        }
+        Self { built: built.into_iter().map(|one| one.expect("all are built")).collect(), _blocks: blocks }
+    }
+}

@@ -1,0 +1,87 @@
+//! Samples of many structures on many workloads: the one place where studies take time.
+
+use super::StudyError;
+use super::built::Built;
+use super::guarded::Guarded;
+use crate::measure::{Clock, Pass, Plan, Samples, ThreadClock, Threads, Timed, take, take_again};
+use crate::scene::{Scene, Workload};
+
+/// Passes of a case besides its samples, in each epoch: what the search for the number of rays and a warm-up take as a rule.
+const OTHER_PASSES: usize = 3;
+
+/// What a sample may take, nanoseconds, when `cases` with `runs` samples each are to be taken in `budget_ns`.
+pub(super) fn sample_budget_ns(budget_ns: u64, cases: usize, runs: usize) -> u64 {
+    (budget_ns / (cases * (runs + OTHER_PASSES)).max(1) as u64).max(1)
+}
+
+/// What is timed together: a structure and a workload, by their numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Case {
+    pub structure: usize,
+    pub workload: usize,
+}
+
+impl Case {
+    /// Every structure on every workload, structure by structure.
+    pub fn all(structures: usize, workloads: usize) -> Vec<Self> {
+        (0..structures).flat_map(|structure| (0..workloads).map(move |workload| Self { structure, workload })).collect()
+    }
+}
+
+/// What samples are taken of, and how.
+pub(super) struct Timing<'a> {
+    pub scene: &'a Scene,
+    pub built: &'a [Built],
+    /// None of them empty.
+    pub workloads: &'a [Workload],
+    pub threads: &'a Threads,
+    pub clock: &'a dyn Clock,
+}
+
+/// The samples of all cases, in their order.
+pub(super) struct Taken {
+    pub samples: Vec<Samples>,
+    /// Which of them panicked: their samples mean nothing.
+    pub panicked: Vec<bool>,
+}
+
+impl Timing<'_> {
+    /// Takes the samples of `cases`, interleaved, on a pinned thread where there is one. After a first epoch its samples are given
+    /// as `before`: more are added, on as many rays.
+    ///
+    /// # Errors
+    /// If a structure answers the same rays differently.
+    pub fn take(
+        &self,
+        cases: &[Case],
+        plan: &Plan,
+        before: Option<Vec<Samples>>,
+        progress: &mut dyn FnMut(usize),
+    ) -> Result<Taken, StudyError> {
+        let pass = |case: &Case| {
+            let workload = &self.workloads[case.workload];
+            let accel = self.built[case.structure].accel.as_ref();
+            let (pass, panicked) = Guarded::new(Pass::new(accel, &workload.rays, workload.query, self.threads));
+            (Box::new(pass) as Box<dyn Timed>, panicked)
+        };
+        let (mut passes, panicked): (Vec<_>, Vec<_>) = cases.iter().map(pass).collect();
+        let _pin = self.threads.pin();
+        // What others take of the core is no time of a pass.
+        let own = ThreadClock::of(self.threads);
+        let clock = own.as_ref().map_or(self.clock, |clock| clock as &dyn Clock);
+        let samples = match before {
+            None => take(clock, &mut passes, plan, progress),
+            Some(mut samples) => take_again(clock, &mut passes, plan, &mut samples, progress).map(|()| samples),
+        };
+        let samples = samples.map_err(|cause| {
+            let Case { structure, workload } = cases[cause.case];
+            StudyError::Unsteady {
+                structure: self.built[structure].choice.label.clone(),
+                scene: self.scene.name.clone(),
+                rays: self.workloads[workload].name.clone(),
+                cause,
+            }
+        })?;
+        Ok(Taken { samples, panicked: panicked.iter().map(|panicked| panicked.get()).collect() })
+    }
+}
