@@ -1,7 +1,7 @@
 //! `study attribution`.
 
 use super::epochs::{Options, measured};
-use super::meshes::{self, Meshes};
+use super::meshes::Scenes;
 use crate::cli::Verdict;
 use crate::cli::terminal::Terminal;
 use crate::registry::Registry;
@@ -12,12 +12,8 @@ use crate::study::epoch::Asked;
 
 #[derive(Clone, Debug, clap::Args)]
 pub struct Args {
-    /// Built-in scenes and mesh files (.obj, .ply, .gltf, .glb); all built-in scenes if none is named
-    #[arg(value_name = "SCENE|FILE")]
-    pub scenes: Vec<String>,
-    /// Meshes of the built-in scenes
-    #[arg(long, value_name = "WHICH", value_enum, default_value_t)]
-    pub meshes: Meshes,
+    #[command(flatten)]
+    pub scenes: Scenes,
     /// The kind of rays
     #[arg(long, short, value_name = "KIND", default_value = "primary")]
     pub workload: WorkloadKind,
@@ -36,19 +32,15 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     let files = args.options.exports.check()?;
     let asked = Asked::Kinds(vec![args.workload], args.rays);
     let settings = args.options.settings(registry, structures(registry, &args.test)?, asked)?;
-    let scenes = meshes::scenes(&args.scenes, args.meshes)?;
+    let scenes = args.scenes.read()?;
     let Some((epochs, foot)) = measured(NAME, &args.options, &settings, &scenes, terminal)? else {
         return Ok(Verdict::Wrong);
     };
     let results = result(&epochs, args.options.seed);
     let mut shown: Vec<Table> = results.iter().flat_map(tables).collect();
     let mut answer = headlines(&results);
-    answer.notes.extend(meshes::note(&scenes, args.meshes));
+    answer.notes.extend(args.scenes.note(&scenes));
     shown.push(answer);
-    for table in &shown {
-        terminal.print_table(table)?;
-    }
-    terminal.print_lines(std::slice::from_ref(&foot))?;
-    files.write(&results, || to_tidy_csv(&rows(&results)), &shown, &[foot])?;
+    files.tell(terminal, &results, || to_tidy_csv(&rows(&results)), &shown, &[foot])?;
     Ok(Verdict::Right)
 }

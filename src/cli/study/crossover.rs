@@ -47,12 +47,8 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     let (cases, provenance) = cases(NAME, options, &settings, &scenes, terminal, wrap, |case: &Case| &case.epoch)?;
     let races = result(&cases, options.seed);
     let shown = tables(&races);
-    for table in &shown {
-        terminal.print_table(table)?;
-    }
     let (mut foot, verdict) = verdict(cases.iter().map(|case| &case.epoch));
     foot.push(provenance);
-    terminal.print_lines(&foot)?;
-    files.write(&races, || to_tidy_csv(&rows(&races)), &shown, &foot)?;
+    files.tell(terminal, &races, || to_tidy_csv(&rows(&races)), &shown, &foot)?;
     Ok(verdict)
 }

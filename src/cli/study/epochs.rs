@@ -4,6 +4,7 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use super::folder::{Exports, Folder};
+use super::meshes::Scenes;
 use crate::cli::progress::Progress;
 use crate::cli::terminal::Terminal;
 use crate::cli::{Verdict, sources};
@@ -74,7 +75,40 @@ impl Options {
     }
 }
 
+/// A study of a field of structures, as it is unless the user says otherwise.
+pub struct Study<'a> {
+    pub name: &'a str,
+    pub structures: &'a [&'a str],
+    pub workloads: &'a [WorkloadKind],
+    /// What its tables mean.
+    pub legend: &'a [&'a str],
+}
+
 impl Field {
+    /// The epochs of a study on scenes, what to say below its tables, and what the run comes to.
+    ///
+    /// # Errors
+    /// As [`cases`], and if a structure or a scene is not known.
+    pub fn on_scenes(
+        &self,
+        study: &Study,
+        registry: &Registry,
+        scenes: &Scenes,
+        terminal: &Terminal,
+    ) -> anyhow::Result<(Vec<Epoch>, Vec<String>, Verdict)> {
+        let settings = self.settings(registry, study.structures, study.workloads)?;
+        let read = scenes.read()?;
+        let whole = |_, epoch| Ok(epoch);
+        let (epochs, provenance) =
+            cases(study.name, &self.options, &settings, &read, terminal, whole, |epoch: &Epoch| epoch)?;
+        let (troubles, verdict) = verdict(&epochs);
+        let mut foot: Vec<String> = study.legend.iter().map(|&line| line.into()).collect();
+        foot.extend(troubles);
+        foot.extend(scenes.note(&read));
+        foot.push(provenance);
+        Ok((epochs, foot, verdict))
+    }
+
     /// The settings, with `structures` and `workloads` where none are named.
     ///
     /// # Errors

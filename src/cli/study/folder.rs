@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use crate::cli::terminal::Terminal;
 use crate::measure::Provenance;
 use crate::output::OutputFile;
 use crate::report::{Table, to_json, to_markdown};
@@ -73,17 +74,22 @@ impl Exports {
 }
 
 impl Files {
-    /// Writes those that were asked for; `csv` is a whole file.
+    /// Prints `tables` and what is to be said below them, and writes the files that were asked for; `csv` is a whole one.
     ///
     /// # Errors
     /// If one cannot be written.
-    pub fn write(
+    pub fn tell(
         &self,
+        terminal: &Terminal,
         result: &impl serde::Serialize,
         csv: impl FnOnce() -> Vec<u8>,
         tables: &[Table],
         foot: &[String],
     ) -> anyhow::Result<()> {
+        for table in tables {
+            terminal.print_table(table)?;
+        }
+        terminal.print_lines(foot)?;
         if let Some(file) = &self.json {
             file.write(&to_json(result))?;
         }

@@ -42,10 +42,6 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     };
     let result = result(&epochs, args.options.seed);
     let shown = tables(&result);
-    for table in &shown {
-        terminal.print_table(table)?;
-    }
-    terminal.print_lines(std::slice::from_ref(&foot))?;
-    files.write(&result, || to_tidy_csv(rows(&result)), &shown, &[foot])?;
+    files.tell(terminal, &result, || to_tidy_csv(rows(&result)), &shown, &[foot])?;
     Ok(Verdict::Right)
 }

@@ -44,7 +44,6 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     let files = args.exports.check()?;
     let threads = Threads::pinned(1).map_err(anyhow::Error::msg)?;
     let provenance = Provenance::capture(1);
-    let foot = provenance.line();
     let settings = serde_json::Map::new();
     // Counts alone: no machine changes them, so that a journal of any build can be read.
     let mut journal: Journal<Case> = args.folder.journal(NAME, &settings, provenance.clone())?;
@@ -64,14 +63,13 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     inputs.counted = journal.cases().to_vec();
     let predictions = result(&inputs);
     let shown = [table(&predictions)];
-    terminal.print_table(&shown[0])?;
     let rows: Vec<Row> = predictions
         .iter()
         .flat_map(|p| {
             p.findings.iter().map(|finding| Row { prediction: p.number, verdict: p.verdict.words(), finding })
         })
         .collect();
-    files.write(&predictions, || to_tidy_csv(&rows), &shown, &[foot])?;
+    files.tell(terminal, &predictions, || to_tidy_csv(&rows), &shown, &[])?;
     let file = File { schema: 1, predictions: &predictions, provenance };
     OutputFile::check(&args.folder.dir.join("predictions.json"))?.write(&to_json(&file))?;
     Ok(Verdict::Right)

@@ -33,12 +33,8 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     let (cases, provenance) = cases(NAME, options, &settings, &scenes, terminal, wrap, |case: &Case| &case.epoch)?;
     let growths = result(&cases, options.seed);
     let shown = tables(&growths);
-    for table in &shown {
-        terminal.print_table(table)?;
-    }
     let (mut foot, verdict) = verdict(cases.iter().map(|case| &case.epoch));
     foot.push(provenance);
-    terminal.print_lines(&foot)?;
-    files.write(&growths, || to_tidy_csv(&rows(&growths)), &shown, &foot)?;
+    files.tell(terminal, &growths, || to_tidy_csv(&rows(&growths)), &shown, &foot)?;
     Ok(verdict)
 }

@@ -2,16 +2,14 @@
 
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Stdio};
 
 use tempfile::TempDir;
 
+use super::command::{command, stderr, stdout};
+
 fn sahara(folder: &Path, args: &[&str]) -> (Option<i32>, String, String) {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_sahara"));
-    command.args(args).current_dir(folder).env_remove("SAHARA_DATA").stdin(Stdio::null());
-    let output = command.output().unwrap();
-    let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).unwrap();
-    (output.status.code(), text(&output.stdout), text(&output.stderr))
+    let output = command(args).current_dir(folder).output().unwrap();
+    (output.status.code(), stdout(&output), stderr(&output))
 }
 
 /// What the command prints; it must succeed.

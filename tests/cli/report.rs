@@ -2,33 +2,10 @@
 
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output, Stdio};
 
 use tempfile::TempDir;
 
-fn sahara(args: &[&str]) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_sahara"));
-    command.args(args).arg("--quiet").env_remove("SAHARA_DATA").env_remove("NO_COLOR").stdin(Stdio::null());
-    command.output().expect("the command runs")
-}
-
-/// What a command that succeeds prints.
-#[track_caller]
-fn prints(args: &[&str]) -> String {
-    let output = sahara(args);
-    assert!(output.status.success(), "{args:?}: {}", String::from_utf8_lossy(&output.stderr));
-    String::from_utf8(output.stdout).expect("output is UTF-8")
-}
-
-/// The command fails in one sentence that holds all of `parts`.
-#[track_caller]
-fn refuses(args: &[&str], parts: &[&str]) {
-    let output = sahara(args);
-    let message = String::from_utf8(output.stderr).expect("messages are UTF-8");
-    assert_eq!(output.status.code(), Some(1), "{args:?}: {message}");
-    assert!(message.starts_with("error: ") && message.lines().count() == 1, "{args:?}: {message}");
-    assert!(output.stdout.is_empty() && parts.iter().all(|part| message.contains(part)), "{args:?}: {message}");
-}
+use super::command::{prints, refuses_in_a_line};
 
 fn text(path: &Path) -> &str {
     path.to_str().expect("the path is UTF-8")
@@ -98,16 +75,16 @@ fn what_cannot_be_reported_leaves_everything_as_it_was() {
     let (run, output) = (text(runs.path()), place.path().join("notes"));
     fs::create_dir(&output).unwrap();
     fs::write(output.join("mine.txt"), "mine").unwrap();
-    refuses(&["report", run, "-o", text(&output)], &["notes", "mine.txt", "another folder"]);
-    refuses(&["report", run, "-o", text(&output.join("mine.txt"))], &["mine.txt", "file"]);
+    refuses_in_a_line(&["report", run, "-o", text(&output)], &["notes", "mine.txt", "another folder"]);
+    refuses_in_a_line(&["report", run, "-o", text(&output.join("mine.txt"))], &["mine.txt", "file"]);
     assert_eq!(fs::read_to_string(output.join("mine.txt")).unwrap(), "mine");
 
     let new = place.path().join("new");
     let bytes = fs::read(runs.path().join("compare.json")).unwrap();
     fs::write(runs.path().join("torn.json"), &bytes[..bytes.len() / 2]).unwrap();
-    refuses(&["report", run, "-o", text(&new)], &["torn.json", "torn"]);
-    refuses(&["report", text(&place.path().join("none")), "-o", text(&new)], &["none"]);
+    refuses_in_a_line(&["report", run, "-o", text(&new)], &["torn.json", "torn"]);
+    refuses_in_a_line(&["report", text(&place.path().join("none")), "-o", text(&new)], &["none"]);
     let empty = TempDir::new().unwrap();
-    refuses(&["report", text(empty.path()), "-o", text(&new)], &["no run", "sahara study all"]);
+    refuses_in_a_line(&["report", text(empty.path()), "-o", text(&new)], &["no run", "sahara study all"]);
     assert_eq!(fs::read_dir(place.path()).unwrap().count(), 1);
 }

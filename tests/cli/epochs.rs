@@ -1,34 +1,11 @@
 //! `counts` and the studies of curves from outside: what they print, keep and refuse.
 
 use std::path::Path;
-use std::process::{Command, Output, Stdio};
 
 use serde_json::Value;
 use tempfile::TempDir;
 
-fn sahara(args: &[&str]) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_sahara"));
-    command.args(args).arg("--quiet").env_remove("SAHARA_DATA").env_remove("NO_COLOR").stdin(Stdio::null());
-    command.output().expect("the command runs")
-}
-
-/// What a command that succeeds prints.
-#[track_caller]
-fn prints(args: &[&str]) -> String {
-    let output = sahara(args);
-    assert!(output.status.success(), "{args:?}: {}", String::from_utf8_lossy(&output.stderr));
-    String::from_utf8(output.stdout).expect("output is UTF-8")
-}
-
-/// The command fails in one sentence that holds all of `parts`.
-#[track_caller]
-fn refuses(args: &[&str], parts: &[&str]) {
-    let output = sahara(args);
-    let message = String::from_utf8(output.stderr).expect("messages are UTF-8");
-    assert_eq!(output.status.code(), Some(1), "{args:?}: {message}");
-    assert!(message.starts_with("error: ") && !message.contains("panicked"), "{args:?}: {message}");
-    assert!(output.stdout.is_empty() && parts.iter().all(|part| message.contains(part)), "{args:?}: {message}");
-}
+use super::command::{prints, refuses};
 
 fn json(path: &Path) -> Value {
     serde_json::from_slice(&std::fs::read(path).unwrap()).unwrap()

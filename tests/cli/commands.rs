@@ -1,49 +1,12 @@
-//! The command from outside: exit status, messages, files.
+//! Every command: statuses, messages, files.
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
+use std::process::Stdio;
 
 use tempfile::TempDir;
 
-const RIGHT: i32 = 0;
-const USAGE: i32 = 1;
-const WRONG: i32 = 2;
-
-fn sahara(args: &[&str]) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_sahara"));
-    command.args(args).env_remove("SAHARA_DATA").env_remove("NO_COLOR").stdin(Stdio::null());
-    command.output().expect("the command runs")
-}
-
-fn stdout(output: &Output) -> String {
-    String::from_utf8(output.stdout.clone()).expect("output is UTF-8")
-}
-
-fn stderr(output: &Output) -> String {
-    String::from_utf8(output.stderr.clone()).expect("messages are UTF-8")
-}
-
-/// The command fails with `status`, prints nothing as a result, and one message that holds all of `parts`.
-#[track_caller]
-fn refuses(args: &[&str], parts: &[&str]) {
-    let output = sahara(args);
-    let message = stderr(&output);
-    assert_eq!(output.status.code(), Some(USAGE), "{args:?}: {message}");
-    assert!(output.stdout.is_empty(), "{args:?} prints {}", stdout(&output));
-    assert!(message.starts_with("error: "), "{args:?}: {message}");
-    assert!(!message.contains("panicked") && !message.contains("backtrace"), "{args:?}: {message}");
-    for part in parts {
-        assert!(message.contains(part), "{args:?}: {part:?} is not in {message:?}");
-    }
-}
-
-/// As [`refuses`], in one line.
-#[track_caller]
-fn refuses_in_a_line(args: &[&str], parts: &[&str]) {
-    refuses(args, parts);
-    assert_eq!(stderr(&sahara(args)).lines().count(), 1);
-}
+use super::command::{RIGHT, WRONG, command, refuses, refuses_in_a_line, sahara, stderr, stdout};
 
 fn write(directory: &TempDir, name: &str, text: &str) -> String {
     let path = directory.path().join(name);
@@ -305,12 +268,7 @@ fn colour_is_as_asked() {
 
 #[test]
 fn a_reader_that_goes_away_is_no_error() {
-    let mut child = Command::new(env!("CARGO_BIN_EXE_sahara"))
-        .args(small("cube"))
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
+    let mut child = command(&small("cube")).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
     drop(child.stdout.take());
     let output = child.wait_with_output().unwrap();
     assert_eq!(output.status.code(), Some(RIGHT), "{}", stderr(&output));

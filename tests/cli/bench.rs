@@ -3,26 +3,12 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
+use std::process::Output;
 
 use serde_json::Value;
 use tempfile::TempDir;
 
-const RIGHT: i32 = 0;
-const USAGE: i32 = 1;
-const WRONG: i32 = 2;
-const REGRESSION: i32 = 3;
-const NOISE: i32 = 4;
-
-fn sahara(args: &[&str]) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_sahara"));
-    command.args(args).env_remove("SAHARA_DATA").stdin(Stdio::null());
-    command.output().expect("the command runs")
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8(bytes.to_vec()).expect("output is UTF-8")
-}
+use super::command::{NOISE, REGRESSION, RIGHT, USAGE, WRONG, sahara, stderr, stdout};
 
 /// A folder of runs with the baseline `old`.
 struct Kept {
@@ -33,8 +19,8 @@ impl Kept {
     fn new() -> Self {
         let kept = Self { folder: tempfile::tempdir().unwrap() };
         let output = kept.bench(&["--save-baseline", "old"]);
-        assert_eq!(output.status.code(), Some(RIGHT), "{}", text(&output.stderr));
-        assert!(text(&output.stdout).contains("Kept as baseline old"), "{}", text(&output.stdout));
+        assert_eq!(output.status.code(), Some(RIGHT), "{}", stderr(&output));
+        assert!(stdout(&output).contains("Kept as baseline old"), "{}", stdout(&output));
         kept
     }
 
@@ -60,7 +46,7 @@ impl Kept {
     /// Holds a new run against a baseline; status, and what is said.
     fn against(&self, name: &str, more: &[&str]) -> (i32, String) {
         let output = self.bench(&[&["--baseline", name], more].concat());
-        (output.status.code().unwrap(), text(&output.stdout) + &text(&output.stderr))
+        (output.status.code().unwrap(), stdout(&output) + &stderr(&output))
     }
 }
 
@@ -162,7 +148,7 @@ fn baselines_that_are_not_there_are_named_with_those_that_are() {
     says("old", &["--fail-on-regression", "-1"], &["-1"]);
     says("old", &["--fail-on-regression", "much"], &["much"]);
     let alone = kept.bench(&["--fail-on-regression", "5"]);
-    assert!(alone.status.code() == Some(USAGE) && text(&alone.stderr).contains("--baseline"));
+    assert!(alone.status.code() == Some(USAGE) && stderr(&alone).contains("--baseline"));
 }
 
 #[test]
@@ -171,7 +157,7 @@ fn exported_runs_are_compared() {
     let path = |name: &str| kept.path(name).to_str().unwrap().to_owned();
     let compare = |old: &str, new: &str, more: &[&str]| {
         let output = sahara(&[&["compare-runs", &path(old), &path(new)], more].concat());
-        (output.status.code().unwrap(), text(&output.stdout) + &text(&output.stderr))
+        (output.status.code().unwrap(), stdout(&output) + &stderr(&output))
     };
     let json = kept.folder.path().join("comparison.json");
     let (status, said) = compare("old", "old", &["--export-json", json.to_str().unwrap()]);

@@ -8,14 +8,15 @@ use std::time::{Duration, Instant};
 
 use serde_json::Value;
 
+use super::command::command;
+
 const EPOCHS: usize = 3;
 
 /// A study of seconds, into the folder `dir`.
 fn study(dir: &Path, rays: &str) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_sahara"));
-    command.args(["study", "attribution", "cube", "--runs", "1", "--budget", "1", "--quiet"]);
+    let mut command = command(&["study", "attribution", "cube", "--runs", "1", "--budget", "1", "--quiet"]);
     command.args(["--epochs", &EPOCHS.to_string(), "--rays", rays, "--dir"]).arg(dir);
-    command.env_remove("SAHARA_DATA").stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    command.stdout(Stdio::piped()).stderr(Stdio::piped());
     command
 }
 
@@ -47,16 +48,11 @@ fn counts(dir: &Path) -> BTreeMap<String, Value> {
     let mut cases = BTreeMap::new();
     for line in text.lines().skip(1) {
         let mut line: Value = serde_json::from_str(line).unwrap();
-        let trees = line["case"]["epoch"]["trees"].as_array_mut().unwrap();
-        for tree in trees {
-            tree["build_ns"] = Value::Null;
-            let times = tree["times"][0].as_object_mut().unwrap();
-            let samples = times.remove("ns").unwrap();
-            times.insert("samples".into(), samples.as_array().unwrap().len().into());
-        }
-        // How many rays a second of brute force checks is the clock's as well.
-        for counted in line["case"]["epoch"]["counts"].as_array_mut().into_iter().flatten() {
-            assert!(counted["checked_rays"].take().as_u64().unwrap() > 0);
+        for structure in line["case"]["structures"].as_array_mut().unwrap() {
+            structure["build_ns"] = Value::Null;
+            let rays = structure["rays"][0].as_object_mut().unwrap();
+            let samples = rays.remove("ns").unwrap();
+            rays.insert("samples".into(), samples.as_array().unwrap().len().into());
         }
         let key = line["key"].as_str().unwrap().to_owned();
         assert!(cases.insert(key.clone(), line).is_none(), "{key} is there twice");

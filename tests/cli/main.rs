@@ -1,0 +1,9 @@
+//! The command from outside: exit statuses, messages, files.
+
+mod bench;
+mod command;
+mod commands;
+mod epochs;
+mod rays;
+mod report;
+mod resume;
