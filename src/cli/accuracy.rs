@@ -8,7 +8,7 @@ use super::progress::Progress;
 use super::rays::{RaySource, replayed};
 use super::terminal::Terminal;
 use super::{Verdict, sources};
-use crate::measure::{Provenance, SystemClock};
+use crate::measure::SystemClock;
 use crate::registry::{Choice, Registry};
 use crate::report::number::count;
 use crate::report::plot::Format;
@@ -104,7 +104,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     }
     progress.finish();
     let mut foot = legend();
-    foot.push(Provenance::capture(1).line());
+    foot.extend(records.first().map(|record| record.provenance.line()));
     terminal.print_lines(&foot)?;
 
     if let Some(file) = json {

@@ -15,7 +15,7 @@ use crate::scene::WorkloadKind;
 use crate::study::bench::{Bench, SCENES, against, new_baseline_path, read_baseline, verdict};
 use crate::study::compare::{Compared, Settings, scene_table};
 use crate::study::regression::{Comparison, tables};
-use crate::study::{BRUTE_FORCE, bench, documented_defect};
+use crate::study::{BRUTE_FORCE, Refused, bench, documented_defect};
 
 #[derive(Debug, clap::Args)]
 pub struct Args {
@@ -134,8 +134,9 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
             break (run, comparison);
         }
     };
+    anyhow::ensure!(!run.records.is_empty(), "nothing was measured: these scenes have no rays of the kinds asked for");
     progress.scene_done();
-    progress.warn(run.records.first().iter().flat_map(|record| &record.provenance.warnings));
+    progress.warn(run.records.iter().flat_map(|record| &record.provenance.warnings));
     progress.finish();
 
     print(&run, comparison.as_ref(), &settings, terminal)?;
@@ -170,7 +171,8 @@ fn print(
             scenes.dedup();
             for scene in scenes {
                 let of: Vec<Record> = run.records.iter().filter(|record| record.scene == scene).cloned().collect();
-                terminal.print_table(&scene_table(&of, &run.refused, &[]))?;
+                let refused: Vec<Refused> = run.refused.iter().filter(|r| r.scene == scene).cloned().collect();
+                terminal.print_table(&scene_table(&of, &refused, &[]))?;
             }
         }
     }

@@ -17,7 +17,27 @@ pub fn scenes(named: &[String]) -> anyhow::Result<Vec<Scene>> {
     if named.is_empty() {
         return BUILTIN.iter().map(|builtin| scene(builtin.name)).collect();
     }
-    named.iter().map(|name| scene(name)).collect()
+    let scenes = named.iter().map(|name| scene(name)).collect::<anyhow::Result<Vec<Scene>>>()?;
+    distinct(&scenes)?;
+    Ok(scenes)
+}
+
+/// Refuses different scenes of one name: no table could tell them apart.
+///
+/// # Errors
+/// If there are two, naming them.
+pub fn distinct(scenes: &[Scene]) -> anyhow::Result<()> {
+    for (i, scene) in scenes.iter().enumerate() {
+        let same =
+            |other: &&Scene| other.name == scene.name && other.stand_ins.is_empty() == scene.stand_ins.is_empty();
+        if scenes[..i].iter().filter(same).any(|other| other.hash() != scene.hash()) {
+            anyhow::bail!(
+                "two different scenes are called {}: tables could not tell them apart; rename a file",
+                scene.name
+            );
+        }
+    }
+    Ok(())
 }
 
 /// A built-in scene by its name in any case, a scene file, or a scene around a mesh file. What is neither a known name nor

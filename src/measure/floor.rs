@@ -29,6 +29,14 @@ impl NoiseFloor {
         sizes.get(rank.checked_sub(1)?).copied()
     }
 
+    /// What the mean of as many cells of two builds may differ by, a logarithm: were the luck of each cell its own, that of their mean
+    /// would be smaller by the root of their number; what they share, the mean of the A/A ratios shows.
+    pub fn log_of_mean(&self) -> Option<f64> {
+        let n = self.ratios.len() as f64;
+        let mean = self.ratios.iter().map(|ratio| libm::log(ratio.estimate)).sum::<f64>() / n;
+        Some(f64::max(self.log()? / libm::sqrt(n), libm::fabs(mean)))
+    }
+
     /// How many of the ratios' intervals hold 1.
     pub fn holding_one(&self) -> usize {
         self.ratios.iter().filter(|ratio| ratio.low <= 1.0 && 1.0 <= ratio.high).count()
@@ -88,6 +96,10 @@ mod tests {
         let hundred: Vec<f64> = (1..=100).map(|i| f64::from(i) * 1e-3).collect();
         assert!((sized(&hundred).log().unwrap() - 0.095).abs() < 1e-12);
         assert_eq!(sized(&hundred).holding_one(), 100);
+        // Of luck that cells share nothing cancels, of their own much does.
+        assert!((sized(&[0.02; 4]).log_of_mean().unwrap() - 0.02).abs() < 1e-12);
+        assert!((sized(&[0.02, -0.02, 0.02, -0.02]).log_of_mean().unwrap() - 0.01).abs() < 1e-12);
+        assert_eq!(sized(&[]).log_of_mean(), None);
     }
 
     #[test]

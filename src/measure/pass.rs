@@ -1,6 +1,7 @@
 //! One structure answering one batch of rays.
 
 use std::borrow::Cow;
+use std::sync::Arc;
 
 use rayon::prelude::*;
 
@@ -9,9 +10,10 @@ use super::{RandomOrder, Timed, machine};
 use crate::accel::{DynAccel, Loaded, Query};
 use crate::geometry::{Hit, PrimId, Ray};
 
-/// The threads that build and trace.
+/// The threads that build and trace; a clone is the same threads.
+#[derive(Clone)]
 pub struct Threads {
-    pool: rayon::ThreadPool,
+    pool: Arc<rayon::ThreadPool>,
     count: usize,
     /// The core of each, where they are bound.
     cores: Option<Vec<usize>>,
@@ -44,7 +46,7 @@ impl Threads {
             }
         };
         let pool = rayon::ThreadPoolBuilder::new().num_threads(count).start_handler(bind);
-        Ok(Self { pool: pool.build().map_err(|error| error.to_string())?, count, cores })
+        Ok(Self { pool: Arc::new(pool.build().map_err(|error| error.to_string())?), count, cores })
     }
 
     /// The core of each thread; nothing where they are not bound.
@@ -194,8 +196,6 @@ impl Timed for Pass<'_> {
 
 #[cfg(test)]
 mod tests {
-    use std::sync::Arc;
-
     use glam::Vec3;
 
     use super::*;

@@ -181,13 +181,15 @@ impl Runs {
     fn add_journal(&mut self, path: &Path, header: &Header) -> Result<(), RunError> {
         let name = header.study.as_str();
         match name {
-            attribution::NAME => self.attribution = Some(study(path, attribution::result)?),
-            scaling::NAME => self.scaling = Some(study(path, scaling::result)?),
-            break_even::NAME => self.break_even = Some(study(path, break_even::result)?),
-            crossover::NAME => self.crossover = Some(study(path, crossover::result)?),
-            costs::NAME => self.costs = Some(study(path, costs::result)?),
-            parameters::NAME => self.parameters = Some(study(path, parameters::result)?),
-            predictions::NAME => self.predictions = Some(study(path, |cases: &[predictions::Case], _| cases.to_vec())?),
+            attribution::NAME => self.attribution = Some(study(path, name, attribution::result)?),
+            scaling::NAME => self.scaling = Some(study(path, name, scaling::result)?),
+            break_even::NAME => self.break_even = Some(study(path, name, break_even::result)?),
+            crossover::NAME => self.crossover = Some(study(path, name, crossover::result)?),
+            costs::NAME => self.costs = Some(study(path, name, costs::result)?),
+            parameters::NAME => self.parameters = Some(study(path, name, parameters::result)?),
+            predictions::NAME => {
+                self.predictions = Some(study(path, name, |cases: &[predictions::Case], _| newest(cases))?)
+            }
             _ => return Err(RunError::Unknown { path: path.into(), study: name.into() }),
         }
         let kind = format!("study {name}");
@@ -284,12 +286,18 @@ fn header(line: &str) -> Option<Header> {
     serde_json::from_str(line).ok()
 }
 
+/// The last case of every scene: what is counted on a scene is counted again when the scene changes.
+fn newest(cases: &[predictions::Case]) -> Vec<predictions::Case> {
+    let last = |(i, case): &(usize, &predictions::Case)| !cases[i + 1..].iter().any(|later| later.scene == case.scene);
+    cases.iter().enumerate().filter(last).map(|(_, case)| case.clone()).collect()
+}
+
 /// Reads a journal, and makes of its cases what the study makes of them.
-fn study<C, R>(path: &Path, result: impl FnOnce(&[C], u64) -> R) -> Result<Study<R>, RunError>
+fn study<C, R>(path: &Path, name: &str, result: impl FnOnce(&[C], u64) -> R) -> Result<Study<R>, RunError>
 where
     C: Serialize + DeserializeOwned,
 {
-    let Recorded { header, cases, .. } = Journal::read(path)?;
+    let Recorded { header, cases, .. } = Journal::read(path, name)?;
     // Resampled as by the study itself.
     let seed = header.settings.get("seed").and_then(Value::as_u64).unwrap_or(1);
     Ok(Study { header, result: result(&cases, seed) })

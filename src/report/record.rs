@@ -75,9 +75,20 @@ impl Record {
     /// How many times faster this case is than `other`, as logarithms, round by round in each epoch. Nothing where one has no time,
     /// or they were not measured in the same rounds.
     pub fn speed_against(&self, other: &Self) -> Option<Vec<Vec<f64>>> {
-        let same = self.samples_ns.len() == other.samples_ns.len() && self.epochs == other.epochs;
-        let whole = !self.samples_ns.is_empty() && self.epochs > 0 && self.samples_ns.len().is_multiple_of(self.epochs);
-        (same && whole).then(|| log_ratios(&other.paces(), &self.paces(), self.epochs))
+        let same = self.epochs == other.epochs;
+        if same { self.ratios(&other.paces(), &self.paces()) } else { None }
+    }
+
+    /// How many times faster this case is than its twin, likewise. Nothing where it has none.
+    pub fn speed_against_twin(&self) -> Option<Vec<Vec<f64>>> {
+        self.ratios(self.twin_samples_ns.as_ref()?, &self.samples_ns)
+    }
+
+    /// Logarithms of `slow` / `fast`, if they can be samples of the same rounds of this case's epochs.
+    fn ratios(&self, slow: &[f64], fast: &[f64]) -> Option<Vec<Vec<f64>>> {
+        let whole = !fast.is_empty() && self.epochs > 0 && fast.len().is_multiple_of(self.epochs);
+        let positive = || slow.iter().chain(fast).all(|&time| time > 0.0);
+        (slow.len() == fast.len() && whole && positive()).then(|| log_ratios(slow, fast, self.epochs))
     }
 }
 

@@ -13,8 +13,12 @@ pub fn interval(x: Interval) -> String {
     if x.low == x.high { figures(x.estimate) } else { format!("{} {}", figures(x.estimate), ends(x)) }
 }
 
-/// `[19.2, 21.4]`.
+/// `[19.2, 21.4]`; `[?]` where it is not known.
 pub fn ends(x: Interval) -> String {
+    // Of a single sample.
+    if x.high > 1e100 * x.estimate {
+        return "[?]".into();
+    }
     format!("[{}, {}]", figures(x.low), figures(x.high))
 }
 
@@ -38,6 +42,7 @@ mod tests {
         let spread = Interval { estimate: 2.0, low: 1.5, high: 2.5 };
         assert_eq!(interval(spread), "2.00 [1.50, 2.50]");
         assert_eq!(interval(Interval { low: 2.0, high: 2.0, ..spread }), "2.00");
+        assert_eq!(interval(Interval { low: 1e-200, high: 1e200, ..spread }), "2.00 [?]");
         assert_eq!(scene_name("Dragon", true), "Dragon (stand-in)");
     }
 }

@@ -9,8 +9,8 @@ pub const REPORT_TREE: &str = "median-kd";
 /// The tree of which the report claims that it would be faster.
 pub const SAH_TREE: &str = "sah-kd";
 
-/// Why a baseline may give wrong answers: a defect of its own that is known and described, so that its time is shown all
-/// the same, with its errors. Nothing for all other structures.
+/// Why a baseline may give wrong answers: a defect of its own that is known and described, so that wrong answers are shown and do not end
+/// a run with the status of ours. Nothing for all other structures.
 pub fn documented_defect(structure: &str) -> Option<&'static str> {
     match structure {
         "obvhs-bvh2" | "obvhs-cwbvh" => Some(

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use super::compare::{Compared, Settings, Trial};
 use super::regression::{Comparison, Finding, Unlike, unlike};
-use super::{Stage, StudyError};
+use super::{Refused, Stage, StudyError};
 use crate::measure::Clock;
 use crate::report::Record;
 use crate::scene::Scene;
@@ -171,7 +171,11 @@ pub fn against(
     if let Some(case) = comparison.only_new.first() {
         return Err(BaselineError::New(case.clone()));
     }
-    let is_refused = |case: &str| run.refused.iter().any(|r| case.starts_with(&format!("{} on ", r.label)));
+    let is_refused = |case: &str| {
+        let of =
+            |r: &Refused| case.starts_with(&format!("{} on ", r.label)) && case.ends_with(&format!(" of {}", r.scene));
+        run.refused.iter().any(of)
+    };
     if let Some(case) = comparison.only_old.iter().find(|case| !is_refused(case)) {
         return Err(BaselineError::Old(case.clone()));
     }
@@ -182,7 +186,6 @@ pub fn against(
 mod tests {
     use super::*;
     use crate::report::example;
-    use crate::study::Refused;
     use crate::study::regression::Wrong;
 
     fn record(label: &str) -> Record {
@@ -210,7 +213,7 @@ mod tests {
         let old = [record("a"), record("b")];
         let mut run = Compared { records: vec![record("a")], refused: vec![] };
         assert!(matches!(against(&old, &run, None), Err(BaselineError::Old(case)) if case.starts_with("b on ")));
-        run.refused.push(Refused { label: "b".into(), reason: "it panicked".into() });
+        run.refused.push(Refused { label: "b".into(), scene: record("b").scene, reason: "it panicked".into() });
         assert_eq!(verdict(&against(&old, &run, None).unwrap()), Verdict::Refused);
         assert!(matches!(
             against(&old[..1], &Compared { records: old.to_vec(), refused: vec![] }, None),

@@ -9,7 +9,10 @@ use crate::measure::{Pass, Timed};
 /// A structure that takes no part, and why.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Refused {
+    /// As chosen.
     pub label: String,
+    /// The scene that it takes no part in.
+    pub scene: String,
     /// A sentence.
     pub reason: String,
 }

@@ -3,12 +3,17 @@
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+use anyhow::Context;
+use serde_json::Value;
+
 use super::{attribution, break_even, costs, crossover, parameters, predictions, scaling};
 use crate::cli::terminal::Terminal;
 use crate::cli::{Verdict, compare, replicate};
+use crate::measure::Provenance;
 use crate::registry::Registry;
 use crate::report::number::duration;
-use crate::report::{Cell, Table};
+use crate::report::{Cell, Record, Table};
+use crate::study::documented_defect;
 
 #[derive(Clone, Debug, clap::Args)]
 pub struct Args {
@@ -50,7 +55,7 @@ const FEW: &str = "torus --epochs 2 --runs 2 --budget 1 --rays 1024";
 
 /// In this order: the last one judges by what the others have left.
 const STEPS: [Step; 9] = [
-    step!(replicate, "replicate", "replicate.json", "--runs 1"),
+    step!(replicate, "replicate", "replicate.json", "--epochs 2 --runs 2 --budget 1"),
     step!(compare, "compare", "compare.json", "cube torus --rays 1024 --runs 2 --budget 1"),
     step!(attribution, "attribution", "attribution.jsonl", FEW),
     step!(parameters, "parameters", "parameters.jsonl", "cube torus --epochs 2 --runs 2 --budget 1"),
@@ -87,6 +92,28 @@ impl Step {
     }
 }
 
+/// What a file that is written whole came to, if it is of this build, this machine and as quick a run as this one.
+///
+/// # Errors
+/// If it is not, or does not read.
+fn done(path: &Path, quick: bool) -> anyhow::Result<Verdict> {
+    let again = "--fresh measures anew, --dir names another folder";
+    let text = std::fs::read(path).with_context(|| format!("cannot read {}", path.display()))?;
+    let value: Value = serde_json::from_slice(&text)
+        .map_err(|error| anyhow::anyhow!("{} does not read: {error}: {again}", path.display()))?;
+    let provenance = value.get("provenance").or_else(|| value.get(0)?.get("provenance")).cloned().unwrap_or_default();
+    let there: Provenance = serde_json::from_value(provenance)
+        .map_err(|error| anyhow::anyhow!("{} does not say where it comes from: {error}: {again}", path.display()))?;
+    let here = Provenance::capture(1);
+    let same = (&there.commit, &there.cpu, &there.simd) == (&here.commit, &here.cpu, &here.simd);
+    anyhow::ensure!(same, "{} is of another build or machine; times must not be mixed: {again}", path.display());
+    let was_quick = there.command.split(' ').any(|word| word == "--quick");
+    anyhow::ensure!(was_quick == quick, "{} is of a run with another --quick: {again}", path.display());
+    let wrong = |record: &Record| record.is_disqualified() && documented_defect(&record.structure).is_none();
+    let records: Vec<Record> = serde_json::from_value(value).unwrap_or_default();
+    Ok(if records.iter().any(wrong) { Verdict::Wrong } else { Verdict::Right })
+}
+
 pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Result<Verdict> {
     std::fs::create_dir_all(&args.dir).map_err(|error| {
         anyhow::anyhow!("cannot make the folder {}: {error}: name another one with --dir", args.dir.display())
@@ -101,7 +128,11 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
             eprintln!("{}{}; then left: {left}", step.name, if there { " is done" } else { "" });
         }
         let start = Instant::now();
-        let found = if there { Verdict::Right } else { (step.run)(registry, &step.words(args), terminal)? };
+        let found = if there {
+            done(&args.dir.join(step.file), args.quick)?
+        } else {
+            (step.run)(registry, &step.words(args), terminal)?
+        };
         let took = duration(start.elapsed().as_nanos() as f64);
         verdict = match (verdict, found) {
             (Verdict::Right, found) => found,

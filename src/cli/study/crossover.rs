@@ -30,6 +30,12 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     structures.dedup();
     let kinds = [WorkloadKind::Primary, WorkloadKind::Random, WorkloadKind::Shadow, WorkloadKind::Ambient];
     let settings = args.field.settings(registry, &structures, &kinds)?;
+    let chosen = |spec: &str| settings.structures.iter().any(|choice| choice.label == spec);
+    anyhow::ensure!(
+        PAIRS.iter().any(|[kd, bvh]| chosen(kd) && chosen(bvh)),
+        "no KD-tree and BVH of a pair is among these structures; the pairs are: {}",
+        PAIRS.map(|[kd, bvh]| format!("{kd} and {bvh}")).join("; ")
+    );
     let roots: Vec<u32> = ROOTS.into_iter().filter(|&root| root <= args.deepest).collect();
     let scenes: Vec<Scene> = roots.iter().map(|&root| member(root)).collect::<Result<_, _>>()?;
 

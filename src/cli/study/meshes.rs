@@ -53,6 +53,7 @@ impl Scenes {
                 }
             }
         }
+        sources::distinct(&scenes)?;
         Ok(scenes)
     }
 

@@ -8,9 +8,9 @@ use crate::measure::{Provenance, SystemClock, Threads};
 use crate::output::OutputFile;
 use crate::registry::Registry;
 use crate::report::{to_json, to_tidy_csv};
-use crate::scene::Builtin;
+use crate::scene::{Builtin, Scene};
 use crate::study::journal::Journal;
-use crate::study::predictions::{Case, Finding, NAME, Prediction, keys, measure, read, result, table};
+use crate::study::predictions::{Case, Finding, NAME, Prediction, key, measure, read, result, scenes, table};
 
 #[derive(Clone, Debug, clap::Args)]
 pub struct Args {
@@ -23,7 +23,7 @@ pub struct Args {
     pub exports: Exports,
 }
 
-/// What is written into the folder, for `sahara report`.
+/// What is written into the folder.
 #[derive(serde::Serialize)]
 struct File<'a> {
     schema: u32,
@@ -47,20 +47,27 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     let settings = serde_json::Map::new();
     // Counts alone: no machine changes them, so that a journal of any build can be read.
     let mut journal: Journal<Case> = args.folder.journal(NAME, &settings, provenance.clone())?;
-    let left = journal.left(keys())?;
+    let scenes = scenes()
+        .into_iter()
+        .map(|name| Ok(Builtin::find(name)?.scene(None)?))
+        .collect::<anyhow::Result<Vec<Scene>>>()?;
+    let keys: Vec<String> = scenes.iter().map(key).collect();
+    let left = journal.left(keys.iter().map(String::as_str))?;
     let clock = SystemClock::start();
     let mut progress = Progress::over(left.len(), terminal);
-    for name in left {
-        progress.scene(name);
-        let scene = Builtin::find(name)?.scene(None)?;
-        let case = measure(registry, &scene, &threads, &clock, &mut |stage| progress.stage(&stage))?;
-        journal.append(name, case)?;
+    for (scene, key) in scenes.iter().zip(&keys) {
+        if journal.get(key).is_some() {
+            continue;
+        }
+        progress.scene(&scene.name);
+        let case = measure(registry, scene, &threads, &clock, &mut |stage| progress.stage(&stage))?;
+        journal.append(key, case)?;
         progress.scene_done();
     }
     progress.finish();
 
     let mut inputs = read(&args.folder.dir, args.seed)?;
-    inputs.counted = journal.cases().to_vec();
+    inputs.counted = keys.iter().filter_map(|key| journal.get(key).cloned()).collect();
     let predictions = result(&inputs);
     let shown = [table(&predictions)];
     let rows: Vec<Row> = predictions

@@ -1,7 +1,23 @@
 //! Runs of a machine that is simulated, so that what an interval claims can be counted.
 
 use super::*;
-use crate::measure::{NoiseFloor, paired_ratio};
+use crate::measure::NoiseFloor;
+
+/// One ratio, as [`replication`] over a single cell.
+fn replicated_ratio(a: &[f64], b: &[f64], epochs: usize, floor: f64, seed: u64) -> Option<Interval> {
+    replication(&[log_ratios(a, b, epochs)], floor, seed)
+}
+
+/// What this module says is too narrow: the median of the ratios of all rounds, with a percentile bootstrap over them.
+fn plain(a: &[f64], b: &[f64], seed: u64) -> Interval {
+    let ratios: Vec<f64> = a.iter().zip(b).map(|(a, b)| a / b).collect();
+    let mut random = RandomOrder::new(seed);
+    let draw = |_| middle_of(&ratios.iter().map(|_| ratios[random.below(ratios.len())]).collect::<Vec<_>>());
+    let mut draws: Vec<f64> = (0..RESAMPLES).map(draw).collect();
+    draws.sort_unstable_by(f64::total_cmp);
+    let tail = RESAMPLES / 40;
+    Interval { estimate: middle_of(&ratios), low: draws[tail], high: draws[RESAMPLES - 1 - tail] }
+}
 
 const EPOCHS: usize = 5;
 const ROUNDS: usize = 3;
@@ -83,7 +99,7 @@ fn the_estimate_of_a_second_run_lies_within_the_interval_of_the_first() {
 
 #[test]
 fn a_plain_interval_does_not_hold_it() {
-    let n = held(PAIRS, 0.01, |a, b, seed| paired_ratio(a, b, seed).unwrap());
+    let n = held(PAIRS, 0.01, plain);
     assert!(n < ENOUGH, "{n} of {PAIRS}: rounds taken for independent");
     // Nor does the confidence interval of the mean over epochs.
     let confidence = |a: &[f64], b: &[f64], _: u64| {
@@ -163,7 +179,6 @@ fn one_epoch_and_nothing() {
         "{interval:?}"
     );
     let single = replicated_ratio(&[2.0], &[1.0], 1, 0.5, 1).unwrap();
-    assert!((single.high / single.estimate - libm::exp(0.5)).abs() < 1e-12, "only the floor is known");
-    assert_eq!(replicated_ratio(&[], &[], 5, 0.0, 1), None);
+    assert!(single.high > 1e100 && single.high.is_finite() && single.low < 1e-100, "nothing is known: {single:?}");
     assert_eq!(replication(&[], 0.0, 1), None);
 }

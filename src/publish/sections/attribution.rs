@@ -5,7 +5,7 @@ use crate::publish::runs::Runs;
 use crate::publish::words::table;
 use crate::report::number::figures;
 use crate::report::plot::{Chart, Stack, StackRow};
-use crate::report::words::interval;
+use crate::report::words::{interval, scene_name};
 use crate::study::attribution::design::Factor;
 use crate::study::attribution::{Attribution, headlines, tables};
 
@@ -19,15 +19,19 @@ const HARD: [&str; 3] = ["Dragon", "Lucy", "Sponza"];
 pub fn results(runs: &Runs) -> Vec<Attribution> {
     let Some(study) = &runs.attribution else { return vec![] };
     let mut results = study.result.clone();
-    results.sort_by_key(|r| HARD.iter().position(|name| r.scene.starts_with(name)).unwrap_or(HARD.len()));
+    results.sort_by_key(|r| HARD.iter().position(|name| is(r, name)).unwrap_or(HARD.len()));
     results
+}
+
+fn is(result: &Attribution, name: &str) -> bool {
+    result.scene == scene_name(name, result.stand_in)
 }
 
 /// The results of the hard scenes with their names, of the real mesh where it was measured.
 pub fn hard(runs: &Runs) -> Vec<(&'static str, Attribution)> {
     let results = results(runs);
     let of = |name: &&'static str| {
-        let forms = results.iter().filter(|r| r.scene.starts_with(*name) && r.workload == "primary");
+        let forms = results.iter().filter(|r| is(r, name) && r.workload == "primary");
         Some((*name, forms.min_by_key(|r| r.stand_in)?.clone()))
     };
     HARD.iter().filter_map(of).collect()

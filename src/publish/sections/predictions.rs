@@ -38,10 +38,14 @@ pub fn sentence(runs: &Runs) -> Option<String> {
     let count = |verdict| predictions.iter().filter(|p| p.verdict == verdict).count();
     let [confirmed, refuted, missing] = [Verdict::Confirmed, Verdict::Refuted, Verdict::NotMeasured].map(count);
     let missing = if missing > 0 { format!(", {missing} not measured") } else { String::new() };
+    let unsure = match predictions.iter().filter(|p| !p.is_sure()).count() {
+        0 => String::new(),
+        n => format!("; of {n} of these verdicts the intervals do not make sure"),
+    };
     (!predictions.is_empty()).then(|| {
         format!(
             "Of {} predictions that were made before anything was measured, {confirmed} are confirmed and {refuted} \
-             refuted{missing}.",
+             refuted{missing}{unsure}.",
             predictions.len()
         )
     })
@@ -99,12 +103,7 @@ fn row(p: &Prediction) -> Vec<Cell> {
         (Some(command), true) => command.clone(),
         _ => deciding.join("; "),
     };
-    vec![
-        p.number.to_string().into(),
-        p.claim.as_str().into(),
-        Cell::from(p.verdict.words()).with(tone),
-        deciding.into(),
-    ]
+    vec![p.number.to_string().into(), p.claim.as_str().into(), Cell::from(p.words()).with(tone), deciding.into()]
 }
 
 #[cfg(test)]

@@ -51,7 +51,7 @@ pub enum Splits {
 #[serde(rename_all = "kebab-case")]
 pub enum Quality {
     /// Few candidates, boxes of slabs not clipped; with planes alone also half of the references and leaves twice as full.
-    /// 2.3 to 3.9 times obvhs `medium`; costs 2 to 20 % more by the heuristic than `Balanced`, most with planes alone.
+    /// 1.5 to 2.6 times obvhs `medium`; costs 2 to 20 % more by the heuristic than `Balanced`, most with planes alone.
     Fast,
     /// A closer look around the best plane, then parts of the tree move to better places. 0.3 to 0.95 times obvhs `very-slow`.
     #[default]

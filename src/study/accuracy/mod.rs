@@ -69,7 +69,7 @@ pub fn accuracy_scene(
         match Built::new(choice, scene, &threads, clock) {
             Ok(structure) => built.push(structure),
             Err(StudyError::Build { structure, cause, .. }) => {
-                refused.push(Refused { label: structure, reason: cause.to_string() });
+                refused.push(Refused { label: structure, scene: scene.name.clone(), reason: cause.to_string() });
             }
             Err(other) => return Err(other),
         }
@@ -93,7 +93,7 @@ pub fn accuracy_scene(
         let can = built.accel.capabilities();
         if let Some(what) = batches.iter().flat_map(|batch| &batch.rays).find_map(|ray| can.declines(ray)) {
             let reason = BuildError::Declined(what).to_string();
-            refused.push(Refused { label: built.choice.label, reason });
+            refused.push(Refused { label: built.choice.label, scene: scene.name.clone(), reason });
             continue;
         }
         let judge = |batch: &judged::Batch| batch.judge(built.accel.as_ref(), clock, budget_ns);
@@ -102,7 +102,9 @@ pub fn accuracy_scene(
                 judged.push(built);
                 of_structures.push(of_structure);
             }
-            None => refused.push(Refused { label: built.choice.label, reason: PANICKED.into() }),
+            None => {
+                refused.push(Refused { label: built.choice.label, scene: scene.name.clone(), reason: PANICKED.into() })
+            }
         }
     }
     let built = judged;
@@ -116,7 +118,7 @@ pub fn accuracy_scene(
     let workloads: Vec<Workload> = names.iter().zip(&batches).map(batch).collect();
     let samples = time(scene, &built, workloads, settings, &threads, clock, progress)?;
 
-    let (provenance, hash) = (Provenance::capture(threads.count()), scene.hash());
+    let (provenance, hash) = (Provenance::of(&threads), scene.hash());
     let mut records = vec![];
     for (case, (judged, samples)) in verdicts.iter().zip(samples).enumerate() {
         let (batch, built) = (case / built.len(), &built[case % built.len()]);

@@ -145,13 +145,13 @@ fn counts(structure: &Structure) -> Option<RayCounts> {
 
 /// The result of the epochs of one scene. Nothing without its first one.
 ///
-/// # Panics
-/// If an epoch does not hold all cells and twins.
+/// An epoch that does not hold all cells and twins, timed, is passed over.
 pub fn attribute(epochs: &[&Epoch], seed: u64) -> Option<Attribution> {
+    let timed = |tree: &Structure| tree.rays.first().is_some_and(|rays| !rays.ns.is_empty() && rays.rays > 0);
+    let whole = |epoch: &&Epoch| epoch.structures.len() == CELLS + 2 && epoch.structures.iter().all(timed);
+    let epochs: Vec<&Epoch> = epochs.iter().copied().filter(whole).collect();
     let first = *epochs.iter().find(|epoch| epoch.structures.iter().all(|tree| counts(tree).is_some()))?;
     let counts: Vec<RayCounts> = first.structures.iter().filter_map(counts).collect();
-    assert!(epochs.iter().all(|epoch| epoch.structures.len() == CELLS + 2), "an epoch holds all cells and two twins");
-
     let logs = |tree: &Structure| tree.rays[0].paces().into_iter().map(libm::log).collect::<Vec<f64>>();
     let replicates = replicates(epochs.iter().map(|epoch| epoch.structures.iter().map(logs).collect()).collect());
     let twin = |cell: Cell, twin: usize| values(&replicates, |logs| logs[cell.number()] - logs[CELLS + twin]);

@@ -67,7 +67,7 @@ pub struct Stretch {
 pub fn result(epochs: &[Epoch], seed: u64) -> Vec<Market> {
     let mut groups: Vec<Vec<Line>> = vec![];
     for line in lines(epochs) {
-        match groups.iter_mut().find(|g| g[0].scene == line.scene && g[0].workload == line.workload) {
+        match groups.iter_mut().find(|g| g[0].scene_hash == line.scene_hash && g[0].workload == line.workload) {
             Some(group) => group.push(line),
             None => groups.push(vec![line]),
         }

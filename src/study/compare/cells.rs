@@ -1,6 +1,6 @@
 //! Ratios between records, with their intervals. Pure functions: whoever reads records later gets the same.
 
-use crate::measure::{Interval, NoiseFloor, log_ratios, replication};
+use crate::measure::{Interval, NoiseFloor, replication};
 use crate::report::Record;
 
 /// Seed of the bootstrap: intervals belong to the samples and not to a run's seed.
@@ -8,11 +8,7 @@ const SEED: u64 = 1;
 
 /// The A/A ratios of records: how the twin's times relate to those of the structure that it is the twin of, cell by cell.
 pub fn twins(records: &[Record]) -> NoiseFloor {
-    let cell = |record: &Record| {
-        let twin = record.twin_samples_ns.as_ref().filter(|twin| !twin.is_empty())?;
-        Some(log_ratios(&record.samples_ns, twin, record.epochs))
-    };
-    NoiseFloor::new(&records.iter().filter_map(cell).collect::<Vec<_>>(), SEED)
+    NoiseFloor::new(&records.iter().filter_map(Record::speed_against_twin).collect::<Vec<_>>(), SEED)
 }
 
 /// The geometric mean of how many times faster the first of each pair is than the second, with the

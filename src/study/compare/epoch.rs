@@ -131,7 +131,7 @@ impl<'a> Trial<'a> {
 
         for (case, panicked) in self.cases.iter().zip(panicked) {
             if panicked {
-                refuse(&mut self.refused, &self.subjects[case.structure], PANICKED);
+                refuse(&mut self.refused, self.scene, &self.subjects[case.structure], PANICKED);
             }
         }
         if self.epochs == 0 {
@@ -156,7 +156,7 @@ impl<'a> Trial<'a> {
                     subject.build_ns.push(structure.build_ns);
                     built.push(structure);
                 }
-                Err(error) => refuse(&mut self.refused, subject, &error.to_string()),
+                Err(error) => refuse(&mut self.refused, self.scene, subject, &error.to_string()),
             }
         }
         // One of two twins is refused with the other.
@@ -215,7 +215,7 @@ impl<'a> Trial<'a> {
             };
             let all: Option<Vec<Tally>> = self.workloads.iter().enumerate().map(of).collect();
             if all.is_none() {
-                refuse(&mut self.refused, &self.subjects[s], PANICKED);
+                refuse(&mut self.refused, self.scene, &self.subjects[s], PANICKED);
             }
             tallies.push(all.unwrap_or_default());
         }
@@ -224,10 +224,10 @@ impl<'a> Trial<'a> {
 }
 
 /// Says once of a structure why it no longer takes part.
-fn refuse(refused: &mut Vec<Refused>, subject: &Subject, reason: &str) {
+fn refuse(refused: &mut Vec<Refused>, scene: &Scene, subject: &Subject, reason: &str) {
     let label = &subject.choice.label;
     if refused.iter().all(|refused| refused.label != *label) {
-        refused.push(Refused { label: label.clone(), reason: reason.into() });
+        refused.push(Refused { label: label.clone(), scene: scene.name.clone(), reason: reason.into() });
     }
 }
 

@@ -51,7 +51,7 @@ pub(super) fn prepare(
                 built.push(structure);
             }
             Err(StudyError::Build { structure, cause, .. }) => {
-                refused.push(Refused { label: structure, reason: cause.to_string() });
+                refused.push(Refused { label: structure, scene: scene.name.clone(), reason: cause.to_string() });
             }
             Err(other) => return Err(other),
         }
@@ -74,7 +74,9 @@ pub(super) fn prepare(
                 declined: workloads.iter().map(|workload| declined(built.accel.as_ref(), workload)).collect(),
                 choice: built.choice,
             }),
-            None => refused.push(Refused { label: built.choice.label, reason: PANICKED.into() }),
+            None => {
+                refused.push(Refused { label: built.choice.label, scene: scene.name.clone(), reason: PANICKED.into() })
+            }
         }
     }
     Ok(Prepared { workloads, subjects, refused, builds_ns })

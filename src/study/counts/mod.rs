@@ -129,7 +129,9 @@ pub fn count_scene(scene: &Scene, settings: &Settings, progress: &mut dyn FnMut(
     let mut counts = Counts::default();
     for choice in &settings.structures {
         progress(Stage::Build(&choice.label));
-        let mut refuse = |reason: String| counts.refused.push(Refused { label: choice.label.clone(), reason });
+        let mut refuse = |reason: String| {
+            counts.refused.push(Refused { label: choice.label.clone(), scene: scene.name.clone(), reason })
+        };
         let accel = match build(choice) {
             Ok(accel) => accel,
             Err(cause) => {

@@ -58,7 +58,7 @@ pub fn result(cases: &[Case], seed: u64) -> Vec<Race> {
     }
     let of = |[kd, bvh]: [&str; 2], workload: &str| -> Vec<Entry> {
         let find = |scene: &str, spec: &str| {
-            lines.iter().find(|line| line.scene == scene && line.workload == workload && same(&line.structure, spec))
+            lines.iter().find(|line| line.scene == scene && line.workload == workload && line.structure == spec)
         };
         let mut scenes: Vec<&str> = lines.iter().map(|line| line.scene.as_str()).collect();
         scenes.dedup();
@@ -83,11 +83,6 @@ pub fn result(cases: &[Case], seed: u64) -> Vec<Race> {
         }
     }
     races
-}
-
-/// Whether a label is that of `spec`, which may name the default test.
-fn same(label: &str, spec: &str) -> bool {
-    label == spec || spec.split_once(':').is_some_and(|(name, _)| label == name)
 }
 
 /// One member of the family before anything is drawn.

@@ -30,10 +30,9 @@ fn name(label: &str) -> &str {
 fn verdict(race: &Race) -> String {
     let sure: Vec<&Crossing> = race.crossings.iter().filter(|crossing| crossing.found >= 0.95).collect();
     match (race.crossings.is_empty(), &sure[..]) {
-        (true, _) => {
-            let winner = if race.members.iter().all(|m| m.ratio.estimate < 1.0) { &race.kd } else { &race.bvh };
-            format!("never: {} throughout", name(winner))
-        }
+        (true, _) if race.members.iter().all(|m| m.ratio.high < 1.0) => format!("never: {} throughout", name(&race.kd)),
+        (true, _) if race.members.iter().all(|m| m.ratio.low > 1.0) => format!("never: {} throughout", name(&race.bvh)),
+        (true, _) => "too close to tell".into(),
         (false, []) => "too close to tell".into(),
         (false, sure) => {
             let one = |crossing: &&Crossing| {

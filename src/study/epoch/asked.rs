@@ -3,7 +3,13 @@
 use crate::accel::DynAccel;
 use crate::scene::{Sampling, Scene, Workload, WorkloadKind};
 use crate::study::Stage;
-use crate::study::replicate::picture::Picture;
+
+/// Pixels of the report's pictures, to each side.
+pub const PICTURE: [u32; 2] = [512, 512];
+
+fn picture(scene: &Scene) -> Sampling {
+    Sampling { size: PICTURE, ..Sampling::of(scene) }
+}
 
 /// The rays of a study.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -12,6 +18,8 @@ pub enum Asked {
     Kinds(Vec<WorkloadKind>, u32),
     /// All rays of the picture that the source report draws.
     Picture,
+    /// The primary rays of that picture alone.
+    PrimaryPicture,
 }
 
 impl Asked {
@@ -24,11 +32,11 @@ impl Asked {
         guide: &dyn DynAccel,
         progress: &mut dyn FnMut(Stage),
     ) -> Vec<Workload> {
-        let Self::Kinds(kinds, rays) = self else {
-            progress(Stage::Rays("image"));
-            return Picture::whole(scene, guide).workloads;
+        let (kinds, sampling): (&[WorkloadKind], Sampling) = match self {
+            Self::Kinds(kinds, rays) => (kinds, Sampling::about(scene, *rays, seed)),
+            Self::Picture => (&[WorkloadKind::Image, WorkloadKind::ImageShadow], picture(scene)),
+            Self::PrimaryPicture => (&[WorkloadKind::Primary], picture(scene)),
         };
-        let sampling = Sampling::about(scene, *rays, seed);
         let mut workloads = vec![];
         for &kind in kinds.iter().filter(|&&kind| kind != WorkloadKind::Mirror || scene.has_mirrors()) {
             progress(Stage::Rays(kind.name()));
@@ -46,6 +54,7 @@ impl Asked {
                 format!("{}, at most {rays}", names.join(" "))
             }
             Self::Picture => "picture".into(),
+            Self::PrimaryPicture => "primary rays of the picture".into(),
         }
     }
 }

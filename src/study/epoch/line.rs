@@ -6,7 +6,10 @@ use crate::measure::{RandomOrder, factor, median};
 /// All epochs of one structure on one kind of rays of one scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Line {
+    /// As tables name it.
     pub scene: String,
+    /// Tells scenes of one name apart.
+    pub scene_hash: String,
     pub triangles: usize,
     /// As chosen.
     pub structure: String,
@@ -59,6 +62,7 @@ fn line(scene: &[&Epoch], label: &str, workload: &str) -> Option<Line> {
     let (structure, rays) = first?;
     Some(Line {
         scene: scene[0].title(),
+        scene_hash: scene[0].scene_hash.clone(),
         triangles: scene[0].triangles,
         structure: structure.label.clone(),
         name: structure.name.clone(),

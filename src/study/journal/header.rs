@@ -37,17 +37,22 @@ impl Header {
 
     /// Whether a run with this header may go on with a journal that has the header `there`.
     pub(super) fn admits(&self, there: &Self, path: &Path) -> Result<(), JournalError> {
-        let path = || path.into();
-        if there.study != self.study {
-            return Err(JournalError::Study { path: path(), there: there.study.clone(), here: self.study.clone() });
-        }
-        if there.schema != self.schema {
-            return Err(JournalError::Schema { path: path(), there: there.schema, here: self.schema });
-        }
+        there.is_of(&self.study, path)?;
         match differences(&there.settings, &self.settings) {
             differences if differences.is_empty() => Ok(()),
-            differences => Err(JournalError::Settings { path: path(), differences }),
+            differences => Err(JournalError::Settings { path: path.into(), differences }),
         }
+    }
+
+    /// Whether this is the header of a journal of `study` in the form of this version.
+    pub(super) fn is_of(&self, study: &str, path: &Path) -> Result<(), JournalError> {
+        if self.study != study {
+            return Err(JournalError::Study { path: path.into(), there: self.study.clone(), here: study.into() });
+        }
+        if self.schema != Self::SCHEMA {
+            return Err(JournalError::Schema { path: path.into(), there: self.schema, here: Self::SCHEMA });
+        }
+        Ok(())
     }
 
     /// Whether times of both headers can be compared.

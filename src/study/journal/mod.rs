@@ -84,9 +84,7 @@ impl<C: Serialize + DeserializeOwned> Journal<C> {
             }
             Recorded { header: header.clone(), cases: vec![], keys: BTreeMap::new() }
         } else {
-            let recorded = Recorded::parse(path, whole)?;
-            header.admits(&recorded.header, path)?;
-            recorded
+            Recorded::parse(path, whole, |there| header.admits(there, path))?
         };
         let mut journal = Self { path: path.into(), file, length: whole.len() as u64, recorded, header };
         if journal.length == 0 {
@@ -144,15 +142,15 @@ impl<C: Serialize + DeserializeOwned> Journal<C> {
         Ok(())
     }
 
-    /// What a journal holds, without opening it for writing; a line that is being written is passed over.
+    /// What the journal of `study` holds, without opening it for writing; a line that is being written is passed over.
     ///
     /// # Errors
-    /// If the file cannot be read, or is no journal of cases of this form.
-    pub fn read(path: &Path) -> Result<Recorded<C>, JournalError> {
+    /// If the file cannot be read, or is no journal of this study and form.
+    pub fn read(path: &Path, study: &str) -> Result<Recorded<C>, JournalError> {
         let bytes = fs::read(path).map_err(|cause| JournalError::Read { path: path.into(), cause })?;
         match whole_lines(&bytes) {
             [] => Err(JournalError::Foreign(path.into())),
-            whole => Recorded::parse(path, whole),
+            whole => Recorded::parse(path, whole, |there| there.is_of(study, path)),
         }
     }
 
@@ -207,8 +205,12 @@ impl<C> Recorded<C> {
 }
 
 impl<C: DeserializeOwned> Recorded<C> {
-    /// Reads whole lines.
-    fn parse(path: &Path, bytes: &[u8]) -> Result<Self, JournalError> {
+    /// Reads whole lines, the cases only once `admit` has seen the header.
+    fn parse(
+        path: &Path,
+        bytes: &[u8],
+        admit: impl FnOnce(&Header) -> Result<(), JournalError>,
+    ) -> Result<Self, JournalError> {
         let damaged =
             |line: usize, problem: String| JournalError::Damaged { path: path.into(), line: line + 1, problem };
         let mut lines = bytes.split(|&byte| byte == b'\n').enumerate();
@@ -216,6 +218,7 @@ impl<C: DeserializeOwned> Recorded<C> {
         let header = serde_json::from_slice::<Header>(first).map_err(|error| {
             if Header::is_one(first) { damaged(0, plain(&error)) } else { JournalError::Foreign(path.into()) }
         })?;
+        admit(&header)?;
         let mut recorded = Self { header, cases: vec![], keys: BTreeMap::new() };
         for (number, line) in lines.filter(|(_, line)| !line.is_empty()) {
             let Line { key, case } = serde_json::from_slice(line).map_err(|error| damaged(number, plain(&error)))?;

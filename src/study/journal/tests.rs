@@ -56,7 +56,7 @@ fn what_was_appended_is_there_when_opened_again() {
     assert_eq!(again.get("case 1"), Some(&case(1)));
     assert_eq!(again.left(["case 2", "case 3"]).unwrap(), ["case 3"]);
     drop(again);
-    let read = Journal::<Case>::read(&path).unwrap();
+    let read = Journal::<Case>::read(&path, "tiny").unwrap();
     assert_eq!((read.header, read.cases.len()), (header(5), 3));
 }
 
@@ -87,7 +87,7 @@ fn a_reader_passes_over_a_line_that_is_being_written() {
     let path = journal(&folder, 2);
     let whole = fs::read(&path).unwrap();
     fs::write(&path, &whole[..whole.len() - 4]).unwrap();
-    assert_eq!(Journal::<Case>::read(&path).unwrap().cases, [case(0)]);
+    assert_eq!(Journal::<Case>::read(&path, "tiny").unwrap().cases, [case(0)]);
 }
 
 #[test]
@@ -104,6 +104,7 @@ fn other_settings_are_refused_with_what_differs_and_the_way_out() {
     study.study = "other".into();
     let study = Journal::<Case>::open(&path, study, false).unwrap_err();
     sentence(study, &["the study tiny, not of other"]);
+    sentence(Journal::<Case>::read(&path, "other").unwrap_err(), &["the study tiny, not of other"]);
     // Nothing of this has changed the journal.
     assert_eq!(open(&path).unwrap().cases().len(), 1);
     assert_eq!(Journal::<Case>::open(&path, header(7), true).unwrap().cases().len(), 0);
@@ -134,7 +135,7 @@ fn one_process_writes_at_a_time() {
     sentence(open(&path).unwrap_err(), &["tiny.jsonl", "another sahara", "--dir"]);
     // To throw it away is to write, too.
     sentence(Journal::<Case>::open(&path, header(5), true).unwrap_err(), &["another sahara"]);
-    assert_eq!(Journal::<Case>::read(&path).unwrap().cases.len(), 1);
+    assert_eq!(Journal::<Case>::read(&path, "tiny").unwrap().cases.len(), 1);
     drop(first);
     open(&path).unwrap();
 }
@@ -150,7 +151,10 @@ fn what_is_no_journal_is_left_alone() {
     }
     sentence(open(folder.path()).unwrap_err(), &["it is no regular file"]);
     sentence(open(&path.join("tiny.jsonl")).unwrap_err(), &["cannot write", "--dir"]);
-    sentence(Journal::<Case>::read(&folder.path().join("none.jsonl")).unwrap_err(), &["cannot read", "none.jsonl"]);
+    sentence(
+        Journal::<Case>::read(&folder.path().join("none.jsonl"), "tiny").unwrap_err(),
+        &["cannot read", "none.jsonl"],
+    );
 }
 
 #[test]
@@ -198,7 +202,7 @@ fn what_cannot_be_written_is_one_sentence_and_loses_nothing() {
     assert_eq!((fs::read(&path).unwrap(), journal.cases().len()), (before, 1));
     journal.file = good;
     journal.append("case 1", case(1)).unwrap();
-    assert_eq!(Journal::<Case>::read(&path).unwrap().cases.len(), 2);
+    assert_eq!(Journal::<Case>::read(&path, "tiny").unwrap().cases.len(), 2);
 }
 
 #[test]
@@ -209,5 +213,5 @@ fn a_half_written_line_is_overwritten_by_the_next() {
     // A write that failed half-way, and could not be taken back.
     journal.file.write_all(&[b'x'; 500]).unwrap();
     journal.append("case 1", case(1)).unwrap();
-    assert_eq!(Journal::<Case>::read(&path).unwrap().cases, [case(0), case(1)]);
+    assert_eq!(Journal::<Case>::read(&path, "tiny").unwrap().cases, [case(0), case(1)]);
 }

@@ -28,7 +28,7 @@ pub fn scenes() -> Vec<&'static str> {
 }
 
 /// The number of the default in the sweep.
-fn default_row() -> usize {
+pub(super) fn default_row() -> usize {
     SWEEP.iter().position(is_default).expect("the sweep holds the default")
 }
 

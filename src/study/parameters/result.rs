@@ -3,10 +3,9 @@
 use serde::Serialize;
 
 use super::{DEFAULT, default_row, is_default};
-use crate::measure::{Interval, NoiseFloor, holm, standard_error, two_sided};
-use crate::study::epoch::{Epoch, RayCounts, Rays, Shape, Structure};
+use crate::measure::{Interval, NoiseFloor, holm};
+use crate::study::epoch::{Epoch, RayCounts, Rays, Shape, Structure, WholeTimes};
 use crate::study::replicate::original::{MAIN, SWEEP};
-use crate::study::replicates::{interval, replicates, values};
 
 /// What came of the sweep.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -88,26 +87,26 @@ pub fn result(epochs: &[Epoch], seed: u64) -> Parameters {
     let default = default_row();
 
     // The floor of the whole run: twins in every scene.
-    let twin = |scene: &Measured| values(&scene.replicates, |logs| logs[SWEEP.len()] - logs[default]);
+    let twin = |scene: &Measured| scene.times.log_ratios(SWEEP.len(), default);
     let floor = NoiseFloor::new(&scenes.iter().map(twin).collect::<Vec<_>>(), seed).log().unwrap_or(0.0);
 
     let mut settings = vec![];
     for scene in &scenes {
         let column = names.iter().position(|name| *name == scene.name).expect("it is one of them");
         for (i, row) in SWEEP.iter().enumerate() {
-            let times = interval(&scene.replicates, |logs| logs[i] - logs[default], floor, seed);
+            let times = scene.times.ratio(i, default, floor, seed);
             let same_tree = scene.trees[i] == scene.trees[default];
             settings.push(Setting {
                 scene: scene.name.clone(),
                 triangles: scene.triangles,
                 leaf: row.leaf,
                 threshold: row.threshold,
-                seconds: scene.seconds(i),
+                seconds: scene.times.seconds(i, floor, seed).estimate,
                 report_s: row.seconds[column],
                 times: (!is_default(row)).then_some(times),
                 report_times: row.seconds[column] / SWEEP[default].seconds[column],
                 tests_per_ray: scene.tests_per_ray[i],
-                probability: if is_default(row) || same_tree { None } else { scene.probability(i, default) },
+                probability: if is_default(row) || same_tree { None } else { scene.times.probability(i, default) },
                 verdict: match (is_default(row), same_tree) {
                     (true, _) => Verdict::Default,
                     (_, true) => Verdict::SameTree,
@@ -143,8 +142,8 @@ struct Measured {
     epochs: usize,
     /// Over the rays of the picture.
     tests_per_ray: Vec<f64>,
-    /// ln of the seconds of the picture: of each replicate, of each setting and the twin.
-    replicates: Vec<Vec<f64>>,
+    /// Of each setting and the twin.
+    times: WholeTimes,
     trees: Vec<Made>,
 }
 
@@ -163,43 +162,24 @@ struct Made {
 
 impl Measured {
     fn of(epochs: &[&Epoch]) -> Option<Self> {
+        let timed = |tree: &Structure| {
+            !tree.rays.is_empty() && tree.rays.iter().all(|rays| !rays.ns.is_empty() && rays.rays > 0)
+        };
+        let whole = |epoch: &&Epoch| epoch.structures.len() == SWEEP.len() + 1 && epoch.structures.iter().all(timed);
+        let epochs: Vec<&Epoch> = epochs.iter().copied().filter(whole).collect();
         let counted = |tree: &Structure| tree.rays.iter().all(|rays| rays.counts.is_some());
         let first = *epochs.iter().find(|epoch| epoch.structures.iter().all(counted))?;
         let made = |tree: &Structure| Made {
             shape: tree.shape.clone(),
             counts: tree.rays.iter().map(|rays| rays.counts).collect(),
         };
-        // Seconds of the picture in each round: what its rays take, query by query.
-        let logs = |tree: &Structure| -> Vec<f64> {
-            let rounds = tree.rays.iter().map(|rays| rays.ns.len()).min().unwrap_or(0);
-            let second = |round: usize| -> f64 {
-                tree.rays.iter().map(|rays| rays.paces()[round] * rays.all as f64 * 1e-9).sum()
-            };
-            (0..rounds).map(|round| libm::log(second(round))).collect()
-        };
         Some(Self {
             name: first.scene.clone(),
             triangles: first.triangles,
             epochs: epochs.len(),
             tests_per_ray: first.structures.iter().map(tests_per_ray).collect(),
-            replicates: replicates(epochs.iter().map(|epoch| epoch.structures.iter().map(logs).collect()).collect()),
+            times: WholeTimes::new(epochs.iter().copied()),
             trees: first.structures.iter().map(made).collect(),
         })
-    }
-
-    fn seconds(&self, setting: usize) -> f64 {
-        let logs: f64 = self.replicates.iter().map(|logs| logs[setting]).sum();
-        libm::exp(logs / self.replicates.len() as f64)
-    }
-
-    /// How likely a difference as large as that of two settings is by chance: Student's t over the replicates.
-    fn probability(&self, one: usize, other: usize) -> Option<f64> {
-        let differences: Vec<f64> = self.replicates.iter().map(|logs| logs[one] - logs[other]).collect();
-        let error = standard_error(&differences)?;
-        let mean = differences.iter().sum::<f64>() / differences.len() as f64;
-        if error == 0.0 {
-            return Some(if mean == 0.0 { 1.0 } else { 0.0 });
-        }
-        Some(two_sided(mean / error, differences.len() - 1))
     }
 }

@@ -5,12 +5,12 @@ use serde::{Deserialize, Serialize};
 use crate::accel::DynAccel;
 use crate::measure::{Clock, Threads};
 use crate::registry::Registry;
-use crate::scene::Scene;
+use crate::scene::{Scene, Workload};
 use crate::study::baselines::{REPORT_TREE, SAH_TREE};
 use crate::study::built::Built;
 use crate::study::counted::Counted;
+use crate::study::epoch::Asked;
 use crate::study::replicate::original::MAIN;
-use crate::study::replicate::picture::Picture;
 use crate::study::{Stage, StudyError};
 
 /// The scene whose tests are counted.
@@ -38,9 +38,14 @@ pub struct Case {
     pub tests: Vec<u64>,
 }
 
-/// The scenes to count, which are their keys: the report's easy and normal ones.
-pub fn keys() -> Vec<&'static str> {
+/// The scenes to count: the report's easy and normal ones.
+pub fn scenes() -> Vec<&'static str> {
     MAIN.iter().map(|row| row.scene).collect()
+}
+
+/// The key of a scene: what is counted on it changes with its meshes and lights.
+pub fn key(scene: &Scene) -> String {
+    format!("{} {}", scene.name, &scene.hash()[..8])
 }
 
 /// Counts one of them.
@@ -49,7 +54,7 @@ pub fn keys() -> Vec<&'static str> {
 /// If a structure is not registered or cannot be built.
 ///
 /// # Panics
-/// If it is none of [`keys`].
+/// If it is none of [`scenes`].
 pub fn measure(
     registry: &Registry,
     scene: &Scene,
@@ -58,11 +63,13 @@ pub fn measure(
     progress: &mut dyn FnMut(Stage),
 ) -> Result<Case, StudyError> {
     let row = MAIN.iter().find(|row| row.scene == scene.name).expect("a scene of the report");
-    progress(Stage::Rays("image"));
     let build = |spec: &str| Built::new(&registry.choose(spec)?, scene, threads, clock);
-    let picture = |guide: &str| Ok::<_, StudyError>(Picture::whole(scene, build(guide)?.accel.as_ref()));
-    let default_rays = picture(GUIDES[1])?.total();
-    let picture = picture(GUIDES[0])?;
+    let mut picture = |guide: &str| {
+        let guide = build(guide)?.accel;
+        Ok::<_, StudyError>(Asked::Picture.workloads(scene, 0, guide.as_ref(), progress))
+    };
+    let total = |picture: &[Workload]| picture.iter().map(|workload| workload.rays.len() as u64).sum();
+    let (default_picture, picture) = (picture(GUIDES[1])?, picture(GUIDES[0])?);
     let mut tests = vec![];
     for spec in TREES.iter().filter(|_| scene.name == CROWDED) {
         progress(Stage::Check(spec));
@@ -71,15 +78,15 @@ pub fn measure(
     Ok(Case {
         scene: scene.name.clone(),
         triangles: scene.mesh.len(),
-        rays: picture.total(),
-        default_rays,
+        rays: total(&picture),
+        default_rays: total(&default_picture),
         report_rays: row.rays,
         tests,
     })
 }
 
 /// Triangle tests for all rays of the picture.
-fn count(accel: &dyn DynAccel, picture: &Picture) -> u64 {
-    let counted = picture.workloads.iter().map(|workload| Counted::new(accel, &workload.rays, workload.query));
+fn count(accel: &dyn DynAccel, picture: &[Workload]) -> u64 {
+    let counted = picture.iter().map(|workload| Counted::new(accel, &workload.rays, workload.query));
     counted.map(|counted| counted.counts.tests).sum()
 }

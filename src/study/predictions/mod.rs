@@ -20,7 +20,7 @@ use crate::measure::Interval;
 use crate::report::Record;
 
 pub use claims::result;
-pub use counted::{Case, keys, measure};
+pub use counted::{Case, key, measure, scenes};
 pub use rank::kendall;
 pub use read::{Main, Replicated, read};
 pub use table::table;
@@ -57,16 +57,20 @@ pub struct Prediction {
 }
 
 impl Prediction {
-    /// The verdict in words; `not surely` where the intervals of what decides it reach across their bounds.
-    pub fn words(&self) -> String {
+    /// Whether the intervals of what decides the verdict stay within their bounds.
+    pub fn is_sure(&self) -> bool {
         let deciding = |finding: &&Finding| finding.holds == (self.verdict == Verdict::Confirmed);
         let mut deciding = self.findings.iter().filter(deciding);
-        let sure = match self.verdict {
+        match self.verdict {
             Verdict::Confirmed => deciding.all(|finding| finding.sure),
             Verdict::Refuted => deciding.any(|finding| finding.sure),
             Verdict::NotMeasured => true,
-        };
-        format!("{}{}", self.verdict.words(), if sure { "" } else { ", not surely" })
+        }
+    }
+
+    /// The verdict in words; `not surely` where it is not sure.
+    pub fn words(&self) -> String {
+        format!("{}{}", self.verdict.words(), if self.is_sure() { "" } else { ", not surely" })
     }
 }
 

@@ -30,7 +30,7 @@ pub struct Main {
 /// Seconds / (rays x triangles).
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 pub struct Seconds {
-    pub t_prime: f64,
+    pub t_prime: Interval,
 }
 
 /// Reads what `folder` holds; what is not there is left empty. What is counted here is added by the caller.
@@ -38,23 +38,23 @@ pub struct Seconds {
 /// # Errors
 /// If a file is there and is not what it should be.
 pub fn read(folder: &Path, seed: u64) -> Result<Inputs, JournalError> {
-    let cases = |name: &str| folder.join(format!("{name}.jsonl"));
     Ok(Inputs {
         counted: vec![],
         replicated: json(&folder.join("replicate.json"))?,
-        attribution: attribution::result(&journal(&cases(attribution::NAME))?, seed),
-        scaling: scaling::result(&journal(&cases(scaling::NAME))?, seed),
-        crossover: crossover::result(&journal(&cases(crossover::NAME))?, seed),
+        attribution: attribution::result(&journal(folder, attribution::NAME)?, seed),
+        scaling: scaling::result(&journal(folder, scaling::NAME)?, seed),
+        crossover: crossover::result(&journal(folder, crossover::NAME)?, seed),
         compare: json::<Vec<Record>>(&folder.join("compare.json"))?.unwrap_or_default(),
     })
 }
 
 /// The cases of a journal, none where there is none.
-fn journal<C: serde::Serialize + DeserializeOwned>(path: &Path) -> Result<Vec<C>, JournalError> {
+fn journal<C: serde::Serialize + DeserializeOwned>(folder: &Path, study: &str) -> Result<Vec<C>, JournalError> {
+    let path = folder.join(format!("{study}.jsonl"));
     if !path.exists() {
         return Ok(vec![]);
     }
-    Ok(Journal::<C>::read(path)?.cases)
+    Ok(Journal::<C>::read(&path, study)?.cases)
 }
 
 fn json<T: DeserializeOwned>(path: &Path) -> Result<Option<T>, JournalError> {

@@ -69,7 +69,7 @@ fn a_verdict_is_as_sure_as_what_decides_it() {
 #[test]
 fn rays_are_counted_to_two_and_the_scene_that_is_off_is_named() {
     let exact = |name: &&str| counted(name, 12, if *name == "Starters" { 50 } else { 13 }, vec![]);
-    let right = Inputs { counted: keys().iter().map(exact).collect(), ..Inputs::default() };
+    let right = Inputs { counted: scenes().iter().map(exact).collect(), ..Inputs::default() };
     assert_eq!(verdict(&right, 1).verdict, Verdict::Confirmed);
     let mut part = right.clone();
     part.counted.remove(0);
@@ -134,7 +134,7 @@ fn brute_force_must_be_alike_and_the_order_as_expected() {
     let main = |scene: &str, t_prime: f64, improvement: f64| Main {
         scene: scene.into(),
         triangles: 100,
-        brute_force: read::Seconds { t_prime },
+        brute_force: read::Seconds { t_prime: interval(t_prime, t_prime, t_prime) },
         improvement: interval(improvement, improvement * 0.9, improvement * 1.1),
     };
     let of = |cube: f64, teapot: f64| {
@@ -144,7 +144,11 @@ fn brute_force_must_be_alike_and_the_order_as_expected() {
             .chain(&others)
             .map(|&(scene, improvement)| main(scene, 1e-9, improvement))
             .collect();
-        main.push(Main { scene: "Cube".into(), brute_force: read::Seconds { t_prime: cube }, ..main[0].clone() });
+        main.push(Main {
+            scene: "Cube".into(),
+            brute_force: read::Seconds { t_prime: interval(cube, cube, cube) },
+            ..main[0].clone()
+        });
         main[8].improvement = interval(0.9, 0.8, 1.0);
         verdict(&Inputs { replicated: Some(Replicated { main }), ..Inputs::default() }, 2)
     };

@@ -1,7 +1,7 @@
 //! Changes of time, each with what its interval says.
 
 use super::{Change, Finding};
-use crate::measure::{Interval, change};
+use crate::measure::{Interval, NoiseFloor, change};
 use crate::report::Record;
 use crate::study::baselines::is_obvhs;
 use crate::study::compare::twins;
@@ -26,7 +26,11 @@ pub(super) fn all(
     threshold: Option<f64>,
 ) -> (Vec<Change>, Vec<Change>) {
     let references = references(pairs);
-    let floor = floor(old, new);
+    let of = |floor: fn(&NoiseFloor) -> Option<f64>| {
+        let [old, new] = [old, new].map(|records| floor(&twins(records)).unwrap_or(0.0));
+        libm::hypot(old, new)
+    };
+    let (floor, floor_of_mean) = (of(NoiseFloor::log), of(NoiseFloor::log_of_mean));
     let (mut structures, mut cells): (Vec<Change>, Vec<Change>) = (vec![], vec![]);
     let mut labels: Vec<&str> = pairs.iter().map(|(old, _)| old.label.as_str()).collect();
     labels.retain(|label| !references.iter().any(|reference| reference == label));
@@ -51,8 +55,8 @@ pub(super) fn all(
                 time,
                 finding: finding(time, threshold),
             });
-            // What never had a time is not missing.
-            missing |= times.is_none() && !before.samples_ns.is_empty();
+            // What never had a time, itself or of what it is divided by, is not missing.
+            missing |= !before.samples_ns.is_empty() && after.samples_ns.is_empty();
             if let Some((old, new)) = times {
                 all.0.push(old);
                 all.1.push(new);
@@ -61,12 +65,11 @@ pub(super) fn all(
         let n = all.0.len();
         // A mean over cells that differ in their epochs has none of its own.
         let even = |cells: &[Vec<Vec<f64>>]| cells.iter().all(|cell| cell.len() == cells[0].len());
-        let time = if missing || !even(&all.0) || !even(&all.1) {
-            None
-        } else {
-            // The luck of each cell is its own: that of their mean is smaller.
-            change(&all.0, &all.1, floor / libm::sqrt(n.max(1) as f64))
-        };
+        let time = if missing || !even(&all.0) || !even(&all.1) { None } else { change(&all.0, &all.1, floor_of_mean) };
+        // What never had a time, as what answers wrongly, has nothing that could change.
+        if n == 0 && !missing {
+            continue;
+        }
         structures.push(Change {
             structure: label.into(),
             scene: None,
@@ -77,12 +80,6 @@ pub(super) fn all(
         });
     }
     (structures, cells)
-}
-
-/// The floors of both runs together, a logarithm.
-fn floor(old: &[Record], new: &[Record]) -> f64 {
-    let of = |records: &[Record]| twins(records).log().unwrap_or(0.0);
-    libm::hypot(of(old), of(new))
 }
 
 /// ln(time of `own` / geometric mean of the references' times) of each round in each epoch; ln of the time itself where there is no

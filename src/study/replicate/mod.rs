@@ -4,31 +4,33 @@
 //! seconds only in their ratios. `t'` is seconds / (rays x triangles).
 
 pub(in crate::study) mod original;
-pub(in crate::study) mod picture;
 mod tables;
-mod timing;
+#[cfg(test)]
+mod tests;
 
 use serde::{Deserialize, Serialize};
 
-use crate::accel::DynAccel;
-use crate::measure::{Clock, Interval, Provenance, Threads, mean_ratio, median, paired_ratio};
-use crate::registry::{Choice, Registry};
+use super::epoch::{self, Asked, Epoch, PICTURE, Structure, WholeTimes, measure};
+use crate::accel::Query;
+use crate::measure::{Clock, Interval, Provenance, Threads, median, replication};
+use crate::registry::{Choice, ChoiceError, Registry};
 use crate::scene::Scene;
 use crate::study::baselines::{BRUTE_FORCE, REPORT_TREE, SAH_TREE};
-use crate::study::built::Built;
+use crate::study::parameters;
 use crate::study::{Stage, StudyError};
-use original::{HARD, MAIN, SWEEP, t_prime};
-use picture::Picture;
-use timing::{Timing, time};
+use original::{HARD, HardRow, MAIN, SWEEP, t_prime};
 
 pub use tables::tables;
 
 /// How long the study may take.
 pub struct Settings {
-    /// Samples of a picture, at least 1; of the hard scenes twice as many, of the sweep half as many.
+    /// How often everything is built anew, at least 1.
+    pub epochs: usize,
+    /// Samples of every structure in an epoch, at least 1.
     pub runs: usize,
-    /// What one sample may take, nanoseconds; a slower case is timed on fewer rays and extrapolated.
-    pub sample_ns: u64,
+    /// What the samples of an epoch of one scene may take together, nanoseconds; slow structures are timed on fewer rays and
+    /// extrapolated.
+    pub budget_ns: u64,
     /// What the check of the answers may take for each scene, nanoseconds.
     pub check_ns: u64,
     /// Seed of the order of samples.
@@ -67,10 +69,10 @@ pub struct Rays {
 /// Seconds of a picture.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Seconds {
-    /// Median.
+    /// Geometric mean over the epochs.
     pub seconds: f64,
     /// `t'`: seconds / (rays x triangles).
-    pub t_prime: f64,
+    pub t_prime: Interval,
     /// Whether a part of the rays was timed and stands for all.
     pub extrapolated: bool,
 }
@@ -125,8 +127,10 @@ pub struct Hard {
     pub sah_build_s: f64,
     /// Seconds with the report's tree / seconds with the SAH tree: how much faster SAH is.
     pub sah_over_median: Interval,
-    /// The same of each round.
-    pub rounds: Vec<f64>,
+    /// Its logarithm in each epoch, or in each round of a single one.
+    pub log_ratios: Vec<f64>,
+    /// What two builds of the report's tree differ by, as a factor.
+    pub floor: f64,
     pub report_tree_s: f64,
     pub report_tree_build_s: f64,
     pub report_tree_t_prime: f64,
@@ -137,7 +141,7 @@ pub struct Hard {
 pub struct Conclusion {
     /// The scenes of the mean.
     pub scenes: Vec<String>,
-    /// Geometric mean over the scenes of how much faster SAH is, with a bootstrap interval over the rounds.
+    /// Geometric mean over the scenes of how much faster SAH is, with the interval that holds that of another run in 95 % of cases.
     pub sah_over_median: Option<Interval>,
 }
 
@@ -148,18 +152,23 @@ pub struct Study<'a> {
     pub clock: &'a dyn Clock,
 }
 
+/// Where structures stand among those of an easy or normal scene: before the sweep of [`parameters::structures`].
+const BRUTE: usize = 0;
+const SAH: usize = 1;
+const FIRST_SETTING: usize = 2;
+
 impl Study<'_> {
     /// An empty result, to which scenes are added.
     pub fn start(&self) -> Replication {
         Replication {
-            schema: 1,
+            schema: 2,
             stand_ins: vec![],
             rays: vec![],
             main: vec![],
             parameters: vec![],
             hard: vec![],
             conclusion: Conclusion { scenes: vec![], sah_over_median: None },
-            provenance: Provenance::capture(self.settings.threads.count()),
+            provenance: Provenance::of(&self.settings.threads),
         }
     }
 
@@ -178,142 +187,157 @@ impl Study<'_> {
         result: &mut Replication,
         progress: &mut dyn FnMut(Stage),
     ) -> Result<(), StudyError> {
-        if !scene.stand_ins.is_empty() {
-            result.stand_ins.push(scene.name.clone());
+        let seed = self.settings.seed;
+        if MAIN.iter().any(|row| row.scene == scene.name) {
+            let mut structures = self.choose(&[BRUTE_FORCE, SAH_TREE])?;
+            structures.extend(parameters::structures(self.registry)?);
+            result.add_main(&self.epochs(scene, structures, Asked::Picture, progress)?, seed);
         }
-        if let Some(row) = MAIN.iter().position(|row| row.scene == scene.name) {
-            return self.add_main(row, scene, result, progress);
+        if HARD.iter().any(|row| row.scene == scene.name) {
+            let structures = self.choose(&[REPORT_TREE, SAH_TREE, REPORT_TREE])?;
+            result.add_hard(&self.epochs(scene, structures, Asked::PrimaryPicture, progress)?, seed);
         }
-        match HARD.iter().find(|row| row.scene == scene.name) {
-            Some(row) => self.add_hard(row, scene, result, progress),
-            None => Ok(()),
-        }
+        Ok(())
     }
 
-    fn add_main(
+    /// All epochs of a scene. A wrong answer ends the study: there is nothing to compare with the report then.
+    fn epochs(
         &self,
-        index: usize,
         scene: &Scene,
-        result: &mut Replication,
+        structures: Vec<Choice>,
+        asked: Asked,
         progress: &mut dyn FnMut(Stage),
-    ) -> Result<(), StudyError> {
-        let row = &MAIN[index];
-        progress(Stage::Rays("image"));
-        let picture = Picture::whole(scene, self.guide(scene)?.as_ref());
-        result.rays.push(picture.rays(scene, row.rays));
-        let (rays, triangles) = (picture.total(), scene.mesh.len());
+    ) -> Result<Vec<Epoch>, StudyError> {
+        let Settings { runs, budget_ns, check_ns, seed, ref threads, .. } = *self.settings;
+        let guide = self.registry.choose(SAH_TREE)?;
+        let threads = threads.clone();
+        let settings = epoch::Settings { structures, guide, asked, runs, budget_ns, check_ns, seed, threads };
+        let mut epochs: Vec<Epoch> = vec![];
+        for number in 0..self.settings.epochs {
+            let epoch = measure(scene, &settings, number, epochs.first(), self.clock, progress)?;
+            epoch.is_whole()?;
+            epochs.push(epoch);
+        }
+        Ok(epochs)
+    }
 
-        let structures = self.choose(&[BRUTE_FORCE, REPORT_TREE, SAH_TREE])?;
-        let timings = self.time(scene, &picture, &structures, self.settings.runs, progress)?;
-        let [brute_force, tree, sah] = &timings[..] else { unreachable!("one timing a structure") };
-        let seconds = |timing| Seconds::of(timing, rays, triangles);
-        result.main.push(Main {
-            scene: scene.name.clone(),
-            triangles,
+    fn choose(&self, specs: &[&str]) -> Result<Vec<Choice>, ChoiceError> {
+        specs.iter().map(|spec| self.registry.choose(spec)).collect()
+    }
+}
+
+impl Replication {
+    /// Adds an easy or normal scene of the report.
+    fn add_main(&mut self, epochs: &[Epoch], seed: u64) {
+        let first = &epochs[0];
+        let Some(index) = MAIN.iter().position(|row| row.scene == first.scene) else { return };
+        let row = &MAIN[index];
+        let rays = self.add_rays(first, row.rays);
+        let setting = |row: usize| FIRST_SETTING + row;
+        let (tree, twin) = (setting(parameters::default_row()), setting(SWEEP.len()));
+
+        let times = WholeTimes::new(epochs);
+        let floor = times.floor([tree, twin], seed);
+        let seconds = |structure: usize| Seconds::of(&times, first, structure, rays, floor, seed);
+        self.main.push(Main {
+            scene: first.scene.clone(),
+            triangles: first.triangles,
             rays,
             tree: seconds(tree),
-            brute_force: seconds(brute_force),
-            improvement: self.ratio(brute_force, tree),
-            sah: seconds(sah),
+            brute_force: seconds(BRUTE),
+            improvement: times.ratio(BRUTE, tree, floor, seed),
+            sah: seconds(SAH),
             report_tree_s: row.tree_s,
             report_brute_force_s: row.brute_s,
             report_tree_t_prime: t_prime(row.tree_s, row.rays, row.triangles),
             report_brute_force_t_prime: t_prime(row.brute_s, row.rays, row.triangles),
             report_improvement: row.improvement,
         });
-
-        let specs: Vec<String> =
-            SWEEP.iter().map(|s| format!("{REPORT_TREE}:leaf={},threshold={}", s.leaf, s.threshold)).collect();
-        let settings = self.choose(&specs.iter().map(String::as_str).collect::<Vec<_>>())?;
-        let timings = self.time(scene, &picture, &settings, self.settings.runs.div_ceil(2), progress)?;
-        for (setting, timing) in SWEEP.iter().zip(&timings) {
-            result.parameters.push(Setting {
-                scene: scene.name.clone(),
-                leaf: setting.leaf,
-                threshold: setting.threshold,
-                seconds: median_seconds(timing),
-                extrapolated: timing.extrapolated,
-                report_s: setting.seconds[index],
+        for (i, sweep) in SWEEP.iter().enumerate() {
+            let Seconds { seconds, extrapolated, .. } = seconds(setting(i));
+            self.parameters.push(Setting {
+                scene: first.scene.clone(),
+                leaf: sweep.leaf,
+                threshold: sweep.threshold,
+                seconds,
+                extrapolated,
+                report_s: sweep.seconds[index],
             });
         }
-        Ok(())
     }
 
-    fn add_hard(
-        &self,
-        row: &original::HardRow,
-        scene: &Scene,
-        result: &mut Replication,
-        progress: &mut dyn FnMut(Stage),
-    ) -> Result<(), StudyError> {
-        progress(Stage::Rays("primary"));
-        let picture = Picture::primary(scene, self.guide(scene)?.as_ref());
-        result.rays.push(picture.rays(scene, row.rays));
-        let (rays, triangles) = (picture.total(), scene.mesh.len());
+    /// Adds a hard scene of the report: its tree, the SAH tree, and its tree once more.
+    fn add_hard(&mut self, epochs: &[Epoch], seed: u64) {
+        const TREE: usize = 0;
+        const TWIN: usize = 2;
+        let first = &epochs[0];
+        let Some(row): Option<&HardRow> = HARD.iter().find(|row| row.scene == first.scene) else { return };
+        let rays = self.add_rays(first, row.rays);
 
-        let structures = self.choose(&[REPORT_TREE, SAH_TREE])?;
-        let timings = self.time(scene, &picture, &structures, 2 * self.settings.runs, progress)?;
-        let [tree, sah] = &timings[..] else { unreachable!("one timing a structure") };
-        result.hard.push(Hard {
-            scene: scene.name.clone(),
-            triangles,
+        let times = WholeTimes::new(epochs);
+        let floor = times.floor([TREE, TWIN], seed);
+        let seconds = |structure: usize| Seconds::of(&times, first, structure, rays, floor, seed);
+        let build_s = |structure: usize| {
+            let builds: Vec<f64> = epochs.iter().map(|epoch| epoch.structures[structure].build_ns as f64).collect();
+            median(&builds).expect("there is an epoch") * 1e-9
+        };
+        self.hard.push(Hard {
+            scene: first.scene.clone(),
+            triangles: first.triangles,
             rays,
-            stand_in: !scene.stand_ins.is_empty(),
-            tree: Seconds::of(tree, rays, triangles),
-            tree_build_s: tree.build_s,
-            sah: Seconds::of(sah, rays, triangles),
-            sah_build_s: sah.build_s,
-            sah_over_median: self.ratio(tree, sah),
-            rounds: tree.seconds.iter().zip(&sah.seconds).map(|(tree, sah)| tree / sah).collect(),
+            stand_in: first.stand_in,
+            tree: seconds(TREE),
+            tree_build_s: build_s(TREE),
+            sah: seconds(SAH),
+            sah_build_s: build_s(SAH),
+            sah_over_median: times.ratio(TREE, SAH, floor, seed),
+            log_ratios: times.log_ratios(TREE, SAH).concat(),
+            floor: libm::exp(floor),
             report_tree_s: row.tree_s,
             report_tree_build_s: row.build_s,
             report_tree_t_prime: t_prime(row.tree_s, row.rays, row.triangles),
         });
 
         // The claim is about all hard scenes: say so far as they are measured.
-        let ratios: Vec<Vec<f64>> = result.hard.iter().map(|hard| hard.rounds.clone()).collect();
-        result.conclusion = Conclusion {
-            scenes: result.hard.iter().map(|hard| hard.scene.clone()).collect(),
-            sah_over_median: mean_ratio(&ratios, self.settings.seed),
+        let cells: Vec<Vec<Vec<f64>>> =
+            self.hard.iter().map(|hard| hard.log_ratios.iter().map(|&log| vec![log]).collect()).collect();
+        let floor = self.hard.iter().map(|hard| libm::log(hard.floor)).fold(0.0, f64::max);
+        self.conclusion = Conclusion {
+            scenes: self.hard.iter().map(|hard| hard.scene.clone()).collect(),
+            sah_over_median: replication(&cells, floor, seed),
         };
-        Ok(())
     }
 
-    /// The structure that tells where secondary rays start.
-    fn guide(&self, scene: &Scene) -> Result<Box<dyn DynAccel>, StudyError> {
-        let guide = &self.choose(&[SAH_TREE])?[0];
-        Ok(Built::new(guide, scene, &self.settings.threads, self.clock)?.accel)
-    }
-
-    fn choose(&self, specs: &[&str]) -> Result<Vec<Choice>, StudyError> {
-        specs.iter().map(|spec| self.registry.choose(spec).map_err(StudyError::from)).collect()
-    }
-
-    /// Times structures on all rays of a picture.
-    fn time(
-        &self,
-        scene: &Scene,
-        picture: &Picture,
-        structures: &[Choice],
-        runs: usize,
-        progress: &mut dyn FnMut(Stage),
-    ) -> Result<Vec<Timing>, StudyError> {
-        time(scene, picture, structures, runs, self.settings, self.clock, progress)
-    }
-
-    /// Seconds of `slow` / seconds of `fast`.
-    fn ratio(&self, slow: &Timing, fast: &Timing) -> Interval {
-        paired_ratio(&slow.seconds, &fast.seconds, self.settings.seed).expect("there is a sample")
+    /// Adds the rays of a picture; `report` is the report's total. Gives ours.
+    fn add_rays(&mut self, epoch: &Epoch, report: u64) -> u64 {
+        if epoch.stand_in {
+            self.stand_ins.push(epoch.scene.clone());
+        }
+        let asked = |query: Query| -> u64 {
+            let rays = epoch.structures[0].rays.iter().filter(|rays| rays.query == query);
+            rays.map(|rays| rays.all as u64).sum()
+        };
+        let (closest, shadow) = (asked(Query::Closest), asked(Query::Any));
+        let primary = closest.min(u64::from(PICTURE[0]) * u64::from(PICTURE[1]));
+        let (scene, mirror, total) = (epoch.scene.clone(), closest - primary, closest + shadow);
+        self.rays.push(Rays { scene, primary, mirror, shadow, total, report });
+        total
     }
 }
 
 impl Seconds {
-    fn of(timing: &Timing, rays: u64, triangles: usize) -> Self {
-        let seconds = median_seconds(timing);
-        Self { seconds, t_prime: t_prime(seconds, rays, triangles), extrapolated: timing.extrapolated }
+    fn of(times: &WholeTimes, first: &Epoch, structure: usize, rays: u64, floor: f64, seed: u64) -> Self {
+        let seconds = times.seconds(structure, floor, seed);
+        let t_prime = |seconds: f64| t_prime(seconds, rays, first.triangles);
+        let Structure { rays: timed, .. } = &first.structures[structure];
+        Self {
+            seconds: seconds.estimate,
+            t_prime: Interval {
+                estimate: t_prime(seconds.estimate),
+                low: t_prime(seconds.low),
+                high: t_prime(seconds.high),
+            },
+            extrapolated: timed.iter().any(|rays| rays.rays < rays.all),
+        }
     }
-}
-
-fn median_seconds(timing: &Timing) -> f64 {
-    median(&timing.seconds).expect("there is a sample")
 }

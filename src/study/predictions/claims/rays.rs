@@ -21,7 +21,7 @@ pub(super) fn rays(inputs: &Inputs) -> Prediction {
         .map(|f| format!("{} is {} rays off", f.what.split(':').next().unwrap_or(""), f.value.estimate))
         .collect();
     let why: String = if off.is_empty() {
-        "Scenes, meshes and the rules by which rays are cast are the report's.".into()
+        "That is what the same scenes, meshes and rules for casting rays would give; equal counts do not prove them the same.".into()
     } else {
         let total: u64 =
             inputs.counted.iter().filter(|case| case.scene == "Cornellbox").map(|case| case.report_rays).sum();
