@@ -27,7 +27,9 @@ pub enum StudyError {
     Disagree { one: String, other: String, scene: String, rays: String },
     #[error("{scene} has no rays of the kind asked for: leave the scene out, or ask for another kind of rays")]
     NoRays { scene: String },
-    #[error("{structure} on {scene}, built again, gives other answers than before: its times cannot be compared")]
+    #[error(
+        "{structure} on {scene}, built again, gives other answers than before, or is asked other rays: its times cannot be compared"
+    )]
     Changed { structure: String, scene: String },
     #[error(transparent)]
     Journal(#[from] JournalError),

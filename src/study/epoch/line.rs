@@ -153,5 +153,5 @@ fn stretch(epochs: &[Vec<f64>]) -> f64 {
     if n < 2.0 {
         return 1.0;
     }
-    factor(n - 1.0) / 1.96 * libm::sqrt(2.0 * n / (n - 1.0))
+    factor(n - 1.0) / factor(f64::INFINITY) * libm::sqrt(2.0 * n / (n - 1.0))
 }

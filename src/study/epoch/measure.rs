@@ -31,7 +31,7 @@ pub fn measure(
     let mut bench = Bench::set_up(scene, settings, epoch, clock, progress)?;
     match first {
         None => bench.check(clock, progress)?,
-        Some(first) => bench.resume(first),
+        Some(first) => bench.resume(first)?,
     }
     bench.sample(epoch, first.is_some(), clock, progress)?;
     if first.is_none() {
@@ -140,14 +140,24 @@ impl<'a> Bench<'a> {
         Ok(())
     }
 
-    /// Takes over what was found in the first epoch.
-    fn resume(&mut self, first: &Epoch) {
+    /// Takes over what was found in the first epoch, if it was of these rays.
+    fn resume(&mut self, first: &Epoch) -> Result<(), StudyError> {
+        let hashes: Vec<String> = self.workloads.iter().map(Workload::hash).collect();
+        let same = |rays: &[Rays]| {
+            let timed = |rays: &Rays| rays.untimed.is_some() || (1..=rays.all).contains(&rays.rays);
+            rays.iter().map(|rays| &rays.hash).eq(&hashes) && rays.iter().all(timed)
+        };
         // By place: twins have one label.
         for (structure, before) in self.structures.iter_mut().zip(&first.structures) {
+            if before.refused.is_none() && !same(&before.rays) {
+                let (structure, scene) = (structure.label.clone(), self.scene.name.clone());
+                return Err(StudyError::Changed { structure, scene });
+            }
             structure.refused = structure.refused.take().or_else(|| before.refused.clone());
             let again = |rays: &Rays| Rays { ns: vec![], counts: None, ..rays.clone() };
             structure.rays = before.rays.iter().map(again).collect();
         }
+        Ok(())
     }
 
     /// What is timed: structures by their numbers among those built.

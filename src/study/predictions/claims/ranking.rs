@@ -107,14 +107,14 @@ fn groups(records: &[Record]) -> Vec<Vec<&Record>> {
 fn across(group: &[&Record]) -> Option<f64> {
     let known: Vec<(&str, (f64, f64))> = group
         .iter()
-        .filter_map(|r| Some((family(&r.structure), (r.counts.sah_cost?, r.trace_ns? / r.rays as f64))))
+        .filter_map(|r| Some((kind(&r.structure), (r.counts.sah_cost?, r.trace_ns? / r.rays as f64))))
         .collect();
     let pairs: Vec<(f64, f64)> = known.iter().map(|(_, pair)| *pair).collect();
     kendall(&pairs, |i, j| known[i].0 != known[j].0)
 }
 
-/// Structures with the same kind of cells and the same width of nodes.
-fn family(structure: &str) -> &str {
+/// What a structure has in common with those whose cells and nodes are of the same kind.
+fn kind(structure: &str) -> &str {
     match structure {
         REPORT_TREE | SAH_TREE => "binary kd-tree",
         "sah-kd-wide" | "sah-kd-tight" => "wide kd-tree",
