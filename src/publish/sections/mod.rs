@@ -57,7 +57,7 @@ pub fn document(runs: &Runs, pictures: Vec<Section>) -> Document {
     sections.sort_by_key(|section| ORDER.iter().position(|id| *id == section.id));
     let mut document = Document { title: QUESTION.into(), answer: answer::answer(runs), sections };
     let missing = document.missing().into_iter().map(|m| (m.what.clone(), m.command.clone())).collect();
-    let mut known: Vec<String> = document.sections.iter().map(|section| section.id.to_owned()).collect();
+    let mut known = vec![];
     document.sections.iter_mut().for_each(|section| name_apart(&mut section.blocks, &mut known));
     document.sections.push(provenance::section(runs, missing));
     document

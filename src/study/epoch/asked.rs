@@ -46,15 +46,15 @@ impl Asked {
         workloads
     }
 
-    /// As journals keep it.
-    pub(super) fn words(&self) -> String {
+    /// As journals keep it: names of the kinds, and how many rays of each at most.
+    pub(super) fn kept(&self) -> (String, Option<u32>) {
         match self {
             Self::Kinds(kinds, rays) => {
                 let names: Vec<&str> = kinds.iter().map(|kind| kind.name()).collect();
-                format!("{}, at most {rays}", names.join(" "))
+                (names.join(" "), Some(*rays))
             }
-            Self::Picture => "picture".into(),
-            Self::PrimaryPicture => "primary rays of the picture".into(),
+            Self::Picture => ("picture".into(), None),
+            Self::PrimaryPicture => ("primary-picture".into(), None),
         }
     }
 }

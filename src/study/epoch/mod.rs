@@ -49,7 +49,9 @@ pub struct Settings {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 struct Kept {
     structures: String,
-    rays: String,
+    workloads: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    rays: Option<u32>,
     runs: usize,
     budget_ns: u64,
     seed: u64,
@@ -59,9 +61,11 @@ impl Settings {
     /// What a journal keeps of them.
     pub fn kept(&self) -> impl Serialize + use<> {
         let structures: Vec<&str> = self.structures.iter().map(|choice| choice.label.as_str()).collect();
+        let (workloads, rays) = self.asked.kept();
         Kept {
             structures: structures.join(" "),
-            rays: self.asked.words(),
+            workloads,
+            rays,
             runs: self.runs,
             budget_ns: self.budget_ns,
             seed: self.seed,
