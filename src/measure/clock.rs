@@ -27,35 +27,60 @@ impl Clock for SystemClock {
     }
 }
 
-/// The time that the calling thread has had a processor for: it stands still while another program has the core, or the host of a
-/// virtual machine. For work on one thread, which a pass on one thread is, it is the elapsed time of a machine of one's own.
-pub struct ThreadClock(());
+/// Processor time: it stands still while another program has the core, or the host of a virtual machine. For work on one thread it is
+/// the elapsed time of a machine of one's own.
+pub struct CpuClock(Id);
 
-impl ThreadClock {
-    /// Nothing for several threads, or where the system has no such clock: then time that elapses has to do.
-    pub fn of(threads: &Threads) -> Option<Self> {
-        (threads.count() == 1 && cpu_time_ns().is_some()).then_some(Self(()))
+#[cfg(target_os = "linux")]
+type Id = libc::clockid_t;
+#[cfg(not(target_os = "linux"))]
+type Id = std::convert::Infallible;
+
+impl CpuClock {
+    /// Of the calling thread, for passes. Nothing for several threads, or where the system has no such clock: then time that elapses
+    /// has to do.
+    pub fn of_thread(threads: &Threads) -> Option<Self> {
+        #[cfg(target_os = "linux")]
+        let id = Some(libc::CLOCK_THREAD_CPUTIME_ID);
+        #[cfg(not(target_os = "linux"))]
+        let id = None;
+        Self::of(threads, id)
+    }
+
+    /// Of the whole process, for builds: some builders have threads of their own, whose work is work. Nothing where
+    /// [`CpuClock::of_thread`] is.
+    pub fn of_process(threads: &Threads) -> Option<Self> {
+        #[cfg(target_os = "linux")]
+        let id = Some(libc::CLOCK_PROCESS_CPUTIME_ID);
+        #[cfg(not(target_os = "linux"))]
+        let id = None;
+        Self::of(threads, id)
+    }
+
+    fn of(threads: &Threads, id: Option<Id>) -> Option<Self> {
+        let id = id.filter(|_| threads.count() == 1)?;
+        cpu_time_ns(&id).map(|_| Self(id))
     }
 }
 
-impl Clock for ThreadClock {
+impl Clock for CpuClock {
     #[inline]
     fn now_ns(&self) -> u64 {
-        cpu_time_ns().expect("it was there when the clock was made")
+        cpu_time_ns(&self.0).expect("it was there when the clock was made")
     }
 }
 
 #[cfg(target_os = "linux")]
-fn cpu_time_ns() -> Option<u64> {
+fn cpu_time_ns(id: &Id) -> Option<u64> {
     let mut time = libc::timespec { tv_sec: 0, tv_nsec: 0 };
     // SAFETY: the call writes the time.
-    let failed = unsafe { libc::clock_gettime(libc::CLOCK_THREAD_CPUTIME_ID, &mut time) };
+    let failed = unsafe { libc::clock_gettime(*id, &mut time) };
     (failed == 0).then(|| time.tv_sec as u64 * 1_000_000_000 + time.tv_nsec as u64)
 }
 
 #[cfg(not(target_os = "linux"))]
-fn cpu_time_ns() -> Option<u64> {
-    None
+fn cpu_time_ns(id: &Id) -> Option<u64> {
+    match *id {}
 }
 
 #[cfg(all(test, target_os = "linux"))]
@@ -64,12 +89,27 @@ mod tests {
 
     #[test]
     fn the_clock_of_a_thread_stands_still_while_it_waits() {
-        let clock = ThreadClock::of(&Threads::new(1).unwrap()).unwrap();
+        let clock = CpuClock::of_thread(&Threads::new(1).unwrap()).unwrap();
         let (before, wall) = (clock.now_ns(), SystemClock::start());
         std::thread::sleep(std::time::Duration::from_millis(50));
         let waited = clock.now_ns() - before;
         assert!(waited < wall.now_ns() / 2, "{waited} ns");
         while clock.now_ns() - before < waited + 1_000_000 {}
-        assert!(ThreadClock::of(&Threads::new(2).unwrap()).is_none());
+        assert!(CpuClock::of_thread(&Threads::new(2).unwrap()).is_none());
+    }
+
+    #[test]
+    fn the_clock_of_the_process_sees_other_threads() {
+        let one = Threads::new(1).unwrap();
+        let (thread, process) = (CpuClock::of_thread(&one).unwrap(), CpuClock::of_process(&one).unwrap());
+        let (own, all) = (thread.now_ns(), process.now_ns());
+        let worker = std::thread::spawn(|| {
+            let clock = CpuClock::of_thread(&Threads::new(1).unwrap()).unwrap();
+            let start = clock.now_ns();
+            while clock.now_ns() - start < 20_000_000 {}
+        });
+        worker.join().unwrap();
+        assert!(process.now_ns() - all >= 20_000_000 && thread.now_ns() - own < 20_000_000);
+        assert!(CpuClock::of_process(&Threads::new(2).unwrap()).is_none());
     }
 }

@@ -18,7 +18,7 @@ mod summary;
 mod warm_up;
 
 pub use change::change;
-pub use clock::{Clock, SystemClock, ThreadClock};
+pub use clock::{Clock, CpuClock, SystemClock};
 pub use floor::{Difference, NoiseFloor, QUANTILE};
 pub use instructions::Instructions;
 pub use memory::{CountingAllocator, peak_bytes};

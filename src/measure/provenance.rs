@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{ThreadClock, Threads, machine};
+use super::{CpuClock, Threads, machine};
 use crate::simd::Level;
 
 /// What must be known to judge a measurement, and to repeat it.
@@ -94,7 +94,7 @@ impl Provenance {
     pub fn of(threads: &Threads) -> Self {
         let pinned = threads.cores().map(<[usize]>::to_vec);
         let core = pinned.as_ref().map_or(0, |cores| cores[0]);
-        let clock = if ThreadClock::of(threads).is_some() { "cpu".into() } else { elapsed() };
+        let clock = if CpuClock::of_thread(threads).is_some() { "cpu".into() } else { elapsed() };
         Self { pinned, clock, governor: machine::governor(core), ..Self::capture(threads.count()) }
     }
 

@@ -155,7 +155,11 @@ impl Runs {
         let first = value.get(0);
         if first.is_some_and(|first| has(first, "workload_hash")) {
             let records: Vec<Record> = typed(path, "records", value)?;
-            return self.add_records(path, records);
+            return self.add_records(path, records, false);
+        }
+        if let Some(records) = value.get("partitions") {
+            let records: Vec<Record> = typed(path, "the records of partitions", records.clone())?;
+            return self.add_records(path, records, true);
         }
         if first.is_some_and(|first| has(first, "error_bound")) {
             let records: Vec<AccuracyRecord> = typed(path, "records of accuracy", value)?;
@@ -199,11 +203,11 @@ impl Runs {
     }
 
     /// Adds records; those of the same scene, structure and workload that are there already are older.
-    fn add_records(&mut self, path: &Path, records: Vec<Record>) -> Result<(), RunError> {
+    fn add_records(&mut self, path: &Path, records: Vec<Record>, partitions: bool) -> Result<(), RunError> {
         let command = records.first().map_or(String::new(), |record| record.provenance.command.clone());
         let has = |name: &str| command.split_whitespace().any(|word| word == name);
         let (kind, old) = match () {
-            () if has("partitions") => ("study partitions", &mut self.partitions),
+            () if partitions => ("study partitions", &mut self.partitions),
             () if has("bench") => ("bench", &mut self.benched),
             () => ("compare", &mut self.records),
         };

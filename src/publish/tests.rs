@@ -296,6 +296,15 @@ fn the_newest_run_of_a_scene_counts_and_the_older_one_is_said_to_be_replaced() {
 }
 
 #[test]
+fn partitions_are_no_comparison_of_the_same_scene() {
+    let partitions = to_json(&serde_json::json!({ "schema": 1, "partitions": records("Cube") }));
+    let folder = folder(&[("compare.json", to_json(&records("Cube"))), ("partitions.json", partitions)]);
+    let runs = read(folder.path());
+    assert_eq!((runs.records.len(), runs.partitions.len()), (6, 6));
+    assert!(runs.sources.iter().any(|source| source.kind == "study partitions" && source.replaced.is_empty()));
+}
+
+#[test]
 fn what_cannot_be_read_is_one_sentence() {
     let whole = to_json(&records("Cube"));
     let torn = whole[..whole.len() / 2].to_vec();

@@ -2,7 +2,7 @@ use std::sync::Arc;
 
 use super::StudyError;
 use crate::accel::DynAccel;
-use crate::measure::{Clock, ThreadClock, Threads, median};
+use crate::measure::{Clock, CpuClock, Threads, median};
 use crate::registry::Choice;
 use crate::scene::Scene;
 
@@ -35,14 +35,11 @@ impl Built {
     pub fn once(choice: &Choice, scene: &Scene, threads: &Threads, clock: &dyn Clock) -> Result<Self, StudyError> {
         let mesh = Arc::clone(&scene.mesh);
         // As for rays: what others take of the core of a single thread is no time of the build.
-        let own = ThreadClock::of(threads);
+        let own = CpuClock::of_process(threads);
+        let clock = own.as_ref().map_or(clock, |clock| clock as &dyn Clock);
         let start = clock.now_ns();
-        let (accel, own_ns) = threads.install(|| {
-            let start = own.as_ref().map(Clock::now_ns);
-            let accel = choice.build(&mesh);
-            (accel, own.as_ref().zip(start).map(|(own, start)| own.now_ns() - start))
-        });
-        let build_ns = own_ns.unwrap_or_else(|| clock.now_ns() - start);
+        let accel = threads.install(|| choice.build(&mesh));
+        let build_ns = clock.now_ns() - start;
         let accel = accel.map_err(|cause| StudyError::Build {
             structure: choice.label.clone(),
             scene: scene.name.clone(),

@@ -3,7 +3,7 @@
 use super::StudyError;
 use super::built::Built;
 use super::guarded::Guarded;
-use crate::measure::{Clock, Pass, Plan, Samples, ThreadClock, Threads, Timed, take, take_again};
+use crate::measure::{Clock, CpuClock, Pass, Plan, Samples, Threads, Timed, take, take_again};
 use crate::scene::{Scene, Workload};
 
 /// Passes of a case besides its samples, in each epoch: what the search for the number of rays and a warm-up take as a rule.
@@ -67,7 +67,7 @@ impl Timing<'_> {
         let (mut passes, panicked): (Vec<_>, Vec<_>) = cases.iter().map(pass).collect();
         let _pin = self.threads.pin();
         // What others take of the core is no time of a pass.
-        let own = ThreadClock::of(self.threads);
+        let own = CpuClock::of_thread(self.threads);
         let clock = own.as_ref().map_or(self.clock, |clock| clock as &dyn Clock);
         let samples = match before {
             None => take(clock, &mut passes, plan, progress),

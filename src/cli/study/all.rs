@@ -1,4 +1,4 @@
-//! `study all`: every study, `compare` and `replicate` in one run that can be killed and goes on.
+//! `study all`: everything that the report shows, in one run that can be killed and goes on.
 
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -6,9 +6,9 @@ use std::time::Instant;
 use anyhow::Context;
 use serde_json::Value;
 
-use super::{attribution, break_even, costs, crossover, parameters, predictions, scaling};
+use super::{attribution, break_even, costs, crossover, parameters, partitions, predictions, scaling};
 use crate::cli::terminal::Terminal;
-use crate::cli::{Verdict, compare, replicate};
+use crate::cli::{Verdict, accuracy, compare, replicate};
 use crate::measure::Provenance;
 use crate::registry::Registry;
 use crate::report::number::duration;
@@ -34,17 +34,20 @@ struct Step {
     run: fn(&Registry, &[String], &Terminal) -> anyhow::Result<Verdict>,
     /// What it leaves in the folder.
     file: &'static str,
+    /// Options of the whole run.
+    full: &'static str,
     /// Options of the quick run.
     quick: &'static str,
 }
 
 /// The command of a module as a step.
 macro_rules! step {
-    ($command:ident, $name:literal, $file:literal, $quick:expr) => {
+    ($command:ident, $name:literal, $file:literal, $full:expr, $quick:expr) => {
         Step {
             name: $name,
             run: |registry, words, terminal| $command::run(registry, &parsed(words)?, terminal),
             file: $file,
+            full: $full,
             quick: $quick,
         }
     };
@@ -54,16 +57,24 @@ macro_rules! step {
 const FEW: &str = "torus --epochs 2 --runs 2 --budget 1 --rays 1024";
 
 /// In this order: the last one judges by what the others have left.
-const STEPS: [Step; 9] = [
-    step!(replicate, "replicate", "replicate.json", "--epochs 2 --runs 2 --budget 1"),
-    step!(compare, "compare", "compare.json", "cube torus --rays 1024 --runs 2 --budget 1"),
-    step!(attribution, "attribution", "attribution.jsonl", FEW),
-    step!(parameters, "parameters", "parameters.jsonl", "cube torus --epochs 2 --runs 2 --budget 1"),
-    step!(scaling, "scaling", "scaling.jsonl", "torus --finest 4 --epochs 2 --runs 2 --budget 1 --rays 1024"),
-    step!(crossover, "crossover", "crossover.jsonl", "--epochs 2 --runs 2 --budget 1 --rays 1024"),
-    step!(break_even, "break-even", "break-even.jsonl", FEW),
-    step!(costs, "costs", "costs.jsonl", FEW),
-    step!(predictions, "predictions", "predictions.json", ""),
+const STEPS: [Step; 11] = [
+    step!(replicate, "replicate", "replicate.json", "", "--epochs 2 --runs 2 --budget 1"),
+    step!(compare, "compare", "compare.json", "", "cube torus --rays 1024 --runs 2 --budget 1"),
+    step!(attribution, "attribution", "attribution.jsonl", "", FEW),
+    step!(parameters, "parameters", "parameters.jsonl", "", "cube torus --epochs 2 --runs 2 --budget 1"),
+    step!(scaling, "scaling", "scaling.jsonl", "", "torus --finest 4 --epochs 2 --runs 2 --budget 1 --rays 1024"),
+    step!(crossover, "crossover", "crossover.jsonl", "", "--epochs 2 --runs 2 --budget 1 --rays 1024"),
+    step!(break_even, "break-even", "break-even.jsonl", "", FEW),
+    step!(costs, "costs", "costs.jsonl", "", FEW),
+    step!(
+        accuracy,
+        "accuracy",
+        "accuracy.json",
+        "dragon cornellbox --stratum uniform --stratum vertex --stratum grazing",
+        "cube --stratum vertex --rays 500 --runs 2 --budget 1"
+    ),
+    step!(partitions, "partitions", "partitions.json", "", "torus --rays 1024 --runs 2 --epochs 2 --budget 2"),
+    step!(predictions, "predictions", "predictions.json", "", ""),
 ];
 
 /// The options of a command, from words.
@@ -75,13 +86,13 @@ fn parsed<T: clap::Args>(words: &[String]) -> anyhow::Result<T> {
 impl Step {
     /// Whether the whole file is written at the end, so that its being there means that the step is done.
     fn is_whole(&self) -> bool {
-        ["replicate.json", "compare.json"].contains(&self.file)
+        self.file.ends_with(".json") && self.name != "predictions"
     }
 
     fn words(&self, args: &Args) -> Vec<String> {
         let path = |path: &Path| path.to_string_lossy().into_owned();
-        let quick = if args.quick { self.quick } else { "" };
-        let mut words: Vec<String> = quick.split_whitespace().map(String::from).collect();
+        let own = if args.quick { self.quick } else { self.full };
+        let mut words: Vec<String> = own.split_whitespace().map(String::from).collect();
         if self.is_whole() {
             words.extend(["--export-json".into(), path(&args.dir.join(self.file))]);
         } else {
@@ -101,7 +112,8 @@ fn done(path: &Path, quick: bool) -> anyhow::Result<Verdict> {
     let text = std::fs::read(path).with_context(|| format!("cannot read {}", path.display()))?;
     let value: Value = serde_json::from_slice(&text)
         .map_err(|error| anyhow::anyhow!("{} does not read: {error}: {again}", path.display()))?;
-    let provenance = value.get("provenance").or_else(|| value.get(0)?.get("provenance")).cloned().unwrap_or_default();
+    let records = value.get("partitions").unwrap_or(&value);
+    let provenance = value.get("provenance").or_else(|| records.get(0)?.get("provenance")).cloned().unwrap_or_default();
     let there: Provenance = serde_json::from_value(provenance)
         .map_err(|error| anyhow::anyhow!("{} does not say where it comes from: {error}: {again}", path.display()))?;
     let here = Provenance::capture(1);
@@ -110,7 +122,7 @@ fn done(path: &Path, quick: bool) -> anyhow::Result<Verdict> {
     let was_quick = there.command.split(' ').any(|word| word == "--quick");
     anyhow::ensure!(was_quick == quick, "{} is of a run with another --quick: {again}", path.display());
     let wrong = |record: &Record| record.is_disqualified() && documented_defect(&record.structure).is_none();
-    let records: Vec<Record> = serde_json::from_value(value).unwrap_or_default();
+    let records: Vec<Record> = serde_json::from_value(records.clone()).unwrap_or_default();
     Ok(if records.iter().any(wrong) { Verdict::Wrong } else { Verdict::Right })
 }
 
@@ -175,6 +187,8 @@ mod tests {
                     "crossover" => parsed::<crossover::Args>(&words).map(drop),
                     "break-even" => parsed::<break_even::Args>(&words).map(drop),
                     "costs" => parsed::<costs::Args>(&words).map(drop),
+                    "accuracy" => parsed::<accuracy::Args>(&words).map(drop),
+                    "partitions" => parsed::<partitions::Args>(&words).map(drop),
                     "predictions" => parsed::<predictions::Args>(&words).map(drop),
                     other => panic!("{other} is not known"),
                 };

@@ -49,7 +49,7 @@ pub struct Args {
     /// Seed of the rays and of the order of samples
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
-    /// Write one record per case as JSON
+    /// Write one record per case as JSON, as `partitions`
     #[arg(long, value_name = "FILE")]
     export_json: Option<PathBuf>,
     /// Write the tables as Markdown
@@ -103,7 +103,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     foot.push(Provenance::of(&settings.threads).line());
     terminal.print_lines(&foot)?;
     if let Some(file) = json {
-        file.write(&to_json(&records))?;
+        file.write(&to_json(&serde_json::json!({ "schema": Record::SCHEMA, "partitions": records })))?;
     }
     if let Some(file) = markdown {
         file.write(&to_markdown(&tables(&rows(&records)), &foot))?;
