@@ -27,7 +27,7 @@ pub use pass::{Pass, Threads, checksum, spread};
 pub use pin::Pin;
 pub use provenance::Provenance;
 pub use replication::{epoch_values, log_ratios, prediction, replication, standard_error};
-pub use samples::{Plan, Samples, Timed, UnsteadyAnswers, take, take_again};
+pub use samples::{Plan, Samples, Timed, UnsteadyAnswers, begin, take};
 pub use student::{factor, holm, two_sided};
 pub use summary::{Interval, geometric_mean, median};
 pub use warm_up::{MOST_PASSES, WarmUp};

@@ -24,7 +24,7 @@ pub trait Timed {
 /// How samples are taken.
 #[derive(Clone, Copy, Debug)]
 pub struct Plan {
-    /// Samples of every case, in each call of [`take`] or [`take_again`].
+    /// Samples of every case, in each epoch.
     pub runs: usize,
     /// What one sample may take, nanoseconds. A case that takes longer for all its rays runs on fewer.
     pub sample_budget_ns: u64,
@@ -69,37 +69,25 @@ pub struct UnsteadyAnswers {
 /// The first pass of a case takes so many rays, to find out how slow it is.
 const PILOT: usize = 64;
 
-/// Takes `plan.runs` samples of every case: in each round every case once, in random order, after a search for how many rays
-/// fit the budget, and a warm-up. `progress` is told the number of samples taken, between them.
+/// Finds how many rays of each case fit `plan.sample_budget_ns`. No sample is taken yet; the numbers of rays may be changed before.
+pub fn begin(clock: &dyn Clock, cases: &mut [Box<dyn Timed + '_>], plan: &Plan) -> Vec<Samples> {
+    let none = |case: &mut Box<dyn Timed + '_>| {
+        let rays = fit(clock, case.as_mut(), plan.sample_budget_ns);
+        Samples { rays, checksum: 0, same_answers: true, unsteady: 0, ns: Vec::with_capacity(plan.runs) }
+    };
+    cases.iter_mut().map(none).collect()
+}
+
+/// An epoch: adds `plan.runs` samples of every case, in each round every case once, in random order, after a warm-up. `samples` are what
+/// [`begin`] found, or those of earlier epochs of the same cases, whose structures have been built again. `progress` is
+/// told the number of samples taken, between them.
 ///
 /// # Errors
 /// If a case gives different answers to the same rays.
-pub fn take(
-    clock: &dyn Clock,
-    cases: &mut [Box<dyn Timed + '_>],
-    plan: &Plan,
-    progress: &mut dyn FnMut(usize),
-) -> Result<Vec<Samples>, UnsteadyAnswers> {
-    let mut samples: Vec<Samples> = cases
-        .iter_mut()
-        .map(|case| {
-            let rays = fit(clock, case.as_mut(), plan.sample_budget_ns);
-            Samples { rays, checksum: 0, same_answers: true, unsteady: 0, ns: Vec::with_capacity(plan.runs) }
-        })
-        .collect();
-    epoch(clock, cases, plan, &mut samples, progress)?;
-    Ok(samples)
-}
-
-/// Another epoch: adds `plan.runs` samples to those taken before of the same cases, whose structures have been built again, on
-/// as many rays as before.
-///
-/// # Errors
-/// As [`take`].
 ///
 /// # Panics
 /// If there are not as many samples as cases.
-pub fn take_again(
+pub fn take(
     clock: &dyn Clock,
     cases: &mut [Box<dyn Timed + '_>],
     plan: &Plan,
@@ -107,17 +95,6 @@ pub fn take_again(
     progress: &mut dyn FnMut(usize),
 ) -> Result<(), UnsteadyAnswers> {
     assert_eq!(cases.len(), samples.len(), "samples are of the same cases");
-    epoch(clock, cases, plan, samples, progress)
-}
-
-/// Warms every case up and adds samples, round by round.
-fn epoch(
-    clock: &dyn Clock,
-    cases: &mut [Box<dyn Timed + '_>],
-    plan: &Plan,
-    samples: &mut [Samples],
-    progress: &mut dyn FnMut(usize),
-) -> Result<(), UnsteadyAnswers> {
     let mut checksums = vec![];
     let mut passes = vec![];
     for (i, (case, samples)) in cases.iter_mut().zip(samples.iter_mut()).enumerate() {

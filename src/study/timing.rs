@@ -3,7 +3,7 @@
 use super::StudyError;
 use super::built::Built;
 use super::guarded::Guarded;
-use crate::measure::{Clock, CpuClock, Pass, Plan, Samples, Threads, Timed, take, take_again};
+use crate::measure::{Clock, CpuClock, Pass, Plan, Samples, Threads, Timed, begin, take};
 use crate::scene::{Scene, Workload};
 
 /// Passes of a case besides its samples, in each epoch: what the search for the number of rays and a warm-up take as a rule.
@@ -69,11 +69,13 @@ impl Timing<'_> {
         // What others take of the core is no time of a pass.
         let own = CpuClock::of_thread(self.threads);
         let clock = own.as_ref().map_or(self.clock, |clock| clock as &dyn Clock);
-        let samples = match before {
-            None => take(clock, &mut passes, plan, progress),
-            Some(mut samples) => take_again(clock, &mut passes, plan, &mut samples, progress).map(|()| samples),
-        };
-        let samples = samples.map_err(|cause| {
+        let mut samples = before.unwrap_or_else(|| {
+            let mut samples = begin(clock, &mut passes, plan);
+            let labels: Vec<&str> = cases.iter().map(|case| self.built[case.structure].choice.label.as_str()).collect();
+            pair_twins(cases, &labels, &mut samples);
+            samples
+        });
+        take(clock, &mut passes, plan, &mut samples, progress).map_err(|cause| {
             let Case { structure, workload } = cases[cause.case];
             StudyError::Unsteady {
                 structure: self.built[structure].choice.label.clone(),
@@ -83,5 +85,38 @@ impl Timing<'_> {
             }
         })?;
         Ok(Taken { samples, panicked: panicked.iter().map(|panicked| panicked.get()).collect() })
+    }
+}
+
+/// Structures of one label are twins: whatever the search found, they take the rays of the first, so that their times differ by
+/// noise alone.
+fn pair_twins(cases: &[Case], labels: &[&str], samples: &mut [Samples]) {
+    for i in 1..cases.len() {
+        let same = |j: &usize| labels[*j] == labels[i] && cases[*j].workload == cases[i].workload;
+        if let Some(first) = (0..i).find(same) {
+            samples[i].rays = samples[first].rays;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn twins_take_the_same_rays() {
+        let samples = |rays| Samples { rays, checksum: 0, same_answers: true, unsteady: 0, ns: vec![] };
+        // Two structures and the twin of the first, on two workloads.
+        let cases = Case::all(3, 2);
+        let labels = ["a", "a", "b", "b", "a", "a"];
+        let mut taken = [64, 128, 32, 16, 32, 256].map(samples);
+        pair_twins(&cases, &labels, &mut taken);
+        assert_eq!(taken.map(|samples| samples.rays), [64, 128, 32, 16, 64, 128]);
+    }
+
+    #[test]
+    fn the_budget_is_shared_by_samples_and_what_comes_before_them() {
+        assert_eq!(sample_budget_ns(1_200, 20, 3), 10);
+        assert_eq!((sample_budget_ns(5, 1000, 3), sample_budget_ns(5, 0, 3)), (1, 5));
     }
 }

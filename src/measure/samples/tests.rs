@@ -97,7 +97,8 @@ impl Bench {
 
     fn take(&self, cases: &mut [Box<dyn Timed>], plan: &Plan) -> Result<Vec<Samples>, UnsteadyAnswers> {
         let mut told = vec![];
-        let samples = take(&self.clock, cases, plan, &mut |n| told.push(n))?;
+        let mut samples = begin(&self.clock, cases, plan);
+        take(&self.clock, cases, plan, &mut samples, &mut |n| told.push(n))?;
         assert_eq!(told, (1..=plan.runs * cases.len()).collect::<Vec<_>>());
         Ok(samples)
     }
@@ -186,13 +187,13 @@ fn another_epoch_takes_the_same_rays_and_tells_other_answers() {
     let mut samples = bench.take(&mut [bench.case('a', 10, 1_000_000, 0)], &PLAN).unwrap();
     // Built again, and slower: the rays stay those of the first epoch.
     let mut again = [bench.case('a', 20, 1_000_000, 0)];
-    take_again(&bench.clock, &mut again, &PLAN, &mut samples, &mut |_| {}).unwrap();
+    take(&bench.clock, &mut again, &PLAN, &mut samples, &mut |_| {}).unwrap();
     assert_eq!(samples[0].rays, 8192);
     assert_eq!(samples[0].ns, [[81_920; 5], [163_840; 5]].concat());
     assert!(samples[0].same_answers);
 
     let mut other = bench.mock('a', 20, 1_000_000);
     other.right = 8;
-    take_again(&bench.clock, &mut [Box::new(other) as _], &PLAN, &mut samples, &mut |_| {}).unwrap();
+    take(&bench.clock, &mut [Box::new(other) as _], &PLAN, &mut samples, &mut |_| {}).unwrap();
     assert!(!samples[0].same_answers && samples[0].checksum == 7 && samples[0].ns.len() == 15);
 }
