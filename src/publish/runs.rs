@@ -92,6 +92,9 @@ pub enum RunError {
     Empty { path: PathBuf },
 }
 
+/// The kind of a file of verdicts.
+const VERDICTS: &str = "verdicts";
+
 /// The kind of a file of a folder that is passed over.
 const NO_RUN: &str = "no run";
 
@@ -176,6 +179,12 @@ impl Runs {
             self.replace("replicate", |_| true);
             self.note(path, "replicate", &replication.provenance.command);
             self.replication = Some(replication);
+            return Ok(());
+        }
+        if has(&value, "predictions") {
+            self.note(path, VERDICTS, "");
+            let source = self.sources.last_mut().expect("one has been noted");
+            source.replaced = "all of it: they are made anew from what was measured".into();
             return Ok(());
         }
         Err(RunError::Foreign { path: path.into() })

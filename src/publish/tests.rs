@@ -334,13 +334,20 @@ fn what_cannot_be_read_is_one_sentence() {
 
 #[test]
 fn what_is_no_run_is_left_out_of_a_folder_and_named() {
-    let folder =
-        folder(&[("compare.json", to_json(&records("Cube"))), ("verdicts.json", b"[{\"claim\": \"x\"}]".to_vec())]);
+    let folder = folder(&[
+        ("compare.json", to_json(&records("Cube"))),
+        ("notes.json", b"[{\"claim\": \"x\"}]".to_vec()),
+        ("predictions.json", b"{\"predictions\": []}".to_vec()),
+    ]);
     let runs = read(folder.path());
     assert_eq!(runs.records.len(), 6);
-    let left_out: Vec<&str> = runs.sources.iter().filter(|s| !s.replaced.is_empty()).map(|s| s.kind.as_str()).collect();
-    assert_eq!(left_out, ["no run"]);
-    fs::remove_file(folder.path().join("compare.json")).unwrap();
+    let mut left_out: Vec<&str> =
+        runs.sources.iter().filter(|s| !s.replaced.is_empty()).map(|s| s.kind.as_str()).collect();
+    left_out.sort_unstable();
+    assert_eq!(left_out, ["no run", "verdicts"]);
+    for file in ["compare.json", "predictions.json"] {
+        fs::remove_file(folder.path().join(file)).unwrap();
+    }
     assert!(Runs::read(&[folder.path().into()]).unwrap_err().to_string().contains("there is no run"));
 }
 
