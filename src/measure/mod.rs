@@ -23,7 +23,7 @@ pub use floor::{Difference, NoiseFloor, QUANTILE};
 pub use instructions::Instructions;
 pub use memory::{CountingAllocator, peak_bytes};
 pub use order::RandomOrder;
-pub use pass::{Pass, Threads, checksum, spread};
+pub use pass::{Pass, Threads, checksum, spread, spread_in_runs};
 pub use pin::Pin;
 pub use provenance::Provenance;
 pub use replication::{epoch_values, log_ratios, prediction, replication, standard_error};

@@ -72,7 +72,7 @@ impl Timing<'_> {
         let mut samples = before.unwrap_or_else(|| {
             let mut samples = begin(clock, &mut passes, plan);
             let labels: Vec<&str> = cases.iter().map(|case| self.built[case.structure].choice.label.as_str()).collect();
-            pair_twins(cases, &labels, &mut samples);
+            share_rays(cases, &labels, &mut samples);
             samples
         });
         take(clock, &mut passes, plan, &mut samples, progress).map_err(|cause| {
@@ -88,13 +88,23 @@ impl Timing<'_> {
     }
 }
 
-/// Structures of one label are twins: whatever the search found, they take the rays of the first, so that their times differ by
-/// noise alone.
-fn pair_twins(cases: &[Case], labels: &[&str], samples: &mut [Samples]) {
-    for i in 1..cases.len() {
-        let same = |j: &usize| labels[*j] == labels[i] && cases[*j].workload == cases[i].workload;
-        if let Some(first) = (0..i).find(same) {
-            samples[i].rays = samples[first].rays;
+/// Structures that take up to so many times as long as the fastest are timed on the same rays.
+const ALIKE: usize = 8;
+
+/// Gives cases of a workload the same rays, as far as they can be compared in the time there is: those that are not much slower than
+/// the fastest take what fits the slowest of them. Twins, structures of one label, always take the same.
+fn share_rays(cases: &[Case], labels: &[&str], samples: &mut [Samples]) {
+    let workloads = cases.iter().map(|case| case.workload + 1).max().unwrap_or(0);
+    for workload in 0..workloads {
+        let of: Vec<usize> = (0..cases.len()).filter(|&i| cases[i].workload == workload).collect();
+        let most = of.iter().map(|&i| samples[i].rays).max().unwrap_or(0);
+        let alike: Vec<usize> = of.iter().copied().filter(|&i| samples[i].rays * ALIKE >= most).collect();
+        let common = alike.iter().map(|&i| samples[i].rays).min().unwrap_or(most);
+        alike.iter().for_each(|&i| samples[i].rays = common);
+        for (at, &i) in of.iter().enumerate() {
+            if let Some(&first) = of[..at].iter().find(|&&first| labels[first] == labels[i]) {
+                samples[i].rays = samples[first].rays;
+            }
         }
     }
 }
@@ -104,14 +114,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn twins_take_the_same_rays() {
+    fn comparable_structures_take_the_same_rays_and_twins_always_do() {
         let samples = |rays| Samples { rays, checksum: 0, same_answers: true, unsteady: 0, ns: vec![] };
-        // Two structures and the twin of the first, on two workloads.
-        let cases = Case::all(3, 2);
-        let labels = ["a", "a", "b", "b", "a", "a"];
-        let mut taken = [64, 128, 32, 16, 32, 256].map(samples);
-        pair_twins(&cases, &labels, &mut taken);
-        assert_eq!(taken.map(|samples| samples.rays), [64, 128, 32, 16, 64, 128]);
+        // Three structures and the twin of the first, on two workloads: the first and its twin are far slower on the first.
+        let cases = Case::all(4, 2);
+        let labels = ["a", "a", "b", "b", "c", "c", "a", "a"];
+        let mut taken = [64, 512, 4096, 1024, 2048, 300, 32, 1024].map(samples);
+        share_rays(&cases, &labels, &mut taken);
+        assert_eq!(taken.map(|samples| samples.rays), [64, 300, 2048, 300, 2048, 300, 64, 300]);
     }
 
     #[test]

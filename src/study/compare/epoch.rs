@@ -5,7 +5,7 @@ use super::prepare::{Prepared, Subject, prepare, twin_of};
 use crate::accel::{DynAccel, Query};
 use crate::geometry::Ray;
 use crate::measure::advice::Conditions;
-use crate::measure::{Clock, Instructions, Pass, Plan, Samples, Timed, machine, spread};
+use crate::measure::{Clock, Instructions, Pass, Plan, Samples, Timed, machine, spread_in_runs};
 use crate::report::CaseCounts;
 use crate::scene::{Scene, Workload};
 use crate::study::built::Built;
@@ -203,7 +203,7 @@ impl<'a> Trial<'a> {
                 if self.subjects[s].declined[w].is_some() {
                     return Some(Tally::default());
                 }
-                let rays = spread(&workload.rays, rays(s, w));
+                let rays = spread_in_runs(&workload.rays, rays(s, w));
                 guarded(|| {
                     let mut tally = count(built.accel.as_ref(), &rays, workload.query);
                     let mut pass = Pass::new(built.accel.as_ref(), &rays, workload.query, &self.settings.threads);
