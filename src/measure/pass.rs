@@ -149,7 +149,7 @@ const TOGETHER: usize = 16;
 /// picked one by one would be dearer the fewer of them there are.
 pub fn spread_in_runs(rays: &[Ray], count: usize) -> Vec<Ray> {
     let runs = count / TOGETHER;
-    if count >= rays.len() || runs < TOGETHER || count % TOGETHER != 0 {
+    if count >= rays.len() || runs < TOGETHER || !count.is_multiple_of(TOGETHER) {
         return spread(rays, count);
     }
     let mut random = RandomOrder::new(0);
@@ -292,7 +292,11 @@ mod tests {
         assert_eq!(part.len(), 512);
         for (i, run) in part.chunks(16).enumerate() {
             let first = run[0].origin.x as usize;
-            assert!(first % 16 == 0 && (i * 50 / 16..).contains(&(first / 16)) && first / 16 < (i + 1) * 50 / 16 + 1);
+            assert!(
+                first.is_multiple_of(16)
+                    && (i * 50 / 16..).contains(&(first / 16))
+                    && first / 16 < (i + 1) * 50 / 16 + 1
+            );
             assert!(run.iter().enumerate().all(|(k, ray)| ray.origin.x as usize == first + k));
         }
         assert_eq!(spread_in_runs(&all, 128), spread(&all, 128));
