@@ -8,7 +8,7 @@ pub trait Timed {
     /// Rays of a whole pass, at least 1.
     fn rays(&self) -> usize;
 
-    /// From now on a pass takes `rays` of them, spread evenly over the whole. Not timed.
+    /// From now on a pass takes `rays` of them, spread over the whole. Not timed.
     fn restrict(&mut self, rays: usize);
 
     /// Forgets all answers, so that a pass which does nothing is found out, and gets ready. Called before every pass. Not timed.
