@@ -12,8 +12,8 @@ use crate::output::OutputFile;
 use crate::registry::Registry;
 use crate::report::{Record, to_json};
 use crate::scene::WorkloadKind;
-use crate::study::bench::{Bench, SCENES, against, new_baseline_path, read_baseline, verdict};
-use crate::study::compare::{Compared, Settings, scene_table};
+use crate::study::bench::{SCENES, against, new_baseline_path, read_baseline, verdict};
+use crate::study::compare::{Compared, Settings, Trials, scene_table};
 use crate::study::regression::{Comparison, tables};
 use crate::study::{BRUTE_FORCE, Refused, bench, documented_defect};
 
@@ -112,7 +112,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
 
     let clock = SystemClock::start();
     let mut progress = Progress::over(1, terminal);
-    let mut bench = Bench::new(&scenes, &settings, &clock, &mut |scene, stage| {
+    let mut trials = Trials::new(&scenes, &settings, &clock, &mut |scene, stage| {
         progress.scene(scene);
         progress.stage(&stage);
     })?;
@@ -120,13 +120,13 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     let (run, comparison) = loop {
         let step = if epochs == 0 { first } else { STEP };
         for _ in 0..step {
-            bench.epoch(&mut |scene, stage| {
+            trials.epoch(&mut |scene, stage| {
                 progress.scene(scene);
                 progress.stage(&stage);
             })?;
         }
         epochs += step;
-        let run = bench.results();
+        let run = Compared::joined(trials.results());
         let compare = |old: &Vec<Record>| against(old, &run, args.fail_on_regression);
         let comparison = baseline.as_ref().map(compare).transpose()?;
         let open = comparison.as_ref().is_some_and(|c| verdict(c) == bench::Verdict::Undecided);

@@ -12,7 +12,7 @@ use crate::measure::{Provenance, SystemClock, Threads, instructions};
 use crate::registry::Registry;
 use crate::report::{Record, Table, to_csv, to_json, to_markdown};
 use crate::scene::WorkloadKind;
-use crate::study::compare::{Settings, compare_scene, legend, mean_table, scene_table};
+use crate::study::compare::{Settings, Trials, legend, mean_table, scene_table};
 use crate::study::documented_defect;
 
 #[derive(Debug, Parser)]
@@ -99,28 +99,28 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     };
 
     let clock = SystemClock::start();
-    let mut progress = Progress::over(scenes.len(), terminal);
+    let epochs = settings.epochs;
+    let mut progress = Progress::over(scenes.len() * (epochs + 1), terminal);
+    let mut trials = Trials::new(&scenes, &settings, &clock, &mut |scene, stage| progress.part(scene, &stage))?;
+    let mut failure = None;
+    for epoch in 1..=epochs {
+        let done =
+            trials.epoch(&mut |scene, stage| progress.part(&format!("epoch {epoch} of {epochs}: {scene}"), &stage));
+        // What is measured of the other scenes is not lost: it is printed and exported before the run ends.
+        failure = failure.or(done.err());
+    }
     let (mut records, mut tables): (Vec<Record>, Vec<Table>) = (vec![], vec![]);
-    let (mut failure, mut refused) = (None, false);
-    for scene in &scenes {
-        progress.scene(&scene.name);
-        let of_scene = match compare_scene(scene, &settings, &clock, &mut |stage| progress.stage(&stage)) {
-            Ok(of_scene) => of_scene,
-            // What has been measured so far is not lost: it is printed and exported before the run ends.
-            Err(error) => {
-                failure = Some(error);
-                break;
-            }
-        };
-        progress.scene_done();
+    let mut refused = false;
+    for (name, of_scene) in trials.results() {
         progress.warn(of_scene.records.first().iter().flat_map(|record| &record.provenance.warnings));
-        let mut table = scene_table(&of_scene.records, &of_scene.refused, &scene.notes);
+        let notes = scenes.iter().find(|scene| scene.name == name).map_or(&[][..], |scene| &scene.notes);
+        let mut table = scene_table(&of_scene.records, &of_scene.refused, notes);
         refused |= !of_scene.refused.is_empty();
         if of_scene.records.is_empty() && of_scene.refused.is_empty() {
-            table.title = format!("{}: none of the workloads asked for has a ray in this scene", scene.name);
+            table.title = format!("{name}: none of the workloads asked for has a ray in this scene");
         }
         if of_scene.records.is_empty() && !of_scene.refused.is_empty() {
-            table.title = format!("{}: every structure is refused, or no ray is left", scene.name);
+            table.title = format!("{name}: every structure is refused, or no ray is left");
         }
         progress.aside(|| terminal.print_table(&table))?;
         records.extend(of_scene.records);

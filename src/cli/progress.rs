@@ -97,6 +97,17 @@ impl Progress {
         self.bar.tick();
     }
 
+    /// A part of the run, a scene or an epoch of one, says what it does; the part before it is done.
+    pub fn part(&mut self, name: &str, stage: &Stage) {
+        if self.scene != name {
+            if !self.scene.is_empty() {
+                self.scene_done();
+            }
+            self.scene(name);
+        }
+        self.stage(stage);
+    }
+
     /// A scene says what it does.
     pub fn stage(&mut self, stage: &Stage) {
         let (text, step) = match stage {

@@ -3,9 +3,6 @@
 use super::replication::replication;
 use super::summary::Interval;
 
-/// The share of A/A ratios that the floor holds; with fewer than 20 of them it holds them all.
-pub const QUANTILE: f64 = 0.95;
-
 /// The A/A ratios of a run: the same structure built twice and timed as two. They are 1 but for noise, so a ratio that is no
 /// farther from 1 than they are says nothing (Georges, Buytaert, Eeckhout, "Statistically rigorous Java performance
 /// evaluation", 2007, on comparing alternatives; the twin is a control).
@@ -21,12 +18,10 @@ impl NoiseFloor {
         Self { ratios: cells.iter().filter_map(|cell| replication(std::slice::from_ref(cell), 0.0, seed)).collect() }
     }
 
-    /// The [`QUANTILE`] of |ln ratio|; nothing where there is no ratio.
+    /// The largest |ln ratio|; nothing where there is no ratio. It stands for all that differs between processes, of which twins of
+    /// one process show but a part.
     pub fn log(&self) -> Option<f64> {
-        let mut sizes: Vec<f64> = self.ratios.iter().map(|ratio| libm::fabs(libm::log(ratio.estimate))).collect();
-        sizes.sort_unstable_by(f64::total_cmp);
-        let rank = libm::ceil(QUANTILE * sizes.len() as f64) as usize;
-        sizes.get(rank.checked_sub(1)?).copied()
+        self.ratios.iter().map(|ratio| libm::fabs(libm::log(ratio.estimate))).max_by(f64::total_cmp)
     }
 
     /// What the mean of as many cells of two builds may differ by, a logarithm: were the luck of each cell its own, that of their mean
@@ -87,15 +82,13 @@ mod tests {
     }
 
     #[test]
-    fn the_floor_is_a_quantile_of_the_size_of_the_ratios() {
+    fn the_floor_is_the_largest_of_the_ratios() {
         let sized = |sizes: &[f64]| NoiseFloor {
             ratios: sizes.iter().map(|&size| interval(libm::exp(size), 0.9, 1.1)).collect(),
         };
         assert_eq!(sized(&[]).log(), None);
-        assert!((sized(&[0.01, -0.03, 0.02]).log().unwrap() - 0.03).abs() < 1e-12, "few: the largest");
-        let hundred: Vec<f64> = (1..=100).map(|i| f64::from(i) * 1e-3).collect();
-        assert!((sized(&hundred).log().unwrap() - 0.095).abs() < 1e-12);
-        assert_eq!(sized(&hundred).holding_one(), 100);
+        assert!((sized(&[0.01, -0.03, 0.02]).log().unwrap() - 0.03).abs() < 1e-12);
+        assert_eq!(sized(&[0.01, -0.03, 0.02]).holding_one(), 3);
         // Of luck that cells share nothing cancels, of their own much does.
         assert!((sized(&[0.02; 4]).log_of_mean().unwrap() - 0.02).abs() < 1e-12);
         assert!((sized(&[0.02, -0.02, 0.02, -0.02]).log_of_mean().unwrap() - 0.01).abs() < 1e-12);

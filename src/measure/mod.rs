@@ -19,7 +19,7 @@ mod warm_up;
 
 pub use change::change;
 pub use clock::{Clock, CpuClock, SystemClock};
-pub use floor::{Difference, NoiseFloor, QUANTILE};
+pub use floor::{Difference, NoiseFloor};
 pub use instructions::Instructions;
 pub use memory::{CountingAllocator, peak_bytes};
 pub use order::RandomOrder;

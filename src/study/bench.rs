@@ -1,67 +1,15 @@
 //! `bench`: a comparison that is to be repeated, and held against one that was kept.
-//!
-//! All scenes take part in every epoch, so that what happens to the machine for a minute happens to all of them, and epochs can be added
-//! where those taken so far do not decide.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use super::compare::{Compared, Settings, Trial};
+use super::Refused;
+use super::compare::Compared;
 use super::regression::{Comparison, Finding, Unlike, unlike};
-use super::{Refused, Stage, StudyError};
-use crate::measure::Clock;
 use crate::report::Record;
-use crate::scene::Scene;
 
 /// Scenes whose structures are built in a moment, with few triangles, many, and walls.
 pub const SCENES: [&str; 3] = ["teapot", "starters", "cornellbox"];
-
-/// The comparison on all scenes while it runs.
-pub struct Bench<'a> {
-    trials: Vec<Trial<'a>>,
-}
-
-impl<'a> Bench<'a> {
-    /// Prepares every scene; `progress` is told its name and what is done.
-    ///
-    /// # Errors
-    /// If the structure that tells where secondary rays start cannot be built.
-    pub fn new(
-        scenes: &'a [Scene],
-        settings: &'a Settings,
-        clock: &'a dyn Clock,
-        progress: &mut dyn FnMut(&str, Stage),
-    ) -> Result<Self, StudyError> {
-        let trials =
-            scenes.iter().map(|scene| Trial::new(scene, settings, clock, &mut |stage| progress(&scene.name, stage)));
-        Ok(Self { trials: trials.collect::<Result<_, _>>()? })
-    }
-
-    /// One epoch of every scene.
-    ///
-    /// # Errors
-    /// If a structure answers the same rays differently.
-    pub fn epoch(&mut self, progress: &mut dyn FnMut(&str, Stage)) -> Result<(), StudyError> {
-        for trial in &mut self.trials {
-            let name = trial.scene_name();
-            trial.epoch(&mut |stage| progress(name, stage))?;
-        }
-        Ok(())
-    }
-
-    /// The records so far, scene by scene.
-    ///
-    /// # Panics
-    /// If there was no epoch.
-    pub fn results(&self) -> Compared {
-        let mut all = Compared::default();
-        for of_scene in self.trials.iter().map(Trial::results) {
-            all.records.extend(of_scene.records);
-            all.refused.extend(of_scene.refused);
-        }
-        all
-    }
-}
 
 /// How a run compares to the baseline.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -14,7 +14,7 @@ use sahara::golden::Goldens;
 use sahara::measure::{SystemClock, Threads};
 use sahara::registry::Registry;
 use sahara::scene::{Builtin, WorkloadKind};
-use sahara::study::compare::{Settings, compare_scene};
+use sahara::study::compare::{Settings, Trials};
 use sahara::triangle::{Exact, FilteredF64, MollerTrumbore};
 use sahara::validate::conformance::{Named, Subject, answers, counting, shapes};
 use sahara::validate::degenerate_meshes;
@@ -66,8 +66,14 @@ fn it_is_compared_like_our_own() {
         seed: 1,
         threads: Threads::new(1).unwrap(),
     };
-    let scene = Builtin::find("sphere").unwrap().scene(None).unwrap();
-    let records = compare_scene(&scene, &settings, &SystemClock::start(), &mut |_| {}).unwrap().records;
+    let scenes = [Builtin::find("sphere").unwrap().scene(None).unwrap()];
+    let clock = SystemClock::start();
+    let mut trials = Trials::new(&scenes, &settings, &clock, &mut |_, _| {}).unwrap();
+    for _ in 0..settings.epochs {
+        trials.epoch(&mut |_, _| {}).unwrap();
+    }
+    let (_, compared) = trials.results().remove(0);
+    let records = compared.records;
     assert_eq!(records.len(), 6);
     assert!(records[..4].iter().all(|r| r.structure_errors == Some(0) && r.mrays_per_s > Some(0.0)));
     assert_eq!(records[0].label, "grid");

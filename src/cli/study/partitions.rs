@@ -10,7 +10,7 @@ use crate::output::OutputFile;
 use crate::registry::Registry;
 use crate::report::{Record, to_json, to_markdown};
 use crate::scene::WorkloadKind;
-use crate::study::compare::{Settings, compare_scene};
+use crate::study::compare::{Compared, Settings, Trials};
 use crate::study::documented_defect;
 use crate::study::partitions::{LEGEND, rows, structures, tables};
 
@@ -86,17 +86,16 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     };
 
     let clock = SystemClock::start();
-    let mut progress = Progress::over(scenes.len(), terminal);
-    let mut records: Vec<Record> = vec![];
-    for scene in &scenes {
-        progress.scene(&scene.name);
-        let of_scene = compare_scene(scene, &settings, &clock, &mut |stage| progress.stage(&stage))?;
-        progress.scene_done();
-        progress.warn(of_scene.records.first().iter().flat_map(|record| &record.provenance.warnings));
-        for table in tables(&rows(&of_scene.records)) {
-            progress.aside(|| terminal.print_table(&table))?;
-        }
-        records.extend(of_scene.records);
+    let epochs = settings.epochs;
+    let mut progress = Progress::over(scenes.len() * (epochs + 1), terminal);
+    let mut trials = Trials::new(&scenes, &settings, &clock, &mut |scene, stage| progress.part(scene, &stage))?;
+    for epoch in 1..=epochs {
+        trials.epoch(&mut |scene, stage| progress.part(&format!("epoch {epoch} of {epochs}: {scene}"), &stage))?;
+    }
+    let records = Compared::joined(trials.results()).records;
+    progress.warn(records.iter().flat_map(|record| &record.provenance.warnings));
+    for table in tables(&rows(&records)) {
+        progress.aside(|| terminal.print_table(&table))?;
     }
     progress.finish();
     let mut foot: Vec<String> = LEGEND.map(String::from).into();

@@ -7,17 +7,19 @@ mod records;
 mod table;
 #[cfg(test)]
 mod tests;
+mod trials;
 
-use super::{Refused, Stage, StudyError};
+use super::Refused;
 use crate::accel::{DynAccel, Query};
-use crate::measure::{Clock, Threads};
+use crate::measure::Threads;
 use crate::registry::Choice;
 use crate::report::Record;
-use crate::scene::{Scene, Workload, WorkloadKind};
+use crate::scene::{Workload, WorkloadKind};
 
 pub use cells::{speed, twins};
 pub use epoch::Trial;
 pub use table::{legend, mean_table, scene_table};
+pub use trials::Trials;
 
 /// What is compared, and for how long.
 pub struct Settings {
@@ -64,21 +66,16 @@ pub struct Compared {
     pub refused: Vec<Refused>,
 }
 
-/// Compares the structures. One that cannot be built, or that panics on a ray, is refused; the others go on.
-///
-/// # Errors
-/// If a structure answers the same rays differently.
-pub fn compare_scene(
-    scene: &Scene,
-    settings: &Settings,
-    clock: &dyn Clock,
-    progress: &mut dyn FnMut(Stage),
-) -> Result<Compared, StudyError> {
-    let mut trial = Trial::new(scene, settings, clock, progress)?;
-    for _ in 0..settings.epochs {
-        trial.epoch(progress)?;
+impl Compared {
+    /// All scenes of a run, one after the other.
+    pub fn joined(scenes: Vec<(&str, Self)>) -> Self {
+        let mut all = Self::default();
+        for (_, of_scene) in scenes {
+            all.records.extend(of_scene.records);
+            all.refused.extend(of_scene.refused);
+        }
+        all
     }
-    Ok(trial.results())
 }
 
 /// What of a workload a structure declines, if anything is: then it has no time.

@@ -2,7 +2,7 @@
 
 use super::cells::{speed as speed_of, twins};
 use crate::accel::Query;
-use crate::measure::{Difference, Interval, QUANTILE, geometric_mean};
+use crate::measure::{Difference, Interval, geometric_mean};
 use crate::report::number::{bytes, count, duration, figures, plural};
 use crate::report::{Cell, Record, Table, Tone};
 use crate::study::Refused;
@@ -21,9 +21,8 @@ pub fn legend(first: &str) -> Vec<String> {
         format!(
             "x median, x obvhs: speed against the report's tree, {REPORT_TREE}, and against the better BVH of obvhs, geometric mean \
              over the workloads of the row, with the interval that holds the ratio of another run in 95 % of cases. =: no difference, \
-             for the interval holds 1 or lies within the noise floor, what {:.0} % of the A/A ratios (one structure built and timed as two) \
-             differ from 1 by. Blank: unknown.",
-            QUANTILE * 100.0
+             for the interval holds 1 or lies within the noise floor, the most that an A/A ratio (one structure built and timed as two) \
+             differs from 1 by. Blank: unknown."
         ),
         "checked: least number of rays of a workload held against brute force with the same triangle test. sampled: \
          least share of a workload's rays that was timed; all would take too long."

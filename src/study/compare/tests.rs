@@ -10,6 +10,7 @@ use crate::measure::SystemClock;
 use crate::registry::Registry;
 use crate::scene::Builtin;
 use crate::structures::BruteForce;
+use crate::study::StudyError;
 use crate::triangle::{MollerTrumbore, TriangleTest};
 
 /// Brute force with a flaw.
@@ -103,7 +104,12 @@ fn compared(specs: &[&str]) -> Result<Compared, StudyError> {
         threads: Threads::new(1).unwrap(),
     };
     let scene = Builtin::find("cube").unwrap().scene(None).unwrap();
-    compare_scene(&scene, &settings, &SystemClock::start(), &mut |_| {})
+    let clock = SystemClock::start();
+    let mut trial = Trial::new(&scene, &settings, &clock, &mut |_| {})?;
+    for _ in 0..settings.epochs {
+        trial.epoch(&mut |_| {})?;
+    }
+    Ok(trial.results())
 }
 
 #[test]

@@ -11,7 +11,7 @@ use crate::study::replicate::original::{MAIN, SWEEP};
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Parameters {
     pub epochs: usize,
-    /// What the twins of the default differ by in 95 % of the scenes, as a factor.
+    /// What the twins of the default differ by at most, as a factor.
     pub floor: f64,
     /// Comparisons that were made: so many looks does the correction allow for.
     pub comparisons: usize,
