@@ -61,6 +61,21 @@ pub fn place(points: &[[f64; 2]], sizes: &[[f64; 2]], obstacles: &[Rect], frame:
     placed
 }
 
+/// Where the entries of a legend stand, each a mark and a name of these widths: as many in a line as there is room for, lines `height`
+/// apart, from the middle of the first one on.
+pub fn legend(widths: impl IntoIterator<Item = f64>, gap: f64, width: f64, height: f64) -> Vec<[f64; 2]> {
+    let (mut x, mut y) = (0.0, height * 0.5);
+    let place = |length: f64| {
+        if x > 0.0 && x + length > width {
+            (x, y) = (0.0, y + height);
+        }
+        let place = [x, y];
+        x += length + gap;
+        place
+    };
+    widths.into_iter().map(place).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

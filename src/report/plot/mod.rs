@@ -85,7 +85,10 @@ impl Format {
     }
 }
 
-/// Height of the legend, and of each note.
+/// Points of a panel that are all labelled; where there are more, those of the front alone are.
+pub const LABELLED: usize = 20;
+
+/// Height of a line of the legend, and of each note.
 const LEGEND: f64 = 30.0;
 const NOTE: f64 = 20.0;
 const MARGIN: f64 = 12.0;
@@ -101,7 +104,18 @@ impl Figure {
     }
 
     fn height(&self) -> f64 {
-        self.panels.len() as f64 * panel::HEIGHT + LEGEND + self.notes.len() as f64 * NOTE + 2.0 * MARGIN
+        self.panels.len() as f64 * panel::HEIGHT + self.foot() + self.notes.len() as f64 * NOTE + 2.0 * MARGIN
+    }
+
+    /// Where a dot and a name stand for each group.
+    fn legend(&self) -> Vec<[f64; 2]> {
+        let widths = self.groups.iter().map(|name| 18.0 + canvas::width_of(name, canvas::BODY));
+        labels::legend(widths, 24.0, WIDTH - panel::LEFT - MARGIN, LEGEND)
+    }
+
+    /// Height of the legend.
+    fn foot(&self) -> f64 {
+        self.legend().last().map_or(LEGEND, |[_, y]| y + LEGEND * 0.5)
     }
 
     fn draw(&self, canvas: &Canvas) {
@@ -110,15 +124,13 @@ impl Figure {
             panel::draw(panel, &colours, canvas, top);
             top += panel::HEIGHT;
         }
-        // The legend: a dot and a name for each group.
-        let (mut x, y) = (panel::LEFT, top + LEGEND * 0.5);
-        for (group, name) in self.groups.iter().enumerate() {
+        for (group, ([x, y], name)) in self.legend().into_iter().zip(&self.groups).enumerate() {
+            let (x, y) = (panel::LEFT + x, top + y);
             canvas.dot([x + 6.0, y], 6.0, colours[group], true);
             canvas.text(name, [x + 18.0, y], canvas::BODY, colours[group], canvas::Side::Left);
-            x += 18.0 + canvas::width_of(name, canvas::BODY) + 24.0;
         }
         for (row, note) in self.notes.iter().enumerate() {
-            let y = top + LEGEND + (row as f64 + 0.5) * NOTE;
+            let y = top + self.foot() + (row as f64 + 0.5) * NOTE;
             canvas.text(note, [panel::LEFT, y], canvas::SMALL, INK.light, canvas::Side::Left);
         }
     }

@@ -4,7 +4,7 @@ use super::axis::{LogAxis, power};
 use super::canvas::{self, Canvas, Side, WIDTH};
 use super::labels::{Rect, place};
 use super::palette::{self, Colour};
-use super::{Panel, Point};
+use super::{LABELLED, Panel, Point};
 
 const INK: Colour = palette::INK.light;
 const MIDDLE: Colour = palette::MIDDLE.light;
@@ -116,8 +116,9 @@ fn marks(panel: &Panel, colours: &[Colour], canvas: &Canvas, places: &[[f64; 2]]
 }
 
 fn labels(panel: &Panel, colours: &[Colour], canvas: &Canvas, places: &[[f64; 2]], frame: Rect) {
-    // Those of the front choose first.
-    let mut order: Vec<usize> = (0..places.len()).collect();
+    // Those of the front choose first; among too many points nobody would find what belongs to a label.
+    let all = panel.points.len() <= LABELLED;
+    let mut order: Vec<usize> = (0..places.len()).filter(|&i| all || panel.points[i].is_front).collect();
     order.sort_by_key(|&i| !panel.points[i].is_front);
     let obstacles: Vec<Rect> = panel
         .points

@@ -2,6 +2,7 @@
 
 use super::bars::{whisker, with_intervals};
 use super::canvas::{self, Canvas, Side};
+use super::labels;
 use super::palette::{Colour, FAINT, INK, MIDDLE, PAPER, PARTS};
 use super::scale::{Axis, Scale};
 use crate::measure::Interval;
@@ -46,17 +47,8 @@ impl Stack {
 
     /// Where the names of the parts stand: as many in a line as there is room for.
     fn legend(&self, width: f64) -> Vec<[f64; 2]> {
-        let (mut x, mut y) = (0.0, LEGEND * 0.5);
-        let place = |name: &String| {
-            let length = 20.0 + canvas::width_of(name, canvas::SMALL);
-            if x > 0.0 && x + length > width {
-                (x, y) = (0.0, y + LEGEND);
-            }
-            let place = [x, y];
-            x += length + 20.0;
-            place
-        };
-        self.parts.iter().map(place).collect()
+        let widths = self.parts.iter().map(|name| 20.0 + canvas::width_of(name, canvas::SMALL));
+        labels::legend(widths, 20.0, width, LEGEND)
     }
 
     /// Where the rows begin.

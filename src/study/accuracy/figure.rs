@@ -1,6 +1,6 @@
 use super::{AccuracyRecord, RayKind};
 use crate::report::number::count;
-use crate::report::plot::{Figure, Panel, Point};
+use crate::report::plot::{Figure, LABELLED, Panel, Point};
 
 /// Error against time: one panel for each scene and kind of rays.
 pub fn figure(records: &[AccuracyRecord]) -> Figure {
@@ -30,14 +30,15 @@ pub fn figure(records: &[AccuracyRecord]) -> Figure {
             points: of_kind.iter().map(point).collect(),
         }
     };
-    Figure {
-        panels: records.chunk_by(|a, b| a.rays == b.rays && a.scene == b.scene).map(panel).collect(),
-        groups,
-        notes: vec![
-            "Labels name the triangle test, colours the structure. Filled: nothing is faster and less wrong.".into(),
-            "Arrow: not one wrong answer was seen in n rays; the dot is the bound that this proves, 3/n.".into(),
-        ],
+    let panels: Vec<Panel> = records.chunk_by(|a, b| a.rays == b.rays && a.scene == b.scene).map(panel).collect();
+    let mut notes = vec![
+        "Labels name the triangle test, colours the structure. Filled: nothing is faster and less wrong.".into(),
+        "Arrow: not one wrong answer was seen in n rays; the dot is the bound that this proves, 3/n.".into(),
+    ];
+    if panels.iter().any(|panel| panel.points.len() > LABELLED) {
+        notes.push(format!("Of more than {LABELLED} points those that are filled are labelled."));
     }
+    Figure { panels, groups, notes }
 }
 
 /// The label without its triangle test.
