@@ -29,7 +29,7 @@ impl WholeTimes {
         interval(&self.replicates, |logs| logs[structure], floor, seed)
     }
 
-    /// ln of the time of `one` over that of `other`, as a cell of [`replication`](crate::measure::replication).
+    /// ln of the time of `one` over that of `other`, as a cell of [`replication`](crate::measure::replication()).
     pub fn log_ratios(&self, one: usize, other: usize) -> Vec<Vec<f64>> {
         values(&self.replicates, |logs| logs[one] - logs[other])
     }
