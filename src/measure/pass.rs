@@ -293,9 +293,7 @@ mod tests {
         for (i, run) in part.chunks(16).enumerate() {
             let first = run[0].origin.x as usize;
             assert!(
-                first.is_multiple_of(16)
-                    && (i * 50 / 16..).contains(&(first / 16))
-                    && first / 16 < (i + 1) * 50 / 16 + 1
+                first.is_multiple_of(16) && (i * 50 / 16..).contains(&(first / 16)) && first / 16 < (i + 1) * 50 / 16
             );
             assert!(run.iter().enumerate().all(|(k, ray)| ray.origin.x as usize == first + k));
         }

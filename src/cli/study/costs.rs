@@ -1,7 +1,6 @@
 //! `study costs`.
 
-use super::epochs::{Field, Study};
-use super::meshes::Scenes;
+use super::epochs::Study;
 use crate::cli::Verdict;
 use crate::cli::terminal::Terminal;
 use crate::registry::Registry;
@@ -9,13 +8,7 @@ use crate::report::to_tidy_csv;
 use crate::scene::WorkloadKind;
 use crate::study::costs::{LEGEND, NAME, STRUCTURES, result, rows, tables};
 
-#[derive(Clone, Debug, clap::Args)]
-pub struct Args {
-    #[command(flatten)]
-    pub scenes: Scenes,
-    #[command(flatten)]
-    pub field: Field,
-}
+pub use super::epochs::OnScenes as Args;
 
 const STUDY: Study = Study {
     name: NAME,
@@ -26,7 +19,7 @@ const STUDY: Study = Study {
 
 pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Result<Verdict> {
     let files = args.field.options.exports.check()?;
-    let (epochs, foot, verdict) = args.field.on_scenes(&STUDY, registry, &args.scenes, terminal)?;
+    let (epochs, foot, verdict) = args.measured(&STUDY, registry, terminal)?;
     let families = result(&epochs, args.field.options.seed);
     files.tell(terminal, &families, || to_tidy_csv(&rows(&families)), &tables(&families), &foot)?;
     Ok(verdict)

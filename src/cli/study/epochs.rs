@@ -84,31 +84,41 @@ pub struct Study<'a> {
     pub legend: &'a [&'a str],
 }
 
-impl Field {
-    /// The epochs of a study on scenes, what to say below its tables, and what the run comes to.
+/// Options of those that compare such structures on scenes.
+#[derive(Clone, Debug, clap::Args)]
+pub struct OnScenes {
+    #[command(flatten)]
+    scenes: Scenes,
+    #[command(flatten)]
+    pub field: Field,
+}
+
+impl OnScenes {
+    /// The epochs of a study, what to say below its tables, and what the run comes to.
     ///
     /// # Errors
     /// As [`cases`], and if a structure or a scene is not known.
-    pub fn on_scenes(
+    pub fn measured(
         &self,
         study: &Study,
         registry: &Registry,
-        scenes: &Scenes,
         terminal: &Terminal,
     ) -> anyhow::Result<(Vec<Epoch>, Vec<String>, Verdict)> {
-        let settings = self.settings(registry, study.structures, study.workloads)?;
-        let read = scenes.read()?;
+        let settings = self.field.settings(registry, study.structures, study.workloads)?;
+        let read = self.scenes.read()?;
         let whole = |_, epoch| Ok(epoch);
         let (epochs, provenance) =
-            cases(study.name, &self.options, &settings, &read, terminal, whole, |epoch: &Epoch| epoch)?;
+            cases(study.name, &self.field.options, &settings, &read, terminal, whole, |epoch: &Epoch| epoch)?;
         let (troubles, verdict) = verdict(&epochs);
         let mut foot: Vec<String> = study.legend.iter().map(|&line| line.into()).collect();
         foot.extend(troubles);
-        foot.extend(scenes.note(&read));
+        foot.extend(self.scenes.note(&read));
         foot.push(provenance);
         Ok((epochs, foot, verdict))
     }
+}
 
+impl Field {
     /// The settings, with `structures` and `workloads` where none are named.
     ///
     /// # Errors

@@ -40,7 +40,7 @@ pub fn sentence(runs: &Runs) -> Option<String> {
     let missing = if missing > 0 { format!(", {missing} not measured") } else { String::new() };
     let unsure = match predictions.iter().filter(|p| !p.is_sure()).count() {
         0 => String::new(),
-        n => format!("; of {n} of these verdicts the intervals do not make sure"),
+        n => format!(", {n} of these verdicts not surely"),
     };
     (!predictions.is_empty()).then(|| {
         format!(

@@ -160,16 +160,7 @@ const FIRST_SETTING: usize = 2;
 impl Study<'_> {
     /// An empty result, to which scenes are added.
     pub fn start(&self) -> Replication {
-        Replication {
-            schema: 2,
-            stand_ins: vec![],
-            rays: vec![],
-            main: vec![],
-            parameters: vec![],
-            hard: vec![],
-            conclusion: Conclusion { scenes: vec![], sah_over_median: None },
-            provenance: Provenance::of(&self.settings.threads),
-        }
+        Replication::empty(Provenance::of(&self.settings.threads))
     }
 
     /// Names of the scenes of the report: easy and normal, then hard.
@@ -227,6 +218,20 @@ impl Study<'_> {
 }
 
 impl Replication {
+    /// Without any scene.
+    fn empty(provenance: Provenance) -> Self {
+        Self {
+            schema: 2,
+            stand_ins: vec![],
+            rays: vec![],
+            main: vec![],
+            parameters: vec![],
+            hard: vec![],
+            conclusion: Conclusion { scenes: vec![], sah_over_median: None },
+            provenance,
+        }
+    }
+
     /// Adds an easy or normal scene of the report.
     fn add_main(&mut self, epochs: &[Epoch], seed: u64) {
         let first = &epochs[0];

@@ -22,16 +22,7 @@ fn epochs(scene: &str, stand_in: bool, times: &[u64]) -> Vec<Epoch> {
 }
 
 fn empty() -> Replication {
-    Replication {
-        schema: 2,
-        stand_ins: vec![],
-        rays: vec![],
-        main: vec![],
-        parameters: vec![],
-        hard: vec![],
-        conclusion: Conclusion { scenes: vec![], sah_over_median: None },
-        provenance: Provenance::capture(1),
-    }
+    Replication::empty(Provenance::capture(1))
 }
 
 #[test]
