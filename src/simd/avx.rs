@@ -144,6 +144,9 @@ static MEMBERS: [[u8; 8]; 256] = {
 };
 
 impl<const MASKS: bool> Sieve for Avx<MASKS> {
+    type Mask = __m256;
+    type Numbers = __m256i;
+
     const FAST: bool = true;
 
     /// In three rounds: pairs of rows by 32 bits, pairs of pairs by 64, halves by 128.
@@ -209,6 +212,72 @@ impl<const MASKS: bool> Sieve for Avx<MASKS> {
             _mm256_storeu_si256(chosen.cast(), left);
             set
         }
+    }
+
+    #[inline(always)]
+    fn mask_le(self, other: Self) -> __m256 {
+        // SAFETY: see above.
+        unsafe { _mm256_cmp_ps::<_CMP_LE_OQ>(self.0, other.0) }
+    }
+
+    #[inline(always)]
+    fn mask_lt(self, other: Self) -> __m256 {
+        // SAFETY: see above.
+        unsafe { _mm256_cmp_ps::<_CMP_LT_OQ>(self.0, other.0) }
+    }
+
+    #[inline(always)]
+    fn mask(bits: u32) -> __m256 {
+        // SAFETY: see above.
+        unsafe {
+            let own = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
+            let set = _mm256_and_si256(_mm256_set1_epi32(bits as i32), own);
+            _mm256_castsi256_ps(_mm256_cmpeq_epi32(set, own))
+        }
+    }
+
+    #[inline(always)]
+    fn both(one: __m256, other: __m256) -> __m256 {
+        // SAFETY: see above.
+        unsafe { _mm256_and_ps(one, other) }
+    }
+
+    #[inline(always)]
+    fn choose(self, other: Self, mask: __m256) -> Self {
+        // SAFETY: see above.
+        Self(unsafe { _mm256_blendv_ps(other.0, self.0, mask) })
+    }
+
+    #[inline(always)]
+    fn numbers(numbers: &[u32; 8]) -> __m256i {
+        // SAFETY: see above.
+        unsafe { _mm256_loadu_si256(numbers.as_ptr().cast()) }
+    }
+
+    #[inline(always)]
+    fn splat_number(number: u32) -> __m256i {
+        // SAFETY: see above.
+        unsafe { _mm256_set1_epi32(number as i32) }
+    }
+
+    #[inline(always)]
+    fn store_numbers(numbers: __m256i) -> [u32; 8] {
+        let mut stored = [0; 8];
+        // SAFETY: see above.
+        unsafe { _mm256_storeu_si256(stored.as_mut_ptr().cast(), numbers) };
+        stored
+    }
+
+    #[inline(always)]
+    fn least_numbers(one: __m256i, other: __m256i) -> __m256i {
+        // SAFETY: see above.
+        unsafe { _mm256_min_epu32(one, other) }
+    }
+
+    #[inline(always)]
+    fn choose_numbers(one: __m256i, other: __m256i, mask: __m256) -> __m256i {
+        // SAFETY: see above.
+        unsafe { _mm256_blendv_epi8(other, one, _mm256_castps_si256(mask)) }
     }
 }
 

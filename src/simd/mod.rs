@@ -60,8 +60,13 @@ pub trait Lanes<const N: usize>: Arithmetic<N, Scalar = f32> {
     fn mul_sub_loosely(self, factor: Self, term: Self) -> Self;
 }
 
-/// Eight lanes of which those that pass a comparison can be written to memory, packed.
+/// Eight lanes that can be chosen from by comparisons, and numbers beside them.
 pub trait Sieve: Lanes<8> {
+    /// Yes or no in each lane.
+    type Mask: Copy;
+    /// A number in each lane.
+    type Numbers: Copy;
+
     /// Whether the lanes are instructions of the machine, so that work on many at once pays.
     const FAST: bool;
 
@@ -78,6 +83,24 @@ pub trait Sieve: Lanes<8> {
     /// Eight numbers may be written, whatever the answer.
     unsafe fn sift(self, limit: Self, values: &[u32; 8], chosen: *mut u32) -> u32;
 
+    /// Lanes where `self <= other`; no where one is NaN.
+    fn mask_le(self, other: Self) -> Self::Mask;
+    /// Lanes where `self < other`, likewise.
+    fn mask_lt(self, other: Self) -> Self::Mask;
+    /// The lanes of the bits that are set, lane 0 lowest.
+    fn mask(bits: u32) -> Self::Mask;
+    /// The lanes of both masks.
+    fn both(one: Self::Mask, other: Self::Mask) -> Self::Mask;
+    /// `self` in the lanes of `mask`, `other` elsewhere.
+    fn choose(self, other: Self, mask: Self::Mask) -> Self;
+
+    fn numbers(numbers: &[u32; 8]) -> Self::Numbers;
+    fn splat_number(number: u32) -> Self::Numbers;
+    fn store_numbers(numbers: Self::Numbers) -> [u32; 8];
+    fn least_numbers(one: Self::Numbers, other: Self::Numbers) -> Self::Numbers;
+    /// Those of `one` in the lanes of `mask`, of `other` elsewhere.
+    fn choose_numbers(one: Self::Numbers, other: Self::Numbers, mask: Self::Mask) -> Self::Numbers;
+
     /// Lane `j` of the `i`-th becomes lane `i` of the `j`-th.
     fn transpose(rows: [Self; 8]) -> [Self; 8];
 }
@@ -89,24 +112,29 @@ mod tests {
     const SPECIAL: [f32; 12] =
         [0.0, -0.0, 1.0, -1.5, 1e-40, 3e38, f32::INFINITY, f32::NEG_INFINITY, f32::NAN, 0.1, 7.0, -1e-20];
 
+    /// Every special float beside every other.
+    fn specials<const N: usize>() -> impl Iterator<Item = ([f32; N], [f32; N])> {
+        let n = SPECIAL.len();
+        (0..n * n).map(move |i| {
+            let lanes = |first, step| std::array::from_fn(|k| SPECIAL[(first + step * k) % n]);
+            (lanes(i / n, 1), lanes(i % n, 5))
+        })
+    }
+
     fn same_as_portable<const N: usize, L: Lanes<N>>() {
-        for i in 0..SPECIAL.len() {
-            for j in 0..SPECIAL.len() {
-                let a = std::array::from_fn(|k| SPECIAL[(i + k) % SPECIAL.len()]);
-                let b = std::array::from_fn(|k| SPECIAL[(j + 5 * k) % SPECIAL.len()]);
-                let (x, y) = (L::load(&a), L::load(&b));
-                let (p, q) = (Portable::load(&a), Portable::load(&b));
-                let bits = |v: [f32; N]| v.map(|f| if f.is_nan() { 0x7fc0_0000 } else { f.to_bits() });
-                assert_eq!(bits(x.add(y).store()), bits(p.add(q).store()));
-                assert_eq!(bits(x.sub(y).store()), bits(p.sub(q).store()));
-                assert_eq!(bits(x.mul(y).store()), bits(p.mul(q).store()));
-                assert_eq!(bits(x.div(y).store()), bits(p.div(q).store()));
-                assert_eq!(bits(x.min(y).store()), bits(p.min(q).store()));
-                assert_eq!(bits(x.max(y).store()), bits(p.max(q).store()));
-                assert_eq!(bits(x.flip_sign(y).store()), bits(p.flip_sign(q).store()));
-                assert_eq!((x.le(y), x.lt(y)), (p.le(q), p.lt(q)));
-                assert_eq!(bits(L::splat(a[0]).store()), bits([a[0]; N]));
-            }
+        for (a, b) in specials::<N>() {
+            let (x, y) = (L::load(&a), L::load(&b));
+            let (p, q) = (Portable::load(&a), Portable::load(&b));
+            let bits = |v: [f32; N]| v.map(|f| if f.is_nan() { 0x7fc0_0000 } else { f.to_bits() });
+            assert_eq!(bits(x.add(y).store()), bits(p.add(q).store()));
+            assert_eq!(bits(x.sub(y).store()), bits(p.sub(q).store()));
+            assert_eq!(bits(x.mul(y).store()), bits(p.mul(q).store()));
+            assert_eq!(bits(x.div(y).store()), bits(p.div(q).store()));
+            assert_eq!(bits(x.min(y).store()), bits(p.min(q).store()));
+            assert_eq!(bits(x.max(y).store()), bits(p.max(q).store()));
+            assert_eq!(bits(x.flip_sign(y).store()), bits(p.flip_sign(q).store()));
+            assert_eq!((x.le(y), x.lt(y)), (p.le(q), p.lt(q)));
+            assert_eq!(bits(L::splat(a[0]).store()), bits([a[0]; N]));
         }
     }
 
@@ -139,6 +167,30 @@ mod tests {
                 (set, Portable::load(&a).sift(Portable::load(&b), &values, expected.as_mut_ptr()))
             };
             assert_eq!((set, &chosen[..set.count_ones() as usize]), (right, &expected[..set.count_ones() as usize]));
+        }
+        for (x, y) in specials::<8>() {
+            let choices = |mask: L::Mask| {
+                let (one, other) = (L::numbers(&x.map(f32::to_bits)), L::numbers(&y.map(f32::to_bits)));
+                let least = L::store_numbers(L::least_numbers(one, other));
+                (
+                    L::load(&x).choose(L::load(&y), mask).store().map(f32::to_bits),
+                    L::store_numbers(L::choose_numbers(one, L::splat_number(7), mask)),
+                    least,
+                )
+            };
+            let expected = |bits: u32| {
+                let set = |lane: usize| bits >> lane & 1 == 1;
+                let numbers = |of: &dyn Fn(usize) -> u32| std::array::from_fn::<u32, 8, _>(of);
+                (
+                    numbers(&|i| if set(i) { x[i].to_bits() } else { y[i].to_bits() }),
+                    numbers(&|i| if set(i) { x[i].to_bits() } else { 7 }),
+                    numbers(&|i| x[i].to_bits().min(y[i].to_bits())),
+                )
+            };
+            let (a, b) = (L::load(&x), L::load(&y));
+            assert_eq!(choices(a.mask_le(b)), expected(a.le(b)));
+            assert_eq!(choices(a.mask_lt(b)), expected(a.lt(b)));
+            assert_eq!(choices(L::both(a.mask_le(b), L::mask(0b1011_0110))), expected(a.le(b) & 0b1011_0110));
         }
         let square: [[f32; 8]; 8] = std::array::from_fn(|i| std::array::from_fn(|j| (8 * i + j) as f32));
         let transposed = L::transpose(square.map(|row| L::load(&row))).map(L::store);

@@ -117,6 +117,9 @@ impl<const N: usize> Lanes<N> for Portable<N> {
 }
 
 impl Sieve for Portable<8> {
+    type Mask = u32;
+    type Numbers = [u32; 8];
+
     const FAST: bool = false;
 
     #[inline(always)]
@@ -154,5 +157,55 @@ impl Sieve for Portable<8> {
     #[inline(always)]
     fn transpose(rows: [Self; 8]) -> [Self; 8] {
         std::array::from_fn(|i| Self(std::array::from_fn(|j| rows[j].0[i])))
+    }
+
+    #[inline(always)]
+    fn mask_le(self, other: Self) -> u32 {
+        self.le(other)
+    }
+
+    #[inline(always)]
+    fn mask_lt(self, other: Self) -> u32 {
+        self.lt(other)
+    }
+
+    #[inline(always)]
+    fn mask(bits: u32) -> u32 {
+        bits
+    }
+
+    #[inline(always)]
+    fn both(one: u32, other: u32) -> u32 {
+        one & other
+    }
+
+    #[inline(always)]
+    fn choose(self, other: Self, mask: u32) -> Self {
+        Self(std::array::from_fn(|i| if mask >> i & 1 == 1 { self.0[i] } else { other.0[i] }))
+    }
+
+    #[inline(always)]
+    fn numbers(numbers: &[u32; 8]) -> [u32; 8] {
+        *numbers
+    }
+
+    #[inline(always)]
+    fn splat_number(number: u32) -> [u32; 8] {
+        [number; 8]
+    }
+
+    #[inline(always)]
+    fn store_numbers(numbers: [u32; 8]) -> [u32; 8] {
+        numbers
+    }
+
+    #[inline(always)]
+    fn least_numbers(one: [u32; 8], other: [u32; 8]) -> [u32; 8] {
+        std::array::from_fn(|i| one[i].min(other[i]))
+    }
+
+    #[inline(always)]
+    fn choose_numbers(one: [u32; 8], other: [u32; 8], mask: u32) -> [u32; 8] {
+        std::array::from_fn(|i| if mask >> i & 1 == 1 { one[i] } else { other[i] })
     }
 }

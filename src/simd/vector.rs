@@ -25,6 +25,15 @@ impl<const N: usize, L: Lanes<N>> LaneVec3<N, L> {
         Self::new(L::load(x), L::load(y), L::load(z))
     }
 
+    /// One vector of several, which stand coordinate by coordinate, in every lane.
+    ///
+    /// # Panics
+    /// If there is no such vector.
+    #[inline(always)]
+    pub fn splat_lane<const M: usize>([x, y, z]: &[[f32; M]; 3], lane: usize) -> Self {
+        Self::new(L::splat(x[lane]), L::splat(y[lane]), L::splat(z[lane]))
+    }
+
     /// As `dot`, by [`Lanes::mul_add_loosely`].
     #[inline(always)]
     pub fn dot_loosely(self, other: Self) -> L {

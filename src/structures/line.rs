@@ -1,6 +1,7 @@
 //! A ray as traversals see it: where it crosses axis-aligned planes, with the slack that keeps rounding from losing a hit.
 
 use crate::geometry::{Aabb, Ray};
+use crate::simd::Lanes;
 
 /// The line of a ray, prepared for crossing axis-aligned planes.
 ///
@@ -30,6 +31,12 @@ pub(crate) fn before(t: f32) -> f32 {
 #[inline(always)]
 pub(crate) fn after(t: f32) -> f32 {
     t * (1.0 + 4.0 * f32::EPSILON) + TINY
+}
+
+/// [`after`] in every lane.
+#[inline(always)]
+pub(crate) fn lanes_after<L: Lanes<8>>(t: L) -> L {
+    t.mul(L::splat(1.0 + 4.0 * f32::EPSILON)).add(L::splat(TINY))
 }
 
 /// 1 / d for each component of the direction, for planes that cut the box `bounds` or are its faces; NaN where a crossing

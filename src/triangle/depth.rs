@@ -5,6 +5,9 @@ pub trait Depth: Copy {
     /// The order along the ray. Those of one ray are totally ordered.
     fn order(&self, other: &Self) -> Ordering;
 
+    /// The depth of a hit at `t`, if that is all there is to know of it.
+    fn of(t: f32) -> Option<Self>;
+
     /// As reported: the nearest float.
     fn t(&self) -> f32;
 
@@ -14,6 +17,11 @@ pub trait Depth: Copy {
 
 /// What an `f32` test computes, which is never NaN.
 impl Depth for f32 {
+    #[inline(always)]
+    fn of(t: f32) -> Option<f32> {
+        Some(t)
+    }
+
     #[inline(always)]
     fn order(&self, other: &Self) -> Ordering {
         self.partial_cmp(other).unwrap_or(Ordering::Equal)

@@ -28,7 +28,7 @@ pub use plucker::Plucker;
 pub use watertight::Watertight;
 
 use crate::geometry::Ray;
-use crate::simd::{Arithmetic, Lanes, Portable};
+use crate::simd::{Arithmetic, LaneVec3, Lanes, Portable, Sieve};
 
 /// A way to decide whether and where a ray meets a triangle.
 ///
@@ -74,6 +74,22 @@ pub trait TriangleTest: Send + Sync + 'static {
     /// Whether a candidate is hit, and where. `known` is what its lane holds. What lies outside the ray's interval is no hit;
     /// what lies beyond the `to` of the candidates may be one.
     fn decide<const N: usize>(ray: &Self::Ray, block: &Self::Block<N>, lane: usize, known: f32) -> Option<Self::Depth>;
+
+    /// Whether there is [`across`](Self::across): only where hits are ordered as floats.
+    const ACROSS: bool = false;
+
+    /// The first stage with the roles exchanged, where it decides everything: of eight rays, given by their origins and directions, those
+    /// that meet the line of sight of the triangle in `lane` of a block, and where. The same bits as [`candidates`](Self::candidates) gives,
+    /// but for the interval, which is left to the caller.
+    #[inline(always)]
+    fn across<const N: usize, L: Sieve>(
+        _origin: LaneVec3<8, L>,
+        _direction: LaneVec3<8, L>,
+        _block: &Self::Block<N>,
+        _lane: usize,
+    ) -> (L::Mask, L) {
+        unreachable!("only a test that meets rays across is asked to")
+    }
 
     /// The scalar form: the hit of one triangle at a `t` in [`from`, `to`].
     #[inline(always)]

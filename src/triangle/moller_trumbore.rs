@@ -2,7 +2,7 @@ use glam::Vec3;
 
 use super::TriangleTest;
 use crate::geometry::Ray;
-use crate::simd::{LaneVec3, Lanes};
+use crate::simd::{LaneVec3, Lanes, Sieve};
 
 /// Möller-Trumbore in `f32`: no precomputation, two-sided, division only for `t`.
 ///
@@ -27,24 +27,31 @@ pub struct Edges<const N: usize> {
 
 const _: () = assert!(size_of::<Edges<1>>() == 36);
 
-/// The lanes whose triangle the line meets, and where: `to_origin` goes from the first corner to the ray's origin.
+/// What tells whether and where a line meets a triangle.
+struct Solution<L> {
+    u: L,
+    v: L,
+    abs_det: L,
+    t: L,
+}
+
+/// Of each lane: `to_origin` goes from the first corner to the ray's origin.
 #[inline(always)]
 fn solve<const N: usize, L: Lanes<N>>(
     direction: LaneVec3<N, L>,
     to_origin: LaneVec3<N, L>,
     [edge1, edge2]: [LaneVec3<N, L>; 2],
-) -> (u32, L) {
+) -> Solution<L> {
     // Solve by Cramer's rule; all numerators share the sign of the determinant when the barycentrics are positive.
     let p = direction.cross(edge2);
     let q = to_origin.cross(edge1);
     let det = edge1.dot(p);
-    let abs_det = det.flip_sign(det);
-    let u = to_origin.dot(p).flip_sign(det);
-    let v = direction.dot(q).flip_sign(det);
-
-    let zero = L::zero();
-    let inside = zero.le(u) & zero.le(v) & u.add(v).le(abs_det) & zero.lt(abs_det);
-    (inside, edge2.dot(q).div(det))
+    Solution {
+        u: to_origin.dot(p).flip_sign(det),
+        v: direction.dot(q).flip_sign(det),
+        abs_det: det.flip_sign(det),
+        t: edge2.dot(q).div(det),
+    }
 }
 
 impl TriangleTest for MollerTrumbore {
@@ -82,7 +89,9 @@ impl TriangleTest for MollerTrumbore {
     ) -> (u32, L) {
         let to_origin = LaneVec3::splat(origin) - LaneVec3::load(&block.corner);
         let edges = [LaneVec3::load(&block.edge1), LaneVec3::load(&block.edge2)];
-        let (inside, t) = solve::<N, L>(LaneVec3::splat(direction), to_origin, edges);
+        let Solution { u, v, abs_det, t } = solve::<N, L>(LaneVec3::splat(direction), to_origin, edges);
+        let zero = L::zero();
+        let inside = zero.le(u) & zero.le(v) & u.add(v).le(abs_det) & zero.lt(abs_det);
         // An overflow may have made t NaN: such a lane hits nothing.
         (inside & L::splat(from).le(t) & t.le(L::splat(to)), t)
     }
@@ -90,5 +99,23 @@ impl TriangleTest for MollerTrumbore {
     #[inline(always)]
     fn decide<const N: usize>(_: &Self::Ray, _: &Edges<N>, _: usize, t: f32) -> Option<f32> {
         Some(t)
+    }
+
+    const ACROSS: bool = true;
+
+    #[inline(always)]
+    fn across<const N: usize, L: Sieve>(
+        origin: LaneVec3<8, L>,
+        direction: LaneVec3<8, L>,
+        block: &Edges<N>,
+        lane: usize,
+    ) -> (L::Mask, L) {
+        let to_origin = origin - LaneVec3::splat_lane(&block.corner, lane);
+        let edges = [LaneVec3::splat_lane(&block.edge1, lane), LaneVec3::splat_lane(&block.edge2, lane)];
+        let Solution { u, v, abs_det, t } = solve(direction, to_origin, edges);
+        let zero = L::zero();
+        let barycentrics = L::both(zero.mask_le(u), zero.mask_le(v));
+        let inside = L::both(u.add(v).mask_le(abs_det), zero.mask_lt(abs_det));
+        (L::both(barycentrics, inside), t)
     }
 }

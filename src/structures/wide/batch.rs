@@ -1,10 +1,10 @@
 //! Slices of rays: packets where they agree, one by one where not.
 
 use super::WideTree;
-use super::beams::RAYS;
 use crate::accel::Observer;
 use crate::geometry::{Hit, Ray};
 use crate::simd::{Kernel, Level, Sieve, dispatch};
+use crate::structures::leaf::RAYS;
 use crate::structures::walk::{silent, single};
 use crate::triangle::TriangleTest;
 

@@ -3,11 +3,10 @@
 use super::beam::{Beam, ENLARGED};
 use super::node::{Node, WIDTH};
 use crate::geometry::{Aabb, Ray};
-use crate::simd::{Sieve, each};
-use crate::structures::line::after;
+use crate::simd::{LaneVec3, Sieve, each};
+use crate::structures::leaf::{Abreast, RAYS};
+use crate::structures::line::{after, lanes_after};
 
-/// Rays of a packet.
-pub(super) const RAYS: usize = 16;
 const HALVES: usize = RAYS / WIDTH;
 
 /// A number of each ray.
@@ -16,6 +15,7 @@ type Row = [[f32; WIDTH]; HALVES];
 /// The rays of a packet: each as its [`Beam`] has it.
 pub(super) struct Beams<L> {
     pub origin: [[L; HALVES]; 3],
+    direction: [[L; HALVES]; 3],
     pub inverse: [[L; HALVES]; 3],
     pub enlarged: [[L; HALVES]; 3],
     pub t_min: [L; HALVES],
@@ -65,7 +65,7 @@ impl<L: Sieve> Beams<L> {
         if good & 0xff != 0xff {
             return None;
         }
-        Some(Self { origin, inverse, enlarged, t_min, ends: [[0.0; WIDTH]; HALVES], octant })
+        Some(Self { origin, direction, inverse, enlarged, t_min, ends: [[0.0; WIDTH]; HALVES], octant })
     }
 
     /// The rays that meet the box of `lane` before their ends, as bits.
@@ -106,5 +106,21 @@ impl<L: Sieve> Beams<L> {
     #[inline(always)]
     pub fn end(&mut self, i: usize, t: f32) {
         self.ends[i / WIDTH][i % WIDTH] = after(t);
+    }
+
+    /// The rays are of no interest after `t`.
+    #[inline(always)]
+    pub fn end_all(&mut self, t: [L; HALVES]) {
+        self.ends = each(&t, |t| lanes_after(*t).store());
+    }
+
+    /// The rays side by side.
+    #[inline(always)]
+    pub fn abreast(&self) -> [Abreast<L>; HALVES] {
+        let half = |half: usize| {
+            let row = |[x, y, z]: &[[L; HALVES]; 3]| LaneVec3::new(x[half], y[half], z[half]);
+            (row(&self.origin), row(&self.direction), self.t_min[half])
+        };
+        [half(0), half(1)]
     }
 }

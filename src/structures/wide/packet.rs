@@ -4,21 +4,28 @@
 //! share, and a ray takes part in a visit just when its own test of the box says so, with its own end. What the packet decides
 //! for all rays at once only leaves out boxes that each of them would leave out (see [`Frustum`]). So every ray goes through the
 //! same leaves in the same order as alone.
+//!
+//! A leaf that nearly all rays come to is searched triangle by triangle, eight rays at once, without a branch that depends on what is
+//! found; others ray by ray. The nearest of the same hits is the same in either order.
 
 use std::mem::MaybeUninit;
 
 use super::WideTree;
-use super::beams::{Beams, RAYS};
+use super::beams::Beams;
 use super::frustum::Frustum;
 use super::node::{Child, WIDTH};
 use super::stack::SIZE;
 use crate::geometry::{Hit, Ray};
 use crate::simd::{Sieve, each};
-use crate::structures::leaf::{Found, LeafBlock, Nearest, Prepared, search_for_each};
+use crate::structures::leaf::{Found, LeafBlock, Nearests, Prepared, RAYS, search_across, search_for_each};
 use crate::triangle::TriangleTest;
 
 /// At most this many rays that are left go on alone.
 const FEW: u32 = 3;
+
+/// From so many rays on a leaf may be searched triangle by triangle: of fewer, hardly any finds something, and ray by ray that is
+/// soon known.
+const MANY: u32 = 12;
 
 /// The order of the lanes.
 const IN_LANES: u32 = 0o76543210;
@@ -35,10 +42,10 @@ struct Entry {
 /// What each ray of a packet has for itself.
 struct Travellers<'a, T: TriangleTest> {
     rays: &'a [Ray; RAYS],
-    prepared: Prepared<T, RAYS>,
-    nearest: [Nearest<T::Depth>; RAYS],
+    prepared: Prepared<T>,
+    nearest: Nearests<T::Depth>,
     t_min: [f32; RAYS],
-    found: Found<WIDTH, RAYS>,
+    found: Found<WIDTH>,
     /// Those that still look for a hit, as bits.
     looking: u16,
 }
@@ -49,7 +56,7 @@ impl<'a, T: TriangleTest> Travellers<'a, T> {
         Self {
             rays,
             prepared: Prepared::new(),
-            nearest: each(rays, |ray| Nearest::until(T::last(ray.t_max))),
+            nearest: Nearests::until(|i| T::last(rays[i].t_max)),
             t_min,
             found: Found::new(),
             looking: u16::MAX,
@@ -64,21 +71,37 @@ impl<'a, T: TriangleTest> Travellers<'a, T> {
         mut taking_part: u16,
         beams: &mut Beams<L>,
     ) {
-        let Self { rays, prepared, nearest, t_min, found, .. } = self;
+        let Self { rays, prepared, nearest, t_min, found, looking } = self;
+        if T::ACROSS && taking_part.count_ones() >= MANY && across(blocks, taking_part) {
+            let ends = search_across(blocks, taking_part, &beams.abreast(), &mut nearest.halves);
+            beams.end_all(ends);
+            if ANY {
+                *looking &= !nearest.found();
+            }
+            return;
+        }
         prepared.prepare(rays, taking_part);
         // SAFETY: prepared.
         unsafe {
-            search_for_each::<ANY, WIDTH, RAYS, L, T>(blocks, taking_part, prepared, t_min, nearest, found);
+            search_for_each::<ANY, WIDTH, L, T>(blocks, taking_part, prepared, t_min, nearest, found);
         }
         while taking_part != 0 {
             let i = taking_part.trailing_zeros() as usize % RAYS;
             taking_part &= taking_part - 1;
-            if ANY && nearest[i].found() {
-                self.looking &= !(1 << i);
+            if ANY && nearest.has(i) {
+                *looking &= !(1 << i);
             }
-            beams.end(i, nearest[i].t);
+            beams.end(i, nearest.t(i));
         }
     }
+}
+
+/// Whether it takes fewer steps to test triangle by triangle, half of the rays at once, than ray by ray, eight triangles at once.
+#[inline(always)]
+fn across<T: TriangleTest>(blocks: &[LeafBlock<T, WIDTH>], taking_part: u16) -> bool {
+    let halves = u32::from(taking_part & 0xff != 0) + u32::from(taking_part >> WIDTH != 0);
+    let triangles: u32 = blocks.iter().map(LeafBlock::len).sum();
+    triangles * halves <= taking_part.count_ones() * blocks.len() as u32
 }
 
 impl<T: TriangleTest> WideTree<T> {
@@ -93,9 +116,7 @@ impl<T: TriangleTest> WideTree<T> {
         let Some(mut beams) = Beams::<L>::new(rays, &self.bounds) else { return false };
         let frustum = Frustum::new(&beams);
         let mut travellers = Travellers::<T>::new(rays, beams.t_min());
-        for (i, nearest) in travellers.nearest.iter().enumerate() {
-            beams.end(i, nearest.t);
-        }
+        beams.end_all(each(&travellers.nearest.halves, |half| L::load(&half.t)));
         let mut stack = [const { MaybeUninit::<Entry>::uninit() }; SIZE];
         let mut len = 0;
         let (mut child, mut taking_part) = (self.root, u16::MAX);
@@ -128,8 +149,8 @@ impl<T: TriangleTest> WideTree<T> {
             }
             loop {
                 if len == 0 || travellers.looking == 0 {
-                    for (answer, nearest) in answers.iter_mut().zip(&travellers.nearest) {
-                        *answer = form(nearest.hit());
+                    for (i, answer) in answers.iter_mut().enumerate() {
+                        *answer = form(travellers.nearest.get(i).hit());
                     }
                     return true;
                 }
@@ -165,9 +186,10 @@ impl<T: TriangleTest> WideTree<T> {
             let i = taking_part.trailing_zeros() as usize % RAYS;
             taking_part &= taking_part - 1;
             // SAFETY: prepared.
-            let (prepared, nearest) = unsafe { (travellers.prepared.get(i), &mut travellers.nearest[i]) };
-            let t_min = travellers.t_min[i];
-            self.descend::<ANY, L, ()>(child, &beams.single(i), prepared, t_min, nearest, &mut ());
+            let prepared = unsafe { travellers.prepared.get(i) };
+            let (t_min, mut nearest) = (travellers.t_min[i], travellers.nearest.get(i));
+            self.descend::<ANY, L, ()>(child, &beams.single(i), prepared, t_min, &mut nearest, &mut ());
+            travellers.nearest.set(i, nearest);
             if ANY && nearest.found() {
                 travellers.looking &= !(1 << i);
             }

@@ -39,6 +39,10 @@ fn surely_coplanar(a: &[Vec3; 3], b: &[Vec3; 3]) -> bool {
 }
 
 impl Depth for ExactDepth {
+    fn of(_: f32) -> Option<Self> {
+        None
+    }
+
     #[inline(always)]
     fn order(&self, other: &Self) -> Ordering {
         if self.high < other.low {
