@@ -3,10 +3,13 @@
 
 #![expect(clippy::excessive_precision, reason = "nine digits name an f32, fewer may too")]
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
+use sahara::accel::Accel;
 use sahara::geometry::{Aabb, Mesh};
-use sahara::scene::{Model, load};
+use sahara::scene::{Model, Scene, SceneError, View, load};
+use sahara::structures::{WideConfig, WideTree};
+use sahara::triangle::MollerTrumbore;
 
 /// The model and mesh of a file, nothing when there is no such file.
 fn real(name: &str) -> Option<(Model, Mesh)> {
@@ -110,4 +113,41 @@ fn san_miguel_part() {
         "san_miguel_part.glb",
         Expected { triangles: 1_093_419, vertices: 691_308, degenerate: 239, materials: 117, min, max },
     );
+}
+
+/// Triangles, and how much of a picture of 128 x 128 pixels they fill, in percent.
+const VIEWS: [(&str, usize, std::ops::RangeInclusive<usize>); 6] = [
+    ("bunny", 69_451, 20..=30),
+    ("dragon", 100_000, 22..=32),
+    ("engine", 121_496, 12..=22),
+    ("kitchen", 56_939, 95..=99),
+    ("lucy", 100_000, 11..=21),
+    ("sponza", 262_267, 97..=100),
+];
+
+#[test]
+fn the_views_look_at_their_meshes() {
+    let folder = std::env::var_os("SAHARA_DATA").map(PathBuf::from);
+    for (name, triangles, filled) in VIEWS {
+        let path = PathBuf::from(format!("scenes/views/{name}.toml"));
+        let nowhere = Scene::read(&path, Some(Path::new("/nowhere"))).unwrap_err().to_string();
+        assert!(nowhere.contains("is not in /nowhere: `sahara fetch scenes/views/"), "{nowhere}");
+        let Some(folder) = &folder else {
+            println!("{name}: only read, the environment variable SAHARA_DATA names no folder with meshes");
+            continue;
+        };
+        let scene = match Scene::read(&path, Some(folder)) {
+            Err(SceneError::Value { problem, .. }) => {
+                println!("{name}: skipped, {problem}");
+                continue;
+            }
+            scene => scene.unwrap(),
+        };
+        assert_eq!(scene.mesh.len(), triangles, "{name}");
+        let tree = WideTree::<MollerTrumbore>::build(&scene.mesh, &WideConfig::default()).unwrap();
+        let view = scene.camera.view([128, 128]);
+        let pixels = (0..128 * 128).map(|i| view.ray(i % 128, i / 128, View::CENTRE));
+        let hits = pixels.filter(|ray| tree.any_hit(ray, &mut ())).count();
+        assert!(filled.contains(&(hits * 100 / (128 * 128))), "{name}: {hits} pixels");
+    }
 }

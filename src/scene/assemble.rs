@@ -119,20 +119,21 @@ impl Parts {
                 return Ok((self.take_real(real, &path, model), placement));
             }
         }
+        let Some(mesh) = &object.mesh else { return Err(missing(object, key, origin)) };
         if let Some(whole) = &object.stands_in_for {
-            self.stand_ins.push(object.mesh.clone());
-            self.notes.push(format!("mesh `{}` stands in for {whole}", object.mesh));
+            self.stand_ins.push(mesh.clone());
+            self.notes.push(format!("mesh `{mesh}` stands in for {whole}"));
         }
 
         let key = format!("{key}.mesh");
         let placement = Transform::new(object.rot.into(), object.sca.into(), object.tra.into());
-        let is_file = Path::new(&object.mesh).extension().is_some();
+        let is_file = Path::new(mesh).extension().is_some();
         match (is_file, origin.folder) {
-            (true, Some(folder)) => Ok((load_file(&folder.join(&object.mesh), &key, origin)?, placement)),
+            (true, Some(folder)) => Ok((load_file(&folder.join(mesh), &key, origin)?, placement)),
             _ => {
                 let names: Vec<&str> = meshes::GENERATORS.iter().map(|g| g.name).collect();
-                let problem = format!("there is no mesh `{}`: give a file or one of {}", object.mesh, names.join(", "));
-                let model = meshes::by_name(&object.mesh).ok_or_else(|| origin.value(&key, problem))?;
+                let problem = format!("there is no mesh `{mesh}`: give a file or one of {}", names.join(", "));
+                let model = meshes::by_name(mesh).ok_or_else(|| origin.value(&key, problem))?;
                 Ok((model, placement))
             }
         }
@@ -141,10 +142,11 @@ impl Parts {
     fn take_real(&mut self, real: &RealMesh, path: &Path, mut model: Model) -> Model {
         let before = model.triangles.len();
         without_materials(&mut model, &real.exclude_materials);
-        let (count, reported) = (model.triangles.len(), real.reported_triangles);
+        let count = model.triangles.len();
         let left_out = before - count;
         self.uses_real = true;
-        self.notes.push(format!("real mesh {}: {count} triangles in place of the report's {reported}", path.display()));
+        let instead = real.reported_triangles.map_or(String::new(), |n| format!(" in place of the report's {n}"));
+        self.notes.push(format!("real mesh {}: {count} triangles{instead}", path.display()));
         if left_out > 0 {
             let materials = real.exclude_materials.join(", ");
             self.notes.push(format!("{left_out} triangles of the real mesh left out, of the materials {materials}"));
@@ -190,6 +192,20 @@ impl Parts {
         }
         Ok(())
     }
+}
+
+/// Why an object that has only a real mesh cannot be made.
+fn missing(object: &ObjectFile, key: &str, origin: &Origin) -> SceneError {
+    let file = object.real.as_ref().map_or("", |real| &real.file);
+    let problem = match origin.real_meshes {
+        Some(folder) => format!(
+            "{file} is not in {}: `sahara fetch {}` gets it or says how, and SAHARA_DATA can name another folder",
+            folder.display(),
+            origin.file
+        ),
+        None => format!("{file} is not used here, and there is no `mesh` to stand in for it"),
+    };
+    origin.value(&format!("{key}.real.file"), problem)
 }
 
 fn load_file(path: &Path, key: &str, origin: &Origin) -> Result<Model, SceneError> {

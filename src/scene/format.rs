@@ -97,8 +97,8 @@ impl MaterialFile {
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ObjectFile {
-    /// The name of a generator ([`super::meshes::GENERATORS`]), or a path relative to the scene file.
-    pub mesh: String,
+    /// The name of a generator ([`super::meshes::GENERATORS`]), or a path relative to the scene file; none where only `real` will do.
+    pub mesh: Option<String>,
     /// The material of the whole mesh. Without `material` and `materials` the mesh keeps its own, or is grey.
     pub material: Option<String>,
     /// Materials by part, where parts are the materials that the mesh itself names.
@@ -112,7 +112,7 @@ pub struct ObjectFile {
     pub tra: [f32; 3],
     /// What the mesh stands in for, if it does.
     pub stands_in_for: Option<String>,
-    /// The mesh file to use instead when it is there.
+    /// The mesh file to use instead when it is there, or the only one.
     pub real: Option<RealMesh>,
 }
 
@@ -130,8 +130,8 @@ pub struct RealMesh {
     /// Of the file, in hexadecimal; absent where the file has to be unpacked.
     pub sha256: Option<String>,
     pub bytes: Option<u64>,
-    /// How many triangles the mesh that the source report used had.
-    pub reported_triangles: usize,
+    /// How many triangles the mesh that the source report used had, if it stands for one.
+    pub reported_triangles: Option<usize>,
     /// Replaces the placement of the stand-in, as do `sca` and `tra`.
     #[serde(default)]
     pub rot: [f32; 3],
@@ -205,6 +205,8 @@ impl SceneFile {
             for (rot, sca, tra) in placements.into_iter().flatten() {
                 numbers(&[rot, sca, tra].concat(), f32::MIN, &format!("objects[{i}].rot, sca or tra"))?;
             }
+            let some = object.mesh.is_some() || object.real.is_some();
+            demand(some, &format!("objects[{i}].mesh"), "name a mesh or a file, or give `real`")?;
             let both = object.material.is_some() && object.materials.is_some();
             demand(!both, &format!("objects[{i}].materials"), "give `material` or `materials`, not both")?;
             let named = object.material.iter().chain(object.materials.iter().flat_map(BTreeMap::values));

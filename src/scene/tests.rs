@@ -145,6 +145,23 @@ fn a_real_mesh_takes_the_place_of_its_stand_in() {
 }
 
 #[test]
+fn a_scene_of_real_meshes_alone_says_how_to_get_them() {
+    let folder = tempfile::tempdir().unwrap();
+    let real = r#"real = { file = "thing.obj", url = "", licence = "", origin = "" }"#;
+    let text = PLAIN.replace("mesh = \"cube\"", real);
+    let refused = |folder| made(&text, folder).unwrap_err().to_string();
+    let error = refused(Some(folder.path()));
+    assert!(error.contains("`objects[0].real.file`: thing.obj is not in") && error.contains("sahara fetch"), "{error}");
+    assert!(refused(None).contains("no `mesh` to stand in"), "{}", refused(None));
+    assert!(message(&PLAIN.replace("mesh = \"cube\"", "")).contains("name a mesh or a file, or give `real`"));
+
+    fs::write(folder.path().join("thing.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").unwrap();
+    let scene = made(&text, Some(folder.path())).unwrap();
+    assert_eq!((scene.mesh.len(), scene.stand_ins.len()), (1, 0));
+    assert!(scene.notes.iter().any(|note| note.ends_with("thing.obj: 1 triangles")), "{:?}", scene.notes);
+}
+
+#[test]
 fn a_file_s_meshes_count_from_its_folder() {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("one.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").unwrap();
