@@ -4,6 +4,9 @@
 
 use std::sync::Arc;
 
+use glam::Vec3;
+use rand_core::{RngCore, SeedableRng};
+use rand_pcg::Pcg32;
 use sahara::accel::DynAccel;
 use sahara::geometry::{Mesh, Ray};
 use sahara::registry::Registry;
@@ -29,6 +32,30 @@ fn bundles(mesh: &Mesh) -> Vec<Ray> {
     [mixed, sorted, near].concat()
 }
 
+/// Triangles on a coarse grid, so that many are hit at once, at 0 and -0, on edges, and by rays that lie in them.
+fn coarse() -> Arc<Mesh> {
+    let mut random = Pcg32::seed_from_u64(8);
+    let mut corner = || Vec3::from_array(std::array::from_fn(|_| (random.next_u32() % 4) as f32 - 1.0));
+    let positions = (0..3 * 300).map(|_| corner()).collect();
+    Arc::new(Mesh::new(positions, (0..300).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect()).unwrap())
+}
+
+/// Sixteen rays at a time from a point of the grid, in directions of one octant; some end at a point of the grid.
+fn from_the_grid() -> Vec<Ray> {
+    let mut random = Pcg32::seed_from_u64(9);
+    let mut rays = vec![];
+    for _ in 0..1_000 {
+        let mut some = |n: u32| (random.next_u32() % n) as f32;
+        let origin = Vec3::new(some(4) - 1.0, some(4) - 1.0, some(4) - 1.0);
+        let signs = [(); 3].map(|()| 2.0 * some(2) - 1.0);
+        for _ in 0..16 {
+            let ray = Ray::new(origin, Vec3::from_array(signs.map(|sign| sign * (1.0 + some(3)))));
+            rays.push(if some(3) == 0.0 { ray.until(1.0 + some(2)) } else { ray });
+        }
+    }
+    rays
+}
+
 fn bits(accel: &dyn DynAccel, rays: &[Ray]) -> (Vec<Option<(u32, u32)>>, Vec<bool>) {
     let (mut hits, mut any) = (vec![None; rays.len()], vec![false; rays.len()]);
     accel.closest_hits(rays, &mut hits);
@@ -44,6 +71,7 @@ fn packets_answer_as_single_rays_do() {
         let rays = bundles(&mesh);
         cases.push((name, mesh, rays));
     }
+    cases.push(("a coarse grid".into(), coarse(), from_the_grid()));
     for name in ["teapot", "cornellbox", "dragon"] {
         let scene = Builtin::find(name).unwrap().scene(None).unwrap();
         let caster = registry.choose("sah-kd").unwrap().build(&scene.mesh).unwrap();

@@ -28,11 +28,12 @@ pub fn scenes(named: &[String]) -> anyhow::Result<Vec<Scene>> {
 /// If there are two, naming them.
 pub fn distinct(scenes: &[Scene]) -> anyhow::Result<()> {
     for (i, scene) in scenes.iter().enumerate() {
-        let same =
-            |other: &&Scene| other.name == scene.name && other.stand_ins.is_empty() == scene.stand_ins.is_empty();
+        let same = |other: &&Scene| {
+            other.name.eq_ignore_ascii_case(&scene.name) && other.stand_ins.is_empty() == scene.stand_ins.is_empty()
+        };
         if scenes[..i].iter().filter(same).any(|other| other.hash() != scene.hash()) {
             anyhow::bail!(
-                "two different scenes are called {}: tables could not tell them apart; rename a file",
+                "two different scenes are called {}: tables could not tell them apart; rename one",
                 scene.name
             );
         }

@@ -30,7 +30,7 @@ pub(super) fn assemble(file: &SceneFile, origin: &Origin) -> Result<Scene, Scene
         parts.add(object, &format!("objects[{i}]"), origin)?;
     }
 
-    if let Some(wanted) = file.triangles.filter(|_| !parts.uses_real) {
+    if let Some(wanted) = file.triangles.filter(|_| !parts.replaced) {
         let count = parts.triangles.len();
         let problem = format!("the file says {wanted} triangles, but its objects have {count}: correct one of them");
         if count != wanted {
@@ -73,7 +73,8 @@ struct Parts {
     material_of: Vec<u32>,
     stand_ins: Vec<String>,
     notes: Vec<String>,
-    uses_real: bool,
+    /// Whether a real mesh is where a stand-in would be.
+    replaced: bool,
 }
 
 impl Parts {
@@ -116,10 +117,15 @@ impl Parts {
             if path.is_file() {
                 let model = load_file(&path, &format!("{key}.real.file"), origin)?;
                 let placement = Transform::new(real.rot.into(), real.sca.into(), real.tra.into());
+                self.replaced |= object.mesh.is_some();
                 return Ok((self.take_real(real, &path, model), placement));
             }
         }
-        let Some(mesh) = &object.mesh else { return Err(missing(object, key, origin)) };
+        let mesh = match (&object.mesh, &object.real) {
+            (Some(mesh), _) => mesh,
+            (None, Some(real)) => return Err(missing(real, key, origin)),
+            (None, None) => return Err(origin.value(&format!("{key}.mesh"), "name a mesh or a file".into())),
+        };
         if let Some(whole) = &object.stands_in_for {
             self.stand_ins.push(mesh.clone());
             self.notes.push(format!("mesh `{mesh}` stands in for {whole}"));
@@ -144,7 +150,6 @@ impl Parts {
         without_materials(&mut model, &real.exclude_materials);
         let count = model.triangles.len();
         let left_out = before - count;
-        self.uses_real = true;
         let instead = real.reported_triangles.map_or(String::new(), |n| format!(" in place of the report's {n}"));
         self.notes.push(format!("real mesh {}: {count} triangles{instead}", path.display()));
         if left_out > 0 {
@@ -195,15 +200,15 @@ impl Parts {
 }
 
 /// Why an object that has only a real mesh cannot be made.
-fn missing(object: &ObjectFile, key: &str, origin: &Origin) -> SceneError {
-    let file = object.real.as_ref().map_or("", |real| &real.file);
+fn missing(real: &RealMesh, key: &str, origin: &Origin) -> SceneError {
     let problem = match origin.real_meshes {
         Some(folder) => format!(
-            "{file} is not in {}: `sahara fetch {}` gets it or says how, and SAHARA_DATA can name another folder",
+            "{} is not in {}: `sahara fetch {}` gets it or says how, and SAHARA_DATA can name another folder",
+            real.file,
             folder.display(),
             origin.file
         ),
-        None => format!("{file} is not used here, and there is no `mesh` to stand in for it"),
+        None => format!("{} is a real mesh, and no folder of them is given: give one, or name a `mesh`", real.file),
     };
     origin.value(&format!("{key}.real.file"), problem)
 }

@@ -132,7 +132,7 @@ pub struct RealMesh {
     pub bytes: Option<u64>,
     /// How many triangles the mesh that the source report used had, if it stands for one.
     pub reported_triangles: Option<usize>,
-    /// Replaces the placement of the stand-in, as do `sca` and `tra`.
+    /// With `sca` and `tra` the placement, in place of that of a stand-in.
     #[serde(default)]
     pub rot: [f32; 3],
     #[serde(default = "ones")]
@@ -205,8 +205,13 @@ impl SceneFile {
             for (rot, sca, tra) in placements.into_iter().flatten() {
                 numbers(&[rot, sca, tra].concat(), f32::MIN, &format!("objects[{i}].rot, sca or tra"))?;
             }
-            let some = object.mesh.is_some() || object.real.is_some();
-            demand(some, &format!("objects[{i}].mesh"), "name a mesh or a file, or give `real`")?;
+            if object.mesh.is_none() {
+                demand(object.real.is_some(), &format!("objects[{i}].mesh"), "name a mesh or a file, or give `real`")?;
+                let placed = (object.rot, object.sca, object.tra) != ([0.0; 3], [1.0; 3], [0.0; 3]);
+                let problem = "there is no `mesh` that it is about: put it into `real`, or leave it out";
+                demand(!placed, &format!("objects[{i}].rot, sca or tra"), problem)?;
+                demand(object.stands_in_for.is_none(), &format!("objects[{i}].stands_in_for"), problem)?;
+            }
             let both = object.material.is_some() && object.materials.is_some();
             demand(!both, &format!("objects[{i}].materials"), "give `material` or `materials`, not both")?;
             let named = object.material.iter().chain(object.materials.iter().flat_map(BTreeMap::values));

@@ -152,13 +152,18 @@ fn a_scene_of_real_meshes_alone_says_how_to_get_them() {
     let refused = |folder| made(&text, folder).unwrap_err().to_string();
     let error = refused(Some(folder.path()));
     assert!(error.contains("`objects[0].real.file`: thing.obj is not in") && error.contains("sahara fetch"), "{error}");
-    assert!(refused(None).contains("no `mesh` to stand in"), "{}", refused(None));
+    assert!(refused(None).contains("no folder of them is given"), "{}", refused(None));
+    let with = |key: &str| message(&PLAIN.replace("mesh = \"cube\"", &format!("{key}, {real}")));
+    assert!(with("sca = [2, 2, 2]").contains("put it into `real`"));
+    assert!(with("stands_in_for = \"a thing\"").contains("`objects[0].stands_in_for`"));
     assert!(message(&PLAIN.replace("mesh = \"cube\"", "")).contains("name a mesh or a file, or give `real`"));
 
     fs::write(folder.path().join("thing.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").unwrap();
     let scene = made(&text, Some(folder.path())).unwrap();
     assert_eq!((scene.mesh.len(), scene.stand_ins.len()), (1, 0));
     assert!(scene.notes.iter().any(|note| note.ends_with("thing.obj: 1 triangles")), "{:?}", scene.notes);
+    let wrong = made(&format!("triangles = 2\n{text}"), Some(folder.path())).unwrap_err().to_string();
+    assert!(wrong.contains("says 2 triangles, but its objects have 1"), "{wrong}");
 }
 
 #[test]

@@ -243,6 +243,12 @@ impl<const MASKS: bool> Sieve for Avx<MASKS> {
     }
 
     #[inline(always)]
+    fn either(one: __m256, other: __m256) -> __m256 {
+        // SAFETY: see above.
+        unsafe { _mm256_or_ps(one, other) }
+    }
+
+    #[inline(always)]
     fn choose(self, other: Self, mask: __m256) -> Self {
         // SAFETY: see above.
         Self(unsafe { _mm256_blendv_ps(other.0, self.0, mask) })
@@ -269,9 +275,9 @@ impl<const MASKS: bool> Sieve for Avx<MASKS> {
     }
 
     #[inline(always)]
-    fn least_numbers(one: __m256i, other: __m256i) -> __m256i {
+    fn mask_least(one: __m256i, other: __m256i) -> __m256 {
         // SAFETY: see above.
-        unsafe { _mm256_min_epu32(one, other) }
+        unsafe { _mm256_castsi256_ps(_mm256_cmpeq_epi32(_mm256_min_epu32(one, other), one)) }
     }
 
     #[inline(always)]

@@ -91,13 +91,17 @@ pub trait Sieve: Lanes<8> {
     fn mask(bits: u32) -> Self::Mask;
     /// The lanes of both masks.
     fn both(one: Self::Mask, other: Self::Mask) -> Self::Mask;
+    /// The lanes of either mask.
+    fn either(one: Self::Mask, other: Self::Mask) -> Self::Mask;
     /// `self` in the lanes of `mask`, `other` elsewhere.
     fn choose(self, other: Self, mask: Self::Mask) -> Self;
 
     fn numbers(numbers: &[u32; 8]) -> Self::Numbers;
+    /// The same number in every lane.
     fn splat_number(number: u32) -> Self::Numbers;
     fn store_numbers(numbers: Self::Numbers) -> [u32; 8];
-    fn least_numbers(one: Self::Numbers, other: Self::Numbers) -> Self::Numbers;
+    /// Lanes where `one <= other`.
+    fn mask_least(one: Self::Numbers, other: Self::Numbers) -> Self::Mask;
     /// Those of `one` in the lanes of `mask`, of `other` elsewhere.
     fn choose_numbers(one: Self::Numbers, other: Self::Numbers, mask: Self::Mask) -> Self::Numbers;
 
@@ -169,28 +173,24 @@ mod tests {
             assert_eq!((set, &chosen[..set.count_ones() as usize]), (right, &expected[..set.count_ones() as usize]));
         }
         for (x, y) in specials::<8>() {
-            let choices = |mask: L::Mask| {
-                let (one, other) = (L::numbers(&x.map(f32::to_bits)), L::numbers(&y.map(f32::to_bits)));
-                let least = L::store_numbers(L::least_numbers(one, other));
-                (
-                    L::load(&x).choose(L::load(&y), mask).store().map(f32::to_bits),
-                    L::store_numbers(L::choose_numbers(one, L::splat_number(7), mask)),
-                    least,
-                )
-            };
-            let expected = |bits: u32| {
-                let set = |lane: usize| bits >> lane & 1 == 1;
-                let numbers = |of: &dyn Fn(usize) -> u32| std::array::from_fn::<u32, 8, _>(of);
-                (
-                    numbers(&|i| if set(i) { x[i].to_bits() } else { y[i].to_bits() }),
-                    numbers(&|i| if set(i) { x[i].to_bits() } else { 7 }),
-                    numbers(&|i| x[i].to_bits().min(y[i].to_bits())),
-                )
-            };
             let (a, b) = (L::load(&x), L::load(&y));
-            assert_eq!(choices(a.mask_le(b)), expected(a.le(b)));
-            assert_eq!(choices(a.mask_lt(b)), expected(a.lt(b)));
-            assert_eq!(choices(L::both(a.mask_le(b), L::mask(0b1011_0110))), expected(a.le(b) & 0b1011_0110));
+            let (one, other) = (L::numbers(&x.map(f32::to_bits)), L::numbers(&y.map(f32::to_bits)));
+            let least = (0..8).fold(0, |bits, i| bits | u32::from(x[i].to_bits() <= y[i].to_bits()) << i);
+            let some = 0b1011_0110;
+            let masks = [
+                (a.mask_le(b), a.le(b)),
+                (a.mask_lt(b), a.lt(b)),
+                (L::mask_least(one, other), least),
+                (L::both(a.mask_le(b), L::mask(some)), a.le(b) & some),
+                (L::either(a.mask_lt(b), L::mask(some)), a.lt(b) | some),
+            ];
+            for (mask, bits) in masks {
+                let chosen =
+                    |x: [u32; 8], y: [u32; 8]| std::array::from_fn(|i| if bits >> i & 1 == 1 { x[i] } else { y[i] });
+                let (x, y) = (x.map(f32::to_bits), y.map(f32::to_bits));
+                assert_eq!(a.choose(b, mask).store().map(f32::to_bits), chosen(x, y));
+                assert_eq!(L::store_numbers(L::choose_numbers(one, L::splat_number(7), mask)), chosen(x, [7; 8]));
+            }
         }
         let square: [[f32; 8]; 8] = std::array::from_fn(|i| std::array::from_fn(|j| (8 * i + j) as f32));
         let transposed = L::transpose(square.map(|row| L::load(&row))).map(L::store);

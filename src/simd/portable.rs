@@ -180,6 +180,11 @@ impl Sieve for Portable<8> {
     }
 
     #[inline(always)]
+    fn either(one: u32, other: u32) -> u32 {
+        one | other
+    }
+
+    #[inline(always)]
     fn choose(self, other: Self, mask: u32) -> Self {
         Self(std::array::from_fn(|i| if mask >> i & 1 == 1 { self.0[i] } else { other.0[i] }))
     }
@@ -200,8 +205,8 @@ impl Sieve for Portable<8> {
     }
 
     #[inline(always)]
-    fn least_numbers(one: [u32; 8], other: [u32; 8]) -> [u32; 8] {
-        std::array::from_fn(|i| one[i].min(other[i]))
+    fn mask_least(one: [u32; 8], other: [u32; 8]) -> u32 {
+        (0..8).fold(0, |bits, i| bits | u32::from(one[i] <= other[i]) << i)
     }
 
     #[inline(always)]

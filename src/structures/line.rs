@@ -20,6 +20,7 @@ pub(crate) struct Line {
 }
 
 const TINY: f32 = f32::MIN_POSITIVE;
+const AFTER: f32 = 1.0 + 4.0 * f32::EPSILON;
 
 /// Not after the exact parameter, for a computed one that is not negative.
 #[inline(always)]
@@ -30,13 +31,13 @@ pub(crate) fn before(t: f32) -> f32 {
 /// Not before the exact parameter, for a computed one that is not negative.
 #[inline(always)]
 pub(crate) fn after(t: f32) -> f32 {
-    t * (1.0 + 4.0 * f32::EPSILON) + TINY
+    t * AFTER + TINY
 }
 
 /// [`after`] in every lane.
 #[inline(always)]
 pub(crate) fn lanes_after<L: Lanes<8>>(t: L) -> L {
-    t.mul(L::splat(1.0 + 4.0 * f32::EPSILON)).add(L::splat(TINY))
+    t.mul(L::splat(AFTER)).add(L::splat(TINY))
 }
 
 /// 1 / d for each component of the direction, for planes that cut the box `bounds` or are its faces; NaN where a crossing

@@ -75,12 +75,13 @@ pub trait TriangleTest: Send + Sync + 'static {
     /// what lies beyond the `to` of the candidates may be one.
     fn decide<const N: usize>(ray: &Self::Ray, block: &Self::Block<N>, lane: usize, known: f32) -> Option<Self::Depth>;
 
-    /// Whether there is [`across`](Self::across): only where hits are ordered as floats.
+    /// Whether there is [`across`](Self::across): only where the first stage decides everything, so that [`decide`](Self::decide) takes every
+    /// candidate at the `t` that is known of it, and [`Depth::of`] knows each depth.
     const ACROSS: bool = false;
 
-    /// The first stage with the roles exchanged, where it decides everything: of eight rays, given by their origins and directions, those
-    /// that meet the line of sight of the triangle in `lane` of a block, and where. The same bits as [`candidates`](Self::candidates) gives,
-    /// but for the interval, which is left to the caller.
+    /// The first stage with the roles exchanged: of eight rays, given by their origins and directions, those whose lines meet the triangle
+    /// in `lane` of a block, and where. The same bits as of [`candidates`](Self::candidates), but that the interval is left to the caller, and
+    /// a `t` may be NaN where a line is met.
     #[inline(always)]
     fn across<const N: usize, L: Sieve>(
         _origin: LaneVec3<8, L>,

@@ -8,7 +8,7 @@ use crate::simd::{LaneVec3, Lanes, Sieve};
 ///
 /// Promises: every comparison is closed, there is no epsilon, NaN never hits. Does not promise: closed meshes may leak at
 /// edges, because both neighbours round their barycentrics on their own; `t` of a grazing ray may be off by thousands of ulps.
-/// Costs one division for each block: per triangle 2.4 ns scalar and 1.0 ns in blocks of eight, on the machine of the README's
+/// Costs one division for eight tests: per triangle 2.4 ns scalar and 1.0 ns in blocks of eight, on the machine of the README's
 /// table (`cargo bench --bench kernels`).
 ///
 /// # References
@@ -29,6 +29,7 @@ const _: () = assert!(size_of::<Edges<1>>() == 36);
 
 /// What tells whether and where a line meets a triangle.
 struct Solution<L> {
+    /// Barycentrics, times the magnitude of the determinant.
     u: L,
     v: L,
     abs_det: L,

@@ -1,10 +1,10 @@
 //! Slices of rays: packets where they agree, one by one where not.
 
 use super::WideTree;
+use super::nearests::RAYS;
 use crate::accel::Observer;
 use crate::geometry::{Hit, Ray};
 use crate::simd::{Kernel, Level, Sieve, dispatch};
-use crate::structures::leaf::RAYS;
 use crate::structures::walk::{silent, single};
 use crate::triangle::TriangleTest;
 
@@ -43,9 +43,18 @@ fn together<const ANY: bool, L: Sieve, T: TriangleTest, A>(
         return false;
     }
     match (rays.try_into(), answers.try_into()) {
-        (Ok(rays), Ok(answers)) => tree.packet::<ANY, L, A>(rays, answers, form),
+        (Ok(rays), Ok(answers)) => alike(rays) && tree.packet::<ANY, L, A>(rays, answers, form),
         _ => false,
     }
+}
+
+/// Whether some of the rays are of one octant: most that cannot travel together are soon told so.
+#[inline(always)]
+fn alike(rays: &[Ray; RAYS]) -> bool {
+    let signs = |i: usize| rays[i].direction.to_array().map(f32::to_bits);
+    let first = signs(0);
+    let differ = |i: usize| (0..3).fold(0, |bits, axis| bits | (signs(i)[axis] ^ first[axis]));
+    (differ(5) | differ(10) | differ(15)) >> 31 == 0
 }
 
 /// Answers `rays` in order, on the level in use.

@@ -1,13 +1,11 @@
 //! Sixteen rays as the boxes of nodes see them.
 
 use super::beam::{Beam, ENLARGED};
+use super::nearests::{HALVES, RAYS};
 use super::node::{Node, WIDTH};
 use crate::geometry::{Aabb, Ray};
 use crate::simd::{LaneVec3, Sieve, each};
-use crate::structures::leaf::{Abreast, RAYS};
 use crate::structures::line::{after, lanes_after};
-
-const HALVES: usize = RAYS / WIDTH;
 
 /// A number of each ray.
 type Row = [[f32; WIDTH]; HALVES];
@@ -114,9 +112,9 @@ impl<L: Sieve> Beams<L> {
         self.ends = each(&t, |t| lanes_after(*t).store());
     }
 
-    /// The rays side by side.
+    /// Both halves of the rays: their origins, their directions and where they start.
     #[inline(always)]
-    pub fn abreast(&self) -> [Abreast<L>; HALVES] {
+    pub fn abreast(&self) -> [(LaneVec3<WIDTH, L>, LaneVec3<WIDTH, L>, L); HALVES] {
         let half = |half: usize| {
             let row = |[x, y, z]: &[[L; HALVES]; 3]| LaneVec3::new(x[half], y[half], z[half]);
             (row(&self.origin), row(&self.direction), self.t_min[half])

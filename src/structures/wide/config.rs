@@ -22,7 +22,7 @@ pub struct WideConfig {
     /// that explode. At least 1.
     pub duplication: f32,
     /// Whether sixteen rays in a row of a slice travel together where they share an octant, instead of one by one: faster for
-    /// rays that lie side by side, no slower for others, and the same answers.
+    /// rays that lie side by side, about as fast for others, and the same answers.
     pub packets: bool,
 }
 

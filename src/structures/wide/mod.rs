@@ -7,12 +7,14 @@ mod collapse;
 mod config;
 mod frustum;
 mod layout;
+mod nearests;
 mod node;
 mod outline;
 mod packet;
 mod stack;
 #[cfg(test)]
 mod tests;
+mod travellers;
 mod traverse;
 
 use std::sync::Arc;

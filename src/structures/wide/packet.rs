@@ -13,19 +13,16 @@ use std::mem::MaybeUninit;
 use super::WideTree;
 use super::beams::Beams;
 use super::frustum::Frustum;
+use super::nearests::RAYS;
 use super::node::{Child, WIDTH};
 use super::stack::SIZE;
+use super::travellers::Travellers;
 use crate::geometry::{Hit, Ray};
-use crate::simd::{Sieve, each};
-use crate::structures::leaf::{Found, LeafBlock, Nearests, Prepared, RAYS, search_across, search_for_each};
+use crate::simd::Sieve;
 use crate::triangle::TriangleTest;
 
 /// At most this many rays that are left go on alone.
 const FEW: u32 = 3;
-
-/// From so many rays on a leaf may be searched triangle by triangle: of fewer, hardly any finds something, and ray by ray that is
-/// soon known.
-const MANY: u32 = 12;
 
 /// The order of the lanes.
 const IN_LANES: u32 = 0o76543210;
@@ -39,71 +36,6 @@ struct Entry {
     rays: u16,
 }
 
-/// What each ray of a packet has for itself.
-struct Travellers<'a, T: TriangleTest> {
-    rays: &'a [Ray; RAYS],
-    prepared: Prepared<T>,
-    nearest: Nearests<T::Depth>,
-    t_min: [f32; RAYS],
-    found: Found<WIDTH>,
-    /// Those that still look for a hit, as bits.
-    looking: u16,
-}
-
-impl<'a, T: TriangleTest> Travellers<'a, T> {
-    #[inline(always)]
-    fn new(rays: &'a [Ray; RAYS], t_min: [f32; RAYS]) -> Self {
-        Self {
-            rays,
-            prepared: Prepared::new(),
-            nearest: Nearests::until(|i| T::last(rays[i].t_max)),
-            t_min,
-            found: Found::new(),
-            looking: u16::MAX,
-        }
-    }
-
-    /// Searches a leaf for the rays `taking_part`.
-    #[inline(always)]
-    fn search<const ANY: bool, L: Sieve>(
-        &mut self,
-        blocks: &[LeafBlock<T, WIDTH>],
-        mut taking_part: u16,
-        beams: &mut Beams<L>,
-    ) {
-        let Self { rays, prepared, nearest, t_min, found, looking } = self;
-        if T::ACROSS && taking_part.count_ones() >= MANY && across(blocks, taking_part) {
-            let ends = search_across(blocks, taking_part, &beams.abreast(), &mut nearest.halves);
-            beams.end_all(ends);
-            if ANY {
-                *looking &= !nearest.found();
-            }
-            return;
-        }
-        prepared.prepare(rays, taking_part);
-        // SAFETY: prepared.
-        unsafe {
-            search_for_each::<ANY, WIDTH, L, T>(blocks, taking_part, prepared, t_min, nearest, found);
-        }
-        while taking_part != 0 {
-            let i = taking_part.trailing_zeros() as usize % RAYS;
-            taking_part &= taking_part - 1;
-            if ANY && nearest.has(i) {
-                *looking &= !(1 << i);
-            }
-            beams.end(i, nearest.t(i));
-        }
-    }
-}
-
-/// Whether it takes fewer steps to test triangle by triangle, half of the rays at once, than ray by ray, eight triangles at once.
-#[inline(always)]
-fn across<T: TriangleTest>(blocks: &[LeafBlock<T, WIDTH>], taking_part: u16) -> bool {
-    let halves = u32::from(taking_part & 0xff != 0) + u32::from(taking_part >> WIDTH != 0);
-    let triangles: u32 = blocks.iter().map(LeafBlock::len).sum();
-    triangles * halves <= taking_part.count_ones() * blocks.len() as u32
-}
-
 impl<T: TriangleTest> WideTree<T> {
     /// Answers sixteen rays; false if they cannot travel together.
     #[inline(always)]
@@ -115,8 +47,7 @@ impl<T: TriangleTest> WideTree<T> {
     ) -> bool {
         let Some(mut beams) = Beams::<L>::new(rays, &self.bounds) else { return false };
         let frustum = Frustum::new(&beams);
-        let mut travellers = Travellers::<T>::new(rays, beams.t_min());
-        beams.end_all(each(&travellers.nearest.halves, |half| L::load(&half.t)));
+        let mut travellers = Travellers::<T>::new(rays, &mut beams);
         let mut stack = [const { MaybeUninit::<Entry>::uninit() }; SIZE];
         let mut len = 0;
         let (mut child, mut taking_part) = (self.root, u16::MAX);
@@ -148,9 +79,9 @@ impl<T: TriangleTest> WideTree<T> {
                 }
             }
             loop {
-                if len == 0 || travellers.looking == 0 {
+                if len == 0 || travellers.looking() == 0 {
                     for (i, answer) in answers.iter_mut().enumerate() {
-                        *answer = form(travellers.nearest.get(i).hit());
+                        *answer = form(travellers.hit(i));
                     }
                     return true;
                 }
@@ -160,7 +91,7 @@ impl<T: TriangleTest> WideTree<T> {
                     let entry = stack.get_unchecked(len).assume_init();
                     (entry, self.nodes.get_unchecked(entry.parent as usize))
                 };
-                taking_part = entry.rays & travellers.looking;
+                taking_part = entry.rays & travellers.looking();
                 if taking_part != 0 {
                     taking_part &= beams.meet(node, entry.lane as usize);
                 }
@@ -181,19 +112,13 @@ impl<T: TriangleTest> WideTree<T> {
         beams: &mut Beams<L>,
         travellers: &mut Travellers<T>,
     ) {
-        travellers.prepared.prepare(travellers.rays, taking_part);
         while taking_part != 0 {
             let i = taking_part.trailing_zeros() as usize % RAYS;
             taking_part &= taking_part - 1;
-            // SAFETY: prepared.
-            let prepared = unsafe { travellers.prepared.get(i) };
-            let (t_min, mut nearest) = (travellers.t_min[i], travellers.nearest.get(i));
-            self.descend::<ANY, L, ()>(child, &beams.single(i), prepared, t_min, &mut nearest, &mut ());
-            travellers.nearest.set(i, nearest);
-            if ANY && nearest.found() {
-                travellers.looking &= !(1 << i);
-            }
-            beams.end(i, nearest.t);
+            let beam = beams.single(i);
+            let (ray, t_min, mut nearest) = travellers.alone(i);
+            self.descend::<ANY, L, ()>(child, &beam, ray, t_min, &mut nearest, &mut ());
+            travellers.back::<ANY, L>(i, nearest, beams);
         }
     }
 }

@@ -62,3 +62,20 @@ fn packets_leave_alone_what_their_common_bounds_cannot_tell() {
         assert!(hits[5].is_some(), "nothing is proven by a ray that hits nothing");
     }
 }
+
+/// Two triangles of opposite determinants, hit at -0.0 and at 0.0: both as near, so that the lower number wins, with its own zero.
+#[test]
+fn packets_find_the_zero_of_the_lower_number() {
+    let (x, y) = ([Vec3::ZERO, Vec3::X, Vec3::Y], [Vec3::ZERO, Vec3::Y, Vec3::X]);
+    let rays = [Ray::new(Vec3::ZERO, Vec3::new(0.1, 0.1, 1.0)); 16];
+    for corners in [[x, y], [y, x]] {
+        let mesh = Arc::new(mesh(2, |i| corners[i as usize]));
+        let tree = Tree::build(&mesh, &WideConfig { packets: true, ..WideConfig::default() }).unwrap();
+        let alone = tree.closest_hit(&rays[0], &mut ()).unwrap();
+        let mut hits = [None; 16];
+        tree.closest_hits(&rays, &mut hits, &mut ());
+        for hit in hits.map(Option::unwrap) {
+            assert_eq!((hit.prim.index(), hit.t.to_bits()), (0, alone.t.to_bits()));
+        }
+    }
+}

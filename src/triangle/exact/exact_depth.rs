@@ -39,6 +39,7 @@ fn surely_coplanar(a: &[Vec3; 3], b: &[Vec3; 3]) -> bool {
 }
 
 impl Depth for ExactDepth {
+    #[inline(always)]
     fn of(_: f32) -> Option<Self> {
         None
     }
