@@ -20,7 +20,7 @@ use crate::triangle::{Exact, TriangleTest};
 
 #[derive(Debug, clap::Args)]
 pub struct Args {
-    /// Built-in scenes and mesh files (.obj, .ply, .gltf, .glb); all built-in scenes if none is named
+    /// Built-in scenes, scene files (.toml) and mesh files (.obj, .ply, .gltf, .glb); all built-in scenes if none is named
     #[arg(value_name = "SCENE|FILE")]
     scenes: Vec<String>,
     /// A structure, over every triangle test unless it names one; may be repeated [default: all; brute-force only on

@@ -19,7 +19,7 @@ use crate::study::{BRUTE_FORCE, Refused, bench, documented_defect};
 
 #[derive(Debug, clap::Args)]
 pub struct Args {
-    /// Built-in scenes and mesh files (.obj, .ply, .gltf, .glb) [default: teapot, starters, cornellbox]
+    /// Built-in scenes, scene files (.toml) and mesh files (.obj, .ply, .gltf, .glb) [default: teapot, starters, cornellbox]
     #[arg(value_name = "SCENE|FILE")]
     scenes: Vec<String>,
     /// A structure, with keys that differ from their defaults; may be repeated [default: one of each name but brute-force]

@@ -17,7 +17,7 @@ use crate::study::documented_defect;
 
 #[derive(Debug, Parser)]
 pub struct Args {
-    /// Built-in scenes and mesh files (.obj, .ply, .gltf, .glb); all built-in scenes if none is named
+    /// Built-in scenes, scene files (.toml) and mesh files (.obj, .ply, .gltf, .glb); all built-in scenes if none is named
     #[arg(value_name = "SCENE|FILE")]
     scenes: Vec<String>,
     /// A structure, with keys that differ from their defaults; may be repeated [default: all, one of each name]

@@ -16,7 +16,7 @@ use crate::study::{BRUTE_FORCE, PANICKED, SAH_TREE, guarded};
 
 #[derive(Debug, clap::Args)]
 pub struct Args {
-    /// A built-in scene or a mesh file
+    /// A built-in scene, a scene file (.toml) or a mesh file
     #[arg(value_name = "SCENE|FILE")]
     scene: String,
     /// The picture, a PNG file

@@ -9,7 +9,7 @@ use crate::render::{Picture, ViewKind, costs, draw as draw_view, heat_colour, ho
 use crate::report::number::{count, figures};
 use crate::report::plot::tick_text;
 use crate::report::words::scene_name;
-use crate::scene::Scene;
+use crate::scene::{Builtin, Scene};
 use crate::study::{BRUTE_FORCE, REPORT_TREE, SAH_TREE, guarded};
 
 /// Longest side of a thumbnail and of a heat map, in pixels.
@@ -28,6 +28,8 @@ pub type Find<'a> = &'a dyn Fn(&str) -> Option<Scene>;
 /// A scene of the runs.
 struct Shown {
     scene: Scene,
+    /// As the command line names it: a built-in scene, or a file.
+    argument: String,
     /// Whether it is not the one that was measured: another mesh of the same name.
     differs: bool,
 }
@@ -37,13 +39,15 @@ pub fn draw(runs: &Runs, registry: &Registry, find: Find, progress: &mut dyn FnM
     let (mut shown, mut lost): (Vec<Shown>, Vec<String>) = (vec![], vec![]);
     for (name, hash, command) in runs.scenes() {
         let candidates = std::iter::once(name.clone()).chain(files_named(&command, &name));
-        let found = candidates.filter_map(|candidate| find(&candidate));
-        let mut found: Vec<Scene> = found.collect();
-        let same = found.iter().position(|scene| hash.as_ref().is_none_or(|hash| scene.hash() == *hash));
+        let found = candidates.filter_map(|candidate| Some((find(&candidate)?, candidate)));
+        let mut found: Vec<(Scene, String)> = found.collect();
+        let same = found.iter().position(|(scene, _)| hash.as_ref().is_none_or(|hash| scene.hash() == *hash));
         match same {
-            Some(i) => shown.push(Shown { scene: found.swap_remove(i), differs: false }),
             None if found.is_empty() => lost.push(name),
-            None => shown.push(Shown { scene: found.swap_remove(0), differs: true }),
+            _ => {
+                let (scene, argument) = found.swap_remove(same.unwrap_or(0));
+                shown.push(Shown { scene, argument, differs: same.is_none() });
+            }
         }
     }
     let mut thumbnails = vec![];
@@ -184,7 +188,7 @@ fn heat_figure(shown: &Shown, runs: &Runs, registry: &Registry) -> Option<Figure
         alt: String::new(),
         command: format!(
             "sahara render {} --view heat --hottest {scale} --structure NAME -o NAME.png",
-            scene.name.to_lowercase()
+            if Builtin::find(&shown.argument).is_ok() { shown.argument.to_lowercase() } else { shown.argument.clone() }
         ),
         art: Art::Overlay(Overlay {
             pictures,

@@ -37,7 +37,7 @@ enum Action {
 
 #[derive(Debug, clap::Args)]
 struct Record {
-    /// A built-in scene or a mesh file
+    /// A built-in scene, a scene file (.toml) or a mesh file
     #[arg(value_name = "SCENE|FILE")]
     scene: String,
     /// The kind of rays

@@ -21,7 +21,7 @@ pub enum Meshes {
 /// Scenes and their meshes, as a study takes them.
 #[derive(Clone, Debug, clap::Args)]
 pub struct Scenes {
-    /// Built-in scenes and mesh files (.obj, .ply, .gltf, .glb); all built-in scenes if none is named
+    /// Built-in scenes, scene files (.toml) and mesh files (.obj, .ply, .gltf, .glb); all built-in scenes if none is named
     #[arg(value_name = "SCENE|FILE")]
     scenes: Vec<String>,
     /// Meshes of the built-in scenes

@@ -16,7 +16,7 @@ use crate::study::partitions::{LEGEND, rows, structures, tables};
 
 #[derive(Debug, clap::Args)]
 pub struct Args {
-    /// Built-in scenes and mesh files (.obj, .ply, .gltf, .glb) [default: dragon, lucy, sponza]
+    /// Built-in scenes, scene files (.toml) and mesh files (.obj, .ply, .gltf, .glb) [default: dragon, lucy, sponza]
     #[arg(value_name = "SCENE|FILE")]
     scenes: Vec<String>,
     /// The triangle test of ours; obvhs has its own, which is Möller and Trumbore's in f32 as well

@@ -10,7 +10,8 @@ use crate::study::scaling::{Case, Family, LEVELS, NAME, STRUCTURES, result, rows
 
 #[derive(Clone, Debug, clap::Args)]
 pub struct Args {
-    /// Built-in scenes and mesh files (.obj, .ply, .gltf, .glb), beside the icospheres [default: dragon, lucy, sponza]
+    /// Built-in scenes, scene files (.toml) and mesh files (.obj, .ply, .gltf, .glb), beside the icospheres [default: dragon,
+    /// lucy, sponza]
     #[arg(value_name = "SCENE|FILE")]
     pub scenes: Vec<String>,
     /// The finest icosphere, of 20 times 4 to that power triangles

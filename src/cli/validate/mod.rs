@@ -22,7 +22,7 @@ use crate::validate::{LIMIT, Reference, Stratum, Validation, validate_watched, w
 
 #[derive(Debug, clap::Args)]
 pub struct Args {
-    /// Built-in scenes and mesh files; all built-in scenes if none is named
+    /// Built-in scenes, scene files (.toml) and mesh files; all built-in scenes if none is named
     #[arg(value_name = "SCENE|FILE")]
     scenes: Vec<String>,
     /// A structure, with keys that differ from their defaults; may be repeated [default: all, one of each name]

@@ -10,7 +10,8 @@ pub struct SplitConfig {
     pub splits: Splits,
     /// Candidate planes and bins of an axis, in 2..=62; more finds cheaper splits and takes longer.
     pub candidates: u32,
-    /// Nodes of at most this many references try every object split; larger ones try `candidates`.
+    /// Nodes of at most this many references try every object split; larger ones try `candidates`. The cheapest of all splits is
+    /// not the best for the tree: 64 in place of 16 costs 2 to 8 % more by the heuristic in the end.
     pub exact: u32,
     /// Nodes of at most this many references see the clipped triangle in every slab of a spatial split; larger ones see its
     /// box cut by the slab.
@@ -45,41 +46,47 @@ pub enum Splits {
     Object,
 }
 
-/// How much time a build may take for a better tree. Ratios are CPU time on one thread for a scan of 100,000 triangles and a
-/// kitchen of 57,000, against the presets of obvhs.
+/// How much time a build may take for a better tree. Ratios are CPU time on one thread for six real meshes of 57,000 to 262,000
+/// triangles, against the presets of obvhs' binary tree.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Quality {
-    /// Few candidates, boxes of slabs not clipped; with planes alone also half of the references and leaves twice as full.
-    /// 1.5 to 2.6 times obvhs `medium`; costs 2 to 20 % more by the heuristic than `Balanced`, most with planes alone.
+    /// Few candidates, spatial splits only where groups overlap much; with planes alone also half of the references and leaves twice
+    /// as full. 1.6 to 2.8 times obvhs `medium`, with planes alone 1.9 to 3.3; by the heuristic as good as `Balanced`, but with planes
+    /// alone, where it costs twice as much.
     Fast,
-    /// A closer look around the best plane, then parts of the tree move to better places. 0.3 to 0.95 times obvhs `very-slow`.
+    /// A closer look around the best plane, then parts of the tree move to better places. 0.24 to 1.07 times obvhs `very-slow`.
     #[default]
     Balanced,
-    /// Many candidates, slices of triangles instead of boxes, more moves. About twice the time of `Balanced` for up to 1 %.
+    /// Slices of triangles instead of boxes, more moves. Up to twice the time of `Balanced` for up to 3 %.
     High,
 }
 
 impl SplitConfig {
     /// The values measured for `quality`.
     pub const fn new(splits: Splits, quality: Quality) -> Self {
-        let (candidates, exact, chopped, refined, sample) = match (quality, splits) {
-            (Quality::Fast, Splits::Spatial) => (8, 0, 0, u32::MAX, 16384),
-            (Quality::Fast, _) => (12, 32, 0, u32::MAX, 16384),
-            (Quality::Balanced, Splits::Spatial) => (20, 0, 0, 16, 65536),
-            (Quality::Balanced, _) => (20, 64, 64, 16, 65536),
-            (Quality::High, _) => (62, 128, 4096, 16, 1 << 20),
+        let spatial = matches!(splits, Splits::Spatial);
+        let (candidates, exact, chopped, refined) = match quality {
+            Quality::Fast if spatial => (8, 0, 0, u32::MAX),
+            Quality::Fast => (12, 0, 0, u32::MAX),
+            Quality::Balanced => (20, 16, 0, 16),
+            Quality::High => (20, 16, 4096, 16),
         };
         // What costs time where only planes may split is making references: a fast build makes fewer, and larger leaves.
-        let node_cost = if let (Quality::Fast, Splits::Spatial) = (quality, splits) { 1.5 } else { 0.4 };
+        let node_cost = match quality {
+            Quality::Fast if spatial => 1.5,
+            Quality::Fast => 0.4,
+            Quality::Balanced | Quality::High => 0.3,
+        };
+        let alpha = if let Quality::Fast = quality { 1e-3 } else { 1e-4 };
         Self {
             splits,
             candidates,
             exact,
             chopped,
             refined,
-            sample,
-            alpha: 1e-4,
+            sample: 16384,
+            alpha,
             node_cost,
             block_cost: 1.0,
             leaf: 64,
