@@ -118,7 +118,7 @@ fn rays_across_get_the_bits_of_one_by_one() {
             let (origin, direction) = (rows(|ray| ray.origin), rows(|ray| ray.direction));
             let (block, everywhere) = (MollerTrumbore::block::<8>(triangles), f32::INFINITY);
             let mut hits = 0;
-            for lane in 0..triangles.len() {
+            for (lane, corners) in triangles.iter().enumerate() {
                 let (met, t) = MollerTrumbore::across(origin, direction, &block, lane);
                 let met = L::splat(1.0).choose(L::zero(), met).store();
                 for (i, ray) in rays.iter().enumerate() {
@@ -126,7 +126,7 @@ fn rays_across_get_the_bits_of_one_by_one() {
                     let (alone, known) = MollerTrumbore::candidates::<8, L>(&prepared, &block, -everywhere, everywhere);
                     let (t, known) = (t.store()[i], known.store()[lane]);
                     // Without an interval even NaN is left.
-                    assert_eq!(met[i] == 1.0 && !t.is_nan(), alone >> lane & 1 == 1, "{ray:?} {:?}", triangles[lane]);
+                    assert_eq!(met[i] == 1.0 && !t.is_nan(), alone >> lane & 1 == 1, "{ray:?} {corners:?}");
                     assert!(t.to_bits() == known.to_bits() || t.is_nan() && known.is_nan(), "{t:e} {known:e}");
                     hits += usize::from(met[i] == 1.0);
                 }

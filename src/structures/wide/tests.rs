@@ -69,7 +69,7 @@ fn packets_find_the_zero_of_the_lower_number() {
     let (x, y) = ([Vec3::ZERO, Vec3::X, Vec3::Y], [Vec3::ZERO, Vec3::Y, Vec3::X]);
     let rays = [Ray::new(Vec3::ZERO, Vec3::new(0.1, 0.1, 1.0)); 16];
     for corners in [[x, y], [y, x]] {
-        let mesh = Arc::new(mesh(2, |i| corners[i as usize]));
+        let mesh = Arc::new(mesh(2, |i| corners[i]));
         let tree = Tree::build(&mesh, &WideConfig { packets: true, ..WideConfig::default() }).unwrap();
         let alone = tree.closest_hit(&rays[0], &mut ()).unwrap();
         let mut hits = [None; 16];
