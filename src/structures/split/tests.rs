@@ -178,7 +178,7 @@ fn no_candidate_is_cheaper_than_the_cut_that_is_chosen() {
 fn no_grouping_by_centres_is_cheaper_than_the_one_that_is_chosen() {
     for seed in 0..60 {
         let mesh = soup(9 + seed as usize, seed);
-        let config = SplitConfig::new(Splits::Object, Quality::High);
+        let config = SplitConfig { exact: 128, ..SplitConfig::new(Splits::Object, Quality::High) };
         let context = Context::new(&mesh, &config);
         let references = context.references();
         let area = bounds(&references).half_area();
