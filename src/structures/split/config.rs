@@ -55,10 +55,10 @@ pub enum Quality {
     /// as full. 1.6 to 2.8 times obvhs `medium`, with planes alone 1.9 to 3.3; by the heuristic as good as `Balanced`, but with planes
     /// alone, where it costs twice as much.
     Fast,
-    /// A closer look around the best plane, then parts of the tree move to better places. 0.24 to 1.07 times obvhs `very-slow`.
+    /// A closer look around the best plane, then parts of the tree move to better places. 0.20 to 1.0 times obvhs `very-slow`.
     #[default]
     Balanced,
-    /// Slices of triangles instead of boxes, more moves. Up to twice the time of `Balanced` for up to 3 %.
+    /// Slices of triangles instead of boxes, more moves: costs up to 3 % less by the heuristic than `Balanced`, more on some meshes.
     High,
 }
 

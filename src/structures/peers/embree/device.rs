@@ -39,6 +39,8 @@ unsafe extern "C" fn on_error(told: *mut c_void, _: c_int, text: *const c_char) 
     }
 }
 
+/// # Safety
+/// `told` is what was given with this function, and outlives the device.
 unsafe extern "C" fn on_memory(told: *mut c_void, bytes: isize, _: bool) -> bool {
     // SAFETY: as above.
     unsafe { &*told.cast::<Told>() }.bytes.fetch_add(bytes, Ordering::Relaxed);
