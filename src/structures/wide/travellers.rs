@@ -61,7 +61,7 @@ impl<'a, T: TriangleTest> Travellers<'a, T> {
     pub fn alone(&mut self, i: usize) -> (&T::Ray, f32, Nearest<T::Depth>) {
         self.prepare(1 << i);
         // SAFETY: prepared.
-        (unsafe { self.prepared[i].assume_init_ref() }, self.t_min[i], self.nearest.get(i))
+        (unsafe { self.prepared(i) }, self.t_min[i], self.nearest.get(i))
     }
 
     /// Takes what ray `i` has found alone.
@@ -135,7 +135,7 @@ impl<'a, T: TriangleTest> Travellers<'a, T> {
                 let i = left.trailing_zeros() as usize % RAYS;
                 left &= left - 1;
                 // SAFETY: prepared.
-                let ray = unsafe { self.prepared[i].assume_init_ref() };
+                let ray = unsafe { self.prepared(i) };
                 let (candidates, known) =
                     T::candidates::<WIDTH, L>(ray, &block.triangles, self.t_min[i], self.nearest.t(i));
                 self.candidates[i].write((candidates, known.store()));
@@ -146,7 +146,8 @@ impl<'a, T: TriangleTest> Travellers<'a, T> {
                 met &= met - 1;
                 // SAFETY: written above for this block, as `met` says.
                 let candidates = unsafe { self.candidates[i].assume_init() };
-                self.settle(block, i, candidates);
+                // SAFETY: prepared, as all that take part.
+                unsafe { self.settle(block, i, candidates) };
                 if ANY && self.nearest.has_found(i) {
                     searching &= !(1 << i);
                 }
@@ -160,9 +161,12 @@ impl<'a, T: TriangleTest> Travellers<'a, T> {
         }
     }
 
-    /// Decides about the candidates of ray `i`, which is prepared.
+    /// Decides about the candidates of ray `i`.
+    ///
+    /// # Safety
+    /// It is prepared.
     #[inline(always)]
-    fn settle(&mut self, block: &LeafBlock<T, WIDTH>, i: usize, (mut candidates, known): Candidates) {
+    unsafe fn settle(&mut self, block: &LeafBlock<T, WIDTH>, i: usize, (mut candidates, known): Candidates) {
         if T::ACROSS {
             // They are hits already: that needs no call.
             while candidates != 0 {
@@ -173,9 +177,20 @@ impl<'a, T: TriangleTest> Travellers<'a, T> {
         } else {
             let mut nearest = self.nearest.get(i);
             // SAFETY: prepared, as the caller says.
-            settle(block, unsafe { self.prepared[i].assume_init_ref() }, candidates, known, &mut nearest);
+            settle(block, unsafe { self.prepared(i) }, candidates, known, &mut nearest);
             self.nearest.set(i, nearest);
         }
+    }
+
+    /// Ray `i` as its test wants it.
+    ///
+    /// # Safety
+    /// It is prepared.
+    #[inline(always)]
+    unsafe fn prepared(&self, i: usize) -> &T::Ray {
+        debug_assert!(self.ready >> i & 1 == 1);
+        // SAFETY: written when it was prepared.
+        unsafe { self.prepared[i].assume_init_ref() }
     }
 
     /// Prepares the rays `which`, as bits.
