@@ -2,7 +2,8 @@
 
 use crate::geometry::Aabb;
 
-/// Leaves of a partition and how they were found: nodes in an order in which parents come before their children, the root first.
+/// Leaves of a partition and how they were found, depth first: a node, then all below its first child, then all below its second.
+/// So what is below a node is a range, of nodes and of references.
 ///
 /// Without triangles there are no nodes.
 #[derive(Clone, Debug, Default)]

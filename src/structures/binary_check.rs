@@ -49,15 +49,16 @@ pub fn room(cells: usize) -> Mesh {
 pub fn leaves(tree: &BinaryTree, most: u32) -> Vec<(Aabb, &[u32])> {
     let mut found = vec![];
     let mut next = 0;
-    let mut parents = vec![0; tree.nodes.len()];
+    // What must come next, depth first.
+    let mut stack = if tree.nodes.is_empty() { vec![] } else { vec![0] };
     for (at, node) in tree.nodes.iter().enumerate() {
+        assert_eq!(stack.pop(), Some(at as u32), "nodes are in depth-first order");
         assert!(!node.bounds.is_empty());
         match node.content {
-            Content::Inner(children) => {
-                for child in children {
-                    assert!(child as usize > at, "parents come first");
+            Content::Inner([left, right]) => {
+                stack.extend([right, left]);
+                for child in [left, right] {
                     assert!(node.bounds.contains(&tree.nodes[child as usize].bounds));
-                    parents[child as usize] += 1;
                 }
             }
             Content::Leaf { first, count } => {
@@ -69,7 +70,7 @@ pub fn leaves(tree: &BinaryTree, most: u32) -> Vec<(Aabb, &[u32])> {
         }
     }
     assert_eq!(next as usize, tree.references.len());
-    assert!(parents.iter().skip(1).all(|&n| n == 1), "every node but the root has one parent");
+    assert!(stack.is_empty(), "every node is there");
     found
 }
 

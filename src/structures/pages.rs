@@ -1,14 +1,13 @@
 //! Large arrays on large pages of memory.
 
-/// What is read at random places, moved to fresh memory for which the system is asked for huge pages: a walk through a few
+/// Memory for `len` values that are read at random places, for which the system is asked for huge pages: a walk through a few
 /// megabytes in pages of four kilobytes misses the cache of addresses at nearly every node.
 ///
 /// Only Linux is asked, and it may decline; the values are the same.
-pub(super) fn settle<T>(mut values: Vec<T>) -> Vec<T> {
-    let mut settled = Vec::with_capacity(values.len());
-    advise(settled.as_ptr(), size_of_val(&values[..]));
-    settled.append(&mut values);
-    settled
+pub(super) fn with_capacity<T>(len: usize) -> Vec<T> {
+    let values = Vec::with_capacity(len);
+    advise(values.as_ptr(), len * size_of::<T>());
+    values
 }
 
 #[cfg(target_os = "linux")]

@@ -33,7 +33,7 @@ struct Links {
 
 /// Seeks a better place for every node, the largest first, `passes` times. Leaves stay what they are.
 pub(in crate::structures) fn reinsert(tree: BinaryTree, passes: u32) -> BinaryTree {
-    if tree.nodes.is_empty() {
+    if tree.nodes.is_empty() || passes == 0 {
         return tree;
     }
     let mut links = Links::new(&tree);
@@ -198,7 +198,7 @@ impl Links {
         growth
     }
 
-    /// The nodes and references of `tree` as they are linked now, parents first.
+    /// The nodes and references of `tree` as they are linked now, depth first.
     fn write(&self, tree: &BinaryTree) -> BinaryTree {
         let mut order = Vec::with_capacity(tree.nodes.len());
         let mut stack = vec![0];

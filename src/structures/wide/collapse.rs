@@ -18,6 +18,9 @@ pub(super) struct Cost {
     pub largest: usize,
 }
 
+/// Nodes above at least so many others are decided about by several threads.
+const PARALLEL: usize = 2048;
+
 /// For each node of a binary tree how it is represented best by at most 1 to 7 parts.
 pub(super) struct Collapse<'a> {
     tree: &'a BinaryTree,
@@ -34,6 +37,14 @@ struct Best {
     left: [u8; WIDTH],
     /// Whether one part alone is a leaf.
     leaf: bool,
+    /// The references below: the first, and the one after the last.
+    references: [u32; 2],
+    /// So many different triangles, or more, are among them.
+    triangles: u32,
+}
+
+impl Best {
+    const NONE: Self = Self { cost: [0.0; WIDTH - 1], left: [0; WIDTH], leaf: true, references: [0; 2], triangles: 0 };
 }
 
 /// A part of the tree that becomes one child of a wide node.
@@ -45,59 +56,78 @@ pub(super) enum Part {
     Leaf(u32),
 }
 
+/// The children of a wide node.
+pub(super) struct Children {
+    parts: [Part; WIDTH],
+    len: usize,
+    /// For each octant of directions the order that nodes hold.
+    pub orders: [u32; 8],
+}
+
+impl Children {
+    /// In the order of lanes.
+    pub fn parts(&self) -> &[Part] {
+        &self.parts[..self.len]
+    }
+}
+
 fn half_area(bounds: &Aabb) -> f64 {
     Extent::from(*bounds).half_area()
 }
 
-impl<'a> Collapse<'a> {
-    pub fn new(tree: &'a BinaryTree, cost: &Cost) -> Self {
-        let none = Best { cost: [0.0; WIDTH - 1], left: [0; WIDTH], leaf: true };
-        let mut collapse = Self { tree, best: vec![none; tree.nodes.len()] };
-        let mut counts = vec![0_u32; tree.nodes.len()];
-        let mut ids = vec![];
-        let most = cost.largest * WIDTH;
-        // Shares of the root's area fit an `f32`, whatever the unit of length.
-        let whole = tree.nodes.first().map(|root| half_area(&root.bounds)).filter(|&whole| whole > 0.0).unwrap_or(1.0);
-        for at in (0..tree.nodes.len()).rev() {
-            let node = &tree.nodes[at];
-            let area = half_area(&node.bounds) / whole;
-            let as_leaf = |count: usize| (area * cost.block * count.div_ceil(WIDTH) as f64) as f32;
-            match node.content {
-                Content::Leaf { count, .. } => {
-                    counts[at] = count;
-                    collapse.best[at].cost = [as_leaf(count as usize); WIDTH - 1];
+/// What every choice knows.
+struct Chooser<'a> {
+    tree: &'a BinaryTree,
+    cost: &'a Cost,
+    /// Shares of the root's area fit an `f32`, whatever the unit of length.
+    whole: f64,
+}
+
+impl Chooser<'_> {
+    /// Chooses for the node `at` and all below, which `best` is about.
+    fn choose(&self, at: usize, best: &mut [Best], ids: &mut Vec<u32>) {
+        let node = &self.tree.nodes[at];
+        let area = half_area(&node.bounds) / self.whole;
+        let (own, below) = best.split_first_mut().expect("a node is one of those below it");
+        *own = match node.content {
+            Content::Leaf { first, count } => Best {
+                cost: [self.as_leaf(area, count); WIDTH - 1],
+                references: [first, first + count],
+                triangles: count,
+                ..Best::NONE
+            },
+            Content::Inner([_, second]) => {
+                let second = second as usize;
+                let together = below.len() < PARALLEL;
+                let (left, right) = below.split_at_mut(second - at - 1);
+                if together {
+                    self.choose(at + 1, left, ids);
+                    self.choose(second, right, ids);
+                } else {
+                    rayon::join(|| self.choose(at + 1, left, ids), || self.choose(second, right, &mut vec![]));
                 }
-                Content::Inner(children) => {
-                    counts[at] = children.iter().map(|&child| counts[child as usize]).sum();
-                    // A triangle may be in several leaves: count again before giving up.
-                    let mut merged = f32::INFINITY;
-                    if counts[at] as usize <= 2 * most {
-                        collapse.ids(at as u32, &mut ids);
-                        if ids.len() <= most {
-                            merged = as_leaf(ids.len());
-                        }
-                    }
-                    collapse.best[at] = collapse.choose(children, area * cost.node, merged);
-                }
+                self.inner(area, [&left[0], &right[0]], ids)
             }
-        }
-        collapse
+        };
     }
 
-    fn choose(&self, children: [u32; 2], own: f64, as_leaf: f32) -> Best {
-        let [l, r] = children.map(|child| &self.best[child as usize]);
+    fn inner(&self, area: f64, [l, r]: [&Best; 2], ids: &mut Vec<u32>) -> Best {
         // The best way to give `parts` to the two children.
         let distribute = |parts: usize| {
             let with = |left: usize| (l.cost[left - 1] + r.cost[parts - left - 1], left as u8);
             (1..parts).map(with).min_by(|a, b| a.0.total_cmp(&b.0)).expect("at least two parts")
         };
-        let mut best = Best { cost: [as_leaf; WIDTH - 1], left: [0; WIDTH], leaf: true };
+        let mut best = Best {
+            references: [l.references[0], r.references[1]],
+            triangles: l.triangles.max(r.triangles),
+            ..Best::NONE
+        };
         let (inner, left) = distribute(WIDTH);
         best.left[WIDTH - 1] = left;
-        let as_node = (own + f64::from(inner)) as f32;
-        if as_node < as_leaf || as_leaf.is_infinite() {
-            (best.cost[0], best.leaf) = (as_node, false);
-        }
+        let as_node = (area * self.cost.node + f64::from(inner)) as f32;
+        let as_leaf = self.merged(area, as_node, &mut best, ids);
+        best.leaf = as_leaf <= as_node && as_leaf.is_finite();
+        best.cost[0] = if best.leaf { as_leaf } else { as_node };
         for parts in 2..WIDTH {
             let (cost, left) = distribute(parts);
             (best.cost[parts - 1], best.left[parts - 1]) =
@@ -106,72 +136,117 @@ impl<'a> Collapse<'a> {
         best
     }
 
-    /// What the root becomes.
-    pub fn root(&self) -> Part {
-        self.part(0)
+    /// What all triangles below a node cost as one leaf; infinite where they are too many, or cost more than `limit`.
+    fn merged(&self, area: f64, limit: f32, best: &mut Best, ids: &mut Vec<u32>) -> f32 {
+        let most = (self.cost.largest * WIDTH) as u32;
+        let [first, end] = best.references;
+        if end - first > 2 * most || best.triangles > most || self.as_leaf(area, best.triangles) > limit {
+            return f32::INFINITY;
+        }
+        // A triangle may be in several leaves: count again before giving up.
+        ids.clear();
+        ids.extend_from_slice(&self.tree.references[first as usize..end as usize]);
+        ids.sort_unstable();
+        ids.dedup();
+        best.triangles = ids.len() as u32;
+        if best.triangles <= most { self.as_leaf(area, best.triangles) } else { f32::INFINITY }
     }
 
-    /// The children of the wide node `at`, in the order of lanes, and for each octant of directions the order that nodes hold.
-    pub fn children(&self, at: u32, parts: &mut Vec<Part>) -> [u32; 8] {
-        parts.clear();
-        self.gather(at, WIDTH, 0, &mut |part| parts.push(part));
-        let size = |part: &Part| half_area(self.bounds(*part));
-        let is_leaf = |part: &Part| matches!(part, Part::Leaf(_));
-        parts.sort_by(|a, b| is_leaf(a).cmp(&is_leaf(b)).then(size(a).total_cmp(&size(b))));
-        std::array::from_fn(|octant| {
-            // Empty lanes come before the first.
-            let mut order = (parts.len()..WIDTH).fold(0, |order, lane| order << 3 | lane as u32);
-            self.gather(at, WIDTH, octant, &mut |part| {
-                let lane = parts.iter().position(|&p| p == part).expect("the same parts in another order");
-                order = order << 3 | lane as u32;
-            });
-            order
-        })
+    fn as_leaf(&self, area: f64, count: u32) -> f32 {
+        (area * self.cost.block * count.div_ceil(WIDTH as u32) as f64) as f32
+    }
+}
+
+impl<'a> Collapse<'a> {
+    pub fn new(tree: &'a BinaryTree, cost: &Cost) -> Self {
+        let mut best = vec![Best::NONE; tree.nodes.len()];
+        if let Some(root) = tree.nodes.first() {
+            let whole = Some(half_area(&root.bounds)).filter(|&whole| whole > 0.0).unwrap_or(1.0);
+            Chooser { tree, cost, whole }.choose(0, &mut best, &mut vec![]);
+        }
+        Self { tree, best }
+    }
+
+    /// What the root becomes; nothing without triangles.
+    pub fn root(&self) -> Option<Part> {
+        (!self.best.is_empty()).then(|| self.part(0))
+    }
+
+    /// What is below a part; a triangle may be there several times.
+    pub fn references(&self, part: Part) -> &[u32] {
+        let (Part::Node(at) | Part::Leaf(at)) = part;
+        let [first, end] = self.best[at as usize].references;
+        &self.tree.references[first as usize..end as usize]
+    }
+
+    /// The children of the wide node `at`.
+    pub fn children(&self, at: u32) -> Children {
+        let (mut found, mut len) = ([Part::Leaf(0); WIDTH], 0);
+        self.gather(at, WIDTH, &mut |part| {
+            found[len] = part;
+            len += 1;
+        });
+        // Nodes come before leaves, small boxes before large ones.
+        let keys = found.map(|part| (matches!(part, Part::Leaf(_)), half_area(self.bounds(part))));
+        let mut places: [usize; WIDTH] = std::array::from_fn(|place| place);
+        places[..len].sort_by(|&a, &b| keys[a].0.cmp(&keys[b].0).then(keys[a].1.total_cmp(&keys[b].1)));
+        let mut lanes = [0; WIDTH];
+        (0..).zip(&places[..len]).for_each(|(lane, &place)| lanes[place] = lane);
+
+        // Empty lanes come before the first.
+        let empty = (len..WIDTH).fold(0, |order, lane| order << 3 | lane as u32);
+        let orders = self.orders(at, WIDTH, &mut lanes.iter()).0.map(|order| empty << (3 * len) | order);
+        Children { parts: places.map(|place| found[place]), len, orders }
     }
 
     fn part(&self, at: u32) -> Part {
         if self.best[at as usize].leaf { Part::Leaf(at) } else { Part::Node(at) }
     }
 
-    /// Visits the at most `parts` parts of `at`, nearest first as rays of an octant see them.
-    fn gather(&self, at: u32, parts: usize, octant: usize, visit: &mut impl FnMut(Part)) {
-        let left = self.best[at as usize].left[parts - 1] as usize;
+    /// How at most `parts` parts of `at` are dealt to its children: nothing where it is one part itself.
+    fn dealt(&self, at: u32, parts: usize) -> Option<[(u32, usize); 2]> {
+        let left = |parts: usize| (parts, self.best[at as usize].left[parts - 1] as usize);
+        let (parts, left) = (1..=parts).rev().map(left).find(|&(_, left)| left > 0)?;
         match self.tree.nodes[at as usize].content {
-            Content::Inner([l, r]) if left > 0 => {
-                let [first, second] = [(l, left), (r, parts - left)];
-                let swap = self.swapped(l, r, octant);
-                let (first, second) = if swap { (second, first) } else { (first, second) };
-                self.gather(first.0, first.1, octant, visit);
-                self.gather(second.0, second.1, octant, visit);
-            }
-            _ if parts == 1 => visit(self.part(at)),
-            _ => self.gather(at, parts - 1, octant, visit),
+            Content::Inner([l, r]) => Some([(l, left), (r, parts - left)]),
+            Content::Leaf { .. } => None,
         }
     }
 
-    /// Whether rays of the octant should visit `r` before `l`: by the axis along which the boxes are furthest apart.
-    fn swapped(&self, l: u32, r: u32, octant: usize) -> bool {
+    /// Visits the at most `parts` parts of `at`, from the first child to the second.
+    fn gather(&self, at: u32, parts: usize, visit: &mut impl FnMut(Part)) {
+        match self.dealt(at, parts) {
+            Some(sides) => sides.iter().for_each(|&(at, parts)| self.gather(at, parts, visit)),
+            None => visit(self.part(at)),
+        }
+    }
+
+    /// The lanes of the at most `parts` parts of `at` as rays of each octant should visit them, three bits each, the last one lowest;
+    /// and how many bits these are. Takes the lanes in the order in which the parts are gathered.
+    fn orders<'b>(&self, at: u32, parts: usize, lanes: &mut impl Iterator<Item = &'b u32>) -> ([u32; 8], u32) {
+        let Some([l, r]) = self.dealt(at, parts) else {
+            return ([*lanes.next().expect("a lane for each part"); 8], 3);
+        };
+        let ((left, left_bits), (right, right_bits)) = (self.orders(l.0, l.1, lanes), self.orders(r.0, r.1, lanes));
+        let (axis, backward) = self.apart(l.0, r.0);
+        let order = |octant: usize| {
+            let right_first = backward != (octant >> axis & 1 == 1);
+            if right_first {
+                right[octant] << left_bits | left[octant]
+            } else {
+                left[octant] << right_bits | right[octant]
+            }
+        };
+        (std::array::from_fn(order), left_bits + right_bits)
+    }
+
+    /// The axis along which the boxes are furthest apart, and whether `r` comes before `l` on it.
+    fn apart(&self, l: u32, r: u32) -> (usize, bool) {
         let [l, r] = [l, r].map(|at| &self.tree.nodes[at as usize].bounds);
         let (up, down) = (r.min - l.max, l.min - r.max);
         let apart = up.max(down);
         let axis = (0..3).reduce(|a, b| if apart[b] > apart[a] { b } else { a }).unwrap_or(0);
-        (down[axis] > up[axis]) != (octant >> axis & 1 == 1)
-    }
-
-    /// The different triangles below a node, in ascending order.
-    pub fn ids(&self, at: u32, ids: &mut Vec<u32>) {
-        ids.clear();
-        let mut stack = vec![at];
-        while let Some(at) = stack.pop() {
-            match self.tree.nodes[at as usize].content {
-                Content::Inner(children) => stack.extend(children),
-                Content::Leaf { first, count } => {
-                    ids.extend_from_slice(&self.tree.references[first as usize..(first + count) as usize]);
-                }
-            }
-        }
-        ids.sort_unstable();
-        ids.dedup();
+        (axis, down[axis] > up[axis])
     }
 
     pub fn bounds(&self, part: Part) -> &Aabb {

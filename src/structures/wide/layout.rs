@@ -1,40 +1,118 @@
-//! Writes nodes and leaf blocks, depth first.
+//! Writes nodes and leaf blocks, depth first but for the top of the tree, which comes first.
+
+use rayon::prelude::*;
 
 use super::collapse::{Collapse, Part};
 use super::node::{Child, Node, WIDTH};
 use crate::geometry::Mesh;
 use crate::structures::leaf::LeafBlock;
+use crate::structures::pages;
 use crate::triangle::TriangleTest;
 
+/// What is below a node with at most this many references is written by one thread.
+const PIECE: usize = 4096;
+
 /// What a walk goes through.
-pub(super) struct Layout<'a, T: TriangleTest> {
-    mesh: &'a Mesh,
-    collapse: &'a Collapse<'a>,
+pub(super) struct Layout<T: TriangleTest> {
+    pub root: Child,
     pub nodes: Vec<Node>,
     pub blocks: Vec<LeafBlock<T, WIDTH>>,
     /// Nodes on the longest path from the root.
     pub depth: usize,
 }
 
-impl<'a, T: TriangleTest> Layout<'a, T> {
-    pub fn new(mesh: &'a Mesh, collapse: &'a Collapse<'a>) -> Self {
-        Self { mesh, collapse, nodes: vec![], blocks: vec![], depth: 0 }
+impl<T: TriangleTest> Layout<T> {
+    /// The tree that `collapse` has chosen. It does not depend on the number of threads.
+    pub fn new(mesh: &Mesh, collapse: &Collapse) -> Self {
+        let Some(root) = collapse.root() else {
+            return Self { root: Child::NOTHING, nodes: vec![], blocks: vec![], depth: 0 };
+        };
+        let cut = if collapse.references(root).len() > PIECE { PIECE } else { 0 };
+        let mut top = Piece::new(mesh, collapse, cut);
+        let root = top.write(root, 0);
+        let below = |cut: &Cut| {
+            let mut piece = Piece::new(mesh, collapse, 0);
+            piece.write(cut.part, cut.depth);
+            piece
+        };
+        let pieces: Vec<Piece<T>> = top.cuts.par_iter().map(below).collect();
+        Self::joined(root, top, pieces)
+    }
+
+    /// The pieces behind `top`, which says where they were cut off.
+    fn joined(root: Child, mut top: Piece<T>, pieces: Vec<Piece<T>>) -> Self {
+        let depth = pieces.iter().map(|piece| piece.depth).fold(top.depth, usize::max);
+        let mut starts = vec![];
+        let mut end = (top.nodes.len(), top.blocks.len());
+        for (cut, piece) in top.cuts.iter().zip(&pieces) {
+            top.nodes[cut.parent].children[cut.lane] = Child::node(end.0);
+            starts.push(end);
+            end = (end.0 + piece.nodes.len(), end.1 + piece.blocks.len());
+        }
+        let (below, mut blocks_below): (Vec<_>, Vec<_>) =
+            pieces.into_iter().map(|piece| (piece.nodes, piece.blocks)).unzip();
+        let nodes = || {
+            let mut nodes = pages::with_capacity(end.0);
+            nodes.append(&mut top.nodes);
+            for ((first, block), below) in starts.iter().zip(below) {
+                nodes.extend(below.into_iter().map(|node| node.moved(*first, *block)));
+            }
+            nodes
+        };
+        let blocks = || {
+            let mut blocks = pages::with_capacity(end.1);
+            blocks.append(&mut top.blocks);
+            blocks_below.iter_mut().for_each(|below| blocks.append(below));
+            blocks
+        };
+        let (nodes, blocks) = rayon::join(nodes, blocks);
+        Self { root, nodes, blocks, depth }
+    }
+}
+
+/// A part of the tree that one thread writes.
+struct Piece<'a, T: TriangleTest> {
+    mesh: &'a Mesh,
+    collapse: &'a Collapse<'a>,
+    nodes: Vec<Node>,
+    blocks: Vec<LeafBlock<T, WIDTH>>,
+    depth: usize,
+    /// Nodes below the first with at most this many references are left to others.
+    cut: usize,
+    cuts: Vec<Cut>,
+}
+
+/// What is left to others: where it belongs, and how many nodes are above it.
+struct Cut {
+    part: Part,
+    parent: usize,
+    lane: usize,
+    depth: usize,
+}
+
+impl<'a, T: TriangleTest> Piece<'a, T> {
+    fn new(mesh: &'a Mesh, collapse: &'a Collapse<'a>, cut: usize) -> Self {
+        Self { mesh, collapse, nodes: vec![], blocks: vec![], depth: 0, cut, cuts: vec![] }
     }
 
     /// Writes `part`, which is below `depth` nodes.
-    pub fn write(&mut self, part: Part, depth: usize) -> Child {
+    fn write(&mut self, part: Part, depth: usize) -> Child {
         match part {
-            Part::Leaf(at) => {
-                let mut ids = vec![];
-                self.collapse.ids(at, &mut ids);
-                self.leaf(&ids)
-            }
+            Part::Leaf(_) => self.leaf(part),
             Part::Node(at) => {
-                let own = self.begin(depth);
-                let mut parts = Vec::with_capacity(WIDTH);
-                let mut node = Node { orders: self.collapse.children(at, &mut parts), ..Node::EMPTY };
-                for (lane, &part) in parts.iter().enumerate() {
-                    node.set(lane, self.collapse.bounds(part), self.write(part, depth + 1));
+                let own = self.nodes.len();
+                self.nodes.push(Node::EMPTY);
+                self.depth = self.depth.max(depth + 1);
+                let children = self.collapse.children(at);
+                let mut node = Node { orders: children.orders, ..Node::EMPTY };
+                for (lane, &part) in children.parts().iter().enumerate() {
+                    let child = if self.is_left(part) {
+                        self.cuts.push(Cut { part, parent: own, lane, depth: depth + 1 });
+                        Child::NOTHING
+                    } else {
+                        self.write(part, depth + 1)
+                    };
+                    node.set(lane, self.collapse.bounds(part), child);
                 }
                 self.nodes[own] = node;
                 Child::node(own)
@@ -42,16 +120,19 @@ impl<'a, T: TriangleTest> Layout<'a, T> {
         }
     }
 
-    fn leaf(&mut self, ids: &[u32]) -> Child {
-        let (first, blocks) = (self.blocks.len(), ids.len().div_ceil(WIDTH));
-        assert!(blocks <= Child::BLOCKS, "every partition deals out what is more than a leaf takes");
-        LeafBlock::fill(self.mesh, ids, &mut self.blocks);
-        Child::leaf(first, blocks)
+    /// Whether others write it.
+    fn is_left(&self, part: Part) -> bool {
+        matches!(part, Part::Node(_)) && self.collapse.references(part).len() <= self.cut
     }
 
-    fn begin(&mut self, depth: usize) -> usize {
-        self.depth = self.depth.max(depth + 1);
-        self.nodes.push(Node::EMPTY);
-        self.nodes.len() - 1
+    fn leaf(&mut self, part: Part) -> Child {
+        // A triangle may be in several of the leaves that became one.
+        let mut ids = self.collapse.references(part).to_vec();
+        ids.sort_unstable();
+        ids.dedup();
+        let (first, blocks) = (self.blocks.len(), ids.len().div_ceil(WIDTH));
+        assert!(blocks <= Child::BLOCKS, "every partition deals out what is more than a leaf takes");
+        LeafBlock::fill(self.mesh, &ids, &mut self.blocks);
+        Child::leaf(first, blocks)
     }
 }

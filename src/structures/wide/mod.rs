@@ -22,7 +22,6 @@ use std::sync::Arc;
 pub use config::{Partition, WideConfig};
 
 use super::leaf::LeafBlock;
-use super::pages;
 use super::walk::single;
 use crate::accel::{Accel, BuildError, Footprint, Observer, Outline, TreeShape};
 use crate::geometry::{Aabb, Hit, Mesh, Ray};
@@ -78,22 +77,14 @@ impl<T: TriangleTest> Accel for WideTree<T> {
         let tree = config.divide(mesh)?;
         let cost = Cost { node: 1.0, block: config.block_cost.into(), largest: LARGEST };
         let collapse = Collapse::new(&tree, &cost);
-        let mut layout = Layout::new(mesh, &collapse);
-        let root = if tree.nodes.is_empty() { Child::NOTHING } else { layout.write(collapse.root(), 0) };
-        let Layout { nodes, blocks, depth, .. } = layout;
+        let Layout { root, nodes, blocks, depth } = Layout::new(mesh, &collapse);
         if depth > stack::DEPTH || nodes.len().max(blocks.len()) > Child::LARGEST {
             let limits = format!("at most {} levels and {} nodes or blocks", stack::DEPTH, Child::LARGEST);
             return Err(BuildError::Mesh(format!(
                 "the mesh is too large or too odd for this structure: it has {limits}"
             )));
         }
-        Ok(Self {
-            root,
-            nodes: pages::settle(nodes),
-            blocks: pages::settle(blocks),
-            bounds: mesh.bounds(),
-            packets: config.packets,
-        })
+        Ok(Self { root, nodes, blocks, bounds: mesh.bounds(), packets: config.packets })
     }
 
     #[inline]

@@ -55,6 +55,15 @@ impl Child {
         (self.0 & Self::LEAF != 0).then_some((first as usize, count as usize))
     }
 
+    /// The same child where `nodes` nodes and `blocks` blocks have come before its own.
+    pub fn moved(self, nodes: usize, blocks: usize) -> Self {
+        match self.blocks() {
+            None => Self::node(self.index() + nodes),
+            Some(_) if self == Self::NOTHING => self,
+            Some((first, count)) => Self::leaf(first + blocks, count),
+        }
+    }
+
     /// Eight children as they are in memory.
     #[inline(always)]
     pub fn bits(children: &[Self; WIDTH]) -> &[u32; WIDTH] {
@@ -83,6 +92,11 @@ impl Node {
             high[lane] = bounds.max[axis];
         }
         self.children[lane] = child;
+    }
+
+    /// The same node where `nodes` nodes and `blocks` blocks have come before those of its part of the tree.
+    pub fn moved(self, nodes: usize, blocks: usize) -> Self {
+        Self { children: self.children.map(|child| child.moved(nodes, blocks)), ..self }
     }
 
     /// The boxes in use, and what is in them.
