@@ -39,11 +39,12 @@ pub(in crate::structures) fn reinsert(tree: BinaryTree, passes: u32) -> BinaryTr
     let mut links = Links::new(&tree);
     for _ in 0..passes {
         let area = |at: u32| links.extent[at as usize].half_area();
-        let mut order: Vec<u32> = (1..tree.nodes.len() as u32).collect();
-        order.par_sort_by(|&a, &b| area(b).total_cmp(&area(a)).then(a.cmp(&b)));
+        // Areas are not negative: their bits are in the same order.
+        let mut order: Vec<(u64, u32)> = (1..tree.nodes.len() as u32).map(|at| (!area(at).to_bits(), at)).collect();
+        order.par_sort_unstable();
         for batch in order.chunks(BATCH) {
-            let targets: Vec<Option<u32>> = batch.par_iter().map(|&at| links.search(at)).collect();
-            for (&at, target) in batch.iter().zip(targets) {
+            let targets: Vec<Option<u32>> = batch.par_iter().map(|&(_, at)| links.search(at)).collect();
+            for (&(_, at), target) in batch.iter().zip(targets) {
                 if let Some(target) = target {
                     links.relocate(at, target);
                 }
