@@ -40,6 +40,8 @@ pub struct KdConfig {
     pub exact: u32,
     /// Planes that [`Plane::SahBinned`] tries on an axis, in 2..=62.
     pub candidates: u32,
+    /// Of larger nodes, only about so many references tell [`Plane::SahBinned`] where to split. At least 16.
+    pub sample: u32,
     /// Share of the cost that a split saves when it cuts off empty space, in [0, 1); Wald and Havran use 0.2.
     pub empty_bonus: f32,
     /// References a build may make, as a multiple of the triangles: the guard against inputs that explode. At least 1.
@@ -166,6 +168,7 @@ impl KdConfig {
         intersection_cost: 1.0,
         exact: 0,
         candidates: 32,
+        sample: 16384,
         empty_bonus: 0.0,
         duplication: 100.0,
     };
@@ -185,13 +188,13 @@ impl KdConfig {
     /// The cells that a wide tree is made of: cheap steps, since three of them are one step of that tree, and the exact plane
     /// only where nodes are small.
     pub const fn cells(quality: Quality) -> Self {
-        let (exact, candidates, traversal_cost) = match quality {
-            Quality::Fast => (0, 12, 1.0),
-            Quality::Balanced => (64, 32, 0.2),
-            Quality::High => (1 << 16, 62, 0.2),
+        let (exact, candidates, sample, traversal_cost) = match quality {
+            Quality::Fast => (0, 12, 512, 1.0),
+            Quality::Balanced => (64, 32, 16384, 0.2),
+            Quality::High => (1 << 16, 62, 1 << 16, 0.2),
         };
         let plane = Plane::SahBinned;
-        Self { plane, traversal_cost, empty_bonus: 0.2, duplication: 4.0, exact, candidates, ..Self::SAH }
+        Self { plane, traversal_cost, empty_bonus: 0.2, duplication: 4.0, exact, candidates, sample, ..Self::SAH }
     }
 
     pub(super) fn check(&self) -> Result<(), BuildError> {
@@ -208,6 +211,9 @@ impl KdConfig {
         }
         if !(2..=62).contains(&self.candidates) {
             return refuse("candidates must be in 2..=62");
+        }
+        if self.sample < 16 {
+            return refuse("sample must be at least 16");
         }
         if !(0.0..1.0).contains(&self.empty_bonus) {
             return refuse("empty_bonus must be at least 0 and below 1");

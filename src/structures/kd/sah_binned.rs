@@ -1,8 +1,6 @@
 //! The SAH among a few planes of each axis where a node is large, and among all where it is small: a fraction of the time and
 //! memory of keeping all events sorted, for trees that cost the same.
 
-use rayon::prelude::*;
-
 use super::build::{Content, Context, Cut, Place};
 use super::config::{Plane, Stop};
 use super::sah::{CostModel, SideAreas};
@@ -16,14 +14,7 @@ pub(super) enum Binned {
     Fine(Events),
 }
 
-/// References that one thread counts at a time.
-const CHUNK: usize = 4096;
-
-/// Edges that are looked at when planes are placed.
-const SAMPLE: u32 = 16384;
-
 /// How many references begin and end in each bin, and how many lie in each plane.
-#[derive(Clone, Copy)]
 struct Counts {
     begin: [u32; PLANES + 1],
     end: [u32; PLANES + 1],
@@ -33,9 +24,9 @@ struct Counts {
 impl Counts {
     const NONE: Self = Self { begin: [0; PLANES + 1], end: [0; PLANES + 1], flat: [0; PLANES + 1] };
 
-    fn of(references: &[Reference], planes: &Planes) -> Self {
+    fn of(sample: &Sample, planes: &Planes) -> Self {
         let mut counts = Self::NONE;
-        for r in references {
+        for r in sample.iter() {
             let first = planes.first_bin(r.bounds.min[planes.axis]);
             let last = planes.last_bin(r.bounds.max[planes.axis]);
             if first > last {
@@ -47,15 +38,6 @@ impl Counts {
             }
         }
         counts
-    }
-
-    fn plus(mut self, other: Self) -> Self {
-        for i in 0..=PLANES {
-            self.begin[i] += other.begin[i];
-            self.end[i] += other.end[i];
-            self.flat[i] += other.flat[i];
-        }
-        self
     }
 }
 
@@ -78,7 +60,7 @@ impl Binned {
 /// The cheapest of the planes of one axis: its cost and the cut.
 fn along(context: &Context, part: &Part, cell: &Aabb, axis: usize) -> Option<(f64, Cut)> {
     let model = CostModel::new(context.config);
-    let references = &part.references[..];
+    let sample = Sample::new(&part.references, context.config.sample);
     let bounds = Aabb::from(part.extent);
     let range = (bounds.min[axis], bounds.max[axis]);
     let (areas, min, max) = (SideAreas::new(cell, axis), cell.min[axis], cell.max[axis]);
@@ -88,15 +70,16 @@ fn along(context: &Context, part: &Part, cell: &Aabb, axis: usize) -> Option<(f6
         // A plane on the cell's own face cuts nothing.
         if min < split && split < max {
             let (below_area, above_area) = areas.at(split.into());
+            let [below, above] = [below, above].map(|count| sample.scaled(count));
             let cost = model.split(inverse, (below_area, below), (above_area, above));
             if best.is_none_or(|(least, _)| cost < least) {
                 best = Some((cost, Cut { axis, split, planar_below }));
             }
         }
     };
-    let count = references.len();
+    let count = sample.len();
     let candidates = (context.config.candidates as usize).min(count);
-    let Some(planes) = Planes::new(axis, range, candidates, &Sample::new(references, SAMPLE)) else {
+    let Some(planes) = Planes::new(axis, range, candidates, &sample) else {
         // All lie in one plane, if the axis is not too long or short for a grid.
         if range.0 == range.1 {
             offer(range.0, count, 0, true);
@@ -105,11 +88,7 @@ fn along(context: &Context, part: &Part, cell: &Aabb, axis: usize) -> Option<(f6
         return best;
     };
 
-    let counts = if count < PARALLEL {
-        Counts::of(references, &planes)
-    } else {
-        references.par_chunks(CHUNK).map(|part| Counts::of(part, &planes)).reduce(|| Counts::NONE, Counts::plus)
-    };
+    let counts = Counts::of(&sample, &planes);
     let (mut below, mut above) = (0, count);
     for plane in 0..planes.bins() - 1 {
         let flat = counts.flat[plane] as usize;
@@ -155,7 +134,8 @@ impl Content for Binned {
             Self::Fine(events) => return events.choose(context, place),
         };
         let along = |axis| along(context, part, &place.cell, axis);
-        let found = if part.references.len() < PARALLEL {
+        let few = part.references.len().min(context.config.sample as usize) < PARALLEL;
+        let found = if few {
             [along(0), along(1), along(2)]
         } else {
             let (x, (y, z)) = rayon::join(|| along(0), || rayon::join(|| along(1), || along(2)));

@@ -66,11 +66,11 @@ impl SplitConfig {
     /// The values measured for `quality`.
     pub const fn new(splits: Splits, quality: Quality) -> Self {
         let spatial = matches!(splits, Splits::Spatial);
-        let (candidates, exact, chopped, refined) = match quality {
-            Quality::Fast if spatial => (8, 0, 0, u32::MAX),
-            Quality::Fast => (12, 0, 0, u32::MAX),
-            Quality::Balanced => (20, 16, 0, 16),
-            Quality::High => (20, 16, 4096, 16),
+        let (candidates, exact, chopped, refined, sample) = match quality {
+            Quality::Fast if spatial => (8, 0, 0, u32::MAX, 1024),
+            Quality::Fast => (12, 0, 0, u32::MAX, 1024),
+            Quality::Balanced => (20, 16, 0, 16, 16384),
+            Quality::High => (20, 16, 4096, 16, 16384),
         };
         // What costs time where only planes may split is making references: a fast build makes fewer, and larger leaves.
         let node_cost = match quality {
@@ -85,7 +85,7 @@ impl SplitConfig {
             exact,
             chopped,
             refined,
-            sample: 16384,
+            sample,
             alpha,
             node_cost,
             block_cost: 1.0,

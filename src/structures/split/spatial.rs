@@ -1,8 +1,9 @@
 //! The cheapest plane of a node.
 
 use glam::Vec3A;
+use rayon::prelude::*;
 
-use super::build::{Context, PARALLEL};
+use super::build::{CHUNK, Context, PARALLEL};
 use super::chop::chop;
 use super::cost::{Offer, cheaper};
 use super::planes::{PLANES, Planes};
@@ -33,10 +34,17 @@ impl Cut {
 
     /// How many references each side gets.
     pub fn counts(&self, references: &[Reference]) -> [usize; 2] {
-        references.iter().fold([0; 2], |[below, above], r| {
-            let [b, a] = self.sides(r);
-            [below + usize::from(b), above + usize::from(a)]
-        })
+        let count = |references: &[Reference]| {
+            references.iter().fold([0; 2], |[below, above], r| {
+                let [b, a] = self.sides(r);
+                [below + usize::from(b), above + usize::from(a)]
+            })
+        };
+        if references.len() < PARALLEL {
+            return count(references);
+        }
+        let sum = |[a, b]: [usize; 2], [c, d]: [usize; 2]| [a + c, b + d];
+        references.par_chunks(CHUNK).map(count).reduce(|| [0; 2], sum)
     }
 }
 
