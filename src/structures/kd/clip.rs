@@ -21,7 +21,10 @@ const ERROR: f64 = 128.0 / (1u64 << 53) as f64;
 /// Clips in f64 (Sutherland, Hodgman 1974) and rounds outward, so that nothing of the triangle is lost; where rounding
 /// leaves no polygon at all, the answer is `known` cut by the cell: a triangle that reaches into the cell is never dropped.
 pub(in crate::structures) fn clipped_bounds(corners: [Vec3; 3], cell: &Aabb, known: &Aabb) -> Aabb {
-    Polygon::clipped(corners, cell).bounds_in(known.intersection(*cell))
+    let mut corner_box = CornerBox::EMPTY;
+    let polygon = Polygon::clipped(corners, cell);
+    polygon.corners().for_each(|(p, computed)| corner_box.grow(p, polygon.slack_of(computed)));
+    corner_box.in_cut(known.intersection(*cell))
 }
 
 /// The boxes of both sides of a plane: [`clipped_bounds`] of the parts of `bounds` below and above, where `bounds` is a box
@@ -30,9 +33,9 @@ pub(in crate::structures) fn cut_bounds(corners: [Vec3; 3], bounds: &Aabb, axis:
     let polygon = Polygon::clipped(corners, bounds);
     let (below, above) = bounds.cut(axis, plane);
     let half = |cut: Aabb, side: f64| {
-        let mut half = polygon.clone();
-        half.keep(axis, plane.into(), side);
-        half.bounds_in(cut)
+        let mut corner_box = CornerBox::EMPTY;
+        polygon.kept(axis, plane.into(), side, |p, computed| corner_box.grow(p, polygon.slack_of(computed)));
+        corner_box.in_cut(cut)
     };
     (half(below, -1.0), half(above, 1.0))
 }
@@ -40,11 +43,12 @@ pub(in crate::structures) fn cut_bounds(corners: [Vec3; 3], bounds: &Aabb, axis:
 /// The area of the part of the triangle `corners` in `cell`, its faces included. Off by less than 1e-12 of the square of the triangle's
 /// largest coordinate.
 pub(in crate::structures) fn clipped_area(corners: [Vec3; 3], cell: &Aabb) -> f64 {
-    Polygon { slack: DVec3::ZERO, ..Polygon::new(corners) }.cut_to(cell).area()
+    let mut polygon = Polygon { slack: DVec3::ZERO, ..Polygon::new(corners) };
+    polygon.cut_to(cell);
+    polygon.area()
 }
 
 /// Corners, and for each whether it was computed (and hence rounded) rather than given.
-#[derive(Clone)]
 struct Polygon {
     corners: [(DVec3, bool); CORNERS],
     len: usize,
@@ -64,25 +68,26 @@ impl Polygon {
 
     /// The part of a triangle in `cell`.
     fn clipped(corners: [Vec3; 3], cell: &Aabb) -> Self {
-        Self::new(corners).cut_to(cell)
+        let mut polygon = Self::new(corners);
+        polygon.cut_to(cell);
+        polygon
     }
 
-    /// What of it lies in `cell`.
-    fn cut_to(mut self, cell: &Aabb) -> Self {
+    /// Leaves what of it lies in `cell`.
+    fn cut_to(&mut self, cell: &Aabb) {
         for axis in 0..3 {
             self.keep(axis, cell.min[axis].into(), 1.0);
             self.keep(axis, cell.max[axis].into(), -1.0);
         }
-        self
     }
 
-    /// The box of the polygon in `cut`, or `cut` where rounding has left nothing.
-    fn bounds_in(&self, cut: Aabb) -> Aabb {
-        if self.len == 0 {
-            return cut;
-        }
-        let tight = self.bounds().intersection(cut);
-        if tight.is_empty() { cut } else { tight }
+    fn corners(&self) -> impl Iterator<Item = (DVec3, bool)> + '_ {
+        self.corners[..self.len].iter().copied()
+    }
+
+    /// How far off a corner may be.
+    fn slack_of(&self, computed: bool) -> DVec3 {
+        if computed { self.slack } else { DVec3::ZERO }
     }
 
     /// By the fan of triangles around its first corner.
@@ -92,47 +97,66 @@ impl Polygon {
         fan.sum::<DVec3>().length() * 0.5
     }
 
-    /// Cuts away what surely lies beyond the plane: keeps points with `side * (p[axis] - plane) >= 0` and some slack.
+    /// Cuts away what surely lies beyond the plane.
     fn keep(&mut self, axis: usize, plane: f64, side: f64) {
-        let plane = plane - side * self.slack[axis];
-        let inside = |p: DVec3| side * (p[axis] - plane) >= 0.0;
-        let before = &self.corners[..self.len];
-        if before.iter().all(|&(p, _)| inside(p)) {
+        let bound = plane - side * self.slack[axis];
+        if self.corners().all(|(p, _)| side * (p[axis] - bound) >= 0.0) {
             return;
         }
-
         let mut after = [(DVec3::ZERO, false); CORNERS];
         let mut len = 0;
-        for (i, &(p, computed)) in before.iter().enumerate() {
-            let (q, _) = before[if i + 1 == self.len { 0 } else { i + 1 }];
+        self.kept(axis, plane, side, |p, computed| {
+            after[len] = (p, computed);
+            len += 1;
+        });
+        (self.corners, self.len) = (after, len);
+    }
+
+    /// Visits the corners of what does not surely lie beyond the plane: keeps points with `side * (p[axis] - plane) >= 0` and some
+    /// slack.
+    #[inline(always)]
+    fn kept(&self, axis: usize, plane: f64, side: f64, mut visit: impl FnMut(DVec3, bool)) {
+        let plane = plane - side * self.slack[axis];
+        let inside = |p: DVec3| side * (p[axis] - plane) >= 0.0;
+        for (i, (p, computed)) in self.corners().enumerate() {
+            let (q, _) = self.corners[if i + 1 == self.len { 0 } else { i + 1 }];
             if inside(p) {
-                after[len] = (p, computed);
-                len += 1;
+                visit(p, computed);
             }
             if inside(p) != inside(q) {
                 // Both directions of an edge give the same point.
                 let (a, b) = if inside(p) { (p, q) } else { (q, p) };
                 let mut crossing = a + (b - a) * ((plane - a[axis]) / (b[axis] - a[axis]));
                 crossing[axis] = plane;
-                after[len] = (crossing, true);
-                len += 1;
+                visit(crossing, true);
             }
         }
-        (self.corners, self.len) = (after, len);
+    }
+}
+
+/// The box of corners.
+struct CornerBox {
+    min: DVec3,
+    max: DVec3,
+}
+
+impl CornerBox {
+    const EMPTY: Self = Self { min: DVec3::INFINITY, max: DVec3::NEG_INFINITY };
+
+    #[inline(always)]
+    fn grow(&mut self, p: DVec3, slack: DVec3) {
+        self.min = self.min.min(p - slack);
+        self.max = self.max.max(p + slack);
     }
 
-    /// The box of all corners in f32, rounded outward by at least the error of the computed ones.
-    fn bounds(&self) -> Aabb {
-        let (mut min, mut max) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-        for &(p, computed) in &self.corners[..self.len] {
-            let slack = if computed { self.slack } else { DVec3::ZERO };
-            min = min.min(p - slack);
-            max = max.max(p + slack);
-        }
-        Aabb {
-            min: Vec3::from_array(min.to_array().map(round_down)),
-            max: Vec3::from_array(max.to_array().map(round_up)),
-        }
+    /// Rounded outward to f32, what of it is in `cut`; `cut` where rounding has left nothing.
+    fn in_cut(&self, cut: Aabb) -> Aabb {
+        let tight = Aabb {
+            min: Vec3::from_array(self.min.to_array().map(round_down)),
+            max: Vec3::from_array(self.max.to_array().map(round_up)),
+        };
+        let tight = tight.intersection(cut);
+        if tight.is_empty() { cut } else { tight }
     }
 }
 
