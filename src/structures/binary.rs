@@ -29,3 +29,18 @@ pub(crate) enum Content {
     /// A range of references, not empty.
     Leaf { first: u32, count: u32 },
 }
+
+impl BinaryTree {
+    /// Adds the nodes of `other` behind these.
+    pub fn append(&mut self, other: Self) {
+        let (nodes, references) = (self.nodes.len() as u32, self.references.len() as u32);
+        self.nodes.extend(other.nodes.into_iter().map(|node| {
+            let content = match node.content {
+                Content::Inner(children) => Content::Inner(children.map(|child| child + nodes)),
+                Content::Leaf { first, count } => Content::Leaf { first: first + references, count },
+            };
+            BinaryNode { content, ..node }
+        }));
+        self.references.extend(other.references);
+    }
+}

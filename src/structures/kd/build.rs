@@ -30,11 +30,6 @@ pub(super) trait Content: Sized + Send {
     /// The triangles, in ascending order.
     fn ids(&self) -> impl Iterator<Item = u32>;
 
-    /// The box of what the triangles have in the cell, if that is known; empty without triangles.
-    fn bounds(&self) -> Option<Aabb> {
-        None
-    }
-
     /// Where to cut, or nothing when a leaf is better.
     fn choose(&self, context: &Context, place: &Place) -> Option<Cut>;
 
@@ -58,13 +53,32 @@ pub(super) struct Place {
     budget: f64,
 }
 
-/// Nodes in depth-first order and the references of their leaves.
+/// A tree that grows depth first.
+pub(super) trait Tree<C>: Default + Send {
+    /// Whether leaves without triangles are left out, and the nodes that had one.
+    const SKIPS_EMPTY: bool;
+
+    /// Number of nodes.
+    fn len(&self) -> usize;
+
+    /// Appends a leaf.
+    fn leaf(&mut self, content: C);
+
+    /// Appends an inner node, whose children are not known yet.
+    fn open(&mut self);
+
+    /// The node `inner` is cut; everything below the second child begins with the node `second`, and its last is the last there is.
+    fn close(&mut self, inner: usize, cut: Cut, second: usize);
+
+    /// Adds the nodes of `other` behind these.
+    fn append(&mut self, other: Self);
+}
+
+/// The nodes of a KD-tree and the references of its leaves.
 #[derive(Default)]
 pub(super) struct Plan {
     pub nodes: Vec<Node>,
     pub references: Vec<u32>,
-    /// The tight box of each leaf, where the contents know it.
-    pub tight: Vec<Aabb>,
 }
 
 /// Both sides of a node with fewer references than this are grown by the same thread.
@@ -84,19 +98,21 @@ fn depth_cap(triangles: usize) -> u32 {
 }
 
 /// Grows the tree over `content` in the cell of the mesh. The result does not depend on the number of threads.
-pub(super) fn grow<C: Content>(context: &Context, content: C) -> Plan {
-    let mut plan = Plan::default();
+pub(super) fn grow<C: Content, T: Tree<C>>(context: &Context, content: C) -> T {
+    let mut tree = T::default();
     let budget = f64::from(context.config.duplication) * content.len() as f64;
     let place = Place { cell: context.mesh.bounds(), depth: 0, stalled: 0, budget };
-    subdivide(context, content, place, true, &mut plan);
-    plan
+    if !T::SKIPS_EMPTY || content.len() > 0 {
+        subdivide(context, content, place, true, &mut tree);
+    }
+    tree
 }
 
-fn subdivide<C: Content>(context: &Context, content: C, place: Place, may_divide: bool, plan: &mut Plan) {
+fn subdivide<C: Content, T: Tree<C>>(context: &Context, content: C, place: Place, may_divide: bool, tree: &mut T) {
     let count = content.len();
     let (cut, below, above) = match try_divide(context, content, &place, may_divide) {
         Ok(parts) => parts,
-        Err(content) => return plan.leaf(&content),
+        Err(content) => return tree.leaf(content),
     };
 
     // Give each side its share of the references that are still allowed.
@@ -106,22 +122,31 @@ fn subdivide<C: Content>(context: &Context, content: C, place: Place, may_divide
     let child = |cell, len: usize| Place { cell, depth: place.depth + 1, stalled, budget: share * len as f64 };
     let (below_place, above_place) = (child(below_cell, below.len()), child(above_cell, above.len()));
     let (below_may, above_may) = (below.may_divide(context), above.may_divide(context));
+    if T::SKIPS_EMPTY && above.len() == 0 {
+        return subdivide(context, below, below_place, below_may, tree);
+    }
+    if T::SKIPS_EMPTY && below.len() == 0 {
+        return subdivide(context, above, above_place, above_may, tree);
+    }
 
-    let inner = plan.nodes.len();
-    plan.nodes.push(Node::inner(cut.axis, cut.split, 0));
-    if count < PARALLEL {
-        subdivide(context, below, below_place, below_may, plan);
-        plan.nodes[inner] = Node::inner(cut.axis, cut.split, plan.nodes.len() as u32);
-        subdivide(context, above, above_place, above_may, plan);
+    let inner = tree.len();
+    tree.open();
+    let second = if count < PARALLEL {
+        subdivide(context, below, below_place, below_may, tree);
+        let second = tree.len();
+        subdivide(context, above, above_place, above_may, tree);
+        second
     } else {
-        let mut other = Plan::default();
+        let mut other = T::default();
         join(
-            || subdivide(context, below, below_place, below_may, plan),
+            || subdivide(context, below, below_place, below_may, tree),
             || subdivide(context, above, above_place, above_may, &mut other),
         );
-        plan.nodes[inner] = Node::inner(cut.axis, cut.split, plan.nodes.len() as u32);
-        plan.append(other);
-    }
+        let second = tree.len();
+        tree.append(other);
+        second
+    };
+    tree.close(inner, cut, second);
 }
 
 /// The cut and both sides, or the content back when the node stays a leaf.
@@ -168,15 +193,27 @@ fn is_progress(context: &Context, count: usize, below: usize, above: usize) -> b
     most < count
 }
 
-impl Plan {
-    fn leaf<C: Content>(&mut self, content: &C) {
-        self.nodes.push(Node::leaf(self.references.len() as u32, content.len() as u32));
-        self.references.extend(content.ids());
-        self.tight.extend(content.bounds());
+impl<C: Content> Tree<C> for Plan {
+    const SKIPS_EMPTY: bool = false;
+
+    fn len(&self) -> usize {
+        self.nodes.len()
     }
 
-    /// Adds the nodes of `other` behind these.
-    fn append(&mut self, other: Plan) {
+    fn leaf(&mut self, content: C) {
+        self.nodes.push(Node::leaf(self.references.len() as u32, content.len() as u32));
+        self.references.extend(content.ids());
+    }
+
+    fn open(&mut self) {
+        self.nodes.push(Node::leaf(0, 0));
+    }
+
+    fn close(&mut self, inner: usize, cut: Cut, second: usize) {
+        self.nodes[inner] = Node::inner(cut.axis, cut.split, second as u32);
+    }
+
+    fn append(&mut self, other: Self) {
         let (nodes, references) = (self.nodes.len() as u32, self.references.len() as u32);
         self.nodes.extend(other.nodes.into_iter().map(|node| {
             if node.is_leaf() {
@@ -186,6 +223,5 @@ impl Plan {
             }
         }));
         self.references.extend(other.references);
-        self.tight.extend(other.tight);
     }
 }

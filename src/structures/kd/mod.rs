@@ -1,12 +1,12 @@
 //! KD-trees: the report's median tree and the SAH tree are two configurations of one type.
 
 mod build;
+mod cells;
 pub(super) mod clip;
 mod config;
 mod median;
 mod node;
 mod outline;
-mod partition;
 mod planted;
 mod sah;
 mod sah_binned;
@@ -26,6 +26,7 @@ use crate::accel::{Accel, BuildError, Footprint, Observer, Outline, TreeShape};
 use crate::geometry::{Aabb, Hit, Mesh, Ray};
 use crate::triangle::TriangleTest;
 use build::{Context, Plan, grow};
+use cells::Cells;
 use median::Triangles;
 use node::Node;
 use sah_binned::Binned;
@@ -58,15 +59,19 @@ fn plan(mesh: &Mesh, config: &KdConfig) -> Result<Plan, BuildError> {
     })
 }
 
-/// The non-empty cells of that tree, as tight boxes.
+/// The cells of that tree that are not empty, as tight boxes. Its plane must be chosen by the surface area heuristic.
 pub(crate) fn partition(mesh: &Mesh, config: &KdConfig) -> Result<BinaryTree, BuildError> {
-    Ok(partition::tight(mesh, plan(mesh, config)?))
+    debug_assert!(matches!(config.plane, Plane::SahBinned | Plane::SahSweep));
+    config.check()?;
+    let context = Context::new(mesh, config);
+    let Cells(tree) = grow(&context, Binned::all(&context));
+    Ok(tree)
 }
 
 impl<T: TriangleTest> KdTree<T> {
     /// Turns the references of a plan into blocks, leaf by leaf.
     fn finish(mesh: &Mesh, config: &KdConfig, plan: Plan) -> Self {
-        let Plan { mut nodes, references, .. } = plan;
+        let Plan { mut nodes, references } = plan;
         let leaves = nodes.iter().filter(|node| node.is_leaf());
         let count = leaves.map(|leaf| (leaf.references() as usize).div_ceil(WIDTH)).sum();
         let mut blocks = Vec::with_capacity(count);

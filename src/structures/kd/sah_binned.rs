@@ -47,6 +47,13 @@ impl Binned {
         Self::new(context, Part::new(context.mesh.solid().map(whole).collect()))
     }
 
+    pub fn into_part(self) -> Part {
+        match self {
+            Self::Coarse(part) => part,
+            Self::Fine(events) => Part::new(events.into_references()),
+        }
+    }
+
     fn new(context: &Context, part: Part) -> Self {
         let config = context.config;
         if config.plane == Plane::SahSweep || part.references.len() <= config.exact as usize {
@@ -119,13 +126,6 @@ impl Content for Binned {
             Self::Fine(events) => events.references(),
         };
         references.iter().map(|r| r.id)
-    }
-
-    fn bounds(&self) -> Option<Aabb> {
-        match self {
-            Self::Coarse(part) => Some(part.extent.into()),
-            Self::Fine(events) => events.bounds(),
-        }
     }
 
     fn choose(&self, context: &Context, place: &Place) -> Option<Cut> {

@@ -91,6 +91,10 @@ impl Events {
         &self.references
     }
 
+    pub fn into_references(self) -> Vec<Reference> {
+        self.references
+    }
+
     /// The cheapest plane of one axis: its cost and the cut.
     fn sweep(&self, model: &CostModel, cell: &Aabb, axis: usize) -> Option<(f64, Cut)> {
         let areas = SideAreas::new(cell, axis);
@@ -215,10 +219,6 @@ impl Content for Events {
 
     fn ids(&self) -> impl Iterator<Item = u32> {
         self.references.iter().map(|r| r.id)
-    }
-
-    fn bounds(&self) -> Option<Aabb> {
-        Some(self.references.iter().fold(Aabb::EMPTY, |bounds, r| bounds.union(r.bounds)))
     }
 
     fn choose(&self, context: &Context, place: &Place) -> Option<Cut> {

@@ -161,13 +161,9 @@ fn a_bad_configuration_is_refused_in_a_sentence() {
 
 /// What a wide tree may be made of.
 fn cells() -> Vec<KdConfig> {
-    let report = KdConfig { leaf: 8, ..KdConfig::REPORT };
     let sah = [Quality::Fast, Quality::Balanced, Quality::High].map(KdConfig::cells);
-    [
-        &sah[..],
-        &[report, KdConfig::SAH, KdConfig { plane: Plane::SahBinned, exact: 100, candidates: 3, ..KdConfig::SAH }],
-    ]
-    .concat()
+    let few = KdConfig { plane: Plane::SahBinned, exact: 100, candidates: 3, sample: 50, ..KdConfig::SAH };
+    [&sah[..], &[KdConfig::SAH, few]].concat()
 }
 
 #[test]

@@ -195,16 +195,7 @@ fn merge(context: &Context, tree: &mut BinaryTree, own: usize, first: usize, are
 impl Growth {
     /// Adds the nodes of `other` behind these.
     fn append(&mut self, other: Growth) {
-        let tree = &mut self.tree;
-        let (nodes, references) = (tree.nodes.len() as u32, tree.references.len() as u32);
-        tree.nodes.extend(other.tree.nodes.into_iter().map(|node| {
-            let content = match node.content {
-                Content::Inner(children) => Content::Inner(children.map(|child| child + nodes)),
-                Content::Leaf { first, count } => Content::Leaf { first: first + references, count },
-            };
-            BinaryNode { content, ..node }
-        }));
-        tree.references.extend(other.tree.references);
+        self.tree.append(other.tree);
         self.work += other.work;
     }
 }

@@ -3,7 +3,8 @@
 use rayon::prelude::*;
 
 use super::build::{CHUNK, PARALLEL};
-use super::object::{Group, order};
+use super::cost::WIDTH;
+use super::object::{Group, median, order};
 use super::reference::Reference;
 use super::spatial::Cut;
 use crate::geometry::Mesh;
@@ -78,6 +79,12 @@ pub(in crate::structures) fn at_plane(
         [true, false] => below.push(*r),
         _ => above.push(*r),
     })
+}
+
+/// Deals references out to two groups by the [`median`].
+pub(in crate::structures) fn halves(references: Vec<Reference>) -> [Part; 2] {
+    let (group, counts) = median(&references, WIDTH);
+    by_group(references, group, counts)
 }
 
 /// Sorts into two groups.

@@ -27,7 +27,7 @@ mod tests;
 pub use config::{Quality, SplitConfig, Splits};
 
 pub(crate) use build::build;
-pub(super) use divide::{Part, at_plane};
+pub(super) use divide::{Part, at_plane, halves};
 pub(super) use planes::{PLANES, Planes};
 pub(super) use reference::Reference;
 pub(super) use sample::Sample;
