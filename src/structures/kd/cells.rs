@@ -25,7 +25,7 @@ impl Cells {
             self.deal(above);
             self.join(inner, second);
         } else {
-            self.0.references.extend(part.references.iter().map(|r| r.id));
+            self.0.references.extend(part.references.iter().map(|r| r.id()));
             self.push(part.extent.into(), Content::Leaf { first, count: count as u32 });
         }
     }

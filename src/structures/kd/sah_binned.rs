@@ -27,8 +27,8 @@ impl Counts {
     fn of(sample: &Sample, planes: &Planes) -> Self {
         let mut counts = Self::NONE;
         for r in sample.iter() {
-            let first = planes.first_bin(r.bounds.min[planes.axis]);
-            let last = planes.last_bin(r.bounds.max[planes.axis]);
+            let first = planes.first_bin(r.min(planes.axis));
+            let last = planes.last_bin(r.max(planes.axis));
             if first > last {
                 // Only what is flat begins above the bin in which it ends, and then it lies in the plane between.
                 counts.flat[last] += 1;
@@ -43,8 +43,8 @@ impl Counts {
 
 impl Binned {
     pub fn all(context: &Context) -> Self {
-        let whole = |id| Reference { id, bounds: context.mesh.triangle_bounds(id) };
-        Self::new(context, Part::new(context.mesh.solid().map(whole).collect()))
+        let references = context.mesh.solid().map(|id| Reference::whole(context.mesh, id)).collect();
+        Self::new(context, Part::new(references))
     }
 
     pub fn into_part(self) -> Part {
@@ -125,7 +125,7 @@ impl Content for Binned {
             Self::Coarse(part) => &part.references[..],
             Self::Fine(events) => events.references(),
         };
-        references.iter().map(|r| r.id)
+        references.iter().map(|r| r.id())
     }
 
     fn choose(&self, context: &Context, place: &Place) -> Option<Cut> {

@@ -138,7 +138,7 @@ impl Events {
     /// On which side of the cut each reference lies.
     fn sides(&self, cut: Cut) -> Vec<Side> {
         let side = |r: &Reference| {
-            let (lo, hi) = (r.bounds.min[cut.axis], r.bounds.max[cut.axis]);
+            let (lo, hi) = (r.min(cut.axis), r.max(cut.axis));
             match (hi <= cut.split, lo >= cut.split) {
                 (true, true) if cut.planar_below => Side::Below,
                 (true, true) | (false, true) => Side::Above,
@@ -160,9 +160,9 @@ impl Events {
                 names[i] = references.len() as u32;
                 references.push(*reference);
             } else if side == Side::Both {
-                let bounds = clipped_bounds(context.mesh.corners(reference.id), cell, &reference.bounds);
+                let bounds = clipped_bounds(context.mesh.corners(reference.id()), cell, &reference.bounds());
                 clipped.push(references.len() as u32);
-                references.push(Reference { bounds, ..*reference });
+                references.push(Reference::new(reference.id(), bounds));
             }
         }
 
@@ -185,7 +185,7 @@ impl Events {
 /// The events of `references`, the first of which is called `first`.
 fn push_events(references: &[Reference], first: u32, axis: usize, events: &mut Vec<Event>) {
     for (name, reference) in (first..).zip(references) {
-        let (lo, hi) = (reference.bounds.min[axis], reference.bounds.max[axis]);
+        let (lo, hi) = (reference.min(axis), reference.max(axis));
         if lo == hi {
             events.push(Event::new(lo, Kind::Planar, name));
         } else {
@@ -218,7 +218,7 @@ impl Content for Events {
     }
 
     fn ids(&self) -> impl Iterator<Item = u32> {
-        self.references.iter().map(|r| r.id)
+        self.references.iter().map(|r| r.id())
     }
 
     fn choose(&self, context: &Context, place: &Place) -> Option<Cut> {

@@ -75,8 +75,7 @@ impl<'a> Context<'a> {
 
     /// The triangles that have an area, whole.
     pub fn references(&self) -> Vec<Reference> {
-        let whole = |id| Reference { id, bounds: self.mesh.triangle_bounds(id) };
-        self.mesh.solid().map(whole).collect()
+        self.mesh.solid().map(|id| Reference::whole(self.mesh, id)).collect()
     }
 }
 
@@ -87,7 +86,7 @@ fn grow(context: &Context, part: Part, place: Place, growth: &mut Growth, slots:
     let (own, first) = (growth.tree.nodes.len(), growth.tree.references.len());
     growth.work += count as u64;
     let Some((split, counts)) = choose(context, &references, extent, place, slots) else {
-        growth.tree.references.extend(references.iter().map(|r| r.id));
+        growth.tree.references.extend(references.iter().map(|r| r.id()));
         let content = Content::Leaf { first: first as u32, count: count as u32 };
         growth.tree.nodes.push(BinaryNode { bounds: extent.into(), content });
         return context.costs.leaf(area, count);

@@ -30,7 +30,7 @@ impl Planes {
         }
 
         for r in sample.iter() {
-            for x in [r.bounds.min[axis], r.bounds.max[axis]] {
+            for x in [r.min(axis), r.max(axis)] {
                 let value = &mut planes.values[planes.cell(x) % PLANES];
                 *value = value.max(x);
             }

@@ -25,7 +25,7 @@ impl Cut {
     /// On which sides a reference has a part.
     #[inline(always)]
     pub fn sides(&self, reference: &Reference) -> [bool; 2] {
-        let (low, high) = (reference.bounds.min[self.axis], reference.bounds.max[self.axis]);
+        let (low, high) = (reference.min(self.axis), reference.max(self.axis));
         match (high <= self.plane, low >= self.plane) {
             (true, true) => [self.flat_below, !self.flat_below],
             (below, above) => [!above, !below],
@@ -80,7 +80,7 @@ impl Slots {
 
     fn add<const AXIS: usize, const CHOP: bool>(&mut self, mesh: &Mesh, sample: &Sample, planes: &Planes) {
         for r in sample.iter() {
-            let (low, high) = (r.bounds.min.to_array()[AXIS], r.bounds.max.to_array()[AXIS]);
+            let (low, high) = (r.min(AXIS), r.max(AXIS));
             let extent = r.extent();
             let (first, last) = (planes.first_bin(low), planes.last_bin(high));
             if first >= last {
@@ -95,7 +95,7 @@ impl Slots {
             self.begin[2 * first] += 1;
             self.end[2 * last] += 1;
             if CHOP {
-                let corners = mesh.corners(r.id).map(Vec3A::from);
+                let corners = mesh.corners(r.id()).map(Vec3A::from);
                 chop::<AXIS>(corners, extent, planes, (first, last), |bin, slice| self.grow(2 * bin, slice));
             } else {
                 let mut from = low;

@@ -148,12 +148,12 @@ fn no_candidate_is_cheaper_than_the_cut_that_is_chosen() {
                     for r in &references {
                         let sides = cut.sides(r);
                         let halves = if sides != [true; 2] {
-                            [r.bounds; 2]
+                            [r.bounds(); 2]
                         } else if config.chopped == 0 {
-                            r.bounds.cut(axis, cut.plane).into()
+                            r.bounds().cut(axis, cut.plane).into()
                         } else {
                             let (below, above) = r.cut(&mesh, axis, cut.plane);
-                            [below.bounds, above.bounds]
+                            [below.bounds(), above.bounds()]
                         };
                         for side in (0..2).filter(|&side| sides[side]) {
                             areas[side].grow(halves[side].into());
