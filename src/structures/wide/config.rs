@@ -18,7 +18,7 @@ pub struct WideConfig {
     pub quality: Quality,
     /// Cost of testing a block of eight triangles, where visiting a node costs 1. Positive; more gives smaller leaves.
     pub block_cost: f32,
-    /// References a build may make, as a multiple of the triangles, with [`Quality::Fast`] at most 1.6: the guard against inputs
+    /// References a build may make, as a multiple of the triangles, with [`Quality::Fast`] at most 1.75: the guard against inputs
     /// that explode. At least 1.
     pub duplication: f32,
     /// Whether sixteen rays in a row of a slice travel together where they share an octant, instead of one by one: faster for
@@ -68,7 +68,7 @@ impl WideConfig {
             (Quality::High, _) => 4,
         };
         // Making references is what takes the time where planes cut triangles.
-        let duplication = if self.quality == Quality::Fast { self.duplication.min(1.6) } else { self.duplication };
+        let duplication = if self.quality == Quality::Fast { self.duplication.min(1.75) } else { self.duplication };
         let splits = match self.partition {
             Partition::Cells => {
                 let config = KdConfig { duplication, ..KdConfig::cells(self.quality) };
