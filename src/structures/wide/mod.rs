@@ -50,7 +50,7 @@ const LARGEST: usize = 8;
 /// | any hit from front to back | leaves first, large boxes first | 1.2 to 1.7 (kitchen), 1.0 (dragon) |
 /// | sorting 4096 rays at a time by octant and along a Morton curve, then packets | packets of the rays as they come | 1.3 (primary), 1.3 to 1.7 (random) |
 /// | a cost of 0.6 or 1.6 for a block of eight triangles | 1.0 | 1.0; bytes 0.97, 1.02 |
-/// | four single rays in turn, the next node of each fetched ahead | one after the other | 1.06 to 1.15 (primary), 1.0 to 1.3 (diffuse), 0.75 to 1.0 (random) |
+/// | four single rays in turn, the next node of each fetched ahead | one after the other | 1.06 to 1.15 (primary), 1.0 to 1.3 (diffuse), 0.75 to 1.0 (random); only where sixteen rays start far from each other: 1.06 to 1.44 (random), 1.97 with 1.1 million triangles |
 /// | boxes of eight bits a plane in nodes of 128 bytes | `f32` in 256 bytes | 1.03 to 1.33, 1.0 on random rays of the dragon; with 1.1 million triangles 1.03 to 1.20; bytes 0.94 |
 /// | packets also of the larger part where rays are of two octants | single rays | 0.97 (shadow), 1.05 (primary), 1.03 (others) |
 /// | pages of 4 KiB | huge pages | 1.05 to 1.15 (kitchen), 1.0 (dragon) |
