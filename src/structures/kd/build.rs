@@ -100,8 +100,7 @@ fn depth_cap(triangles: usize) -> u32 {
 /// Grows the tree over `content` in the cell of the mesh. The result does not depend on the number of threads.
 pub(super) fn grow<C: Content, T: Tree<C>>(context: &Context, content: C) -> T {
     let mut tree = T::default();
-    let budget = f64::from(context.config.duplication) * content.len() as f64;
-    let place = Place { cell: context.mesh.bounds(), depth: 0, stalled: 0, budget };
+    let place = Place::root(context, content.len());
     if !T::SKIPS_EMPTY || content.len() > 0 {
         subdivide(context, content, place, true, &mut tree);
     }
@@ -167,6 +166,12 @@ fn try_divide<C: Content>(context: &Context, content: C, place: &Place, may_divi
 }
 
 impl Place {
+    /// Of `count` references to all triangles.
+    pub fn root(context: &Context, count: usize) -> Self {
+        let budget = f64::from(context.config.duplication) * count as f64;
+        Self { cell: context.mesh.bounds(), depth: 0, stalled: 0, budget }
+    }
+
     /// Whether sides of these sizes stay within the budget.
     pub fn affords(&self, below: usize, above: usize) -> bool {
         (below + above) as f64 <= self.budget

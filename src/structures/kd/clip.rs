@@ -4,8 +4,8 @@ use glam::{DVec3, Vec3};
 
 use crate::geometry::{Aabb, round_down, round_up};
 
-/// At most this many corners are left when seven planes have cut a triangle.
-const CORNERS: usize = 10;
+/// At most this many corners are left when six planes have cut a triangle.
+const CORNERS: usize = 9;
 
 /// By how much a computed corner is off on an axis, as a share of the triangle's largest coordinate on it, at most: one
 /// interpolation a + (b - a) w with w = (s - a) / (b - a) takes five roundings of up to twice that coordinate and one of it,
@@ -204,6 +204,32 @@ mod tests {
             }
         }
         assert!(seen > 5_000, "too few points to prove anything: {seen}");
+    }
+
+    #[test]
+    fn both_sides_of_a_cut_are_the_boxes_of_the_polygons() {
+        let mut rng = rand_pcg::Pcg32::seed_from_u64(13);
+        let mut cuts = 0;
+        for _ in 0..20_000 {
+            let corners: [Vec3; 3] = std::array::from_fn(|_| point(&mut rng));
+            let (a, b, plane) = (point(&mut rng), point(&mut rng), point(&mut rng).x);
+            let bounds = clipped_bounds(corners, &Aabb { min: a.min(b), max: a.max(b) }, &Aabb::of_points(corners));
+            let axis = (rng.next_u32() % 3) as usize;
+            if bounds.is_empty() || plane <= bounds.min[axis] || bounds.max[axis] <= plane {
+                continue;
+            }
+            let (below, above) = bounds.cut(axis, plane);
+            let side = |cut: Aabb, side: f64| {
+                let mut polygon = Polygon::clipped(corners, &bounds);
+                polygon.keep(axis, plane.into(), side);
+                let mut corner_box = CornerBox::EMPTY;
+                polygon.corners().for_each(|(p, computed)| corner_box.grow(p, polygon.slack_of(computed)));
+                corner_box.in_cut(cut)
+            };
+            assert_eq!(cut_bounds(corners, &bounds, axis, plane), (side(below, -1.0), side(above, 1.0)));
+            cuts += 1;
+        }
+        assert!(cuts > 1_000, "too few cuts to prove anything: {cuts}");
     }
 
     #[test]

@@ -61,7 +61,7 @@ fn plan(mesh: &Mesh, config: &KdConfig) -> Result<Plan, BuildError> {
 
 /// The cells of that tree that are not empty, as tight boxes. Its plane must be chosen by the surface area heuristic.
 pub(crate) fn partition(mesh: &Mesh, config: &KdConfig) -> Result<BinaryTree, BuildError> {
-    debug_assert!(matches!(config.plane, Plane::SahBinned | Plane::SahSweep));
+    assert!(matches!(config.plane, Plane::SahBinned | Plane::SahSweep), "cells are chosen by the heuristic");
     config.check()?;
     let context = Context::new(mesh, config);
     let Cells(tree) = grow(&context, Binned::all(&context));

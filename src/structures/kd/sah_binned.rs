@@ -1,5 +1,5 @@
-//! The SAH among a few planes of each axis where a node is large, and among all where it is small: a fraction of the time and
-//! memory of keeping all events sorted, for trees that cost the same.
+//! The SAH among a few planes of each axis and for some of the references where a node is large, and among all planes where it is
+//! small: a fraction of the time and memory of keeping all events sorted, for trees that cost nearly the same.
 
 use super::build::{Content, Context, Cut, Place};
 use super::config::{Plane, Stop};
@@ -64,10 +64,21 @@ impl Binned {
     }
 }
 
-/// The cheapest of the planes of one axis: its cost and the cut.
-fn along(context: &Context, part: &Part, cell: &Aabb, axis: usize) -> Option<(f64, Cut)> {
-    let model = CostModel::new(context.config);
-    let sample = Sample::new(&part.references, context.config.sample);
+/// The cheapest plane that makes not too many references, as far as a sample of `part` tells: its cost and the cut.
+fn cheapest(context: &Context, part: &Part, sample: &Sample, place: &Place) -> Option<(f64, Cut)> {
+    let along = |axis| along(context, part, sample, place, axis);
+    let found = if sample.len() < PARALLEL {
+        [along(0), along(1), along(2)]
+    } else {
+        let (x, (y, z)) = rayon::join(|| along(0), || rayon::join(|| along(1), || along(2)));
+        [x, y, z]
+    };
+    found.into_iter().flatten().reduce(|a, b| if b.0 < a.0 { b } else { a })
+}
+
+/// The cheapest of the planes of one axis.
+fn along(context: &Context, part: &Part, sample: &Sample, place: &Place, axis: usize) -> Option<(f64, Cut)> {
+    let (model, cell) = (CostModel::new(context.config), &place.cell);
     let bounds = Aabb::from(part.extent);
     let range = (bounds.min[axis], bounds.max[axis]);
     let (areas, min, max) = (SideAreas::new(cell, axis), cell.min[axis], cell.max[axis]);
@@ -77,16 +88,18 @@ fn along(context: &Context, part: &Part, cell: &Aabb, axis: usize) -> Option<(f6
         // A plane on the cell's own face cuts nothing.
         if min < split && split < max {
             let (below_area, above_area) = areas.at(split.into());
-            let [below, above] = [below, above].map(|count| sample.scaled(count));
+            // Both sides of a plane inside hold something, in the sample or not.
+            let least = usize::from(range.0 < split && split < range.1);
+            let [below, above] = [below, above].map(|count| sample.scaled(count).max(least));
             let cost = model.split(inverse, (below_area, below), (above_area, above));
-            if best.is_none_or(|(least, _)| cost < least) {
+            if best.is_none_or(|(least, _)| cost < least) && place.affords(below, above) {
                 best = Some((cost, Cut { axis, split, planar_below }));
             }
         }
     };
     let count = sample.len();
     let candidates = (context.config.candidates as usize).min(count);
-    let Some(planes) = Planes::new(axis, range, candidates, &sample) else {
+    let Some(planes) = Planes::new(axis, range, candidates, sample) else {
         // All lie in one plane, if the axis is not too long or short for a grid.
         if range.0 == range.1 {
             offer(range.0, count, 0, true);
@@ -95,7 +108,7 @@ fn along(context: &Context, part: &Part, cell: &Aabb, axis: usize) -> Option<(f6
         return best;
     };
 
-    let counts = Counts::of(&sample, &planes);
+    let counts = Counts::of(sample, &planes);
     let (mut below, mut above) = (0, count);
     for plane in 0..planes.bins() - 1 {
         let flat = counts.flat[plane] as usize;
@@ -110,6 +123,10 @@ fn along(context: &Context, part: &Part, cell: &Aabb, axis: usize) -> Option<(f6
         below += flat;
     }
     best
+}
+
+fn plane(cut: Cut) -> PlaneCut {
+    PlaneCut { axis: cut.axis, plane: cut.split, flat_below: cut.planar_below }
 }
 
 impl Content for Binned {
@@ -133,15 +150,19 @@ impl Content for Binned {
             Self::Coarse(part) => part,
             Self::Fine(events) => return events.choose(context, place),
         };
-        let along = |axis| along(context, part, &place.cell, axis);
-        let few = part.references.len().min(context.config.sample as usize) < PARALLEL;
-        let found = if few {
-            [along(0), along(1), along(2)]
-        } else {
-            let (x, (y, z)) = rayon::join(|| along(0), || rayon::join(|| along(1), || along(2)));
-            [x, y, z]
-        };
-        let (cost, cut) = found.into_iter().flatten().reduce(|a, b| if b.0 < a.0 { b } else { a })?;
+        let sample = Sample::new(&part.references, context.config.sample);
+        let mut found = cheapest(context, part, &sample, place);
+        if sample.len() < part.references.len() {
+            // A sample only estimates how many references there will be.
+            let affords = |cut: Cut| {
+                let [below, above] = plane(cut).counts(&part.references);
+                place.affords(below, above)
+            };
+            if !found.is_some_and(|(_, cut)| affords(cut)) {
+                found = cheapest(context, part, &Sample::all(&part.references), place);
+            }
+        }
+        let (cost, cut) = found?;
         let leaf = CostModel::new(context.config).leaf(part.references.len());
         (context.config.stop != Stop::Sah || cost < leaf).then_some(cut)
     }
@@ -154,7 +175,7 @@ impl Content for Binned {
                 return Ok((Self::Fine(below), Self::Fine(above)));
             }
         };
-        let plane = PlaneCut { axis: cut.axis, plane: cut.split, flat_below: cut.planar_below };
+        let plane = plane(cut);
         let counts = plane.counts(&part.references);
         if !place.accepts(context, part.references.len(), counts) {
             return Err(Self::Coarse(part));
@@ -167,8 +188,11 @@ impl Content for Binned {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::structures::binary_check::{room, soup};
+    use glam::Vec3;
+
+    use crate::structures::binary_check::{mesh, room, soup};
     use crate::structures::kd::KdConfig;
+    use crate::structures::split::Quality;
 
     /// The naive twin: every plane by itself, counting all references.
     #[test]
@@ -178,12 +202,13 @@ mod tests {
             let context = Context::new(&mesh, &config);
             let Binned::Coarse(part) = Binned::all(&context) else { panic!("no node is exact") };
             let (model, cell) = (CostModel::new(&config), mesh.bounds());
+            let (all, root) = (Sample::all(&part.references), Place::root(&context, mesh.len()));
             for axis in 0..3 {
-                let (cost, _) = along(&context, &part, &cell, axis).unwrap();
+                let (cost, _) = along(&context, &part, &all, &root, axis).unwrap();
                 let bounds = Aabb::from(part.extent);
                 let candidates = (config.candidates as usize).min(part.references.len());
                 let range = (bounds.min[axis], bounds.max[axis]);
-                let planes = Planes::new(axis, range, candidates, &Sample::all(&part.references)).unwrap();
+                let planes = Planes::new(axis, range, candidates, &all).unwrap();
                 let areas = SideAreas::new(&cell, axis);
                 let mut least = f64::INFINITY;
                 for (i, flat_below) in (0..planes.bins() - 1).flat_map(|i| [(i, false), (i, true)]) {
@@ -198,5 +223,26 @@ mod tests {
                 assert_eq!(cost, least);
             }
         }
+    }
+
+    /// Few of them show, in a sample, that a plane across x cuts nearly all.
+    #[test]
+    fn a_sample_that_is_wrong_about_the_budget_is_not_the_last_word() {
+        let stride = 20;
+        let needles = mesh(512 * stride, |i| {
+            let y = i as f32 * 1e-3;
+            if i % stride == 0 {
+                let x = if i / stride % 2 == 0 { 0.0 } else { 1000.0 };
+                [Vec3::new(x, y, 0.0), Vec3::new(x + 1.0, y, 1.0), Vec3::new(x, y + 5e-4, 1.0)]
+            } else {
+                [Vec3::new(0.0, y, 0.0), Vec3::new(1000.0, y, 0.0), Vec3::new(0.0, y + 5e-4, 0.0)]
+            }
+        });
+        let config = KdConfig { duplication: 1.5, sample: 512, ..KdConfig::cells(Quality::Fast) };
+        let context = Context::new(&needles, &config);
+        let (all, root) = (Binned::all(&context), Place::root(&context, needles.len()));
+        let cut = all.choose(&context, &root).expect("there are planes between the needles");
+        assert_eq!(cut.axis, 1);
+        assert!(all.divide(&context, &root, cut).is_ok());
     }
 }

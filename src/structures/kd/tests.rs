@@ -148,6 +148,8 @@ fn a_bad_configuration_is_refused_in_a_sentence() {
     let bad = [
         KdConfig { leaf: 0, ..KdConfig::REPORT },
         KdConfig { threshold: 0.0, ..KdConfig::REPORT },
+        KdConfig { sample: 15, ..KdConfig::SAH },
+        KdConfig { candidates: 1, ..KdConfig::SAH },
         KdConfig { threshold: f32::NAN, ..KdConfig::REPORT },
         KdConfig { traversal_cost: -1.0, ..KdConfig::SAH },
         KdConfig { empty_bonus: 1.0, ..KdConfig::SAH },

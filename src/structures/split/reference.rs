@@ -15,6 +15,7 @@ pub(in crate::structures) struct Reference {
 
 impl Reference {
     pub fn new(id: u32, Aabb { min, max }: Aabb) -> Self {
+        // Meshes have fewer than 2^30 triangles, so that the bits of a number are never those of a NaN, which a copy might change.
         Self { low: min.extend(f32::from_bits(id)).to_array(), high: max.extend(0.0).to_array() }
     }
 
