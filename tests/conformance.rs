@@ -21,7 +21,7 @@ sahara::conformance!(sah_hybrid, WideTree<MollerTrumbore>, WideConfig::new(Parti
 sahara::conformance!(sah_bvh, WideTree<MollerTrumbore>, WideConfig::new(Partition::Objects), lowest_id);
 
 /// Configurations that differ in what they build or how they walk. `exit=first-leaf` is left out: it is wrong by design.
-const OURS: [&str; 34] = [
+const OURS: [&str; 36] = [
     "brute-force:test=rt-triangle",
     "median-kd:leaf=1",
     "median-kd:leaf=1,threshold=1",
@@ -48,6 +48,8 @@ const OURS: [&str; 34] = [
     "sah-kd:plane=sah-binned,stop=leaf,leaf=1",
     "sah-kd-wide:block_cost=50",
     "sah-kd-wide:block_cost=0.01",
+    "sah-kd-wide:quality=fast",
+    "sah-kd-wide:quality=high",
     "sah-kd-tight:quality=fast",
     "sah-kd-tight:quality=high,duplication=1",
     "sah-hybrid:quality=fast,block_cost=50",

@@ -254,3 +254,73 @@ impl<'a> Collapse<'a> {
         &self.tree.nodes[at as usize].bounds
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::structures::binary_check::soup;
+    use crate::structures::split::{Quality, SplitConfig, Splits, build};
+
+    /// The parts as rays of an octant see them, gathered for that octant alone.
+    fn gathered(collapse: &Collapse, at: u32, parts: usize, octant: usize, into: &mut Vec<Part>) {
+        match collapse.dealt(at, parts) {
+            Some([l, r]) => {
+                let (axis, backward) = collapse.apart(l.0, r.0);
+                let right_first = backward != (octant >> axis & 1 == 1);
+                for (at, parts) in if right_first { [r, l] } else { [l, r] } {
+                    gathered(collapse, at, parts, octant, into);
+                }
+            }
+            None => into.push(collapse.part(at)),
+        }
+    }
+
+    #[test]
+    fn orders_of_all_octants_at_once_are_those_of_one_after_the_other() {
+        let tree = build(&soup(3000, 43), &SplitConfig::new(Splits::SpatialAndObject, Quality::Balanced));
+        let collapse = Collapse::new(&tree, &Cost { node: 1.0, block: 1.0, largest: 8 });
+        let (mut stack, mut nodes) = (vec![collapse.root().unwrap()], 0);
+        while let Some(part) = stack.pop() {
+            let Part::Node(at) = part else { continue };
+            let children = collapse.children(at);
+            for (octant, order) in children.orders.into_iter().enumerate() {
+                let lanes: Vec<usize> = (0..WIDTH).rev().map(|i| (order >> (3 * i) & 7) as usize).collect();
+                let (empty, used) = lanes.split_at(WIDTH - children.len);
+                assert!(empty.iter().all(|&lane| lane >= children.len), "empty lanes come before the first");
+                let mut expected = vec![];
+                gathered(&collapse, at, WIDTH, octant, &mut expected);
+                assert_eq!(used.iter().map(|&lane| children.parts()[lane]).collect::<Vec<_>>(), expected);
+            }
+            stack.extend(children.parts());
+            nodes += 1;
+        }
+        assert!(nodes > 50, "{nodes}");
+    }
+
+    /// Merged leaves are counted only where they may win; here always.
+    #[test]
+    fn leaves_that_are_not_counted_would_not_have_won() {
+        let tree = build(&soup(3000, 44), &SplitConfig::new(Splits::Spatial, Quality::Balanced));
+        for block in [0.05, 1.0, 20.0] {
+            let cost = Cost { node: 1.0, block, largest: 8 };
+            let collapse = Collapse::new(&tree, &cost);
+            let whole = half_area(&tree.nodes[0].bounds);
+            let chooser = Chooser { tree: &tree, cost: &cost, whole };
+            for (at, best) in collapse.best.iter().enumerate() {
+                let Content::Inner([_, second]) = tree.nodes[at].content else { continue };
+                let area = half_area(&tree.nodes[at].bounds) / whole;
+                let mut ids = tree.references[best.references[0] as usize..best.references[1] as usize].to_vec();
+                ids.sort_unstable();
+                ids.dedup();
+                assert!(best.triangles as usize <= ids.len());
+                let [l, r] = [at + 1, second as usize].map(|child| &collapse.best[child]);
+                let inner =
+                    (1..WIDTH).map(|left| l.cost[left - 1] + r.cost[WIDTH - left - 1]).fold(f32::INFINITY, f32::min);
+                let as_node = (area + f64::from(inner)) as f32;
+                let fits = ids.len() <= 64 && best.references[1] - best.references[0] <= 128;
+                assert_eq!(best.leaf, fits && chooser.as_leaf(area, ids.len() as u32) <= as_node, "{at}");
+            }
+            assert!(collapse.best.iter().any(|best| !best.leaf));
+        }
+    }
+}

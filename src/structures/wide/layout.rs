@@ -24,10 +24,15 @@ pub(super) struct Layout<T: TriangleTest> {
 impl<T: TriangleTest> Layout<T> {
     /// The tree that `collapse` has chosen. It does not depend on the number of threads.
     pub fn new(mesh: &Mesh, collapse: &Collapse) -> Self {
+        Self::in_pieces(mesh, collapse, PIECE)
+    }
+
+    /// The same with pieces of at most `most` references.
+    fn in_pieces(mesh: &Mesh, collapse: &Collapse, most: usize) -> Self {
         let Some(root) = collapse.root() else {
             return Self { root: Child::NOTHING, nodes: vec![], blocks: vec![], depth: 0 };
         };
-        let cut = if collapse.references(root).len() > PIECE { PIECE } else { 0 };
+        let cut = if collapse.references(root).len() > most { most } else { 0 };
         let mut top = Piece::new(mesh, collapse, cut);
         let root = top.write(root, 0);
         let below = |cut: &Cut| {
@@ -134,5 +139,67 @@ impl<'a, T: TriangleTest> Piece<'a, T> {
         assert!(blocks <= Child::BLOCKS, "every partition deals out what is more than a leaf takes");
         LeafBlock::fill(self.mesh, &ids, &mut self.blocks);
         Child::leaf(first, blocks)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::structures::binary_check::soup;
+    use crate::structures::split::{Quality, SplitConfig, Splits, build};
+    use crate::structures::wide::collapse::Cost;
+    use crate::triangle::MollerTrumbore;
+
+    type Tree = Layout<MollerTrumbore>;
+
+    /// What can be seen of the subtree at a child: boxes, orders and triangles, depth first.
+    fn seen(tree: &Tree, child: Child, into: &mut Vec<String>) {
+        match child.blocks() {
+            Some((first, count)) => {
+                into.extend(tree.blocks[first..first + count].iter().map(|b| format!("{:?}", b.ids)))
+            }
+            None => {
+                let node = &tree.nodes[child.index()];
+                into.push(format!("{:?} {:?}", node.planes, node.orders));
+                node.children.iter().for_each(|&child| seen(tree, child, into));
+            }
+        }
+    }
+
+    #[test]
+    fn pieces_make_the_tree_that_one_thread_writes_alone() {
+        let mesh = soup(20_000, 41);
+        for splits in [Splits::Spatial, Splits::SpatialAndObject, Splits::Object] {
+            let tree = build(&mesh, &SplitConfig::new(splits, Quality::Fast));
+            let collapse = Collapse::new(&tree, &Cost { node: 1.0, block: 1.0, largest: 8 });
+            let all = |most: usize| {
+                let tree = Tree::in_pieces(&mesh, &collapse, most);
+                let mut into = vec![];
+                seen(&tree, tree.root, &mut into);
+                (into, tree.nodes.len(), tree.blocks.len(), tree.depth)
+            };
+            let alone = all(usize::MAX);
+            assert!(alone.1 > 100, "{}", alone.1);
+            for most in [100, 1000, PIECE, 19_999] {
+                assert!(all(most) == alone, "{splits:?}, pieces of {most}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_layout_does_not_depend_on_the_number_of_threads() {
+        let mesh = soup(30_000, 42);
+        let tree = build(&mesh, &SplitConfig::new(Splits::SpatialAndObject, Quality::Fast));
+        let run = |threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| {
+                let collapse = Collapse::new(&tree, &Cost { node: 1.0, block: 1.0, largest: 8 });
+                let Layout { root, nodes, blocks, depth } = Tree::new(&mesh, &collapse);
+                let ids: Vec<[u32; WIDTH]> = blocks.iter().map(|block| block.ids).collect();
+                (root, format!("{nodes:?}"), ids, depth)
+            })
+        };
+        let one = run(1);
+        assert!(one == run(2) && one == run(3));
     }
 }
