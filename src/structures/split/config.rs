@@ -51,11 +51,11 @@ pub enum Splits {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Quality {
-    /// Few candidates, spatial splits only where groups overlap much; with planes alone also half of the references and leaves twice
-    /// as full. 1.6 to 2.8 times obvhs `medium`, with planes alone 1.9 to 3.3; by the heuristic as good as `Balanced`, but with planes
-    /// alone, where it costs twice as much.
+    /// Few candidates, few references that tell where to split a larger node, spatial splits only where groups overlap much; with planes
+    /// alone also fewer references and larger leaves. 1.1 to 2.3 times obvhs `medium`, with planes alone 1.5 to 3.5, on two threads at
+    /// most 1.8 times; by the heuristic as good as `Balanced`, but with planes alone, where it costs 1.5 to 2.1 times as much.
     Fast,
-    /// A closer look around the best plane, then parts of the tree move to better places. 0.20 to 1.0 times obvhs `very-slow`.
+    /// A closer look around the best plane, then parts of the tree move to better places. 0.20 to 0.99 times obvhs `very-slow`.
     #[default]
     Balanced,
     /// Slices of triangles instead of boxes, more moves: costs up to 3 % less by the heuristic than `Balanced`, more on some meshes.
@@ -67,8 +67,7 @@ impl SplitConfig {
     pub const fn new(splits: Splits, quality: Quality) -> Self {
         let spatial = matches!(splits, Splits::Spatial);
         let (candidates, exact, chopped, refined, sample) = match quality {
-            Quality::Fast if spatial => (8, 0, 0, u32::MAX, 1024),
-            Quality::Fast => (12, 0, 0, u32::MAX, 1024),
+            Quality::Fast => (if spatial { 8 } else { 12 }, 0, 0, u32::MAX, 1024),
             Quality::Balanced => (20, 16, 0, 16, 16384),
             Quality::High => (20, 16, 4096, 16, 16384),
         };
