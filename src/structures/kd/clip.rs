@@ -21,10 +21,7 @@ const ERROR: f64 = 128.0 / (1u64 << 53) as f64;
 /// Clips in f64 (Sutherland, Hodgman 1974) and rounds outward, so that nothing of the triangle is lost; where rounding
 /// leaves no polygon at all, the answer is `known` cut by the cell: a triangle that reaches into the cell is never dropped.
 pub(in crate::structures) fn clipped_bounds(corners: [Vec3; 3], cell: &Aabb, known: &Aabb) -> Aabb {
-    let mut corner_box = CornerBox::EMPTY;
-    let polygon = Polygon::clipped(corners, cell);
-    polygon.corners().for_each(|(p, computed)| corner_box.grow(p, polygon.slack_of(computed)));
-    corner_box.in_cut(known.intersection(*cell))
+    Polygon::clipped(corners, cell).corner_box().in_cut(known.intersection(*cell))
 }
 
 /// The boxes of both sides of a plane: [`clipped_bounds`] of the parts of `bounds` below and above, where `bounds` is a box
@@ -88,6 +85,12 @@ impl Polygon {
     /// How far off a corner may be.
     fn slack_of(&self, computed: bool) -> DVec3 {
         if computed { self.slack } else { DVec3::ZERO }
+    }
+
+    fn corner_box(&self) -> CornerBox {
+        let mut corner_box = CornerBox::EMPTY;
+        self.corners().for_each(|(p, computed)| corner_box.grow(p, self.slack_of(computed)));
+        corner_box
     }
 
     /// By the fan of triangles around its first corner.
@@ -222,9 +225,7 @@ mod tests {
             let side = |cut: Aabb, side: f64| {
                 let mut polygon = Polygon::clipped(corners, &bounds);
                 polygon.keep(axis, plane.into(), side);
-                let mut corner_box = CornerBox::EMPTY;
-                polygon.corners().for_each(|(p, computed)| corner_box.grow(p, polygon.slack_of(computed)));
-                corner_box.in_cut(cut)
+                polygon.corner_box().in_cut(cut)
             };
             assert_eq!(cut_bounds(corners, &bounds, axis, plane), (side(below, -1.0), side(above, 1.0)));
             cuts += 1;

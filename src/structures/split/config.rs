@@ -52,8 +52,8 @@ pub enum Splits {
 #[serde(rename_all = "kebab-case")]
 pub enum Quality {
     /// Few candidates, few references that tell where to split a larger node, spatial splits only where groups overlap much; with planes
-    /// alone also fewer references and larger leaves. 1.1 to 2.3 times obvhs `medium`, with planes alone 1.5 to 3.5, on two threads at
-    /// most 1.8 times; by the heuristic as good as `Balanced`, but with planes alone, where it costs 1.5 to 2.1 times as much.
+    /// alone also fewer references and larger leaves. 1.0 to 2.3 times obvhs `medium`, with planes alone 1.3 to 3.5, on two threads at
+    /// most 2.2 times; by the heuristic 0.96 to 1.09 times the cost of `Balanced`, with planes alone 1.5 to 2.1 times.
     Fast,
     /// A closer look around the best plane, then parts of the tree move to better places. 0.20 to 0.99 times obvhs `very-slow`.
     #[default]
