@@ -16,10 +16,13 @@ const KINDS: [WorkloadKind; 4] =
 /// Enough rays for a sample, few enough that even the median tree ends.
 const RAYS: usize = 16_384;
 
-fn workloads(scene: &Scene) -> Vec<Workload> {
+/// Rays of a slice whose nodes are not all at hand when it is answered again.
+const SLICE: usize = 262_144;
+
+fn workloads(scene: &Scene, limit: usize) -> Vec<Workload> {
     let caster =
         Registry::builtin().choose("sah-kd").expect("a registered name").build(&scene.mesh).expect("it builds");
-    let sampling = Sampling { limit: RAYS, ..Sampling::of(scene) };
+    let sampling = Sampling { limit, ..Sampling::of(scene) };
     KINDS.iter().map(|&kind| Workload::new(scene, kind, &sampling, &*caster)).collect()
 }
 
@@ -40,7 +43,7 @@ fn trace(loaded: &dyn Loaded, query: Query, rays: usize) -> usize {
 
 fn traverse(criterion: &mut Criterion) {
     for scene in common::scenes() {
-        let workloads = workloads(&scene);
+        let workloads = workloads(&scene, RAYS);
         for choice in common::structures(&scene.mesh) {
             let accel = choice.build(&scene.mesh).expect("a valid mesh builds");
             for workload in workloads.iter().filter(|workload| !workload.rays.is_empty()) {
@@ -57,5 +60,27 @@ fn traverse(criterion: &mut Criterion) {
     }
 }
 
-criterion_group!(benches, traverse);
+/// The ways to answer a slice: `cargo bench --bench traverse -- slices/lucy`.
+fn slices(criterion: &mut Criterion) {
+    for name in ["dragon", "lucy"] {
+        let scene = common::scene(name);
+        let workloads = workloads(&scene, SLICE);
+        for batch in ["single", "packets", "interleaved"] {
+            let spec = format!("sah-hybrid:test=moller-trumbore,batch={batch}");
+            let choice = Registry::builtin().choose(&spec).expect("registered names");
+            let accel = choice.build(&scene.mesh).expect("a valid mesh builds");
+            for workload in &workloads {
+                let mut group = criterion.benchmark_group(format!("slices/{name}/{}", workload.name));
+                group.sample_size(10).throughput(Throughput::Elements(workload.rays.len() as u64));
+                let (loaded, rays) = (accel.load(Cow::Borrowed(&workload.rays)), workload.rays.len());
+                group.bench_function(batch, |bencher| {
+                    bencher.iter(|| black_box(trace(black_box(&*loaded), workload.query, rays)));
+                });
+                group.finish();
+            }
+        }
+    }
+}
+
+criterion_group!(benches, traverse, slices);
 criterion_main!(benches);

@@ -21,7 +21,7 @@ sahara::conformance!(sah_hybrid, WideTree<MollerTrumbore>, WideConfig::new(Parti
 sahara::conformance!(sah_bvh, WideTree<MollerTrumbore>, WideConfig::new(Partition::Objects), lowest_id);
 
 /// Configurations that differ in what they build or how they walk. `exit=first-leaf` is left out: it is wrong by design.
-const OURS: [&str; 36] = [
+const OURS: [&str; 37] = [
     "brute-force:test=rt-triangle",
     "median-kd:leaf=1",
     "median-kd:leaf=1,threshold=1",
@@ -56,8 +56,9 @@ const OURS: [&str; 36] = [
     "sah-hybrid:quality=high",
     "sah-bvh:quality=fast,block_cost=0.01",
     "sah-bvh:quality=high",
-    "sah-kd-tight:packets=true",
-    "sah-hybrid:packets=true",
+    "sah-kd-tight:batch=packets",
+    "sah-hybrid:batch=packets",
+    "sah-hybrid:batch=interleaved",
 ];
 
 const TREES: [&str; 6] = ["median-kd", "sah-kd", "sah-kd-wide", "sah-kd-tight", "sah-hybrid", "sah-bvh"];
@@ -142,7 +143,7 @@ fn of_loaded(loaded: &dyn Loaded, rays: usize) -> Said {
 #[test]
 fn loaded_rays_are_answered_as_direct_ones_by_every_structure() {
     let registry = Registry::builtin();
-    let packets = ["sah-kd-tight:packets=true", "embree:packet=16", "embree-robust:packet=16,rays=coherent"];
+    let packets = ["sah-kd-tight:batch=packets", "embree:packet=16", "embree-robust:packet=16,rays=coherent"];
     let packets = packets.iter().filter_map(|spec| registry.choose(spec).ok());
     let meshes =
         degenerate_meshes().into_iter().filter(|(name, _)| name == "box of a grid" || name == "only without area");

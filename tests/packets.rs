@@ -1,4 +1,5 @@
-//! Rays that travel in packets get the answers that they get one by one, bit for bit, on every level of instructions.
+//! Rays that travel in packets, or several at a time, get the answers that they get one by one, bit for bit, on every level of
+//! instructions.
 //!
 //! One test alone in its process, because the level is that of the process.
 
@@ -64,7 +65,7 @@ fn bits(accel: &dyn DynAccel, rays: &[Ray]) -> (Vec<Option<(u32, u32)>>, Vec<boo
 }
 
 #[test]
-fn packets_answer_as_single_rays_do() {
+fn packets_and_interleaved_rays_answer_as_single_rays_do() {
     let registry = Registry::builtin();
     let mut cases: Vec<(String, Arc<Mesh>, Vec<Ray>)> = vec![];
     for (name, mesh) in degenerate_meshes() {
@@ -95,17 +96,19 @@ fn packets_answer_as_single_rays_do() {
             let choose = |keys: &str| registry.choose(&format!("{structure}:test={test}{keys}")).unwrap();
             for (name, mesh, rays) in &cases {
                 let single = choose("").build(mesh).unwrap();
-                let packets = choose(",packets=true").build(mesh).unwrap();
                 let right = bits(&*single, rays);
-                for level in Level::available() {
-                    level.choose();
-                    let found = bits(&*packets, rays);
-                    let wrong = (0..rays.len()).find(|&i| found.0[i] != right.0[i] || found.1[i] != right.1[i]);
-                    if let Some(i) = wrong {
-                        panic!(
-                            "{structure} over {test}, {level}, on {name}: {:?} gives {:?} and {}, alone {:?} and {}",
-                            rays[i], found.0[i], found.1[i], right.0[i], right.1[i]
-                        );
+                for batch in ["packets", "interleaved"] {
+                    let together = choose(&format!(",batch={batch}")).build(mesh).unwrap();
+                    for level in Level::available() {
+                        level.choose();
+                        let found = bits(&*together, rays);
+                        let wrong = (0..rays.len()).find(|&i| found.0[i] != right.0[i] || found.1[i] != right.1[i]);
+                        if let Some(i) = wrong {
+                            panic!(
+                                "{structure} over {test}, {batch}, {level}, on {name}: {:?} gives {:?} and {}, alone {:?} and {}",
+                                rays[i], found.0[i], found.1[i], right.0[i], right.1[i]
+                            );
+                        }
                     }
                 }
                 hits += right.1.iter().filter(|&&hit| hit).count();

@@ -8,10 +8,12 @@ use sahara::scene::{Builtin, Scene};
 
 /// Two easy scenes and the three hard ones, with their procedural meshes.
 pub fn scenes() -> Vec<Scene> {
-    ["sphere", "teapot", "dragon", "lucy", "sponza"]
-        .into_iter()
-        .map(|name| Builtin::find(name).and_then(|builtin| builtin.scene(None)).expect("a built-in scene is whole"))
-        .collect()
+    ["sphere", "teapot", "dragon", "lucy", "sponza"].map(scene).into()
+}
+
+/// A built-in scene with its procedural mesh.
+pub fn scene(name: &str) -> Scene {
+    Builtin::find(name).and_then(|builtin| builtin.scene(None)).expect("a built-in scene is whole")
 }
 
 /// Every structure over its first triangle test. Brute force only where it ends within seconds.

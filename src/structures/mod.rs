@@ -20,4 +20,4 @@ pub mod wide;
 pub use brute_force::{BruteForce, BruteForceConfig};
 pub use kd::{KdConfig, KdTree};
 pub use overlap::end_point_overlap;
-pub use wide::{Partition, WideConfig, WideTree};
+pub use wide::{Batch, Partition, WideConfig, WideTree};

@@ -1,4 +1,4 @@
-//! Large arrays on large pages of memory.
+//! Memory: large arrays on large pages, and lines fetched ahead.
 
 /// Memory for `len` values that are read at random places, for which the system is asked for huge pages: a walk through a few
 /// megabytes in pages of four kilobytes misses the cache of addresses at nearly every node.
@@ -8,6 +8,19 @@ pub(super) fn with_capacity<T>(len: usize) -> Vec<T> {
     let values = Vec::with_capacity(len);
     advise(values.as_ptr(), len * size_of::<T>());
     values
+}
+
+/// Asks for the line of the cache at an address, which may be any.
+#[inline(always)]
+pub(super) fn fetch(at: *const u8) {
+    #[cfg(target_arch = "x86_64")]
+    // SAFETY: nothing is read, and there is no fault, whatever the address.
+    unsafe {
+        use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
+        _mm_prefetch::<_MM_HINT_T0>(at.cast());
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    let _ = at;
 }
 
 #[cfg(target_os = "linux")]

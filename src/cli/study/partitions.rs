@@ -22,7 +22,7 @@ pub struct Args {
     /// The triangle test of ours; obvhs has its own, which is Möller and Trumbore's in f32 as well
     #[arg(long, value_name = "NAME", default_value = "moller-trumbore")]
     test: String,
-    /// Keys of the wide trees that differ from their defaults, as in packets=true,quality=high
+    /// Keys of the wide trees that differ from their defaults, as in batch=packets,quality=high
     #[arg(long, value_name = "key=value,..", default_value = "")]
     keys: String,
     /// A kind of rays; may be repeated [default: primary, shadow, diffuse, random]

@@ -20,7 +20,7 @@ pub(super) struct Beam<L> {
     origin: [L; 3],
     inverse: [L; 3],
     enlarged: [L; 3],
-    /// By axis, which of the six rows of planes is near and which is far.
+    /// By axis, how many bytes of planes come before those that are near and those that are far.
     near: [usize; 3],
     far: [usize; 3],
     t_min: L,
@@ -50,12 +50,13 @@ impl<L: Lanes<WIDTH>> Beam<L> {
     #[inline(always)]
     pub fn of(origin: [f32; 3], inverse: [f32; 3], t_min: f32, octant: usize) -> Self {
         let (near, far) = rows(octant);
+        let bytes = |row: usize| row * size_of::<[f32; WIDTH]>();
         Self {
             origin: each(&origin, |&o| L::splat(o)),
             inverse: each(&inverse, |&i| L::splat(i)),
             enlarged: each(&inverse, |&i| L::splat(i * ENLARGED)),
-            near,
-            far,
+            near: near.map(bytes),
+            far: far.map(bytes),
             t_min: L::splat(t_min),
             octant,
         }
@@ -64,11 +65,11 @@ impl<L: Lanes<WIDTH>> Beam<L> {
     /// Where the ray enters and leaves the boxes, both within the interval: it misses those that it leaves before it enters.
     #[inline(always)]
     pub fn cross(&self, node: &Node, end: L) -> (L, L) {
-        let planes = node.planes.as_flattened();
+        let planes = (&raw const node.planes).cast::<u8>();
         let (mut enter, mut leave) = (self.t_min, end);
         for axis in 0..3 {
-            // SAFETY: rows are numbered from 0 to 5, and there are six.
-            let (near, far) = unsafe { (planes.get_unchecked(self.near[axis]), planes.get_unchecked(self.far[axis])) };
+            // SAFETY: there is a row of planes after each of these many bytes.
+            let (near, far) = unsafe { (&*planes.add(self.near[axis]).cast(), &*planes.add(self.far[axis]).cast()) };
             enter = L::load(near).sub(self.origin[axis]).mul(self.inverse[axis]).max(enter);
             leave = L::load(far).sub(self.origin[axis]).mul(self.enlarged[axis]).min(leave);
         }

@@ -1,5 +1,6 @@
 use serde::{Deserialize, Serialize};
 
+use super::batch::Batch;
 use crate::accel::BuildError;
 use crate::geometry::Mesh;
 use crate::structures::binary::BinaryTree;
@@ -21,9 +22,8 @@ pub struct WideConfig {
     /// References a build may make, as a multiple of the triangles, with [`Quality::Fast`] at most 1.75: the guard against inputs
     /// that explode. At least 1.
     pub duplication: f32,
-    /// Whether sixteen rays in a row of a slice travel together where they share an octant, instead of one by one: faster for
-    /// rays that lie side by side, about as fast for others, and the same answers.
-    pub packets: bool,
+    /// How the rays of a slice are answered.
+    pub batch: Batch,
 }
 
 /// How the triangles of a scene are divided, by the surface area heuristic.
@@ -43,7 +43,7 @@ pub enum Partition {
 impl WideConfig {
     /// The values measured for a partition.
     pub const fn new(partition: Partition) -> Self {
-        Self { partition, quality: Quality::Balanced, block_cost: 1.0, duplication: 2.4, packets: false }
+        Self { partition, quality: Quality::Balanced, block_cost: 1.0, duplication: 2.4, batch: Batch::Single }
     }
 
     pub(super) fn check(&self) -> Result<(), BuildError> {

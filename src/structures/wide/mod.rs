@@ -12,6 +12,7 @@ mod node;
 mod outline;
 mod packet;
 mod stack;
+mod stream;
 #[cfg(test)]
 mod tests;
 mod travellers;
@@ -19,6 +20,7 @@ mod traverse;
 
 use std::sync::Arc;
 
+pub use batch::Batch;
 pub use config::{Partition, WideConfig};
 
 use super::leaf::LeafBlock;
@@ -50,7 +52,10 @@ const LARGEST: usize = 8;
 /// | any hit from front to back | leaves first, large boxes first | 1.2 to 1.7 (kitchen), 1.0 (dragon) |
 /// | sorting 4096 rays at a time by octant and along a Morton curve, then packets | packets of the rays as they come | 1.3 (primary), 1.3 to 1.7 (random) |
 /// | a cost of 0.6 or 1.6 for a block of eight triangles | 1.0 | 1.0; bytes 0.97, 1.02 |
-/// | four single rays in turn, the next node of each fetched ahead | one after the other | 1.06 to 1.15 (primary), 1.0 to 1.3 (diffuse), 0.75 to 1.0 (random); only where sixteen rays start far from each other: 1.06 to 1.44 (random), 1.97 with 1.1 million triangles |
+/// | rays under way at once that lie side by side | one after the other | 1.1 to 1.4 (primary, shadow) |
+/// | branches instead of lists for rays under way at once, four at a time | one after the other | 1.06 to 1.15 (primary), 1.0 to 1.3 (diffuse), 0.75 to 1.0 (random) |
+/// | lists of rays that wait to go back on their way, too, so that no branch depends on a box or a triangle | lists of rays at nodes and at leaves | 1.0 |
+/// | sixteen rays set up at once before they are under way | each by itself | 1.0 to 1.1 |
 /// | boxes of eight bits a plane in nodes of 128 bytes | `f32` in 256 bytes | 1.03 to 1.33, 1.0 on random rays of the dragon; with 1.1 million triangles 1.03 to 1.20; bytes 0.94 |
 /// | packets also of the larger part where rays are of two octants | single rays | 0.97 (shadow), 1.05 (primary), 1.03 (others) |
 /// | pages of 4 KiB | huge pages | 1.05 to 1.15 (kitchen), 1.0 (dragon) |
@@ -64,7 +69,7 @@ pub struct WideTree<T: TriangleTest> {
     nodes: Vec<Node>,
     blocks: Vec<LeafBlock<T, WIDTH>>,
     bounds: Aabb,
-    packets: bool,
+    batch: Batch,
 }
 
 impl<T: TriangleTest> Accel for WideTree<T> {
@@ -84,7 +89,7 @@ impl<T: TriangleTest> Accel for WideTree<T> {
                 "the mesh is too large or too odd for this structure: it has {limits}"
             )));
         }
-        Ok(Self { root, nodes, blocks, bounds: mesh.bounds(), packets: config.packets })
+        Ok(Self { root, nodes, blocks, bounds: mesh.bounds(), batch: config.batch })
     }
 
     #[inline]

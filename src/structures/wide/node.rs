@@ -37,6 +37,9 @@ impl Child {
     /// A leaf of nothing.
     pub const NOTHING: Self = Self(Self::LEAF);
 
+    /// A leaf of nothing that is in no node.
+    pub const BOTTOM: Self = Self(Self::LEAF | 1 << Self::COUNT_BITS);
+
     pub fn node(at: usize) -> Self {
         debug_assert!(at < Self::LARGEST);
         Self(at as u32)
@@ -47,12 +50,22 @@ impl Child {
         Self(Self::LEAF | (first as u32) << Self::COUNT_BITS | blocks as u32)
     }
 
+    #[inline(always)]
+    pub fn is_leaf(self) -> bool {
+        self.0 & Self::LEAF != 0
+    }
+
     /// The first block of a leaf and how many it has; nothing for a node.
     #[inline(always)]
     pub fn blocks(self) -> Option<(usize, usize)> {
+        self.is_leaf().then_some(self.leaf_blocks())
+    }
+
+    /// The first block of what is known to be a leaf and how many it has.
+    #[inline(always)]
+    pub fn leaf_blocks(self) -> (usize, usize) {
         let first = (self.0 & !Self::LEAF) >> Self::COUNT_BITS;
-        let count = self.0 & Self::BLOCKS as u32;
-        (self.0 & Self::LEAF != 0).then_some((first as usize, count as usize))
+        (first as usize, (self.0 & Self::BLOCKS as u32) as usize)
     }
 
     /// The same child where `nodes` nodes and `blocks` blocks have come before its own.

@@ -28,11 +28,25 @@ impl Stack {
         }
     }
 
+    /// Starts a stack anew, above the [`BOTTOM`](Child::BOTTOM).
+    ///
+    /// # Safety
+    /// There is room for one.
+    #[inline(always)]
+    pub unsafe fn reset(stack: *mut Self) {
+        // SAFETY: as the caller says; no reference is made to what is not initialised.
+        unsafe {
+            (&raw mut (*stack).children[0]).write(MaybeUninit::new(Child::BOTTOM));
+            (&raw mut (*stack).enters[0]).write(MaybeUninit::new(f32::NEG_INFINITY));
+            (&raw mut (*stack).len).write(1);
+        }
+    }
+
     /// Pushes the children that are met, and returns the first to visit instead of pushing it. With `ANY` in the order of lanes,
     /// the highest first, else in that of the octant.
     ///
     /// # Safety
-    /// Every node on the way here has been pushed by this function once, and there are at most [`DEPTH`].
+    /// Every node on the way here has been pushed once, and there are at most [`DEPTH`].
     #[inline(always)]
     pub unsafe fn push<const ANY: bool, L: Sieve>(
         &mut self,
@@ -42,7 +56,7 @@ impl Stack {
     ) -> Option<Child> {
         let children = Child::bits(&node.children);
         let order = node.orders[octant & 7];
-        // SAFETY: `len` is at most (DEPTH - 1) * (WIDTH - 1), so that eight more fit; a child is a number in memory.
+        // SAFETY: `len` is at most 1 + (DEPTH - 1) * (WIDTH - 1), so that eight more fit; a child is a number in memory.
         let met = unsafe {
             let chosen = self.children.as_mut_ptr().add(self.len).cast();
             if ANY {
@@ -56,6 +70,44 @@ impl Stack {
         // Reading the child from the node is faster than waiting for what has just been written.
         self.len += met.count_ones() as usize - 1;
         Some(node.children[(lane & 7) as usize])
+    }
+
+    /// Pushes the children that are met, in the same order: in words of its own, because what it could share with [`push`](Self::push)
+    /// makes searches for any hit a twentieth slower.
+    ///
+    /// # Safety
+    /// As of [`push`](Self::push).
+    #[inline(always)]
+    pub unsafe fn push_all<const ANY: bool, L: Sieve>(&mut self, node: &Node, octant: usize, (enter, leave): (L, L)) {
+        let children = Child::bits(&node.children);
+        // SAFETY: as there.
+        let met = unsafe {
+            let chosen = self.children.as_mut_ptr().add(self.len).cast();
+            if ANY {
+                enter.sift(leave, children, chosen)
+            } else {
+                let enters = self.enters.as_mut_ptr().add(self.len).cast();
+                enter.sieve(leave, children, node.orders[octant & 7], enters, chosen)
+            }
+        };
+        self.len += met.count_ones() as usize;
+    }
+
+    /// The next child that the ray enters not after `end`; at last the [`BOTTOM`](Child::BOTTOM).
+    ///
+    /// # Safety
+    /// The stack was reset, and that has not been returned since.
+    #[inline(always)]
+    pub unsafe fn pop_down<const ANY: bool>(&mut self, end: f32) -> Child {
+        // SAFETY: all below the old length was written, and at the bottom is what every ray enters in time; with `ANY` the entries
+        // were not.
+        unsafe {
+            self.len -= 1;
+            while !ANY && self.enters.get_unchecked(self.len).assume_init() > end {
+                self.len -= 1;
+            }
+            self.children.get_unchecked(self.len).assume_init()
+        }
     }
 
     /// The next child that the ray enters not after `end`.

@@ -2,11 +2,13 @@ use std::sync::Arc;
 
 use glam::Vec3;
 
+use super::batch::UnderWay;
 use super::*;
 use crate::accel::Counts;
+use crate::simd::{Level, dispatch};
 use crate::structures::binary_check::{mesh, soup};
 use crate::structures::split::Quality;
-use crate::triangle::MollerTrumbore;
+use crate::triangle::{Exact, MollerTrumbore};
 
 type Tree = WideTree<MollerTrumbore>;
 
@@ -55,7 +57,7 @@ fn packets_leave_alone_what_their_common_bounds_cannot_tell() {
     let mut rays = [along(-1e-3); 16];
     rays[5] = along(-2.938737e-39);
     for partition in ALL {
-        let tree = Tree::build(&mesh, &WideConfig { packets: true, ..WideConfig::new(partition) }).unwrap();
+        let tree = Tree::build(&mesh, &WideConfig { batch: Batch::Packets, ..WideConfig::new(partition) }).unwrap();
         let mut hits = [None; 16];
         tree.closest_hits(&rays, &mut hits, &mut ());
         assert_eq!(hits, rays.map(|ray| tree.closest_hit(&ray, &mut ())));
@@ -70,12 +72,75 @@ fn packets_find_the_zero_of_the_lower_number() {
     let rays = [Ray::new(Vec3::ZERO, Vec3::new(0.1, 0.1, 1.0)); 16];
     for corners in [[x, y], [y, x]] {
         let mesh = Arc::new(mesh(2, |i| corners[i]));
-        let tree = Tree::build(&mesh, &WideConfig { packets: true, ..WideConfig::default() }).unwrap();
+        let tree = Tree::build(&mesh, &WideConfig { batch: Batch::Packets, ..WideConfig::default() }).unwrap();
         let alone = tree.closest_hit(&rays[0], &mut ()).unwrap();
         let mut hits = [None; 16];
         tree.closest_hits(&rays, &mut hits, &mut ());
         for hit in hits.map(Option::unwrap) {
             assert_eq!((hit.prim.index(), hit.t.to_bits()), (0, alone.t.to_bits()));
         }
+    }
+}
+
+fn several_answer_as_one<T: TriangleTest>(mesh: &Arc<Mesh>, rays: &[Ray]) {
+    for partition in ALL {
+        let tree = &WideTree::<T>::build(mesh, &WideConfig::new(partition)).unwrap();
+        for level in Level::available() {
+            let (mut hits, mut any) = (vec![None; rays.len()], vec![None; rays.len()]);
+            dispatch(level, UnderWay::<false, T, _, _> { tree, rays, answers: &mut hits, form: Some });
+            dispatch(
+                level,
+                UnderWay::<true, T, _, _> {
+                    tree,
+                    rays,
+                    answers: &mut any,
+                    form: |hit: Option<Hit>| Some(hit.is_some()),
+                },
+            );
+            for (i, ray) in rays.iter().enumerate() {
+                let bits = |hit: Option<Hit>| hit.map(|hit| (hit.t.to_bits(), hit.prim));
+                let found = (hits[i].map(bits), any[i]);
+                let alone = (Some(bits(tree.closest_hit(ray, &mut ()))), Some(tree.any_hit(ray, &mut ())));
+                assert_eq!(found, alone, "{partition:?}, {level}, {ray:?}");
+            }
+        }
+    }
+}
+
+/// A ray about the unit cube; every fifth has a direction without an x.
+fn scattered(i: u32) -> Ray {
+    let number = |k: u32| ((i * 6 + k).wrapping_mul(2_654_435_761) >> 8) as f32 / (1 << 24) as f32 * 3.0 - 1.0;
+    let x = if i.is_multiple_of(5) { 0.0 } else { number(3) };
+    Ray::new(Vec3::new(number(0), number(1), number(2)), Vec3::new(x, number(4), number(5) - 0.5))
+}
+
+#[test]
+fn several_rays_under_way_find_what_each_finds_alone() {
+    // Of nothing, of a root that is a leaf of several blocks, and of many levels.
+    for n in [0, 3, 30, 3000] {
+        let mesh = Arc::new(soup(n, 5));
+        let mut rays: Vec<Ray> = (0..500).map(scattered).collect();
+        let odd = [f32::NAN, f32::INFINITY, 0.0, -0.0, 1e-40];
+        rays.extend(odd.map(|x| Ray::new(Vec3::splat(0.1), Vec3::new(x, 0.0, 1.0))));
+        rays.extend(odd.map(|t| Ray::new(Vec3::splat(-3.0), Vec3::ONE).until(t)));
+        several_answer_as_one::<MollerTrumbore>(&mesh, &rays);
+        several_answer_as_one::<Exact>(&mesh, &rays);
+    }
+}
+
+/// Such a ray meets all eight boxes of a node, also those of lanes that are not in use.
+#[test]
+fn rays_without_an_inverse_on_any_axis_are_not_through_at_the_first_unused_lane() {
+    let mesh = Arc::new(soup(300, 5));
+    let corners: Vec<_> = (0..300).map(|id| mesh.corners(id)).collect();
+    for length in [1e-39, 1.9e38] {
+        let toward = |(i, [a, b, c]): (usize, &[Vec3; 3])| {
+            let signs = Vec3::from_array([1, 2, 4].map(|bit| if i & bit == 0 { 1.0 } else { -1.2 }));
+            Ray::new((*a + *b + *c) / 3.0 - signs * 0.01, signs * length)
+        };
+        let rays: Vec<Ray> = corners.iter().enumerate().map(toward).collect();
+        let tree = WideTree::<Exact>::build(&mesh, &WideConfig::default()).unwrap();
+        assert!(rays.iter().filter(|ray| tree.any_hit(ray, &mut ())).count() > 250, "{length}");
+        several_answer_as_one::<Exact>(&mesh, &rays);
     }
 }
