@@ -1,5 +1,7 @@
 //! Slices of rays.
 
+use std::ops::Range;
+
 use serde::{Deserialize, Serialize};
 
 use super::WideTree;
@@ -17,16 +19,45 @@ use crate::triangle::TriangleTest;
 pub enum Batch {
     /// One after the other.
     Single,
-    /// Sixteen in a row travel together where they share an octant, else one after the other: faster for rays that lie side by side, about
-    /// as fast for others.
+    /// Sixteen in a row travel together where they share an octant; of the others eight are under way at a time.
     Packets,
-    /// Eight at a time are under way. In one pass over 262,144 rays that start and go anywhere in a scan of 70,000 to 100,000 triangles 1.1
-    /// to 1.3 times as fast, in buildings 0.9 to 1.1; over a few thousand rays again and again, whose nodes are all at hand, 0.8 to 1.2;
-    /// rays that lie side by side 0.7 to 0.9.
+    /// Eight at a time are under way, also where they agree.
     Interleaved,
 }
 
-/// In packets where they agree, one after the other where not.
+/// Rays of a slice that are answered before the next ones are looked at: so many that the last ones under way, when no others follow,
+/// are few beside them.
+const WINDOW: usize = 4096;
+
+/// Sixteens of a window, by their numbers; the last one may be shorter.
+pub(super) struct Sixteens {
+    numbers: [u8; WINDOW / RAYS],
+    len: usize,
+}
+
+impl Sixteens {
+    const NONE: Self = Self { numbers: [0; WINDOW / RAYS], len: 0 };
+
+    /// All of a window of `rays` rays.
+    pub fn all(rays: usize) -> Self {
+        Self { numbers: std::array::from_fn(|i| i as u8), len: rays.div_ceil(RAYS) }
+    }
+
+    #[inline(always)]
+    fn push(&mut self, number: usize) {
+        self.numbers[self.len] = number as u8;
+        self.len += 1;
+    }
+
+    /// The places of their rays in a window of `rays`.
+    #[inline(always)]
+    fn places(&self, rays: usize) -> impl Iterator<Item = Range<usize>> {
+        let first = |&number: &u8| usize::from(number) * RAYS;
+        self.numbers[..self.len].iter().map(first).map(move |first| first..rays.min(first + RAYS))
+    }
+}
+
+/// One after the other.
 struct InTurn<'a, const ANY: bool, T: TriangleTest, A, F> {
     tree: &'a WideTree<T>,
     rays: &'a [Ray],
@@ -39,23 +70,48 @@ impl<const ANY: bool, T: TriangleTest, A, F: Fn(Option<Hit>) -> A> Kernel for In
 
     #[inline(always)]
     fn run<L: Sieve>(self) {
-        let Self { tree, rays, answers, form } = self;
-        for (rays, answers) in rays.chunks(RAYS).zip(answers.chunks_mut(RAYS)) {
-            if !together::<ANY, L, T, A>(tree, rays, answers, &form) {
-                for (answer, ray) in answers.iter_mut().zip(rays) {
-                    *answer = form(silent::<ANY, L, _>(tree, ray));
-                }
-            }
+        for (answer, ray) in self.answers.iter_mut().zip(self.rays) {
+            *answer = (self.form)(silent::<ANY, L, _>(self.tree, ray));
         }
     }
 }
 
-/// Several under way at once.
+/// The sixteens of a window that agree; the others are handed back.
+struct InPackets<'a, const ANY: bool, T: TriangleTest, A, F> {
+    tree: &'a WideTree<T>,
+    rays: &'a [Ray],
+    answers: &'a mut [A],
+    form: &'a F,
+}
+
+impl<const ANY: bool, T: TriangleTest, A, F: Fn(Option<Hit>) -> A> Kernel for InPackets<'_, ANY, T, A, F> {
+    type Output = Sixteens;
+
+    #[inline(always)]
+    fn run<L: Sieve>(self) -> Sixteens {
+        let Self { tree, rays, answers, form } = self;
+        let mut others = Sixteens::NONE;
+        for (number, (rays, answers)) in rays.chunks(RAYS).zip(answers.chunks_mut(RAYS)).enumerate() {
+            let together = match (rays.try_into(), answers.try_into()) {
+                (Ok(rays), Ok(answers)) if L::FAST => alike(rays) && tree.packet::<ANY, L, A>(rays, answers, form),
+                _ => false,
+            };
+            if !together {
+                others.push(number);
+            }
+        }
+        others
+    }
+}
+
+/// Some sixteens of a window, several rays under way at once: a kernel of its own, because beside another walk in the same function it is
+/// a third slower.
 pub(super) struct UnderWay<'a, const ANY: bool, T: TriangleTest, A, F> {
     pub tree: &'a WideTree<T>,
     pub rays: &'a [Ray],
+    pub which: &'a Sixteens,
     pub answers: &'a mut [A],
-    pub form: F,
+    pub form: &'a F,
 }
 
 impl<const ANY: bool, T: TriangleTest, A, F: Fn(Option<Hit>) -> A> Kernel for UnderWay<'_, ANY, T, A, F> {
@@ -63,35 +119,23 @@ impl<const ANY: bool, T: TriangleTest, A, F: Fn(Option<Hit>) -> A> Kernel for Un
 
     #[inline(always)]
     fn run<L: Sieve>(self) {
-        let Self { tree, rays, answers, form } = self;
-        // On portable lanes it is not memory that takes the time.
+        let Self { tree, rays, which, answers, form } = self;
         if !L::FAST {
-            return InTurn::<ANY, T, A, F> { tree, rays, answers, form }.run::<L>();
+            // On portable lanes it is not memory that takes the time.
+            for i in which.places(rays.len()).flatten() {
+                answers[i] = form(silent::<ANY, L, _>(tree, &rays[i]));
+            }
+            return;
         }
         let mut slots = Slots::EMPTY;
         let mut stream = Stream::<L, T>::new(tree, &mut slots);
         let mut done = |i: usize, hit| answers[i] = form(hit);
-        for (i, ray) in rays.iter().enumerate() {
-            stream.push::<ANY>(i, ray, &mut done);
+        for places in which.places(rays.len()) {
+            for i in places {
+                stream.push::<ANY>(i, &rays[i], &mut done);
+            }
         }
         stream.finish::<ANY>(&mut done);
-    }
-}
-
-/// Answers the rays of a packet; false where the tree, the level or the rays are not for it.
-#[inline(always)]
-fn together<const ANY: bool, L: Sieve, T: TriangleTest, A>(
-    tree: &WideTree<T>,
-    rays: &[Ray],
-    answers: &mut [A],
-    form: &impl Fn(Option<Hit>) -> A,
-) -> bool {
-    if !L::FAST || tree.batch != Batch::Packets {
-        return false;
-    }
-    match (rays.try_into(), answers.try_into()) {
-        (Ok(rays), Ok(answers)) => alike(rays) && tree.packet::<ANY, L, A>(rays, answers, form),
-        _ => false,
     }
 }
 
@@ -123,9 +167,16 @@ pub(super) fn answer<const ANY: bool, T: TriangleTest, A, O: Observer>(
         }
     } else {
         let level = Level::current();
-        match tree.batch {
-            Batch::Interleaved => dispatch(level, UnderWay::<ANY, T, A, _> { tree, rays, answers, form }),
-            _ => dispatch(level, InTurn::<ANY, T, A, _> { tree, rays, answers, form }),
+        if tree.batch == Batch::Single {
+            return dispatch(level, InTurn::<ANY, T, A, _> { tree, rays, answers, form });
+        }
+        for (rays, answers) in rays.chunks(WINDOW).zip(answers.chunks_mut(WINDOW)) {
+            let form = &form;
+            let which = match tree.batch {
+                Batch::Packets => dispatch(level, InPackets::<ANY, T, A, _> { tree, rays, answers, form }),
+                _ => Sixteens::all(rays.len()),
+            };
+            dispatch(level, UnderWay::<ANY, T, A, _> { tree, rays, which: &which, answers, form });
         }
     }
 }

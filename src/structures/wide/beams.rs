@@ -21,17 +21,24 @@ pub(super) struct Beams<L> {
     pub octant: usize,
 }
 
+/// The eight numbers of eight rays: a row of each. A function, because a closure as large as this is not inlined everywhere, and then
+/// is not compiled for the level.
+#[inline(always)]
+fn numbers<L: Sieve>(rays: &[Ray]) -> [L; 8] {
+    let mut rows = [L::zero(); WIDTH];
+    for (row, ray) in rows.iter_mut().zip(rays) {
+        let Ray { origin: o, t_min, direction: d, t_max } = *ray;
+        *row = L::load(&[o.x, o.y, o.z, t_min, d.x, d.y, d.z, t_max]);
+    }
+    L::transpose(rows)
+}
+
 impl<L: Sieve> Beams<L> {
     /// Without their ends: rays of one octant whose crossings with planes in `bounds` all have a finite answer; nothing if they are not that.
     #[inline(always)]
     pub fn new(rays: &[Ray; RAYS], bounds: &Aabb) -> Option<Self> {
-        let rows = each(&[0, 1], |half| {
-            let row = |i: usize| {
-                let Ray { origin: o, t_min, direction: d, t_max } = rays[WIDTH * half + i];
-                L::load(&[o.x, o.y, o.z, t_min, d.x, d.y, d.z, t_max])
-            };
-            L::transpose([row(0), row(1), row(2), row(3), row(4), row(5), row(6), row(7)])
-        });
+        let (low, high) = rays.split_at(WIDTH);
+        let rows = [numbers::<L>(low), numbers::<L>(high)];
         let row = |i: usize| each(&rows, |half| half[i]);
         let (origin, direction) = ([row(0), row(1), row(2)], [row(4), row(5), row(6)]);
         let mut octant = 0;

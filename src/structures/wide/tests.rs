@@ -2,7 +2,7 @@ use std::sync::Arc;
 
 use glam::Vec3;
 
-use super::batch::UnderWay;
+use super::batch::{Sixteens, UnderWay};
 use super::*;
 use crate::accel::Counts;
 use crate::simd::{Level, dispatch};
@@ -87,16 +87,10 @@ fn several_answer_as_one<T: TriangleTest>(mesh: &Arc<Mesh>, rays: &[Ray]) {
         let tree = &WideTree::<T>::build(mesh, &WideConfig::new(partition)).unwrap();
         for level in Level::available() {
             let (mut hits, mut any) = (vec![None; rays.len()], vec![None; rays.len()]);
-            dispatch(level, UnderWay::<false, T, _, _> { tree, rays, answers: &mut hits, form: Some });
-            dispatch(
-                level,
-                UnderWay::<true, T, _, _> {
-                    tree,
-                    rays,
-                    answers: &mut any,
-                    form: |hit: Option<Hit>| Some(hit.is_some()),
-                },
-            );
+            let which = &Sixteens::all(rays.len());
+            dispatch(level, UnderWay::<false, T, _, _> { tree, rays, which, answers: &mut hits, form: &Some });
+            let form = &|hit: Option<Hit>| Some(hit.is_some());
+            dispatch(level, UnderWay::<true, T, _, _> { tree, rays, which, answers: &mut any, form });
             for (i, ray) in rays.iter().enumerate() {
                 let bits = |hit: Option<Hit>| hit.map(|hit| (hit.t.to_bits(), hit.prim));
                 let found = (hits[i].map(bits), any[i]);
