@@ -34,12 +34,18 @@ impl Extent {
         Self { min: self.min.max(other.min), max: self.max.min(other.max) }
     }
 
-    /// The same box with other faces on an axis.
+    /// What of the box lies below a plane.
     #[inline(always)]
-    pub fn slab<const AXIS: usize>(&self, low: f32, high: f32) -> Self {
-        let (mut min, mut max) = (self.min.to_array(), self.max.to_array());
-        (min[AXIS], max[AXIS]) = (low, high);
-        Self { min: min.into(), max: max.into() }
+    pub fn up_to(mut self, axis: usize, plane: f32) -> Self {
+        self.max[axis] = self.max[axis].min(plane);
+        self
+    }
+
+    /// What of the box lies above a plane.
+    #[inline(always)]
+    pub fn down_to(mut self, axis: usize, plane: f32) -> Self {
+        self.min[axis] = self.min[axis].max(plane);
+        self
     }
 
     #[inline(always)]

@@ -81,7 +81,11 @@ impl Events {
         let axes = [0, 1, 2].map(|axis| {
             let mut events = Vec::with_capacity(2 * references.len());
             push_events(&references, 0, axis, &mut events);
-            events.par_sort_unstable();
+            if references.len() < PARALLEL {
+                events.sort_unstable();
+            } else {
+                events.par_sort_unstable();
+            }
             events
         });
         Self { references, axes }

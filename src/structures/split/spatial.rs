@@ -51,71 +51,61 @@ impl Cut {
 /// Bins and planes in ascending order: slot `2 i` is bin `i`, slot `2 i + 1` holds what lies in plane `i`.
 const SLOTS: usize = 2 * PLANES + 2;
 
-/// What begins, ends and lies in each slot.
+/// What begins and what ends in each slot: how many references, and their whole boxes.
+///
+/// What lies below a plane is the parts there of all that begins below it. A plane cuts off of a box just what is beyond it, and the box
+/// of all that is cut off so is the box of the whole ones, cut off at the plane: no reference need be looked at for the slots between its ends.
 pub(super) struct Slots {
     begin: [u32; SLOTS],
     end: [u32; SLOTS],
-    extents: [Extent; SLOTS],
-    /// What lies in the slots after each.
+    begin_extents: [Extent; SLOTS],
+    end_extents: [Extent; SLOTS],
+    /// What ends in the slots after each.
     above: [Extent; SLOTS],
 }
 
 impl Slots {
     pub fn new() -> Box<Self> {
         let empty = [Extent::EMPTY; SLOTS];
-        Box::new(Self { begin: [0; SLOTS], end: [0; SLOTS], extents: empty, above: empty })
+        let none = [0; SLOTS];
+        Box::new(Self { begin: none, end: none, begin_extents: empty, end_extents: empty, above: empty })
     }
 
     fn clear(&mut self, planes: &Planes) {
         let slots = 2 * planes.bins();
         self.begin[..slots].fill(0);
         self.end[..slots].fill(0);
-        self.extents[..slots].fill(Extent::EMPTY);
-    }
-
-    #[inline(always)]
-    fn grow(&mut self, slot: usize, extent: Extent) {
-        self.extents[slot].grow(extent);
+        self.begin_extents[..slots].fill(Extent::EMPTY);
+        self.end_extents[..slots].fill(Extent::EMPTY);
     }
 
     fn add<const AXIS: usize, const CHOP: bool>(&mut self, mesh: &Mesh, sample: &Sample, planes: &Planes) {
         for r in sample.iter() {
-            let (low, high) = (r.min(AXIS), r.max(AXIS));
-            let extent = r.extent();
-            let (first, last) = (planes.first_bin(low), planes.last_bin(high));
-            if first >= last {
-                // Only what is flat begins above the bin in which it ends, and then it lies in the plane between.
-                let slot = first + last;
-                self.begin[slot] += 1;
-                self.end[slot] += 1;
-                self.grow(slot, extent);
-                continue;
-            }
-
-            self.begin[2 * first] += 1;
-            self.end[2 * last] += 1;
-            if CHOP {
+            let (first, last) = (planes.first_bin(r.min(AXIS)), planes.last_bin(r.max(AXIS)));
+            // Only what is flat begins above the bin in which it ends, and then it lies in the plane between.
+            let (begin, end) = (first + first.min(last), last + last.max(first));
+            self.begin[begin] += 1;
+            self.end[end] += 1;
+            if CHOP && first < last {
                 let corners = mesh.corners(r.id()).map(Vec3A::from);
-                chop::<AXIS>(corners, extent, planes, (first, last), |bin, slice| self.grow(2 * bin, slice));
+                chop::<AXIS>(corners, r.extent(), planes, (first, last), |bin, slice| {
+                    self.begin_extents[2 * bin].grow(slice);
+                    self.end_extents[2 * bin].grow(slice);
+                });
             } else {
-                let mut from = low;
-                for bin in first..last {
-                    let to = planes.value(bin);
-                    self.grow(2 * bin, extent.slab::<AXIS>(from, to));
-                    from = to;
-                }
-                self.grow(2 * last, extent.slab::<AXIS>(from, high));
+                self.begin_extents[begin].grow(r.extent());
+                self.end_extents[end].grow(r.extent());
             }
         }
     }
 
     /// The cheapest plane for `node`, and its place among the planes.
     fn sweep(&mut self, context: &Context, planes: &Planes, node: &Node) -> Option<Offer<(Cut, usize)>> {
-        // What lies above each boundary, from the top.
+        // What ends above each boundary, from the top.
         let slots = 2 * planes.bins() - 1;
         let mut above = Extent::EMPTY;
         for slot in (1..slots).rev() {
-            above.grow(self.extents[slot]);
+            above.grow(self.end_extents[slot]);
             self.above[slot - 1] = above;
         }
 
@@ -124,21 +114,22 @@ impl Slots {
         let mut below = Extent::EMPTY;
         let (mut begun, mut ended) = (0, 0);
         for slot in 0..slots - 1 {
-            below.grow(self.extents[slot]);
+            below.grow(self.begin_extents[slot]);
             begun += self.begin[slot] as usize;
             ended += self.end[slot] as usize;
-            let (plane, flat_below) = (slot / 2, slot % 2 == 1);
+            let (at, flat_below) = (slot / 2, slot % 2 == 1);
             let (left, right) = (begun, node.sample.len() - ended);
             let same = flat_below && self.begin[slot] == 0;
-            if same || left == 0 || right == 0 || left.min(right) == node.sample.len() || !planes.is_new(plane) {
+            if same || left == 0 || right == 0 || left.min(right) == node.sample.len() || !planes.is_new(at) {
                 continue;
             }
-            let sides = [below, self.above[slot]];
+            let (axis, plane) = (planes.axis, planes.value(at));
+            let sides = [below.up_to(axis, plane), self.above[slot].down_to(axis, plane)];
             let counts = [left, right].map(|count| node.sample.scaled(count));
             let cost = context.costs.split(node.area, sides.map(|side| side.half_area()), counts);
             if best.is_none_or(|b| cost < b.cost) && node.affords(counts) {
-                let cut = Cut { axis: planes.axis, plane: planes.value(plane), flat_below };
-                best = Some(Offer { cost, split: (cut, plane), sides, counts });
+                let cut = Cut { axis, plane, flat_below };
+                best = Some(Offer { cost, split: (cut, at), sides, counts });
             }
         }
         best
