@@ -46,16 +46,16 @@ pub enum Splits {
     Object,
 }
 
-/// How much time a build may take for a better tree. Ratios are CPU time on one thread for six real meshes of 57,000 to 262,000
-/// triangles, against the presets of obvhs' binary tree.
+/// How much time a build may take for a better tree. Ratios are of times on one thread of an Intel Xeon (Sapphire Rapids), for six real
+/// meshes of 57,000 to 262,000 triangles, against the presets of obvhs' binary tree.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Quality {
     /// Few candidates, few references that tell where to split a larger node, spatial splits only where groups overlap much; with planes
-    /// alone also fewer references and larger leaves. 1.0 to 2.3 times obvhs `medium`, with planes alone 1.3 to 3.5, on two threads at
-    /// most 2.2 times; by the heuristic 0.96 to 1.09 times the cost of `Balanced`, with planes alone 1.5 to 2.1 times.
+    /// alone also fewer references and larger leaves. 1.0 to 1.7 times obvhs `medium`, with planes alone 1.4 to 2.4, on two threads at
+    /// most 1.8 times; by the heuristic 0.96 to 1.09 times the cost of `Balanced`, with planes alone 1.5 to 2.1 times.
     Fast,
-    /// A closer look around the best plane, then parts of the tree move to better places. 0.20 to 0.99 times obvhs `very-slow`.
+    /// A closer look around the best plane, then parts of the tree move to better places. 0.23 to 1.03 times obvhs `very-slow`.
     #[default]
     Balanced,
     /// Slices of triangles instead of boxes, more moves: costs up to 3 % less by the heuristic than `Balanced`, more on some meshes.
