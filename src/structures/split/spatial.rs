@@ -55,6 +55,7 @@ const SLOTS: usize = 2 * PLANES + 2;
 ///
 /// What lies below a plane is the parts there of all that begins below it. A plane cuts off of a box just what is beyond it, and the box
 /// of all that is cut off so is the box of the whole ones, cut off at the plane: no reference need be looked at for the slots between its ends.
+/// Only chopped triangles grow each bin on their way by their slice there, among what begins in it and among what ends.
 pub(super) struct Slots {
     begin: [u32; SLOTS],
     end: [u32; SLOTS],

@@ -138,3 +138,32 @@ fn rays_without_an_inverse_on_any_axis_are_not_through_at_the_first_unused_lane(
         several_answer_as_one::<Exact>(&mesh, &rays);
     }
 }
+
+/// Sixteens that agree, sixteens of which each ray goes its own way, and a few rays at the end, in slices of several windows.
+#[test]
+fn long_slices_are_answered_as_their_rays_are() {
+    let mesh = Arc::new(soup(300, 5));
+    let toward = |id: u32, origin: Vec3| {
+        let [a, b, c] = mesh.corners(id % 300);
+        Ray::new(origin, (a + b + c) / 3.0 - origin)
+    };
+    let ray = |i: u32| match i / 16 % 3 {
+        0 => toward(i / 16, Vec3::new(-3.0, -4.0 + (i % 16) as f32 * 1e-3, -5.0)),
+        _ => toward(i * 7, scattered(i).origin),
+    };
+    let rays: Vec<Ray> = (0..2 * 4096 + 21).map(ray).collect();
+    let single = Tree::build(&mesh, &WideConfig::default()).unwrap();
+    let alone: Vec<_> = rays.iter().map(|ray| single.closest_hit(ray, &mut ())).collect();
+    let met = |of: &dyn Fn(usize) -> bool| (0..rays.len()).filter(|&i| of(i) && alone[i].is_some()).count();
+    assert!(met(&|i| i / 16 % 3 == 0) > 2000 && met(&|i| i / 16 % 3 != 0) > 4000, "nearly all hit something");
+    for batch in [Batch::Single, Batch::Packets, Batch::Interleaved] {
+        let tree = Tree::build(&mesh, &WideConfig { batch, ..WideConfig::default() }).unwrap();
+        for len in [0, 15, 4095, 4096, 4097, rays.len()] {
+            let (mut hits, mut any) = (vec![None; len], vec![false; len]);
+            tree.closest_hits(&rays[..len], &mut hits, &mut ());
+            tree.any_hits(&rays[..len], &mut any, &mut ());
+            assert!(hits == alone[..len], "{batch:?}, {len} rays");
+            assert!(any.iter().zip(&alone).all(|(any, hit)| *any == hit.is_some()), "{batch:?}, {len} rays");
+        }
+    }
+}
