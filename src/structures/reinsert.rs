@@ -4,7 +4,9 @@
 //! Bittner, Hapala, Havran: Fast Insertion-Based Optimization of Bounding Volume Hierarchies, Computer Graphics Forum 2013.
 //! Meister, Bittner: Parallel Reinsertion for Bounding Volume Hierarchy Optimization, Computer Graphics Forum 2018. We depart in
 //! that moves found together are tried one after the other, each only if it still pays, so that the result is the same for
-//! every number of threads.
+//! every number of threads; and in how many nodes a pass looks at.
+
+use std::ops::{Index, IndexMut};
 
 use rayon::prelude::*;
 
@@ -14,6 +16,10 @@ use super::extent::Extent;
 /// Nodes whose moves are sought at the same time.
 const BATCH: usize = 512;
 
+/// The share of the nodes that the first pass looks at; the k-th pass looks at a k-th of that. A move saves at most the area of
+/// what it moves, and a later pass finds little that is not near earlier moves, whose boxes are large.
+const SHARE: f64 = 0.6;
+
 /// Places that the search for a move looks at.
 const VISITS: usize = 512;
 
@@ -22,28 +28,66 @@ const DEEPEST: u32 = 80;
 
 const NONE: u32 = u32::MAX;
 
-/// The tree with links in both directions. Children of a leaf are `NONE`.
-struct Links {
-    parent: Vec<u32>,
-    children: Vec<[u32; 2]>,
-    extent: Vec<Extent>,
-    /// Edges from a node to the deepest leaf below it.
-    height: Vec<u32>,
+/// A node with links in both directions: all that a search reads of it, in one cache line.
+#[derive(Clone, Copy)]
+#[repr(align(64))]
+struct Link {
+    extent: Extent,
+    /// Half of the surface area of the box.
+    area: f64,
+    /// `NONE` for a leaf.
+    children: [u32; 2],
+    /// `NONE` for the root.
+    parent: u32,
+    /// Edges to the deepest leaf below.
+    height: u32,
 }
 
-/// Seeks a better place for every node, the largest first, `passes` times. Leaves stay what they are.
+impl Link {
+    fn is_leaf(&self) -> bool {
+        self.children[0] == NONE
+    }
+
+    fn set(&mut self, extent: Extent) {
+        (self.extent, self.area) = (extent, extent.half_area());
+    }
+}
+
+/// The tree that is changed.
+#[derive(Clone)]
+struct Links(Vec<Link>);
+
+impl Index<u32> for Links {
+    type Output = Link;
+
+    fn index(&self, at: u32) -> &Link {
+        &self.0[at as usize]
+    }
+}
+
+impl IndexMut<u32> for Links {
+    fn index_mut(&mut self, at: u32) -> &mut Link {
+        &mut self.0[at as usize]
+    }
+}
+
+/// Seeks better places for the nodes of the largest boxes, the largest first, `passes` times. Leaves stay what they are.
 pub(in crate::structures) fn reinsert(tree: BinaryTree, passes: u32) -> BinaryTree {
-    if tree.nodes.is_empty() || passes == 0 {
+    if tree.nodes.len() < 2 || passes == 0 {
         return tree;
     }
     let mut links = Links::new(&tree);
-    for _ in 0..passes {
-        let area = |at: u32| links.extent[at as usize].half_area();
+    for pass in 1..=passes {
         // Areas are not negative: their bits are in the same order.
-        let mut order: Vec<(u64, u32)> = (1..tree.nodes.len() as u32).map(|at| (!area(at).to_bits(), at)).collect();
+        let key = |at: u32| (!links[at].area.to_bits(), at);
+        let mut order: Vec<(u64, u32)> = (1..tree.nodes.len() as u32).into_par_iter().map(key).collect();
+        let looked_at = (order.len() as f64 * SHARE / f64::from(pass)) as usize;
+        order.select_nth_unstable(looked_at);
+        order.truncate(looked_at);
         order.par_sort_unstable();
         for batch in order.chunks(BATCH) {
-            let targets: Vec<Option<u32>> = batch.par_iter().map(|&(_, at)| links.search(at)).collect();
+            let search = |stack: &mut Vec<_>, &(_, at): &(u64, u32)| links.search(at, stack);
+            let targets: Vec<Option<u32>> = batch.par_iter().map_init(Vec::new, search).collect();
             for (&(_, at), target) in batch.iter().zip(targets) {
                 if let Some(target) = target {
                     links.relocate(at, target);
@@ -56,40 +100,42 @@ pub(in crate::structures) fn reinsert(tree: BinaryTree, passes: u32) -> BinaryTr
 
 impl Links {
     fn new(tree: &BinaryTree) -> Self {
-        let mut parent = vec![NONE; tree.nodes.len()];
-        let mut children = vec![[NONE; 2]; tree.nodes.len()];
-        for (at, node) in tree.nodes.iter().enumerate() {
-            if let Content::Inner(below) = node.content {
-                below.iter().for_each(|&child| parent[child as usize] = at as u32);
-                children[at] = below;
+        let link = |node: &BinaryNode| {
+            let extent = Extent::from(node.bounds);
+            let children = if let Content::Inner(below) = node.content { below } else { [NONE; 2] };
+            Link { extent, area: extent.half_area(), children, parent: NONE, height: 0 }
+        };
+        let mut links = Self(tree.nodes.par_iter().map(link).collect());
+        // Children come after their parents.
+        for at in (0..tree.nodes.len() as u32).rev() {
+            if links[at].is_leaf() {
+                continue;
             }
+            for child in links[at].children {
+                links[child].parent = at;
+            }
+            links[at].height = links.height_over(at);
         }
-        let mut height = vec![0; tree.nodes.len()];
-        for (at, &[left, right]) in children.iter().enumerate().rev().filter(|(_, below)| below[0] != NONE) {
-            height[at] = 1 + height[left as usize].max(height[right as usize]);
-        }
-        Self { parent, children, extent: tree.nodes.iter().map(|node| node.bounds.into()).collect(), height }
+        links
     }
 
     fn sibling(&self, at: u32) -> u32 {
-        let [a, b] = self.children[self.parent[at as usize] as usize];
+        let [a, b] = self[self[at].parent].children;
         if a == at { b } else { a }
     }
 
     /// The node beside which `at` saves most area, if any place does.
-    fn search(&self, at: u32) -> Option<u32> {
-        let own = self.extent[at as usize];
-        let own_area = own.half_area();
-        let parent = self.parent[at as usize];
-        if parent == NONE || self.parent[parent as usize] == NONE {
+    fn search(&self, at: u32, stack: &mut Vec<(u32, f64)>) -> Option<u32> {
+        let Link { extent: own, area: own_area, parent, .. } = self[at];
+        if parent == NONE || self[parent].parent == NONE {
             return None;
         }
 
         // Climb; what lies beside the path is searched, knowing what the removal saves on the path up to there.
-        let mut saved = self.extent[parent as usize].half_area();
+        let mut saved = self[parent].area;
         let mut rest = Extent::EMPTY;
         let (mut best, mut target) = (0.0, None);
-        let mut stack = vec![];
+        stack.clear();
         let (mut path, mut visits) = (at, 0);
         loop {
             let beside = self.sibling(path);
@@ -99,26 +145,25 @@ impl Links {
                     continue;
                 }
                 visits += 1;
-                let extent = self.extent[place as usize];
-                let gain = saved - extent.union(own).half_area();
+                let link = &self[place];
+                let gain = saved - link.extent.union(own).half_area();
                 if gain > best {
                     (best, target) = (gain, Some(place));
                 }
-                let [left, right] = self.children[place as usize];
-                if left != NONE {
-                    let below = gain + extent.half_area();
-                    stack.extend([(left, below), (right, below)]);
+                let below = gain + link.area;
+                if !link.is_leaf() && below - own_area > best {
+                    stack.extend(link.children.map(|child| (child, below)));
                 }
             }
 
-            rest.grow(self.extent[beside as usize]);
-            path = self.parent[path as usize];
-            if self.parent[path as usize] == NONE {
+            rest.grow(self[beside].extent);
+            path = self[path].parent;
+            if self[path].parent == NONE {
                 return target;
             }
             // Beside what is left of a node above; the parent is gone, which is counted from the start.
             if path != parent {
-                saved += self.extent[path as usize].half_area() - rest.half_area();
+                saved += self[path].area - rest.half_area();
                 let gain = saved - rest.union(own).half_area();
                 if gain > best {
                     (best, target) = (gain, Some(path));
@@ -129,26 +174,26 @@ impl Links {
 
     /// Moves `at` beside `target`, if by now that is still possible and still saves area.
     fn relocate(&mut self, at: u32, target: u32) {
-        let (parent, sibling) = (self.parent[at as usize], self.sibling(at));
-        let grand = self.parent[parent as usize];
+        let (parent, sibling) = (self[at].parent, self.sibling(at));
+        let grand = self[parent].parent;
         let (mut depth, mut up, mut inside) = (0, target, false);
         while up != NONE {
             inside |= up == at;
-            (depth, up) = (depth + 1, self.parent[up as usize]);
+            (depth, up) = (depth + 1, self[up].parent);
         }
-        let deepest = depth + self.height[at as usize].max(self.height[target as usize]);
+        let deepest = depth + self[at].height.max(self[target].height);
         if grand == NONE || target == parent || target == sibling || inside || deepest > DEEPEST {
             return;
         }
 
         // The parent moves with the node, to become the parent of the target.
-        let old_area = self.extent[parent as usize].half_area();
+        let old_area = self[parent].area;
         self.replace(grand, parent, sibling);
         let mut growth = self.refit(grand);
-        let above = self.parent[target as usize];
+        let above = self[target].parent;
         self.replace(above, target, parent);
         self.join(parent, [target, at]);
-        growth += self.extent[parent as usize].half_area() - old_area + self.refit(above);
+        growth += self[parent].area - old_area + self.refit(above);
         if growth < 0.0 {
             return;
         }
@@ -163,38 +208,43 @@ impl Links {
 
     /// Makes `children` the children of `parent`.
     fn join(&mut self, parent: u32, children: [u32; 2]) {
-        self.children[parent as usize] = children;
-        children.iter().for_each(|&child| self.parent[child as usize] = parent);
-        let [a, b] = children.map(|child| self.extent[child as usize]);
-        self.extent[parent as usize] = a.union(b);
-        self.height[parent as usize] = self.height_over(parent);
+        self[parent].children = children;
+        children.iter().for_each(|&child| self[child].parent = parent);
+        let extent = self.extent_over(parent);
+        self[parent].set(extent);
+        self[parent].height = self.height_over(parent);
+    }
+
+    fn extent_over(&self, at: u32) -> Extent {
+        let [a, b] = self[at].children.map(|child| self[child].extent);
+        a.union(b)
     }
 
     fn height_over(&self, at: u32) -> u32 {
-        let [a, b] = self.children[at as usize].map(|child| self.height[child as usize]);
+        let [a, b] = self[at].children.map(|child| self[child].height);
         1 + a.max(b)
     }
 
     fn replace(&mut self, parent: u32, old: u32, new: u32) {
-        let slot = usize::from(self.children[parent as usize][1] == old);
-        self.children[parent as usize][slot] = new;
-        self.parent[new as usize] = parent;
+        let slot = usize::from(self[parent].children[1] == old);
+        self[parent].children[slot] = new;
+        self[new].parent = parent;
     }
 
     /// Recomputes boxes and heights from `at` up, as far as they change; by how much their areas have grown together.
     fn refit(&mut self, mut at: u32) -> f64 {
         let mut growth = 0.0;
         while at != NONE {
-            let [left, right] = self.children[at as usize].map(|child| self.extent[child as usize]);
-            let (old, new) = (self.extent[at as usize], left.union(right));
-            let height = self.height_over(at);
-            if old.min == new.min && old.max == new.max && self.height[at as usize] == height {
+            let (new, height) = (self.extent_over(at), self.height_over(at));
+            let link = &mut self[at];
+            if link.extent.min == new.min && link.extent.max == new.max && link.height == height {
                 break;
             }
-            self.height[at as usize] = height;
-            growth += new.half_area() - old.half_area();
-            self.extent[at as usize] = new;
-            at = self.parent[at as usize];
+            let old_area = link.area;
+            link.set(new);
+            link.height = height;
+            growth += link.area - old_area;
+            at = link.parent;
         }
         growth
     }
@@ -205,8 +255,8 @@ impl Links {
         let mut stack = vec![0];
         while let Some(at) = stack.pop() {
             order.push(at);
-            let [left, right] = self.children[at as usize];
-            if left != NONE {
+            if !self[at].is_leaf() {
+                let [left, right] = self[at].children;
                 stack.extend([right, left]);
             }
         }
@@ -214,18 +264,21 @@ impl Links {
         let mut number = vec![0; order.len()];
         (0..).zip(&order).for_each(|(new, &old): (u32, &u32)| number[old as usize] = new);
         let mut references = Vec::with_capacity(tree.references.len());
-        let node = |&at: &u32| {
+        let mut starts = Vec::with_capacity(order.len());
+        for &at in &order {
+            starts.push(references.len() as u32);
+            if let Content::Leaf { first, count } = tree.nodes[at as usize].content {
+                references.extend_from_slice(&tree.references[first as usize..(first + count) as usize]);
+            }
+        }
+        let node = |(&at, &first): (&u32, &u32)| {
             let content = match tree.nodes[at as usize].content {
-                Content::Inner(_) => Content::Inner(self.children[at as usize].map(|child| number[child as usize])),
-                Content::Leaf { first, count } => {
-                    let start = references.len() as u32;
-                    references.extend_from_slice(&tree.references[first as usize..(first + count) as usize]);
-                    Content::Leaf { first: start, count }
-                }
+                Content::Inner(_) => Content::Inner(self[at].children.map(|child| number[child as usize])),
+                Content::Leaf { count, .. } => Content::Leaf { first, count },
             };
-            BinaryNode { bounds: self.extent[at as usize].into(), content }
+            BinaryNode { bounds: self[at].extent.into(), content }
         };
-        let nodes = order.iter().map(node).collect();
+        let nodes = order.par_iter().zip(&starts).map(node).collect();
         BinaryTree { nodes, references }
     }
 }
@@ -272,17 +325,16 @@ mod tests {
     fn the_search_finds_what_trying_every_place_finds() {
         let tree = binary(&soup(400, 23), Splits::Object);
         let links = Links::new(&tree);
-        let total = |links: &Links| links.extent.iter().map(Extent::half_area).sum::<f64>();
+        let total = |links: &Links| links.0.iter().map(|link| link.area).sum::<f64>();
         let before = total(&links);
         for at in 1..tree.nodes.len() as u32 {
             let gain = |target: u32| {
-                let mut moved =
-                    Links { parent: links.parent.clone(), children: links.children.clone(), ..Links::new(&tree) };
+                let mut moved = links.clone();
                 moved.relocate(at, target);
                 before - total(&moved)
             };
             let most = (1..tree.nodes.len() as u32).map(gain).fold(0.0, f64::max);
-            let found = links.search(at).map_or(0.0, gain);
+            let found = links.search(at, &mut vec![]).map_or(0.0, gain);
             assert!((most - found).abs() <= 1e-12 * before, "{at}: {found} instead of {most}");
         }
     }
@@ -306,7 +358,7 @@ mod tests {
         assert!(reinsert(BinaryTree::default(), 4).nodes.is_empty());
         for mesh in [nested, coincident] {
             let tree = reinsert(binary(&mesh, Splits::Object), 4);
-            assert!(Links::new(&tree).height[0] <= DEEPEST);
+            assert!(Links::new(&tree)[0].height <= DEEPEST);
             covers(&tree, &mesh, 25);
         }
     }

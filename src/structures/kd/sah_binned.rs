@@ -6,7 +6,7 @@ use super::config::{Plane, Stop};
 use super::sah::{CostModel, SideAreas};
 use super::sah_sweep::{Events, PARALLEL};
 use crate::geometry::Aabb;
-use crate::structures::split::{PLANES, Part, PlaneCut, Planes, Reference, Sample, at_plane};
+use crate::structures::split::{PLANES, Part, PlaneCut, Planes, Sample, at_plane};
 
 /// References in ascending order of triangles; with their events once they are few.
 pub(super) enum Binned {
@@ -43,8 +43,7 @@ impl Counts {
 
 impl Binned {
     pub fn all(context: &Context) -> Self {
-        let references = context.mesh.solid().map(|id| Reference::whole(context.mesh, id)).collect();
-        Self::new(context, Part::new(references))
+        Self::new(context, Part::whole(context.mesh))
     }
 
     pub fn into_part(self) -> Part {

@@ -57,7 +57,7 @@ pub(crate) fn build(mesh: &Mesh, config: &SplitConfig) -> BinaryTree {
 
 pub(super) fn growth(mesh: &Mesh, config: &SplitConfig) -> Growth {
     let context = Context::new(mesh, config);
-    let root = Part::new(context.references());
+    let root = Part::whole(mesh);
     let mut growth = Growth::default();
     if !root.references.is_empty() {
         let budget = f64::from(config.duplication) * root.references.len() as f64;
@@ -71,11 +71,6 @@ impl<'a> Context<'a> {
         let root_area = Extent::from(mesh.bounds()).half_area();
         let depth = 16 + 2 * (usize::BITS - mesh.len().leading_zeros());
         Self { mesh, config, costs: CostModel::new(config), root_area, depth }
-    }
-
-    /// The triangles that have an area, whole.
-    pub fn references(&self) -> Vec<Reference> {
-        self.mesh.solid().map(|id| Reference::whole(self.mesh, id)).collect()
     }
 }
 

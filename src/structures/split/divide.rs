@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use super::build::{CHUNK, PARALLEL};
 use super::cost::WIDTH;
 use super::object::{Group, median, order};
-use super::reference::Reference;
+use super::reference::{Reference, bounds};
 use super::spatial::Cut;
 use crate::geometry::Mesh;
 use crate::structures::extent::Extent;
@@ -18,7 +18,16 @@ pub(in crate::structures) struct Part {
 
 impl Part {
     pub fn new(references: Vec<Reference>) -> Self {
-        let extent = super::reference::bounds(&references);
+        let extent = bounds(&references);
+        Self { references, extent }
+    }
+
+    /// The triangles of `mesh` that have an area, whole.
+    pub fn whole(mesh: &Mesh) -> Self {
+        let ids: Vec<u32> = mesh.solid().collect();
+        let references: Vec<Reference> =
+            ids.into_par_iter().with_min_len(CHUNK).map(|id| Reference::whole(mesh, id)).collect();
+        let extent = references.par_chunks(CHUNK).map(bounds).reduce(|| Extent::EMPTY, Extent::union);
         Self { references, extent }
     }
 

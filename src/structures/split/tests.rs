@@ -5,7 +5,7 @@ use rand_pcg::Pcg32;
 use super::build::{Context, growth};
 use super::object::cheapest_group;
 use super::planes::Planes;
-use super::reference::{Reference, bounds};
+use super::reference::bounds;
 use super::sample::Sample;
 use super::spatial::{Cut, Slots, cheapest_cut};
 use super::*;
@@ -133,8 +133,7 @@ fn no_candidate_is_cheaper_than_the_cut_that_is_chosen() {
         let config = SplitConfig { refined: u32::MAX, ..SplitConfig::new(Splits::Spatial, Quality::High) };
         for config in [SplitConfig { chopped: 0, ..config }, config] {
             let context = Context::new(&mesh, &config);
-            let references: Vec<Reference> = context.references();
-            let extent = bounds(&references);
+            let Part { references, extent } = Part::whole(&mesh);
             let found = cheapest_cut(&context, &references, extent, f64::INFINITY, &mut Slots::new()).unwrap();
 
             let mut least = f64::INFINITY;
@@ -180,8 +179,8 @@ fn no_grouping_by_centres_is_cheaper_than_the_one_that_is_chosen() {
         let mesh = soup(9 + seed as usize, seed);
         let config = SplitConfig { exact: 128, ..SplitConfig::new(Splits::Object, Quality::High) };
         let context = Context::new(&mesh, &config);
-        let references = context.references();
-        let area = bounds(&references).half_area();
+        let Part { references, extent } = Part::whole(&mesh);
+        let area = extent.half_area();
         let found = cheapest_group(&context, &references, area).unwrap();
         let mut least = f64::INFINITY;
         for axis in 0..3 {

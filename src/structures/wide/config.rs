@@ -61,11 +61,11 @@ impl WideConfig {
     pub(super) fn divide(&self, mesh: &Mesh) -> Result<BinaryTree, BuildError> {
         // Trees without object splits have twice the nodes and less to gain.
         let passes = match (self.quality, self.partition) {
-            (Quality::Fast, Partition::Objects) => 1,
+            (Quality::Fast, Partition::Objects) => 2,
             (Quality::Fast, _) => 0,
-            (Quality::Balanced, Partition::Objects | Partition::Hybrid) => 2,
-            (Quality::Balanced, _) => 1,
-            (Quality::High, _) => 4,
+            (Quality::Balanced, Partition::Objects | Partition::Hybrid) => 4,
+            (Quality::Balanced, _) => 3,
+            (Quality::High, _) => 8,
         };
         // Making references is what takes the time where planes cut triangles.
         let duplication = if self.quality == Quality::Fast { self.duplication.min(1.75) } else { self.duplication };
