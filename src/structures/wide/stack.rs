@@ -12,11 +12,23 @@ pub(super) const DEPTH: usize = 100;
 pub(super) const SIZE: usize = DEPTH * (WIDTH - 1) + WIDTH;
 
 /// Children, the next one on top, and where the ray enters them. Not initialised: that would cost more than a short walk.
+///
+/// Where it lies matters: eight entries are written at once, and a processor may take ten times as long for a write across the
+/// border of two pages. So the parts that most walks use, the first few dozen entries of both arrays, had better lie within one
+/// page, see [`OnePage`].
+#[repr(C)]
 pub(super) struct Stack {
     children: [MaybeUninit<Child>; SIZE],
     enters: [MaybeUninit<f32>; SIZE],
     len: usize,
 }
+
+/// What begins with a page of memory.
+#[repr(align(4096))]
+pub(super) struct OnePage<T>(pub T);
+
+/// Entries of the second array that lie within the page.
+const _: () = assert!(4096 / size_of::<Child>() - SIZE > 300);
 
 impl Stack {
     #[inline(always)]

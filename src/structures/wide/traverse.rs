@@ -11,7 +11,7 @@
 use super::WideTree;
 use super::beam::Beam;
 use super::node::{Child, WIDTH};
-use super::stack::Stack;
+use super::stack::{OnePage, Stack};
 use crate::accel::Observer;
 use crate::geometry::{Hit, Ray};
 use crate::simd::Sieve;
@@ -42,7 +42,7 @@ impl<T: TriangleTest> WideTree<T> {
         nearest: &mut Nearest<T::Depth>,
         observer: &mut O,
     ) {
-        let mut stack = Stack::new();
+        let OnePage(stack) = &mut OnePage(Stack::new());
         let mut end = after(nearest.t);
         loop {
             let next = if let Some((first, count)) = child.blocks() {
