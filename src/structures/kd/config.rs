@@ -190,7 +190,7 @@ impl KdConfig {
     pub const fn cells(quality: Quality) -> Self {
         let (exact, candidates, sample, traversal_cost) = match quality {
             Quality::Fast => (0, 12, 512, 1.0),
-            Quality::Balanced => (64, 32, 16384, 0.2),
+            Quality::Balanced => (24, 24, 16384, 0.2),
             Quality::High => (1 << 16, 62, 1 << 16, 0.2),
         };
         let plane = Plane::SahBinned;
