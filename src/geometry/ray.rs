@@ -2,7 +2,7 @@
 
 use std::num::NonZeroU32;
 
-use glam::Vec3;
+use glam::{Vec3, Vec3A};
 
 /// The points `origin + t * direction` with `t_min <= t < t_max`.
 ///
@@ -40,8 +40,9 @@ impl Ray {
     #[inline(always)]
     pub fn is_valid(&self) -> bool {
         let (t_min, t_max) = self.interval();
-        let finite = self.origin.is_finite() && self.direction.is_finite();
-        finite && self.direction != Vec3::ZERO && !self.t_min.is_nan() && t_min < t_max
+        let (origin, direction) = (Vec3A::from(self.origin), Vec3A::from(self.direction));
+        let finite = (origin.is_finite_mask() & direction.is_finite_mask()).all();
+        finite && direction != Vec3A::ZERO && !self.t_min.is_nan() && t_min < t_max
     }
 
     /// The point at `t`, rounded.

@@ -1,5 +1,7 @@
 //! A ray as traversals see it: where it crosses axis-aligned planes, with the slack that keeps rounding from losing a hit.
 
+use glam::Vec3A;
+
 use crate::geometry::{Aabb, Ray};
 use crate::simd::Lanes;
 
@@ -44,15 +46,18 @@ pub(crate) fn lanes_after<L: Lanes<8>>(t: L) -> L {
 /// computed with it has no answer.
 #[inline(always)]
 pub(crate) fn inverses(ray: &Ray, bounds: &Aabb) -> [f32; 3] {
-    let reach = ray.origin.abs() + bounds.min.abs().max(bounds.max.abs());
+    // All three axes at once: what is done for each ray is much of what a ray costs.
+    let (origin, direction) = (Vec3A::from(ray.origin), Vec3A::from(ray.direction));
+    let (min, max) = (Vec3A::from(bounds.min), Vec3A::from(bounds.max));
+    let reach = origin.abs() + min.abs().max(max.abs());
     if !reach.is_finite() {
         // Also where the box is empty.
         return [f32::NAN; 3];
     }
-    ray.direction.to_array().map(|d| {
-        let inverse = 1.0 / d;
-        if inverse.is_normal() || d == 0.0 { inverse } else { f32::NAN }
-    })
+    let inverse = direction.recip();
+    let size = inverse.abs();
+    let is_normal = size.cmpge(Vec3A::splat(f32::MIN_POSITIVE)) & size.cmplt(Vec3A::INFINITY);
+    Vec3A::select(is_normal | direction.cmpeq(Vec3A::ZERO), inverse, Vec3A::NAN).to_array()
 }
 
 impl Line {

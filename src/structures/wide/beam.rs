@@ -1,5 +1,7 @@
 //! A ray as wide nodes see it.
 
+use glam::Vec3A;
+
 use super::node::{Node, WIDTH};
 use crate::geometry::{Aabb, Ray};
 use crate::simd::{Lanes, each};
@@ -42,8 +44,8 @@ impl<L: Lanes<WIDTH>> Beam<L> {
     /// For boxes in `bounds`.
     #[inline(always)]
     pub fn new(ray: &Ray, bounds: &Aabb, t_min: f32) -> Self {
-        let [x, y, z] = ray.direction.to_array().map(|d| usize::from(d.is_sign_negative()));
-        Self::of(ray.origin.to_array(), inverses(ray, bounds), t_min, x | y << 1 | z << 2)
+        let octant = Vec3A::from(ray.direction).is_negative_bitmask();
+        Self::of(ray.origin.to_array(), inverses(ray, bounds), t_min, octant as usize)
     }
 
     /// From its parts.
