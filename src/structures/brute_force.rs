@@ -37,7 +37,8 @@ impl<T: TriangleTest> BruteForce<T> {
 impl<T: TriangleTest> Walk for BruteForce<T> {
     #[inline(always)]
     fn walk<const ANY: bool, L: Sieve, O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit> {
-        let (prepared, t_min, mut nearest) = start::<T>(ray)?;
+        let (t_min, mut nearest) = start::<T>(ray)?;
+        let prepared = T::prepare(ray);
         observer.leaf(self.references as u32);
         let count = self.references as u32;
         let tests = search::<ANY, 8, L, T>(&self.blocks, count, &prepared, t_min, &mut nearest, &mut None);

@@ -153,9 +153,11 @@ pub(in crate::structures) fn settle<const N: usize, T: TriangleTest>(
     }
 }
 
-/// What every query starts with: the prepared ray and its interval, or nothing when the ray can hit nothing.
+/// What every query starts with: where its interval begins and the search up to its end, or nothing when the ray can hit nothing.
+///
+/// The prepared ray is not among them: handed out of here it would be copied, and the processor waits for what it has just written.
 #[inline(always)]
-pub(crate) fn start<T: TriangleTest>(ray: &Ray) -> Option<(T::Ray, f32, Nearest<T::Depth>)> {
+pub(crate) fn start<T: TriangleTest>(ray: &Ray) -> Option<(f32, Nearest<T::Depth>)> {
     let (t_min, t_max) = ray.interval();
-    ray.is_valid().then(|| (T::prepare(ray), t_min, Nearest::until(T::last(t_max))))
+    ray.is_valid().then(|| (t_min, Nearest::until(T::last(t_max))))
 }

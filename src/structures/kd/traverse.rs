@@ -28,7 +28,8 @@ const STACK: usize = 64;
 impl<T: TriangleTest> Walk for KdTree<T> {
     #[inline(always)]
     fn walk<const ANY: bool, L: Sieve, O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit> {
-        let (prepared, t_min, mut nearest) = start::<T>(ray)?;
+        let (t_min, mut nearest) = start::<T>(ray)?;
+        let prepared = T::prepare(ray);
         let line = Line::new(ray, &self.bounds);
         let mut mailbox = self.config.mailbox.then_some(Mailbox::EMPTY);
         let mut leaves = Leaves::enter(self, &line, t_min, nearest.t)?;

@@ -24,7 +24,7 @@ impl<T: TriangleTest> Start<T> {
     /// Nothing if the ray can hit nothing.
     #[inline(always)]
     pub fn new(ray: &Ray) -> Option<Self> {
-        start::<T>(ray).map(|(ray, t_min, nearest)| Self { ray, t_min, last: nearest.t })
+        start::<T>(ray).map(|(t_min, nearest)| Self { ray: T::prepare(ray), t_min, last: nearest.t })
     }
 
     /// Nothing found yet.

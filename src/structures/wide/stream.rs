@@ -99,7 +99,7 @@ impl<'a, L: Sieve, T: TriangleTest> Stream<'a, L, T> {
     /// Sends a ray on its way. Rays that are through are handed to `done` by their numbers.
     #[inline(always)]
     pub fn push<const ANY: bool>(&mut self, number: usize, ray: &Ray, mut done: impl FnMut(usize, Option<Hit>)) {
-        let Some((prepared, t_min, nearest)) = start::<T>(ray) else { return done(number, None) };
+        let Some((t_min, nearest)) = start::<T>(ray) else { return done(number, None) };
         while self.freed == 0 {
             self.round::<ANY>(&mut done);
         }
@@ -110,7 +110,7 @@ impl<'a, L: Sieve, T: TriangleTest> Stream<'a, L, T> {
         unsafe {
             let slot = self.free.get(self.freed);
             (&raw mut (*slot).beam).write(Beam::new(ray, &self.tree.bounds, t_min));
-            (&raw mut (*slot).ray).write(prepared);
+            (&raw mut (*slot).ray).write(T::prepare(ray));
             (&raw mut (*slot).t_min).write(t_min);
             (&raw mut (*slot).end).write(after(nearest.t));
             (&raw mut (*slot).nearest).write(nearest);

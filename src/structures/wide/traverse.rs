@@ -23,7 +23,8 @@ use crate::triangle::TriangleTest;
 impl<T: TriangleTest> Walk for WideTree<T> {
     #[inline(always)]
     fn walk<const ANY: bool, L: Sieve, O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit> {
-        let (prepared, t_min, mut nearest) = start::<T>(ray)?;
+        let (t_min, mut nearest) = start::<T>(ray)?;
+        let prepared = T::prepare(ray);
         let beam = Beam::<L>::new(ray, &self.bounds, t_min);
         self.descend::<ANY, L, O>(self.root, &beam, &prepared, t_min, &mut nearest, observer);
         nearest.hit()
