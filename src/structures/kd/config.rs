@@ -186,12 +186,13 @@ impl KdConfig {
     };
 
     /// The cells that a wide tree is made of: cheap steps, since three of them are one step of that tree, and the exact plane
-    /// only where nodes are small.
+    /// only where nodes are small. Among all planes are those that cut off empty space, which tight boxes do without: the larger the
+    /// nodes that are looked at exactly, the more the finished tree costs.
     pub const fn cells(quality: Quality) -> Self {
         let (exact, candidates, sample, traversal_cost) = match quality {
             Quality::Fast => (0, 12, 512, 1.0),
             Quality::Balanced => (24, 24, 16384, 0.2),
-            Quality::High => (1 << 16, 62, 1 << 16, 0.2),
+            Quality::High => (8, 62, 1 << 16, 0.2),
         };
         let plane = Plane::SahBinned;
         Self { plane, traversal_cost, empty_bonus: 0.2, duplication: 4.0, exact, candidates, sample, ..Self::SAH }

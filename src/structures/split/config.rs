@@ -52,13 +52,14 @@ pub enum Splits {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Quality {
-    /// Few candidates, few references that tell where to split a larger node; with planes alone also fewer references and larger leaves. 1.0 to 1.7 times obvhs `medium`, with planes alone 1.4 to 2.4, on two threads at
-    /// most 1.8 times; by the heuristic 0.96 to 1.09 times the cost of `Balanced`, with planes alone 1.5 to 2.1 times.
+    /// Few candidates, few references that tell where to split a larger node; with planes alone also fewer references and larger leaves.
+    /// 1.1 to 1.8 times obvhs `medium`, with planes alone 1.7 to 2.4, on two threads at most 1.8 times; by the heuristic 0.94 to 1.09 times
+    /// the cost of `Balanced`, with planes alone 1.5 to 2.1 times.
     Fast,
-    /// A closer look around the best plane, then parts of the tree move to better places. 0.23 to 1.03 times obvhs `very-slow`.
+    /// A closer look around the best plane, then parts of the tree move to better places. 0.18 to 0.91 times obvhs `very-slow`.
     #[default]
     Balanced,
-    /// Slices of triangles instead of boxes, more moves: costs up to 3 % less by the heuristic than `Balanced`, more on some meshes.
+    /// More planes, slices of triangles instead of boxes, more moves: by the heuristic 0.94 to 1.01 times the cost of `Balanced`.
     High,
 }
 
