@@ -103,3 +103,29 @@ impl Hit {
         self.t.to_bits() == other.t.to_bits() && self.prim == other.prim
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The naive twin: each number by itself.
+    #[test]
+    fn a_ray_is_valid_when_all_its_numbers_are() {
+        let numbers = [0.0, -0.0, 1e-45, -1.0, 2.0, f32::MAX, f32::INFINITY, f32::NEG_INFINITY, f32::NAN];
+        let mut valid = 0;
+        for case in 0..9usize.pow(4) {
+            let pick = |place: u32| numbers[case / 9usize.pow(place) % 9];
+            let (a, b, c, d) = (pick(0), pick(1), pick(2), pick(3));
+            let (t_min, t_max) = (if case % 2 == 0 { 0.0 } else { a }, if case % 3 == 0 { 1.0 } else { d });
+            for (origin, direction) in [([a, b, 1.0], [c, 1.0, d]), ([1.0, c, d], [a, b, 0.0]), ([0.0; 3], [a, b, c])] {
+                let ray = Ray { origin: origin.into(), t_min, direction: direction.into(), t_max };
+                let finite = origin.iter().chain(&direction).all(|x| x.is_finite());
+                let moves = direction.iter().any(|&x| x != 0.0);
+                let expected = finite && moves && !t_min.is_nan() && t_min.max(0.0) < t_max;
+                assert_eq!(ray.is_valid(), expected, "{ray:?}");
+                valid += u32::from(expected);
+            }
+        }
+        assert!(valid > 1000, "{valid}");
+    }
+}

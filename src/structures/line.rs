@@ -130,6 +130,35 @@ mod tests {
         assert_eq!(clip([2.0, 0.5, 0.5], [1.0, 0.0, 0.0]), None, "the box lies behind");
     }
 
+    /// The naive twin: each axis by itself.
+    #[test]
+    fn inverses_are_those_of_each_axis() {
+        let numbers =
+            [0.0, 1e-45, 2.9e-39, f32::MIN_POSITIVE, 1e-20, 1.0, -3.0, 8.6e37, f32::MAX, f32::INFINITY, f32::NAN];
+        let signed: Vec<f32> = numbers.iter().flat_map(|&x| [x, -x]).collect();
+        let boxes = [unit_box(), Aabb::EMPTY, Aabb { min: Vec3::splat(-3e38), max: Vec3::ZERO }];
+        let naive = |ray: &Ray, bounds: &Aabb| -> [f32; 3] {
+            let reach = |axis: usize| ray.origin[axis].abs() + bounds.min[axis].abs().max(bounds.max[axis].abs());
+            let known = (0..3).all(|axis| reach(axis).is_finite());
+            let inverse = |axis: usize| 1.0 / ray.direction[axis];
+            let usable = |axis: usize| inverse(axis).is_normal() || ray.direction[axis] == 0.0;
+            [0, 1, 2].map(|axis| if known && usable(axis) { inverse(axis) } else { f32::NAN })
+        };
+        for (i, &x) in signed.iter().enumerate() {
+            for (k, &y) in signed.iter().enumerate() {
+                let z = signed[(7 * i + 5 * k) % signed.len()];
+                for origin in [Vec3::ZERO, Vec3::new(y, 1.0, -2.0), Vec3::new(1.0, -3e38, 2.0)] {
+                    for bounds in &boxes {
+                        for ray in [Ray::new(origin, Vec3::new(x, y, z)), Ray::new(origin, Vec3::new(z, y, x))] {
+                            let bits = |inverses: [f32; 3]| inverses.map(|i| if i.is_nan() { 0 } else { i.to_bits() });
+                            assert_eq!(bits(inverses(&ray, bounds)), bits(naive(&ray, bounds)), "{ray:?} {bounds:?}");
+                        }
+                    }
+                }
+            }
+        }
+    }
+
     #[test]
     fn directions_too_short_to_invert_are_kept() {
         let (t0, t1) = clip([-2.0, 0.5, 0.5], [1e-40, 0.0, 0.0]).expect("the crossing is unknown, so it is kept");
