@@ -116,8 +116,13 @@ mod tests {
         for case in 0..9usize.pow(4) {
             let pick = |place: u32| numbers[case / 9usize.pow(place) % 9];
             let (a, b, c, d) = (pick(0), pick(1), pick(2), pick(3));
-            let (t_min, t_max) = (if case % 2 == 0 { 0.0 } else { a }, if case % 3 == 0 { 1.0 } else { d });
-            for (origin, direction) in [([a, b, 1.0], [c, 1.0, d]), ([1.0, c, d], [a, b, 0.0]), ([0.0; 3], [a, b, c])] {
+            let rays = [
+                ([a, b, 1.0], 0.0, [c, 1.0, d], 1.0),
+                ([1.0, c, d], -1.0, [a, b, 0.0], f32::INFINITY),
+                ([0.0; 3], 0.0, [a, b, c], d),
+                ([a, 0.0, 0.0], b, [0.0, c, 0.0], d),
+            ];
+            for (origin, t_min, direction, t_max) in rays {
                 let ray = Ray { origin: origin.into(), t_min, direction: direction.into(), t_max };
                 let finite = origin.iter().chain(&direction).all(|x| x.is_finite());
                 let moves = direction.iter().any(|&x| x != 0.0);

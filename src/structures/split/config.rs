@@ -59,7 +59,7 @@ pub enum Quality {
     /// A closer look around the best plane, then parts of the tree move to better places. 0.18 to 0.91 times obvhs `very-slow`.
     #[default]
     Balanced,
-    /// More planes, slices of triangles instead of boxes, more moves: by the heuristic 0.94 to 1.01 times the cost of `Balanced`.
+    /// Slices of triangles instead of boxes (for cells, more planes), more moves: by the heuristic 0.94 to 1.01 times the cost of `Balanced`.
     High,
 }
 
