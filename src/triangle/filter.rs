@@ -33,6 +33,7 @@ const SLACK: f32 = 2.0 * 40.0 * 2.0 / (1 << 24) as f32;
 /// (4 |s| + 12 E + 42) 2^-150, where TINY (1 + |s| + 2 E) is added. Far more, but the least number that is not denormal: for each sum with
 /// one that is, some processors take a hundred cycles.
 const TINY: f32 = f32::MIN_POSITIVE;
+const _: () = assert!(TINY.is_normal());
 /// Coordinates up to here cannot overflow: with them E is at most 2^41, |s| below 2^43, and no intermediate exceeds 2 E E |s|.
 const LARGE: f32 = (1_u64 << 40) as f32;
 
