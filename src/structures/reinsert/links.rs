@@ -126,23 +126,22 @@ impl Links {
     /// The nodes and references of `tree` as they are linked now, depth first.
     pub fn write(&self, tree: &BinaryTree) -> BinaryTree {
         let mut order = Vec::with_capacity(tree.nodes.len());
+        let mut number = vec![0; tree.nodes.len()];
+        let mut references = Vec::with_capacity(tree.references.len());
+        let mut starts = Vec::with_capacity(tree.nodes.len());
         let mut stack = vec![0];
         while let Some(at) = stack.pop() {
+            number[at as usize] = order.len() as u32;
             order.push(at);
-            if !self[at].is_leaf() {
-                let [left, right] = self[at].children;
-                stack.extend([right, left]);
-            }
-        }
-
-        let mut number = vec![0; order.len()];
-        (0..).zip(&order).for_each(|(new, &old): (u32, &u32)| number[old as usize] = new);
-        let mut references = Vec::with_capacity(tree.references.len());
-        let mut starts = Vec::with_capacity(order.len());
-        for &at in &order {
             starts.push(references.len() as u32);
-            if let Content::Leaf { first, count } = tree.nodes[at as usize].content {
-                references.extend_from_slice(&tree.references[first as usize..(first + count) as usize]);
+            match tree.nodes[at as usize].content {
+                Content::Leaf { first, count } => {
+                    references.extend_from_slice(&tree.references[first as usize..(first + count) as usize]);
+                }
+                Content::Inner(_) => {
+                    let [left, right] = self[at].children;
+                    stack.extend([right, left]);
+                }
             }
         }
         let node = |(&at, &first): (&u32, &u32)| {
