@@ -35,6 +35,7 @@ fn what_is_not_known_is_refused_with_what_is() {
     refuses(&["compare", "cube", "--workload", "primry"], &["primry", "primary, ", "shadow"]);
     refuses(&["compare", "--frobnicate"], &["--frobnicate"]);
     refuses(&["compare", "cube", "--threads", "0"], &["0"]);
+    refuses(&["compare", "cube", "--quality", "best"], &["best", "fast", "balanced", "high"]);
     refuses(&["frobnicate"], &["frobnicate"]);
     refuses(&["render", "cube"], &["--output"]);
     refuses(&["render", "cube", "-o", "x.png", "--view", "pretty"], &["pretty", "shaded", "heat"]);
