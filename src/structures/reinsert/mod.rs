@@ -17,9 +17,10 @@ use super::extent::Extent;
 use links::Links;
 use search::Search;
 
-/// Nodes whose moves are sought at the same time, at first; then as many as have been looked at. Near the root, moves are in each
-/// other's way; further down, threads that wait for each other cost more than the few moves that are spoilt.
-const BATCH: usize = 256;
+/// Nodes whose moves are sought at the same time, at first; then as many as have been looked at. Near the root moves are in each other's
+/// way: with 256, or made in another order than that of size, rays of indoor scenes took 0.9 to 1.2 times as many steps, for the same
+/// area. Further down, threads that wait for each other cost more than the few moves that are spoilt.
+const BATCH: usize = 64;
 
 /// The share of the nodes that the first pass looks at, those of the largest boxes; the k-th pass looks at the first k-th of them. With 0.6
 /// in place of 0.4, builds take 1.03 to 1.08 times as long, for 0.99 to 1.00 of the area and rays that are no faster.
@@ -36,17 +37,19 @@ pub(in crate::structures) fn reinsert(tree: BinaryTree, passes: u32) -> BinaryTr
         let looked_at = (order.len() as f64 / f64::from(pass)) as usize;
         let mut done = 0;
         while done < looked_at {
+            let end = looked_at.min(done + done.max(BATCH));
             // Neighbours in the tree read the same lines.
-            let mut batch = order[done..looked_at.min(done + done.max(BATCH))].to_vec();
+            let mut batch: Vec<(u32, usize)> = order[done..end].iter().copied().zip(done..end).collect();
             batch.par_sort_unstable();
-            let search = |open: &mut Vec<_>, &at: &u32| Search::best(&links, at, open);
-            let targets: Vec<Option<u32>> = batch.par_iter().map_init(Vec::new, search).collect();
-            for (&at, target) in batch.iter().zip(targets) {
-                if let Some(target) = target {
-                    links.relocate(at, target);
-                }
+            let search = |open: &mut Vec<_>, &(at, rank): &(u32, usize)| {
+                Search::best(&links, at, open).map(|target| (rank, at, target))
+            };
+            let mut moves: Vec<(usize, u32, u32)> = batch.par_iter().map_init(Vec::new, search).flatten().collect();
+            moves.sort_unstable();
+            for (_, at, target) in moves {
+                links.relocate(at, target);
             }
-            done += batch.len();
+            done = end;
         }
     }
     links.write(&tree)
