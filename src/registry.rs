@@ -5,23 +5,18 @@ mod peers;
 use std::panic::{self, AssertUnwindSafe};
 use std::sync::Arc;
 
-use serde_json::{Map, Value, json};
+use serde_json::{Map, Value};
 
 use crate::accel::{Accel, BuildError, Capabilities, DynAccel, Observed};
 use crate::geometry::Mesh;
 use crate::structures::obvhs::{Native, ObvhsBvh2, ObvhsConfig, ObvhsCwBvh, Over, RtTest};
-use crate::structures::split::Quality;
 use crate::structures::{BruteForce, KdConfig, KdTree, Partition, WideConfig, WideTree};
 use crate::triangle::{
     BaldwinWeber, EdgeF64, Exact, FilteredF64, MollerTrumbore, MollerTrumboreF64, Plucker, TriangleTest, Watertight,
 };
 use crate::validate::conformance::Subject;
 
-/// The key of a [`Quality`].
-const QUALITY: &str = "quality";
-
 /// The structures that a run can choose from, in the order of tables.
-#[derive(Clone)]
 pub struct Registry {
     entries: Vec<Entry>,
 }
@@ -40,8 +35,6 @@ pub struct Entry {
     /// [`Accel::CAPABILITIES`].
     pub capabilities: Capabilities,
     config: Value,
-    /// What is chosen without naming a quality gets this one.
-    quality: Option<Quality>,
     build: Build,
 }
 
@@ -143,18 +136,9 @@ impl Registry {
             conventions: A::CONVENTIONS,
             capabilities: A::CAPABILITIES,
             config,
-            quality: None,
             build,
         });
         self
-    }
-
-    /// The same structures; of those that have a [`Quality`], who names none gets this one, as if it had been named.
-    pub fn with_quality(&self, quality: Quality) -> Self {
-        let mut registry = self.clone();
-        let ours = |entry: &&mut Entry| entry.config.get(QUALITY).is_some_and(|own| *own == json!(Quality::default()));
-        registry.entries.iter_mut().filter(ours).for_each(|entry| entry.quality = Some(quality));
-        registry
     }
 
     /// All entries, in order.
@@ -234,13 +218,6 @@ impl Entry {
         let mut shown = vec![];
         if name_test {
             shown.push(format!("test={}", self.triangle_test));
-        }
-        if let Some(quality) = self.quality.filter(|_| overrides.iter().all(|(key, _)| *key != QUALITY)) {
-            let value = json!(quality);
-            if keys[QUALITY] != value {
-                shown.push(format!("{QUALITY}={}", value.as_str().expect("a name")));
-            }
-            keys.insert(QUALITY.into(), value);
         }
         for &(key, text) in overrides {
             let known: Vec<&str> = keys.keys().map(String::as_str).collect();
@@ -353,21 +330,6 @@ mod tests {
             assert!(choice.build(&Arc::new(empty())).is_err());
             assert!(choice.entry.absence().is_none());
         }
-    }
-
-    #[test]
-    fn a_quality_for_all_is_that_of_our_trees_that_name_none() {
-        let registry = Registry::builtin().with_quality(Quality::Fast);
-        let label = |spec: &str| registry.choose(spec).unwrap().label;
-        assert_eq!(label("sah-hybrid"), "sah-hybrid:quality=fast");
-        assert_eq!(label("sah-bvh:quality=high,batch=packets"), "sah-bvh:quality=high,batch=packets");
-        assert_eq!(label("sah-kd-wide:quality=balanced"), "sah-kd-wide");
-        // Trees without one, and what another project calls so.
-        let untouched = |choice: &Choice| choice.config == *choice.entry.config();
-        let all = registry.all();
-        let wide = ["sah-kd-wide", "sah-kd-tight", "sah-hybrid", "sah-bvh"];
-        assert!(all.iter().all(|choice| untouched(choice) != wide.contains(&choice.entry.name.as_str())));
-        assert!(Registry::builtin().with_quality(Quality::Balanced).all().iter().all(untouched));
     }
 
     #[test]

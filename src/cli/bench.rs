@@ -25,6 +25,9 @@ pub struct Args {
     /// A structure, with keys that differ from their defaults; may be repeated [default: one of each name but brute-force]
     #[arg(long, short, value_name = "NAME[:key=value,..]")]
     structure: Vec<String>,
+    /// How much time the builds of eight-wide trees may take, where a structure is named without a quality of its own
+    #[arg(long, value_parser = sources::QUALITIES)]
+    quality: Option<String>,
     /// A kind of rays; may be repeated [default: primary, shadow, diffuse]
     #[arg(long, short, value_name = "KIND")]
     workload: Vec<WorkloadKind>,
@@ -83,7 +86,7 @@ fn percent(text: &str) -> Result<f64, String> {
 
 pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Result<Verdict> {
     let names: Vec<String> = if args.scenes.is_empty() { SCENES.map(String::from).into() } else { args.scenes.clone() };
-    let mut structures = sources::structures(registry, &args.structure)?;
+    let mut structures = sources::structures_at(registry, &args.structure, args.quality.as_deref())?;
     if args.structure.is_empty() {
         structures.retain(|choice| choice.entry.name != BRUTE_FORCE);
     }

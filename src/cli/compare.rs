@@ -23,6 +23,9 @@ pub struct Args {
     /// A structure, with keys that differ from their defaults; may be repeated [default: all, one of each name]
     #[arg(long, short, value_name = "NAME[:key=value,..]")]
     structure: Vec<String>,
+    /// How much time the builds of eight-wide trees may take, where a structure is named without a quality of its own
+    #[arg(long, value_parser = sources::QUALITIES)]
+    quality: Option<String>,
     /// A kind of rays; may be repeated [default: primary, shadow, diffuse, random]
     #[arg(long, short, value_name = "KIND")]
     workload: Vec<WorkloadKind>,
@@ -70,7 +73,7 @@ const DEFAULT_WORKLOADS: [WorkloadKind; 4] =
 
 pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Result<Verdict> {
     // Everything that can be refused is refused before the long run.
-    let structures = sources::structures(registry, &args.structure)?;
+    let structures = sources::structures_at(registry, &args.structure, args.quality.as_deref())?;
     let threads = Threads::pinned(args.threads.into()).map_err(anyhow::Error::msg)?;
     let output = |path: &PathBuf| sources::output(path, &args.scenes, args.rays.file());
     let check = |path: &Option<PathBuf>| path.as_ref().map(output).transpose();

@@ -19,6 +19,9 @@ pub struct Args {
     /// A structure, with keys that differ from their defaults; may be repeated [default: all, one of each name]
     #[arg(long, short, value_name = "NAME[:key=value,..]")]
     structure: Vec<String>,
+    /// How much time the builds of eight-wide trees may take, where a structure is named without a quality of its own
+    #[arg(long, value_parser = sources::QUALITIES)]
+    quality: Option<String>,
     /// A kind of rays; may be repeated [default: primary, shadow, diffuse, random]
     #[arg(long, short, value_name = "KIND")]
     workload: Vec<WorkloadKind>,
@@ -50,7 +53,7 @@ const DEFAULT_WORKLOADS: [WorkloadKind; 4] =
     [WorkloadKind::Primary, WorkloadKind::Shadow, WorkloadKind::Diffuse, WorkloadKind::Random];
 
 pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Result<Verdict> {
-    let structures = sources::structures(registry, &args.structure)?;
+    let structures = sources::structures_at(registry, &args.structure, args.quality.as_deref())?;
     let check =
         |path: &Option<PathBuf>| path.as_deref().map(|path| sources::output(path, &args.scenes, [])).transpose();
     let (json, markdown) = (check(&args.export_json)?, check(&args.export_markdown)?);

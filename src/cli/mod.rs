@@ -32,7 +32,6 @@ use clap::{Parser, Subcommand};
 
 use crate::registry::Registry;
 use crate::simd::Level;
-use crate::structures::split::Quality;
 use crate::study::guarded;
 use terminal::{Colour, Terminal};
 
@@ -53,15 +52,6 @@ struct Cli {
     /// Run on these instructions instead of the best ones here: portable, avx2 or avx512; the answers are the same
     #[arg(long, global = true)]
     level: Option<Level>,
-    /// Build eight-wide trees that name no quality with this one instead of balanced: fast, balanced or high
-    #[arg(long, global = true, value_parser = quality)]
-    quality: Option<Quality>,
-}
-
-/// # Errors
-/// If there is no quality of that name, listing those there are.
-fn quality(name: &str) -> Result<Quality, serde_json::Error> {
-    serde_json::from_value(name.into())
 }
 
 #[derive(Debug, Subcommand)]
@@ -139,8 +129,6 @@ pub fn run(registry: &Registry, args: impl IntoIterator<Item = OsString>) -> Exi
     if let Some(level) = cli.level {
         level.choose();
     }
-    let asked = cli.quality.map(|quality| registry.with_quality(quality));
-    let registry = asked.as_ref().unwrap_or(registry);
     let terminal = Terminal::new(cli.color, cli.quiet);
     let command = cli.command.unwrap_or_else(|| Command::Compare(compare::Args::default()));
     // What `hard` runs in a process of its own tells it of a panic by ending with one.

@@ -117,6 +117,24 @@ pub fn structures(registry: &Registry, specs: &[String]) -> anyhow::Result<Vec<C
     Ok(choices)
 }
 
+/// The qualities that `--quality` takes.
+pub const QUALITIES: [&str; 3] = ["fast", "balanced", "high"];
+
+/// As [`structures`]; those that have the quality and are named without one get it, as if it had been named.
+///
+/// # Errors
+/// As [`structures`].
+pub fn structures_at(registry: &Registry, specs: &[String], quality: Option<&str>) -> anyhow::Result<Vec<Choice>> {
+    let Some(quality) = quality else { return structures(registry, specs) };
+    let at = |spec: String| {
+        let separator = if spec.contains(':') { ',' } else { ':' };
+        let better = format!("{spec}{separator}quality={quality}");
+        if spec.contains("quality=") || registry.choose(&better).is_err() { spec } else { better }
+    };
+    let specs: Vec<String> = self::specs(registry, specs).into_iter().map(at).collect();
+    structures(registry, &specs)
+}
+
 /// One structure.
 ///
 /// # Errors
@@ -150,4 +168,34 @@ pub fn known_tests(registry: &Registry, tests: &[String]) -> anyhow::Result<()> 
 pub fn guide(registry: &Registry) -> anyhow::Result<Choice> {
     let guide = registry.choose(SAH_TREE).ok().or_else(|| registry.all().into_iter().next());
     guide.context("no structure is registered: there is nothing to run")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_quality_is_that_of_the_trees_that_are_named_without_one() {
+        let registry = Registry::builtin();
+        let labels = |specs: &[&str], quality| -> Vec<String> {
+            let specs: Vec<String> = specs.iter().map(|&spec| spec.into()).collect();
+            let chosen = structures_at(&registry, &specs, quality).unwrap();
+            // What is kept of a choice is its label.
+            assert!(chosen.iter().all(|choice| registry.choose(&choice.label).unwrap().config == choice.config));
+            chosen.into_iter().map(|choice| choice.label).collect()
+        };
+        let named = ["median-kd", "sah-hybrid", "sah-bvh:batch=packets", "sah-kd-wide:quality=balanced"];
+        let fast = ["median-kd", "sah-hybrid:quality=fast", "sah-bvh:batch=packets,quality=fast", "sah-kd-wide"];
+        assert_eq!(labels(&named, Some("fast")), fast);
+        for quality in QUALITIES {
+            let all = labels(&[ALL], Some(quality));
+            assert_eq!(
+                all.iter().filter(|label| label.contains(quality)).count(),
+                if quality == "balanced" { 0 } else { 4 }
+            );
+            assert!(all.iter().filter(|label| label.starts_with("sah-")).count() == 5);
+        }
+        assert_eq!(labels(&[ALL], None), labels(&[ALL], Some("balanced")));
+        assert!(structures_at(&registry, &["octree".into()], Some("fast")).is_err());
+    }
 }

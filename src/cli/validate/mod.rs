@@ -28,6 +28,9 @@ pub struct Args {
     /// A structure, with keys that differ from their defaults; may be repeated [default: all, one of each name]
     #[arg(long, short, value_name = "NAME[:key=value,..]")]
     structure: Vec<String>,
+    /// How much time the builds of eight-wide trees may take, where a structure is named without a quality of its own
+    #[arg(long, value_parser = sources::QUALITIES)]
+    quality: Option<String>,
     /// Rays of each scene, shared out among the kinds; or a file of rays to replay
     #[arg(long, value_name = "N|F.rays", default_value = "10000")]
     rays: RaySource,
@@ -59,7 +62,7 @@ pub struct Args {
 }
 
 pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Result<Verdict> {
-    let structures = sources::structures(registry, &args.structure)?;
+    let structures = sources::structures_at(registry, &args.structure, args.quality.as_deref())?;
     let against = sources::structure(registry, &args.against)?;
     let replay = replayed(&args.rays, &args.scenes)?;
     anyhow::ensure!(
