@@ -4,7 +4,7 @@
 //! Bittner, Hapala, Havran: Fast Insertion-Based Optimization of Bounding Volume Hierarchies, Computer Graphics Forum 2013.
 //! Meister, Bittner: Parallel Reinsertion for Bounding Volume Hierarchy Optimization, Computer Graphics Forum 2018. We depart in
 //! that moves found together are tried one after the other, each only if it still pays, so that the result is the same for
-//! every number of threads; and in how many nodes a pass looks at.
+//! every number of threads; in how many nodes a pass looks at; and in that all passes share one order, that of the boxes before the first.
 
 mod links;
 mod relocate;
@@ -12,8 +12,7 @@ mod search;
 
 use rayon::prelude::*;
 
-use super::binary::{BinaryNode, BinaryTree};
-use super::extent::Extent;
+use super::binary::BinaryTree;
 use links::Links;
 use search::Search;
 
@@ -32,7 +31,7 @@ pub(in crate::structures) fn reinsert(tree: BinaryTree, passes: u32) -> BinaryTr
         return tree;
     }
     let mut links = Links::new(&tree);
-    let order = largest(&tree, ((tree.nodes.len() - 1) as f64 * SHARE) as usize);
+    let order = largest(&links, ((tree.nodes.len() - 1) as f64 * SHARE) as usize);
     for pass in 1..=passes {
         let looked_at = (order.len() as f64 / f64::from(pass)) as usize;
         let mut done = 0;
@@ -57,16 +56,15 @@ pub(in crate::structures) fn reinsert(tree: BinaryTree, passes: u32) -> BinaryTr
 }
 
 /// The `count` nodes below the root that have the largest boxes, the largest first.
-fn largest(tree: &BinaryTree, count: usize) -> Vec<u32> {
-    let area = |node: &BinaryNode| Extent::from(node.bounds).half_area();
+fn largest(links: &Links, count: usize) -> Vec<u32> {
     // As shares of the root's area, the large ones fit an `f32`, whatever the unit of length; what it cannot tell apart comes as in the tree.
     // They are not negative: their bits are in the same order.
-    let whole = Some(area(&tree.nodes[0])).filter(|&whole| whole > 0.0).unwrap_or(1.0);
+    let whole = Some(links[0].area).filter(|&whole| whole > 0.0).unwrap_or(1.0);
     let key = |at: u32| {
-        let share = (area(&tree.nodes[at as usize]) / whole) as f32;
+        let share = (links[at].area / whole) as f32;
         u64::from(!share.to_bits()) << 32 | u64::from(at)
     };
-    let mut keys: Vec<u64> = (1..tree.nodes.len() as u32).into_par_iter().map(key).collect();
+    let mut keys: Vec<u64> = (1..links.0.len() as u32).into_par_iter().map(key).collect();
     keys.select_nth_unstable(count);
     keys.truncate(count);
     keys.par_sort_unstable();
@@ -77,6 +75,7 @@ fn largest(tree: &BinaryTree, count: usize) -> Vec<u32> {
 mod tests {
     use super::*;
     use crate::structures::binary_check::{covers, disjoint, leaves, mesh, room, soup};
+    use crate::structures::extent::Extent;
     use crate::structures::split::{Quality, SplitConfig, Splits, build};
     use glam::Vec3;
 
@@ -163,7 +162,6 @@ mod tests {
     fn the_search_finds_what_trying_every_place_finds() {
         let tree = binary(&soup(400, 23), Splits::Object);
         let links = Links::new(&tree);
-
         let total = |links: &Links| links.0.iter().map(|link| link.area).sum::<f64>();
         let before = total(&links);
         for at in 1..tree.nodes.len() as u32 {
