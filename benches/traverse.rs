@@ -2,59 +2,55 @@
 
 mod common;
 
-use std::borrow::Cow;
-use std::hint::black_box;
+use std::time::Duration;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use sahara::accel::{Loaded, Query};
+use sahara::accel::DynAccel;
+use sahara::measure::{CpuClock, Pass, Stopwatch, SystemClock, Threads, Timed};
 use sahara::registry::Registry;
 use sahara::scene::{Sampling, Scene, Workload, WorkloadKind};
 
 const KINDS: [WorkloadKind; 4] =
     [WorkloadKind::Primary, WorkloadKind::Shadow, WorkloadKind::Diffuse, WorkloadKind::Random];
 
-/// Enough rays for a sample, few enough that even the median tree ends.
-const RAYS: usize = 16_384;
-
-/// Rays of a slice whose nodes are not all at hand when it is answered again.
-const SLICE: usize = 262_144;
-
-fn workloads(scene: &Scene, limit: usize) -> Vec<Workload> {
+/// The rays of the whole picture, as `sahara compare` takes them.
+fn workloads(scene: &Scene) -> Vec<Workload> {
     let caster =
         Registry::builtin().choose("sah-kd").expect("a registered name").build(&scene.mesh).expect("it builds");
-    let sampling = Sampling { limit, ..Sampling::of(scene) };
-    KINDS.iter().map(|&kind| Workload::new(scene, kind, &sampling, &*caster)).collect()
+    let sampling = Sampling { seed: 1, ..Sampling::of(scene) };
+    let workloads = KINDS.iter().map(|&kind| Workload::new(scene, kind, &sampling, &*caster));
+    workloads.filter(|workload| !workload.rays.is_empty()).collect()
 }
 
-fn trace(loaded: &dyn Loaded, query: Query, rays: usize) -> usize {
-    match query {
-        Query::Closest => {
-            let mut hits = vec![None; rays];
-            loaded.closest_hits(&mut hits);
-            hits.iter().flatten().count()
-        }
-        Query::Any => {
-            let mut hits = vec![false; rays];
-            loaded.any_hits(&mut hits);
-            hits.iter().filter(|&&hit| hit).count()
-        }
-    }
+/// Whole pictures, each after the same lead-in and on the same clock as in `sahara compare`: both say the same.
+fn bench(criterion: &mut Criterion, group: &str, name: &str, accel: &dyn DynAccel, workload: &Workload) {
+    let threads = Threads::pinned(1).expect("there is a thread");
+    let _pin = threads.pin();
+    let (system, own) = (SystemClock::start(), CpuClock::of_thread(&threads));
+    let watch = Stopwatch::new(own.as_ref().map_or(&system, |own| own));
+    let mut pass = Pass::new(accel, &workload.rays, workload.query, &threads);
+    let mut group = criterion.benchmark_group(format!("{group}/{}", workload.name));
+    group.sample_size(10).throughput(Throughput::Elements(workload.rays.len() as u64));
+    group.bench_function(name, |bencher| {
+        bencher.iter_custom(|passes| {
+            let one = |_| {
+                pass.clear();
+                Duration::from_nanos(pass.run(&watch)[0])
+            };
+            (0..passes).map(one).sum()
+        });
+    });
+    group.finish();
 }
 
 fn traverse(criterion: &mut Criterion) {
     for scene in common::scenes() {
-        let workloads = workloads(&scene, RAYS);
+        let workloads = workloads(&scene);
         for choice in common::structures(&scene.mesh) {
             let accel = choice.build(&scene.mesh).expect("a valid mesh builds");
-            for workload in workloads.iter().filter(|workload| !workload.rays.is_empty()) {
-                let name = format!("traverse/{}/{}", scene.name.to_lowercase(), workload.name);
-                let mut group = criterion.benchmark_group(name);
-                group.sample_size(10).throughput(Throughput::Elements(workload.rays.len() as u64));
-                let (loaded, rays) = (accel.load(Cow::Borrowed(&workload.rays)), workload.rays.len());
-                group.bench_function(choice.label.as_str(), |bencher| {
-                    bencher.iter(|| black_box(trace(black_box(&*loaded), workload.query, rays)));
-                });
-                group.finish();
+            for workload in &workloads {
+                let group = format!("traverse/{}", scene.name.to_lowercase());
+                bench(criterion, &group, &choice.label, accel.as_ref(), workload);
             }
         }
     }
@@ -64,19 +60,13 @@ fn traverse(criterion: &mut Criterion) {
 fn slices(criterion: &mut Criterion) {
     for name in ["dragon", "lucy"] {
         let scene = common::scene(name);
-        let workloads = workloads(&scene, SLICE);
+        let workloads = workloads(&scene);
         for batch in ["single", "packets", "interleaved"] {
             let spec = format!("sah-hybrid:test=moller-trumbore,batch={batch}");
             let choice = Registry::builtin().choose(&spec).expect("registered names");
             let accel = choice.build(&scene.mesh).expect("a valid mesh builds");
             for workload in &workloads {
-                let mut group = criterion.benchmark_group(format!("slices/{name}/{}", workload.name));
-                group.sample_size(10).throughput(Throughput::Elements(workload.rays.len() as u64));
-                let (loaded, rays) = (accel.load(Cow::Borrowed(&workload.rays)), workload.rays.len());
-                group.bench_function(batch, |bencher| {
-                    bencher.iter(|| black_box(trace(black_box(&*loaded), workload.query, rays)));
-                });
-                group.finish();
+                bench(criterion, &format!("slices/{name}"), batch, accel.as_ref(), workload);
             }
         }
     }

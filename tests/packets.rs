@@ -76,7 +76,7 @@ fn packets_and_interleaved_rays_answer_as_single_rays_do() {
     for name in ["teapot", "cornellbox", "dragon"] {
         let scene = Builtin::find(name).unwrap().scene(None).unwrap();
         let caster = registry.choose("sah-kd").unwrap().build(&scene.mesh).unwrap();
-        let sampling = Sampling::about(&scene, 1_000, 3);
+        let sampling = Sampling::some(&scene, 1_000, 3);
         let mut rays = bundles(&scene.mesh);
         for kind in [WorkloadKind::Primary, WorkloadKind::Shadow, WorkloadKind::Diffuse] {
             rays.extend(Workload::new(&scene, kind, &sampling, &*caster).rays);

@@ -84,7 +84,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
             choices,
             kinds: if args.stratum.is_empty() { RayKind::ALL.into() } else { args.stratum.clone() },
             replayed: replayed.clone(),
-            rays: args.rays.count(1) as usize,
+            rays: args.rays.number()?,
             runs: args.runs.into(),
             budget_ns: u64::from(args.budget) * 1_000_000_000,
             seed: args.seed,

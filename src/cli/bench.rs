@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use anyhow::Context;
 
 use super::progress::Progress;
+use super::rays::rays_or_all;
 use super::terminal::Terminal;
 use super::{Verdict, sources};
 use crate::measure::{Provenance, SystemClock, Threads};
@@ -50,9 +51,9 @@ pub struct Args {
     /// Samples of every case in each epoch
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u16).range(1..))]
     runs: u16,
-    /// Rays of a workload, at most
-    #[arg(long, value_name = "N", default_value_t = 4096, value_parser = clap::value_parser!(u32).range(1..=1 << 24))]
-    rays: u32,
+    /// Rays of a workload that are timed, at most, in whole tiles of the scene's picture
+    #[arg(long, value_name = "N|all", default_value = "all", value_parser = rays_or_all)]
+    rays: usize,
     /// Threads that build and trace; 1 is the unit of comparison
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: u16,
@@ -70,8 +71,8 @@ const WORKLOADS: [WorkloadKind; 3] = [WorkloadKind::Primary, WorkloadKind::Shado
 /// What the checks of a scene's answers may take is a quarter of this, nanoseconds.
 const CHECKS_NS: u64 = 4_000_000_000;
 
-/// A sample is never cut short by a budget: another run must take the same rays.
-const SAMPLE_NS: u64 = 60_000_000_000;
+/// Samples are never cut short by a budget: another run must take the same rays.
+const EPOCH_NS: u64 = u64::MAX;
 
 /// Epochs of a baseline that is kept, and the most where nothing is decided, as a multiple of those asked for.
 const MOST: u16 = 4;
@@ -105,10 +106,9 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
         rays: args.rays,
         runs: usize::from(first) * usize::from(args.runs),
         epochs: first.into(),
-        warmup: 1,
         twin: true,
         budget_ns: CHECKS_NS,
-        sample_ns: Some(SAMPLE_NS),
+        epoch_ns: Some(EPOCH_NS),
         seed: args.seed,
         threads: Threads::pinned(args.threads.into()).map_err(anyhow::Error::msg)?,
     };

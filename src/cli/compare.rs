@@ -32,20 +32,17 @@ pub struct Args {
     /// Threads that build and trace; 1 is the unit of comparison
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: u16,
-    /// Samples of every case, as many in each epoch
+    /// Samples of every case, as many in each epoch; fewer where there is not time for them all
     #[arg(long, value_name = "N", default_value_t = 15, value_parser = clap::value_parser!(u16).range(1..))]
     runs: u16,
     /// How often everything is built anew, so that the luck of placement is in the samples
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u16).range(1..))]
     epochs: u16,
-    /// Passes of every case before its samples, at least; more until they are steady
-    #[arg(long, value_name = "N", default_value_t = 1)]
-    warmup: u16,
-    /// Rays of a workload, at most; or a file of rays to replay, in place of workloads
-    #[arg(long, value_name = "N|F.rays", default_value = "16384")]
+    /// Rays of a workload that are timed, at most, in whole tiles of the scene's picture; or a file of rays to replay
+    #[arg(long, value_name = "N|all|F.rays", default_value = "all")]
     rays: RaySource,
-    /// Seconds that a scene may take: slow cases are timed on fewer rays to keep within them
-    #[arg(long, value_name = "SECONDS", default_value_t = 12, value_parser = clap::value_parser!(u32).range(1..=86400))]
+    /// Seconds that a scene may take: to keep within them slow cases are timed on fewer rays, then all are timed less often
+    #[arg(long, value_name = "SECONDS", default_value_t = 30, value_parser = clap::value_parser!(u32).range(1..=86400))]
     budget: u32,
     /// Seed of the rays and of the order of samples
     #[arg(long, value_name = "N", default_value_t = 1)]
@@ -90,13 +87,12 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
         guide: sources::guide(registry)?,
         workloads: if args.workload.is_empty() { DEFAULT_WORKLOADS.to_vec() } else { args.workload.clone() },
         replayed,
-        rays: args.rays.count(1),
+        rays: args.rays.count(),
         runs: args.runs.into(),
         epochs: args.epochs.into(),
-        warmup: args.warmup.into(),
         twin: true,
         budget_ns: u64::from(args.budget) * 1_000_000_000,
-        sample_ns: None,
+        epoch_ns: None,
         seed: args.seed,
         threads,
     };

@@ -1,120 +1,213 @@
-//! One structure answering one batch of rays.
+//! One structure answering one workload, as a renderer would have it answered.
 
 use std::borrow::Cow;
-use std::sync::Arc;
+use std::ops::Range;
+use std::time::Instant;
 
 use rayon::prelude::*;
 
-use super::pin::{self, Pin};
-use super::{RandomOrder, Timed, machine};
+use super::tiles::{TILE, tiles};
+use super::{RandomOrder, Stopwatch, Threads, Timed};
 use crate::accel::{DynAccel, Loaded, Query};
 use crate::geometry::{Hit, PrimId, Ray};
 
-/// The threads that build and trace; a clone is the same threads.
-#[derive(Clone)]
-pub struct Threads {
-    pool: Arc<rayon::ThreadPool>,
-    count: usize,
-    /// The core of each, where they are bound.
-    cores: Option<Vec<usize>>,
-}
-
-impl Threads {
-    /// Threads that run where the system likes.
-    ///
-    /// # Errors
-    /// If the system does not give that many threads; the sentence is its own.
-    pub fn new(count: usize) -> Result<Self, String> {
-        Self::on(count, None)
-    }
-
-    /// Threads each of which is bound to a core of its own, where the system allows that and has as many: to measure.
-    ///
-    /// # Errors
-    /// As [`Threads::new`].
-    pub fn pinned(count: usize) -> Result<Self, String> {
-        Self::on(count, pin::choose(count))
-    }
-
-    fn on(count: usize, cores: Option<Vec<usize>>) -> Result<Self, String> {
-        // What the load was before these threads made some.
-        machine::load_at_start();
-        let own = cores.clone();
-        let bind = move |i: usize| {
-            if let Some(cores) = &own {
-                pin::bind(&cores[i..=i]);
-            }
-        };
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(count).start_handler(bind);
-        Ok(Self { pool: Arc::new(pool.build().map_err(|error| error.to_string())?), count, cores })
-    }
-
-    /// The core of each thread; nothing where they are not bound.
-    pub fn cores(&self) -> Option<&[usize]> {
-        self.cores.as_deref()
-    }
-
-    /// Binds the calling thread, which traces when there is but one, until the guard is dropped. Nothing if these threads are not bound.
-    pub fn pin(&self) -> Option<Pin> {
-        if self.count == 1 { Pin::to(*self.cores.as_ref()?.first()?) } else { None }
-    }
-
-    pub fn count(&self) -> usize {
-        self.count
-    }
-
-    /// Runs `work` on these threads: all parallel iterators in it stay on them.
-    pub fn install<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R {
-        self.pool.install(work)
-    }
-}
-
-/// The answers to a batch.
+/// The answers to rays.
 enum Answers {
     Closest(Vec<Option<Hit>>),
     Any(Vec<bool>),
 }
 
-/// A structure, a batch of rays and a query: what is timed.
+/// Where the answers to some rays go.
+enum Slots<'a> {
+    Closest(&'a mut [Option<Hit>]),
+    Any(&'a mut [bool]),
+}
+
+impl Answers {
+    fn none(query: Query) -> Self {
+        match query {
+            Query::Closest => Self::Closest(vec![]),
+            Query::Any => Self::Any(vec![]),
+        }
+    }
+
+    fn resize(&mut self, count: usize) {
+        match self {
+            Self::Closest(hits) => hits.resize(count, None),
+            Self::Any(hits) => hits.resize(count, false),
+        }
+    }
+
+    /// Answers that no structure gives, or `otherwise` none.
+    fn fill(&mut self, otherwise: bool) {
+        let nowhere = Hit { t: f32::NAN, prim: PrimId::new(0) };
+        match self {
+            Self::Closest(hits) => hits.fill(otherwise.then_some(nowhere)),
+            Self::Any(hits) => hits.fill(otherwise),
+        }
+    }
+
+    /// The first `count` of them.
+    fn first(&mut self, count: usize) -> Slots<'_> {
+        match self {
+            Self::Closest(hits) => Slots::Closest(&mut hits[..count]),
+            Self::Any(hits) => Slots::Any(&mut hits[..count]),
+        }
+    }
+
+    fn checksum(&self, of: Range<usize>) -> u64 {
+        let number = |hit: &Hit| u64::from(hit.t.to_bits()) << 32 | u64::from(hit.prim.index());
+        match self {
+            Self::Closest(hits) => checksum(hits[of].iter().map(|hit| hit.as_ref().map_or(u64::MAX, number))),
+            Self::Any(hits) => checksum(hits[of].iter().map(|&hit| hit.into())),
+        }
+    }
+
+    fn len(&self) -> usize {
+        match self {
+            Self::Closest(hits) => hits.len(),
+            Self::Any(hits) => hits.len(),
+        }
+    }
+}
+
+impl<'a> Slots<'a> {
+    fn split(self, count: usize) -> (Self, Self) {
+        match self {
+            Self::Closest(hits) => {
+                let (own, rest) = hits.split_at_mut(count);
+                (Self::Closest(own), Self::Closest(rest))
+            }
+            Self::Any(hits) => {
+                let (own, rest) = hits.split_at_mut(count);
+                (Self::Any(own), Self::Any(rest))
+            }
+        }
+    }
+
+    /// Asks a piece, as many rays as there are slots.
+    fn ask(self, piece: &Piece) {
+        match self {
+            Self::Closest(hits) => piece.rays.closest_hits(hits),
+            Self::Any(hits) => piece.rays.any_hits(hits),
+        }
+    }
+
+    /// Asks one piece after the other.
+    fn ask_all(self, pieces: &[Piece]) {
+        pieces.iter().fold(self, |slots, piece| {
+            let (own, rest) = slots.split(piece.count);
+            own.ask(piece);
+            rest
+        });
+    }
+
+    /// Asks the pieces on all threads.
+    fn share(self, pieces: &[&Piece], threads: &Threads) {
+        let mut work = Vec::with_capacity(pieces.len());
+        pieces.iter().fold(self, |slots, &piece| {
+            let (own, rest) = slots.split(piece.count);
+            work.push((piece, own));
+            rest
+        });
+        threads.install(|| work.into_par_iter().for_each(|(piece, slots)| slots.ask(piece)));
+    }
+}
+
+/// Neighbouring rays that are handed over together, [`TILE`] at most.
+struct Piece<'a> {
+    rays: Box<dyn Loaded + 'a>,
+    count: usize,
+    /// The levels, by their place among those chosen, whose time this counts for: a bit each. None for a lead-in.
+    levels: u32,
+}
+
+/// FNV-1a over numbers (Fowler, Noll, Vo).
+pub fn checksum(numbers: impl Iterator<Item = u64>) -> u64 {
+    numbers.fold(0xcbf2_9ce4_8422_2325, |sum, number| (sum ^ number).wrapping_mul(0x0000_0100_0000_01b3))
+}
+
+/// `count` of `rays`, in order: one from each of `count` parts of equal length, at a seeded random place in it, so that the
+/// rows and columns of an image are not favoured. All rays when there are not more. For checks and counts; what is timed are [`tiles`].
+pub fn spread(rays: &[Ray], count: usize) -> Vec<Ray> {
+    if count >= rays.len() {
+        return rays.to_vec();
+    }
+    let mut random = RandomOrder::new(0);
+    let part = |i: usize| (i as u128 * rays.len() as u128 / count as u128) as usize;
+    (0..count).map(|i| rays[part(i) + random.below(part(i + 1) - part(i))]).collect()
+}
+
+/// A structure, a workload and a query: what is timed.
+///
+/// One thread takes the rays piece by piece in the order of the workload. Every pass begins with a lead-in that is not timed, over other rays of
+/// the kind where there are any: caches and predictors are then in the state that this structure leaves them in, and not in that of the
+/// structure that was timed before. Where the pass goes over tiles that are apart, each tile has a short lead-in as well.
 pub struct Pass<'a> {
     accel: &'a dyn DynAccel,
     threads: &'a Threads,
     all: &'a [Ray],
-    /// Rays of a pass.
-    count: usize,
-    /// The rays as the structure takes them: all at once on one thread, else in chunks. Nothing before the first pass over them.
-    loaded: Vec<Box<dyn Loaded + 'a>>,
+    lead_in: Vec<Piece<'a>>,
+    pieces: Vec<Piece<'a>>,
+    levels: usize,
     answers: Answers,
+    /// Of the lead-ins.
+    aside: Answers,
+    /// Where a pass takes all rays: how many of the last of them the lead-in takes as well, and a sum of their answers.
+    led_in: Option<(usize, u64)>,
+    /// Picoseconds that a ray of the last lead-in took.
+    lead_in_ps: u128,
     /// What `clear` fills in changes each time: a pass that leaves an answer as it was cannot give the same sum twice.
     filled: bool,
 }
 
-/// Rays that a thread takes at once: enough to hide the hand-over, few enough to share out evenly.
-const CHUNK: usize = 1024;
+/// The share of a workload that a lead-in before a pass has, unless the pass itself has fewer rays.
+const LEAD_IN_SHARE: usize = 8;
+
+/// What the lead-in before a tile may take, of as many rays as a whole tile has: longer than it takes to fetch what the tile needs into the
+/// caches, so that a structure which is slower than that does with fewer.
+const TILE_LEAD_IN_NS: u128 = 200_000;
 
 impl<'a> Pass<'a> {
+    /// A pass over all rays.
+    ///
     /// # Panics
     /// If there are no rays.
     pub fn new(accel: &'a dyn DynAccel, rays: &'a [Ray], query: Query, threads: &'a Threads) -> Self {
         assert!(!rays.is_empty(), "a pass has rays");
-        let answers = match query {
-            Query::Closest => Answers::Closest(vec![None; rays.len()]),
-            Query::Any => Answers::Any(vec![false; rays.len()]),
+        let (answers, aside) = (Answers::none(query), Answers::none(query));
+        let (lead_in, pieces) = (vec![], vec![]);
+        let mut pass = Self {
+            accel,
+            threads,
+            all: rays,
+            lead_in,
+            pieces,
+            levels: 0,
+            answers,
+            aside,
+            led_in: None,
+            lead_in_ps: 0,
+            filled: false,
         };
-        Self { accel, threads, all: rays, count: rays.len(), loaded: vec![], answers, filled: false }
+        pass.choose(&[0], 0);
+        pass
     }
 
-    /// Hands the rays over to the structure.
-    fn load(&mut self) {
-        let chunk = if self.threads.count == 1 { self.count } else { CHUNK };
-        self.loaded = if self.count == self.all.len() {
-            self.all.chunks(chunk).map(|rays| self.accel.load(Cow::Borrowed(rays))).collect()
-        } else {
-            spread_in_runs(self.all, self.count)
-                .chunks(chunk)
-                .map(|rays| self.accel.load(Cow::Owned(rays.to_vec())))
-                .collect()
-        };
+    fn piece(&self, first: usize, count: usize, levels: u32) -> Piece<'a> {
+        Piece { rays: self.accel.load(Cow::Borrowed(&self.all[first..first + count])), count, levels }
+    }
+
+    /// Neighbours up to `end`, the last of the workload before its first; in pieces that get smaller towards the end, so that some can be
+    /// left out.
+    fn before(&self, end: usize) -> impl Iterator<Item = Piece<'a>> {
+        let count = TILE.min(self.all.len());
+        let mut rest = if end < count { self.all.len() - count..self.all.len() } else { end - count..end };
+        std::iter::from_fn(move || {
+            let first = rest.start;
+            rest.start += rest.len().div_ceil(2);
+            (first < rest.start).then(|| self.piece(first, rest.start - first, 0))
+        })
     }
 
     /// Rays of the last pass that hit something.
@@ -126,178 +219,106 @@ impl<'a> Pass<'a> {
     }
 }
 
-/// `count` of `rays`, in order: one from each of `count` parts of equal length, at a seeded random place in it, so that the
-/// rows and columns of an image are not favoured. All rays when there are not more.
-pub fn spread(rays: &[Ray], count: usize) -> Vec<Ray> {
-    if count >= rays.len() {
-        return rays.to_vec();
-    }
-    let mut random = RandomOrder::new(0);
-    let part = |i: usize| (i as u128 * rays.len() as u128 / count as u128) as usize;
-    (0..count).map(|i| rays[part(i) + random.below(part(i + 1) - part(i))]).collect()
-}
-
-/// FNV-1a over numbers (Fowler, Noll, Vo).
-pub fn checksum(numbers: impl Iterator<Item = u64>) -> u64 {
-    numbers.fold(0xcbf2_9ce4_8422_2325, |sum, number| (sum ^ number).wrapping_mul(0x0000_0100_0000_01b3))
-}
-
-/// Rays that lie side by side and stay together where a part of them is timed: workloads go tile by tile, four by four.
-const TOGETHER: usize = 16;
-
-/// As [`spread`], but in runs of neighbours: what a ray costs depends on what the one before it has brought into the caches, and rays
-/// picked one by one would be dearer the fewer of them there are.
-pub fn spread_in_runs(rays: &[Ray], count: usize) -> Vec<Ray> {
-    let runs = count / TOGETHER;
-    if count >= rays.len() || runs < TOGETHER || !count.is_multiple_of(TOGETHER) {
-        return spread(rays, count);
-    }
-    let mut random = RandomOrder::new(0);
-    let all = rays.len() / TOGETHER;
-    let part = |i: usize| (i as u128 * all as u128 / runs as u128) as usize;
-    let run = |i: usize| {
-        let first = (part(i) + random.below(part(i + 1) - part(i))) * TOGETHER;
-        rays[first..first + TOGETHER].iter().copied()
-    };
-    (0..runs).flat_map(run).collect()
-}
-
 impl Timed for Pass<'_> {
     fn rays(&self) -> usize {
         self.all.len()
     }
 
-    fn restrict(&mut self, rays: usize) {
-        let rays = rays.min(self.all.len());
-        if rays != self.count {
-            (self.count, self.loaded) = (rays, vec![]);
+    fn choose(&mut self, levels: &[usize], epoch: usize) {
+        let tiles_of: Vec<_> = levels.iter().map(|&level| tiles(self.all.len(), level, epoch)).collect();
+        let own = &tiles_of[0];
+        let timed: usize = own.iter().map(ExactSizeIterator::len).sum();
+
+        // Where one of the other levels begins or ends within a tile, a piece ends.
+        let mut pieces = vec![];
+        let mut end = None;
+        for tile in own {
+            if levels[0] > 0 && end != Some(tile.start) {
+                pieces.extend(self.before(tile.start));
+            }
+            end = Some(tile.end);
+            let others = tiles_of[1..].iter().flatten();
+            let mut cuts: Vec<usize> = others.flat_map(|other| [other.start, other.end]).collect();
+            cuts.retain(|cut| tile.contains(cut));
+            cuts.extend([tile.start, tile.end]);
+            cuts.sort_unstable();
+            cuts.dedup();
+            for cut in cuts.windows(2) {
+                let holds = |tiles: &Vec<Range<usize>>| tiles.iter().any(|tile| tile.contains(&cut[0]));
+                let levels = tiles_of.iter().enumerate().map(|(i, tiles)| u32::from(holds(tiles)) << i).sum();
+                pieces.push(self.piece(cut[0], cut[1] - cut[0], levels));
+            }
         }
-        match &mut self.answers {
-            Answers::Closest(hits) => hits.resize(rays, None),
-            Answers::Any(hits) => hits.resize(rays, false),
-        }
+
+        let lead_in = (self.all.len() / LEAD_IN_SHARE).min(timed);
+        let first = self.all.len() - lead_in;
+        let starts = (first..self.all.len()).step_by(TILE);
+        self.lead_in = starts.map(|start| self.piece(start, TILE.min(self.all.len() - start), 0)).collect();
+        (self.pieces, self.levels) = (pieces, levels.len());
+        self.answers.resize(timed);
+        self.aside.resize(lead_in.max(TILE));
     }
 
-    /// Here the rays are loaded, before the first pass over them: [`clear`](Timed::clear) is not timed.
     fn clear(&mut self) {
-        if self.loaded.is_empty() {
-            self.load();
-        }
         self.filled = !self.filled;
-        let nowhere = Hit { t: f32::NAN, prim: PrimId::new(0) };
-        match &mut self.answers {
-            Answers::Closest(hits) => hits.fill(self.filled.then_some(nowhere)),
-            Answers::Any(hits) => hits.fill(self.filled),
+        self.answers.fill(self.filled);
+        self.aside.fill(self.filled);
+        let count = self.lead_in.iter().map(|piece| piece.count).sum();
+        let slots = self.aside.first(count);
+        let start = Instant::now();
+        if self.threads.count() > 1 {
+            slots.share(&self.lead_in.iter().collect::<Vec<_>>(), self.threads);
+        } else {
+            slots.ask_all(&self.lead_in);
         }
+        self.lead_in_ps = start.elapsed().as_nanos() * 1000 / count.max(1) as u128;
+        self.led_in = (self.answers.len() == self.all.len()).then(|| (count, self.aside.checksum(0..count)));
     }
 
-    fn run(&mut self) {
-        let loaded = &self.loaded[..];
-        assert!(!loaded.is_empty(), "a pass is cleared before it is run");
-        match (&mut self.answers, self.threads.count) {
-            (Answers::Closest(hits), 1) => loaded[0].closest_hits(hits),
-            (Answers::Any(hits), 1) => loaded[0].any_hits(hits),
-            (Answers::Closest(hits), _) => self.threads.install(|| {
-                let chunks = loaded.par_iter().zip(hits.par_chunks_mut(CHUNK));
-                chunks.for_each(|(rays, hits)| rays.closest_hits(hits));
-            }),
-            (Answers::Any(hits), _) => self.threads.install(|| {
-                let chunks = loaded.par_iter().zip(hits.par_chunks_mut(CHUNK));
-                chunks.for_each(|(rays, hits)| rays.any_hits(hits));
-            }),
+    fn run(&mut self, watch: &Stopwatch) -> Vec<u64> {
+        let mut ns = vec![0; self.levels];
+        if self.threads.count() > 1 {
+            // Threads share the rays of a level, so each level is timed apart; all rays come last, and their answers stay.
+            for level in (0..self.levels).rev() {
+                let of_level = |piece: &&Piece| piece.levels >> level & 1 == 1;
+                let pieces: Vec<&Piece> = self.pieces.iter().filter(of_level).collect();
+                let slots = self.answers.first(pieces.iter().map(|piece| piece.count).sum());
+                ns[level] = watch.time(|| slots.share(&pieces, self.threads));
+            }
+            return ns;
         }
+        let mut rest = self.answers.first(self.answers.len());
+        for run in self.pieces.chunk_by(|one, other| one.levels == other.levels) {
+            if run[0].levels == 0 {
+                let affordable = TILE_LEAD_IN_NS * 1000 / self.lead_in_ps.max(1);
+                let mut rays: usize = run.iter().map(|piece| piece.count).sum();
+                let mut run = run;
+                while let [first, rest @ ..] = run
+                    && rays as u128 > affordable
+                {
+                    (rays, run) = (rays - first.count, rest);
+                }
+                self.aside.first(rays).ask_all(run);
+                continue;
+            }
+            let count = run.iter().map(|piece| piece.count).sum();
+            let (own, others) = rest.split(count);
+            rest = others;
+            let took = watch.time(|| own.ask_all(run));
+            (0..self.levels).filter(|level| run[0].levels >> level & 1 == 1).for_each(|level| ns[level] += took);
+        }
+        ns
     }
 
     fn checksum(&self) -> u64 {
-        let number = |hit: &Hit| u64::from(hit.t.to_bits()) << 32 | u64::from(hit.prim.index());
-        match &self.answers {
-            Answers::Closest(hits) => checksum(hits.iter().map(|hit| hit.as_ref().map_or(u64::MAX, number))),
-            Answers::Any(hits) => checksum(hits.iter().map(|&hit| hit.into())),
-        }
+        self.answers.checksum(0..self.answers.len())
+    }
+
+    fn contradicts_itself(&self) -> bool {
+        let all = self.answers.len();
+        self.led_in.is_some_and(|(count, checksum)| checksum != self.answers.checksum(all - count..all))
     }
 }
 
 #[cfg(test)]
-mod tests {
-    use glam::Vec3;
-
-    use super::*;
-    use crate::accel::Accel;
-    use crate::geometry::Mesh;
-    use crate::structures::BruteForce;
-    use crate::triangle::MollerTrumbore;
-
-    fn triangle() -> Box<dyn DynAccel> {
-        let mesh = Mesh::new(vec![Vec3::ZERO, Vec3::X, Vec3::Y], vec![[0, 1, 2]]).unwrap();
-        Box::new(BruteForce::<MollerTrumbore>::build(&Arc::new(mesh), &Default::default()).unwrap())
-    }
-
-    /// `n` rays of which every second hits.
-    fn rays(n: usize) -> Vec<Ray> {
-        (0..n).map(|i| Ray::new(Vec3::new(0.2, 0.2, if i % 2 == 0 { -1.0 } else { 1.0 }), Vec3::Z)).collect()
-    }
-
-    #[test]
-    fn any_number_of_threads_gives_the_same_answers() {
-        let (accel, rays) = (triangle(), rays(5000));
-        let (one, three) = (Threads::new(1).unwrap(), Threads::new(3).unwrap());
-        for query in [Query::Closest, Query::Any] {
-            let sums = [&one, &three].map(|threads| {
-                let mut pass = Pass::new(accel.as_ref(), &rays, query, threads);
-                pass.clear();
-                pass.run();
-                assert_eq!(pass.hits(), 2500);
-                pass.checksum()
-            });
-            assert_eq!(sums[0], sums[1]);
-        }
-    }
-
-    #[test]
-    fn a_pass_that_answers_nothing_is_unsteady() {
-        let (accel, rays, threads) = (triangle(), rays(10), Threads::new(1).unwrap());
-        for query in [Query::Closest, Query::Any] {
-            let mut pass = Pass::new(accel.as_ref(), &rays, query, &threads);
-            let idle: Vec<u64> = (0..2)
-                .map(|_| {
-                    pass.clear();
-                    pass.checksum()
-                })
-                .collect();
-            assert_ne!(idle[0], idle[1]);
-        }
-    }
-
-    #[test]
-    fn a_restricted_pass_spreads_its_rays() {
-        let all: Vec<Ray> = (0..10).map(|i| Ray::new(Vec3::splat(i as f32), Vec3::X)).collect();
-        let parts: Vec<usize> =
-            spread(&all, 4).iter().map(|ray| [0, 0, 1, 1, 1, 2, 2, 3, 3, 3][ray.origin.x as usize]).collect();
-        assert_eq!(parts, [0, 1, 2, 3]);
-        assert_eq!(spread(&all, 20), all);
-
-        let (accel, rays, threads) = (triangle(), rays(9), Threads::new(1).unwrap());
-        let mut pass = Pass::new(accel.as_ref(), &rays, Query::Any, &threads);
-        pass.restrict(3);
-        pass.clear();
-        pass.run();
-        assert_eq!(pass.rays(), 9);
-        assert_eq!(pass.hits(), spread(&rays, 3).iter().filter(|ray| ray.origin.z < 0.0).count());
-    }
-
-    #[test]
-    fn many_rays_are_spread_in_runs_of_neighbours() {
-        let all: Vec<Ray> = (0..16 * 100 + 7).map(|i| Ray::new(Vec3::splat(i as f32), Vec3::X)).collect();
-        let part = spread_in_runs(&all, 512);
-        assert_eq!(part.len(), 512);
-        for (i, run) in part.chunks(16).enumerate() {
-            let first = run[0].origin.x as usize;
-            assert!(
-                first.is_multiple_of(16) && (i * 50 / 16..).contains(&(first / 16)) && first / 16 < (i + 1) * 50 / 16
-            );
-            assert!(run.iter().enumerate().all(|(k, ray)| ray.origin.x as usize == first + k));
-        }
-        assert_eq!(spread_in_runs(&all, 128), spread(&all, 128));
-        assert_eq!(spread_in_runs(&all, 5000), all);
-    }
-}
+mod tests;

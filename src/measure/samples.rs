@@ -1,37 +1,44 @@
 //! Taking samples of many cases, interleaved.
 
-use super::warm_up::WarmUp;
-use super::{Clock, RandomOrder};
+use super::tiles::{last_level, level_of, level_within, rays_at};
+use super::{Clock, RandomOrder, Stopwatch, median};
 
-/// Something to time: a batch of rays that can be made smaller.
+/// Something to time: a workload of which a part can be timed.
 pub trait Timed {
-    /// Rays of a whole pass, at least 1.
+    /// Rays of the workload, at least 1.
     fn rays(&self) -> usize;
 
-    /// From now on a pass takes `rays` of them, spread over the whole. Not timed.
-    fn restrict(&mut self, rays: usize);
+    /// From now on a pass takes the rays of the first of `levels`; those of the others are a part of them and are timed along. Which rays
+    /// these are, [`tiles`](super::tiles::tiles) says. Not timed.
+    fn choose(&mut self, levels: &[usize], epoch: usize);
 
-    /// Forgets all answers, so that a pass which does nothing is found out, and gets ready. Called before every pass. Not timed.
+    /// Forgets all answers, so that a pass which does nothing is found out, and leads in to the pass. Called before every pass. Not timed.
     fn clear(&mut self);
 
-    /// One pass. The only call that is timed.
-    fn run(&mut self);
+    /// One pass: nanoseconds of each level chosen.
+    fn run(&mut self, watch: &Stopwatch) -> Vec<u64>;
 
     /// A number made of all answers of the pass. Not timed.
     fn checksum(&self) -> u64;
+
+    /// Whether the pass answered otherwise than its lead-in, to the same rays. Not timed.
+    fn contradicts_itself(&self) -> bool;
 }
 
 /// How samples are taken.
 #[derive(Clone, Copy, Debug)]
 pub struct Plan {
-    /// Samples of every case, in each epoch.
+    /// Samples of every case in an epoch, at least 1; at most, where there is not time for them all.
     pub runs: usize,
-    /// What one sample may take, nanoseconds. A case that takes longer for all its rays runs on fewer.
-    pub sample_budget_ns: u64,
-    /// Passes of every case before its first sample, at least. More are run until they are [steady](WarmUp).
-    pub warmup: usize,
+    /// What the samples of all cases in an epoch may take together, nanoseconds. Where it is not enough, a case is timed on a part of its rays, the
+    /// slowest first.
+    pub budget_ns: u64,
+    /// Rays of a sample, at most.
+    pub most_rays: usize,
     /// Seed of the order.
     pub seed: u64,
+    /// Counted from 0.
+    pub epoch: usize,
 }
 
 /// The samples of one case.
@@ -39,17 +46,32 @@ pub struct Plan {
 pub struct Samples {
     /// Rays of a sample: fewer than the case has when it was slow.
     pub rays: usize,
-    /// Of the answers of the first epoch; the same in every sample of it.
+    /// Of the answers to those rays of the first epoch.
     pub checksum: u64,
     /// Whether structures that were built again gave the same answers.
     pub same_answers: bool,
-    /// Epochs in which the case did not become steady before its samples.
-    pub unsteady: usize,
     /// Nanoseconds of each sample, in the order of the rounds: those of two cases with the same index are a pair.
+    pub ns: Vec<u64>,
+    /// The same samples, for a part of their rays: as many as a slower case with the same rays is timed on.
+    pub parts: Vec<Part>,
+}
+
+/// A part of the samples of a case.
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Part {
+    /// Rays of it.
+    pub rays: usize,
+    /// Nanoseconds that they took of each sample.
     pub ns: Vec<u64>,
 }
 
 impl Samples {
+    /// Of a case that is timed on `rays` rays, before the first one is taken.
+    pub fn none(rays: usize) -> Self {
+        Self { rays, checksum: 0, same_answers: true, ns: vec![], parts: vec![] }
+    }
+
     /// Nanoseconds a ray, of each sample.
     pub fn ns_per_ray(&self) -> Vec<f64> {
         self.ns.iter().map(|&ns| ns.max(1) as f64 / self.rays as f64).collect()
@@ -58,35 +80,69 @@ impl Samples {
 
 /// A sample without an answer is not a measurement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("pass {pass} over the same rays gave other answers than the first one: the structure is not pure")]
+#[error("asked the same rays again, it gave other answers: the structure is not pure")]
 pub struct UnsteadyAnswers {
     /// Number of the case.
     pub case: usize,
-    /// Number of its pass, counted from 1 with the warm-up.
-    pub pass: usize,
 }
 
-/// The first pass of a case takes so many rays, to find out how slow it is.
+/// The first pass of a case takes so many rays at least, to find out how slow it is.
 const PILOT: usize = 64;
 
-/// Finds how many rays of each case fit `plan.sample_budget_ns`. No sample is taken yet; the numbers of rays may be changed before.
-pub fn begin(clock: &dyn Clock, cases: &mut [Box<dyn Timed + '_>], plan: &Plan) -> Vec<Samples> {
-    let none = |case: &mut Box<dyn Timed + '_>| {
-        let rays = fit(clock, case.as_mut(), plan.sample_budget_ns);
-        Samples { rays, checksum: 0, same_answers: true, unsteady: 0, ns: Vec::with_capacity(plan.runs) }
+/// A pass that takes longer says enough of the speed.
+const LONG_PILOT_NS: u64 = 5_000_000;
+
+/// Cases that take more than so many times as long as the median case do with fewer rays before all cases do with fewer samples.
+const SLOW: u64 = 8;
+
+/// Finds how many rays of each case and how many samples fit the budget; cases of equal `groups` get as many rays. No sample is taken yet.
+pub fn begin(
+    clock: &dyn Clock,
+    cases: &mut [Box<dyn Timed + '_>],
+    groups: &[usize],
+    plan: &Plan,
+) -> (usize, Vec<Samples>) {
+    let watch = Stopwatch::new(clock);
+    let paces: Vec<u64> = cases.iter_mut().map(|case| picoseconds(&watch, case.as_mut(), plan)).collect();
+    let all: Vec<usize> = cases.iter().map(|case| case.rays()).collect();
+    let mut levels: Vec<usize> = all.iter().map(|&rays| level_within(rays, plan.most_rays)).collect();
+    let cost = |case: usize, level: usize| {
+        // A lead-in is an eighth more.
+        (rays_at(all[case], level) as u128 * u128::from(paces[case]) * 9 / 8 / 1000) as u64
     };
-    cases.iter_mut().map(none).collect()
+
+    let mut runs = plan.runs;
+    loop {
+        let costs: Vec<u64> = levels.iter().enumerate().map(|(case, &level)| cost(case, level)).collect();
+        let total: u64 = costs.iter().sum();
+        if total.saturating_mul(runs as u64) <= plan.budget_ns {
+            break;
+        }
+        let middle = median(&costs.iter().map(|&ns| ns as f64).collect::<Vec<_>>()).unwrap_or(0.0);
+        let smaller = (0..costs.len()).filter(|&case| levels[case] < last_level(all[case]));
+        let slowest = smaller.max_by_key(|&case| costs[case]);
+        match slowest {
+            Some(case) if runs == 1 || costs[case] as f64 > SLOW as f64 * middle => {
+                let alike = |&other: &usize| groups[other] == groups[case];
+                (0..levels.len()).filter(alike).for_each(|other| levels[other] = levels[case].max(levels[other]));
+                (0..levels.len()).filter(alike).for_each(|other| levels[other] += 1);
+            }
+            None if runs == 1 => break,
+            _ => runs = (plan.budget_ns / total.max(1)).clamp(1, runs as u64 - 1) as usize,
+        }
+    }
+    (runs, levels.iter().zip(&all).map(|(&level, &all)| Samples::none(rays_at(all, level))).collect())
 }
 
-/// An epoch: adds `plan.runs` samples of every case, in each round every case once, in random order, after a warm-up. `samples` are what
-/// [`begin`] found, or those of earlier epochs of the same cases, whose structures have been built again. `progress` is
-/// told the number of samples taken, between them.
+/// An epoch: adds `plan.runs` samples of every case, in each round every case once, in random order. `samples` say on how many rays, and hold
+/// those of earlier epochs of the same cases, whose structures have been built again. `progress` is told the number of samples
+/// taken, between them.
 ///
 /// # Errors
 /// If a case gives different answers to the same rays.
 ///
 /// # Panics
-/// If there are not as many samples as cases.
+/// If there are not as many samples as cases, or they are of numbers of rays that are no level's.
 pub fn take(
     clock: &dyn Clock,
     cases: &mut [Box<dyn Timed + '_>],
@@ -95,39 +151,38 @@ pub fn take(
     progress: &mut dyn FnMut(usize),
 ) -> Result<(), UnsteadyAnswers> {
     assert_eq!(cases.len(), samples.len(), "samples are of the same cases");
-    let mut checksums = vec![];
-    let mut passes = vec![];
+    let watch = Stopwatch::new(clock);
+    let mut checksums = vec![None; cases.len()];
     for (i, (case, samples)) in cases.iter_mut().zip(samples.iter_mut()).enumerate() {
-        case.restrict(samples.rays);
-        let mut warm_up = WarmUp::default();
-        warm_up.pass(pass(clock, case.as_mut()));
-        let checksum = case.checksum();
-        while !warm_up.is_over(plan.warmup) {
-            warm_up.pass(pass(clock, case.as_mut()));
-            if case.checksum() != checksum {
-                return Err(UnsteadyAnswers { case: i, pass: warm_up.passes() });
-            }
+        let level_of = |rays: usize| level_of(case.rays(), rays).expect("a part is as large as a level");
+        let mut levels = vec![level_of(samples.rays)];
+        levels.extend(samples.parts.iter().map(|part| level_of(part.rays)));
+        // Each epoch has tiles of its own: those of the first tell whether the answers are the same.
+        if levels[0] > 0 {
+            case.choose(&levels[..1], 0);
+            pass(&watch, case.as_mut());
+            remember(samples, case.checksum(), plan.epoch);
+            checksums[i] = (plan.epoch == 0).then(|| case.checksum());
         }
-        if samples.ns.is_empty() {
-            samples.checksum = checksum;
-        }
-        samples.same_answers &= samples.checksum == checksum;
-        samples.unsteady += usize::from(!warm_up.is_steady());
-        checksums.push(checksum);
-        passes.push(warm_up.passes());
+        case.choose(&levels, plan.epoch);
     }
 
     // Every epoch has an order of its own.
-    let before = samples.first().map_or(0, |samples| samples.ns.len());
-    let mut order = RandomOrder::new(plan.seed.wrapping_add(before as u64));
+    let mut order = RandomOrder::new(plan.seed.wrapping_add(plan.epoch as u64));
     let mut taken = 0;
-    for round in 0..plan.runs {
+    for _ in 0..plan.runs {
         for i in order.shuffled(cases.len()) {
-            let ns = pass(clock, cases[i].as_mut());
-            if cases[i].checksum() != checksums[i] {
-                return Err(UnsteadyAnswers { case: i, pass: passes[i] + round + 1 });
+            let (case, samples) = (&mut cases[i], &mut samples[i]);
+            let ns = pass(&watch, case.as_mut());
+            let checksum = case.checksum();
+            if *checksums[i].get_or_insert(checksum) != checksum || case.contradicts_itself() {
+                return Err(UnsteadyAnswers { case: i });
             }
-            samples[i].ns.push(ns);
+            if samples.rays == case.rays() {
+                remember(samples, checksum, plan.epoch);
+            }
+            samples.ns.push(ns[0]);
+            samples.parts.iter_mut().zip(&ns[1..]).for_each(|(part, &ns)| part.ns.push(ns));
             taken += 1;
             progress(taken);
         }
@@ -135,32 +190,33 @@ pub fn take(
     Ok(())
 }
 
-/// The nanoseconds of one pass.
-fn pass(clock: &dyn Clock, case: &mut dyn Timed) -> u64 {
-    case.clear();
-    let start = clock.now_ns();
-    case.run();
-    clock.now_ns() - start
+/// Keeps the checksum of the first epoch, and compares those of later ones with it.
+fn remember(samples: &mut Samples, checksum: u64, epoch: usize) {
+    if epoch == 0 {
+        samples.checksum = checksum;
+    }
+    samples.same_answers &= samples.checksum == checksum;
 }
 
-/// How many rays of `case` take about `budget_ns`, or half of it: found by passes over more and more rays.
-fn fit(clock: &dyn Clock, case: &mut dyn Timed, budget_ns: u64) -> usize {
+/// One pass and what it took.
+fn pass(watch: &Stopwatch, case: &mut dyn Timed) -> Vec<u64> {
+    case.clear();
+    case.run(watch)
+}
+
+/// Picoseconds that a ray of `case` takes, about: of passes over more and more rays, until one says enough.
+fn picoseconds(watch: &Stopwatch, case: &mut dyn Timed, plan: &Plan) -> u64 {
     let all = case.rays();
-    let mut rays = PILOT.min(all);
+    let largest = level_within(all, plan.most_rays);
+    let mut level = (largest..=last_level(all)).rev().find(|&level| rays_at(all, level) >= PILOT).unwrap_or(largest);
     loop {
-        case.restrict(rays);
-        let mut ns = pass(clock, case).max(1);
-        // What seems slow may have been interrupted, or found cold caches: look again, twice.
-        if rays as u128 * u128::from(budget_ns) < all as u128 * u128::from(ns) {
-            ns = ns.min(pass(clock, case)).min(pass(clock, case)).max(1);
+        case.choose(&[level], 0);
+        let ns = pass(watch, case)[0].max(1);
+        let rays = rays_at(all, level);
+        if level == largest || ns >= LONG_PILOT_NS {
+            return (u128::from(ns) * 1000 / rays as u128).max(1) as u64;
         }
-        let fitting = (rays as u128 * u128::from(budget_ns) / u128::from(ns)).max(1) as usize;
-        // Few rays say little of many: trust only a pass that takes a fair share of the budget.
-        if rays == all || ns >= budget_ns / 4 {
-            // A power of two: another run, a little faster or slower, takes the same rays.
-            return if fitting >= all { all } else { 1 << fitting.ilog2() };
-        }
-        rays = (rays * 4).min(fitting.max(rays * 2)).min(all);
+        level -= 1;
     }
 }
 

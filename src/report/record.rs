@@ -5,7 +5,7 @@ use serde_json::Value;
 
 use super::CaseCounts;
 use crate::accel::Query;
-use crate::measure::{Provenance, log_ratios};
+use crate::measure::{Part, Provenance, log_ratios};
 
 /// What is known of one case; the fields are described in the [module](super).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -28,6 +28,9 @@ pub struct Record {
     pub workload_rays: usize,
     pub rays: usize,
     pub sampled: bool,
+    #[serde(default)]
+    pub parts: Vec<Part>,
+    pub counted_rays: usize,
     pub hits: usize,
     pub answers: Option<String>,
     pub build_ns: u64,
@@ -60,23 +63,28 @@ fn one() -> usize {
 
 impl Record {
     /// Version of the schema.
-    pub const SCHEMA: u32 = 1;
+    pub const SCHEMA: u32 = 2;
 
     /// Whether wrong answers cost the case its time.
     pub fn is_disqualified(&self) -> bool {
         self.structure_errors.is_some_and(|errors| errors > 0)
     }
 
-    /// Nanoseconds a ray of every sample.
-    pub fn paces(&self) -> Vec<f64> {
-        self.samples_ns.iter().map(|ns| ns / self.rays as f64).collect()
+    /// Nanoseconds of every sample for `rays` rays, which are all of it or a part. Nothing where these were not timed.
+    fn samples_of(&self, rays: usize) -> Option<Vec<f64>> {
+        if rays == self.rays {
+            return Some(self.samples_ns.clone());
+        }
+        let part = self.parts.iter().find(|part| part.rays == rays)?;
+        Some(part.ns.iter().map(|&ns| ns.max(1) as f64).collect())
     }
 
-    /// How many times faster this case is than `other`, as logarithms, round by round in each epoch. Nothing where one has no time,
-    /// or they were not measured in the same rounds.
+    /// How many times faster this case is than `other`, as logarithms, round by round in each epoch, both on the same rays: those of the
+    /// one that was timed on fewer. Nothing where one has no time, or they were not measured in the same rounds.
     pub fn speed_against(&self, other: &Self) -> Option<Vec<Vec<f64>>> {
-        let same = self.epochs == other.epochs;
-        if same { self.ratios(&other.paces(), &self.paces()) } else { None }
+        let alike = self.epochs == other.epochs && self.workload_hash == other.workload_hash;
+        let rays = self.rays.min(other.rays);
+        if alike { self.ratios(&other.samples_of(rays)?, &self.samples_of(rays)?) } else { None }
     }
 
     /// How many times faster this case is than its twin, likewise. Nothing where it has none.
@@ -111,6 +119,8 @@ pub(crate) fn example() -> Record {
         workload_rays: 1000,
         rays: 500,
         sampled: true,
+        parts: vec![Part { rays: 125, ns: vec![500_000, 400_000, 750_000] }],
+        counted_rays: 1000,
         hits: 20,
         answers: Some("0123456789abcdef".into()),
         build_ns: 1500,

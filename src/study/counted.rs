@@ -2,7 +2,7 @@
 
 use crate::accel::{Counts, DynAccel, Observed, Query};
 use crate::geometry::Ray;
-use crate::measure::checksum;
+use crate::measure::{checksum, spread};
 
 /// Of one pass of a structure over a batch of rays.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,7 +17,21 @@ pub struct Counted {
     pub observed: Observed,
 }
 
+/// Rays of a workload that are counted, at most; spread evenly.
+const RAYS: usize = 16384;
+
+/// Triangle tests that a count may take, about: structures that test more for each ray are counted on fewer.
+const TESTS: u64 = 1 << 30;
+
 impl Counted {
+    /// Of as many of `rays` as are worth it, evenly spread: a number that no clock decides, so that another run counts the same.
+    pub fn affordable(accel: &dyn DynAccel, rays: &[Ray], query: Query) -> Self {
+        let counted = |count: usize| Self::new(accel, &spread(rays, count), query);
+        let pilot = counted(64);
+        let affordable = (TESTS * pilot.rays as u64 / pilot.counts.tests.max(1)) as usize;
+        if affordable >= RAYS { counted(RAYS) } else { counted(1 << affordable.max(64).ilog2()) }
+    }
+
     /// Asks `query` of all `rays`, and watches.
     pub fn new(accel: &dyn DynAccel, rays: &[Ray], query: Query) -> Self {
         let mut counts = Counts::default();

@@ -4,7 +4,7 @@ use std::cell::Cell;
 use std::panic::{self, AssertUnwindSafe};
 use std::rc::Rc;
 
-use crate::measure::{Pass, Timed};
+use crate::measure::{Pass, Stopwatch, Timed};
 
 /// A structure that takes no part, and why.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -29,6 +29,7 @@ pub fn guarded<R>(ask: impl FnOnce() -> R) -> Option<R> {
 /// A pass that survives a panic of its structure: from then on it does nothing and says so.
 pub(super) struct Guarded<'a> {
     pass: Pass<'a>,
+    levels: usize,
     panicked: Rc<Cell<bool>>,
 }
 
@@ -36,7 +37,7 @@ impl<'a> Guarded<'a> {
     /// The pass, and whether it has panicked.
     pub fn new(pass: Pass<'a>) -> (Self, Rc<Cell<bool>>) {
         let panicked = Rc::default();
-        (Self { pass, panicked: Rc::clone(&panicked) }, panicked)
+        (Self { pass, levels: 1, panicked: Rc::clone(&panicked) }, panicked)
     }
 }
 
@@ -45,8 +46,11 @@ impl Timed for Guarded<'_> {
         self.pass.rays()
     }
 
-    fn restrict(&mut self, rays: usize) {
-        self.pass.restrict(rays);
+    fn choose(&mut self, levels: &[usize], epoch: usize) {
+        self.levels = levels.len();
+        if !self.panicked.get() && guarded(|| self.pass.choose(levels, epoch)).is_none() {
+            self.panicked.set(true);
+        }
     }
 
     fn clear(&mut self) {
@@ -55,13 +59,17 @@ impl Timed for Guarded<'_> {
         }
     }
 
-    fn run(&mut self) {
-        if !self.panicked.get() && guarded(|| self.pass.run()).is_none() {
-            self.panicked.set(true);
-        }
+    fn run(&mut self, watch: &Stopwatch) -> Vec<u64> {
+        let ns = if self.panicked.get() { None } else { guarded(|| self.pass.run(watch)) };
+        self.panicked.set(ns.is_none());
+        ns.unwrap_or_else(|| vec![0; self.levels])
     }
 
     fn checksum(&self) -> u64 {
         if self.panicked.get() { 0 } else { self.pass.checksum() }
+    }
+
+    fn contradicts_itself(&self) -> bool {
+        !self.panicked.get() && self.pass.contradicts_itself()
     }
 }

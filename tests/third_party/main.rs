@@ -59,10 +59,9 @@ fn it_is_compared_like_our_own() {
         rays: 1024,
         runs: 3,
         epochs: 1,
-        warmup: 1,
         twin: false,
         budget_ns: 1_000_000_000,
-        sample_ns: Some(60_000_000_000),
+        epoch_ns: Some(60_000_000_000),
         seed: 1,
         threads: Threads::new(1).unwrap(),
     };

@@ -17,7 +17,7 @@ use crate::report::number::plural;
 use crate::scene::files::RayFile;
 use crate::scene::{Sampling, Workload, WorkloadKind};
 
-pub use source::{RaySource, replayed};
+pub use source::{RaySource, rays_or_all, replayed};
 
 #[derive(Debug, clap::Args)]
 pub struct Args {
@@ -46,9 +46,9 @@ struct Record {
     /// The ray file
     #[arg(long, short, value_name = "F.rays")]
     output: PathBuf,
-    /// Rays at most
-    #[arg(long, value_name = "N", default_value_t = 36_864, value_parser = clap::value_parser!(u32).range(1..=1 << 24))]
-    rays: u32,
+    /// Rays at most, evenly spread over the workload
+    #[arg(long, value_name = "N|all", default_value = "all", value_parser = rays_or_all)]
+    rays: usize,
     /// Seed of the rays
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
@@ -93,7 +93,7 @@ fn record(registry: &Registry, args: &Record, terminal: &Terminal) -> anyhow::Re
     let output = sources::output(&args.output, std::slice::from_ref(&args.scene), None)?;
     let scene = sources::scene(&args.scene)?;
     let guide = sources::guide(registry)?.build(&scene.mesh)?;
-    let sampling = Sampling::about(&scene, args.rays, args.seed);
+    let sampling = Sampling::some(&scene, args.rays, args.seed);
     let workload = Workload::new(&scene, args.workload, &sampling, guide.as_ref());
     anyhow::ensure!(!workload.rays.is_empty(), "{} has no {} rays: nothing to record", scene.name, workload.name);
     finish(&RayFile::new(&scene, workload), &output, terminal)

@@ -8,15 +8,28 @@ use crate::cli::sources;
 use crate::scene::files::RayFile;
 use crate::scene::{Builtin, Scene};
 
-/// What `--rays` takes: how many rays to make, or a file of rays. A file whose name is a number is written `./NUMBER`.
+/// What `--rays` takes: how many rays, or a file of rays. A file whose name is a number or `all` is written `./NAME`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum RaySource {
-    Count(u32),
+    /// At most so many; all of them where the number is the largest there is.
+    Count(usize),
     File(PathBuf),
 }
 
 /// More rays than anybody wants in memory.
-const MOST: u32 = 1 << 26;
+const MOST: usize = 1 << 26;
+
+/// Reads a number of rays, or `all`: the largest number.
+///
+/// # Errors
+/// A sentence, if it is neither.
+pub fn rays_or_all(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        _ if text == "all" => Ok(usize::MAX),
+        Ok(count @ 1..=MOST) => Ok(count),
+        _ => Err(format!("give a number of rays from 1 to {MOST}, or all")),
+    }
+}
 
 impl FromStr for RaySource {
     type Err = String;
@@ -24,10 +37,10 @@ impl FromStr for RaySource {
     fn from_str(text: &str) -> Result<Self, String> {
         // A number that is wrong is not taken for a file.
         let is_number = text.trim_start_matches(['-', '+']).bytes().all(|byte| byte.is_ascii_digit());
-        match text.parse() {
-            Ok(count @ 1..=MOST) => Ok(Self::Count(count)),
-            _ if is_number => Err(format!("give a number of rays from 1 to {MOST}, or a file of rays")),
-            _ => Ok(Self::File(text.into())),
+        match rays_or_all(text) {
+            Ok(count) => Ok(Self::Count(count)),
+            Err(sentence) if is_number => Err(format!("{sentence}, or a file of rays")),
+            Err(_) => Ok(Self::File(text.into())),
         }
     }
 }
@@ -41,11 +54,23 @@ impl RaySource {
         }
     }
 
-    /// How many rays to make; `default` where they are replayed.
-    pub fn count(&self, default: u32) -> u32 {
+    /// How many rays at most; all where they are replayed.
+    pub fn count(&self) -> usize {
         match self {
             Self::Count(count) => *count,
-            Self::File(_) => default,
+            Self::File(_) => usize::MAX,
+        }
+    }
+
+    /// As [`count`](Self::count), of rays of which there is no end.
+    ///
+    /// # Errors
+    /// If all are asked for.
+    pub fn number(&self) -> anyhow::Result<usize> {
+        match self {
+            Self::Count(usize::MAX) => anyhow::bail!("there is no end of such rays: give a number of them, not all"),
+            Self::Count(count) => Ok(*count),
+            Self::File(_) => Ok(0),
         }
     }
 }
@@ -86,6 +111,8 @@ mod tests {
         assert_eq!("100".parse(), Ok(RaySource::Count(100)));
         assert_eq!("a.rays".parse(), Ok(RaySource::File("a.rays".into())));
         assert_eq!("./100".parse(), Ok(RaySource::File("./100".into())));
+        assert_eq!("all".parse(), Ok(RaySource::Count(usize::MAX)));
+        assert!(rays_or_all("a.rays").is_err());
         for wrong in ["0", "-5", "99999999999", ""] {
             assert!(wrong.parse::<RaySource>().is_err(), "{wrong}");
         }

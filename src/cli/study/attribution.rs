@@ -3,6 +3,7 @@
 use super::epochs::{Options, measured};
 use super::meshes::Scenes;
 use crate::cli::Verdict;
+use crate::cli::rays::rays_or_all;
 use crate::cli::terminal::Terminal;
 use crate::registry::Registry;
 use crate::report::{Table, to_tidy_csv};
@@ -17,9 +18,9 @@ pub struct Args {
     /// The kind of rays
     #[arg(long, short, value_name = "KIND", default_value = "primary")]
     pub workload: WorkloadKind,
-    /// Rays, at most
-    #[arg(long, value_name = "N", default_value_t = 16384, value_parser = clap::value_parser!(u32).range(1..=1 << 24))]
-    pub rays: u32,
+    /// Rays of a workload that are timed, at most, in whole tiles of the scene's picture
+    #[arg(long, value_name = "N|all", default_value = "all", value_parser = rays_or_all)]
+    pub rays: usize,
     /// The triangle test of all trees
     #[arg(long, value_name = "NAME", default_value = "filtered-f64")]
     pub test: String,

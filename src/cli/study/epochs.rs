@@ -6,6 +6,7 @@ use serde::de::DeserializeOwned;
 use super::folder::{Exports, Folder};
 use super::meshes::Scenes;
 use crate::cli::progress::Progress;
+use crate::cli::rays::rays_or_all;
 use crate::cli::terminal::Terminal;
 use crate::cli::{Verdict, sources};
 use crate::measure::{Provenance, SystemClock, Threads};
@@ -49,9 +50,9 @@ pub struct Field {
     /// A kind of rays; may be repeated [default: those of the study]
     #[arg(long, short, value_name = "KIND")]
     pub workload: Vec<WorkloadKind>,
-    /// Rays of a workload, at most
-    #[arg(long, value_name = "N", default_value_t = 16384, value_parser = clap::value_parser!(u32).range(1..=1 << 24))]
-    pub rays: u32,
+    /// Rays of a workload that are timed, at most, in whole tiles of the scene's picture
+    #[arg(long, value_name = "N|all", default_value = "all", value_parser = rays_or_all)]
+    pub rays: usize,
     #[command(flatten)]
     pub options: Options,
 }

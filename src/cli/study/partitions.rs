@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use crate::cli::progress::Progress;
+use crate::cli::rays::rays_or_all;
 use crate::cli::terminal::Terminal;
 use crate::cli::{Verdict, sources};
 use crate::measure::{Provenance, SystemClock, Threads};
@@ -34,12 +35,9 @@ pub struct Args {
     /// How often everything is built anew; the samples are spread over them
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u16).range(1..))]
     epochs: u16,
-    /// Passes of every case before its samples, at least; more until they are steady
-    #[arg(long, value_name = "N", default_value_t = 1)]
-    warmup: u16,
-    /// Rays of a workload, at most
-    #[arg(long, value_name = "N", default_value_t = 65536, value_parser = clap::value_parser!(u32).range(1..=1 << 24))]
-    rays: u32,
+    /// Rays of a workload that are timed, at most, in whole tiles of the scene's picture
+    #[arg(long, value_name = "N|all", default_value = "all", value_parser = rays_or_all)]
+    rays: usize,
     /// Threads that build and trace; 1 is the unit of comparison
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: u16,
@@ -77,10 +75,9 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
         rays: args.rays,
         runs: args.runs.into(),
         epochs: args.epochs.into(),
-        warmup: args.warmup.into(),
         twin: true,
         budget_ns: u64::from(args.budget) * 1_000_000_000,
-        sample_ns: None,
+        epoch_ns: None,
         seed: args.seed,
         threads: Threads::pinned(args.threads.into()).map_err(anyhow::Error::msg)?,
     };

@@ -154,14 +154,12 @@ const LEGEND: [&str; 3] = [
 /// Of every kind the same number, at least one.
 fn rays(scene: &Scene, registry: &Registry, args: &Args) -> anyhow::Result<Vec<Ray>> {
     if args.adversarial {
-        let each = (args.rays.count(1) as usize).div_ceil(Stratum::ALL.len());
+        let each = args.rays.number()?.div_ceil(Stratum::ALL.len());
         return Ok(Stratum::ALL.iter().flat_map(|stratum| stratum.rays(&scene.mesh, each, args.seed)).collect());
     }
     let guide = sources::guide(registry)?.build(&scene.mesh)?;
-    let limit = (args.rays.count(1) as usize).div_ceil(WorkloadKind::ALL.len());
-    // Four pixels a ray: most kinds start where a pixel sees something.
-    let pixels = u32::try_from(4 * limit).unwrap_or(u32::MAX).min(scene.size[0] * scene.size[1]);
-    let sampling = Sampling { limit, ..Sampling::about(scene, pixels, args.seed) };
+    let limit = args.rays.count().div_ceil(WorkloadKind::ALL.len());
+    let sampling = Sampling::some(scene, limit, args.seed);
     let of_kind = |&kind| Workload::new(scene, kind, &sampling, guide.as_ref()).rays;
     Ok(WorkloadKind::ALL.iter().flat_map(of_kind).collect())
 }

@@ -18,7 +18,7 @@ fn tree(scene: &Scene) -> KdTree<FilteredF64> {
 
 fn recorded(kind: WorkloadKind) -> (Scene, RayFile) {
     let scene = scene();
-    let workload = Workload::new(&scene, kind, &Sampling::about(&scene, 400, 1), &tree(&scene));
+    let workload = Workload::new(&scene, kind, &Sampling::some(&scene, 400, 1), &tree(&scene));
     (scene.clone(), RayFile::new(&scene, workload))
 }
 

@@ -22,7 +22,8 @@ use tiles::in_tiles;
 /// Where the rays of a workload come from and go to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum WorkloadKind {
-    /// From the eye through the middle of each pixel, in tiles of four by four pixels; so are all that follow from these.
+    /// From the eye through the middle of each pixel, in tiles of four by four pixels, those in blocks of 32 by
+    /// 32; so are all that follow from these.
     Primary,
     /// From the eye through the top left corner of each pixel: on the tidy meshes of tests these meet edges and vertices.
     Corners,
@@ -113,12 +114,9 @@ impl Sampling {
         Self { size: scene.size, limit: usize::MAX, seed: 0 }
     }
 
-    /// At most `rays` rays, from a picture of the scene's shape with about as many pixels, in even numbers of rows and columns.
-    pub fn about(scene: &Scene, rays: u32, seed: u64) -> Self {
-        let [width, height] = scene.size.map(f64::from);
-        let scale = (f64::from(rays) / (width * height)).sqrt();
-        let size = [width, height].map(|side| ((side * scale / 2.0).round() as u32 * 2).max(2));
-        Self { size, limit: rays as usize, seed }
+    /// At most `limit` of them, picked at equal distances: to check answers, not to take times.
+    pub fn some(scene: &Scene, limit: usize, seed: u64) -> Self {
+        Self { limit, seed, ..Self::of(scene) }
     }
 
     fn pixels(&self) -> u32 {

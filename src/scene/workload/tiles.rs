@@ -1,18 +1,27 @@
-/// Pixels on a side of a tile.
-const SIDE: usize = 4;
+use glam::UVec2;
 
-/// The pixels of a picture, given row by row, tile by tile: what is near in the picture is near in the slice, as renderers take
-/// rays, and a structure that takes several at once can show what that gives. Tiles at the right and lower border may be smaller.
+/// Pixels on a side of a tile, and of the blocks of tiles that renderers hand out to their threads.
+const TILE: u32 = 4;
+const BLOCK: u32 = 32;
+
+/// The pixels of a picture, given row by row, block by block of 32 by 32 pixels and in it tile by tile of four by four: what is near in the
+/// slice is near in the picture, as renderers take rays, and a structure that takes several at once can show what that gives. Blocks
+/// and tiles at the right and lower border may be smaller.
 pub fn in_tiles<T: Copy>(pixels: &[T], [width, height]: [u32; 2]) -> Vec<T> {
-    let [width, height] = [width, height].map(|side| side as usize);
-    assert_eq!(pixels.len(), width * height, "a picture has all its pixels");
+    assert_eq!(pixels.len(), width as usize * height as usize, "a picture has all its pixels");
+    let corners = |from: UVec2, to: UVec2, side: u32| {
+        (from.y..to.y)
+            .step_by(side as usize)
+            .flat_map(move |y| (from.x..to.x).step_by(side as usize).map(move |x| UVec2::new(x, y)))
+    };
+    let picture = UVec2::new(width, height);
+    let blocks = corners(UVec2::ZERO, picture, BLOCK);
+    let tiles = blocks.flat_map(|block| corners(block, (block + BLOCK).min(picture), TILE));
+    let rows = tiles.flat_map(|tile| (tile.y..(tile.y + TILE).min(height)).map(move |y| UVec2::new(tile.x, y)));
     let mut ordered = Vec::with_capacity(pixels.len());
-    for top in (0..height).step_by(SIDE) {
-        for left in (0..width).step_by(SIDE) {
-            for y in top..(top + SIDE).min(height) {
-                ordered.extend_from_slice(&pixels[y * width + left..y * width + (left + SIDE).min(width)]);
-            }
-        }
+    for row in rows {
+        let first = (row.y * width + row.x) as usize;
+        ordered.extend_from_slice(&pixels[first..first + TILE.min(width - row.x) as usize]);
     }
     ordered
 }
@@ -22,8 +31,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_pixel_comes_once_and_tiles_come_whole() {
-        for size in [[8, 8], [10, 6], [2, 2], [4, 9]] {
+    fn every_pixel_comes_once_and_tiles_and_blocks_come_whole() {
+        for size in [[8, 8], [10, 6], [2, 2], [4, 9], [70, 33], [32, 64]] {
             let pixels: Vec<u32> = (0..size[0] * size[1]).collect();
             let ordered = in_tiles(&pixels, size);
             let mut sorted = ordered.clone();
@@ -33,5 +42,12 @@ mod tests {
         let ordered = in_tiles(&(0..60).collect::<Vec<_>>(), [10, 6]);
         assert_eq!(ordered[..20], [0, 1, 2, 3, 10, 11, 12, 13, 20, 21, 22, 23, 30, 31, 32, 33, 4, 5, 6, 7]);
         assert_eq!(ordered[32..40], [8, 9, 18, 19, 28, 29, 38, 39]);
+        let ordered = in_tiles(&(0..64 * 64).collect::<Vec<u32>>(), [64, 64]);
+        for (i, block) in ordered.chunks(1024).enumerate() {
+            let [left, top] = [i as u32 % 2 * 32, i as u32 / 2 * 32];
+            let inside =
+                |&pixel: &u32| (left..left + 32).contains(&(pixel % 64)) && (top..top + 32).contains(&(pixel / 64));
+            assert!(block.iter().all(inside), "{i}");
+        }
     }
 }

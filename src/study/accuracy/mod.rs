@@ -13,7 +13,7 @@ mod tests;
 use std::borrow::Cow;
 
 use super::built::Built;
-use super::timing::{Case, Timing, sample_budget_ns};
+use super::timing::{Case, Timing};
 use super::{PANICKED, Refused, Stage, StudyError, guarded};
 use crate::accel::{BuildError, Query};
 use crate::geometry::Ray;
@@ -45,9 +45,6 @@ pub struct Settings {
     /// Seed of the rays and of the order of samples.
     pub seed: u64,
 }
-
-/// A sample that takes longer runs on a part of the rays that the others are timed on.
-const LONGEST_SAMPLE_NS: u64 = 1_000_000_000;
 
 /// What judging a case may always take.
 const SHORT_JUDGING_NS: u64 = 2_000_000_000;
@@ -147,13 +144,20 @@ fn time(
     clock: &dyn Clock,
     progress: &mut dyn FnMut(Stage),
 ) -> Result<Vec<Samples>, StudyError> {
-    let of_all = sample_budget_ns(settings.budget_ns, workloads.len(), settings.runs);
+    // Besides its samples a workload has a pass that learns how slow it is, and lead-ins.
+    let of_all = settings.budget_ns / (workloads.len() * (settings.runs + 2)).max(1) as u64;
     let panicked =
         |built: &Built| StudyError::Panicked { structure: built.choice.label.clone(), scene: scene.name.clone() };
     for workload in &mut workloads {
         workload.rays = common(built, &workload.rays, clock, of_all).map_err(panicked)?;
     }
-    let plan = Plan { runs: settings.runs, sample_budget_ns: LONGEST_SAMPLE_NS, warmup: 1, seed: settings.seed };
+    let plan = Plan {
+        runs: settings.runs,
+        budget_ns: settings.budget_ns,
+        most_rays: usize::MAX,
+        seed: settings.seed,
+        epoch: 0,
+    };
     let mut cases = Case::all(built.len(), workloads.len());
     cases.sort_by_key(|case| case.workload);
     let total = cases.len() * settings.runs;

@@ -152,8 +152,10 @@ pub fn attribute(epochs: &[&Epoch], seed: u64) -> Option<Attribution> {
     let epochs: Vec<&Epoch> = epochs.iter().copied().filter(whole).collect();
     let first = *epochs.iter().find(|epoch| epoch.structures.iter().all(|tree| counts(tree).is_some()))?;
     let counts: Vec<RayCounts> = first.structures.iter().filter_map(counts).collect();
-    let logs = |tree: &Structure| tree.rays[0].paces().into_iter().map(libm::log).collect::<Vec<f64>>();
-    let replicates = replicates(epochs.iter().map(|epoch| epoch.structures.iter().map(logs).collect()).collect());
+    let paces = |epoch: &Epoch, tree: &Structure| tree.rays[0].paces(epoch.common_rays(&tree.rays[0].workload));
+    let logs = |epoch: &Epoch, tree: &Structure| paces(epoch, tree).into_iter().map(libm::log).collect::<Vec<f64>>();
+    let of_epoch = |epoch: &&Epoch| epoch.structures.iter().map(|tree| logs(epoch, tree)).collect();
+    let replicates = replicates(epochs.iter().map(of_epoch).collect());
     let twin = |cell: Cell, twin: usize| values(&replicates, |logs| logs[cell.number()] - logs[CELLS + twin]);
     let noise = NoiseFloor::new(&[twin(Cell::REPORT, 0), twin(Cell::SAH, 1)], seed);
     let floor = noise.log().unwrap_or(0.0);
@@ -166,7 +168,7 @@ pub fn attribute(epochs: &[&Epoch], seed: u64) -> Option<Attribution> {
 
     let cells = Cell::all().into_iter().enumerate().map(|(i, cell)| {
         let trees = || epochs.iter().map(|epoch| &epoch.structures[i]);
-        let ns: Vec<f64> = trees().flat_map(|tree| tree.rays[0].paces()).collect();
+        let ns: Vec<f64> = epochs.iter().flat_map(|epoch| paces(epoch, &epoch.structures[i])).collect();
         let builds: Vec<f64> = trees().map(|tree| tree.build_ns as f64).collect();
         let [plane, stop, traversal] = Factor::ALL.map(|factor| factor.levels()[cell.level(factor)].name);
         let Structure { shape, rays, .. } = &first.structures[i];
@@ -183,7 +185,7 @@ pub fn attribute(epochs: &[&Epoch], seed: u64) -> Option<Attribution> {
             bytes: shape.bytes,
             sah_cost: shape.sah_cost,
             build_ns: median(&builds).expect("there is an epoch"),
-            sampled: rays[0].rays < rays[0].all,
+            sampled: first.common_rays(&rays[0].workload) < rays[0].all,
         }
     });
     let levels =

@@ -3,24 +3,17 @@
 use super::Settings;
 use super::prepare::{Prepared, Subject, prepare, twin_of};
 use crate::accel::{DynAccel, Query};
-use crate::geometry::Ray;
 use crate::measure::advice::Conditions;
-use crate::measure::{Clock, Instructions, Pass, Plan, Samples, Timed, machine, spread_in_runs};
+use crate::measure::{Clock, Instructions, Plan, Samples, machine, spread};
 use crate::report::CaseCounts;
 use crate::scene::{Scene, Workload};
 use crate::study::built::Built;
 use crate::study::counted::Counted;
 use crate::study::placed::Placed;
-use crate::study::timing::{Case, Taken, Timing, sample_budget_ns};
+use crate::study::timing::{Case, Taken, Timing};
 use crate::study::{PANICKED, Refused, Stage, StudyError, guarded};
 
-/// A full pass that takes longer runs on a sample of its rays, whatever the budget.
-const LONGEST_SAMPLE_NS: u64 = 1_000_000_000;
-
-/// Rays that a case without times is counted on.
-const COUNTED: usize = 4096;
-
-/// Of one structure on one workload, over a pass that nobody times.
+/// Of one structure on one workload, over a pass that nobody times, on rays that no clock decides.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Tally {
     pub rays: usize,
@@ -49,7 +42,10 @@ pub struct Trial<'a> {
     /// Of each structure on each workload; none before the first epoch.
     pub(super) tallies: Vec<Vec<Tally>>,
     pub(super) epochs: usize,
-    sample_budget_ns: u64,
+    /// Samples of every case in an epoch.
+    runs: usize,
+    /// What those of an epoch may take together, nanoseconds.
+    epoch_ns: u64,
     pub(super) conditions: Conditions,
 }
 
@@ -74,7 +70,6 @@ impl<'a> Trial<'a> {
         // What checks and builds leave of the time is for passes, but at least a third.
         let spent = (clock.now_ns() - start).saturating_add(builds_ns.saturating_mul(settings.epochs as u64));
         let budget_ns = settings.budget_ns.saturating_sub(spent).max(settings.budget_ns / 3);
-        let sample_ns = sample_budget_ns(budget_ns, cases.len() * settings.epochs, settings.rounds());
         Ok(Self {
             scene,
             settings,
@@ -87,7 +82,8 @@ impl<'a> Trial<'a> {
             samples: vec![],
             tallies: vec![],
             epochs: 0,
-            sample_budget_ns: settings.sample_ns.unwrap_or(sample_ns.min(LONGEST_SAMPLE_NS)),
+            runs: settings.rounds(),
+            epoch_ns: settings.epoch_ns.unwrap_or(budget_ns / settings.epochs as u64),
             conditions: Conditions::default(),
         })
     }
@@ -97,7 +93,7 @@ impl<'a> Trial<'a> {
         &self.scene.name
     }
 
-    /// Builds every structure anew and takes [`Settings::rounds`] samples of every case, after a warm-up.
+    /// Builds every structure anew and takes [`Settings::rounds`] samples of every case, or as many as there is time for.
     ///
     /// # Errors
     /// If a structure answers the same rays differently.
@@ -107,13 +103,14 @@ impl<'a> Trial<'a> {
         self.forget_refused();
 
         let plan = Plan {
-            runs: self.settings.rounds(),
-            sample_budget_ns: self.sample_budget_ns,
-            warmup: self.settings.warmup,
+            runs: self.runs,
+            budget_ns: self.epoch_ns,
+            most_rays: self.settings.rays,
             seed: self.settings.seed,
+            epoch: self.epochs,
         };
-        let total = self.cases.len() * self.settings.rounds() * self.settings.epochs.max(self.epochs + 1);
-        let done = self.cases.len() * self.settings.rounds() * self.epochs;
+        let total = self.cases.len() * self.runs * self.settings.epochs.max(self.epochs + 1);
+        let done = self.cases.len() * self.runs * self.epochs;
         let timing = Timing {
             scene: self.scene,
             built: &built,
@@ -124,10 +121,10 @@ impl<'a> Trial<'a> {
         let before = (self.epochs > 0).then(|| std::mem::take(&mut self.samples));
         let core = self.settings.threads.cores().map_or(0, |cores| cores[0]);
         let watch = Watch::start(self.clock, core);
-        let Taken { samples, panicked } =
+        let Taken { runs, samples, panicked } =
             timing.take(&self.cases, &plan, before, &mut |taken| progress(Stage::Trace(done + taken, total)))?;
         watch.end(self.clock, &mut self.conditions);
-        self.samples = samples;
+        (self.runs, self.samples) = (runs, samples);
 
         for (case, panicked) in self.cases.iter().zip(panicked) {
             if panicked {
@@ -190,28 +187,16 @@ impl<'a> Trial<'a> {
         self.twin = self.twin.and_then(|twin| place[twin]);
     }
 
-    /// Counts hits, steps, tests and instructions on the rays that were timed.
+    /// Counts hits, steps, tests and instructions.
     fn count(&mut self, built: &[Built]) {
         let counter = Instructions::open().filter(|_| self.settings.threads.count() == 1);
-        let rays = |structure: usize, workload: usize| {
-            let case = self.cases.iter().position(|case| *case == Case { structure, workload });
-            case.map_or(COUNTED, |case| self.samples[case].rays)
-        };
         let mut tallies = vec![];
         for (s, built) in built.iter().enumerate() {
             let of = |(w, workload): (usize, &Workload)| {
                 if self.subjects[s].declined[w].is_some() {
                     return Some(Tally::default());
                 }
-                let rays = spread_in_runs(&workload.rays, rays(s, w));
-                guarded(|| {
-                    let mut tally = count(built.accel.as_ref(), &rays, workload.query);
-                    let mut pass = Pass::new(built.accel.as_ref(), &rays, workload.query, &self.settings.threads);
-                    pass.clear();
-                    let instructions = counter.as_ref().and_then(|counter| counter.count(|| pass.run()));
-                    tally.instructions_per_ray = instructions.map(|n| n as f64 / rays.len() as f64);
-                    tally
-                })
+                guarded(|| tally(built.accel.as_ref(), workload, counter.as_ref()))
             };
             let all: Option<Vec<Tally>> = self.workloads.iter().enumerate().map(of).collect();
             if all.is_none() {
@@ -240,15 +225,23 @@ fn keep<T>(values: &mut Vec<T>, kept: &[bool]) {
     });
 }
 
-/// Hits and counts of one pass over `rays`.
-fn count(accel: &dyn DynAccel, rays: &[Ray], query: Query) -> Tally {
-    let counted = Counted::new(accel, rays, query);
+/// Hits and counts of one pass, and its instructions where they can be counted.
+fn tally(accel: &dyn DynAccel, workload: &Workload, counter: Option<&Instructions>) -> Tally {
+    let counted = Counted::affordable(accel, &workload.rays, workload.query);
+    let instructions = counter.and_then(|counter| {
+        let rays = spread(&workload.rays, counted.rays);
+        let (mut hits, mut any) = (vec![None; rays.len()], vec![false; rays.len()]);
+        counter.count(|| match workload.query {
+            Query::Closest => accel.closest_hits(&rays, &mut hits),
+            Query::Any => accel.any_hits(&rays, &mut any),
+        })
+    });
     Tally {
-        rays: rays.len(),
+        rays: counted.rays,
         hits: counted.hits,
         tests_per_ray: counted.tests_per_ray(),
         steps_per_ray: counted.steps_per_ray(),
-        instructions_per_ray: None,
+        instructions_per_ray: instructions.map(|n| n as f64 / counted.rays as f64),
         counts: CaseCounts {
             leaf_steps_per_ray: counted.leaf_steps_per_ray(),
             empty_leaf_steps_per_ray: counted.empty_leaf_steps_per_ray(),

@@ -31,27 +31,26 @@ pub struct Settings {
     pub workloads: Vec<WorkloadKind>,
     /// Rays made before, in place of those kinds where there are any.
     pub replayed: Option<Workload>,
-    /// Rays of a workload, at most.
-    pub rays: u32,
-    /// Samples of every case, at least 1: as many in each epoch, so a few more where epochs do not divide them.
+    /// Rays of a workload that are timed, at most: whole tiles of its picture, whose size is the scene's.
+    pub rays: usize,
+    /// Samples of every case, at least 1: as many in each epoch, so a few more where epochs do not divide them, and fewer where
+    /// there is not time for them all.
     pub runs: usize,
     /// How often everything is built anew, at least 1.
     pub epochs: usize,
-    /// Passes of every case before its first sample in an epoch, at least; more until they are steady.
-    pub warmup: usize,
     /// Whether one structure is built and timed twice, for the A/A ratios.
     pub twin: bool,
     /// What a scene may take, builds included, nanoseconds: slow cases are timed on fewer rays to keep within it.
     pub budget_ns: u64,
-    /// What a sample may take, nanoseconds, whatever the budget; nothing: what the budget allows.
-    pub sample_ns: Option<u64>,
+    /// What the samples of an epoch may take, nanoseconds, whatever the budget; nothing: what builds and checks leave of it.
+    pub epoch_ns: Option<u64>,
     /// Seed of the workloads, of the order of builds and of the order of samples.
     pub seed: u64,
     pub threads: Threads,
 }
 
 impl Settings {
-    /// Samples that one epoch takes of every case.
+    /// Samples that one epoch takes of every case, at most.
     pub fn rounds(&self) -> usize {
         self.runs.div_ceil(self.epochs)
     }

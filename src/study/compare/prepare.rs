@@ -100,7 +100,7 @@ fn workloads(
         }
     };
     let mut workloads: Vec<Workload> = settings.replayed.iter().cloned().collect();
-    let sampling = Sampling::about(scene, settings.rays, settings.seed);
+    let sampling = Sampling { seed: settings.seed, ..Sampling::of(scene) };
     let made =
         |kind: &&WorkloadKind| settings.replayed.is_none() && (**kind != WorkloadKind::Mirror || scene.has_mirrors());
     for &kind in settings.workloads.iter().filter(made) {

@@ -24,9 +24,10 @@ impl Trial<'_> {
         for (s, subject) in self.subjects.iter().enumerate().filter(|(s, _)| Some(*s) != twin) {
             let builds: Vec<f64> = subject.build_ns.iter().map(|&ns| ns as f64).collect();
             for (w, workload) in self.workloads.iter().enumerate() {
-                let Tally { rays, hits, tests_per_ray, steps_per_ray, instructions_per_ray, counts } =
+                let Tally { rays: counted_rays, hits, tests_per_ray, steps_per_ray, instructions_per_ray, counts } =
                     self.tallies[s][w];
                 let samples = self.samples_of(s, w);
+                let rays = samples.map_or(0, |samples| samples.rays);
                 let samples_ns = nanoseconds(samples);
                 let trace_ns = median(&samples_ns);
                 let twin = twin.filter(|_| self.twin == Some(s)).and_then(|twin| self.samples_of(twin, w));
@@ -47,6 +48,8 @@ impl Trial<'_> {
                     workload_rays: workload.rays.len(),
                     rays,
                     sampled: rays < workload.rays.len(),
+                    parts: samples.map_or(vec![], |samples| samples.parts.clone()),
+                    counted_rays,
                     hits,
                     answers: samples.filter(|s| s.same_answers).map(|s| format!("{:016x}", s.checksum)),
                     build_ns: median(&builds).expect("every epoch builds") as u64,
@@ -95,13 +98,6 @@ impl Trial<'_> {
         let samples: Vec<Vec<f64>> = self.samples.iter().map(|samples| nanoseconds(Some(samples))).collect();
         warnings.extend(of_samples(&samples.iter().map(Vec::as_slice).collect::<Vec<_>>()));
 
-        let unsteady: usize = self.samples.iter().map(|samples| samples.unsteady).sum();
-        let all = self.samples.len() * self.epochs;
-        if 10 * unsteady > all {
-            warnings.push(format!(
-                "{unsteady} of {all} warm-ups did not become steady: times waver; repeat the run on a quieter machine"
-            ));
-        }
         for (case, _) in self.cases.iter().zip(&self.samples).filter(|(_, samples)| !samples.same_answers) {
             let (label, rays) = (&self.subjects[case.structure].choice.label, &self.workloads[case.workload].name);
             warnings.push(format!(

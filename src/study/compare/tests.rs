@@ -96,10 +96,9 @@ fn compared(specs: &[&str]) -> Result<Compared, StudyError> {
         rays: 1024,
         runs: 3,
         epochs: 2,
-        warmup: 1,
         twin: true,
         budget_ns: 1_000_000_000,
-        sample_ns: Some(60_000_000_000),
+        epoch_ns: Some(60_000_000_000),
         seed: 1,
         threads: Threads::new(1).unwrap(),
     };

@@ -120,7 +120,7 @@ pub fn count_scene(scene: &Scene, settings: &Settings, progress: &mut dyn FnMut(
         scene: scene.name.clone(),
         cause,
     })?;
-    let sampling = Sampling::about(scene, settings.rays, settings.seed);
+    let sampling = Sampling::some(scene, settings.rays as usize, settings.seed);
     let kinds = settings.workloads.iter().filter(|&&kind| kind != WorkloadKind::Mirror || scene.has_mirrors());
     let mut workloads: Vec<Workload> =
         kinds.map(|&kind| Workload::new(scene, kind, &sampling, guide.as_ref())).collect();

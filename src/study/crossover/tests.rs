@@ -68,7 +68,7 @@ fn every_primary_ray_of_a_member_passes_all_layers() {
         let scene = member(root).unwrap();
         let tree = KdTree::<MollerTrumbore>::build(&scene.mesh, &KdConfig::SAH).unwrap();
         let of = |kind| {
-            let workload = Workload::new(&scene, kind, &Sampling::about(&scene, 1600, 1), &tree);
+            let workload = Workload::new(&scene, kind, &Sampling::some(&scene, 1600, 1), &tree);
             complexity(&tree, &workload.rays).unwrap()
         };
         // A quarter of the layers, and of that a standard deviation of 0.011 for a single one.

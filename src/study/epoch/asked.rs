@@ -14,8 +14,8 @@ fn picture(scene: &Scene) -> Sampling {
 /// The rays of a study.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Asked {
-    /// These kinds of rays about the scene, of each so many at most.
-    Kinds(Vec<WorkloadKind>, u32),
+    /// These kinds of rays about the scene, of each so many timed at most.
+    Kinds(Vec<WorkloadKind>, usize),
     /// All rays of the picture that the source report draws.
     Picture,
     /// The primary rays of that picture alone.
@@ -33,7 +33,7 @@ impl Asked {
         progress: &mut dyn FnMut(Stage),
     ) -> Vec<Workload> {
         let (kinds, sampling): (&[WorkloadKind], Sampling) = match self {
-            Self::Kinds(kinds, rays) => (kinds, Sampling::about(scene, *rays, seed)),
+            Self::Kinds(kinds, _) => (kinds, Sampling { seed, ..Sampling::of(scene) }),
             Self::Picture => (&[WorkloadKind::Image, WorkloadKind::ImageShadow], picture(scene)),
             Self::PrimaryPicture => (&[WorkloadKind::Primary], picture(scene)),
         };
@@ -46,8 +46,16 @@ impl Asked {
         workloads
     }
 
+    /// Rays of a workload that are timed, at most.
+    pub(super) fn rays(&self) -> usize {
+        match self {
+            Self::Kinds(_, rays) => *rays,
+            Self::Picture | Self::PrimaryPicture => usize::MAX,
+        }
+    }
+
     /// As journals keep it: names of the kinds, and how many rays of each at most.
-    pub(super) fn kept(&self) -> (String, Option<u32>) {
+    pub(super) fn kept(&self) -> (String, Option<usize>) {
         match self {
             Self::Kinds(kinds, rays) => {
                 let names: Vec<&str> = kinds.iter().map(|kind| kind.name()).collect();

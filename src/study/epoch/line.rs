@@ -20,7 +20,7 @@ pub struct Line {
     pub leaves: usize,
     pub tests: Option<f64>,
     pub steps: Option<f64>,
-    /// ln nanoseconds of a ray, epoch by epoch, round by round.
+    /// ln nanoseconds of a ray, epoch by epoch, round by round, on rays that are the same for all structures.
     pub trace: Vec<Vec<f64>>,
     /// ln nanoseconds of the build, epoch by epoch.
     pub build: Vec<Vec<f64>>,
@@ -56,7 +56,7 @@ fn line(scene: &[&Epoch], label: &str, workload: &str) -> Option<Line> {
         let structure = epoch.structures.iter().find(|s| s.label == label && s.refused.is_none())?;
         let rays = structure.rays.iter().find(|rays| rays.workload == workload && !rays.ns.is_empty())?;
         first = first.or(Some((structure, rays)));
-        trace.push(rays.paces().into_iter().map(libm::log).collect());
+        trace.push(rays.paces(epoch.common_rays(workload)).into_iter().map(libm::log).collect());
         build.push(vec![libm::log(structure.build_ns.max(1) as f64)]);
     }
     let (structure, rays) = first?;

@@ -3,14 +3,15 @@
 use super::{Epoch, RayCounts, Rays, Settings, Shape, Structure};
 use crate::accel::DynAccel;
 use crate::geometry::Ray;
-use crate::measure::{Clock, Plan, Samples, spread};
+use crate::measure::tiles::level_of;
+use crate::measure::{Clock, Part, Plan, Samples};
 use crate::scene::{Scene, Workload};
 use crate::study::built::Built;
 use crate::study::check::check_all;
 use crate::study::compare::declined;
 use crate::study::counted::Counted;
 use crate::study::placed::Placed;
-use crate::study::timing::{Case, Taken, Timing, sample_budget_ns};
+use crate::study::timing::{Case, Taken, Timing};
 use crate::study::{PANICKED, Stage, StudyError, guarded};
 
 /// Builds all structures, checks and counts them if this is the first epoch, and takes their samples. A later epoch needs the
@@ -33,7 +34,7 @@ pub fn measure(
         None => bench.check(clock, progress)?,
         Some(first) => bench.resume(first)?,
     }
-    bench.sample(epoch, first.is_some(), clock, progress)?;
+    bench.sample(epoch, first, clock, progress)?;
     if first.is_none() {
         bench.count();
     }
@@ -61,12 +62,6 @@ struct Bench<'a> {
     /// Where they lie.
     _placed: Placed,
 }
-
-/// Rays of a workload that are counted, at most; spread evenly.
-const COUNTED: usize = 16384;
-
-/// Triangle tests that a count may take, about: structures that test more for each ray are counted on fewer.
-const COUNTED_TESTS: u64 = 1 << 30;
 
 impl<'a> Bench<'a> {
     /// Builds the structures and makes the rays.
@@ -131,6 +126,7 @@ impl<'a> Bench<'a> {
                     rays: 0,
                     checksum: 0,
                     ns: vec![],
+                    parts: vec![],
                     wrong: declined.is_none() && wrong.is_some(),
                     untimed: declined.or(wrong),
                     counts: None,
@@ -144,7 +140,10 @@ impl<'a> Bench<'a> {
     fn resume(&mut self, first: &Epoch) -> Result<(), StudyError> {
         let hashes: Vec<String> = self.workloads.iter().map(Workload::hash).collect();
         let same = |rays: &[Rays]| {
-            let timed = |rays: &Rays| rays.untimed.is_some() || (1..=rays.all).contains(&rays.rays);
+            let timed = |rays: &Rays| {
+                let mut parts = std::iter::once(rays.rays).chain(rays.parts.iter().map(|part| part.rays));
+                rays.untimed.is_some() || parts.all(|part| level_of(rays.all, part).is_some())
+            };
             rays.iter().map(|rays| &rays.hash).eq(&hashes) && rays.iter().all(timed)
         };
         // By place: twins have one label.
@@ -170,31 +169,31 @@ impl<'a> Bench<'a> {
         cases
     }
 
-    /// Takes the samples of everything that is timed; with `again` on as many rays as before.
+    /// Takes the samples of everything that is timed; of as many rays as `before`.
     fn sample(
         &mut self,
         epoch: usize,
-        again: bool,
+        before: Option<&Epoch>,
         clock: &dyn Clock,
         progress: &mut dyn FnMut(Stage),
     ) -> Result<(), StudyError> {
         let cases = self.cases();
-        let Settings { runs, budget_ns, seed, threads, .. } = self.settings;
-        let plan = Plan {
-            runs: *runs,
-            sample_budget_ns: sample_budget_ns(*budget_ns, cases.len(), *runs),
-            warmup: 1,
-            seed: seed.wrapping_add(epoch as u64),
-        };
-        let before = |case: &Case| {
-            let rays = self.structures[self.places[case.structure]].rays[case.workload].rays;
-            Samples { rays, checksum: 0, same_answers: true, unsteady: 0, ns: vec![] }
-        };
-        let before = again.then(|| cases.iter().map(before).collect());
+        let Settings { asked, runs, budget_ns, seed, threads, .. } = self.settings;
+        let rays_of = |case: &Case| &self.structures[self.places[case.structure]].rays[case.workload];
+        let runs = before.map_or(*runs, Epoch::runs);
+        let plan = Plan { runs, budget_ns: *budget_ns, most_rays: asked.rays(), seed: *seed, epoch };
+        let samples = before.map(|_| {
+            let none = |case: &Case| {
+                let Rays { rays, checksum, ref parts, .. } = *rays_of(case);
+                let parts = parts.iter().map(|part| Part { ns: vec![], ..part.clone() }).collect();
+                Samples { checksum, parts, ..Samples::none(rays) }
+            };
+            cases.iter().map(none).collect()
+        });
         let total = cases.len() * runs;
         let mut told = |taken| progress(Stage::Trace(taken, total));
         let timing = Timing { scene: self.scene, built: &self.built, workloads: &self.workloads, threads, clock };
-        let Taken { samples, panicked } = timing.take(&cases, &plan, before, &mut told)?;
+        let Taken { samples, panicked, .. } = timing.take(&cases, &plan, samples, &mut told)?;
 
         for ((case, samples), panicked) in cases.iter().zip(samples).zip(panicked) {
             let structure = &mut self.structures[self.places[case.structure]];
@@ -203,11 +202,12 @@ impl<'a> Bench<'a> {
                 continue;
             }
             let rays = &mut structure.rays[case.workload];
-            if again && rays.checksum != samples.checksum {
+            if !samples.same_answers {
                 let (structure, scene) = (structure.label.clone(), self.scene.name.clone());
                 return Err(StudyError::Changed { structure, scene });
             }
-            (rays.rays, rays.checksum, rays.ns) = (samples.rays, samples.checksum, samples.ns);
+            (rays.rays, rays.checksum) = (samples.rays, samples.checksum);
+            (rays.ns, rays.parts) = (samples.ns, samples.parts);
         }
         Ok(())
     }
@@ -225,12 +225,8 @@ impl<'a> Bench<'a> {
     }
 }
 
-/// Counts as many rays as [`COUNTED`] and [`COUNTED_TESTS`] allow: a number that no clock decides, so that another run counts the same.
 fn count(accel: &dyn DynAccel, workload: &Workload) -> RayCounts {
-    let counted = |rays: usize| Counted::new(accel, &spread(&workload.rays, rays), workload.query);
-    let pilot = counted(64);
-    let affordable = (COUNTED_TESTS * pilot.rays as u64 / pilot.counts.tests.max(1)) as usize;
-    let counted = if affordable >= COUNTED { counted(COUNTED) } else { counted(1 << affordable.max(64).ilog2()) };
+    let counted = Counted::affordable(accel, &workload.rays, workload.query);
     RayCounts {
         rays: counted.rays,
         hits: counted.hits,

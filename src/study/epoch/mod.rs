@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 
 use super::StudyError;
 use crate::accel::Query;
-use crate::measure::Threads;
+use crate::measure::{Part, Threads};
 use crate::registry::Choice;
 use crate::report::words::scene_name;
 use crate::scene::Scene;
@@ -33,7 +33,7 @@ pub struct Settings {
     /// The structure that tells where secondary rays start.
     pub guide: Choice,
     pub asked: Asked,
-    /// Samples of every case in an epoch, at least 1.
+    /// Samples of every case in an epoch, at least 1; fewer where there is not time for them all.
     pub runs: usize,
     /// What the samples of an epoch of one scene may take together, nanoseconds: slow cases are timed on fewer rays to keep
     /// within it.
@@ -51,7 +51,7 @@ struct Kept {
     structures: String,
     workloads: String,
     #[serde(skip_serializing_if = "Option::is_none")]
-    rays: Option<u32>,
+    rays: Option<usize>,
     runs: usize,
     budget_ns: u64,
     seed: u64,
@@ -133,6 +133,8 @@ pub struct Rays {
     pub checksum: u64,
     /// Nanoseconds of each sample; those of two structures with the same index are a pair. None where there is no time.
     pub ns: Vec<u64>,
+    /// The same samples, for as many of their rays as slower structures are timed on.
+    pub parts: Vec<Part>,
     /// Why there is no time: a clause.
     pub untimed: Option<String>,
     /// Whether that is for wrong answers.
@@ -142,9 +144,11 @@ pub struct Rays {
 }
 
 impl Rays {
-    /// Nanoseconds a ray in every sample.
-    pub fn paces(&self) -> Vec<f64> {
-        self.ns.iter().map(|&ns| ns.max(1) as f64 / self.rays as f64).collect()
+    /// Nanoseconds a ray in every sample, over the part of `rays` rays of it. None where those were not timed.
+    pub fn paces(&self, rays: usize) -> Vec<f64> {
+        let part = self.parts.iter().find(|part| part.rays == rays).map(|part| &part.ns);
+        let ns = if rays == self.rays { Some(&self.ns) } else { part };
+        ns.into_iter().flatten().map(|&ns| ns.max(1) as f64 / rays as f64).collect()
     }
 }
 
@@ -178,6 +182,19 @@ impl Epoch {
     /// The scene as keys and tables name it.
     pub fn title(&self) -> String {
         scene_name(&self.scene, self.stand_in)
+    }
+
+    /// Samples of every case.
+    pub fn runs(&self) -> usize {
+        let rays = self.structures.iter().flat_map(|structure| &structure.rays);
+        rays.map(|rays| rays.ns.len()).find(|&runs| runs > 0).unwrap_or(1)
+    }
+
+    /// Rays of a workload on which all structures with a time are timed: as many as the slowest takes.
+    pub fn common_rays(&self, workload: &str) -> usize {
+        let rays = self.structures.iter().filter(|structure| structure.refused.is_none()).flat_map(|s| &s.rays);
+        let timed = rays.filter(|rays| rays.workload == workload && !rays.ns.is_empty());
+        timed.map(|rays| rays.rays).min().unwrap_or(0)
     }
 
     /// That every structure is timed on rays of all kinds, and that all of them, being over one triangle test, give the same answers to the bit.

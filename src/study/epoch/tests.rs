@@ -13,6 +13,7 @@ pub fn rays(workload: &str) -> Rays {
         rays: 1000,
         checksum: 1,
         ns: vec![],
+        parts: vec![],
         untimed: None,
         wrong: false,
         counts: Some(RayCounts { rays: 1000, hits: 500, distances: 9, tests: Some(4000), steps: Some(10_000) }),

@@ -1,6 +1,6 @@
 //! Times for all rays of a scene together.
 
-use super::{Epoch, Structure};
+use super::{Epoch, Rays, Structure};
 use crate::measure::{Interval, NoiseFloor, standard_error, two_sided};
 use crate::study::replicates::{interval, replicates, values};
 
@@ -8,17 +8,24 @@ use crate::study::replicates::{interval, replicates, values};
 /// those that were.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WholeTimes {
-    /// ln of seconds: of each epoch, or of each round of a single one; of each structure.
-    replicates: Vec<Vec<f64>>,
-    epochs: usize,
+    /// Of each epoch, its structures.
+    epochs: Vec<Vec<Structure>>,
 }
 
 impl WholeTimes {
     /// Of the epochs of one scene, in which every structure is timed.
     pub fn new<'a>(epochs: impl IntoIterator<Item = &'a Epoch>) -> Self {
-        let logs = |epoch: &Epoch| epoch.structures.iter().map(seconds).collect();
-        let samples: Vec<Vec<Vec<f64>>> = epochs.into_iter().map(logs).collect();
-        Self { epochs: samples.len(), replicates: replicates(samples) }
+        Self { epochs: epochs.into_iter().map(|epoch| epoch.structures.clone()).collect() }
+    }
+
+    /// ln of seconds of the structures with these numbers, on the rays that all of them were timed on: of each epoch, or of each round of a
+    /// single one.
+    fn replicates(&self, structures: &[usize]) -> Vec<Vec<f64>> {
+        let of_epoch = |all: &Vec<Structure>| {
+            let chosen: Vec<&Structure> = structures.iter().map(|&number| &all[number]).collect();
+            chosen.iter().map(|structure| seconds(structure, &chosen)).collect()
+        };
+        replicates(self.epochs.iter().map(of_epoch).collect())
     }
 
     /// Seconds: the geometric mean over the epochs, with the interval that holds that of another run.
@@ -26,17 +33,17 @@ impl WholeTimes {
     /// # Panics
     /// If there is no epoch.
     pub fn seconds(&self, structure: usize, floor: f64, seed: u64) -> Interval {
-        interval(&self.replicates, |logs| logs[structure], floor, seed)
+        interval(&self.replicates(&[structure]), |logs| logs[0], floor, seed)
     }
 
     /// ln of the time of `one` over that of `other`, as a cell of [`replication`](crate::measure::replication()).
     pub fn log_ratios(&self, one: usize, other: usize) -> Vec<Vec<f64>> {
-        values(&self.replicates, |logs| logs[one] - logs[other])
+        values(&self.replicates(&[one, other]), |logs| logs[0] - logs[1])
     }
 
     /// The time of `one` over that of `other`, with the interval that holds it in another run.
     pub fn ratio(&self, one: usize, other: usize, floor: f64, seed: u64) -> Interval {
-        interval(&self.replicates, |logs| logs[one] - logs[other], floor, seed)
+        interval(&self.replicates(&[one, other]), |logs| logs[0] - logs[1], floor, seed)
     }
 
     /// What two builds of one structure differ by, as a logarithm.
@@ -47,7 +54,7 @@ impl WholeTimes {
     /// How likely a difference as large as that of two structures is by chance: Student's t over the epochs. Nothing with fewer than
     /// two of them.
     pub fn probability(&self, one: usize, other: usize) -> Option<f64> {
-        if self.epochs < 2 {
+        if self.epochs.len() < 2 {
             return None;
         }
         let differences: Vec<f64> = self.log_ratios(one, other).concat();
@@ -60,10 +67,13 @@ impl WholeTimes {
     }
 }
 
-/// ln of the seconds that a structure takes for all rays, in each round.
-fn seconds(structure: &Structure) -> Vec<f64> {
-    let rounds = structure.rays.iter().map(|rays| rays.ns.len()).min().unwrap_or(0);
-    let second =
-        |round: usize| structure.rays.iter().map(|rays| rays.paces()[round] * rays.all as f64 * 1e-9).sum::<f64>();
-    (0..rounds).map(|round| libm::log(second(round))).collect()
+/// ln of the seconds that a structure takes for all rays, in each round, at the pace of those that all of `beside` were timed on.
+fn seconds(structure: &Structure, beside: &[&Structure]) -> Vec<f64> {
+    let paces_of_kind = |(kind, rays): (usize, &Rays)| {
+        let common = beside.iter().map(|other| other.rays[kind].rays).min().unwrap_or(rays.rays);
+        rays.paces(common).into_iter().map(|pace| pace * rays.all as f64 * 1e-9).collect::<Vec<f64>>()
+    };
+    let kinds: Vec<Vec<f64>> = structure.rays.iter().enumerate().map(paces_of_kind).collect();
+    let rounds = kinds.iter().map(Vec::len).min().unwrap_or(0);
+    (0..rounds).map(|round| libm::log(kinds.iter().map(|kind| kind[round]).sum::<f64>())).collect()
 }

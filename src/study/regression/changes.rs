@@ -124,7 +124,7 @@ fn beside<'a>(label: &str, own: &Record, records: &'a [Record]) -> Option<&'a Re
 
 /// ln(nanoseconds a ray).
 fn absolute(own: &Record) -> Vec<Vec<f64>> {
-    let logs: Vec<f64> = own.paces().iter().map(|&pace| libm::log(pace)).collect();
+    let logs: Vec<f64> = own.samples_ns.iter().map(|ns| libm::log(ns / own.rays as f64)).collect();
     logs.chunks((logs.len() / own.epochs.max(1)).max(1)).map(<[f64]>::to_vec).collect()
 }
 

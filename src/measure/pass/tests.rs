@@ -1,0 +1,145 @@
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
+
+use glam::Vec3;
+
+use super::*;
+use crate::accel::{Accel, Counts, Footprint, Observed, TreeShape};
+use crate::geometry::Mesh;
+use crate::measure::tiles::rays_at;
+use crate::measure::{Clock, SystemClock};
+use crate::structures::BruteForce;
+use crate::triangle::MollerTrumbore;
+
+fn triangle() -> Box<dyn DynAccel> {
+    let mesh = Mesh::new(vec![Vec3::ZERO, Vec3::X, Vec3::Y], vec![[0, 1, 2]]).unwrap();
+    Box::new(BruteForce::<MollerTrumbore>::build(&Arc::new(mesh), &Default::default()).unwrap())
+}
+
+/// `n` rays of which every second hits.
+fn rays(n: usize) -> Vec<Ray> {
+    (0..n).map(|i| Ray::new(Vec3::new(0.2, 0.2, if i % 2 == 0 { -1.0 } else { 1.0 }), Vec3::Z)).collect()
+}
+
+#[test]
+fn any_number_of_threads_gives_the_same_answers() {
+    let (accel, rays, clock) = (triangle(), rays(5000), SystemClock::start());
+    let (one, three) = (Threads::new(1).unwrap(), Threads::new(3).unwrap());
+    for query in [Query::Closest, Query::Any] {
+        for levels in [&[0][..], &[0, 1, 3], &[1], &[2, 4]] {
+            let sums = [&one, &three].map(|threads| {
+                let mut pass = Pass::new(accel.as_ref(), &rays, query, threads);
+                pass.choose(levels, 5);
+                pass.clear();
+                assert_eq!(pass.run(&Stopwatch::new(&clock)).len(), levels.len());
+                if levels[0] == 0 {
+                    assert_eq!(pass.hits(), 2500);
+                }
+                assert!(!pass.contradicts_itself());
+                pass.checksum()
+            });
+            assert_eq!(sums[0], sums[1]);
+        }
+    }
+}
+
+#[test]
+fn a_pass_that_answers_nothing_is_unsteady() {
+    let (accel, rays, threads) = (triangle(), rays(10), Threads::new(1).unwrap());
+    for query in [Query::Closest, Query::Any] {
+        let mut pass = Pass::new(accel.as_ref(), &rays, query, &threads);
+        let idle: Vec<u64> = (0..2)
+            .map(|_| {
+                pass.clear();
+                pass.checksum()
+            })
+            .collect();
+        assert_ne!(idle[0], idle[1]);
+    }
+}
+
+#[test]
+fn a_restricted_pass_answers_the_rays_of_its_tiles() {
+    let (accel, rays, threads, clock) = (triangle(), rays(9000), Threads::new(1).unwrap(), SystemClock::start());
+    let mut pass = Pass::new(accel.as_ref(), &rays, Query::Any, &threads);
+    for (level, epoch) in [(1, 0), (1, 3), (3, 1), (6, 2)] {
+        pass.choose(&[level], epoch);
+        pass.clear();
+        pass.run(&Stopwatch::new(&clock));
+        let own = || tiles(9000, level, epoch).into_iter().flatten();
+        assert_eq!((pass.rays(), own().count()), (9000, rays_at(9000, level)));
+        assert_eq!(pass.hits(), own().filter(|i| i % 2 == 0).count());
+    }
+}
+
+/// A structure that takes as many nanoseconds for a ray, on a clock of its own, as the ray's origin says.
+struct Slow<'a>(&'a AtomicU64, Box<dyn DynAccel>);
+
+/// The clock, the number of rays, and what they take.
+struct Taken<'a>(&'a AtomicU64, usize, u64);
+
+struct Now<'a>(&'a AtomicU64);
+
+impl Clock for Now<'_> {
+    fn now_ns(&self) -> u64 {
+        // Reading takes time as well.
+        self.0.fetch_add(7, Relaxed)
+    }
+}
+
+impl Loaded for Taken<'_> {
+    fn closest_hits(&self, hits: &mut [Option<Hit>]) {
+        assert_eq!(hits.len(), self.1);
+        self.0.fetch_add(self.2, Relaxed);
+    }
+
+    fn any_hits(&self, _: &mut [bool]) {
+        unreachable!("closest hits are asked for")
+    }
+}
+
+impl DynAccel for Slow<'_> {
+    fn closest_hits(&self, _: &[Ray], _: &mut [Option<Hit>]) {}
+    fn any_hits(&self, _: &[Ray], _: &mut [bool]) {}
+    fn closest_hits_counted(&self, _: &[Ray], _: &mut [Option<Hit>], _: &mut Counts) {}
+    fn any_hits_counted(&self, _: &[Ray], _: &mut [bool], _: &mut Counts) {}
+    fn observed(&self) -> Observed {
+        self.1.observed()
+    }
+    fn footprint(&self) -> Footprint {
+        self.1.footprint()
+    }
+    fn shape(&self) -> TreeShape {
+        self.1.shape()
+    }
+    fn load<'a>(&'a self, rays: Cow<'a, [Ray]>) -> Box<dyn Loaded + 'a> {
+        let ns = rays.iter().map(|ray| ray.origin.x as u64).sum();
+        Box::new(Taken(self.0, rays.len(), ns))
+    }
+}
+
+#[test]
+fn the_time_of_a_part_is_that_of_its_rays_and_lead_ins_are_not_timed() {
+    let now = AtomicU64::new(0);
+    let slow = Slow(&now, triangle());
+    // The ray with number i takes i nanoseconds.
+    let rays: Vec<Ray> = (0..9000).map(|i| Ray::new(Vec3::splat(i as f32), Vec3::X)).collect();
+    let (threads, clock) = (Threads::new(1).unwrap(), Now(&now));
+    for (levels, epoch) in [(&[0][..], 0), (&[0, 1, 3], 1), (&[1, 2], 2), (&[4], 3)] {
+        let mut pass = Pass::new(&slow, &rays, Query::Closest, &threads);
+        pass.choose(levels, epoch);
+        pass.clear();
+        let expected =
+            levels.iter().map(|&level| tiles(9000, level, epoch).into_iter().flatten().sum::<usize>() as u64);
+        assert_eq!(pass.run(&Stopwatch::new(&clock)), expected.collect::<Vec<_>>());
+    }
+}
+
+#[test]
+fn rays_are_picked_one_from_each_part() {
+    let all: Vec<Ray> = (0..10).map(|i| Ray::new(Vec3::splat(i as f32), Vec3::X)).collect();
+    let parts: Vec<usize> =
+        spread(&all, 4).iter().map(|ray| [0, 0, 1, 1, 1, 2, 2, 3, 3, 3][ray.origin.x as usize]).collect();
+    assert_eq!(parts, [0, 1, 2, 3]);
+    assert_eq!(spread(&all, 20), all);
+}
