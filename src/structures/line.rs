@@ -8,12 +8,12 @@ use crate::simd::Lanes;
 /// The line of a ray, prepared for crossing axis-aligned planes.
 ///
 /// **Slack.** The crossing of the plane `axis = s` is computed as `(s - o) * (1 / d)`: three roundings, each by at most 2^-24
-/// of the result, so that it is within 3.01 * 2^-24 < 2^-22 of the exact parameter, relatively, unless the product
-/// underflows, when it is within 2^-126 absolutely. [`before`] and [`after`] move it outward by 4 * 2^-23 = 2^-21 and 2^-126,
-/// at least twice the error, rounding of the move included. The sign of the crossing is exact, because a difference of floats has the exact
-/// sign; an infinite one (`d` = 0, plane aside) orders correctly. Three cases have no answer, and all give NaN, which every user
-/// reads as "may cross anywhere": the ray lies in the plane (0 * inf), 1 / d overflows or is too small for full precision, and
-/// the difference to some plane may overflow.
+/// of the result, so that it is within 3.01 * 2^-24 of the exact parameter, relatively, and within 2^-148 absolutely where the
+/// product underflows. [`before`] and [`after`] move it outward by 4 * 2^-23 = 8 * 2^-24 and then by 2^-126. Rounding of the product takes back at
+/// most 1.01 * 2^-24, that of the sum nothing: more than twice the error of a crossing is left, so that a moved crossing compares
+/// rightly with one that is not moved. The sign of the crossing is exact, because a difference of floats has the exact sign; an infinite one (`d` = 0, plane aside) orders
+/// correctly. Three cases have no answer, and all give NaN, which every user reads as "may cross anywhere": the ray lies in the
+/// plane (0 * inf), 1 / d overflows or is too small for full precision, and the difference to some plane may overflow.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Line {
     origin: [f32; 3],
@@ -23,11 +23,12 @@ pub(crate) struct Line {
 
 const TINY: f32 = f32::MIN_POSITIVE;
 const AFTER: f32 = 1.0 + 4.0 * f32::EPSILON;
+const BEFORE: f32 = 1.0 - 4.0 * f32::EPSILON;
 
 /// Not after the exact parameter, for a computed one that is not negative.
 #[inline(always)]
 pub(crate) fn before(t: f32) -> f32 {
-    t * (1.0 - 4.0 * f32::EPSILON) - TINY
+    t * BEFORE - TINY
 }
 
 /// Not before the exact parameter, for a computed one that is not negative.
@@ -157,6 +158,20 @@ mod tests {
                 }
             }
         }
+    }
+
+    /// What is left of the slack after the rounding of the move, in units of 2^-24.
+    #[test]
+    fn the_slack_is_more_than_two_crossings_are_off() {
+        let mut least = f64::INFINITY;
+        for i in 0..200_000_u32 {
+            // Numbers of all sizes, and of all significands.
+            let t = f32::from_bits((1 + i % 253) << 23 | i.wrapping_mul(2_654_435_761) >> 9);
+            let units = |moved: f32| (f64::from(moved) / f64::from(t) - 1.0).abs() * f64::from(1 << 24);
+            assert!(before(t) < t && t < after(t), "{t:e}");
+            least = least.min(units(before(t))).min(units(after(t)));
+        }
+        assert!(least > 2.0 * 3.01, "{least}");
     }
 
     #[test]
