@@ -82,3 +82,54 @@ impl<T: TriangleTest> Accel for BruteForce<T> {
         Some(self.leaf())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::Vec3;
+
+    use super::*;
+    use crate::accel::Capabilities;
+    use crate::triangle::Exact;
+
+    /// Leaves any hit as it is by default; declines `t_max`, or nothing.
+    struct Plain<const ENDS: bool>(BruteForce<Exact>);
+
+    impl<const ENDS: bool> Accel for Plain<ENDS> {
+        type Config = BruteForceConfig;
+
+        const CAPABILITIES: Capabilities = Capabilities { t_max: ENDS, ..Capabilities::ALL };
+
+        fn build(mesh: &Arc<Mesh>, config: &BruteForceConfig) -> Result<Self, BuildError> {
+            BruteForce::build(mesh, config).map(Self)
+        }
+
+        fn closest_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit> {
+            let asked = if ENDS { *ray } else { ray.until(f32::INFINITY) };
+            self.0.closest_hit(&asked, observer)
+        }
+
+        fn footprint(&self) -> Footprint {
+            self.0.footprint()
+        }
+
+        fn shape(&self) -> TreeShape {
+            self.0.shape()
+        }
+    }
+
+    /// The exact `t` is one third, just before the float that it is rounded to.
+    #[test]
+    fn any_hit_is_by_default_whether_there_is_a_closest_hit() {
+        let mesh = Arc::new(Mesh::new(vec![Vec3::X, Vec3::Y, Vec3::Z], vec![[0, 1, 2]]).unwrap());
+        let third: f32 = 1.0 / 3.0;
+        let ray = Ray::new(Vec3::ZERO, Vec3::ONE).until(third);
+        let plain = Plain::<true>::build(&mesh, &BruteForceConfig {}).unwrap();
+        assert_eq!(plain.closest_hit(&ray, &mut ()), Some(Hit::new(third, 0)));
+        assert!(plain.any_hit(&ray, &mut ()));
+        assert!(!plain.any_hit(&ray.until(third.next_down()), &mut ()));
+
+        let endless = Plain::<false>::build(&mesh, &BruteForceConfig {}).unwrap();
+        assert!(endless.closest_hit(&ray.until(0.2), &mut ()).is_some());
+        assert!(!endless.any_hit(&ray.until(0.2), &mut ()) && endless.any_hit(&ray.until(0.4), &mut ()));
+    }
+}
