@@ -1,6 +1,7 @@
 //! One ray against one triangle, in integers: a scene of `f32` numbers is a set of dyadic rationals, so what a ray meets, and in
 //! which order, is decidable.
 
+pub mod rational;
 mod small;
 
 use std::cmp::Ordering;
@@ -76,10 +77,19 @@ where
 }
 
 impl ExactT {
-    /// Whether this `t` lies in the half-open interval of `ray`.
+    /// Whether this `t` lies in the half-open interval of `ray` and rounds to a finite number (see [`Ray::end`]).
     pub fn is_within(&self, ray: &Ray) -> bool {
         let (t_min, t_max) = ray.interval();
-        self.compare(t_min).is_some_and(Ordering::is_ge) && self.compare(t_max).is_some_and(Ordering::is_lt)
+        let in_interval =
+            self.compare(t_min).is_some_and(Ordering::is_ge) && self.compare(t_max).is_some_and(Ordering::is_lt);
+        in_interval && !self.is_beyond_all()
+    }
+
+    /// Whether the nearest `f32` is positive infinity.
+    fn is_beyond_all(&self) -> bool {
+        // The middle of the largest number and the one that would follow, both times 2^149.
+        let twice = magnitude(f32::MAX.to_bits()) + magnitude(f32::INFINITY.to_bits());
+        (&self.numerator << (SCALE + 1)) >= twice * &self.denominator
     }
 
     /// The order of this `t` and a float, which may be infinite; nothing for NaN.

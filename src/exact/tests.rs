@@ -4,34 +4,9 @@ use rand_pcg::Pcg32;
 
 use super::*;
 
-/// The other formulation: Cramer's rule for `o + t d = a + u e1 + v e2`, in rationals and from the definition of a float.
-fn naive(ray: &Ray, corners: [Vec3; 3]) -> Option<RBig> {
-    type V = [RBig; 3];
-    let rational = |p: Vec3| -> V { p.to_array().map(|x| RBig::try_from(x).expect("finite")) };
-    let sub = |a: &V, b: &V| -> V { std::array::from_fn(|i| &a[i] - &b[i]) };
-    // The determinant of three columns, by the rule of Sarrus.
-    let det = |[a, b, c]: [&V; 3]| {
-        &a[0] * &b[1] * &c[2] + &b[0] * &c[1] * &a[2] + &c[0] * &a[1] * &b[2]
-            - &c[0] * &b[1] * &a[2]
-            - &b[0] * &a[1] * &c[2]
-            - &a[0] * &c[1] * &b[2]
-    };
-    let [a, b, c] = corners.map(rational);
-    let (o, d) = (rational(ray.origin), rational(ray.direction));
-    let (e1, e2, s, back) = (sub(&b, &a), sub(&c, &a), sub(&o, &a), d.clone().map(|x| -x));
-    let whole = det([&e1, &e2, &back]);
-    if whole == RBig::ZERO {
-        return None;
-    }
-    let u = det([&s, &e2, &back]) / &whole;
-    let v = det([&e1, &s, &back]) / &whole;
-    let t = det([&e1, &e2, &s]) / &whole;
-    (u >= RBig::ZERO && v >= RBig::ZERO && u + v <= RBig::ONE).then_some(t)
-}
-
 fn assert_agree(ray: &Ray, corners: [Vec3; 3]) -> bool {
     let ours = hit(ray, corners);
-    let twin = naive(ray, corners);
+    let twin = rational::hit(ray, corners);
     let as_rational = |t: ExactT| RBig::from(t.numerator) / RBig::from(t.denominator);
     assert_eq!(ours.clone().map(as_rational), twin, "{ray:?} {corners:?}");
     ours.is_some()
@@ -142,8 +117,13 @@ fn rounding_is_to_nearest_even() {
     assert_eq!(fraction(3.into(), IBig::ONE << (SCALE + 2)).round(), f32::from_bits(1));
     // 2^128 - 2^103 is half an ulp above the largest float.
     let limit = (IBig::ONE << 128) - (IBig::ONE << 103);
-    assert_eq!(fraction(limit.clone() - 1, 1.into()).round(), f32::MAX);
-    assert_eq!(fraction(limit, 1.into()).round(), f32::INFINITY);
+    let (below, at) = (fraction(limit.clone() - 1, 1.into()), fraction(limit, 1.into()));
+    assert_eq!((below.round(), at.round()), (f32::MAX, f32::INFINITY));
+    // Where no finite float is the nearest, every ray has ended.
+    let whole = Ray::new(Vec3::ZERO, Vec3::X);
+    assert_eq!([&below, &at].map(|t| t.is_within(&whole)), [true, false]);
+    assert!(!below.is_within(&whole.until(f32::MAX)));
+    assert!(at.approximate() >= whole.end() && whole.end() > f64::from(f32::MAX));
 }
 
 #[test]

@@ -29,7 +29,7 @@ struct Found {
 impl<'a> Query<'a> {
     /// `ray` must be valid.
     pub fn new(ray: &'a Ray, mesh: &'a Mesh) -> Self {
-        Self { ray, mesh, t_max: ray.interval().1.into(), nearest: None }
+        Self { ray, mesh, t_max: ray.end(), nearest: None }
     }
 
     pub fn truth(self) -> Option<Truth> {

@@ -163,9 +163,9 @@ fn names(truth: &Truth, hit: Hit) -> bool {
     truth.ids.binary_search(&hit.prim.index()).is_ok()
 }
 
-/// How far `t` is from the truth. The nearest float is never wrong, not even where that is infinite.
+/// How far `t` is from the truth.
 fn off(truth: &Truth, t: f32) -> f64 {
-    if t.is_infinite() && t == truth.rounded() { 0.0 } else { (f64::from(t) - truth.t.approximate()).abs() }
+    (f64::from(t) - truth.t.approximate()).abs()
 }
 
 /// The distance of the floats around `t`, which is not negative; that of denormals for what is smaller than all others.

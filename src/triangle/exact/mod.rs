@@ -66,14 +66,12 @@ impl TriangleTest for Exact {
     #[inline(always)]
     fn decide<const N: usize>(ray: &ExactRay, block: &FilterBlock<N>, lane: usize, inside: f32) -> Option<ExactDepth> {
         let (ray, corners) = (&ray.ray, block.lane(lane));
-        let (t_min, t_max) = ray.interval();
+        let (start, end) = (f64::from(ray.interval().0), ray.end());
         let sight = if inside > 0.0 { place(ray, corners) } else { look(ray, corners) };
         match sight {
             Sight::Miss => None,
-            Sight::Hit { low, high } if f64::from(t_min) <= low && high < f64::from(t_max) => {
-                Some(ExactDepth::new(ray, corners, low, high))
-            }
-            Sight::Hit { low, high } if high < f64::from(t_min) || f64::from(t_max) <= low => None,
+            Sight::Hit { low, high } if start <= low && high < end => Some(ExactDepth::new(ray, corners, low, high)),
+            Sight::Hit { low, high } if high < start || end <= low => None,
             Sight::Hit { .. } | Sight::Unclear => in_integers(ray, corners),
         }
     }
@@ -83,7 +81,7 @@ impl TriangleTest for Exact {
 #[cold]
 fn in_integers(ray: &Ray, corners: [Vec3; 3]) -> Option<ExactDepth> {
     let t = exact::hit(ray, corners).filter(|t| t.is_within(ray))?.round();
-    // Rounding is off by at most the distance to the next float; beyond the largest there is none.
-    let (low, high) = (t.min(f32::MAX).next_down(), t.next_up());
+    // Rounding is off by at most the distance to the next float.
+    let (low, high) = (t.next_down(), t.next_up());
     Some(ExactDepth::new(ray, corners, low.into(), high.into()))
 }

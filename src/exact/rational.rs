@@ -1,0 +1,70 @@
+//! A second judge: the question of [`hit`](super::hit()) by another formula, in rationals.
+//!
+//! It shares no line of this crate with the first; under both are the big integers of dashu. A hundred times slower; for tests.
+
+use dashu_ratio::RBig;
+use glam::Vec3;
+
+use crate::geometry::Ray;
+
+/// Where the line of a ray meets the plane of a triangle.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Solution {
+    /// The determinant that the other three were divided by; not zero.
+    pub determinant: RBig,
+    /// Barycentrics of the second and the third corner.
+    pub u: RBig,
+    pub v: RBig,
+    pub t: RBig,
+}
+
+/// Cramer's rule for `o + t d = a + u e1 + v e2`; nothing where the line is parallel to the plane.
+///
+/// # Panics
+/// If a number is not finite.
+pub fn solve(ray: &Ray, corners: [Vec3; 3]) -> Option<Solution> {
+    type V = [RBig; 3];
+    let rational = |p: Vec3| -> V { p.to_array().map(|x| RBig::try_from(x).expect("finite")) };
+    let sub = |a: &V, b: &V| -> V { std::array::from_fn(|i| &a[i] - &b[i]) };
+    // The determinant of three columns, by the rule of Sarrus.
+    let det = |[a, b, c]: [&V; 3]| {
+        &a[0] * &b[1] * &c[2] + &b[0] * &c[1] * &a[2] + &c[0] * &a[1] * &b[2]
+            - &c[0] * &b[1] * &a[2]
+            - &b[0] * &a[1] * &c[2]
+            - &a[0] * &c[1] * &b[2]
+    };
+    let [a, b, c] = corners.map(rational);
+    let (o, d) = (rational(ray.origin), rational(ray.direction));
+    let (e1, e2, s, back) = (sub(&b, &a), sub(&c, &a), sub(&o, &a), d.map(|x| -x));
+    let determinant = det([&e1, &e2, &back]);
+    if determinant == RBig::ZERO {
+        return None;
+    }
+    let u = det([&s, &e2, &back]) / &determinant;
+    let v = det([&e1, &s, &back]) / &determinant;
+    let t = det([&e1, &e2, &s]) / &determinant;
+    Some(Solution { determinant, u, v, t })
+}
+
+/// Where the whole line of `ray` meets the closed triangle.
+///
+/// # Panics
+/// If a number is not finite.
+pub fn hit(ray: &Ray, corners: [Vec3; 3]) -> Option<RBig> {
+    let Solution { u, v, t, .. } = solve(ray, corners)?;
+    (u >= RBig::ZERO && v >= RBig::ZERO && u + v <= RBig::ONE).then_some(t)
+}
+
+/// The nearest `f32` of the hit of `ray` within its interval: half-open, a `t` that rounds to infinity
+/// being beyond its end.
+///
+/// # Panics
+/// If a number of the ray's origin or direction or of a corner is not finite.
+pub fn hit_within(ray: &Ray, corners: [Vec3; 3]) -> Option<f32> {
+    let t = hit(ray, corners)?;
+    let (t_min, t_max) = ray.interval();
+    let from_start = RBig::try_from(t_min).is_ok_and(|start| t >= start);
+    let before_end = t_max == f32::INFINITY || RBig::try_from(t_max).is_ok_and(|end| t < end);
+    let nearest = t.to_f32().value();
+    (from_start && before_end && nearest.is_finite()).then_some(nearest)
+}
