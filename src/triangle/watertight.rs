@@ -4,13 +4,16 @@ use super::{Corners, TriangleTest};
 use crate::geometry::Ray;
 use crate::simd::Lanes;
 
-/// Watertight, in `f32`: the triangle is sheared so that the ray becomes the third axis, and edges are tested in 2D; an edge
-/// value of exactly zero is computed again in `f64`.
+/// Watertight, in `f32`: the triangle is sheared so that the ray becomes the third axis, and edges are tested in 2D; edge
+/// values that are exactly zero, very small or very large are computed again in `f64`.
 ///
 /// Promises: a corner is sheared to the same point for every triangle that has it, and the sign of an edge is exact for the
 /// sheared corners, so that no ray passes between the triangles of a closed mesh, edges and vertices included. Does not promise:
 /// the sheared corners are rounded, so that what lies within an ulp beside an edge may go to either side (a lone triangle may be
 /// missed at its rim), and `t` of slivers may be off by thousands of ulps. Costs about as much as Möller-Trumbore.
+///
+/// Range: any size of scene in which differences of coordinates do not overflow; below 1e-15 and above 1e6 units the test is slower.
+/// Directions whose largest component is below 3e-39 or above 8e37 and hits beyond t = 3e26 may be lost.
 ///
 /// # References
 /// Woop, Benthin, Wald: Watertight ray/triangle intersection. Journal of Computer Graphics Techniques 2(1), 2013.
@@ -72,8 +75,13 @@ impl TriangleTest for Watertight {
         };
         let mut volumes = edges(xs, ys);
         let zero = L::zero();
-        if volumes.iter().any(|v| zero.le(*v) & v.le(zero) != 0) {
-            volumes = exact_where_zero(volumes, xs, ys);
+        let [u, v, w] = volumes;
+        let det = u.add(v).add(w);
+        let size = det.flip_sign(det);
+        let all = L::splat(0.0).le(zero);
+        let ordinary = L::splat(SMALL).le(size) & size.le(L::splat(LARGE));
+        if ordinary != all || volumes.iter().any(|v| zero.le(*v) & v.le(zero) != 0) {
+            volumes = in_f64(volumes, xs, ys);
         }
 
         let [u, v, w] = volumes;
@@ -92,19 +100,29 @@ impl TriangleTest for Watertight {
     }
 }
 
-/// The edge values, those of lanes with a zero among them computed in `f64`.
+/// Sums of edge values between these neither lose digits to underflow nor overflow where `t` is computed with them.
+const SMALL: f32 = 1.0 / (1_u128 << 100) as f32;
+const LARGE: f32 = (1_u64 << 40) as f32;
+
+/// The edge values, those of lanes with a zero among them or with a sum that is too small or too large computed in `f64`, all three
+/// times a power of two, which changes neither their signs nor `t`.
 #[cold]
-fn exact_where_zero<const N: usize, L: Lanes<N>>(volumes: [L; 3], xs: [L; 3], ys: [L; 3]) -> [L; 3] {
+fn in_f64<const N: usize, L: Lanes<N>>(volumes: [L; 3], xs: [L; 3], ys: [L; 3]) -> [L; 3] {
     let mut values = volumes.map(L::store);
     let (xs, ys) = (xs.map(L::store), ys.map(L::store));
     for lane in 0..N {
-        if values.iter().all(|v| v[lane] != 0.0) {
+        let [u, v, w] = [0, 1, 2].map(|i| values[i][lane]);
+        if [u, v, w].iter().all(|v| *v != 0.0) && (SMALL..=LARGE).contains(&(u + v + w).abs()) {
             continue;
         }
+        // Products of two floats are exact, and so is the sign of a difference.
         let [[ax, bx, cx], [ay, by, cy]] = [xs, ys].map(|v| v.map(|corner| f64::from(corner[lane])));
-        values[0][lane] = (cx * by - cy * bx) as f32;
-        values[1][lane] = (ax * cy - ay * cx) as f32;
-        values[2][lane] = (bx * ay - by * ax) as f32;
+        let exact = [cx * by - cy * bx, ax * cy - ay * cx, bx * ay - by * ax];
+        let largest = exact.iter().fold(0.0_f64, |most, v| most.max(v.abs()));
+        let scale = if largest > 0.0 && largest.is_finite() { libm::ldexp(1.0, -libm::ilogb(largest)) } else { 1.0 };
+        for (value, exact) in values.iter_mut().zip(exact) {
+            value[lane] = (exact * scale) as f32;
+        }
     }
     values.map(|v| L::load(&v))
 }

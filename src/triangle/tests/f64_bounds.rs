@@ -1,0 +1,187 @@
+//! What the tests in `f64` promise, with its constants, held against rationals.
+
+use dashu_ratio::RBig;
+
+use super::*;
+
+/// Sums of the magnitudes of the components of a ray and a triangle.
+struct Sizes {
+    direction: f64,
+    /// From the origin to each corner.
+    corners: [f64; 3],
+    /// From a corner to the next one.
+    edges: [f64; 3],
+}
+
+impl Sizes {
+    fn of(ray: &Ray, corners: [Vec3; 3]) -> Self {
+        let size = |v: glam::DVec3| v.abs().element_sum();
+        let [a, b, c] = corners.map(Vec3::as_dvec3);
+        Self {
+            direction: size(ray.direction.as_dvec3()),
+            corners: [a, b, c].map(|p| size(p - ray.origin.as_dvec3())),
+            edges: [b - a, c - b, a - c].map(size),
+        }
+    }
+}
+
+/// The promises of a test, all three times the determinant.
+struct Bounds {
+    /// What is hit is found if the determinant is larger.
+    found: f64,
+    /// How far a barycentric of a hit may be below zero: those of the first, the second and the third corner.
+    outside: [f64; 3],
+    /// How far `t` may be off before it is rounded.
+    t: f64,
+}
+
+/// As documented at [`MollerTrumboreF64`].
+fn of_moller_trumbore(sizes: &Sizes, t: f64) -> Bounds {
+    let (d, s) = (sizes.direction, sizes.corners[0]);
+    let e = sizes.edges[0] + sizes.edges[2];
+    let unit = libm::exp2(-46.0) * d * e;
+    Bounds { found: unit * e, outside: [unit * (s + 2.0 * e); 3], t: libm::exp2(-51.0) * e * e * (s + t.abs() * d) }
+}
+
+/// As documented at [`EdgeF64`].
+fn of_edges(sizes: &Sizes, t: f64) -> Bounds {
+    let [a, b, c] = sizes.corners;
+    let [ab, bc, ca] = sizes.edges;
+    let d = sizes.direction;
+    let outside = [b * bc, c * ca, a * ab].map(|area| libm::exp2(-47.0) * d * area);
+    Bounds { found: libm::exp2(-48.0) * d * ab * ca, outside, t: libm::exp2(-49.0) * ab * ca * (a + t.abs() * d) }
+}
+
+fn f64_of(x: &RBig) -> f64 {
+    x.to_f64().value()
+}
+
+/// The distance of the floats around `t`.
+fn ulp(t: f64) -> f64 {
+    let t = t.abs() as f32;
+    f64::from(t.next_up()) - f64::from(t)
+}
+
+/// What a test did with its freedom.
+#[derive(Debug, Default)]
+struct Freedom {
+    hits: u32,
+    lost: u32,
+    invented: u32,
+    /// `t` off by more than an ulp.
+    off: u32,
+}
+
+fn check<T: TriangleTest>(ray: &Ray, corners: [Vec3; 3], bounds: fn(&Sizes, f64) -> Bounds, freedom: &mut Freedom) {
+    let found = scalar_hit::<T>(ray, corners);
+    let Some(rational::Solution { determinant, u, v, t }) = rational::solve(ray, corners) else {
+        assert_eq!(found, None, "{}: a parallel ray hits: {ray:?} {corners:?}", T::NAME);
+        return;
+    };
+    let is_hit = rational::hit_within(ray, corners).is_some();
+    let (determinant, t) = (f64_of(&determinant).abs(), f64_of(&t));
+    let Bounds { found: sure, outside, t: off } = bounds(&Sizes::of(ray, corners), t);
+    let off = off / determinant + 0.51 * ulp(t);
+    match found {
+        Some(found) => {
+            let barycentrics = [RBig::ONE - &u - &v, u, v];
+            for (barycentric, outside) in barycentrics.iter().zip(outside) {
+                let (is, may) = (f64_of(barycentric), -outside / determinant);
+                assert!(is >= may, "{}: {is:e} is below {may:e}: {ray:?} {corners:?}", T::NAME);
+            }
+            let error = (f64::from(found) - t).abs();
+            assert!(error <= off, "{}: t = {t:e} is off by {error:e} > {off:e}: {ray:?} {corners:?}", T::NAME);
+            freedom.hits += 1;
+            freedom.invented += u32::from(!is_hit);
+            freedom.off += u32::from(error > ulp(t));
+        }
+        None if is_hit => {
+            // At the very ends of the interval what counts is `t` as computed.
+            let at_an_end = t <= off || t + off >= f64::from(f32::MAX);
+            assert!(determinant < sure || at_an_end, "{}: a sure hit is lost: {ray:?} {corners:?}", T::NAME);
+            freedom.lost += 1;
+        }
+        None => {}
+    }
+}
+
+/// Needles and slivers, along which rays graze.
+fn needle(rng: &mut Pcg32) -> (Ray, [Vec3; 3]) {
+    let long = point(rng, unit) * 1e6;
+    let thin = |rng: &mut Pcg32| point(rng, unit) * libm::exp2f((rng.next_u32() % 20) as f32 - 8.0);
+    let corners = [long, -long + thin(rng), long * unit(rng) + thin(rng)];
+    let inside = (corners[0] + corners[1] + corners[2]) / 3.0;
+    let target = inside + (corners[0] - inside) * unit(rng).abs();
+    let origin = inside + thin(rng) + long * (0.1 * unit(rng));
+    (Ray::new(origin, (target - origin) * libm::exp2f((rng.next_u32() % 8) as f32 - 8.0)), corners)
+}
+
+fn hold<T: TriangleTest>(bounds: fn(&Sizes, f64) -> Bounds) {
+    let mut rng = Pcg32::seed_from_u64(14);
+    let mut freedom = Freedom::default();
+    for round in 0..12_000 {
+        let (ray, corners) = if round % 2 == 0 { needle(&mut rng) } else { hard(&mut rng, round / 2) };
+        if ray.is_valid() && corners.iter().all(|p| p.is_finite()) {
+            check::<T>(&ray, corners, bounds, &mut freedom);
+        }
+    }
+    let Freedom { hits, lost, invented, off } = freedom;
+    // Without any of these nothing but exact answers would do for a bound.
+    assert!(hits > 2_000 && lost > 0 && invented > 0 && off > 20, "{}: {freedom:?}", T::NAME);
+}
+
+#[test]
+fn moller_trumbore_f64_keeps_its_bounds() {
+    hold::<MollerTrumboreF64>(of_moller_trumbore);
+}
+
+#[test]
+fn edge_f64_keeps_its_bounds() {
+    hold::<EdgeF64>(of_edges);
+}
+
+#[test]
+fn filtered_f64_keeps_the_bounds_of_what_it_filters() {
+    hold::<FilteredF64>(of_moller_trumbore);
+}
+
+/// A hit invented 4.5e-11 beside a sliver, one lost, and a `t` 115 ulps off: within the bounds, and far from exact.
+#[test]
+fn what_f64_cannot_tell_the_exact_test_does() {
+    let beside = (
+        Ray::new(Vec3::new(1.0529697, 0.79743576, 2.6935759), Vec3::new(-0.052969694, -0.5633358, -1.6935759)),
+        [Vec3::new(0.0, 0.2331, 0.0), Vec3::new(1.0, 0.2341, 1.0), Vec3::new(1.0, 0.2331, 1.0001)],
+    );
+    let lost = (
+        Ray::new(Vec3::new(-0.41515878, 0.8378415, 1.5203968), Vec3::new(-5957.0234, 13413.253, 18885.059)),
+        [
+            Vec3::new(249066.56, -560805.06, -789597.4),
+            Vec3::new(-249066.31, 560804.8, 789596.9),
+            Vec3::new(-224159.67, 504724.3, 710637.2),
+        ],
+    );
+    let off = (
+        Ray::new(Vec3::new(49.000397, -704.82355, 176.40697), Vec3::new(-9731.703, 19450.404, -11313.292)),
+        [
+            Vec3::new(-405851.38, 785724.8, -466819.28),
+            Vec3::new(405851.56, -785725.3, 466820.28),
+            Vec3::new(365266.44, -707152.8, 420138.3),
+        ],
+    );
+    for (ray, corners) in [beside, lost, off] {
+        let second = rational::hit_within(&ray, corners);
+        assert_eq!(scalar_hit::<Exact>(&ray, corners), second);
+        let all = [
+            scalar_hit::<MollerTrumboreF64>(&ray, corners),
+            scalar_hit::<FilteredF64>(&ray, corners),
+            scalar_hit::<EdgeF64>(&ray, corners),
+        ];
+        println!("{second:?} {all:?}");
+    }
+    let f64s = |(ray, corners): (Ray, [Vec3; 3])| scalar_hit::<FilteredF64>(&ray, corners);
+    let exact = |(ray, corners): (Ray, [Vec3; 3])| scalar_hit::<Exact>(&ray, corners);
+    assert!(f64s(beside).is_some() && exact(beside).is_none());
+    assert!(f64s(lost).is_none() && exact(lost).is_some());
+    let ulps = |a: f32, b: f32| a.to_bits().abs_diff(b.to_bits());
+    assert_eq!(ulps(f64s(off).unwrap(), exact(off).unwrap()), 115);
+}
