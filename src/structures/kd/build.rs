@@ -90,12 +90,16 @@ impl<'a> Context<'a> {
     }
 }
 
-/// The greatest depth of a leaf: 8 + 1.3 log2 n (Pharr, Jakob, Humphreys), at most 47 for the largest mesh.
-fn depth_cap(triangles: usize) -> u32 {
+/// The greatest depth of a leaf: 8 + 1.3 log2 n (Pharr, Jakob, Humphreys).
+const fn depth_cap(triangles: usize) -> u32 {
     // The logarithm is rounded up to a whole number: no library function decides about the shape of a tree.
-    let log2 = usize::BITS - triangles.max(1).leading_zeros();
+    let log2 = usize::BITS - if triangles > 1 { triangles } else { 1 }.leading_zeros();
     8 + log2 * 13 / 10
 }
+
+/// That of the largest mesh.
+pub(super) const DEEPEST: u32 = depth_cap(u32::MAX as usize);
+const _: () = assert!(DEEPEST == 49);
 
 /// Grows the tree over `content` in the cell of the mesh. The result does not depend on the number of threads.
 pub(super) fn grow<C: Content, T: Tree<C>>(context: &Context, content: C) -> T {

@@ -28,7 +28,7 @@ use crate::triangle::TriangleTest;
 use build::{Context, Plan, grow};
 use cells::Cells;
 use median::Triangles;
-use node::Node;
+use node::{Limits, Node};
 use sah_binned::Binned;
 
 /// Triangles that a leaf tests at once.
@@ -49,14 +49,19 @@ pub struct KdTree<T: TriangleTest> {
     config: KdConfig,
 }
 
-/// Grows the tree that `config` describes.
-fn plan(mesh: &Mesh, config: &KdConfig) -> Result<Plan, BuildError> {
+/// Grows the tree that `config` describes, if it stays within the limits.
+fn plan(mesh: &Mesh, config: &KdConfig, limits: &Limits) -> Result<Plan, BuildError> {
     config.check()?;
+    // Every triangle takes a reference: what cannot end well need not begin.
+    limits.check(1, mesh.solid().count())?;
     let context = Context::new(mesh, config);
-    Ok(match config.plane {
+    let plan: Plan = match config.plane {
         Plane::VertexMedian | Plane::SpatialMedian | Plane::CentroidMedian => grow(&context, Triangles::all(&context)),
         Plane::SahBinned | Plane::SahSweep => grow(&context, Binned::all(&context)),
-    })
+    };
+    // What nodes name only grows: if the last of it can be named, all of it could.
+    limits.check(plan.nodes.len(), plan.references.len())?;
+    Ok(plan)
 }
 
 /// The cells of that tree that are not empty, as tight boxes. Its plane must be chosen by the surface area heuristic.
@@ -97,7 +102,7 @@ impl<T: TriangleTest> Accel for KdTree<T> {
     const TRIANGLE_TEST: &'static str = T::NAME;
 
     fn build(mesh: &Arc<Mesh>, config: &KdConfig) -> Result<Self, BuildError> {
-        Ok(Self::finish(mesh, config, plan(mesh, config)?))
+        Ok(Self::finish(mesh, config, plan(mesh, config, &Limits::OF_NODES)?))
     }
 
     #[inline]

@@ -1,3 +1,5 @@
+use crate::accel::BuildError;
+
 /// A node of the tree in 8 bytes. The child below the plane follows its parent, the child above is named by number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
@@ -10,16 +12,41 @@ pub(super) struct Node {
 
 const _: () = assert!(size_of::<Node>() == 8);
 
+/// How large a tree may be.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Limits {
+    pub nodes: usize,
+    pub references: usize,
+}
+
+impl Limits {
+    /// What nodes can name: a tag has 30 bits for the number of a node, and for that of the references of a leaf.
+    pub const OF_NODES: Self = Self { nodes: 1 << 30, references: (1 << 30) - 1 };
+
+    /// # Errors
+    /// If a tree of this size exceeds them.
+    pub fn check(&self, nodes: usize, references: usize) -> Result<(), BuildError> {
+        let Self { nodes: most_nodes, references: most_references } = *self;
+        if nodes <= most_nodes && references <= most_references {
+            return Ok(());
+        }
+        Err(BuildError::Mesh(format!(
+            "the mesh is too large for a KD-tree: it takes at least {nodes} nodes and {references} references of at most {most_nodes} and \
+             {most_references}; build it with larger leaves or less duplication, or take another structure"
+        )))
+    }
+}
+
 impl Node {
     const LEAF: u32 = 3;
 
+    /// `axis` is below 3, `above` below [`Limits::nodes`] of a tree that is used: while one grows it may wrap, for it is not used then.
     pub fn inner(axis: usize, split: f32, above: u32) -> Self {
-        debug_assert!(axis < 3 && above < 1 << 30);
         Self { payload: split.to_bits(), tag: above << 2 | axis as u32 }
     }
 
+    /// Likewise.
     pub fn leaf(first: u32, references: u32) -> Self {
-        debug_assert!(references < 1 << 30);
         Self { payload: first, tag: references << 2 | Self::LEAF }
     }
 
@@ -51,5 +78,34 @@ impl Node {
     #[inline(always)]
     pub fn references(self) -> u32 {
         self.tag >> 2
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_limits_are_what_a_node_can_name() {
+        let Limits { nodes, references } = Limits::OF_NODES;
+        let last = Node::inner(2, -1.5, nodes as u32 - 1);
+        assert_eq!((last.is_leaf(), last.axis(), last.split(), last.above() as usize), (false, 2, -1.5, nodes - 1));
+        let largest = Node::leaf(references as u32 - 1, references as u32);
+        assert_eq!((largest.is_leaf(), largest.references() as usize), (true, references));
+        // One more is another number.
+        assert_ne!(Node::inner(2, -1.5, nodes as u32).above() as usize, nodes);
+        assert_ne!(Node::leaf(0, references as u32 + 1).references() as usize, references + 1);
+    }
+
+    #[test]
+    fn larger_trees_are_refused_in_a_sentence() {
+        let Limits { nodes, references } = Limits::OF_NODES;
+        assert_eq!(Limits::OF_NODES.check(nodes, references), Ok(()));
+        for (nodes, references) in [(nodes + 1, references), (nodes, references + 1), (usize::MAX, usize::MAX)] {
+            let Err(BuildError::Mesh(sentence)) = Limits::OF_NODES.check(nodes, references) else {
+                panic!("{nodes} nodes and {references} references are too many")
+            };
+            assert!(sentence.contains(&references.to_string()), "{sentence}");
+        }
     }
 }

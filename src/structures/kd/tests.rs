@@ -206,3 +206,19 @@ fn cells_that_cannot_be_cut_are_dealt_out() {
         assert!(partition(&nothing, &config).unwrap().nodes.is_empty(), "degenerate triangles are in no leaf");
     }
 }
+
+/// With limits that a small mesh reaches: what is built is what they are told of.
+#[test]
+fn a_tree_beyond_the_limits_is_refused() {
+    let mesh = soup(600, 5);
+    for config in configs() {
+        let Plan { nodes, references } = plan(&mesh, &config, &Limits::OF_NODES).unwrap();
+        let (nodes, references) = (nodes.len(), references.len());
+        assert!(plan(&mesh, &config, &Limits { nodes, references }).is_ok());
+        for limits in [Limits { nodes: nodes - 1, references }, Limits { nodes, references: references - 1 }] {
+            assert!(matches!(plan(&mesh, &config, &limits), Err(BuildError::Mesh(_))), "{config:?}");
+        }
+        // Refused before anything is built.
+        assert!(matches!(plan(&mesh, &config, &Limits { nodes, references: 599 }), Err(BuildError::Mesh(_))));
+    }
+}

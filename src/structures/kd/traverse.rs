@@ -11,6 +11,7 @@
 
 use std::mem::MaybeUninit;
 
+use super::build::DEEPEST;
 use super::config::{Exit, Traversal};
 use super::node::Node;
 use super::{KdTree, WIDTH};
@@ -22,8 +23,9 @@ use crate::structures::line::{Line, after, before};
 use crate::structures::walk::Walk;
 use crate::triangle::TriangleTest;
 
-/// More than the greatest depth of a tree: a walk leaves at most one node a level behind.
+/// A walk leaves at most one node a level behind.
 const STACK: usize = 64;
+const _: () = assert!(STACK > DEEPEST as usize);
 
 impl<T: TriangleTest> Walk for KdTree<T> {
     #[inline(always)]
