@@ -3,7 +3,8 @@
 use rayon::prelude::*;
 
 use super::collapse::{Collapse, Part};
-use super::node::{Child, Node, WIDTH};
+use super::node::{Child, Limits, Node, WIDTH};
+use crate::accel::BuildError;
 use crate::geometry::Mesh;
 use crate::structures::leaf::LeafBlock;
 use crate::structures::pages;
@@ -17,20 +18,21 @@ pub(super) struct Layout<T: TriangleTest> {
     pub root: Child,
     pub nodes: Vec<Node>,
     pub blocks: Vec<LeafBlock<T, WIDTH>>,
-    /// Nodes on the longest path from the root.
-    pub depth: usize,
 }
 
 impl<T: TriangleTest> Layout<T> {
     /// The tree that `collapse` has chosen. It does not depend on the number of threads.
-    pub fn new(mesh: &Mesh, collapse: &Collapse) -> Self {
-        Self::in_pieces(mesh, collapse, PIECE)
+    ///
+    /// # Errors
+    /// If it exceeds the limits.
+    pub fn new(mesh: &Mesh, collapse: &Collapse, limits: &Limits) -> Result<Self, BuildError> {
+        Self::in_pieces(mesh, collapse, limits, PIECE)
     }
 
     /// The same with pieces of at most `most` references.
-    fn in_pieces(mesh: &Mesh, collapse: &Collapse, most: usize) -> Self {
+    fn in_pieces(mesh: &Mesh, collapse: &Collapse, limits: &Limits, most: usize) -> Result<Self, BuildError> {
         let Some(root) = collapse.root() else {
-            return Self { root: Child::NOTHING, nodes: vec![], blocks: vec![], depth: 0 };
+            return Ok(Self { root: Child::NOTHING, nodes: vec![], blocks: vec![] });
         };
         let cut = if collapse.references(root).len() > most { most } else { 0 };
         let mut top = Piece::new(mesh, collapse, cut);
@@ -41,12 +43,16 @@ impl<T: TriangleTest> Layout<T> {
             piece
         };
         let pieces: Vec<Piece<T>> = top.cuts.par_iter().map(below).collect();
-        Self::joined(root, top, pieces)
+        Self::joined(root, top, pieces, limits)
     }
 
     /// The pieces behind `top`, which says where they were cut off.
-    fn joined(root: Child, mut top: Piece<T>, pieces: Vec<Piece<T>>) -> Self {
-        let depth = pieces.iter().map(|piece| piece.depth).fold(top.depth, usize::max);
+    fn joined(root: Child, mut top: Piece<T>, pieces: Vec<Piece<T>>, limits: &Limits) -> Result<Self, BuildError> {
+        let whole = || pieces.iter().chain([&top]);
+        let nodes = whole().map(|piece| piece.nodes.len()).sum();
+        let blocks = whole().map(|piece| piece.blocks.len()).sum();
+        limits.check(whole().map(|piece| piece.depth).fold(0, usize::max), nodes, blocks)?;
+
         let mut starts = vec![];
         let mut end = (top.nodes.len(), top.blocks.len());
         for (cut, piece) in top.cuts.iter().zip(&pieces) {
@@ -71,7 +77,7 @@ impl<T: TriangleTest> Layout<T> {
             blocks
         };
         let (nodes, blocks) = rayon::join(nodes, blocks);
-        Self { root, nodes, blocks, depth }
+        Ok(Self { root, nodes, blocks })
     }
 }
 
@@ -81,6 +87,7 @@ struct Piece<'a, T: TriangleTest> {
     collapse: &'a Collapse<'a>,
     nodes: Vec<Node>,
     blocks: Vec<LeafBlock<T, WIDTH>>,
+    /// Nodes on the longest path from the root.
     depth: usize,
     /// Nodes below the first with at most this many references are left to others.
     cut: usize,
@@ -173,10 +180,10 @@ mod tests {
             let tree = build(&mesh, &SplitConfig::new(splits, Quality::Fast));
             let collapse = Collapse::new(&tree, &Cost { node: 1.0, block: 1.0, largest: 8 });
             let all = |most: usize| {
-                let tree = Tree::in_pieces(&mesh, &collapse, most);
+                let tree = Tree::in_pieces(&mesh, &collapse, &Limits::OF_NODES, most).unwrap();
                 let mut into = vec![];
                 seen(&tree, tree.root, &mut into);
-                (into, tree.nodes.len(), tree.blocks.len(), tree.depth)
+                (into, tree.nodes.len(), tree.blocks.len())
             };
             let alone = all(usize::MAX);
             assert!(alone.1 > 100, "{}", alone.1);
@@ -194,9 +201,9 @@ mod tests {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
             pool.install(|| {
                 let collapse = Collapse::new(&tree, &Cost { node: 1.0, block: 1.0, largest: 8 });
-                let Layout { root, nodes, blocks, depth } = Tree::new(&mesh, &collapse);
+                let Layout { root, nodes, blocks } = Tree::new(&mesh, &collapse, &Limits::OF_NODES).unwrap();
                 let ids: Vec<[u32; WIDTH]> = blocks.iter().map(|block| block.ids).collect();
-                (root, format!("{nodes:?}"), ids, depth)
+                (root, format!("{nodes:?}"), ids)
             })
         };
         let one = run(1);

@@ -30,7 +30,7 @@ use crate::geometry::{Aabb, Hit, Mesh, Ray};
 use crate::triangle::TriangleTest;
 use collapse::{Collapse, Cost};
 use layout::Layout;
-use node::{Child, Node, WIDTH};
+use node::{Child, Limits, Node, WIDTH};
 
 /// Blocks of the largest leaf that the collapse makes of several.
 const LARGEST: usize = 8;
@@ -77,24 +77,25 @@ pub struct WideTree<T: TriangleTest> {
     batch: Batch,
 }
 
+impl<T: TriangleTest> WideTree<T> {
+    fn within(mesh: &Mesh, config: &WideConfig, limits: &Limits) -> Result<Self, BuildError> {
+        config.check()?;
+        limits.admit(mesh.solid().count(), config.duplication)?;
+        let tree = config.divide(mesh)?;
+        let cost = Cost { node: 1.0, block: config.block_cost.into(), largest: LARGEST };
+        let collapse = Collapse::new(&tree, &cost);
+        let Layout { root, nodes, blocks } = Layout::new(mesh, &collapse, limits)?;
+        Ok(Self { root, nodes, blocks, bounds: mesh.bounds(), batch: config.batch })
+    }
+}
+
 impl<T: TriangleTest> Accel for WideTree<T> {
     type Config = WideConfig;
 
     const TRIANGLE_TEST: &'static str = T::NAME;
 
     fn build(mesh: &Arc<Mesh>, config: &WideConfig) -> Result<Self, BuildError> {
-        config.check()?;
-        let tree = config.divide(mesh)?;
-        let cost = Cost { node: 1.0, block: config.block_cost.into(), largest: LARGEST };
-        let collapse = Collapse::new(&tree, &cost);
-        let Layout { root, nodes, blocks, depth } = Layout::new(mesh, &collapse);
-        if depth > stack::DEPTH || nodes.len().max(blocks.len()) > Child::LARGEST {
-            let limits = format!("at most {} levels and {} nodes or blocks", stack::DEPTH, Child::LARGEST);
-            return Err(BuildError::Mesh(format!(
-                "the mesh is too large or too odd for this structure: it has {limits}"
-            )));
-        }
-        Ok(Self { root, nodes, blocks, bounds: mesh.bounds(), batch: config.batch })
+        Self::within(mesh, config, &Limits::OF_NODES)
     }
 
     #[inline]

@@ -2,10 +2,58 @@
 
 use glam::Vec3;
 
+use super::stack;
+use crate::accel::BuildError;
 use crate::geometry::Aabb;
 
 /// Children of a node.
 pub(super) const WIDTH: usize = 8;
+
+/// How large a tree may be.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Limits {
+    /// Nodes on a path.
+    pub levels: usize,
+    pub nodes: usize,
+    pub blocks: usize,
+    /// Nodes of the binary tree that it is made of, and references in that.
+    pub binary: usize,
+}
+
+impl Limits {
+    /// What children can name and walks can follow.
+    pub const OF_NODES: Self =
+        Self { levels: stack::DEPTH, nodes: Child::LARGEST, blocks: Child::LARGEST, binary: u32::MAX as usize };
+
+    /// Before anything is built: so many triangles, of which each takes so many references on average at most.
+    ///
+    /// # Errors
+    /// If the binary tree might have more nodes or references than it can name: it has fewer than two nodes a reference.
+    pub fn admit(&self, triangles: usize, duplication: f32) -> Result<(), BuildError> {
+        let most = 2.0 * f64::from(duplication) * triangles as f64;
+        if most <= self.binary as f64 {
+            return Ok(());
+        }
+        Err(BuildError::Mesh(format!(
+            "the mesh is too large for this structure: {triangles} triangles with a duplication of {duplication} may take {most} binary \
+             nodes, of at most {}; a smaller `duplication` takes fewer",
+            self.binary
+        )))
+    }
+
+    /// # Errors
+    /// If a tree of this size exceeds them.
+    pub fn check(&self, levels: usize, nodes: usize, blocks: usize) -> Result<(), BuildError> {
+        if levels <= self.levels && nodes <= self.nodes && blocks <= self.blocks {
+            return Ok(());
+        }
+        Err(BuildError::Mesh(format!(
+            "the mesh is too large or too odd for this structure: it takes {levels} levels, {nodes} nodes and {blocks} blocks of at most \
+             {}, {} and {}",
+            self.levels, self.nodes, self.blocks
+        )))
+    }
+}
 
 /// Eight boxes, coordinate by coordinate, and what is in them: 256 bytes, four cache lines.
 #[derive(Clone, Copy, Debug)]
@@ -118,5 +166,34 @@ impl Node {
             |side: usize, lane: usize| Vec3::from_array(std::array::from_fn(|axis| self.planes[axis][side][lane]));
         let used = (0..WIDTH).filter(|&lane| self.children[lane] != Child::NOTHING);
         used.map(move |lane| (Aabb { min: corner(0, lane), max: corner(1, lane) }, self.children[lane]))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_limits_are_what_a_child_can_name() {
+        let Limits { nodes, blocks, .. } = Limits::OF_NODES;
+        assert_eq!(Child::node(nodes - 1).index(), nodes - 1);
+        assert!(!Child::node(nodes - 1).is_leaf());
+        assert_eq!(Child::leaf(blocks - 1, Child::BLOCKS).blocks(), Some((blocks - 1, Child::BLOCKS)));
+        // The first block of the next one is not told from the mark of leaves.
+        assert_eq!((blocks as u32) << Child::COUNT_BITS, Child::LEAF);
+    }
+
+    #[test]
+    fn larger_trees_are_refused_in_a_sentence() {
+        let all = Limits::OF_NODES;
+        let Limits { levels, nodes, blocks, binary } = all;
+        assert_eq!(all.check(levels, nodes, blocks), Ok(()));
+        for (levels, nodes, blocks) in [(levels + 1, 1, 1), (1, nodes + 1, 1), (1, 1, blocks + 1)] {
+            assert!(matches!(all.check(levels, nodes, blocks), Err(BuildError::Mesh(s)) if s.contains("too large")));
+        }
+        assert_eq!(all.admit(binary / 2, 1.0), Ok(()));
+        for (triangles, duplication) in [(binary / 2 + 1, 1.0), (binary / 4, 2.1), (binary, 1.0)] {
+            assert!(matches!(all.admit(triangles, duplication), Err(BuildError::Mesh(s)) if s.contains("duplication")));
+        }
     }
 }

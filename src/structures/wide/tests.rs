@@ -167,3 +167,25 @@ fn long_slices_are_answered_as_their_rays_are() {
         }
     }
 }
+
+/// With limits that a small mesh reaches: what is built is what they are told of.
+#[test]
+fn a_tree_beyond_the_limits_is_refused() {
+    let mesh = Arc::new(soup(6000, 32));
+    for partition in ALL {
+        let config = WideConfig::new(partition);
+        let whole = Tree::build(&mesh, &config).unwrap();
+        let (nodes, blocks) = (whole.nodes.len(), whole.blocks.len());
+        let all = Limits { nodes, blocks, ..Limits::OF_NODES };
+        assert!(Tree::within(&mesh, &config, &all).is_ok());
+        let smaller = [
+            Limits { nodes: nodes - 1, ..all },
+            Limits { blocks: blocks - 1, ..all },
+            Limits { levels: 2, ..all },
+            Limits { binary: 6000, ..all },
+        ];
+        for limits in smaller {
+            assert!(matches!(Tree::within(&mesh, &config, &limits), Err(BuildError::Mesh(_))), "{limits:?}");
+        }
+    }
+}
