@@ -2,15 +2,12 @@
 
 use std::cmp::Ordering;
 
-use super::{Kind, Reference, ScalarTest};
+use super::{DepthRule, Kind, Reference, ScalarTest};
 use crate::exact::{self, ExactT};
-use crate::geometry::{Hit, Mesh, Ray};
+use crate::geometry::{Hit, Mesh, PrimId, Ray};
 
-/// Relative difference of `t` from which on an answer counts as wrong where the triangle tests differ, if it names the
-/// right primitive: what `f32` tests round, away from grazing rays.
-const DEPTH: f64 = 1e-2;
-/// The same for another primitive, which may be as near as the right one.
-const DEPTH_ELSEWHERE: f64 = 1e-3;
+/// How far from the box of a primitive a hit on it may be, relatively: what float tests round.
+const OUTSIDE: f64 = 1e-3;
 
 /// What is to be said of a difference.
 pub(super) struct Verdict {
@@ -30,8 +27,14 @@ pub(super) fn adjudicate(
         (_, None, None) => None,
         (_, Some(e), Some(f)) if e.same_bits(f) => None,
         (Some(test), ..) => Some(same_test(test, mesh, ray, expected, found)),
-        (None, Some(e), Some(f)) if close(e.t, f.t, e.prim == f.prim) => (!may_be_at(mesh, ray, f))
-            .then(|| verdict(Kind::WrongPrimitive, format!("the point hit lies outside the box of {:?}", f.prim))),
+        (None, Some(e), Some(f)) if close(e.t, f.t, e.prim == f.prim) => {
+            if !may_be_at(mesh, ray, f) {
+                let sentence = format!("the point hit lies outside the box of {:?}", f.prim);
+                return Some(verdict(Kind::WrongPrimitive, sentence));
+            }
+            let strictly = DepthRule::STRICT.allows(e.t.into(), f.t, e.prim == f.prim);
+            (!strictly).then(|| strict(mesh, ray, e, f))
+        }
         (None, ..) => {
             let verdict = other_test(mesh, ray, expected, found);
             Some(match reference.disputed {
@@ -146,17 +149,34 @@ fn may_be_at(mesh: &Mesh, ray: &Ray, hit: Hit) -> bool {
     let bounds = mesh.triangle_bounds(hit.prim.index());
     (0..3).all(|axis| {
         let (start, way) = (f64::from(ray.origin[axis]), f64::from(ray.direction[axis]) * f64::from(hit.t));
-        let slack = DEPTH_ELSEWHERE * (start.abs() + way.abs());
+        let slack = OUTSIDE * (start.abs() + way.abs());
         let (low, high) = (f64::from(bounds.min[axis]), f64::from(bounds.max[axis]));
         (low - slack..=high + slack).contains(&(start + way))
     })
 }
 
+/// Two answers that agree but for their depth: which of them is off?
+fn strict(mesh: &Mesh, ray: &Ray, expected: Hit, found: Hit) -> Verdict {
+    let Some((t, prim)) = nearest(mesh, ray, Some(expected), Some(found)) else {
+        return verdict(Kind::Kernel, "exactly, neither is a hit in the interval".into());
+    };
+    let rounded = t.round();
+    let sure = format!("exactly, {prim:?} is hit at {rounded:?}");
+    if DepthRule::STRICT.allows(t.approximate(), found.t, found.prim == prim) {
+        return verdict(Kind::Kernel, format!("{sure}: the reference is wrong"));
+    }
+    verdict(Kind::Depth, format!("{sure}, {} ulps away", rounded.to_bits().abs_diff(found.t.to_bits())))
+}
+
+/// The nearest of two hits that truly is one.
+fn nearest(mesh: &Mesh, ray: &Ray, expected: Option<Hit>, found: Option<Hit>) -> Option<(ExactT, PrimId)> {
+    let truths = [expected, found].map(|hit| Some((true_hit(mesh, ray, hit?)?, hit?.prim)));
+    truths.into_iter().flatten().min_by(|(a, _), (b, _)| a.cmp(b))
+}
+
 /// Two tests round differently: only the exact answer can judge, and it judges structure and test together.
 fn other_test(mesh: &Mesh, ray: &Ray, expected: Option<Hit>, found: Option<Hit>) -> Verdict {
-    let truths = [expected, found].map(|hit| Some((true_hit(mesh, ray, hit?)?, hit?.prim)));
-    let nearest = truths.into_iter().flatten().min_by(|(a, _), (b, _)| a.cmp(b));
-    match (nearest, found) {
+    match (nearest(mesh, ray, expected, found), found) {
         (None, None) => verdict(Kind::Kernel, "exactly, neither is a hit in the interval".into()),
         (None, Some(f)) => verdict(Kind::Invented, format!("exactly, {:?} is not hit in the interval", f.prim)),
         (Some((t, prim)), None) => verdict(Kind::Lost, format!("exactly, {prim:?} is hit at {:?}", t.round())),
@@ -184,6 +204,5 @@ fn true_hit(mesh: &Mesh, ray: &Ray, hit: Hit) -> Option<ExactT> {
 }
 
 fn close(expected: f32, found: f32, same_primitive: bool) -> bool {
-    let (e, f) = (f64::from(expected), f64::from(found));
-    (e - f).abs() <= e.abs() * if same_primitive { DEPTH } else { DEPTH_ELSEWHERE }
+    DepthRule::COARSE.allows(expected.into(), found, same_primitive)
 }

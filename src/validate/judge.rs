@@ -21,6 +21,13 @@ impl DepthRule {
 
     /// More than 4 units in the last place and more than 1e-6, at whatever primitive.
     pub const STRICT: Self = Self { right: 1e-6, other: 1e-6, ulps: 4.0 };
+
+    /// Whether a hit at `found` counts as one at `t`, which is not negative; `right`: at the primitive that is hit there.
+    pub(super) fn allows(self, t: f64, found: f32, right: bool) -> bool {
+        let allowed = (t * if right { self.right } else { self.other }).max(ulp(t) * self.ulps);
+        // Not if it is NaN.
+        (f64::from(found) - t).abs() <= allowed
+    }
 }
 
 /// What became of one ray.
@@ -148,12 +155,10 @@ pub fn outcome(truth: Option<&Truth>, answer: Option<Hit>, rule: DepthRule) -> O
         (None, Some(_)) => Outcome::FalseHit,
         (Some(truth), Some(hit)) => {
             let right = names(truth, hit);
-            let t = truth.t.approximate();
-            let allowed = (t * if right { rule.right } else { rule.other }).max(ulp(t) * rule.ulps);
-            match off(truth, hit.t) {
-                off if off.is_nan() || off > allowed => Outcome::WrongDepth,
-                _ if !right => Outcome::WrongPrimitive,
-                _ => Outcome::Right,
+            match rule.allows(truth.t.approximate(), hit.t, right) {
+                false => Outcome::WrongDepth,
+                true if !right => Outcome::WrongPrimitive,
+                true => Outcome::Right,
             }
         }
     }

@@ -22,8 +22,12 @@ pub struct Validation {
     pub structure_errors: u64,
     /// Differences that the triangle test is to blame for: its hit exactly is none, or exactly is not the nearer one.
     pub kernel_differences: u64,
-    /// Wrong answers of a structure whose triangle test the reference does not share.
+    /// Wrong answers of a structure whose triangle test the reference does not share; of depths those that are wrong by
+    /// [`DepthRule::COARSE`](super::DepthRule::COARSE).
     pub answer_errors: u64,
+    /// Depths that such a structure's answers have wrong by [`DepthRule::STRICT`](super::DepthRule::STRICT) alone: what tests in `f32` round,
+    /// mostly, so that no structure is to blame; for an answer that is to be exact they are errors.
+    pub depth_errors: u64,
     /// Rays for which any hit and closest hit contradict each other.
     pub any_hit_errors: u64,
     /// Rays answered otherwise when asked again, in a batch instead of alone; of such an answer nothing more is said.
@@ -79,6 +83,8 @@ pub enum Kind {
     AnyHitDisagrees,
     /// Asked again, the structure answers otherwise.
     Unrepeatable,
+    /// Right but for a `t` that is off by more than the strict rule of depth allows, and by less than the coarse one.
+    Depth,
     /// The triangle test's own error; the structure is not to blame.
     Kernel,
     /// The same `t` at a higher number than the lowest that is hit there: wrong only where the lowest is promised.
@@ -90,7 +96,7 @@ pub enum Kind {
 impl Kind {
     /// Whether the structure's answer is wrong.
     pub fn is_error(self) -> bool {
-        self < Self::Kernel
+        self < Self::Depth
     }
 
     /// As printed.
@@ -105,6 +111,7 @@ impl Kind {
             Self::WrongPrimitive => "wrong-primitive",
             Self::AnyHitDisagrees => "any-hit-disagrees",
             Self::Unrepeatable => "unrepeatable",
+            Self::Depth => "depth",
             Self::Kernel => "kernel",
             Self::HigherId => "higher-id",
             Self::Tie => "tie",
@@ -116,9 +123,14 @@ impl Validation {
     /// How many rays are kept.
     pub const WORST: usize = 10;
 
-    /// Wrong answers of all kinds; 0 in a correct structure that shares its test with the reference.
+    /// Wrong answers of all kinds, depths judged coarsely; 0 in a correct structure that shares its test with the reference.
     pub fn errors(&self) -> u64 {
         self.structure_errors + self.answer_errors + self.any_hit_errors + self.unrepeatable + self.panics + self.hangs
+    }
+
+    /// The same, depths judged strictly.
+    pub fn strict_errors(&self) -> u64 {
+        self.errors() + self.depth_errors
     }
 
     /// The worst ray whose answer is wrong.
@@ -138,6 +150,7 @@ impl Validation {
         self.structure_errors += later.structure_errors;
         self.kernel_differences += later.kernel_differences;
         self.answer_errors += later.answer_errors;
+        self.depth_errors += later.depth_errors;
         self.any_hit_errors += later.any_hit_errors;
         self.unrepeatable += later.unrepeatable;
         self.panics += later.panics;

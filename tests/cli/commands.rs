@@ -215,6 +215,25 @@ fn validation_tells_right_from_wrong() {
     assert_eq!(against.status.code(), Some(RIGHT), "{}", stdout(&against));
 }
 
+/// A needle along which a ray grazes: `f64` gets its depth 115 ulps wrong, which is no error of 1 %.
+#[test]
+fn validation_against_exact_answers_judges_depths_strictly() {
+    let directory = tempfile::tempdir().unwrap();
+    let mesh = directory.path().join("needle.obj");
+    let corners = "v -405851.38 785724.8 -466819.28\nv 405851.56 -785725.3 466820.28\nv 365266.44 -707152.8 420138.3\n";
+    std::fs::write(&mesh, format!("{corners}f 1 2 3\n")).unwrap();
+    let mesh = path_text(&mesh);
+    let ray = "49.000397,-704.82355,176.40697 -9731.703,19450.404,-11313.292";
+    let asked = |structure: &str| {
+        sahara(&["validate", &mesh, "--ray", ray, "-s", structure, "--against", "brute-force:test=exact"])
+    };
+    let f64s = asked("sah-kd:test=filtered-f64");
+    assert_eq!(f64s.status.code(), Some(WRONG), "{}", stdout(&f64s));
+    assert!(stdout(&f64s).contains("115 ulps away"), "{}", stdout(&f64s));
+    let exact = asked("sah-kd:test=exact");
+    assert_eq!(exact.status.code(), Some(RIGHT), "{}", stdout(&exact));
+}
+
 #[test]
 fn a_study_prints_its_table_and_writes_its_cases() {
     let directory = tempfile::tempdir().unwrap();

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use anyhow::Context;
 
-use super::{Args, print, reference, row};
+use super::{Args, print, reference, row, wrong};
 use crate::accel::{DynAccel, Query};
 use crate::cli::terminal::Terminal;
 use crate::cli::{Verdict, sources};
@@ -101,5 +101,5 @@ pub fn check(
     };
     let notes = scene.notes.iter().cloned().chain(found.worst.iter().map(|worst| format!("{name}: {worst}"))).collect();
     print(scene, rays, against, vec![row(&name, test, &found)], notes, terminal)?;
-    Ok(if found.errors() > 0 { Verdict::Wrong } else { Verdict::Right })
+    Ok(if wrong(&found, against) { Verdict::Wrong } else { Verdict::Right })
 }

@@ -119,6 +119,21 @@ fn other_damage_is_told_apart() {
     }
 }
 
+/// 1e-4 is far more than a test in `f64` rounds, and less than grazing rays have in `f32`.
+#[test]
+fn depths_are_judged_strictly_beside() {
+    let off = |_, hit: Option<Hit>| hit.map(|h| Hit { t: h.t * 1.0001, ..h });
+    let v = damaged(off, |any| any, false).unwrap();
+    assert!(v.depth_errors > 1000 && v.depth_errors == v.differing, "{v:?}");
+    assert_eq!((v.errors(), v.strict_errors()), (0, v.depth_errors));
+    let worst = &v.worst[0];
+    assert!(worst.kind == Kind::Depth && worst.verdict.contains("ulps away"), "{worst}");
+    assert_eq!(v.worst_error(), None);
+    // With the same test they owe each other the bits.
+    let v = damaged(off, |any| any, true).unwrap();
+    assert_eq!((v.depth_errors, v.structure_errors), (0, v.differing));
+}
+
 #[test]
 fn contradictions_and_moods_are_found() {
     let v = damaged(|_, hit| hit, |_| true, true).unwrap();
