@@ -1,6 +1,7 @@
 //! A second judge: the question of [`hit`](super::hit()) by another formula, in rationals.
 //!
-//! It shares no line of this crate with the first; under both are the big integers of dashu. A hundred times slower; for tests.
+//! It shares no line of this crate with the first; under both are the big integers of dashu. A hundred times slower;
+//! for tests.
 
 use dashu_ratio::RBig;
 use glam::Vec3;
@@ -55,16 +56,37 @@ pub fn hit(ray: &Ray, corners: [Vec3; 3]) -> Option<RBig> {
     (u >= RBig::ZERO && v >= RBig::ZERO && u + v <= RBig::ONE).then_some(t)
 }
 
-/// The nearest `f32` of the hit of `ray` within its interval: half-open, a `t` that rounds to infinity
-/// being beyond its end.
-///
-/// # Panics
-/// If a number of the ray's origin or direction or of a corner is not finite.
-pub fn hit_within(ray: &Ray, corners: [Vec3; 3]) -> Option<f32> {
+/// The hit of `ray` within its interval: half-open, a `t` that rounds to infinity being beyond its end.
+fn within(ray: &Ray, corners: [Vec3; 3]) -> Option<RBig> {
     let t = hit(ray, corners)?;
     let (t_min, t_max) = ray.interval();
     let from_start = RBig::try_from(t_min).is_ok_and(|start| t >= start);
     let before_end = t_max == f32::INFINITY || RBig::try_from(t_max).is_ok_and(|end| t < end);
-    let nearest = t.to_f32().value();
-    (from_start && before_end && nearest.is_finite()).then_some(nearest)
+    (from_start && before_end && nearest_float(&t).is_finite()).then_some(t)
+}
+
+fn nearest_float(t: &RBig) -> f32 {
+    t.to_f32().value()
+}
+
+/// The nearest `f32` of the hit of `ray` within its interval: half-open, a `t` that rounds to infinity being beyond its
+/// end.
+///
+/// # Panics
+/// If a number of the ray's origin or direction or of a corner is not finite.
+pub fn hit_within(ray: &Ray, corners: [Vec3; 3]) -> Option<f32> {
+    Some(nearest_float(&within(ray, corners)?))
+}
+
+/// The same of the nearest of some triangles, with the lowest number of those that are hit there; nothing for a ray
+/// that is not valid.
+///
+/// # Panics
+/// If a corner is not finite.
+pub fn nearest(ray: &Ray, triangles: impl IntoIterator<Item = (u32, [Vec3; 3])>) -> Option<(f32, u32)> {
+    if !ray.is_valid() {
+        return None;
+    }
+    let hits = triangles.into_iter().filter_map(|(id, corners)| Some((within(ray, corners)?, id)));
+    hits.min().map(|(t, id)| (nearest_float(&t), id))
 }

@@ -18,8 +18,9 @@ pub use truth::Truth;
 /// Answers rays over one mesh exactly: some microseconds a ray.
 ///
 /// Three stages, each of which only passes on what it cannot decide: a tree of boxes that loses no hit, `f64`
-/// arithmetic with a proven error bound, integers ([`exact`](crate::exact)). It shares no code with the
-/// structures that it judges.
+/// arithmetic with a proven error bound, integers ([`exact`](crate::exact)). It shares no code with the structures and
+/// triangle tests that it judges, but for the integers with [`Exact`](crate::triangle::Exact): both are held against
+/// [`rational`](crate::exact::rational) in tests.
 pub struct Oracle {
     mesh: Arc<Mesh>,
     tree: tree::Tree,

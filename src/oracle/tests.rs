@@ -3,6 +3,7 @@ use rand_core::{RngCore, SeedableRng};
 use rand_pcg::Pcg32;
 
 use super::*;
+use crate::exact::rational;
 
 /// A source of floats.
 pub struct Numbers {
@@ -92,6 +93,27 @@ fn the_fast_oracle_says_what_the_slow_one_says() {
         }
         assert!(hits > if kind == 7 { 3 } else { 40 }, "numbers of kind {kind} hit {hits} times");
     }
+}
+
+/// Oracle, slow twin and the exact test decide in the same integers; rationals have nothing in common with them.
+#[test]
+fn a_second_judge_says_the_same() {
+    let mut hits = 0;
+    for mut numbers in Numbers::all() {
+        let positions: Vec<Vec3> = (0..30).map(|_| numbers.point()).collect();
+        let triangles = (0..20).map(|i| [i, (i * 7 + 1) % 30, (i * 5 + 2) % 30]).collect();
+        let mesh = Arc::new(Mesh::new(positions, triangles).unwrap());
+        let oracle = Oracle::new(&mesh);
+        for round in 0..24 {
+            let (origin, target) = (numbers.point(), mesh.positions()[round]);
+            let ray = Ray::new(origin, if round % 2 == 0 { numbers.direction() } else { target - origin });
+            let first = oracle.nearest(&ray).map(|truth| (truth.rounded(), truth.ids[0]));
+            let second = rational::nearest(&ray, mesh.solid().map(|id| (id, mesh.corners(id))));
+            assert_eq!(first, second, "{ray:?}");
+            hits += usize::from(first.is_some());
+        }
+    }
+    assert!(hits > 40, "{hits}");
 }
 
 /// The cube [-1, 1]^3, `n` squares an edge, with shared vertices: closed.

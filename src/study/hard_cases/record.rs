@@ -34,7 +34,10 @@ pub struct HardRecord {
     pub hits: Option<u64>,
     pub missed: Option<u64>,
     pub false_hits: Option<u64>,
+    /// By more than 4 ulps and more than 1e-6.
     pub wrong_depth: Option<u64>,
+    /// Those of them by more than 1 %, or 0.1 % at another primitive.
+    pub coarse_depth: Option<u64>,
     pub wrong_primitive: Option<u64>,
     pub structure_errors: Option<u64>,
     pub contradictions: Option<u64>,
@@ -47,7 +50,8 @@ pub struct HardRecord {
 }
 
 impl HardRun {
-    pub const SCHEMA: u32 = 1;
+    /// 2: `wrong_depth` is strict, and `coarse_depth` stands beside it.
+    pub const SCHEMA: u32 = 2;
 }
 
 impl HardRecord {
@@ -79,6 +83,7 @@ impl HardRecord {
             missed: judged.map(|judged| judged.missed),
             false_hits: judged.map(|judged| judged.false_hits),
             wrong_depth: judged.map(|judged| judged.wrong_depth),
+            coarse_depth: rays.map(|rays| rays.coarse_depth),
             wrong_primitive: judged.map(|judged| judged.wrong_primitive),
             structure_errors: rays.and_then(|rays| rays.structure_errors),
             contradictions: rays.map(|rays| rays.contradictions),

@@ -44,8 +44,10 @@ pub enum Failure {
 /// Numbers of one structure on the rays of one case.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RayScore {
-    /// Against the truth, by the coarse rule of depth.
+    /// Against the truth, by the strict rule of depth.
     pub judged: Judged,
+    /// Wrong depths by the coarse rule: what shows in a picture.
+    pub coarse_depth: u64,
     /// Hits that were lost or invented although the structure's own triangle test, run over all triangles, says otherwise.
     /// Nothing where that test is not known.
     pub structure_errors: Option<u64>,
@@ -114,7 +116,8 @@ impl Court {
             (truth, hit) => truth.is_some() != hit.is_some(),
         });
         Ok(Score::Rays(RayScore {
-            judged: judge(truths, &answers.hits, DepthRule::COARSE),
+            judged: judge(truths, &answers.hits, DepthRule::STRICT),
+            coarse_depth: judge(truths, &answers.hits, DepthRule::COARSE).wrong_depth,
             inexact: inexact.count() as u64,
             structure_errors: own.as_ref().map(|own| own.structure_errors),
             example: own.as_ref().and_then(|own| own.worst_error().map(ToString::to_string)),
@@ -126,7 +129,7 @@ impl Court {
 }
 
 impl Score {
-    /// Nothing missed, invented, at a wrong depth or lost, and no contradiction.
+    /// Nothing missed, invented, at a wrong depth (strictly) or lost, and no contradiction.
     pub fn is_clean(&self) -> bool {
         match self {
             Self::Rays(score) => score.judged.errors() == 0 && score.is_sound(),
@@ -162,6 +165,8 @@ pub struct Totals {
     pub hits: u64,
     pub missed: u64,
     pub wrong_depth: u64,
+    /// Those of them that the coarse rule finds wrong.
+    pub coarse_depth: u64,
     pub false_hits: u64,
     pub structure_errors: u64,
 }
@@ -180,6 +185,7 @@ impl Totals {
                     totals.hits += judged.hits;
                     totals.missed += judged.missed;
                     totals.wrong_depth += judged.wrong_depth;
+                    totals.coarse_depth += score.coarse_depth;
                     totals.false_hits += judged.false_hits;
                     totals.structure_errors += score.structure_errors.unwrap_or(0);
                 }

@@ -30,8 +30,9 @@ const CLEAN: &str = ".";
 /// What the tables show, once for all.
 pub fn legend() -> Vec<String> {
     [
-        "A dot: nothing wrong. m: missed, d: wrong depth (another primitive and t off by more than 0.1 %, or the right one by more \
-         than 1 %), S: structure errors, in percent of the true hits; f: false hits, in percent of the rays.",
+        "A dot: nothing wrong. m: missed, d: wrong depth (t off by more than 4 ulps and more than 1e-6; behind the stroke \
+         those off by more than 1 %, or 0.1 % on another primitive), S: structure errors, in percent of the true hits; f: false \
+         hits, in percent of the rays.",
         "S counts what the structure's own triangle test, run over all triangles, finds, exact arithmetic confirms, and the \
          structure did not return. c: rays on which any hit, closest hit and batches contradict each other.",
         "hang, panic, crash: no answers; refused: the structure does not admit the mesh; declined: it offers no answer to such rays. Truth is exact; the interval is half-open.",
@@ -115,7 +116,8 @@ fn answer(score: &Score) -> Cell {
     let parts = [
         share("m", judged.missed, judged.hits),
         share("f", judged.false_hits, judged.rays),
-        share("d", judged.wrong_depth, judged.hits),
+        share("d", judged.wrong_depth, judged.hits)
+            .map(|d| format!("{d}/{}", percent(score.coarse_depth, judged.hits))),
         share("S", score.structure_errors.unwrap_or(0), judged.hits),
         (score.contradictions > 0).then(|| format!("c {}", count(score.contradictions))),
     ];
@@ -174,6 +176,7 @@ fn totals(cases: &[&Case], columns: &[Column]) -> Table {
             format!("clean of {size} {kind}"),
             "m %".into(),
             "d %".into(),
+            "d>1 %".into(),
             "f".into(),
             "S %".into(),
             "E %".into(),
@@ -190,6 +193,7 @@ fn totals(cases: &[&Case], columns: &[Column]) -> Table {
                 row.push(format!("{}{failed}", sums.clean).into());
                 row.push(percent(sums.missed, sums.hits).into());
                 row.push(percent(sums.wrong_depth, sums.hits).into());
+                row.push(percent(sums.coarse_depth, sums.hits).into());
                 row.push(count(sums.false_hits).into());
                 row.push(percent(sums.structure_errors, sums.hits).into());
                 row.push(percent(sums.errors(), sums.rays).into());
