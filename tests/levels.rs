@@ -2,6 +2,7 @@
 //!
 //! One test alone in its process, because the level is that of the process.
 
+use std::io::Write;
 use std::sync::Arc;
 
 use sahara::accel::{Counts, DynAccel};
@@ -43,7 +44,12 @@ fn all_levels_say_the_same() {
     }
     let registry = Registry::builtin();
     let levels = Level::available();
-    println!("levels here: {levels:?}");
+    if levels.len() == 1 {
+        // A pass would prove nothing: say so where it is read, for the output of a test that passes is not shown.
+        let note =
+            format!("\nwarning: this machine or build has only the level {}: levels are not compared\n", levels[0]);
+        std::io::stderr().write_all(note.as_bytes()).expect("a sentence is written");
+    }
     let mut hits = 0;
     for choice in registry.all().iter().filter(|choice| !choice.entry.name.starts_with("obvhs")) {
         for (name, mesh) in &meshes {
