@@ -35,8 +35,8 @@ pub enum BuildError {
 ///
 /// The contract, held by the conformance suite:
 /// 1. `closest_hit` gives the least `t` in [`t_min`, `t_max`) as the structure's triangle test computes it, over all
-///    triangles of the mesh that are not degenerate; a `t` that rounds to no finite `f32` is no hit, also where `t_max` is
-///    infinite; a test that computes more than an `f32` rounds at the end, so that the `t` returned may be `t_max` itself;
+///    triangles of the mesh that are not degenerate; a `t` that rounds to no finite `f32` is no hit, also where
+///    `t_max` is infinite; the exact `t` of a test may be rounded to `t_max` when it is returned;
 /// 2. among equal `t` any primitive (the structures of this crate give the lowest number);
 /// 3. `any_hit(ray) == closest_hit(ray).is_some()`;
 /// 4. answers depend on nothing but the mesh, the configuration and the ray;
@@ -76,9 +76,9 @@ pub trait Accel: Sized + Send + Sync + 'static {
 
     /// Whether `ray` hits anything.
     ///
-    /// By default whether there is a closest hit; of a structure that declines [`Capabilities::t_max`], whether that lies
-    /// before `t_max`. A structure that leaves it so should decline [`Capabilities::any_hit`], so that nobody takes its time
-    /// for that of an any-hit query.
+    /// By default whether there is a closest hit; of a structure that declines [`Capabilities::t_max`], whether that
+    /// lies before `t_max`. A structure that leaves it so should decline [`Capabilities::any_hit`], so that nobody
+    /// takes its time for that of an any-hit query.
     #[inline]
     fn any_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> bool {
         let may_be_beyond = !Self::CAPABILITIES.t_max;

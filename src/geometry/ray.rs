@@ -7,8 +7,8 @@ use glam::{Vec3, Vec3A};
 /// The points `origin + t * direction` with `t_min <= t < t_max`.
 ///
 /// `direction` need not be of unit length; `t` is measured in its lengths. A negative `t_min` counts as 0. A ray whose
-/// origin or direction is not finite, whose direction is zero or whose interval is empty (or NaN) hits nothing. A `t` that
-/// rounds to no finite number is beyond the end of every ray.
+/// origin or direction is not finite, whose direction is zero or whose interval is empty (or NaN) hits nothing. A `t`
+/// that rounds to no finite number is beyond the end of every ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(16))]
 pub struct Ray {
@@ -40,8 +40,8 @@ impl Ray {
         (if self.t_min > 0.0 { self.t_min } else { 0.0 }, self.t_max)
     }
 
-    /// Where an exact `t` is beyond the interval: at `t_max`, or, on a ray without end, half an ulp beyond the largest finite `f32`,
-    /// from where on no finite number is the nearest.
+    /// Where an exact `t` is beyond the interval: at `t_max`, or, on a ray without end, half an ulp beyond the largest
+    /// finite `f32`, from where on no finite number is the nearest.
     #[inline(always)]
     pub fn end(&self) -> f64 {
         f64::from(self.t_max).min(UNREPRESENTABLE)

@@ -7,13 +7,15 @@ use crate::simd::Lanes;
 
 /// The line of a ray, prepared for crossing axis-aligned planes.
 ///
-/// **Slack.** The crossing of the plane `axis = s` is computed as `(s - o) * (1 / d)`: three roundings, each by at most 2^-24
-/// of the result, so that it is within 3.01 * 2^-24 of the exact parameter, relatively, and within 2^-148 absolutely where the
-/// product underflows. [`before`] and [`after`] move it outward by 4 * 2^-23 = 8 * 2^-24 and then by 2^-126. Rounding of the product takes back at
-/// most 1.01 * 2^-24, that of the sum nothing: more than twice the error of a crossing is left, so that a moved crossing compares
-/// rightly with one that is not moved. The sign of the crossing is exact, because a difference of floats has the exact sign; an infinite one (`d` = 0, plane aside) orders
-/// correctly. Three cases have no answer, and all give NaN, which every user reads as "may cross anywhere": the ray lies in the
-/// plane (0 * inf), 1 / d overflows or is too small for full precision, and the difference to some plane may overflow.
+/// **Slack.** The crossing of the plane `axis = s` is computed as `(s - o) * (1 / d)`: three roundings, each by at most
+/// 2^-24 of the result, so that it is within 3.01 * 2^-24 of the exact parameter, relatively, and within 2^-148
+/// absolutely where the product underflows. [`before`] and [`after`] move it outward by 4 * 2^-23 = 8 * 2^-24 and then
+/// by 2^-126. Rounding of the product takes back at most 1.01 * 2^-24, that of the sum nothing: more than twice the
+/// error of a crossing is left, so that a moved crossing compares rightly with one that is not moved. The sign of the
+/// crossing is exact, because a difference of floats has the exact sign; an infinite one (`d` = 0, plane aside) orders
+/// correctly. Three cases have no answer, and all give NaN, which every user reads as "may cross anywhere": the ray
+/// lies in the plane (0 * inf), 1 / d overflows or is too small for full precision, and the difference to some plane
+/// may overflow.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Line {
     origin: [f32; 3],

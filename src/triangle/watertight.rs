@@ -4,16 +4,17 @@ use super::{Corners, TriangleTest};
 use crate::geometry::Ray;
 use crate::simd::Lanes;
 
-/// Watertight, in `f32`: the triangle is sheared so that the ray becomes the third axis, and edges are tested in 2D; edge
-/// values that are exactly zero, very small or very large are computed again in `f64`.
+/// Watertight, in `f32`: the triangle is sheared so that the ray becomes the third axis, and edges are tested in 2D;
+/// edge values that are exactly zero, very small or very large are computed again in `f64`.
 ///
 /// Promises: a corner is sheared to the same point for every triangle that has it, and the sign of an edge is exact for the
 /// sheared corners, so that no ray passes between the triangles of a closed mesh, edges and vertices included. Does not promise:
 /// the sheared corners are rounded, so that what lies within an ulp beside an edge may go to either side (a lone triangle may be
 /// missed at its rim), and `t` of slivers may be off by thousands of ulps. Costs about as much as Möller-Trumbore.
 ///
-/// Range: any size of scene in which differences of coordinates do not overflow; below 1e-15 and above 1e6 units the test is slower.
-/// Directions whose largest component is below 3e-39 or above 8e37 and hits beyond t = 3e26 may be lost.
+/// Range: any size of scene in which differences of coordinates do not overflow; below 1e-15 and above 1e6 units the
+/// test is slower. Directions whose largest component is below 3e-39 or above 8e37 and hits beyond t = 3e26 may be
+/// lost.
 ///
 /// # References
 /// Woop, Benthin, Wald: Watertight ray/triangle intersection. Journal of Computer Graphics Techniques 2(1), 2013.
@@ -104,8 +105,8 @@ impl TriangleTest for Watertight {
 const SMALL: f32 = 1.0 / (1_u128 << 100) as f32;
 const LARGE: f32 = (1_u64 << 40) as f32;
 
-/// The edge values, those of lanes with a zero among them or with a sum that is too small or too large computed in `f64`, all three
-/// times a power of two, which changes neither their signs nor `t`.
+/// The edge values, those of lanes with a zero among them or with a sum that is too small or too large computed in
+/// `f64`, all three times a power of two, which changes neither their signs nor `t`.
 #[cold]
 fn in_f64<const N: usize, L: Lanes<N>>(volumes: [L; 3], xs: [L; 3], ys: [L; 3]) -> [L; 3] {
     let mut values = volumes.map(L::store);

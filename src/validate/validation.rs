@@ -25,8 +25,9 @@ pub struct Validation {
     /// Wrong answers of a structure whose triangle test the reference does not share; of depths those that are wrong by
     /// [`DepthRule::COARSE`](super::DepthRule::COARSE).
     pub answer_errors: u64,
-    /// Depths that such a structure's answers have wrong by [`DepthRule::STRICT`](super::DepthRule::STRICT) alone: what tests in `f32` round,
-    /// mostly, so that no structure is to blame; for an answer that is to be exact they are errors.
+    /// Depths that such a structure's answers have wrong by [`DepthRule::STRICT`](super::DepthRule::STRICT) alone: what
+    /// tests in `f32` round, mostly, so that no structure is to blame; for an answer that is to be exact they are
+    /// errors.
     pub depth_errors: u64,
     /// Rays for which any hit and closest hit contradict each other.
     pub any_hit_errors: u64,
@@ -123,7 +124,8 @@ impl Validation {
     /// How many rays are kept.
     pub const WORST: usize = 10;
 
-    /// Wrong answers of all kinds, depths judged coarsely; 0 in a correct structure that shares its test with the reference.
+    /// Wrong answers of all kinds, depths judged coarsely; 0 in a correct structure that shares its test with the
+    /// reference.
     pub fn errors(&self) -> u64 {
         self.structure_errors + self.answer_errors + self.any_hit_errors + self.unrepeatable + self.panics + self.hangs
     }

@@ -147,9 +147,9 @@ const COLUMNS: [&str; 8] =
 const LEGEND: [&str; 4] = [
     "structure errors: hits lost or invented although the structure's own triangle test, run over all triangles, says \
      otherwise, contradictions, panics and questions without an end; none in a correct structure. answer errors: wrong answers where the reference has another triangle test.",
-    "Of answer errors, depths are wrong if off by more than 4 ulps and more than 1e-6; coarse: those of them off by more than 1 %, or 0.1 % on \
-     another triangle, and all that are wrong otherwise. Tests in f32 have the others on grazing rays: against brute-force itself they \
-     do not decide about the exit status.",
+    "A depth is wrong if it is off by more than 4 ulps and more than 1e-6. coarse: the answer errors that remain if up to 1 %, \
+     or 0.1 % on another triangle, is allowed; the others are common where tests in f32 meet grazing rays, and without \
+     --against they do not decide about the exit status.",
     "kernel: differences that the triangle test is to blame for. ties: as near a hit on another triangle; no error.",
     "To ask a ray again: sahara validate SCENE --structure NAME --ray \"ox,oy,oz dx,dy,dz\"",
 ];
@@ -198,7 +198,8 @@ fn reference(scene: &Scene, test: &str, against: &Choice) -> anyhow::Result<Refe
     Ok(Reference::structure(built.with_context(|| format!("{} cannot be built over {}", against.label, scene.name))?))
 }
 
-/// Whether the answers are wrong: with their depths judged strictly against a reference that was chosen for its answers.
+/// Whether the answers are wrong: with their depths judged strictly against a reference that was chosen for its
+/// answers.
 fn wrong(found: &Validation, against: &Choice) -> bool {
     let errors = if against.label == BRUTE_FORCE { found.errors() } else { found.strict_errors() };
     errors > 0

@@ -31,8 +31,8 @@ impl Limits {
             return Ok(());
         }
         Err(BuildError::Mesh(format!(
-            "the mesh is too large for a KD-tree: it takes at least {nodes} nodes and {references} references of at most {most_nodes} and \
-             {most_references}; build it with larger leaves or less duplication, or take another structure"
+            "the mesh is too large for a KD-tree: it takes at least {nodes} nodes and {references} references, of at most \
+             {most_nodes} and {most_references}; larger leaves or less duplication take fewer"
         )))
     }
 }
@@ -40,7 +40,8 @@ impl Limits {
 impl Node {
     const LEAF: u32 = 3;
 
-    /// `axis` is below 3, `above` below [`Limits::nodes`] of a tree that is used: while one grows it may wrap, for it is not used then.
+    /// `axis` is below 3, `above` below [`Limits::nodes`] of a tree that is used: while one grows it may wrap, for it
+    /// is not used then.
     pub fn inner(axis: usize, split: f32, above: u32) -> Self {
         Self { payload: split.to_bits(), tag: above << 2 | axis as u32 }
     }

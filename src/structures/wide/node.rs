@@ -28,15 +28,16 @@ impl Limits {
     /// Before anything is built: so many triangles, of which each takes so many references on average at most.
     ///
     /// # Errors
-    /// If the binary tree might have more nodes or references than it can name: it has fewer than two nodes a reference.
+    /// If the binary tree might have more nodes or references than it can name: it has fewer than two nodes a
+    /// reference.
     pub fn admit(&self, triangles: usize, duplication: f32) -> Result<(), BuildError> {
         let most = 2.0 * f64::from(duplication) * triangles as f64;
         if most <= self.binary as f64 {
             return Ok(());
         }
         Err(BuildError::Mesh(format!(
-            "the mesh is too large for this structure: {triangles} triangles with a duplication of {duplication} may take {most} binary \
-             nodes, of at most {}; a smaller `duplication` takes fewer",
+            "the mesh is too large for this structure: {triangles} triangles with a duplication of {duplication} may take \
+             {most} binary nodes, of at most {}; a smaller `duplication` takes fewer",
             self.binary
         )))
     }
@@ -48,8 +49,8 @@ impl Limits {
             return Ok(());
         }
         Err(BuildError::Mesh(format!(
-            "the mesh is too large or too odd for this structure: it takes {levels} levels, {nodes} nodes and {blocks} blocks of at most \
-             {}, {} and {}",
+            "the mesh is too large or too odd for this structure: it takes {levels} levels, {nodes} nodes and {blocks} \
+             blocks, of at most {}, {} and {}",
             self.levels, self.nodes, self.blocks
         )))
     }

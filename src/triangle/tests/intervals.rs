@@ -4,7 +4,8 @@ use std::cmp::Ordering;
 
 use super::*;
 
-/// Nothing crashes, and no `t` is out of the interval, whatever the numbers. What is rounded at the end may be rounded to it.
+/// Nothing crashes, and no `t` is out of the interval, whatever the numbers. What is rounded at the end may be rounded
+/// to it.
 pub(super) fn survives_all_numbers<T: TriangleTest>() {
     let mut rng = Pcg32::seed_from_u64(4);
     for _ in 0..30_000 {
@@ -18,7 +19,8 @@ pub(super) fn survives_all_numbers<T: TriangleTest>() {
     }
 }
 
-/// Where a test gives the true `t`, and that is a float: an interval holds it if it begins there, and not if it ends there.
+/// Where a test gives the true `t`, and that is a float: an interval holds it if it begins there, and not if it ends
+/// there.
 pub(super) fn are_half_open<T: TriangleTest>() {
     let mut rng = Pcg32::seed_from_u64(13);
     let mut hits = 0;
