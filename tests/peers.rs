@@ -3,7 +3,6 @@
 #![cfg(any(
     feature = "peer-bvh",
     feature = "peer-embree",
-    feature = "peer-kdtree-ray",
     feature = "peer-parry",
     feature = "peer-tinybvh"
 ))]
@@ -18,15 +17,13 @@ use sahara::validate::conformance::{Named, counting, findings, shapes};
 use sahara::validate::{Kind, Reference, Stratum, Validation, degenerate_meshes, validate};
 
 /// Every way in which peers are asked; those whose feature is off or whose library is absent are left out.
-const PEERS: [&str; 16] = [
+const PEERS: [&str; 14] = [
     "bvh",
     "bvh:test=moller-trumbore",
     "bvh:traversal=nearest",
     "parry",
     "parry:test=moller-trumbore",
     "parry:builder=ploc",
-    "kdtree-ray",
-    "kdtree-ray:test=exact",
     "tinybvh",
     "tinybvh:quality=medium",
     "embree",
@@ -75,12 +72,11 @@ fn passes(outcome: Result<(), String>) {
 
 /// Kinds of rays that a peer answers rightly on every mesh, and whether it is known to err on all others: Embree and tinybvh
 /// compute with what instructions they find, so that their errors differ from machine to machine.
-const CLEAN: [(&str, &[Stratum], bool); 6] = {
+const CLEAN: [(&str, &[Stratum], bool); 5] = {
     use Stratum::{Edges, Invalid, Lengths, NearSurface, Random, Vertices, Windows};
     [
         ("bvh", &[Random, Lengths, NearSurface, Windows, Invalid], true),
         ("parry", &[Random, NearSurface, Invalid], true),
-        ("kdtree-ray", &[Random, Lengths, Windows, Invalid], true),
         ("tinybvh", &[Random, Invalid], false),
         ("embree", &[Random, NearSurface, Windows, Invalid], false),
         ("embree-robust", &[Random, Vertices, Edges, NearSurface, Windows, Invalid], false),
@@ -126,14 +122,7 @@ struct Finding {
     kind: Kind,
 }
 
-const FINDINGS: [Finding; 6] = [
-    Finding {
-        name: "negative zero",
-        cause: "the near side of a box is found by d < 0, the inverse by 1 / d: with -0.0 the two disagree",
-        peers: &["kdtree-ray"],
-        ray: "0.25,0.125,-3.0 -0.0,-0.0,1.0",
-        kind: Kind::Lost,
-    },
+const FINDINGS: [Finding; 4] = [
     Finding {
         name: "in the near face of a box",
         cause: "0 / 0 is no number, and a box with one is missed",
@@ -153,13 +142,6 @@ const FINDINGS: [Finding; 6] = [
         cause: "direction components below 1.2e-7 (parry) and 1e-18 (Embree) are replaced by those",
         peers: &["parry", "embree", "embree-robust"],
         ray: "0.2,0.3,3.0 1e-20,2e-20,-1e-19",
-        kind: Kind::Lost,
-    },
-    Finding {
-        name: "end of a box at zero",
-        cause: "a box must be left after t = 0; tinybvh declares that a triangle must be hit after it",
-        peers: &["kdtree-ray"],
-        ray: "0.0,-0.5,-1.0 0.30184245,0.9530886,-0.022653978",
         kind: Kind::Lost,
     },
     Finding {

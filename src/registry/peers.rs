@@ -33,14 +33,6 @@ impl Registry {
                 .with::<BruteForce<ParryTest>>("brute-force", Default::default())
         };
 
-        #[cfg(feature = "peer-kdtree-ray")]
-        let this = {
-            use crate::structures::peers::kdtree_ray::{KdTreeRay, KdTreeRayConfig};
-            use crate::triangle::{Exact, MollerTrumbore};
-            let config = KdTreeRayConfig::default();
-            this.with::<KdTreeRay<MollerTrumbore>>("kdtree-ray", config).with::<KdTreeRay<Exact>>("kdtree-ray", config)
-        };
-
         #[cfg(feature = "peer-tinybvh")]
         let this = this.with::<crate::structures::peers::tinybvh::TinyBvh>("tinybvh", Default::default());
 

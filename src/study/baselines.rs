@@ -24,7 +24,6 @@ pub fn documented_defect(structure: &str) -> Option<&'static str> {
         "parry" => Some(
             "parry3d 0.31 clamps the inverse of small direction components, and loses rays in the plane of a box face",
         ),
-        "kdtree-ray" => Some("kdtree-ray 1.2 loses rays in the plane of a box face and with a component of -0.0"),
         "tinybvh" => Some(
             "tinybvh 1.6 widens no box, cancels far from the origin, refuses small determinants and divides approximately",
         ),

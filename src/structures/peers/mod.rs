@@ -15,16 +15,13 @@
 pub mod bvh;
 #[cfg(feature = "peer-embree")]
 pub mod embree;
-#[cfg(feature = "peer-kdtree-ray")]
-pub mod kdtree_ray;
-#[cfg(any(feature = "peer-bvh", feature = "peer-parry", feature = "peer-kdtree-ray"))]
+#[cfg(any(feature = "peer-bvh", feature = "peer-parry"))]
 mod leaves;
 #[cfg(feature = "peer-parry")]
 pub mod parry;
 #[cfg(any(
     feature = "peer-bvh",
     feature = "peer-embree",
-    feature = "peer-kdtree-ray",
     feature = "peer-parry",
     feature = "peer-tinybvh"
 ))]

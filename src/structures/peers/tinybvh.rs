@@ -252,6 +252,6 @@ impl Accel for TinyBvh {
     }
 
     fn shape(&self) -> TreeShape {
-        self.shape
+        self.shape.clone()
     }
 }
