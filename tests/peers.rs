@@ -1,11 +1,6 @@
 //! The structures of other projects, as far as their features are on: what each answers rightly, and the known defects by
 //! name and cause. When a defect is gone, this fails and the list must shrink; when one is new, this fails too.
-#![cfg(any(
-    feature = "peer-bvh",
-    feature = "peer-embree",
-    feature = "peer-parry",
-    feature = "peer-tinybvh"
-))]
+#![cfg(any(feature = "peer-bvh", feature = "peer-embree", feature = "peer-parry", feature = "peer-tinybvh"))]
 
 use std::panic::{self, AssertUnwindSafe};
 use std::slice;

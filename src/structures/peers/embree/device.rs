@@ -1,7 +1,7 @@
 use std::ffi::{CString, c_char, c_int, c_void};
 use std::ptr;
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicIsize, Ordering};
+use std::sync::{Arc, Mutex};
 
 use glam::Vec3;
 
@@ -23,7 +23,9 @@ pub struct Scene {
     api: &'static Api,
     device: Handle,
     scene: Handle,
-    told: Box<Told>,
+    /// Embree holds a pointer to it. In an `Arc`, which stays where it is and may be shared: a pointer into a `Box` is no longer
+    /// valid once the box is moved.
+    told: Arc<Told>,
 }
 
 // SAFETY: Embree's objects may be used and released by any thread, and a committed scene may be asked by many at once.
@@ -32,7 +34,7 @@ unsafe impl Send for Scene {}
 unsafe impl Sync for Scene {}
 
 unsafe extern "C" fn on_error(told: *mut c_void, _: c_int, text: *const c_char) {
-    // SAFETY: `told` is the box of the scene, which outlives its device; `text` is Embree's.
+    // SAFETY: `told` is what the scene shares and releases after its device; `text` is Embree's.
     let (told, text) = unsafe { (&*told.cast::<Told>(), sentence(text)) };
     if let Ok(mut error) = told.error.lock() {
         error.get_or_insert(text);
@@ -62,8 +64,8 @@ impl Scene {
                 let code = (api.device_error)(ptr::null_mut());
                 return Err(BuildError::Unavailable(format!("Embree gives no device: error {code}")));
             }
-            let told: Box<Told> = Box::default();
-            let listener = (&raw const *told).cast_mut().cast();
+            let told: Arc<Told> = Arc::default();
+            let listener = Arc::as_ptr(&told).cast_mut().cast();
             (api.on_error)(device, on_error, listener);
             (api.on_memory)(device, on_memory, listener);
 
@@ -128,7 +130,7 @@ impl Scene {
 
 impl Drop for Scene {
     fn drop(&mut self) {
-        // SAFETY: both were made by `new` and are released once; the listener's box goes after them.
+        // SAFETY: both were made by `new` and are released once; what the listener writes to goes after them.
         unsafe {
             (self.api.release_scene)(self.scene);
             (self.api.release_device)(self.device);

@@ -1,25 +1,28 @@
 //! [tinybvh](https://github.com/jbikker/tinybvh) 1.6.8 by the crate `tinybvh-rs` 0.1: an 8-wide BVH with four triangles a leaf
 //! (`BVH8_CPU`), which is its fastest layout on a processor with AVX2.
 //!
-//! A C++ compiler builds it, for the instructions of this machine. The crate hands out its closest hit alone: any hit is a
-//! closest hit. Its ray (unit direction, inverse) is made before the clock starts, and copied to the stack to be asked, because the
-//! hit is written into it. It is not made by the crate's constructor: that of `tinybvh-rs` 0.1.0-beta.3 clears the 128 bytes of
-//! the ray in C++ in the 64 bytes of its own, and so the caller's stack. Triangles are copied as corners of 16 bytes, as it
-//! wants them; large scenes it builds on threads of its own.
+//! A C++ compiler builds it, for the instructions of this machine. The crate hands out the closest hit alone, and declares a
+//! ray of 64 bytes where C++ has 128. So only its builders are called through the crate; both queries are called in the library that
+//! it links, by their names there, with a ray of the right size ([`query`]). The ray (unit direction, inverse) is made before
+//! the clock starts; for a closest hit it is copied to the stack, because the hit is written into it. Triangles are copied as
+//! corners of 16 bytes, as it wants them; large scenes it builds on threads of its own.
 //!
 //! # References
 //! Fuetterling, Lojewski, Pfreundt, Ebert: Accelerated single ray tracing for wide vector units. HPG 2017.
+
+mod query;
 
 use std::borrow::Cow;
 use std::sync::Arc;
 
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
-use tinybvh_rs::{Intersection, Positions, Ray as PreparedRay, bvh, bvh8_cpu, mbvh};
+use tinybvh_rs::{Positions, bvh, bvh8_cpu, mbvh};
 
 use super::prepared::{Prepare, Prepared};
 use crate::accel::{Accel, BuildError, Capabilities, Footprint, Loaded, Observed, Observer, TreeShape};
 use crate::geometry::{Hit, Mesh, Ray};
+use query::{Head, Tree};
 
 /// The 8-wide BVH of tinybvh.
 pub struct TinyBvh {
@@ -29,14 +32,6 @@ pub struct TinyBvh {
     ids: Vec<u32>,
     shape: TreeShape,
 }
-
-struct Tree(bvh8_cpu::BVH);
-
-// SAFETY: the tree owns its nodes and triangles, and its only method that is called, `intersect`, takes it by shared
-// reference, reads them and writes to the caller's ray alone.
-unsafe impl Send for Tree {}
-// SAFETY: as above.
-unsafe impl Sync for Tree {}
 
 /// How tinybvh builds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -67,15 +62,6 @@ const FAR: f32 = tinybvh_rs::INFINITE;
 /// The mask of a ray that meets all instances.
 const EVERYTHING: u32 = 0xffff;
 
-/// The ray as it is in C++, whose second half nobody needs: the first has the same fields at the same places.
-#[repr(C, align(64))]
-struct PaddedRay {
-    ray: PreparedRay,
-    rest: [u64; 8],
-}
-
-const _: () = assert!(size_of::<PaddedRay>() == 128 && size_of::<PreparedRay>() == 64);
-
 /// What tinybvh puts for an inverse: nothing infinite.
 #[inline(always)]
 fn inverse(x: f32) -> f32 {
@@ -84,22 +70,10 @@ fn inverse(x: f32) -> f32 {
 
 /// A ray as tinybvh wants it, and what gives `t` back.
 pub(crate) struct Ready {
-    ray: PreparedRay,
+    ray: Head,
     /// Of the direction.
     length: f32,
     t_min: f32,
-}
-
-impl TinyBvh {
-    /// The hit lies in the ray: the prepared one stays as it was.
-    #[inline]
-    fn query(&self, ready: &Ready) -> Option<Hit> {
-        let tree = self.tree.as_ref()?;
-        let mut padded = PaddedRay { ray: ready.ray, rest: [0; 8] };
-        intersect(&tree.0, &mut padded);
-        let hit = padded.ray.hit;
-        (hit.t < ready.ray.hit.t).then(|| Hit::new(hit.t / ready.length + ready.t_min, self.ids[hit.prim as usize]))
-    }
 }
 
 impl Prepare for TinyBvh {
@@ -123,37 +97,32 @@ impl Prepare for TinyBvh {
         if checked.is_nan() || !unit.is_finite() || !(origin * inverse).is_finite() {
             return None;
         }
-        let ray = PreparedRay {
+        let ray = Head {
             origin: origin.to_array(),
-            padding_0: EVERYTHING,
-            dir: unit.to_array(),
-            r_d: inverse.to_array(),
-            hit: Intersection { t: end, ..Intersection::default() },
-            ..PreparedRay::default()
+            mask: EVERYTHING,
+            direction: unit.to_array(),
+            instance: 0,
+            inverse: inverse.to_array(),
+            hit_instance: 0,
+            t: end,
+            u: 0.0,
+            v: 0.0,
+            primitive: 0,
         };
         Some(Ready { ray, length, t_min })
     }
 
     #[inline]
     fn closest<O: Observer>(&self, ready: &Ready, _: &mut O) -> Option<Hit> {
-        self.query(ready)
+        let (t, primitive) = self.tree.as_ref()?.closest(&ready.ray)?;
+        Some(Hit::new(t / ready.length + ready.t_min, self.ids[primitive as usize]))
     }
 
     #[inline]
     fn any<O: Observer>(&self, ready: &Ready, _: &mut O) -> bool {
-        self.query(ready).is_some()
+        self.tree.as_ref().is_some_and(|tree| tree.any(&ready.ray))
     }
 }
-
-#[cfg(target_feature = "avx2")]
-fn intersect(tree: &bvh8_cpu::BVH, padded: &mut PaddedRay) {
-    use tinybvh_rs::Intersector;
-    tree.intersect(&mut padded.ray);
-}
-
-/// Never called: nothing is built without AVX2.
-#[cfg(not(target_feature = "avx2"))]
-fn intersect(_: &bvh8_cpu::BVH, _: &mut PaddedRay) {}
 
 /// Builds by way of the two layouts that its own is converted from.
 fn built(corners: Positions, quality: Quality) -> Result<(bvh8_cpu::BVH, TreeShape), BuildError> {
@@ -210,7 +179,6 @@ impl Accel for TinyBvh {
     const CONVENTIONS: &'static [&'static str] = &[
         "a ray with t_min starts at the point of t_min, rounded",
         "walks unit directions: t is divided by the direction's length; nothing farther than 1e30",
-        "any hit is a closest hit",
         "rays that would end the process (NaN, or the unit direction or origin over direction overflows) are not asked, and hit nothing",
         "builds large scenes on threads of its own, whatever --threads says",
     ];
@@ -228,17 +196,17 @@ impl Accel for TinyBvh {
         let corners: Vec<[f32; 4]> =
             ids.iter().flat_map(|&id| mesh.corners(id)).map(|v| v.extend(0.0).to_array()).collect();
         let (tree, shape) = built(corners.as_slice().into(), config.quality)?;
-        Ok(Self { tree: Some(Tree(tree)), ids, shape })
+        Ok(Self { tree: Some(Tree::new(tree)), ids, shape })
     }
 
     #[inline]
-    fn closest_hit<O: Observer>(&self, ray: &Ray, _: &mut O) -> Option<Hit> {
-        self.query(&self.ready(ray)?)
+    fn closest_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit> {
+        self.closest(&self.ready(ray)?, observer)
     }
 
     #[inline]
-    fn any_hit<O: Observer>(&self, ray: &Ray, _: &mut O) -> bool {
-        self.ready(ray).is_some_and(|ready| self.query(&ready).is_some())
+    fn any_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> bool {
+        self.ready(ray).is_some_and(|ready| self.any(&ready, observer))
     }
 
     fn load<'a>(&'a self, rays: Cow<'a, [Ray]>) -> Box<dyn Loaded + 'a> {
