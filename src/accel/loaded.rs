@@ -22,7 +22,7 @@ pub trait Loaded: Send + Sync {
 }
 
 /// Rays as they are: the structure prepares them each time it is asked.
-pub(super) struct AsTheyAre<'a, A: ?Sized> {
+pub(crate) struct AsTheyAre<'a, A: ?Sized> {
     pub accel: &'a A,
     pub rays: Cow<'a, [Ray]>,
 }

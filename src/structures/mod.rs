@@ -12,6 +12,7 @@ pub mod obvhs;
 mod overlap;
 mod pages;
 pub mod peers;
+mod prepared;
 mod reinsert;
 pub mod split;
 mod walk;

@@ -10,6 +10,13 @@ pub(super) fn with_capacity<T>(len: usize) -> Vec<T> {
     values
 }
 
+/// The same values in such memory.
+pub(super) fn moved<T: Copy>(values: Vec<T>) -> Vec<T> {
+    let mut moved = with_capacity(values.len());
+    moved.extend_from_slice(&values);
+    moved
+}
+
 /// Asks for the line of the cache at an address, which may be any.
 #[inline(always)]
 pub(super) fn fetch(at: *const u8) {
@@ -38,3 +45,26 @@ fn advise<T>(start: *const T, bytes: usize) {
 
 #[cfg(not(target_os = "linux"))]
 fn advise<T>(_: *const T, _: usize) {}
+
+/// Whether the system has been asked for large pages for the memory around these values, as it says itself.
+#[cfg(test)]
+pub(super) fn are_large<T>(values: &[T]) -> bool {
+    let at = values.as_ptr().addr() + size_of_val(values) / 2;
+    let maps = std::fs::read_to_string("/proc/self/smaps").unwrap_or_default();
+    let holds = |line: &str| {
+        let bound = |text: &str| usize::from_str_radix(text, 16).ok();
+        let (start, end) = line.split(' ').next()?.split_once('-')?;
+        Some((bound(start)?..bound(end)?).contains(&at))
+    };
+    let mut flags =
+        maps.lines().skip_while(|line| holds(line) != Some(true)).filter(|line| line.starts_with("VmFlags:"));
+    flags.next().is_some_and(|line| line.split_whitespace().any(|flag| flag == "hg"))
+}
+
+/// Whether the system takes such advice.
+#[cfg(test)]
+pub(super) fn can_be_large() -> bool {
+    let mut probe = with_capacity::<u64>(1 << 20);
+    probe.resize(1 << 20, 0);
+    are_large(&probe)
+}

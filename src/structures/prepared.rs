@@ -3,7 +3,7 @@
 use crate::accel::{Accel, Loaded, Observer};
 use crate::geometry::{Hit, Ray};
 
-/// A structure of others, which wants a ray in a form of its own before it is asked.
+/// A structure that wants a ray in a form of its own before it is asked.
 pub(crate) trait Prepare: Accel {
     /// All that can be known of a ray without the tree.
     type Ready: Send + Sync;

@@ -21,6 +21,7 @@ pub use config::{AxisRule, CountOf, Equal, Exit, KdConfig, Limit, Median, Plane,
 
 use super::binary::BinaryTree;
 use super::leaf::LeafBlock;
+use super::pages;
 use super::walk::single;
 use crate::accel::{Accel, BuildError, Footprint, Observer, Outline, TreeShape};
 use crate::geometry::{Aabb, Hit, Mesh, Ray};
@@ -79,14 +80,13 @@ impl<T: TriangleTest> KdTree<T> {
         let Plan { mut nodes, references } = plan;
         let leaves = nodes.iter().filter(|node| node.is_leaf());
         let count = leaves.map(|leaf| (leaf.references() as usize).div_ceil(WIDTH)).sum();
-        let mut blocks = Vec::with_capacity(count);
+        let mut blocks = pages::with_capacity(count);
         for node in nodes.iter_mut().filter(|node| node.is_leaf()) {
             let (first, count) = (node.first() as usize, node.references());
             *node = Node::leaf(blocks.len() as u32, count);
             LeafBlock::fill(mesh, &references[first..first + count as usize], &mut blocks);
         }
-        nodes.shrink_to_fit();
-        Self { nodes, blocks, bounds: mesh.bounds(), config: *config }
+        Self { nodes: pages::moved(nodes), blocks, bounds: mesh.bounds(), config: *config }
     }
 
     #[inline(always)]

@@ -222,3 +222,13 @@ fn a_tree_beyond_the_limits_is_refused() {
         assert!(matches!(plan(&mesh, &config, &Limits { nodes, references: 599 }), Err(BuildError::Mesh(_))));
     }
 }
+
+#[test]
+fn it_lives_in_the_pages_of_the_wide_tree() {
+    if !pages::can_be_large() {
+        eprintln!("skipped: no large pages here");
+        return;
+    }
+    let tree = Tree::build(&soup(20_000, 9), &KdConfig::SAH).unwrap();
+    assert!(pages::are_large(&tree.nodes) && pages::are_large(&tree.blocks));
+}

@@ -7,6 +7,19 @@ use serde::{Deserialize, Serialize};
 pub struct ObvhsConfig {
     /// One of the crate's presets.
     pub preset: Preset,
+    /// When its rays are made.
+    pub rays: Rays,
+}
+
+/// When the ray of obvhs, with its inverse direction, is made of ours.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Rays {
+    /// When it is asked, inside of the timed region, as our own structures do.
+    #[default]
+    Asked,
+    /// When a batch is loaded, before the clock starts.
+    Loaded,
 }
 
 /// The presets of obvhs, from the fastest build to the best tree. Only `slow` and `very-slow` split large triangles, so

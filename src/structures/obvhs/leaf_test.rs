@@ -16,7 +16,7 @@ pub trait LeafTest: Send + Sync + 'static {
     /// A triangle as the test wants it.
     type Triangle: Copy + Send + Sync;
     /// What the test prepares once a ray.
-    type Ray: Copy;
+    type Ray: Copy + Send + Sync;
 
     fn triangle(corners: [Vec3; 3]) -> Self::Triangle;
 

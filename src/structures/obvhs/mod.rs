@@ -2,9 +2,12 @@
 //!
 //! Each is offered over our triangle tests and over obvhs' own [`RtTest`], which is its fastest form. Triangles are laid out
 //! in the order of the tree once, so that no traversal follows an index; the number of the final hit is mapped back once. The ray
-//! is prepared once with obvhs' own inverse direction, and its own traversals run to the end. It is prepared inside of the timed
-//! region: made ready before the clock starts ([`Accel::load`]), rays were not answered faster, and those that miss the
-//! scene more slowly.
+//! is prepared once with obvhs' own inverse direction, inside of the timed region, as our own structures do; `rays=loaded` prepares it
+//! before the clock starts.
+//!
+//! What our own trees get, these get: arrays on large pages, triangles converted on all threads, no check of bounds. The walks are
+//! those of obvhs without its checks: the links that they follow are checked once, when the tree is built. The conversion of the
+//! binary tree to the 8-wide one is obvhs' own, which runs on one thread.
 //!
 //! Known defects of obvhs 0.4.0, which the validation shows and does not hide: `CwBvh` misses every ray with a direction
 //! component of -0.0 and loses hits with t < 1e-4; both lose axis-parallel rays close to a box face, and rays with short
@@ -16,7 +19,10 @@ mod cwbvh;
 mod leaf_test;
 mod leaves;
 mod rt_test;
+#[cfg(test)]
+mod tests;
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use obvhs::BvhBuildParams;
@@ -25,12 +31,13 @@ use obvhs::cwbvh::CwBvh;
 use obvhs::ray::{Ray as PreparedRay, RayHit};
 use obvhs::triangle::Triangle;
 
-pub use config::{ObvhsConfig, Preset};
+pub use config::{ObvhsConfig, Preset, Rays};
 pub use leaf_test::{LeafTest, Native, Over};
 pub use rt_test::RtTest;
 
-use crate::accel::{Accel, BuildError, Footprint, Observer, Outline, TreeShape};
+use crate::accel::{Accel, AsTheyAre, BuildError, Footprint, Loaded, Observer, Outline, TreeShape};
 use crate::geometry::{Aabb, Hit, Mesh, Ray};
+use crate::structures::prepared::{Prepare, Prepared};
 use leaves::{Leaves, input};
 
 /// The binary BVH of obvhs.
@@ -43,6 +50,7 @@ pub type ObvhsCwBvh<T> = Obvhs<CwBvh, T>;
 pub struct Obvhs<B, T: LeafTest> {
     tree: B,
     leaves: Leaves<T>,
+    rays: Rays,
 }
 
 /// A box of obvhs as ours.
@@ -54,25 +62,47 @@ fn aabb(bounds: obvhs::aabb::Aabb) -> Aabb {
 pub trait Tree: Send + Sync + Sized + 'static {
     fn build(triangles: &[Triangle], params: BvhBuildParams) -> Self;
 
-    /// The triangle for each place in the tree.
-    fn order(&self) -> &[u32];
+    /// Moves the nodes to where they stay; gives the triangle for each place in the tree, which is not kept.
+    fn settle(&mut self) -> Vec<u32>;
 
     fn node_bytes(&self) -> usize;
 
-    fn closest(&self, ray: PreparedRay, test: impl FnMut(&PreparedRay, usize) -> f32) -> Option<RayHit>;
+    /// Whether all links lead to nodes, and all leaves hold places below `triangles`. What walks rely on.
+    fn leads_inside(&self, triangles: usize) -> bool;
 
-    fn any(&self, ray: PreparedRay, test: impl FnMut(&PreparedRay, usize) -> f32) -> bool;
-
-    /// As `closest`, or with `ANY` up to the first hit, telling the observer. The tree is not empty.
-    fn watched<const ANY: bool>(
+    /// The nearest hit, or with `ANY` the first that is found.
+    fn walk<const ANY: bool>(
         &self,
-        ray: &PreparedRay,
+        ray: PreparedRay,
         test: impl FnMut(&PreparedRay, usize) -> f32,
         observer: &mut impl Observer,
     ) -> Option<RayHit>;
 
     /// Its boxes; references are places in the tree.
     fn outline(&self) -> Outline;
+}
+
+impl<B: Tree, T: LeafTest> Prepare for Obvhs<B, T> {
+    type Ready = (PreparedRay, T::Ray);
+
+    #[inline(always)]
+    fn ready(&self, ray: &Ray) -> Option<Self::Ready> {
+        self.leaves.start(ray)
+    }
+
+    #[inline(always)]
+    fn closest<O: Observer>(&self, &(ray, prepared): &Self::Ready, observer: &mut O) -> Option<Hit> {
+        // SAFETY: the tree hands over places in its leaves, which are below the number of triangles.
+        let test = unsafe { self.leaves.test(prepared) };
+        self.tree.walk::<false>(ray, test, observer).map(|hit| self.leaves.hit(hit))
+    }
+
+    #[inline(always)]
+    fn any<O: Observer>(&self, &(ray, prepared): &Self::Ready, observer: &mut O) -> bool {
+        // SAFETY: as above.
+        let test = unsafe { self.leaves.test(prepared) };
+        self.tree.walk::<true>(ray, test, observer).is_some()
+    }
 }
 
 impl<B: Tree, T: LeafTest> Accel for Obvhs<B, T> {
@@ -82,25 +112,29 @@ impl<B: Tree, T: LeafTest> Accel for Obvhs<B, T> {
 
     fn build(mesh: &Arc<Mesh>, config: &ObvhsConfig) -> Result<Self, BuildError> {
         let (triangles, solid) = input(mesh);
-        let tree = B::build(&triangles, config.preset.params());
-        let leaves = Leaves::new(mesh, &solid, tree.order());
-        Ok(Self { tree, leaves })
+        let mut tree = B::build(&triangles, config.preset.params());
+        drop(triangles);
+        let order = tree.settle();
+        let leaves = Leaves::new(mesh, &solid, &order);
+        assert!(tree.leads_inside(leaves.len()), "obvhs has built a tree with links to nowhere");
+        Ok(Self { tree, leaves, rays: config.rays })
     }
 
     #[inline]
     fn closest_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit> {
-        let (ray, prepared) = self.leaves.start(ray)?;
-        let test = self.leaves.test(prepared);
-        let found =
-            if O::ACTIVE { self.tree.watched::<false>(&ray, test, observer) } else { self.tree.closest(ray, test) };
-        found.map(|hit| self.leaves.hit(hit))
+        self.closest(&self.ready(ray)?, observer)
     }
 
     #[inline]
     fn any_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> bool {
-        let Some((ray, prepared)) = self.leaves.start(ray) else { return false };
-        let test = self.leaves.test(prepared);
-        if O::ACTIVE { self.tree.watched::<true>(&ray, test, observer).is_some() } else { self.tree.any(ray, test) }
+        self.ready(ray).is_some_and(|ready| self.any(&ready, observer))
+    }
+
+    fn load<'a>(&'a self, rays: Cow<'a, [Ray]>) -> Box<dyn Loaded + 'a> {
+        match self.rays {
+            Rays::Asked => Box::new(AsTheyAre { accel: self, rays }),
+            Rays::Loaded => Box::new(Prepared::new(self, &rays)),
+        }
     }
 
     fn footprint(&self) -> Footprint {

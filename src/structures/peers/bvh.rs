@@ -18,10 +18,10 @@ use nalgebra::{Point3, Vector3};
 use serde::{Deserialize, Serialize};
 
 use super::leaves::{Leaves, Start};
-use super::prepared::{Prepare, Prepared};
 use crate::accel::{Accel, BuildError, Footprint, Loaded, Observed, Observer, TreeShape};
 use crate::geometry::{Hit, Mesh, Ray};
 use crate::simd::Lanes;
+use crate::structures::prepared::{Prepare, Prepared};
 use crate::triangle::TriangleTest;
 
 /// The BVH of the crate `bvh` over the triangle test `T`.

@@ -19,7 +19,5 @@ pub mod embree;
 mod leaves;
 #[cfg(feature = "peer-parry")]
 pub mod parry;
-#[cfg(any(feature = "peer-bvh", feature = "peer-embree", feature = "peer-parry", feature = "peer-tinybvh"))]
-mod prepared;
 #[cfg(feature = "peer-tinybvh")]
 pub mod tinybvh;

@@ -22,9 +22,9 @@ use std::sync::Arc;
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
-use super::prepared::{Prepare, Prepared};
 use crate::accel::{Accel, BuildError, Capabilities, Footprint, Loaded, Observed, Observer, TreeShape};
 use crate::geometry::{Hit, Mesh, Ray};
+use crate::structures::prepared::{Prepare, Prepared};
 use api::Arguments;
 use device::Scene;
 use rays::{LANES, Packet, Single};

@@ -19,9 +19,9 @@ use glam::Vec3;
 use serde::{Deserialize, Serialize};
 use tinybvh_rs::{Positions, bvh, bvh8_cpu, mbvh};
 
-use super::prepared::{Prepare, Prepared};
 use crate::accel::{Accel, BuildError, Capabilities, Footprint, Loaded, Observed, Observer, TreeShape};
 use crate::geometry::{Hit, Mesh, Ray};
+use crate::structures::prepared::{Prepare, Prepared};
 use query::{Head, Tree};
 
 /// The 8-wide BVH of tinybvh.
