@@ -52,11 +52,14 @@ pub(super) fn number(bytes: &[u8], at: usize) -> u32 {
     u32::from_le_bytes(bytes[at..at + 4].try_into().expect("four bytes"))
 }
 
-/// The part after `at`, which must have `count` items of `size` bytes.
+/// The part after `at`, which must have `count` items of `size` bytes. The file may end before it.
 pub(super) fn body(bytes: &[u8], at: usize, count: u64, size: u64) -> Result<&[u8], String> {
-    let found = bytes.len().saturating_sub(at) as u64;
+    let Some(body) = bytes.get(at..) else {
+        return Err(format!("the file is cut short: it has {} bytes, and the first item begins at byte {at}", bytes.len()));
+    };
+    let found = body.len() as u64;
     match count.checked_mul(size) {
-        Some(owed) if owed == found => Ok(&bytes[at..]),
+        Some(owed) if owed == found => Ok(body),
         Some(owed) if owed < found => {
             Err(format!("{} bytes follow after the last of {count}: it was changed", found - owed))
         }
