@@ -8,6 +8,7 @@ use std::path::Path;
 use std::process::Command;
 use std::sync::{Arc, Mutex};
 use std::thread;
+use std::time::{Duration, Instant};
 
 use sahara::fetch::{Client, DataFile, FetchError, Fetched};
 use sha2::{Digest, Sha256};
@@ -217,10 +218,75 @@ fn what_is_there_with_other_contents_is_not_touched() {
     assert!(fetch(&nobody).unwrap_err().to_string().contains("check the connection"));
 }
 
+/// A server that sends the head, then a byte a time with pauses in between: none, if they are longer than anyone waits.
+fn slow_server(head: &'static str, pause: Duration) -> String {
+    let listener = TcpListener::bind("127.0.0.1:0").unwrap();
+    let address = format!("http://{}/mesh.obj", listener.local_addr().unwrap());
+    thread::spawn(move || {
+        for stream in listener.incoming() {
+            let mut stream = stream.unwrap();
+            // The request is read until its end, so that the connection is not reset.
+            let lines = BufReader::new(stream.try_clone().unwrap()).lines().map_while(Result::ok);
+            lines.take_while(|line| !line.is_empty()).for_each(drop);
+            let _ = stream.write_all(head.as_bytes());
+            while stream.write_all(b"v").is_ok() {
+                thread::sleep(pause);
+            }
+        }
+    });
+    address
+}
+
+#[test]
+fn a_server_that_stalls_is_left() {
+    let folder = tempfile::tempdir().unwrap();
+    let head = "HTTP/1.1 200 OK\r\nContent-Length: 100000\r\n\r\n";
+    for (head, pause, word) in [
+        (head, Duration::from_secs(3600), "next to nothing"),
+        (head, Duration::from_millis(20), "next to nothing"),
+        ("HTTP/1.1 200 OK\r\nServer: ", Duration::from_secs(3600), "timeout"),
+    ] {
+        let begun = Instant::now();
+        let file = DataFile {
+            url: slow_server(head, pause),
+            path: folder.path().join("mesh.obj"),
+            sha256: hex(&mesh()),
+            bytes: Some(100_000),
+        };
+        let error = Client::with_patience(Duration::from_millis(300)).fetch(&file, &mut |_| ()).unwrap_err().to_string();
+        assert!(error.contains(word) && error.contains(&file.url), "{error}");
+        assert!(begun.elapsed() < Duration::from_secs(20), "{:?}", begun.elapsed());
+    }
+}
+
+#[test]
+fn what_cannot_be_read_is_not_said_to_be_unwritable() {
+    let (folder, server) = (tempfile::tempdir().unwrap(), Server::start(answer));
+    let file = server.file(&folder, "/mesh.obj");
+    // A folder in place of the file opens, and does not read.
+    fs::create_dir_all(&file.path).unwrap();
+    let error = fetch(&file).unwrap_err();
+    assert!(matches!(error, FetchError::Read { .. }) && error.to_string().starts_with("cannot read"), "{error}");
+    // The same in place of the part cannot be written.
+    fs::remove_dir(&file.path).unwrap();
+    fs::create_dir_all(file.part()).unwrap();
+    let error = fetch(&file).unwrap_err();
+    assert!(matches!(error, FetchError::Write { .. }) && error.to_string().starts_with("cannot write"), "{error}");
+}
+
+#[test]
+fn a_file_of_unknown_size_is_not_fetched_without_end() {
+    let (folder, server) = (tempfile::tempdir().unwrap(), Server::start(answer));
+    let file = DataFile { bytes: None, ..server.file(&folder, "/endless") };
+    let error = fetch(&file).unwrap_err();
+    assert!(matches!(error, FetchError::TooLarge { .. }) && error.to_string().contains("8589934592"), "{error}");
+    holds(&file, &[]);
+}
+
 #[test]
 fn a_length_beyond_all_numbers_is_a_body_cut_short() {
     let (folder, server) = (tempfile::tempdir().unwrap(), Server::start(answer));
-    let file = DataFile { bytes: None, ..server.file(&folder, "/endless") };
+    let file = server.file(&folder, "/endless");
     put(&file.part(), b"mine");
     for _ in 0..2 {
         let error = fetch(&file).unwrap_err().to_string();

@@ -2,34 +2,50 @@
 
 use std::fs::{self, OpenOptions};
 use std::io::{self, Read, Write};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use super::{DataFile, FetchError, Fetched};
 
-/// Asks servers for files.
+/// Asks servers for files. A server that does not answer, sends nothing or next to nothing is left after a while.
 pub struct Client {
     agent: ureq::Agent,
+    patience: Duration,
 }
 
 /// Redirects that are followed: repositories need one or two.
 const REDIRECTS: u32 = 5;
 
+/// How long a connection, an answer or the next bytes may take.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+/// A server that sends fewer bytes while patience lasts is taken to have stalled.
+const LEAST_PROGRESS: u64 = 16 << 10;
+
+/// The most bytes of a file whose size the scene file does not say.
+const MOST: u64 = 8 << 30;
+
 impl Default for Client {
     fn default() -> Self {
-        let config = ureq::Agent::config_builder()
-            .max_redirects(REDIRECTS)
-            .http_status_as_error(false)
-            .timeout_connect(Some(Duration::from_secs(30)))
-            .timeout_recv_response(Some(Duration::from_secs(60)))
-            // A download that stops is given up some time, and gone on with by the next run.
-            .timeout_recv_body(Some(Duration::from_secs(3600)))
-            .user_agent(concat!("sahara/", env!("CARGO_PKG_VERSION")))
-            .build();
-        Self { agent: config.into() }
+        Self::with_patience(PATIENCE)
     }
 }
 
 impl Client {
+    /// A client that waits `patience` for a connection, for an answer and for bytes; the default is a minute.
+    pub fn with_patience(patience: Duration) -> Self {
+        let config = ureq::Agent::config_builder()
+            .max_redirects(REDIRECTS)
+            .http_status_as_error(false)
+            .timeout_resolve(Some(patience))
+            .timeout_connect(Some(patience))
+            .timeout_send_request(Some(patience))
+            .timeout_recv_response(Some(patience))
+            .timeout_per_read(Some(patience))
+            .user_agent(concat!("sahara/", env!("CARGO_PKG_VERSION")))
+            .build();
+        Self { agent: config.into(), patience }
+    }
+
     /// Brings `file` to its place: from where an earlier download ended, verified, and in one step. `progress` is told the bytes
     /// that there are.
     ///
@@ -73,6 +89,9 @@ impl Client {
         };
         let length: Option<u64> = header("content-length").and_then(|length| length.parse().ok());
         let expected = length.map(|length| start.saturating_add(length)).or(file.bytes);
+        if file.bytes.is_none() && expected.is_some_and(|expected| expected > MOST) {
+            return Err(too_large(file));
+        }
 
         let body = response.into_body().into_reader();
         let got = self.append(file, start, body, progress)?;
@@ -96,11 +115,14 @@ impl Client {
         let mut out = open.map_err(refused)?;
         out.set_len(start).map_err(refused)?;
         let (mut got, mut buffer) = (start, vec![0; 1 << 16]);
+        let stalled = |got: u64| FetchError::Stalled { url: file.url.clone(), got, patience: self.patience };
+        let (mut since, mut got_then) = (Instant::now(), got);
         loop {
             let n = match body.read(&mut buffer) {
                 Ok(0) => return Ok(got),
                 Ok(n) => n,
                 Err(cause) if cause.kind() == io::ErrorKind::Interrupted => continue,
+                Err(cause) if is_timeout(&cause) => return Err(stalled(got)),
                 // A body that breaks off is one that ends too early.
                 Err(cause) if got == start => {
                     return Err(FetchError::Connection { url: file.url.clone(), cause: cause.to_string() });
@@ -110,14 +132,34 @@ impl Client {
                 }
             };
             got += n as u64;
-            if let Some(expected) = file.bytes.filter(|&bytes| got > bytes) {
+            let most = file.bytes.unwrap_or(MOST);
+            if got > most {
+                drop(out);
                 fs::remove_file(&part).map_err(refused)?;
-                return Err(FetchError::Long { url: file.url.clone(), expected });
+                return Err(match file.bytes {
+                    Some(expected) => FetchError::Long { url: file.url.clone(), expected },
+                    None => too_large(file),
+                });
             }
             out.write_all(&buffer[..n]).map_err(refused)?;
             progress(got);
+            if since.elapsed() >= self.patience {
+                if got - got_then < LEAST_PROGRESS {
+                    return Err(stalled(got));
+                }
+                (since, got_then) = (Instant::now(), got);
+            }
         }
     }
+}
+
+fn is_timeout(error: &io::Error) -> bool {
+    let inner = error.get_ref().and_then(|error| error.downcast_ref());
+    error.kind() == io::ErrorKind::TimedOut || matches!(inner, Some(ureq::Error::Timeout(_)))
+}
+
+fn too_large(file: &DataFile) -> FetchError {
+    FetchError::TooLarge { url: file.url.clone(), most: MOST }
 }
 
 fn sentence(error: &ureq::Error) -> String {

@@ -55,7 +55,7 @@ impl DataFile {
         if !self.path.exists() {
             return Ok(false);
         }
-        let found = hash(&self.path).map_err(|cause| FetchError::Write { path: self.path.clone(), cause })?;
+        let found = hash(&self.path)?;
         match found == self.sha256 {
             true => Ok(true),
             false => Err(FetchError::Other { path: self.path.clone(), found, expected: self.sha256.clone() }),
@@ -69,7 +69,7 @@ impl DataFile {
     pub fn finish(&self) -> Result<(), FetchError> {
         let part = self.part();
         let refused = |cause: io::Error| FetchError::Write { path: self.path.clone(), cause };
-        let found = hash(&part).map_err(refused)?;
+        let found = hash(&part)?;
         if found != self.sha256 {
             fs::remove_file(&part).map_err(refused)?;
             return Err(FetchError::Hash { url: self.url.clone(), found, expected: self.sha256.clone() });
@@ -79,10 +79,12 @@ impl DataFile {
     }
 }
 
-fn hash(path: &Path) -> io::Result<String> {
-    let (mut file, mut hasher, mut buffer) = (File::open(path)?, Sha256::new(), vec![0; 1 << 16]);
+fn hash(path: &Path) -> Result<String, FetchError> {
+    let unreadable = |cause: io::Error| FetchError::Read { path: path.into(), cause };
+    let mut file = File::open(path).map_err(unreadable)?;
+    let (mut hasher, mut buffer) = (Sha256::new(), vec![0; 1 << 16]);
     loop {
-        match file.read(&mut buffer)? {
+        match file.read(&mut buffer).map_err(unreadable)? {
             0 => return Ok(hasher.finalize().iter().map(|byte| format!("{byte:02x}")).collect()),
             n => hasher.update(&buffer[..n]),
         }

@@ -8,6 +8,7 @@ mod client;
 mod data_file;
 
 use std::path::PathBuf;
+use std::time::Duration;
 
 #[cfg(feature = "fetch")]
 pub use client::Client;
@@ -39,12 +40,18 @@ pub enum FetchError {
     Connection { url: String, cause: String },
     #[error("{url}: the connection ended after {got} of {expected} bytes: fetch again to go on from there")]
     Cut { url: String, got: u64, expected: u64 },
+    #[error("{url}: the server sent nothing, or next to nothing, for {} s: fetch again to go on after {got} bytes", patience.as_secs_f32())]
+    Stalled { url: String, got: u64, patience: Duration },
+    #[error("{url}: the file has more than {most} bytes, the most that is fetched without a size in the scene file: nothing of it is kept")]
+    TooLarge { url: String, most: u64 },
     #[error("{url}: more than the {expected} bytes that the scene file says came: nothing of it is kept")]
     Long { url: String, expected: u64 },
     #[error(
         "{url}: what came has the SHA-256 {found}, not {expected}: nothing of it is kept; the file there has changed, or was changed on the way"
     )]
     Hash { url: String, found: String, expected: String },
+    #[error("cannot read {}: {cause}: check that it may be read", path.display())]
+    Read { path: PathBuf, cause: std::io::Error },
     #[error("cannot write {}: {cause}: choose a folder that may be written and has room (SAHARA_DATA)", path.display())]
     Write { path: PathBuf, cause: std::io::Error },
 }
