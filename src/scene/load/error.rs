@@ -61,10 +61,18 @@ impl Fault {
     }
 }
 
-/// Text from a file or from a library as it may stand in a one-line message: escaped, and cut after 60 characters.
-pub(super) fn quoted(text: &str) -> String {
+/// A piece of a file as it may stand in a one-line message: escaped, and cut after 60 characters.
+pub(super) fn quoted(text: impl AsRef<[u8]>) -> String {
     const LONGEST: usize = 60;
-    let escaped: String = text.trim().chars().take(LONGEST).flat_map(char::escape_debug).collect();
-    let more = if text.trim().chars().nth(LONGEST).is_some() { "..." } else { "" };
+    let text = text.as_ref().trim_ascii();
+    // No character has more than four bytes.
+    let start = String::from_utf8_lossy(&text[..text.len().min(4 * LONGEST + 4)]);
+    let escaped: String = start.chars().take(LONGEST).flat_map(char::escape_debug).collect();
+    let more = if start.chars().nth(LONGEST).is_some() { "..." } else { "" };
     format!("`{escaped}{more}`")
+}
+
+/// The whole message of a library, in one line.
+pub(super) fn message(error: impl fmt::Display) -> String {
+    error.to_string().split_whitespace().collect::<Vec<_>>().join(" ")
 }

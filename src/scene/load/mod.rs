@@ -3,14 +3,17 @@
 mod error;
 mod gltf;
 mod mtl;
+mod notes;
 mod obj;
 mod ply;
+mod polygon;
 #[cfg(test)]
 mod tests;
+mod text;
 
 use std::fs;
 use std::io;
-use std::path::Path;
+use std::path::{Component, Path, PathBuf};
 
 use self::error::Fault;
 use super::Model;
@@ -20,23 +23,28 @@ pub use error::{LoadError, Place};
 
 /// Reads a mesh file; the end of its name (in any case) tells the format: `.obj`, `.ply`, `.gltf` or `.glb`.
 ///
-/// Polygons become triangle fans, glTF node graphs are expanded, textures are left out. What was left out or replaced
-/// stands in [`Model::notes`]. The model has at least one material, and [`Mesh::new`] takes its arrays.
+/// Polygons are split into triangles, glTF node graphs are expanded, textures are left out. What was left out or replaced
+/// stands in [`Model::notes`]. The model has at least one material and one triangle, and [`Mesh::new`] takes its arrays.
+///
+/// Other files that the file names are read where their path leads below its folder; a symbolic link there may lead anywhere.
+/// A file is checked before memory is taken for what is in it, and it cannot ask for much more than it holds: a glTF file
+/// shows at most 2^24 triangles and vertices more than its files have bytes, its text describes at most 2^16 objects and one
+/// for each 48 bytes, and a face of a PLY file has at most 2^20 corners.
 ///
 /// # Errors
-/// A file that cannot be read or breaks its format, a vertex that is not finite, an index out of range.
+/// A file that cannot be read or breaks its format, a vertex that is not finite, an index out of range, no triangles.
 pub fn load(path: &Path) -> Result<Model, LoadError> {
     let ending = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
-    let read: fn(&[u8], &Path) -> Result<Model, Fault> = match ending.as_deref() {
-        Some("obj") => obj::read,
-        Some("ply") => |bytes, _| ply::read(bytes),
+    let read: fn(Vec<u8>, &Path) -> Result<Model, Fault> = match ending.as_deref() {
+        Some("obj") => |bytes, folder| obj::read(&bytes, folder),
+        Some("ply") => |bytes, _| ply::read(&bytes),
         Some("gltf" | "glb") => gltf::read,
         _ => return Err(LoadError::UnknownFormat { file: path.into() }),
     };
 
     let bytes = read_file(path).map_err(|cause| LoadError::Unreadable { file: path.into(), cause })?;
     let folder = path.parent().unwrap_or(Path::new(""));
-    let mut model = read(&bytes, folder).map_err(|fault| LoadError::Malformed {
+    let mut model = read(bytes, folder).map_err(|fault| LoadError::Malformed {
         file: path.into(),
         place: fault.place,
         problem: fault.problem,
@@ -44,6 +52,20 @@ pub fn load(path: &Path) -> Result<Model, LoadError> {
     Mesh::check(&model.positions, &model.triangles).map_err(|cause| LoadError::Mesh { file: path.into(), cause })?;
     flatten_bad_normals(&mut model);
     Ok(model)
+}
+
+/// The path of the file `name` in `folder` or below it; none where it leads out.
+fn below(folder: &Path, name: &str) -> Option<PathBuf> {
+    let mut depth = 0_usize;
+    for component in Path::new(name).components() {
+        match component {
+            Component::Normal(_) => depth += 1,
+            Component::CurDir => {}
+            Component::ParentDir => depth = depth.checked_sub(1)?,
+            Component::RootDir | Component::Prefix(_) => return None,
+        }
+    }
+    Some(folder.join(name))
 }
 
 /// Whole files only: a pipe or a device might never end.

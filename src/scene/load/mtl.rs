@@ -1,82 +1,149 @@
 //! Wavefront MTL, the materials of OBJ files.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
+use std::fs;
 use std::path::{Path, PathBuf};
 
 use glam::Vec3;
 
 use super::error::quoted;
-use super::read_file;
+use super::notes::Notes;
+use super::text::{Lines, after_keyword, number, plain, words};
+use super::{below, read_file};
 use crate::scene::Material;
 
-/// Reads the files that the `mtllib` lines name. What cannot be read is a note and not an error, for the mesh is whole
-/// without it. Of two materials with one name the later counts.
-pub(super) fn read_all(libraries: &[String], folder: &Path, notes: &mut Vec<String>) -> HashMap<String, Material> {
-    let mut known = HashMap::new();
-    for library in libraries {
-        for path in paths(library, folder) {
-            match read_file(&path) {
-                Ok(bytes) => read(&String::from_utf8_lossy(&bytes), &path, notes, &mut known),
-                Err(cause) => notes.push(format!("the materials in {} cannot be read ({cause})", path.display())),
-            }
+/// More libraries than any exporter writes; others are not read.
+const MOST_LIBRARIES: usize = 64;
+
+/// What `mtllib` lines name, each once.
+#[derive(Default)]
+pub(super) struct Libraries {
+    named: Vec<String>,
+    more: usize,
+}
+
+impl Libraries {
+    pub fn add(&mut self, line: String) {
+        match self.named.contains(&line) {
+            true => {}
+            false if self.named.len() < MOST_LIBRARIES => self.named.push(line),
+            false => self.more += 1,
         }
     }
-    known
+
+    /// Reads the materials that are keys of `used`, each library once. What cannot be read is a note and not an error, for
+    /// the mesh is whole without it. Of two materials with one name the later counts.
+    pub fn read(&self, used: &HashMap<String, u32>, folder: &Path, notes: &mut Notes) -> HashMap<String, Material> {
+        let mut reader = Reader { known: HashMap::new(), used, textured: HashSet::new() };
+        let mut files: Vec<PathBuf> = Vec::new();
+        for path in self.named.iter().flat_map(|line| paths(line, folder)) {
+            let path = match path {
+                Ok(path) => path,
+                Err(problem) => {
+                    notes.add(problem);
+                    continue;
+                }
+            };
+            // One file may have several names.
+            let file = fs::canonicalize(&path).unwrap_or_else(|_| path.clone());
+            if files.contains(&file) {
+                continue;
+            }
+            if files.len() == MOST_LIBRARIES {
+                notes.add(format!("of the material files, only the first {MOST_LIBRARIES} are read"));
+                break;
+            }
+            files.push(file);
+            match read_file(&path) {
+                Ok(bytes) => reader.read(&bytes, &path, notes),
+                Err(cause) => notes.add(format!("the materials in {} cannot be read ({cause})", path.display())),
+            }
+        }
+        notes.count(self.more, &format!("mtllib lines after the first {MOST_LIBRARIES} are not followed"));
+        notes.count(reader.textured.len(), "materials have textures, which are left out: they show Kd as it is");
+        reader.known
+    }
 }
 
 /// A line may name several files, or one with blanks in its name: the latter if there is one.
-fn paths(library: &str, folder: &Path) -> Vec<PathBuf> {
-    let path = |name: &str| folder.join(name.replace('\\', "/"));
-    let whole = path(library);
-    if whole.is_file() { vec![whole] } else { library.split_whitespace().map(path).collect() }
+fn paths(line: &str, folder: &Path) -> Vec<Result<PathBuf, String>> {
+    let path = |name: &str| {
+        let outside =
+            || format!("the material file {} is not below the folder of this file: it is not read", quoted(name));
+        below(folder, &name.replace('\\', "/")).ok_or_else(outside)
+    };
+    match path(line) {
+        Ok(whole) if whole.is_file() => vec![Ok(whole)],
+        _ => line.split_whitespace().map(path).collect(),
+    }
 }
 
-fn read(text: &str, path: &Path, notes: &mut Vec<String>, known: &mut HashMap<String, Material>) {
-    // tobj panics on colours of fewer than three numbers, and one bad line costs it all materials of the file: it gets
-    // to see only the lines that are used here, and whole.
-    let mut clean = String::new();
-    for (index, line) in text.lines().enumerate() {
-        match usable(line) {
-            Ok(None) => {}
-            Ok(Some(line)) => clean = clean + &line + "\n",
-            Err(()) => notes.push(format!("{}, line {}: {} is ignored", path.display(), index + 1, quoted(line))),
+struct Reader<'a> {
+    known: HashMap<String, Material>,
+    used: &'a HashMap<String, u32>,
+    /// Names of used materials with a texture.
+    textured: HashSet<String>,
+}
+
+impl Reader<'_> {
+    fn read(&mut self, bytes: &[u8], path: &Path, notes: &mut Notes) {
+        let text = match plain(bytes) {
+            Ok(text) => text,
+            Err(fault) => return notes.add(format!("{}: {}", path.display(), fault.problem)),
+        };
+        // The material of the lines to come; none where nothing uses it.
+        let mut current: Option<String> = None;
+        for (number, line) in Lines::new(text) {
+            if self.line(line, &mut current).is_err() {
+                notes.add(format!("{}, line {number}: {} is ignored", path.display(), quoted(line)));
+            }
         }
     }
-    match tobj::load_mtl_buf(&mut clean.as_bytes()) {
-        Ok((materials, _)) => known.extend(materials.into_iter().map(|m| (m.name.clone(), material(m)))),
-        Err(cause) => notes.push(format!("the materials in {} cannot be read ({cause})", path.display())),
+
+    /// Reads a line; what says nothing of interest is passed over, and wrong numbers are an error.
+    fn line(&mut self, line: &[u8], current: &mut Option<String>) -> Result<(), ()> {
+        let mut words = words(line);
+        let Some(keyword) = words.next() else { return Ok(()) };
+        if keyword == b"newmtl" {
+            let name = after_keyword(line);
+            if name.is_empty() {
+                return Err(());
+            }
+            *current = self.used.contains_key(&name).then_some(name);
+            if let Some(name) = current {
+                self.known.insert(name.clone(), Material::named(name.clone()));
+                self.textured.remove(name);
+            }
+            return Ok(());
+        }
+        let Some(material) = current.as_ref().and_then(|name| self.known.get_mut(name)) else { return Ok(()) };
+        match keyword {
+            b"Ka" => material.ambient = colour(words)?,
+            b"Kd" => material.diffuse = colour(words)?,
+            b"Ks" => material.specular = colour(words)?,
+            b"Ns" => material.shininess = finite(words.next().ok_or(())?)?.max(0.0),
+            _ if keyword.starts_with(b"map_") || [&b"bump"[..], b"norm", b"disp", b"decal"].contains(&keyword) => {
+                if words.next().is_some() {
+                    self.textured.insert(material.name.clone());
+                }
+            }
+            _ => {}
+        }
+        Ok(())
     }
 }
 
-/// The line as tobj can read it, nothing when it says nothing of interest, an error when its numbers are wrong.
-fn usable(line: &str) -> Result<Option<String>, ()> {
-    let mut words = line.split_whitespace();
-    let Some(keyword) = words.next() else { return Ok(None) };
-    let count = match keyword {
-        "newmtl" => return words.next().map(|_| Some(line.trim().to_owned())).ok_or(()),
-        "Ka" | "Kd" | "Ks" => 3,
-        "Ns" => 1,
-        _ => return Ok(None),
-    };
-    let parse = |word: &str| word.parse::<f32>().ok().filter(|number| number.is_finite()).ok_or(());
-    let numbers: Vec<f32> = words.take(count).map(parse).collect::<Result<_, ()>>()?;
-    match (numbers[..].iter().as_slice(), count) {
-        // A colour of one number is grey.
-        ([grey], 3) => Ok(Some(format!("{keyword} {grey} {grey} {grey}"))),
-        ([r, g, b], 3) => Ok(Some(format!("{keyword} {r} {g} {b}"))),
-        ([number], 1) => Ok(Some(format!("{keyword} {number}"))),
+/// Three numbers, or one for a grey, from 0 to 1.
+fn colour<'a>(words: impl Iterator<Item = &'a [u8]>) -> Result<Vec3, ()> {
+    let numbers: Vec<f32> = words.take(3).map(finite).collect::<Result<_, ()>>()?;
+    match numbers[..] {
+        [grey] => Ok(Vec3::splat(grey)),
+        [r, g, b] => Ok(Vec3::new(r, g, b)),
         _ => Err(()),
     }
+    .map(|colour| colour.clamp(Vec3::ZERO, Vec3::ONE))
 }
 
-fn material(read: tobj::Material) -> Material {
-    let plain = Material::named(read.name);
-    let colour = |read: Option<[f32; 3]>, plain| read.map_or(plain, |c| Vec3::from(c).clamp(Vec3::ZERO, Vec3::ONE));
-    Material {
-        ambient: colour(read.ambient, plain.ambient),
-        diffuse: colour(read.diffuse, plain.diffuse),
-        specular: colour(read.specular, plain.specular),
-        shininess: read.shininess.map_or(plain.shininess, |n| n.max(0.0)),
-        ..plain
-    }
+fn finite(word: &[u8]) -> Result<f32, ()> {
+    number::<f32>(word).filter(|number| number.is_finite()).ok_or(())
 }

@@ -10,6 +10,7 @@ const DEEPEST: usize = 1024;
 
 /// A mesh where a node shows it.
 pub(super) struct Placement {
+    pub node: usize,
     pub mesh: usize,
     pub transform: DMat4,
 }
@@ -32,15 +33,15 @@ pub(super) fn placements(root: &Root) -> Result<Vec<Placement>, Fault> {
         }
     }
     let roots = || (0..nodes.len()).filter(|&n| parent[n].is_none());
-    let seen = walk(nodes, roots(), |_, _| ())?;
+    let seen = walk(nodes, roots(), |_, _, _| ())?;
     if let Some(number) = seen.iter().position(|seen| !seen) {
         return Err(Fault::part(format!("node {number}"), "it is its own ancestor: remove the cycle"));
     }
 
     let mut placements = Vec::new();
-    let place = |node: &Node, transform| {
+    let place = |number: usize, node: &Node, transform| {
         if let Some(mesh) = &node.mesh {
-            placements.push(Placement { mesh: mesh.value(), transform });
+            placements.push(Placement { node: number, mesh: mesh.value(), transform });
         }
     };
     match &root.scene {
@@ -54,7 +55,7 @@ pub(super) fn placements(root: &Root) -> Result<Vec<Placement>, Fault> {
 fn walk(
     nodes: &[Node],
     roots: impl Iterator<Item = usize>,
-    mut visit: impl FnMut(&Node, DMat4),
+    mut visit: impl FnMut(usize, &Node, DMat4),
 ) -> Result<Vec<bool>, Fault> {
     let mut seen = vec![false; nodes.len()];
     let mut waiting: Vec<(usize, DMat4, usize)> = roots.map(|n| (n, DMat4::IDENTITY, 1)).collect();
@@ -69,7 +70,7 @@ fn walk(
         }
         let node = &nodes[number];
         let transform = above * local(node);
-        visit(node, transform);
+        visit(number, node, transform);
         let first = waiting.len();
         waiting.extend(children(node).map(|child| (child, transform, depth + 1)));
         waiting[first..].reverse();

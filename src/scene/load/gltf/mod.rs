@@ -7,43 +7,58 @@ mod source;
 
 use std::path::Path;
 
-use glam::{DMat3, Vec3};
+use glam::{DMat3, DVec3, Vec3};
+use gltf::Document;
 
 use self::accessors::Accessors;
 use self::graph::Placement;
 use self::shape::Shape;
+use self::source::Source;
 use super::error::Fault;
+use super::notes::Notes;
 use crate::scene::{Material, Model};
+
+/// Nodes may show this many triangles, and vertices, more than the files have bytes. Without nodes that share a mesh they
+/// cannot show more than bytes.
+const MOST_REPEATED: usize = 1 << 24;
 
 /// Reads a glTF file and expands its node graph: every mesh once for each node that shows it.
 ///
 /// Transforms are multiplied in f64 and rounded once, when they meet the vertices. Triangles of mirrored nodes are turned
 /// round, so that they face the side that they face in the file. Points, lines, textures, skins and morph targets are
-/// left out.
-pub(super) fn read(bytes: &[u8], folder: &Path) -> Result<Model, Fault> {
-    let (document, buffers) = source::open(bytes, folder)?;
+/// left out. Nothing is read before everything that is shown has been checked and counted.
+pub(super) fn read(bytes: Vec<u8>, folder: &Path) -> Result<Model, Fault> {
+    let Source { document, buffers, bytes } = source::open(bytes, folder)?;
     let placements = graph::placements(document.as_json())?;
-    let accessors = Accessors { buffers: &buffers };
+    let accessors = Accessors::new(&buffers);
     let meshes: Vec<_> = document.meshes().collect();
     let mut shapes: Vec<Option<Shape>> = meshes.iter().map(|_| None).collect();
     for placement in &placements {
         let shape = &mut shapes[placement.mesh];
         if shape.is_none() {
-            *shape = Some(Shape::read(&meshes[placement.mesh], &accessors)?);
+            *shape = Some(Shape::check(&meshes[placement.mesh], &accessors)?);
         }
     }
 
     let mut model = Model::default();
     let shown = || placements.iter().filter_map(|p| shapes[p.mesh].as_ref().map(|shape| (p, shape)));
-    reserve(&mut model, shown().map(|(_, shape)| shape))?;
+    shown().try_for_each(|(placement, shape)| check_place(placement, shape, &accessors))?;
+    reserve(&mut model, shown().map(|(_, shape)| shape), bytes, || nothing(&document, &placements))?;
     for (placement, shape) in shown() {
-        add(&mut model, placement, shape);
+        add(&mut model, placement, shape, &accessors);
     }
 
     // Drop what says nothing.
     if model.normals.is_empty() {
         model.normal_indices = Vec::new();
     }
+    let mut used = vec![false; document.materials().count()];
+    for &number in &model.material_of {
+        if let Some(used) = used.get_mut(number as usize) {
+            *used = true;
+        }
+    }
+    let textured = document.materials().zip(used).filter(|(material, used)| *used && is_textured(material)).count();
     model.materials = document.materials().map(material).collect();
     let default = model.materials.len() as u32;
     if model.material_of.contains(&shape::NO_MATERIAL) || model.materials.is_empty() {
@@ -53,15 +68,49 @@ pub(super) fn read(bytes: &[u8], folder: &Path) -> Result<Model, Fault> {
     if model.material_of.iter().all(|&m| m == 0) {
         model.material_of = Vec::new();
     }
+
+    let mut notes = Notes::default();
     let skinned = document.nodes().filter(|node| node.skin().is_some() && node.mesh().is_some()).count();
-    if skinned > 0 {
-        model.notes.push(format!("{skinned} nodes have a skin: they stand unposed"));
-    }
+    let sum = |count: fn(&Shape) -> usize| shapes.iter().flatten().map(count).sum();
+    notes.count(skinned, "nodes have a skin: they stand unposed");
+    notes.count(textured, "materials have textures, which are left out: they show their base colour as it is");
+    notes.count(sum(|s| s.morphed), "primitives have morph targets, which are left out: they keep their basic form");
+    notes.count(sum(|s| s.left_out), "primitives are points or lines, or have no positions: they are left out");
+    model.notes = notes.into_vec();
     Ok(model)
 }
 
+/// Whether all vertices are finite where a node places them.
+fn check_place<'a>(placement: &Placement, shape: &Shape<'a>, accessors: &Accessors<'a>) -> Result<(), Fault> {
+    let place = |p: DVec3| placement.transform.transform_point3(p).as_vec3();
+    let Some(bounds) = shape.bounds else { return Ok(()) };
+    let corner = |i: usize| DVec3::new(bounds[i & 1].x, bounds[i >> 1 & 1].y, bounds[i >> 2].z);
+    if (0..8).all(|i| place(corner(i)).is_finite()) {
+        return Ok(());
+    }
+    for accessor in &shape.positions {
+        for (number, position) in accessors.vectors(accessor).enumerate() {
+            let placed = place(position.as_dvec3());
+            if !placed.is_finite() {
+                let problem = format!(
+                    "it places vertex {number} of mesh {} at {:?}, which is not finite: scale it down",
+                    placement.mesh,
+                    placed.to_array()
+                );
+                return Err(Fault::part(format!("node {}", placement.node), problem));
+            }
+        }
+    }
+    Ok(())
+}
+
 /// A small file can show a large mesh very often: takes the memory for all of it before anything is expanded.
-fn reserve<'a>(model: &mut Model, shapes: impl Iterator<Item = &'a Shape>) -> Result<(), Fault> {
+fn reserve<'s, 'a: 's>(
+    model: &mut Model,
+    shapes: impl Iterator<Item = &'s Shape<'a>>,
+    bytes: usize,
+    nothing: impl Fn() -> String,
+) -> Result<(), Fault> {
     let mut sizes = [0_usize; 3];
     for shape in shapes {
         for (sum, size) in sizes.iter_mut().zip(shape.sizes()) {
@@ -69,7 +118,11 @@ fn reserve<'a>(model: &mut Model, shapes: impl Iterator<Item = &'a Shape>) -> Re
         }
     }
     let [vertices, normals, triangles] = sizes;
-    let fits = vertices.max(normals).max(triangles) < u32::MAX as usize
+    if triangles == 0 {
+        return Err(Fault::file(format!("it holds no triangles that are shown: {}", nothing())));
+    }
+    let most = bytes.saturating_add(MOST_REPEATED).min(u32::MAX as usize - 1);
+    let fits = vertices.max(normals).max(triangles) <= most
         && model.positions.try_reserve_exact(vertices).is_ok()
         && model.normals.try_reserve_exact(normals).is_ok()
         && model.triangles.try_reserve_exact(triangles).is_ok()
@@ -78,24 +131,45 @@ fn reserve<'a>(model: &mut Model, shapes: impl Iterator<Item = &'a Shape>) -> Re
     if fits {
         return Ok(());
     }
-    Err(Fault::file(format!("its nodes show {triangles} triangles and {vertices} vertices, too many: split the scene")))
+    let shown = format!("its nodes show {triangles} triangles and {vertices} vertices");
+    Err(Fault::file(format!("{shown}, and more than {most} do not fit from files of {bytes} bytes: split the scene")))
 }
 
-fn add(model: &mut Model, placement: &Placement, shape: &Shape) {
+/// Why nothing is shown.
+fn nothing(document: &Document, placements: &[Placement]) -> String {
+    let meshes = document.meshes().count();
+    match document.default_scene() {
+        _ if !placements.is_empty() => "its meshes have only points, lines or primitives without positions".into(),
+        _ if meshes == 0 => "it has no meshes".into(),
+        Some(scene) if scene.nodes().next().is_none() => format!("scene {}, its default, has no nodes", scene.index()),
+        _ if document.nodes().next().is_none() => format!("it has no nodes, which would show its meshes, {meshes}"),
+        Some(scene) => format!("no node of scene {}, its default, has a mesh", scene.index()),
+        None => "no node has a mesh".into(),
+    }
+}
+
+fn add<'a>(model: &mut Model, placement: &Placement, shape: &Shape<'a>, accessors: &Accessors<'a>) {
     let transform = placement.transform;
     let linear = DMat3::from_mat4(transform);
     let mirrored = linear.determinant() < 0.0;
-    let first_vertex: Vec<u32> = starts(model.positions.len(), &shape.positions);
-    let first_normal: Vec<u32> = starts(model.normals.len(), &shape.normals);
     let to_normal = normal_matrix(linear);
 
-    let place = |&p: &Vec3| transform.transform_point3(p.as_dvec3()).as_vec3();
-    model.positions.extend(shape.positions.iter().flatten().map(place));
-    let turn = |&n: &Vec3| (to_normal * n.as_dvec3()).normalize_or_zero().as_vec3();
-    model.normals.extend(shape.normals.iter().flatten().map(turn));
+    let place = |p: Vec3| transform.transform_point3(p.as_dvec3()).as_vec3();
+    let first = |list: &mut Vec<Vec3>, added: &mut dyn Iterator<Item = Vec3>| {
+        let first = list.len() as u32;
+        list.extend(added);
+        first
+    };
+    let vertices = shape.positions.iter();
+    let first_vertex: Vec<u32> =
+        vertices.map(|a| first(&mut model.positions, &mut accessors.vectors(a).map(place))).collect();
+    let turn = |n: Vec3| (to_normal * n.as_dvec3()).normalize_or_zero().as_vec3();
+    let normals = shape.normals.iter();
+    let first_normal: Vec<u32> =
+        normals.map(|a| first(&mut model.normals, &mut accessors.vectors(a).map(turn))).collect();
 
     for part in &shape.parts {
-        for &[a, b, c] in &part.triangles {
+        part.for_each(accessors, |[a, b, c]| {
             let corners = if mirrored { [a, c, b] } else { [a, b, c] };
             model.triangles.push(corners.map(|i| first_vertex[part.positions] + i));
             model.normal_indices.push(match part.normals {
@@ -103,18 +177,8 @@ fn add(model: &mut Model, placement: &Placement, shape: &Shape) {
                 None => [Model::FLAT; 3],
             });
             model.material_of.push(part.material);
-        }
+        });
     }
-}
-
-/// Where each of `lists` begins when they are put one after the other behind `start` elements.
-fn starts(start: usize, lists: &[Vec<Vec3>]) -> Vec<u32> {
-    let begin = |next: &mut usize, list: &Vec<Vec3>| {
-        let begin = *next as u32;
-        *next += list.len();
-        Some(begin)
-    };
-    lists.iter().scan(start, begin).collect()
 }
 
 /// The inverse transpose but for a positive factor: the cofactors, which also exist when there is no inverse.
@@ -130,4 +194,13 @@ fn material(read: gltf::Material) -> Material {
     let name = read.name().map_or_else(|| format!("material {number}"), str::to_owned);
     let [r, g, b, _] = read.pbr_metallic_roughness().base_color_factor();
     Material { diffuse: Vec3::new(r, g, b).clamp(Vec3::ZERO, Vec3::ONE), ..Material::named(name) }
+}
+
+fn is_textured(material: &gltf::Material) -> bool {
+    let pbr = material.pbr_metallic_roughness();
+    pbr.base_color_texture().is_some()
+        || pbr.metallic_roughness_texture().is_some()
+        || material.normal_texture().is_some()
+        || material.occlusion_texture().is_some()
+        || material.emissive_texture().is_some()
 }

@@ -1,28 +1,93 @@
 //! The document of a glTF file and its buffers, past the places where the gltf crate would panic.
 
-use std::fs;
-use std::path::Path;
+use std::collections::HashMap;
+use std::fs::{self, File};
+use std::io::Read;
+use std::path::{Path, PathBuf};
+use std::rc::Rc;
 
-use gltf::buffer::{Data, Source};
+use gltf::Document;
+use gltf::binary::Glb;
 use gltf::json::validation::{Error, Validate};
 use gltf::json::{Root, mesh::Semantic, validation::Checked};
-use gltf::{Buffer, Document, Gltf};
 
-use crate::scene::load::error::{Fault, quoted};
+use crate::scene::load::below;
+use crate::scene::load::error::{Fault, message, quoted};
+use crate::scene::load::text::plain;
 
-pub(super) fn open(bytes: &[u8], folder: &Path) -> Result<(Document, Vec<Data>), Fault> {
-    let bytes = if bytes.starts_with(b"glTF") { check_binary(bytes)? } else { bytes };
-    let gltf = Gltf::from_slice_without_validation(bytes)
-        .map_err(|error| Fault::file(format!("it is no glTF 2.0 file: {}", quoted(&error.to_string()))))?;
-    validate(gltf.document.as_json())?;
+/// The bytes of a buffer; buffers of one file share them.
+pub(super) type Data = Rc<Vec<u8>>;
 
-    let mut blob = gltf.blob;
-    let buffers = gltf.document.buffers().map(|buffer| {
-        let number = buffer.index();
-        read_buffer(&buffer, folder, &mut blob).map_err(|problem| Fault::part(format!("buffer {number}"), problem))
-    });
-    let buffers = buffers.collect::<Result<_, _>>()?;
-    Ok((gltf.document, buffers))
+/// A document, its buffers, and how many bytes they and the document take.
+pub(super) struct Source {
+    pub document: Document,
+    pub buffers: Vec<Data>,
+    pub bytes: usize,
+}
+
+pub(super) fn open(bytes: Vec<u8>, folder: &Path) -> Result<Source, Fault> {
+    let size = bytes.len();
+    let (mut root, blob) = parse(&bytes)?;
+    // A document keeps what it needs of its text.
+    drop(bytes);
+    validate(&root)?;
+
+    let buffers = read_buffers(&mut root, blob, folder)?;
+    let mut distinct: Vec<&Data> = buffers.iter().collect();
+    distinct.sort_by_key(|data| Rc::as_ptr(data));
+    distinct.dedup_by(|a, b| Rc::ptr_eq(a, b));
+    let bytes = distinct.iter().map(|data| data.len()).sum::<usize>() + size;
+    Ok(Source { document: Document::from_json_without_validation(root), buffers, bytes })
+}
+
+/// The document and the binary chunk, if there is one.
+fn parse(bytes: &[u8]) -> Result<(Root, Option<Vec<u8>>), Fault> {
+    let no_gltf = |error: String| Fault::file(format!("it is no glTF 2.0 file: {error}"));
+    let (text, chunk) = if bytes.starts_with(b"glTF") {
+        let glb = Glb::from_slice(check_binary(bytes)?).map_err(|error| no_gltf(message(error)))?;
+        (glb.json, glb.bin)
+    } else {
+        (plain(bytes)?.into(), None)
+    };
+    check_size(&text, bytes.len())?;
+    let root = Root::from_slice(&text).map_err(|error| match message(&error) {
+        // Both are left out in valid files.
+        missing if missing.contains("missing field `nodes`") => {
+            let problem = "a scene has no `nodes`, so that it shows nothing: give it nodes, or remove it";
+            Fault::line(error.line(), problem)
+        }
+        other => no_gltf(other),
+    })?;
+    Ok((root, chunk.map(|chunk| chunk.into_owned())))
+}
+
+/// A document takes some hundred bytes for each object in its text, which may be as short as `{}`.
+const MOST_OBJECTS: usize = 1 << 16;
+
+/// Bytes of the file that allow for one more object, and for four more numbers.
+const BYTES_AN_OBJECT: usize = 48;
+
+fn check_size(text: &[u8], bytes: usize) -> Result<(), Fault> {
+    let (mut objects, mut entries) = (0_usize, 0_usize);
+    let mut rest = text.iter();
+    while let Some(byte) = rest.next() {
+        match byte {
+            b'{' => objects += 1,
+            b',' => entries += 1,
+            // Over a string: what is escaped does not end it.
+            b'"' => while rest.next().is_some_and(|&b| b != b'"' && (b != b'\\' || rest.next().is_some())) {},
+            _ => {}
+        }
+    }
+    let most = MOST_OBJECTS + bytes / BYTES_AN_OBJECT;
+    for (count, most, what) in [(objects, most, "objects"), (entries, 12 * most, "entries")] {
+        if count > most {
+            let problem =
+                format!("its text describes {count} {what}, and more than {most} are not read: split the file");
+            return Err(Fault::file(problem));
+        }
+    }
+    Ok(())
 }
 
 /// The part of a binary file that its header speaks of. The crate subtracts from the length there unseen.
@@ -78,31 +143,78 @@ fn harmless(path: &str, error: &Error) -> bool {
     path.ends_with("<invalid semantic name>\"]") && *error == Error::Invalid || bounds
 }
 
-fn read_buffer(buffer: &Buffer, folder: &Path, blob: &mut Option<Vec<u8>>) -> Result<Data, String> {
-    if let Source::Uri(uri) = buffer.source() {
-        check_uri(uri, folder)?;
-    } else if blob.is_none() {
-        return Err("it has no URI and the file has no binary chunk for it: export the file again".to_owned());
+/// Reads what the buffers name, each file once. What is embedded is taken out of the document.
+fn read_buffers(root: &mut Root, mut chunk: Option<Vec<u8>>, folder: &Path) -> Result<Vec<Data>, Fault> {
+    let fault = |number: usize| move |problem: String| Fault::part(format!("buffer {number}"), problem);
+    let mut files: Vec<Option<PathBuf>> = vec![None; root.buffers.len()];
+    // Of a file, no more is read than the longest buffer in it.
+    let mut longest: HashMap<PathBuf, u64> = HashMap::new();
+    for (number, buffer) in root.buffers.iter().enumerate() {
+        if let Some(uri) = buffer.uri.as_deref().filter(|uri| !uri.starts_with("data:")) {
+            let path = file(uri, folder).map_err(fault(number))?;
+            let length = longest.entry(path.clone()).or_default();
+            *length = buffer.byte_length.0.max(*length);
+            files[number] = Some(path);
+        }
     }
-    let data = Data::from_source_and_blob(buffer.source(), Some(folder), blob)
-        .map_err(|error| format!("it cannot be read: {}", quoted(&error.to_string())))?;
-    if data.len() < buffer.length() {
-        return Err(format!("it should have {} bytes and has {}: it is truncated", buffer.length(), data.len()));
+
+    let mut read: HashMap<PathBuf, Data> = HashMap::new();
+    let mut buffers = Vec::with_capacity(files.len());
+    for (number, (buffer, path)) in root.buffers.iter_mut().zip(files).enumerate() {
+        let data = match (buffer.uri.take(), path) {
+            (_, Some(path)) => match read.get(&path) {
+                Some(data) => Rc::clone(data),
+                None => {
+                    let data = read_start(&path, longest[&path]).map_err(fault(number))?;
+                    read.insert(path, Rc::clone(&data));
+                    data
+                }
+            },
+            (Some(uri), None) => Rc::new(embedded(&uri).map_err(fault(number))?),
+            (None, None) if number > 0 => {
+                return Err(fault(number)("it has no URI, and only buffer 0 may lie in a binary chunk".to_owned()));
+            }
+            (None, None) => {
+                let none = "it has no URI and the file has no binary chunk for it: export the file again";
+                Rc::new(chunk.take().ok_or_else(|| fault(number)(none.to_owned()))?)
+            }
+        };
+        if (data.len() as u64) < buffer.byte_length.0 {
+            let (owed, found) = (buffer.byte_length.0, data.len());
+            return Err(fault(number)(format!("it should have {owed} bytes and has {found}: it is truncated")));
+        }
+        buffers.push(data);
     }
-    Ok(data)
+    Ok(buffers)
 }
 
-/// Admits base64 and files below or beside this one. The crate panics on escapes that are no UTF-8.
-fn check_uri(uri: &str, folder: &Path) -> Result<(), String> {
-    if let Some(data) = uri.strip_prefix("data:") {
-        return if data.contains(";base64,") { Ok(()) } else { Err("its data URI is not in base64".to_owned()) };
-    }
+/// The bytes of a data URI.
+fn embedded(uri: &str) -> Result<Vec<u8>, String> {
+    let (_, data) = uri.split_once(";base64,").ok_or("its data URI is not in base64")?;
+    base64::decode(data).map_err(|error| format!("its data URI cannot be read: {}", message(error)))
+}
+
+fn read_start(path: &Path, length: u64) -> Result<Data, String> {
+    let mut data = Vec::new();
+    File::open(path)
+        .and_then(|file| {
+            data.reserve_exact(file.metadata()?.len().min(length) as usize);
+            file.take(length).read_to_end(&mut data)
+        })
+        .map_err(|cause| format!("its file {} cannot be read ({cause})", quoted(path.to_string_lossy().as_bytes())))?;
+    Ok(Rc::new(data))
+}
+
+/// The file that a URI names, which is below this one's folder, by the one path that all its names lead to.
+fn file(uri: &str, folder: &Path) -> Result<PathBuf, String> {
     if uri.contains(':') {
         return Err(format!("its URI {} is no relative path: put the buffer beside the file", quoted(uri)));
     }
     let name = unescape(uri).ok_or_else(|| format!("its URI {} is not in UTF-8", quoted(uri)))?;
-    match fs::metadata(folder.join(&name)) {
-        Ok(file) if file.is_file() => Ok(()),
+    let outside = || format!("its file {} is not below the folder of this one: put it there", quoted(&name));
+    let path = below(folder, &name).ok_or_else(outside)?;
+    match fs::metadata(&path) {
+        Ok(file) if file.is_file() => Ok(fs::canonicalize(&path).unwrap_or(path)),
         Ok(_) => Err(format!("{} is not a regular file", quoted(&name))),
         Err(cause) => Err(format!("its file {} cannot be read ({cause}): put it beside this one", quoted(&name))),
     }

@@ -6,16 +6,22 @@
 use ply_rs_bw::parser::Parser;
 use ply_rs_bw::ply::{ElementDef, Encoding, PropertyAccess, PropertyType, ScalarType};
 
-use crate::scene::load::error::{Fault, quoted};
+use crate::scene::load::error::{Fault, message, quoted};
 
+/// Longer lists are taken for mistakes.
+const LONGEST_LIST: usize = 1 << 20;
+
+#[derive(Clone)]
 pub(super) struct Body<'a> {
     rest: &'a [u8],
     encoding: Encoding,
+    line_end: u8,
 }
 
 impl<'a> Body<'a> {
-    pub fn new(rest: &'a [u8], encoding: Encoding) -> Self {
-        Self { rest, encoding }
+    /// The bytes after the header; `line_end` ends the lines of a text.
+    pub fn new(rest: &'a [u8], encoding: Encoding, line_end: u8) -> Self {
+        Self { rest, encoding, line_end }
     }
 
     /// Reads all rows of the next element and hands each with its number to `take`.
@@ -64,12 +70,12 @@ impl<'a> Body<'a> {
             Encoding::BinaryBigEndian => {
                 let length = self.row_bytes(element)?;
                 let mut row = self.take(length)?;
-                parser.read_big_endian_element(&mut row, element).map_err(|e| quoted(&e.to_string()))
+                parser.read_big_endian_element(&mut row, element).map_err(message)
             }
             Encoding::BinaryLittleEndian => {
                 let length = self.row_bytes(element)?;
                 let mut row = self.take(length)?;
-                parser.read_little_endian_element(&mut row, element).map_err(|e| quoted(&e.to_string()))
+                parser.read_little_endian_element(&mut row, element).map_err(message)
             }
         }
     }
@@ -93,7 +99,7 @@ impl<'a> Body<'a> {
             if self.rest.is_empty() {
                 return Err("the file ends before this row: it is truncated".to_owned());
             }
-            let end = self.rest.iter().position(|&b| b == b'\n').map_or(self.rest.len(), |end| end + 1);
+            let end = self.rest.iter().position(|&b| b == self.line_end).map_or(self.rest.len(), |end| end + 1);
             let line = self.take(end)?;
             if !line.trim_ascii().is_empty() {
                 return Ok(line.trim_ascii());
@@ -120,7 +126,7 @@ impl<'a> Body<'a> {
                     let start = length;
                     length += bytes(count);
                     let count = match self.rest.get(start..length) {
-                        Some(digits) => self.count(digits, count)?,
+                        Some(digits) => check_list(self.count(digits, count)?)?,
                         None => return Err("the file ends within this row: it is truncated".to_owned()),
                     };
                     length.saturating_add(count.saturating_mul(bytes(entry)))
@@ -148,6 +154,14 @@ impl<'a> Body<'a> {
     }
 }
 
+/// Whether a list of that length is read.
+fn check_list(count: usize) -> Result<usize, String> {
+    if count > LONGEST_LIST {
+        return Err(format!("a list has {count} entries, and more than {LONGEST_LIST} are taken for a mistake"));
+    }
+    Ok(count)
+}
+
 /// Whether a line has as many numbers as its lists say.
 fn check_line(line: &str, element: &ElementDef) -> Result<(), String> {
     let mut words = line.split_whitespace();
@@ -159,7 +173,8 @@ fn check_line(line: &str, element: &ElementDef) -> Result<(), String> {
     for property in element.properties.values() {
         let word = skip(1)?;
         if let PropertyType::List(..) = property.data_type {
-            skip(word.parse().map_err(|_| format!("{} is not the length of a list", quoted(word)))?)?;
+            let count = word.parse().map_err(|_| format!("{} is not the length of a list", quoted(word)))?;
+            skip(check_list(count)?)?;
         }
     }
     if left > 0 {

@@ -4,7 +4,8 @@ use ply_rs_bw::parser::Parser;
 use ply_rs_bw::ply::{Header, PropertyType, ScalarType};
 
 use super::row::Skipped;
-use crate::scene::load::error::{Fault, quoted};
+use crate::scene::load::error::{Fault, message, quoted};
+use crate::scene::load::text::plain;
 
 /// Both names are in use for the corners of a face.
 pub(super) const CORNERS: [&str; 2] = ["vertex_indices", "vertex_index"];
@@ -12,22 +13,33 @@ pub(super) const CORNERS: [&str; 2] = ["vertex_indices", "vertex_index"];
 /// Counts of more digits are lies, and those of more than 19 make ply-rs-bw panic.
 const LONGEST_NUMBER: usize = 15;
 
-/// The header and the bytes after it.
-pub(super) fn split(bytes: &[u8]) -> Result<(Header, &[u8]), Fault> {
+/// Longer headers are none.
+const LONGEST_HEADER: usize = 1 << 20;
+
+/// The header, the bytes after it, and the byte that ends a line.
+pub(super) fn split(bytes: &[u8]) -> Result<(Header, &[u8], u8), Fault> {
+    let bytes = plain(bytes)?;
     let mut rest = bytes;
     let mut text = String::new();
     let mut declared = [0; 2];
+    let line_end = match bytes {
+        [b'p', b'l', b'y', b'\r', next, ..] if *next != b'\n' => b'\r',
+        _ => b'\n',
+    };
     for number in 1.. {
-        let Some(end) = rest.iter().position(|&b| b == b'\n') else {
-            return Err(Fault::file("the PLY header has no line `end_header`: the file is truncated or no PLY file"));
+        let header_left = &rest[..rest.len().min((LONGEST_HEADER + rest.len()).saturating_sub(bytes.len()))];
+        let end = header_left.iter().position(|&b| b == line_end);
+        if number == 1 && rest[..end.unwrap_or(rest.len().min(60))].trim_ascii_end() != b"ply" {
+            return Err(Fault::line(1, "a PLY file begins with the line `ply`: this is another format"));
+        }
+        let Some(end) = end else {
+            let problem = "the PLY header does not end with a line `end_header`: the file is truncated or no PLY file";
+            return Err(Fault::line(number, problem));
         };
         let (line, after) = rest.split_at(end + 1);
         rest = after;
         // Comments may be in any encoding.
-        let line = String::from_utf8_lossy(line);
-        if number == 1 && line.trim_end() != "ply" {
-            return Err(Fault::line(1, "a PLY file begins with the line `ply`: this is another format"));
-        }
+        let line = String::from_utf8_lossy(line.trim_ascii_end()) + "\n";
         check_line(&line).map_err(|problem| Fault::line(number, problem))?;
         declared[0] += usize::from(line.starts_with("element"));
         declared[1] += usize::from(line.starts_with("property"));
@@ -37,16 +49,15 @@ pub(super) fn split(bytes: &[u8]) -> Result<(Header, &[u8]), Fault> {
         }
     }
 
-    let header = Parser::<Skipped>::new().read_header(&mut text.as_bytes()).map_err(|error| {
-        let error = error.to_string();
-        Fault::file(format!("the PLY header is malformed: {}", quoted(error.lines().next().unwrap_or_default())))
-    })?;
+    let header = Parser::<Skipped>::new()
+        .read_header(&mut text.as_bytes())
+        .map_err(|error| Fault::file(format!("the PLY header is malformed: {}", message(error))))?;
     // ply-rs-bw keeps the last of several with one name, but the body has rows for all of them.
     let kept = [header.elements.len(), header.elements.values().map(|e| e.properties.len()).sum()];
     if kept != declared {
         return Err(Fault::file("the PLY header declares an element or a property twice: give each its own name"));
     }
-    Ok((header, rest))
+    Ok((header, rest, line_end))
 }
 
 fn check_line(line: &str) -> Result<(), String> {

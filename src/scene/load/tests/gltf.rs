@@ -129,9 +129,84 @@ fn strips_and_fans_and_what_is_no_triangle() {
     };
     assert_eq!(mode(5).triangles, [[0, 1, 2], [1, 3, 2]]);
     assert_eq!(mode(6).triangles, [[0, 1, 2], [0, 2, 3]]);
+    let primitive = |mode: u32| json!({"attributes": {"POSITION": 0}, "mode": mode});
     for lines in 0..4 {
-        assert!(mode(lines).triangles.is_empty());
+        refused(&[("/meshes/0/primitives/0", primitive(lines))], &["no triangles", "only points, lines"]);
+        let both = gltf(&[("/meshes/0/primitives/-", primitive(lines))]);
+        assert_eq!((both.triangles.len(), &both.notes[0][..12]), (2, "1 primitives"));
     }
+}
+
+#[test]
+fn what_shows_nothing_says_why() {
+    let plain = |changes: &[(&str, Value)], word: &str| refused(changes, &["no triangles", word]);
+    plain(&[("/scenes/0/nodes", json!([]))], "scene 0, its default, has no nodes");
+    plain(&[("/nodes/0", json!({"name": "empty"}))], "no node of scene 0, its default, has a mesh");
+    plain(&[("/meshes", json!([])), ("/nodes", json!([{}]))], "it has no meshes");
+    plain(
+        &[
+            ("/meshes/0/primitives/0/indices", json!(null)),
+            ("/accessors/0/count", json!(0)),
+            ("/accessors/1/count", json!(0)),
+        ],
+        "only points",
+    );
+    let mut all = document();
+    for key in ["scene", "scenes", "nodes"] {
+        all.as_object_mut().unwrap().remove(key);
+    }
+    let message = |all: &Value| {
+        load_files(&[("a.gltf", all.to_string().as_bytes()), ("a.bin", &data())]).unwrap_err().to_string()
+    };
+    assert!(message(&all).ends_with("it has no nodes, which would show its meshes, 1"), "{}", message(&all));
+    all["nodes"] = json!([{}]);
+    assert!(message(&all).ends_with("no node has a mesh"), "{}", message(&all));
+    all["scenes"] = json!([{"name": "empty"}]);
+    assert!(message(&all).contains("line 1: a scene has no `nodes`"), "{}", message(&all));
+}
+
+#[test]
+fn textures_and_morph_targets_are_told() {
+    let materials = json!([
+        {"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}},
+        {"normalTexture": {"index": 0}}
+    ]);
+    let changes = [
+        ("/materials", materials),
+        ("/textures", json!([{"source": 0}])),
+        ("/images", json!([{"uri": "a.png"}])),
+        ("/meshes/0/primitives/0/material", json!(1)),
+        ("/meshes/0/primitives/0/targets", json!([{"POSITION": 0}])),
+    ];
+    let notes = gltf(&changes).notes;
+    assert!(
+        notes[0].starts_with("1 materials have textures") && notes[1].starts_with("1 primitives have morph"),
+        "{notes:?}"
+    );
+}
+
+#[test]
+fn files_lie_below_the_folder() {
+    let folder = tempfile::tempdir().unwrap();
+    let inner = folder.path().join("inner");
+    std::fs::create_dir_all(inner.join("deep")).unwrap();
+    for place in [folder.path(), &inner, &inner.join("deep")] {
+        std::fs::write(place.join("a.bin"), data()).unwrap();
+    }
+    let load = |uri: &str| {
+        std::fs::write(inner.join("a.gltf"), changed(&[("/buffers/0/uri", uri.into())])).unwrap();
+        super::load(&inner.join("a.gltf"))
+    };
+    for uri in ["a.bin", "./a.bin", "deep/a.bin", "deep/../a.bin", "deep%2Fa.bin"] {
+        assert!(load(uri).is_ok(), "{uri}");
+    }
+    let absolute = folder.path().join("a.bin");
+    for uri in ["../a.bin", "deep/../../a.bin", "%2e%2e/a.bin", "..%2Fa.bin", absolute.to_str().unwrap()] {
+        let message = load(uri).unwrap_err().to_string();
+        assert!(message.contains("buffer 0: its file") && message.contains("not below the folder"), "{uri}: {message}");
+    }
+    let file = format!("file://{}", absolute.display());
+    assert!(load(&file).unwrap_err().to_string().contains("no relative path"));
 }
 
 #[test]
@@ -249,7 +324,7 @@ fn malformed_files_are_refused_with_their_part() {
         ("/buffers/0/uri", json!("%FF"), ["buffer 0:", "not in UTF-8"]),
         ("/buffers/0/uri", json!("https://example.org/a.bin"), ["buffer 0:", "no relative path"]),
         ("/buffers/0/uri", json!("data:text/plain,abc"), ["buffer 0:", "not in base64"]),
-        ("/buffers/0/uri", json!("data:;base64,%%%"), ["buffer 0:", "cannot be read"]),
+        ("/buffers/0/uri", json!("data:;base64,%%%"), ["buffer 0:", "cannot be read: Invalid byte 37, offset 0."]),
         ("/buffers/0/uri", json!("."), ["buffer 0:", "not a regular file"]),
         ("/nodes/0/scale", json!([1e38, 1e38, 1e38]), ["a.gltf", "a.gltf"]),
         ("/scene", json!(3), ["scene", "out of bounds"]),
@@ -258,7 +333,7 @@ fn malformed_files_are_refused_with_their_part() {
         if *pointer == "/nodes/0/scale" {
             let node = json!({"scale": [1e30, 1, 1], "children": [1]});
             let child = json!({"mesh": 0, "scale": [1e30, 1, 1]});
-            refused(&[("/nodes", json!([node, child]))], &["vertex 1 ", "finite"]);
+            refused(&[("/nodes", json!([node, child]))], &["node 1:", "vertex 1 of mesh 0", "not finite"]);
         } else {
             refused(&[(pointer, value.clone())], words);
         }
@@ -283,6 +358,7 @@ fn a_mesh_shown_too_often_is_refused_before_it_is_expanded() {
     document["scenes"][0]["nodes"] = (0..1 << 14).collect();
     let error = load_files(&[("a.gltf", document.to_string().as_bytes()), ("a.bin", &bytes)]).unwrap_err();
     assert!(error.to_string().contains("17179869184 triangles"), "{error}");
+    assert!(error.to_string().contains("from files of"), "{error}");
 }
 
 #[test]

@@ -1,6 +1,6 @@
 use glam::Vec3;
 
-use super::{assert_refused, corners, load_files};
+use super::{assert_refused, corners, face_normals, load_files};
 use crate::scene::{Material, Model};
 
 fn obj(text: &str) -> Model {
@@ -45,7 +45,7 @@ fn materials_come_from_the_mtl_file() {
     let text = format!(
         "mtllib my colours.mtl\n{SQUARE}f 1 2 3\nusemtl red wall\nf 1 2 3 4\nusemtl grey\nf 1 2 3\nusemtl lost\nf 1 2 3\n"
     );
-    let mtl = "# by hand\nnewmtl unused\nKd 1 1 1\nnewmtl red wall\n  Ka 0.1 0 0\n\tKd 1.5 0.25 -1\nKs 0.5 0.5 0.5\nNs 64\nmap_Kd\nillum\nnewmtl grey\nKd 0.5\nKs spectral x.rfl\nNs\n";
+    let mtl = "# by hand\nnewmtl unused\nKd 1 1 1\nnewmtl red wall\n  Ka 0.1 0 0\n\tKd 1.5 0.25 -1\nKs 0.5 0.5 0.5\nNs 64\nmap_Kd a.png\nillum\nnewmtl grey\nKd 0.5\nKs spectral x.rfl\nNs\n";
     let model = load_files(&[("a.obj", text.as_bytes()), ("my colours.mtl", mtl.as_bytes())]).unwrap();
     assert_eq!(model.material_of, [0, 1, 1, 2, 3]);
     let names: Vec<_> = model.materials.iter().map(|m| m.name.as_str()).collect();
@@ -54,10 +54,73 @@ fn materials_come_from_the_mtl_file() {
     assert_eq!((red.ambient, red.diffuse), (Vec3::new(0.1, 0.0, 0.0), Vec3::new(1.0, 0.25, 0.0)));
     assert_eq!((red.specular, red.shininess, red.mirror), (Vec3::splat(0.5), 64.0, 0.0));
     assert_eq!(model.materials[2], Material { diffuse: Vec3::splat(0.5), ..Material::named("grey") });
-    assert_eq!(model.notes.len(), 3, "{:?}", model.notes);
+    assert_eq!(model.notes.len(), 4, "{:?}", model.notes);
     assert!(
-        model.notes[0].contains("line 13") && model.notes[1].contains("line 14") && model.notes[2].contains("`lost`")
+        model.notes[0].contains("line 13") && model.notes[1].contains("line 14") && model.notes[3].contains("`lost`")
     );
+    assert!(model.notes[2].starts_with("1 materials have textures"), "{}", model.notes[2]);
+}
+
+#[test]
+fn a_library_is_read_once_and_notes_are_few() {
+    let lines = |count: usize, line: &str| (0..count).map(|i| line.replace('#', &i.to_string())).collect::<String>();
+    let triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n";
+    let bad = ("a.mtl", &b"newmtl a\nKd x\n"[..]);
+    let text = lines(1000, "mtllib a.mtl\n") + &lines(50, "mtllib ./a.mtl a.mtl\nmtllib a.mtl ././a.mtl\n") + triangle;
+    let model = load_files(&[("a.obj", text.as_bytes()), bad]).unwrap();
+    assert_eq!(model.notes.len(), 1, "{:?}", model.notes);
+    let model = obj(&(lines(1000, "mtllib b#.mtl\n") + triangle));
+    assert_eq!(model.notes.len(), 13, "{:?}", model.notes);
+    assert!(model.notes[12].ends_with("more notes on this file are left out"), "{:?}", model.notes);
+    let outside = obj(&format!("mtllib ../a.mtl\nmtllib /etc/hosts\n{triangle}"));
+    assert!(outside.notes[..2].iter().all(|note| note.contains("not below the folder")), "{:?}", outside.notes);
+    // The later of two materials with one name counts, whole.
+    let twice = ("a.mtl", &b"newmtl a\nKd 1 0 0\nKs 1 1 1\nmap_Kd a.png\nnewmtl a\nKd 0 1 0\n"[..]);
+    let model = load_files(&[("a.obj", format!("mtllib a.mtl\n{triangle}").as_bytes()), twice]).unwrap();
+    assert_eq!(model.materials, [Material { diffuse: Vec3::Y, ..Material::named("a") }]);
+    assert!(model.notes.is_empty(), "{:?}", model.notes);
+}
+
+#[test]
+fn marks_line_ends_and_comments_do_not_hide_vertices() {
+    let plain = obj(&format!("{SQUARE}f 1 2 3\n"));
+    for text in [
+        format!("\u{feff}{SQUARE}f 1 2 3\n"),
+        format!("{SQUARE}f 1 2 3\n").replace('\n', "\r"),
+        format!("{SQUARE}f 1 2 3\n").replace('\n', "\r\n"),
+        format!("# C:\\meshes\\\n{SQUARE}# \\\nf 1 2 3 # \\\n"),
+        format!("{SQUARE}f 1 2 3").replace("v 9 9 9", "v 9 9 \\\r\n9 # end \\"),
+    ] {
+        assert_eq!(obj(&text), plain, "{text:?}");
+    }
+    for (wide, words) in [
+        (SQUARE.encode_utf16().flat_map(u16::to_le_bytes).collect::<Vec<_>>(), "UTF-16"),
+        (std::iter::once(0xfeff).chain(SQUARE.encode_utf16()).flat_map(u16::to_be_bytes).collect(), "UTF-16"),
+    ] {
+        assert_refused("a.obj", &wide, &["line 1:", words]);
+    }
+}
+
+#[test]
+fn lines_without_a_known_keyword_are_told() {
+    let model = obj(&format!("{SQUARE}vertex 1 2 3\nfoo\nf 1 2 3\nvt 0 0\ncstype bezier\n"));
+    assert_eq!(model.notes, ["2 lines without a keyword of OBJ are passed over, the first is line 6: `vertex 1 2 3`"]);
+    let html = b"\n<!DOCTYPE html>\n<p>404</p>\n";
+    assert_refused("a.obj", html, &["line 2: `<!DOCTYPE html>`", "no keyword of OBJ", "another format"]);
+    assert_refused("a.obj", b"", &["holds no triangles"]);
+    assert_refused(
+        "a.obj",
+        b"v 1 2 3\np 1\nf 1 1\n",
+        &["no triangles: 1 vertices, 1 faces", "1 lines of other elements"],
+    );
+}
+
+#[test]
+fn concave_faces_are_no_fans() {
+    let model = obj("v 0 0 0\nv 2 -1 0\nv 0.5 0 0\nv 2 1 0\nf 1 2 3 4\n");
+    assert!(face_normals(&model).iter().all(|normal| normal.z > 0.0), "{:?}", model.triangles);
+    let crossing = obj("v 0 0 0\nv 1 1 0\nv 1 0 0\nv 0 1 0\nf 1 2 3 4\nf 1 2 3 4\n");
+    assert!(crossing.notes[0].starts_with("2 polygons cross themselves"), "{:?}", crossing.notes);
 }
 
 #[test]
@@ -92,7 +155,6 @@ fn malformed_files_are_refused_with_their_line() {
     assert_refused("a.obj", b"v 0 0 \xff\xfe\n", &["line 1:", "is not a number"]);
     // In a name a stray byte does no harm.
     assert!(load_files(&[("a.obj", b"# caf\xe9\nv 0 0 0\nusemtl \xe9\nf 1 1 1\n")]).is_ok());
-    assert_eq!(obj("").triangles.len(), 0);
 }
 
 #[test]

@@ -1,6 +1,6 @@
 use glam::Vec3;
 
-use super::{assert_refused, load_files};
+use super::{assert_refused, face_normals, load_files};
 use crate::scene::Model;
 
 /// A square and a triangle, one vertex unused, with more properties and elements than a mesh needs.
@@ -56,10 +56,25 @@ fn text_with_more_than_a_mesh() {
     assert!(model.normals.is_empty() && model.normal_indices.is_empty());
     assert_eq!(ply(ASCII.replace('\n', "\r\n").as_bytes()), model);
     assert_eq!(ply(ASCII.trim_end().as_bytes()), model);
+    assert_eq!(ply(ASCII.replace('\n', "\r").as_bytes()), model);
+    assert_eq!(ply(&[b"\xef\xbb\xbf", ASCII.as_bytes()].concat()), model);
     let mut comment = ASCII.replace("by hand", "caf?").into_bytes();
     let at = comment.iter().position(|&b| b == b'?').unwrap();
     comment[at] = 0xe9;
     assert_eq!(ply(&comment), model);
+}
+
+#[test]
+fn faces_may_stand_before_vertices_and_be_concave() {
+    let faces = "element face 1\nproperty list uchar int vertex_indices\n";
+    let vertices = "element vertex 4\nproperty float x\nproperty float y\nproperty float z\n";
+    let rows = "0 0 0\n2 -1 0\n0.5 0 0\n2 1 0\n";
+    let file = format!("ply\nformat ascii 1.0\n{faces}{vertices}end_header\n4 0 1 2 3\n{rows}");
+    let model = ply(file.as_bytes());
+    assert_eq!(model.triangles.len(), 2);
+    assert!(face_normals(&model).iter().all(|normal| normal.z > 0.0), "{:?}", model.triangles);
+    let none = file.replace("face 1", "face 0").replace("4 0 1 2 3\n", "");
+    assert_refused("a.ply", none.as_bytes(), &["element face:", "no triangles: 4 vertices, 0 faces"]);
 }
 
 #[test]
@@ -111,13 +126,16 @@ fn malformed_files_are_refused_by_name_and_number() {
         ("uchar flags", "uchar vertex_indices", ["declares", "twice"]),
         ("element edge", "element vertex", ["declares", "twice"]),
         ("end_header", "end_head", ["line 16:", "no line of a PLY header"]),
+        ("end_header", "comment", ["line 17:", "no line of a PLY header"]),
+        ("\n1 4 0 1 2 3\n", "\n1 9999999 0 1 2 3\n", ["face 0:", "1048576 are taken for a mistake"]),
         ("\n1 4 0 1 2 3\n", "\n1 4 0 1 2 5\n", ["face 0:", "corner 5 is none of the 5"]),
         ("\n1 4 0 1 2 3\n", "\n1 4 0 1 2 -1\n", ["face 0:", "corner -1"]),
-        ("\n1 4 0 1 2 3\n", "\n1 18446744073709551615 0 1 2 3\n", ["face 0:", "too few"]),
+        ("\n1 4 0 1 2 3\n", "\n1 18446744073709551615 0 1 2 3\n", ["face 0:", "for a mistake"]),
+        ("\n1 4 0 1 2 3\n", "\n1 5 0 1 2 3\n", ["face 0:", "too few"]),
         ("\n1 4 0 1 2 3\n", "\n1 -4 0 1 2 3\n", ["face 0:", "not the length"]),
         ("\n1 1 0", "\n1 x 0", ["vertex 2:", "numbers"]),
         ("\n1 1 0", "\nnan 1 0", ["vertex 2:", "numbers"]),
-        ("\n1 1 0", "\n1e39 1 0", ["vertex 2 ", "finite"]),
+        ("\n1 1 0", "\n1e39 1 0", ["vertex 2:", "finite"]),
     ];
     for (from, to, words) in cases {
         assert!(ASCII.contains(from), "{from}");
@@ -127,6 +145,8 @@ fn malformed_files_are_refused_by_name_and_number() {
     let mut file = binary(false, "uint", "int");
     let first_list = file.len() - 36;
     file[first_list..first_list + 4].fill(0xff);
+    assert_refused("a.ply", &file, &["face 0:", "4294967295 entries"]);
+    file[first_list..first_list + 4].copy_from_slice(&[0, 1, 0, 0]);
     assert_refused("a.ply", &file, &["face 0:", "truncated"]);
     let mut file = binary(true, "int", "int");
     let first_list = file.len() - 36;
@@ -135,5 +155,5 @@ fn malformed_files_are_refused_by_name_and_number() {
     let mut file = binary(false, "uchar", "int");
     let first_vertex = file.windows(11).position(|w| w == b"end_header\n").unwrap() + 11;
     file[first_vertex..first_vertex + 8].copy_from_slice(&f64::NAN.to_le_bytes());
-    assert_refused("a.ply", &file, &["vertex 0 ", "finite"]);
+    assert_refused("a.ply", &file, &["vertex 0:", "finite"]);
 }

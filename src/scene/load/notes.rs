@@ -1,0 +1,36 @@
+//! What was left out of a file.
+
+/// Sentences, each once, and not more than a reader takes in.
+#[derive(Debug, Default)]
+pub(super) struct Notes {
+    kept: Vec<String>,
+    more: usize,
+}
+
+/// More of them are only counted.
+const MOST: usize = 12;
+
+impl Notes {
+    pub fn add(&mut self, note: impl Into<String>) {
+        let note = note.into();
+        if self.kept.len() < MOST && !self.kept.contains(&note) {
+            self.kept.push(note);
+        } else if !self.kept.contains(&note) {
+            self.more += 1;
+        }
+    }
+
+    /// As [`Notes::add`], where there is something to count.
+    pub fn count(&mut self, count: usize, what: &str) {
+        if count > 0 {
+            self.add(format!("{count} {what}"));
+        }
+    }
+
+    pub fn into_vec(mut self) -> Vec<String> {
+        if self.more > 0 {
+            self.kept.push(format!("{} more notes on this file are left out", self.more));
+        }
+        self.kept
+    }
+}

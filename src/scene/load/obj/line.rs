@@ -1,0 +1,174 @@
+//! The statements of an OBJ file.
+
+use std::borrow::Cow;
+
+use glam::Vec3;
+
+use crate::scene::Model;
+use crate::scene::load::error::quoted;
+use crate::scene::load::text::{Lines, after_keyword, number, words};
+
+/// What the format knows beside what is read: texture coordinates, groups, points, lines, curves, surfaces, and how these
+/// are displayed.
+const SKIPPED: [&[u8]; 43] = [
+    b"vt",
+    b"vp",
+    b"g",
+    b"o",
+    b"s",
+    b"p",
+    b"l",
+    b"cstype",
+    b"deg",
+    b"bmat",
+    b"step",
+    b"curv",
+    b"curv2",
+    b"surf",
+    b"parm",
+    b"trim",
+    b"hole",
+    b"scrv",
+    b"sp",
+    b"end",
+    b"con",
+    b"mg",
+    b"bevel",
+    b"c_interp",
+    b"d_interp",
+    b"lod",
+    b"maplib",
+    b"usemap",
+    b"shadow_obj",
+    b"trace_obj",
+    b"ctech",
+    b"stech",
+    b"call",
+    b"csh",
+    b"bsp",
+    b"bzp",
+    b"cdc",
+    b"cdp",
+    b"res",
+    b"fo",
+    b"cg",
+    b"texid",
+    b"smooth",
+];
+
+/// Statements with the numbers of the lines that they begin on: a line whose last character is `\` goes on in the next,
+/// unless it ends in a comment.
+pub(super) struct Statements<'a> {
+    lines: Lines<'a>,
+}
+
+impl<'a> Statements<'a> {
+    pub fn new(text: &'a [u8]) -> Self {
+        Self { lines: Lines::new(text) }
+    }
+}
+
+impl<'a> Iterator for Statements<'a> {
+    type Item = (usize, Cow<'a, [u8]>);
+
+    fn next(&mut self) -> Option<Self::Item> {
+        let (number, mut line) = self.lines.next()?;
+        let Some(mut head) = continued(line) else { return Some((number, Cow::Borrowed(line))) };
+        let mut whole = Vec::new();
+        loop {
+            whole.extend_from_slice(head);
+            whole.push(b' ');
+            line = self.lines.next().map_or(&[], |(_, line)| line);
+            match continued(line) {
+                Some(next) => head = next,
+                None => break,
+            }
+        }
+        whole.extend_from_slice(line);
+        Some((number, Cow::Owned(whole)))
+    }
+}
+
+/// The line without its end, if it goes on.
+fn continued(line: &[u8]) -> Option<&[u8]> {
+    let head = line.strip_suffix(b"\\")?;
+    let has_comment = words(line).any(|word| word.starts_with(b"#"));
+    (!has_comment).then_some(head)
+}
+
+/// What a statement says; the words are those after the keyword.
+pub(super) enum Line<W> {
+    Vertex(W),
+    Normal(W),
+    Face(W),
+    Material(String),
+    Library(String),
+    /// Something that is left out: see [`SKIPPED`].
+    Skipped,
+    /// Nothing, or a comment.
+    Empty,
+    /// Nothing that the format knows, quoted.
+    Unknown(String),
+}
+
+impl Line<()> {
+    pub fn of(line: &[u8]) -> Line<impl Iterator<Item = &[u8]>> {
+        let mut words = words(line);
+        match words.next() {
+            None => Line::Empty,
+            Some(b"v") => Line::Vertex(words),
+            Some(b"vn") => Line::Normal(words),
+            Some(b"f") => Line::Face(words),
+            Some(b"usemtl") => Line::Material(after_keyword(line)),
+            Some(b"mtllib") => Line::Library(after_keyword(line)),
+            Some(comment) if comment.starts_with(b"#") => Line::Empty,
+            Some(keyword) if SKIPPED.contains(&keyword) => Line::Skipped,
+            Some(_) => Line::Unknown(quoted(line)),
+        }
+    }
+}
+
+/// The first three numbers; a fourth coordinate and colours are ignored.
+pub(super) fn vector<'a>(mut words: impl Iterator<Item = &'a [u8]>) -> Result<Vec3, String> {
+    let mut next = || match words.next() {
+        None => Err("three numbers are needed: the file may be truncated".to_owned()),
+        Some(word) => number::<f32>(word).ok_or_else(|| format!("{} is not a number", quoted(word))),
+    };
+    Ok(Vec3::new(next()?, next()?, next()?))
+}
+
+/// The corners of a face behind the given numbers of vertices and normals: vertex number and normal number or
+/// [`Model::FLAT`], counted from 0. They may be larger than those of the file.
+pub(super) fn corners<'a>(
+    words: impl Iterator<Item = &'a [u8]>,
+    vertices: usize,
+    normals: usize,
+) -> impl Iterator<Item = Result<(u32, u32), String>> {
+    words.take_while(|word| !word.starts_with(b"#")).map(move |word| {
+        let mut parts = word.split(|&b| b == b'/');
+        let vertex = index(parts.next().unwrap_or_default(), "vertex", vertices)?;
+        let normal = match parts.nth(1) {
+            None | Some(b"") => Model::FLAT,
+            Some(normal) => index(normal, "normal", normals)?,
+        };
+        match parts.next() {
+            None => Ok((vertex, normal)),
+            Some(_) => Err(format!("the corner {} has more than three indices", quoted(word))),
+        }
+    })
+}
+
+/// Turns an index that counts from 1, or backwards from -1, into one that counts from 0.
+fn index(word: &[u8], what: &str, count: usize) -> Result<u32, String> {
+    let index: i64 = number(word).ok_or_else(|| format!("{} is not a {what} index", quoted(word)))?;
+    match index {
+        0 => Err(format!("{what} index 0: indices count from 1, or backwards from -1")),
+        1.. => u32::try_from(index)
+            .map(|index| index - 1)
+            .map_err(|_| format!("{what} {index} is more than a mesh can hold")),
+        _ => match usize::try_from(count as i64 + index) {
+            Ok(index) => Ok(index as u32),
+            Err(_) => Err(format!("{what} index {index} reaches before the first of the {count} so far")),
+        },
+    }
+}

@@ -1,0 +1,302 @@
+//! Polygons to triangles.
+
+use glam::{DVec3, Vec3};
+use robust::{Coord, orient2d};
+
+use super::notes::Notes;
+
+/// Ear clipping takes time in the square of the corners; a larger polygon that is not convex becomes a fan.
+const LARGEST: usize = 4096;
+
+/// A polygon with a corner farther than this from its plane, relative to its extent, is told to be bent.
+const BENT: f64 = 0.01;
+
+type Point = Coord<f64>;
+
+/// Splits polygons into triangles, two fewer than there are corners, and counts those that are no simple flat polygons.
+///
+/// A convex polygon becomes the fan around its first corner, another one is split by ear clipping. Both look at it along
+/// the axis in which its normal is longest, where the signs of areas are exact. There, every triangle that ear clipping
+/// makes has the orientation of the polygon or no area, so that together they cover the polygon and nothing else.
+///
+/// # References
+/// G. H. Meisters, "Polygons have ears", 1975. J. R. Shewchuk, "Adaptive precision floating-point arithmetic and fast
+/// robust geometric predicates", 1997.
+#[derive(Default)]
+pub(super) struct Splitter {
+    triangles: Vec<[usize; 3]>,
+    seen_from: Vec<Point>,
+    crossing: usize,
+    bent: usize,
+    large: usize,
+}
+
+impl Splitter {
+    /// The triangles of a polygon, by the numbers of its corners; none of one with fewer than three.
+    pub fn split(&mut self, corners: &[Vec3]) -> &[[usize; 3]] {
+        self.triangles.clear();
+        if corners.len() < 4 || !self.split_other(corners) {
+            self.triangles.clear();
+            self.triangles.extend((2..corners.len()).map(|i| [0, i - 1, i]));
+        }
+        &self.triangles
+    }
+
+    /// One note for each kind of polygon that has no right triangles, or was not looked at.
+    pub fn tell(&self, notes: &mut Notes) {
+        for (count, what) in [
+            (
+                self.crossing,
+                "cross themselves: they are fans around their first corner, which may not be what was meant",
+            ),
+            (self.bent, "are neither convex nor flat: their surface is one of several that they could mean"),
+            (self.large, "have more than 4096 corners and are not convex: they are fans, which may overlap"),
+        ] {
+            if count > 0 {
+                notes.add(format!("{count} polygons {what}"));
+            }
+        }
+    }
+
+    /// Whether a fan is not what is wanted and `triangles` hold something better.
+    fn split_other(&mut self, corners: &[Vec3]) -> bool {
+        let normal = newell(corners);
+        let Some(axis) =
+            (0..3).filter(|&i| normal[i] != 0.0).max_by(|&i, &j| normal[i].abs().total_cmp(&normal[j].abs()))
+        else {
+            // No area: all corners on a line, or loops that cancel each other.
+            self.crossing += usize::from((0..3).any(|axis| !is_line(&project(corners, axis, false))));
+            return false;
+        };
+        self.seen_from = project(corners, axis, normal[axis] < 0.0);
+        if is_convex(&self.seen_from) {
+            return false;
+        }
+        if corners.len() > LARGEST {
+            self.large += 1;
+            return false;
+        }
+        if crosses_itself(&self.seen_from) || !clip(&self.seen_from, &mut self.triangles) {
+            self.crossing += 1;
+            return false;
+        }
+        self.bent += usize::from(is_bent(corners, normal));
+        true
+    }
+}
+
+/// Twice the area of a polygon as a vector (Newell's method).
+fn newell(corners: &[Vec3]) -> DVec3 {
+    let first = corners[0].as_dvec3();
+    let from_first = |i: usize| corners[i].as_dvec3() - first;
+    (2..corners.len()).map(|i| from_first(i - 1).cross(from_first(i))).sum()
+}
+
+/// The polygon seen along an axis, or against it.
+fn project(corners: &[Vec3], axis: usize, against: bool) -> Vec<Point> {
+    let (right, up) = ((axis + 1) % 3, (axis + 2) % 3);
+    let (right, up) = if against { (up, right) } else { (right, up) };
+    corners.iter().map(|p| Coord { x: p[right].into(), y: p[up].into() }).collect()
+}
+
+fn is_line(points: &[Point]) -> bool {
+    let Some(&other) = points.iter().find(|p| **p != points[0]) else { return true };
+    points.iter().all(|&p| orient2d(points[0], other, p) == 0.0)
+}
+
+/// Whether the corners of a counterclockwise polygon all turn left or not at all, once around in total.
+fn is_convex(points: &[Point]) -> bool {
+    let n = points.len();
+    let upward = |a: Point, b: Point| b.y > a.y || b.y == a.y && b.x > a.x;
+    let mut turns_upward = 0;
+    for i in 0..n {
+        let (a, b, c) = (points[i], points[(i + 1) % n], points[(i + 2) % n]);
+        let turn = orient2d(a, b, c);
+        let back = turn == 0.0 && upward(a, b) != upward(b, c);
+        if turn < 0.0 || back || a == b {
+            return false;
+        }
+        turns_upward += usize::from(!upward(a, b) && upward(b, c));
+    }
+    turns_upward == 1
+}
+
+/// Whether two edges cross at a point inside both. Edges that touch do not.
+fn crosses_itself(points: &[Point]) -> bool {
+    let n = points.len();
+    let edge = |i: usize| (points[i], points[(i + 1) % n]);
+    let apart = |a: f64, b: f64, c: f64, d: f64| a.max(b) < c.min(d) || c.max(d) < a.min(b);
+    (0..n).any(|i| {
+        let (a, b) = edge(i);
+        (i + 2..n).any(|j| {
+            let (c, d) = edge(j);
+            !apart(a.x, b.x, c.x, d.x)
+                && !apart(a.y, b.y, c.y, d.y)
+                && orient2d(a, b, c) * orient2d(a, b, d) < 0.0
+                && orient2d(c, d, a) * orient2d(c, d, b) < 0.0
+        })
+    })
+}
+
+fn is_bent(corners: &[Vec3], normal: DVec3) -> bool {
+    let (first, normal) = (corners[0].as_dvec3(), normal.normalize());
+    let extent = corners.iter().map(|p| (p.as_dvec3() - first).length()).fold(0.0, f64::max);
+    corners.iter().any(|p| (p.as_dvec3() - first).dot(normal).abs() > BENT * extent)
+}
+
+/// Cuts ears off a counterclockwise polygon until a triangle is left. Whether that could be done.
+fn clip(points: &[Point], triangles: &mut Vec<[usize; 3]>) -> bool {
+    let mut ring: Vec<usize> = (0..points.len()).collect();
+    let mut ears: Vec<bool> = (0..ring.len()).map(|i| is_ear(points, &ring, i)).collect();
+    while ring.len() > 3 {
+        let n = ring.len();
+        let around = |i: usize| [ring[(i + n - 1) % n], ring[i], ring[(i + 1) % n]];
+        // A corner without area, as two equal ones make, goes only when nothing else can.
+        let flat = |i: &usize| orient2d_of(points, around(*i)) == 0.0;
+        let Some(ear) = ears.iter().position(|&ear| ear).or_else(|| (0..n).find(flat)) else { return false };
+        triangles.push(around(ear));
+        ring.remove(ear);
+        ears.remove(ear);
+        for i in [(ear + n - 2) % (n - 1), ear % (n - 1)] {
+            ears[i] = is_ear(points, &ring, i);
+        }
+    }
+    let last = [ring[0], ring[1], ring[2]];
+    triangles.push(last);
+    orient2d_of(points, last) >= 0.0
+}
+
+fn orient2d_of(points: &[Point], [a, b, c]: [usize; 3]) -> f64 {
+    orient2d(points[a], points[b], points[c])
+}
+
+/// Whether corner `i` turns left and no other corner of the ring lies in its triangle.
+fn is_ear(points: &[Point], ring: &[usize], i: usize) -> bool {
+    let n = ring.len();
+    let corners = [ring[(i + n - 1) % n], ring[i], ring[(i + 1) % n]];
+    let [a, b, c] = corners.map(|corner| points[corner]);
+    let within = |p: Point| {
+        let (left, right) = (a.x.min(b.x).min(c.x), a.x.max(b.x).max(c.x));
+        let at_corner = p == a || p == b || p == c;
+        p.x >= left
+            && p.x <= right
+            && !at_corner
+            && orient2d(a, b, p) >= 0.0
+            && orient2d(b, c, p) >= 0.0
+            && orient2d(c, a, p) >= 0.0
+    };
+    orient2d(a, b, c) > 0.0 && !ring.iter().any(|&p| within(points[p]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn polygon(points: &[[f32; 2]]) -> Vec<Vec3> {
+        points.iter().map(|&[x, y]| Vec3::new(x, y, 0.0)).collect()
+    }
+
+    fn notes(splitter: &Splitter) -> Vec<String> {
+        let mut notes = Notes::default();
+        splitter.tell(&mut notes);
+        notes.into_vec()
+    }
+
+    /// Exact but for the last bits of the result.
+    fn area(corners: [Vec3; 3]) -> f64 {
+        let [a, b, c] = corners.map(Vec3::as_dvec3);
+        (b - a).cross(c - a).z / 2.0
+    }
+
+    /// The polygon's triangles all face its side, and their areas are its own: nothing is covered twice or left out.
+    fn assert_covered(corners: &[Vec3]) {
+        let mut splitter = Splitter::default();
+        let triangles = splitter.split(corners).to_vec();
+        assert_eq!(triangles.len(), corners.len() - 2);
+        let own = newell(corners).z / 2.0;
+        let areas = triangles.iter().map(|t| area(t.map(|i| corners[i])) * own.signum());
+        assert!(areas.clone().all(|area| area >= 0.0), "{triangles:?}");
+        assert!((areas.sum::<f64>() - own.abs()).abs() < 1e-6, "{triangles:?}");
+        assert!(notes(&splitter).is_empty(), "{:?}", notes(&splitter));
+    }
+
+    #[test]
+    fn concave_polygons_are_covered_once_from_every_first_corner() {
+        let arrow = polygon(&[[0.0, 0.0], [2.0, -1.0], [0.5, 0.0], [2.0, 1.0]]);
+        let comb: Vec<[f32; 2]> = (0..20).map(|i| [i as f32, if i % 2 == 0 { 1.0 } else { 5.0 }]).collect();
+        let comb = polygon(&[&comb[..], &[[19.0, 0.0], [0.0, 0.0]]].concat());
+        let spiral: Vec<[f32; 2]> = (0..30)
+            .map(|i| (i as f32 * 0.5, 1.0 + i as f32 * 0.2))
+            .chain((0..30).rev().map(|i| (i as f32 * 0.5, 1.5 + i as f32 * 0.2)))
+            .map(|(angle, r)| [r * angle.cos(), r * angle.sin()])
+            .collect();
+        // A square with a hole, which a double edge joins to its outline.
+        let hole = polygon(&[
+            [0.0, 0.0],
+            [4.0, 0.0],
+            [4.0, 4.0],
+            [0.0, 4.0],
+            [0.0, 0.0],
+            [1.0, 1.0],
+            [1.0, 3.0],
+            [3.0, 3.0],
+            [3.0, 1.0],
+            [1.0, 1.0],
+        ]);
+        let twice = polygon(&[[0.0, 0.0], [2.0, 0.0], [2.0, 0.0], [2.0, 2.0], [1.0, 0.5], [0.0, 2.0]]);
+        for mut corners in [arrow, comb, polygon(&spiral), hole, twice] {
+            for _ in 0..corners.len() {
+                assert_covered(&corners);
+                corners.rotate_left(1);
+            }
+            corners.reverse();
+            assert_covered(&corners);
+        }
+    }
+
+    #[test]
+    fn convex_polygons_stay_fans() {
+        let mut splitter = Splitter::default();
+        let octagon: Vec<_> = [[3, 0], [5, 0], [8, 3], [8, 5], [5, 8], [3, 8], [0, 5], [0, 3]]
+            .map(|[x, y]| Vec3::new(x as f32, 7.0, y as f32))
+            .into();
+        assert_eq!(splitter.split(&octagon), [[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 5], [0, 5, 6], [0, 6, 7]]);
+        let straight = polygon(&[[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [2.0, 2.0]]);
+        assert_eq!(splitter.split(&straight), [[0, 1, 2], [0, 2, 3]]);
+        assert_eq!(splitter.split(&octagon[..3]), [[0, 1, 2]]);
+        assert!(splitter.split(&octagon[..2]).is_empty());
+        // A quad that is bent but convex is as good as most quads.
+        let bent = [Vec3::ZERO, Vec3::X, Vec3::ONE, Vec3::Y];
+        assert_eq!(splitter.split(&bent), [[0, 1, 2], [0, 2, 3]]);
+        assert!(notes(&splitter).is_empty());
+    }
+
+    #[test]
+    fn what_is_no_simple_polygon_is_told() {
+        let told = |corners: &[Vec3]| {
+            let mut splitter = Splitter::default();
+            assert_eq!(splitter.split(corners).len(), corners.len() - 2);
+            notes(&splitter).concat()
+        };
+        let bow = polygon(&[[0.0, 0.0], [2.0, 2.0], [2.0, 0.0], [0.0, 2.0]]);
+        let star = polygon(&[[0.0, 3.0], [2.0, -3.0], [-3.0, 1.0], [3.0, 1.0], [-2.0, -3.0]]);
+        assert!(told(&bow).starts_with("1 polygons cross") && told(&star).starts_with("1 polygons cross"));
+        assert_eq!(told(&polygon(&[[0.0, 0.0], [1.0, 1.0], [3.0, 3.0], [2.0, 2.0]])), "", "a line has no surface");
+        let mut arrow = polygon(&[[0.0, 0.0], [2.0, -1.0], [0.5, 0.0], [2.0, 1.0]]);
+        arrow[2].z = 0.5;
+        assert!(told(&arrow).contains("neither convex nor flat"));
+        let saw: Vec<[f32; 2]> = (0..5000).map(|i| [i as f32, (i % 2) as f32]).chain([[2500.0, -9.0]]).collect();
+        assert!(told(&polygon(&saw)).contains("more than 4096"));
+    }
+
+    #[test]
+    fn exactness_decides_where_rounding_would_not() {
+        // The last corner lies an ulp beside the line through its neighbours: inside the polygon, and then outside.
+        let [a, b, c] = [[0.1, 0.1], [0.7, -1.0], [0.7, 0.7]];
+        for (d, is_fan) in [([0.3, 0.3_f32.next_down()], false), ([0.3, 0.3_f32.next_up()], true)] {
+            let corners = polygon(&[a, b, c, d]);
+            assert_covered(&corners);
+            assert_eq!(Splitter::default().split(&corners) == [[0, 1, 2], [0, 2, 3]], is_fan);
+        }
+    }
+}

@@ -1,0 +1,86 @@
+//! Text files as bytes: numbers and keywords are ASCII, names may be in any encoding.
+
+use super::error::Fault;
+
+/// The text without the mark that some editors put before UTF-8.
+///
+/// # Errors
+/// If every character takes two bytes or more.
+pub(super) fn plain(bytes: &[u8]) -> Result<&[u8], Fault> {
+    match bytes {
+        [0xef, 0xbb, 0xbf, text @ ..] => Ok(text),
+        [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => Err(wide()),
+        [0, a, 0, b, ..] | [a, 0, b, 0, ..] if *a != 0 && *b != 0 => Err(wide()),
+        _ => Ok(bytes),
+    }
+}
+
+fn wide() -> Fault {
+    Fault::line(1, "it is text in UTF-16 or UTF-32: save it as UTF-8")
+}
+
+/// The lines of a text with their numbers from 1, whether they end with `\n`, `\r\n` or `\r`, without these.
+pub(super) struct Lines<'a> {
+    rest: &'a [u8],
+    number: usize,
+}
+
+impl<'a> Lines<'a> {
+    pub fn new(text: &'a [u8]) -> Self {
+        Self { rest: text, number: 0 }
+    }
+}
+
+impl<'a> Iterator for Lines<'a> {
+    type Item = (usize, &'a [u8]);
+
+    fn next(&mut self) -> Option<Self::Item> {
+        if self.rest.is_empty() {
+            return None;
+        }
+        self.number += 1;
+        let end = self.rest.iter().position(|&b| b == b'\n' || b == b'\r').unwrap_or(self.rest.len());
+        let (line, rest) = self.rest.split_at(end);
+        self.rest = rest.strip_prefix(b"\r\n").unwrap_or(rest.get(1..).unwrap_or_default());
+        Some((self.number, line))
+    }
+}
+
+/// The words of a line.
+pub(super) fn words(line: &[u8]) -> impl Iterator<Item = &[u8]> + Clone {
+    line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty())
+}
+
+/// What a line says after its first word, as text.
+pub(super) fn after_keyword(line: &[u8]) -> String {
+    let line = line.trim_ascii_start();
+    let keyword = line.iter().position(u8::is_ascii_whitespace).unwrap_or(line.len());
+    String::from_utf8_lossy(line[keyword..].trim_ascii()).into_owned()
+}
+
+/// The number that a word is.
+pub(super) fn number<N: std::str::FromStr>(word: &[u8]) -> Option<N> {
+    std::str::from_utf8(word).ok()?.parse().ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_end_in_three_ways() {
+        let lines = |text: &'static str| Lines::new(text.as_bytes()).collect::<Vec<_>>();
+        assert_eq!(lines("a\nb\r\n\rc\r"), [(1, &b"a"[..]), (2, b"b"), (3, b""), (4, b"c")]);
+        assert_eq!(lines("\n\n"), [(1, &b""[..]), (2, b"")]);
+        assert!(lines("").is_empty());
+    }
+
+    #[test]
+    fn wide_text_is_refused_and_a_mark_is_not_read() {
+        assert_eq!(plain(b"\xef\xbb\xbfv 0").unwrap(), b"v 0");
+        for wide in [&b"\xff\xfev\0 \0"[..], b"\xfe\xff\0v", b"v\0 \x000\0", b"\0v\0 "] {
+            assert!(plain(wide).unwrap_err().problem.contains("UTF-16"));
+        }
+        assert!(plain(&[0; 8]).is_ok() && plain(b"").is_ok());
+    }
+}
