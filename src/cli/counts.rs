@@ -80,6 +80,9 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
         if args.histograms {
             tables.extend(histogram_tables(&counts.measures));
         }
+        if let Some(first) = tables.first_mut() {
+            first.notes.splice(0..0, scene.notes.iter().cloned());
+        }
         progress.aside(|| tables.iter().try_for_each(|table| terminal.print_table(table)))?;
         measures.extend(counts.measures);
         printed.extend(tables);

@@ -110,6 +110,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     let scale = if args.view == ViewKind::Heat { format!(", brightest at {scale} tests and steps") } else { "".into() };
     let what = format!("{} view of {} by {}", args.view.name(), scene.name, choice.label);
     terminal.print(&format!("{}: {} x {} pixels, {what}{scale}\n", args.output.display(), size[0], size[1]))?;
+    sources::print_notes(&scene, terminal)?;
     if let Some(errors) = errors {
         terminal.print(&format!("{}\n", errors.legend()))?;
     }

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use anyhow::Context;
 
+use super::terminal::Terminal;
 use crate::output::OutputFile;
 use crate::registry::{Choice, Registry};
 use crate::scene::{BUILTIN, Builtin, Scene, load, real_mesh_folder};
@@ -59,12 +60,7 @@ pub fn scene(name: &str) -> anyhow::Result<Scene> {
         }
         Err(_) => {
             let stem = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy();
-            let model = load(path)?;
-            anyhow::ensure!(
-                !model.triangles.is_empty(),
-                "{name} holds no triangles: nothing can be traced; check that it is the mesh you mean"
-            );
-            Ok(Scene::framed(&stem, model)?)
+            Ok(Scene::framed(&stem, load(path)?)?)
         }
     }
 }
@@ -80,6 +76,15 @@ pub fn output<'a>(
 ) -> anyhow::Result<OutputFile> {
     let files = scenes.iter().filter(|name| Builtin::find(name).is_err()).map(Path::new);
     Ok(OutputFile::check(path)?.apart_from(files.chain(others))?)
+}
+
+/// Prints what a reader should know of the scene, a line each, where no table does.
+///
+/// # Errors
+/// As [`Terminal::print`].
+pub fn print_notes(scene: &Scene, terminal: &Terminal) -> std::io::Result<()> {
+    let lines: Vec<String> = scene.notes.iter().map(|note| format!("{}: {note}", scene.name)).collect();
+    terminal.print_lines(&lines)
 }
 
 /// Stands for one structure of every name.

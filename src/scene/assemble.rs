@@ -118,7 +118,12 @@ impl Parts {
                 let model = load_file(&path, &format!("{key}.real.file"), origin)?;
                 let placement = Transform::new(real.rot.into(), real.sca.into(), real.tra.into());
                 self.replaced |= object.mesh.is_some();
-                return Ok((self.take_real(real, &path, model), placement));
+                let model = self.take_real(real, &path, model);
+                if model.triangles.is_empty() {
+                    let problem = format!("of {} no triangle is left: leave out fewer materials", real.file);
+                    return Err(origin.value(&format!("{key}.real.exclude_materials"), problem));
+                }
+                return Ok((model, placement));
             }
         }
         let mesh = match (&object.mesh, &object.real) {

@@ -27,7 +27,8 @@ impl Scene {
         let mesh = Mesh::new(model.positions, model.triangles)
             .map_err(|cause| SceneError::Mesh { file: name.into(), cause })?;
         let bounds = if mesh.is_empty() { Aabb { min: Vec3::NEG_ONE, max: Vec3::ONE } } else { mesh.bounds() };
-        let (camera, light) = place(bounds).map_err(|cause| SceneError::Camera { file: name.into(), cause })?;
+        let (camera, light) =
+            place(bounds).ok_or_else(|| SceneError::Extent { file: name.into(), min: bounds.min, max: bounds.max })?;
 
         let mut materials = model.materials;
         if materials.is_empty() {
@@ -58,8 +59,8 @@ impl Scene {
     }
 }
 
-/// A camera that sees all eight corners of `bounds`, and a light beside and above it.
-fn place(bounds: Aabb) -> Result<(Camera, Light), super::CameraError> {
+/// A camera that sees all eight corners of `bounds`, and a light beside and above it; nothing where `f32` has no such places.
+fn place(bounds: Aabb) -> Option<(Camera, Light)> {
     let (min, max) = (bounds.min.as_dvec3(), bounds.max.as_dvec3());
     let centre = (min + max) / 2.0;
     let towards = TOWARDS_CAMERA.normalize();
@@ -76,7 +77,7 @@ fn place(bounds: Aabb) -> Result<(Camera, Light), super::CameraError> {
 
     let eye = centre + towards * distance;
     let light = centre + (towards + up * 0.8 + right * 0.4) * distance;
-    let camera = Camera::new(eye.as_vec3(), centre.as_vec3(), Vec3::Y, VERTICAL_FOV)?;
+    let camera = Camera::new(eye.as_vec3(), centre.as_vec3(), Vec3::Y, VERTICAL_FOV).ok()?;
     let light = Light { position: light.as_vec3(), colour: Vec3::ONE, linear: 0.0, quadratic: 0.0 };
-    Ok((camera, light))
+    light.position.is_finite().then_some((camera, light))
 }

@@ -4,6 +4,7 @@ mod bench;
 mod command;
 mod commands;
 mod epochs;
+mod input;
 mod rays;
 mod report;
 mod resume;
