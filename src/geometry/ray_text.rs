@@ -46,14 +46,23 @@ impl FromStr for Ray {
         let count = parts.clone().count();
         let (Some(origin), Some(direction), interval, None) = (parts.next(), parts.next(), parts.next(), parts.next())
         else {
-            return Err(RayTextError::Parts { text: text.into(), count });
+            return Err(RayTextError::Parts { text: short(text), count });
         };
         let ray = Self::new(Vec3::from_array(numbers(text, origin)?), Vec3::from_array(numbers(text, direction)?));
         let Some(part) = interval else { return Ok(ray) };
         let inner = part.strip_prefix('[').and_then(|p| p.strip_suffix([']', ')']));
-        let inner = inner.ok_or_else(|| RayTextError::Brackets { text: text.into(), part: part.into() })?;
+        let inner = inner.ok_or_else(|| RayTextError::Brackets { text: short(text), part: short(part) })?;
         let [t_min, t_max] = numbers(text, inner)?;
         Ok(Self { t_min, t_max, ..ray })
+    }
+}
+
+/// Text that may be a whole file in one line, as it may stand in a message: cut after 120 characters.
+fn short(text: &str) -> String {
+    const LONGEST: usize = 120;
+    match text.char_indices().nth(LONGEST) {
+        Some((end, _)) => format!("{}...", &text[..end]),
+        None => text.into(),
     }
 }
 
@@ -61,10 +70,10 @@ fn numbers<const N: usize>(text: &str, part: &str) -> Result<[f32; N], RayTextEr
     let mut found = [0.0; N];
     let count = part.split(',').count();
     if count != N {
-        return Err(RayTextError::Count { text: text.into(), part: part.into(), count, expected: N });
+        return Err(RayTextError::Count { text: short(text), part: short(part), count, expected: N });
     }
     for (slot, number) in found.iter_mut().zip(part.split(',')) {
-        *slot = number.parse().map_err(|_| RayTextError::Number { text: text.into(), number: number.into() })?;
+        *slot = number.parse().map_err(|_| RayTextError::Number { text: short(text), number: short(number) })?;
     }
     Ok(found)
 }
@@ -107,5 +116,6 @@ mod tests {
         assert!(error("1,2,3 4,5,x").contains("\"x\""));
         assert!(error("1,2,3 4,5,6 0,1").contains("brackets"));
         assert!(error("1,2,3 4,5,6 [0,1,2]").contains("it must have 2"));
+        assert!(error(&"1 ".repeat(1 << 20)).len() < 300);
     }
 }
