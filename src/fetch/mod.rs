@@ -42,7 +42,9 @@ pub enum FetchError {
     Cut { url: String, got: u64, expected: u64 },
     #[error("{url}: the server sent nothing, or next to nothing, for {} s: fetch again to go on after {got} bytes", patience.as_secs_f32())]
     Stalled { url: String, got: u64, patience: Duration },
-    #[error("{url}: the file has more than {most} bytes, the most that is fetched without a size in the scene file: nothing of it is kept")]
+    #[error(
+        "{url}: the file has more than {most} bytes, the most that is fetched without a size in the scene file: nothing of it is kept"
+    )]
     TooLarge { url: String, most: u64 },
     #[error("{url}: more than the {expected} bytes that the scene file says came: nothing of it is kept")]
     Long { url: String, expected: u64 },

@@ -55,7 +55,10 @@ pub(super) fn number(bytes: &[u8], at: usize) -> u32 {
 /// The part after `at`, which must have `count` items of `size` bytes. The file may end before it.
 pub(super) fn body(bytes: &[u8], at: usize, count: u64, size: u64) -> Result<&[u8], String> {
     let Some(body) = bytes.get(at..) else {
-        return Err(format!("the file is cut short: it has {} bytes, and the first item begins at byte {at}", bytes.len()));
+        return Err(format!(
+            "the file is cut short: it has {} bytes, and the first item begins at byte {at}",
+            bytes.len()
+        ));
     };
     let found = body.len() as u64;
     match count.checked_mul(size) {

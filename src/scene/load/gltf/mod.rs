@@ -43,7 +43,7 @@ pub(super) fn read(bytes: Vec<u8>, folder: &Path) -> Result<Model, Fault> {
     let mut model = Model::default();
     let shown = || placements.iter().filter_map(|p| shapes[p.mesh].as_ref().map(|shape| (p, shape)));
     shown().try_for_each(|(placement, shape)| check_place(placement, shape, &accessors))?;
-    reserve(&mut model, shown().map(|(_, shape)| shape), bytes, || nothing(&document, &placements))?;
+    reserve(&mut model, shown().map(|(_, shape)| shape), bytes, || nothing(&document, &placements, &shapes))?;
     for (placement, shape) in shown() {
         add(&mut model, placement, shape, &accessors);
     }
@@ -136,9 +136,12 @@ fn reserve<'s, 'a: 's>(
 }
 
 /// Why nothing is shown.
-fn nothing(document: &Document, placements: &[Placement]) -> String {
+fn nothing(document: &Document, placements: &[Placement], shapes: &[Option<Shape>]) -> String {
     let meshes = document.meshes().count();
     match document.default_scene() {
+        _ if shapes.iter().flatten().any(|shape| !shape.parts.is_empty()) => {
+            "its primitives have too few corners for a triangle".into()
+        }
         _ if !placements.is_empty() => "its meshes have only points, lines or primitives without positions".into(),
         _ if meshes == 0 => "it has no meshes".into(),
         Some(scene) if scene.nodes().next().is_none() => format!("scene {}, its default, has no nodes", scene.index()),

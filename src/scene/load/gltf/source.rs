@@ -111,6 +111,10 @@ fn validate(root: &Root) -> Result<(), Fault> {
         let problem = format!("it requires {}, not supported here: export it without", names.join(", "));
         return Err(Fault::file(problem));
     }
+    let scenes = root.scenes.len();
+    if let Some(scene) = root.scene.filter(|scene| scene.value() >= scenes) {
+        return Err(Fault::part("scene", format!("it names scene {scene}, but the file has {scenes} scenes")));
+    }
     // The crate's own check of a primitive takes this index on trust.
     for (mesh, primitive) in
         root.meshes.iter().enumerate().flat_map(|(m, mesh)| mesh.primitives.iter().map(move |p| (m, p)))

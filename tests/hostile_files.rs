@@ -1,0 +1,274 @@
+//! Malformed files and files made to harm: each is refused in one sentence that names it and a place in it, and none takes
+//! more memory than twice its size and 64 MiB. What such files name is counted as their size.
+
+use std::fs;
+
+use sahara::measure::{CountingAllocator, peak_bytes};
+use sahara::scene::files::{HitFile, RayFile};
+use sahara::scene::load;
+use serde_json::{Value, json};
+
+#[global_allocator]
+static ALLOCATOR: CountingAllocator = CountingAllocator;
+
+/// Files beside each other, the first of them to be loaded.
+type Files = Vec<(&'static str, Vec<u8>)>;
+
+const SLACK: usize = 64 << 20;
+
+/// Loads the first file. Gives the triangles, or the message from its name on; an error if that is not one sentence, or if
+/// too much memory was taken.
+fn loaded(files: &Files) -> Result<Result<usize, String>, String> {
+    let (name, folder) = (files[0].0, tempfile::tempdir().unwrap());
+    for (name, bytes) in files {
+        fs::write(folder.path().join(name), bytes).unwrap();
+    }
+    let path = folder.path().join(name);
+    let (result, peak) = match path.extension().and_then(|ending| ending.to_str()) {
+        Some("rays") => measured(|| RayFile::read(&path).map(|file| file.workload.rays.len())),
+        Some("hits") => measured(|| HitFile::read(&path).map(|_| 0)),
+        _ => measured(|| load(&path).map(|model| model.triangles.len())),
+    };
+    let size: usize = files.iter().map(|(_, bytes)| bytes.len()).sum();
+    if peak > 2 * size + SLACK {
+        return Err(format!("{name}: {peak} bytes for files of {size}: {result:?}"));
+    }
+    match &result {
+        Ok(triangles) => Ok(Ok(*triangles)),
+        Err(message) if message.contains('\n') || message.chars().count() > 600 => Err(format!("{message:?}")),
+        Err(message) => match message.find(name) {
+            Some(start) => Ok(Err(message[start..].to_owned())),
+            None => Err(format!("{message:?} does not name {name}")),
+        },
+    }
+}
+
+fn measured<E: ToString>(work: impl FnOnce() -> Result<usize, E>) -> (Result<usize, String>, usize) {
+    let (result, peak) = peak_bytes(work);
+    (result.map_err(|error| error.to_string()), peak.expect("the allocator is installed"))
+}
+
+/// What is wrong if the file is not refused by a message with these words.
+fn not_refused(files: &Files, words: &[&str]) -> Option<String> {
+    match loaded(files) {
+        Ok(Err(message)) if words.iter().all(|word| message.contains(word)) => None,
+        Ok(other) => Some(format!("{words:?}: {other:?}")),
+        Err(wrong) => Some(format!("{words:?}: {wrong}")),
+    }
+}
+
+/// A triangle in `a.bin` with `count` vertices: positions only.
+fn document(count: usize) -> Value {
+    json!({
+        "asset": {"version": "2.0"},
+        "buffers": [{"uri": "a.bin", "byteLength": 12 * count}],
+        "bufferViews": [{"buffer": 0, "byteLength": 12 * count}],
+        "accessors": [
+            {"bufferView": 0, "componentType": 5126, "type": "VEC3", "count": count},
+            {"bufferView": 0, "componentType": 5126, "type": "VEC3", "count": count + 1}
+        ],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "nodes": [{"mesh": 0}]
+    })
+}
+
+fn gltf(document: &Value, data: usize) -> Files {
+    vec![("a.gltf", document.to_string().into_bytes()), ("a.bin", vec![0; data])]
+}
+
+fn glb(json: &[u8], data: &[u8]) -> Vec<u8> {
+    let mut bytes = b"glTF\x02\0\0\0".to_vec();
+    bytes.extend((28 + json.len() as u32 + data.len() as u32).to_le_bytes());
+    for (kind, chunk) in [(b"JSON", json), (b"BIN\0", data)] {
+        bytes.extend((chunk.len() as u32).to_le_bytes());
+        bytes.extend(kind);
+        bytes.extend(chunk);
+    }
+    bytes
+}
+
+const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+
+fn obj_files() -> Vec<(Files, [&'static str; 2])> {
+    let obj = |text: Vec<u8>| vec![("a.obj", text)];
+    let after = |start: &str, repeated: &str, times: usize, end: &str| {
+        obj([start.as_bytes(), &repeated.as_bytes().repeat(times), end.as_bytes()].concat())
+    };
+    let names: String = (0..500_000).map(|i| format!("usemtl m{i}\nf 1 2 3\n")).collect();
+    vec![
+        (obj(vec![]), ["a.obj:", "no triangles"]),
+        (obj(vec![0; 100]), ["line 1:", "no keyword of OBJ"]),
+        (obj(b"\xff\xfev\0".to_vec()), ["line 1:", "UTF-16"]),
+        (obj(b"\x89PNG\r\n\x1a\n\0\0".to_vec()), ["line 1:", "another format"]),
+        (obj(b"solid cube\nfacet normal 0 0 1\n".to_vec()), ["line 1: `solid cube`", "another format"]),
+        (after("v 0 0", "", 0, ""), ["line 1:", "three numbers"]),
+        (after(TRIANGLE, "", 0, "f 1 2 99999999999\n"), ["line 4:", "more than a mesh can hold"]),
+        (after(TRIANGLE, "", 0, "f 1 2 4\n"), ["line 4:", "the file has only 3"]),
+        (after(TRIANGLE, "", 0, "f -4 -2 -1\n"), ["line 4:", "reaches before"]),
+        (after("v 0 0 0\nv 1 0 0\nv 0 1 nan\n", "", 0, "f 1 2 3\n"), ["line 3:", "not finite"]),
+        (after("", "v 0 0 1\n", 3_000_000, "v 0 0 x\n"), ["line 3000001:", "`x` is not a number"]),
+        (after(TRIANGLE, "f 1 1 1\n", 3_000_000, "f 1 2 x\n"), ["line 3000004:", "`x` is not a vertex index"]),
+        (after("v 0 0 0\nvn 0 0 1\n", "f 1//1 1//1 1//1\n", 2_000_000, "f x"), ["line 2000003:", "not a vertex index"]),
+        (after("v 0 0 0\nf", " 1", 10_000_000, " x\n"), ["line 2:", "`x` is not a vertex index"]),
+        (after("v 0 0 0\nf", " \\\n1", 8_000_000, " x\n"), ["line 2:", "`x` is not a vertex index"]),
+        (after("", "\u{ff}", 20_000_000, ""), ["line 1:", "no keyword of OBJ"]),
+        (obj(b"\xff".repeat(50_000_000)), ["line 1:", "no keyword of OBJ"]),
+        (
+            obj([TRIANGLE.as_bytes(), names.as_bytes(), b"f 1 2"].concat().repeat(2)),
+            ["line 1000004:", "`2v` is not a vertex index"],
+        ),
+    ]
+}
+
+fn ply_files() -> Vec<(Files, [&'static str; 2])> {
+    let ply =
+        |header: &str, body: &[u8]| vec![("a.ply", [b"ply\n", header.as_bytes(), b"end_header\n", body].concat())];
+    let mesh = |format: &str, vertices: u64, faces: u64| {
+        format!(
+            "format {format} 1.0\nelement vertex {vertices}\nproperty char x\nproperty char y\nproperty char z\n\
+             element face {faces}\nproperty list uint uchar vertex_indices\n"
+        )
+    };
+    let little = "binary_little_endian";
+    let wide = [&1000_u32.to_le_bytes()[..], &[0; 1000]].concat();
+    let wrong = [&[0; 3][..], &wide.repeat(15_000), &3_u32.to_le_bytes(), &[0, 0, 1]].concat();
+    vec![
+        (vec![("a.ply", vec![])], ["line 1:", "begins with the line `ply`"]),
+        (vec![("a.ply", vec![0; 1000])], ["line 1:", "begins with the line `ply`"]),
+        (vec![("a.ply", b"ply".to_vec())], ["line 1:", "does not end"]),
+        (vec![("a.ply", [&b"ply\n"[..], &b"comment\n".repeat(4_000_000)].concat())], ["line 13", "does not end"]),
+        (
+            vec![("a.ply", [b"ply\nformat ascii 1.0\n", &b"element e 0\n".repeat(4_000_000)[..]].concat())],
+            ["line", "does not"],
+        ),
+        (ply("format ascii 2.0\n", b""), ["a.ply", "PLY header"]),
+        (ply("format ascii 1.0\nelement vertex -1\n", b""), ["line 3:", "no line of a PLY header"]),
+        (ply("format ascii 1.0\nproperty float x\n", b""), ["a.ply", "PLY header"]),
+        (ply("format ascii 1.0\nelement vertex 1\nproperty quad x\n", b""), ["line 4:", "no line of a PLY header"]),
+        (ply(&mesh(little, 1 << 49, 1), &[0; 100]), ["element vertex:", "rows"]),
+        (ply(&mesh(little, 1, 1 << 49), &[0; 100]), ["element face:", "rows"]),
+        (ply(&mesh(little, 1, 1), &[&[0; 3][..], &[0xff; 4], &[0; 99]].concat()), ["face 0:", "4294967295 entries"]),
+        (ply(&mesh(little, 1, 15_001), &wrong), ["face 15000:", "its corner 1 is none of the 1"]),
+        (ply(&mesh("ascii", 1, 1), b"0 0 0\n99999999999 0\n"), ["face 0:", "taken for a mistake"]),
+        (ply(&mesh("ascii", 1, 1), b"0 0 0\n3 0 -1 0\n"), ["face 0:", "`3 0 -1 0`"]),
+        (ply(&mesh("ascii", 1, 1), b"0 0 \xff\n3 0 0 0\n"), ["vertex 0:", "no ASCII text"]),
+        (ply(&mesh("ascii", 1, 1), b"0 0 0\n2 0 0\n"), ["element face:", "no triangles"]),
+    ]
+}
+
+fn gltf_files() -> Vec<(Files, [&'static str; 2])> {
+    let text = |text: Vec<u8>| vec![("a.gltf", text)];
+    let with = |pointer: &str, value: Value| {
+        let mut document = document(3);
+        let (parent, key) = pointer.rsplit_once('/').unwrap();
+        match document.pointer_mut(parent).unwrap() {
+            Value::Array(list) => list[key.parse::<usize>().unwrap()] = value,
+            object => object[key] = value,
+        }
+        gltf(&document, 36)
+    };
+    let list = |start: &str, item: &str, times: usize| {
+        text(
+            [
+                format!("{{\"asset\":{{\"version\":\"2.0\"}},{start}[").as_bytes(),
+                &item.as_bytes().repeat(times),
+                b"{}]}",
+            ]
+            .concat(),
+        )
+    };
+
+    // Much is named often, and one thing more is wrong.
+    let megabyte = 87_381;
+    let mut buffers = document(megabyte);
+    buffers["buffers"] = (0..30_000).map(|_| json!({"uri": "a.bin", "byteLength": 12 * megabyte})).collect();
+    buffers["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = 1.into();
+    let mut primitives = document(megabyte);
+    let primitive = |accessor: u32| json!({"attributes": {"POSITION": accessor}});
+    primitives["meshes"] = (0..2001).map(|i| json!({"primitives": [primitive(i / 2000)]})).collect();
+    primitives["nodes"] = (0..2001).map(|mesh| json!({"mesh": mesh})).collect();
+    let mut shown = document(megabyte);
+    shown["meshes"] = (0..2000).map(|_| json!({"primitives": [primitive(0)]})).collect();
+    shown["nodes"] = (0..2000).map(|mesh| json!({"mesh": mesh})).collect();
+
+    let mut embedded = document(3);
+    embedded["accessors"][0]["count"] = 4.into();
+    embedded["bufferViews"][0]["byteLength"] = 36.into();
+    embedded["buffers"][0]["uri"] =
+        format!("data:application/octet-stream;base64,{}", "AAAA".repeat(10_000_000)).into();
+    let mut binary = document(3);
+    binary["accessors"][0]["count"] = 4.into();
+    binary["buffers"][0].as_object_mut().unwrap().remove("uri");
+    let chunk = vec![0; 80_000_000];
+    let sparse = json!({"count": 2, "indices": {"bufferView": 0, "componentType": 5125}, "values": {"bufferView": 0}});
+
+    vec![
+        (text(vec![]), ["a.gltf", "no glTF 2.0 file"]),
+        (text(b"{".to_vec()), ["line 1 column 1", "no glTF 2.0 file"]),
+        (text(b"{\"asset\":{\"version\":\"2.0\"}}\xff".to_vec()), ["line 1 column", "no glTF 2.0 file"]),
+        (text(b"\xff\xfe{\0".to_vec()), ["line 1:", "UTF-16"]),
+        (text(b"[".repeat(5_000_000)), ["line 1 column", "no glTF 2.0 file"]),
+        (text(b"{\"a\":".repeat(60_000)), ["line 1 column", "no glTF 2.0 file"]),
+        (text(b"{\"asset\":{\"version\":\"2.0\"},\"meshes\":7}".to_vec()), ["line 1 column", "no glTF 2.0 file"]),
+        (text(b"{\"asset\":{\"version\":\"2.0\"}}".to_vec()), ["a.gltf", "it has no meshes"]),
+        (list("\"nodes\":", "{},", 10_000_000), ["a.gltf", "10000003 objects"]),
+        (list("\"accessors\":[{\"min\":", "0,", 20_000_000), ["a.gltf", "entries"]),
+        (with("/scene", json!(-1)), ["line 1 column", "no glTF 2.0 file"]),
+        (with("/scene", json!(0)), ["scene:", "it names scene 0, but the file has 0 scenes"]),
+        (with("/nodes/0", json!({"mesh": 9})), ["nodes[0].mesh", "out of bounds"]),
+        (with("/nodes/0", json!({"children": [0], "mesh": 0})), ["node 0:", "own ancestor"]),
+        (
+            with("/nodes", (0..50_000).map(|i| json!({"children": [i + 1]})).collect()),
+            ["nodes[49999]", "out of bounds"],
+        ),
+        (
+            with("/nodes/0/matrix", json!([1e300, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1])),
+            ["line 1 column", "number out of range"],
+        ),
+        (with("/buffers/0/uri", json!("data:;base64,AAA")), ["buffer 0:", "should have 36 bytes and has 2"]),
+        (with("/buffers/0/uri", json!("data:")), ["buffer 0:", "not in base64"]),
+        (with("/buffers/0/uri", json!("/etc/hosts")), ["buffer 0:", "not below the folder"]),
+        (with("/buffers/0/uri", json!("../../x")), ["buffer 0:", "not below the folder"]),
+        (with("/buffers/0/byteLength", json!(u64::MAX)), ["buffer 0:", "it is truncated"]),
+        (with("/accessors/0/count", json!(u64::MAX)), ["accessor 0:", "reach beyond"]),
+        (with("/accessors/0/sparse", sparse), ["accessor 0:", "does not ascend"]),
+        (gltf(&buffers, 12 * megabyte), ["accessor 1:", "reach beyond"]),
+        (gltf(&primitives, 12 * megabyte), ["accessor 1:", "reach beyond"]),
+        (gltf(&shown, 12 * megabyte), ["a.gltf", "174762000 vertices"]),
+        (text(embedded.to_string().into_bytes()), ["accessor 0:", "4 elements reach beyond the 36 bytes"]),
+        (vec![("a.glb", glb(binary.to_string().as_bytes(), &chunk))], ["accessor 0:", "4 elements reach beyond"]),
+        (vec![("a.glb", b"glTF\x02\0\0\0\x0c\0\0\0".to_vec())], ["a.glb", "no glTF 2.0 file"]),
+        (vec![("a.glb", b"glTF\x02\0\0\0\xff\xff\xff\xff".to_vec())], ["a.glb", "truncated"]),
+        (vec![("a.glb", b"glTF".to_vec())], ["a.glb", "within its header"]),
+    ]
+}
+
+fn ray_files() -> Vec<(Files, [&'static str; 2])> {
+    let head = |magic: &[u8], count: u64| [magic, &[1, 0, 0, 0, 0, 0, 0, 0], &count.to_le_bytes(), &[0; 48]].concat();
+    vec![
+        (vec![("a.rays", vec![])], ["a.rays", "does not begin with"]),
+        (vec![("a.rays", head(b"SAHARAYS", 0))], ["a.rays", "the first item begins at byte 96"]),
+        (vec![("a.rays", head(b"SAHARAYS", u64::MAX))], ["a.rays", "cut short"]),
+        (vec![("a.rays", [head(b"SAHARAYS", 1 << 59), vec![0; 99]].concat())], ["a.rays", "cut short"]),
+        (vec![("a.hits", head(b"SAHAHITS", 0))], ["a.hits", "40 bytes follow"]),
+        (vec![("a.hits", head(b"SAHAHITS", u64::MAX))], ["a.hits", "cut short"]),
+        (vec![("a.hits", b"SAHAHITS".to_vec())], ["a.hits", "cut short"]),
+    ]
+}
+
+/// One test, so that no other allocates while it measures.
+#[test]
+fn each_is_refused_in_a_sentence_and_takes_little_memory() {
+    let all = obj_files().into_iter().chain(ply_files()).chain(gltf_files()).chain(ray_files());
+    let wrong: Vec<String> = all.filter_map(|(files, words)| not_refused(&files, &words)).collect();
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+
+    // What is named often is read once, in good files too.
+    let mut often = document(1_000_000);
+    often["buffers"] = (0..30_000).map(|_| json!({"uri": "a.bin", "byteLength": 12_000_000})).collect();
+    often["accessors"][0]["count"] = 300.into();
+    assert_eq!(loaded(&gltf(&often, 12_000_000)), Ok(Ok(100)));
+    let libraries = [b"mtllib a.mtl\n".repeat(100_000), format!("{TRIANGLE}usemtl a\nf 1 2 3\n").into_bytes()].concat();
+    let materials: String = (0..1_000_000).map(|i| format!("newmtl a{i}\nKd x\n")).collect();
+    assert_eq!(loaded(&vec![("a.obj", libraries), ("a.mtl", materials.into_bytes())]), Ok(Ok(1)));
+}
