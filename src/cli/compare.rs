@@ -33,7 +33,7 @@ pub struct Args {
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: u16,
     /// Samples of every case, as many in each epoch; fewer where there is not time for them all
-    #[arg(long, value_name = "N", default_value_t = 15, value_parser = clap::value_parser!(u16).range(1..))]
+    #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u16).range(1..))]
     runs: u16,
     /// How often everything is built anew, so that the luck of placement is in the samples
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u16).range(1..))]
@@ -42,7 +42,7 @@ pub struct Args {
     #[arg(long, value_name = "N|all|F.rays", default_value = "all")]
     rays: RaySource,
     /// Seconds that a scene may take: to keep within them slow cases are timed on fewer rays, then all are timed less often
-    #[arg(long, value_name = "SECONDS", default_value_t = 30, value_parser = clap::value_parser!(u32).range(1..=86400))]
+    #[arg(long, value_name = "SECONDS", default_value_t = 36, value_parser = clap::value_parser!(u32).range(1..=86400))]
     budget: u32,
     /// Seed of the rays and of the order of samples
     #[arg(long, value_name = "N", default_value_t = 1)]

@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 use std::ops::Range;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use rayon::prelude::*;
 
@@ -161,8 +161,11 @@ pub struct Pass<'a> {
     filled: bool,
 }
 
-/// The share of a workload that a lead-in before a pass has, unless the pass itself has fewer rays.
+/// The share of a workload that a lead-in before a pass has.
 const LEAD_IN_SHARE: usize = 8;
+
+/// A lead-in before tiles ends early when it has taken so long: structures that are slow need fewer rays to fill the caches.
+const LEAD_IN: Duration = Duration::from_millis(10);
 
 /// What the lead-in before a tile may take, of as many rays as a whole tile has: longer than it takes to fetch what the tile needs into the
 /// caches, so that a structure which is slower than that does with fewer.
@@ -250,10 +253,16 @@ impl Timed for Pass<'_> {
             }
         }
 
-        let lead_in = (self.all.len() / LEAD_IN_SHARE).min(timed);
-        let first = self.all.len() - lead_in;
-        let starts = (first..self.all.len()).step_by(TILE);
-        self.lead_in = starts.map(|start| self.piece(start, TILE.min(self.all.len() - start), 0)).collect();
+        // Before tiles the pieces begin small, so that a slow structure can stop.
+        let lead_in = self.all.len() / LEAD_IN_SHARE;
+        let mut first = self.all.len() - lead_in;
+        let mut size = if levels[0] == 0 { TILE } else { 1 };
+        self.lead_in = vec![];
+        while first < self.all.len() {
+            let count = size.min(self.all.len() - first);
+            self.lead_in.push(self.piece(first, count, 0));
+            (first, size) = (first + count, TILE.min(2 * size));
+        }
         (self.pieces, self.levels) = (pieces, levels.len());
         self.answers.resize(timed);
         self.aside.resize(lead_in.max(TILE));
@@ -263,13 +272,17 @@ impl Timed for Pass<'_> {
         self.filled = !self.filled;
         self.answers.fill(self.filled);
         self.aside.fill(self.filled);
-        let count = self.lead_in.iter().map(|piece| piece.count).sum();
-        let slots = self.aside.first(count);
         let start = Instant::now();
+        let mut count = self.lead_in.iter().map(|piece| piece.count).sum();
         if self.threads.count() > 1 {
-            slots.share(&self.lead_in.iter().collect::<Vec<_>>(), self.threads);
+            self.aside.first(count).share(&self.lead_in.iter().collect::<Vec<_>>(), self.threads);
         } else {
-            slots.ask_all(&self.lead_in);
+            let is_whole = self.answers.len() == self.all.len();
+            let pieces = self.lead_in.iter().take_while(|_| is_whole || start.elapsed() < LEAD_IN);
+            count = pieces.fold(0, |done, piece| {
+                self.aside.first(done + piece.count).split(done).1.ask(piece);
+                done + piece.count
+            });
         }
         self.lead_in_ps = start.elapsed().as_nanos() * 1000 / count.max(1) as u128;
         self.led_in = (self.answers.len() == self.all.len()).then(|| (count, self.aside.checksum(0..count)));

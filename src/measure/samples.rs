@@ -30,8 +30,8 @@ pub trait Timed {
 pub struct Plan {
     /// Samples of every case in an epoch, at least 1; at most, where there is not time for them all.
     pub runs: usize,
-    /// What the samples of all cases in an epoch may take together, nanoseconds. Where it is not enough, a case is timed on a part of its rays, the
-    /// slowest first.
+    /// What the samples of all cases in an epoch may take together, nanoseconds. Where it is not enough, there are fewer samples, and where one of
+    /// each case is too much, cases are timed on a part of their rays, the slowest first.
     pub budget_ns: u64,
     /// Rays of a sample, at most.
     pub most_rays: usize,
@@ -92,8 +92,9 @@ const PILOT: usize = 64;
 /// A pass that takes longer says enough of the speed.
 const LONG_PILOT_NS: u64 = 5_000_000;
 
-/// Cases that take more than so many times as long as the median case do with fewer rays before all cases do with fewer samples.
-const SLOW: u64 = 8;
+/// A case that takes more than so many times as long as the median case is timed on fewer rays, whatever the budget: its ratios hardly gain
+/// from more of them, and the run would be about it alone.
+const SLOW: f64 = 8.0;
 
 /// Finds how many rays of each case and how many samples fit the budget; cases of equal `groups` get as many rays. No sample is taken yet.
 pub fn begin(
@@ -115,19 +116,17 @@ pub fn begin(
     loop {
         let costs: Vec<u64> = levels.iter().enumerate().map(|(case, &level)| cost(case, level)).collect();
         let total: u64 = costs.iter().sum();
-        if total.saturating_mul(runs as u64) <= plan.budget_ns {
-            break;
-        }
+        let fits = total.saturating_mul(runs as u64) <= plan.budget_ns;
         let middle = median(&costs.iter().map(|&ns| ns as f64).collect::<Vec<_>>()).unwrap_or(0.0);
         let smaller = (0..costs.len()).filter(|&case| levels[case] < last_level(all[case]));
         let slowest = smaller.max_by_key(|&case| costs[case]);
         match slowest {
-            Some(case) if runs == 1 || costs[case] as f64 > SLOW as f64 * middle => {
+            Some(case) if (!fits && runs == 1) || costs[case] as f64 > SLOW * middle => {
                 let alike = |&other: &usize| groups[other] == groups[case];
                 (0..levels.len()).filter(alike).for_each(|other| levels[other] = levels[case].max(levels[other]));
                 (0..levels.len()).filter(alike).for_each(|other| levels[other] += 1);
             }
-            None if runs == 1 => break,
+            _ if fits || runs == 1 => break,
             _ => runs = (plan.budget_ns / total.max(1)).clamp(1, runs as u64 - 1) as usize,
         }
     }

@@ -109,7 +109,7 @@ fn only_the_pass_is_timed_and_every_case_has_all_its_samples() {
 }
 
 #[test]
-fn the_slowest_do_with_fewer_rays_first_and_then_all_with_fewer_samples() {
+fn the_slow_do_with_fewer_rays_then_all_with_fewer_samples_and_then_with_fewer_rays() {
     let plan = |budget_ns| Plan { budget_ns, ..PLAN };
     let started = |budget_ns| {
         let bench = Bench::new();
@@ -117,10 +117,10 @@ fn the_slowest_do_with_fewer_rays_first_and_then_all_with_fewer_samples() {
         let (runs, samples) = bench.begin(&mut [('a', 10), ('b', 15), ('c', 10_000)].map(case), &plan(budget_ns));
         (runs, samples.iter().map(|samples| samples.rays).collect::<Vec<_>>())
     };
-    // All rays of the two fast ones take 1.84 ms with their lead-ins, those of the slow one 737 ms.
-    assert_eq!(started(4_000_000_000), (5, vec![65_536; 3]));
-    assert_eq!(started(1_000_000_000), (5, vec![65_536, 65_536, 16_384]));
-    assert_eq!(started(70_000_000), (5, vec![65_536, 65_536, 1024]));
+    // All rays of the two fast ones take 1.84 ms with their lead-ins, those of the slow one 737 ms, and 2.88 ms where it takes no more than
+    // eight times as long as the middle one.
+    assert_eq!(started(4_000_000_000), (5, vec![65_536, 65_536, 256]));
+    assert_eq!(started(24_000_000), (5, vec![65_536, 65_536, 256]));
     assert_eq!(started(12_000_000), (2, vec![65_536, 65_536, 256]));
     assert_eq!(started(2_700_000), (1, vec![65_536, 65_536, 64]));
     assert_eq!(started(1_000_000), (1, vec![16_384, 4096, 64]));
