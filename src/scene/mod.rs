@@ -8,6 +8,7 @@ mod error;
 pub mod files;
 pub mod format;
 mod frame;
+mod hash;
 mod light;
 pub mod load;
 mod material;

@@ -35,6 +35,11 @@ impl CornerNormals {
         (corners != Self::FLAT).then(|| corners.map(|i| self.normals[i as usize]))
     }
 
+    /// Everything that it consists of: the normals, and three numbers into them a triangle.
+    pub fn parts(&self) -> (&[Vec3], &[[u32; 3]]) {
+        (&self.normals, &self.indices)
+    }
+
     /// Bytes of both arrays.
     pub fn bytes(&self) -> usize {
         size_of_val(&self.normals[..]) + size_of_val(&self.indices[..])

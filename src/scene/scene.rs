@@ -1,10 +1,8 @@
 //! A scene, ready to trace.
 
-use std::fmt::Write;
 use std::sync::Arc;
 
 use glam::Vec3;
-use sha2::{Digest, Sha256};
 
 use super::offset::{Offset, Start, barycentrics};
 use super::{Camera, CornerNormals, Light, Material};
@@ -102,31 +100,5 @@ impl Scene {
     pub fn has_mirrors(&self) -> bool {
         let mirrors: Vec<bool> = self.materials.iter().map(|m| m.mirror > 0.0).collect();
         self.recursion_limit > 0 && self.material_of.iter().any(|&m| mirrors[m as usize])
-    }
-
-    /// SHA-256, in hexadecimal, of what rays can meet and where primary rays start: vertices, triangles and camera.
-    pub fn hash(&self) -> String {
-        let mut hasher = Sha256::new();
-        hasher.update((self.mesh.positions().len() as u64).to_le_bytes());
-        for position in self.mesh.positions() {
-            update(&mut hasher, *position);
-        }
-        for corner in self.mesh.triangles().as_flattened() {
-            hasher.update(corner.to_le_bytes());
-        }
-        for vector in [self.camera.eye(), self.camera.target(), self.camera.up()] {
-            update(&mut hasher, vector);
-        }
-        hasher.update(self.camera.vertical_fov().to_bits().to_le_bytes());
-        hasher.finalize().iter().fold(String::with_capacity(64), |mut text, byte| {
-            write!(text, "{byte:02x}").expect("a string takes every write");
-            text
-        })
-    }
-}
-
-fn update(hasher: &mut Sha256, vector: Vec3) {
-    for component in vector.to_array() {
-        hasher.update(component.to_bits().to_le_bytes());
     }
 }

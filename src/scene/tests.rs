@@ -215,13 +215,46 @@ fn a_surface_has_the_point_and_both_normals() {
 }
 
 #[test]
-fn the_hash_sees_mesh_and_camera() {
+fn the_hash_sees_all_that_rays_and_answers_depend_on() {
     let hash = |text: &str| scene(text).unwrap().hash();
     let first = hash(PLAIN);
     assert_eq!(first.len(), 64);
     assert_eq!(first, hash(&PLAIN.replace("Test", "Other")));
     assert_ne!(first, hash(&PLAIN.replace("60", "61")));
     assert_ne!(first, hash(&PLAIN.replace("\"cube\"", "\"cube\", sca = [1, 1, 1.0001]")));
+
+    let plain = scene(PLAIN).unwrap();
+    let light = Light { position: Vec3::ONE, colour: Vec3::ONE, linear: 0.0, quadratic: 0.0 };
+    let changes: [(&str, fn(&mut Scene, Light)); 13] = [
+        ("a light", |scene, light| scene.lights.push(light)),
+        ("where a light is", |scene, light| scene.lights = vec![Light { position: Vec3::ZERO, ..light }]),
+        ("how a light fades", |scene, light| scene.lights = vec![Light { quadratic: 0.5, ..light }]),
+        ("a mirror", |scene, _| scene.materials[0].mirror = 0.5),
+        ("a colour", |scene, _| scene.materials[0].diffuse.x += 0.125),
+        ("which material", |scene, _| {
+            scene.materials.push(scene.materials[0].clone());
+            scene.material_of[3] = scene.materials.len() as u32 - 1;
+        }),
+        ("background", |scene, _| scene.background.y += 0.5),
+        ("recursion", |scene, _| scene.recursion_limit += 1),
+        ("the terminator", |scene, _| scene.shadow_terminator_fix ^= true),
+        ("the offset", |scene, _| scene.offset = Offset::Direction(0.01)),
+        ("its length", |scene, _| scene.offset = Offset::Direction(0.02)),
+        ("the size", |scene, _| scene.size[0] += 1),
+        ("normals", |scene, _| {
+            scene.normals = Some(CornerNormals::new(vec![Vec3::Y], vec![[0; 3]; scene.mesh.len()]));
+        }),
+    ];
+    let mut seen = vec![first];
+    for (what, change) in changes {
+        let mut changed = plain.clone();
+        change(&mut changed, light);
+        assert!(!seen.contains(&changed.hash()), "{what}");
+        seen.push(changed.hash());
+    }
+    let mut named = plain;
+    named.notes.push("a note".into());
+    assert_eq!(named.hash(), seen[0]);
 }
 
 #[test]

@@ -230,5 +230,5 @@ impl Epoch {
 
 /// The key of an epoch of a scene.
 pub fn key(scene: &Scene, epoch: usize) -> String {
-    format!("{} {} epoch {epoch}", scene_name(&scene.name, !scene.stand_ins.is_empty()), &scene.hash()[..8])
+    format!("{} {} epoch {epoch}", scene_name(&scene.name, !scene.stand_ins.is_empty()), &scene.hash()[..16])
 }

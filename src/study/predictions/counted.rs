@@ -45,7 +45,7 @@ pub fn scenes() -> Vec<&'static str> {
 
 /// The key of a scene: what is counted on it changes with its meshes and lights.
 pub fn key(scene: &Scene) -> String {
-    format!("{} {}", scene.name, &scene.hash()[..8])
+    format!("{} {}", scene.name, &scene.hash()[..16])
 }
 
 /// Counts one of them.

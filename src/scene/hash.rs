@@ -1,0 +1,87 @@
+//! What a scene is, as one number: times, counts and pictures of two scenes can be compared only if it is the same.
+
+use std::fmt::Write;
+
+use glam::Vec3;
+use sha2::{Digest, Sha256};
+
+use super::{Offset, Scene};
+
+impl Scene {
+    /// SHA-256, in hexadecimal, of everything that rays, answers or pictures depend on: vertices, triangles, corner normals,
+    /// materials, lights, camera, background, depth of recursion, how rays leave surfaces, size of the image. Names, notes and
+    /// whether a mesh is a stand-in are left out.
+    pub fn hash(&self) -> String {
+        // Every field of the scene is named, so that a new one is not forgotten here.
+        let Self { mesh, normals, materials, material_of, lights, camera, background, .. } = self;
+        let Self { recursion_limit, shadow_terminator_fix, offset, size, name: _, stand_ins: _, notes: _, .. } = self;
+        let mut hash = Hash(Sha256::new());
+        hash.vectors(mesh.positions());
+        hash.triples(mesh.triangles());
+        let (corner_normals, corners) = normals.as_ref().map_or((&[][..], &[][..]), |normals| normals.parts());
+        hash.vectors(corner_normals);
+        hash.triples(corners);
+
+        hash.count(materials.len());
+        for material in materials {
+            hash.vectors(&[material.ambient, material.diffuse, material.specular]);
+            hash.floats(&[material.shininess, material.mirror]);
+        }
+        hash.count(material_of.len());
+        hash.words(material_of);
+        hash.count(lights.len());
+        for light in lights {
+            hash.vectors(&[light.position, light.colour]);
+            hash.floats(&[light.linear, light.quadratic]);
+        }
+
+        hash.vectors(&[camera.eye(), camera.target(), camera.up(), *background]);
+        hash.floats(&[camera.vertical_fov()]);
+        hash.words(&[*recursion_limit, u32::from(*shadow_terminator_fix), size[0], size[1]]);
+        let (way, length) = match *offset {
+            Offset::None => (0, 0.0),
+            Offset::Normal(distance) => (1, distance),
+            Offset::TMin(t) => (2, t),
+            Offset::Direction(distance) => (3, distance),
+            Offset::WachterBinder => (4, 0.0),
+            Offset::ErrorBounded => (5, 0.0),
+        };
+        hash.words(&[way]);
+        hash.floats(&[length]);
+        hash.hexadecimal()
+    }
+}
+
+struct Hash(Sha256);
+
+impl Hash {
+    fn words(&mut self, words: &[u32]) {
+        words.iter().for_each(|word| self.0.update(word.to_le_bytes()));
+    }
+
+    fn floats(&mut self, floats: &[f32]) {
+        floats.iter().for_each(|float| self.0.update(float.to_bits().to_le_bytes()));
+    }
+
+    /// How many follow: two lists are not one longer one.
+    fn count(&mut self, n: usize) {
+        self.0.update((n as u64).to_le_bytes());
+    }
+
+    fn vectors(&mut self, vectors: &[Vec3]) {
+        self.count(vectors.len());
+        vectors.iter().for_each(|vector| self.floats(&vector.to_array()));
+    }
+
+    fn triples(&mut self, triples: &[[u32; 3]]) {
+        self.count(triples.len());
+        self.words(triples.as_flattened());
+    }
+
+    fn hexadecimal(self) -> String {
+        self.0.finalize().iter().fold(String::with_capacity(64), |mut text, byte| {
+            write!(text, "{byte:02x}").expect("a string takes every write");
+            text
+        })
+    }
+}
