@@ -6,8 +6,9 @@ use anyhow::Context;
 
 use super::Verdict;
 use super::terminal::Terminal;
+use crate::measure::Provenance;
 use crate::output::OutputFile;
-use crate::report::{Record, to_json, to_markdown};
+use crate::report::{Export, Record, to_json, to_markdown};
 use crate::study::regression::{Comparison, tables, unlike};
 
 #[derive(Debug, clap::Args)]
@@ -42,7 +43,7 @@ pub fn run(args: &Args, terminal: &Terminal) -> anyhow::Result<Verdict> {
     let foot = [format!("Old: {}", of(&old)), format!("New: {}", of(&new))];
     terminal.print_lines(&foot)?;
     if let Some(file) = json {
-        file.write(&to_json(&comparison))?;
+        file.write(&to_json(&Export::new("compare-runs", &Provenance::capture(1), &comparison)))?;
     }
     if let Some(file) = markdown {
         file.write(&to_markdown(&tables, &foot))?;

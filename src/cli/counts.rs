@@ -5,9 +5,9 @@ use std::path::PathBuf;
 use super::progress::Progress;
 use super::terminal::Terminal;
 use super::{Verdict, sources};
-use crate::measure::Threads;
+use crate::measure::{Provenance, Threads};
 use crate::registry::Registry;
-use crate::report::{Table, to_json, to_markdown};
+use crate::report::{Export, Table, to_json, to_markdown};
 use crate::scene::WorkloadKind;
 use crate::study::counts::{LEGEND, Measures, Settings, count_scene, histogram_tables, tables};
 
@@ -91,7 +91,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     let foot = LEGEND.map(String::from);
     terminal.print_lines(&foot)?;
     if let Some(file) = json {
-        file.write(&to_json(&measures))?;
+        file.write(&to_json(&Export::new("counts", &Provenance::of(&settings.threads), &measures)))?;
     }
     if let Some(file) = markdown {
         file.write(&to_markdown(&printed, &foot))?;

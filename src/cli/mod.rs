@@ -29,7 +29,9 @@ use std::io;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
+use serde::{Deserialize, Serialize};
 
+use crate::measure::program;
 use crate::registry::Registry;
 use crate::simd::Level;
 use crate::study::guarded;
@@ -94,7 +96,8 @@ enum Command {
 }
 
 /// What a command found.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 enum Verdict {
     Right,
     /// A structure gave wrong answers.
@@ -118,6 +121,8 @@ const PANIC: &str = "the panic above ended the command: if it is a structure's, 
 
 /// Runs `args`, the name of the program first, over the structures of `registry`.
 pub fn run(registry: &Registry, args: impl IntoIterator<Item = OsString>) -> ExitCode {
+    // The date of what is measured is that of its beginning.
+    program::started();
     let cli = match Cli::try_parse_from(args) {
         Ok(cli) => cli,
         Err(message) => {

@@ -10,6 +10,7 @@ mod memory;
 mod order;
 mod pass;
 mod pin;
+pub mod program;
 mod provenance;
 pub mod replication;
 mod samples;

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{CpuClock, Threads, machine};
+use super::{CpuClock, Threads, machine, program};
 use crate::simd::Level;
 
 /// What must be known to judge a measurement, and to repeat it.
@@ -14,6 +14,13 @@ pub struct Provenance {
     pub version: String,
     /// Commit that was built, `+changes` when the sources differed from it; `unknown` outside git.
     pub commit: String,
+    /// The first digits of the SHA-256 of the program that ran: two programs with the same ones are the same. `unknown` where the
+    /// system does not let the program read itself.
+    #[serde(default = "unknown")]
+    pub build: String,
+    /// When the run began, in UTC: `2026-03-01T12:30:59Z`.
+    #[serde(default = "unknown")]
+    pub date: String,
     /// Compiler.
     pub rustc: String,
     /// `release` or `debug`.
@@ -70,6 +77,8 @@ impl Provenance {
             command: command.join(" "),
             version: env!("CARGO_PKG_VERSION").into(),
             commit: env!("SAHARA_COMMIT").into(),
+            build: program::build().into(),
+            date: program::started().into(),
             rustc: env!("SAHARA_RUSTC").into(),
             profile: env!("SAHARA_PROFILE").into(),
             target: env!("SAHARA_TARGET").into(),
@@ -106,8 +115,9 @@ impl Provenance {
             Some(_) => ", each pinned to a core".into(),
             None => ", not pinned".into(),
         };
-        let Self { cpu, simd, rustc, version, commit, profile, .. } = self;
-        format!("{cpu}, {simd}, {threads}{pinned}; sahara {version} ({commit}, {profile}), {rustc}")
+        let Self { cpu, simd, rustc, version, commit, profile, date, .. } = self;
+        let day = date.split('T').next().unwrap_or(date);
+        format!("{cpu}, {simd}, {threads}{pinned}; sahara {version} ({commit}, {profile}), {rustc}; {day}")
     }
 }
 
@@ -152,5 +162,7 @@ mod tests {
         let provenance = Provenance::capture(1);
         assert!(provenance.rustc.starts_with("rustc "), "{provenance:?}");
         assert!(!provenance.commit.is_empty() && provenance.cores > 0);
+        assert!(provenance.build.len() == 16 && provenance.build.chars().all(|c| c.is_ascii_hexdigit()));
+        assert_eq!((provenance.date.len(), provenance.date.find('T')), (20, Some(10)), "{provenance:?}");
     }
 }

@@ -16,7 +16,7 @@ use crate::study::attribution::Attribution;
 use crate::study::break_even::Market;
 use crate::study::costs::Family;
 use crate::study::crossover::Race;
-use crate::study::journal::{Header, Journal, JournalError, Recorded};
+use crate::study::journal::{Header, Journal, JournalError, OF_ALL, Recorded};
 use crate::study::parameters::Parameters;
 use crate::study::replicate::Replication;
 use crate::study::scaling::Growth;
@@ -203,6 +203,8 @@ impl Runs {
             predictions::NAME => {
                 self.predictions = Some(study(path, name, |cases: &[predictions::Case], _| newest(cases))?)
             }
+            // It holds no measurements.
+            OF_ALL => return Ok(()),
             _ => return Err(RunError::Unknown { path: path.into(), study: name.into() }),
         }
         let kind = format!("study {name}");

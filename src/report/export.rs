@@ -4,6 +4,50 @@ use serde::Serialize;
 use serde_json::Value;
 
 use super::Record;
+use crate::measure::Provenance;
+
+/// What a study exports: its result, and where it comes from.
+#[derive(Clone, Debug, Serialize)]
+pub struct Export<'a, R> {
+    /// Version of this form.
+    pub schema: u32,
+    /// Name of the study.
+    pub study: &'a str,
+    /// Of the run that measured, which is an older one where a journal is shown again.
+    pub provenance: &'a Provenance,
+    pub result: R,
+}
+
+impl<'a, R> Export<'a, R> {
+    /// Version of this form.
+    pub const SCHEMA: u32 = 1;
+
+    pub fn new(study: &'a str, provenance: &'a Provenance, result: R) -> Self {
+        Self { schema: Self::SCHEMA, study, provenance, result }
+    }
+}
+
+impl<R: Serialize> Export<'_, &[R]> {
+    /// As [`to_tidy_csv`], one row for each of the result; every row begins with `schema` and `study` and ends with the columns
+    /// `provenance.*`.
+    pub fn to_csv(&self) -> Vec<u8> {
+        let row = |own: &R| serde_json::json!({ "schema": self.schema, "study": self.study, "own": own, "provenance": self.provenance });
+        to_tidy_csv(&self.result.iter().map(row).map(|row| inlined(row, "own")).collect::<Vec<Value>>())
+    }
+}
+
+/// The map `row` with the fields of its map `name` in the place of that.
+fn inlined(row: Value, name: &str) -> Value {
+    let Value::Object(fields) = row else { return row };
+    let mut all = serde_json::Map::new();
+    for (key, value) in fields {
+        match value {
+            Value::Object(inner) if key == name => all.extend(inner),
+            value => drop(all.insert(key, value)),
+        }
+    }
+    Value::Object(all)
+}
 
 /// Anything as indented JSON with a final newline.
 pub fn to_json(value: &impl Serialize) -> Vec<u8> {
@@ -99,6 +143,25 @@ fn text(value: Value) -> String {
 mod tests {
     use super::super::record::example;
     use super::*;
+
+    #[test]
+    fn an_export_says_in_every_row_where_it_comes_from() {
+        let provenance = Provenance::capture(1);
+        let rows =
+            [serde_json::json!({ "scene": "Cube", "time": { "low": 1.0 } }), serde_json::json!({ "scene": "A,B" })];
+        let export = Export::new("scaling", &provenance, &rows[..]);
+        let csv = String::from_utf8(export.to_csv()).unwrap();
+        let mut lines = csv.lines();
+        let names: Vec<&str> = lines.next().unwrap().split(',').collect();
+        assert_eq!(names[..4], ["schema", "study", "scene", "time.low"]);
+        for name in ["provenance.command", "provenance.commit", "provenance.build", "provenance.date"] {
+            assert!(names.contains(&name), "{name} is not in {names:?}");
+        }
+        assert!(lines.all(|line| line.starts_with("1,scaling,") && line.contains(&provenance.date)), "{csv}");
+        let json: Value = serde_json::from_slice(&to_json(&export)).unwrap();
+        assert_eq!((&json["schema"], &json["result"][0]["scene"]), (&1.into(), &"Cube".into()));
+        assert_eq!(json["provenance"]["date"], provenance.date);
+    }
 
     #[test]
     fn json_is_an_array_of_records() {

@@ -10,7 +10,7 @@ mod table;
 pub mod words;
 
 pub use counts::CaseCounts;
-pub use export::{to_csv, to_json, to_jsonl, to_tidy_csv};
+pub use export::{Export, to_csv, to_json, to_jsonl, to_tidy_csv};
 pub use record::Record;
 #[cfg(test)]
 pub(crate) use record::example;

@@ -4,16 +4,17 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use anyhow::Context;
-use serde_json::Value;
+use serde::{Deserialize, Serialize};
 
 use super::{attribution, break_even, costs, crossover, parameters, partitions, predictions, scaling};
 use crate::cli::terminal::Terminal;
 use crate::cli::{Verdict, accuracy, compare, replicate};
-use crate::measure::Provenance;
+use crate::measure::{Provenance, program};
 use crate::registry::Registry;
 use crate::report::number::duration;
-use crate::report::{Cell, Record, Table};
-use crate::study::documented_defect;
+use crate::report::{Cell, Table};
+use crate::scene::{BUILTIN, real_mesh_folder};
+use crate::study::journal::{Header, Journal, JournalError, OF_ALL};
 
 #[derive(Clone, Debug, clap::Args)]
 pub struct Args {
@@ -89,10 +90,14 @@ impl Step {
         self.file.ends_with(".json") && self.name != "predictions"
     }
 
+    /// Its own options.
+    fn options(&self, args: &Args) -> &'static str {
+        if args.quick { self.quick } else { self.full }
+    }
+
     fn words(&self, args: &Args) -> Vec<String> {
         let path = |path: &Path| path.to_string_lossy().into_owned();
-        let own = if args.quick { self.quick } else { self.full };
-        let mut words: Vec<String> = own.split_whitespace().map(String::from).collect();
+        let mut words: Vec<String> = self.options(args).split_whitespace().map(String::from).collect();
         if self.is_whole() {
             words.extend(["--export-json".into(), path(&args.dir.join(self.file))]);
         } else {
@@ -103,27 +108,90 @@ impl Step {
     }
 }
 
-/// What a file that is written whole came to, if it is of this build, this machine and as quick a run as this one.
-///
-/// # Errors
-/// If it is not, or does not read.
-fn done(path: &Path, quick: bool) -> anyhow::Result<Verdict> {
-    let again = "--fresh measures anew, --dir names another folder";
-    let text = std::fs::read(path).with_context(|| format!("cannot read {}", path.display()))?;
-    let value: Value = serde_json::from_slice(&text)
-        .map_err(|error| anyhow::anyhow!("{} does not read: {error}: {again}", path.display()))?;
-    let records = value.get("partitions").unwrap_or(&value);
-    let provenance = value.get("provenance").or_else(|| records.get(0)?.get("provenance")).cloned().unwrap_or_default();
-    let there: Provenance = serde_json::from_value(provenance)
-        .map_err(|error| anyhow::anyhow!("{} does not say where it comes from: {error}: {again}", path.display()))?;
-    let here = Provenance::capture(1);
-    let same = (&there.commit, &there.cpu, &there.simd) == (&here.commit, &here.cpu, &here.simd);
-    anyhow::ensure!(same, "{} is of another build or machine; times must not be mixed: {again}", path.display());
-    let was_quick = there.command.split(' ').any(|word| word == "--quick");
-    anyhow::ensure!(was_quick == quick, "{} is of a run with another --quick: {again}", path.display());
-    let wrong = |record: &Record| record.is_disqualified() && documented_defect(&record.structure).is_none();
-    let records: Vec<Record> = serde_json::from_value(records.clone()).unwrap_or_default();
-    Ok(if records.iter().any(wrong) { Verdict::Wrong } else { Verdict::Right })
+/// What is kept of a step whose file is written whole.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+struct Done {
+    /// The options that it ran with.
+    options: String,
+    found: Verdict,
+}
+
+/// What the journal of this run depends on besides the build and the machine.
+#[derive(Debug, Serialize)]
+struct Settings {
+    quick: bool,
+    /// The real meshes that are there, each with the first digits of its hash.
+    meshes: String,
+}
+
+impl Settings {
+    fn new(quick: bool) -> Self {
+        let folder = real_mesh_folder();
+        let objects = BUILTIN.iter().flat_map(|builtin| builtin.file().objects);
+        let mut files: Vec<String> = objects.filter_map(|object| Some(object.real?.file)).collect();
+        files.sort();
+        files.dedup();
+        let there = |file: String| Some(format!("{file} {}", program::file_id(&folder.join(&file)).ok()?));
+        let there: Vec<String> = files.into_iter().filter_map(there).collect();
+        Self { quick, meshes: if there.is_empty() { "none".into() } else { there.join(", ") } }
+    }
+}
+
+/// The steps that are done, in the folder of the run: of this build, this machine and these settings.
+struct Steps {
+    journal: Journal<Done>,
+    dir: PathBuf,
+}
+
+impl Steps {
+    /// # Errors
+    /// As [`Journal::open`].
+    fn open(args: &Args) -> Result<Self, JournalError> {
+        let header = Header::new(OF_ALL, &Settings::new(args.quick), Provenance::capture(1));
+        let journal = Journal::open(&args.dir.join(format!("{OF_ALL}.jsonl")), header, args.fresh)?;
+        Ok(Self { journal, dir: args.dir.clone() })
+    }
+
+    /// What the step came to whose file is there; nothing if there is none.
+    ///
+    /// # Errors
+    /// If the file is not the one that this run has written, with the options of this run.
+    fn found(&self, step: &Step, options: &str) -> anyhow::Result<Option<Verdict>> {
+        let path = self.dir.join(step.file);
+        if !step.is_whole() || !path.exists() {
+            return Ok(None);
+        }
+        match self.journal.get(&self.key(step)?) {
+            Some(done) if done.options == options => Ok(Some(done.found)),
+            _ => anyhow::bail!(
+                "{} is not what this run writes there: by its settings or its contents it is of another run: move it away to \
+                 measure it, --fresh measures everything anew, --dir names another folder",
+                path.display()
+            ),
+        }
+    }
+
+    /// Keeps that the step is done.
+    ///
+    /// # Errors
+    /// As [`Journal::append`], and if the file of the step cannot be read.
+    fn keep(&mut self, step: &Step, options: String, found: Verdict) -> anyhow::Result<()> {
+        // A command that was stopped by wrong answers may have left nothing.
+        if step.is_whole() && self.dir.join(step.file).exists() {
+            let key = self.key(step)?;
+            if self.journal.get(&key).is_none() {
+                self.journal.append(&key, Done { options, found })?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The step and the contents of its file.
+    fn key(&self, step: &Step) -> anyhow::Result<String> {
+        let path = self.dir.join(step.file);
+        let id = program::file_id(&path).with_context(|| format!("cannot read {}", path.display()))?;
+        Ok(format!("{} {id}", step.name))
+    }
 }
 
 pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Result<Verdict> {
@@ -132,18 +200,26 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     })?;
     let mut rows = vec![];
     let mut verdict = Verdict::Right;
+    let mut steps = Steps::open(args)?;
     for (i, step) in STEPS.iter().enumerate() {
-        let there = step.is_whole() && !args.fresh && args.dir.join(step.file).exists();
+        let words = step.words(args);
+        // The folder does not matter to what is measured.
+        let options = step.options(args).to_owned();
+        let before = if args.fresh { None } else { steps.found(step, &options)? };
+        let there = before.is_some();
         let rest: Vec<&str> = STEPS[i + 1..].iter().map(|step| step.name).collect();
         let left = if rest.is_empty() { "nothing".into() } else { rest.join(", ") };
         if !terminal.quiet {
             eprintln!("{}{}; then left: {left}", step.name, if there { " is done" } else { "" });
         }
         let start = Instant::now();
-        let found = if there {
-            done(&args.dir.join(step.file), args.quick)?
-        } else {
-            (step.run)(registry, &step.words(args), terminal)?
+        let found = match before {
+            Some(found) => found,
+            None => {
+                let found = (step.run)(registry, &words, terminal)?;
+                steps.keep(step, options, found)?;
+                found
+            }
         };
         let took = duration(start.elapsed().as_nanos() as f64);
         verdict = match (verdict, found) {
@@ -171,6 +247,37 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_file_counts_as_done_only_if_this_run_has_written_it() {
+        let folder = tempfile::tempdir().unwrap();
+        let args = Args { dir: folder.path().into(), fresh: false, quick: true };
+        let step = STEPS.iter().find(|step| step.name == "compare").unwrap();
+        let file = folder.path().join(step.file);
+        let refused = |found: anyhow::Result<Option<Verdict>>| {
+            let error = found.unwrap_err().to_string();
+            assert!(["compare.json", "--fresh", "--dir"].iter().all(|part| error.contains(part)), "{error}");
+        };
+        let mut steps = Steps::open(&args).unwrap();
+        assert_eq!(steps.found(step, step.quick).unwrap(), None);
+        // A file of the right name that `compare` has written with whatever options.
+        std::fs::write(&file, "[1]").unwrap();
+        refused(steps.found(step, step.quick));
+        steps.keep(step, step.quick.into(), Verdict::Wrong).unwrap();
+        assert_eq!(steps.found(step, step.quick).unwrap(), Some(Verdict::Wrong));
+        refused(steps.found(step, step.full));
+        std::fs::write(&file, "[2]").unwrap();
+        refused(steps.found(step, step.quick));
+        std::fs::write(&file, "[1]").unwrap();
+        drop(steps);
+
+        // Another run goes on; one with other settings does not.
+        let steps = Steps::open(&args).unwrap();
+        assert_eq!(steps.found(step, step.quick).unwrap(), Some(Verdict::Wrong));
+        drop(steps);
+        let error = Steps::open(&Args { quick: false, ..args }).map(drop).unwrap_err().to_string();
+        assert!(error.contains("quick was true and is false") && error.contains("--fresh"), "{error}");
+    }
 
     #[test]
     fn every_step_takes_its_words() {

@@ -6,7 +6,7 @@ use crate::cli::Verdict;
 use crate::cli::rays::rays_or_all;
 use crate::cli::terminal::Terminal;
 use crate::registry::Registry;
-use crate::report::{Table, to_tidy_csv};
+use crate::report::Table;
 use crate::scene::WorkloadKind;
 use crate::study::attribution::{NAME, headlines, result, rows, structures, tables};
 use crate::study::epoch::Asked;
@@ -34,7 +34,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     let asked = Asked::Kinds(vec![args.workload], args.rays);
     let settings = args.options.settings(registry, structures(registry, &args.test)?, asked)?;
     let scenes = args.scenes.read()?;
-    let Some((epochs, foot)) = measured(NAME, &args.options, &settings, &scenes, terminal)? else {
+    let Some((epochs, provenance)) = measured(NAME, &args.options, &settings, &scenes, terminal)? else {
         return Ok(Verdict::Wrong);
     };
     let results = result(&epochs, args.options.seed);
@@ -42,6 +42,6 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     let mut answer = headlines(&results);
     answer.notes.extend(args.scenes.note(&scenes));
     shown.push(answer);
-    files.tell(terminal, &results, || to_tidy_csv(&rows(&results)), &shown, &[foot])?;
+    files.tell(terminal, (NAME, &provenance), &results, &rows(&results), &shown, &[provenance.line()])?;
     Ok(Verdict::Right)
 }

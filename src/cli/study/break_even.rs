@@ -4,7 +4,6 @@ use super::epochs::Study;
 use crate::cli::Verdict;
 use crate::cli::terminal::Terminal;
 use crate::registry::Registry;
-use crate::report::to_tidy_csv;
 use crate::scene::WorkloadKind;
 use crate::study::break_even::{LEGEND, NAME, STRUCTURES, result, rows, tables};
 
@@ -19,8 +18,8 @@ const STUDY: Study = Study {
 
 pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Result<Verdict> {
     let files = args.field.options.exports.check()?;
-    let (epochs, foot, verdict) = args.measured(&STUDY, registry, terminal)?;
+    let (epochs, foot, provenance, verdict) = args.measured(&STUDY, registry, terminal)?;
     let markets = result(&epochs, args.field.options.seed);
-    files.tell(terminal, &markets, || to_tidy_csv(&rows(&markets)), &tables(&markets), &foot)?;
+    files.tell(terminal, (NAME, &provenance), &markets, &rows(&markets), &tables(&markets), &foot)?;
     Ok(verdict)
 }

@@ -5,7 +5,6 @@ use crate::cli::Verdict;
 use crate::cli::terminal::Terminal;
 use crate::measure::spread;
 use crate::registry::Registry;
-use crate::report::to_tidy_csv;
 use crate::scene::{Scene, Workload, WorkloadKind};
 use crate::study::StudyError;
 use crate::study::crossover::{Case, NAME, PAIRS, ROOTS, complexity, member, result, rows, tables};
@@ -54,7 +53,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     let races = result(&cases, options.seed);
     let shown = tables(&races);
     let (mut foot, verdict) = verdict(cases.iter().map(|case| &case.epoch));
-    foot.push(provenance);
-    files.tell(terminal, &races, || to_tidy_csv(&rows(&races)), &shown, &foot)?;
+    foot.push(provenance.line());
+    files.tell(terminal, (NAME, &provenance), &races, &rows(&races), &shown, &foot)?;
     Ok(verdict)
 }

@@ -95,7 +95,7 @@ pub struct OnScenes {
 }
 
 impl OnScenes {
-    /// The epochs of a study, what to say below its tables, and what the run comes to.
+    /// The epochs of a study, what to say below its tables, where its times come from, and what the run comes to.
     ///
     /// # Errors
     /// As [`cases`], and if a structure or a scene is not known.
@@ -104,7 +104,7 @@ impl OnScenes {
         study: &Study,
         registry: &Registry,
         terminal: &Terminal,
-    ) -> anyhow::Result<(Vec<Epoch>, Vec<String>, Verdict)> {
+    ) -> anyhow::Result<(Vec<Epoch>, Vec<String>, Provenance, Verdict)> {
         let settings = self.field.settings(registry, study.structures, study.workloads)?;
         let read = self.scenes.read()?;
         let whole = |_, epoch| Ok(epoch);
@@ -114,8 +114,8 @@ impl OnScenes {
         let mut foot: Vec<String> = study.legend.iter().map(|&line| line.into()).collect();
         foot.extend(troubles);
         foot.extend(self.scenes.note(&read));
-        foot.push(provenance);
-        Ok((epochs, foot, verdict))
+        foot.push(provenance.line());
+        Ok((epochs, foot, provenance, verdict))
     }
 }
 
@@ -137,9 +137,8 @@ impl Field {
     }
 }
 
-/// Measures the epochs of `scenes` that the journal of the study `name` lacks, and gives all those asked for, with the line that says
-/// where the journal's times come from. `wrap` makes a case
-/// of the epoch of a scene, by its number; `epoch` is its inverse. All scenes of an epoch come before the next one: what changes
+/// Measures the epochs of `scenes` that the journal of the study `name` lacks, and gives all those asked for, and
+/// where the journal's times come from. `wrap` makes a case of the epoch of a scene, by its number; `epoch` is its inverse. All scenes of an epoch come before the next one: what changes
 /// on the machine over hours changes all scenes alike.
 ///
 /// # Errors
@@ -152,13 +151,13 @@ pub fn cases<C: Clone + Serialize + DeserializeOwned>(
     terminal: &Terminal,
     wrap: impl Fn(usize, Epoch) -> Result<C, StudyError>,
     epoch_of: impl Fn(&C) -> &Epoch,
-) -> anyhow::Result<(Vec<C>, String)> {
+) -> anyhow::Result<(Vec<C>, Provenance)> {
     let provenance = Provenance::of(&settings.threads);
     let mut journal: Journal<C> = options.folder.journal(name, &settings.kept(), provenance)?;
     let epochs = 0..usize::from(options.epochs);
     let plan: Vec<(usize, usize, String)> =
         epochs.flat_map(|e| scenes.iter().enumerate().map(move |(s, scene)| (s, e, key(scene, e)))).collect();
-    let left = journal.left(plan.iter().map(|(.., key)| key.as_str()))?.len();
+    let left = journal.left(plan.iter().map(|(.., key)| key.as_str())).len();
     let clock = SystemClock::start();
     let mut progress = Progress::over(left, terminal);
     for (s, e, key_of_case) in &plan {
@@ -176,7 +175,7 @@ pub fn cases<C: Clone + Serialize + DeserializeOwned>(
     progress.finish();
     // The journal may hold other scenes as well: those asked for are shown.
     let cases = plan.iter().filter_map(|(.., key)| journal.get(key).cloned()).collect();
-    Ok((cases, journal.provenance().line()))
+    Ok((cases, journal.provenance().clone()))
 }
 
 /// As [`cases`], of a study that is nothing without all of its structures: nothing once one of them has answered wrongly, which is said.
@@ -189,7 +188,7 @@ pub fn measured(
     settings: &Settings,
     scenes: &[Scene],
     terminal: &Terminal,
-) -> anyhow::Result<Option<(Vec<Epoch>, String)>> {
+) -> anyhow::Result<Option<(Vec<Epoch>, Provenance)>> {
     let whole = |_, epoch: Epoch| epoch.is_whole().map(|()| epoch);
     match cases(name, options, settings, scenes, terminal, whole, |epoch: &Epoch| epoch) {
         Ok(cases) => Ok(Some(cases)),

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use crate::cli::terminal::Terminal;
 use crate::measure::Provenance;
 use crate::output::OutputFile;
-use crate::report::{Table, to_json, to_markdown};
+use crate::report::{Export, Table, to_json, to_markdown};
 use crate::study::journal::{Header, Journal, JournalError};
 
 /// Where a study keeps its journal.
@@ -74,15 +74,17 @@ impl Exports {
 }
 
 impl Files {
-    /// Prints `tables` and what is to be said below them, and writes the files that were asked for; `csv` is a whole one.
+    /// Prints `tables` and what is to be said below them, and writes the files that were asked for: `result` as JSON, `rows` as CSV,
+    /// both with the name of the `study` and with `provenance`.
     ///
     /// # Errors
     /// If one cannot be written.
     pub fn tell(
         &self,
         terminal: &Terminal,
+        (study, provenance): (&str, &Provenance),
         result: &impl serde::Serialize,
-        csv: impl FnOnce() -> Vec<u8>,
+        rows: &[impl serde::Serialize],
         tables: &[Table],
         foot: &[String],
     ) -> anyhow::Result<()> {
@@ -91,10 +93,10 @@ impl Files {
         }
         terminal.print_lines(foot)?;
         if let Some(file) = &self.json {
-            file.write(&to_json(result))?;
+            file.write(&to_json(&Export::new(study, provenance, result)))?;
         }
         if let Some(file) = &self.csv {
-            file.write(&csv())?;
+            file.write(&Export::new(study, provenance, rows).to_csv())?;
         }
         if let Some(file) = &self.markdown {
             file.write(&to_markdown(tables, foot))?;

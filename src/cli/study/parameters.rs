@@ -4,7 +4,6 @@ use super::epochs::{Options, measured};
 use crate::cli::Verdict;
 use crate::cli::terminal::Terminal;
 use crate::registry::Registry;
-use crate::report::to_tidy_csv;
 use crate::scene::{Builtin, Scene};
 use crate::study::epoch::Asked;
 use crate::study::parameters::{NAME, result, rows, scenes, structures, tables};
@@ -37,11 +36,11 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
             chosen.push(builtin.scene(None)?);
         }
     }
-    let Some((epochs, foot)) = measured(NAME, &args.options, &settings, &chosen, terminal)? else {
+    let Some((epochs, provenance)) = measured(NAME, &args.options, &settings, &chosen, terminal)? else {
         return Ok(Verdict::Wrong);
     };
     let result = result(&epochs, args.options.seed);
     let shown = tables(&result);
-    files.tell(terminal, &result, || to_tidy_csv(rows(&result)), &shown, &[foot])?;
+    files.tell(terminal, (NAME, &provenance), &result, rows(&result), &shown, &[provenance.line()])?;
     Ok(Verdict::Right)
 }

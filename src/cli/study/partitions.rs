@@ -99,7 +99,11 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     foot.push(Provenance::of(&settings.threads).line());
     terminal.print_lines(&foot)?;
     if let Some(file) = json {
-        file.write(&to_json(&serde_json::json!({ "schema": Record::SCHEMA, "partitions": records })))?;
+        file.write(&to_json(&serde_json::json!({
+            "schema": Record::SCHEMA,
+            "provenance": Provenance::of(&settings.threads),
+            "partitions": records,
+        })))?;
     }
     if let Some(file) = markdown {
         file.write(&to_markdown(&tables(&rows(&records)), &foot))?;

@@ -7,7 +7,7 @@ use crate::cli::terminal::Terminal;
 use crate::measure::{Provenance, SystemClock, Threads};
 use crate::output::OutputFile;
 use crate::registry::Registry;
-use crate::report::{to_json, to_tidy_csv};
+use crate::report::to_json;
 use crate::scene::{Builtin, Scene};
 use crate::study::journal::Journal;
 use crate::study::predictions::{Case, Finding, NAME, Prediction, key, measure, read, result, scenes, table};
@@ -45,14 +45,13 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     let threads = Threads::pinned(1).map_err(anyhow::Error::msg)?;
     let provenance = Provenance::capture(1);
     let settings = serde_json::Map::new();
-    // Counts alone: no machine changes them, so that a journal of any build can be read.
     let mut journal: Journal<Case> = args.folder.journal(NAME, &settings, provenance.clone())?;
     let scenes = scenes()
         .into_iter()
         .map(|name| Ok(Builtin::find(name)?.scene(None)?))
         .collect::<anyhow::Result<Vec<Scene>>>()?;
     let keys: Vec<String> = scenes.iter().map(key).collect();
-    let left = journal.left(keys.iter().map(String::as_str))?;
+    let left = journal.left(keys.iter().map(String::as_str));
     let clock = SystemClock::start();
     let mut progress = Progress::over(left.len(), terminal);
     for (scene, key) in scenes.iter().zip(&keys) {
@@ -76,7 +75,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
             p.findings.iter().map(|finding| Row { prediction: p.number, verdict: p.verdict.words(), finding })
         })
         .collect();
-    files.tell(terminal, &predictions, || to_tidy_csv(&rows), &shown, &[])?;
+    files.tell(terminal, (NAME, &provenance), &predictions, &rows, &shown, &[])?;
     let file = File { schema: 1, predictions: &predictions, provenance };
     OutputFile::check(&args.folder.dir.join("predictions.json"))?.write(&to_json(&file))?;
     Ok(Verdict::Right)

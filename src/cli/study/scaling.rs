@@ -4,7 +4,6 @@ use super::epochs::{Field, cases, verdict};
 use crate::cli::terminal::Terminal;
 use crate::cli::{Verdict, sources};
 use crate::registry::Registry;
-use crate::report::to_tidy_csv;
 use crate::scene::{Scene, WorkloadKind};
 use crate::study::scaling::{Case, Family, LEVELS, NAME, STRUCTURES, result, rows, sphere, tables};
 
@@ -35,7 +34,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     let growths = result(&cases, options.seed);
     let shown = tables(&growths);
     let (mut foot, verdict) = verdict(cases.iter().map(|case| &case.epoch));
-    foot.push(provenance);
-    files.tell(terminal, &growths, || to_tidy_csv(&rows(&growths)), &shown, &foot)?;
+    foot.push(provenance.line());
+    files.tell(terminal, (NAME, &provenance), &growths, &rows(&growths), &shown, &foot)?;
     Ok(verdict)
 }

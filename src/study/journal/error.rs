@@ -39,10 +39,10 @@ pub enum JournalError {
         path.display()
     )]
     Settings { path: PathBuf, differences: String },
-    /// Its cases come from another build or machine, and there are some left to measure.
+    /// Its cases come from another build or machine.
     #[error(
-        "{} was begun by another build or on another machine: {differences}; times of the two must not be mixed: --fresh starts \
-         anew, or name another folder with --dir",
+        "{} was measured by another build or on another machine: {differences}; what it holds is not what this sahara measures: \
+         --fresh starts anew, --dir names another folder, and `sahara report` shows it as it is",
         path.display()
     )]
     Machine { path: PathBuf, differences: String },

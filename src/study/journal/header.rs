@@ -35,13 +35,19 @@ impl Header {
         Self { schema: Self::SCHEMA, study: study.into(), settings, provenance }
     }
 
-    /// Whether a run with this header may go on with a journal that has the header `there`.
+    /// Whether a run with this header may go on with a journal that has the header `there`, or show its cases as its own: those of
+    /// other settings, of another build or of another machine are not what this run would measure.
     pub(super) fn admits(&self, there: &Self, path: &Path) -> Result<(), JournalError> {
         there.is_of(&self.study, path)?;
-        match differences(&there.settings, &self.settings) {
-            differences if differences.is_empty() => Ok(()),
-            differences => Err(JournalError::Settings { path: path.into(), differences }),
+        let settings = differences(&there.settings, &self.settings);
+        if !settings.is_empty() {
+            return Err(JournalError::Settings { path: path.into(), differences: settings });
         }
+        let machine = differences(&there.machine(), &self.machine());
+        if !machine.is_empty() {
+            return Err(JournalError::Machine { path: path.into(), differences: machine });
+        }
+        Ok(())
     }
 
     /// Whether this is the header of a journal of `study` in the form of this version.
@@ -55,20 +61,13 @@ impl Header {
         Ok(())
     }
 
-    /// Whether times of both headers can be compared.
-    pub(super) fn same_machine(&self, there: &Self, path: &Path) -> Result<(), JournalError> {
-        match differences(&there.machine(), &self.machine()) {
-            differences if differences.is_empty() => Ok(()),
-            differences => Err(JournalError::Machine { path: path.into(), differences }),
-        }
-    }
-
     /// What makes a program faster or slower, of all that is known of it.
     fn machine(&self) -> Map<String, Value> {
         let Self { provenance: p, .. } = self;
-        let parts: [(&str, Value); 8] = [
+        let parts: [(&str, Value); 9] = [
             ("version", p.version.as_str().into()),
             ("commit", p.commit.as_str().into()),
+            ("build", p.build.as_str().into()),
             ("rustc", p.rustc.as_str().into()),
             ("profile", p.profile.as_str().into()),
             ("target_features", p.target_features.as_str().into()),

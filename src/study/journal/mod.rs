@@ -21,6 +21,9 @@ use serde::{Deserialize, Serialize};
 pub use error::JournalError;
 pub use header::Header;
 
+/// Name of the journal of `study all`, which holds no measurements: it says which files that run has written.
+pub const OF_ALL: &str = "all";
+
 /// A journal that is open for writing. Nobody else can open it so until it is dropped.
 #[derive(Debug)]
 pub struct Journal<C> {
@@ -29,8 +32,6 @@ pub struct Journal<C> {
     /// Bytes of whole lines.
     length: u64,
     recorded: Recorded<C>,
-    /// Of this run; the one in the file may come from another build or machine.
-    header: Header,
 }
 
 /// What a journal holds.
@@ -55,8 +56,8 @@ impl<C: Serialize + DeserializeOwned> Journal<C> {
     /// is there is thrown away.
     ///
     /// # Errors
-    /// If what is there cannot be read, is no journal of this study, was begun with other settings or is being written by
-    /// another process; or if the file cannot be made.
+    /// If what is there cannot be read, is no journal of this study, was begun with other settings, by another build or on another
+    /// machine, or is being written by another process; or if the file cannot be made.
     pub fn open(path: &Path, header: Header, fresh: bool) -> Result<Self, JournalError> {
         let unwritable = |cause| JournalError::Write { path: path.into(), cause };
         if let Some(folder) = path.parent() {
@@ -82,13 +83,13 @@ impl<C: Serialize + DeserializeOwned> Journal<C> {
             if !header.may_begin(&bytes) {
                 return Err(JournalError::Foreign(path.into()));
             }
-            Recorded { header: header.clone(), cases: vec![], keys: BTreeMap::new() }
+            Recorded { header, cases: vec![], keys: BTreeMap::new() }
         } else {
             Recorded::parse(path, whole, |there| header.admits(there, path))?
         };
-        let mut journal = Self { path: path.into(), file, length: whole.len() as u64, recorded, header };
+        let mut journal = Self { path: path.into(), file, length: whole.len() as u64, recorded };
         if journal.length == 0 {
-            let line = serde_json::to_string(&journal.header).expect("a header has text keys");
+            let line = serde_json::to_string(&journal.recorded.header).expect("a header has text keys");
             journal.write(&line)?;
             journal.sync_folder();
         } else {
@@ -113,27 +114,19 @@ impl<C: Serialize + DeserializeOwned> Journal<C> {
     }
 
     /// Those of `keys` that are not yet measured.
-    ///
-    /// # Errors
-    /// If there are some, and the cases that there are come from another build or machine: their times are not comparable.
-    pub fn left<'a>(&self, keys: impl IntoIterator<Item = &'a str>) -> Result<Vec<&'a str>, JournalError> {
-        let left: Vec<&str> = keys.into_iter().filter(|key| self.get(key).is_none()).collect();
-        if !left.is_empty() {
-            self.same_machine()?;
-        }
-        Ok(left)
+    pub fn left<'a>(&self, keys: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
+        keys.into_iter().filter(|key| self.get(key).is_none()).collect()
     }
 
     /// Keeps a case: when this returns it is on the disk.
     ///
     /// # Errors
-    /// If it cannot be written, which leaves the journal as it was; or as [`Journal::left`].
+    /// If it cannot be written, which leaves the journal as it was.
     ///
     /// # Panics
     /// If there is a case with this key, or the case would not read back.
     pub fn append(&mut self, key: &str, case: C) -> Result<(), JournalError> {
         assert!(self.get(key).is_none(), "the case {key:?} is measured twice");
-        self.same_machine()?;
         let line = serde_json::to_string(&Line { key: key.into(), case: &case }).expect("a case has text keys");
         // Numbers that are infinite or none would be written as null, and make the journal unreadable.
         assert!(serde_json::from_str::<Line<C>>(&line).is_ok(), "the case {key:?} does not read back: {line}");
@@ -151,14 +144,6 @@ impl<C: Serialize + DeserializeOwned> Journal<C> {
         match whole_lines(&bytes) {
             [] => Err(JournalError::Foreign(path.into())),
             whole => Recorded::parse(path, whole, |there| there.is_of(study, path)),
-        }
-    }
-
-    fn same_machine(&self) -> Result<(), JournalError> {
-        if self.recorded.cases.is_empty() {
-            Ok(())
-        } else {
-            self.header.same_machine(&self.recorded.header, &self.path)
         }
     }
 
