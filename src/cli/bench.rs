@@ -14,7 +14,7 @@ use crate::registry::Registry;
 use crate::report::{Record, to_json};
 use crate::scene::WorkloadKind;
 use crate::study::bench::{SCENES, against, new_baseline_path, read_baseline, verdict};
-use crate::study::compare::{Compared, Settings, Trials, scene_table};
+use crate::study::compare::{Compared, Reference, Settings, Trials, scene_table};
 use crate::study::regression::{Comparison, tables};
 use crate::study::{BRUTE_FORCE, Refused, bench, documented_defect};
 
@@ -175,7 +175,7 @@ fn print(
             for scene in scenes {
                 let of: Vec<Record> = run.records.iter().filter(|record| record.scene == scene).cloned().collect();
                 let refused: Vec<Refused> = run.refused.iter().filter(|r| r.scene == scene).cloned().collect();
-                terminal.print_table(&scene_table(&of, &refused, &[]))?;
+                terminal.print_table(&scene_table(&of, &Reference::of(&of, None), &refused, &[]))?;
             }
         }
     }

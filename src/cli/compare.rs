@@ -12,7 +12,7 @@ use crate::measure::{Provenance, SystemClock, Threads, instructions};
 use crate::registry::Registry;
 use crate::report::{Record, Table, to_csv, to_json, to_markdown};
 use crate::scene::WorkloadKind;
-use crate::study::compare::{Settings, Trials, legend, mean_table, scene_table};
+use crate::study::compare::{Reference, Settings, Trials, legend, mean_table, scene_table, winner};
 use crate::study::documented_defect;
 
 #[derive(Debug, Parser)]
@@ -26,6 +26,10 @@ pub struct Args {
     /// How much time the builds of eight-wide trees may take, where a structure is named without a quality of its own
     #[arg(long, value_parser = sources::QUALITIES)]
     quality: Option<String>,
+    /// The structure that speeds are related to; takes part even if it is not among those named [default: median-kd and the better
+    /// BVH of obvhs; without them the first one]
+    #[arg(long, value_name = "NAME[:key=value,..]")]
+    reference: Option<String>,
     /// A kind of rays; may be repeated [default: primary, shadow, diffuse, random]
     #[arg(long, short, value_name = "KIND")]
     workload: Vec<WorkloadKind>,
@@ -70,7 +74,15 @@ const DEFAULT_WORKLOADS: [WorkloadKind; 4] =
 
 pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Result<Verdict> {
     // Everything that can be refused is refused before the long run.
-    let structures = sources::structures_at(registry, &args.structure, args.quality.as_deref())?;
+    let mut structures = sources::structures_at(registry, &args.structure, args.quality.as_deref())?;
+    let reference = args.reference.as_ref().map(|spec| {
+        let choice = sources::structures_at(registry, std::slice::from_ref(spec), args.quality.as_deref())?.remove(0);
+        if structures.iter().all(|other| other.label != choice.label) {
+            structures.push(choice.clone());
+        }
+        anyhow::Ok(choice.label)
+    });
+    let reference = reference.transpose()?;
     let threads = Threads::pinned(args.threads.into()).map_err(anyhow::Error::msg)?;
     let output = |path: &PathBuf| sources::output(path, &args.scenes, args.rays.file());
     let check = |path: &Option<PathBuf>| path.as_ref().map(output).transpose();
@@ -108,12 +120,13 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
         // What is measured of the other scenes is not lost: it is printed and exported before the run ends.
         failure = failure.or(done.err());
     }
+    let references = |records: &[Record]| Reference::of(records, reference.as_deref());
     let (mut records, mut tables): (Vec<Record>, Vec<Table>) = (vec![], vec![]);
     let mut refused = false;
     for (name, of_scene) in trials.results() {
         progress.warn(of_scene.records.first().iter().flat_map(|record| &record.provenance.warnings));
         let notes = scenes.iter().find(|scene| scene.name == name).map_or(&[][..], |scene| &scene.notes);
-        let mut table = scene_table(&of_scene.records, &of_scene.refused, notes);
+        let mut table = scene_table(&of_scene.records, &references(&of_scene.records), &of_scene.refused, notes);
         refused |= !of_scene.refused.is_empty();
         if of_scene.records.is_empty() && of_scene.refused.is_empty() {
             table.title = format!("{name}: none of the workloads asked for has a ray in this scene");
@@ -128,15 +141,18 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     progress.finish();
 
     if tables.len() > 1 {
-        let means = mean_table(&records);
-        terminal.print_table(&means)?;
-        tables.push(means);
+        let means = mean_table(&records, &references(&records));
+        if means.says_something() {
+            terminal.print_table(&means)?;
+            tables.push(means);
+        }
     }
-    let mut foot = records.first().map_or(vec![], |first| legend(&first.workload));
+    let mut foot = records.first().map_or(vec![], |first| legend(&first.workload, &references(&records)));
     if !records.is_empty() && records.iter().all(|r| r.instructions_per_ray.is_none()) {
         foot.push(instructions::ABSENT.into());
     }
     foot.push(Provenance::of(&settings.threads).line());
+    foot.extend(winner(&records, reference.as_deref()));
     terminal.print_lines(&foot)?;
 
     if let Some(file) = json {

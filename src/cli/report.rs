@@ -39,6 +39,9 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     let document = document(&runs, pictures);
     folder.write(&files(&document, &runs))?;
 
+    if !document.answer.banner.is_empty() {
+        terminal.print_lines(std::slice::from_ref(&document.answer.banner))?;
+    }
     terminal.print(&format!("{} {}.\n", document.title, document.answer.verdict))?;
     for number in &document.answer.numbers {
         terminal.print(&format!("  {}: {} {}\n", number.label, number.number, number.interval))?;

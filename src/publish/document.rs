@@ -15,6 +15,8 @@ pub struct Document {
 /// What a reader must know who reads nothing else.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Answer {
+    /// What a reader must know before the verdict; empty where there is nothing.
+    pub banner: String,
     /// One or two words.
     pub verdict: String,
     /// The sentences that say why, the most important first.

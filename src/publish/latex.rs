@@ -17,8 +17,11 @@ const HEAD: &str = r"\documentclass[a4paper]{article}
 /// The text of the file.
 pub fn latex(document: &Document) -> String {
     let mut text = HEAD.to_owned();
-    text +=
-        &format!("\\section*{{{}}}\n\\textbf{{{}.}}\n\n", escaped(&document.title), escaped(&document.answer.verdict));
+    text += &format!("\\section*{{{}}}\n", escaped(&document.title));
+    if !document.answer.banner.is_empty() {
+        text += &format!("\\fbox{{\\parbox{{0.95\\textwidth}}{{{}}}}}\n\n", escaped(&document.answer.banner));
+    }
+    text += &format!("\\textbf{{{}.}}\n\n", escaped(&document.answer.verdict));
     for number in &document.answer.numbers {
         let words = [&number.label, &number.number, &number.interval].map(|words| escaped(words));
         text += &format!("{}: \\textbf{{{}}} {}\\\\\n", words[0], words[1], words[2]);

@@ -6,7 +6,11 @@ use crate::report::escaped;
 
 /// The text of the file.
 pub fn markdown(document: &Document) -> String {
-    let mut text = format!("# {}\n\n**{}.**\n\n", escaped(&document.title), escaped(&document.answer.verdict));
+    let mut text = format!("# {}\n\n", escaped(&document.title));
+    if !document.answer.banner.is_empty() {
+        text += &format!("> **{}**\n\n", escaped(&document.answer.banner));
+    }
+    text += &format!("**{}.**\n\n", escaped(&document.answer.verdict));
     for number in &document.answer.numbers {
         text += &format!("- {}: **{}** {}\n", escaped(&number.label), escaped(&number.number), number.interval);
     }

@@ -51,6 +51,7 @@ pub fn draw(runs: &Runs, registry: &Registry, find: Find, progress: &mut dyn FnM
         }
     }
     let mut thumbnails = vec![];
+    let all_builtin = shown.iter().all(|one| Builtin::find(&one.argument).is_ok());
     for one in &shown {
         progress(&one.scene.name);
         match thumbnail(one, registry) {
@@ -65,7 +66,7 @@ pub fn draw(runs: &Runs, registry: &Registry, find: Find, progress: &mut dyn FnM
         progress(&one.scene.name);
         heat.extend(heat_figure(one, runs, registry));
     }
-    vec![heat_section(heat), scene_section(thumbnails, &lost)]
+    vec![heat_section(heat), scene_section(thumbnails, all_builtin, &lost)]
 }
 
 /// The sections of a report without pictures, which say so.
@@ -212,24 +213,25 @@ fn heat_section(figures: Vec<Figure>) -> Section {
     if figures.is_empty() {
         blocks.push(Block::missing("Heat maps of the structures", "sahara compare --export-json runs/compare.json"));
     } else {
-        blocks.push(Block::Text(
-            "Where the work is: brighter pixels cost more triangle tests and steps. Two structures can be laid one upon the \
-             other; the slider moves the border between them."
-                .into(),
-        ));
+        blocks.push(Block::Text("Where the work is: brighter pixels cost more triangle tests and steps.".into()));
         blocks.extend(figures.into_iter().map(Block::Figure));
     }
     Section { id: "heat", title: HEAT_TITLE, blocks }
 }
 
-fn scene_section(thumbnails: Vec<Thumbnail>, lost: &[String]) -> Section {
+fn scene_section(thumbnails: Vec<Thumbnail>, all_builtin: bool, lost: &[String]) -> Section {
     let mut blocks = vec![];
     if !thumbnails.is_empty() {
         let rows = thumbnails.iter().map(|t| [t.name.clone(), t.note.clone()]).collect();
         blocks.push(Block::Figure(Figure {
             id: "scenes".into(),
-            caption: "The scenes as they were traced, rendered by sahara with the source report's cameras, lights and materials."
-                .into(),
+            caption: if all_builtin {
+                "The scenes as they were traced, rendered by sahara with the source report's cameras, lights and materials."
+            } else {
+                "The scenes as they were traced, rendered by sahara: the built-in ones with the source report's cameras, lights and \
+                 materials, those of scene files with their own, and meshes with a camera that has them whole in view."
+            }
+            .into(),
             alt: String::new(),
             command: "sahara render SCENE -o SCENE.png".into(),
             art: Art::Gallery(thumbnails),

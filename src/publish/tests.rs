@@ -12,6 +12,8 @@ use crate::study::attribution;
 use crate::study::epoch::{Epoch, tests as epoch};
 use crate::study::journal::Header;
 
+mod statements;
+
 /// What a user may call a scene.
 const EVIL: &str = "<script>alert(\"&'1'\")</script>";
 

@@ -89,6 +89,31 @@ impl Table {
         text
     }
 
+    /// The same table without the columns in which no row says anything; the first one stays.
+    pub fn without_blank_columns(mut self) -> Self {
+        if self.rows.is_empty() {
+            return self;
+        }
+        let says = |i: usize| i == 0 || self.rows.iter().any(|row| !row[i].text.is_empty());
+        let kept: Vec<bool> = (0..self.columns.len()).map(says).collect();
+        let keep = |i: &mut usize| {
+            *i += 1;
+            kept[*i - 1]
+        };
+        let (mut i, columns) = (0, &mut self.columns);
+        columns.retain(|_| keep(&mut i));
+        for row in &mut self.rows {
+            let mut i = 0;
+            row.retain(|_| keep(&mut i));
+        }
+        self
+    }
+
+    /// Whether it has rows that say something beside their names.
+    pub fn says_something(&self) -> bool {
+        self.rows.iter().flat_map(|row| row.iter().skip(1)).any(|cell| !cell.text.is_empty())
+    }
+
     /// The columns in groups that fit side by side, the first column in each.
     fn blocks(&self, width: Option<usize>) -> Vec<Vec<usize>> {
         let widest = |i: usize| {
@@ -167,7 +192,8 @@ impl Table {
 
 /// Tables and the lines below them as one Markdown document.
 pub fn to_markdown(tables: &[Table], foot: &[String]) -> Vec<u8> {
-    let tables: String = tables.iter().map(|table| table.to_markdown() + "\n").collect();
+    let tables: String =
+        tables.iter().map(|table| table.clone().without_blank_columns().to_markdown() + "\n").collect();
     let foot: Vec<String> = foot.iter().map(|line| escaped(line)).collect();
     (tables + &foot.join("\n\n") + "\n").into_bytes()
 }
@@ -260,6 +286,23 @@ mod tests {
         }
         let narrow = wide.to_terminal(Screen { width: Some(26), colour: false });
         assert!(narrow.matches("brute|force").count() > 1, "every block begins with the first column: {narrow}");
+    }
+
+    #[test]
+    fn columns_that_say_nothing_are_left_out() {
+        let mut wide = table();
+        wide.columns.insert(1, "peak".into());
+        wide.rows.iter_mut().for_each(|row| row.insert(1, Cell::blank()));
+        assert_eq!(wide.clone().without_blank_columns(), table());
+        wide.rows[1][1] = "1".into();
+        assert_eq!(wide.clone().without_blank_columns(), wide);
+        let names = Table {
+            columns: vec!["structure".into(), "all".into()],
+            rows: vec![vec!["a".into(), Cell::blank()]],
+            ..table()
+        };
+        assert!(!names.says_something() && table().says_something());
+        assert_eq!(names.without_blank_columns().columns, ["structure"]);
     }
 
     #[test]

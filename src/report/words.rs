@@ -13,10 +13,9 @@ pub fn interval(x: Interval) -> String {
     if x.low == x.high { figures(x.estimate) } else { format!("{} {}", figures(x.estimate), ends(x)) }
 }
 
-/// `[19.2, 21.4]`; `[?]` where it is not known.
+/// `[19.2, 21.4]`; `[?]` where it is not known: of a single sample, or when it reaches from nearly nothing to a great multiple.
 pub fn ends(x: Interval) -> String {
-    // Of a single sample.
-    if x.high > 1e100 * x.estimate {
+    if x.low > 0.0 && x.high > 1e4 * x.low {
         return "[?]".into();
     }
     format!("[{}, {}]", figures(x.low), figures(x.high))
@@ -43,6 +42,9 @@ mod tests {
         assert_eq!(interval(spread), "2.00 [1.50, 2.50]");
         assert_eq!(interval(Interval { low: 2.0, high: 2.0, ..spread }), "2.00");
         assert_eq!(interval(Interval { low: 1e-200, high: 1e200, ..spread }), "2.00 [?]");
+        assert_eq!(interval(Interval { low: 2e-4, high: 4580.56, ..spread }), "2.00 [?]");
+        assert_eq!(interval(Interval { low: 0.00421, high: 2.5, ..spread }), "2.00 [0.00421, 2.50]");
+        assert_eq!(interval(Interval { estimate: -0.5, low: -0.75, high: 0.25 }), "-0.500 [-0.750, 0.250]");
         assert_eq!(scene_name("Dragon", true), "Dragon (stand-in)");
     }
 }

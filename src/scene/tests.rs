@@ -225,7 +225,8 @@ fn the_hash_sees_all_that_rays_and_answers_depend_on() {
 
     let plain = scene(PLAIN).unwrap();
     let light = Light { position: Vec3::ONE, colour: Vec3::ONE, linear: 0.0, quadratic: 0.0 };
-    let changes: [(&str, fn(&mut Scene, Light)); 13] = [
+    type Change = fn(&mut Scene, Light);
+    let changes: [(&str, Change); 13] = [
         ("a light", |scene, light| scene.lights.push(light)),
         ("where a light is", |scene, light| scene.lights = vec![Light { position: Vec3::ZERO, ..light }]),
         ("how a light fades", |scene, light| scene.lights = vec![Light { quadratic: 0.5, ..light }]),

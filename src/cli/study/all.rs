@@ -1,4 +1,5 @@
-//! `study all`: everything that the report shows, in one run that can be killed and goes on.
+//! `study all`: everything that the report shows, in one run that can be killed and goes on: with the epoch that it was measuring in
+//! steps that keep a journal, from the beginning of the step in those that write at their end.
 
 use std::path::{Path, PathBuf};
 use std::time::Instant;

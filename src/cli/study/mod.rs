@@ -39,7 +39,7 @@ enum Name {
     Parameters(parameters::Args),
     /// What was expected, and what came of it: each confirmed or refuted
     Predictions(predictions::Args),
-    /// Every study, `compare` and `replicate`: a run that can be killed and goes on
+    /// Every study, `compare` and `replicate`: a run that is killed goes on with the step, or the epoch of one, that it was at
     All(all::Args),
     /// How do time, build and memory grow with the number of triangles?
     Scaling(scaling::Args),

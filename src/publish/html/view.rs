@@ -24,6 +24,7 @@ pub struct PageView {
 
 #[derive(Serialize)]
 struct AnswerView {
+    banner: Vec<SpanView>,
     verdict: String,
     sentences: Vec<Vec<SpanView>>,
     numbers: Vec<HeadlineView>,
@@ -133,6 +134,7 @@ fn answer(answer: &Answer) -> AnswerView {
         label: n.label.clone(),
     });
     AnswerView {
+        banner: if answer.banner.is_empty() { vec![] } else { spans(&answer.banner) },
         verdict: answer.verdict.clone(),
         sentences: answer.sentences.iter().map(|sentence| spans(sentence)).collect(),
         numbers: numbers.collect(),

@@ -61,11 +61,23 @@ const SCENES: usize = 3;
 /// From this on a tree is called much faster: half of the time.
 const MUCH: f64 = 2.0;
 
+/// That the runs were made for trying out, where one of them was.
+fn banner(runs: &Runs) -> String {
+    let quick = |command: &str| command.split(' ').any(|word| word == "--quick");
+    if !runs.provenances().iter().any(|provenance| quick(&provenance.command)) {
+        return String::new();
+    }
+    "A quick look, for trying out: these runs were made with --quick, on few scenes, few rays and few epochs. Their numbers and what \
+     follows from them mean little; `sahara study all` without --quick measures them."
+        .into()
+}
+
 /// The answer, or that there is none yet.
 pub fn answer(runs: &Runs) -> Answer {
     let (hard, mean) = hard(runs);
     if hard.is_empty() {
         return Answer {
+            banner: banner(runs),
             verdict: "Not measured".into(),
             sentences: vec![format!(
                 "These runs hold no times of {REPORT_TREE} and {SAH_TREE} on Dragon, Lucy or Sponza: `sahara replicate \
@@ -115,5 +127,5 @@ pub fn answer(runs: &Runs) -> Answer {
         interval: ends(mean),
         label: "geometric mean".into(),
     });
-    Answer { verdict, sentences, numbers: numbers.chain(mean).collect() }
+    Answer { banner: banner(runs), verdict, sentences, numbers: numbers.chain(mean).collect() }
 }

@@ -6,6 +6,7 @@ use crate::publish::runs::Runs;
 use crate::publish::words::{slug, table};
 use crate::report::number::figures;
 use crate::report::plot::{Chart, CurvePoint, Curves, Line, Mark, Scale};
+use crate::report::words::interval;
 use crate::study::scaling::{Family, Growth, Point, tables};
 
 /// What is drawn over the number of triangles.
@@ -96,7 +97,7 @@ fn figure(group: &[Growth], quantity: &Quantity, command: &str) -> Figure {
     });
     let told = group.iter().filter_map(|growth| {
         let power = (quantity.power)(growth)?;
-        Some(format!("{}: power {:.2} [{:.2}, {:.2}]", growth.structure, power.estimate, power.low, power.high))
+        Some(format!("{}: power {}", growth.structure, interval(power)))
     });
     let told: Vec<String> = told.collect();
     let rays = if quantity.id == TIME.id { format!(" {} rays;", first.workload) } else { String::new() };

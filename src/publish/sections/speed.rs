@@ -8,7 +8,7 @@ use crate::report::number::count;
 use crate::report::plot::{Bar, BarGroup, Bars, Chart};
 use crate::report::words::{interval, scene_name};
 use crate::report::{Record, Table};
-use crate::study::compare::{legend, mean_table, scene_table, speed};
+use crate::study::compare::{Reference, legend, mean_table, scene_table, speed};
 use crate::study::{BRUTE_FORCE, REPORT_TREE};
 
 /// Equal.
@@ -30,15 +30,18 @@ pub fn section(runs: &Runs) -> Section {
              of paired samples, with the interval that holds the ratio of another run in 95 % of cases."
                 .into(),
         ));
-        let means = mean_table(&runs.records);
-        blocks.push(Block::table(means, &command(&runs.records)));
+        let references = Reference::of(&runs.records, None);
+        let means = mean_table(&runs.records, &references);
+        if means.says_something() {
+            blocks.push(Block::table(means, &command(&runs.records)));
+        }
         let of = |scene: &String| runs.records.iter().filter(|r| r.scene == *scene).cloned().collect::<Vec<_>>();
         // The largest scenes are what the question is about.
         let mut order: Vec<Vec<Record>> = scenes.iter().map(of).collect();
         order.sort_by_key(|records| std::cmp::Reverse(records[0].triangles));
         let rest = order.split_off(order.len().min(OPEN));
         blocks.extend(order.iter().flat_map(|records| of_scene(records)));
-        blocks.extend(legend(&runs.records[0].workload).into_iter().map(Block::Note));
+        blocks.extend(legend(&runs.records[0].workload, &references).into_iter().map(Block::Note));
         if !rest.is_empty() {
             let name = format!("The other {} scenes", rest.len());
             blocks.push(Block::Fold(name, rest.iter().flat_map(|records| of_scene(records)).collect()));
@@ -106,7 +109,10 @@ fn of_scene(records: &[Record]) -> Vec<Block> {
         })),
         data,
     };
-    vec![Block::Figure(figure), Block::table(scene_table(records, &[], &[]), &command(records))]
+    vec![
+        Block::Figure(figure),
+        Block::table(scene_table(records, &Reference::of(records, None), &[], &[]), &command(records)),
+    ]
 }
 
 fn data(labels: &[String], groups: &[BarGroup], workloads: &[String]) -> Table {

@@ -35,8 +35,8 @@ pub struct Attribution {
     pub tests: Split,
     /// The same: nodes entered.
     pub steps: Split,
-    /// How many times faster the exact SAH plane is than the report's, both with leaves of at most eight triangles and plane
-    /// intervals.
+    /// How many times faster the exact SAH plane is than the report's, where both stop at eight triangles, as far as planes
+    /// divide them, and have plane intervals.
     pub plane_alone: Interval,
 }
 

@@ -21,7 +21,7 @@ pub fn headlines(results: &[Attribution]) -> Table {
     columns.push("plane alone".into());
     let mut notes = vec![
         "whole: how many times faster the SAH tree is than the report's; the three parts multiply to it. plane alone: exact SAH against \
-         the report's plane where both have leaves of at most 8 triangles and plane intervals. [95 %: of another run of the same plan]"
+         the report's plane where both stop at 8 triangles, as far as planes divide them, and have plane intervals. [95 %: of another run of the same plan]"
             .to_owned(),
     ];
     notes.extend(results.iter().map(sentence));

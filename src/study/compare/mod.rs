@@ -2,8 +2,10 @@
 
 mod cells;
 mod epoch;
+mod means;
 mod prepare;
 mod records;
+mod reference;
 mod table;
 #[cfg(test)]
 mod tests;
@@ -18,7 +20,9 @@ use crate::scene::{Workload, WorkloadKind};
 
 pub use cells::{speed, twins};
 pub use epoch::Trial;
-pub use table::{legend, mean_table, scene_table};
+pub use means::{mean_table, winner};
+pub use reference::Reference;
+pub use table::{legend, scene_table};
 pub use trials::Trials;
 
 /// What is compared, and for how long.

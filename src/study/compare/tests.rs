@@ -166,7 +166,7 @@ fn a_structure_that_panics_is_refused_and_the_others_go_on() {
     refused.sort_unstable();
     assert_eq!(refused, [specs[0], specs[2]]);
     assert!(compared.records.len() == 2 && compared.records.iter().all(|r| r.label == "brute-force"));
-    let table = scene_table(&compared.records, &compared.refused, &[]);
+    let table = scene_table(&compared.records, &Reference::of(&compared.records, None), &compared.refused, &[]);
     assert_eq!(table.rows.len(), 3);
     assert!(compared.refused.iter().all(|r| table.notes.iter().any(|note| note.contains(&r.reason))), "{table:?}");
 }

@@ -3,6 +3,7 @@
 use super::{Crossing, Race};
 use crate::measure::Interval;
 use crate::report::number::{count, figures};
+use crate::report::words::interval;
 use crate::report::{Cell, Table, Tone};
 
 /// The answer first, then for each kind of rays the ratios along the family.
@@ -50,8 +51,7 @@ fn answers(races: &[Race]) -> Table {
         let (from, to) = ends.map_or((Cell::blank(), Cell::blank()), |(first, last)| {
             (short(first.ratio).into(), short(last.ratio).into())
         });
-        let trend =
-            race.trend.map_or(Cell::blank(), |x| format!("{:.2} [{:.2}, {:.2}]", x.estimate, x.low, x.high).into());
+        let trend = race.trend.map_or(Cell::blank(), |x| interval(x).into());
         let pair = format!("{} / {}, {}", name(&race.kd), name(&race.bvh), race.workload);
         vec![pair.into(), from, to, trend, verdict(race).into()]
     });

@@ -3,6 +3,7 @@
 use super::Row;
 use crate::measure::Interval;
 use crate::report::number::{count, figures};
+use crate::report::words;
 use crate::report::{Cell, Table, Tone};
 
 /// One table for each scene: speeds, then what explains them.
@@ -39,7 +40,7 @@ fn table(rows: Vec<&Row>) -> Table {
 }
 
 fn interval(x: Option<Interval>) -> String {
-    x.map_or(String::new(), |x| format!("{:.2} [{:.2}, {:.2}]", x.estimate, x.low, x.high))
+    x.map_or(String::new(), words::interval)
 }
 
 /// What the columns mean.

@@ -3,6 +3,7 @@
 use super::Growth;
 use crate::measure::Interval;
 use crate::report::number::{bytes, count, duration, figures};
+use crate::report::words::interval;
 use crate::report::{Cell, Table};
 
 /// For each family and kind of rays the exponents, then the points they come from.
@@ -18,7 +19,7 @@ pub fn tables(growths: &[Growth]) -> Vec<Table> {
 }
 
 fn power(x: Option<Interval>) -> Cell {
-    x.map_or(Cell::blank(), |x| format!("{:.2} [{:.2}, {:.2}]", x.estimate, x.low, x.high).into())
+    x.map_or(Cell::blank(), |x| interval(x).into())
 }
 
 fn title(group: &[&Growth], what: &str) -> String {

@@ -1,3 +1,4 @@
+use super::super::{mean_table as mean_table_of, winner};
 use super::*;
 use crate::report::example_record;
 
@@ -19,10 +20,21 @@ fn record(scene: &str, label: &str, workload: &str, mrays_per_s: Option<f64>) ->
     }
 }
 
-fn cell<'a>(table: &'a Table, row: &str, column: &str) -> &'a str {
+fn scene_table(records: &[Record], refused: &[Refused], notes: &[String]) -> Table {
+    super::scene_table(records, &Reference::of(records, None), refused, notes)
+}
+
+fn mean_table(records: &[Record]) -> Table {
+    mean_table_of(records, &Reference::of(records, None))
+}
+
+/// What a cell says, without an interval that holds one number alone: its ends may differ in their last bits.
+fn cell(table: &Table, row: &str, column: &str) -> String {
     let column = table.columns.iter().position(|c| c == column).unwrap_or_else(|| panic!("no column {column}"));
     let row = table.rows.iter().find(|r| r[0].text == row).unwrap_or_else(|| panic!("no row {row}"));
-    &row[column].text
+    let text = &row[column].text;
+    let figure = text.split(' ').next().unwrap();
+    text.replace(&format!(" [{figure}, {figure}]"), "")
 }
 
 fn records() -> Vec<Record> {
@@ -41,11 +53,11 @@ fn records() -> Vec<Record> {
 #[test]
 fn ratios_are_geometric_means_against_the_tree_and_the_better_bvh() {
     let table = scene_table(&records(), &[], &[]);
-    assert_eq!(cell(&table, "sah-kd", "x median"), "4.00 [4.00, 4.00]");
-    assert_eq!(cell(&table, "sah-kd", "x obvhs"), "1.41 [1.41, 1.41]");
+    assert_eq!(cell(&table, "sah-kd", "x median"), "4.00");
+    assert_eq!(cell(&table, "sah-kd", "x obvhs"), "1.41");
     assert_eq!(cell(&table, "median-kd", "x median"), "1.00");
     assert_eq!(cell(&table, "sah-kd", "primary"), "8.00");
-    assert_eq!(cell(&table, "sah-kd", "tests"), "", "unknown is blank");
+    assert!(!table.columns.iter().any(|column| column == "tests"), "what is unknown of all has no column");
     assert_eq!(cell(&table, "sah-kd", "sampled"), "50.0%");
 }
 
@@ -56,9 +68,11 @@ fn what_is_declined_is_neither_right_nor_wrong() {
         Record { mrays_per_s: None, declined: Some("any hit".into()), structure_errors: Some(0), ..records[3].clone() };
     let table = scene_table(&records, &[], &[]);
     assert_eq!(cell(&table, "sah-kd", "random"), "declined");
-    assert_eq!(cell(&table, "sah-kd", "x median"), "8.00 [8.00, 8.00]", "of the workloads that it does not decline");
+    assert_eq!(cell(&table, "sah-kd", "x median"), "8.00", "of the workloads that it does not decline");
     assert_eq!(table.notes, ["sah-kd declines any hit, which random rays need."]);
-    assert_eq!(mean_table(&records).notes, ["1 case that a structure declines left out."]);
+    let means = mean_table(&records);
+    assert_eq!(means.notes[0], "1 case that a structure declines left out.");
+    assert_eq!(cell(&means, "sah-kd", "all x median"), "8.00 (1 of 2)");
 }
 
 #[test]
@@ -92,9 +106,9 @@ fn means_over_scenes_say_what_they_leave_out() {
     let table = mean_table(&all);
     assert_eq!(cell(&table, "sah-kd", "primary"), "4.00");
     assert_eq!(cell(&table, "sah-kd", "random"), "2.00");
-    assert_eq!(cell(&table, "obvhs-bvh2", "primary"), "4.00");
+    assert_eq!(cell(&table, "obvhs-bvh2", "primary"), "4.00 (1 of 2)");
     assert!(table.title.contains("2 scenes"));
-    assert_eq!(table.notes, ["1 case with wrong answers left out."]);
+    assert_eq!(table.notes[0], "1 case with wrong answers left out.");
 }
 
 #[test]
@@ -109,7 +123,7 @@ fn what_lies_within_the_noise_is_said_to_be_no_difference() {
         record.mrays_per_s = Some(1.0);
     }
     let table = scene_table(&records, &[], &[]);
-    assert_eq!(cell(&table, "sah-kd", "x obvhs"), "1.00", "the same samples");
+    assert_eq!(cell(&table, "sah-kd", "x obvhs"), "1.00 [0.980, 1.02] =", "the same samples");
     records[2].samples_ns = vec![1.01e6, 1e6, 1.01e6, 1e6, 1e6];
     let table = scene_table(&records, &[], &[]);
     assert!(cell(&table, "sah-kd", "x obvhs").ends_with(" ="), "{table:?}");
@@ -117,8 +131,51 @@ fn what_lies_within_the_noise_is_said_to_be_no_difference() {
 }
 
 #[test]
-fn without_baselines_there_are_no_columns_for_them() {
-    let table = scene_table(&[record("A", "sah-kd", "primary", Some(1.0))], &[], &["flat".into()]);
-    assert!(!table.columns.iter().any(|c| c.starts_with("x ")), "{:?}", table.columns);
+fn without_the_usual_references_the_first_structure_is_the_reference() {
+    let records = [record("A", "sah-kd", "primary", Some(1.0)), record("A", "sah-bvh", "primary", Some(2.0))];
+    let table = scene_table(&records, &[], &["flat".into()]);
+    assert!(!table.columns.iter().any(|c| c == "x median" || c == "x obvhs"), "{:?}", table.columns);
+    assert_eq!([cell(&table, "sah-bvh", "x sah-kd"), cell(&table, "sah-kd", "x sah-kd")], ["2.00", "1.00"]);
     assert_eq!(table.notes, ["flat"]);
+    let named = super::scene_table(&records, &Reference::of(&records, Some("sah-bvh")), &[], &[]);
+    assert_eq!(cell(&named, "sah-kd", "x sah-bvh"), "0.500");
+    assert!(legend("primary", &Reference::of(&records, None)).iter().any(|line| line.starts_with("x sah-kd: ")));
+}
+
+#[test]
+fn a_mean_over_fewer_scenes_names_its_count_and_is_not_ranked() {
+    let mut all = vec![];
+    for (scene, fast) in [("A", Some(9.0)), ("B", None), ("C", Some(9.0))] {
+        all.push(record(scene, "median-kd", "primary", Some(1.0)));
+        all.push(record(scene, "sah-kd", "primary", Some(2.0)));
+        all.push(record(scene, "sah-bvh", "primary", fast));
+    }
+    let table = mean_table(&all);
+    assert_eq!([cell(&table, "sah-kd", "primary"), cell(&table, "sah-bvh", "primary")], ["2.00", "9.00 (2 of 3)"]);
+    assert_eq!(cell(&table, "sah-bvh", "all x median"), "9.00 (2 of 3)");
+    let best = |row: &str| table.rows.iter().find(|r| r[0].text == row).unwrap()[1].tone;
+    assert_eq!((best("sah-kd"), best("sah-bvh")), (Tone::Best, Tone::Plain));
+    assert!(table.notes.iter().any(|note| note.starts_with("(n of m)")), "{:?}", table.notes);
+    // Where the reference has no time nobody is compared, and nobody lacks anything.
+    all[0].mrays_per_s = None;
+    assert_eq!(cell(&mean_table(&all), "sah-bvh", "primary"), "9.00 (1 of 2)");
+    assert!(!mean_table(&all[..1]).says_something());
+}
+
+#[test]
+fn the_last_line_says_who_won_by_how_much() {
+    let said = winner(&records(), None).unwrap();
+    let text = "Over 1 scene and 2 kinds of rays, sah-kd answers 2.00 times as many rays a second as obvhs-cwbvh [2.00, 2.00]; \
+                nothing wrong in 200 checked rays.";
+    assert_eq!(said, text);
+    let against = winner(&records(), Some("median-kd")).unwrap();
+    assert!(against.contains("sah-kd answers 4.00 times as many rays a second as median-kd [4.00, 4.00]"), "{against}");
+    // The winner itself is no rival of its own.
+    assert_eq!(winner(&records(), Some("sah-kd")).unwrap(), text);
+    // What has no time in a case takes no part, and what is alone has not won.
+    let mut some = records();
+    some[3] = Record { mrays_per_s: None, structure_errors: Some(2), ..some[3].clone() };
+    let said = winner(&some, None).unwrap();
+    assert!(said.contains("obvhs-cwbvh answers") && said.ends_with("some of the cases: 1 structure."), "{said}");
+    assert_eq!(winner(&records()[..2], None), None);
 }

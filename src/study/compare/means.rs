@@ -1,0 +1,155 @@
+//! Means over scenes, and who won.
+
+use super::reference::{Reference, cell};
+use super::table::{control, names};
+use super::twins;
+use crate::measure::Difference;
+use crate::report::number::{count, figures, plural};
+use crate::report::words::interval;
+use crate::report::{Cell, Record, Table, Tone};
+
+/// Speeds over all scenes: one row for each structure; a column for each workload, and one for all of them, against the first of
+/// the `references`, and one for all against each other reference.
+///
+/// A mean is over the cases in which the reference has a time. A row that lacks some of them names how many it has, and takes no part in
+/// what is the best of a column: means over different scenes cannot be ranked.
+pub fn mean_table(records: &[Record], references: &[Reference]) -> Table {
+    let workloads = names(records, |r| &r.workload);
+    let structures = names(records, |r| &r.label);
+    let scenes = names(records, |r| &r.scene);
+    let floor = twins(records).log().unwrap_or(0.0);
+
+    // The cells of one column: of every structure, and which of them are over all cases.
+    let column = |reference: &Reference, workload: Option<&str>| -> Vec<Cell> {
+        let asked = |r: &&Record| workload.is_none_or(|w| r.workload == w);
+        // A case is there if the reference has a time; what the reference itself is does not matter.
+        let mut cases: Vec<(&str, &str)> = vec![];
+        for record in records.iter().filter(asked) {
+            let case = (record.scene.as_str(), record.workload.as_str());
+            if !cases.contains(&case) && reference.rival(records, record).is_some() {
+                cases.push(case);
+            }
+        }
+        let of = |label: &String| {
+            let pairs = reference.pairs(records, records.iter().filter(asked).filter(|r| r.label == *label));
+            (Reference::ratio(&pairs, floor), pairs.len())
+        };
+        let rows: Vec<_> = structures.iter().map(of).collect();
+        let whole =
+            rows.iter().filter(|(_, n)| *n == cases.len()).filter_map(|(ratio, _)| Some(ratio.as_ref()?.estimate));
+        let best = whole.max_by(f64::total_cmp);
+        let shown = |(ratio, n): &(Option<_>, usize)| match ratio {
+            None => Cell::blank(),
+            Some(_) => {
+                let text = if workload.is_some() {
+                    ratio.map_or(String::new(), |ratio: crate::measure::Interval| figures(ratio.estimate))
+                } else {
+                    cell(*ratio, floor).text
+                };
+                if *n < cases.len() {
+                    return format!("{text} ({n} of {})", cases.len()).into();
+                }
+                let is_best = ratio.map(|ratio| ratio.estimate) == best;
+                Cell::from(text).with(if is_best { Tone::Best } else { Tone::Plain })
+            }
+        };
+        rows.iter().map(shown).collect()
+    };
+
+    let mut columns = vec!["structure".to_owned()];
+    let mut cells = vec![];
+    for (i, reference) in references.iter().enumerate() {
+        if i == 0 {
+            columns.extend(workloads.iter().cloned());
+            cells.extend(workloads.iter().map(|w| column(reference, Some(w))));
+        }
+        columns.push(format!("all x {}", reference.name()));
+        cells.push(column(reference, None));
+    }
+    let row = |(i, label): (usize, &String)| {
+        std::iter::once(Cell::from(label.as_str())).chain(cells.iter().map(|column| column[i].clone())).collect()
+    };
+    let rows: Vec<Vec<Cell>> = structures.iter().enumerate().map(row).collect();
+
+    let untimed = || records.iter().filter(|r| r.mrays_per_s.is_none());
+    let wrong = untimed().filter(|r| r.is_disqualified() || r.declined.is_none()).count();
+    let declined = untimed().count() - wrong;
+    let mut notes = vec![];
+    for (n, why) in [(wrong, "with wrong answers"), (declined, "that a structure declines")] {
+        if n > 0 {
+            notes.push(format!("{} {why} left out.", plural(n, "case")));
+        }
+    }
+    if cells.iter().flatten().any(|cell| cell.text.ends_with(')')) {
+        notes.push(
+            "(n of m): the mean is over n of the m cases in which the reference has a time; it cannot be ranked with the others."
+                .into(),
+        );
+    }
+    notes.extend(control(records));
+    let over = plural(scenes.len(), "scene");
+    let against = references.first().map_or("?", Reference::name);
+    let against = if against == "median" { crate::study::baselines::REPORT_TREE } else { against };
+    let title = format!("Speed x {against}: geometric means over {over}; all: over scenes and workloads");
+    Table { title, columns, rows, notes }.without_blank_columns()
+}
+
+/// A sentence that says which structure is the fastest over all cases, by how much, and how many of its answers were checked. Nothing
+/// where no two structures have a time in all cases.
+///
+/// The winner is held against `reference`, if that is a structure; where that is nothing or the winner itself, against the one that
+/// comes next.
+pub fn winner(records: &[Record], reference: Option<&str>) -> Option<String> {
+    let labels = names(records, |r| &r.label);
+    let of = |label: &str| -> Vec<&Record> { records.iter().filter(|r| r.label == label).collect() };
+    let cases = labels.iter().map(|label| of(label).len()).max()?;
+    let whole: Vec<&String> = labels
+        .iter()
+        .filter(|label| {
+            let own = of(label);
+            own.len() == cases && own.iter().all(|r| r.mrays_per_s.is_some())
+        })
+        .collect();
+    let floor = twins(records).log().unwrap_or(0.0);
+    let ratio = |one: &str, other: &str| {
+        let other = Reference::Structure(other.into());
+        let pairs = other.pairs(records, of(one));
+        (pairs.len() == cases).then(|| Reference::ratio(&pairs, floor)).flatten()
+    };
+    // All are held against the same one: means of logarithms are in the same order against any.
+    let first = *whole.first()?;
+    let mut order: Vec<(&String, f64)> = vec![];
+    for &label in &whole {
+        order.push((label, ratio(label, first)?.estimate));
+    }
+    order.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let best = order.first()?.0;
+    let next = reference.filter(|label| *label != best.as_str() && whole.iter().any(|w| w == label));
+    let next = next.or_else(|| Some(order.get(1)?.0.as_str()))?;
+    let by = ratio(best, next)?;
+
+    let over = match (names(records, |r| &r.scene).len(), names(records, |r| &r.workload).len()) {
+        (1, 1) => String::new(),
+        (scenes, kinds) => format!("Over {} and {} of rays, ", plural(scenes, "scene"), plural(kinds, "kind")),
+    };
+    let told = match Difference::of(by, floor) {
+        Difference::None => {
+            format!("{over}{best} and {next} cannot be told apart: {} times as many rays a second", interval(by))
+        }
+        _ => {
+            let ends = crate::report::words::ends(by);
+            format!("{over}{best} answers {} times as many rays a second as {next} {ends}", figures(by.estimate))
+        }
+    };
+    let checked: Option<usize> = of(best).iter().map(|r| r.checked_rays).sum();
+    let checked = match checked {
+        None => "its answers are not checked".into(),
+        Some(rays) => format!("nothing wrong in {} checked rays", count(rays as u64)),
+    };
+    let left = labels.len() - whole.len();
+    let left = match left {
+        0 => String::new(),
+        n => format!(" Not ranked, without a time in some of the cases: {}.", plural(n, "structure")),
+    };
+    Some(format!("{told}; {checked}.{left}"))
+}
