@@ -15,6 +15,7 @@ pub mod fetch;
 pub mod geometry;
 pub mod golden;
 pub mod measure;
+mod nearest;
 pub mod oracle;
 pub mod output;
 pub mod publish;

@@ -3,10 +3,22 @@
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use tempfile::{Builder, NamedTempFile};
 
-/// A file that results will go to.
+/// Stands for standard output in place of a file.
+pub const STDOUT: &str = "-";
+
+/// Whether a result goes to standard output: then nothing else may.
+static TO_STDOUT: AtomicBool = AtomicBool::new(false);
+
+/// Whether standard output is taken by a result that was asked for as [`STDOUT`]: what is meant for people goes to standard error then.
+pub fn stdout_is_taken() -> bool {
+    TO_STDOUT.load(Ordering::Relaxed)
+}
+
+/// A file that results will go to, or standard output where it is called [`STDOUT`].
 ///
 /// It is first written beside its place and then moved there, so that a reader never sees half of it and an older one
 /// stays when something fails. What is not a regular file (a pipe, `/dev/stdout`) is written to directly.
@@ -22,6 +34,8 @@ pub enum OutputError {
     Directory(PathBuf),
     #[error("cannot write {}: it is one of the files to read: name another one", .0.display())]
     Input(PathBuf),
+    #[error("cannot write two results to standard output: name a file for one of them")]
+    Twice,
     #[error("cannot write {}: {cause}: choose a place that exists, may be written and has room", path.display())]
     Write { path: PathBuf, cause: io::Error },
 }
@@ -30,9 +44,12 @@ impl OutputFile {
     /// Checks that `path` can be written now, before the long run whose results it is for; leaves nothing behind.
     ///
     /// # Errors
-    /// If `path` is a directory, or its directory takes no file.
+    /// If `path` is a directory, or its directory takes no file; or if another result goes to standard output already.
     pub fn check(path: &Path) -> Result<Self, OutputError> {
         let file = Self { path: path.into() };
+        if file.is_stdout() {
+            return if TO_STDOUT.swap(true, Ordering::Relaxed) { Err(OutputError::Twice) } else { Ok(file) };
+        }
         match fs::metadata(path) {
             Ok(there) if there.is_dir() => return Err(OutputError::Directory(path.into())),
             Ok(there) if !there.is_file() => {}
@@ -46,6 +63,9 @@ impl OutputFile {
     /// # Errors
     /// If it is one of them, by whatever path.
     pub fn apart_from<'a>(self, inputs: impl IntoIterator<Item = &'a Path>) -> Result<Self, OutputError> {
+        if self.is_stdout() {
+            return Ok(self);
+        }
         let own = self.path.canonicalize().ok().filter(|own| own.is_file());
         let same = |input: &Path| own.is_some() && input.canonicalize().ok() == own;
         if inputs.into_iter().any(same) { Err(OutputError::Input(self.path)) } else { Ok(self) }
@@ -55,6 +75,10 @@ impl OutputFile {
         &self.path
     }
 
+    fn is_stdout(&self) -> bool {
+        self.path == Path::new(STDOUT)
+    }
+
     /// # Errors
     /// If the system refuses, or there is no room; then an older file is as it was.
     pub fn write(&self, bytes: &[u8]) -> Result<(), OutputError> {
@@ -62,6 +86,10 @@ impl OutputFile {
     }
 
     fn place(&self, bytes: &[u8]) -> io::Result<()> {
+        if self.is_stdout() {
+            let mut out = io::stdout().lock();
+            return out.write_all(bytes).and_then(|()| out.flush());
+        }
         if fs::metadata(&self.path).is_ok_and(|there| !there.is_file()) {
             return fs::OpenOptions::new().write(true).open(&self.path)?.write_all(bytes);
         }
@@ -138,6 +166,15 @@ mod tests {
         let under_a_file = directory.path().join("f");
         fs::write(&under_a_file, b"x").unwrap();
         assert!(OutputFile::check(&under_a_file.join("a.json")).is_err());
+    }
+
+    #[test]
+    fn standard_output_takes_one_result() {
+        assert!(!stdout_is_taken());
+        let out = OutputFile::check(Path::new("-")).unwrap().apart_from([Path::new("-")]).unwrap();
+        assert!(stdout_is_taken() && out.is_stdout());
+        assert!(matches!(OutputFile::check(Path::new("-")), Err(OutputError::Twice)));
+        TO_STDOUT.store(false, Ordering::Relaxed);
     }
 
     #[test]

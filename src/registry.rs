@@ -9,6 +9,7 @@ use serde_json::{Map, Value};
 
 use crate::accel::{Accel, BuildError, Capabilities, DynAccel, Observed};
 use crate::geometry::Mesh;
+use crate::nearest::suggestion;
 use crate::structures::obvhs::{Native, ObvhsBvh2, ObvhsConfig, ObvhsCwBvh, Over, RtTest};
 use crate::structures::{BruteForce, KdConfig, KdTree, Partition, WideConfig, WideTree};
 use crate::triangle::{
@@ -53,12 +54,12 @@ pub struct Choice {
 /// Why a choice of structure is refused.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ChoiceError {
-    #[error("there is no structure {name:?}; there are: {known}")]
-    Unknown { name: String, known: String },
-    #[error("{name} is not offered over the triangle test {test:?}; it is over: {known}")]
-    Test { name: String, test: String, known: String },
-    #[error("{name} has no key {key:?}; its keys are: {known}")]
-    Key { name: String, key: String, known: String },
+    #[error("there is no structure {name:?}{suggestion}; there are: {known}")]
+    Unknown { name: String, suggestion: String, known: String },
+    #[error("{name} is not offered over the triangle test {test:?}{suggestion}; it is over: {known}")]
+    Test { name: String, test: String, suggestion: String, known: String },
+    #[error("{name} has no key {key:?}{suggestion}; its keys are: {known}")]
+    Key { name: String, key: String, suggestion: String, known: String },
     #[error("{part:?} in {spec:?} is not of the form key=value")]
     Form { spec: String, part: String },
     #[error("{name} cannot be configured so: {reason}")]
@@ -165,17 +166,24 @@ impl Registry {
         }
         let test = overrides.iter().position(|(key, _)| *key == "test").map(|i| overrides.remove(i).1);
 
-        let named: Vec<&Entry> = self.entries.iter().filter(|e| e.name == name).collect();
+        let named: Vec<&Entry> = self.entries.iter().filter(|e| e.name.eq_ignore_ascii_case(name)).collect();
         let Some(&first) = named.first() else {
-            return Err(ChoiceError::Unknown { name: name.into(), known: self.names().join(", ") });
+            let known = self.names();
+            let suggestion = suggestion(name, known.iter().copied());
+            return Err(ChoiceError::Unknown { name: name.into(), suggestion, known: known.join(", ") });
         };
         let entry = match test {
             None => first,
-            Some(test) => named.iter().find(|e| e.triangle_test == test).copied().ok_or_else(|| ChoiceError::Test {
-                name: name.into(),
-                test: test.into(),
-                known: named.iter().map(|e| e.triangle_test).collect::<Vec<_>>().join(", "),
-            })?,
+            Some(test) => {
+                named.iter().find(|e| e.triangle_test.eq_ignore_ascii_case(test)).copied().ok_or_else(|| {
+                    ChoiceError::Test {
+                        name: first.name.clone(),
+                        test: test.into(),
+                        suggestion: suggestion(test, named.iter().map(|e| e.triangle_test)),
+                        known: named.iter().map(|e| e.triangle_test).collect::<Vec<_>>().join(", "),
+                    }
+                })?
+            }
         };
         entry.configure(&overrides, !std::ptr::eq(entry, first))
     }
@@ -221,7 +229,12 @@ impl Entry {
         }
         for &(key, text) in overrides {
             let known: Vec<&str> = keys.keys().map(String::as_str).collect();
-            let unknown = || ChoiceError::Key { name: self.name.clone(), key: key.into(), known: known.join(", ") };
+            let unknown = || ChoiceError::Key {
+                name: self.name.clone(),
+                key: key.into(),
+                suggestion: suggestion(key, known.iter().copied()),
+                known: known.join(", "),
+            };
             if !keys.contains_key(key) {
                 return Err(unknown());
             }

@@ -4,9 +4,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The layers of the house, as ARCHITECTURE.md draws them.
-const LAYERS: [(&str, u32); 21] = [
+const LAYERS: [(&str, u32); 22] = [
     ("geometry", 0),
     ("exact", 0),
+    ("nearest", 0),
     ("output", 0),
     ("simd", 0),
     ("triangle", 0),

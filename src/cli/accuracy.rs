@@ -134,7 +134,7 @@ fn choices(registry: &Registry, structures: &[String], tests: &[String]) -> anyh
         let names_test = keys.split(',').any(|key| key.starts_with("test="));
         for entry in registry.entries().iter().filter(|entry| entry.name == choice.entry.name) {
             let asked = if names_test { entry.triangle_test == choice.triangle_test() } else { true };
-            if !asked || !tests.is_empty() && !tests.iter().any(|test| test == entry.triangle_test) {
+            if !asked || !tests.is_empty() && !tests.iter().any(|test| test.eq_ignore_ascii_case(entry.triangle_test)) {
                 continue;
             }
             let with_test = match (names_test, keys) {

@@ -1,10 +1,14 @@
 //! `completions`.
 
-use clap::CommandFactory;
+use clap::builder::PossibleValuesParser;
+use clap::{Arg, Command, CommandFactory, ValueHint};
 use clap_complete::Shell;
 
 use super::terminal::Terminal;
 use super::{Cli, Verdict};
+use crate::registry::Registry;
+use crate::render::ViewKind;
+use crate::scene::{BUILTIN, WorkloadKind};
 
 #[derive(Debug, clap::Args)]
 pub struct Args {
@@ -12,9 +16,92 @@ pub struct Args {
     shell: Shell,
 }
 
-pub fn run(args: &Args, terminal: &Terminal) -> anyhow::Result<Verdict> {
+pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Result<Verdict> {
+    let names = Names::of(registry);
     let mut script = vec![];
-    clap_complete::generate(args.shell, &mut Cli::command(), "sahara", &mut script);
-    terminal.print(&String::from_utf8_lossy(&script))?;
+    clap_complete::generate(args.shell, &mut names.told(&Cli::command()), "sahara", &mut script);
+    let script = String::from_utf8_lossy(&script);
+    // Where a scene is expected, a file is right as well: zsh offers what is listed and nothing else.
+    let scenes = names.scenes.join(" ");
+    let both = format!(":{{ compadd {scenes}; _files }}");
+    terminal.print(&script.replace(&format!(":({scenes})"), &both))?;
     Ok(Verdict::Right)
+}
+
+/// Commands keep names for ever, and this process ends soon.
+fn lasting(name: &str) -> &'static str {
+    String::leak(name.to_owned())
+}
+
+/// What a shell can offer besides options.
+struct Names {
+    scenes: Vec<&'static str>,
+    structures: Vec<&'static str>,
+    workloads: Vec<&'static str>,
+    views: Vec<&'static str>,
+}
+
+impl Names {
+    fn of(registry: &Registry) -> Self {
+        Self {
+            scenes: BUILTIN.iter().map(|builtin| lasting(&builtin.name.to_lowercase())).collect(),
+            structures: registry.names().into_iter().map(lasting).collect(),
+            workloads: WorkloadKind::ALL.map(WorkloadKind::name).into(),
+            views: ViewKind::ALL.map(ViewKind::name).into(),
+        }
+    }
+
+    /// `command` as a shell is told of it: without what is hidden, with names in the place of what is free text for the command itself,
+    /// which takes files, keys and values as well.
+    fn told(&self, command: &Command) -> Command {
+        let mut told = Command::new(lasting(command.get_name()));
+        if let Some(about) = command.get_about() {
+            told = told.about(about.clone());
+        }
+        if let Some(version) = command.get_version() {
+            told = told.version(lasting(version));
+        }
+        let shown = command.get_subcommands().filter(|subcommand| !subcommand.is_hide_set());
+        told.args(command.get_arguments().map(|arg| self.arg(arg))).subcommands(shown.map(|inner| self.told(inner)))
+    }
+
+    fn arg(&self, arg: &Arg) -> Arg {
+        let expected = arg.get_value_names().and_then(|names| names.first()).map_or("", |name| name.as_str());
+        let id = arg.get_id().as_str();
+        let names = match (expected, id) {
+            ("SCENE|FILE" | "SCENE" | "SCENE|F.toml", _) => &self.scenes,
+            (_, "structure" | "against" | "reference") => &self.structures,
+            (_, "workload") => &self.workloads,
+            (_, "view") => &self.views,
+            ("DIR", _) => return arg.clone().value_hint(ValueHint::DirPath),
+            (file, _) if file.starts_with("FILE") || file.starts_with("F.") => {
+                return arg.clone().value_hint(ValueHint::FilePath);
+            }
+            _ => return arg.clone(),
+        };
+        arg.clone().value_parser(PossibleValuesParser::new(names.clone()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shells_know_scenes_structures_workloads_and_views_and_nothing_hidden() {
+        let names = Names::of(&Registry::builtin());
+        for shell in [Shell::Bash, Shell::Zsh, Shell::Fish] {
+            let mut script = vec![];
+            clap_complete::generate(shell, &mut names.told(&Cli::command()), "sahara", &mut script);
+            let script = String::from_utf8(script).unwrap();
+            for word in ["dragon", "sah-hybrid", "image-shadow", "heat", "compare-runs", "self-intersection"] {
+                assert!(script.contains(word), "{shell}: {word}");
+            }
+            assert!(!script.contains(crate::cli::hard::CHILD), "{shell}");
+        }
+        // The command itself takes more than names.
+        let args = ["sahara", "compare", "my-mesh.obj", "-s", "sah-kd:leaf=4", "--reference", "median-kd:leaf=8"];
+        assert!(Cli::command().try_get_matches_from(args).is_ok());
+        assert!(names.told(&Cli::command()).try_get_matches_from(args).is_err());
+    }
 }

@@ -1,8 +1,6 @@
 //! The command `sahara`.
 //!
-//! Results go to stdout, progress and errors to stderr. The exit status is 0 when all is well, 1 for usage, input or
-//! output that cannot be had, 2 for wrong answers, 3 for a regression, 4 when the samples do not tell whether there is one, 5 when
-//! all is well but for a structure that could not take part.
+//! Results go to stdout, progress and errors to stderr. The [exit statuses](STATUSES) are those of all commands.
 
 mod accuracy;
 mod bench;
@@ -32,16 +30,30 @@ use clap::{Parser, Subcommand};
 use serde::{Deserialize, Serialize};
 
 use crate::measure::program;
+use crate::output::OutputError;
 use crate::registry::Registry;
 use crate::simd::Level;
 use crate::study::guarded;
 use terminal::{Colour, Terminal};
 
+/// One rule for all commands; what a baseline is known to get wrong is no fault of a run.
+const STATUSES: &str = "Exit status:
+  0  right
+  1  usage, or input or output that cannot be had
+  2  wrong answers, or answers without an end
+  3  a regression (bench --fail-on-regression)
+  4  the samples do not tell whether there is a regression
+  5  right, but for a structure that could not be built, panicked or could not take part
+Wrong answers of a baseline from another project whose defects are documented are shown, cost it its time, and do not
+change the status: 2 is for everything else. Tables name the defects.
+
+`-` in place of a file to write is standard output; tables and messages go to standard error then.";
+
 /// Benchmark, validate and image-test ray-tracing acceleration structures.
 ///
 /// Without a command: `compare` on the built-in scenes.
 #[derive(Debug, Parser)]
-#[command(name = "sahara", version, max_term_width = 100)]
+#[command(name = "sahara", version, max_term_width = 100, after_help = STATUSES)]
 struct Cli {
     #[command(subcommand)]
     command: Option<Command>,
@@ -155,7 +167,7 @@ pub fn run(registry: &Registry, args: impl IntoIterator<Item = OsString>) -> Exi
         Command::Render(args) => render::run(registry, &args, &terminal),
         Command::Golden(args) => golden::run(registry, &args, &terminal),
         Command::List => list::run(registry, &terminal),
-        Command::Completions(args) => completions::run(&args, &terminal),
+        Command::Completions(args) => completions::run(registry, &args, &terminal),
     };
     // A structure of another crate may panic where its command has nothing else to go on with.
     let found = if may_panic { run() } else { guarded(run).unwrap_or_else(|| Err(anyhow::anyhow!(PANIC))) };
@@ -175,5 +187,9 @@ pub fn run(registry: &Registry, args: impl IntoIterator<Item = OsString>) -> Exi
 
 /// Whether the reader of our output has gone away, as `head` does.
 fn is_broken_pipe(error: &anyhow::Error) -> bool {
-    error.downcast_ref::<io::Error>().is_some_and(|error| error.kind() == io::ErrorKind::BrokenPipe)
+    let of_file = error.downcast_ref::<OutputError>().and_then(|error| match error {
+        OutputError::Write { cause, .. } => Some(cause),
+        _ => None,
+    });
+    error.downcast_ref::<io::Error>().or(of_file).is_some_and(|error| error.kind() == io::ErrorKind::BrokenPipe)
 }

@@ -1,6 +1,6 @@
 //! `render`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use anyhow::Context;
@@ -19,7 +19,7 @@ pub struct Args {
     /// A built-in scene, a scene file (.toml) or a mesh file
     #[arg(value_name = "SCENE|FILE")]
     scene: String,
-    /// The picture, a PNG file
+    /// The picture, a PNG file; - is standard output
     #[arg(long, short, value_name = "F.png")]
     output: PathBuf,
     /// shaded, depth, normal, primitive, heat (tests and steps of each pixel) or error (where answers are wrong, by exact
@@ -84,6 +84,7 @@ impl FromStr for View {
 pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Result<Verdict> {
     let choice = sources::structure(registry, &args.structure)?;
     let file = sources::output(&args.output, std::slice::from_ref(&args.scene), None)?;
+    is_png(&args.output)?;
     let mut scene = sources::scene(&args.scene)?;
     if let Some(View { eye, target, vertical_fov }) = args.camera {
         let vertical_fov = vertical_fov.unwrap_or(scene.camera.vertical_fov());
@@ -115,6 +116,19 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
         terminal.print(&format!("{}\n", errors.legend()))?;
     }
     Ok(Verdict::Right)
+}
+
+/// Refuses a name that promises another form than the one that is written.
+fn is_png(path: &Path) -> anyhow::Result<()> {
+    let ending = path.extension().filter(|ending| !ending.eq_ignore_ascii_case("png"));
+    match ending {
+        Some(ending) => anyhow::bail!(
+            "cannot write {} as {}: pictures are PNG files: end the name in .png, or give - for standard output",
+            path.display(),
+            ending.to_string_lossy()
+        ),
+        None => Ok(()),
+    }
 }
 
 /// One scale for the heat of all structures: the hottest of the trees. Brute force would darken all of them.

@@ -5,6 +5,7 @@ use std::path::Path;
 use anyhow::Context;
 
 use super::terminal::Terminal;
+use crate::nearest::suggestion;
 use crate::output::OutputFile;
 use crate::registry::{Choice, Registry};
 use crate::scene::{BUILTIN, Builtin, Scene, load, real_mesh_folder};
@@ -96,7 +97,10 @@ pub fn specs(registry: &Registry, named: &[String]) -> Vec<String> {
     if named.is_empty() {
         return names().collect();
     }
-    named.iter().flat_map(|spec| if spec == ALL { names().collect() } else { vec![spec.clone()] }).collect()
+    named
+        .iter()
+        .flat_map(|spec| if spec.eq_ignore_ascii_case(ALL) { names().collect() } else { vec![spec.clone()] })
+        .collect()
 }
 
 /// The text of a scene file.
@@ -158,8 +162,9 @@ pub fn known_tests(registry: &Registry, tests: &[String]) -> anyhow::Result<()> 
     known.dedup();
     for test in tests {
         anyhow::ensure!(
-            known.contains(&test.as_str()),
-            "there is no triangle test {test:?}; there are: {}",
+            known.iter().any(|known| known.eq_ignore_ascii_case(test)),
+            "there is no triangle test {test:?}{}; there are: {}",
+            suggestion(test, known.iter().copied()),
             known.join(", ")
         );
     }

@@ -5,6 +5,7 @@ use std::io::{self, IsTerminal, Write};
 use clap::ValueEnum;
 use comfy_table::Table as Probe;
 
+use crate::output::stdout_is_taken;
 use crate::report::{Screen, Table, wrapped};
 
 /// When to use colour.
@@ -39,21 +40,25 @@ impl Terminal {
         Self { screen: Screen { width, colour }, quiet }
     }
 
-    /// Prints text as it is.
+    /// Prints text as it is; to standard error where a result goes to standard output.
     ///
     /// # Errors
     /// If it cannot be written; a reader that has gone away is told by its kind.
     pub fn print(&self, text: &str) -> io::Result<()> {
+        if stdout_is_taken() {
+            return io::stderr().lock().write_all(text.as_bytes());
+        }
         let mut out = io::stdout().lock();
         out.write_all(text.as_bytes())?;
         out.flush()
     }
 
-    /// Prints a table with a blank line after it.
+    /// Prints a table, but for columns in which no row says anything, with a blank line after it.
     ///
     /// # Errors
     /// As [`Terminal::print`].
     pub fn print_table(&self, table: &Table) -> io::Result<()> {
+        let table = table.clone().without_blank_columns();
         self.print(&(table.to_terminal(self.screen) + "\n"))
     }
 

@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use super::{ErrorMap, Image, Picture, colour_map, render};
 use crate::accel::{Counts, DynAccel, Observed};
 use crate::geometry::{Hit, Ray};
+use crate::nearest::{named, suggestion};
 use crate::scene::{Scene, View};
 
 /// What a picture shows.
@@ -46,7 +47,11 @@ impl ViewKind {
 /// A view that cannot be named or drawn.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ViewError {
-    #[error("there is no view {0:?}; there are: {known}", known = ViewKind::ALL.map(ViewKind::name).join(", "))]
+    #[error(
+        "there is no view {0:?}{meant}; there are: {known}",
+        meant = suggestion(.0, ViewKind::ALL.map(ViewKind::name)),
+        known = ViewKind::ALL.map(ViewKind::name).join(", ")
+    )]
     Unknown(String),
     #[error("the structure does not report its tests and steps, so there is no heat to show: choose another view")]
     Unobserved,
@@ -56,7 +61,7 @@ impl FromStr for ViewKind {
     type Err = ViewError;
 
     fn from_str(name: &str) -> Result<Self, ViewError> {
-        Self::ALL.into_iter().find(|view| view.name() == name).ok_or_else(|| ViewError::Unknown(name.into()))
+        named(Self::ALL, name, |view| view.name()).ok_or_else(|| ViewError::Unknown(name.into()))
     }
 }
 

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use super::assemble::{Origin, assemble};
 use super::format::SceneFile;
 use super::{Scene, SceneError};
+use crate::nearest::{named, suggestion};
 
 /// How the source report groups its scenes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -53,15 +54,14 @@ impl Builtin {
     /// The scene called `name`, in any case.
     ///
     /// # Errors
-    /// [`SceneError::Unknown`], which names the nearest and lists all.
+    /// [`SceneError::Unknown`], which says what may have been meant and lists all.
     pub fn find(name: &str) -> Result<&'static Self, SceneError> {
-        let wanted = name.to_lowercase();
-        BUILTIN.iter().find(|b| b.name.to_lowercase() == wanted).ok_or_else(|| {
-            let nearest = BUILTIN.iter().min_by_key(|b| edits(&b.name.to_lowercase(), &wanted));
+        named(BUILTIN, name, |builtin| builtin.name).ok_or_else(|| {
+            let all = || BUILTIN.iter().map(|builtin| builtin.name);
             SceneError::Unknown {
                 name: name.chars().take(60).flat_map(char::escape_debug).collect(),
-                nearest: nearest.map_or("none", |b| b.name),
-                all: BUILTIN.iter().map(|b| b.name).collect::<Vec<_>>().join(", "),
+                suggestion: suggestion(name, all()),
+                all: all().collect::<Vec<_>>().join(", "),
             }
         })
     }
@@ -98,20 +98,4 @@ impl Scene {
 /// The folder of real meshes: the environment variable `SAHARA_DATA`, or `scenes/data`. It need not exist.
 pub fn real_mesh_folder() -> PathBuf {
     std::env::var_os("SAHARA_DATA").filter(|v| !v.is_empty()).map_or_else(|| "scenes/data".into(), PathBuf::from)
-}
-
-/// How many letters to insert, remove or replace to get from one word to the other (Levenshtein 1966).
-fn edits(one: &str, other: &str) -> usize {
-    let other: Vec<char> = other.chars().take(60).collect();
-    let mut row: Vec<usize> = (0..=other.len()).collect();
-    for (i, letter) in one.chars().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for (j, &candidate) in other.iter().enumerate() {
-            let replaced = diagonal + usize::from(letter != candidate);
-            diagonal = row[j + 1];
-            row[j + 1] = replaced.min(row[j] + 1).min(diagonal + 1);
-        }
-    }
-    row[other.len()]
 }

@@ -24,6 +24,6 @@ pub enum SceneError {
     Extent { file: String, min: Vec3, max: Vec3 },
     #[error("{file}: {cause}")]
     Mesh { file: String, cause: MeshError },
-    #[error("there is no built-in scene `{name}`: did you mean {nearest}? The scenes are {all}")]
-    Unknown { name: String, nearest: &'static str, all: String },
+    #[error("there is no built-in scene `{name}`{suggestion}; the scenes are {all}; a file is named with its ending")]
+    Unknown { name: String, suggestion: String, all: String },
 }

@@ -17,11 +17,11 @@ use super::terminal::Terminal;
 use crate::measure::Provenance;
 use crate::output::OutputFile;
 use crate::registry::{Choice, Registry};
-use crate::report::number::count;
+use crate::report::number::plural;
 use crate::report::to_json;
 use crate::study::documented_defect;
 use crate::study::hard_cases::{
-    Answers, Case, Column, Content, Court, Failure, HardRecord, HardRun, Score, catalogue, find, legend, tables,
+    Answers, Case, Column, Court, Failure, HardRecord, HardRun, Score, catalogue, find_all, legend, tables,
 };
 use crate::triangle::{Exact, TriangleTest};
 
@@ -59,10 +59,10 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     let cases = if args.cases.is_empty() {
         catalogue()
     } else {
-        args.cases.iter().map(|name| find(name)).collect::<Result<_, _>>()?
+        args.cases.iter().map(|name| find_all(name)).collect::<Result<Vec<_>, _>>()?.concat()
     };
     if args.list {
-        terminal.print_lines(&cases.iter().flat_map(|case| described(case)).collect::<Vec<_>>())?;
+        terminal.print_lines(&cases.iter().flat_map(|case| described(case, args.rays)).collect::<Vec<_>>())?;
         return Ok(Verdict::Right);
     }
     let choices = choices(registry, &args.structure, &args.test)?;
@@ -163,11 +163,8 @@ fn scores(program: &Path, case: &Case, choices: &[Choice], args: &Args) -> anyho
     Ok(scores)
 }
 
-/// Name and reason of a case.
-fn described(case: &Case) -> [String; 2] {
-    let what = match case.content {
-        Content::Rays { rays, .. } => format!("{} rays", count(rays as u64)),
-        Content::Property(_) => "a property".into(),
-    };
+/// Name and reason of a case; the rays are as many as it makes.
+fn described(case: &Case, rays: u32) -> [String; 2] {
+    let what = case.rays(rays as usize).map_or("a property".into(), |rays| plural(rays, "ray"));
     [format!("{} {}: {what}", case.number, case.name), format!("   {} ({})", case.reason, case.source)]
 }

@@ -1,5 +1,6 @@
 //! `validate`.
 
+mod answers;
 mod exchange;
 
 use std::path::PathBuf;
@@ -17,7 +18,7 @@ use crate::registry::{Choice, Registry};
 use crate::report::number::{count, plural};
 use crate::report::{Cell, Table, Tone};
 use crate::scene::{Sampling, Scene, Workload, WorkloadKind};
-use crate::study::BRUTE_FORCE;
+use crate::study::{BRUTE_FORCE, documented_defect};
 use crate::validate::{LIMIT, Reference, Stratum, Validation, validate_watched, watched};
 
 #[derive(Debug, clap::Args)]
@@ -41,7 +42,7 @@ pub struct Args {
     /// Rays that break traversals, in place of those of the workloads
     #[arg(long, conflicts_with = "ray")]
     adversarial: bool,
-    /// Ask this ray alone; may be repeated
+    /// Ask this ray alone, and print what every structure answers; may be repeated
     #[arg(long, value_name = "ox,oy,oz dx,dy,dz", allow_hyphen_values = true)]
     ray: Vec<Ray>,
     /// Hold the answers of a file, to the rays of the file of --rays, against the reference, in place of structures
@@ -88,12 +89,20 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
             None if args.ray.is_empty() => rays(scene, registry, args)?,
             None => args.ray.clone(),
         };
-        let (mut rows, mut notes) = (vec![], scene.notes.clone());
+        let (mut rows, mut notes, mut answered) = (vec![], scene.notes.clone(), vec![]);
         for choice in &structures {
             match check(scene, choice, &against, &rays, args.limit())? {
-                Taken::Compared(found) => {
-                    if wrong(&found, &against) {
-                        verdict = Verdict::Wrong;
+                Taken::Compared(accel, found) => {
+                    match documented_defect(&choice.entry.name) {
+                        _ if !wrong(&found, &against) => {}
+                        None => verdict = Verdict::Wrong,
+                        Some(defect) => notes.push(format!(
+                            "{}: its documented defects, which do not change the exit status: {defect}",
+                            choice.label
+                        )),
+                    }
+                    if !args.ray.is_empty() {
+                        answered.extend(answers::answers(&choice.label, &accel, &rays, &scene.mesh, args.limit()));
                     }
                     rows.push(row(&choice.label, choice.triangle_test(), &found));
                     notes.extend(declined(choice, &found));
@@ -115,6 +124,9 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
             }
         }
         print(scene, &rays, &against, rows, notes, terminal)?;
+        if !args.ray.is_empty() {
+            terminal.print_table(&answers::table(&scene.name, answered))?;
+        }
     }
     terminal.print_lines(&LEGEND.map(String::from))?;
     Ok(verdict)
@@ -169,7 +181,7 @@ fn rays(scene: &Scene, registry: &Registry, args: &Args) -> anyhow::Result<Vec<R
 
 /// What came of one structure on one scene.
 enum Taken {
-    Compared(Validation),
+    Compared(Arc<dyn DynAccel>, Validation),
     /// Its builder does not end.
     Hangs,
     /// It cannot be built; the sentence says why.
@@ -185,7 +197,8 @@ fn check(scene: &Scene, choice: &Choice, against: &Choice, rays: &[Ray], limit: 
         Ok(accel) => Arc::from(accel),
         Err(error) => return Ok(Taken::Refused(error.to_string())),
     };
-    Ok(Taken::Compared(validate_watched(&accel, &reference, &scene.mesh, rays, limit)))
+    let found = validate_watched(&accel, &reference, &scene.mesh, rays, limit);
+    Ok(Taken::Compared(accel, found))
 }
 
 /// What a structure with this triangle test is held against.

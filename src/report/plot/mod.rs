@@ -74,8 +74,11 @@ impl Format {
     /// The form that the ending of a file name asks for.
     ///
     /// # Errors
-    /// If it is neither `.svg` nor `.png`.
+    /// If it is neither `.svg` nor `.png`. Standard output, `-`, gets SVG.
     pub fn of(path: &std::path::Path) -> Result<Self, UnknownFormat> {
+        if path == std::path::Path::new(crate::output::STDOUT) {
+            return Ok(Self::Svg);
+        }
         let ending = path.extension().map(|ending| ending.to_ascii_lowercase());
         match ending.as_deref().and_then(|ending| ending.to_str()) {
             Some("svg") => Ok(Self::Svg),

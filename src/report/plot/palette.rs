@@ -24,9 +24,9 @@ pub const INK: Role = role("ink", [34, 38, 43], [226, 228, 231]);
 pub const MIDDLE: Role = role("middle", [100, 106, 114], [157, 164, 173]);
 pub const FAINT: Role = role("faint", [222, 225, 229], [52, 57, 64]);
 
-/// Colours of series, told apart by colour-blind eyes as far as ten can be (after Okabe, Ito: Color universal design,
+/// Colours of series, told apart by colour-blind eyes as far as the first ten can be (after Okabe, Ito: Color universal design,
 /// 2008), dark or light enough for text.
-pub const SERIES: [Role; 11] = [
+pub const SERIES: [Role; 24] = [
     role("s0", [106, 110, 116], [160, 166, 174]),
     role("s1", [184, 74, 0], [255, 150, 84]),
     role("s2", [0, 98, 163], [96, 180, 244]),
@@ -38,6 +38,19 @@ pub const SERIES: [Role; 11] = [
     role("s8", [0, 118, 82], [74, 208, 160]),
     role("s9", [72, 84, 170], [150, 164, 250]),
     role("s10", [140, 100, 0], [230, 190, 60]),
+    role("s11", [203, 11, 203], [245, 60, 245]),
+    role("s12", [203, 11, 11], [245, 60, 60]),
+    role("s13", [22, 107, 6], [140, 248, 118]),
+    role("s14", [174, 9, 64], [246, 78, 134]),
+    role("s15", [76, 8, 145], [171, 95, 247]),
+    role("s16", [8, 31, 145], [95, 120, 247]),
+    role("s17", [25, 87, 56], [144, 223, 183]),
+    role("s18", [107, 6, 90], [248, 118, 226]),
+    role("s19", [139, 75, 107], [183, 122, 152]),
+    role("s20", [66, 87, 25], [196, 223, 144]),
+    role("s21", [174, 9, 119], [246, 78, 190]),
+    role("s22", [64, 119, 64], [134, 190, 134]),
+    role("s23", [6, 90, 107], [118, 226, 248]),
 ];
 
 /// Colours of the parts of a whole, which are no structures: shades of one colour, dark to pale.
@@ -52,8 +65,8 @@ pub fn roles() -> impl Iterator<Item = Role> {
     [PAPER, INK, MIDDLE, FAINT].into_iter().chain(SERIES).chain(PARTS)
 }
 
-/// The structures with a colour of their own; others take what is left.
-const STRUCTURES: [&str; 9] = [
+/// The structures with a colour of their own, the same in every chart.
+const STRUCTURES: [&str; 15] = [
     "brute-force",
     "median-kd",
     "sah-kd",
@@ -63,25 +76,39 @@ const STRUCTURES: [&str; 9] = [
     "sah-bvh",
     "obvhs-bvh2",
     "obvhs-cwbvh",
+    "bvh",
+    "embree",
+    "embree-robust",
+    "kdtree-ray",
+    "parry",
+    "tinybvh",
 ];
 
-/// A colour for each label, all different as long as there are enough: that of its structure, or one that is free.
+/// A colour for each label, all different as long as there are enough. The bare name of a structure always has that of its structure; a
+/// structure with keys, or of another name, has one of the others, which its label decides: in another chart it is the same, but where
+/// two labels of one chart meet in a colour.
 pub fn colours(labels: &[String]) -> Vec<Colour> {
-    let own = |label: &String| {
-        let name = label.split([':', ' ']).next().unwrap_or_default();
-        STRUCTURES.iter().position(|structure| *structure == name)
-    };
-    let mut given: Vec<Option<usize>> = vec![None; labels.len()];
-    for (i, label) in labels.iter().enumerate() {
-        given[i] = own(label).filter(|colour| !given.contains(&Some(*colour)));
-    }
-    for i in 0..labels.len() {
-        // The first that nobody has, after those that are owed to structures.
-        let order = (STRUCTURES.len()..SERIES.len()).chain(1..STRUCTURES.len());
+    const OTHERS: usize = SERIES.len() - STRUCTURES.len();
+    let own = |label: &String| STRUCTURES.iter().position(|structure| structure == label);
+    let mut given: Vec<Option<usize>> = labels.iter().map(own).collect();
+    // In the order of their names: that of a chart does not matter.
+    let mut rest: Vec<usize> = (0..labels.len()).filter(|&i| given[i].is_none()).collect();
+    rest.sort_by_key(|&i| &labels[i]);
+    for i in rest {
+        let first = number(&labels[i]) % OTHERS;
+        let order = (0..OTHERS).map(|step| STRUCTURES.len() + (first + step) % OTHERS).chain(0..STRUCTURES.len());
         let free = order.clone().find(|colour| !given.contains(&Some(*colour)));
-        given[i] = given[i].or(free).or(Some(i % SERIES.len()));
+        given[i] = free.or(Some(STRUCTURES.len() + first));
     }
     given.into_iter().map(|colour| SERIES[colour.unwrap_or(0)].light).collect()
+}
+
+/// A number that depends on nothing but the text (Fowler, Noll, Vo: FNV-1a).
+fn number(text: &str) -> usize {
+    let hash = text
+        .bytes()
+        .fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3));
+    (hash ^ hash >> 32) as u32 as usize
 }
 
 /// The colour as style sheets and drawings write it.
@@ -122,11 +149,17 @@ mod tests {
     }
 
     #[test]
-    fn structures_keep_their_colour_and_variants_get_one_of_their_own() {
+    fn structures_keep_their_colour_in_every_chart_and_variants_get_one_of_their_own() {
         let labels = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect::<Vec<_>>();
-        let alone = colours(&labels(&["sah-kd"]))[0];
-        let many = colours(&labels(&["grid", "sah-kd:leaf=4", "sah-kd:leaf=8", "median-kd"]));
-        assert_eq!(many[1], alone);
+        let alone = |name: &str| colours(&labels(&[name]))[0];
+        let names = ["grid", "sah-kd:leaf=4", "sah-kd", "sah-kd:leaf=8", "median-kd", "embree"];
+        let many = colours(&labels(&names));
+        for (name, colour) in names.iter().zip(&many) {
+            assert_eq!(*colour, alone(name), "{name}");
+        }
+        // In another order, and without the bare name, too.
+        let few = colours(&labels(&["median-kd", "sah-kd:leaf=8"]));
+        assert_eq!(few, [many[4], many[3]]);
         for (i, colour) in many.iter().enumerate() {
             assert!(!many[..i].contains(colour), "{i}");
         }

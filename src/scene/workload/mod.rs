@@ -17,6 +17,7 @@ use sha2::{Digest, Sha256};
 use super::{Scene, View};
 use crate::accel::{DynAccel, Query};
 use crate::geometry::Ray;
+use crate::nearest::{named, suggestion};
 use tiles::in_tiles;
 
 /// Where the rays of a workload come from and go to.
@@ -86,14 +87,18 @@ impl WorkloadKind {
 
 /// A name that is no workload.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("there is no workload {0:?}; there are: {known}", known = WorkloadKind::ALL.map(WorkloadKind::name).join(", "))]
+#[error(
+    "there is no workload {0:?}{meant}; there are: {known}",
+    meant = suggestion(.0, WorkloadKind::ALL.map(WorkloadKind::name)),
+    known = WorkloadKind::ALL.map(WorkloadKind::name).join(", ")
+)]
 pub struct UnknownWorkload(pub String);
 
 impl FromStr for WorkloadKind {
     type Err = UnknownWorkload;
 
     fn from_str(name: &str) -> Result<Self, UnknownWorkload> {
-        Self::ALL.into_iter().find(|kind| kind.name() == name).ok_or_else(|| UnknownWorkload(name.into()))
+        named(Self::ALL, name, |kind| kind.name()).ok_or_else(|| UnknownWorkload(name.into()))
     }
 }
 

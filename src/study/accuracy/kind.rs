@@ -2,6 +2,7 @@ use std::str::FromStr;
 
 use crate::geometry::{Mesh, Ray};
 use crate::measure::spread;
+use crate::nearest::{named, suggestion};
 use crate::scene::{Scene, View};
 use crate::validate::Stratum;
 
@@ -28,7 +29,11 @@ pub enum RayKind {
 
 /// A kind of rays that is not known.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("there is no kind of rays {0:?}; there are: {known}", known = RayKind::ALL.map(RayKind::name).join(", "))]
+#[error(
+    "there is no kind of rays {0:?}{meant}; there are: {known}",
+    meant = suggestion(.0, RayKind::ALL.map(RayKind::name)),
+    known = RayKind::ALL.map(RayKind::name).join(", ")
+)]
 pub struct UnknownKind(String);
 
 impl RayKind {
@@ -106,6 +111,6 @@ impl FromStr for RayKind {
     type Err = UnknownKind;
 
     fn from_str(name: &str) -> Result<Self, UnknownKind> {
-        Self::ALL.into_iter().find(|kind| kind.name() == name).ok_or_else(|| UnknownKind(name.into()))
+        named(Self::ALL, name, |kind| kind.name()).ok_or_else(|| UnknownKind(name.into()))
     }
 }

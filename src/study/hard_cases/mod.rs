@@ -65,6 +65,16 @@ pub enum Rank {
     Added,
 }
 
+impl Case {
+    /// How many rays it asks where at most `most` are wanted; nothing for a property. Makes them.
+    pub fn rays(&self, most: usize) -> Option<usize> {
+        match self.content {
+            Content::Rays { rays, make, .. } => Some(make(rays.min(most)).rays.len()),
+            Content::Property(_) => None,
+        }
+    }
+}
+
 /// What a case asks.
 #[derive(Clone, Copy)]
 pub enum Content {
@@ -176,32 +186,25 @@ pub fn catalogue() -> Vec<&'static Case> {
     cases
 }
 
-/// The case called `name`, or numbered so.
+/// The first of [`find_all`].
+///
+/// # Errors
+/// As there.
+pub fn find(name: &str) -> Result<&'static Case, UnknownCase> {
+    Ok(find_all(name)?[0])
+}
+
+/// The case called `name`, in any case of letters, or all that are numbered so: number 23 is two.
 ///
 /// # Errors
 /// If there is none: names the three that differ least.
-pub fn find(name: &str) -> Result<&'static Case, UnknownCase> {
-    let cases = catalogue();
-    if let Some(case) = cases.iter().find(|case| case.name == name || case.number.to_string() == name) {
-        return Ok(case);
-    }
+pub fn find_all(name: &str) -> Result<Vec<&'static Case>, UnknownCase> {
+    let mut cases = catalogue();
     let mut names: Vec<&str> = cases.iter().map(|case| case.name).collect();
-    names.sort_by_key(|known| (!known.contains(name), edits(name, known)));
-    Err(UnknownCase { name: name.into(), nearest: names[..3].join(", ") })
-}
-
-/// How many characters must be added, left out or replaced to make `b` of `a` (Levenshtein).
-fn edits(a: &str, b: &str) -> usize {
-    let b: Vec<char> = b.chars().collect();
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, x) in a.chars().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for (j, y) in b.iter().enumerate() {
-            let replaced = diagonal + usize::from(x != *y);
-            diagonal = row[j + 1];
-            row[j + 1] = replaced.min(row[j] + 1).min(diagonal + 1);
-        }
+    cases.retain(|case| case.name.eq_ignore_ascii_case(name) || case.number.to_string() == name);
+    if !cases.is_empty() {
+        return Ok(cases);
     }
-    row[b.len()]
+    names.sort_by_key(|known| (!known.contains(name), strsim::osa_distance(name, known)));
+    Err(UnknownCase { name: name.into(), nearest: names[..3].join(", ") })
 }

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use sha2::{Digest, Sha256};
 
-use super::{Case, Content, Expected, Rank, Set, catalogue, find};
+use super::{Case, Content, Expected, Rank, Set, catalogue, find, find_all};
 use crate::exact::rational;
 use crate::geometry::{Mesh, MeshError, Ray};
 use crate::oracle::Oracle;
@@ -169,4 +169,7 @@ fn an_unknown_name_is_answered_with_the_nearest() {
     let error = find("fan_apxe").map(|case| case.name).unwrap_err().to_string();
     assert!(error.contains("fan_apex"), "{error}");
     assert_eq!(find("41").unwrap().name, "duplicates_20000");
+    assert_eq!(find("Duplicates_20000").unwrap().number, 41);
+    let both: Vec<&str> = find_all("23").unwrap().iter().map(|case| case.name).collect();
+    assert_eq!(both, ["scale_1e5", "scale_1e10"]);
 }

@@ -1,0 +1,63 @@
+//! What structures answer to rays that are asked one by one.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use crate::accel::DynAccel;
+use crate::geometry::{Hit, Mesh, Ray};
+use crate::report::{Cell, Table, Tone};
+use crate::scene::offset::barycentrics;
+use crate::validate::watched;
+
+/// One row for each ray: number of the ray, t, triangle, and where on it.
+pub fn answers(label: &str, accel: &Arc<dyn DynAccel>, rays: &[Ray], mesh: &Mesh, limit: Duration) -> Vec<Vec<Cell>> {
+    let row = |(i, ray): (usize, &Ray)| {
+        let mut row: Vec<Cell> = vec![label.into(), format!("{} ({ray})", i + 1).into()];
+        row.extend(answer(accel, ray, mesh, limit));
+        row.resize(COLUMNS.len(), Cell::blank());
+        row
+    };
+    rays.iter().enumerate().map(row).collect()
+}
+
+fn answer(accel: &Arc<dyn DynAccel>, ray: &Ray, mesh: &Mesh, limit: Duration) -> Vec<Cell> {
+    if let Some(what) = accel.capabilities().declines(ray) {
+        return vec![format!("declines {what}").into()];
+    }
+    let (asked, own) = (Arc::clone(accel), *ray);
+    let found = watched(limit, move || {
+        let mut hits: [Option<Hit>; 1] = [None];
+        asked.closest_hits(&[own], &mut hits);
+        hits[0]
+    });
+    match found {
+        Err(_) => vec![Cell::from("no answer").with(Tone::Wrong)],
+        Ok(None) => vec!["no hit".into()],
+        Ok(Some(hit)) => {
+            let index = hit.prim.index();
+            let weights = ((index as usize) < mesh.len()).then(|| barycentrics(ray, mesh.corners(index)));
+            let [u, v] =
+                weights.map_or([Cell::blank(), Cell::blank()], |w| [w.y, w.z].map(|x| format!("{x:.9}").into()));
+            vec![hit.t.to_string().into(), index.to_string().into(), u, v]
+        }
+    }
+}
+
+const COLUMNS: [&str; 6] = ["structure", "ray", "t", "triangle", "u", "v"];
+
+/// The rows as a table.
+pub fn table(scene: &str, mut rows: Vec<Vec<Cell>>) -> Table {
+    // Ray by ray, in the order of the structures.
+    rows.sort_by_key(|row| number(row));
+    let note = "u, v: weights of the second and third corner of the triangle where the ray meets its plane, in f64. Triangles count from 0.";
+    Table {
+        title: format!("{scene}: answers"),
+        columns: COLUMNS.map(String::from).into(),
+        rows,
+        notes: vec![note.into()],
+    }
+}
+
+fn number(row: &[Cell]) -> usize {
+    row[1].text.split(' ').next().and_then(|number| number.parse().ok()).unwrap_or(0)
+}
