@@ -122,15 +122,17 @@ impl Reader<'_> {
             b"Kd" => material.diffuse = colour(words)?,
             b"Ks" => material.specular = colour(words)?,
             b"Ns" => material.shininess = finite(words.next().ok_or(())?)?.max(0.0),
-            _ if keyword.starts_with(b"map_") || [&b"bump"[..], b"norm", b"disp", b"decal"].contains(&keyword) => {
-                if words.next().is_some() {
-                    self.textured.insert(material.name.clone());
-                }
+            _ if is_texture(keyword) && words.next().is_some() => {
+                self.textured.insert(material.name.clone());
             }
             _ => {}
         }
         Ok(())
     }
+}
+
+fn is_texture(keyword: &[u8]) -> bool {
+    keyword.starts_with(b"map_") || [&b"bump"[..], b"norm", b"disp", b"decal"].contains(&keyword)
 }
 
 /// Three numbers, or one for a grey, from 0 to 1.

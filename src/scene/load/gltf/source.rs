@@ -13,7 +13,7 @@ use gltf::json::{Root, mesh::Semantic, validation::Checked};
 
 use crate::scene::load::below;
 use crate::scene::load::error::{Fault, message, quoted};
-use crate::scene::load::text::plain;
+use crate::scene::load::text::{number, plain};
 
 /// The bytes of a buffer; buffers of one file share them.
 pub(super) type Data = Rc<Vec<u8>>;
@@ -49,7 +49,7 @@ fn parse(bytes: &[u8]) -> Result<(Root, Option<Vec<u8>>), Fault> {
     } else {
         (plain(bytes)?.into(), None)
     };
-    check_size(&text, bytes.len())?;
+    check_text(&text, bytes.len())?;
     let root = Root::from_slice(&text).map_err(|error| match message(&error) {
         // Both are left out in valid files.
         missing if missing.contains("missing field `nodes`") => {
@@ -64,23 +64,58 @@ fn parse(bytes: &[u8]) -> Result<(Root, Option<Vec<u8>>), Fault> {
 /// A document takes some hundred bytes for each object in its text, which may be as short as `{}`.
 const MOST_OBJECTS: usize = 1 << 16;
 
-/// Bytes of the file that allow for one more object, and for four more numbers.
+/// Bytes of the file that allow for one more object.
 const BYTES_AN_OBJECT: usize = 48;
 
-fn check_size(text: &[u8], bytes: usize) -> Result<(), Fault> {
+/// Entries of lists and objects that each object allows for.
+const ENTRIES_AN_OBJECT: usize = 12;
+
+/// What is followed by indices, of which the crate keeps the lower 32 bits.
+const INDICES: [&[u8]; 10] = [
+    b"scene",
+    b"nodes",
+    b"children",
+    b"mesh",
+    b"POSITION",
+    b"NORMAL",
+    b"indices",
+    b"material",
+    b"bufferView",
+    b"buffer",
+];
+
+/// Whether a document of this text in a file of so many bytes can be read: before memory is taken for it.
+fn check_text(text: &[u8], bytes: usize) -> Result<(), Fault> {
     let (mut objects, mut entries) = (0_usize, 0_usize);
-    let mut rest = text.iter();
-    while let Some(byte) = rest.next() {
+    let (mut at, mut last_string) = (0, &text[..0]);
+    while let Some(&byte) = text.get(at) {
+        let start = at;
+        at += 1;
         match byte {
             b'{' => objects += 1,
             b',' => entries += 1,
-            // Over a string: what is escaped does not end it.
-            b'"' => while rest.next().is_some_and(|&b| b != b'"' && (b != b'\\' || rest.next().is_some())) {},
+            b'"' => {
+                // What is escaped does not end it.
+                while text.get(at).is_some_and(|&b| b != b'"') {
+                    at += if text[at] == b'\\' { 2 } else { 1 };
+                }
+                last_string = text.get(start + 1..at).unwrap_or_default();
+                at += 1;
+            }
+            b'0'..=b'9' => {
+                at += text[at..].iter().take_while(|b| b.is_ascii_digit()).count();
+                let digits = &text[start..at];
+                if digits.len() > 9 && number::<u32>(digits).is_none() && INDICES.contains(&last_string) {
+                    let problem =
+                        format!("it names {} as {}, more than there can be", quoted(digits), quoted(last_string));
+                    return Err(Fault::file(problem));
+                }
+            }
             _ => {}
         }
     }
     let most = MOST_OBJECTS + bytes / BYTES_AN_OBJECT;
-    for (count, most, what) in [(objects, most, "objects"), (entries, 12 * most, "entries")] {
+    for (count, most, what) in [(objects, most, "objects"), (entries, ENTRIES_AN_OBJECT * most, "entries")] {
         if count > most {
             let problem =
                 format!("its text describes {count} {what}, and more than {most} are not read: split the file");
@@ -107,7 +142,7 @@ fn check_binary(bytes: &[u8]) -> Result<&[u8], Fault> {
 
 fn validate(root: &Root) -> Result<(), Fault> {
     if !root.extensions_required.is_empty() {
-        let names: Vec<_> = root.extensions_required.iter().map(|name| quoted(name)).collect();
+        let names: Vec<_> = root.extensions_required.iter().map(quoted).collect();
         let problem = format!("it requires {}, not supported here: export it without", names.join(", "));
         return Err(Fault::file(problem));
     }

@@ -327,6 +327,8 @@ fn malformed_files_are_refused_with_their_part() {
         ("/buffers/0/uri", json!("data:;base64,%%%"), ["buffer 0:", "cannot be read: Invalid byte 37, offset 0."]),
         ("/buffers/0/uri", json!("."), ["buffer 0:", "not a regular file"]),
         ("/nodes/0/scale", json!([1e38, 1e38, 1e38]), ["a.gltf", "a.gltf"]),
+        ("/nodes/0/mesh", json!(1_u64 << 32), ["`4294967296` as `mesh`", "more than there can be"]),
+        ("/scenes/0/nodes/0", json!(1_u64 << 32), ["`4294967296` as `nodes`", "more than there can be"]),
         ("/scene", json!(3), ["scene:", "it names scene 3, but the file has 1 scenes"]),
     ];
     for (pointer, value, words) in cases {
