@@ -1,5 +1,5 @@
-//! Malformed files and files made to harm: each is refused in one sentence that names it and a place in it, and none takes
-//! more memory than twice its size and 64 MiB. What such files name is counted as their size.
+//! Malformed files and files made to harm: each is refused in one sentence that names it and a place in it, and none
+//! takes more memory than twice its size and 64 MiB. What such files name is counted as their size.
 
 use std::fs;
 
@@ -16,8 +16,8 @@ type Files = Vec<(&'static str, Vec<u8>)>;
 
 const SLACK: usize = 64 << 20;
 
-/// Loads the first file. Gives the triangles, or the message from its name on; an error if that is not one sentence, or if
-/// too much memory was taken.
+/// Loads the first file. Gives the triangles, or the message from its name on; an error if that is not one sentence, or
+/// if too much memory was taken.
 fn loaded(files: &Files) -> Result<Result<usize, String>, String> {
     let (name, folder) = (files[0].0, tempfile::tempdir().unwrap());
     for (name, bytes) in files {

@@ -46,12 +46,12 @@ impl Client {
         Self { agent: config.into(), patience }
     }
 
-    /// Brings `file` to its place: from where an earlier download ended, verified, and in one step. `progress` is told the bytes
-    /// that there are.
+    /// Brings `file` to its place: from where an earlier download ended, verified, and in one step. `progress` is told
+    /// the bytes that there are.
     ///
     /// # Errors
-    /// If the file is there with other contents, the server does not give it, or gives something else. A part that may be
-    /// gone on with is kept.
+    /// If the file is there with other contents, the server does not give it, or gives something else. A part that may
+    /// be gone on with is kept.
     pub fn fetch(&self, file: &DataFile, progress: &mut dyn FnMut(u64)) -> Result<Fetched, FetchError> {
         if file.is_there()? {
             return Ok(Fetched::AlreadyThere);
@@ -101,7 +101,8 @@ impl Client {
         }
     }
 
-    /// Writes the body behind the first `start` bytes of the part. Gives the bytes that there are when it ends, however it ends.
+    /// Writes the body behind the first `start` bytes of the part. Gives the bytes that there are when it ends, however
+    /// it ends.
     fn append(
         &self,
         file: &DataFile,

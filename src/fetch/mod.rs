@@ -1,7 +1,8 @@
 //! Downloads of real meshes: resumable, verified, whole or not at all.
 //!
-//! Behind the feature `fetch`, which is on by default and brings an HTTP client with TLS of its own: no library of the system,
-//! no certificates of the system. Without the feature everything else works, and `sahara fetch` says what to download by hand.
+//! Behind the feature `fetch`, which is on by default and brings an HTTP client with TLS of its own: no library of the
+//! system, no certificates of the system. Without the feature everything else works, and `sahara fetch` says what to
+//! download by hand.
 
 #[cfg(feature = "fetch")]
 mod client;
@@ -40,10 +41,12 @@ pub enum FetchError {
     Connection { url: String, cause: String },
     #[error("{url}: the connection ended after {got} of {expected} bytes: fetch again to go on from there")]
     Cut { url: String, got: u64, expected: u64 },
-    #[error("{url}: the server sent nothing, or next to nothing, for {} s: fetch again to go on after {got} bytes", patience.as_secs_f32())]
+    #[error("{url}: the server sent nothing, or next to nothing, for {} s: fetch again \
+         to go on after {got} bytes", patience.as_secs_f32())]
     Stalled { url: String, got: u64, patience: Duration },
     #[error(
-        "{url}: the file has more than {most} bytes, the most that is fetched without a size in the scene file: nothing of it is kept"
+        "{url}: the file has more than {most} bytes, the most that is fetched without a size in the scene file: \
+         nothing of it is kept"
     )]
     TooLarge { url: String, most: u64 },
     #[error("{url}: more than the {expected} bytes that the scene file says came: nothing of it is kept")]

@@ -20,7 +20,8 @@ pub enum SceneError {
     Camera { file: String, cause: CameraError },
     #[error("{file}, `{key}`: {cause}")]
     Load { file: String, key: String, cause: LoadError },
-    #[error("{file}: its coordinates reach from {:?} to {:?}, where f32 has no place for a camera before it: scale it, or move it nearer to 0", min.to_array(), max.to_array())]
+    #[error("{file}: its coordinates reach from {:?} to {:?}, where f32 has no place for a camera \
+         before it: scale it, or move it nearer to 0", min.to_array(), max.to_array())]
     Extent { file: String, min: Vec3, max: Vec3 },
     #[error("{file}: {cause}")]
     Mesh { file: String, cause: MeshError },

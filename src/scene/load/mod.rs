@@ -23,13 +23,14 @@ pub use error::{LoadError, Place};
 
 /// Reads a mesh file; the end of its name (in any case) tells the format: `.obj`, `.ply`, `.gltf` or `.glb`.
 ///
-/// Polygons are split into triangles, glTF node graphs are expanded, textures are left out. What was left out or replaced
-/// stands in [`Model::notes`]. The model has at least one material and one triangle, and [`Mesh::new`] takes its arrays.
+/// Polygons are split into triangles, glTF node graphs are expanded, textures are left out. What was left out or
+/// replaced stands in [`Model::notes`]. The model has at least one material and one triangle, and [`Mesh::new`] takes
+/// its arrays.
 ///
-/// Other files that the file names are read where their path leads below its folder; a symbolic link there may lead anywhere.
-/// A file is checked before memory is taken for what is in it, and it cannot ask for much more than it holds: a glTF file
-/// shows at most 2^24 triangles and vertices more than its files have bytes, its text describes at most 2^16 objects and one
-/// for each 48 bytes, and a face of a PLY file has at most 2^20 corners.
+/// Other files that the file names are read where their path leads below its folder; a symbolic link there may lead
+/// anywhere. A file is checked before memory is taken for what is in it, and it cannot ask for much more than it holds:
+/// a glTF file shows at most 2^24 triangles and vertices more than its files have bytes, its text describes at most
+/// 2^16 objects and one for each 48 bytes, and a face of a PLY file has at most 2^20 corners.
 ///
 /// # Errors
 /// A file that cannot be read or breaks its format, a vertex that is not finite, an index out of range, no triangles.

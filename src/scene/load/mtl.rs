@@ -31,8 +31,8 @@ impl Libraries {
         }
     }
 
-    /// Reads the materials that are keys of `used`, each library once. What cannot be read is a note and not an error, for
-    /// the mesh is whole without it. Of two materials with one name the later counts.
+    /// Reads the materials that are keys of `used`, each library once. What cannot be read is a note and not an error,
+    /// for the mesh is whole without it. Of two materials with one name the later counts.
     pub fn read(&self, used: &HashMap<String, u32>, folder: &Path, notes: &mut Notes) -> HashMap<String, Material> {
         let mut reader = Reader { known: HashMap::new(), used, textured: HashSet::new() };
         let mut files: Vec<PathBuf> = Vec::new();

@@ -15,9 +15,10 @@ type Point = Coord<f64>;
 
 /// Splits polygons into triangles, two fewer than there are corners, and counts those that are no simple flat polygons.
 ///
-/// A convex polygon becomes the fan around its first corner, another one is split by ear clipping. Both look at it along
-/// the axis in which its normal is longest, where the signs of areas are exact. There, every triangle that ear clipping
-/// makes has the orientation of the polygon or no area, so that together they cover the polygon and nothing else.
+/// A convex polygon becomes the fan around its first corner, another one is split by ear clipping. Both look at it
+/// along the axis in which its normal is longest, where the signs of areas are exact. There, every triangle that ear
+/// clipping makes has the orientation of the polygon or no area, so that together they cover the polygon and nothing
+/// else.
 ///
 /// # References
 /// G. H. Meisters, "Polygons have ears", 1975. J. R. Shewchuk, "Adaptive precision floating-point arithmetic and fast

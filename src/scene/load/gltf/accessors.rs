@@ -124,8 +124,8 @@ impl<'a> Accessors<'a> {
         Ok(())
     }
 
-    /// The bytes of `count` elements and the distance between them. The last chunk of that length may be shorter, but has
-    /// at least `size` bytes.
+    /// The bytes of `count` elements and the distance between them. The last chunk of that length may be shorter, but
+    /// has at least `size` bytes.
     fn elements(&self, view: View<'a>, offset: usize, count: usize, size: usize) -> Result<(&'a [u8], usize), String> {
         let number = view.index();
         let stride = view.stride().unwrap_or(size);

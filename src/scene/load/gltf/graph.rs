@@ -19,8 +19,8 @@ pub(super) struct Placement {
 /// visits a node before its children.
 ///
 /// # Errors
-/// A graph that is not a forest: a node with two parents, a cycle, a scene that shows a node twice; or one that is deeper
-/// than 1024 nodes.
+/// A graph that is not a forest: a node with two parents, a cycle, a scene that shows a node twice; or one that is
+/// deeper than 1024 nodes.
 pub(super) fn placements(root: &Root) -> Result<Vec<Placement>, Fault> {
     let nodes = &root.nodes;
     let mut parent: Vec<Option<usize>> = vec![None; nodes.len()];

@@ -18,15 +18,15 @@ use super::error::Fault;
 use super::notes::Notes;
 use crate::scene::{Material, Model};
 
-/// Nodes may show this many triangles, and vertices, more than the files have bytes. Without nodes that share a mesh they
-/// cannot show more than bytes.
+/// Nodes may show this many triangles, and vertices, more than the files have bytes. Without nodes that share a mesh
+/// they cannot show more than bytes.
 const MOST_REPEATED: usize = 1 << 24;
 
 /// Reads a glTF file and expands its node graph: every mesh once for each node that shows it.
 ///
-/// Transforms are multiplied in f64 and rounded once, when they meet the vertices. Triangles of mirrored nodes are turned
-/// round, so that they face the side that they face in the file. Points, lines, textures, skins and morph targets are
-/// left out. Nothing is read before everything that is shown has been checked and counted.
+/// Transforms are multiplied in f64 and rounded once, when they meet the vertices. Triangles of mirrored nodes are
+/// turned round, so that they face the side that they face in the file. Points, lines, textures, skins and morph
+/// targets are left out. Nothing is read before everything that is shown has been checked and counted.
 pub(super) fn read(bytes: Vec<u8>, folder: &Path) -> Result<Model, Fault> {
     let Source { document, buffers, bytes } = source::open(bytes, folder)?;
     let placements = graph::placements(document.as_json())?;

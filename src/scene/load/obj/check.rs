@@ -17,8 +17,8 @@ pub(super) struct Check {
     unknown: usize,
     /// The line of the first unknown keyword, and what it says.
     first_unknown: Option<(usize, String)>,
-    /// The highest index that a face uses, counted from 1, and its line. Indices may point forward, so the end of the file
-    /// judges it.
+    /// The highest index that a face uses, counted from 1, and its line. Indices may point forward, so the end of the
+    /// file judges it.
     highest_vertex: (u32, usize),
     highest_normal: (u32, usize),
 }
@@ -101,7 +101,8 @@ impl Check {
                 Err(Fault::line(*number, problem))
             }
             None => Err(Fault::file(format!(
-                "it holds no triangles: {} vertices, {} faces with fewer than three corners, {} lines of other elements",
+                "it holds no triangles: {} vertices, {} faces with fewer than three corners, {} lines of other \
+                 elements",
                 self.vertices, self.thin_faces, self.skipped
             ))),
         }

@@ -8,8 +8,8 @@ use crate::scene::Model;
 use crate::scene::load::error::quoted;
 use crate::scene::load::text::{Lines, after_keyword, number, words};
 
-/// What the format knows beside what is read: texture coordinates, groups, points, lines, curves, surfaces, and how these
-/// are displayed.
+/// What the format knows beside what is read: texture coordinates, groups, points, lines, curves, surfaces, and how
+/// these are displayed.
 const SKIPPED: [&[u8]; 43] = [
     b"vt",
     b"vp",

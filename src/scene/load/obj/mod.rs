@@ -3,8 +3,8 @@
 //! The geometry is read here and not by tobj, which renumbers the vertices of every group, drops those without a face,
 //! makes up normals for corners that have none and names no line in its errors. A test compares the two.
 //!
-//! A file is gone through more than once: first nothing is kept and everything is checked, so that a file that is refused
-//! takes no memory but its own; then vertices are read, then faces, whose corners may follow them.
+//! A file is gone through more than once: first nothing is kept and everything is checked, so that a file that is
+//! refused takes no memory but its own; then vertices are read, then faces, whose corners may follow them.
 
 mod check;
 mod line;

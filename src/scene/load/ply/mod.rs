@@ -16,8 +16,8 @@ use crate::scene::{Material, Model};
 
 /// Reads a PLY file: the positions and, if there are any, normals of its vertices, and the triangles of its faces.
 ///
-/// All rows are gone through twice: first nothing is kept and everything is checked, so that a file that is refused takes no
-/// memory but its own.
+/// All rows are gone through twice: first nothing is kept and everything is checked, so that a file that is refused
+/// takes no memory but its own.
 pub(super) fn read(bytes: &[u8]) -> Result<Model, Fault> {
     let (header, body, line_end) = header::split(bytes)?;
     header::check(&header)?;
