@@ -33,7 +33,7 @@ pub struct Args {
     /// A kind of rays: uniform, edge, vertex, axis, grazing, scale or offset; may be repeated [default: all]
     #[arg(long, value_name = "KIND")]
     stratum: Vec<RayKind>,
-    /// Rays of each kind: without an error among n, the error is below 3/n with 95 % confidence; or a file of rays to
+    /// Rays of each kind: without an error among n, the error is below about 3/n with 95 % confidence; or a file of rays to
     /// replay, in place of kinds
     #[arg(long, value_name = "N|F.rays", default_value = "20000")]
     rays: RaySource,

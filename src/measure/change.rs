@@ -1,7 +1,7 @@
 //! What changed between two runs.
 
 use super::replication::{epoch_values, mean, standard_error};
-use super::student::factor;
+use super::student::{LEVEL, factor};
 use super::summary::Interval;
 
 /// The geometric mean over cells of new / old, with its 95 % interval, where `old` and `new` are the cells of two runs, each what
@@ -23,7 +23,7 @@ pub fn change(old: &[Vec<Vec<f64>>], new: &[Vec<Vec<f64>>], floor: f64) -> Optio
     let half = if variance > 0.0 {
         let share = |i: usize, n: usize| errors[i] * errors[i] / (n - 1) as f64;
         let freedom = variance * variance / (share(0, old.len()) + share(1, new.len()));
-        factor(freedom.max(1.0)) * libm::sqrt(variance)
+        factor(freedom.max(1.0), LEVEL) * libm::sqrt(variance)
     } else {
         0.0
     };
@@ -51,11 +51,11 @@ mod tests {
         // Both spread alike, five epochs each: eight degrees of freedom, the error is that of one by the root of two.
         let spread = [-0.02, -0.01, 0.0, 0.01, 0.02];
         let interval = change(&spread, &spread.map(|x| x + 0.1), 0.0);
-        let half = 2.306 * 0.01 * libm::sqrt(2.5 / 5.0 * 2.0);
+        let half = factor(8.0, LEVEL) * 0.01 * libm::sqrt(2.5 / 5.0 * 2.0);
         assert!((libm::log(interval.high) - 0.1 - half).abs() < 1e-12, "{interval:?}");
         // One of them without spread: four degrees are left.
         let interval = change(&spread, &[0.1; 5], 0.0);
-        assert!((libm::log(interval.high) - 0.1 - 2.776 * 0.01 * libm::sqrt(0.5)).abs() < 1e-12);
+        assert!((libm::log(interval.high) - 0.1 - factor(4.0, LEVEL) * 0.01 * libm::sqrt(0.5)).abs() < 1e-12);
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! Measuring: a clock, samples in random order whose answers are checked, what is printed of them, where they come from.
 
 pub mod advice;
+mod beta;
 mod change;
 mod clock;
 mod floor;
@@ -19,6 +20,7 @@ mod summary;
 mod threads;
 pub mod tiles;
 
+pub use beta::beta_quantile;
 pub use change::change;
 pub use clock::{Clock, CpuClock, Stopwatch, SystemClock};
 pub use floor::{Difference, NoiseFloor};
@@ -30,6 +32,6 @@ pub use pin::Pin;
 pub use provenance::Provenance;
 pub use replication::{epoch_values, log_ratios, prediction, replication, standard_error};
 pub use samples::{Part, Plan, Samples, Timed, UnsteadyAnswers, begin, take};
-pub use student::{factor, holm, two_sided};
+pub use student::{LEVEL, factor, holm, two_sided};
 pub use summary::{Interval, geometric_mean, median};
 pub use threads::Threads;

@@ -37,7 +37,7 @@
 use super::RandomOrder;
 use std::borrow::Cow;
 
-use super::student::factor;
+use super::student::{LEVEL, factor};
 use super::summary::{Interval, median};
 
 /// ln(numerator / denominator) of every round, epoch by epoch, for samples in the order taken, `epochs` times as many rounds.
@@ -116,7 +116,7 @@ const UNKNOWN: f64 = 600.0;
 /// Distances of the ends from the centre: by Student's t, or by the bootstrap where that reaches farther.
 fn ends(values: &[f64], centre: f64, both: f64, cells: &[Vec<Vec<f64>>], seed: u64) -> (f64, f64) {
     let Some(error) = standard_error(values) else { return (UNKNOWN, UNKNOWN) };
-    let half = factor(values.len() as f64 - 1.0) * libm::sqrt(both) * error;
+    let half = factor(values.len() as f64 - 1.0, LEVEL) * libm::sqrt(both) * error;
 
     let mut random = RandomOrder::new(seed);
     let mut draws: Vec<f64> = (0..RESAMPLES).map(|_| resampled(cells, &mut random)).collect();

@@ -1,55 +1,61 @@
 //! Student's t: how wide an interval must be, and how likely chance alone is, for one difference and for many.
 
-/// The 97.5 % quantile for 1, 2, .. 30 degrees of freedom.
-const TABLE: [f64; 30] = [
-    12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228, 2.201, 2.179, 2.160, 2.145, 2.131, 2.120,
-    2.110, 2.101, 2.093, 2.086, 2.080, 2.074, 2.069, 2.064, 2.060, 2.056, 2.052, 2.048, 2.045, 2.042,
-];
+use super::beta::incomplete_beta;
 
-/// That of the normal distribution.
-pub const NORMAL: f64 = 1.960;
+/// The chance that is left to the outside of an interval, of one alone or of all that are looked at together: 5 %.
+pub const LEVEL: f64 = 0.05;
 
-/// The factor that makes a standard error with `freedom` degrees of freedom half a 95 % interval (Student, "The probable
-/// error of a mean", 1908): between whole degrees, and above 30, linear in 1 / `freedom`, which errs by less than 0.3 %
-/// from 2 on.
+/// The factor that makes a standard error with `freedom` degrees of freedom half an interval that leaves `level` to its outside (Student,
+/// "The probable error of a mean", 1908).
 ///
 /// # Panics
-/// If `freedom` is less than 1.
-pub fn factor(freedom: f64) -> f64 {
+/// If `freedom` is less than 1, or `level` does not lie between 0 and 1.
+pub fn factor(freedom: f64, level: f64) -> f64 {
     assert!(freedom >= 1.0, "an interval needs a degree of freedom");
-    let last = TABLE.len() as f64;
-    let (low, high, from, to) = if freedom >= last {
-        (last, f64::INFINITY, TABLE[TABLE.len() - 1], NORMAL)
-    } else {
-        let whole = freedom as usize;
-        (whole as f64, whole as f64 + 1.0, TABLE[whole - 1], TABLE[whole])
-    };
-    let share = (1.0 / low - 1.0 / freedom) / (1.0 / low - 1.0 / high);
-    from + (to - from) * share
+    assert!(0.0 < level && level < 1.0, "an interval leaves a chance to its outside");
+    // Newton's method on logarithms: there the tail is concave, so that after the first step no step goes too far.
+    let mut log_t = 0.0;
+    for _ in 0..100 {
+        let t = libm::exp(log_t);
+        let tail = two_sided(t, freedom);
+        if tail <= 0.0 {
+            log_t -= 0.5;
+            continue;
+        }
+        let slope = -2.0 * t * density(t, freedom) / tail;
+        let step = libm::log(tail / level) / slope;
+        log_t -= step;
+        if step.abs() < 1e-12 {
+            break;
+        }
+    }
+    libm::exp(log_t)
+}
+
+/// Beyond so many degrees of freedom t is a normal variable.
+const NORMAL: f64 = 1e9;
+
+/// The density of Student's t.
+fn density(t: f64, freedom: f64) -> f64 {
+    let n = freedom.min(NORMAL);
+    let log = libm::lgamma((n + 1.0) / 2.0)
+        - libm::lgamma(n / 2.0)
+        - 0.5 * libm::log(n * std::f64::consts::PI)
+        - (n + 1.0) / 2.0 * libm::log1p(t * t / n);
+    if freedom < 1e6 { libm::exp(log) } else { libm::exp(-t * t / 2.0) / libm::sqrt(2.0 * std::f64::consts::PI) }
 }
 
 /// The probability that Student's t with `freedom` degrees of freedom is at least as far from 0 as `t` (Abramowitz, Stegun,
-/// "Handbook of mathematical functions", 1964, 26.7.3 and 26.7.4).
+/// "Handbook of mathematical functions", 1964, 26.7.1).
 ///
 /// # Panics
-/// If `freedom` is 0.
-pub fn two_sided(t: f64, freedom: usize) -> f64 {
-    assert!(freedom > 0, "a t has degrees of freedom");
-    let n = freedom as f64;
-    let (sine, cosine) = {
-        let root = libm::sqrt(n + t * t);
-        (libm::fabs(t) / root, libm::sqrt(n) / root)
-    };
-    // The sum of a series in powers of cos^2, each term from the one before.
-    let odd = freedom % 2 == 1;
-    let (mut sum, mut term, mut k) = (0.0, if odd { cosine } else { 1.0 }, if odd { 3.0 } else { 2.0 });
-    while k <= n {
-        sum += term;
-        term *= cosine * cosine * (k - 1.0) / k;
-        k += 2.0;
+/// If `freedom` is not positive.
+pub fn two_sided(t: f64, freedom: f64) -> f64 {
+    assert!(freedom > 0.0, "a t has degrees of freedom");
+    if freedom >= 1e6 {
+        return libm::erfc(t.abs() / std::f64::consts::SQRT_2);
     }
-    let inside = if odd { std::f64::consts::FRAC_2_PI * (libm::atan2(sine, cosine) + sine * sum) } else { sine * sum };
-    (1.0 - inside).clamp(0.0, 1.0)
+    incomplete_beta(freedom / (freedom + t * t), freedom / 2.0, 0.5)
 }
 
 /// Which of many probabilities are too small for chance, when the chance of even one false claim among all may be `level`
@@ -73,34 +79,58 @@ mod tests {
 
     #[test]
     fn the_factors_are_students() {
-        let known = [(1.0, 12.706), (4.0, 2.776), (29.0, 2.045), (30.0, 2.042), (60.0, 2.000), (120.0, 1.980)];
-        for (freedom, expected) in known {
-            assert!((factor(freedom) - expected).abs() < 2e-3, "{freedom}: {}", factor(freedom));
+        // From printed tables.
+        let known = [
+            (1.0, 0.05, 12.706),
+            (2.0, 0.05, 4.303),
+            (4.0, 0.05, 2.776),
+            (29.0, 0.05, 2.045),
+            (60.0, 0.05, 2.000),
+            (120.0, 0.05, 1.980),
+            (1.0, 0.001, 636.619),
+            (4.0, 0.01, 4.604),
+            (4.0, 0.001, 8.610),
+            (10.0, 0.002, 4.144),
+            (f64::INFINITY, 0.05, 1.960),
+            (f64::INFINITY, 0.001, 3.291),
+        ];
+        for (freedom, level, expected) in known {
+            let found = factor(freedom, level);
+            assert!((found / expected - 1.0).abs() < 5e-4, "{freedom} {level}: {found}");
         }
         // 6.5 degrees: 2.402 by integration.
-        assert!((factor(6.5) - 2.402).abs() < 3e-3);
-        assert!((factor(1e9) - NORMAL).abs() < 1e-6);
+        assert!((factor(6.5, 0.05) - 2.402).abs() < 1e-3);
+    }
+
+    #[test]
+    fn a_factor_leaves_its_level_outside() {
+        for freedom in [1.0, 1.7, 4.0, 33.3, 1e5, 1e8] {
+            for level in [0.5, 0.05, 0.05 / 24.0, 1e-6] {
+                let outside = two_sided(factor(freedom, level), freedom);
+                assert!((outside / level - 1.0).abs() < 1e-6, "{freedom} {level}: {outside}");
+            }
+        }
     }
 
     #[test]
     fn probabilities_are_students() {
         // From printed tables: quantiles with their two-sided probability.
         let known = [
-            (12.706, 1, 0.05),
-            (4.303, 2, 0.05),
-            (3.182, 3, 0.05),
-            (2.776, 4, 0.05),
-            (8.610, 4, 0.001),
-            (5.959, 6, 0.001),
-            (2.571, 5, 0.05),
-            (2.086, 20, 0.05),
-            (2.042, 30, 0.05),
+            (12.706, 1.0, 0.05),
+            (4.303, 2.0, 0.05),
+            (3.182, 3.0, 0.05),
+            (2.776, 4.0, 0.05),
+            (8.610, 4.0, 0.001),
+            (5.959, 6.0, 0.001),
+            (2.571, 5.0, 0.05),
+            (2.086, 20.0, 0.05),
+            (2.042, 30.0, 0.05),
         ];
         for (t, freedom, p) in known {
             assert!((two_sided(t, freedom) / p - 1.0).abs() < 2e-3, "{t} {freedom}: {}", two_sided(t, freedom));
             assert_eq!(two_sided(t, freedom), two_sided(-t, freedom));
         }
-        assert_eq!(two_sided(0.0, 3), 1.0);
+        assert_eq!(two_sided(0.0, 3.0), 1.0);
     }
 
     #[test]

@@ -1,5 +1,7 @@
 //! How often something happens, and how often it may.
 
+use crate::measure::beta_quantile;
+
 /// `events` among `of` independent trials.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Rate {
@@ -7,8 +9,8 @@ pub struct Rate {
     pub of: u64,
 }
 
-/// The 95 % quantile of the normal distribution.
-const Z: f64 = 1.644_853_626_951_472_2;
+/// The chance that an interval or a bound leaves to its outside.
+const LEVEL: f64 = 0.05;
 
 impl Rate {
     /// The share of trials with the event; nothing of no trials.
@@ -18,20 +20,38 @@ impl Rate {
 
     /// What the true rate is below with 95 % confidence, at most 1; nothing of no trials.
     ///
-    /// Without an event 3 / n, since (1 - 3/n)^n < 5 %; otherwise the upper end of the one-sided score interval, which
-    /// without an event would give 2.7 / n.
+    /// One-sided: at this rate so few events would be seen in 5 % of the cases. Without an event it is 1 - 0.05^(1 / n), about 3 / n.
     ///
     /// # References
-    /// Wilson: Probable inference, the law of succession, and statistical inference. J. Am. Stat. Assoc. 22, 1927.
+    /// Clopper, Pearson: The use of confidence or fiducial limits illustrated in the case of the binomial. Biometrika 26, 1934.
     /// Hanley, Lippman-Hand: If nothing goes wrong, is everything all right? J. Am. Med. Assoc. 249, 1983.
     pub fn bound(self) -> Option<f64> {
-        let (n, share) = (self.of as f64, self.share()?);
-        if self.events == 0 {
-            return Some((3.0 / n).min(1.0));
+        self.upper(LEVEL)
+    }
+
+    /// The two ends between which the true rate lies with 95 % confidence; nothing of no trials. Each end leaves 2.5 % to its outside.
+    ///
+    /// # References
+    /// As [`Rate::bound`].
+    pub fn interval(self) -> Option<[f64; 2]> {
+        let high = self.upper(LEVEL / 2.0)?;
+        let others = (self.of - self.events) as f64;
+        let low = match self.events {
+            0 => 0.0,
+            events => beta_quantile(LEVEL / 2.0, events as f64, others + 1.0),
+        };
+        Some([low, high])
+    }
+
+    /// The rate at which as few events are seen in the share `level` of the cases.
+    fn upper(self, level: f64) -> Option<f64> {
+        let (events, others) = (self.events as f64, (self.of - self.events) as f64);
+        match self {
+            Self { of: 0, .. } => None,
+            Self { events: 0, of } => Some(-libm::expm1(libm::log(level) / of as f64)),
+            _ if others == 0.0 => Some(1.0),
+            _ => Some(beta_quantile(1.0 - level, events + 1.0, others)),
         }
-        let middle = share + Z * Z / (2.0 * n);
-        let half = Z * (share * (1.0 - share) / n + Z * Z / (4.0 * n * n)).sqrt();
-        Some(((middle + half) / (1.0 + Z * Z / n)).min(1.0))
     }
 }
 
@@ -39,25 +59,69 @@ impl Rate {
 mod tests {
     use super::*;
 
-    #[test]
-    fn without_an_event_the_bound_is_three_in_n() {
-        assert_eq!(Rate { events: 0, of: 0 }.bound(), None);
-        assert_eq!(Rate { events: 0, of: 2 }.bound(), Some(1.0));
-        assert_eq!(Rate { events: 0, of: 10_000 }.bound(), Some(3e-4));
-        // What it promises: were the rate as high, no event would be seen in fewer than 5 % of the runs.
-        assert!(libm::pow(1.0 - 3e-4, 10_000.0) < 0.05);
+    fn rate(events: u64, of: u64) -> Rate {
+        Rate { events, of }
     }
 
     #[test]
-    fn with_events_the_bound_is_that_of_wilson() {
-        // Solutions of (share - p)^2 = z^2 p (1 - p) / n, above the share.
-        for (events, of) in [(1, 100), (5, 50), (9999, 10_000), (10, 10)] {
-            let (rate, n) = (Rate { events, of }, of as f64);
-            let (share, p) = (rate.share().unwrap(), rate.bound().unwrap());
-            assert!(p > share || p == 1.0);
-            let defect = (share - p) * (share - p) - Z * Z * p * (1.0 - p) / n;
-            assert!(defect.abs() < 1e-15, "{rate:?}: {defect}");
+    fn the_ends_are_those_of_printed_tables() {
+        // One-sided upper bounds.
+        for (events, of, bound) in
+            [(0, 10, 0.2589), (0, 100, 0.02951), (1, 10, 0.3942), (5, 10, 0.7776), (9, 10, 0.9949)]
+        {
+            let found = rate(events, of).bound().unwrap();
+            assert!((found - bound).abs() < 5e-5, "{events} of {of}: {found}");
         }
-        assert!(Rate { events: 1, of: 1000 }.bound() > Rate { events: 0, of: 1000 }.bound());
+        // Two-sided intervals.
+        let known = [
+            (0, 10, [0.0, 0.3085]),
+            (1, 10, [0.0025, 0.4450]),
+            (5, 10, [0.1871, 0.8129]),
+            (10, 10, [0.6915, 1.0]),
+            (4, 100, [0.0110, 0.0993]),
+        ];
+        for (events, of, [low, high]) in known {
+            let found = rate(events, of).interval().unwrap();
+            assert!((found[0] - low).abs() < 5e-5 && (found[1] - high).abs() < 5e-5, "{events} of {of}: {found:?}");
+        }
+    }
+
+    #[test]
+    fn without_an_event_the_bound_is_about_three_in_n() {
+        assert_eq!((rate(0, 0).bound(), rate(0, 0).interval()), (None, None));
+        assert_eq!(rate(10, 10).bound(), Some(1.0));
+        for n in [100_u64, 1_000_000, 1_000_000_000] {
+            let bound = rate(0, n).bound().unwrap();
+            // Were the rate as high, no event would be seen in 5 % of the runs.
+            assert!((libm::exp(n as f64 * libm::log1p(-bound)) - 0.05).abs() < 1e-9, "{n}: {bound}");
+            assert!((bound * n as f64 - 2.9957).abs() < 0.05, "{n}: {bound}");
+        }
+    }
+
+    #[test]
+    fn no_true_rate_is_missed_more_often_than_promised() {
+        // The chance that the bound lies below the true rate, summed over all outcomes of 40 trials.
+        let of = 40_u64;
+        let chance = |p: f64, k: u64| {
+            let choose: f64 = (0..k).map(|j| (of - j) as f64 / (j + 1) as f64).product();
+            choose * libm::pow(p, k as f64) * libm::pow(1.0 - p, (of - k) as f64)
+        };
+        for p in [0.003, 0.02, 0.1, 0.25, 0.5, 0.8, 0.97] {
+            let below: f64 = (0..=of).filter(|&k| rate(k, of).bound().unwrap() < p).map(|k| chance(p, k)).sum();
+            assert!(below <= 0.05 + 1e-9, "{p}: {below}");
+            let outside = |k: &u64| {
+                let [low, high] = rate(*k, of).interval().unwrap();
+                p < low || high < p
+            };
+            let missed: f64 = (0..=of).filter(outside).map(|k| chance(p, k)).sum();
+            assert!(missed <= 0.05 + 1e-9, "{p}: {missed}");
+        }
+    }
+
+    #[test]
+    fn many_rays_do_not_take_the_digits() {
+        // Of 1e9 rays with 10 events: as Poisson, 16.962 in the upper bound.
+        let found = rate(10, 1_000_000_000).bound().unwrap();
+        assert!((found * 1e9 / 16.962 - 1.0).abs() < 1e-3, "{found}");
     }
 }

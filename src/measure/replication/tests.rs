@@ -104,7 +104,7 @@ fn a_plain_interval_does_not_hold_it() {
     // Nor does the confidence interval of the mean over epochs.
     let confidence = |a: &[f64], b: &[f64], _: u64| {
         let values = epoch_values(&[log_ratios(a, b, EPOCHS)]).unwrap();
-        let (centre, half) = (mean(&values), factor(4.0) * standard_error(&values).unwrap());
+        let (centre, half) = (mean(&values), factor(4.0, LEVEL) * standard_error(&values).unwrap());
         let end = |x| libm::exp(x);
         Interval { estimate: end(centre), low: end(centre - half), high: end(centre + half) }
     };
@@ -156,7 +156,7 @@ fn cells_of_one_epoch_share_its_luck() {
     assert!((width(one) - width(two)).abs() < 1e-12);
     assert!((two.estimate / one.estimate - libm::exp(0.5)).abs() < 1e-12);
     // t(4) s sqrt(2 / 5), s the deviation of 0, 1, 2, 3, 4 hundredths.
-    let half = 2.776 * 0.01 * libm::sqrt(2.5) * libm::sqrt(0.4);
+    let half = factor(4.0, LEVEL) * 0.01 * libm::sqrt(2.5) * libm::sqrt(0.4);
     assert!((width(one) - 2.0 * half).abs() < 1e-12, "{}", width(one));
 }
 
@@ -164,7 +164,7 @@ fn cells_of_one_epoch_share_its_luck() {
 fn a_longer_run_is_easier_to_foresee() {
     let cell: Vec<Vec<f64>> = (0..EPOCHS).map(|e| vec![0.01 * e as f64; ROUNDS]).collect();
     let half = |epochs| libm::log(prediction(std::slice::from_ref(&cell), epochs, 0.0, 1).unwrap().high) - 0.02;
-    let error = 2.776 * 0.01 * libm::sqrt(2.5);
+    let error = factor(4.0, LEVEL) * 0.01 * libm::sqrt(2.5);
     for epochs in [2, 5, 20] {
         let expected = error * libm::sqrt(1.0 / 5.0 + 1.0 / epochs as f64);
         assert!((half(epochs) - expected).abs() < 1e-12, "{epochs}");

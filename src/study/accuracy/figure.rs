@@ -33,7 +33,8 @@ pub fn figure(records: &[AccuracyRecord]) -> Figure {
     let panels: Vec<Panel> = records.chunk_by(|a, b| a.rays == b.rays && a.scene == b.scene).map(panel).collect();
     let mut notes = vec![
         "Labels name the triangle test, colours the structure. Filled: nothing is faster and less wrong.".into(),
-        "Arrow: not one wrong answer was seen in n rays; the dot is the bound that this proves, 3/n.".into(),
+        "Arrow: not one wrong answer was seen in n rays; the dot is the upper bound with 95 % confidence, about 3/n."
+            .into(),
     ];
     if panels.iter().any(|panel| panel.points.len() > LABELLED) {
         notes.push(format!("Of more than {LABELLED} points those that are filled are labelled."));

@@ -1,7 +1,7 @@
 //! All epochs of one structure on one kind of rays, and what another run might find.
 
 use super::Epoch;
-use crate::measure::{RandomOrder, factor, median};
+use crate::measure::{LEVEL, RandomOrder, factor, median};
 
 /// All epochs of one structure on one kind of rays of one scene.
 #[derive(Clone, Debug, PartialEq)]
@@ -153,5 +153,5 @@ fn stretch(epochs: &[Vec<f64>]) -> f64 {
     if n < 2.0 {
         return 1.0;
     }
-    factor(n - 1.0) / factor(f64::INFINITY) * libm::sqrt(2.0 * n / (n - 1.0))
+    factor(n - 1.0, LEVEL) / factor(f64::INFINITY, LEVEL) * libm::sqrt(2.0 * n / (n - 1.0))
 }

@@ -63,7 +63,7 @@ impl WholeTimes {
         if error == 0.0 {
             return Some(if mean == 0.0 { 1.0 } else { 0.0 });
         }
-        Some(two_sided(mean / error, differences.len() - 1))
+        Some(two_sided(mean / error, differences.len() as f64 - 1.0))
     }
 }
 

@@ -1,6 +1,6 @@
 //! Do two measures put things in the same order?
 
-use crate::measure::{Interval, factor, standard_error};
+use crate::measure::{Interval, LEVEL, factor, standard_error};
 
 /// Kendall's tau-b of pairs `(x, y)` (Kendall, "The treatment of ties in ranking problems", 1945): 1 for the same order, -1 for the
 /// opposite one. Only couples for which `compared` says so take part. Nothing where none differs in both.
@@ -32,7 +32,7 @@ pub(super) fn mean(taus: &[f64]) -> Option<Interval> {
         return None;
     }
     let mean = taus.iter().sum::<f64>() / taus.len() as f64;
-    let half = standard_error(taus).map_or(2.0, |error| factor(taus.len() as f64 - 1.0) * error);
+    let half = standard_error(taus).map_or(2.0, |error| factor(taus.len() as f64 - 1.0, LEVEL) * error);
     Some(Interval { estimate: mean, low: (mean - half).max(-1.0), high: (mean + half).min(1.0) })
 }
 
