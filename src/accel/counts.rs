@@ -15,6 +15,8 @@ pub struct Counts {
     pub empty_leaves: u64,
     /// Triangles tested.
     pub tests: u64,
+    /// Blocks of triangles tested at once; as many as tests where triangles are tested one by one.
+    pub blocks: u64,
 }
 
 impl Counts {
@@ -39,6 +41,7 @@ impl Observer for Counts {
     #[inline(always)]
     fn test(&mut self, n: u32) {
         self.tests += u64::from(n);
+        self.blocks += 1;
     }
 }
 
@@ -48,5 +51,6 @@ impl AddAssign for Counts {
         self.leaves += other.leaves;
         self.empty_leaves += other.empty_leaves;
         self.tests += other.tests;
+        self.blocks += other.blocks;
     }
 }

@@ -18,7 +18,7 @@ pub trait Observer {
     #[inline(always)]
     fn leaf(&mut self, _references: u32) {}
 
-    /// `n` triangles are tested.
+    /// `n` triangles are tested at once: a block of several or one alone.
     #[inline(always)]
     fn test(&mut self, _n: u32) {}
 }

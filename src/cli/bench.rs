@@ -120,6 +120,8 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
         progress.stage(&stage);
     })?;
     let mut epochs = 0;
+    // Where nothing is decided there are more epochs and another look.
+    let looks = 1 + usize::from(most - first).div_ceil(STEP.into());
     let (run, comparison) = loop {
         let step = if epochs == 0 { first } else { STEP };
         for _ in 0..step {
@@ -130,7 +132,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
         }
         epochs += step;
         let run = Compared::joined(trials.results());
-        let compare = |old: &Vec<Record>| against(old, &run, args.fail_on_regression);
+        let compare = |old: &Vec<Record>| against(old, &run, args.fail_on_regression, looks);
         let comparison = baseline.as_ref().map(compare).transpose()?;
         let open = comparison.as_ref().is_some_and(|c| verdict(c) == bench::Verdict::Undecided);
         if !open || epochs >= most {

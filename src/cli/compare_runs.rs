@@ -36,7 +36,7 @@ pub fn run(args: &Args, terminal: &Terminal) -> anyhow::Result<Verdict> {
     let (old, new) = (records(&args.old)?, records(&args.new)?);
     unlike(&old, &new)?;
 
-    let comparison = Comparison::new(&old, &new, None);
+    let comparison = Comparison::new(&old, &new, None, 1);
     let tables = tables(&comparison);
     tables.iter().try_for_each(|table| terminal.print_table(table))?;
     let of = |records: &[Record]| records.first().map_or(String::new(), |record| record.provenance.line());

@@ -1,7 +1,7 @@
 //! Warnings about a run, with what to do. Pure functions: nothing is measured here.
 
-use super::replication::mean;
 use super::summary::median;
+use super::variance::mean;
 
 /// What was found of the machine before, during and after the timed part of a run. What the system does not tell is nothing.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -1,5 +1,7 @@
 //! Student's t: how wide an interval must be, and how likely chance alone is, for one difference and for many.
 
+use std::cell::Cell;
+
 use super::beta::incomplete_beta;
 
 /// The chance that is left to the outside of an interval, of one alone or of all that are looked at together: 5 %.
@@ -13,6 +15,21 @@ pub const LEVEL: f64 = 0.05;
 pub fn factor(freedom: f64, level: f64) -> f64 {
     assert!(freedom >= 1.0, "an interval needs a degree of freedom");
     assert!(0.0 < level && level < 1.0, "an interval leaves a chance to its outside");
+    // Tables ask for the same one again and again.
+    thread_local! {
+        static LAST: Cell<(f64, f64, f64)> = const { Cell::new((0.0, 0.0, 0.0)) };
+    }
+    let (of, at, factor) = LAST.get();
+    if (of, at) == (freedom, level) {
+        return factor;
+    }
+    let factor = quantile(freedom, level);
+    LAST.set((freedom, level, factor));
+    factor
+}
+
+/// The t that leaves `level` to its outside.
+fn quantile(freedom: f64, level: f64) -> f64 {
     // Newton's method on logarithms: there the tail is concave, so that after the first step no step goes too far.
     let mut log_t = 0.0;
     for _ in 0..100 {

@@ -25,14 +25,6 @@ pub fn geometric_mean(values: &[f64]) -> Option<f64> {
     (!values.is_empty()).then(|| libm::exp(logs / values.len() as f64))
 }
 
-/// An estimate with its 95 % interval.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-pub struct Interval {
-    pub estimate: f64,
-    pub low: f64,
-    pub high: f64,
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

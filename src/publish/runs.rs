@@ -201,7 +201,7 @@ impl Runs {
             costs::NAME => self.costs = Some(study(path, name, costs::result)?),
             parameters::NAME => self.parameters = Some(study(path, name, parameters::result)?),
             predictions::NAME => {
-                self.predictions = Some(study(path, name, |cases: &[predictions::Case], _| newest(cases))?)
+                self.predictions = Some(study(path, name, |cases: &[predictions::Case]| newest(cases))?)
             }
             // It holds no measurements.
             OF_ALL => return Ok(()),
@@ -308,14 +308,12 @@ fn newest(cases: &[predictions::Case]) -> Vec<predictions::Case> {
 }
 
 /// Reads a journal, and makes of its cases what the study makes of them.
-fn study<C, R>(path: &Path, name: &str, result: impl FnOnce(&[C], u64) -> R) -> Result<Study<R>, RunError>
+fn study<C, R>(path: &Path, name: &str, result: impl FnOnce(&[C]) -> R) -> Result<Study<R>, RunError>
 where
     C: Serialize + DeserializeOwned,
 {
     let Recorded { header, cases, .. } = Journal::read(path, name)?;
-    // Resampled as by the study itself.
-    let seed = header.settings.get("seed").and_then(Value::as_u64).unwrap_or(1);
-    Ok(Study { header, result: result(&cases, seed) })
+    Ok(Study { header, result: result(&cases) })
 }
 
 /// The files of a folder that may be runs, by name.

@@ -72,8 +72,9 @@ fn accuracy(scene: &str) -> Vec<AccuracyRecord> {
 
 /// A journal with one epoch of a scene.
 fn attribution_journal(scene: &str) -> String {
-    let epoch = Epoch { scene: scene.into(), ..attribution::tests::cases(1, 0.02).remove(0) };
-    String::from_utf8(journal("attribution", vec![serde_json::to_value(epoch).unwrap()])).unwrap()
+    let epochs = attribution::tests::cases(2, 0.0).into_iter().map(|epoch| Epoch { scene: scene.into(), ..epoch });
+    String::from_utf8(journal("attribution", epochs.map(|epoch| serde_json::to_value(epoch).unwrap()).collect()))
+        .unwrap()
 }
 
 /// The text of a journal.

@@ -1,24 +1,54 @@
 //! Words that tables, studies and pages share.
 
+use super::Table;
 use super::number::figures;
-use crate::measure::Interval;
+use crate::measure::{Estimate, Interval};
 
 /// A scene as keys, tables and figures name it: they say where a mesh of our own stands in for a real one.
 pub fn scene_name(scene: &str, stand_in: bool) -> String {
     if stand_in { format!("{scene} (stand-in)") } else { scene.into() }
 }
 
-/// `20.6 [19.2, 21.4]`; what does not vary has no interval.
-pub fn interval(x: Interval) -> String {
-    if x.low == x.high { figures(x.estimate) } else { format!("{} {}", figures(x.estimate), ends(x)) }
+/// `20.6 [19.2, 21.4]`; `20.6` of what does not vary; `20.6 (one epoch)` without an interval.
+pub fn interval(x: Estimate) -> String {
+    written(x, figures)
 }
 
-/// `[19.2, 21.4]`; `[?]` where it is not known: of a single sample, or when it reaches from nearly nothing to a great multiple.
-pub fn ends(x: Interval) -> String {
-    if x.low > 0.0 && x.high > 1e4 * x.low {
-        return "[?]".into();
+/// As [`interval`], of numbers written as `number` says. `[?]` of an interval that reaches from nearly nothing to a great multiple.
+pub fn written(x: Estimate, number: impl Fn(f64) -> String) -> String {
+    match x.interval {
+        Some(interval) if interval.low == interval.high => number(x.estimate),
+        Some(interval) if says_nothing(interval) => format!("{} [?]", number(x.estimate)),
+        Some(interval) => format!("{} [{}, {}]", number(x.estimate), number(interval.low), number(interval.high)),
+        None => format!("{} {ONE_EPOCH}", number(x.estimate)),
     }
-    format!("[{}, {}]", figures(x.low), figures(x.high))
+}
+
+/// `[19.2, 21.4]`; `(one epoch)` without an interval.
+pub fn ends(x: Estimate) -> String {
+    match x.interval {
+        Some(interval) if says_nothing(interval) => "[?]".into(),
+        Some(interval) => format!("[{}, {}]", figures(interval.low), figures(interval.high)),
+        None => ONE_EPOCH.into(),
+    }
+}
+
+/// Whether it reaches from nearly nothing to a great multiple.
+fn says_nothing(interval: Interval) -> bool {
+    interval.low > 0.0 && interval.high > 1e4 * interval.low
+}
+
+/// Stands behind an estimate that has no interval.
+pub const ONE_EPOCH: &str = "(one epoch)";
+
+/// The table, with a note on estimates without an interval where it has some.
+pub fn explained(mut table: Table) -> Table {
+    if table.rows.iter().flatten().any(|cell| cell.text.contains(ONE_EPOCH)) {
+        table.notes.push(format!(
+            "{ONE_EPOCH}: one epoch, no interval. What another run finds is told by two epochs or more."
+        ));
+    }
+    table
 }
 
 /// `A`, `A and B`, `A, B and C`.
@@ -38,13 +68,15 @@ mod tests {
     #[test]
     fn lists_and_intervals_read_as_text() {
         assert_eq!([listed::<&str>(&[]), listed(&["a"]), listed(&["a", "b", "c"])], ["", "a", "a, b and c"]);
-        let spread = Interval { estimate: 2.0, low: 1.5, high: 2.5 };
-        assert_eq!(interval(spread), "2.00 [1.50, 2.50]");
-        assert_eq!(interval(Interval { low: 2.0, high: 2.0, ..spread }), "2.00");
-        assert_eq!(interval(Interval { low: 1e-200, high: 1e200, ..spread }), "2.00 [?]");
-        assert_eq!(interval(Interval { low: 2e-4, high: 4580.56, ..spread }), "2.00 [?]");
-        assert_eq!(interval(Interval { low: 0.00421, high: 2.5, ..spread }), "2.00 [0.00421, 2.50]");
-        assert_eq!(interval(Interval { estimate: -0.5, low: -0.75, high: 0.25 }), "-0.500 [-0.750, 0.250]");
+        assert_eq!(interval(Estimate::between(2.0, 1.5, 2.5)), "2.00 [1.50, 2.50]");
+        assert_eq!(interval(Estimate::between(2.0, 2e-4, 4580.56)), "2.00 [?]");
+        assert_eq!(interval(Estimate::between(2.0, 0.00421, 2.5)), "2.00 [0.00421, 2.50]");
+        assert_eq!(interval(Estimate::between(-0.5, -0.75, 0.25)), "-0.500 [-0.750, 0.250]");
+        assert_eq!(interval(Estimate::exact(2.0)), "2.00");
+        assert_eq!(interval(Estimate::alone(2.0)), "2.00 (one epoch)");
+        let table = |x: Estimate| explained(Table { rows: vec![vec![interval(x).into()]], ..Table::default() }).notes;
+        assert!(table(Estimate::exact(2.0)).is_empty());
+        assert!(table(Estimate::alone(2.0))[0].contains("one epoch, no interval"));
         assert_eq!(scene_name("Dragon", true), "Dragon (stand-in)");
     }
 }

@@ -41,8 +41,7 @@ impl<T: TriangleTest> Walk for BruteForce<T> {
         let prepared = T::prepare(ray);
         observer.leaf(self.references as u32);
         let count = self.references as u32;
-        let tests = search::<ANY, 8, L, T>(&self.blocks, count, &prepared, t_min, &mut nearest, &mut None);
-        observer.test(tests);
+        search::<ANY, 8, L, T, O>(&self.blocks, count, &prepared, t_min, &mut nearest, &mut None, observer);
         nearest.hit()
     }
 }

@@ -1,5 +1,6 @@
 //! Triangles as leaves hold them, and the search through them.
 
+use crate::accel::Observer;
 use crate::geometry::{Hit, Mesh, Ray};
 use crate::simd::Lanes;
 use crate::triangle::{Depth, TriangleTest};
@@ -98,18 +99,18 @@ impl Mailbox {
     }
 }
 
-/// Searches the `count` triangles in the blocks of one leaf and returns how many were tested. With `ANY`, returns at the
+/// Searches the `count` triangles in the blocks of one leaf and tells the observer of each block that is tested. With `ANY`, returns at the
 /// first block with a hit in the interval.
 #[inline(always)]
-pub(crate) fn search<const ANY: bool, const N: usize, L: Lanes<N>, T: TriangleTest>(
+pub(crate) fn search<const ANY: bool, const N: usize, L: Lanes<N>, T: TriangleTest, O: Observer>(
     blocks: &[LeafBlock<T, N>],
     count: u32,
     ray: &T::Ray,
     t_min: f32,
     nearest: &mut Nearest<T::Depth>,
     mailbox: &mut Option<Mailbox>,
-) -> u32 {
-    let mut tested = 0;
+    observer: &mut O,
+) {
     for (i, block) in blocks.iter().enumerate() {
         let mut fresh = (count - (i * N) as u32).min(N as u32);
         if let Some(mailbox) = mailbox {
@@ -118,7 +119,7 @@ pub(crate) fn search<const ANY: bool, const N: usize, L: Lanes<N>, T: TriangleTe
         if fresh == 0 {
             continue;
         }
-        tested += fresh;
+        observer.test(fresh);
         let (candidates, known) = T::candidates::<N, L>(ray, &block.triangles, t_min, nearest.t);
         if candidates != 0 {
             settle(block, ray, candidates, known.store(), nearest);
@@ -127,7 +128,6 @@ pub(crate) fn search<const ANY: bool, const N: usize, L: Lanes<N>, T: TriangleTe
             }
         }
     }
-    tested
 }
 
 /// Decides about the candidates of a block. Rare, and out of line, so that it does not cost the walk its registers.

@@ -105,7 +105,7 @@ fn known(folder: &Path) -> String {
 }
 
 /// Holds a run against a baseline of the same cases. `refused` are the structures that could not take part: that they are missing is
-/// found, not refused.
+/// found, not refused. `looks` as in [`Comparison::new`].
 ///
 /// # Errors
 /// If the two are [unlike], or one has cases that the other has not.
@@ -113,9 +113,10 @@ pub fn against(
     baseline: &[Record],
     run: &Compared,
     threshold_percent: Option<f64>,
+    looks: usize,
 ) -> Result<Comparison, BaselineError> {
     unlike(baseline, &run.records)?;
-    let comparison = Comparison::new(baseline, &run.records, threshold_percent);
+    let comparison = Comparison::new(baseline, &run.records, threshold_percent, looks);
     if let Some(case) = comparison.only_new.first() {
         return Err(BaselineError::New(case.clone()));
     }
@@ -144,27 +145,27 @@ mod tests {
     fn what_weighs_most_decides() {
         let (old, mut new) = ([record("a"), record("b")], [record("a"), record("b")]);
         new[0].samples_ns.iter_mut().for_each(|ns| *ns *= 2.0);
-        let mut comparison = Comparison::new(&old, &new, Some(5.0));
+        let mut comparison = Comparison::new(&old, &new, Some(5.0), 1);
         assert_eq!(verdict(&comparison), Verdict::Regression);
         comparison.only_old = vec!["c".into()];
         assert_eq!(verdict(&comparison), Verdict::Refused);
         comparison.wrong = vec![Wrong { case: "a".into(), what: "lost".into() }];
         assert_eq!(verdict(&comparison), Verdict::Wrong);
-        assert_eq!(verdict(&Comparison::new(&old, &new, None)), Verdict::Right);
-        assert_eq!(verdict(&Comparison::new(&old, &old, Some(5.0))), Verdict::Right);
+        assert_eq!(verdict(&Comparison::new(&old, &new, None, 1)), Verdict::Right);
+        assert_eq!(verdict(&Comparison::new(&old, &old, Some(5.0), 1)), Verdict::Right);
         new[0].samples_ns = vec![1e6, 2e6, 4e6];
-        assert_eq!(verdict(&Comparison::new(&old, &new, Some(5.0))), Verdict::Undecided);
+        assert_eq!(verdict(&Comparison::new(&old, &new, Some(5.0), 1)), Verdict::Undecided);
     }
 
     #[test]
     fn a_structure_that_fell_out_is_found_and_one_that_was_not_asked_is_refused() {
         let old = [record("a"), record("b")];
         let mut run = Compared { records: vec![record("a")], refused: vec![] };
-        assert!(matches!(against(&old, &run, None), Err(BaselineError::Old(case)) if case.starts_with("b on ")));
+        assert!(matches!(against(&old, &run, None, 1), Err(BaselineError::Old(case)) if case.starts_with("b on ")));
         run.refused.push(Refused { label: "b".into(), scene: record("b").scene, reason: "it panicked".into() });
-        assert_eq!(verdict(&against(&old, &run, None).unwrap()), Verdict::Refused);
+        assert_eq!(verdict(&against(&old, &run, None, 1).unwrap()), Verdict::Refused);
         assert!(matches!(
-            against(&old[..1], &Compared { records: old.to_vec(), refused: vec![] }, None),
+            against(&old[..1], &Compared { records: old.to_vec(), refused: vec![] }, None, 1),
             Err(BaselineError::New(_))
         ));
     }

@@ -107,7 +107,7 @@ mod tests {
 
     #[test]
     fn counts_are_a_ray_and_the_minimum_is_a_test_a_hit() {
-        let counts = Counts { inner: 30, leaves: 20, empty_leaves: 5, tests: 100 };
+        let counts = Counts { inner: 30, leaves: 20, empty_leaves: 5, tests: 100, blocks: 20 };
         let all = counted(counts, Observed::ALL);
         assert_eq!((all.tests_per_ray(), all.steps_per_ray()), (Some(10.0), Some(5.0)));
         assert_eq!((all.leaf_steps_per_ray(), all.empty_leaf_steps_per_ray()), (Some(2.0), Some(0.5)));
@@ -116,8 +116,24 @@ mod tests {
     }
 
     #[test]
+    fn a_block_is_counted_once_however_many_triangles_it_holds() {
+        use crate::accel::Accel;
+        use crate::structures::{BruteForce, KdConfig, KdTree};
+        use crate::triangle::MollerTrumbore;
+        let scene = crate::scene::Builtin::find("cube").unwrap().scene(None).unwrap();
+        // Twelve triangles: a block of eight and one of four.
+        let ray = Ray::new(glam::Vec3::new(0.01, 0.02, 9.0), glam::Vec3::new(0.0, 0.0, -1.0));
+        let brute = BruteForce::<MollerTrumbore>::build(&scene.mesh, &Default::default()).unwrap();
+        let counts = Counted::new(&brute, &[ray; 3], Query::Closest).counts;
+        assert_eq!((counts.tests, counts.blocks), (36, 6));
+        let tree = KdTree::<MollerTrumbore>::build(&scene.mesh, &KdConfig::SAH).unwrap();
+        let counts = Counted::new(&tree, &[ray; 3], Query::Closest).counts;
+        assert!(counts.blocks > 0 && counts.blocks < counts.tests, "{counts:?}");
+    }
+
+    #[test]
     fn what_is_not_observed_is_unknown() {
-        let counts = Counts { inner: 30, leaves: 0, empty_leaves: 0, tests: 100 };
+        let counts = Counts { inner: 30, leaves: 0, empty_leaves: 0, tests: 100, blocks: 20 };
         let no_leaves = counted(counts, Observed::ALL);
         assert_eq!((no_leaves.steps_per_ray(), no_leaves.leaf_steps_per_ray()), (Some(3.0), None));
         let tests = counted(counts, Observed::TESTS);

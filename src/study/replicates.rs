@@ -1,22 +1,17 @@
 //! From the samples of several structures to values that are independent of each other.
 
-use crate::measure::{Interval, median, replication};
+use crate::measure::{Estimate, Rerun, Variance, median};
 
-/// Logarithms, one for each structure: once for each epoch; or once for each round where there is one epoch alone. Given are the
-/// logarithms of all samples: of each epoch, of each structure.
+/// Logarithms, one for each structure, once for each epoch. Given are the logarithms of all samples: of each epoch, of each structure.
 ///
 /// Within an epoch, what slowed a whole round is taken out (the median over the structures of how far each is off its own
-/// median), then each structure has the median of its rounds. Figures that are sums over these add up exactly, replicate by
-/// replicate.
+/// median), then each structure has the median of its rounds. Figures that are sums over these add up exactly, epoch by epoch.
 ///
 /// # Panics
 /// If a structure has no samples.
 pub(super) fn replicates(mut epochs: Vec<Vec<Vec<f64>>>) -> Vec<Vec<f64>> {
     let middle = |values: &[f64]| median(values).expect("a structure has samples");
     let rounds = |trees: &[Vec<f64>]| trees.iter().map(Vec::len).min().unwrap_or(0);
-    if let [only] = &epochs[..] {
-        return (0..rounds(only)).map(|r| only.iter().map(|tree| tree[r]).collect()).collect();
-    }
     for trees in &mut epochs {
         let centres: Vec<f64> = trees.iter().map(|tree| middle(tree)).collect();
         for round in 0..rounds(trees) {
@@ -28,17 +23,17 @@ pub(super) fn replicates(mut epochs: Vec<Vec<Vec<f64>>>) -> Vec<Vec<f64>> {
     epochs.iter().map(|trees| trees.iter().map(|tree| middle(tree)).collect()).collect()
 }
 
-/// The interval of e to the power of what `of` makes of a replicate.
+/// e to the power of what `of` makes of an epoch, with its interval; `noise` is what the A/A noise adds to it.
 ///
 /// # Panics
-/// If there is no replicate.
-pub(super) fn interval(replicates: &[Vec<f64>], of: impl Fn(&[f64]) -> f64, floor: f64, seed: u64) -> Interval {
-    replication(&[values(replicates, of)], floor, seed).expect("there is a replicate")
+/// If there is no epoch.
+pub(super) fn ratio(replicates: &[Vec<f64>], of: impl Fn(&[f64]) -> f64, noise: Variance) -> Estimate {
+    Rerun::of(&values(replicates, of), noise).expect("there is an epoch").ratio()
 }
 
-/// What `of` makes of each replicate, as a cell of [`replication`].
-pub(super) fn values(replicates: &[Vec<f64>], of: impl Fn(&[f64]) -> f64) -> Vec<Vec<f64>> {
-    replicates.iter().map(|logs| vec![of(logs)]).collect()
+/// What `of` makes of each epoch.
+pub(super) fn values(replicates: &[Vec<f64>], of: impl Fn(&[f64]) -> f64) -> Vec<f64> {
+    replicates.iter().map(|logs| of(logs)).collect()
 }
 
 #[cfg(test)]
@@ -54,14 +49,14 @@ mod tests {
     }
 
     #[test]
-    fn of_one_epoch_the_rounds_are_replicates() {
-        assert_eq!(replicates(vec![vec![vec![1.0, 2.0], vec![3.0, 5.0]]]), [[1.0, 3.0], [2.0, 5.0]]);
+    fn an_epoch_of_one_round_is_that_round() {
+        assert_eq!(replicates(vec![vec![vec![1.0], vec![3.0]]]), [[1.0, 3.0]]);
     }
 
     #[test]
-    fn the_interval_is_that_of_a_power() {
-        let interval = interval(&[vec![1.0], vec![1.0]], |logs| logs[0], 0.0, 1);
-        assert_eq!(interval.estimate, libm::exp(1.0));
-        assert!(interval.low <= interval.estimate && interval.estimate <= interval.high);
+    fn the_ratio_is_a_power_and_of_one_epoch_it_has_no_interval() {
+        let both = ratio(&[vec![1.0], vec![1.0]], |logs| logs[0], Variance::NONE);
+        assert_eq!((both.estimate, both.low()), (libm::exp(1.0), Some(libm::exp(1.0))));
+        assert_eq!(ratio(&[vec![1.0]], |logs| logs[0], Variance::NONE).interval, None);
     }
 }

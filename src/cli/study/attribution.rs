@@ -37,7 +37,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     let Some((epochs, provenance)) = measured(NAME, &args.options, &settings, &scenes, terminal)? else {
         return Ok(Verdict::Wrong);
     };
-    let results = result(&epochs, args.options.seed);
+    let results = result(&epochs);
     let mut shown: Vec<Table> = results.iter().flat_map(tables).collect();
     let mut answer = headlines(&results);
     answer.notes.extend(args.scenes.note(&scenes));

@@ -19,7 +19,7 @@ const STUDY: Study = Study {
 pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Result<Verdict> {
     let files = args.field.options.exports.check()?;
     let (epochs, foot, provenance, verdict) = args.measured(&STUDY, registry, terminal)?;
-    let families = result(&epochs, args.field.options.seed);
+    let families = result(&epochs);
     files.tell(terminal, (NAME, &provenance), &families, &rows(&families), &tables(&families), &foot)?;
     Ok(verdict)
 }

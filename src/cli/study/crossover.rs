@@ -50,7 +50,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
         Ok(Case { layers: roots[s] * roots[s], complexity, epoch })
     };
     let (cases, provenance) = cases(NAME, options, &settings, &scenes, terminal, wrap, |case: &Case| &case.epoch)?;
-    let races = result(&cases, options.seed);
+    let races = result(&cases);
     let shown = tables(&races);
     let (mut foot, verdict) = verdict(cases.iter().map(|case| &case.epoch));
     foot.push(provenance.line());

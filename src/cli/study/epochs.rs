@@ -15,7 +15,7 @@ use crate::report::words::scene_name;
 use crate::scene::{Scene, WorkloadKind};
 use crate::study::epoch::{Asked, Epoch, Settings, key, measure, troubles};
 use crate::study::journal::Journal;
-use crate::study::{StudyError, documented_defect};
+use crate::study::{BRUTE_FORCE, REPORT_TREE, SAH_TREE, StudyError, documented_defect};
 
 /// Options of all of them.
 #[derive(Clone, Debug, clap::Args)]
@@ -133,8 +133,19 @@ impl Field {
         let own: Vec<String> = structures.iter().map(|&name| name.into()).collect();
         let named = if self.structure.is_empty() { &own } else { &self.structure };
         let kinds = if self.workload.is_empty() { workloads.into() } else { self.workload.clone() };
-        self.options.settings(registry, sources::structures(registry, named)?, Asked::Kinds(kinds, self.rays))
+        let structures = with_twin(sources::structures(registry, named)?);
+        self.options.settings(registry, structures, Asked::Kinds(kinds, self.rays))
     }
+}
+
+/// The structures and, for the A/A noise, the twin of one of them: of the SAH tree, or else of the first that is neither brute force nor the
+/// report's tree, which take long, or else of the first.
+fn with_twin(mut structures: Vec<Choice>) -> Vec<Choice> {
+    let slow = |choice: &&Choice| [BRUTE_FORCE, REPORT_TREE].contains(&choice.entry.name.as_str());
+    let sah = structures.iter().find(|choice| choice.entry.name == SAH_TREE);
+    let twin = sah.or_else(|| structures.iter().find(|choice| !slow(choice))).or(structures.first());
+    structures.extend(twin.cloned());
+    structures
 }
 
 /// Measures the epochs of `scenes` that the journal of the study `name` lacks, and gives all those asked for, and
@@ -214,4 +225,22 @@ pub fn verdict<'a>(epochs: impl IntoIterator<Item = &'a Epoch>) -> (Vec<String>,
         Verdict::Right
     };
     (troubles.into_iter().map(|trouble| trouble.sentence).collect(), verdict)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_field_has_a_twin_of_a_structure_that_is_not_slow() {
+        let registry = Registry::builtin();
+        let of = |names: &[&str]| -> Vec<String> {
+            let chosen = names.iter().map(|name| registry.choose(name).unwrap()).collect();
+            with_twin(chosen).into_iter().map(|choice| choice.label).collect()
+        };
+        assert_eq!(of(&["median-kd", "sah-bvh", "sah-kd"]), ["median-kd", "sah-bvh", "sah-kd", "sah-kd"]);
+        assert_eq!(of(&["brute-force", "sah-bvh"]), ["brute-force", "sah-bvh", "sah-bvh"]);
+        assert_eq!(of(&["median-kd"]), ["median-kd", "median-kd"]);
+        assert!(of(&[]).is_empty());
+    }
 }

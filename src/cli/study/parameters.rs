@@ -39,7 +39,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     let Some((epochs, provenance)) = measured(NAME, &args.options, &settings, &chosen, terminal)? else {
         return Ok(Verdict::Wrong);
     };
-    let result = result(&epochs, args.options.seed);
+    let result = result(&epochs);
     let shown = tables(&result);
     files.tell(terminal, (NAME, &provenance), &result, rows(&result), &shown, &[provenance.line()])?;
     Ok(Verdict::Right)

@@ -10,13 +10,12 @@ use crate::registry::Registry;
 use crate::report::to_json;
 use crate::scene::{Builtin, Scene};
 use crate::study::journal::Journal;
-use crate::study::predictions::{Case, Finding, NAME, Prediction, key, measure, read, result, scenes, table};
+use crate::study::predictions::{
+    Case, Claim, NAME, Prediction, Tally, key, measure, read, result, scenes, table, tally,
+};
 
 #[derive(Clone, Debug, clap::Args)]
 pub struct Args {
-    /// Seed of the intervals
-    #[arg(long, value_name = "N", default_value_t = 1)]
-    pub seed: u64,
     #[command(flatten)]
     pub folder: Folder,
     #[command(flatten)]
@@ -27,17 +26,17 @@ pub struct Args {
 #[derive(serde::Serialize)]
 struct File<'a> {
     schema: u32,
+    tally: Tally,
     predictions: &'a [Prediction],
     provenance: Provenance,
 }
 
-/// One finding, for tables that machines read.
+/// One claim, for tables that machines read.
 #[derive(serde::Serialize)]
 struct Row<'a> {
     prediction: u8,
-    verdict: &'static str,
     #[serde(flatten)]
-    finding: &'a Finding,
+    claim: &'a Claim,
 }
 
 pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Result<Verdict> {
@@ -65,18 +64,14 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     }
     progress.finish();
 
-    let mut inputs = read(&args.folder.dir, args.seed)?;
+    let mut inputs = read(&args.folder.dir)?;
     inputs.counted = keys.iter().filter_map(|key| journal.get(key).cloned()).collect();
     let predictions = result(&inputs);
     let shown = [table(&predictions)];
-    let rows: Vec<Row> = predictions
-        .iter()
-        .flat_map(|p| {
-            p.findings.iter().map(|finding| Row { prediction: p.number, verdict: p.verdict.words(), finding })
-        })
-        .collect();
+    let rows: Vec<Row> =
+        predictions.iter().flat_map(|p| p.claims.iter().map(|claim| Row { prediction: p.number, claim })).collect();
     files.tell(terminal, (NAME, &provenance), &predictions, &rows, &shown, &[])?;
-    let file = File { schema: 1, predictions: &predictions, provenance };
+    let file = File { schema: 2, tally: tally(&predictions), predictions: &predictions, provenance };
     OutputFile::check(&args.folder.dir.join("predictions.json"))?.write(&to_json(&file))?;
     Ok(Verdict::Right)
 }

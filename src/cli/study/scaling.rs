@@ -31,7 +31,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
 
     let wrap = |s: usize, epoch| Ok(Case { family: if s < spheres { Family::Spheres } else { Family::Meshes }, epoch });
     let (cases, provenance) = cases(NAME, options, &settings, &scenes, terminal, wrap, |case: &Case| &case.epoch)?;
-    let growths = result(&cases, options.seed);
+    let growths = result(&cases);
     let shown = tables(&growths);
     let (mut foot, verdict) = verdict(cases.iter().map(|case| &case.epoch));
     foot.push(provenance.line());

@@ -1,6 +1,6 @@
 //! The question that the source report leaves open, and what the runs say.
 
-use crate::measure::Interval;
+use crate::measure::Estimate;
 use crate::publish::document::{Answer, Headline};
 use crate::publish::runs::Runs;
 use crate::report::Record;
@@ -16,12 +16,12 @@ pub const QUESTION: &str = "Would a SAH tree have been much faster on the hard s
 struct Hard {
     scene: String,
     stand_in: bool,
-    ratio: Interval,
+    ratio: Estimate,
 }
 
 /// What is known of the hard scenes: from `replicate`, or else from the corners of `attribution`, which tell no mean, or else
 /// from the primary rays of `compare`.
-fn hard(runs: &Runs) -> (Vec<Hard>, Option<Interval>) {
+fn hard(runs: &Runs) -> (Vec<Hard>, Option<Estimate>) {
     if let Some(replication) = &runs.replication {
         let hard = replication.hard.iter().map(|hard| Hard {
             scene: hard.scene.clone(),
@@ -39,7 +39,7 @@ fn hard(runs: &Runs) -> (Vec<Hard>, Option<Interval>) {
         });
         return (hard.collect(), None);
     }
-    let floor = twins(&runs.records).log().unwrap_or(0.0);
+    let noise = twins(&runs.records);
     let (mut hard, mut pairs) = (vec![], vec![]);
     for name in ["Dragon", "Lucy", "Sponza"] {
         let of = |label: &str| {
@@ -47,12 +47,12 @@ fn hard(runs: &Runs) -> (Vec<Hard>, Option<Interval>) {
             runs.records.iter().find(is).filter(|r| r.trace_ns.is_some())
         };
         let (Some(tree), Some(sah)) = (of(REPORT_TREE), of(SAH_TREE)) else { continue };
-        if let Some(ratio) = speed([(sah, tree)], floor) {
+        if let Some(ratio) = speed([(sah, tree)], &noise) {
             pairs.push((sah, tree));
             hard.push(Hard { scene: name.into(), stand_in: tree.stand_in, ratio });
         }
     }
-    (hard, speed(pairs, floor))
+    (hard, speed(pairs, &noise))
 }
 
 /// The hard scenes.
@@ -86,13 +86,19 @@ pub fn answer(runs: &Runs) -> Answer {
             numbers: vec![],
         };
     }
-    let least = hard.iter().map(|hard| hard.ratio.low).fold(f64::INFINITY, f64::min);
-    let most = hard.iter().map(|hard| hard.ratio.high).fold(0.0, f64::max);
+    // The scenes are judged together; the mean is one figure.
+    let all = |is: &dyn Fn(Estimate) -> bool| hard.iter().all(|own| is(own.ratio.ratio_among(hard.len())));
+    let least = hard.iter().map(|hard| hard.ratio.low().unwrap_or(hard.ratio.estimate)).fold(f64::INFINITY, f64::min);
+    let most = hard.iter().map(|hard| hard.ratio.high().unwrap_or(hard.ratio.estimate)).fold(0.0, f64::max);
+    let known = hard.iter().all(|hard| hard.ratio.interval.is_some());
     let verdict = match () {
-        () if least >= MUCH => "Yes",
-        () if mean.is_some_and(|mean| mean.low >= MUCH) => "Yes, on average",
-        () if least > 1.0 || mean.is_some_and(|mean| mean.low > 1.0) => "Faster, but not much",
-        () if most < 1.0 || mean.is_some_and(|mean| mean.high < 1.0) => "No",
+        () if !known => "Not decided: one epoch, no interval",
+        () if all(&|ratio| ratio.is_above(MUCH)) => "Yes",
+        () if mean.is_some_and(|mean| mean.is_above(MUCH)) => "Yes, on average",
+        () if all(&|ratio| ratio.is_above(1.0)) || mean.is_some_and(|mean| mean.is_above(1.0)) => {
+            "Faster, but not much"
+        }
+        () if all(&|ratio| ratio.is_below(1.0)) || mean.is_some_and(|mean| mean.is_below(1.0)) => "No",
         () => "Not decided",
     };
     let names: Vec<&str> = hard.iter().map(|hard| hard.scene.as_str()).collect();
@@ -105,12 +111,15 @@ pub fn answer(runs: &Runs) -> Answer {
     };
     let (names, range) = (listed(&names), format!("{} to {}", figures(least), figures(most)));
     let times = match mean {
-        Some(mean) => format!(
+        Some(mean) if known => format!(
             "{} times as fast as the report's tree (geometric mean, 95 % interval {}; the scenes' intervals reach from {range})",
             figures(mean.estimate),
             ends(mean),
         ),
-        None => format!("{range} times as fast as the report's tree (the 95 % intervals of the scenes together)"),
+        None if known => {
+            format!("{range} times as fast as the report's tree (the 95 % intervals of the scenes together)")
+        }
+        _ => format!("{range} times as fast as the report's tree, in one epoch, which tells no interval"),
     };
     let mut sentences = vec![format!(
         "On {names}{stand_ins} the SAH tree answers the same primary rays {times}. Construction is left out, as in the report."

@@ -1,4 +1,4 @@
-//! What a step and a triangle test cost on this machine, and how well counts predict times.
+//! What a step and a block of triangles cost on this machine, and how well counts predict times.
 
 use crate::publish::document::{Art, Block, Figure, Section};
 use crate::publish::runs::Runs;
@@ -10,14 +10,13 @@ use crate::study::costs::{Family, LEGEND, Observation, tables};
 pub fn section(runs: &Runs) -> Section {
     let mut blocks = vec![];
     match &runs.costs {
-        None => {
-            blocks.push(Block::missing("What a step and a triangle test cost on this machine", "sahara study costs"))
-        }
+        None => blocks
+            .push(Block::missing("What a step and a block of triangles cost on this machine", "sahara study costs")),
         Some(study) => {
             let (families, command) = (&study.result, study.command());
             blocks.push(Block::Text(
-                "The surface area heuristic predicts time from two costs: of a traversal step, K_T, and of a triangle test, K_I. \
-                 Regression of measured times on counts finds them for this machine, and how far they can be trusted."
+                "The surface area heuristic predicts time from two costs: of a traversal step, K_T, and of testing a block of triangles at once, \
+                 K_B. Regression of measured times on counts finds them for this machine, and how far they can be trusted."
                     .into(),
             ));
             // Each structure's own family predicts it; `all` is the first.
@@ -28,7 +27,7 @@ pub fn section(runs: &Runs) -> Section {
             blocks.extend(LEGEND.map(|words| Block::Note(words.into())));
         }
     }
-    Section { id: "costs", title: "What do a step and a test cost?", blocks }
+    Section { id: "costs", title: "What do a step and a block cost?", blocks }
 }
 
 /// The structure without its keys: those of one family differ little, and eyes tell few colours apart.
@@ -43,29 +42,28 @@ fn figure(families: &[Family], command: &str) -> Figure {
         note: String::new(),
         points: all
             .iter()
-            .filter(|o| name(o) == *structure && o.predicted_ns > 0.0)
-            .map(|o| CurvePoint { x: o.predicted_ns, y: o.ns_per_ray, band: None })
+            .filter(|o| name(o) == *structure && o.foreseen_ns.unwrap_or(o.predicted_ns) > 0.0)
+            .map(|o| CurvePoint { x: o.foreseen_ns.unwrap_or(o.predicted_ns), y: o.ns_per_ray, band: None })
             .collect(),
         mark: Mark::Dots,
     };
     let names: Vec<String> = all.iter().map(|o| name(o)).collect();
     let structures = distinct(names.iter());
     let rows = all.iter().map(|o| {
-        let [measured, predicted] = [o.ns_per_ray, o.predicted_ns].map(figures);
+        let [measured, predicted] = [o.ns_per_ray, o.foreseen_ns.unwrap_or(o.predicted_ns)].map(figures);
         [o.structure.clone(), o.scene.clone(), o.workload.clone(), measured, predicted]
     });
     let told = families.iter().map(|family| {
-        format!(
-            "{}: {} cases, typically off by a factor of {:.2}",
-            family.family,
-            family.observations.len(),
-            family.typical_factor
-        )
+        let off = family
+            .foreseen
+            .or(family.known)
+            .map_or(String::new(), |off| format!(", off by {:.2} at the median", off.median));
+        format!("{}: {} cases{off}", family.family, family.observations.len())
     });
     Figure {
         id: "costs".into(),
-        caption: "Measured against predicted time of a ray, each structure by the costs of its family. On the line the prediction is \
-                  exact; both axes are logarithmic."
+        caption: "Measured against predicted time of a ray, each structure by the costs of its family on the other scenes. On the line the \
+                  prediction is exact; both axes are logarithmic."
             .into(),
         alt: format!("Scatter plot. {}.", told.collect::<Vec<_>>().join("; ")),
         command: command.into(),

@@ -43,7 +43,11 @@ fn figure(races: &[&Race], command: &str) -> Figure {
         points: race
             .members
             .iter()
-            .map(|m| CurvePoint { x: m.complexity, y: m.ratio.estimate, band: Some([m.ratio.low, m.ratio.high]) })
+            .map(|m| CurvePoint {
+                x: m.complexity,
+                y: m.ratio.estimate,
+                band: m.ratio.low().zip(m.ratio.high()).map(|(low, high)| [low, high]),
+            })
             .collect(),
         mark: Mark::Both,
     };

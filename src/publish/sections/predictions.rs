@@ -3,9 +3,9 @@
 use crate::publish::document::{Block, Section};
 use crate::publish::runs::{Runs, Study};
 use crate::publish::words::table;
+use crate::report::Cell;
 use crate::report::words::interval;
-use crate::report::{Cell, Tone};
-use crate::study::predictions::{Finding, Inputs, Prediction, Verdict, result, table as findings};
+use crate::study::predictions::{Claim, Inputs, Prediction, Verdict, result, table as claims, tally, tone};
 
 /// The verdicts. Nothing where no run tells anything about any of them.
 pub fn predictions(runs: &Runs) -> Vec<Prediction> {
@@ -18,7 +18,11 @@ pub fn predictions(runs: &Runs) -> Vec<Prediction> {
         compare: runs.records.clone(),
     };
     let predictions = result(&inputs);
-    if predictions.iter().all(|p| p.verdict == Verdict::NotMeasured) { vec![] } else { predictions }
+    if predictions.iter().all(|p| p.figures.is_empty() && p.claims.iter().all(|claim| claim.value.is_none())) {
+        vec![]
+    } else {
+        predictions
+    }
 }
 
 /// What came of a study, or nothing.
@@ -35,20 +39,7 @@ fn replicated(replication: &crate::study::replicate::Replication) -> crate::stud
 /// One sentence for the answer.
 pub fn sentence(runs: &Runs) -> Option<String> {
     let predictions = predictions(runs);
-    let count = |verdict| predictions.iter().filter(|p| p.verdict == verdict).count();
-    let [confirmed, refuted, missing] = [Verdict::Confirmed, Verdict::Refuted, Verdict::NotMeasured].map(count);
-    let missing = if missing > 0 { format!(", {missing} not measured") } else { String::new() };
-    let unsure = match predictions.iter().filter(|p| !p.is_sure()).count() {
-        0 => String::new(),
-        n => format!(", {n} of these verdicts not surely"),
-    };
-    (!predictions.is_empty()).then(|| {
-        format!(
-            "Of {} predictions that were made before anything was measured, {confirmed} are confirmed and {refuted} \
-             refuted{missing}{unsure}.",
-            predictions.len()
-        )
-    })
+    (!predictions.is_empty()).then(|| format!("Written before the measurement: {}.", tally(&predictions).words()))
 }
 
 pub fn section(runs: &Runs) -> Section {
@@ -56,21 +47,23 @@ pub fn section(runs: &Runs) -> Section {
     let command = runs.predictions.as_ref().map_or("sahara study predictions".to_owned(), |study| study.command());
     let mut blocks = vec![];
     if predictions.is_empty() {
-        blocks.push(Block::missing("Verdicts on the eight predictions", &command));
+        blocks.push(Block::missing("Verdicts on the claims", &command));
     } else {
-        let mut verdicts = table("Predictions and verdicts", ["no.", "prediction", "verdict", "decided by"], vec![]);
-        verdicts.rows = predictions.iter().map(row).collect();
+        blocks.push(Block::Text(format!("{}.", tally(&predictions).words())));
+        let mut verdicts = table("Claims and verdicts", ["no.", "claim", "expected", "measured", "verdict"], vec![]);
+        verdicts.rows = predictions.iter().flat_map(|p| p.claims.iter().map(|claim| row(p.number, claim))).collect();
         blocks.push(Block::table(verdicts, &command));
-        let whys = predictions.iter().filter(|p| p.verdict == Verdict::Refuted && !p.why.is_empty());
+        let told = |p: &&Prediction| {
+            let refuted = p.claims.iter().any(|claim| claim.verdict == Verdict::Refuted);
+            (refuted || p.claims.is_empty()) && !p.why.is_empty()
+        };
+        let whys = predictions.iter().filter(told);
         blocks.extend(whys.map(|p| Block::Text(format!("{}. {}", p.number, short(&p.why)))));
-        let all = Block::table(findings(&predictions), &command);
-        blocks.push(Block::Fold("All findings and explanations".into(), vec![all]));
+        let all = Block::table(claims(&predictions), &command);
+        blocks.push(Block::Fold("The words as they were written, and all explanations".into(), vec![all]));
     }
     Section { id: "predictions", title: "What was expected, and what came of it?", blocks }
 }
-
-/// Findings of one prediction that are shown at once.
-const SHOWN: usize = 3;
 
 /// Characters of an explanation that are shown at once.
 const LENGTH: usize = 420;
@@ -84,26 +77,14 @@ fn short(why: &str) -> String {
     }
 }
 
-fn row(p: &Prediction) -> Vec<Cell> {
-    let tone = match p.verdict {
-        Verdict::Confirmed => Tone::Best,
-        Verdict::Refuted => Tone::Wrong,
-        Verdict::NotMeasured => Tone::Plain,
-    };
-    let told = |f: &Finding| format!("{}: {}, expected {}", f.what, interval(f.value), f.expected);
-    // What refutes it, or else the first.
-    let mut refuting: Vec<String> = p.findings.iter().filter(|f| !f.holds).map(told).collect();
-    if refuting.len() > SHOWN {
-        let more = refuting.len() - SHOWN;
-        refuting.truncate(SHOWN);
-        refuting.push(format!("and {more} more"));
-    }
-    let deciding = if refuting.is_empty() { p.findings.iter().take(1).map(told).collect() } else { refuting };
-    let deciding = match (&p.command, deciding.is_empty()) {
-        (Some(command), true) => command.clone(),
-        _ => deciding.join("; "),
-    };
-    vec![p.number.to_string().into(), p.claim.as_str().into(), Cell::from(p.words()).with(tone), deciding.into()]
+fn row(number: u8, claim: &Claim) -> Vec<Cell> {
+    vec![
+        number.to_string().into(),
+        claim.what.as_str().into(),
+        claim.expected.as_str().into(),
+        claim.value.map_or(Cell::blank(), |value| interval(value).into()),
+        Cell::from(claim.verdict.words()).with(tone(claim.verdict)),
+    ]
 }
 
 #[cfg(test)]

@@ -1,12 +1,12 @@
 //! How time, build and memory grow with the number of triangles.
 
-use crate::measure::Interval;
+use crate::measure::Estimate;
 use crate::publish::document::{Art, Block, Figure, Section};
 use crate::publish::runs::Runs;
 use crate::publish::words::{slug, table};
 use crate::report::number::figures;
 use crate::report::plot::{Chart, CurvePoint, Curves, Line, Mark, Scale};
-use crate::report::words::interval;
+use crate::report::words::written;
 use crate::study::scaling::{Family, Growth, Point, tables};
 
 /// What is drawn over the number of triangles.
@@ -15,7 +15,7 @@ struct Quantity {
     words: &'static str,
     y_title: &'static str,
     value: fn(&Point) -> f64,
-    power: fn(&Growth) -> Option<Interval>,
+    power: fn(&Growth) -> Option<Estimate>,
 }
 
 const TIME: Quantity = Quantity {
@@ -71,7 +71,7 @@ pub fn section(runs: &Runs) -> Section {
             }
             let (powers, points): (Vec<_>, Vec<_>) = tables(growths)
                 .into_iter()
-                .partition(|table| table.columns.iter().any(|c| c == "time a ray") && table.columns.len() == 7);
+                .partition(|table| table.columns.iter().any(|c| c == "time a ray") && table.columns.len() == 8);
             blocks.extend(powers.into_iter().map(|table| Block::table(table, &command)));
             let points = points.into_iter().map(|table| Block::table(table, &command)).collect();
             blocks.push(Block::Fold("All points".into(), points));
@@ -97,7 +97,7 @@ fn figure(group: &[Growth], quantity: &Quantity, command: &str) -> Figure {
     });
     let told = group.iter().filter_map(|growth| {
         let power = (quantity.power)(growth)?;
-        Some(format!("{}: power {}", growth.structure, interval(power)))
+        Some(format!("{}: power {}", growth.structure, written(power, |x| format!("{x:.2}"))))
     });
     let told: Vec<String> = told.collect();
     let rays = if quantity.id == TIME.id { format!(" {} rays;", first.workload) } else { String::new() };

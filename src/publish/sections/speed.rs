@@ -1,6 +1,6 @@
 //! Speed of all structures: bars with intervals against the report's tree, tables beside.
 
-use crate::measure::Interval;
+use crate::measure::Estimate;
 use crate::publish::document::{Art, Block, Figure, Section};
 use crate::publish::runs::{Runs, shown};
 use crate::publish::words::{distinct, slug};
@@ -8,11 +8,8 @@ use crate::report::number::count;
 use crate::report::plot::{Bar, BarGroup, Bars, Chart};
 use crate::report::words::{interval, scene_name};
 use crate::report::{Record, Table};
-use crate::study::compare::{Reference, legend, mean_table, scene_table, speed};
+use crate::study::compare::{Reference, legend, mean_table, scene_table, speed, twins};
 use crate::study::{BRUTE_FORCE, REPORT_TREE};
-
-/// Equal.
-const ONE: Interval = Interval { estimate: 1.0, low: 1.0, high: 1.0 };
 
 /// Scenes shown at once; the others are folded.
 const OPEN: usize = 3;
@@ -58,7 +55,7 @@ fn command(records: &[Record]) -> String {
 /// Bars and table of one scene.
 fn of_scene(records: &[Record]) -> Vec<Block> {
     let first = &records[0];
-    let floor = first.noise_floor.map_or(0.0, libm::log1p);
+    let noise = twins(records);
     let labels = distinct(records.iter().map(|r| &r.label));
     let has = |label: &str| labels.iter().any(|l| l == label);
     let baseline = [REPORT_TREE, BRUTE_FORCE].into_iter().find(|label| has(label)).unwrap_or(&labels[0]).to_owned();
@@ -76,7 +73,7 @@ fn of_scene(records: &[Record]) -> Vec<Block> {
             (Some(_), Some(baseline)) if baseline.trace_ns.is_some() => {
                 // A structure is as fast as itself, without doubt.
                 let own = record.label == baseline.label;
-                let ratio = if own { Some(ONE) } else { speed([(record, baseline)], floor) };
+                let ratio = if own { Some(Estimate::exact(1.0)) } else { speed([(record, baseline)], &noise) };
                 ratio.map_or(Bar::Missing("no pairs".into()), Bar::Of)
             }
             _ => Bar::Missing("not timed".into()),

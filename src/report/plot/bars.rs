@@ -3,7 +3,7 @@
 use super::canvas::{self, Canvas, Side};
 use super::palette::{FAINT, INK, MIDDLE, colours};
 use super::scale::{Axis, Scale};
-use crate::measure::Interval;
+use crate::measure::Estimate;
 use crate::report::number::figures;
 
 /// Groups of bars that share labels, order and axis.
@@ -29,8 +29,8 @@ pub struct BarGroup {
 /// One bar.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Bar {
-    /// All three positive.
-    Of(Interval),
+    /// Positive, and so are the ends of its interval.
+    Of(Estimate),
     /// Why there is none, in a word or two; may be empty.
     Missing(String),
 }
@@ -114,15 +114,17 @@ impl Bars {
 }
 
 /// Ends of an axis that hold the intervals as well, unless these are so wide that nothing else would be seen.
-pub(super) fn with_intervals([low, high]: [f64; 2], intervals: impl Iterator<Item = Interval>) -> [f64; 2] {
+pub(super) fn with_intervals([low, high]: [f64; 2], values: impl Iterator<Item = Estimate>) -> [f64; 2] {
     let room = libm::sqrt(high / low).max(1.5);
+    let intervals = values.filter_map(|value| value.interval);
     let held = intervals.fold([low, high], |[low, high], i| [low.min(i.low), high.max(i.high)]);
     [held[0].max(low / room), held[1].min(high * room)]
 }
 
 /// An interval: a line with an end at either side, on a plate of its own so that it is seen on the bar. Without an end where
-/// it goes on beyond the axis. Gives the place where it stops.
-pub(super) fn whisker(canvas: &Canvas, interval: Interval, axis: Axis, y: f64) -> f64 {
+/// it goes on beyond the axis, and nothing where it is not known. Gives the place where it stops.
+pub(super) fn whisker(canvas: &Canvas, value: Estimate, axis: Axis, y: f64) -> f64 {
+    let Some(interval) = value.interval else { return axis.place(value.estimate) };
     let places = [interval.low, interval.high].map(|value| axis.place(value));
     let [from, to] = places.map(|place| place.clamp(axis.places()[0], axis.places()[1]));
     for (colour, width) in [(super::palette::PAPER.light, 3.5), (INK.light, 1.5)] {

@@ -5,7 +5,7 @@ use super::canvas::{self, Canvas, Side};
 use super::labels;
 use super::palette::{Colour, FAINT, INK, MIDDLE, PAPER, PARTS};
 use super::scale::{Axis, Scale};
-use crate::measure::Interval;
+use crate::measure::Estimate;
 use crate::report::number::figures;
 
 /// Products of the same factors.
@@ -24,7 +24,7 @@ pub struct StackRow {
     /// One positive factor for each part.
     pub factors: Vec<f64>,
     /// The whole.
-    pub total: Interval,
+    pub total: Estimate,
 }
 
 const ROW: f64 = 44.0;

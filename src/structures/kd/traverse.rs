@@ -38,8 +38,7 @@ impl<T: TriangleTest> Walk for KdTree<T> {
         while let Some(leaf) = leaves.next(self, &line, t_min, nearest.t, observer) {
             let (blocks, count) = (self.blocks_of(leaf), leaf.references());
             observer.leaf(count);
-            let tests = search::<ANY, WIDTH, L, T>(blocks, count, &prepared, t_min, &mut nearest, &mut mailbox);
-            observer.test(tests);
+            search::<ANY, WIDTH, L, T, O>(blocks, count, &prepared, t_min, &mut nearest, &mut mailbox, observer);
             if nearest.found() && (ANY || self.config.exit == Exit::FirstLeaf) {
                 break;
             }

@@ -76,7 +76,7 @@ impl<T: TriangleTest> ParryBvh<T> {
             nearest.set(best);
             best.found().then_some(if ANY { f32::NEG_INFINITY } else { best.t })
         });
-        observer.test(tests.get());
+        (0..tests.get()).for_each(|_| observer.test(1));
         nearest.get().hit()
     }
 }

@@ -165,7 +165,8 @@ impl<'a, L: Sieve, T: TriangleTest> Stream<'a, L, T> {
                 if at.child != Child::BOTTOM {
                     let (first, count) = at.child.leaf_blocks();
                     let blocks = tree.blocks.get_unchecked(first..first + count);
-                    search::<ANY, WIDTH, L, T>(blocks, u32::MAX, &at.ray, at.t_min, &mut at.nearest, &mut None);
+                    let (ray, nearest) = (&at.ray, &mut at.nearest);
+                    search::<ANY, WIDTH, L, T, ()>(blocks, u32::MAX, ray, at.t_min, nearest, &mut None, &mut ());
                     if !(ANY && at.nearest.found()) {
                         at.end = after(at.nearest.t);
                         at.child = at.stack.pop_down::<ANY>(at.end);

@@ -55,8 +55,7 @@ impl<T: TriangleTest> WideTree<T> {
                     held = blocks.iter().map(|block| block.len()).sum();
                     observer.leaf(held);
                 }
-                let tests = search::<ANY, WIDTH, L, T>(blocks, held, prepared, t_min, nearest, &mut None);
-                observer.test(tests);
+                search::<ANY, WIDTH, L, T, O>(blocks, held, prepared, t_min, nearest, &mut None, observer);
                 if ANY && nearest.found() {
                     return;
                 }

@@ -2,7 +2,7 @@
 //!
 //! One kind of tree in every combination of six planes, three stop rules and two traversals, over one triangle test, on the
 //! same rays: the factorial [`design`]. In every epoch all trees are built anew and timed in rounds, each round every tree once, in
-//! random order; the report's tree and the SAH tree are built twice, and what the twins differ by is the noise floor. A case of the
+//! random order; the report's tree and the SAH tree are built twice, and what the twins differ by is the A/A noise. A case of the
 //! journal is one epoch of one scene.
 
 pub mod design;
@@ -15,7 +15,7 @@ pub(crate) mod tests;
 use crate::registry::{Choice, ChoiceError, Registry};
 use design::Cell;
 
-pub use result::{Attribution, CellResult, Effect, Part, Row, Split, Term, attribute, result, rows};
+pub use result::{Attribution, CellResult, Effect, Part, Row, Split, Term, result, rows};
 pub use table::{headlines, tables};
 
 /// Name of the study, and of its journal; a case is an [`Epoch`](super::epoch::Epoch).

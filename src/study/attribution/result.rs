@@ -4,9 +4,9 @@ use serde::Serialize;
 
 use super::design::{CELLS, Cell, Factor};
 use super::effects::{self, TERMS, Weights, value};
-use crate::measure::{Interval, NoiseFloor, RandomOrder, median};
+use crate::measure::{AaNoise, Estimate, Rerun, median};
 use crate::study::epoch::{Epoch, RayCounts, Structure};
-use crate::study::replicates::{interval, replicates, values};
+use crate::study::replicates::{ratio, replicates, values};
 
 /// What came of one scene.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -19,10 +19,8 @@ pub struct Attribution {
     /// Epochs and samples in each.
     pub epochs: usize,
     pub runs: usize,
-    /// What the twins differ by, at most, as a factor; 1 is nothing.
-    pub floor: f64,
-    /// How many of the two twins' intervals hold 1.
-    pub twins_alike: usize,
+    /// The [A/A noise](AaNoise) of all scenes, as a factor; 1 is none.
+    pub aa_noise: f64,
     /// One for each cell of the design, in order.
     pub cells: Vec<CellResult>,
     /// One for each level of each factor.
@@ -37,7 +35,7 @@ pub struct Attribution {
     pub steps: Split,
     /// How many times faster the exact SAH plane is than the report's, where both stop at eight triangles, as far as planes
     /// divide them, and have plane intervals.
-    pub plane_alone: Interval,
+    pub plane_alone: Estimate,
 }
 
 /// One tree.
@@ -49,7 +47,7 @@ pub struct CellResult {
     /// Median over all samples, nanoseconds.
     pub ns_per_ray: f64,
     /// How many times faster than the report's tree.
-    pub speedup: Interval,
+    pub speedup: Estimate,
     pub tests_per_ray: f64,
     pub steps_per_ray: f64,
     /// References for each triangle.
@@ -69,7 +67,7 @@ pub struct CellResult {
 pub struct Effect {
     pub factor: &'static str,
     pub level: &'static str,
-    pub time: Interval,
+    pub time: Estimate,
     pub tests: f64,
     pub steps: f64,
 }
@@ -78,7 +76,7 @@ pub struct Effect {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Term {
     pub term: String,
-    pub time: Interval,
+    pub time: Estimate,
     pub tests: f64,
     pub steps: f64,
 }
@@ -87,7 +85,7 @@ pub struct Term {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Split {
     /// How many times less the SAH tree takes.
-    pub whole: Interval,
+    pub whole: Estimate,
     /// In the order of [`Factor::ALL`].
     pub parts: Vec<Part>,
 }
@@ -97,7 +95,7 @@ pub struct Split {
 pub struct Part {
     pub factor: &'static str,
     /// The geometric mean over all orders in which the factors can be switched (Shapley 1953).
-    pub times: Interval,
+    pub times: Estimate,
     /// The least and the most over those orders; they differ by the interactions.
     pub least: f64,
     pub most: f64,
@@ -123,19 +121,43 @@ pub fn rows(results: &[Attribution]) -> Vec<Row<'_>> {
 }
 
 /// One result for each scene, in the order in which the scenes were begun. A scene whose first epoch is missing has none.
-pub fn result(epochs: &[Epoch], seed: u64) -> Vec<Attribution> {
-    let mut scenes: Vec<(&str, bool, &str)> = vec![];
-    for epoch in epochs {
-        let scene = (epoch.scene.as_str(), epoch.stand_in, epoch.scene_hash.as_str());
-        if !scenes.contains(&scene) {
-            scenes.push(scene);
+pub fn result(epochs: &[Epoch]) -> Vec<Attribution> {
+    let mut scenes: Vec<Vec<&Epoch>> = vec![];
+    let name = |epoch: &Epoch| (epoch.scene.clone(), epoch.stand_in, epoch.scene_hash.clone());
+    // An epoch that does not hold all cells and twins, timed, is passed over.
+    for epoch in epochs.iter().filter(|epoch| is_whole(epoch)) {
+        match scenes.iter_mut().find(|scene| name(scene[0]) == name(epoch)) {
+            Some(scene) => scene.push(epoch),
+            None => scenes.push(vec![epoch]),
         }
     }
-    let of = |&scene: &(&str, bool, &str)| {
-        let epochs = epochs.iter().filter(|e| (e.scene.as_str(), e.stand_in, e.scene_hash.as_str()) == scene);
-        attribute(&epochs.collect::<Vec<_>>(), seed)
-    };
-    scenes.iter().filter_map(of).collect()
+    let scenes: Vec<_> = scenes.into_iter().map(|scene| (logs(&scene), scene)).collect();
+    let twins: Vec<Vec<Vec<f64>>> = scenes.iter().flat_map(|(logs, _)| twins(logs)).collect();
+    let noise = AaNoise::new(&twins);
+    scenes.iter().filter_map(|(logs, epochs)| attribute(epochs, logs, &noise)).collect()
+}
+
+fn is_whole(epoch: &Epoch) -> bool {
+    let timed = |tree: &Structure| tree.rays.first().is_some_and(|rays| !rays.ns.is_empty() && rays.rays > 0);
+    epoch.structures.len() == CELLS + 2 && epoch.structures.iter().all(timed)
+}
+
+/// Nanoseconds a ray, on the rays that all trees were timed on.
+fn paces(epoch: &Epoch, tree: &Structure) -> Vec<f64> {
+    tree.rays[0].paces(epoch.common_rays(&tree.rays[0].workload))
+}
+
+/// ln nanoseconds a ray of all trees, epoch by epoch.
+fn logs(epochs: &[&Epoch]) -> Vec<Vec<f64>> {
+    let logs = |epoch: &Epoch, tree: &Structure| paces(epoch, tree).into_iter().map(libm::log).collect::<Vec<f64>>();
+    let of_epoch = |epoch: &&Epoch| epoch.structures.iter().map(|tree| logs(epoch, tree)).collect();
+    replicates(epochs.iter().map(of_epoch).collect())
+}
+
+/// The A/A ratios of the report's tree and of the SAH tree.
+fn twins(logs: &[Vec<f64>]) -> [Vec<Vec<f64>>; 2] {
+    let twin = |cell: Cell, twin: usize| values(logs, |logs| logs[cell.number()] - logs[CELLS + twin]);
+    [twin(Cell::REPORT, 0), twin(Cell::SAH, 1)].map(|logs| logs.into_iter().map(|log| vec![log]).collect())
 }
 
 /// What was counted of a structure on the rays of the study.
@@ -144,22 +166,10 @@ fn counts(structure: &Structure) -> Option<RayCounts> {
 }
 
 /// The result of the epochs of one scene. Nothing without its first one.
-///
-/// An epoch that does not hold all cells and twins, timed, is passed over.
-pub fn attribute(epochs: &[&Epoch], seed: u64) -> Option<Attribution> {
-    let timed = |tree: &Structure| tree.rays.first().is_some_and(|rays| !rays.ns.is_empty() && rays.rays > 0);
-    let whole = |epoch: &&Epoch| epoch.structures.len() == CELLS + 2 && epoch.structures.iter().all(timed);
-    let epochs: Vec<&Epoch> = epochs.iter().copied().filter(whole).collect();
+fn attribute(epochs: &[&Epoch], replicates: &[Vec<f64>], noise: &AaNoise) -> Option<Attribution> {
     let first = *epochs.iter().find(|epoch| epoch.structures.iter().all(|tree| counts(tree).is_some()))?;
     let counts: Vec<RayCounts> = first.structures.iter().filter_map(counts).collect();
-    let paces = |epoch: &Epoch, tree: &Structure| tree.rays[0].paces(epoch.common_rays(&tree.rays[0].workload));
-    let logs = |epoch: &Epoch, tree: &Structure| paces(epoch, tree).into_iter().map(libm::log).collect::<Vec<f64>>();
-    let of_epoch = |epoch: &&Epoch| epoch.structures.iter().map(|tree| logs(epoch, tree)).collect();
-    let replicates = replicates(epochs.iter().map(of_epoch).collect());
-    let twin = |cell: Cell, twin: usize| values(&replicates, |logs| logs[cell.number()] - logs[CELLS + twin]);
-    let noise = NoiseFloor::new(&[twin(Cell::REPORT, 0), twin(Cell::SAH, 1)], seed);
-    let floor = noise.log().unwrap_or(0.0);
-    let interval = |weights: &Weights| interval(&replicates, |logs| value(weights, logs), floor, seed);
+    let interval = |weights: &Weights| ratio(replicates, |logs| value(weights, logs), noise.weighted(weights));
     let log_counts = |of: fn(&RayCounts) -> Option<f64>| -> Vec<f64> {
         // Nothing done counts as one in all, so that there is a logarithm.
         counts[..CELLS].iter().map(|c| libm::log(of(c).unwrap_or(0.0).max(1.0 / c.rays as f64))).collect()
@@ -204,31 +214,29 @@ pub fn attribute(epochs: &[&Epoch], seed: u64) -> Option<Attribution> {
         workload: first.structures[0].rays[0].workload.clone(),
         epochs: epochs.len(),
         runs: first.structures[0].rays[0].ns.len(),
-        floor: libm::exp(floor),
-        twins_alike: noise.holding_one(),
+        aa_noise: libm::exp(noise.log().unwrap_or(0.0)),
         cells: cells.collect(),
         main_effects: main_effects.collect(),
-        terms: terms(&replicates, &tests, &steps, seed),
-        time: split(interval, &mean_of(&replicates)),
+        terms: terms(replicates, &tests, &steps, noise),
+        time: split(interval, &mean_of(replicates)),
         tests: split(|weights| exact(weights, &tests), &tests),
         steps: split(|weights| exact(weights, &steps), &steps),
         plane_alone: interval(&effects::gain(Cell([0, 1, 1]), Cell([5, 1, 1]))),
     })
 }
 
-/// The mean over the replicates, tree by tree.
+/// The mean over the epochs, tree by tree.
 fn mean_of(replicates: &[Vec<f64>]) -> Vec<f64> {
     let n = replicates.len() as f64;
     (0..CELLS).map(|i| replicates.iter().map(|logs| logs[i]).sum::<f64>() / n).collect()
 }
 
 /// A contrast of numbers that do not vary.
-fn exact(weights: &Weights, logs: &[f64]) -> Interval {
-    let times = libm::exp(value(weights, logs));
-    Interval { estimate: times, low: times, high: times }
+fn exact(weights: &Weights, logs: &[f64]) -> Estimate {
+    Estimate::exact(libm::exp(value(weights, logs)))
 }
 
-fn split(interval: impl Fn(&Weights) -> Interval, logs: &[f64]) -> Split {
+fn split(interval: impl Fn(&Weights) -> Estimate, logs: &[f64]) -> Split {
     let part = |factor: Factor| {
         let orders = effects::parts_by_order(factor);
         let orders = orders.iter().map(|weights| libm::exp(value(weights, logs)));
@@ -242,34 +250,19 @@ fn split(interval: impl Fn(&Weights) -> Interval, logs: &[f64]) -> Split {
     Split { whole: interval(&effects::gain(Cell::REPORT, Cell::SAH)), parts: Factor::ALL.map(part).into() }
 }
 
-/// Resamples of the shares' bootstrap.
-const RESAMPLES: usize = 1000;
-
-/// Shares of the variance: of the mean over the replicates, with a percentile bootstrap over them (Efron 1979).
-fn terms(replicates: &[Vec<f64>], tests: &[f64], steps: &[f64], seed: u64) -> Vec<Term> {
-    let mut random = RandomOrder::new(seed);
+/// Shares of the variance: of the mean over the epochs, jackknifed.
+pub(super) fn terms(replicates: &[Vec<f64>], tests: &[f64], steps: &[f64], noise: &AaNoise) -> Vec<Term> {
     let none = [0.0; TERMS.len()];
     let of = |logs: &[f64]| effects::shares(logs).unwrap_or(none);
-    let estimate = of(&mean_of(replicates));
-    let drawn: Vec<[f64; TERMS.len()]> = (0..RESAMPLES)
-        .map(|_| {
-            let draw: Vec<Vec<f64>> =
-                replicates.iter().map(|_| replicates[random.below(replicates.len())].clone()).collect();
-            of(&mean_of(&draw))
-        })
-        .collect();
     let (tests, steps) = (of(tests), of(steps));
+    let mean = |kept: &[usize]| mean_of(&kept.iter().map(|&e| replicates[e].clone()).collect::<Vec<_>>());
+    let own = mean_of(replicates);
     let term = |i: usize| {
-        let mut values: Vec<f64> = drawn.iter().map(|shares| shares[i]).collect();
-        values.sort_unstable_by(f64::total_cmp);
-        let tail = RESAMPLES / 40;
-        let (low, high) = (values[tail].min(estimate[i]), values[RESAMPLES - 1 - tail].max(estimate[i]));
-        Term {
-            term: effects::term_name(TERMS[i]),
-            time: Interval { estimate: estimate[i], low, high },
-            tests: tests[i],
-            steps: steps[i],
-        }
+        let noise = noise.of_figure(&own, |logs| Some(of(logs)[i]));
+        let share = Rerun::jackknife(replicates.len(), noise, |kept| Some(of(&mean(kept))[i]));
+        // A share is no less than nothing and no more than all.
+        let time = share.expect("there is an epoch").plain().map(|share| share.clamp(0.0, 1.0));
+        Term { term: effects::term_name(TERMS[i]), time, tests: tests[i], steps: steps[i] }
     };
     (0..TERMS.len()).map(term).collect()
 }

@@ -4,7 +4,7 @@ use super::Attribution;
 use super::design::Factor;
 use super::result::{CellResult, Split};
 use crate::report::number::{count, figures};
-use crate::report::words::interval;
+use crate::report::words::{explained, interval, written};
 use crate::report::{Cell, Table, Tone};
 
 /// One row and one sentence for each scene: the answer.
@@ -25,7 +25,7 @@ pub fn headlines(results: &[Attribution]) -> Table {
             .to_owned(),
     ];
     notes.extend(results.iter().map(sentence));
-    Table { title: "What the SAH tree's speed is due to".into(), columns, rows: rows.collect(), notes }
+    explained(Table { title: "What the SAH tree's speed is due to".into(), columns, rows: rows.collect(), notes })
 }
 
 /// `Of the 21.1-fold speedup on Dragon, the stop rule gives 9.10, the plane 1.60, the traversal 1.45`, and by the order in which
@@ -50,7 +50,7 @@ fn sentence(r: &Attribution) -> String {
 
 /// The tables of one scene: all trees, what each level does, what varies with what, and the same split for counts.
 pub fn tables(r: &Attribution) -> Vec<Table> {
-    vec![cells(r), levels(r), terms(r), splits(r)]
+    [cells(r), levels(r), terms(r), splits(r)].map(explained).into()
 }
 
 fn cells(r: &Attribution) -> Table {
@@ -77,8 +77,8 @@ fn cells(r: &Attribution) -> Table {
         rows: r.cells.iter().map(row).collect(),
         notes: vec![format!(
             "{samples}. times faster: than the report's tree, the first. ns/ray ~: on a part of the rays. tests, steps: triangles tested and nodes \
-             entered for each ray. refs: references for each triangle. The twins differ by at most a factor of {:.3}.",
-            r.floor
+             entered for each ray. refs: references for each triangle. A/A noise of all scenes: a factor of {:.3}.",
+            r.aa_noise
         )],
     }
 }
@@ -110,7 +110,7 @@ fn levels(r: &Attribution) -> Table {
 fn terms(r: &Attribution) -> Table {
     let percent = |share: f64| format!("{:.1}", 100.0 * share);
     let rows = r.terms.iter().map(|term| {
-        let time = format!("{} [{}, {}]", percent(term.time.estimate), percent(term.time.low), percent(term.time.high));
+        let time = written(term.time, percent);
         vec![term.term.as_str().into(), time.into(), percent(term.tests).into(), percent(term.steps).into()]
     });
     Table {

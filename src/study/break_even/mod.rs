@@ -1,5 +1,6 @@
 //! `break-even`: after how many rays does a dearer build pay?
 
+mod interval;
 mod payoff;
 mod table;
 #[cfg(test)]
@@ -7,8 +8,7 @@ mod tests;
 
 use serde::Serialize;
 
-use super::epoch::{Draw, Draws, Epoch, Line, lines};
-use super::fit;
+use super::epoch::{Epoch, Line, Twins, lines, twins};
 
 pub use payoff::Payoff;
 pub use table::{LEGEND, tables};
@@ -50,9 +50,9 @@ pub struct Pair {
     pub dear: String,
     /// Rays after which the dear one is ahead.
     pub rays: Payoff,
-    /// The 95 % interval of that for another run.
-    pub low: Payoff,
-    pub high: Payoff,
+    /// The ends of the 95 % interval of that for another run; nothing with a single epoch.
+    pub low: Option<Payoff>,
+    pub high: Option<Payoff>,
 }
 
 /// Numbers of rays for which one structure is the best.
@@ -64,7 +64,8 @@ pub struct Stretch {
 }
 
 /// Every scene and kind of rays.
-pub fn result(epochs: &[Epoch], seed: u64) -> Vec<Market> {
+pub fn result(epochs: &[Epoch]) -> Vec<Market> {
+    let twins = twins(epochs);
     let mut groups: Vec<Vec<Line>> = vec![];
     for line in lines(epochs) {
         match groups.iter_mut().find(|g| g[0].scene_hash == line.scene_hash && g[0].workload == line.workload) {
@@ -72,14 +73,11 @@ pub fn result(epochs: &[Epoch], seed: u64) -> Vec<Market> {
             None => groups.push(vec![line]),
         }
     }
-    groups.into_iter().map(|group| market(group, seed)).collect()
+    groups.into_iter().map(|group| market(group, &twins)).collect()
 }
 
-fn market(mut lines: Vec<Line>, seed: u64) -> Market {
+fn market(mut lines: Vec<Line>, twins: &Twins) -> Market {
     lines.sort_by(|a, b| a.build_ns().total_cmp(&b.build_ns()));
-    // What another run finds of one structure it finds of all in the same epochs and rounds.
-    let mut draws = Draws::new(seed);
-    let drawn: Vec<Draw> = (0..fit::DRAWS).map(|_| draws.draw(&lines[0].trace)).collect();
     let offers: Vec<Offer> = lines
         .iter()
         .map(|line| Offer {
@@ -90,7 +88,7 @@ fn market(mut lines: Vec<Line>, seed: u64) -> Market {
         .collect();
     let mut pairs = vec![];
     for (i, dear) in lines.iter().enumerate() {
-        pairs.extend(lines[..i].iter().map(|cheap| pair(cheap, dear, &drawn)));
+        pairs.extend(lines[..i].iter().map(|cheap| pair(cheap, dear, twins)));
     }
     let (first, best) = (&lines[0], best(&offers));
     Market {
@@ -103,23 +101,11 @@ fn market(mut lines: Vec<Line>, seed: u64) -> Market {
     }
 }
 
-fn pair(cheap: &Line, dear: &Line, draws: &[Draw]) -> Pair {
-    let payoff = |centre: &dyn Fn(&[Vec<f64>]) -> f64| {
-        let costs = |line: &Line| (libm::exp(centre(&line.build)), libm::exp(centre(&line.trace)));
-        Payoff::of(costs(cheap), costs(dear))
-    };
-    let mut drawn: Vec<Payoff> = draws.iter().map(|draw| payoff(&|epochs| draw.centre(epochs))).collect();
-    drawn.sort_by(Payoff::order);
-    let tail = drawn.len() / 40;
-    let rays = payoff(&super::epoch::centre);
-    let (low, high) = (drawn[tail], drawn[drawn.len() - 1 - tail]);
-    Pair {
-        cheap: cheap.structure.clone(),
-        dear: dear.structure.clone(),
-        rays,
-        low: if low.order(&rays).is_gt() { rays } else { low },
-        high: if high.order(&rays).is_lt() { rays } else { high },
-    }
+fn pair(cheap: &Line, dear: &Line, twins: &Twins) -> Pair {
+    let costs = |line: &Line| (line.build_ns(), line.ns_per_ray());
+    let rays = Payoff::of(costs(cheap), costs(dear));
+    let [low, high] = interval::interval(cheap, dear, rays, twins).map_or([None; 2], |ends| ends.map(Some));
+    Pair { cheap: cheap.structure.clone(), dear: dear.structure.clone(), rays, low, high }
 }
 
 /// The lower envelope of build + rays * time, of offers in the order of their builds.
@@ -149,6 +135,7 @@ pub struct Row<'a> {
     pub dear: &'a str,
     /// A number of rays, `at once` or `never`.
     pub rays: String,
+    /// Likewise, or empty with a single epoch.
     pub low: String,
     pub high: String,
 }
@@ -164,8 +151,8 @@ pub fn rows(markets: &[Market]) -> Vec<Row<'_>> {
             cheap: &pair.cheap,
             dear: &pair.dear,
             rays: pair.rays.plain(),
-            low: pair.low.plain(),
-            high: pair.high.plain(),
+            low: pair.low.map_or(String::new(), Payoff::plain),
+            high: pair.high.map_or(String::new(), Payoff::plain),
         }));
     }
     rows

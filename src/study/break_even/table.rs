@@ -2,6 +2,7 @@
 
 use super::{Market, Pair, Payoff};
 use crate::report::number::{count, duration};
+use crate::report::words::{ONE_EPOCH, explained};
 use crate::report::{Cell, Table, Tone};
 
 /// What the columns mean.
@@ -39,15 +40,19 @@ fn table(market: &Market) -> Table {
         0.0 => stretch.structure.clone(),
         from => format!("from {} rays {}", Payoff::Rays(from).words(), stretch.structure),
     });
-    Table {
+    explained(Table {
         title: format!("{}: {} triangles, {} rays", market.scene, count(market.triangles as u64), market.workload),
         columns,
         rows: rows.collect(),
         notes: vec![format!("Done first, build included: {}.", best.collect::<Vec<_>>().join(", "))],
-    }
+    })
 }
 
 fn cell(pair: &Pair) -> String {
-    let [rays, low, high] = [pair.rays, pair.low, pair.high].map(Payoff::words);
-    if low == high { rays } else { format!("{rays} [{low}, {high}]") }
+    let rays = pair.rays.words();
+    match [pair.low, pair.high].map(|end| end.map(Payoff::words)) {
+        [Some(low), Some(high)] if low == high => rays,
+        [Some(low), Some(high)] => format!("{rays} [{low}, {high}]"),
+        _ => format!("{rays} {ONE_EPOCH}"),
+    }
 }

@@ -3,9 +3,9 @@
 use super::reference::{Reference, cell};
 use super::table::{control, names};
 use super::twins;
-use crate::measure::Difference;
+use crate::measure::Estimate;
 use crate::report::number::{count, figures, plural};
-use crate::report::words::interval;
+use crate::report::words::{ends, explained, interval};
 use crate::report::{Cell, Record, Table, Tone};
 
 /// Speeds over all scenes: one row for each structure; a column for each workload, and one for all of them, against the first of
@@ -17,7 +17,7 @@ pub fn mean_table(records: &[Record], references: &[Reference]) -> Table {
     let workloads = names(records, |r| &r.workload);
     let structures = names(records, |r| &r.label);
     let scenes = names(records, |r| &r.scene);
-    let floor = twins(records).log().unwrap_or(0.0);
+    let noise = twins(records);
 
     // The cells of one column: of every structure, and which of them are over all cases.
     let column = |reference: &Reference, workload: Option<&str>| -> Vec<Cell> {
@@ -32,24 +32,20 @@ pub fn mean_table(records: &[Record], references: &[Reference]) -> Table {
         }
         let of = |label: &String| {
             let pairs = reference.pairs(records, records.iter().filter(asked).filter(|r| r.label == *label));
-            (Reference::ratio(&pairs, floor), pairs.len())
+            (Reference::ratio(&pairs, &noise), pairs.len())
         };
         let rows: Vec<_> = structures.iter().map(of).collect();
         let whole =
             rows.iter().filter(|(_, n)| *n == cases.len()).filter_map(|(ratio, _)| Some(ratio.as_ref()?.estimate));
         let best = whole.max_by(f64::total_cmp);
-        let shown = |(ratio, n): &(Option<_>, usize)| match ratio {
+        let shown = |(ratio, n): &(Option<Estimate>, usize)| match ratio {
             None => Cell::blank(),
-            Some(_) => {
-                let text = if workload.is_some() {
-                    ratio.map_or(String::new(), |ratio: crate::measure::Interval| figures(ratio.estimate))
-                } else {
-                    cell(*ratio, floor).text
-                };
+            Some(known) => {
+                let text = if workload.is_some() { figures(known.estimate) } else { cell(*ratio).text };
                 if *n < cases.len() {
                     return format!("{text} ({n} of {})", cases.len()).into();
                 }
-                let is_best = ratio.map(|ratio| ratio.estimate) == best;
+                let is_best = Some(known.estimate) == best;
                 Cell::from(text).with(if is_best { Tone::Best } else { Tone::Plain })
             }
         };
@@ -91,7 +87,7 @@ pub fn mean_table(records: &[Record], references: &[Reference]) -> Table {
     let against = references.first().map_or("?", Reference::name);
     let against = if against == "median" { crate::study::baselines::REPORT_TREE } else { against };
     let title = format!("Speed x {against}: geometric means over {over}; all: over scenes and workloads");
-    Table { title, columns, rows, notes }.without_blank_columns()
+    explained(Table { title, columns, rows, notes }.without_blank_columns())
 }
 
 /// A sentence that says which structure is the fastest over all cases, by how much, and how many of its answers were checked. Nothing
@@ -110,14 +106,15 @@ pub fn winner(records: &[Record], reference: Option<&str>) -> Option<String> {
             own.len() == cases && own.iter().all(|r| r.mrays_per_s.is_some())
         })
         .collect();
-    let floor = twins(records).log().unwrap_or(0.0);
+    let noise = twins(records);
     let ratio = |one: &str, other: &str| {
         let other = Reference::Structure(other.into());
         let pairs = other.pairs(records, of(one));
-        (pairs.len() == cases).then(|| Reference::ratio(&pairs, floor)).flatten()
+        (pairs.len() == cases).then(|| Reference::ratio(&pairs, &noise)).flatten()
     };
-    // All are held against the same one: means of logarithms are in the same order against any.
-    let first = *whole.first()?;
+    // All are held against the same one, which is timed on the most rays: ratios to one that is slow are of few rays.
+    let rays = |label: &String| of(label).iter().map(|r| r.rays).sum::<usize>();
+    let first = *whole.iter().rev().max_by_key(|label| rays(label))?;
     let mut order: Vec<(&String, f64)> = vec![];
     for &label in &whole {
         order.push((label, ratio(label, first)?.estimate));
@@ -132,14 +129,11 @@ pub fn winner(records: &[Record], reference: Option<&str>) -> Option<String> {
         (1, 1) => String::new(),
         (scenes, kinds) => format!("Over {} and {} of rays, ", plural(scenes, "scene"), plural(kinds, "kind")),
     };
-    let told = match Difference::of(by, floor) {
-        Difference::None => {
-            format!("{over}{best} and {next} cannot be told apart: {} times as many rays a second", interval(by))
-        }
-        _ => {
-            let ends = crate::report::words::ends(by);
-            format!("{over}{best} answers {} times as many rays a second as {next} {ends}", figures(by.estimate))
-        }
+    let told = if by.holds(1.0) {
+        format!("{over}{best} and {next} cannot be told apart: {} times as many rays a second", interval(by))
+    } else {
+        let ends = ends(by);
+        format!("{over}{best} answers {} times as many rays a second as {next} {ends}", figures(by.estimate))
     };
     let checked: Option<usize> = of(best).iter().map(|r| r.checked_rays).sum();
     let checked = match checked {

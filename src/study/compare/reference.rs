@@ -1,7 +1,7 @@
 //! What a table relates speeds to.
 
 use super::cells::speed;
-use crate::measure::{Difference, Interval};
+use crate::measure::{AaNoise, Estimate};
 use crate::report::words::interval;
 use crate::report::{Cell, Record};
 use crate::study::baselines::{REPORT_TREE, is_obvhs};
@@ -73,21 +73,20 @@ impl Reference {
         timed.filter_map(|r| Some((r, self.rival(records, r)?))).collect()
     }
 
-    /// The geometric mean of how many times faster the first of each pair is; a structure against itself has no interval. `floor` as in
+    /// The geometric mean of how many times faster the first of each pair is; a structure against itself has no interval. `noise` as in
     /// [`speed`].
-    pub fn ratio(pairs: &[(&Record, &Record)], floor: f64) -> Option<Interval> {
+    pub fn ratio(pairs: &[(&Record, &Record)], noise: &AaNoise) -> Option<Estimate> {
         let own = !pairs.is_empty() && pairs.iter().all(|(own, other)| own.label == other.label);
         if own {
-            return Some(Interval { estimate: 1.0, low: 1.0, high: 1.0 });
+            return Some(Estimate::exact(1.0));
         }
-        speed(pairs.iter().copied(), floor)
+        speed(pairs.iter().copied(), noise)
     }
 }
 
-/// A ratio with its interval, and a sign where it is no difference.
-pub fn cell(ratio: Option<Interval>, floor: f64) -> Cell {
+/// A ratio with its interval, and a sign where it is not distinguishable from 1.
+pub fn cell(ratio: Option<Estimate>) -> Cell {
     let Some(ratio) = ratio else { return Cell::blank() };
-    let itself = ratio.low == ratio.high && ratio.estimate == 1.0;
-    let same = !itself && Difference::of(ratio, floor) == Difference::None;
+    let same = ratio != Estimate::exact(1.0) && ratio.holds(1.0);
     format!("{}{}", interval(ratio), if same { " =" } else { "" }).into()
 }

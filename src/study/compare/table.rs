@@ -4,7 +4,7 @@ use super::reference::{Reference, cell};
 use super::twins;
 use crate::accel::Query;
 use crate::report::number::{bytes, count, duration, figures, plural};
-use crate::report::words::listed;
+use crate::report::words::{explained, listed};
 use crate::report::{Cell, Record, Table, Tone};
 use crate::study::Refused;
 use crate::study::baselines::documented_defect;
@@ -23,9 +23,9 @@ pub fn legend(first: &str, references: &[Reference]) -> Vec<String> {
          A workload with a star is timed by any hit, the others by closest hit."
             .into(),
         format!(
-            "{columns}: speed {against}, geometric mean over the workloads of the row, with the interval that holds the ratio of \
-             another run in 95 % of cases. =: no difference, for the interval holds 1 or lies within the noise floor, the most that an A/A ratio (one structure built and timed as two) \
-             differs from 1 by. Blank: unknown."
+            "{columns}: speed {against}, geometric mean over the workloads of the row, on rays that both were timed on, with the interval \
+             that holds the ratio of another run in 95 % of cases; the A/A noise (of one structure built and timed as two) is in it. \
+             =: not distinguishable from 1, each ratio looked at alone. Blank: unknown."
         ),
         "checked: least number of rays of a workload held against brute force with the same triangle test. sampled: \
          least share of a workload's rays that was timed; all would take too long."
@@ -42,7 +42,7 @@ pub fn scene_table(records: &[Record], references: &[Reference], refused: &[Refu
     let structures = names(records, |r| &r.label);
     let of = |label: &str| -> Vec<&Record> { records.iter().filter(|r| r.label == label).collect() };
 
-    let floor = first.noise_floor.map_or(0.0, libm::log1p);
+    let noise = twins(records);
     let instructions = records.iter().any(|r| r.instructions_per_ray.is_some());
     let mut columns: Vec<String> = ["structure", "build", "peak", "memory", "tests", "steps"].map(String::from).into();
     columns.extend(instructions.then(|| "instructions".into()));
@@ -76,7 +76,7 @@ pub fn scene_table(records: &[Record], references: &[Reference], refused: &[Refu
             row.extend(references.iter().map(|reference| {
                 let pairs = reference.pairs(records, asked.iter().copied());
                 let whole = pairs.len() == asked.len();
-                cell(if whole { Reference::ratio(&pairs, floor) } else { None }, floor)
+                cell(if whole { Reference::ratio(&pairs, &noise) } else { None })
             }));
             let checked = of.iter().filter(|r| r.declined.is_none()).map(|r| r.checked_rays).min().flatten();
             row.push(checked.map_or(Cell::blank(), |n| count(n as u64).into()));
@@ -104,18 +104,17 @@ pub fn scene_table(records: &[Record], references: &[Reference], refused: &[Refu
     }
     notes.extend(defects(records));
     notes.extend(control(records));
-    Table { title, columns, rows, notes }.without_blank_columns()
+    explained(Table { title, columns, rows, notes }.without_blank_columns())
 }
 
 /// A footnote about the A/A ratios, where there are any.
 pub(super) fn control(records: &[Record]) -> Option<String> {
     let (twins, label) = (twins(records), &records.iter().find(|r| r.twin_samples_ns.is_some())?.label);
-    let floor = libm::exp(twins.log()?) - 1.0;
-    let (holding, all) = (twins.holding_one(), twins.ratios.len());
-    Some(format!(
-        "A/A ({label} twice): noise floor {}%; {holding} of {all} ratios hold 1 in their intervals.",
-        figures(floor * 100.0)
-    ))
+    let noise = libm::exp(twins.log()?) - 1.0;
+    let all = twins.ratios.len();
+    let holding =
+        twins.holding_one().map_or(String::new(), |n| format!("; {n} of {all} ratios hold 1 in their intervals"));
+    Some(format!("A/A noise ({label} twice): {}%{holding}.", figures(noise * 100.0)))
 }
 
 /// A footnote for each baseline that gives wrong answers for a documented reason.

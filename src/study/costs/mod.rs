@@ -1,7 +1,7 @@
-//! `costs`: what does a step, and what does a triangle test cost on this machine?
+//! `costs`: what does a step, and what does a test of a block of triangles cost on this machine?
 //!
-//! The time of a ray is taken for a constant, a cost for each node or leaf entered and one for each triangle tested, and these are
-//! found by regression over many cases: the performance model of Havran and Purgathofer (2003), which the surface area heuristic
+//! The time of a ray is taken for a constant, a cost for each node or leaf entered and one for each block of triangles that is tested at
+//! once, however many of its eight places are taken, and these are found by regression over many cases: the performance model of Havran and Purgathofer (2003), which the surface area heuristic
 //! builds on.
 
 mod regression;
@@ -11,9 +11,8 @@ mod tests;
 
 use serde::Serialize;
 
-use super::epoch::{Draws, Epoch, lines};
-use super::fit;
-use crate::measure::{Interval, geometric_mean};
+use super::epoch::{Epoch, lines};
+use crate::measure::{Estimate, Rerun, Variance, median};
 use regression::{Costs, regress};
 
 pub use table::{LEGEND, tables};
@@ -48,9 +47,13 @@ pub struct Observation {
     pub workload: String,
     pub ns_per_ray: f64,
     pub steps_per_ray: f64,
+    /// Blocks of triangles that were tested at once.
+    pub blocks_per_ray: f64,
     pub tests_per_ray: f64,
     /// What the costs of its family make of the counts.
     pub predicted_ns: f64,
+    /// The same of the costs found on all other scenes; nothing where there are none, or they do not tell the costs.
+    pub foreseen_ns: Option<f64>,
 }
 
 /// The costs of one family of structures, or of all.
@@ -58,21 +61,38 @@ pub struct Observation {
 pub struct Family {
     /// `all`, or what the structures have in common.
     pub family: String,
+    /// How many scenes there are: intervals are for as many others.
+    pub scenes: usize,
     pub observations: Vec<Observation>,
-    /// Nanoseconds of a ray besides its steps and tests.
-    pub ray_ns: Interval,
+    /// Nanoseconds of a ray besides its steps and blocks.
+    pub ray_ns: Estimate,
     /// Nanoseconds of a node or leaf entered: K_T.
-    pub step_ns: Interval,
-    /// Nanoseconds of a triangle test: K_I.
-    pub test_ns: Interval,
-    /// K_T over K_I. Nothing where a test costs nothing.
-    pub steps_per_test: Option<Interval>,
+    pub step_ns: Estimate,
+    /// Nanoseconds of a block of triangles tested: K_B.
+    pub block_ns: Estimate,
+    /// K_B over K_T. Nothing where a step costs nothing.
+    pub steps_per_block: Option<Estimate>,
     /// Share of the variance of ln time that the prediction explains; below 0 it is worse than one time for all.
     pub r_squared: f64,
-    /// Geometric mean of how far predictions are off, as a factor of at least 1.
-    pub typical_factor: f64,
-    /// The farthest that a prediction is off, as a factor of at least 1.
-    pub worst_factor: f64,
+    /// How far predictions are off on the scenes that the costs were found on.
+    pub known: Option<Off>,
+    /// How far they are off on a scene that the costs were not found on.
+    pub foreseen: Option<Off>,
+}
+
+/// How far predictions are off, as factors of at least 1.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Off {
+    pub median: f64,
+    pub worst: f64,
+}
+
+impl Off {
+    /// Of pairs of a prediction and what was measured; nothing of none.
+    fn of(pairs: impl IntoIterator<Item = (f64, f64)>) -> Option<Self> {
+        let factors: Vec<f64> = pairs.into_iter().map(|(one, other)| f64::max(one / other, other / one)).collect();
+        Some(Self { median: median(&factors)?, worst: factors.iter().copied().fold(1.0, f64::max) })
+    }
 }
 
 /// What structures have in common that share a node, a leaf and a walk.
@@ -84,21 +104,23 @@ fn family(structure: &str) -> &str {
     }
 }
 
-/// The costs of every family with observations enough, and of all together. Costs are not below 0. The intervals come from drawing
-/// observations with replacement: they say how much the costs depend on which cases were looked at.
-pub fn result(epochs: &[Epoch], seed: u64) -> Vec<Family> {
+/// The costs of every family with observations enough, and of all together. Costs are not below 0. What varies is the scene: all cases of one
+/// share its triangles and its luck, so that the intervals are jackknifed over scenes and hold the costs found on as many others.
+pub fn result(epochs: &[Epoch]) -> Vec<Family> {
     let mut groups: Vec<(&str, Vec<Observation>)> = vec![("all", vec![])];
     let lines = lines(epochs);
     for line in &lines {
-        let (Some(steps), Some(tests)) = (line.steps, line.tests) else { continue };
+        let (Some(steps), Some(blocks), Some(tests)) = (line.steps, line.blocks, line.tests) else { continue };
         let observation = Observation {
             scene: line.scene.clone(),
             structure: line.structure.clone(),
             workload: line.workload.clone(),
             ns_per_ray: line.ns_per_ray(),
             steps_per_ray: steps,
+            blocks_per_ray: blocks,
             tests_per_ray: tests,
             predicted_ns: 0.0,
+            foreseen_ns: None,
         };
         groups[0].1.push(observation.clone());
         let own = family(&line.name);
@@ -107,50 +129,74 @@ pub fn result(epochs: &[Epoch], seed: u64) -> Vec<Family> {
             None => groups.push((own, vec![observation])),
         }
     }
-    groups.into_iter().filter_map(|(family, observations)| costs(family, observations, seed)).collect()
+    groups.into_iter().filter_map(|(family, observations)| costs(family, observations)).collect()
 }
 
 /// Fewer observations than this say nothing of three costs.
 const FEWEST: usize = 6;
 
-fn costs(family: &str, mut observations: Vec<Observation>, seed: u64) -> Option<Family> {
+/// The scene, whichever mesh it was measured with: a stand-in is built after the real one.
+fn scene(observation: &Observation) -> &str {
+    observation.scene.split(" (").next().unwrap_or_default()
+}
+
+fn costs(family: &str, mut observations: Vec<Observation>) -> Option<Family> {
     if observations.len() < FEWEST {
         return None;
     }
-    let rows: Vec<[f64; 3]> = observations.iter().map(|o| [o.steps_per_ray, o.tests_per_ray, o.ns_per_ray]).collect();
-    let own = regress(&rows)?;
-    let mut draws = Draws::new(seed);
-    let drawn: Vec<Costs> = (0..fit::DRAWS)
-        .filter_map(|_| regress(&(0..rows.len()).map(|_| rows[draws.below(rows.len())]).collect::<Vec<_>>()))
-        .collect();
-    let interval = |of: &dyn Fn(&Costs) -> f64| fit::percentiles(of(&own), drawn.iter().map(of).collect());
-    let ratio = |costs: &Costs| costs.step / costs.test;
-    // Where tests cost nothing in some draws there is no end to the ratio.
-    let ratios = (own.test > 0.0 && drawn.iter().all(|costs| costs.test > 0.0)).then(|| interval(&ratio)).flatten();
-
-    for observation in &mut observations {
-        observation.predicted_ns = own.predict(observation.steps_per_ray, observation.tests_per_ray);
+    let mut scenes: Vec<String> = vec![];
+    for observation in &observations {
+        if !scenes.iter().any(|known| known == scene(observation)) {
+            scenes.push(scene(observation).into());
+        }
     }
-    let factors: Vec<f64> =
-        observations
-            .iter()
-            .map(|o| {
-                if o.predicted_ns > o.ns_per_ray {
-                    o.predicted_ns / o.ns_per_ray
-                } else {
-                    o.ns_per_ray / o.predicted_ns
-                }
-            })
-            .collect();
+    let row = |o: &Observation| [o.steps_per_ray, o.blocks_per_ray, o.ns_per_ray];
+    let on = |kept: &[usize]| {
+        let kept = |o: &&Observation| kept.iter().any(|&i| scenes[i] == scene(o));
+        regress(&observations.iter().filter(kept).map(row).collect::<Vec<_>>())
+    };
+    let all: Vec<usize> = (0..scenes.len()).collect();
+    let own = on(&all)?;
+    // Without each of the scenes.
+    let without: Vec<Option<Costs>> =
+        all.iter().map(|&out| on(&all.iter().copied().filter(|&i| i != out).collect::<Vec<_>>())).collect();
+    let figure = |of: &dyn Fn(&Costs) -> f64| {
+        let of_kept = |kept: &[usize]| match all.iter().find(|i| !kept.contains(i)) {
+            None => Some(of(&own)),
+            Some(&out) => without[out].as_ref().map(of),
+        };
+        Some(Rerun::jackknife(scenes.len(), Variance::NONE, of_kept)?.plain().map(|cost| cost.max(0.0)))
+    };
+    let steps_per_block = |costs: &Costs| costs.block / costs.step;
+    // Where steps cost nothing there is no end to the ratio.
+    let has_steps = |costs: &Costs| costs.step > 0.0;
+    let ratio = has_steps(&own).then(|| {
+        if without.iter().flatten().all(has_steps) {
+            figure(&steps_per_block)
+        } else {
+            Some(Estimate::alone(steps_per_block(&own)))
+        }
+    });
+    let figures = [figure(&|costs| costs.ray)?, figure(&|costs| costs.step)?, figure(&|costs| costs.block)?];
+
+    let numbers: Vec<Option<usize>> =
+        observations.iter().map(|o| scenes.iter().position(|known| known == scene(o))).collect();
+    for (observation, number) in observations.iter_mut().zip(numbers) {
+        let of = |costs: &Costs| costs.predict(observation.steps_per_ray, observation.blocks_per_ray);
+        let foreseen = number.and_then(|number| without[number].as_ref()).map(of);
+        (observation.predicted_ns, observation.foreseen_ns) = (of(&own), foreseen);
+    }
+    let [ray_ns, step_ns, block_ns] = figures;
     Some(Family {
         family: family.into(),
-        ray_ns: interval(&|costs| costs.ray)?,
-        step_ns: interval(&|costs| costs.step)?,
-        test_ns: interval(&|costs| costs.test)?,
-        steps_per_test: ratios,
+        scenes: scenes.len(),
+        ray_ns,
+        step_ns,
+        block_ns,
+        steps_per_block: ratio.flatten(),
         r_squared: r_squared(&observations),
-        typical_factor: geometric_mean(&factors)?,
-        worst_factor: factors.iter().copied().fold(1.0, f64::max),
+        known: Off::of(observations.iter().map(|o| (o.predicted_ns, o.ns_per_ray))),
+        foreseen: Off::of(observations.iter().filter_map(|o| Some((o.foreseen_ns?, o.ns_per_ray)))),
         observations,
     })
 }

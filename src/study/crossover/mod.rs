@@ -9,6 +9,7 @@
 //! BVH is faster on simple and moderate scenes, the KD-tree on those of high depth complexity.
 
 mod complexity;
+mod curve;
 mod family;
 mod result;
 mod table;
@@ -20,8 +21,9 @@ use serde::{Deserialize, Serialize};
 use super::epoch::Epoch;
 
 pub use complexity::complexity;
+pub use curve::Crossing;
 pub use family::{ROOTS, member};
-pub use result::{Crossing, Member, Race, Row, result, rows};
+pub use result::{Member, Race, Row, result, rows};
 pub use table::tables;
 
 /// Name of the study, and of its journal.

@@ -1,9 +1,8 @@
 //! The races as tables for people.
 
 use super::{Crossing, Race};
-use crate::measure::Interval;
 use crate::report::number::{count, figures};
-use crate::report::words::interval;
+use crate::report::words::{explained, interval, written};
 use crate::report::{Cell, Table, Tone};
 
 /// The answer first, then for each kind of rays the ratios along the family.
@@ -19,26 +18,26 @@ pub fn tables(races: &[Race]) -> Vec<Table> {
     tables
 }
 
-fn short(x: Interval) -> String {
-    format!("{} [{}, {}]", figures(x.estimate), figures(x.low), figures(x.high))
-}
-
 fn name(label: &str) -> &str {
     label.split(':').next().unwrap_or(label)
 }
 
 /// What a race says, in words.
 fn verdict(race: &Race) -> String {
-    let sure: Vec<&Crossing> = race.crossings.iter().filter(|crossing| crossing.found >= 0.95).collect();
+    let sure: Vec<&Crossing> = race.crossings.iter().filter(|crossing| crossing.is_sure()).collect();
     match (race.crossings.is_empty(), &sure[..]) {
-        (true, _) if race.members.iter().all(|m| m.ratio.high < 1.0) => format!("never: {} throughout", name(&race.kd)),
-        (true, _) if race.members.iter().all(|m| m.ratio.low > 1.0) => format!("never: {} throughout", name(&race.bvh)),
+        (true, _) if race.members.iter().all(|m| m.ratio.is_below(1.0)) => {
+            format!("never: {} throughout", name(&race.kd))
+        }
+        (true, _) if race.members.iter().all(|m| m.ratio.is_above(1.0)) => {
+            format!("never: {} throughout", name(&race.bvh))
+        }
         (true, _) => "too close to tell".into(),
         (false, []) => "too close to tell".into(),
         (false, sure) => {
             let one = |crossing: &&Crossing| {
                 let winner = if crossing.kd_wins_beyond { &race.kd } else { &race.bvh };
-                format!("{}: then {}", short(crossing.complexity), name(winner))
+                format!("{}: then {}", interval(crossing.complexity), name(winner))
             };
             sure.iter().map(one).collect::<Vec<_>>().join("; ")
         }
@@ -49,25 +48,26 @@ fn answers(races: &[Race]) -> Table {
     let rows = races.iter().map(|race| {
         let ends = race.members.first().zip(race.members.last());
         let (from, to) = ends.map_or((Cell::blank(), Cell::blank()), |(first, last)| {
-            (short(first.ratio).into(), short(last.ratio).into())
+            (interval(first.ratio).into(), interval(last.ratio).into())
         });
-        let trend = race.trend.map_or(Cell::blank(), |x| interval(x).into());
+        let trend = race.trend.map_or(Cell::blank(), |x| written(x, |x| format!("{x:.2}")).into());
         let pair = format!("{} / {}, {}", name(&race.kd), name(&race.bvh), race.workload);
         vec![pair.into(), from, to, trend, verdict(race).into()]
     });
-    Table {
+    explained(Table {
         title: "Does a KD-tree overtake a BVH where rays would meet more surfaces?".into(),
         columns: ["pair, rays", "first member", "last member", "power", "crosses 1 at a depth complexity of"].map(String::from).into(),
         rows: rows.collect(),
         notes: vec![
             "Ratios are the KD-tree's time over the BVH's: below 1 the KD-tree is faster. power: the ratio grows like this power of the \
-             depth complexity. 95 % intervals for another run; a crossing is named where 95 % of the draws have it."
+             depth complexity. 95 % intervals for another run; a crossing is named where one is surely ahead before it and the other beyond, \
+             all members considered."
                 .into(),
             "Depth complexity: surfaces that a ray would meet if none stopped it, measured. All members have the same number of \
              triangles."
                 .into(),
         ],
-    }
+    })
 }
 
 fn ratios(workload: &str, races: &[&Race]) -> Table {
@@ -82,8 +82,8 @@ fn ratios(workload: &str, races: &[&Race]) -> Table {
         for race in races {
             let own = race.members.iter().find(|own| own.layers == member.layers);
             row.push(own.map_or(Cell::blank(), |own| {
-                let tone = if own.ratio.high < 1.0 { Tone::Best } else { Tone::Plain };
-                Cell::from(short(own.ratio)).with(tone)
+                let tone = if own.ratio.is_below(1.0) { Tone::Best } else { Tone::Plain };
+                Cell::from(interval(own.ratio)).with(tone)
             }));
             row.push(own.map_or(Cell::blank(), |own| {
                 format!("{} / {}", figures(own.kd_ns_per_ray), figures(own.bvh_ns_per_ray)).into()
@@ -91,5 +91,5 @@ fn ratios(workload: &str, races: &[&Race]) -> Table {
         }
         row
     });
-    Table { title: format!("{workload} rays"), columns, rows: rows.collect(), notes: vec![] }
+    explained(Table { title: format!("{workload} rays"), columns, rows: rows.collect(), notes: vec![] })
 }

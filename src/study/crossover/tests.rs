@@ -28,16 +28,16 @@ fn family(crossing: f64, power: f64, noise: f64) -> Vec<Case> {
 
 #[test]
 fn the_crossing_is_found_where_it_is() {
-    let races = result(&family(5.0, -0.5, 0.02), 1);
+    let races = result(&family(5.0, -0.5, 0.02));
     assert_eq!(races.len(), 1, "pairs that were not measured have no race");
     let race = &races[0];
     assert_eq!(race.members.iter().map(|member| member.layers).collect::<Vec<_>>(), [1, 4, 16, 64]);
     let [crossing] = &race.crossings[..] else { panic!("{race:?}") };
-    assert!(crossing.kd_wins_beyond && crossing.found > 0.99, "{crossing:?}");
+    assert!(crossing.kd_wins_beyond && crossing.is_sure(), "{crossing:?}");
     assert!((crossing.complexity.estimate / 5.0 - 1.0).abs() < 0.1, "{crossing:?}");
-    assert!(crossing.complexity.low < 5.0 && 5.0 < crossing.complexity.high, "{crossing:?}");
+    assert!(crossing.complexity.holds(5.0), "{crossing:?}");
     let trend = race.trend.unwrap();
-    assert!((trend.estimate + 0.5).abs() < 0.02 && trend.high < 0.0, "{trend:?}");
+    assert!((trend.estimate + 0.5).abs() < 0.02 && trend.is_below(0.0), "{trend:?}");
     assert!((race.members[0].ratio.estimate - libm::sqrt(10.0)).abs() < 0.1);
     assert_eq!(tables(&races).len(), 2);
 }
@@ -45,7 +45,7 @@ fn the_crossing_is_found_where_it_is() {
 #[test]
 fn who_never_overtakes_has_no_crossing() {
     for (crossing, winner) in [(1000.0, "never: obvhs-bvh2"), (0.01, "never: sah-kd")] {
-        let races = result(&family(crossing, -0.5, 0.02), 1);
+        let races = result(&family(crossing, -0.5, 0.02));
         assert!(races[0].crossings.is_empty());
         let answer = &tables(&races)[0].rows[0][4].text;
         assert!(answer.starts_with(winner), "{answer}");
@@ -55,8 +55,8 @@ fn who_never_overtakes_has_no_crossing() {
 #[test]
 fn a_crossing_within_the_noise_is_not_named() {
     // The ratio hardly moves and the noise is twenty times as large.
-    let races = result(&family(5.0, -0.005, 0.1), 1);
-    assert!(races[0].crossings.iter().all(|crossing| crossing.found < 0.95), "{races:?}");
+    let races = result(&family(5.0, -0.005, 0.1));
+    assert!(races[0].crossings.iter().all(|crossing| !crossing.is_sure()), "{races:?}");
     assert!(!tables(&races)[0].rows[0][4].text.is_empty());
 }
 

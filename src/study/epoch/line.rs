@@ -1,7 +1,7 @@
-//! All epochs of one structure on one kind of rays, and what another run might find.
+//! All epochs of one structure on one kind of rays.
 
-use super::Epoch;
-use crate::measure::{LEVEL, RandomOrder, factor, median};
+use super::{Epoch, Structure};
+use crate::measure::{AaNoise, median};
 
 /// All epochs of one structure on one kind of rays of one scene.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,6 +19,7 @@ pub struct Line {
     pub bytes: usize,
     pub leaves: usize,
     pub tests: Option<f64>,
+    pub blocks: Option<f64>,
     pub steps: Option<f64>,
     /// ln nanoseconds of a ray, epoch by epoch, round by round, on rays that are the same for all structures.
     pub trace: Vec<Vec<f64>>,
@@ -27,8 +28,48 @@ pub struct Line {
 }
 
 /// The lines of all scenes, in the order in which scenes, structures and kinds of rays come first. What has no time in one of its
-/// epochs has no line.
+/// epochs has no line, nor has a twin.
 pub fn lines<'a>(epochs: impl IntoIterator<Item = &'a Epoch>) -> Vec<Line> {
+    let mut found = vec![];
+    for scene in scenes(epochs) {
+        for (place, structure) in scene[0].structures.iter().enumerate() {
+            if twin_of(scene[0], place).is_none() {
+                found.extend(structure.rays.iter().filter_map(|rays| line(&scene, place, &rays.workload)));
+            }
+        }
+    }
+    found
+}
+
+/// The A/A noise of a run: what two builds of the same structure differ by.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Twins {
+    /// In times of rays, a cell for each scene and kind of rays.
+    pub trace: AaNoise,
+    /// In times of builds, a cell for each scene.
+    pub build: AaNoise,
+}
+
+/// That of these epochs: a structure that stands among those of an epoch a second time is the twin of the first.
+pub fn twins<'a>(epochs: impl IntoIterator<Item = &'a Epoch>) -> Twins {
+    let [mut trace, mut build] = [vec![], vec![]];
+    for scene in scenes(epochs) {
+        for place in 0..scene[0].structures.len() {
+            let Some(first) = twin_of(scene[0], place) else { continue };
+            let pairs = scene[0].structures[place]
+                .rays
+                .iter()
+                .filter_map(|rays| Some((line(&scene, first, &rays.workload)?, line(&scene, place, &rays.workload)?)));
+            let pairs: Vec<(Line, Line)> = pairs.collect();
+            trace.extend(pairs.iter().filter_map(|(one, twin)| one.log_ratios(twin)));
+            build.extend(pairs.first().and_then(|(one, twin)| log_ratios(&one.build, &twin.build)));
+        }
+    }
+    Twins { trace: AaNoise::new(&trace), build: AaNoise::new(&build) }
+}
+
+/// The epochs scene by scene, in their order.
+fn scenes<'a>(epochs: impl IntoIterator<Item = &'a Epoch>) -> Vec<Vec<&'a Epoch>> {
     let mut scenes: Vec<Vec<&Epoch>> = vec![];
     for epoch in epochs {
         match scenes.iter_mut().find(|scene| scene[0].scene_hash == epoch.scene_hash) {
@@ -36,24 +77,22 @@ pub fn lines<'a>(epochs: impl IntoIterator<Item = &'a Epoch>) -> Vec<Line> {
             None => scenes.push(vec![epoch]),
         }
     }
-    let mut lines = vec![];
-    for scene in &mut scenes {
-        scene.sort_by_key(|epoch| epoch.epoch);
-        for structure in &scene[0].structures {
-            for rays in &structure.rays {
-                lines.extend(line(scene, &structure.label, &rays.workload));
-            }
-        }
-    }
-    lines
+    scenes.iter_mut().for_each(|scene| scene.sort_by_key(|epoch| epoch.epoch));
+    scenes
 }
 
-/// One line, if it was timed in every epoch.
-fn line(scene: &[&Epoch], label: &str, workload: &str) -> Option<Line> {
+/// The place of the structure that the one at `place` is the twin of.
+fn twin_of(epoch: &Epoch, place: usize) -> Option<usize> {
+    epoch.structures[..place].iter().position(|first| first.label == epoch.structures[place].label)
+}
+
+/// One line, if it was timed in every epoch. Structures have the same places in all epochs.
+fn line(scene: &[&Epoch], place: usize, workload: &str) -> Option<Line> {
     let (mut trace, mut build) = (vec![], vec![]);
     let mut first = None;
     for epoch in scene {
-        let structure = epoch.structures.iter().find(|s| s.label == label && s.refused.is_none())?;
+        let timed = |s: &&Structure| s.label == scene[0].structures[place].label && s.refused.is_none();
+        let structure = epoch.structures.get(place).filter(timed)?;
         let rays = structure.rays.iter().find(|rays| rays.workload == workload && !rays.ns.is_empty())?;
         first = first.or(Some((structure, rays)));
         trace.push(rays.paces(epoch.common_rays(workload)).into_iter().map(libm::log).collect());
@@ -70,6 +109,7 @@ fn line(scene: &[&Epoch], label: &str, workload: &str) -> Option<Line> {
         bytes: structure.shape.bytes,
         leaves: structure.shape.leaves,
         tests: rays.counts.and_then(|counts| counts.tests_per_ray()),
+        blocks: rays.counts.and_then(|counts| counts.blocks_per_ray()),
         steps: rays.counts.and_then(|counts| counts.steps_per_ray()),
         trace,
         build,
@@ -89,69 +129,22 @@ impl Line {
 
     /// ln of this line's time over that of `other`, pair by pair. Nothing where they were not measured together.
     pub fn log_ratios(&self, other: &Self) -> Option<Vec<Vec<f64>>> {
-        let alike = self.trace.len() == other.trace.len()
-            && self.trace.iter().zip(&other.trace).all(|(one, other)| one.len() == other.len());
-        let pair = |(one, other): (&Vec<f64>, &Vec<f64>)| one.iter().zip(other).map(|(a, b)| a - b).collect();
-        alike.then(|| self.trace.iter().zip(&other.trace).map(pair).collect())
+        log_ratios(&self.trace, &other.trace)
     }
+}
+
+fn log_ratios(one: &[Vec<f64>], other: &[Vec<f64>]) -> Option<Vec<Vec<f64>>> {
+    let alike = one.len() == other.len() && one.iter().zip(other).all(|(one, other)| one.len() == other.len());
+    let pair = |(one, other): (&Vec<f64>, &Vec<f64>)| one.iter().zip(other).map(|(a, b)| a - b).collect();
+    alike.then(|| one.iter().zip(other).map(pair).collect())
+}
+
+/// The median of the rounds of each epoch.
+pub fn middles(epochs: &[Vec<f64>]) -> Vec<f64> {
+    epochs.iter().map(|rounds| median(rounds).expect("an epoch has rounds")).collect()
 }
 
 /// The mean over epochs of the median of their rounds.
-pub fn centre(epochs: &[Vec<f64>]) -> f64 {
-    let middles = epochs.iter().map(|rounds| median(rounds).expect("an epoch has rounds"));
-    middles.sum::<f64>() / epochs.len() as f64
-}
-
-/// Epochs, and rounds within each, drawn with replacement: the same for everything that was measured together.
-#[derive(Clone, Debug)]
-pub struct Draw(Vec<(usize, Vec<usize>)>);
-
-/// Draws what another run of the same plan might find.
-pub struct Draws(RandomOrder);
-
-impl Draws {
-    /// The same draws for the same seed.
-    pub fn new(seed: u64) -> Self {
-        Self(RandomOrder::new(seed))
-    }
-
-    /// A draw for what has as many epochs and rounds as `epochs`.
-    pub fn draw(&mut self, epochs: &[Vec<f64>]) -> Draw {
-        let rounds = epochs.iter().map(Vec::len).min().unwrap_or(0);
-        let one = |random: &mut RandomOrder| {
-            (random.below(epochs.len()), (0..rounds).map(|_| random.below(rounds)).collect())
-        };
-        Draw((0..epochs.len()).map(|_| one(&mut self.0)).collect())
-    }
-
-    /// A number below `n`.
-    pub fn below(&mut self, n: usize) -> usize {
-        self.0.below(n)
-    }
-}
-
-impl Draw {
-    /// [`centre`] as another run might find it: that of the epochs and rounds drawn, moved away from our own by as much more as few
-    /// epochs know too little of themselves, and as another run errs as well.
-    pub fn centre(&self, epochs: &[Vec<f64>]) -> f64 {
-        let own = centre(epochs);
-        let middle = |(epoch, rounds): &(usize, Vec<usize>)| {
-            // The build of an epoch is a single round.
-            let of = &epochs[*epoch];
-            let drawn: Vec<f64> = rounds.iter().map(|&round| of[round % of.len()]).collect();
-            median(&drawn).expect("an epoch has rounds")
-        };
-        let drawn = self.0.iter().map(middle).sum::<f64>() / self.0.len() as f64;
-        own + (drawn - own) * stretch(epochs)
-    }
-}
-
-/// A bootstrap over n values has the variance (n - 1) / n s^2 / n; the difference of two runs' means has 2 s^2 / n and, s being
-/// known from n values alone, the tails of Student's t with n - 1 degrees of freedom. As [`crate::measure::replication`] argues.
-fn stretch(epochs: &[Vec<f64>]) -> f64 {
-    let n = if epochs.len() > 1 { epochs.len() } else { epochs[0].len() } as f64;
-    if n < 2.0 {
-        return 1.0;
-    }
-    factor(n - 1.0, LEVEL) / factor(f64::INFINITY, LEVEL) * libm::sqrt(2.0 * n / (n - 1.0))
+fn centre(epochs: &[Vec<f64>]) -> f64 {
+    middles(epochs).iter().sum::<f64>() / epochs.len() as f64
 }

@@ -232,6 +232,7 @@ fn count(accel: &dyn DynAccel, workload: &Workload) -> RayCounts {
         hits: counted.hits,
         distances: counted.distances,
         tests: counted.observed.tests.then_some(counted.counts.tests),
+        blocks: counted.observed.tests.then_some(counted.counts.blocks),
         steps: counted.observed.steps.then_some(counted.counts.steps()),
     }
 }

@@ -21,7 +21,7 @@ use crate::report::words::scene_name;
 use crate::scene::Scene;
 
 pub use asked::{Asked, PICTURE};
-pub use line::{Draw, Draws, Line, centre, lines};
+pub use line::{Line, Twins, lines, middles, twins};
 pub use measure::measure;
 pub use trouble::{Trouble, troubles};
 pub use whole::WholeTimes;
@@ -162,6 +162,9 @@ pub struct RayCounts {
     pub distances: u64,
     /// Triangles tested; nothing where the structure does not tell.
     pub tests: Option<u64>,
+    /// Blocks of triangles that were tested at once, likewise.
+    #[serde(default)]
+    pub blocks: Option<u64>,
     /// Nodes and leaves entered, likewise.
     pub steps: Option<u64>,
 }
@@ -170,6 +173,11 @@ impl RayCounts {
     /// Triangles tested for each ray.
     pub fn tests_per_ray(&self) -> Option<f64> {
         Some(self.tests? as f64 / self.rays as f64)
+    }
+
+    /// Blocks of triangles tested for each ray.
+    pub fn blocks_per_ray(&self) -> Option<f64> {
+        Some(self.blocks? as f64 / self.rays as f64)
     }
 
     /// Nodes and leaves entered for each ray.

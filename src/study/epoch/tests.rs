@@ -16,7 +16,14 @@ pub fn rays(workload: &str) -> Rays {
         parts: vec![],
         untimed: None,
         wrong: false,
-        counts: Some(RayCounts { rays: 1000, hits: 500, distances: 9, tests: Some(4000), steps: Some(10_000) }),
+        counts: Some(RayCounts {
+            rays: 1000,
+            hits: 500,
+            distances: 9,
+            tests: Some(4000),
+            blocks: Some(1000),
+            steps: Some(10_000),
+        }),
     }
 }
 
@@ -95,22 +102,28 @@ fn what_lacks_a_time_in_an_epoch_has_no_line() {
     assert_eq!(both.len(), 2);
     assert!((both[0].ns_per_ray() - 2.0).abs() < 1e-12 && (both[0].build_ns() - 5000.0).abs() < 1e-9);
     let ratio = both[0].log_ratios(&both[1]).unwrap();
-    assert!((libm::exp(centre(&ratio)) - 4.0).abs() < 1e-12);
+    assert!(middles(&ratio).iter().all(|log| (libm::exp(*log) - 4.0).abs() < 1e-12));
     epochs[1].structures[0].refused = Some("it fell over".into());
     assert_eq!(lines(&epochs).iter().map(|line| line.structure.as_str()).collect::<Vec<_>>(), ["y"]);
 }
 
 #[test]
-fn draws_of_what_does_not_vary_do_not_vary() {
-    let steady = vec![vec![2.0; 3]; 4];
-    let mut draws = Draws::new(1);
-    for _ in 0..20 {
-        assert!((draws.draw(&steady).centre(&steady) - 2.0).abs() < 1e-12);
-    }
-    // Of four epochs with a standard deviation of 1, the mean has 0.5; t(3) = 3.182 makes 95 % of another run's be within 2.25.
-    let epochs: Vec<Vec<f64>> = [-1.0f64, 1.0, -1.0, 1.0].map(|x| vec![x * libm::sqrt(0.75); 3]).into();
-    let mut centres: Vec<f64> = (0..4000).map(|_| draws.draw(&epochs).centre(&epochs)).collect();
-    centres.sort_by(f64::total_cmp);
-    let deviation = libm::sqrt(centres.iter().map(|x| x * x).sum::<f64>() / 4000.0);
-    assert!((deviation * 1.96 - 3.182 * libm::sqrt(0.5)).abs() < 0.1, "{deviation}");
+fn a_structure_that_stands_twice_is_its_own_twin_and_has_one_line() {
+    // The twin takes a tenth longer in every epoch, and its build twice as long.
+    let structures = |e: u64| [("x", 100, [1000 + e, 2000]), ("y", 100, [500, 500]), ("x", 200, [1100 + e, 2200])];
+    let epochs = [0, 1, 2].map(|epoch| {
+        let of = structures(epoch as u64);
+        let of: Vec<(&str, u64, &[u64])> = of.iter().map(|(label, build, ns)| (*label, *build, &ns[..])).collect();
+        example("a", 10, epoch, &of)
+    });
+    let names: Vec<String> = lines(&epochs).into_iter().map(|line| line.structure).collect();
+    assert_eq!(names, ["x", "y"]);
+    let twins = twins(&epochs);
+    assert!((twins.trace.log().unwrap() - libm::log(1.1)).abs() < 1e-3, "{twins:?}");
+    assert!((twins.build.log().unwrap() - libm::log(2.0)).abs() < 1e-9, "{twins:?}");
+    assert_eq!(super::twins(&epochs[..0]), Twins::default());
+    // Without a time in one epoch there is no pair.
+    let mut part = epochs.clone();
+    part[1].structures[2].rays[0].ns.clear();
+    assert_eq!(super::twins(&part).trace.log(), None);
 }

@@ -1,8 +1,8 @@
 //! Times for all rays of a scene together.
 
 use super::{Epoch, Rays, Structure};
-use crate::measure::{Interval, NoiseFloor, standard_error, two_sided};
-use crate::study::replicates::{interval, replicates, values};
+use crate::measure::{AaNoise, Estimate};
+use crate::study::replicates::{ratio, replicates, values};
 
 /// How long the structures of an epoch take for all their rays, whatever part of them was timed: the rays of every kind at the pace of
 /// those that were.
@@ -18,8 +18,7 @@ impl WholeTimes {
         Self { epochs: epochs.into_iter().map(|epoch| epoch.structures.clone()).collect() }
     }
 
-    /// ln of seconds of the structures with these numbers, on the rays that all of them were timed on: of each epoch, or of each round of a
-    /// single one.
+    /// ln of seconds of the structures with these numbers, on the rays that all of them were timed on, of each epoch.
     fn replicates(&self, structures: &[usize]) -> Vec<Vec<f64>> {
         let of_epoch = |all: &Vec<Structure>| {
             let chosen: Vec<&Structure> = structures.iter().map(|&number| &all[number]).collect();
@@ -28,42 +27,30 @@ impl WholeTimes {
         replicates(self.epochs.iter().map(of_epoch).collect())
     }
 
-    /// Seconds: the geometric mean over the epochs, with the interval that holds that of another run.
+    /// Seconds: the geometric mean over the epochs, with its interval.
     ///
     /// # Panics
     /// If there is no epoch.
-    pub fn seconds(&self, structure: usize, floor: f64, seed: u64) -> Interval {
-        interval(&self.replicates(&[structure]), |logs| logs[0], floor, seed)
+    pub fn seconds(&self, structure: usize, noise: &AaNoise) -> Estimate {
+        ratio(&self.replicates(&[structure]), |logs| logs[0], noise.weighted(&[1.0]))
     }
 
-    /// ln of the time of `one` over that of `other`, as a cell of [`replication`](crate::measure::replication()).
-    pub fn log_ratios(&self, one: usize, other: usize) -> Vec<Vec<f64>> {
+    /// ln of the time of `one` over that of `other`, in each epoch.
+    pub fn log_ratios(&self, one: usize, other: usize) -> Vec<f64> {
         values(&self.replicates(&[one, other]), |logs| logs[0] - logs[1])
     }
 
-    /// The time of `one` over that of `other`, with the interval that holds it in another run.
-    pub fn ratio(&self, one: usize, other: usize, floor: f64, seed: u64) -> Interval {
-        interval(&self.replicates(&[one, other]), |logs| logs[0] - logs[1], floor, seed)
+    /// The same as a cell of [`epoch_values`](crate::measure::epoch_values).
+    pub fn cell(&self, one: usize, other: usize) -> Vec<Vec<f64>> {
+        self.log_ratios(one, other).into_iter().map(|log| vec![log]).collect()
     }
 
-    /// What two builds of one structure differ by, as a logarithm.
-    pub fn floor(&self, twins: [usize; 2], seed: u64) -> f64 {
-        NoiseFloor::new(&[self.log_ratios(twins[0], twins[1])], seed).log().unwrap_or(0.0)
-    }
-
-    /// How likely a difference as large as that of two structures is by chance: Student's t over the epochs. Nothing with fewer than
-    /// two of them.
-    pub fn probability(&self, one: usize, other: usize) -> Option<f64> {
-        if self.epochs.len() < 2 {
-            return None;
-        }
-        let differences: Vec<f64> = self.log_ratios(one, other).concat();
-        let error = standard_error(&differences)?;
-        let mean = differences.iter().sum::<f64>() / differences.len() as f64;
-        if error == 0.0 {
-            return Some(if mean == 0.0 { 1.0 } else { 0.0 });
-        }
-        Some(two_sided(mean / error, differences.len() as f64 - 1.0))
+    /// The time of `one` over that of `other`, with its interval.
+    ///
+    /// # Panics
+    /// If there is no epoch.
+    pub fn ratio(&self, one: usize, other: usize, noise: &AaNoise) -> Estimate {
+        ratio(&self.replicates(&[one, other]), |logs| logs[0] - logs[1], noise.of_ratio())
     }
 }
 

@@ -1,7 +1,7 @@
 //! `parameters`: the report's sweep of its leaf limit and match threshold; which differences are real?
 //!
 //! The report prints single runs. Here every setting is built anew in several epochs and timed in interleaved rounds on all rays
-//! of the picture, the setting of the report's main table twice: what these twins differ by is the noise floor. Cube has fewer
+//! of the picture, the setting of the report's main table twice: what these twins differ by is the A/A noise. Cube has fewer
 //! triangles than every leaf limit, so that all its settings are the same tree: the control.
 
 mod result;

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::{DEFAULT, default_row, is_default};
-use crate::measure::{Interval, NoiseFloor, holm};
+use crate::measure::{AaNoise, Estimate, LEVEL, holm};
 use crate::study::epoch::{Epoch, RayCounts, Rays, Shape, Structure, WholeTimes};
 use crate::study::replicate::original::{MAIN, SWEEP};
 
@@ -11,8 +11,8 @@ use crate::study::replicate::original::{MAIN, SWEEP};
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Parameters {
     pub epochs: usize,
-    /// What the twins of the default differ by at most, as a factor.
-    pub floor: f64,
+    /// The [A/A noise](AaNoise) of the twins of the default, as a factor; 1 is none.
+    pub aa_noise: f64,
     /// Comparisons that were made: so many looks does the correction allow for.
     pub comparisons: usize,
     /// Scene by scene, in the order of the sweep.
@@ -32,12 +32,12 @@ pub struct Setting {
     pub seconds: f64,
     pub report_s: f64,
     /// Time as a multiple of the default's; nothing for the default.
-    pub times: Option<Interval>,
+    pub times: Option<Estimate>,
     /// The same in the report: single runs.
     pub report_times: f64,
     pub tests_per_ray: f64,
-    /// How likely a difference as large is by chance; nothing for the default, with fewer than two epochs, or where the
-    /// trees are the same.
+    /// The chance that an interval of `times` would have to leave to its outside to reach just to 1; nothing for the default, with fewer than
+    /// two epochs, or where the trees are the same.
     pub probability: Option<f64>,
     pub verdict: Verdict,
 }
@@ -50,7 +50,7 @@ pub enum Verdict {
     Default,
     /// Its tree is that of the default: there is nothing to differ.
     SameTree,
-    /// Beyond chance, over all comparisons, and beyond the noise floor.
+    /// Its interval lies below 1, as one of all that are compared.
     Faster,
     /// As [`Verdict::Faster`].
     Slower,
@@ -71,42 +71,39 @@ impl Verdict {
     }
 }
 
-/// The chance of even one false claim among all comparisons.
-pub(super) const LEVEL: f64 = 0.05;
-
 /// One row for each setting and scene, for a tidy table.
 pub fn rows(result: &Parameters) -> &[Setting] {
     &result.settings
 }
 
 /// Compares the settings of all scenes whose first epoch is there.
-pub fn result(epochs: &[Epoch], seed: u64) -> Parameters {
+pub fn result(epochs: &[Epoch]) -> Parameters {
     let names: Vec<&str> = MAIN.iter().map(|row| row.scene).collect();
     let of = |scene: &&str| epochs.iter().filter(|epoch| epoch.scene == **scene).collect::<Vec<_>>();
     let scenes: Vec<Measured> = names.iter().filter_map(|scene| Measured::of(&of(scene))).collect();
     let default = default_row();
 
-    // The floor of the whole run: twins in every scene.
-    let twin = |scene: &Measured| scene.times.log_ratios(SWEEP.len(), default);
-    let floor = NoiseFloor::new(&scenes.iter().map(twin).collect::<Vec<_>>(), seed).log().unwrap_or(0.0);
+    // There are twins in every scene.
+    let twin = |scene: &Measured| scene.times.cell(SWEEP.len(), default);
+    let noise = AaNoise::new(&scenes.iter().map(twin).collect::<Vec<_>>());
 
     let mut settings = vec![];
     for scene in &scenes {
         let column = names.iter().position(|name| *name == scene.name).expect("it is one of them");
         for (i, row) in SWEEP.iter().enumerate() {
-            let times = scene.times.ratio(i, default, floor, seed);
+            let times = scene.times.ratio(i, default, &noise);
             let same_tree = scene.trees[i] == scene.trees[default];
             settings.push(Setting {
                 scene: scene.name.clone(),
                 triangles: scene.triangles,
                 leaf: row.leaf,
                 threshold: row.threshold,
-                seconds: scene.times.seconds(i, floor, seed).estimate,
+                seconds: scene.times.seconds(i, &noise).estimate,
                 report_s: row.seconds[column],
                 times: (!is_default(row)).then_some(times),
                 report_times: row.seconds[column] / SWEEP[default].seconds[column],
                 tests_per_ray: scene.tests_per_ray[i],
-                probability: if is_default(row) || same_tree { None } else { scene.times.probability(i, default) },
+                probability: if is_default(row) || same_tree { None } else { times.chance_of_one() },
                 verdict: match (is_default(row), same_tree) {
                     (true, _) => Verdict::Default,
                     (_, true) => Verdict::SameTree,
@@ -120,12 +117,12 @@ pub fn result(epochs: &[Epoch], seed: u64) -> Parameters {
     let probabilities: Vec<f64> = compared.iter().filter_map(|&i| settings[i].probability).collect();
     for (&i, real) in compared.iter().zip(holm(&probabilities, LEVEL)) {
         let times = settings[i].times.expect("only others than the default are compared").estimate;
-        if real && libm::fabs(libm::log(times)) > floor {
+        if real {
             settings[i].verdict = if times < 1.0 { Verdict::Faster } else { Verdict::Slower };
         }
     }
     let epochs = scenes.iter().map(|scene| scene.epochs).min().unwrap_or(0);
-    Parameters { epochs, floor: libm::exp(floor), comparisons: compared.len(), settings }
+    Parameters { epochs, aa_noise: libm::exp(noise.log().unwrap_or(0.0)), comparisons: compared.len(), settings }
 }
 
 impl Parameters {

@@ -1,8 +1,9 @@
 //! The sweep as tables for people.
 
-use super::result::{LEVEL, Parameters, Setting, Verdict};
+use super::result::{Parameters, Setting, Verdict};
+use crate::measure::LEVEL;
 use crate::report::number::figures;
-use crate::report::words::interval;
+use crate::report::words::{explained, interval};
 use crate::report::{Cell, Table, Tone};
 
 /// All settings, then the answer in words.
@@ -27,20 +28,20 @@ pub fn tables(result: &Parameters) -> Vec<Table> {
         rows: result.settings.iter().map(row).collect(),
         notes: notes(result),
     };
-    vec![table]
+    vec![explained(table)]
 }
 
 fn notes(result: &Parameters) -> Vec<String> {
     let settings = || result.settings.iter();
     let count = |verdict: Verdict| settings().filter(|s| s.verdict == verdict).count();
     let mut notes = vec![format!(
-        "time: as a multiple of the default's, over {} epochs [another run of the same plan]. A difference is real when chance makes one as large, in \
-         even one of the {} comparisons together, in fewer than {:.0} % of runs (Holm's correction), and when it exceeds what the default \
-         differs from its twin: a factor of {:.3}.",
+        "time: as a multiple of the default's, over {} epochs [another run of the same plan]. {} settings are compared with the default; a \
+         difference is real when its interval excludes 1 at a level that leaves all of them together {:.0} % (Holm's correction). A/A noise, in \
+         all intervals: a factor of {:.3}.",
         result.epochs,
         result.comparisons,
         LEVEL * 100.0,
-        result.floor
+        result.aa_noise
     )];
     if result.epochs < 2 {
         notes.push("One epoch tells nothing of how settings vary from build to build: measure two or more.".into());

@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use super::baselines::is_obvhs;
 use super::compare::{speed, twins};
-use crate::measure::Interval;
+use crate::measure::Estimate;
 use crate::registry::{Choice, ChoiceError, Registry};
 use crate::report::Record;
 
@@ -37,7 +37,7 @@ pub struct Row {
     pub bytes: f64,
     pub cells: Vec<Cell>,
     /// Geometric mean of the speeds over the cells; nothing where one is missing.
-    pub all: Option<Interval>,
+    pub all: Option<Estimate>,
 }
 
 /// One structure and one kind of rays.
@@ -45,7 +45,7 @@ pub struct Row {
 pub struct Cell {
     pub workload: String,
     /// Speed as a multiple of that of the fastest obvhs on these rays. Nothing where either gives wrong answers.
-    pub speed: Option<Interval>,
+    pub speed: Option<Estimate>,
     /// Label of that obvhs.
     pub baseline: Option<String>,
     /// Nodes and leaves entered for each ray.
@@ -69,7 +69,7 @@ pub fn structures(registry: &Registry, test: &str, keys: &str) -> Result<Vec<Cho
 
 /// Compares the records of one run over [`structures`].
 pub fn rows(records: &[Record]) -> Vec<Row> {
-    let floor = twins(records).log().unwrap_or(0.0);
+    let noise = twins(records);
     let mut rows: Vec<Row> = vec![];
     let mut pairs: Vec<Vec<Option<(&Record, &Record)>>> = vec![];
     for record in records.iter().filter(|r| !is_obvhs(&r.structure)) {
@@ -79,7 +79,7 @@ pub fn rows(records: &[Record]) -> Vec<Row> {
         let pair = best.filter(|_| record.trace_ns.is_some()).map(|best| (record, best));
         let cell = Cell {
             workload: record.workload.clone(),
-            speed: pair.and_then(|pair| speed([pair], floor)),
+            speed: pair.and_then(|pair| speed([pair], &noise)),
             baseline: best.map(|best| best.label.clone()),
             steps: record.steps_per_ray,
             tests: record.tests_per_ray,
@@ -103,7 +103,7 @@ pub fn rows(records: &[Record]) -> Vec<Row> {
     }
     for (row, pairs) in rows.iter_mut().zip(pairs) {
         let pairs: Option<Vec<(&Record, &Record)>> = pairs.into_iter().collect();
-        row.all = pairs.and_then(|pairs| speed(pairs, floor));
+        row.all = pairs.and_then(|pairs| speed(pairs, &noise));
     }
     rows
 }

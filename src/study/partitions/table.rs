@@ -1,9 +1,9 @@
 //! The rows as tables for people.
 
 use super::Row;
-use crate::measure::Interval;
+use crate::measure::Estimate;
 use crate::report::number::{count, figures};
-use crate::report::words;
+use crate::report::words::{explained, written};
 use crate::report::{Cell, Table, Tone};
 
 /// One table for each scene: speeds, then what explains them.
@@ -31,16 +31,16 @@ fn table(rows: Vec<&Row>) -> Table {
         cells
     });
     let baselines = first.cells.iter().filter_map(|c| Some(format!("{}: {}", c.workload, c.baseline.as_deref()?)));
-    Table {
+    explained(Table {
         title: format!("{}: {} triangles", first.scene, count(first.triangles as u64)),
         columns,
         rows: cells.collect(),
         notes: vec![format!("Fastest of obvhs: {}.", baselines.collect::<Vec<_>>().join("; "))],
-    }
+    })
 }
 
-fn interval(x: Option<Interval>) -> String {
-    x.map_or(String::new(), words::interval)
+fn interval(x: Option<Estimate>) -> String {
+    x.map_or(String::new(), |x| written(x, |x| format!("{x:.2}")))
 }
 
 /// What the columns mean.

@@ -1,6 +1,7 @@
 //! Do two measures put things in the same order?
 
-use crate::measure::{Interval, LEVEL, factor, standard_error};
+use super::CLAIMS;
+use crate::measure::{Estimate, Rerun, Variance};
 
 /// Kendall's tau-b of pairs `(x, y)` (Kendall, "The treatment of ties in ranking problems", 1945): 1 for the same order, -1 for the
 /// opposite one. Only couples for which `compared` says so take part. Nothing where none differs in both.
@@ -26,14 +27,47 @@ pub fn kendall(pairs: &[(f64, f64)], compared: impl Fn(usize, usize) -> bool) ->
     (x_differ > 0.0 && y_differ > 0.0).then(|| same / libm::sqrt(x_differ * y_differ))
 }
 
-/// The mean of several taus, with Student's 95 % interval of their mean, cut to what a tau can be.
-pub(super) fn mean(taus: &[f64]) -> Option<Interval> {
-    if taus.is_empty() {
-        return None;
+/// An order is found well from this tau on. The words say "well" and "order" without a number; this one is ours.
+pub(super) const WELL: f64 = 0.7;
+
+/// How well estimates have the order that is expected of them.
+pub(super) struct Order {
+    /// Kendall's tau; at the ends of its interval all couples whose order is not sure are in it, or against it.
+    pub tau: Estimate,
+    /// The couples that surely have the other order: numbers of that which was expected to be larger, and of the smaller one.
+    pub reversed: Vec<[usize; 2]>,
+}
+
+impl Order {
+    /// Of positive estimates with their ranks, the largest expected first; those of one rank are not compared. What each couple shows
+    /// allows for all couples and for `looks` as many.
+    pub fn of(ranked: &[(Estimate, usize)], looks: usize) -> Self {
+        let couples: Vec<[usize; 2]> = (0..ranked.len())
+            .flat_map(|i| (0..ranked.len()).map(move |j| [i, j]))
+            .filter(|&[i, j]| ranked[i].1 < ranked[j].1)
+            .collect();
+        let looks = looks * couples.len();
+        let quotients: Vec<Estimate> =
+            couples.iter().map(|&[i, j]| ranked[i].0.over(ranked[j].0).ratio_among(looks)).collect();
+        let all = couples.len().max(1) as f64;
+        let share = |of: &dyn Fn(&Estimate) -> bool| quotients.iter().filter(|q| of(q)).count() as f64 / all;
+        let (sure, reversed) = (share(&|q| q.is_above(1.0)), share(&|q| q.is_below(1.0)));
+        let estimate = 2.0 * share(&|q| q.estimate > 1.0) - 1.0;
+        let known = quotients.iter().all(|q| q.interval.is_some());
+        let tau = if known {
+            Estimate::between(estimate, 2.0 * sure - 1.0, 1.0 - 2.0 * reversed)
+        } else {
+            Estimate::alone(estimate)
+        };
+        let reversed = couples.iter().zip(&quotients).filter(|(_, q)| q.is_below(1.0)).map(|(couple, _)| *couple);
+        Self { tau, reversed: reversed.collect() }
     }
-    let mean = taus.iter().sum::<f64>() / taus.len() as f64;
-    let half = standard_error(taus).map_or(2.0, |error| factor(taus.len() as f64 - 1.0, LEVEL) * error);
-    Some(Interval { estimate: mean, low: (mean - half).max(-1.0), high: (mean + half).min(1.0) })
+}
+
+/// The mean of the taus of several scenes, with the interval of one among all claims for as many other scenes, cut to what a tau can be.
+pub(super) fn mean(taus: &[f64]) -> Option<Estimate> {
+    let mean = Rerun::of(taus, Variance::NONE)?.plain().among(CLAIMS);
+    Some(mean.map(|tau| tau.clamp(-1.0, 1.0)))
 }
 
 #[cfg(test)]
@@ -54,9 +88,31 @@ mod tests {
 
     #[test]
     fn a_mean_of_one_says_nothing_of_others() {
-        assert_eq!(mean(&[0.5]), Some(Interval { estimate: 0.5, low: -1.0, high: 1.0 }));
-        let three = mean(&[0.5, 0.6, 0.7]).unwrap();
-        assert!((three.estimate - 0.6).abs() < 1e-12 && three.low > 0.3 && three.high < 0.9, "{three:?}");
+        assert_eq!(mean(&[0.5]), Some(Estimate::alone(0.5)));
+        let four = mean(&[0.5, 0.6, 0.6, 0.7]).unwrap();
+        assert!((four.estimate - 0.6).abs() < 1e-12 && four.holds(0.3) && !four.holds(0.0), "{four:?}");
+        assert_eq!(mean(&[-1.0, 1.0]).unwrap().low(), Some(-1.0));
         assert_eq!(mean(&[]), None);
+    }
+
+    #[test]
+    fn an_order_is_as_sure_as_its_couples() {
+        let of = |estimates: [f64; 4]| {
+            let ranked = estimates.map(|x| Estimate::between(x, x / 1.1, x * 1.1));
+            Order::of(&[(ranked[0], 0), (ranked[1], 0), (ranked[2], 1), (ranked[3], 2)], 1)
+        };
+        // The first two are not compared: five couples.
+        let right = of([8.0, 9.0, 4.0, 2.0]);
+        assert_eq!(right.tau, Estimate::exact(1.0));
+        // One surely against it.
+        let one_off = of([8.0, 9.0, 2.0, 4.0]);
+        assert_eq!(one_off.reversed, [[2, 3]]);
+        assert!((one_off.tau.estimate - 0.6).abs() < 1e-12 && (one_off.tau.high().unwrap() - 0.6).abs() < 1e-12);
+        // One that may be either.
+        let open = of([8.0, 9.0, 2.02, 2.0]);
+        assert_eq!((open.tau.estimate, open.tau.high()), (1.0, Some(1.0)));
+        assert!((open.tau.low().unwrap() - 0.6).abs() < 1e-12 && open.reversed.is_empty());
+        let alone = Order::of(&[(Estimate::alone(2.0), 0), (Estimate::alone(1.0), 1)], 1);
+        assert_eq!(alone.tau, Estimate::alone(1.0));
     }
 }

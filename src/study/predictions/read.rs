@@ -7,7 +7,7 @@ use serde::Deserialize;
 use serde::de::DeserializeOwned;
 
 use super::Inputs;
-use crate::measure::Interval;
+use crate::measure::Estimate;
 use crate::report::Record;
 use crate::study::journal::{Journal, JournalError};
 use crate::study::{attribution, crossover, scaling};
@@ -24,26 +24,26 @@ pub struct Main {
     pub scene: String,
     pub triangles: usize,
     pub brute_force: Seconds,
-    pub improvement: Interval,
+    pub improvement: Estimate,
 }
 
 /// Seconds / (rays x triangles).
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 pub struct Seconds {
-    pub t_prime: Interval,
+    pub t_prime: Estimate,
 }
 
 /// Reads what `folder` holds; what is not there is left empty. What is counted here is added by the caller.
 ///
 /// # Errors
 /// If a file is there and is not what it should be.
-pub fn read(folder: &Path, seed: u64) -> Result<Inputs, JournalError> {
+pub fn read(folder: &Path) -> Result<Inputs, JournalError> {
     Ok(Inputs {
         counted: vec![],
         replicated: json(&folder.join("replicate.json"))?,
-        attribution: attribution::result(&journal(folder, attribution::NAME)?, seed),
-        scaling: scaling::result(&journal(folder, scaling::NAME)?, seed),
-        crossover: crossover::result(&journal(folder, crossover::NAME)?, seed),
+        attribution: attribution::result(&journal(folder, attribution::NAME)?),
+        scaling: scaling::result(&journal(folder, scaling::NAME)?),
+        crossover: crossover::result(&journal(folder, crossover::NAME)?),
         compare: json::<Vec<Record>>(&folder.join("compare.json"))?.unwrap_or_default(),
     })
 }

@@ -1,59 +1,50 @@
 //! The verdicts as a table for people.
 
-use super::{Finding, Prediction, Verdict};
-use crate::report::words::interval;
+use super::{CLAIMS, Prediction, Verdict, tally};
+use crate::report::words::{explained, interval};
 use crate::report::{Cell, Table, Tone};
 
-/// One row for each finding; claims, explanations and missing commands below.
-pub fn table(predictions: &[Prediction]) -> Table {
-    let mut rows = vec![];
-    for p in predictions {
-        let tone = match p.verdict {
-            Verdict::Confirmed => Tone::Best,
-            Verdict::Refuted => Tone::Wrong,
-            Verdict::NotMeasured => Tone::Plain,
-        };
-        let verdict = Cell::from(p.words()).with(tone);
-        rows.push(vec![p.number.to_string().into(), verdict, Cell::blank(), Cell::blank()]);
-        let row = |f: &Finding| {
-            let holds = match (f.holds, f.sure) {
-                (true, true) => "yes",
-                (true, false) => "yes, not surely",
-                (false, true) => "no",
-                (false, false) => "no, not surely",
-            };
-            vec![
-                format!("  {}", f.what).into(),
-                Cell::from(holds),
-                interval(f.value).into(),
-                f.expected.as_str().into(),
-            ]
-        };
-        rows.extend(p.findings.iter().map(row));
-    }
-    let mut notes = vec![];
-    for p in predictions {
-        let missing = p.command.as_ref().map(|command| format!(" To measure it: {command}.")).unwrap_or_default();
-        let why = if p.why.is_empty() { String::new() } else { format!(" {}", p.why) };
-        notes.push(format!("{}. {} {}.{why}{missing}", p.number, p.claim, capitalised(&p.words())));
-    }
-    notes.push("Not surely: the interval reaches across the bound.".into());
-    let count = |verdict| predictions.iter().filter(|p| p.verdict == verdict).count();
-    Table {
-        title: format!(
-            "{} predictions: {} confirmed, {} refuted, {} not measured",
-            predictions.len(),
-            count(Verdict::Confirmed),
-            count(Verdict::Refuted),
-            count(Verdict::NotMeasured)
-        ),
-        columns: ["prediction", "holds", "measured [95%]", "expected"].map(String::from).into(),
-        rows,
-        notes,
+/// How a verdict is coloured.
+pub fn tone(verdict: Verdict) -> Tone {
+    match verdict {
+        Verdict::Confirmed => Tone::Best,
+        Verdict::Refuted => Tone::Wrong,
+        Verdict::Undecided | Verdict::NotMeasured => Tone::Plain,
     }
 }
 
-fn capitalised(text: &str) -> String {
-    let mut letters = text.chars();
-    letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
+/// One row for each claim and each figure; the words, explanations and missing commands below.
+pub fn table(predictions: &[Prediction]) -> Table {
+    let mut rows: Vec<Vec<Cell>> = vec![];
+    for p in predictions {
+        rows.extend(p.claims.iter().map(|claim| {
+            vec![
+                format!("{}. {}", p.number, claim.what).into(),
+                Cell::from(claim.verdict.words()).with(tone(claim.verdict)),
+                claim.value.map_or(Cell::blank(), |value| interval(value).into()),
+                claim.expected.as_str().into(),
+            ]
+        }));
+        rows.extend(p.figures.iter().map(|figure| {
+            let what = format!("{}. {}", p.number, figure.what);
+            vec![what.into(), Cell::blank(), interval(figure.value).into(), "open".into()]
+        }));
+    }
+    let mut notes = vec![format!(
+        "Confirmed or refuted: the whole interval is as expected, or is not. Intervals of claims allow for {CLAIMS} of them judged together; \
+         figures without a claim have no verdict."
+    )];
+    for p in predictions {
+        let missing =
+            p.claims.iter().any(|claim| claim.value.is_none()) || (p.claims.is_empty() && p.figures.is_empty());
+        let missing = if missing { format!(" To measure it: {}.", p.command) } else { String::new() };
+        let why = if p.why.is_empty() { String::new() } else { format!(" {}", p.why) };
+        notes.push(format!("{}. \"{}\"{why}{missing}", p.number, p.words));
+    }
+    explained(Table {
+        title: format!("Claims written before the measurement: {}", tally(predictions).words()),
+        columns: ["claim", "verdict", "measured", "expected"].map(String::from).into(),
+        rows,
+        notes,
+    })
 }

@@ -1,7 +1,7 @@
 //! Changes of time, each with what its interval says.
 
 use super::{Change, Finding};
-use crate::measure::{Interval, NoiseFloor, change};
+use crate::measure::{AaNoise, Estimate, Rerun, epoch_values};
 use crate::report::Record;
 use crate::study::baselines::is_obvhs;
 use crate::study::compare::twins;
@@ -18,24 +18,23 @@ pub(super) fn references(pairs: &[(&Record, &Record)]) -> Vec<String> {
     labels
 }
 
-/// Of the structures, and of their cells.
+/// Of the structures, of which each is looked at `looks` times, and of their cells.
 pub(super) fn all(
     old: &[Record],
     new: &[Record],
     pairs: &[(&Record, &Record)],
     threshold: Option<f64>,
+    looks: usize,
 ) -> (Vec<Change>, Vec<Change>) {
     let references = references(pairs);
-    let of = |floor: fn(&NoiseFloor) -> Option<f64>| {
-        let [old, new] = [old, new].map(|records| floor(&twins(records)).unwrap_or(0.0));
-        libm::hypot(old, new)
-    };
-    let (floor, floor_of_mean) = (of(NoiseFloor::log), of(NoiseFloor::log_of_mean));
+    let noises = [old, new].map(twins);
     let (mut structures, mut cells): (Vec<Change>, Vec<Change>) = (vec![], vec![]);
     let mut labels: Vec<&str> = pairs.iter().map(|(old, _)| old.label.as_str()).collect();
     labels.retain(|label| !references.iter().any(|reference| reference == label));
     let mut seen = std::collections::BTreeSet::new();
     labels.retain(|label| seen.insert(*label));
+    // All structures are judged together, as often as is looked; their cells decide nothing.
+    let looks = looks * labels.len();
     for label in labels {
         let mut all: (Vec<_>, Vec<_>) = (vec![], vec![]);
         let mut missing = false;
@@ -44,9 +43,9 @@ pub(super) fn all(
                 Some((relative(before, old, after, new, &references)?, relative(after, new, before, old, &references)?))
             };
             let times = times();
-            let time = times
-                .as_ref()
-                .and_then(|(old, new)| change(std::slice::from_ref(old), std::slice::from_ref(new), floor));
+            let time = times.as_ref().and_then(|(old, new)| {
+                change(std::slice::from_ref(old), std::slice::from_ref(new), &noises, references.len())
+            });
             cells.push(Change {
                 structure: label.into(),
                 scene: Some(before.scene.clone()),
@@ -65,7 +64,12 @@ pub(super) fn all(
         let n = all.0.len();
         // A mean over cells that differ in their epochs has none of its own.
         let even = |cells: &[Vec<Vec<f64>>]| cells.iter().all(|cell| cell.len() == cells[0].len());
-        let time = if missing || !even(&all.0) || !even(&all.1) { None } else { change(&all.0, &all.1, floor_of_mean) };
+        let time = if missing || !even(&all.0) || !even(&all.1) {
+            None
+        } else {
+            change(&all.0, &all.1, &noises, references.len())
+        };
+        let time = time.map(|time| time.ratio_among(looks));
         // What never had a time, as what answers wrongly, has nothing that could change.
         if n == 0 && !missing {
             continue;
@@ -80,6 +84,16 @@ pub(super) fn all(
         });
     }
     (structures, cells)
+}
+
+/// The geometric mean over cells of new / old, of ratios to the mean of so many references.
+fn change(old: &[Vec<Vec<f64>>], new: &[Vec<Vec<f64>>], noises: &[AaNoise; 2], references: usize) -> Option<Estimate> {
+    let mut weights = vec![-1.0 / references.max(1) as f64; references];
+    weights.push(1.0);
+    // The luck of each cell is its own.
+    let share = 1.0 / libm::sqrt(old.len().max(1) as f64);
+    let noises = [&noises[0], &noises[1]].map(|noise| noise.weighted(&weights).times(share));
+    Some(Rerun::change(&epoch_values(old)?, &epoch_values(new)?, noises)?.ratio())
 }
 
 /// ln(time of `own` / geometric mean of the references' times) of each round in each epoch; ln of the time itself where there is no
@@ -129,14 +143,14 @@ fn absolute(own: &Record) -> Vec<Vec<f64>> {
 }
 
 /// What an interval says.
-pub(super) fn finding(time: Option<Interval>, threshold: Option<f64>) -> Finding {
-    let Some(Interval { low, high, .. }) = time else { return Finding::Unknown };
-    let limit = threshold.map(libm::exp);
+pub(super) fn finding(time: Option<Estimate>, threshold: Option<f64>) -> Finding {
+    let Some(time) = time.filter(|time| time.interval.is_some()) else { return Finding::Unknown };
+    let limit = threshold.map_or(f64::INFINITY, libm::exp);
     match () {
-        () if limit.is_some_and(|limit| low > limit) => Finding::Regression,
-        () if limit.is_some_and(|limit| high > limit) => Finding::Undecided,
-        () if high < 1.0 => Finding::Faster,
-        () if low > 1.0 => Finding::Slower,
+        () if time.is_above(limit) => Finding::Regression,
+        () if time.high() > Some(limit) => Finding::Undecided,
+        () if time.is_below(1.0) => Finding::Faster,
+        () if time.is_above(1.0) => Finding::Slower,
         () => Finding::NoDifference,
     }
 }

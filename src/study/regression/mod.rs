@@ -4,7 +4,8 @@
 //! Two runs of different moments on a shared machine cannot be compared by their times. They are compared by their ratios to
 //! references: the structures of obvhs, whose code is the same in both runs and which are measured in the same rounds as all
 //! others. The change of a structure is the geometric mean over its cells of new / old, decided by its
-//! [interval](fn@crate::measure::change); cells alone are shown and decide nothing, for there are many of them.
+//! [interval](fn@crate::measure::Rerun::change), which allows for all structures and for every look at them; cells alone are shown and
+//! decide nothing, for there are many of them.
 
 mod changes;
 mod table;
@@ -16,7 +17,7 @@ use serde::Serialize;
 
 use super::baselines::{REPORT_TREE, documented_defect, is_obvhs};
 use super::compare::twins;
-use crate::measure::{Interval, prediction};
+use crate::measure::{AaNoise, Estimate, Rerun, epoch_values};
 use crate::report::Record;
 
 pub use table::tables;
@@ -29,6 +30,8 @@ pub struct Comparison {
     pub references: Vec<String>,
     /// The regression that is looked for, per cent; nothing where any difference is.
     pub threshold_percent: Option<f64>,
+    /// How often a verdict about all structures may be asked for: so many times the structures are judged together.
+    pub looks: usize,
     /// One for each structure that is no reference.
     pub structures: Vec<Change>,
     /// One for each structure that is no reference, scene and workload.
@@ -51,7 +54,7 @@ pub struct Change {
     /// Cells in it that have a time in both runs.
     pub cells: usize,
     /// New time / old time; nothing where one of the runs has none.
-    pub time: Option<Interval>,
+    pub time: Option<Estimate>,
     pub finding: Finding,
 }
 
@@ -69,7 +72,7 @@ pub enum Finding {
     Regression,
     /// The interval holds the threshold: more samples or a quieter machine would tell.
     Undecided,
-    /// There is no time in one of the runs.
+    /// There is no time in one of the runs, or no interval, for one of them has a single epoch.
     Unknown,
 }
 
@@ -93,17 +96,19 @@ pub struct Reproduced {
 }
 
 impl Comparison {
-    /// Compares two runs that are not [unlike]. With a threshold in per cent, regressions of at least as much are looked for.
-    pub fn new(old: &[Record], new: &[Record], threshold_percent: Option<f64>) -> Self {
+    /// Compares two runs that are not [unlike]. With a threshold in per cent, regressions of at least as much are looked for. `looks` is how
+    /// often the new run is compared at most while it goes on: every look is a chance to be wrong.
+    pub fn new(old: &[Record], new: &[Record], threshold_percent: Option<f64>, looks: usize) -> Self {
         let pairs = pairs(old, new);
         let only = |own: &[Record], other: &[Record]| -> Vec<String> {
             own.iter().filter(|record| counterpart(record, other).is_none()).map(case).collect()
         };
         let threshold = threshold_percent.map(|percent| libm::log1p(percent / 100.0));
-        let (structures, cells) = changes::all(old, new, &pairs, threshold);
+        let (structures, cells) = changes::all(old, new, &pairs, threshold, looks);
         Self {
             references: changes::references(&pairs),
             threshold_percent,
+            looks,
             structures,
             cells,
             wrong: pairs.iter().filter_map(|(old, new)| wrong(old, new)).collect(),
@@ -164,7 +169,7 @@ fn wrong(old: &Record, new: &Record) -> Option<Wrong> {
 /// Holds the ratios of each run against the intervals of the other: of every structure to the report's tree and to the structures
 /// of obvhs, cell by cell, as tables print them.
 fn reproduced(old: &[Record], new: &[Record]) -> Reproduced {
-    let floors = [old, new].map(|records| twins(records).log().unwrap_or(0.0));
+    let noises = [old, new].map(twins);
     let mut found = Reproduced::default();
     for (own, own_new) in pairs(old, new) {
         let to = |base: &&Record| {
@@ -172,15 +177,17 @@ fn reproduced(old: &[Record], new: &[Record]) -> Reproduced {
             same && (base.label == REPORT_TREE || is_obvhs(&base.structure))
         };
         for base in old.iter().filter(to) {
-            let ratio = |own: &Record, base: &Record, other: &Record, floor| {
-                prediction(&[own.speed_against(base)?], other.epochs, floor, 1)
+            let ratio = |own: &Record, base: &Record, other: &Record, noise: &AaNoise| {
+                let values = epoch_values(&[own.speed_against(base)?])?;
+                let ratio = Rerun::in_epochs(&values, other.epochs, noise.of_ratio())?.ratio();
+                ratio.interval.is_some().then_some(ratio)
             };
-            let a = ratio(own, base, own_new, floors[0]);
-            let b = counterpart(base, new).and_then(|base| ratio(own_new, base, own, floors[1]));
+            let a = ratio(own, base, own_new, &noises[0]);
+            let b = counterpart(base, new).and_then(|base| ratio(own_new, base, own, &noises[1]));
             let (Some(a), Some(b)) = (a, b) else { continue };
             found.ratios += 1;
-            found.old_in_new += usize::from(b.low <= a.estimate && a.estimate <= b.high);
-            found.new_in_old += usize::from(a.low <= b.estimate && b.estimate <= a.high);
+            found.old_in_new += usize::from(b.holds(a.estimate));
+            found.new_in_old += usize::from(a.holds(b.estimate));
         }
     }
     found

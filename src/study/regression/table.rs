@@ -1,13 +1,13 @@
 //! A comparison of runs for people.
 
 use super::{Change, Comparison, Finding, Reproduced};
-use crate::measure::Interval;
 use crate::report::number::{figures, plural};
+use crate::report::words::{explained, written};
 use crate::report::{Cell, Table, Tone};
 
 /// One table of the structures, one of their cells.
 pub fn tables(comparison: &Comparison) -> Vec<Table> {
-    vec![structures(comparison), cells(comparison)]
+    [structures(comparison), cells(comparison)].map(explained).into()
 }
 
 fn structures(comparison: &Comparison) -> Table {
@@ -19,7 +19,7 @@ fn structures(comparison: &Comparison) -> Table {
         vec![
             change.structure.as_str().into(),
             percent(change).into(),
-            word(change.finding),
+            word(change),
             change.cells.to_string().into(),
             worst.into(),
         ]
@@ -39,6 +39,11 @@ fn structures(comparison: &Comparison) -> Table {
         )
     });
     let mut notes = vec![by];
+    notes.push(format!(
+        "Each interval allows for {} judged together{}: in 95 % of the cases all of them hold.",
+        plural(comparison.structures.len(), "structure"),
+        if comparison.looks > 1 { format!(" at up to {} looks", comparison.looks) } else { String::new() }
+    ));
     notes.extend(looked_for);
     notes.extend(comparison.wrong.iter().map(|wrong| format!("Wrong: {}: {}.", wrong.case, wrong.what)));
     for (only, whose) in [(&comparison.only_old, "old"), (&comparison.only_new, "new")] {
@@ -96,17 +101,17 @@ fn place(cell: &Change) -> String {
 
 fn percent(change: &Change) -> String {
     let of = |ratio: f64| format!("{:+.1}%", (ratio - 1.0) * 100.0);
-    let text = |Interval { estimate, low, high }| format!("{} [{}, {}]", of(estimate), of(low), of(high));
-    change.time.map_or(String::new(), text)
+    change.time.map_or(String::new(), |time| written(time, of))
 }
 
-fn word(finding: Finding) -> Cell {
-    match finding {
+fn word(change: &Change) -> Cell {
+    match change.finding {
         Finding::Faster => Cell::from("faster").with(Tone::Best),
         Finding::NoDifference => "no difference".into(),
         Finding::Slower => "slower".into(),
         Finding::Regression => Cell::from("regression").with(Tone::Wrong),
         Finding::Undecided => "too noisy".into(),
+        Finding::Unknown if change.time.is_some() => "one epoch".into(),
         Finding::Unknown => "no time".into(),
     }
 }

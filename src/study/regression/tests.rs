@@ -42,7 +42,7 @@ fn change_of<'a>(comparison: &'a Comparison, structure: &str) -> &'a Change {
 
 #[test]
 fn a_slower_machine_is_no_slower_structure() {
-    let comparison = Comparison::new(&run(1.0, 1.0), &run(1.5, 1.1), Some(5.0));
+    let comparison = Comparison::new(&run(1.0, 1.0), &run(1.5, 1.1), Some(5.0), 1);
     assert_eq!(comparison.references, ["obvhs-bvh2", "obvhs-cwbvh"]);
     let (median, sah) = (change_of(&comparison, "median-kd"), change_of(&comparison, "sah-kd"));
     assert!((sah.time.unwrap().estimate - 1.1).abs() < 1e-9 && sah.cells == 2);
@@ -55,7 +55,7 @@ fn a_slower_machine_is_no_slower_structure() {
 #[test]
 fn without_references_times_count_as_they_are() {
     let without = |slow: f64| run(slow, 1.0).into_iter().filter(|r| !is_obvhs(&r.structure)).collect::<Vec<_>>();
-    let comparison = Comparison::new(&without(1.0), &without(1.5), None);
+    let comparison = Comparison::new(&without(1.0), &without(1.5), None, 1);
     assert!(comparison.references.is_empty());
     assert!((change_of(&comparison, "sah-kd").time.unwrap().estimate - 1.5).abs() < 1e-9);
     assert_eq!(change_of(&comparison, "sah-kd").finding, Finding::Slower);
@@ -64,7 +64,7 @@ fn without_references_times_count_as_they_are() {
 
 #[test]
 fn what_an_interval_says() {
-    let interval = |low, high| Some(Interval { estimate: (low + high) / 2.0, low, high });
+    let interval = |low, high| Some(Estimate::between((low + high) / 2.0, low, high));
     let limit = Some(libm::log(1.05));
     let cases = [
         (interval(1.06, 1.14), limit, Finding::Regression),
@@ -88,7 +88,7 @@ fn answers_that_changed_are_wrong() {
     let with = |change: &dyn Fn(&mut Record)| {
         let mut new = run(1.0, 1.0);
         change(&mut new[1]);
-        Comparison::new(&old, &new, None).wrong
+        Comparison::new(&old, &new, None, 1).wrong
     };
     assert!(with(&|_| {}).is_empty());
     let wrong = with(&|r| r.structure_errors = Some(3));
@@ -112,9 +112,9 @@ fn known_errors_are_no_new_ones() {
         run
     };
     let ours = |errors, checked| erring(1, errors, checked);
-    assert!(Comparison::new(&ours(2, 100), &ours(5, 240), None).wrong.is_empty(), "more rays, more errors");
-    assert_eq!(Comparison::new(&ours(2, 100), &ours(5, 100), None).wrong.len(), 1);
-    assert!(Comparison::new(&erring(2, 0, 100), &erring(2, 5, 100), None).wrong.is_empty(), "obvhs has defects");
+    assert!(Comparison::new(&ours(2, 100), &ours(5, 240), None, 1).wrong.is_empty(), "more rays, more errors");
+    assert_eq!(Comparison::new(&ours(2, 100), &ours(5, 100), None, 1).wrong.len(), 1);
+    assert!(Comparison::new(&erring(2, 0, 100), &erring(2, 5, 100), None, 1).wrong.is_empty(), "obvhs has defects");
 }
 
 #[test]
@@ -150,10 +150,10 @@ fn runs_that_differ_in_more_than_their_code_are_unlike() {
 
 #[test]
 fn ratios_are_found_again_or_not() {
-    let same = Comparison::new(&run(1.0, 1.0), &run(2.0, 1.0), None).reproduced;
+    let same = Comparison::new(&run(1.0, 1.0), &run(2.0, 1.0), None, 1).reproduced;
     // In each of two cells: two structures to three bases, less the tree to itself, and the bases among each other.
     assert_eq!((same.ratios, same.old_in_new, same.new_in_old), (18, 18, 18));
-    let other = Comparison::new(&run(1.0, 1.0), &run(1.0, 1.5), None).reproduced;
+    let other = Comparison::new(&run(1.0, 1.0), &run(1.0, 1.5), None, 1).reproduced;
     assert_eq!((other.ratios, other.old_in_new), (18, 12), "those of the SAH tree are not");
 }
 
@@ -161,26 +161,77 @@ fn ratios_are_found_again_or_not() {
 fn cases_of_one_run_alone_are_named() {
     let (old, mut new) = (run(1.0, 1.0), run(1.0, 1.0));
     new.remove(1);
-    let comparison = Comparison::new(&old, &new, None);
+    let comparison = Comparison::new(&old, &new, None, 1);
     assert_eq!(comparison.only_old, ["sah-kd on the primary rays of Cube"]);
     assert!(comparison.only_new.is_empty());
     assert!(tables(&comparison)[0].notes.iter().any(|note| note.contains("old run alone")));
     new = run(1.0, 1.0);
     (new[1].samples_ns, new[1].trace_ns) = (vec![], None);
-    let comparison = Comparison::new(&old, &new, Some(5.0));
+    let comparison = Comparison::new(&old, &new, Some(5.0), 1);
     assert_eq!(change_of(&comparison, "sah-kd").finding, Finding::Unknown);
 }
 
 #[test]
-fn the_floor_of_both_runs_widens_the_interval() {
+fn the_aa_noise_of_both_runs_widens_the_interval() {
     let mut old = run(1.0, 1.0);
     let width = |old: &[Record]| {
-        let time = change_of(&Comparison::new(old, &run(1.0, 1.0), None), "sah-kd").time.unwrap();
-        libm::log(time.high / time.low)
+        let time = change_of(&Comparison::new(old, &run(1.0, 1.0), None, 1), "sah-kd").time.unwrap();
+        libm::log(time.high().unwrap() / time.low().unwrap())
     };
     let before = width(&old);
-    old[1].twin_samples_ns = Some(old[1].samples_ns.iter().map(|ns| ns * libm::exp(0.03)).collect());
-    // Half the width is joined with what one A/A ratio shows of all.
-    let expected = 2.0 * libm::hypot(before / 2.0, 0.03);
-    assert!((width(&old) - expected).abs() < 1e-9);
+    let twin = |ns: &f64, by: f64| ns * libm::exp(by);
+    for (i, by) in [(0, 0.03), (1, -0.03), (4, 0.03), (5, -0.03)] {
+        old[i].twin_samples_ns = Some(old[i].samples_ns.iter().map(|ns| twin(ns, by)).collect());
+    }
+    // One A/A ratio of four has a noise of 0.03, a structure over the mean of two references 3 / 4 of its square; two cells halve it. Of two
+    // structures judged together t is 3.495 with four degrees of freedom, and nothing else varies.
+    let alone = 2.0 * 3.495 * 0.03 * libm::sqrt(0.75 / 2.0);
+    assert!(before < 1e-9 && (width(&old) / alone - 1.0).abs() < 1e-3, "{before} {} {alone}", width(&old));
+}
+
+/// A run of nothing but noise of a hundredth: `structures` of ours and a reference, in eight epochs.
+fn noise(structures: usize, seed: u64) -> Vec<Record> {
+    let mut random = crate::measure::RandomOrder::new(seed);
+    let mut uniform = || (random.below(1 << 30) as f64 + 0.5) / f64::from(1 << 30);
+    let mut record = |label: &str| {
+        let mut normal = || libm::sqrt(-2.0 * libm::log(uniform())) * libm::cos(std::f64::consts::TAU * uniform());
+        let samples_ns: Vec<f64> = (0..8).map(|_| 1e6 * libm::exp(0.01 * normal())).collect();
+        Record { epochs: 8, runs: 8, samples_ns, ..record_of(label) }
+    };
+    let mut run: Vec<Record> = (0..structures).map(|i| record(&format!("own-{i}"))).collect();
+    run.push(record("obvhs-bvh2"));
+    run
+}
+
+fn record_of(label: &str) -> Record {
+    record(label, "primary", 1e6)
+}
+
+#[test]
+fn twelve_structures_and_several_looks_do_not_make_a_false_alarm() {
+    let alarms = |looks: usize| {
+        let alarm = |seed: &u64| {
+            let (old, new) = (noise(12, 2 * seed), noise(12, 2 * seed + 1));
+            let comparison = Comparison::new(&old, &new, Some(1e-6), looks);
+            comparison.has(Finding::Regression) || comparison.has(Finding::Faster)
+        };
+        (0..400).filter(alarm).count() as f64 / 4.0
+    };
+    // Each alone would be wrong in 5 %: of twelve that share a reference about a quarter of all runs.
+    assert!(alarms(1) <= 7.0, "{} %", alarms(1));
+    assert!(alarms(10) <= 2.0, "{} %", alarms(10));
+    let comparison = Comparison::new(&noise(12, 1), &noise(12, 2), Some(5.0), 10);
+    let note = &tables(&comparison)[0].notes[1];
+    assert!(note.contains("12 structures judged together at up to 10 looks"), "{note}");
+}
+
+#[test]
+fn of_one_epoch_nothing_is_found() {
+    let one = |run: Vec<Record>| -> Vec<Record> {
+        run.into_iter().map(|r| Record { epochs: 1, samples_ns: r.samples_ns[..1].to_vec(), ..r }).collect()
+    };
+    let comparison = Comparison::new(&one(run(1.0, 1.0)), &one(run(1.0, 3.0)), Some(5.0), 1);
+    let change = change_of(&comparison, "sah-kd");
+    assert_eq!((change.finding, change.time.unwrap().interval), (Finding::Unknown, None));
+    assert_eq!(tables(&comparison)[0].rows[1][2].text, "one epoch");
 }

@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 
 use super::epoch::{self, Asked, Epoch, PICTURE, Structure, WholeTimes, measure};
 use crate::accel::Query;
-use crate::measure::{Clock, Interval, Provenance, Threads, median, replication};
+use crate::measure::{AaNoise, Clock, Estimate, Provenance, Rerun, Threads, epoch_values, median};
 use crate::registry::{Choice, ChoiceError, Registry};
 use crate::scene::Scene;
 use crate::study::baselines::{BRUTE_FORCE, REPORT_TREE, SAH_TREE};
@@ -72,7 +72,7 @@ pub struct Seconds {
     /// Geometric mean over the epochs.
     pub seconds: f64,
     /// `t'`: seconds / (rays x triangles).
-    pub t_prime: Interval,
+    pub t_prime: Estimate,
     /// Whether a part of the rays was timed and stands for all.
     pub extrapolated: bool,
 }
@@ -88,7 +88,7 @@ pub struct Main {
     /// Every ray against every triangle: "unoptimised".
     pub brute_force: Seconds,
     /// Seconds without the tree / seconds with it.
-    pub improvement: Interval,
+    pub improvement: Estimate,
     /// With the SAH tree.
     pub sah: Seconds,
     pub report_tree_s: f64,
@@ -126,11 +126,11 @@ pub struct Hard {
     pub sah: Seconds,
     pub sah_build_s: f64,
     /// Seconds with the report's tree / seconds with the SAH tree: how much faster SAH is.
-    pub sah_over_median: Interval,
-    /// Its logarithm in each epoch, or in each round of a single one.
+    pub sah_over_median: Estimate,
+    /// Its logarithm in each epoch.
     pub log_ratios: Vec<f64>,
-    /// What two builds of the report's tree differ by, as a factor.
-    pub floor: f64,
+    /// The logarithm of the time of the report's tree over that of its twin in each epoch.
+    pub log_aa_ratios: Vec<f64>,
     pub report_tree_s: f64,
     pub report_tree_build_s: f64,
     pub report_tree_t_prime: f64,
@@ -142,7 +142,7 @@ pub struct Conclusion {
     /// The scenes of the mean.
     pub scenes: Vec<String>,
     /// Geometric mean over the scenes of how much faster SAH is, with the interval that holds that of another run in 95 % of cases.
-    pub sah_over_median: Option<Interval>,
+    pub sah_over_median: Option<Estimate>,
 }
 
 /// What the study is told to do and told of, and what it makes of it.
@@ -178,15 +178,14 @@ impl Study<'_> {
         result: &mut Replication,
         progress: &mut dyn FnMut(Stage),
     ) -> Result<(), StudyError> {
-        let seed = self.settings.seed;
         if MAIN.iter().any(|row| row.scene == scene.name) {
             let mut structures = self.choose(&[BRUTE_FORCE, SAH_TREE])?;
             structures.extend(parameters::structures(self.registry)?);
-            result.add_main(&self.epochs(scene, structures, Asked::Picture, progress)?, seed);
+            result.add_main(&self.epochs(scene, structures, Asked::Picture, progress)?);
         }
         if HARD.iter().any(|row| row.scene == scene.name) {
             let structures = self.choose(&[REPORT_TREE, SAH_TREE, REPORT_TREE])?;
-            result.add_hard(&self.epochs(scene, structures, Asked::PrimaryPicture, progress)?, seed);
+            result.add_hard(&self.epochs(scene, structures, Asked::PrimaryPicture, progress)?);
         }
         Ok(())
     }
@@ -233,7 +232,7 @@ impl Replication {
     }
 
     /// Adds an easy or normal scene of the report.
-    fn add_main(&mut self, epochs: &[Epoch], seed: u64) {
+    fn add_main(&mut self, epochs: &[Epoch]) {
         let first = &epochs[0];
         let Some(index) = MAIN.iter().position(|row| row.scene == first.scene) else { return };
         let row = &MAIN[index];
@@ -242,15 +241,15 @@ impl Replication {
         let (tree, twin) = (setting(parameters::default_row()), setting(SWEEP.len()));
 
         let times = WholeTimes::new(epochs);
-        let floor = times.floor([tree, twin], seed);
-        let seconds = |structure: usize| Seconds::of(&times, first, structure, rays, floor, seed);
+        let noise = AaNoise::new(&[times.cell(tree, twin)]);
+        let seconds = |structure: usize| Seconds::of(&times, first, structure, rays, &noise);
         self.main.push(Main {
             scene: first.scene.clone(),
             triangles: first.triangles,
             rays,
             tree: seconds(tree),
             brute_force: seconds(BRUTE),
-            improvement: times.ratio(BRUTE, tree, floor, seed),
+            improvement: times.ratio(BRUTE, tree, &noise),
             sah: seconds(SAH),
             report_tree_s: row.tree_s,
             report_brute_force_s: row.brute_s,
@@ -272,7 +271,7 @@ impl Replication {
     }
 
     /// Adds a hard scene of the report: its tree, the SAH tree, and its tree once more.
-    fn add_hard(&mut self, epochs: &[Epoch], seed: u64) {
+    fn add_hard(&mut self, epochs: &[Epoch]) {
         const TREE: usize = 0;
         const TWIN: usize = 2;
         let first = &epochs[0];
@@ -280,8 +279,8 @@ impl Replication {
         let rays = self.add_rays(first, row.rays);
 
         let times = WholeTimes::new(epochs);
-        let floor = times.floor([TREE, TWIN], seed);
-        let seconds = |structure: usize| Seconds::of(&times, first, structure, rays, floor, seed);
+        let noise = AaNoise::new(&[times.cell(TREE, TWIN)]);
+        let seconds = |structure: usize| Seconds::of(&times, first, structure, rays, &noise);
         let build_s = |structure: usize| {
             let builds: Vec<f64> = epochs.iter().map(|epoch| epoch.structures[structure].build_ns as f64).collect();
             median(&builds).expect("there is an epoch") * 1e-9
@@ -295,21 +294,23 @@ impl Replication {
             tree_build_s: build_s(TREE),
             sah: seconds(SAH),
             sah_build_s: build_s(SAH),
-            sah_over_median: times.ratio(TREE, SAH, floor, seed),
-            log_ratios: times.log_ratios(TREE, SAH).concat(),
-            floor: libm::exp(floor),
+            sah_over_median: times.ratio(TREE, SAH, &noise),
+            log_ratios: times.log_ratios(TREE, SAH),
+            log_aa_ratios: times.log_ratios(TREE, TWIN),
             report_tree_s: row.tree_s,
             report_tree_build_s: row.build_s,
             report_tree_t_prime: t_prime(row.tree_s, row.rays, row.triangles),
         });
 
         // The claim is about all hard scenes: say so far as they are measured.
-        let cells: Vec<Vec<Vec<f64>>> =
-            self.hard.iter().map(|hard| hard.log_ratios.iter().map(|&log| vec![log]).collect()).collect();
-        let floor = self.hard.iter().map(|hard| libm::log(hard.floor)).fold(0.0, f64::max);
+        let cells = |of: fn(&Hard) -> &[f64]| -> Vec<Vec<Vec<f64>>> {
+            self.hard.iter().map(|hard| of(hard).iter().map(|&log| vec![log]).collect()).collect()
+        };
+        let noise = AaNoise::new(&cells(|hard| &hard.log_aa_ratios)).of_mean(self.hard.len());
+        let values = epoch_values(&cells(|hard| &hard.log_ratios));
         self.conclusion = Conclusion {
             scenes: self.hard.iter().map(|hard| hard.scene.clone()).collect(),
-            sah_over_median: replication(&cells, floor, seed),
+            sah_over_median: values.and_then(|values| Some(Rerun::of(&values, noise)?.ratio())),
         };
     }
 
@@ -331,17 +332,13 @@ impl Replication {
 }
 
 impl Seconds {
-    fn of(times: &WholeTimes, first: &Epoch, structure: usize, rays: u64, floor: f64, seed: u64) -> Self {
-        let seconds = times.seconds(structure, floor, seed);
+    fn of(times: &WholeTimes, first: &Epoch, structure: usize, rays: u64, noise: &AaNoise) -> Self {
+        let seconds = times.seconds(structure, noise);
         let t_prime = |seconds: f64| t_prime(seconds, rays, first.triangles);
         let Structure { rays: timed, .. } = &first.structures[structure];
         Self {
             seconds: seconds.estimate,
-            t_prime: Interval {
-                estimate: t_prime(seconds.estimate),
-                low: t_prime(seconds.low),
-                high: t_prime(seconds.high),
-            },
+            t_prime: seconds.map(t_prime),
             extrapolated: timed.iter().any(|rays| rays.rays < rays.all),
         }
     }

@@ -3,7 +3,7 @@
 use super::original::SWEEP;
 use super::{Replication, Seconds};
 use crate::report::number::{count, figures};
-use crate::report::words::{interval, scene_name};
+use crate::report::words::{explained, interval, scene_name};
 use crate::report::{Cell, Table};
 
 /// The tables in the order of the report, then its conclusion.
@@ -19,12 +19,12 @@ pub fn tables(result: &Replication) -> Vec<Table> {
 }
 
 fn table<const N: usize>(title: &str, columns: [&str; N], rows: Vec<[String; N]>, notes: &[&str]) -> Table {
-    Table {
+    explained(Table {
         title: title.into(),
         columns: columns.map(String::from).into(),
         rows: rows.into_iter().map(|row| row.map(Cell::from).into()).collect(),
         notes: notes.iter().map(|note| (*note).into()).collect(),
-    }
+    })
 }
 
 fn rays(result: &Replication) -> Table {

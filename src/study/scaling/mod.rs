@@ -11,9 +11,9 @@ mod tests;
 
 use serde::{Deserialize, Serialize};
 
-use super::epoch::{Draws, Epoch, Line, centre, lines};
+use super::epoch::{Epoch, Line, Twins, lines, middles, twins};
 use super::fit;
-use crate::measure::Interval;
+use crate::measure::{AaNoise, Estimate, Rerun, Variance};
 
 pub use spheres::{LEVELS, sphere};
 pub use table::tables;
@@ -62,15 +62,18 @@ pub struct Growth {
     /// From the fewest triangles to the most.
     pub points: Vec<Point>,
     /// Time a ray grows like this power of the number of triangles. Nothing with fewer than three meshes of more than one leaf.
-    pub time: Option<Interval>,
+    pub time: Option<Estimate>,
+    /// Half of the 95 % interval that this power would have by the scatter of the meshes about it alone, were they drawn from a family at
+    /// random.
+    pub scatter: Option<f64>,
     /// Likewise the build.
-    pub build: Option<Interval>,
+    pub build: Option<Estimate>,
     /// Likewise memory.
-    pub bytes: Option<Interval>,
+    pub bytes: Option<Estimate>,
     /// Likewise triangle tests a ray, which no machine changes.
-    pub tests: Option<Interval>,
+    pub tests: Option<Estimate>,
     /// Likewise nodes and leaves entered.
-    pub steps: Option<Interval>,
+    pub steps: Option<Estimate>,
 }
 
 /// One structure on one mesh.
@@ -88,10 +91,10 @@ pub struct Point {
     pub steps_per_ray: Option<f64>,
 }
 
-/// The growth of every structure. The intervals hold what another run finds of these meshes, and what other meshes of the family
-/// would give as far as the scatter about the power tells: the wider of a bootstrap, which draws meshes, then epochs and rounds, and
-/// Student's t on the residuals.
-pub fn result(cases: &[Case], seed: u64) -> Vec<Growth> {
+/// The growth of every structure. The intervals hold what another run finds of these meshes; how well a power describes them is told by
+/// their scatter about it.
+pub fn result(cases: &[Case]) -> Vec<Growth> {
+    let twins = twins(cases.iter().map(|case| &case.epoch));
     let mut growths = vec![];
     for family in [Family::Spheres, Family::Meshes] {
         let of_family = cases.iter().filter(|case| case.family == family).map(|case| &case.epoch);
@@ -113,7 +116,7 @@ pub fn result(cases: &[Case], seed: u64) -> Vec<Growth> {
         for (workload, structure) in kinds {
             let own: Vec<&Line> =
                 all.iter().filter(|line| line.workload == workload && line.structure == structure).collect();
-            growths.push(growth(family, &own, seed));
+            growths.push(growth(family, &own, &twins));
         }
     }
     growths
@@ -139,20 +142,29 @@ pub fn rows(growths: &[Growth]) -> Vec<Row<'_>> {
 }
 
 /// That of the lines of one structure and one kind of rays, from the fewest triangles to the most.
-fn growth(family: Family, lines: &[&Line], seed: u64) -> Growth {
+fn growth(family: Family, lines: &[&Line], twins: &Twins) -> Growth {
     let fitted: Vec<&Line> = lines.iter().copied().filter(|line| line.leaves > 1).collect();
-    let power = |value: &dyn Fn(&Line) -> Option<Vec<Vec<f64>>>| power(&fitted, value, seed);
-    let known = |x: Option<f64>| x.filter(|&x| x > 0.0).map(|x| vec![vec![libm::log(x)]]);
+    let measured = |logs: fn(&Line) -> &[Vec<f64>], noise: &AaNoise| {
+        power(&fitted, &|line| Some(middles(logs(line))), |weights| noise.weighted(weights)).map(|rerun| rerun.plain())
+    };
+    // Counts and bytes do not vary.
+    let counted = |value: &dyn Fn(&Line) -> Option<f64>| {
+        let log = |line: &Line| value(line).filter(|&x| x > 0.0).map(|x| vec![libm::log(x)]);
+        power(&fitted, &log, |_| Variance::NONE).map(|rerun| Estimate::exact(rerun.plain().estimate))
+    };
+    let points: Vec<(f64, f64)> =
+        fitted.iter().map(|line| (libm::log(line.triangles as f64), libm::log(line.ns_per_ray()))).collect();
     Growth {
         family,
         structure: lines[0].structure.clone(),
         workload: lines[0].workload.clone(),
         points: lines.iter().map(|line| point(line)).collect(),
-        time: power(&|line| Some(line.trace.clone())),
-        build: power(&|line| Some(line.build.clone())),
-        bytes: power(&|line| known(Some(line.bytes as f64))),
-        tests: power(&|line| known(line.tests)),
-        steps: power(&|line| known(line.steps)),
+        time: measured(|line| &line.trace, &twins.trace),
+        scatter: fit::scatter(&points),
+        build: measured(|line| &line.build, &twins.build),
+        bytes: counted(&|line| Some(line.bytes as f64)),
+        tests: counted(&|line| line.tests),
+        steps: counted(&|line| line.steps),
     }
 }
 
@@ -170,30 +182,18 @@ fn point(line: &Line) -> Point {
     }
 }
 
-/// The slope of `value`, logarithms by epoch and round, over the logarithm of the number of triangles. Nothing where it is not known
-/// of every mesh, or of fewer than three.
-fn power(lines: &[&Line], value: &dyn Fn(&Line) -> Option<Vec<Vec<f64>>>, seed: u64) -> Option<Interval> {
-    let values: Vec<(f64, Vec<Vec<f64>>)> =
-        lines.iter().map(|line| Some((libm::log(line.triangles as f64), value(line)?))).collect::<Option<_>>()?;
-    if values.len() < 3 {
-        return None;
-    }
-    let points: Vec<(f64, f64)> = values.iter().map(|(x, epochs)| (*x, centre(epochs))).collect();
-    let (_, slope) = fit::line(&points)?;
-
-    let mut draws = Draws::new(seed);
-    let mut drawn = || {
-        let points: Vec<(f64, f64)> = (0..values.len())
-            .map(|_| {
-                let (x, epochs) = &values[draws.below(values.len())];
-                (*x, draws.draw(epochs).centre(epochs))
-            })
-            .collect();
-        fit::line(&points).map(|(_, slope)| slope)
-    };
-    // A draw of one mesh alone has no slope.
-    let slopes: Vec<f64> = (0..fit::DRAWS).filter_map(|_| drawn()).collect();
-    let bootstrap = fit::percentiles(slope, slopes)?;
-    let half = fit::slope_error(&points).unwrap_or(0.0);
-    Some(Interval { estimate: slope, low: bootstrap.low.min(slope - half), high: bootstrap.high.max(slope + half) })
+/// The slope of `value`, logarithms of each epoch, over the logarithm of the number of triangles; `noise` is what the A/A noise adds to
+/// a sum of them with these weights. Nothing where it is not known of every mesh, or of fewer than three.
+fn power(
+    lines: &[&Line],
+    value: &dyn Fn(&Line) -> Option<Vec<f64>>,
+    noise: impl Fn(&[f64]) -> Variance,
+) -> Option<Rerun> {
+    let values: Vec<Vec<f64>> = lines.iter().map(|line| value(line)).collect::<Option<_>>()?;
+    let places: Vec<f64> = lines.iter().map(|line| libm::log(line.triangles as f64)).collect();
+    let weights = fit::slope_weights(&places).filter(|weights| weights.len() > 2)?;
+    // Meshes are measured in the same epochs; of one that has more of them those that all have count.
+    let epochs = values.iter().map(Vec::len).min()?;
+    let slope = |e: usize| weights.iter().zip(&values).map(|(weight, logs)| weight * logs[e]).sum();
+    Rerun::of(&(0..epochs).map(slope).collect::<Vec<f64>>(), noise(&weights))
 }

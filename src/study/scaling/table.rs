@@ -1,9 +1,9 @@
 //! The growth as tables for people.
 
 use super::Growth;
-use crate::measure::Interval;
+use crate::measure::Estimate;
 use crate::report::number::{bytes, count, duration, figures};
-use crate::report::words::interval;
+use crate::report::words::{explained, written};
 use crate::report::{Cell, Table};
 
 /// For each family and kind of rays the exponents, then the points they come from.
@@ -18,8 +18,8 @@ pub fn tables(growths: &[Growth]) -> Vec<Table> {
     groups.iter().flat_map(|group| [exponents(group), points(group)]).collect()
 }
 
-fn power(x: Option<Interval>) -> Cell {
-    x.map_or(Cell::blank(), |x| interval(x).into())
+fn power(x: Option<Estimate>) -> Cell {
+    x.map_or(Cell::blank(), |x| written(x, |x| format!("{x:.2}")).into())
 }
 
 fn title(group: &[&Growth], what: &str) -> String {
@@ -35,19 +35,25 @@ fn exponents(group: &[&Growth]) -> Table {
             }
             _ => "0".into(),
         };
-        let powers = [growth.time, growth.build, growth.bytes, growth.tests, growth.steps].map(power);
-        [growth.structure.as_str().into()].into_iter().chain(powers).chain([over.into()]).collect()
+        let scatter = growth.scatter.map_or(Cell::blank(), |half| format!("{half:.2}").into());
+        let powers = [growth.build, growth.bytes, growth.tests, growth.steps].map(power);
+        [growth.structure.as_str().into(), power(growth.time), scatter]
+            .into_iter()
+            .chain(powers)
+            .chain([over.into()])
+            .collect()
     });
-    Table {
+    explained(Table {
         title: title(group, "powers of the number of triangles"),
-        columns: ["structure", "time a ray", "build", "memory", "tests", "steps", "meshes: triangles"].map(String::from).into(),
+        columns: ["structure", "time a ray", "+-", "build", "memory", "tests", "steps", "meshes: triangles"].map(String::from).into(),
         rows: rows.collect(),
         notes: vec![
-            "Least squares on logarithms over the meshes on which the structure has more than one leaf, with 95 % intervals: the wider \
-             of a bootstrap over meshes, epochs and rounds, and Student's t on what is left over."
+            "Least squares on logarithms over the meshes on which the structure has more than one leaf, with 95 % intervals for another run \
+             on these meshes; counts and memory do not vary. +-: half of the 95 % interval of the power of time by the scatter of the meshes \
+             about it."
                 .into(),
         ],
-    }
+    })
 }
 
 fn points(group: &[&Growth]) -> Table {

@@ -18,10 +18,10 @@ fn family(b: f64, c: f64, wobble: f64) -> Vec<Case> {
 
 #[test]
 fn a_power_is_found_where_there_is_one() {
-    let growths = result(&family(0.25, 1.1, 0.0), 1);
+    let growths = result(&family(0.25, 1.1, 0.0));
     assert_eq!(growths.len(), 1);
     let (time, build, bytes) = (growths[0].time.unwrap(), growths[0].build.unwrap(), growths[0].bytes.unwrap());
-    assert!((time.estimate - 0.25).abs() < 1e-3 && time.high - time.low < 1e-3, "{time:?}");
+    assert!((time.estimate - 0.25).abs() < 1e-3 && time.high().unwrap() - time.low().unwrap() < 1e-3, "{time:?}");
     assert!((build.estimate - 1.1).abs() < 1e-3, "{build:?}");
     // 100 bytes a triangle, and counts that do not grow.
     assert!((bytes.estimate - 1.0).abs() < 1e-9);
@@ -33,13 +33,12 @@ fn a_power_is_found_where_there_is_one() {
 
 #[test]
 fn noise_widens_the_interval_about_the_true_power() {
-    let time = |wobble| result(&family(0.25, 1.0, wobble), 1)[0].time.unwrap();
+    let time = |wobble| result(&family(0.25, 1.0, wobble))[0].time.unwrap();
     let (quiet, noisy) = (time(0.01), time(0.1));
     for interval in [quiet, noisy] {
-        assert!(interval.low < 0.25 && 0.25 < interval.high, "{interval:?}");
+        assert!(interval.holds(0.25), "{interval:?}");
     }
-    assert!(noisy.high - noisy.low > 5.0 * (quiet.high - quiet.low), "{quiet:?} {noisy:?}");
-    assert_eq!(time(0.1), noisy, "the same seed draws the same");
+    assert!(noisy.high().unwrap() - 0.25 > 5.0 * (quiet.high().unwrap() - 0.25), "{quiet:?} {noisy:?}");
 }
 
 #[test]
@@ -50,12 +49,12 @@ fn a_single_leaf_takes_no_part() {
         // As slow as brute force would be.
         case.epoch.structures[0].rays[0].ns = vec![1 << 50; 3];
     }
-    let growth = &result(&cases, 1)[0];
+    let growth = &result(&cases)[0];
     assert!((growth.time.unwrap().estimate - 0.25).abs() < 1e-3);
     assert_eq!(growth.points.iter().filter(|point| point.fitted).count(), 3);
     // Two are too few.
     cases.retain(|case| case.epoch.triangles != 400);
-    let growth = &result(&cases, 1)[0];
+    let growth = &result(&cases)[0];
     assert_eq!((growth.time, growth.points.len()), (None, 3));
 }
 
@@ -68,7 +67,7 @@ fn families_and_kinds_of_rays_are_kept_apart() {
         case.epoch.structures[0].rays.push(rays);
         cases.push(case);
     }
-    let growths = result(&cases, 1);
+    let growths = result(&cases);
     let of: Vec<_> = growths.iter().map(|g| (g.family, g.workload.as_str())).collect();
     assert_eq!(of, [(Family::Spheres, "primary"), (Family::Meshes, "primary"), (Family::Meshes, "random")]);
     assert!((growths[1].time.unwrap().estimate - 0.9).abs() < 1e-3);

@@ -127,7 +127,7 @@ fn what_lies_within_the_noise_is_said_to_be_no_difference() {
     records[2].samples_ns = vec![1.01e6, 1e6, 1.01e6, 1e6, 1e6];
     let table = scene_table(&records, &[], &[]);
     assert!(cell(&table, "sah-kd", "x obvhs").ends_with(" ="), "{table:?}");
-    assert!(table.notes[0].starts_with("A/A (median-kd twice): noise floor 1.00%; 0 of 2"), "{:?}", table.notes);
+    assert!(table.notes[0].starts_with("A/A noise (median-kd twice): 1.00%; 0 of 2"), "{:?}", table.notes);
 }
 
 #[test]

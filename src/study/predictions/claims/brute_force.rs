@@ -1,69 +1,61 @@
 //! What does the report's tree gain over no tree?
 
-use super::{prediction, quotient};
+use super::{Bounds, Claim, prediction};
+use crate::measure::Estimate;
 use crate::report::number::count;
 use crate::report::words::listed;
-use crate::study::predictions::{Finding, Inputs, Prediction};
+use crate::study::predictions::rank::{Order, WELL};
+use crate::study::predictions::{CLAIMS, Inputs, Main, Prediction};
 use crate::study::replicate::original::MAIN;
 
+/// The scenes by falling improvement, as expected; those on one line are expected alike.
+const ORDER: [&[&str]; 8] = [
+    &["Torus", "Sphere"],
+    &["Teapot"],
+    &["Metallic"],
+    &["Cornellbox"],
+    &["Starters"],
+    &["Billards"],
+    &["Infinitycandy"],
+    &["Cube"],
+];
+
 pub(super) fn brute_force(inputs: &Inputs) -> Prediction {
-    let claim = "Without a tree t' is constant across scenes within a factor of 2, and the tree improves Torus and Sphere most, then Teapot, \
-                 Metallic, Cornellbox, Starters, Billards, Infinitycandy, Cube.";
-    let command = "sahara study all";
-    let Some(replicated) = &inputs.replicated else {
-        return prediction(2, claim, vec![], false, String::new(), command);
-    };
-    let main = |scene: &str| replicated.main.iter().find(|main| main.scene == scene);
-    let t_primes = || replicated.main.iter().map(|main| (main.brute_force.t_prime, main));
-    let (Some(most), Some(least)) = (
-        t_primes().max_by(|a, b| a.0.estimate.total_cmp(&b.0.estimate)),
-        t_primes().min_by(|a, b| a.0.estimate.total_cmp(&b.0.estimate)),
-    ) else {
-        return prediction(2, claim, vec![], false, String::new(), command);
-    };
-    let mut findings = vec![Finding::within(
-        "largest t' without a tree over the smallest",
-        quotient(most.0, least.0),
-        f64::NEG_INFINITY,
-        2.0,
-    )];
-    const ORDER: [(&str, &str); 9] = [
-        ("Torus", "Teapot"),
-        ("Sphere", "Teapot"),
-        ("Teapot", "Metallic"),
-        ("Metallic", "Cornellbox"),
-        ("Cornellbox", "Starters"),
-        ("Starters", "Billards"),
-        ("Billards", "Infinitycandy"),
-        ("Infinitycandy", "Cube"),
-        ("Torus", "Cube"),
+    let words = "Unoptimised t' is constant across scenes within a factor of 2; improvement order Torus ~ Sphere > Teapot > Metallic > \
+                 Cornellbox > Starters > Billards > Infinitycandy > Cube.";
+    let main: &[Main] = inputs.replicated.as_ref().map_or(&[], |replicated| &replicated.main);
+    // Both are about all scenes.
+    let main = if main.len() == MAIN.len() { main } else { &[] };
+    let by_t_prime = |a: &&Main, b: &&Main| a.brute_force.t_prime.estimate.total_cmp(&b.brute_force.t_prime.estimate);
+    let ends = main.iter().max_by(by_t_prime).zip(main.iter().min_by(by_t_prime));
+    let factor = ends.map(|(most, least)| most.brute_force.t_prime.over(least.brute_force.t_prime));
+    let expected: Vec<(&Main, usize)> = ORDER
+        .iter()
+        .enumerate()
+        .flat_map(|(rank, scenes)| scenes.iter().map(move |scene| (rank, scene)))
+        .filter_map(|(rank, scene)| Some((main.iter().find(|main| main.scene == **scene)?, rank)))
+        .collect();
+    let ranked: Vec<(Estimate, usize)> = expected.iter().map(|(main, rank)| (main.improvement, *rank)).collect();
+    let order = (!main.is_empty()).then(|| Order::of(&ranked, CLAIMS));
+    let mut why = vec![];
+    if let Some((most, least)) = ends {
+        let of = |main: &Main| format!("{} ({} triangles)", main.scene, count(main.triangles as u64));
+        why.push(format!("t' is largest on {} and smallest on {}.", of(most), of(least)));
+    }
+    if let Some(order) = order.as_ref().filter(|order| !order.reversed.is_empty()) {
+        let reversed = order
+            .reversed
+            .iter()
+            .map(|&[more, less]| format!("{} gains less than {}", expected[more].0.scene, expected[less].0.scene));
+        why.push(format!("Surely not in the order expected: {}.", listed(&reversed.collect::<Vec<_>>())));
+    }
+    let claims = vec![
+        Claim::ratio("largest t' without a tree over the smallest", factor, Bounds::at_most(2.0)),
+        Claim::judged(
+            "Kendall's tau of the improvements and the order expected",
+            order.map(|order| order.tau),
+            Bounds::at_least(WELL),
+        ),
     ];
-    for (better, worse) in ORDER {
-        if let (Some(a), Some(b)) = (main(better), main(worse)) {
-            let ratio = quotient(a.improvement, b.improvement);
-            findings.push(Finding::within(
-                format!("improvement of {better} over that of {worse}"),
-                ratio,
-                1.0,
-                f64::INFINITY,
-            ));
-        }
-    }
-    let mut why = format!(
-        "t' is largest on {} ({} triangles) and smallest on {} ({}).",
-        most.1.scene,
-        count(most.1.triangles as u64),
-        least.1.scene,
-        count(least.1.triangles as u64)
-    );
-    if replicated.main.iter().all(|main| main.triangles >= most.1.triangles) {
-        why += " What a ray costs besides its tests weighs most where triangles are fewest, the more so as eight of them are tested at once.";
-    }
-    let wrong: Vec<String> =
-        findings[1..].iter().filter(|f| !f.holds).map(|f| f.what.replace("improvement of ", "")).collect();
-    if !wrong.is_empty() {
-        why += &format!(" Not in the order expected: {}.", listed(&wrong));
-    }
-    let complete = replicated.main.len() == MAIN.len();
-    prediction(2, claim, findings, complete, why, command)
+    prediction(2, words, claims, why.join(" "), "sahara study all")
 }

@@ -2,20 +2,18 @@
 
 use std::collections::BTreeMap;
 
-use super::prediction;
+use super::{Bounds, Claim, prediction};
 use crate::report::Record;
 use crate::report::number::figures;
-use crate::report::words::interval;
-use crate::study::predictions::rank::{kendall, mean};
-use crate::study::predictions::{Finding, Inputs, Prediction};
+use crate::study::predictions::rank::{WELL, kendall, mean};
+use crate::study::predictions::{Inputs, Prediction, Verdict};
 use crate::study::{BRUTE_FORCE, REPORT_TREE, SAH_TREE};
 
-/// A family well ranked, and one badly ranked, begin here.
-const WELL: f64 = 0.7;
+/// A family badly ranked begins here.
 const BADLY: f64 = 0.5;
 
 pub(super) fn ranking(inputs: &Inputs) -> Prediction {
-    let claim = "SAH cost ranks trees of one family well (Kendall's tau of cost and time at least 0.7) and trees of different families badly (below 0.5).";
+    let words = "SAH cost ranks trees of one family well, and trees of different families badly.";
     // One family: the trees of the factorial that are walked alike.
     let mut within: Vec<(String, f64)> = vec![];
     for r in &inputs.attribution {
@@ -26,50 +24,28 @@ pub(super) fn ranking(inputs: &Inputs) -> Prediction {
         }
     }
     let least = within.iter().min_by(|a, b| a.1.total_cmp(&b.1)).cloned();
-    let within = by_scene(within);
-    let across = by_scene(across_families(&inputs.compare));
-    let mut findings = vec![];
-    if let Some(tau) = mean(&within) {
-        findings.push(Finding::within(
-            format!("tau within a family, mean of {} scenes", within.len()),
-            tau,
-            WELL,
-            f64::INFINITY,
-        ));
+    let [within, across] = [within, across_families(&inputs.compare)].map(by_scene);
+    let claims = vec![
+        Claim::judged("tau of cost and time within a family, mean of scenes", mean(&within), Bounds::at_least(WELL)),
+        Claim::judged("tau across families, mean of scenes", mean(&across), Bounds::at_most(BADLY)),
+    ];
+    let mut why = vec![];
+    if let (Some((scene, tau)), Verdict::Refuted) = (least, claims[0].verdict) {
+        why.push(format!("Within the family it is least on {scene}, {}.", figures(tau)));
     }
-    if let Some(tau) = mean(&across) {
-        findings.push(Finding::within(
-            format!("tau across families, mean of {} scenes", across.len()),
-            tau,
-            f64::NEG_INFINITY,
-            BADLY,
-        ));
-    }
-    let mut why = String::new();
-    if let (Some((scene, tau)), true) = (least, findings.iter().any(|f| f.what.contains("within") && !f.holds)) {
-        why += &format!(
-            "Within the family it is least on {scene}, {}. The cost is of random lines and of triangles one by one, the time of rays from an eye and \
-             of blocks of eight: which of these matters is not told apart. ",
-            figures(tau)
-        );
-    }
-    if findings.iter().any(|f| f.what.contains("across") && !f.holds) {
+    if claims[1].verdict == Verdict::Refuted {
         let rest = |r: &&Record| r.structure != REPORT_TREE;
         let others: Vec<Record> = inputs.compare.iter().filter(rest).cloned().collect();
         if let Some(tau) = mean(&by_scene(across_families(&others))) {
-            why += &format!("Across families without the report's tree it is {}. ", interval(tau));
+            why.push(format!("Across families without the report's tree it is {}.", figures(tau.estimate)));
         }
     }
-    if findings.len() == 1 {
-        let missing = if within.is_empty() {
-            "the factorial (sahara study attribution)"
-        } else {
-            "other families (sahara study all)"
-        };
-        why += &format!("Half of it is not measured: {missing}.");
+    for (scenes, what) in [(within.len(), "within a family"), (across.len(), "across families")] {
+        if scenes > 0 {
+            why.push(format!("Scenes {what}: {scenes}; the interval is for as many others."));
+        }
     }
-    let complete = findings.len() == 2;
-    prediction(7, claim, findings, complete, why.trim().into(), "sahara study all")
+    prediction(7, words, claims, why.join(" "), "sahara study all")
 }
 
 /// Kendall's tau over couples of different families, of every scene and kind of rays.

@@ -1,0 +1,135 @@
+//! What two builds of the same structure differ by.
+
+use super::estimate::Estimate;
+use super::interval::{Rerun, epoch_values};
+use super::variance::{Variance, mean};
+
+/// The A/A ratios of a run: the same structure built twice and timed as two. They are 1 but for noise (Georges, Buytaert, Eeckhout,
+/// "Statistically rigorous Java performance evaluation", 2007, on comparing alternatives; the twin is a control).
+///
+/// What their spread over the epochs explains, every interval holds anyway. What they differ from 1 by beyond that, a whole run has and
+/// its epochs do not show: the **A/A noise**, the root of the mean square of their logarithms less the sampling variance. More
+/// cells make it better known and not larger.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AaNoise {
+    /// One for each cell, with its interval, in which no A/A noise is joined.
+    pub ratios: Vec<Estimate>,
+    /// Variance of the logarithm of an A/A ratio from run to run beyond that from epoch to epoch, and how well it is known.
+    noise: Variance,
+}
+
+impl Default for AaNoise {
+    fn default() -> Self {
+        Self { ratios: vec![], noise: Variance::NONE }
+    }
+}
+
+impl AaNoise {
+    /// Of the cells of a run, each the [log ratios](super::log_ratios) of one twin to the other.
+    pub fn new(cells: &[Vec<Vec<f64>>]) -> Self {
+        let (mut ratios, mut squares) = (vec![], vec![]);
+        for values in cells.iter().filter_map(|cell| epoch_values(std::slice::from_ref(cell))) {
+            let sampling = Variance::of_mean(&values).map_or(0.0, |variance| variance.square);
+            squares.push(mean(&values) * mean(&values) - sampling);
+            ratios.extend(Rerun::of(&values, Variance::NONE).map(|rerun| rerun.ratio()));
+        }
+        if squares.is_empty() {
+            return Self::default();
+        }
+        // As many degrees as there are ratios, and no fewer than their epochs have: by itself the luck of a single ratio would make intervals
+        // wider tenfold. The tests count what that costs.
+        let epochs = cells.iter().map(Vec::len).max().unwrap_or(0);
+        let freedom = squares.len().max(epochs.saturating_sub(1)).max(1) as f64;
+        Self { ratios, noise: Variance { square: mean(&squares).max(0.0), freedom } }
+    }
+
+    /// The A/A noise, a logarithm; nothing where there is no ratio.
+    pub fn log(&self) -> Option<f64> {
+        (!self.ratios.is_empty()).then(|| libm::sqrt(self.noise.square))
+    }
+
+    /// What it adds to the variance of the logarithm of one ratio of two structures; nothing where there is no A/A ratio.
+    pub fn of_ratio(&self) -> Variance {
+        self.weighted(&[1.0, -1.0])
+    }
+
+    /// What it adds to the mean of the logarithms of `cells` ratios: the luck of each cell is its own.
+    pub fn of_mean(&self, cells: usize) -> Variance {
+        self.of_ratio().times(1.0 / libm::sqrt(cells.max(1) as f64))
+    }
+
+    /// What it adds to a sum of logarithms of times of one build each, with these weights: a ratio has the weights 1 and -1.
+    pub fn weighted(&self, weights: &[f64]) -> Variance {
+        let squares: f64 = weights.iter().map(|weight| weight * weight).sum();
+        self.noise.times(libm::sqrt(squares / 2.0))
+    }
+
+    /// What it adds to a `figure` made of the logarithms of times of one build each, `logs`: to first order.
+    pub fn of_figure(&self, logs: &[f64], figure: impl Fn(&[f64]) -> Option<f64>) -> Variance {
+        const STEP: f64 = 1e-4;
+        let slope = |i: usize| {
+            let at = |by: f64| {
+                let mut moved = logs.to_vec();
+                moved[i] += by;
+                figure(&moved)
+            };
+            Some((at(STEP)? - at(-STEP)?) / (2.0 * STEP))
+        };
+        self.weighted(&(0..logs.len()).map(|i| slope(i).unwrap_or(0.0)).collect::<Vec<_>>())
+    }
+
+    /// How many of the ratios' intervals hold 1; nothing where they have none.
+    pub fn holding_one(&self) -> Option<usize> {
+        let known = self.ratios.iter().any(|ratio| ratio.interval.is_some());
+        known.then(|| self.ratios.iter().filter(|ratio| ratio.holds(1.0)).count())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Cells of five epochs whose A/A ratios have these logarithms and do not spread.
+    fn twins(logs: &[f64]) -> AaNoise {
+        AaNoise::new(&logs.iter().map(|&log| vec![vec![log; 3]; 5]).collect::<Vec<_>>())
+    }
+
+    #[test]
+    fn it_is_a_root_mean_square_and_does_not_grow_with_the_cells() {
+        assert_eq!(twins(&[]).log(), None);
+        assert_eq!(twins(&[]).of_ratio().square, 0.0);
+        let one = twins(&[0.01, -0.03, 0.02]);
+        assert!((one.log().unwrap() - libm::sqrt(14e-4 / 3.0)).abs() < 1e-12);
+        let many = twins(&[0.01, -0.03, 0.02].repeat(20));
+        assert!((many.log().unwrap() - one.log().unwrap()).abs() < 1e-12);
+        assert_eq!((one.of_ratio().freedom, many.of_ratio().freedom), (4.0, 60.0));
+        assert_eq!((one.holding_one(), twins(&[0.0]).holding_one()), (Some(0), Some(1)));
+    }
+
+    #[test]
+    fn what_epochs_explain_is_left_out() {
+        // The mean is 0.01, its standard error 0.01: all of it may be the epochs'.
+        let epochs = [-0.02, 0.01, 0.04, 0.01].map(|log| vec![log]);
+        let error = Variance::of_mean(&epochs.concat()).unwrap().square;
+        let noise = AaNoise::new(&[epochs.to_vec()]);
+        assert!(error > 1e-4 && noise.log() == Some(0.0), "{error} {noise:?}");
+    }
+
+    #[test]
+    fn one_epoch_has_noise_and_no_intervals() {
+        let noise = AaNoise::new(&[vec![vec![0.01, 0.03]]]);
+        assert!((noise.log().unwrap() - 0.02).abs() < 1e-12);
+        assert_eq!(noise.holding_one(), None);
+    }
+
+    #[test]
+    fn figures_have_it_as_their_weights_say() {
+        let noise = twins(&[0.02; 4]);
+        assert!((noise.of_ratio().square - 4e-4).abs() < 1e-12);
+        assert!((noise.of_mean(4).square - 1e-4).abs() < 1e-12);
+        assert!((noise.weighted(&[2.0]).square - 8e-4).abs() < 1e-12);
+        // A figure that is not linear, by its slopes: 2 x and -1 at x = 3.
+        let found = noise.of_figure(&[3.0, 5.0], |x| Some(x[0] * x[0] - x[1])).square;
+        assert!((found / (4e-4 * 37.0 / 2.0) - 1.0).abs() < 1e-6, "{found}");
+    }
+}

@@ -1,0 +1,208 @@
+//! A number that was measured, and how far another run may find it elsewhere.
+
+use serde::{Deserialize, Serialize};
+
+use super::student::{LEVEL, factor, two_sided};
+use super::variance::Variance;
+
+/// An estimate with its 95 % [interval](mod@super::interval). Of a single epoch there is an estimate and no interval.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(from = "Flat", into = "Flat")]
+pub struct Estimate {
+    pub estimate: f64,
+    pub interval: Option<Interval>,
+}
+
+/// The ends of a 95 % interval.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Interval {
+    pub low: f64,
+    pub high: f64,
+    /// Degrees of freedom of Student's t in it; infinite where nothing varies. They tell how much wider it is where many are looked at.
+    pub freedom: f64,
+}
+
+/// As files hold it: one object, with the ends and the degrees of freedom `null` where they are not known.
+#[derive(Serialize, Deserialize)]
+struct Flat {
+    estimate: f64,
+    low: Option<f64>,
+    high: Option<f64>,
+    #[serde(default)]
+    freedom: Option<f64>,
+}
+
+impl From<Flat> for Estimate {
+    fn from(flat: Flat) -> Self {
+        let Flat { estimate, low, high, freedom } = flat;
+        let ends = low.zip(high);
+        Self {
+            estimate,
+            interval: ends.map(|(low, high)| Interval { low, high, freedom: freedom.unwrap_or(f64::INFINITY) }),
+        }
+    }
+}
+
+impl From<Estimate> for Flat {
+    fn from(of: Estimate) -> Self {
+        let freedom = of.interval.map(|interval| interval.freedom).filter(|freedom| freedom.is_finite());
+        Self { estimate: of.estimate, low: of.low(), high: of.high(), freedom }
+    }
+}
+
+impl Estimate {
+    /// Without an interval.
+    pub fn alone(estimate: f64) -> Self {
+        Self { estimate, interval: None }
+    }
+
+    /// Of what does not vary, as a count.
+    pub fn exact(estimate: f64) -> Self {
+        Self::between(estimate, estimate, estimate)
+    }
+
+    /// With the ends of its interval, whose freedom is unlimited.
+    pub fn between(estimate: f64, low: f64, high: f64) -> Self {
+        Self { estimate, interval: Some(Interval { low, high, freedom: f64::INFINITY }) }
+    }
+
+    /// The lower end, where it is known.
+    pub fn low(&self) -> Option<f64> {
+        self.interval.map(|interval| interval.low)
+    }
+
+    /// The upper end, where it is known.
+    pub fn high(&self) -> Option<f64> {
+        self.interval.map(|interval| interval.high)
+    }
+
+    /// Whether the interval is known and all of it lies above `bound`.
+    pub fn is_above(&self, bound: f64) -> bool {
+        self.low().is_some_and(|low| low > bound)
+    }
+
+    /// Whether the interval is known and all of it lies below `bound`.
+    pub fn is_below(&self, bound: f64) -> bool {
+        self.high().is_some_and(|high| high < bound)
+    }
+
+    /// Whether the interval is known and holds `value`.
+    pub fn holds(&self, value: f64) -> bool {
+        self.interval.is_some_and(|interval| (interval.low..=interval.high).contains(&value))
+    }
+
+    /// Of what grows with it, as `of` says.
+    pub fn map(self, of: impl Fn(f64) -> f64) -> Self {
+        let ends = |Interval { low, high, freedom }: Interval| Interval { low: of(low), high: of(high), freedom };
+        Self { estimate: of(self.estimate), interval: self.interval.map(ends) }
+    }
+
+    /// As one of `looks` that are judged together: all of their intervals hold with 95 % (Bonferroni). The interval grows about the estimate,
+    /// on either side by the same share of what it was.
+    pub fn among(self, looks: usize) -> Self {
+        let grown = |Interval { low, high, freedom }: Interval| {
+            let by = wider(freedom, looks);
+            let from = |end: f64| self.estimate + (end - self.estimate) * by;
+            Interval { low: from(low), high: from(high), freedom }
+        };
+        Self { interval: self.interval.map(grown), ..self }
+    }
+
+    /// As [`among`](Self::among), of a positive ratio: it grows in logarithms.
+    pub fn ratio_among(self, looks: usize) -> Self {
+        self.map(libm::log).among(looks).map(libm::exp)
+    }
+
+    /// The quotient of two positive estimates that err independently: the squares of their relative errors add up.
+    pub fn over(self, other: Self) -> Self {
+        let log = libm::log(self.estimate / other.estimate);
+        let part = |x: Self| {
+            let Interval { low, high, freedom } = x.interval?;
+            let error = libm::log(high / low) / 2.0 / factor(freedom, LEVEL);
+            Some(Variance { square: error * error, freedom })
+        };
+        let interval = part(self).zip(part(other)).map(|(own, other)| {
+            let Variance { square, freedom } = Variance::sum(&[own, other]);
+            let half = factor(freedom, LEVEL) * libm::sqrt(square);
+            Interval { low: libm::exp(log - half), high: libm::exp(log + half), freedom }
+        });
+        Self { estimate: libm::exp(log), interval }
+    }
+
+    /// The chance that an interval of a ratio would have to leave to its outside to reach just to 1. Nothing without an interval.
+    pub fn chance_of_one(&self) -> Option<f64> {
+        let Interval { low, high, freedom } = self.interval?;
+        let distance = libm::log(self.estimate);
+        let half = if distance > 0.0 { distance - libm::log(low) } else { libm::log(high) - distance };
+        Some(match (distance.abs(), half) {
+            (0.0, _) => 1.0,
+            (_, 0.0) => 0.0,
+            (distance, half) => two_sided(distance / half * factor(freedom, LEVEL), freedom),
+        })
+    }
+}
+
+/// How much wider an interval is that is one of `looks`.
+fn wider(freedom: f64, looks: usize) -> f64 {
+    if looks < 2 { 1.0 } else { factor(freedom, LEVEL / looks as f64) / factor(freedom, LEVEL) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_hold_one_object_and_read_back() {
+        let of = |estimate: Estimate| serde_json::to_string(&estimate).unwrap();
+        let freedom = Estimate { estimate: 2.0, interval: Some(Interval { low: 1.5, high: 3.0, freedom: 4.5 }) };
+        assert_eq!(of(freedom), r#"{"estimate":2.0,"low":1.5,"high":3.0,"freedom":4.5}"#);
+        assert_eq!(of(Estimate::alone(2.0)), r#"{"estimate":2.0,"low":null,"high":null,"freedom":null}"#);
+        for estimate in [freedom, Estimate::alone(2.0), Estimate::exact(3.0)] {
+            assert_eq!(serde_json::from_str::<Estimate>(&of(estimate)).unwrap(), estimate);
+        }
+        let old: Estimate = serde_json::from_str(r#"{"estimate":2.0,"low":1.5,"high":3.0}"#).unwrap();
+        assert_eq!(old, Estimate::between(2.0, 1.5, 3.0));
+    }
+
+    #[test]
+    fn without_an_interval_nothing_is_sure() {
+        let alone = Estimate::alone(9.0);
+        assert!(!alone.is_above(1.0) && !alone.is_below(10.0) && !alone.holds(9.0));
+        assert_eq!((alone.low(), alone.chance_of_one(), alone.among(5)), (None, None, alone));
+        let exact = Estimate::exact(9.0);
+        assert!(exact.is_above(1.0) && exact.holds(9.0) && exact.chance_of_one() == Some(0.0));
+    }
+
+    #[test]
+    fn errors_of_a_quotient_add_in_squares() {
+        let tenth = |estimate: f64| {
+            let interval = Interval { low: estimate / 1.1, high: estimate * 1.1, freedom: 8.0 };
+            Estimate { estimate, interval: Some(interval) }
+        };
+        let quotient = tenth(15.0).over(tenth(10.0));
+        let Interval { high, freedom, .. } = quotient.interval.unwrap();
+        assert!((quotient.estimate - 1.5).abs() < 1e-12 && (freedom - 16.0).abs() < 1e-9);
+        // t is 2.306 with eight degrees of freedom and 2.120 with sixteen.
+        let expected = libm::log(1.1) * libm::sqrt(2.0) * 2.120 / 2.306;
+        assert!((libm::log(high / 1.5) / expected - 1.0).abs() < 1e-3);
+        assert_eq!(Estimate::exact(3.0).over(Estimate::exact(2.0)).high(), Some(1.5));
+        assert_eq!(tenth(1.0).over(Estimate::alone(2.0)).interval, None);
+    }
+
+    #[test]
+    fn among_many_an_interval_is_wider() {
+        // Four degrees of freedom: 2.776 alone, 4.604 of five (1 %).
+        let one = Estimate { estimate: 1.2, interval: Some(Interval { low: 1.1, high: 1.3, freedom: 4.0 }) };
+        let five = one.among(5);
+        assert!((five.high().unwrap() - (1.2 + 0.1 * 4.604 / 2.776)).abs() < 1e-4, "{five:?}");
+        assert_eq!(one.among(1), one);
+        let ratio = one.ratio_among(5);
+        let down = libm::log(1.2 / ratio.low().unwrap()) / libm::log(1.2 / 1.1);
+        assert!((down - 4.604 / 2.776).abs() < 1e-3, "{ratio:?}");
+        // The chance is that of the level at which it reaches to 1.
+        let chance = one.chance_of_one().unwrap();
+        let looks = LEVEL / chance;
+        assert!(one.ratio_among(looks.floor() as usize).is_above(1.0));
+        assert!(!one.ratio_among(looks.ceil() as usize).is_above(1.0), "{chance}");
+    }
+}

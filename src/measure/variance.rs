@@ -1,0 +1,63 @@
+//! Variances that add up.
+
+/// A variance, and how well it is known.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Variance {
+    /// At least 0.
+    pub square: f64,
+    /// Degrees of freedom of Student's t, at least 1.
+    pub freedom: f64,
+}
+
+impl Variance {
+    /// Of what does not vary.
+    pub const NONE: Self = Self { square: 0.0, freedom: f64::INFINITY };
+
+    /// That of the mean of `values`; nothing of fewer than two.
+    pub fn of_mean(values: &[f64]) -> Option<Self> {
+        let (n, centre) = (values.len() as f64, mean(values));
+        let squares: f64 = values.iter().map(|v| (v - centre) * (v - centre)).sum();
+        (values.len() > 1).then(|| Self { square: squares / (n - 1.0) / n, freedom: n - 1.0 })
+    }
+
+    /// Of `factor` times what varies so.
+    pub fn times(self, factor: f64) -> Self {
+        Self { square: self.square * factor * factor, ..self }
+    }
+
+    /// Of a sum of independent parts, with the degrees of freedom that fit it best (Satterthwaite, "An approximate distribution of estimates
+    /// of variance components", 1946; of two, Welch, "The generalization of Student's problem when several different population
+    /// variances are involved", 1947).
+    pub fn sum(parts: &[Self]) -> Self {
+        let square: f64 = parts.iter().map(|part| part.square).sum();
+        let spread: f64 = parts.iter().map(|part| part.square * part.square / part.freedom).sum();
+        let least = parts.iter().map(|part| part.freedom).fold(f64::INFINITY, f64::min);
+        Self { square, freedom: if spread > 0.0 { square * square / spread } else { least } }
+    }
+}
+
+pub(super) fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_mean_varies_less_the_more_there_is_of_it() {
+        assert_eq!(Variance::of_mean(&[1.0]), None);
+        assert_eq!(Variance::of_mean(&[1.0, 3.0]), Some(Variance { square: 1.0, freedom: 1.0 }));
+        assert_eq!(Variance::of_mean(&[2.0; 5]), Some(Variance { square: 0.0, freedom: 4.0 }));
+    }
+
+    #[test]
+    fn parts_add_up_and_the_less_known_one_weighs() {
+        let part = |square, freedom| Variance { square, freedom };
+        // As many of both: the degrees add up; of one alone its own are left.
+        assert_eq!(Variance::sum(&[part(1.0, 4.0), part(1.0, 4.0)]), part(2.0, 8.0));
+        assert_eq!(Variance::sum(&[part(1.0, 4.0), Variance::NONE]), part(1.0, 4.0));
+        assert_eq!(Variance::sum(&[part(0.0, 4.0), part(0.0, 8.0)]), part(0.0, 4.0));
+        assert_eq!(part(3.0, 2.0).times(2.0), part(12.0, 2.0));
+    }
+}
