@@ -4,17 +4,19 @@ use super::estimate::Estimate;
 use super::interval::{Rerun, epoch_values};
 use super::variance::{Variance, mean};
 
-/// The A/A ratios of a run: the same structure built twice and timed as two. They are 1 but for noise (Georges, Buytaert, Eeckhout,
-/// "Statistically rigorous Java performance evaluation", 2007, on comparing alternatives; the twin is a control).
+/// The A/A ratios of a run: the same structure built twice and timed as two. They are 1 but for noise (Georges,
+/// Buytaert, Eeckhout, "Statistically rigorous Java performance evaluation", 2007, on comparing alternatives; the twin
+/// is a control).
 ///
-/// What their spread over the epochs explains, every interval holds anyway. What they differ from 1 by beyond that, a whole run has and
-/// its epochs do not show: the **A/A noise**, the root of the mean square of their logarithms less the sampling variance. More
-/// cells make it better known and not larger.
+/// What their spread over the epochs explains, every interval holds anyway. What they differ from 1 by beyond that, a
+/// whole run has and its epochs do not show: the **A/A noise**, the root of the mean square of their logarithms less
+/// the sampling variance. More cells make it better known and not larger.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AaNoise {
     /// One for each cell, with its interval, in which no A/A noise is joined.
     pub ratios: Vec<Estimate>,
-    /// Variance of the logarithm of an A/A ratio from run to run beyond that from epoch to epoch, and how well it is known.
+    /// Variance of the logarithm of an A/A ratio from run to run beyond that from epoch to epoch, and how well it is
+    /// known.
     noise: Variance,
 }
 
@@ -36,8 +38,8 @@ impl AaNoise {
         if squares.is_empty() {
             return Self::default();
         }
-        // As many degrees as there are ratios, and no fewer than their epochs have: by itself the luck of a single ratio would make intervals
-        // wider tenfold. The tests count what that costs.
+        // As many degrees as there are ratios, and no fewer than their epochs have: by itself the luck of a single
+        // ratio would make intervals wider tenfold. The tests count what that costs.
         let epochs = cells.iter().map(Vec::len).max().unwrap_or(0);
         let freedom = squares.len().max(epochs.saturating_sub(1)).max(1) as f64;
         Self { ratios, noise: Variance { square: mean(&squares).max(0.0), freedom } }
@@ -48,7 +50,8 @@ impl AaNoise {
         (!self.ratios.is_empty()).then(|| libm::sqrt(self.noise.square))
     }
 
-    /// What it adds to the variance of the logarithm of one ratio of two structures; nothing where there is no A/A ratio.
+    /// What it adds to the variance of the logarithm of one ratio of two structures; nothing where there is no A/A
+    /// ratio.
     pub fn of_ratio(&self) -> Variance {
         self.weighted(&[1.0, -1.0])
     }
@@ -58,7 +61,8 @@ impl AaNoise {
         self.of_ratio().times(1.0 / libm::sqrt(cells.max(1) as f64))
     }
 
-    /// What it adds to a sum of logarithms of times of one build each, with these weights: a ratio has the weights 1 and -1.
+    /// What it adds to a sum of logarithms of times of one build each, with these weights: a ratio has the weights 1
+    /// and -1.
     pub fn weighted(&self, weights: &[f64]) -> Variance {
         let squares: f64 = weights.iter().map(|weight| weight * weight).sum();
         self.noise.times(libm::sqrt(squares / 2.0))

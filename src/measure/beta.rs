@@ -1,11 +1,12 @@
 //! The distribution that Student's t and the binomial distribution are made of.
 
-/// The regularised incomplete beta function I_x(a, b): the probability that a beta variable with these parameters, both positive, is
-/// at most `x`, in [0, 1]. Its error is about 1e-14 for parameters up to a thousand, and grows with them (1e-7 at a thousand million).
+/// The regularised incomplete beta function I_x(a, b): the probability that a beta variable with these parameters, both
+/// positive, is at most `x`, in [0, 1]. Its error is about 1e-14 for parameters up to a thousand, and grows with them
+/// (1e-7 at a thousand million).
 ///
 /// # References
-/// Abramowitz, Stegun: Handbook of mathematical functions, 1964, 26.5.8 (the continued fraction). Lentz: Generating Bessel functions
-/// in Mie scattering calculations using continued fractions, 1976 (its evaluation).
+/// Abramowitz, Stegun: Handbook of mathematical functions, 1964, 26.5.8 (the continued fraction). Lentz: Generating
+/// Bessel functions in Mie scattering calculations using continued fractions, 1976 (its evaluation).
 pub fn incomplete_beta(x: f64, a: f64, b: f64) -> f64 {
     if x <= 0.0 {
         return 0.0;

@@ -18,7 +18,8 @@ pub struct Estimate {
 pub struct Interval {
     pub low: f64,
     pub high: f64,
-    /// Degrees of freedom of Student's t in it; infinite where nothing varies. They tell how much wider it is where many are looked at.
+    /// Degrees of freedom of Student's t in it; infinite where nothing varies. They tell how much wider it is where
+    /// many are looked at.
     pub freedom: f64,
 }
 
@@ -97,8 +98,8 @@ impl Estimate {
         Self { estimate: of(self.estimate), interval: self.interval.map(ends) }
     }
 
-    /// As one of `looks` that are judged together: all of their intervals hold with 95 % (Bonferroni). The interval grows about the estimate,
-    /// on either side by the same share of what it was.
+    /// As one of `looks` that are judged together: all of their intervals hold with 95 % (Bonferroni). The interval
+    /// grows about the estimate, on either side by the same share of what it was.
     pub fn among(self, looks: usize) -> Self {
         let grown = |Interval { low, high, freedom }: Interval| {
             let by = wider(freedom, looks);
@@ -129,7 +130,8 @@ impl Estimate {
         Self { estimate: libm::exp(log), interval }
     }
 
-    /// The chance that an interval of a ratio would have to leave to its outside to reach just to 1. Nothing without an interval.
+    /// The chance that an interval of a ratio would have to leave to its outside to reach just to 1. Nothing without an
+    /// interval.
     pub fn chance_of_one(&self) -> Option<f64> {
         let Interval { low, high, freedom } = self.interval?;
         let distance = libm::log(self.estimate);

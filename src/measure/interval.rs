@@ -1,49 +1,52 @@
-//! The one interval: how far the same figure of another run may lie. Every table, study and page has its intervals from here.
+//! The one interval: how far the same figure of another run may lie. Every table, study and page has its intervals from
+//! here.
 //!
-//! **The question.** A plain 95 % interval of a mean holds the true mean in 95 % of runs, but the *estimate of a second run*
-//! only in about 83 %, for that errs as well (Cumming, Williams, Fidler, "Replication and researchers' understanding of
-//! confidence intervals and standard error bars", 2004). What is printed here is a prediction interval for the estimate of
-//! another run of the same plan: it holds that estimate in 95 % of cases.
+//! **The question.** A plain 95 % interval of a mean holds the true mean in 95 % of runs, but the *estimate of a second
+//! run* only in about 83 %, for that errs as well (Cumming, Williams, Fidler, "Replication and researchers'
+//! understanding of confidence intervals and standard error bars", 2004). What is printed here is a prediction interval
+//! for the estimate of another run of the same plan: it holds that estimate in 95 % of cases.
 //!
-//! **The model.** In epoch e all structures are built anew; in round r of it every case is timed once, in random order. For
-//! two cases let y = ln(time of one / time of the other) in the same round: what slows the machine for a while slows both and
-//! cancels. Then y = theta + p(e) + n(e, r), where p is the luck of placement, the same for a whole epoch (Kalibera, Jones,
-//! "Rigorous benchmarking in reasonable time", 2013; Mytkowicz, Diwan, Hauswirth, Sweeney, "Producing wrong data without doing
-//! anything obviously wrong", 2009), and n the noise of a sample, with heavy tails.
+//! **The model.** In epoch e all structures are built anew; in round r of it every case is timed once, in random order.
+//! For two cases let y = ln(time of one / time of the other) in the same round: what slows the machine for a while
+//! slows both and cancels. Then y = theta + p(e) + n(e, r), where p is the luck of placement, the same for a whole
+//! epoch (Kalibera, Jones, "Rigorous benchmarking in reasonable time", 2013; Mytkowicz, Diwan, Hauswirth, Sweeney,
+//! "Producing wrong data without doing anything obviously wrong", 2009), and n the noise of a sample, with heavy tails.
 //!
-//! **The estimate.** z(e) is the median of y over the rounds of an epoch, which heavy tails hardly move; the estimate is
-//! exp(mean of z). Over several cells (scenes, kinds of rays) z(e) is the mean of their medians: cells that were measured
-//! in the same epoch share its luck, and the spread of z holds that without a word about correlations.
+//! **The estimate.** z(e) is the median of y over the rounds of an epoch, which heavy tails hardly move; the estimate
+//! is exp(mean of z). Over several cells (scenes, kinds of rays) z(e) is the mean of their medians: cells that were
+//! measured in the same epoch share its luck, and the spread of z holds that without a word about correlations.
 //!
-//! **The interval.** With E epochs the variance of an estimate is s^2 / E, where s^2 is the sample variance of z, which holds
-//! placement and noise both. Another run errs as much again, independently, so the difference of the two estimates has variance
-//! 2 s^2 / E, and with s from E epochs it follows Student's t with E - 1 degrees of freedom: the half-width is t(E - 1) s sqrt(2 / E)
-//! (Hahn, Meeker, Escobar, "Statistical intervals", 2nd edition 2017, chapter 4: prediction of the mean of a
-//! future sample). For another run of E' epochs 2 / E is 1 / E + 1 / E'.
+//! **The interval.** With E epochs the variance of an estimate is s^2 / E, where s^2 is the sample variance of z, which
+//! holds placement and noise both. Another run errs as much again, independently, so the difference of the two
+//! estimates has variance 2 s^2 / E, and with s from E epochs it follows Student's t with E - 1 degrees of freedom: the
+//! half-width is t(E - 1) s sqrt(2 / E) (Hahn, Meeker, Escobar, "Statistical intervals", 2nd edition 2017, chapter 4:
+//! prediction of the mean of a future sample). For another run of E' epochs 2 / E is 1 / E + 1 / E'.
 //!
-//! **The A/A noise.** What differs between two runs but not between two epochs of one no spread of z can show. The A/A ratios
-//! show a part of it, the [A/A noise](super::AaNoise): its variance is added once for either run, and the degrees of freedom are those of
-//! the sum (Satterthwaite, 1946).
+//! **The A/A noise.** What differs between two runs but not between two epochs of one no spread of z can show. The A/A
+//! ratios show a part of it, the [A/A noise](super::AaNoise): its variance is added once for either run, and the
+//! degrees of freedom are those of the sum (Satterthwaite, 1946).
 //!
-//! **Figures that are not means** (shares, slopes, ranks) are [jackknifed](Rerun::jackknife) over the epochs: pseudo-values take the place of
-//! z(e), and for a figure that is linear in the logarithms they are z(e).
+//! **Figures that are not means** (shares, slopes, ranks) are [jackknifed](Rerun::jackknife) over the epochs:
+//! pseudo-values take the place of z(e), and for a figure that is linear in the logarithms they are z(e).
 //!
 //! **One epoch** says nothing of placement: there is an estimate and no interval.
 //!
 //! **Many looks.** Where m findings are judged together each has the interval of the level 1 - 0.05 / m
 //! ([`Estimate::among`], Bonferroni): in 95 % of the cases all of them hold.
 //!
-//! The tests simulate thousands of pairs of runs with placement luck, heavy tails, drift and A/A noise, and count how often the second
-//! estimate lies within the first interval: 95 % within 2, for a single cell, for many, for shares and for slopes. What they do not hold:
-//! where one sample in eight is interrupted for a third of its time and nothing filters that, five epochs of one round hold 86 %; and a
-//! single A/A ratio tells too little of runs whose luck is larger than all else.
+//! The tests simulate thousands of pairs of runs with placement luck, heavy tails, drift and A/A noise, and count how
+//! often the second estimate lies within the first interval: 95 % within 2, for a single cell, for many, for shares and
+//! for slopes. What they do not hold: where one sample in eight is interrupted for a third of its time and nothing
+//! filters that, five epochs of one round hold 86 %; and a single A/A ratio tells too little of runs whose luck is
+//! larger than all else.
 
 use super::estimate::{Estimate, Interval};
 use super::student::{LEVEL, factor};
 use super::summary::median;
 use super::variance::{Variance, mean};
 
-/// ln(numerator / denominator) of every round, epoch by epoch, for samples in the order taken, `epochs` times as many rounds.
+/// ln(numerator / denominator) of every round, epoch by epoch, for samples in the order taken, `epochs` times as many
+/// rounds.
 ///
 /// # Panics
 /// If the numbers of samples differ or are no multiple of `epochs`, or a sample is not positive.
@@ -55,8 +58,8 @@ pub fn log_ratios(numerator: &[f64], denominator: &[f64], epochs: usize) -> Vec<
     logs.chunks((logs.len() / epochs).max(1)).map(<[f64]>::to_vec).collect()
 }
 
-/// z(e) of every epoch: the mean over the cells of the median of its rounds, a logarithm. A cell is what [`log_ratios`] gives. Nothing
-/// when there is no cell or one is empty.
+/// z(e) of every epoch: the mean over the cells of the median of its rounds, a logarithm. A cell is what [`log_ratios`]
+/// gives. Nothing when there is no cell or one is empty.
 ///
 /// # Panics
 /// If the cells differ in their epochs.
@@ -79,8 +82,8 @@ pub struct Rerun {
 }
 
 impl Rerun {
-    /// The mean of `values`, one of each epoch, in another run of as many; `noise` is what the [A/A noise](super::AaNoise) adds to the
-    /// variance of one run. Nothing where there is no epoch.
+    /// The mean of `values`, one of each epoch, in another run of as many; `noise` is what the [A/A
+    /// noise](super::AaNoise) adds to the variance of one run. Nothing where there is no epoch.
     pub fn of(values: &[f64], noise: Variance) -> Option<Self> {
         Self::in_epochs(values, values.len(), noise)
     }
@@ -96,8 +99,8 @@ impl Rerun {
         Some(Self { centre: mean(values), variance })
     }
 
-    /// The difference of two runs of different moments, `new` less `old`: both err, and both have been seen. `noises` are what the A/A
-    /// noise adds to each. Without a variance where one of them has a single epoch.
+    /// The difference of two runs of different moments, `new` less `old`: both err, and both have been seen. `noises`
+    /// are what the A/A noise adds to each. Without a variance where one of them has a single epoch.
     pub fn change(old: &[f64], new: &[f64], noises: [Variance; 2]) -> Option<Self> {
         if old.is_empty() || new.is_empty() {
             return None;
@@ -107,8 +110,8 @@ impl Rerun {
         Some(Self { centre: mean(new) - mean(old), variance })
     }
 
-    /// A figure of all epochs together, in another run of as many: `figure` makes it of the epochs whose numbers it is given. Nothing where it
-    /// cannot; without a variance where it cannot without one of the epochs.
+    /// A figure of all epochs together, in another run of as many: `figure` makes it of the epochs whose numbers it is
+    /// given. Nothing where it cannot; without a variance where it cannot without one of the epochs.
     ///
     /// # References
     /// Tukey: Bias and confidence in not-quite large samples, 1958. Miller: The jackknife, a review, 1974.

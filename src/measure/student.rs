@@ -7,8 +7,8 @@ use super::beta::incomplete_beta;
 /// The chance that is left to the outside of an interval, of one alone or of all that are looked at together: 5 %.
 pub const LEVEL: f64 = 0.05;
 
-/// The factor that makes a standard error with `freedom` degrees of freedom half an interval that leaves `level` to its outside (Student,
-/// "The probable error of a mean", 1908).
+/// The factor that makes a standard error with `freedom` degrees of freedom half an interval that leaves `level` to its
+/// outside (Student, "The probable error of a mean", 1908).
 ///
 /// # Panics
 /// If `freedom` is less than 1, or `level` does not lie between 0 and 1.
@@ -62,8 +62,8 @@ fn density(t: f64, freedom: f64) -> f64 {
     if freedom < 1e6 { libm::exp(log) } else { libm::exp(-t * t / 2.0) / libm::sqrt(2.0 * std::f64::consts::PI) }
 }
 
-/// The probability that Student's t with `freedom` degrees of freedom is at least as far from 0 as `t` (Abramowitz, Stegun,
-/// "Handbook of mathematical functions", 1964, 26.7.1).
+/// The probability that Student's t with `freedom` degrees of freedom is at least as far from 0 as `t` (Abramowitz,
+/// Stegun, "Handbook of mathematical functions", 1964, 26.7.1).
 ///
 /// # Panics
 /// If `freedom` is not positive.
@@ -75,8 +75,8 @@ pub fn two_sided(t: f64, freedom: f64) -> f64 {
     incomplete_beta(freedom / (freedom + t * t), freedom / 2.0, 0.5)
 }
 
-/// Which of many probabilities are too small for chance, when the chance of even one false claim among all may be `level`
-/// (Holm, "A simple sequentially rejective multiple test procedure", 1979).
+/// Which of many probabilities are too small for chance, when the chance of even one false claim among all may be
+/// `level` (Holm, "A simple sequentially rejective multiple test procedure", 1979).
 pub fn holm(probabilities: &[f64], level: f64) -> Vec<bool> {
     let mut order: Vec<usize> = (0..probabilities.len()).collect();
     order.sort_by(|&a, &b| probabilities[a].total_cmp(&probabilities[b]));

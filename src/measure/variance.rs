@@ -25,9 +25,9 @@ impl Variance {
         Self { square: self.square * factor * factor, ..self }
     }
 
-    /// Of a sum of independent parts, with the degrees of freedom that fit it best (Satterthwaite, "An approximate distribution of estimates
-    /// of variance components", 1946; of two, Welch, "The generalization of Student's problem when several different population
-    /// variances are involved", 1947).
+    /// Of a sum of independent parts, with the degrees of freedom that fit it best (Satterthwaite, "An approximate
+    /// distribution of estimates of variance components", 1946; of two, Welch, "The generalization of Student's problem
+    /// when several different population variances are involved", 1947).
     pub fn sum(parts: &[Self]) -> Self {
         let square: f64 = parts.iter().map(|part| part.square).sum();
         let spread: f64 = parts.iter().map(|part| part.square * part.square / part.freedom).sum();

@@ -84,8 +84,8 @@ impl<T: TriangleTest, const N: usize> LeafBlock<T, N> {
     pub const BYTES: (usize, usize) = (size_of::<Self>() - size_of::<[u32; N]>(), size_of::<[u32; N]>());
 }
 
-/// Remembers triangles that a ray has been tested against: a direct-mapped cache of the last triangle for each of eight hash
-/// values (Havran 2000).
+/// Remembers triangles that a ray has been tested against: a direct-mapped cache of the last triangle for each of eight
+/// hash values (Havran 2000).
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Mailbox([u32; 8]);
 
@@ -99,8 +99,8 @@ impl Mailbox {
     }
 }
 
-/// Searches the `count` triangles in the blocks of one leaf and tells the observer of each block that is tested. With `ANY`, returns at the
-/// first block with a hit in the interval.
+/// Searches the `count` triangles in the blocks of one leaf and tells the observer of each block that is tested. With
+/// `ANY`, returns at the first block with a hit in the interval.
 #[inline(always)]
 pub(crate) fn search<const ANY: bool, const N: usize, L: Lanes<N>, T: TriangleTest, O: Observer>(
     blocks: &[LeafBlock<T, N>],
@@ -153,9 +153,11 @@ pub(in crate::structures) fn settle<const N: usize, T: TriangleTest>(
     }
 }
 
-/// What every query starts with: where its interval begins and the search up to its end, or nothing when the ray can hit nothing.
+/// What every query starts with: where its interval begins and the search up to its end, or nothing when the ray can
+/// hit nothing.
 ///
-/// The prepared ray is not among them: handed out of here it would be copied, and the processor waits for what it has just written.
+/// The prepared ray is not among them: handed out of here it would be copied, and the processor waits for what it has
+/// just written.
 #[inline(always)]
 pub(crate) fn start<T: TriangleTest>(ray: &Ray) -> Option<(f32, Nearest<T::Depth>)> {
     let (t_min, t_max) = ray.interval();

@@ -20,8 +20,8 @@ pub fn slope_weights(x: &[f64]) -> Option<Vec<f64>> {
     (squares > 0.0).then(|| x.iter().map(|x| (x - mean) / squares).collect())
 }
 
-/// Half of the 95 % interval of the slope if points scatter about the line independently and alike (Student's t with n - 2 degrees of
-/// freedom). Nothing of fewer than three points.
+/// Half of the 95 % interval of the slope if points scatter about the line independently and alike (Student's t with n
+/// - 2 degrees of freedom). Nothing of fewer than three points.
 pub fn scatter(points: &[(f64, f64)]) -> Option<f64> {
     let (at_zero, slope) = line(points)?;
     let freedom = points.len().checked_sub(2).filter(|&freedom| freedom > 0)? as f64;

@@ -2,10 +2,12 @@
 
 use crate::measure::{Estimate, Rerun, Variance, median};
 
-/// Logarithms, one for each structure, once for each epoch. Given are the logarithms of all samples: of each epoch, of each structure.
+/// Logarithms, one for each structure, once for each epoch. Given are the logarithms of all samples: of each epoch, of
+/// each structure.
 ///
-/// Within an epoch, what slowed a whole round is taken out (the median over the structures of how far each is off its own
-/// median), then each structure has the median of its rounds. Figures that are sums over these add up exactly, epoch by epoch.
+/// Within an epoch, what slowed a whole round is taken out (the median over the structures of how far each is off its
+/// own median), then each structure has the median of its rounds. Figures that are sums over these add up exactly,
+/// epoch by epoch.
 ///
 /// # Panics
 /// If a structure has no samples.

@@ -20,16 +20,18 @@ impl Rate {
 
     /// What the true rate is below with 95 % confidence, at most 1; nothing of no trials.
     ///
-    /// One-sided: at this rate so few events would be seen in 5 % of the cases. Without an event it is 1 - 0.05^(1 / n), about 3 / n.
+    /// One-sided: at this rate so few events would be seen in 5 % of the cases. Without an event it is 1 - 0.05^(1 /
+    /// n), about 3 / n.
     ///
     /// # References
-    /// Clopper, Pearson: The use of confidence or fiducial limits illustrated in the case of the binomial. Biometrika 26, 1934.
-    /// Hanley, Lippman-Hand: If nothing goes wrong, is everything all right? J. Am. Med. Assoc. 249, 1983.
+    /// Clopper, Pearson: The use of confidence or fiducial limits illustrated in the case of the binomial. Biometrika
+    /// 26, 1934. Hanley, Lippman-Hand: If nothing goes wrong, is everything all right? J. Am. Med. Assoc. 249, 1983.
     pub fn bound(self) -> Option<f64> {
         self.upper(LEVEL)
     }
 
-    /// The two ends between which the true rate lies with 95 % confidence; nothing of no trials. Each end leaves 2.5 % to its outside.
+    /// The two ends between which the true rate lies with 95 % confidence; nothing of no trials. Each end leaves 2.5 %
+    /// to its outside.
     ///
     /// # References
     /// As [`Rate::bound`].

@@ -138,8 +138,8 @@ impl Field {
     }
 }
 
-/// The structures and, for the A/A noise, the twin of one of them: of the SAH tree, or else of the first that is neither brute force nor the
-/// report's tree, which take long, or else of the first.
+/// The structures and, for the A/A noise, the twin of one of them: of the SAH tree, or else of the first that is
+/// neither brute force nor the report's tree, which take long, or else of the first.
 fn with_twin(mut structures: Vec<Choice>) -> Vec<Choice> {
     let slow = |choice: &&Choice| [BRUTE_FORCE, REPORT_TREE].contains(&choice.entry.name.as_str());
     let sah = structures.iter().find(|choice| choice.entry.name == SAH_TREE);
@@ -148,9 +148,9 @@ fn with_twin(mut structures: Vec<Choice>) -> Vec<Choice> {
     structures
 }
 
-/// Measures the epochs of `scenes` that the journal of the study `name` lacks, and gives all those asked for, and
-/// where the journal's times come from. `wrap` makes a case of the epoch of a scene, by its number; `epoch` is its inverse. All scenes of an epoch come before the next one: what changes
-/// on the machine over hours changes all scenes alike.
+/// Measures the epochs of `scenes` that the journal of the study `name` lacks, and gives all those asked for, and where
+/// the journal's times come from. `wrap` makes a case of the epoch of a scene, by its number; `epoch` is its inverse.
+/// All scenes of an epoch come before the next one: what changes on the machine over hours changes all scenes alike.
 ///
 /// # Errors
 /// If the journal cannot be used, or a scene cannot be measured.
@@ -189,7 +189,8 @@ pub fn cases<C: Clone + Serialize + DeserializeOwned>(
     Ok((cases, journal.provenance().clone()))
 }
 
-/// As [`cases`], of a study that is nothing without all of its structures: nothing once one of them has answered wrongly, which is said.
+/// As [`cases`], of a study that is nothing without all of its structures: nothing once one of them has answered
+/// wrongly, which is said.
 ///
 /// # Errors
 /// As [`cases`], and if a structure is missing.

@@ -47,7 +47,8 @@ impl Random {
 }
 
 impl Machine {
-    /// ln times of as many structures as `times`, epoch by epoch, round by round; the machine grows slower by a fifth over the run.
+    /// ln times of as many structures as `times`, epoch by epoch, round by round; the machine grows slower by a fifth
+    /// over the run.
     fn cell(&self, times: &[f64], random: &mut Random) -> Vec<Vec<Vec<f64>>> {
         let mut samples = vec![vec![]; times.len()];
         let run: Vec<f64> = times.iter().map(|_| self.run * random.normal()).collect();
@@ -247,7 +248,8 @@ fn slopes_are_held_and_the_jackknife_of_what_is_linear_is_its_value_in_each_epoc
     }
 }
 
-/// What share of the squares of two effects is the first's: a half here, and both are of the size of ten standard errors.
+/// What share of the squares of two effects is the first's: a half here, and both are of the size of ten standard
+/// errors.
 fn share(first: f64, second: f64) -> f64 {
     first * first / (first * first + second * second)
 }

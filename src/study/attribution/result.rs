@@ -33,8 +33,8 @@ pub struct Attribution {
     pub tests: Split,
     /// The same: nodes entered.
     pub steps: Split,
-    /// How many times faster the exact SAH plane is than the report's, where both stop at eight triangles, as far as planes
-    /// divide them, and have plane intervals.
+    /// How many times faster the exact SAH plane is than the report's, where both stop at eight triangles, as far as
+    /// planes divide them, and have plane intervals.
     pub plane_alone: Estimate,
 }
 
@@ -120,7 +120,8 @@ pub fn rows(results: &[Attribution]) -> Vec<Row<'_>> {
     results.iter().flat_map(of).collect()
 }
 
-/// One result for each scene, in the order in which the scenes were begun. A scene whose first epoch is missing has none.
+/// One result for each scene, in the order in which the scenes were begun. A scene whose first epoch is missing has
+/// none.
 pub fn result(epochs: &[Epoch]) -> Vec<Attribution> {
     let mut scenes: Vec<Vec<&Epoch>> = vec![];
     let name = |epoch: &Epoch| (epoch.scene.clone(), epoch.stand_in, epoch.scene_hash.clone());

@@ -1,8 +1,9 @@
 //! The interval of a break-even point.
 //!
-//! After n rays the dear structure has taken D(n) and the cheap one C(n), builds included. ln (D(n) / C(n)) is a figure of each epoch, and
-//! [the one interval](mod@crate::measure::interval) says for which n another run may find it at 0: that is where it may find the two even
-//! (Fieller, "Some problems in interval estimation", 1954). So an end may be `at once` or `never`.
+//! After n rays the dear structure has taken D(n) and the cheap one C(n), builds included. ln (D(n) / C(n)) is a figure
+//! of each epoch, and [the one interval](mod@crate::measure::interval) says for which n another run may find it at 0:
+//! that is where it may find the two even (Fieller, "Some problems in interval estimation", 1954). So an end may be `at
+//! once` or `never`.
 
 use super::Payoff;
 use crate::measure::{Estimate, Rerun, Variance};
@@ -87,7 +88,8 @@ struct Race<'a> {
 }
 
 impl Race<'_> {
-    /// By how much the cheap structure is ahead after so many rays, a logarithm. Nothing if the two were not measured together.
+    /// By how much the cheap structure is ahead after so many rays, a logarithm. Nothing if the two were not measured
+    /// together.
     fn after(&self, rays: f64) -> Option<Estimate> {
         let epochs = self.cheap.0.len().min(self.dear.0.len());
         let values: Vec<f64> = (0..epochs).map(|e| self.dear.log(e, rays) - self.cheap.log(e, rays)).collect();

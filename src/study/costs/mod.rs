@@ -1,8 +1,8 @@
 //! `costs`: what does a step, and what does a test of a block of triangles cost on this machine?
 //!
-//! The time of a ray is taken for a constant, a cost for each node or leaf entered and one for each block of triangles that is tested at
-//! once, however many of its eight places are taken, and these are found by regression over many cases: the performance model of Havran and Purgathofer (2003), which the surface area heuristic
-//! builds on.
+//! The time of a ray is taken for a constant, a cost for each node or leaf entered and one for each block of triangles
+//! that is tested at once, however many of its eight places are taken, and these are found by regression over many
+//! cases: the performance model of Havran and Purgathofer (2003), which the surface area heuristic builds on.
 
 mod regression;
 mod table;
@@ -20,7 +20,8 @@ pub use table::{LEGEND, tables};
 /// Name of the study, and of its journal; a case is an [`Epoch`].
 pub const NAME: &str = "costs";
 
-/// The structures compared unless others are named: of every family several, whose steps and tests are in different proportion.
+/// The structures compared unless others are named: of every family several, whose steps and tests are in different
+/// proportion.
 pub const STRUCTURES: [&str; 14] = [
     "brute-force",
     "median-kd",
@@ -104,8 +105,9 @@ fn family(structure: &str) -> &str {
     }
 }
 
-/// The costs of every family with observations enough, and of all together. Costs are not below 0. What varies is the scene: all cases of one
-/// share its triangles and its luck, so that the intervals are jackknifed over scenes and hold the costs found on as many others.
+/// The costs of every family with observations enough, and of all together. Costs are not below 0. What varies is the
+/// scene: all cases of one share its triangles and its luck, so that the intervals are jackknifed over scenes and hold
+/// the costs found on as many others.
 pub fn result(epochs: &[Epoch]) -> Vec<Family> {
     let mut groups: Vec<(&str, Vec<Observation>)> = vec![("all", vec![])];
     let lines = lines(epochs);

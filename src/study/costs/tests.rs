@@ -6,8 +6,8 @@ use crate::study::epoch::tests::example;
 const PLACES: [(f64, f64); 8] =
     [(1.0, 2.0), (10.0, 3.0), (40.0, 5.0), (5.0, 300.0), (100.0, 1000.0), (2.0, 0.5), (30.0, 90.0), (8.0, 20.0)];
 
-/// Scenes on which a structure of `name` takes 50 + 4 steps + 2 blocks nanoseconds a ray, times `off` and its inverse in turn. Blocks hold from
-/// one triangle to eight.
+/// Scenes on which a structure of `name` takes 50 + 4 steps + 2 blocks nanoseconds a ray, times `off` and its inverse
+/// in turn. Blocks hold from one triangle to eight.
 fn epochs(name: &str, off: f64) -> Vec<Epoch> {
     let one = |(i, (steps, blocks)): (usize, (f64, f64))| {
         let factor = if i % 2 == 0 { off } else { 1.0 / off };
@@ -80,7 +80,8 @@ fn of_one_scene_there_is_no_interval_and_nothing_is_left_out() {
     assert!(table.notes.iter().any(|note| note.starts_with("Without an interval: of one scene")), "{table:?}");
 }
 
-/// Eight scenes of four cases; each scene has a luck of a tenth that all its cases share, and each case a hundredth of its own.
+/// Eight scenes of four cases; each scene has a luck of a tenth that all its cases share, and each case a hundredth of
+/// its own.
 fn run(random: &mut RandomOrder) -> Family {
     let mut uniform = || (random.below(1 << 30) as f64 + 0.5) / f64::from(1 << 30);
     let mut normal = || libm::sqrt(-2.0 * libm::log(uniform())) * libm::cos(std::f64::consts::TAU * uniform());

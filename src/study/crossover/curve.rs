@@ -8,8 +8,8 @@ use crate::study::fit;
 /// A place where one overtakes the other.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Crossing {
-    /// Depth complexity, between two members on a line between logarithms. Without an interval where the crossing is not sure: nowhere
-    /// between it and its neighbours is the one or the other surely ahead.
+    /// Depth complexity, between two members on a line between logarithms. Without an interval where the crossing is
+    /// not sure: nowhere between it and its neighbours is the one or the other surely ahead.
     pub complexity: Estimate,
     /// Whether the KD-tree is the faster one beyond.
     pub kd_wins_beyond: bool,

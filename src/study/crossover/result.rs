@@ -19,8 +19,8 @@ pub struct Race {
     pub members: Vec<Member>,
     /// Every place where the ratio of times crosses 1, by growing depth complexity.
     pub crossings: Vec<Crossing>,
-    /// The ratio of times grows like this power of the depth complexity: below 0 the KD-tree gains. Nothing of fewer than three
-    /// members.
+    /// The ratio of times grows like this power of the depth complexity: below 0 the KD-tree gains. Nothing of fewer
+    /// than three members.
     pub trend: Option<Estimate>,
 }
 

@@ -27,8 +27,8 @@ pub struct Line {
     pub build: Vec<Vec<f64>>,
 }
 
-/// The lines of all scenes, in the order in which scenes, structures and kinds of rays come first. What has no time in one of its
-/// epochs has no line, nor has a twin.
+/// The lines of all scenes, in the order in which scenes, structures and kinds of rays come first. What has no time in
+/// one of its epochs has no line, nor has a twin.
 pub fn lines<'a>(epochs: impl IntoIterator<Item = &'a Epoch>) -> Vec<Line> {
     let mut found = vec![];
     for scene in scenes(epochs) {

@@ -36,8 +36,8 @@ pub struct Setting {
     /// The same in the report: single runs.
     pub report_times: f64,
     pub tests_per_ray: f64,
-    /// The chance that an interval of `times` would have to leave to its outside to reach just to 1; nothing for the default, with fewer than
-    /// two epochs, or where the trees are the same.
+    /// The chance that an interval of `times` would have to leave to its outside to reach just to 1; nothing for the
+    /// default, with fewer than two epochs, or where the trees are the same.
     pub probability: Option<f64>,
     pub verdict: Verdict,
 }

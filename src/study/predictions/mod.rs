@@ -1,10 +1,11 @@
 //! `predictions`: what was expected of the report's scenes before anything was measured.
 //!
-//! Each number in the words of an expectation is a claim of its own, which is confirmed or refuted by its whole interval, or undecided. What was
-//! called open before anything was measured has figures and no verdict.
+//! Each number in the words of an expectation is a claim of its own, which is confirmed or refuted by its whole
+//! interval, or undecided. What was called open before anything was measured has figures and no verdict.
 //!
-//! The numbers come from what other studies have left in a folder: the journals of `attribution`, `scaling` and `crossover`,
-//! `replicate.json` and `compare.json`. What takes seconds is counted here: rays, and tests on Infinitycandy.
+//! The numbers come from what other studies have left in a folder: the journals of `attribution`, `scaling` and
+//! `crossover`, `replicate.json` and `compare.json`. What takes seconds is counted here: rays, and tests on
+//! Infinitycandy.
 
 mod claims;
 mod counted;

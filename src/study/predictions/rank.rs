@@ -3,8 +3,9 @@
 use super::CLAIMS;
 use crate::measure::{Estimate, Rerun, Variance};
 
-/// Kendall's tau-b of pairs `(x, y)` (Kendall, "The treatment of ties in ranking problems", 1945): 1 for the same order, -1 for the
-/// opposite one. Only couples for which `compared` says so take part. Nothing where none differs in both.
+/// Kendall's tau-b of pairs `(x, y)` (Kendall, "The treatment of ties in ranking problems", 1945): 1 for the same
+/// order, -1 for the opposite one. Only couples for which `compared` says so take part. Nothing where none differs in
+/// both.
 pub fn kendall(pairs: &[(f64, f64)], compared: impl Fn(usize, usize) -> bool) -> Option<f64> {
     let (mut same, mut x_differ, mut y_differ) = (0.0, 0.0, 0.0);
     for i in 0..pairs.len() {
@@ -34,13 +35,14 @@ pub(super) const WELL: f64 = 0.7;
 pub(super) struct Order {
     /// Kendall's tau; at the ends of its interval all couples whose order is not sure are in it, or against it.
     pub tau: Estimate,
-    /// The couples that surely have the other order: numbers of that which was expected to be larger, and of the smaller one.
+    /// The couples that surely have the other order: numbers of that which was expected to be larger, and of the
+    /// smaller one.
     pub reversed: Vec<[usize; 2]>,
 }
 
 impl Order {
-    /// Of positive estimates with their ranks, the largest expected first; those of one rank are not compared. What each couple shows
-    /// allows for all couples and for `looks` as many.
+    /// Of positive estimates with their ranks, the largest expected first; those of one rank are not compared. What
+    /// each couple shows allows for all couples and for `looks` as many.
     pub fn of(ranked: &[(Estimate, usize)], looks: usize) -> Self {
         let couples: Vec<[usize; 2]> = (0..ranked.len())
             .flat_map(|i| (0..ranked.len()).map(move |j| [i, j]))
@@ -64,7 +66,8 @@ impl Order {
     }
 }
 
-/// The mean of the taus of several scenes, with the interval of one among all claims for as many other scenes, cut to what a tau can be.
+/// The mean of the taus of several scenes, with the interval of one among all claims for as many other scenes, cut to
+/// what a tau can be.
 pub(super) fn mean(taus: &[f64]) -> Option<Estimate> {
     let mean = Rerun::of(taus, Variance::NONE)?.plain().among(CLAIMS);
     Some(mean.map(|tau| tau.clamp(-1.0, 1.0)))

@@ -96,9 +96,9 @@ fn change(old: &[Vec<Vec<f64>>], new: &[Vec<Vec<f64>>], noises: &[AaNoise; 2], r
     Some(Rerun::change(&epoch_values(old)?, &epoch_values(new)?, noises)?.ratio())
 }
 
-/// ln(time of `own` / geometric mean of the references' times) of each round in each epoch; ln of the time itself where there is no
-/// reference. Only references that have a time in the same cell of `others`, too, count, so that both runs are divided by
-/// the same. Nothing where there is no time.
+/// ln(time of `own` / geometric mean of the references' times) of each round in each epoch; ln of the time itself where
+/// there is no reference. Only references that have a time in the same cell of `others`, too, count, so that both runs
+/// are divided by the same. Nothing where there is no time.
 fn relative(
     own: &Record,
     records: &[Record],

@@ -1,11 +1,11 @@
-//! What changed between two runs of the same comparison: speed, answers, and whether a ratio of one is found again in the other.
-//! Pure functions of records.
+//! What changed between two runs of the same comparison: speed, answers, and whether a ratio of one is found again in
+//! the other. Pure functions of records.
 //!
-//! Two runs of different moments on a shared machine cannot be compared by their times. They are compared by their ratios to
-//! references: the structures of obvhs, whose code is the same in both runs and which are measured in the same rounds as all
-//! others. The change of a structure is the geometric mean over its cells of new / old, decided by its
-//! [interval](fn@crate::measure::Rerun::change), which allows for all structures and for every look at them; cells alone are shown and
-//! decide nothing, for there are many of them.
+//! Two runs of different moments on a shared machine cannot be compared by their times. They are compared by their
+//! ratios to references: the structures of obvhs, whose code is the same in both runs and which are measured in the
+//! same rounds as all others. The change of a structure is the geometric mean over its cells of new / old, decided by
+//! its [interval](fn@crate::measure::Rerun::change), which allows for all structures and for every look at them; cells
+//! alone are shown and decide nothing, for there are many of them.
 
 mod changes;
 mod table;
@@ -96,8 +96,9 @@ pub struct Reproduced {
 }
 
 impl Comparison {
-    /// Compares two runs that are not [unlike]. With a threshold in per cent, regressions of at least as much are looked for. `looks` is how
-    /// often the new run is compared at most while it goes on: every look is a chance to be wrong.
+    /// Compares two runs that are not [unlike]. With a threshold in per cent, regressions of at least as much are
+    /// looked for. `looks` is how often the new run is compared at most while it goes on: every look is a chance to be
+    /// wrong.
     pub fn new(old: &[Record], new: &[Record], threshold_percent: Option<f64>, looks: usize) -> Self {
         let pairs = pairs(old, new);
         let only = |own: &[Record], other: &[Record]| -> Vec<String> {
@@ -146,8 +147,8 @@ fn case(record: &Record) -> String {
 fn wrong(old: &Record, new: &Record) -> Option<Wrong> {
     let rate = |r: &Record| r.structure_errors.unwrap_or(0) as f64 / r.checked_rays.unwrap_or(0).max(1) as f64;
     let (errors, checked) = (new.structure_errors.unwrap_or(0), new.checked_rays.unwrap_or(0));
-    // How many rays are checked depends on time: what an error was before is no new one if its rate is the same, and what a
-    // baseline is documented to get wrong may be met at any time.
+    // How many rays are checked depends on time: what an error was before is no new one if its rate is the same, and
+    // what a baseline is documented to get wrong may be met at any time.
     let known = documented_defect(&new.structure).is_some();
     let more = errors > 0 && !known && (old.structure_errors == Some(0) || rate(new) > 2.0 * rate(old));
     let what = if more {
@@ -166,8 +167,8 @@ fn wrong(old: &Record, new: &Record) -> Option<Wrong> {
     Some(Wrong { case: case(new), what })
 }
 
-/// Holds the ratios of each run against the intervals of the other: of every structure to the report's tree and to the structures
-/// of obvhs, cell by cell, as tables print them.
+/// Holds the ratios of each run against the intervals of the other: of every structure to the report's tree and to the
+/// structures of obvhs, cell by cell, as tables print them.
 fn reproduced(old: &[Record], new: &[Record]) -> Reproduced {
     let noises = [old, new].map(twins);
     let mut found = Reproduced::default();

@@ -183,8 +183,9 @@ fn the_aa_noise_of_both_runs_widens_the_interval() {
     for (i, by) in [(0, 0.03), (1, -0.03), (4, 0.03), (5, -0.03)] {
         old[i].twin_samples_ns = Some(old[i].samples_ns.iter().map(|ns| twin(ns, by)).collect());
     }
-    // One A/A ratio of four has a noise of 0.03, a structure over the mean of two references 3 / 4 of its square; two cells halve it. Of two
-    // structures judged together t is 3.495 with four degrees of freedom, and nothing else varies.
+    // One A/A ratio of four has a noise of 0.03, a structure over the mean of two references 3 / 4 of its square; two
+    // cells halve it. Of two structures judged together t is 3.495 with four degrees of freedom, and nothing else
+    // varies.
     let alone = 2.0 * 3.495 * 0.03 * libm::sqrt(0.75 / 2.0);
     assert!(before < 1e-9 && (width(&old) / alone - 1.0).abs() < 1e-3, "{before} {} {alone}", width(&old));
 }

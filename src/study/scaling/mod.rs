@@ -1,8 +1,9 @@
 //! `scaling`: how do time, build and memory grow with the number of triangles?
 //!
-//! Icospheres of 20 to 1.3 million triangles, seen alike, so that nothing changes but how finely one surface is divided; and the
-//! meshes that are named, which differ in more than their number of triangles, so that their exponent says less. Powers are
-//! fitted to medians on logarithms, over the meshes on which the structure has more than one leaf: a single leaf is brute force.
+//! Icospheres of 20 to 1.3 million triangles, seen alike, so that nothing changes but how finely one surface is
+//! divided; and the meshes that are named, which differ in more than their number of triangles, so that their exponent
+//! says less. Powers are fitted to medians on logarithms, over the meshes on which the structure has more than one
+//! leaf: a single leaf is brute force.
 
 mod spheres;
 mod table;
@@ -61,10 +62,11 @@ pub struct Growth {
     pub workload: String,
     /// From the fewest triangles to the most.
     pub points: Vec<Point>,
-    /// Time a ray grows like this power of the number of triangles. Nothing with fewer than three meshes of more than one leaf.
+    /// Time a ray grows like this power of the number of triangles. Nothing with fewer than three meshes of more than
+    /// one leaf.
     pub time: Option<Estimate>,
-    /// Half of the 95 % interval that this power would have by the scatter of the meshes about it alone, were they drawn from a family at
-    /// random.
+    /// Half of the 95 % interval that this power would have by the scatter of the meshes about it alone, were they
+    /// drawn from a family at random.
     pub scatter: Option<f64>,
     /// Likewise the build.
     pub build: Option<Estimate>,
@@ -91,8 +93,8 @@ pub struct Point {
     pub steps_per_ray: Option<f64>,
 }
 
-/// The growth of every structure. The intervals hold what another run finds of these meshes; how well a power describes them is told by
-/// their scatter about it.
+/// The growth of every structure. The intervals hold what another run finds of these meshes; how well a power describes
+/// them is told by their scatter about it.
 pub fn result(cases: &[Case]) -> Vec<Growth> {
     let twins = twins(cases.iter().map(|case| &case.epoch));
     let mut growths = vec![];
@@ -182,8 +184,9 @@ fn point(line: &Line) -> Point {
     }
 }
 
-/// The slope of `value`, logarithms of each epoch, over the logarithm of the number of triangles; `noise` is what the A/A noise adds to
-/// a sum of them with these weights. Nothing where it is not known of every mesh, or of fewer than three.
+/// The slope of `value`, logarithms of each epoch, over the logarithm of the number of triangles; `noise` is what the
+/// A/A noise adds to a sum of them with these weights. Nothing where it is not known of every mesh, or of fewer than
+/// three.
 fn power(
     lines: &[&Line],
     value: &dyn Fn(&Line) -> Option<Vec<f64>>,
