@@ -20,9 +20,9 @@ pub fn nearest<'a>(wanted: &str, known: impl IntoIterator<Item = &'a str>) -> Op
     begins.next().filter(|_| begins.next().is_none())
 }
 
-/// `: did you mean NAME?`, or nothing.
+/// ` (did you mean NAME?)`, or nothing.
 pub fn suggestion<'a>(wanted: &str, known: impl IntoIterator<Item = &'a str>) -> String {
-    nearest(wanted, known).map_or(String::new(), |name| format!(": did you mean {name}?"))
+    nearest(wanted, known).map_or(String::new(), |name| format!(" (did you mean {name}?)"))
 }
 
 #[cfg(test)]
@@ -42,7 +42,7 @@ mod tests {
             assert_eq!(meant(other), None, "{other}");
         }
         assert_eq!(nearest("sah", ["sah-kd", "sah-bvh"]), None, "two begin so");
-        assert_eq!(suggestion("CUEB", SCENES), ": did you mean Cube?");
+        assert_eq!(suggestion("CUEB", SCENES), " (did you mean Cube?)");
     }
 
     #[test]

@@ -44,8 +44,8 @@ const STATUSES: &str = "Exit status:
   3  a regression (bench --fail-on-regression)
   4  the samples do not tell whether there is a regression
   5  right, but for a structure that could not be built, panicked or could not take part
-Wrong answers of a baseline from another project whose defects are documented are shown, cost it its time, and do not
-change the status: 2 is for everything else. Tables name the defects.
+Wrong answers of a baseline from another project whose defects are documented are shown, cost it its time,
+and do not change the status: 2 is for everything else. Tables name the defects.
 
 `-` in place of a file to write is standard output; tables and messages go to standard error then.";
 
