@@ -43,14 +43,15 @@ impl Tree for Bvh2 {
     /// The walk of obvhs, step by step, without the assertion at every node that its children exist, and with an observer. Gives
     /// the same hits as its own, which a test holds.
     #[inline(always)]
-    fn walk<const ANY: bool>(
+    unsafe fn walk<const ANY: bool>(
         &self,
         ray: PreparedRay,
         test: impl FnMut(&PreparedRay, usize) -> f32,
         observer: &mut impl Observer,
     ) -> Option<RayHit> {
         fast_stack!(u32, (96, 192), self.max_depth, stack, {
-            descend::<ANY, _>(&self.nodes, &mut stack, ray, test, observer)
+            // SAFETY: by the caller's word.
+            unsafe { descend::<ANY, _>(&self.nodes, &mut stack, ray, test, observer) }
         })
     }
 
@@ -68,9 +69,10 @@ impl Tree for Bvh2 {
     }
 }
 
-/// All links of `nodes` lead to nodes ([`Tree::leads_inside`]).
+/// # Safety
+/// All links of `nodes` must lead to nodes.
 #[inline(always)]
-fn descend<const ANY: bool, O: Observer>(
+unsafe fn descend<const ANY: bool, O: Observer>(
     nodes: &[Bvh2Node],
     stack: &mut impl FastStack<u32>,
     mut ray: PreparedRay,

@@ -52,7 +52,7 @@ impl Tree for CwBvh {
     /// The walk of obvhs through its own macro, as its documentation recommends, over nodes without a check of bounds. A group of
     /// triangles that a node hands over counts as no node of its own, so only inner nodes are steps.
     #[inline(always)]
-    fn walk<const ANY: bool>(
+    unsafe fn walk<const ANY: bool>(
         &self,
         mut ray: PreparedRay,
         mut test: impl FnMut(&PreparedRay, usize) -> f32,
@@ -61,7 +61,7 @@ impl Tree for CwBvh {
         let mut hit = RayHit::none();
         let mut state = self.new_traversal(ray.direction);
         let mut node;
-        // SAFETY: the walk begins at the root, if there is one, and goes on to children alone, which lie inside by `leads_inside`.
+        // SAFETY: the walk begins at the root, if there is one, and goes on to children alone, which exist by the caller's word.
         let tree = unsafe { Unchecked::new(&self.nodes) };
         traverse!(
             tree,

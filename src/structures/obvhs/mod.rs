@@ -71,7 +71,10 @@ pub trait Tree: Send + Sync + Sized + 'static {
     fn leads_inside(&self, triangles: usize) -> bool;
 
     /// The nearest hit, or with `ANY` the first that is found.
-    fn walk<const ANY: bool>(
+    ///
+    /// # Safety
+    /// [`Tree::leads_inside`] must hold.
+    unsafe fn walk<const ANY: bool>(
         &self,
         ray: PreparedRay,
         test: impl FnMut(&PreparedRay, usize) -> f32,
@@ -92,16 +95,15 @@ impl<B: Tree, T: LeafTest> Prepare for Obvhs<B, T> {
 
     #[inline(always)]
     fn closest<O: Observer>(&self, &(ray, prepared): &Self::Ready, observer: &mut O) -> Option<Hit> {
-        // SAFETY: the tree hands over places in its leaves, which are below the number of triangles.
-        let test = unsafe { self.leaves.test(prepared) };
-        self.tree.walk::<false>(ray, test, observer).map(|hit| self.leaves.hit(hit))
+        // SAFETY: `build` has checked that the tree's links lead inside, and the places in its leaves to triangles.
+        let found = unsafe { self.tree.walk::<false>(ray, self.leaves.test(prepared), observer) };
+        found.map(|hit| self.leaves.hit(hit))
     }
 
     #[inline(always)]
     fn any<O: Observer>(&self, &(ray, prepared): &Self::Ready, observer: &mut O) -> bool {
         // SAFETY: as above.
-        let test = unsafe { self.leaves.test(prepared) };
-        self.tree.walk::<true>(ray, test, observer).is_some()
+        unsafe { self.tree.walk::<true>(ray, self.leaves.test(prepared), observer) }.is_some()
     }
 }
 

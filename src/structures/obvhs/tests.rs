@@ -26,7 +26,7 @@ fn rays(count: usize) -> Vec<Ray> {
     let mut ray = |i: usize| {
         let whole = Ray::new(unit(&mut random) * 6.0, unit(&mut random));
         match i % 5 {
-            0 => Ray { direction: Vec3::AXES[i % 3] * if i % 2 == 0 { -1.0 } else { 1.0 }, ..whole },
+            0 => Ray { direction: Vec3::AXES[i % 3] * if i.is_multiple_of(2) { -1.0 } else { 1.0 }, ..whole },
             1 => Ray { t_min: 2.0, ..whole },
             2 => Ray { t_max: 3.0, ..whole },
             _ => whole,
