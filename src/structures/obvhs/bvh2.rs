@@ -14,7 +14,9 @@ use super::{Tree, aabb};
 use crate::accel::{Observer, Outline, Part};
 use crate::structures::pages;
 
-/// Binary: PLOC with reinsertion.
+const _: () = assert!(size_of::<Bvh2Node>() == 32);
+
+/// Binary: PLOC with reinsertion, nodes of 32 bytes (its feature `small_bvh2_node`; of its two sizes the faster one).
 ///
 /// # References
 /// Meister, Bittner: Parallel locally-ordered clustering for bounding volume hierarchy construction, 2018; Parallel
