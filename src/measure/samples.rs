@@ -46,7 +46,7 @@ pub struct Plan {
 pub struct Samples {
     /// Rays of a sample: fewer than the case has when it was slow.
     pub rays: usize,
-    /// Of the answers to those rays of the first epoch.
+    /// Of the answers to these rays; where they are tiles, to a few of those of the first epoch.
     pub checksum: u64,
     /// Whether structures that were built again gave the same answers.
     pub same_answers: bool,
@@ -151,23 +151,26 @@ pub fn take(
 ) -> Result<(), UnsteadyAnswers> {
     assert_eq!(cases.len(), samples.len(), "samples are of the same cases");
     let watch = Stopwatch::new(clock);
-    let mut checksums = vec![None; cases.len()];
+    let mut levels_of = vec![];
     for (i, (case, samples)) in cases.iter_mut().zip(samples.iter_mut()).enumerate() {
         let level_of = |rays: usize| level_of(case.rays(), rays).expect("a part is as large as a level");
         let mut levels = vec![level_of(samples.rays)];
         levels.extend(samples.parts.iter().map(|part| level_of(part.rays)));
-        // Each epoch has tiles of its own: those of the first tell whether the answers are the same.
+        // Each epoch has tiles of its own: some of the first tell whether the answers are the same.
         if levels[0] > 0 {
-            case.choose(&levels[..1], 0);
-            pass(&watch, case.as_mut());
-            remember(samples, case.checksum(), plan.epoch);
-            checksums[i] = (plan.epoch == 0).then(|| case.checksum());
+            let [first, again] = [(); 2].map(|()| ask_some(&watch, case.as_mut(), levels[0]));
+            if first != again {
+                return Err(UnsteadyAnswers { case: i });
+            }
+            remember(samples, first, plan.epoch);
         }
-        case.choose(&levels, plan.epoch);
+        levels_of.push(levels);
     }
+    cases.iter_mut().zip(&levels_of).for_each(|(case, levels)| case.choose(levels, plan.epoch));
 
     // Every epoch has an order of its own.
     let mut order = RandomOrder::new(plan.seed.wrapping_add(plan.epoch as u64));
+    let mut checksums = vec![None; cases.len()];
     let mut taken = 0;
     for _ in 0..plan.runs {
         for i in order.shuffled(cases.len()) {
@@ -195,6 +198,13 @@ fn remember(samples: &mut Samples, checksum: u64, epoch: usize) {
         samples.checksum = checksum;
     }
     samples.same_answers &= samples.checksum == checksum;
+}
+
+/// The checksum of a sixteenth of the rays that `case` is timed on in the first epoch at `level`.
+fn ask_some(watch: &Stopwatch, case: &mut dyn Timed, level: usize) -> u64 {
+    case.choose(&[(level + 2).min(last_level(case.rays()))], 0);
+    pass(watch, case);
+    case.checksum()
 }
 
 /// One pass and what it took.
