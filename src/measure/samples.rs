@@ -33,6 +33,9 @@ pub struct Plan {
     /// What the samples of all cases in an epoch may take together, nanoseconds. Where it is not enough, there are fewer samples, and where one of
     /// each case is too much, cases are timed on a part of their rays, the slowest first.
     pub budget_ns: u64,
+    /// A case that takes more than so many times as long as the median case is timed on fewer rays, whatever the budget; infinite where none
+    /// is.
+    pub slowest: f64,
     /// Rays of a sample, at most.
     pub most_rays: usize,
     /// Seed of the order.
@@ -92,10 +95,6 @@ const PILOT: usize = 64;
 /// A pass that takes longer says enough of the speed.
 const LONG_PILOT_NS: u64 = 5_000_000;
 
-/// A case that takes more than so many times as long as the median case is timed on fewer rays, whatever the budget: its ratios hardly gain
-/// from more of them, and the run would be about it alone.
-const SLOW: f64 = 8.0;
-
 /// Finds how many rays of each case and how many samples fit the budget; cases of equal `groups` get as many rays. No sample is taken yet.
 pub fn begin(
     clock: &dyn Clock,
@@ -121,7 +120,7 @@ pub fn begin(
         let smaller = (0..costs.len()).filter(|&case| levels[case] < last_level(all[case]));
         let slowest = smaller.max_by_key(|&case| costs[case]);
         match slowest {
-            Some(case) if (!fits && runs == 1) || costs[case] as f64 > SLOW * middle => {
+            Some(case) if (!fits && runs == 1) || costs[case] as f64 > plan.slowest * middle => {
                 let alike = |&other: &usize| groups[other] == groups[case];
                 (0..levels.len()).filter(alike).for_each(|other| levels[other] = levels[case].max(levels[other]));
                 (0..levels.len()).filter(alike).for_each(|other| levels[other] += 1);

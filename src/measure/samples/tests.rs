@@ -96,7 +96,7 @@ impl Bench {
     }
 }
 
-const PLAN: Plan = Plan { runs: 5, budget_ns: 1_000_000, most_rays: usize::MAX, seed: 3, epoch: 0 };
+const PLAN: Plan = Plan { runs: 5, budget_ns: 1_000_000, slowest: 8.0, most_rays: usize::MAX, seed: 3, epoch: 0 };
 
 #[test]
 fn only_the_pass_is_timed_and_every_case_has_all_its_samples() {
@@ -124,6 +124,12 @@ fn the_slow_do_with_fewer_rays_then_all_with_fewer_samples_and_then_with_fewer_r
     assert_eq!(started(12_000_000), (2, vec![65_536, 65_536, 256]));
     assert_eq!(started(2_700_000), (1, vec![65_536, 65_536, 64]));
     assert_eq!(started(1_000_000), (1, vec![16_384, 4096, 64]));
+    // Where no case is too slow, samples are left out first, and then all rays are spared.
+    let bench = Bench::new();
+    let mut cases = [('a', 10), ('b', 15), ('c', 10_000)].map(|(name, ns)| bench.case(name, ns, 65_536));
+    let patient = Plan { slowest: f64::INFINITY, ..plan(1_000_000_000) };
+    let (runs, samples) = bench.begin(&mut cases, &patient);
+    assert_eq!((runs, samples.iter().map(|s| s.rays).collect::<Vec<_>>()), (1, vec![65_536; 3]));
     // There is always a ray.
     assert_eq!(started(1), (1, vec![rays_at(65_536, last_level(65_536)); 3]));
 }
@@ -136,8 +142,8 @@ fn no_more_rays_are_timed_than_asked_for_and_alike_cases_take_as_many() {
     let rays = |groups: &[usize]| {
         begin(&bench.clock, &mut cases(), groups, &plan).1.iter().map(|s| s.rays).collect::<Vec<_>>()
     };
-    assert_eq!(rays(&[0, 1, 2]), [16_384, 4096, 16_384]);
-    assert_eq!(rays(&[0, 0, 2]), [4096, 4096, 16_384]);
+    assert_eq!(rays(&[0, 1, 2]), [16_384, 1024, 16_384]);
+    assert_eq!(rays(&[0, 0, 2]), [1024, 1024, 16_384]);
 }
 
 #[test]

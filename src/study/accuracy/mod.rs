@@ -154,6 +154,7 @@ fn time(
     let plan = Plan {
         runs: settings.runs,
         budget_ns: settings.budget_ns,
+        slowest: f64::INFINITY,
         most_rays: usize::MAX,
         seed: settings.seed,
         epoch: 0,

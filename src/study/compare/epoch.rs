@@ -13,6 +13,10 @@ use crate::study::placed::Placed;
 use crate::study::timing::{Case, Taken, Timing};
 use crate::study::{PANICKED, Refused, Stage, StudyError, guarded};
 
+/// A structure that takes more than so many times as long as the median one is timed on fewer rays: its ratios hardly gain from more of them,
+/// and the run would be about it alone.
+const SLOWEST: f64 = 4.0;
+
 /// Of one structure on one workload, over a pass that nobody times, on rays that no clock decides.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Tally {
@@ -67,9 +71,9 @@ impl<'a> Trial<'a> {
         let mut cases = Case::all(subjects.len(), workloads.len());
         cases.retain(|case| subjects[case.structure].is_timed(case.workload));
 
-        // What checks and builds leave of the time is for passes, but at least a third.
+        // What checks and builds leave of the time is for passes, but at least a half.
         let spent = (clock.now_ns() - start).saturating_add(builds_ns.saturating_mul(settings.epochs as u64));
-        let budget_ns = settings.budget_ns.saturating_sub(spent).max(settings.budget_ns / 3);
+        let budget_ns = settings.budget_ns.saturating_sub(spent).max(settings.budget_ns / 2);
         Ok(Self {
             scene,
             settings,
@@ -105,6 +109,7 @@ impl<'a> Trial<'a> {
         let plan = Plan {
             runs: self.runs,
             budget_ns: self.epoch_ns,
+            slowest: SLOWEST,
             most_rays: self.settings.rays,
             seed: self.settings.seed,
             epoch: self.epochs,

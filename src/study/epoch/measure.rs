@@ -181,7 +181,8 @@ impl<'a> Bench<'a> {
         let Settings { asked, runs, budget_ns, seed, threads, .. } = self.settings;
         let rays_of = |case: &Case| &self.structures[self.places[case.structure]].rays[case.workload];
         let runs = before.map_or(*runs, Epoch::runs);
-        let plan = Plan { runs, budget_ns: *budget_ns, most_rays: asked.rays(), seed: *seed, epoch };
+        let (budget_ns, slowest, most_rays) = (*budget_ns, f64::INFINITY, asked.rays());
+        let plan = Plan { runs, budget_ns, slowest, most_rays, seed: *seed, epoch };
         let samples = before.map(|_| {
             let none = |case: &Case| {
                 let Rays { rays, checksum, ref parts, .. } = *rays_of(case);
