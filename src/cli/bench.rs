@@ -68,8 +68,8 @@ pub struct Args {
 /// Without `--workload`.
 const WORKLOADS: [WorkloadKind; 3] = [WorkloadKind::Primary, WorkloadKind::Shadow, WorkloadKind::Diffuse];
 
-/// What the checks of a scene's answers may take is a twelfth of this, nanoseconds.
-const CHECKS_NS: u64 = 12_000_000_000;
+/// What the checks of a scene's answers may take is a twentieth of this, nanoseconds.
+const CHECKS_NS: u64 = 20_000_000_000;
 
 /// Samples are never cut short by a budget: another run must take the same rays.
 const EPOCH_NS: u64 = u64::MAX;

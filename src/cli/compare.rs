@@ -46,7 +46,7 @@ pub struct Args {
     #[arg(long, value_name = "N|all|F.rays", default_value = "all")]
     rays: RaySource,
     /// Seconds that a scene may take: to keep within them slow cases are timed on fewer rays, then all are timed less often
-    #[arg(long, value_name = "SECONDS", default_value_t = 20, value_parser = clap::value_parser!(u32).range(1..=86400))]
+    #[arg(long, value_name = "SECONDS", default_value_t = 18, value_parser = clap::value_parser!(u32).range(1..=86400))]
     budget: u32,
     /// Seed of the rays and of the order of samples
     #[arg(long, value_name = "N", default_value_t = 1)]

@@ -21,7 +21,7 @@ pub struct Counted {
 const RAYS: usize = 16384;
 
 /// Triangle tests that a count may take, about: structures that test more for each ray are counted on fewer.
-const TESTS: u64 = 1 << 25;
+const TESTS: u64 = 1 << 24;
 
 impl Counted {
     /// Of as many of `rays` as are worth it, evenly spread: a number that no clock decides, so that another run counts the same.
