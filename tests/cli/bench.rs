@@ -170,8 +170,9 @@ fn exported_runs_are_compared() {
     let (status, said) = compare("old", "old", &["--export-json", json.to_str().unwrap()]);
     assert!(status == RIGHT && said.contains("no difference") && said.contains("(100%)"), "{said}");
     let comparison: Value = serde_json::from_slice(&fs::read(&json).unwrap()).unwrap();
-    assert_eq!(comparison["structures"].as_array().unwrap().len(), 2);
-    assert_eq!(comparison["structures"][0]["time"]["estimate"], 1.0);
+    assert_eq!(comparison["study"], "compare-runs");
+    let structures = comparison["result"]["structures"].as_array().unwrap();
+    assert_eq!((structures.len(), &structures[0]["time"]["estimate"]), (2, &Value::from(1.0)));
 
     kept.edit("slower", |r| scale(r, "sah-kd", |_| 1e3)).edit("other", |r| r["answers"] = "00".into());
     let (status, said) = compare("old", "slower", &[]);

@@ -181,7 +181,9 @@ fn accuracy_prints_exports_and_draws_what_it_finds() {
     let records: serde_json::Value = serde_json::from_slice(&std::fs::read(json).unwrap()).unwrap();
     assert_eq!(records.as_array().unwrap().len(), 4);
     let exact = records.as_array().unwrap().iter().filter(|record| record["triangle_test"] == "exact");
-    assert!(exact.clone().all(|record| record["error"] == 0.0 && record["error_bound"] == 0.01), "{records}");
+    // No error in 300 rays: with less than 1 - 0.05^(1/300) of errors that happens in more than 5 % of cases.
+    let bounded = |record: &serde_json::Value| (record["error_bound"].as_f64().unwrap() - 0.009_936).abs() < 1e-6;
+    assert!(exact.clone().all(|record| record["error"] == 0.0 && bounded(record)), "{records}");
     assert_eq!(exact.count(), 2);
     assert!(std::fs::read_to_string(svg).unwrap().contains("moller-trumbore"));
     assert_eq!(image::open(png).unwrap().width(), 1600);

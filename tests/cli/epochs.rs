@@ -20,7 +20,7 @@ fn counts_are_printed_and_exported() {
     for part in ["EPO", "Cube, primary rays (closest)", "x minimum", "leaves by size and by depth"] {
         assert!(text.contains(part), "{part:?} is not in {text}");
     }
-    let measures = json(&file);
+    let measures = &json(&file)["result"];
     assert_eq!(measures[0]["structure"], "median-kd");
     assert_eq!(measures[0]["tree"]["leaf_sizes"], serde_json::json!([[12, 1]]));
     assert_eq!(measures[0]["tree"]["end_point_overlap"], 0.0);
@@ -82,7 +82,7 @@ fn the_crossover_races_the_pairs_that_are_there() {
     let exports = ["--epochs", "1", "--export-json", file.to_str().unwrap()];
     let text = prints(&[&small(&pair, folder.path().to_str().unwrap())[..], &exports].concat());
     assert!(text.contains("sah-kd-wide / sah-bvh, primary"), "{text}");
-    let races = json(&file);
+    let races = &json(&file)["result"];
     assert_eq!((races.as_array().unwrap().len(), &races[0]["members"][0]["layers"]), (1, &serde_json::json!(1)));
 }
 
