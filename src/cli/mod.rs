@@ -1,6 +1,6 @@
 //! The command `sahara`.
 //!
-//! Results go to stdout, progress and errors to stderr. The [exit statuses](STATUSES) are those of all commands.
+//! Results go to stdout, progress and errors to stderr. `sahara --help` lists the exit statuses of all commands.
 
 mod accuracy;
 mod bench;
