@@ -37,10 +37,10 @@ pub struct Args {
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: u16,
     /// Samples of every case, as many in each epoch; fewer where there is not time for them all
-    #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u16).range(1..))]
+    #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u16).range(1..))]
     runs: u16,
     /// How often everything is built anew, so that the luck of placement is in the samples
-    #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u16).range(1..))]
+    #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u16).range(1..))]
     epochs: u16,
     /// Rays of a workload that are timed, at most, in whole tiles of the scene's picture; or a file of rays to replay
     #[arg(long, value_name = "N|all|F.rays", default_value = "all")]
