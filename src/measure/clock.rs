@@ -56,8 +56,8 @@ impl Clock for SystemClock {
     }
 }
 
-/// Processor time: it stands still while another program has the core, or the host of a virtual machine. For work on one thread it is
-/// the elapsed time of a machine of one's own.
+/// Processor time: it stands still while another program has the core, or the host of a virtual machine. For work on
+/// one thread it is the elapsed time of a machine of one's own.
 pub struct CpuClock(Id);
 
 #[cfg(target_os = "linux")]
@@ -66,8 +66,8 @@ type Id = libc::clockid_t;
 type Id = std::convert::Infallible;
 
 impl CpuClock {
-    /// Of the calling thread, for passes. Nothing for several threads, or where the system has no such clock: then time that elapses
-    /// has to do.
+    /// Of the calling thread, for passes. Nothing for several threads, or where the system has no such clock: then time
+    /// that elapses has to do.
     pub fn of_thread(threads: &Threads) -> Option<Self> {
         #[cfg(target_os = "linux")]
         let id = Some(libc::CLOCK_THREAD_CPUTIME_ID);

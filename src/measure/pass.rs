@@ -140,9 +140,10 @@ pub fn spread(rays: &[Ray], count: usize) -> Vec<Ray> {
 
 /// A structure, a workload and a query: what is timed.
 ///
-/// One thread takes the rays piece by piece in the order of the workload. Every pass begins with a lead-in that is not timed, over other rays of
-/// the kind where there are any: caches and predictors are then in the state that this structure leaves them in, and not in that of the
-/// structure that was timed before. Where the pass goes over tiles that are apart, each tile has a short lead-in as well.
+/// One thread takes the rays piece by piece in the order of the workload. Every pass begins with a lead-in that is not
+/// timed, over other rays of the kind where there are any: caches and predictors are then in the state that this
+/// structure leaves them in, and not in that of the structure that was timed before. Where the pass goes over tiles
+/// that are apart, each tile has a short lead-in as well.
 pub struct Pass<'a> {
     accel: &'a dyn DynAccel,
     threads: &'a Threads,
@@ -164,11 +165,12 @@ pub struct Pass<'a> {
 /// The share of a workload that a lead-in before a pass has.
 const LEAD_IN_SHARE: usize = 8;
 
-/// A lead-in before tiles ends early when it has taken so long: structures that are slow need fewer rays to fill the caches.
+/// A lead-in before tiles ends early when it has taken so long: structures that are slow need fewer rays to fill the
+/// caches.
 const LEAD_IN: Duration = Duration::from_millis(10);
 
-/// What the lead-in before a tile may take, of as many rays as a whole tile has: longer than it takes to fetch what the tile needs into the
-/// caches, so that a structure which is slower than that does with fewer.
+/// What the lead-in before a tile may take, of as many rays as a whole tile has: longer than it takes to fetch what the
+/// tile needs into the caches, so that a structure which is slower than that does with fewer.
 const TILE_LEAD_IN_NS: u128 = 200_000;
 
 impl<'a> Pass<'a> {
@@ -201,8 +203,8 @@ impl<'a> Pass<'a> {
         Piece { rays: self.accel.load(Cow::Borrowed(&self.all[first..first + count])), count, levels }
     }
 
-    /// Neighbours up to `end`, the last of the workload before its first; in pieces that get smaller towards the end, so that some can be
-    /// left out.
+    /// Neighbours up to `end`, the last of the workload before its first; in pieces that get smaller towards the end,
+    /// so that some can be left out.
     fn before(&self, end: usize) -> impl Iterator<Item = Piece<'a>> {
         let count = TILE.min(self.all.len());
         let mut rest = if end < count { self.all.len() - count..self.all.len() } else { end - count..end };
@@ -291,7 +293,8 @@ impl Timed for Pass<'_> {
     fn run(&mut self, watch: &Stopwatch) -> Vec<u64> {
         let mut ns = vec![0; self.levels];
         if self.threads.count() > 1 {
-            // Threads share the rays of a level, so each level is timed apart; all rays come last, and their answers stay.
+            // Threads share the rays of a level, so each level is timed apart; all rays come last, and their answers
+            // stay.
             for level in (0..self.levels).rev() {
                 let of_level = |piece: &&Piece| piece.levels >> level & 1 == 1;
                 let pieces: Vec<&Piece> = self.pieces.iter().filter(of_level).collect();

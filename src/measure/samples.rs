@@ -8,11 +8,12 @@ pub trait Timed {
     /// Rays of the workload, at least 1.
     fn rays(&self) -> usize;
 
-    /// From now on a pass takes the rays of the first of `levels`; those of the others are a part of them and are timed along. Which rays
-    /// these are, [`tiles`](super::tiles::tiles) says. Not timed.
+    /// From now on a pass takes the rays of the first of `levels`; those of the others are a part of them and are timed
+    /// along. Which rays these are, [`tiles`](super::tiles::tiles) says. Not timed.
     fn choose(&mut self, levels: &[usize], epoch: usize);
 
-    /// Forgets all answers, so that a pass which does nothing is found out, and leads in to the pass. Called before every pass. Not timed.
+    /// Forgets all answers, so that a pass which does nothing is found out, and leads in to the pass. Called before
+    /// every pass. Not timed.
     fn clear(&mut self);
 
     /// One pass: nanoseconds of each level chosen.
@@ -30,11 +31,12 @@ pub trait Timed {
 pub struct Plan {
     /// Samples of every case in an epoch, at least 1; at most, where there is not time for them all.
     pub runs: usize,
-    /// What the samples of all cases in an epoch may take together, nanoseconds. Where it is not enough, there are fewer samples, and where one of
-    /// each case is too much, cases are timed on a part of their rays, the slowest first.
+    /// What the samples of all cases in an epoch may take together, nanoseconds. Where it is not enough, there are
+    /// fewer samples, and where one of each case is too much, cases are timed on a part of their rays, the slowest
+    /// first.
     pub budget_ns: u64,
-    /// A case that takes more than so many times as long as the median case is timed on fewer rays, whatever the budget; infinite where none
-    /// is.
+    /// A case that takes more than so many times as long as the median case is timed on fewer rays, whatever the
+    /// budget; infinite where none is.
     pub slowest: f64,
     /// Rays of a sample, at most.
     pub most_rays: usize,
@@ -95,7 +97,8 @@ const PILOT: usize = 64;
 /// A pass that takes longer says enough of the speed.
 const LONG_PILOT_NS: u64 = 5_000_000;
 
-/// Finds how many rays of each case and how many samples fit the budget; cases of equal `groups` get as many rays. No sample is taken yet.
+/// Finds how many rays of each case and how many samples fit the budget; cases of equal `groups` get as many rays. No
+/// sample is taken yet.
 pub fn begin(
     clock: &dyn Clock,
     cases: &mut [Box<dyn Timed + '_>],
@@ -132,9 +135,9 @@ pub fn begin(
     (runs, levels.iter().zip(&all).map(|(&level, &all)| Samples::none(rays_at(all, level))).collect())
 }
 
-/// An epoch: adds `plan.runs` samples of every case, in each round every case once, in random order. `samples` say on how many rays, and hold
-/// those of earlier epochs of the same cases, whose structures have been built again. `progress` is told the number of samples
-/// taken, between them.
+/// An epoch: adds `plan.runs` samples of every case, in each round every case once, in random order. `samples` say on
+/// how many rays, and hold those of earlier epochs of the same cases, whose structures have been built again.
+/// `progress` is told the number of samples taken, between them.
 ///
 /// # Errors
 /// If a case gives different answers to the same rays.

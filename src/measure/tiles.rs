@@ -1,12 +1,12 @@
 //! Which rays of a workload are timed where there is no time for all of them.
 //!
-//! A workload goes through its picture block by block ([`crate::scene::WorkloadKind`]), so that a tile of neighbouring rays is a block of
-//! pixels. A smaller sample is made of whole tiles that are spread over the workload, never of picked rays, whose caches would be colder than
-//! those of a picture. Each epoch draws tiles of its own: how much the tiles differ from the picture is then part of the
-//! spread between epochs, and so of every interval.
+//! A workload goes through its picture block by block ([`crate::scene::WorkloadKind`]), so that a tile of neighbouring
+//! rays is a block of pixels. A smaller sample is made of whole tiles that are spread over the workload, never of
+//! picked rays, whose caches would be colder than those of a picture. Each epoch draws tiles of its own: how much the
+//! tiles differ from the picture is then part of the spread between epochs, and so of every interval.
 //!
-//! Levels are nested: what is timed at a level is a part of what is timed at the level before it, about a quarter. So a structure that is timed on all
-//! rays is timed, on the way, on the rays of one that is not.
+//! Levels are nested: what is timed at a level is a part of what is timed at the level before it, about a quarter. So a
+//! structure that is timed on all rays is timed, on the way, on the rays of one that is not.
 
 use std::ops::Range;
 
@@ -18,7 +18,8 @@ pub const TILE: usize = 1024;
 /// A level has at least so many tiles, if the one before it has; tiles shrink instead.
 const FEWEST: usize = 64;
 
-/// The parts of `rays` rays that are timed at `level` in `epoch`, in order, none of them empty. At level 0 they are all rays.
+/// The parts of `rays` rays that are timed at `level` in `epoch`, in order, none of them empty. At level 0 they are all
+/// rays.
 pub fn tiles(rays: usize, level: usize, epoch: usize) -> Vec<Range<usize>> {
     if level == 0 {
         return (0..rays).step_by(TILE).map(|first| first..(first + TILE).min(rays)).collect();

@@ -79,8 +79,9 @@ impl Record {
         Some(part.ns.iter().map(|&ns| ns.max(1) as f64).collect())
     }
 
-    /// How many times faster this case is than `other`, as logarithms, round by round in each epoch, both on the same rays: those of the
-    /// one that was timed on fewer. Nothing where one has no time, or they were not measured in the same rounds.
+    /// How many times faster this case is than `other`, as logarithms, round by round in each epoch, both on the same
+    /// rays: those of the one that was timed on fewer. Nothing where one has no time, or they were not measured in the
+    /// same rounds.
     pub fn speed_against(&self, other: &Self) -> Option<Vec<Vec<f64>>> {
         let alike = self.epochs == other.epochs && self.workload_hash == other.workload_hash;
         let rays = self.rays.min(other.rays);

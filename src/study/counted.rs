@@ -11,7 +11,8 @@ pub struct Counted {
     pub rays: usize,
     /// Those that hit.
     pub hits: usize,
-    /// Of the distances of all hits, bit by bit, and of where there is none: the same for all structures of one triangle test.
+    /// Of the distances of all hits, bit by bit, and of where there is none: the same for all structures of one
+    /// triangle test.
     pub distances: u64,
     pub counts: Counts,
     pub observed: Observed,
@@ -24,7 +25,8 @@ const RAYS: usize = 16384;
 const TESTS: u64 = 1 << 24;
 
 impl Counted {
-    /// Of as many of `rays` as are worth it, evenly spread: a number that no clock decides, so that another run counts the same.
+    /// Of as many of `rays` as are worth it, evenly spread: a number that no clock decides, so that another run counts
+    /// the same.
     pub fn affordable(accel: &dyn DynAccel, rays: &[Ray], query: Query) -> Self {
         let counted = |count: usize| Self::new(accel, &spread(rays, count), query);
         let pilot = counted(64);
@@ -71,7 +73,8 @@ impl Counted {
         self.observed.steps.then(|| self.per_ray(self.counts.steps()))
     }
 
-    /// Leaves entered for each ray; nothing where they are not observed, as in trees whose leaves are no nodes of their own.
+    /// Leaves entered for each ray; nothing where they are not observed, as in trees whose leaves are no nodes of their
+    /// own.
     pub fn leaf_steps_per_ray(&self) -> Option<f64> {
         self.sees_leaves().then(|| self.per_ray(self.counts.leaves))
     }
@@ -81,8 +84,8 @@ impl Counted {
         self.sees_leaves().then(|| self.per_ray(self.counts.empty_leaves))
     }
 
-    /// Triangle tests as a multiple of the fewest that could do: one for each ray that hits, which a structure that knew the
-    /// answer would still make, and none for the others (Havran, Purgathofer 2003). Nothing where no ray hits.
+    /// Triangle tests as a multiple of the fewest that could do: one for each ray that hits, which a structure that
+    /// knew the answer would still make, and none for the others (Havran, Purgathofer 2003). Nothing where no ray hits.
     pub fn tests_over_minimum(&self) -> Option<f64> {
         (self.observed.tests && self.hits > 0).then(|| self.counts.tests as f64 / self.hits as f64)
     }

@@ -4,9 +4,9 @@ use glam::UVec2;
 const TILE: u32 = 4;
 const BLOCK: u32 = 32;
 
-/// The pixels of a picture, given row by row, block by block of 32 by 32 pixels and in it tile by tile of four by four: what is near in the
-/// slice is near in the picture, as renderers take rays, and a structure that takes several at once can show what that gives. Blocks
-/// and tiles at the right and lower border may be smaller.
+/// The pixels of a picture, given row by row, block by block of 32 by 32 pixels and in it tile by tile of four by four:
+/// what is near in the slice is near in the picture, as renderers take rays, and a structure that takes several at once
+/// can show what that gives. Blocks and tiles at the right and lower border may be smaller.
 pub fn in_tiles<T: Copy>(pixels: &[T], [width, height]: [u32; 2]) -> Vec<T> {
     assert_eq!(pixels.len(), width as usize * height as usize, "a picture has all its pixels");
     let corners = |from: UVec2, to: UVec2, side: u32| {

@@ -1,4 +1,5 @@
-//! Samples, epoch by epoch: each builds all structures anew, so that the luck of where they lie in memory is in the samples.
+//! Samples, epoch by epoch: each builds all structures anew, so that the luck of where they lie in memory is in the
+//! samples.
 
 use super::Settings;
 use super::prepare::{Prepared, Subject, prepare, twin_of};
@@ -13,8 +14,8 @@ use crate::study::placed::Placed;
 use crate::study::timing::{Case, Taken, Timing};
 use crate::study::{PANICKED, Refused, Stage, StudyError, guarded};
 
-/// A structure that takes more than so many times as long as the median one is timed on fewer rays: its ratios hardly gain from more of them,
-/// and the run would be about it alone.
+/// A structure that takes more than so many times as long as the median one is timed on fewer rays: its ratios hardly
+/// gain from more of them, and the run would be about it alone.
 const SLOWEST: f64 = 4.0;
 
 /// Of one structure on one workload, over a pass that nobody times, on rays that no clock decides.
@@ -97,7 +98,8 @@ impl<'a> Trial<'a> {
         &self.scene.name
     }
 
-    /// Builds every structure anew and takes [`Settings::rounds`] samples of every case, or as many as there is time for.
+    /// Builds every structure anew and takes [`Settings::rounds`] samples of every case, or as many as there is time
+    /// for.
     ///
     /// # Errors
     /// If a structure answers the same rays differently.

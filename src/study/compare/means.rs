@@ -8,11 +8,11 @@ use crate::report::number::{count, figures, plural};
 use crate::report::words::{ends, explained, interval};
 use crate::report::{Cell, Record, Table, Tone};
 
-/// Speeds over all scenes: one row for each structure; a column for each workload, and one for all of them, against the first of
-/// the `references`, and one for all against each other reference.
+/// Speeds over all scenes: one row for each structure; a column for each workload, and one for all of them, against the
+/// first of the `references`, and one for all against each other reference.
 ///
-/// A mean is over the cases in which the reference has a time. A row that lacks some of them names how many it has, and takes no part in
-/// what is the best of a column: means over different scenes cannot be ranked.
+/// A mean is over the cases in which the reference has a time. A row that lacks some of them names how many it has, and
+/// takes no part in what is the best of a column: means over different scenes cannot be ranked.
 pub fn mean_table(records: &[Record], references: &[Reference]) -> Table {
     let workloads = names(records, |r| &r.workload);
     let structures = names(records, |r| &r.label);
@@ -90,11 +90,11 @@ pub fn mean_table(records: &[Record], references: &[Reference]) -> Table {
     explained(Table { title, columns, rows, notes }.without_blank_columns())
 }
 
-/// A sentence that says which structure is the fastest over all cases, by how much, and how many of its answers were checked. Nothing
-/// where no two structures have a time in all cases.
+/// A sentence that says which structure is the fastest over all cases, by how much, and how many of its answers were
+/// checked. Nothing where no two structures have a time in all cases.
 ///
-/// The winner is held against `reference`, if that is a structure; where that is nothing or the winner itself, against the one that
-/// comes next.
+/// The winner is held against `reference`, if that is a structure; where that is nothing or the winner itself, against
+/// the one that comes next.
 pub fn winner(records: &[Record], reference: Option<&str>) -> Option<String> {
     let labels = names(records, |r| &r.label);
     let of = |label: &str| -> Vec<&Record> { records.iter().filter(|r| r.label == label).collect() };

@@ -37,8 +37,8 @@ pub struct Settings {
     pub replayed: Option<Workload>,
     /// Rays of a workload that are timed, at most: whole tiles of its picture, whose size is the scene's.
     pub rays: usize,
-    /// Samples of every case, at least 1: as many in each epoch, so a few more where epochs do not divide them, and fewer where
-    /// there is not time for them all.
+    /// Samples of every case, at least 1: as many in each epoch, so a few more where epochs do not divide them, and
+    /// fewer where there is not time for them all.
     pub runs: usize,
     /// How often everything is built anew, at least 1.
     pub epochs: usize,
@@ -46,7 +46,8 @@ pub struct Settings {
     pub twin: bool,
     /// What a scene may take, builds included, nanoseconds: slow cases are timed on fewer rays to keep within it.
     pub budget_ns: u64,
-    /// What the samples of an epoch may take, nanoseconds, whatever the budget; nothing: what builds and checks leave of it.
+    /// What the samples of an epoch may take, nanoseconds, whatever the budget; nothing: what builds and checks leave
+    /// of it.
     pub epoch_ns: Option<u64>,
     /// Seed of the workloads, of the order of builds and of the order of samples.
     pub seed: u64,

@@ -73,8 +73,8 @@ impl Reference {
         timed.filter_map(|r| Some((r, self.rival(records, r)?))).collect()
     }
 
-    /// The geometric mean of how many times faster the first of each pair is; a structure against itself has no interval. `noise` as in
-    /// [`speed`].
+    /// The geometric mean of how many times faster the first of each pair is; a structure against itself has no
+    /// interval. `noise` as in [`speed`].
     pub fn ratio(pairs: &[(&Record, &Record)], noise: &AaNoise) -> Option<Estimate> {
         let own = !pairs.is_empty() && pairs.iter().all(|(own, other)| own.label == other.label);
         if own {

@@ -4,8 +4,8 @@ use super::{Epoch, Rays, Structure};
 use crate::measure::{AaNoise, Estimate};
 use crate::study::replicates::{ratio, replicates, values};
 
-/// How long the structures of an epoch take for all their rays, whatever part of them was timed: the rays of every kind at the pace of
-/// those that were.
+/// How long the structures of an epoch take for all their rays, whatever part of them was timed: the rays of every kind
+/// at the pace of those that were.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WholeTimes {
     /// Of each epoch, its structures.
@@ -54,7 +54,8 @@ impl WholeTimes {
     }
 }
 
-/// ln of the seconds that a structure takes for all rays, in each round, at the pace of those that all of `beside` were timed on.
+/// ln of the seconds that a structure takes for all rays, in each round, at the pace of those that all of `beside` were
+/// timed on.
 fn seconds(structure: &Structure, beside: &[&Structure]) -> Vec<f64> {
     let paces_of_kind = |(kind, rays): (usize, &Rays)| {
         let common = beside.iter().map(|other| other.rays[kind].rays).min().unwrap_or(rays.rays);
