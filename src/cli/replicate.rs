@@ -41,7 +41,6 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
         epochs: args.epochs.into(),
         runs: args.runs.into(),
         budget_ns: u64::from(args.budget) * 1_000_000_000,
-        check_ns: 500_000_000,
         seed: 1,
         threads,
     };

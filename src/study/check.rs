@@ -2,12 +2,13 @@
 
 use std::collections::BTreeMap;
 
+use super::baselines::BRUTE_FORCE;
 use super::built::Built;
 use super::{Stage, StudyError};
-use crate::geometry::Ray;
-use crate::measure::{Clock, spread};
+use crate::geometry::{Hit, Ray};
+use crate::measure::spread;
 use crate::scene::Scene;
-use crate::validate::{Reference, validate};
+use crate::validate::{Reference, validate_known};
 
 /// Of one structure on one batch of rays.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -18,50 +19,79 @@ pub struct Check {
     pub errors: usize,
 }
 
-/// Rays from which the cost of brute force is learnt, and the fewest that are checked.
-const PILOT: usize = 32;
+/// Rays of a batch that are checked, at most, and those that are whatever they take.
+const MOST: usize = 1 << 13;
+const FEWEST: usize = 1 << 6;
 
-/// Holds every structure against brute force with its own triangle test, on as many rays of each batch as `budget_ns`
-/// allows for all together. One row for each structure, one check for each batch; nothing for a structure that panicked.
+/// Triangle tests that brute force may make for a batch: a tenth of a second, about.
+const TESTS: usize = 1 << 27;
+
+/// Rays of a batch that are checked, a number that neither a clock nor the field decides: another run checks the same.
+fn affordable(rays: usize, triangles: usize) -> usize {
+    if rays <= FEWEST {
+        return rays;
+    }
+    let affordable = (TESTS / triangles.max(1)).clamp(FEWEST, MOST);
+    rays.min(1 << affordable.ilog2())
+}
+
+/// Brute force with a triangle test, and its answers to the rays of each batch that are checked.
+struct Known {
+    reference: Reference,
+    answers: Vec<Vec<Option<Hit>>>,
+}
+
+/// Holds every structure against brute force with its own triangle test, on rays of each batch that are evenly spread.
+/// One row for each structure, one check for each batch; nothing for a structure that panicked.
 pub fn check_all(
     scene: &Scene,
     built: &[Built],
     batches: &[&[Ray]],
-    clock: &dyn Clock,
-    budget_ns: u64,
     progress: &mut dyn FnMut(Stage),
 ) -> Result<Vec<Option<Vec<Check>>>, StudyError> {
-    let budget_ns = budget_ns / (built.len() * batches.len()).max(1) as u64;
-    let mut references: BTreeMap<&'static str, Reference> = BTreeMap::new();
+    let spread = |rays: &&[Ray]| spread(rays, affordable(rays.len(), scene.mesh.len()));
+    let batches: Vec<Vec<Ray>> = batches.iter().map(spread).collect();
+    let mut all: BTreeMap<&'static str, Known> = BTreeMap::new();
     let mut checks = vec![];
     for built in built {
         progress(Stage::Check(&built.choice.label));
         let test = built.choice.triangle_test();
-        if !references.contains_key(test) {
+        if !all.contains_key(test) {
             let reference = Reference::of_test(test, &scene.mesh).map_err(|cause| StudyError::Build {
-                structure: "brute-force".into(),
+                structure: BRUTE_FORCE.into(),
                 scene: scene.name.clone(),
                 cause,
             })?;
-            references.insert(test, reference);
+            let answers = batches.iter().map(|rays| reference.closest_hits(rays)).collect();
+            all.insert(test, Known { reference, answers });
         }
-        let check = |rays: &[Ray]| validate(built.accel.as_ref(), &references[test], &scene.mesh, rays);
-        let of_batch = |batch: &&[Ray]| -> Option<Check> {
-            // Learn from a few rays how many can be afforded.
-            let start = clock.now_ns();
-            let pilot = spread(batch, PILOT);
-            let mut found = check(&pilot);
-            let ns = (clock.now_ns() - start).max(1);
-            let affordable = (pilot.len() as u64).saturating_mul(budget_ns) / ns;
-            if affordable > pilot.len() as u64 && batch.len() > pilot.len() {
-                // All, or a power of two: another run, a little faster or slower, checks the same rays.
-                let all = affordable >= batch.len() as u64;
-                found = check(&spread(batch, if all { batch.len() } else { 1 << affordable.ilog2() }));
-            }
+        let Known { reference, answers } = &all[test];
+        // Brute force is held against itself: that it repeats itself is seen on a few rays.
+        let most = if built.choice.entry.name == BRUTE_FORCE { FEWEST } else { MOST };
+        let of_batch = |(rays, answers): (&Vec<Ray>, &Vec<Option<Hit>>)| -> Option<Check> {
+            let step = rays.len().div_ceil(most).max(1);
+            let rays: Vec<Ray> = rays.iter().copied().step_by(step).collect();
+            let answers: Vec<Option<Hit>> = answers.iter().copied().step_by(step).collect();
+            let found = validate_known(built.accel.as_ref(), reference, &answers, &scene.mesh, &rays);
             let errors = found.errors().min(found.rays) as usize;
             (found.panics == 0).then_some(Check { rays: found.rays as usize, errors })
         };
-        checks.push(batches.iter().map(of_batch).collect());
+        checks.push(batches.iter().zip(answers).map(of_batch).collect());
     }
     Ok(checks)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn all_rays_of_a_small_batch_are_checked_and_a_power_of_two_of_a_large_one() {
+        assert_eq!(affordable(50, 1 << 30), 50);
+        assert_eq!(affordable(100, 12), 100);
+        assert_eq!(affordable(1 << 18, 12), 1 << 13);
+        assert_eq!(affordable(1 << 18, 130_862), 1 << 10);
+        assert_eq!(affordable(1 << 18, 30_000_000), 1 << 6);
+        assert_eq!(affordable(1 << 18, 0), 1 << 13);
+    }
 }

@@ -1,8 +1,14 @@
 //! What answers cost, counted.
 
+use rayon::prelude::*;
+
+use super::built::Built;
+use super::guarded;
+use super::timing::Case;
 use crate::accel::{Counts, DynAccel, Observed, Query};
 use crate::geometry::Ray;
 use crate::measure::{checksum, spread};
+use crate::scene::Workload;
 
 /// Of one pass of a structure over a batch of rays.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,6 +29,15 @@ const RAYS: usize = 16384;
 
 /// Triangle tests that a count may take, about: structures that test more for each ray are counted on fewer.
 const TESTS: u64 = 1 << 24;
+
+/// Of each case as many rays as are worth it, on all threads; nothing where the structure panics.
+pub(super) fn count_all(cases: &[Case], built: &[Built], workloads: &[Workload]) -> Vec<Option<Counted>> {
+    let of = |case: &Case| {
+        let (accel, workload) = (built[case.structure].accel.as_ref(), &workloads[case.workload]);
+        guarded(|| Counted::affordable(accel, &workload.rays, workload.query))
+    };
+    cases.par_iter().map(of).collect()
+}
 
 impl Counted {
     /// Of as many of `rays` as are worth it, evenly spread: a number that no clock decides, so that another run counts

@@ -13,8 +13,7 @@ use crate::oracle::Oracle;
 /// If there are not as many answers as rays.
 pub fn validate_any_answers(reference: &Reference, mesh: &Arc<Mesh>, rays: &[Ray], found: &[bool]) -> Validation {
     assert_eq!(rays.len(), found.len(), "one answer a ray");
-    let mut expected = vec![None; rays.len()];
-    reference.accel.closest_hits(rays, &mut expected);
+    let expected = reference.closest_hits(rays);
     let hits = expected.iter().flatten().count() as u64;
     let mut sums = Validation { rays: rays.len() as u64, hits, ..Validation::default() };
     let mut oracle = None;

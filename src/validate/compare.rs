@@ -23,9 +23,27 @@ pub(super) const BATCH: usize = 256;
 /// Costs two closest and two any-hit queries of `subject` a ray, one closest hit of `reference`, and some microseconds a
 /// ray on which they differ.
 pub fn validate(subject: &dyn DynAccel, reference: &Reference, mesh: &Mesh, rays: &[Ray]) -> Validation {
-    let admitted = subject.capabilities().admitted(rays);
-    let of_batch = |rays: &[Ray]| validate_batch(subject, reference, mesh, rays, &Asked::default());
-    let batches: Vec<Validation> = admitted.par_chunks(BATCH).map(of_batch).collect();
+    validate_known(subject, reference, &reference.closest_hits(rays), mesh, rays)
+}
+
+/// As [`validate`], with `expected` the answers of `reference` to `rays`: for several structures it is asked once.
+///
+/// # Panics
+/// If there are not as many answers as rays.
+pub fn validate_known(
+    subject: &dyn DynAccel,
+    reference: &Reference,
+    expected: &[Option<Hit>],
+    mesh: &Mesh,
+    rays: &[Ray],
+) -> Validation {
+    assert_eq!(rays.len(), expected.len(), "one answer a ray");
+    let can = subject.capabilities();
+    let known = rays.iter().copied().zip(expected.iter().copied());
+    let (admitted, expected): (Vec<Ray>, Vec<Option<Hit>>) = known.filter(|(ray, _)| can.declines(ray).is_none()).unzip();
+    let batches = admitted.par_chunks(BATCH).zip(expected.par_chunks(BATCH));
+    let of_batch = |(rays, expected)| validate_batch(subject, reference, expected, mesh, rays, &Asked::default());
+    let batches: Vec<Validation> = batches.map(of_batch).collect();
     let mut whole = Validation { declined: (rays.len() - admitted.len()) as u64, ..Validation::default() };
     for batch in batches {
         whole.append(batch);
@@ -39,11 +57,10 @@ pub fn validate(subject: &dyn DynAccel, reference: &Reference, mesh: &Mesh, rays
 /// If there are not as many answers as rays.
 pub fn validate_answers(reference: &Reference, mesh: &Mesh, rays: &[Ray], found: &[Option<Hit>]) -> Validation {
     assert_eq!(rays.len(), found.len(), "one answer a ray");
-    let batches = rays.par_chunks(BATCH).zip(found.par_chunks(BATCH));
+    let expected = reference.closest_hits(rays);
+    let batches = rays.par_chunks(BATCH).zip(found.par_chunks(BATCH)).zip(expected.par_chunks(BATCH));
     let batches: Vec<Validation> = batches
-        .map(|(rays, found)| {
-            let mut expected = vec![None; rays.len()];
-            reference.accel.closest_hits(rays, &mut expected);
+        .map(|((rays, found), expected)| {
             let hits = expected.iter().flatten().count() as u64;
             let mut sums = Validation { rays: rays.len() as u64, hits, ..Validation::default() };
             for (index, ray) in rays.iter().enumerate() {
@@ -64,6 +81,7 @@ pub fn validate_answers(reference: &Reference, mesh: &Mesh, rays: &[Ray], found:
 pub(super) fn validate_batch(
     subject: &dyn DynAccel,
     reference: &Reference,
+    expected: &[Option<Hit>],
     mesh: &Mesh,
     rays: &[Ray],
     asked: &Asked,
@@ -75,17 +93,15 @@ pub(super) fn validate_batch(
     for (index, ray) in rays.iter().enumerate() {
         match ask(asked, Call::Ray(index), || answer(subject, ray)) {
             Ok(answer) => alone.push(answer),
-            Err(message) => return sums.ended(reference, rays, Call::Ray(index), Kind::Panicked, message),
+            Err(message) => return sums.ended(expected[index], rays, Call::Ray(index), Kind::Panicked, message),
         }
     }
     // In the form in which it is timed.
     let (found, any) = match ask(asked, Call::Batch, || loaded_answers(subject, rays)) {
         Ok(answers) => answers,
-        Err(message) => return sums.ended(reference, rays, Call::Batch, Kind::Panicked, message),
+        Err(message) => return sums.ended(expected[0], rays, Call::Batch, Kind::Panicked, message),
     };
 
-    let mut expected = vec![None; rays.len()];
-    reference.accel.closest_hits(rays, &mut expected);
     sums.hits = expected.iter().flatten().count() as u64;
     let can = subject.capabilities();
     let checks_any = can.any_hit;

@@ -20,7 +20,7 @@ mod watch;
 
 pub use adversarial::Stratum;
 pub use any::validate_any_answers;
-pub use compare::{validate, validate_answers};
+pub use compare::{validate, validate_answers, validate_known};
 pub use degenerate::degenerate_meshes;
 pub use judge::{DepthRule, Judged, Outcome, Ulps, judge, outcome};
 pub use rate::Rate;

@@ -3,9 +3,10 @@
 use std::sync::Arc;
 
 use glam::Vec3;
+use rayon::prelude::*;
 
 use crate::accel::{Accel, BuildError, DynAccel};
-use crate::geometry::{Mesh, Ray};
+use crate::geometry::{Hit, Mesh, Ray};
 use crate::structures::BruteForce;
 use crate::structures::obvhs::RtTest;
 #[cfg(feature = "peer-bvh")]
@@ -21,6 +22,9 @@ use crate::triangle::{
 
 /// One triangle, tested alone: `t` where the ray hits it within its interval.
 pub type ScalarTest = fn(&Ray, [Vec3; 3]) -> Option<f32>;
+
+/// Rays that a thread asks at a time: few, since brute force takes milliseconds for each.
+const BATCH: usize = 32;
 
 /// The answers that a structure's own are compared with, and how strictly.
 pub struct Reference {
@@ -83,6 +87,14 @@ impl Reference {
     #[cfg(feature = "peer-embree")]
     fn in_disputes(disputed: ScalarTest, mesh: &Arc<Mesh>) -> Result<Self, BuildError> {
         Ok(Self { test: None, disputed: Some(disputed), ..Self::brute_force::<FilteredF64>(mesh)? })
+    }
+
+    /// Its closest hits, one for each ray, found on all threads of the pool.
+    pub fn closest_hits(&self, rays: &[Ray]) -> Vec<Option<Hit>> {
+        let mut hits = vec![None; rays.len()];
+        let batches = rays.par_chunks(BATCH).zip(hits.par_chunks_mut(BATCH));
+        batches.for_each(|(rays, hits)| self.accel.closest_hits(rays, hits));
+        hits
     }
 
     /// Whether what a structure lost can be told from what its triangle test did not find.

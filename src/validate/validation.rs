@@ -2,7 +2,6 @@
 
 use std::fmt::{Display, Formatter};
 
-use super::Reference;
 use super::watch::Call;
 use crate::geometry::{Hit, Ray};
 
@@ -163,18 +162,17 @@ impl Validation {
         self.keep_worst();
     }
 
-    /// The same, of a batch that `kind`, a panic or an endless loop, has ended.
-    pub(super) fn ended(mut self, reference: &Reference, rays: &[Ray], call: Call, kind: Kind, why: String) -> Self {
+    /// The same, of a batch that `kind`, a panic or an endless loop, has ended at a ray, or at the first of a whole batch,
+    /// where the reference answers `expected`.
+    pub(super) fn ended(mut self, expected: Option<Hit>, rays: &[Ray], call: Call, kind: Kind, why: String) -> Self {
         let (index, verdict) = match call {
             Call::Ray(index) => (index, why),
             Call::Batch => (0, format!("{why}, in the batch of {} rays that begins here, not alone", rays.len())),
         };
-        let mut expected = [None];
-        reference.accel.closest_hits(&[rays[index]], &mut expected);
         let ray = WorstRay {
             index: index as u64,
             ray: rays[index],
-            expected: expected[0],
+            expected,
             found: None,
             kind,
             verdict,

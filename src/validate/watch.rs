@@ -113,7 +113,8 @@ impl Job {
 
     fn run(&self, number: usize, asked: &Asked) -> Option<Validation> {
         let rays = self.batch(number)?;
-        Some(validate_batch(self.subject.as_ref(), &self.reference, &self.mesh, rays, asked))
+        let expected = self.reference.closest_hits(rays);
+        Some(validate_batch(self.subject.as_ref(), &self.reference, &expected, &self.mesh, rays, asked))
     }
 }
 
@@ -172,7 +173,9 @@ pub fn validate_watched(
             let rays = job.batch(number).expect("it is being asked");
             let sums = Validation { rays: rays.len() as u64, ..Validation::default() };
             let why = format!("no answer within {limit:?}");
-            batches.insert(number, sums.ended(reference, rays, call, Kind::Hangs, why));
+            let first = if let Call::Ray(index) = call { index } else { 0 };
+            let expected = reference.closest_hits(&rays[first..=first])[0];
+            batches.insert(number, sums.ended(expected, rays, call, Kind::Hangs, why));
             for (_, batch) in batches {
                 whole.append(batch);
             }

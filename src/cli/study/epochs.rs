@@ -69,7 +69,6 @@ impl Options {
             asked,
             runs: self.runs.into(),
             budget_ns: u64::from(self.budget) * 1_000_000_000,
-            check_ns: 4_000_000_000,
             seed: self.seed,
             threads: Threads::pinned(self.threads.into()).map_err(anyhow::Error::msg)?,
         })

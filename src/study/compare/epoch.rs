@@ -9,10 +9,10 @@ use crate::measure::{Clock, Instructions, Plan, Samples, machine, spread};
 use crate::report::CaseCounts;
 use crate::scene::{Scene, Workload};
 use crate::study::built::Built;
-use crate::study::counted::Counted;
+use crate::study::counted::{Counted, count_all};
 use crate::study::placed::Placed;
 use crate::study::timing::{Case, Taken, Timing};
-use crate::study::{PANICKED, Refused, Stage, StudyError, guarded};
+use crate::study::{PANICKED, Refused, Stage, StudyError};
 
 /// A structure that takes more than so many times as long as the median one is timed on fewer rays: its ratios hardly
 /// gain from more of them, and the run would be about it alone.
@@ -104,7 +104,7 @@ impl<'a> Trial<'a> {
     /// # Errors
     /// If a structure answers the same rays differently.
     pub fn epoch(&mut self, progress: &mut dyn FnMut(Stage)) -> Result<(), StudyError> {
-        let _pin = self.settings.threads.pin();
+        let pin = self.settings.threads.pin();
         let (built, _placed) = self.build(progress);
         self.forget_refused();
 
@@ -132,6 +132,7 @@ impl<'a> Trial<'a> {
             timing.take(&self.cases, &plan, before, &mut |taken| progress(Stage::Trace(done + taken, total)))?;
         watch.end(self.clock, &mut self.conditions);
         (self.runs, self.samples) = (runs, samples);
+        drop(pin);
 
         for (case, panicked) in self.cases.iter().zip(panicked) {
             if panicked {
@@ -194,20 +195,26 @@ impl<'a> Trial<'a> {
         self.twin = self.twin.and_then(|twin| place[twin]);
     }
 
-    /// Counts hits, steps, tests and instructions.
+    /// Counts hits, steps and tests on all threads, and instructions on this one.
     fn count(&mut self, built: &[Built]) {
         let counter = Instructions::open().filter(|_| self.settings.threads.count() == 1);
+        let asked = |case: &Case| self.subjects[case.structure].declined[case.workload].is_none();
+        let mut cases = Case::all(built.len(), self.workloads.len());
+        cases.retain(asked);
+        let mut counted = count_all(&cases, built, &self.workloads).into_iter();
         let mut tallies = vec![];
-        for (s, built) in built.iter().enumerate() {
-            let of = |(w, workload): (usize, &Workload)| {
-                if self.subjects[s].declined[w].is_some() {
+        for (structure, built) in built.iter().enumerate() {
+            let of = |(workload, rays): (usize, &Workload)| {
+                if !asked(&Case { structure, workload }) {
                     return Some(Tally::default());
                 }
-                guarded(|| tally(built.accel.as_ref(), workload, counter.as_ref()))
+                let counted = counted.next().expect("one for each case that is asked")?;
+                Some(tally(&counted, built.accel.as_ref(), rays, counter.as_ref()))
             };
-            let all: Option<Vec<Tally>> = self.workloads.iter().enumerate().map(of).collect();
+            let all: Vec<Option<Tally>> = self.workloads.iter().enumerate().map(of).collect();
+            let all: Option<Vec<Tally>> = all.into_iter().collect();
             if all.is_none() {
-                refuse(&mut self.refused, self.scene, &self.subjects[s], PANICKED);
+                refuse(&mut self.refused, self.scene, &self.subjects[structure], PANICKED);
             }
             tallies.push(all.unwrap_or_default());
         }
@@ -232,9 +239,8 @@ fn keep<T>(values: &mut Vec<T>, kept: &[bool]) {
     });
 }
 
-/// Hits and counts of one pass, and its instructions where they can be counted.
-fn tally(accel: &dyn DynAccel, workload: &Workload, counter: Option<&Instructions>) -> Tally {
-    let counted = Counted::affordable(accel, &workload.rays, workload.query);
+/// What was counted, and the instructions of a pass of as many rays where they can be.
+fn tally(counted: &Counted, accel: &dyn DynAccel, workload: &Workload, counter: Option<&Instructions>) -> Tally {
     let instructions = counter.and_then(|counter| {
         let rays = spread(&workload.rays, counted.rays);
         let (mut hits, mut any) = (vec![None; rays.len()], vec![false; rays.len()]);

@@ -59,9 +59,8 @@ pub(super) fn prepare(
     let builds_ns = clock.now_ns() - start;
 
     let workloads = workloads(scene, settings, &built, clock, progress)?;
-    // A twentieth of the time is for the truth.
     let batches: Vec<&[Ray]> = workloads.iter().map(|workload| &workload.rays[..]).collect();
-    let checks = check_all(scene, &built, &batches, clock, settings.budget_ns / 20, progress)?;
+    let checks = check_all(scene, &built, &batches, progress)?;
 
     let mut subjects = vec![];
     for ((built, build_peak_bytes), checks) in built.into_iter().zip(peaks).zip(checks) {

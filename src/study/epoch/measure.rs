@@ -9,10 +9,10 @@ use crate::scene::{Scene, Workload};
 use crate::study::built::Built;
 use crate::study::check::check_all;
 use crate::study::compare::declined;
-use crate::study::counted::Counted;
+use crate::study::counted::{Counted, count_all};
 use crate::study::placed::Placed;
 use crate::study::timing::{Case, Taken, Timing};
-use crate::study::{PANICKED, Stage, StudyError, guarded};
+use crate::study::{PANICKED, Stage, StudyError};
 
 /// Builds all structures, checks and counts them if this is the first epoch, and takes their samples. A later epoch needs the
 /// `first` one: what took part then is timed on the same rays, and must give the same answers. What cannot be built or panics is
@@ -28,10 +28,9 @@ pub fn measure(
     clock: &dyn Clock,
     progress: &mut dyn FnMut(Stage),
 ) -> Result<Epoch, StudyError> {
-    let _pin = settings.threads.pin();
     let mut bench = Bench::set_up(scene, settings, epoch, clock, progress)?;
     match first {
-        None => bench.check(clock, progress)?,
+        None => bench.check(progress)?,
         Some(first) => bench.resume(first)?,
     }
     bench.sample(epoch, first, clock, progress)?;
@@ -105,9 +104,9 @@ impl<'a> Bench<'a> {
     }
 
     /// Holds all structures against brute force, and says which are timed on which rays.
-    fn check(&mut self, clock: &dyn Clock, progress: &mut dyn FnMut(Stage)) -> Result<(), StudyError> {
+    fn check(&mut self, progress: &mut dyn FnMut(Stage)) -> Result<(), StudyError> {
         let batches: Vec<&[Ray]> = self.workloads.iter().map(|workload| &workload.rays[..]).collect();
-        let checks = check_all(self.scene, &self.built, &batches, clock, self.settings.check_ns, progress)?;
+        let checks = check_all(self.scene, &self.built, &batches, progress)?;
         for ((&place, built), checks) in self.places.iter().zip(&self.built).zip(checks) {
             let Some(checks) = checks else {
                 self.structures[place].refused = Some(PANICKED.into());
@@ -194,6 +193,7 @@ impl<'a> Bench<'a> {
         let total = cases.len() * runs;
         let mut told = |taken| progress(Stage::Trace(taken, total));
         let timing = Timing { scene: self.scene, built: &self.built, workloads: &self.workloads, threads, clock };
+        let _pin = threads.pin();
         let Taken { samples, panicked, .. } = timing.take(&cases, &plan, samples, &mut told)?;
 
         for ((case, samples), panicked) in cases.iter().zip(samples).zip(panicked) {
@@ -215,19 +215,18 @@ impl<'a> Bench<'a> {
 
     /// Counts what is done for the rays.
     fn count(&mut self) {
-        for case in self.cases() {
+        let cases = self.cases();
+        for (case, counted) in cases.iter().zip(count_all(&cases, &self.built, &self.workloads)) {
             let structure = &mut self.structures[self.places[case.structure]];
-            let accel = self.built[case.structure].accel.as_ref();
-            match guarded(|| count(accel, &self.workloads[case.workload])) {
-                Some(counts) => structure.rays[case.workload].counts = Some(counts),
+            match counted {
+                Some(counted) => structure.rays[case.workload].counts = Some(counts(&counted)),
                 None => structure.refused = Some(PANICKED.into()),
             }
         }
     }
 }
 
-fn count(accel: &dyn DynAccel, workload: &Workload) -> RayCounts {
-    let counted = Counted::affordable(accel, &workload.rays, workload.query);
+fn counts(counted: &Counted) -> RayCounts {
     RayCounts {
         rays: counted.rays,
         hits: counted.hits,

@@ -38,8 +38,6 @@ pub struct Settings {
     /// What the samples of an epoch of one scene may take together, nanoseconds: slow cases are timed on fewer rays to keep
     /// within it.
     pub budget_ns: u64,
-    /// What the check of the answers may take for each scene, nanoseconds.
-    pub check_ns: u64,
     /// Seed of the workloads and of the order of samples.
     pub seed: u64,
     pub threads: Threads,

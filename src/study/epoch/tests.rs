@@ -56,7 +56,6 @@ fn settings(structures: &[&str]) -> Settings {
         asked: Asked::Kinds(vec![WorkloadKind::Primary, WorkloadKind::Shadow], 200),
         runs: 2,
         budget_ns: 50_000_000,
-        check_ns: 50_000_000,
         seed: 1,
         threads: Threads::new(1).unwrap(),
     }

@@ -31,8 +31,6 @@ pub struct Settings {
     /// What the samples of an epoch of one scene may take together, nanoseconds; slow structures are timed on fewer rays and
     /// extrapolated.
     pub budget_ns: u64,
-    /// What the check of the answers may take for each scene, nanoseconds.
-    pub check_ns: u64,
     /// Seed of the order of samples.
     pub seed: u64,
     pub threads: Threads,
@@ -198,10 +196,10 @@ impl Study<'_> {
         asked: Asked,
         progress: &mut dyn FnMut(Stage),
     ) -> Result<Vec<Epoch>, StudyError> {
-        let Settings { runs, budget_ns, check_ns, seed, ref threads, .. } = *self.settings;
+        let Settings { runs, budget_ns, seed, ref threads, .. } = *self.settings;
         let guide = self.registry.choose(SAH_TREE)?;
         let threads = threads.clone();
-        let settings = epoch::Settings { structures, guide, asked, runs, budget_ns, check_ns, seed, threads };
+        let settings = epoch::Settings { structures, guide, asked, runs, budget_ns, seed, threads };
         let mut epochs: Vec<Epoch> = vec![];
         for number in 0..self.settings.epochs {
             let epoch = measure(scene, &settings, number, epochs.first(), self.clock, progress)?;
