@@ -15,6 +15,7 @@ pub use capabilities::Capabilities;
 pub use counts::Counts;
 pub use footprint::Footprint;
 pub use histogram::Histogram;
+#[cfg(feature = "suite")]
 pub(crate) use loaded::AsTheyAre;
 pub use loaded::Loaded;
 pub use observer::{Observed, Observer};

@@ -1,6 +1,7 @@
 //! One ray against one triangle, in integers: a scene of `f32` numbers is a set of dyadic rationals, so what a ray meets, and in
 //! which order, is decidable.
 
+#[cfg(any(test, feature = "suite"))]
 pub mod rational;
 mod small;
 

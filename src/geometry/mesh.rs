@@ -1,6 +1,6 @@
 //! The mesh every structure is built over.
 
-use glam::{DVec2, Vec3};
+use glam::Vec3;
 
 use super::Aabb;
 
@@ -40,6 +40,15 @@ impl Mesh {
         let bounds = Aabb::of_points(triangles.iter().flat_map(corners));
         let degenerate = (0..triangles.len() as u32).filter(|&i| collinear(corners(&triangles[i as usize]))).collect();
         Ok(Self { positions, triangles, degenerate, bounds })
+    }
+
+    /// A mesh of triangles that share no vertices.
+    ///
+    /// # Errors
+    /// As [`Mesh::check`].
+    pub fn from_triangles(triangles: &[[Vec3; 3]]) -> Result<Self, MeshError> {
+        let numbers = (0..triangles.len() as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]);
+        Self::new(triangles.as_flattened().to_vec(), numbers.collect())
     }
 
     /// Whether [`Mesh::new`] would take these arrays.
@@ -122,22 +131,47 @@ impl Mesh {
     }
 }
 
-/// Exact: three points are collinear in space if they are in all three coordinate planes (Shewchuk 1997 predicates).
+/// Whether three points lie on one line, exactly: they do if they do in all three coordinate planes.
 fn collinear([a, b, c]: [Vec3; 3]) -> bool {
     if a == b || b == c || c == a {
         return true;
     }
     [(0, 1), (1, 2), (2, 0)].into_iter().all(|(i, j)| {
-        let [p, q, r] = [a, b, c].map(|v| {
-            let p = DVec2::new(v[i].into(), v[j].into());
-            robust::Coord { x: p.x, y: p.y }
-        });
-        robust::orient2d(p, q, r) == 0.0
+        // Twice the area of the projected triangle. Each product is exact: two floats have 48 digits together.
+        let [(ax, ay), (bx, by), (cx, cy)] = [a, b, c].map(|p| (f64::from(p[i]), f64::from(p[j])));
+        sum_is_zero([ax * by, -(ay * bx), bx * cy, -(by * cx), cx * ay, -(cy * ax)])
     })
+}
+
+/// Whether six numbers add up to 0, exactly.
+///
+/// # References
+/// Shewchuk: Adaptive precision floating-point arithmetic and fast robust geometric predicates, 1997 (Grow-Expansion).
+fn sum_is_zero(terms: [f64; 6]) -> bool {
+    // Five roundings are off by less than this.
+    let size: f64 = terms.iter().map(|term| term.abs()).sum();
+    if terms.iter().sum::<f64>().abs() > 8.0 * f64::EPSILON * size {
+        return false;
+    }
+
+    // The sum as numbers that have no digits in common: it is 0 only if all of them are.
+    let mut parts = [0.0; 6];
+    for (count, term) in terms.into_iter().enumerate() {
+        let mut rest = term;
+        for part in &mut parts[..count] {
+            let sum = rest + *part;
+            let rounded = sum - rest;
+            (*part, rest) = ((rest - (sum - rounded)) + (*part - rounded), sum);
+        }
+        parts[count] = rest;
+    }
+    parts == [0.0; 6]
 }
 
 #[cfg(test)]
 mod tests {
+    use rand_core::{RngCore, SeedableRng};
+
     use super::*;
 
     #[test]
@@ -160,6 +194,29 @@ mod tests {
         assert_eq!(mesh.solid().collect::<Vec<_>>(), [1, 3]);
         let line = (0..3).map(|i| Vec3::new(1.0, 2.0, 4.0) * (i as f32 + 1.0)).collect();
         assert_eq!(Mesh::new(line, vec![[0, 1, 2]]).unwrap().degenerate(), [0]);
+    }
+
+    #[test]
+    fn collinear_is_what_the_predicates_of_shewchuk_say() {
+        let mut rng = rand_pcg::Pcg32::seed_from_u64(3);
+        let mut found = [0; 2];
+        for round in 0..30_000 {
+            // Points near a line, with as few digits as it takes for some of them to lie on it.
+            let digits = 1 << (round % 12);
+            let mut whole = || (rng.next_u32() % (2 * digits + 1)) as f32 - digits as f32;
+            let (p, d) = (Vec3::new(whole(), whole(), whole()), Vec3::new(whole(), whole(), whole()));
+            let scale = 2.0_f32.powi(round % 200 - 120);
+            let far = (d * whole()) * if round % 2 == 0 { 1.0 } else { 0.1 };
+            let corners = [p, p + d, p + far].map(|p| p * scale);
+            let straight = |i: usize, j: usize| {
+                let [p, q, r] = corners.map(|p| robust::Coord { x: f64::from(p[i]), y: f64::from(p[j]) });
+                robust::orient2d(p, q, r) == 0.0
+            };
+            let expected = straight(0, 1) && straight(1, 2) && straight(2, 0);
+            assert_eq!(collinear(corners), expected, "{corners:?}");
+            found[usize::from(expected)] += 1;
+        }
+        assert!(found.iter().all(|&count| count > 3000), "{found:?}");
     }
 
     #[test]

@@ -5,6 +5,7 @@ mod mesh;
 mod ray;
 mod ray_text;
 mod round;
+#[cfg(feature = "suite")]
 mod transform;
 
 pub use aabb::Aabb;
@@ -12,4 +13,5 @@ pub use mesh::{Mesh, MeshError};
 pub use ray::{Hit, PrimId, Ray};
 pub use ray_text::RayTextError;
 pub use round::{round_down, round_up};
+#[cfg(feature = "suite")]
 pub use transform::Transform;

@@ -32,13 +32,18 @@ pub(super) fn fetch(at: *const u8) {
 
 #[cfg(target_os = "linux")]
 fn advise<T>(start: *const T, bytes: usize) {
+    use std::ffi::{c_int, c_void};
+    unsafe extern "C" {
+        fn madvise(start: *mut c_void, bytes: usize, advice: c_int) -> c_int;
+    }
+    const MADV_HUGEPAGE: c_int = 14;
     const PAGE: usize = 4096;
     // SAFETY: the advice changes no values; it is given for whole pages that lie in one allocation.
     unsafe {
         let first = start.addr().next_multiple_of(PAGE);
         let end = (start.addr() + bytes) / PAGE * PAGE;
         if first < end {
-            libc::madvise(start.with_addr(first).cast_mut().cast(), end - first, libc::MADV_HUGEPAGE);
+            madvise(start.with_addr(first).cast_mut().cast(), end - first, MADV_HUGEPAGE);
         }
     }
 }

@@ -120,10 +120,15 @@ fn in_f64<const N: usize, L: Lanes<N>>(volumes: [L; 3], xs: [L; 3], ys: [L; 3]) 
         let [[ax, bx, cx], [ay, by, cy]] = [xs, ys].map(|v| v.map(|corner| f64::from(corner[lane])));
         let exact = [cx * by - cy * bx, ax * cy - ay * cx, bx * ay - by * ax];
         let largest = exact.iter().fold(0.0_f64, |most, v| most.max(v.abs()));
-        let scale = if largest > 0.0 && largest.is_finite() { libm::ldexp(1.0, -libm::ilogb(largest)) } else { 1.0 };
+        let scale = if largest > 0.0 && largest.is_finite() { inverse_power_of_two(largest) } else { 1.0 };
         for (value, exact) in values.iter_mut().zip(exact) {
             value[lane] = (exact * scale) as f32;
         }
     }
     values.map(|v| L::load(&v))
+}
+
+/// The reciprocal of the largest power of two that does not exceed `x`, which is far from the ends of `f64`.
+fn inverse_power_of_two(x: f64) -> f64 {
+    f64::from_bits((2046 - (x.to_bits() >> 52)) << 52)
 }

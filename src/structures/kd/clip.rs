@@ -39,6 +39,7 @@ pub(in crate::structures) fn cut_bounds(corners: [Vec3; 3], bounds: &Aabb, axis:
 
 /// The area of the part of the triangle `corners` in `cell`, its faces included. Off by less than 1e-12 of the square of the triangle's
 /// largest coordinate.
+#[cfg(feature = "suite")]
 pub(in crate::structures) fn clipped_area(corners: [Vec3; 3], cell: &Aabb) -> f64 {
     let mut polygon = Polygon { slack: DVec3::ZERO, ..Polygon::new(corners) };
     polygon.cut_to(cell);
@@ -94,6 +95,7 @@ impl Polygon {
     }
 
     /// By the fan of triangles around its first corner.
+    #[cfg(feature = "suite")]
     fn area(&self) -> f64 {
         let [first, rest @ ..] = &self.corners[..self.len] else { return 0.0 };
         let fan = rest.windows(2).map(|pair| (pair[0].0 - first.0).cross(pair[1].0 - first.0));
