@@ -1,6 +1,6 @@
 //! All levels of instructions give the same answers, bit for bit, and count the same steps.
 //!
-//! One test alone in its process, because the level is that of the process.
+//! In a process of its own, because the level is that of the process.
 
 use std::io::Write;
 use std::sync::Arc;
@@ -11,6 +11,8 @@ use sahara::registry::Registry;
 use sahara::scene::Builtin;
 use sahara::simd::Level;
 use sahara::validate::{Stratum, degenerate_meshes};
+
+use crate::alone::alone;
 
 /// Everything that a structure says of some rays.
 #[derive(PartialEq, Debug)]
@@ -38,6 +40,9 @@ fn ask(accel: &dyn DynAccel, rays: &[Ray]) -> Said {
 
 #[test]
 fn all_levels_say_the_same() {
+    if !alone("levels::all_levels_say_the_same") {
+        return;
+    }
     let mut meshes: Vec<(String, Arc<Mesh>)> = degenerate_meshes();
     for name in ["teapot", "cornellbox"] {
         meshes.push((name.into(), Builtin::find(name).unwrap().scene(None).unwrap().mesh));

@@ -1,7 +1,7 @@
 //! Rays that travel in packets, or several at a time, get the answers that they get one by one, bit for bit, on every level of
 //! instructions.
 //!
-//! One test alone in its process, because the level is that of the process.
+//! In a process of its own, because the level is that of the process.
 
 use std::sync::Arc;
 
@@ -14,6 +14,8 @@ use sahara::registry::Registry;
 use sahara::scene::{Builtin, Sampling, Workload, WorkloadKind};
 use sahara::simd::Level;
 use sahara::validate::{Stratum, degenerate_meshes};
+
+use crate::alone::alone;
 
 /// Adversarial rays, in such an order that packets of one octant come about, and the same in the order they were made.
 fn bundles(mesh: &Mesh) -> Vec<Ray> {
@@ -66,6 +68,9 @@ fn bits(accel: &dyn DynAccel, rays: &[Ray]) -> (Vec<Option<(u32, u32)>>, Vec<boo
 
 #[test]
 fn packets_and_interleaved_rays_answer_as_single_rays_do() {
+    if !alone("packets::packets_and_interleaved_rays_answer_as_single_rays_do") {
+        return;
+    }
     let registry = Registry::builtin();
     let mut cases: Vec<(String, Arc<Mesh>, Vec<Ray>)> = vec![];
     for (name, mesh) in degenerate_meshes() {

@@ -57,7 +57,7 @@ fn plane_explained(r: &Attribution) -> Option<String> {
     };
     let (median, sah) = (cell("vertex median cyclic")?, cell("SAH exact")?);
     Some(format!(
-        "With leaves of at most 8 in both trees, {} has {} references for each triangle and does {} tests and {} steps a ray against {}, {} and {}.",
+        "With the stop rule `leaf 8` in both trees, {} has {} references for each triangle and does {} tests and {} steps a ray against {}, {} and {}.",
         r.scene,
         figures(median.duplication),
         figures(median.tests_per_ray),

@@ -1,0 +1,25 @@
+//! All integration tests in one binary: the trees are compiled and linked once.
+
+use sahara::measure::CountingAllocator;
+
+mod alone;
+mod cli;
+mod closed_meshes;
+mod conformance;
+mod fetch;
+mod findings;
+mod golden;
+mod hard_cases;
+mod hostile_files;
+mod layers;
+mod levels;
+mod oracle;
+mod packets;
+mod peers;
+mod properties;
+mod real_meshes;
+mod third_party;
+
+/// As in the command.
+#[global_allocator]
+static ALLOCATOR: CountingAllocator = CountingAllocator;
