@@ -2,43 +2,47 @@
 
 mod body;
 mod header;
-mod row;
+mod value;
 
 use glam::Vec3;
-use ply_rs_bw::ply::Header;
 
 use self::body::Body;
-use self::row::{Face, Skipped, Vertex};
+use self::header::{CORNERS, Header};
 use super::error::Fault;
 use super::notes::Notes;
 use super::polygon::Splitter;
 use crate::scene::{Material, Model};
+
+/// The properties of a vertex that are read.
+const VECTORS: [&str; 6] = ["x", "y", "z", "nx", "ny", "nz"];
 
 /// Reads a PLY file: the positions and, if there are any, normals of its vertices, and the triangles of its faces.
 ///
 /// All rows are gone through twice: first nothing is kept and everything is checked, so that a file that is refused
 /// takes no memory but its own.
 pub(super) fn read(bytes: &[u8]) -> Result<Model, Fault> {
-    let (header, body, line_end) = header::split(bytes)?;
-    header::check(&header)?;
-    let found = check(&header, Body::new(body, header.encoding, line_end))?;
+    let (header, rest) = Header::read(bytes)?;
+    let Some((vertex, face)) = header.element("vertex").zip(header.element("face")) else {
+        return Err(Fault::file("the PLY header declares no mesh"));
+    };
+    let found = check(&header, vertex.count, Body::new(&header, rest))?;
 
-    let vertex = &header.elements["vertex"];
-    let smooth = ["nx", "ny", "nz"].iter().all(|name| vertex.properties.contains_key(*name));
+    let smooth = VECTORS.iter().all(|name| vertex.property(name).is_some());
     let mut model = Model { materials: vec![Material::named("default")], ..Model::default() };
     model.positions.reserve_exact(vertex.count);
     model.normals.reserve_exact(if smooth { vertex.count } else { 0 });
     model.triangles.reserve_exact(found.triangles);
     let Found { mut vertices, mut faces, .. } = found;
-    vertices.rows(vertex, |_, vertex: Vertex| {
-        model.positions.push(Vec3::from(vertex.position));
+    vertices.rows(vertex, &VECTORS, |_, values| {
+        model.positions.push(vector(&values[..3]));
         if smooth {
-            model.normals.push(Vec3::from(vertex.normal));
+            model.normals.push(vector(&values[3..]));
         }
         Ok(())
     })?;
     let (mut splitter, mut points) = (Splitter::default(), Vec::new());
-    faces.rows(&header.elements["face"], |_, Face { corners }| {
+    faces.rows(face, &CORNERS, |_, lists| {
+        let corners = corners(lists);
         points.clear();
         points.extend(corners.iter().map(|&c| model.positions[c as usize]));
         let triangles = splitter.split(&points).iter();
@@ -50,7 +54,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Model, Fault> {
     }
 
     let mut notes = Notes::default();
-    notes.count(found.thin_faces, "faces with fewer than three corners are left out");
+    notes.count(found.small_faces, "faces with fewer than three corners are left out");
     splitter.tell(&mut notes);
     model.notes = notes.into_vec();
     Ok(model)
@@ -62,18 +66,20 @@ struct Found<'a> {
     vertices: Body<'a>,
     faces: Body<'a>,
     triangles: usize,
-    thin_faces: usize,
+    /// Faces with fewer than three corners.
+    small_faces: usize,
 }
 
 /// Whether all rows are what the header declares and make a mesh.
-fn check<'a>(header: &Header, mut body: Body<'a>) -> Result<Found<'a>, Fault> {
-    let mut found = Found { vertices: body.clone(), faces: body.clone(), triangles: 0, thin_faces: 0 };
-    let vertices = header.elements["vertex"].count;
-    for (name, element) in &header.elements {
-        match name.as_str() {
+fn check<'a>(header: &Header, vertices: usize, mut body: Body<'a>) -> Result<Found<'a>, Fault> {
+    let mut found = Found { vertices: body.clone(), faces: body.clone(), triangles: 0, small_faces: 0 };
+    let mut faces = 0;
+    for element in &header.elements {
+        match element.name.as_str() {
             "vertex" => {
                 found.vertices = body.clone();
-                body.rows(element, |number, Vertex { position: [x, y, z], .. }| {
+                body.rows(element, &VECTORS, |number, values| {
+                    let [x, y, z] = vector(&values[..3]).to_array();
                     if [x, y, z].iter().all(|coordinate| coordinate.is_finite()) {
                         return Ok(());
                     }
@@ -82,26 +88,36 @@ fn check<'a>(header: &Header, mut body: Body<'a>) -> Result<Found<'a>, Fault> {
                 })?;
             }
             "face" => {
-                found.faces = body.clone();
-                body.rows(element, |number, Face { corners }| {
-                    if let Some(corner) = corners.iter().find(|&&c| c < 0 || c >= vertices as i64) {
+                (found.faces, faces) = (body.clone(), element.count);
+                body.rows(element, &CORNERS, |number, lists| {
+                    let corners = corners(lists);
+                    if let Some(corner) = corners.iter().find(|&&c| c < 0.0 || c >= vertices as f64) {
                         let problem = format!("its corner {corner} is none of the {vertices} vertices");
                         return Err(Fault::part(format!("face {number}"), problem));
                     }
-                    found.thin_faces += usize::from(corners.len() < 3);
+                    found.small_faces += usize::from(corners.len() < 3);
                     found.triangles += corners.len().saturating_sub(2);
                     Ok(())
                 })?;
             }
-            _ => body.rows(element, |_, _: Skipped| Ok(()))?,
+            _ => body.rows(element, &[], |_, _| Ok(()))?,
         }
     }
     body.end()?;
     if found.triangles == 0 {
-        let faces = header.elements["face"].count;
         let problem =
             format!("it holds no triangles: {vertices} vertices, {faces} faces with fewer than three corners");
         return Err(Fault::part("element face", problem));
     }
     Ok(found)
+}
+
+/// The first number of each column, zero where there is none.
+fn vector(columns: &[Vec<f64>]) -> Vec3 {
+    Vec3::from_array(std::array::from_fn(|axis| columns[axis].first().map_or(0.0, |&value| value as f32)))
+}
+
+/// The list of corners, under whichever of its names it stands.
+fn corners(lists: &[Vec<f64>]) -> &[f64] {
+    lists.iter().find(|list| !list.is_empty()).map_or(&[], |list| list)
 }
