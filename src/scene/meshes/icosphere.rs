@@ -19,7 +19,7 @@ pub fn icosphere(subdivisions: u32) -> Model {
     assert!(subdivisions <= 12, "an icosphere has at most 12 subdivisions, not {subdivisions}");
     let mut net = Net { points: icosahedron::corners(), rows: HashMap::new(), steps: 1 << subdivisions };
     let triangles: Vec<[u32; 3]> = icosahedron::sides().into_iter().flat_map(|side| net.divide(side)).collect();
-    let normals = normals::of_vertices(&net.points, &triangles);
+    let normals = normals::of_the_course(&net.points, &triangles);
     smooth(net.points, normals, triangles)
 }
 

@@ -1,20 +1,19 @@
 //! Meshes made by our own code, each the same bit for bit on every machine.
 
 mod catmull_clark;
-#[cfg(test)]
-mod checks;
-mod clay;
 mod creatures;
 mod dragon;
+mod fit;
 mod icosahedron;
 mod icosphere;
 mod lucy;
 mod noise;
 mod normals;
+mod patches;
 mod plane;
+mod sdf;
 mod sheets;
 mod sponza;
-mod stone;
 mod teapot;
 mod torus;
 mod uv_sphere;

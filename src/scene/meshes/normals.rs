@@ -1,11 +1,11 @@
-//! Vertex normals as the course's mesh files have them.
+//! Vertex normals.
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 
 /// Steps of a component: the program that wrote those files kept normals as 16-bit integers.
 const STEPS: f64 = 32767.0;
 
-/// One normal a vertex: the normals of its triangles, weighted by their angles there, in steps of 1/32767 (towards zero),
+/// One normal a vertex, as the course's mesh files have them: the normals of its triangles, weighted by their angles there, in steps of 1/32767 (towards zero),
 /// then written with six decimals. Triangles without area count nothing.
 ///
 /// The course's teapot file shows these steps. They matter: mirror rays follow the normals, and with exact ones the
@@ -13,7 +13,7 @@ const STEPS: f64 = 32767.0;
 ///
 /// # Panics
 /// If a vertex is in no triangle with an area.
-pub(super) fn of_vertices(points: &[DVec3], triangles: &[[u32; 3]]) -> Vec<DVec3> {
+pub(super) fn of_the_course(points: &[DVec3], triangles: &[[u32; 3]]) -> Vec<DVec3> {
     let mut sums = vec![DVec3::ZERO; points.len()];
     for triangle in triangles {
         let [a, b, c] = triangle.map(|i| points[i as usize]);
@@ -28,4 +28,15 @@ pub(super) fn of_vertices(points: &[DVec3], triangles: &[[u32; 3]]) -> Vec<DVec3
         ((normal * STEPS).trunc() / STEPS * 1e6).round() / 1e6
     };
     sums.into_iter().map(written).collect()
+}
+
+/// One unit normal a vertex: the normals of its triangles, weighted by their areas; up where these cancel.
+pub(super) fn by_area(positions: &[Vec3], triangles: &[[u32; 3]]) -> Vec<Vec3> {
+    let mut normals = vec![Vec3::ZERO; positions.len()];
+    for triangle in triangles {
+        let [a, b, c] = triangle.map(|i| positions[i as usize]);
+        let normal = (b - a).cross(c - a);
+        triangle.iter().for_each(|&v| normals[v as usize] += normal);
+    }
+    normals.into_iter().map(|n| n.normalize_or(Vec3::Y)).collect()
 }

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use glam::{DVec3, Vec3};
 
-use super::{catmull_clark, halves, normals, smooth};
+use super::{catmull_clark, fit::map_box, halves, normals, smooth};
 use crate::geometry::Aabb;
 use crate::scene::Model;
 
@@ -29,7 +29,7 @@ pub fn teapot() -> Model {
     let (points, quads) = catmull_clark::subdivide(&points, &faces);
     let points = into_bounds(&points);
     let triangles: Vec<[u32; 3]> = quads.into_iter().flat_map(|quad| along_longer_diagonal(&points, quad)).collect();
-    let normals = normals::of_vertices(&points, &triangles);
+    let normals = normals::of_the_course(&points, &triangles);
     smooth(points, normals, triangles)
 }
 
@@ -108,14 +108,7 @@ fn into_bounds(points: &[DVec3]) -> Vec<DVec3> {
     let turned: Vec<DVec3> = points.iter().map(|p| DVec3::new(p.x, p.z, -p.y)).collect();
     let low = turned.iter().copied().fold(DVec3::INFINITY, DVec3::min);
     let high = turned.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
-    let (min, max) = (BOUNDS.min.as_dvec3(), BOUNDS.max.as_dvec3());
-    turned
-        .into_iter()
-        .map(|p| {
-            let share = (p - low) / (high - low);
-            min * (1.0 - share) + max * share
-        })
-        .collect()
+    turned.into_iter().map(|p| map_box(p, [low, high], BOUNDS)).collect()
 }
 
 fn along_longer_diagonal(points: &[DVec3], [a, b, c, d]: [u32; 4]) -> [[u32; 3]; 2] {

@@ -28,6 +28,6 @@ pub fn torus(segments: u32, sides: u32, tube: f64) -> Model {
     let triangles: Vec<[u32; 3]> = cells
         .flat_map(|(s, t)| halves([vertex(s, t), vertex(s, t + 1), vertex(s + 1, t + 1), vertex(s + 1, t)]))
         .collect();
-    let normals = normals::of_vertices(&points, &triangles);
+    let normals = normals::of_the_course(&points, &triangles);
     smooth(points, normals, triangles)
 }

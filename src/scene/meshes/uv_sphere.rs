@@ -29,6 +29,6 @@ pub fn uv_sphere(segments: u32, bands: u32) -> Model {
     let triangles: Vec<[u32; 3]> = cells
         .flat_map(|(b, s)| halves([vertex(b, s + 1), vertex(b + 1, s + 1), vertex(b + 1, s), vertex(b, s)]))
         .collect();
-    let normals = normals::of_vertices(&points, &triangles);
+    let normals = normals::of_the_course(&points, &triangles);
     smooth(points, normals, triangles)
 }

@@ -2,32 +2,32 @@
 
 use glam::Vec3;
 
-use crate::scene::meshes::clay::{Clay, Frame, Joint, Round, Tube, cosine, sine};
+use crate::scene::meshes::sdf::{Blend, Frame, Knot, Sdf, Tube, cosine, sine};
 
 /// Centre line and radius from the tip of the tail to the head.
-const SPINE: [Round; 22] = [
-    Round(0.62, 0.62, 0.84, 0.03),
-    Round(0.78, 0.34, 0.80, 0.05),
-    Round(0.55, 0.13, 0.74, 0.07),
-    Round(0.05, 0.11, 0.70, 0.095),
-    Round(-0.55, 0.14, 0.66, 0.125),
-    Round(-1.15, 0.17, 0.58, 0.155),
-    Round(-1.62, 0.22, 0.30, 0.185),
-    Round(-1.80, 0.42, -0.06, 0.21),
-    Round(-1.66, 0.80, -0.34, 0.235),
-    Round(-1.30, 1.02, -0.48, 0.26),
-    Round(-0.90, 0.86, -0.46, 0.285),
-    Round(-0.55, 0.70, -0.34, 0.32),
-    Round(-0.15, 0.78, -0.20, 0.335),
-    Round(0.25, 0.98, -0.10, 0.325),
-    Round(0.62, 1.02, 0.00, 0.335),
-    Round(0.95, 1.06, 0.05, 0.335),
-    Round(1.22, 1.28, 0.06, 0.285),
-    Round(1.27, 1.62, 0.03, 0.235),
-    Round(1.08, 1.92, 0.00, 0.205),
-    Round(0.95, 2.18, 0.02, 0.19),
-    Round(1.05, 2.40, 0.08, 0.185),
-    Round(1.26, 2.44, 0.17, 0.18),
+const SPINE: [Knot; 22] = [
+    Knot(0.62, 0.62, 0.84, 0.03),
+    Knot(0.78, 0.34, 0.80, 0.05),
+    Knot(0.55, 0.13, 0.74, 0.07),
+    Knot(0.05, 0.11, 0.70, 0.095),
+    Knot(-0.55, 0.14, 0.66, 0.125),
+    Knot(-1.15, 0.17, 0.58, 0.155),
+    Knot(-1.62, 0.22, 0.30, 0.185),
+    Knot(-1.80, 0.42, -0.06, 0.21),
+    Knot(-1.66, 0.80, -0.34, 0.235),
+    Knot(-1.30, 1.02, -0.48, 0.26),
+    Knot(-0.90, 0.86, -0.46, 0.285),
+    Knot(-0.55, 0.70, -0.34, 0.32),
+    Knot(-0.15, 0.78, -0.20, 0.335),
+    Knot(0.25, 0.98, -0.10, 0.325),
+    Knot(0.62, 1.02, 0.00, 0.335),
+    Knot(0.95, 1.06, 0.05, 0.335),
+    Knot(1.22, 1.28, 0.06, 0.285),
+    Knot(1.27, 1.62, 0.03, 0.235),
+    Knot(1.08, 1.92, 0.00, 0.205),
+    Knot(0.95, 2.18, 0.02, 0.19),
+    Knot(1.05, 2.40, 0.08, 0.185),
+    Knot(1.26, 2.44, 0.17, 0.18),
 ];
 
 /// Curve pieces between two points of the centre line.
@@ -37,19 +37,19 @@ const PIECES: usize = 6;
 const AROUND: f32 = 16.0;
 
 /// Adds the body and returns the frame at the end of the neck.
-pub fn model(clay: &mut Clay) -> Frame {
+pub fn model(sdf: &mut Sdf) -> Frame {
     let tube = Tube::through(&SPINE, PIECES);
     let frames = tube.frames(12 * PIECES, Vec3::Y);
-    scaly_tube(clay, &tube, &frames);
-    legs(clay);
-    crest(clay, &tube, &frames);
-    tail_tuft(clay, &tube);
+    scaly_tube(sdf, &tube, &frames);
+    legs(sdf);
+    crest(sdf, &tube, &frames);
+    tail_tuft(sdf, &tube);
     frames[frames.len() - 1]
 }
 
 /// The body: cones whose distance is lowered by the height of the scales at the foot point.
-fn scaly_tube(clay: &mut Clay, tube: &Tube, frames: &[Frame]) {
-    clay.part(Joint { grain: 0.15, ..Joint::smooth(0.0) });
+fn scaly_tube(sdf: &mut Sdf, tube: &Tube, frames: &[Frame]) {
+    sdf.group(Blend { displacement: 0.15, ..Blend::smooth(0.0) });
     let mut rows = 0.0;
     for i in 0..tube.pieces() {
         let piece = tube.piece(i);
@@ -59,7 +59,7 @@ fn scaly_tube(clay: &mut Clay, tube: &Tube, frames: &[Frame]) {
         let (start, end) = (frames[i], frames[i + 1]);
         let height = (0.16 * radius).min(0.042);
         let bounding = 0.5 * length + piece.radius_a.max(piece.radius_b) + height;
-        clay.lump((piece.a + piece.b) * 0.5, bounding, move |p| {
+        sdf.primitive((piece.a + piece.b) * 0.5, bounding, move |p| {
             let distance = piece.distance(p);
             if distance.abs() > 3.0 * height {
                 return distance;
@@ -81,7 +81,7 @@ fn scales(row: f32, x: f32, y: f32) -> f32 {
     let part = row * 0.6 - (row * 0.6).floor();
     let plate = (1.0 - (2.0 * part - 1.0) * (2.0 * part - 1.0)).sqrt();
 
-    // Round scales elsewhere, each row shifted by half a scale and lying over the next.
+    // Knot scales elsewhere, each row shifted by half a scale and lying over the next.
     let mut scale = 0.0f32;
     for step in -1..=1 {
         let line = row.floor() + step as f32;
@@ -98,8 +98,8 @@ fn scales(row: f32, x: f32, y: f32) -> f32 {
 }
 
 /// Spines along the back, long on neck and hump, short on the tail.
-fn crest(clay: &mut Clay, tube: &Tube, frames: &[Frame]) {
-    clay.part(Joint::bare(0.035));
+fn crest(sdf: &mut Sdf, tube: &Tube, frames: &[Frame]) {
+    sdf.group(Blend::undisplaced(0.035));
     let mut since = 0.0;
     for (i, frame) in frames.iter().enumerate().take(tube.pieces() - 3).skip(4) {
         since += tube.centres[i].distance(tube.centres[i - 1]);
@@ -112,21 +112,21 @@ fn crest(clay: &mut Clay, tube: &Tube, frames: &[Frame]) {
         let foot = frame.at(0.0, radius * 0.92, 0.03);
         let tip = frame.at(0.0, radius + height, -0.75 * height);
         let ahead = frame.at(0.0, radius * 0.95, 0.03 + 0.3 * height);
-        clay.cone(foot, 0.032 + 0.05 * radius, tip, 0.013);
-        clay.cone(ahead, 0.025 + 0.03 * radius, (foot + tip) * 0.5, 0.02);
+        sdf.cone(foot, 0.032 + 0.05 * radius, tip, 0.013);
+        sdf.cone(ahead, 0.025 + 0.03 * radius, (foot + tip) * 0.5, 0.02);
     }
 }
 
 /// Flame-shaped blades at the tip of the tail.
-fn tail_tuft(clay: &mut Clay, tube: &Tube) {
-    clay.part(Joint::bare(0.03));
+fn tail_tuft(sdf: &mut Sdf, tube: &Tube) {
+    sdf.group(Blend::undisplaced(0.03));
     let tip = tube.centres[0];
     let away = -tube.tangent(0);
     let frame = Frame::looking(tip, away, Vec3::X);
     for (side, length) in [(-0.85, 0.2), (-0.42, 0.3), (0.0, 0.38), (0.42, 0.3), (0.85, 0.2)] {
         let bend = frame.at(side * 0.12, 0.0, 0.5 * length - 0.06);
-        clay.cone(frame.at(0.0, 0.0, -0.04), 0.035, bend, 0.04);
-        clay.cone(bend, 0.04, frame.at(side * 0.2, 0.03 * side, length), 0.012);
+        sdf.cone(frame.at(0.0, 0.0, -0.04), 0.035, bend, 0.04);
+        sdf.cone(bend, 0.04, frame.at(side * 0.2, 0.03 * side, length), 0.012);
     }
 }
 
@@ -137,7 +137,7 @@ struct Leg {
     ahead: Vec3,
 }
 
-fn legs(clay: &mut Clay) {
+fn legs(sdf: &mut Sdf) {
     let v = Vec3::new;
     let legs = [
         Leg {
@@ -164,38 +164,38 @@ fn legs(clay: &mut Clay) {
     for leg in &legs {
         let [hip, knee, ankle] = leg.joints;
         let thick = leg.thick;
-        clay.part(Joint::smooth(0.12)).cone(hip, thick, knee, 0.58 * thick);
-        clay.part(Joint::smooth(0.05)).cone(knee, 0.56 * thick, ankle, 0.42 * thick);
+        sdf.group(Blend::smooth(0.12)).cone(hip, thick, knee, 0.58 * thick);
+        sdf.group(Blend::smooth(0.05)).cone(knee, 0.56 * thick, ankle, 0.42 * thick);
         let frame = Frame::looking(ankle, leg.ahead, Vec3::Y);
-        clay.part(Joint::smooth(0.06)).cone(frame.at(0.0, -0.07, 0.0), 0.085, frame.at(0.0, -0.09, 0.14), 0.07);
-        foot(clay, &frame);
-        elbow_tufts(clay, knee, knee - ankle, frame.ahead);
+        sdf.group(Blend::smooth(0.06)).cone(frame.at(0.0, -0.07, 0.0), 0.085, frame.at(0.0, -0.09, 0.14), 0.07);
+        foot(sdf, &frame);
+        elbow_tufts(sdf, knee, knee - ankle, frame.ahead);
     }
 }
 
 /// Three toes and a spur, each with a claw.
-fn foot(clay: &mut Clay, frame: &Frame) {
+fn foot(sdf: &mut Sdf, frame: &Frame) {
     let toes = [(-0.5, 1.0), (0.0, 1.1), (0.5, 1.0), (2.7, 0.7)];
     let toe = |turn: f32, long: f32, y: f32| frame.at(long * sine(turn), y, 0.04 + long * cosine(turn));
-    clay.part(Joint::smooth(0.04));
+    sdf.group(Blend::smooth(0.04));
     for (turn, size) in toes {
-        clay.cone(toe(turn, 0.08, -0.09), 0.05, toe(turn, 0.24 * size, -0.105), 0.048);
+        sdf.cone(toe(turn, 0.08, -0.09), 0.05, toe(turn, 0.24 * size, -0.105), 0.048);
     }
-    clay.part(Joint::bare(0.012));
+    sdf.group(Blend::undisplaced(0.012));
     for (turn, size) in toes {
         let knuckle = toe(turn, 0.255 * size, -0.09);
         let bend = toe(turn, 0.32 * size, -0.09);
-        clay.cone(knuckle, 0.038, bend, 0.026);
-        clay.cone(bend, 0.026, toe(turn, 0.38 * size, -0.145), 0.012);
+        sdf.cone(knuckle, 0.038, bend, 0.026);
+        sdf.cone(bend, 0.026, toe(turn, 0.38 * size, -0.145), 0.012);
     }
 }
 
 /// Three flame-shaped spikes behind a knee.
-fn elbow_tufts(clay: &mut Clay, knee: Vec3, up: Vec3, ahead: Vec3) {
-    clay.part(Joint::bare(0.04));
+fn elbow_tufts(sdf: &mut Sdf, knee: Vec3, up: Vec3, ahead: Vec3) {
+    sdf.group(Blend::undisplaced(0.04));
     let back = -ahead.normalize();
     for (rise, length) in [(-0.25, 0.2), (0.2, 0.27), (0.7, 0.2)] {
         let way = (back + up.normalize() * rise).normalize();
-        clay.cone(knee + way * 0.05, 0.05, knee + way * (0.08 + length), 0.012);
+        sdf.cone(knee + way * 0.05, 0.05, knee + way * (0.08 + length), 0.012);
     }
 }

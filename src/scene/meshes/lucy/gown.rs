@@ -3,8 +3,8 @@
 use glam::Vec3;
 
 use crate::scene::meshes::{
-    clay::{Clay, Joint, Round, Tube, sine},
     noise,
+    sdf::{Blend, Knot, Sdf, rounded_intersection, sine},
 };
 
 /// One horizontal section: height, half width, half depth, and its middle in x and z.
@@ -26,17 +26,17 @@ const BODY: [Section; 12] = [
 ];
 
 /// Adds the gown.
-pub fn model(clay: &mut Clay) {
+pub fn model(sdf: &mut Sdf) {
     let middle = Vec3::new(0.0, 9.0, 0.0);
-    clay.part(Joint::smooth(0.0)).lump(middle, 8.6, |p| {
+    sdf.group(Blend::smooth(0.0)).primitive(middle, 8.6, |p| {
         let (distance, turn) = section_distance(p, 0.0);
         capped(distance - folds(p, turn), p.y, 1.2, 16.6)
     });
-    legs(clay);
-    overfold(clay);
-    bodice(clay);
-    sash(clay);
-    hanging_cloth(clay);
+    legs(sdf);
+    overfold(sdf);
+    bodice(sdf);
+    sash(sdf);
+    hanging_cloth(sdf);
 }
 
 fn smoothstep(low: f32, high: f32, x: f32) -> f32 {
@@ -62,7 +62,7 @@ fn capped(side: f32, y: f32, low: f32, high: f32) -> f32 {
     side.max(low - y).max(y - high)
 }
 
-/// Round ridges with sharp valleys between them, from 0 to 1.
+/// Knot ridges with sharp valleys between them, from 0 to 1.
 fn pleat(phase: f32) -> f32 {
     sine(phase).abs()
 }
@@ -86,30 +86,30 @@ fn folds(p: Vec3, turn: f32) -> f32 {
 }
 
 /// The bent leg that shows through the cloth, and the feet.
-fn legs(clay: &mut Clay) {
+fn legs(sdf: &mut Sdf) {
     let v = Vec3::new;
     let leg = [
-        Round(0.70, 10.2, 0.20, 0.95),
-        Round(0.85, 8.4, 0.62, 0.86),
-        Round(0.93, 6.7, 0.90, 0.74),
-        Round(0.95, 4.8, 0.86, 0.58),
-        Round(0.95, 2.6, 0.60, 0.42),
+        Knot(0.70, 10.2, 0.20, 0.95),
+        Knot(0.85, 8.4, 0.62, 0.86),
+        Knot(0.93, 6.7, 0.90, 0.74),
+        Knot(0.95, 4.8, 0.86, 0.58),
+        Knot(0.95, 2.6, 0.60, 0.42),
     ];
-    clay.part(Joint::smooth(0.55)).tube(&Tube::through(&leg, 8));
-    clay.part(Joint::smooth(0.06));
+    sdf.group(Blend::smooth(0.55)).tube(&leg, 8);
+    sdf.group(Blend::smooth(0.06));
     for (x, turn) in [(0.95, 0.12), (-0.85, -0.18)] {
-        clay.cone(v(x, 1.98, 1.5), 0.34, v(x + turn, 1.92, 2.35), 0.22);
+        sdf.cone(v(x, 1.98, 1.5), 0.34, v(x + turn, 1.92, 2.35), 0.22);
         for i in 0..4 {
             let across = x + turn + 0.15 * (i as f32 - 1.5);
             let long = 2.55 - 0.04 * (i as f32 - 1.5) * (i as f32 - 1.5);
-            clay.cone(v(across, 1.9, 2.3), 0.13, v(across + 0.2 * turn, 1.87, long), 0.11);
+            sdf.cone(v(across, 1.9, 2.3), 0.13, v(across + 0.2 * turn, 1.87, long), 0.11);
         }
     }
 }
 
 /// The part of the gown that falls over the belt, with its waving hem.
-fn overfold(clay: &mut Clay) {
-    clay.part(Joint::smooth(0.05)).lump(Vec3::new(0.0, 11.0, 0.0), 3.2, |p| {
+fn overfold(sdf: &mut Sdf) {
+    sdf.group(Blend::smooth(0.05)).primitive(Vec3::new(0.0, 11.0, 0.0), 3.2, |p| {
         let flare = 0.10 + 0.09 * (12.6 - p.y).max(0.0);
         let (distance, turn) = section_distance(p, flare);
         let wander = noise::smooth(Vec3::new(turn * 1.5, p.y * 0.3, 9.0), 5);
@@ -118,71 +118,68 @@ fn overfold(clay: &mut Clay) {
         let hem = 9.55 + 0.75 * sine(2.0 * turn + 0.6) + 0.4 * ridges + 0.2 * wander;
         capped(distance - depth * (ridges - 0.4), p.y, hem, 12.9).max(-distance - flare - 0.3)
     });
-    clay.part(Joint::smooth(0.03)).lump(Vec3::new(-0.1, 12.75, 0.0), 1.8, |p| {
+    sdf.group(Blend::smooth(0.03)).primitive(Vec3::new(-0.1, 12.75, 0.0), 1.8, |p| {
         let (distance, turn) = section_distance(p, 0.13);
         let cord = 0.04 * pleat(14.0 * turn + 9.0 * p.y);
         let across = (p.y - 12.75).abs() - 0.13;
-        let out = distance.abs() - 0.1;
-        (out.max(0.0) * out.max(0.0) + across.max(0.0) * across.max(0.0)).sqrt() + out.max(across).min(0.0)
-            - 0.08
-            - cord
+        rounded_intersection(distance.abs() - 0.1, across, 0.08) - cord
     });
 }
 
 /// Bust and shoulders under thin cloth, and the neckline.
-fn bodice(clay: &mut Clay) {
+fn bodice(sdf: &mut Sdf) {
     let v = Vec3::new;
-    clay.part(Joint::smooth(0.25));
-    clay.sphere(v(0.56, 14.6, 0.80), 0.58).sphere(v(-0.56, 14.6, 0.80), 0.58);
-    clay.part(Joint::smooth(0.4));
-    clay.cone(v(-1.35, 15.85, -0.05), 0.52, v(1.35, 15.8, -0.05), 0.52);
-    clay.part(Joint::smooth(0.12));
+    sdf.group(Blend::smooth(0.25));
+    sdf.sphere(v(0.56, 14.6, 0.80), 0.58).sphere(v(-0.56, 14.6, 0.80), 0.58);
+    sdf.group(Blend::smooth(0.4));
+    sdf.cone(v(-1.35, 15.85, -0.05), 0.52, v(1.35, 15.8, -0.05), 0.52);
+    sdf.group(Blend::smooth(0.12));
     let neckline = [
-        Round(-1.0, 16.3, 0.25, 0.11),
-        Round(-0.62, 15.75, 0.78, 0.11),
-        Round(0.0, 15.3, 1.08, 0.11),
-        Round(0.62, 15.75, 0.78, 0.11),
-        Round(1.0, 16.3, 0.25, 0.11),
+        Knot(-1.0, 16.3, 0.25, 0.11),
+        Knot(-0.62, 15.75, 0.78, 0.11),
+        Knot(0.0, 15.3, 1.08, 0.11),
+        Knot(0.62, 15.75, 0.78, 0.11),
+        Knot(1.0, 16.3, 0.25, 0.11),
     ];
-    clay.tube(&Tube::through(&neckline, 5));
+    sdf.tube(&neckline, 5);
 }
 
 /// Three strands of cloth from the left shoulder across the breast to the right hip and around the back.
-fn sash(clay: &mut Clay) {
-    clay.part(Joint::smooth(0.06));
+fn sash(sdf: &mut Sdf) {
+    sdf.group(Blend::smooth(0.06));
     for i in 0..4 {
         let down = 0.24 * i as f32;
         let strand = [
-            Round(0.75, 15.9 - down, -1.15, 0.17),
-            Round(1.15 - 0.2 * down, 16.45 - 0.5 * down, -0.2, 0.18),
-            Round(0.98 - 0.5 * down, 15.75 - 0.6 * down, 0.85, 0.17),
-            Round(0.35 - 0.4 * down, 14.75 - down, 1.32, 0.17),
-            Round(-0.45 - 0.1 * down, 13.7 - down, 1.25, 0.17),
-            Round(-1.15, 12.85 - down, 0.85, 0.18),
-            Round(-1.52, 12.2 - down, 0.0, 0.19),
-            Round(-1.1, 12.3 - down, -0.95, 0.18),
-            Round(0.0, 13.4 - down, -1.3, 0.17),
-            Round(0.75, 15.9 - down, -1.15, 0.17),
+            Knot(0.75, 15.9 - down, -1.15, 0.17),
+            Knot(1.15 - 0.2 * down, 16.45 - 0.5 * down, -0.2, 0.18),
+            Knot(0.98 - 0.5 * down, 15.75 - 0.6 * down, 0.85, 0.17),
+            Knot(0.35 - 0.4 * down, 14.75 - down, 1.32, 0.17),
+            Knot(-0.45 - 0.1 * down, 13.7 - down, 1.25, 0.17),
+            Knot(-1.15, 12.85 - down, 0.85, 0.18),
+            Knot(-1.52, 12.2 - down, 0.0, 0.19),
+            Knot(-1.1, 12.3 - down, -0.95, 0.18),
+            Knot(0.0, 13.4 - down, -1.3, 0.17),
+            Knot(0.75, 15.9 - down, -1.15, 0.17),
         ];
-        clay.tube(&Tube::through(&strand, 6));
+        sdf.tube(&strand, 6);
     }
 }
 
 /// Pleats that hang from the left forearm, each a little shorter than the one before, with turned hems.
-fn hanging_cloth(clay: &mut Clay) {
-    clay.part(Joint::smooth(0.14));
+fn hanging_cloth(sdf: &mut Sdf) {
+    sdf.group(Blend::smooth(0.14));
     for i in 0..7 {
         let s = i as f32;
         let (x, z) = (2.55 - 0.13 * s, 0.25 + 0.24 * s);
         let sway = 0.05 * sine(2.1 * s);
         let foot = 4.7 + 0.42 * s + 0.15 * sine(2.6 * s);
         let pleat = [
-            Round(x, 12.75 + 0.03 * s, z, 0.22),
-            Round(x + 0.12, 11.6, z + 0.02, 0.20),
-            Round(x + 0.06 + sway, 9.6, z - 0.05, 0.19),
-            Round(x + 0.02 - sway, 7.8, z + 0.05, 0.22),
-            Round(x + 0.1 + sway, foot, z, 0.20),
+            Knot(x, 12.75 + 0.03 * s, z, 0.22),
+            Knot(x + 0.12, 11.6, z + 0.02, 0.20),
+            Knot(x + 0.06 + sway, 9.6, z - 0.05, 0.19),
+            Knot(x + 0.02 - sway, 7.8, z + 0.05, 0.22),
+            Knot(x + 0.1 + sway, foot, z, 0.20),
         ];
-        clay.tube(&Tube::through(&pleat, 5));
+        sdf.tube(&pleat, 5);
     }
 }

@@ -2,12 +2,12 @@
 
 use glam::Vec3;
 
-use crate::scene::meshes::clay::{Clay, Cone, Frame, Joint, Round, Tube};
+use crate::scene::meshes::sdf::{Blend, Frame, Knot, RoundCone, Sdf, rounded_intersection};
 
 /// Adds both wings.
-pub fn model(clay: &mut Clay) {
+pub fn model(sdf: &mut Sdf) {
     for side in [-1.0, 1.0] {
-        wing(clay, side);
+        wing(sdf, side);
     }
 }
 
@@ -39,35 +39,35 @@ fn along<const N: usize>(line: &[[f32; N]], t: f32) -> [f32; N] {
     std::array::from_fn(|k| line[i][k] + (line[i + 1][k] - line[i][k]) * (s - i as f32))
 }
 
-fn wing(clay: &mut Clay, side: f32) {
-    clay.part(Joint::smooth(0.15));
+fn wing(sdf: &mut Sdf, side: f32) {
+    sdf.group(Blend::smooth(0.15));
     let arm = ARM.map(|[out, up, radius]| {
         let p = place(side, out, up, 0.05);
-        Round(p.x, p.y, p.z, radius)
+        Knot(p.x, p.y, p.z, radius)
     });
-    clay.tube(&Tube::through(&arm, 5));
+    sdf.tube(&arm, 5);
 
     // Rows from long to short: number of feathers, length, half width, thickness.
     for (count, length, wide, thick) in [(12, 1.0, 0.46, 0.07), (11, 0.56, 0.46, 0.19), (12, 0.31, 0.42, 0.30)] {
-        clay.part(Joint::smooth(0.03));
+        sdf.group(Blend::smooth(0.03));
         for i in 0..count {
             let t = (i as f32 + 0.25) / (count as f32 - 0.5);
             let [out, up, _] = along(&ARM, 0.06 + 0.94 * t);
             let [tip_out, tip_up] = along(&TIPS, t);
             let (tip_out, tip_up) = (out + (tip_out - out) * length, up + (tip_up - up) * length);
             let (root, tip) = (place(side, out, up, 0.0), place(side, tip_out, tip_up, 0.0));
-            feather(clay, side, root, tip, wide, thick);
+            feather(sdf, side, root, tip, wide, thick);
         }
     }
     // The smallest feathers: scales on the arm.
-    clay.part(Joint::smooth(0.04));
+    sdf.group(Blend::smooth(0.04));
     for row in 0..2 {
         for i in 0..15 {
             let t = (i as f32 + 0.5 + 0.5 * row as f32) / 15.5;
             let [out, up, radius] = along(&ARM, t);
             let start = place(side, out, up + 0.2 - 0.35 * row as f32, 0.0);
             feather(
-                clay,
+                sdf,
                 side,
                 start,
                 start + Vec3::new(side * 0.12, -0.85, -0.1),
@@ -79,12 +79,12 @@ fn wing(clay: &mut Clay, side: f32) {
 }
 
 /// A blade from `root` to `tip`, turned a little about its shaft so that the feathers lie over one another.
-fn feather(clay: &mut Clay, side: f32, root: Vec3, tip: Vec3, wide: f32, thick: f32) {
+fn feather(sdf: &mut Sdf, side: f32, root: Vec3, tip: Vec3, wide: f32, thick: f32) {
     let frame = Frame::looking(root, tip - root, Vec3::new(0.42 * side, 0.0, 1.0));
     let length = root.distance(tip);
-    let outline = Cone::new(Vec3::ZERO, 0.7 * wide, Vec3::new(0.0, 0.0, length - 0.8 * wide), wide);
+    let outline = RoundCone::new(Vec3::ZERO, 0.7 * wide, Vec3::new(0.0, 0.0, length - 0.8 * wide), wide);
     let radius = 0.5 * length + wide + thick;
-    clay.lump((root + tip) * 0.5, radius, move |p| {
+    sdf.primitive((root + tip) * 0.5, radius, move |p| {
         let q = frame.local(p);
         let in_plane = outline.distance(Vec3::new(q.x, 0.0, q.z));
         let shaft = 0.07 * (1.0 - (q.x.abs() / 0.12)).max(0.0);
@@ -92,7 +92,6 @@ fn feather(clay: &mut Clay, side: f32, root: Vec3, tip: Vec3, wide: f32, thick: 
         let barb = 0.018 * (2.0 * (barb - barb.floor()) - 1.0).abs();
         let bulge = 0.05 * (1.0 - (q.x / wide) * (q.x / wide)).max(0.0);
         let across = q.y.abs() - thick - bulge - shaft - barb;
-        let (u, v) = (in_plane.max(0.0), across.max(0.0));
-        (u * u + v * v).sqrt() + in_plane.max(across).min(0.0) - 0.06
+        rounded_intersection(in_plane, across, 0.06)
     });
 }

@@ -2,8 +2,8 @@
 
 use super::{EAVES, Frame, UPPER, column::Column, material};
 use crate::scene::meshes::{
-    clay::{cosine, sine},
-    stone::{Finish, Stone},
+    patches::{Finish, Patches},
+    sdf::{cosine, sine},
 };
 
 /// Thickness of the arcade walls, half of it.
@@ -24,13 +24,13 @@ struct Arch {
 }
 
 /// Builds `bays` bays of width `bay`; the frame stands at the left end, looking into the court.
-pub fn build(stone: &mut Stone, frame: &Frame, bays: usize, bay: f32) {
+pub fn build(patches: &mut Patches, frame: &Frame, bays: usize, bay: f32) {
     let length = bays as f32 * bay;
     let lower = Column { height: 306.0, radius: 29.0, sides: 20, leaves: 8, shaft: ("column_a", [0.95, 0.90, 0.82]) };
     let upper = Column { height: 236.0, radius: 12.5, sides: 10, leaves: 4, shaft: ("column_b", [0.90, 0.80, 0.72]) };
     for i in 0..bays {
         let u = i as f32 * bay;
-        lower.build(stone, &Frame { origin: frame.at(u, 0.0, 0.0), ..*frame });
+        lower.build(patches, &Frame { origin: frame.at(u, 0.0, 0.0), ..*frame });
         let (half_bay, radius) = (0.5 * bay, 0.5 * bay - 32.0);
         let arch = Arch {
             middle: u + half_bay,
@@ -41,10 +41,10 @@ pub fn build(stone: &mut Stone, frame: &Frame, bays: usize, bay: f32) {
             half_wall: HALF_WALL,
             pieces: 20,
         };
-        arch.build(stone, frame);
+        arch.build(patches, frame);
         for half in 0..2 {
             let u = u + 0.5 * bay * half as f32;
-            upper.build(stone, &Frame { origin: frame.at(u, UPPER + 100.0, 0.0), ..*frame });
+            upper.build(patches, &Frame { origin: frame.at(u, UPPER + 100.0, 0.0), ..*frame });
             let (half_bay, radius) = (0.25 * bay, 0.25 * bay - 15.0);
             let arch = Arch {
                 middle: u + half_bay,
@@ -55,11 +55,11 @@ pub fn build(stone: &mut Stone, frame: &Frame, bays: usize, bay: f32) {
                 half_wall: 0.6 * HALF_WALL,
                 pieces: 14,
             };
-            arch.build(stone, frame);
-            balustrade(stone, frame, u, 0.5 * bay);
+            arch.build(patches, frame);
+            balustrade(patches, frame, u, 0.5 * bay);
         }
     }
-    courses(stone, frame, length);
+    courses(patches, frame, length);
 }
 
 impl Arch {
@@ -69,27 +69,27 @@ impl Arch {
         [self.middle - radius * cosine(angle), self.spring + radius * sine(angle)]
     }
 
-    fn build(&self, stone: &mut Stone, frame: &Frame) {
+    fn build(&self, patches: &mut Patches, frame: &Frame) {
         let w = self.half_wall;
         let ends = [self.middle - self.half_bay, self.middle + self.half_bay];
 
         // Wall faces on both sides: a fan of quads over the arch, and the piers beside it.
-        stone.of(&material("brick", [0.93, 0.84, 0.72]));
+        patches.of(&material("brick", [0.93, 0.84, 0.72]));
         for side in [1.0, -1.0] {
             let place = |u: f32, y: f32| frame.at(u, y, w * side);
-            stone.patch([self.pieces, 1], false, Finish::Flat, |column, row| {
+            patches.patch([self.pieces, 1], false, Finish::Flat, |column, row| {
                 let [u, y] = self.on_circle(if side > 0.0 { column } else { self.pieces - column }, self.radius);
                 place(u, if row == 0 { y } else { self.top })
             });
             for [a, b] in [[ends[0], self.middle - self.radius], [self.middle + self.radius, ends[1]]] {
                 let [a, b] = if side > 0.0 { [a, b] } else { [b, a] };
-                stone.quad([place(a, self.spring), place(b, self.spring), place(b, self.top), place(a, self.top)]);
+                patches.quad([place(a, self.spring), place(b, self.spring), place(b, self.top), place(a, self.top)]);
             }
         }
 
         // The underside of the arch and of the piers.
-        stone.of(&material("arch", [1.0, 0.95, 0.86]));
-        stone.patch([self.pieces, 1], false, Finish::Smooth, |column, row| {
+        patches.of(&material("arch", [1.0, 0.95, 0.86]));
+        patches.patch([self.pieces, 1], false, Finish::Smooth, |column, row| {
             let [u, y] = self.on_circle(column, self.radius);
             frame.at(u, y, if row == 0 { -w } else { w })
         });
@@ -97,18 +97,18 @@ impl Arch {
         let size = self.radius / 72.0;
         let bands =
             [[0.0, 0.0], [0.0, 5.0], [6.0, 7.0], [8.0, 4.0], [14.0, 4.0], [16.0, 8.0], [21.0, 9.0], [23.0, 0.0]];
-        stone.patch([self.pieces, bands.len() - 1], false, Finish::Flat, |column, row| {
+        patches.patch([self.pieces, bands.len() - 1], false, Finish::Flat, |column, row| {
             let [out, front] = bands[row];
             let [u, y] = self.on_circle(column, self.radius + out * size);
             frame.at(u, y, w + front * size)
         });
-        self.keystone(stone, frame, size);
+        self.keystone(patches, frame, size);
     }
 
     /// A wedge with a scroll at the crown of the arch.
-    fn keystone(&self, stone: &mut Stone, frame: &Frame, size: f32) {
+    fn keystone(&self, patches: &mut Patches, frame: &Frame, size: f32) {
         let crown = self.spring + self.radius;
-        stone.of(&material("ornament", [1.02, 0.97, 0.88]));
+        patches.of(&material("ornament", [1.02, 0.97, 0.88]));
         let profile = [
             [-3.0, 2.0],
             [-2.0, 14.0],
@@ -119,7 +119,7 @@ impl Arch {
             [30.0, 12.0],
             [31.0, 0.0],
         ];
-        stone.patch([6, profile.len() - 1], false, Finish::Smooth, |column, row| {
+        patches.patch([6, profile.len() - 1], false, Finish::Smooth, |column, row| {
             let [up, front] = profile[row];
             let across = (column as f32 - 3.0) / 3.0;
             let wide = 8.0 + 0.16 * (up + 3.0);
@@ -130,24 +130,24 @@ impl Arch {
 }
 
 /// Balusters between rails in front of one upper opening.
-fn balustrade(stone: &mut Stone, frame: &Frame, from: f32, length: f32) {
-    stone.of(&material("trim", [0.98, 0.93, 0.84]));
+fn balustrade(patches: &mut Patches, frame: &Frame, from: f32, length: f32) {
+    patches.of(&material("trim", [0.98, 0.93, 0.84]));
     let to = from + length;
-    stone.block(frame, [from, UPPER, -9.0], [to, UPPER + 12.0, 9.0]);
-    stone.block(frame, [from, UPPER + 82.0, -10.0], [to, UPPER + 92.0, 10.0]);
-    stone.block(frame, [from - 13.0, UPPER, -14.0], [from + 13.0, UPPER + 100.0, 14.0]);
-    stone.of(&material("ornament", [1.02, 0.97, 0.88]));
+    patches.block(frame, [from, UPPER, -9.0], [to, UPPER + 12.0, 9.0]);
+    patches.block(frame, [from, UPPER + 82.0, -10.0], [to, UPPER + 92.0, 10.0]);
+    patches.block(frame, [from - 13.0, UPPER, -14.0], [from + 13.0, UPPER + 100.0, 14.0]);
+    patches.of(&material("ornament", [1.02, 0.97, 0.88]));
     let profile =
         [[4.5, 0.0], [4.5, 6.0], [2.6, 10.0], [5.8, 26.0], [5.0, 37.0], [2.5, 53.0], [4.4, 60.0], [4.4, 70.0]];
     for i in 0..4 {
         let u = from + 13.0 + (length - 26.0) * (i as f32 + 0.5) / 4.0;
-        stone.lathe(frame.at(u, UPPER + 12.0, 0.0), &profile, 6);
+        patches.lathe(frame.at(u, UPPER + 12.0, 0.0), &profile, 6);
     }
 }
 
 /// String course between the storeys, and the cornice under the eaves.
-fn courses(stone: &mut Stone, frame: &Frame, length: f32) {
-    stone.of(&material("trim", [0.98, 0.93, 0.84]));
+fn courses(patches: &mut Patches, frame: &Frame, length: f32) {
+    patches.of(&material("trim", [0.98, 0.93, 0.84]));
     let low = UPPER - 40.0;
     let string = [
         [0.0, 26.0],
@@ -161,7 +161,7 @@ fn courses(stone: &mut Stone, frame: &Frame, length: f32) {
         [40.0, -36.0],
         [0.0, -26.0],
     ];
-    stone.moulding(frame, [0.0, length], &string.map(|[y, z]| [low + y, z]));
+    patches.moulding(frame, [0.0, length], &string.map(|[y, z]| [low + y, z]));
     let cornice = [
         [0.0, 15.0],
         [4.0, 20.0],
@@ -174,17 +174,17 @@ fn courses(stone: &mut Stone, frame: &Frame, length: f32) {
         [60.0, -20.0],
         [0.0, -15.0],
     ];
-    stone.moulding(frame, [0.0, length], &cornice.map(|[y, z]| [EAVES + y, z]));
+    patches.moulding(frame, [0.0, length], &cornice.map(|[y, z]| [EAVES + y, z]));
 
     // Dentils under the cornice and small consoles under the string course.
     let dentils = (length / 13.0) as usize;
     for i in 0..dentils {
         let u = length * (i as f32 + 0.25) / dentils as f32;
-        stone.block(frame, [u, EAVES + 22.0, 16.0], [u + 6.5, EAVES + 40.0, 27.0]);
+        patches.block(frame, [u, EAVES + 22.0, 16.0], [u + 6.5, EAVES + 40.0, 27.0]);
     }
     let consoles = (length / 26.0) as usize;
     for i in 0..consoles {
         let u = length * (i as f32 + 0.3) / consoles as f32;
-        stone.block(frame, [u, low + 13.0, 26.0], [u + 10.0, low + 24.0, 33.0]);
+        patches.block(frame, [u, low + 13.0, 26.0], [u + 10.0, low + 24.0, 33.0]);
     }
 }

@@ -3,7 +3,7 @@
 use glam::Vec3;
 
 use super::{Frame, material};
-use crate::scene::meshes::stone::{Finish, Stone, turn};
+use crate::scene::meshes::patches::{Finish, Patches, turn};
 
 /// A column from its foot to the top of its abacus.
 pub struct Column {
@@ -18,14 +18,14 @@ pub struct Column {
 
 impl Column {
     /// Builds it at the origin of `frame`.
-    pub fn build(&self, stone: &mut Stone, frame: &Frame) {
+    pub fn build(&self, patches: &mut Patches, frame: &Frame) {
         let r = self.radius;
         let foot = frame.origin;
         let capital = 2.3 * r;
         let top = self.height - 0.35 * r;
 
-        stone.of(&material("trim", [0.98, 0.93, 0.84]));
-        stone.block(frame, [-1.4 * r, 0.0, -1.4 * r], [1.4 * r, 0.35 * r, 1.4 * r]);
+        patches.of(&material("trim", [0.98, 0.93, 0.84]));
+        patches.block(frame, [-1.4 * r, 0.0, -1.4 * r], [1.4 * r, 0.35 * r, 1.4 * r]);
         let base = [
             [1.36, 0.35],
             [1.41, 0.5],
@@ -36,15 +36,15 @@ impl Column {
             [1.16, 1.0],
             [1.02, 1.03],
         ];
-        stone.lathe(foot, &base.map(|[x, y]| [x * r, y * r]), self.sides);
+        patches.lathe(foot, &base.map(|[x, y]| [x * r, y * r]), self.sides);
 
         // The shaft swells a little in its lower third: few, long triangles.
         let (low, high) = (1.03 * r, top - capital);
         let shaft = [[1.0, 0.0], [1.0, 0.33], [0.95, 0.7], [0.86, 1.0]];
-        stone.of(&material(self.shaft.0, self.shaft.1));
-        stone.lathe(foot, &shaft.map(|[x, t]| [x * r, low + (high - low) * t]), self.sides);
+        patches.of(&material(self.shaft.0, self.shaft.1));
+        patches.lathe(foot, &shaft.map(|[x, t]| [x * r, low + (high - low) * t]), self.sides);
 
-        stone.of(&material("ornament", [1.02, 0.97, 0.88]));
+        patches.of(&material("ornament", [1.02, 0.97, 0.88]));
         let neck = [
             [0.86, 0.0],
             [0.97, 0.03],
@@ -57,22 +57,22 @@ impl Column {
             [1.22, 2.2],
             [1.26, 2.3],
         ];
-        stone.lathe(foot, &neck.map(|[x, y]| [x * r, high + y * r]), self.sides);
+        patches.lathe(foot, &neck.map(|[x, y]| [x * r, high + y * r]), self.sides);
         for row in 0..2 {
             for leaf in 0..self.leaves {
-                self.leaf(stone, foot + Vec3::Y * (high + (0.18 + 0.65 * row as f32) * r), 2 * leaf + row);
+                self.leaf(patches, foot + Vec3::Y * (high + (0.18 + 0.65 * row as f32) * r), 2 * leaf + row);
             }
         }
         for corner in 0..4 {
-            self.volute(stone, foot + Vec3::Y * (high + 1.25 * r), corner);
+            self.volute(patches, foot + Vec3::Y * (high + 1.25 * r), corner);
         }
-        stone.of(&material("trim", [0.98, 0.93, 0.84]));
-        stone.block(frame, [-1.28 * r, top, -1.28 * r], [1.28 * r, top + 0.12 * r, 1.28 * r]);
-        stone.block(frame, [-1.42 * r, top + 0.12 * r, -1.42 * r], [1.42 * r, self.height, 1.42 * r]);
+        patches.of(&material("trim", [0.98, 0.93, 0.84]));
+        patches.block(frame, [-1.28 * r, top, -1.28 * r], [1.28 * r, top + 0.12 * r, 1.28 * r]);
+        patches.block(frame, [-1.42 * r, top + 0.12 * r, -1.42 * r], [1.42 * r, self.height, 1.42 * r]);
     }
 
     /// An acanthus leaf: a tongue that rises from the bell, widens, and curls over at the tip.
-    fn leaf(&self, stone: &mut Stone, foot: Vec3, number: usize) {
+    fn leaf(&self, patches: &mut Patches, foot: Vec3, number: usize) {
         let (sine, cosine) = turn(number, 2 * self.leaves);
         let (out, side) = (Vec3::new(sine, 0.0, cosine), Vec3::new(cosine, 0.0, -sine));
         let spread = 2.9 / self.leaves as f32;
@@ -85,7 +85,7 @@ impl Column {
             [1.28, 0.74, 0.25],
         ];
         let columns = if self.leaves > 6 { 4 } else { 2 };
-        stone.patch([columns, profile.len() - 1], false, Finish::Smooth, |column, row| {
+        patches.patch([columns, profile.len() - 1], false, Finish::Smooth, |column, row| {
             let [radius, up, wide] = profile[row];
             let across = 2.0 * column as f32 / columns as f32 - 1.0;
             // The rib stands out, and the margins are lobed.
@@ -96,11 +96,11 @@ impl Column {
     }
 
     /// A scroll under a corner of the abacus.
-    fn volute(&self, stone: &mut Stone, foot: Vec3, corner: usize) {
+    fn volute(&self, patches: &mut Patches, foot: Vec3, corner: usize) {
         let (sine, cosine) = turn(2 * corner + 1, 8);
         let (out, side) = (Vec3::new(sine, 0.0, cosine), Vec3::new(cosine, 0.0, -sine));
         let steps = self.sides;
-        stone.patch([steps, 2], false, Finish::Smooth, |column, row| {
+        patches.patch([steps, 2], false, Finish::Smooth, |column, row| {
             let t = column as f32 / steps as f32;
             let (s, c) = turn(column * 3, 2 * steps);
             let size = 0.34 * (1.0 - 0.75 * t);

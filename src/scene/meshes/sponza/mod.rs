@@ -9,7 +9,7 @@ mod shell;
 
 use glam::Vec3;
 
-use super::{clay::Frame, stone::Stone};
+use super::{patches::Patches, sdf::Frame};
 use crate::scene::{Material, Model};
 
 /// As many as the Sponza of the source report has.
@@ -35,7 +35,7 @@ const BAY: f32 = 208.0;
 /// Flat stone is flat-shaded, turned and curved stone has smooth normals. Not closed. Materials by name: floor, brick,
 /// column_a, column_b, arch, trim, ornament, ceiling, wood, roof.
 pub fn sponza() -> Model {
-    let mut stone = Stone::default();
+    let mut patches = Patches::default();
     let [half_length, half_width, middle] = COURT;
     let side = |x: f32, z: f32, ahead: Vec3| Frame::looking(Vec3::new(x, 0.0, z), ahead, Vec3::Y);
 
@@ -49,12 +49,12 @@ pub fn sponza() -> Model {
     ];
     for (frame, bays) in &sides {
         let bay = if *bays == 2 { half_width } else { BAY };
-        arcade::build(&mut stone, frame, *bays, bay);
-        shell::walk(&mut stone, frame, *bays, bay);
+        arcade::build(&mut patches, frame, *bays, bay);
+        shell::walk(&mut patches, frame, *bays, bay);
     }
-    shell::grounds(&mut stone);
-    shell::roofs(&mut stone, TRIANGLES);
-    stone.model
+    shell::grounds(&mut patches);
+    shell::roofs(&mut patches, TRIANGLES);
+    patches.model
 }
 
 /// Matt stone, with the reflection of all materials of the scene and a tint.
@@ -65,33 +65,5 @@ fn material(name: &str, tint: [f32; 3]) -> Material {
         specular: Vec3::ZERO,
         shininess: 9.803_922,
         ..Material::named(name)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::{geometry::Aabb, scene::meshes::checks};
-
-    #[test]
-    fn the_court_is_sound_and_fills_its_box() {
-        let model = sponza();
-        let mesh = checks::sound(&model, TRIANGLES);
-        let (min, max) = (Vec3::new(-1921.0, -126.0, -1183.0), Vec3::new(1800.0, 1429.0, 1105.0));
-        assert_eq!(mesh.bounds(), Aabb { min, max });
-        assert_eq!(model.materials.len(), 10);
-        assert_eq!(checks::fingerprint(&model), "3bf9bc78684c66f7");
-    }
-
-    #[test]
-    fn tessellation_is_uneven() {
-        let model = sponza();
-        let area = |t: &[u32; 3]| {
-            let [a, b, c] = t.map(|i| model.positions[i as usize]);
-            0.5 * (b - a).cross(c - a).length()
-        };
-        let mut areas: Vec<f32> = model.triangles.iter().map(area).collect();
-        areas.sort_unstable_by(f32::total_cmp);
-        assert!(areas[areas.len() - 1] > 1e5 * areas[areas.len() / 2]);
     }
 }

@@ -3,41 +3,41 @@
 use glam::Vec3;
 
 use super::{BAY, COURT, EAVES, Frame, UPPER, WALK, material};
-use crate::scene::meshes::stone::{Finish, Stone, turn};
+use crate::scene::meshes::patches::{Finish, Patches, turn};
 
 /// Quads along each edge of a vault.
 const VAULT: usize = 10;
 
 /// The walks of both storeys behind an arcade of `bays` bays.
-pub fn walk(stone: &mut Stone, frame: &Frame, bays: usize, bay: f32) {
+pub fn walk(patches: &mut Patches, frame: &Frame, bays: usize, bay: f32) {
     let length = bays as f32 * bay;
     for i in 0..bays {
         let u = i as f32 * bay;
-        vault(stone, frame, u, bay);
-        doorway(stone, frame, u + 0.5 * bay, 0.0, 1.0);
-        doorway(stone, frame, u + 0.5 * bay, UPPER, 0.8);
+        vault(patches, frame, u, bay);
+        doorway(patches, frame, u + 0.5 * bay, 0.0, 1.0);
+        doorway(patches, frame, u + 0.5 * bay, UPPER, 0.8);
 
-        stone.of(&material("wood", [0.66, 0.48, 0.34]));
+        patches.of(&material("wood", [0.66, 0.48, 0.34]));
         for beam in 0..3 {
             let u = u + bay * (beam as f32 + 0.5) / 3.0;
-            stone.block(frame, [u - 9.0, EAVES - 40.0, -WALK], [u + 9.0, EAVES - 18.0, -16.0]);
+            patches.block(frame, [u - 9.0, EAVES - 40.0, -WALK], [u + 9.0, EAVES - 18.0, -16.0]);
         }
         // A pilaster on the back wall behind every column.
-        stone.of(&material("trim", [0.98, 0.93, 0.84]));
-        stone.block(frame, [u - 20.0, 0.0, -WALK], [u + 20.0, 290.0, 14.0 - WALK]);
-        stone.block(frame, [u - 25.0, 290.0, -WALK], [u + 25.0, 306.0, 19.0 - WALK]);
+        patches.of(&material("trim", [0.98, 0.93, 0.84]));
+        patches.block(frame, [u - 20.0, 0.0, -WALK], [u + 20.0, 290.0, 14.0 - WALK]);
+        patches.block(frame, [u - 25.0, 290.0, -WALK], [u + 25.0, 306.0, 19.0 - WALK]);
     }
 
     // Back wall, floor and ceiling: two triangles each, however long. The corners belong to the long sides.
     let over = if bay == BAY { WALK } else { 0.0 };
     let (from, to) = (-over, length + over);
-    stone.of(&material("brick", [0.93, 0.84, 0.72]));
+    patches.of(&material("brick", [0.93, 0.84, 0.72]));
     let at = |u: f32, y: f32, w: f32| frame.at(u, y, w);
-    stone.quad([at(from, 0.0, -WALK), at(to, 0.0, -WALK), at(to, EAVES, -WALK), at(from, EAVES, -WALK)]);
-    stone.of(&material("floor", [0.86, 0.80, 0.72]));
-    stone.quad([at(from, UPPER, 30.0), at(to, UPPER, 30.0), at(to, UPPER, -WALK), at(from, UPPER, -WALK)]);
-    stone.of(&material("ceiling", [0.95, 0.90, 0.80]));
-    stone.quad([
+    patches.quad([at(from, 0.0, -WALK), at(to, 0.0, -WALK), at(to, EAVES, -WALK), at(from, EAVES, -WALK)]);
+    patches.of(&material("floor", [0.86, 0.80, 0.72]));
+    patches.quad([at(from, UPPER, 30.0), at(to, UPPER, 30.0), at(to, UPPER, -WALK), at(from, UPPER, -WALK)]);
+    patches.of(&material("ceiling", [0.95, 0.90, 0.80]));
+    patches.quad([
         at(from, EAVES - 18.0, -WALK),
         at(to, EAVES - 18.0, -WALK),
         at(to, EAVES - 18.0, 16.0),
@@ -46,34 +46,34 @@ pub fn walk(stone: &mut Stone, frame: &Frame, bays: usize, bay: f32) {
 }
 
 /// A groin vault over one bay of the lower walk: the higher of two crossing barrels.
-fn vault(stone: &mut Stone, frame: &Frame, from: f32, bay: f32) {
-    stone.of(&material("ceiling", [0.95, 0.90, 0.80]));
+fn vault(patches: &mut Patches, frame: &Frame, from: f32, bay: f32) {
+    patches.of(&material("ceiling", [0.95, 0.90, 0.80]));
     let rise = |t: f32| 100.0 * (1.0 - (2.0 * t - 1.0) * (2.0 * t - 1.0)).max(0.0).sqrt();
-    stone.patch([VAULT, VAULT], false, Finish::Smooth, |column, row| {
+    patches.patch([VAULT, VAULT], false, Finish::Smooth, |column, row| {
         let (s, t) = (column as f32 / VAULT as f32, row as f32 / VAULT as f32);
         frame.at(from + bay * s, 306.0 + rise(s).max(rise(t)), -WALK + (WALK - 20.0) * t)
     });
 }
 
 /// A framed door under a small gable.
-fn doorway(stone: &mut Stone, frame: &Frame, middle: f32, floor: f32, size: f32) {
+fn doorway(patches: &mut Patches, frame: &Frame, middle: f32, floor: f32, size: f32) {
     let back = -WALK;
-    stone.of(&material("wood", [0.66, 0.48, 0.34]));
+    patches.of(&material("wood", [0.66, 0.48, 0.34]));
     let (wide, high) = (42.0 * size, 190.0 * size);
-    stone.block(frame, [middle - wide, floor, back], [middle + wide, floor + high, back + 4.0]);
+    patches.block(frame, [middle - wide, floor, back], [middle + wide, floor + high, back + 4.0]);
     for column in 0..2 {
         for row in 0..3 {
             let u = middle + (column as f32 - 1.0) * wide + 6.0 * size;
             let y = floor + 10.0 + high * row as f32 / 3.2;
-            stone.block(frame, [u, y, back + 4.0], [u + wide - 12.0 * size, y + high / 3.8, back + 7.0]);
+            patches.block(frame, [u, y, back + 4.0], [u + wide - 12.0 * size, y + high / 3.8, back + 7.0]);
         }
     }
-    stone.of(&material("trim", [0.98, 0.93, 0.84]));
+    patches.of(&material("trim", [0.98, 0.93, 0.84]));
     for side in [-1.0, 1.0] {
         let u = middle + side * (wide + 7.0);
-        stone.block(frame, [u - 8.0, floor, back], [u + 8.0, floor + high, back + 12.0]);
+        patches.block(frame, [u - 8.0, floor, back], [u + 8.0, floor + high, back + 12.0]);
     }
-    stone.block(
+    patches.block(
         frame,
         [middle - wide - 20.0, floor + high, back],
         [middle + wide + 20.0, floor + high + 16.0, back + 16.0],
@@ -81,33 +81,33 @@ fn doorway(stone: &mut Stone, frame: &Frame, middle: f32, floor: f32, size: f32)
 }
 
 /// Court floor, ground outside, outer walls.
-pub fn grounds(stone: &mut Stone) {
+pub fn grounds(patches: &mut Patches) {
     let [half_length, half_width, middle] = COURT;
     let world = Frame { origin: Vec3::ZERO, right: Vec3::X, up: Vec3::Y, ahead: Vec3::Z };
     let v = Vec3::new;
 
     // Large slabs, one for each bay.
-    stone.of(&material("floor", [0.86, 0.80, 0.72]));
+    patches.of(&material("floor", [0.86, 0.80, 0.72]));
     let bays = 16;
     let (from, to) = (-half_length - WALK, half_length + WALK);
     for i in 0..bays {
         let x = |i: usize| from + (to - from) * i as f32 / bays as f32;
         for (a, b) in [(-half_width - WALK, -half_width), (-half_width, half_width), (half_width, half_width + WALK)] {
             let (a, b) = (middle + a, middle + b);
-            stone.quad([v(x(i), 0.0, b), v(x(i + 1), 0.0, b), v(x(i + 1), 0.0, a), v(x(i), 0.0, a)]);
+            patches.quad([v(x(i), 0.0, b), v(x(i + 1), 0.0, b), v(x(i + 1), 0.0, a), v(x(i), 0.0, a)]);
         }
     }
 
     // The outer building: a ring of four blocks on a ground that is lower than the court.
-    stone.of(&material("brick", [0.93, 0.84, 0.72]));
+    patches.of(&material("brick", [0.93, 0.84, 0.72]));
     let (near, far) = (middle - half_width - WALK - 1.0, middle + half_width + WALK + 1.0);
     let (left, right) = (from - 1.0, to + 1.0);
-    stone.block(&world, [-1800.0, -126.0, -1100.0], [1700.0, 980.0, near]);
-    stone.block(&world, [-1800.0, -126.0, far], [1700.0, 980.0, 1022.0]);
-    stone.block(&world, [-1800.0, -126.0, near], [left, 980.0, far]);
-    stone.block(&world, [right, -126.0, near], [1700.0, 980.0, far]);
-    stone.of(&material("floor", [0.86, 0.80, 0.72]));
-    stone.quad([
+    patches.block(&world, [-1800.0, -126.0, -1100.0], [1700.0, 980.0, near]);
+    patches.block(&world, [-1800.0, -126.0, far], [1700.0, 980.0, 1022.0]);
+    patches.block(&world, [-1800.0, -126.0, near], [left, 980.0, far]);
+    patches.block(&world, [right, -126.0, near], [1700.0, 980.0, far]);
+    patches.of(&material("floor", [0.86, 0.80, 0.72]));
+    patches.quad([
         v(-1921.0, -126.0, 1105.0),
         v(1800.0, -126.0, 1105.0),
         v(1800.0, -126.0, -1183.0),
@@ -127,7 +127,7 @@ struct Slope {
 ///
 /// # Panics
 /// When more is left than the roofs can take, or nothing.
-pub fn roofs(stone: &mut Stone, triangles: usize) {
+pub fn roofs(patches: &mut Patches, triangles: usize) {
     let [half_length, half_width, middle] = COURT;
     let v = Vec3::new;
     let eaves = EAVES + 62.0;
@@ -140,16 +140,16 @@ pub fn roofs(stone: &mut Stone, triangles: usize) {
         slope(v(-x, eaves, middle + z), v(-x, eaves, middle - z), v(-440.0, 0.8 * rise, 0.0)),
         slope(v(x, eaves, middle - z), v(x, eaves, middle + z), v(440.0, 0.8 * rise, 0.0)),
     ];
-    stone.of(&material("roof", [0.95, 0.60, 0.44]));
+    patches.of(&material("roof", [0.95, 0.60, 0.44]));
     for Slope { from, to, up } in &slopes {
-        stone.quad([*from, *to, *to + *up, *from + *up]);
+        patches.quad([*from, *to, *to + *up, *from + *up]);
         // The underside, a hand lower, is what the court sees of the eaves.
         let down = v(0.0, -4.0, 0.0);
-        stone.quad([*to + down, *from + down, *from + *up + down, *to + *up + down]);
-        stone.quad([*from + down, *to + down, *to, *from]);
+        patches.quad([*to + down, *from + down, *from + *up + down, *to + *up + down]);
+        patches.quad([*from + down, *to + down, *to, *from]);
     }
 
-    let built = stone.model.triangles.len();
+    let built = patches.model.triangles.len();
     assert!(built < triangles, "the building without tiles has {built} triangles already");
     let mut left = triangles - built;
     for row in 0..ROWS {
@@ -161,7 +161,7 @@ pub fn roofs(stone: &mut Stone, triangles: usize) {
                     return;
                 }
                 left -= 2 * sides;
-                tile(stone, slope, [column, columns], row, sides);
+                tile(patches, slope, [column, columns], row, sides);
             }
         }
     }
@@ -173,12 +173,12 @@ const ROWS: usize = 11;
 const TILE: f32 = 44.0;
 
 /// A half-round tile, lifted at its lower end where it lies on the next.
-fn tile(stone: &mut Stone, slope: &Slope, [column, columns]: [usize; 2], row: usize, sides: usize) {
+fn tile(patches: &mut Patches, slope: &Slope, [column, columns]: [usize; 2], row: usize, sides: usize) {
     let along = (slope.to - slope.from) / columns as f32;
     let step = slope.up / ROWS as f32;
     let normal = along.cross(step).normalize();
     let foot = slope.from + along * (column as f32 + 0.5) + step * row as f32;
-    stone.patch([sides, 1], false, Finish::Smooth, |side, end| {
+    patches.patch([sides, 1], false, Finish::Smooth, |side, end| {
         let (height, across) = turn(sides - side, 2 * sides);
         let lift = if end == 0 { 6.0 } else { 1.0 };
         foot + along * (0.46 * across) + normal * (0.4 * TILE * height + lift) + step * (1.08 * end as f32)

@@ -1,16 +1,16 @@
-//! Clay sampled on a cubic grid, near its surface only, with every cell made simple.
+//! A signed distance function sampled on a cubic grid, near its surface only, with every cell made simple.
 
 use glam::{UVec3, Vec3};
 use rayon::prelude::*;
 
-use super::{Active, Clay};
+use super::{Active, Sdf};
 use crate::geometry::Aabb;
 
-/// Samples along an edge of a block; all samples of a block use one list of lumps.
+/// Samples along an edge of a block; all samples of a block use one list of primitives.
 const BLOCK: usize = 8;
 
 /// Distances at grid points, x fastest. Far from the surface only the sign is right.
-pub(super) struct Grid {
+pub struct Grid {
     pub origin: Vec3,
     pub step: f32,
     pub size: [usize; 3],
@@ -20,8 +20,8 @@ pub(super) struct Grid {
 }
 
 impl Grid {
-    /// Samples `clay` over `bounds` and two steps more.
-    pub fn sample(clay: &Clay, bounds: Aabb, step: f32) -> Self {
+    /// Samples `sdf` over `bounds` and two steps more.
+    pub fn sample(sdf: &Sdf, bounds: Aabb, step: f32) -> Self {
         let origin = bounds.min - Vec3::splat(2.0 * step);
         let cells = (bounds.extent() / step).ceil().as_uvec3() + UVec3::splat(4);
         let blocks = cells.to_array().map(|n| (n as usize + 1).div_ceil(BLOCK));
@@ -34,7 +34,7 @@ impl Grid {
             let mut lists = Vec::with_capacity(blocks[0] * blocks[1]);
             for y in 0..blocks[1] {
                 for x in 0..blocks[0] {
-                    lists.push(fill_block(clay, origin, step, [x, y, z], size, layer));
+                    lists.push(fill_block(sdf, origin, step, [x, y, z], size, layer));
                 }
             }
             lists
@@ -51,7 +51,7 @@ impl Grid {
         self.origin + Vec3::new(x as f32, y as f32, z as f32) * self.step
     }
 
-    /// The lumps that matter near `p`.
+    /// The primitives that matter near `p`.
     pub fn active(&self, p: Vec3) -> &Active {
         let at = ((p - self.origin) / self.step).max(Vec3::ZERO).as_uvec3().to_array();
         let [x, y, z] = [0, 1, 2].map(|i| (at[i] as usize / BLOCK).min(self.blocks[i] - 1));
@@ -113,22 +113,22 @@ impl Grid {
     }
 }
 
-/// Samples one block into its layer of blocks, and returns its lumps.
-fn fill_block(clay: &Clay, origin: Vec3, step: f32, block: [usize; 3], size: [usize; 3], layer: &mut [f32]) -> Active {
+/// Samples one block into its layer of blocks, and returns its primitives.
+fn fill_block(sdf: &Sdf, origin: Vec3, step: f32, block: [usize; 3], size: [usize; 3], layer: &mut [f32]) -> Active {
     let first = origin + Vec3::from(block.map(|b| (b * BLOCK) as f32)) * step;
     let half = 0.5 * (BLOCK - 1) as f32 * step;
     let radius = half * 1.733;
-    let active = clay.near(first + half, radius + 3.0 * step);
+    let active = sdf.near(first + half, radius + 3.0 * step);
 
     // Far from the surface the sign at the centre is the sign everywhere.
-    let middle = clay.bare_distance(&active, first + half).0;
-    let far = middle.abs() > 2.0 * radius + 3.0 * clay.reach;
+    let middle = sdf.undisplaced_distance(&active, first + half).0;
+    let far = middle.abs() > 2.0 * radius + 3.0 * sdf.highest;
     for z in 0..BLOCK {
         for y in 0..BLOCK {
             let row = (z * size[1] + block[1] * BLOCK + y) * size[0] + block[0] * BLOCK;
             for x in 0..BLOCK {
                 let p = first + Vec3::new(x as f32, y as f32, z as f32) * step;
-                layer[row + x] = if far { middle } else { clay.distance(&active, p) };
+                layer[row + x] = if far { middle } else { sdf.distance(&active, p) };
             }
         }
     }

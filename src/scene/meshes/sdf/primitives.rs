@@ -1,8 +1,8 @@
-//! The lumps: balls, cones, tubes along splines, and frames to place them in.
+//! The primitives: ellipsoids, round cones, tubes along splines, and frames to place them in.
 
 use glam::Vec3;
 
-use super::Clay;
+use super::Sdf;
 
 /// A place with three axes: `right`, `up` and `ahead`, of unit length and at right angles.
 #[derive(Clone, Copy, Debug)]
@@ -14,6 +14,8 @@ pub struct Frame {
 }
 
 impl Frame {
+    pub const WORLD: Self = Self { origin: Vec3::ZERO, right: Vec3::X, up: Vec3::Y, ahead: Vec3::Z };
+
     /// The frame at `origin` that looks `ahead`, with `up` as near as possible to the given one.
     pub fn looking(origin: Vec3, ahead: Vec3, up: Vec3) -> Self {
         let ahead = ahead.normalize();
@@ -23,11 +25,7 @@ impl Frame {
 
     /// From local (right, up, ahead) to the outside.
     pub fn at(&self, x: f32, y: f32, z: f32) -> Vec3 {
-        self.origin + self.turn(Vec3::new(x, y, z))
-    }
-
-    pub fn turn(&self, v: Vec3) -> Vec3 {
-        self.right * v.x + self.up * v.y + self.ahead * v.z
+        self.origin + (self.right * x + self.up * y + self.ahead * z)
     }
 
     /// From the outside to local (right, up, ahead).
@@ -37,33 +35,14 @@ impl Frame {
     }
 }
 
-/// A ball, stretched along the axes of a frame.
-pub struct Ball {
-    pub frame: Frame,
-    pub radii: Vec3,
-}
-
-impl Ball {
-    pub fn upright(centre: Vec3, radii: Vec3) -> Self {
-        Self { frame: Frame { origin: centre, right: Vec3::X, up: Vec3::Y, ahead: Vec3::Z }, radii }
-    }
-
-    /// A distance that is exact on the surface and to first order near it.
-    pub fn distance(&self, p: Vec3) -> f32 {
-        let q = self.frame.local(p);
-        let (a, b) = ((q / self.radii).length(), (q / (self.radii * self.radii)).length());
-        if b < 1e-9 { -self.radii.min_element() } else { a * (a - 1.0) / b }
-    }
-}
-
-/// Two balls with the tangent cone between them.
+/// Two spheres with the tangent cone between them.
 #[derive(Clone, Copy, Debug)]
-pub struct Cone {
+pub struct RoundCone {
     pub a: Vec3,
     pub b: Vec3,
     pub radius_a: f32,
     pub radius_b: f32,
-    /// Unit vector from `a` to `b`, and their distance; 0 when one ball holds the other.
+    /// Unit vector from `a` to `b`, and their distance; 0 when one sphere holds the other.
     axis: Vec3,
     length: f32,
     /// Sine and cosine of half the opening angle.
@@ -71,7 +50,7 @@ pub struct Cone {
     cosine: f32,
 }
 
-impl Cone {
+impl RoundCone {
     pub fn new(a: Vec3, radius_a: f32, b: Vec3, radius_b: f32) -> Self {
         let length = a.distance(b);
         let change = radius_a - radius_b;
@@ -103,11 +82,11 @@ impl Cone {
     }
 }
 
-/// One point of a tube: place and radius.
+/// One point of a tube: x, y, z and radius.
 #[derive(Clone, Copy, Debug)]
-pub struct Round(pub f32, pub f32, pub f32, pub f32);
+pub struct Knot(pub f32, pub f32, pub f32, pub f32);
 
-impl Round {
+impl Knot {
     fn place(self) -> Vec3 {
         Vec3::new(self.0, self.1, self.2)
     }
@@ -121,14 +100,14 @@ pub struct Tube {
 
 impl Tube {
     /// The Catmull-Rom curve through `points`, in `steps` pieces between two of them.
-    pub fn through(points: &[Round], steps: usize) -> Self {
+    pub fn through(points: &[Knot], steps: usize) -> Self {
         let at = |i: isize| points[i.clamp(0, points.len() as isize - 1) as usize];
         let (mut centres, mut radii) = (Vec::new(), Vec::new());
         for i in 0..points.len() as isize - 1 {
             let four = [at(i - 1), at(i), at(i + 1), at(i + 2)];
             for s in 0..steps {
                 let t = s as f32 / steps as f32;
-                centres.push(catmull_rom(four.map(Round::place), t));
+                centres.push(catmull_rom(four.map(Knot::place), t));
                 radii.push(catmull_rom(four.map(|r| Vec3::splat(r.3)), t).x.max(0.5 * four[1].3.min(four[2].3)));
             }
         }
@@ -158,8 +137,8 @@ impl Tube {
     }
 
     /// The piece between points `i` and `i + 1`.
-    pub fn piece(&self, i: usize) -> Cone {
-        Cone::new(self.centres[i], self.radii[i], self.centres[i + 1], self.radii[i + 1])
+    pub fn piece(&self, i: usize) -> RoundCone {
+        RoundCone::new(self.centres[i], self.radii[i], self.centres[i + 1], self.radii[i + 1])
     }
 
     pub fn pieces(&self) -> usize {
@@ -182,26 +161,56 @@ pub fn cosine(angle: f32) -> f32 {
     libm::cos(f64::from(angle)) as f32
 }
 
-impl Clay {
-    pub fn ball(&mut self, ball: Ball) -> &mut Self {
-        self.lump(ball.frame.origin, ball.radii.max_element(), move |p| ball.distance(p))
+/// The intersection of two solids whose surfaces meet at right angles, grown by `radius`, which rounds the edge.
+pub fn rounded_intersection(u: f32, v: f32, radius: f32) -> f32 {
+    let (out_u, out_v) = (u.max(0.0), v.max(0.0));
+    (out_u * out_u + out_v * out_v).sqrt() + u.max(v).min(0.0) - radius
+}
+
+impl Sdf {
+    pub fn sphere(&mut self, centre: Vec3, radius: f32) -> &mut Self {
+        self.primitive(centre, radius, move |p| p.distance(centre) - radius)
     }
 
-    pub fn sphere(&mut self, centre: Vec3, radius: f32) -> &mut Self {
-        self.lump(centre, radius, move |p| p.distance(centre) - radius)
+    /// An ellipsoid along the axes of the world.
+    pub fn ellipsoid(&mut self, centre: Vec3, radii: Vec3) -> &mut Self {
+        self.ellipsoid_in(&Frame { origin: centre, ..Frame::WORLD }, Vec3::ZERO, radii)
+    }
+
+    /// An ellipsoid along the axes of `frame`, around the point `centre` there.
+    pub fn ellipsoid_in(&mut self, frame: &Frame, centre: impl Into<Vec3>, radii: impl Into<Vec3>) -> &mut Self {
+        let (centre, radii) = (centre.into(), radii.into());
+        let frame = Frame { origin: frame.at(centre.x, centre.y, centre.z), ..*frame };
+        self.primitive(frame.origin, radii.max_element(), move |p| {
+            // Exact on the surface and to first order near it.
+            let q = frame.local(p);
+            let (a, b) = ((q / radii).length(), (q / (radii * radii)).length());
+            if b < 1e-9 { -radii.min_element() } else { a * (a - 1.0) / b }
+        })
     }
 
     pub fn cone(&mut self, a: Vec3, radius_a: f32, b: Vec3, radius_b: f32) -> &mut Self {
-        let cone = Cone::new(a, radius_a, b, radius_b);
+        let cone = RoundCone::new(a, radius_a, b, radius_b);
         let radius = 0.5 * a.distance(b) + radius_a.max(radius_b);
-        self.lump((a + b) * 0.5, radius, move |p| cone.distance(p))
+        self.primitive((a + b) * 0.5, radius, move |p| cone.distance(p))
     }
 
-    pub fn tube(&mut self, tube: &Tube) -> &mut Self {
+    /// A tube through `knots`, in `steps` cones between two of them.
+    pub fn tube(&mut self, knots: &[Knot], steps: usize) -> &mut Self {
+        let tube = Tube::through(knots, steps);
         for i in 0..tube.pieces() {
             let piece = tube.piece(i);
             self.cone(piece.a, piece.radius_a, piece.b, piece.radius_b);
         }
         self
+    }
+
+    /// A tube through `knots` that are given in `frame`.
+    pub fn tube_in(&mut self, frame: &Frame, knots: &[Knot], steps: usize) -> &mut Self {
+        let outside = |&Knot(x, y, z, radius): &Knot| {
+            let p = frame.at(x, y, z);
+            Knot(p.x, p.y, p.z, radius)
+        };
+        self.tube(&knots.iter().map(outside).collect::<Vec<_>>(), steps)
     }
 }

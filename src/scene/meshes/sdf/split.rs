@@ -1,6 +1,6 @@
 //! Bringing a closed mesh to an exact number of triangles.
 
-use super::Skin;
+use crate::scene::Model;
 
 /// Splits the longest edges at their middles until there are exactly `count` triangles.
 ///
@@ -8,34 +8,34 @@ use super::Skin;
 ///
 /// # Panics
 /// When the mesh has more than `count` triangles, or an odd number of them is missing.
-pub fn split_to(skin: &mut Skin, count: usize) {
+pub fn split_to(model: &mut Model, count: usize) {
     loop {
-        let have = skin.triangles.len();
+        let have = model.triangles.len();
         assert!(have <= count && (count - have).is_multiple_of(2), "cannot split {have} triangles into {count}");
         if have == count {
             return;
         }
-        split_longest(skin, (count - have) / 2);
+        split_longest(model, (count - have) / 2);
     }
 }
 
 /// Splits at most `limit` edges, the longest first, no two of them in one triangle.
-fn split_longest(skin: &mut Skin, limit: usize) {
+fn split_longest(model: &mut Model, limit: usize) {
     // Both triangles of every edge: sorting brings the two halves together.
-    let mut halves = Vec::with_capacity(3 * skin.triangles.len());
-    for (t, triangle) in skin.triangles.iter().enumerate() {
+    let mut halves = Vec::with_capacity(3 * model.triangles.len());
+    for (t, triangle) in model.triangles.iter().enumerate() {
         for i in 0..3 {
             let (a, b) = (triangle[i], triangle[(i + 1) % 3]);
             halves.push((a.min(b), a.max(b), t as u32));
         }
     }
     halves.sort_unstable();
-    let length = |a: u32, b: u32| skin.positions[a as usize].distance_squared(skin.positions[b as usize]);
+    let length = |a: u32, b: u32| model.positions[a as usize].distance_squared(model.positions[b as usize]);
     let mut edges: Vec<_> =
         halves.chunks_exact(2).map(|h| (length(h[0].0, h[0].1), h[0].0, h[0].1, [h[0].2, h[1].2])).collect();
     edges.sort_unstable_by(|x, y| y.0.total_cmp(&x.0).then((x.1, x.2).cmp(&(y.1, y.2))));
 
-    let mut used = vec![false; skin.triangles.len()];
+    let mut used = vec![false; model.triangles.len()];
     let mut left = limit;
     for (_, a, b, both) in edges {
         if left == 0 {
@@ -45,16 +45,16 @@ fn split_longest(skin: &mut Skin, limit: usize) {
             continue;
         }
         left -= 1;
-        let middle = skin.positions.len() as u32;
-        let [pa, pb] = [a, b].map(|i| skin.positions[i as usize]);
-        let normal = (skin.normals[a as usize] + skin.normals[b as usize]).normalize_or(skin.normals[a as usize]);
-        skin.positions.push((pa + pb) * 0.5);
-        skin.normals.push(normal);
+        let middle = model.positions.len() as u32;
+        let [pa, pb] = [a, b].map(|i| model.positions[i as usize]);
+        let normal = (model.normals[a as usize] + model.normals[b as usize]).normalize_or(model.normals[a as usize]);
+        model.positions.push((pa + pb) * 0.5);
+        model.normals.push(normal);
         for t in both {
             used[t as usize] = true;
-            let old = skin.triangles[t as usize];
-            skin.triangles[t as usize] = old.map(|v| if v == b { middle } else { v });
-            skin.triangles.push(old.map(|v| if v == a { middle } else { v }));
+            let old = model.triangles[t as usize];
+            model.triangles[t as usize] = old.map(|v| if v == b { middle } else { v });
+            model.triangles.push(old.map(|v| if v == a { middle } else { v }));
         }
     }
 }

@@ -1,30 +1,26 @@
-//! From clay to triangles: surface nets (Gibson 1998) with relaxed vertices.
+//! From a signed distance function to triangles: surface nets with relaxed vertices.
+//!
+//! # References
+//! Gibson: Constrained elastic surface nets. 1998.
 
 use glam::Vec3;
 use rayon::prelude::*;
 
-use super::Clay;
+use super::Sdf;
 use super::grid::Grid;
 use crate::geometry::Aabb;
+use crate::scene::{Model, meshes::normals};
 
-/// A closed triangle mesh: every edge belongs to exactly two triangles.
-#[derive(Clone, Debug)]
-pub struct Skin {
-    pub positions: Vec<Vec3>,
-    pub triangles: Vec<[u32; 3]>,
-    /// Unit length, one for every position.
-    pub normals: Vec<Vec3>,
-}
-
-impl Skin {
-    /// The surface of `clay` inside `bounds`, with edges of about `step`; `relax` rounds even it out.
-    pub fn of(clay: &Clay, bounds: Aabb, step: f32, relax: usize) -> Self {
-        let mut grid = Grid::sample(clay, bounds, step);
+impl Sdf {
+    /// The largest connected piece of the surface inside `bounds`: closed, with edges of about `step` and a unit normal for
+    /// each vertex; `relax` rounds even it out.
+    pub fn surface(&self, bounds: Aabb, step: f32, relax: usize) -> Model {
+        let mut grid = Grid::sample(self, bounds, step);
         grid.simplify();
         let (mut positions, quads) = net(&grid);
         let neighbours = neighbours(positions.len(), &quads);
         for _ in 0..relax {
-            positions = relaxed(clay, &grid, &positions, &quads, &neighbours);
+            positions = relaxed(self, &grid, &positions, &quads, &neighbours);
         }
 
         let mut triangles = Vec::with_capacity(2 * quads.len());
@@ -36,62 +32,63 @@ impl Skin {
                 triangles.extend([[a, b, d], [b, c, d]]);
             }
         }
-        let normals = vertex_normals(&positions, &triangles);
-        Self { positions, triangles, normals }.largest_piece()
+        let normals = normals::by_area(&positions, &triangles);
+        largest_piece(Model { positions, triangles, normals, ..Model::default() })
     }
 
-    /// Drops what does not hang together with the piece of most vertices: bubbles in the clay, crumbs beside it.
-    fn largest_piece(self) -> Self {
-        let mut parent: Vec<u32> = (0..self.positions.len() as u32).collect();
-        let mut root = |mut v: u32, join: Option<u32>| {
-            while parent[v as usize] != v {
-                parent[v as usize] = parent[parent[v as usize] as usize];
-                v = parent[v as usize];
-            }
-            if let Some(other) = join {
-                parent[v as usize] = other;
-            }
-            v
-        };
-        for &[a, b, c] in &self.triangles {
-            for (v, w) in [(a, b), (b, c)] {
-                let w = root(w, None);
-                root(v, Some(w));
-            }
-        }
-        let roots: Vec<u32> = (0..self.positions.len() as u32).map(|v| root(v, None)).collect();
-        let mut sizes = vec![0u32; roots.len()];
-        roots.iter().for_each(|&r| sizes[r as usize] += 1);
-        let largest = (0..sizes.len()).rev().max_by_key(|&r| sizes[r]).unwrap_or(0) as u32;
-
-        // Renumber the vertices that stay.
-        let mut number = vec![u32::MAX; roots.len()];
-        let (mut positions, mut normals) = (Vec::new(), Vec::new());
-        for (v, _) in roots.iter().enumerate().filter(|&(_, &r)| r == largest) {
-            number[v] = positions.len() as u32;
-            positions.push(self.positions[v]);
-            normals.push(self.normals[v]);
-        }
-        let stays = |t: &[u32; 3]| roots[t[0] as usize] == largest;
-        let triangles = self.triangles.into_iter().filter(stays).map(|t| t.map(|v| number[v as usize])).collect();
-        Self { positions, triangles, normals }
-    }
-
-    /// Moves the vertices onto the surface of `clay` and takes its normals: for skins too coarse to have good ones of
+    /// Moves the vertices of `model` onto the surface and takes its normals: for meshes too coarse to have good ones of
     /// their own.
-    pub fn settled(mut self, clay: &Clay, step: f32) -> Self {
-        let settle = |&start: &Vec3| {
-            let active = clay.near(start, 2.0 * step);
-            let normal = |p| clay.normal(&active, p, 0.02 * step);
+    pub fn settle(&self, model: &mut Model, step: f32) {
+        let settled = |&start: &Vec3| {
+            let active = self.near(start, 2.0 * step);
+            let normal = |p| self.normal(&active, p, 0.02 * step);
             let mut p = start;
             for _ in 0..3 {
-                p -= normal(p) * clay.distance(&active, p).clamp(-0.25 * step, 0.25 * step);
+                p -= normal(p) * self.distance(&active, p).clamp(-0.25 * step, 0.25 * step);
             }
             (p, normal(p))
         };
-        (self.positions, self.normals) = self.positions.par_iter().map(settle).unzip();
-        self
+        (model.positions, model.normals) = model.positions.par_iter().map(settled).unzip();
     }
+}
+
+/// Which connected piece each vertex belongs to: the number of one of the vertices in it.
+pub fn pieces(vertices: usize, triangles: &[[u32; 3]]) -> Vec<u32> {
+    let mut parent: Vec<u32> = (0..vertices as u32).collect();
+    fn root(parent: &mut [u32], mut v: u32) -> u32 {
+        while parent[v as usize] != v {
+            parent[v as usize] = parent[parent[v as usize] as usize];
+            v = parent[v as usize];
+        }
+        v
+    }
+    for &[a, b, c] in triangles {
+        for (v, w) in [(a, b), (b, c)] {
+            let (v, w) = (root(&mut parent, v), root(&mut parent, w));
+            parent[v as usize] = w;
+        }
+    }
+    (0..vertices as u32).map(|v| root(&mut parent, v)).collect()
+}
+
+/// Drops all but the piece of most vertices: bubbles inside the solid, crumbs beside it.
+fn largest_piece(model: Model) -> Model {
+    let pieces = pieces(model.positions.len(), &model.triangles);
+    let mut sizes = vec![0u32; pieces.len()];
+    pieces.iter().for_each(|&piece| sizes[piece as usize] += 1);
+    let largest = (0..sizes.len()).rev().max_by_key(|&piece| sizes[piece]).unwrap_or(0) as u32;
+
+    // Renumber the vertices that stay.
+    let mut number = vec![u32::MAX; pieces.len()];
+    let mut kept = Model::default();
+    for (v, _) in pieces.iter().enumerate().filter(|&(_, &piece)| piece == largest) {
+        number[v] = kept.positions.len() as u32;
+        kept.positions.push(model.positions[v]);
+        kept.normals.push(model.normals[v]);
+    }
+    let stays = |t: &[u32; 3]| pieces[t[0] as usize] == largest;
+    kept.triangles = model.triangles.into_iter().filter(stays).map(|t| t.map(|v| number[v as usize])).collect();
+    kept
 }
 
 /// One vertex in every cell that the surface passes, one quad for every grid edge that it cuts.
@@ -170,7 +167,7 @@ fn neighbours(vertices: usize, quads: &[[u32; 4]]) -> (Vec<u32>, Vec<u32>) {
 
 /// Moves every vertex along the surface towards the mean of its neighbours, and back onto the surface.
 fn relaxed(
-    clay: &Clay,
+    sdf: &Sdf,
     grid: &Grid,
     positions: &[Vec3],
     quads: &[[u32; 4]],
@@ -193,24 +190,13 @@ fn relaxed(
 
         // One secant step back to the surface, along the normal and never far.
         let active = grid.active(p);
-        let here = clay.distance(active, slid).clamp(-step, step);
+        let here = sdf.distance(active, slid).clamp(-step, step);
         if here == 0.0 {
             return slid;
         }
-        let there = clay.distance(active, slid - n * here);
+        let there = sdf.distance(active, slid - n * here);
         let slope = ((here - there) / here).clamp(0.4, 2.0);
         slid - n * (here / slope).clamp(-0.5 * step, 0.5 * step)
     };
     (0..positions.len()).into_par_iter().map(moved).collect()
-}
-
-/// Unit normals of vertices, weighted by area.
-pub(super) fn vertex_normals(positions: &[Vec3], triangles: &[[u32; 3]]) -> Vec<Vec3> {
-    let mut normals = vec![Vec3::ZERO; positions.len()];
-    for triangle in triangles {
-        let [a, b, c] = triangle.map(|i| positions[i as usize]);
-        let normal = (b - a).cross(c - a);
-        triangle.iter().for_each(|&v| normals[v as usize] += normal);
-    }
-    normals.into_iter().map(|n| n.normalize_or(Vec3::Y)).collect()
 }

@@ -2,7 +2,8 @@
 
 use glam::Vec3;
 
-use super::clay::{Frame, cosine, sine};
+use super::sdf::{Frame, cosine, sine};
+use super::{halves, normals};
 use crate::scene::{Material, Model};
 
 /// How a patch is shaded.
@@ -14,12 +15,12 @@ pub enum Finish {
 
 /// A building under construction.
 #[derive(Default)]
-pub struct Stone {
+pub struct Patches {
     pub model: Model,
     material: u32,
 }
 
-impl Stone {
+impl Patches {
     /// What is added from now on is of `material`, which is looked up by its name.
     pub fn of(&mut self, material: &Material) -> &mut Self {
         let known = self.model.materials.iter().position(|m| m.name == material.name);
@@ -41,41 +42,27 @@ impl Stone {
         at: impl Fn(usize, usize) -> Vec3,
     ) -> &mut Self {
         let across = if round { columns } else { columns + 1 };
-        let first = self.model.positions.len() as u32;
-        for row in 0..=rows {
-            self.model.positions.extend((0..across).map(|column| at(column, row)));
-        }
-        let from = self.model.triangles.len();
-        for row in 0..rows {
-            for column in 0..columns {
-                let corner = |c: usize, r: usize| first + ((row + r) * across + (column + c) % across) as u32;
-                let [a, b, c, d] = [corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)];
-                self.model.triangles.extend([[a, b, c], [a, c, d]]);
+        let positions: Vec<Vec3> =
+            (0..=rows).flat_map(|row| (0..across).map(move |c| (c, row))).map(|(c, r)| at(c, r)).collect();
+        let corner = |column: usize, row: usize| (row * across + column % across) as u32;
+        let cells = (0..rows).flat_map(|row| (0..columns).map(move |column| (column, row)));
+        let triangles: Vec<[u32; 3]> = cells
+            .flat_map(|(c, r)| halves([corner(c, r), corner(c + 1, r), corner(c + 1, r + 1), corner(c, r + 1)]))
+            .collect();
+
+        let model = &mut self.model;
+        let shifted = |by: usize| triangles.iter().map(move |t| t.map(|v| v + by as u32));
+        match finish {
+            Finish::Flat => model.normal_indices.extend(triangles.iter().map(|_| [Model::FLAT; 3])),
+            Finish::Smooth => {
+                model.normal_indices.extend(shifted(model.normals.len()));
+                model.normals.extend(normals::by_area(&positions, &triangles));
             }
         }
-        self.shade(from, first, finish);
-        self
-    }
-
-    /// Gives normals and the material to the triangles from number `from`, whose vertices start at `first`.
-    fn shade(&mut self, from: usize, first: u32, finish: Finish) {
-        let model = &mut self.model;
+        model.triangles.extend(shifted(model.positions.len()));
+        model.positions.extend(positions);
         model.material_of.resize(model.triangles.len(), self.material);
-        if finish == Finish::Flat {
-            model.normal_indices.resize(model.triangles.len(), [Model::FLAT; 3]);
-            return;
-        }
-        let mut normals = vec![Vec3::ZERO; model.positions.len() - first as usize];
-        for triangle in &model.triangles[from..] {
-            let [a, b, c] = triangle.map(|i| model.positions[i as usize]);
-            let normal = (b - a).cross(c - a);
-            triangle.iter().for_each(|&v| normals[(v - first) as usize] += normal);
-        }
-        let start = model.normals.len() as u32;
-        model.normals.extend(normals.into_iter().map(|n| n.normalize_or(Vec3::Y)));
-        let number = |t: &[u32; 3]| t.map(|v| v - first + start);
-        let indices: Vec<_> = model.triangles[from..].iter().map(number).collect();
-        model.normal_indices.extend(indices);
+        self
     }
 
     /// A flat quad; the corners run counter-clockwise when seen from the front.

@@ -1,0 +1,177 @@
+//! Solids given by signed distance functions: primitives under smooth union and subtraction, with a fine displacement.
+//!
+//! Everything is plain `f32` arithmetic and square roots, so the same solid is the same on every machine.
+//!
+//! # References
+//! Quilez: Distance functions; Smooth minimum. iquilezles.org, 2008 to 2024.
+
+mod grid;
+mod primitives;
+mod split;
+mod surface_nets;
+
+use glam::Vec3;
+
+pub use primitives::{Frame, Knot, RoundCone, Tube, cosine, rounded_intersection, sine};
+pub use split::split_to;
+#[cfg(test)]
+pub use surface_nets::pieces;
+
+/// Signed distance to a surface, negative inside; it may be too small but never grow faster than about 1 per unit.
+type Distance = Box<dyn Fn(Vec3) -> f32 + Send + Sync>;
+
+/// Height added to the surface at a point near it, times the share of the group there.
+type Displacement = Box<dyn Fn(Vec3) -> f32 + Send + Sync>;
+
+/// Farther than anything is from anything.
+const FAR: f32 = 1e9;
+
+/// One solid within a bounding sphere.
+struct Primitive {
+    centre: Vec3,
+    radius: f32,
+    distance: Distance,
+}
+
+/// How a group of primitives is joined to the solid so far.
+#[derive(Clone, Copy, Debug)]
+pub struct Blend {
+    /// Width of the smooth minimum; 0 gives a sharp crease.
+    pub smoothing: f32,
+    /// Subtracts the group instead of adding it.
+    pub subtract: bool,
+    /// Share of the displacement that shows on the group.
+    pub displacement: f32,
+}
+
+impl Blend {
+    /// A displaced union.
+    pub fn smooth(smoothing: f32) -> Self {
+        Self { smoothing, subtract: false, displacement: 1.0 }
+    }
+
+    /// A union without displacement: eyes, teeth, claws.
+    pub fn undisplaced(smoothing: f32) -> Self {
+        Self { displacement: 0.0, ..Self::smooth(smoothing) }
+    }
+
+    /// A displaced subtraction.
+    pub fn subtract(smoothing: f32) -> Self {
+        Self { subtract: true, ..Self::smooth(smoothing) }
+    }
+}
+
+struct Group {
+    blend: Blend,
+    primitives: Vec<Primitive>,
+}
+
+/// A solid: groups joined in their order, the primitives of one group by plain union.
+pub struct Sdf {
+    groups: Vec<Group>,
+    displacement: Displacement,
+    /// Largest magnitude of the displacement.
+    highest: f32,
+}
+
+/// The primitives that matter near some place, as (group, primitive), ascending.
+type Active = Vec<(u16, u16)>;
+
+impl Sdf {
+    /// The empty solid. `displacement` must stay within plus or minus `highest`.
+    pub fn new(highest: f32, displacement: impl Fn(Vec3) -> f32 + Send + Sync + 'static) -> Self {
+        Self { groups: Vec::new(), displacement: Box::new(displacement), highest }
+    }
+
+    /// The empty solid without displacement.
+    pub fn plain() -> Self {
+        Self::new(0.0, |_| 0.0)
+    }
+
+    /// Starts a group: the primitives added next are joined to the solid so far by `blend`.
+    pub fn group(&mut self, blend: Blend) -> &mut Self {
+        self.groups.push(Group { blend, primitives: Vec::new() });
+        self
+    }
+
+    /// Adds a primitive that lies in the sphere of `radius` around `centre`.
+    ///
+    /// # Panics
+    /// When no group was started.
+    pub fn primitive(
+        &mut self,
+        centre: Vec3,
+        radius: f32,
+        distance: impl Fn(Vec3) -> f32 + Send + Sync + 'static,
+    ) -> &mut Self {
+        let group = self.groups.last_mut().expect("a primitive needs a group: call Sdf::group first");
+        group.primitives.push(Primitive { centre, radius, distance: Box::new(distance) });
+        self
+    }
+
+    /// The primitives that can change the surface within `radius` of `centre`.
+    fn near(&self, centre: Vec3, radius: f32) -> Active {
+        let mut active = Active::new();
+        for (i, group) in self.groups.iter().enumerate() {
+            let reach = radius + group.blend.smoothing + self.highest;
+            for (j, primitive) in group.primitives.iter().enumerate() {
+                if primitive.centre.distance(centre) < primitive.radius + reach {
+                    active.push((i as u16, j as u16));
+                }
+            }
+        }
+        active
+    }
+
+    /// Signed distance without displacement, and the share of the displacement there.
+    fn undisplaced_distance(&self, active: &Active, p: Vec3) -> (f32, f32) {
+        let (mut distance, mut displaced) = (FAR, 1.0);
+        for members in active.chunk_by(|a, b| a.0 == b.0) {
+            let group = &self.groups[members[0].0 as usize];
+            let Blend { smoothing, subtract, displacement } = group.blend;
+            let sign = if subtract { -1.0 } else { 1.0 };
+
+            // What is farther than this changes nothing.
+            let mut near = FAR;
+            let mut bound = sign * distance + smoothing;
+            for &(_, j) in members {
+                let primitive = &group.primitives[j as usize];
+                let reach = primitive.radius + bound;
+                if reach > 0.0 && primitive.centre.distance_squared(p) < reach * reach {
+                    near = near.min((primitive.distance)(p));
+                    bound = bound.min(near);
+                }
+            }
+            let (joined, share) = smooth_minimum(sign * distance, near, smoothing);
+            distance = sign * joined;
+            displaced += (displacement - displaced) * share;
+        }
+        (distance, displaced)
+    }
+
+    /// Signed distance to the surface.
+    fn distance(&self, active: &Active, p: Vec3) -> f32 {
+        let (distance, displaced) = self.undisplaced_distance(active, p);
+        if self.highest > 0.0 && displaced > 0.0 && distance.abs() < 3.0 * self.highest {
+            distance - displaced * (self.displacement)(p)
+        } else {
+            distance
+        }
+    }
+
+    /// Direction in which the distance grows, of unit length, by central differences over `step`.
+    fn normal(&self, active: &Active, p: Vec3, step: f32) -> Vec3 {
+        let along = |axis: Vec3| self.distance(active, p + axis * step) - self.distance(active, p - axis * step);
+        Vec3::new(along(Vec3::X), along(Vec3::Y), along(Vec3::Z)).normalize_or(Vec3::Y)
+    }
+}
+
+/// The smooth minimum of width `k` of two distances, and the share of the second in it.
+fn smooth_minimum(a: f32, b: f32, k: f32) -> (f32, f32) {
+    if k <= 0.0 || (a - b).abs() >= k {
+        return if b < a { (b, 1.0) } else { (a, 0.0) };
+    }
+    let h = (k - (a - b).abs()) / k;
+    let share = 0.5 * h * h;
+    (a.min(b) - 0.25 * k * h * h, if b < a { 1.0 - share } else { share })
+}
