@@ -75,6 +75,7 @@ fn assert_closed(name: &str, mesh: &Arc<Mesh>, origin: fn(&mut Sampler) -> Vec3)
 }
 
 #[test]
+#[ignore = "millions of rays"]
 fn no_ray_escapes_from_a_sphere() {
     let model = icosphere(4);
     let mesh = Arc::new(Mesh::new(model.positions, model.triangles).expect("finite"));
@@ -83,6 +84,7 @@ fn no_ray_escapes_from_a_sphere() {
 
 /// Vertices, origins and so edges on a grid of eighths: rays meet vertices, edges and planes of faces exactly.
 #[test]
+#[ignore = "millions of rays"]
 fn no_ray_escapes_from_a_cube() {
     let mesh = of_case("cube_axis_aligned");
     let eighths = |sampler: &mut Sampler| Vec3::from_array([(); 3].map(|()| (sampler.below(15) as f32 - 7.0) / 8.0));
@@ -90,6 +92,7 @@ fn no_ray_escapes_from_a_cube() {
 }
 
 #[test]
+#[ignore = "millions of rays"]
 fn no_ray_escapes_from_a_star() {
     assert_closed("star", &of_case("closed_random"), |sampler| sampler.cube() * 0.5);
 }

@@ -74,6 +74,7 @@ fn passes(outcome: Result<(), String>) {
 }
 
 #[test]
+#[ignore = "half a minute; the default configurations are tested above"]
 fn every_configuration_of_ours_is_right() {
     let (registry, meshes) = (Registry::builtin(), degenerate_meshes());
     for spec in OURS {
@@ -92,6 +93,7 @@ fn scenes(hard: bool) -> Vec<(String, Arc<Mesh>)> {
 }
 
 #[test]
+#[ignore = "half a minute"]
 fn every_configuration_of_ours_is_right_on_the_small_scenes() {
     let (registry, meshes) = (Registry::builtin(), scenes(false));
     for spec in OURS.iter().chain(&TREES) {
@@ -100,6 +102,7 @@ fn every_configuration_of_ours_is_right_on_the_small_scenes() {
 }
 
 #[test]
+#[ignore = "half a minute"]
 fn our_trees_are_right_on_the_hard_scenes() {
     let (registry, meshes) = (Registry::builtin(), scenes(true));
     for spec in TREES {
@@ -110,6 +113,7 @@ fn our_trees_are_right_on_the_hard_scenes() {
 /// What the baseline answers wrongly is in `tests/findings.rs`; what it counts and how it looks is sound. Structures with
 /// conventions of their own are peers: `tests/peers.rs`.
 #[test]
+#[ignore = "a minute"]
 fn everything_offered_counts_and_has_a_possible_shape() {
     let (registry, meshes) = (Registry::builtin(), degenerate_meshes());
     let presets = ["fastest", "very-fast", "fast", "medium", "slow", "very-slow"];

@@ -222,7 +222,7 @@ proptest! {
 
 proptest! {
     #![proptest_config(ProptestConfig {
-        cases: from_environment("SAHARA_FUZZ_CASES", 120),
+        cases: from_environment("SAHARA_FUZZ_CASES", 40),
         rng_seed: RngSeed::Fixed(from_environment("SAHARA_FUZZ_SEED", 2003).into()),
         ..config()
     })]
