@@ -12,10 +12,10 @@ use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use glam::Vec3;
 use sahara::accel::{Accel, Counts, Observer};
 use sahara::geometry::Ray;
+use sahara::kdtree::{KdConfig, KdTree};
 use sahara::registry::Registry;
 use sahara::scene::{Builtin, Sampling, Workload, WorkloadKind};
 use sahara::simd::{F32x4, Kernel, Lanes, Level, Portable, Sieve, dispatch};
-use sahara::structures::{KdConfig, KdTree};
 use sahara::triangle::{
     BaldwinWeber, EdgeF64, Exact, FilteredF64, MollerTrumbore, MollerTrumboreF64, Plucker, TriangleTest, Watertight,
 };

@@ -1,6 +1,8 @@
 //! The structures by name: the only place that names them all.
 
 mod peers;
+#[cfg(feature = "planted-slowdown")]
+mod planted;
 
 use std::panic::{self, AssertUnwindSafe};
 use std::sync::Arc;
@@ -8,14 +10,21 @@ use std::sync::Arc;
 use serde_json::{Map, Value};
 
 use crate::accel::{Accel, BuildError, Capabilities, DynAccel, Observed};
+use crate::brute_force::BruteForce;
+use crate::bvh8::{Bvh8, Bvh8Config, Partition};
+use crate::external::obvhs::{Native, ObvhsBvh2, ObvhsConfig, ObvhsCwBvh, Over, RtTest};
 use crate::geometry::Mesh;
+use crate::kdtree::{KdConfig, KdTree};
 use crate::nearest::suggestion;
-use crate::structures::obvhs::{Native, ObvhsBvh2, ObvhsConfig, ObvhsCwBvh, Over, RtTest};
-use crate::structures::{BruteForce, KdConfig, KdTree, Partition, WideConfig, WideTree};
 use crate::triangle::{
     BaldwinWeber, EdgeF64, Exact, FilteredF64, MollerTrumbore, MollerTrumboreF64, Plucker, TriangleTest, Watertight,
 };
 use crate::validate::conformance::Subject;
+
+#[cfg(feature = "planted-slowdown")]
+type SahKd<T> = planted::Planted<KdTree<T>>;
+#[cfg(not(feature = "planted-slowdown"))]
+type SahKd<T> = KdTree<T>;
 
 /// The structures that a run can choose from, in the order of tables.
 pub struct Registry {
@@ -99,11 +108,11 @@ impl Registry {
     fn over<T: TriangleTest>(self) -> Self {
         self.with::<BruteForce<T>>("brute-force", Default::default())
             .with::<KdTree<T>>("median-kd", KdConfig::REPORT)
-            .with::<KdTree<T>>("sah-kd", KdConfig::SAH)
-            .with::<WideTree<T>>("sah-kd-wide", WideConfig::new(Partition::Cells))
-            .with::<WideTree<T>>("sah-kd-tight", WideConfig::new(Partition::Tight))
-            .with::<WideTree<T>>("sah-hybrid", WideConfig::new(Partition::Hybrid))
-            .with::<WideTree<T>>("sah-bvh", WideConfig::new(Partition::Objects))
+            .with::<SahKd<T>>("sah-kd", KdConfig::SAH)
+            .with::<Bvh8<T>>("sah-kd-wide", Bvh8Config::new(Partition::Cells))
+            .with::<Bvh8<T>>("sah-kd-tight", Bvh8Config::new(Partition::Tight))
+            .with::<Bvh8<T>>("sah-hybrid", Bvh8Config::new(Partition::Hybrid))
+            .with::<Bvh8<T>>("sah-bvh", Bvh8Config::new(Partition::Objects))
     }
 
     /// Adds a structure under `name`, with `config` as what a user gets who names no keys.

@@ -4,10 +4,12 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 use sahara::accel::{Capabilities, Loaded};
+use sahara::brute_force::BruteForce;
+use sahara::bvh8::{Bvh8, Bvh8Config, Partition};
 use sahara::geometry::{Hit, Mesh, Ray};
+use sahara::kdtree::{KdConfig, KdTree};
 use sahara::registry::{Choice, Registry};
 use sahara::scene::{BUILTIN, Difficulty};
-use sahara::structures::{BruteForce, KdConfig, KdTree, Partition, WideConfig, WideTree};
 use sahara::triangle::MollerTrumbore;
 use sahara::validate::conformance::{Subject, answers, counting, shapes};
 use sahara::validate::{Stratum, degenerate_meshes};
@@ -15,10 +17,10 @@ use sahara::validate::{Stratum, degenerate_meshes};
 sahara::conformance!(brute_force, BruteForce<MollerTrumbore>, Default::default(), lowest_id);
 sahara::conformance!(median_kd, KdTree<MollerTrumbore>, KdConfig::REPORT, lowest_id);
 sahara::conformance!(sah_kd, KdTree<MollerTrumbore>, KdConfig::SAH, lowest_id);
-sahara::conformance!(sah_kd_wide, WideTree<MollerTrumbore>, WideConfig::new(Partition::Cells), lowest_id);
-sahara::conformance!(sah_kd_tight, WideTree<MollerTrumbore>, WideConfig::new(Partition::Tight), lowest_id);
-sahara::conformance!(sah_hybrid, WideTree<MollerTrumbore>, WideConfig::new(Partition::Hybrid), lowest_id);
-sahara::conformance!(sah_bvh, WideTree<MollerTrumbore>, WideConfig::new(Partition::Objects), lowest_id);
+sahara::conformance!(sah_kd_wide, Bvh8<MollerTrumbore>, Bvh8Config::new(Partition::Cells), lowest_id);
+sahara::conformance!(sah_kd_tight, Bvh8<MollerTrumbore>, Bvh8Config::new(Partition::Tight), lowest_id);
+sahara::conformance!(sah_hybrid, Bvh8<MollerTrumbore>, Bvh8Config::new(Partition::Hybrid), lowest_id);
+sahara::conformance!(sah_bvh, Bvh8<MollerTrumbore>, Bvh8Config::new(Partition::Objects), lowest_id);
 
 /// Configurations that differ in what they build or how they walk. `exit=first-leaf` is left out: it is wrong by design.
 const OURS: [&str; 37] = [

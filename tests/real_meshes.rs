@@ -6,10 +6,10 @@
 use std::path::{Path, PathBuf};
 
 use sahara::accel::Accel;
+use sahara::bvh8::{Bvh8, Bvh8Config};
 use sahara::geometry::{Aabb, Mesh};
 use sahara::scene::format::SceneFile;
 use sahara::scene::{Model, Scene, SceneError, View, load};
-use sahara::structures::{WideConfig, WideTree};
 use sahara::triangle::MollerTrumbore;
 
 /// The model and mesh of a file, nothing when there is no such file.
@@ -146,7 +146,7 @@ fn the_views_look_at_their_meshes() {
         };
         // What starts off the surface by its area would start behind the next wall.
         assert!(scene.name == name && !scene.shadow_terminator_fix);
-        let tree = WideTree::<MollerTrumbore>::build(&scene.mesh, &WideConfig::default()).unwrap();
+        let tree = Bvh8::<MollerTrumbore>::build(&scene.mesh, &Bvh8Config::default()).unwrap();
         let view = scene.camera.view([128, 128]);
         let pixels = (0..128 * 128).map(|i| view.ray(i % 128, i / 128, View::CENTRE));
         let hits = pixels.filter(|ray| tree.any_hit(ray, &mut ())).count();

@@ -1,7 +1,4 @@
-use std::borrow::Cow;
-
-use super::DynAccel;
-use crate::geometry::{Hit, Ray};
+use crate::geometry::Hit;
 
 /// A batch of rays that a structure has taken ([`Accel::load`](super::Accel::load)), to be answered as often as one likes:
 /// what is timed.
@@ -19,20 +16,4 @@ pub trait Loaded: Send + Sync {
     /// # Panics
     /// If there are not as many slots as rays.
     fn any_hits(&self, hits: &mut [bool]);
-}
-
-/// Rays as they are: the structure prepares them each time it is asked.
-pub(crate) struct AsTheyAre<'a, A: ?Sized> {
-    pub accel: &'a A,
-    pub rays: Cow<'a, [Ray]>,
-}
-
-impl<A: DynAccel + ?Sized> Loaded for AsTheyAre<'_, A> {
-    fn closest_hits(&self, hits: &mut [Option<Hit>]) {
-        self.accel.closest_hits(&self.rays, hits);
-    }
-
-    fn any_hits(&self, hits: &mut [bool]) {
-        self.accel.any_hits(&self.rays, hits);
-    }
 }

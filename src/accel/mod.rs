@@ -15,11 +15,11 @@ pub use capabilities::Capabilities;
 pub use counts::Counts;
 pub use footprint::Footprint;
 pub use histogram::Histogram;
-#[cfg(feature = "suite")]
-pub(crate) use loaded::AsTheyAre;
 pub use loaded::Loaded;
 pub use observer::{Observed, Observer};
 pub use outline::{Outline, OutlineNode, Part};
 pub use query::Query;
 pub use shape::TreeShape;
+#[cfg(feature = "suite")]
+pub(crate) use traits::AsTheyAre;
 pub use traits::{Accel, BuildError, DynAccel};

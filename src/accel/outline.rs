@@ -77,7 +77,7 @@ impl Outline {
         let mut shape = TreeShape::default();
         let mut cost = 0.0;
         for node in &self.nodes {
-            cost += node.half_area() * node.cost();
+            cost += node.bounds.half_area() * node.cost();
             if !node.leaf {
                 shape.inner += 1;
                 continue;
@@ -91,7 +91,7 @@ impl Outline {
             shape.leaf_sizes.add(count);
             shape.leaf_depths.add(node.depth);
         }
-        let root = self.nodes.first().map_or(0.0, OutlineNode::half_area);
+        let root = self.nodes.first().map_or(0.0, |node| node.bounds.half_area());
         shape.sah_cost = (root > 0.0 && root.is_finite()).then(|| cost / root);
         shape
     }
@@ -101,12 +101,6 @@ impl OutlineNode {
     /// What it costs a ray to enter it.
     pub fn cost(&self) -> f64 {
         if self.leaf { TreeShape::leaf_cost(self.last - self.first) } else { TreeShape::INNER_COST }
-    }
-
-    /// Half of the surface area of its box, in `f64` so that it overflows for no mesh; 0 when empty.
-    pub fn half_area(&self) -> f64 {
-        let e = (self.bounds.max.as_dvec3() - self.bounds.min.as_dvec3()).max(glam::DVec3::ZERO);
-        e.x * e.y + e.y * e.z + e.z * e.x
     }
 }
 

@@ -7,7 +7,6 @@ use std::sync::Arc;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use super::loaded::AsTheyAre;
 use super::{Capabilities, Counts, Footprint, Loaded, Observed, Observer, Outline, TreeShape};
 use crate::geometry::{Hit, Mesh, Ray};
 
@@ -192,5 +191,21 @@ impl<A: Accel> DynAccel for A {
 
     fn outline(&self) -> Option<Outline> {
         Accel::outline(self)
+    }
+}
+
+/// Rays as they are: the structure prepares them each time it is asked.
+pub(crate) struct AsTheyAre<'a, A: ?Sized> {
+    pub accel: &'a A,
+    pub rays: Cow<'a, [Ray]>,
+}
+
+impl<A: DynAccel + ?Sized> Loaded for AsTheyAre<'_, A> {
+    fn closest_hits(&self, hits: &mut [Option<Hit>]) {
+        self.accel.closest_hits(&self.rays, hits);
+    }
+
+    fn any_hits(&self, hits: &mut [bool]) {
+        self.accel.any_hits(&self.rays, hits);
     }
 }

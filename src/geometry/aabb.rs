@@ -1,6 +1,6 @@
 //! Axis-aligned boxes.
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 
 /// The closed box of points between `min` and `max`; empty when a component of `min` exceeds that of `max`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,10 +47,10 @@ impl Aabb {
     }
 
     /// Half of the surface area: the measure of the surface area heuristic (Goldsmith, Salmon 1987). 0 when empty.
+    /// In `f64`, so that it overflows for no mesh.
     #[inline]
-    pub fn half_area(&self) -> f32 {
-        let e = self.extent().max(Vec3::ZERO);
-        e.x * e.y + e.y * e.z + e.z * e.x
+    pub fn half_area(&self) -> f64 {
+        half_area(self.min.as_dvec3(), self.max.as_dvec3())
     }
 
     #[inline]
@@ -78,4 +78,11 @@ impl Aabb {
     pub fn contains(&self, other: &Self) -> bool {
         other.is_empty() || (self.min.cmple(other.min).all() && self.max.cmpge(other.max).all())
     }
+}
+
+/// Half of the surface area of the box between two corners; 0 when empty.
+#[inline(always)]
+pub(crate) fn half_area(min: DVec3, max: DVec3) -> f64 {
+    let e = (max - min).max(DVec3::ZERO);
+    e.x * e.y + e.y * e.z + e.z * e.x
 }

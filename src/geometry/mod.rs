@@ -9,6 +9,7 @@ mod round;
 mod transform;
 
 pub use aabb::Aabb;
+pub(crate) use aabb::half_area;
 pub use mesh::{Mesh, MeshError};
 pub use ray::{Hit, PrimId, Ray};
 pub use ray_text::RayTextError;

@@ -103,12 +103,6 @@ impl Hit {
         Self { t, prim: PrimId::new(index) }
     }
 
-    /// Whether this hit wins over `other`: nearer, or as near with the lower primitive number.
-    #[inline(always)]
-    pub fn beats(self, other: Hit) -> bool {
-        self.t < other.t || (self.t == other.t && self.prim.index() < other.prim.index())
-    }
-
     /// Whether both hits name the same primitive at the same `t`, bit for bit.
     pub fn same_bits(self, other: Hit) -> bool {
         self.t.to_bits() == other.t.to_bits() && self.prim == other.prim

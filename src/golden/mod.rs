@@ -172,8 +172,9 @@ fn file_name(text: &str) -> String {
 mod tests {
     use super::*;
     use crate::accel::Accel;
+    use crate::brute_force::BruteForce;
+    use crate::kdtree::{KdConfig, KdTree};
     use crate::scene::Builtin;
-    use crate::structures::{BruteForce, KdConfig, KdTree};
 
     #[test]
     fn a_golden_image_holds_until_the_scene_changes() {

@@ -11,8 +11,8 @@ impl Registry {
 
         #[cfg(feature = "peer-bvh")]
         let this = {
-            use crate::structures::BruteForce;
-            use crate::structures::peers::bvh::{SvenstaroBvh, SvenstaroBvhConfig, SvenstaroTest};
+            use crate::brute_force::BruteForce;
+            use crate::external::bvh::{SvenstaroBvh, SvenstaroBvhConfig, SvenstaroTest};
             use crate::triangle::{Exact, MollerTrumbore};
             let config = SvenstaroBvhConfig::default();
             this.with::<SvenstaroBvh<SvenstaroTest>>("bvh", config)
@@ -23,8 +23,8 @@ impl Registry {
 
         #[cfg(feature = "peer-parry")]
         let this = {
-            use crate::structures::BruteForce;
-            use crate::structures::peers::parry::{ParryBvh, ParryConfig, ParryTest};
+            use crate::brute_force::BruteForce;
+            use crate::external::parry::{ParryBvh, ParryConfig, ParryTest};
             use crate::triangle::{Exact, MollerTrumbore};
             let config = ParryConfig::default();
             this.with::<ParryBvh<ParryTest>>("parry", config)
@@ -34,11 +34,11 @@ impl Registry {
         };
 
         #[cfg(feature = "peer-tinybvh")]
-        let this = this.with::<crate::structures::peers::tinybvh::TinyBvh>("tinybvh", Default::default());
+        let this = this.with::<crate::external::tinybvh::TinyBvh>("tinybvh", Default::default());
 
         #[cfg(feature = "peer-embree")]
         let this = {
-            use crate::structures::peers::embree::{Embree, EmbreeConfig, Fast, Robust};
+            use crate::external::embree::{Embree, EmbreeConfig, Fast, Robust};
             this.with::<Embree<Fast>>("embree", EmbreeConfig::default())
                 .with::<Embree<Robust>>("embree-robust", EmbreeConfig::default())
         };

@@ -2,8 +2,9 @@
 
 use super::{RayCounts, render};
 use crate::accel::Accel;
+use crate::brute_force::BruteForce;
+use crate::kdtree::{KdConfig, KdTree};
 use crate::scene::{Builtin, Sampling, Workload, WorkloadKind};
-use crate::structures::{BruteForce, KdConfig, KdTree};
 use crate::triangle::{Exact, MollerTrumbore};
 
 /// What the report's scenes took when recounted with the course's own renderer, and the report's own total.

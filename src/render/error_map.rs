@@ -76,8 +76,8 @@ mod tests {
     use super::*;
     use crate::accel::Accel;
     use crate::geometry::Mesh;
+    use crate::kdtree::{KdConfig, KdTree};
     use crate::scene::Builtin;
-    use crate::structures::{KdConfig, KdTree};
     use crate::triangle::Exact;
 
     #[test]

@@ -168,8 +168,9 @@ mod tests {
 
     use super::*;
     use crate::accel::Accel;
+    use crate::brute_force::BruteForce;
+    use crate::kdtree::{KdConfig, KdTree};
     use crate::scene::Builtin;
-    use crate::structures::{BruteForce, KdConfig, KdTree};
     use crate::triangle::MollerTrumbore;
 
     #[test]
@@ -203,7 +204,7 @@ mod tests {
     struct Silent;
 
     impl Accel for Silent {
-        type Config = crate::structures::BruteForceConfig;
+        type Config = crate::brute_force::BruteForceConfig;
         const OBSERVED: Observed = Observed::TESTS;
 
         fn build(

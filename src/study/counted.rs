@@ -136,7 +136,8 @@ mod tests {
     #[test]
     fn a_block_is_counted_once_however_many_triangles_it_holds() {
         use crate::accel::Accel;
-        use crate::structures::{BruteForce, KdConfig, KdTree};
+        use crate::brute_force::BruteForce;
+        use crate::kdtree::{KdConfig, KdTree};
         use crate::triangle::MollerTrumbore;
         let scene = crate::scene::Builtin::find("cube").unwrap().scene(None).unwrap();
         // Twelve triangles: a block of eight and one of four.

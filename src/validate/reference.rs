@@ -6,15 +6,15 @@ use glam::Vec3;
 use rayon::prelude::*;
 
 use crate::accel::{Accel, BuildError, DynAccel};
-use crate::geometry::{Hit, Mesh, Ray};
-use crate::structures::BruteForce;
-use crate::structures::obvhs::RtTest;
+use crate::brute_force::BruteForce;
 #[cfg(feature = "peer-bvh")]
-use crate::structures::peers::bvh::SvenstaroTest;
+use crate::external::bvh::SvenstaroTest;
 #[cfg(feature = "peer-embree")]
-use crate::structures::peers::embree;
+use crate::external::embree;
+use crate::external::obvhs::RtTest;
 #[cfg(feature = "peer-parry")]
-use crate::structures::peers::parry::ParryTest;
+use crate::external::parry::ParryTest;
+use crate::geometry::{Hit, Mesh, Ray};
 use crate::triangle::{
     BaldwinWeber, EdgeF64, Exact, FilteredF64, MollerTrumbore, MollerTrumboreF64, Plucker, TriangleTest, Watertight,
     scalar_hit,

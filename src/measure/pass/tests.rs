@@ -5,10 +5,10 @@ use glam::Vec3;
 
 use super::*;
 use crate::accel::{Accel, Counts, Footprint, Observed, TreeShape};
+use crate::brute_force::BruteForce;
 use crate::geometry::Mesh;
 use crate::measure::tiles::rays_at;
 use crate::measure::{Clock, SystemClock};
-use crate::structures::BruteForce;
 use crate::triangle::MollerTrumbore;
 
 fn triangle() -> Box<dyn DynAccel> {

@@ -3,9 +3,9 @@ use std::process::Command;
 use super::*;
 use crate::accel::{Accel, DynAccel, Query};
 use crate::geometry::{Hit, Ray};
+use crate::kdtree::{KdConfig, KdTree};
 use crate::output::OutputFile;
 use crate::scene::{Builtin, Sampling, Scene, Workload, WorkloadKind};
-use crate::structures::{KdConfig, KdTree};
 use crate::triangle::FilteredF64;
 
 fn scene() -> Scene {

@@ -5,8 +5,8 @@ use glam::Vec3;
 use super::*;
 use crate::accel::{Accel, DynAccel};
 use crate::geometry::Mesh;
+use crate::kdtree::{KdConfig, KdTree};
 use crate::scene::{Camera, Light, Material, Offset, meshes};
-use crate::structures::{KdConfig, KdTree};
 use crate::triangle::MollerTrumbore;
 
 /// A mirror floor and a ceiling that the eye looks at from between, with two lights.

@@ -120,8 +120,8 @@ impl Cell {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::kdtree::KdConfig;
     use crate::registry::Registry;
-    use crate::structures::KdConfig;
 
     #[test]
     fn cells_stand_where_they_say() {

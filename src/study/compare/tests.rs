@@ -5,11 +5,11 @@ use serde::{Deserialize, Serialize};
 
 use super::*;
 use crate::accel::{Accel, BuildError, Footprint, Observed, Observer, TreeShape};
+use crate::brute_force::BruteForce;
 use crate::geometry::{Hit, Mesh, Ray};
 use crate::measure::SystemClock;
 use crate::registry::Registry;
 use crate::scene::Builtin;
-use crate::structures::BruteForce;
 use crate::study::StudyError;
 use crate::triangle::{MollerTrumbore, TriangleTest};
 

@@ -1,11 +1,11 @@
 //! The costs as tables for people.
 
 use super::{Family, Observation, Off};
+use crate::kdtree::KdConfig;
 use crate::measure::Estimate;
 use crate::report::number::{duration, figures};
 use crate::report::words::interval;
 use crate::report::{Cell, Table};
-use crate::structures::KdConfig;
 use crate::study::SAH_TREE;
 
 /// What the columns mean.

@@ -4,6 +4,7 @@
 //! Havran, Purgathofer: On comparing ray shooting algorithms, 2003. Aila, Karras, Laine: On quality metrics of bounding volume
 //! hierarchies, 2013.
 
+mod end_point_overlap;
 mod table;
 
 use std::sync::Arc;
@@ -17,7 +18,7 @@ use crate::accel::{DynAccel, Histogram, Query};
 use crate::measure::Threads;
 use crate::registry::Choice;
 use crate::scene::{Sampling, Scene, Workload, WorkloadKind};
-use crate::structures::end_point_overlap;
+use end_point_overlap::end_point_overlap;
 
 pub use table::{LEGEND, histogram_tables, tables};
 

@@ -4,8 +4,8 @@ use glam::Vec3;
 
 use super::*;
 use crate::accel::Accel;
+use crate::brute_force::BruteForce;
 use crate::geometry::{Mesh, Ray};
-use crate::structures::BruteForce;
 use crate::study::epoch::tests::example;
 use crate::triangle::MollerTrumbore;
 
@@ -62,8 +62,8 @@ fn a_crossing_within_the_noise_is_not_named() {
 
 #[test]
 fn every_primary_ray_of_a_member_passes_all_layers() {
+    use crate::kdtree::{KdConfig, KdTree};
     use crate::scene::{Sampling, Workload, WorkloadKind};
-    use crate::structures::{KdConfig, KdTree};
     for root in [1, 6] {
         let scene = member(root).unwrap();
         let tree = KdTree::<MollerTrumbore>::build(&scene.mesh, &KdConfig::SAH).unwrap();

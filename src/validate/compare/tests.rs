@@ -2,7 +2,7 @@ use std::sync::Arc;
 
 use super::*;
 use crate::accel::{Accel, BuildError, Counts, Footprint, TreeShape};
-use crate::structures::BruteForce;
+use crate::brute_force::BruteForce;
 use crate::triangle::MollerTrumbore;
 use crate::validate::{Stratum, degenerate_meshes};
 

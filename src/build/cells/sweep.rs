@@ -1,0 +1,282 @@
+//! The exact SAH plane by a sweep over sorted events, kept sorted from the root down: O(n log n) for the whole tree.
+//!
+//! # References
+//! Wald, Havran: On building fast kd-trees for ray tracing, and on doing that in O(N log N). IEEE Symposium on Interactive
+//! Ray Tracing 2006. We depart from the paper in that a triangle in the plane goes to the cheaper side only (the traversal
+//! visits both sides of a plane that it crosses), and in the guard against duplication.
+
+use rayon::prelude::*;
+
+use super::config::CellConfig;
+use super::grow::{Content, Context, Place};
+use crate::build::clip::clipped_bounds;
+use crate::build::cut::Cut;
+use crate::build::reference::Reference;
+use crate::build::sah::{CostModel, SideAreas};
+use crate::geometry::Aabb;
+
+/// Where a reference begins or ends on an axis: coordinate, kind and number of the reference, in this order from the
+/// highest bit, so that the order of the numbers is the order of the sweep.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Event(u64);
+
+/// In the order in which the sweep must meet them at one coordinate.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u8)]
+enum Kind {
+    End = 0,
+    Planar = 1,
+    Start = 2,
+}
+
+impl Event {
+    fn new(coordinate: f32, kind: Kind, reference: u32) -> Self {
+        // Negative floats order backwards: flip all their bits, and the sign bit of the others. -0.0 becomes 0.0.
+        let bits = (coordinate + 0.0).to_bits();
+        let ordered = if bits >> 31 == 1 { !bits } else { bits | 1 << 31 };
+        Self(u64::from(ordered) << 32 | (kind as u64) << 30 | u64::from(reference))
+    }
+
+    fn coordinate(self) -> f32 {
+        let ordered = (self.0 >> 32) as u32;
+        f32::from_bits(if ordered >> 31 == 1 { ordered & !(1 << 31) } else { !ordered })
+    }
+
+    fn kind(self) -> Kind {
+        match (self.0 >> 30) & 3 {
+            0 => Kind::End,
+            1 => Kind::Planar,
+            _ => Kind::Start,
+        }
+    }
+
+    fn reference(self) -> u32 {
+        self.0 as u32 & ((1 << 30) - 1)
+    }
+
+    /// The same event of the reference that is now called `reference`.
+    fn renamed(self, reference: u32) -> Self {
+        Self(self.0 & !((1 << 30) - 1) | u64::from(reference))
+    }
+}
+
+/// References in ascending order of triangles, and their events on every axis in the order of the sweep.
+pub(crate) struct Events {
+    references: Vec<Reference>,
+    axes: [Vec<Event>; 3],
+}
+
+/// Below this many references a node is swept by one thread.
+pub(super) const PARALLEL: usize = 8192;
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Side {
+    Below,
+    Above,
+    Both,
+}
+
+impl Events {
+    /// References in ascending order of triangles.
+    pub fn new(references: Vec<Reference>) -> Self {
+        let axes = [0, 1, 2].map(|axis| {
+            let mut events = Vec::with_capacity(2 * references.len());
+            push_events(&references, 0, axis, &mut events);
+            if references.len() < PARALLEL {
+                events.sort_unstable();
+            } else {
+                events.par_sort_unstable();
+            }
+            events
+        });
+        Self { references, axes }
+    }
+
+    pub fn references(&self) -> &[Reference] {
+        &self.references
+    }
+
+    pub fn into_references(self) -> Vec<Reference> {
+        self.references
+    }
+
+    /// The cheapest plane of one axis: its cost and the cut.
+    fn sweep(&self, model: &CostModel, cell: &Aabb, axis: usize) -> Option<(f64, Cut)> {
+        let areas = SideAreas::new(cell, axis);
+        let inverse = 1.0 / areas.whole();
+        let (min, max) = (cell.min[axis], cell.max[axis]);
+        let events = &self.axes[axis];
+        let (mut below, mut above) = (0, self.references.len());
+        let mut best: Option<(f64, Cut)> = None;
+
+        let mut i = 0;
+        while i < events.len() {
+            // Count the references that end, lie and begin at this coordinate.
+            let plane = events[i].coordinate();
+            let mut counts = [0; 3];
+            while i < events.len() && events[i].0 >> 32 == Event::new(plane, Kind::End, 0).0 >> 32 {
+                counts[events[i].kind() as usize] += 1;
+                i += 1;
+            }
+            let [end, planar, start] = counts;
+            above -= end + planar;
+
+            // A plane on the cell's own face cuts nothing.
+            if min < plane && plane < max {
+                let (below_area, above_area) = areas.at(plane.into());
+                let mut offer = |below, above, flat_below| {
+                    let cost = model.cell_split(inverse, (below_area, below), (above_area, above));
+                    if best.is_none_or(|(least, _)| cost < least) {
+                        best = Some((cost, Cut { axis, plane, flat_below }));
+                    }
+                };
+                offer(below + planar, above, true);
+                if planar > 0 {
+                    offer(below, above + planar, false);
+                }
+            }
+            below += start + planar;
+        }
+        best
+    }
+
+    /// On which side of the cut each reference lies.
+    fn sides(&self, cut: Cut) -> Vec<Side> {
+        let side = |r: &Reference| {
+            let (lo, hi) = (r.min(cut.axis), r.max(cut.axis));
+            match (hi <= cut.plane, lo >= cut.plane) {
+                (true, true) if cut.flat_below => Side::Below,
+                (true, true) | (false, true) => Side::Above,
+                (true, false) => Side::Below,
+                (false, false) => Side::Both,
+            }
+        };
+        self.references.iter().map(side).collect()
+    }
+
+    /// The references of one side: those wholly there keep their events, those on both sides are clipped to the cell.
+    fn part(&self, context: &Context<CellConfig>, sides: &[Side], here: Side, cell: &Aabb) -> Self {
+        let count = sides.iter().filter(|&&side| side == here || side == Side::Both).count();
+        let mut references = Vec::with_capacity(count);
+        let mut names = vec![u32::MAX; sides.len()];
+        let mut clipped = vec![];
+        for (i, (reference, &side)) in self.references.iter().zip(sides).enumerate() {
+            if side == here {
+                names[i] = references.len() as u32;
+                references.push(*reference);
+            } else if side == Side::Both {
+                let bounds = clipped_bounds(context.mesh.corners(reference.id()), cell, &reference.bounds());
+                clipped.push(references.len() as u32);
+                references.push(Reference::new(reference.id(), bounds));
+            }
+        }
+
+        let axes = [0, 1, 2].map(|axis| {
+            let mut fresh = Vec::with_capacity(2 * clipped.len());
+            for &name in &clipped {
+                push_events(&references[name as usize..=name as usize], name, axis, &mut fresh);
+            }
+            fresh.sort_unstable();
+            let kept = self.axes[axis].iter().filter_map(|event| {
+                let name = names[event.reference() as usize];
+                (name != u32::MAX).then(|| event.renamed(name))
+            });
+            merge(kept, &fresh, 2 * count)
+        });
+        Self { references, axes }
+    }
+}
+
+/// The events of `references`, the first of which is called `first`.
+fn push_events(references: &[Reference], first: u32, axis: usize, events: &mut Vec<Event>) {
+    for (name, reference) in (first..).zip(references) {
+        let (lo, hi) = (reference.min(axis), reference.max(axis));
+        if lo == hi {
+            events.push(Event::new(lo, Kind::Planar, name));
+        } else {
+            events.push(Event::new(lo, Kind::Start, name));
+            events.push(Event::new(hi, Kind::End, name));
+        }
+    }
+}
+
+/// Both sorted sequences in one.
+fn merge(kept: impl Iterator<Item = Event>, fresh: &[Event], capacity: usize) -> Vec<Event> {
+    let mut merged = Vec::with_capacity(capacity);
+    let mut rest = fresh;
+    for event in kept {
+        while let [next, tail @ ..] = rest
+            && *next < event
+        {
+            merged.push(*next);
+            rest = tail;
+        }
+        merged.push(event);
+    }
+    merged.extend_from_slice(rest);
+    merged
+}
+
+impl Content for Events {
+    type Config = CellConfig;
+
+    fn len(&self) -> usize {
+        self.references.len()
+    }
+
+    fn ids(&self) -> impl Iterator<Item = u32> {
+        self.references.iter().map(|r| r.id())
+    }
+
+    fn choose(&self, context: &Context<CellConfig>, place: &Place) -> Option<Cut> {
+        let model = &context.config.costs;
+        let sweep = |axis| self.sweep(model, &place.cell, axis);
+        let found: [_; 3] = if self.len() < PARALLEL {
+            [sweep(0), sweep(1), sweep(2)]
+        } else {
+            let (x, (y, z)) = rayon::join(|| sweep(0), || rayon::join(|| sweep(1), || sweep(2)));
+            [x, y, z]
+        };
+        let (cost, cut) = found.into_iter().flatten().reduce(|a, b| if b.0 < a.0 { b } else { a })?;
+        (!context.rules.pays || cost < model.leaf(self.len())).then_some(cut)
+    }
+
+    fn divide(self, context: &Context<CellConfig>, place: &Place, cut: Cut) -> Result<(Self, Self), Self> {
+        let sides = self.sides(cut);
+        let both = sides.iter().filter(|&&side| side == Side::Both).count();
+        let below = both + sides.iter().filter(|&&side| side == Side::Below).count();
+        let above = self.len() + both - below;
+        if !place.accepts(context, self.len(), [below, above]) {
+            return Err(self);
+        }
+
+        let (below_cell, above_cell) = place.cell.cut(cut.axis, cut.plane);
+        let part = |here, cell| self.part(context, &sides, here, cell);
+        Ok(if self.len() < PARALLEL {
+            (part(Side::Below, &below_cell), part(Side::Above, &above_cell))
+        } else {
+            rayon::join(|| part(Side::Below, &below_cell), || part(Side::Above, &above_cell))
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn events_sort_by_coordinate_then_kind() {
+        let values = [f32::NEG_INFINITY, -2.0, -1e-40, -0.0, 0.0, 1e-40, 1.5, f32::MAX];
+        for (i, &a) in values.iter().enumerate() {
+            assert_eq!(Event::new(a, Kind::Start, 7).coordinate(), a);
+            for &b in &values[i..] {
+                assert!(Event::new(a, Kind::End, 9) < Event::new(b, Kind::Start, 1), "{a} {b}");
+                if a < b {
+                    assert!(Event::new(a, Kind::Start, 9) < Event::new(b, Kind::End, 1), "{a} {b}");
+                }
+            }
+        }
+        let event = Event::new(-3.0, Kind::Planar, 12).renamed(4);
+        assert_eq!((event.coordinate(), event.kind(), event.reference()), (-3.0, Kind::Planar, 4));
+    }
+}

@@ -1,0 +1,77 @@
+//! The cells of a KD-tree as tight boxes: what a wide tree is made of.
+
+use super::binned::Binned;
+use super::config::CellConfig;
+use super::grow::{Context, Rules, Tree, grow};
+use crate::build::binary_tree::{BinaryNode, BinaryTree, Content};
+use crate::build::cut::Cut;
+use crate::build::part::{Part, halves};
+use crate::geometry::{Aabb, Mesh};
+
+/// References that a leaf may hold; fuller ones are dealt out to several.
+const MOST: usize = 64;
+
+/// Cells that hold something, each as the tight box of what its triangles have in it, and the inner nodes that are still needed.
+#[derive(Default)]
+struct Cells(BinaryTree);
+
+/// The cells of `mesh` that are not empty, as tight boxes, with at most `duplication` references a triangle. The tree does not depend on the
+/// number of threads.
+pub(crate) fn build(mesh: &Mesh, config: &CellConfig, duplication: f32) -> BinaryTree {
+    let context = Context::new(mesh, Rules::sah(duplication), config);
+    let Cells(tree) = grow(&context, Binned::all(&context));
+    tree
+}
+
+impl Cells {
+    fn deal(&mut self, part: Part) {
+        let (first, count) = (self.0.references.len() as u32, part.references.len());
+        if count > MOST {
+            let inner = self.0.nodes.len();
+            self.push(Aabb::EMPTY, Content::Inner([0; 2]));
+            let [below, above] = halves(part.references);
+            self.deal(below);
+            let second = self.0.nodes.len();
+            self.deal(above);
+            self.join(inner, second);
+        } else {
+            self.0.references.extend(part.references.iter().map(|r| r.id()));
+            self.push(part.extent.into(), Content::Leaf { first, count: count as u32 });
+        }
+    }
+
+    fn push(&mut self, bounds: Aabb, content: Content) {
+        self.0.nodes.push(BinaryNode { bounds, content });
+    }
+
+    /// Makes the nodes after `inner` and at `second` its children.
+    fn join(&mut self, inner: usize, second: usize) {
+        let nodes = &mut self.0.nodes;
+        let bounds = nodes[inner + 1].bounds.union(nodes[second].bounds);
+        nodes[inner] = BinaryNode { bounds, content: Content::Inner([inner as u32 + 1, second as u32]) };
+    }
+}
+
+impl Tree<Binned> for Cells {
+    const SKIPS_EMPTY: bool = true;
+
+    fn len(&self) -> usize {
+        self.0.nodes.len()
+    }
+
+    fn leaf(&mut self, content: Binned) {
+        self.deal(content.into_part());
+    }
+
+    fn open(&mut self) {
+        self.push(Aabb::EMPTY, Content::Inner([0; 2]));
+    }
+
+    fn close(&mut self, inner: usize, _: Cut, second: usize) {
+        self.join(inner, second);
+    }
+
+    fn append(&mut self, other: Self) {
+        self.0.append(other.0);
+    }
+}

@@ -1,0 +1,301 @@
+//! The box of the part of a triangle that lies in a cell: what makes a split "perfect".
+
+use glam::{DVec3, Vec3};
+
+use crate::geometry::{Aabb, round_down, round_up};
+
+/// At most this many corners are left when six planes have cut a triangle.
+const CORNERS: usize = 9;
+
+/// By how much a computed corner is off on an axis, as a share of the triangle's largest coordinate on it, at most: one
+/// interpolation a + (b - a) w with w = (s - a) / (b - a) takes five roundings of up to twice that coordinate and one of it,
+/// and at most seven interpolations follow each other: 77 units of 2^-53.
+///
+/// Planes are moved outward by as much. So a point that is kept exactly is kept here too, off by what the corners around it
+/// are off, however flat the angle at which an edge with computed ends crosses the plane.
+const ERROR: f64 = 128.0 / (1u64 << 53) as f64;
+
+/// A box that contains the part of the triangle `corners` in `cell`, inside `cell` and inside `known`, a box of the part in
+/// some larger cell.
+///
+/// Clips in f64 (Sutherland, Hodgman 1974) and rounds outward, so that nothing of the triangle is lost; where rounding
+/// leaves no polygon at all, the answer is `known` cut by the cell: a triangle that reaches into the cell is never dropped.
+pub(crate) fn clipped_bounds(corners: [Vec3; 3], cell: &Aabb, known: &Aabb) -> Aabb {
+    Polygon::clipped(corners, cell).corner_box().in_cut(known.intersection(*cell))
+}
+
+/// The boxes of both sides of a plane: [`clipped_bounds`] of the parts of `bounds` below and above, where `bounds` is a box
+/// of the part of the triangle in some cell and the plane meets its inside.
+pub(crate) fn cut_bounds(corners: [Vec3; 3], bounds: &Aabb, axis: usize, plane: f32) -> (Aabb, Aabb) {
+    let polygon = Polygon::clipped(corners, bounds);
+    let (below, above) = bounds.cut(axis, plane);
+    let half = |cut: Aabb, side: f64| {
+        let mut corner_box = CornerBox::EMPTY;
+        polygon.kept(axis, plane.into(), side, |p, computed| corner_box.grow(p, polygon.slack_of(computed)));
+        corner_box.in_cut(cut)
+    };
+    (half(below, -1.0), half(above, 1.0))
+}
+
+/// The area of the part of the triangle `corners` in `cell`, its faces included. Off by less than 1e-12 of the square of the triangle's
+/// largest coordinate.
+#[cfg(feature = "suite")]
+pub(crate) fn clipped_area(corners: [Vec3; 3], cell: &Aabb) -> f64 {
+    let mut polygon = Polygon { slack: DVec3::ZERO, ..Polygon::new(corners) };
+    polygon.cut_to(cell);
+    polygon.area()
+}
+
+/// Corners, and for each whether it was computed (and hence rounded) rather than given.
+struct Polygon {
+    corners: [(DVec3, bool); CORNERS],
+    len: usize,
+    slack: DVec3,
+}
+
+impl Polygon {
+    fn new(corners: [Vec3; 3]) -> Self {
+        let corners = corners.map(Vec3::as_dvec3);
+        let largest = corners.iter().fold(DVec3::ZERO, |m, p| m.max(p.abs()));
+        let mut slots = [(DVec3::ZERO, false); CORNERS];
+        for (slot, corner) in slots.iter_mut().zip(corners) {
+            slot.0 = corner;
+        }
+        Self { corners: slots, len: 3, slack: largest * ERROR }
+    }
+
+    /// The part of a triangle in `cell`.
+    fn clipped(corners: [Vec3; 3], cell: &Aabb) -> Self {
+        let mut polygon = Self::new(corners);
+        polygon.cut_to(cell);
+        polygon
+    }
+
+    /// Leaves what of it lies in `cell`.
+    fn cut_to(&mut self, cell: &Aabb) {
+        for axis in 0..3 {
+            self.keep(axis, cell.min[axis].into(), 1.0);
+            self.keep(axis, cell.max[axis].into(), -1.0);
+        }
+    }
+
+    fn corners(&self) -> impl Iterator<Item = (DVec3, bool)> + '_ {
+        self.corners[..self.len].iter().copied()
+    }
+
+    /// How far off a corner may be.
+    fn slack_of(&self, computed: bool) -> DVec3 {
+        if computed { self.slack } else { DVec3::ZERO }
+    }
+
+    fn corner_box(&self) -> CornerBox {
+        let mut corner_box = CornerBox::EMPTY;
+        self.corners().for_each(|(p, computed)| corner_box.grow(p, self.slack_of(computed)));
+        corner_box
+    }
+
+    /// By the fan of triangles around its first corner.
+    #[cfg(feature = "suite")]
+    fn area(&self) -> f64 {
+        let [first, rest @ ..] = &self.corners[..self.len] else { return 0.0 };
+        let fan = rest.windows(2).map(|pair| (pair[0].0 - first.0).cross(pair[1].0 - first.0));
+        fan.sum::<DVec3>().length() * 0.5
+    }
+
+    /// Cuts away what surely lies beyond the plane.
+    fn keep(&mut self, axis: usize, plane: f64, side: f64) {
+        let bound = plane - side * self.slack[axis];
+        if self.corners().all(|(p, _)| side * (p[axis] - bound) >= 0.0) {
+            return;
+        }
+        let mut after = [(DVec3::ZERO, false); CORNERS];
+        let mut len = 0;
+        self.kept(axis, plane, side, |p, computed| {
+            after[len] = (p, computed);
+            len += 1;
+        });
+        (self.corners, self.len) = (after, len);
+    }
+
+    /// Visits the corners of what does not surely lie beyond the plane: keeps points with `side * (p[axis] - plane) >= 0` and some
+    /// slack.
+    #[inline(always)]
+    fn kept(&self, axis: usize, plane: f64, side: f64, mut visit: impl FnMut(DVec3, bool)) {
+        let plane = plane - side * self.slack[axis];
+        let inside = |p: DVec3| side * (p[axis] - plane) >= 0.0;
+        for (i, (p, computed)) in self.corners().enumerate() {
+            let (q, _) = self.corners[if i + 1 == self.len { 0 } else { i + 1 }];
+            if inside(p) {
+                visit(p, computed);
+            }
+            if inside(p) != inside(q) {
+                // Both directions of an edge give the same point.
+                let (a, b) = if inside(p) { (p, q) } else { (q, p) };
+                let mut crossing = a + (b - a) * ((plane - a[axis]) / (b[axis] - a[axis]));
+                crossing[axis] = plane;
+                visit(crossing, true);
+            }
+        }
+    }
+}
+
+/// The box of corners.
+struct CornerBox {
+    min: DVec3,
+    max: DVec3,
+}
+
+impl CornerBox {
+    const EMPTY: Self = Self { min: DVec3::INFINITY, max: DVec3::NEG_INFINITY };
+
+    #[inline(always)]
+    fn grow(&mut self, p: DVec3, slack: DVec3) {
+        self.min = self.min.min(p - slack);
+        self.max = self.max.max(p + slack);
+    }
+
+    /// Rounded outward to f32, what of it is in `cut`; `cut` where rounding has left nothing.
+    fn in_cut(&self, cut: Aabb) -> Aabb {
+        let tight = Aabb {
+            min: Vec3::from_array(self.min.to_array().map(round_down)),
+            max: Vec3::from_array(self.max.to_array().map(round_up)),
+        };
+        let tight = tight.intersection(cut);
+        if tight.is_empty() { cut } else { tight }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use rand_core::{RngCore, SeedableRng};
+
+    use super::*;
+    use crate::exact;
+    use crate::geometry::Ray;
+
+    fn point(rng: &mut rand_pcg::Pcg32) -> Vec3 {
+        Vec3::from_array(std::array::from_fn(|_| rng.next_u32() as f32 / u32::MAX as f32 * 4.0 - 2.0))
+    }
+
+    #[test]
+    fn nothing_of_the_triangle_in_the_cell_is_lost_and_the_box_is_tight() {
+        let mut rng = rand_pcg::Pcg32::seed_from_u64(11);
+        let mut seen = 0;
+        for _ in 0..20_000 {
+            let corners: [Vec3; 3] = std::array::from_fn(|_| point(&mut rng));
+            let (a, b) = (point(&mut rng), point(&mut rng));
+            let cell = Aabb { min: a.min(b), max: a.max(b) };
+            let known = Aabb::of_points(corners);
+            let clipped = clipped_bounds(corners, &cell, &known);
+            if known.intersection(cell).is_empty() {
+                continue;
+            }
+            assert!(cell.contains(&clipped) && known.contains(&clipped));
+
+            // Points of the triangle, in f64: those in the cell must be in the box.
+            let [p, q, r] = corners.map(Vec3::as_dvec3);
+            for _ in 0..20 {
+                let (mut u, mut v) =
+                    (f64::from(rng.next_u32()) / 4294967295.0, f64::from(rng.next_u32()) / 4294967295.0);
+                if u + v > 1.0 {
+                    (u, v) = (1.0 - u, 1.0 - v);
+                }
+                let x = p * (1.0 - u - v) + q * u + r * v;
+                let inside = |b: &Aabb| b.min.as_dvec3().cmple(x).all() && b.max.as_dvec3().cmpge(x).all();
+                if inside(&cell) {
+                    assert!(inside(&clipped), "{x} of {corners:?} in {cell:?} is outside {clipped:?}");
+                    seen += 1;
+                }
+            }
+        }
+        assert!(seen > 5_000, "too few points to prove anything: {seen}");
+    }
+
+    #[test]
+    fn both_sides_of_a_cut_are_the_boxes_of_the_polygons() {
+        let mut rng = rand_pcg::Pcg32::seed_from_u64(13);
+        let mut cuts = 0;
+        for _ in 0..20_000 {
+            let corners: [Vec3; 3] = std::array::from_fn(|_| point(&mut rng));
+            let (a, b, plane) = (point(&mut rng), point(&mut rng), point(&mut rng).x);
+            let bounds = clipped_bounds(corners, &Aabb { min: a.min(b), max: a.max(b) }, &Aabb::of_points(corners));
+            let axis = (rng.next_u32() % 3) as usize;
+            if bounds.is_empty() || plane <= bounds.min[axis] || bounds.max[axis] <= plane {
+                continue;
+            }
+            let (below, above) = bounds.cut(axis, plane);
+            let side = |cut: Aabb, side: f64| {
+                let mut polygon = Polygon::clipped(corners, &bounds);
+                polygon.keep(axis, plane.into(), side);
+                polygon.corner_box().in_cut(cut)
+            };
+            assert_eq!(cut_bounds(corners, &bounds, axis, plane), (side(below, -1.0), side(above, 1.0)));
+            cuts += 1;
+        }
+        assert!(cuts > 1_000, "too few cuts to prove anything: {cuts}");
+    }
+
+    #[test]
+    fn a_corner_cut_off_shrinks_the_box() {
+        let corners = [Vec3::ZERO, Vec3::new(4.0, 0.0, 0.0), Vec3::new(0.0, 4.0, 0.0)];
+        let cell = Aabb { min: Vec3::new(3.0, 0.0, -1.0), max: Vec3::new(5.0, 5.0, 1.0) };
+        let clipped = clipped_bounds(corners, &cell, &Aabb::of_points(corners));
+        assert_eq!(clipped.min, Vec3::new(3.0, 0.0, 0.0));
+        assert_eq!(clipped.max.x, 4.0);
+        assert!((1.0..1.0 + 2.0 * f32::EPSILON).contains(&clipped.max.y), "{clipped:?}");
+    }
+
+    #[test]
+    fn a_triangle_that_only_touches_the_cell_is_kept() {
+        let corners = [Vec3::ZERO, Vec3::new(-1.0, 1.0, 0.0), Vec3::new(-1.0, -1.0, 0.0)];
+        let cell = Aabb { min: Vec3::new(0.0, -1.0, -1.0), max: Vec3::ONE };
+        let clipped = clipped_bounds(corners, &cell, &Aabb::of_points(corners));
+        assert!(clipped.contains(&Aabb::of_points([Vec3::ZERO])), "{clipped:?}");
+    }
+
+    /// Planes close to 0 cut triangles with large coordinates, where corners are computed less exactly than the planes are
+    /// apart.
+    #[test]
+    fn nothing_is_lost_where_edges_almost_lie_in_planes() {
+        use std::cmp::Ordering::{Equal, Greater, Less};
+        const SMALL: f32 = 1e-12;
+        let mut rng = rand_pcg::Pcg32::seed_from_u64(12);
+        let mut cuts = 0;
+        for _ in 0..100_000 {
+            // A triangle through the neighbourhood of the origin, on which two coordinates are often the same.
+            let middle = point(&mut rng) * SMALL;
+            let mut reach: [Vec3; 2] = std::array::from_fn(|_| point(&mut rng) * 1e4);
+            let [a, b, flat] = std::array::from_fn(|_| (rng.next_u32() % 3) as usize);
+            for e in &mut reach {
+                e[flat] *= [1.0, 1e-4, SMALL * 1e-4][(rng.next_u32() % 3) as usize];
+                e[a] = e[b];
+            }
+            let corners = [middle - reach[0], middle + reach[0] - reach[1] * 0.5, middle + reach[1]];
+
+            // Where a line along an axis meets it is known exactly.
+            let along = (rng.next_u32() % 3) as usize;
+            let (mut origin, mut direction) = (point(&mut rng) * SMALL, Vec3::ZERO);
+            (origin[along], direction[along]) = (0.0, 1.0);
+            let Some(t) = exact::hit(&Ray::new(origin, direction), corners) else { continue };
+            let order = |axis: usize, x: f32| {
+                if axis == along { t.compare(x) } else { origin[axis].partial_cmp(&x) }.expect("no number is NaN")
+            };
+            let inside = |b: &Aabb| (0..3).all(|i| order(i, b.min[i]) != Less && order(i, b.max[i]) != Greater);
+
+            // Follow the point through cuts close to it.
+            let mut bounds = Aabb::of_points(corners);
+            for _ in 0..8 {
+                let axis = (rng.next_u32() % 3) as usize;
+                let here = if axis == along { t.round() } else { origin[axis] };
+                let plane = here + point(&mut rng).x * SMALL;
+                if bounds.min[axis] < plane && plane < bounds.max[axis] && order(axis, plane) != Equal {
+                    let (below, above) = cut_bounds(corners, &bounds, axis, plane);
+                    bounds = if order(axis, plane) == Less { below } else { above };
+                    assert!(inside(&bounds), "{corners:?} at {origin} + {t:?} {direction}: {bounds:?}");
+                    cuts += 1;
+                }
+            }
+        }
+        assert!(cuts > 20_000, "too few cuts to prove anything: {cuts}");
+    }
+}

@@ -1,0 +1,66 @@
+//! Rules that sort the references of a node into two groups.
+
+use super::reference::Reference;
+
+/// A rule that sorts references into two groups, by the centres of their boxes on an axis.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Group {
+    /// Below are those in the bins up to `last`.
+    Bins { bins: Bins, last: usize },
+    /// Below are the first `count` in ascending order of centres.
+    First { axis: usize, count: usize },
+}
+
+/// An even grid over the centres.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Bins {
+    axis: usize,
+    min: f64,
+    scale: f64,
+    pub count: usize,
+}
+
+/// At most this many bins.
+pub(crate) const BINS: usize = 64;
+
+impl Bins {
+    pub fn new(axis: usize, (min, max): (f32, f32), count: usize) -> Option<Self> {
+        let scale = count as f64 / (f64::from(max) - f64::from(min));
+        (min < max).then_some(Self { axis, min: min.into(), scale, count })
+    }
+
+    #[inline(always)]
+    pub fn of(&self, reference: &Reference) -> usize {
+        (((f64::from(reference.centre(self.axis)) - self.min) * self.scale) as usize).min(self.count - 1)
+    }
+}
+
+/// The half with the lower centres on the axis on which these are farthest apart, in whole blocks; the counts.
+pub(crate) fn median(references: &[Reference], block: usize) -> (Group, [usize; 2]) {
+    let width = |axis| {
+        let (min, max) = centres(references.iter(), axis);
+        f64::from(max) - f64::from(min)
+    };
+    let axis = (1..3).fold(0, |best, axis| if width(axis) > width(best) { axis } else { best });
+    let count = (references.len() / 2).next_multiple_of(block).min(references.len() - 1);
+    (Group::First { axis, count }, [count, references.len() - count])
+}
+
+/// The least and the greatest centre.
+pub(crate) fn centres<'a>(references: impl Iterator<Item = &'a Reference>, axis: usize) -> (f32, f32) {
+    let with = |(min, max): (f32, f32), r: &Reference| (min.min(r.centre(axis)), max.max(r.centre(axis)));
+    references.fold((f32::INFINITY, f32::NEG_INFINITY), with)
+}
+
+/// The places of the references in ascending order of centres, equal ones as they stand.
+pub(crate) fn order(references: &[Reference], axis: usize) -> Vec<u32> {
+    let key = |(i, r): (u32, &Reference)| {
+        // Negative floats order backwards: flip all their bits, and the sign bit of the others.
+        let bits = (r.centre(axis) + 0.0).to_bits();
+        let ordered = if bits >> 31 == 1 { !bits } else { bits | 1 << 31 };
+        u64::from(ordered) << 32 | u64::from(i)
+    };
+    let mut keys: Vec<u64> = (0..).zip(references).map(key).collect();
+    keys.sort_unstable();
+    keys.into_iter().map(|key| key as u32).collect()
+}

@@ -1,0 +1,22 @@
+//! What builders share: references and how they are clipped, the cost model of the surface area heuristic, planes and groups that may
+//! split a node, searches for the cheapest of them, moves of parts of a finished tree, and the binary tree that they leave.
+
+pub(crate) mod binary_tree;
+pub(crate) mod cells;
+#[cfg(test)]
+pub(crate) mod check;
+pub(crate) mod clip;
+pub(crate) mod cut;
+pub(crate) mod extent;
+mod grouping;
+mod part;
+mod planes;
+mod quality;
+mod reference;
+pub(crate) mod reinsert;
+pub(crate) mod sah;
+mod sample;
+pub(crate) mod sbvh;
+mod slices;
+
+pub use quality::Quality;

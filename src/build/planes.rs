@@ -1,0 +1,92 @@
+//! The planes of one axis that a spatial split may take.
+
+use super::sample::Sample;
+
+/// At most this many planes, both ends of the range included; a power of two, so that a mask bounds an index.
+pub(crate) const PLANES: usize = 64;
+
+/// Ascending planes: both ends of a range and, in every cell of an even grid between them, the highest edge of a reference, or
+/// the middle of the cell where no edge is.
+///
+/// That a plane is an edge is what keeps walls whole: a plane beside a wall would cut all triangles that end there.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Planes {
+    pub axis: usize,
+    min: f32,
+    scale: f32,
+    last: usize,
+    values: [f32; PLANES],
+}
+
+impl Planes {
+    /// The planes at `min` and `max` and `count` between them; nothing where there is no room.
+    pub fn new(axis: usize, (min, max): (f32, f32), count: usize, sample: &Sample) -> Option<Self> {
+        let last = count + 1;
+        let mut planes =
+            Self { axis, min, scale: last as f32 / (max - min), last, values: [f32::NEG_INFINITY; PLANES] };
+        // The second says whether the extent is so large or small that the grid overflows.
+        if min >= max || planes.cell(max) != last {
+            return None;
+        }
+
+        for r in sample.iter() {
+            for x in [r.min(axis), r.max(axis)] {
+                let value = &mut planes.values[planes.cell(x) % PLANES];
+                *value = value.max(x);
+            }
+        }
+        (planes.values[0], planes.values[last]) = (min, max);
+        for cell in 1..last {
+            if planes.values[cell] == f32::NEG_INFINITY {
+                // Should rounding move the middle to another cell, repeat the last plane: everything in the cell lies above it.
+                let middle = min + cell as f32 / planes.scale;
+                planes.values[cell] = if planes.cell(middle) == cell { middle } else { planes.values[cell - 1] };
+            }
+        }
+        Some(planes)
+    }
+
+    /// The cell of a coordinate: does not decrease where the coordinate increases.
+    #[inline(always)]
+    fn cell(&self, x: f32) -> usize {
+        let at = ((x - self.min) * self.scale + 0.5).max(0.0).min(self.last as f32);
+        // SAFETY: `at` is a number (`max` turns NaN into 0) from 0 to `last`, which fits an `i32`.
+        unsafe { at.to_int_unchecked::<i32>() as usize }
+    }
+
+    /// The number of bins: one below, between and above the planes.
+    pub fn bins(&self) -> usize {
+        self.last + 2
+    }
+
+    /// Plane `i`, between the bins `i` and `i + 1`.
+    #[inline(always)]
+    pub fn value(&self, i: usize) -> f32 {
+        self.values[i % PLANES]
+    }
+
+    /// From the plane before plane `i` to the one after it.
+    pub fn around(&self, i: usize) -> (f32, f32) {
+        (self.values[i.saturating_sub(1)], self.values[(i + 1).min(self.last)])
+    }
+
+    /// Whether plane `i` is another than the one before.
+    #[inline(always)]
+    pub fn is_new(&self, i: usize) -> bool {
+        i == 0 || self.values[i - 1] < self.values[i]
+    }
+
+    /// The bin above all planes `<= x`: where something begins that begins at `x`.
+    #[inline(always)]
+    pub fn first_bin(&self, x: f32) -> usize {
+        let cell = self.cell(x);
+        cell + usize::from(self.value(cell) <= x)
+    }
+
+    /// The bin below all planes `>= x`: where something ends that ends at `x`.
+    #[inline(always)]
+    pub fn last_bin(&self, x: f32) -> usize {
+        let cell = self.cell(x);
+        cell + usize::from(self.value(cell) < x)
+    }
+}

@@ -1,0 +1,78 @@
+use glam::{Vec3, Vec3A, Vec4};
+
+use super::clip::cut_bounds;
+use super::extent::Extent;
+use crate::geometry::{Aabb, Mesh};
+
+/// Nodes of at least this many references are worked on by several threads.
+pub(crate) const PARALLEL: usize = 4096;
+
+/// References that one thread works on at a time.
+pub(crate) const CHUNK: usize = 2048;
+
+/// A triangle and the box of the part of it that a node answers for: each corner of the box is one load, with the number of the
+/// triangle beside the lower one.
+#[derive(Clone, Copy, Debug)]
+#[repr(align(32))]
+pub(crate) struct Reference {
+    low: [f32; 4],
+    high: [f32; 4],
+}
+
+impl Reference {
+    pub fn new(id: u32, Aabb { min, max }: Aabb) -> Self {
+        // Meshes have fewer than 2^30 triangles, so that the bits of a number are never those of a NaN, which a copy might change.
+        Self { low: min.extend(f32::from_bits(id)).to_array(), high: max.extend(0.0).to_array() }
+    }
+
+    /// A triangle of the mesh, whole.
+    pub fn whole(mesh: &Mesh, id: u32) -> Self {
+        Self::new(id, mesh.triangle_bounds(id))
+    }
+
+    /// The number of the triangle.
+    #[inline(always)]
+    pub fn id(&self) -> u32 {
+        self.low[3].to_bits()
+    }
+
+    /// Where the box begins on an axis.
+    #[inline(always)]
+    pub fn min(&self, axis: usize) -> f32 {
+        self.low[axis & 3]
+    }
+
+    /// Where the box ends on an axis.
+    #[inline(always)]
+    pub fn max(&self, axis: usize) -> f32 {
+        self.high[axis & 3]
+    }
+
+    #[inline(always)]
+    pub fn extent(&self) -> Extent {
+        let corner = |corner| Vec3A::from_vec4(Vec4::from_array(corner));
+        Extent { min: corner(self.low), max: corner(self.high) }
+    }
+
+    pub fn bounds(&self) -> Aabb {
+        let corner = |[x, y, z, _]: [f32; 4]| Vec3::new(x, y, z);
+        Aabb { min: corner(self.low), max: corner(self.high) }
+    }
+
+    /// The centre of the box on an axis.
+    #[inline(always)]
+    pub fn centre(&self, axis: usize) -> f32 {
+        self.min(axis) * 0.5 + self.max(axis) * 0.5
+    }
+
+    /// The parts below and above a plane that meets the inside of the box.
+    pub fn cut(&self, mesh: &Mesh, axis: usize, plane: f32) -> (Self, Self) {
+        let (below, above) = cut_bounds(mesh.corners(self.id()), &self.bounds(), axis, plane);
+        (Self::new(self.id(), below), Self::new(self.id(), above))
+    }
+}
+
+/// The box of all references.
+pub(crate) fn bounds<'a>(references: impl IntoIterator<Item = &'a Reference>) -> Extent {
+    references.into_iter().fold(Extent::EMPTY, |all, r| all.union(r.extent()))
+}

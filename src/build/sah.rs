@@ -1,0 +1,88 @@
+//! The cost model of the surface area heuristic.
+
+use crate::geometry::Aabb;
+
+/// Triangles that a leaf tests at once.
+pub(crate) const BLOCK: usize = 8;
+
+/// Expected cost of a tree for a random line that meets its box (Goldsmith, Salmon 1987; MacDonald, Booth 1990), with the empty-space
+/// bonus of Wald and Havran (2006). Leaves test a block of triangles at once, so a leaf costs by the block: counting triangles instead gave
+/// trees of the same speed and 40 % more memory.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct CostModel {
+    /// Of a step from a node to its children.
+    step: f64,
+    /// Of testing a block.
+    block: f64,
+    /// Share of the cost of a split that is saved where it cuts off empty space.
+    empty_bonus: f64,
+}
+
+impl CostModel {
+    pub fn new(step: f32, block: f32, empty_bonus: f32) -> Self {
+        Self { step: step.into(), block: block.into(), empty_bonus: empty_bonus.into() }
+    }
+
+    /// Of testing `count` triangles.
+    #[inline(always)]
+    pub fn leaf(&self, count: usize) -> f64 {
+        self.block * count.div_ceil(BLOCK) as f64
+    }
+
+    /// Of a cell with half area `1 / inverse_area` whose sides, of which half areas and counts are given, become leaves.
+    #[inline(always)]
+    pub fn cell_split(
+        &self,
+        inverse_area: f64,
+        (below_area, below): (f64, usize),
+        (above_area, above): (f64, usize),
+    ) -> f64 {
+        let areas = (below_area * self.leaf(below) + above_area * self.leaf(above)) * inverse_area;
+        let cost = self.step + areas;
+        if below == 0 || above == 0 { cost * (1.0 - self.empty_bonus) } else { cost }
+    }
+
+    /// Of a box of half area `area` with `count` triangles, times its area.
+    #[inline(always)]
+    pub fn box_leaf(&self, area: f64, count: usize) -> f64 {
+        area * self.block * count.div_ceil(BLOCK) as f64
+    }
+
+    /// Of a box whose children cost `children`, times its area; `children` is times theirs.
+    #[inline(always)]
+    pub fn box_node(&self, area: f64, children: f64) -> f64 {
+        self.step * area + children
+    }
+
+    /// Of a box that is split into two leaves with these areas and counts, times its area.
+    #[inline(always)]
+    pub fn box_split(&self, area: f64, areas: [f64; 2], counts: [usize; 2]) -> f64 {
+        self.box_node(area, self.box_leaf(areas[0], counts[0]) + self.box_leaf(areas[1], counts[1]))
+    }
+}
+
+/// Half areas of both sides of a cell, as linear functions of the split coordinate.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SideAreas {
+    min: f64,
+    max: f64,
+    caps: f64,
+    girth: f64,
+}
+
+impl SideAreas {
+    pub fn new(cell: &Aabb, axis: usize) -> Self {
+        let extent = cell.max.as_dvec3() - cell.min.as_dvec3();
+        let (u, v) = (extent[(axis + 1) % 3], extent[(axis + 2) % 3]);
+        Self { min: cell.min[axis].into(), max: cell.max[axis].into(), caps: u * v, girth: u + v }
+    }
+
+    #[inline(always)]
+    pub fn at(&self, split: f64) -> (f64, f64) {
+        (self.caps + (split - self.min) * self.girth, self.caps + (self.max - split) * self.girth)
+    }
+
+    pub fn whole(&self) -> f64 {
+        self.caps + (self.max - self.min) * self.girth
+    }
+}

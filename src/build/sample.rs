@@ -1,0 +1,39 @@
+use super::reference::Reference;
+
+/// Some of the references of a node, evenly spread: where there are thousands, these tell the best split as well as all.
+#[derive(Clone, Copy)]
+pub(crate) struct Sample<'a> {
+    references: &'a [Reference],
+    stride: usize,
+}
+
+impl<'a> Sample<'a> {
+    /// At most `limit` references.
+    pub fn new(references: &'a [Reference], limit: u32) -> Self {
+        Self { references, stride: references.len().div_ceil(limit as usize).max(1) }
+    }
+
+    pub fn all(references: &'a [Reference]) -> Self {
+        Self { references, stride: 1 }
+    }
+
+    pub fn iter(&self) -> impl Iterator<Item = &'a Reference> + use<'a> {
+        self.references.iter().step_by(self.stride)
+    }
+
+    /// Number of references in the sample.
+    pub fn len(&self) -> usize {
+        self.references.len().div_ceil(self.stride)
+    }
+
+    /// Number of references that it is taken from.
+    pub fn whole(&self) -> usize {
+        self.references.len()
+    }
+
+    /// How many of the whole `count` in the sample stand for.
+    #[inline(always)]
+    pub fn scaled(&self, count: usize) -> usize {
+        (count * self.stride).min(self.references.len())
+    }
+}

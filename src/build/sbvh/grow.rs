@@ -1,0 +1,174 @@
+//! Growing the tree.
+
+use super::config::{SbvhConfig, Splits};
+use super::object::cheapest_group;
+use super::offer::{Context, Offer, cheaper};
+use super::spatial::{Slots, cheapest_cut};
+use crate::build::binary_tree::{BinaryNode, BinaryTree, Content};
+use crate::build::cut::Cut;
+use crate::build::extent::Extent;
+use crate::build::grouping::{Group, median};
+use crate::build::part::{Part, at_plane, by_group};
+use crate::build::reference::{PARALLEL, Reference};
+use crate::build::sah::BLOCK;
+use crate::geometry::Mesh;
+
+/// A tree that grows, and how many references its nodes have looked at: what the time of a build is proportional to.
+#[derive(Default)]
+pub(super) struct Growth {
+    pub tree: BinaryTree,
+    pub work: u64,
+}
+
+/// Where in the tree a node is.
+#[derive(Clone, Copy, Debug)]
+struct Place {
+    depth: u32,
+    /// References that the leaves below this node may hold together.
+    budget: f64,
+}
+
+#[derive(Clone, Copy)]
+enum Split {
+    Space(Cut),
+    Set(Group),
+}
+
+/// The tree over the triangles of `mesh` that have an area. It does not depend on the number of threads.
+///
+/// Takes O(n log n) time and memory: paths have at most 16 + 2 log2 n levels and those of halving a rest, and all leaves
+/// together hold at most `config.duplication` times the triangles.
+pub(crate) fn build(mesh: &Mesh, config: &SbvhConfig) -> BinaryTree {
+    growth(mesh, config).tree
+}
+
+pub(super) fn growth(mesh: &Mesh, config: &SbvhConfig) -> Growth {
+    let context = Context::new(mesh, config);
+    let root = Part::whole(mesh);
+    let mut growth = Growth::default();
+    if !root.references.is_empty() {
+        let budget = f64::from(config.duplication) * root.references.len() as f64;
+        grow(&context, root, Place { depth: 0, budget }, &mut growth, &mut Slots::new());
+    }
+    growth
+}
+
+/// Appends the tree over `part`, its root first; what it costs.
+fn grow(context: &Context, part: Part, place: Place, growth: &mut Growth, slots: &mut Slots) -> f64 {
+    let Part { references, extent } = part;
+    let (area, count) = (extent.half_area(), references.len());
+    let (own, first) = (growth.tree.nodes.len(), growth.tree.references.len());
+    growth.work += count as u64;
+    let Some((split, counts)) = choose(context, &references, extent, place, slots) else {
+        growth.tree.references.extend(references.iter().map(|r| r.id()));
+        let content = Content::Leaf { first: first as u32, count: count as u32 };
+        growth.tree.nodes.push(BinaryNode { bounds: extent.into(), content });
+        return context.costs.box_leaf(area, count);
+    };
+    let [below, above] = match split {
+        Split::Space(cut) => at_plane(context.mesh, references, cut, counts),
+        Split::Set(group) => by_group(references, group, counts),
+    };
+
+    // Give each side its share of the references that are still allowed.
+    let share = place.budget / (below.references.len() + above.references.len()) as f64;
+    let child = |part: &Part| Place { depth: place.depth + 1, budget: share * part.references.len() as f64 };
+    let (below_place, above_place) = (child(&below), child(&above));
+
+    growth.tree.nodes.push(BinaryNode { bounds: extent.into(), content: Content::Inner([0; 2]) });
+    let (second, children) = if count < PARALLEL {
+        let left = grow(context, below, below_place, growth, slots);
+        let second = growth.tree.nodes.len();
+        (second, left + grow(context, above, above_place, growth, slots))
+    } else {
+        let mut other = Growth::default();
+        let (left, right) = rayon::join(
+            || grow(context, below, below_place, growth, slots),
+            || grow(context, above, above_place, &mut other, &mut Slots::new()),
+        );
+        let second = growth.tree.nodes.len();
+        growth.append(other);
+        (second, left + right)
+    };
+    growth.tree.nodes[own].content = Content::Inner([own as u32 + 1, second as u32]);
+    let cost = context.costs.box_node(area, children);
+    merge(context, &mut growth.tree, own, first, area, cost).unwrap_or(cost)
+}
+
+/// How to split, and the references on both sides; nothing when a leaf is better.
+fn choose(
+    context: &Context,
+    references: &[Reference],
+    extent: Extent,
+    place: Place,
+    slots: &mut Slots,
+) -> Option<(Split, [usize; 2])> {
+    let (count, config) = (references.len(), context.config);
+    if count <= BLOCK {
+        return None;
+    }
+    let leaf_cost = context.costs.box_leaf(extent.half_area(), count);
+    let full = count > config.leaf as usize;
+    if place.depth < context.depth
+        && let Some(offer) = cheapest(context, references, extent, place.budget, slots)
+        && (offer.cost < leaf_cost || full)
+    {
+        return Some((offer.split, offer.counts));
+    }
+    full.then(|| {
+        let (group, counts) = median(references, BLOCK);
+        (Split::Set(group), counts)
+    })
+}
+
+/// The cheapest of the allowed splits.
+fn cheapest(
+    context: &Context,
+    references: &[Reference],
+    extent: Extent,
+    budget: f64,
+    slots: &mut Slots,
+) -> Option<Offer<Split>> {
+    let mut space = || cheapest_cut(context, references, extent, budget, slots).map(|o| o.map(Split::Space));
+    let set = || cheapest_group(context, references, extent.half_area()).map(|o| o.map(Split::Set));
+    match context.config.splits {
+        Splits::Spatial => space(),
+        Splits::Object => set(),
+        Splits::SpatialAndObject => {
+            let set = set();
+            let overlap = set.as_ref().map(|o| o.sides[0].overlap(o.sides[1]));
+            if overlap.is_some_and(|area| area <= f64::from(context.config.alpha) * context.root_area) {
+                return set;
+            }
+            cheaper(set, space())
+        }
+    }
+}
+
+/// Makes the subtree at `own` one leaf where that is cheaper; what it costs then.
+fn merge(context: &Context, tree: &mut BinaryTree, own: usize, first: usize, area: f64, cost: f64) -> Option<f64> {
+    let most = context.config.leaf as usize;
+    if tree.references.len() - first > 2 * most {
+        return None;
+    }
+    let mut ids = tree.references[first..].to_vec();
+    ids.sort_unstable();
+    ids.dedup();
+    let leaf_cost = context.costs.box_leaf(area, ids.len());
+    if ids.len() > most || leaf_cost > cost {
+        return None;
+    }
+    tree.references.truncate(first);
+    tree.references.extend(&ids);
+    tree.nodes.truncate(own + 1);
+    tree.nodes[own].content = Content::Leaf { first: first as u32, count: ids.len() as u32 };
+    Some(leaf_cost)
+}
+
+impl Growth {
+    /// Adds the nodes of `other` behind these.
+    fn append(&mut self, other: Growth) {
+        self.tree.append(other.tree);
+        self.work += other.work;
+    }
+}

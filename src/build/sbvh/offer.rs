@@ -1,0 +1,49 @@
+//! What the searches for a split know, and what they find.
+
+use super::config::SbvhConfig;
+use crate::build::extent::Extent;
+use crate::build::sah::CostModel;
+use crate::geometry::Mesh;
+
+/// What every step of a build knows.
+pub(super) struct Context<'a> {
+    pub mesh: &'a Mesh,
+    pub config: &'a SbvhConfig,
+    pub costs: CostModel,
+    pub root_area: f64,
+    /// Levels of splits that the heuristic chooses; below them nodes are halved, so that any input ends.
+    pub depth: u32,
+}
+
+impl<'a> Context<'a> {
+    pub fn new(mesh: &'a Mesh, config: &'a SbvhConfig) -> Self {
+        let root_area = Extent::from(mesh.bounds()).half_area();
+        let depth = 16 + 2 * (usize::BITS - mesh.len().leading_zeros());
+        Self { mesh, config, costs: config.costs(), root_area, depth }
+    }
+}
+
+/// A cheapest way so far.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Offer<T> {
+    pub cost: f64,
+    pub split: T,
+    /// The boxes of both sides, as far as the search knows them.
+    pub sides: [Extent; 2],
+    /// The references of both sides.
+    pub counts: [usize; 2],
+}
+
+impl<T> Offer<T> {
+    pub fn map<U>(self, name: impl FnOnce(T) -> U) -> Offer<U> {
+        Offer { cost: self.cost, split: name(self.split), sides: self.sides, counts: self.counts }
+    }
+}
+
+/// The cheaper of two, the first where they cost the same.
+pub(super) fn cheaper<T>(a: Option<Offer<T>>, b: Option<Offer<T>>) -> Option<Offer<T>> {
+    match (a, b) {
+        (Some(a), Some(b)) => Some(if b.cost < a.cost { b } else { a }),
+        (a, b) => a.or(b),
+    }
+}

@@ -1,0 +1,202 @@
+use glam::Vec3;
+use rand_core::SeedableRng;
+use rand_pcg::Pcg32;
+
+use super::grow::growth;
+use super::object::cheapest_group;
+use super::offer::Context;
+use super::spatial::{Slots, cheapest_cut};
+use super::*;
+use crate::build::Quality;
+use crate::build::binary_tree::BinaryTree;
+use crate::build::check::{covers, disjoint, leaves, mesh, room, soup, unit};
+use crate::build::cut::Cut;
+use crate::build::extent::Extent;
+use crate::build::part::Part;
+use crate::build::planes::Planes;
+use crate::build::reference::bounds;
+use crate::build::sample::Sample;
+use crate::geometry::Aabb;
+
+const ALL: [Splits; 3] = [Splits::Spatial, Splits::SpatialAndObject, Splits::Object];
+
+fn configs() -> impl Iterator<Item = SbvhConfig> {
+    let qualities = [Quality::Fast, Quality::Balanced, Quality::High];
+    ALL.into_iter().flat_map(move |splits| qualities.map(|quality| SbvhConfig::new(splits, quality)))
+}
+
+#[test]
+fn every_point_of_every_triangle_is_in_a_leaf_that_holds_it() {
+    for (mesh, seed) in [(soup(1500, 1), 2), (room(8), 3)] {
+        for config in configs() {
+            let tree = build(&mesh, &config);
+            covers(&tree, &mesh, seed);
+            let references = tree.references.len();
+            assert!(config.splits != Splits::Object || references == mesh.len(), "{config:?}: {references}");
+        }
+    }
+}
+
+#[test]
+fn spatial_splits_alone_partition_space() {
+    for mesh in [soup(1500, 4), room(8)] {
+        for config in configs().filter(|c| c.splits == Splits::Spatial) {
+            let tree = build(&mesh, &config);
+            let leaves = leaves(&tree, config.leaf);
+            assert!(leaves.len() > 30, "too few leaves to prove anything");
+            disjoint(&leaves);
+        }
+    }
+}
+
+#[test]
+fn the_tree_does_not_depend_on_the_number_of_threads() {
+    let mesh = soup(30_000, 5);
+    for config in configs() {
+        let build = |threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            let BinaryTree { nodes, references } = pool.install(|| build(&mesh, &config));
+            (format!("{nodes:?}"), references)
+        };
+        let one = build(1);
+        assert!(one == build(2) && one == build(3), "{config:?}");
+    }
+}
+
+#[test]
+fn no_input_explodes() {
+    let mut rng = Pcg32::seed_from_u64(6);
+    let n = 3000;
+    let needles = mesh(n, |_| {
+        let d = unit(&mut rng) * 10.0;
+        [d, -d, -d + unit(&mut rng) * 1e-3]
+    });
+    let diagonals = mesh(n, |i| {
+        let x = i as f32;
+        [Vec3::new(x, 0.0, 0.0), Vec3::new(x + 3000.0, 3000.0, 3000.0), Vec3::new(x + 3000.0, 3000.0, 2999.0)]
+    });
+    let coincident = mesh(n, |_| [Vec3::X, Vec3::Y, Vec3::Z]);
+    let fan = mesh(n, |i| {
+        let (y, z) = ((i as f32).sqrt(), i as f32 / n as f32);
+        [Vec3::ZERO, Vec3::new(100.0, y, z), Vec3::new(100.0, y + 1.0, z + 0.5)]
+    });
+    let shrinking = mesh(n, |i| [Vec3::X, Vec3::Y, Vec3::Z].map(|p| p * 0.97f32.powi(i as i32)));
+    for (name, mesh) in [
+        ("needles", needles),
+        ("diagonals", diagonals),
+        ("coincident", coincident),
+        ("fan", fan),
+        ("shrinking", shrinking),
+    ] {
+        for duplication in [1.0, 1.5, 4.0, 16.0] {
+            for config in configs().map(|c| SbvhConfig { duplication, ..c }) {
+                let count = mesh.solid().count();
+                let growth = growth(&mesh, &config);
+                let leaves = leaves(&growth.tree, config.leaf);
+                let references = growth.tree.references.len();
+                assert!(references as f32 <= duplication * count as f32, "{name} {config:?}: {references}");
+                let mut seen = vec![false; mesh.len()];
+                leaves.iter().for_each(|(_, ids)| ids.iter().for_each(|&id| seen[id as usize] = true));
+                assert!(mesh.solid().all(|id| seen[id as usize]), "{name} {config:?}");
+
+                // No path is longer than 16 + 2 log2 n chosen levels and as many halvings as it takes from there.
+                let log2 = (count as f64).log2().ceil() + 1.0;
+                let halvings = (f64::from(duplication) * count as f64).log2();
+                let most = f64::from(duplication) * count as f64 * (16.0 + 2.0 * log2 + halvings + 1.0);
+                assert!(growth.work as f64 <= most, "{name} {config:?}: {} > {most}", growth.work);
+            }
+        }
+    }
+}
+
+#[test]
+fn nothing_and_next_to_nothing_build() {
+    let line = [Vec3::ZERO, Vec3::X, Vec3::X * 2.0];
+    let one = [Vec3::X, Vec3::Y, Vec3::Z];
+    let huge = one.map(|p| (p - 0.5) * f32::MAX * 1.5);
+    for config in configs() {
+        assert!(build(&mesh(0, |_| one), &config).nodes.is_empty());
+        assert!(build(&mesh(3, |_| line), &config).nodes.is_empty(), "degenerate triangles are in no leaf");
+        let tree = build(&mesh(1, |_| one), &config);
+        assert_eq!((tree.nodes.len(), &tree.references[..]), (1, &[0][..]));
+        assert_eq!(tree.nodes[0].bounds, Aabb { min: Vec3::ZERO, max: Vec3::ONE });
+        for scale in [1.0, 1e-30, 1e-38, 1e-42] {
+            let mesh = mesh(400, |i| huge.map(|p| p * scale * (1.0 - i as f32 / 400.0)));
+            let tree = build(&mesh, &config);
+            let held: usize = leaves(&tree, config.leaf).iter().map(|leaf| leaf.1.len()).sum();
+            assert!(held >= mesh.solid().count(), "{scale}");
+        }
+    }
+}
+
+/// The naive twin of the search for a cut: every plane, every reference, nothing shared between planes.
+#[test]
+fn no_candidate_is_cheaper_than_the_cut_that_is_chosen() {
+    for seed in 0..60 {
+        let mesh = soup(9 + seed as usize, seed);
+        let config = SbvhConfig { refined: u32::MAX, ..SbvhConfig::new(Splits::Spatial, Quality::High) };
+        for config in [SbvhConfig { sliced: 0, ..config }, config] {
+            let context = Context::new(&mesh, &config);
+            let Part { references, extent } = Part::whole(&mesh);
+            let found = cheapest_cut(&context, &references, extent, f64::INFINITY, &mut Slots::new()).unwrap();
+
+            let mut least = f64::INFINITY;
+            for axis in 0..3 {
+                let range = (extent.min[axis], extent.max[axis]);
+                let candidates = (config.candidates as usize).min(references.len());
+                let planes = Planes::new(axis, range, candidates, &Sample::all(&references)).unwrap();
+                for (i, flat_below) in (0..planes.bins() - 1).flat_map(|i| [(i, false), (i, true)]) {
+                    let cut = Cut { axis, plane: planes.value(i), flat_below };
+                    let (mut areas, mut counts) = ([Extent::EMPTY; 2], [0; 2]);
+                    for r in &references {
+                        let sides = cut.sides(r);
+                        let halves = if sides != [true; 2] {
+                            [r.bounds(); 2]
+                        } else if config.sliced == 0 {
+                            r.bounds().cut(axis, cut.plane).into()
+                        } else {
+                            let (below, above) = r.cut(&mesh, axis, cut.plane);
+                            [below.bounds(), above.bounds()]
+                        };
+                        for side in (0..2).filter(|&side| sides[side]) {
+                            areas[side].grow(halves[side].into());
+                            counts[side] += 1;
+                        }
+                    }
+                    if counts.iter().all(|&n| n > 0) && counts != [references.len(); 2] {
+                        let cost = context.costs.box_split(extent.half_area(), areas.map(|e| e.half_area()), counts);
+                        least = least.min(cost);
+                    }
+                }
+            }
+            // Slices are cut in f32, clipped triangles in f64 and rounded outward.
+            let slack = if config.sliced == 0 { 0.0 } else { 1e-5 * least };
+            assert!((found.cost - least).abs() <= slack, "{} instead of {least}", found.cost);
+        }
+    }
+}
+
+/// The naive twin of the sweep over centres.
+#[test]
+fn no_grouping_by_centres_is_cheaper_than_the_one_that_is_chosen() {
+    for seed in 0..60 {
+        let mesh = soup(9 + seed as usize, seed);
+        let config = SbvhConfig { exact: 128, ..SbvhConfig::new(Splits::Object, Quality::High) };
+        let context = Context::new(&mesh, &config);
+        let Part { references, extent } = Part::whole(&mesh);
+        let area = extent.half_area();
+        let found = cheapest_group(&context, &references, area).unwrap();
+        let mut least = f64::INFINITY;
+        for axis in 0..3 {
+            for middle in references.iter().map(|r| r.centre(axis)) {
+                let (below, above): (Vec<_>, Vec<_>) = references.iter().partition(|r| r.centre(axis) < middle);
+                if !below.is_empty() {
+                    let counts = [below.len(), above.len()];
+                    let areas = [below, above].map(|side| bounds(side).half_area());
+                    least = least.min(context.costs.box_split(area, areas, counts));
+                }
+            }
+        }
+        assert_eq!(found.cost, least);
+    }
+}

@@ -1,0 +1,58 @@
+use std::sync::Arc;
+
+use super::batch::answer;
+use super::config::Bvh8Config;
+use super::node::{Limits, WIDTH};
+use super::tree::Bvh8;
+use crate::accel::{Accel, BuildError, Footprint, Observer, Outline, TreeShape};
+use crate::geometry::{Hit, Mesh, Ray};
+use crate::traversal::leaf::LeafBlock;
+use crate::traversal::walk::single;
+use crate::triangle::TriangleTest;
+
+impl<T: TriangleTest> Accel for Bvh8<T> {
+    type Config = Bvh8Config;
+
+    const TRIANGLE_TEST: &'static str = T::NAME;
+
+    fn build(mesh: &Arc<Mesh>, config: &Bvh8Config) -> Result<Self, BuildError> {
+        Self::within(mesh, config, &Limits::OF_NODES)
+    }
+
+    #[inline]
+    fn closest_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit> {
+        single::<false, _, O>(self, ray, observer)
+    }
+
+    #[inline]
+    fn any_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> bool {
+        single::<true, _, O>(self, ray, observer).is_some()
+    }
+
+    fn closest_hits<O: Observer>(&self, rays: &[Ray], hits: &mut [Option<Hit>], observer: &mut O) {
+        answer::<false, _, _, O>(self, rays, hits, observer, |hit| hit);
+    }
+
+    fn any_hits<O: Observer>(&self, rays: &[Ray], hits: &mut [bool], observer: &mut O) {
+        answer::<true, _, _, O>(self, rays, hits, observer, |hit| hit.is_some());
+    }
+
+    fn footprint(&self) -> Footprint {
+        let (triangles, references) = LeafBlock::<T, WIDTH>::BYTES;
+        let n = self.blocks.len();
+        Footprint {
+            nodes: size_of_val(&self.nodes[..]),
+            triangles: n * triangles,
+            references: n * references,
+            other: size_of::<Self>(),
+        }
+    }
+
+    fn shape(&self) -> TreeShape {
+        self.boxes().shape()
+    }
+
+    fn outline(&self) -> Option<Outline> {
+        Some(self.boxes())
+    }
+}

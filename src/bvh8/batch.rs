@@ -1,0 +1,169 @@
+//! Slices of rays.
+
+use std::ops::Range;
+
+use super::config::Batch;
+use super::packet_hits::RAYS;
+use super::stream::{Slots, Stream};
+use super::tree::Bvh8;
+use crate::accel::Observer;
+use crate::geometry::{Hit, Ray};
+use crate::simd::{Kernel, Level, Sieve, dispatch};
+use crate::traversal::walk::{silent, single};
+use crate::triangle::TriangleTest;
+
+/// Rays of a slice that are answered before the next ones are looked at: so many that the last ones under way, when no others follow,
+/// are few beside them.
+const WINDOW: usize = 4096;
+
+/// Sixteens of a window, by their numbers; the last one may be shorter.
+pub(super) struct Sixteens {
+    numbers: [u8; WINDOW / RAYS],
+    len: usize,
+}
+
+impl Sixteens {
+    const NONE: Self = Self { numbers: [0; WINDOW / RAYS], len: 0 };
+
+    /// All of a window of `rays` rays.
+    pub fn all(rays: usize) -> Self {
+        Self { numbers: std::array::from_fn(|i| i as u8), len: rays.div_ceil(RAYS) }
+    }
+
+    #[inline(always)]
+    fn push(&mut self, number: usize) {
+        self.numbers[self.len] = number as u8;
+        self.len += 1;
+    }
+
+    /// The places of their rays in a window of `rays`.
+    #[inline(always)]
+    fn places(&self, rays: usize) -> impl Iterator<Item = Range<usize>> {
+        let first = |&number: &u8| usize::from(number) * RAYS;
+        self.numbers[..self.len].iter().map(first).map(move |first| first..rays.min(first + RAYS))
+    }
+}
+
+/// One after the other.
+struct InTurn<'a, const ANY: bool, T: TriangleTest, A, F> {
+    tree: &'a Bvh8<T>,
+    rays: &'a [Ray],
+    answers: &'a mut [A],
+    form: F,
+}
+
+impl<const ANY: bool, T: TriangleTest, A, F: Fn(Option<Hit>) -> A> Kernel for InTurn<'_, ANY, T, A, F> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Sieve>(self) {
+        for (answer, ray) in self.answers.iter_mut().zip(self.rays) {
+            *answer = (self.form)(silent::<ANY, L, _>(self.tree, ray));
+        }
+    }
+}
+
+/// The sixteens of a window that agree; the others are handed back.
+struct InPackets<'a, const ANY: bool, T: TriangleTest, A, F> {
+    tree: &'a Bvh8<T>,
+    rays: &'a [Ray],
+    answers: &'a mut [A],
+    form: &'a F,
+}
+
+impl<const ANY: bool, T: TriangleTest, A, F: Fn(Option<Hit>) -> A> Kernel for InPackets<'_, ANY, T, A, F> {
+    type Output = Sixteens;
+
+    #[inline(always)]
+    fn run<L: Sieve>(self) -> Sixteens {
+        let Self { tree, rays, answers, form } = self;
+        let mut others = Sixteens::NONE;
+        for (number, (rays, answers)) in rays.chunks(RAYS).zip(answers.chunks_mut(RAYS)).enumerate() {
+            let together = match (rays.try_into(), answers.try_into()) {
+                (Ok(rays), Ok(answers)) if L::FAST => alike(rays) && tree.packet::<ANY, L, A>(rays, answers, form),
+                _ => false,
+            };
+            if !together {
+                others.push(number);
+            }
+        }
+        others
+    }
+}
+
+/// Some sixteens of a window, several rays under way at once: a kernel of its own, because beside another walk in the same function it is
+/// a third slower.
+pub(super) struct UnderWay<'a, const ANY: bool, T: TriangleTest, A, F> {
+    pub tree: &'a Bvh8<T>,
+    pub rays: &'a [Ray],
+    pub which: &'a Sixteens,
+    pub answers: &'a mut [A],
+    pub form: &'a F,
+}
+
+impl<const ANY: bool, T: TriangleTest, A, F: Fn(Option<Hit>) -> A> Kernel for UnderWay<'_, ANY, T, A, F> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Sieve>(self) {
+        let Self { tree, rays, which, answers, form } = self;
+        if !L::FAST {
+            // On portable lanes it is not memory that takes the time.
+            for i in which.places(rays.len()).flatten() {
+                answers[i] = form(silent::<ANY, L, _>(tree, &rays[i]));
+            }
+            return;
+        }
+        let mut slots = Slots::EMPTY;
+        let mut stream = Stream::<L, T>::new(tree, &mut slots);
+        let mut done = |i: usize, hit| answers[i] = form(hit);
+        for places in which.places(rays.len()) {
+            for i in places {
+                stream.push::<ANY>(i, &rays[i], &mut done);
+            }
+        }
+        stream.finish::<ANY>(&mut done);
+    }
+}
+
+/// Whether some of the rays are of one octant: most that cannot travel together are soon told so.
+#[inline(always)]
+fn alike(rays: &[Ray; RAYS]) -> bool {
+    let signs = |i: usize| rays[i].direction.to_array().map(f32::to_bits);
+    let first = signs(0);
+    let differ = |i: usize| (0..3).fold(0, |bits, axis| bits | (signs(i)[axis] ^ first[axis]));
+    (differ(5) | differ(10) | differ(15)) >> 31 == 0
+}
+
+/// Answers `rays` in order, on the level in use.
+///
+/// # Panics
+/// If the slices differ in length.
+pub(super) fn answer<const ANY: bool, T: TriangleTest, A, O: Observer>(
+    tree: &Bvh8<T>,
+    rays: &[Ray],
+    answers: &mut [A],
+    observer: &mut O,
+    form: impl Fn(Option<Hit>) -> A,
+) {
+    assert_eq!(rays.len(), answers.len(), "one answer a ray");
+    if O::ACTIVE {
+        // Counts are those of single rays.
+        for (answer, ray) in answers.iter_mut().zip(rays) {
+            *answer = form(single::<ANY, _, O>(tree, ray, observer));
+        }
+    } else {
+        let level = Level::current();
+        if tree.batch == Batch::Single {
+            return dispatch(level, InTurn::<ANY, T, A, _> { tree, rays, answers, form });
+        }
+        for (rays, answers) in rays.chunks(WINDOW).zip(answers.chunks_mut(WINDOW)) {
+            let form = &form;
+            let which = match tree.batch {
+                Batch::Packets => dispatch(level, InPackets::<ANY, T, A, _> { tree, rays, answers, form }),
+                _ => Sixteens::all(rays.len()),
+            };
+            dispatch(level, UnderWay::<ANY, T, A, _> { tree, rays, which: &which, answers, form });
+        }
+    }
+}

@@ -1,0 +1,316 @@
+//! Which nodes of a binary tree become nodes and leaves of a wide one, chosen by dynamic programming.
+//!
+//! # References
+//! Ylitie, Karras, Laine: Efficient incoherent ray traversal on GPUs through compressed wide BVHs. HPG 2017, section 4.
+
+use super::node::WIDTH;
+use crate::build::binary_tree::{BinaryTree, Content};
+use crate::build::sah::CostModel;
+use crate::geometry::Aabb;
+
+/// Blocks of the largest leaf that is made of several.
+const LARGEST: usize = 8;
+
+/// Nodes above at least so many others are decided about by several threads.
+const PARALLEL: usize = 2048;
+
+/// For each node of a binary tree how it is represented best by at most 1 to 7 parts.
+pub(super) struct Collapse<'a> {
+    tree: &'a BinaryTree,
+    best: Vec<Best>,
+}
+
+/// The choices for one node.
+#[derive(Clone, Copy)]
+struct Best {
+    /// `cost[i]`: of at most `i + 1` parts.
+    cost: [f32; WIDTH - 1],
+    /// `left[i]`: how many of at most `i + 1` parts the first child gets; 0 where one part less is as good.
+    /// `left[WIDTH - 1]`: the same where the node is a wide node.
+    left: [u8; WIDTH],
+    /// Whether one part alone is a leaf.
+    leaf: bool,
+    /// The references below: the first, and the one after the last.
+    references: [u32; 2],
+    /// So many different triangles, or more, are among them.
+    triangles: u32,
+}
+
+impl Best {
+    const NONE: Self = Self { cost: [0.0; WIDTH - 1], left: [0; WIDTH], leaf: true, references: [0; 2], triangles: 0 };
+}
+
+/// A part of the tree that becomes one child of a wide node.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Part {
+    /// The binary node becomes a wide node.
+    Node(u32),
+    /// All triangles below the binary node become a leaf.
+    Leaf(u32),
+}
+
+/// The children of a wide node.
+pub(super) struct Children {
+    parts: [Part; WIDTH],
+    len: usize,
+    /// For each octant of directions the order that nodes hold.
+    pub orders: [u32; 8],
+}
+
+impl Children {
+    /// In the order of lanes.
+    pub fn parts(&self) -> &[Part] {
+        &self.parts[..self.len]
+    }
+}
+
+/// What every choice knows.
+struct Chooser<'a> {
+    tree: &'a BinaryTree,
+    costs: &'a CostModel,
+    /// Shares of the root's area fit an `f32`, whatever the unit of length.
+    whole: f64,
+}
+
+impl Chooser<'_> {
+    /// Chooses for the node `at` and all below, which `best` is about.
+    fn choose(&self, at: usize, best: &mut [Best], ids: &mut Vec<u32>) {
+        let node = &self.tree.nodes[at];
+        let area = node.bounds.half_area() / self.whole;
+        let (own, below) = best.split_first_mut().expect("a node is one of those below it");
+        *own = match node.content {
+            Content::Leaf { first, count } => Best {
+                cost: [self.as_leaf(area, count); WIDTH - 1],
+                references: [first, first + count],
+                triangles: count,
+                ..Best::NONE
+            },
+            Content::Inner([_, second]) => {
+                let second = second as usize;
+                let together = below.len() < PARALLEL;
+                let (left, right) = below.split_at_mut(second - at - 1);
+                if together {
+                    self.choose(at + 1, left, ids);
+                    self.choose(second, right, ids);
+                } else {
+                    rayon::join(|| self.choose(at + 1, left, ids), || self.choose(second, right, &mut vec![]));
+                }
+                self.inner(area, [&left[0], &right[0]], ids)
+            }
+        };
+    }
+
+    fn inner(&self, area: f64, [l, r]: [&Best; 2], ids: &mut Vec<u32>) -> Best {
+        // The best way to give `parts` to the two children.
+        let distribute = |parts: usize| {
+            let with = |left: usize| (l.cost[left - 1] + r.cost[parts - left - 1], left as u8);
+            (1..parts).map(with).min_by(|a, b| a.0.total_cmp(&b.0)).expect("at least two parts")
+        };
+        let mut best = Best {
+            references: [l.references[0], r.references[1]],
+            triangles: l.triangles.max(r.triangles),
+            ..Best::NONE
+        };
+        let (inner, left) = distribute(WIDTH);
+        best.left[WIDTH - 1] = left;
+        let as_node = self.costs.box_node(area, f64::from(inner)) as f32;
+        let as_leaf = self.merged(area, as_node, &mut best, ids);
+        best.leaf = as_leaf <= as_node && as_leaf.is_finite();
+        best.cost[0] = if best.leaf { as_leaf } else { as_node };
+        for parts in 2..WIDTH {
+            let (cost, left) = distribute(parts);
+            (best.cost[parts - 1], best.left[parts - 1]) =
+                if cost < best.cost[parts - 2] { (cost, left) } else { (best.cost[parts - 2], 0) };
+        }
+        best
+    }
+
+    /// What all triangles below a node cost as one leaf; infinite where they are too many, or cost more than `limit`.
+    fn merged(&self, area: f64, limit: f32, best: &mut Best, ids: &mut Vec<u32>) -> f32 {
+        let most = (LARGEST * WIDTH) as u32;
+        let [first, end] = best.references;
+        if end - first > 2 * most || best.triangles > most || self.as_leaf(area, best.triangles) > limit {
+            return f32::INFINITY;
+        }
+        // A triangle may be in several leaves: count again before giving up.
+        ids.clear();
+        ids.extend_from_slice(&self.tree.references[first as usize..end as usize]);
+        ids.sort_unstable();
+        ids.dedup();
+        best.triangles = ids.len() as u32;
+        if best.triangles <= most { self.as_leaf(area, best.triangles) } else { f32::INFINITY }
+    }
+
+    fn as_leaf(&self, area: f64, count: u32) -> f32 {
+        self.costs.box_leaf(area, count as usize) as f32
+    }
+}
+
+impl<'a> Collapse<'a> {
+    pub fn new(tree: &'a BinaryTree, costs: &CostModel) -> Self {
+        let mut best = vec![Best::NONE; tree.nodes.len()];
+        if let Some(root) = tree.nodes.first() {
+            let whole = Some(root.bounds.half_area()).filter(|&whole| whole > 0.0).unwrap_or(1.0);
+            Chooser { tree, costs, whole }.choose(0, &mut best, &mut vec![]);
+        }
+        Self { tree, best }
+    }
+
+    /// What the root becomes; nothing without triangles.
+    pub fn root(&self) -> Option<Part> {
+        (!self.best.is_empty()).then(|| self.part(0))
+    }
+
+    /// What is below a part; a triangle may be there several times.
+    pub fn references(&self, part: Part) -> &[u32] {
+        let (Part::Node(at) | Part::Leaf(at)) = part;
+        let [first, end] = self.best[at as usize].references;
+        &self.tree.references[first as usize..end as usize]
+    }
+
+    /// The children of the wide node `at`.
+    pub fn children(&self, at: u32) -> Children {
+        let (mut found, mut len) = ([Part::Leaf(0); WIDTH], 0);
+        self.gather(at, WIDTH, &mut |part| {
+            found[len] = part;
+            len += 1;
+        });
+        // Nodes come before leaves, small boxes before large ones.
+        let keys = found.map(|part| (matches!(part, Part::Leaf(_)), self.bounds(part).half_area()));
+        let mut places: [usize; WIDTH] = std::array::from_fn(|place| place);
+        places[..len].sort_by(|&a, &b| keys[a].0.cmp(&keys[b].0).then(keys[a].1.total_cmp(&keys[b].1)));
+        let mut lanes = [0; WIDTH];
+        (0..).zip(&places[..len]).for_each(|(lane, &place)| lanes[place] = lane);
+
+        // Empty lanes come before the first.
+        let empty = (len..WIDTH).fold(0, |order, lane| order << 3 | lane as u32);
+        let orders = self.orders(at, WIDTH, &mut lanes.iter()).0.map(|order| empty << (3 * len) | order);
+        Children { parts: places.map(|place| found[place]), len, orders }
+    }
+
+    fn part(&self, at: u32) -> Part {
+        if self.best[at as usize].leaf { Part::Leaf(at) } else { Part::Node(at) }
+    }
+
+    /// How at most `parts` parts of `at` are dealt to its children: nothing where it is one part itself.
+    fn dealt(&self, at: u32, parts: usize) -> Option<[(u32, usize); 2]> {
+        let left = |parts: usize| (parts, self.best[at as usize].left[parts - 1] as usize);
+        let (parts, left) = (1..=parts).rev().map(left).find(|&(_, left)| left > 0)?;
+        match self.tree.nodes[at as usize].content {
+            Content::Inner([l, r]) => Some([(l, left), (r, parts - left)]),
+            Content::Leaf { .. } => None,
+        }
+    }
+
+    /// Visits the at most `parts` parts of `at`, from the first child to the second.
+    fn gather(&self, at: u32, parts: usize, visit: &mut impl FnMut(Part)) {
+        match self.dealt(at, parts) {
+            Some(sides) => sides.iter().for_each(|&(at, parts)| self.gather(at, parts, visit)),
+            None => visit(self.part(at)),
+        }
+    }
+
+    /// The lanes of the at most `parts` parts of `at` as rays of each octant should visit them, three bits each, the last one lowest;
+    /// and how many bits these are. Takes the lanes in the order in which the parts are gathered.
+    fn orders<'b>(&self, at: u32, parts: usize, lanes: &mut impl Iterator<Item = &'b u32>) -> ([u32; 8], u32) {
+        let Some([l, r]) = self.dealt(at, parts) else {
+            return ([*lanes.next().expect("a lane for each part"); 8], 3);
+        };
+        let ((left, left_bits), (right, right_bits)) = (self.orders(l.0, l.1, lanes), self.orders(r.0, r.1, lanes));
+        let (axis, backward) = self.apart(l.0, r.0);
+        let order = |octant: usize| {
+            let right_first = backward != (octant >> axis & 1 == 1);
+            if right_first {
+                right[octant] << left_bits | left[octant]
+            } else {
+                left[octant] << right_bits | right[octant]
+            }
+        };
+        (std::array::from_fn(order), left_bits + right_bits)
+    }
+
+    /// The axis along which the boxes are furthest apart, and whether `r` comes before `l` on it.
+    fn apart(&self, l: u32, r: u32) -> (usize, bool) {
+        let [l, r] = [l, r].map(|at| &self.tree.nodes[at as usize].bounds);
+        let (up, down) = (r.min - l.max, l.min - r.max);
+        let apart = up.max(down);
+        let axis = (0..3).reduce(|a, b| if apart[b] > apart[a] { b } else { a }).unwrap_or(0);
+        (axis, down[axis] > up[axis])
+    }
+
+    pub fn bounds(&self, part: Part) -> &Aabb {
+        let (Part::Node(at) | Part::Leaf(at)) = part;
+        &self.tree.nodes[at as usize].bounds
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::build::Quality;
+    use crate::build::check::soup;
+    use crate::build::sbvh::{SbvhConfig, Splits, build};
+
+    /// The parts as rays of an octant see them, gathered for that octant alone.
+    fn gathered(collapse: &Collapse, at: u32, parts: usize, octant: usize, into: &mut Vec<Part>) {
+        match collapse.dealt(at, parts) {
+            Some([l, r]) => {
+                let (axis, backward) = collapse.apart(l.0, r.0);
+                let right_first = backward != (octant >> axis & 1 == 1);
+                for (at, parts) in if right_first { [r, l] } else { [l, r] } {
+                    gathered(collapse, at, parts, octant, into);
+                }
+            }
+            None => into.push(collapse.part(at)),
+        }
+    }
+
+    #[test]
+    fn orders_of_all_octants_at_once_are_those_of_one_after_the_other() {
+        let tree = build(&soup(3000, 43), &SbvhConfig::new(Splits::SpatialAndObject, Quality::Balanced));
+        let collapse = Collapse::new(&tree, &CostModel::new(1.0, 1.0, 0.0));
+        let (mut stack, mut nodes) = (vec![collapse.root().unwrap()], 0);
+        while let Some(part) = stack.pop() {
+            let Part::Node(at) = part else { continue };
+            let children = collapse.children(at);
+            for (octant, order) in children.orders.into_iter().enumerate() {
+                let lanes: Vec<usize> = (0..WIDTH).rev().map(|i| (order >> (3 * i) & 7) as usize).collect();
+                let (empty, used) = lanes.split_at(WIDTH - children.len);
+                assert!(empty.iter().all(|&lane| lane >= children.len), "empty lanes come before the first");
+                let mut expected = vec![];
+                gathered(&collapse, at, WIDTH, octant, &mut expected);
+                assert_eq!(used.iter().map(|&lane| children.parts()[lane]).collect::<Vec<_>>(), expected);
+            }
+            stack.extend(children.parts());
+            nodes += 1;
+        }
+        assert!(nodes > 50, "{nodes}");
+    }
+
+    /// Merged leaves are counted only where they may win; here always.
+    #[test]
+    fn leaves_that_are_not_counted_would_not_have_won() {
+        let tree = build(&soup(3000, 44), &SbvhConfig::new(Splits::Spatial, Quality::Balanced));
+        for block in [0.05, 1.0, 20.0] {
+            let costs = CostModel::new(1.0, block, 0.0);
+            let collapse = Collapse::new(&tree, &costs);
+            let whole = tree.nodes[0].bounds.half_area();
+            let chooser = Chooser { tree: &tree, costs: &costs, whole };
+            for (at, best) in collapse.best.iter().enumerate() {
+                let Content::Inner([_, second]) = tree.nodes[at].content else { continue };
+                let area = tree.nodes[at].bounds.half_area() / whole;
+                let mut ids = tree.references[best.references[0] as usize..best.references[1] as usize].to_vec();
+                ids.sort_unstable();
+                ids.dedup();
+                assert!(best.triangles as usize <= ids.len());
+                let [l, r] = [at + 1, second as usize].map(|child| &collapse.best[child]);
+                let inner =
+                    (1..WIDTH).map(|left| l.cost[left - 1] + r.cost[WIDTH - left - 1]).fold(f32::INFINITY, f32::min);
+                let as_node = (area + f64::from(inner)) as f32;
+                let fits = ids.len() <= 64 && best.references[1] - best.references[0] <= 128;
+                assert_eq!(best.leaf, fits && chooser.as_leaf(area, ids.len() as u32) <= as_node, "{at}");
+            }
+            assert!(collapse.best.iter().any(|best| !best.leaf));
+        }
+    }
+}

@@ -1,0 +1,67 @@
+//! What rays of one octant have in common.
+
+use super::node::{Node, WIDTH};
+use super::prepared_ray::rows;
+use super::ray_packet::Beams;
+use crate::simd::{Lanes, each};
+
+/// Bounds of the crossings of several rays with a plane.
+///
+/// **It rejects only what every ray rejects.** A ray computes a near crossing as fl(fl(p - o) i). Subtraction and multiplication
+/// round monotonically, so that the least of fl(fl(p - o') i') over the corners of the ranges of o and i is not above it; which o' is
+/// least is known from the sign of the direction. Likewise for the far crossings. Where the bound of a near crossing exceeds that
+/// of a far one, so do the crossings of each ray.
+pub(super) struct Frustum<L> {
+    near_origin: [L; 3],
+    far_origin: [L; 3],
+    /// The least and the greatest.
+    inverse: [[L; 2]; 3],
+    enlarged: [[L; 2]; 3],
+    t_min: L,
+    near: [usize; 3],
+    far: [usize; 3],
+}
+
+/// The least and the greatest number, in all lanes.
+#[inline(always)]
+fn range<L: Lanes<WIDTH>>(row: &[L; 2]) -> [L; 2] {
+    let (low, high) = (row[0].min(row[1]).store(), row[0].max(row[1]).store());
+    let (mut least, mut greatest) = (low[0], high[0]);
+    for i in 1..WIDTH {
+        least = if low[i] < least { low[i] } else { least };
+        greatest = if high[i] > greatest { high[i] } else { greatest };
+    }
+    [L::splat(least), L::splat(greatest)]
+}
+
+impl<L: Lanes<WIDTH>> Frustum<L> {
+    #[inline(always)]
+    pub fn new(beams: &Beams<L>) -> Self {
+        let origin = each(&beams.origin, range);
+        let backward = |axis: usize| beams.octant >> axis & 1;
+        let (near, far) = rows(beams.octant);
+        Self {
+            near_origin: each(&[0, 1, 2], |&axis| origin[axis][1 - backward(axis)]),
+            far_origin: each(&[0, 1, 2], |&axis| origin[axis][backward(axis)]),
+            inverse: each(&beams.inverse, range),
+            enlarged: each(&beams.enlarged, range),
+            t_min: range(&beams.t_min)[0],
+            near,
+            far,
+        }
+    }
+
+    /// The boxes that some ray may meet, as bits.
+    #[inline(always)]
+    pub fn meet(&self, node: &Node) -> u32 {
+        let planes = node.planes.as_flattened();
+        let (mut enter, mut leave) = (self.t_min, L::splat(f32::INFINITY));
+        for axis in 0..3 {
+            let near = L::load(&planes[self.near[axis]]).sub(self.near_origin[axis]);
+            let far = L::load(&planes[self.far[axis]]).sub(self.far_origin[axis]);
+            enter = near.mul(self.inverse[axis][0]).min(near.mul(self.inverse[axis][1])).max(enter);
+            leave = far.mul(self.enlarged[axis][0]).max(far.mul(self.enlarged[axis][1])).min(leave);
+        }
+        enter.le(leave)
+    }
+}

@@ -1,0 +1,213 @@
+//! Writes nodes and leaf blocks, depth first but for the top of the tree, which comes first.
+
+use rayon::prelude::*;
+
+use super::collapse::{Collapse, Part};
+use super::node::{Child, Limits, Node, WIDTH};
+use crate::accel::BuildError;
+use crate::geometry::Mesh;
+use crate::traversal::leaf::LeafBlock;
+use crate::traversal::pages;
+use crate::triangle::TriangleTest;
+
+/// What is below a node with at most this many references is written by one thread.
+const PIECE: usize = 4096;
+
+/// What a walk goes through.
+pub(super) struct Layout<T: TriangleTest> {
+    pub root: Child,
+    pub nodes: Vec<Node>,
+    pub blocks: Vec<LeafBlock<T, WIDTH>>,
+}
+
+impl<T: TriangleTest> Layout<T> {
+    /// The tree that `collapse` has chosen. It does not depend on the number of threads.
+    ///
+    /// # Errors
+    /// If it exceeds the limits.
+    pub fn new(mesh: &Mesh, collapse: &Collapse, limits: &Limits) -> Result<Self, BuildError> {
+        Self::in_pieces(mesh, collapse, limits, PIECE)
+    }
+
+    /// The same with pieces of at most `most` references.
+    fn in_pieces(mesh: &Mesh, collapse: &Collapse, limits: &Limits, most: usize) -> Result<Self, BuildError> {
+        let Some(root) = collapse.root() else {
+            return Ok(Self { root: Child::NOTHING, nodes: vec![], blocks: vec![] });
+        };
+        let cut = if collapse.references(root).len() > most { most } else { 0 };
+        let mut top = Piece::new(mesh, collapse, cut);
+        let root = top.write(root, 0);
+        let below = |cut: &Cut| {
+            let mut piece = Piece::new(mesh, collapse, 0);
+            piece.write(cut.part, cut.depth);
+            piece
+        };
+        let pieces: Vec<Piece<T>> = top.cuts.par_iter().map(below).collect();
+        Self::joined(root, top, pieces, limits)
+    }
+
+    /// The pieces behind `top`, which says where they were cut off.
+    fn joined(root: Child, mut top: Piece<T>, pieces: Vec<Piece<T>>, limits: &Limits) -> Result<Self, BuildError> {
+        let whole = || pieces.iter().chain([&top]);
+        let nodes = whole().map(|piece| piece.nodes.len()).sum();
+        let blocks = whole().map(|piece| piece.blocks.len()).sum();
+        limits.check(whole().map(|piece| piece.depth).fold(0, usize::max), nodes, blocks)?;
+
+        let mut starts = vec![];
+        let mut end = (top.nodes.len(), top.blocks.len());
+        for (cut, piece) in top.cuts.iter().zip(&pieces) {
+            top.nodes[cut.parent].children[cut.lane] = Child::node(end.0);
+            starts.push(end);
+            end = (end.0 + piece.nodes.len(), end.1 + piece.blocks.len());
+        }
+        let (below, mut blocks_below): (Vec<_>, Vec<_>) =
+            pieces.into_iter().map(|piece| (piece.nodes, piece.blocks)).unzip();
+        let nodes = || {
+            let mut nodes = pages::with_capacity(end.0);
+            nodes.append(&mut top.nodes);
+            for ((first, block), below) in starts.iter().zip(below) {
+                nodes.extend(below.into_iter().map(|node| node.moved(*first, *block)));
+            }
+            nodes
+        };
+        let blocks = || {
+            let mut blocks = pages::with_capacity(end.1);
+            blocks.append(&mut top.blocks);
+            blocks_below.iter_mut().for_each(|below| blocks.append(below));
+            blocks
+        };
+        let (nodes, blocks) = rayon::join(nodes, blocks);
+        Ok(Self { root, nodes, blocks })
+    }
+}
+
+/// A part of the tree that one thread writes.
+struct Piece<'a, T: TriangleTest> {
+    mesh: &'a Mesh,
+    collapse: &'a Collapse<'a>,
+    nodes: Vec<Node>,
+    blocks: Vec<LeafBlock<T, WIDTH>>,
+    /// Nodes on the longest path from the root.
+    depth: usize,
+    /// Nodes below the first with at most this many references are left to others.
+    cut: usize,
+    cuts: Vec<Cut>,
+}
+
+/// What is left to others: where it belongs, and how many nodes are above it.
+struct Cut {
+    part: Part,
+    parent: usize,
+    lane: usize,
+    depth: usize,
+}
+
+impl<'a, T: TriangleTest> Piece<'a, T> {
+    fn new(mesh: &'a Mesh, collapse: &'a Collapse<'a>, cut: usize) -> Self {
+        Self { mesh, collapse, nodes: vec![], blocks: vec![], depth: 0, cut, cuts: vec![] }
+    }
+
+    /// Writes `part`, which is below `depth` nodes.
+    fn write(&mut self, part: Part, depth: usize) -> Child {
+        match part {
+            Part::Leaf(_) => self.leaf(part),
+            Part::Node(at) => {
+                let own = self.nodes.len();
+                self.nodes.push(Node::EMPTY);
+                self.depth = self.depth.max(depth + 1);
+                let children = self.collapse.children(at);
+                let mut node = Node { orders: children.orders, ..Node::EMPTY };
+                for (lane, &part) in children.parts().iter().enumerate() {
+                    let child = if self.is_left(part) {
+                        self.cuts.push(Cut { part, parent: own, lane, depth: depth + 1 });
+                        Child::NOTHING
+                    } else {
+                        self.write(part, depth + 1)
+                    };
+                    node.set(lane, self.collapse.bounds(part), child);
+                }
+                self.nodes[own] = node;
+                Child::node(own)
+            }
+        }
+    }
+
+    /// Whether others write it.
+    fn is_left(&self, part: Part) -> bool {
+        matches!(part, Part::Node(_)) && self.collapse.references(part).len() <= self.cut
+    }
+
+    fn leaf(&mut self, part: Part) -> Child {
+        // A triangle may be in several of the leaves that became one.
+        let mut ids = self.collapse.references(part).to_vec();
+        ids.sort_unstable();
+        ids.dedup();
+        let (first, blocks) = (self.blocks.len(), ids.len().div_ceil(WIDTH));
+        assert!(blocks <= Child::BLOCKS, "every partition deals out what is more than a leaf takes");
+        LeafBlock::fill(self.mesh, &ids, &mut self.blocks);
+        Child::leaf(first, blocks)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::build::Quality;
+    use crate::build::check::soup;
+    use crate::build::sah::CostModel;
+    use crate::build::sbvh::{SbvhConfig, Splits, build};
+    use crate::triangle::MollerTrumbore;
+
+    type Tree = Layout<MollerTrumbore>;
+
+    /// What can be seen of the subtree at a child: boxes, orders and triangles, depth first.
+    fn seen(tree: &Tree, child: Child, into: &mut Vec<String>) {
+        match child.blocks() {
+            Some((first, count)) => {
+                into.extend(tree.blocks[first..first + count].iter().map(|b| format!("{:?}", b.ids)))
+            }
+            None => {
+                let node = &tree.nodes[child.index()];
+                into.push(format!("{:?} {:?}", node.planes, node.orders));
+                node.children.iter().for_each(|&child| seen(tree, child, into));
+            }
+        }
+    }
+
+    #[test]
+    fn pieces_make_the_tree_that_one_thread_writes_alone() {
+        let mesh = soup(20_000, 41);
+        for splits in [Splits::Spatial, Splits::SpatialAndObject, Splits::Object] {
+            let tree = build(&mesh, &SbvhConfig::new(splits, Quality::Fast));
+            let collapse = Collapse::new(&tree, &CostModel::new(1.0, 1.0, 0.0));
+            let all = |most: usize| {
+                let tree = Tree::in_pieces(&mesh, &collapse, &Limits::OF_NODES, most).unwrap();
+                let mut into = vec![];
+                seen(&tree, tree.root, &mut into);
+                (into, tree.nodes.len(), tree.blocks.len())
+            };
+            let alone = all(usize::MAX);
+            assert!(alone.1 > 100, "{}", alone.1);
+            for most in [100, 1000, PIECE, 19_999] {
+                assert!(all(most) == alone, "{splits:?}, pieces of {most}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_layout_does_not_depend_on_the_number_of_threads() {
+        let mesh = soup(30_000, 42);
+        let tree = build(&mesh, &SbvhConfig::new(Splits::SpatialAndObject, Quality::Fast));
+        let run = |threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| {
+                let collapse = Collapse::new(&tree, &CostModel::new(1.0, 1.0, 0.0));
+                let Layout { root, nodes, blocks } = Tree::new(&mesh, &collapse, &Limits::OF_NODES).unwrap();
+                let ids: Vec<[u32; WIDTH]> = blocks.iter().map(|block| block.ids).collect();
+                (root, format!("{nodes:?}"), ids)
+            })
+        };
+        let one = run(1);
+        assert!(one == run(2) && one == run(3));
+    }
+}

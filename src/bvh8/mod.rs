@@ -1,0 +1,24 @@
+//! Eight-wide trees of tight boxes: one node, one walk, four partitions.
+
+mod accel;
+mod batch;
+mod collapse;
+mod config;
+mod frustum;
+mod layout;
+mod node;
+mod outline;
+mod packet;
+mod packet_hits;
+mod packet_leaves;
+mod prepared_ray;
+mod ray_packet;
+mod stack;
+mod stream;
+#[cfg(test)]
+mod tests;
+mod traverse;
+mod tree;
+
+pub use config::{Batch, Bvh8Config, Partition};
+pub use tree::Bvh8;

@@ -1,0 +1,202 @@
+//! The node of wide trees.
+
+use glam::Vec3;
+
+use crate::accel::BuildError;
+use crate::geometry::Aabb;
+
+/// The deepest tree that a walk can follow, in nodes.
+pub(super) const DEPTH: usize = 100;
+
+/// Children of a node.
+pub(super) const WIDTH: usize = 8;
+
+/// How large a tree may be.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Limits {
+    /// Nodes on a path.
+    pub levels: usize,
+    pub nodes: usize,
+    pub blocks: usize,
+    /// Nodes of the binary tree that it is made of, and references in that.
+    pub binary: usize,
+}
+
+impl Limits {
+    /// What children can name and walks can follow.
+    pub const OF_NODES: Self =
+        Self { levels: DEPTH, nodes: Child::LARGEST, blocks: Child::LARGEST, binary: u32::MAX as usize };
+
+    /// Before anything is built: so many triangles, of which each takes so many references on average at most.
+    ///
+    /// # Errors
+    /// If the binary tree might have more nodes or references than it can name: it has fewer than two nodes a
+    /// reference.
+    pub fn admit(&self, triangles: usize, duplication: f32) -> Result<(), BuildError> {
+        let most = 2.0 * f64::from(duplication) * triangles as f64;
+        if most <= self.binary as f64 {
+            return Ok(());
+        }
+        Err(BuildError::Mesh(format!(
+            "the mesh is too large for this structure: {triangles} triangles with a duplication of {duplication} may take \
+             {most} binary nodes, of at most {}; a smaller `duplication` takes fewer",
+            self.binary
+        )))
+    }
+
+    /// # Errors
+    /// If a tree of this size exceeds them.
+    pub fn check(&self, levels: usize, nodes: usize, blocks: usize) -> Result<(), BuildError> {
+        if levels <= self.levels && nodes <= self.nodes && blocks <= self.blocks {
+            return Ok(());
+        }
+        Err(BuildError::Mesh(format!(
+            "the mesh is too large or too odd for this structure: it takes {levels} levels, {nodes} nodes and {blocks} \
+             blocks, of at most {}, {} and {}",
+            self.levels, self.nodes, self.blocks
+        )))
+    }
+}
+
+/// Eight boxes, coordinate by coordinate, and what is in them: 256 bytes, four cache lines.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(64))]
+pub(super) struct Node {
+    /// By axis, the lower and the upper planes of the boxes.
+    pub planes: [[[f32; WIDTH]; 2]; 3],
+    pub children: [Child; WIDTH],
+    /// For each octant of directions (bit 0 is set for a negative x), the lanes from the last to the first that such a ray
+    /// should visit: three bits each, the last one lowest.
+    pub orders: [u32; 8],
+}
+
+const _: () = assert!(size_of::<Node>() == 256);
+
+/// A node by number, or a leaf as its first block and the number of its blocks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(transparent)]
+pub(super) struct Child(u32);
+
+impl Child {
+    const LEAF: u32 = 1 << 31;
+    const COUNT_BITS: u32 = 4;
+    /// Blocks of the largest leaf.
+    pub const BLOCKS: usize = (1 << Self::COUNT_BITS) - 1;
+    /// Nodes, and blocks, that can be told apart.
+    pub const LARGEST: usize = 1 << (31 - Self::COUNT_BITS);
+
+    /// A leaf of nothing.
+    pub const NOTHING: Self = Self(Self::LEAF);
+
+    /// A leaf of nothing that is in no node.
+    pub const BOTTOM: Self = Self(Self::LEAF | 1 << Self::COUNT_BITS);
+
+    pub fn node(at: usize) -> Self {
+        debug_assert!(at < Self::LARGEST);
+        Self(at as u32)
+    }
+
+    pub fn leaf(first: usize, blocks: usize) -> Self {
+        debug_assert!(first < Self::LARGEST && blocks <= Self::BLOCKS);
+        Self(Self::LEAF | (first as u32) << Self::COUNT_BITS | blocks as u32)
+    }
+
+    #[inline(always)]
+    pub fn is_leaf(self) -> bool {
+        self.0 & Self::LEAF != 0
+    }
+
+    /// The first block of a leaf and how many it has; nothing for a node.
+    #[inline(always)]
+    pub fn blocks(self) -> Option<(usize, usize)> {
+        self.is_leaf().then_some(self.leaf_blocks())
+    }
+
+    /// The first block of what is known to be a leaf and how many it has.
+    #[inline(always)]
+    pub fn leaf_blocks(self) -> (usize, usize) {
+        let first = (self.0 & !Self::LEAF) >> Self::COUNT_BITS;
+        (first as usize, (self.0 & Self::BLOCKS as u32) as usize)
+    }
+
+    /// The same child where `nodes` nodes and `blocks` blocks have come before its own.
+    pub fn moved(self, nodes: usize, blocks: usize) -> Self {
+        match self.blocks() {
+            None => Self::node(self.index() + nodes),
+            Some(_) if self == Self::NOTHING => self,
+            Some((first, count)) => Self::leaf(first + blocks, count),
+        }
+    }
+
+    /// Eight children as they are in memory.
+    #[inline(always)]
+    pub fn bits(children: &[Self; WIDTH]) -> &[u32; WIDTH] {
+        // SAFETY: a child is a number, transparently.
+        unsafe { &*(&raw const *children).cast() }
+    }
+
+    /// The number of a node.
+    #[inline(always)]
+    pub fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+impl Node {
+    /// A node without children: no line meets its boxes, and who looks into them nevertheless finds nothing.
+    pub const EMPTY: Self = Self {
+        planes: [[[f32::INFINITY; WIDTH], [f32::NEG_INFINITY; WIDTH]]; 3],
+        children: [Child::NOTHING; WIDTH],
+        orders: [0; 8],
+    };
+
+    pub fn set(&mut self, lane: usize, bounds: &Aabb, child: Child) {
+        for (axis, [low, high]) in self.planes.iter_mut().enumerate() {
+            low[lane] = bounds.min[axis];
+            high[lane] = bounds.max[axis];
+        }
+        self.children[lane] = child;
+    }
+
+    /// The same node where `nodes` nodes and `blocks` blocks have come before those of its part of the tree.
+    pub fn moved(self, nodes: usize, blocks: usize) -> Self {
+        Self { children: self.children.map(|child| child.moved(nodes, blocks)), ..self }
+    }
+
+    /// The boxes in use, and what is in them.
+    pub fn boxes(&self) -> impl Iterator<Item = (Aabb, Child)> + '_ {
+        let corner =
+            |side: usize, lane: usize| Vec3::from_array(std::array::from_fn(|axis| self.planes[axis][side][lane]));
+        let used = (0..WIDTH).filter(|&lane| self.children[lane] != Child::NOTHING);
+        used.map(move |lane| (Aabb { min: corner(0, lane), max: corner(1, lane) }, self.children[lane]))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_limits_are_what_a_child_can_name() {
+        let Limits { nodes, blocks, .. } = Limits::OF_NODES;
+        assert_eq!(Child::node(nodes - 1).index(), nodes - 1);
+        assert!(!Child::node(nodes - 1).is_leaf());
+        assert_eq!(Child::leaf(blocks - 1, Child::BLOCKS).blocks(), Some((blocks - 1, Child::BLOCKS)));
+        // The first block of the next one is not told from the mark of leaves.
+        assert_eq!((blocks as u32) << Child::COUNT_BITS, Child::LEAF);
+    }
+
+    #[test]
+    fn larger_trees_are_refused_in_a_sentence() {
+        let all = Limits::OF_NODES;
+        let Limits { levels, nodes, blocks, binary } = all;
+        assert_eq!(all.check(levels, nodes, blocks), Ok(()));
+        for (levels, nodes, blocks) in [(levels + 1, 1, 1), (1, nodes + 1, 1), (1, 1, blocks + 1)] {
+            assert!(matches!(all.check(levels, nodes, blocks), Err(BuildError::Mesh(s)) if s.contains("too large")));
+        }
+        assert_eq!(all.admit(binary / 2, 1.0), Ok(()));
+        for (triangles, duplication) in [(binary / 2 + 1, 1.0), (binary / 4, 2.1), (binary, 1.0)] {
+            assert!(matches!(all.admit(triangles, duplication), Err(BuildError::Mesh(s)) if s.contains("duplication")));
+        }
+    }
+}

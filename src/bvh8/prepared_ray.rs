@@ -1,0 +1,80 @@
+//! A ray as wide nodes see it.
+
+use glam::Vec3A;
+
+use super::node::{Node, WIDTH};
+use crate::geometry::{Aabb, Ray};
+use crate::simd::{Lanes, each};
+use crate::traversal::line::inverses;
+
+/// A ray, prepared for the boxes of nodes.
+///
+/// **No box is lost.** Let the ray be in a closed box at the exact parameter t* in [`t_min`, `end`]. On each axis it crosses the near
+/// plane at n <= t* and the far plane at f >= t*. The near crossing is computed as N = fl(p - o) i, rounded, where i = fl(1 / d); the far one
+/// as F = fl(p - o) g, rounded, where g is i enlarged by 8 units of 2^-23. Two roundings move N away from n by less than
+/// 2.1 units of 2^-24, relatively, and three move F by less than 3.1 from 16 units beyond f. So N <= F for the planes of any two axes
+/// where n is not negative, and t_min <= F; and because the last rounding is monotonic, also where the products underflow, the
+/// rounded ones are in that order. Where n is negative, t_min stands for it. `end` is 8 units beyond the last parameter of interest,
+/// which n does not exceed. Infinite crossings (`d` = 0) order correctly, and what has no answer is NaN (see
+/// [`inverses`]), which leaves the interval as it is. Nothing is fused, so that all levels visit the same boxes.
+#[derive(Clone, Copy)]
+pub(super) struct Beam<L> {
+    origin: [L; 3],
+    inverse: [L; 3],
+    enlarged: [L; 3],
+    /// By axis, how many bytes of planes come before those that are near and those that are far.
+    near: [usize; 3],
+    far: [usize; 3],
+    t_min: L,
+    /// Bit 0 is set for a negative x.
+    pub octant: usize,
+}
+
+/// How much longer than it is the way to a far plane is taken to be.
+pub(super) const ENLARGED: f32 = 1.0 + 8.0 * f32::EPSILON;
+
+/// By axis, which of the six rows of planes are near and which are far for rays of an octant.
+#[inline(always)]
+pub(super) fn rows(octant: usize) -> ([usize; 3], [usize; 3]) {
+    let [x, y, z] = [0, 1, 2].map(|axis| octant >> axis & 1);
+    ([x, 2 + y, 4 + z], [1 - x, 3 - y, 5 - z])
+}
+
+impl<L: Lanes<WIDTH>> Beam<L> {
+    /// For boxes in `bounds`.
+    #[inline(always)]
+    pub fn new(ray: &Ray, bounds: &Aabb, t_min: f32) -> Self {
+        let octant = Vec3A::from(ray.direction).is_negative_bitmask();
+        Self::of(ray.origin.to_array(), inverses(ray, bounds), t_min, octant as usize)
+    }
+
+    /// From its parts.
+    #[inline(always)]
+    pub fn of(origin: [f32; 3], inverse: [f32; 3], t_min: f32, octant: usize) -> Self {
+        let (near, far) = rows(octant);
+        let bytes = |row: usize| row * size_of::<[f32; WIDTH]>();
+        Self {
+            origin: each(&origin, |&o| L::splat(o)),
+            inverse: each(&inverse, |&i| L::splat(i)),
+            enlarged: each(&inverse, |&i| L::splat(i * ENLARGED)),
+            near: near.map(bytes),
+            far: far.map(bytes),
+            t_min: L::splat(t_min),
+            octant,
+        }
+    }
+
+    /// Where the ray enters and leaves the boxes, both within the interval: it misses those that it leaves before it enters.
+    #[inline(always)]
+    pub fn cross(&self, node: &Node, end: L) -> (L, L) {
+        let planes = (&raw const node.planes).cast::<u8>();
+        let (mut enter, mut leave) = (self.t_min, end);
+        for axis in 0..3 {
+            // SAFETY: there is a row of planes after each of these many bytes.
+            let (near, far) = unsafe { (&*planes.add(self.near[axis]).cast(), &*planes.add(self.far[axis]).cast()) };
+            enter = L::load(near).sub(self.origin[axis]).mul(self.inverse[axis]).max(enter);
+            leave = L::load(far).sub(self.origin[axis]).mul(self.enlarged[axis]).min(leave);
+        }
+        (enter, leave)
+    }
+}

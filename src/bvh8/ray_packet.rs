@@ -1,0 +1,131 @@
+//! Sixteen rays as the boxes of nodes see them.
+
+use super::node::{Node, WIDTH};
+use super::packet_hits::{HALVES, RAYS};
+use super::prepared_ray::{Beam, ENLARGED};
+use crate::geometry::{Aabb, Ray};
+use crate::simd::{LaneVec3, Sieve, each};
+use crate::traversal::line::{after, lanes_after};
+
+/// A number of each ray.
+type Row = [[f32; WIDTH]; HALVES];
+
+/// The rays of a packet: each as its [`Beam`] has it.
+pub(super) struct Beams<L> {
+    pub origin: [[L; HALVES]; 3],
+    direction: [[L; HALVES]; 3],
+    pub inverse: [[L; HALVES]; 3],
+    pub enlarged: [[L; HALVES]; 3],
+    pub t_min: [L; HALVES],
+    ends: Row,
+    pub octant: usize,
+}
+
+/// The eight numbers of eight rays: a row of each. A function, because a closure as large as this is not inlined everywhere, and then
+/// is not compiled for the level.
+#[inline(always)]
+fn numbers<L: Sieve>(rays: &[Ray]) -> [L; 8] {
+    let mut rows = [L::zero(); WIDTH];
+    for (row, ray) in rows.iter_mut().zip(rays) {
+        let Ray { origin: o, t_min, direction: d, t_max } = *ray;
+        *row = L::load(&[o.x, o.y, o.z, t_min, d.x, d.y, d.z, t_max]);
+    }
+    L::transpose(rows)
+}
+
+impl<L: Sieve> Beams<L> {
+    /// Without their ends: rays of one octant whose crossings with planes in `bounds` all have a finite answer; nothing if they are not that.
+    #[inline(always)]
+    pub fn new(rays: &[Ray; RAYS], bounds: &Aabb) -> Option<Self> {
+        let (low, high) = rays.split_at(WIDTH);
+        let rows = [numbers::<L>(low), numbers::<L>(high)];
+        let row = |i: usize| each(&rows, |half| half[i]);
+        let (origin, direction) = ([row(0), row(1), row(2)], [row(4), row(5), row(6)]);
+        let mut octant = 0;
+        for (axis, [low, high]) in direction.iter().enumerate() {
+            // Zeros of either sign fail below, where their inverses are asked for.
+            match low.lt(L::zero()) | high.lt(L::zero()) << WIDTH {
+                0 => {}
+                0xffff => octant |= 1 << axis,
+                _ => return None,
+            }
+        }
+        let one = L::splat(1.0);
+        let inverse = each(&direction, |halves| each(halves, |d| one.div(*d)));
+        let enlarged = each(&inverse, |halves| each(halves, |i| i.mul(L::splat(ENLARGED))));
+        let (t_min, t_max) = (each(&row(3), |t| t.max(L::zero())), row(7));
+
+        // What `Ray::is_valid` and `inverses` ask, and that no inverse, enlarged or not, is infinite or NaN.
+        let abs = |x: L| x.flip_sign(x);
+        let mut good = u32::MAX;
+        for half in 0..HALVES {
+            for axis in 0..3 {
+                let reach = abs(origin[axis][half]).add(L::splat(bounds.min[axis].abs().max(bounds.max[axis].abs())));
+                let (inverse, enlarged) = (abs(inverse[axis][half]), abs(enlarged[axis][half]));
+                good &= reach.le(L::splat(f32::MAX));
+                good &= L::splat(f32::MIN_POSITIVE).le(inverse) & enlarged.le(L::splat(f32::MAX));
+            }
+            good &= row(3)[half].le(L::splat(f32::INFINITY)) & t_min[half].lt(t_max[half]);
+        }
+        if good & 0xff != 0xff {
+            return None;
+        }
+        Some(Self { origin, direction, inverse, enlarged, t_min, ends: [[0.0; WIDTH]; HALVES], octant })
+    }
+
+    /// The rays that meet the box of `lane` before their ends, as bits.
+    #[inline(always)]
+    pub fn meet(&self, node: &Node, lane: usize) -> u16 {
+        let mut met = 0;
+        for half in 0..HALVES {
+            let (mut enter, mut leave) = (self.t_min[half], L::load(&self.ends[half]));
+            for axis in 0..3 {
+                let backward = self.octant >> axis & 1;
+                let near = L::splat(node.planes[axis][backward][lane % WIDTH]);
+                let far = L::splat(node.planes[axis][1 - backward][lane % WIDTH]);
+                enter = near.sub(self.origin[axis][half]).mul(self.inverse[axis][half]).max(enter);
+                leave = far.sub(self.origin[axis][half]).mul(self.enlarged[axis][half]).min(leave);
+            }
+            met |= enter.le(leave) << (half * WIDTH);
+        }
+        met as u16
+    }
+
+    /// One of the rays.
+    #[inline(always)]
+    pub fn single(&self, i: usize) -> Beam<L> {
+        let pick = |row: &[L; HALVES]| row[i / WIDTH].store()[i % WIDTH];
+        Beam::of(each(&self.origin, pick), each(&self.inverse, pick), pick(&self.t_min), self.octant)
+    }
+
+    #[inline(always)]
+    pub fn t_min(&self) -> [f32; RAYS] {
+        let mut row = [0.0; RAYS];
+        for (half, lanes) in row.chunks_exact_mut(WIDTH).zip(&self.t_min) {
+            half.copy_from_slice(&lanes.store());
+        }
+        row
+    }
+
+    /// Ray `i` is of no interest after `t`.
+    #[inline(always)]
+    pub fn end(&mut self, i: usize, t: f32) {
+        self.ends[i / WIDTH][i % WIDTH] = after(t);
+    }
+
+    /// The rays are of no interest after `t`.
+    #[inline(always)]
+    pub fn end_all(&mut self, t: [L; HALVES]) {
+        self.ends = each(&t, |t| lanes_after(*t).store());
+    }
+
+    /// Both halves of the rays: their origins, their directions and where they start.
+    #[inline(always)]
+    pub fn abreast(&self) -> [(LaneVec3<WIDTH, L>, LaneVec3<WIDTH, L>, L); HALVES] {
+        let half = |half: usize| {
+            let row = |[x, y, z]: &[[L; HALVES]; 3]| LaneVec3::new(x[half], y[half], z[half]);
+            (row(&self.origin), row(&self.direction), self.t_min[half])
+        };
+        [half(0), half(1)]
+    }
+}

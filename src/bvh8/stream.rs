@@ -1,0 +1,199 @@
+//! Rays one by one, several under way at once.
+//!
+//! **The same answers as one after the other.** Each ray has a stack of its own and takes the steps that it takes alone, in the same
+//! order. What differs is what the machine does meanwhile: after a step of one ray the memory for its next one is fetched, and the
+//! others take theirs. Rays at nodes and rays at leaves stand in separate lists, so that no branch depends on which of both comes
+//! next.
+
+use std::marker::PhantomData;
+use std::mem::MaybeUninit;
+
+use super::node::{Child, WIDTH};
+use super::prepared_ray::Beam;
+use super::stack::Stack;
+use super::tree::Bvh8;
+use crate::geometry::{Hit, Ray};
+use crate::simd::Sieve;
+use crate::traversal::leaf::{Nearest, search, start};
+use crate::traversal::line::after;
+use crate::traversal::pages;
+use crate::triangle::TriangleTest;
+
+/// Rays under way: enough to wait for memory, few enough for the nearest cache.
+const SLOTS: usize = 8;
+
+/// A ray under way.
+struct Traveller<L, T: TriangleTest> {
+    beam: Beam<L>,
+    ray: T::Ray,
+    t_min: f32,
+    nearest: Nearest<T::Depth>,
+    /// It is of no interest after.
+    end: f32,
+    /// Where it is.
+    child: Child,
+    /// Which ray it is.
+    number: usize,
+    stack: Stack,
+}
+
+/// Room for rays under way.
+pub(super) struct Slots<L, T: TriangleTest>([MaybeUninit<Traveller<L, T>>; SLOTS]);
+
+impl<L, T: TriangleTest> Slots<L, T> {
+    pub const EMPTY: Self = Self([const { MaybeUninit::uninit() }; SLOTS]);
+}
+
+/// Some of the slots.
+struct List<L, T: TriangleTest>([*mut Traveller<L, T>; SLOTS]);
+
+impl<L, T: TriangleTest> List<L, T> {
+    const EMPTY: Self = Self([std::ptr::null_mut(); SLOTS]);
+
+    /// # Safety
+    /// There are less than `SLOTS` before it.
+    #[inline(always)]
+    unsafe fn put(&mut self, i: usize, slot: *mut Traveller<L, T>) {
+        debug_assert!(i < SLOTS);
+        // SAFETY: as the caller says.
+        unsafe { *self.0.get_unchecked_mut(i) = slot };
+    }
+
+    /// # Safety
+    /// It was put there.
+    #[inline(always)]
+    unsafe fn get(&self, i: usize) -> *mut Traveller<L, T> {
+        debug_assert!(i < SLOTS);
+        // SAFETY: as the caller says.
+        unsafe { *self.0.get_unchecked(i) }
+    }
+}
+
+/// Rays under way through a tree. Each slot is in one of the lists, once.
+pub(super) struct Stream<'a, L, T: TriangleTest> {
+    tree: &'a Bvh8<T>,
+    slots: PhantomData<&'a mut Slots<L, T>>,
+    /// With a ray at a node.
+    nodes: List<L, T>,
+    /// With a ray at a leaf.
+    leaves: List<L, T>,
+    /// Without a ray.
+    free: List<L, T>,
+    /// How many each list has.
+    at_nodes: usize,
+    at_leaves: usize,
+    freed: usize,
+}
+
+impl<'a, L: Sieve, T: TriangleTest> Stream<'a, L, T> {
+    #[inline(always)]
+    pub fn new(tree: &'a Bvh8<T>, slots: &'a mut Slots<L, T>) -> Self {
+        let mut free = List::EMPTY;
+        for (place, slot) in free.0.iter_mut().zip(&mut slots.0) {
+            *place = slot.as_mut_ptr();
+        }
+        let (nodes, leaves) = (List::EMPTY, List::EMPTY);
+        Self { tree, slots: PhantomData, nodes, leaves, free, at_nodes: 0, at_leaves: 0, freed: SLOTS }
+    }
+
+    /// Sends a ray on its way. Rays that are through are handed to `done` by their numbers.
+    #[inline(always)]
+    pub fn push<const ANY: bool>(&mut self, number: usize, ray: &Ray, mut done: impl FnMut(usize, Option<Hit>)) {
+        let Some((t_min, nearest)) = start::<T>(ray) else { return done(number, None) };
+        while self.freed == 0 {
+            self.round::<ANY>(&mut done);
+        }
+        self.freed -= 1;
+        let root = self.tree.root;
+        // SAFETY: the list has the slots that are free. All of a slot is written but the entries of its stack above the bottom. All lists together
+        // are as long as there are slots.
+        unsafe {
+            let slot = self.free.get(self.freed);
+            (&raw mut (*slot).beam).write(Beam::new(ray, &self.tree.bounds, t_min));
+            (&raw mut (*slot).ray).write(T::prepare(ray));
+            (&raw mut (*slot).t_min).write(t_min);
+            (&raw mut (*slot).end).write(after(nearest.t));
+            (&raw mut (*slot).nearest).write(nearest);
+            (&raw mut (*slot).child).write(root);
+            (&raw mut (*slot).number).write(number);
+            Stack::reset(&raw mut (*slot).stack);
+            if root.is_leaf() {
+                self.leaves.put(self.at_leaves, slot);
+                self.at_leaves += 1;
+            } else {
+                self.nodes.put(self.at_nodes, slot);
+                self.at_nodes += 1;
+            }
+        }
+    }
+
+    /// Brings all rays through.
+    #[inline(always)]
+    pub fn finish<const ANY: bool>(&mut self, mut done: impl FnMut(usize, Option<Hit>)) {
+        while self.freed < SLOTS {
+            self.round::<ANY>(&mut done);
+        }
+    }
+
+    /// A step of each ray.
+    #[inline(always)]
+    fn round<const ANY: bool>(&mut self, done: &mut impl FnMut(usize, Option<Hit>)) {
+        let tree = self.tree;
+        // Each list is written anew while it is read. A slot is written to both, and counted in one of them.
+        let (mut nodes, rays) = (0, self.at_nodes);
+        for k in 0..rays {
+            // SAFETY: slots in lists hold rays; children name nodes that are there; the depth was checked when the tree was built;
+            // whose bottom was reached is at no node; no list gets longer than there are slots.
+            unsafe {
+                let slot = self.nodes.get(k);
+                let at = &mut *slot;
+                let node = tree.nodes.get_unchecked(at.child.index());
+                at.stack.push_all::<ANY, L>(node, at.beam.octant, at.beam.cross(node, L::splat(at.end)));
+                at.child = at.stack.pop_down::<ANY>(at.end);
+                tree.fetch(at.child);
+                self.nodes.put(nodes, slot);
+                self.leaves.put(self.at_leaves + k - nodes, slot);
+                nodes += usize::from(!at.child.is_leaf());
+            }
+        }
+        let (mut leaves, rays) = (0, self.at_leaves + rays - nodes);
+        for k in 0..rays {
+            // SAFETY: likewise; leaves name blocks that are there, and whose bottom was reached takes another way.
+            unsafe {
+                let slot = self.leaves.get(k);
+                let at = &mut *slot;
+                if at.child != Child::BOTTOM {
+                    let (first, count) = at.child.leaf_blocks();
+                    let blocks = tree.blocks.get_unchecked(first..first + count);
+                    let (ray, nearest) = (&at.ray, &mut at.nearest);
+                    search::<ANY, WIDTH, L, T, ()>(blocks, u32::MAX, ray, at.t_min, nearest, &mut None, &mut ());
+                    if !(ANY && at.nearest.found()) {
+                        at.end = after(at.nearest.t);
+                        at.child = at.stack.pop_down::<ANY>(at.end);
+                        tree.fetch(at.child);
+                        self.nodes.put(nodes, slot);
+                        self.leaves.put(leaves, slot);
+                        nodes += usize::from(!at.child.is_leaf());
+                        leaves += usize::from(at.child.is_leaf());
+                        continue;
+                    }
+                }
+                done(at.number, at.nearest.hit());
+                self.free.put(self.freed, slot);
+                self.freed += 1;
+            }
+        }
+        (self.at_nodes, self.at_leaves) = (nodes, leaves);
+    }
+}
+
+impl<T: TriangleTest> Bvh8<T> {
+    /// Asks for the memory of what `child` names: of a leaf, the most of its first block.
+    #[inline(always)]
+    fn fetch(&self, child: Child) {
+        let node = self.nodes.as_ptr().wrapping_add(child.index()).cast::<u8>();
+        let block = self.blocks.as_ptr().wrapping_add(child.leaf_blocks().0).cast::<u8>();
+        let first = std::hint::select_unpredictable(child.is_leaf(), block, node);
+        (0..4).for_each(|line| pages::fetch(first.wrapping_add(64 * line)));
+    }
+}

@@ -1,0 +1,193 @@
+use std::sync::Arc;
+
+use glam::Vec3;
+
+use super::batch::{Sixteens, UnderWay};
+use super::node::Limits;
+use super::*;
+use crate::accel::{Accel, BuildError, Counts};
+use crate::build::Quality;
+use crate::build::check::{mesh, soup};
+use crate::geometry::{Hit, Mesh, Ray};
+use crate::simd::{Level, dispatch};
+use crate::triangle::{Exact, MollerTrumbore, TriangleTest};
+
+type Tree = Bvh8<MollerTrumbore>;
+
+const ALL: [Partition; 4] = [Partition::Cells, Partition::Tight, Partition::Hybrid, Partition::Objects];
+
+#[test]
+fn lanes_left_over_are_not_counted_as_triangles() {
+    let ray = Ray::new(Vec3::ZERO, Vec3::ONE);
+    for n in [1, 8, 9] {
+        let mesh = Arc::new(mesh(n, |_| [Vec3::X, Vec3::Y, Vec3::Z]));
+        let mut counts = Counts::default();
+        Tree::build(&mesh, &Bvh8Config::default()).unwrap().closest_hit(&ray, &mut counts);
+        assert_eq!(counts.tests, n as u64);
+    }
+}
+
+#[test]
+fn the_unit_of_length_does_not_matter() {
+    let metres = soup(2000, 31);
+    let build = |unit: f32, config: &Bvh8Config| {
+        let positions = metres.positions().iter().map(|&p| p * unit).collect();
+        let mesh = Arc::new(Mesh::new(positions, metres.triangles().to_vec()).unwrap());
+        Tree::build(&mesh, config).unwrap().shape()
+    };
+    for partition in ALL {
+        for quality in [Quality::Fast, Quality::Balanced] {
+            let config = Bvh8Config { quality, ..Bvh8Config::new(partition) };
+            let shape = build(1.0, &config);
+            for exponent in [-90, -60, 60, 100] {
+                assert_eq!(build(libm::exp2(f64::from(exponent)) as f32, &config), shape, "{config:?}, 2^{exponent}");
+            }
+        }
+    }
+}
+
+/// A direction may be so short on an axis that its inverse is finite and the enlarged inverse is not. This one passes the first
+/// triangle by less than the test can see.
+#[test]
+fn packets_leave_alone_what_their_common_bounds_cannot_tell() {
+    let mesh = mesh(200, |i| {
+        let z = 1.0 + i as f32;
+        [Vec3::new(0.0, 0.01 * z, z), Vec3::new(1.0, -1000.0, z), Vec3::new(1.0, 1000.0, z)]
+    });
+    let mesh = Arc::new(mesh);
+    let along = |x: f32| Ray::new(Vec3::ZERO, Vec3::new(x, 0.01, 1.0));
+    let mut rays = [along(-1e-3); 16];
+    rays[5] = along(-2.938737e-39);
+    for partition in ALL {
+        let tree = Tree::build(&mesh, &Bvh8Config { batch: Batch::Packets, ..Bvh8Config::new(partition) }).unwrap();
+        let mut hits = [None; 16];
+        tree.closest_hits(&rays, &mut hits, &mut ());
+        assert_eq!(hits, rays.map(|ray| tree.closest_hit(&ray, &mut ())));
+        assert!(hits[5].is_some(), "nothing is proven by a ray that hits nothing");
+    }
+}
+
+/// Two triangles of opposite determinants, hit at -0.0 and at 0.0: both as near, so that the lower number wins, with its own zero.
+#[test]
+fn packets_find_the_zero_of_the_lower_number() {
+    let (x, y) = ([Vec3::ZERO, Vec3::X, Vec3::Y], [Vec3::ZERO, Vec3::Y, Vec3::X]);
+    let rays = [Ray::new(Vec3::ZERO, Vec3::new(0.1, 0.1, 1.0)); 16];
+    for corners in [[x, y], [y, x]] {
+        let mesh = Arc::new(mesh(2, |i| corners[i]));
+        let tree = Tree::build(&mesh, &Bvh8Config { batch: Batch::Packets, ..Bvh8Config::default() }).unwrap();
+        let alone = tree.closest_hit(&rays[0], &mut ()).unwrap();
+        let mut hits = [None; 16];
+        tree.closest_hits(&rays, &mut hits, &mut ());
+        for hit in hits.map(Option::unwrap) {
+            assert_eq!((hit.prim.index(), hit.t.to_bits()), (0, alone.t.to_bits()));
+        }
+    }
+}
+
+fn several_answer_as_one<T: TriangleTest>(mesh: &Arc<Mesh>, rays: &[Ray]) {
+    for partition in ALL {
+        let tree = &Bvh8::<T>::build(mesh, &Bvh8Config::new(partition)).unwrap();
+        for level in Level::available() {
+            let (mut hits, mut any) = (vec![None; rays.len()], vec![None; rays.len()]);
+            let which = &Sixteens::all(rays.len());
+            dispatch(level, UnderWay::<false, T, _, _> { tree, rays, which, answers: &mut hits, form: &Some });
+            let form = &|hit: Option<Hit>| Some(hit.is_some());
+            dispatch(level, UnderWay::<true, T, _, _> { tree, rays, which, answers: &mut any, form });
+            for (i, ray) in rays.iter().enumerate() {
+                let bits = |hit: Option<Hit>| hit.map(|hit| (hit.t.to_bits(), hit.prim));
+                let found = (hits[i].map(bits), any[i]);
+                let alone = (Some(bits(tree.closest_hit(ray, &mut ()))), Some(tree.any_hit(ray, &mut ())));
+                assert_eq!(found, alone, "{partition:?}, {level}, {ray:?}");
+            }
+        }
+    }
+}
+
+/// A ray about the unit cube; every fifth has a direction without an x.
+fn scattered(i: u32) -> Ray {
+    let number = |k: u32| ((i * 6 + k).wrapping_mul(2_654_435_761) >> 8) as f32 / (1 << 24) as f32 * 3.0 - 1.0;
+    let x = if i.is_multiple_of(5) { 0.0 } else { number(3) };
+    Ray::new(Vec3::new(number(0), number(1), number(2)), Vec3::new(x, number(4), number(5) - 0.5))
+}
+
+#[test]
+fn several_rays_under_way_find_what_each_finds_alone() {
+    // Of nothing, of a root that is a leaf of several blocks, and of many levels.
+    for n in [0, 3, 30, 3000] {
+        let mesh = Arc::new(soup(n, 5));
+        let mut rays: Vec<Ray> = (0..500).map(scattered).collect();
+        let odd = [f32::NAN, f32::INFINITY, 0.0, -0.0, 1e-40];
+        rays.extend(odd.map(|x| Ray::new(Vec3::splat(0.1), Vec3::new(x, 0.0, 1.0))));
+        rays.extend(odd.map(|t| Ray::new(Vec3::splat(-3.0), Vec3::ONE).until(t)));
+        several_answer_as_one::<MollerTrumbore>(&mesh, &rays);
+        several_answer_as_one::<Exact>(&mesh, &rays);
+    }
+}
+
+/// Such a ray meets all eight boxes of a node, also those of lanes that are not in use.
+#[test]
+fn rays_without_an_inverse_on_any_axis_are_not_through_at_the_first_unused_lane() {
+    let mesh = Arc::new(soup(300, 5));
+    let corners: Vec<_> = (0..300).map(|id| mesh.corners(id)).collect();
+    for length in [1e-39, 1.9e38] {
+        let toward = |(i, [a, b, c]): (usize, &[Vec3; 3])| {
+            let signs = Vec3::from_array([1, 2, 4].map(|bit| if i & bit == 0 { 1.0 } else { -1.2 }));
+            Ray::new((*a + *b + *c) / 3.0 - signs * 0.01, signs * length)
+        };
+        let rays: Vec<Ray> = corners.iter().enumerate().map(toward).collect();
+        let tree = Bvh8::<Exact>::build(&mesh, &Bvh8Config::default()).unwrap();
+        assert!(rays.iter().filter(|ray| tree.any_hit(ray, &mut ())).count() > 250, "{length}");
+        several_answer_as_one::<Exact>(&mesh, &rays);
+    }
+}
+
+/// Sixteens that agree, sixteens of which each ray goes its own way, and a few rays at the end, in slices of several windows.
+#[test]
+fn long_slices_are_answered_as_their_rays_are() {
+    let mesh = Arc::new(soup(300, 5));
+    let toward = |id: u32, origin: Vec3| {
+        let [a, b, c] = mesh.corners(id % 300);
+        Ray::new(origin, (a + b + c) / 3.0 - origin)
+    };
+    let ray = |i: u32| match i / 16 % 3 {
+        0 => toward(i / 16, Vec3::new(-3.0, -4.0 + (i % 16) as f32 * 1e-3, -5.0)),
+        _ => toward(i * 7, scattered(i).origin),
+    };
+    let rays: Vec<Ray> = (0..2 * 4096 + 21).map(ray).collect();
+    let single = Tree::build(&mesh, &Bvh8Config::default()).unwrap();
+    let alone: Vec<_> = rays.iter().map(|ray| single.closest_hit(ray, &mut ())).collect();
+    let met = |of: &dyn Fn(usize) -> bool| (0..rays.len()).filter(|&i| of(i) && alone[i].is_some()).count();
+    assert!(met(&|i| i / 16 % 3 == 0) > 2000 && met(&|i| i / 16 % 3 != 0) > 4000, "nearly all hit something");
+    for batch in [Batch::Single, Batch::Packets, Batch::Interleaved] {
+        let tree = Tree::build(&mesh, &Bvh8Config { batch, ..Bvh8Config::default() }).unwrap();
+        for len in [0, 15, 4095, 4096, 4097, rays.len()] {
+            let (mut hits, mut any) = (vec![None; len], vec![false; len]);
+            tree.closest_hits(&rays[..len], &mut hits, &mut ());
+            tree.any_hits(&rays[..len], &mut any, &mut ());
+            assert!(hits == alone[..len], "{batch:?}, {len} rays");
+            assert!(any.iter().zip(&alone).all(|(any, hit)| *any == hit.is_some()), "{batch:?}, {len} rays");
+        }
+    }
+}
+
+/// With limits that a small mesh reaches: what is built is what they are told of.
+#[test]
+fn a_tree_beyond_the_limits_is_refused() {
+    let mesh = Arc::new(soup(6000, 32));
+    for partition in ALL {
+        let config = Bvh8Config::new(partition);
+        let whole = Tree::build(&mesh, &config).unwrap();
+        let (nodes, blocks) = (whole.nodes.len(), whole.blocks.len());
+        let all = Limits { nodes, blocks, ..Limits::OF_NODES };
+        assert!(Tree::within(&mesh, &config, &all).is_ok());
+        let smaller = [
+            Limits { nodes: nodes - 1, ..all },
+            Limits { blocks: blocks - 1, ..all },
+            Limits { levels: 2, ..all },
+            Limits { binary: 6000, ..all },
+        ];
+        for limits in smaller {
+            assert!(matches!(Tree::within(&mesh, &config, &limits), Err(BuildError::Mesh(_))), "{limits:?}");
+        }
+    }
+}

@@ -1,0 +1,78 @@
+//! One walk for both queries.
+//!
+//! **No hit is lost.** A triangle that is hit at the exact t* in the interval has a reference in a leaf whose box, and those of
+//! all nodes above it, contain the point hit, because partitions round the boxes of what they cut outward. No such box is lost
+//! (see [`Beam`]) unless a hit with a computed t before t* has been found: then what [`kdtree`](crate::kdtree) says of that case holds here.
+//!
+//! The closest hit is searched from front to back, in an order stored for the octant of the direction. For any hit the order is that
+//! of the lanes, the highest first: leaves before nodes and large boxes before small ones, because what is large is what
+//! occludes (Nah, Manocha: SATO: Surface area traversal order for shadow ray tracing, 2014).
+
+use super::node::{Child, WIDTH};
+use super::prepared_ray::Beam;
+use super::stack::{OnePage, Stack};
+use super::tree::Bvh8;
+use crate::accel::Observer;
+use crate::geometry::{Hit, Ray};
+use crate::simd::Sieve;
+use crate::traversal::leaf::{Nearest, search, start};
+use crate::traversal::line::after;
+use crate::traversal::walk::Walk;
+use crate::triangle::TriangleTest;
+
+impl<T: TriangleTest> Walk for Bvh8<T> {
+    #[inline(always)]
+    fn walk<const ANY: bool, L: Sieve, O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit> {
+        let (t_min, mut nearest) = start::<T>(ray)?;
+        let prepared = T::prepare(ray);
+        let beam = Beam::<L>::new(ray, &self.bounds, t_min);
+        self.descend::<ANY, L, O>(self.root, &beam, &prepared, t_min, &mut nearest, observer);
+        nearest.hit()
+    }
+}
+
+impl<T: TriangleTest> Bvh8<T> {
+    /// Searches the subtree at `child`.
+    #[inline(always)]
+    pub(super) fn descend<const ANY: bool, L: Sieve, O: Observer>(
+        &self,
+        mut child: Child,
+        beam: &Beam<L>,
+        prepared: &T::Ray,
+        t_min: f32,
+        nearest: &mut Nearest<T::Depth>,
+        observer: &mut O,
+    ) {
+        let OnePage(stack) = &mut OnePage(Stack::new());
+        let mut end = after(nearest.t);
+        loop {
+            let next = if let Some((first, count)) = child.blocks() {
+                // SAFETY: leaves name blocks that are there.
+                let blocks = unsafe { self.blocks.get_unchecked(first..first + count) };
+                // Only who counts asks which lanes are in use.
+                let mut held = u32::MAX;
+                if O::ACTIVE {
+                    held = blocks.iter().map(|block| block.len()).sum();
+                    observer.leaf(held);
+                }
+                search::<ANY, WIDTH, L, T, O>(blocks, held, prepared, t_min, nearest, &mut None, observer);
+                if ANY && nearest.found() {
+                    return;
+                }
+                end = after(nearest.t);
+                None
+            } else {
+                observer.inner();
+                // SAFETY: children name nodes that are there; the depth was checked when the tree was built.
+                unsafe {
+                    let node = self.nodes.get_unchecked(child.index());
+                    stack.push::<ANY, L>(node, beam.octant, beam.cross(node, L::splat(end)))
+                }
+            };
+            match next.or_else(|| stack.pop::<ANY>(end)) {
+                Some(next) => child = next,
+                None => return,
+            }
+        }
+    }
+}

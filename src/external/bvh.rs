@@ -1,0 +1,291 @@
+//! [bvh](https://github.com/svenstaro/bvh) 0.13 (crate `bvh`): a binary BVH, one triangle a leaf, split by a binned surface area
+//! heuristic.
+//!
+//! The crate has no nearest hit: it yields candidates, and its caller tests triangles. Two of its walks are offered
+//! ([`Traversal`]), both with early termination. Its ray (unit direction and inverse, by its own constructor) is made before
+//! the clock starts. Its builder gets the threads of the caller.
+
+use std::borrow::Cow;
+use std::cell::Cell;
+use std::sync::Arc;
+
+use ::bvh::aabb::{Aabb, Bounded, IntersectsAabb};
+use ::bvh::bounding_hierarchy::{BHShape, BoundingHierarchy};
+use ::bvh::bvh::{Bvh, BvhNode};
+use ::bvh::ray::Ray as PreparedRay;
+use glam::Vec3;
+use nalgebra::{Point3, Vector3};
+use serde::{Deserialize, Serialize};
+
+use super::leaves::{Leaves, Start};
+use crate::accel::{Accel, BuildError, Footprint, Loaded, Observed, Observer, TreeShape};
+use crate::external::prepared::{Prepare, Prepared};
+use crate::geometry::{Hit, Mesh, Ray};
+use crate::simd::Lanes;
+use crate::triangle::TriangleTest;
+
+/// The BVH of the crate `bvh` over the triangle test `T`.
+pub struct SvenstaroBvh<T: TriangleTest> {
+    tree: Bvh<f32, 3>,
+    shapes: Vec<Boxed>,
+    leaves: Leaves<T>,
+    traversal: Traversal,
+}
+
+/// How the crate is asked.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SvenstaroBvhConfig {
+    /// Which of its walks finds the nearest hit. Any hit always takes its plain iterator, and stops at the first.
+    pub traversal: Traversal,
+}
+
+/// The walks that can stop early.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Traversal {
+    /// Its plain iterator over a query of ours, which is the crate's ray with a box test that also refuses what begins
+    /// behind the nearest hit so far. Left before right; its stack holds 32 nodes, and it panics on deeper trees.
+    #[default]
+    Pruned,
+    /// Its iterator from near to far, over a heap, up to the first box behind the nearest hit.
+    Nearest,
+}
+
+/// A triangle as the crate sees it.
+struct Boxed {
+    bounds: Aabb<f32, 3>,
+    index: u32,
+    /// Kept for the crate.
+    node: usize,
+}
+
+impl Bounded<f32, 3> for Boxed {
+    fn aabb(&self) -> Aabb<f32, 3> {
+        self.bounds
+    }
+}
+
+impl BHShape<f32, 3> for Boxed {
+    fn set_bh_node_index(&mut self, node: usize) {
+        self.node = node;
+    }
+
+    fn bh_node_index(&self) -> usize {
+        self.node
+    }
+}
+
+/// A ray that meets no box behind the nearest hit.
+struct Pruned<'a> {
+    ray: &'a PreparedRay<f32, 3>,
+    /// Distance of the nearest hit so far.
+    limit: Cell<f32>,
+}
+
+impl IntersectsAabb<f32, 3> for Pruned<'_> {
+    #[inline(always)]
+    fn intersects_aabb(&self, bounds: &Aabb<f32, 3>) -> bool {
+        let limit = self.limit.get();
+        self.ray.intersects_aabb(bounds)
+            && (limit == f32::INFINITY || entry(self.ray, bounds).is_some_and(|entry| entry <= limit))
+    }
+}
+
+/// Where the ray enters the box, by the crate's own box test.
+#[inline(always)]
+fn entry(ray: &PreparedRay<f32, 3>, bounds: &Aabb<f32, 3>) -> Option<f32> {
+    ray.intersection_slice_for_aabb(bounds).map(|(entry, _)| entry)
+}
+
+/// Boxes are met in units of length, by two roundings and a difference that the hit's `t` has not seen: so much must be
+/// allowed before a box counts as behind the hit.
+const SLACK: f32 = 1.0 + 8.0 * f32::EPSILON;
+
+fn prepare(ray: &Ray) -> PreparedRay<f32, 3> {
+    let (o, d) = (ray.origin, ray.direction);
+    PreparedRay::new(Point3::new(o.x, o.y, o.z), Vector3::new(d.x, d.y, d.z))
+}
+
+/// A ray as the crate and the triangle test want it.
+pub(crate) struct Ready<T: TriangleTest> {
+    walked: PreparedRay<f32, 3>,
+    /// Of the direction.
+    length: f32,
+    start: Start<T>,
+}
+
+impl<T: TriangleTest> Prepare for SvenstaroBvh<T> {
+    type Ready = Ready<T>;
+
+    #[inline(always)]
+    fn ready(&self, ray: &Ray) -> Option<Ready<T>> {
+        Start::new(ray).map(|start| Ready { walked: prepare(ray), length: ray.direction.length(), start })
+    }
+
+    #[inline]
+    fn closest<O: Observer>(&self, ready: &Ready<T>, observer: &mut O) -> Option<Hit> {
+        let Ready { walked, length, start } = ready;
+        let mut nearest = start.nearest();
+        let limit = |t: f32| t * length * SLACK;
+        match self.traversal {
+            Traversal::Pruned => {
+                let query = Pruned { ray: walked, limit: Cell::new(limit(nearest.t)) };
+                for shape in self.tree.traverse_iterator(&query, &self.shapes) {
+                    observer.test(1);
+                    self.leaves.test(shape.index as usize, start, &mut nearest);
+                    query.limit.set(limit(nearest.t));
+                }
+            }
+            Traversal::Nearest => {
+                for shape in self.tree.nearest_traverse_iterator(walked, &self.shapes) {
+                    if entry(walked, &shape.bounds).is_some_and(|entry| entry > limit(nearest.t)) {
+                        break;
+                    }
+                    observer.test(1);
+                    self.leaves.test(shape.index as usize, start, &mut nearest);
+                }
+            }
+        }
+        nearest.hit()
+    }
+
+    #[inline]
+    fn any<O: Observer>(&self, ready: &Ready<T>, observer: &mut O) -> bool {
+        let Ready { walked, length, start } = ready;
+        let mut nearest = start.nearest();
+        let query = Pruned { ray: walked, limit: Cell::new(nearest.t * length * SLACK) };
+        self.tree.traverse_iterator(&query, &self.shapes).any(|shape| {
+            observer.test(1);
+            self.leaves.test(shape.index as usize, start, &mut nearest);
+            nearest.found()
+        })
+    }
+}
+
+impl<T: TriangleTest> Accel for SvenstaroBvh<T> {
+    type Config = SvenstaroBvhConfig;
+
+    const TRIANGLE_TEST: &'static str = T::NAME;
+    const OBSERVED: Observed = Observed::TESTS;
+    const CONVENTIONS: &'static [&'static str] = &["walks unit directions: t is multiplied by the direction's length"];
+
+    fn build(mesh: &Arc<Mesh>, config: &SvenstaroBvhConfig) -> Result<Self, BuildError> {
+        let leaves = Leaves::new(mesh);
+        let point = |v: Vec3| Point3::new(v.x, v.y, v.z);
+        let boxed = |(index, [min, max]): (usize, [Vec3; 2])| Boxed {
+            bounds: Aabb::with_bounds(point(min), point(max)),
+            index: index as u32,
+            node: 0,
+        };
+        let mut shapes: Vec<Boxed> = leaves.boxes(mesh).enumerate().map(boxed).collect();
+        let tree = Bvh::build_par(&mut shapes);
+        Ok(Self { tree, shapes, leaves, traversal: config.traversal })
+    }
+
+    #[inline]
+    fn closest_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit> {
+        self.closest(&self.ready(ray)?, observer)
+    }
+
+    #[inline]
+    fn any_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> bool {
+        self.ready(ray).is_some_and(|ready| self.any(&ready, observer))
+    }
+
+    fn load<'a>(&'a self, rays: Cow<'a, [Ray]>) -> Box<dyn Loaded + 'a> {
+        Box::new(Prepared::new(self, &rays))
+    }
+
+    fn footprint(&self) -> Footprint {
+        let (triangles, ids) = self.leaves.bytes();
+        let references = size_of_val(&self.shapes[..]) + ids;
+        Footprint { nodes: size_of_val(&self.tree.nodes[..]), references, triangles, other: 0 }
+    }
+
+    fn shape(&self) -> TreeShape {
+        let mut shape = TreeShape { references: self.shapes.len(), ..TreeShape::default() };
+        let half_area = |bounds: &Aabb<f32, 3>| f64::from(bounds.surface_area()) / 2.0;
+        let (mut cost, mut root_area) = (0.0, 0.0);
+        // Nodes hold the boxes of their children; that of the root is the hull of its two.
+        let mut stack = vec![];
+        match self.tree.nodes.first() {
+            None => return TreeShape { leaves: 1, empty: 1, ..shape },
+            Some(BvhNode::Leaf { shape_index, .. }) => stack.push((0, 0, half_area(&self.shapes[*shape_index].bounds))),
+            Some(BvhNode::Node { child_l_aabb, child_r_aabb, .. }) => {
+                stack.push((0, 0, half_area(&child_l_aabb.join(child_r_aabb))));
+            }
+        }
+        while let Some((at, depth, area)) = stack.pop() {
+            if at == 0 {
+                root_area = area;
+            }
+            match &self.tree.nodes[at] {
+                BvhNode::Leaf { .. } => {
+                    shape.leaves += 1;
+                    shape.largest_leaf = 1;
+                    shape.depth = shape.depth.max(depth);
+                    cost += area * TreeShape::leaf_cost(1);
+                }
+                BvhNode::Node { child_l_index, child_l_aabb, child_r_index, child_r_aabb, .. } => {
+                    shape.inner += 1;
+                    cost += area * TreeShape::INNER_COST;
+                    stack.push((*child_l_index, depth + 1, half_area(child_l_aabb)));
+                    stack.push((*child_r_index, depth + 1, half_area(child_r_aabb)));
+                }
+            }
+        }
+        shape.sah_cost = (root_area > 0.0).then(|| cost / root_area);
+        shape
+    }
+}
+
+/// The triangle test of the crate: Möller-Trumbore over a unit direction, which culls back faces.
+///
+/// Wrapped as a test of ours: asked for both windings, `t` divided by the direction's length. It refuses determinants and
+/// distances below the float's epsilon, whatever the scale of the scene.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct SvenstaroTest;
+
+impl TriangleTest for SvenstaroTest {
+    const NAME: &'static str = "bvh-triangle";
+
+    type Ray = (PreparedRay<f32, 3>, f32);
+    type Block<const N: usize> = [[Point3<f32>; 3]; N];
+    type Depth = f32;
+
+    #[inline(always)]
+    fn prepare(ray: &Ray) -> Self::Ray {
+        (prepare(ray), ray.direction.length())
+    }
+
+    fn block<const N: usize>(triangles: &[[Vec3; 3]]) -> Self::Block<N> {
+        assert!(triangles.len() <= N, "a block of {N} lanes cannot hold {} triangles", triangles.len());
+        let mut block = [[Point3::origin(); 3]; N];
+        for (slot, corners) in block.iter_mut().zip(triangles) {
+            *slot = corners.map(|v| Point3::new(v.x, v.y, v.z));
+        }
+        block
+    }
+
+    #[inline(always)]
+    fn candidates<const N: usize, L: Lanes<N>>(
+        (ray, length): &Self::Ray,
+        block: &Self::Block<N>,
+        from: f32,
+        to: f32,
+    ) -> (u32, L) {
+        let t = L::load(&std::array::from_fn(|lane| {
+            let [a, b, c] = &block[lane];
+            let front = ray.intersects_triangle(a, b, c).distance;
+            let nearer = if front < f32::INFINITY { front } else { ray.intersects_triangle(a, c, b).distance };
+            nearer / length
+        }));
+        (L::splat(from).le(t) & t.le(L::splat(to.min(f32::MAX))), t)
+    }
+
+    #[inline(always)]
+    fn decide<const N: usize>(_: &Self::Ray, _: &Self::Block<N>, _: usize, t: f32) -> Option<f32> {
+        Some(t)
+    }
+}

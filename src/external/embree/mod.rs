@@ -1,0 +1,293 @@
+//! [Embree](https://github.com/RenderKit/embree) 4: the library that renderers use, loaded at run time from the path in
+//! `SAHARA_EMBREE` or from the system's.
+//!
+//! Its flag ROBUST changes the triangle test with the boxes, and so makes a structure of its own here: `embree` and
+//! `embree-robust`. Its own triangle test is the only one; brute force over it is a scene of one triangle for every triangle
+//! that is asked for ([`alone`]). Rays and blocks of sixteen are brought into its form before the clock starts: 48 and 768
+//! bytes, all that it reads. It writes into them the end of the hit, so that they are copied to the stack to be asked, followed by
+//! an empty hit: the cheapest way to ask the same rays again, and what a renderer does that makes rays where it needs them. It builds on the threads of the caller. What its tree looks like is not known: its shape is that of one leaf.
+//!
+//! # References
+//! Wald, Woop, Benthin, Johnson, Ernst: Embree: a kernel framework for efficient CPU ray tracing. SIGGRAPH 2014.
+
+mod api;
+mod device;
+mod rays;
+
+use std::borrow::Cow;
+use std::ffi::c_int;
+use std::marker::PhantomData;
+use std::sync::Arc;
+
+use glam::Vec3;
+use serde::{Deserialize, Serialize};
+
+use crate::accel::{Accel, BuildError, Capabilities, Footprint, Loaded, Observed, Observer, TreeShape};
+use crate::external::prepared::{Prepare, Prepared};
+use crate::geometry::{Hit, Mesh, Ray};
+use api::Arguments;
+use device::Scene;
+use rays::{LANES, Packet, Single};
+
+/// A scene of Embree.
+pub struct Embree<M: Mode> {
+    scene: Scene,
+    /// The triangle of the mesh for each of its own.
+    ids: Vec<u32>,
+    packets: bool,
+    arguments: Arguments,
+    mode: PhantomData<M>,
+}
+
+/// What the flag ROBUST decides.
+pub trait Mode: Send + Sync + 'static {
+    /// Scene flags, as Embree's headers number them.
+    const FLAGS: c_int;
+    /// The name of its triangle test.
+    const TEST: &'static str;
+    /// Whether intervals hold their start.
+    const CLOSED_START: bool;
+    /// What else it does otherwise.
+    const CONVENTIONS: &'static [&'static str];
+}
+
+/// Without flags: Möller-Trumbore, boxes by fused multiply-add.
+#[derive(Clone, Copy, Debug)]
+pub struct Fast;
+
+/// `RTC_SCENE_FLAG_ROBUST`: Plücker, widened boxes.
+#[derive(Clone, Copy, Debug)]
+pub struct Robust;
+
+impl Mode for Fast {
+    const FLAGS: c_int = 0;
+    const TEST: &'static str = "embree-moller-trumbore";
+    const CLOSED_START: bool = false;
+    const CONVENTIONS: &'static [&'static str] = &[];
+}
+
+impl Mode for Robust {
+    const FLAGS: c_int = 4;
+    const TEST: &'static str = "embree-plucker";
+    const CLOSED_START: bool = true;
+    const CONVENTIONS: &'static [&'static str] = &["counts edges within rounding errors as hit"];
+}
+
+/// How Embree builds and is asked.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct EmbreeConfig {
+    /// Its build quality.
+    pub quality: Quality,
+    /// Rays at a time: 1 or 16.
+    pub packet: Lanes,
+    /// What it is told of the rays of a packet.
+    pub rays: Rays,
+}
+
+/// The build qualities of Embree for scenes that stay.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Quality {
+    /// Binned surface area heuristic.
+    Medium,
+    /// With spatial splits.
+    #[default]
+    High,
+}
+
+/// Rays at a time.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(try_from = "u32", into = "u32")]
+pub enum Lanes {
+    /// `rtcIntersect1`.
+    #[default]
+    One,
+    /// `rtcIntersect16`, for rays of a batch that follow each other.
+    Sixteen,
+}
+
+/// What Embree may expect of the rays of a packet.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Rays {
+    /// Nothing.
+    #[default]
+    Incoherent,
+    /// That they go the same way.
+    Coherent,
+}
+
+impl TryFrom<u32> for Lanes {
+    type Error = String;
+
+    fn try_from(rays: u32) -> Result<Self, String> {
+        match rays {
+            1 => Ok(Self::One),
+            16 => Ok(Self::Sixteen),
+            other => Err(format!("packet must be 1 or 16, not {other}")),
+        }
+    }
+}
+
+impl From<Lanes> for u32 {
+    fn from(lanes: Lanes) -> Self {
+        match lanes {
+            Lanes::One => 1,
+            Lanes::Sixteen => LANES as u32,
+        }
+    }
+}
+
+impl<M: Mode> Embree<M> {
+    #[inline(always)]
+    fn hit(&self, found: Option<(f32, u32)>) -> Option<Hit> {
+        found.map(|(t, primitive)| Hit::new(t, self.ids[primitive as usize]))
+    }
+
+    #[inline]
+    fn closest_of_packet(&self, packet: &Packet, hits: &mut [Option<Hit>]) {
+        let found = packet.closest(&self.scene, &self.arguments);
+        hits.iter_mut().zip(found).for_each(|(hit, found)| *hit = self.hit(found));
+    }
+
+    #[inline]
+    fn any_of_packet(&self, packet: &Packet, hits: &mut [bool]) {
+        let found = packet.any(&self.scene, &self.arguments);
+        hits.iter_mut().zip(found).for_each(|(hit, found)| *hit = found);
+    }
+}
+
+impl<M: Mode> Prepare for Embree<M> {
+    type Ready = Single;
+
+    #[inline(always)]
+    fn ready(&self, ray: &Ray) -> Option<Single> {
+        Single::new(ray)
+    }
+
+    #[inline(always)]
+    fn closest<O: Observer>(&self, ready: &Single, _: &mut O) -> Option<Hit> {
+        self.hit(ready.closest(&self.scene, &self.arguments))
+    }
+
+    #[inline(always)]
+    fn any<O: Observer>(&self, ready: &Single, _: &mut O) -> bool {
+        ready.any(&self.scene, &self.arguments)
+    }
+}
+
+/// A batch of rays in blocks of [`LANES`], the last one with what is left.
+struct Packets<'a, M: Mode> {
+    structure: &'a Embree<M>,
+    packets: Vec<Packet>,
+    rays: usize,
+}
+
+impl<M: Mode> Loaded for Packets<'_, M> {
+    fn closest_hits(&self, hits: &mut [Option<Hit>]) {
+        assert_eq!(self.rays, hits.len(), "one answer a ray");
+        let blocks = self.packets.iter().zip(hits.chunks_mut(LANES));
+        blocks.for_each(|(packet, hits)| self.structure.closest_of_packet(packet, hits));
+    }
+
+    fn any_hits(&self, hits: &mut [bool]) {
+        assert_eq!(self.rays, hits.len(), "one answer a ray");
+        let blocks = self.packets.iter().zip(hits.chunks_mut(LANES));
+        blocks.for_each(|(packet, hits)| self.structure.any_of_packet(packet, hits));
+    }
+}
+
+impl<M: Mode> Accel for Embree<M> {
+    type Config = EmbreeConfig;
+
+    const TRIANGLE_TEST: &'static str = M::TEST;
+    const OBSERVED: Observed = Observed::NONE;
+    const CAPABILITIES: Capabilities = Capabilities { closed_start: M::CLOSED_START, ..Capabilities::ALL };
+    const CONVENTIONS: &'static [&'static str] = M::CONVENTIONS;
+
+    fn build(mesh: &Arc<Mesh>, config: &EmbreeConfig) -> Result<Self, BuildError> {
+        let ids: Vec<u32> = mesh.solid().collect();
+        let quality = match config.quality {
+            Quality::Medium => 1,
+            Quality::High => 2,
+        };
+        let scene = Scene::new(mesh, &ids, M::FLAGS, quality, rayon::current_num_threads())?;
+        let flags = match config.rays {
+            Rays::Incoherent => 0,
+            Rays::Coherent => 1 << 16,
+        };
+        let arguments = Arguments { flags, features: u32::MAX, rest: [0; 5] };
+        Ok(Self { scene, ids, packets: config.packet == Lanes::Sixteen, arguments, mode: PhantomData })
+    }
+
+    #[inline]
+    fn closest_hit<O: Observer>(&self, ray: &Ray, _: &mut O) -> Option<Hit> {
+        let mut hit = [None];
+        self.closest_hits(&[*ray], &mut hit, &mut ());
+        hit[0]
+    }
+
+    #[inline]
+    fn any_hit<O: Observer>(&self, ray: &Ray, _: &mut O) -> bool {
+        let mut hit = [false];
+        self.any_hits(&[*ray], &mut hit, &mut ());
+        hit[0]
+    }
+
+    fn closest_hits<O: Observer>(&self, rays: &[Ray], hits: &mut [Option<Hit>], _: &mut O) {
+        assert_eq!(rays.len(), hits.len(), "one answer a ray");
+        if self.packets {
+            let blocks = rays.chunks(LANES).zip(hits.chunks_mut(LANES));
+            blocks.for_each(|(rays, hits)| self.closest_of_packet(&Packet::new(rays), hits));
+            return;
+        }
+        for (ray, hit) in rays.iter().zip(hits) {
+            *hit = self.ready(ray).and_then(|ready| self.closest(&ready, &mut ()));
+        }
+    }
+
+    fn any_hits<O: Observer>(&self, rays: &[Ray], hits: &mut [bool], _: &mut O) {
+        assert_eq!(rays.len(), hits.len(), "one answer a ray");
+        if self.packets {
+            let blocks = rays.chunks(LANES).zip(hits.chunks_mut(LANES));
+            blocks.for_each(|(rays, hits)| self.any_of_packet(&Packet::new(rays), hits));
+            return;
+        }
+        for (ray, hit) in rays.iter().zip(hits) {
+            *hit = self.ready(ray).is_some_and(|ready| self.any(&ready, &mut ()));
+        }
+    }
+
+    fn load<'a>(&'a self, rays: Cow<'a, [Ray]>) -> Box<dyn Loaded + 'a> {
+        if !self.packets {
+            return Box::new(Prepared::new(self, &rays));
+        }
+        let packets = rays.chunks(LANES).map(Packet::new).collect();
+        Box::new(Packets { structure: self, packets, rays: rays.len() })
+    }
+
+    /// As Embree's own memory monitor counts, buffers of corners included; what is nodes and what triangles is not known.
+    fn footprint(&self) -> Footprint {
+        let references = size_of_val(&self.ids[..]);
+        Footprint { references, other: self.scene.bytes(), ..Footprint::default() }
+    }
+
+    fn shape(&self) -> TreeShape {
+        let references = self.ids.len();
+        TreeShape {
+            leaves: 1,
+            empty: usize::from(references == 0),
+            references,
+            largest_leaf: references,
+            ..TreeShape::default()
+        }
+    }
+}
+
+/// One triangle in a scene of its own: what Embree's triangle test says without a walk. Takes a fraction of a millisecond.
+pub fn alone<M: Mode>(ray: &Ray, corners: [Vec3; 3]) -> Option<f32> {
+    let mesh = Arc::new(Mesh::new(corners.into(), vec![[0, 1, 2]]).ok()?);
+    let scene = Embree::<M>::build(&mesh, &EmbreeConfig { quality: Quality::Medium, ..Default::default() }).ok()?;
+    scene.closest_hit(ray, &mut ()).map(|hit| hit.t)
+}

@@ -1,0 +1,69 @@
+use glam::Vec3;
+
+use crate::geometry::{Aabb, Mesh, Ray};
+use crate::traversal::leaf::{Nearest, start};
+use crate::triangle::TriangleTest;
+
+/// The triangles with an area, in the order of the mesh, ready for the test `T`: what a peer that knows boxes alone leaves
+/// to its caller.
+pub(super) struct Leaves<T: TriangleTest> {
+    triangles: Vec<T::Block<1>>,
+    /// The triangle of the mesh for each of them.
+    ids: Vec<u32>,
+}
+
+/// What the triangle test wants of a ray.
+pub(super) struct Start<T: TriangleTest> {
+    pub ray: T::Ray,
+    pub t_min: f32,
+    /// A hit must lie at or before this `t`.
+    last: f32,
+}
+
+impl<T: TriangleTest> Start<T> {
+    /// Nothing if the ray can hit nothing.
+    #[inline(always)]
+    pub fn new(ray: &Ray) -> Option<Self> {
+        start::<T>(ray).map(|(t_min, nearest)| Self { ray: T::prepare(ray), t_min, last: nearest.t })
+    }
+
+    /// Nothing found yet.
+    #[inline(always)]
+    pub fn nearest(&self) -> Nearest<T::Depth> {
+        Nearest::until(self.last)
+    }
+}
+
+impl<T: TriangleTest> Leaves<T> {
+    pub fn new(mesh: &Mesh) -> Self {
+        let ids: Vec<u32> = mesh.solid().collect();
+        let triangles = ids.iter().map(|&id| T::block(&[mesh.corners(id)])).collect();
+        Self { triangles, ids }
+    }
+
+    #[cfg(feature = "peer-parry")]
+    pub fn len(&self) -> usize {
+        self.ids.len()
+    }
+
+    /// The boxes of the triangles, in order.
+    pub fn boxes(&self, mesh: &Mesh) -> impl Iterator<Item = [Vec3; 2]> {
+        self.ids.iter().map(|&id| {
+            let Aabb { min, max } = mesh.triangle_bounds(id);
+            [min, max]
+        })
+    }
+
+    /// Tests triangle `index`, and keeps its hit if it is the nearest so far.
+    #[inline(always)]
+    pub fn test(&self, index: usize, start: &Start<T>, nearest: &mut Nearest<T::Depth>) {
+        if let Some(depth) = T::hit(&start.ray, &self.triangles[index], start.t_min, nearest.t) {
+            nearest.offer(depth, self.ids[index]);
+        }
+    }
+
+    /// Bytes of the triangles and of their numbers.
+    pub fn bytes(&self) -> (usize, usize) {
+        (size_of_val(&self.triangles[..]), size_of_val(&self.ids[..]))
+    }
+}

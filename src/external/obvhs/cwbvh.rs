@@ -1,0 +1,144 @@
+use std::mem;
+use std::ops::Index;
+use std::time::Duration;
+
+use glam::UVec2;
+use obvhs::BvhBuildParams;
+use obvhs::cwbvh::CwBvh;
+use obvhs::cwbvh::builder::build_cwbvh_from_tris;
+use obvhs::cwbvh::node::CwBvhNode;
+use obvhs::ray::{Ray as PreparedRay, RayHit};
+use obvhs::traverse;
+use obvhs::triangle::Triangle;
+
+use super::{Tree, aabb};
+use crate::accel::{Observer, Outline, Part};
+use crate::traversal::pages;
+
+/// Compressed, 8 wide: 80-byte nodes, at most three triangles a leaf.
+///
+/// # References
+/// Ylitie, Karras, Laine: Efficient incoherent ray traversal on GPUs through compressed wide BVHs. HPG 2017.
+impl Tree for CwBvh {
+    fn build(triangles: &[Triangle], params: BvhBuildParams) -> Self {
+        build_cwbvh_from_tris(triangles, params, &mut Duration::default())
+    }
+
+    fn settle(&mut self) -> Vec<u32> {
+        self.nodes = pages::moved(mem::take(&mut self.nodes));
+        mem::take(&mut self.primitive_indices)
+    }
+
+    fn node_bytes(&self) -> usize {
+        size_of_val(&self.nodes[..])
+    }
+
+    /// As a walk reads the nodes: of a child with triangles the number of the first and a bit for each, of an inner child its place
+    /// among the inner ones.
+    fn leads_inside(&self, triangles: usize) -> bool {
+        self.nodes.iter().all(|node| {
+            (0..8).filter(|&child| !node.is_child_empty(child)).all(|child| {
+                let (offset, bits) = (node.child_meta[child] & 31, node.child_meta[child] >> 5);
+                if offset < 24 {
+                    let end = u32::from(offset) + u8::BITS - bits.leading_zeros();
+                    end <= 24 && node.primitive_base_idx as usize + end as usize <= triangles
+                } else {
+                    bits == 1 && (node.child_node_index(child) as usize) < self.nodes.len()
+                }
+            })
+        })
+    }
+
+    /// The walk of obvhs through its own macro, as its documentation recommends, over nodes without a check of bounds. A group of
+    /// triangles that a node hands over counts as no node of its own, so only inner nodes are steps.
+    #[inline(always)]
+    unsafe fn walk<const ANY: bool>(
+        &self,
+        mut ray: PreparedRay,
+        mut test: impl FnMut(&PreparedRay, usize) -> f32,
+        observer: &mut impl Observer,
+    ) -> Option<RayHit> {
+        let mut hit = RayHit::none();
+        let mut state = self.new_traversal(ray.direction);
+        let mut node;
+        // SAFETY: the walk begins at the root, if there is one, and goes on to children alone, which exist by the caller's word.
+        let tree = unsafe { Unchecked::new(&self.nodes) };
+        traverse!(
+            tree,
+            node,
+            state,
+            {
+                observer.inner();
+                node.intersect_ray(&ray, state.oct_inv4)
+            },
+            {
+                observer.test(1);
+                let t = test(&ray, state.primitive_id as usize);
+                if t < ray.tmax {
+                    (hit.primitive_id, hit.t, ray.tmax) = (state.primitive_id, t, t);
+                    if ANY {
+                        return Some(hit);
+                    }
+                }
+            }
+        );
+        (hit.t < f32::INFINITY).then_some(hit)
+    }
+
+    /// Children of a node that hold triangles are its leaves; their boxes are rounded outward to a grid of 256 cells.
+    fn outline(&self) -> Outline {
+        let root = (!self.nodes.is_empty()).then(|| (Place::Node(0), aabb(self.total_aabb)));
+        Outline::of(root, |place, _, references| match place {
+            Place::Leaf(first, count) => {
+                references.extend(first..first + count);
+                Part::Leaf
+            }
+            Place::Node(at) => {
+                let node = &self.nodes[at];
+                let place = |child| {
+                    let (first, count) = node.child_primitives(child);
+                    if node.is_leaf(child) {
+                        Place::Leaf(first, count)
+                    } else {
+                        Place::Node(node.child_node_index(child) as usize)
+                    }
+                };
+                let used = (0..8).filter(|&child| !node.is_child_empty(child));
+                Part::Inner(used.map(|child| (place(child), aabb(node.child_aabb(child)))).collect())
+            }
+        })
+    }
+}
+
+/// A node, or a child of one that holds triangles: the first of them and how many there are.
+enum Place {
+    Node(usize),
+    Leaf(u32, u32),
+}
+
+/// What the macro of obvhs takes for a tree.
+struct Unchecked<'a> {
+    nodes: Nodes<'a>,
+}
+
+/// Nodes that are found without a check of bounds.
+struct Nodes<'a>(&'a [CwBvhNode]);
+
+impl<'a> Unchecked<'a> {
+    /// # Safety
+    /// Only numbers of nodes that exist may be asked for.
+    unsafe fn new(nodes: &'a [CwBvhNode]) -> Self {
+        Self { nodes: Nodes(nodes) }
+    }
+}
+
+impl Index<usize> for Nodes<'_> {
+    type Output = CwBvhNode;
+
+    #[inline(always)]
+    fn index(&self, at: usize) -> &CwBvhNode {
+        debug_assert!(at < self.0.len());
+        // SAFETY: the word of whom `Unchecked::new` was called by.
+        unsafe { self.0.get_unchecked(at) }
+    }
+}

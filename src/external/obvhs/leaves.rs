@@ -1,0 +1,90 @@
+use std::sync::Arc;
+
+use glam::Vec3A;
+use obvhs::ray::{Ray as PreparedRay, RayHit};
+use obvhs::triangle::Triangle;
+use rayon::prelude::*;
+
+use super::LeafTest;
+use crate::geometry::{Hit, Mesh, Ray};
+use crate::traversal::pages;
+
+/// Triangles in the order of a tree, ready for the test `T`.
+pub(super) struct Leaves<T: LeafTest> {
+    triangles: Vec<T::Triangle>,
+    /// The triangle of the mesh for each of them.
+    ids: Vec<u32>,
+}
+
+/// What the builders of obvhs take: the triangles with an area, and their numbers.
+pub(super) fn input(mesh: &Mesh) -> (Vec<Triangle>, Vec<u32>) {
+    let ids: Vec<u32> = mesh.solid().collect();
+    let triangle = |&id: &u32| {
+        let [v0, v1, v2] = mesh.corners(id).map(Vec3A::from);
+        Triangle { v0, v1, v2 }
+    };
+    (ids.par_iter().map(triangle).collect(), ids)
+}
+
+impl<T: LeafTest> Leaves<T> {
+    /// In the memory and on the threads that our own structures get.
+    pub fn new(mesh: &Arc<Mesh>, solid: &[u32], order: &[u32]) -> Self {
+        let mut ids = pages::with_capacity(order.len());
+        ids.par_extend(order.par_iter().map(|&i| solid[i as usize]));
+        let mut triangles = pages::with_capacity(order.len());
+        triangles.par_extend(ids.par_iter().map(|&id| T::triangle(mesh.corners(id))));
+        Self { triangles, ids }
+    }
+
+    #[cfg(test)]
+    pub fn triangle(&self, index: usize) -> &T::Triangle {
+        &self.triangles[index]
+    }
+
+    #[cfg(test)]
+    pub fn are_large(&self) -> bool {
+        pages::are_large(&self.triangles) && pages::are_large(&self.ids)
+    }
+
+    pub fn len(&self) -> usize {
+        self.triangles.len()
+    }
+
+    /// The ray in the form of obvhs and of the test; nothing if it can hit nothing.
+    #[inline(always)]
+    pub fn start(&self, ray: &Ray) -> Option<(PreparedRay, T::Ray)> {
+        let (t_min, t_max) = ray.interval();
+        (ray.is_valid() && !self.ids.is_empty()).then(|| {
+            let prepared = PreparedRay::new(ray.origin.into(), ray.direction.into(), t_min, t_max);
+            (prepared, T::prepare(ray))
+        })
+    }
+
+    /// Gives `t` of a triangle of the tree by its number, infinity for a miss.
+    ///
+    /// # Safety
+    /// The number must be below [`Leaves::len`].
+    #[inline(always)]
+    pub unsafe fn test(&self, prepared: T::Ray) -> impl Fn(&PreparedRay, usize) -> f32 {
+        move |ray, index| {
+            debug_assert!(index < self.triangles.len());
+            // SAFETY: the caller's word.
+            T::test(unsafe { self.triangles.get_unchecked(index) }, ray, &prepared)
+        }
+    }
+
+    /// The triangle of the mesh at a place of the tree.
+    pub fn id(&self, place: u32) -> u32 {
+        self.ids[place as usize]
+    }
+
+    /// Bytes of the triangles and of their numbers.
+    pub fn bytes(&self) -> (usize, usize) {
+        (size_of_val(&self.triangles[..]), size_of_val(&self.ids[..]))
+    }
+
+    #[inline(always)]
+    pub fn hit(&self, found: RayHit) -> Hit {
+        Hit::new(found.t, self.id(found.primitive_id))
+    }
+}

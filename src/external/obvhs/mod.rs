@@ -1,0 +1,156 @@
+//! The baseline: the BVHs of the crate `obvhs`, adapted without handicap. Nothing else in this crate imports it.
+//!
+//! Each is offered over our triangle tests and over obvhs' own [`RtTest`], which is its fastest form. Triangles are laid out
+//! in the order of the tree once, so that no traversal follows an index; the number of the final hit is mapped back once. The ray
+//! is prepared once with obvhs' own inverse direction, inside of the timed region, as our own structures do; `rays=loaded` prepares it
+//! before the clock starts.
+//!
+//! What our own trees get, these get: arrays on large pages, triangles converted on all threads, no check of bounds. The walks are
+//! those of obvhs without its checks: the links that they follow are checked once, when the tree is built. The conversion of the
+//! binary tree to the 8-wide one is obvhs' own, which runs on one thread.
+//!
+//! Known defects of obvhs 0.4.0, which the validation shows and does not hide: `CwBvh` misses every ray with a direction
+//! component of -0.0 and loses hits with t < 1e-4; both lose axis-parallel rays close to a box face, and rays with short
+//! directions; the build takes quadratic time on coincident triangles.
+
+mod bvh2;
+mod config;
+mod cwbvh;
+mod leaf_test;
+mod leaves;
+mod rt_test;
+#[cfg(test)]
+mod tests;
+
+use std::borrow::Cow;
+use std::sync::Arc;
+
+use obvhs::BvhBuildParams;
+use obvhs::bvh2::Bvh2;
+use obvhs::cwbvh::CwBvh;
+use obvhs::ray::{Ray as PreparedRay, RayHit};
+use obvhs::triangle::Triangle;
+
+pub use config::{ObvhsConfig, Preset, Rays};
+pub use leaf_test::{LeafTest, Native, Over};
+pub use rt_test::RtTest;
+
+use crate::accel::{Accel, AsTheyAre, BuildError, Footprint, Loaded, Observer, Outline, TreeShape};
+use crate::external::prepared::{Prepare, Prepared};
+use crate::geometry::{Aabb, Hit, Mesh, Ray};
+use leaves::{Leaves, input};
+
+/// The binary BVH of obvhs.
+pub type ObvhsBvh2<T> = Obvhs<Bvh2, T>;
+
+/// The compressed 8-wide BVH of obvhs.
+pub type ObvhsCwBvh<T> = Obvhs<CwBvh, T>;
+
+/// A BVH of obvhs over the triangle test `T`.
+pub struct Obvhs<B, T: LeafTest> {
+    tree: B,
+    leaves: Leaves<T>,
+    rays: Rays,
+}
+
+/// A box of obvhs as ours.
+fn aabb(bounds: obvhs::aabb::Aabb) -> Aabb {
+    Aabb { min: bounds.min.into(), max: bounds.max.into() }
+}
+
+/// What the two trees of obvhs have in common. Tests give `t` of a triangle in the order of the tree, infinity for a miss.
+pub trait Tree: Send + Sync + Sized + 'static {
+    fn build(triangles: &[Triangle], params: BvhBuildParams) -> Self;
+
+    /// Moves the nodes to where they stay; gives the triangle for each place in the tree, which is not kept.
+    fn settle(&mut self) -> Vec<u32>;
+
+    fn node_bytes(&self) -> usize;
+
+    /// Whether all links lead to nodes, and all leaves hold places below `triangles`. What walks rely on.
+    fn leads_inside(&self, triangles: usize) -> bool;
+
+    /// The nearest hit, or with `ANY` the first that is found.
+    ///
+    /// # Safety
+    /// [`Tree::leads_inside`] must hold.
+    unsafe fn walk<const ANY: bool>(
+        &self,
+        ray: PreparedRay,
+        test: impl FnMut(&PreparedRay, usize) -> f32,
+        observer: &mut impl Observer,
+    ) -> Option<RayHit>;
+
+    /// Its boxes; references are places in the tree.
+    fn outline(&self) -> Outline;
+}
+
+impl<B: Tree, T: LeafTest> Prepare for Obvhs<B, T> {
+    type Ready = (PreparedRay, T::Ray);
+
+    #[inline(always)]
+    fn ready(&self, ray: &Ray) -> Option<Self::Ready> {
+        self.leaves.start(ray)
+    }
+
+    #[inline(always)]
+    fn closest<O: Observer>(&self, &(ray, prepared): &Self::Ready, observer: &mut O) -> Option<Hit> {
+        // SAFETY: `build` has checked that the tree's links lead inside, and the places in its leaves to triangles.
+        let found = unsafe { self.tree.walk::<false>(ray, self.leaves.test(prepared), observer) };
+        found.map(|hit| self.leaves.hit(hit))
+    }
+
+    #[inline(always)]
+    fn any<O: Observer>(&self, &(ray, prepared): &Self::Ready, observer: &mut O) -> bool {
+        // SAFETY: as above.
+        unsafe { self.tree.walk::<true>(ray, self.leaves.test(prepared), observer) }.is_some()
+    }
+}
+
+impl<B: Tree, T: LeafTest> Accel for Obvhs<B, T> {
+    type Config = ObvhsConfig;
+
+    const TRIANGLE_TEST: &'static str = T::NAME;
+
+    fn build(mesh: &Arc<Mesh>, config: &ObvhsConfig) -> Result<Self, BuildError> {
+        let (triangles, solid) = input(mesh);
+        let mut tree = B::build(&triangles, config.preset.params());
+        drop(triangles);
+        let order = tree.settle();
+        let leaves = Leaves::new(mesh, &solid, &order);
+        assert!(tree.leads_inside(leaves.len()), "obvhs has built a tree with links to nowhere");
+        Ok(Self { tree, leaves, rays: config.rays })
+    }
+
+    #[inline]
+    fn closest_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit> {
+        self.closest(&self.ready(ray)?, observer)
+    }
+
+    #[inline]
+    fn any_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> bool {
+        self.ready(ray).is_some_and(|ready| self.any(&ready, observer))
+    }
+
+    fn load<'a>(&'a self, rays: Cow<'a, [Ray]>) -> Box<dyn Loaded + 'a> {
+        match self.rays {
+            Rays::Asked => Box::new(AsTheyAre { accel: self, rays }),
+            Rays::Loaded => Box::new(Prepared::new(self, &rays)),
+        }
+    }
+
+    fn footprint(&self) -> Footprint {
+        let (triangles, references) = self.leaves.bytes();
+        Footprint { nodes: self.tree.node_bytes(), references, triangles, other: 0 }
+    }
+
+    fn shape(&self) -> TreeShape {
+        self.tree.outline().shape()
+    }
+
+    fn outline(&self) -> Option<Outline> {
+        let mut outline = self.tree.outline();
+        outline.references.iter_mut().for_each(|place| *place = self.leaves.id(*place));
+        Some(outline)
+    }
+}

@@ -1,0 +1,125 @@
+use glam::Vec3;
+use rand_core::{RngCore, SeedableRng};
+use rand_pcg::Pcg32;
+
+use super::*;
+use crate::traversal::pages;
+
+fn unit(random: &mut Pcg32) -> Vec3 {
+    Vec3::from_array(std::array::from_fn(|_| random.next_u32() as f32 / u32::MAX as f32 * 2.0 - 1.0))
+}
+
+fn soup(triangles: u32) -> Arc<Mesh> {
+    let mut random = Pcg32::seed_from_u64(3);
+    let mut positions = vec![];
+    for i in 0..triangles {
+        let (centre, size) = (unit(&mut random) * 4.0, if i % 10 == 0 { 3.0 } else { 0.2 });
+        positions.extend((0..3).map(|_| centre + unit(&mut random) * size));
+    }
+    let triangles = (0..triangles).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
+    Arc::new(Mesh::new(positions, triangles).unwrap())
+}
+
+/// Of all directions, along the axes with both zeros, and with intervals that begin or end among the triangles.
+fn rays(count: usize) -> Vec<Ray> {
+    let mut random = Pcg32::seed_from_u64(4);
+    let mut ray = |i: usize| {
+        let whole = Ray::new(unit(&mut random) * 6.0, unit(&mut random));
+        match i % 5 {
+            0 => Ray { direction: Vec3::AXES[i % 3] * if i.is_multiple_of(2) { -1.0 } else { 1.0 }, ..whole },
+            1 => Ray { t_min: 2.0, ..whole },
+            2 => Ray { t_max: 3.0, ..whole },
+            _ => whole,
+        }
+    };
+    (0..count).map(&mut ray).collect()
+}
+
+/// Holds the walk of the adapter against one of obvhs' own, which gives the nearest hit and whether there is any.
+fn same_answers<B: Tree>(own: impl Fn(&Obvhs<B, Native>, &Ray) -> (Option<Hit>, bool)) {
+    for triangles in [1, 2, 3, 3000] {
+        let mesh = soup(triangles);
+        for preset in [Preset::Fastest, Preset::VerySlow] {
+            let built = Obvhs::<B, Native>::build(&mesh, &ObvhsConfig { preset, ..Default::default() }).unwrap();
+            let mut hits = 0;
+            for ray in rays(5000) {
+                let answers = (built.closest_hit(&ray, &mut ()), built.any_hit(&ray, &mut ()));
+                assert_eq!(answers, own(&built, &ray), "{triangles} triangles, {preset:?}, ray \"{ray}\"");
+                hits += u32::from(answers.1);
+            }
+            assert!(triangles < 3000 || (1000..4900).contains(&hits), "{hits} hits");
+        }
+    }
+}
+
+#[test]
+fn the_walk_of_the_binary_tree_gives_the_hits_of_its_own() {
+    same_answers::<Bvh2>(|built, ray| {
+        let Some((ray, ())) = built.leaves.start(ray) else { return (None, false) };
+        let test = |ray: &PreparedRay, index: usize| built.leaves.triangle(index).intersect(ray);
+        let mut hit = RayHit::none();
+        let found = built.tree.ray_traverse(ray, &mut hit, test).then(|| built.leaves.hit(hit));
+        (found, !built.tree.ray_traverse_miss(ray, test))
+    });
+}
+
+#[test]
+fn the_walk_of_the_wide_tree_gives_the_hits_of_its_own() {
+    same_answers::<CwBvh>(|built, ray| {
+        let Some((ray, ())) = built.leaves.start(ray) else { return (None, false) };
+        let test = |ray: &PreparedRay, index: usize| built.leaves.triangle(index).intersect(ray);
+        let mut hit = RayHit::none();
+        let found = built.tree.ray_traverse(ray, &mut hit, test).then(|| built.leaves.hit(hit));
+        (found, !built.tree.ray_traverse_miss(ray, test))
+    });
+}
+
+fn same_when_loaded<B: Tree>() {
+    let (mesh, rays) = (soup(1000), rays(2000));
+    let config = ObvhsConfig { rays: Rays::Loaded, ..Default::default() };
+    let built = Obvhs::<B, Native>::build(&mesh, &config).unwrap();
+    let (mut hits, mut loaded) = (vec![None; rays.len()], vec![None; rays.len()]);
+    Accel::closest_hits(&built, &rays, &mut hits, &mut ());
+    let batch = Accel::load(&built, Cow::Borrowed(&rays));
+    batch.closest_hits(&mut loaded);
+    assert_eq!(hits, loaded);
+    let mut any = vec![false; rays.len()];
+    batch.any_hits(&mut any);
+    assert!(hits.iter().map(Option::is_some).eq(any));
+}
+
+#[test]
+fn loaded_rays_are_answered_alike() {
+    same_when_loaded::<Bvh2>();
+    same_when_loaded::<CwBvh>();
+}
+
+#[test]
+fn a_link_to_nowhere_is_noticed() {
+    let mesh = soup(1000);
+    let mut binary = ObvhsBvh2::<Native>::build(&mesh, &ObvhsConfig::default()).unwrap();
+    let count = binary.leaves.len();
+    assert!(binary.tree.leads_inside(count) && !binary.tree.leads_inside(count - 1));
+    let nodes = binary.tree.nodes.len() as u32;
+    binary.tree.nodes.iter_mut().find(|node| !node.is_leaf()).unwrap().first_index = nodes - 1;
+    assert!(!binary.tree.leads_inside(count));
+
+    let mut wide = ObvhsCwBvh::<Native>::build(&mesh, &ObvhsConfig::default()).unwrap();
+    let count = wide.leaves.len();
+    assert!(wide.tree.leads_inside(count) && !wide.tree.leads_inside(count - 1));
+    wide.tree.nodes[0].child_base_idx = wide.tree.nodes.len() as u32;
+    assert!(!wide.tree.leads_inside(count));
+}
+
+#[test]
+fn it_lives_in_the_pages_of_our_own_trees() {
+    if !pages::can_be_large() {
+        eprintln!("skipped: no large pages here");
+        return;
+    }
+    let mesh = soup(20_000);
+    let binary = ObvhsBvh2::<Native>::build(&mesh, &ObvhsConfig::default()).unwrap();
+    let wide = ObvhsCwBvh::<Native>::build(&mesh, &ObvhsConfig::default()).unwrap();
+    assert!(pages::are_large(&binary.tree.nodes) && pages::are_large(&wide.tree.nodes));
+    assert!(binary.leaves.are_large() && wide.leaves.are_large());
+}

@@ -1,0 +1,208 @@
+//! [parry](https://github.com/dimforge/parry) 0.31 (crate `parry3d`): a binary BVH, one triangle a leaf, two children a node.
+//!
+//! Its tree takes the test of a leaf as a closure, and walks from near to far with early termination. The closure honours
+//! `t_min`, which parry's own mesh shape does not know; nothing is culled. The ray is two vectors; its inverse direction
+//! the crate computes itself, inside of the timed region: it takes none. It has no query that stops at the first hit: any hit
+//! reports its first hit at minus infinity, so that no box remains in front of it.
+
+use std::borrow::Cow;
+use std::cell::Cell;
+use std::sync::Arc;
+
+use ::parry3d::bounding_volume::Aabb;
+use ::parry3d::math::Vector;
+use ::parry3d::partitioning::{Bvh, BvhBuildStrategy};
+use ::parry3d::query::Ray as PreparedRay;
+use ::parry3d::query::details::local_ray_intersection_with_triangle;
+use glam::Vec3;
+use serde::{Deserialize, Serialize};
+
+use super::leaves::{Leaves, Start};
+use crate::accel::{Accel, BuildError, Footprint, Loaded, Observed, Observer, TreeShape};
+use crate::external::prepared::{Prepare, Prepared};
+use crate::geometry::{Hit, Mesh, Ray};
+use crate::simd::Lanes;
+use crate::triangle::TriangleTest;
+
+/// The BVH of parry over the triangle test `T`.
+pub struct ParryBvh<T: TriangleTest> {
+    tree: Bvh,
+    leaves: Leaves<T>,
+}
+
+/// How parry builds.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ParryConfig {
+    /// One of its two builders. Both run on one thread.
+    pub builder: Builder,
+}
+
+/// The builders of parry.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Builder {
+    /// Top down, binned: what its mesh shape uses.
+    #[default]
+    Binned,
+    /// Bottom up, locally ordered clustering.
+    Ploc,
+}
+
+fn vector(v: Vec3) -> Vector {
+    Vector::new(v.x, v.y, v.z)
+}
+
+/// A ray as the crate and the triangle test want it.
+pub(crate) struct Ready<T: TriangleTest> {
+    walked: PreparedRay,
+    t_max: f32,
+    start: Start<T>,
+}
+
+impl<T: TriangleTest> ParryBvh<T> {
+    #[inline]
+    fn query<const ANY: bool, O: Observer>(&self, ready: &Ready<T>, observer: &mut O) -> Option<Hit> {
+        let Ready { walked, t_max, start } = ready;
+        // The closure may not change what it captures.
+        let (nearest, tests) = (Cell::new(start.nearest()), Cell::new(0));
+        self.tree.cast_ray(walked, *t_max, |leaf, _| {
+            let mut best = nearest.get();
+            if ANY && best.found() {
+                return None;
+            }
+            tests.set(tests.get() + 1);
+            self.leaves.test(leaf as usize, start, &mut best);
+            nearest.set(best);
+            best.found().then_some(if ANY { f32::NEG_INFINITY } else { best.t })
+        });
+        (0..tests.get()).for_each(|_| observer.test(1));
+        nearest.get().hit()
+    }
+}
+
+impl<T: TriangleTest> Prepare for ParryBvh<T> {
+    type Ready = Ready<T>;
+
+    #[inline(always)]
+    fn ready(&self, ray: &Ray) -> Option<Ready<T>> {
+        let start = Start::new(ray)?;
+        let walked = PreparedRay::new(vector(ray.origin), vector(ray.direction));
+        Some(Ready { walked, t_max: ray.interval().1, start })
+    }
+
+    #[inline]
+    fn closest<O: Observer>(&self, ready: &Ready<T>, observer: &mut O) -> Option<Hit> {
+        self.query::<false, O>(ready, observer)
+    }
+
+    #[inline]
+    fn any<O: Observer>(&self, ready: &Ready<T>, observer: &mut O) -> bool {
+        self.query::<true, O>(ready, observer).is_some()
+    }
+}
+
+impl<T: TriangleTest> Accel for ParryBvh<T> {
+    type Config = ParryConfig;
+
+    const TRIANGLE_TEST: &'static str = T::NAME;
+    const OBSERVED: Observed = Observed::TESTS;
+    const CONVENTIONS: &'static [&'static str] = &["builds on one thread"];
+
+    fn build(mesh: &Arc<Mesh>, config: &ParryConfig) -> Result<Self, BuildError> {
+        let strategy = match config.builder {
+            Builder::Binned => BvhBuildStrategy::Binned,
+            Builder::Ploc => BvhBuildStrategy::Ploc,
+        };
+        let leaves = Leaves::new(mesh);
+        let boxes = leaves.boxes(mesh).map(|[min, max]| Aabb::new(vector(min), vector(max)));
+        let tree = Bvh::from_iter(strategy, boxes.enumerate());
+        Ok(Self { tree, leaves })
+    }
+
+    #[inline]
+    fn closest_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit> {
+        self.closest(&self.ready(ray)?, observer)
+    }
+
+    #[inline]
+    fn any_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> bool {
+        self.ready(ray).is_some_and(|ready| self.any(&ready, observer))
+    }
+
+    fn load<'a>(&'a self, rays: Cow<'a, [Ray]>) -> Box<dyn Loaded + 'a> {
+        Box::new(Prepared::new(self, &rays))
+    }
+
+    /// Nodes with the tables that parry keeps for moving objects.
+    fn footprint(&self) -> Footprint {
+        let (triangles, references) = self.leaves.bytes();
+        Footprint { nodes: self.tree.total_memory_size(), references, triangles, other: 0 }
+    }
+
+    /// Without SAH cost: the tree shows its nodes only to a walk.
+    fn shape(&self) -> TreeShape {
+        let leaves = self.leaves.len();
+        match leaves {
+            0 => TreeShape { leaves: 1, empty: 1, ..TreeShape::default() },
+            1 => TreeShape { leaves, references: 1, largest_leaf: 1, ..TreeShape::default() },
+            _ => TreeShape {
+                inner: leaves - 1,
+                leaves,
+                references: leaves,
+                // Counted in nodes.
+                depth: self.tree.subtree_depth(0) as usize - 1,
+                largest_leaf: 1,
+                ..TreeShape::default()
+            },
+        }
+    }
+}
+
+/// The triangle test of parry: Möller-Trumbore by the triangle's normal, two-sided, without an epsilon.
+///
+/// Wrapped as a test of ours.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct ParryTest;
+
+impl TriangleTest for ParryTest {
+    const NAME: &'static str = "parry-triangle";
+
+    type Ray = PreparedRay;
+    type Block<const N: usize> = [[Vector; 3]; N];
+    type Depth = f32;
+
+    #[inline(always)]
+    fn prepare(ray: &Ray) -> PreparedRay {
+        PreparedRay::new(vector(ray.origin), vector(ray.direction))
+    }
+
+    fn block<const N: usize>(triangles: &[[Vec3; 3]]) -> [[Vector; 3]; N] {
+        assert!(triangles.len() <= N, "a block of {N} lanes cannot hold {} triangles", triangles.len());
+        let mut block = [[Vector::ZERO; 3]; N];
+        for (slot, corners) in block.iter_mut().zip(triangles) {
+            *slot = corners.map(vector);
+        }
+        block
+    }
+
+    #[inline(always)]
+    fn candidates<const N: usize, L: Lanes<N>>(
+        ray: &PreparedRay,
+        block: &[[Vector; 3]; N],
+        from: f32,
+        to: f32,
+    ) -> (u32, L) {
+        let t = L::load(&std::array::from_fn(|lane| {
+            let [a, b, c] = block[lane];
+            let hit = local_ray_intersection_with_triangle(a, b, c, ray);
+            hit.map_or(f32::INFINITY, |(hit, _)| hit.time_of_impact)
+        }));
+        (L::splat(from).le(t) & t.le(L::splat(to.min(f32::MAX))), t)
+    }
+
+    #[inline(always)]
+    fn decide<const N: usize>(_: &PreparedRay, _: &[[Vector; 3]; N], _: usize, t: f32) -> Option<f32> {
+        Some(t)
+    }
+}

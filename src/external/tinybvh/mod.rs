@@ -1,0 +1,225 @@
+//! [tinybvh](https://github.com/jbikker/tinybvh) 1.6.8 by the crate `tinybvh-rs` 0.1: an 8-wide BVH with four triangles a leaf
+//! (`BVH8_CPU`), which is its fastest layout on a processor with AVX2.
+//!
+//! A C++ compiler builds it, for the instructions of this machine. The crate hands out the closest hit alone, and declares a
+//! ray of 64 bytes where C++ has 128. So only its builders are called through the crate; both queries are called in the library that
+//! it links, by their names there, with a ray of the right size ([`query`]). The ray (unit direction, inverse) is made before
+//! the clock starts; for a closest hit it is copied to the stack, because the hit is written into it. Triangles are copied as
+//! corners of 16 bytes, as it wants them; large scenes it builds on threads of its own.
+//!
+//! # References
+//! Fuetterling, Lojewski, Pfreundt, Ebert: Accelerated single ray tracing for wide vector units. HPG 2017.
+
+mod query;
+
+use std::borrow::Cow;
+use std::sync::Arc;
+
+use glam::Vec3;
+use serde::{Deserialize, Serialize};
+use tinybvh_rs::{Positions, bvh, bvh8_cpu, mbvh};
+
+use crate::accel::{Accel, BuildError, Capabilities, Footprint, Loaded, Observed, Observer, TreeShape};
+use crate::external::prepared::{Prepare, Prepared};
+use crate::geometry::{Hit, Mesh, Ray};
+use query::{Head, Tree};
+
+/// The 8-wide BVH of tinybvh.
+pub struct TinyBvh {
+    /// Nothing when there is no triangle.
+    tree: Option<Tree>,
+    /// The triangle of the mesh for each of its own.
+    ids: Vec<u32>,
+    shape: TreeShape,
+}
+
+/// How tinybvh builds.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TinyBvhConfig {
+    /// Its builder.
+    pub quality: Quality,
+}
+
+/// The builders of tinybvh.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Quality {
+    /// Binned surface area heuristic.
+    Medium,
+    /// With spatial splits (SBVH).
+    #[default]
+    High,
+}
+
+/// Bytes of a node, and of a leaf of four triangles.
+const NODE_BYTES: usize = 256;
+const LEAF_BYTES: usize = 192;
+
+/// Beyond this it takes a hit for none.
+const FAR: f32 = tinybvh_rs::INFINITE;
+
+/// The mask of a ray that meets all instances.
+const EVERYTHING: u32 = 0xffff;
+
+/// What tinybvh puts for an inverse: nothing infinite.
+#[inline(always)]
+fn inverse(x: f32) -> f32 {
+    if x.abs() > 1e-12 { 1.0 / x } else { FAR.copysign(if x >= 0.0 { 1.0 } else { -1.0 }) }
+}
+
+/// A ray as tinybvh wants it, and what gives `t` back.
+pub(crate) struct Ready {
+    ray: Head,
+    /// Of the direction.
+    length: f32,
+    t_min: f32,
+}
+
+impl Prepare for TinyBvh {
+    type Ready = Ready;
+
+    #[inline]
+    fn ready(&self, ray: &Ray) -> Option<Ready> {
+        if !ray.is_valid() {
+            return None;
+        }
+        let (t_min, t_max) = ray.interval();
+        let length = ray.direction.length();
+        // It knows no beginning: the ray starts where its interval does.
+        let origin = if t_min > 0.0 { ray.at(t_min) } else { ray.origin };
+        let unit = ray.direction * (1.0 / length);
+        let inverse = Vec3::from_array(unit.to_array().map(inverse));
+        let end = ((t_max - t_min) * length).min(FAR);
+        // Its own check ends the process where this sum, so and in this order, is no number; and where the direction or these
+        // products overflow, the empty children of a node are no longer missed, and it reads what is not there.
+        let checked = unit.x + unit.y + unit.z + end + origin.x + origin.y + origin.z;
+        if checked.is_nan() || !unit.is_finite() || !(origin * inverse).is_finite() {
+            return None;
+        }
+        let ray = Head {
+            origin: origin.to_array(),
+            mask: EVERYTHING,
+            direction: unit.to_array(),
+            instance: 0,
+            inverse: inverse.to_array(),
+            hit_instance: 0,
+            t: end,
+            u: 0.0,
+            v: 0.0,
+            primitive: 0,
+        };
+        Some(Ready { ray, length, t_min })
+    }
+
+    #[inline]
+    fn closest<O: Observer>(&self, ready: &Ready, _: &mut O) -> Option<Hit> {
+        let (t, primitive) = self.tree.as_ref()?.closest(&ready.ray)?;
+        Some(Hit::new(t / ready.length + ready.t_min, self.ids[primitive as usize]))
+    }
+
+    #[inline]
+    fn any<O: Observer>(&self, ready: &Ready, _: &mut O) -> bool {
+        self.tree.as_ref().is_some_and(|tree| tree.any(&ready.ray))
+    }
+}
+
+/// Builds by way of the two layouts that its own is converted from.
+fn built(corners: Positions, quality: Quality) -> Result<(bvh8_cpu::BVH, TreeShape), BuildError> {
+    let refusal = |error: tinybvh_rs::Error| BuildError::Mesh(format!("tinybvh refuses: {error}"));
+    let mut binary = match quality {
+        Quality::Medium => bvh::BVH::new(corners),
+        Quality::High => bvh::BVH::new_hq(corners),
+    }
+    .map_err(refusal)?;
+    binary.split_leaves(4);
+    let wide = mbvh::BVH::new(&binary);
+    let (shape, waiting) = shape(wide.nodes());
+    if waiting > STACK {
+        let sentence =
+            format!("tinybvh walks with a stack of {STACK} nodes, and its tree over this mesh needs {waiting}");
+        return Err(BuildError::Mesh(sentence));
+    }
+    Ok((bvh8_cpu::BVH::new(&wide).map_err(refusal)?, shape))
+}
+
+/// Nodes that its walk and the conversion to its fastest layout keep on a stack without looking at its end.
+const STACK: usize = 256;
+
+/// The shape, and how many nodes may wait on a stack: in the walk all children but one of every node of a path, and room for
+/// eight; in the conversion two words for each child that is no leaf.
+fn shape(nodes: &[mbvh::Node]) -> (TreeShape, usize) {
+    let (mut shape, mut most) = (TreeShape::default(), 0);
+    let mut stack = vec![(0, 0, 0)];
+    while let Some((at, depth, waiting)) = stack.pop() {
+        let node = &nodes[at as usize];
+        most = most.max(waiting);
+        if node.is_leaf() {
+            let count = node.tri_count as usize;
+            shape.leaves += 1;
+            shape.references += count;
+            shape.largest_leaf = shape.largest_leaf.max(count);
+            shape.depth = shape.depth.max(depth);
+        } else {
+            shape.inner += 1;
+            let children = || node.child.iter().filter(|&&child| child != 0);
+            let inner = children().filter(|&&child| !nodes[child as usize].is_leaf()).count();
+            let more = children().count().max(2 * inner).saturating_sub(1);
+            stack.extend(children().map(|&child| (child, depth + 1, waiting + more)));
+        }
+    }
+    (shape, most + 8)
+}
+
+impl Accel for TinyBvh {
+    type Config = TinyBvhConfig;
+
+    const OBSERVED: Observed = Observed::NONE;
+    const CAPABILITIES: Capabilities = Capabilities { closed_start: false, ..Capabilities::ALL };
+    const CONVENTIONS: &'static [&'static str] = &[
+        "a ray with t_min starts at the point of t_min, rounded",
+        "walks unit directions: t is divided by the direction's length; nothing farther than 1e30",
+        "rays that would end the process (NaN, or the unit direction or origin over direction overflows) are not asked, and hit nothing",
+        "builds large scenes on threads of its own, whatever --threads says",
+    ];
+
+    fn build(mesh: &Arc<Mesh>, config: &TinyBvhConfig) -> Result<Self, BuildError> {
+        if !cfg!(target_feature = "avx2") {
+            let sentence = "tinybvh's 8-wide layout needs AVX2: build sahara for a processor that has it";
+            return Err(BuildError::Unavailable(sentence.into()));
+        }
+        let ids: Vec<u32> = mesh.solid().collect();
+        if ids.is_empty() {
+            let shape = TreeShape { leaves: 1, empty: 1, ..TreeShape::default() };
+            return Ok(Self { tree: None, ids, shape });
+        }
+        let corners: Vec<[f32; 4]> =
+            ids.iter().flat_map(|&id| mesh.corners(id)).map(|v| v.extend(0.0).to_array()).collect();
+        let (tree, shape) = built(corners.as_slice().into(), config.quality)?;
+        Ok(Self { tree: Some(Tree::new(tree)), ids, shape })
+    }
+
+    #[inline]
+    fn closest_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit> {
+        self.closest(&self.ready(ray)?, observer)
+    }
+
+    #[inline]
+    fn any_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> bool {
+        self.ready(ray).is_some_and(|ready| self.any(&ready, observer))
+    }
+
+    fn load<'a>(&'a self, rays: Cow<'a, [Ray]>) -> Box<dyn Loaded + 'a> {
+        Box::new(Prepared::new(self, &rays))
+    }
+
+    /// By the sizes of its nodes and of its leaves, which hold the triangles.
+    fn footprint(&self) -> Footprint {
+        let nodes = self.shape.inner * NODE_BYTES + self.shape.leaves * LEAF_BYTES;
+        Footprint { nodes, references: size_of_val(&self.ids[..]), ..Footprint::default() }
+    }
+
+    fn shape(&self) -> TreeShape {
+        self.shape.clone()
+    }
+}

@@ -1,0 +1,265 @@
+use serde::{Deserialize, Serialize};
+
+use crate::accel::BuildError;
+use crate::build::cells::{CellConfig, Rules};
+use crate::build::sah::CostModel;
+
+/// How a [`KdTree`](super::KdTree) is built and traversed: `median-kd` and `sah-kd` are two values of it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct KdConfig {
+    /// Where a node is split.
+    pub plane: Plane,
+    /// The axis of a median.
+    pub axis: AxisRule,
+    /// When a node stays a leaf.
+    pub stop: Stop,
+    /// How rays walk the tree.
+    pub traversal: Traversal,
+    /// `L` of [`Stop::Report`] and [`Stop::Leaf`]: a node with fewer triangles is a leaf. At least 1; the report's main table has 100.
+    pub leaf: u32,
+    /// Whether a node of exactly `leaf` triangles may still be split; the report leaves it open.
+    pub limit: Limit,
+    /// `T` of [`Stop::Report`]: the share of triangles on both sides at which a split is discarded. In (0, 1]; the report's
+    /// main table has 0.7.
+    pub threshold: f32,
+    /// Whose triangles the threshold is a share of.
+    pub count: CountOf,
+    /// Which value stands for the middle of the vertex coordinates.
+    pub median: Median,
+    /// Where a triangle goes that has a vertex in the plane.
+    pub equal: Equal,
+    /// When a ray stops.
+    pub exit: Exit,
+    /// A small hashed mailbox that keeps a ray from testing a triangle twice.
+    pub mailbox: bool,
+    /// Cost of an inner node in the surface area heuristic. Positive; more gives bigger leaves.
+    pub traversal_cost: f32,
+    /// Cost of testing a block of eight triangles. Positive; more gives smaller leaves.
+    pub intersection_cost: f32,
+    /// With [`Plane::SahBinned`], nodes of at most this many references try every plane of the surface area heuristic all the same.
+    pub exact: u32,
+    /// Planes that [`Plane::SahBinned`] tries on an axis, in 2..=62.
+    pub candidates: u32,
+    /// Of larger nodes, only about so many references tell [`Plane::SahBinned`] where to split. At least 16.
+    pub sample: u32,
+    /// Share of the cost that a split saves when it cuts off empty space, in [0, 1); Wald and Havran use 0.2.
+    pub empty_bonus: f32,
+    /// References a build may make, as a multiple of the triangles: the guard against inputs that explode. At least 1.
+    pub duplication: f32,
+}
+
+/// Where a node is split.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Plane {
+    /// The median of the coordinates of all vertices of the node's triangles.
+    VertexMedian,
+    /// The middle of the cell.
+    SpatialMedian,
+    /// The median of the centroids of the node's triangles.
+    CentroidMedian,
+    /// The plane of least cost by the surface area heuristic among a few on each axis (Hunt, Mark, Stoll 2006).
+    SahBinned,
+    /// The plane of least cost by the surface area heuristic among all edges of clipped triangles.
+    SahSweep,
+}
+
+/// Which axis a median split takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum AxisRule {
+    /// Depth modulo 3.
+    Cyclic,
+    /// The longest of the cell.
+    Longest,
+}
+
+/// When a node stays a leaf. The depth cap 8 + 1.3 log2 n and the duplication guard hold for every rule.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Stop {
+    /// Fewer than `leaf` triangles, or a share of `threshold` on both sides, or no progress on three axes in a row.
+    Report,
+    /// Fewer than `leaf` triangles, and no other reason.
+    Leaf,
+    /// The plane is not cheaper than testing all triangles, one step ahead. Of the surface area heuristic: no plane is
+    /// cheaper than testing all triangles.
+    Sah,
+}
+
+/// How rays walk the tree.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Traversal {
+    /// Test both child boxes, as the report does.
+    ChildBoxes,
+    /// Cut the ray's interval at the plane.
+    PlaneIntervals,
+}
+
+/// The comparison with the leaf limit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Limit {
+    /// A leaf has fewer than `leaf` triangles.
+    Below,
+    /// A leaf has at most `leaf` triangles.
+    AtMost,
+}
+
+/// Whose triangles the match threshold is a share of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum CountOf {
+    /// The node's: a split that fails is discarded.
+    Parent,
+    /// Each child's: a child that fails is not split further.
+    Child,
+}
+
+/// Which value is the median of an even number of coordinates, and of which coordinates.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Median {
+    /// The lower of the two middle ones, every triangle counting its three corners.
+    Lower,
+    /// The mean of the two middle ones.
+    Mean,
+    /// The lower one, a corner shared by several triangles counting once.
+    Welded,
+}
+
+/// Where a triangle goes that has a vertex in the plane.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Equal {
+    /// To both sides: below and above are strict.
+    Both,
+    /// Below, when no vertex is above.
+    Below,
+}
+
+/// When a ray stops.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Exit {
+    /// When nothing nearer can follow: no hit is lost.
+    Nearest,
+    /// At the first leaf with any hit, wherever the hit lies: the literal reading of the report, which shows wrong pixels.
+    FirstLeaf,
+}
+
+impl KdConfig {
+    /// The report's tree: `median-kd`.
+    pub const REPORT: Self = Self {
+        plane: Plane::VertexMedian,
+        axis: AxisRule::Cyclic,
+        stop: Stop::Report,
+        traversal: Traversal::ChildBoxes,
+        leaf: 100,
+        limit: Limit::Below,
+        threshold: 0.7,
+        count: CountOf::Parent,
+        median: Median::Lower,
+        equal: Equal::Both,
+        exit: Exit::Nearest,
+        mailbox: false,
+        traversal_cost: 1.0,
+        intersection_cost: 1.0,
+        exact: 0,
+        candidates: 32,
+        sample: 16384,
+        empty_bonus: 0.0,
+        duplication: 100.0,
+    };
+
+    /// The tree of Wald and Havran: `sah-kd`.
+    pub const SAH: Self = Self {
+        plane: Plane::SahSweep,
+        stop: Stop::Sah,
+        traversal: Traversal::PlaneIntervals,
+        traversal_cost: 1.0,
+        intersection_cost: 0.7,
+        empty_bonus: 0.2,
+        duplication: 8.0,
+        ..Self::REPORT
+    };
+
+    /// When nodes stay leaves.
+    pub(super) fn rules(&self) -> Rules {
+        let leaf = match (self.stop, self.limit) {
+            (Stop::Sah, _) => 1,
+            (Stop::Report | Stop::Leaf, Limit::Below) => self.leaf as usize - 1,
+            (Stop::Report | Stop::Leaf, Limit::AtMost) => self.leaf as usize,
+        };
+        Rules {
+            leaf,
+            threshold: (self.stop == Stop::Report).then_some(self.threshold),
+            pays: self.stop == Stop::Sah,
+            duplication: self.duplication,
+            one_side_is_progress: self.plane == Plane::SpatialMedian,
+        }
+    }
+
+    /// What a median asks.
+    pub(super) fn median(&self) -> MedianConfig {
+        let Self { plane, axis, median, equal, count, .. } = *self;
+        MedianConfig { plane, axis, median, equal, count, costs: self.costs() }
+    }
+
+    /// What the search for the cheapest plane asks.
+    pub(super) fn sah(&self) -> CellConfig {
+        let exact = if self.plane == Plane::SahSweep { CellConfig::ALL_PLANES } else { self.exact };
+        CellConfig { costs: self.costs(), exact, candidates: self.candidates, sample: self.sample }
+    }
+
+    fn costs(&self) -> CostModel {
+        CostModel::new(self.traversal_cost, self.intersection_cost, self.empty_bonus)
+    }
+
+    pub(super) fn check(&self) -> Result<(), BuildError> {
+        let refuse = |what: &str| Err(BuildError::Config(what.into()));
+        let positive = |x: f32| x > 0.0 && x.is_finite();
+        if self.leaf == 0 {
+            return refuse("leaf must be at least 1");
+        }
+        if !(self.threshold > 0.0 && self.threshold <= 1.0) {
+            return refuse("threshold must lie above 0 and be at most 1");
+        }
+        if !positive(self.traversal_cost) || !positive(self.intersection_cost) {
+            return refuse("traversal_cost and intersection_cost must be positive numbers");
+        }
+        if !(2..=62).contains(&self.candidates) {
+            return refuse("candidates must be in 2..=62");
+        }
+        if self.sample < 16 {
+            return refuse("sample must be at least 16");
+        }
+        if !(0.0..1.0).contains(&self.empty_bonus) {
+            return refuse("empty_bonus must be at least 0 and below 1");
+        }
+        if !(self.duplication >= 1.0 && self.duplication.is_finite()) {
+            return refuse("duplication must be a number of at least 1");
+        }
+        Ok(())
+    }
+}
+
+impl Default for KdConfig {
+    fn default() -> Self {
+        Self::SAH
+    }
+}
+
+/// The keys of a [`KdConfig`] that choose the plane of a median; [`KdConfig::rules`] says when it is not taken.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct MedianConfig {
+    pub plane: Plane,
+    pub axis: AxisRule,
+    pub median: Median,
+    pub equal: Equal,
+    pub count: CountOf,
+    /// Of a cut that must pay.
+    pub costs: CostModel,
+}

@@ -1,0 +1,124 @@
+//! The rules that know no cost: the median of vertex coordinates, as in the report, or of centroids, or the middle of the
+//! cell. Sides are decided by whole triangles.
+
+use super::config::{AxisRule, CountOf, Equal, Median, MedianConfig, Plane};
+use crate::build::cells::{Content, Context, Place};
+use crate::build::cut::Cut;
+use crate::build::sah::SideAreas;
+
+/// The triangles of a node, ascending.
+pub(super) struct Triangles {
+    ids: Vec<u32>,
+    /// How many of them went to the sibling as well.
+    matches: usize,
+}
+
+impl Triangles {
+    pub fn all(context: &Context<MedianConfig>) -> Self {
+        Self { ids: context.mesh.solid().collect(), matches: 0 }
+    }
+
+    fn plane(&self, context: &Context<MedianConfig>, place: &Place, axis: usize) -> f32 {
+        match context.config.plane {
+            Plane::SpatialMedian => place.cell.min[axis] * 0.5 + place.cell.max[axis] * 0.5,
+            Plane::CentroidMedian => middle(self.centroids(context, axis), context.config.median),
+            _ => middle(self.coordinates(context, axis), context.config.median),
+        }
+    }
+
+    fn centroids(&self, context: &Context<MedianConfig>, axis: usize) -> Vec<f32> {
+        let centroid = |&id| context.mesh.corners(id).map(|p| f64::from(p[axis])).iter().sum::<f64>() / 3.0;
+        self.ids.iter().map(|id| centroid(id) as f32).collect()
+    }
+
+    fn coordinates(&self, context: &Context<MedianConfig>, axis: usize) -> Vec<f32> {
+        let corners = self.ids.iter().flat_map(|&id| context.mesh.triangles()[id as usize]);
+        let coordinate = |i: u32| context.mesh.positions()[i as usize][axis];
+        if context.config.median == Median::Welded {
+            // A point counts once, however many corners lie in it; adding 0.0 makes -0.0 and 0.0 one.
+            let bits = |i: u32| context.mesh.positions()[i as usize].to_array().map(|x| (x + 0.0).to_bits());
+            let mut points: Vec<([u32; 3], u32)> = corners.map(|i| (bits(i), i)).collect();
+            points.sort_unstable();
+            points.dedup_by_key(|point| point.0);
+            points.into_iter().map(|(_, i)| coordinate(i)).collect()
+        } else {
+            corners.map(coordinate).collect()
+        }
+    }
+
+    /// Whether a division of the cell into sides with so many triangles is cheaper than testing all of them.
+    fn pays(&self, context: &Context<MedianConfig>, place: &Place, cut: Cut, below: usize, above: usize) -> bool {
+        // Vertices may lie outside of the cell, and so may their median.
+        let inside = place.cell.min[cut.axis] < cut.plane && cut.plane < place.cell.max[cut.axis];
+        let (model, areas) = (&context.config.costs, SideAreas::new(&place.cell, cut.axis));
+        let (below_area, above_area) = areas.at(cut.plane.into());
+        let cost = model.cell_split(1.0 / areas.whole(), (below_area, below), (above_area, above));
+        inside && cost < model.leaf(self.ids.len())
+    }
+}
+
+/// The middle one of the values, or of the middle two the lower or the mean.
+fn middle(mut values: Vec<f32>, rule: Median) -> f32 {
+    let (middle, even) = ((values.len() - 1) / 2, values.len().is_multiple_of(2));
+    let (_, &mut lower, rest) = values.select_nth_unstable_by(middle, f32::total_cmp);
+    match rest.iter().copied().min_by(f32::total_cmp) {
+        Some(upper) if even && rule == Median::Mean => lower * 0.5 + upper * 0.5,
+        _ => lower,
+    }
+}
+
+/// Whether so many of the triangles of a node on both sides are a reason not to cut.
+fn is_too_many(context: &Context<MedianConfig>, matches: usize, count: usize) -> bool {
+    context.rules.threshold.is_some_and(|share| matches as f64 >= f64::from(share) * count as f64)
+}
+
+impl Content for Triangles {
+    type Config = MedianConfig;
+
+    fn len(&self) -> usize {
+        self.ids.len()
+    }
+
+    fn ids(&self) -> impl Iterator<Item = u32> {
+        self.ids.iter().copied()
+    }
+
+    fn choose(&self, context: &Context<MedianConfig>, place: &Place) -> Option<Cut> {
+        let axis = match context.config.axis {
+            AxisRule::Cyclic => (place.depth % 3) as usize,
+            AxisRule::Longest => place.cell.longest_axis(),
+        };
+        Some(Cut { axis, plane: self.plane(context, place, axis), flat_below: true })
+    }
+
+    fn divide(self, context: &Context<MedianConfig>, place: &Place, cut: Cut) -> Result<(Self, Self), Self> {
+        let (mut below, mut above, mut matches) = (vec![], vec![], 0);
+        for &id in &self.ids {
+            let corners = context.mesh.corners(id).map(|p| p[cut.axis]);
+            let all_below = match context.config.equal {
+                Equal::Both => corners.iter().all(|&x| x < cut.plane),
+                Equal::Below => corners.iter().all(|&x| x <= cut.plane),
+            };
+            let all_above = corners.iter().all(|&x| x > cut.plane);
+            if !all_above {
+                below.push(id);
+            }
+            if !all_below {
+                above.push(id);
+            }
+            matches += usize::from(!all_above && !all_below);
+        }
+
+        let discarded = context.config.count == CountOf::Parent && is_too_many(context, matches, self.ids.len());
+        let (b, a) = (below.len(), above.len());
+        let dear = context.rules.pays && !self.pays(context, place, cut, b, a);
+        if discarded || dear || !place.affords(b, a) || !place.progresses(context, self.ids.len(), b, a) {
+            return Err(self);
+        }
+        Ok((Self { ids: below, matches }, Self { ids: above, matches }))
+    }
+
+    fn may_divide(&self, context: &Context<MedianConfig>) -> bool {
+        context.config.count == CountOf::Parent || !is_too_many(context, self.matches, self.ids.len())
+    }
+}

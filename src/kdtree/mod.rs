@@ -1,0 +1,14 @@
+//! KD-trees: the report's median tree and the SAH tree are two configurations of one type.
+
+mod config;
+mod median;
+mod node;
+mod outline;
+mod plan;
+#[cfg(test)]
+mod tests;
+mod traverse;
+mod tree;
+
+pub use config::{AxisRule, CountOf, Equal, Exit, KdConfig, Limit, Median, Plane, Stop, Traversal};
+pub use tree::KdTree;

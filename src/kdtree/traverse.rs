@@ -1,0 +1,199 @@
+//! One walk for both queries, in two flavours: plane intervals and child boxes.
+//!
+//! **No hit is lost.** Let a triangle be hit at the exact parameter t* in the interval, at the point p. Its references were
+//! clipped outward, so some leaf whose closed cell contains p holds it. Both walks visit every leaf whose closed cell contains a
+//! point of the ray in [t_min, nearest t]: a child is skipped only when its interval, moved outward by more than the rounding
+//! of plane crossings (see [`Line`]), is empty or begins after the nearest hit so far. So the leaf of p is visited, unless a
+//! hit with a computed t before t* has been found. Where t* exceeds a computed t of another triangle, that triangle is the
+//! answer up to the error of the triangle test, which is not the traversal's. With the exact test nothing is computed: nearest t is
+//! a float that is not before the nearest exact hit so far, so that the walk comes to every hit that is nearer or as near, and the
+//! answer is the exact one with the lowest number.
+
+use std::mem::MaybeUninit;
+
+use super::config::{Exit, Traversal};
+use super::node::Node;
+use super::tree::KdTree;
+use crate::accel::Observer;
+use crate::build::cells::DEEPEST;
+use crate::build::sah::BLOCK;
+use crate::geometry::{Aabb, Hit, Ray};
+use crate::simd::Sieve;
+use crate::traversal::leaf::{Mailbox, search, start};
+use crate::traversal::line::{Line, after, before};
+use crate::traversal::walk::Walk;
+use crate::triangle::TriangleTest;
+
+/// A walk leaves at most one node a level behind.
+const STACK: usize = 64;
+const _: () = assert!(STACK > DEEPEST as usize);
+
+impl<T: TriangleTest> Walk for KdTree<T> {
+    #[inline(always)]
+    fn walk<const ANY: bool, L: Sieve, O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit> {
+        let (t_min, mut nearest) = start::<T>(ray)?;
+        let prepared = T::prepare(ray);
+        let line = Line::new(ray, &self.bounds);
+        let mut mailbox = self.config.mailbox.then_some(Mailbox::EMPTY);
+        let mut leaves = Leaves::enter(self, &line, t_min, nearest.t)?;
+        while let Some(leaf) = leaves.next(self, &line, t_min, nearest.t, observer) {
+            let (blocks, count) = (self.blocks_of(leaf), leaf.references());
+            observer.leaf(count);
+            search::<ANY, BLOCK, L, T, O>(blocks, count, &prepared, t_min, &mut nearest, &mut mailbox, observer);
+            if nearest.found() && (ANY || self.config.exit == Exit::FirstLeaf) {
+                break;
+            }
+        }
+        nearest.hit()
+    }
+}
+
+/// The leaves that a ray has still to search, in the order in which it meets them.
+///
+/// Both ways share one search of leaves, which is most of the code of a walk.
+#[expect(clippy::large_enum_variant, reason = "one for each walk, on the stack, and neither is initialised")]
+enum Leaves {
+    Intervals(Stack<(u32, f32, f32)>),
+    Boxes(Stack<(u32, Aabb, f32)>),
+}
+
+/// Nodes left behind. Not initialised: that would cost as much as a short walk.
+struct Stack<E> {
+    entries: [MaybeUninit<E>; STACK],
+    len: usize,
+}
+
+impl<E: Copy> Stack<E> {
+    #[inline(always)]
+    fn with(root: E) -> Self {
+        let mut stack = Self { entries: [const { MaybeUninit::uninit() }; STACK], len: 0 };
+        stack.push(root);
+        stack
+    }
+
+    #[inline(always)]
+    fn push(&mut self, entry: E) {
+        self.entries[self.len].write(entry);
+        self.len += 1;
+    }
+
+    #[inline(always)]
+    fn pop(&mut self) -> Option<E> {
+        self.len = self.len.checked_sub(1)?;
+        // SAFETY: all below the old length was written.
+        Some(unsafe { self.entries[self.len].assume_init() })
+    }
+}
+
+impl Leaves {
+    /// Those in [`t_min`, `t_max`]; nothing if the ray misses the tree.
+    #[inline(always)]
+    fn enter<T: TriangleTest>(tree: &KdTree<T>, line: &Line, t_min: f32, t_max: f32) -> Option<Self> {
+        Some(match tree.config.traversal {
+            Traversal::PlaneIntervals => {
+                let (t0, t1) = line.clip(&tree.bounds, before(t_min), after(t_max))?;
+                Self::Intervals(Stack::with((0, t0, t1)))
+            }
+            Traversal::ChildBoxes => {
+                let (t0, _) = line.clip(&tree.bounds, t_min, t_max)?;
+                Self::Boxes(Stack::with((0, tree.bounds, t0)))
+            }
+        })
+    }
+
+    /// The next leaf that the ray enters not after `end`, the nearest hit so far.
+    #[inline(always)]
+    fn next<T: TriangleTest, O: Observer>(
+        &mut self,
+        tree: &KdTree<T>,
+        line: &Line,
+        t_min: f32,
+        end: f32,
+        observer: &mut O,
+    ) -> Option<Node> {
+        match self {
+            Self::Intervals(stack) => by_intervals(stack, &tree.nodes, line, end, observer),
+            Self::Boxes(stack) => by_boxes(stack, &tree.nodes, line, t_min, end, observer),
+        }
+    }
+}
+
+/// Cuts the ray's interval at each plane.
+#[inline(always)]
+fn by_intervals<O: Observer>(
+    stack: &mut Stack<(u32, f32, f32)>,
+    nodes: &[Node],
+    line: &Line,
+    end: f32,
+    observer: &mut O,
+) -> Option<Node> {
+    let (mut at, t0, mut t1) = loop {
+        let entry = stack.pop()?;
+        if entry.1 <= end {
+            break entry;
+        }
+    };
+    loop {
+        let node = nodes[at as usize];
+        if node.is_leaf() {
+            return Some(node);
+        }
+        observer.inner();
+        let axis = node.axis();
+        let t = line.crossing(axis, node.split());
+        let (first, second) = if line.backward(axis) { (node.above(), at + 1) } else { (at + 1, node.above()) };
+
+        // The ends of the interval have twice the slack of a crossing, so the crossing needs none here. Comparisons
+        // with NaN are false: then both children get the whole interval.
+        if t > t1 {
+            at = first;
+        } else if t < t0 {
+            at = second;
+        } else {
+            let (lower, upper) = (before(t), after(t));
+            stack.push((second, if lower > t0 { lower } else { t0 }, t1));
+            at = first;
+            t1 = if upper < t1 { upper } else { t1 };
+        }
+    }
+}
+
+/// Tests both child boxes of each node.
+#[inline(always)]
+fn by_boxes<O: Observer>(
+    stack: &mut Stack<(u32, Aabb, f32)>,
+    nodes: &[Node],
+    line: &Line,
+    t_min: f32,
+    end: f32,
+    observer: &mut O,
+) -> Option<Node> {
+    loop {
+        let (at, cell, t0) = stack.pop()?;
+        if t0 > end {
+            continue;
+        }
+        let node = nodes[at as usize];
+        if node.is_leaf() {
+            return Some(node);
+        }
+
+        // The child that is entered first comes off the stack first; of two entered at once, the one left first.
+        observer.inner();
+        let (below, above) = cell.cut(node.axis(), node.split());
+        let (in_below, in_above) = (line.clip(&below, t_min, end), line.clip(&above, t_min, end));
+        match (in_below, in_above) {
+            (None, None) => {}
+            (Some((t0, _)), None) => stack.push((at + 1, below, t0)),
+            (None, Some((t0, _))) => stack.push((node.above(), above, t0)),
+            (Some(b), Some(a)) if b.0 < a.0 || (b.0 == a.0 && b.1 <= a.1) => {
+                stack.push((node.above(), above, a.0));
+                stack.push((at + 1, below, b.0));
+            }
+            (Some(b), Some(a)) => {
+                stack.push((at + 1, below, b.0));
+                stack.push((node.above(), above, a.0));
+            }
+        }
+    }
+}

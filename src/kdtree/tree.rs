@@ -1,0 +1,88 @@
+use std::sync::Arc;
+
+use super::config::KdConfig;
+use super::node::{Limits, Node};
+use super::plan::{Plan, plan};
+use crate::accel::{Accel, BuildError, Footprint, Observer, Outline, TreeShape};
+use crate::build::sah::BLOCK;
+use crate::geometry::{Aabb, Hit, Mesh, Ray};
+use crate::traversal::leaf::LeafBlock;
+use crate::traversal::pages;
+use crate::traversal::walk::single;
+use crate::triangle::TriangleTest;
+
+/// A binary space partition by axis-aligned planes: 8-byte nodes in depth-first order, leaves of blocks of triangles.
+///
+/// Its configuration says where planes go, when nodes stay leaves and how rays walk. Building takes O(n log n) time and
+/// memory for a bounded duplication of references; the tree is the same for every number of threads.
+///
+/// # References
+/// Wald, Havran: On building fast kd-trees for ray tracing, and on doing that in O(N log N), 2006. Havran: Heuristic Ray Shooting
+/// Algorithms, 2000. Not for moving geometry: nothing can be updated.
+pub struct KdTree<T: TriangleTest> {
+    pub(super) nodes: Vec<Node>,
+    pub(super) blocks: Vec<LeafBlock<T, BLOCK>>,
+    pub(super) bounds: Aabb,
+    pub(super) config: KdConfig,
+}
+
+impl<T: TriangleTest> KdTree<T> {
+    /// Turns the references of a plan into blocks, leaf by leaf.
+    fn finish(mesh: &Mesh, config: &KdConfig, plan: Plan) -> Self {
+        let Plan { mut nodes, references } = plan;
+        let leaves = nodes.iter().filter(|node| node.is_leaf());
+        let count = leaves.map(|leaf| (leaf.references() as usize).div_ceil(BLOCK)).sum();
+        let mut blocks = pages::with_capacity(count);
+        for node in nodes.iter_mut().filter(|node| node.is_leaf()) {
+            let (first, count) = (node.first() as usize, node.references());
+            *node = Node::leaf(blocks.len() as u32, count);
+            LeafBlock::fill(mesh, &references[first..first + count as usize], &mut blocks);
+        }
+        Self { nodes: pages::moved(nodes), blocks, bounds: mesh.bounds(), config: *config }
+    }
+
+    #[inline(always)]
+    pub(super) fn blocks_of(&self, leaf: Node) -> &[LeafBlock<T, BLOCK>] {
+        let first = leaf.first() as usize;
+        &self.blocks[first..first + (leaf.references() as usize).div_ceil(BLOCK)]
+    }
+}
+
+impl<T: TriangleTest> Accel for KdTree<T> {
+    type Config = KdConfig;
+
+    const TRIANGLE_TEST: &'static str = T::NAME;
+
+    fn build(mesh: &Arc<Mesh>, config: &KdConfig) -> Result<Self, BuildError> {
+        Ok(Self::finish(mesh, config, plan(mesh, config, &Limits::OF_NODES)?))
+    }
+
+    #[inline]
+    fn closest_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit> {
+        single::<false, _, O>(self, ray, observer)
+    }
+
+    #[inline]
+    fn any_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> bool {
+        single::<true, _, O>(self, ray, observer).is_some()
+    }
+
+    fn footprint(&self) -> Footprint {
+        let (triangles, references) = LeafBlock::<T, BLOCK>::BYTES;
+        let n = self.blocks.len();
+        Footprint {
+            nodes: size_of_val(&self.nodes[..]),
+            triangles: n * triangles,
+            references: n * references,
+            other: size_of::<Self>(),
+        }
+    }
+
+    fn shape(&self) -> TreeShape {
+        self.cells().shape()
+    }
+
+    fn outline(&self) -> Option<Outline> {
+        Some(self.cells())
+    }
+}

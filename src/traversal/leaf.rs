@@ -1,0 +1,165 @@
+//! Triangles as leaves hold them, and the search through them.
+
+use crate::accel::Observer;
+use crate::geometry::{Hit, Mesh, Ray};
+use crate::simd::Lanes;
+use crate::triangle::{Depth, TriangleTest};
+
+/// The nearest hit so far, or the end of the interval.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Nearest<D> {
+    /// A hit must lie at or before this `t`.
+    pub t: f32,
+    pub hit: Option<(D, u32)>,
+}
+
+impl<D: Depth> Nearest<D> {
+    /// Nothing found yet, up to and with `last`.
+    #[inline(always)]
+    pub fn until(last: f32) -> Self {
+        Self { t: last, hit: None }
+    }
+
+    /// Takes a hit that is nearer, or as near with a lower number.
+    #[inline(always)]
+    pub fn offer(&mut self, depth: D, id: u32) {
+        let better = match &self.hit {
+            Some((nearest, lowest)) => depth.order(nearest).then(id.cmp(lowest)).is_lt(),
+            None => true,
+        };
+        if better {
+            *self = Self { t: depth.bound(), hit: Some((depth, id)) };
+        }
+    }
+
+    #[inline(always)]
+    pub fn found(&self) -> bool {
+        self.hit.is_some()
+    }
+
+    #[inline(always)]
+    pub fn hit(&self) -> Option<Hit> {
+        self.hit.map(|(depth, id)| Hit::new(depth.t(), id))
+    }
+}
+
+/// Stands for no triangle in the lanes left over.
+pub(crate) const NONE: u32 = u32::MAX;
+
+/// At most `N` triangles, tested at once.
+#[derive(Clone, Copy)]
+#[repr(C, align(64))]
+pub(crate) struct LeafBlock<T: TriangleTest, const N: usize> {
+    pub triangles: T::Block<N>,
+    /// In the lanes left over [`NONE`].
+    pub ids: [u32; N],
+}
+
+impl<T: TriangleTest, const N: usize> LeafBlock<T, N> {
+    /// Blocks for the triangles `ids` of `mesh`, in that order.
+    pub fn fill(mesh: &Mesh, ids: &[u32], blocks: &mut Vec<Self>) {
+        blocks.extend(ids.chunks(N).map(|ids| {
+            let mut corners = [[glam::Vec3::ZERO; 3]; N];
+            let mut padded = [NONE; N];
+            for (lane, &id) in ids.iter().enumerate() {
+                corners[lane] = mesh.corners(id);
+                padded[lane] = id;
+            }
+            Self { triangles: T::block(&corners[..ids.len()]), ids: padded }
+        }));
+    }
+
+    /// The triangles in it.
+    pub fn ids(&self) -> impl Iterator<Item = u32> + '_ {
+        self.ids.iter().copied().filter(|&id| id != NONE)
+    }
+
+    /// How many there are.
+    #[inline(always)]
+    pub fn len(&self) -> u32 {
+        self.ids.iter().map(|&id| u32::from(id != NONE)).sum()
+    }
+
+    /// Bytes of triangle data and of triangle numbers in a block.
+    pub const BYTES: (usize, usize) = (size_of::<Self>() - size_of::<[u32; N]>(), size_of::<[u32; N]>());
+}
+
+/// Remembers triangles that a ray has been tested against: a direct-mapped cache of the last triangle for each of eight
+/// hash values (Havran 2000).
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Mailbox([u32; 8]);
+
+impl Mailbox {
+    pub const EMPTY: Self = Self([NONE; 8]);
+
+    /// Whether triangle `id` is remembered; from now on it is.
+    #[inline(always)]
+    fn visit(&mut self, id: u32) -> bool {
+        std::mem::replace(&mut self.0[(id & 7) as usize], id) == id
+    }
+}
+
+/// Searches the `count` triangles in the blocks of one leaf and tells the observer of each block that is tested. With
+/// `ANY`, returns at the first block with a hit in the interval.
+#[inline(always)]
+pub(crate) fn search<const ANY: bool, const N: usize, L: Lanes<N>, T: TriangleTest, O: Observer>(
+    blocks: &[LeafBlock<T, N>],
+    count: u32,
+    ray: &T::Ray,
+    t_min: f32,
+    nearest: &mut Nearest<T::Depth>,
+    mailbox: &mut Option<Mailbox>,
+    observer: &mut O,
+) {
+    for (i, block) in blocks.iter().enumerate() {
+        let mut fresh = (count - (i * N) as u32).min(N as u32);
+        if let Some(mailbox) = mailbox {
+            fresh = block.ids.iter().filter(|&&id| id != NONE && !mailbox.visit(id)).count() as u32;
+        }
+        if fresh == 0 {
+            continue;
+        }
+        observer.test(fresh);
+        let (candidates, known) = T::candidates::<N, L>(ray, &block.triangles, t_min, nearest.t);
+        if candidates != 0 {
+            settle(block, ray, candidates, known.store(), nearest);
+            if ANY && nearest.found() {
+                break;
+            }
+        }
+    }
+}
+
+/// Decides about the candidates of a block. Rare, and out of line, so that it does not cost the walk its registers.
+#[inline(never)]
+pub(crate) fn settle<const N: usize, T: TriangleTest>(
+    block: &LeafBlock<T, N>,
+    ray: &T::Ray,
+    mut candidates: u32,
+    known: [f32; N],
+    nearest: &mut Nearest<T::Depth>,
+) {
+    while candidates != 0 {
+        let lane = candidates.trailing_zeros() as usize;
+        candidates &= candidates - 1;
+        // A triangle of several leaves is met again.
+        let id = block.ids[lane];
+        if nearest.hit.as_ref().is_some_and(|(_, nearest)| *nearest == id) {
+            continue;
+        }
+        if let Some(depth) = T::decide(ray, &block.triangles, lane, known[lane]) {
+            nearest.offer(depth, id);
+        }
+    }
+}
+
+/// What every query starts with: where its interval begins and the search up to its end, or nothing when the ray can
+/// hit nothing.
+///
+/// The prepared ray is not among them: handed out of here it would be copied, and the processor waits for what it has
+/// just written.
+#[inline(always)]
+pub(crate) fn start<T: TriangleTest>(ray: &Ray) -> Option<(f32, Nearest<T::Depth>)> {
+    let (t_min, t_max) = ray.interval();
+    ray.is_valid().then(|| (t_min, Nearest::until(T::last(t_max))))
+}

@@ -1,0 +1,75 @@
+//! Memory: large arrays on large pages, and lines fetched ahead.
+
+/// Memory for `len` values that are read at random places, for which the system is asked for huge pages: a walk through a few
+/// megabytes in pages of four kilobytes misses the cache of addresses at nearly every node.
+///
+/// Only Linux is asked, and it may decline; the values are the same.
+pub(crate) fn with_capacity<T>(len: usize) -> Vec<T> {
+    let values = Vec::with_capacity(len);
+    advise(values.as_ptr(), len * size_of::<T>());
+    values
+}
+
+/// The same values in such memory.
+pub(crate) fn moved<T: Copy>(values: Vec<T>) -> Vec<T> {
+    let mut moved = with_capacity(values.len());
+    moved.extend_from_slice(&values);
+    moved
+}
+
+/// Asks for the line of the cache at an address, which may be any.
+#[inline(always)]
+pub(crate) fn fetch(at: *const u8) {
+    #[cfg(target_arch = "x86_64")]
+    // SAFETY: nothing is read, and there is no fault, whatever the address.
+    unsafe {
+        use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
+        _mm_prefetch::<_MM_HINT_T0>(at.cast());
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    let _ = at;
+}
+
+#[cfg(target_os = "linux")]
+fn advise<T>(start: *const T, bytes: usize) {
+    use std::ffi::{c_int, c_void};
+    unsafe extern "C" {
+        fn madvise(start: *mut c_void, bytes: usize, advice: c_int) -> c_int;
+    }
+    const MADV_HUGEPAGE: c_int = 14;
+    const PAGE: usize = 4096;
+    // SAFETY: the advice changes no values; it is given for whole pages that lie in one allocation.
+    unsafe {
+        let first = start.addr().next_multiple_of(PAGE);
+        let end = (start.addr() + bytes) / PAGE * PAGE;
+        if first < end {
+            madvise(start.with_addr(first).cast_mut().cast(), end - first, MADV_HUGEPAGE);
+        }
+    }
+}
+
+#[cfg(not(target_os = "linux"))]
+fn advise<T>(_: *const T, _: usize) {}
+
+/// Whether the system has been asked for large pages for the memory around these values, as it says itself.
+#[cfg(test)]
+pub(crate) fn are_large<T>(values: &[T]) -> bool {
+    let at = values.as_ptr().addr() + size_of_val(values) / 2;
+    let maps = std::fs::read_to_string("/proc/self/smaps").unwrap_or_default();
+    let holds = |line: &str| {
+        let bound = |text: &str| usize::from_str_radix(text, 16).ok();
+        let (start, end) = line.split(' ').next()?.split_once('-')?;
+        Some((bound(start)?..bound(end)?).contains(&at))
+    };
+    let mut flags =
+        maps.lines().skip_while(|line| holds(line) != Some(true)).filter(|line| line.starts_with("VmFlags:"));
+    flags.next().is_some_and(|line| line.split_whitespace().any(|flag| flag == "hg"))
+}
+
+/// Whether the system takes such advice.
+#[cfg(test)]
+pub(crate) fn can_be_large() -> bool {
+    let mut probe = with_capacity::<u64>(1 << 20);
+    probe.resize(1 << 20, 0);
+    are_large(&probe)
+}

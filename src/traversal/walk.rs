@@ -1,0 +1,47 @@
+//! Searches that are written once over lanes and run on the level in use.
+
+use crate::accel::{Counts, Observer};
+use crate::geometry::{Hit, Ray};
+use crate::simd::{Kernel, Level, Portable, Sieve, dispatch};
+
+/// A structure whose search is written over lanes.
+pub(crate) trait Walk {
+    /// The nearest hit, or with `ANY` some hit.
+    fn walk<const ANY: bool, L: Sieve, O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit>;
+}
+
+struct Single<'a, const ANY: bool, W> {
+    structure: &'a W,
+    ray: &'a Ray,
+}
+
+impl<const ANY: bool, W: Walk> Kernel for Single<'_, ANY, W> {
+    type Output = Option<Hit>;
+
+    #[inline(always)]
+    fn run<L: Sieve>(self) -> Option<Hit> {
+        silent::<ANY, L, W>(self.structure, self.ray)
+    }
+}
+
+/// A walk that nobody watches.
+#[inline(always)]
+pub(crate) fn silent<const ANY: bool, L: Sieve, W: Walk>(structure: &W, ray: &Ray) -> Option<Hit> {
+    if L::FAST {
+        structure.walk::<ANY, L, ()>(ray, &mut ())
+    } else {
+        // The counting walk is compiled anyway; on portable lanes counting is not what takes the time.
+        structure.walk::<ANY, L, Counts>(ray, &mut Counts::default())
+    }
+}
+
+/// One ray, on the level in use.
+#[inline(always)]
+pub(crate) fn single<const ANY: bool, W: Walk, O: Observer>(structure: &W, ray: &Ray, observer: &mut O) -> Option<Hit> {
+    if O::ACTIVE {
+        // All levels take the same steps. Who counts does not hurry, and compiling is half the work.
+        structure.walk::<ANY, Portable<8>, O>(ray, observer)
+    } else {
+        dispatch(Level::current(), Single::<ANY, W> { structure, ray })
+    }
+}
