@@ -118,12 +118,10 @@ impl<'a> Trial<'a> {
         };
         let total = self.cases.len() * self.runs * self.settings.epochs.max(self.epochs + 1);
         let done = self.cases.len() * self.runs * self.epochs;
-        // Rays, too, lie elsewhere in each epoch.
-        let workloads = self.workloads.clone();
         let timing = Timing {
             scene: self.scene,
             built: &built,
-            workloads: &workloads,
+            workloads: &self.workloads,
             threads: &self.settings.threads,
             clock: self.clock,
         };
