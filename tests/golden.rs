@@ -24,7 +24,8 @@ const FINDINGS: &[(&str, &str, usize, &str)] = &[
 
 #[test]
 fn a_tree_draws_every_scene_as_committed() {
-    let tree = Registry::builtin().choose(&format!("sah-hybrid:test={TRIANGLE_TEST}")).expect("it is offered with the test");
+    let tree =
+        Registry::builtin().choose(&format!("sah-hybrid:test={TRIANGLE_TEST}")).expect("it is offered with the test");
     assert_eq!(draw_as_committed(&[tree]), 0);
 }
 

@@ -61,7 +61,7 @@ impl Clock for SystemClock {
 pub struct CpuClock(Id);
 
 #[cfg(target_os = "linux")]
-type Id = libc::clockid_t;
+type Id = nix::time::ClockId;
 #[cfg(not(target_os = "linux"))]
 type Id = std::convert::Infallible;
 
@@ -70,7 +70,7 @@ impl CpuClock {
     /// that elapses has to do.
     pub fn of_thread(threads: &Threads) -> Option<Self> {
         #[cfg(target_os = "linux")]
-        let id = Some(libc::CLOCK_THREAD_CPUTIME_ID);
+        let id = Some(Id::CLOCK_THREAD_CPUTIME_ID);
         #[cfg(not(target_os = "linux"))]
         let id = None;
         Self::of(threads, id)
@@ -80,7 +80,7 @@ impl CpuClock {
     /// [`CpuClock::of_thread`] is.
     pub fn of_process(threads: &Threads) -> Option<Self> {
         #[cfg(target_os = "linux")]
-        let id = Some(libc::CLOCK_PROCESS_CPUTIME_ID);
+        let id = Some(Id::CLOCK_PROCESS_CPUTIME_ID);
         #[cfg(not(target_os = "linux"))]
         let id = None;
         Self::of(threads, id)
@@ -101,10 +101,8 @@ impl Clock for CpuClock {
 
 #[cfg(target_os = "linux")]
 fn cpu_time_ns(id: &Id) -> Option<u64> {
-    let mut time = libc::timespec { tv_sec: 0, tv_nsec: 0 };
-    // SAFETY: the call writes the time.
-    let failed = unsafe { libc::clock_gettime(*id, &mut time) };
-    (failed == 0).then(|| time.tv_sec as u64 * 1_000_000_000 + time.tv_nsec as u64)
+    let time = id.now().ok()?;
+    Some(time.tv_sec() as u64 * 1_000_000_000 + time.tv_nsec() as u64)
 }
 
 #[cfg(not(target_os = "linux"))]

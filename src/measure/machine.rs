@@ -25,12 +25,8 @@ pub fn clock_rate(core: usize) -> Option<f64> {
 /// Of the calling thread so far: how often it had to make way for another.
 #[cfg(target_os = "linux")]
 pub fn interruptions() -> Option<u64> {
-    // SAFETY: all zeroes is a valid value, and the call writes one.
-    let usage = unsafe {
-        let mut usage: libc::rusage = std::mem::zeroed();
-        (libc::getrusage(libc::RUSAGE_THREAD, &mut usage) == 0).then_some(usage)?
-    };
-    u64::try_from(usage.ru_nivcsw).ok()
+    use nix::sys::resource::{UsageWho, getrusage};
+    u64::try_from(getrusage(UsageWho::RUSAGE_THREAD).ok()?.involuntary_context_switches()).ok()
 }
 
 #[cfg(not(target_os = "linux"))]

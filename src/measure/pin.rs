@@ -1,6 +1,15 @@
 //! One thread, one core: a thread that moves leaves its caches behind.
 
+#[cfg(target_os = "linux")]
+use nix::{
+    sched::{CpuSet, sched_getaffinity, sched_setaffinity},
+    unistd::Pid,
+};
+
 use super::machine;
+
+#[cfg(target_os = "linux")]
+const THIS_THREAD: Pid = Pid::from_raw(0);
 
 /// Binds the calling thread to a core until it is dropped; then the thread may run where it might before.
 #[derive(Debug)]
@@ -41,25 +50,15 @@ pub fn choose(threads: usize) -> Option<Vec<usize>> {
 /// The cores that the calling thread may run on.
 #[cfg(target_os = "linux")]
 fn allowed() -> Option<Vec<usize>> {
-    // SAFETY: all zeroes is a valid set of cores, and the call writes at most its size into it.
-    let set = unsafe {
-        let mut set: libc::cpu_set_t = std::mem::zeroed();
-        (libc::sched_getaffinity(0, size_of::<libc::cpu_set_t>(), &mut set) == 0).then_some(set)?
-    };
-    // SAFETY: every number is below the size of the set.
-    let cores = (0..libc::CPU_SETSIZE as usize).filter(|&core| unsafe { libc::CPU_ISSET(core, &set) });
-    Some(cores.collect())
+    let set = sched_getaffinity(THIS_THREAD).ok()?;
+    Some((0..CpuSet::count()).filter(|&core| set.is_set(core).unwrap_or(false)).collect())
 }
 
 /// Lets the calling thread run on `cores` only. Whether it worked.
 #[cfg(target_os = "linux")]
 pub(super) fn bind(cores: &[usize]) -> bool {
-    // SAFETY: all zeroes is a valid set of cores, every number put into it is below its size, and the call reads it.
-    unsafe {
-        let mut set: libc::cpu_set_t = std::mem::zeroed();
-        cores.iter().filter(|&&core| core < libc::CPU_SETSIZE as usize).for_each(|&core| libc::CPU_SET(core, &mut set));
-        libc::sched_setaffinity(0, size_of::<libc::cpu_set_t>(), &set) == 0
-    }
+    let mut set = CpuSet::new();
+    cores.iter().all(|&core| set.set(core).is_ok()) && sched_setaffinity(THIS_THREAD, &set).is_ok()
 }
 
 #[cfg(not(target_os = "linux"))]

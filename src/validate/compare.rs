@@ -40,7 +40,8 @@ pub fn validate_known(
     assert_eq!(rays.len(), expected.len(), "one answer a ray");
     let can = subject.capabilities();
     let known = rays.iter().copied().zip(expected.iter().copied());
-    let (admitted, expected): (Vec<Ray>, Vec<Option<Hit>>) = known.filter(|(ray, _)| can.declines(ray).is_none()).unzip();
+    let (admitted, expected): (Vec<Ray>, Vec<Option<Hit>>) =
+        known.filter(|(ray, _)| can.declines(ray).is_none()).unzip();
     let batches = admitted.par_chunks(BATCH).zip(expected.par_chunks(BATCH));
     let of_batch = |(rays, expected)| validate_batch(subject, reference, expected, mesh, rays, &Asked::default());
     let batches: Vec<Validation> = batches.map(of_batch).collect();

@@ -167,7 +167,9 @@ fn command() {
 /// What the command prints, and whether it is content.
 fn sahara(args: &str) -> (String, bool) {
     let mut command = Command::new(std::env::current_exe().unwrap());
-    command.args(["--exact", "third_party::command", "--nocapture", "--test-threads=1"]).env("SAHARA_THIRD_PARTY", args);
+    command
+        .args(["--exact", "third_party::command", "--nocapture", "--test-threads=1"])
+        .env("SAHARA_THIRD_PARTY", args);
     let output = command.env_remove("SAHARA_DATA").stdin(Stdio::null()).output().unwrap();
     let printed = String::from_utf8(output.stdout).unwrap() + &String::from_utf8_lossy(&output.stderr);
     assert!(matches!(output.status.code(), Some(0 | 42)), "{args}: {printed}");

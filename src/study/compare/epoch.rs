@@ -197,7 +197,7 @@ impl<'a> Trial<'a> {
 
     /// Counts hits, steps and tests on all threads, and instructions on this one.
     fn count(&mut self, built: &[Built]) {
-        let counter = Instructions::open().filter(|_| self.settings.threads.count() == 1);
+        let mut counter = Instructions::open().filter(|_| self.settings.threads.count() == 1);
         let asked = |case: &Case| self.subjects[case.structure].declined[case.workload].is_none();
         let mut cases = Case::all(built.len(), self.workloads.len());
         cases.retain(asked);
@@ -209,7 +209,7 @@ impl<'a> Trial<'a> {
                     return Some(Tally::default());
                 }
                 let counted = counted.next().expect("one for each case that is asked")?;
-                Some(tally(&counted, built.accel.as_ref(), rays, counter.as_ref()))
+                Some(tally(&counted, built.accel.as_ref(), rays, counter.as_mut()))
             };
             let all: Vec<Option<Tally>> = self.workloads.iter().enumerate().map(of).collect();
             let all: Option<Vec<Tally>> = all.into_iter().collect();
@@ -240,7 +240,7 @@ fn keep<T>(values: &mut Vec<T>, kept: &[bool]) {
 }
 
 /// What was counted, and the instructions of a pass of as many rays where they can be.
-fn tally(counted: &Counted, accel: &dyn DynAccel, workload: &Workload, counter: Option<&Instructions>) -> Tally {
+fn tally(counted: &Counted, accel: &dyn DynAccel, workload: &Workload, counter: Option<&mut Instructions>) -> Tally {
     let instructions = counter.and_then(|counter| {
         let rays = spread(&workload.rays, counted.rays);
         let (mut hits, mut any) = (vec![None; rays.len()], vec![false; rays.len()]);
