@@ -140,7 +140,7 @@ fn shade_level(
 /// The view vector goes to the eye even where a mirror shows the surface, as in the course.
 fn reflected(material: &Material, surface: &Surface, light: &Light, eye: Vec3) -> Vec3 {
     let normal = surface.shading_normal;
-    let to_light = light.position - surface.point;
+    let to_light = light.position - surface.point.position;
     let distance = to_light.length();
     let to_light = to_light / distance;
     let facing = normal.dot(to_light);
@@ -149,7 +149,7 @@ fn reflected(material: &Material, surface: &Surface, light: &Light, eye: Vec3) -
         return Vec3::ZERO;
     }
 
-    let half = (to_light + (eye - surface.point).normalize()).normalize();
+    let half = (to_light + (eye - surface.point.position).normalize()).normalize();
     let along = normal.dot(half);
     let highlight = if along > 0.0 { libm::pow(along.into(), material.shininess.into()) as f32 } else { 0.0 };
     light.at(distance) * (material.diffuse * facing + material.specular * highlight)

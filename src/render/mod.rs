@@ -8,7 +8,9 @@ mod picture;
 mod view;
 
 #[cfg(test)]
-mod count_tests;
+mod report_ray_counts;
+#[cfg(test)]
+mod tests;
 
 pub use colour_map::heat as heat_colour;
 pub use error_map::ErrorMap;

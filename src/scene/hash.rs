@@ -1,7 +1,5 @@
 //! What a scene is, as one number: times, counts and pictures of two scenes can be compared only if it is the same.
 
-use std::fmt::Write;
-
 use glam::Vec3;
 use sha2::{Digest, Sha256};
 
@@ -48,7 +46,7 @@ impl Scene {
         };
         hash.words(&[way]);
         hash.floats(&[length]);
-        hash.hexadecimal()
+        hexadecimal(&hash.0.finalize())
     }
 }
 
@@ -77,11 +75,9 @@ impl Hash {
         self.count(triples.len());
         self.words(triples.as_flattened());
     }
+}
 
-    fn hexadecimal(self) -> String {
-        self.0.finalize().iter().fold(String::with_capacity(64), |mut text, byte| {
-            write!(text, "{byte:02x}").expect("a string takes every write");
-            text
-        })
-    }
+/// Two digits a byte.
+pub(crate) fn hexadecimal(bytes: &[u8]) -> String {
+    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }

@@ -3,7 +3,6 @@
 mod assemble;
 mod builtin;
 mod camera;
-mod cast;
 mod error;
 pub mod files;
 pub mod format;
@@ -13,11 +12,13 @@ mod light;
 pub mod load;
 mod material;
 pub mod meshes;
+mod mirror_ray;
 mod model;
 mod normals;
 pub mod offset;
 #[allow(clippy::module_inception)]
 mod scene;
+mod shadow_ray;
 #[cfg(test)]
 mod tests;
 mod workload;
@@ -30,6 +31,6 @@ pub use load::{LoadError, load};
 pub use material::Material;
 pub use model::Model;
 pub use normals::CornerNormals;
-pub use offset::{Offset, Start};
+pub use offset::{Offset, SurfacePoint};
 pub use scene::{Scene, Surface};
 pub use workload::{Sampling, UnknownWorkload, Workload, WorkloadKind};

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::Vec3;
 
-use super::offset::{Offset, Start, barycentrics};
+use super::offset::{Offset, SurfacePoint, barycentrics};
 use super::{Camera, CornerNormals, Light, Material};
 use crate::geometry::{Hit, Mesh, PrimId, Ray};
 
@@ -42,23 +42,13 @@ pub struct Scene {
 /// What shading needs to know about a hit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Surface {
-    /// From barycentrics, see [`Start::on_triangle`]; in a scene with the course's offset `origin + t * direction`, as there.
-    pub point: Vec3,
-    /// See [`Start::error`].
-    pub error: Vec3,
-    /// Unit normal of the triangle, by the order of its corners.
-    pub geometric_normal: Vec3,
+    /// Where rays leave from: see [`SurfacePoint::on_triangle`]; in a scene with the course's offset its position is
+    /// `origin + t * direction`, as there.
+    pub point: SurfacePoint,
     /// Unit normal interpolated between the corners; the geometric normal on a flat triangle.
     pub shading_normal: Vec3,
     /// Whether the corner normals differ.
     pub smooth: bool,
-}
-
-impl Surface {
-    /// Where rays leave from.
-    pub fn start(&self) -> Start {
-        Start { point: self.point, error: self.error, normal: self.geometric_normal }
-    }
 }
 
 impl Scene {
@@ -66,12 +56,6 @@ impl Scene {
     #[inline]
     pub fn material(&self, prim: PrimId) -> &Material {
         &self.materials[self.material_of[prim.index() as usize] as usize]
-    }
-
-    /// Unit normal of a primitive by the order of its corners, `(b - a) x (c - a)`; zero on a degenerate one.
-    pub fn geometric_normal(&self, prim: PrimId) -> Vec3 {
-        let [a, b, c] = self.mesh.corners(prim.index()).map(Vec3::as_dvec3);
-        (b - a).cross(c - a).normalize_or_zero().as_vec3()
     }
 
     /// Area of a primitive.
@@ -84,16 +68,18 @@ impl Scene {
     pub fn surface(&self, ray: &Ray, hit: Hit) -> Surface {
         let corners = self.mesh.corners(hit.prim.index());
         let weights = barycentrics(ray, corners);
-        let start = Start::on_triangle(corners, weights);
+        let mut point = SurfacePoint::on_triangle(corners, weights);
         let normals = self.normals.as_ref().and_then(|n| n.corners(hit.prim.index()));
-        let shading_normal = normals.map_or(start.normal, |normals| {
+        let shading_normal = normals.map_or(point.normal, |normals| {
             let [n0, n1, n2] = normals.map(Vec3::as_dvec3);
             let mixed = n0 * weights.x + n1 * weights.y + n2 * weights.z;
-            mixed.try_normalize().map_or(start.normal, |n| n.as_vec3())
+            mixed.try_normalize().map_or(point.normal, |n| n.as_vec3())
         });
         let smooth = normals.is_some_and(|[n0, n1, n2]| n0 != n1 || n1 != n2);
-        let point = if matches!(self.offset, Offset::Direction(_)) { ray.at(hit.t) } else { start.point };
-        Surface { point, error: start.error, geometric_normal: start.normal, shading_normal, smooth }
+        if matches!(self.offset, Offset::Direction(_)) {
+            point.position = ray.at(hit.t);
+        }
+        Surface { point, shading_normal, smooth }
     }
 
     /// Whether any triangle casts mirror rays.

@@ -198,10 +198,10 @@ fn a_surface_has_the_point_and_both_normals() {
     let flat = scene(PLAIN).unwrap();
     let ray = Ray::new(Vec3::new(0.25, 0.5, 5.0), -Vec3::Z);
     let is_hit = |&i: &u32| crate::exact::hit(&ray, flat.mesh.corners(i)).is_some();
-    let front = (0..12).filter(is_hit).find(|&i| flat.geometric_normal(Hit::new(0.0, i).prim) == Vec3::Z).unwrap();
+    let front = (0..12).filter(is_hit).find(|&i| flat.mesh.corners(i).iter().all(|p| p.z == 1.0)).unwrap();
     let surface = flat.surface(&ray, Hit::new(4.0, front));
-    assert_eq!(surface.point, Vec3::new(0.25, 0.5, 1.0));
-    assert_eq!((surface.geometric_normal, surface.shading_normal, surface.smooth), (Vec3::Z, Vec3::Z, false));
+    assert_eq!(surface.point.position, Vec3::new(0.25, 0.5, 1.0));
+    assert_eq!((surface.point.normal, surface.shading_normal, surface.smooth), (Vec3::Z, Vec3::Z, false));
     assert_eq!(flat.area(Hit::new(4.0, front).prim), 2.0);
 
     // At a corner of the sphere the normal is the corner's own; on an edge it lies between.

@@ -5,12 +5,12 @@ use std::path::Path;
 use sha2::{Digest, Sha256};
 
 use super::bytes::{HEAD, Head, body, head, head_bytes, number};
-use super::rays::hex;
 use super::{FileError, content, read};
 use crate::accel::Query;
 use crate::geometry::Hit;
 use crate::output::OutputFile;
 use crate::scene::Workload;
+use crate::scene::hash::hexadecimal;
 
 /// Answers to the rays of a file, in their order.
 #[derive(Clone, Debug, PartialEq)]
@@ -63,9 +63,9 @@ impl HitFile {
             return Err(format!(
                 "these are {} answers to rays with the hash {}, not to the {} rays with the hash {}",
                 self.hits.len(),
-                hex(&self.hash),
+                hexadecimal(&self.hash),
                 own.hits.len(),
-                hex(&own.hash)
+                hexadecimal(&own.hash)
             ));
         }
         if self.query != own.query {

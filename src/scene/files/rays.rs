@@ -9,6 +9,7 @@ use super::bytes::{HEAD, Head, body, head, head_bytes, number};
 use super::{FileError, content, read};
 use crate::geometry::Ray;
 use crate::output::OutputFile;
+use crate::scene::hash::hexadecimal;
 use crate::scene::{Scene, Workload};
 
 /// Rays and where they come from.
@@ -127,7 +128,7 @@ impl RayFile {
         let rays: Vec<Ray> = body.chunks_exact(32).map(ray).collect();
         Self::check(&rays)?;
         let known = bytes[HEAD..HEAD + 32].iter().any(|&byte| byte != 0);
-        let scene_hash = known.then(|| hex(&bytes[HEAD..HEAD + 32]));
+        let scene_hash = known.then(|| hexadecimal(&bytes[HEAD..HEAD + 32]));
         Ok(Self { scene, scene_hash, workload: Workload { name, query, rays } })
     }
 }
@@ -136,10 +137,6 @@ fn ray(bytes: &[u8]) -> Ray {
     let float = |i: usize| f32::from_bits(number(bytes, 4 * i));
     let vector = |i: usize| Vec3::new(float(i), float(i + 1), float(i + 2));
     Ray { origin: vector(0), t_min: float(3), direction: vector(4), t_max: float(7) }
-}
-
-pub(super) fn hex(bytes: &[u8]) -> String {
-    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 /// The bytes of a hash that [`Scene::hash`] has made.

@@ -7,6 +7,7 @@ use sha2::{Digest, Sha256};
 
 use super::*;
 use crate::geometry::{Aabb, Mesh};
+use crate::scene::hash::hexadecimal;
 
 /// Edges with one triangle, and edges with more than two, once triangles with two equal corners are left out and corners
 /// in the same point are taken as one.
@@ -43,7 +44,7 @@ fn fingerprint(model: &Model) -> String {
     let mut hasher = Sha256::new();
     model.positions.iter().flat_map(|p| p.to_array()).for_each(|x| hasher.update(x.to_bits().to_le_bytes()));
     model.triangles.as_flattened().iter().for_each(|i| hasher.update(i.to_le_bytes()));
-    hasher.finalize().iter().take(8).map(|b| format!("{b:02x}")).collect()
+    hexadecimal(&hasher.finalize()[..8])
 }
 
 struct Known {

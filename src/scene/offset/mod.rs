@@ -1,12 +1,12 @@
 //! Where a ray starts that leaves a surface: far enough not to hit it again, near enough to miss nothing else.
 
 pub mod error_bounded;
-mod start;
+mod surface_point;
 pub mod wachter_binder;
 
 use glam::Vec3;
 
-pub use start::{Start, barycentrics};
+pub use surface_point::{SurfacePoint, barycentrics};
 
 use crate::geometry::Ray;
 
@@ -47,12 +47,12 @@ impl Offset {
     /// The ray that leaves `start` in `direction`, which is brought to unit length.
     ///
     /// It starts on the side of the triangle that it leaves to. Costs a few additions and multiplications.
-    pub fn leave(self, start: &Start, direction: Vec3) -> Ray {
+    pub fn leave(self, start: &SurfacePoint, direction: Vec3) -> Ray {
         match self {
-            Self::None => Ray::new(start.point, unit(direction)),
-            Self::Normal(distance) => Ray::new(start.point + start.towards(direction) * distance, unit(direction)),
-            Self::TMin(t_min) => Ray { t_min, ..Ray::new(start.point, unit(direction)) },
-            Self::Direction(distance) => moved_along(start.point, direction, distance),
+            Self::None => Ray::new(start.position, unit(direction)),
+            Self::Normal(distance) => Ray::new(start.position + start.towards(direction) * distance, unit(direction)),
+            Self::TMin(t_min) => Ray { t_min, ..Ray::new(start.position, unit(direction)) },
+            Self::Direction(distance) => moved_along(start.position, direction, distance),
             Self::WachterBinder => Ray::new(wachter_binder::origin(start, direction), unit(direction)),
             // What touches the start itself is the surface that the ray leaves.
             Self::ErrorBounded => Ray {

@@ -21,7 +21,7 @@ fn an_error_bounded_origin_is_exactly_on_the_side_of_its_ray() {
         for shift in [0.0, 1.0, 1e3, -1e5] {
             let corners = shape.map(|p| (p + shift) * scale);
             for weights in weights {
-                let start = Start::on_triangle(corners, weights);
+                let start = SurfacePoint::on_triangle(corners, weights);
                 if start.normal == Vec3::ZERO {
                     continue;
                 }
@@ -29,7 +29,7 @@ fn an_error_bounded_origin_is_exactly_on_the_side_of_its_ray() {
                 let sides = origins.map(|origin| side(corners, origin));
                 assert!(sides[0] * sides[1] < 0.0, "{sides:?} at {scale:e}, {shift}: {start:?}");
                 let farthest = corners.iter().map(|p| p.abs().max_element()).fold(0.0, f32::max);
-                let reach = origins.map(|origin| (origin - start.point).abs().max_element());
+                let reach = origins.map(|origin| (origin - start.position).abs().max_element());
                 let ulp = farthest.next_up() - farthest;
                 assert!(reach.iter().all(|r| *r <= 12.0 * ulp), "{reach:?} of {ulp:e} at {scale:e}, {shift}");
             }
@@ -40,25 +40,25 @@ fn an_error_bounded_origin_is_exactly_on_the_side_of_its_ray() {
 #[test]
 fn a_triangle_in_a_plane_of_zero_coordinates_is_left_too() {
     let corners = [Vec3::ZERO, Vec3::X, Vec3::Z];
-    let start = Start::on_triangle(corners, MIDDLE);
+    let start = SurfacePoint::on_triangle(corners, MIDDLE);
     assert_eq!(start.error.y, 0.0);
     let up = Offset::ErrorBounded.leave(&start, Vec3::new(0.1, 1.0, 0.0));
     assert!(up.origin.y > 0.0 && up.t_min > 0.0, "{up:?}");
-    assert_eq!((up.origin.x, up.origin.z), (start.point.x, start.point.z));
+    assert_eq!((up.origin.x, up.origin.z), (start.position.x, start.position.z));
 }
 
 #[test]
 fn a_point_made_of_wrong_weights_is_still_in_the_triangle() {
     let corners = [Vec3::ZERO, Vec3::X * 4.0, Vec3::Y * 4.0];
-    assert_eq!(Start::on_triangle(corners, DVec3::new(0.5, 0.75, -0.25)).point, Vec3::new(2.4, 0.0, 0.0));
-    assert_eq!(Start::on_triangle(corners, DVec3::new(-1.0, 2.0, 0.0)).point, Vec3::X * 4.0);
+    assert_eq!(SurfacePoint::on_triangle(corners, DVec3::new(0.5, 0.75, -0.25)).position, Vec3::new(2.4, 0.0, 0.0));
+    assert_eq!(SurfacePoint::on_triangle(corners, DVec3::new(-1.0, 2.0, 0.0)).position, Vec3::X * 4.0);
 }
 
 #[test]
 fn the_others_move_as_they_say() {
     let corners = [Vec3::new(-1.0, 2.0, -1.0), Vec3::new(1.0, 2.0, -1.0), Vec3::new(0.0, 2.0, 2.0)];
-    let start = Start::on_triangle(corners, MIDDLE);
-    assert_eq!((start.point, start.normal), (Vec3::Y * 2.0, Vec3::NEG_Y));
+    let start = SurfacePoint::on_triangle(corners, MIDDLE);
+    assert_eq!((start.position, start.normal), (Vec3::Y * 2.0, Vec3::NEG_Y));
     let leave = |offset: Offset, y: f32| offset.leave(&start, Vec3::new(0.0, y, 0.0));
     assert_eq!(leave(Offset::None, 3.0), Ray::new(Vec3::Y * 2.0, Vec3::Y));
     assert_eq!(leave(Offset::Normal(0.5), 3.0), Ray::new(Vec3::Y * 2.5, Vec3::Y));
@@ -68,9 +68,9 @@ fn the_others_move_as_they_say() {
     assert_eq!(leave(Offset::WachterBinder, 3.0).origin.y, f32::from_bits(2f32.to_bits() + 256));
     assert_eq!(leave(Offset::WachterBinder, -3.0).origin.y, f32::from_bits(2f32.to_bits() - 256));
 
-    let small = Start::on_triangle(corners.map(|p| p * 1e-3), MIDDLE);
+    let small = SurfacePoint::on_triangle(corners.map(|p| p * 1e-3), MIDDLE);
     assert_eq!(Offset::WachterBinder.leave(&small, Vec3::Y).origin.y, 2e-3 + 1.0 / 65536.0);
-    let below = Start::on_triangle(corners.map(|p| -p), MIDDLE);
+    let below = SurfacePoint::on_triangle(corners.map(|p| -p), MIDDLE);
     assert_eq!(Offset::WachterBinder.leave(&below, Vec3::Y).origin.y, -f32::from_bits(2f32.to_bits() - 256));
 }
 

@@ -10,7 +10,7 @@
 
 use glam::Vec3;
 
-use super::Start;
+use super::SurfacePoint;
 
 /// Below this magnitude a coordinate is moved by a length.
 const NEAR_ZERO: f32 = 1.0 / 32.0;
@@ -20,8 +20,8 @@ const LENGTH: f32 = 1.0 / 65536.0;
 const FLOATS: f32 = 256.0;
 
 /// The moved point.
-pub fn origin(start: &Start, direction: Vec3) -> Vec3 {
-    let (point, normal) = (start.point, start.towards(direction));
+pub fn origin(start: &SurfacePoint, direction: Vec3) -> Vec3 {
+    let (point, normal) = (start.position, start.towards(direction));
     Vec3::from_array(std::array::from_fn(|axis| {
         let (p, n) = (point[axis], normal[axis]);
         if p.abs() < NEAR_ZERO {

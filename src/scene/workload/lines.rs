@@ -2,30 +2,30 @@
 
 use glam::{DVec3, Vec3};
 
-use super::super::Scene;
-use super::sampler::Sampler;
+use super::kinds::Source;
 use crate::geometry::Ray;
+use crate::scene::Scene;
 
-/// `count` rays, each from one random point of the sphere around the scene's box towards another.
-pub fn random(scene: &Scene, count: u32, seed: u64) -> Vec<Ray> {
-    let Some((centre, radius)) = sphere(scene) else { return vec![] };
-    let mut sampler = Sampler::new("random", seed);
+/// As many rays as pixels, each from one random point of the sphere around the scene's box towards another.
+pub fn random(source: &mut Source) -> Vec<Ray> {
+    let Some((centre, radius)) = sphere(source.scene) else { return vec![] };
     let mut ray = || loop {
-        let (from, to) = (sampler.direction(), sampler.direction());
+        let (from, to) = (source.sampler.direction(), source.sampler.direction());
         if let Some(direction) = (to - from).try_normalize() {
             break Ray::new((centre + from * radius).as_vec3(), direction.as_vec3());
         }
     };
-    (0..count).map(|_| ray()).collect()
+    (0..source.sampling.pixels()).map(|_| ray()).collect()
 }
 
-/// About `count` rays along the axes: a square lattice of lines for each axis and way.
+/// About as many rays as pixels along the axes: a square lattice of lines for each axis and way.
 ///
 /// Lines are spread evenly over the box, in the middle of their cells; every fourth has the coordinate of a vertex in
 /// place of that, so that rays run through vertices, along edges and in the planes of triangles.
-pub fn axis(scene: &Scene, count: u32) -> Vec<Ray> {
+pub fn axis(source: &mut Source) -> Vec<Ray> {
+    let scene = source.scene;
     let Some((centre, radius)) = sphere(scene) else { return vec![] };
-    let side = (count / 6).isqrt().max(1);
+    let side = (source.sampling.pixels() / 6).isqrt().max(1);
     let mut rays = vec![];
     for axis in 0..3 {
         let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);

@@ -1,33 +1,38 @@
 //! All rays of a picture, ordered by pixel, a pixel's in the order of their levels.
 
-use super::super::Scene;
-use super::bounce::{Landed, land, to_lights};
-use crate::accel::DynAccel;
+use super::bounces::{SurfaceHit, surface_hits};
+use super::kinds::Source;
+use super::primary;
 use crate::geometry::Ray;
+use crate::scene::View;
 
-pub fn closest(scene: &Scene, primary: &[Ray], accel: &dyn DynAccel) -> Vec<Ray> {
+pub fn closest(source: &mut Source) -> Vec<Ray> {
+    let primary = primary::by_row(source, View::CENTRE);
     let mut rays: Vec<(usize, Ray)> = primary.iter().copied().enumerate().collect();
-    walk(scene, primary, accel, |pixel, _, mirrored| rays.extend(mirrored.map(|ray| (pixel, ray))));
+    walk(source, primary, |pixel, _, mirrored| rays.extend(mirrored.map(|ray| (pixel, ray))));
     by_pixel(rays)
 }
 
-pub fn shadow(scene: &Scene, primary: &[Ray], accel: &dyn DynAccel) -> Vec<Ray> {
-    let mut rays = vec![];
-    walk(scene, primary, accel, |pixel, landed, _| rays.extend(to_lights(scene, landed).map(|ray| (pixel, ray))));
+pub fn shadow(source: &mut Source) -> Vec<Ray> {
+    let (scene, mut rays) = (source.scene, vec![]);
+    walk(source, primary::by_row(source, View::CENTRE), |pixel, h, _| {
+        rays.extend(scene.lights.iter().map(|light| (pixel, scene.shadow_ray(h.hit.prim, &h.surface, light))));
+    });
     by_pixel(rays)
 }
 
 /// Shows every hit with its pixel and the mirror ray that leaves it.
-fn walk(scene: &Scene, primary: &[Ray], accel: &dyn DynAccel, mut visit: impl FnMut(usize, &Landed, Option<Ray>)) {
+fn walk(source: &Source, primary: Vec<Ray>, mut visit: impl FnMut(usize, &SurfaceHit, Option<Ray>)) {
+    let Source { scene, accel, .. } = source;
     let mut pixels: Vec<usize> = (0..primary.len()).collect();
-    let mut rays = primary.to_vec();
+    let mut rays = primary;
     for level in 0..=scene.recursion_limit {
         let mut next = vec![];
-        for landed in land(scene, &rays, accel) {
-            let casts = level < scene.recursion_limit && scene.material(landed.hit.prim).mirror > 0.0;
-            let mirrored = casts.then(|| scene.mirror_ray(&landed.ray, &landed.surface));
-            let pixel = pixels[landed.number];
-            visit(pixel, &landed, mirrored);
+        for hit in surface_hits(scene, &rays, *accel) {
+            let casts = level < scene.recursion_limit && scene.material(hit.hit.prim).mirror > 0.0;
+            let mirrored = casts.then(|| scene.mirror_ray(&hit.ray, &hit.surface));
+            let pixel = pixels[hit.number];
+            visit(pixel, &hit, mirrored);
             next.extend(mirrored.map(|ray| (pixel, ray)));
         }
         (pixels, rays) = next.into_iter().unzip();

@@ -76,8 +76,8 @@ fn the_seed_changes_the_random_kinds_and_no_others() {
 fn secondary_rays_are_as_many_as_hits_and_lights_say() {
     let scene = room();
     let primary = workload(&scene, WorkloadKind::Primary);
-    let landed = bounce::land(&scene, &primary.rays, &tree(&scene));
-    let (floor, hits) = (landed.iter().filter(|l| l.hit.prim.index() < 2).count(), landed.len());
+    let surface_hits = bounces::surface_hits(&scene, &primary.rays, &tree(&scene));
+    let (floor, hits) = (surface_hits.iter().filter(|h| h.hit.prim.index() < 2).count(), surface_hits.len());
     assert!(floor > 0 && floor < hits && hits < primary.rays.len());
     let count = |kind| workload(&scene, kind).rays.len();
     assert_eq!(primary.rays.len(), 24 * 16);

@@ -15,7 +15,7 @@ use crate::accel::DynAccel;
 use crate::geometry::{Hit, Ray};
 use crate::measure::Provenance;
 use crate::registry::Choice;
-use crate::scene::offset::{Offset, Start, barycentrics};
+use crate::scene::offset::{Offset, SurfacePoint, barycentrics};
 use crate::triangle::{Exact, TriangleTest};
 use crate::validate::{Reference, Sampler};
 pub use sphere::Sphere;
@@ -113,14 +113,14 @@ pub fn study(structures: &[Choice], settings: Settings) -> Result<SelfIntersecti
             for point in [PointFrom::Ray, PointFrom::Corners] {
                 let start = |(ray, hit): &(Ray, Hit)| {
                     let corners = mesh.corners(hit.prim.index());
-                    let start = Start::on_triangle(corners, barycentrics(ray, corners));
-                    if point == PointFrom::Ray { Start { point: ray.at(hit.t), ..start } } else { start }
+                    let start = SurfacePoint::on_triangle(corners, barycentrics(ray, corners));
+                    if point == PointFrom::Ray { SurfacePoint { position: ray.at(hit.t), ..start } } else { start }
                 };
                 // The sphere is convex: outwards is the side of the normal.
-                let starts: Vec<Start> = landed.iter().map(start).collect();
+                let starts: Vec<SurfacePoint> = landed.iter().map(start).collect();
                 for offset in OFFSETS {
                     let leaving = |way: f32| -> Vec<Ray> {
-                        let turned = |(start, &direction): (&Start, &glam::Vec3)| {
+                        let turned = |(start, &direction): (&SurfacePoint, &glam::Vec3)| {
                             let along = start.normal.as_dvec3().dot(direction.as_dvec3()) as f32;
                             offset.leave(start, direction * (way * along).signum())
                         };

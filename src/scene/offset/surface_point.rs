@@ -4,9 +4,9 @@ use crate::geometry::Ray;
 
 /// A point on a triangle, from which rays leave.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Start {
+pub struct SurfacePoint {
     /// The point as computed.
-    pub point: Vec3,
+    pub position: Vec3,
     /// How far a point made from barycentrics may be from the triangle, along each axis. Not negative.
     pub error: Vec3,
     /// Unit normal of the triangle, either way; zero on a degenerate one.
@@ -19,7 +19,7 @@ const GAMMA_7: f32 = {
     (7.0 * u / (1.0 - 7.0 * u)) as f32
 };
 
-impl Start {
+impl SurfacePoint {
     /// The point of the triangle with these weights of its corners, whose sum is 1 and which are brought into [0, 1].
     ///
     /// The point is a mean of the corners: however wrong the weights are, it lies in the triangle but for the rounding of this
@@ -37,7 +37,7 @@ impl Start {
         let point = a * weights.x + b * weights.y + c * weights.z;
         let magnitude = a.abs() * weights.x + b.abs() * weights.y + c.abs() * weights.z;
         let normal = (b - a).cross(c - a).normalize_or_zero();
-        Self { point: point.as_vec3(), error: magnitude.as_vec3() * GAMMA_7, normal: normal.as_vec3() }
+        Self { position: point.as_vec3(), error: magnitude.as_vec3() * GAMMA_7, normal: normal.as_vec3() }
     }
 
     /// The normal, turned to the side that a ray in `direction` leaves to.

@@ -1,4 +1,25 @@
-use glam::UVec2;
+//! Rays from the eye, in the order in which renderers take pixels.
+
+use glam::{UVec2, Vec2};
+
+use super::kinds::Source;
+use crate::geometry::Ray;
+use crate::scene::View;
+
+/// Through the middle of each pixel.
+pub fn centres(source: &mut Source) -> Vec<Ray> {
+    in_tiles(&by_row(source, View::CENTRE), source.sampling.size)
+}
+
+/// Through the top left corner of each pixel.
+pub fn corners(source: &mut Source) -> Vec<Ray> {
+    in_tiles(&by_row(source, Vec2::ZERO), source.sampling.size)
+}
+
+/// Through the point `offset` of each pixel, row by row.
+pub fn by_row(source: &Source, offset: Vec2) -> Vec<Ray> {
+    source.scene.primary_rays(source.sampling.size, offset, 0..source.sampling.pixels())
+}
 
 /// Pixels on a side of a tile, and of the blocks of tiles that renderers hand out to their threads.
 const TILE: u32 = 4;
@@ -7,7 +28,7 @@ const BLOCK: u32 = 32;
 /// The pixels of a picture, given row by row, block by block of 32 by 32 pixels and in it tile by tile of four by four:
 /// what is near in the slice is near in the picture, as renderers take rays, and a structure that takes several at once
 /// can show what that gives. Blocks and tiles at the right and lower border may be smaller.
-pub fn in_tiles<T: Copy>(pixels: &[T], [width, height]: [u32; 2]) -> Vec<T> {
+fn in_tiles<T: Copy>(pixels: &[T], [width, height]: [u32; 2]) -> Vec<T> {
     assert_eq!(pixels.len(), width as usize * height as usize, "a picture has all its pixels");
     let corners = |from: UVec2, to: UVec2, side: u32| {
         (from.y..to.y)

@@ -1,0 +1,50 @@
+//! What the renderer casts and draws.
+
+use super::{RayCounts, render};
+use crate::accel::Accel;
+use crate::brute_force::BruteForce;
+use crate::kdtree::{KdConfig, KdTree};
+use crate::scene::{Builtin, Sampling, Workload, WorkloadKind};
+use crate::triangle::MollerTrumbore;
+
+#[test]
+fn rays_are_cast_for_what_a_scene_needs_and_no_more() {
+    let mut scene = Builtin::find("infinitycandy").unwrap().scene(None).unwrap();
+    let all = BruteForce::<MollerTrumbore>::build(&scene.mesh, &Default::default()).unwrap();
+    let mut count = |change: &dyn Fn(&mut crate::scene::Scene)| {
+        change(&mut scene);
+        render(&scene, &all, [16, 16]).1
+    };
+    let three = count(&|scene| scene.recursion_limit = 3);
+    assert!(three.mirror > 2 * 256 && three.mirror <= 3 * 256, "{three:?}");
+    let dark = count(&|scene| scene.lights.clear());
+    assert_eq!(dark, RayCounts { shadow: 0, ..three });
+    let flat = count(&|scene| scene.materials.iter_mut().for_each(|m| m.mirror = 0.0));
+    assert_eq!(flat, RayCounts { primary: 256, mirror: 0, shadow: 0 });
+}
+
+#[test]
+fn the_picture_does_not_depend_on_threads_or_structure() {
+    let scene = Builtin::find("metallic").unwrap().scene(None).unwrap();
+    let tree = KdTree::<MollerTrumbore>::build(&scene.mesh, &KdConfig::SAH).unwrap();
+    let all = BruteForce::<MollerTrumbore>::build(&scene.mesh, &Default::default()).unwrap();
+    let with = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| render(&scene, &tree, [90, 70]))
+    };
+    assert_eq!(with(1), with(3));
+    assert_eq!(with(1), render(&scene, &all, [90, 70]));
+}
+
+#[test]
+fn picture_workloads_hold_the_rays_that_the_renderer_counts() {
+    let scene = Builtin::find("infinitycandy").unwrap().scene(None).unwrap();
+    let size = [40, 40];
+    let tree = KdTree::<MollerTrumbore>::build(&scene.mesh, &KdConfig::SAH).unwrap();
+    let counts = render(&scene, &tree, size).1;
+    let sampling = Sampling { size, ..Sampling::of(&scene) };
+    let count = |kind| Workload::new(&scene, kind, &sampling, &tree).rays.len() as u64;
+    assert!(counts.mirror > 5 * counts.primary);
+    assert_eq!(count(WorkloadKind::Image), counts.primary + counts.mirror);
+    assert_eq!(count(WorkloadKind::ImageShadow), counts.shadow);
+}

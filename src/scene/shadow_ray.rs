@@ -1,0 +1,20 @@
+//! Where shadow rays start and end.
+
+use super::{Light, Scene, Surface};
+use crate::geometry::{PrimId, Ray};
+
+impl Scene {
+    /// The any-hit ray that asks whether `light` is hidden from the surface of `prim`.
+    ///
+    /// It starts on the surface, or off it by [`Scene::shadow_terminator_fix`], and is moved by [`Scene::offset`]. It ends at
+    /// the distance of the light from the surface point: an occluder a little beyond the light counts, as in the course. It is
+    /// cast whether or not the light lies behind the surface.
+    pub fn shadow_ray(&self, prim: PrimId, surface: &Surface, light: &Light) -> Ray {
+        let mut start = surface.point;
+        if surface.smooth && self.shadow_terminator_fix {
+            start.position += surface.shading_normal * libm::pow(self.area(prim).into(), 0.05) as f32;
+        }
+        let distance = (light.position - surface.point.position).length();
+        self.offset.leave(&start, light.position - start.position).until(distance)
+    }
+}

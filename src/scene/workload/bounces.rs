@@ -1,0 +1,68 @@
+//! Rays that start where primary rays end.
+
+use glam::Vec3;
+use rayon::prelude::*;
+
+use super::kinds::Source;
+use super::primary;
+use crate::accel::DynAccel;
+use crate::geometry::{Hit, Ray};
+use crate::scene::{Scene, Surface};
+
+/// Rays that a thread hands over at once; the hits do not depend on it.
+const CHUNK: usize = 4096;
+
+/// A ray and what it hits.
+pub struct SurfaceHit {
+    /// The number of the ray in the batch.
+    pub number: usize,
+    pub ray: Ray,
+    pub hit: Hit,
+    pub surface: Surface,
+}
+
+/// The rays of `rays` that hit, in order, with what they hit.
+pub fn surface_hits(scene: &Scene, rays: &[Ray], accel: &dyn DynAccel) -> Vec<SurfaceHit> {
+    let mut hits = vec![None; rays.len()];
+    rays.par_chunks(CHUNK).zip(hits.par_chunks_mut(CHUNK)).for_each(|(rays, hits)| accel.closest_hits(rays, hits));
+    let hits = rays.iter().zip(hits).enumerate();
+    hits.filter_map(|(number, (&ray, hit))| {
+        hit.map(|hit| SurfaceHit { number, ray, hit, surface: scene.surface(&ray, hit) })
+    })
+    .collect()
+}
+
+fn primary_hits(source: &mut Source) -> Vec<SurfaceHit> {
+    surface_hits(source.scene, &primary::centres(source), source.accel)
+}
+
+pub fn shadow(source: &mut Source) -> Vec<Ray> {
+    let (hits, scene) = (primary_hits(source), source.scene);
+    let ray = |h: &SurfaceHit, light| scene.shadow_ray(h.hit.prim, &h.surface, light);
+    scene.lights.iter().flat_map(|light| hits.iter().map(move |hit| ray(hit, light))).collect()
+}
+
+pub fn mirror(source: &mut Source) -> Vec<Ray> {
+    primary_hits(source).iter().map(|hit| source.scene.mirror_ray(&hit.ray, &hit.surface)).collect()
+}
+
+/// One ray a hit, cosine-distributed about the shading normal on the side that the ray came from.
+pub fn diffuse(source: &mut Source) -> Vec<Ray> {
+    let hits = primary_hits(source);
+    let mut direction = |ray: &Ray, normal: Vec3| loop {
+        let normal = if normal.dot(ray.direction) > 0.0 { -normal } else { normal }.as_dvec3();
+        // A unit vector plus a point of the unit sphere is distributed by the cosine.
+        let sum = normal + source.sampler.direction();
+        if sum.length_squared() > 1e-12 {
+            break sum.normalize().as_vec3();
+        }
+    };
+    let leave =
+        |h: &SurfaceHit| source.scene.offset.leave(&h.surface.point, direction(&h.ray, h.surface.shading_normal));
+    hits.iter().map(leave).collect()
+}
+
+pub fn ambient(source: &mut Source) -> Vec<Ray> {
+    let reach = 0.1 * source.scene.mesh.bounds().extent().as_dvec3().length();
+    diffuse(source).into_iter().map(|ray| ray.until(reach as f32)).collect()
+}

@@ -1,0 +1,98 @@
+//! The kinds of rays.
+//!
+//! To add one, write the function that makes its rays and add its line to the table below: names, the command line,
+//! completions and `sahara list` follow from that.
+
+use std::str::FromStr;
+
+use super::{Sampler, Sampling, bounces, lines, picture, primary};
+use crate::accel::{DynAccel, Query};
+use crate::geometry::Ray;
+use crate::nearest::{named, suggestion};
+use crate::scene::Scene;
+
+/// What the rays of a workload are made from.
+pub(super) struct Source<'a> {
+    pub scene: &'a Scene,
+    /// How many rays; [`Sampling::limit`] is applied to what the function returns.
+    pub sampling: &'a Sampling,
+    /// Finds the hits that secondary rays start from.
+    pub accel: &'a dyn DynAccel,
+    /// Random numbers of the kind's own.
+    pub sampler: Sampler,
+}
+
+macro_rules! kinds {
+    ($($(#[$doc:meta])* $kind:ident, $name:literal, $query:ident, $make:path;)*) => {
+        /// Where the rays of a workload come from and go to.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+        pub enum WorkloadKind {
+            $($(#[$doc])* $kind),*
+        }
+
+        impl WorkloadKind {
+            pub const ALL: [Self; [$($name),*].len()] = [$(Self::$kind),*];
+
+            /// As written on the command line and in records.
+            pub fn name(self) -> &'static str {
+                match self {
+                    $(Self::$kind => $name),*
+                }
+            }
+
+            /// The question that these rays ask.
+            pub fn query(self) -> Query {
+                match self {
+                    $(Self::$kind => Query::$query),*
+                }
+            }
+
+            pub(super) fn rays(self, source: &mut Source) -> Vec<Ray> {
+                match self {
+                    $(Self::$kind => $make(source)),*
+                }
+            }
+        }
+    };
+}
+
+kinds! {
+    /// From the eye through the middle of each pixel, in tiles of four by four pixels, those in blocks of 32 by
+    /// 32; so are all that follow from these.
+    Primary, "primary", Closest, primary::centres;
+    /// From the eye through the top left corner of each pixel: on the tidy meshes of tests these meet edges and vertices.
+    Corners, "corners", Closest, primary::corners;
+    /// From each primary hit to each light, one light after the other, any hit.
+    Shadow, "shadow", Any, bounces::shadow;
+    /// From each primary hit, mirrored about the shading normal, whatever the material.
+    Mirror, "mirror", Closest, bounces::mirror;
+    /// From each primary hit in a random direction, cosine-distributed about the shading normal.
+    Diffuse, "diffuse", Closest, bounces::diffuse;
+    /// As [`WorkloadKind::Diffuse`], any hit, ending at a tenth of the box's diagonal: ambient occlusion.
+    Ambient, "ambient", Any, bounces::ambient;
+    /// Lines through two random points of the sphere around the scene's box.
+    Random, "random", Closest, lines::random;
+    /// Rays along the axes, both ways, on a lattice; every fourth line of it has the coordinate of a vertex.
+    Axis, "axis", Closest, lines::axis;
+    /// The closest-hit rays of the whole picture: each pixel's primary ray and then its mirror rays.
+    Image, "image", Closest, picture::closest;
+    /// The any-hit rays of the whole picture, in the order of the hits that cast them.
+    ImageShadow, "image-shadow", Any, picture::shadow;
+}
+
+/// A name that is no workload.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "there is no workload {0:?}{meant}; there are: {known}",
+    meant = suggestion(.0, WorkloadKind::ALL.map(WorkloadKind::name)),
+    known = WorkloadKind::ALL.map(WorkloadKind::name).join(", ")
+)]
+pub struct UnknownWorkload(pub String);
+
+impl FromStr for WorkloadKind {
+    type Err = UnknownWorkload;
+
+    fn from_str(name: &str) -> Result<Self, UnknownWorkload> {
+        named(Self::ALL, name, |kind| kind.name()).ok_or_else(|| UnknownWorkload(name.into()))
+    }
+}
