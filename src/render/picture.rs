@@ -3,10 +3,13 @@
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
-use image::{ExtendedColorType, ImageEncoder, ImageError, ImageFormat};
+use png::{BitDepth, DecodingError};
 
 use super::Image;
 use crate::output::{OutputError, OutputFile};
+
+/// Bytes of a picture that is read, at most.
+const LARGEST: usize = 512 << 20;
 
 /// RGB pixels, row by row, the top row first.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -21,7 +24,7 @@ pub enum PictureError {
     #[error("cannot read the picture {}: {cause}", path.display())]
     Read { path: PathBuf, cause: std::io::Error },
     #[error("{} is not a PNG picture: {cause}", path.display())]
-    Decode { path: PathBuf, cause: ImageError },
+    Decode { path: PathBuf, cause: DecodingError },
     #[error(transparent)]
     Write(#[from] OutputError),
 }
@@ -60,24 +63,50 @@ impl Picture {
     /// If the picture has no pixels.
     pub fn png(&self) -> Vec<u8> {
         let mut bytes = vec![];
-        let [width, height] = self.size;
-        image::codecs::png::PngEncoder::new(&mut bytes)
-            .write_image(self.pixels.as_flattened(), width, height, ExtendedColorType::Rgb8)
-            .expect("memory takes every picture that has pixels");
+        let mut encoder = png::Encoder::new(&mut bytes, self.size[0], self.size[1]);
+        encoder.set_color(png::ColorType::Rgb);
+        encoder.set_compression(png::Compression::Fast);
+        encoder.set_filter(png::Filter::Adaptive);
+        let written = encoder.write_header().and_then(|mut writer| writer.write_image_data(self.pixels.as_flattened()));
+        written.expect("memory takes every picture that has pixels");
         bytes
     }
 
-    /// Reads a PNG file. Colours of more than 8 bits are rounded, transparency is dropped.
+    /// The picture in the bytes of a PNG file. Colours of more than 8 bits are rounded, transparency is dropped.
+    ///
+    /// # Errors
+    /// If they are no PNG picture, or one of more than 512 MiB.
+    pub fn from_png(bytes: &[u8]) -> Result<Self, DecodingError> {
+        let mut decoder = png::Decoder::new(Cursor::new(bytes));
+        decoder.set_transformations(png::Transformations::EXPAND);
+        let mut reader = decoder.read_info()?;
+        let size = reader.output_buffer_size().filter(|&size| size <= LARGEST).ok_or(DecodingError::LimitsExceeded)?;
+        let mut samples = vec![0; size];
+        let frame = reader.next_frame(&mut samples)?;
+
+        let width = if frame.bit_depth == BitDepth::Sixteen { 2 } else { 1 };
+        let sample = |sample: &[u8]| match *sample {
+            [high, low] => ((u32::from(high) * 256 + u32::from(low) + 128) / 257) as u8,
+            _ => sample[0],
+        };
+        let channels = frame.color_type.samples();
+        let is_grey = channels < 3;
+        let pixel = |pixel: &[u8]| {
+            std::array::from_fn(|channel| {
+                let at = if is_grey { 0 } else { channel * width };
+                sample(&pixel[at..at + width])
+            })
+        };
+        Ok(Self::new([frame.width, frame.height], samples.chunks_exact(channels * width).map(pixel).collect()))
+    }
+
+    /// Reads a PNG file as [`Picture::from_png`].
     ///
     /// # Errors
     /// If there is no such file, or it is no PNG picture.
     pub fn read(path: &Path) -> Result<Self, PictureError> {
         let bytes = std::fs::read(path).map_err(|cause| PictureError::Read { path: path.into(), cause })?;
-        let decoded = image::ImageReader::with_format(Cursor::new(bytes), ImageFormat::Png)
-            .decode()
-            .map_err(|cause| PictureError::Decode { path: path.into(), cause })?
-            .into_rgb8();
-        Ok(Self::new([decoded.width(), decoded.height()], decoded.pixels().map(|p| p.0).collect()))
+        Self::from_png(&bytes).map_err(|cause| PictureError::Decode { path: path.into(), cause })
     }
 
     /// Writes a PNG file, whole or not at all.
@@ -154,6 +183,29 @@ mod tests {
         gradient().write(&path).unwrap();
         assert_eq!(Picture::read(&path).unwrap(), gradient());
         assert_eq!(std::fs::read_dir(directory.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn every_kind_of_png_is_read() {
+        let (rgb, grey) = (png::ColorType::Rgb, png::ColorType::Grayscale);
+        let (rgba, grey_alpha) = (png::ColorType::Rgba, png::ColorType::GrayscaleAlpha);
+        for (kind, depth, samples, expected) in [
+            (rgb, BitDepth::Sixteen, &[1, 0, 0, 129, 255, 255][..], [1, 1, 255]),
+            (rgba, BitDepth::Eight, &[1, 2, 3, 0], [1, 2, 3]),
+            (grey, BitDepth::One, &[128], [255; 3]),
+            (grey_alpha, BitDepth::Sixteen, &[2, 0, 0, 0], [2; 3]),
+            (png::ColorType::Indexed, BitDepth::Eight, &[1], [7, 8, 9]),
+        ] {
+            let mut bytes = vec![];
+            let mut encoder = png::Encoder::new(&mut bytes, 1, 1);
+            encoder.set_color(kind);
+            encoder.set_depth(depth);
+            if kind == png::ColorType::Indexed {
+                encoder.set_palette(&[0, 0, 0, 7, 8, 9][..]);
+            }
+            encoder.write_header().unwrap().write_image_data(samples).unwrap();
+            assert_eq!(Picture::from_png(&bytes).unwrap(), Picture::new([1, 1], vec![expected]), "{kind:?} {depth:?}");
+        }
     }
 
     #[test]

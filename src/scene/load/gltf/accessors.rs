@@ -1,148 +1,199 @@
-//! Accessors of a glTF file, read by the gltf crate after their sizes have been checked, which it leaves to its caller.
+//! Accessors of a glTF file: lists of vectors and indices in its buffers.
 
 use std::cell::RefCell;
 use std::collections::HashMap;
 
 use glam::{DVec3, Vec3};
-use gltf::Accessor;
-use gltf::accessor::{DataType, Dimensions, Item, Iter};
-use gltf::buffer::View;
 
-use super::source::Data;
+use super::buffers::Bytes;
+use super::document::{Accessor, Document};
 use crate::scene::load::error::Fault;
 
-/// What is asked of an accessor is remembered: many primitives may share it.
+/// Accessors by their numbers. What is asked of one is remembered: many primitives may share it.
 pub(super) struct Accessors<'a> {
-    buffers: &'a [Data],
+    document: &'a Document,
+    buffers: &'a [Bytes],
     boxes: RefCell<HashMap<usize, [DVec3; 2]>>,
     highest: RefCell<HashMap<usize, Option<(usize, u32)>>>,
 }
 
+/// `count` elements of `size` bytes, `stride` bytes apart.
+#[derive(Clone, Copy)]
+struct Elements<'a> {
+    bytes: &'a [u8],
+    stride: usize,
+    size: usize,
+    count: usize,
+}
+
+impl<'a> Elements<'a> {
+    fn iter(self) -> impl Iterator<Item = &'a [u8]> {
+        (0..self.count).map(move |i| &self.bytes[i * self.stride..][..self.size])
+    }
+}
+
 impl<'a> Accessors<'a> {
-    pub fn new(buffers: &'a [Data]) -> Self {
-        Self { buffers, boxes: RefCell::default(), highest: RefCell::default() }
+    pub fn new(document: &'a Document, buffers: &'a [Bytes]) -> Self {
+        Self { document, buffers, boxes: RefCell::default(), highest: RefCell::default() }
+    }
+
+    /// How many elements an accessor has.
+    pub fn count(&self, number: usize) -> usize {
+        self.document.accessors[number].count
     }
 
     /// Checks an accessor of positions or normals: three f32 an element.
-    pub fn check_vectors(&self, accessor: &Accessor<'a>) -> Result<(), Fault> {
-        match (accessor.data_type(), accessor.dimensions()) {
-            (DataType::F32, Dimensions::Vec3) => self.check(accessor).map_err(|problem| fault(accessor, problem)),
-            found => Err(fault(accessor, format!("it must be VEC3 of f32, not {:?} of {:?}", found.1, found.0))),
+    pub fn check_vectors(&self, number: usize) -> Result<(), Fault> {
+        let Accessor { component_type, dimensions, .. } = &self.document.accessors[number];
+        match (component_type, dimensions.as_str()) {
+            (5126, "VEC3") => self.elements(number).map(drop),
+            _ => {
+                let found = format!("{} of {}", kind(dimensions), component(*component_type).0);
+                Err(fault(number, format!("it must be VEC3 of f32, not {found}")))
+            }
         }
     }
 
     /// Checks an accessor of positions; gives the least and the greatest coordinates.
-    pub fn check_positions(&self, accessor: &Accessor<'a>) -> Result<[DVec3; 2], Fault> {
-        if let Some(known) = self.boxes.borrow().get(&accessor.index()) {
+    pub fn check_positions(&self, number: usize) -> Result<[DVec3; 2], Fault> {
+        if let Some(known) = self.boxes.borrow().get(&number) {
             return Ok(*known);
         }
-        self.check_vectors(accessor)?;
+        self.check_vectors(number)?;
         let mut bounds = [DVec3::INFINITY, DVec3::NEG_INFINITY];
-        for (number, position) in self.vectors(accessor).enumerate() {
+        for (i, position) in self.vectors(number).enumerate() {
             if !position.is_finite() {
-                return Err(fault(accessor, format!("its element {number} is not finite: {:?}", position.to_array())));
+                return Err(fault(number, format!("its element {i} is not finite: {:?}", position.to_array())));
             }
             bounds = [bounds[0].min(position.as_dvec3()), bounds[1].max(position.as_dvec3())];
         }
-        self.boxes.borrow_mut().insert(accessor.index(), bounds);
+        self.boxes.borrow_mut().insert(number, bounds);
         Ok(bounds)
     }
 
     /// Checks an accessor of indices, unsigned integers of any width; gives the place of the highest, and it.
-    pub fn check_indices(&self, accessor: &Accessor<'a>) -> Result<Option<(usize, u32)>, Fault> {
-        if let Some(known) = self.highest.borrow().get(&accessor.index()) {
+    pub fn check_indices(&self, number: usize) -> Result<Option<(usize, u32)>, Fault> {
+        if let Some(known) = self.highest.borrow().get(&number) {
             return Ok(*known);
         }
-        match (accessor.data_type(), accessor.dimensions()) {
-            (DataType::U8 | DataType::U16 | DataType::U32, Dimensions::Scalar) => {}
-            found => {
-                let problem = format!("it must be SCALAR and unsigned, not {:?} of {:?}", found.1, found.0);
-                return Err(fault(accessor, problem));
-            }
+        let Accessor { component_type, dimensions, .. } = &self.document.accessors[number];
+        if !matches!((component_type, dimensions.as_str()), (5121 | 5123 | 5125, "SCALAR")) {
+            let found = format!("{} of {}", kind(dimensions), component(*component_type).0);
+            return Err(fault(number, format!("it must be SCALAR and unsigned, not {found}")));
         }
-        self.check(accessor).map_err(|problem| fault(accessor, problem))?;
+        drop(self.elements(number)?);
         let first_highest = |a: (usize, u32), b: (usize, u32)| if b.1 > a.1 { b } else { a };
-        let highest = self.indices(accessor).enumerate().reduce(first_highest);
-        self.highest.borrow_mut().insert(accessor.index(), highest);
+        let highest = self.indices(number).enumerate().reduce(first_highest);
+        self.highest.borrow_mut().insert(number, highest);
         Ok(highest)
     }
 
     /// The elements of an accessor that has been checked.
-    pub fn vectors(&self, accessor: &Accessor<'a>) -> impl Iterator<Item = Vec3> {
-        self.elements_of(accessor).map(Vec3::from_array)
+    pub fn vectors(&self, number: usize) -> impl Iterator<Item = Vec3> + use<'a> {
+        let float = |bytes: &[u8], i: usize| f32::from_bits(integer(&bytes[4 * i..4 * i + 4]));
+        let elements = self.elements(number).into_iter().flatten();
+        elements.map(move |bytes| Vec3::new(float(bytes, 0), float(bytes, 1), float(bytes, 2)))
     }
 
     /// The elements of an accessor that has been checked.
-    pub fn indices(&self, accessor: &Accessor<'a>) -> Box<dyn Iterator<Item = u32> + '_> {
-        match accessor.data_type() {
-            DataType::U8 => Box::new(self.elements_of::<u8>(accessor).map(u32::from)),
-            DataType::U16 => Box::new(self.elements_of::<u16>(accessor).map(u32::from)),
-            _ => Box::new(self.elements_of::<u32>(accessor)),
-        }
+    pub fn indices(&self, number: usize) -> impl Iterator<Item = u32> + use<'a> {
+        self.elements(number).into_iter().flatten().map(integer)
     }
 
-    fn elements_of<T: Item>(&self, accessor: &Accessor<'a>) -> impl Iterator<Item = T> + use<'_, 'a, T> {
-        let bytes = |buffer: gltf::Buffer| self.buffers.get(buffer.index()).map(|data| &data[..]);
-        // The library subtracts 1 from the count.
-        let elements = if accessor.count() > 0 { Iter::new(accessor.clone(), bytes) } else { None };
-        elements.into_iter().flatten()
+    /// The bytes of each element, if all lie within their views and buffers and the numbers of sparse elements ascend.
+    fn elements(&self, number: usize) -> Result<impl Iterator<Item = &'a [u8]> + use<'a>, Fault> {
+        let accessor = &self.document.accessors[number];
+        let size = component(accessor.component_type).1 * if accessor.dimensions == "VEC3" { 3 } else { 1 };
+        let base = self.base(accessor, size).map_err(|problem| fault(number, problem))?;
+        let sparse = self.sparse(accessor, size).map_err(|problem| fault(number, problem))?;
+        let mut sparse = sparse.into_iter().flat_map(|[indices, values]| indices.iter().zip(values.iter())).peekable();
+        Ok((0..accessor.count).map(move |i| match sparse.next_if(|(index, _)| integer(index) as usize == i) {
+            Some((_, value)) => value,
+            None => base.map_or(&[0; 12][..size], |base| &base.bytes[i * base.stride..][..size]),
+        }))
     }
 
-    /// Every element lies within its view and its buffer, and the numbers of sparse elements ascend.
-    fn check(&self, accessor: &Accessor<'a>) -> Result<(), String> {
-        let (count, size) = (accessor.count(), accessor.size());
-        if count == 0 {
-            return Ok(());
-        }
-        match accessor.view() {
-            Some(view) => drop(self.elements(view, accessor.offset(), count, size)?),
-            None => {
-                // All zeros but for the sparse elements. No honest file has more of them than bytes.
-                let most: usize = self.buffers.iter().map(|data| data.len()).sum();
-                if count > most {
-                    return Err(format!("it declares {count} elements without data"));
-                }
+    /// The elements before the sparse ones replace some; none where all are zero.
+    fn base(&self, accessor: &Accessor, size: usize) -> Result<Option<Elements<'a>>, String> {
+        match accessor.buffer_view {
+            _ if accessor.count == 0 => Ok(None),
+            Some(view) => self.view(view, accessor.byte_offset, accessor.count, size).map(Some),
+            // No honest file has more of them than bytes.
+            None if accessor.count > self.buffers.iter().map(|data| data.len()).sum() => {
+                Err(format!("it declares {} elements without data", accessor.count))
             }
+            None => Ok(None),
         }
-        let Some(sparse) = accessor.sparse() else { return Ok(()) };
+    }
 
-        let indices = sparse.indices();
-        let index_size = indices.index_type().size();
-        if sparse.count() == 0 || sparse.count() > count {
-            return Err(format!("{} of its {count} elements are sparse", sparse.count()));
+    /// Indices and values of the sparse elements.
+    fn sparse(&self, accessor: &Accessor, size: usize) -> Result<Option<[Elements<'a>; 2]>, String> {
+        let Some(sparse) = accessor.sparse.as_ref().filter(|_| accessor.count > 0) else { return Ok(None) };
+        let count = accessor.count;
+        if sparse.count == 0 || sparse.count > count {
+            return Err(format!("{} of its {count} elements are sparse", sparse.count));
         }
-        self.elements(sparse.values().view(), sparse.values().offset(), sparse.count(), size)?;
-        let (bytes, stride) = self.elements(indices.view(), indices.offset(), sparse.count(), index_size)?;
+        let values = self.view(sparse.values.buffer_view, sparse.values.byte_offset, sparse.count, size)?;
+        let (name, index_size) = component(sparse.indices.component_type.unwrap_or_default());
+        if !name.starts_with('u') {
+            return Err(format!("its sparse indices must be unsigned, not {name}"));
+        }
+        let indices = self.view(sparse.indices.buffer_view, sparse.indices.byte_offset, sparse.count, index_size)?;
         let mut least = 0;
-        for element in bytes.chunks(stride) {
-            let index = element[..index_size].iter().rev().fold(0, |sum, &byte| sum << 8 | usize::from(byte));
+        for index in indices.iter().map(|bytes| integer(bytes) as usize) {
             if index < least || index >= count {
                 return Err(format!("its sparse element {index} does not ascend or is none of {count}"));
             }
             least = index + 1;
         }
-        Ok(())
+        Ok(Some([indices, values]))
     }
 
-    /// The bytes of `count` elements and the distance between them. The last chunk of that length may be shorter, but
-    /// has at least `size` bytes.
-    fn elements(&self, view: View<'a>, offset: usize, count: usize, size: usize) -> Result<(&'a [u8], usize), String> {
-        let number = view.index();
-        let stride = view.stride().unwrap_or(size);
+    /// `count` elements, at least one, of `size` bytes from `offset` in a buffer view.
+    fn view(&self, number: usize, offset: usize, count: usize, size: usize) -> Result<Elements<'a>, String> {
+        let missing = || format!("its buffer view {number} does not exist");
+        let view = self.document.buffer_views.get(number).ok_or_else(missing)?;
+        let stride = view.byte_stride.unwrap_or(size);
         if stride < size {
             return Err(format!("its elements of {size} bytes overlap in buffer view {number}, {stride} bytes apart"));
         }
-        let view_end = view.offset().checked_add(view.length());
-        let data = view_end.and_then(|end| self.buffers.get(view.buffer().index())?.get(view.offset()..end));
+        let view_end = view.byte_offset.checked_add(view.byte_length);
+        let data = view_end.and_then(|end| self.buffers.get(view.buffer)?.get(view.byte_offset..end));
         let data = data.ok_or_else(|| format!("its buffer view {number} reaches beyond the end of its buffer"))?;
         let length = stride.checked_mul(count - 1).and_then(|length| length.checked_add(size));
         let end = length.and_then(|length| offset.checked_add(length));
         let bytes = end.and_then(|end| data.get(offset..end));
         let beyond = || format!("its {count} elements reach beyond the {} bytes of buffer view {number}", data.len());
-        Ok((bytes.ok_or_else(beyond)?, stride))
+        Ok(Elements { bytes: bytes.ok_or_else(beyond)?, stride, size, count })
     }
 }
 
-fn fault(accessor: &Accessor, problem: impl Into<String>) -> Fault {
-    Fault::part(format!("accessor {}", accessor.index()), problem)
+/// The name of a component type, and its size in bytes.
+fn component(number: u32) -> (&'static str, usize) {
+    match number {
+        5120 => ("i8", 1),
+        5121 => ("u8", 1),
+        5122 => ("i16", 2),
+        5123 => ("u16", 2),
+        5125 => ("u32", 4),
+        5126 => ("f32", 4),
+        _ => ("an unknown type", 1),
+    }
+}
+
+/// A name of dimensions that may stand in a message.
+fn kind(dimensions: &str) -> &str {
+    ["SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"]
+        .into_iter()
+        .find(|known| *known == dimensions)
+        .unwrap_or("something unknown")
+}
+
+/// At most four bytes, the least significant first.
+fn integer(bytes: &[u8]) -> u32 {
+    bytes.iter().rev().fold(0, |sum, &byte| sum << 8 | u32::from(byte))
+}
+
+fn fault(number: usize, problem: impl Into<String>) -> Fault {
+    Fault::part(format!("accessor {number}"), problem)
 }

@@ -1,8 +1,8 @@
 //! The node graph of a glTF file.
 
 use glam::{DMat4, DQuat, DVec3};
-use gltf::json::{Root, scene::Node};
 
+use super::document::{Document, Node};
 use crate::scene::load::error::Fault;
 
 /// Deeper graphs are taken for mistakes.
@@ -21,11 +21,11 @@ pub(super) struct Placement {
 /// # Errors
 /// A graph that is not a forest: a node with two parents, a cycle, a scene that shows a node twice; or one that is
 /// deeper than 1024 nodes.
-pub(super) fn placements(root: &Root) -> Result<Vec<Placement>, Fault> {
-    let nodes = &root.nodes;
+pub(super) fn placements(document: &Document) -> Result<Vec<Placement>, Fault> {
+    let nodes = &document.nodes;
     let mut parent: Vec<Option<usize>> = vec![None; nodes.len()];
     for (number, node) in nodes.iter().enumerate() {
-        for child in children(node) {
+        for &child in &node.children {
             if let Some(first) = parent[child].replace(number) {
                 let problem = format!("it is a child of node {first} and of node {number}: give it one parent");
                 return Err(Fault::part(format!("node {child}"), problem));
@@ -40,12 +40,12 @@ pub(super) fn placements(root: &Root) -> Result<Vec<Placement>, Fault> {
 
     let mut placements = Vec::new();
     let place = |number: usize, node: &Node, transform| {
-        if let Some(mesh) = &node.mesh {
-            placements.push(Placement { node: number, mesh: mesh.value(), transform });
+        if let Some(mesh) = node.mesh {
+            placements.push(Placement { node: number, mesh, transform });
         }
     };
-    match &root.scene {
-        Some(scene) => walk(nodes, root.scenes[scene.value()].nodes.iter().map(|n| n.value()), place)?,
+    match document.scene {
+        Some(scene) => walk(nodes, document.scenes[scene].nodes.iter().copied(), place)?,
         None => walk(nodes, roots(), place)?,
     };
     Ok(placements)
@@ -72,14 +72,10 @@ fn walk(
         let transform = above * local(node);
         visit(number, node, transform);
         let first = waiting.len();
-        waiting.extend(children(node).map(|child| (child, transform, depth + 1)));
+        waiting.extend(node.children.iter().map(|&child| (child, transform, depth + 1)));
         waiting[first..].reverse();
     }
     Ok(seen)
-}
-
-fn children(node: &Node) -> impl Iterator<Item = usize> {
-    node.children.iter().flatten().map(|child| child.value())
 }
 
 fn local(node: &Node) -> DMat4 {
@@ -88,7 +84,7 @@ fn local(node: &Node) -> DMat4 {
     }
     let vector = |v: Option<[f32; 3]>, default| v.map_or(default, |v| DVec3::from(v.map(f64::from)));
     // A unit quaternion in f32 is none in f64.
-    let rotation = node.rotation.map_or(DQuat::IDENTITY, |r| DQuat::from_array(r.0.map(f64::from)));
+    let rotation = node.rotation.map_or(DQuat::IDENTITY, |r| DQuat::from_array(r.map(f64::from)));
     let length = rotation.length();
     let rotation = if length > 0.0 && length.is_finite() { rotation / length } else { DQuat::IDENTITY };
     DMat4::from_scale_rotation_translation(

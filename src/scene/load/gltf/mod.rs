@@ -1,19 +1,20 @@
 //! glTF 2.0, as text with its buffers apart or as one binary file.
 
 mod accessors;
+mod buffers;
+mod document;
 mod graph;
 mod shape;
-mod source;
+mod text;
 
 use std::path::Path;
 
 use glam::{DMat3, DVec3, Vec3};
-use gltf::Document;
 
 use self::accessors::Accessors;
+use self::document::Document;
 use self::graph::Placement;
 use self::shape::Shape;
-use self::source::Source;
 use super::error::Fault;
 use super::notes::Notes;
 use crate::scene::{Material, Model};
@@ -28,22 +29,25 @@ const MOST_REPEATED: usize = 1 << 24;
 /// turned round, so that they face the side that they face in the file. Points, lines, textures, skins and morph
 /// targets are left out. Nothing is read before everything that is shown has been checked and counted.
 pub(super) fn read(bytes: Vec<u8>, folder: &Path) -> Result<Model, Fault> {
-    let Source { document, buffers, bytes } = source::open(bytes, folder)?;
-    let placements = graph::placements(document.as_json())?;
-    let accessors = Accessors::new(&buffers);
-    let meshes: Vec<_> = document.meshes().collect();
-    let mut shapes: Vec<Option<Shape>> = meshes.iter().map(|_| None).collect();
-    for placement in &placements {
-        let shape = &mut shapes[placement.mesh];
-        if shape.is_none() {
-            *shape = Some(Shape::check(&meshes[placement.mesh], &accessors)?);
+    let (mut document, chunk) = text::parse(&bytes)?;
+    let (size, chunk) = (bytes.len(), chunk.map(<[u8]>::to_vec));
+    drop(bytes);
+    let buffers = buffers::read(&mut document.buffers, chunk, folder)?;
+    let size = size + buffers::size(&buffers);
+    let placements = graph::placements(&document)?;
+    let accessors = Accessors::new(&document, &buffers);
+    let mut shapes: Vec<Option<Shape>> = document.meshes.iter().map(|_| None).collect();
+    for &Placement { mesh, .. } in &placements {
+        if shapes[mesh].is_none() {
+            shapes[mesh] = Some(Shape::check(mesh, &document.meshes[mesh], &accessors)?);
         }
     }
 
     let mut model = Model::default();
     let shown = || placements.iter().filter_map(|p| shapes[p.mesh].as_ref().map(|shape| (p, shape)));
     shown().try_for_each(|(placement, shape)| check_place(placement, shape, &accessors))?;
-    reserve(&mut model, shown().map(|(_, shape)| shape), bytes, || nothing(&document, &placements, &shapes))?;
+    let sizes = shown().map(|(_, shape)| shape.sizes(&accessors));
+    reserve(&mut model, sizes, size, || nothing(&document, &placements, &shapes))?;
     for (placement, shape) in shown() {
         add(&mut model, placement, shape, &accessors);
     }
@@ -52,14 +56,15 @@ pub(super) fn read(bytes: Vec<u8>, folder: &Path) -> Result<Model, Fault> {
     if model.normals.is_empty() {
         model.normal_indices = Vec::new();
     }
-    let mut used = vec![false; document.materials().count()];
+    let mut used = vec![false; document.materials.len()];
     for &number in &model.material_of {
         if let Some(used) = used.get_mut(number as usize) {
             *used = true;
         }
     }
-    let textured = document.materials().zip(used).filter(|(material, used)| *used && is_textured(material)).count();
-    model.materials = document.materials().map(material).collect();
+    let textured =
+        document.materials.iter().zip(used).filter(|(material, used)| *used && material.is_textured()).count();
+    model.materials = document.materials.iter().enumerate().map(material).collect();
     let default = model.materials.len() as u32;
     if model.material_of.contains(&shape::NO_MATERIAL) || model.materials.is_empty() {
         model.materials.push(Material::named("default"));
@@ -70,7 +75,7 @@ pub(super) fn read(bytes: Vec<u8>, folder: &Path) -> Result<Model, Fault> {
     }
 
     let mut notes = Notes::default();
-    let skinned = document.nodes().filter(|node| node.skin().is_some() && node.mesh().is_some()).count();
+    let skinned = document.nodes.iter().filter(|node| node.skin.is_some() && node.mesh.is_some()).count();
     let sum = |count: fn(&Shape) -> usize| shapes.iter().flatten().map(count).sum();
     notes.count(skinned, "nodes have a skin: they stand unposed");
     notes.count(textured, "materials have textures, which are left out: they show their base colour as it is");
@@ -81,14 +86,14 @@ pub(super) fn read(bytes: Vec<u8>, folder: &Path) -> Result<Model, Fault> {
 }
 
 /// Whether all vertices are finite where a node places them.
-fn check_place<'a>(placement: &Placement, shape: &Shape<'a>, accessors: &Accessors<'a>) -> Result<(), Fault> {
+fn check_place(placement: &Placement, shape: &Shape, accessors: &Accessors) -> Result<(), Fault> {
     let place = |p: DVec3| placement.transform.transform_point3(p).as_vec3();
     let Some(bounds) = shape.bounds else { return Ok(()) };
     let corner = |i: usize| DVec3::new(bounds[i & 1].x, bounds[i >> 1 & 1].y, bounds[i >> 2].z);
     if (0..8).all(|i| place(corner(i)).is_finite()) {
         return Ok(());
     }
-    for accessor in &shape.positions {
+    for &accessor in &shape.positions {
         for (number, position) in accessors.vectors(accessor).enumerate() {
             let placed = place(position.as_dvec3());
             if !placed.is_finite() {
@@ -105,15 +110,15 @@ fn check_place<'a>(placement: &Placement, shape: &Shape<'a>, accessors: &Accesso
 }
 
 /// A small file can show a large mesh very often: takes the memory for all of it before anything is expanded.
-fn reserve<'s, 'a: 's>(
+fn reserve(
     model: &mut Model,
-    shapes: impl Iterator<Item = &'s Shape<'a>>,
+    shapes: impl Iterator<Item = [usize; 3]>,
     bytes: usize,
     nothing: impl Fn() -> String,
 ) -> Result<(), Fault> {
     let mut sizes = [0_usize; 3];
     for shape in shapes {
-        for (sum, size) in sizes.iter_mut().zip(shape.sizes()) {
+        for (sum, size) in sizes.iter_mut().zip(shape) {
             *sum = sum.saturating_add(size);
         }
     }
@@ -137,21 +142,23 @@ fn reserve<'s, 'a: 's>(
 
 /// Why nothing is shown.
 fn nothing(document: &Document, placements: &[Placement], shapes: &[Option<Shape>]) -> String {
-    let meshes = document.meshes().count();
-    match document.default_scene() {
+    let default = document.scene.map(|number| (number, &document.scenes[number].nodes[..]));
+    match default {
         _ if shapes.iter().flatten().any(|shape| !shape.parts.is_empty()) => {
             "its primitives have too few corners for a triangle".into()
         }
         _ if !placements.is_empty() => "its meshes have only points, lines or primitives without positions".into(),
-        _ if meshes == 0 => "it has no meshes".into(),
-        Some(scene) if scene.nodes().next().is_none() => format!("scene {}, its default, has no nodes", scene.index()),
-        _ if document.nodes().next().is_none() => format!("it has no nodes, which would show its meshes, {meshes}"),
-        Some(scene) => format!("no node of scene {}, its default, has a mesh", scene.index()),
+        _ if document.meshes.is_empty() => "it has no meshes".into(),
+        Some((scene, [])) => format!("scene {scene}, its default, has no nodes"),
+        _ if document.nodes.is_empty() => {
+            format!("it has no nodes, which would show its meshes, {}", document.meshes.len())
+        }
+        Some((scene, _)) => format!("no node of scene {scene}, its default, has a mesh"),
         None => "no node has a mesh".into(),
     }
 }
 
-fn add<'a>(model: &mut Model, placement: &Placement, shape: &Shape<'a>, accessors: &Accessors<'a>) {
+fn add(model: &mut Model, placement: &Placement, shape: &Shape, accessors: &Accessors) {
     let transform = placement.transform;
     let linear = DMat3::from_mat4(transform);
     let mirrored = linear.determinant() < 0.0;
@@ -165,11 +172,11 @@ fn add<'a>(model: &mut Model, placement: &Placement, shape: &Shape<'a>, accessor
     };
     let vertices = shape.positions.iter();
     let first_vertex: Vec<u32> =
-        vertices.map(|a| first(&mut model.positions, &mut accessors.vectors(a).map(place))).collect();
+        vertices.map(|&a| first(&mut model.positions, &mut accessors.vectors(a).map(place))).collect();
     let turn = |n: Vec3| (to_normal * n.as_dvec3()).normalize_or_zero().as_vec3();
     let normals = shape.normals.iter();
     let first_normal: Vec<u32> =
-        normals.map(|a| first(&mut model.normals, &mut accessors.vectors(a).map(turn))).collect();
+        normals.map(|&a| first(&mut model.normals, &mut accessors.vectors(a).map(turn))).collect();
 
     for part in &shape.parts {
         part.for_each(accessors, |[a, b, c]| {
@@ -192,18 +199,8 @@ fn normal_matrix(linear: DMat3) -> DMat3 {
 }
 
 /// The base colour is taken for the diffuse one; metals and roughness have no place in the course's shading.
-fn material(read: gltf::Material) -> Material {
-    let number = read.index().unwrap_or_default();
-    let name = read.name().map_or_else(|| format!("material {number}"), str::to_owned);
-    let [r, g, b, _] = read.pbr_metallic_roughness().base_color_factor();
+fn material((number, read): (usize, &document::Material)) -> Material {
+    let name = read.name.clone().unwrap_or_else(|| format!("material {number}"));
+    let [r, g, b, _] = read.pbr_metallic_roughness.base_color_factor.unwrap_or([1.0; 4]);
     Material { diffuse: Vec3::new(r, g, b).clamp(Vec3::ZERO, Vec3::ONE), ..Material::named(name) }
-}
-
-fn is_textured(material: &gltf::Material) -> bool {
-    let pbr = material.pbr_metallic_roughness();
-    pbr.base_color_texture().is_some()
-        || pbr.metallic_roughness_texture().is_some()
-        || material.normal_texture().is_some()
-        || material.occlusion_texture().is_some()
-        || material.emissive_texture().is_some()
 }

@@ -1,10 +1,9 @@
 //! A mesh of a glTF file, in its own space.
 
 use glam::DVec3;
-use gltf::mesh::{Mode, Semantic};
-use gltf::{Accessor, Mesh};
 
 use super::accessors::Accessors;
+use super::document::{Mesh, TRIANGLE_FAN, TRIANGLE_STRIP, TRIANGLES};
 use crate::scene::load::error::Fault;
 
 /// The material number of a primitive that names no material.
@@ -12,10 +11,11 @@ pub(super) const NO_MATERIAL: u32 = u32::MAX;
 
 /// Triangles and what they share, checked and not yet read: primitives often use one accessor together.
 #[derive(Default)]
-pub(super) struct Shape<'a> {
-    pub positions: Vec<Accessor<'a>>,
-    pub normals: Vec<Accessor<'a>>,
-    pub parts: Vec<Part<'a>>,
+pub(super) struct Shape {
+    /// Numbers of accessors.
+    pub positions: Vec<usize>,
+    pub normals: Vec<usize>,
+    pub parts: Vec<Part>,
     /// The box of all positions.
     pub bounds: Option<[DVec3; 2]>,
     /// Primitives that are points or lines, or have no positions.
@@ -24,109 +24,105 @@ pub(super) struct Shape<'a> {
     pub morphed: usize,
 }
 
-pub(super) struct Part<'a> {
+pub(super) struct Part {
     /// Number of its list of positions.
     pub positions: usize,
     /// Number of its list of normals, which is as long as that of its positions.
     pub normals: Option<usize>,
-    /// Its corners, by the numbers of vertices; none where these are the vertices in their order.
-    corners: Option<Accessor<'a>>,
+    /// The accessor of its corners, by the numbers of vertices; none where these are the vertices in their order.
+    corners: Option<usize>,
     /// How many corners.
     count: usize,
-    mode: Mode,
+    mode: u32,
     pub material: u32,
 }
 
-impl<'a> Shape<'a> {
-    pub fn check(mesh: &Mesh<'a>, accessors: &Accessors<'a>) -> Result<Self, Fault> {
+impl Shape {
+    /// Checks what shows of the mesh with this number.
+    pub fn check(number: usize, mesh: &Mesh, accessors: &Accessors) -> Result<Self, Fault> {
         let mut shape = Self::default();
-        for primitive in mesh.primitives() {
-            let fault = |problem: String| {
-                Fault::part(format!("mesh {}, primitive {}", mesh.index(), primitive.index()), problem)
-            };
-            let accessor = primitive.get(&Semantic::Positions);
-            let accessor = accessor
-                .filter(|_| matches!(primitive.mode(), Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan));
-            let Some(accessor) = accessor else {
+        for (i, primitive) in mesh.primitives.iter().enumerate() {
+            let fault = |problem: String| Fault::part(format!("mesh {number}, primitive {i}"), problem);
+            let Some(position) = primitive.attributes.position.filter(|_| primitive.mode >= TRIANGLES) else {
                 shape.left_out += 1;
                 continue;
             };
-            let [min, max] = accessors.check_positions(&accessor)?;
+            let [min, max] = accessors.check_positions(position)?;
             let [all_min, all_max] = shape.bounds.unwrap_or([min, max]);
             shape.bounds = Some([all_min.min(min), all_max.max(max)]);
-            let vertices = accessor.count();
-            let positions = number(&mut shape.positions, accessor);
+            let vertices = accessors.count(position);
+            let positions = place(&mut shape.positions, position);
 
-            let normals = match primitive.get(&Semantic::Normals) {
+            let normals = match primitive.attributes.normal {
                 None => None,
-                Some(accessor) if accessor.count() != vertices => {
-                    let problem = format!("it has {} normals for {vertices} vertices", accessor.count());
+                Some(normal) if accessors.count(normal) != vertices => {
+                    let problem = format!("it has {} normals for {vertices} vertices", accessors.count(normal));
                     return Err(fault(problem));
                 }
-                Some(accessor) => {
-                    accessors.check_vectors(&accessor)?;
-                    Some(number(&mut shape.normals, accessor))
+                Some(normal) => {
+                    accessors.check_vectors(normal)?;
+                    Some(place(&mut shape.normals, normal))
                 }
             };
-            let corners = primitive.indices();
-            if let Some(accessor) = &corners
+            let corners = primitive.indices;
+            if let Some(accessor) = corners
                 && let Some((number, index)) = accessors.check_indices(accessor)?
                 && index as usize >= vertices
             {
                 let problem = format!("its index {number} names vertex {index}, but there are only {vertices}");
                 return Err(fault(problem));
             }
-            let count = corners.as_ref().map_or(vertices, Accessor::count);
-            if primitive.mode() == Mode::Triangles && count % 3 != 0 {
+            let count = corners.map_or(vertices, |accessor| accessors.count(accessor));
+            if primitive.mode == TRIANGLES && count % 3 != 0 {
                 return Err(fault(format!("its {count} corners do not make whole triangles")));
             }
-            shape.morphed += usize::from(primitive.morph_targets().next().is_some());
-            let material = primitive.material().index().map_or(NO_MATERIAL, |m| m as u32);
-            shape.parts.push(Part { positions, normals, corners, count, mode: primitive.mode(), material });
+            shape.morphed += usize::from(!primitive.targets.is_empty());
+            let material = primitive.material.map_or(NO_MATERIAL, |material| material as u32);
+            shape.parts.push(Part { positions, normals, corners, count, mode: primitive.mode, material });
         }
         Ok(shape)
     }
 
     /// Numbers of vertices, normals and triangles.
-    pub fn sizes(&self) -> [usize; 3] {
-        let total = |lists: &[Accessor]| lists.iter().map(Accessor::count).fold(0, usize::saturating_add);
+    pub fn sizes(&self, accessors: &Accessors) -> [usize; 3] {
+        let total = |list: &[usize]| list.iter().map(|&n| accessors.count(n)).fold(0, usize::saturating_add);
         let triangles = self.parts.iter().map(Part::triangles).fold(0, usize::saturating_add);
         [total(&self.positions), total(&self.normals), triangles]
     }
 }
 
-/// The number of an accessor in a list, to which it is added if it is not there.
-fn number<'a>(list: &mut Vec<Accessor<'a>>, accessor: Accessor<'a>) -> usize {
-    list.iter().position(|a| a.index() == accessor.index()).unwrap_or_else(|| {
+/// The place of an accessor in a list, to which it is added if it is not there.
+fn place(list: &mut Vec<usize>, accessor: usize) -> usize {
+    list.iter().position(|&other| other == accessor).unwrap_or_else(|| {
         list.push(accessor);
         list.len() - 1
     })
 }
 
-impl<'a> Part<'a> {
+impl Part {
     fn triangles(&self) -> usize {
-        if self.mode == Mode::Triangles { self.count / 3 } else { self.count.saturating_sub(2) }
+        if self.mode == TRIANGLES { self.count / 3 } else { self.count.saturating_sub(2) }
     }
 
     /// Hands over all triangles by their vertices.
-    pub fn for_each(&self, accessors: &Accessors<'a>, mut take: impl FnMut([u32; 3])) {
-        let corners = match &self.corners {
-            Some(accessor) => accessors.indices(accessor),
+    pub fn for_each(&self, accessors: &Accessors, mut take: impl FnMut([u32; 3])) {
+        let corners: Box<dyn Iterator<Item = u32>> = match self.corners {
+            Some(accessor) => Box::new(accessors.indices(accessor)),
             None => Box::new(0..self.count as u32),
         };
         let [mut a, mut b] = [0; 2];
         for (i, c) in corners.enumerate() {
             let last = match self.mode {
-                Mode::TriangleStrip if i % 2 == 1 => [a, c, b],
+                TRIANGLE_STRIP if i % 2 == 1 => [a, c, b],
                 _ => [a, b, c],
             };
-            if i % 3 == 2 || i > 2 && self.mode != Mode::Triangles {
+            if i % 3 == 2 || i > 2 && self.mode != TRIANGLES {
                 take(last);
             }
             match self.mode {
-                Mode::TriangleStrip => [a, b] = [b, c],
-                Mode::TriangleFan if i == 0 => a = c,
-                Mode::TriangleFan => b = c,
+                TRIANGLE_STRIP => [a, b] = [b, c],
+                TRIANGLE_FAN if i == 0 => a = c,
+                TRIANGLE_FAN => b = c,
                 _ if i % 3 == 0 => a = c,
                 _ => b = c,
             }

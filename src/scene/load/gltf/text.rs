@@ -1,0 +1,90 @@
+//! The text of a glTF document, alone or in a binary file.
+
+use super::document::Document;
+use crate::scene::load::error::{Fault, message};
+use crate::scene::load::text::plain;
+
+/// A document takes some hundred bytes for each object in its text, which may be as short as `{}`.
+const MOST_OBJECTS: usize = 1 << 16;
+
+/// Bytes of the file that allow for one more object.
+const BYTES_AN_OBJECT: usize = 48;
+
+/// Entries of lists and objects that each object allows for.
+const ENTRIES_AN_OBJECT: usize = 12;
+
+/// The document in a file, and the binary chunk, if there is one.
+pub(super) fn parse(bytes: &[u8]) -> Result<(Document, Option<&[u8]>), Fault> {
+    let (text, chunk) = if bytes.starts_with(b"glTF") { chunks(bytes)? } else { (plain(bytes)?, None) };
+    check_text(text, bytes.len())?;
+    let document: Document = serde_json::from_slice(text).map_err(|error| match message(&error) {
+        // Both are left out in valid files.
+        missing if missing.contains("missing field `nodes`") => {
+            let problem = "a scene has no `nodes`, so that it shows nothing: give it nodes, or remove it";
+            Fault::line(error.line(), problem)
+        }
+        other => no_gltf(&other),
+    })?;
+    document.check()?;
+    Ok((document, chunk))
+}
+
+fn no_gltf(problem: &str) -> Fault {
+    Fault::file(format!("it is no glTF 2.0 file: {problem}"))
+}
+
+/// The text and the binary chunk of a binary file.
+fn chunks(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), Fault> {
+    let word = |at: usize| bytes.get(at..at + 4).map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]]) as usize);
+    let end = match (word(4), word(8)) {
+        (Some(2), Some(length)) if length > bytes.len() => {
+            let problem =
+                format!("the header tells of {length} bytes, there are {}: the file is truncated", bytes.len());
+            return Err(Fault::file(problem));
+        }
+        (Some(2), Some(length)) if length >= 12 => length,
+        (Some(2), Some(length)) => return Err(Fault::file(format!("the header tells of a length of {length} bytes"))),
+        (Some(version), Some(_)) => {
+            return Err(Fault::file(format!("it is binary glTF {version}: convert it to 2")));
+        }
+        _ => return Err(Fault::file("it ends within its header: the file is truncated")),
+    };
+    let chunk = |at: usize, kind: &[u8; 4]| {
+        let data = bytes
+            .get(at + 8..at.checked_add(8)?.checked_add(word(at)?)?)
+            .filter(|_| at + 8 + word(at).unwrap_or(0) <= end)?;
+        (bytes[at + 4..at + 8] == *kind).then_some(data)
+    };
+    let text = chunk(12, b"JSON").ok_or_else(|| no_gltf("its first chunk is no whole JSON chunk"))?;
+    let next = 20 + text.len();
+    match chunk(next, b"BIN\0") {
+        None if next + 8 <= end && bytes[next + 4..next + 8] == *b"BIN\0" => {
+            Err(no_gltf("its binary chunk is not whole"))
+        }
+        binary => Ok((text, binary)),
+    }
+}
+
+/// Whether memory can be taken for a document of this text in a file of so many bytes.
+fn check_text(text: &[u8], bytes: usize) -> Result<(), Fault> {
+    let (mut objects, mut entries, mut in_string, mut is_escaped) = (0_usize, 0_usize, false, false);
+    for &byte in text {
+        match byte {
+            _ if is_escaped => is_escaped = false,
+            b'\\' => is_escaped = in_string,
+            b'"' => in_string = !in_string,
+            b'{' if !in_string => objects += 1,
+            b',' if !in_string => entries += 1,
+            _ => {}
+        }
+    }
+    let most = MOST_OBJECTS + bytes / BYTES_AN_OBJECT;
+    for (count, most, what) in [(objects, most, "objects"), (entries, ENTRIES_AN_OBJECT * most, "entries")] {
+        if count > most {
+            let problem =
+                format!("its text describes {count} {what}, and more than {most} are not read: split the file");
+            return Err(Fault::file(problem));
+        }
+    }
+    Ok(())
+}
