@@ -1,18 +1,17 @@
-//! Golden images of other crates: one function for their tests.
+//! Golden images for the tests of other crates.
 
 use std::path::Path;
 
-use super::flip::flip;
-use super::{GoldenError, file_name, leave, make};
+use super::{Golden, GoldenError, file_name, make};
 use crate::render::Picture;
 
 /// When a picture is accepted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Match {
-    /// Every byte is the same: what a deterministic renderer owes.
+    /// Every byte is the same, as it must be with a deterministic renderer.
     Exact,
-    /// The mean FLIP error is at most this: 0 to 1, where 0.01 is hard to see and 0.1 plain ([`flip`]).
-    Perceptual(f64),
+    /// No channel of a pixel differs by more than this, of 255: other machines may round otherwise.
+    Within(u8),
 }
 
 /// Set to `update`, this environment variable makes [`assert_image`] write golden images in place of comparing.
@@ -21,7 +20,7 @@ pub const UPDATE: &str = "SAHARA_GOLDEN";
 /// Where the pictures of failures go, from the current directory; that of a test is the folder of its crate.
 const OUT: &str = "out/golden";
 
-/// Holds `actual` against the golden image `path`, a PNG file; for tests.
+/// Compares `actual` with the golden image `path`, a PNG file; for tests.
 ///
 /// With the environment variable `SAHARA_GOLDEN=update` the file is written instead, folders included.
 ///
@@ -35,11 +34,11 @@ const OUT: &str = "out/golden";
 /// # drawn.write(&golden).unwrap();
 /// assert_image(&golden, &drawn, Match::Exact);
 ///
-/// // Another machine rounds one pixel otherwise: that is not the same, but looks so.
+/// // Another machine rounds one pixel otherwise: that is not the same, but near.
 /// let mut pixels = drawn.pixels().to_vec();
 /// pixels[100][0] += 1;
 /// let rounded = Picture::new([64, 64], pixels);
-/// assert_image(&golden, &rounded, Match::Perceptual(0.01));
+/// assert_image(&golden, &rounded, Match::Within(1));
 /// # assert!(sahara::golden::check_image(&golden, &rounded, Match::Exact, &folder.path().join("out")).is_err());
 /// ```
 ///
@@ -70,23 +69,14 @@ fn update(path: &Path, actual: &Picture) -> Result<(), GoldenError> {
 /// # Errors
 /// If the picture is not accepted, or the golden image cannot be read.
 pub fn check_image(path: &Path, actual: &Picture, how: Match, out: &Path) -> Result<(), GoldenError> {
-    let expected = Picture::read(path).map_err(|cause| GoldenError::NoImage { cause })?;
     let stem = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy();
-    let (path, shown) = (path.to_path_buf(), out.join(file_name(&stem)));
-    let refusal = if expected.size() != actual.size() {
-        GoldenError::OtherSize { path, expected: expected.size(), found: actual.size(), shown: shown.clone() }
-    } else {
-        let Some(difference) = actual.difference(&expected) else { return Ok(()) };
-        let shown = shown.clone();
-        match how {
-            Match::Exact => GoldenError::ImageDiffers { path, difference, size: actual.size(), shown },
-            Match::Perceptual(allowed) => match flip(&expected, actual) {
-                error if error <= allowed => return Ok(()),
-                error => GoldenError::LooksDifferent { path, error, allowed, shown },
-            },
-        }
+    let golden = Golden {
+        path,
+        label: stem.clone().into_owned(),
+        shown: out.join(file_name(&stem)),
+        remedy: "run the test once with SAHARA_GOLDEN=update to make the golden image",
     };
-    Err(refusal.with(leave(&shown, actual, &expected)))
+    golden.check(actual, |difference| matches!(how, Match::Within(step) if difference.largest <= step))
 }
 
 #[cfg(test)]
@@ -108,16 +98,15 @@ mod tests {
         assert!(!out.exists());
 
         assert!(refusal(&picture(11), Match::Exact).contains("256 of 256 pixels differ"));
-        check_image(&golden, &picture(11), Match::Perceptual(0.2), &out).unwrap();
-        let far = refusal(&picture(255), Match::Perceptual(0.2));
-        assert!(far.contains("looks different") && far.contains("0.2 is allowed"), "{far}");
+        check_image(&golden, &picture(11), Match::Within(1), &out).unwrap();
+        assert!(refusal(&picture(255), Match::Within(244)).contains("by up to 245 of 255"));
         assert_eq!(Picture::read(&out.join("b-actual.png")).unwrap(), picture(255));
         assert_eq!(std::fs::read_dir(&out).unwrap().count(), 3);
         let small = refusal(&Picture::new([1, 1], vec![[0; 3]]), Match::Exact);
         assert!(small.contains("[1, 1]") && small.contains("SAHARA_GOLDEN=update"), "{small}");
         assert_eq!(Picture::read(&out.join("b-actual.png")).unwrap().size(), [1, 1]);
 
-        // Where nothing can be left to look at, the reason is still said.
+        // The reason is in the message even if the pictures cannot be written.
         std::fs::remove_dir_all(&out).unwrap();
         std::fs::write(&out, b"no folder").unwrap();
         let reason = refusal(&picture(11), Match::Exact);

@@ -1,7 +1,6 @@
 //! Golden images: what each built-in scene must look like with every structure, byte for byte; and, for the tests of other
 //! crates, [`assert_image`].
 
-mod flip;
 mod image;
 
 use std::path::{Path, PathBuf};
@@ -11,7 +10,6 @@ use crate::render::{Difference, Picture, PictureError, render};
 use crate::scene::Scene;
 use crate::triangle::{Exact, TriangleTest};
 
-pub use flip::flip;
 pub use image::{Match, UPDATE, assert_image, check_image};
 
 /// Where golden images are kept, and where the pictures of a failure go.
@@ -27,43 +25,26 @@ pub const TRIANGLE_TEST: &str = Exact::NAME;
 /// Width and height of a golden image.
 pub const SIZE: [u32; 2] = [160, 160];
 
-/// Why a picture is not accepted.
+/// Why a picture is not accepted. `remedy` says how golden images are made.
 #[derive(Debug, thiserror::Error)]
 pub enum GoldenError {
-    #[error("{cause}: make the golden images with `sahara golden update`")]
-    Missing { cause: PictureError },
-    #[error("the golden image {} has {found:?} pixels, not {SIZE:?}", path.display())]
-    Size { path: PathBuf, found: [u32; 2] },
+    #[error("{cause}: {remedy}")]
+    Missing { cause: PictureError, remedy: &'static str },
+    #[error(
+        "the golden image {} has {expected:?} pixels, and what was drawn has {found:?}: see {}-actual.png and -expected.png; \
+         if it is right, {remedy}",
+        path.display(), shown.display()
+    )]
+    Size { path: PathBuf, expected: [u32; 2], found: [u32; 2], shown: PathBuf, remedy: &'static str },
     #[error(
         "{label}: {} of {} pixels differ from {}, first at column {}, row {}, by up to {} of 255: see {}-actual.png, \
          -expected.png and -difference.png",
-        difference.pixels, SIZE[0] * SIZE[1], path.display(), difference.first[0], difference.first[1],
-        difference.largest, shown.display()
-    )]
-    Differs { label: String, path: PathBuf, difference: Difference, shown: PathBuf },
-    #[error("{cause}: run the test once with SAHARA_GOLDEN=update to make the golden image")]
-    NoImage { cause: PictureError },
-    #[error(
-        "the golden image {} has {expected:?} pixels, and what was drawn has {found:?}: see {}-actual.png and -expected.png; if it is \
-         right, run the test once with SAHARA_GOLDEN=update",
-        path.display(), shown.display()
-    )]
-    OtherSize { path: PathBuf, expected: [u32; 2], found: [u32; 2], shown: PathBuf },
-    #[error("{refusal}; but these could not be written: {cause}")]
-    NotShown { refusal: Box<GoldenError>, cause: Box<GoldenError> },
-    #[error(
-        "{} of {} pixels differ from {}, first at column {}, row {}, by up to {} of 255: see {}-actual.png, -expected.png and \
-         -difference.png",
         difference.pixels, size[0] * size[1], path.display(), difference.first[0], difference.first[1],
         difference.largest, shown.display()
     )]
-    ImageDiffers { path: PathBuf, difference: Difference, size: [u32; 2], shown: PathBuf },
-    #[error(
-        "the picture looks different from {}: its mean FLIP error is {error:.4}, {allowed} is allowed; see {}-actual.png, \
-         -expected.png and -difference.png",
-        path.display(), shown.display()
-    )]
-    LooksDifferent { path: PathBuf, error: f64, allowed: f64, shown: PathBuf },
+    Differs { label: String, path: PathBuf, difference: Difference, size: [u32; 2], shown: PathBuf },
+    #[error("{refusal}; but these could not be written: {cause}")]
+    NotShown { refusal: Box<GoldenError>, cause: Box<GoldenError> },
     #[error(transparent)]
     Picture(#[from] PictureError),
     #[error("cannot make the directory {}: {cause}", path.display())]
@@ -87,34 +68,24 @@ impl Goldens {
         self.scenes.join(scene.name.to_lowercase()).join("golden.png")
     }
 
-    /// Holds the shaded view of `scene`, answered by `accel`, against its golden image. `structure` names the pictures of
-    /// a failure.
+    /// Compares the shaded view of `scene`, answered by `accel`, with its golden image. `structure` names the pictures of a
+    /// failure.
     ///
     /// The scene must be the built-in one with its own meshes, never with the real ones that some machine may have.
     ///
     /// # Errors
     /// If a pixel differs, then `actual`, `expected` and `difference` are written; if the golden image is missing or broken.
     pub fn check(&self, scene: &Scene, structure: &str, accel: &dyn DynAccel) -> Result<(), GoldenError> {
-        let path = self.path(scene);
-        let expected = Picture::read(&path).map_err(|cause| match cause {
-            PictureError::Read { .. } => GoldenError::Missing { cause },
-            cause => GoldenError::Picture(cause),
-        })?;
-        if expected.size() != SIZE {
-            return Err(GoldenError::Size { path, found: expected.size() });
-        }
-        let actual = draw(scene, accel);
-        let Some(difference) = actual.difference(&expected) else { return Ok(()) };
-
-        // Leave something to look at.
-        let label = format!("{} with {structure}", scene.name);
-        let name = file_name(&format!("{}-{structure}", scene.name.to_lowercase()));
-        let shown = self.out.join(name);
-        let left = leave(&shown, &actual, &expected);
-        Err(GoldenError::Differs { label, path, difference, shown }.with(left))
+        let golden = Golden {
+            path: &self.path(scene),
+            label: format!("{} with {structure}", scene.name),
+            shown: self.out.join(file_name(&format!("{}-{structure}", scene.name.to_lowercase()))),
+            remedy: "make the golden images with `sahara golden update`",
+        };
+        golden.check(&draw(scene, accel), |_| false)
     }
 
-    /// Makes the golden image of `scene` anew; tells whether it has changed.
+    /// Renders the golden image of `scene` again; returns whether it has changed.
     ///
     /// # Errors
     /// If it cannot be written.
@@ -134,7 +105,42 @@ fn draw(scene: &Scene, accel: &dyn DynAccel) -> Picture {
     Picture::from(&render(scene, accel, SIZE).0)
 }
 
-/// Leaves something to look at: `SHOWN-actual.png`, `-expected.png` and, of pictures of one size, `-difference.png`.
+/// A golden image, with the names of the message and of the pictures of a failure.
+struct Golden<'a> {
+    path: &'a Path,
+    label: String,
+    shown: PathBuf,
+    remedy: &'static str,
+}
+
+impl Golden<'_> {
+    /// Whether `actual` is the golden image, or the difference is `allowed`.
+    fn check(self, actual: &Picture, allowed: impl Fn(&Difference) -> bool) -> Result<(), GoldenError> {
+        let Self { path, label, shown, remedy } = self;
+        let expected = Picture::read(path).map_err(|cause| match cause {
+            PictureError::Read { .. } => GoldenError::Missing { cause, remedy },
+            cause => GoldenError::Picture(cause),
+        })?;
+        let (path, size) = (path.to_path_buf(), actual.size());
+        let refusal = if expected.size() != size {
+            GoldenError::Size { path, expected: expected.size(), found: size, shown: shown.clone(), remedy }
+        } else {
+            match actual.difference(&expected) {
+                Some(difference) if !allowed(&difference) => {
+                    GoldenError::Differs { label, path, difference, size, shown: shown.clone() }
+                }
+                _ => return Ok(()),
+            }
+        };
+        // The refusal stays the reason when its pictures cannot be written.
+        match leave(&shown, actual, &expected) {
+            Ok(()) => Err(refusal),
+            Err(cause) => Err(GoldenError::NotShown { refusal: Box::new(refusal), cause: Box::new(cause) }),
+        }
+    }
+}
+
+/// Writes the pictures of a failure: `SHOWN-actual.png`, `-expected.png` and, of pictures of one size, `-difference.png`.
 fn leave(shown: &Path, actual: &Picture, expected: &Picture) -> Result<(), GoldenError> {
     if let Some(out) = shown.parent() {
         make(out)?;
@@ -147,16 +153,6 @@ fn leave(shown: &Path, actual: &Picture, expected: &Picture) -> Result<(), Golde
         write("difference", &actual.difference_picture(expected))?;
     }
     Ok(())
-}
-
-impl GoldenError {
-    /// The refusal, which stays the reason when its pictures cannot be left.
-    fn with(self, left: Result<(), GoldenError>) -> Self {
-        match left {
-            Ok(()) => self,
-            Err(cause) => Self::NotShown { refusal: Box::new(self), cause: Box::new(cause) },
-        }
-    }
 }
 
 fn make(directory: &Path) -> Result<(), GoldenError> {
