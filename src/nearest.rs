@@ -1,13 +1,13 @@
-//! Names that people type: found in any case, and the one that was meant where none is.
+//! Looks up names that people type, in any case, and suggests one for a misspelled name.
 
 /// The first of `known` with the name `wanted`, in any case.
 pub fn named<T>(known: impl IntoIterator<Item = T>, wanted: &str, name: impl Fn(&T) -> &str) -> Option<T> {
     known.into_iter().find(|one| name(one).eq_ignore_ascii_case(wanted))
 }
 
-/// The one of `known` that `wanted` was probably meant to be: at most a third of its letters, two neighbours that changed places counting
-/// once (Damerau, "A technique for computer detection and correction of spelling errors", 1964), or the only one that begins so.
-/// Nothing where that is a guess.
+/// The one of `known` that `wanted` was probably meant to be: at most a third of its letters differ, where two neighbours
+/// that changed places count once (Damerau, "A technique for computer detection and correction of spelling errors", 1964),
+/// or it is the only one that begins with `wanted`. None if there is no such name.
 pub fn nearest<'a>(wanted: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let wanted: String = wanted.chars().take(60).flat_map(char::to_lowercase).collect();
     let known: Vec<&str> = known.into_iter().collect();

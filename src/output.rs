@@ -7,21 +7,21 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use tempfile::{Builder, NamedTempFile};
 
-/// Stands for standard output in place of a file.
+/// The file name that stands for standard output.
 pub const STDOUT: &str = "-";
 
 /// Whether a result goes to standard output: then nothing else may.
 static TO_STDOUT: AtomicBool = AtomicBool::new(false);
 
-/// Whether standard output is taken by a result that was asked for as [`STDOUT`]: what is meant for people goes to standard error then.
+/// Whether a result was requested as [`STDOUT`]: messages for people go to standard error then.
 pub fn stdout_is_taken() -> bool {
     TO_STDOUT.load(Ordering::Relaxed)
 }
 
 /// A file that results will go to, or standard output where it is called [`STDOUT`].
 ///
-/// It is first written beside its place and then moved there, so that a reader never sees half of it and an older one
-/// stays when something fails. What is not a regular file (a pipe, `/dev/stdout`) is written to directly.
+/// It is first written beside its place and then moved there: a reader never sees half of it, and an older file stays when
+/// something fails. What is not a regular file (a pipe, `/dev/stdout`) is written to directly.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct OutputFile {
     path: PathBuf,

@@ -1,4 +1,4 @@
-//! The download itself.
+//! The HTTP client.
 
 use std::fs::{self, OpenOptions};
 use std::io::{self, Read, Write};
@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use super::{DataFile, FetchError, Fetched};
 
-/// Asks servers for files. A server that does not answer, sends nothing or next to nothing is left after a while.
+/// Downloads files. Gives up on a server that does not answer, or sends next to nothing for a while.
 pub struct Client {
     agent: ureq::Agent,
     patience: Duration,
@@ -18,10 +18,10 @@ const REDIRECTS: u32 = 5;
 /// How long a connection, an answer or the next bytes may take.
 const PATIENCE: Duration = Duration::from_secs(60);
 
-/// A server that sends fewer bytes while patience lasts is taken to have stalled.
+/// A server that sends fewer bytes within the patience has stalled.
 const LEAST_PROGRESS: u64 = 16 << 10;
 
-/// The most bytes of a file whose size the scene file does not say.
+/// The size limit of a file whose scene file gives no size.
 const MOST: u64 = 8 << 30;
 
 impl Default for Client {
@@ -46,12 +46,12 @@ impl Client {
         Self { agent: config.into(), patience }
     }
 
-    /// Brings `file` to its place: from where an earlier download ended, verified, and in one step. `progress` is told
-    /// the bytes that there are.
+    /// Downloads `file`, resuming an earlier download; verifies it and moves it to its place in one step. `progress` is called
+    /// with the number of bytes so far.
     ///
     /// # Errors
-    /// If the file is there with other contents, the server does not give it, or gives something else. A part that may
-    /// be gone on with is kept.
+    /// If the file exists with other contents, or the server does not send it or sends something else. A part from which the
+    /// download can resume is kept.
     pub fn fetch(&self, file: &DataFile, progress: &mut dyn FnMut(u64)) -> Result<Fetched, FetchError> {
         if file.is_there()? {
             return Ok(Fetched::AlreadyThere);
@@ -69,7 +69,7 @@ impl Client {
         Ok(Fetched::Downloaded { bytes, resumed })
     }
 
-    /// Downloads from byte `from` on, or all where the server has no parts. Gives where it began.
+    /// Downloads from byte `from` on, or all if the server has no ranges. Returns where it began.
     fn download(&self, file: &DataFile, from: u64, progress: &mut dyn FnMut(u64)) -> Result<u64, FetchError> {
         let connection = |cause: ureq::Error| FetchError::Connection { url: file.url.clone(), cause: sentence(&cause) };
         let mut request = self.agent.get(&file.url);
@@ -83,7 +83,7 @@ impl Client {
         let start = match response.status().as_u16() {
             200 => 0,
             206 if begins == Some(from) => from,
-            // The part is of another file, or of more than there is: begin anew.
+            // The part is of another file, or longer than the file: start again.
             206 | 416 if from > 0 => return self.download(file, 0, progress),
             status => return Err(FetchError::Status { url: file.url.clone(), status }),
         };
@@ -101,8 +101,7 @@ impl Client {
         }
     }
 
-    /// Writes the body behind the first `start` bytes of the part. Gives the bytes that there are when it ends, however
-    /// it ends.
+    /// Appends the body to the first `start` bytes of the part. Returns the number of bytes when the body ends.
     fn append(
         &self,
         file: &DataFile,

@@ -7,7 +7,7 @@ use sha2::{Digest, Sha256};
 use super::FetchError;
 use crate::scene::format::RealMesh;
 
-/// A file of the folder of real meshes: where it is to be, and what it must be.
+/// A file of the folder of real meshes: its place, and its expected contents.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DataFile {
     /// What can be downloaded.
@@ -22,7 +22,7 @@ pub struct DataFile {
 
 impl DataFile {
     /// # Errors
-    /// If there is no hash to verify it by, or the address is none of the web.
+    /// If there is no hash to verify it by, or its URL is not HTTP.
     pub fn new(real: &RealMesh, folder: &Path) -> Result<Self, FetchError> {
         let (url, path) = (real.url.clone(), folder.join(&real.file));
         if real.unpack.is_none() && !["https://", "http://"].iter().any(|scheme| url.starts_with(scheme)) {
@@ -41,7 +41,7 @@ impl DataFile {
         }
     }
 
-    /// Where it grows: beside its place, so that it can be moved there in one step.
+    /// The partial download: beside its place, so that it can be moved there in one step.
     pub fn part(&self) -> PathBuf {
         let name = self.path.file_name().unwrap_or_default().to_string_lossy();
         self.path.with_file_name(format!(".{name}.part"))
@@ -62,7 +62,7 @@ impl DataFile {
         }
     }
 
-    /// Moves the finished part to its place, if it is what it must be; else removes it.
+    /// Moves the finished part to its place if its hash is right; otherwise removes it.
     ///
     /// # Errors
     /// If the hash does not fit, or the system refuses.

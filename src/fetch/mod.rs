@@ -15,16 +15,16 @@ use std::time::Duration;
 pub use client::Client;
 pub use data_file::DataFile;
 
-/// What came of a file.
+/// The result of a download.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fetched {
-    /// It was there, with the right contents.
+    /// The file was there, with the right contents.
     AlreadyThere,
-    /// It was downloaded, all but the first `resumed` bytes, which were there from before.
+    /// The file was downloaded, except the first `resumed` bytes, which an earlier download left.
     Downloaded { bytes: u64, resumed: u64 },
 }
 
-/// Why a file was not fetched. What has been downloaded of it is kept where it can be used.
+/// Why a file was not fetched. A part from which the download can resume is kept.
 #[derive(Debug, thiserror::Error)]
 pub enum FetchError {
     #[error("{file} cannot be fetched: its scene file gives no sha256 to verify it by{}", unpack.as_ref().map_or(String::new(), |how| format!("; download {url} yourself, then {how}, into {}", folder.display())))]

@@ -1,4 +1,4 @@
-//! The first judge: one ray, one triangle, in `f64`, with a proven bound of what rounding may have done.
+//! The filter: one ray and one triangle in `f64`, with a proven error bound.
 //!
 //! # Proof
 //! Let `u` = 2^-53. The numbers are finite `f32`, hence exact in `f64`. Write `a`, `b`, `c` for the corners relative to
@@ -34,7 +34,7 @@ const OUTWARD: f64 = 8.0 / (1u64 << 53) as f64;
 
 /// What is proven about a ray and a triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Verdict {
+pub enum Proof {
     Missed,
     /// The line meets the closed triangle, at a `t` within the span.
     Hit(Span),
@@ -96,16 +96,16 @@ impl Estimate {
     }
 }
 
-/// Judges the whole line of `ray` by the three volumes of [`exact::hit`](crate::exact::hit), and encloses `t`. All
+/// Classifies the whole line of `ray` by the three volumes of [`exact::hit`](crate::exact::hit), and encloses `t`. All
 /// numbers must be finite.
-pub fn judge(ray: &Ray, corners: [Vec3; 3]) -> Verdict {
+pub fn classify(ray: &Ray, corners: [Vec3; 3]) -> Proof {
     let (origin, direction) = (ray.origin.as_dvec3(), ray.direction.as_dvec3());
     let corners = corners.map(|p| p.as_dvec3());
     let [a, b, c] = corners.map(|p| p - origin);
 
     let sides = [(c, b), (a, c), (b, a)].map(|(p, q)| Estimate::triple(direction, p, q));
     if sides.iter().any(|s| s.is_positive()) && sides.iter().any(|s| s.is_negative()) {
-        return Verdict::Missed;
+        return Proof::Missed;
     }
     let known = sides.iter().all(|s| s.is_known());
 
@@ -113,12 +113,12 @@ pub fn judge(ray: &Ray, corners: [Vec3; 3]) -> Verdict {
     let (e1, e2) = (corners[1] - corners[0], corners[2] - corners[0]);
     let whole = Estimate::triple(direction, e1, e2);
     if whole.is_zero() {
-        return Verdict::Missed;
+        return Proof::Missed;
     }
     if !known || !whole.is_known() {
-        return Verdict::Undecided;
+        return Proof::Undecided;
     }
-    Verdict::Hit(quotient(Estimate::triple(a, e1, e2), whole))
+    Proof::Hit(quotient(Estimate::triple(a, e1, e2), whole))
 }
 
 /// Encloses `numerator / denominator`, whose denominator is known not to be 0.
@@ -140,19 +140,19 @@ mod tests {
     use crate::exact;
     use crate::oracle::tests::Numbers;
 
-    /// What the filter says, integers confirm; returns whether it said anything.
+    /// Checks what the filter proves with integers; returns whether it is a hit, or none if nothing is proven.
     fn is_confirmed(ray: &Ray, corners: [Vec3; 3]) -> Option<bool> {
         let truth = exact::hit(ray, corners);
-        match judge(ray, corners) {
-            Verdict::Missed => assert_eq!(truth, None, "{ray:?} {corners:?}"),
-            Verdict::Hit(span) => {
+        match classify(ray, corners) {
+            Proof::Missed => assert_eq!(truth, None, "{ray:?} {corners:?}"),
+            Proof::Hit(span) => {
                 let t = truth.as_ref().expect("the filter has proven it");
                 // The approximation is two roundings better than the span is wide.
                 let near = Span::outward(t.approximate(), t.approximate());
                 assert!(span.low <= near.high && near.low <= span.high, "{span:?} {near:?}");
                 assert!(span.rounded().is_none_or(|rounded| rounded == t.round()), "{span:?} {t:?}");
             }
-            Verdict::Undecided => return None,
+            Proof::Undecided => return None,
         }
         Some(truth.is_some())
     }

@@ -3,7 +3,7 @@ use std::cmp::Ordering;
 use glam::Vec3;
 
 use super::Truth;
-use super::filter::{Span, Verdict, judge};
+use super::filter::{Proof, Span, classify};
 use super::tree::Visitor;
 use crate::exact::{self, ExactT};
 use crate::geometry::{Mesh, Ray};
@@ -21,7 +21,7 @@ pub struct Query<'a> {
 struct Found {
     corners: [Vec3; 3],
     span: Span,
-    /// In integers; not worked out before it is needed.
+    /// The exact distance, once it has been needed.
     t: Option<ExactT>,
     ids: Vec<u32>,
 }
@@ -34,7 +34,7 @@ impl<'a> Query<'a> {
 
     pub fn truth(self) -> Option<Truth> {
         let mut found = self.nearest?;
-        found.work_out(self.ray);
+        found.compute_t(self.ray);
         let t = found.t?;
         let rounded = found.span.rounded().unwrap_or_else(|| t.round()).to_bits();
         found.ids.sort_unstable();
@@ -44,10 +44,10 @@ impl<'a> Query<'a> {
     /// Triangle `id`, if it is hit within the interval of the ray.
     fn find(&self, id: u32) -> Option<Found> {
         let corners = self.mesh.corners(id);
-        let (span, t) = match judge(self.ray, corners) {
-            Verdict::Missed => return None,
-            Verdict::Hit(span) => (span, None),
-            Verdict::Undecided => {
+        let (span, t) = match classify(self.ray, corners) {
+            Proof::Missed => return None,
+            Proof::Hit(span) => (span, None),
+            Proof::Undecided => {
                 let t = exact::hit(self.ray, corners)?;
                 let near = t.approximate();
                 (Span::outward(near, near), Some(t))
@@ -59,7 +59,7 @@ impl<'a> Query<'a> {
         }
         let mut found = Found { corners, span, t, ids: vec![id] };
         if span.low < t_min || t_max <= span.high {
-            found.work_out(self.ray);
+            found.compute_t(self.ray);
             return found.t.as_ref().is_some_and(|t| t.is_within(self.ray)).then_some(found);
         }
         Some(found)
@@ -68,7 +68,7 @@ impl<'a> Query<'a> {
 
 impl Visitor for Query<'_> {
     fn triangle(&mut self, id: u32) {
-        // A copy of the nearest is hit where that is.
+        // A duplicate of the nearest triangle is hit at the same distance.
         if let Some(nearest) = self.nearest.as_mut().filter(|n| n.corners == self.mesh.corners(id)) {
             nearest.ids.push(id);
             return;
@@ -88,8 +88,8 @@ impl Visitor for Query<'_> {
 }
 
 impl Found {
-    /// Makes sure that `t` is known in integers.
-    fn work_out(&mut self, ray: &Ray) {
+    /// Computes `t` in integers, if that has not been done.
+    fn compute_t(&mut self, ray: &Ray) {
         if self.t.is_none() {
             self.t = exact::hit(ray, self.corners);
             debug_assert!(self.t.is_some(), "the filter has proven this hit");
@@ -104,8 +104,8 @@ impl Found {
         if other.span.high < self.span.low {
             return Ordering::Greater;
         }
-        self.work_out(ray);
-        other.work_out(ray);
+        self.compute_t(ray);
+        other.compute_t(ray);
         self.t.cmp(&other.t)
     }
 }

@@ -1,4 +1,4 @@
-//! Which triangles a ray may hit.
+//! A bounding volume hierarchy that loses no hit.
 //!
 //! # No hit is lost
 //! The box of a node is the exact box of the corners of its triangles: minima and maxima of `f32` are not rounded. A
@@ -17,9 +17,9 @@
 use super::filter::Span;
 use crate::geometry::{Aabb, Mesh, Ray};
 
-/// A tree of boxes; each node has half of the triangles of the one above.
+/// A binary BVH; each child has half of the triangles of its parent.
 pub struct Tree {
-    /// Nodes in the order of a walk that goes below first.
+    /// Nodes in depth-first order.
     nodes: Vec<Node>,
     /// Numbers of the triangles, leaf by leaf.
     ids: Vec<u32>,
@@ -31,9 +31,9 @@ struct Node {
 }
 
 enum Content {
-    /// The child below is the next node.
+    /// The first child is the next node.
     Inner {
-        above: u32,
+        second: u32,
     },
     Leaf {
         first: u32,
@@ -41,16 +41,16 @@ enum Content {
     },
 }
 
-/// Triangles of a leaf, at most.
+/// The most triangles in a leaf.
 const LEAF: usize = 4;
 
-/// Nodes that wait at once, at most: one a level, and 2^30 triangles halved 28 times fit in a leaf.
+/// The most nodes on the stack: one for each level, and 2^30 triangles halved 28 times fit in a leaf.
 const STACK: usize = 32;
 
-/// What is asked of the triangles that the ray may hit.
+/// Tests the triangles that the ray may hit.
 pub trait Visitor {
     fn triangle(&mut self, id: u32);
-    /// Beyond this `t`, nothing is asked for any more. It may only decrease.
+    /// Nodes beyond this `t` are skipped. It may only decrease.
     fn bound(&self) -> f64;
 }
 
@@ -73,15 +73,15 @@ impl Tree {
             self.ids.extend(boxes.iter().map(|(id, _)| *id));
             return;
         }
-        // Halve along the axis on which the middles spread most; how well does not matter to the answers.
+        // Object median along the axis on which the centres spread most; any split gives the same answers.
         let middle = |b: &Aabb| b.min * 0.5 + b.max * 0.5;
         let axis = Aabb::of_points(boxes.iter().map(|(_, b)| middle(b))).longest_axis();
         let half = boxes.len() / 2;
         boxes.select_nth_unstable_by(half, |(_, a), (_, b)| middle(a)[axis].total_cmp(&middle(b)[axis]));
-        let (below, above) = boxes.split_at_mut(half);
-        self.grow(below);
-        self.nodes[index].content = Content::Inner { above: self.nodes.len() as u32 };
-        self.grow(above);
+        let (first, second) = boxes.split_at_mut(half);
+        self.grow(first);
+        self.nodes[index].content = Content::Inner { second: self.nodes.len() as u32 };
+        self.grow(second);
     }
 
     /// Shows `visitor` every triangle that `ray`, which must be valid, hits in its interval up to the visitor's bound,
@@ -98,7 +98,7 @@ impl Tree {
             }) else {
                 return;
             };
-            // The bound may have come nearer while the node waited.
+            // The bound may have decreased since the node was pushed.
             if near > visitor.bound() {
                 continue;
             }
@@ -108,16 +108,16 @@ impl Tree {
                         visitor.triangle(*id);
                     }
                 }
-                Content::Inner { above } => {
+                Content::Inner { second } => {
                     let bound = visitor.bound();
-                    next = match (enter(index + 1, bound), enter(above, bound)) {
-                        (Some(below), Some(above)) => {
-                            let (first, second) = if above.1 < below.1 { (above, below) } else { (below, above) };
-                            stack[waiting] = second;
+                    next = match (enter(index + 1, bound), enter(second, bound)) {
+                        (Some(a), Some(b)) => {
+                            let (near, far) = if b.1 < a.1 { (b, a) } else { (a, b) };
+                            stack[waiting] = far;
                             waiting += 1;
-                            Some(first)
+                            Some(near)
                         }
-                        (below, above) => below.or(above),
+                        (a, b) => a.or(b),
                     };
                 }
             }

@@ -1,9 +1,9 @@
 use crate::exact::ExactT;
 
-/// What a ray truly hits first.
+/// The exact nearest hit of a ray.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Truth {
-    /// Exactly where.
+    /// The exact distance.
     pub t: ExactT,
     /// The numbers of all triangles that are hit there, ascending; at least one.
     pub ids: Vec<u32>,

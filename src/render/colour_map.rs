@@ -1,4 +1,4 @@
-//! Numbers as colours.
+//! The colour map of the heat view.
 
 /// Nine colours of the map "inferno" at equal distances: lightness rises evenly, also in grey and for colour-blind eyes.
 ///
@@ -16,7 +16,7 @@ const INFERNO: [[u8; 3]; 9] = [
     [252, 255, 164],
 ];
 
-/// The colour of `cost` on a logarithmic scale from 0 to `hottest`; above it as at it.
+/// The colour of `cost` on a logarithmic scale from 0 to `hottest`; above that it stays the same.
 ///
 /// Costs of structures differ by factors of a hundred: on a linear scale that fits the worst, the best is black.
 pub fn heat(cost: u64, hottest: u64) -> [u8; 3] {

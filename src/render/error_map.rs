@@ -9,7 +9,7 @@ use crate::oracle::Oracle;
 use crate::scene::{Scene, View};
 use crate::validate::{DepthRule, Outcome, outcome};
 
-/// The primary rays of a picture, each judged by the exact oracle.
+/// The primary rays of a picture, each checked against the exact oracle.
 pub struct ErrorMap {
     size: [u32; 2],
     pixels: Vec<(Outcome, Option<Hit>)>,
@@ -24,21 +24,21 @@ const PAINTED: [(Outcome, &str, &str, [u8; 3]); 4] = [
     (Outcome::WrongPrimitive, "wrong primitive at the right depth", "pink", [204, 121, 167]),
 ];
 
-/// The brightest grey of what is right: errors must outshine it.
+/// The brightest grey of a right answer: errors must be brighter.
 const BRIGHTEST: f32 = 90.0;
 
 impl ErrorMap {
-    /// Judges the primary rays of `scene`, answered by `accel`, strictly.
+    /// Checks the answers of `accel` to the primary rays of `scene`, with the strict depth rule.
     pub fn new(scene: &Scene, accel: &dyn DynAccel, size: [u32; 2]) -> Self {
         let oracle = Oracle::new(&scene.mesh);
         let rays = scene.primary_rays(size, View::CENTRE, 0..size[0] * size[1]);
-        let judged = |rays: &[_]| {
+        let checked = |rays: &[_]| {
             let mut hits = vec![None; rays.len()];
             accel.closest_hits(rays, &mut hits);
-            let judge = |(ray, hit)| (outcome(oracle.nearest(ray).as_ref(), hit, DepthRule::STRICT), hit);
-            rays.iter().zip(hits).map(judge).collect::<Vec<_>>()
+            let check = |(ray, hit)| (outcome(oracle.nearest(ray).as_ref(), hit, DepthRule::STRICT), hit);
+            rays.iter().zip(hits).map(check).collect::<Vec<_>>()
         };
-        Self { size, pixels: rays.par_chunks(1024).flat_map_iter(judged).collect() }
+        Self { size, pixels: rays.par_chunks(1024).flat_map_iter(checked).collect() }
     }
 
     /// Pixels with this outcome.
@@ -53,7 +53,7 @@ impl ErrorMap {
         format!("{}, right {right} (grey, brighter where nearer)", painted.join(", "))
     }
 
-    /// Errors in colours, what is right as a dim depth.
+    /// Errors in colours, right answers as a dim depth.
     pub fn picture(&self) -> Picture {
         let right = |(outcome, hit): &(Outcome, Option<Hit>)| hit.filter(|_| *outcome == Outcome::Right);
         let nearest = self.pixels.iter().filter_map(right).fold(f32::INFINITY, |near, hit| near.min(hit.t));
@@ -61,7 +61,7 @@ impl ErrorMap {
             if let Some((_, _, _, colour)) = PAINTED.iter().find(|(outcome, ..)| *outcome == pixel.0) {
                 return *colour;
             }
-            // A third of the light stays for what is far, so that it is told from nothing.
+            // What is far keeps a third of the light, so that it differs from a miss.
             let light = |hit: Hit| 1.0 / 3.0 + 2.0 / 3.0 * if hit.t > nearest { nearest / hit.t } else { 1.0 };
             [pixel.1.map_or(0, |hit| (BRIGHTEST * light(hit)) as u8); 3]
         };
@@ -98,7 +98,7 @@ mod tests {
         let size = [24, 24];
         let hits = ErrorMap::new(&scene, &tree, size).count(Outcome::Right);
 
-        // Answers over one mesh, truth over another.
+        // The answers are for one mesh, the truth is for another.
         let empty = Arc::new(Mesh::new(vec![], vec![]).unwrap());
         let nothing = KdTree::<Exact>::build(&empty, &KdConfig::SAH).unwrap();
         let missed = ErrorMap::new(&scene, &nothing, size);

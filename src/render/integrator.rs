@@ -35,7 +35,7 @@ impl AddAssign for RayCounts {
     }
 }
 
-/// Pixels whose rays go through the structure together. The image does not depend on it.
+/// Pixels in a batch of rays. The image does not depend on it.
 const CHUNK: u32 = 4096;
 
 /// Renders `scene` with the rays answered by `accel`, which must be built over the scene's mesh.
@@ -61,10 +61,10 @@ pub fn render(scene: &Scene, accel: &dyn DynAccel, size: [u32; 2]) -> (Image, Ra
     (Image::new(size, colours), counts)
 }
 
-/// Rays of one recursion level with what they see.
+/// The rays of one recursion level.
 #[derive(Default)]
 struct Level {
-    /// What each ray sees without its mirror ray.
+    /// The colour of each ray without its mirror ray.
     colours: Vec<Vec3>,
     /// For each mirror ray that leaves this level, the ray it comes from and its weight.
     mirrors: Vec<(usize, f32)>,
@@ -74,7 +74,7 @@ struct Level {
 fn trace(scene: &Scene, accel: &dyn DynAccel, rays: Vec<Ray>) -> (Vec<Vec3>, RayCounts) {
     let mut counts = RayCounts { primary: rays.len() as u64, ..RayCounts::default() };
 
-    // Go down: each level leaves the mirror rays of the next.
+    // Forward: the mirror rays of each level are the rays of the next.
     let mut levels = vec![];
     let mut rays = rays;
     while !rays.is_empty() {
@@ -85,7 +85,7 @@ fn trace(scene: &Scene, accel: &dyn DynAccel, rays: Vec<Ray>) -> (Vec<Vec3>, Ray
         rays = mirrored;
     }
 
-    // Come back: every ray's colour is brought into range before its parent takes a share of it.
+    // Backward: every ray's colour is clamped before a share of it is added to that of its parent.
     let mut seen: Vec<Vec3> = vec![];
     for mut level in levels.into_iter().rev() {
         for ((parent, weight), colour) in level.mirrors.into_iter().zip(seen) {

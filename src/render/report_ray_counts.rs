@@ -1,4 +1,4 @@
-//! The ray counts of the source report: the proof that scenes, meshes and the course's rules are right.
+//! Asserts the ray counts of the source report, which hold only if scenes, meshes and the course's rules are right.
 
 use super::render;
 use crate::accel::Accel;
@@ -6,7 +6,7 @@ use crate::kdtree::{KdConfig, KdTree};
 use crate::scene::Builtin;
 use crate::triangle::Exact;
 
-/// What the report's scenes took when recounted with the course's own renderer, and the report's own total.
+/// Counts of a recount with the course's own renderer, and the report's own total.
 struct Known {
     scene: &'static str,
     mirror: u64,
@@ -18,12 +18,11 @@ struct Known {
     recount: u64,
 }
 
-/// Two scenes are not reproduced to the ray. A ray that meets an edge, or passes it narrowly, goes on as the rounding of a triangle
-/// test has it, and its mirror and shadow rays with it; which test the report used is not known, and here none rounds. In
-/// Infinitycandy mirrors make many of few such rays. In the Cornell box walls end at each other's edges, and one thing more is
-/// inferred: the report does not tell that the back wall is a mirror. With a mirror there our total is 8 off its own, and the recount's 29;
-/// without one 38,495 mirror rays and their shadow rays would be missing. So these are bounds of what is seen, not of what is
-/// explained ray by ray.
+/// Two scenes are not reproduced exactly. Whether a ray hits at an edge depends on the rounding of the triangle test, and
+/// so do its mirror and shadow rays. It is not known which test the report used; here the test is exact. In Infinitycandy
+/// mirrors multiply the few rays at edges. In the Cornell box walls meet at edges, and the report does not say that the back
+/// wall is a mirror: with a mirror our total is 8 off the report's, and the recount's is 29 off; without one 38,495 mirror
+/// rays and their shadow rays would be missing. The bounds below are observed, not derived.
 #[rustfmt::skip]
 const KNOWN: &[Known] = &[
     Known { scene: "Cube", mirror: 0, shadow: 20_648, report: 282_793, within: 1, recount: 0 },
@@ -36,7 +35,7 @@ const KNOWN: &[Known] = &[
     Known { scene: "Metallic", mirror: 60_264, shadow: 495_048, report: 817_456, within: 0, recount: 0 },
 ];
 
-/// By exact answers, so that no test's rounding is part of the proof.
+/// With the exact triangle test, so that no rounding influences the counts.
 #[test]
 fn rays_are_as_many_as_in_the_report() {
     let mut wrong = vec![];

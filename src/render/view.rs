@@ -1,4 +1,4 @@
-//! Views: what of a scene, or of a structure at work, a picture shows.
+//! Views: what a picture shows of a scene, or of the work of a structure.
 
 use std::str::FromStr;
 
@@ -141,8 +141,8 @@ fn depth(scene: &Scene, accel: &dyn DynAccel, size: [u32; 2]) -> Picture {
     let seen = hits.iter().filter_map(|(_, hit)| hit.map(|hit| hit.t));
     let (near, far) = seen.fold((f32::INFINITY, 0.0f32), |(near, far), t| (near.min(t), far.max(t)));
 
-    // Reciprocals keep what is near apart where a floor runs to the horizon. The farthest keeps some light, so that it is
-    // told from nothing.
+    // Reciprocals leave contrast to what is near where a floor runs to the horizon. The farthest hit stays brighter than a
+    // miss.
     let near = near.max(far * 1e-3);
     let brightness = |t: f32| {
         let share = (near / t.max(near) - near / far) / (1.0 - near / far);
@@ -200,10 +200,10 @@ mod tests {
         assert_eq!(colours(ViewKind::Heat, &all).1, HashSet::from([colour_map::heat(13, 14)]));
     }
 
-    /// A structure that tells nothing of what it does.
-    struct Silent;
+    /// A structure that does not report its steps.
+    struct Unobserved;
 
-    impl Accel for Silent {
+    impl Accel for Unobserved {
         type Config = crate::brute_force::BruteForceConfig;
         const OBSERVED: Observed = Observed::TESTS;
 
@@ -234,8 +234,8 @@ mod tests {
     #[test]
     fn heat_is_refused_where_steps_are_unknown() {
         let scene = Builtin::find("cube").unwrap().scene(None).unwrap();
-        assert_eq!(draw(&scene, &Silent, ViewKind::Heat, [4, 4], 1), Err(ViewError::Unobserved));
-        assert!(draw(&scene, &Silent, ViewKind::Depth, [4, 4], 1).is_ok());
+        assert_eq!(draw(&scene, &Unobserved, ViewKind::Heat, [4, 4], 1), Err(ViewError::Unobserved));
+        assert!(draw(&scene, &Unobserved, ViewKind::Depth, [4, 4], 1).is_ok());
     }
 
     #[test]

@@ -8,7 +8,7 @@ use super::notes::Notes;
 /// Ear clipping takes time in the square of the corners; a larger polygon that is not convex becomes a fan.
 const LARGEST: usize = 4096;
 
-/// A polygon with a corner farther than this from its plane, relative to its extent, is told to be bent.
+/// A polygon with a corner farther than this from its plane, relative to its extent, is noted as bent.
 const BENT: f64 = 0.01;
 
 type Point = Coord<f64>;
@@ -44,7 +44,7 @@ impl Splitter {
     }
 
     /// One note for each kind of polygon that has no right triangles, or was not looked at.
-    pub fn tell(&self, notes: &mut Notes) {
+    pub fn note(&self, notes: &mut Notes) {
         for (count, what) in [
             (
                 self.crossing,
@@ -199,7 +199,7 @@ mod tests {
 
     fn notes(splitter: &Splitter) -> Vec<String> {
         let mut notes = Notes::default();
-        splitter.tell(&mut notes);
+        splitter.note(&mut notes);
         notes.into_vec()
     }
 
@@ -273,21 +273,21 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_simple_polygon_is_told() {
-        let told = |corners: &[Vec3]| {
+    fn what_is_no_simple_polygon_is_noted() {
+        let noted = |corners: &[Vec3]| {
             let mut splitter = Splitter::default();
             assert_eq!(splitter.split(corners).len(), corners.len() - 2);
             notes(&splitter).concat()
         };
         let bow = polygon(&[[0.0, 0.0], [2.0, 2.0], [2.0, 0.0], [0.0, 2.0]]);
         let star = polygon(&[[0.0, 3.0], [2.0, -3.0], [-3.0, 1.0], [3.0, 1.0], [-2.0, -3.0]]);
-        assert!(told(&bow).starts_with("1 polygons cross") && told(&star).starts_with("1 polygons cross"));
-        assert_eq!(told(&polygon(&[[0.0, 0.0], [1.0, 1.0], [3.0, 3.0], [2.0, 2.0]])), "", "a line has no surface");
+        assert!(noted(&bow).starts_with("1 polygons cross") && noted(&star).starts_with("1 polygons cross"));
+        assert_eq!(noted(&polygon(&[[0.0, 0.0], [1.0, 1.0], [3.0, 3.0], [2.0, 2.0]])), "", "a line has no surface");
         let mut arrow = polygon(&[[0.0, 0.0], [2.0, -1.0], [0.5, 0.0], [2.0, 1.0]]);
         arrow[2].z = 0.5;
-        assert!(told(&arrow).contains("neither convex nor flat"));
+        assert!(noted(&arrow).contains("neither convex nor flat"));
         let saw: Vec<[f32; 2]> = (0..5000).map(|i| [i as f32, (i % 2) as f32]).chain([[2500.0, -9.0]]).collect();
-        assert!(told(&polygon(&saw)).contains("more than 4096"));
+        assert!(noted(&polygon(&saw)).contains("more than 4096"));
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! As far along the normal as the point may be wrong.
+//! Moves the origin along the normal by the error bound of the point.
 //!
 //! Promises, for a point from [`SurfacePoint::on_triangle`] at any scale and place: the origin lies on the side of the triangle's plane
 //! that the ray leaves to, so that exactly the triangle is not met again; and no farther from it than some ten units in the last

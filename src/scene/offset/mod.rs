@@ -1,4 +1,4 @@
-//! Where a ray starts that leaves a surface: far enough not to hit it again, near enough to miss nothing else.
+//! Moves the origins of rays that leave a surface: far enough not to hit it again, near enough to miss nothing else.
 
 pub mod error_bounded;
 mod surface_point;
@@ -18,16 +18,16 @@ use crate::geometry::Ray;
 pub enum Offset {
     /// At the point as computed. Promises nothing; costs nothing.
     None,
-    /// So far along the normal, to the side that the ray leaves to: a length of the scene, right for one scale only.
+    /// Moved by this distance along the normal, to the side that the ray leaves to: right for one scale only.
     Normal(f32),
     /// At the point as computed, but without hits before this `t`; directions have unit length, so that it is a length of
     /// the scene too. A grazing ray leaves the surface slowly, and meets it again behind `t`.
     TMin(f32),
-    /// So far along the direction, rays from the eye included: the source report's course, with 0.01. As [`Offset::TMin`].
+    /// Moved by this distance along the direction, rays from the eye included: the source report's course, with 0.01. As [`Offset::TMin`].
     Direction(f32),
-    /// Some units in the last place along the normal: [`wachter_binder`].
+    /// Moved by some units in the last place along the normal: [`wachter_binder`].
     WachterBinder,
-    /// As far as the point may be wrong: [`error_bounded`]. The only one that is right at every scale and place.
+    /// Moved by the error bound of the point: [`error_bounded`]. The only one that is right at every scale and place.
     ErrorBounded,
 }
 

@@ -1,4 +1,4 @@
-//! A number of floats along the normal, counted in the bits of each coordinate; close to zero, where floats are dense, a length.
+//! Moves the origin by a number of floats along the normal, in the bits of each coordinate; close to zero by a length.
 //!
 //! Promises: no acne where the error of the point is a few units in the last place of its largest coordinate. Does not promise:
 //! a scene smaller than the fixed length, 1/65536, is passed through as a whole, and a coordinate much smaller than the others

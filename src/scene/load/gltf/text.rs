@@ -49,20 +49,17 @@ fn chunks(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), Fault> {
         }
         _ => return Err(Fault::file("it ends within its header: the file is truncated")),
     };
-    let chunk = |at: usize, kind: &[u8; 4]| {
-        let data = bytes
-            .get(at + 8..at.checked_add(8)?.checked_add(word(at)?)?)
-            .filter(|_| at + 8 + word(at).unwrap_or(0) <= end)?;
-        (bytes[at + 4..at + 8] == *kind).then_some(data)
-    };
-    let text = chunk(12, b"JSON").ok_or_else(|| no_gltf("its first chunk is no whole JSON chunk"))?;
-    let next = 20 + text.len();
-    match chunk(next, b"BIN\0") {
-        None if next + 8 <= end && bytes[next + 4..next + 8] == *b"BIN\0" => {
-            Err(no_gltf("its binary chunk is not whole"))
-        }
-        binary => Ok((text, binary)),
-    }
+    let mut rest = &bytes[12..end];
+    let text = chunk(&mut rest, b"JSON").ok_or_else(|| no_gltf("its first chunk is no whole JSON chunk"))?;
+    Ok((text, chunk(&mut rest, b"BIN\0")))
+}
+
+/// Takes the next chunk off `rest`, if it is of this kind and whole.
+fn chunk<'a>(rest: &mut &'a [u8], kind: &[u8; 4]) -> Option<&'a [u8]> {
+    let length = u32::from_le_bytes(rest.get(..4)?.try_into().ok()?) as usize;
+    let (data, after) = rest.get(8..)?.split_at_checked(length).filter(|_| rest[4..8] == *kind)?;
+    *rest = after;
+    Some(data)
 }
 
 /// Whether memory can be taken for a document of this text in a file of so many bytes.

@@ -12,7 +12,7 @@ pub(super) struct Check {
     pub triangles: usize,
     /// Whether any face has normals.
     pub smooth: bool,
-    thin_faces: usize,
+    small_faces: usize,
     skipped: usize,
     unknown: usize,
     /// The line of the first unknown keyword, and what it says.
@@ -36,8 +36,8 @@ impl Check {
         check.finish()
     }
 
-    pub fn tell(&self, notes: &mut Notes) {
-        notes.count(self.thin_faces, "faces with fewer than three corners are left out");
+    pub fn note(&self, notes: &mut Notes) {
+        notes.count(self.small_faces, "faces with fewer than three corners are left out");
         if let Some((number, line)) = &self.first_unknown {
             let count = self.unknown;
             notes.add(format!(
@@ -69,7 +69,7 @@ impl Check {
                     smooth &= normal != Model::FLAT;
                     count += 1;
                 }
-                self.thin_faces += usize::from(count < 3);
+                self.small_faces += usize::from(count < 3);
                 self.triangles += count.saturating_sub(2);
                 self.smooth |= smooth && count >= 3;
             }
@@ -103,7 +103,7 @@ impl Check {
             None => Err(Fault::file(format!(
                 "it holds no triangles: {} vertices, {} faces with fewer than three corners, {} lines of other \
                  elements",
-                self.vertices, self.thin_faces, self.skipped
+                self.vertices, self.small_faces, self.skipped
             ))),
         }
     }

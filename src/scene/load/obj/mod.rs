@@ -31,7 +31,7 @@ pub(super) fn read(bytes: &[u8], folder: &Path) -> Result<Model, Fault> {
     let check = Check::over(text)?;
     let mut model = vertices(text, &check);
     let mut notes = Notes::default();
-    check.tell(&mut notes);
+    check.note(&mut notes);
 
     let mut faces = Faces { smooth: check.smooth, ..Faces::default() };
     let (mut positions, mut normals) = (0, 0);
@@ -133,7 +133,7 @@ impl Faces {
     }
 
     fn finish(self, model: &mut Model, folder: &Path, notes: &mut Notes) {
-        self.splitter.tell(notes);
+        self.splitter.note(notes);
         let mut known = self.libraries.read(&self.number_of, folder, notes);
         for name in self.used {
             let material = known.remove(&name).unwrap_or_else(|| {

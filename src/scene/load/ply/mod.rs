@@ -55,7 +55,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Model, Fault> {
 
     let mut notes = Notes::default();
     notes.count(found.small_faces, "faces with fewer than three corners are left out");
-    splitter.tell(&mut notes);
+    splitter.note(&mut notes);
     model.notes = notes.into_vec();
     Ok(model)
 }
