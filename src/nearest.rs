@@ -5,9 +5,9 @@ pub fn named<T>(known: impl IntoIterator<Item = T>, wanted: &str, name: impl Fn(
     known.into_iter().find(|one| name(one).eq_ignore_ascii_case(wanted))
 }
 
-/// The one of `known` that `wanted` was probably meant to be: at most a third of its letters differ, where two neighbours
-/// that changed places count once (Damerau, "A technique for computer detection and correction of spelling errors", 1964),
-/// or it is the only one that begins with `wanted`. None if there is no such name.
+/// The one of `known` that `wanted` was probably meant to be: at most a third of its letters differ, where two
+/// neighbours that changed places count once (Damerau, "A technique for computer detection and correction of spelling
+/// errors", 1964), or it is the only one that begins with `wanted`. None if there is no such name.
 pub fn nearest<'a>(wanted: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let wanted: String = wanted.chars().take(60).flat_map(char::to_lowercase).collect();
     let known: Vec<&str> = known.into_iter().collect();

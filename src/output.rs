@@ -20,8 +20,8 @@ pub fn stdout_is_taken() -> bool {
 
 /// A file that results will go to, or standard output where it is called [`STDOUT`].
 ///
-/// It is first written beside its place and then moved there: a reader never sees half of it, and an older file stays when
-/// something fails. What is not a regular file (a pipe, `/dev/stdout`) is written to directly.
+/// It is first written beside its place and then moved there: a reader never sees half of it, and an older file stays
+/// when something fails. What is not a regular file (a pipe, `/dev/stdout`) is written to directly.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct OutputFile {
     path: PathBuf,

@@ -46,12 +46,12 @@ impl Client {
         Self { agent: config.into(), patience }
     }
 
-    /// Downloads `file`, resuming an earlier download; verifies it and moves it to its place in one step. `progress` is called
-    /// with the number of bytes so far.
+    /// Downloads `file`, resuming an earlier download; verifies it and moves it to its place in one step. `progress` is
+    /// called with the number of bytes so far.
     ///
     /// # Errors
-    /// If the file exists with other contents, or the server does not send it or sends something else. A part from which the
-    /// download can resume is kept.
+    /// If the file exists with other contents, or the server does not send it or sends something else. A part from
+    /// which the download can resume is kept.
     pub fn fetch(&self, file: &DataFile, progress: &mut dyn FnMut(u64)) -> Result<Fetched, FetchError> {
         if file.is_there()? {
             return Ok(Fetched::AlreadyThere);

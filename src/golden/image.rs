@@ -43,8 +43,9 @@ const OUT: &str = "out/golden";
 /// ```
 ///
 /// # Panics
-/// If the picture is not accepted, is of another size, or there is no golden image. What was drawn and what was expected are
-/// then in `out/golden`, by the golden image's file name, and so is the difference of pictures of one size.
+/// If the picture is not accepted, is of another size, or there is no golden image. What was drawn and what was
+/// expected are then in `out/golden`, by the golden image's file name, and so is the difference of pictures of one
+/// size.
 #[track_caller]
 pub fn assert_image(path: impl AsRef<Path>, actual: &Picture, how: Match) {
     let path = path.as_ref();

@@ -1,5 +1,5 @@
-//! Golden images: what each built-in scene must look like with every structure, byte for byte; and, for the tests of other
-//! crates, [`assert_image`].
+//! Golden images: what each built-in scene must look like with every structure, byte for byte; and, for the tests of
+//! other crates, [`assert_image`].
 
 mod image;
 
@@ -68,13 +68,14 @@ impl Goldens {
         self.scenes.join(scene.name.to_lowercase()).join("golden.png")
     }
 
-    /// Compares the shaded view of `scene`, answered by `accel`, with its golden image. `structure` names the pictures of a
-    /// failure.
+    /// Compares the shaded view of `scene`, answered by `accel`, with its golden image. `structure` names the pictures
+    /// of a failure.
     ///
     /// The scene must be the built-in one with its own meshes, never with the real ones that some machine may have.
     ///
     /// # Errors
-    /// If a pixel differs, then `actual`, `expected` and `difference` are written; if the golden image is missing or broken.
+    /// If a pixel differs, then `actual`, `expected` and `difference` are written; if the golden image is missing or
+    /// broken.
     pub fn check(&self, scene: &Scene, structure: &str, accel: &dyn DynAccel) -> Result<(), GoldenError> {
         let golden = Golden {
             path: &self.path(scene),
@@ -140,7 +141,8 @@ impl Golden<'_> {
     }
 }
 
-/// Writes the pictures of a failure: `SHOWN-actual.png`, `-expected.png` and, of pictures of one size, `-difference.png`.
+/// Writes the pictures of a failure: `SHOWN-actual.png`, `-expected.png` and, of pictures of one size,
+/// `-difference.png`.
 fn leave(shown: &Path, actual: &Picture, expected: &Picture) -> Result<(), GoldenError> {
     if let Some(out) = shown.parent() {
         make(out)?;

@@ -17,9 +17,9 @@ pub use truth::Truth;
 
 /// Answers rays over one mesh exactly: some microseconds a ray.
 ///
-/// It has three stages: a tree of boxes that loses no hit; `f64` arithmetic with a proven error bound; and, for what that
-/// cannot decide, integers ([`exact`](crate::exact)). It shares no code with the structures and triangle tests that it
-/// checks, except the integers with [`Exact`](crate::triangle::Exact). Tests compare both with
+/// It has three stages: a tree of boxes that loses no hit; `f64` arithmetic with a proven error bound; and, for what
+/// that cannot decide, integers ([`exact`](crate::exact)). It shares no code with the structures and triangle tests
+/// that it checks, except the integers with [`Exact`](crate::triangle::Exact). Tests compare both with
 /// [`rational`](crate::exact::rational).
 pub struct Oracle {
     mesh: Arc<Mesh>,

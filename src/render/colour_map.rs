@@ -1,6 +1,7 @@
 //! The colour map of the heat view.
 
-/// Nine colours of the map "inferno" at equal distances: lightness rises evenly, also in grey and for colour-blind eyes.
+/// Nine colours of the map "inferno" at equal distances: lightness rises evenly, also in grey and for colour-blind
+/// eyes.
 ///
 /// # References
 /// Smith, van der Walt, Firing: the colour maps of Matplotlib 1.5, 2015 (dedicated to the public domain, CC0).

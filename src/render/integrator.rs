@@ -40,8 +40,8 @@ const CHUNK: u32 = 4096;
 
 /// Renders `scene` with the rays answered by `accel`, which must be built over the scene's mesh.
 ///
-/// All rays of one kind and level of a few thousand pixels go out as one batch; chunks of pixels run in parallel, and the
-/// image does not depend on the number of threads.
+/// All rays of one kind and level of a few thousand pixels go out as one batch; chunks of pixels run in parallel, and
+/// the image does not depend on the number of threads.
 pub fn render(scene: &Scene, accel: &dyn DynAccel, size: [u32; 2]) -> (Image, RayCounts) {
     let pixels = size[0] * size[1];
     let chunks: Vec<(Vec<Vec3>, RayCounts)> = (0..pixels.div_ceil(CHUNK))

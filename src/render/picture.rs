@@ -149,7 +149,8 @@ impl Picture {
 }
 
 impl From<&Image> for Picture {
-    /// Each channel times 255, rounded to the nearest; what is below 0 or above 1 is clamped, what is not a number is 0.
+    /// Each channel times 255, rounded to the nearest; what is below 0 or above 1 is clamped, what is not a number is
+    /// 0.
     ///
     /// Without a gamma curve, as the course.
     fn from(image: &Image) -> Self {

@@ -18,11 +18,11 @@ struct Known {
     recount: u64,
 }
 
-/// Two scenes are not reproduced exactly. Whether a ray hits at an edge depends on the rounding of the triangle test, and
-/// so do its mirror and shadow rays. It is not known which test the report used; here the test is exact. In Infinitycandy
-/// mirrors multiply the few rays at edges. In the Cornell box walls meet at edges, and the report does not say that the back
-/// wall is a mirror: with a mirror our total is 8 off the report's, and the recount's is 29 off; without one 38,495 mirror
-/// rays and their shadow rays would be missing. The bounds below are observed, not derived.
+/// Two scenes are not reproduced exactly. Whether a ray hits at an edge depends on the rounding of the triangle test,
+/// and so do its mirror and shadow rays. It is not known which test the report used; here the test is exact. In
+/// Infinitycandy mirrors multiply the few rays at edges. In the Cornell box walls meet at edges, and the report does
+/// not say that the back wall is a mirror: with a mirror our total is 8 off the report's, and the recount's is 29 off;
+/// without one 38,495 mirror rays and their shadow rays would be missing. The bounds below are observed, not derived.
 #[rustfmt::skip]
 const KNOWN: &[Known] = &[
     Known { scene: "Cube", mirror: 0, shadow: 20_648, report: 282_793, within: 1, recount: 0 },

@@ -16,7 +16,8 @@ use crate::scene::{Scene, View};
 pub enum ViewKind {
     /// The course's shading.
     Shaded,
-    /// Reciprocal distance of the hit, from white for the nearest in the picture to dark for the farthest; nothing is black.
+    /// Reciprocal distance of the hit, from white for the nearest in the picture to dark for the farthest; nothing is
+    /// black.
     Depth,
     /// Shading normal, its x, y, z from -1..1 to red, green, blue; nothing is black.
     Normal,
@@ -67,8 +68,8 @@ impl FromStr for ViewKind {
 
 /// Draws a view of `scene` of `size` pixels with the rays answered by `accel`, built over the scene's mesh.
 ///
-/// `hottest` is the number of tests and steps that the heat view shows brightest: give one number to all structures that
-/// are to be compared, for example the [`hottest`] of all. The other views do not look at it.
+/// `hottest` is the number of tests and steps that the heat view shows brightest: give one number to all structures
+/// that are to be compared, for example the [`hottest`] of all. The other views do not look at it.
 ///
 /// # Errors
 /// The heat of a structure that does not report tests and steps.
@@ -141,8 +142,8 @@ fn depth(scene: &Scene, accel: &dyn DynAccel, size: [u32; 2]) -> Picture {
     let seen = hits.iter().filter_map(|(_, hit)| hit.map(|hit| hit.t));
     let (near, far) = seen.fold((f32::INFINITY, 0.0f32), |(near, far), t| (near.min(t), far.max(t)));
 
-    // Reciprocals leave contrast to what is near where a floor runs to the horizon. The farthest hit stays brighter than a
-    // miss.
+    // Reciprocals leave contrast to what is near where a floor runs to the horizon. The farthest hit stays brighter
+    // than a miss.
     let near = near.max(far * 1e-3);
     let brightness = |t: f32| {
         let share = (near / t.max(near) - near / far) / (1.0 - near / far);
@@ -156,7 +157,8 @@ fn quantised(value: f32) -> u8 {
     (value * 255.0 + 0.5) as u8
 }
 
-/// A colour that no other primitive below 2^24 - 1 has, and not black: the steps of an odd constant go through all colours.
+/// A colour that no other primitive below 2^24 - 1 has, and not black: the steps of an odd constant go through all
+/// colours.
 fn identity(index: u32) -> [u8; 3] {
     let [_, red, green, blue] = ((index.wrapping_add(1)).wrapping_mul(0x9E_37_79) & 0xFF_FF_FF).to_be_bytes();
     [red, green, blue]

@@ -84,8 +84,8 @@ impl Scene {
     /// The scene in a scene file; `real_meshes` as in [`Builtin::scene`].
     ///
     /// # Errors
-    /// A file that cannot be read, a key or value that it should not have, a mesh that cannot be loaded, a real mesh that is not there
-    /// and has no stand-in.
+    /// A file that cannot be read, a key or value that it should not have, a mesh that cannot be loaded, a real mesh
+    /// that is not there and has no stand-in.
     pub fn read(path: &Path, real_meshes: Option<&Path>) -> Result<Self, SceneError> {
         let text =
             std::fs::read_to_string(path).map_err(|cause| SceneError::Unreadable { file: path.into(), cause })?;

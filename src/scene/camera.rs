@@ -96,8 +96,8 @@ impl View {
 
     /// The ray from the eye through the point `offset` of pixel (`x`, `y`), with a direction of unit length.
     ///
-    /// Pixel (0, 0) is at the top left. `offset` (0, 0) is the top left corner of the pixel, [`View::CENTRE`] its middle,
-    /// (1, 1) its bottom right corner.
+    /// Pixel (0, 0) is at the top left. `offset` (0, 0) is the top left corner of the pixel, [`View::CENTRE`] its
+    /// middle, (1, 1) its bottom right corner.
     pub fn ray(&self, x: u32, y: u32, offset: Vec2) -> Ray {
         let across = (f64::from(x) + f64::from(offset.x) - self.half_size.x) * self.pixel;
         let upward = (self.half_size.y - f64::from(y) - f64::from(offset.y)) * self.pixel;

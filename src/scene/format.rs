@@ -28,9 +28,9 @@ pub struct SceneFile {
     /// See [`super::Scene::shadow_terminator_fix`].
     #[serde(default = "yes")]
     pub shadow_terminator_fix: bool,
-    /// How far each ray origin is moved along its direction, those at the eye included: the course's guard against hitting the
-    /// surface that a ray leaves, which the report's ray counts depend on. Without it rays leave surfaces error-bounded, which
-    /// is right at every scale: see [`super::Offset`].
+    /// How far each ray origin is moved along its direction, those at the eye included: the course's guard against
+    /// hitting the surface that a ray leaves, which the report's ray counts depend on. Without it rays leave surfaces
+    /// error-bounded, which is right at every scale: see [`super::Offset`].
     pub ray_offset: Option<f32>,
     pub camera: CameraFile,
     #[serde(default)]
@@ -97,7 +97,8 @@ impl MaterialFile {
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ObjectFile {
-    /// The name of a generator ([`super::meshes::GENERATORS`]), or a path relative to the scene file; none where only `real` will do.
+    /// The name of a generator ([`super::meshes::GENERATORS`]), or a path relative to the scene file; none where only
+    /// `real` will do.
     pub mesh: Option<String>,
     /// The material of the whole mesh. Without `material` and `materials` the mesh keeps its own, or is grey.
     pub material: Option<String>,

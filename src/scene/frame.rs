@@ -59,7 +59,8 @@ impl Scene {
     }
 }
 
-/// A camera that sees all eight corners of `bounds`, and a light beside and above it; nothing where `f32` has no such places.
+/// A camera that sees all eight corners of `bounds`, and a light beside and above it; nothing where `f32` has no such
+/// places.
 fn place(bounds: Aabb) -> Option<(Camera, Light)> {
     let (min, max) = (bounds.min.as_dvec3(), bounds.max.as_dvec3());
     let centre = (min + max) / 2.0;

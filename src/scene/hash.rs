@@ -6,9 +6,9 @@ use sha2::{Digest, Sha256};
 use super::{Offset, Scene};
 
 impl Scene {
-    /// SHA-256, in hexadecimal, of everything that rays, answers or pictures depend on: vertices, triangles, corner normals,
-    /// materials, lights, camera, background, depth of recursion, how rays leave surfaces, size of the image. Names, notes and
-    /// whether a mesh is a stand-in are left out.
+    /// SHA-256, in hexadecimal, of everything that rays, answers or pictures depend on: vertices, triangles, corner
+    /// normals, materials, lights, camera, background, depth of recursion, how rays leave surfaces, size of the image.
+    /// Names, notes and whether a mesh is a stand-in are left out.
     pub fn hash(&self) -> String {
         // Every field of the scene is named, so that a new one is not forgotten here.
         let Self { mesh, normals, materials, material_of, lights, camera, background, .. } = self;

@@ -11,8 +11,8 @@ pub struct Model {
     pub triangles: Vec<[u32; 3]>,
     /// Corner normals, of any length; empty when the model is flat-shaded.
     pub normals: Vec<Vec3>,
-    /// Three normal numbers a triangle, or empty when there are no normals. A triangle of a partly smooth model that has
-    /// no normals of its own holds [`Model::FLAT`] three times.
+    /// Three normal numbers a triangle, or empty when there are no normals. A triangle of a partly smooth model that
+    /// has no normals of its own holds [`Model::FLAT`] three times.
     pub normal_indices: Vec<[u32; 3]>,
     /// Materials that the model itself names; a scene may replace them by name.
     pub materials: Vec<Material>,

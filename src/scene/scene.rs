@@ -26,8 +26,8 @@ pub struct Scene {
     pub background: Vec3,
     /// Mirror rays are followed up to this level; the primary ray is level 0. Default 8.
     pub recursion_limit: u32,
-    /// Whether shadow rays of smooth triangles start off the surface, at `point + normal * area^0.05`, as the course does
-    /// against dark facets near the shadow boundary. Default true.
+    /// Whether shadow rays of smooth triangles start off the surface, at `point + normal * area^0.05`, as the course
+    /// does against dark facets near the shadow boundary. Default true.
     pub shadow_terminator_fix: bool,
     /// How rays leave surfaces: error-bounded, but in a scene that says otherwise.
     pub offset: Offset,

@@ -6,9 +6,9 @@ use crate::geometry::{PrimId, Ray};
 impl Scene {
     /// The any-hit ray that asks whether `light` is hidden from the surface of `prim`.
     ///
-    /// It starts on the surface, or off it by [`Scene::shadow_terminator_fix`], and is moved by [`Scene::offset`]. It ends at
-    /// the distance of the light from the surface point: an occluder a little beyond the light counts, as in the course. It is
-    /// cast whether or not the light lies behind the surface.
+    /// It starts on the surface, or off it by [`Scene::shadow_terminator_fix`], and is moved by [`Scene::offset`]. It
+    /// ends at the distance of the light from the surface point: an occluder a little beyond the light counts, as in
+    /// the course. It is cast whether or not the light lies behind the surface.
     pub fn shadow_ray(&self, prim: PrimId, surface: &Surface, light: &Light) -> Ray {
         let mut start = surface.point;
         if surface.smooth && self.shadow_terminator_fix {

@@ -26,7 +26,8 @@ pub enum FileError {
     Write(#[from] OutputError),
 }
 
-/// The bytes of a file; of one that does not begin with `magic` its beginning only, for it may be large or without an end.
+/// The bytes of a file; of one that does not begin with `magic` its beginning only, for it may be large or without an
+/// end.
 fn read(path: &Path, magic: &[u8; 8]) -> Result<Vec<u8>, FileError> {
     let bytes = || {
         let (mut file, mut bytes) = (File::open(path)?, vec![]);

@@ -5,7 +5,8 @@ use glam::DVec3;
 use super::flat;
 use crate::scene::Model;
 
-/// Corners with the poles on the y axis, as the course's files have them: a unit icosahedron, cut to steps of 1/200,000.
+/// Corners with the poles on the y axis, as the course's files have them: a unit icosahedron, cut to steps of
+/// 1/200,000.
 ///
 /// The cut shows in the report's ray counts: the mirroring room of Infinitycandy is one of these.
 pub(super) fn corners() -> Vec<DVec3> {
@@ -37,8 +38,8 @@ pub(super) fn sides() -> Vec<[u32; 3]> {
 
 /// The icosahedron of radius 1 with poles on the y axis, flat: 20 triangles.
 ///
-/// Each carries its normal, as in the course's file: that of the corners once they are placed and rounded tilts a little,
-/// and after eight mirrors another ray or two meets an edge.
+/// Each carries its normal, as in the course's file: that of the corners once they are placed and rounded tilts a
+/// little, and after eight mirrors another ray or two meets an edge.
 pub fn icosahedron() -> Model {
     let points = corners();
     let normal = |triangle: &[u32; 3]| {

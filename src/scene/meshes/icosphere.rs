@@ -10,8 +10,8 @@ use crate::scene::Model;
 /// A closed, smooth sphere of radius 1: `20 * 4^subdivisions` triangles, `10 * 4^subdivisions + 2` vertices.
 ///
 /// Each side of the icosahedron is cut into a flat, even net, whose points are then moved out to the sphere: so the
-/// course's sphere was made, as the silhouette of the report's scene shows. (Halving the edges and moving out after each
-/// halving gives another sphere.)
+/// course's sphere was made, as the silhouette of the report's scene shows. (Halving the edges and moving out after
+/// each halving gives another sphere.)
 ///
 /// # Panics
 /// Above 12 subdivisions, where a mesh holds no more triangles.

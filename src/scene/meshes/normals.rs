@@ -5,8 +5,8 @@ use glam::{DVec3, Vec3};
 /// Steps of a component: the program that wrote those files kept normals as 16-bit integers.
 const STEPS: f64 = 32767.0;
 
-/// One normal a vertex, as the course's mesh files have them: the normals of its triangles, weighted by their angles there, in steps of 1/32767 (towards zero),
-/// then written with six decimals. Triangles without area count nothing.
+/// One normal a vertex, as the course's mesh files have them: the normals of its triangles, weighted by their angles
+/// there, in steps of 1/32767 (towards zero), then written with six decimals. Triangles without area count nothing.
 ///
 /// The course's teapot file shows these steps. They matter: mirror rays follow the normals, and with exact ones the
 /// report's ray counts are missed by up to 140.

@@ -10,9 +10,10 @@ use crate::scene::Model;
 /// Squares along a side of a single layer: what it is divisible by, the number of layers can be the square of.
 pub const SHEET_SIDE: u32 = 240;
 
-/// `root * root` layers in a cube of side 2, each of `240 / root` times as many cells with one square each: 115,200 triangles whatever
-/// `root` is. A square covers a quarter of its cell, at a random place in it, so that a line through the layers meets a quarter of
-/// them. The cube is turned by thirds, so that no layer is parallel to an axis: boxes of its squares have depth.
+/// `root * root` layers in a cube of side 2, each of `240 / root` times as many cells with one square each: 115,200
+/// triangles whatever `root` is. A square covers a quarter of its cell, at a random place in it, so that a line through
+/// the layers meets a quarter of them. The cube is turned by thirds, so that no layer is parallel to an axis: boxes of
+/// its squares have depth.
 ///
 /// # Panics
 /// If `root` does not divide [`SHEET_SIDE`].

@@ -20,8 +20,8 @@ const STEPS: usize = 4;
 /// The teapot of the report, 4032 triangles and 2082 vertices, smooth; y is up and the spout points to +x.
 ///
 /// Its mesh was found to be this: Newell's 32 patches, each evaluated on a 4 x 4 grid and welded into four shells (body
-/// with rim and bottom, handle, spout, lid); one Catmull-Clark step, to 2016 quadrilaterals; each of these cut along its
-/// longer diagonal. All vertices agree with the course's file to its last digit.
+/// with rim and bottom, handle, spout, lid); one Catmull-Clark step, to 2016 quadrilaterals; each of these cut along
+/// its longer diagonal. All vertices agree with the course's file to its last digit.
 ///
 /// One control point differs from the published ones: see `PUBLISHED`.
 pub fn teapot() -> Model {
@@ -50,7 +50,8 @@ fn published() -> (Vec<[usize; 16]>, Vec<DVec3>) {
     (patches, points)
 }
 
-/// The grids of all patches as one surface a shell. At the poles, where a side of a patch is one point, faces are triangles.
+/// The grids of all patches as one surface a shell. At the poles, where a side of a patch is one point, faces are
+/// triangles.
 fn welded_patches() -> (Vec<DVec3>, Vec<Vec<u32>>) {
     let (patches, mut controls) = published();
     let (number, published, used) = PUBLISHED;

@@ -9,8 +9,8 @@ use super::*;
 use crate::geometry::{Aabb, Mesh};
 use crate::scene::hash::hexadecimal;
 
-/// Edges with one triangle, and edges with more than two, once triangles with two equal corners are left out and corners
-/// in the same point are taken as one.
+/// Edges with one triangle, and edges with more than two, once triangles with two equal corners are left out and
+/// corners in the same point are taken as one.
 fn loose_and_crowded_edges(mesh: &Mesh) -> (usize, usize) {
     let mut edges: HashMap<_, u32> = HashMap::new();
     for triangle in mesh.solid() {
@@ -109,7 +109,8 @@ fn areas_and_volumes_are_the_polyhedra_s() {
     close(area(&mesh("cornellbox")), 20.0);
     close(area(&mesh("plane_y")), 4.0);
 
-    // An icosahedron of radius 1 has edges of length 4 / sqrt(10 + 2 sqrt 5); its corners are cut to steps of 1/200,000.
+    // An icosahedron of radius 1 has edges of length 4 / sqrt(10 + 2 sqrt 5); its corners are cut to steps of
+    // 1/200,000.
     let edge = 4.0 / (10.0 + 2.0 * 5f64.sqrt()).sqrt();
     let about = |value: f64, wanted: f64| assert!((value / wanted - 1.0).abs() < 3e-5, "{value} is not {wanted}");
     about(area(&mesh("icosahedron")), 5.0 * 3f64.sqrt() * edge * edge);

@@ -12,18 +12,19 @@ use crate::geometry::Ray;
 
 /// A way to start secondary rays. `sahara study self-intersection` measures them against each other.
 ///
-/// A ray that starts on a surface as computed starts, exactly, before or behind it: half of all rays meet their own surface
-/// again (acne). A start that is moved too far passes through what it should meet (leak).
+/// A ray that starts on a surface as computed starts, exactly, before or behind it: half of all rays meet their own
+/// surface again (acne). A start that is moved too far passes through what it should meet (leak).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Offset {
     /// At the point as computed. Promises nothing; costs nothing.
     None,
     /// Moved by this distance along the normal, to the side that the ray leaves to: right for one scale only.
     Normal(f32),
-    /// At the point as computed, but without hits before this `t`; directions have unit length, so that it is a length of
-    /// the scene too. A grazing ray leaves the surface slowly, and meets it again behind `t`.
+    /// At the point as computed, but without hits before this `t`; directions have unit length, so that it is a length
+    /// of the scene too. A grazing ray leaves the surface slowly, and meets it again behind `t`.
     TMin(f32),
-    /// Moved by this distance along the direction, rays from the eye included: the source report's course, with 0.01. As [`Offset::TMin`].
+    /// Moved by this distance along the direction, rays from the eye included: the source report's course, with 0.01.
+    /// As [`Offset::TMin`].
     Direction(f32),
     /// Moved by some units in the last place along the normal: [`wachter_binder`].
     WachterBinder,

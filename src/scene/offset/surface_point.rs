@@ -22,11 +22,12 @@ const GAMMA_7: f32 = {
 impl SurfacePoint {
     /// The point of the triangle with these weights of its corners, whose sum is 1 and which are brought into [0, 1].
     ///
-    /// The point is a mean of the corners: however wrong the weights are, it lies in the triangle but for the rounding of this
-    /// mean. `origin + t * direction` instead is as wrong as `t`, however far the ray has come.
+    /// The point is a mean of the corners: however wrong the weights are, it lies in the triangle but for the rounding
+    /// of this mean. `origin + t * direction` instead is as wrong as `t`, however far the ray has come.
     ///
-    /// `error` is that of pbrt, gamma(7) times the sum of the magnitudes of what is added: enough for weights and a sum in `f32`.
-    /// This sum is made in `f64` and rounded once; what is left over is for triangle tests that round distances from the start.
+    /// `error` is that of pbrt, gamma(7) times the sum of the magnitudes of what is added: enough for weights and a sum
+    /// in `f32`. This sum is made in `f64` and rounded once; what is left over is for triangle tests that round
+    /// distances from the start.
     ///
     /// # References
     /// Pharr, Jakob, Humphreys: Physically Based Rendering, 4th edition, 2023, section 6.8.
@@ -46,8 +47,8 @@ impl SurfacePoint {
     }
 }
 
-/// Weights of the corners where the line of the ray meets their plane, by Cramer's rule in `f64`; equal ones when it runs in the
-/// plane. Outside of [0, 1] where it passes the triangle by.
+/// Weights of the corners where the line of the ray meets their plane, by Cramer's rule in `f64`; equal ones when it
+/// runs in the plane. Outside of [0, 1] where it passes the triangle by.
 pub fn barycentrics(ray: &Ray, corners: [Vec3; 3]) -> DVec3 {
     let [a, b, c] = corners.map(Vec3::as_dvec3);
     let (origin, direction) = (ray.origin.as_dvec3(), ray.direction.as_dvec3());

@@ -1,12 +1,12 @@
 //! Moves the origin by a number of floats along the normal, in the bits of each coordinate; close to zero by a length.
 //!
-//! Promises: no acne where the error of the point is a few units in the last place of its largest coordinate. Does not promise:
-//! a scene smaller than the fixed length, 1/65536, is passed through as a whole, and a coordinate much smaller than the others
-//! is moved by its own few units only. Costs three integer additions.
+//! Promises: no acne where the error of the point is a few units in the last place of its largest coordinate. Does not
+//! promise: a scene smaller than the fixed length, 1/65536, is passed through as a whole, and a coordinate much smaller
+//! than the others is moved by its own few units only. Costs three integer additions.
 //!
 //! # References
-//! Wächter, Binder: A fast and robust method for avoiding self-intersection. Ray Tracing Gems, chapter 6, 2019. The constants
-//! are theirs.
+//! Wächter, Binder: A fast and robust method for avoiding self-intersection. Ray Tracing Gems, chapter 6, 2019. The
+//! constants are theirs.
 
 use glam::Vec3;
 

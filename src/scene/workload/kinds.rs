@@ -60,7 +60,8 @@ kinds! {
     /// From the eye through the middle of each pixel, in tiles of four by four pixels, those in blocks of 32 by
     /// 32; so are all that follow from these.
     Primary, "primary", Closest, primary::centres;
-    /// From the eye through the top left corner of each pixel: on the tidy meshes of tests these meet edges and vertices.
+    /// From the eye through the top left corner of each pixel: on the tidy meshes of tests these meet edges and
+    /// vertices.
     Corners, "corners", Closest, primary::corners;
     /// From each primary hit to each light, one light after the other, any hit.
     Shadow, "shadow", Any, bounces::shadow;

@@ -60,8 +60,8 @@ pub struct Workload {
 impl Workload {
     /// Makes the rays. `accel`, built over the scene's mesh, finds the hits that secondary rays start from.
     ///
-    /// A workload is empty where the scene has no such rays: no shadow rays without lights, none from hits when nothing is
-    /// seen, none at all about an empty mesh.
+    /// A workload is empty where the scene has no such rays: no shadow rays without lights, none from hits when nothing
+    /// is seen, none at all about an empty mesh.
     pub fn new(scene: &Scene, kind: WorkloadKind, sampling: &Sampling, accel: &dyn DynAccel) -> Self {
         let mut source = Source { scene, sampling, accel, sampler: Sampler::new(kind.name(), sampling.seed) };
         let rays = kind.rays(&mut source);

@@ -7,7 +7,11 @@ use glam::{DVec3, Vec3};
 
 use super::buffers::Bytes;
 use super::document::{Accessor, Document};
-use crate::scene::load::error::Fault;
+use crate::scene::load::error::{Fault, quoted};
+
+/// Component types: f32, and u8, u16, u32.
+const F32: u32 = 5126;
+const UNSIGNED: [u32; 3] = [5121, 5123, 5125];
 
 /// Accessors by their numbers. What is asked of one is remembered: many primitives may share it.
 pub(super) struct Accessors<'a> {
@@ -44,14 +48,7 @@ impl<'a> Accessors<'a> {
 
     /// Checks an accessor of positions or normals: three f32 an element.
     pub fn check_vectors(&self, number: usize) -> Result<(), Fault> {
-        let Accessor { component_type, dimensions, .. } = &self.document.accessors[number];
-        match (component_type, dimensions.as_str()) {
-            (5126, "VEC3") => self.elements(number).map(drop),
-            _ => {
-                let found = format!("{} of {}", kind(dimensions), component(*component_type).0);
-                Err(fault(number, format!("it must be VEC3 of f32, not {found}")))
-            }
-        }
+        self.check_type(number, "VEC3", &[F32], "VEC3 of f32")
     }
 
     /// Checks an accessor of positions; gives the least and the greatest coordinates.
@@ -76,16 +73,20 @@ impl<'a> Accessors<'a> {
         if let Some(known) = self.highest.borrow().get(&number) {
             return Ok(*known);
         }
-        let Accessor { component_type, dimensions, .. } = &self.document.accessors[number];
-        if !matches!((component_type, dimensions.as_str()), (5121 | 5123 | 5125, "SCALAR")) {
-            let found = format!("{} of {}", kind(dimensions), component(*component_type).0);
-            return Err(fault(number, format!("it must be SCALAR and unsigned, not {found}")));
-        }
-        drop(self.elements(number)?);
+        self.check_type(number, "SCALAR", &UNSIGNED, "SCALAR and unsigned")?;
         let first_highest = |a: (usize, u32), b: (usize, u32)| if b.1 > a.1 { b } else { a };
         let highest = self.indices(number).enumerate().reduce(first_highest);
         self.highest.borrow_mut().insert(number, highest);
         Ok(highest)
+    }
+
+    fn check_type(&self, number: usize, kind: &str, components: &[u32], wanted: &str) -> Result<(), Fault> {
+        let Accessor { component_type, dimensions, .. } = &self.document.accessors[number];
+        if dimensions != kind || !components.contains(component_type) {
+            let found = format!("{} of component type {component_type}", quoted(dimensions));
+            return Err(fault(number, format!("it must be {wanted}, not {found}")));
+        }
+        self.elements(number).map(drop)
     }
 
     /// The elements of an accessor that has been checked.
@@ -103,7 +104,7 @@ impl<'a> Accessors<'a> {
     /// The bytes of each element, if all lie within their views and buffers and the numbers of sparse elements ascend.
     fn elements(&self, number: usize) -> Result<impl Iterator<Item = &'a [u8]> + use<'a>, Fault> {
         let accessor = &self.document.accessors[number];
-        let size = component(accessor.component_type).1 * if accessor.dimensions == "VEC3" { 3 } else { 1 };
+        let size = bytes(accessor.component_type) * if accessor.dimensions == "VEC3" { 3 } else { 1 };
         let base = self.base(accessor, size).map_err(|problem| fault(number, problem))?;
         let sparse = self.sparse(accessor, size).map_err(|problem| fault(number, problem))?;
         let mut sparse = sparse.into_iter().flat_map(|[indices, values]| indices.iter().zip(values.iter())).peekable();
@@ -134,11 +135,10 @@ impl<'a> Accessors<'a> {
             return Err(format!("{} of its {count} elements are sparse", sparse.count));
         }
         let values = self.view(sparse.values.buffer_view, sparse.values.byte_offset, sparse.count, size)?;
-        let (name, index_size) = component(sparse.indices.component_type.unwrap_or_default());
-        if !name.starts_with('u') {
-            return Err(format!("its sparse indices must be unsigned, not {name}"));
-        }
-        let indices = self.view(sparse.indices.buffer_view, sparse.indices.byte_offset, sparse.count, index_size)?;
+        let Some(kind) = sparse.indices.component_type.filter(|kind| UNSIGNED.contains(kind)) else {
+            return Err("its sparse indices must be unsigned".into());
+        };
+        let indices = self.view(sparse.indices.buffer_view, sparse.indices.byte_offset, sparse.count, bytes(kind))?;
         let mut least = 0;
         for index in indices.iter().map(|bytes| integer(bytes) as usize) {
             if index < least || index >= count {
@@ -168,25 +168,13 @@ impl<'a> Accessors<'a> {
     }
 }
 
-/// The name of a component type, and its size in bytes.
-fn component(number: u32) -> (&'static str, usize) {
-    match number {
-        5120 => ("i8", 1),
-        5121 => ("u8", 1),
-        5122 => ("i16", 2),
-        5123 => ("u16", 2),
-        5125 => ("u32", 4),
-        5126 => ("f32", 4),
-        _ => ("an unknown type", 1),
+/// The size of a component type.
+fn bytes(component_type: u32) -> usize {
+    match component_type {
+        5120 | 5121 => 1,
+        5122 | 5123 => 2,
+        _ => 4,
     }
-}
-
-/// A name of dimensions that may stand in a message.
-fn kind(dimensions: &str) -> &str {
-    ["SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"]
-        .into_iter()
-        .find(|known| *known == dimensions)
-        .unwrap_or("something unknown")
 }
 
 /// At most four bytes, the least significant first.

@@ -23,8 +23,8 @@ impl<'a> Body<'a> {
         Self { rest, encoding: header.encoding, line_end: header.line_end }
     }
 
-    /// Reads all rows of the next element. `take` gets the number of each row and the values of the `wanted` properties:
-    /// none of a property that the element does not have, one of a number, all entries of a list.
+    /// Reads all rows of the next element. `take` gets the number of each row and the values of the `wanted`
+    /// properties: none of a property that the element does not have, one of a number, all entries of a list.
     pub fn rows(
         &mut self,
         element: &Element,

@@ -4,7 +4,8 @@ use serde_json::{Value, json};
 use super::{assert_refused, corners, face_normals, load_files};
 use crate::scene::Model;
 
-/// Four corners of a unit square in the plane z = 0, their normals, and the indices of its two triangles as u8, u16, u32.
+/// Four corners of a unit square in the plane z = 0, their normals, and the indices of its two triangles as u8, u16,
+/// u32.
 fn data() -> Vec<u8> {
     let mut bytes = Vec::new();
     let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0_f32]];

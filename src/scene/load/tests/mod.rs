@@ -11,7 +11,6 @@ use std::path::Path;
 use glam::Vec3;
 
 use super::{LoadError, load};
-use crate::geometry::Mesh;
 use crate::scene::Model;
 
 /// Loads the first of the given files, which lie in one folder.
@@ -66,11 +65,4 @@ fn what_is_no_file_is_refused() {
         assert!(matches!(error, LoadError::Unreadable { .. }) && error.to_string().contains(name), "{error}");
     }
     assert!(load(Path::new("")).is_err());
-}
-
-#[test]
-fn a_loaded_model_is_a_mesh() {
-    let model = load_files(&[("a.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\nf 1 2 3\nf 1 2 4\n")]).unwrap();
-    let mesh = Mesh::new(model.positions, model.triangles).unwrap();
-    assert_eq!((mesh.len(), mesh.degenerate()), (2, &[1][..]));
 }

@@ -1,4 +1,5 @@
-//! A dragon, in place of the scanned one that may not be copied: a coiled serpent body on four legs, in one closed mesh.
+//! A dragon, in place of the scanned one that may not be copied: a coiled serpent body on four legs, in one closed
+//! mesh.
 
 mod body;
 mod head;

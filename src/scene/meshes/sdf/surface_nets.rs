@@ -12,8 +12,8 @@ use crate::geometry::Aabb;
 use crate::scene::{Model, meshes::normals};
 
 impl Sdf {
-    /// The largest connected piece of the surface inside `bounds`: closed, with edges of about `step` and a unit normal for
-    /// each vertex; `relax` rounds even it out.
+    /// The largest connected piece of the surface inside `bounds`: closed, with edges of about `step` and a unit normal
+    /// for each vertex; `relax` rounds even it out.
     pub fn surface(&self, bounds: Aabb, step: f32, relax: usize) -> Model {
         let mut grid = Grid::sample(self, bounds, step);
         grid.simplify();

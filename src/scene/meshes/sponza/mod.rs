@@ -1,7 +1,7 @@
 //! A two-storey arcaded court, in place of the Sponza model that may not be copied.
 //!
-//! Like real architecture, and unlike a scan, it is tessellated unevenly: huge wall triangles stand next to tiny ones in
-//! capitals, balusters and roof tiles.
+//! Like real architecture, and unlike a scan, it is tessellated unevenly: huge wall triangles stand next to tiny ones
+//! in capitals, balusters and roof tiles.
 
 mod arcade;
 mod column;
@@ -30,7 +30,8 @@ const EAVES: f32 = 900.0;
 /// Column spacing below; above, columns stand twice as close.
 const BAY: f32 = 208.0;
 
-/// A building of 174,838 triangles with an open court, 3721 long (x), 1555 high and 2288 wide, its court floor at y = 0.
+/// A building of 174,838 triangles with an open court, 3721 long (x), 1555 high and 2288 wide, its court floor at y =
+/// 0.
 ///
 /// Flat stone is flat-shaded, turned and curved stone has smooth normals. Not closed. Materials by name: floor, brick,
 /// column_a, column_b, arch, trim, ornament, ceiling, wood, roof.
