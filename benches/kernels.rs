@@ -15,7 +15,7 @@ use sahara::geometry::Ray;
 use sahara::kdtree::{KdConfig, KdTree};
 use sahara::registry::Registry;
 use sahara::scene::{Builtin, Sampling, Workload, WorkloadKind};
-use sahara::simd::{F32x4, Kernel, Lanes, Level, Portable, Sieve, dispatch};
+use sahara::simd::{EightLanes, F32x4, Kernel, Lanes, Level, Portable, dispatch};
 use sahara::triangle::{
     BaldwinWeber, EdgeF64, Exact, FilteredF64, MollerTrumbore, MollerTrumboreF64, Plucker, TriangleTest, Watertight,
 };
@@ -33,11 +33,11 @@ fn triangles() -> Vec<[Vec3; 3]> {
 fn test_all<T: TriangleTest, const N: usize, L: Lanes<N>>(ray: &Ray, blocks: &[T::Block<N>]) -> usize {
     let prepared = T::prepare(ray);
     let hits = |block| {
-        let (candidates, known) = T::candidates::<N, L>(&prepared, block, 0.0, f32::MAX);
+        let (candidates, value) = T::candidates::<N, L>(&prepared, block, 0.0, f32::MAX);
         if candidates == 0 {
             return 0;
         }
-        let hit = |lane| T::decide(&prepared, block, lane, known.store()[lane]).is_some();
+        let hit = |lane| T::decide(&prepared, block, lane, value.store()[lane]).is_some();
         (0..N).filter(|&lane| candidates >> lane & 1 == 1 && hit(lane)).count()
     };
     blocks.iter().map(hits).sum()
@@ -50,7 +50,7 @@ impl<T: TriangleTest> Kernel for Eight<'_, T> {
     type Output = usize;
 
     #[inline(always)]
-    fn run<L: Sieve>(self) -> usize {
+    fn run<L: EightLanes>(self) -> usize {
         test_all::<T, 8, L>(self.0, self.1)
     }
 }

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::accel::{Accel, BuildError, Footprint, Observer, Outline, Part, TreeShape};
 use crate::geometry::{Aabb, Hit, Mesh, Ray};
-use crate::simd::Sieve;
+use crate::simd::EightLanes;
 use crate::traversal::leaf::{LeafBlock, search, start};
 use crate::traversal::walk::{Walk, single};
 use crate::triangle::TriangleTest;
@@ -36,7 +36,7 @@ impl<T: TriangleTest> BruteForce<T> {
 
 impl<T: TriangleTest> Walk for BruteForce<T> {
     #[inline(always)]
-    fn walk<const ANY: bool, L: Sieve, O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit> {
+    fn walk<const ANY: bool, L: EightLanes, O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit> {
         let (t_min, mut nearest) = start::<T>(ray)?;
         let prepared = T::prepare(ray);
         observer.leaf(self.references as u32);

@@ -8,7 +8,7 @@ use super::stream::{Slots, Stream};
 use super::tree::Bvh8;
 use crate::accel::Observer;
 use crate::geometry::{Hit, Ray};
-use crate::simd::{Kernel, Level, Sieve, dispatch};
+use crate::simd::{EightLanes, Kernel, Level, dispatch};
 use crate::traversal::walk::{silent, single};
 use crate::triangle::TriangleTest;
 
@@ -16,13 +16,13 @@ use crate::triangle::TriangleTest;
 /// are few beside them.
 const WINDOW: usize = 4096;
 
-/// Sixteens of a window, by their numbers; the last one may be shorter.
-pub(super) struct Sixteens {
+/// Groups of a window, by their numbers; the last one may be shorter.
+pub(super) struct Groups {
     numbers: [u8; WINDOW / RAYS],
     len: usize,
 }
 
-impl Sixteens {
+impl Groups {
     const NONE: Self = Self { numbers: [0; WINDOW / RAYS], len: 0 };
 
     /// All of a window of `rays` rays.
@@ -45,18 +45,18 @@ impl Sixteens {
 }
 
 /// One after the other.
-struct InTurn<'a, const ANY: bool, T: TriangleTest, A, F> {
+struct InOrder<'a, const ANY: bool, T: TriangleTest, A, F> {
     tree: &'a Bvh8<T>,
     rays: &'a [Ray],
     answers: &'a mut [A],
     form: F,
 }
 
-impl<const ANY: bool, T: TriangleTest, A, F: Fn(Option<Hit>) -> A> Kernel for InTurn<'_, ANY, T, A, F> {
+impl<const ANY: bool, T: TriangleTest, A, F: Fn(Option<Hit>) -> A> Kernel for InOrder<'_, ANY, T, A, F> {
     type Output = ();
 
     #[inline(always)]
-    fn run<L: Sieve>(self) {
+    fn run<L: EightLanes>(self) {
         for (answer, ray) in self.answers.iter_mut().zip(self.rays) {
             *answer = (self.form)(silent::<ANY, L, _>(self.tree, ray));
         }
@@ -72,15 +72,17 @@ struct InPackets<'a, const ANY: bool, T: TriangleTest, A, F> {
 }
 
 impl<const ANY: bool, T: TriangleTest, A, F: Fn(Option<Hit>) -> A> Kernel for InPackets<'_, ANY, T, A, F> {
-    type Output = Sixteens;
+    type Output = Groups;
 
     #[inline(always)]
-    fn run<L: Sieve>(self) -> Sixteens {
+    fn run<L: EightLanes>(self) -> Groups {
         let Self { tree, rays, answers, form } = self;
-        let mut others = Sixteens::NONE;
+        let mut others = Groups::NONE;
         for (number, (rays, answers)) in rays.chunks(RAYS).zip(answers.chunks_mut(RAYS)).enumerate() {
             let together = match (rays.try_into(), answers.try_into()) {
-                (Ok(rays), Ok(answers)) if L::FAST => alike(rays) && tree.packet::<ANY, L, A>(rays, answers, form),
+                (Ok(rays), Ok(answers)) if L::FAST => {
+                    alike(rays) && tree.intersect_packet::<ANY, L, A>(rays, answers, form)
+                }
                 _ => false,
             };
             if !together {
@@ -93,19 +95,19 @@ impl<const ANY: bool, T: TriangleTest, A, F: Fn(Option<Hit>) -> A> Kernel for In
 
 /// Some sixteens of a window, several rays under way at once: a kernel of its own, because beside another walk in the same function it is
 /// a third slower.
-pub(super) struct UnderWay<'a, const ANY: bool, T: TriangleTest, A, F> {
+pub(super) struct Interleaved<'a, const ANY: bool, T: TriangleTest, A, F> {
     pub tree: &'a Bvh8<T>,
     pub rays: &'a [Ray],
-    pub which: &'a Sixteens,
+    pub which: &'a Groups,
     pub answers: &'a mut [A],
     pub form: &'a F,
 }
 
-impl<const ANY: bool, T: TriangleTest, A, F: Fn(Option<Hit>) -> A> Kernel for UnderWay<'_, ANY, T, A, F> {
+impl<const ANY: bool, T: TriangleTest, A, F: Fn(Option<Hit>) -> A> Kernel for Interleaved<'_, ANY, T, A, F> {
     type Output = ();
 
     #[inline(always)]
-    fn run<L: Sieve>(self) {
+    fn run<L: EightLanes>(self) {
         let Self { tree, rays, which, answers, form } = self;
         if !L::FAST {
             // On portable lanes it is not memory that takes the time.
@@ -155,15 +157,15 @@ pub(super) fn answer<const ANY: bool, T: TriangleTest, A, O: Observer>(
     } else {
         let level = Level::current();
         if tree.batch == Batch::Single {
-            return dispatch(level, InTurn::<ANY, T, A, _> { tree, rays, answers, form });
+            return dispatch(level, InOrder::<ANY, T, A, _> { tree, rays, answers, form });
         }
         for (rays, answers) in rays.chunks(WINDOW).zip(answers.chunks_mut(WINDOW)) {
             let form = &form;
             let which = match tree.batch {
                 Batch::Packets => dispatch(level, InPackets::<ANY, T, A, _> { tree, rays, answers, form }),
-                _ => Sixteens::all(rays.len()),
+                _ => Groups::all(rays.len()),
             };
-            dispatch(level, UnderWay::<ANY, T, A, _> { tree, rays, which: &which, answers, form });
+            dispatch(level, Interleaved::<ANY, T, A, _> { tree, rays, which: &which, answers, form });
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::node::{Node, WIDTH};
 use super::prepared_ray::rows;
-use super::ray_packet::Beams;
+use super::ray_packet::RayPacket;
 use crate::simd::{Lanes, each};
 
 /// Bounds of the crossings of several rays with a plane.
@@ -36,16 +36,16 @@ fn range<L: Lanes<WIDTH>>(row: &[L; 2]) -> [L; 2] {
 
 impl<L: Lanes<WIDTH>> Frustum<L> {
     #[inline(always)]
-    pub fn new(beams: &Beams<L>) -> Self {
-        let origin = each(&beams.origin, range);
-        let backward = |axis: usize| beams.octant >> axis & 1;
-        let (near, far) = rows(beams.octant);
+    pub fn new(packet: &RayPacket<L>) -> Self {
+        let origin = each(&packet.origin, range);
+        let backward = |axis: usize| packet.octant >> axis & 1;
+        let (near, far) = rows(packet.octant);
         Self {
             near_origin: each(&[0, 1, 2], |&axis| origin[axis][1 - backward(axis)]),
             far_origin: each(&[0, 1, 2], |&axis| origin[axis][backward(axis)]),
-            inverse: each(&beams.inverse, range),
-            enlarged: each(&beams.enlarged, range),
-            t_min: range(&beams.t_min)[0],
+            inverse: each(&packet.inverse, range),
+            enlarged: each(&packet.enlarged, range),
+            t_min: range(&packet.t_min)[0],
             near,
             far,
         }

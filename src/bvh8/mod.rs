@@ -10,7 +10,7 @@ mod node;
 mod outline;
 mod packet;
 mod packet_hits;
-mod packet_leaves;
+mod packet_state;
 mod prepared_ray;
 mod ray_packet;
 mod stack;

@@ -1,4 +1,4 @@
-//! Sixteen rays that travel together.
+//! A packet of sixteen rays.
 //!
 //! **The same answers as one by one.** A packet visits the children of a node in the order of the octant, which its rays
 //! share, and a ray takes part in a visit just when its own test of the box says so, with its own end. What the packet decides
@@ -13,12 +13,12 @@ use std::mem::MaybeUninit;
 use super::frustum::Frustum;
 use super::node::{Child, WIDTH};
 use super::packet_hits::RAYS;
-use super::packet_leaves::Travellers;
-use super::ray_packet::Beams;
+use super::packet_state::PacketState;
+use super::ray_packet::RayPacket;
 use super::stack::SIZE;
 use super::tree::Bvh8;
 use crate::geometry::{Hit, Ray};
-use crate::simd::Sieve;
+use crate::simd::EightLanes;
 use crate::triangle::TriangleTest;
 
 /// At most this many rays that are left go on alone.
@@ -39,39 +39,39 @@ struct Entry {
 impl<T: TriangleTest> Bvh8<T> {
     /// Answers sixteen rays; false if they cannot travel together.
     #[inline(always)]
-    pub(super) fn packet<const ANY: bool, L: Sieve, A>(
+    pub(super) fn intersect_packet<const ANY: bool, L: EightLanes, A>(
         &self,
         rays: &[Ray; RAYS],
         answers: &mut [A; RAYS],
         form: &impl Fn(Option<Hit>) -> A,
     ) -> bool {
-        let Some(mut beams) = Beams::<L>::new(rays, &self.bounds) else { return false };
-        let frustum = Frustum::new(&beams);
-        let mut travellers = Travellers::<T>::new(rays, &mut beams);
+        let Some(mut packet) = RayPacket::<L>::new(rays, &self.bounds) else { return false };
+        let frustum = Frustum::new(&packet);
+        let mut state = PacketState::<T>::new(rays, &mut packet);
         let mut stack = [const { MaybeUninit::<Entry>::uninit() }; SIZE];
         let mut len = 0;
-        let (mut child, mut taking_part) = (self.root, u16::MAX);
+        let (mut child, mut active) = (self.root, u16::MAX);
         loop {
             if let Some((first, count)) = child.blocks() {
                 // SAFETY: leaves name blocks that are there.
                 let blocks = unsafe { self.blocks.get_unchecked(first..first + count) };
-                travellers.search::<ANY, L>(blocks, taking_part, &mut beams);
-            } else if taking_part.count_ones() <= FEW {
-                self.separately::<ANY, L>(child, taking_part, &mut beams, &mut travellers);
+                state.search::<ANY, L>(blocks, active, &mut packet);
+            } else if active.count_ones() <= FEW {
+                self.one_by_one::<ANY, L>(child, active, &mut packet, &mut state);
             } else {
                 // SAFETY: children name nodes that are there; the depth was checked when the tree was built, so that no
                 // more than seven entries a level are on the stack when eight are written.
                 unsafe {
                     let node = self.nodes.get_unchecked(child.index());
                     let met = frustum.meet(node);
-                    let order = if ANY { IN_LANES } else { node.orders[beams.octant & 7] };
+                    let order = if ANY { IN_LANES } else { node.orders[packet.octant & 7] };
                     for i in 0..WIDTH {
                         let lane = (order >> (3 * i) & 7) as usize;
                         let entry = Entry {
                             child: node.children[lane],
                             parent: child.index() as u32,
                             lane: lane as u16,
-                            rays: taking_part,
+                            rays: active,
                         };
                         stack.get_unchecked_mut(len).write(entry);
                         len += (met >> lane & 1) as usize;
@@ -79,9 +79,9 @@ impl<T: TriangleTest> Bvh8<T> {
                 }
             }
             loop {
-                if len == 0 || travellers.looking() == 0 {
+                if len == 0 || state.unfinished() == 0 {
                     for (i, answer) in answers.iter_mut().enumerate() {
-                        *answer = form(travellers.hit(i));
+                        *answer = form(state.hit(i));
                     }
                     return true;
                 }
@@ -91,11 +91,11 @@ impl<T: TriangleTest> Bvh8<T> {
                     let entry = stack.get_unchecked(len).assume_init();
                     (entry, self.nodes.get_unchecked(entry.parent as usize))
                 };
-                taking_part = entry.rays & travellers.looking();
-                if taking_part != 0 {
-                    taking_part &= beams.meet(node, entry.lane as usize);
+                active = entry.rays & state.unfinished();
+                if active != 0 {
+                    active &= packet.meet(node, entry.lane as usize);
                 }
-                if taking_part != 0 {
+                if active != 0 {
                     child = entry.child;
                     break;
                 }
@@ -103,22 +103,22 @@ impl<T: TriangleTest> Bvh8<T> {
         }
     }
 
-    /// Searches what is below `child` for the rays `taking_part`, one after the other.
+    /// Searches what is below `child` for the rays `active`, one after the other.
     #[inline(always)]
-    fn separately<const ANY: bool, L: Sieve>(
+    fn one_by_one<const ANY: bool, L: EightLanes>(
         &self,
         child: Child,
-        mut taking_part: u16,
-        beams: &mut Beams<L>,
-        travellers: &mut Travellers<T>,
+        mut active: u16,
+        packet: &mut RayPacket<L>,
+        state: &mut PacketState<T>,
     ) {
-        while taking_part != 0 {
-            let i = taking_part.trailing_zeros() as usize % RAYS;
-            taking_part &= taking_part - 1;
-            let beam = beams.single(i);
-            let (ray, t_min, mut nearest) = travellers.alone(i);
-            self.descend::<ANY, L, ()>(child, &beam, ray, t_min, &mut nearest, &mut ());
-            travellers.back::<ANY, L>(i, nearest, beams);
+        while active != 0 {
+            let i = active.trailing_zeros() as usize % RAYS;
+            active &= active - 1;
+            let prepared_ray = packet.single(i);
+            let (ray, t_min, mut nearest) = state.single(i);
+            self.descend::<ANY, L, ()>(child, &prepared_ray, ray, t_min, &mut nearest, &mut ());
+            state.put_back::<ANY, L>(i, nearest, packet);
         }
     }
 }

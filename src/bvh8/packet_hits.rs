@@ -1,5 +1,5 @@
 use super::node::WIDTH;
-use crate::simd::{Sieve, each};
+use crate::simd::{EightLanes, each};
 use crate::traversal::leaf::{NONE, Nearest};
 use crate::triangle::Depth;
 
@@ -8,7 +8,7 @@ pub(super) const RAYS: usize = 16;
 pub(super) const HALVES: usize = RAYS / WIDTH;
 
 /// The nearest hits of sixteen rays so far, or the ends of their intervals, side by side: a [`Nearest`] each.
-pub(super) struct Nearests<D> {
+pub(super) struct PacketHits<D> {
     t: [[f32; WIDTH]; HALVES],
     /// [`NONE`] where nothing is found.
     ids: [[u32; WIDTH]; HALVES],
@@ -18,33 +18,32 @@ pub(super) struct Nearests<D> {
 
 /// Those of one half of the rays, in lanes.
 #[derive(Clone, Copy)]
-pub(super) struct NearestLanes<L: Sieve> {
+pub(super) struct HitLanes<L: EightLanes> {
     pub t: L,
     ids: L::Numbers,
 }
 
-impl<L: Sieve> NearestLanes<L> {
+impl<L: EightLanes> HitLanes<L> {
     /// Takes in the lanes of `met` hits of triangle `id` at `t` that are nearer, or as near with a lower number.
     #[inline(always)]
     pub fn offer(&mut self, met: L::Mask, t: L, id: u32) {
         let id = L::splat_number(id);
-        let as_near = L::both(t.mask_le(self.t), L::mask_least(id, self.ids));
-        let better = L::both(met, L::either(t.mask_lt(self.t), as_near));
+        let as_near = L::both(t.cmp_le(self.t), L::cmp_le_numbers(id, self.ids));
+        let better = L::both(met, L::either(t.cmp_lt(self.t), as_near));
         self.t = t.choose(self.t, better);
         self.ids = L::choose_numbers(id, self.ids, better);
     }
 }
 
-impl<D: Depth> Nearests<D> {
+impl<D: Depth> PacketHits<D> {
     /// Nothing found yet, each ray up to and with its `last`.
     #[inline(always)]
     pub fn until(last: impl Fn(usize) -> f32) -> Self {
-        let mut nearests =
-            Self { t: [[0.0; WIDTH]; HALVES], ids: [[NONE; WIDTH]; HALVES], depths: [const { None }; RAYS] };
+        let mut hits = Self { t: [[0.0; WIDTH]; HALVES], ids: [[NONE; WIDTH]; HALVES], depths: [const { None }; RAYS] };
         for i in 0..RAYS {
-            nearests.t[i / WIDTH][i % WIDTH] = last(i);
+            hits.t[i / WIDTH][i % WIDTH] = last(i);
         }
-        nearests
+        hits
     }
 
     /// Hits of ray `i` must lie at or before it.
@@ -89,14 +88,14 @@ impl<D: Depth> Nearests<D> {
     }
 
     #[inline(always)]
-    pub fn lanes<L: Sieve>(&self) -> [NearestLanes<L>; HALVES] {
-        let half = |half: usize| NearestLanes { t: L::load(&self.t[half]), ids: L::numbers(&self.ids[half]) };
+    pub fn lanes<L: EightLanes>(&self) -> [HitLanes<L>; HALVES] {
+        let half = |half: usize| HitLanes { t: L::load(&self.t[half]), ids: L::numbers(&self.ids[half]) };
         [half(0), half(1)]
     }
 
     /// Of hits that are no more than their `t`.
     #[inline(always)]
-    pub fn set_lanes<L: Sieve>(&mut self, lanes: &[NearestLanes<L>; HALVES]) {
+    pub fn set_lanes<L: EightLanes>(&mut self, lanes: &[HitLanes<L>; HALVES]) {
         self.t = each(lanes, |half| half.t.store());
         self.ids = each(lanes, |half| L::store_numbers(half.ids));
     }

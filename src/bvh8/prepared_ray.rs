@@ -18,7 +18,7 @@ use crate::traversal::line::inverses;
 /// which n does not exceed. Infinite crossings (`d` = 0) order correctly, and what has no answer is NaN (see
 /// [`inverses`]), which leaves the interval as it is. Nothing is fused, so that all levels visit the same boxes.
 #[derive(Clone, Copy)]
-pub(super) struct Beam<L> {
+pub(super) struct PreparedRay<L> {
     origin: [L; 3],
     inverse: [L; 3],
     enlarged: [L; 3],
@@ -40,7 +40,7 @@ pub(super) fn rows(octant: usize) -> ([usize; 3], [usize; 3]) {
     ([x, 2 + y, 4 + z], [1 - x, 3 - y, 5 - z])
 }
 
-impl<L: Lanes<WIDTH>> Beam<L> {
+impl<L: Lanes<WIDTH>> PreparedRay<L> {
     /// For boxes in `bounds`.
     #[inline(always)]
     pub fn new(ray: &Ray, bounds: &Aabb, t_min: f32) -> Self {

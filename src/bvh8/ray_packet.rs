@@ -2,16 +2,16 @@
 
 use super::node::{Node, WIDTH};
 use super::packet_hits::{HALVES, RAYS};
-use super::prepared_ray::{Beam, ENLARGED};
+use super::prepared_ray::{ENLARGED, PreparedRay};
 use crate::geometry::{Aabb, Ray};
-use crate::simd::{LaneVec3, Sieve, each};
+use crate::simd::{EightLanes, LaneVec3, each};
 use crate::traversal::line::{after, lanes_after};
 
 /// A number of each ray.
 type Row = [[f32; WIDTH]; HALVES];
 
-/// The rays of a packet: each as its [`Beam`] has it.
-pub(super) struct Beams<L> {
+/// The rays of a packet: each as its [`PreparedRay`] has it.
+pub(super) struct RayPacket<L> {
     pub origin: [[L; HALVES]; 3],
     direction: [[L; HALVES]; 3],
     pub inverse: [[L; HALVES]; 3],
@@ -24,7 +24,7 @@ pub(super) struct Beams<L> {
 /// The eight numbers of eight rays: a row of each. A function, because a closure as large as this is not inlined everywhere, and then
 /// is not compiled for the level.
 #[inline(always)]
-fn numbers<L: Sieve>(rays: &[Ray]) -> [L; 8] {
+fn numbers<L: EightLanes>(rays: &[Ray]) -> [L; 8] {
     let mut rows = [L::zero(); WIDTH];
     for (row, ray) in rows.iter_mut().zip(rays) {
         let Ray { origin: o, t_min, direction: d, t_max } = *ray;
@@ -33,7 +33,7 @@ fn numbers<L: Sieve>(rays: &[Ray]) -> [L; 8] {
     L::transpose(rows)
 }
 
-impl<L: Sieve> Beams<L> {
+impl<L: EightLanes> RayPacket<L> {
     /// Without their ends: rays of one octant whose crossings with planes in `bounds` all have a finite answer; nothing if they are not that.
     #[inline(always)]
     pub fn new(rays: &[Ray; RAYS], bounds: &Aabb) -> Option<Self> {
@@ -93,9 +93,9 @@ impl<L: Sieve> Beams<L> {
 
     /// One of the rays.
     #[inline(always)]
-    pub fn single(&self, i: usize) -> Beam<L> {
+    pub fn single(&self, i: usize) -> PreparedRay<L> {
         let pick = |row: &[L; HALVES]| row[i / WIDTH].store()[i % WIDTH];
-        Beam::of(each(&self.origin, pick), each(&self.inverse, pick), pick(&self.t_min), self.octant)
+        PreparedRay::of(each(&self.origin, pick), each(&self.inverse, pick), pick(&self.t_min), self.octant)
     }
 
     #[inline(always)]
@@ -121,7 +121,7 @@ impl<L: Sieve> Beams<L> {
 
     /// Both halves of the rays: their origins, their directions and where they start.
     #[inline(always)]
-    pub fn abreast(&self) -> [(LaneVec3<WIDTH, L>, LaneVec3<WIDTH, L>, L); HALVES] {
+    pub fn halves(&self) -> [(LaneVec3<WIDTH, L>, LaneVec3<WIDTH, L>, L); HALVES] {
         let half = |half: usize| {
             let row = |[x, y, z]: &[[L; HALVES]; 3]| LaneVec3::new(x[half], y[half], z[half]);
             (row(&self.origin), row(&self.direction), self.t_min[half])

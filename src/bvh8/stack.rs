@@ -3,7 +3,7 @@
 use std::mem::MaybeUninit;
 
 use super::node::{Child, DEPTH, Node, WIDTH};
-use crate::simd::Sieve;
+use crate::simd::EightLanes;
 
 /// Each node leaves at most seven children behind, and eight are written at once.
 pub(super) const SIZE: usize = DEPTH * (WIDTH - 1) + WIDTH;
@@ -58,7 +58,7 @@ impl Stack {
     /// # Safety
     /// Every node on the way here has been pushed once, and there are at most [`DEPTH`].
     #[inline(always)]
-    pub unsafe fn push<const ANY: bool, L: Sieve>(
+    pub unsafe fn push<const ANY: bool, L: EightLanes>(
         &mut self,
         node: &Node,
         octant: usize,
@@ -70,9 +70,9 @@ impl Stack {
         let met = unsafe {
             let chosen = self.children.as_mut_ptr().add(self.len).cast();
             if ANY {
-                enter.sift(leave, children, chosen)
+                enter.compress(leave, children, chosen)
             } else {
-                enter.sieve(leave, children, order, self.enters.as_mut_ptr().add(self.len).cast(), chosen)
+                enter.compress_ordered(leave, children, order, self.enters.as_mut_ptr().add(self.len).cast(), chosen)
             }
         };
         let last = met.checked_ilog2()?;
@@ -88,16 +88,21 @@ impl Stack {
     /// # Safety
     /// As of [`push`](Self::push).
     #[inline(always)]
-    pub unsafe fn push_all<const ANY: bool, L: Sieve>(&mut self, node: &Node, octant: usize, (enter, leave): (L, L)) {
+    pub unsafe fn push_all<const ANY: bool, L: EightLanes>(
+        &mut self,
+        node: &Node,
+        octant: usize,
+        (enter, leave): (L, L),
+    ) {
         let children = Child::bits(&node.children);
         // SAFETY: as there.
         let met = unsafe {
             let chosen = self.children.as_mut_ptr().add(self.len).cast();
             if ANY {
-                enter.sift(leave, children, chosen)
+                enter.compress(leave, children, chosen)
             } else {
                 let enters = self.enters.as_mut_ptr().add(self.len).cast();
-                enter.sieve(leave, children, node.orders[octant & 7], enters, chosen)
+                enter.compress_ordered(leave, children, node.orders[octant & 7], enters, chosen)
             }
         };
         self.len += met.count_ones() as usize;

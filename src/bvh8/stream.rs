@@ -9,11 +9,11 @@ use std::marker::PhantomData;
 use std::mem::MaybeUninit;
 
 use super::node::{Child, WIDTH};
-use super::prepared_ray::Beam;
+use super::prepared_ray::PreparedRay;
 use super::stack::Stack;
 use super::tree::Bvh8;
 use crate::geometry::{Hit, Ray};
-use crate::simd::Sieve;
+use crate::simd::EightLanes;
 use crate::traversal::leaf::{Nearest, search, start};
 use crate::traversal::line::after;
 use crate::traversal::pages;
@@ -23,8 +23,8 @@ use crate::triangle::TriangleTest;
 const SLOTS: usize = 8;
 
 /// A ray under way.
-struct Traveller<L, T: TriangleTest> {
-    beam: Beam<L>,
+struct StreamRay<L, T: TriangleTest> {
+    prepared_ray: PreparedRay<L>,
     ray: T::Ray,
     t_min: f32,
     nearest: Nearest<T::Depth>,
@@ -38,14 +38,14 @@ struct Traveller<L, T: TriangleTest> {
 }
 
 /// Room for rays under way.
-pub(super) struct Slots<L, T: TriangleTest>([MaybeUninit<Traveller<L, T>>; SLOTS]);
+pub(super) struct Slots<L, T: TriangleTest>([MaybeUninit<StreamRay<L, T>>; SLOTS]);
 
 impl<L, T: TriangleTest> Slots<L, T> {
     pub const EMPTY: Self = Self([const { MaybeUninit::uninit() }; SLOTS]);
 }
 
 /// Some of the slots.
-struct List<L, T: TriangleTest>([*mut Traveller<L, T>; SLOTS]);
+struct List<L, T: TriangleTest>([*mut StreamRay<L, T>; SLOTS]);
 
 impl<L, T: TriangleTest> List<L, T> {
     const EMPTY: Self = Self([std::ptr::null_mut(); SLOTS]);
@@ -53,7 +53,7 @@ impl<L, T: TriangleTest> List<L, T> {
     /// # Safety
     /// There are less than `SLOTS` before it.
     #[inline(always)]
-    unsafe fn put(&mut self, i: usize, slot: *mut Traveller<L, T>) {
+    unsafe fn put(&mut self, i: usize, slot: *mut StreamRay<L, T>) {
         debug_assert!(i < SLOTS);
         // SAFETY: as the caller says.
         unsafe { *self.0.get_unchecked_mut(i) = slot };
@@ -62,7 +62,7 @@ impl<L, T: TriangleTest> List<L, T> {
     /// # Safety
     /// It was put there.
     #[inline(always)]
-    unsafe fn get(&self, i: usize) -> *mut Traveller<L, T> {
+    unsafe fn get(&self, i: usize) -> *mut StreamRay<L, T> {
         debug_assert!(i < SLOTS);
         // SAFETY: as the caller says.
         unsafe { *self.0.get_unchecked(i) }
@@ -85,7 +85,7 @@ pub(super) struct Stream<'a, L, T: TriangleTest> {
     freed: usize,
 }
 
-impl<'a, L: Sieve, T: TriangleTest> Stream<'a, L, T> {
+impl<'a, L: EightLanes, T: TriangleTest> Stream<'a, L, T> {
     #[inline(always)]
     pub fn new(tree: &'a Bvh8<T>, slots: &'a mut Slots<L, T>) -> Self {
         let mut free = List::EMPTY;
@@ -109,7 +109,7 @@ impl<'a, L: Sieve, T: TriangleTest> Stream<'a, L, T> {
         // are as long as there are slots.
         unsafe {
             let slot = self.free.get(self.freed);
-            (&raw mut (*slot).beam).write(Beam::new(ray, &self.tree.bounds, t_min));
+            (&raw mut (*slot).prepared_ray).write(PreparedRay::new(ray, &self.tree.bounds, t_min));
             (&raw mut (*slot).ray).write(T::prepare(ray));
             (&raw mut (*slot).t_min).write(t_min);
             (&raw mut (*slot).end).write(after(nearest.t));
@@ -148,7 +148,11 @@ impl<'a, L: Sieve, T: TriangleTest> Stream<'a, L, T> {
                 let slot = self.nodes.get(k);
                 let at = &mut *slot;
                 let node = tree.nodes.get_unchecked(at.child.index());
-                at.stack.push_all::<ANY, L>(node, at.beam.octant, at.beam.cross(node, L::splat(at.end)));
+                at.stack.push_all::<ANY, L>(
+                    node,
+                    at.prepared_ray.octant,
+                    at.prepared_ray.cross(node, L::splat(at.end)),
+                );
                 at.child = at.stack.pop_down::<ANY>(at.end);
                 tree.fetch(at.child);
                 self.nodes.put(nodes, slot);

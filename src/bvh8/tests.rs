@@ -2,7 +2,7 @@ use std::sync::Arc;
 
 use glam::Vec3;
 
-use super::batch::{Sixteens, UnderWay};
+use super::batch::{Groups, Interleaved};
 use super::node::Limits;
 use super::*;
 use crate::accel::{Accel, BuildError, Counts};
@@ -89,10 +89,10 @@ fn several_answer_as_one<T: TriangleTest>(mesh: &Arc<Mesh>, rays: &[Ray]) {
         let tree = &Bvh8::<T>::build(mesh, &Bvh8Config::new(partition)).unwrap();
         for level in Level::available() {
             let (mut hits, mut any) = (vec![None; rays.len()], vec![None; rays.len()]);
-            let which = &Sixteens::all(rays.len());
-            dispatch(level, UnderWay::<false, T, _, _> { tree, rays, which, answers: &mut hits, form: &Some });
+            let which = &Groups::all(rays.len());
+            dispatch(level, Interleaved::<false, T, _, _> { tree, rays, which, answers: &mut hits, form: &Some });
             let form = &|hit: Option<Hit>| Some(hit.is_some());
-            dispatch(level, UnderWay::<true, T, _, _> { tree, rays, which, answers: &mut any, form });
+            dispatch(level, Interleaved::<true, T, _, _> { tree, rays, which, answers: &mut any, form });
             for (i, ray) in rays.iter().enumerate() {
                 let bits = |hit: Option<Hit>| hit.map(|hit| (hit.t.to_bits(), hit.prim));
                 let found = (hits[i].map(bits), any[i]);
@@ -141,7 +141,7 @@ fn rays_without_an_inverse_on_any_axis_are_not_through_at_the_first_unused_lane(
     }
 }
 
-/// Sixteens that agree, sixteens of which each ray goes its own way, and a few rays at the end, in slices of several windows.
+/// Groups that agree, sixteens of which each ray goes its own way, and a few rays at the end, in slices of several windows.
 #[test]
 fn long_slices_are_answered_as_their_rays_are() {
     let mesh = Arc::new(soup(300, 5));

@@ -2,19 +2,19 @@
 //!
 //! **No hit is lost.** A triangle that is hit at the exact t* in the interval has a reference in a leaf whose box, and those of
 //! all nodes above it, contain the point hit, because partitions round the boxes of what they cut outward. No such box is lost
-//! (see [`Beam`]) unless a hit with a computed t before t* has been found: then what [`kdtree`](crate::kdtree) says of that case holds here.
+//! (see [`PreparedRay`]) unless a hit with a computed t before t* has been found: then what [`kdtree`](crate::kdtree) says of that case holds here.
 //!
 //! The closest hit is searched from front to back, in an order stored for the octant of the direction. For any hit the order is that
 //! of the lanes, the highest first: leaves before nodes and large boxes before small ones, because what is large is what
 //! occludes (Nah, Manocha: SATO: Surface area traversal order for shadow ray tracing, 2014).
 
 use super::node::{Child, WIDTH};
-use super::prepared_ray::Beam;
+use super::prepared_ray::PreparedRay;
 use super::stack::{OnePage, Stack};
 use super::tree::Bvh8;
 use crate::accel::Observer;
 use crate::geometry::{Hit, Ray};
-use crate::simd::Sieve;
+use crate::simd::EightLanes;
 use crate::traversal::leaf::{Nearest, search, start};
 use crate::traversal::line::after;
 use crate::traversal::walk::Walk;
@@ -22,11 +22,11 @@ use crate::triangle::TriangleTest;
 
 impl<T: TriangleTest> Walk for Bvh8<T> {
     #[inline(always)]
-    fn walk<const ANY: bool, L: Sieve, O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit> {
+    fn walk<const ANY: bool, L: EightLanes, O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit> {
         let (t_min, mut nearest) = start::<T>(ray)?;
         let prepared = T::prepare(ray);
-        let beam = Beam::<L>::new(ray, &self.bounds, t_min);
-        self.descend::<ANY, L, O>(self.root, &beam, &prepared, t_min, &mut nearest, observer);
+        let prepared_ray = PreparedRay::<L>::new(ray, &self.bounds, t_min);
+        self.descend::<ANY, L, O>(self.root, &prepared_ray, &prepared, t_min, &mut nearest, observer);
         nearest.hit()
     }
 }
@@ -34,10 +34,10 @@ impl<T: TriangleTest> Walk for Bvh8<T> {
 impl<T: TriangleTest> Bvh8<T> {
     /// Searches the subtree at `child`.
     #[inline(always)]
-    pub(super) fn descend<const ANY: bool, L: Sieve, O: Observer>(
+    pub(super) fn descend<const ANY: bool, L: EightLanes, O: Observer>(
         &self,
         mut child: Child,
-        beam: &Beam<L>,
+        prepared_ray: &PreparedRay<L>,
         prepared: &T::Ray,
         t_min: f32,
         nearest: &mut Nearest<T::Depth>,
@@ -66,7 +66,7 @@ impl<T: TriangleTest> Bvh8<T> {
                 // SAFETY: children name nodes that are there; the depth was checked when the tree was built.
                 unsafe {
                     let node = self.nodes.get_unchecked(child.index());
-                    stack.push::<ANY, L>(node, beam.octant, beam.cross(node, L::splat(end)))
+                    stack.push::<ANY, L>(node, prepared_ray.octant, prepared_ray.cross(node, L::splat(end)))
                 }
             };
             match next.or_else(|| stack.pop::<ANY>(end)) {

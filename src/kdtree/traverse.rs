@@ -18,7 +18,7 @@ use crate::accel::Observer;
 use crate::build::cells::DEEPEST;
 use crate::build::sah::BLOCK;
 use crate::geometry::{Aabb, Hit, Ray};
-use crate::simd::Sieve;
+use crate::simd::EightLanes;
 use crate::traversal::leaf::{Mailbox, search, start};
 use crate::traversal::line::{Line, after, before};
 use crate::traversal::walk::Walk;
@@ -30,7 +30,7 @@ const _: () = assert!(STACK > DEEPEST as usize);
 
 impl<T: TriangleTest> Walk for KdTree<T> {
     #[inline(always)]
-    fn walk<const ANY: bool, L: Sieve, O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit> {
+    fn walk<const ANY: bool, L: EightLanes, O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit> {
         let (t_min, mut nearest) = start::<T>(ray)?;
         let prepared = T::prepare(ray);
         let line = Line::new(ray, &self.bounds);

@@ -1,7 +1,7 @@
 use std::arch::x86_64::*;
 
 use super::avx_double::F64x8;
-use super::{Arithmetic, Lanes, Sieve};
+use super::{Arithmetic, EightLanes, Lanes};
 
 /// 8 lanes in one AVX register, for machines with AVX2 and FMA; with `MASKS`, for those with AVX-512 VL as well.
 ///
@@ -143,7 +143,7 @@ static MEMBERS: [[u8; 8]; 256] = {
     table
 };
 
-impl<const MASKS: bool> Sieve for Avx<MASKS> {
+impl<const MASKS: bool> EightLanes for Avx<MASKS> {
     type Mask = __m256;
     type Numbers = __m256i;
 
@@ -176,7 +176,14 @@ impl<const MASKS: bool> Sieve for Avx<MASKS> {
     }
 
     #[inline(always)]
-    unsafe fn sieve(self, limit: Self, values: &[u32; 8], order: u32, keys: *mut f32, chosen: *mut u32) -> u32 {
+    unsafe fn compress_ordered(
+        self,
+        limit: Self,
+        values: &[u32; 8],
+        order: u32,
+        keys: *mut f32,
+        chosen: *mut u32,
+    ) -> u32 {
         // SAFETY: the caller lets eight floats and eight numbers be written; the table has a row for every mask.
         unsafe {
             let hit = _mm256_cmp_ps::<_CMP_LE_OQ>(self.0, limit.0);
@@ -199,7 +206,7 @@ impl<const MASKS: bool> Sieve for Avx<MASKS> {
     }
 
     #[inline(always)]
-    unsafe fn sift(self, limit: Self, values: &[u32; 8], chosen: *mut u32) -> u32 {
+    unsafe fn compress(self, limit: Self, values: &[u32; 8], chosen: *mut u32) -> u32 {
         // SAFETY: as above, without the floats.
         unsafe {
             let set = self.le(limit);
@@ -215,13 +222,13 @@ impl<const MASKS: bool> Sieve for Avx<MASKS> {
     }
 
     #[inline(always)]
-    fn mask_le(self, other: Self) -> __m256 {
+    fn cmp_le(self, other: Self) -> __m256 {
         // SAFETY: see above.
         unsafe { _mm256_cmp_ps::<_CMP_LE_OQ>(self.0, other.0) }
     }
 
     #[inline(always)]
-    fn mask_lt(self, other: Self) -> __m256 {
+    fn cmp_lt(self, other: Self) -> __m256 {
         // SAFETY: see above.
         unsafe { _mm256_cmp_ps::<_CMP_LT_OQ>(self.0, other.0) }
     }
@@ -275,7 +282,7 @@ impl<const MASKS: bool> Sieve for Avx<MASKS> {
     }
 
     #[inline(always)]
-    fn mask_least(one: __m256i, other: __m256i) -> __m256 {
+    fn cmp_le_numbers(one: __m256i, other: __m256i) -> __m256 {
         // SAFETY: see above.
         unsafe { _mm256_castsi256_ps(_mm256_cmpeq_epi32(_mm256_min_epu32(one, other), one)) }
     }

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicU8, Ordering};
 
 #[cfg(target_arch = "x86_64")]
 use super::avx::Avx;
-use super::{Portable, Sieve};
+use super::{EightLanes, Portable};
 
 /// A set of instructions that lanes are compiled for. All give the same hits, bit for bit.
 ///
@@ -42,7 +42,7 @@ pub trait Kernel {
     type Output;
 
     /// Mark it, and all that it calls with lanes, `#[inline(always)]`: only what is inlined is compiled for the level.
-    fn run<L: Sieve>(self) -> Self::Output;
+    fn run<L: EightLanes>(self) -> Self::Output;
 }
 
 /// The level in use, or [`UNCHOSEN`].

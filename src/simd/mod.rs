@@ -61,7 +61,7 @@ pub trait Lanes<const N: usize>: Arithmetic<N, Scalar = f32> {
 }
 
 /// Eight lanes that can be chosen from by comparisons, and numbers beside them.
-pub trait Sieve: Lanes<8> {
+pub trait EightLanes: Lanes<8> {
     /// Yes or no in each lane.
     type Mask: Copy;
     /// A number in each lane.
@@ -75,18 +75,25 @@ pub trait Sieve: Lanes<8> {
     ///
     /// # Safety
     /// Eight floats and eight numbers may be written, whatever the answer.
-    unsafe fn sieve(self, limit: Self, values: &[u32; 8], order: u32, keys: *mut f32, chosen: *mut u32) -> u32;
+    unsafe fn compress_ordered(
+        self,
+        limit: Self,
+        values: &[u32; 8],
+        order: u32,
+        keys: *mut f32,
+        chosen: *mut u32,
+    ) -> u32;
 
-    /// As `sieve`, in the order of the lanes and without the keys.
+    /// As `compress_ordered`, in the order of the lanes and without the keys.
     ///
     /// # Safety
     /// Eight numbers may be written, whatever the answer.
-    unsafe fn sift(self, limit: Self, values: &[u32; 8], chosen: *mut u32) -> u32;
+    unsafe fn compress(self, limit: Self, values: &[u32; 8], chosen: *mut u32) -> u32;
 
     /// Lanes where `self <= other`; no where one is NaN.
-    fn mask_le(self, other: Self) -> Self::Mask;
+    fn cmp_le(self, other: Self) -> Self::Mask;
     /// Lanes where `self < other`, likewise.
-    fn mask_lt(self, other: Self) -> Self::Mask;
+    fn cmp_lt(self, other: Self) -> Self::Mask;
     /// The lanes of the bits that are set, lane 0 lowest.
     fn mask(bits: u32) -> Self::Mask;
     /// The lanes of both masks.
@@ -101,7 +108,7 @@ pub trait Sieve: Lanes<8> {
     fn splat_number(number: u32) -> Self::Numbers;
     fn store_numbers(numbers: Self::Numbers) -> [u32; 8];
     /// Lanes where `one <= other`.
-    fn mask_least(one: Self::Numbers, other: Self::Numbers) -> Self::Mask;
+    fn cmp_le_numbers(one: Self::Numbers, other: Self::Numbers) -> Self::Mask;
     /// Those of `one` in the lanes of `mask`, of `other` elsewhere.
     fn choose_numbers(one: Self::Numbers, other: Self::Numbers, mask: Self::Mask) -> Self::Numbers;
 
@@ -143,7 +150,7 @@ mod tests {
     }
 
     /// Draws the same lanes as the portable ones, for all comparisons and some orders.
-    fn same_sieve<L: Sieve>() {
+    fn same_compression<L: EightLanes>() {
         let values = std::array::from_fn(|i| 100 + i as u32);
         for seed in 0..SPECIAL.len() * SPECIAL.len() {
             let a: [f32; 8] = std::array::from_fn(|k| SPECIAL[(seed + 3 * k) % SPECIAL.len()]);
@@ -153,10 +160,17 @@ mod tests {
             let (mut chosen, mut expected) = ([0_u32; 8], [0_u32; 8]);
             // SAFETY: the arrays have eight places.
             let (set, right) = unsafe {
-                let sieve = L::load(&a).sieve(L::load(&b), &values, order, keys.as_mut_ptr(), chosen.as_mut_ptr());
+                let ours =
+                    L::load(&a).compress_ordered(L::load(&b), &values, order, keys.as_mut_ptr(), chosen.as_mut_ptr());
                 let limit = Portable::load(&b);
-                let right = Portable::load(&a).sieve(limit, &values, order, others.as_mut_ptr(), expected.as_mut_ptr());
-                (sieve, right)
+                let right = Portable::load(&a).compress_ordered(
+                    limit,
+                    &values,
+                    order,
+                    others.as_mut_ptr(),
+                    expected.as_mut_ptr(),
+                );
+                (ours, right)
             };
             let count = set.count_ones() as usize;
             assert_eq!((set, &chosen[..count]), (right, &expected[..count]));
@@ -167,8 +181,8 @@ mod tests {
 
             // SAFETY: likewise.
             let (set, right) = unsafe {
-                let set = L::load(&a).sift(L::load(&b), &values, chosen.as_mut_ptr());
-                (set, Portable::load(&a).sift(Portable::load(&b), &values, expected.as_mut_ptr()))
+                let set = L::load(&a).compress(L::load(&b), &values, chosen.as_mut_ptr());
+                (set, Portable::load(&a).compress(Portable::load(&b), &values, expected.as_mut_ptr()))
             };
             assert_eq!((set, &chosen[..set.count_ones() as usize]), (right, &expected[..set.count_ones() as usize]));
         }
@@ -178,11 +192,11 @@ mod tests {
             let least = (0..8).fold(0, |bits, i| bits | u32::from(x[i].to_bits() <= y[i].to_bits()) << i);
             let some = 0b1011_0110;
             let masks = [
-                (a.mask_le(b), a.le(b)),
-                (a.mask_lt(b), a.lt(b)),
-                (L::mask_least(one, other), least),
-                (L::both(a.mask_le(b), L::mask(some)), a.le(b) & some),
-                (L::either(a.mask_lt(b), L::mask(some)), a.lt(b) | some),
+                (a.cmp_le(b), a.le(b)),
+                (a.cmp_lt(b), a.lt(b)),
+                (L::cmp_le_numbers(one, other), least),
+                (L::both(a.cmp_le(b), L::mask(some)), a.le(b) & some),
+                (L::either(a.cmp_lt(b), L::mask(some)), a.lt(b) | some),
             ];
             for (mask, bits) in masks {
                 let chosen =
@@ -204,9 +218,9 @@ mod tests {
         type Output = ();
 
         #[inline(always)]
-        fn run<L: Sieve>(self) {
+        fn run<L: EightLanes>(self) {
             same_as_portable::<8, L>();
-            same_sieve::<L>();
+            same_compression::<L>();
         }
     }
 

@@ -1,4 +1,4 @@
-use super::{Arithmetic, Lanes, Sieve};
+use super::{Arithmetic, EightLanes, Lanes};
 
 /// Lanes as an array: the slow twin of the others, and what machines without them run.
 #[derive(Clone, Copy, Debug)]
@@ -116,14 +116,21 @@ impl<const N: usize> Lanes<N> for Portable<N> {
     }
 }
 
-impl Sieve for Portable<8> {
+impl EightLanes for Portable<8> {
     type Mask = u32;
     type Numbers = [u32; 8];
 
     const FAST: bool = false;
 
     #[inline(always)]
-    unsafe fn sieve(self, limit: Self, values: &[u32; 8], order: u32, keys: *mut f32, chosen: *mut u32) -> u32 {
+    unsafe fn compress_ordered(
+        self,
+        limit: Self,
+        values: &[u32; 8],
+        order: u32,
+        keys: *mut f32,
+        chosen: *mut u32,
+    ) -> u32 {
         let (mut set, mut count) = (0, 0);
         for at in 0..8 {
             let lane = (order >> (3 * at) & 7) as usize;
@@ -141,7 +148,7 @@ impl Sieve for Portable<8> {
     }
 
     #[inline(always)]
-    unsafe fn sift(self, limit: Self, values: &[u32; 8], chosen: *mut u32) -> u32 {
+    unsafe fn compress(self, limit: Self, values: &[u32; 8], chosen: *mut u32) -> u32 {
         let (mut set, mut count) = (0, 0);
         for (lane, &value) in values.iter().enumerate() {
             if self.0[lane] <= limit.0[lane] {
@@ -160,12 +167,12 @@ impl Sieve for Portable<8> {
     }
 
     #[inline(always)]
-    fn mask_le(self, other: Self) -> u32 {
+    fn cmp_le(self, other: Self) -> u32 {
         self.le(other)
     }
 
     #[inline(always)]
-    fn mask_lt(self, other: Self) -> u32 {
+    fn cmp_lt(self, other: Self) -> u32 {
         self.lt(other)
     }
 
@@ -205,7 +212,7 @@ impl Sieve for Portable<8> {
     }
 
     #[inline(always)]
-    fn mask_least(one: [u32; 8], other: [u32; 8]) -> u32 {
+    fn cmp_le_numbers(one: [u32; 8], other: [u32; 8]) -> u32 {
         (0..8).fold(0, |bits, i| bits | u32::from(one[i] <= other[i]) << i)
     }
 

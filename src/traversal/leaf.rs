@@ -120,9 +120,9 @@ pub(crate) fn search<const ANY: bool, const N: usize, L: Lanes<N>, T: TriangleTe
             continue;
         }
         observer.test(fresh);
-        let (candidates, known) = T::candidates::<N, L>(ray, &block.triangles, t_min, nearest.t);
+        let (candidates, values) = T::candidates::<N, L>(ray, &block.triangles, t_min, nearest.t);
         if candidates != 0 {
-            settle(block, ray, candidates, known.store(), nearest);
+            settle(block, ray, candidates, values.store(), nearest);
             if ANY && nearest.found() {
                 break;
             }
@@ -136,7 +136,7 @@ pub(crate) fn settle<const N: usize, T: TriangleTest>(
     block: &LeafBlock<T, N>,
     ray: &T::Ray,
     mut candidates: u32,
-    known: [f32; N],
+    values: [f32; N],
     nearest: &mut Nearest<T::Depth>,
 ) {
     while candidates != 0 {
@@ -147,7 +147,7 @@ pub(crate) fn settle<const N: usize, T: TriangleTest>(
         if nearest.hit.as_ref().is_some_and(|(_, nearest)| *nearest == id) {
             continue;
         }
-        if let Some(depth) = T::decide(ray, &block.triangles, lane, known[lane]) {
+        if let Some(depth) = T::decide(ray, &block.triangles, lane, values[lane]) {
             nearest.offer(depth, id);
         }
     }

@@ -2,12 +2,12 @@
 
 use crate::accel::{Counts, Observer};
 use crate::geometry::{Hit, Ray};
-use crate::simd::{Kernel, Level, Portable, Sieve, dispatch};
+use crate::simd::{EightLanes, Kernel, Level, Portable, dispatch};
 
 /// A structure whose search is written over lanes.
 pub(crate) trait Walk {
     /// The nearest hit, or with `ANY` some hit.
-    fn walk<const ANY: bool, L: Sieve, O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit>;
+    fn walk<const ANY: bool, L: EightLanes, O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit>;
 }
 
 struct Single<'a, const ANY: bool, W> {
@@ -19,14 +19,14 @@ impl<const ANY: bool, W: Walk> Kernel for Single<'_, ANY, W> {
     type Output = Option<Hit>;
 
     #[inline(always)]
-    fn run<L: Sieve>(self) -> Option<Hit> {
+    fn run<L: EightLanes>(self) -> Option<Hit> {
         silent::<ANY, L, W>(self.structure, self.ray)
     }
 }
 
 /// A walk that nobody watches.
 #[inline(always)]
-pub(crate) fn silent<const ANY: bool, L: Sieve, W: Walk>(structure: &W, ray: &Ray) -> Option<Hit> {
+pub(crate) fn silent<const ANY: bool, L: EightLanes, W: Walk>(structure: &W, ray: &Ray) -> Option<Hit> {
     if L::FAST {
         structure.walk::<ANY, L, ()>(ray, &mut ())
     } else {

@@ -28,7 +28,7 @@ pub use plucker::Plucker;
 pub use watertight::Watertight;
 
 use crate::geometry::Ray;
-use crate::simd::{Arithmetic, LaneVec3, Lanes, Portable, Sieve};
+use crate::simd::{Arithmetic, EightLanes, LaneVec3, Lanes, Portable};
 
 /// A way to decide whether and where a ray meets a triangle.
 ///
@@ -67,36 +67,36 @@ pub trait TriangleTest: Send + Sync + 'static {
         t_max.next_down()
     }
 
-    /// The lanes that may be hit at a `t` in [`from`, `to`], as bits, and what [`decide`](Self::decide) wants to know of them.
+    /// The first stage: the lanes that may be hit at a `t` in [`from`, `to`], as bits, and a value of each lane for the second stage.
     fn candidates<const N: usize, L: Lanes<N>>(ray: &Self::Ray, block: &Self::Block<N>, from: f32, to: f32)
     -> (u32, L);
 
-    /// Whether a candidate is hit, and where. `known` is what its lane holds. What lies outside the ray's interval is no hit;
+    /// The second stage: whether a candidate is hit, and where; `value` is that of its lane. What lies outside the ray's interval is no hit;
     /// what lies beyond the `to` of the candidates may be one.
-    fn decide<const N: usize>(ray: &Self::Ray, block: &Self::Block<N>, lane: usize, known: f32) -> Option<Self::Depth>;
+    fn decide<const N: usize>(ray: &Self::Ray, block: &Self::Block<N>, lane: usize, value: f32) -> Option<Self::Depth>;
 
-    /// Whether there is [`across`](Self::across): only where the first stage decides everything, so that [`decide`](Self::decide) takes every
-    /// candidate at the `t` that is known of it, and [`Depth::of`] knows each depth.
-    const ACROSS: bool = false;
+    /// Whether the first stage decides everything: then [`decide`](Self::decide) takes every candidate at the `t` that is its value, and
+    /// [`Depth::of`] knows each depth.
+    const ONE_STAGE: bool = false;
 
-    /// The first stage with the roles exchanged: of eight rays, given by their origins and directions, those whose lines meet the triangle
-    /// in `lane` of a block, and where. The same bits as of [`candidates`](Self::candidates), but that the interval is left to the caller, and
-    /// a `t` may be NaN where a line is met.
+    /// The first stage for eight rays and one triangle, the one in `lane` of a block: the rays, given by origin and direction, whose lines
+    /// meet it, and where. The same bits as of [`candidates`](Self::candidates), but that the interval is left to the caller, and a `t` may be
+    /// NaN where a line is met. Nothing where the test has no such form, or more than [one stage](Self::ONE_STAGE).
     #[inline(always)]
-    fn across<const N: usize, L: Sieve>(
+    fn intersect_rays<const N: usize, L: EightLanes>(
         _origin: LaneVec3<8, L>,
         _direction: LaneVec3<8, L>,
         _block: &Self::Block<N>,
         _lane: usize,
-    ) -> (L::Mask, L) {
-        unreachable!("only a test that meets rays across is asked to")
+    ) -> Option<(L::Mask, L)> {
+        None
     }
 
     /// The scalar form: the hit of one triangle at a `t` in [`from`, `to`].
     #[inline(always)]
     fn hit(ray: &Self::Ray, triangle: &Self::Block<1>, from: f32, to: f32) -> Option<Self::Depth> {
-        let (candidate, known) = Self::candidates::<1, Portable<1>>(ray, triangle, from, to);
-        if candidate == 0 { None } else { Self::decide(ray, triangle, 0, known.store()[0]) }
+        let (candidate, value) = Self::candidates::<1, Portable<1>>(ray, triangle, from, to);
+        if candidate == 0 { None } else { Self::decide(ray, triangle, 0, value.store()[0]) }
     }
 }
 

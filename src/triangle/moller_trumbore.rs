@@ -2,7 +2,7 @@ use glam::Vec3;
 
 use super::TriangleTest;
 use crate::geometry::Ray;
-use crate::simd::{LaneVec3, Lanes, Sieve};
+use crate::simd::{EightLanes, LaneVec3, Lanes};
 
 /// Möller-Trumbore in `f32`: no precomputation, two-sided, division only for `t`.
 ///
@@ -102,21 +102,21 @@ impl TriangleTest for MollerTrumbore {
         Some(t)
     }
 
-    const ACROSS: bool = true;
+    const ONE_STAGE: bool = true;
 
     #[inline(always)]
-    fn across<const N: usize, L: Sieve>(
+    fn intersect_rays<const N: usize, L: EightLanes>(
         origin: LaneVec3<8, L>,
         direction: LaneVec3<8, L>,
         block: &Edges<N>,
         lane: usize,
-    ) -> (L::Mask, L) {
+    ) -> Option<(L::Mask, L)> {
         let to_origin = origin - LaneVec3::splat_lane(&block.corner, lane);
         let edges = [LaneVec3::splat_lane(&block.edge1, lane), LaneVec3::splat_lane(&block.edge2, lane)];
         let Solution { u, v, abs_det, t } = solve(direction, to_origin, edges);
         let zero = L::zero();
-        let barycentrics = L::both(zero.mask_le(u), zero.mask_le(v));
-        let inside = L::both(u.add(v).mask_le(abs_det), zero.mask_lt(abs_det));
-        (L::both(barycentrics, inside), t)
+        let barycentrics = L::both(zero.cmp_le(u), zero.cmp_le(v));
+        let inside = L::both(u.add(v).cmp_le(abs_det), zero.cmp_lt(abs_det));
+        Some((L::both(barycentrics, inside), t))
     }
 }

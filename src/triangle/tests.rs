@@ -11,7 +11,7 @@ use rand_pcg::Pcg32;
 
 use super::*;
 use crate::exact::{self as integers, rational};
-use crate::simd::{F32x4, Kernel, Level, Sieve, dispatch};
+use crate::simd::{EightLanes, F32x4, Kernel, Level, dispatch};
 
 type Number = fn(&mut Pcg32) -> f32;
 
@@ -66,11 +66,11 @@ fn all_widths_agree<T: TriangleTest>() {
         let mut hits = 0;
         for chunk in triangles.chunks(N) {
             let block = T::block::<N>(chunk);
-            let (candidates, known) = T::candidates::<N, L>(&prepared, &block, t_min, last);
+            let (candidates, value) = T::candidates::<N, L>(&prepared, &block, t_min, last);
             assert_eq!(candidates as u64 >> chunk.len(), 0, "{}: an unused lane is a candidate", T::NAME);
             for (lane, &corners) in chunk.iter().enumerate() {
                 let is_candidate = candidates >> lane & 1 == 1;
-                let hit = is_candidate.then(|| T::decide(&prepared, &block, lane, known.store()[lane])).flatten();
+                let hit = is_candidate.then(|| T::decide(&prepared, &block, lane, value.store()[lane])).flatten();
                 let scalar = scalar_hit::<T>(ray, corners);
                 assert_eq!(hit.map(|d| d.t().to_bits()), scalar.map(f32::to_bits), "{}: {ray:?} {corners:?}", T::NAME);
                 hits += usize::from(hit.is_some());
@@ -84,7 +84,7 @@ fn all_widths_agree<T: TriangleTest>() {
         type Output = usize;
 
         #[inline(always)]
-        fn run<L: Sieve>(self) -> usize {
+        fn run<L: EightLanes>(self) -> usize {
             check::<T, 8, L>(self.0, self.1)
         }
     }
@@ -106,13 +106,13 @@ fn all_widths_agree<T: TriangleTest>() {
 
 /// Eight rays that meet one triangle at once find what each finds alone.
 #[test]
-fn rays_across_get_the_bits_of_one_by_one() {
+fn eight_rays_get_the_bits_of_one_by_one() {
     struct Across<'a>(&'a [Ray; 8], &'a [[Vec3; 3]]);
     impl Kernel for Across<'_> {
         type Output = usize;
 
         #[inline(always)]
-        fn run<L: Sieve>(self) -> usize {
+        fn run<L: EightLanes>(self) -> usize {
             let Self(rays, triangles) = self;
             let rows = |of: fn(&Ray) -> Vec3| {
                 let row = |axis: usize| L::load(&rays.each_ref().map(|ray| of(ray)[axis]));
@@ -122,15 +122,15 @@ fn rays_across_get_the_bits_of_one_by_one() {
             let (block, everywhere) = (MollerTrumbore::block::<8>(triangles), f32::INFINITY);
             let mut hits = 0;
             for (lane, corners) in triangles.iter().enumerate() {
-                let (met, t) = MollerTrumbore::across(origin, direction, &block, lane);
+                let (met, t) = MollerTrumbore::intersect_rays(origin, direction, &block, lane).unwrap();
                 let met = L::splat(1.0).choose(L::zero(), met).store();
                 for (i, ray) in rays.iter().enumerate() {
                     let prepared = MollerTrumbore::prepare(ray);
-                    let (alone, known) = MollerTrumbore::candidates::<8, L>(&prepared, &block, -everywhere, everywhere);
-                    let (t, known) = (t.store()[i], known.store()[lane]);
+                    let (alone, value) = MollerTrumbore::candidates::<8, L>(&prepared, &block, -everywhere, everywhere);
+                    let (t, value) = (t.store()[i], value.store()[lane]);
                     // Without an interval even NaN is left.
                     assert_eq!(met[i] == 1.0 && !t.is_nan(), alone >> lane & 1 == 1, "{ray:?} {corners:?}");
-                    assert!(t.to_bits() == known.to_bits() || t.is_nan() && known.is_nan(), "{t:e} {known:e}");
+                    assert!(t.to_bits() == value.to_bits() || t.is_nan() && value.is_nan(), "{t:e} {value:e}");
                     hits += usize::from(met[i] == 1.0);
                 }
             }

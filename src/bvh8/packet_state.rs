@@ -3,10 +3,10 @@
 use std::mem::MaybeUninit;
 
 use super::node::WIDTH;
-use super::packet_hits::{HALVES, Nearests, RAYS};
-use super::ray_packet::Beams;
+use super::packet_hits::{HALVES, PacketHits, RAYS};
+use super::ray_packet::RayPacket;
 use crate::geometry::{Hit, Ray};
-use crate::simd::{Sieve, each};
+use crate::simd::{EightLanes, each};
 use crate::traversal::leaf::{LeafBlock, NONE, Nearest, settle};
 use crate::triangle::TriangleTest;
 
@@ -14,41 +14,41 @@ use crate::triangle::TriangleTest;
 /// ray; and both halves have some.
 const MANY: u32 = 12;
 
-pub(super) struct Travellers<'a, T: TriangleTest> {
+pub(super) struct PacketState<'a, T: TriangleTest> {
     rays: &'a [Ray; RAYS],
     /// The rays as their test wants them, from their first leaf on: many never come to one.
     prepared: [MaybeUninit<T::Ray>; RAYS],
     ready: u16,
-    nearest: Nearests<T::Depth>,
+    nearest: PacketHits<T::Depth>,
     t_min: [f32; RAYS],
     candidates: [MaybeUninit<Candidates>; RAYS],
     /// Those that still look for a hit, as bits.
-    looking: u16,
+    unfinished: u16,
 }
 
 /// The lanes of a block that a ray may hit, and what is known of them.
 type Candidates = (u32, [f32; WIDTH]);
 
-impl<'a, T: TriangleTest> Travellers<'a, T> {
-    /// They get their ends in `beams`.
+impl<'a, T: TriangleTest> PacketState<'a, T> {
+    /// They get their ends in `packet`.
     #[inline(always)]
-    pub fn new<L: Sieve>(rays: &'a [Ray; RAYS], beams: &mut Beams<L>) -> Self {
-        let nearest = Nearests::until(|i| T::last(rays[i].t_max));
-        beams.end_all(each(&nearest.lanes::<L>(), |half| half.t));
+    pub fn new<L: EightLanes>(rays: &'a [Ray; RAYS], packet: &mut RayPacket<L>) -> Self {
+        let nearest = PacketHits::until(|i| T::last(rays[i].t_max));
+        packet.end_all(each(&nearest.lanes::<L>(), |half| half.t));
         Self {
             rays,
             prepared: [const { MaybeUninit::uninit() }; RAYS],
             ready: 0,
             nearest,
-            t_min: beams.t_min(),
+            t_min: packet.t_min(),
             candidates: [const { MaybeUninit::uninit() }; RAYS],
-            looking: u16::MAX,
+            unfinished: u16::MAX,
         }
     }
 
     #[inline(always)]
-    pub fn looking(&self) -> u16 {
-        self.looking
+    pub fn unfinished(&self) -> u16 {
+        self.unfinished
     }
 
     #[inline(always)]
@@ -58,7 +58,7 @@ impl<'a, T: TriangleTest> Travellers<'a, T> {
 
     /// Ray `i` for a search of its own: as its test wants it, where it starts and what it has found.
     #[inline(always)]
-    pub fn alone(&mut self, i: usize) -> (&T::Ray, f32, Nearest<T::Depth>) {
+    pub fn single(&mut self, i: usize) -> (&T::Ray, f32, Nearest<T::Depth>) {
         self.prepare(1 << i);
         // SAFETY: prepared.
         (unsafe { self.prepared(i) }, self.t_min[i], self.nearest.get(i))
@@ -66,38 +66,48 @@ impl<'a, T: TriangleTest> Travellers<'a, T> {
 
     /// Takes what ray `i` has found alone.
     #[inline(always)]
-    pub fn back<const ANY: bool, L: Sieve>(&mut self, i: usize, nearest: Nearest<T::Depth>, beams: &mut Beams<L>) {
+    pub fn put_back<const ANY: bool, L: EightLanes>(
+        &mut self,
+        i: usize,
+        nearest: Nearest<T::Depth>,
+        packet: &mut RayPacket<L>,
+    ) {
         self.nearest.set(i, nearest);
-        self.update::<ANY, L>(i, beams);
+        self.update::<ANY, L>(i, packet);
     }
 
-    /// Searches the blocks of a leaf for the rays `taking_part`, as bits: each finds what it would find alone.
+    /// Searches the blocks of a leaf for the rays `active`, as bits: each finds what it would find alone.
     #[inline(always)]
-    pub fn search<const ANY: bool, L: Sieve>(
+    pub fn search<const ANY: bool, L: EightLanes>(
         &mut self,
         blocks: &[LeafBlock<T, WIDTH>],
-        taking_part: u16,
-        beams: &mut Beams<L>,
+        active: u16,
+        packet: &mut RayPacket<L>,
     ) {
         // Ray by ray takes a step for each ray and block, triangle by triangle one for each triangle and half of the rays.
-        let rays = taking_part.count_ones();
+        let rays = active.count_ones();
         let triangles = || blocks.iter().map(LeafBlock::len).sum::<u32>();
-        if T::ACROSS && rays >= MANY && triangles() * HALVES as u32 <= rays * blocks.len() as u32 {
-            self.across(blocks, taking_part, beams);
+        let pays = T::ONE_STAGE && rays >= MANY && triangles() * HALVES as u32 <= rays * blocks.len() as u32;
+        if pays && self.triangle_by_triangle(blocks, active, packet) {
             if ANY {
-                self.looking &= !self.nearest.found();
+                self.unfinished &= !self.nearest.found();
             }
         } else {
-            self.ray_by_ray::<ANY, L>(blocks, taking_part, beams);
+            self.ray_by_ray::<ANY, L>(blocks, active, packet);
         }
     }
 
     /// Triangle by triangle, half of the rays at once. Nothing is decided by a branch: whether some ray meets a triangle cannot be
-    /// predicted.
+    /// predicted. False where the test cannot.
     #[inline(always)]
-    fn across<L: Sieve>(&mut self, blocks: &[LeafBlock<T, WIDTH>], taking_part: u16, beams: &mut Beams<L>) {
-        let taking_part = [L::mask(u32::from(taking_part & 0xff)), L::mask(u32::from(taking_part >> WIDTH))];
-        let abreast = beams.abreast();
+    fn triangle_by_triangle<L: EightLanes>(
+        &mut self,
+        blocks: &[LeafBlock<T, WIDTH>],
+        active: u16,
+        packet: &mut RayPacket<L>,
+    ) -> bool {
+        let active = [L::mask(u32::from(active & 0xff)), L::mask(u32::from(active >> WIDTH))];
+        let halves = packet.halves();
         let mut nearest = self.nearest.lanes::<L>();
         for block in blocks {
             for (lane, &id) in block.ids.iter().enumerate() {
@@ -105,30 +115,33 @@ impl<'a, T: TriangleTest> Travellers<'a, T> {
                     break;
                 }
                 for half in 0..HALVES {
-                    let (origin, direction, t_min) = abreast[half];
-                    let (met, t) = T::across(origin, direction, &block.triangles, lane);
+                    let (origin, direction, t_min) = halves[half];
+                    let Some((met, t)) = T::intersect_rays(origin, direction, &block.triangles, lane) else {
+                        return false;
+                    };
                     // An overflow may have made t NaN: such a lane hits nothing.
-                    let within = L::both(t_min.mask_le(t), t.mask_le(nearest[half].t));
-                    nearest[half].offer(L::both(L::both(met, taking_part[half]), within), t, id);
+                    let within = L::both(t_min.cmp_le(t), t.cmp_le(nearest[half].t));
+                    nearest[half].offer(L::both(L::both(met, active[half]), within), t, id);
                 }
             }
         }
         self.nearest.set_lanes(&nearest);
-        beams.end_all(each(&nearest, |half| half.t));
+        packet.end_all(each(&nearest, |half| half.t));
+        true
     }
 
     /// Ray by ray, the triangles of a block at once. The candidates of all rays come before what is decided about them: whether there
     /// are any cannot be predicted, and one wrong guess costs as much as the tests of two rays. With `ANY`, rays that have a hit look no
     /// further.
     #[inline(always)]
-    fn ray_by_ray<const ANY: bool, L: Sieve>(
+    fn ray_by_ray<const ANY: bool, L: EightLanes>(
         &mut self,
         blocks: &[LeafBlock<T, WIDTH>],
-        taking_part: u16,
-        beams: &mut Beams<L>,
+        active: u16,
+        packet: &mut RayPacket<L>,
     ) {
-        self.prepare(taking_part);
-        let mut searching = taking_part;
+        self.prepare(active);
+        let mut searching = active;
         for block in blocks {
             let (mut left, mut met) = (searching, 0);
             while left != 0 {
@@ -136,9 +149,9 @@ impl<'a, T: TriangleTest> Travellers<'a, T> {
                 left &= left - 1;
                 // SAFETY: prepared.
                 let ray = unsafe { self.prepared(i) };
-                let (candidates, known) =
+                let (candidates, value) =
                     T::candidates::<WIDTH, L>(ray, &block.triangles, self.t_min[i], self.nearest.t(i));
-                self.candidates[i].write((candidates, known.store()));
+                self.candidates[i].write((candidates, value.store()));
                 met |= u16::from(candidates != 0) << i;
             }
             while met != 0 {
@@ -153,11 +166,11 @@ impl<'a, T: TriangleTest> Travellers<'a, T> {
                 }
             }
         }
-        let mut left = taking_part;
+        let mut left = active;
         while left != 0 {
             let i = left.trailing_zeros() as usize % RAYS;
             left &= left - 1;
-            self.update::<ANY, L>(i, beams);
+            self.update::<ANY, L>(i, packet);
         }
     }
 
@@ -166,18 +179,18 @@ impl<'a, T: TriangleTest> Travellers<'a, T> {
     /// # Safety
     /// It is prepared.
     #[inline(always)]
-    unsafe fn settle(&mut self, block: &LeafBlock<T, WIDTH>, i: usize, (mut candidates, known): Candidates) {
-        if T::ACROSS {
+    unsafe fn settle(&mut self, block: &LeafBlock<T, WIDTH>, i: usize, (mut candidates, value): Candidates) {
+        if T::ONE_STAGE {
             // They are hits already: that needs no call.
             while candidates != 0 {
                 let lane = candidates.trailing_zeros() as usize % WIDTH;
                 candidates &= candidates - 1;
-                self.nearest.offer(i, known[lane], block.ids[lane]);
+                self.nearest.offer(i, value[lane], block.ids[lane]);
             }
         } else {
             let mut nearest = self.nearest.get(i);
             // SAFETY: prepared, as the caller says.
-            settle(block, unsafe { self.prepared(i) }, candidates, known, &mut nearest);
+            settle(block, unsafe { self.prepared(i) }, candidates, value, &mut nearest);
             self.nearest.set(i, nearest);
         }
     }
@@ -207,10 +220,10 @@ impl<'a, T: TriangleTest> Travellers<'a, T> {
 
     /// Takes note of what ray `i` has found.
     #[inline(always)]
-    fn update<const ANY: bool, L: Sieve>(&mut self, i: usize, beams: &mut Beams<L>) {
+    fn update<const ANY: bool, L: EightLanes>(&mut self, i: usize, packet: &mut RayPacket<L>) {
         if ANY && self.nearest.has_found(i) {
-            self.looking &= !(1 << i);
+            self.unfinished &= !(1 << i);
         }
-        beams.end(i, self.nearest.t(i));
+        packet.end(i, self.nearest.t(i));
     }
 }
