@@ -65,7 +65,7 @@ pub mod oracle;
 #[cfg(feature = "suite")]
 pub mod output;
 #[cfg(feature = "suite")]
-pub mod publish;
+pub mod page;
 #[cfg(feature = "suite")]
 pub mod registry;
 #[cfg(feature = "suite")]
@@ -79,6 +79,10 @@ pub mod study;
 #[cfg(feature = "suite")]
 pub mod validate;
 
-// What a structure of another crate needs besides: the versions that this crate uses.
+// What a structure or study of another crate needs besides: the versions that this crate uses.
+#[cfg(feature = "suite")]
+pub use anyhow;
+#[cfg(feature = "suite")]
+pub use clap;
 pub use glam;
 pub use serde;

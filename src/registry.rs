@@ -1,5 +1,6 @@
 //! The structures by name: the only place that names them all.
 
+mod keys;
 mod peers;
 #[cfg(feature = "planted-slowdown")]
 mod planted;
@@ -8,6 +9,8 @@ use std::panic::{self, AssertUnwindSafe};
 use std::sync::Arc;
 
 use serde_json::{Map, Value};
+
+pub use keys::Key;
 
 use crate::accel::{Accel, BuildError, Capabilities, DynAccel, Observed};
 use crate::brute_force::BruteForce;
@@ -27,6 +30,7 @@ type SahKd<T> = planted::Planted<KdTree<T>>;
 type SahKd<T> = KdTree<T>;
 
 /// The structures that a run can choose from, in the order of tables.
+#[derive(Clone)]
 pub struct Registry {
     entries: Vec<Entry>,
 }

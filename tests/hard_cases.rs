@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use sahara::measure::SystemClock;
 use sahara::registry::{Choice, Registry};
 use sahara::study::documented_defect;
-use sahara::study::hard_cases::{Case, Content, Court, Rank, Score, ask, catalogue};
+use sahara::study::hard_cases::{Content, Court, HardCase, Rank, Score, ask, catalogue};
 
 /// Rays of a case.
 const RAYS: usize = 200;
@@ -31,7 +31,7 @@ fn ours() -> Vec<Choice> {
 }
 
 /// What is wrong with the structures on one case, one line each.
-fn faults(case: &Case, choices: &[Choice]) -> Vec<String> {
+fn faults(case: &HardCase, choices: &[Choice]) -> Vec<String> {
     let rays = if LABORIOUS.contains(&case.name) { FEW } else { RAYS };
     let ranked = matches!(case.rank, Rank::Moderate | Rank::Extreme);
     let mut court = Court::new(case, rays);
@@ -57,7 +57,7 @@ fn faults(case: &Case, choices: &[Choice]) -> Vec<String> {
 }
 
 #[track_caller]
-fn none_of(cases: Vec<&Case>) {
+fn none_of(cases: Vec<&HardCase>) {
     let choices = ours();
     let faults: Vec<String> = cases.into_par_iter().flat_map_iter(|case| faults(case, &choices)).collect();
     assert!(faults.is_empty(), "{}", faults.join("\n"));

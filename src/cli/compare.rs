@@ -1,181 +1,167 @@
-//! `compare`.
+//! `compare`, with the baselines that it is held against.
 
 use std::path::PathBuf;
 
-use clap::Parser;
+use clap::parser::ValueSource;
+use clap::{ArgMatches, Args as _, FromArgMatches};
 
-use super::progress::Progress;
-use super::rays::{RaySource, replayed};
+use super::progress::OnTerminal;
+use super::study::{Common, RUNS};
 use super::terminal::Terminal;
-use super::{Verdict, sources};
-use crate::measure::{Provenance, SystemClock, Threads, instructions};
+use super::{Suite, study};
+use crate::measure::{Provenance, SystemClock};
+use crate::output::OutputFile;
 use crate::registry::Registry;
-use crate::report::{Record, Table, to_csv, to_json, to_markdown};
+use crate::report::to_json;
 use crate::scene::WorkloadKind;
-use crate::study::compare::{Reference, Settings, Trials, legend, mean_table, scene_table, winner};
-use crate::study::documented_defect;
+use crate::study::baseline::{Run, SCENES, against, new_baseline_path, outcome as held_against, read_baseline};
+use crate::study::compare::{CompareArgs, Compared, Reference, scene_table};
+use crate::study::epoch::{Settings, troubles};
+use crate::study::regression::{Comparison, tables};
+use crate::study::{AnyStudy, BRUTE_FORCE, Screen, Status};
 
-#[derive(Debug, Parser)]
-pub struct Args {
-    /// Built-in scenes, scene files (.toml) and mesh files (.obj, .ply, .gltf, .glb); all built-in scenes if none is named
-    #[arg(value_name = "SCENE|FILE")]
-    scenes: Vec<String>,
-    /// A structure, with keys that differ from their defaults; may be repeated [default: all, one of each name]
-    #[arg(long, short, value_name = "NAME[:key=value,..]")]
-    structure: Vec<String>,
-    /// How much time the builds of eight-wide trees may take, where a structure is named without a quality of its own
-    #[arg(long, value_parser = sources::QUALITIES)]
-    quality: Option<String>,
-    /// The structure that speeds are related to; takes part even if it is not among those named [default: median-kd and the better
-    /// BVH of obvhs; without them the first one]
-    #[arg(long, value_name = "NAME[:key=value,..]")]
-    reference: Option<String>,
-    /// A kind of rays; may be repeated [default: primary, shadow, diffuse, random]
-    #[arg(long, short, value_name = "KIND")]
-    workload: Vec<WorkloadKind>,
-    /// Threads that build and trace; 1 is the unit of comparison
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=1024))]
-    threads: u16,
-    /// Samples of every case, as many in each epoch; fewer where there is not time for them all
-    #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u16).range(1..))]
-    runs: u16,
-    /// How often everything is built anew, so that the luck of placement is in the samples
-    #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u16).range(1..))]
-    epochs: u16,
-    /// Rays of a workload that are timed, at most, in whole tiles of the scene's picture; or a file of rays to replay
-    #[arg(long, value_name = "N|all|F.rays", default_value = "all")]
-    rays: RaySource,
-    /// Seconds that a scene may take: to keep within them slow cases are timed on fewer rays, then all are timed less often
-    #[arg(long, value_name = "SECONDS", default_value_t = 18, value_parser = clap::value_parser!(u32).range(1..=86400))]
-    budget: u32,
-    /// Seed of the rays and of the order of samples
-    #[arg(long, value_name = "N", default_value_t = 1)]
-    seed: u64,
-    /// Write one record per case as JSON
-    #[arg(long, value_name = "FILE")]
-    export_json: Option<PathBuf>,
-    /// Write one row per case as CSV
-    #[arg(long, value_name = "FILE")]
-    export_csv: Option<PathBuf>,
-    /// Write the tables as Markdown
-    #[arg(long, value_name = "FILE")]
-    export_markdown: Option<PathBuf>,
+/// Options about runs that are kept.
+#[derive(Clone, Debug, clap::Args)]
+#[command(
+    next_help_heading = "Baselines, which change these defaults: teapot, starters and cornellbox, without brute-force; primary, \
+                               shadow and diffuse rays; 12 epochs of 3 samples, and no budget"
+)]
+struct Gate {
+    /// Keep this run under a name, with four times as many epochs, unless answers are wrong
+    #[arg(long, value_name = "NAME")]
+    save_baseline: Option<String>,
+    /// Hold this run against one that was kept
+    #[arg(long, value_name = "NAME")]
+    baseline: Option<String>,
+    /// Fail, with status 3, if a structure is slower than in the baseline by more than so many per cent; with 4 if that cannot be
+    /// told with four times as many epochs
+    #[arg(long, value_name = "PCT", requires = "baseline", value_parser = percent)]
+    fail_on_regression: Option<f64>,
 }
 
-impl Default for Args {
-    fn default() -> Self {
-        Self::parse_from(["compare"])
+/// Epochs of a baseline that is kept, and the most where nothing is decided, as a multiple of those asked for.
+const MOST: u16 = 4;
+
+/// More epochs are taken so many at a time.
+const STEP: u16 = 4;
+
+fn percent(text: &str) -> Result<f64, String> {
+    let percent = text.trim_end_matches('%').parse::<f64>().map_err(|error| error.to_string())?;
+    if percent > 0.0 && percent <= 1000.0 { Ok(percent) } else { Err("it must lie above 0 and be at most 1000".into()) }
+}
+
+/// The command.
+pub fn command(study: &dyn AnyStudy) -> clap::Command {
+    Gate::augment_args(study::command(study)).about(study.question()).long_about(None)
+}
+
+pub fn run(suite: &Suite, matches: &ArgMatches, terminal: &Terminal) -> anyhow::Result<Status> {
+    let gate = Gate::from_arg_matches(matches)?;
+    if gate.save_baseline.is_some() || gate.baseline.is_some() {
+        return gated(&suite.registry, &gate, matches, terminal);
     }
+    let compare = suite.studies.find(super::COMPARE).expect("its command is there");
+    study::run(suite, compare, matches, terminal)
 }
 
-/// Without `--workload`.
-const DEFAULT_WORKLOADS: [WorkloadKind; 4] =
-    [WorkloadKind::Primary, WorkloadKind::Shadow, WorkloadKind::Diffuse, WorkloadKind::Random];
+/// The options, with the defaults of runs that are kept.
+fn options(matches: &ArgMatches) -> anyhow::Result<CompareArgs> {
+    let mut args = CompareArgs::from_arg_matches(matches)?;
+    let is_default = |id: &str| matches.value_source(id) == Some(ValueSource::DefaultValue);
+    if args.scenes.scenes.is_empty() && args.rays.file().is_none() {
+        args.scenes.scenes = SCENES.map(String::from).into();
+    }
+    if args.workload.is_empty() && args.rays.file().is_none() {
+        args.workload = vec![WorkloadKind::Primary, WorkloadKind::Shadow, WorkloadKind::Diffuse];
+    }
+    if is_default("epochs") {
+        args.measuring.epochs = 12;
+    }
+    if is_default("runs") {
+        args.measuring.runs = 3;
+    }
+    Ok(args)
+}
 
-pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Result<Verdict> {
-    // Everything that can be refused is refused before the long run.
-    let mut structures = sources::structures_at(registry, &args.structure, args.quality.as_deref())?;
-    let reference = args.reference.as_ref().map(|spec| {
-        let choice = sources::structures_at(registry, std::slice::from_ref(spec), args.quality.as_deref())?.remove(0);
-        if structures.iter().all(|other| other.label != choice.label) {
-            structures.push(choice.clone());
-        }
-        anyhow::Ok(choice.label)
-    });
-    let reference = reference.transpose()?;
-    let threads = Threads::pinned(args.threads.into()).map_err(anyhow::Error::msg)?;
-    let output = |path: &PathBuf| sources::output(path, &args.scenes, args.rays.file());
-    let check = |path: &Option<PathBuf>| path.as_ref().map(output).transpose();
-    let (json, csv, markdown) = (check(&args.export_json)?, check(&args.export_csv)?, check(&args.export_markdown)?);
-    let (scenes, replayed) = match replayed(&args.rays, &args.scenes)? {
-        Some((scene, file)) => {
-            anyhow::ensure!(args.workload.is_empty(), "the rays are those of the file: leave --workload out");
-            (vec![scene], Some(file.workload))
-        }
-        None => (sources::scenes(&args.scenes)?, None),
-    };
-    let settings = Settings {
-        structures,
-        guide: sources::guide(registry)?,
-        workloads: if args.workload.is_empty() { DEFAULT_WORKLOADS.to_vec() } else { args.workload.clone() },
-        replayed,
-        rays: args.rays.count(),
-        runs: args.runs.into(),
-        epochs: args.epochs.into(),
-        twin: true,
-        budget_ns: u64::from(args.budget) * 1_000_000_000,
-        epoch_ns: None,
-        seed: args.seed,
-        threads,
-    };
+/// Measures, keeps, and holds against what was kept.
+fn gated(registry: &Registry, gate: &Gate, matches: &ArgMatches, terminal: &Terminal) -> anyhow::Result<Status> {
+    let (args, common) = (options(matches)?, Common::from_arg_matches(matches)?);
+    anyhow::ensure!(args.measuring.epochs > 1, "a baseline needs two epochs or more: --epochs 2");
+    let folder = common.dir.clone().unwrap_or_else(|| PathBuf::from(RUNS));
+    let baseline = gate.baseline.as_deref().map(|name| read_baseline(&folder, name)).transpose()?;
+    let kept = gate.save_baseline.as_deref().map(|name| new_baseline_path(&folder, name)).transpose()?;
+    let kept = kept.as_deref().map(OutputFile::check).transpose()?;
+    let (scenes, settings) = args.settings(registry)?;
+    let json = common.export_json.as_deref().map(OutputFile::check).transpose()?;
+    // Another run must take the same rays: no budget decides how many.
+    let mut settings = Settings { slowest: f64::INFINITY, ..settings };
+    if matches.value_source("budget") == Some(ValueSource::DefaultValue) {
+        settings.budget_ns = u64::MAX;
+    }
+    if args.structures.structure.is_empty() {
+        settings.structures.retain(|choice| choice.entry.name != BRUTE_FORCE);
+    }
 
+    let most = args.measuring.epochs.saturating_mul(MOST);
+    let first = if kept.is_some() { most } else { args.measuring.epochs };
     let clock = SystemClock::start();
-    let epochs = settings.epochs;
-    let mut progress = Progress::over(scenes.len() * (epochs + 1), terminal);
-    let mut trials = Trials::new(&scenes, &settings, &clock, &mut |scene, stage| progress.part(scene, &stage))?;
-    let mut failure = None;
-    for epoch in 1..=epochs {
-        let done =
-            trials.epoch(&mut |scene, stage| progress.part(&format!("epoch {epoch} of {epochs}: {scene}"), &stage));
-        // What is measured of the other scenes is not lost: it is printed and exported before the run ends.
-        failure = failure.or(done.err());
-    }
-    let references = |records: &[Record]| Reference::of(records, reference.as_deref());
-    let (mut records, mut tables): (Vec<Record>, Vec<Table>) = (vec![], vec![]);
-    let mut refused = false;
-    for (name, of_scene) in trials.results() {
-        progress.warn(of_scene.records.first().iter().flat_map(|record| &record.provenance.warnings));
-        let notes = scenes.iter().find(|scene| scene.name == name).map_or(&[][..], |scene| &scene.notes);
-        let mut table = scene_table(&of_scene.records, &references(&of_scene.records), &of_scene.refused, notes);
-        refused |= !of_scene.refused.is_empty();
-        if of_scene.records.is_empty() && of_scene.refused.is_empty() {
-            table.title = format!("{name}: none of the workloads asked for has a ray in this scene");
+    let mut screen = OnTerminal::new(terminal);
+    screen.begin(scenes.len() * usize::from(most));
+    let mut run = Run::new(&scenes, &settings, &clock);
+    // Where nothing is decided there are more epochs and another look.
+    let looks = 1 + usize::from(most - first).div_ceil(STEP.into());
+    let provenance = Provenance::of(&settings.threads);
+    let (compared, comparison) = loop {
+        let step = if run.epochs() == 0 { first } else { STEP };
+        for _ in 0..step {
+            run.epoch(&mut screen)?;
         }
-        if of_scene.records.is_empty() && !of_scene.refused.is_empty() {
-            table.title = format!("{name}: every structure is refused, or no ray is left");
+        let compared = run.compared(&provenance);
+        let compare = |old: &Vec<_>| against(old, &compared, gate.fail_on_regression, looks);
+        let comparison = baseline.as_ref().map(compare).transpose()?;
+        let open = comparison.as_ref().is_some_and(|c| held_against(c) == Status::Undecided);
+        if !open || run.epochs() >= usize::from(most) {
+            break (compared, comparison);
         }
-        progress.aside(|| terminal.print_table(&table))?;
-        records.extend(of_scene.records);
-        tables.push(table);
-    }
-    progress.finish();
+    };
+    anyhow::ensure!(
+        !compared.records.is_empty(),
+        "nothing was measured: these scenes have no rays of the kinds asked for"
+    );
+    compared.records.iter().for_each(|record| screen.warn(&record.provenance.warnings));
+    screen.end();
 
-    if tables.len() > 1 {
-        let means = mean_table(&records, &references(&records));
-        if means.says_something() {
-            terminal.print_table(&means)?;
-            tables.push(means);
-        }
-    }
-    let mut foot = records.first().map_or(vec![], |first| legend(&first.workload, &references(&records)));
-    if !records.is_empty() && records.iter().all(|r| r.instructions_per_ray.is_none()) {
-        foot.push(instructions::ABSENT.into());
-    }
-    foot.push(Provenance::of(&settings.threads).line());
-    foot.extend(winner(&records, reference.as_deref()));
-    terminal.print_lines(&foot)?;
-
+    print(&compared, comparison.as_ref(), terminal)?;
+    terminal.print_lines(&[provenance.line()])?;
     if let Some(file) = json {
-        file.write(&to_json(&records))?;
+        file.write(&to_json(&compared.records))?;
     }
-    if let Some(file) = csv {
-        file.write(&to_csv(&records))?;
+    let own = Status::of(&troubles(run.all()));
+    let found = match (own, comparison.as_ref().map(held_against)) {
+        (Status::Wrong, _) | (_, None) => own,
+        (own, Some(Status::Right)) => own,
+        (_, Some(against)) => against,
+    };
+    if let Some(file) = kept {
+        let line = if found == Status::Wrong {
+            "Not kept as a baseline: answers are wrong.".into()
+        } else {
+            file.write(&to_json(&compared.records))?;
+            let name = gate.save_baseline.as_deref().unwrap_or_default();
+            format!("Kept as baseline {name}: {}.", file.path().display())
+        };
+        terminal.print_lines(&[line])?;
     }
-    if let Some(file) = markdown {
-        file.write(&to_markdown(&tables, &foot))?;
-    }
-    if let Some(error) = failure {
-        return Err(error.into());
-    }
-    Ok(match (records.iter().any(unexpected), refused) {
-        (true, _) => Verdict::Wrong,
-        (false, true) => Verdict::Refused,
-        (false, false) => Verdict::Right,
-    })
+    Ok(found)
 }
 
-/// Whether a structure gives wrong answers that nothing explains: then the run fails. What a baseline is documented to get
-/// wrong is shown, gets no time, and does not.
-fn unexpected(record: &Record) -> bool {
-    record.is_disqualified() && documented_defect(&record.structure).is_none()
+fn print(compared: &Compared, comparison: Option<&Comparison>, terminal: &Terminal) -> anyhow::Result<()> {
+    if let Some(comparison) = comparison {
+        return Ok(tables(comparison).iter().try_for_each(|table| terminal.print_table(table))?);
+    }
+    for records in compared.records.chunk_by(|a, b| a.scene == b.scene) {
+        let refused: Vec<_> = compared.refused.iter().filter(|r| r.scene == records[0].scene).cloned().collect();
+        terminal.print_table(&scene_table(records, &Reference::of(records, None), &refused))?;
+    }
+    Ok(())
 }

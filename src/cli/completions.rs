@@ -1,14 +1,15 @@
 //! `completions`.
 
 use clap::builder::PossibleValuesParser;
-use clap::{Arg, Command, CommandFactory, ValueHint};
+use clap::{Arg, Command, ValueHint};
 use clap_complete::Shell;
 
+use super::Suite;
 use super::terminal::Terminal;
-use super::{Cli, Verdict};
 use crate::registry::Registry;
 use crate::render::ViewKind;
 use crate::scene::{BUILTIN, WorkloadKind};
+use crate::study::Status;
 
 #[derive(Debug, clap::Args)]
 pub struct Args {
@@ -16,16 +17,16 @@ pub struct Args {
     shell: Shell,
 }
 
-pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Result<Verdict> {
-    let names = Names::of(registry);
+pub fn run(suite: &Suite, args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
+    let names = Names::of(&suite.registry);
     let mut script = vec![];
-    clap_complete::generate(args.shell, &mut names.told(&Cli::command()), "sahara", &mut script);
+    clap_complete::generate(args.shell, &mut names.told(&super::command(&suite.studies)), "sahara", &mut script);
     let script = String::from_utf8_lossy(&script);
     // Where a scene is expected, a file is right as well: zsh offers what is listed and nothing else.
     let scenes = names.scenes.join(" ");
     let both = format!(":{{ compadd {scenes}; _files }}");
     terminal.print(&script.replace(&format!(":({scenes})"), &both))?;
-    Ok(Verdict::Right)
+    Ok(Status::Right)
 }
 
 /// Commands keep names for ever, and this process ends soon.
@@ -89,19 +90,21 @@ mod tests {
 
     #[test]
     fn shells_know_scenes_structures_workloads_and_views_and_nothing_hidden() {
-        let names = Names::of(&Registry::builtin());
+        let suite = Suite::from(Registry::builtin());
+        let names = Names::of(&suite.registry);
+        let whole = || super::super::command(&suite.studies);
         for shell in [Shell::Bash, Shell::Zsh, Shell::Fish] {
             let mut script = vec![];
-            clap_complete::generate(shell, &mut names.told(&Cli::command()), "sahara", &mut script);
+            clap_complete::generate(shell, &mut names.told(&whole()), "sahara", &mut script);
             let script = String::from_utf8(script).unwrap();
-            for word in ["dragon", "sah-hybrid", "image-shadow", "heat", "compare-runs", "self-intersection"] {
+            for word in ["dragon", "sah-hybrid", "image-shadow", "heat", "partitions", "self-intersection"] {
                 assert!(script.contains(word), "{shell}: {word}");
             }
-            assert!(!script.contains(crate::cli::hard::CHILD), "{shell}");
+            assert!(!script.contains(crate::cli::validate::CHILD), "{shell}");
         }
         // The command itself takes more than names.
         let args = ["sahara", "compare", "my-mesh.obj", "-s", "sah-kd:leaf=4", "--reference", "median-kd:leaf=8"];
-        assert!(Cli::command().try_get_matches_from(args).is_ok());
-        assert!(names.told(&Cli::command()).try_get_matches_from(args).is_err());
+        assert!(whole().try_get_matches_from(args).is_ok());
+        assert!(names.told(&whole()).try_get_matches_from(args).is_err());
     }
 }

@@ -3,13 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use super::terminal::Terminal;
-use super::{Verdict, sources};
 use crate::fetch::DataFile;
 #[cfg(feature = "fetch")]
 use crate::fetch::{Client, Fetched};
 use crate::report::number::bytes;
 use crate::scene::format::{RealMesh, SceneFile};
 use crate::scene::{BUILTIN, Builtin, real_mesh_folder};
+use crate::study::{Status, sources};
 
 #[derive(Debug, clap::Args)]
 pub struct Args {
@@ -24,7 +24,7 @@ pub struct Args {
     data: Option<PathBuf>,
 }
 
-pub fn run(args: &Args, terminal: &Terminal) -> anyhow::Result<Verdict> {
+pub fn run(args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
     let folder = args.data.clone().unwrap_or_else(real_mesh_folder);
     let mut files = vec![];
     for scene in scenes(&args.scenes)? {
@@ -32,12 +32,12 @@ pub fn run(args: &Args, terminal: &Terminal) -> anyhow::Result<Verdict> {
     }
     if files.is_empty() {
         terminal.print("these scenes name no real mesh: there is nothing to fetch\n")?;
-        return Ok(Verdict::Right);
+        return Ok(Status::Right);
     }
     // The licences of all come before the first download.
     terminal.print(&files.iter().map(|(scene, real)| described(scene, real)).collect::<String>())?;
     if args.list {
-        return Ok(Verdict::Right);
+        return Ok(Status::Right);
     }
     let mut failed = 0;
     for (_, real) in &files {
@@ -52,7 +52,7 @@ pub fn run(args: &Args, terminal: &Terminal) -> anyhow::Result<Verdict> {
         }
     }
     anyhow::ensure!(failed == 0, "{failed} of {} files could not be fetched: see above", files.len());
-    Ok(Verdict::Right)
+    Ok(Status::Right)
 }
 
 /// The scene files named, or those of all built-in scenes.

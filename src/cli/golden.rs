@@ -2,13 +2,13 @@
 
 use clap::ValueEnum;
 
-use super::Verdict;
 use super::terminal::Terminal;
 use crate::accel::DynAccel;
 use crate::golden::{GoldenError, Goldens, SIZE, TRIANGLE_TEST};
 use crate::registry::{Choice, Registry};
 use crate::report::number::count;
 use crate::scene::{BUILTIN, Builtin, Scene, View};
+use crate::study::Status;
 use crate::study::{BRUTE_FORCE, documented_defect};
 use crate::validate::{Reference, validate};
 
@@ -29,7 +29,7 @@ enum Action {
     Update,
 }
 
-pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Result<Verdict> {
+pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
     let scenes: Vec<&Builtin> = if args.scenes.is_empty() {
         BUILTIN.iter().collect()
     } else {
@@ -39,7 +39,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     let all = registry.all();
     let common: Vec<&Choice> = all.iter().filter(|choice| choice.triangle_test() == TRIANGLE_TEST).collect();
     let goldens = Goldens::builtin();
-    let mut verdict = Verdict::Right;
+    let mut verdict = Status::Right;
     for builtin in scenes {
         // Real meshes that happen to be there must not change the picture.
         let scene = builtin.scene(None)?;
@@ -59,7 +59,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
                         Err(error @ (GoldenError::Differs { .. } | GoldenError::NotShown { .. })) => {
                             terminal.print(&format!("{error}\n  {}\n", cause(&scene, accel.as_ref())?))?;
                             if documented_defect(&choice.entry.name).is_none() {
-                                verdict = Verdict::Wrong;
+                                verdict = Status::Wrong;
                             }
                         }
                         Err(error) => return Err(error.into()),

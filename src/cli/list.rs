@@ -1,22 +1,71 @@
 //! `list`.
 
-use serde_json::Value;
-
-use super::Verdict;
+use super::Suite;
 use super::terminal::Terminal;
+use super::validate::described;
 use crate::accel::{Observed, Query};
-use crate::registry::Registry;
+use crate::nearest::suggestion;
+use crate::registry::{Entry, Registry};
 use crate::render::ViewKind;
 use crate::report::number::count;
 use crate::report::{Cell, Table, Tone};
 use crate::scene::{BUILTIN, WorkloadKind, real_mesh_folder};
+use crate::study::Status;
 
-pub fn run(registry: &Registry, terminal: &Terminal) -> anyhow::Result<Verdict> {
-    terminal.print_table(&scenes()?)?;
-    terminal.print_table(&structures(registry))?;
-    terminal.print_table(&workloads())?;
-    terminal.print_table(&table("Views", &["name"], ViewKind::ALL.map(|view| vec![view.name().into()]).into()))?;
-    Ok(Verdict::Right)
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    /// What to tell more of: a structure, `scenes`, `structures`, `workloads`, `studies` or `hard` [default: all names]
+    #[arg(value_name = "STRUCTURE|KIND")]
+    what: Option<String>,
+}
+
+const KINDS: [&str; 5] = ["scenes", "structures", "workloads", "studies", "hard"];
+
+pub fn run(suite: &Suite, args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
+    let registry = &suite.registry;
+    let table = match args.what.as_deref().map(str::to_lowercase).as_deref() {
+        None => names(suite),
+        Some("scenes") => scenes()?,
+        Some("structures") => structures(registry),
+        Some("workloads") => workloads(),
+        Some("studies") => studies(suite),
+        Some("hard") => {
+            terminal.print_lines(&described())?;
+            return Ok(Status::Right);
+        }
+        Some(name) => {
+            let known = registry.names();
+            anyhow::ensure!(
+                known.iter().any(|known| known.eq_ignore_ascii_case(name)),
+                "there is no structure {name:?}{}; there are: {}; other lists are: {}",
+                suggestion(name, known.iter().copied()),
+                known.join(", "),
+                KINDS.join(", ")
+            );
+            keys(registry, name)
+        }
+    };
+    terminal.print_table(&table)?;
+    Ok(Status::Right)
+}
+
+/// All names, on one screen.
+fn names(suite: &Suite) -> Table {
+    let mut tests: Vec<&str> = suite.registry.entries().iter().map(|entry| entry.triangle_test).collect();
+    let mut seen = std::collections::BTreeSet::new();
+    tests.retain(|test| seen.insert(*test));
+    let lines = [
+        ("scenes", BUILTIN.iter().map(|builtin| builtin.name).collect()),
+        ("structures", suite.registry.names()),
+        ("triangle tests", tests),
+        ("workloads", WorkloadKind::ALL.map(WorkloadKind::name).into()),
+        ("views", ViewKind::ALL.map(ViewKind::name).into()),
+        ("studies", suite.studies.iter().map(|study| study.name()).collect()),
+    ];
+    // Notes are wrapped.
+    let notes = lines.into_iter().map(|(what, names): (&str, Vec<&str>)| format!("{what}: {}.", names.join(", ")));
+    let more = format!("`sahara list STRUCTURE` says what its keys mean; other lists are: {}.", KINDS.join(", "));
+    Table { notes: notes.chain([more]).collect(), ..table("What there is", &[], vec![]) }
 }
 
 fn scenes() -> anyhow::Result<Table> {
@@ -27,69 +76,91 @@ fn scenes() -> anyhow::Result<Table> {
         let difficulty = format!("{:?}", builtin.difficulty).to_lowercase();
         let meshes = if scene.stand_ins.is_empty() { "as described" } else { "stand-in" };
         let mirrors = if scene.has_mirrors() { "yes" } else { "no" };
-        rows.push(
-            [
-                builtin.name,
-                &difficulty,
-                &count(scene.mesh.len() as u64),
-                &scene.lights.len().to_string(),
-                mirrors,
-                meshes,
-            ]
-            .map(Cell::from)
-            .into(),
-        );
+        let (triangles, lights) = (count(scene.mesh.len() as u64), scene.lights.len().to_string());
+        rows.push([builtin.name, &difficulty, &triangles, &lights, mirrors, meshes].map(Cell::from).into());
     }
     Ok(table("Scenes", &["name", "difficulty", "triangles", "lights", "mirrors", "meshes"], rows))
 }
 
-/// Every structure with the triangle tests it is offered over, the default first; then what it does otherwise than the others
-/// by design, whether it is absent, and its keys with their defaults.
+/// One row for each structure: the triangle tests it is offered over, the default first, and what it declines by design.
 fn structures(registry: &Registry) -> Table {
     let (mut rows, mut notes) = (vec![], vec![]);
     for name in registry.names() {
-        let mut entries = registry.entries().iter().filter(|entry| entry.name == name).peekable();
-        let Some(&first) = entries.peek() else { continue };
-        rows.push(vec![name.into(), "".into()]);
-        for entry in entries {
-            rows.push(vec!["  test".into(), entry.triangle_test.into()]);
-        }
-        for declined in first.capabilities.declined() {
-            rows.push(vec!["  declines".into(), declined.into()]);
-        }
-        if first.observed != Observed::ALL {
-            let what = if first.observed.tests {
-                "steps"
-            } else if first.observed.steps {
-                "triangle tests"
-            } else {
-                "all counts"
-            };
-            rows.push(vec!["  declines".into(), what.into()]);
-        }
-        if !first.conventions.is_empty() {
-            notes.push(format!("{name}, otherwise by design: {}.", first.conventions.join("; ")));
-        }
-        if let Some(absence) = first.absence() {
-            rows.push(vec!["  absent".into(), Cell::from("see below").with(Tone::Wrong)]);
-            notes.push(format!("{name} is absent: {absence}."));
-        }
-        for (key, value) in first.config().as_object().into_iter().flatten() {
-            let value = match value {
-                Value::String(text) => text.clone(),
-                other => other.to_string(),
-            };
-            rows.push(vec![format!("  {key}").into(), value.into()]);
+        let entries: Vec<&Entry> = registry.entries().iter().filter(|entry| entry.name == name).collect();
+        let first = entries[0];
+        let tests: Vec<&str> = entries.iter().map(|entry| entry.triangle_test).collect();
+        let (shown, rest) = tests.split_at(tests.len().min(2));
+        let more = if rest.is_empty() { String::new() } else { format!(" and {} more", rest.len()) };
+        let absent = if first.absence().is_some() { Cell::from("absent").with(Tone::Wrong) } else { Cell::blank() };
+        let declined = declined(first).join(", ");
+        rows.push(vec![name.into(), format!("{}{more}", shown.join(", ")).into(), declined.into(), absent]);
+        notes.extend(remarks(first));
+    }
+    let title = "Structures and their triangle tests; the first is the default";
+    Table { notes, ..table(title, &["name", "triangle tests", "declines", ""], rows) }
+}
+
+/// What a structure is not asked.
+fn declined(entry: &Entry) -> Vec<&'static str> {
+    let mut declined = entry.capabilities.declined();
+    if entry.observed != Observed::ALL {
+        declined.push(match entry.observed {
+            Observed { tests: true, .. } => "steps",
+            Observed { steps: true, .. } => "triangle tests",
+            _ => "all counts",
+        });
+    }
+    declined
+}
+
+/// What a structure does otherwise than the others by design, and why it is absent.
+fn remarks(entry: &Entry) -> Vec<String> {
+    let name = &entry.name;
+    let mut remarks = vec![];
+    if !entry.conventions.is_empty() {
+        remarks.push(format!("{name}, otherwise by design: {}.", entry.conventions.join("; ")));
+    }
+    remarks.extend(entry.absence().map(|absence| format!("{name} is absent: {absence}.")));
+    remarks
+}
+
+/// The keys of a structure.
+fn keys(registry: &Registry, name: &str) -> Table {
+    let entries: Vec<&Entry> = registry.entries().iter().filter(|e| e.name.eq_ignore_ascii_case(name)).collect();
+    let first = entries[0];
+    let tests: Vec<&str> = entries.iter().map(|entry| entry.triangle_test).collect();
+    let test = [String::from("test"), tests[0].into(), "the triangle test".into(), tests.join(", ")];
+    let key = |key: crate::registry::Key| [key.name, key.default, key.meaning.into(), key.values];
+    let rows = std::iter::once(test).chain(first.keys().into_iter().map(key));
+    // Long lists of values stand below, where lines are broken.
+    let (mut shown, mut notes) = (vec![], vec![]);
+    for [key, default, meaning, values] in rows {
+        let short = values.chars().count() <= 28;
+        shown.push([key.clone(), default, if short { values.clone() } else { "see below".into() }]);
+        let said = if short { String::new() } else { values };
+        let words: Vec<String> = [meaning, said].into_iter().filter(|words| !words.is_empty()).collect();
+        if !words.is_empty() {
+            notes.push(format!("{key}: {}.", words.join(": ")));
         }
     }
-    let title = "Structures, their triangle tests (the first is the default) and keys";
-    Table { notes, ..table(title, &["name", "default"], rows) }
+    let declined = declined(first);
+    if !declined.is_empty() {
+        notes.push(format!("It declines {}.", declined.join(", ")));
+    }
+    notes.extend(remarks(first));
+    let title = format!("{}: keys, as in --structure {}:key=value,..", first.name, first.name);
+    Table { notes, ..Table::of_texts(&title, ["key", "default", "values"], shown) }
 }
 
 fn workloads() -> Table {
     let query = |kind: WorkloadKind| if kind.query() == Query::Any { "any hit" } else { "closest hit" };
     let rows = WorkloadKind::ALL.map(|kind| vec![kind.name().into(), query(kind).into()]);
     table("Workloads", &["name", "query"], rows.into())
+}
+
+fn studies(suite: &Suite) -> Table {
+    let rows = suite.studies.iter().map(|study| [study.name().to_owned(), study.question().to_owned()]).collect();
+    Table::of_texts("Studies", ["name", "question"], rows)
 }
 
 fn table(title: &str, columns: &[&str], rows: Vec<Vec<Cell>>) -> Table {

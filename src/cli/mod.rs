@@ -2,22 +2,17 @@
 //!
 //! Results go to stdout, progress and errors to stderr. `sahara --help` lists the exit statuses of all commands.
 
-mod accuracy;
-mod bench;
+mod all;
 mod compare;
-mod compare_runs;
 mod completions;
-mod counts;
+mod diff;
 mod fetch;
 mod golden;
-mod hard;
 mod list;
 mod progress;
 mod rays;
 mod render;
-mod replicate;
 mod report;
-mod sources;
 mod study;
 mod terminal;
 mod validate;
@@ -26,14 +21,13 @@ use std::ffi::OsString;
 use std::io;
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
-use serde::{Deserialize, Serialize};
+use clap::{ArgMatches, Args as _, FromArgMatches, Subcommand};
 
 use crate::measure::program;
 use crate::output::OutputError;
 use crate::registry::Registry;
 use crate::simd::Level;
-use crate::study::guarded;
+use crate::study::{Chosen, Effort, Status, Studies, guarded};
 use terminal::{Colour, Terminal};
 
 /// One rule for all commands; what a baseline is known to get wrong is no fault of a run.
@@ -41,7 +35,7 @@ const STATUSES: &str = "Exit status:
   0  right
   1  usage, or input or output that cannot be had
   2  wrong answers, or answers without an end
-  3  a regression (bench --fail-on-regression)
+  3  a regression (compare --fail-on-regression)
   4  the samples do not tell whether there is a regression
   5  right, but for a structure that could not be built, panicked or could not take part
 Wrong answers of a baseline from another project whose defects are documented are shown, cost it its time,
@@ -49,14 +43,27 @@ and do not change the status: 2 is for everything else. Tables name the defects.
 
 `-` in place of a file to write is standard output; tables and messages go to standard error then.";
 
-/// Benchmark, validate and image-test ray-tracing acceleration structures.
-///
-/// Without a command: `compare` on the built-in scenes.
-#[derive(Debug, Parser)]
-#[command(name = "sahara", version, max_term_width = 100, after_help = STATUSES)]
-struct Cli {
-    #[command(subcommand)]
-    command: Option<Command>,
+const ABOUT: &str = "Benchmark, validate and image-test ray-tracing acceleration structures.";
+
+const LONG_ABOUT: &str = "Benchmark, validate and image-test ray-tracing acceleration structures.
+
+Without a command: `compare` on the built-in scenes.";
+
+/// The structures and studies of a command.
+pub struct Suite {
+    pub registry: Registry,
+    pub studies: Studies,
+}
+
+impl From<Registry> for Suite {
+    fn from(registry: Registry) -> Self {
+        Self { registry, studies: Studies::builtin() }
+    }
+}
+
+/// Options of all commands.
+#[derive(Debug, clap::Args)]
+struct Global {
     /// When to use colour; `auto` asks the terminal and honours NO_COLOR
     #[arg(long, global = true, value_enum, default_value_t, value_name = "WHEN")]
     color: Colour,
@@ -68,121 +75,157 @@ struct Cli {
     level: Option<Level>,
 }
 
+/// The commands that are no study.
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Build, check, count and time every structure on every scene
-    Compare(compare::Args),
-    /// Time a small set again and again: keep runs as baselines, and find what became slower or wrong
-    Bench(bench::Args),
     /// Hold two exported runs of `compare` against each other
-    CompareRuns(compare_runs::Args),
-    /// Measure the source report's tables again, and test its conclusion
-    Replicate(replicate::Args),
+    Diff(diff::Args),
     /// Hold every structure against a reference, hit for hit
     Validate(validate::Args),
     /// Record, import and show files of rays
     Rays(rays::Args),
     /// Write what runs have measured as a page, Markdown, LaTeX and tidy data
     Report(report::Args),
-    /// Run an experiment with a question of its own
-    Study(study::Args),
-    /// How wrong, how fast: every structure over every triangle test, judged by exact arithmetic
-    Accuracy(accuracy::Args),
-    /// Put the hard cases to every structure, and say what each gets wrong
-    Hard(hard::Args),
-    /// Answer for one structure and one hard case; what `hard` runs in a process of its own
-    #[command(name = hard::CHILD, hide = true)]
-    HardAnswer(hard::ChildArgs),
-    /// Count what no machine changes: nodes, leaves, references, overlap; steps and tests of rays
-    Counts(counts::Args),
+    /// Answer for one structure and one hard case; what `validate --hard` runs in a process of its own
+    #[command(name = validate::CHILD, hide = true)]
+    HardAnswer(validate::ChildArgs),
     /// Download the real meshes that scene files name, verified; licences are shown first
     Fetch(fetch::Args),
     /// Draw a picture
     Render(render::Args),
     /// Check or make the golden images
     Golden(golden::Args),
-    /// Name the scenes, structures, workloads, views and triangle tests
-    List,
+    /// Name what there is, and say what the keys of a structure mean
+    List(list::Args),
     /// Print a completion script for a shell
     Completions(completions::Args),
 }
 
-/// What a command found.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-enum Verdict {
-    Right,
-    /// A structure gave wrong answers.
-    Wrong,
-    /// A structure could not be built or panicked; the others are right.
-    Refused,
-    /// A structure became slower.
-    Regression,
-    /// The samples do not tell whether a structure became slower.
-    Undecided,
+/// The studies that are commands of their own.
+const COMPARE: &str = "compare";
+const REPLICATE: &str = "replicate";
+
+/// The others, by name.
+const STUDY: &str = "study";
+
+/// Commands that went, and what does their work.
+const OLD: [(&str, &str); 5] = [
+    ("bench", "`sahara compare --save-baseline NAME` and `sahara compare --baseline NAME`"),
+    ("compare-runs", "`sahara diff A.json B.json`"),
+    ("hard", "`sahara validate --hard CASE`"),
+    ("counts", "`sahara study counts`"),
+    ("accuracy", "`sahara study accuracy`"),
+];
+
+/// The whole command line.
+fn command(studies: &Studies) -> clap::Command {
+    let whole = clap::Command::new("sahara").version(env!("CARGO_PKG_VERSION")).max_term_width(100);
+    let mut command = Global::augment_args(whole).about(ABOUT).long_about(LONG_ABOUT).after_help(STATUSES);
+    command = command.subcommands(studies.find(COMPARE).map(compare::command));
+    command = command.subcommands(studies.find(REPLICATE).map(study::command));
+    let all = clap::Command::new(all::NAME);
+    let listed = clap::Command::new(STUDY)
+        .about("Run an experiment with a question of its own")
+        .subcommand_required(true)
+        .arg_required_else_help(true)
+        .subcommand(all::Args::augment_args(all))
+        .subcommands(studies.iter().map(study::command));
+    command = Command::augment_subcommands(command.subcommand(listed));
+    let rest = || clap::Arg::new("rest").num_args(0..).trailing_var_arg(true).allow_hyphen_values(true);
+    let old = OLD.map(|(name, _)| clap::Command::new(name).hide(true).disable_help_flag(true).arg(rest()));
+    command.subcommands(old)
 }
 
-/// Runs the command line of this process over the structures of `registry`.
-pub fn main(registry: Registry) -> ExitCode {
-    run(&registry, std::env::args_os())
+/// Runs the command line of this process over structures, with the studies of this crate, or over a whole [`Suite`].
+pub fn main(suite: impl Into<Suite>) -> ExitCode {
+    run(&suite.into(), std::env::args_os())
 }
 
 /// Said after a panic that no command has caught.
 const PANIC: &str = "the panic above ended the command: if it is a structure's, leave that out, or find the mesh or ray with \
                      `sahara validate`; else it is a fault of sahara";
 
-/// Runs `args`, the name of the program first, over the structures of `registry`.
-pub fn run(registry: &Registry, args: impl IntoIterator<Item = OsString>) -> ExitCode {
+/// Runs `args`, the name of the program first.
+pub fn run(suite: &Suite, args: impl IntoIterator<Item = OsString>) -> ExitCode {
     // The date of what is measured is that of its beginning.
     program::started();
-    let cli = match Cli::try_parse_from(args) {
-        Ok(cli) => cli,
-        Err(message) => {
-            // Help and version are answers, not errors; a reader that has gone away is no error either.
-            let _ = message.print();
-            return ExitCode::from(u8::from(message.use_stderr()));
-        }
+    let parsed = command(&suite.studies).try_get_matches_from(args);
+    let parsed = parsed.and_then(|matches| Ok((Global::from_arg_matches(&matches)?, matches)));
+    let (global, matches) = match parsed {
+        Ok(parsed) => parsed,
+        Err(message) => return told(&message),
     };
-    if let Some(level) = cli.level {
+    if let Some(level) = global.level {
         level.choose();
     }
-    let terminal = Terminal::new(cli.color, cli.quiet);
-    let command = cli.command.unwrap_or_else(|| Command::Compare(compare::Args::default()));
-    // What `hard` runs in a process of its own tells it of a panic by ending with one.
-    let may_panic = matches!(command, Command::HardAnswer(_));
-    let run = || match command {
-        Command::Compare(args) => compare::run(registry, &args, &terminal),
-        Command::Bench(args) => bench::run(registry, &args, &terminal),
-        Command::CompareRuns(args) => compare_runs::run(&args, &terminal),
-        Command::Replicate(args) => replicate::run(registry, &args, &terminal),
-        Command::Report(args) => report::run(registry, &args, &terminal),
-        Command::Validate(args) => validate::run(registry, &args, &terminal),
-        Command::Rays(args) => rays::run(registry, &args, &terminal),
-        Command::Study(args) => study::run(registry, &args, &terminal),
-        Command::Accuracy(args) => accuracy::run(registry, &args, &terminal),
-        Command::Hard(args) => hard::run(registry, &args, &terminal),
-        Command::HardAnswer(args) => hard::run_child(registry, &args),
-        Command::Counts(args) => counts::run(registry, &args, &terminal),
-        Command::Fetch(args) => fetch::run(&args, &terminal),
-        Command::Render(args) => render::run(registry, &args, &terminal),
-        Command::Golden(args) => golden::run(registry, &args, &terminal),
-        Command::List => list::run(registry, &terminal),
-        Command::Completions(args) => completions::run(registry, &args, &terminal),
-    };
+    let terminal = Terminal::new(global.color, global.quiet);
+    // What `validate --hard` runs in a process of its own tells it of a panic by ending with one.
+    let may_panic = matches.subcommand_name() == Some(validate::CHILD);
+    let run = || dispatch(suite, &matches, &terminal);
     // A structure of another crate may panic where its command has nothing else to go on with.
     let found = if may_panic { run() } else { guarded(run).unwrap_or_else(|| Err(anyhow::anyhow!(PANIC))) };
     match found {
-        Ok(Verdict::Right) => ExitCode::SUCCESS,
-        Ok(Verdict::Wrong) => ExitCode::from(2),
-        Ok(Verdict::Regression) => ExitCode::from(3),
-        Ok(Verdict::Undecided) => ExitCode::from(4),
-        Ok(Verdict::Refused) => ExitCode::from(5),
+        Ok(Status::Right) => ExitCode::SUCCESS,
+        Ok(Status::Wrong) => ExitCode::from(2),
+        Ok(Status::Regression) => ExitCode::from(3),
+        Ok(Status::Undecided) => ExitCode::from(4),
+        Ok(Status::Refused) => ExitCode::from(5),
         Err(error) if is_broken_pipe(&error) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("error: {error:#}");
-            ExitCode::from(1)
+        Err(error) => match error.downcast_ref::<clap::Error>() {
+            Some(message) => told(message),
+            None => {
+                eprintln!("error: {error:#}");
+                ExitCode::from(1)
+            }
+        },
+    }
+}
+
+/// Prints what the command line is told. Help and version are answers, not errors; a reader that has gone away is no error
+/// either.
+fn told(message: &clap::Error) -> ExitCode {
+    let _ = message.print();
+    ExitCode::from(u8::from(message.use_stderr()))
+}
+
+fn dispatch(suite: &Suite, matches: &ArgMatches, terminal: &Terminal) -> anyhow::Result<Status> {
+    let registry = &suite.registry;
+    match matches.subcommand() {
+        None => {
+            let compare = suite.studies.find(COMPARE).ok_or_else(|| anyhow::anyhow!("name a command: see --help"))?;
+            return study::run_as(suite, compare, Chosen::Preset(Effort::Full), &study::Common::default(), terminal);
+        }
+        Some((COMPARE, matches)) => return compare::run(suite, matches, terminal),
+        Some((STUDY, matches)) => match matches.subcommand() {
+            Some((all::NAME, matches)) => return all::run(suite, &all::Args::from_arg_matches(matches)?, terminal),
+            Some((name, matches)) => return listed(suite, name, matches, terminal),
+            None => {}
+        },
+        Some((REPLICATE, matches)) => return listed(suite, REPLICATE, matches, terminal),
+        Some((name, _)) => {
+            if let Some((_, new)) = OLD.iter().find(|(old, _)| *old == name) {
+                anyhow::bail!("`sahara {name}` is now {new}");
+            }
         }
     }
+    match Command::from_arg_matches(matches)? {
+        Command::Diff(args) => diff::run(&args, terminal),
+        Command::Report(args) => report::run(suite, &args, terminal),
+        Command::Validate(args) => validate::run(registry, &args, terminal),
+        Command::Rays(args) => rays::run(registry, &args, terminal),
+        Command::HardAnswer(args) => validate::run_child(registry, &args),
+        Command::Fetch(args) => fetch::run(&args, terminal),
+        Command::Render(args) => render::run(registry, &args, terminal),
+        Command::Golden(args) => golden::run(registry, &args, terminal),
+        Command::List(args) => list::run(suite, &args, terminal),
+        Command::Completions(args) => completions::run(suite, &args, terminal),
+    }
+}
+
+/// Runs the study `name`.
+fn listed(suite: &Suite, name: &str, matches: &ArgMatches, terminal: &Terminal) -> anyhow::Result<Status> {
+    let found = suite.studies.find(name).ok_or_else(|| anyhow::anyhow!("there is no study {name:?}"))?;
+    study::run(suite, found, matches, terminal)
 }
 
 /// Whether the reader of our output has gone away, as `head` does.

@@ -1,5 +1,6 @@
 //! The progress bar: on stderr, drawn only when a study says what it does, which is never inside a timed region.
 
+use std::io;
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::thread;
 use std::time::Duration;
@@ -7,7 +8,8 @@ use std::time::Duration;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::terminal::Terminal;
-use crate::study::Stage;
+use crate::report::Table;
+use crate::study::{Screen, Stage};
 use crate::validate::LIMIT;
 
 /// The bar of a download of `bytes`, if that is known; told how many there are.
@@ -97,17 +99,6 @@ impl Progress {
         self.bar.tick();
     }
 
-    /// A part of the run, a scene or an epoch of one, says what it does; the part before it is done.
-    pub fn part(&mut self, name: &str, stage: &Stage) {
-        if self.scene != name {
-            if !self.scene.is_empty() {
-                self.scene_done();
-            }
-            self.scene(name);
-        }
-        self.stage(stage);
-    }
-
     /// A scene says what it does.
     pub fn stage(&mut self, stage: &Stage) {
         let (text, step) = match stage {
@@ -163,6 +154,63 @@ impl Progress {
     /// The whole run is over: takes the bar away.
     pub fn finish(self) {
         self.bar.finish_and_clear();
+    }
+}
+
+/// The progress bar and the tables of a study.
+pub struct OnTerminal<'a> {
+    terminal: &'a Terminal,
+    progress: Option<Progress>,
+    case: String,
+}
+
+impl<'a> OnTerminal<'a> {
+    pub fn new(terminal: &'a Terminal) -> Self {
+        Self { terminal, progress: None, case: String::new() }
+    }
+}
+
+impl Screen for OnTerminal<'_> {
+    fn begin(&mut self, cases: usize) {
+        self.progress = Some(Progress::over(cases, self.terminal));
+    }
+
+    fn case(&mut self, title: &str) {
+        self.case = title.into();
+        self.progress.iter_mut().for_each(|progress| progress.scene(title));
+    }
+
+    fn stage(&mut self, stage: &Stage) {
+        self.progress.iter_mut().for_each(|progress| progress.stage(stage));
+    }
+
+    fn done(&mut self) {
+        if let Some(progress) = &mut self.progress {
+            progress.scene_done();
+            progress.bar.println(format!("{}: measured", self.case));
+        }
+    }
+
+    fn is_watched(&self) -> bool {
+        self.terminal.is_watched()
+    }
+
+    fn look(&mut self, table: &Table) {
+        // Nothing is lost with it.
+        let _ = self.table(table);
+    }
+
+    fn warn(&mut self, warnings: &[String]) {
+        self.progress.iter_mut().for_each(|progress| progress.warn(warnings));
+    }
+
+    fn table(&mut self, table: &Table) -> io::Result<()> {
+        let print = || self.terminal.print_table(table);
+        self.progress.as_ref().map_or_else(print, |progress| progress.aside(print))
+    }
+
+    fn end(&mut self) {
+        self.progress.take().into_iter().for_each(Progress::finish);
     }
 }
 

@@ -7,12 +7,12 @@ use anyhow::Context;
 use glam::Vec3;
 
 use super::terminal::Terminal;
-use super::{Verdict, sources};
 use crate::accel::Observed;
 use crate::registry::Registry;
 use crate::render::{ErrorMap, ViewError, ViewKind, costs, draw, hottest};
 use crate::scene::{Camera, Scene};
 use crate::study::{BRUTE_FORCE, PANICKED, SAH_TREE, guarded};
+use crate::study::{Status, sources};
 
 #[derive(Debug, clap::Args)]
 pub struct Args {
@@ -81,7 +81,7 @@ impl FromStr for View {
     }
 }
 
-pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Result<Verdict> {
+pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
     let choice = sources::structure(registry, &args.structure)?;
     let file = sources::output(&args.output, std::slice::from_ref(&args.scene), None)?;
     is_png(&args.output)?;
@@ -111,11 +111,12 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     let scale = if args.view == ViewKind::Heat { format!(", brightest at {scale} tests and steps") } else { "".into() };
     let what = format!("{} view of {} by {}", args.view.name(), scene.name, choice.label);
     terminal.print(&format!("{}: {} x {} pixels, {what}{scale}\n", args.output.display(), size[0], size[1]))?;
-    sources::print_notes(&scene, terminal)?;
+    let notes: Vec<String> = scene.notes.iter().map(|note| format!("{}: {note}", scene.name)).collect();
+    terminal.print_lines(&notes)?;
     if let Some(errors) = errors {
         terminal.print(&format!("{}\n", errors.legend()))?;
     }
-    Ok(Verdict::Right)
+    Ok(Status::Right)
 }
 
 /// Refuses a name that promises another form than the one that is written.

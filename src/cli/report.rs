@@ -2,11 +2,12 @@
 
 use std::path::PathBuf;
 
+use super::Suite;
 use super::progress::Progress;
+use super::study::RUNS;
 use super::terminal::Terminal;
-use super::{Verdict, sources};
-use crate::publish::{ReportFolder, Runs, document, draw, files, left_out};
-use crate::registry::Registry;
+use crate::page::{ReportFolder, Runs, document, draw, files, left_out};
+use crate::study::{Status, sources};
 
 #[derive(Debug, clap::Args)]
 pub struct Args {
@@ -21,23 +22,22 @@ pub struct Args {
     no_pictures: bool,
 }
 
-/// Where studies leave their results.
-const RUNS: &str = "runs";
-
-pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Result<Verdict> {
+pub fn run(suite: &Suite, args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
     let folder = ReportFolder::check(&args.output)?;
     let paths = if args.runs.is_empty() { vec![PathBuf::from(RUNS)] } else { args.runs.clone() };
-    let runs = Runs::read(&paths)?;
+    let runs = Runs::read(&paths, &suite.studies)?;
 
     let mut pictures = left_out();
     if !args.no_pictures {
-        let scenes = runs.scenes().len();
+        let scenes = runs.scenes(&suite.studies).len();
         let mut progress = Progress::over(scenes, terminal);
-        pictures = draw(&runs, registry, &|name| sources::scene(name).ok(), &mut |name| progress.scene(name));
+        pictures = draw(&runs, (&suite.registry, &suite.studies), &|name| sources::scene(name).ok(), &mut |name| {
+            progress.scene(name);
+        });
         progress.finish();
     }
-    let document = document(&runs, pictures);
-    folder.write(&files(&document, &runs))?;
+    let document = document(&runs, &suite.studies, pictures);
+    folder.write(&files(&document, &runs, &suite.studies))?;
 
     if !document.answer.banner.is_empty() {
         terminal.print_lines(std::slice::from_ref(&document.answer.banner))?;
@@ -50,5 +50,5 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
         terminal.print(&format!("not measured: {}: {}\n", missing.what, missing.command))?;
     }
     terminal.print(&format!("{}\n", folder.path().join("index.html").display()))?;
-    Ok(Verdict::Right)
+    Ok(Status::Right)
 }

@@ -23,6 +23,8 @@ pub enum Colour {
 /// Standard output, and how to treat it.
 pub struct Terminal {
     screen: Screen,
+    /// Whether somebody looks at standard output.
+    shown: bool,
     /// Whether progress is left out.
     pub quiet: bool,
 }
@@ -37,7 +39,12 @@ impl Terminal {
             Colour::Never => false,
         };
         let width = if shown { Probe::new().width() } else { None };
-        Self { screen: Screen { width, colour }, quiet }
+        Self { screen: Screen { width, colour }, shown, quiet }
+    }
+
+    /// Whether somebody looks who may want to see what is not final.
+    pub fn is_watched(&self) -> bool {
+        self.shown && !self.quiet && !stdout_is_taken()
     }
 
     /// Prints text as it is; to standard error where a result goes to standard output.

@@ -2,6 +2,7 @@
 #![doc = include_str!("SCHEMA.md")]
 
 mod counts;
+pub mod document;
 mod export;
 pub mod number;
 pub mod plot;

@@ -70,6 +70,16 @@ const INDENT: usize = 2;
 const PADDING: usize = 2;
 
 impl Table {
+    /// A table of texts, without notes.
+    pub fn of_texts<const N: usize>(title: &str, columns: [&str; N], rows: Vec<[String; N]>) -> Self {
+        Self {
+            title: title.into(),
+            columns: columns.map(String::from).into(),
+            rows: rows.into_iter().map(|row| row.map(Cell::from).into()).collect(),
+            notes: vec![],
+        }
+    }
+
     /// The table in lines of at most the screen's width: columns for which there is no room follow below, after the first
     /// column once more.
     pub fn to_terminal(&self, screen: Screen) -> String {

@@ -5,10 +5,20 @@ use std::collections::BTreeMap;
 use super::baselines::BRUTE_FORCE;
 use super::built::Built;
 use super::{Stage, StudyError};
+use crate::accel::{DynAccel, Query};
 use crate::geometry::{Hit, Ray};
 use crate::measure::spread;
-use crate::scene::Scene;
+use crate::scene::{Scene, Workload};
 use crate::validate::{Reference, validate_known};
+
+/// What of a workload a structure declines, if anything is: then it has no time.
+pub fn declined(accel: &dyn DynAccel, workload: &Workload) -> Option<&'static str> {
+    let can = accel.capabilities();
+    if workload.query == Query::Any && !can.any_hit {
+        return Some("any hit");
+    }
+    workload.rays.iter().find_map(|ray| can.declines(ray))
+}
 
 /// Of one structure on one batch of rays.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

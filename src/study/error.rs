@@ -36,6 +36,11 @@ pub enum StudyError {
 }
 
 impl StudyError {
+    /// Whether other scenes can be measured all the same.
+    pub fn is_of_one_scene(&self) -> bool {
+        !matches!(self, Self::Threads(_) | Self::Structure(_) | Self::Journal(_))
+    }
+
     /// Whether a structure answered wrongly, so that nothing but the structure is to blame.
     pub fn is_wrong_answer(&self) -> bool {
         matches!(

@@ -4,10 +4,13 @@ use std::cell::Cell;
 use std::panic::{self, AssertUnwindSafe};
 use std::rc::Rc;
 
+use serde::{Deserialize, Serialize};
+
+use super::Trouble;
 use crate::measure::{Pass, Stopwatch, Timed};
 
 /// A structure that takes no part, and why.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Refused {
     /// As chosen.
     pub label: String,
@@ -15,6 +18,13 @@ pub struct Refused {
     pub scene: String,
     /// A sentence.
     pub reason: String,
+}
+
+impl Refused {
+    /// As a trouble that a table tells.
+    pub fn trouble(&self) -> Trouble {
+        Trouble { structure: self.label.clone(), sentence: String::new(), refused: true, wrong: false }
+    }
 }
 
 /// Said of a structure whose traversal panicked.

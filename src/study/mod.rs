@@ -1,9 +1,13 @@
-//! Studies: what is built, checked, counted and timed to answer a question, and the tables that answer it.
+//! Studies: each asks a question, measures cases and answers with tables.
+//!
+//! A study is one file or folder that implements [`Study`], and one line in [`Studies::builtin`]. The command, `study all` and
+//! the page of `sahara report` walk that list.
 
 pub mod accuracy;
+pub mod args;
 pub mod attribution;
+pub mod baseline;
 mod baselines;
-pub mod bench;
 pub mod break_even;
 mod built;
 mod check;
@@ -12,25 +16,182 @@ pub mod costs;
 mod counted;
 pub mod counts;
 pub mod crossover;
+mod engine;
 pub mod epoch;
+mod epoch_medians;
 mod error;
-mod fit;
 mod guarded;
 pub mod hard_cases;
 pub mod journal;
+mod least_squares;
+mod list;
 pub mod parameters;
 pub mod partitions;
 mod placed;
+mod plan;
 pub mod predictions;
+mod ray_source;
 pub mod regression;
 pub mod replicate;
-mod replicates;
 pub mod scaling;
 pub mod self_intersection;
+pub mod sources;
 mod stage;
+mod status;
 mod timing;
 
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use serde_json::Value;
+
+use crate::measure::Provenance;
+use crate::registry::Registry;
+use crate::report::document::Block;
+use crate::report::plot::Figure;
+use crate::report::{Export, Table, to_json};
+
 pub use baselines::{BRUTE_FORCE, REPORT_TREE, SAH_TREE, documented_defect};
+pub use engine::{Measured, Run, Screen};
 pub use error::StudyError;
 pub use guarded::{PANICKED, Refused, guarded};
+pub use list::{Answers, AnyAnswer, AnyStudy, Chosen, Studies};
+pub use plan::{Effort, Measure, Plan, Planned, SceneId};
+pub use ray_source::{RaySource, rays_or_all, replayed};
 pub use stage::Stage;
+pub use status::{Status, Trouble};
+
+/// A question, and how it is answered. A type without values: all that a run is told is in [`Study::Args`].
+pub trait Study: 'static {
+    /// As written on the command line; also the name of its journal.
+    const NAME: &'static str;
+    /// What it asks, in one sentence.
+    const QUESTION: &'static str;
+    /// Whether the tables of a scene do not depend on the other scenes: they are printed as soon as the scene is measured.
+    const SCENE_BY_SCENE: bool = false;
+    /// Whether a journal is kept in the folder `runs` where no other is named.
+    const KEPT: bool = true;
+    /// Whether its answer is made from those of the other studies. It is then measured last.
+    const LAST: bool = false;
+
+    /// Its options.
+    type Args: clap::Args;
+    /// What is measured at a time and kept as one line of the journal.
+    type Case: Clone + Serialize + DeserializeOwned + 'static;
+    /// What all cases come to.
+    type Answer: Serialize + Send + Sync + 'static;
+
+    /// The command that measures it for the page.
+    fn command() -> String {
+        format!("sahara study {}", Self::NAME)
+    }
+
+    /// The options of `study all`.
+    fn args(effort: Effort) -> Self::Args;
+
+    /// What is to be measured. No time is spent here, and whatever can be refused is refused.
+    ///
+    /// # Errors
+    /// If the options name what is not there.
+    fn plan(args: &Self::Args, registry: &Registry) -> anyhow::Result<Plan<Self::Case>>;
+
+    /// The answer: a pure function of what was measured.
+    fn answer(cases: &[Self::Case], context: &Context<Self>) -> Self::Answer;
+
+    /// What is printed.
+    fn tables(answer: &Self::Answer) -> Vec<Table>;
+
+    /// What is printed after the tables of all scenes.
+    fn summary(_: &Self::Answer) -> Vec<Table> {
+        vec![]
+    }
+
+    /// What the columns of the tables mean.
+    fn legend(_: &Self::Answer) -> Vec<String> {
+        vec![]
+    }
+
+    /// What is said last.
+    fn remarks(_: &Self::Answer) -> Vec<String> {
+        vec![]
+    }
+
+    /// The structures that have no time, or whose answers are wrong.
+    fn troubles(_: &[Self::Case]) -> Vec<Trouble> {
+        vec![]
+    }
+
+    /// What spoilt the run, and what to do.
+    fn warnings(_: &Self::Answer) -> Vec<String> {
+        vec![]
+    }
+
+    /// The answer as tables for machines. The first one is written by `--export-csv`. The page shows the study as not measured
+    /// where all of them are empty.
+    fn data(answer: &Self::Answer) -> Vec<Data>;
+
+    /// What the page shows; `command` is the one that measured it.
+    fn section(answer: &Self::Answer, command: &str) -> Vec<Block> {
+        let tables = Self::tables(answer).into_iter().chain(Self::summary(answer));
+        let notes = Self::legend(answer).into_iter().map(Block::Note);
+        tables.map(|table| Block::table(table, command)).chain(notes).collect()
+    }
+
+    /// What `--export-json` writes.
+    fn json(answer: &Self::Answer, provenance: &Provenance) -> Vec<u8> {
+        to_json(&Export::new(Self::NAME, provenance, answer))
+    }
+
+    /// What `--export-csv` writes.
+    fn csv(answer: &Self::Answer, provenance: &Provenance) -> Vec<u8> {
+        let rows = Self::data(answer).into_iter().next().map_or(vec![], |data| data.rows);
+        Export::new(Self::NAME, provenance, &rows[..]).to_csv()
+    }
+
+    /// Reads back what [`Study::json`] has written. Nothing if the value is no such thing, or is not read back.
+    fn read(_: &Value) -> Option<serde_json::Result<Self::Answer>> {
+        None
+    }
+
+    /// Adds a newer answer to an older one, and tells whether some of the older one is replaced. Without a rule of its own all
+    /// of it is.
+    fn merge(old: &mut Self::Answer, new: Self::Answer) -> bool {
+        *old = new;
+        true
+    }
+
+    /// The scenes that the page shows pictures of.
+    fn scenes(_: &Self::Answer) -> Vec<SceneId> {
+        vec![]
+    }
+
+    /// What `--plot` draws.
+    fn plot(_: &Self::Answer) -> Option<Figure> {
+        None
+    }
+}
+
+/// What an answer is made from besides the cases.
+pub struct Context<'a, S: Study + ?Sized> {
+    /// Of the run that measured the cases.
+    pub provenance: &'a Provenance,
+    /// The answers of the other studies; empty unless the study is [`Study::LAST`].
+    pub others: &'a Answers,
+    /// The options of this run; nothing where a journal is shown.
+    pub args: Option<&'a S::Args>,
+}
+
+/// A table for machines.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Data {
+    /// Name of its files.
+    pub name: &'static str,
+    pub rows: Vec<Value>,
+}
+
+impl Data {
+    /// One row for each of `rows`.
+    pub fn new(name: &'static str, rows: &[impl Serialize]) -> Self {
+        let row = |row| serde_json::to_value(row).expect("a row has text keys");
+        Self { name, rows: rows.iter().map(row).collect() }
+    }
+}

@@ -32,8 +32,6 @@ pub(super) struct Timing<'a> {
 
 /// The samples of all cases, in their order.
 pub(super) struct Taken {
-    /// Of each case in this epoch.
-    pub runs: usize,
     pub samples: Vec<Samples>,
     /// Which of them panicked: their samples mean nothing.
     pub panicked: Vec<bool>,
@@ -90,7 +88,7 @@ impl Timing<'_> {
                 cause,
             }
         })?;
-        Ok(Taken { runs, samples, panicked: panicked.iter().map(|panicked| panicked.get()).collect() })
+        Ok(Taken { samples, panicked: panicked.iter().map(|panicked| panicked.get()).collect() })
     }
 }
 

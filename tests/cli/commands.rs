@@ -51,11 +51,11 @@ fn what_is_not_known_is_refused_with_what_is() {
     refuses(&["render", "cube", "-o", "x.png", "--size", "12"], &["WIDTHxHEIGHT"]);
     refuses(&["validate", "cube", "--ray", "1,2,3"], &["ox,oy,oz dx,dy,dz"]);
     refuses_in_a_line(&["validate", "cube", "--against", "nothing"], &["nothing", "brute-force"]);
-    refuses_in_a_line(&["accuracy", "cube", "--test", "woop"], &["woop", "exact", "watertight"]);
-    refuses_in_a_line(&["accuracy", "cube", "-s", "obvhs-bvh2", "-t", "watertight"], &["sahara list"]);
-    refuses_in_a_line(&["accuracy", "cube", "--plot", "front.pdf"], &["front.pdf", ".svg or .png"]);
-    refuses_in_a_line(&["accuracy", "cube", "--plot", "no/such/front.svg"], &["no/such/front.svg"]);
-    refuses(&["accuracy", "cube", "--stratum", "edges"], &["edges", "uniform, edge"]);
+    refuses_in_a_line(&["study", "accuracy", "cube", "--test", "woop"], &["woop", "exact", "watertight"]);
+    refuses_in_a_line(&["study", "accuracy", "cube", "-s", "obvhs-bvh2", "-t", "watertight"], &["sahara list"]);
+    refuses_in_a_line(&["study", "accuracy", "cube", "--plot", "front.pdf"], &["front.pdf", ".svg or .png"]);
+    refuses_in_a_line(&["study", "accuracy", "cube", "--plot", "no/such/front.svg"], &["no/such/front.svg"]);
+    refuses(&["study", "accuracy", "cube", "--workload", "edges"], &["edges", "uniform, edge"]);
 }
 
 #[test]
@@ -132,7 +132,7 @@ fn what_cannot_be_written_is_refused_before_the_long_run() {
         refuses_in_a_line(&["compare", flag, &missing], &["no/r.json"]);
     }
     refuses_in_a_line(&["compare", "--export-json", &path_text(directory.path())], &["directory"]);
-    refuses_in_a_line(&["replicate", "--export-json", &missing], &["no/r.json"]);
+    refuses_in_a_line(&["study", "counts", "cube", "--export-json", &missing], &["no/r.json"]);
     refuses_in_a_line(&["render", "cube", "-o", &missing], &["no/r.json"]);
 }
 
@@ -160,7 +160,7 @@ fn accuracy_prints_exports_and_draws_what_it_finds() {
     let directory = tempfile::tempdir().unwrap();
     let file = |name: &str| path_text(&directory.path().join(name));
     let (json, svg, png) = (file("a.json"), file("a.svg"), file("a.png"));
-    let mut args = vec!["accuracy", "cube", "--rays", "300", "--runs", "2", "--budget", "1"];
+    let mut args = vec!["study", "accuracy", "cube", "--rays", "300", "--runs", "2", "--budget", "1"];
     args.extend([
         "-s",
         "sah-kd",
@@ -168,20 +168,22 @@ fn accuracy_prints_exports_and_draws_what_it_finds() {
         "exact",
         "-t",
         "moller-trumbore",
-        "--stratum",
+        "--workload",
         "vertex",
-        "--stratum",
+        "--workload",
         "uniform",
     ]);
-    args.extend(["--export-json", &json, "--plot", &svg, "--plot", &png]);
+    let dir = file("runs");
+    args.extend(["--export-json", &json, "--plot", &svg, "--plot", &png, "--dir", &dir]);
     let output = sahara(&args);
     assert_eq!(output.status.code(), Some(RIGHT), "{}", stderr(&output));
     let printed = stdout(&output);
     for text in ["vertex: 300 rays through vertices", "uniform: 300 rays", "sah-kd:test=exact", "dominated by"] {
         assert!(printed.contains(text), "{text} is not in {printed}");
     }
-    let records: serde_json::Value = serde_json::from_slice(&std::fs::read(json).unwrap()).unwrap();
-    assert_eq!(records.as_array().unwrap().len(), 4);
+    let export: serde_json::Value = serde_json::from_slice(&std::fs::read(json).unwrap()).unwrap();
+    let records = &export["result"];
+    assert_eq!((&export["study"], records.as_array().unwrap().len()), (&"accuracy".into(), 4));
     let exact = records.as_array().unwrap().iter().filter(|record| record["triangle_test"] == "exact");
     // No error in 300 rays: with less than 1 - 0.05^(1/300) of errors that happens in more than 5 % of cases.
     let bounded = |record: &serde_json::Value| (record["error_bound"].as_f64().unwrap() - 0.009_936).abs() < 1e-6;
@@ -273,7 +275,7 @@ fn a_study_prints_its_table_and_writes_its_cases() {
     );
 
     let study: serde_json::Value = serde_json::from_slice(&fs::read(&json).unwrap()).unwrap();
-    let rows = study["rows"].as_array().unwrap();
+    let rows = study["result"].as_array().unwrap();
     assert_eq!(rows.len(), 6 * 2 * 2 * 5);
     let bounded = |row: &&serde_json::Value| row["offset"] == "error-bounded" && row["point"] == "corners";
     let mut bounded = rows.iter().filter(bounded);
@@ -286,8 +288,18 @@ fn a_study_prints_its_table_and_writes_its_cases() {
 #[test]
 fn lists_and_completions_name_everything() {
     let list = stdout(&sahara(&["list"]));
-    for name in ["Cube", "Sponza", "median-kd", "threshold", "image-shadow", "heat", "moller-trumbore", "rt-triangle"] {
+    for name in ["Cube", "Sponza", "median-kd", "image-shadow", "heat", "moller-trumbore", "rt-triangle", "crossover"] {
         assert!(list.contains(name), "{name} is not in {list}");
+    }
+    assert!(list.lines().count() < 24, "it fits a screen: {list}");
+    let keys = stdout(&sahara(&["list", "Median-KD"]));
+    for words in ["threshold  0.7", "vertex-median, spatial-median", "where a node is split", "filtered-f64, moller"] {
+        let said = keys.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(said.contains(&words.replace("  ", " ")), "{words} is not in {keys}");
+    }
+    refuses_in_a_line(&["list", "octree"], &["octree", "median-kd", "scenes"]);
+    for kind in ["scenes", "structures", "workloads", "studies"] {
+        assert_eq!(sahara(&["list", kind]).status.code(), Some(RIGHT), "{kind}");
     }
     for shell in ["bash", "zsh", "fish"] {
         let script = sahara(&["completions", shell]);
@@ -302,6 +314,19 @@ fn lists_and_completions_name_everything() {
         assert_eq!(output.status.code(), Some(RIGHT));
         assert!(stderr(&output).is_empty() && stdout(&output).contains("sahara"), "{args:?}");
     }
+}
+
+#[test]
+fn old_names_are_answered_with_the_new_ones() {
+    for (old, new) in [
+        ("bench", "--save-baseline"),
+        ("hard", "validate --hard"),
+        ("compare-runs", "diff"),
+        ("counts", "study counts"),
+    ] {
+        refuses_in_a_line(&[old, "cube", "--budget", "1"], &[old, new]);
+    }
+    refuses_in_a_line(&["accuracy", "--help"], &["`sahara study accuracy`"]);
 }
 
 #[test]
@@ -364,9 +389,12 @@ fn a_reader_that_goes_away_is_no_error() {
 
 #[test]
 fn hard_cases_are_named_and_explained() {
-    refuses_in_a_line(&["hard", "flat_grasing"], &["flat_grasing", "flat_grazing_1e-3", "--list"]);
-    refuses_in_a_line(&["hard", "--test", "moeller"], &["\"moeller\"", "moller-trumbore", "exact"]);
-    let output = sahara(&["hard", "--list"]);
+    refuses_in_a_line(
+        &["validate", "--hard", "flat_grasing"],
+        &["flat_grasing", "flat_grazing_1e-3", "sahara list hard"],
+    );
+    refuses_in_a_line(&["validate", "--hard", "--test", "moeller"], &["\"moeller\"", "moller-trumbore", "exact"]);
+    let output = sahara(&["list", "hard"]);
     assert_eq!(output.status.code(), Some(RIGHT));
     let list = stdout(&output);
     assert!(list.contains("41 duplicates_20000: 200 rays\n") && list.contains("84 limits: a property\n"), "{list}");
@@ -377,7 +405,7 @@ fn a_hard_case_tells_what_each_structure_gets_wrong() {
     let directory = tempfile::tempdir().unwrap();
     let json = path_text(&directory.path().join("hard.json"));
     let structures = ["--structure", "sah-kd", "--structure", "obvhs-cwbvh"];
-    let mut args = vec!["hard", "cube_axis_negzero", "limits", "--rays", "50", "--json", &json];
+    let mut args = vec!["validate", "--hard", "cube_axis_negzero", "limits", "--rays", "50", "--export-json", &json];
     args.extend(structures);
     let output = sahara(&args);
     // What is known of a baseline does not fail the run.
@@ -401,7 +429,19 @@ fn a_hard_case_tells_what_each_structure_gets_wrong() {
 
 #[test]
 fn the_hard_cases_run_over_the_tests_asked_for() {
-    let args = ["hard", "one_triangle", "--rays", "20", "--test", "exact", "--test", "edge-f64", "-s", "median-kd"];
+    let args = [
+        "validate",
+        "--hard",
+        "one_triangle",
+        "--rays",
+        "20",
+        "--test",
+        "exact",
+        "--test",
+        "edge-f64",
+        "-s",
+        "median-kd",
+    ];
     let output = sahara(&args);
     assert_eq!(output.status.code(), Some(RIGHT), "{}", stderr(&output));
     let text = stdout(&output);

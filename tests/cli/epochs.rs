@@ -15,7 +15,7 @@ fn json(path: &Path) -> Value {
 fn counts_are_printed_and_exported() {
     let folder = TempDir::new().unwrap();
     let file = folder.path().join("counts.json");
-    let small = ["counts", "cube", "-s", "median-kd", "-s", "sah-bvh", "-w", "primary", "--rays", "400"];
+    let small = ["study", "counts", "cube", "-s", "median-kd", "-s", "sah-bvh", "-w", "primary", "--rays", "400"];
     let text = prints(&[&small[..], &["--export-json", file.to_str().unwrap()]].concat());
     for part in ["EPO", "Cube, primary rays (closest)", "x minimum", "leaves by size and by depth"] {
         assert!(text.contains(part), "{part:?} is not in {text}");
@@ -29,9 +29,9 @@ fn counts_are_printed_and_exported() {
     let long = prints(&[&small[..], &["--histograms"]].concat());
     assert!(long.contains("Cube, median-kd: leaves by size"), "{long}");
 
-    refuses(&["counts", "cub"], &["cub", "did you mean Cube"]);
-    refuses(&["counts", "cube", "-s", "octree"], &["octree", "median-kd"]);
-    refuses(&["counts", "cube", "--export-json", "/no/such/folder/f.json"], &["/no/such/folder"]);
+    refuses(&["study", "counts", "cub"], &["cub", "did you mean Cube"]);
+    refuses(&["study", "counts", "cube", "-s", "octree"], &["octree", "median-kd"]);
+    refuses(&["study", "counts", "cube", "--export-json", "/no/such/folder/f.json"], &["/no/such/folder"]);
 }
 
 /// A study that takes no time, in a folder.

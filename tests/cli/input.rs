@@ -18,7 +18,7 @@ fn render_and_counts_print_what_was_left_out() {
     let mesh = put(&folder, "a.obj", "mtllib no.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2\n");
     let picture = folder.path().join("a.png");
     let rendered = prints(&["render", &mesh, "-o", picture.to_str().unwrap(), "--size", "8x8"]);
-    let counted = prints(&["counts", &mesh, "-s", "median-kd", "-w", "primary", "--rays", "16"]);
+    let counted = prints(&["study", "counts", &mesh, "-s", "median-kd", "-w", "primary", "--rays", "16"]);
     for printed in [rendered, counted] {
         assert!(printed.contains("1 faces with fewer than three corners are left out"), "{printed}");
         assert!(printed.contains("no.mtl cannot be read"), "{printed}");

@@ -1,6 +1,6 @@
 //! The command from outside: exit statuses, messages, files.
 
-mod bench;
+mod baselines;
 mod command;
 mod commands;
 mod epochs;

@@ -57,7 +57,8 @@ fn a_replayed_workload_is_the_workload() {
     }
     right(&folder, &["rays", "record", "torus", "-w", "shadow", "-o", "f.rays", "--rays", "900"]);
     right(&folder, &["validate", "--rays", "f.rays", "-s", "sah-kd"]);
-    let printed = right(&folder, &["accuracy", "torus", "--rays", "f.rays", "-s", "sah-kd:test=exact", "--runs", "1"]);
+    let printed =
+        right(&folder, &["study", "accuracy", "torus", "--rays", "f.rays", "-s", "sah-kd:test=exact", "--runs", "1"]);
     assert!(printed.contains("rays of a file"), "{printed}");
 }
 
@@ -112,7 +113,7 @@ fn rays_of_a_mesh_file_ask_for_it_and_nothing_that_is_read_is_written() {
         &[&["validate"], &replay[..], &["--export-hits", "f.rays"]].concat(),
         &[&["validate"], &replay[..], &["--export-hits", "mine.obj"]].concat(),
         &[&["compare"], &replay[..], &["--export-csv", "f.rays"]].concat(),
-        &[&["accuracy"], &replay[..], &["--export-json", "mine.obj"]].concat(),
+        &[&["study", "accuracy"], &replay[..], &["--export-json", "mine.obj"]].concat(),
     ];
     for args in overwriting {
         refuses(&folder, args, &["files to read"]);

@@ -3,18 +3,23 @@
 
 mod broken;
 mod grid;
+mod question;
 
 use std::process::{Command, ExitCode, Stdio};
 use std::time::Duration;
 
 use broken::{Broken, BrokenConfig, Fault, Modest, picks};
 use grid::{Grid, GridConfig};
+use question::DuplicationStudy;
+use sahara::cli::Suite;
 use sahara::geometry::Ray;
 use sahara::golden::Goldens;
-use sahara::measure::{SystemClock, Threads};
+use sahara::measure::{Provenance, SystemClock, Threads};
 use sahara::registry::Registry;
 use sahara::scene::{Builtin, WorkloadKind};
-use sahara::study::compare::{Settings, Trials};
+use sahara::study::Studies;
+use sahara::study::compare::compared;
+use sahara::study::epoch::{Asked, Settings, measure};
 use sahara::triangle::{Exact, FilteredF64, MollerTrumbore};
 use sahara::validate::conformance::{Named, Subject, answers, counting, shapes};
 use sahara::validate::degenerate_meshes;
@@ -50,28 +55,21 @@ fn it_draws_the_golden_images() {
 #[test]
 fn it_is_compared_like_our_own() {
     let registry = registry();
+    let chosen = ["grid", "sah-kd", "modest"].map(|name| registry.choose(name).unwrap());
     let settings = Settings {
-        structures: ["grid", "sah-kd", "modest"].map(|name| registry.choose(name).unwrap()).into(),
+        structures: chosen.into(),
         guide: registry.choose("sah-kd").unwrap(),
-        workloads: vec![WorkloadKind::Primary, WorkloadKind::Shadow],
-        replayed: None,
-        rays: 1024,
+        asked: Asked::Kinds(vec![WorkloadKind::Primary, WorkloadKind::Shadow], 1024),
         runs: 3,
-        epochs: 1,
-        twin: false,
-        budget_ns: 1_000_000_000,
-        epoch_ns: Some(60_000_000_000),
+        budget_ns: 60_000_000_000,
+        slowest: 4.0,
+        detailed: true,
         seed: 1,
         threads: Threads::new(1).unwrap(),
     };
-    let scenes = [Builtin::find("sphere").unwrap().scene(None).unwrap()];
-    let clock = SystemClock::start();
-    let mut trials = Trials::new(&scenes, &settings, &clock, &mut |_, _| {}).unwrap();
-    for _ in 0..settings.epochs {
-        trials.epoch(&mut |_, _| {}).unwrap();
-    }
-    let (_, compared) = trials.results().remove(0);
-    let records = compared.records;
+    let scene = Builtin::find("sphere").unwrap().scene(None).unwrap();
+    let epoch = measure(&scene, &settings, 0, None, &SystemClock::start(), &mut |_| {}).unwrap();
+    let records = compared([&epoch], &Provenance::capture(1)).records;
     assert_eq!(records.len(), 6);
     assert!(records[..4].iter().all(|r| r.structure_errors == Some(0) && r.mrays_per_s > Some(0.0)));
     assert_eq!(records[0].label, "grid");
@@ -160,7 +158,11 @@ fn builders_that_panic_or_hang_are_told_from_each_other() {
 fn command() {
     let Some(args) = std::env::var_os("SAHARA_THIRD_PARTY") else { return };
     let args = args.into_string().unwrap();
-    let status = sahara::cli::run(&registry(), ["sahara"].into_iter().chain(args.split(' ')).map(Into::into));
+    // The whole list takes minutes: where all of it is run, it is this crate's study alone.
+    let all = args.starts_with("study all") || args.starts_with("report");
+    let studies = if all { Studies::empty() } else { Studies::builtin() };
+    let suite = Suite { registry: registry(), studies: studies.with::<DuplicationStudy>() };
+    let status = sahara::cli::run(&suite, ["sahara"].into_iter().chain(args.split(' ')).map(Into::into));
     std::process::exit(if status == ExitCode::SUCCESS { 0 } else { 42 });
 }
 
@@ -203,8 +205,10 @@ fn the_command_knows_the_structures_and_what_they_decline() {
         right && printed.contains("declined") && printed.contains("modest declines any hit, which shadow"),
         "{printed}"
     );
-    let (printed, right) = sahara("list");
-    assert!(right && printed.contains("declines") && printed.contains("resolution"), "{printed}");
+    let (printed, right) = sahara("list structures");
+    assert!(right && printed.contains("declines") && printed.contains("grid"), "{printed}");
+    let (printed, right) = sahara("list grid");
+    assert!(right && printed.contains("resolution"), "{printed}");
 }
 
 #[test]
@@ -224,4 +228,28 @@ fn a_command_about_one_structure_says_when_it_panics_or_hangs() {
     let (printed, right) = sahara("study self-intersection -s broken:fault=panics --rays 2000");
     assert!(!right && printed.contains("the panic above ended the command"), "{printed}");
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1, "nothing is written");
+}
+
+#[test]
+fn a_study_of_another_crate_is_in_the_command_in_study_all_and_on_the_page() {
+    let (printed, right) = sahara("study --help");
+    assert!(right && printed.contains("How often does a structure refer to a triangle?"), "{printed}");
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).display().to_string();
+    let (runs, page) = (path("runs"), path("page"));
+    let exports = format!("--export-json {0}.json --export-csv {0}.csv", path("d"));
+    let (printed, right) = sahara(&format!("study duplication torus -s grid -s sah-bvh --dir {runs} {exports}"));
+    assert!(right && printed.contains("References for each triangle") && printed.contains("sah-bvh"), "{printed}");
+    assert!(std::fs::read_to_string(path("d.json")).unwrap().contains("references_per_triangle"));
+    assert!(std::fs::read_to_string(path("d.csv")).unwrap().starts_with("schema,study,scene,structure"));
+    let (printed, right) = sahara(&format!("study duplication torus -s grid --dir {runs}"));
+    assert!(!right && printed.contains("begun with other settings: structures was"), "{printed}");
+
+    let (printed, right) = sahara(&format!("study all --quick --fresh --dir {runs}"));
+    assert!(right && printed.contains("duplication.jsonl") && printed.contains("Nothing is left"), "{printed}");
+    let (printed, right) = sahara(&format!("report {runs} -o {page} --no-pictures"));
+    assert!(right && printed.contains("index.html"), "{printed}");
+    let html = std::fs::read_to_string(folder.path().join("page/index.html")).unwrap();
+    assert!(html.contains("How often does a structure refer to a triangle?") && html.contains("Torus"), "the page");
+    assert!(folder.path().join("page/data/duplication.csv").is_file());
 }

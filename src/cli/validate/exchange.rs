@@ -8,12 +8,12 @@ use anyhow::Context;
 use super::{Args, print, reference, row, wrong};
 use crate::accel::{DynAccel, Query};
 use crate::cli::terminal::Terminal;
-use crate::cli::{Verdict, sources};
 use crate::geometry::{Hit, Ray};
 use crate::registry::{Choice, Registry};
 use crate::report::number::plural;
 use crate::scene::Scene;
 use crate::scene::files::{HitFile, RayFile};
+use crate::study::{Status, sources};
 use crate::validate::{validate_answers, validate_any_answers, watched};
 
 /// Writes the answers of one structure.
@@ -24,7 +24,7 @@ pub fn export(
     args: &Args,
     output: &Path,
     terminal: &Terminal,
-) -> anyhow::Result<Verdict> {
+) -> anyhow::Result<Status> {
     let [choice] = structures else {
         anyhow::bail!("a file holds the answers of one structure: name one with --structure");
     };
@@ -54,7 +54,7 @@ pub fn export(
         choice.label,
         file.workload.hash()
     ))?;
-    Ok(Verdict::Right)
+    Ok(Status::Right)
 }
 
 /// Rays that are asked at a time, under one limit.
@@ -83,10 +83,11 @@ pub fn check(
     file: &RayFile,
     against: &Choice,
     terminal: &Terminal,
-) -> anyhow::Result<Verdict> {
+) -> anyhow::Result<Status> {
     let path = args.hits.as_deref().context("the caller has seen it")?;
-    let test = args.test.as_deref().unwrap_or("own");
-    sources::known_tests(registry, args.test.as_slice())?;
+    anyhow::ensure!(args.test.len() < 2, "answers come from one triangle test: name one");
+    let test = args.test.first().map_or("own", String::as_str);
+    sources::known_tests(registry, &args.test)?;
     let answers = HitFile::read(path)?;
     let name = path.display().to_string();
     let found = answers.answers(&file.workload).map_err(|problem| anyhow::anyhow!("{name}: {problem}"))?;
@@ -101,5 +102,5 @@ pub fn check(
     };
     let notes = scene.notes.iter().cloned().chain(found.worst.iter().map(|worst| format!("{name}: {worst}"))).collect();
     print(scene, rays, against, vec![row(&name, test, &found)], notes, terminal)?;
-    Ok(if wrong(&found, against) { Verdict::Wrong } else { Verdict::Right })
+    Ok(if wrong(&found, against) { Status::Wrong } else { Status::Right })
 }

@@ -2,6 +2,7 @@
 
 mod answers;
 mod exchange;
+mod hard;
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -9,9 +10,7 @@ use std::time::Duration;
 
 use anyhow::Context;
 
-use super::rays::{RaySource, replayed};
 use super::terminal::Terminal;
-use super::{Verdict, sources};
 use crate::accel::DynAccel;
 use crate::geometry::Ray;
 use crate::registry::{Choice, Registry};
@@ -19,7 +18,11 @@ use crate::report::number::{count, plural};
 use crate::report::{Cell, Table, Tone};
 use crate::scene::{Sampling, Scene, Workload, WorkloadKind};
 use crate::study::{BRUTE_FORCE, documented_defect};
+use crate::study::{RaySource, replayed};
+use crate::study::{Status, sources};
 use crate::validate::{LIMIT, Reference, Stratum, Validation, validate_watched, watched};
+
+pub use hard::{CHILD, ChildArgs, described, run_child};
 
 #[derive(Debug, clap::Args)]
 pub struct Args {
@@ -42,15 +45,23 @@ pub struct Args {
     /// Rays that break traversals, in place of those of the workloads
     #[arg(long, conflicts_with = "ray")]
     adversarial: bool,
+    /// Hard cases by name or number, in place of scenes: what ray tracers are known to get wrong, each structure in a process of its
+    /// own; all cases if none is named (see `sahara list hard`)
+    #[arg(long, value_name = "CASE", num_args = 0.., conflicts_with_all = ["scenes", "ray", "adversarial", "hits", "export_hits"])]
+    hard: Option<Vec<String>>,
     /// Ask this ray alone, and print what every structure answers; may be repeated
     #[arg(long, value_name = "ox,oy,oz dx,dy,dz", allow_hyphen_values = true)]
     ray: Vec<Ray>,
     /// Hold the answers of a file, to the rays of the file of --rays, against the reference, in place of structures
     #[arg(long, value_name = "F.hits", conflicts_with_all = ["structure", "export_hits"])]
     hits: Option<PathBuf>,
-    /// The triangle test that the answers of --hits come from [default: one of their own, judged by exact arithmetic]
-    #[arg(long, value_name = "NAME", requires = "hits")]
-    test: Option<String>,
+    /// The triangle test of the answers of --hits [default: one of their own, judged by exact arithmetic]; with --hard the test of all
+    /// structures that are offered over it, may be repeated [default: each structure's own]
+    #[arg(long, short, value_name = "NAME")]
+    test: Vec<String>,
+    /// Write the results of --hard as JSON
+    #[arg(long, value_name = "FILE", requires = "hard")]
+    export_json: Option<PathBuf>,
     /// Write the answers of the one structure to the rays of the file of --rays
     #[arg(long, value_name = "F.hits")]
     export_hits: Option<PathBuf>,
@@ -62,7 +73,14 @@ pub struct Args {
     seed: u64,
 }
 
-pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Result<Verdict> {
+pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
+    anyhow::ensure!(
+        args.test.is_empty() || args.hard.is_some() || args.hits.is_some(),
+        "--test is for --hits and --hard: here name it with the structure, as in sah-kd:test=exact"
+    );
+    if let Some(cases) = &args.hard {
+        return hard::run(registry, args, cases, terminal);
+    }
     let structures = sources::structures_at(registry, &args.structure, args.quality.as_deref())?;
     let against = sources::structure(registry, &args.against)?;
     let replay = replayed(&args.rays, &args.scenes)?;
@@ -82,7 +100,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
         None => (sources::scenes(&args.scenes)?, None),
     };
 
-    let mut verdict = Verdict::Right;
+    let mut verdict = Status::Right;
     for scene in &scenes {
         let rays = match &recorded {
             Some(recorded) => recorded.clone(),
@@ -95,7 +113,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
                 Taken::Compared(accel, found) => {
                     match documented_defect(&choice.entry.name) {
                         _ if !wrong(&found, &against) => {}
-                        None => verdict = Verdict::Wrong,
+                        None => verdict = Status::Wrong,
                         Some(defect) => notes.push(format!(
                             "{}: its documented defects, which do not change the exit status: {defect}",
                             choice.label
@@ -109,14 +127,14 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
                     notes.extend(found.worst.iter().map(|worst| format!("{}: {worst}", choice.label)));
                 }
                 Taken::Hangs => {
-                    verdict = Verdict::Wrong;
+                    verdict = Status::Wrong;
                     rows.push(set_apart(choice, "hangs"));
                     let limit = args.limit;
                     notes.push(format!("{}: its builder did not end within {limit} s: see --limit", choice.label));
                 }
                 Taken::Refused(reason) => {
-                    if verdict == Verdict::Right {
-                        verdict = Verdict::Refused;
+                    if verdict == Status::Right {
+                        verdict = Status::Refused;
                     }
                     rows.push(set_apart(choice, "refused"));
                     notes.push(format!("{}: {reason}", choice.label));

@@ -6,6 +6,8 @@ mod front;
 mod judged;
 mod kind;
 mod record;
+mod section;
+mod study;
 mod table;
 #[cfg(test)]
 mod tests;
@@ -26,10 +28,11 @@ use crate::validate::{Judged, Rate};
 pub use figure::figure;
 pub use kind::{RayKind, UnknownKind};
 pub use record::AccuracyRecord;
+pub use study::AccuracyStudy;
 pub use table::{legend, tables};
 
 /// What is measured, and for how long.
-pub struct Settings {
+pub struct AccuracySettings {
     /// Structures over triangle tests, in the order of the tables.
     pub choices: Vec<Choice>,
     pub kinds: Vec<RayKind>,
@@ -55,7 +58,7 @@ const SHORT_JUDGING_NS: u64 = 2_000_000_000;
 /// If a structure answers the same rays differently, or panics only when it is timed.
 pub fn accuracy_scene(
     scene: &Scene,
-    settings: &Settings,
+    settings: &AccuracySettings,
     clock: &dyn Clock,
     progress: &mut dyn FnMut(Stage),
 ) -> Result<(Vec<AccuracyRecord>, Vec<Refused>), StudyError> {
@@ -139,7 +142,7 @@ fn time(
     scene: &Scene,
     built: &[Built],
     mut workloads: Vec<Workload>,
-    settings: &Settings,
+    settings: &AccuracySettings,
     threads: &Threads,
     clock: &dyn Clock,
     progress: &mut dyn FnMut(Stage),
@@ -204,7 +207,7 @@ fn record(
     hash: &str,
     built: &Built,
     (kind, rays): (&str, usize),
-    settings: &Settings,
+    settings: &AccuracySettings,
     judged: &Judged,
     samples: &Samples,
     provenance: &Provenance,

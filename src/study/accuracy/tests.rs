@@ -6,7 +6,7 @@ use crate::triangle::{Exact, MollerTrumbore, TriangleTest};
 
 fn records(specs: &[&str], kinds: &[RayKind], rays: usize) -> Vec<AccuracyRecord> {
     let registry = Registry::builtin();
-    let settings = Settings {
+    let settings = AccuracySettings {
         choices: specs.iter().map(|spec| registry.choose(spec).unwrap()).collect(),
         kinds: kinds.into(),
         replayed: None,

@@ -75,11 +75,11 @@ impl Factor {
 /// Cells of the design.
 pub const CELLS: usize = PLANES.len() * STOPS.len() * TRAVERSALS.len();
 
-/// One cell: the number of the level of each factor.
+/// One cell of the design: the number of the level of each factor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Cell(pub [usize; 3]);
+pub struct Treatment(pub [usize; 3]);
 
-impl Cell {
+impl Treatment {
     /// The report's tree.
     pub const REPORT: Self = Self([0; 3]);
     /// The SAH tree.
@@ -125,13 +125,13 @@ mod tests {
 
     #[test]
     fn cells_stand_where_they_say() {
-        let cells = Cell::all();
-        assert_eq!((cells.len(), cells[0], cells[CELLS - 1]), (36, Cell::REPORT, Cell::SAH));
+        let cells = Treatment::all();
+        assert_eq!((cells.len(), cells[0], cells[CELLS - 1]), (36, Treatment::REPORT, Treatment::SAH));
         for (i, cell) in cells.iter().enumerate() {
             assert_eq!(cell.number(), i);
         }
-        assert_eq!((Cell::corner(0), Cell::corner(7)), (Cell::REPORT, Cell::SAH));
-        assert_eq!(Cell::corner(0b010), Cell([0, STOPS.len() - 1, 0]));
+        assert_eq!((Treatment::corner(0), Treatment::corner(7)), (Treatment::REPORT, Treatment::SAH));
+        assert_eq!(Treatment::corner(0b010), Treatment([0, STOPS.len() - 1, 0]));
     }
 
     #[test]
@@ -142,21 +142,23 @@ mod tests {
             let config: KdConfig = serde_json::from_value(registry.choose(spec).unwrap().config).unwrap();
             serde_json::to_value(config).unwrap()
         };
-        let different = |cell: Cell, name: &str| {
+        let different = |cell: Treatment, name: &str| {
             let (ours, theirs) = (config(&cell.spec("filtered-f64")), config(name));
             let keys = ours.as_object().unwrap().keys().filter(|key| ours[*key] != theirs[*key]);
             keys.cloned().collect::<Vec<_>>()
         };
         // What the report's rules take no notice of, and the guard.
-        assert_eq!(different(Cell::REPORT, "median-kd"), ["intersection_cost", "empty_bonus", "duplication"]);
-        assert_eq!(different(Cell::SAH, "sah-kd"), [""; 0]);
+        assert_eq!(different(Treatment::REPORT, "median-kd"), ["intersection_cost", "empty_bonus", "duplication"]);
+        assert_eq!(different(Treatment::SAH, "sah-kd"), [""; 0]);
     }
 
     #[test]
     fn every_cell_is_another_tree() {
         let registry = Registry::builtin();
-        let mut configs: Vec<String> =
-            Cell::all().iter().map(|cell| registry.choose(&cell.spec("exact")).unwrap().config.to_string()).collect();
+        let mut configs: Vec<String> = Treatment::all()
+            .iter()
+            .map(|cell| registry.choose(&cell.spec("exact")).unwrap().config.to_string())
+            .collect();
         configs.sort();
         configs.dedup();
         assert_eq!(configs.len(), CELLS);

@@ -4,7 +4,7 @@
 //! same cells add up exactly, and their intervals come from the same replicates (Box, Hunter, Hunter, "Statistics for
 //! experimenters", 2nd edition 2005, chapter 5; Montgomery, "Design and analysis of experiments", 8th edition 2013, chapter 5).
 
-use super::design::{CELLS, Cell, Factor};
+use super::design::{CELLS, Factor, Treatment};
 
 /// One weight for each cell.
 pub type Weights = [f64; CELLS];
@@ -21,7 +21,7 @@ pub fn main_effect(factor: Factor, level: usize) -> Weights {
 }
 
 /// How much less `to` takes than `from`.
-pub fn gain(from: Cell, to: Cell) -> Weights {
+pub fn gain(from: Treatment, to: Treatment) -> Weights {
     weights(|cell| f64::from(u8::from(cell == from)) - f64::from(u8::from(cell == to)))
 }
 
@@ -46,11 +46,11 @@ const ORDERS: [[usize; 3]; 6] = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2,
 
 fn in_order(factor: Factor, order: [usize; 3]) -> Weights {
     let before: usize = order.iter().take_while(|&&f| f != factor as usize).map(|f| 1 << f).sum();
-    gain(Cell::corner(before), Cell::corner(before | 1 << factor as usize))
+    gain(Treatment::corner(before), Treatment::corner(before | 1 << factor as usize))
 }
 
-fn weights(of: impl Fn(Cell) -> f64) -> Weights {
-    let cells = Cell::all();
+fn weights(of: impl Fn(Treatment) -> f64) -> Weights {
+    let cells = Treatment::all();
     std::array::from_fn(|i| of(cells[i]))
 }
 
@@ -66,10 +66,10 @@ pub fn term_name(term: usize) -> String {
 /// The shares of the variance of `logs` over the cells that the [`TERMS`] have; they add up to 1. Nothing where all cells are
 /// the same.
 pub fn shares(logs: &[f64]) -> Option<[f64; 7]> {
-    let cells = Cell::all();
+    let cells = Treatment::all();
     // The mean over all cells that agree with a cell in the factors of a set.
-    let mean = |cell: Cell, set: usize| {
-        let agrees = |other: &Cell| (0..3).all(|f| set >> f & 1 == 0 || other.0[f] == cell.0[f]);
+    let mean = |cell: Treatment, set: usize| {
+        let agrees = |other: &Treatment| (0..3).all(|f| set >> f & 1 == 0 || other.0[f] == cell.0[f]);
         let agreeing = cells.iter().zip(logs).filter(|(other, _)| agrees(other));
         let (sum, n) = agreeing.fold((0.0, 0.0), |(sum, n), (_, log)| (sum + log, n + 1.0));
         sum / n
@@ -91,9 +91,10 @@ mod tests {
 
     /// Logs made of known effects: each level of each factor, and one interaction.
     fn logs(plane: [f64; 6], stop: [f64; 3], traversal: [f64; 2], both: f64) -> Vec<f64> {
-        let of =
-            |Cell([p, s, t]): Cell| 5.0 + plane[p] + stop[s] + traversal[t] + if p == 5 && s == 2 { both } else { 0.0 };
-        Cell::all().into_iter().map(of).collect()
+        let of = |Treatment([p, s, t]): Treatment| {
+            5.0 + plane[p] + stop[s] + traversal[t] + if p == 5 && s == 2 { both } else { 0.0 }
+        };
+        Treatment::all().into_iter().map(of).collect()
     }
 
     const PLANE: [f64; 6] = [0.5, 0.3, 0.1, -0.1, -0.3, -0.5];
@@ -151,7 +152,7 @@ mod tests {
     fn parts_add_up_to_the_whole_whatever_the_cells_hold() {
         let logs: Vec<f64> = (0..CELLS).map(|i| libm::sin(i as f64 * 1.7) * 3.0).collect();
         let parts: f64 = Factor::ALL.iter().map(|&factor| value(&part(factor), &logs)).sum();
-        close(parts, value(&gain(Cell::REPORT, Cell::SAH), &logs));
+        close(parts, value(&gain(Treatment::REPORT, Treatment::SAH), &logs));
         // Contrasts take no notice of what all cells share.
         for factor in Factor::ALL {
             close(part(factor).iter().sum(), 0.0);
@@ -175,7 +176,7 @@ mod tests {
     #[test]
     fn a_pure_interaction_is_found_as_such() {
         let sign = |i: usize| if i.is_multiple_of(2) { 1.0 } else { -1.0 };
-        let logs: Vec<f64> = Cell::all().iter().map(|cell| sign(cell.0[0]) * sign(cell.0[2])).collect();
+        let logs: Vec<f64> = Treatment::all().iter().map(|cell| sign(cell.0[0]) * sign(cell.0[2])).collect();
         let shares = shares(&logs).unwrap();
         close(shares[4], 1.0);
         assert_eq!(term_name(TERMS[4]), "plane x traversal");
@@ -186,8 +187,8 @@ mod tests {
         let logs: Vec<f64> = (0..CELLS).map(|i| libm::cos(i as f64 * 2.3)).collect();
         close(shares(&logs).unwrap().iter().sum(), 1.0);
         let mean = logs.iter().sum::<f64>() / CELLS as f64;
-        let only_last = |cell: &Cell| if *cell == Cell::SAH { 1.0 } else { 0.0 };
-        let spike: Vec<f64> = Cell::all().iter().map(only_last).collect();
+        let only_last = |cell: &Treatment| if *cell == Treatment::SAH { 1.0 } else { 0.0 };
+        let spike: Vec<f64> = Treatment::all().iter().map(only_last).collect();
         // One cell apart: a share of (6-1)(3-1)(2-1) of 35 degrees of freedom is three-way.
         close(shares(&spike).unwrap()[6], 10.0 / 35.0);
         assert!(mean.is_finite());

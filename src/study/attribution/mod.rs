@@ -8,24 +8,99 @@
 pub mod design;
 pub mod effects;
 mod result;
+mod section;
 mod table;
 #[cfg(test)]
 pub(crate) mod tests;
 
+use super::args::{Measuring, ScenesAndMeshes};
+use super::epoch::{Asked, Epoch};
+use super::{Context, Data, Effort, Plan, Study, rays_or_all, sources};
 use crate::registry::{Choice, ChoiceError, Registry};
-use design::Cell;
+use crate::report::Table;
+use crate::report::document::Block;
+use crate::scene::WorkloadKind;
+use design::Treatment;
 
 pub use result::{Attribution, CellResult, Effect, Part, Row, Split, Term, result, rows};
+pub use section::{hard, sentences};
 pub use table::{headlines, tables};
-
-/// Name of the study, and of its journal; a case is an [`Epoch`](super::epoch::Epoch).
-pub const NAME: &str = "attribution";
 
 /// The cells of the design in their order, then the twins of the report's tree and of the SAH tree, over one triangle test.
 ///
 /// # Errors
 /// If the test is not known.
-pub fn structures(registry: &Registry, test: &str) -> Result<Vec<Choice>, ChoiceError> {
-    let cells = Cell::all().into_iter().chain([Cell::REPORT, Cell::SAH]);
+fn structures(registry: &Registry, test: &str) -> Result<Vec<Choice>, ChoiceError> {
+    let cells = Treatment::all().into_iter().chain([Treatment::REPORT, Treatment::SAH]);
     cells.map(|cell| registry.choose(&cell.spec(test))).collect()
+}
+
+/// The study.
+pub struct AttributionStudy;
+
+/// Its options.
+#[derive(Clone, Debug, clap::Args)]
+pub struct AttributionArgs {
+    #[command(flatten)]
+    scenes: ScenesAndMeshes,
+    /// The kind of rays
+    #[arg(long, short, value_name = "KIND", default_value = "primary")]
+    workload: WorkloadKind,
+    /// Rays of a workload that are timed, at most, in whole tiles of the scene's picture
+    #[arg(long, value_name = "N|all", default_value = "all", value_parser = rays_or_all)]
+    rays: usize,
+    /// The triangle test of all trees
+    #[arg(long, short, value_name = "NAME", default_value = TEST)]
+    test: String,
+    #[command(flatten)]
+    measuring: Measuring,
+}
+
+const TEST: &str = "filtered-f64";
+
+impl Study for AttributionStudy {
+    const NAME: &'static str = "attribution";
+    const QUESTION: &'static str =
+        "What of the SAH tree's speed is due to the stop rule, what to the plane and what to the traversal?";
+
+    type Args = AttributionArgs;
+    type Case = Epoch;
+    type Answer = Vec<Attribution>;
+
+    fn args(effort: Effort) -> AttributionArgs {
+        let rays = if effort == Effort::Quick { 1024 } else { usize::MAX };
+        let (scenes, measuring) = (ScenesAndMeshes::of(effort), Measuring::of(effort));
+        AttributionArgs { scenes, workload: WorkloadKind::Primary, rays, test: TEST.into(), measuring }
+    }
+
+    fn plan(args: &AttributionArgs, registry: &Registry) -> anyhow::Result<Plan<Epoch>> {
+        sources::known_tests(registry, std::slice::from_ref(&args.test))?;
+        let asked = Asked::Kinds(vec![args.workload], args.rays);
+        let scenes = args.scenes.read()?;
+        let note = args.scenes.note(&scenes);
+        let settings = args.measuring.settings(registry, structures(registry, &args.test)?, asked)?;
+        let mut plan = settings.plan_of_whole(scenes, args.measuring.epochs);
+        plan.notes.extend(note);
+        Ok(Plan { inputs: args.scenes.named.files(), ..plan })
+    }
+
+    fn answer(cases: &[Epoch], _: &Context<Self>) -> Vec<Attribution> {
+        result(cases)
+    }
+
+    fn tables(answer: &Vec<Attribution>) -> Vec<Table> {
+        answer.iter().flat_map(tables).collect()
+    }
+
+    fn summary(answer: &Vec<Attribution>) -> Vec<Table> {
+        vec![headlines(answer)]
+    }
+
+    fn data(answer: &Vec<Attribution>) -> Vec<Data> {
+        vec![Data::new(Self::NAME, &rows(answer))]
+    }
+
+    fn section(answer: &Vec<Attribution>, command: &str) -> Vec<Block> {
+        section::blocks(answer, command)
+    }
 }

@@ -2,11 +2,11 @@
 
 use serde::Serialize;
 
-use super::design::{CELLS, Cell, Factor};
+use super::design::{CELLS, Factor, Treatment};
 use super::effects::{self, TERMS, Weights, value};
 use crate::measure::{AaNoise, Estimate, Rerun, median};
 use crate::study::epoch::{Epoch, RayCounts, Structure};
-use crate::study::replicates::{ratio, replicates, values};
+use crate::study::epoch_medians::{epoch_medians, ratio, values};
 
 /// What came of one scene.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -152,13 +152,13 @@ fn paces(epoch: &Epoch, tree: &Structure) -> Vec<f64> {
 fn logs(epochs: &[&Epoch]) -> Vec<Vec<f64>> {
     let logs = |epoch: &Epoch, tree: &Structure| paces(epoch, tree).into_iter().map(libm::log).collect::<Vec<f64>>();
     let of_epoch = |epoch: &&Epoch| epoch.structures.iter().map(|tree| logs(epoch, tree)).collect();
-    replicates(epochs.iter().map(of_epoch).collect())
+    epoch_medians(epochs.iter().map(of_epoch).collect())
 }
 
 /// The A/A ratios of the report's tree and of the SAH tree.
 fn twins(logs: &[Vec<f64>]) -> [Vec<Vec<f64>>; 2] {
-    let twin = |cell: Cell, twin: usize| values(logs, |logs| logs[cell.number()] - logs[CELLS + twin]);
-    [twin(Cell::REPORT, 0), twin(Cell::SAH, 1)].map(|logs| logs.into_iter().map(|log| vec![log]).collect())
+    let twin = |cell: Treatment, twin: usize| values(logs, |logs| logs[cell.number()] - logs[CELLS + twin]);
+    [twin(Treatment::REPORT, 0), twin(Treatment::SAH, 1)].map(|logs| logs.into_iter().map(|log| vec![log]).collect())
 }
 
 /// What was counted of a structure on the rays of the study.
@@ -167,17 +167,17 @@ fn counts(structure: &Structure) -> Option<RayCounts> {
 }
 
 /// The result of the epochs of one scene. Nothing without its first one.
-fn attribute(epochs: &[&Epoch], replicates: &[Vec<f64>], noise: &AaNoise) -> Option<Attribution> {
+fn attribute(epochs: &[&Epoch], epoch_medians: &[Vec<f64>], noise: &AaNoise) -> Option<Attribution> {
     let first = *epochs.iter().find(|epoch| epoch.structures.iter().all(|tree| counts(tree).is_some()))?;
     let counts: Vec<RayCounts> = first.structures.iter().filter_map(counts).collect();
-    let interval = |weights: &Weights| ratio(replicates, |logs| value(weights, logs), noise.weighted(weights));
+    let interval = |weights: &Weights| ratio(epoch_medians, |logs| value(weights, logs), noise.weighted(weights));
     let log_counts = |of: fn(&RayCounts) -> Option<f64>| -> Vec<f64> {
         // Nothing done counts as one in all, so that there is a logarithm.
         counts[..CELLS].iter().map(|c| libm::log(of(c).unwrap_or(0.0).max(1.0 / c.rays as f64))).collect()
     };
     let (tests, steps) = (log_counts(RayCounts::tests_per_ray), log_counts(RayCounts::steps_per_ray));
 
-    let cells = Cell::all().into_iter().enumerate().map(|(i, cell)| {
+    let cells = Treatment::all().into_iter().enumerate().map(|(i, cell)| {
         let trees = || epochs.iter().map(|epoch| &epoch.structures[i]);
         let ns: Vec<f64> = epochs.iter().flat_map(|epoch| paces(epoch, &epoch.structures[i])).collect();
         let builds: Vec<f64> = trees().map(|tree| tree.build_ns as f64).collect();
@@ -188,7 +188,7 @@ fn attribute(epochs: &[&Epoch], replicates: &[Vec<f64>], noise: &AaNoise) -> Opt
             stop,
             traversal,
             ns_per_ray: median(&ns).expect("there is a sample"),
-            speedup: interval(&effects::gain(Cell::REPORT, cell)),
+            speedup: interval(&effects::gain(Treatment::REPORT, cell)),
             tests_per_ray: counts[i].tests_per_ray().unwrap_or(0.0),
             steps_per_ray: counts[i].steps_per_ray().unwrap_or(0.0),
             duplication: shape.references as f64 / first.triangles.max(1) as f64,
@@ -218,18 +218,18 @@ fn attribute(epochs: &[&Epoch], replicates: &[Vec<f64>], noise: &AaNoise) -> Opt
         aa_noise: libm::exp(noise.log().unwrap_or(0.0)),
         cells: cells.collect(),
         main_effects: main_effects.collect(),
-        terms: terms(replicates, &tests, &steps, noise),
-        time: split(interval, &mean_of(replicates)),
+        terms: terms(epoch_medians, &tests, &steps, noise),
+        time: split(interval, &mean_of(epoch_medians)),
         tests: split(|weights| exact(weights, &tests), &tests),
         steps: split(|weights| exact(weights, &steps), &steps),
-        plane_alone: interval(&effects::gain(Cell([0, 1, 1]), Cell([5, 1, 1]))),
+        plane_alone: interval(&effects::gain(Treatment([0, 1, 1]), Treatment([5, 1, 1]))),
     })
 }
 
 /// The mean over the epochs, tree by tree.
-fn mean_of(replicates: &[Vec<f64>]) -> Vec<f64> {
-    let n = replicates.len() as f64;
-    (0..CELLS).map(|i| replicates.iter().map(|logs| logs[i]).sum::<f64>() / n).collect()
+fn mean_of(epoch_medians: &[Vec<f64>]) -> Vec<f64> {
+    let n = epoch_medians.len() as f64;
+    (0..CELLS).map(|i| epoch_medians.iter().map(|logs| logs[i]).sum::<f64>() / n).collect()
 }
 
 /// A contrast of numbers that do not vary.
@@ -248,19 +248,19 @@ fn split(interval: impl Fn(&Weights) -> Estimate, logs: &[f64]) -> Split {
             most: orders.fold(0.0, f64::max),
         }
     };
-    Split { whole: interval(&effects::gain(Cell::REPORT, Cell::SAH)), parts: Factor::ALL.map(part).into() }
+    Split { whole: interval(&effects::gain(Treatment::REPORT, Treatment::SAH)), parts: Factor::ALL.map(part).into() }
 }
 
 /// Shares of the variance: of the mean over the epochs, jackknifed.
-pub(super) fn terms(replicates: &[Vec<f64>], tests: &[f64], steps: &[f64], noise: &AaNoise) -> Vec<Term> {
+pub(super) fn terms(epoch_medians: &[Vec<f64>], tests: &[f64], steps: &[f64], noise: &AaNoise) -> Vec<Term> {
     let none = [0.0; TERMS.len()];
     let of = |logs: &[f64]| effects::shares(logs).unwrap_or(none);
     let (tests, steps) = (of(tests), of(steps));
-    let mean = |kept: &[usize]| mean_of(&kept.iter().map(|&e| replicates[e].clone()).collect::<Vec<_>>());
-    let own = mean_of(replicates);
+    let mean = |kept: &[usize]| mean_of(&kept.iter().map(|&e| epoch_medians[e].clone()).collect::<Vec<_>>());
+    let own = mean_of(epoch_medians);
     let term = |i: usize| {
         let noise = noise.of_figure(&own, |logs| Some(of(logs)[i]));
-        let share = Rerun::jackknife(replicates.len(), noise, |kept| Some(of(&mean(kept))[i]));
+        let share = Rerun::jackknife(epoch_medians.len(), noise, |kept| Some(of(&mean(kept))[i]));
         // A share is no less than nothing and no more than all.
         let time = share.expect("there is an epoch").plain().map(|share| share.clamp(0.0, 1.0));
         Term { term: effects::term_name(TERMS[i]), time, tests: tests[i], steps: steps[i] }

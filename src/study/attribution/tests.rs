@@ -1,6 +1,6 @@
 //! From journals whose truth is known to the answer.
 
-use super::design::{CELLS, Cell, Factor};
+use super::design::{CELLS, Factor, Treatment};
 use super::*;
 use crate::measure::RandomOrder;
 use crate::study::epoch::tests::rays;
@@ -12,8 +12,8 @@ const PLANE: f64 = 1.5;
 const TRAVERSAL: f64 = 1.25;
 const TOGETHER: f64 = 2.0;
 
-fn factor(cell: Cell) -> f64 {
-    let Cell([plane, stop, traversal]) = cell;
+fn factor(cell: Treatment) -> f64 {
+    let Treatment([plane, stop, traversal]) = cell;
     let mut times = 1.0;
     times *= if plane == 5 { PLANE } else { 1.0 };
     times *= if stop == 2 { STOP } else { 1.0 };
@@ -24,7 +24,7 @@ fn factor(cell: Cell) -> f64 {
 /// A scene of `epochs` epochs; times vary by up to `noise` with the epoch, and whole rounds by a third.
 pub fn cases(epochs: usize, noise: f64) -> Vec<Epoch> {
     let mut random = RandomOrder::new(3);
-    let cells: Vec<Cell> = Cell::all().into_iter().chain([Cell::REPORT, Cell::SAH]).collect();
+    let cells: Vec<Treatment> = Treatment::all().into_iter().chain([Treatment::REPORT, Treatment::SAH]).collect();
     let mut uniform = move || random.below(1 << 20) as f64 / f64::from(1 << 20);
     let mut of = |number: usize| {
         let slow: Vec<f64> = (0..3).map(|_| 1.0 + uniform() / 3.0).collect();
@@ -51,6 +51,7 @@ pub fn cases(epochs: usize, noise: f64) -> Vec<Epoch> {
                     depth: 5,
                     sah_cost: Some(20.0 / factor(cell)),
                 },
+                details: None,
                 rays: vec![Rays { ns, counts: (number == 0).then_some(counts), ..rays("primary") }],
             }
         });
@@ -59,7 +60,9 @@ pub fn cases(epochs: usize, noise: f64) -> Vec<Epoch> {
             scene_hash: "00".into(),
             stand_in: true,
             triangles: 100,
+            degenerate: 0,
             epoch: number,
+            circumstances: None,
             structures: trees.collect(),
         }
     };

@@ -2,23 +2,93 @@
 
 mod interval;
 mod payoff;
+mod section;
 mod table;
 #[cfg(test)]
 mod tests;
 
 use serde::Serialize;
 
-use super::epoch::{Epoch, Line, Twins, lines, twins};
+use super::args::{Measuring, Rays, ScenesAndMeshes, Structures, with_twin};
+use super::epoch::{Epoch, Line, Twins, lines, troubles, twins};
+use super::{Context, Data, Effort, Plan, Study, Trouble};
+use crate::registry::Registry;
+use crate::report::Table;
+use crate::report::document::Block;
+use crate::scene::WorkloadKind;
 
 pub use payoff::Payoff;
-pub use table::{LEGEND, tables};
-
-/// Name of the study, and of its journal; a case is an [`Epoch`].
-pub const NAME: &str = "break-even";
+use table::LEGEND;
+pub use table::tables;
 
 /// The structures compared unless others are named.
-pub const STRUCTURES: [&str; 8] =
+const STRUCTURES: [&str; 8] =
     ["brute-force", "median-kd", "sah-kd", "sah-kd-wide", "sah-hybrid", "sah-bvh", "obvhs-bvh2", "obvhs-cwbvh"];
+
+/// The study.
+pub struct BreakEvenStudy;
+
+/// Its options.
+#[derive(Clone, Debug, clap::Args)]
+pub struct BreakEvenArgs {
+    #[command(flatten)]
+    scenes: ScenesAndMeshes,
+    #[command(flatten)]
+    structures: Structures,
+    #[command(flatten)]
+    rays: Rays,
+    #[command(flatten)]
+    measuring: Measuring,
+}
+
+impl Study for BreakEvenStudy {
+    const NAME: &'static str = "break-even";
+    const QUESTION: &'static str = "After how many rays does a dearer build pay?";
+
+    type Args = BreakEvenArgs;
+    type Case = Epoch;
+    type Answer = Vec<Market>;
+
+    fn args(effort: Effort) -> BreakEvenArgs {
+        let (scenes, rays, measuring) = (ScenesAndMeshes::of(effort), Rays::of(effort), Measuring::of(effort));
+        BreakEvenArgs { scenes, structures: Structures::default(), rays, measuring }
+    }
+
+    fn plan(args: &BreakEvenArgs, registry: &Registry) -> anyhow::Result<Plan<Epoch>> {
+        let structures = with_twin(args.structures.chosen(registry, &STRUCTURES)?);
+        let asked = args.rays.asked(&[WorkloadKind::Primary, WorkloadKind::Diffuse]);
+        let scenes = args.scenes.read()?;
+        let note = args.scenes.note(&scenes);
+        let settings = args.measuring.settings(registry, structures, asked)?;
+        let mut plan = settings.plan(scenes, args.measuring.epochs);
+        plan.notes.extend(note);
+        Ok(Plan { inputs: args.scenes.named.files(), ..plan })
+    }
+
+    fn answer(cases: &[Epoch], _: &Context<Self>) -> Vec<Market> {
+        result(cases)
+    }
+
+    fn tables(answer: &Vec<Market>) -> Vec<Table> {
+        tables(answer)
+    }
+
+    fn legend(_: &Vec<Market>) -> Vec<String> {
+        LEGEND.map(String::from).into()
+    }
+
+    fn troubles(cases: &[Epoch]) -> Vec<Trouble> {
+        troubles(cases)
+    }
+
+    fn data(answer: &Vec<Market>) -> Vec<Data> {
+        vec![Data::new(Self::NAME, &rows(answer))]
+    }
+
+    fn section(answer: &Vec<Market>, command: &str) -> Vec<Block> {
+        section::blocks(answer, command)
+    }
+}
 
 /// What pays on one kind of rays of one scene.
 #[derive(Clone, Debug, PartialEq, Serialize)]

@@ -1,113 +1,153 @@
-//! What is known at the end, one record a case.
+//! From epochs to one record a case.
 
-use super::epoch::{Tally, Trial};
 use super::{Compared, twins};
 use crate::measure::advice::{Conditions, of_samples};
-use crate::measure::{Provenance, Samples, machine, median};
-use crate::report::Record;
-use crate::study::timing::Case;
+use crate::measure::{Part, Provenance, machine, median};
+use crate::report::{CaseCounts, Record};
+use crate::study::Refused;
+use crate::study::epoch::{Epoch, RayDetails, Rays, scenes, twin_of};
 
-impl Trial<'_> {
-    /// The records of all epochs so far.
-    ///
-    /// # Panics
-    /// If there was none.
-    pub fn results(&self) -> Compared {
-        assert!(self.epochs > 0, "a trial has an epoch");
-        let mut provenance = Provenance::of(&self.settings.threads);
-        provenance.warnings = self.warnings(&provenance);
-        let scene_hash = self.scene.hash();
-        let hashes: Vec<String> = self.workloads.iter().map(|workload| workload.hash()).collect();
-
-        let twin = self.twin.map(|_| self.subjects.len() - 1);
-        let mut records = vec![];
-        for (s, subject) in self.subjects.iter().enumerate().filter(|(s, _)| Some(*s) != twin) {
-            let builds: Vec<f64> = subject.build_ns.iter().map(|&ns| ns as f64).collect();
-            for (w, workload) in self.workloads.iter().enumerate() {
-                let Tally { rays: counted_rays, hits, tests_per_ray, steps_per_ray, instructions_per_ray, counts } =
-                    self.tallies[s][w];
-                let samples = self.samples_of(s, w);
-                let rays = samples.map_or(0, |samples| samples.rays);
-                let samples_ns = nanoseconds(samples);
-                let trace_ns = median(&samples_ns);
-                let twin = twin.filter(|_| self.twin == Some(s)).and_then(|twin| self.samples_of(twin, w));
-                records.push(Record {
-                    schema: Record::SCHEMA,
-                    scene: self.scene.name.clone(),
-                    scene_hash: scene_hash.clone(),
-                    triangles: self.scene.mesh.len(),
-                    degenerate: self.scene.mesh.degenerate().len(),
-                    stand_in: !self.scene.stand_ins.is_empty(),
-                    structure: subject.choice.entry.name.clone(),
-                    label: subject.choice.label.clone(),
-                    config: subject.choice.config.clone(),
-                    triangle_test: subject.choice.triangle_test().into(),
-                    workload: workload.name.clone(),
-                    query: workload.query,
-                    workload_hash: hashes[w].clone(),
-                    workload_rays: workload.rays.len(),
-                    rays,
-                    sampled: rays < workload.rays.len(),
-                    parts: samples.map_or(vec![], |samples| samples.parts.clone()),
-                    counted_rays,
-                    hits,
-                    answers: samples.filter(|s| s.same_answers).map(|s| format!("{:016x}", s.checksum)),
-                    build_ns: median(&builds).expect("every epoch builds") as u64,
-                    build_samples_ns: subject.build_ns.clone(),
-                    build_peak_bytes: subject.build_peak_bytes,
-                    trace_ns,
-                    runs: samples_ns.len(),
-                    epochs: self.epochs,
-                    samples_ns,
-                    twin_samples_ns: twin.map(|twin| nanoseconds(Some(twin))),
-                    noise_floor: None,
-                    mrays_per_s: trace_ns.map(|ns| rays as f64 * 1e3 / ns),
-                    tests_per_ray,
-                    steps_per_ray,
-                    instructions_per_ray,
-                    bytes: subject.bytes,
-                    declined: subject.declined[w].map(String::from),
-                    checked_rays: Some(subject.checks[w].rays),
-                    structure_errors: Some(subject.checks[w].errors),
-                    provenance: provenance.clone(),
-                    counts,
-                });
-            }
-        }
-        let floor = twins(&records).log().map(|log| libm::exp(log) - 1.0);
-        records.iter_mut().for_each(|record| record.noise_floor = floor);
-        Compared { records, refused: self.refused.clone() }
+/// The records of all scenes, each structure by structure. `epochs` are detailed.
+pub fn compared<'a>(epochs: impl IntoIterator<Item = &'a Epoch>, provenance: &Provenance) -> Compared {
+    let mut all = Compared::default();
+    for scene in scenes(epochs) {
+        let mut of_scene = of_scene(&scene, provenance);
+        all.records.append(&mut of_scene.records);
+        all.refused.append(&mut of_scene.refused);
     }
-
-    fn samples_of(&self, subject: usize, workload: usize) -> Option<&Samples> {
-        let case = self.cases.iter().position(|case| *case == Case { structure: subject, workload })?;
-        Some(&self.samples[case])
-    }
-
-    /// What spoilt the run.
-    fn warnings(&self, provenance: &Provenance) -> Vec<String> {
-        let conditions = Conditions {
-            load: provenance.load,
-            cores: provenance.cores,
-            governor: provenance.governor.clone(),
-            denormals: machine::denormals(provenance.mxcsr),
-            debug: provenance.profile == "debug",
-            ..self.conditions.clone()
-        };
-        let mut warnings = conditions.warnings();
-        let samples: Vec<Vec<f64>> = self.samples.iter().map(|samples| nanoseconds(Some(samples))).collect();
-        warnings.extend(of_samples(&samples.iter().map(Vec::as_slice).collect::<Vec<_>>()));
-
-        for (case, _) in self.cases.iter().zip(&self.samples).filter(|(_, samples)| !samples.same_answers) {
-            let (label, rays) = (&self.subjects[case.structure].choice.label, &self.workloads[case.workload].name);
-            warnings.push(format!(
-                "{label}, built again, gives other answers to the same {rays} rays: its build is not repeatable"
-            ));
-        }
-        warnings
-    }
+    all
 }
 
-fn nanoseconds(samples: Option<&Samples>) -> Vec<f64> {
-    samples.map_or(vec![], |samples| samples.ns.iter().map(|&ns| ns.max(1) as f64).collect())
+/// One scene: its epochs.
+fn of_scene(epochs: &[&Epoch], provenance: &Provenance) -> Compared {
+    let first = epochs[0];
+    let mut compared = Compared::default();
+    let warnings = warnings(epochs, provenance);
+    for place in 0..first.structures.len() {
+        if twin_of(first, place).is_some() {
+            continue;
+        }
+        let of_epochs = || epochs.iter().filter_map(|epoch| epoch.structures.get(place));
+        if let Some(reason) = of_epochs().find_map(|structure| structure.refused.clone()) {
+            let (label, scene) = (first.structures[place].label.clone(), first.scene.clone());
+            compared.refused.push(Refused { label, scene, reason });
+            continue;
+        }
+        let twin = (0..first.structures.len()).find(|&other| twin_of(first, other) == Some(place));
+        for kind in 0..first.structures[place].rays.len() {
+            compared.records.extend(record(epochs, place, twin, kind, provenance, &warnings));
+        }
+    }
+    let floor = twins(&compared.records).log().map(|log| libm::exp(log) - 1.0);
+    compared.records.iter_mut().for_each(|record| record.noise_floor = floor);
+    compared
+}
+
+/// The rays of one kind of a structure, epoch by epoch.
+fn rays<'a>(epochs: &'a [&Epoch], place: usize, kind: usize) -> impl Iterator<Item = &'a Rays> {
+    epochs.iter().filter_map(move |epoch| epoch.structures.get(place)?.rays.get(kind))
+}
+
+fn samples<'a>(rays: impl Iterator<Item = &'a Rays>) -> Vec<f64> {
+    rays.flat_map(|rays| &rays.ns).map(|&ns| ns.max(1) as f64).collect()
+}
+
+/// One structure on one kind of rays; nothing if its first epoch is not detailed.
+fn record(
+    epochs: &[&Epoch],
+    place: usize,
+    twin: Option<usize>,
+    kind: usize,
+    provenance: &Provenance,
+    warnings: &[String],
+) -> Option<Record> {
+    let scene = epochs[0];
+    let structure = &scene.structures[place];
+    let first = &structure.rays[kind];
+    let (details, of_rays) = (structure.details.as_ref()?, first.details.as_ref()?);
+    let build_samples_ns: Vec<u64> = epochs.iter().map(|epoch| epoch.structures[place].build_ns).collect();
+    let builds: Vec<f64> = build_samples_ns.iter().map(|&ns| ns as f64).collect();
+    let samples_ns = samples(rays(epochs, place, kind));
+    let trace_ns = median(&samples_ns);
+    let timed = trace_ns.is_some();
+    let twin = twin.filter(|_| timed).map(|twin| samples(rays(epochs, twin, kind)));
+    let RayDetails { checked, errors, ref declined, .. } = *of_rays;
+    Some(Record {
+        schema: Record::SCHEMA,
+        scene: scene.scene.clone(),
+        scene_hash: scene.scene_hash.clone(),
+        triangles: scene.triangles,
+        degenerate: scene.degenerate,
+        stand_in: scene.stand_in,
+        structure: structure.name.clone(),
+        label: structure.label.clone(),
+        config: details.config.clone(),
+        triangle_test: details.triangle_test.clone(),
+        workload: first.workload.clone(),
+        query: first.query,
+        workload_hash: first.hash.clone(),
+        workload_rays: first.all,
+        rays: if timed { first.rays } else { 0 },
+        sampled: !timed || first.rays < first.all,
+        parts: if timed { parts(epochs, place, kind) } else { vec![] },
+        counted_rays: first.counts.map_or(0, |counts| counts.rays),
+        hits: first.counts.map_or(0, |counts| counts.hits),
+        answers: timed.then(|| format!("{:016x}", first.checksum)),
+        build_ns: median(&builds).expect("every epoch builds") as u64,
+        build_samples_ns,
+        build_peak_bytes: details.build_peak_bytes,
+        trace_ns,
+        runs: samples_ns.len(),
+        epochs: epochs.len(),
+        samples_ns,
+        twin_samples_ns: twin.filter(|samples| !samples.is_empty()),
+        noise_floor: None,
+        mrays_per_s: trace_ns.map(|ns| first.rays as f64 * 1e3 / ns),
+        tests_per_ray: first.counts.and_then(|counts| counts.tests_per_ray()),
+        steps_per_ray: first.counts.and_then(|counts| counts.steps_per_ray()),
+        instructions_per_ray: of_rays.instructions_per_ray,
+        bytes: structure.shape.bytes,
+        declined: declined.clone(),
+        checked_rays: Some(checked),
+        structure_errors: Some(errors),
+        provenance: Provenance { warnings: warnings.to_vec(), ..provenance.clone() },
+        counts: CaseCounts {
+            leaf_steps_per_ray: of_rays.leaf_steps_per_ray,
+            empty_leaf_steps_per_ray: of_rays.empty_leaf_steps_per_ray,
+            tests_over_minimum: of_rays.tests_over_minimum,
+            ..details.counts
+        },
+    })
+}
+
+/// The samples of parts of the rays, all epochs one after the other.
+fn parts(epochs: &[&Epoch], place: usize, kind: usize) -> Vec<Part> {
+    let mut all: Vec<Part> = vec![];
+    for part in rays(epochs, place, kind).flat_map(|rays| &rays.parts) {
+        match all.iter_mut().find(|other| other.rays == part.rays) {
+            Some(other) => other.ns.extend_from_slice(&part.ns),
+            None => all.push(part.clone()),
+        }
+    }
+    all
+}
+
+/// What spoilt the run.
+fn warnings(epochs: &[&Epoch], provenance: &Provenance) -> Vec<String> {
+    let mut conditions = Conditions {
+        load: provenance.load,
+        cores: provenance.cores,
+        governor: provenance.governor.clone(),
+        denormals: machine::denormals(provenance.mxcsr),
+        debug: provenance.profile == "debug",
+        ..Conditions::default()
+    };
+    epochs.iter().filter_map(|epoch| epoch.circumstances).for_each(|own| own.add_to(&mut conditions));
+    let mut warnings = conditions.warnings();
+    let kinds = |place: usize| 0..epochs[0].structures[place].rays.len();
+    let all = (0..epochs[0].structures.len()).flat_map(|place| kinds(place).map(move |kind| (place, kind)));
+    let samples: Vec<Vec<f64>> = all.map(|(place, kind)| samples(rays(epochs, place, kind))).collect();
+    let samples: Vec<&[f64]> = samples.iter().map(Vec::as_slice).filter(|samples| !samples.is_empty()).collect();
+    warnings.extend(of_samples(&samples));
+    warnings
 }

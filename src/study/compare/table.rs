@@ -34,9 +34,9 @@ pub fn legend(first: &str, references: &[Reference]) -> Vec<String> {
 }
 
 /// The records of one scene, one row for each structure, those that are refused last, with a column of ratios for each of the
-/// `references`. `notes` are those of the scene.
-pub fn scene_table(records: &[Record], references: &[Reference], refused: &[Refused], notes: &[String]) -> Table {
-    let notes = || notes.iter().cloned().chain(refused.iter().map(|r| format!("{}: {}", r.label, r.reason)));
+/// `references`.
+pub fn scene_table(records: &[Record], references: &[Reference], refused: &[Refused]) -> Table {
+    let notes = || refused.iter().map(|r| format!("{}: {}", r.label, r.reason));
     let Some(first) = records.first() else { return Table { notes: notes().collect(), ..Table::default() } };
     let workloads = names(records, |r| &r.workload);
     let structures = names(records, |r| &r.label);

@@ -7,10 +7,12 @@ use super::*;
 use crate::accel::{Accel, BuildError, Footprint, Observed, Observer, TreeShape};
 use crate::brute_force::BruteForce;
 use crate::geometry::{Hit, Mesh, Ray};
-use crate::measure::SystemClock;
+use crate::measure::{Provenance, SystemClock, Threads};
 use crate::registry::Registry;
-use crate::scene::Builtin;
+use crate::scene::{Builtin, WorkloadKind};
 use crate::study::StudyError;
+use crate::study::args::with_twin;
+use crate::study::epoch::{Asked, Epoch, Settings, measure};
 use crate::triangle::{MollerTrumbore, TriangleTest};
 
 /// Brute force with a flaw.
@@ -88,27 +90,26 @@ fn run(specs: &[&str]) -> Result<Vec<Record>, StudyError> {
 /// Compares them.
 fn compared(specs: &[&str]) -> Result<Compared, StudyError> {
     let registry = Registry::builtin().with::<Flawed>("flawed", FlawedConfig::default());
+    let chosen = specs.iter().map(|spec| registry.choose(spec).unwrap()).collect();
+    let kinds = vec![WorkloadKind::Primary, WorkloadKind::Mirror, WorkloadKind::Shadow];
     let settings = Settings {
-        structures: specs.iter().map(|spec| registry.choose(spec).unwrap()).collect(),
+        structures: with_twin(chosen),
         guide: registry.choose("sah-kd").unwrap(),
-        workloads: vec![WorkloadKind::Primary, WorkloadKind::Mirror, WorkloadKind::Shadow],
-        replayed: None,
-        rays: 1024,
-        runs: 3,
-        epochs: 2,
-        twin: true,
-        budget_ns: 1_000_000_000,
-        epoch_ns: Some(60_000_000_000),
+        asked: Asked::Kinds(kinds, 1024),
+        runs: 2,
+        budget_ns: 60_000_000_000,
+        slowest: 4.0,
+        detailed: true,
         seed: 1,
         threads: Threads::new(1).unwrap(),
     };
     let scene = Builtin::find("cube").unwrap().scene(None).unwrap();
     let clock = SystemClock::start();
-    let mut trial = Trial::new(&scene, &settings, &clock, &mut |_| {})?;
-    for _ in 0..settings.epochs {
-        trial.epoch(&mut |_| {})?;
+    let mut epochs: Vec<Epoch> = vec![];
+    for number in 0..2 {
+        epochs.push(measure(&scene, &settings, number, epochs.first(), &clock, &mut |_| {})?);
     }
-    Ok(trial.results())
+    Ok(super::compared(&epochs, &Provenance::of(&settings.threads)))
 }
 
 #[test]
@@ -166,7 +167,7 @@ fn a_structure_that_panics_is_refused_and_the_others_go_on() {
     refused.sort_unstable();
     assert_eq!(refused, [specs[0], specs[2]]);
     assert!(compared.records.len() == 2 && compared.records.iter().all(|r| r.label == "brute-force"));
-    let table = scene_table(&compared.records, &Reference::of(&compared.records, None), &compared.refused, &[]);
+    let table = scene_table(&compared.records, &Reference::of(&compared.records, None), &compared.refused);
     assert_eq!(table.rows.len(), 3);
     assert!(compared.refused.iter().all(|r| table.notes.iter().any(|note| note.contains(&r.reason))), "{table:?}");
 }

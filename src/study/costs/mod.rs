@@ -5,24 +5,28 @@
 //! cases: the performance model of Havran and Purgathofer (2003), which the surface area heuristic builds on.
 
 mod regression;
+mod section;
 mod table;
 #[cfg(test)]
 mod tests;
 
 use serde::Serialize;
 
-use super::epoch::{Epoch, lines};
+use super::args::{Measuring, Rays, ScenesAndMeshes, Structures, WORKLOADS, with_twin};
+use super::epoch::{Epoch, lines, troubles};
+use super::{Context, Data, Effort, Plan, Study, Trouble};
 use crate::measure::{Estimate, Rerun, Variance, median};
+use crate::registry::Registry;
+use crate::report::Table;
+use crate::report::document::Block;
 use regression::{Costs, regress};
 
-pub use table::{LEGEND, tables};
-
-/// Name of the study, and of its journal; a case is an [`Epoch`].
-pub const NAME: &str = "costs";
+use table::LEGEND;
+pub use table::tables;
 
 /// The structures compared unless others are named: of every family several, whose steps and tests are in different
 /// proportion.
-pub const STRUCTURES: [&str; 14] = [
+const STRUCTURES: [&str; 14] = [
     "brute-force",
     "median-kd",
     "median-kd:leaf=20",
@@ -38,6 +42,71 @@ pub const STRUCTURES: [&str; 14] = [
     "obvhs-bvh2",
     "obvhs-cwbvh",
 ];
+
+/// The study.
+pub struct CostsStudy;
+
+/// Its options.
+#[derive(Clone, Debug, clap::Args)]
+pub struct CostsArgs {
+    #[command(flatten)]
+    scenes: ScenesAndMeshes,
+    #[command(flatten)]
+    structures: Structures,
+    #[command(flatten)]
+    rays: Rays,
+    #[command(flatten)]
+    measuring: Measuring,
+}
+
+impl Study for CostsStudy {
+    const NAME: &'static str = "costs";
+    const QUESTION: &'static str = "What does a step, and what does a triangle test cost on this machine?";
+
+    type Args = CostsArgs;
+    type Case = Epoch;
+    type Answer = Vec<Family>;
+
+    fn args(effort: Effort) -> CostsArgs {
+        let (scenes, rays, measuring) = (ScenesAndMeshes::of(effort), Rays::of(effort), Measuring::of(effort));
+        CostsArgs { scenes, structures: Structures::default(), rays, measuring }
+    }
+
+    fn plan(args: &CostsArgs, registry: &Registry) -> anyhow::Result<Plan<Epoch>> {
+        let structures = with_twin(args.structures.chosen(registry, &STRUCTURES)?);
+        let asked = args.rays.asked(&WORKLOADS);
+        let scenes = args.scenes.read()?;
+        let note = args.scenes.note(&scenes);
+        let settings = args.measuring.settings(registry, structures, asked)?;
+        let mut plan = settings.plan(scenes, args.measuring.epochs);
+        plan.notes.extend(note);
+        Ok(Plan { inputs: args.scenes.named.files(), ..plan })
+    }
+
+    fn answer(cases: &[Epoch], _: &Context<Self>) -> Vec<Family> {
+        result(cases)
+    }
+
+    fn tables(answer: &Vec<Family>) -> Vec<Table> {
+        tables(answer)
+    }
+
+    fn legend(_: &Vec<Family>) -> Vec<String> {
+        LEGEND.map(String::from).into()
+    }
+
+    fn troubles(cases: &[Epoch]) -> Vec<Trouble> {
+        troubles(cases)
+    }
+
+    fn data(answer: &Vec<Family>) -> Vec<Data> {
+        vec![Data::new(Self::NAME, &rows(answer))]
+    }
+
+    fn section(answer: &Vec<Family>, command: &str) -> Vec<Block> {
+        section::blocks(answer, command)
+    }
+}
 
 /// A structure on one kind of rays of one scene.
 #[derive(Clone, Debug, PartialEq, Serialize)]

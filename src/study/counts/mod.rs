@@ -9,21 +9,26 @@ mod table;
 
 use std::sync::Arc;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
-use super::compare::declined;
+use super::args::{Scenes, Structures, WORKLOADS};
+use super::check::declined;
 use super::counted::Counted;
-use super::{PANICKED, Refused, Stage, StudyError, guarded};
+use super::plan::Measure;
+use super::{Context, Data, Effort, PANICKED, Plan, Refused, Stage, Study, StudyError, Trouble, guarded, sources};
 use crate::accel::{DynAccel, Histogram, Query};
-use crate::measure::Threads;
-use crate::registry::Choice;
+use crate::measure::{Provenance, Threads};
+use crate::registry::{Choice, Registry};
+use crate::report::words::scene_name;
+use crate::report::{Export, Table, to_json};
 use crate::scene::{Sampling, Scene, Workload, WorkloadKind};
 use end_point_overlap::end_point_overlap;
 
-pub use table::{LEGEND, histogram_tables, tables};
+pub use table::tables;
+use table::{LEGEND, histogram_tables};
 
 /// What is counted.
-pub struct Settings {
+struct CountSettings {
     /// The structures, in the order of the tables.
     pub structures: Vec<Choice>,
     /// The structure that tells where secondary rays start.
@@ -41,7 +46,7 @@ pub struct Settings {
 }
 
 /// Everything counted of one structure over one scene. What is not known is nothing, never 0.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Measures {
     pub scene: String,
     pub triangles: usize,
@@ -50,13 +55,13 @@ pub struct Measures {
     pub stand_in: bool,
     /// As chosen.
     pub structure: String,
-    pub triangle_test: &'static str,
+    pub triangle_test: String,
     pub tree: TreeMeasures,
     pub rays: Vec<RayMeasures>,
 }
 
 /// Of the structure itself.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TreeMeasures {
     pub inner_nodes: usize,
     /// Leaves, empty ones included.
@@ -84,7 +89,7 @@ pub struct TreeMeasures {
 }
 
 /// Of the rays of one kind.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RayMeasures {
     pub workload: String,
     pub query: Query,
@@ -101,19 +106,157 @@ pub struct RayMeasures {
     pub tests_over_minimum: Option<f64>,
 }
 
-/// What came of one scene.
-#[derive(Clone, Debug, Default)]
+/// What came of one scene, or of all.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Counts {
     pub measures: Vec<Measures>,
     /// The structures without measures.
     pub refused: Vec<Refused>,
+    /// Whether leaves are printed in numbers.
+    #[serde(skip)]
+    pub histograms: bool,
+}
+
+/// The study.
+pub struct CountsStudy;
+
+/// Its options.
+#[derive(Clone, Debug, clap::Args)]
+pub struct CountsArgs {
+    #[command(flatten)]
+    scenes: Scenes,
+    #[command(flatten)]
+    structures: Structures,
+    /// A kind of rays; may be repeated [default: primary, shadow, diffuse, random]
+    #[arg(long, short, value_name = "KIND")]
+    workload: Vec<WorkloadKind>,
+    /// Rays of a workload, at most
+    #[arg(long, value_name = "N", default_value_t = RAYS, value_parser = clap::value_parser!(u32).range(1..=1 << 24))]
+    rays: u32,
+    /// Seed of the rays
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+    /// Threads that build; the trees do not depend on it
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: u16,
+    /// Leave out end-point overlap, which takes seconds for a million triangles
+    #[arg(long)]
+    no_overlap: bool,
+    /// Print the leaves by size and by depth in numbers
+    #[arg(long)]
+    histograms: bool,
+}
+
+const RAYS: u32 = 16384;
+
+/// What the counts depend on.
+#[derive(Serialize)]
+struct Kept {
+    structures: String,
+    workloads: String,
+    rays: u32,
+    seed: u64,
+    overlap: bool,
+}
+
+impl Study for CountsStudy {
+    const NAME: &'static str = "counts";
+    const QUESTION: &'static str =
+        "What of a structure does no machine change: nodes, references, overlap, steps and tests?";
+    const SCENE_BY_SCENE: bool = true;
+    const KEPT: bool = false;
+
+    type Args = CountsArgs;
+    type Case = Counts;
+    type Answer = Counts;
+
+    fn command() -> String {
+        format!("sahara study {} --dir runs", Self::NAME)
+    }
+
+    fn args(effort: Effort) -> CountsArgs {
+        let (scenes, rays) = match effort {
+            Effort::Full => (Scenes::default(), RAYS),
+            Effort::Quick => (Scenes::named(&["cube", "torus"]), 1024),
+        };
+        let (structures, workload) = (Structures::default(), vec![]);
+        CountsArgs { scenes, structures, workload, rays, seed: 1, threads: 1, no_overlap: false, histograms: false }
+    }
+
+    fn plan(args: &CountsArgs, registry: &Registry) -> anyhow::Result<Plan<Counts>> {
+        let scenes = args.scenes.read(&[])?;
+        let threads = Threads::new(args.threads.into()).map_err(anyhow::Error::msg)?;
+        let settings = CountSettings {
+            structures: args.structures.chosen(registry, &[])?,
+            guide: sources::guide(registry)?,
+            workloads: if args.workload.is_empty() { WORKLOADS.into() } else { args.workload.clone() },
+            rays: args.rays,
+            seed: args.seed,
+            threads: threads.clone(),
+            overlap: !args.no_overlap,
+        };
+        let labels: Vec<&str> = settings.structures.iter().map(|choice| choice.label.as_str()).collect();
+        let kinds: Vec<&str> = settings.workloads.iter().map(|kind| kind.name()).collect();
+        let kept = Kept {
+            structures: labels.join(" "),
+            workloads: kinds.join(" "),
+            rays: args.rays,
+            seed: args.seed,
+            overlap: settings.overlap,
+        };
+        let key =
+            |scene: &Scene| format!("{} {}", scene_name(&scene.name, !scene.stand_ins.is_empty()), &scene.hash()[..16]);
+        let names: Vec<(String, String)> = scenes.iter().map(|scene| (scene.name.clone(), key(scene))).collect();
+        let notes = scenes.iter().flat_map(|scene| scene.notes.iter().map(|note| format!("{}: {note}", scene.name)));
+        let notes: Vec<String> = notes.collect();
+        let measure: Measure<Counts> =
+            Box::new(move |number, _, _, progress| count_scene(&scenes[number], &settings, progress));
+        Ok(Plan { notes, inputs: args.scenes.files(), ..Plan::of_scenes(&kept, threads, names, measure) })
+    }
+
+    fn answer(cases: &[Counts], context: &Context<Self>) -> Counts {
+        let mut all = Counts { histograms: context.args.is_some_and(|args| args.histograms), ..Counts::default() };
+        for case in cases {
+            all.measures.extend(case.measures.iter().cloned());
+            all.refused.extend(case.refused.iter().cloned());
+        }
+        all
+    }
+
+    fn tables(answer: &Counts) -> Vec<Table> {
+        let mut all = vec![];
+        let of = |scene: &str| answer.refused.iter().filter(|r| r.scene == scene).cloned().collect::<Vec<Refused>>();
+        for measures in answer.measures.chunk_by(|a, b| a.scene == b.scene) {
+            all.extend(tables(measures, &of(&measures[0].scene)));
+            if answer.histograms {
+                all.extend(histogram_tables(measures));
+            }
+        }
+        if answer.measures.is_empty() { tables(&[], &answer.refused) } else { all }
+    }
+
+    fn legend(_: &Counts) -> Vec<String> {
+        LEGEND.map(String::from).into()
+    }
+
+    fn troubles(cases: &[Counts]) -> Vec<Trouble> {
+        cases.iter().flat_map(|case| &case.refused).map(Refused::trouble).collect()
+    }
+
+    fn data(answer: &Counts) -> Vec<Data> {
+        vec![Data::new(Self::NAME, &answer.measures)]
+    }
+
+    fn json(answer: &Counts, provenance: &Provenance) -> Vec<u8> {
+        to_json(&Export::new(Self::NAME, provenance, &answer.measures))
+    }
 }
 
 /// Builds and counts every structure. One that cannot be built, or that panics, is refused; the others go on.
 ///
 /// # Errors
 /// If the guide cannot be built.
-pub fn count_scene(scene: &Scene, settings: &Settings, progress: &mut dyn FnMut(Stage)) -> Result<Counts, StudyError> {
+fn count_scene(scene: &Scene, settings: &CountSettings, progress: &mut dyn FnMut(Stage)) -> Result<Counts, StudyError> {
     let build = |choice: &Choice| settings.threads.install(|| choice.build(&Arc::clone(&scene.mesh)));
     progress(Stage::Rays("all"));
     let guide = build(&settings.guide).map_err(|cause| StudyError::Build {
@@ -154,7 +297,7 @@ pub fn count_scene(scene: &Scene, settings: &Settings, progress: &mut dyn FnMut(
             degenerate: scene.mesh.degenerate().len(),
             stand_in: !scene.stand_ins.is_empty(),
             structure: choice.label.clone(),
-            triangle_test: choice.triangle_test(),
+            triangle_test: choice.triangle_test().into(),
             tree: of_tree(accel.as_ref(), scene, settings.overlap),
             rays,
         });
@@ -209,7 +352,7 @@ mod tests {
     fn a_cube_is_counted_as_one_would_by_hand() {
         let registry = Registry::builtin();
         let choose = |spec: &str| registry.choose(spec).unwrap();
-        let settings = Settings {
+        let settings = CountSettings {
             structures: ["brute-force", "median-kd", "obvhs-bvh2", "sah-bvh"].map(choose).into(),
             guide: choose("sah-kd"),
             workloads: vec![WorkloadKind::Primary, WorkloadKind::Mirror],
@@ -219,7 +362,7 @@ mod tests {
             overlap: true,
         };
         let scene = Builtin::find("cube").unwrap().scene(None).unwrap();
-        let Counts { measures, refused } = count_scene(&scene, &settings, &mut |_| ()).unwrap();
+        let Counts { measures, refused, .. } = count_scene(&scene, &settings, &mut |_| ()).unwrap();
         assert_eq!((measures.len(), refused.len()), (4, 0));
 
         // Twelve triangles are fewer than the report's 100: both are one leaf.

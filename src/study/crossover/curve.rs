@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::measure::{AaNoise, Estimate, Rerun};
-use crate::study::fit;
+use crate::study::least_squares;
 
 /// A place where one overtakes the other.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -114,7 +114,7 @@ impl<'a> Curve<'a> {
 
     /// The slope of the ratio over the depth, both as logarithms. Nothing of fewer than three points.
     pub fn trend(&self) -> Option<Estimate> {
-        let weights = fit::slope_weights(&self.depths).filter(|weights| weights.len() > 2)?;
+        let weights = least_squares::slope_weights(&self.depths).filter(|weights| weights.len() > 2)?;
         Some(self.sum(&weights)?.plain())
     }
 }

@@ -12,22 +12,27 @@ mod complexity;
 mod curve;
 mod family;
 mod result;
+mod section;
 mod table;
 #[cfg(test)]
 mod tests;
 
 use serde::{Deserialize, Serialize};
 
-use super::epoch::Epoch;
+use super::args::{Measuring, Rays, Structures, with_twin};
+use super::epoch::{Epoch, troubles};
+use super::{Context, Data, Effort, Plan, Study, StudyError, Trouble};
+use crate::measure::spread;
+use crate::registry::Registry;
+use crate::report::Table;
+use crate::report::document::Block;
+use crate::scene::{Scene, Workload, WorkloadKind};
 
 pub use complexity::complexity;
 pub use curve::Crossing;
 pub use family::{ROOTS, member};
 pub use result::{Member, Race, Row, result, rows};
 pub use table::tables;
-
-/// Name of the study, and of its journal.
-pub const NAME: &str = "crossover";
 
 /// The KD-tree and the BVH of a pair. In the second and third the node, the leaf and the walk are the same and only the way to divide
 /// the triangles differs; the first are the textbook tree and the BVH from outside. All over one triangle test.
@@ -39,9 +44,97 @@ pub const PAIRS: [[&str; 2]; 3] = [
 
 /// One epoch of one member of the family.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Case {
+pub struct MemberEpoch {
     pub layers: u32,
     /// Of each kind of rays of the epoch's, by name.
     pub complexity: Vec<(String, f64)>,
     pub epoch: Epoch,
+}
+
+/// The study.
+pub struct CrossoverStudy;
+
+/// Its options.
+#[derive(Clone, Debug, clap::Args)]
+pub struct CrossoverArgs {
+    /// Leave out the members of more than this squared layers
+    #[arg(long, value_name = "ROOT", default_value_t = DEEPEST, value_parser = clap::value_parser!(u32).range(1..))]
+    deepest: u32,
+    #[command(flatten)]
+    structures: Structures,
+    #[command(flatten)]
+    rays: Rays,
+    #[command(flatten)]
+    measuring: Measuring,
+}
+
+const DEEPEST: u32 = ROOTS[ROOTS.len() - 1];
+
+/// The kinds of rays unless others are named.
+const WORKLOADS: [WorkloadKind; 4] =
+    [WorkloadKind::Primary, WorkloadKind::Random, WorkloadKind::Shadow, WorkloadKind::Ambient];
+
+/// Rays of a kind that the depth complexity is measured on, at most.
+const PROBES: usize = 2048;
+
+impl Study for CrossoverStudy {
+    const NAME: &'static str = "crossover";
+    const QUESTION: &'static str = "Does a KD-tree overtake a BVH where rays would meet more surfaces?";
+
+    type Args = CrossoverArgs;
+    type Case = MemberEpoch;
+    type Answer = Vec<Race>;
+
+    fn args(effort: Effort) -> CrossoverArgs {
+        let (rays, measuring) = (Rays::of(effort), Measuring::of(effort));
+        CrossoverArgs { deepest: DEEPEST, structures: Structures::default(), rays, measuring }
+    }
+
+    fn plan(args: &CrossoverArgs, registry: &Registry) -> anyhow::Result<Plan<MemberEpoch>> {
+        let mut own = PAIRS.as_flattened().to_vec();
+        own.sort_unstable();
+        own.dedup();
+        let structures = with_twin(args.structures.chosen(registry, &own)?);
+        let chosen = |spec: &str| structures.iter().any(|choice| choice.label == spec);
+        anyhow::ensure!(
+            PAIRS.iter().any(|[kd, bvh]| chosen(kd) && chosen(bvh)),
+            "no KD-tree and BVH of a pair is among these structures; the pairs are: {}",
+            PAIRS.map(|[kd, bvh]| format!("{kd} and {bvh}")).join("; ")
+        );
+        let settings = args.measuring.settings(registry, structures, args.rays.asked(&WORKLOADS))?;
+        let roots: Vec<u32> = ROOTS.into_iter().filter(|&root| root <= args.deepest).collect();
+        let scenes: Vec<Scene> = roots.iter().map(|&root| member(root)).collect::<Result<_, _>>()?;
+
+        let (guide, asked, seed) = (settings.guide.clone(), settings.asked.clone(), settings.seed);
+        let wrap = move |number: usize, scene: &Scene, epoch| {
+            let (structure, name) = (guide.label.clone(), scene.name.clone());
+            let guide =
+                guide.build(&scene.mesh).map_err(|cause| StudyError::Build { structure, scene: name, cause })?;
+            let of = |w: Workload| Some((w.name, complexity(guide.as_ref(), &spread(&w.rays, PROBES))?));
+            let workloads = asked.workloads(scene, seed, guide.as_ref(), &mut |_| ());
+            let complexity = workloads.into_iter().filter_map(of).collect();
+            Ok(MemberEpoch { layers: roots[number] * roots[number], complexity, epoch })
+        };
+        Ok(settings.plan_of(scenes, args.measuring.epochs, wrap, |case| &case.epoch))
+    }
+
+    fn answer(cases: &[MemberEpoch], _: &Context<Self>) -> Vec<Race> {
+        result(cases)
+    }
+
+    fn tables(answer: &Vec<Race>) -> Vec<Table> {
+        tables(answer)
+    }
+
+    fn troubles(cases: &[MemberEpoch]) -> Vec<Trouble> {
+        troubles(cases.iter().map(|case| &case.epoch))
+    }
+
+    fn data(answer: &Vec<Race>) -> Vec<Data> {
+        vec![Data::new(Self::NAME, &rows(answer))]
+    }
+
+    fn section(answer: &Vec<Race>, command: &str) -> Vec<Block> {
+        section::blocks(answer, command)
+    }
 }

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::curve::{Crossing, Curve};
-use super::{Case, PAIRS};
+use super::{MemberEpoch, PAIRS};
 use crate::measure::{AaNoise, Estimate, Rerun};
 use crate::study::epoch::{Line, lines, middles, twins};
 
@@ -37,7 +37,7 @@ pub struct Member {
 }
 
 /// The races of all pairs.
-pub fn result(cases: &[Case]) -> Vec<Race> {
+pub fn result(cases: &[MemberEpoch]) -> Vec<Race> {
     let lines = lines(cases.iter().map(|case| &case.epoch));
     let noise = twins(cases.iter().map(|case| &case.epoch)).trace;
     let mut workloads: Vec<&str> = vec![];

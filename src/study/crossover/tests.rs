@@ -10,7 +10,7 @@ use crate::study::epoch::tests::example;
 use crate::triangle::MollerTrumbore;
 
 /// Members whose KD-tree takes (depth / crossing)^power times as long as the BVH, with noise that alternates.
-fn family(crossing: f64, power: f64, noise: f64) -> Vec<Case> {
+fn family(crossing: f64, power: f64, noise: f64) -> Vec<MemberEpoch> {
     let mut cases = vec![];
     for (i, layers) in [1u32, 4, 16, 64].into_iter().enumerate() {
         let depth = f64::from(layers) / 2.0;
@@ -20,7 +20,7 @@ fn family(crossing: f64, power: f64, noise: f64) -> Vec<Case> {
             let structures: [(&str, u64, &[u64]); 2] =
                 [(PAIRS[0][0], 1, &[kd, kd, kd]), (PAIRS[0][1], 1, &[10_000_000; 3])];
             let epoch = example(&format!("{layers} layers"), 100, epoch, &structures);
-            cases.push(Case { layers, complexity: vec![("primary".into(), depth)], epoch });
+            cases.push(MemberEpoch { layers, complexity: vec![("primary".into(), depth)], epoch });
         }
     }
     cases

@@ -12,10 +12,12 @@ fn picture(scene: &Scene) -> Sampling {
 }
 
 /// The rays of a study.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 pub enum Asked {
     /// These kinds of rays about the scene, of each so many timed at most.
     Kinds(Vec<WorkloadKind>, usize),
+    /// Rays made before; of them so many are timed at most.
+    Replayed(Workload, usize),
     /// All rays of the picture that the source report draws.
     Picture,
     /// The primary rays of that picture alone.
@@ -33,6 +35,7 @@ impl Asked {
         progress: &mut dyn FnMut(Stage),
     ) -> Vec<Workload> {
         let (kinds, sampling): (&[WorkloadKind], Sampling) = match self {
+            Self::Replayed(workload, _) => return vec![workload.clone()],
             Self::Kinds(kinds, _) => (kinds, Sampling { seed, ..Sampling::of(scene) }),
             Self::Picture => (&[WorkloadKind::Image, WorkloadKind::ImageShadow], picture(scene)),
             Self::PrimaryPicture => (&[WorkloadKind::Primary], picture(scene)),
@@ -49,7 +52,7 @@ impl Asked {
     /// Rays of a workload that are timed, at most.
     pub(super) fn rays(&self) -> usize {
         match self {
-            Self::Kinds(_, rays) => *rays,
+            Self::Kinds(_, rays) | Self::Replayed(_, rays) => *rays,
             Self::Picture | Self::PrimaryPicture => usize::MAX,
         }
     }
@@ -61,6 +64,7 @@ impl Asked {
                 let names: Vec<&str> = kinds.iter().map(|kind| kind.name()).collect();
                 (names.join(" "), Some(*rays))
             }
+            Self::Replayed(workload, rays) => (format!("replayed {}", workload.hash()), Some(*rays)),
             Self::Picture => ("picture".into(), None),
             Self::PrimaryPicture => ("primary-picture".into(), None),
         }

@@ -69,7 +69,7 @@ pub fn twins<'a>(epochs: impl IntoIterator<Item = &'a Epoch>) -> Twins {
 }
 
 /// The epochs scene by scene, in their order.
-fn scenes<'a>(epochs: impl IntoIterator<Item = &'a Epoch>) -> Vec<Vec<&'a Epoch>> {
+pub fn scenes<'a>(epochs: impl IntoIterator<Item = &'a Epoch>) -> Vec<Vec<&'a Epoch>> {
     let mut scenes: Vec<Vec<&Epoch>> = vec![];
     for epoch in epochs {
         match scenes.iter_mut().find(|scene| scene[0].scene_hash == epoch.scene_hash) {
@@ -82,7 +82,7 @@ fn scenes<'a>(epochs: impl IntoIterator<Item = &'a Epoch>) -> Vec<Vec<&'a Epoch>
 }
 
 /// The place of the structure that the one at `place` is the twin of.
-fn twin_of(epoch: &Epoch, place: usize) -> Option<usize> {
+pub fn twin_of(epoch: &Epoch, place: usize) -> Option<usize> {
     epoch.structures[..place].iter().position(|first| first.label == epoch.structures[place].label)
 }
 

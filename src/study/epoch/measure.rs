@@ -1,14 +1,16 @@
 //! Measuring one epoch of one scene.
 
-use super::{Epoch, RayCounts, Rays, Settings, Shape, Structure};
-use crate::accel::DynAccel;
+use super::watch::Watch;
+use super::{Circumstances, Epoch, RayCounts, RayDetails, Rays, Settings, Shape, Structure, StructureDetails};
+use crate::accel::{DynAccel, Query};
 use crate::geometry::Ray;
 use crate::measure::tiles::level_of;
-use crate::measure::{Clock, Part, Plan, Samples};
+use crate::measure::{Clock, Instructions, Part, Plan, Samples, peak_bytes, spread};
+use crate::registry::Choice;
+use crate::report::CaseCounts;
 use crate::scene::{Scene, Workload};
 use crate::study::built::Built;
-use crate::study::check::check_all;
-use crate::study::compare::declined;
+use crate::study::check::{check_all, declined};
 use crate::study::counted::{Counted, count_all};
 use crate::study::placed::Placed;
 use crate::study::timing::{Case, Taken, Timing};
@@ -33,7 +35,7 @@ pub fn measure(
         None => bench.check(progress)?,
         Some(first) => bench.resume(first)?,
     }
-    bench.sample(epoch, first, clock, progress)?;
+    let circumstances = bench.sample(epoch, first, clock, progress)?;
     if first.is_none() {
         bench.count();
     }
@@ -42,7 +44,9 @@ pub fn measure(
         scene_hash: scene.hash(),
         stand_in: !scene.stand_ins.is_empty(),
         triangles: scene.mesh.len(),
+        degenerate: if settings.detailed { scene.mesh.degenerate().len() } else { 0 },
         epoch,
+        circumstances: settings.detailed.then_some(circumstances),
         structures: bench.structures,
     })
 }
@@ -72,15 +76,29 @@ impl<'a> Bench<'a> {
         progress: &mut dyn FnMut(Stage),
     ) -> Result<Self, StudyError> {
         let Settings { structures: choices, threads, seed, .. } = settings;
+        // Counted in a build that is not timed.
+        let memory: Vec<Option<usize>> = if settings.detailed && epoch == 0 {
+            choices.iter().map(|choice| peak(choice, scene, settings, clock, progress)).collect()
+        } else {
+            vec![None; choices.len()]
+        };
         let mut placed = Placed::new(choices, scene, threads, clock, seed.wrapping_add(epoch as u64), progress);
         let (mut structures, mut built, mut places) = (vec![], vec![], vec![]);
-        for (choice, one) in choices.iter().zip(placed.built.drain(..)) {
+        for ((choice, one), build_peak_bytes) in choices.iter().zip(placed.built.drain(..)).zip(memory) {
             let (label, name) = (choice.label.clone(), choice.entry.name.clone());
-            let none = Structure { label, name, refused: None, build_ns: 0, shape: Shape::default(), rays: vec![] };
+            let shape = Shape::default();
+            let none = Structure { label, name, refused: None, build_ns: 0, shape, rays: vec![], details: None };
             match one {
                 Ok(one) => {
                     places.push(structures.len());
-                    structures.push(Structure { build_ns: one.build_ns, shape: Shape::of(one.accel.as_ref()), ..none });
+                    let details = (settings.detailed && epoch == 0).then(|| StructureDetails {
+                        config: choice.config.clone(),
+                        triangle_test: choice.triangle_test().into(),
+                        build_peak_bytes,
+                        counts: CaseCounts::of(&one.accel.shape()),
+                    });
+                    let shape = Shape::of(one.accel.as_ref());
+                    structures.push(Structure { build_ns: one.build_ns, shape, details, ..none });
                     built.push(one);
                 }
                 Err(StudyError::Build { cause, .. }) => {
@@ -113,8 +131,14 @@ impl<'a> Bench<'a> {
                 continue;
             };
             for (workload, check) in self.workloads.iter().zip(checks) {
-                let declined =
-                    declined(built.accel.as_ref(), workload).map(|what| format!("declined: it has no {what}"));
+                let what = declined(built.accel.as_ref(), workload);
+                let declined = what.map(|what| format!("declined: it has no {what}"));
+                let details = self.settings.detailed.then(|| RayDetails {
+                    checked: check.rays,
+                    errors: check.errors,
+                    declined: what.map(String::from),
+                    ..RayDetails::default()
+                });
                 let wrong =
                     (check.errors > 0).then(|| format!("{} wrong answers to {} rays", check.errors, check.rays));
                 self.structures[place].rays.push(Rays {
@@ -129,6 +153,7 @@ impl<'a> Bench<'a> {
                     wrong: declined.is_none() && wrong.is_some(),
                     untimed: declined.or(wrong),
                     counts: None,
+                    details,
                 });
             }
         }
@@ -152,7 +177,7 @@ impl<'a> Bench<'a> {
                 return Err(StudyError::Changed { structure, scene });
             }
             structure.refused = structure.refused.take().or_else(|| before.refused.clone());
-            let again = |rays: &Rays| Rays { ns: vec![], counts: None, ..rays.clone() };
+            let again = |rays: &Rays| Rays { ns: vec![], counts: None, details: None, ..rays.clone() };
             structure.rays = before.rays.iter().map(again).collect();
         }
         Ok(())
@@ -175,12 +200,12 @@ impl<'a> Bench<'a> {
         before: Option<&Epoch>,
         clock: &dyn Clock,
         progress: &mut dyn FnMut(Stage),
-    ) -> Result<(), StudyError> {
+    ) -> Result<Circumstances, StudyError> {
         let cases = self.cases();
-        let Settings { asked, runs, budget_ns, seed, threads, .. } = self.settings;
+        let Settings { asked, runs, budget_ns, slowest, seed, threads, .. } = self.settings;
         let rays_of = |case: &Case| &self.structures[self.places[case.structure]].rays[case.workload];
         let runs = before.map_or(*runs, Epoch::runs);
-        let (budget_ns, slowest, most_rays) = (*budget_ns, f64::INFINITY, asked.rays());
+        let (budget_ns, slowest, most_rays) = (*budget_ns, *slowest, asked.rays());
         let plan = Plan { runs, budget_ns, slowest, most_rays, seed: *seed, epoch };
         let samples = before.map(|_| {
             let none = |case: &Case| {
@@ -194,7 +219,9 @@ impl<'a> Bench<'a> {
         let mut told = |taken| progress(Stage::Trace(taken, total));
         let timing = Timing { scene: self.scene, built: &self.built, workloads: &self.workloads, threads, clock };
         let _pin = threads.pin();
+        let watch = Watch::start(clock, threads.cores().map_or(0, |cores| cores[0]));
         let Taken { samples, panicked, .. } = timing.take(&cases, &plan, samples, &mut told)?;
+        let circumstances = watch.end(clock);
 
         for ((case, samples), panicked) in cases.iter().zip(samples).zip(panicked) {
             let structure = &mut self.structures[self.places[case.structure]];
@@ -210,31 +237,73 @@ impl<'a> Bench<'a> {
             (rays.rays, rays.checksum) = (samples.rays, samples.checksum);
             (rays.ns, rays.parts) = (samples.ns, samples.parts);
         }
-        Ok(())
+        Ok(circumstances)
     }
 
-    /// Counts what is done for the rays.
+    /// Counts what is done for the rays, in a detailed epoch also where answers are wrong.
     fn count(&mut self) {
-        let cases = self.cases();
+        let detailed = self.settings.detailed;
+        let mut counter = Instructions::open().filter(|_| detailed && self.settings.threads.count() == 1);
+        let mut cases = Case::all(self.built.len(), self.workloads.len());
+        cases.retain(|case| {
+            let structure = &self.structures[self.places[case.structure]];
+            let counts = |rays: &Rays| rays.untimed.is_none() || detailed && rays.wrong;
+            structure.refused.is_none() && structure.rays.get(case.workload).is_some_and(counts)
+        });
         for (case, counted) in cases.iter().zip(count_all(&cases, &self.built, &self.workloads)) {
             let structure = &mut self.structures[self.places[case.structure]];
+            let (accel, workload) = (self.built[case.structure].accel.as_ref(), &self.workloads[case.workload]);
             match counted {
-                Some(counted) => structure.rays[case.workload].counts = Some(counts(&counted)),
+                Some(counted) => keep(&counted, accel, workload, counter.as_mut(), &mut structure.rays[case.workload]),
                 None => structure.refused = Some(PANICKED.into()),
             }
         }
     }
 }
 
-fn counts(counted: &Counted) -> RayCounts {
-    RayCounts {
+/// Most bytes held while a structure is built. What is less than the structure itself was not seen: its memory is C++'s.
+fn peak(
+    choice: &Choice,
+    scene: &Scene,
+    settings: &Settings,
+    clock: &dyn Clock,
+    progress: &mut dyn FnMut(Stage),
+) -> Option<usize> {
+    progress(Stage::Build(&choice.label));
+    let (built, peak) = peak_bytes(|| Built::once(choice, scene, &settings.threads, clock));
+    peak.filter(|&peak| built.is_ok_and(|built| peak >= built.accel.footprint().total()))
+}
+
+/// Keeps what was counted in a pass that is not timed, and its instructions where there is a counter.
+fn keep(
+    counted: &Counted,
+    accel: &dyn DynAccel,
+    workload: &Workload,
+    counter: Option<&mut Instructions>,
+    into: &mut Rays,
+) {
+    if let Some(details) = &mut into.details {
+        let instructions = counter.and_then(|counter| {
+            let rays = spread(&workload.rays, counted.rays);
+            let (mut hits, mut any) = (vec![None; rays.len()], vec![false; rays.len()]);
+            counter.count(|| match workload.query {
+                Query::Closest => accel.closest_hits(&rays, &mut hits),
+                Query::Any => accel.any_hits(&rays, &mut any),
+            })
+        });
+        details.leaf_steps_per_ray = counted.leaf_steps_per_ray();
+        details.empty_leaf_steps_per_ray = counted.empty_leaf_steps_per_ray();
+        details.tests_over_minimum = counted.tests_over_minimum();
+        details.instructions_per_ray = instructions.map(|n| n as f64 / counted.rays as f64);
+    }
+    into.counts = Some(RayCounts {
         rays: counted.rays,
         hits: counted.hits,
         distances: counted.distances,
         tests: counted.observed.tests.then_some(counted.counts.tests),
         blocks: counted.observed.tests.then_some(counted.counts.blocks),
         steps: counted.observed.steps.then_some(counted.counts.steps()),
-    }
+    });
 }
 
 impl Shape {

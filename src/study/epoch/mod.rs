@@ -6,24 +6,30 @@
 mod asked;
 mod line;
 mod measure;
+mod plan;
 #[cfg(test)]
 pub(crate) mod tests;
 mod trouble;
+mod watch;
 mod whole;
 
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
 use super::StudyError;
 use crate::accel::Query;
 use crate::measure::{Part, Threads};
 use crate::registry::Choice;
+use crate::report::CaseCounts;
 use crate::report::words::scene_name;
 use crate::scene::Scene;
 
 pub use asked::{Asked, PICTURE};
-pub use line::{Line, Twins, lines, middles, twins};
+pub use line::{Line, Twins, lines, middles, scenes, twin_of, twins};
 pub use measure::measure;
-pub use trouble::{Trouble, troubles};
+pub use plan::plan;
+pub use trouble::troubles;
+pub use watch::Circumstances;
 pub use whole::WholeTimes;
 
 /// What is measured, and for how long.
@@ -38,6 +44,10 @@ pub struct Settings {
     /// What the samples of an epoch of one scene may take together, nanoseconds: slow cases are timed on fewer rays to keep
     /// within it.
     pub budget_ns: u64,
+    /// A structure that takes more than so many times as long as the median one is timed on fewer rays; infinite where none is.
+    pub slowest: f64,
+    /// Whether what only records tell is measured: the memory of builds, instructions, and what happens to the thread.
+    pub detailed: bool,
     /// Seed of the workloads and of the order of samples.
     pub seed: u64,
     pub threads: Threads,
@@ -71,6 +81,12 @@ impl Settings {
     }
 }
 
+/// As serde asks it of a number that is left out where it is 0.
+#[allow(clippy::trivially_copy_pass_by_ref)]
+fn is_none(number: &usize) -> bool {
+    *number == 0
+}
+
 /// One epoch of one scene.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Epoch {
@@ -80,8 +96,14 @@ pub struct Epoch {
     /// Whether a mesh of our own stands in for a real one.
     pub stand_in: bool,
     pub triangles: usize,
+    /// Those of them without area.
+    #[serde(default, skip_serializing_if = "is_none")]
+    pub degenerate: usize,
     /// Counted from 0.
     pub epoch: usize,
+    /// In a detailed epoch.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub circumstances: Option<Circumstances>,
     /// In the order of the settings.
     pub structures: Vec<Structure>,
 }
@@ -99,6 +121,21 @@ pub struct Structure {
     pub build_ns: u64,
     pub shape: Shape,
     pub rays: Vec<Rays>,
+    /// In a detailed first epoch.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub details: Option<StructureDetails>,
+}
+
+/// What records tell of a structure beyond that.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct StructureDetails {
+    /// The whole configuration.
+    pub config: Value,
+    pub triangle_test: String,
+    /// Most bytes held during a build beyond those held before; nothing where they are not counted.
+    pub build_peak_bytes: Option<usize>,
+    /// Nothing is known of rays here.
+    pub counts: CaseCounts,
 }
 
 /// What a structure is once it is built, the same in every epoch.
@@ -139,6 +176,24 @@ pub struct Rays {
     pub wrong: bool,
     /// Of the first epoch; they do not change.
     pub counts: Option<RayCounts>,
+    /// In a detailed first epoch.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub details: Option<RayDetails>,
+}
+
+/// What records tell of a structure on one kind of rays beyond that.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct RayDetails {
+    /// Rays held against brute force.
+    pub checked: usize,
+    /// Those of them with a wrong answer.
+    pub errors: usize,
+    /// What of the rays the structure declines.
+    pub declined: Option<String>,
+    pub leaf_steps_per_ray: Option<f64>,
+    pub empty_leaf_steps_per_ray: Option<f64>,
+    pub tests_over_minimum: Option<f64>,
+    pub instructions_per_ray: Option<f64>,
 }
 
 impl Rays {

@@ -24,6 +24,7 @@ pub fn rays(workload: &str) -> Rays {
             blocks: Some(1000),
             steps: Some(10_000),
         }),
+        details: None,
     }
 }
 
@@ -36,13 +37,16 @@ pub fn example(scene: &str, triangles: usize, epoch: usize, structures: &[(&str,
         build_ns,
         shape: Shape { bytes: 100 * triangles, leaves: 8, references: 2 * triangles, depth: 3, sah_cost: None },
         rays: vec![Rays { ns: ns.to_vec(), ..rays("primary") }],
+        details: None,
     };
     Epoch {
         scene: scene.into(),
         scene_hash: scene.into(),
         stand_in: false,
         triangles,
+        degenerate: 0,
         epoch,
+        circumstances: None,
         structures: structures.iter().map(structure).collect(),
     }
 }
@@ -56,6 +60,8 @@ fn settings(structures: &[&str]) -> Settings {
         asked: Asked::Kinds(vec![WorkloadKind::Primary, WorkloadKind::Shadow], 200),
         runs: 2,
         budget_ns: 50_000_000,
+        slowest: f64::INFINITY,
+        detailed: false,
         seed: 1,
         threads: Threads::new(1).unwrap(),
     }

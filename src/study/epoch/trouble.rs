@@ -1,17 +1,5 @@
 use super::Epoch;
-
-/// A structure without times, and why.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Trouble {
-    /// Name in the registry.
-    pub structure: String,
-    /// What to print.
-    pub sentence: String,
-    /// Whether it took no part at all.
-    pub refused: bool,
-    /// Whether it gave wrong answers.
-    pub wrong: bool,
-}
+use crate::study::Trouble;
 
 /// Everything without a time, each once.
 pub fn troubles<'a>(epochs: impl IntoIterator<Item = &'a Epoch>) -> Vec<Trouble> {

@@ -2,7 +2,7 @@
 
 use super::{Epoch, Rays, Structure};
 use crate::measure::{AaNoise, Estimate};
-use crate::study::replicates::{ratio, replicates, values};
+use crate::study::epoch_medians::{epoch_medians, ratio, values};
 
 /// How long the structures of an epoch take for all their rays, whatever part of them was timed: the rays of every kind
 /// at the pace of those that were.
@@ -19,12 +19,12 @@ impl WholeTimes {
     }
 
     /// ln of seconds of the structures with these numbers, on the rays that all of them were timed on, of each epoch.
-    fn replicates(&self, structures: &[usize]) -> Vec<Vec<f64>> {
+    fn epoch_medians(&self, structures: &[usize]) -> Vec<Vec<f64>> {
         let of_epoch = |all: &Vec<Structure>| {
             let chosen: Vec<&Structure> = structures.iter().map(|&number| &all[number]).collect();
             chosen.iter().map(|structure| seconds(structure, &chosen)).collect()
         };
-        replicates(self.epochs.iter().map(of_epoch).collect())
+        epoch_medians(self.epochs.iter().map(of_epoch).collect())
     }
 
     /// Seconds: the geometric mean over the epochs, with its interval.
@@ -32,12 +32,12 @@ impl WholeTimes {
     /// # Panics
     /// If there is no epoch.
     pub fn seconds(&self, structure: usize, noise: &AaNoise) -> Estimate {
-        ratio(&self.replicates(&[structure]), |logs| logs[0], noise.weighted(&[1.0]))
+        ratio(&self.epoch_medians(&[structure]), |logs| logs[0], noise.weighted(&[1.0]))
     }
 
     /// ln of the time of `one` over that of `other`, in each epoch.
     pub fn log_ratios(&self, one: usize, other: usize) -> Vec<f64> {
-        values(&self.replicates(&[one, other]), |logs| logs[0] - logs[1])
+        values(&self.epoch_medians(&[one, other]), |logs| logs[0] - logs[1])
     }
 
     /// The same as a cell of [`epoch_values`](crate::measure::epoch_values).
@@ -50,7 +50,7 @@ impl WholeTimes {
     /// # Panics
     /// If there is no epoch.
     pub fn ratio(&self, one: usize, other: usize, noise: &AaNoise) -> Estimate {
-        ratio(&self.replicates(&[one, other]), |logs| logs[0] - logs[1], noise.of_ratio())
+        ratio(&self.epoch_medians(&[one, other]), |logs| logs[0] - logs[1], noise.of_ratio())
     }
 }
 

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Case, Content, Property, Set};
+use super::{Content, HardCase, Property, Set};
 use crate::accel::{BuildError, DynAccel, Loaded};
 use crate::geometry::{Hit, Ray};
 use crate::measure::{Clock, median};
@@ -47,7 +47,7 @@ pub enum AnswersError {
 ///
 /// # Errors
 /// If the structure cannot be built.
-pub fn ask(case: &Case, choice: &Choice, rays: usize, clock: &dyn Clock) -> Result<Answers, BuildError> {
+pub fn ask(case: &HardCase, choice: &Choice, rays: usize, clock: &dyn Clock) -> Result<Answers, BuildError> {
     match case.content {
         Content::Rays { rays: most, make, .. } => {
             let set = make(rays.min(most));

@@ -3,12 +3,12 @@
 use glam::Vec3;
 
 use super::set::{along_axis, cube, z_to};
-use super::{Case, Content, Expected, Rank, Set};
+use super::{Content, Expected, HardCase, Rank, Set};
 use crate::geometry::Ray;
 use crate::validate::Sampler;
 
-pub(super) const CASES: &[Case] = &[
-    Case {
+pub(super) const CASES: &[HardCase] = &[
+    HardCase {
         number: 4,
         name: "cube_random",
         rank: Rank::Moderate,
@@ -16,7 +16,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "Random rays inside a cube: faces in the planes of the root box.",
         source: "survey",
     },
-    Case {
+    HardCase {
         number: 5,
         name: "cube_axis_aligned",
         rank: Rank::Moderate,
@@ -24,7 +24,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "Two direction components of +0.0: their inverse is infinite, and 0 times it is NaN.",
         source: "madmann91/bvh issue 9",
     },
-    Case {
+    HardCase {
         number: 6,
         name: "cube_axis_negzero",
         rank: Rank::Moderate,
@@ -36,7 +36,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "The same rays with components of -0.0: an octant from d < 0 contradicts the sign of 1 / d.",
         source: "tinybvh pull request 282; madmann91/bvh issue 20; obvhs, CwBvh",
     },
-    Case {
+    HardCase {
         number: 7,
         name: "cube_faceplane_grid",
         rank: Rank::Moderate,
@@ -44,7 +44,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "Rays in box faces and split planes, through vertices and along edges of the silhouette: 0 times infinity.",
         source: "Embree pull request 589; svenstaro/bvh pull request 149; Hapala, Havran 2011",
     },
-    Case {
+    HardCase {
         number: 8,
         name: "cube_diagonal_111",
         rank: Rank::Moderate,
@@ -52,7 +52,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "Space diagonals through grid points meet three planes, and diagonals of cells, at once.",
         source: "Hapala, Havran 2011",
     },
-    Case {
+    HardCase {
         number: 9,
         name: "cube_diag_110",
         rank: Rank::Moderate,

@@ -3,12 +3,12 @@
 use glam::Vec3;
 
 use super::set::{inside, moved, sphere, star, triangle};
-use super::{Case, Content, Rank, Set};
+use super::{Content, HardCase, Rank, Set};
 use crate::geometry::{Mesh, Ray};
 use crate::validate::Sampler;
 
-pub(super) const CASES: &[Case] = &[
-    Case {
+pub(super) const CASES: &[HardCase] = &[
+    HardCase {
         number: 1,
         name: "closed_random",
         rank: Rank::Moderate,
@@ -16,7 +16,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "Random rays inside a spiky closed star: the least that watertight means.",
         source: "pbrt-v4, shapes_test.cpp, Triangle.Watertight",
     },
-    Case {
+    HardCase {
         number: 2,
         name: "closed_vertex",
         rank: Rank::Moderate,
@@ -29,7 +29,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "At a vertex every triangle around it may say no by its own rounding, and the ray leaks out.",
         source: "pbrt-v4, Triangle.Watertight; Embree issues 174 and 181; obvhs, rt_triangle.rs: -0.0 counts as outside",
     },
-    Case {
+    HardCase {
         number: 3,
         name: "closed_edge",
         rank: Rank::Moderate,
@@ -42,7 +42,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "At an edge both triangles may say no when their edge functions round differently.",
         source: "Woop, Benthin, Wald 2013",
     },
-    Case {
+    HardCase {
         number: 14,
         name: "offset_1e3",
         rank: Rank::Moderate,
@@ -50,7 +50,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "A unit sphere at 1e3: tests that store planes in absolute coordinates lose their digits.",
         source: "measured: Baldwin-Weber in f32 misses 43 %",
     },
-    Case {
+    HardCase {
         number: 15,
         name: "offset_embree_1.5e5",
         rank: Rank::Moderate,
@@ -58,7 +58,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "Where Embree's own watertight test puts its sphere; its default mode leaks there.",
         source: "Embree, verify.cpp, watertight tests, run in robust mode only",
     },
-    Case {
+    HardCase {
         number: 16,
         name: "offset_1e6",
         rank: Rank::Moderate,
@@ -66,7 +66,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "A slab test of the form bound * inverse - origin * inverse cancels far from zero.",
         source: "Embree, node_intersector1.h; madmann91/bvh, intersect_fast",
     },
-    Case {
+    HardCase {
         number: 17,
         name: "offset_1e7",
         rank: Rank::Moderate,
@@ -74,7 +74,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "An ulp is a unit there: coordinates of rays, boxes and planes often coincide.",
         source: "measured: truncating the near interval at a plane through the origin lost 2 to 27 % of the rays",
     },
-    Case {
+    HardCase {
         number: 33,
         name: "dir_nearly_axis_1e-9",
         rank: Rank::Moderate,
@@ -82,7 +82,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "Two direction components of 1e-9: inverses are huge, and clamps of small components bend the ray.",
         source: "obvhs, ray.rs, safe_inverse; tinybvh, tinybvh_safercp",
     },
-    Case {
+    HardCase {
         number: 34,
         name: "dir_nearly_axis_1e-30",
         rank: Rank::Moderate,

@@ -3,13 +3,13 @@
 use glam::Vec3;
 
 use super::set::on_surface;
-use super::{Case, Content, Rank, Set};
+use super::{Content, HardCase, Rank, Set};
 use crate::geometry::Ray;
 use crate::validate::Sampler;
 use crate::validate::degenerate::{TRIANGLE, half_without_area, mesh, same_centroid, soup, soup_triangles};
 
-pub(super) const CASES: &[Case] = &[
-    Case {
+pub(super) const CASES: &[HardCase] = &[
+    HardCase {
         number: 40,
         name: "coincident_1000",
         rank: Rank::Moderate,
@@ -17,7 +17,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "A thousand copies of one triangle: the lowest number is owed, and nothing can be split.",
         source: "Embree, verify.cpp, overlapping_primitives",
     },
-    Case {
+    HardCase {
         number: 41,
         name: "duplicates_20000",
         rank: Rank::Moderate,
@@ -25,7 +25,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "Builders that look for the nearest neighbour, or split without end, take quadratic time.",
         source: "obvhs, ploc: 17 to 32 s",
     },
-    Case {
+    HardCase {
         number: 45,
         name: "degenerate_half",
         rank: Rank::Moderate,
@@ -33,7 +33,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "Half of the triangles are points, needles or have a double corner: answers are those without them.",
         source: "tests of obvhs and Embree on degenerate input",
     },
-    Case {
+    HardCase {
         number: 54,
         name: "same_centroid_2000",
         rank: Rank::Moderate,
@@ -41,7 +41,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "All centroids in one point: a median split separates nothing and must stop.",
         source: "Hapala, Havran 2011; bvh crates with a fixed stack",
     },
-    Case {
+    HardCase {
         number: 64,
         name: "soup_random",
         rank: Rank::Moderate,
@@ -49,7 +49,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "Random triangles and rays: the ground against which the other cases stand.",
         source: "survey",
     },
-    Case {
+    HardCase {
         number: 78,
         name: "zfighting_ulp_copies",
         rank: Rank::Added,
@@ -73,7 +73,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "Copies an ulp apart: the nearest is decided below the rounding of t.",
         source: "survey",
     },
-    Case {
+    HardCase {
         number: 80,
         name: "collinear_line",
         rank: Rank::Added,
@@ -93,7 +93,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "Boxes without extent in one or two axes: a half area of 0 divides by zero in cost models.",
         source: "Wald, Havran 2006; Hapala, Havran 2011",
     },
-    Case {
+    HardCase {
         number: 82,
         name: "median_matches_heavy",
         rank: Rank::Added,

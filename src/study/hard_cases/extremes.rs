@@ -5,14 +5,14 @@ use std::sync::Arc;
 use glam::Vec3;
 
 use super::set::{indexed, moved, on_surface, star};
-use super::{Case, Content, Rank, Set};
+use super::{Content, HardCase, Rank, Set};
 use crate::geometry::{Mesh, Ray};
 use crate::scene::meshes::teapot;
 use crate::validate::Sampler;
 use crate::validate::degenerate::{TRIANGLE, box_grid, exponential, huge_and_small, mesh, shells, soup_triangles};
 
-pub(super) const CASES: &[Case] = &[
-    Case {
+pub(super) const CASES: &[HardCase] = &[
+    HardCase {
         number: 43,
         name: "huge_tri_1e6",
         rank: Rank::Moderate,
@@ -25,7 +25,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "One triangle a million times the size of the scene: it dominates every bound and every cost.",
         source: "survey",
     },
-    Case {
+    HardCase {
         number: 44,
         name: "teapot_in_stadium_1e5",
         rank: Rank::Moderate,
@@ -33,7 +33,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "A teapot in a stadium a hundred thousand times its size, seen from the seats: boxes are below the rounding of t.",
         source: "folklore of spatial subdivision; survey",
     },
-    Case {
+    HardCase {
         number: 46,
         name: "one_triangle",
         rank: Rank::Moderate,
@@ -48,7 +48,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "The root is a leaf.",
         source: "survey",
     },
-    Case {
+    HardCase {
         number: 47,
         name: "one_triangle_vertex_edge",
         rank: Rank::Moderate,
@@ -56,7 +56,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "Rays that meet the vertices and edges of a lone triangle exactly: it is closed.",
         source: "Woop, Benthin, Wald 2013: no promise for the rim of an open mesh",
     },
-    Case {
+    HardCase {
         number: 48,
         name: "empty",
         rank: Rank::Unranked,
@@ -64,7 +64,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "No triangle at all: no root box, no node, no hit, no panic.",
         source: "kdtree-ray: asserts; Embree, verify.cpp, empty_scene",
     },
-    Case {
+    HardCase {
         number: 49,
         name: "far_1e3",
         rank: Rank::Moderate,
@@ -72,7 +72,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "From 1e3 away: the boxes of thin leaves are a few ulps of t deep.",
         source: "Ize 2013",
     },
-    Case {
+    HardCase {
         number: 50,
         name: "far_1e6",
         rank: Rank::Moderate,
@@ -80,7 +80,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "From 1e6 away: entry and exit of most boxes are one float.",
         source: "Ize 2013",
     },
-    Case {
+    HardCase {
         number: 51,
         name: "far_1e8",
         rank: Rank::Extreme,
@@ -88,7 +88,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "From 1e8 away: the scene is smaller than an ulp of t.",
         source: "Ize 2013",
     },
-    Case {
+    HardCase {
         number: 52,
         name: "shells_nested_in",
         rank: Rank::Moderate,
@@ -101,7 +101,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "Octahedra from 2^-30 to 2^30 around zero, from among them: the next is hit, within any absolute epsilon.",
         source: "obvhs, CwBvh node.rs EPSILON",
     },
-    Case {
+    HardCase {
         number: 53,
         name: "shells_nested_out",
         rank: Rank::Moderate,
@@ -116,7 +116,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "The same octahedra from outside: the outermost is hit, in spite of all that is nearer to the middle.",
         source: "survey",
     },
-    Case {
+    HardCase {
         number: 55,
         name: "exp_sequence_1.3",
         rank: Rank::Moderate,
@@ -124,7 +124,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "Each of 300 triangles is 1.3 times as large as the one before: trees become chains, and fixed stacks overflow.",
         source: "svenstaro/bvh, iter.rs: a stack of 32 panics",
     },
-    Case {
+    HardCase {
         number: 57,
         name: "nonfinite_verts",
         rank: Rank::Unranked,
@@ -133,7 +133,7 @@ pub(super) const CASES: &[Case] = &[
                  worst that passes: some vertices at the largest float, so that extents and areas are infinite.",
         source: "obvhs, ploc, and svenstaro/bvh, bvh_node.rs: builders panic",
     },
-    Case {
+    HardCase {
         number: 83,
         name: "deep_chain",
         rank: Rank::Added,

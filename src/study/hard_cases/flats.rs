@@ -3,13 +3,13 @@
 use glam::Vec3;
 
 use super::set::{moved, sheet, tilted};
-use super::{Case, Content, Rank, Set};
+use super::{Content, HardCase, Rank, Set};
 use crate::geometry::Ray;
 use crate::validate::Sampler;
 use crate::validate::degenerate::coplanar;
 
-pub(super) const CASES: &[Case] = &[
-    Case {
+pub(super) const CASES: &[HardCase] = &[
+    HardCase {
         number: 10,
         name: "flat_down",
         rank: Rank::Moderate,
@@ -19,7 +19,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "The root box has no thickness: an interval of one point must not count as empty.",
         source: "Hapala, Havran 2011: flat cells",
     },
-    Case {
+    HardCase {
         number: 11,
         name: "flat_inplane",
         rank: Rank::Moderate,
@@ -32,7 +32,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "A ray in the plane of every triangle meets none in a point: the determinant is 0.",
         source: "Möller, Trumbore 1997",
     },
-    Case {
+    HardCase {
         number: 12,
         name: "flat_grazing_1e-3",
         rank: Rank::Moderate,
@@ -40,7 +40,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "Rays at a slope of 1e-3 on a tilted plane: the determinant loses ten bits.",
         source: "Embree issue 387",
     },
-    Case {
+    HardCase {
         number: 13,
         name: "flat_grazing_1e-6",
         rank: Rank::Moderate,
@@ -48,7 +48,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "At a slope of 1e-6 the determinant is all rounding: t is wrong by a hundred thousand ulps, hits are missed and invented.",
         source: "Embree issue 387; measured: 55 to 75 % of the depths wrong in every f32 system",
     },
-    Case {
+    HardCase {
         number: 42,
         name: "coplanar_overlap_200",
         rank: Rank::Moderate,
@@ -66,7 +66,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "Overlapping triangles of one tilted plane: which is nearer is below the rounding of t.",
         source: "survey",
     },
-    Case {
+    HardCase {
         number: 79,
         name: "planar_in_split_plane",
         rank: Rank::Added,

@@ -3,13 +3,13 @@
 use glam::Vec3;
 
 use super::set::{indexed, moved, on_surface, sheet, sphere};
-use super::{Case, Content, Rank, Set};
+use super::{Content, HardCase, Rank, Set};
 use crate::geometry::Ray;
 use crate::validate::Sampler;
 use crate::validate::degenerate::{box_grid, soup};
 
-pub(super) const CASES: &[Case] = &[
-    Case {
+pub(super) const CASES: &[HardCase] = &[
+    HardCase {
         number: 58,
         name: "tmin_tmax_window",
         rank: Rank::Unranked,
@@ -17,7 +17,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "Intervals that hold only the first, or only the second crossing of a sphere.",
         source: "parry: has no t_min",
     },
-    Case {
+    HardCase {
         number: 59,
         name: "tmax_exact_hit",
         rank: Rank::Unranked,
@@ -25,7 +25,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "The only hit is at t_max exactly: the interval is half-open, so nothing is hit. Others close it.",
         source: "Embree, CHANGELOG: robust mode is closed; obvhs half-open, as here",
     },
-    Case {
+    HardCase {
         number: 60,
         name: "tmin_exact_hit",
         rank: Rank::Unranked,
@@ -33,7 +33,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "The only hit is at t_min exactly, which belongs to the interval. Others leave it out.",
         source: "Embree, default mode: T > tnear",
     },
-    Case {
+    HardCase {
         number: 61,
         name: "tiny_t_near_surface",
         rank: Rank::Moderate,
@@ -46,7 +46,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "From 1e-1 to 1e-7 above a surface: absolute epsilons lose the nearest hits.",
         source: "obvhs, CwBvh node.rs EPSILON = 1e-4",
     },
-    Case {
+    HardCase {
         number: 62,
         name: "origin_on_surface",
         rank: Rank::Unranked,
@@ -54,7 +54,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "The origin lies on a triangle exactly: the hit is at t = 0, before the sheet below.",
         source: "svenstaro/bvh and Embree leave t = 0 out",
     },
-    Case {
+    HardCase {
         number: 63,
         name: "origin_in_aabb_face",
         rank: Rank::Moderate,
@@ -70,7 +70,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "The origin lies in a face of the root box: entry is at t = 0 exactly, and must not count as behind.",
         source: "Hapala, Havran 2011: the ray's origin in a plane",
     },
-    Case {
+    HardCase {
         number: 72,
         name: "secondary_rays",
         rank: Rank::Added,

@@ -3,15 +3,15 @@
 use glam::Vec3;
 
 use super::set::star;
-use super::{Case, Content, Rank, Set};
+use super::{Content, HardCase, Rank, Set};
 use crate::geometry::Ray;
 use crate::validate::Sampler;
 
 const NAN: f32 = f32::NAN;
 const TIME: &str = "Embree, verify.cpp, nan_test and inf_test: time below 2.5 times that of valid rays";
 
-pub(super) const CASES: &[Case] = &[
-    Case {
+pub(super) const CASES: &[HardCase] = &[
+    HardCase {
         number: 65,
         name: "rays_nan_origin",
         rank: Rank::Unranked,
@@ -19,7 +19,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "NaN in the origin: comparisons with it are false, and code that drops NaN walks the whole tree.",
         source: TIME,
     },
-    Case {
+    HardCase {
         number: 66,
         name: "rays_nan_dir",
         rank: Rank::Unranked,
@@ -27,7 +27,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "NaN in the direction.",
         source: TIME,
     },
-    Case {
+    HardCase {
         number: 67,
         name: "rays_inf_origin",
         rank: Rank::Unranked,
@@ -35,7 +35,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "An infinite origin: differences are infinite, and the difference of two such is NaN.",
         source: TIME,
     },
-    Case {
+    HardCase {
         number: 68,
         name: "rays_inf_dir",
         rank: Rank::Unranked,
@@ -44,7 +44,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "An infinite direction component: its inverse is 0, and every t comes out as 0 or NaN.",
         source: "parry: a hit at t = 0 for every ray",
     },
-    Case {
+    HardCase {
         number: 69,
         name: "rays_zero_dir",
         rank: Rank::Unranked,
@@ -55,7 +55,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "No direction: a point inside every box that contains it.",
         source: "kdtree-ray: 8 times the time; parry, CHANGELOG: clip_aabb_line",
     },
-    Case {
+    HardCase {
         number: 70,
         name: "rays_tmin_gt_tmax",
         rank: Rank::Unranked,
@@ -63,7 +63,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "The interval ends before it begins.",
         source: "Embree, verify.cpp, inactive_rays",
     },
-    Case {
+    HardCase {
         number: 71,
         name: "rays_nan_interval",
         rank: Rank::Unranked,

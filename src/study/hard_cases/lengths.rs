@@ -1,13 +1,13 @@
 //! Scenes and directions of extreme lengths.
 
 use super::set::{inside, moved, star};
-use super::{Case, Content, Rank, Set};
+use super::{Content, HardCase, Rank, Set};
 use crate::geometry::Ray;
 
 const OVERFLOW: &str = "Embree, FLT_LARGE; measured: every peer of f32 misses or misplaces all";
 
-pub(super) const CASES: &[Case] = &[
-    Case {
+pub(super) const CASES: &[HardCase] = &[
+    HardCase {
         number: 18,
         name: "scale_1e-40",
         rank: Rank::Extreme,
@@ -15,7 +15,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "Coordinates are denormal: every product of two of them is zero.",
         source: "measured: every f32 system misses all",
     },
-    Case {
+    HardCase {
         number: 19,
         name: "scale_1e-30",
         rank: Rank::Extreme,
@@ -23,7 +23,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "Products of two lengths underflow to zero.",
         source: "measured: every f32 system misses all",
     },
-    Case {
+    HardCase {
         number: 20,
         name: "scale_1e-20",
         rank: Rank::Extreme,
@@ -31,7 +31,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "Products of two lengths are denormal: their digits are gone.",
         source: "measured: every f32 system misses all",
     },
-    Case {
+    HardCase {
         number: 21,
         name: "scale_1e-10",
         rank: Rank::Moderate,
@@ -39,7 +39,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "Absolute epsilons on determinants and distances swallow the whole scene.",
         source: "tinybvh pull request 283; obvhs, CwBvh node.rs EPSILON",
     },
-    Case {
+    HardCase {
         number: 22,
         name: "scale_1e-5",
         rank: Rank::Moderate,
@@ -47,7 +47,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "The same at a scale that models in metres have.",
         source: "tinybvh pull request 283; obvhs, CwBvh node.rs EPSILON",
     },
-    Case {
+    HardCase {
         number: 23,
         name: "scale_1e5",
         rank: Rank::Moderate,
@@ -55,7 +55,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "Absolute epsilons that are too small here are no epsilons.",
         source: "Wächter, Binder 2019",
     },
-    Case {
+    HardCase {
         number: 23,
         name: "scale_1e10",
         rank: Rank::Moderate,
@@ -63,7 +63,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "Products of three lengths come near the end of the range.",
         source: "Embree, FLT_LARGE",
     },
-    Case {
+    HardCase {
         number: 24,
         name: "scale_1e15",
         rank: Rank::Extreme,
@@ -71,7 +71,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "Products of three lengths overflow.",
         source: OVERFLOW,
     },
-    Case {
+    HardCase {
         number: 25,
         name: "scale_1e18",
         rank: Rank::Extreme,
@@ -79,7 +79,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "Areas come near the end of the range, products of three lengths overflow.",
         source: OVERFLOW,
     },
-    Case {
+    HardCase {
         number: 26,
         name: "dirlen_1e-30",
         rank: Rank::Extreme,
@@ -87,7 +87,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "t is measured in lengths of the direction, which need not be 1: clamps of small components lose the ray.",
         source: "obvhs, safe_inverse; Embree, zero_fix",
     },
-    Case {
+    HardCase {
         number: 27,
         name: "dirlen_1e-20",
         rank: Rank::Extreme,
@@ -95,7 +95,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "As above, where squares of the direction underflow.",
         source: "obvhs, safe_inverse; Embree, zero_fix",
     },
-    Case {
+    HardCase {
         number: 28,
         name: "dirlen_1e-10",
         rank: Rank::Moderate,
@@ -103,7 +103,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "As above, below the machine epsilon, which some take for zero.",
         source: "obvhs, safe_inverse: 1.19e-7",
     },
-    Case {
+    HardCase {
         number: 29,
         name: "dirlen_1e-6",
         rank: Rank::Moderate,
@@ -111,7 +111,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "As above: only small components fall below the machine epsilon, so only some rays bend.",
         source: "obvhs, safe_inverse: 1.19e-7",
     },
-    Case {
+    HardCase {
         number: 30,
         name: "dirlen_1e6",
         rank: Rank::Moderate,
@@ -119,7 +119,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "Hits lie at t of 1e-6: below an absolute bound on box exits.",
         source: "obvhs, CwBvh node.rs EPSILON = 1e-4",
     },
-    Case {
+    HardCase {
         number: 31,
         name: "dirlen_1e15",
         rank: Rank::Extreme,
@@ -127,7 +127,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "Hits lie at t of 1e-15.",
         source: "obvhs, CwBvh node.rs EPSILON = 1e-4",
     },
-    Case {
+    HardCase {
         number: 32,
         name: "dirlen_1e30",
         rank: Rank::Extreme,

@@ -35,7 +35,7 @@ use crate::validate::conformance::Subject;
 
 /// One entry of the catalogue.
 #[derive(Clone, Copy)]
-pub struct Case {
+pub struct HardCase {
     /// From 1 on, ascending over the catalogue.
     pub number: u32,
     /// As written on the command line.
@@ -65,7 +65,7 @@ pub enum Rank {
     Added,
 }
 
-impl Case {
+impl HardCase {
     /// How many rays it asks where at most `most` are wanted; nothing for a property. Makes them.
     pub fn rays(&self, most: usize) -> Option<usize> {
         match self.content {
@@ -159,15 +159,15 @@ impl Property {
 
 /// A name that is no case.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("there is no hard case {name:?}; the nearest names are: {nearest}; `sahara hard --list` names all")]
+#[error("there is no hard case {name:?}; the nearest names are: {nearest}; `sahara list hard` names all")]
 pub struct UnknownCase {
     name: String,
     nearest: String,
 }
 
 /// All cases, in the order of their numbers.
-pub fn catalogue() -> Vec<&'static Case> {
-    let families: [&'static [Case]; 11] = [
+pub fn catalogue() -> Vec<&'static HardCase> {
+    let families: [&'static [HardCase]; 11] = [
         closed::CASES,
         boxes::CASES,
         flats::CASES,
@@ -180,7 +180,7 @@ pub fn catalogue() -> Vec<&'static Case> {
         properties::CASES,
         found::CASES,
     ];
-    let mut cases: Vec<&Case> = families.into_iter().flatten().collect();
+    let mut cases: Vec<&HardCase> = families.into_iter().flatten().collect();
     // Stable: the two scales of number 23 keep their order.
     cases.sort_by_key(|case| case.number);
     cases
@@ -190,7 +190,7 @@ pub fn catalogue() -> Vec<&'static Case> {
 ///
 /// # Errors
 /// As there.
-pub fn find(name: &str) -> Result<&'static Case, UnknownCase> {
+pub fn find(name: &str) -> Result<&'static HardCase, UnknownCase> {
     Ok(find_all(name)?[0])
 }
 
@@ -198,7 +198,7 @@ pub fn find(name: &str) -> Result<&'static Case, UnknownCase> {
 ///
 /// # Errors
 /// If there is none: names the three that differ least.
-pub fn find_all(name: &str) -> Result<Vec<&'static Case>, UnknownCase> {
+pub fn find_all(name: &str) -> Result<Vec<&'static HardCase>, UnknownCase> {
     let mut cases = catalogue();
     let mut names: Vec<&str> = cases.iter().map(|case| case.name).collect();
     cases.retain(|case| case.name.eq_ignore_ascii_case(name) || case.number.to_string() == name);

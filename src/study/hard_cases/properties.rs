@@ -4,15 +4,15 @@ use std::sync::Arc;
 
 use super::metamorphic::metamorphic;
 use super::set::star;
-use super::{Case, Content, Property, Rank};
+use super::{Content, HardCase, Property, Rank};
 use crate::accel::DynAccel;
 use crate::geometry::{Hit, Mesh, Ray};
 use crate::validate::conformance::Subject;
 use crate::validate::degenerate::{exponential, huge_and_small, needles, soup};
 use crate::validate::{Reference, Sampler, Stratum, validate};
 
-pub(super) const CASES: &[Case] = &[
-    Case {
+pub(super) const CASES: &[HardCase] = &[
+    HardCase {
         number: 73,
         name: "continuation",
         rank: Rank::Added,
@@ -20,7 +20,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "Going on behind each hit must visit all crossings of a ray, each once.",
         source: "Embree, verify.cpp, sphere_filter_multi_hit",
     },
-    Case {
+    HardCase {
         number: 74,
         name: "parity",
         rank: Rank::Added,
@@ -28,7 +28,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "A ray from outside crosses a closed surface an even number of times.",
         source: "survey: tests of volumes and of points in solids rest on it",
     },
-    Case {
+    HardCase {
         number: 75,
         name: "metamorphic",
         rank: Rank::Added,
@@ -36,7 +36,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "Reordered, mirrored and doubled scenes have the same t; so have turned, moved and cut ones where answers are exact.",
         source: "survey: finds what a comparison with one's own test cannot",
     },
-    Case {
+    HardCase {
         number: 76,
         name: "any_equals_closest",
         rank: Rank::Added,
@@ -46,7 +46,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "Any hit has a loop of its own in most systems, and its own mistakes.",
         source: "pbrt-v4: a second copy of the loop",
     },
-    Case {
+    HardCase {
         number: 77,
         name: "batch_equals_single",
         rank: Rank::Added,
@@ -58,7 +58,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "Packets and batches must answer as single rays do.",
         source: "Embree, verify.cpp: the same tests for every packet size",
     },
-    Case {
+    HardCase {
         number: 81,
         name: "sizes_0_to_40",
         rank: Rank::Added,
@@ -69,7 +69,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "No, one, two, three triangles and all sizes of a leaf: where blocks and nodes are partly filled.",
         source: "survey",
     },
-    Case {
+    HardCase {
         number: 84,
         name: "limits",
         rank: Rank::Added,

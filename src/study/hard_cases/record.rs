@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{Case, Property, Rank, Score};
+use super::{HardCase, Property, Rank, Score};
 use crate::measure::Provenance;
 use crate::registry::Choice;
 use crate::validate::Ulps;
@@ -13,7 +13,7 @@ pub struct HardRun {
     /// Of this form.
     pub schema: u32,
     pub provenance: Provenance,
-    /// Case by case, structure by structure.
+    /// HardCase by case, structure by structure.
     pub results: Vec<HardRecord>,
 }
 
@@ -55,7 +55,7 @@ impl HardRun {
 }
 
 impl HardRecord {
-    pub fn new(case: &Case, choice: &Choice, score: &Score) -> Self {
+    pub fn new(case: &HardCase, choice: &Choice, score: &Score) -> Self {
         let rays = match score {
             Score::Rays(rays) => Some(rays),
             _ => None,

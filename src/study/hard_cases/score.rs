@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use rayon::prelude::*;
 
-use super::{Answers, Case, Content, Property, Rank, Set};
+use super::{Answers, Content, HardCase, Property, Rank, Set};
 use crate::accel::BuildError;
 use crate::oracle::{Oracle, Truth};
 use crate::validate::{DepthRule, Judged, Reference, judge, validate_answers};
@@ -78,7 +78,7 @@ impl Failure {
 
 impl Court {
     /// Finds the truth of the first `rays` rays of `case`.
-    pub fn new(case: &Case, rays: usize) -> Self {
+    pub fn new(case: &HardCase, rays: usize) -> Self {
         let set = match case.content {
             Content::Rays { rays: most, make, .. } => {
                 let set = make(rays.min(most));
@@ -173,7 +173,7 @@ pub struct Totals {
 
 impl Totals {
     /// Over the cases whose rank is among `ranks`; for one column of a table.
-    pub fn over<'a>(scores: impl IntoIterator<Item = (&'a Case, &'a Score)>, ranks: &[Rank]) -> Self {
+    pub fn over<'a>(scores: impl IntoIterator<Item = (&'a HardCase, &'a Score)>, ranks: &[Rank]) -> Self {
         let mut totals = Self::default();
         for (_, score) in scores.into_iter().filter(|(case, _)| ranks.contains(&case.rank)) {
             totals.cases += 1;

@@ -5,13 +5,13 @@ use std::sync::Arc;
 use glam::Vec3;
 
 use super::set::{indexed, moved, on_surface, tilted};
-use super::{Case, Content, Rank, Set};
+use super::{Content, HardCase, Rank, Set};
 use crate::geometry::{Mesh, Ray};
 use crate::validate::Sampler;
 use crate::validate::degenerate::{mesh, needles};
 
-pub(super) const CASES: &[Case] = &[
-    Case {
+pub(super) const CASES: &[HardCase] = &[
+    HardCase {
         number: 35,
         name: "slivers_1e6_axis",
         rank: Rank::Moderate,
@@ -19,7 +19,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "Strips of 1000 x 1e-3 along the axes: a million times longer than wide.",
         source: "Woop, Benthin, Wald 2013: t is as accurate as the least accurate axis",
     },
-    Case {
+    HardCase {
         number: 36,
         name: "slivers_1e6_rot",
         rank: Rank::Moderate,
@@ -27,7 +27,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "The same strips tilted: the f32 normal has no digit left, and t is wrong by percents.",
         source: "Embree, stable_triangle_normal; measured: 36 to 44 % of the depths wrong",
     },
-    Case {
+    HardCase {
         number: 37,
         name: "hair_diag",
         rank: Rank::Moderate,
@@ -35,7 +35,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "Needles of 2 x 1e-3 along a diagonal: their boxes are almost empty, and all overlap.",
         source: "survey",
     },
-    Case {
+    HardCase {
         number: 38,
         name: "fan_apex",
         rank: Rank::Moderate,
@@ -50,7 +50,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "800 triangles meet in the vertex that is aimed at: all of them hit, at edges, and none may fall out of its box.",
         source: "obvhs, rt_triangle.rs: seen from behind, 0 times a negative number is -0.0, and counts as outside",
     },
-    Case {
+    HardCase {
         number: 39,
         name: "fan_random",
         rank: Rank::Moderate,
@@ -64,7 +64,7 @@ pub(super) const CASES: &[Case] = &[
         reason: "The same fan, aimed at beside its apex.",
         source: "survey",
     },
-    Case {
+    HardCase {
         number: 56,
         name: "needle_stack_kd",
         rank: Rank::Moderate,

@@ -1,6 +1,6 @@
 //! Scores as tables: cases down, structures across.
 
-use super::{Case, Content, Failure, Property, Rank, RayScore, Score, Totals};
+use super::{Content, Failure, HardCase, Property, Rank, RayScore, Score, Totals};
 use crate::registry::Choice;
 use crate::report::number::{count, figures, plural};
 use crate::report::{Cell, Table, Tone};
@@ -44,7 +44,7 @@ pub fn legend() -> Vec<String> {
 }
 
 /// The tables of a run that have rows: answers, errors of t, times of invalid rays, properties, totals.
-pub fn tables(cases: &[&Case], columns: &[Column]) -> Vec<Table> {
+pub fn tables(cases: &[&HardCase], columns: &[Column]) -> Vec<Table> {
     let all = [
         answers(cases, columns),
         table(cases, columns, "t error in ulps where the primitive is right: median/p99/max", ulps),
@@ -59,7 +59,7 @@ fn head(first: &str, columns: &[Column]) -> Vec<String> {
     std::iter::once(first.into()).chain(columns.iter().map(|column| column.label.clone())).collect()
 }
 
-fn name(case: &Case) -> Cell {
+fn name(case: &HardCase) -> Cell {
     let mark = match case.rank {
         Rank::Moderate | Rank::Extreme => "",
         Rank::Unranked => "*",
@@ -69,7 +69,7 @@ fn name(case: &Case) -> Cell {
 }
 
 /// Rows for the cases about which `cell` has something to say.
-fn table(cases: &[&Case], columns: &[Column], title: &str, cell: fn(&Score) -> Option<Cell>) -> Table {
+fn table(cases: &[&HardCase], columns: &[Column], title: &str, cell: fn(&Score) -> Option<Cell>) -> Table {
     let mut rows = vec![];
     for (i, case) in cases.iter().enumerate() {
         let cells: Vec<Option<Cell>> = columns.iter().map(|column| cell(&column.scores[i])).collect();
@@ -80,7 +80,7 @@ fn table(cases: &[&Case], columns: &[Column], title: &str, cell: fn(&Score) -> O
     Table { title: title.into(), columns: head("case", columns), rows, notes: vec![] }
 }
 
-fn answers(cases: &[&Case], columns: &[Column]) -> Table {
+fn answers(cases: &[&HardCase], columns: &[Column]) -> Table {
     let mut notes = vec![];
     let mut rows = vec![];
     for (i, case) in cases.iter().enumerate() {
@@ -138,7 +138,7 @@ fn slowness(score: &Score) -> Option<Cell> {
     slowness.map(|times| format!("{} x", figures(times)).into())
 }
 
-fn properties(cases: &[&Case], columns: &[Column]) -> Table {
+fn properties(cases: &[&HardCase], columns: &[Column]) -> Table {
     let mut notes = vec![];
     for (i, case) in cases.iter().enumerate() {
         for column in columns.iter().filter(|column| !column.documented) {
@@ -162,7 +162,7 @@ fn property(score: &Score) -> Option<Cell> {
 }
 
 /// What every structure did wrong on the ranked cases that were run.
-fn totals(cases: &[&Case], columns: &[Column]) -> Table {
+fn totals(cases: &[&HardCase], columns: &[Column]) -> Table {
     const BOTH: [(&[Rank], &str); 2] = [(&[Rank::Moderate, Rank::Extreme], "valid"), (&[Rank::Moderate], "moderate")];
     let of = |column: &Column, ranks: &[Rank]| Totals::over(cases.iter().copied().zip(&column.scores), ranks);
     let mut names = vec!["structure".to_owned()];

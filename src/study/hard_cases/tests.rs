@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use sha2::{Digest, Sha256};
 
-use super::{Case, Content, Expected, Rank, Set, catalogue, find, find_all};
+use super::{Content, Expected, HardCase, Rank, Set, catalogue, find, find_all};
 use crate::exact::rational;
 use crate::geometry::{Mesh, MeshError, Ray};
 use crate::oracle::Oracle;
@@ -14,7 +14,7 @@ use glam::Vec3;
 /// Rays of a case in these tests.
 const FEW: usize = 40;
 
-fn sets(count: usize) -> impl Iterator<Item = (&'static Case, Expected, Set)> {
+fn sets(count: usize) -> impl Iterator<Item = (&'static HardCase, Expected, Set)> {
     catalogue().into_iter().filter_map(move |case| match case.content {
         Content::Rays { rays, expected, make } => Some((case, expected, make(rays.min(count)))),
         Content::Property(_) => None,

@@ -5,6 +5,7 @@ use serde_json::{Map, Value};
 
 use super::JournalError;
 use crate::measure::Provenance;
+use crate::study::plan::settings_map;
 
 /// The first line of a journal.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -28,10 +29,7 @@ impl Header {
     /// # Panics
     /// If `settings` does not serialise to a map of names.
     pub fn new(study: &str, settings: &impl Serialize, provenance: Provenance) -> Self {
-        let settings = match serde_json::to_value(settings).expect("settings serialise") {
-            Value::Object(settings) => settings,
-            other => panic!("the settings of {study} must be a struct with named fields, not {other}"),
-        };
+        let settings = settings_map(settings);
         Self { schema: Self::SCHEMA, study: study.into(), settings, provenance }
     }
 

@@ -28,7 +28,8 @@ pub const OF_ALL: &str = "all";
 #[derive(Debug)]
 pub struct Journal<C> {
     path: PathBuf,
-    file: File,
+    /// Nothing where it is kept in memory alone.
+    file: Option<File>,
     /// Bytes of whole lines.
     length: u64,
     recorded: Recorded<C>,
@@ -52,6 +53,12 @@ struct Line<C> {
 }
 
 impl<C: Serialize + DeserializeOwned> Journal<C> {
+    /// A journal that is forgotten when it is dropped.
+    pub fn in_memory(header: Header) -> Self {
+        let recorded = Recorded { header, cases: vec![], keys: BTreeMap::new() };
+        Self { path: PathBuf::new(), file: None, length: 0, recorded }
+    }
+
     /// Opens the journal at `path`, to go on with it; makes a new one, with its folder, where there is none. With `fresh` what
     /// is there is thrown away.
     ///
@@ -87,13 +94,13 @@ impl<C: Serialize + DeserializeOwned> Journal<C> {
         } else {
             Recorded::parse(path, whole, |there| header.admits(there, path))?
         };
-        let mut journal = Self { path: path.into(), file, length: whole.len() as u64, recorded };
+        let mut journal = Self { path: path.into(), file: Some(file), length: whole.len() as u64, recorded };
         if journal.length == 0 {
             let line = serde_json::to_string(&journal.recorded.header).expect("a header has text keys");
             journal.write(&line)?;
             journal.sync_folder();
-        } else {
-            journal.file.set_len(journal.length).map_err(unwritable)?;
+        } else if let Some(file) = &journal.file {
+            file.set_len(journal.length).map_err(unwritable)?;
         }
         Ok(journal)
     }
@@ -149,16 +156,18 @@ impl<C: Serialize + DeserializeOwned> Journal<C> {
 
     /// Writes one line whole, or takes back what was written of it.
     fn write(&mut self, line: &str) -> Result<(), JournalError> {
+        let Some(file) = &mut self.file else { return Ok(()) };
         let bytes = format!("{line}\n").into_bytes();
-        let written = (|| {
-            self.file.seek(SeekFrom::Start(self.length))?;
-            self.file.set_len(self.length)?;
-            self.file.write_all(&bytes)?;
-            self.file.sync_data()
-        })();
-        written.map_err(|cause| {
+        let length = self.length;
+        let mut write = || {
+            file.seek(SeekFrom::Start(length))?;
+            file.set_len(length)?;
+            file.write_all(&bytes)?;
+            file.sync_data()
+        };
+        write().map_err(|cause| {
             // If even this fails, what is left is a torn line, which the next run drops.
-            let _ = self.file.set_len(self.length);
+            let _ = file.set_len(length);
             JournalError::Write { path: self.path.clone(), cause }
         })?;
         self.length += bytes.len() as u64;

@@ -200,7 +200,7 @@ fn what_cannot_be_written_is_one_sentence_and_loses_nothing() {
     let before = fs::read(&path).unwrap();
     let mut journal = open(&path).unwrap();
     // As on a full disk: the system takes nothing more.
-    let good = std::mem::replace(&mut journal.file, File::open(&path).unwrap());
+    let good = journal.file.replace(File::open(&path).unwrap());
     sentence(journal.append("case 1", case(1)).unwrap_err(), &["cannot write", "tiny.jsonl", "kept", "--dir"]);
     assert_eq!((fs::read(&path).unwrap(), journal.cases().len()), (before, 1));
     journal.file = good;
@@ -214,7 +214,7 @@ fn a_half_written_line_is_overwritten_by_the_next() {
     let path = journal(&folder, 1);
     let mut journal = open(&path).unwrap();
     // A write that failed half-way, and could not be taken back.
-    journal.file.write_all(&[b'x'; 500]).unwrap();
+    journal.file.as_mut().unwrap().write_all(&[b'x'; 500]).unwrap();
     journal.append("case 1", case(1)).unwrap();
     assert_eq!(Journal::<Case>::read(&path, "tiny").unwrap().cases, [case(0), case(1)]);
 }

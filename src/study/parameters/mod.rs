@@ -5,25 +5,28 @@
 //! triangles than every leaf limit, so that all its settings are the same tree: the control.
 
 mod result;
+mod section;
 mod table;
 #[cfg(test)]
 mod tests;
 
+use super::args::{Measuring, Scenes};
+use super::epoch::{Asked, Epoch};
 use super::replicate::original::{MAIN, SWEEP, SweepRow};
+use super::{Context, Data, Effort, Plan, REPORT_TREE, Study};
 use crate::registry::{Choice, ChoiceError, Registry};
-use crate::study::baselines::REPORT_TREE;
+use crate::report::Table;
+use crate::report::document::Block;
+use crate::scene::{Builtin, Scene};
 
-pub use result::{Parameters, Setting, Verdict, result, rows};
+pub use result::{Difference, Parameters, Setting, result};
 pub use table::tables;
-
-/// Name of the study, and of its journal; a case is an [`Epoch`](super::epoch::Epoch).
-pub const NAME: &str = "parameters";
 
 /// The setting of the report's main table: the others are held against it.
 pub const DEFAULT: (u32, f32) = (100, 0.7);
 
 /// Names of the scenes of the report's sweep.
-pub fn scenes() -> Vec<&'static str> {
+fn scenes() -> Vec<&'static str> {
     MAIN.iter().map(|row| row.scene).collect()
 }
 
@@ -40,8 +43,72 @@ fn is_default(row: &SweepRow) -> bool {
 ///
 /// # Errors
 /// If the report's tree is not registered as the sweep expects.
-pub fn structures(registry: &Registry) -> Result<Vec<Choice>, ChoiceError> {
+pub(super) fn structures(registry: &Registry) -> Result<Vec<Choice>, ChoiceError> {
     let rows = SWEEP.iter().chain([&SWEEP[default_row()]]);
     let spec = |row: &SweepRow| format!("{REPORT_TREE}:leaf={},threshold={}", row.leaf, row.threshold);
     rows.map(|row| registry.choose(&spec(row))).collect()
+}
+
+/// The study.
+pub struct ParametersStudy;
+
+/// Its options.
+#[derive(Clone, Debug, clap::Args)]
+pub struct ParametersArgs {
+    // Of the report's sweep; all of them if none is named.
+    #[command(flatten)]
+    scenes: Scenes,
+    #[command(flatten)]
+    measuring: Measuring,
+}
+
+impl Study for ParametersStudy {
+    const NAME: &'static str = "parameters";
+    const QUESTION: &'static str = "Which differences of the report's sweep of leaf limit and threshold are real?";
+
+    type Args = ParametersArgs;
+    type Case = Epoch;
+    type Answer = Parameters;
+
+    fn args(effort: Effort) -> ParametersArgs {
+        let scenes = if effort == Effort::Quick { Scenes::named(&["cube", "torus"]) } else { Scenes::default() };
+        ParametersArgs { scenes, measuring: Measuring::of(effort) }
+    }
+
+    fn plan(args: &ParametersArgs, registry: &Registry) -> anyhow::Result<Plan<Epoch>> {
+        let all = scenes();
+        let named = args.scenes.scenes.iter().map(String::as_str);
+        let named: Vec<&str> = if args.scenes.scenes.is_empty() { all.clone() } else { named.collect() };
+        let mut chosen: Vec<Scene> = vec![];
+        for name in named {
+            let builtin = Builtin::find(name)?;
+            anyhow::ensure!(
+                all.contains(&builtin.name),
+                "{} is not in the report's sweep; in it are: {}",
+                builtin.name,
+                all.join(", ")
+            );
+            if chosen.iter().all(|scene| scene.name != builtin.name) {
+                chosen.push(builtin.scene(None)?);
+            }
+        }
+        let settings = args.measuring.settings(registry, structures(registry)?, Asked::Picture)?;
+        Ok(settings.plan_of_whole(chosen, args.measuring.epochs))
+    }
+
+    fn answer(cases: &[Epoch], _: &Context<Self>) -> Parameters {
+        result(cases)
+    }
+
+    fn tables(answer: &Parameters) -> Vec<Table> {
+        tables(answer)
+    }
+
+    fn data(answer: &Parameters) -> Vec<Data> {
+        vec![Data::new(Self::NAME, &answer.settings)]
+    }
+
+    fn section(answer: &Parameters, command: &str) -> Vec<Block> {
+        section::blocks(answer, command)
+    }
 }

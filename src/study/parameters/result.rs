@@ -39,26 +39,26 @@ pub struct Setting {
     /// The chance that an interval of `times` would have to leave to its outside to reach just to 1; nothing for the
     /// default, with fewer than two epochs, or where the trees are the same.
     pub probability: Option<f64>,
-    pub verdict: Verdict,
+    pub verdict: Difference,
 }
 
 /// Whether a setting differs from the default.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Verdict {
+pub enum Difference {
     /// It is the default.
     Default,
     /// Its tree is that of the default: there is nothing to differ.
     SameTree,
     /// Its interval lies below 1, as one of all that are compared.
     Faster,
-    /// As [`Verdict::Faster`].
+    /// As [`Difference::Faster`].
     Slower,
     /// Chance or noise may explain what is seen.
     NotShown,
 }
 
-impl Verdict {
+impl Difference {
     /// As tables print it.
     pub fn words(self) -> &'static str {
         match self {
@@ -69,11 +69,6 @@ impl Verdict {
             Self::NotShown => "not shown",
         }
     }
-}
-
-/// One row for each setting and scene, for a tidy table.
-pub fn rows(result: &Parameters) -> &[Setting] {
-    &result.settings
 }
 
 /// Compares the settings of all scenes whose first epoch is there.
@@ -105,9 +100,9 @@ pub fn result(epochs: &[Epoch]) -> Parameters {
                 tests_per_ray: scene.tests_per_ray[i],
                 probability: if is_default(row) || same_tree { None } else { times.chance_of_one() },
                 verdict: match (is_default(row), same_tree) {
-                    (true, _) => Verdict::Default,
-                    (_, true) => Verdict::SameTree,
-                    _ => Verdict::NotShown,
+                    (true, _) => Difference::Default,
+                    (_, true) => Difference::SameTree,
+                    _ => Difference::NotShown,
                 },
             });
         }
@@ -118,7 +113,7 @@ pub fn result(epochs: &[Epoch]) -> Parameters {
     for (&i, real) in compared.iter().zip(holm(&probabilities, LEVEL)) {
         let times = settings[i].times.expect("only others than the default are compared").estimate;
         if real {
-            settings[i].verdict = if times < 1.0 { Verdict::Faster } else { Verdict::Slower };
+            settings[i].verdict = if times < 1.0 { Difference::Faster } else { Difference::Slower };
         }
     }
     let epochs = scenes.iter().map(|scene| scene.epochs).min().unwrap_or(0);

@@ -1,6 +1,6 @@
 //! The sweep as tables for people.
 
-use super::result::{Parameters, Setting, Verdict};
+use super::result::{Difference, Parameters, Setting};
 use crate::measure::LEVEL;
 use crate::report::number::figures;
 use crate::report::words::{explained, interval};
@@ -9,13 +9,13 @@ use crate::report::{Cell, Table, Tone};
 /// All settings, then the answer in words.
 pub fn tables(result: &Parameters) -> Vec<Table> {
     let row = |s: &Setting| {
-        let tone = if s.verdict == Verdict::Faster { Tone::Best } else { Tone::Plain };
+        let tone = if s.verdict == Difference::Faster { Tone::Best } else { Tone::Plain };
         vec![
             format!("{} {} / {}", s.scene, s.leaf, s.threshold).into(),
             figures(s.seconds).into(),
             figures(s.report_s).into(),
             s.times.map_or(Cell::blank(), |times| interval(times).into()),
-            if s.verdict == Verdict::Default { Cell::blank() } else { figures(s.report_times).into() },
+            if s.verdict == Difference::Default { Cell::blank() } else { figures(s.report_times).into() },
             figures(s.tests_per_ray).into(),
             Cell::from(s.verdict.words()).with(tone),
         ]
@@ -33,7 +33,7 @@ pub fn tables(result: &Parameters) -> Vec<Table> {
 
 fn notes(result: &Parameters) -> Vec<String> {
     let settings = || result.settings.iter();
-    let count = |verdict: Verdict| settings().filter(|s| s.verdict == verdict).count();
+    let count = |verdict: Difference| settings().filter(|s| s.verdict == verdict).count();
     let mut notes = vec![format!(
         "time: as a multiple of the default's, over {} epochs [another run of the same plan]. {} settings are compared with the default; a \
          difference is real when its interval excludes 1 at a level that leaves all of them together {:.0} % (Holm's correction). A/A noise, in \
@@ -48,10 +48,10 @@ fn notes(result: &Parameters) -> Vec<String> {
     }
     notes.push(format!(
         "Real: {} faster, {} slower than the default; {} not shown to differ; {} the same tree as the default.",
-        count(Verdict::Faster),
-        count(Verdict::Slower),
-        count(Verdict::NotShown),
-        count(Verdict::SameTree),
+        count(Difference::Faster),
+        count(Difference::Slower),
+        count(Difference::NotShown),
+        count(Difference::SameTree),
     ));
     notes.extend(control(result));
     notes.extend(agreement(result));
@@ -61,7 +61,7 @@ fn notes(result: &Parameters) -> Vec<String> {
 /// What the control shows: all settings of Cube are one tree.
 fn control(result: &Parameters) -> Option<String> {
     let cube: Vec<&Setting> =
-        result.settings.iter().filter(|s| s.scene == "Cube" && s.verdict == Verdict::SameTree).collect();
+        result.settings.iter().filter(|s| s.scene == "Cube" && s.verdict == Difference::SameTree).collect();
     let farthest =
         |times: &dyn Fn(&Setting) -> f64| cube.iter().map(|&s| libm::fabs(libm::log(times(s)))).fold(0.0, f64::max);
     let ours = farthest(&|s| s.times.map_or(1.0, |times| times.estimate));
@@ -79,11 +79,14 @@ fn control(result: &Parameters) -> Option<String> {
 /// How often the report's single runs show what is real.
 fn agreement(result: &Parameters) -> Option<String> {
     let real: Vec<&Setting> =
-        result.settings.iter().filter(|s| matches!(s.verdict, Verdict::Faster | Verdict::Slower)).collect();
-    let agree = real.iter().filter(|s| (s.report_times < 1.0) == (s.verdict == Verdict::Faster)).count();
+        result.settings.iter().filter(|s| matches!(s.verdict, Difference::Faster | Difference::Slower)).collect();
+    let agree = real.iter().filter(|s| (s.report_times < 1.0) == (s.verdict == Difference::Faster)).count();
     let words = |s: &&&Setting| format!("{} {} / {}", s.scene, s.leaf, s.threshold);
-    let others: Vec<String> =
-        real.iter().filter(|s| (s.report_times < 1.0) != (s.verdict == Verdict::Faster)).map(|s| words(&s)).collect();
+    let others: Vec<String> = real
+        .iter()
+        .filter(|s| (s.report_times < 1.0) != (s.verdict == Difference::Faster))
+        .map(|s| words(&s))
+        .collect();
     (!real.is_empty()).then(|| {
         let tail = if others.is_empty() { String::new() } else { format!("; not of {}", others.join(", ")) };
         format!("The report's own seconds have the sign of {agree} of the {} real differences{tail}.", real.len())

@@ -37,6 +37,7 @@ fn cases(scene: &str, epochs: usize, slower: f64, noise: f64) -> Vec<Epoch> {
                 refused: None,
                 build_ns: 10,
                 shape: Shape { bytes: 100, leaves: 1, references: 12, depth: 0, sah_cost: None },
+                details: None,
                 rays: vec![rays("image", 100, 1000), rays("image-shadow", 50, if same { 0 } else { i as u64 })],
             }
         });
@@ -45,24 +46,26 @@ fn cases(scene: &str, epochs: usize, slower: f64, noise: f64) -> Vec<Epoch> {
             scene_hash: "00".into(),
             stand_in: false,
             triangles: 12,
+            degenerate: 0,
             epoch: number,
+            circumstances: None,
             structures: structures.collect(),
         }
     };
     (0..epochs).map(&mut of).collect()
 }
 
-fn verdicts(result: &Parameters) -> Vec<Verdict> {
+fn verdicts(result: &Parameters) -> Vec<Difference> {
     result.settings.iter().map(|setting| setting.verdict).collect()
 }
 
 #[test]
 fn a_large_difference_is_real_and_noise_is_not() {
     let result = result(&cases("Teapot", 5, 1.3, 0.01));
-    assert_eq!(verdicts(&result)[0], Verdict::Slower);
-    assert_eq!(verdicts(&result)[default_row()], Verdict::Default);
+    assert_eq!(verdicts(&result)[0], Difference::Slower);
+    assert_eq!(verdicts(&result)[default_row()], Difference::Default);
     assert_eq!(result.settings.len(), SWEEP.len());
-    assert!(verdicts(&result).iter().filter(|&&v| v == Verdict::NotShown).count() == 4, "{:?}", verdicts(&result));
+    assert!(verdicts(&result).iter().filter(|&&v| v == Difference::NotShown).count() == 4, "{:?}", verdicts(&result));
     let slower = result.settings[0].times.unwrap();
     assert!(slower.holds(1.3), "{slower:?}");
     assert_eq!(result.settings[0].report_s, SWEEP[0].seconds[3]);
@@ -77,7 +80,7 @@ fn a_difference_within_the_aa_noise_is_not_shown() {
         twin.rays.iter_mut().for_each(|rays| rays.ns.iter_mut().for_each(|ns| *ns = *ns * 104 / 100));
     }
     let result = result(&cases);
-    assert!(result.aa_noise > 1.035 && verdicts(&result)[0] == Verdict::NotShown, "{result:?}");
+    assert!(result.aa_noise > 1.035 && verdicts(&result)[0] == Difference::NotShown, "{result:?}");
 }
 
 #[test]
@@ -93,13 +96,13 @@ fn more_looks_ask_for_more() {
     let many = result(&many);
     assert_eq!((alone.comparisons, many.comparisons), (5, 40));
     let sphere = many.settings.iter().find(|s| s.scene == "Sphere").unwrap();
-    assert_eq!(sphere.verdict, Verdict::NotShown);
+    assert_eq!(sphere.verdict, Difference::NotShown);
 }
 
 #[test]
 fn the_control_is_one_tree_and_says_how_noisy_it_is() {
     let result = result(&cases("Cube", 3, 1.0, 0.02));
-    assert_eq!(verdicts(&result).iter().filter(|&&v| v == Verdict::SameTree).count(), 5);
+    assert_eq!(verdicts(&result).iter().filter(|&&v| v == Difference::SameTree).count(), 5);
     assert_eq!(result.comparisons, 0);
     let table = tables(&result).remove(0);
     assert!(table.rows.iter().all(|row| row.len() == table.columns.len()));

@@ -1,18 +1,24 @@
 //! `partitions`: the same node, leaf and walk over four ways to divide the triangles, against the best of obvhs.
 
+mod section;
 mod table;
 #[cfg(test)]
 mod tests;
 
 use serde::Serialize;
 
+use super::args::{Measuring, Rays, Scenes, WORKLOADS, with_twin};
 use super::baselines::is_obvhs;
-use super::compare::{speed, twins};
+use super::compare::{compared, speed, twins};
+use super::epoch::{Epoch, Settings, troubles};
+use super::{Context, Data, Effort, Plan, SceneId, Study, Trouble};
 use crate::measure::Estimate;
 use crate::registry::{Choice, ChoiceError, Registry};
-use crate::report::Record;
+use crate::report::document::Block;
+use crate::report::{Record, Table};
 
-pub use table::{LEGEND, tables};
+use table::LEGEND;
+pub use table::tables;
 
 /// Those whose speed is asked for: the binary tree, and the wide one over each partition.
 const OURS: [&str; 5] = ["sah-kd", "sah-kd-wide", "sah-kd-tight", "sah-hybrid", "sah-bvh"];
@@ -35,14 +41,14 @@ pub struct Row {
     pub build: Option<f64>,
     /// Bytes of the finished structure per triangle.
     pub bytes: f64,
-    pub cells: Vec<Cell>,
+    pub cells: Vec<KindSpeed>,
     /// Geometric mean of the speeds over the cells; nothing where one is missing.
     pub all: Option<Estimate>,
 }
 
 /// One structure and one kind of rays.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Cell {
+pub struct KindSpeed {
     pub workload: String,
     /// Speed as a multiple of that of the fastest obvhs on these rays. Nothing where either gives wrong answers.
     pub speed: Option<Estimate>,
@@ -58,7 +64,7 @@ pub struct Cell {
 ///
 /// # Errors
 /// If a structure is not registered or refuses the keys.
-pub fn structures(registry: &Registry, test: &str, keys: &str) -> Result<Vec<Choice>, ChoiceError> {
+fn structures(registry: &Registry, test: &str, keys: &str) -> Result<Vec<Choice>, ChoiceError> {
     let ours = OURS.iter().map(|&name| {
         let keys = if name == OURS[0] { "" } else { keys };
         registry.choose(&format!("{name}:test={test}{keys}"))
@@ -77,7 +83,7 @@ pub fn rows(records: &[Record]) -> Vec<Row> {
         let timed = rivals().filter(|b| b.workload == record.workload && b.trace_ns.is_some());
         let best = timed.min_by(|a, b| pace(a).total_cmp(&pace(b)));
         let pair = best.filter(|_| record.trace_ns.is_some()).map(|best| (record, best));
-        let cell = Cell {
+        let cell = KindSpeed {
             workload: record.workload.clone(),
             speed: pair.and_then(|pair| speed([pair], &noise)),
             baseline: best.map(|best| best.label.clone()),
@@ -111,4 +117,87 @@ pub fn rows(records: &[Record]) -> Vec<Row> {
 /// Nanoseconds a ray, the median of the samples.
 fn pace(record: &Record) -> f64 {
     record.trace_ns.map_or(f64::INFINITY, |ns| ns / record.rays as f64)
+}
+
+/// What the study says.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Partitions {
+    pub rows: Vec<Row>,
+    pub records: Vec<Record>,
+}
+
+/// The study.
+pub struct PartitionsStudy;
+
+/// Its options.
+#[derive(Clone, Debug, clap::Args)]
+pub struct PartitionsArgs {
+    #[command(flatten)]
+    scenes: Scenes,
+    /// The triangle test of ours; obvhs has its own, which is Möller and Trumbore's in f32 as well
+    #[arg(long, short, value_name = "NAME", default_value = TEST)]
+    test: String,
+    /// Keys of the wide trees that differ from their defaults, as in batch=packets,quality=high
+    #[arg(long, value_name = "key=value,..", default_value = "")]
+    keys: String,
+    #[command(flatten)]
+    rays: Rays,
+    #[command(flatten)]
+    measuring: Measuring<3, 5, 40>,
+}
+
+const TEST: &str = "moller-trumbore";
+
+impl Study for PartitionsStudy {
+    const NAME: &'static str = "partitions";
+    const QUESTION: &'static str =
+        "Which way to divide the triangles is the fastest, for the same node, leaf and traversal?";
+
+    type Args = PartitionsArgs;
+    type Case = Epoch;
+    type Answer = Partitions;
+
+    fn args(effort: Effort) -> PartitionsArgs {
+        let scenes = if effort == Effort::Quick { Scenes::named(&["torus"]) } else { Scenes::default() };
+        let (rays, measuring) = (Rays::of(effort), Measuring::of(effort));
+        PartitionsArgs { scenes, test: TEST.into(), keys: String::new(), rays, measuring }
+    }
+
+    fn plan(args: &PartitionsArgs, registry: &Registry) -> anyhow::Result<Plan<Epoch>> {
+        let keys = if args.keys.is_empty() { String::new() } else { format!(",{}", args.keys) };
+        let structures = with_twin(structures(registry, &args.test, &keys)?);
+        let scenes = args.scenes.read(&["dragon", "lucy", "sponza"])?;
+        let settings = args.measuring.settings(registry, structures, args.rays.asked(&WORKLOADS))?;
+        let plan = Settings { slowest: 4.0, detailed: true, ..settings }.plan(scenes, args.measuring.epochs);
+        Ok(Plan { inputs: args.scenes.files(), ..plan })
+    }
+
+    fn answer(cases: &[Epoch], context: &Context<Self>) -> Partitions {
+        let records = compared(cases, context.provenance).records;
+        Partitions { rows: rows(&records), records }
+    }
+
+    fn tables(answer: &Partitions) -> Vec<Table> {
+        tables(&answer.rows)
+    }
+
+    fn legend(_: &Partitions) -> Vec<String> {
+        LEGEND.map(String::from).into()
+    }
+
+    fn troubles(cases: &[Epoch]) -> Vec<Trouble> {
+        troubles(cases)
+    }
+
+    fn data(answer: &Partitions) -> Vec<Data> {
+        vec![Data::new(Self::NAME, &answer.records)]
+    }
+
+    fn section(answer: &Partitions, command: &str) -> Vec<Block> {
+        section::blocks(&answer.rows, command)
+    }
+
+    fn scenes(answer: &Partitions) -> Vec<SceneId> {
+        answer.records.iter().map(SceneId::of).collect()
+    }
 }

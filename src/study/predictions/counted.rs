@@ -25,7 +25,7 @@ const GUIDES: [&str; 2] = ["sah-kd:test=moller-trumbore", SAH_TREE];
 
 /// One scene of the report.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Case {
+pub struct PictureCounts {
     pub scene: String,
     pub triangles: usize,
     /// All rays of the picture, as a triangle test in single precision finds their starts.
@@ -61,7 +61,7 @@ pub fn measure(
     threads: &Threads,
     clock: &dyn Clock,
     progress: &mut dyn FnMut(Stage),
-) -> Result<Case, StudyError> {
+) -> Result<PictureCounts, StudyError> {
     let row = MAIN.iter().find(|row| row.scene == scene.name).expect("a scene of the report");
     let build = |spec: &str| Built::new(&registry.choose(spec)?, scene, threads, clock);
     let mut picture = |guide: &str| {
@@ -75,7 +75,7 @@ pub fn measure(
         progress(Stage::Check(spec));
         tests.push(count(build(spec)?.accel.as_ref(), &picture));
     }
-    Ok(Case {
+    Ok(PictureCounts {
         scene: scene.name.clone(),
         triangles: scene.mesh.len(),
         rays: total(&picture),

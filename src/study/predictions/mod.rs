@@ -3,46 +3,147 @@
 //! Each number in the words of an expectation is a claim of its own, which is confirmed or refuted by its whole
 //! interval, or undecided. What was called open before anything was measured has figures and no verdict.
 //!
-//! The numbers come from what other studies have left in a folder: the journals of `attribution`, `scaling` and
-//! `crossover`, `replicate.json` and `compare.json`. What takes seconds is counted here: rays, and tests on
-//! Infinitycandy.
+//! The numbers come from the answers of other studies: `attribution`, `scaling`, `crossover`, `replicate` and `compare`.
+//! What takes seconds is counted here: rays, and tests on Infinitycandy.
 
 mod claims;
 mod counted;
 mod rank;
-mod read;
+mod section;
 mod table;
 #[cfg(test)]
 mod tests;
 
 use serde::Serialize;
 
-use super::attribution::Attribution;
-use super::crossover::Race;
-use super::scaling::Growth;
-use crate::measure::{Estimate, Interval};
-use crate::report::Record;
+use super::attribution::{Attribution, AttributionStudy};
+use super::compare::CompareStudy;
+use super::crossover::{CrossoverStudy, Race};
+use super::plan::Measure;
+use super::replicate::{self, ReplicateStudy};
+use super::scaling::{Growth, ScalingStudy};
+use super::{Answers, Context, Data, Effort, Plan, Study};
+use crate::measure::{Estimate, Interval, Threads};
+use crate::registry::Registry;
+use crate::report::document::Block;
 use crate::report::number::figures;
+use crate::report::{Record, Table};
+use crate::scene::{Builtin, Scene};
 
 pub use claims::result;
-pub use counted::{Case, key, measure, scenes};
+pub use counted::PictureCounts;
+use counted::{key, measure, scenes};
 pub use rank::kendall;
-pub use read::{Main, Replicated, read};
+pub use section::sentence;
 pub use table::{table, tone};
-
-/// Name of the study, and of its journal.
-pub const NAME: &str = "predictions";
 
 /// What there is to judge by. What is missing is empty.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Inputs {
-    /// Counted by [`measure`].
-    pub counted: Vec<Case>,
-    pub replicated: Option<Replicated>,
+    /// Counted here.
+    pub counted: Vec<PictureCounts>,
+    /// The easy and normal scenes of the report.
+    pub replicated: Vec<Main>,
     pub attribution: Vec<Attribution>,
     pub scaling: Vec<Growth>,
     pub crossover: Vec<Race>,
     pub compare: Vec<Record>,
+}
+
+/// An easy or normal scene of the report, measured again.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Main {
+    pub scene: String,
+    pub triangles: usize,
+    /// Seconds / (rays x triangles) of brute force.
+    pub brute_force_t_prime: Estimate,
+    pub improvement: Estimate,
+}
+
+impl Inputs {
+    /// From what is counted here and what other studies say.
+    fn new(counted: &[PictureCounts], others: &Answers) -> Self {
+        let main = |main: &replicate::Main| Main {
+            scene: main.scene.clone(),
+            triangles: main.triangles,
+            brute_force_t_prime: main.brute_force.t_prime,
+            improvement: main.improvement,
+        };
+        let replicated = others.of::<ReplicateStudy>().map(|replication| replication.main.iter().map(main).collect());
+        Self {
+            counted: newest(counted),
+            replicated: replicated.unwrap_or_default(),
+            attribution: others.of::<AttributionStudy>().cloned().unwrap_or_default(),
+            scaling: others.of::<ScalingStudy>().cloned().unwrap_or_default(),
+            crossover: others.of::<CrossoverStudy>().cloned().unwrap_or_default(),
+            compare: others.of::<CompareStudy>().map_or(vec![], |compared| compared.records.clone()),
+        }
+    }
+}
+
+/// The last case of every scene: what is counted on a scene is counted again when the scene changes.
+fn newest(cases: &[PictureCounts]) -> Vec<PictureCounts> {
+    let last = |(i, case): &(usize, &PictureCounts)| !cases[i + 1..].iter().any(|later| later.scene == case.scene);
+    cases.iter().enumerate().filter(last).map(|(_, case)| case.clone()).collect()
+}
+
+/// The study.
+pub struct PredictionsStudy;
+
+/// Its options: none.
+#[derive(Clone, Debug, clap::Args)]
+pub struct PredictionsArgs {}
+
+/// One claim, for tables that machines read.
+#[derive(Serialize)]
+struct Row<'a> {
+    prediction: u8,
+    #[serde(flatten)]
+    claim: &'a Claim,
+}
+
+impl Study for PredictionsStudy {
+    const NAME: &'static str = "predictions";
+    const QUESTION: &'static str = "What was expected, and what came of it?";
+    const LAST: bool = true;
+
+    type Args = PredictionsArgs;
+    type Case = PictureCounts;
+    type Answer = Vec<Prediction>;
+
+    fn args(_: Effort) -> PredictionsArgs {
+        PredictionsArgs {}
+    }
+
+    fn plan(_: &PredictionsArgs, registry: &Registry) -> anyhow::Result<Plan<PictureCounts>> {
+        let scenes: Vec<Scene> =
+            scenes().into_iter().map(|name| Builtin::find(name)?.scene(None)).collect::<Result<_, _>>()?;
+        let threads = Threads::pinned(1).map_err(anyhow::Error::msg)?;
+        let names: Vec<(String, String)> = scenes.iter().map(|scene| (scene.name.clone(), key(scene))).collect();
+        let (registry, own) = (registry.clone(), threads.clone());
+        let measure: Measure<PictureCounts> =
+            Box::new(move |number, _, clock, progress| measure(&registry, &scenes[number], &own, clock, progress));
+        Ok(Plan::of_scenes(&serde_json::Map::new(), threads, names, measure))
+    }
+
+    fn answer(cases: &[PictureCounts], context: &Context<Self>) -> Vec<Prediction> {
+        result(&Inputs::new(cases, context.others))
+    }
+
+    fn tables(answer: &Vec<Prediction>) -> Vec<Table> {
+        vec![table(answer)]
+    }
+
+    fn data(answer: &Vec<Prediction>) -> Vec<Data> {
+        let measured = |p: &Prediction| !p.figures.is_empty() || p.claims.iter().any(|claim| claim.value.is_some());
+        let rows = answer.iter().flat_map(|p| p.claims.iter().map(|claim| Row { prediction: p.number, claim }));
+        let rows: Vec<Row> = if answer.iter().any(measured) { rows.collect() } else { vec![] };
+        vec![Data::new(Self::NAME, &rows)]
+    }
+
+    fn section(answer: &Vec<Prediction>, command: &str) -> Vec<Block> {
+        section::blocks(answer, command)
+    }
 }
 
 /// One expectation in the words that were written before the measurement, and what came of it.

@@ -8,39 +8,24 @@ mod tables;
 #[cfg(test)]
 mod tests;
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
-use super::epoch::{self, Asked, Epoch, PICTURE, Structure, WholeTimes, measure};
+use super::args::Measuring;
+use super::epoch::{self, Asked, Epoch, PICTURE, Settings, Structure, WholeTimes};
+use super::{BRUTE_FORCE, Context, Data, Effort, Plan, REPORT_TREE, SAH_TREE, SceneId, Study, parameters, sources};
 use crate::accel::Query;
-use crate::measure::{AaNoise, Clock, Estimate, Provenance, Rerun, Threads, epoch_values, median};
-use crate::registry::{Choice, ChoiceError, Registry};
+use crate::measure::{AaNoise, Estimate, Rerun, epoch_values, median};
+use crate::registry::Registry;
+use crate::report::Table;
+use crate::report::document::Block;
 use crate::scene::Scene;
-use crate::study::baselines::{BRUTE_FORCE, REPORT_TREE, SAH_TREE};
-use crate::study::parameters;
-use crate::study::{Stage, StudyError};
 use original::{HARD, HardRow, MAIN, SWEEP, t_prime};
 
 pub use tables::tables;
 
-/// How long the study may take.
-pub struct Settings {
-    /// How often everything is built anew, at least 1.
-    pub epochs: usize,
-    /// Samples of every structure in an epoch, at least 1.
-    pub runs: usize,
-    /// What the samples of an epoch of one scene may take together, nanoseconds; slow structures are timed on fewer rays and
-    /// extrapolated.
-    pub budget_ns: u64,
-    /// Seed of the order of samples.
-    pub seed: u64,
-    pub threads: Threads,
-}
-
 /// The report's three tables, ours beside its own, and its conclusion.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Replication {
-    /// Version of this form.
-    pub schema: u32,
     /// Scenes in which a mesh of our own stands in for a real one.
     pub stand_ins: Vec<String>,
     pub rays: Vec<Rays>,
@@ -48,11 +33,10 @@ pub struct Replication {
     pub parameters: Vec<Setting>,
     pub hard: Vec<Hard>,
     pub conclusion: Conclusion,
-    pub provenance: Provenance,
 }
 
 /// Rays of a 512 x 512 picture.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Rays {
     pub scene: String,
     pub primary: u64,
@@ -65,7 +49,7 @@ pub struct Rays {
 }
 
 /// Seconds of a picture.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Seconds {
     /// Geometric mean over the epochs.
     pub seconds: f64,
@@ -76,7 +60,7 @@ pub struct Seconds {
 }
 
 /// An easy or normal scene.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Main {
     pub scene: String,
     pub triangles: usize,
@@ -98,7 +82,7 @@ pub struct Main {
 }
 
 /// The report's tree with one pair of parameters on one scene.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Setting {
     pub scene: String,
     /// L.
@@ -111,7 +95,7 @@ pub struct Setting {
 }
 
 /// A hard scene, primary rays.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Hard {
     pub scene: String,
     pub triangles: usize,
@@ -135,7 +119,7 @@ pub struct Hard {
 }
 
 /// The claim that the report ends with: for the hard scenes a SAH tree would have been much faster.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Conclusion {
     /// The scenes of the mean.
     pub scenes: Vec<String>,
@@ -143,102 +127,102 @@ pub struct Conclusion {
     pub sah_over_median: Option<Estimate>,
 }
 
-/// What the study is told to do and told of, and what it makes of it.
-pub struct Study<'a> {
-    pub registry: &'a Registry,
-    pub settings: &'a Settings,
-    pub clock: &'a dyn Clock,
-}
-
 /// Where structures stand among those of an easy or normal scene: before the sweep of [`parameters::structures`].
 const BRUTE: usize = 0;
 const SAH: usize = 1;
 const FIRST_SETTING: usize = 2;
 
-impl Study<'_> {
-    /// An empty result, to which scenes are added.
-    pub fn start(&self) -> Replication {
-        Replication::empty(Provenance::of(&self.settings.threads))
+/// The study.
+pub struct ReplicateStudy;
+
+/// Its options.
+#[derive(Clone, Debug, clap::Args)]
+pub struct ReplicateArgs {
+    #[command(flatten)]
+    measuring: Measuring<4>,
+}
+
+impl Study for ReplicateStudy {
+    const NAME: &'static str = "replicate";
+    const QUESTION: &'static str = "Are the source report's tables found again, and is its conclusion true?";
+
+    type Args = ReplicateArgs;
+    type Case = Epoch;
+    type Answer = Replication;
+
+    fn command() -> String {
+        "sahara replicate".into()
     }
 
-    /// Names of the scenes of the report: easy and normal, then hard.
-    pub fn scenes() -> Vec<&'static str> {
-        MAIN.iter().map(|row| row.scene).chain(HARD.iter().map(|row| row.scene)).collect()
+    fn args(effort: Effort) -> ReplicateArgs {
+        ReplicateArgs { measuring: Measuring::of(effort) }
     }
 
-    /// Measures one scene of the report; others are passed over.
-    ///
-    /// # Errors
-    /// If a structure of the study is not registered, cannot be built or answers wrongly.
-    pub fn add(
-        &self,
-        scene: &Scene,
-        result: &mut Replication,
-        progress: &mut dyn FnMut(Stage),
-    ) -> Result<(), StudyError> {
-        if MAIN.iter().any(|row| row.scene == scene.name) {
-            let mut structures = self.choose(&[BRUTE_FORCE, SAH_TREE])?;
-            structures.extend(parameters::structures(self.registry)?);
-            result.add_main(&self.epochs(scene, structures, Asked::Picture, progress)?);
+    fn plan(args: &ReplicateArgs, registry: &Registry) -> anyhow::Result<Plan<Epoch>> {
+        let choose = |specs: &[&str]| specs.iter().map(|spec| registry.choose(spec)).collect::<Result<Vec<_>, _>>();
+        let mut sweep = choose(&[BRUTE_FORCE, SAH_TREE])?;
+        sweep.extend(parameters::structures(registry)?);
+        let hard = choose(&[REPORT_TREE, SAH_TREE, REPORT_TREE])?;
+        let settings = [(sweep, Asked::Picture), (hard, Asked::PrimaryPicture)]
+            .map(|(structures, asked)| args.measuring.settings(registry, structures, asked))
+            .into_iter()
+            .collect::<anyhow::Result<Vec<Settings>>>()?;
+        let names = MAIN.iter().map(|row| row.scene).chain(HARD.iter().map(|row| row.scene));
+        let scenes = names.map(sources::scene).collect::<anyhow::Result<Vec<Scene>>>()?;
+        let is_hard = |scene: &Scene| usize::from(HARD.iter().any(|row| row.scene == scene.name));
+        // A wrong answer ends a scene: there is nothing to compare with the report then.
+        let whole = |_, _: &Scene, epoch: Epoch| epoch.is_whole().map(|()| epoch);
+        Ok(epoch::plan(settings, is_hard, scenes, args.measuring.epochs, whole, |epoch| epoch))
+    }
+
+    fn answer(cases: &[Epoch], _: &Context<Self>) -> Replication {
+        let mut replication = Replication::default();
+        for epochs in epoch::scenes(cases) {
+            if MAIN.iter().any(|row| row.scene == epochs[0].scene) {
+                replication.add_main(&epochs);
+            } else {
+                replication.add_hard(&epochs);
+            }
         }
-        if HARD.iter().any(|row| row.scene == scene.name) {
-            let structures = self.choose(&[REPORT_TREE, SAH_TREE, REPORT_TREE])?;
-            result.add_hard(&self.epochs(scene, structures, Asked::PrimaryPicture, progress)?);
-        }
-        Ok(())
+        replication
     }
 
-    /// All epochs of a scene. A wrong answer ends the study: there is nothing to compare with the report then.
-    fn epochs(
-        &self,
-        scene: &Scene,
-        structures: Vec<Choice>,
-        asked: Asked,
-        progress: &mut dyn FnMut(Stage),
-    ) -> Result<Vec<Epoch>, StudyError> {
-        let Settings { runs, budget_ns, seed, ref threads, .. } = *self.settings;
-        let guide = self.registry.choose(SAH_TREE)?;
-        let threads = threads.clone();
-        let settings = epoch::Settings { structures, guide, asked, runs, budget_ns, seed, threads };
-        let mut epochs: Vec<Epoch> = vec![];
-        for number in 0..self.settings.epochs {
-            let epoch = measure(scene, &settings, number, epochs.first(), self.clock, progress)?;
-            epoch.is_whole()?;
-            epochs.push(epoch);
-        }
-        Ok(epochs)
+    fn tables(answer: &Replication) -> Vec<Table> {
+        tables(answer)
     }
 
-    fn choose(&self, specs: &[&str]) -> Result<Vec<Choice>, ChoiceError> {
-        specs.iter().map(|spec| self.registry.choose(spec)).collect()
+    fn data(answer: &Replication) -> Vec<Data> {
+        vec![
+            Data::new("main", &answer.main),
+            Data::new("rays", &answer.rays),
+            Data::new("settings", &answer.parameters),
+            Data::new("hard", &answer.hard),
+        ]
+    }
+
+    fn section(answer: &Replication, command: &str) -> Vec<Block> {
+        let text = "Rays, seconds and parameters as in the source report, ours beside its own. Seconds are of different machines \
+                    and code: compare their ratios.";
+        let tables = tables(answer).into_iter().map(|table| Block::table(table, command));
+        std::iter::once(Block::Text(text.into())).chain(tables).collect()
+    }
+
+    fn scenes(answer: &Replication) -> Vec<SceneId> {
+        answer.rays.iter().map(|rays| SceneId { name: rays.scene.clone(), hash: None }).collect()
     }
 }
 
 impl Replication {
-    /// Without any scene.
-    fn empty(provenance: Provenance) -> Self {
-        Self {
-            schema: 2,
-            stand_ins: vec![],
-            rays: vec![],
-            main: vec![],
-            parameters: vec![],
-            hard: vec![],
-            conclusion: Conclusion { scenes: vec![], sah_over_median: None },
-            provenance,
-        }
-    }
-
     /// Adds an easy or normal scene of the report.
-    fn add_main(&mut self, epochs: &[Epoch]) {
-        let first = &epochs[0];
+    fn add_main(&mut self, epochs: &[&Epoch]) {
+        let first = epochs[0];
         let Some(index) = MAIN.iter().position(|row| row.scene == first.scene) else { return };
         let row = &MAIN[index];
         let rays = self.add_rays(first, row.rays);
         let setting = |row: usize| FIRST_SETTING + row;
         let (tree, twin) = (setting(parameters::default_row()), setting(SWEEP.len()));
 
-        let times = WholeTimes::new(epochs);
+        let times = WholeTimes::new(epochs.iter().copied());
         let noise = AaNoise::new(&[times.cell(tree, twin)]);
         let seconds = |structure: usize| Seconds::of(&times, first, structure, rays, &noise);
         self.main.push(Main {
@@ -269,14 +253,14 @@ impl Replication {
     }
 
     /// Adds a hard scene of the report: its tree, the SAH tree, and its tree once more.
-    fn add_hard(&mut self, epochs: &[Epoch]) {
+    fn add_hard(&mut self, epochs: &[&Epoch]) {
         const TREE: usize = 0;
         const TWIN: usize = 2;
-        let first = &epochs[0];
+        let first = epochs[0];
         let Some(row): Option<&HardRow> = HARD.iter().find(|row| row.scene == first.scene) else { return };
         let rays = self.add_rays(first, row.rays);
 
-        let times = WholeTimes::new(epochs);
+        let times = WholeTimes::new(epochs.iter().copied());
         let noise = AaNoise::new(&[times.cell(TREE, TWIN)]);
         let seconds = |structure: usize| Seconds::of(&times, first, structure, rays, &noise);
         let build_s = |structure: usize| {

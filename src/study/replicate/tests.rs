@@ -21,15 +21,16 @@ fn epochs(scene: &str, stand_in: bool, times: &[u64]) -> Vec<Epoch> {
     (0..3).map(one).collect()
 }
 
-fn empty() -> Replication {
-    Replication::empty(Provenance::capture(1))
+/// The result of one scene after the other.
+fn add(result: &mut Replication, add: fn(&mut Replication, &[&Epoch]), epochs: &[Epoch]) {
+    add(result, &epochs.iter().collect::<Vec<_>>());
 }
 
 #[test]
 fn the_conclusion_is_the_mean_of_the_hard_scenes() {
-    let mut result = empty();
-    result.add_hard(&epochs("Dragon", true, &[800, 100, 800]));
-    result.add_hard(&epochs("Lucy", false, &[200, 100, 200]));
+    let mut result = Replication::default();
+    add(&mut result, Replication::add_hard, &epochs("Dragon", true, &[800, 100, 800]));
+    add(&mut result, Replication::add_hard, &epochs("Lucy", false, &[200, 100, 200]));
     let whole = result.conclusion.sah_over_median.unwrap();
     assert!((whole.estimate - 4.0).abs() < 1e-9 && (result.hard[0].sah_over_median.estimate - 8.0).abs() < 1e-9);
     assert_eq!((result.conclusion.scenes.len(), result.stand_ins.join(" ")), (2, "Dragon".into()));
@@ -43,8 +44,8 @@ fn the_conclusion_is_the_mean_of_the_hard_scenes() {
 #[test]
 fn a_tree_that_twins_cannot_tell_apart_has_a_wider_interval() {
     let ratio = |twin: u64| {
-        let mut result = empty();
-        result.add_hard(&epochs("Sponza", false, &[800, 100, twin]));
+        let mut result = Replication::default();
+        add(&mut result, Replication::add_hard, &epochs("Sponza", false, &[800, 100, twin]));
         let whole = result.hard[0].sah_over_median;
         whole.high().unwrap() / whole.low().unwrap()
     };
@@ -55,10 +56,10 @@ fn a_tree_that_twins_cannot_tell_apart_has_a_wider_interval() {
 
 #[test]
 fn an_easy_scene_has_its_improvement_and_its_sweep() {
-    let mut result = empty();
+    let mut result = Replication::default();
     let mut times = vec![900, 10];
     times.extend([110, 120, 130, 140, 300, 150, 300]);
-    result.add_main(&epochs("Torus", false, &times));
+    add(&mut result, Replication::add_main, &epochs("Torus", false, &times));
     let main = &result.main[0];
     assert!((main.improvement.estimate - 3.0).abs() < 1e-9 && main.improvement.is_above(2.9));
     assert_eq!(result.parameters.len(), SWEEP.len());

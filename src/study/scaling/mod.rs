@@ -5,6 +5,7 @@
 //! says less. Powers are fitted to medians on logarithms, over the meshes on which the structure has more than one
 //! leaf: a single leaf is brute force.
 
+mod section;
 mod spheres;
 mod table;
 #[cfg(test)]
@@ -12,19 +13,92 @@ mod tests;
 
 use serde::{Deserialize, Serialize};
 
-use super::epoch::{Epoch, Line, Twins, lines, middles, twins};
-use super::fit;
+use super::args::{Measuring, Rays, Scenes, Structures, with_twin};
+use super::epoch::{Epoch, Line, Twins, lines, middles, troubles, twins};
+use super::{Context, Data, Effort, Plan, Study, Trouble, least_squares};
 use crate::measure::{AaNoise, Estimate, Rerun, Variance};
+use crate::registry::Registry;
+use crate::report::Table;
+use crate::report::document::Block;
+use crate::scene::{Scene, WorkloadKind};
 
 pub use spheres::{LEVELS, sphere};
 pub use table::tables;
 
-/// Name of the study, and of its journal.
-pub const NAME: &str = "scaling";
-
 /// The structures compared unless others are named.
-pub const STRUCTURES: [&str; 7] =
+const STRUCTURES: [&str; 7] =
     ["median-kd", "sah-kd", "sah-kd-wide", "sah-hybrid", "sah-bvh", "obvhs-bvh2", "obvhs-cwbvh"];
+
+/// The study.
+pub struct ScalingStudy;
+
+/// Its options.
+#[derive(Clone, Debug, clap::Args)]
+pub struct ScalingArgs {
+    // Beside the icospheres.
+    #[command(flatten)]
+    scenes: Scenes,
+    /// The finest icosphere, of 20 times 4 to that power triangles
+    #[arg(long, value_name = "LEVEL", default_value_t = *LEVELS.end(), value_parser = clap::value_parser!(u32).range(0..=10))]
+    finest: u32,
+    #[command(flatten)]
+    structures: Structures,
+    #[command(flatten)]
+    rays: Rays,
+    #[command(flatten)]
+    measuring: Measuring,
+}
+
+impl Study for ScalingStudy {
+    const NAME: &'static str = "scaling";
+    const QUESTION: &'static str = "How do time, build and memory grow with the number of triangles?";
+
+    type Args = ScalingArgs;
+    type Case = FamilyEpoch;
+    type Answer = Vec<Growth>;
+
+    fn args(effort: Effort) -> ScalingArgs {
+        let (scenes, finest) = match effort {
+            Effort::Full => (Scenes::default(), *LEVELS.end()),
+            Effort::Quick => (Scenes::named(&["torus"]), 4),
+        };
+        let (rays, measuring) = (Rays::of(effort), Measuring::of(effort));
+        ScalingArgs { scenes, finest, structures: Structures::default(), rays, measuring }
+    }
+
+    fn plan(args: &ScalingArgs, registry: &Registry) -> anyhow::Result<Plan<FamilyEpoch>> {
+        let structures = with_twin(args.structures.chosen(registry, &STRUCTURES)?);
+        let asked = args.rays.asked(&[WorkloadKind::Primary, WorkloadKind::Random]);
+        let settings = args.measuring.settings(registry, structures, asked)?;
+        let mut scenes: Vec<Scene> = (0..=args.finest).map(sphere).collect::<Result<_, _>>()?;
+        let spheres = scenes.len();
+        scenes.extend(args.scenes.read(&["dragon", "lucy", "sponza"])?);
+        let family = move |scene: usize| if scene < spheres { Family::Spheres } else { Family::Meshes };
+        let wrap = move |scene, _: &Scene, epoch| Ok(FamilyEpoch { family: family(scene), epoch });
+        let plan = settings.plan_of(scenes, args.measuring.epochs, wrap, |case| &case.epoch);
+        Ok(Plan { inputs: args.scenes.files(), ..plan })
+    }
+
+    fn answer(cases: &[FamilyEpoch], _: &Context<Self>) -> Vec<Growth> {
+        result(cases)
+    }
+
+    fn tables(answer: &Vec<Growth>) -> Vec<Table> {
+        tables(answer)
+    }
+
+    fn troubles(cases: &[FamilyEpoch]) -> Vec<Trouble> {
+        troubles(cases.iter().map(|case| &case.epoch))
+    }
+
+    fn data(answer: &Vec<Growth>) -> Vec<Data> {
+        vec![Data::new(Self::NAME, &rows(answer))]
+    }
+
+    fn section(answer: &Vec<Growth>, command: &str) -> Vec<Block> {
+        section::blocks(answer, command)
+    }
+}
 
 /// What grows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -48,7 +122,7 @@ impl Family {
 
 /// One epoch of one mesh.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Case {
+pub struct FamilyEpoch {
     pub family: Family,
     pub epoch: Epoch,
 }
@@ -95,7 +169,7 @@ pub struct Point {
 
 /// The growth of every structure. The intervals hold what another run finds of these meshes; how well a power describes
 /// them is told by their scatter about it.
-pub fn result(cases: &[Case]) -> Vec<Growth> {
+pub fn result(cases: &[FamilyEpoch]) -> Vec<Growth> {
     let twins = twins(cases.iter().map(|case| &case.epoch));
     let mut growths = vec![];
     for family in [Family::Spheres, Family::Meshes] {
@@ -162,7 +236,7 @@ fn growth(family: Family, lines: &[&Line], twins: &Twins) -> Growth {
         workload: lines[0].workload.clone(),
         points: lines.iter().map(|line| point(line)).collect(),
         time: measured(|line| &line.trace, &twins.trace),
-        scatter: fit::scatter(&points),
+        scatter: least_squares::scatter(&points),
         build: measured(|line| &line.build, &twins.build),
         bytes: counted(&|line| Some(line.bytes as f64)),
         tests: counted(&|line| line.tests),
@@ -194,7 +268,7 @@ fn power(
 ) -> Option<Rerun> {
     let values: Vec<Vec<f64>> = lines.iter().map(|line| value(line)).collect::<Option<_>>()?;
     let places: Vec<f64> = lines.iter().map(|line| libm::log(line.triangles as f64)).collect();
-    let weights = fit::slope_weights(&places).filter(|weights| weights.len() > 2)?;
+    let weights = least_squares::slope_weights(&places).filter(|weights| weights.len() > 2)?;
     // Meshes are measured in the same epochs; of one that has more of them those that all have count.
     let epochs = values.iter().map(Vec::len).min()?;
     let slope = |e: usize| weights.iter().zip(&values).map(|(weight, logs)| weight * logs[e]).sum();

@@ -8,6 +8,11 @@ use crate::report::{Cell, Table};
 
 /// For each family and kind of rays the exponents, then the points they come from.
 pub fn tables(growths: &[Growth]) -> Vec<Table> {
+    groups(growths).iter().flat_map(|group| [exponents(group), points(group)]).collect()
+}
+
+/// Those of one family and kind of rays each.
+pub(super) fn groups(growths: &[Growth]) -> Vec<Vec<&Growth>> {
     let mut groups: Vec<Vec<&Growth>> = vec![];
     for growth in growths {
         match groups.iter_mut().find(|g| g[0].family == growth.family && g[0].workload == growth.workload) {
@@ -15,7 +20,7 @@ pub fn tables(growths: &[Growth]) -> Vec<Table> {
             None => groups.push(vec![growth]),
         }
     }
-    groups.iter().flat_map(|group| [exponents(group), points(group)]).collect()
+    groups
 }
 
 fn power(x: Option<Estimate>) -> Cell {
@@ -26,7 +31,7 @@ fn title(group: &[&Growth], what: &str) -> String {
     format!("{}, {} rays: {what}", group[0].family.words(), group[0].workload)
 }
 
-fn exponents(group: &[&Growth]) -> Table {
+pub(super) fn exponents(group: &[&Growth]) -> Table {
     let rows = group.iter().map(|growth| {
         let fitted: Vec<usize> = growth.points.iter().filter(|p| p.fitted).map(|p| p.triangles).collect();
         let over = match (fitted.first(), fitted.last()) {
@@ -56,7 +61,7 @@ fn exponents(group: &[&Growth]) -> Table {
     })
 }
 
-fn points(group: &[&Growth]) -> Table {
+pub(super) fn points(group: &[&Growth]) -> Table {
     let known = |x: Option<f64>| x.map_or(Cell::blank(), |x| figures(x).into());
     let rows = group.iter().flat_map(|growth| {
         growth.points.iter().map(|point| {

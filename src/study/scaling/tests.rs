@@ -2,7 +2,7 @@ use super::*;
 use crate::study::epoch::tests::example;
 
 /// Four levels, two epochs of three rounds: 2 ns times n^b, the build 1000 n^c, both with an odd epoch.
-fn family(b: f64, c: f64, wobble: f64) -> Vec<Case> {
+fn family(b: f64, c: f64, wobble: f64) -> Vec<FamilyEpoch> {
     let mut cases = vec![];
     for (i, n) in [100usize, 400, 1600, 6400].into_iter().enumerate() {
         for epoch in 0..2 {
@@ -10,7 +10,7 @@ fn family(b: f64, c: f64, wobble: f64) -> Vec<Case> {
             let at = |scale: f64, power: f64| (scale * libm::pow(n as f64, power) * libm::exp(off)) as u64;
             let ns = at(2e6, b);
             let epoch = example(&format!("sphere {n}"), n, epoch, &[("sah-kd", at(1e6, c), &[ns, ns + 10, ns + 5])]);
-            cases.push(Case { family: Family::Spheres, epoch });
+            cases.push(FamilyEpoch { family: Family::Spheres, epoch });
         }
     }
     cases

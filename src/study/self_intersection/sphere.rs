@@ -2,14 +2,14 @@ use std::fmt::{Display, Formatter};
 use std::sync::Arc;
 
 use glam::{DVec3, Vec3};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::geometry::{Mesh, Ray};
 use crate::scene::meshes::icosphere;
 use crate::validate::Sampler;
 
 /// A sphere of 1280 triangles, closed and convex even after its corners are rounded.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Sphere {
     pub radius: f64,
     /// All three coordinates of the centre.

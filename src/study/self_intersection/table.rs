@@ -1,24 +1,24 @@
 //! The study as a table for people.
 
-use super::{OFFSETS, PointFrom, Row, SelfIntersection, Sphere};
+use super::{OFFSETS, PointFrom, Row, Sphere};
 use crate::report::number::count;
 use crate::report::{Cell, Table, Tone};
 
 /// One row for each sphere and kind of point, one column for each way to start: acne and leaks in percent of their rays, from
 /// the least to the most of the structures and triangle tests.
-pub fn table(study: &SelfIntersection) -> Table {
+pub fn table(study: &[Row]) -> Table {
     let mut rows = vec![];
     for sphere in Sphere::ALL {
         for (point, name) in [(PointFrom::Ray, "o + t d"), (PointFrom::Corners, "corners")] {
             let cell = |name: String| {
-                let cases = study.rows.iter().filter(|r| r.sphere == sphere && r.point == point && r.offset == name);
+                let cases = study.iter().filter(|r| r.sphere == sphere && r.point == point && r.offset == name);
                 shown(&cases.collect::<Vec<_>>())
             };
             let cells = OFFSETS.iter().map(|offset| cell(offset.name()));
             rows.push([sphere.to_string().into(), name.into()].into_iter().chain(cells).collect());
         }
     }
-    let rays = study.rows.iter().map(|row| row.outward).max().unwrap_or(0);
+    let rays = study.iter().map(|row| row.outward).max().unwrap_or(0);
     let mut notes = vec![
         format!("{} rays outwards, as many inwards; {}", count(rays as u64), over(study).join(", ")),
         "acne: a ray that leaves the sphere hits it. leak: a ray that goes in hits nothing. point: what the way starts from; \
@@ -35,9 +35,9 @@ pub fn table(study: &SelfIntersection) -> Table {
 }
 
 /// Each structure and test once.
-fn over(study: &SelfIntersection) -> Vec<String> {
+fn over(study: &[Row]) -> Vec<String> {
     let mut names: Vec<String> = vec![];
-    for row in &study.rows {
+    for row in study {
         if !names.contains(&traced(row)) {
             names.push(traced(row));
         }
@@ -47,7 +47,7 @@ fn over(study: &SelfIntersection) -> Vec<String> {
 
 fn traced(row: &Row) -> String {
     // Tests other than a structure's first are part of its label.
-    if row.structure.contains(row.triangle_test) {
+    if row.structure.contains(&row.triangle_test) {
         row.structure.clone()
     } else {
         format!("{} over {}", row.structure, row.triangle_test)
@@ -55,8 +55,8 @@ fn traced(row: &Row) -> String {
 }
 
 /// What a triangle test does wrong by itself, left out of the table.
-fn own_errors(study: &SelfIntersection, name: &str) -> Option<String> {
-    let rows = || study.rows.iter().filter(|row| traced(row) == name);
+fn own_errors(study: &[Row], name: &str) -> Option<String> {
+    let rows = || study.iter().filter(|row| traced(row) == name);
     let wrong: usize = rows().map(|row| row.acne_of_test + row.leaks_of_test).sum();
     let all: usize = rows().map(|row| row.outward + row.inward).sum();
     let mut blind: Vec<String> = rows().filter(|row| row.outward == 0).map(|row| row.sphere.to_string()).collect();

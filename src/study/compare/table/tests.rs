@@ -20,8 +20,8 @@ fn record(scene: &str, label: &str, workload: &str, mrays_per_s: Option<f64>) ->
     }
 }
 
-fn scene_table(records: &[Record], refused: &[Refused], notes: &[String]) -> Table {
-    super::scene_table(records, &Reference::of(records, None), refused, notes)
+fn scene_table(records: &[Record], refused: &[Refused]) -> Table {
+    super::scene_table(records, &Reference::of(records, None), refused)
 }
 
 fn mean_table(records: &[Record]) -> Table {
@@ -52,7 +52,7 @@ fn records() -> Vec<Record> {
 
 #[test]
 fn ratios_are_geometric_means_against_the_tree_and_the_better_bvh() {
-    let table = scene_table(&records(), &[], &[]);
+    let table = scene_table(&records(), &[]);
     assert_eq!(cell(&table, "sah-kd", "x median"), "4.00");
     assert_eq!(cell(&table, "sah-kd", "x obvhs"), "1.41");
     assert_eq!(cell(&table, "median-kd", "x median"), "1.00");
@@ -66,7 +66,7 @@ fn what_is_declined_is_neither_right_nor_wrong() {
     let mut records = records();
     records[3] =
         Record { mrays_per_s: None, declined: Some("any hit".into()), structure_errors: Some(0), ..records[3].clone() };
-    let table = scene_table(&records, &[], &[]);
+    let table = scene_table(&records, &[]);
     assert_eq!(cell(&table, "sah-kd", "random"), "declined");
     assert_eq!(cell(&table, "sah-kd", "x median"), "8.00", "of the workloads that it does not decline");
     assert_eq!(table.notes, ["sah-kd declines any hit, which random rays need."]);
@@ -80,7 +80,7 @@ fn a_wrong_structure_shows_its_errors_and_no_time() {
     let mut records = records();
     records[2].mrays_per_s = None;
     records[2].structure_errors = Some(3);
-    let table = scene_table(&records, &[], &[]);
+    let table = scene_table(&records, &[]);
     assert_eq!(cell(&table, "sah-kd", "primary"), "3/100 wrong");
     assert_eq!(cell(&table, "sah-kd", "x median"), "");
     assert_eq!(cell(&table, "sah-kd", "random"), "4.00");
@@ -91,7 +91,7 @@ fn a_documented_defect_of_a_baseline_is_named_and_gets_no_time_either() {
     let mut records = records();
     records[4].mrays_per_s = None;
     records[4].structure_errors = Some(3);
-    let table = scene_table(&records, &[], &[]);
+    let table = scene_table(&records, &[]);
     assert_eq!(cell(&table, "obvhs-bvh2", "primary"), "3/100 wrong");
     assert_eq!(table.notes.len(), 1);
     assert!(table.notes[0].starts_with("obvhs-bvh2 answers 3 of 100 primary rays wrong"), "{:?}", table.notes);
@@ -122,10 +122,10 @@ fn what_lies_within_the_noise_is_said_to_be_no_difference() {
         (record.samples_ns, record.epochs) = (samples, 5);
         record.mrays_per_s = Some(1.0);
     }
-    let table = scene_table(&records, &[], &[]);
+    let table = scene_table(&records, &[]);
     assert_eq!(cell(&table, "sah-kd", "x obvhs"), "1.00 [0.973, 1.03] =", "the same samples");
     records[2].samples_ns = vec![1.01e6, 1e6, 1.01e6, 1e6, 1e6];
-    let table = scene_table(&records, &[], &[]);
+    let table = scene_table(&records, &[]);
     assert!(cell(&table, "sah-kd", "x obvhs").ends_with(" ="), "{table:?}");
     assert!(table.notes[0].starts_with("A/A noise (median-kd twice): 1.00%; 0 of 2"), "{:?}", table.notes);
 }
@@ -133,11 +133,10 @@ fn what_lies_within_the_noise_is_said_to_be_no_difference() {
 #[test]
 fn without_the_usual_references_the_first_structure_is_the_reference() {
     let records = [record("A", "sah-kd", "primary", Some(1.0)), record("A", "sah-bvh", "primary", Some(2.0))];
-    let table = scene_table(&records, &[], &["flat".into()]);
+    let table = scene_table(&records, &[]);
     assert!(!table.columns.iter().any(|c| c == "x median" || c == "x obvhs"), "{:?}", table.columns);
     assert_eq!([cell(&table, "sah-bvh", "x sah-kd"), cell(&table, "sah-kd", "x sah-kd")], ["2.00", "1.00"]);
-    assert_eq!(table.notes, ["flat"]);
-    let named = super::scene_table(&records, &Reference::of(&records, Some("sah-bvh")), &[], &[]);
+    let named = super::scene_table(&records, &Reference::of(&records, Some("sah-bvh")), &[]);
     assert_eq!(cell(&named, "sah-kd", "x sah-bvh"), "0.500");
     assert!(legend("primary", &Reference::of(&records, None)).iter().any(|line| line.starts_with("x sah-kd: ")));
 }

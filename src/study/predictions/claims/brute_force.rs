@@ -23,12 +23,11 @@ const ORDER: [&[&str]; 8] = [
 pub(super) fn brute_force(inputs: &Inputs) -> Prediction {
     let words = "Unoptimised t' is constant across scenes within a factor of 2; improvement order Torus ~ Sphere > Teapot > Metallic > \
                  Cornellbox > Starters > Billards > Infinitycandy > Cube.";
-    let main: &[Main] = inputs.replicated.as_ref().map_or(&[], |replicated| &replicated.main);
     // Both are about all scenes.
-    let main = if main.len() == MAIN.len() { main } else { &[] };
-    let by_t_prime = |a: &&Main, b: &&Main| a.brute_force.t_prime.estimate.total_cmp(&b.brute_force.t_prime.estimate);
+    let main: &[Main] = if inputs.replicated.len() == MAIN.len() { &inputs.replicated } else { &[] };
+    let by_t_prime = |a: &&Main, b: &&Main| a.brute_force_t_prime.estimate.total_cmp(&b.brute_force_t_prime.estimate);
     let ends = main.iter().max_by(by_t_prime).zip(main.iter().min_by(by_t_prime));
-    let factor = ends.map(|(most, least)| most.brute_force.t_prime.over(least.brute_force.t_prime));
+    let factor = ends.map(|(most, least)| most.brute_force_t_prime.over(least.brute_force_t_prime));
     let expected: Vec<(&Main, usize)> = ORDER
         .iter()
         .enumerate()

@@ -4,7 +4,7 @@ use super::{Bounds, Claim, prediction};
 use crate::measure::Estimate;
 use crate::report::number::count;
 use crate::report::words::listed;
-use crate::study::predictions::{Case, Inputs, Prediction, Verdict};
+use crate::study::predictions::{Inputs, PictureCounts, Prediction, Verdict};
 use crate::study::replicate::original::MAIN;
 
 /// Its creatures must not be copied: its rays are our own.
@@ -41,7 +41,7 @@ pub(super) fn rays(inputs: &Inputs) -> Prediction {
         };
         format!("{}.{cornell}", listed(&off))
     };
-    let moved = |case: &&Case| case.default_rays != case.rays;
+    let moved = |case: &&PictureCounts| case.default_rays != case.rays;
     let moved: Vec<String> = inputs
         .counted
         .iter()

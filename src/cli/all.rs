@@ -1,0 +1,58 @@
+//! `study all`: everything that the page shows, in one run that can be killed and goes on with the case that it was measuring.
+
+use std::path::PathBuf;
+use std::time::Instant;
+
+use super::Suite;
+use super::study::{Common, RUNS, run_as};
+use super::terminal::Terminal;
+use crate::report::Table;
+use crate::report::number::duration;
+use crate::study::{Chosen, Effort, Status};
+
+/// Name of the command.
+pub const NAME: &str = "all";
+
+/// Every study, one after the other: a run that is killed goes on with the case that it was at
+#[derive(Clone, Debug, clap::Args)]
+pub struct Args {
+    /// The folder of journals: the same command again goes on where the last one stopped
+    #[arg(long, value_name = "DIR", default_value = RUNS)]
+    dir: PathBuf,
+    /// Throw away what was measured before, and start anew
+    #[arg(long)]
+    fresh: bool,
+    /// A few minutes for trying out: few scenes, rays and epochs; its numbers mean little
+    #[arg(long)]
+    quick: bool,
+}
+
+pub fn run(suite: &Suite, args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
+    let effort = if args.quick { Effort::Quick } else { Effort::Full };
+    let common = Common { dir: Some(args.dir.clone()), fresh: args.fresh, ..Common::default() };
+    let mut outcome = Status::Right;
+    let mut rows = vec![];
+    let studies = suite.studies.in_order_of_measuring();
+    for (i, study) in studies.iter().enumerate() {
+        if !terminal.quiet {
+            let rest: Vec<&str> = studies[i + 1..].iter().map(|study| study.name()).collect();
+            let left = if rest.is_empty() { "nothing".into() } else { rest.join(", ") };
+            eprintln!("{}; then left: {left}", study.name());
+        }
+        let start = Instant::now();
+        let found = run_as(suite, *study, Chosen::Preset(effort), &common, terminal)?;
+        outcome = outcome.and(found);
+        let words = match found {
+            Status::Wrong => "wrong answers",
+            Status::Refused => "a structure took no part",
+            _ => "right",
+        };
+        let took = duration(start.elapsed().as_nanos() as f64);
+        rows.push([study.name().into(), took, words.into(), format!("{}.jsonl", study.name())]);
+    }
+    let title = format!("All studies, in {}", args.dir.display());
+    let mut table = Table::of_texts(&title, ["study", "took", "answers", "journal"], rows);
+    table.notes.push(format!("Nothing is left. `sahara report {} -o OUT` makes the page.", args.dir.display()));
+    terminal.print_table(&table)?;
+    Ok(outcome)
+}

@@ -1,0 +1,127 @@
+//! Running a study: `study NAME`, and those that have a command of their own.
+
+use std::path::PathBuf;
+
+use clap::{ArgMatches, Args as _, FromArgMatches};
+
+use super::Suite;
+use super::progress::OnTerminal;
+use super::terminal::Terminal;
+use crate::output::OutputFile;
+use crate::report::plot::Format;
+use crate::report::to_markdown;
+use crate::study::{AnyStudy, Chosen, Measured, Run, Status};
+
+/// Where studies keep their journals.
+pub const RUNS: &str = "runs";
+
+/// Options of every study beside its own.
+#[derive(Clone, Debug, Default, clap::Args)]
+pub struct Common {
+    /// The folder of journals: the same command again goes on where the last one stopped [default: runs; a study of seconds, and
+    /// `compare`, keep none]
+    #[arg(long, value_name = "DIR")]
+    pub dir: Option<PathBuf>,
+    /// Throw away what was measured before, and start anew
+    #[arg(long)]
+    pub fresh: bool,
+    /// Write the result as JSON
+    #[arg(long, value_name = "FILE")]
+    pub export_json: Option<PathBuf>,
+    /// Write one row per measured thing as CSV
+    #[arg(long, value_name = "FILE")]
+    pub export_csv: Option<PathBuf>,
+    /// Write the tables as Markdown
+    #[arg(long, value_name = "FILE")]
+    pub export_markdown: Option<PathBuf>,
+    /// Draw the answer, if the study has a picture of it: error against time of `accuracy`; may be repeated
+    #[arg(long, value_name = "F.svg|F.png")]
+    pub plot: Vec<PathBuf>,
+}
+
+/// The files of a run.
+#[derive(Default)]
+struct Files {
+    json: Option<OutputFile>,
+    csv: Option<OutputFile>,
+    markdown: Option<OutputFile>,
+    plots: Vec<(OutputFile, Format)>,
+}
+
+impl Common {
+    /// Checks all files before the long run; none of them is one of `inputs`.
+    fn check(&self, inputs: &[PathBuf]) -> anyhow::Result<Files> {
+        let file = |path: &PathBuf| -> anyhow::Result<OutputFile> {
+            Ok(OutputFile::check(path)?.apart_from(inputs.iter().map(PathBuf::as_path))?)
+        };
+        let check = |path: &Option<PathBuf>| path.as_ref().map(file).transpose();
+        let (json, csv, markdown) =
+            (check(&self.export_json)?, check(&self.export_csv)?, check(&self.export_markdown)?);
+        let plots = self.plot.iter().map(|path| anyhow::Ok((file(path)?, Format::of(path)?)));
+        Ok(Files { json, csv, markdown, plots: plots.collect::<anyhow::Result<_>>()? })
+    }
+}
+
+/// The command of a study.
+pub fn command(study: &dyn AnyStudy) -> clap::Command {
+    let command = Common::augment_args(study.augment(clap::Command::new(study.name())));
+    // The options come with what they themselves are about.
+    command.about(study.question()).long_about(None)
+}
+
+/// Runs a study from its own command line.
+pub fn run(suite: &Suite, study: &dyn AnyStudy, matches: &ArgMatches, terminal: &Terminal) -> anyhow::Result<Status> {
+    run_as(suite, study, Chosen::Matches(matches), &Common::from_arg_matches(matches)?, terminal)
+}
+
+/// Runs a study, prints what it says and writes the files.
+pub fn run_as(
+    suite: &Suite,
+    study: &dyn AnyStudy,
+    chosen: Chosen,
+    common: &Common,
+    terminal: &Terminal,
+) -> anyhow::Result<Status> {
+    let folder = common.dir.clone().or_else(|| study.is_kept().then(|| RUNS.into()));
+    let mut screen = OnTerminal::new(terminal);
+    let mut run = Run {
+        registry: &suite.registry,
+        studies: &suite.studies,
+        folder: folder.as_deref(),
+        fresh: common.fresh,
+        screen: &mut screen,
+    };
+    let mut files = Files::default();
+    let measured = study.run(chosen, &mut run, &mut |inputs| {
+        files = common.check(inputs)?;
+        Ok(())
+    })?;
+    drop(screen);
+
+    let Measured { answer, provenance, tables, printed, foot, outcome, failure } = measured;
+    tables[printed..].iter().try_for_each(|table| terminal.print_table(table))?;
+    terminal.print_lines(&foot)?;
+    let answer = answer.as_ref();
+    if let Some(file) = files.json {
+        file.write(&study.json(answer, &provenance))?;
+    }
+    if let Some(file) = files.csv {
+        file.write(&study.csv(answer, &provenance))?;
+    }
+    if let Some(file) = files.markdown {
+        file.write(&to_markdown(&tables, &foot))?;
+    }
+    for (file, format) in files.plots {
+        let plot = study.plot(answer);
+        let plot = plot.ok_or_else(|| anyhow::anyhow!("study {} has no picture: leave --plot out", study.name()))?;
+        file.write(&plot.bytes(format))?;
+    }
+    match failure {
+        Some(error) if error.is_wrong_answer() => {
+            eprintln!("error: {error}");
+            Ok(Status::Wrong)
+        }
+        Some(error) => Err(error.into()),
+        None => Ok(outcome),
+    }
+}

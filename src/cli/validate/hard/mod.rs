@@ -1,0 +1,155 @@
+//! `validate --hard`.
+
+mod child;
+
+use std::io;
+use std::path::Path;
+use std::sync::Mutex;
+use std::thread;
+use std::time::Duration;
+
+use anyhow::Context;
+
+use super::Args;
+use crate::cli::progress::Progress;
+use crate::cli::terminal::Terminal;
+use crate::measure::Provenance;
+use crate::output::OutputFile;
+use crate::registry::{Choice, Registry};
+use crate::report::number::plural;
+use crate::report::to_json;
+use crate::study::Status;
+use crate::study::documented_defect;
+use crate::study::hard_cases::{
+    Answers, Column, Court, Failure, HardCase, HardRecord, HardRun, Score, catalogue, find_all, legend, tables,
+};
+use crate::study::sources;
+use crate::triangle::{Exact, TriangleTest};
+
+pub use child::{Args as ChildArgs, COMMAND as CHILD, run as run_child};
+
+/// Children at a time.
+const CHILDREN: usize = 2;
+
+/// Rays of a case, at most; no case has more.
+const MOST_RAYS: usize = 10_000;
+
+pub fn run(registry: &Registry, args: &Args, named: &[String], terminal: &Terminal) -> anyhow::Result<Status> {
+    let cases = if named.is_empty() {
+        catalogue()
+    } else {
+        named.iter().map(|name| find_all(name)).collect::<Result<Vec<_>, _>>()?.concat()
+    };
+    let structures = sources::structures_at(registry, &args.structure, args.quality.as_deref())?;
+    let choices = choices(registry, structures, &args.test)?;
+    let rays = u32::try_from(args.rays.number()?.min(MOST_RAYS))?;
+    let json = args.export_json.as_deref().map(OutputFile::check).transpose()?;
+    let program = std::env::current_exe()
+        .context("this program cannot find itself to ask structures in a process of their own")?;
+
+    let mut columns: Vec<Column> = choices.iter().map(Column::of).collect();
+    let mut progress = Progress::over(cases.len(), terminal);
+    let mut records = vec![];
+    for case in &cases {
+        progress.scene(case.name);
+        let scores = scores(&program, case, &choices, rays, args.limit())?;
+        for ((choice, column), score) in choices.iter().zip(&mut columns).zip(scores) {
+            records.push(HardRecord::new(case, choice, &score));
+            column.scores.push(score);
+        }
+        progress.scene_done();
+    }
+    progress.finish();
+
+    for table in tables(&cases, &columns) {
+        terminal.print_table(&table)?;
+    }
+    terminal.print_lines(&legend())?;
+    if let Some(file) = json {
+        // Every structure answers on one thread.
+        let provenance = Provenance::capture(1);
+        file.write(&to_json(&HardRun { schema: HardRun::SCHEMA, provenance, results: records }))?;
+    }
+    let wrong =
+        choices.iter().zip(&columns).any(|(choice, column)| column.scores.iter().any(|score| owed(choice, score)));
+    Ok(if wrong { Status::Wrong } else { Status::Right })
+}
+
+/// Whether a structure owes a better answer: all but the baselines with their documented defects owe one, without structure
+/// errors; those over the exact test owe the truth.
+fn owed(choice: &Choice, score: &Score) -> bool {
+    let inexact = |score: &Score| match score {
+        Score::Rays(rays) => rays.inexact > 0,
+        _ => false,
+    };
+    let sound = score.is_sound() && !(choice.triangle_test() == Exact::NAME && inexact(score));
+    !sound && documented_defect(&choice.entry.name).is_none()
+}
+
+/// The structures asked for, each over all the tests asked for that it is offered over; the baselines with defects of their
+/// own, and structures that are offered over none of the tests, stay as they are.
+fn choices(registry: &Registry, structures: Vec<Choice>, tests: &[String]) -> anyhow::Result<Vec<Choice>> {
+    sources::known_tests(registry, tests)?;
+    let mut choices = vec![];
+    for choice in structures {
+        let name = &choice.entry.name;
+        let offered: Vec<&String> = tests.iter().filter(|test| registry.find(name, test).is_some()).collect();
+        if offered.is_empty() || documented_defect(name).is_some() || choice.label.contains("test=") {
+            choices.push(choice);
+            continue;
+        }
+        let separator = if choice.label.contains(':') { ',' } else { ':' };
+        for test in offered {
+            choices.push(sources::structure(registry, &format!("{}{separator}test={test}", choice.label))?);
+        }
+    }
+    Ok(choices)
+}
+
+/// Asks all structures, some at a time, and finds the truth meanwhile.
+fn scores(
+    program: &Path,
+    case: &HardCase,
+    choices: &[Choice],
+    rays: u32,
+    limit: Duration,
+) -> anyhow::Result<Vec<Score>> {
+    let waiting = Mutex::new(choices.iter().enumerate());
+    let worker = || -> io::Result<Vec<(usize, Result<Answers, Failure>)>> {
+        let mut done = vec![];
+        loop {
+            let next = waiting.lock().expect("no worker panics").next();
+            let Some((index, choice)) = next else { return Ok(done) };
+            done.push((index, child::answers(program, case, choice, rays, limit)?));
+        }
+    };
+    let (mut court, mut answers) = thread::scope(|scope| -> anyhow::Result<_> {
+        let workers: Vec<_> = (0..CHILDREN).map(|_| scope.spawn(worker)).collect();
+        let court = Court::new(case, rays as usize);
+        let mut answers = vec![];
+        for worker in workers {
+            let done = worker.join().expect("a worker only waits");
+            answers.extend(done.context("no process can be started to ask a structure")?);
+        }
+        Ok((court, answers))
+    })?;
+
+    answers.sort_by_key(|(index, _)| *index);
+    let mut scores = vec![];
+    for (index, answers) in answers {
+        scores.push(match answers {
+            Ok(answers) => court.score(choices[index].triangle_test(), answers)?,
+            Err(failure) => Score::Failed(failure),
+        });
+    }
+    Ok(scores)
+}
+
+/// The cases, and why systems fail on them.
+pub fn described() -> Vec<String> {
+    let lines = |case: &&HardCase| {
+        let what = case.rays(MOST_RAYS).map_or("a property".into(), |rays| plural(rays, "ray"));
+        [format!("{} {}: {what}", case.number, case.name), format!("   {} ({})", case.reason, case.source)]
+    };
+    catalogue().iter().flat_map(lines).collect()
+}

@@ -1,0 +1,24 @@
+//! The report as one page that needs nothing else.
+
+mod sort_key;
+mod style;
+mod view;
+
+use minijinja::value::Serde;
+use minijinja::{AutoEscape, Environment, UndefinedBehavior};
+
+use crate::report::document::Document;
+
+/// The page.
+///
+/// Everything that is text is escaped; drawings, style and script are our own.
+pub fn page(document: &Document) -> String {
+    let mut environment = Environment::new();
+    environment.set_auto_escape_callback(|_| AutoEscape::Html);
+    environment.set_undefined_behavior(UndefinedBehavior::Strict);
+    environment.add_template("page.html", include_str!("page.html")).expect(RENDERED);
+    let template = environment.get_template("page.html").expect(RENDERED);
+    template.render(Serde(view::page(document, style::sheet()))).expect(RENDERED)
+}
+
+const RENDERED: &str = "a test renders the template with all kinds of blocks";

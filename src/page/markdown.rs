@@ -1,0 +1,63 @@
+//! The report as Markdown, with pictures beside it.
+
+use super::files::picture_name;
+use crate::report::document::{Art, Block, Document, Figure};
+use crate::report::escaped;
+
+/// The text of the file.
+pub fn markdown(document: &Document) -> String {
+    let mut text = format!("# {}\n\n", escaped(&document.title));
+    if !document.answer.banner.is_empty() {
+        text += &format!("> **{}**\n\n", escaped(&document.answer.banner));
+    }
+    text += &format!("**{}.**\n\n", escaped(&document.answer.verdict));
+    for number in &document.answer.numbers {
+        text += &format!("- {}: **{}** {}\n", escaped(&number.label), escaped(&number.number), number.interval);
+    }
+    for sentence in &document.answer.sentences {
+        text += &format!("\n{}\n", escaped(sentence));
+    }
+    for section in &document.sections {
+        text += &format!("\n## {}\n\n", escaped(section.title));
+        blocks(&section.blocks, &mut text);
+    }
+    text
+}
+
+fn blocks(list: &[Block], text: &mut String) {
+    for block in list {
+        match block {
+            Block::Text(words) | Block::Note(words) => *text += &format!("{}\n\n", escaped(words)),
+            Block::Table(tabular) => {
+                *text += &tabular.table.to_markdown();
+                *text += &command(&tabular.command);
+            }
+            Block::Figure(f) => figure(f, text),
+            Block::Missing(missing) => {
+                *text += &format!("Not measured: {}. `{}` measures it.\n\n", escaped(&missing.what), missing.command);
+            }
+            Block::Fold(name, inner) => {
+                *text += &format!("**{}**\n\n", escaped(name));
+                blocks(inner, text);
+            }
+        }
+    }
+}
+
+fn figure(figure: &Figure, text: &mut String) {
+    let mut image = |alt: &str, path: &str| *text += &format!("![{}]({path})\n", escaped(alt).replace(['[', ']'], ""));
+    match &figure.art {
+        Art::Chart(_) => image(&figure.alt, &format!("figures/{}.svg", figure.id)),
+        Art::Gallery(pictures) => {
+            pictures.iter().enumerate().for_each(|(i, p)| image(&p.alt, &picture_name(&figure.id, i)));
+        }
+        Art::Overlay(overlay) => {
+            overlay.pictures.iter().enumerate().for_each(|(i, p)| image(&p.alt, &picture_name(&figure.id, i)));
+        }
+    }
+    *text += &format!("\n{}\n{}", escaped(&figure.caption), command(&figure.command));
+}
+
+fn command(command: &str) -> String {
+    if command.is_empty() { "\n".into() } else { format!("\n```console\n{command}\n```\n\n") }
+}

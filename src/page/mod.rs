@@ -1,0 +1,23 @@
+//! `report`: what runs have measured as a page, Markdown, LaTeX and tidy data.
+//!
+//! Runs become a [`Document`] of text, tables and figures by pure functions; every form is written from that. What no run
+//! has measured is named with its command.
+
+mod base64;
+mod files;
+mod folder;
+mod html;
+mod latex;
+mod markdown;
+mod pictures;
+mod runs;
+mod sections;
+#[cfg(test)]
+mod tests;
+
+pub use files::files;
+pub use folder::{FolderError, ReportFolder};
+pub use html::page;
+pub use pictures::{draw, left_out};
+pub use runs::{RunError, Runs, Source};
+pub use sections::document;

@@ -1,0 +1,47 @@
+//! The whole page: a section for each study, in the order of the list, and what frames them.
+
+mod answer;
+mod provenance;
+
+use super::runs::Runs;
+use crate::report::document::{Block, Document, Section};
+use crate::study::Studies;
+
+pub use answer::QUESTION;
+
+/// The whole report; `pictures` are the sections that are drawn and not measured. A study whose answer has no data is named with
+/// the command that measures it.
+pub fn document(runs: &Runs, studies: &Studies, pictures: Vec<Section>) -> Document {
+    let mut sections = pictures;
+    for study in studies.iter() {
+        let answer = runs.answers.get(study.name());
+        let answer = answer.filter(|answer| study.data(*answer).iter().any(|data| !data.rows.is_empty()));
+        let blocks = match answer {
+            Some(answer) => study.section(answer, &runs.command(study)),
+            None => vec![Block::missing(study.question(), &study.command())],
+        };
+        sections.push(Section { id: study.name(), title: study.question(), blocks });
+    }
+    let mut document = Document { title: QUESTION.into(), answer: answer::answer(runs), sections };
+    let missing = document.missing().into_iter().map(|m| (m.what.clone(), m.command.clone())).collect();
+    let mut known = vec![];
+    document.sections.iter_mut().for_each(|section| name_apart(&mut section.blocks, &mut known));
+    document.sections.push(provenance::section(runs, missing));
+    document
+}
+
+/// Gives figures of one name, as scenes of much the same name have, names of their own.
+fn name_apart(blocks: &mut [Block], known: &mut Vec<String>) {
+    for block in blocks {
+        match block {
+            Block::Fold(_, inner) => name_apart(inner, known),
+            Block::Figure(figure) => {
+                let names = std::iter::once(figure.id.clone()).chain((2..).map(|n| format!("{}-v{n}", figure.id)));
+                let free = names.into_iter().find(|name| !known.contains(name));
+                figure.id = free.expect("there are more numbers than figures");
+                known.push(figure.id.clone());
+            }
+            _ => {}
+        }
+    }
+}

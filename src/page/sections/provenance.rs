@@ -1,0 +1,67 @@
+//! Where the numbers come from.
+
+use crate::measure::Provenance;
+use crate::page::runs::Runs;
+use crate::report::document::{Block, Section};
+use crate::report::words::command_line;
+
+use crate::report::Table;
+use crate::report::number::plural;
+
+/// Every file and every machine; `missing` is what no run has measured.
+pub fn section(runs: &Runs, missing: Vec<(String, String)>) -> Section {
+    let sources = runs.sources.iter().map(|source| {
+        let path = source.path.display().to_string();
+        [path, source.kind.clone(), source.command.clone(), source.replaced.clone()]
+    });
+    let mut files = Table::of_texts(
+        "Files that this report was made from, oldest first",
+        ["file", "holds", "made by", "left out"],
+        sources.collect(),
+    );
+    files.notes.push(
+        "Where several files measured the same scene with the same command, the one last written counts: samples of \
+         different runs are no pairs."
+            .into(),
+    );
+    let mut blocks = vec![Block::table(files, ""), Block::table(machines(&runs.provenances()), "")];
+    blocks.extend(warnings(&runs.provenances()).map(|table| Block::table(table, "")));
+    if !missing.is_empty() {
+        let rows = missing.into_iter().map(|(what, command)| [what, command]);
+        let title = format!("Not measured: {}", plural(rows.len(), "part"));
+        blocks.push(Block::table(Table::of_texts(&title, ["what", "command"], rows.collect()), ""));
+    }
+    Section { id: "provenance", title: "Where the numbers come from", blocks }
+}
+
+/// One row for each machine and build.
+fn machines(all: &[&Provenance]) -> Table {
+    let mut rows: Vec<[String; 6]> = vec![];
+    for p in all {
+        let pinned = if p.pinned.is_some() { ", pinned" } else { "" };
+        let governor = p.governor.as_ref().map_or(String::new(), |governor| format!("; governor {governor}"));
+        let row = [
+            p.cpu.clone(),
+            p.simd.clone(),
+            format!("{} of {} processors{pinned}; denormals {}{governor}", p.threads, p.cores, p.denormals),
+            format!("{} {}, {}", p.version, p.commit, p.profile),
+            p.rustc.clone(),
+            p.target.clone(),
+        ];
+        if !rows.contains(&row) {
+            rows.push(row);
+        }
+    }
+    Table::of_texts(
+        "Machines and builds",
+        ["processor", "instructions", "threads", "sahara", "compiler", "target"],
+        rows,
+    )
+}
+
+/// What spoilt runs, as they say themselves.
+fn warnings(all: &[&Provenance]) -> Option<Table> {
+    let rows = all.iter().flat_map(|p| p.warnings.iter().map(|warning| [command_line(&p.command), warning.clone()]));
+    let rows: Vec<[String; 2]> = rows.collect();
+    (!rows.is_empty()).then(|| Table::of_texts("What spoilt these runs", ["command", "warning"], rows))
+}

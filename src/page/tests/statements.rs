@@ -1,0 +1,66 @@
+//! What a report says must be true of the runs that it is made from, and of the form that it has.
+
+use super::*;
+use crate::page::pictures::draw;
+use crate::registry::Registry;
+use crate::scene::Scene;
+
+/// The three forms of a document.
+fn forms(document: &Document) -> [String; 3] {
+    [page(document), crate::page::markdown::markdown(document), crate::page::latex::latex(document)]
+}
+
+#[test]
+fn a_quick_look_says_so_before_its_verdict() {
+    let quick = |record: Record| Record { provenance: provenance("sahara study all --quick"), ..record };
+    let records = |quick_one: bool| {
+        let all = records("Dragon").into_iter().map(|record| if quick_one { quick(record) } else { record });
+        read(folder(&[("compare.json", to_json(&all.collect::<Vec<_>>()))]).path())
+    };
+    for text in forms(&document(&records(true), vec![])) {
+        let text = text.replace("\\-", "-").replace("--", "-").replace("\\_", "_");
+        let (banner, verdict) = (text.find("A quick look").unwrap(), text.find("Yes, on Dragon").unwrap());
+        assert!(banner < verdict, "{}", &text[..verdict.min(2000)]);
+    }
+    for text in forms(&document(&records(false), vec![])) {
+        assert!(!text.contains("A quick look") && text.contains("Yes, on Dragon"));
+    }
+}
+
+#[test]
+fn only_a_page_speaks_of_a_slider() {
+    let [page, markdown, latex] = forms(&cube().0);
+    assert!(page.contains("the slider moves"));
+    assert!(!markdown.contains("slider") && !latex.contains("slider"));
+    let heat = draw(&of_scene("Cube"), (&Registry::builtin(), &Studies::builtin()), &find, &mut |_| ());
+    let said = format!("{heat:?}");
+    assert!(said.contains("Where the work is") && !said.contains("slider"));
+}
+
+fn of_scene(scene: &str) -> Runs {
+    read(folder(&[("compare.json", to_json(&records(scene)))]).path())
+}
+
+/// `Cube`, by its own name or as somebody's mesh.
+fn find(name: &str) -> Option<Scene> {
+    let cube = || crate::scene::Builtin::find("cube").unwrap().scene(None).unwrap();
+    match name {
+        "Cube" => Some(cube()),
+        "mine" => Some(Scene { name: "mine".into(), ..cube() }),
+        _ => None,
+    }
+}
+
+#[test]
+fn only_built_in_scenes_have_the_cameras_of_the_source_report() {
+    let caption = |scene: &str| {
+        let runs = of_scene(scene);
+        let sections = draw(&runs, (&Registry::builtin(), &Studies::builtin()), &find, &mut |_| ());
+        let mut blocks = sections.into_iter().find(|section| section.id == "scenes").unwrap().blocks;
+        let Block::Figure(figure) = blocks.remove(0) else { panic!("{scene} is not drawn") };
+        figure.caption
+    };
+    assert!(caption("Cube").contains("rendered by sahara with the source report's cameras"));
+    let mine = caption("mine");
+    assert!(mine.contains("the built-in ones with the source report's") && mine.contains("whole in view"), "{mine}");
+}

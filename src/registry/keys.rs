@@ -1,0 +1,106 @@
+//! What the keys of structures mean, for people.
+
+use serde_json::Value;
+
+use super::Entry;
+
+/// A key of a structure.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Key {
+    pub name: String,
+    /// Empty where it is not known, as for structures of other crates.
+    pub meaning: &'static str,
+    /// What it takes.
+    pub values: String,
+    pub default: String,
+}
+
+/// Keys of the structures of this crate and of obvhs; a name means the same in all of them.
+const MEANINGS: [(&str, &str); 24] = [
+    ("plane", "where a node is split"),
+    ("axis", "the axis of a median"),
+    ("stop", "when a node stays a leaf"),
+    ("traversal", "how rays walk the tree"),
+    ("leaf", "L: a node of fewer triangles is a leaf, with stop=report or stop=leaf"),
+    ("limit", "whether a node of exactly L triangles may still be split"),
+    ("threshold", "T: share of triangles on both sides at which a split is discarded, with stop=report; in (0, 1]"),
+    ("count", "whose triangles T is a share of"),
+    ("median", "which value is the middle of the vertex coordinates"),
+    ("equal", "where a triangle goes that has a vertex in the plane"),
+    ("exit", "when a ray stops"),
+    ("mailbox", "keeps a ray from testing a triangle twice"),
+    ("traversal_cost", "SAH cost of an inner node; more gives bigger leaves"),
+    ("intersection_cost", "SAH cost of a block of eight triangles; more gives smaller leaves"),
+    ("block_cost", "SAH cost of a block of eight triangles, a node costing 1; more gives smaller leaves"),
+    ("exact", "nodes of at most so many references try every plane, with plane=sah-binned"),
+    ("candidates", "planes that are tried on an axis, with plane=sah-binned; 2 to 62"),
+    ("sample", "references of a large node that tell where to split it, with plane=sah-binned; at least 16"),
+    ("empty_bonus", "share of the SAH cost that cutting off empty space saves; in [0, 1)"),
+    ("duplication", "references a build may make, as a multiple of the triangles; at least 1"),
+    ("partition", "how the triangles are divided"),
+    ("quality", "how much time a build may take for a better tree"),
+    ("batch", "how the rays of a slice are answered"),
+    ("preset", "the builder's preset, from the fastest build to the best tree"),
+];
+
+impl Entry {
+    /// The keys, in the order of the configuration.
+    pub fn keys(&self) -> Vec<Key> {
+        let known = |name: &str| MEANINGS.iter().find(|(key, _)| *key == name).map_or("", |(_, meaning)| meaning);
+        let key = |(name, value): (&String, &Value)| Key {
+            name: name.clone(),
+            meaning: known(name),
+            values: self.values(name, value),
+            default: shown(value),
+        };
+        self.config().as_object().into_iter().flatten().map(key).collect()
+    }
+
+    /// What a key takes: its words as the configuration itself lists them where they are refused.
+    fn values(&self, key: &str, default: &Value) -> String {
+        match default {
+            Value::Bool(_) => "true, false".into(),
+            Value::Number(n) if n.is_f64() => "number".into(),
+            Value::Number(_) => "integer".into(),
+            _ => {
+                let refused = self.configure(&[(key, "?")], false).err().map_or(String::new(), |e| e.to_string());
+                let words: Vec<&str> = refused.rsplit("expected").next().unwrap_or("").split('`').collect();
+                words.chunks(2).filter_map(|pair| pair.get(1).copied()).collect::<Vec<_>>().join(", ")
+            }
+        }
+    }
+}
+
+/// A value as one would type it: numbers in single precision are not spelt out in double precision.
+fn shown(value: &Value) -> String {
+    match value {
+        Value::String(text) => text.clone(),
+        Value::Number(n) => match n.as_f64() {
+            Some(x) if n.is_f64() && f64::from(x as f32) == x => (x as f32).to_string(),
+            _ => n.to_string(),
+        },
+        other => other.to_string(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::registry::Registry;
+
+    #[test]
+    fn keys_of_our_own_structures_have_meanings_values_and_defaults_as_typed() {
+        let registry = Registry::builtin();
+        for name in ["median-kd", "sah-kd", "sah-hybrid", "obvhs-bvh2"] {
+            let entry = registry.entries().iter().find(|entry| entry.name == name).unwrap();
+            for key in entry.keys() {
+                let known = key.name == "rays" || !key.meaning.is_empty();
+                assert!(known && !key.values.is_empty() && key.default.len() < 20, "{name}: {key:?}");
+            }
+        }
+        let median = registry.entries().iter().find(|entry| entry.name == "median-kd").unwrap();
+        let keys = median.keys();
+        let of = |name: &str| keys.iter().find(|key| key.name == name).unwrap();
+        assert_eq!((of("threshold").default.as_str(), of("leaf").values.as_str()), ("0.7", "integer"));
+        assert!(of("plane").values.starts_with("vertex-median, "), "{:?}", of("plane"));
+    }
+}

@@ -1,0 +1,253 @@
+//! Options that studies share. The same option means the same in all of them.
+
+use std::path::PathBuf;
+
+use clap::ValueEnum;
+
+use super::epoch::{Asked, Settings};
+use super::{BRUTE_FORCE, Effort, REPORT_TREE, SAH_TREE, rays_or_all, sources};
+use crate::measure::Threads;
+use crate::registry::{Choice, Registry};
+use crate::report::words::listed;
+use crate::scene::{BUILTIN, Builtin, Scene, WorkloadKind};
+
+/// The kinds of rays of studies that have no others.
+pub const WORKLOADS: [WorkloadKind; 4] =
+    [WorkloadKind::Primary, WorkloadKind::Shadow, WorkloadKind::Diffuse, WorkloadKind::Random];
+
+/// How much is timed. The numbers are the defaults of a study.
+#[derive(Clone, Debug, clap::Args)]
+pub struct Measuring<const EPOCHS: u16 = 5, const RUNS: u16 = 3, const BUDGET: u32 = 8> {
+    /// Epochs: in each all structures are built anew; more of them can be added later
+    #[arg(long, value_name = "N", default_value_t = EPOCHS, value_parser = clap::value_parser!(u16).range(1..=1000))]
+    pub epochs: u16,
+    /// Samples of every case in an epoch; fewer where there is not time for them all
+    #[arg(long, value_name = "N", default_value_t = RUNS, value_parser = clap::value_parser!(u16).range(1..=1000))]
+    pub runs: u16,
+    /// Seconds that the samples of an epoch of a scene may take: slow cases are timed on fewer rays to keep within them
+    #[arg(long, value_name = "SECONDS", default_value_t = BUDGET, value_parser = clap::value_parser!(u32).range(1..=86400))]
+    pub budget: u32,
+    /// Threads that build and trace; 1 is the unit of comparison
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: u16,
+    /// Seed of the rays and of the order of samples
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub seed: u64,
+}
+
+impl<const EPOCHS: u16, const RUNS: u16, const BUDGET: u32> Measuring<EPOCHS, RUNS, BUDGET> {
+    /// The options of `study all`.
+    pub fn of(effort: Effort) -> Self {
+        let (epochs, runs, budget) = match effort {
+            Effort::Full => (EPOCHS, RUNS, BUDGET),
+            Effort::Quick => (2, 2, 1),
+        };
+        Self { epochs, runs, budget, threads: 1, seed: 1 }
+    }
+
+    /// The threads, each on a processor of its own where the system allows it.
+    ///
+    /// # Errors
+    /// If the system does not give them.
+    pub fn pinned(&self) -> anyhow::Result<Threads> {
+        Threads::pinned(self.threads.into()).map_err(anyhow::Error::msg)
+    }
+
+    /// The settings for `structures` and what they are asked.
+    ///
+    /// # Errors
+    /// If the system does not give the threads.
+    pub fn settings(&self, registry: &Registry, structures: Vec<Choice>, asked: Asked) -> anyhow::Result<Settings> {
+        Ok(Settings {
+            structures,
+            guide: sources::guide(registry)?,
+            asked,
+            runs: self.runs.into(),
+            budget_ns: u64::from(self.budget) * 1_000_000_000,
+            slowest: f64::INFINITY,
+            detailed: false,
+            seed: self.seed,
+            threads: self.pinned()?,
+        })
+    }
+}
+
+/// The structures.
+#[derive(Clone, Debug, Default, clap::Args)]
+pub struct Structures {
+    /// A structure, with keys that differ from their defaults; may be repeated [default: those of the study]
+    #[arg(long, short, value_name = "NAME[:key=value,..]")]
+    pub structure: Vec<String>,
+    /// How much time the builds of eight-wide trees may take, where a structure is named without a quality of its own
+    #[arg(long, value_parser = sources::QUALITIES)]
+    pub quality: Option<String>,
+}
+
+impl Structures {
+    /// Those named, else `own`, else one of each name.
+    ///
+    /// # Errors
+    /// If a structure is not known.
+    pub fn chosen(&self, registry: &Registry, own: &[&str]) -> anyhow::Result<Vec<Choice>> {
+        let own: Vec<String> = own.iter().map(|&name| name.into()).collect();
+        let named = if self.structure.is_empty() { &own } else { &self.structure };
+        sources::structures_at(registry, named, self.quality.as_deref())
+    }
+}
+
+/// The structures and, for the A/A noise, the twin of one of them: of the SAH tree, or else of the first that is
+/// neither brute force nor the report's tree, which take long, or else of the first.
+pub fn with_twin(mut structures: Vec<Choice>) -> Vec<Choice> {
+    let slow = |choice: &&Choice| [BRUTE_FORCE, REPORT_TREE].contains(&choice.entry.name.as_str());
+    let sah = structures.iter().find(|choice| choice.entry.name == SAH_TREE);
+    let twin = sah.or_else(|| structures.iter().find(|choice| !slow(choice))).or(structures.first());
+    structures.extend(twin.cloned());
+    structures
+}
+
+/// The rays.
+#[derive(Clone, Debug, clap::Args)]
+pub struct Rays {
+    /// A kind of rays; may be repeated [default: those of the study]
+    #[arg(long, short, value_name = "KIND")]
+    pub workload: Vec<WorkloadKind>,
+    /// Rays of a workload that are timed, at most, in whole tiles of the scene's picture
+    #[arg(long, value_name = "N|all", default_value = "all", value_parser = rays_or_all)]
+    pub rays: usize,
+}
+
+impl Rays {
+    /// The options of `study all`.
+    pub fn of(effort: Effort) -> Self {
+        Self { workload: vec![], rays: if effort == Effort::Quick { 1024 } else { usize::MAX } }
+    }
+
+    /// The kinds named, else `own`.
+    pub fn kinds(&self, own: &[WorkloadKind]) -> Vec<WorkloadKind> {
+        if self.workload.is_empty() { own.into() } else { self.workload.clone() }
+    }
+
+    /// What structures are asked.
+    pub fn asked(&self, own: &[WorkloadKind]) -> Asked {
+        Asked::Kinds(self.kinds(own), self.rays)
+    }
+}
+
+/// Scenes.
+#[derive(Clone, Debug, Default, clap::Args)]
+pub struct Scenes {
+    /// Built-in scenes, scene files (.toml) and mesh files (.obj, .ply, .gltf, .glb) [default: those of the study, else all
+    /// built-in ones]
+    #[arg(value_name = "SCENE|FILE")]
+    pub scenes: Vec<String>,
+}
+
+impl Scenes {
+    /// These ones.
+    pub fn named(names: &[&str]) -> Self {
+        Self { scenes: names.iter().map(|&name| name.into()).collect() }
+    }
+
+    /// Those named, else `own`, else all built-in ones.
+    ///
+    /// # Errors
+    /// As [`sources::scenes`].
+    pub fn read(&self, own: &[&str]) -> anyhow::Result<Vec<Scene>> {
+        if self.scenes.is_empty() { sources::scenes(&Self::named(own).scenes) } else { sources::scenes(&self.scenes) }
+    }
+
+    /// Those that are files.
+    pub fn files(&self) -> Vec<PathBuf> {
+        self.scenes.iter().filter(|name| Builtin::find(name).is_err()).map(PathBuf::from).collect()
+    }
+}
+
+/// Which meshes the built-in scenes are measured with.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum Meshes {
+    /// Stand-ins, and the real meshes where they have been fetched
+    #[default]
+    Both,
+    /// Real meshes where they have been fetched, else stand-ins
+    Real,
+    /// Stand-ins alone
+    StandIns,
+}
+
+/// Scenes and their meshes.
+#[derive(Clone, Debug, Default, clap::Args)]
+pub struct ScenesAndMeshes {
+    #[command(flatten)]
+    pub named: Scenes,
+    /// Meshes of the built-in scenes
+    #[arg(long, value_name = "WHICH", value_enum, default_value_t)]
+    pub meshes: Meshes,
+}
+
+impl ScenesAndMeshes {
+    /// The options of `study all`.
+    pub fn of(effort: Effort) -> Self {
+        let names: &[&str] = if effort == Effort::Quick { &["torus"] } else { &[] };
+        Self { named: Scenes::named(names), meshes: Meshes::Both }
+    }
+
+    /// The scenes named, all built-in ones without a name; of those with a stand-in both forms, if the meshes are to be both.
+    ///
+    /// # Errors
+    /// As [`sources::scene`].
+    pub fn read(&self) -> anyhow::Result<Vec<Scene>> {
+        let all: Vec<String> = BUILTIN.iter().map(|builtin| builtin.name.to_owned()).collect();
+        let mut scenes: Vec<Scene> = vec![];
+        for name in if self.named.scenes.is_empty() { &all } else { &self.named.scenes } {
+            let mut forms = vec![];
+            if let (Ok(builtin), true) = (Builtin::find(name), self.meshes != Meshes::Real) {
+                forms.push(builtin.scene(None)?);
+            }
+            if forms.is_empty() || self.meshes == Meshes::Both {
+                forms.push(sources::scene(name)?);
+            }
+            // The same scene twice, or a scene without a real mesh, is measured once.
+            for scene in forms {
+                let same = |other: &Scene| other.name == scene.name && other.hash() == scene.hash();
+                if !scenes.iter().any(same) {
+                    scenes.push(scene);
+                }
+            }
+        }
+        sources::distinct(&scenes)?;
+        Ok(scenes)
+    }
+
+    /// A note where a real mesh could have been measured and is not there.
+    pub fn note(&self, read: &[Scene]) -> Option<String> {
+        let alone = |scene: &&Scene| {
+            !scene.stand_ins.is_empty()
+                && !read.iter().any(|other| other.name == scene.name && other.stand_ins.is_empty())
+        };
+        let names: Vec<&str> = read.iter().filter(alone).map(|scene| scene.name.as_str()).collect();
+        (!names.is_empty() && self.meshes != Meshes::StandIns).then(|| {
+            format!(
+                "The real meshes of {} are not there: `sahara fetch` gets them, SAHARA_DATA names their folder.",
+                listed(&names)
+            )
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_field_has_a_twin_of_a_structure_that_is_not_slow() {
+        let registry = Registry::builtin();
+        let of = |names: &[&str]| -> Vec<String> {
+            let chosen = names.iter().map(|name| registry.choose(name).unwrap()).collect();
+            with_twin(chosen).into_iter().map(|choice| choice.label).collect()
+        };
+        assert_eq!(of(&["median-kd", "sah-bvh", "sah-kd"]), ["median-kd", "sah-bvh", "sah-kd", "sah-kd"]);
+        assert_eq!(of(&["brute-force", "sah-bvh"]), ["brute-force", "sah-bvh", "sah-bvh"]);
+        assert_eq!(of(&["median-kd"]), ["median-kd", "median-kd"]);
+        assert!(of(&[]).is_empty());
+    }
+}

@@ -1,0 +1,94 @@
+//! What the speed of the SAH tree is due to.
+
+use crate::report::Table;
+use crate::report::document::{Art, Block, Figure};
+
+use super::design::Factor;
+use super::{Attribution, headlines, tables};
+use crate::report::number::figures;
+use crate::report::plot::{Chart, Stack, StackRow};
+use crate::report::words::{interval, scene_name};
+
+/// The parts in the order in which they are told.
+const PARTS: [Factor; 3] = [Factor::Stop, Factor::Plane, Factor::Traversal];
+
+/// The scenes that the question is about.
+const HARD: [&str; 3] = ["Dragon", "Lucy", "Sponza"];
+
+/// Those of the hard scenes first.
+fn sorted(results: &[Attribution]) -> Vec<Attribution> {
+    let mut results = results.to_vec();
+    results.sort_by_key(|r| HARD.iter().position(|name| is(r, name)).unwrap_or(HARD.len()));
+    results
+}
+
+fn is(result: &Attribution, name: &str) -> bool {
+    result.scene == scene_name(name, result.stand_in)
+}
+
+/// The results of the hard scenes with their names, of the real mesh where it was measured.
+pub fn hard(results: &[Attribution]) -> Vec<(&'static str, Attribution)> {
+    let of = |name: &&'static str| {
+        let forms = results.iter().filter(|r| is(r, name) && r.workload == "primary");
+        Some((*name, forms.min_by_key(|r| r.stand_in)?.clone()))
+    };
+    HARD.iter().filter_map(of).collect()
+}
+
+/// One sentence for each hard scene.
+pub fn sentences(results: &[Attribution]) -> Vec<String> {
+    let hard: Vec<Attribution> = hard(results).into_iter().map(|(_, r)| r).collect();
+    // The first note says what the columns mean.
+    headlines(&hard).notes.into_iter().skip(1).collect()
+}
+
+pub fn blocks(results: &[Attribution], command: &str) -> Vec<Block> {
+    let results = sorted(results);
+    let mut blocks = vec![
+        Block::Text(
+            "One kind of tree in every combination of six planes, three stop rules and two traversals. From the report's \
+             tree to the SAH tree three things are switched; each is credited with its gain, averaged over all orders of \
+             switching, so that the parts multiply to the whole."
+                .into(),
+        ),
+        Block::Figure(figure(&results, command)),
+        Block::table(headlines(&results), command),
+    ];
+    for r in &results {
+        let inner = tables(r).into_iter().map(|table| Block::table(table, command)).collect();
+        blocks.push(Block::Fold(format!("{}: all trees, main effects and interactions", r.scene), inner));
+    }
+    blocks
+}
+
+fn figure(results: &[Attribution], command: &str) -> Figure {
+    let row = |r: &Attribution| StackRow {
+        label: r.scene.clone(),
+        factors: PARTS.map(|factor| r.time.parts[factor as usize].times.estimate).into(),
+        total: r.time.whole,
+    };
+    let data = results.iter().map(|r| {
+        let [stop, plane, traversal] = PARTS.map(|factor| interval(r.time.parts[factor as usize].times));
+        [r.scene.clone(), interval(r.time.whole), stop, plane, traversal]
+    });
+    let told = results.iter().map(|r| {
+        let [stop, plane, traversal] = PARTS.map(|factor| figures(r.time.parts[factor as usize].times.estimate));
+        let whole = figures(r.time.whole.estimate);
+        format!("{}: {whole} times faster, stop rule {stop}, plane {plane}, traversal {traversal}", r.scene)
+    });
+    Figure {
+        id: "attribution".into(),
+        caption: "How many times faster the SAH tree is than the report's, and the factors whose product that is. The axis is \
+                  logarithmic: lengths add up to the whole. Factors below 1 stand to the left. The line below a bar is the 95 % \
+                  interval of the whole."
+            .into(),
+        alt: format!("Stacked bar chart. {}.", told.collect::<Vec<_>>().join("; ")),
+        command: command.into(),
+        art: Art::Chart(Chart::Stack(Stack {
+            x_title: "times as fast as the report's tree".into(),
+            parts: PARTS.map(|factor| factor.name().to_owned()).into(),
+            rows: results.iter().map(row).collect(),
+        })),
+        data: Table::of_texts("", ["scene", "whole", "stop rule", "plane", "traversal"], data.collect()),
+    }
+}

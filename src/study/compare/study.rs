@@ -1,0 +1,213 @@
+//! `compare` as a study.
+
+use serde_json::Value;
+
+use super::{Compared, compared, legend, mean_table, scene_table, section, winner};
+use crate::measure::{Provenance, instructions};
+use crate::registry::{Choice, Registry};
+use crate::report::document::Block;
+use crate::report::{Record, Table, to_csv, to_json};
+use crate::scene::{Scene, WorkloadKind};
+use crate::study::args::{Measuring, Scenes, Structures, WORKLOADS, with_twin};
+use crate::study::epoch::{Asked, Epoch, Settings, troubles};
+use crate::study::{Context, Data, Effort, Plan, RaySource, Refused, SceneId, Study, Trouble, replayed, sources};
+
+/// The study.
+pub struct CompareStudy;
+
+/// Its options.
+#[derive(Clone, Debug, clap::Args)]
+pub struct CompareArgs {
+    #[command(flatten)]
+    pub scenes: Scenes,
+    #[command(flatten)]
+    pub structures: Structures,
+    /// The structure that speeds are related to; takes part even if it is not among those named [default: median-kd and the better
+    /// BVH of obvhs; without them the first one]
+    #[arg(long, value_name = "NAME[:key=value,..]")]
+    pub reference: Option<String>,
+    /// A kind of rays; may be repeated [default: primary, shadow, diffuse, random]
+    #[arg(long, short, value_name = "KIND")]
+    pub workload: Vec<WorkloadKind>,
+    /// Rays of a workload that are timed, at most, in whole tiles of the scene's picture; or a file of rays to replay
+    #[arg(long, value_name = "N|all|F.rays", default_value = "all")]
+    pub rays: RaySource,
+    #[command(flatten)]
+    pub measuring: Measuring<4, 1, 3>,
+}
+
+/// A structure that takes more than so many times as long as the median one is timed on fewer rays: its ratios hardly
+/// gain from more of them, and the run would be about it alone.
+const SLOWEST: f64 = 4.0;
+
+impl CompareArgs {
+    /// The structures, the reference among them, and its label.
+    fn chosen(&self, registry: &Registry) -> anyhow::Result<(Vec<Choice>, Option<String>)> {
+        let mut structures = self.structures.chosen(registry, &[])?;
+        let Some(spec) = &self.reference else { return Ok((structures, None)) };
+        let quality = self.structures.quality.as_deref();
+        let choice = sources::structures_at(registry, std::slice::from_ref(spec), quality)?.remove(0);
+        if structures.iter().all(|other| other.label != choice.label) {
+            structures.push(choice.clone());
+        }
+        Ok((structures, Some(choice.label)))
+    }
+
+    /// Scenes, and the settings for them.
+    ///
+    /// # Errors
+    /// If the options name what is not there.
+    pub fn settings(&self, registry: &Registry) -> anyhow::Result<(Vec<Scene>, Settings)> {
+        let (structures, _) = self.chosen(registry)?;
+        let (scenes, asked) = match replayed(&self.rays, &self.scenes.scenes)? {
+            Some((scene, file)) => {
+                anyhow::ensure!(self.workload.is_empty(), "the rays are those of the file: leave --workload out");
+                (vec![scene], Asked::Replayed(file.workload, usize::MAX))
+            }
+            None => {
+                let kinds = if self.workload.is_empty() { WORKLOADS.into() } else { self.workload.clone() };
+                (self.scenes.read(&[])?, Asked::Kinds(kinds, self.rays.count()))
+            }
+        };
+        let settings = self.measuring.settings(registry, with_twin(structures), asked)?;
+        Ok((scenes, Settings { slowest: SLOWEST, detailed: true, ..settings }))
+    }
+}
+
+impl Study for CompareStudy {
+    const NAME: &'static str = "compare";
+    const QUESTION: &'static str = "How fast is every structure, and is it right?";
+    const SCENE_BY_SCENE: bool = true;
+    const KEPT: bool = false;
+
+    type Args = CompareArgs;
+    type Case = Epoch;
+    type Answer = Compared;
+
+    fn command() -> String {
+        "sahara compare --dir runs".into()
+    }
+
+    fn args(effort: Effort) -> CompareArgs {
+        let (scenes, rays) = match effort {
+            Effort::Full => (Scenes::default(), usize::MAX),
+            Effort::Quick => (Scenes::named(&["cube", "torus"]), 1024),
+        };
+        CompareArgs {
+            scenes,
+            structures: Structures::default(),
+            reference: None,
+            workload: vec![],
+            rays: RaySource::Count(rays),
+            measuring: Measuring::of(effort),
+        }
+    }
+
+    fn plan(args: &CompareArgs, registry: &Registry) -> anyhow::Result<Plan<Epoch>> {
+        let (scenes, settings) = args.settings(registry)?;
+        let inputs = args.scenes.files().into_iter().chain(args.rays.file().map(Into::into)).collect();
+        Ok(Plan { inputs, ..settings.plan(scenes, args.measuring.epochs) })
+    }
+
+    fn answer(cases: &[Epoch], context: &Context<Self>) -> Compared {
+        // As the structure is called that the records know: its label, if it has one by that name.
+        let compared = compared(cases, context.provenance);
+        let reference = context.args.and_then(|args| args.reference.clone());
+        let label = reference.map(|spec| {
+            let known = compared.records.iter().find(|r| r.label.eq_ignore_ascii_case(&spec));
+            known.map_or(spec, |record| record.label.clone())
+        });
+        Compared { reference: label, ..compared }
+    }
+
+    fn tables(answer: &Compared) -> Vec<Table> {
+        let mut scenes: Vec<&str> = vec![];
+        let all = answer.records.iter().map(|r| &r.scene).chain(answer.refused.iter().map(|r| &r.scene));
+        all.for_each(|scene| {
+            if !scenes.contains(&scene.as_str()) {
+                scenes.push(scene)
+            }
+        });
+        let table = |scene: &&str| {
+            let records: Vec<Record> = answer.records.iter().filter(|r| r.scene == *scene).cloned().collect();
+            let refused: Vec<Refused> = answer.refused.iter().filter(|r| r.scene == *scene).cloned().collect();
+            let mut table = scene_table(&records, &answer.references(&records), &refused);
+            if records.is_empty() {
+                table.title = format!("{scene}: every structure is refused, or no ray is left");
+            }
+            table
+        };
+        scenes.iter().map(table).collect()
+    }
+
+    fn summary(answer: &Compared) -> Vec<Table> {
+        let several = answer.records.iter().any(|r| r.scene != answer.records[0].scene);
+        let means = several.then(|| mean_table(&answer.records, &answer.references(&answer.records)));
+        means.into_iter().filter(Table::says_something).collect()
+    }
+
+    fn legend(answer: &Compared) -> Vec<String> {
+        let records = &answer.records;
+        let Some(first) = records.first() else {
+            return vec!["None of the workloads asked for has a ray in these scenes.".into()];
+        };
+        let mut legend = legend(&first.workload, &answer.references(records));
+        if records.iter().all(|r| r.instructions_per_ray.is_none()) {
+            legend.push(instructions::ABSENT.into());
+        }
+        legend
+    }
+
+    fn remarks(answer: &Compared) -> Vec<String> {
+        winner(&answer.records, answer.reference.as_deref()).into_iter().collect()
+    }
+
+    fn troubles(cases: &[Epoch]) -> Vec<Trouble> {
+        // The tables tell them.
+        troubles(cases).into_iter().map(|trouble| Trouble { sentence: String::new(), ..trouble }).collect()
+    }
+
+    fn warnings(answer: &Compared) -> Vec<String> {
+        let mut warnings: Vec<String> = answer.records.iter().flat_map(|r| r.provenance.warnings.clone()).collect();
+        let mut seen = std::collections::BTreeSet::new();
+        warnings.retain(|warning| seen.insert(warning.clone()));
+        warnings
+    }
+
+    fn data(answer: &Compared) -> Vec<Data> {
+        vec![Data::new("records", &answer.records)]
+    }
+
+    fn section(answer: &Compared, command: &str) -> Vec<Block> {
+        section::blocks(&answer.records, command)
+    }
+
+    fn json(answer: &Compared, _: &Provenance) -> Vec<u8> {
+        to_json(&answer.records)
+    }
+
+    fn csv(answer: &Compared, _: &Provenance) -> Vec<u8> {
+        to_csv(&answer.records)
+    }
+
+    fn read(value: &Value) -> Option<serde_json::Result<Compared>> {
+        value.get(0)?.get("workload_hash")?;
+        let records = serde_json::from_value::<Vec<Record>>(value.clone());
+        Some(records.map(|records| Compared { records, ..Compared::default() }))
+    }
+
+    fn merge(old: &mut Compared, new: Compared) -> bool {
+        let before = old.records.len();
+        // Times of different runs are no pairs: a scene is of one run.
+        old.records.retain(|old| new.records.iter().all(|new| new.scene != old.scene));
+        old.refused.retain(|old| new.records.iter().all(|new| new.scene != old.scene));
+        let is_replaced = old.records.len() < before;
+        old.records.extend(new.records);
+        old.refused.extend(new.refused);
+        is_replaced
+    }
+
+    fn scenes(answer: &Compared) -> Vec<SceneId> {
+        answer.records.iter().map(SceneId::of).collect()
+    }
+}

@@ -1,0 +1,76 @@
+//! What a step and a block of triangles cost on this machine, and how well counts predict times.
+
+use super::table::LEGEND;
+use super::{Family, Observation, tables};
+use crate::report::Table;
+use crate::report::document::{Art, Block, Figure};
+use crate::report::number::figures;
+use crate::report::plot::{Chart, CurvePoint, Curves, Line, Mark, Scale};
+use crate::report::words::distinct;
+
+pub fn blocks(families: &[Family], command: &str) -> Vec<Block> {
+    let mut blocks = vec![Block::Text(
+        "The surface area heuristic predicts time from two costs: of a traversal step, K_T, and of testing a block of \
+         triangles at once, K_B. Regression of measured times on counts finds them for this machine, and how far they \
+         can be trusted."
+            .into(),
+    )];
+    // Each structure's own family predicts it; `all` is the first.
+    if families.len() > 1 {
+        blocks.push(Block::Figure(figure(&families[1..], command)));
+    }
+    blocks.extend(tables(families).into_iter().map(|table| Block::table(table, command)));
+    blocks.extend(LEGEND.map(|words| Block::Note(words.into())));
+    blocks
+}
+
+/// The structure without its keys: those of one family differ little, and eyes tell few colours apart.
+fn name(observation: &Observation) -> String {
+    observation.structure.split(':').next().unwrap_or_default().into()
+}
+
+fn figure(families: &[Family], command: &str) -> Figure {
+    let all: Vec<&Observation> = families.iter().flat_map(|family| &family.observations).collect();
+    let dots = |structure: &String| Line {
+        label: structure.clone(),
+        note: String::new(),
+        points: all
+            .iter()
+            .filter(|o| name(o) == *structure && o.foreseen_ns.unwrap_or(o.predicted_ns) > 0.0)
+            .map(|o| CurvePoint { x: o.foreseen_ns.unwrap_or(o.predicted_ns), y: o.ns_per_ray, band: None })
+            .collect(),
+        mark: Mark::Dots,
+    };
+    let names: Vec<String> = all.iter().map(|o| name(o)).collect();
+    let structures = distinct(names.iter());
+    let rows = all.iter().map(|o| {
+        let [measured, predicted] = [o.ns_per_ray, o.foreseen_ns.unwrap_or(o.predicted_ns)].map(figures);
+        [o.structure.clone(), o.scene.clone(), o.workload.clone(), measured, predicted]
+    });
+    let told = families.iter().map(|family| {
+        let off = family
+            .foreseen
+            .or(family.known)
+            .map_or(String::new(), |off| format!(", off by {:.2} at the median", off.median));
+        format!("{}: {} cases{off}", family.family, family.observations.len())
+    });
+    Figure {
+        id: "costs".into(),
+        caption: "Measured against predicted time of a ray, each structure by the costs of its family on the other scenes. On the line the \
+                  prediction is exact; both axes are logarithmic."
+            .into(),
+        alt: format!("Scatter plot. {}.", told.collect::<Vec<_>>().join("; ")),
+        command: command.into(),
+        art: Art::Chart(Chart::Curves(Curves {
+            x_title: "predicted nanoseconds a ray".into(),
+            y_title: "measured nanoseconds a ray".into(),
+            x_scale: Scale::Log,
+            y_scale: Scale::Log,
+            lines: structures.iter().map(dots).collect(),
+            level: None,
+            highest: None,
+            diagonal: Some("as predicted".into()),
+        })),
+        data: Table::of_texts("", ["structure", "scene", "rays", "measured ns", "predicted ns"], rows.collect()),
+    }
+}

@@ -1,0 +1,81 @@
+//! KD-tree against BVH by depth complexity.
+
+use super::{Race, tables};
+use crate::report::Table;
+use crate::report::document::{Art, Block, Figure};
+use crate::report::number::figures;
+use crate::report::plot::{Chart, CurvePoint, Curves, Line, Mark, Scale};
+use crate::report::words::interval;
+use crate::report::words::{distinct, slug};
+
+pub fn blocks(races: &[Race], command: &str) -> Vec<Block> {
+    let mut blocks = vec![Block::Text(
+        "A family of scenes with always the same number of triangles, from one layer of perforated sheets to hundreds: the \
+         more layers, the more surfaces a ray would meet if none stopped it."
+            .into(),
+    )];
+    for workload in distinct(races.iter().map(|race| &race.workload)) {
+        let of: Vec<&Race> = races.iter().filter(|race| race.workload == workload).collect();
+        blocks.push(Block::Figure(figure(&of, command)));
+    }
+    let mut tables = tables(races).into_iter();
+    blocks.extend(tables.next().map(|answers| Block::table(answers, command)));
+    let rest = tables.map(|table| Block::table(table, command)).collect();
+    blocks.push(Block::Fold("All ratios".into(), rest));
+    blocks
+}
+
+fn short(label: &str) -> &str {
+    label.split(':').next().unwrap_or(label)
+}
+
+fn figure(races: &[&Race], command: &str) -> Figure {
+    let line = |race: &&Race| Line {
+        label: format!("{} / {}", short(&race.kd), short(&race.bvh)),
+        note: String::new(),
+        points: race
+            .members
+            .iter()
+            .map(|m| CurvePoint {
+                x: m.complexity,
+                y: m.ratio.estimate,
+                band: m.ratio.low().zip(m.ratio.high()).map(|(low, high)| [low, high]),
+            })
+            .collect(),
+        mark: Mark::Both,
+    };
+    let rows = races.iter().flat_map(|race| {
+        let pair = format!("{} / {}", short(&race.kd), short(&race.bvh));
+        race.members.iter().map(move |m| [pair.clone(), m.layers.to_string(), figures(m.complexity), interval(m.ratio)])
+    });
+    let told = races.iter().filter_map(|race| {
+        let (first, last) = race.members.first().zip(race.members.last())?;
+        let (pair, [from, to]) = (line(race).label, [first, last].map(|m| interval(m.ratio)));
+        Some(format!(
+            "{pair}: {from} at depth complexity {}, {to} at {}",
+            figures(first.complexity),
+            figures(last.complexity)
+        ))
+    });
+    let workload = races.first().map_or("", |race| race.workload.as_str());
+    Figure {
+        id: format!("crossover-{}", slug(workload)),
+        caption: format!(
+            "{workload} rays: time of the KD-tree over that of the BVH; below 1 the KD-tree is faster. Bands are 95 % intervals for \
+             another run."
+        ),
+        alt: format!("Line chart over depth complexity. {}.", told.collect::<Vec<_>>().join("; ")),
+        command: command.into(),
+        art: Art::Chart(Chart::Curves(Curves {
+            x_title: "depth complexity: surfaces on a ray".into(),
+            y_title: "time of the KD-tree / time of the BVH".into(),
+            x_scale: Scale::Log,
+            y_scale: Scale::Log,
+            lines: races.iter().map(line).collect(),
+            level: Some((1.0, "equal".into())),
+            highest: None,
+            diagonal: None,
+        })),
+        data: Table::of_texts("", ["pair", "layers", "depth complexity", "ratio"], rows.collect()),
+    }
+}

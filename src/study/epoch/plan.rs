@@ -1,0 +1,64 @@
+//! Epochs of scenes as the cases of a study.
+
+use super::{Epoch, Settings, key, measure};
+use crate::report::words::scene_name;
+use crate::scene::Scene;
+use crate::study::plan::settings_map;
+use crate::study::{Plan, Planned, StudyError};
+
+impl Settings {
+    /// A plan of so many epochs of `scenes`, whose cases are the epochs themselves.
+    pub fn plan(self, scenes: Vec<Scene>, epochs: u16) -> Plan<Epoch> {
+        self.plan_of(scenes, epochs, |_, _, epoch| Ok(epoch), |epoch| epoch)
+    }
+
+    /// Likewise; a study that is nothing without all of its structures on all rays fails where one is missing.
+    pub fn plan_of_whole(self, scenes: Vec<Scene>, epochs: u16) -> Plan<Epoch> {
+        self.plan_of(scenes, epochs, |_, _, epoch| epoch.is_whole().map(|()| epoch), |epoch| epoch)
+    }
+
+    /// Likewise. `wrap` makes a case of the epoch of a scene, by the number of the scene; `unwrap` is its inverse.
+    pub fn plan_of<C: 'static>(
+        self,
+        scenes: Vec<Scene>,
+        epochs: u16,
+        wrap: impl Fn(usize, &Scene, Epoch) -> Result<C, StudyError> + 'static,
+        unwrap: fn(&C) -> &Epoch,
+    ) -> Plan<C> {
+        plan(vec![self], |_| 0, scenes, epochs, wrap, unwrap)
+    }
+}
+
+/// As [`Settings::plan_of`] where scenes have settings of their own: `which` of them.
+pub fn plan<C: 'static>(
+    settings: Vec<Settings>,
+    which: impl Fn(&Scene) -> usize + 'static,
+    scenes: Vec<Scene>,
+    epochs: u16,
+    wrap: impl Fn(usize, &Scene, Epoch) -> Result<C, StudyError> + 'static,
+    unwrap: fn(&C) -> &Epoch,
+) -> Plan<C> {
+    let mut cases = vec![];
+    for epoch in 0..usize::from(epochs) {
+        for (number, scene) in scenes.iter().enumerate() {
+            let name = scene_name(&scene.name, !scene.stand_ins.is_empty());
+            let title = format!("epoch {} of {epochs}: {name}", epoch + 1);
+            cases.push(Planned { key: key(scene, epoch), title, scene: number, epoch });
+        }
+    }
+    let notes = scenes.iter().flat_map(|scene| scene.notes.iter().map(|note| format!("{}: {note}", scene.name)));
+    Plan {
+        settings: settings_map(&settings[0].kept()),
+        threads: settings[0].threads.clone(),
+        notes: notes.collect(),
+        inputs: vec![],
+        cases: cases.clone(),
+        measure: Box::new(move |number, first, clock, progress| {
+            let Planned { scene: number, epoch, .. } = cases[number];
+            let scene = &scenes[number];
+            let settings = &settings[which(scene)];
+            let first = first.filter(|_| epoch > 0).map(unwrap);
+            wrap(number, scene, measure(scene, settings, epoch, first, clock, progress)?)
+        }),
+    }
+}

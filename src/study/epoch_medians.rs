@@ -1,0 +1,64 @@
+//! From the samples of several structures to values that are independent of each other.
+
+use crate::measure::{Estimate, Rerun, Variance, median};
+
+/// Logarithms, one for each structure, once for each epoch. Given are the logarithms of all samples: of each epoch, of
+/// each structure.
+///
+/// Within an epoch, what slowed a whole round is taken out (the median over the structures of how far each is off its
+/// own median), then each structure has the median of its rounds. Figures that are sums over these add up exactly,
+/// epoch by epoch.
+///
+/// # Panics
+/// If a structure has no samples.
+pub(super) fn epoch_medians(mut epochs: Vec<Vec<Vec<f64>>>) -> Vec<Vec<f64>> {
+    let middle = |values: &[f64]| median(values).expect("a structure has samples");
+    let rounds = |trees: &[Vec<f64>]| trees.iter().map(Vec::len).min().unwrap_or(0);
+    for trees in &mut epochs {
+        let centres: Vec<f64> = trees.iter().map(|tree| middle(tree)).collect();
+        for round in 0..rounds(trees) {
+            let shifts: Vec<f64> = trees.iter().zip(&centres).map(|(tree, centre)| tree[round] - centre).collect();
+            let shift = middle(&shifts);
+            trees.iter_mut().for_each(|tree| tree[round] -= shift);
+        }
+    }
+    epochs.iter().map(|trees| trees.iter().map(|tree| middle(tree)).collect()).collect()
+}
+
+/// e to the power of what `of` makes of an epoch, with its interval; `noise` is what the A/A noise adds to it.
+///
+/// # Panics
+/// If there is no epoch.
+pub(super) fn ratio(epoch_medians: &[Vec<f64>], of: impl Fn(&[f64]) -> f64, noise: Variance) -> Estimate {
+    Rerun::of(&values(epoch_medians, of), noise).expect("there is an epoch").ratio()
+}
+
+/// What `of` makes of each epoch.
+pub(super) fn values(epoch_medians: &[Vec<f64>], of: impl Fn(&[f64]) -> f64) -> Vec<f64> {
+    epoch_medians.iter().map(|logs| of(logs)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_slow_round_is_taken_out_and_a_slow_sample_is_outvoted() {
+        // Three structures, three rounds; the second round is slower by 5 throughout, one sample by 40.
+        let epoch = vec![vec![1.0, 6.0, 1.0], vec![2.0, 7.0, 42.0], vec![3.0, 8.0, 3.0]];
+        let values = epoch_medians(vec![epoch.clone(), epoch]);
+        assert_eq!(values, [[1.0, 2.0, 3.0], [1.0, 2.0, 3.0]]);
+    }
+
+    #[test]
+    fn an_epoch_of_one_round_is_that_round() {
+        assert_eq!(epoch_medians(vec![vec![vec![1.0], vec![3.0]]]), [[1.0, 3.0]]);
+    }
+
+    #[test]
+    fn the_ratio_is_a_power_and_of_one_epoch_it_has_no_interval() {
+        let both = ratio(&[vec![1.0], vec![1.0]], |logs| logs[0], Variance::NONE);
+        assert_eq!((both.estimate, both.low()), (libm::exp(1.0), Some(libm::exp(1.0))));
+        assert_eq!(ratio(&[vec![1.0]], |logs| logs[0], Variance::NONE).interval, None);
+    }
+}

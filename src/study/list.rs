@@ -1,0 +1,272 @@
+//! The one list of studies, and what is known of each without its types.
+
+use std::any::Any;
+use std::collections::BTreeMap;
+use std::marker::PhantomData;
+use std::path::Path;
+
+use clap::{ArgMatches, Command, FromArgMatches};
+use serde_json::Value;
+
+use super::engine::{Measured, Run, measure};
+use super::journal::{Header, Journal, JournalError, Recorded};
+use super::{
+    Context, Data, Effort, SceneId, Study, accuracy, attribution, break_even, compare, costs, counts, crossover,
+    parameters, partitions, predictions, replicate, scaling, self_intersection,
+};
+use crate::measure::Provenance;
+use crate::report::document::Block;
+use crate::report::plot::Figure;
+
+/// An answer whose type is not known.
+pub type AnyAnswer = Box<dyn Any + Send + Sync>;
+
+/// Studies, in the order of the page.
+pub struct Studies {
+    list: Vec<Box<dyn AnyStudy>>,
+}
+
+impl Studies {
+    /// None at all.
+    pub fn empty() -> Self {
+        Self { list: vec![] }
+    }
+
+    /// Those of this crate. A new one is one more line.
+    pub fn builtin() -> Self {
+        Self::empty()
+            .with::<predictions::PredictionsStudy>()
+            .with::<attribution::AttributionStudy>()
+            .with::<compare::CompareStudy>()
+            .with::<scaling::ScalingStudy>()
+            .with::<break_even::BreakEvenStudy>()
+            .with::<crossover::CrossoverStudy>()
+            .with::<costs::CostsStudy>()
+            .with::<parameters::ParametersStudy>()
+            .with::<accuracy::AccuracyStudy>()
+            .with::<partitions::PartitionsStudy>()
+            .with::<counts::CountsStudy>()
+            .with::<self_intersection::SelfIntersectionStudy>()
+            .with::<replicate::ReplicateStudy>()
+    }
+
+    /// Adds a study.
+    ///
+    /// # Panics
+    /// If its name is taken, is `all`, or holds anything but lower-case letters, digits and hyphens.
+    pub fn with<S: Study>(mut self) -> Self {
+        let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
+        assert!(!S::NAME.is_empty() && S::NAME != "all" && S::NAME.chars().all(plain), "the name {:?}", S::NAME);
+        assert!(self.find(S::NAME).is_none(), "there is already a study {:?}", S::NAME);
+        self.list.push(Box::new(Typed::<S>(PhantomData)));
+        self
+    }
+
+    /// All of them.
+    pub fn iter(&self) -> impl Iterator<Item = &dyn AnyStudy> {
+        self.list.iter().map(|study| &**study)
+    }
+
+    /// Those that are made from the others come last.
+    pub fn in_order_of_measuring(&self) -> Vec<&dyn AnyStudy> {
+        let mut studies: Vec<&dyn AnyStudy> = self.iter().collect();
+        studies.sort_by_key(|study| study.is_last());
+        studies
+    }
+
+    /// The study `name`.
+    pub fn find(&self, name: &str) -> Option<&dyn AnyStudy> {
+        self.iter().find(|study| study.name() == name)
+    }
+}
+
+/// Where the options of a study come from.
+pub enum Chosen<'a> {
+    /// A command line.
+    Matches(&'a ArgMatches),
+    /// `study all`.
+    Preset(Effort),
+}
+
+/// A study whose types are not known. The answers that it takes are its own.
+pub trait AnyStudy: Send + Sync {
+    /// [`Study::NAME`].
+    fn name(&self) -> &'static str;
+    /// [`Study::QUESTION`].
+    fn question(&self) -> &'static str;
+    /// [`Study::command`].
+    fn command(&self) -> String;
+    /// [`Study::KEPT`].
+    fn is_kept(&self) -> bool;
+    /// [`Study::LAST`].
+    fn is_last(&self) -> bool;
+    /// Adds the options of the study to a command.
+    fn augment(&self, command: Command) -> Command;
+    /// Measures and answers. `check` is told which files are read, before anything is measured.
+    ///
+    /// # Errors
+    /// As [`Study::plan`], as `check`, and if the journal cannot be used or nothing can be measured.
+    fn run(
+        &self,
+        chosen: Chosen,
+        run: &mut Run,
+        check: &mut dyn FnMut(&[std::path::PathBuf]) -> anyhow::Result<()>,
+    ) -> anyhow::Result<Measured>;
+    /// What a journal holds: its first line and the answer.
+    ///
+    /// # Errors
+    /// If it cannot be read, or is not of this study.
+    fn read_journal(&self, path: &Path, others: &Answers) -> Result<(Header, AnyAnswer), JournalError>;
+    /// [`Study::read`].
+    fn read_export(&self, value: &Value) -> Option<serde_json::Result<AnyAnswer>>;
+    /// The answer without any case.
+    fn answer_alone(&self, provenance: &Provenance, others: &Answers) -> AnyAnswer;
+    /// [`Study::merge`].
+    fn merge(&self, old: &mut AnyAnswer, new: AnyAnswer) -> bool;
+    /// [`Study::data`].
+    fn data(&self, answer: &dyn Any) -> Vec<Data>;
+    /// [`Study::section`].
+    fn section(&self, answer: &dyn Any, command: &str) -> Vec<Block>;
+    /// [`Study::scenes`].
+    fn scenes(&self, answer: &dyn Any) -> Vec<SceneId>;
+    /// [`Study::plot`].
+    fn plot(&self, answer: &dyn Any) -> Option<Figure>;
+    /// [`Study::json`].
+    fn json(&self, answer: &dyn Any, provenance: &Provenance) -> Vec<u8>;
+    /// [`Study::csv`].
+    fn csv(&self, answer: &dyn Any, provenance: &Provenance) -> Vec<u8>;
+}
+
+struct Typed<S>(PhantomData<fn() -> S>);
+
+/// # Panics
+/// If it is the answer of another study.
+fn own<S: Study>(answer: &dyn Any) -> &S::Answer {
+    answer.downcast_ref().expect("the answer is of this study")
+}
+
+impl<S: Study> AnyStudy for Typed<S> {
+    fn name(&self) -> &'static str {
+        S::NAME
+    }
+
+    fn question(&self) -> &'static str {
+        S::QUESTION
+    }
+
+    fn command(&self) -> String {
+        S::command()
+    }
+
+    fn is_kept(&self) -> bool {
+        S::KEPT
+    }
+
+    fn is_last(&self) -> bool {
+        S::LAST
+    }
+
+    fn augment(&self, command: Command) -> Command {
+        <S::Args as clap::Args>::augment_args(command)
+    }
+
+    fn run(
+        &self,
+        chosen: Chosen,
+        run: &mut Run,
+        check: &mut dyn FnMut(&[std::path::PathBuf]) -> anyhow::Result<()>,
+    ) -> anyhow::Result<Measured> {
+        let args = match chosen {
+            Chosen::Matches(matches) => S::Args::from_arg_matches(matches)?,
+            Chosen::Preset(effort) => S::args(effort),
+        };
+        let plan = S::plan(&args, run.registry)?;
+        check(&plan.inputs)?;
+        measure::<S>(&args, &plan, run)
+    }
+
+    fn read_journal(&self, path: &Path, others: &Answers) -> Result<(Header, AnyAnswer), JournalError> {
+        let Recorded { header, cases, .. } = Journal::<S::Case>::read(path, S::NAME)?;
+        let answer = S::answer(&cases, &Context { provenance: &header.provenance, others, args: None });
+        Ok((header, Box::new(answer)))
+    }
+
+    fn read_export(&self, value: &Value) -> Option<serde_json::Result<AnyAnswer>> {
+        S::read(value).map(|read| read.map(|answer| Box::new(answer) as AnyAnswer))
+    }
+
+    fn answer_alone(&self, provenance: &Provenance, others: &Answers) -> AnyAnswer {
+        Box::new(S::answer(&[], &Context { provenance, others, args: None }))
+    }
+
+    fn merge(&self, old: &mut AnyAnswer, new: AnyAnswer) -> bool {
+        let new = (new as Box<dyn Any>).downcast::<S::Answer>().expect("the answer is of this study");
+        S::merge((**old).downcast_mut().expect("the answer is of this study"), *new)
+    }
+
+    fn data(&self, answer: &dyn Any) -> Vec<Data> {
+        S::data(own::<S>(answer))
+    }
+
+    fn section(&self, answer: &dyn Any, command: &str) -> Vec<Block> {
+        S::section(own::<S>(answer), command)
+    }
+
+    fn scenes(&self, answer: &dyn Any) -> Vec<SceneId> {
+        S::scenes(own::<S>(answer))
+    }
+
+    fn plot(&self, answer: &dyn Any) -> Option<Figure> {
+        S::plot(own::<S>(answer))
+    }
+
+    fn json(&self, answer: &dyn Any, provenance: &Provenance) -> Vec<u8> {
+        S::json(own::<S>(answer), provenance)
+    }
+
+    fn csv(&self, answer: &dyn Any, provenance: &Provenance) -> Vec<u8> {
+        S::csv(own::<S>(answer), provenance)
+    }
+}
+
+/// Answers by the names of their studies.
+#[derive(Default)]
+pub struct Answers {
+    by_name: BTreeMap<&'static str, AnyAnswer>,
+}
+
+impl Answers {
+    /// Those of all journals in a folder but that of the study `without`.
+    ///
+    /// # Errors
+    /// If a journal is there and cannot be read.
+    pub fn read(folder: &Path, studies: &Studies, without: &str) -> Result<Self, JournalError> {
+        let mut answers = Self::default();
+        for study in studies.iter().filter(|study| study.name() != without && !study.is_last()) {
+            let path = folder.join(format!("{}.jsonl", study.name()));
+            if path.exists() {
+                let (_, answer) = study.read_journal(&path, &Self::default())?;
+                answers.by_name.insert(study.name(), answer);
+            }
+        }
+        Ok(answers)
+    }
+
+    /// The answer of the study `S`, if there is one.
+    pub fn of<S: Study>(&self) -> Option<&S::Answer> {
+        (**self.by_name.get(S::NAME)?).downcast_ref()
+    }
+
+    /// That of the study `name`.
+    pub fn get(&self, name: &str) -> Option<&dyn Any> {
+        self.by_name.get(name).map(|answer| &**answer as &dyn Any)
+    }
+
+    /// Adds an answer of `study`, newer than what is there; tells whether some of that is replaced.
+    pub fn add(&mut self, study: &dyn AnyStudy, answer: AnyAnswer) -> bool {
+        match self.by_name.get_mut(study.name()) {
+            Some(old) => study.merge(old, answer),
+            None => self.by_name.insert(study.name(), answer).is_some(),
+        }
+    }
+}

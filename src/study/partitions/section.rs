@@ -1,0 +1,68 @@
+//! The same node, leaf and walk over four ways to divide the triangles.
+
+use super::table::LEGEND;
+use super::{Row, tables};
+use crate::report::Table;
+use crate::report::document::{Art, Block, Figure};
+use crate::report::number::count;
+use crate::report::plot::{Bar, BarGroup, Bars, Chart};
+use crate::report::words::interval;
+use crate::report::words::{distinct, short_labels, slug};
+
+pub fn blocks(rows: &[Row], command: &str) -> Vec<Block> {
+    let mut blocks = vec![Block::Text(LEGEND.join(" "))];
+    for of_scene in rows.chunk_by(|a, b| a.scene == b.scene) {
+        blocks.push(Block::Figure(figure(of_scene, command)));
+        blocks.extend(tables(of_scene).into_iter().map(|table| Block::table(table, command)));
+    }
+    blocks
+}
+
+fn figure(rows: &[Row], command: &str) -> Figure {
+    let labels: Vec<String> = rows.iter().map(|row| row.structure.clone()).collect();
+    let labels = short_labels(&labels);
+    let workloads = distinct(rows.iter().flat_map(|row| &row.cells).map(|cell| &cell.workload));
+    let bar = |row: &Row, workload: &String| {
+        let speed = row.cells.iter().find(|cell| cell.workload == *workload).and_then(|cell| cell.speed);
+        speed.map_or(Bar::Missing("no time".into()), Bar::Of)
+    };
+    let group = |workload: &String| BarGroup {
+        title: format!("{workload} rays"),
+        bars: rows.iter().map(|row| bar(row, workload)).collect(),
+    };
+    let text = |row: &Row| {
+        let cells = row.cells.iter().map(|cell| cell.speed.map_or(String::new(), interval));
+        std::iter::once(row.structure.clone()).chain(cells).map(Into::into).collect()
+    };
+    let data = Table {
+        title: String::new(),
+        columns: std::iter::once("structure".to_owned()).chain(workloads.iter().cloned()).collect(),
+        rows: rows.iter().map(text).collect(),
+        notes: vec![],
+    };
+    let groups: Vec<BarGroup> = workloads.iter().map(group).collect();
+    let first = &rows[0];
+    Figure {
+        id: format!("partitions-{}", slug(&first.scene)),
+        caption: format!(
+            "{}, {} triangles: speed as a multiple of the fastest obvhs on the same rays, over all its presets and both \
+             layouts. Whiskers are 95 % intervals.",
+            first.scene,
+            count(first.triangles as u64)
+        ),
+        alt: format!(
+            "Bar chart of {} structures on {} kinds of rays of {}; the numbers follow.",
+            rows.len(),
+            workloads.len(),
+            first.scene
+        ),
+        command: command.into(),
+        art: Art::Chart(Chart::Bars(Bars {
+            x_title: "times as fast as the fastest obvhs".into(),
+            reference: 1.0,
+            labels,
+            groups,
+        })),
+        data,
+    }
+}

@@ -1,0 +1,93 @@
+//! What a study is going to measure.
+
+use std::path::PathBuf;
+
+use serde::Serialize;
+use serde_json::{Map, Value};
+
+use super::{Stage, StudyError};
+use crate::measure::{Clock, Threads};
+use crate::report::Record;
+
+/// How much `study all` measures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Effort {
+    Full,
+    /// A few minutes for trying out: few scenes, rays and epochs.
+    Quick,
+}
+
+/// A scene, as cases and pages name it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SceneId {
+    pub name: String,
+    /// SHA-256, where it is known.
+    pub hash: Option<String>,
+}
+
+impl SceneId {
+    /// That of a record.
+    pub fn of(record: &Record) -> Self {
+        Self { name: record.scene.clone(), hash: Some(record.scene_hash.clone()) }
+    }
+}
+
+/// The cases of a run, in the order in which they are measured.
+pub struct Plan<C> {
+    /// Everything that a case depends on and its key does not tell, by the name of the option.
+    pub settings: Map<String, Value>,
+    pub threads: Threads,
+    pub cases: Vec<Planned>,
+    /// What is said below the tables.
+    pub notes: Vec<String>,
+    /// Files that are read, and so are not written.
+    pub inputs: Vec<PathBuf>,
+    pub measure: Measure<C>,
+}
+
+/// Measures a case, by its number in the plan. A later epoch of a scene is given the first one.
+pub type Measure<C> = Box<dyn Fn(usize, Option<&C>, &dyn Clock, &mut dyn FnMut(Stage)) -> Result<C, StudyError>>;
+
+/// One case of a plan.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Planned {
+    /// Its name in the journal.
+    pub key: String,
+    /// As the progress bar names it.
+    pub title: String,
+    /// Number of its scene.
+    pub scene: usize,
+    /// Counted from 0.
+    pub epoch: usize,
+}
+
+impl<C> Plan<C> {
+    /// A plan of one case for each of `titles`, by their keys.
+    pub fn of_scenes(
+        settings: &impl Serialize,
+        threads: Threads,
+        scenes: impl IntoIterator<Item = (String, String)>,
+        measure: Measure<C>,
+    ) -> Self {
+        let planned = |(scene, (title, key))| Planned { key, title, scene, epoch: 0 };
+        Self {
+            settings: settings_map(settings),
+            threads,
+            cases: scenes.into_iter().enumerate().map(planned).collect(),
+            notes: vec![],
+            inputs: vec![],
+            measure,
+        }
+    }
+}
+
+/// Settings by name.
+///
+/// # Panics
+/// If they are no struct with named fields.
+pub fn settings_map(settings: &impl Serialize) -> Map<String, Value> {
+    match serde_json::to_value(settings).expect("settings serialise") {
+        Value::Object(settings) => settings,
+        other => panic!("settings must be a struct with named fields, not {other}"),
+    }
+}

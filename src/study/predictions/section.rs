@@ -1,0 +1,63 @@
+//! What was expected before anything was measured, and what came of it.
+
+use super::{Claim, Prediction, Verdict, table as claims, tally, tone};
+use crate::report::document::Block;
+use crate::report::words::interval;
+use crate::report::{Cell, Table};
+
+/// One sentence for the answer of the page; nothing where nothing is measured.
+pub fn sentence(predictions: &[Prediction]) -> Option<String> {
+    let measured = predictions.iter().flat_map(|p| &p.claims).any(|claim| claim.value.is_some());
+    measured.then(|| format!("Written before the measurement: {}.", tally(predictions).words()))
+}
+
+pub fn blocks(predictions: &[Prediction], command: &str) -> Vec<Block> {
+    let mut verdicts =
+        Table::of_texts("Claims and verdicts", ["no.", "claim", "expected", "measured", "verdict"], vec![]);
+    verdicts.rows = predictions.iter().flat_map(|p| p.claims.iter().map(|claim| row(p.number, claim))).collect();
+    let mut blocks = vec![Block::Text(format!("{}.", tally(predictions).words())), Block::table(verdicts, command)];
+    let told = |p: &&Prediction| {
+        let refuted = p.claims.iter().any(|claim| claim.verdict == Verdict::Refuted);
+        (refuted || p.claims.is_empty()) && !p.why.is_empty()
+    };
+    let whys = predictions.iter().filter(told);
+    blocks.extend(whys.map(|p| Block::Text(format!("{}. {}", p.number, short(&p.why)))));
+    let all = Block::table(claims(predictions), command);
+    blocks.push(Block::Fold("The words as they were written, and all explanations".into(), vec![all]));
+    blocks
+}
+
+/// Characters of an explanation that are shown at once.
+const LENGTH: usize = 420;
+
+/// An explanation, up to the end of a clause where it is long.
+fn short(why: &str) -> String {
+    let clause = |end: usize| [". ", "; ", ", "].iter().filter_map(|mark| why[..end].rfind(mark)).max();
+    match why.char_indices().nth(LENGTH).and_then(|(end, _)| clause(end)) {
+        Some(end) => format!("{} … (the rest is below)", &why[..end]),
+        None => why.into(),
+    }
+}
+
+fn row(number: u8, claim: &Claim) -> Vec<Cell> {
+    vec![
+        number.to_string().into(),
+        claim.what.as_str().into(),
+        claim.expected.as_str().into(),
+        claim.value.map_or(Cell::blank(), |value| interval(value).into()),
+        Cell::from(claim.verdict.words()).with(tone(claim.verdict)),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{LENGTH, short};
+
+    #[test]
+    fn long_explanations_end_with_a_clause_and_not_within_a_number() {
+        assert_eq!(short("It is 1.5, not 2."), "It is 1.5, not 2.");
+        let long = format!("{}, 3.25 fewer, and more", "x".repeat(LENGTH - 10));
+        assert_eq!(short(&long), format!("{} … (the rest is below)", "x".repeat(LENGTH - 10)));
+        assert!(short(&"é".repeat(2 * LENGTH)).ends_with('é'));
+    }
+}

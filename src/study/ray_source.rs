@@ -1,0 +1,119 @@
+//! Where the rays of a run come from: made anew, or replayed from a file.
+
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+
+use super::sources;
+use crate::scene::files::RayFile;
+use crate::scene::{Builtin, Scene};
+
+/// What `--rays` takes: how many rays, or a file of rays. A file whose name is a number or `all` is written `./NAME`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum RaySource {
+    /// At most so many; all of them where the number is the largest there is.
+    Count(usize),
+    File(PathBuf),
+}
+
+/// More rays than anybody wants in memory.
+const MOST: usize = 1 << 26;
+
+/// Reads a number of rays, or `all`: the largest number.
+///
+/// # Errors
+/// A sentence, if it is neither.
+pub fn rays_or_all(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        _ if text == "all" => Ok(usize::MAX),
+        Ok(count @ 1..=MOST) => Ok(count),
+        _ => Err(format!("give a number of rays from 1 to {MOST}, or all")),
+    }
+}
+
+impl FromStr for RaySource {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        // A number that is wrong is not taken for a file.
+        let is_number = text.trim_start_matches(['-', '+']).bytes().all(|byte| byte.is_ascii_digit());
+        match rays_or_all(text) {
+            Ok(count) => Ok(Self::Count(count)),
+            Err(sentence) if is_number => Err(format!("{sentence}, or a file of rays")),
+            Err(_) => Ok(Self::File(text.into())),
+        }
+    }
+}
+
+impl RaySource {
+    /// The file that they are replayed from, if they are.
+    pub fn file(&self) -> Option<&Path> {
+        match self {
+            Self::Count(_) => None,
+            Self::File(path) => Some(path),
+        }
+    }
+
+    /// How many rays at most; all where they are replayed.
+    pub fn count(&self) -> usize {
+        match self {
+            Self::Count(count) => *count,
+            Self::File(_) => usize::MAX,
+        }
+    }
+
+    /// As [`count`](Self::count), of rays of which there is no end.
+    ///
+    /// # Errors
+    /// If all are asked for.
+    pub fn number(&self) -> anyhow::Result<usize> {
+        match self {
+            Self::Count(usize::MAX) => anyhow::bail!("there is no end of such rays: give a number of them, not all"),
+            Self::Count(count) => Ok(*count),
+            Self::File(_) => Ok(0),
+        }
+    }
+}
+
+/// The scene and the rays of the file that `source` names; nothing where rays are to be made. The scene is the one named,
+/// which must be the file's, or the file's own if none is.
+///
+/// # Errors
+/// If the file cannot be used, or its rays are not for that scene.
+pub fn replayed(source: &RaySource, named: &[String]) -> anyhow::Result<Option<(Scene, RayFile)>> {
+    let RaySource::File(path) = source else { return Ok(None) };
+    let file = RayFile::read(path)?;
+    let name = match named {
+        [] if file.scene.is_empty() => {
+            anyhow::bail!("{} holds rays of no scene in particular: name a scene", path.display())
+        }
+        // Names of built-in scenes are names; what else a file says is no path to follow.
+        [] if Builtin::find(&file.scene).is_err() => anyhow::bail!(
+            "{} holds rays of {:?}, which is no built-in scene: name the mesh or scene file that they were recorded for",
+            path.display(),
+            file.scene
+        ),
+        [] => &file.scene,
+        [one] => one,
+        _ => anyhow::bail!("{} holds rays of one scene: name one scene, not {}", path.display(), named.len()),
+    };
+    let scene = sources::scene(name)?;
+    file.check_scene(&scene).map_err(|problem| anyhow::anyhow!("{}: {problem}", path.display()))?;
+    Ok(Some((scene, file)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_counts_and_the_rest_are_files() {
+        assert_eq!("100".parse(), Ok(RaySource::Count(100)));
+        assert_eq!("a.rays".parse(), Ok(RaySource::File("a.rays".into())));
+        assert_eq!("./100".parse(), Ok(RaySource::File("./100".into())));
+        assert_eq!("all".parse(), Ok(RaySource::Count(usize::MAX)));
+        assert!(rays_or_all("a.rays").is_err());
+        for wrong in ["0", "-5", "99999999999", ""] {
+            assert!(wrong.parse::<RaySource>().is_err(), "{wrong}");
+        }
+    }
+}

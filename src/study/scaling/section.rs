@@ -1,0 +1,117 @@
+//! How time, build and memory grow with the number of triangles.
+
+use super::table::{exponents, groups, points};
+use super::{Family, Growth, Point};
+use crate::measure::Estimate;
+use crate::report::Table;
+use crate::report::document::{Art, Block, Figure};
+use crate::report::number::figures;
+use crate::report::plot::{Chart, CurvePoint, Curves, Line, Mark, Scale};
+use crate::report::words::slug;
+use crate::report::words::written;
+
+/// What is drawn over the number of triangles.
+struct Quantity {
+    id: &'static str,
+    words: &'static str,
+    y_title: &'static str,
+    value: fn(&Point) -> f64,
+    power: fn(&Growth) -> Option<Estimate>,
+}
+
+const TIME: Quantity = Quantity {
+    id: "time",
+    words: "time of a ray",
+    y_title: "nanoseconds a ray",
+    value: |point| point.ns_per_ray,
+    power: |growth| growth.time,
+};
+
+const BUILD: Quantity = Quantity {
+    id: "build",
+    words: "time of the build",
+    y_title: "milliseconds of the build",
+    value: |point| point.build_ns * 1e-6,
+    power: |growth| growth.build,
+};
+
+const MEMORY: Quantity = Quantity {
+    id: "memory",
+    words: "memory",
+    y_title: "bytes a triangle",
+    value: |point| point.bytes_per_triangle,
+    power: |growth| growth.bytes,
+};
+
+pub fn blocks(growths: &[Growth], command: &str) -> Vec<Block> {
+    let mut blocks = vec![Block::Text(
+        "If a query were logarithmic in the number of triangles n, its power of n would be near 0; a power of 1 means that \
+         twice the triangles take twice the time. One sphere, divided more and more finely and seen alike, asks this \
+         without anything else that changes; different meshes differ in more than their size."
+            .into(),
+    )];
+    for group in growths.chunk_by(|a, b| a.family == b.family && a.workload == b.workload) {
+        if group[0].family == Family::Spheres {
+            blocks.push(Block::Figure(figure(group, &TIME, command)));
+            // Builds and memory do not know of rays.
+            if group[0].workload == growths[0].workload {
+                blocks.push(Block::Figure(figure(group, &BUILD, command)));
+                blocks.push(Block::Figure(figure(group, &MEMORY, command)));
+            }
+        }
+    }
+    let groups = groups(growths);
+    blocks.extend(groups.iter().map(|group| Block::table(exponents(group), command)));
+    let points = groups.iter().map(|group| Block::table(points(group), command)).collect();
+    blocks.push(Block::Fold("All points".into(), points));
+    blocks
+}
+
+fn figure(group: &[Growth], quantity: &Quantity, command: &str) -> Figure {
+    let first = &group[0];
+    let line = |growth: &Growth| Line {
+        label: growth.structure.clone(),
+        note: (quantity.power)(growth).map_or(String::new(), |power| format!("n^{:.2}", power.estimate)),
+        points: growth
+            .points
+            .iter()
+            .map(|point| CurvePoint { x: point.triangles as f64, y: (quantity.value)(point), band: None })
+            .collect(),
+        mark: Mark::Both,
+    };
+    let rows = group.iter().flat_map(|growth| {
+        growth.points.iter().map(|p| [growth.structure.clone(), p.triangles.to_string(), figures((quantity.value)(p))])
+    });
+    let told = group.iter().filter_map(|growth| {
+        let power = (quantity.power)(growth)?;
+        Some(format!("{}: power {}", growth.structure, written(power, |x| format!("{x:.2}"))))
+    });
+    let told: Vec<String> = told.collect();
+    let rays = if quantity.id == TIME.id { format!(" {} rays;", first.workload) } else { String::new() };
+    Figure {
+        id: format!("scaling-{}-{}-{}", quantity.id, slug(first.family.words()), slug(&first.workload)),
+        caption: format!(
+            "{}, {};{rays} both axes are logarithmic, so that a power of n is a straight line. Its exponent stands behind the name.",
+            capital(quantity.words),
+            first.family.words(),
+        ),
+        alt: format!("Line chart over the number of triangles. {}.", told.join("; ")),
+        command: command.into(),
+        art: Art::Chart(Chart::Curves(Curves {
+            x_title: "triangles".into(),
+            y_title: quantity.y_title.into(),
+            x_scale: Scale::Log,
+            y_scale: Scale::Log,
+            lines: group.iter().map(line).collect(),
+            level: None,
+            highest: None,
+            diagonal: None,
+        })),
+        data: Table::of_texts("", ["structure", "triangles", quantity.y_title], rows.collect()),
+    }
+}
+
+fn capital(words: &str) -> String {
+    let mut letters = words.chars();
+    letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
+}

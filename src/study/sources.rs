@@ -1,0 +1,201 @@
+//! Scenes, structures and kinds of rays from what the command line names.
+
+use std::path::Path;
+
+use anyhow::Context;
+
+use super::SAH_TREE;
+use crate::nearest::suggestion;
+use crate::output::OutputFile;
+use crate::registry::{Choice, Registry};
+use crate::scene::{BUILTIN, Builtin, Scene, load, real_mesh_folder};
+
+/// The scenes named, or all built-in ones.
+///
+/// # Errors
+/// If a name is not known, or a file cannot be loaded.
+pub fn scenes(named: &[String]) -> anyhow::Result<Vec<Scene>> {
+    if named.is_empty() {
+        return BUILTIN.iter().map(|builtin| scene(builtin.name)).collect();
+    }
+    let scenes = named.iter().map(|name| scene(name)).collect::<anyhow::Result<Vec<Scene>>>()?;
+    distinct(&scenes)?;
+    Ok(scenes)
+}
+
+/// Refuses different scenes of one name: no table could tell them apart.
+///
+/// # Errors
+/// If there are two, naming them.
+pub fn distinct(scenes: &[Scene]) -> anyhow::Result<()> {
+    for (i, scene) in scenes.iter().enumerate() {
+        let same = |other: &&Scene| {
+            other.name.eq_ignore_ascii_case(&scene.name) && other.stand_ins.is_empty() == scene.stand_ins.is_empty()
+        };
+        if scenes[..i].iter().filter(same).any(|other| other.hash() != scene.hash()) {
+            anyhow::bail!(
+                "two different scenes are called {}: tables could not tell them apart; rename one",
+                scene.name
+            );
+        }
+    }
+    Ok(())
+}
+
+/// A built-in scene by its name in any case, a scene file, or a scene around a mesh file. What is neither a known name nor
+/// looks like a path is taken for a name.
+///
+/// # Errors
+/// If there is no such scene, or a file cannot be loaded.
+pub fn scene(name: &str) -> anyhow::Result<Scene> {
+    let real_meshes = real_mesh_folder();
+    let path = Path::new(name);
+    match Builtin::find(name) {
+        Ok(builtin) => Ok(builtin.scene(Some(&real_meshes))?),
+        Err(unknown) if path.extension().is_none() && path.components().count() < 2 && !path.exists() => {
+            Err(unknown.into())
+        }
+        Err(_) if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml")) => {
+            Ok(Scene::read(path, Some(&real_meshes))?)
+        }
+        Err(_) => {
+            let stem = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy();
+            Ok(Scene::framed(&stem, load(path)?)?)
+        }
+    }
+}
+
+/// The file `path` for results, which is none of those read: scenes that are files, and `others`.
+///
+/// # Errors
+/// If it cannot be written, or is one of them.
+pub fn output<'a>(
+    path: &Path,
+    scenes: &'a [String],
+    others: impl IntoIterator<Item = &'a Path>,
+) -> anyhow::Result<OutputFile> {
+    let files = scenes.iter().filter(|name| Builtin::find(name).is_err()).map(Path::new);
+    Ok(OutputFile::check(path)?.apart_from(files.chain(others))?)
+}
+
+/// Stands for one structure of every name.
+pub const ALL: &str = "all";
+
+/// What is named, with [`ALL`] spelt out; every name if there is nothing.
+pub fn specs(registry: &Registry, named: &[String]) -> Vec<String> {
+    let names = || registry.names().into_iter().map(String::from);
+    if named.is_empty() {
+        return names().collect();
+    }
+    named
+        .iter()
+        .flat_map(|spec| if spec.eq_ignore_ascii_case(ALL) { names().collect() } else { vec![spec.clone()] })
+        .collect()
+}
+
+/// The text of a scene file.
+///
+/// # Errors
+/// If it cannot be read.
+pub fn text(path: &Path) -> anyhow::Result<String> {
+    std::fs::read_to_string(path).with_context(|| format!("cannot read {}", path.display()))
+}
+
+/// The structures named, or the first of every name; the same one twice would only take time.
+///
+/// # Errors
+/// If a name, key or value is not known.
+pub fn structures(registry: &Registry, specs: &[String]) -> anyhow::Result<Vec<Choice>> {
+    let mut choices: Vec<Choice> = vec![];
+    for spec in self::specs(registry, specs) {
+        let choice = structure(registry, &spec)?;
+        if choices.iter().all(|other| other.label != choice.label) {
+            choices.push(choice);
+        }
+    }
+    Ok(choices)
+}
+
+/// The qualities that `--quality` takes.
+pub const QUALITIES: [&str; 3] = ["fast", "balanced", "high"];
+
+/// As [`structures`]; those that have the quality and are named without one get it, as if it had been named.
+///
+/// # Errors
+/// As [`structures`].
+pub fn structures_at(registry: &Registry, specs: &[String], quality: Option<&str>) -> anyhow::Result<Vec<Choice>> {
+    let Some(quality) = quality else { return structures(registry, specs) };
+    let at = |spec: String| {
+        let separator = if spec.contains(':') { ',' } else { ':' };
+        let better = format!("{spec}{separator}quality={quality}");
+        if spec.contains("quality=") || registry.choose(&better).is_err() { spec } else { better }
+    };
+    let specs: Vec<String> = self::specs(registry, specs).into_iter().map(at).collect();
+    structures(registry, &specs)
+}
+
+/// One structure.
+///
+/// # Errors
+/// As [`structures`].
+pub fn structure(registry: &Registry, spec: &str) -> anyhow::Result<Choice> {
+    Ok(registry.choose(spec)?)
+}
+
+/// Refuses names that are no triangle test of any structure.
+///
+/// # Errors
+/// If there is one, listing those there are.
+pub fn known_tests(registry: &Registry, tests: &[String]) -> anyhow::Result<()> {
+    let mut known: Vec<&str> = registry.entries().iter().map(|entry| entry.triangle_test).collect();
+    known.sort_unstable();
+    known.dedup();
+    for test in tests {
+        anyhow::ensure!(
+            known.iter().any(|known| known.eq_ignore_ascii_case(test)),
+            "there is no triangle test {test:?}{}; there are: {}",
+            suggestion(test, known.iter().copied()),
+            known.join(", ")
+        );
+    }
+    Ok(())
+}
+
+/// The structure that tells where secondary rays start: the SAH tree, or the first of a registry without it.
+///
+/// # Errors
+/// If the registry is empty.
+pub fn guide(registry: &Registry) -> anyhow::Result<Choice> {
+    let guide = registry.choose(SAH_TREE).ok().or_else(|| registry.all().into_iter().next());
+    guide.context("no structure is registered: there is nothing to run")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_quality_is_that_of_the_trees_that_are_named_without_one() {
+        let registry = Registry::builtin();
+        let labels = |specs: &[&str], quality| -> Vec<String> {
+            let specs: Vec<String> = specs.iter().map(|&spec| spec.into()).collect();
+            let chosen = structures_at(&registry, &specs, quality).unwrap();
+            // What is kept of a choice is its label.
+            assert!(chosen.iter().all(|choice| registry.choose(&choice.label).unwrap().config == choice.config));
+            chosen.into_iter().map(|choice| choice.label).collect()
+        };
+        let named = ["median-kd", "sah-hybrid", "sah-bvh:batch=packets", "sah-kd-wide:quality=balanced"];
+        let fast = ["median-kd", "sah-hybrid:quality=fast", "sah-bvh:batch=packets,quality=fast", "sah-kd-wide"];
+        assert_eq!(labels(&named, Some("fast")), fast);
+        for quality in QUALITIES {
+            let all = labels(&[ALL], Some(quality));
+            assert_eq!(
+                all.iter().filter(|label| label.contains(quality)).count(),
+                if quality == "balanced" { 0 } else { 4 }
+            );
+            assert!(all.iter().filter(|label| label.starts_with("sah-")).count() == 5);
+        }
+        assert_eq!(labels(&[ALL], None), labels(&[ALL], Some("balanced")));
+        assert!(structures_at(&registry, &["octree".into()], Some("fast")).is_err());
+    }
+}

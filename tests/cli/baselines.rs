@@ -1,0 +1,189 @@
+//! Baselines and `diff` from outside: exit statuses and refusals, over runs whose samples are edited, so that no test depends on
+//! how fast anything is.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Output;
+
+use serde_json::Value;
+use tempfile::TempDir;
+
+use super::command::{NOISE, REGRESSION, RIGHT, USAGE, WRONG, sahara, stderr, stdout};
+
+/// A folder of runs with the baseline `old`.
+struct Kept {
+    folder: TempDir,
+}
+
+impl Kept {
+    fn new() -> Self {
+        let kept = Self { folder: tempfile::tempdir().unwrap() };
+        let output = kept.compare(&["--save-baseline", "old"]);
+        assert_eq!(output.status.code(), Some(RIGHT), "{}", stderr(&output));
+        assert!(stdout(&output).contains("Kept as baseline old"), "{}", stdout(&output));
+        kept
+    }
+
+    /// A comparison that takes no time.
+    fn compare(&self, more: &[&str]) -> Output {
+        let dir = self.folder.path().to_str().unwrap();
+        let small =
+            ["compare", "cube", "-s", "median-kd", "-s", "sah-kd", "-s", "obvhs-bvh2", "-w", "primary", "-w", "shadow"];
+        let short = ["--rays", "256", "--epochs", "2", "--runs", "2", "--quiet", "--dir", dir];
+        sahara(&[&small[..], &short, more].concat())
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join("baselines").join(format!("{name}.json"))
+    }
+
+    /// Writes the baseline `old`, edited, under another name.
+    fn edit(&self, name: &str, edit: impl Fn(&mut Value)) -> &Self {
+        write(&self.path(name), &edited(&self.path("old"), edit));
+        self
+    }
+
+    /// Holds a new run against a baseline; status, and what is said.
+    fn against(&self, name: &str, more: &[&str]) -> (i32, String) {
+        let output = self.compare(&[&["--baseline", name], more].concat());
+        (output.status.code().unwrap(), stdout(&output) + &stderr(&output))
+    }
+}
+
+fn edited(path: &Path, edit: impl Fn(&mut Value)) -> Vec<Value> {
+    let mut records: Vec<Value> = serde_json::from_slice(&fs::read(path).unwrap()).unwrap();
+    records.iter_mut().for_each(edit);
+    records
+}
+
+fn write(path: &Path, records: &[Value]) {
+    fs::write(path, serde_json::to_vec(records).unwrap()).unwrap();
+}
+
+/// Multiplies the samples of a structure by `factor` of their place.
+fn scale(record: &mut Value, label: &str, factor: impl Fn(usize) -> f64) {
+    if record["label"] == label {
+        // The twin is the same structure.
+        for field in ["samples_ns", "twin_samples_ns"] {
+            let samples = record[field].as_array_mut().into_iter().flatten().enumerate();
+            samples.for_each(|(i, ns)| *ns = (ns.as_f64().unwrap() * factor(i)).into());
+        }
+    }
+}
+
+#[test]
+fn a_regression_noise_and_neither_have_their_statuses() {
+    let kept = Kept::new();
+    let fail = ["--fail-on-regression", "5"];
+    // Far beyond any noise: a thousand times.
+    kept.edit("faster", |r| scale(r, "sah-kd", |_| 1e-3)).edit("slower", |r| scale(r, "sah-kd", |_| 1e3));
+    let (status, said) = kept.against("faster", &fail);
+    assert!(status == REGRESSION && said.contains("regression") && said.contains("obvhs-bvh2"), "{said}");
+    let (status, said) = kept.against("faster", &[]);
+    assert!(status == RIGHT && said.contains("slower"), "nobody asked to fail: {said}");
+    let both = |r: &mut Value| ["sah-kd", "median-kd"].iter().for_each(|label| scale(r, label, |_| 1e3));
+    let (status, said) = kept.edit("both", both).against("both", &fail);
+    assert!(status == RIGHT && said.contains("faster"), "{said}");
+
+    // Every other epoch, of two samples, a thousand times slower. The other structure is far from its baseline too: unedited, the
+    // noise of so short a run could be a regression of its own.
+    kept.edit("noisy", |r| {
+        scale(r, "sah-kd", |i| if i / 2 % 2 == 0 { 1e3 } else { 1e-3 });
+        scale(r, "median-kd", |_| 1e3);
+    });
+    let (status, said) = kept.against("noisy", &fail);
+    assert!(status == NOISE && said.contains("too noisy"), "{said}");
+}
+
+#[test]
+fn other_answers_are_wrong_whatever_the_speed() {
+    let kept = Kept::new();
+    kept.edit("other", |r| {
+        r["answers"] = "0000000000000000".into();
+        scale(r, "sah-kd", |_| 1e3);
+    });
+    let (status, said) = kept.against("other", &["--fail-on-regression", "5", "--save-baseline", "never"]);
+    assert!(status == WRONG && said.contains("Wrong: ") && said.contains("primitive"), "{said}");
+    assert!(!kept.path("never").exists() && said.contains("Not kept"), "{said}");
+    kept.edit("fewer", |r| r["hits"] = (r["hits"].as_u64().unwrap() + 1).into());
+    assert_eq!(kept.against("fewer", &[]).0, WRONG);
+}
+
+#[test]
+fn unlike_runs_are_refused_with_the_difference() {
+    let kept = Kept::new();
+    let refused = |name: &str, parts: &[&str], edit: &dyn Fn(&mut Value)| {
+        let (status, said) = kept.edit(name, edit).against(name, &["--fail-on-regression", "5"]);
+        assert_eq!(status, USAGE, "{said}");
+        assert!(said.starts_with("error: ") && said.lines().count() == 1, "{said}");
+        parts.iter().for_each(|part| assert!(said.contains(part), "{part:?} is not in {said:?}"));
+    };
+    refused("cpu", &["the processor is Other in the old"], &|r| r["provenance"]["cpu"] = "Other".into());
+    refused("scene", &["hash of the scene Cube", "00"], &|r| r["scene_hash"] = "00".into());
+    refused("rays", &["primary rays of Cube"], &|r| r["workload_hash"] = "00".into());
+    refused("config", &["the key leaf of"], &|r| {
+        if r["structure"] == "median-kd" {
+            r["config"]["leaf"] = 7.into();
+        }
+    });
+    refused("label", &["lacks sah-kd on the primary rays of Cube"], &|r| {
+        if r["label"] == "sah-kd" {
+            r["label"] = "sah-kd:leaf=3".into();
+        }
+    });
+    // The same cases with more of them in the baseline.
+    let mut more = edited(&kept.path("old"), |_| {});
+    let mut extra = more[0].clone();
+    extra["label"] = "median-kd:leaf=3".into();
+    more.push(extra);
+    write(&kept.path("more"), &more);
+    let (status, said) = kept.against("more", &[]);
+    assert!(status == USAGE && said.contains("holds median-kd:leaf=3") && said.contains("not compared"), "{said}");
+}
+
+#[test]
+fn baselines_that_are_not_there_are_named_with_those_that_are() {
+    let kept = Kept::new();
+    let says = |name: &str, more: &[&str], parts: &[&str]| {
+        let (status, said) = kept.against(name, more);
+        assert!(status == USAGE && parts.iter().all(|part| said.contains(part)), "{said}");
+    };
+    says("new", &[], &["\"new\"", "there are: old"]);
+    says("../old", &[], &["\"../old\"", "letters"]);
+    fs::write(kept.path("torn"), &fs::read(kept.path("old")).unwrap()[..1000]).unwrap();
+    says("torn", &[], &["torn.json", "--save-baseline"]);
+    says("old", &["--fail-on-regression", "-1"], &["-1"]);
+    says("old", &["--fail-on-regression", "much"], &["much"]);
+    let alone = kept.compare(&["--fail-on-regression", "5"]);
+    assert!(alone.status.code() == Some(USAGE) && stderr(&alone).contains("--baseline"));
+}
+
+#[test]
+fn exported_runs_are_compared() {
+    let kept = Kept::new();
+    let path = |name: &str| kept.path(name).to_str().unwrap().to_owned();
+    let compare = |old: &str, new: &str, more: &[&str]| {
+        let output = sahara(&[&["diff", &path(old), &path(new)], more].concat());
+        (output.status.code().unwrap(), stdout(&output) + &stderr(&output))
+    };
+    let json = kept.folder.path().join("comparison.json");
+    let (status, said) = compare("old", "old", &["--export-json", json.to_str().unwrap()]);
+    assert!(status == RIGHT && said.contains("no difference") && said.contains("(100%)"), "{said}");
+    let comparison: Value = serde_json::from_slice(&fs::read(&json).unwrap()).unwrap();
+    assert_eq!(comparison["study"], "diff");
+    let structures = comparison["result"]["structures"].as_array().unwrap();
+    assert_eq!((structures.len(), &structures[0]["time"]["estimate"]), (2, &Value::from(1.0)));
+
+    kept.edit("slower", |r| scale(r, "sah-kd", |_| 1e3)).edit("other", |r| r["answers"] = "00".into());
+    let (status, said) = compare("old", "slower", &[]);
+    assert!(status == RIGHT && said.contains("slower"), "{said}");
+    assert_eq!(compare("old", "other", &[]).0, WRONG);
+    let (status, said) = compare("old", "none", &[]);
+    assert!(status == USAGE && said.contains("none.json"), "{said}");
+    fs::write(kept.path("empty"), "[]").unwrap();
+    fs::write(kept.path("text"), "{}").unwrap();
+    assert!(compare("old", "empty", &[]).1.contains("no record"));
+    assert!(compare("text", "old", &[]).1.contains("compare --export-json"));
+    let (status, said) = compare("old", "slower", &["--export-json", &path("old")]);
+    assert!(status == USAGE && said.contains("another"), "nothing that is read is written: {said}");
+}
