@@ -1,6 +1,6 @@
 //! `report`: what runs have measured as a page, Markdown, LaTeX and tidy data.
 //!
-//! Runs become a [`Document`] of text, tables and figures by pure functions; every form is written from that. What no run
+//! Runs become a document of text, tables and figures by pure functions; every form is written from that. What no run
 //! has measured is named with its command.
 
 mod base64;

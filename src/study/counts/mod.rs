@@ -78,7 +78,7 @@ pub struct TreeMeasures {
     pub depth: usize,
     /// As in [`TreeShape::sah_cost`](crate::accel::TreeShape::sah_cost).
     pub sah_cost: Option<f64>,
-    /// As in [`end_point_overlap`].
+    /// As in the end-point overlap of Aila, Karras and Laine (2013).
     pub end_point_overlap: Option<f64>,
     /// Memory of the finished structure, without the mesh.
     pub bytes: usize,

@@ -73,7 +73,7 @@ fn structures(registry: &Registry, test: &str, keys: &str) -> Result<Vec<Choice>
     ours.chain(presets.map(|spec| registry.choose(&spec))).collect()
 }
 
-/// Compares the records of one run over [`structures`].
+/// Compares the records of one run over the structures of the study.
 pub fn rows(records: &[Record]) -> Vec<Row> {
     let noise = twins(records);
     let mut rows: Vec<Row> = vec![];
