@@ -75,7 +75,7 @@ struct Global {
     level: Option<Level>,
 }
 
-/// The commands that are no study.
+// The commands that are no study. No doc comment: clap would take it for what the whole command does.
 #[derive(Debug, Subcommand)]
 enum Command {
     /// Hold two exported runs of `compare` against each other
