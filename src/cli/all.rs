@@ -3,9 +3,8 @@
 use std::path::PathBuf;
 use std::time::Instant;
 
-use super::Suite;
+use super::Session;
 use super::study::{Common, RUNS, run_as};
-use super::terminal::Terminal;
 use crate::report::Table;
 use crate::report::number::duration;
 use crate::study::{Chosen, Effort, Status};
@@ -22,14 +21,29 @@ pub struct Args {
     /// Throw away what was measured before, and start anew
     #[arg(long)]
     fresh: bool,
+    /// Measure all epochs in one process: quicker, but how it happens to lie in memory is then in none of the intervals
+    #[arg(long)]
+    in_process: bool,
     /// A few minutes for trying out: few scenes, rays and epochs; its numbers mean little
     #[arg(long)]
     quick: bool,
 }
 
-pub fn run(suite: &Suite, args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
-    let effort = if args.quick { Effort::Quick } else { Effort::Full };
-    let common = Common { dir: Some(args.dir.clone()), fresh: args.fresh, ..Common::default() };
+impl Args {
+    /// How much is measured.
+    pub fn effort(&self) -> Effort {
+        if self.quick { Effort::Quick } else { Effort::Full }
+    }
+}
+
+pub fn run(session: &Session, args: &Args) -> anyhow::Result<Status> {
+    let &Session { suite, terminal, .. } = session;
+    let common = Common {
+        dir: Some(args.dir.clone()),
+        fresh: args.fresh,
+        in_process: args.in_process,
+        ..Common::default()
+    };
     let mut outcome = Status::Right;
     let mut rows = vec![];
     let studies = suite.studies.in_order_of_measuring();
@@ -40,7 +54,7 @@ pub fn run(suite: &Suite, args: &Args, terminal: &Terminal) -> anyhow::Result<St
             eprintln!("{}; then left: {left}", study.name());
         }
         let start = Instant::now();
-        let found = run_as(suite, *study, Chosen::Preset(effort), &common, terminal)?;
+        let found = run_as(session, *study, Chosen::Preset(args.effort()), &common)?;
         outcome = outcome.and(found);
         let words = match found {
             Status::Wrong => "wrong answers",

@@ -8,7 +8,7 @@ use clap::{ArgMatches, Args as _, FromArgMatches};
 use super::progress::OnTerminal;
 use super::study::{Common, RUNS};
 use super::terminal::Terminal;
-use super::{Suite, study};
+use super::{Session, Suite, study};
 use crate::measure::{Provenance, SystemClock};
 use crate::output::OutputFile;
 use crate::registry::Registry;
@@ -16,9 +16,10 @@ use crate::report::to_json;
 use crate::scene::WorkloadKind;
 use crate::study::baseline::{Run, SCENES, against, new_baseline_path, outcome as held_against, read_baseline};
 use crate::study::compare::{CompareArgs, Compared, Reference, scene_table};
-use crate::study::epoch::{Settings, troubles};
+use crate::study::epoch::{Epoch, Settings, troubles};
+use crate::study::process::{self, Job};
 use crate::study::regression::{Comparison, tables};
-use crate::study::{AnyStudy, BRUTE_FORCE, Screen, Status};
+use crate::study::{AnyStudy, BRUTE_FORCE, Chosen, Plan, Screen, Status};
 
 /// Options about runs that are kept.
 #[derive(Clone, Debug, clap::Args)]
@@ -55,13 +56,28 @@ pub fn command(study: &dyn AnyStudy) -> clap::Command {
     Gate::augment_args(study::command(study)).about(study.question()).long_about(None)
 }
 
-pub fn run(suite: &Suite, matches: &ArgMatches, terminal: &Terminal) -> anyhow::Result<Status> {
+pub fn run(session: &Session, matches: &ArgMatches) -> anyhow::Result<Status> {
     let gate = Gate::from_arg_matches(matches)?;
-    if gate.save_baseline.is_some() || gate.baseline.is_some() {
-        return gated(&suite.registry, &gate, matches, terminal);
+    if gate.is_asked_for() {
+        return gated(session, &gate, matches);
+    }
+    let compare = session.suite.studies.find(super::COMPARE).expect("its command is there");
+    study::run(session, compare, matches)
+}
+
+/// What a process with a job does that a run of this command has started.
+pub fn answer_job(suite: &Suite, matches: &ArgMatches, job: &Job) -> anyhow::Result<()> {
+    if Gate::from_arg_matches(matches)?.is_asked_for() {
+        return Ok(process::answer(gated_plan(&suite.registry, matches).map(|(_, plan)| plan), job)?);
     }
     let compare = suite.studies.find(super::COMPARE).expect("its command is there");
-    study::run(suite, compare, matches, terminal)
+    compare.answer_job(Chosen::Matches(matches), &suite.registry, job)
+}
+
+impl Gate {
+    fn is_asked_for(&self) -> bool {
+        self.save_baseline.is_some() || self.baseline.is_some()
+    }
 }
 
 /// The options, with the defaults of runs that are kept.
@@ -83,16 +99,10 @@ fn options(matches: &ArgMatches) -> anyhow::Result<CompareArgs> {
     Ok(args)
 }
 
-/// Measures, keeps, and holds against what was kept.
-fn gated(registry: &Registry, gate: &Gate, matches: &ArgMatches, terminal: &Terminal) -> anyhow::Result<Status> {
-    let (args, common) = (options(matches)?, Common::from_arg_matches(matches)?);
-    anyhow::ensure!(args.measuring.epochs > 1, "a baseline needs two epochs or more: --epochs 2");
-    let folder = common.dir.clone().unwrap_or_else(|| PathBuf::from(RUNS));
-    let baseline = gate.baseline.as_deref().map(|name| read_baseline(&folder, name)).transpose()?;
-    let kept = gate.save_baseline.as_deref().map(|name| new_baseline_path(&folder, name)).transpose()?;
-    let kept = kept.as_deref().map(OutputFile::check).transpose()?;
+/// The options, and the most epochs that may be needed.
+fn gated_plan(registry: &Registry, matches: &ArgMatches) -> anyhow::Result<(CompareArgs, Plan<Epoch>)> {
+    let args = options(matches)?;
     let (scenes, settings) = args.settings(registry)?;
-    let json = common.export_json.as_deref().map(OutputFile::check).transpose()?;
     // Another run must take the same rays: no budget decides how many.
     let mut settings = Settings { slowest: f64::INFINITY, ..settings };
     if matches.value_source("budget") == Some(ValueSource::DefaultValue) {
@@ -101,16 +111,30 @@ fn gated(registry: &Registry, gate: &Gate, matches: &ArgMatches, terminal: &Term
     if args.structures.structure.is_empty() {
         settings.structures.retain(|choice| choice.entry.name != BRUTE_FORCE);
     }
+    let most = args.measuring.epochs.saturating_mul(MOST);
+    Ok((args, settings.plan(scenes, most)))
+}
 
+/// Measures, keeps, and holds against what was kept.
+fn gated(session: &Session, gate: &Gate, matches: &ArgMatches) -> anyhow::Result<Status> {
+    let terminal = session.terminal;
+    let common = Common::from_arg_matches(matches)?;
+    anyhow::ensure!(options(matches)?.measuring.epochs > 1, "a baseline needs two epochs or more: --epochs 2");
+    let folder = common.dir.clone().unwrap_or_else(|| PathBuf::from(RUNS));
+    let baseline = gate.baseline.as_deref().map(|name| read_baseline(&folder, name)).transpose()?;
+    let kept = gate.save_baseline.as_deref().map(|name| new_baseline_path(&folder, name)).transpose()?;
+    let kept = kept.as_deref().map(OutputFile::check).transpose()?;
+    let json = common.export_json.as_deref().map(OutputFile::check).transpose()?;
+    let (args, plan) = gated_plan(&session.suite.registry, matches)?;
     let most = args.measuring.epochs.saturating_mul(MOST);
     let first = if kept.is_some() { most } else { args.measuring.epochs };
     let clock = SystemClock::start();
     let mut screen = OnTerminal::new(terminal);
-    screen.begin(scenes.len() * usize::from(most));
-    let mut run = Run::new(&scenes, &settings, &clock);
+    screen.begin(plan.cases.len());
+    let mut run = Run::new(&plan, session.processes(&common), &clock);
     // Where nothing is decided there are more epochs and another look.
     let looks = 1 + usize::from(most - first).div_ceil(STEP.into());
-    let provenance = Provenance::of(&settings.threads);
+    let provenance = Provenance::of(&plan.threads);
     let (compared, comparison) = loop {
         let step = if run.epochs() == 0 { first } else { STEP };
         for _ in 0..step {

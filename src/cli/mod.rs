@@ -27,7 +27,8 @@ use crate::measure::program;
 use crate::output::OutputError;
 use crate::registry::Registry;
 use crate::simd::Level;
-use crate::study::{Chosen, Effort, Status, Studies, guarded};
+use crate::study::process::{self, Job, Processes};
+use crate::study::{AnyStudy, Chosen, Effort, Status, Studies, guarded, sources};
 use terminal::{Colour, Terminal};
 
 /// One rule for all commands; what a baseline is known to get wrong is no fault of a run.
@@ -73,6 +74,23 @@ struct Global {
     /// Run on these instructions instead of the best ones here: portable, avx2 or avx512; the answers are the same
     #[arg(long, global = true)]
     level: Option<Level>,
+    /// Measure this case of a run, and say it in lines of JSON: how a run starts a process
+    #[arg(long = process::OPTION, global = true, hide = true)]
+    job: Option<Job>,
+}
+
+/// What studies are run with.
+struct Session<'a> {
+    suite: &'a Suite,
+    terminal: &'a Terminal,
+    processes: Option<&'a Processes>,
+}
+
+impl<'a> Session<'a> {
+    /// What starts a process for each case, unless all are to be measured in this one.
+    fn processes(&self, common: &study::Common) -> Option<&'a Processes> {
+        self.processes.filter(|_| !common.in_process)
+    }
 }
 
 // The commands that are no study. No doc comment: clap would take it for what the whole command does.
@@ -138,15 +156,19 @@ fn command(studies: &Studies) -> clap::Command {
 
 /// Runs the command line of this process over structures, with the studies of this crate, or over a whole [`Suite`].
 pub fn main(suite: impl Into<Suite>) -> ExitCode {
-    run(&suite.into(), std::env::args_os())
+    run_with(&suite.into(), std::env::args_os(), Some(&Processes::new(std::env::args_os())))
 }
 
 /// Said after a panic that no command has caught.
 const PANIC: &str = "the panic above ended the command: if it is a structure's, leave that out, or find the mesh or ray with \
                      `sahara validate`; else it is a fault of sahara";
 
-/// Runs `args`, the name of the program first.
+/// Runs `args`, the name of the program first. They need not be those of this program, so all is measured in this process.
 pub fn run(suite: &Suite, args: impl IntoIterator<Item = OsString>) -> ExitCode {
+    run_with(suite, args, None)
+}
+
+fn run_with(suite: &Suite, args: impl IntoIterator<Item = OsString>, processes: Option<&Processes>) -> ExitCode {
     // The date of what is measured is that of its beginning.
     program::started();
     let parsed = command(&suite.studies).try_get_matches_from(args);
@@ -161,7 +183,11 @@ pub fn run(suite: &Suite, args: impl IntoIterator<Item = OsString>) -> ExitCode 
     let terminal = Terminal::new(global.color, global.quiet);
     // What `validate --hard` runs in a process of its own tells it of a panic by ending with one.
     let may_panic = matches.subcommand_name() == Some(validate::CHILD);
-    let run = || dispatch(suite, &matches, &terminal);
+    let session = Session { suite, terminal: &terminal, processes };
+    let run = || match &global.job {
+        Some(job) => answer_job(suite, &matches, job).map(|()| Status::Right),
+        None => dispatch(&session, &matches),
+    };
     // A structure of another crate may panic where its command has nothing else to go on with.
     let found = if may_panic { run() } else { guarded(run).unwrap_or_else(|| Err(anyhow::anyhow!(PANIC))) };
     match found {
@@ -188,20 +214,38 @@ fn told(message: &clap::Error) -> ExitCode {
     ExitCode::from(u8::from(message.use_stderr()))
 }
 
-fn dispatch(suite: &Suite, matches: &ArgMatches, terminal: &Terminal) -> anyhow::Result<Status> {
+/// What a process with a job does, on the command line of the run that has started it.
+fn answer_job(suite: &Suite, matches: &ArgMatches, job: &Job) -> anyhow::Result<()> {
+    sources::load_only(&job.scene);
+    let study = find(suite, &job.study)?;
+    let chosen = match matches.subcommand() {
+        None => Chosen::Preset(Effort::Full),
+        Some((COMPARE, matches)) => return compare::answer_job(suite, matches, job),
+        Some((STUDY, matches)) => match matches.subcommand() {
+            Some((all::NAME, matches)) => Chosen::Preset(all::Args::from_arg_matches(matches)?.effort()),
+            Some((_, matches)) => Chosen::Matches(matches),
+            None => anyhow::bail!("a job is of a study"),
+        },
+        Some((_, matches)) => Chosen::Matches(matches),
+    };
+    study.answer_job(chosen, &suite.registry, job)
+}
+
+fn dispatch(session: &Session, matches: &ArgMatches) -> anyhow::Result<Status> {
+    let &Session { suite, terminal, .. } = session;
     let registry = &suite.registry;
     match matches.subcommand() {
         None => {
             let compare = suite.studies.find(COMPARE).ok_or_else(|| anyhow::anyhow!("name a command: see --help"))?;
-            return study::run_as(suite, compare, Chosen::Preset(Effort::Full), &study::Common::default(), terminal);
+            return study::run_as(session, compare, Chosen::Preset(Effort::Full), &study::Common::default());
         }
-        Some((COMPARE, matches)) => return compare::run(suite, matches, terminal),
+        Some((COMPARE, matches)) => return compare::run(session, matches),
         Some((STUDY, matches)) => match matches.subcommand() {
-            Some((all::NAME, matches)) => return all::run(suite, &all::Args::from_arg_matches(matches)?, terminal),
-            Some((name, matches)) => return listed(suite, name, matches, terminal),
+            Some((all::NAME, matches)) => return all::run(session, &all::Args::from_arg_matches(matches)?),
+            Some((name, matches)) => return study::run(session, find(suite, name)?, matches),
             None => {}
         },
-        Some((REPLICATE, matches)) => return listed(suite, REPLICATE, matches, terminal),
+        Some((REPLICATE, matches)) => return study::run(session, find(suite, REPLICATE)?, matches),
         Some((name, _)) => {
             if let Some((_, new)) = OLD.iter().find(|(old, _)| *old == name) {
                 anyhow::bail!("`sahara {name}` is now {new}");
@@ -222,10 +266,8 @@ fn dispatch(suite: &Suite, matches: &ArgMatches, terminal: &Terminal) -> anyhow:
     }
 }
 
-/// Runs the study `name`.
-fn listed(suite: &Suite, name: &str, matches: &ArgMatches, terminal: &Terminal) -> anyhow::Result<Status> {
-    let found = suite.studies.find(name).ok_or_else(|| anyhow::anyhow!("there is no study {name:?}"))?;
-    study::run(suite, found, matches, terminal)
+fn find<'a>(suite: &'a Suite, study: &str) -> anyhow::Result<&'a dyn AnyStudy> {
+    suite.studies.find(study).ok_or_else(|| anyhow::anyhow!("there is no study {study:?}"))
 }
 
 /// Whether the reader of our output has gone away, as `head` does.

@@ -4,9 +4,8 @@ use std::path::PathBuf;
 
 use clap::{ArgMatches, Args as _, FromArgMatches};
 
-use super::Suite;
+use super::Session;
 use super::progress::OnTerminal;
-use super::terminal::Terminal;
 use crate::output::OutputFile;
 use crate::report::plot::Format;
 use crate::report::to_markdown;
@@ -25,6 +24,9 @@ pub struct Common {
     /// Throw away what was measured before, and start anew
     #[arg(long)]
     pub fresh: bool,
+    /// Measure all epochs in one process: quicker, but how it happens to lie in memory is then in none of the intervals
+    #[arg(long)]
+    pub in_process: bool,
     /// Write the result as JSON
     #[arg(long, value_name = "FILE")]
     pub export_json: Option<PathBuf>,
@@ -70,18 +72,13 @@ pub fn command(study: &dyn AnyStudy) -> clap::Command {
 }
 
 /// Runs a study from its own command line.
-pub fn run(suite: &Suite, study: &dyn AnyStudy, matches: &ArgMatches, terminal: &Terminal) -> anyhow::Result<Status> {
-    run_as(suite, study, Chosen::Matches(matches), &Common::from_arg_matches(matches)?, terminal)
+pub fn run(session: &Session, study: &dyn AnyStudy, matches: &ArgMatches) -> anyhow::Result<Status> {
+    run_as(session, study, Chosen::Matches(matches), &Common::from_arg_matches(matches)?)
 }
 
 /// Runs a study, prints what it says and writes the files.
-pub fn run_as(
-    suite: &Suite,
-    study: &dyn AnyStudy,
-    chosen: Chosen,
-    common: &Common,
-    terminal: &Terminal,
-) -> anyhow::Result<Status> {
+pub fn run_as(session: &Session, study: &dyn AnyStudy, chosen: Chosen, common: &Common) -> anyhow::Result<Status> {
+    let &Session { suite, terminal, .. } = session;
     let folder = common.dir.clone().or_else(|| study.is_kept().then(|| RUNS.into()));
     let mut screen = OnTerminal::new(terminal);
     let mut run = Run {
@@ -89,6 +86,7 @@ pub fn run_as(
         studies: &suite.studies,
         folder: folder.as_deref(),
         fresh: common.fresh,
+        processes: session.processes(common),
         screen: &mut screen,
     };
     let mut files = Files::default();

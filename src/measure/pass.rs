@@ -156,7 +156,7 @@ pub struct Pass<'a> {
     aside: Answers,
     /// Where a pass takes all rays: how many of the last of them the lead-in takes as well, and a sum of their answers.
     led_in: Option<(usize, u64)>,
-    /// Picoseconds that a ray of the last lead-in took.
+    /// Picoseconds that a ray of the lead-in took; without one there is none before tiles either.
     lead_in_ps: u128,
     /// What `clear` fills in changes each time: a pass that leaves an answer as it was cannot give the same sum twice.
     filled: bool,
@@ -192,7 +192,7 @@ impl<'a> Pass<'a> {
             answers,
             aside,
             led_in: None,
-            lead_in_ps: 0,
+            lead_in_ps: u128::MAX,
             filled: false,
         };
         pass.choose(&[0], 0);
@@ -274,6 +274,10 @@ impl Timed for Pass<'_> {
         self.filled = !self.filled;
         self.answers.fill(self.filled);
         self.aside.fill(self.filled);
+        (self.led_in, self.lead_in_ps) = (None, u128::MAX);
+    }
+
+    fn lead_in(&mut self) {
         let start = Instant::now();
         let mut count = self.lead_in.iter().map(|piece| piece.count).sum();
         if self.threads.count() > 1 {

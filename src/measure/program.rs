@@ -15,8 +15,8 @@ pub fn build() -> &'static str {
     BUILD.get_or_init(|| file_id(&executable()).unwrap_or_else(|_| "unknown".into()))
 }
 
-/// The file that was started. Linux keeps it at this place even if another one has taken its name since.
-fn executable() -> PathBuf {
+/// The file that was started: started again, it is the same program. Linux keeps it at this place even if another one has taken its name since.
+pub fn executable() -> PathBuf {
     let kept = Path::new("/proc/self/exe");
     if kept.exists() { kept.into() } else { std::env::current_exe().unwrap_or_default() }
 }

@@ -12,9 +12,12 @@ pub trait Timed {
     /// along. Which rays these are, [`tiles`](super::tiles::tiles) says. Not timed.
     fn choose(&mut self, levels: &[usize], epoch: usize);
 
-    /// Forgets all answers, so that a pass which does nothing is found out, and leads in to the pass. Called before
-    /// every pass. Not timed.
+    /// Forgets all answers, so that a pass which does nothing is found out. Called before every pass. Not timed.
     fn clear(&mut self);
+
+    /// Brings caches and predictors into the state that the case leaves them in. Called before a pass whose time is kept.
+    /// Not timed.
+    fn lead_in(&mut self);
 
     /// One pass: nanoseconds of each level chosen.
     fn run(&mut self, watch: &Stopwatch) -> Vec<u64>;
@@ -92,9 +95,9 @@ pub struct UnsteadyAnswers {
 }
 
 /// The first pass of a case takes so many rays at least, to find out how slow it is.
-const PILOT: usize = 64;
+const PILOT: u64 = 64;
 
-/// A pass that takes longer says enough of the speed.
+/// A pass that takes so long says enough of the speed.
 const LONG_PILOT_NS: u64 = 5_000_000;
 
 /// Finds how many rays of each case and how many samples fit the budget; cases of equal `groups` get as many rays. No
@@ -160,11 +163,11 @@ pub fn take(
         levels.extend(samples.parts.iter().map(|part| level_of(part.rays)));
         // Each epoch has tiles of its own: some of the first tell whether the answers are the same.
         if levels[0] > 0 {
-            let [first, again] = [(); 2].map(|()| ask_some(&watch, case.as_mut(), levels[0]));
-            if first != again {
+            let answers = ask_some(&watch, case.as_mut(), levels[0]);
+            if plan.epoch == 0 && answers != ask_some(&watch, case.as_mut(), levels[0]) {
                 return Err(UnsteadyAnswers { case: i });
             }
-            remember(samples, first, plan.epoch);
+            remember(samples, answers, plan.epoch);
         }
         levels_of.push(levels);
     }
@@ -177,7 +180,9 @@ pub fn take(
     for _ in 0..plan.runs {
         for i in order.shuffled(cases.len()) {
             let (case, samples) = (&mut cases[i], &mut samples[i]);
-            let ns = pass(&watch, case.as_mut());
+            case.clear();
+            case.lead_in();
+            let ns = case.run(&watch);
             let checksum = case.checksum();
             if *checksums[i].get_or_insert(checksum) != checksum || case.contradicts_itself() {
                 return Err(UnsteadyAnswers { case: i });
@@ -205,30 +210,29 @@ fn remember(samples: &mut Samples, checksum: u64, epoch: usize) {
 /// The checksum of a sixteenth of the rays that `case` is timed on in the first epoch at `level`.
 fn ask_some(watch: &Stopwatch, case: &mut dyn Timed, level: usize) -> u64 {
     case.choose(&[(level + 2).min(last_level(case.rays()))], 0);
-    pass(watch, case);
+    case.clear();
+    case.run(watch);
     case.checksum()
 }
 
-/// One pass and what it took.
-fn pass(watch: &Stopwatch, case: &mut dyn Timed) -> Vec<u64> {
-    case.clear();
-    case.run(watch)
-}
-
-/// Picoseconds that a ray of `case` takes, about: of passes over more and more rays, until one says enough.
+/// Picoseconds that a ray of `case` takes, about: of a pass over few rays, and of one that is long enough to tell.
 fn picoseconds(watch: &Stopwatch, case: &mut dyn Timed, plan: &Plan) -> u64 {
     let all = case.rays();
     let largest = level_within(all, plan.most_rays);
-    let mut level = (largest..=last_level(all)).rev().find(|&level| rays_at(all, level) >= PILOT).unwrap_or(largest);
-    loop {
+    let with = |rays: u64| {
+        let level = (largest..=last_level(all)).rev().find(|&level| rays_at(all, level) as u64 >= rays);
+        level.unwrap_or(largest)
+    };
+    let mut pace = |level: usize| {
         case.choose(&[level], 0);
-        let ns = pass(watch, case)[0].max(1);
-        let rays = rays_at(all, level);
-        if level == largest || ns >= LONG_PILOT_NS {
-            return (u128::from(ns) * 1000 / rays as u128).max(1) as u64;
-        }
-        level -= 1;
-    }
+        case.clear();
+        let ns = case.run(watch)[0].max(1);
+        (u128::from(ns) * 1000 / rays_at(all, level) as u128).max(1) as u64
+    };
+    let few = with(PILOT);
+    let first = pace(few);
+    let enough = with(LONG_PILOT_NS.saturating_mul(1000) / first);
+    if enough < few { pace(enough) } else { first }
 }
 
 #[cfg(test)]

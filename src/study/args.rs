@@ -198,7 +198,7 @@ impl ScenesAndMeshes {
     pub fn read(&self) -> anyhow::Result<Vec<Scene>> {
         let all: Vec<String> = BUILTIN.iter().map(|builtin| builtin.name.to_owned()).collect();
         let mut scenes: Vec<Scene> = vec![];
-        for name in if self.named.scenes.is_empty() { &all } else { &self.named.scenes } {
+        for name in sources::wanted(if self.named.scenes.is_empty() { &all } else { &self.named.scenes }) {
             let mut forms = vec![];
             if let (Ok(builtin), true) = (Builtin::find(name), self.meshes != Meshes::Real) {
                 forms.push(builtin.scene(None)?);

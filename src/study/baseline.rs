@@ -3,52 +3,52 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use super::compare::{Compared, compared};
-use super::epoch::{Epoch, Settings, measure};
+use super::compare::{CompareStudy, Compared, compared};
+use super::engine::measure_case;
+use super::epoch::Epoch;
+use super::process::Processes;
 use super::regression::{Comparison, Finding, Unlike, unlike};
-use super::{Refused, Screen, Status, StudyError};
+use super::{Plan, Refused, Screen, Status, Study, StudyError};
 use crate::measure::{Clock, Provenance};
 use crate::report::Record;
-use crate::scene::Scene;
 
 /// Scenes whose structures are built in a moment, with few triangles, many, and walls.
 pub const SCENES: [&str; 3] = ["teapot", "starters", "cornellbox"];
 
 /// Epochs of some scenes, to which more can be added where those taken so far do not decide.
 pub struct Run<'a> {
-    scenes: &'a [Scene],
-    settings: &'a Settings,
+    plan: &'a Plan<Epoch>,
+    processes: Option<&'a Processes>,
     clock: &'a dyn Clock,
-    /// Of each epoch, all scenes.
+    /// As many cases of the plan as have been measured.
     epochs: Vec<Epoch>,
-    taken: usize,
 }
 
 impl<'a> Run<'a> {
-    /// Nothing is measured yet.
-    pub fn new(scenes: &'a [Scene], settings: &'a Settings, clock: &'a dyn Clock) -> Self {
-        Self { scenes, settings, clock, epochs: vec![], taken: 0 }
+    /// Of a plan of the most epochs that may be needed; nothing is measured yet.
+    pub fn new(plan: &'a Plan<Epoch>, processes: Option<&'a Processes>, clock: &'a dyn Clock) -> Self {
+        Self { plan, processes, clock, epochs: vec![] }
     }
 
     /// Epochs so far.
     pub fn epochs(&self) -> usize {
-        self.taken
+        self.epochs.last().map_or(0, |last| last.epoch + 1)
     }
 
     /// One more epoch of all scenes.
     ///
     /// # Errors
-    /// As [`measure`].
+    /// As [`Processes::measure`].
     pub fn epoch(&mut self, screen: &mut dyn Screen) -> Result<(), StudyError> {
-        for (number, scene) in self.scenes.iter().enumerate() {
-            screen.case(&format!("epoch {}: {}", self.taken + 1, scene.name));
-            let first = if self.taken == 0 { None } else { Some(&self.epochs[number]) };
-            let epoch =
-                measure(scene, self.settings, self.taken, first, self.clock, &mut |stage| screen.stage(&stage))?;
-            self.epochs.push(epoch);
+        let epoch = self.epochs();
+        for (number, case) in self.plan.cases.iter().enumerate().filter(|(_, case)| case.epoch == epoch) {
+            screen.case(&case.title);
+            let first = self.epochs.get(case.scene);
+            let measured =
+                measure_case(CompareStudy::NAME, self.plan, number, first, self.processes, self.clock, screen)?;
+            self.epochs.push(measured);
             screen.done();
         }
-        self.taken += 1;
         Ok(())
     }
 

@@ -3,9 +3,13 @@
 use std::io;
 use std::path::Path;
 
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
 use super::journal::{Header, Journal};
-use super::{Answers, AnyAnswer, Context, Plan, Stage, Status, Studies, Study, StudyError};
-use crate::measure::{Provenance, SystemClock};
+use super::process::{Job, Processes};
+use super::{Answers, AnyAnswer, Context, Plan, Planned, Stage, Status, Studies, Study, StudyError};
+use crate::measure::{Clock, Provenance, SystemClock};
 use crate::registry::Registry;
 use crate::report::Table;
 
@@ -17,6 +21,8 @@ pub struct Run<'a> {
     pub folder: Option<&'a Path>,
     /// Whether what was measured before is thrown away.
     pub fresh: bool,
+    /// Starts a process for each timed case; without it they are measured in this one.
+    pub processes: Option<&'a Processes>,
     pub screen: &'a mut dyn Screen,
 }
 
@@ -91,9 +97,9 @@ pub(super) fn measure<S: Study>(args: &S::Args, plan: &Plan<S::Case>, run: &mut 
         }
         if journal.get(&case.key).is_none() {
             run.screen.case(&case.title);
-            let of_scene = |other: &&super::Planned| other.scene == case.scene && other.epoch == 0;
+            let of_scene = |other: &&Planned| other.scene == case.scene && other.epoch == 0;
             let first = plan.cases.iter().find(of_scene).and_then(|first| journal.get(&first.key));
-            match (plan.measure)(number, first, &clock, &mut |stage| run.screen.stage(&stage)) {
+            match measure_case(S::NAME, plan, number, first, run.processes, &clock, run.screen) {
                 Ok(measured) => journal.append(&case.key, measured)?,
                 Err(error) if error.is_of_one_scene() => {
                     failure.get_or_insert(error);
@@ -143,11 +149,35 @@ pub(super) fn measure<S: Study>(args: &S::Args, plan: &Plan<S::Case>, run: &mut 
     Ok(Measured { answer: Box::new(answer), provenance, tables, printed, foot, outcome, failure })
 }
 
+/// Measures a case of the plan, in a process of its own where there are any.
+///
+/// # Errors
+/// As [`Plan::measure`] and [`Processes::measure`].
+pub(super) fn measure_case<C: Serialize + DeserializeOwned>(
+    study: &str,
+    plan: &Plan<C>,
+    number: usize,
+    first: Option<&C>,
+    processes: Option<&Processes>,
+    clock: &dyn Clock,
+    screen: &mut dyn Screen,
+) -> Result<C, StudyError> {
+    let mut progress = |stage: Stage| screen.stage(&stage);
+    let Planned { key, epoch, process, .. } = &plan.cases[number];
+    let first = first.filter(|_| *epoch > 0);
+    match processes.zip(process.clone()) {
+        Some((processes, scene)) => {
+            processes.measure(&Job { study: study.into(), scene, key: key.clone() }, first, &mut progress)
+        }
+        None => (plan.measure)(number, first, clock, &mut progress),
+    }
+}
+
 /// The measured cases of the plan that `is` picks.
-fn of<C: Clone + serde::Serialize + serde::de::DeserializeOwned>(
+fn of<C: Clone + Serialize + DeserializeOwned>(
     plan: &Plan<C>,
     journal: &Journal<C>,
-    is: impl Fn(&super::Planned) -> bool,
+    is: impl Fn(&Planned) -> bool,
 ) -> Vec<C> {
     plan.cases.iter().filter(|case| is(case)).filter_map(|case| journal.get(&case.key).cloned()).collect()
 }

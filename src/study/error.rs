@@ -31,6 +31,10 @@ pub enum StudyError {
         "{structure} on {scene}, built again, gives other answers than before, or is asked other rays: its times cannot be compared"
     )]
     Changed { structure: String, scene: String },
+    #[error("the process that measures {key}: {cause}; with --in-process it is measured in this one, and shows more")]
+    Process { key: String, cause: String },
+    #[error("{sentence}")]
+    Told { sentence: String, of_one_scene: bool, wrong_answer: bool },
     #[error(transparent)]
     Journal(#[from] JournalError),
 }
@@ -38,14 +42,22 @@ pub enum StudyError {
 impl StudyError {
     /// Whether other scenes can be measured all the same.
     pub fn is_of_one_scene(&self) -> bool {
-        !matches!(self, Self::Threads(_) | Self::Structure(_) | Self::Journal(_))
+        match self {
+            Self::Threads(_) | Self::Structure(_) | Self::Journal(_) => false,
+            Self::Told { of_one_scene, .. } => *of_one_scene,
+            _ => true,
+        }
     }
 
     /// Whether a structure answered wrongly, so that nothing but the structure is to blame.
     pub fn is_wrong_answer(&self) -> bool {
         matches!(
             self,
-            Self::Wrong { .. } | Self::Changed { .. } | Self::Disagree { .. } | Self::Missing { wrong: true, .. }
+            Self::Wrong { .. }
+                | Self::Changed { .. }
+                | Self::Disagree { .. }
+                | Self::Missing { wrong: true, .. }
+                | Self::Told { wrong_answer: true, .. }
         )
     }
 }

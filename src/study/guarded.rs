@@ -64,7 +64,11 @@ impl Timed for Guarded<'_> {
     }
 
     fn clear(&mut self) {
-        if !self.panicked.get() && guarded(|| self.pass.clear()).is_none() {
+        self.pass.clear();
+    }
+
+    fn lead_in(&mut self) {
+        if !self.panicked.get() && guarded(|| self.pass.lead_in()).is_none() {
             self.panicked.set(true);
         }
     }

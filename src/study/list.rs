@@ -10,11 +10,13 @@ use serde_json::Value;
 
 use super::engine::{Measured, Run, measure};
 use super::journal::{Header, Journal, JournalError, Recorded};
+use super::process::{self, Job};
 use super::{
     Context, Data, Effort, SceneId, Study, accuracy, attribution, break_even, compare, costs, counts, crossover,
     parameters, partitions, predictions, replicate, scaling, self_intersection,
 };
 use crate::measure::Provenance;
+use crate::registry::Registry;
 use crate::report::document::Block;
 use crate::report::plot::Figure;
 
@@ -112,6 +114,11 @@ pub trait AnyStudy: Send + Sync {
         run: &mut Run,
         check: &mut dyn FnMut(&[std::path::PathBuf]) -> anyhow::Result<()>,
     ) -> anyhow::Result<Measured>;
+    /// What a process with a job does: measures that one case, and says so on standard output.
+    ///
+    /// # Errors
+    /// If that is closed.
+    fn answer_job(&self, chosen: Chosen, registry: &Registry, job: &Job) -> anyhow::Result<()>;
     /// What a journal holds: its first line and the answer.
     ///
     /// # Errors
@@ -145,6 +152,13 @@ fn own<S: Study>(answer: &dyn Any) -> &S::Answer {
     answer.downcast_ref().expect("the answer is of this study")
 }
 
+fn args<S: Study>(chosen: Chosen) -> anyhow::Result<S::Args> {
+    Ok(match chosen {
+        Chosen::Matches(matches) => S::Args::from_arg_matches(matches)?,
+        Chosen::Preset(effort) => S::args(effort),
+    })
+}
+
 impl<S: Study> AnyStudy for Typed<S> {
     fn name(&self) -> &'static str {
         S::NAME
@@ -176,13 +190,14 @@ impl<S: Study> AnyStudy for Typed<S> {
         run: &mut Run,
         check: &mut dyn FnMut(&[std::path::PathBuf]) -> anyhow::Result<()>,
     ) -> anyhow::Result<Measured> {
-        let args = match chosen {
-            Chosen::Matches(matches) => S::Args::from_arg_matches(matches)?,
-            Chosen::Preset(effort) => S::args(effort),
-        };
+        let args = args::<S>(chosen)?;
         let plan = S::plan(&args, run.registry)?;
         check(&plan.inputs)?;
         measure::<S>(&args, &plan, run)
+    }
+
+    fn answer_job(&self, chosen: Chosen, registry: &Registry, job: &Job) -> anyhow::Result<()> {
+        Ok(process::answer(args::<S>(chosen).and_then(|args| S::plan(&args, registry)), job)?)
     }
 
     fn read_journal(&self, path: &Path, others: &Answers) -> Result<(Header, AnyAnswer), JournalError> {

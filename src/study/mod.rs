@@ -30,6 +30,7 @@ pub mod partitions;
 mod placed;
 mod plan;
 pub mod predictions;
+pub mod process;
 mod ray_source;
 pub mod regression;
 pub mod replicate;

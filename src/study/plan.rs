@@ -59,6 +59,8 @@ pub struct Planned {
     pub scene: usize,
     /// Counted from 0.
     pub epoch: usize,
+    /// Where the case is measured in a process of its own: the name of the scene that it loads.
+    pub process: Option<String>,
 }
 
 impl<C> Plan<C> {
@@ -69,7 +71,7 @@ impl<C> Plan<C> {
         scenes: impl IntoIterator<Item = (String, String)>,
         measure: Measure<C>,
     ) -> Self {
-        let planned = |(scene, (title, key))| Planned { key, title, scene, epoch: 0 };
+        let planned = |(scene, (title, key))| Planned { key, title, scene, epoch: 0, process: None };
         Self {
             settings: settings_map(settings),
             threads,

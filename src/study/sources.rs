@@ -1,6 +1,7 @@
 //! Scenes, structures and kinds of rays from what the command line names.
 
 use std::path::Path;
+use std::sync::OnceLock;
 
 use anyhow::Context;
 
@@ -8,6 +9,7 @@ use super::SAH_TREE;
 use crate::nearest::suggestion;
 use crate::output::OutputFile;
 use crate::registry::{Choice, Registry};
+use crate::scene::format::SceneFile;
 use crate::scene::{BUILTIN, Builtin, Scene, load, real_mesh_folder};
 
 /// The scenes named, or all built-in ones.
@@ -15,12 +17,39 @@ use crate::scene::{BUILTIN, Builtin, Scene, load, real_mesh_folder};
 /// # Errors
 /// If a name is not known, or a file cannot be loaded.
 pub fn scenes(named: &[String]) -> anyhow::Result<Vec<Scene>> {
-    if named.is_empty() {
-        return BUILTIN.iter().map(|builtin| scene(builtin.name)).collect();
-    }
-    let scenes = named.iter().map(|name| scene(name)).collect::<anyhow::Result<Vec<Scene>>>()?;
+    let all: Vec<String> = BUILTIN.iter().map(|builtin| builtin.name.into()).collect();
+    let named = wanted(if named.is_empty() { &all } else { named });
+    let scenes = named.map(|name| scene(name)).collect::<anyhow::Result<Vec<Scene>>>()?;
     distinct(&scenes)?;
     Ok(scenes)
+}
+
+/// The scene of the only case that this process measures.
+static ONLY: OnceLock<String> = OnceLock::new();
+
+/// From now on no scene of another name is loaded where several are named.
+pub fn load_only(scene: &str) {
+    ONLY.get_or_init(|| scene.into());
+}
+
+/// What is loaded of what is named.
+pub fn wanted<S: AsRef<str>>(named: &[S]) -> impl Iterator<Item = &S> {
+    let is_only = |named: &str| ONLY.get().is_none_or(|only| name_of(named).is_none_or(|name| name == *only));
+    named.iter().filter(move |named| is_only(named.as_ref()))
+}
+
+/// The name of a scene that is not loaded yet, where that can be told.
+fn name_of(named: &str) -> Option<String> {
+    let path = Path::new(named);
+    match Builtin::find(named) {
+        Ok(builtin) => Some(builtin.name.into()),
+        Err(_) if is_scene_file(path) => Some(SceneFile::parse(&text(path).ok()?, named).ok()?.name),
+        Err(_) => path.file_stem().map(|stem| stem.to_string_lossy().into()),
+    }
+}
+
+fn is_scene_file(path: &Path) -> bool {
+    path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"))
 }
 
 /// Refuses different scenes of one name: no table could tell them apart.
@@ -55,9 +84,7 @@ pub fn scene(name: &str) -> anyhow::Result<Scene> {
         Err(unknown) if path.extension().is_none() && path.components().count() < 2 && !path.exists() => {
             Err(unknown.into())
         }
-        Err(_) if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml")) => {
-            Ok(Scene::read(path, Some(&real_meshes))?)
-        }
+        Err(_) if is_scene_file(path) => Ok(Scene::read(path, Some(&real_meshes))?),
         Err(_) => {
             let stem = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy();
             Ok(Scene::framed(&stem, load(path)?)?)

@@ -31,6 +31,7 @@ fn any_number_of_threads_gives_the_same_answers() {
                 let mut pass = Pass::new(accel.as_ref(), &rays, query, threads);
                 pass.choose(levels, 5);
                 pass.clear();
+                pass.lead_in();
                 assert_eq!(pass.run(&Stopwatch::new(&clock)).len(), levels.len());
                 if levels[0] == 0 {
                     assert_eq!(pass.hits(), 2500);
@@ -65,6 +66,7 @@ fn a_restricted_pass_answers_the_rays_of_its_tiles() {
     for (level, epoch) in [(1, 0), (1, 3), (3, 1), (6, 2)] {
         pass.choose(&[level], epoch);
         pass.clear();
+        pass.lead_in();
         pass.run(&Stopwatch::new(&clock));
         let own = || tiles(9000, level, epoch).into_iter().flatten();
         assert_eq!((pass.rays(), own().count()), (9000, rays_at(9000, level)));
@@ -129,6 +131,7 @@ fn the_time_of_a_part_is_that_of_its_rays_and_lead_ins_are_not_timed() {
         let mut pass = Pass::new(&slow, &rays, Query::Closest, &threads);
         pass.choose(levels, epoch);
         pass.clear();
+        pass.lead_in();
         let expected =
             levels.iter().map(|&level| tiles(9000, level, epoch).into_iter().flatten().sum::<usize>() as u64);
         assert_eq!(pass.run(&Stopwatch::new(&clock)), expected.collect::<Vec<_>>());

@@ -41,6 +41,9 @@ impl Timed for Mock {
 
     fn clear(&mut self) {
         self.answer = 0;
+    }
+
+    fn lead_in(&mut self) {
         // Time that must not be counted.
         self.clock.0.set(self.clock.0.get() + 1_000_000);
     }

@@ -43,7 +43,8 @@ pub fn plan<C: 'static>(
         for (number, scene) in scenes.iter().enumerate() {
             let name = scene_name(&scene.name, !scene.stand_ins.is_empty());
             let title = format!("epoch {} of {epochs}: {name}", epoch + 1);
-            cases.push(Planned { key: key(scene, epoch), title, scene: number, epoch });
+            let process = Some(scene.name.clone());
+            cases.push(Planned { key: key(scene, epoch), title, scene: number, epoch, process });
         }
     }
     let notes = scenes.iter().flat_map(|scene| scene.notes.iter().map(|note| format!("{}: {note}", scene.name)));

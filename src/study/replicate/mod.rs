@@ -167,8 +167,8 @@ impl Study for ReplicateStudy {
             .map(|(structures, asked)| args.measuring.settings(registry, structures, asked))
             .into_iter()
             .collect::<anyhow::Result<Vec<Settings>>>()?;
-        let names = MAIN.iter().map(|row| row.scene).chain(HARD.iter().map(|row| row.scene));
-        let scenes = names.map(sources::scene).collect::<anyhow::Result<Vec<Scene>>>()?;
+        let names: Vec<&str> = MAIN.iter().map(|row| row.scene).chain(HARD.iter().map(|row| row.scene)).collect();
+        let scenes = sources::wanted(&names).map(|name| sources::scene(name)).collect::<anyhow::Result<Vec<Scene>>>()?;
         let is_hard = |scene: &Scene| usize::from(HARD.iter().any(|row| row.scene == scene.name));
         // A wrong answer ends a scene: there is nothing to compare with the report then.
         let whole = |_, _: &Scene, epoch: Epoch| epoch.is_whole().map(|()| epoch);

@@ -1,0 +1,170 @@
+//! A case in a process of its own.
+//!
+//! Where the system puts a program, its stack and its heap can change the speed of a structure by some percent, for as long as
+//! the process lives: only samples from several processes say by how much (Mytkowicz et al., Producing Wrong Data Without
+//! Doing Anything Obviously Wrong!, 2009; Kalibera and Jones, Rigorous Benchmarking in Reasonable Time, 2013).
+//!
+//! The process is this program with the same command line and a [`Job`]. Its standard input is the first epoch of the scene, for
+//! a later one; on its standard output it says, a line of JSON each, what it does, and at last what it has measured.
+
+use std::ffi::OsString;
+use std::io::{self, BufRead, BufReader, Read, Write};
+use std::process::{Child, Command, Stdio};
+use std::str::FromStr;
+
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+
+use super::{Plan, Stage, StudyError};
+use crate::measure::{SystemClock, program};
+
+/// Which case a process measures.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Job {
+    /// Name of the study.
+    pub study: String,
+    /// Name of the scene: no other is loaded.
+    pub scene: String,
+    /// Key of the case.
+    pub key: String,
+}
+
+impl FromStr for Job {
+    type Err = serde_json::Error;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        serde_json::from_str(text)
+    }
+}
+
+/// A line of a process.
+#[derive(Serialize, Deserialize)]
+enum Said<C> {
+    Build(String),
+    Rays(String),
+    Check(String),
+    Trace(usize, usize),
+    Measured(C),
+    Failed { sentence: String, of_one_scene: bool, wrong_answer: bool },
+}
+
+impl<C> From<&Stage<'_>> for Said<C> {
+    fn from(stage: &Stage) -> Self {
+        match *stage {
+            Stage::Build(what) => Self::Build(what.into()),
+            Stage::Rays(what) => Self::Rays(what.into()),
+            Stage::Check(what) => Self::Check(what.into()),
+            Stage::Trace(taken, total) => Self::Trace(taken, total),
+        }
+    }
+}
+
+/// How processes are started.
+pub struct Processes {
+    /// The command line of this one, without its name.
+    args: Vec<OsString>,
+}
+
+/// The option that gives a process its job.
+pub const OPTION: &str = "case";
+
+impl Processes {
+    /// Of this program, which was started with `args`, its name first.
+    pub fn new(args: impl IntoIterator<Item = OsString>) -> Self {
+        Self { args: args.into_iter().skip(1).collect() }
+    }
+
+    /// Has a process measure a case.
+    ///
+    /// # Errors
+    /// As the measuring of the case, and if the process cannot be started or ends without an answer.
+    pub fn measure<C: Serialize + DeserializeOwned>(
+        &self,
+        job: &Job,
+        first: Option<&C>,
+        progress: &mut dyn FnMut(Stage),
+    ) -> Result<C, StudyError> {
+        let trouble = |cause: String| StudyError::Process { key: job.key.clone(), cause };
+        let job_text = serde_json::to_string(job).expect("a job has text keys");
+        let mut command = Command::new(program::executable());
+        command.arg(format!("--{OPTION}={job_text}")).args(&self.args);
+        let child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn();
+        let mut child = Guard(child.map_err(|cause| trouble(format!("it cannot be started: {cause}")))?);
+        let first = serde_json::to_vec(&first).expect("a case has text keys");
+        // A process that has ended already is told by what it has said, or how it ended.
+        let _ = child.0.stdin.take().expect("it has an input").write_all(&first);
+        let said = BufReader::new(child.0.stdout.take().expect("it has an output"));
+        for line in said.lines() {
+            let line = line.map_err(|cause| trouble(cause.to_string()))?;
+            match serde_json::from_str(&line).map_err(|cause| trouble(format!("it said {line:?}: {cause}")))? {
+                Said::Build(what) => progress(Stage::Build(&what)),
+                Said::Rays(what) => progress(Stage::Rays(&what)),
+                Said::Check(what) => progress(Stage::Check(&what)),
+                Said::Trace(taken, total) => progress(Stage::Trace(taken, total)),
+                Said::Measured(case) => return Ok(case),
+                Said::Failed { sentence, of_one_scene, wrong_answer } => {
+                    return Err(StudyError::Told { sentence, of_one_scene, wrong_answer });
+                }
+            }
+        }
+        let status = child.0.wait().map_err(|cause| trouble(cause.to_string()))?;
+        Err(trouble(format!("it ended without an answer ({status})")))
+    }
+}
+
+/// A process that does not outlive its use.
+struct Guard(Child);
+
+impl Drop for Guard {
+    fn drop(&mut self) {
+        // It has ended, or nobody listens any more.
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}
+
+/// What a process with a job does: measures the case of `plan`, and says so.
+///
+/// # Errors
+/// If its output is closed; all else is said there.
+pub fn answer<C: Serialize + DeserializeOwned>(plan: anyhow::Result<Plan<C>>, job: &Job) -> io::Result<()> {
+    end_with_parent();
+    let mut first = vec![];
+    io::stdin().lock().read_to_end(&mut first)?;
+    let failed = |sentence| Said::Failed { sentence, of_one_scene: false, wrong_answer: false };
+    let measured = match plan {
+        Ok(plan) => match plan.cases.iter().position(|case| case.key == job.key) {
+            Some(number) => {
+                let first: Option<C> = serde_json::from_slice(&first)?;
+                let mut progress = |stage: Stage| {
+                    // Whoever does not listen gets no answer either.
+                    let _ = say(&Said::<C>::from(&stage));
+                };
+                match (plan.measure)(number, first.as_ref(), &SystemClock::start(), &mut progress) {
+                    Ok(case) => Said::Measured(case),
+                    Err(error) => Said::Failed {
+                        sentence: error.to_string(),
+                        of_one_scene: error.is_of_one_scene(),
+                        wrong_answer: error.is_wrong_answer(),
+                    },
+                }
+            }
+            None => failed(format!("the scene {} is not what it was when the run began: start anew", job.scene)),
+        },
+        Err(error) => failed(format!("{error:#}")),
+    };
+    say(&measured)
+}
+
+fn say<C: Serialize>(said: &Said<C>) -> io::Result<()> {
+    let line = serde_json::to_string(said).expect("what is said has text keys");
+    let mut out = io::stdout().lock();
+    writeln!(out, "{line}")?;
+    out.flush()
+}
+
+/// A run that is killed leaves nothing behind that disturbs the next one.
+fn end_with_parent() {
+    #[cfg(target_os = "linux")]
+    let _ = nix::sys::prctl::set_pdeathsig(nix::sys::signal::Signal::SIGKILL);
+}
