@@ -38,12 +38,8 @@ impl Args {
 
 pub fn run(session: &Session, args: &Args) -> anyhow::Result<Status> {
     let &Session { suite, terminal, .. } = session;
-    let common = Common {
-        dir: Some(args.dir.clone()),
-        fresh: args.fresh,
-        in_process: args.in_process,
-        ..Common::default()
-    };
+    let common =
+        Common { dir: Some(args.dir.clone()), fresh: args.fresh, in_process: args.in_process, ..Common::default() };
     let mut outcome = Status::Right;
     let mut rows = vec![];
     let studies = suite.studies.in_order_of_measuring();

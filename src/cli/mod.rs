@@ -23,7 +23,7 @@ use std::process::ExitCode;
 
 use clap::{ArgMatches, Args as _, FromArgMatches, Subcommand};
 
-use crate::measure::program;
+use crate::measure::{keep_to, program};
 use crate::output::OutputError;
 use crate::registry::Registry;
 use crate::simd::Level;
@@ -217,6 +217,7 @@ fn told(message: &clap::Error) -> ExitCode {
 /// What a process with a job does, on the command line of the run that has started it.
 fn answer_job(suite: &Suite, matches: &ArgMatches, job: &Job) -> anyhow::Result<()> {
     sources::load_only(&job.scene);
+    job.cores.iter().for_each(|cores| keep_to(cores));
     let study = find(suite, &job.study)?;
     let chosen = match matches.subcommand() {
         None => Chosen::Preset(Effort::Full),

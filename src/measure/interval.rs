@@ -6,10 +6,10 @@
 //! understanding of confidence intervals and standard error bars", 2004). What is printed here is a prediction interval
 //! for the estimate of another run of the same plan: it holds that estimate in 95 % of cases.
 //!
-//! **The model.** In epoch e all structures are built anew; in round r of it every case is timed once, in random order.
+//! **The model.** In epoch e, a process of its own, all structures are built anew; in round r of it every case is timed once, in random order.
 //! For two cases let y = ln(time of one / time of the other) in the same round: what slows the machine for a while
 //! slows both and cancels. Then y = theta + p(e) + n(e, r), where p is the luck of placement, the same for a whole
-//! epoch (Kalibera, Jones, "Rigorous benchmarking in reasonable time", 2013; Mytkowicz, Diwan, Hauswirth, Sweeney,
+//! epoch, since address space, stack and heap are those of the process (Kalibera, Jones, "Rigorous benchmarking in reasonable time", 2013; Mytkowicz, Diwan, Hauswirth, Sweeney,
 //! "Producing wrong data without doing anything obviously wrong", 2009), and n the noise of a sample, with heavy tails.
 //!
 //! **The estimate.** z(e) is the median of y over the rounds of an epoch, which heavy tails hardly move; the estimate

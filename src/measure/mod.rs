@@ -30,7 +30,7 @@ pub use interval::{Rerun, epoch_values, log_ratios};
 pub use memory::{CountingAllocator, peak_bytes};
 pub use order::RandomOrder;
 pub use pass::{Pass, checksum, spread};
-pub use pin::Pin;
+pub use pin::{Pin, keep_to};
 pub use provenance::Provenance;
 pub use samples::{Part, Plan, Samples, Timed, UnsteadyAnswers, begin, take};
 pub use student::{LEVEL, factor, holm, two_sided};

@@ -1,5 +1,7 @@
 //! One thread, one core: a thread that moves leaves its caches behind.
 
+use std::sync::OnceLock;
+
 #[cfg(target_os = "linux")]
 use nix::{
     sched::{CpuSet, sched_getaffinity, sched_setaffinity},
@@ -32,10 +34,21 @@ impl Drop for Pin {
     }
 }
 
-/// The cores for `threads` threads: those that have been the most idle during the last tenth of a second, of those the highest, for
+/// The cores that the run has chosen which this process is a part of.
+static CHOSEN: OnceLock<Vec<usize>> = OnceLock::new();
+
+/// From now on as many threads as there are `cores` get these, instead of those that are idle at the moment.
+pub fn keep_to(cores: &[usize]) {
+    CHOSEN.get_or_init(|| cores.into());
+}
+
+/// The cores for `threads` threads: those [kept to](keep_to), or those that have been the most idle during the last tenth of a second, of those the highest, for
 /// interrupts go to the lowest. Nothing where threads cannot be bound, or there are fewer cores than threads.
 pub fn choose(threads: usize) -> Option<Vec<usize>> {
     let mut cores = allowed()?;
+    if let Some(chosen) = CHOSEN.get().filter(|chosen| chosen.len() == threads) {
+        return chosen.iter().all(|core| cores.contains(core)).then(|| chosen.clone());
+    }
     if cores.len() < threads {
         return None;
     }

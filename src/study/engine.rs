@@ -167,7 +167,8 @@ pub(super) fn measure_case<C: Serialize + DeserializeOwned>(
     let first = first.filter(|_| *epoch > 0);
     match processes.zip(process.clone()) {
         Some((processes, scene)) => {
-            processes.measure(&Job { study: study.into(), scene, key: key.clone() }, first, &mut progress)
+            let cores = plan.threads.cores().map(Into::into);
+            processes.measure(&Job { study: study.into(), scene, key: key.clone(), cores }, first, &mut progress)
         }
         None => (plan.measure)(number, first, clock, &mut progress),
     }

@@ -27,6 +27,8 @@ pub struct Job {
     pub scene: String,
     /// Key of the case.
     pub key: String,
+    /// The cores that the threads of the run are bound to.
+    pub cores: Option<Vec<usize>>,
 }
 
 impl FromStr for Job {
@@ -167,4 +169,21 @@ fn say<C: Serialize>(said: &Said<C>) -> io::Result<()> {
 fn end_with_parent() {
     #[cfg(target_os = "linux")]
     let _ = nix::sys::prctl::set_pdeathsig(nix::sys::signal::Signal::SIGKILL);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::epoch::Epoch;
+
+    #[test]
+    fn a_process_that_ends_without_an_answer_is_one_sentence() {
+        // The program of these tests knows no such option.
+        let processes = Processes::new(["tests".into(), "--no-such-option".into()]);
+        let job = Job { study: "compare".into(), scene: "Cube".into(), key: "Cube 0123 epoch 0".into(), cores: None };
+        let error = processes.measure::<Epoch>(&job, None, &mut |_| ()).unwrap_err();
+        let sentence = error.to_string();
+        assert!(sentence.contains("Cube 0123 epoch 0") && sentence.contains("without an answer"), "{sentence}");
+        assert!(error.is_of_one_scene() && !error.is_wrong_answer());
+    }
 }

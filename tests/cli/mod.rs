@@ -5,6 +5,7 @@ mod command;
 mod commands;
 mod epochs;
 mod input;
+mod processes;
 mod rays;
 mod report;
 mod resume;

@@ -33,7 +33,7 @@ pub struct CompareArgs {
     #[arg(long, value_name = "N|all|F.rays", default_value = "all")]
     pub rays: RaySource,
     #[command(flatten)]
-    pub measuring: Measuring<4, 1, 3>,
+    pub measuring: Measuring<4, 1, 2>,
 }
 
 /// A structure that takes more than so many times as long as the median one is timed on fewer rays: its ratios hardly

@@ -168,7 +168,8 @@ impl Study for ReplicateStudy {
             .into_iter()
             .collect::<anyhow::Result<Vec<Settings>>>()?;
         let names: Vec<&str> = MAIN.iter().map(|row| row.scene).chain(HARD.iter().map(|row| row.scene)).collect();
-        let scenes = sources::wanted(&names).map(|name| sources::scene(name)).collect::<anyhow::Result<Vec<Scene>>>()?;
+        let scenes =
+            sources::wanted(&names).map(|name| sources::scene(name)).collect::<anyhow::Result<Vec<Scene>>>()?;
         let is_hard = |scene: &Scene| usize::from(HARD.iter().any(|row| row.scene == scene.name));
         // A wrong answer ends a scene: there is nothing to compare with the report then.
         let whole = |_, _: &Scene, epoch: Epoch| epoch.is_whole().map(|()| epoch);
