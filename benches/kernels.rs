@@ -15,7 +15,7 @@ use sahara::geometry::Ray;
 use sahara::kdtree::{KdConfig, KdTree};
 use sahara::registry::Registry;
 use sahara::scene::{Builtin, Sampling, Workload, WorkloadKind};
-use sahara::simd::{EightLanes, F32x4, Kernel, Lanes, Level, Portable, dispatch};
+use sahara::simd::{EightLanes, Kernel, Lanes, Level, Portable, dispatch};
 use sahara::triangle::{
     BaldwinWeber, EdgeF64, Exact, FilteredF64, MollerTrumbore, MollerTrumboreF64, Plucker, TriangleTest, Watertight,
 };
@@ -60,16 +60,10 @@ fn triangle_test<T: TriangleTest>(criterion: &mut Criterion) {
     let ray = Ray::new(Vec3::new(0.1, 0.2, -3.0), Vec3::new(0.02, -0.05, 1.0));
     let mut group = criterion.benchmark_group(format!("kernels/{}", T::NAME));
     group.throughput(Throughput::Elements(triangles.len() as u64));
-    macro_rules! width {
-        ($name:literal, $n:literal, $lanes:ty) => {
-            let blocks: Vec<_> = triangles.chunks($n).map(T::block::<$n>).collect();
-            group.bench_function($name, |bencher| {
-                bencher.iter(|| black_box(test_all::<T, $n, $lanes>(black_box(&ray), black_box(&blocks))));
-            });
-        };
-    }
-    width!("scalar", 1, Portable<1>);
-    width!("x4", 4, F32x4);
+    let single: Vec<_> = triangles.chunks(1).map(T::block::<1>).collect();
+    group.bench_function("scalar", |bencher| {
+        bencher.iter(|| black_box(test_all::<T, 1, Portable<1>>(black_box(&ray), black_box(&single))));
+    });
     let blocks: Vec<_> = triangles.chunks(8).map(T::block::<8>).collect();
     for level in Level::available() {
         group.bench_function(format!("x8-{level}"), |bencher| {

@@ -1,0 +1,58 @@
+//! Which tests let no ray pass between the triangles of a closed mesh.
+
+use super::*;
+
+/// Rays through the edge that two triangles share, and through a vertex that six share, hit one of them.
+fn closed<T: TriangleTest>(vertices: bool) {
+    closed_at::<T>(1.0, 20_000, vertices);
+}
+
+/// The same where everything but the direction is so much larger.
+fn closed_at<T: TriangleTest>(scale: f32, rounds: usize, vertices: bool) {
+    let mut rng = Pcg32::seed_from_u64(8);
+    for _ in 0..rounds {
+        let rim: Vec<Vec3> = (0..6)
+            .map(|k| {
+                let (x, y) = [(1.0, 0.0), (0.5, 0.9), (-0.5, 0.9), (-1.0, 0.0), (-0.5, -0.9), (0.5, -0.9)][k];
+                Vec3::new(x, y, 0.0) + point(&mut rng, unit) * 0.2
+            })
+            .collect();
+        let centre = point(&mut rng, unit) * 0.2;
+        let origin = Vec3::new(0.0, 0.0, 3.0) + point(&mut rng, unit);
+        let share = if vertices { 0.0 } else { unit(&mut rng) * 0.4 + 0.5 };
+        let target = centre + (rim[0] - centre) * share;
+        let ray = Ray::new(origin * scale, target - origin);
+        let fan = |k: usize| [centre, rim[k], rim[(k + 1) % 6]].map(|p| p * scale);
+        let hits: Vec<f32> = (0..6).filter_map(|k| scalar_hit::<T>(&ray, fan(k))).collect();
+        assert!(!hits.is_empty(), "{}: {ray:?} slips through {centre:?} {rim:?} times {scale:e}", T::NAME);
+        let right = |t: &f32| (t / scale - 1.0).abs() < 1e-2;
+        assert!(hits.iter().all(right), "{}: {hits:?} for {scale:e}: {ray:?}", T::NAME);
+    }
+}
+
+#[test]
+fn edge_tests_and_watertight_are_closed_at_edges() {
+    closed::<Plucker>(false);
+    closed::<MollerTrumboreF64>(false);
+    closed::<EdgeF64>(false);
+    closed::<Watertight>(false);
+    closed::<Exact>(false);
+}
+
+#[test]
+fn watertight_f64_and_exact_are_closed_at_vertices() {
+    closed::<Watertight>(true);
+    closed::<MollerTrumboreF64>(true);
+    closed::<EdgeF64>(true);
+    closed::<Exact>(true);
+}
+
+/// Products of two coordinates leave the range of `f32` at both ends, differences of two do not.
+#[test]
+fn watertight_is_closed_at_every_scale() {
+    for exponent in [-140, -120, -90, -76, -60, -45, 30, 45, 63, 64, 90, 120] {
+        let scale = libm::exp2(f64::from(exponent)) as f32;
+        closed_at::<Watertight>(scale, 2_000, false);
+        closed_at::<Watertight>(scale, 2_000, true);
+    }
+}

@@ -1,0 +1,141 @@
+//! What holds for every triangle test, and what nearly all promise.
+
+use std::marker::PhantomData;
+
+use super::*;
+use crate::simd::{EightLanes, Kernel, Level, dispatch};
+
+/// Every width gives the bits of the scalar form, and lanes left over hit nothing.
+fn all_widths_agree<T: TriangleTest>() {
+    fn check<T: TriangleTest, const N: usize, L: Lanes<N>>(ray: &Ray, triangles: &[[Vec3; 3]]) -> usize {
+        let (t_min, t_max) = ray.interval();
+        let (prepared, last) = (T::prepare(ray), T::last(t_max));
+        let mut hits = 0;
+        for chunk in triangles.chunks(N) {
+            let block = T::block::<N>(chunk);
+            let (candidates, value) = T::candidates::<N, L>(&prepared, &block, t_min, last);
+            assert_eq!(candidates as u64 >> chunk.len(), 0, "{}: an unused lane is a candidate", T::NAME);
+            for (lane, &corners) in chunk.iter().enumerate() {
+                let is_candidate = candidates >> lane & 1 == 1;
+                let hit = is_candidate.then(|| T::decide(&prepared, &block, lane, value.store()[lane])).flatten();
+                let scalar = scalar_hit::<T>(ray, corners);
+                assert_eq!(hit.map(|d| d.t().to_bits()), scalar.map(f32::to_bits), "{}: {ray:?} {corners:?}", T::NAME);
+                hits += usize::from(hit.is_some());
+            }
+        }
+        hits
+    }
+    /// Eight lanes on a level.
+    struct Eight<'a, T>(&'a Ray, &'a [[Vec3; 3]], PhantomData<T>);
+    impl<T: TriangleTest> Kernel for Eight<'_, T> {
+        type Output = usize;
+
+        #[inline(always)]
+        fn run<L: EightLanes>(self) -> usize {
+            check::<T, 8, L>(self.0, self.1)
+        }
+    }
+    let mut rng = Pcg32::seed_from_u64(3);
+    let mut hits = 0;
+    for round in 0..6_000 {
+        let number: Number = [unit, grid, any][round % 3];
+        let triangles: Vec<[Vec3; 3]> = (0..7).map(|_| triangle(&mut rng, number)).collect();
+        let ray = ray(&mut rng, number);
+        if ray.is_valid() {
+            hits += check::<T, 4, Portable<4>>(&ray, &triangles);
+            for level in Level::available() {
+                hits += dispatch(level, Eight::<T>(&ray, &triangles, PhantomData));
+            }
+        }
+    }
+    assert!(hits > 5_000, "{}: too few hits to prove anything: {hits}", T::NAME);
+}
+
+/// A triangle a little smaller is hit only where this one is, and this one only where a little larger one is.
+fn right_away_from_edges<T: TriangleTest>() {
+    let mut rng = Pcg32::seed_from_u64(2);
+    let mut hits = 0;
+    for _ in 0..30_000 {
+        let corners = triangle(&mut rng, unit);
+        let origin = point(&mut rng, unit) * 4.0;
+        let ray = Ray::new(origin, point(&mut rng, unit) - origin);
+        let resized = |share: f32| {
+            let centre = (corners[0] + corners[1] + corners[2]) / 3.0;
+            true_t(&ray, corners.map(|p| p + (centre - p) * share))
+        };
+        let found = scalar_hit::<T>(&ray, corners);
+        if let Some(t) = resized(1e-2) {
+            let found = found.unwrap_or_else(|| panic!("{}: a hit well inside is lost: {ray:?} {corners:?}", T::NAME));
+            assert!((found - t).abs() < 0.05 * t.abs() + 1e-3, "{}: {found} {t}: {ray:?} {corners:?}", T::NAME);
+            hits += 1;
+        }
+        if found.is_some() {
+            assert!(resized(-1e-2).is_some(), "{}: a hit well outside is invented: {ray:?} {corners:?}", T::NAME);
+        }
+    }
+    assert!(hits > 500, "{hits}");
+}
+
+/// Where all arithmetic is exact, the answer is.
+fn exact_on_a_grid<T: TriangleTest>() {
+    let mut rng = Pcg32::seed_from_u64(1);
+    let mut hits = 0;
+    for _ in 0..60_000 {
+        let (corners, ray) = (triangle(&mut rng, grid), ray(&mut rng, grid));
+        let found = scalar_hit::<T>(&ray, corners);
+        assert_eq!(found, true_t(&ray, corners), "{}: {ray:?} {corners:?}", T::NAME);
+        hits += usize::from(found.is_some());
+    }
+    assert!(hits > 1_000, "the grid must produce hits, or the test proves nothing: {hits}");
+}
+
+macro_rules! every_test {
+    ($($module:ident: $test:ty [$($more:ident),*];)*) => {$(
+        mod $module {
+            use super::*;
+
+            #[test]
+            fn all_widths_agree() {
+                super::all_widths_agree::<$test>();
+            }
+
+            #[test]
+            fn right_away_from_edges() {
+                super::right_away_from_edges::<$test>();
+            }
+
+            #[test]
+            fn survives_all_numbers() {
+                intervals::survives_all_numbers::<$test>();
+            }
+
+            #[test]
+            fn intervals_are_half_open() {
+                intervals::are_half_open::<$test>();
+            }
+
+            #[test]
+            fn a_t_beyond_the_largest_float_is_no_hit() {
+                intervals::end_at_the_largest_float::<$test>();
+            }
+
+            $(
+                #[test]
+                fn $more() {
+                    super::$more::<$test>();
+                }
+            )*
+        }
+    )*};
+}
+
+every_test! {
+    moller_trumbore: MollerTrumbore [exact_on_a_grid];
+    moller_trumbore_f64: MollerTrumboreF64 [exact_on_a_grid];
+    plucker: Plucker [exact_on_a_grid];
+    edge_f64: EdgeF64 [exact_on_a_grid];
+    watertight: Watertight [];
+    baldwin_weber: BaldwinWeber [];
+    filtered_f64: FilteredF64 [exact_on_a_grid];
+    exact: Exact [exact_on_a_grid];
+}
