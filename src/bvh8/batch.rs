@@ -117,14 +117,8 @@ impl<const ANY: bool, T: TriangleTest, A, F: Fn(Option<Hit>) -> A> Kernel for In
             return;
         }
         let mut slots = Slots::EMPTY;
-        let mut stream = Stream::<L, T>::new(tree, &mut slots);
-        let mut done = |i: usize, hit| answers[i] = form(hit);
-        for places in which.places(rays.len()) {
-            for i in places {
-                stream.push::<ANY>(i, &rays[i], &mut done);
-            }
-        }
-        stream.finish::<ANY>(&mut done);
+        let which = which.places(rays.len()).flatten().map(|i| (i, &rays[i]));
+        Stream::<L, T>::new(tree, &mut slots).run::<ANY>(which, |i, hit| answers[i] = form(hit));
     }
 }
 
@@ -156,7 +150,7 @@ pub(super) fn answer<const ANY: bool, T: TriangleTest, A, O: Observer>(
         }
     } else {
         let level = Level::current();
-        if tree.batch == Batch::Single {
+        if !T::BATCHED || tree.batch == Batch::Single {
             return dispatch(level, InOrder::<ANY, T, A, _> { tree, rays, answers, form });
         }
         for (rays, answers) in rays.chunks(WINDOW).zip(answers.chunks_mut(WINDOW)) {

@@ -7,6 +7,7 @@ use crate::build::cells::{self, CellConfig};
 use crate::build::reinsert::reinsert;
 use crate::build::sbvh::{self, SbvhConfig, Splits};
 use crate::geometry::Mesh;
+use crate::triangle::TriangleTest;
 
 /// How a [`Bvh8`](super::Bvh8) is built. What differs between `sah-kd-wide`, `sah-kd-tight`, `sah-hybrid` and `sah-bvh` is the
 /// partition alone.
@@ -22,7 +23,7 @@ pub struct Bvh8Config {
     /// References a build may make, as a multiple of the triangles, with [`Quality::Fast`] at most 1.75: the guard against inputs
     /// that explode. At least 1.
     pub duplication: f32,
-    /// How the rays of a slice are answered.
+    /// How the rays of a slice are answered; [`Batch::Single`] over tests that are not [`BATCHED`](TriangleTest::BATCHED).
     pub batch: Batch,
 }
 
@@ -58,13 +59,16 @@ impl Bvh8Config {
         Self { partition, quality: Quality::Balanced, block_cost: 1.0, duplication: 2.4, batch: Batch::Single }
     }
 
-    pub(super) fn check(&self) -> Result<(), BuildError> {
+    pub(super) fn check<T: TriangleTest>(&self) -> Result<(), BuildError> {
         let refuse = |what: &str| Err(BuildError::Config(what.into()));
         if !(self.block_cost > 0.0 && self.block_cost.is_finite()) {
             return refuse("block_cost must be a positive number");
         }
         if !(self.duplication >= 1.0 && self.duplication.is_finite()) {
             return refuse("duplication must be a number of at least 1");
+        }
+        if self.batch != Batch::Single && !T::BATCHED {
+            return refuse("batch must be single over this triangle test");
         }
         Ok(())
     }

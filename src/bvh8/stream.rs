@@ -96,13 +96,29 @@ impl<'a, L: EightLanes, T: TriangleTest> Stream<'a, L, T> {
         Self { tree, slots: PhantomData, nodes, leaves, free, at_nodes: 0, at_leaves: 0, freed: SLOTS }
     }
 
-    /// Sends a ray on its way. Rays that are through are handed to `done` by their numbers.
+    /// Brings rays through, which are handed to `done` by their numbers.
     #[inline(always)]
-    pub fn push<const ANY: bool>(&mut self, number: usize, ray: &Ray, mut done: impl FnMut(usize, Option<Hit>)) {
-        let Some((t_min, nearest)) = start::<T>(ray) else { return done(number, None) };
-        while self.freed == 0 {
+    pub fn run<'r, const ANY: bool>(
+        &mut self,
+        mut rays: impl Iterator<Item = (usize, &'r Ray)>,
+        mut done: impl FnMut(usize, Option<Hit>),
+    ) {
+        loop {
+            while self.freed > 0 {
+                let Some((number, ray)) = rays.next() else { break };
+                self.push(number, ray, &mut done);
+            }
+            if self.freed == SLOTS {
+                return;
+            }
             self.round::<ANY>(&mut done);
         }
+    }
+
+    /// Sends a ray on its way. There is a free slot.
+    #[inline(always)]
+    fn push(&mut self, number: usize, ray: &Ray, done: &mut impl FnMut(usize, Option<Hit>)) {
+        let Some((t_min, nearest)) = start::<T>(ray) else { return done(number, None) };
         self.freed -= 1;
         let root = self.tree.root;
         // SAFETY: the list has the slots that are free. All of a slot is written but the entries of its stack above the bottom. All lists together
@@ -124,14 +140,6 @@ impl<'a, L: EightLanes, T: TriangleTest> Stream<'a, L, T> {
                 self.nodes.put(self.at_nodes, slot);
                 self.at_nodes += 1;
             }
-        }
-    }
-
-    /// Brings all rays through.
-    #[inline(always)]
-    pub fn finish<const ANY: bool>(&mut self, mut done: impl FnMut(usize, Option<Hit>)) {
-        while self.freed < SLOTS {
-            self.round::<ANY>(&mut done);
         }
     }
 

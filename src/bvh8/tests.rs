@@ -10,7 +10,7 @@ use crate::build::Quality;
 use crate::build::check::{mesh, soup};
 use crate::geometry::{Hit, Mesh, Ray};
 use crate::simd::{Level, dispatch};
-use crate::triangle::{Exact, MollerTrumbore, TriangleTest};
+use crate::triangle::{Exact, MollerTrumbore, Plucker, TriangleTest};
 
 type Tree = Bvh8<MollerTrumbore>;
 
@@ -167,6 +167,15 @@ fn long_slices_are_answered_as_their_rays_are() {
             assert!(hits == alone[..len], "{batch:?}, {len} rays");
             assert!(any.iter().zip(&alone).all(|(any, hit)| *any == hit.is_some()), "{batch:?}, {len} rays");
         }
+    }
+}
+
+#[test]
+fn several_rays_at_once_are_refused_over_tests_that_they_are_not_compiled_for() {
+    let mesh = Arc::new(soup(3, 1));
+    for batch in [Batch::Packets, Batch::Interleaved] {
+        let refused = Bvh8::<Plucker>::build(&mesh, &Bvh8Config { batch, ..Bvh8Config::default() });
+        assert!(matches!(refused, Err(BuildError::Config(_))), "{batch:?}");
     }
 }
 

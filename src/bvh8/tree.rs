@@ -31,7 +31,7 @@ pub struct Bvh8<T: TriangleTest> {
 
 impl<T: TriangleTest> Bvh8<T> {
     pub(super) fn within(mesh: &Mesh, config: &Bvh8Config, limits: &Limits) -> Result<Self, BuildError> {
-        config.check()?;
+        config.check::<T>()?;
         limits.admit(mesh.solid().count(), config.duplication)?;
         let tree = config.partition(mesh);
         let collapse = Collapse::new(&tree, &CostModel::new(1.0, config.block_cost, 0.0));

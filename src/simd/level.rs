@@ -49,9 +49,14 @@ pub trait Kernel {
 static CURRENT: AtomicU8 = AtomicU8::new(UNCHOSEN);
 const UNCHOSEN: u8 = u8::MAX;
 
-/// Whether this build has the level at all. A build for one machine that lacks it leaves it out.
-const WITH_AVX512: bool =
-    cfg!(all(target_arch = "x86_64", any(target_feature = "avx512vl", not(target_feature = "avx2"))));
+/// Whether this build has the level at all. A build for one machine leaves out those that the machine lacks, and those below the
+/// highest that it has, but for the portable one: each is a copy of every search. The feature `all-levels` asks for all.
+const WITH_AVX2: bool =
+    cfg!(all(target_arch = "x86_64", any(feature = "all-levels", not(target_feature = "avx512vl"))));
+const WITH_AVX512: bool = cfg!(all(
+    target_arch = "x86_64",
+    any(feature = "all-levels", target_feature = "avx512vl", not(target_feature = "avx2"))
+));
 
 impl Level {
     const ALL: [Self; 3] = [Self::Portable, Self::Avx2, Self::Avx512];
@@ -81,7 +86,7 @@ impl Level {
         let masks = || is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512vl");
         match self {
             Self::Portable => true,
-            Self::Avx2 => avx2,
+            Self::Avx2 => WITH_AVX2 && avx2,
             Self::Avx512 => WITH_AVX512 && avx2 && masks(),
         }
     }
@@ -147,10 +152,10 @@ pub fn dispatch<K: Kernel>(level: Level, kernel: K) -> K::Output {
     match level {
         // SAFETY: the level is available, so the machine has the instructions.
         #[cfg(target_arch = "x86_64")]
-        Level::Avx2 => unsafe { avx2(kernel) },
+        Level::Avx2 if WITH_AVX2 => unsafe { avx2(kernel) },
         // SAFETY: likewise.
-        #[cfg(all(target_arch = "x86_64", any(target_feature = "avx512vl", not(target_feature = "avx2"))))]
-        Level::Avx512 => unsafe { avx512(kernel) },
+        #[cfg(target_arch = "x86_64")]
+        Level::Avx512 if WITH_AVX512 => unsafe { avx512(kernel) },
         _ => kernel.run::<Portable<8>>(),
     }
 }
@@ -161,7 +166,7 @@ fn avx2<K: Kernel>(kernel: K) -> K::Output {
     kernel.run::<Avx<false>>()
 }
 
-#[cfg(all(target_arch = "x86_64", any(target_feature = "avx512vl", not(target_feature = "avx2"))))]
+#[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512vl,avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
 fn avx512<K: Kernel>(kernel: K) -> K::Output {
     kernel.run::<Avx<true>>()

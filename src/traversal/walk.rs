@@ -31,16 +31,22 @@ pub(crate) fn silent<const ANY: bool, L: EightLanes, W: Walk>(structure: &W, ray
         structure.walk::<ANY, L, ()>(ray, &mut ())
     } else {
         // The counting walk is compiled anyway; on portable lanes counting is not what takes the time.
-        structure.walk::<ANY, L, Counts>(ray, &mut Counts::default())
+        watched::<ANY, W, Counts>(structure, ray, &mut Counts::default())
     }
+}
+
+/// A walk that somebody watches: on portable lanes, because all levels take the same steps, and who counts does not hurry. Out of line, so that
+/// there is one copy of it.
+#[inline(never)]
+fn watched<const ANY: bool, W: Walk, O: Observer>(structure: &W, ray: &Ray, observer: &mut O) -> Option<Hit> {
+    structure.walk::<ANY, Portable<8>, O>(ray, observer)
 }
 
 /// One ray, on the level in use.
 #[inline(always)]
 pub(crate) fn single<const ANY: bool, W: Walk, O: Observer>(structure: &W, ray: &Ray, observer: &mut O) -> Option<Hit> {
     if O::ACTIVE {
-        // All levels take the same steps. Who counts does not hurry, and compiling is half the work.
-        structure.walk::<ANY, Portable<8>, O>(ray, observer)
+        watched::<ANY, W, O>(structure, ray, observer)
     } else {
         dispatch(Level::current(), Single::<ANY, W> { structure, ray })
     }

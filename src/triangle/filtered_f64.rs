@@ -21,6 +21,7 @@ pub struct FilteredRay {
 
 impl TriangleTest for FilteredF64 {
     const NAME: &'static str = "filtered-f64";
+    const BATCHED: bool = true;
 
     type Ray = FilteredRay;
     type Block<const N: usize> = FilterBlock<N>;

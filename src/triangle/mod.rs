@@ -79,6 +79,10 @@ pub trait TriangleTest: Send + Sync + 'static {
     /// [`Depth::of`] knows each depth.
     const ONE_STAGE: bool = false;
 
+    /// Whether structures offer to answer several rays of a slice at once over this test. Each way to do so is compiled for each test that
+    /// says so, and takes longer to compile than all else.
+    const BATCHED: bool = false;
+
     /// The first stage for eight rays and one triangle, the one in `lane` of a block: the rays, given by origin and direction, whose lines
     /// meet it, and where. The same bits as of [`candidates`](Self::candidates), but that the interval is left to the caller, and a `t` may be
     /// NaN where a line is met. Nothing where the test has no such form, or more than [one stage](Self::ONE_STAGE).

@@ -57,6 +57,7 @@ fn solve<const N: usize, L: Lanes<N>>(
 
 impl TriangleTest for MollerTrumbore {
     const NAME: &'static str = "moller-trumbore";
+    const BATCHED: bool = true;
 
     type Ray = (Vec3, Vec3);
     type Block<const N: usize> = Edges<N>;

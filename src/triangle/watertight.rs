@@ -33,6 +33,7 @@ pub struct Sheared {
 
 impl TriangleTest for Watertight {
     const NAME: &'static str = "watertight";
+    const BATCHED: bool = true;
 
     type Ray = Sheared;
     type Block<const N: usize> = Corners<N>;

@@ -42,6 +42,9 @@ const VARIANTS: [(&str, &str); 20] = [
     ("sah-bvh", "block_cost=50,batch=interleaved"),
 ];
 
+/// The tests over which several rays of a slice may be answered at once.
+const BATCHED: [&str; 4] = ["moller-trumbore", "filtered-f64", "watertight", "exact"];
+
 /// The level is that of the process: one case at a time changes it.
 static LEVEL: Mutex<()> = Mutex::new(());
 
@@ -74,7 +77,10 @@ impl Case {
         let tests = registry.entries().iter().filter(|e| e.name == "sah-kd").map(|e| e.triangle_test);
         for test in tests {
             let reference = Reference::of_test(test, &mesh).map_err(|e| blame(e.to_string()))?;
-            for (name, keys) in VARIANTS.iter().filter(|(name, _)| registry.find(name, test).is_some()) {
+            let offered = |name, keys: &str| {
+                registry.find(name, test).is_some() && (!keys.contains("batch") || BATCHED.contains(&test))
+            };
+            for (name, keys) in VARIANTS.iter().filter(|(name, keys)| offered(name, keys)) {
                 let spec = format!("{name}:test={test},{keys}");
                 let choice = registry.choose(&spec).map_err(|e| blame(e.to_string()))?;
                 let accel = choice.build(&mesh).map_err(|e| blame(format!("{spec}: {e}")))?;

@@ -38,6 +38,7 @@ pub struct ExactRay {
 
 impl TriangleTest for Exact {
     const NAME: &'static str = "exact";
+    const BATCHED: bool = true;
 
     type Ray = ExactRay;
     type Block<const N: usize> = FilterBlock<N>;
