@@ -6,7 +6,7 @@ use crate::accel::{Accel, BuildError, Footprint, Observer, Outline, Part, TreeSh
 use crate::geometry::{Aabb, Hit, Mesh, Ray};
 use crate::simd::EightLanes;
 use crate::traversal::leaf::{LeafBlock, search, start};
-use crate::traversal::walk::{Walk, single};
+use crate::traversal::walk::{Walk, walked_queries};
 use crate::triangle::TriangleTest;
 
 /// Every triangle, tested in order: the reference that all others are held against.
@@ -58,18 +58,10 @@ impl<T: TriangleTest> Accel for BruteForce<T> {
         Ok(Self { blocks, references: ids.len() })
     }
 
-    fn closest_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit> {
-        single::<false, _, O>(self, ray, observer)
-    }
-
-    fn any_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> bool {
-        single::<true, _, O>(self, ray, observer).is_some()
-    }
+    walked_queries!();
 
     fn footprint(&self) -> Footprint {
-        let (triangles, references) = LeafBlock::<T, 8>::BYTES;
-        let n = self.blocks.len();
-        Footprint { triangles: n * triangles, references: n * references, ..Footprint::default() }
+        LeafBlock::footprint(&self.blocks)
     }
 
     fn shape(&self) -> TreeShape {

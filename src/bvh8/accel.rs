@@ -2,12 +2,12 @@ use std::sync::Arc;
 
 use super::batch::answer;
 use super::config::Bvh8Config;
-use super::node::{Limits, WIDTH};
+use super::node::Limits;
 use super::tree::Bvh8;
 use crate::accel::{Accel, BuildError, Footprint, Observer, Outline, TreeShape};
 use crate::geometry::{Hit, Mesh, Ray};
 use crate::traversal::leaf::LeafBlock;
-use crate::traversal::walk::single;
+use crate::traversal::walk::walked_queries;
 use crate::triangle::TriangleTest;
 
 impl<T: TriangleTest> Accel for Bvh8<T> {
@@ -19,15 +19,7 @@ impl<T: TriangleTest> Accel for Bvh8<T> {
         Self::within(mesh, config, &Limits::OF_NODES)
     }
 
-    #[inline]
-    fn closest_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit> {
-        single::<false, _, O>(self, ray, observer)
-    }
-
-    #[inline]
-    fn any_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> bool {
-        single::<true, _, O>(self, ray, observer).is_some()
-    }
+    walked_queries!();
 
     fn closest_hits<O: Observer>(&self, rays: &[Ray], hits: &mut [Option<Hit>], observer: &mut O) {
         answer::<false, _, _, O>(self, rays, hits, observer, |hit| hit);
@@ -38,14 +30,8 @@ impl<T: TriangleTest> Accel for Bvh8<T> {
     }
 
     fn footprint(&self) -> Footprint {
-        let (triangles, references) = LeafBlock::<T, WIDTH>::BYTES;
-        let n = self.blocks.len();
-        Footprint {
-            nodes: size_of_val(&self.nodes[..]),
-            triangles: n * triangles,
-            references: n * references,
-            other: size_of::<Self>(),
-        }
+        let nodes = size_of_val(&self.nodes[..]);
+        Footprint { nodes, other: size_of::<Self>(), ..LeafBlock::footprint(&self.blocks) }
     }
 
     fn shape(&self) -> TreeShape {

@@ -5,7 +5,6 @@
 //! ([`Traversal`]), both with early termination. Its ray (unit direction and inverse, by its own constructor) is made before
 //! the clock starts. Its builder gets the threads of the caller.
 
-use std::borrow::Cow;
 use std::cell::Cell;
 use std::sync::Arc;
 
@@ -18,8 +17,8 @@ use nalgebra::{Point3, Vector3};
 use serde::{Deserialize, Serialize};
 
 use super::leaves::{Leaves, Start};
-use crate::accel::{Accel, BuildError, Footprint, Loaded, Observed, Observer, TreeShape};
-use crate::external::prepared::{Prepare, Prepared};
+use crate::accel::{Accel, BuildError, Footprint, Observed, Observer, TreeShape};
+use crate::external::prepared::{Prepare, prepared_queries};
 use crate::geometry::{Hit, Mesh, Ray};
 use crate::simd::Lanes;
 use crate::triangle::TriangleTest;
@@ -183,19 +182,7 @@ impl<T: TriangleTest> Accel for SvenstaroBvh<T> {
         Ok(Self { tree, shapes, leaves, traversal: config.traversal })
     }
 
-    #[inline]
-    fn closest_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit> {
-        self.closest(&self.ready(ray)?, observer)
-    }
-
-    #[inline]
-    fn any_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> bool {
-        self.ready(ray).is_some_and(|ready| self.any(&ready, observer))
-    }
-
-    fn load<'a>(&'a self, rays: Cow<'a, [Ray]>) -> Box<dyn Loaded + 'a> {
-        Box::new(Prepared::new(self, &rays))
-    }
+    prepared_queries!();
 
     fn footprint(&self) -> Footprint {
         let (triangles, ids) = self.leaves.bytes();

@@ -5,7 +5,6 @@
 //! the crate computes itself, inside of the timed region: it takes none. It has no query that stops at the first hit: any hit
 //! reports its first hit at minus infinity, so that no box remains in front of it.
 
-use std::borrow::Cow;
 use std::cell::Cell;
 use std::sync::Arc;
 
@@ -18,8 +17,8 @@ use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
 use super::leaves::{Leaves, Start};
-use crate::accel::{Accel, BuildError, Footprint, Loaded, Observed, Observer, TreeShape};
-use crate::external::prepared::{Prepare, Prepared};
+use crate::accel::{Accel, BuildError, Footprint, Observed, Observer, TreeShape};
+use crate::external::prepared::{Prepare, prepared_queries};
 use crate::geometry::{Hit, Mesh, Ray};
 use crate::simd::Lanes;
 use crate::triangle::TriangleTest;
@@ -120,19 +119,7 @@ impl<T: TriangleTest> Accel for ParryBvh<T> {
         Ok(Self { tree, leaves })
     }
 
-    #[inline]
-    fn closest_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit> {
-        self.closest(&self.ready(ray)?, observer)
-    }
-
-    #[inline]
-    fn any_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> bool {
-        self.ready(ray).is_some_and(|ready| self.any(&ready, observer))
-    }
-
-    fn load<'a>(&'a self, rays: Cow<'a, [Ray]>) -> Box<dyn Loaded + 'a> {
-        Box::new(Prepared::new(self, &rays))
-    }
+    prepared_queries!();
 
     /// Nodes with the tables that parry keeps for moving objects.
     fn footprint(&self) -> Footprint {

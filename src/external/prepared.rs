@@ -1,6 +1,8 @@
 //! Rays in the form of a structure that takes them one by one.
 
-use crate::accel::{Accel, Loaded, Observer};
+use std::borrow::Cow;
+
+use crate::accel::{Accel, AsTheyAre, Loaded, Observer};
 use crate::geometry::{Hit, Ray};
 
 /// A structure that wants a ray in a form of its own before it is asked.
@@ -14,6 +16,48 @@ pub(crate) trait Prepare: Accel {
     fn closest<O: Observer>(&self, ready: &Self::Ready, observer: &mut O) -> Option<Hit>;
 
     fn any<O: Observer>(&self, ready: &Self::Ready, observer: &mut O) -> bool;
+
+    /// Whether rays are brought into that form when they are loaded, before the clock starts.
+    fn prepares_loaded(&self) -> bool {
+        true
+    }
+}
+
+/// The queries of an [`Accel`] that is [`Prepare`].
+macro_rules! prepared_queries {
+    () => {
+        #[inline]
+        fn closest_hit<O: $crate::accel::Observer>(
+            &self,
+            ray: &$crate::geometry::Ray,
+            observer: &mut O,
+        ) -> Option<$crate::geometry::Hit> {
+            self.closest(&self.ready(ray)?, observer)
+        }
+
+        #[inline]
+        fn any_hit<O: $crate::accel::Observer>(&self, ray: &$crate::geometry::Ray, observer: &mut O) -> bool {
+            self.ready(ray).is_some_and(|ready| self.any(&ready, observer))
+        }
+
+        fn load<'a>(
+            &'a self,
+            rays: std::borrow::Cow<'a, [$crate::geometry::Ray]>,
+        ) -> Box<dyn $crate::accel::Loaded + 'a> {
+            $crate::external::prepared::load(self, rays)
+        }
+    };
+}
+
+pub(crate) use prepared_queries;
+
+/// [`Accel::load`] of what is [`Prepare`].
+pub(crate) fn load<'a, S: Prepare>(structure: &'a S, rays: Cow<'a, [Ray]>) -> Box<dyn Loaded + 'a> {
+    if structure.prepares_loaded() {
+        Box::new(Prepared::new(structure, &rays))
+    } else {
+        Box::new(AsTheyAre { accel: structure, rays })
+    }
 }
 
 /// A batch of such rays.

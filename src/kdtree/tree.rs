@@ -3,12 +3,12 @@ use std::sync::Arc;
 use super::config::KdConfig;
 use super::node::{Limits, Node};
 use super::plan::{Plan, plan};
-use crate::accel::{Accel, BuildError, Footprint, Observer, Outline, TreeShape};
+use crate::accel::{Accel, BuildError, Footprint, Outline, TreeShape};
 use crate::build::sah::BLOCK;
-use crate::geometry::{Aabb, Hit, Mesh, Ray};
+use crate::geometry::{Aabb, Mesh};
 use crate::traversal::leaf::LeafBlock;
 use crate::traversal::pages;
-use crate::traversal::walk::single;
+use crate::traversal::walk::walked_queries;
 use crate::triangle::TriangleTest;
 
 /// A binary space partition by axis-aligned planes: 8-byte nodes in depth-first order, leaves of blocks of triangles.
@@ -57,25 +57,11 @@ impl<T: TriangleTest> Accel for KdTree<T> {
         Ok(Self::finish(mesh, config, plan(mesh, config, &Limits::OF_NODES)?))
     }
 
-    #[inline]
-    fn closest_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit> {
-        single::<false, _, O>(self, ray, observer)
-    }
-
-    #[inline]
-    fn any_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> bool {
-        single::<true, _, O>(self, ray, observer).is_some()
-    }
+    walked_queries!();
 
     fn footprint(&self) -> Footprint {
-        let (triangles, references) = LeafBlock::<T, BLOCK>::BYTES;
-        let n = self.blocks.len();
-        Footprint {
-            nodes: size_of_val(&self.nodes[..]),
-            triangles: n * triangles,
-            references: n * references,
-            other: size_of::<Self>(),
-        }
+        let nodes = size_of_val(&self.nodes[..]);
+        Footprint { nodes, other: size_of::<Self>(), ..LeafBlock::footprint(&self.blocks) }
     }
 
     fn shape(&self) -> TreeShape {

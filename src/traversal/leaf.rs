@@ -1,6 +1,6 @@
 //! Triangles as leaves hold them, and the search through them.
 
-use crate::accel::Observer;
+use crate::accel::{Footprint, Observer};
 use crate::geometry::{Hit, Mesh, Ray};
 use crate::simd::Lanes;
 use crate::triangle::{Depth, TriangleTest};
@@ -80,8 +80,11 @@ impl<T: TriangleTest, const N: usize> LeafBlock<T, N> {
         self.ids.iter().map(|&id| u32::from(id != NONE)).sum()
     }
 
-    /// Bytes of triangle data and of triangle numbers in a block.
-    pub const BYTES: (usize, usize) = (size_of::<Self>() - size_of::<[u32; N]>(), size_of::<[u32; N]>());
+    /// What blocks take: of each all but the triangles' numbers counts as triangles.
+    pub fn footprint(blocks: &[Self]) -> Footprint {
+        let references = blocks.len() * size_of::<[u32; N]>();
+        Footprint { triangles: size_of_val(blocks) - references, references, ..Footprint::default() }
+    }
 }
 
 /// Remembers triangles that a ray has been tested against: a direct-mapped cache of the last triangle for each of eight

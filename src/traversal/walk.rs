@@ -51,3 +51,24 @@ pub(crate) fn single<const ANY: bool, W: Walk, O: Observer>(structure: &W, ray: 
         dispatch(Level::current(), Single::<ANY, W> { structure, ray })
     }
 }
+
+/// The queries of an [`Accel`](crate::accel::Accel) that is a [`Walk`].
+macro_rules! walked_queries {
+    () => {
+        #[inline]
+        fn closest_hit<O: $crate::accel::Observer>(
+            &self,
+            ray: &$crate::geometry::Ray,
+            observer: &mut O,
+        ) -> Option<$crate::geometry::Hit> {
+            $crate::traversal::walk::single::<false, _, O>(self, ray, observer)
+        }
+
+        #[inline]
+        fn any_hit<O: $crate::accel::Observer>(&self, ray: &$crate::geometry::Ray, observer: &mut O) -> bool {
+            $crate::traversal::walk::single::<true, _, O>(self, ray, observer).is_some()
+        }
+    };
+}
+
+pub(crate) use walked_queries;

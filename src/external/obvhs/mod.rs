@@ -22,7 +22,6 @@ mod rt_test;
 #[cfg(test)]
 mod tests;
 
-use std::borrow::Cow;
 use std::sync::Arc;
 
 use obvhs::BvhBuildParams;
@@ -35,8 +34,8 @@ pub use config::{ObvhsConfig, Preset, Rays};
 pub use leaf_test::{LeafTest, Native, Over};
 pub use rt_test::RtTest;
 
-use crate::accel::{Accel, AsTheyAre, BuildError, Footprint, Loaded, Observer, Outline, TreeShape};
-use crate::external::prepared::{Prepare, Prepared};
+use crate::accel::{Accel, BuildError, Footprint, Observer, Outline, TreeShape};
+use crate::external::prepared::{Prepare, prepared_queries};
 use crate::geometry::{Aabb, Hit, Mesh, Ray};
 use leaves::{Leaves, input};
 
@@ -105,6 +104,10 @@ impl<B: Tree, T: LeafTest> Prepare for Obvhs<B, T> {
         // SAFETY: as above.
         unsafe { self.tree.walk::<true>(ray, self.leaves.test(prepared), observer) }.is_some()
     }
+
+    fn prepares_loaded(&self) -> bool {
+        self.rays == Rays::Loaded
+    }
 }
 
 impl<B: Tree, T: LeafTest> Accel for Obvhs<B, T> {
@@ -122,22 +125,7 @@ impl<B: Tree, T: LeafTest> Accel for Obvhs<B, T> {
         Ok(Self { tree, leaves, rays: config.rays })
     }
 
-    #[inline]
-    fn closest_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit> {
-        self.closest(&self.ready(ray)?, observer)
-    }
-
-    #[inline]
-    fn any_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> bool {
-        self.ready(ray).is_some_and(|ready| self.any(&ready, observer))
-    }
-
-    fn load<'a>(&'a self, rays: Cow<'a, [Ray]>) -> Box<dyn Loaded + 'a> {
-        match self.rays {
-            Rays::Asked => Box::new(AsTheyAre { accel: self, rays }),
-            Rays::Loaded => Box::new(Prepared::new(self, &rays)),
-        }
-    }
+    prepared_queries!();
 
     fn footprint(&self) -> Footprint {
         let (triangles, references) = self.leaves.bytes();

@@ -1,3 +1,5 @@
+use std::borrow::Cow;
+
 use glam::Vec3;
 use rand_core::{RngCore, SeedableRng};
 use rand_pcg::Pcg32;

@@ -12,15 +12,14 @@
 
 mod query;
 
-use std::borrow::Cow;
 use std::sync::Arc;
 
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 use tinybvh_rs::{Positions, bvh, bvh8_cpu, mbvh};
 
-use crate::accel::{Accel, BuildError, Capabilities, Footprint, Loaded, Observed, Observer, TreeShape};
-use crate::external::prepared::{Prepare, Prepared};
+use crate::accel::{Accel, BuildError, Capabilities, Footprint, Observed, Observer, TreeShape};
+use crate::external::prepared::{Prepare, prepared_queries};
 use crate::geometry::{Hit, Mesh, Ray};
 use query::{Head, Tree};
 
@@ -199,19 +198,7 @@ impl Accel for TinyBvh {
         Ok(Self { tree: Some(Tree::new(tree)), ids, shape })
     }
 
-    #[inline]
-    fn closest_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit> {
-        self.closest(&self.ready(ray)?, observer)
-    }
-
-    #[inline]
-    fn any_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> bool {
-        self.ready(ray).is_some_and(|ready| self.any(&ready, observer))
-    }
-
-    fn load<'a>(&'a self, rays: Cow<'a, [Ray]>) -> Box<dyn Loaded + 'a> {
-        Box::new(Prepared::new(self, &rays))
-    }
+    prepared_queries!();
 
     /// By the sizes of its nodes and of its leaves, which hold the triangles.
     fn footprint(&self) -> Footprint {
