@@ -4,7 +4,8 @@ use crate::accel::BuildError;
 use crate::build::cells::{CellConfig, Rules};
 use crate::build::sah::CostModel;
 
-/// How a [`KdTree`](super::KdTree) is built and traversed: `median-kd` and `sah-kd` are two values of it.
+/// How a [`KdTree`](super::KdTree) is built and traversed: `median-kd` and `sah-kd` are two values of it. A value that the others leave
+/// unread is refused.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct KdConfig {
@@ -241,6 +242,38 @@ impl KdConfig {
         }
         if !(self.duplication >= 1.0 && self.duplication.is_finite()) {
             return refuse("duplication must be a number of at least 1");
+        }
+        self.check_unread()
+    }
+
+    /// Refuses a key that this combination does not read, unless it is as [`REPORT`](Self::REPORT) or [`SAH`](Self::SAH) has it: another value
+    /// would change nothing.
+    fn check_unread(&self) -> Result<(), BuildError> {
+        let is_median = !matches!(self.plane, Plane::SahBinned | Plane::SahSweep);
+        let is_binned = self.plane == Plane::SahBinned;
+        let asks_costs = !is_median || self.stop == Stop::Sah;
+        macro_rules! refuse_unread {
+            ($($key:ident: $is_read:expr, $with:literal;)*) => {$(
+                if !$is_read && ![Self::REPORT.$key, Self::SAH.$key].contains(&self.$key) {
+                    let sentence = concat!(stringify!($key), " must be left as it is: it is only read with ", $with);
+                    return Err(BuildError::Config(sentence.into()));
+                }
+            )*};
+        }
+        refuse_unread! {
+            axis: is_median, "the plane of a median";
+            median: is_median && self.plane != Plane::SpatialMedian, "plane=vertex-median or plane=centroid-median";
+            equal: is_median, "the plane of a median";
+            leaf: self.stop != Stop::Sah, "stop=report or stop=leaf";
+            limit: self.stop != Stop::Sah, "stop=report or stop=leaf";
+            threshold: self.stop == Stop::Report, "stop=report";
+            count: self.stop == Stop::Report && is_median, "stop=report and the plane of a median";
+            traversal_cost: asks_costs, "a plane of the surface area heuristic or stop=sah";
+            intersection_cost: asks_costs, "a plane of the surface area heuristic or stop=sah";
+            empty_bonus: asks_costs, "a plane of the surface area heuristic or stop=sah";
+            exact: is_binned, "plane=sah-binned";
+            candidates: is_binned, "plane=sah-binned";
+            sample: is_binned, "plane=sah-binned";
         }
         Ok(())
     }

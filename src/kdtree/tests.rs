@@ -48,10 +48,10 @@ fn configs() -> Vec<KdConfig> {
         KdConfig { stop: Stop::Leaf, leaf: 8, ..KdConfig::SAH },
         KdConfig { plane: Plane::SahBinned, ..KdConfig::SAH },
         KdConfig { plane: Plane::SpatialMedian, stop: Stop::Leaf, axis: AxisRule::Longest, ..report },
-        KdConfig { plane: Plane::SpatialMedian, stop: Stop::Sah, ..report },
+        KdConfig { plane: Plane::SpatialMedian, stop: Stop::Sah, ..KdConfig::REPORT },
         KdConfig { plane: Plane::CentroidMedian, axis: AxisRule::Longest, ..report },
-        KdConfig { plane: Plane::CentroidMedian, median: Median::Mean, stop: Stop::Sah, ..report },
-        KdConfig { stop: Stop::Sah, ..report },
+        KdConfig { plane: Plane::CentroidMedian, median: Median::Mean, stop: Stop::Sah, ..KdConfig::REPORT },
+        KdConfig { stop: Stop::Sah, ..KdConfig::REPORT },
     ]
 }
 
@@ -153,12 +153,20 @@ fn a_bad_configuration_is_refused_in_a_sentence() {
     let bad = [
         KdConfig { leaf: 0, ..KdConfig::REPORT },
         KdConfig { threshold: 0.0, ..KdConfig::REPORT },
-        KdConfig { sample: 15, ..KdConfig::SAH },
-        KdConfig { candidates: 1, ..KdConfig::SAH },
+        KdConfig { sample: 15, plane: Plane::SahBinned, ..KdConfig::SAH },
+        KdConfig { candidates: 1, plane: Plane::SahBinned, ..KdConfig::SAH },
         KdConfig { threshold: f32::NAN, ..KdConfig::REPORT },
         KdConfig { traversal_cost: -1.0, ..KdConfig::SAH },
         KdConfig { empty_bonus: 1.0, ..KdConfig::SAH },
         KdConfig { duplication: 0.5, ..KdConfig::SAH },
+        // Nobody would read these.
+        KdConfig { leaf: 8, ..KdConfig::SAH },
+        KdConfig { threshold: 0.5, stop: Stop::Leaf, ..KdConfig::REPORT },
+        KdConfig { axis: AxisRule::Longest, ..KdConfig::SAH },
+        KdConfig { plane: Plane::SpatialMedian, median: Median::Mean, ..KdConfig::REPORT },
+        KdConfig { count: CountOf::Child, stop: Stop::Report, ..KdConfig::SAH },
+        KdConfig { intersection_cost: 2.0, ..KdConfig::REPORT },
+        KdConfig { candidates: 8, ..KdConfig::SAH },
     ];
     for config in bad {
         let error = Tree::build(&mesh, &config).err().expect("refused").to_string();
