@@ -9,9 +9,9 @@ use sahara::accel::Accel;
 use sahara::geometry::{Mesh, Ray};
 use sahara::kdtree::{KdConfig, KdTree};
 use sahara::scene::meshes::icosphere;
-use sahara::study::hard_cases;
 use sahara::triangle::{EdgeF64, Exact, FilteredF64, MollerTrumboreF64, TriangleTest, Watertight};
 use sahara::validate::Sampler;
+use sahara::validate::hard_cases;
 
 /// How a ray leaves its origin.
 #[derive(Clone, Copy, Debug)]

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use sahara::measure::SystemClock;
 use sahara::registry::{Choice, Registry};
 use sahara::study::documented_defect;
-use sahara::study::hard_cases::{Content, Court, HardCase, Rank, Score, ask, catalogue};
+use sahara::validate::hard_cases::{Content, Court, HardCase, Rank, Score, ask, catalogue};
 
 /// Rays of a case.
 const RAYS: usize = 200;
@@ -37,7 +37,7 @@ fn faults(case: &HardCase, choices: &[Choice]) -> Vec<String> {
     let mut court = Court::new(case, rays);
     let mut faults = vec![];
     for choice in choices {
-        let fault = match ask(case, choice, rays, &SystemClock::start()) {
+        let fault = match ask(case, &choice.subject(), rays, &SystemClock::start()) {
             Err(error) => Some(error.to_string()),
             Ok(answers) => match court.score(choice.triangle_test(), answers).unwrap() {
                 Score::Rays(score) => {

@@ -11,6 +11,7 @@ mod any;
 mod compare;
 pub mod conformance;
 pub(crate) mod degenerate;
+pub mod hard_cases;
 mod judge;
 mod rate;
 mod reference;

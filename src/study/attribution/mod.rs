@@ -15,6 +15,7 @@ pub(crate) mod tests;
 
 use super::args::{Measuring, ScenesAndMeshes};
 use super::epoch::{Asked, Epoch};
+use super::epoch_args::plan_on;
 use super::{Context, Data, Effort, Plan, Study, rays_or_all, sources};
 use crate::registry::{Choice, ChoiceError, Registry};
 use crate::report::Table;
@@ -76,12 +77,8 @@ impl Study for AttributionStudy {
     fn plan(args: &AttributionArgs, registry: &Registry) -> anyhow::Result<Plan<Epoch>> {
         sources::known_tests(registry, std::slice::from_ref(&args.test))?;
         let asked = Asked::Kinds(vec![args.workload], args.rays);
-        let scenes = args.scenes.read()?;
-        let note = args.scenes.note(&scenes);
         let settings = args.measuring.settings(registry, structures(registry, &args.test)?, asked)?;
-        let mut plan = settings.plan_of_whole(scenes, args.measuring.epochs);
-        plan.notes.extend(note);
-        Ok(Plan { inputs: args.scenes.named.files(), ..plan })
+        plan_on(&args.scenes, |scenes| settings.plan_of_whole(scenes, args.measuring.epochs))
     }
 
     fn answer(cases: &[Epoch], _: &Context<Self>) -> Vec<Attribution> {

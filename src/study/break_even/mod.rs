@@ -2,15 +2,14 @@
 
 mod interval;
 mod payoff;
+mod result;
 mod section;
 mod table;
 #[cfg(test)]
 mod tests;
 
-use serde::Serialize;
-
-use super::args::{Measuring, Rays, ScenesAndMeshes, Structures, with_twin};
-use super::epoch::{Epoch, Line, Twins, lines, troubles, twins};
+use super::epoch::{Epoch, troubles};
+use super::epoch_args::EpochArgs;
 use super::{Context, Data, Effort, Plan, Study, Trouble};
 use crate::registry::Registry;
 use crate::report::Table;
@@ -18,6 +17,7 @@ use crate::report::document::Block;
 use crate::scene::WorkloadKind;
 
 pub use payoff::Payoff;
+pub use result::{Market, Offer, Pair, Row, Stretch, result, rows};
 use table::LEGEND;
 pub use table::tables;
 
@@ -28,41 +28,20 @@ const STRUCTURES: [&str; 8] =
 /// The study.
 pub struct BreakEvenStudy;
 
-/// Its options.
-#[derive(Clone, Debug, clap::Args)]
-pub struct BreakEvenArgs {
-    #[command(flatten)]
-    scenes: ScenesAndMeshes,
-    #[command(flatten)]
-    structures: Structures,
-    #[command(flatten)]
-    rays: Rays,
-    #[command(flatten)]
-    measuring: Measuring,
-}
-
 impl Study for BreakEvenStudy {
     const NAME: &'static str = "break-even";
     const QUESTION: &'static str = "After how many rays does a dearer build pay?";
 
-    type Args = BreakEvenArgs;
+    type Args = EpochArgs;
     type Case = Epoch;
     type Answer = Vec<Market>;
 
-    fn args(effort: Effort) -> BreakEvenArgs {
-        let (scenes, rays, measuring) = (ScenesAndMeshes::of(effort), Rays::of(effort), Measuring::of(effort));
-        BreakEvenArgs { scenes, structures: Structures::default(), rays, measuring }
+    fn args(effort: Effort) -> EpochArgs {
+        EpochArgs::of(effort)
     }
 
-    fn plan(args: &BreakEvenArgs, registry: &Registry) -> anyhow::Result<Plan<Epoch>> {
-        let structures = with_twin(args.structures.chosen(registry, &STRUCTURES)?);
-        let asked = args.rays.asked(&[WorkloadKind::Primary, WorkloadKind::Diffuse]);
-        let scenes = args.scenes.read()?;
-        let note = args.scenes.note(&scenes);
-        let settings = args.measuring.settings(registry, structures, asked)?;
-        let mut plan = settings.plan(scenes, args.measuring.epochs);
-        plan.notes.extend(note);
-        Ok(Plan { inputs: args.scenes.named.files(), ..plan })
+    fn plan(args: &EpochArgs, registry: &Registry) -> anyhow::Result<Plan<Epoch>> {
+        args.plan(registry, &STRUCTURES, &[WorkloadKind::Primary, WorkloadKind::Diffuse])
     }
 
     fn answer(cases: &[Epoch], _: &Context<Self>) -> Vec<Market> {
@@ -88,142 +67,4 @@ impl Study for BreakEvenStudy {
     fn section(answer: &Vec<Market>, command: &str) -> Vec<Block> {
         section::blocks(answer, command)
     }
-}
-
-/// What pays on one kind of rays of one scene.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Market {
-    pub scene: String,
-    pub triangles: usize,
-    pub workload: String,
-    /// By growing time of the build.
-    pub offers: Vec<Offer>,
-    /// Every pair, the cheaper build first.
-    pub pairs: Vec<Pair>,
-    /// Which structure is done first with its build and so many rays, from no ray upward.
-    pub best: Vec<Stretch>,
-}
-
-/// What a structure costs.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Offer {
-    /// As chosen.
-    pub structure: String,
-    pub build_ns: f64,
-    pub ns_per_ray: f64,
-}
-
-/// Two structures, of which one takes longer to build.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Pair {
-    pub cheap: String,
-    pub dear: String,
-    /// Rays after which the dear one is ahead.
-    pub rays: Payoff,
-    /// The ends of the 95 % interval of that for another run; nothing with a single epoch.
-    pub low: Option<Payoff>,
-    pub high: Option<Payoff>,
-}
-
-/// Numbers of rays for which one structure is the best.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Stretch {
-    pub structure: String,
-    /// From so many rays.
-    pub from: f64,
-}
-
-/// Every scene and kind of rays.
-pub fn result(epochs: &[Epoch]) -> Vec<Market> {
-    let twins = twins(epochs);
-    let mut groups: Vec<Vec<Line>> = vec![];
-    for line in lines(epochs) {
-        match groups.iter_mut().find(|g| g[0].scene_hash == line.scene_hash && g[0].workload == line.workload) {
-            Some(group) => group.push(line),
-            None => groups.push(vec![line]),
-        }
-    }
-    groups.into_iter().map(|group| market(group, &twins)).collect()
-}
-
-fn market(mut lines: Vec<Line>, twins: &Twins) -> Market {
-    lines.sort_by(|a, b| a.build_ns().total_cmp(&b.build_ns()));
-    let offers: Vec<Offer> = lines
-        .iter()
-        .map(|line| Offer {
-            structure: line.structure.clone(),
-            build_ns: line.build_ns(),
-            ns_per_ray: line.ns_per_ray(),
-        })
-        .collect();
-    let mut pairs = vec![];
-    for (i, dear) in lines.iter().enumerate() {
-        pairs.extend(lines[..i].iter().map(|cheap| pair(cheap, dear, twins)));
-    }
-    let (first, best) = (&lines[0], best(&offers));
-    Market {
-        scene: first.scene.clone(),
-        triangles: first.triangles,
-        workload: first.workload.clone(),
-        offers,
-        pairs,
-        best,
-    }
-}
-
-fn pair(cheap: &Line, dear: &Line, twins: &Twins) -> Pair {
-    let costs = |line: &Line| (line.build_ns(), line.ns_per_ray());
-    let rays = Payoff::of(costs(cheap), costs(dear));
-    let [low, high] = interval::interval(cheap, dear, rays, twins).map_or([None; 2], |ends| ends.map(Some));
-    Pair { cheap: cheap.structure.clone(), dear: dear.structure.clone(), rays, low, high }
-}
-
-/// The lower envelope of build + rays * time, of offers in the order of their builds.
-fn best(offers: &[Offer]) -> Vec<Stretch> {
-    let Some(mut now) = offers.first() else { return vec![] };
-    let (mut best, mut from) = (vec![Stretch { structure: now.structure.clone(), from: 0.0 }], 0.0);
-    loop {
-        // Who is next to overtake; of several at once the fastest.
-        let next = offers.iter().filter(|offer| offer.ns_per_ray < now.ns_per_ray).min_by(|a, b| {
-            let at = |o: &Offer| (o.build_ns - now.build_ns) / (now.ns_per_ray - o.ns_per_ray);
-            at(a).total_cmp(&at(b)).then(a.ns_per_ray.total_cmp(&b.ns_per_ray))
-        });
-        let Some(next) = next else { return best };
-        from = ((next.build_ns - now.build_ns) / (now.ns_per_ray - next.ns_per_ray)).max(from);
-        best.push(Stretch { structure: next.structure.clone(), from });
-        now = next;
-    }
-}
-
-/// One pair, for tables that machines read.
-#[derive(Clone, Debug, Serialize)]
-pub struct Row<'a> {
-    pub scene: &'a str,
-    pub triangles: usize,
-    pub workload: &'a str,
-    pub cheap: &'a str,
-    pub dear: &'a str,
-    /// A number of rays, `at once` or `never`.
-    pub rays: String,
-    /// Likewise, or empty with a single epoch.
-    pub low: String,
-    pub high: String,
-}
-
-/// All pairs.
-pub fn rows(markets: &[Market]) -> Vec<Row<'_>> {
-    let mut rows = vec![];
-    for Market { scene, triangles, workload, pairs, .. } in markets {
-        rows.extend(pairs.iter().map(|pair| Row {
-            scene,
-            triangles: *triangles,
-            workload,
-            cheap: &pair.cheap,
-            dear: &pair.dear,
-            rays: pair.rays.plain(),
-            low: pair.low.map_or(String::new(), Payoff::plain),
-            high: pair.high.map_or(String::new(), Payoff::plain),
-        }));
-    }
-    rows
 }

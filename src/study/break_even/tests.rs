@@ -1,3 +1,4 @@
+use super::result::best;
 use super::*;
 use crate::study::epoch::tests::example;
 

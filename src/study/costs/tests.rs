@@ -1,3 +1,4 @@
+use super::result::costs;
 use super::*;
 use crate::measure::RandomOrder;
 use crate::study::epoch::tests::example;

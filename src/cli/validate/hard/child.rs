@@ -11,7 +11,7 @@ use crate::measure::SystemClock;
 use crate::registry::{Choice, Registry};
 use crate::simd::Level;
 use crate::study::Status;
-use crate::study::hard_cases::{Answers, Failure, HardCase, ask, find};
+use crate::validate::hard_cases::{Answers, Failure, HardCase, ask, find};
 
 /// The hidden command that a child runs.
 pub const COMMAND: &str = "hard-answer";
@@ -39,7 +39,7 @@ const PAUSE: Duration = Duration::from_millis(5);
 /// If the structure does not admit the mesh.
 pub fn run(registry: &Registry, args: &Args) -> anyhow::Result<Status> {
     let (case, choice) = (find(&args.case)?, registry.choose(&args.structure)?);
-    match ask(case, &choice, args.rays as usize, &SystemClock::start()) {
+    match ask(case, &choice.subject(), args.rays as usize, &SystemClock::start()) {
         Ok(answers) => {
             io::stdout().lock().write_all(&answers.to_bytes())?;
             Ok(Status::Right)
@@ -115,7 +115,7 @@ fn wait(child: &mut Child, limit: Duration) -> io::Result<Option<Option<i32>>> {
 #[cfg(all(test, unix))]
 mod tests {
     use super::*;
-    use crate::study::hard_cases::Head;
+    use crate::validate::hard_cases::Head;
 
     fn of(script: &str) -> Result<Answers, Failure> {
         let mut command = Command::new("/bin/sh");

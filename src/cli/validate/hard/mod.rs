@@ -1,6 +1,8 @@
 //! `validate --hard`.
 
 mod child;
+mod record;
+mod table;
 
 use std::io;
 use std::path::Path;
@@ -20,11 +22,11 @@ use crate::report::number::plural;
 use crate::report::to_json;
 use crate::study::Status;
 use crate::study::documented_defect;
-use crate::study::hard_cases::{
-    Answers, Column, Court, Failure, HardCase, HardRecord, HardRun, Score, catalogue, find_all, legend, tables,
-};
 use crate::study::sources;
 use crate::triangle::{Exact, TriangleTest};
+use crate::validate::hard_cases::{Answers, Court, Failure, HardCase, Score, catalogue, find_all};
+use record::{HardRecord, HardRun};
+use table::{Column, legend, tables};
 
 pub use child::{Args as ChildArgs, COMMAND as CHILD, run as run_child};
 

@@ -2,10 +2,10 @@
 
 use serde::Serialize;
 
-use super::{HardCase, Property, Rank, Score};
 use crate::measure::Provenance;
 use crate::registry::Choice;
 use crate::validate::Ulps;
+use crate::validate::hard_cases::{HardCase, Property, Rank, Score};
 
 /// A run as JSON.
 #[derive(Debug, Serialize)]

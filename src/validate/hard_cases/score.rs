@@ -4,7 +4,9 @@ use std::collections::BTreeMap;
 
 use rayon::prelude::*;
 
-use super::{Answers, Content, HardCase, Property, Rank, Set};
+use super::ask::Answers;
+use super::case::{Content, HardCase, Property, Rank};
+use super::set::Set;
 use crate::accel::BuildError;
 use crate::oracle::{Oracle, Truth};
 use crate::validate::{DepthRule, Judged, Reference, judge, validate_answers};

@@ -2,63 +2,40 @@
 
 use glam::Vec3;
 
-use super::set::{indexed, moved, on_surface, sheet, sphere};
-use super::{Content, HardCase, Rank, Set};
+use super::case::{HardCase, added, moderate, unranked};
+use super::set::{Set, indexed, moved, on_surface, sheet, sphere};
 use crate::geometry::Ray;
 use crate::validate::Sampler;
 use crate::validate::degenerate::{box_grid, soup};
 
 pub(super) const CASES: &[HardCase] = &[
-    HardCase {
-        number: 58,
-        name: "tmin_tmax_window",
-        rank: Rank::Unranked,
-        content: Content::hit(windows),
-        reason: "Intervals that hold only the first, or only the second crossing of a sphere.",
-        source: "parry: has no t_min",
-    },
-    HardCase {
-        number: 59,
-        name: "tmax_exact_hit",
-        rank: Rank::Unranked,
-        content: Content::miss(|n| to_the_lid(n, |t| (0.0, t))),
-        reason: "The only hit is at t_max exactly: the interval is half-open, so nothing is hit. Others close it.",
-        source: "Embree, CHANGELOG: robust mode is closed; obvhs half-open, as here",
-    },
-    HardCase {
-        number: 60,
-        name: "tmin_exact_hit",
-        rank: Rank::Unranked,
-        content: Content::hit(|n| to_the_lid(n, |t| (t, f32::INFINITY))),
-        reason: "The only hit is at t_min exactly, which belongs to the interval. Others leave it out.",
-        source: "Embree, default mode: T > tnear",
-    },
-    HardCase {
-        number: 61,
-        name: "tiny_t_near_surface",
-        rank: Rank::Moderate,
-        content: Content::hit(|n| {
+    unranked(58, "tmin_tmax_window")
+        .all_hit(windows)
+        .because("Intervals that hold only the first, or only the second crossing of a sphere.")
+        .source("parry: has no t_min"),
+    unranked(59, "tmax_exact_hit")
+        .all_miss(|n| to_the_lid(n, |t| (0.0, t)))
+        .because("The only hit is at t_max exactly: the interval is half-open, so nothing is hit. Others close it.")
+        .source("Embree, CHANGELOG: robust mode is closed; obvhs half-open, as here"),
+    unranked(60, "tmin_exact_hit")
+        .all_hit(|n| to_the_lid(n, |t| (t, f32::INFINITY)))
+        .because("The only hit is at t_min exactly, which belongs to the interval. Others leave it out.")
+        .source("Embree, default mode: T > tnear"),
+    moderate(61, "tiny_t_near_surface")
+        .all_hit(|n| {
             Set::new(sheet(32), n, 50, |sampler| {
                 let height = sampler.pick(&[1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7]);
                 Ray::new(Vec3::new(sampler.signed(), sampler.signed(), height), Vec3::new(0.0, 0.0, -1.0))
             })
-        }),
-        reason: "From 1e-1 to 1e-7 above a surface: absolute epsilons lose the nearest hits.",
-        source: "obvhs, CwBvh node.rs EPSILON = 1e-4",
-    },
-    HardCase {
-        number: 62,
-        name: "origin_on_surface",
-        rank: Rank::Unranked,
-        content: Content::hit(on_a_sheet),
-        reason: "The origin lies on a triangle exactly: the hit is at t = 0, before the sheet below.",
-        source: "svenstaro/bvh and Embree leave t = 0 out",
-    },
-    HardCase {
-        number: 63,
-        name: "origin_in_aabb_face",
-        rank: Rank::Moderate,
-        content: Content::oracle(|n| {
+        })
+        .because("From 1e-1 to 1e-7 above a surface: absolute epsilons lose the nearest hits.")
+        .source("obvhs, CwBvh node.rs EPSILON = 1e-4"),
+    unranked(62, "origin_on_surface")
+        .all_hit(on_a_sheet)
+        .because("The origin lies on a triangle exactly: the hit is at t = 0, before the sheet below.")
+        .source("svenstaro/bvh and Embree leave t = 0 out"),
+    moderate(63, "origin_in_aabb_face")
+        .by_oracle(|n| {
             let mesh = soup(2000, 22);
             Set::new(mesh.clone(), n, 52, |sampler| {
                 let (bounds, axis) = (mesh.bounds(), sampler.below(3));
@@ -66,25 +43,22 @@ pub(super) const CASES: &[HardCase] = &[
                 origin[axis] = if sampler.coin() { bounds.min[axis] } else { bounds.max[axis] };
                 Ray::new(origin, on_surface(&mesh, sampler) - origin)
             })
-        }),
-        reason: "The origin lies in a face of the root box: entry is at t = 0 exactly, and must not count as behind.",
-        source: "Hapala, Havran 2011: the ray's origin in a plane",
-    },
-    HardCase {
-        number: 72,
-        name: "secondary_rays",
-        rank: Rank::Added,
-        content: Content::oracle(|n| {
+        })
+        .because("The origin lies in a face of the root box: entry is at t = 0 exactly, and must not count as behind.")
+        .source("Hapala, Havran 2011: the ray's origin in a plane"),
+    added(72, "secondary_rays")
+        .by_oracle(|n| {
             let mesh = sphere(50, 50);
             Set::new(mesh.clone(), n, 53, |sampler| {
                 let origin = on_surface(&mesh, sampler);
                 let direction = sampler.direction();
                 Ray::new(origin, if direction.dot(origin) < 0.0 { -direction } else { direction })
             })
-        }),
-        reason: "Rays that leave a surface from where rounding puts the point: half of them lie below it and hit it again.",
-        source: "Wächter, Binder 2019; pbrt-v4, Triangle.Reintersect",
-    },
+        })
+        .because(
+            "Rays that leave a surface from where rounding puts the point: half of them lie below it and hit it again.",
+        )
+        .source("Wächter, Binder 2019; pbrt-v4, Triangle.Reintersect"),
 ];
 
 /// Through a sphere, by the first or the second crossing only.

@@ -2,58 +2,37 @@
 
 use glam::Vec3;
 
-use super::set::on_surface;
-use super::{Content, HardCase, Rank, Set};
+use super::case::{HardCase, added, moderate};
+use super::set::{Set, on_surface};
 use crate::geometry::Ray;
 use crate::validate::Sampler;
 use crate::validate::degenerate::{TRIANGLE, half_without_area, mesh, same_centroid, soup, soup_triangles};
 
 pub(super) const CASES: &[HardCase] = &[
-    HardCase {
-        number: 40,
-        name: "coincident_1000",
-        rank: Rank::Moderate,
-        content: Content::hit(|n| copies(1000, n)).of(2000),
-        reason: "A thousand copies of one triangle: the lowest number is owed, and nothing can be split.",
-        source: "Embree, verify.cpp, overlapping_primitives",
-    },
-    HardCase {
-        number: 41,
-        name: "duplicates_20000",
-        rank: Rank::Moderate,
-        content: Content::hit(|n| copies(20_000, n)).of(200),
-        reason: "Builders that look for the nearest neighbour, or split without end, take quadratic time.",
-        source: "obvhs, ploc: 17 to 32 s",
-    },
-    HardCase {
-        number: 45,
-        name: "degenerate_half",
-        rank: Rank::Moderate,
-        content: Content::oracle(|n| towards_surface(half_without_area(2000), n, 20)),
-        reason: "Half of the triangles are points, needles or have a double corner: answers are those without them.",
-        source: "tests of obvhs and Embree on degenerate input",
-    },
-    HardCase {
-        number: 54,
-        name: "same_centroid_2000",
-        rank: Rank::Moderate,
-        content: Content::oracle(|n| towards_surface(same_centroid(2000), n, 21)),
-        reason: "All centroids in one point: a median split separates nothing and must stop.",
-        source: "Hapala, Havran 2011; bvh crates with a fixed stack",
-    },
-    HardCase {
-        number: 64,
-        name: "soup_random",
-        rank: Rank::Moderate,
-        content: Content::oracle(|n| towards_surface(soup(2000, 22), n, 22)),
-        reason: "Random triangles and rays: the ground against which the other cases stand.",
-        source: "survey",
-    },
-    HardCase {
-        number: 78,
-        name: "zfighting_ulp_copies",
-        rank: Rank::Added,
-        content: Content::oracle(|n| {
+    moderate(40, "coincident_1000")
+        .all_hit(|n| copies(1000, n))
+        .at_most(2000)
+        .because("A thousand copies of one triangle: the lowest number is owed, and nothing can be split.")
+        .source("Embree, verify.cpp, overlapping_primitives"),
+    moderate(41, "duplicates_20000")
+        .all_hit(|n| copies(20_000, n))
+        .at_most(200)
+        .because("Builders that look for the nearest neighbour, or split without end, take quadratic time.")
+        .source("obvhs, ploc: 17 to 32 s"),
+    moderate(45, "degenerate_half")
+        .by_oracle(|n| towards_surface(half_without_area(2000), n, 20))
+        .because("Half of the triangles are points, needles or have a double corner: answers are those without them.")
+        .source("tests of obvhs and Embree on degenerate input"),
+    moderate(54, "same_centroid_2000")
+        .by_oracle(|n| towards_surface(same_centroid(2000), n, 21))
+        .because("All centroids in one point: a median split separates nothing and must stop.")
+        .source("Hapala, Havran 2011; bvh crates with a fixed stack"),
+    moderate(64, "soup_random")
+        .by_oracle(|n| towards_surface(soup(2000, 22), n, 22))
+        .because("Random triangles and rays: the ground against which the other cases stand.")
+        .source("survey"),
+    added(78, "zfighting_ulp_copies")
+        .by_oracle(|n| {
             let mut sampler = Sampler::new(23);
             let copies: Vec<_> = (0..500)
                 .map(|_| {
@@ -69,15 +48,11 @@ pub(super) const CASES: &[HardCase] = &[
                 .collect();
             towards_surface(mesh(copies), n, 24)
         })
-        .of(2000),
-        reason: "Copies an ulp apart: the nearest is decided below the rounding of t.",
-        source: "survey",
-    },
-    HardCase {
-        number: 80,
-        name: "collinear_line",
-        rank: Rank::Added,
-        content: Content::oracle(|n| {
+        .at_most(2000)
+        .because("Copies an ulp apart: the nearest is decided below the rounding of t.")
+        .source("survey"),
+    added(80, "collinear_line")
+        .by_oracle(|n| {
             // Needles without area along a line, and among them slivers that have one.
             let on_line = |i: usize, step: f32| Vec3::new(i as f32 * 0.125 + step, 0.0, 0.0);
             let triangles = (0..400).map(|i| {
@@ -89,15 +64,11 @@ pub(super) const CASES: &[HardCase] = &[
                 let origin = target + Vec3::new(sampler.signed(), sampler.sign(), sampler.signed());
                 Ray::new(origin, target - origin)
             })
-        }),
-        reason: "Boxes without extent in one or two axes: a half area of 0 divides by zero in cost models.",
-        source: "Wald, Havran 2006; Hapala, Havran 2011",
-    },
-    HardCase {
-        number: 82,
-        name: "median_matches_heavy",
-        rank: Rank::Added,
-        content: Content::oracle(|n| {
+        })
+        .because("Boxes without extent in one or two axes: a half area of 0 divides by zero in cost models.")
+        .source("Wald, Havran 2006; Hapala, Havran 2011"),
+    added(82, "median_matches_heavy")
+        .by_oracle(|n| {
             let mut sampler = Sampler::new(26);
             let alike: Vec<[Vec3; 3]> = (0..1400)
                 .map(|_| {
@@ -107,10 +78,9 @@ pub(super) const CASES: &[HardCase] = &[
                 })
                 .collect();
             towards_surface(mesh(alike.into_iter().chain(soup_triangles(600, 26))), n, 27)
-        }),
-        reason: "More than half of the centroids equal the median: `less than` and `not less than` must both shrink.",
-        source: "the report's own median tree; survey",
-    },
+        })
+        .because("More than half of the centroids equal the median: `less than` and `not less than` must both shrink.")
+        .source("the report's own median tree; survey"),
 ];
 
 /// One triangle `copies` times, aimed at well inside.

@@ -2,8 +2,8 @@
 
 use glam::Vec3;
 
-use super::Property;
-use super::properties::{built, closest, shared};
+use super::case::Property;
+use super::subject::{built, closest, shared};
 use crate::geometry::Ray;
 use crate::triangle::{Exact, TriangleTest};
 use crate::validate::Sampler;

@@ -2,57 +2,38 @@
 
 use glam::Vec3;
 
-use super::set::{moved, sheet, tilted};
-use super::{Content, HardCase, Rank, Set};
+use super::case::{HardCase, added, moderate};
+use super::set::{Set, moved, sheet, tilted};
 use crate::geometry::Ray;
 use crate::validate::Sampler;
 use crate::validate::degenerate::coplanar;
 
 pub(super) const CASES: &[HardCase] = &[
-    HardCase {
-        number: 10,
-        name: "flat_down",
-        rank: Rank::Moderate,
-        content: Content::hit(|n| {
+    moderate(10, "flat_down")
+.all_hit(|n| {
             Set::new(sheet(32), n, 6, |sampler| Ray::new(above(sampler, 1.0), Vec3::new(0.0, 0.0, -1.0)))
-        }),
-        reason: "The root box has no thickness: an interval of one point must not count as empty.",
-        source: "Hapala, Havran 2011: flat cells",
-    },
-    HardCase {
-        number: 11,
-        name: "flat_inplane",
-        rank: Rank::Moderate,
-        content: Content::miss(|n| {
+        })
+        .because("The root box has no thickness: an interval of one point must not count as empty.")
+        .source("Hapala, Havran 2011: flat cells"),
+    moderate(11, "flat_inplane")
+.all_miss(|n| {
             Set::new(sheet(32), n, 7, |sampler| {
                 let direction = sampler.direction();
                 Ray::new(above(sampler, 0.0), Vec3::new(direction.x, direction.y, 0.0))
             })
-        }),
-        reason: "A ray in the plane of every triangle meets none in a point: the determinant is 0.",
-        source: "Möller, Trumbore 1997",
-    },
-    HardCase {
-        number: 12,
-        name: "flat_grazing_1e-3",
-        rank: Rank::Moderate,
-        content: Content::oracle(|n| grazing(n, 1e-3)),
-        reason: "Rays at a slope of 1e-3 on a tilted plane: the determinant loses ten bits.",
-        source: "Embree issue 387",
-    },
-    HardCase {
-        number: 13,
-        name: "flat_grazing_1e-6",
-        rank: Rank::Moderate,
-        content: Content::oracle(|n| grazing(n, 1e-6)),
-        reason: "At a slope of 1e-6 the determinant is all rounding: t is wrong by a hundred thousand ulps, hits are missed and invented.",
-        source: "Embree issue 387; measured: 55 to 75 % of the depths wrong in every f32 system",
-    },
-    HardCase {
-        number: 42,
-        name: "coplanar_overlap_200",
-        rank: Rank::Moderate,
-        content: Content::oracle(|n| {
+        })
+        .because("A ray in the plane of every triangle meets none in a point: the determinant is 0.")
+        .source("Möller, Trumbore 1997"),
+    moderate(12, "flat_grazing_1e-3")
+.by_oracle(|n| grazing(n, 1e-3))
+        .because("Rays at a slope of 1e-3 on a tilted plane: the determinant loses ten bits.")
+        .source("Embree issue 387"),
+    moderate(13, "flat_grazing_1e-6")
+.by_oracle(|n| grazing(n, 1e-6))
+        .because("At a slope of 1e-6 the determinant is all rounding: t is wrong by a hundred thousand ulps, hits are missed and invented.")
+        .source("Embree issue 387; measured: 55 to 75 % of the depths wrong in every f32 system"),
+    moderate(42, "coplanar_overlap_200")
+.by_oracle(|n| {
             let mesh = coplanar(200, Vec3::new(0.9, 0.1, 0.3), Vec3::new(-0.2, 0.8, 0.7));
             Set::new(mesh, n, 8, |sampler| {
                 let normal = Vec3::new(-0.17, -0.69, 0.74);
@@ -62,25 +43,20 @@ pub(super) const CASES: &[HardCase] = &[
                 Ray::new(target - direction * 3.0, direction)
             })
         })
-        .of(2000),
-        reason: "Overlapping triangles of one tilted plane: which is nearer is below the rounding of t.",
-        source: "survey",
-    },
-    HardCase {
-        number: 79,
-        name: "planar_in_split_plane",
-        rank: Rank::Added,
-        content: Content::oracle(|n| {
+        .at_most(2000)
+        .because("Overlapping triangles of one tilted plane: which is nearer is below the rounding of t.")
+        .source("survey"),
+    added(79, "planar_in_split_plane")
+.by_oracle(|n| {
             let mesh = moved(&sheet(32), |p| Vec3::new(0.5, p.x, p.y));
             Set::new(mesh, n, 9, |sampler| {
                 // Every other ray starts in the plane.
                 let x = if sampler.coin() { 0.5 } else { 0.5 + 2.0 * sampler.signed() };
                 Ray::new(Vec3::new(x, sampler.signed(), sampler.signed()), sampler.direction())
             })
-        }),
-        reason: "All triangles lie in the only plane across x that can split, and belong to neither side.",
-        source: "Wald, Havran 2006: planar triangles on either side; Hapala, Havran 2011",
-    },
+        })
+        .because("All triangles lie in the only plane across x that can split, and belong to neither side.")
+        .source("Wald, Havran 2006: planar triangles on either side; Hapala, Havran 2011"),
 ];
 
 /// A point over the sheet.

@@ -2,32 +2,25 @@
 
 use glam::Vec3;
 
-use super::set::{indexed, inside, moved, on_surface, star, triangle};
-use super::{Content, HardCase, Rank, Set};
+use super::case::{HardCase, added};
+use super::set::{Set, indexed, inside, moved, on_surface, star, triangle};
 use crate::geometry::Ray;
 use crate::validate::Sampler;
 
 pub(super) const CASES: &[HardCase] = &[
-    HardCase {
-        number: 85,
-        name: "scale_7e-15",
-        rank: Rank::Added,
-        content: Content::hit(|n| {
+    added(85, "scale_7e-15")
+        .all_hit(|n| {
             let scale = libm::scalbnf(1.0, -47);
             let mesh = moved(&star(), |p| p * scale);
             Set::new(mesh.clone(), n, 60, |sampler| {
                 let (origin, [a, b, _]) = (inside(sampler) * scale, triangle(&mesh, sampler));
                 Ray::new(origin, (a.lerp(b, sampler.unit()) - origin) / scale)
             })
-        }),
-        reason: "Products of three lengths underflow, those of two do not: a bound on the one is none on the other.",
-        source: "sahara, the first stage of the exact test",
-    },
-    HardCase {
-        number: 86,
-        name: "origins_near_the_largest",
-        rank: Rank::Added,
-        content: Content::oracle(|n| {
+        })
+        .because("Products of three lengths underflow, those of two do not: a bound on the one is none on the other.")
+        .source("sahara, the first stage of the exact test"),
+    added(86, "origins_near_the_largest")
+        .by_oracle(|n| {
             let mesh = moved(&star(), |p| p * 5e36);
             Set::new(mesh.clone(), n, 61, |sampler| {
                 let side = 3.39e38 * sampler.sign();
@@ -35,15 +28,11 @@ pub(super) const CASES: &[HardCase] = &[
                 let target = on_surface(&mesh, sampler) - drift / 0.3;
                 Ray::new(Vec3::new(side, target.y, target.z), Vec3::new(-0.3 * side, drift.y, drift.z))
             })
-        }),
-        reason: "The distance from the origin to a plane overflows, though the ray crosses it at t near 3.",
-        source: "sahara, crossings of planes",
-    },
-    HardCase {
-        number: 87,
-        name: "beside_a_sliver",
-        rank: Rank::Added,
-        content: Content::oracle(|n| {
+        })
+        .because("The distance from the origin to a plane overflows, though the ray crosses it at t near 3.")
+        .source("sahara, crossings of planes"),
+    added(87, "beside_a_sliver")
+        .by_oracle(|n| {
             let [a, b, c] = [Vec3::new(0.0, 0.2331, 0.0), Vec3::new(1.0, 0.2341, 1.0), Vec3::new(1.0, 0.2331, 1.0001)];
             let first =
                 Ray::new(Vec3::new(1.0529697, 0.79743576, 2.6935759), Vec3::new(-0.052969694, -0.5633358, -1.6935759));
@@ -51,15 +40,11 @@ pub(super) const CASES: &[HardCase] = &[
                 let origin = target + sampler.cube();
                 Ray::new(origin, target - origin)
             })
-        }),
-        reason: "Rays pass a sliver of 1 to 10,000 by less than f64 can tell: the band grows with the aspect ratio.",
-        source: "an independent check: a hit 4.5e-11 outside, where filtered-f64 had promised 1e-15",
-    },
-    HardCase {
-        number: 88,
-        name: "along_a_needle",
-        rank: Rank::Added,
-        content: Content::oracle(|n| {
+        })
+        .because("Rays pass a sliver of 1 to 10,000 by less than f64 can tell: the band grows with the aspect ratio.")
+        .source("an independent check: a hit 4.5e-11 outside, where filtered-f64 had promised 1e-15"),
+    added(88, "along_a_needle")
+        .by_oracle(|n| {
             let corners = [
                 Vec3::new(249066.56, -560805.06, -789597.4),
                 Vec3::new(-249066.31, 560804.8, 789596.9),
@@ -68,15 +53,11 @@ pub(super) const CASES: &[HardCase] = &[
             let first =
                 Ray::new(Vec3::new(-0.41515878, 0.8378415, 1.5203968), Vec3::new(-5957.0234, 13413.253, 18885.059));
             along_edges(corners, first, n, 63, grazing)
-        }),
-        reason: "A needle of 1 to 10,000,000 met along its length: f64 has no digit of the determinant left.",
-        source: "an independent check: a hit that filtered-f64 loses",
-    },
-    HardCase {
-        number: 89,
-        name: "depth_on_a_needle",
-        rank: Rank::Added,
-        content: Content::oracle(|n| {
+        })
+        .because("A needle of 1 to 10,000,000 met along its length: f64 has no digit of the determinant left.")
+        .source("an independent check: a hit that filtered-f64 loses"),
+    added(89, "depth_on_a_needle")
+        .by_oracle(|n| {
             let corners = [
                 Vec3::new(-405851.38, 785724.8, -466819.28),
                 Vec3::new(405851.56, -785725.3, 466820.28),
@@ -85,10 +66,9 @@ pub(super) const CASES: &[HardCase] = &[
             let first =
                 Ray::new(Vec3::new(49.000397, -704.82355, 176.40697), Vec3::new(-9731.703, 19450.404, -11313.292));
             along_edges(corners, first, n, 64, grazing)
-        }),
-        reason: "A needle grazed at a sine of 5e-3: t has half of the digits of f64, which a tolerance of 1 % hides.",
-        source: "an independent check: t of filtered-f64 115 ulps off",
-    },
+        })
+        .because("A needle grazed at a sine of 5e-3: t has half of the digits of f64, which a tolerance of 1 % hides.")
+        .source("an independent check: t of filtered-f64 115 ulps off"),
 ];
 
 /// One triangle; the ray that was found first, and others at or beside points of its edges.

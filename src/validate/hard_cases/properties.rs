@@ -2,95 +2,55 @@
 
 use std::sync::Arc;
 
+use super::case::{HardCase, Property, added};
 use super::metamorphic::metamorphic;
 use super::set::star;
-use super::{Content, HardCase, Property, Rank};
+use super::subject::{built, closest, shared};
 use crate::accel::DynAccel;
-use crate::geometry::{Hit, Mesh, Ray};
+use crate::geometry::{Mesh, Ray};
 use crate::validate::conformance::Subject;
 use crate::validate::degenerate::{exponential, huge_and_small, needles, soup};
 use crate::validate::{Reference, Sampler, Stratum, validate};
 
 pub(super) const CASES: &[HardCase] = &[
-    HardCase {
-        number: 73,
-        name: "continuation",
-        rank: Rank::Added,
-        content: Content::Property(continuation),
-        reason: "Going on behind each hit must visit all crossings of a ray, each once.",
-        source: "Embree, verify.cpp, sphere_filter_multi_hit",
-    },
-    HardCase {
-        number: 74,
-        name: "parity",
-        rank: Rank::Added,
-        content: Content::Property(parity),
-        reason: "A ray from outside crosses a closed surface an even number of times.",
-        source: "survey: tests of volumes and of points in solids rest on it",
-    },
-    HardCase {
-        number: 75,
-        name: "metamorphic",
-        rank: Rank::Added,
-        content: Content::Property(metamorphic),
-        reason: "Reordered, mirrored and doubled scenes have the same t; so have turned, moved and cut ones where answers are exact.",
-        source: "survey: finds what a comparison with one's own test cannot",
-    },
-    HardCase {
-        number: 76,
-        name: "any_equals_closest",
-        rank: Rank::Added,
-        content: Content::Property(|subject, rays| {
+    added(73, "continuation")
+.property(continuation)
+        .because("Going on behind each hit must visit all crossings of a ray, each once.")
+        .source("Embree, verify.cpp, sphere_filter_multi_hit"),
+    added(74, "parity")
+.property(parity)
+        .because("A ray from outside crosses a closed surface an even number of times.")
+        .source("survey: tests of volumes and of points in solids rest on it"),
+    added(75, "metamorphic")
+.property(metamorphic)
+        .because("Reordered, mirrored and doubled scenes have the same t; so have turned, moved and cut ones where answers are exact.")
+        .source("survey: finds what a comparison with one's own test cannot"),
+    added(76, "any_equals_closest")
+.property(|subject, rays| {
             validated(subject, &[star(), soup(500, 1)], rays, |v| (v.any_hit_errors, "any hit contradicts closest hit"))
-        }),
-        reason: "Any hit has a loop of its own in most systems, and its own mistakes.",
-        source: "pbrt-v4: a second copy of the loop",
-    },
-    HardCase {
-        number: 77,
-        name: "batch_equals_single",
-        rank: Rank::Added,
-        content: Content::Property(|subject, rays| {
+        })
+        .because("Any hit has a loop of its own in most systems, and its own mistakes.")
+        .source("pbrt-v4: a second copy of the loop"),
+    added(77, "batch_equals_single")
+.property(|subject, rays| {
             validated(subject, &[star(), soup(500, 1)], rays, |v| {
                 (v.unrepeatable, "asked alone, the answer is another")
             })
-        }),
-        reason: "Packets and batches must answer as single rays do.",
-        source: "Embree, verify.cpp: the same tests for every packet size",
-    },
-    HardCase {
-        number: 81,
-        name: "sizes_0_to_40",
-        rank: Rank::Added,
-        content: Content::Property(|subject, rays| {
+        })
+        .because("Packets and batches must answer as single rays do.")
+        .source("Embree, verify.cpp: the same tests for every packet size"),
+    added(81, "sizes_0_to_40")
+.property(|subject, rays| {
             let meshes: Vec<Arc<Mesh>> = (0..=40).map(|n| soup(n, 100 + n as u64)).collect();
             validated(subject, &meshes, rays, |v| (v.errors(), "an answer is wrong"))
-        }),
-        reason: "No, one, two, three triangles and all sizes of a leaf: where blocks and nodes are partly filled.",
-        source: "survey",
-    },
-    HardCase {
-        number: 84,
-        name: "limits",
-        rank: Rank::Added,
-        content: Content::Property(limits),
-        reason: "Numbers of nodes and references must stay bounded where triangles cannot be separated, before memory ends.",
-        source: "pbrt-v4, kd-tree: depth 8 + 1.3 log2 N and bad refines; Embree, regression with failing allocations",
-    },
+        })
+        .because("No, one, two, three triangles and all sizes of a leaf: where blocks and nodes are partly filled.")
+        .source("survey"),
+    added(84, "limits")
+.property(limits)
+        .because("Numbers of nodes and references must stay bounded where triangles cannot be separated, before memory ends.")
+        .source("pbrt-v4, kd-tree: depth 8 + 1.3 log2 N and bad refines; Embree, regression with failing allocations"),
 ];
-
-/// Rays of one property; the strata and meshes share them out.
-pub(super) fn shared(rays: usize, among: usize) -> usize {
-    rays.div_ceil(among).max(4)
-}
-
-/// Builds, or says in a property that it cannot be built.
-pub(super) fn built(subject: &Subject, mesh: &Arc<Mesh>) -> Result<Box<dyn DynAccel>, Property> {
-    (subject.build)(mesh).map_err(|error| {
-        let example = Some(format!("{} does not build: {error}", subject.name));
-        Property { checked: 1, broken: 1, example }
-    })
-}
 
 /// Holds all strata on some meshes against brute force, and counts one kind of error.
 fn validated(
@@ -118,12 +78,6 @@ fn validated(
         }
     }
     property
-}
-
-pub(super) fn closest(accel: &dyn DynAccel, ray: Ray) -> Option<Hit> {
-    let mut hit = [None];
-    accel.closest_hits(&[ray], &mut hit);
-    hit[0]
 }
 
 /// No ray of these scenes has more crossings; a structure that does not move on is stopped here.

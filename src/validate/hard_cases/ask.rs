@@ -4,11 +4,12 @@ use std::borrow::Cow;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Content, HardCase, Property, Set};
+use super::case::{Content, HardCase, Property};
+use super::set::Set;
 use crate::accel::{BuildError, DynAccel, Loaded};
 use crate::geometry::{Hit, Ray};
 use crate::measure::{Clock, median};
-use crate::registry::Choice;
+use crate::validate::conformance::Subject;
 
 /// What a structure did with a case.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,16 +44,16 @@ pub enum AnswersError {
     Head(String),
 }
 
-/// Builds `choice` over the mesh of `case` and asks at most `rays` of its rays.
+/// Builds `subject` over the mesh of `case` and asks at most `rays` of its rays.
 ///
 /// # Errors
 /// If the structure cannot be built.
-pub fn ask(case: &HardCase, choice: &Choice, rays: usize, clock: &dyn Clock) -> Result<Answers, BuildError> {
+pub fn ask(case: &HardCase, subject: &Subject, rays: usize, clock: &dyn Clock) -> Result<Answers, BuildError> {
     match case.content {
         Content::Rays { rays: most, make, .. } => {
             let set = make(rays.min(most));
             let start = clock.now_ns();
-            let accel = choice.build(&set.mesh)?;
+            let accel = (subject.build)(&set.mesh)?;
             let build_ns = clock.now_ns() - start;
             if let Some(what) = set.rays.iter().find_map(|ray| accel.capabilities().declines(ray)) {
                 return Err(BuildError::Declined(what));
@@ -60,7 +61,7 @@ pub fn ask(case: &HardCase, choice: &Choice, rays: usize, clock: &dyn Clock) -> 
             Ok(of_rays(&*accel, &set, build_ns, clock))
         }
         Content::Property(check) => {
-            let property = Some(check(&choice.subject(), rays));
+            let property = Some(check(subject, rays));
             Ok(Answers { head: Head { property, ..Head::default() }, hits: vec![] })
         }
     }
@@ -169,13 +170,13 @@ mod tests {
     use super::*;
     use crate::measure::SystemClock;
     use crate::registry::Registry;
-    use crate::study::hard_cases::find;
+    use crate::validate::hard_cases::find;
 
     #[test]
     fn answers_come_back_as_they_went() {
-        let choice = Registry::builtin().choose("sah-kd").unwrap();
+        let subject = Registry::builtin().choose("sah-kd").unwrap().subject();
         for name in ["flat_grazing_1e-6", "rays_nan_dir", "limits"] {
-            let answers = ask(find(name).unwrap(), &choice, 50, &SystemClock::start()).unwrap();
+            let answers = ask(find(name).unwrap(), &subject, 50, &SystemClock::start()).unwrap();
             assert_eq!(Answers::from_bytes(&answers.to_bytes()).as_ref(), Ok(&answers), "{name}");
             assert_eq!((answers.head.any_hit_errors, answers.head.unrepeatable), (0, 0), "{name}");
             assert_eq!(answers.head.slowness.is_some(), name == "rays_nan_dir");

@@ -1,10 +1,10 @@
 //! Scores as tables: cases down, structures across.
 
-use super::{Content, Failure, HardCase, Property, Rank, RayScore, Score, Totals};
 use crate::registry::Choice;
 use crate::report::number::{count, figures, plural};
 use crate::report::{Cell, Table, Tone};
 use crate::study::documented_defect;
+use crate::validate::hard_cases::{Content, Failure, HardCase, Property, Rank, RayScore, Score, Totals};
 
 /// One structure in the tables.
 pub struct Column {

@@ -1,0 +1,178 @@
+//! A case, and how it is written in the catalogue: number and name, what is asked, why, and who says so.
+
+use super::set::Set;
+use crate::validate::conformance::Subject;
+
+/// One entry of the catalogue.
+#[derive(Clone, Copy)]
+pub struct HardCase {
+    /// From 1 on, ascending over the catalogue.
+    pub number: u32,
+    /// As written on the command line.
+    pub name: &'static str,
+    pub rank: Rank,
+    pub content: Content,
+    /// Why systems fail here, in a sentence.
+    pub reason: &'static str,
+    /// Who says so: a paper of `papers/`, a project's source or thread, or what was measured.
+    pub source: &'static str,
+}
+
+/// Which totals a case counts in.
+///
+/// The survey measured 71 cases and ranked 59: not the empty scene, vertices that are not finite, the ends of intervals, origins
+/// on a surface, and the six kinds of invalid rays. Of the 59, ten are extreme: scales of 1e-20 and less and of 1e15 and
+/// more, directions of such lengths (from 1e-20 and 1e15 on), and origins 1e8 away.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Rank {
+    /// Valid input of sizes that a careful user may have: in the totals of both 59 and 49 cases.
+    Moderate,
+    /// Valid input of sizes at which `f32` products leave their range: in the total of 59 cases.
+    Extreme,
+    /// In no total: the input is not valid, nothing can be hit, or systems differ about what an interval includes.
+    Unranked,
+    /// Added to the survey's measured cases: in no total either, so that totals can be compared.
+    Added,
+}
+
+impl HardCase {
+    /// How many rays it asks where at most `most` are wanted; nothing for a property. Makes them.
+    pub fn rays(&self, most: usize) -> Option<usize> {
+        match self.content {
+            Content::Rays { rays, make, .. } => Some(make(rays.min(most)).rays.len()),
+            Content::Property(_) => None,
+        }
+    }
+}
+
+/// What a case asks.
+#[derive(Clone, Copy)]
+pub enum Content {
+    /// The closest hits of rays over one mesh.
+    Rays {
+        /// So many rays unless the user wants fewer.
+        rays: usize,
+        expected: Expected,
+        /// Mesh and rays, the same bits on every machine. Fewer rays are the first of more.
+        make: fn(usize) -> Set,
+    },
+    /// Something that answers must have in common.
+    Property(fn(&Subject, usize) -> Property),
+}
+
+/// The right answers to the rays of a case, as far as they are known without looking.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Expected {
+    /// Every ray hits something.
+    Hit,
+    /// No ray hits anything.
+    Miss,
+    /// What the exact oracle says.
+    Oracle,
+    /// Every ray hits, exactly where the ray of the same place in the case of this name does.
+    SameAs(&'static str),
+}
+
+/// What a property found.
+#[derive(Clone, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+pub struct Property {
+    /// Comparisons made.
+    pub checked: u64,
+    /// Those that failed.
+    pub broken: u64,
+    /// The first that failed, in a sentence.
+    pub example: Option<String>,
+}
+
+impl Property {
+    /// Adds a comparison; `sentence` is asked for the first failure only.
+    pub(super) fn note(&mut self, holds: bool, sentence: impl FnOnce() -> String) {
+        self.checked += 1;
+        self.broken += u64::from(!holds);
+        if !holds && self.example.is_none() {
+            self.example = Some(sentence());
+        }
+    }
+
+    /// Adds further comparisons.
+    pub(super) fn append(&mut self, other: Self) {
+        self.checked += other.checked;
+        self.broken += other.broken;
+        self.example = self.example.take().or(other.example);
+    }
+}
+
+/// An entry of which nothing but the name is written.
+pub(super) struct Named {
+    rank: Rank,
+    number: u32,
+    name: &'static str,
+}
+
+pub(super) const fn moderate(number: u32, name: &'static str) -> Named {
+    Named { rank: Rank::Moderate, number, name }
+}
+
+pub(super) const fn extreme(number: u32, name: &'static str) -> Named {
+    Named { rank: Rank::Extreme, number, name }
+}
+
+pub(super) const fn unranked(number: u32, name: &'static str) -> Named {
+    Named { rank: Rank::Unranked, number, name }
+}
+
+pub(super) const fn added(number: u32, name: &'static str) -> Named {
+    Named { rank: Rank::Added, number, name }
+}
+
+/// So many rays has a case that names no other number.
+const RAYS: usize = 10_000;
+
+impl Named {
+    const fn asks(self, content: Content) -> HardCase {
+        let Self { rank, number, name } = self;
+        HardCase { number, name, rank, content, reason: "", source: "" }
+    }
+
+    const fn rays(self, expected: Expected, make: fn(usize) -> Set) -> HardCase {
+        self.asks(Content::Rays { rays: RAYS, expected, make })
+    }
+
+    pub(super) const fn all_hit(self, make: fn(usize) -> Set) -> HardCase {
+        self.rays(Expected::Hit, make)
+    }
+
+    pub(super) const fn all_miss(self, make: fn(usize) -> Set) -> HardCase {
+        self.rays(Expected::Miss, make)
+    }
+
+    pub(super) const fn by_oracle(self, make: fn(usize) -> Set) -> HardCase {
+        self.rays(Expected::Oracle, make)
+    }
+
+    pub(super) const fn same_as(self, other: &'static str, make: fn(usize) -> Set) -> HardCase {
+        self.rays(Expected::SameAs(other), make)
+    }
+
+    pub(super) const fn property(self, check: fn(&Subject, usize) -> Property) -> HardCase {
+        self.asks(Content::Property(check))
+    }
+}
+
+impl HardCase {
+    /// With another number of rays.
+    pub(super) const fn at_most(self, rays: usize) -> Self {
+        match self.content {
+            Content::Rays { expected, make, .. } => Self { content: Content::Rays { rays, expected, make }, ..self },
+            Content::Property(_) => self,
+        }
+    }
+
+    pub(super) const fn because(self, reason: &'static str) -> Self {
+        Self { reason, ..self }
+    }
+
+    pub(super) const fn source(self, source: &'static str) -> Self {
+        Self { source, ..self }
+    }
+}
