@@ -39,7 +39,7 @@ const LAYERS: [(&str, u32); 27] = [
 const STRUCTURES: u32 = 3;
 
 /// Rooms whose files still import each other in circles. It may only shrink.
-const CIRCLES_LEFT: &[&str] = &["page", "scene", "study", "validate"];
+const CIRCLES_LEFT: &[&str] = &["study"];
 
 /// Source files by module path, `bvh8::node`; a folder's `mod.rs` is the folder. Without comments, and without what is compiled for tests alone.
 struct Sources(BTreeMap<String, String>);

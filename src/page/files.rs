@@ -33,11 +33,6 @@ pub fn files(document: &Document, runs: &Runs, studies: &Studies) -> Vec<(String
     files
 }
 
-/// Where a picture of a figure is, in the folder.
-pub fn picture_name(figure: &str, index: usize) -> String {
-    format!("figures/{figure}-{}.png", index + 1)
-}
-
 fn of_figure(figure: &Figure) -> Vec<(String, Vec<u8>)> {
     let mut files = vec![];
     let path = |ending: &str| format!("figures/{}.{ending}", figure.id);
@@ -47,11 +42,11 @@ fn of_figure(figure: &Figure) -> Vec<(String, Vec<u8>)> {
             files.push((path("png"), chart.png(WIDTH)));
         }
         Art::Gallery(pictures) => {
-            files.extend(pictures.iter().enumerate().map(|(i, p)| (picture_name(&figure.id, i), p.png.clone())));
+            files.extend(pictures.iter().enumerate().map(|(i, p)| (figure.picture_path(i), p.png.clone())));
         }
         Art::Overlay(overlay) => {
             let pictures = overlay.pictures.iter().enumerate();
-            files.extend(pictures.map(|(i, p)| (picture_name(&figure.id, i), p.png.clone())));
+            files.extend(pictures.map(|(i, p)| (figure.picture_path(i), p.png.clone())));
         }
     }
     if !figure.data.columns.is_empty() {

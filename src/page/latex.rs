@@ -1,6 +1,5 @@
 //! The report as LaTeX: tables with booktabs, figures as pictures beside it.
 
-use super::files::picture_name;
 use crate::report::document::{Art, Block, Document, Figure};
 use crate::report::{Table, Tone};
 
@@ -89,7 +88,7 @@ fn figure(figure: &Figure, text: &mut String) {
 }
 
 fn grid(figure: &Figure, count: usize) -> String {
-    let one = |i| format!("\\includegraphics[width=0.24\\linewidth]{{{}}}\n", picture_name(&figure.id, i));
+    let one = |i| format!("\\includegraphics[width=0.24\\linewidth]{{{}}}\n", figure.picture_path(i));
     (0..count).map(one).collect()
 }
 

@@ -1,6 +1,5 @@
 //! The report as Markdown, with pictures beside it.
 
-use super::files::picture_name;
 use crate::report::document::{Art, Block, Document, Figure};
 use crate::report::escaped;
 
@@ -49,10 +48,10 @@ fn figure(figure: &Figure, text: &mut String) {
     match &figure.art {
         Art::Chart(_) => image(&figure.alt, &format!("figures/{}.svg", figure.id)),
         Art::Gallery(pictures) => {
-            pictures.iter().enumerate().for_each(|(i, p)| image(&p.alt, &picture_name(&figure.id, i)));
+            pictures.iter().enumerate().for_each(|(i, p)| image(&p.alt, &figure.picture_path(i)));
         }
         Art::Overlay(overlay) => {
-            overlay.pictures.iter().enumerate().for_each(|(i, p)| image(&p.alt, &picture_name(&figure.id, i)));
+            overlay.pictures.iter().enumerate().for_each(|(i, p)| image(&p.alt, &figure.picture_path(i)));
         }
     }
     *text += &format!("\n{}\n{}", escaped(&figure.caption), command(&figure.command));

@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 use super::{Runs, files, page};
 use crate::measure::Provenance;
 use crate::report::document::{Art, Block, Document, Figure, Overlay, Section, Thumbnail};
-use crate::report::plot::{Chart, Curves, Line, Mark, Scale};
+use crate::report::plot::{Chart, Curves, Line, Mark};
 use crate::report::{Record, Table, example_record, to_json};
 use crate::study::epoch::{Epoch, tests as epoch};
 use crate::study::journal::Header;
@@ -167,16 +167,7 @@ fn whole(scene: &str) -> (Document, Runs) {
         ticks: vec![(0.0, "0".into()), (1.0, "10".into())],
     };
     let line = Line { label: scene.into(), note: String::new(), points: vec![], mark: Mark::Both };
-    let curves = Curves {
-        x_title: "x".into(),
-        y_title: "y".into(),
-        x_scale: Scale::Log,
-        y_scale: Scale::Log,
-        lines: vec![line],
-        level: None,
-        highest: None,
-        diagonal: None,
-    };
+    let curves = Curves::logarithmic("x", "y", vec![line]);
     let pictures = Section {
         id: "pictures",
         title: "Pictures",

@@ -124,6 +124,13 @@ pub struct Missing {
     pub command: String,
 }
 
+impl Figure {
+    /// Where a picture of it is, in the folder of a report.
+    pub fn picture_path(&self, index: usize) -> String {
+        format!("figures/{}-{}.png", self.id, index + 1)
+    }
+}
+
 impl Block {
     /// A table without colours.
     pub fn table(table: Table, command: &str) -> Self {

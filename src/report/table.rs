@@ -70,14 +70,24 @@ const INDENT: usize = 2;
 const PADDING: usize = 2;
 
 impl Table {
+    /// A table without notes.
+    pub fn new<const N: usize>(
+        title: impl Into<String>,
+        columns: [&str; N],
+        rows: impl IntoIterator<Item = Vec<Cell>>,
+    ) -> Self {
+        let columns = columns.map(String::from).into();
+        Self { title: title.into(), columns, rows: rows.into_iter().collect(), notes: vec![] }
+    }
+
     /// A table of texts, without notes.
     pub fn of_texts<const N: usize>(title: &str, columns: [&str; N], rows: Vec<[String; N]>) -> Self {
-        Self {
-            title: title.into(),
-            columns: columns.map(String::from).into(),
-            rows: rows.into_iter().map(|row| row.map(Cell::from).into()).collect(),
-            notes: vec![],
-        }
+        Self::new(title, columns, rows.into_iter().map(|row| row.map(Cell::from).into()))
+    }
+
+    /// The same table with these notes.
+    pub fn noted(self, notes: Vec<String>) -> Self {
+        Self { notes, ..self }
     }
 
     /// The table in lines of at most the screen's width: columns for which there is no room follow below, after the first

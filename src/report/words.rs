@@ -96,6 +96,11 @@ pub fn short_labels(labels: &[String]) -> Vec<String> {
     if distinct(short.iter()).len() < labels.len() { labels.to_vec() } else { short }
 }
 
+/// The name of a structure: its label without the keys.
+pub fn bare(label: &str) -> &str {
+    label.split(':').next().unwrap_or(label)
+}
+
 /// Distinct names in the order of their first appearance.
 pub fn distinct<'a>(names: impl Iterator<Item = &'a String>) -> Vec<String> {
     let mut found: Vec<String> = vec![];

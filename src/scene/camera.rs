@@ -2,7 +2,6 @@
 
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
-use super::Scene;
 use crate::geometry::Ray;
 
 /// A pinhole camera with square pixels, checked when made.
@@ -103,15 +102,5 @@ impl View {
         let upward = (self.half_size.y - f64::from(y) - f64::from(offset.y)) * self.pixel;
         let direction = self.forward + self.right * across + self.up * upward;
         Ray::new(self.eye, direction.normalize().as_vec3())
-    }
-}
-
-impl Scene {
-    /// The rays through the point `offset` of the pixels `range`, counted row by row from the top left, on an image of
-    /// `size`. `offset` is that of [`View::ray`].
-    pub fn primary_rays(&self, size: [u32; 2], offset: Vec2, range: std::ops::Range<u32>) -> Vec<Ray> {
-        let view = self.camera.view(size);
-        let ray = |pixel| view.ray(pixel % size[0], pixel / size[0], offset);
-        range.map(ray).map(|ray| self.offset.leave_free(ray.origin, ray.direction)).collect()
     }
 }

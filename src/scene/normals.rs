@@ -39,9 +39,4 @@ impl CornerNormals {
     pub fn parts(&self) -> (&[Vec3], &[[u32; 3]]) {
         (&self.normals, &self.indices)
     }
-
-    /// Bytes of both arrays.
-    pub fn bytes(&self) -> usize {
-        size_of_val(&self.normals[..]) + size_of_val(&self.indices[..])
-    }
 }

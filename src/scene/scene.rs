@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 
 use super::offset::{Offset, SurfacePoint, barycentrics};
 use super::{Camera, CornerNormals, Light, Material};
@@ -52,6 +52,14 @@ pub struct Surface {
 }
 
 impl Scene {
+    /// The rays through the point `offset` of the pixels `range`, counted row by row from the top left, on an image of
+    /// `size`. `offset` is that of [`View::ray`].
+    pub fn primary_rays(&self, size: [u32; 2], offset: Vec2, range: std::ops::Range<u32>) -> Vec<Ray> {
+        let view = self.camera.view(size);
+        let ray = |pixel| view.ray(pixel % size[0], pixel / size[0], offset);
+        range.map(ray).map(|ray| self.offset.leave_free(ray.origin, ray.direction)).collect()
+    }
+
     /// The material of a primitive.
     #[inline]
     pub fn material(&self, prim: PrimId) -> &Material {

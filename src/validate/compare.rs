@@ -5,8 +5,8 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use rayon::prelude::*;
 
-use super::adjudicate::{adjudicate, gap};
-use super::watch::{Asked, Call, message};
+use super::asked::{Asked, Call, message};
+use super::blame::{Blame, blame, gap};
 use super::{Kind, Reference, Validation, WorstRay};
 use crate::accel::DynAccel;
 use crate::geometry::{Hit, Mesh, Ray};
@@ -168,7 +168,7 @@ fn ask<R>(asked: &Asked, call: Call, question: impl FnOnce() -> R) -> Result<R, 
     answer.map_err(|payload| message(payload.as_ref()))
 }
 
-/// Adjudicates one answer and adds what is said of it.
+/// Finds who is to blame for one answer, and counts it.
 fn tally(
     sums: &mut Validation,
     reference: &Reference,
@@ -178,9 +178,9 @@ fn tally(
     expected: Option<Hit>,
     found: Option<Hit>,
 ) {
-    let Some(verdict) = adjudicate(reference, mesh, ray, expected, found) else { return };
-    let (kind, index, gap) = (verdict.kind, index as u64, gap(expected, found));
-    sums.worst.push(WorstRay { index, ray: *ray, expected, found, kind, verdict: verdict.sentence, gap });
+    let Some(Blame { kind, sentence: verdict }) = blame(reference, mesh, ray, expected, found) else { return };
+    let (index, gap) = (index as u64, gap(expected, found));
+    sums.worst.push(WorstRay { index, ray: *ray, expected, found, kind, verdict, gap });
     match kind {
         Kind::Tie => sums.ties += 1,
         Kind::HigherId => {
@@ -195,7 +195,8 @@ fn tally(
     sums.differing += u64::from(!matches!(kind, Kind::Tie | Kind::HigherId));
 }
 
-fn same(a: Option<Hit>, b: Option<Hit>) -> bool {
+/// Whether two answers are the same to the bit.
+pub(super) fn same(a: Option<Hit>, b: Option<Hit>) -> bool {
     match (a, b) {
         (Some(a), Some(b)) => a.same_bits(b),
         (a, b) => a.is_none() && b.is_none(),

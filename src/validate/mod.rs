@@ -5,14 +5,15 @@
 //! triangle test's own: the float test calls a hit what exactly is none, and the traversal was free to cull it.
 //! Where structure and reference have different tests, the two cannot be separated: then there are *answer errors*.
 
-mod adjudicate;
 pub mod adversarial;
 mod any;
+mod asked;
+mod blame;
 mod compare;
 pub mod conformance;
 pub(crate) mod degenerate;
+mod error_counts;
 pub mod hard_cases;
-mod judge;
 mod rate;
 mod reference;
 mod sampler;
@@ -23,7 +24,7 @@ pub use adversarial::Stratum;
 pub use any::validate_any_answers;
 pub use compare::{validate, validate_answers, validate_known};
 pub use degenerate::degenerate_meshes;
-pub use judge::{DepthRule, Judged, Outcome, Ulps, judge, outcome};
+pub use error_counts::{DepthRule, ErrorCounts, Outcome, Ulps, count_errors, outcome};
 pub use rate::Rate;
 pub use reference::{Reference, ScalarTest};
 pub use sampler::Sampler;

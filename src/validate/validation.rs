@@ -2,7 +2,7 @@
 
 use std::fmt::{Display, Formatter};
 
-use super::watch::Call;
+use super::asked::Call;
 use crate::geometry::{Hit, Ray};
 
 /// Sums over the rays of a comparison.
@@ -15,7 +15,7 @@ pub struct Validation {
     /// Rays that hit something by the reference.
     pub hits: u64,
     /// Rays with another `t` than the reference, bit for bit, or with a hit where it has none or the reverse. Where the
-    /// triangle tests differ: rays on which the two differ by more than both tests round, all of them adjudicated.
+    /// triangle tests differ: rays on which the two differ by more than both tests round, each is blamed on one of them.
     pub differing: u64,
     /// Hits lost or invented by the structure; zero in a correct one.
     pub structure_errors: u64,

@@ -2,15 +2,15 @@
 //!
 //! A thread cannot be ended from outside: one that hangs is left behind, and ends with the process.
 
-use std::any::Any;
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
-use std::sync::{Arc, Mutex};
 use std::thread;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
+use super::asked::{Asked, Call, message};
 use super::compare::{BATCH, validate_batch};
 use super::{Kind, Reference, Validation};
 use crate::accel::DynAccel;
@@ -47,46 +47,6 @@ pub fn watched<R: Send + 'static>(limit: Duration, work: impl FnOnce() -> R + Se
     match receiver.recv_timeout(limit) {
         Ok(result) => result.map_err(Ended::Panicked),
         Err(_) => Err(Ended::Hangs(limit)),
-    }
-}
-
-/// What a panic said.
-pub(super) fn message(payload: &(dyn Any + Send)) -> String {
-    let text = payload.downcast_ref::<&str>().map(|text| (*text).to_owned());
-    let text = text.or_else(|| payload.downcast_ref::<String>().cloned());
-    format!("it says {:?}", text.unwrap_or_else(|| "nothing".into()))
-}
-
-/// What a thread is asking a structure.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Call {
-    /// One ray of a batch, alone.
-    Ray(usize),
-    /// All rays of a batch.
-    Batch,
-}
-
-/// What a thread is asking a structure, and since when, seen from another thread.
-#[derive(Default)]
-pub(super) struct Asked(Mutex<Option<(Call, Instant)>>);
-
-impl Asked {
-    pub fn begin(&self, call: Call) {
-        self.set(Some((call, Instant::now())));
-    }
-
-    pub fn end(&self) {
-        self.set(None);
-    }
-
-    fn set(&self, state: Option<(Call, Instant)>) {
-        *self.0.lock().expect("nobody panics while holding it") = state;
-    }
-
-    /// The call that has taken longer than `limit`.
-    fn overdue(&self, limit: Duration) -> Option<Call> {
-        let (call, since) = (*self.0.lock().expect("nobody panics while holding it"))?;
-        (since.elapsed() > limit).then_some(call)
     }
 }
 

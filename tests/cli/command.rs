@@ -1,6 +1,10 @@
 //! Running the command, and what it says.
 
+use std::fs;
+use std::path::Path;
 use std::process::{Command, Output, Stdio};
+
+use tempfile::TempDir;
 
 pub const RIGHT: i32 = 0;
 pub const USAGE: i32 = 1;
@@ -55,4 +59,23 @@ pub fn refuses(args: &[&str], parts: &[&str]) -> String {
 pub fn refuses_in_a_line(args: &[&str], parts: &[&str]) {
     let message = refuses(args, parts);
     assert_eq!(message.lines().count(), 1, "{args:?}: {message}");
+}
+
+/// The path of a new file.
+pub fn write(directory: &TempDir, name: &str, text: &str) -> String {
+    let path = directory.path().join(name);
+    fs::write(&path, text).unwrap();
+    path_text(&path)
+}
+
+pub fn path_text(path: &Path) -> String {
+    path.to_str().unwrap().to_owned()
+}
+
+/// A mesh of one square.
+pub const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
+
+/// A comparison that takes no time.
+pub fn small(scene: &str) -> Vec<&str> {
+    vec!["compare", scene, "--rays", "400", "--runs", "2", "--budget", "1", "-w", "primary", "-w", "shadow"]
 }

@@ -3,9 +3,13 @@
 mod baselines;
 mod command;
 mod commands;
+mod compare;
 mod epochs;
 mod input;
 mod processes;
 mod rays;
+mod render;
 mod report;
 mod resume;
+mod study;
+mod validate;

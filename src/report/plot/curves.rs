@@ -62,6 +62,12 @@ const BOTTOM: f64 = 52.0;
 const TOP: f64 = 34.0;
 
 impl Curves {
+    /// Lines over two logarithmic axes.
+    pub fn logarithmic(x_title: &str, y_title: &str, lines: Vec<Line>) -> Self {
+        let (x_title, y_title, scale) = (x_title.into(), y_title.into(), Scale::Log);
+        Self { x_title, y_title, x_scale: scale, y_scale: scale, lines, level: None, highest: None, diagonal: None }
+    }
+
     /// Height of the drawing where it is `width` wide.
     pub(super) fn height(&self, width: f64) -> f64 {
         let names = if has_room(width) { 0.0 } else { self.lines.len() as f64 * LINE + 8.0 };

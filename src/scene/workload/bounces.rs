@@ -3,8 +3,8 @@
 use glam::Vec3;
 use rayon::prelude::*;
 
-use super::kinds::Source;
 use super::primary;
+use super::source::Source;
 use crate::accel::DynAccel;
 use crate::geometry::{Hit, Ray};
 use crate::scene::{Scene, Surface};

@@ -5,22 +5,11 @@
 
 use std::str::FromStr;
 
-use super::{Sampler, Sampling, bounces, lines, picture, primary};
-use crate::accel::{DynAccel, Query};
+use super::source::Source;
+use super::{bounces, lines, picture, primary};
+use crate::accel::Query;
 use crate::geometry::Ray;
 use crate::nearest::{named, suggestion};
-use crate::scene::Scene;
-
-/// What the rays of a workload are made from.
-pub(super) struct Source<'a> {
-    pub scene: &'a Scene,
-    /// How many rays; [`Sampling::limit`] is applied to what the function returns.
-    pub sampling: &'a Sampling,
-    /// Finds the hits that secondary rays start from.
-    pub accel: &'a dyn DynAccel,
-    /// Random numbers of the kind's own.
-    pub sampler: Sampler,
-}
 
 macro_rules! kinds {
     ($($(#[$doc:meta])* $kind:ident, $name:literal, $query:ident, $make:path;)*) => {

@@ -2,7 +2,7 @@
 
 use glam::{DVec3, Vec3};
 
-use super::kinds::Source;
+use super::source::Source;
 use crate::geometry::Ray;
 use crate::scene::Scene;
 

@@ -6,46 +6,21 @@ mod lines;
 mod picture;
 mod primary;
 mod sampler;
+mod source;
 #[cfg(test)]
 mod tests;
 
 use sha2::{Digest, Sha256};
 
-use self::kinds::Source;
 use self::sampler::Sampler;
+use self::source::Source;
 use super::Scene;
 use super::hash::hexadecimal;
 use crate::accel::{DynAccel, Query};
 use crate::geometry::Ray;
 
 pub use kinds::{UnknownWorkload, WorkloadKind};
-
-/// How many rays a workload gets, and its random numbers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Sampling {
-    /// Width and height of the picture whose hits secondary rays start from; random and lattice rays are as many as it
-    /// has pixels.
-    pub size: [u32; 2],
-    /// No more rays than this, spread evenly over the workload.
-    pub limit: usize,
-    pub seed: u64,
-}
-
-impl Sampling {
-    /// All rays of the picture that the scene asks for.
-    pub fn of(scene: &Scene) -> Self {
-        Self { size: scene.size, limit: usize::MAX, seed: 0 }
-    }
-
-    /// At most `limit` of them, picked at equal distances: to check answers, not to take times.
-    pub fn some(scene: &Scene, limit: usize, seed: u64) -> Self {
-        Self { limit, seed, ..Self::of(scene) }
-    }
-
-    fn pixels(&self) -> u32 {
-        self.size[0] * self.size[1]
-    }
-}
+pub use source::Sampling;
 
 /// Rays of one kind for a scene: the same bits on every machine and with every structure of the same triangle test.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,8 +1,8 @@
 //! All rays of a picture, ordered by pixel, a pixel's in the order of their levels.
 
 use super::bounces::{SurfaceHit, surface_hits};
-use super::kinds::Source;
 use super::primary;
+use super::source::Source;
 use crate::geometry::Ray;
 use crate::scene::View;
 

@@ -2,7 +2,7 @@
 
 use glam::{UVec2, Vec2};
 
-use super::kinds::Source;
+use super::source::Source;
 use crate::geometry::Ray;
 use crate::scene::View;
 

@@ -1,9 +1,9 @@
 //! `accuracy`: how wrong, how fast. Every structure over every triangle test answers the same rays; the exact oracle
 //! judges, one thread is timed.
 
+mod batch;
 mod figure;
 mod front;
-mod judged;
 mod kind;
 mod record;
 mod section;
@@ -23,7 +23,9 @@ use crate::measure::{Clock, Plan, Provenance, Samples, Threads, median, spread};
 use crate::oracle::Oracle;
 use crate::registry::Choice;
 use crate::scene::{Scene, Workload};
-use crate::validate::{Judged, Rate};
+use crate::validate::{ErrorCounts, Rate};
+
+use batch::Batch;
 
 pub use figure::figure;
 pub use kind::{RayKind, UnknownKind};
@@ -83,7 +85,7 @@ pub fn accuracy_scene(
         None => settings.kinds.iter().map(of_kind).collect(),
     };
     let (names, rays): (Vec<String>, Vec<Vec<Ray>>) = made.into_iter().unzip();
-    let batches: Vec<judged::Batch> = rays.into_iter().map(|rays| judged::Batch::new(rays, &oracle)).collect();
+    let batches: Vec<Batch> = rays.into_iter().map(|rays| Batch::new(rays, &oracle)).collect();
 
     let cases = (built.len() * batches.len()).max(1) as u64;
     let budget_ns = (settings.budget_ns / 2 / cases).max(SHORT_JUDGING_NS);
@@ -96,7 +98,7 @@ pub fn accuracy_scene(
             refused.push(Refused { label: built.choice.label, scene: scene.name.clone(), reason });
             continue;
         }
-        let judge = |batch: &judged::Batch| batch.judge(built.accel.as_ref(), clock, budget_ns);
+        let judge = |batch: &Batch| batch.judge(built.accel.as_ref(), clock, budget_ns);
         match guarded(|| batches.iter().map(judge).collect::<Vec<_>>()) {
             Some(of_structure) => {
                 judged.push(built);
@@ -108,9 +110,9 @@ pub fn accuracy_scene(
         }
     }
     let built = judged;
-    let verdicts: Vec<&Judged> =
+    let verdicts: Vec<&ErrorCounts> =
         (0..batches.len()).flat_map(|batch| of_structures.iter().map(move |verdicts| &verdicts[batch])).collect();
-    let batch = |(name, batch): (&String, &judged::Batch)| Workload {
+    let batch = |(name, batch): (&String, &Batch)| Workload {
         name: name.clone(),
         query: Query::Closest,
         rays: batch.rays.clone(),
@@ -208,7 +210,7 @@ fn record(
     built: &Built,
     (kind, rays): (&str, usize),
     settings: &AccuracySettings,
-    judged: &Judged,
+    judged: &ErrorCounts,
     samples: &Samples,
     provenance: &Provenance,
 ) -> AccuracyRecord {

@@ -5,7 +5,7 @@ use super::{Market, Offer, tables};
 use crate::report::Table;
 use crate::report::document::{Art, Block, Figure};
 use crate::report::number::{count, duration};
-use crate::report::plot::{Chart, CurvePoint, Curves, Line, Mark, Scale};
+use crate::report::plot::{Chart, CurvePoint, Curves, Line, Mark};
 use crate::report::words::slug;
 
 /// Scenes and kinds of rays shown at once; the others are folded.
@@ -73,14 +73,12 @@ fn figure(market: &Market, command: &str) -> Figure {
         alt: format!("Line chart over the number of rays. Quickest, build included: {}.", best.join(", ")),
         command: command.into(),
         art: Art::Chart(Chart::Curves(Curves {
-            x_title: "rays".into(),
-            y_title: "times as long as the quickest, build included".into(),
-            x_scale: Scale::Log,
-            y_scale: Scale::Log,
-            lines: market.offers.iter().map(line).collect(),
-            level: None,
             highest: Some(HIGHEST),
-            diagonal: None,
+            ..Curves::logarithmic(
+                "rays",
+                "times as long as the quickest, build included",
+                market.offers.iter().map(line).collect(),
+            )
         })),
         data: Table::of_texts("", ["structure", "build", "time of a ray"], rows.collect()),
     }

@@ -5,8 +5,8 @@ use super::{Family, Observation, tables};
 use crate::report::Table;
 use crate::report::document::{Art, Block, Figure};
 use crate::report::number::figures;
-use crate::report::plot::{Chart, CurvePoint, Curves, Line, Mark, Scale};
-use crate::report::words::distinct;
+use crate::report::plot::{Chart, CurvePoint, Curves, Line, Mark};
+use crate::report::words::{bare, distinct};
 
 pub fn blocks(families: &[Family], command: &str) -> Vec<Block> {
     let mut blocks = vec![Block::Text(
@@ -24,11 +24,6 @@ pub fn blocks(families: &[Family], command: &str) -> Vec<Block> {
     blocks
 }
 
-/// The structure without its keys: those of one family differ little, and eyes tell few colours apart.
-fn name(observation: &Observation) -> String {
-    observation.structure.split(':').next().unwrap_or_default().into()
-}
-
 fn figure(families: &[Family], command: &str) -> Figure {
     let all: Vec<&Observation> = families.iter().flat_map(|family| &family.observations).collect();
     let dots = |structure: &String| Line {
@@ -36,12 +31,13 @@ fn figure(families: &[Family], command: &str) -> Figure {
         note: String::new(),
         points: all
             .iter()
-            .filter(|o| name(o) == *structure && o.foreseen_ns.unwrap_or(o.predicted_ns) > 0.0)
+            .filter(|o| bare(&o.structure) == *structure && o.foreseen_ns.unwrap_or(o.predicted_ns) > 0.0)
             .map(|o| CurvePoint { x: o.foreseen_ns.unwrap_or(o.predicted_ns), y: o.ns_per_ray, band: None })
             .collect(),
         mark: Mark::Dots,
     };
-    let names: Vec<String> = all.iter().map(|o| name(o)).collect();
+    // Without keys: those of one family differ little, and eyes tell few colours apart.
+    let names: Vec<String> = all.iter().map(|o| bare(&o.structure).into()).collect();
     let structures = distinct(names.iter());
     let rows = all.iter().map(|o| {
         let [measured, predicted] = [o.ns_per_ray, o.foreseen_ns.unwrap_or(o.predicted_ns)].map(figures);
@@ -61,16 +57,7 @@ fn figure(families: &[Family], command: &str) -> Figure {
             .into(),
         alt: format!("Scatter plot. {}.", told.collect::<Vec<_>>().join("; ")),
         command: command.into(),
-        art: Art::Chart(Chart::Curves(Curves {
-            x_title: "predicted nanoseconds a ray".into(),
-            y_title: "measured nanoseconds a ray".into(),
-            x_scale: Scale::Log,
-            y_scale: Scale::Log,
-            lines: structures.iter().map(dots).collect(),
-            level: None,
-            highest: None,
-            diagonal: Some("as predicted".into()),
-        })),
+        art: Art::Chart(Chart::Curves(Curves { diagonal: Some("as predicted".into()), ..Curves::logarithmic("predicted nanoseconds a ray", "measured nanoseconds a ray", structures.iter().map(dots).collect()) })),
         data: Table::of_texts("", ["structure", "scene", "rays", "measured ns", "predicted ns"], rows.collect()),
     }
 }

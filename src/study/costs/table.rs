@@ -59,14 +59,12 @@ fn costs(families: &[Family]) -> Table {
     if families.iter().any(|family| family.block_ns.interval.is_none()) {
         notes.push("Without an interval: of one scene, or known from too few without each of them.".into());
     }
-    Table {
-        title: "What a ray, a step and a block of triangles cost, nanoseconds".into(),
-        columns: ["family", "cases, scenes", "K_0", "K_T", "K_B", "K_B / K_T", "R2", "off", "off, left out"]
-            .map(String::from)
-            .into(),
-        rows: rows.collect(),
-        notes,
-    }
+    Table::new(
+        "What a ray, a step and a block of triangles cost, nanoseconds",
+        ["family", "cases, scenes", "K_0", "K_T", "K_B", "K_B / K_T", "R2", "off", "off, left out"],
+        rows,
+    )
+    .noted(notes)
 }
 
 /// Cases of each family that are shown.
@@ -91,12 +89,9 @@ fn worst(families: &[Family]) -> Table {
             ]
         }));
     }
-    Table {
-        title: "The cases that are predicted worst by the costs of the other scenes".into(),
-        columns: ["family", "case", "steps", "blocks", "measured", "predicted", "predicted / measured"]
-            .map(String::from)
-            .into(),
+    Table::new(
+        "The cases that are predicted worst by the costs of the other scenes",
+        ["family", "case", "steps", "blocks", "measured", "predicted", "predicted / measured"],
         rows,
-        notes: vec![],
-    }
+    )
 }

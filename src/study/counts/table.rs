@@ -45,10 +45,6 @@ fn known(x: Option<f64>) -> Cell {
     x.map_or(Cell::blank(), |x| figures(x).into())
 }
 
-fn names(columns: &[&str]) -> Vec<String> {
-    columns.iter().map(|&name| name.into()).collect()
-}
-
 fn trees(first: &Measures, measures: &[Measures], refused: &[Refused]) -> Table {
     let number = |n: usize| Cell::from(count(n as u64));
     let rows = measures.iter().map(|Measures { structure, tree, .. }| {
@@ -68,9 +64,9 @@ fn trees(first: &Measures, measures: &[Measures], refused: &[Refused]) -> Table 
         ]
     });
     let stand_in = if first.stand_in { ", stand-in" } else { "" };
-    Table {
-        title: format!("{}: {} triangles{stand_in}", first.scene, count(first.triangles as u64)),
-        columns: names(&[
+    Table::new(
+        format!("{}: {} triangles{stand_in}", first.scene, count(first.triangles as u64)),
+        [
             "structure",
             "inner",
             "leaves",
@@ -83,10 +79,10 @@ fn trees(first: &Measures, measures: &[Measures], refused: &[Refused]) -> Table 
             "SAH",
             "EPO",
             "memory",
-        ]),
-        rows: rows.collect(),
-        notes: refusals(refused),
-    }
+        ],
+        rows,
+    )
+    .noted(refusals(refused))
 }
 
 fn of_rays(first: &Measures, kind: &RayMeasures, measures: &[Measures]) -> Table {
@@ -102,12 +98,11 @@ fn of_rays(first: &Measures, kind: &RayMeasures, measures: &[Measures]) -> Table
         ])
     });
     let (rays, hit) = (count(kind.rays as u64), figures(kind.hit_rate * 100.0));
-    Table {
-        title: format!("{}, {} rays ({}): {rays}, of which {hit} % hit", first.scene, kind.workload, kind.query.name()),
-        columns: names(&["structure", "tests", "steps", "leaves", "empty", "x minimum"]),
-        rows: rows.collect(),
-        notes: vec![],
-    }
+    Table::new(
+        format!("{}, {} rays ({}): {rays}, of which {hit} % hit", first.scene, kind.workload, kind.query.name()),
+        ["structure", "tests", "steps", "leaves", "empty", "x minimum"],
+        rows,
+    )
 }
 
 /// Bars of a row of bars, at most.
@@ -123,12 +118,11 @@ fn looks(measures: &[Measures]) -> Table {
         }
         row
     });
-    Table {
-        title: format!("{}: leaves by size and by depth", measures[0].scene),
-        columns: names(&["structure", "sizes", "leaves", "depths", "leaves"]),
-        rows: rows.collect(),
-        notes: vec![],
-    }
+    Table::new(
+        format!("{}: leaves by size and by depth", measures[0].scene),
+        ["structure", "sizes", "leaves", "depths", "leaves"],
+        rows,
+    )
 }
 
 /// Values from the first to the last, and how many leaves have one of them.
@@ -189,12 +183,11 @@ pub fn histogram_tables(measures: &[Measures]) -> Vec<Table> {
                     [value, count(bin.leaves as u64), format!("{:.1} %", share * 100.0), format!("{bar:<LONGEST$}")];
                 cells.map(Cell::from).into()
             });
-            Table {
-                title: format!("{}, {}: leaves by {what}", one.scene, one.structure),
-                columns: names(&[what, "leaves", "share", ""]),
-                rows: rows.collect(),
-                notes: vec![],
-            }
+            Table::new(
+                format!("{}, {}: leaves by {what}", one.scene, one.structure),
+                [what, "leaves", "share", ""],
+                rows,
+            )
         };
         [of("size", &one.tree.leaf_sizes), of("depth", &one.tree.leaf_depths)]
     };

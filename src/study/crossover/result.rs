@@ -5,6 +5,7 @@ use serde::Serialize;
 use super::curve::{Crossing, Curve};
 use super::{MemberEpoch, PAIRS};
 use crate::measure::{AaNoise, Estimate, Rerun};
+use crate::report::words::distinct;
 use crate::study::epoch::{Line, lines, middles, twins};
 
 /// One pair on one kind of rays, over the family.
@@ -40,12 +41,7 @@ pub struct Member {
 pub fn result(cases: &[MemberEpoch]) -> Vec<Race> {
     let lines = lines(cases.iter().map(|case| &case.epoch));
     let noise = twins(cases.iter().map(|case| &case.epoch)).trace;
-    let mut workloads: Vec<&str> = vec![];
-    for line in &lines {
-        if !workloads.contains(&line.workload.as_str()) {
-            workloads.push(&line.workload);
-        }
-    }
+    let workloads = distinct(lines.iter().map(|line| &line.workload));
     let of = |[kd, bvh]: [&str; 2], workload: &str| -> Vec<Entry> {
         let find = |scene: &str, spec: &str| {
             lines.iter().find(|line| line.scene == scene && line.workload == workload && line.structure == spec)

@@ -4,9 +4,8 @@ use super::{Race, tables};
 use crate::report::Table;
 use crate::report::document::{Art, Block, Figure};
 use crate::report::number::figures;
-use crate::report::plot::{Chart, CurvePoint, Curves, Line, Mark, Scale};
-use crate::report::words::interval;
-use crate::report::words::{distinct, slug};
+use crate::report::plot::{Chart, CurvePoint, Curves, Line, Mark};
+use crate::report::words::{bare, distinct, interval, slug};
 
 pub fn blocks(races: &[Race], command: &str) -> Vec<Block> {
     let mut blocks = vec![Block::Text(
@@ -25,13 +24,9 @@ pub fn blocks(races: &[Race], command: &str) -> Vec<Block> {
     blocks
 }
 
-fn short(label: &str) -> &str {
-    label.split(':').next().unwrap_or(label)
-}
-
 fn figure(races: &[&Race], command: &str) -> Figure {
     let line = |race: &&Race| Line {
-        label: format!("{} / {}", short(&race.kd), short(&race.bvh)),
+        label: format!("{} / {}", bare(&race.kd), bare(&race.bvh)),
         note: String::new(),
         points: race
             .members
@@ -45,7 +40,7 @@ fn figure(races: &[&Race], command: &str) -> Figure {
         mark: Mark::Both,
     };
     let rows = races.iter().flat_map(|race| {
-        let pair = format!("{} / {}", short(&race.kd), short(&race.bvh));
+        let pair = format!("{} / {}", bare(&race.kd), bare(&race.bvh));
         race.members.iter().map(move |m| [pair.clone(), m.layers.to_string(), figures(m.complexity), interval(m.ratio)])
     });
     let told = races.iter().filter_map(|race| {
@@ -67,14 +62,12 @@ fn figure(races: &[&Race], command: &str) -> Figure {
         alt: format!("Line chart over depth complexity. {}.", told.collect::<Vec<_>>().join("; ")),
         command: command.into(),
         art: Art::Chart(Chart::Curves(Curves {
-            x_title: "depth complexity: surfaces on a ray".into(),
-            y_title: "time of the KD-tree / time of the BVH".into(),
-            x_scale: Scale::Log,
-            y_scale: Scale::Log,
-            lines: races.iter().map(line).collect(),
             level: Some((1.0, "equal".into())),
-            highest: None,
-            diagonal: None,
+            ..Curves::logarithmic(
+                "depth complexity: surfaces on a ray",
+                "time of the KD-tree / time of the BVH",
+                races.iter().map(line).collect(),
+            )
         })),
         data: Table::of_texts("", ["pair", "layers", "depth complexity", "ratio"], rows.collect()),
     }

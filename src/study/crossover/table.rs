@@ -2,24 +2,16 @@
 
 use super::{Crossing, Race};
 use crate::report::number::{count, figures};
-use crate::report::words::{explained, interval, written};
+use crate::report::words::{bare, distinct, explained, interval, written};
 use crate::report::{Cell, Table, Tone};
 
 /// The answer first, then for each kind of rays the ratios along the family.
 pub fn tables(races: &[Race]) -> Vec<Table> {
-    let mut workloads: Vec<&str> = races.iter().map(|race| race.workload.as_str()).collect();
-    workloads.sort_unstable();
-    workloads.dedup();
-    let ordered = |workload: &&str| races.iter().position(|race| race.workload == **workload);
-    workloads.sort_by_key(ordered);
+    let workloads = distinct(races.iter().map(|race| &race.workload));
     let of = |workload: &str| -> Vec<&Race> { races.iter().filter(|race| race.workload == workload).collect() };
     let mut tables = vec![answers(races)];
-    tables.extend(workloads.into_iter().map(|workload| ratios(workload, &of(workload))));
+    tables.extend(workloads.into_iter().map(|workload| ratios(&workload, &of(&workload))));
     tables
-}
-
-fn name(label: &str) -> &str {
-    label.split(':').next().unwrap_or(label)
 }
 
 /// What a race says, in words.
@@ -27,17 +19,17 @@ fn verdict(race: &Race) -> String {
     let sure: Vec<&Crossing> = race.crossings.iter().filter(|crossing| crossing.is_sure()).collect();
     match (race.crossings.is_empty(), &sure[..]) {
         (true, _) if race.members.iter().all(|m| m.ratio.is_below(1.0)) => {
-            format!("never: {} throughout", name(&race.kd))
+            format!("never: {} throughout", bare(&race.kd))
         }
         (true, _) if race.members.iter().all(|m| m.ratio.is_above(1.0)) => {
-            format!("never: {} throughout", name(&race.bvh))
+            format!("never: {} throughout", bare(&race.bvh))
         }
         (true, _) => "too close to tell".into(),
         (false, []) => "too close to tell".into(),
         (false, sure) => {
             let one = |crossing: &&Crossing| {
                 let winner = if crossing.kd_wins_beyond { &race.kd } else { &race.bvh };
-                format!("{}: then {}", interval(crossing.complexity), name(winner))
+                format!("{}: then {}", interval(crossing.complexity), bare(winner))
             };
             sure.iter().map(one).collect::<Vec<_>>().join("; ")
         }
@@ -51,14 +43,10 @@ fn answers(races: &[Race]) -> Table {
             (interval(first.ratio).into(), interval(last.ratio).into())
         });
         let trend = race.trend.map_or(Cell::blank(), |x| written(x, |x| format!("{x:.2}")).into());
-        let pair = format!("{} / {}, {}", name(&race.kd), name(&race.bvh), race.workload);
+        let pair = format!("{} / {}, {}", bare(&race.kd), bare(&race.bvh), race.workload);
         vec![pair.into(), from, to, trend, verdict(race).into()]
     });
-    explained(Table {
-        title: "Does a KD-tree overtake a BVH where rays would meet more surfaces?".into(),
-        columns: ["pair, rays", "first member", "last member", "power", "crosses 1 at a depth complexity of"].map(String::from).into(),
-        rows: rows.collect(),
-        notes: vec![
+    explained(Table::new("Does a KD-tree overtake a BVH where rays would meet more surfaces?", ["pair, rays", "first member", "last member", "power", "crosses 1 at a depth complexity of"], rows).noted(vec![
             "Ratios are the KD-tree's time over the BVH's: below 1 the KD-tree is faster. power: the ratio grows like this power of the \
              depth complexity. 95 % intervals for another run; a crossing is named where one is surely ahead before it and the other beyond, \
              all members considered."
@@ -66,14 +54,13 @@ fn answers(races: &[Race]) -> Table {
             "Depth complexity: surfaces that a ray would meet if none stopped it, measured. All members have the same number of \
              triangles."
                 .into(),
-        ],
-    })
+        ]))
 }
 
 fn ratios(workload: &str, races: &[&Race]) -> Table {
     let mut columns = vec!["layers".to_owned(), "depth complexity".into()];
     columns.extend(races.iter().flat_map(|race| {
-        let pair = format!("{} / {}", name(&race.kd), name(&race.bvh));
+        let pair = format!("{} / {}", bare(&race.kd), bare(&race.bvh));
         [pair, "ns a ray".into()]
     }));
     let longest = races.iter().max_by_key(|race| race.members.len());

@@ -41,10 +41,12 @@ pub fn table(predictions: &[Prediction]) -> Table {
         let why = if p.why.is_empty() { String::new() } else { format!(" {}", p.why) };
         notes.push(format!("{}. \"{}\"{why}{missing}", p.number, p.words));
     }
-    explained(Table {
-        title: format!("Claims written before the measurement: {}", tally(predictions).words()),
-        columns: ["claim", "verdict", "measured", "expected"].map(String::from).into(),
-        rows,
-        notes,
-    })
+    explained(
+        Table::new(
+            format!("Claims written before the measurement: {}", tally(predictions).words()),
+            ["claim", "verdict", "measured", "expected"],
+            rows,
+        )
+        .noted(notes),
+    )
 }

@@ -6,7 +6,7 @@ use crate::measure::Estimate;
 use crate::report::Table;
 use crate::report::document::{Art, Block, Figure};
 use crate::report::number::figures;
-use crate::report::plot::{Chart, CurvePoint, Curves, Line, Mark, Scale};
+use crate::report::plot::{Chart, CurvePoint, Curves, Line, Mark};
 use crate::report::words::slug;
 use crate::report::words::written;
 
@@ -97,16 +97,11 @@ fn figure(group: &[Growth], quantity: &Quantity, command: &str) -> Figure {
         ),
         alt: format!("Line chart over the number of triangles. {}.", told.join("; ")),
         command: command.into(),
-        art: Art::Chart(Chart::Curves(Curves {
-            x_title: "triangles".into(),
-            y_title: quantity.y_title.into(),
-            x_scale: Scale::Log,
-            y_scale: Scale::Log,
-            lines: group.iter().map(line).collect(),
-            level: None,
-            highest: None,
-            diagonal: None,
-        })),
+        art: Art::Chart(Chart::Curves(Curves::logarithmic(
+            "triangles",
+            quantity.y_title,
+            group.iter().map(line).collect(),
+        ))),
         data: Table::of_texts("", ["structure", "triangles", quantity.y_title], rows.collect()),
     }
 }

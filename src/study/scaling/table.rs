@@ -48,17 +48,12 @@ pub(super) fn exponents(group: &[&Growth]) -> Table {
             .chain([over.into()])
             .collect()
     });
-    explained(Table {
-        title: title(group, "powers of the number of triangles"),
-        columns: ["structure", "time a ray", "+-", "build", "memory", "tests", "steps", "meshes: triangles"].map(String::from).into(),
-        rows: rows.collect(),
-        notes: vec![
+    explained(Table::new(title(group, "powers of the number of triangles"), ["structure", "time a ray", "+-", "build", "memory", "tests", "steps", "meshes: triangles"], rows).noted(vec![
             "Least squares on logarithms over the meshes on which the structure has more than one leaf, with 95 % intervals for another run \
              on these meshes; counts and memory do not vary. +-: half of the 95 % interval of the power of time by the scatter of the meshes \
              about it."
                 .into(),
-        ],
-    })
+        ]))
 }
 
 pub(super) fn points(group: &[&Growth]) -> Table {
@@ -78,12 +73,9 @@ pub(super) fn points(group: &[&Growth]) -> Table {
             ]
         })
     });
-    Table {
-        title: title(group, "what was measured"),
-        columns: ["structure", "mesh", "triangles", "time a ray", "tests", "steps", "build", "memory a triangle"]
-            .map(String::from)
-            .into(),
-        rows: rows.collect(),
-        notes: vec![],
-    }
+    Table::new(
+        title(group, "what was measured"),
+        ["structure", "mesh", "triangles", "time a ray", "tests", "steps", "build", "memory a triangle"],
+        rows,
+    )
 }

@@ -9,6 +9,7 @@ use super::set::Set;
 use crate::accel::{BuildError, DynAccel, Loaded};
 use crate::geometry::{Hit, Ray};
 use crate::measure::{Clock, median};
+use crate::validate::compare::same;
 use crate::validate::conformance::Subject;
 
 /// What a structure did with a case.
@@ -96,13 +97,6 @@ fn of_rays(accel: &dyn DynAccel, set: &Set, build_ns: u64, clock: &dyn Clock) ->
         property: None,
     };
     Answers { head, hits }
-}
-
-fn same(a: Option<Hit>, b: Option<Hit>) -> bool {
-    match (a, b) {
-        (Some(a), Some(b)) => a.same_bits(b),
-        (a, b) => a.is_none() && b.is_none(),
-    }
 }
 
 /// Passes over either kind of rays.

@@ -6,7 +6,7 @@ use super::case::{HardCase, Property, added};
 use super::metamorphic::metamorphic;
 use super::set::star;
 use super::subject::{built, closest, shared};
-use crate::accel::DynAccel;
+use crate::accel::{BuildError, DynAccel};
 use crate::geometry::{Mesh, Ray};
 use crate::validate::conformance::Subject;
 use crate::validate::degenerate::{exponential, huge_and_small, needles, soup};
@@ -105,13 +105,18 @@ fn through_star(count: usize, seed: u64) -> Vec<Ray> {
     (0..count).map(ray).collect()
 }
 
+/// The structure, and brute force with its triangle test.
+fn both(subject: &Subject, mesh: &Arc<Mesh>) -> Result<(Box<dyn DynAccel>, Reference), Property> {
+    let refused = |error: BuildError| Property { checked: 1, broken: 1, example: Some(error.to_string()) };
+    Ok((built(subject, mesh)?, Reference::of_test(subject.triangle_test, mesh).map_err(refused)?))
+}
+
 /// Each continued ray is held against brute force, which says where to go on.
 fn continuation(subject: &Subject, rays: usize) -> Property {
     let mesh = star();
-    let (accel, reference) = match (built(subject, &mesh), Reference::of_test(subject.triangle_test, &mesh)) {
-        (Ok(accel), Ok(reference)) => (accel, reference),
-        (Err(broken), _) => return broken,
-        (_, Err(error)) => return Property { checked: 1, broken: 1, example: Some(error.to_string()) },
+    let (accel, reference) = match both(subject, &mesh) {
+        Ok(both) => both,
+        Err(broken) => return broken,
     };
     let through = through_star(shared(rays, 10), 73);
     let steps: Vec<Ray> = through.into_iter().flat_map(|ray| continued(&*reference.accel, ray)).collect();
@@ -122,10 +127,9 @@ fn continuation(subject: &Subject, rays: usize) -> Property {
 /// Where brute force with the same test counts an odd number too, the test is to blame.
 fn parity(subject: &Subject, rays: usize) -> Property {
     let mesh = star();
-    let (accel, reference) = match (built(subject, &mesh), Reference::of_test(subject.triangle_test, &mesh)) {
-        (Ok(accel), Ok(reference)) => (accel, reference),
-        (Err(broken), _) => return broken,
-        (_, Err(error)) => return Property { checked: 1, broken: 1, example: Some(error.to_string()) },
+    let (accel, reference) = match both(subject, &mesh) {
+        Ok(both) => both,
+        Err(broken) => return broken,
     };
     let mut property = Property::default();
     for ray in through_star(shared(rays, 10), 74) {

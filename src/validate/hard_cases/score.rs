@@ -9,7 +9,7 @@ use super::case::{Content, HardCase, Property, Rank};
 use super::set::Set;
 use crate::accel::BuildError;
 use crate::oracle::{Oracle, Truth};
-use crate::validate::{DepthRule, Judged, Reference, judge, validate_answers};
+use crate::validate::{DepthRule, ErrorCounts, Reference, count_errors, validate_answers};
 
 /// The mesh, rays and truth of one case, made once for all structures.
 pub struct Court {
@@ -47,7 +47,7 @@ pub enum Failure {
 #[derive(Clone, Debug, PartialEq)]
 pub struct RayScore {
     /// Against the truth, by the strict rule of depth.
-    pub judged: Judged,
+    pub judged: ErrorCounts,
     /// Wrong depths by the coarse rule: what shows in a picture.
     pub coarse_depth: u64,
     /// Hits that were lost or invented although the structure's own triangle test, run over all triangles, says otherwise.
@@ -118,8 +118,8 @@ impl Court {
             (truth, hit) => truth.is_some() != hit.is_some(),
         });
         Ok(Score::Rays(RayScore {
-            judged: judge(truths, &answers.hits, DepthRule::STRICT),
-            coarse_depth: judge(truths, &answers.hits, DepthRule::COARSE).wrong_depth,
+            judged: count_errors(truths, &answers.hits, DepthRule::STRICT),
+            coarse_depth: count_errors(truths, &answers.hits, DepthRule::COARSE).wrong_depth,
             inexact: inexact.count() as u64,
             structure_errors: own.as_ref().map(|own| own.structure_errors),
             example: own.as_ref().and_then(|own| own.worst_error().map(ToString::to_string)),

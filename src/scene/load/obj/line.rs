@@ -10,51 +10,9 @@ use crate::scene::load::text::{Lines, after_keyword, number, words};
 
 /// What the format knows beside what is read: texture coordinates, groups, points, lines, curves, surfaces, and how
 /// these are displayed.
-const SKIPPED: [&[u8]; 43] = [
-    b"vt",
-    b"vp",
-    b"g",
-    b"o",
-    b"s",
-    b"p",
-    b"l",
-    b"cstype",
-    b"deg",
-    b"bmat",
-    b"step",
-    b"curv",
-    b"curv2",
-    b"surf",
-    b"parm",
-    b"trim",
-    b"hole",
-    b"scrv",
-    b"sp",
-    b"end",
-    b"con",
-    b"mg",
-    b"bevel",
-    b"c_interp",
-    b"d_interp",
-    b"lod",
-    b"maplib",
-    b"usemap",
-    b"shadow_obj",
-    b"trace_obj",
-    b"ctech",
-    b"stech",
-    b"call",
-    b"csh",
-    b"bsp",
-    b"bzp",
-    b"cdc",
-    b"cdp",
-    b"res",
-    b"fo",
-    b"cg",
-    b"texid",
-    b"smooth",
-];
+const SKIPPED: &str = "vt vp g o s p l cstype deg bmat step curv curv2 surf parm trim hole scrv sp end con mg bevel \
+    c_interp d_interp lod maplib usemap shadow_obj trace_obj ctech stech call csh bsp bzp cdc cdp res fo \
+    cg texid smooth";
 
 /// Statements with the numbers of the lines that they begin on: a line whose last character is `\` goes on in the next,
 /// unless it ends in a comment.
@@ -122,7 +80,7 @@ impl Line<()> {
             Some(b"usemtl") => Line::Material(after_keyword(line)),
             Some(b"mtllib") => Line::Library(after_keyword(line)),
             Some(comment) if comment.starts_with(b"#") => Line::Empty,
-            Some(keyword) if SKIPPED.contains(&keyword) => Line::Skipped,
+            Some(keyword) if SKIPPED.split(' ').any(|skipped| skipped.as_bytes() == keyword) => Line::Skipped,
             Some(_) => Line::Unknown(quoted(line)),
         }
     }

@@ -2,7 +2,7 @@
 
 use super::Figure;
 use crate::report::number::figures;
-use crate::report::words::interval;
+use crate::report::words::{bare, interval};
 use crate::study::crossover::Member;
 use crate::study::predictions::{Inputs, Prediction};
 
@@ -14,7 +14,7 @@ pub(super) fn depth(inputs: &Inputs) -> Prediction {
     let (mut overtakes, mut ahead, mut behind, mut open) = (0, 0, 0, 0);
     for race in &inputs.crossover {
         let (Some(first), Some(last)) = (race.members.first(), race.members.last()) else { continue };
-        let pair = format!("{} / {}, {} rays", short(&race.kd), short(&race.bvh), race.workload);
+        let pair = format!("{} / {}, {} rays", bare(&race.kd), bare(&race.bvh), race.workload);
         let figure = |member: &Member| Figure {
             what: format!("{pair}, {} surfaces: time", figures(member.complexity)),
             value: member.ratio,
@@ -47,9 +47,4 @@ pub(super) fn depth(inputs: &Inputs) -> Prediction {
     );
     let why = if found.is_empty() { String::new() } else { why };
     Prediction { number: 8, words, claims: vec![], figures: found, why, command: "sahara study crossover" }
-}
-
-/// A label without its keys.
-fn short(label: &str) -> &str {
-    label.split(':').next().unwrap_or(label)
 }

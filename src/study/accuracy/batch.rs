@@ -4,7 +4,7 @@ use crate::accel::DynAccel;
 use crate::geometry::Ray;
 use crate::measure::Clock;
 use crate::oracle::{Oracle, Truth};
-use crate::validate::{DepthRule, Judged, judge};
+use crate::validate::{DepthRule, ErrorCounts, count_errors};
 
 /// Rays and the truth about them.
 pub struct Batch {
@@ -27,7 +27,7 @@ impl Batch {
 
     /// Judges the answers of `accel`, on all threads: to all rays, or where that would take longer than `budget_ns` to
     /// as many as fit, evenly spread.
-    pub fn judge(&self, accel: &dyn DynAccel, clock: &dyn Clock, budget_ns: u64) -> Judged {
+    pub fn judge(&self, accel: &dyn DynAccel, clock: &dyn Clock, budget_ns: u64) -> ErrorCounts {
         let all = self.rays.len();
         let pilot = PILOT.min(all);
         let start = clock.now_ns();
@@ -37,7 +37,7 @@ impl Batch {
         if affordable <= pilot { judged } else { self.judge_some(accel, affordable) }
     }
 
-    fn judge_some(&self, accel: &dyn DynAccel, count: usize) -> Judged {
+    fn judge_some(&self, accel: &dyn DynAccel, count: usize) -> ErrorCounts {
         let some: Vec<usize> =
             (0..count).map(|i| (i as u128 * self.rays.len() as u128 / count as u128) as usize).collect();
         let rays: Vec<Ray> = some.iter().map(|&i| self.rays[i]).collect();
@@ -46,6 +46,6 @@ impl Batch {
             .zip(answers.par_chunks_mut(CHUNK))
             .for_each(|(rays, hits)| accel.closest_hits(rays, hits));
         let truths: Vec<Option<Truth>> = some.iter().map(|&i| self.truths[i].clone()).collect();
-        judge(&truths, &answers, DepthRule::STRICT)
+        count_errors(&truths, &answers, DepthRule::STRICT)
     }
 }

@@ -49,17 +49,10 @@ pub enum Outcome {
     WrongPrimitive,
 }
 
-impl Outcome {
-    /// Whether it counts into the error: a wrong primitive at the right depth does not.
-    pub fn is_error(self) -> bool {
-        matches!(self, Self::Missed | Self::FalseHit | Self::WrongDepth)
-    }
-}
-
 /// Sums over rays. Rates of kinds of rays that fail in different ways must not be added up.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Judged {
-    /// Rays judged.
+pub struct ErrorCounts {
+    /// Rays compared.
     pub rays: u64,
     /// Those that truly hit something.
     pub hits: u64,
@@ -93,7 +86,7 @@ fn infinite_if_null<'de, D: serde::Deserializer<'de>>(deserializer: D) -> Result
     Ok(<Option<f64> as serde::Deserialize>::deserialize(deserializer)?.unwrap_or(f64::INFINITY))
 }
 
-impl Judged {
+impl ErrorCounts {
     /// Misses, false hits and wrong depths: no ray has two of them.
     pub fn errors(&self) -> u64 {
         self.missed + self.false_hits + self.wrong_depth
@@ -120,32 +113,32 @@ impl Judged {
     }
 }
 
-/// Judges the answers to some rays.
+/// Counts the wrong answers to some rays.
 ///
 /// # Panics
 /// If there are not as many answers as truths.
-pub fn judge(truths: &[Option<Truth>], answers: &[Option<Hit>], rule: DepthRule) -> Judged {
+pub fn count_errors(truths: &[Option<Truth>], answers: &[Option<Hit>], rule: DepthRule) -> ErrorCounts {
     assert_eq!(truths.len(), answers.len(), "one answer a ray");
-    let mut judged = Judged { rays: truths.len() as u64, ..Judged::default() };
+    let mut counts = ErrorCounts { rays: truths.len() as u64, ..ErrorCounts::default() };
     let mut ulps = vec![];
     for (truth, answer) in truths.iter().zip(answers) {
         match outcome(truth.as_ref(), *answer, rule) {
-            Outcome::Missed => judged.missed += 1,
-            Outcome::FalseHit => judged.false_hits += 1,
-            Outcome::WrongDepth => judged.wrong_depth += 1,
+            Outcome::Missed => counts.missed += 1,
+            Outcome::FalseHit => counts.false_hits += 1,
+            Outcome::WrongDepth => counts.wrong_depth += 1,
             Outcome::Nothing | Outcome::Right | Outcome::WrongPrimitive => {}
         }
-        judged.hits += u64::from(truth.is_some());
+        counts.hits += u64::from(truth.is_some());
         if let (Some(truth), Some(hit)) = (truth, answer) {
             if names(truth, *hit) {
                 ulps.push(off(truth, hit.t) / ulp(truth.t.approximate()));
             } else {
-                judged.wrong_primitive += 1;
+                counts.wrong_primitive += 1;
             }
         }
     }
-    judged.ulps = summary(ulps);
-    judged
+    counts.ulps = summary(ulps);
+    counts
 }
 
 /// What became of a ray with this answer.
@@ -243,13 +236,13 @@ mod tests {
         let truths = [hit.clone(), hit.clone(), hit.clone(), hit, none.clone(), none];
         let answers = [None, Some((1.0, 0)), Some((1.0 + 2.0 * f32::EPSILON, 0)), Some((1.5, 1)), None, Some((9.0, 1))];
         let answers = answers.map(|answer| answer.map(|(t, id)| Hit::new(t, id)));
-        let judged = judge(&truths, &answers, DepthRule::STRICT);
-        let counts = (judged.hits, judged.missed, judged.false_hits, judged.wrong_depth, judged.wrong_primitive);
-        assert_eq!(counts, (4, 1, 1, 1, 1));
-        assert_eq!(judged.error(), Rate { events: 3, of: 6 });
-        assert_eq!(judged.false_hit_rate(), Rate { events: 1, of: 2 });
-        assert_eq!(judged.ulps, Some(Ulps { median: 0.0, p99: 2.0, max: 2.0 }));
-        assert_eq!(judge(&[], &[], DepthRule::STRICT), Judged::default());
+        let counts = count_errors(&truths, &answers, DepthRule::STRICT);
+        assert_eq!((counts.hits, counts.missed, counts.false_hits), (4, 1, 1));
+        assert_eq!((counts.wrong_depth, counts.wrong_primitive), (1, 1));
+        assert_eq!(counts.error(), Rate { events: 3, of: 6 });
+        assert_eq!(counts.false_hit_rate(), Rate { events: 1, of: 2 });
+        assert_eq!(counts.ulps, Some(Ulps { median: 0.0, p99: 2.0, max: 2.0 }));
+        assert_eq!(count_errors(&[], &[], DepthRule::STRICT), ErrorCounts::default());
     }
 
     #[test]

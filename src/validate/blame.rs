@@ -10,19 +10,19 @@ use crate::geometry::{Hit, Mesh, PrimId, Ray};
 const OUTSIDE: f64 = 1e-3;
 
 /// What is to be said of a difference.
-pub(super) struct Verdict {
+pub(super) struct Blame {
     pub kind: Kind,
     pub sentence: String,
 }
 
 /// Judges the answer `found` where the reference answers `expected`; nothing if they agree.
-pub(super) fn adjudicate(
+pub(super) fn blame(
     reference: &Reference,
     mesh: &Mesh,
     ray: &Ray,
     expected: Option<Hit>,
     found: Option<Hit>,
-) -> Option<Verdict> {
+) -> Option<Blame> {
     match (reference.test, expected, found) {
         (_, None, None) => None,
         (_, Some(e), Some(f)) if e.same_bits(f) => None,
@@ -46,14 +46,7 @@ pub(super) fn adjudicate(
 }
 
 /// The verdict on two tests, given what the structure's own says of the triangles in dispute.
-fn own_test(
-    own: ScalarTest,
-    mesh: &Mesh,
-    ray: &Ray,
-    expected: Option<Hit>,
-    found: Option<Hit>,
-    other: Verdict,
-) -> Verdict {
+fn own_test(own: ScalarTest, mesh: &Mesh, ray: &Ray, expected: Option<Hit>, found: Option<Hit>, other: Blame) -> Blame {
     let exists = |hit: &Hit| (hit.prim.index() as usize) < mesh.len();
     let of = |hit: Option<Hit>| hit.filter(exists).and_then(|hit| own(ray, mesh.corners(hit.prim.index())));
     let kernel = |sentence: &str| verdict(Kind::Kernel, format!("{}, but {sentence}", other.sentence));
@@ -82,7 +75,7 @@ pub(super) fn gap(expected: Option<Hit>, found: Option<Hit>) -> f64 {
 }
 
 /// Both owe each other the same bits, and the reference has tested every triangle.
-fn same_test(test: ScalarTest, mesh: &Mesh, ray: &Ray, expected: Option<Hit>, found: Option<Hit>) -> Verdict {
+fn same_test(test: ScalarTest, mesh: &Mesh, ray: &Ray, expected: Option<Hit>, found: Option<Hit>) -> Blame {
     // A hit must be one that the test gives at that primitive.
     if let Some(f) = found {
         let solid = (f.prim.index() as usize) < mesh.len() && !mesh.is_degenerate(f.prim.index());
@@ -114,7 +107,7 @@ fn same_test(test: ScalarTest, mesh: &Mesh, ray: &Ray, expected: Option<Hit>, fo
 }
 
 /// The structure returns less than its test found: an error if that hit is real.
-fn lost(mesh: &Mesh, ray: &Ray, expected: Hit, found: Option<Hit>) -> Verdict {
+fn lost(mesh: &Mesh, ray: &Ray, expected: Hit, found: Option<Hit>) -> Blame {
     let Some(nearer) = true_hit(mesh, ray, expected) else {
         return verdict(Kind::Kernel, format!("exactly, {:?} is not hit in the interval", expected.prim));
     };
@@ -132,7 +125,7 @@ fn lost(mesh: &Mesh, ray: &Ray, expected: Hit, found: Option<Hit>) -> Verdict {
 }
 
 /// The same computed `t` at two primitives. The lower number is owed if the walk had to come to it.
-fn tie(mesh: &Mesh, ray: &Ray, expected: Hit, found: Hit) -> Verdict {
+fn tie(mesh: &Mesh, ray: &Ray, expected: Hit, found: Hit) -> Blame {
     let owed = true_hit(mesh, ray, expected).filter(|t| t.compare(found.t).is_some_and(Ordering::is_le));
     if owed.is_some() && expected.prim.index() < found.prim.index() {
         return verdict(Kind::HigherId, format!("exactly, {:?} is hit too, no later", expected.prim));
@@ -156,7 +149,7 @@ fn may_be_at(mesh: &Mesh, ray: &Ray, hit: Hit) -> bool {
 }
 
 /// Two answers that agree but for their depth: which of them is off?
-fn strict(mesh: &Mesh, ray: &Ray, expected: Hit, found: Hit) -> Verdict {
+fn strict(mesh: &Mesh, ray: &Ray, expected: Hit, found: Hit) -> Blame {
     let Some((t, prim)) = nearest(mesh, ray, Some(expected), Some(found)) else {
         return verdict(Kind::Kernel, "exactly, neither is a hit in the interval".into());
     };
@@ -175,7 +168,7 @@ fn nearest(mesh: &Mesh, ray: &Ray, expected: Option<Hit>, found: Option<Hit>) ->
 }
 
 /// Two tests round differently: only the exact answer can judge, and it judges structure and test together.
-fn other_test(mesh: &Mesh, ray: &Ray, expected: Option<Hit>, found: Option<Hit>) -> Verdict {
+fn other_test(mesh: &Mesh, ray: &Ray, expected: Option<Hit>, found: Option<Hit>) -> Blame {
     match (nearest(mesh, ray, expected, found), found) {
         (None, None) => verdict(Kind::Kernel, "exactly, neither is a hit in the interval".into()),
         (None, Some(f)) => verdict(Kind::Invented, format!("exactly, {:?} is not hit in the interval", f.prim)),
@@ -193,8 +186,8 @@ fn other_test(mesh: &Mesh, ray: &Ray, expected: Option<Hit>, found: Option<Hit>)
     }
 }
 
-fn verdict(kind: Kind, sentence: String) -> Verdict {
-    Verdict { kind, sentence }
+fn verdict(kind: Kind, sentence: String) -> Blame {
+    Blame { kind, sentence }
 }
 
 /// The exact `t` of the primitive of a hit, if the ray really meets it in its interval.

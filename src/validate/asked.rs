@@ -1,0 +1,45 @@
+//! What a thread is asking a structure, seen from another thread.
+
+use std::any::Any;
+use std::sync::Mutex;
+use std::time::{Duration, Instant};
+
+/// What a panic said.
+pub(super) fn message(payload: &(dyn Any + Send)) -> String {
+    let text = payload.downcast_ref::<&str>().map(|text| (*text).to_owned());
+    let text = text.or_else(|| payload.downcast_ref::<String>().cloned());
+    format!("it says {:?}", text.unwrap_or_else(|| "nothing".into()))
+}
+
+/// What a thread is asking a structure.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Call {
+    /// One ray of a batch, alone.
+    Ray(usize),
+    /// All rays of a batch.
+    Batch,
+}
+
+/// What a thread is asking a structure, and since when, seen from another thread.
+#[derive(Default)]
+pub(super) struct Asked(Mutex<Option<(Call, Instant)>>);
+
+impl Asked {
+    pub fn begin(&self, call: Call) {
+        self.set(Some((call, Instant::now())));
+    }
+
+    pub fn end(&self) {
+        self.set(None);
+    }
+
+    fn set(&self, state: Option<(Call, Instant)>) {
+        *self.0.lock().expect("nobody panics while holding it") = state;
+    }
+
+    /// The call that has taken longer than `limit`.
+    pub fn overdue(&self, limit: Duration) -> Option<Call> {
+        let (call, since) = (*self.0.lock().expect("nobody panics while holding it"))?;
+        (since.elapsed() > limit).then_some(call)
+    }
+}

@@ -1,0 +1,120 @@
+//! `sahara compare`: files, winners, colours, odd meshes.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Stdio;
+
+use sahara::render::Picture;
+
+use super::command::{RIGHT, SQUARE, command, path_text, sahara, small, stderr, stdout, write};
+
+#[test]
+fn results_go_to_files_that_read_back() {
+    let directory = tempfile::tempdir().unwrap();
+    let file = |name: &str| path_text(&directory.path().join(name));
+    let (json, csv, markdown) = (file("r.json"), file("r.csv"), file("r.md"));
+    let mut args = small("Cube");
+    args.extend(["--export-json", &json, "--export-csv", &csv, "--export-markdown", &markdown]);
+    let output = sahara(&args);
+    assert_eq!(output.status.code(), Some(RIGHT), "{}", stderr(&output));
+    let told = stderr(&output);
+    assert!(told.lines().all(|line| line.starts_with("warning: ")), "no progress where nobody looks: {told}");
+
+    let records: Vec<serde_json::Value> = serde_json::from_slice(&fs::read(&json).unwrap()).unwrap();
+    let ours = ["brute-force", "median-kd", "sah-kd", "sah-kd-wide", "sah-kd-tight", "sah-hybrid", "sah-bvh"];
+    let structures = [&ours[..], &["obvhs-bvh2", "obvhs-cwbvh"]].concat();
+    assert_eq!(records.len(), structures.len() * 2);
+    for (i, record) in records.iter().enumerate() {
+        assert_eq!(record["scene"], "Cube");
+        assert_eq!(record["triangles"], 12);
+        assert_eq!(record["stand_in"], false);
+        assert_eq!(record["structure"], structures[i / 2]);
+        assert_eq!(record["query"], ["closest", "any"][i % 2]);
+        assert_eq!(record["structure_errors"], 0, "{record}");
+        assert!(record["trace_ns"].as_f64().unwrap() > 0.0 && record["build_ns"].as_u64().unwrap() > 0, "{record}");
+        assert!(record["provenance"]["command"].as_str().unwrap().contains("--export-json"), "{record}");
+    }
+
+    let mut reader = csv::Reader::from_path(&csv).unwrap();
+    let names = reader.headers().unwrap().clone();
+    let fields = records[0].as_object().unwrap();
+    // A field of fields has a column for each of them.
+    let column = |name: &str, field: &str| name.strip_prefix(field).is_some_and(|r| r.is_empty() || r.starts_with('.'));
+    assert!(fields.keys().all(|field| names.iter().any(|name| column(name, field))), "{names:?}");
+    assert_eq!(reader.records().map(Result::unwrap).count(), records.len());
+
+    let text = fs::read_to_string(&markdown).unwrap();
+    let printed = stdout(&output);
+    for structure in structures {
+        assert!(text.contains(&format!("| {structure} |")) && printed.contains(structure), "{text}\n{printed}");
+    }
+    assert!(!printed.contains('\x1b'), "no colour where nobody looks");
+    let mut left: Vec<PathBuf> = fs::read_dir(directory.path()).unwrap().map(|entry| entry.unwrap().path()).collect();
+    left.sort();
+    assert_eq!(left, [&csv, &json, &markdown].map(PathBuf::from), "nothing else is left behind");
+}
+
+#[test]
+fn a_file_without_camera_is_compared_and_rendered() {
+    let directory = tempfile::tempdir().unwrap();
+    let square = write(&directory, "square.obj", SQUARE);
+    let output = sahara(&small(&square));
+    assert_eq!(output.status.code(), Some(RIGHT), "{}", stderr(&output));
+    assert!(stdout(&output).starts_with("square: 2 triangles"), "{}", stdout(&output));
+
+    let picture = path_text(&directory.path().join("square.png"));
+    let output = sahara(&["render", &square, "-o", &picture, "--size", "20x10", "--view", "primitive"]);
+    assert_eq!(output.status.code(), Some(RIGHT), "{}", stderr(&output));
+    let decoded = Picture::read(Path::new(&picture)).unwrap();
+    assert_eq!(decoded.size(), [20, 10]);
+    let mut colours = decoded.pixels().to_vec();
+    colours.sort_unstable();
+    colours.dedup();
+    assert_eq!(colours.len(), 3, "two triangles and nothing");
+}
+
+#[test]
+fn an_empty_mesh_is_no_reason_to_fail() {
+    let directory = tempfile::tempdir().unwrap();
+    let flat = write(&directory, "flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
+    let output = sahara(&small(&flat));
+    assert_eq!(output.status.code(), Some(RIGHT), "{}", stderr(&output));
+    assert!(stdout(&output).contains("1 triangle (1 degenerate)"), "{}", stdout(&output));
+}
+
+#[test]
+fn compare_says_who_won_and_relates_to_what_is_asked_for() {
+    let args = [&small("cube")[..], &["-s", "sah-kd", "-s", "sah-bvh"]].concat();
+    // Lines end where they are full.
+    let said = |args: &[&str]| stdout(&sahara(args)).split_whitespace().collect::<Vec<_>>().join(" ");
+    let text = said(&args);
+    assert!(text.contains("x sah-kd") && !text.contains("x median"), "{text}");
+    assert!(text.contains("; nothing wrong in ") && text.ends_with(" checked rays."), "{text}");
+    assert!(text.contains("times as many rays a second as sah-") || text.contains("cannot be told apart"), "{text}");
+    let text = said(&[&args[..], &["--reference", "median-kd:leaf=8"]].concat());
+    assert!(text.contains("x median-kd:leaf=8: speed against median-kd:leaf=8"), "{text}");
+    // That sentence is about the reference, whoever has won.
+    let last = text.rsplit("Over 1 scene and 2 kinds of rays, ").next().unwrap();
+    assert!(last.contains("median-kd:leaf=8"), "{last}");
+    let help = stdout(&sahara(&["--help"]));
+    assert!(help.contains("Exit status") && help.contains("documented"), "{help}");
+}
+
+#[test]
+fn colour_is_as_asked() {
+    let mut args = small("cube");
+    args.extend(["--color", "always"]);
+    assert!(stdout(&sahara(&args)).contains("\x1b["));
+    args.pop();
+    args.push("never");
+    assert!(!stdout(&sahara(&args)).contains('\x1b'));
+}
+
+#[test]
+fn a_reader_that_goes_away_is_no_error() {
+    let mut child = command(&small("cube")).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    drop(child.stdout.take());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(RIGHT), "{}", stderr(&output));
+    assert!(stderr(&output).lines().all(|line| line.starts_with("warning: ")), "{}", stderr(&output));
+}

@@ -1,0 +1,70 @@
+//! `sahara study`: what is printed, exported and drawn.
+
+use std::fs;
+use std::path::Path;
+
+use sahara::render::Picture;
+
+use super::command::{RIGHT, path_text, refuses, refuses_in_a_line, sahara, stderr, stdout};
+
+#[test]
+fn accuracy_prints_exports_and_draws_what_it_finds() {
+    let directory = tempfile::tempdir().unwrap();
+    let file = |name: &str| path_text(&directory.path().join(name));
+    let (json, svg, png) = (file("a.json"), file("a.svg"), file("a.png"));
+    let mut args = vec!["study", "accuracy", "cube", "--rays", "300", "--runs", "2", "--budget", "1"];
+    args.extend([
+        "-s",
+        "sah-kd",
+        "-t",
+        "exact",
+        "-t",
+        "moller-trumbore",
+        "--workload",
+        "vertex",
+        "--workload",
+        "uniform",
+    ]);
+    let dir = file("runs");
+    args.extend(["--export-json", &json, "--plot", &svg, "--plot", &png, "--dir", &dir]);
+    let output = sahara(&args);
+    assert_eq!(output.status.code(), Some(RIGHT), "{}", stderr(&output));
+    let printed = stdout(&output);
+    for text in ["vertex: 300 rays through vertices", "uniform: 300 rays", "sah-kd:test=exact", "dominated by"] {
+        assert!(printed.contains(text), "{text} is not in {printed}");
+    }
+    let export: serde_json::Value = serde_json::from_slice(&std::fs::read(json).unwrap()).unwrap();
+    let records = &export["result"];
+    assert_eq!((&export["study"], records.as_array().unwrap().len()), (&"accuracy".into(), 4));
+    let exact = records.as_array().unwrap().iter().filter(|record| record["triangle_test"] == "exact");
+    // No error in 300 rays: with less than 1 - 0.05^(1/300) of errors that happens in more than 5 % of cases.
+    let bounded = |record: &serde_json::Value| (record["error_bound"].as_f64().unwrap() - 0.009_936).abs() < 1e-6;
+    assert!(exact.clone().all(|record| record["error"] == 0.0 && bounded(record)), "{records}");
+    assert_eq!(exact.count(), 2);
+    assert!(std::fs::read_to_string(svg).unwrap().contains("moller-trumbore"));
+    assert_eq!(Picture::read(Path::new(&png)).unwrap().size()[0], 1600);
+}
+
+#[test]
+fn a_study_prints_its_table_and_writes_its_cases() {
+    let directory = tempfile::tempdir().unwrap();
+    let json = path_text(&directory.path().join("s.json"));
+    let few = ["study", "self-intersection", "--rays", "20", "-s", "sah-kd", "-s", "brute-force"];
+    let output = sahara(&[&few[..], &["--export-json", &json]].concat());
+    assert_eq!(output.status.code(), Some(RIGHT), "{}", stderr(&output));
+    assert!(
+        stdout(&output).contains("waechter-binder") && stdout(&output).contains("r=10 @1e5"),
+        "{}",
+        stdout(&output)
+    );
+
+    let study: serde_json::Value = serde_json::from_slice(&fs::read(&json).unwrap()).unwrap();
+    let rows = study["result"].as_array().unwrap();
+    assert_eq!(rows.len(), 6 * 2 * 2 * 5);
+    let bounded = |row: &&serde_json::Value| row["offset"] == "error-bounded" && row["point"] == "corners";
+    let mut bounded = rows.iter().filter(bounded);
+    assert!(bounded.all(|row| row["outward"] == 20 && row["acne"] == 0 && row["leaks"] == 0), "{rows:?}");
+
+    refuses(&["study", "nothing"], &["nothing"]);
+    refuses_in_a_line(&["study", "self-intersection", "--export-json", "no/such/s.json"], &["no/such/s.json"]);
+}
