@@ -71,7 +71,7 @@ struct Global {
     /// Show no progress and no warnings
     #[arg(long, short, global = true)]
     quiet: bool,
-    /// Run on these instructions instead of the best ones here: portable, avx2 or avx512; the answers are the same
+    /// Run on these instructions instead of the best ones here: portable, avx2 or avx512, where this build has them; the answers are the same
     #[arg(long, global = true)]
     level: Option<Level>,
     /// Measure this case of a run, and say it in lines of JSON: how a run starts a process
