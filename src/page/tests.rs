@@ -279,6 +279,13 @@ fn a_part_that_is_not_there_is_named_with_its_command() {
 
     let nothing = document(&read(folder(&[("a.jsonl", accuracy("Cube"))]).path()), vec![]);
     assert_eq!(nothing.answer.verdict, "Not measured");
+    assert_eq!(nothing.sections.len(), 2, "the study that was measured, and where its numbers come from");
+
+    // A comparison of other scenes leads with what it has measured.
+    let own = document(&read(folder(&[("compare.json", to_json(&records("Cube")))]).path()), vec![]);
+    assert_eq!(own.title, "Which structure is the fastest on Cube?");
+    assert!(own.answer.sentences[0].contains(own.answer.verdict.split(' ').next().unwrap()), "{:?}", own.answer);
+    assert!(own.answer.sentences.last().unwrap().contains("sahara replicate"), "{:?}", own.answer);
 }
 
 #[test]

@@ -161,7 +161,17 @@ impl Document {
 
     /// What no run has measured.
     pub fn missing(&self) -> Vec<&Missing> {
-        let blocks = self.sections.iter().flat_map(|section| &section.blocks);
-        blocks.filter_map(|block| if let Block::Missing(missing) = block { Some(missing) } else { None }).collect()
+        fn collect<'a>(blocks: &'a [Block], found: &mut Vec<&'a Missing>) {
+            for block in blocks {
+                match block {
+                    Block::Missing(missing) => found.push(missing),
+                    Block::Fold(_, inner) => collect(inner, found),
+                    _ => {}
+                }
+            }
+        }
+        let mut found = vec![];
+        self.sections.iter().for_each(|section| collect(&section.blocks, &mut found));
+        found
     }
 }

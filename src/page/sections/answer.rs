@@ -4,16 +4,16 @@ use crate::measure::Estimate;
 use crate::page::runs::Runs;
 use crate::report::Record;
 use crate::report::document::{Answer, Headline};
-use crate::report::number::figures;
+use crate::report::number::{figures, plural};
 use crate::report::words::{ends, listed, scene_name};
 use crate::study::attribution::{self, AttributionStudy};
-use crate::study::compare::{speed, twins};
+use crate::study::compare::{Winner, speed, twins, winner};
 use crate::study::predictions::{self, PredictionsStudy};
 use crate::study::replicate::ReplicateStudy;
 use crate::study::{REPORT_TREE, SAH_TREE};
 
 /// The question in the words of the source report.
-pub const QUESTION: &str = "Would a SAH tree have been much faster on the hard scenes?";
+const QUESTION: &str = "Would a SAH tree have been much faster on the hard scenes?";
 
 /// A scene, and how many times faster the SAH tree is there.
 struct Hard {
@@ -76,19 +76,31 @@ fn banner(runs: &Runs) -> String {
         .into()
 }
 
-/// The answer, or that there is none yet.
-pub fn answer(runs: &Runs) -> Answer {
+/// What runs say that are not of the hard scenes: which structure is the fastest where several were compared.
+fn otherwise(runs: &Runs) -> (String, Answer) {
+    let not = "The source report's question is not measured by these runs: `sahara replicate` measures it.";
+    let mut scenes: Vec<&str> = vec![];
+    for record in runs.records() {
+        if !scenes.contains(&record.scene.as_str()) {
+            scenes.push(&record.scene);
+        }
+    }
+    let (title, verdict, mut sentences) = match winner(runs.records(), None) {
+        Some(Winner { names, sentence }) => {
+            let on = if scenes.len() > SCENES { plural(scenes.len(), "scene") } else { listed(&scenes) };
+            (format!("Which structure is the fastest on {on}?"), names, vec![sentence])
+        }
+        None => (QUESTION.into(), "Not measured".into(), vec![]),
+    };
+    sentences.push(not.into());
+    (title, Answer { banner: banner(runs), verdict, sentences, numbers: vec![] })
+}
+
+/// The question that the runs answer, and the answer, or that there is none yet.
+pub fn answer(runs: &Runs) -> (String, Answer) {
     let (hard, mean) = hard(runs);
     if hard.is_empty() {
-        return Answer {
-            banner: banner(runs),
-            verdict: "Not measured".into(),
-            sentences: vec![format!(
-                "These runs hold no times of {REPORT_TREE} and {SAH_TREE} on Dragon, Lucy or Sponza: `sahara replicate` measures \
-                 them."
-            )],
-            numbers: vec![],
-        };
+        return otherwise(runs);
     }
     // The scenes are judged together; the mean is one figure.
     let all = |is: &dyn Fn(Estimate) -> bool| hard.iter().all(|own| is(own.ratio.ratio_among(hard.len())));
@@ -141,5 +153,5 @@ pub fn answer(runs: &Runs) -> Answer {
         interval: ends(mean),
         label: "geometric mean".into(),
     });
-    Answer { banner: banner(runs), verdict, sentences, numbers: numbers.chain(mean).collect() }
+    (QUESTION.into(), Answer { banner: banner(runs), verdict, sentences, numbers: numbers.chain(mean).collect() })
 }

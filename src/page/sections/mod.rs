@@ -7,23 +7,23 @@ use super::runs::Runs;
 use crate::report::document::{Block, Document, Section};
 use crate::study::Studies;
 
-pub use answer::QUESTION;
-
-/// The whole report; `pictures` are the sections that are drawn and not measured. A study whose answer has no data is named with
-/// the command that measures it.
+/// The whole report; `pictures` are the sections that are drawn and not measured. Studies whose answers have no data are named at
+/// the end, with the commands that measure them.
 pub fn document(runs: &Runs, studies: &Studies, pictures: Vec<Section>) -> Document {
-    let mut sections = pictures;
+    let (mut sections, mut missing) = (pictures, vec![]);
     for study in studies.iter() {
         let answer = runs.answers.get(study.name());
         let answer = answer.filter(|answer| study.data(*answer).iter().any(|data| !data.rows.is_empty()));
-        let blocks = match answer {
-            Some(answer) => study.section(answer, &runs.command(study)),
-            None => vec![Block::missing(study.question(), &study.command())],
-        };
-        sections.push(Section { id: study.name(), title: study.question(), blocks });
+        match answer {
+            Some(answer) => {
+                let blocks = study.section(answer, &runs.command(study));
+                sections.push(Section { id: study.name(), title: study.question(), blocks });
+            }
+            None => missing.push(Block::missing(study.question(), &study.command())),
+        }
     }
-    let mut document = Document { title: QUESTION.into(), answer: answer::answer(runs), sections };
-    let missing = document.missing().into_iter().map(|m| (m.what.clone(), m.command.clone())).collect();
+    let (title, answer) = answer::answer(runs);
+    let mut document = Document { title, answer, sections };
     let mut known = vec![];
     document.sections.iter_mut().for_each(|section| name_apart(&mut section.blocks, &mut known));
     document.sections.push(provenance::section(runs, missing));

@@ -9,7 +9,7 @@ use crate::report::Table;
 use crate::report::number::plural;
 
 /// Every file and every machine; `missing` is what no run has measured.
-pub fn section(runs: &Runs, missing: Vec<(String, String)>) -> Section {
+pub fn section(runs: &Runs, missing: Vec<Block>) -> Section {
     let sources = runs.sources.iter().map(|source| {
         let path = source.path.display().to_string();
         [path, source.kind.clone(), source.command.clone(), source.replaced.clone()]
@@ -27,9 +27,7 @@ pub fn section(runs: &Runs, missing: Vec<(String, String)>) -> Section {
     let mut blocks = vec![Block::table(files, ""), Block::table(machines(&runs.provenances()), "")];
     blocks.extend(warnings(&runs.provenances()).map(|table| Block::table(table, "")));
     if !missing.is_empty() {
-        let rows = missing.into_iter().map(|(what, command)| [what, command]);
-        let title = format!("Not measured: {}", plural(rows.len(), "part"));
-        blocks.push(Block::table(Table::of_texts(&title, ["what", "command"], rows.collect()), ""));
+        blocks.push(Block::Fold(format!("Not measured: {}", plural(missing.len(), "part")), missing));
     }
     Section { id: "provenance", title: "Where the numbers come from", blocks }
 }

@@ -90,12 +90,20 @@ pub fn mean_table(records: &[Record], references: &[Reference]) -> Table {
     explained(Table { title, columns, rows, notes }.without_blank_columns())
 }
 
-/// A sentence that says which structure is the fastest over all cases, by how much, and how many of its answers were
-/// checked. Nothing where no two structures have a time in all cases.
+/// The structure that is the fastest over all cases.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Winner {
+    /// Its label, and that of the next one where the two cannot be told apart.
+    pub names: String,
+    /// Which one it is, by how much, and how many of its answers were checked.
+    pub sentence: String,
+}
+
+/// The fastest structure. Nothing where no two structures have a time in all cases.
 ///
 /// The winner is held against `reference`, if that is a structure; where that is nothing or the winner itself, against
 /// the one that comes next.
-pub fn winner(records: &[Record], reference: Option<&str>) -> Option<String> {
+pub fn winner(records: &[Record], reference: Option<&str>) -> Option<Winner> {
     let labels = names(records, |r| &r.label);
     let of = |label: &str| -> Vec<&Record> { records.iter().filter(|r| r.label == label).collect() };
     let cases = labels.iter().map(|label| of(label).len()).max()?;
@@ -129,11 +137,15 @@ pub fn winner(records: &[Record], reference: Option<&str>) -> Option<String> {
         (1, 1) => String::new(),
         (scenes, kinds) => format!("Over {} and {} of rays, ", plural(scenes, "scene"), plural(kinds, "kind")),
     };
-    let told = if by.holds(1.0) {
-        format!("{over}{best} and {next} cannot be told apart: {} times as many rays a second", interval(by))
+    let (names, told) = if by.holds(1.0) {
+        let told =
+            format!("{over}{best} and {next} cannot be told apart: {} times as many rays a second", interval(by));
+        (format!("{best} or {next}"), told)
     } else {
         let ends = ends(by);
-        format!("{over}{best} answers {} times as many rays a second as {next} {ends}", figures(by.estimate))
+        let told =
+            format!("{over}{best} answers {} times as many rays a second as {next} {ends}", figures(by.estimate));
+        (best.clone(), told)
     };
     let checked: Option<usize> = of(best).iter().map(|r| r.checked_rays).sum();
     let checked = match checked {
@@ -145,5 +157,5 @@ pub fn winner(records: &[Record], reference: Option<&str>) -> Option<String> {
         0 => String::new(),
         n => format!(" Not ranked, without a time in some of the cases: {}.", plural(n, "structure")),
     };
-    Some(format!("{told}; {checked}.{left}"))
+    Some(Winner { names, sentence: format!("{told}; {checked}.{left}") })
 }

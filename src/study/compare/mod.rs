@@ -16,7 +16,7 @@ use super::Refused;
 use crate::report::Record;
 
 pub use cells::{speed, twins};
-pub use means::{mean_table, winner};
+pub use means::{Winner, mean_table, winner};
 pub use records::compared;
 pub use reference::Reference;
 pub use study::{CompareArgs, CompareStudy};

@@ -159,7 +159,7 @@ impl Study for CompareStudy {
     }
 
     fn remarks(answer: &Compared) -> Vec<String> {
-        winner(&answer.records, answer.reference.as_deref()).into_iter().collect()
+        winner(&answer.records, answer.reference.as_deref()).into_iter().map(|winner| winner.sentence).collect()
     }
 
     fn troubles(cases: &[Epoch]) -> Vec<Trouble> {
