@@ -68,7 +68,7 @@ pub fn run(session: &Session, matches: &ArgMatches) -> anyhow::Result<Status> {
 /// What a process with a job does that a run of this command has started.
 pub fn answer_job(suite: &Suite, matches: &ArgMatches, job: &Job) -> anyhow::Result<()> {
     if Gate::from_arg_matches(matches)?.is_asked_for() {
-        return Ok(process::answer(gated_plan(&suite.registry, matches).map(|(_, plan)| plan), job)?);
+        return Ok(process::answer(|| gated_plan(&suite.registry, matches).map(|(_, plan)| plan), job)?);
     }
     let compare = suite.studies.find(super::COMPARE).expect("its command is there");
     compare.answer_job(Chosen::Matches(matches), &suite.registry, job)
@@ -134,7 +134,8 @@ fn gated(session: &Session, gate: &Gate, matches: &ArgMatches) -> anyhow::Result
     let mut run = Run::new(&plan, session.processes(&common), &clock);
     // Where nothing is decided there are more epochs and another look.
     let looks = 1 + usize::from(most - first).div_ceil(STEP.into());
-    let provenance = Provenance::of(&plan.threads);
+    let process_per_epoch = session.processes(&common).is_some();
+    let provenance = Provenance { process_per_epoch, ..Provenance::of(&plan.threads) };
     let (compared, comparison) = loop {
         let step = if run.epochs() == 0 { first } else { STEP };
         for _ in 0..step {

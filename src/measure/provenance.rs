@@ -47,6 +47,9 @@ pub struct Provenance {
     pub clock: String,
     /// The core of each thread; nothing where threads were not bound to cores.
     pub pinned: Option<Vec<usize>>,
+    /// Whether each timed epoch of a scene was measured in a process of its own.
+    #[serde(default)]
+    pub process_per_epoch: bool,
     /// Control word of floating-point arithmetic, where the processor has one.
     pub mxcsr: Option<u32>,
     /// What it makes of numbers below the normal ones; `kept` is right.
@@ -91,6 +94,7 @@ impl Provenance {
             obvhs: env!("SAHARA_OBVHS").into(),
             clock: elapsed(),
             pinned: None,
+            process_per_epoch: false,
             mxcsr: machine::mxcsr(),
             denormals: machine::denormals(machine::mxcsr()).into(),
             governor: machine::governor(0),

@@ -53,7 +53,7 @@ pub struct Surface {
 
 impl Scene {
     /// The rays through the point `offset` of the pixels `range`, counted row by row from the top left, on an image of
-    /// `size`. `offset` is that of [`View::ray`].
+    /// `size`. `offset` is that of [`View::ray`](super::View::ray).
     pub fn primary_rays(&self, size: [u32; 2], offset: Vec2, range: std::ops::Range<u32>) -> Vec<Ray> {
         let view = self.camera.view(size);
         let ray = |pixel| view.ray(pixel % size[0], pixel / size[0], offset);

@@ -42,7 +42,8 @@ impl<'a> Run<'a> {
     pub fn epoch(&mut self, screen: &mut dyn Screen) -> Result<(), StudyError> {
         let epoch = self.epochs();
         for (number, case) in self.plan.cases.iter().enumerate().filter(|(_, case)| case.epoch == epoch) {
-            screen.case(&case.title);
+            // Of how many it is not known yet.
+            screen.case(&format!("epoch {}: {}", epoch + 1, case.process.as_deref().unwrap_or(&case.title)));
             let first = self.epochs.get(case.scene);
             let measured =
                 measure_case(CompareStudy::NAME, self.plan, number, first, self.processes, self.clock, screen)?;

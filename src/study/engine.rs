@@ -73,7 +73,8 @@ pub struct Measured {
 /// # Errors
 /// If the journal cannot be used, or nothing can be measured.
 pub(super) fn measure<S: Study>(args: &S::Args, plan: &Plan<S::Case>, run: &mut Run) -> anyhow::Result<Measured> {
-    let provenance = Provenance::of(&plan.threads);
+    let process_per_epoch = run.processes.is_some() && plan.cases.iter().any(|case| case.process.is_some());
+    let provenance = Provenance { process_per_epoch, ..Provenance::of(&plan.threads) };
     let header = Header::new(S::NAME, &plan.settings, provenance);
     let mut journal: Journal<S::Case> = match run.folder {
         Some(folder) => Journal::open(&folder.join(format!("{}.jsonl", S::NAME)), header, run.fresh)?,

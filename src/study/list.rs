@@ -197,7 +197,7 @@ impl<S: Study> AnyStudy for Typed<S> {
     }
 
     fn answer_job(&self, chosen: Chosen, registry: &Registry, job: &Job) -> anyhow::Result<()> {
-        Ok(process::answer(args::<S>(chosen).and_then(|args| S::plan(&args, registry)), job)?)
+        Ok(process::answer(|| S::plan(&args::<S>(chosen)?, registry), job)?)
     }
 
     fn read_journal(&self, path: &Path, others: &Answers) -> Result<(Header, AnyAnswer), JournalError> {

@@ -4,11 +4,13 @@
 //! the process lives: only samples from several processes say by how much (Mytkowicz et al., Producing Wrong Data Without
 //! Doing Anything Obviously Wrong!, 2009; Kalibera and Jones, Rigorous Benchmarking in Reasonable Time, 2013).
 //!
-//! The process is this program with the same command line and a [`Job`]. Its standard input is the first epoch of the scene, for
-//! a later one; on its standard output it says, a line of JSON each, what it does, and at last what it has measured.
+//! The process is this program with the same command line and a [`Job`]. The first line of its standard input is the first epoch
+//! of the scene, where a later one is measured; on its standard output it says, a marked line of JSON each, what it does, and at
+//! last what it has measured. After each line it waits for one in answer: so the run that listens does nothing while it times. Other
+//! lines are a structure's own, and go to standard error.
 
 use std::ffi::OsString;
-use std::io::{self, BufRead, BufReader, Read, Write};
+use std::io::{self, BufRead, BufReader, Write};
 use std::process::{Child, Command, Stdio};
 use std::str::FromStr;
 
@@ -23,7 +25,7 @@ use crate::measure::{SystemClock, program};
 pub struct Job {
     /// Name of the study.
     pub study: String,
-    /// Name of the scene: no other is loaded.
+    /// Name of the scene: of those named on the command line no other is loaded.
     pub scene: String,
     /// Key of the case.
     pub key: String,
@@ -67,6 +69,9 @@ pub struct Processes {
     args: Vec<OsString>,
 }
 
+/// What the lines of a process begin with.
+const MARK: &str = "\u{1e}case ";
+
 /// The option that gives a process its job.
 pub const OPTION: &str = "case";
 
@@ -92,13 +97,22 @@ impl Processes {
         command.arg(format!("--{OPTION}={job_text}")).args(&self.args);
         let child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn();
         let mut child = Guard(child.map_err(|cause| trouble(format!("it cannot be started: {cause}")))?);
-        let first = serde_json::to_vec(&first).expect("a case has text keys");
+        let first = serde_json::to_string(&first).expect("a case has text keys");
+        let mut told = child.0.stdin.take().expect("it has an input");
         // A process that has ended already is told by what it has said, or how it ended.
-        let _ = child.0.stdin.take().expect("it has an input").write_all(&first);
-        let said = BufReader::new(child.0.stdout.take().expect("it has an output"));
-        for line in said.lines() {
+        let mut tell = |line: &str| {
+            let _ = writeln!(told, "{line}");
+        };
+        tell(&first);
+        for line in BufReader::new(child.0.stdout.take().expect("it has an output")).split(b'\n') {
             let line = line.map_err(|cause| trouble(cause.to_string()))?;
-            match serde_json::from_str(&line).map_err(|cause| trouble(format!("it said {line:?}: {cause}")))? {
+            let line = String::from_utf8_lossy(&line);
+            let Some((own, said)) = line.split_once(MARK) else {
+                eprintln!("{line}");
+                continue;
+            };
+            eprint!("{own}");
+            match serde_json::from_str(said).map_err(|cause| trouble(format!("it said {said:?}: {cause}")))? {
                 Said::Build(what) => progress(Stage::Build(&what)),
                 Said::Rays(what) => progress(Stage::Rays(&what)),
                 Said::Check(what) => progress(Stage::Check(&what)),
@@ -108,6 +122,7 @@ impl Processes {
                     return Err(StudyError::Told { sentence, of_one_scene, wrong_answer });
                 }
             }
+            tell("");
         }
         let status = child.0.wait().map_err(|cause| trouble(cause.to_string()))?;
         Err(trouble(format!("it ended without an answer ({status})")))
@@ -125,22 +140,25 @@ impl Drop for Guard {
     }
 }
 
-/// What a process with a job does: measures the case of `plan`, and says so.
+/// What a process with a job does: measures the case of the plan that `plan` makes, and says so.
 ///
 /// # Errors
-/// If its output is closed; all else is said there.
-pub fn answer<C: Serialize + DeserializeOwned>(plan: anyhow::Result<Plan<C>>, job: &Job) -> io::Result<()> {
+/// If nobody listens; all else is said.
+pub fn answer<C: Serialize + DeserializeOwned>(
+    plan: impl FnOnce() -> anyhow::Result<Plan<C>>,
+    job: &Job,
+) -> io::Result<()> {
     end_with_parent();
-    let mut first = vec![];
-    io::stdin().lock().read_to_end(&mut first)?;
-    let failed = |sentence| Said::Failed { sentence, of_one_scene: false, wrong_answer: false };
-    let measured = match plan {
+    let first: Option<C> = serde_json::from_str(&hear()?)?;
+    let failed = |sentence| Said::Failed { sentence, of_one_scene: true, wrong_answer: false };
+    let said = match plan() {
         Ok(plan) => match plan.cases.iter().position(|case| case.key == job.key) {
             Some(number) => {
-                let first: Option<C> = serde_json::from_slice(&first)?;
                 let mut progress = |stage: Stage| {
-                    // Whoever does not listen gets no answer either.
-                    let _ = say(&Said::<C>::from(&stage));
+                    if say(&Said::<C>::from(&stage)).and_then(|()| hear()).is_err() {
+                        // The run is gone, and would be disturbed by this process when it goes on.
+                        std::process::exit(1);
+                    }
                 };
                 match (plan.measure)(number, first.as_ref(), &SystemClock::start(), &mut progress) {
                     Ok(case) => Said::Measured(case),
@@ -155,14 +173,23 @@ pub fn answer<C: Serialize + DeserializeOwned>(plan: anyhow::Result<Plan<C>>, jo
         },
         Err(error) => failed(format!("{error:#}")),
     };
-    say(&measured)
+    say(&said)
 }
 
 fn say<C: Serialize>(said: &Said<C>) -> io::Result<()> {
     let line = serde_json::to_string(said).expect("what is said has text keys");
     let mut out = io::stdout().lock();
-    writeln!(out, "{line}")?;
+    writeln!(out, "{MARK}{line}")?;
     out.flush()
+}
+
+/// The next line of the run.
+fn hear() -> io::Result<String> {
+    let mut line = String::new();
+    match io::stdin().read_line(&mut line)? {
+        0 => Err(io::ErrorKind::UnexpectedEof.into()),
+        _ => Ok(line),
+    }
 }
 
 /// A run that is killed leaves nothing behind that disturbs the next one.

@@ -1,12 +1,13 @@
 //! Each epoch of a scene is measured in a process of its own.
 
 use std::io::Write;
+use std::path::Path;
 use std::process::Stdio;
 
 use serde_json::Value;
 use tempfile::TempDir;
 
-use super::command::{command, prints, stderr};
+use super::command::{command, prints, refuses, stderr};
 
 const SMALL: [&str; 13] =
     ["compare", "cube", "torus", "-s", "sah-kd", "-s", "sah-bvh", "-w", "diffuse", "--rays", "256", "--epochs", "2"];
@@ -23,7 +24,7 @@ fn all_in_one_process_answers_the_same() {
     let folder = TempDir::new().unwrap();
     let run = |name: &str, more: &[&str]| {
         let file = folder.path().join(name);
-        prints(&[&SMALL[..], &["--budget", "1", "--export-json", file.to_str().unwrap()], more].concat());
+        prints(&[&SMALL[..], &["--export-json", file.to_str().unwrap()], more].concat());
         answers(&std::fs::read(file).unwrap())
     };
     let apart = run("apart.json", &[]);
@@ -31,20 +32,41 @@ fn all_in_one_process_answers_the_same() {
     assert_eq!(apart, run("one.json", &["--in-process"]));
 }
 
-/// The lines that a process with a job says, given the first epoch.
+/// The numbers of the processes that have measured the cases of a journal.
+fn processes(folder: &Path) -> Vec<u64> {
+    let journal = std::fs::read_to_string(folder.join("compare.jsonl")).unwrap();
+    let cases = journal.lines().skip(1).map(|line| serde_json::from_str::<Value>(line).unwrap());
+    cases.map(|case| case["case"]["circumstances"]["process"].as_u64().unwrap()).collect()
+}
+
+#[test]
+fn each_epoch_of_a_scene_has_a_process_and_journals_do_not_mix() {
+    let folder = TempDir::new().unwrap();
+    let dir = ["--dir", folder.path().to_str().unwrap()];
+    prints(&[&SMALL[..], &dir].concat());
+    let mut apart = processes(folder.path());
+    apart.sort_unstable();
+    apart.dedup();
+    assert_eq!(apart.len(), 4, "two epochs of two scenes");
+    refuses(&[&SMALL[..], &dir, &["--in-process"]].concat(), &["process_per_epoch was true and is false", "--fresh"]);
+
+    prints(&[&SMALL[..], &dir, &["--in-process", "--fresh"]].concat());
+    let one = processes(folder.path());
+    assert!(one.len() == 4 && one.iter().all(|process| *process == one[0]), "{one:?}");
+}
+
+/// What a process with a job says, given the first epoch and answers.
 fn said(job: &Value, first: &Value) -> Vec<Value> {
     let job = format!("--case={job}");
     let mut command = command(&[&SMALL[..], &[&job]].concat());
     let mut child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
-    child.stdin.take().unwrap().write_all(first.to_string().as_bytes()).unwrap();
+    let input = format!("{first}{}", "\n".repeat(10_000));
+    child.stdin.take().unwrap().write_all(input.as_bytes()).unwrap();
     let output = child.wait_with_output().unwrap();
     assert!(output.status.success(), "{}", stderr(&output));
-    output
-        .stdout
-        .split(|&byte| byte == b'\n')
-        .filter(|line| !line.is_empty())
-        .map(|line| serde_json::from_slice(line).unwrap())
-        .collect()
+    let lines = String::from_utf8(output.stdout).unwrap();
+    let line = |line: &str| serde_json::from_str(line.strip_prefix("\u{1e}case ").unwrap()).unwrap();
+    lines.lines().map(line).collect()
 }
 
 #[test]
@@ -57,7 +79,7 @@ fn a_process_measures_its_case_alone() {
     let of_torus = cases.iter().find(|case| case["case"]["scene"] == "Torus").unwrap();
     assert_eq!((&first["case"]["scene"], &last["case"]["scene"]), (&"Cube".into(), &"Torus".into()));
 
-    let job = |key: &Value| serde_json::json!({"study": "compare", "scene": "Torus", "key": key});
+    let job = |key: &Value| serde_json::json!({"study": "compare", "scene": "Torus", "key": key, "cores": null});
     let lines = said(&job(&last["key"]), &of_torus["case"]);
     let measured = &lines.last().unwrap()["Measured"];
     let answers = |case: &Value| {

@@ -8,6 +8,9 @@ use crate::measure::{Clock, machine};
 /// What happened to the measuring thread while samples were taken. What the system does not tell is nothing.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Circumstances {
+    /// Number of the process.
+    #[serde(default)]
+    pub process: u32,
     pub seconds: f64,
     /// How often it had to make way for another thread.
     pub interruptions: Option<u64>,
@@ -47,6 +50,7 @@ impl Watch {
     pub fn end(self, clock: &dyn Clock) -> Circumstances {
         let since = |(before, after): (u64, u64)| after.saturating_sub(before);
         Circumstances {
+            process: std::process::id(),
             seconds: (clock.now_ns() - self.start_ns) as f64 * 1e-9,
             interruptions: self.interruptions.zip(machine::interruptions()).map(since),
             clock_rates: self.clock_rate.zip(machine::clock_rate(self.core)),

@@ -62,7 +62,7 @@ impl Header {
     /// What makes a program faster or slower, of all that is known of it.
     fn machine(&self) -> Map<String, Value> {
         let Self { provenance: p, .. } = self;
-        let parts: [(&str, Value); 9] = [
+        let parts: [(&str, Value); 10] = [
             ("version", p.version.as_str().into()),
             ("commit", p.commit.as_str().into()),
             ("build", p.build.as_str().into()),
@@ -72,6 +72,7 @@ impl Header {
             ("simd", p.simd.as_str().into()),
             ("cpu", p.cpu.as_str().into()),
             ("threads", p.threads.into()),
+            ("process_per_epoch", p.process_per_epoch.into()),
         ];
         parts.into_iter().map(|(name, value)| (name.to_owned(), value)).collect()
     }

@@ -37,6 +37,8 @@ pub fn unlike(old: &[Record], new: &[Record]) -> Result<(), Unlike> {
         differ("the processor", &a.cpu, &b.cpu, SAME_MACHINE)?;
         differ("the instruction set of our lanes", &a.simd, &b.simd, SAME_MACHINE)?;
         differ("the number of threads", &a.threads.to_string(), &b.threads.to_string(), SAME_MACHINE)?;
+        let [old, new] = [a, b].map(|p| if p.process_per_epoch { "an epoch each" } else { "all epochs" });
+        differ("what a process measures", old, new, SAME_MACHINE)?;
         differ("the clock", &a.clock, &b.clock, SAME_MACHINE)?;
         differ("the profile", &a.profile, &b.profile, SAME_BUILD)?;
         differ("the target", &a.target, &b.target, SAME_BUILD)?;
