@@ -29,7 +29,7 @@ impl Kept {
         let dir = self.folder.path().to_str().unwrap();
         let small =
             ["compare", "cube", "-s", "median-kd", "-s", "sah-kd", "-s", "obvhs-bvh2", "-w", "primary", "-w", "shadow"];
-        let short = ["--rays", "256", "--epochs", "2", "--runs", "2", "--quiet", "--dir", dir];
+        let short = ["--rays", "256", "--epochs", "3", "--runs", "2", "--quiet", "--dir", dir];
         sahara(&[&small[..], &short, more].concat())
     }
 

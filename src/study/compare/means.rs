@@ -137,15 +137,14 @@ pub fn winner(records: &[Record], reference: Option<&str>) -> Option<Winner> {
         (1, 1) => String::new(),
         (scenes, kinds) => format!("Over {} and {} of rays, ", plural(scenes, "scene"), plural(kinds, "kind")),
     };
-    let (names, told) = if by.holds(1.0) {
-        let told =
-            format!("{over}{best} and {next} cannot be told apart: {} times as many rays a second", interval(by));
-        (format!("{best} or {next}"), told)
+    // One epoch decides nothing.
+    let decided = by.interval.is_some() && !by.holds(1.0);
+    let names = if decided { best.clone() } else { format!("{best} or {next}") };
+    let told = if by.holds(1.0) {
+        format!("{over}{best} and {next} cannot be told apart: {} times as many rays a second", interval(by))
     } else {
         let ends = ends(by);
-        let told =
-            format!("{over}{best} answers {} times as many rays a second as {next} {ends}", figures(by.estimate));
-        (best.clone(), told)
+        format!("{over}{best} answers {} times as many rays a second as {next} {ends}", figures(by.estimate))
     };
     let checked: Option<usize> = of(best).iter().map(|r| r.checked_rays).sum();
     let checked = match checked {
