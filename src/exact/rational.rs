@@ -1,7 +1,7 @@
 //! A second judge: the question of [`hit`](super::hit()) by another formula, in rationals.
 //!
-//! It shares no line of this crate with the first; under both are the big integers of dashu. A hundred times slower;
-//! for tests.
+//! It shares nothing with the first: no line of this crate and no library.
+//! For tests; a hundred times slower.
 
 use dashu_ratio::RBig;
 use glam::Vec3;

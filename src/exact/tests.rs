@@ -7,8 +7,9 @@ use super::*;
 fn assert_agree(ray: &Ray, corners: [Vec3; 3]) -> bool {
     let ours = hit(ray, corners);
     let twin = rational::hit(ray, corners);
-    let as_rational = |t: ExactT| RBig::from(t.numerator) / RBig::from(t.denominator);
+    let as_rational = |t: ExactT| RBig::from(&t.numerator) / RBig::from(&t.denominator);
     assert_eq!(ours.clone().map(as_rational), twin, "{ray:?} {corners:?}");
+    assert_eq!(ours.as_ref().map(ExactT::round), twin.map(|t| t.to_f32().value()), "{ray:?} {corners:?}");
     ours.is_some()
 }
 
@@ -94,43 +95,49 @@ fn what_has_no_area_and_what_is_not_finite_is_missed() {
     }
 }
 
-fn fraction(numerator: IBig, denominator: IBig) -> ExactT {
-    ExactT { numerator, denominator }
+fn fraction(numerator: f64, denominator: f64) -> ExactT {
+    ExactT { numerator: numerator.into(), denominator: denominator.into() }
 }
 
 #[test]
 fn rounding_is_to_nearest_even() {
-    let exact = |x: f32| fraction(integer(x), IBig::ONE << SCALE);
+    let exact = |x: f32| fraction(x.into(), 1.0);
     for x in [0.0, 1.0, -1.5, 0.1, f32::MIN_POSITIVE, f32::from_bits(1), f32::from_bits(0x7f_ffff), f32::MAX, f32::MIN]
     {
         assert_eq!(exact(x).round(), x);
         assert_eq!(exact(x).compare(x), Some(Ordering::Equal));
         assert_eq!(exact(x).compare(x.next_up()), Some(Ordering::Less));
     }
+    assert_eq!(exact(0.0).round().to_bits(), 0);
     // Decimal fractions are rounded by the compiler: an independent judge.
-    assert_eq!(fraction(1.into(), 3.into()).round(), 1.0 / 3.0);
-    assert_eq!(fraction(16_777_217.into(), 1.into()).round(), 16_777_216.0);
-    assert_eq!(fraction(16_777_219.into(), 1.into()).round(), 16_777_220.0);
-    assert_eq!(fraction((-7).into(), 1000.into()).round(), -0.007);
+    assert_eq!(fraction(1.0, 3.0).round(), 1.0 / 3.0);
+    assert_eq!(fraction(16_777_217.0, 1.0).round(), 16_777_216.0);
+    assert_eq!(fraction(16_777_219.0, 1.0).round(), 16_777_220.0);
+    assert_eq!(fraction(-7.0, 1000.0).round(), -0.007);
+    // Beside a tie by less than f64 can tell.
+    let near_tie = |off: f64| ExactT { numerator: Expansion::difference(16_777_217.0, off), denominator: 1.0.into() };
+    assert_eq!([-1e-20, 0.0, 1e-20].map(|off| near_tie(off).round()), [16_777_218.0, 16_777_216.0, 16_777_216.0]);
     // Half of the smallest denormal is a tie to zero; more is not.
-    assert_eq!(fraction(1.into(), IBig::ONE << (SCALE + 1)).round(), 0.0);
-    assert_eq!(fraction(3.into(), IBig::ONE << (SCALE + 2)).round(), f32::from_bits(1));
+    assert_eq!(fraction(1.0, 2.0_f64.powi(150)).round(), 0.0);
+    assert_eq!(fraction(3.0, 2.0_f64.powi(151)).round(), f32::from_bits(1));
     // 2^128 - 2^103 is half an ulp above the largest float.
-    let limit = (IBig::ONE << 128) - (IBig::ONE << 103);
-    let (below, at) = (fraction(limit.clone() - 1, 1.into()), fraction(limit, 1.into()));
+    let limit = 2.0_f64.powi(128) - 2.0_f64.powi(103);
+    let below = ExactT { numerator: Expansion::difference(limit, 1.0), denominator: 1.0.into() };
+    let at = fraction(limit, 1.0);
     assert_eq!((below.round(), at.round()), (f32::MAX, f32::INFINITY));
     // Where no finite float is the nearest, every ray has ended.
     let whole = Ray::new(Vec3::ZERO, Vec3::X);
     assert_eq!([&below, &at].map(|t| t.is_within(&whole)), [true, false]);
     assert!(!below.is_within(&whole.until(f32::MAX)));
+    assert!(!fraction(1.0, 1.0).is_within(&whole.until(f32::NAN)));
     assert!(at.approximate() >= whole.end() && whole.end() > f64::from(f32::MAX));
 }
 
 #[test]
 fn order_is_exact_where_floats_are_not() {
-    let third = fraction(1.into(), 3.into());
-    assert_eq!(third, fraction(2.into(), 6.into()));
-    assert!(third < fraction(333_333_334.into(), 1_000_000_000.into()));
+    let third = fraction(1.0, 3.0);
+    assert_eq!(third, fraction(2.0, 6.0));
+    assert!(third < fraction(333_333_334.0, 1_000_000_000.0));
     assert_eq!(third.compare(1.0 / 3.0), Some(Ordering::Less), "the float 1/3 is above one third");
     assert_eq!(third.compare(f32::NAN), None);
     assert_eq!(third.compare(f32::INFINITY), Some(Ordering::Less));

@@ -57,7 +57,7 @@ impl Span {
     /// The `f32` nearest to the `t` inside, if all numbers of the span have the same: rounding is monotonic.
     pub fn rounded(self) -> Option<f32> {
         let (low, high) = (self.low as f32, self.high as f32);
-        // Zero is positive, as where integers are rounded.
+        // Zero is positive, as where exact parameters are rounded.
         (low == high).then_some(low + 0.0)
     }
 }
@@ -140,7 +140,7 @@ mod tests {
     use crate::exact;
     use crate::oracle::tests::Numbers;
 
-    /// Checks what the filter proves with integers; returns whether it is a hit, or none if nothing is proven.
+    /// Checks what the filter proves with exact sums; returns whether it is a hit, or none if nothing is proven.
     fn is_confirmed(ray: &Ray, corners: [Vec3; 3]) -> Option<bool> {
         let truth = exact::hit(ray, corners);
         match classify(ray, corners) {

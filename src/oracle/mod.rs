@@ -1,6 +1,6 @@
 //! Exact answers for whole rays, to check the answers of structures with; never timed.
 //!
-//! [`Oracle`] is fast; [`nearest`] is its brute-force reference, which tests every triangle in integers.
+//! [`Oracle`] is fast; [`nearest`] is its brute-force reference, which tests every triangle exactly.
 
 mod filter;
 mod naive;
@@ -18,8 +18,8 @@ pub use truth::Truth;
 /// Answers rays over one mesh exactly: some microseconds a ray.
 ///
 /// It has three stages: a tree of boxes that loses no hit; `f64` arithmetic with a proven error bound; and, for what
-/// that cannot decide, integers ([`exact`](crate::exact)). It shares no code with the structures and triangle tests
-/// that it checks, except the integers with [`Exact`](crate::triangle::Exact). Tests compare both with
+/// that cannot decide, exact sums of floats ([`exact`](crate::exact)). It shares no code with the structures and triangle tests
+/// that it checks, except those sums with [`Exact`](crate::triangle::Exact). Tests compare both with
 /// [`rational`](crate::exact::rational).
 pub struct Oracle {
     mesh: Arc<Mesh>,

@@ -5,7 +5,7 @@ use crate::geometry::{Mesh, Ray};
 
 /// The nearest hit of `ray` within its interval, and the numbers of all triangles that are hit there, ascending.
 ///
-/// Tests every triangle in integers: for small meshes, and as the reference for [`Oracle`](super::Oracle).
+/// Tests every triangle exactly: for small meshes, and as the reference for [`Oracle`](super::Oracle).
 pub fn nearest(ray: &Ray, mesh: &Mesh) -> Option<(ExactT, Vec<u32>)> {
     if !ray.is_valid() {
         return None;

@@ -88,7 +88,7 @@ impl Visitor for Query<'_> {
 }
 
 impl Found {
-    /// Computes `t` in integers, if that has not been done.
+    /// Computes `t` exactly, if that has not been done.
     fn compute_t(&mut self, ray: &Ray) {
         if self.t.is_none() {
             self.t = exact::hit(ray, self.corners);
@@ -96,7 +96,7 @@ impl Found {
         }
     }
 
-    /// The exact order of two hits of one ray: by the spans, and by integers where these overlap.
+    /// The exact order of two hits of one ray: by the spans, and exactly where these overlap.
     fn compare(&mut self, other: &mut Self, ray: &Ray) -> Ordering {
         if self.span.high < other.span.low {
             return Ordering::Less;

@@ -95,7 +95,7 @@ fn the_fast_oracle_says_what_the_slow_one_says() {
     }
 }
 
-/// Oracle, slow twin and the exact test decide in the same integers; rationals have nothing in common with them.
+/// Oracle, slow twin and the exact test decide by the same exact sums; rationals have nothing in common with them.
 #[test]
 fn a_second_judge_says_the_same() {
     let mut hits = 0;

@@ -13,7 +13,7 @@ use rand_core::{RngCore, SeedableRng};
 use rand_pcg::Pcg32;
 
 use super::*;
-use crate::exact::{self as integers, rational};
+use crate::exact::{self as judge, rational};
 
 type Number = fn(&mut Pcg32) -> f32;
 
@@ -57,7 +57,7 @@ fn aimed(rng: &mut Pcg32, [a, b, c]: [Vec3; 3]) -> Ray {
 }
 
 fn true_t(ray: &Ray, corners: [Vec3; 3]) -> Option<f32> {
-    integers::hit(ray, corners).filter(|t| ray.is_valid() && t.is_within(ray)).map(|t| t.round())
+    judge::hit(ray, corners).filter(|t| ray.is_valid() && t.is_within(ray)).map(|t| t.round())
 }
 
 /// The cases on which the stages of a filter are put to the test: all sizes, aimed closely, on a grid, at random.

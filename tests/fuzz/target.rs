@@ -106,12 +106,12 @@ impl Case {
                     return Err(blame(format!("exact: ray \"{ray}\": {found:?} in place of {truth:?}")));
                 }
             }
-            // These integers are those of the test itself: rationals are not, but take a hundred times as long.
+            // These sums are those of the test itself: rationals are not, but take a hundred times as long.
             for ray in self.rays.iter().step_by(20) {
                 let truth = oracle::nearest(ray, &mesh).map(|(t, ids)| (t.round(), ids[0]));
                 let second = rational::nearest(ray, mesh.solid().map(|id| (id, mesh.corners(id))));
                 if second != truth {
-                    return Err(blame(format!("integers: ray \"{ray}\": {truth:?} in place of {second:?}")));
+                    return Err(blame(format!("exact sums: ray \"{ray}\": {truth:?} in place of {second:?}")));
                 }
             }
         }

@@ -15,12 +15,12 @@ use crate::simd::Lanes;
 use enclosure::{Sight, look, place};
 
 /// Exact answers at the price of a filter: what the `f32` stage cannot reject is decided in `f64` with a bound on its error, and what
-/// that cannot decide in integers.
+/// that cannot decide in exact sums of floats.
 ///
 /// Promises: a triangle is hit if and only if the ray as given meets the closed triangle as given; hits are ordered by their exact
 /// `t`, at equal `t` by number; the `t` returned is the exact one, correctly rounded (so that one just before an open end `t_max` may be
 /// returned as `t_max`). In a structure that loses nothing the answer to every ray is the mathematical one. Does not promise:
-/// speed where many rays pass exactly through edges; each such triangle costs some microseconds.
+/// speed where many rays pass exactly through edges; each such triangle costs a microsecond.
 ///
 /// # References
 /// Filters before exact arithmetic: Fortune, Van Wyk: Efficient exact arithmetic for computational geometry. SoCG 1993. Shewchuk:
@@ -73,14 +73,14 @@ impl TriangleTest for Exact {
             Sight::Miss => None,
             Sight::Hit { low, high } if start <= low && high < end => Some(ExactDepth::new(ray, corners, low, high)),
             Sight::Hit { low, high } if high < start || end <= low => None,
-            Sight::Hit { .. } | Sight::Unclear => in_integers(ray, corners),
+            Sight::Hit { .. } | Sight::Unclear => exactly(ray, corners),
         }
     }
 }
 
 /// The hit of one triangle, whatever it takes.
 #[cold]
-fn in_integers(ray: &Ray, corners: [Vec3; 3]) -> Option<ExactDepth> {
+fn exactly(ray: &Ray, corners: [Vec3; 3]) -> Option<ExactDepth> {
     let t = exact::hit(ray, corners).filter(|t| t.is_within(ray))?.round();
     // Rounding is off by at most the distance to the next float.
     let (low, high) = (t.next_down(), t.next_up());

@@ -1,4 +1,4 @@
-//! The exact test is held against integers and rationals.
+//! The exact test is held against exact sums and rationals.
 
 use super::*;
 
@@ -14,7 +14,7 @@ fn hits_where_only_the_height_underflows_are_found() {
 
 /// Some interval, often one that ends at the hit.
 fn windowed(rng: &mut Pcg32, ray: Ray, corners: [Vec3; 3]) -> Ray {
-    let t = integers::hit(&ray, corners).map_or(1.0, |t| t.round());
+    let t = judge::hit(&ray, corners).map_or(1.0, |t| t.round());
     let end = |rng: &mut Pcg32| match rng.next_u32() % 4 {
         0 => t,
         1 => t.next_up(),
@@ -28,7 +28,7 @@ fn windowed(rng: &mut Pcg32, ray: Ray, corners: [Vec3; 3]) -> Ray {
 }
 
 #[test]
-fn the_exact_test_agrees_with_integers_everywhere() {
+fn the_exact_test_agrees_with_the_judges_everywhere() {
     let mut rng = Pcg32::seed_from_u64(5);
     let mut hits = 0;
     for round in 0..200_000 {
@@ -36,7 +36,7 @@ fn the_exact_test_agrees_with_integers_everywhere() {
         let ray = windowed(&mut rng, ray, corners);
         let found = scalar_hit::<Exact>(&ray, corners);
         assert_eq!(found.map(f32::to_bits), true_t(&ray, corners).map(f32::to_bits), "{ray:?} {corners:?}");
-        // These integers are those of the test itself: a second judge shares nothing with it, but takes longer.
+        // These sums are those of the test itself: a second judge shares nothing with it, but takes longer.
         if round % 31 == 0 && ray.is_valid() {
             let second = rational::hit_within(&ray, corners);
             assert_eq!(found.map(f32::to_bits), second.map(f32::to_bits), "{ray:?} {corners:?}");

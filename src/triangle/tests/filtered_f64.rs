@@ -23,7 +23,7 @@ fn the_first_stage_rejects_nearly_all_that_is_missed() {
     for _ in 0..50_000 {
         let (ray, corners) =
             (Ray::new(point(&mut rng, unit) * 4.0, point(&mut rng, unit)), triangle(&mut rng, unit).map(|p| p * 0.01));
-        if integers::hit(&ray, corners).is_none() {
+        if judge::hit(&ray, corners).is_none() {
             let block = filter::FilterBlock::<1>::new(&[corners]);
             misses += 1;
             kept += filter::survivors::<1, Portable<1>>(&filter::FilterRay::new(&ray), &block).0;

@@ -27,8 +27,8 @@ pub(super) fn are_half_open<T: TriangleTest>() {
     for _ in 0..60_000 {
         let (corners, ray) = (triangle(&mut rng, grid), ray(&mut rng, grid));
         let Some(t) = scalar_hit::<T>(&ray, corners) else { continue };
-        let is_float = |exact: integers::ExactT| exact.compare(t) == Some(Ordering::Equal);
-        if t == 0.0 || !integers::hit(&ray, corners).is_some_and(is_float) {
+        let is_float = |exact: judge::ExactT| exact.compare(t) == Some(Ordering::Equal);
+        if t == 0.0 || !judge::hit(&ray, corners).is_some_and(is_float) {
             continue;
         }
         hits += 1;

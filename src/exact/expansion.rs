@@ -1,0 +1,137 @@
+//! Sums of floats as exact numbers.
+
+use std::cmp::Ordering;
+
+use smallvec::SmallVec;
+
+/// A number as the exact sum of floats that do not overlap, none of them zero, the least first; zero is the empty sum.
+///
+/// Exact as long as nothing overflows or underflows: products of six differences of `f32` numbers do neither, for they are below 2^780 and
+/// multiples of 2^-894.
+///
+/// # References
+/// Shewchuk: Adaptive precision floating-point arithmetic and fast robust geometric predicates. Discrete & Computational Geometry 18, 1997.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Expansion(SmallVec<[f64; 6]>);
+
+impl Expansion {
+    /// `a - b`.
+    pub fn difference(a: f64, b: f64) -> Self {
+        let mut difference = Self::from(a);
+        difference.add(-b);
+        difference
+    }
+
+    /// Adds a float: Shewchuk's growing of an expansion, zeros left out.
+    fn add(&mut self, mut x: f64) {
+        let mut kept = 0;
+        for i in 0..self.0.len() {
+            let error;
+            (x, error) = exact_sum(x, self.0[i]);
+            if error != 0.0 {
+                self.0[kept] = error;
+                kept += 1;
+            }
+        }
+        self.0.truncate(kept);
+        if x != 0.0 {
+            self.0.push(x);
+        }
+    }
+
+    /// Adds `sign * a * b`, where `sign` is 1 or -1.
+    fn add_signed_product(&mut self, sign: f64, a: &Self, b: &Self) {
+        for &x in &a.0 {
+            for &y in &b.0 {
+                let product = sign * x * y;
+                self.add((sign * x).mul_add(y, -product));
+                self.add(product);
+            }
+        }
+    }
+
+    /// `a * b - c * d`.
+    pub fn minor(a: &Self, b: &Self, c: &Self, d: &Self) -> Self {
+        let mut minor = Self::default();
+        minor.add_signed_product(1.0, a, b);
+        minor.add_signed_product(-1.0, c, d);
+        minor
+    }
+
+    /// The sum of the products of components.
+    pub fn dot(a: &[Self; 3], b: &[Self; 3]) -> Self {
+        let mut sum = Self::default();
+        for (x, y) in a.iter().zip(b) {
+            sum.add_signed_product(1.0, x, y);
+        }
+        sum
+    }
+
+    pub fn negate(&mut self) {
+        self.0.iter_mut().for_each(|term| *term = -*term);
+    }
+
+    /// The order of the number and zero: the largest term is larger than all others together.
+    pub fn sign(&self) -> Ordering {
+        self.0.last().map_or(Ordering::Equal, |largest| largest.total_cmp(&0.0))
+    }
+
+    /// With a relative error below 2^-51.
+    pub fn approximate(&self) -> f64 {
+        self.0.iter().fold(0.0, |sum, term| sum + term)
+    }
+}
+
+#[cfg(test)]
+impl From<&Expansion> for dashu_ratio::RBig {
+    fn from(x: &Expansion) -> Self {
+        x.0.iter().fold(Self::ZERO, |sum, &term| sum + Self::try_from(term).unwrap())
+    }
+}
+
+impl From<f64> for Expansion {
+    fn from(x: f64) -> Self {
+        let mut sum = Self::default();
+        sum.add(x);
+        sum
+    }
+}
+
+/// The rounded sum and what rounding took from it (Knuth).
+fn exact_sum(a: f64, b: f64) -> (f64, f64) {
+    let sum = a + b;
+    let of_b = sum - a;
+    let of_a = sum - of_b;
+    (sum, (a - of_a) + (b - of_b))
+}
+
+#[cfg(test)]
+mod tests {
+    use dashu_ratio::RBig;
+
+    use super::*;
+
+    /// Terms of all sizes and signs, some of which cancel.
+    #[test]
+    fn sums_and_products_are_those_of_rationals() {
+        let rational = |x: &Expansion| RBig::from(x);
+        let number = |i: u32| f64::from(f32::from_bits(i.wrapping_mul(2_654_435_761) & 0xbfff_ffff | 0x2000_0000));
+        for i in 0..2_000 {
+            let [a, b, c, d] = [0, 1, 2, 3].map(|k| Expansion::difference(number(5 * i + k), number(7 * i + 2 * k)));
+            let minor = Expansion::minor(&a, &b, &c, &d);
+            let right = rational(&a) * rational(&b) - rational(&c) * rational(&d);
+            assert_eq!(rational(&minor), right);
+            assert_eq!(minor.sign(), right.cmp(&RBig::ZERO));
+            // They do not overlap: each is less than the lowest bit of the next.
+            for pair in minor.0.windows(2) {
+                let (bits, exponent) =
+                    (pair[1].to_bits() & ((1 << 52) - 1), (pair[1].to_bits() >> 52 & 0x7ff) as i32 - 1075);
+                let lowest = 2.0_f64.powi(exponent + (bits | 1 << 52).trailing_zeros() as i32);
+                assert!(pair[0] != 0.0 && pair[0].abs() < lowest, "{minor:?}");
+            }
+            assert_eq!(Expansion::minor(&minor, &minor, &minor, &minor).sign(), Ordering::Equal);
+            let error = (RBig::try_from(minor.approximate()).unwrap() - &right) * RBig::from(1_u64 << 51);
+            assert!(error >= -right.clone().max(-right.clone()) && error <= right.clone().max(-right));
+        }
+    }
+}
