@@ -37,8 +37,8 @@ impl TriangleTest for FilteredF64 {
     }
 
     #[inline(always)]
-    fn candidates<const N: usize, L: Lanes<N>>(ray: &FilteredRay, block: &FilterBlock<N>, _: f32, _: f32) -> (u32, L) {
-        survivors(&ray.filter, block)
+    fn candidates<const N: usize, L: Lanes<N>>(ray: &FilteredRay, block: &FilterBlock<N>, _: f32, to: f32) -> (u32, L) {
+        survivors(&ray.filter, block, to)
     }
 
     #[inline(always)]

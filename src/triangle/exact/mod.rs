@@ -60,8 +60,8 @@ impl TriangleTest for Exact {
     }
 
     #[inline(always)]
-    fn candidates<const N: usize, L: Lanes<N>>(ray: &ExactRay, block: &FilterBlock<N>, _: f32, _: f32) -> (u32, L) {
-        survivors(&ray.filter, block)
+    fn candidates<const N: usize, L: Lanes<N>>(ray: &ExactRay, block: &FilterBlock<N>, _: f32, to: f32) -> (u32, L) {
+        survivors(&ray.filter, block, to)
     }
 
     #[inline(always)]

@@ -13,7 +13,7 @@ fn hits_where_only_the_height_underflows_are_found() {
 }
 
 /// Some interval, often one that ends at the hit.
-fn windowed(rng: &mut Pcg32, ray: Ray, corners: [Vec3; 3]) -> Ray {
+pub(super) fn windowed(rng: &mut Pcg32, ray: Ray, corners: [Vec3; 3]) -> Ray {
     let t = judge::hit(&ray, corners).map_or(1.0, |t| t.round());
     let end = |rng: &mut Pcg32| match rng.next_u32() % 4 {
         0 => t,
