@@ -50,7 +50,7 @@ unsafe impl GlobalAlloc for CountingAllocator {
 }
 
 /// What `work` gives, and the most bytes that it held at once beyond what was held before, on all threads: nothing where the
-/// [`CountingAllocator`] is not installed. One call at a time; others wait. Not for timed work.
+/// [`CountingAllocator`] is not installed. One call at a time; others wait. Each allocation costs two atomic operations more.
 pub fn peak_bytes<R>(work: impl FnOnce() -> R) -> (R, Option<usize>) {
     static ONE: Mutex<()> = Mutex::new(());
     /// Counts no longer, even after a panic.

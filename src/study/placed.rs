@@ -16,13 +16,14 @@ pub(super) struct Placed {
 }
 
 impl Placed {
-    /// Builds every one of `choices` over `scene`.
+    /// Builds every one of `choices` over `scene`; `counted` are the bytes that the builds hold.
     pub fn new<'a>(
         choices: impl IntoIterator<Item = &'a Choice>,
         scene: &Scene,
         threads: &Threads,
         clock: &dyn Clock,
         seed: u64,
+        counted: bool,
         progress: &mut dyn FnMut(Stage),
     ) -> Self {
         let choices: Vec<&Choice> = choices.into_iter().collect();
@@ -34,7 +35,8 @@ impl Placed {
             // Small blocks move what follows on the heap, large ones move mapped pages.
             blocks.push(vec![0; 16 * (1 + random.below(1 << 12))]);
             blocks.push(vec![0; (256 << 10) + 4096 * random.below(64)]);
-            built[i] = Some(Built::new(choices[i], scene, threads, clock));
+            let build = if counted { Built::counted } else { Built::new };
+            built[i] = Some(build(choices[i], scene, threads, clock));
         }
         Self { built: built.into_iter().map(|one| one.expect("all are built")).collect(), _blocks: blocks }
     }

@@ -5,8 +5,7 @@ use super::{Circumstances, Epoch, RayCounts, RayDetails, Rays, Settings, Shape, 
 use crate::accel::{DynAccel, Query};
 use crate::geometry::Ray;
 use crate::measure::tiles::level_of;
-use crate::measure::{Clock, Instructions, Part, Plan, Samples, peak_bytes, spread};
-use crate::registry::Choice;
+use crate::measure::{Clock, Instructions, Part, Plan, Samples, spread};
 use crate::report::CaseCounts;
 use crate::scene::{Scene, Workload};
 use crate::study::built::Built;
@@ -56,6 +55,8 @@ struct Bench<'a> {
     scene: &'a Scene,
     settings: &'a Settings,
     workloads: Vec<Workload>,
+    /// Of each workload.
+    hashes: Vec<String>,
     /// All structures asked for, and what is known of them.
     structures: Vec<Structure>,
     /// Those that could be built.
@@ -76,25 +77,21 @@ impl<'a> Bench<'a> {
         progress: &mut dyn FnMut(Stage),
     ) -> Result<Self, StudyError> {
         let Settings { structures: choices, threads, seed, .. } = settings;
-        // Counted in a build that is not timed.
-        let memory: Vec<Option<usize>> = if settings.detailed && epoch == 0 {
-            choices.iter().map(|choice| peak(choice, scene, settings, clock, progress)).collect()
-        } else {
-            vec![None; choices.len()]
-        };
-        let mut placed = Placed::new(choices, scene, threads, clock, seed.wrapping_add(epoch as u64), progress);
+        let detailed = settings.detailed && epoch == 0;
+        let seed = seed.wrapping_add(epoch as u64);
+        let mut placed = Placed::new(choices, scene, threads, clock, seed, detailed, progress);
         let (mut structures, mut built, mut places) = (vec![], vec![], vec![]);
-        for ((choice, one), build_peak_bytes) in choices.iter().zip(placed.built.drain(..)).zip(memory) {
+        for (choice, one) in choices.iter().zip(placed.built.drain(..)) {
             let (label, name) = (choice.label.clone(), choice.entry.name.clone());
             let shape = Shape::default();
             let none = Structure { label, name, refused: None, build_ns: 0, shape, rays: vec![], details: None };
             match one {
                 Ok(one) => {
                     places.push(structures.len());
-                    let details = (settings.detailed && epoch == 0).then(|| StructureDetails {
+                    let details = detailed.then(|| StructureDetails {
                         config: choice.config.clone(),
                         triangle_test: choice.triangle_test().into(),
-                        build_peak_bytes,
+                        build_peak_bytes: one.peak_bytes,
                         counts: CaseCounts::of(&one.accel.shape()),
                     });
                     let shape = Shape::of(one.accel.as_ref());
@@ -118,7 +115,8 @@ impl<'a> Bench<'a> {
             }
         };
         let workloads = settings.asked.workloads(scene, settings.seed, guide, progress);
-        Ok(Self { scene, settings, workloads, structures, built, places, _placed: placed })
+        let hashes = workloads.iter().map(Workload::hash).collect();
+        Ok(Self { scene, settings, workloads, hashes, structures, built, places, _placed: placed })
     }
 
     /// Holds all structures against brute force, and says which are timed on which rays.
@@ -130,7 +128,7 @@ impl<'a> Bench<'a> {
                 self.structures[place].refused = Some(PANICKED.into());
                 continue;
             };
-            for (workload, check) in self.workloads.iter().zip(checks) {
+            for ((workload, hash), check) in self.workloads.iter().zip(&self.hashes).zip(checks) {
                 let what = declined(built.accel.as_ref(), workload);
                 let declined = what.map(|what| format!("declined: it has no {what}"));
                 let details = self.settings.detailed.then(|| RayDetails {
@@ -143,7 +141,7 @@ impl<'a> Bench<'a> {
                     (check.errors > 0).then(|| format!("{} wrong answers to {} rays", check.errors, check.rays));
                 self.structures[place].rays.push(Rays {
                     workload: workload.name.clone(),
-                    hash: workload.hash(),
+                    hash: hash.clone(),
                     query: workload.query,
                     all: workload.rays.len(),
                     rays: 0,
@@ -162,13 +160,12 @@ impl<'a> Bench<'a> {
 
     /// Takes over what was found in the first epoch, if it was of these rays.
     fn resume(&mut self, first: &Epoch) -> Result<(), StudyError> {
-        let hashes: Vec<String> = self.workloads.iter().map(Workload::hash).collect();
         let same = |rays: &[Rays]| {
             let timed = |rays: &Rays| {
                 let mut parts = std::iter::once(rays.rays).chain(rays.parts.iter().map(|part| part.rays));
                 rays.untimed.is_some() || parts.all(|part| level_of(rays.all, part).is_some())
             };
-            rays.iter().map(|rays| &rays.hash).eq(&hashes) && rays.iter().all(timed)
+            rays.iter().map(|rays| &rays.hash).eq(&self.hashes) && rays.iter().all(timed)
         };
         // By place: twins have one label.
         for (structure, before) in self.structures.iter_mut().zip(&first.structures) {
@@ -259,19 +256,6 @@ impl<'a> Bench<'a> {
             }
         }
     }
-}
-
-/// Most bytes held while a structure is built. What is less than the structure itself was not seen: its memory is C++'s.
-fn peak(
-    choice: &Choice,
-    scene: &Scene,
-    settings: &Settings,
-    clock: &dyn Clock,
-    progress: &mut dyn FnMut(Stage),
-) -> Option<usize> {
-    progress(Stage::Build(&choice.label));
-    let (built, peak) = peak_bytes(|| Built::once(choice, scene, &settings.threads, clock));
-    peak.filter(|&peak| built.is_ok_and(|built| peak >= built.accel.footprint().total()))
 }
 
 /// Keeps what was counted in a pass that is not timed, and its instructions where there is a counter.
