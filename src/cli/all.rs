@@ -51,6 +51,9 @@ pub fn run(session: &Session, args: &Args) -> anyhow::Result<Status> {
         }
         let start = Instant::now();
         let found = run_as(session, *study, Chosen::Preset(args.effort()), &common)?;
+        if found == Status::Interrupted {
+            return Ok(found);
+        }
         outcome = outcome.and(found);
         let words = match found {
             Status::Wrong => "wrong answers",

@@ -130,7 +130,7 @@ fn gated(session: &Session, gate: &Gate, matches: &ArgMatches) -> anyhow::Result
     let first = if kept.is_some() { most } else { args.measuring.epochs };
     let clock = SystemClock::start();
     let mut screen = OnTerminal::new(terminal);
-    screen.begin(plan.cases.len());
+    screen.begin(Plan::<Epoch>::work(&plan.cases));
     let mut run = Run::new(&plan, session.processes(&common), &clock);
     // Where nothing is decided there are more epochs and another look.
     let looks = 1 + usize::from(most - first).div_ceil(STEP.into());
@@ -139,7 +139,13 @@ fn gated(session: &Session, gate: &Gate, matches: &ArgMatches) -> anyhow::Result
     let (compared, comparison) = loop {
         let step = if run.epochs() == 0 { first } else { STEP };
         for _ in 0..step {
-            run.epoch(&mut screen)?;
+            let measured = run.epoch(&mut screen);
+            if screen.is_interrupted() {
+                screen.end();
+                terminal.print_lines(&["Interrupted: nothing is kept of a run for a baseline.".into()])?;
+                return Ok(Status::Interrupted);
+            }
+            measured?;
         }
         let compared = run.compared(&provenance);
         let compare = |old: &Vec<_>| against(old, &compared, gate.fail_on_regression, looks);

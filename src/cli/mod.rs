@@ -8,6 +8,7 @@ mod completions;
 mod diff;
 mod fetch;
 mod golden;
+mod interrupt;
 mod list;
 mod progress;
 mod rays;
@@ -39,6 +40,7 @@ const STATUSES: &str = "Exit status:
   3  a regression (compare --fail-on-regression)
   4  the samples do not tell whether there is a regression
   5  right, but for a structure that could not be built, panicked or could not take part
+130  interrupted by Ctrl-C: what was measured is shown and kept, and the same command goes on
 Wrong answers of a baseline from another project whose defects are documented are shown, cost it its time,
 and do not change the status: 2 is for everything else. Tables name the defects.
 
@@ -156,6 +158,7 @@ fn command(studies: &Studies) -> clap::Command {
 
 /// Runs the command line of this process over structures, with the studies of this crate, or over a whole [`Suite`].
 pub fn main(suite: impl Into<Suite>) -> ExitCode {
+    interrupt::watch();
     run_with(&suite.into(), std::env::args_os(), Some(&Processes::new(std::env::args_os())))
 }
 
@@ -196,6 +199,7 @@ fn run_with(suite: &Suite, args: impl IntoIterator<Item = OsString>, processes: 
         Ok(Status::Regression) => ExitCode::from(3),
         Ok(Status::Undecided) => ExitCode::from(4),
         Ok(Status::Refused) => ExitCode::from(5),
+        Ok(Status::Interrupted) => ExitCode::from(interrupt::STATUS),
         Err(error) if is_broken_pipe(&error) => ExitCode::SUCCESS,
         Err(error) => match error.downcast_ref::<clap::Error>() {
             Some(message) => told(message),

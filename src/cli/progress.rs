@@ -1,12 +1,13 @@
 //! The progress bar: on stderr, drawn only when a study says what it does, which is never inside a timed region.
 
-use std::io;
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::thread;
 use std::time::Duration;
+use std::{fmt, io};
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 
+use super::interrupt::{self, Listening};
 use super::terminal::Terminal;
 use crate::report::Table;
 use crate::study::{Screen, Stage};
@@ -23,7 +24,7 @@ pub fn download(name: &str, bytes: Option<u64>, terminal: &Terminal) -> Progress
     bar
 }
 
-/// Steps of the bar for each scene.
+/// Steps of the bar for each unit of work.
 const STEPS: u64 = 100;
 
 /// A thread that calls `tell` with what it was told last, if nothing else comes for `limit`; it sleeps otherwise. `None` is nothing
@@ -59,7 +60,9 @@ pub struct Progress {
     /// Whether it was told of something that has not ended.
     watched: bool,
     scene: String,
-    scenes_done: u64,
+    /// What the scene is of all work, and what was done before it.
+    work: u64,
+    done: u64,
     /// Farthest step of this scene: structures are built again between samples.
     step: u64,
     /// Warnings that were shown.
@@ -68,11 +71,19 @@ pub struct Progress {
 }
 
 impl Progress {
-    pub fn over(scenes: usize, terminal: &Terminal) -> Self {
+    pub fn over(work: u64, terminal: &Terminal) -> Self {
         let target = if terminal.quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
-        let bar = ProgressBar::with_draw_target(Some(scenes as u64 * STEPS), target);
-        let style = ProgressStyle::with_template("{bar:24} {percent:>3}% {elapsed:>4} {wide_msg}");
-        bar.set_style(style.expect("the template is valid"));
+        let bar = ProgressBar::with_draw_target(Some(work * STEPS), target);
+        let style = ProgressStyle::with_template("{bar:24} {percent:>3}% {elapsed:>4}{left} {wide_msg}");
+        let left = |state: &ProgressState, out: &mut dyn fmt::Write| {
+            // Long cases and short ones follow each other: what all of them took says more than the last seconds.
+            let (done, all) = (state.pos(), state.len().unwrap_or(0));
+            if done > STEPS {
+                let left = state.elapsed().mul_f64(all.saturating_sub(done) as f64 / done as f64);
+                let _ = write!(out, ", {:#} left", HumanDuration(left));
+            }
+        };
+        bar.set_style(style.expect("the template is valid").with_key("left", left));
         let own = bar.clone();
         let watch = watch(LIMIT, move |stage| {
             let limit = LIMIT.as_secs();
@@ -85,16 +96,17 @@ impl Progress {
             watch,
             watched: false,
             scene: String::new(),
-            scenes_done: 0,
+            work: 0,
+            done: 0,
             step: 0,
             warned: vec![],
             quiet: terminal.quiet,
         }
     }
 
-    /// The next scene begins.
-    pub fn scene(&mut self, name: &str) {
-        self.scene = name.into();
+    /// The next scene begins, so much of all work.
+    pub fn scene(&mut self, name: &str, work: u64) {
+        (self.scene, self.work) = (name.into(), work);
         self.bar.set_message(name.to_owned());
         self.bar.tick();
     }
@@ -117,7 +129,7 @@ impl Progress {
         }
         self.bar.set_message(text);
         self.step = self.step.max(step);
-        self.bar.set_position(self.scenes_done * STEPS + self.step);
+        self.bar.set_position(self.done * STEPS + self.work * self.step);
     }
 
     fn watched(&mut self, stage: Option<&str>) {
@@ -131,9 +143,9 @@ impl Progress {
     /// The scene is done.
     pub fn scene_done(&mut self) {
         self.watched(None);
-        self.scenes_done += 1;
+        self.done += self.work;
         self.step = 0;
-        self.bar.set_position(self.scenes_done * STEPS);
+        self.bar.set_position(self.done * STEPS);
     }
 
     /// Shows what spoilt the run, each sentence once, unless nothing is to be shown beside results.
@@ -161,23 +173,22 @@ impl Progress {
 pub struct OnTerminal<'a> {
     terminal: &'a Terminal,
     progress: Option<Progress>,
-    case: String,
+    _listening: Listening,
 }
 
 impl<'a> OnTerminal<'a> {
     pub fn new(terminal: &'a Terminal) -> Self {
-        Self { terminal, progress: None, case: String::new() }
+        Self { terminal, progress: None, _listening: Listening::begin() }
     }
 }
 
 impl Screen for OnTerminal<'_> {
-    fn begin(&mut self, cases: usize) {
-        self.progress = Some(Progress::over(cases, self.terminal));
+    fn begin(&mut self, work: u64) {
+        self.progress = Some(Progress::over(work, self.terminal));
     }
 
-    fn case(&mut self, title: &str) {
-        self.case = title.into();
-        self.progress.iter_mut().for_each(|progress| progress.scene(title));
+    fn case(&mut self, title: &str, work: u64) {
+        self.progress.iter_mut().for_each(|progress| progress.scene(title, work));
     }
 
     fn stage(&mut self, stage: &Stage) {
@@ -185,14 +196,15 @@ impl Screen for OnTerminal<'_> {
     }
 
     fn done(&mut self) {
-        if let Some(progress) = &mut self.progress {
-            progress.scene_done();
-            progress.bar.println(format!("{}: measured", self.case));
-        }
+        self.progress.iter_mut().for_each(Progress::scene_done);
     }
 
     fn is_watched(&self) -> bool {
         self.terminal.is_watched()
+    }
+
+    fn is_interrupted(&self) -> bool {
+        interrupt::is_asked()
     }
 
     fn look(&mut self, table: &Table) {

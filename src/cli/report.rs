@@ -29,10 +29,10 @@ pub fn run(suite: &Suite, args: &Args, terminal: &Terminal) -> anyhow::Result<St
 
     let mut pictures = left_out();
     if !args.no_pictures {
-        let scenes = runs.scenes(&suite.studies).len();
+        let scenes = runs.scenes(&suite.studies).len() as u64;
         let mut progress = Progress::over(scenes, terminal);
         pictures = draw(&runs, (&suite.registry, &suite.studies), &|name| sources::scene(name).ok(), &mut |name| {
-            progress.scene(name);
+            progress.scene(name, 1);
         });
         progress.finish();
     }

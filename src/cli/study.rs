@@ -17,8 +17,8 @@ pub const RUNS: &str = "runs";
 /// Options of every study beside its own.
 #[derive(Clone, Debug, Default, clap::Args)]
 pub struct Common {
-    /// The folder of journals: the same command again goes on where the last one stopped [default: runs; a study of seconds, and
-    /// `compare`, keep none]
+    /// The folder of journals: the same command again goes on where the last one stopped [default: runs; there a study of seconds, and
+    /// `compare`, keep only what Ctrl-C has interrupted]
     #[arg(long, value_name = "DIR")]
     pub dir: Option<PathBuf>,
     /// Throw away what was measured before, and start anew
@@ -79,12 +79,13 @@ pub fn run(session: &Session, study: &dyn AnyStudy, matches: &ArgMatches) -> any
 /// Runs a study, prints what it says and writes the files.
 pub fn run_as(session: &Session, study: &dyn AnyStudy, chosen: Chosen, common: &Common) -> anyhow::Result<Status> {
     let &Session { suite, terminal, .. } = session;
-    let folder = common.dir.clone().or_else(|| study.is_kept().then(|| RUNS.into()));
+    let folder = common.dir.clone().unwrap_or_else(|| RUNS.into());
     let mut screen = OnTerminal::new(terminal);
     let mut run = Run {
         registry: &suite.registry,
         studies: &suite.studies,
-        folder: folder.as_deref(),
+        folder: &folder,
+        is_kept: common.dir.is_some() || study.is_kept(),
         fresh: common.fresh,
         processes: session.processes(common),
         screen: &mut screen,
@@ -99,6 +100,10 @@ pub fn run_as(session: &Session, study: &dyn AnyStudy, chosen: Chosen, common: &
     let Measured { answer, provenance, tables, printed, foot, outcome, failure } = measured;
     tables[printed..].iter().try_for_each(|table| terminal.print_table(table))?;
     terminal.print_lines(&foot)?;
+    // Files are written whole, when all is measured.
+    if outcome == Status::Interrupted {
+        return Ok(outcome);
+    }
     let answer = answer.as_ref();
     if let Some(file) = files.json {
         file.write(&study.json(answer, &provenance))?;

@@ -41,12 +41,13 @@ impl<'a> Run<'a> {
     /// As [`Processes::measure`].
     pub fn epoch(&mut self, screen: &mut dyn Screen) -> Result<(), StudyError> {
         let epoch = self.epochs();
-        for (number, case) in self.plan.cases.iter().enumerate().filter(|(_, case)| case.epoch == epoch) {
+        for case in self.plan.cases.iter().filter(|case| case.epoch == epoch) {
             // Of how many it is not known yet.
-            screen.case(&format!("epoch {}: {}", epoch + 1, case.process.as_deref().unwrap_or(&case.title)));
+            let title = format!("epoch {}: {}", epoch + 1, case.process.as_deref().unwrap_or(&case.title));
+            screen.case(&title, case.work);
             let first = self.epochs.get(case.scene);
             let measured =
-                measure_case(CompareStudy::NAME, self.plan, number, first, self.processes, self.clock, screen)?;
+                measure_case(CompareStudy::NAME, self.plan, case, first, self.processes, self.clock, screen)?;
             self.epochs.push(measured);
             screen.done();
         }

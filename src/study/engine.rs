@@ -1,7 +1,7 @@
 //! Runs a study: measures the cases that its journal lacks, one by one, and answers.
 
-use std::io;
 use std::path::Path;
+use std::{fs, io};
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -17,8 +17,10 @@ use crate::report::Table;
 pub struct Run<'a> {
     pub registry: &'a Registry,
     pub studies: &'a Studies,
-    /// Where the journal is kept; nothing keeps none.
-    pub folder: Option<&'a Path>,
+    /// Where journals are kept.
+    pub folder: &'a Path,
+    /// Whether the journal stays there when all is measured.
+    pub is_kept: bool,
     /// Whether what was measured before is thrown away.
     pub fresh: bool,
     /// Starts a process for each timed case; without it they are measured in this one.
@@ -28,14 +30,16 @@ pub struct Run<'a> {
 
 /// Shows how far a run has come. It is never called inside a timed region.
 pub trait Screen {
-    /// So many cases are to be measured.
-    fn begin(&mut self, cases: usize);
-    /// The next one is measured.
-    fn case(&mut self, title: &str);
+    /// So much is to be measured, as a multiple of any unit.
+    fn begin(&mut self, work: u64);
+    /// The next case is measured, which is so much of it.
+    fn case(&mut self, title: &str, work: u64);
     /// What is done for it.
     fn stage(&mut self, stage: &Stage);
     /// It is measured.
     fn done(&mut self);
+    /// Whether the run is to stop.
+    fn is_interrupted(&self) -> bool;
     /// Whether somebody watches, who may want a first look at a scene of which not all epochs are measured.
     fn is_watched(&self) -> bool;
     /// A first look.
@@ -67,8 +71,10 @@ pub struct Measured {
     pub failure: Option<StudyError>,
 }
 
-/// Measures what `plan` asks for and the journal lacks. All scenes of an epoch come before the next epoch, so that what changes
-/// on the machine over hours changes all scenes alike.
+/// An epoch that takes so long is worth a first look.
+const LONG_NS: u64 = 5_000_000_000;
+
+/// Measures what `plan` asks for and the journal lacks.
 ///
 /// # Errors
 /// If the journal cannot be used, or nothing can be measured.
@@ -76,32 +82,42 @@ pub(super) fn measure<S: Study>(args: &S::Args, plan: &Plan<S::Case>, run: &mut 
     let process_per_epoch = run.processes.is_some() && plan.cases.iter().any(|case| case.process.is_some());
     let provenance = Provenance { process_per_epoch, ..Provenance::of(&plan.threads) };
     let header = Header::new(S::NAME, &plan.settings, provenance);
-    let mut journal: Journal<S::Case> = match run.folder {
-        Some(folder) => Journal::open(&folder.join(format!("{}.jsonl", S::NAME)), header, run.fresh)?,
-        None => Journal::in_memory(header),
+    let keys = || plan.cases.iter().map(|case| case.key.as_str());
+    let unfinished = run.folder.join(UNFINISHED).join(format!("{}-{}.jsonl", S::NAME, header.id(keys())));
+    let mut journal: Journal<S::Case> = match () {
+        () if run.is_kept => Journal::open(&run.folder.join(format!("{}.jsonl", S::NAME)), header, run.fresh)?,
+        () if unfinished.exists() => Journal::open(&unfinished, header, run.fresh)?,
+        () => Journal::in_memory(header),
     };
-    let others = match run.folder {
-        Some(folder) if S::LAST => Answers::read(folder, run.studies, S::NAME)?,
-        _ => Answers::default(),
-    };
+    let others =
+        if run.is_kept && S::LAST { Answers::read(run.folder, run.studies, S::NAME)? } else { Answers::default() };
     let provenance = journal.provenance().clone();
     let context = Context::<S> { provenance: &provenance, others: &others, args: Some(args) };
+    let (all, before) = (plan.cases.len(), plan.cases.len() - journal.left(keys()).len());
+    let gone_on = (before > 0 && !run.is_kept).then(|| {
+        let when = provenance.date.replace(['T', 'Z'], " ");
+        format!("{before} of {all} cases are those of a run that was begun at {when}UTC and interrupted; --fresh starts anew.")
+    });
+    run.screen.warn(gone_on.as_slice());
 
-    run.screen.begin(journal.left(plan.cases.iter().map(|case| case.key.as_str())).len());
+    run.screen.begin(Plan::<S::Case>::work(plan.cases.iter().filter(|case| journal.get(&case.key).is_none())));
     let clock = SystemClock::start();
     let epochs = plan.cases.iter().map(|case| case.epoch + 1).max().unwrap_or(0);
     let (mut failure, mut failed) = (None, vec![]);
     let (mut tables, mut printed): (Vec<Table>, usize) = (vec![], 0);
-    for (number, case) in plan.cases.iter().enumerate() {
+    let mut stopped = false;
+    for case in &plan.cases {
         if failed.contains(&case.scene) {
             continue;
         }
+        let start = clock.now_ns();
         if journal.get(&case.key).is_none() {
-            run.screen.case(&case.title);
+            run.screen.case(&case.title, case.work);
             let of_scene = |other: &&Planned| other.scene == case.scene && other.epoch == 0;
             let first = plan.cases.iter().find(of_scene).and_then(|first| journal.get(&first.key));
-            match measure_case(S::NAME, plan, number, first, run.processes, &clock, run.screen) {
+            match measure_case(S::NAME, plan, case, first, run.processes, &clock, run.screen) {
                 Ok(measured) => journal.append(&case.key, measured)?,
+                Err(_) if run.screen.is_interrupted() => {}
                 Err(error) if error.is_of_one_scene() => {
                     failure.get_or_insert(error);
                     failed.push(case.scene);
@@ -113,20 +129,29 @@ pub(super) fn measure<S: Study>(args: &S::Args, plan: &Plan<S::Case>, run: &mut 
             run.screen.done();
         }
         let scene: Vec<S::Case> = of(plan, &journal, |other| other.scene == case.scene);
-        if S::SCENE_BY_SCENE && case.epoch + 1 == epochs {
+        stopped = run.screen.is_interrupted();
+        let is_whole = case.epoch + 1 == epochs && journal.get(&case.key).is_some();
+        if S::SCENE_BY_SCENE && (is_whole || stopped && !scene.is_empty()) {
             for table in S::tables(&S::answer(&scene, &context)) {
+                let of = if is_whole { String::new() } else { format!(" ({} of {epochs} epochs)", scene.len()) };
+                let table = Table { title: table.title + &of, ..table };
                 run.screen.table(&table)?;
                 tables.push(table);
                 printed += 1;
             }
-        } else if epochs > 1 && case.epoch == 0 && run.screen.is_watched() {
+        } else if case.epoch == 0 && clock.now_ns() - start > LONG_NS && run.screen.is_watched() {
             let look = S::tables(&S::answer(&scene[..1], &context)).into_iter().next();
             if let Some(table) = look {
                 let title = format!("{} (a first look: epoch 1 of {epochs})", table.title);
                 run.screen.look(&Table { title, ..table });
             }
         }
+        if stopped {
+            break;
+        }
     }
+    let left = journal.left(keys()).len();
+    stopped &= left > 0;
 
     // The journal may hold other scenes as well: those asked for are shown.
     let cases = of(plan, &journal, |_| true);
@@ -134,20 +159,52 @@ pub(super) fn measure<S: Study>(args: &S::Args, plan: &Plan<S::Case>, run: &mut 
         return Err(error.into());
     }
     let answer = S::answer(&cases, &context);
-    if !S::SCENE_BY_SCENE {
-        tables = S::tables(&answer);
-    }
-    tables.extend(S::summary(&answer));
     run.screen.warn(&S::warnings(&answer));
     let troubles = S::troubles(&cases);
-    let mut foot = S::legend(&answer);
-    foot.extend(troubles.iter().map(|trouble| trouble.sentence.clone()).filter(|sentence| !sentence.is_empty()));
-    foot.extend(plan.notes.iter().cloned());
-    foot.push(provenance.line());
-    foot.extend(S::remarks(&answer));
-    let outcome = Status::of(&troubles);
+    let mut foot = vec![];
+    if !cases.is_empty() || !stopped {
+        if !S::SCENE_BY_SCENE {
+            tables = S::tables(&answer);
+        }
+        // A scene with fewer epochs cannot be averaged with the others.
+        let lacks =
+            |scene: usize| plan.cases.iter().any(|case| case.scene == scene && journal.get(&case.key).is_none());
+        let whole = of(plan, &journal, |case| !stopped || !lacks(case.scene));
+        let whole = S::answer(if whole.is_empty() { &cases } else { &whole }, &context);
+        tables.extend(S::summary(&whole));
+        foot.extend(S::legend(&answer));
+        foot.extend(troubles.iter().map(|trouble| trouble.sentence.clone()).filter(|sentence| !sentence.is_empty()));
+        foot.extend(plan.notes.iter().cloned());
+        foot.extend(gone_on);
+        foot.push(provenance.line());
+        foot.extend(S::remarks(&whole));
+    }
+    let mut outcome = Status::of(&troubles);
+    if stopped {
+        outcome = Status::Interrupted;
+        if !run.is_kept && !unfinished.exists() && !cases.is_empty() {
+            journal.keep(&unfinished)?;
+        }
+        let n = all - left;
+        foot.push(format!(
+            "Interrupted: {n} of {all} cases are measured and kept; the same command goes on with the others."
+        ));
+    } else if !run.is_kept {
+        drop(journal);
+        forget(&unfinished);
+    }
     run.screen.end();
     Ok(Measured { answer: Box::new(answer), provenance, tables, printed, foot, outcome, failure })
+}
+
+/// Where runs are kept that were interrupted, if their study keeps no journal otherwise: a folder in that of journals.
+const UNFINISHED: &str = "unfinished";
+
+/// Removes what was kept of a run that is finished now, so that it is not taken for a new one; and the folders, if nothing else is in them.
+fn forget(unfinished: &Path) {
+    if fs::remove_file(unfinished).is_ok() {
+        let _ = unfinished.ancestors().skip(1).take(2).try_for_each(fs::remove_dir);
+    }
 }
 
 /// Measures a case of the plan, in a process of its own where there are any.
@@ -157,21 +214,21 @@ pub(super) fn measure<S: Study>(args: &S::Args, plan: &Plan<S::Case>, run: &mut 
 pub(super) fn measure_case<C: Serialize + DeserializeOwned>(
     study: &str,
     plan: &Plan<C>,
-    number: usize,
+    case: &Planned,
     first: Option<&C>,
     processes: Option<&Processes>,
     clock: &dyn Clock,
     screen: &mut dyn Screen,
 ) -> Result<C, StudyError> {
     let mut progress = |stage: Stage| screen.stage(&stage);
-    let Planned { key, epoch, process, .. } = &plan.cases[number];
+    let Planned { key, epoch, process, .. } = case;
     let first = first.filter(|_| *epoch > 0);
     match processes.zip(process.clone()) {
         Some((processes, scene)) => {
             let cores = plan.threads.cores().map(Into::into);
             processes.measure(&Job { study: study.into(), scene, key: key.clone(), cores }, first, &mut progress)
         }
-        None => (plan.measure)(number, first, clock, &mut progress),
+        None => (plan.measure)(case, first, clock, &mut progress),
     }
 }
 

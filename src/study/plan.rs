@@ -45,8 +45,8 @@ pub struct Plan<C> {
     pub measure: Measure<C>,
 }
 
-/// Measures a case, by its number in the plan. A later epoch of a scene is given the first one.
-pub type Measure<C> = Box<dyn Fn(usize, Option<&C>, &dyn Clock, &mut dyn FnMut(Stage)) -> Result<C, StudyError>>;
+/// Measures a case of the plan. A later epoch of a scene is given the first one.
+pub type Measure<C> = Box<dyn Fn(&Planned, Option<&C>, &dyn Clock, &mut dyn FnMut(Stage)) -> Result<C, StudyError>>;
 
 /// One case of a plan.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -59,6 +59,8 @@ pub struct Planned {
     pub scene: usize,
     /// Counted from 0.
     pub epoch: usize,
+    /// How long it takes, about, as a multiple of any unit.
+    pub work: u64,
     /// Where the case is measured in a process of its own: the name of the scene that it loads.
     pub process: Option<String>,
 }
@@ -71,7 +73,7 @@ impl<C> Plan<C> {
         scenes: impl IntoIterator<Item = (String, String)>,
         measure: Measure<C>,
     ) -> Self {
-        let planned = |(scene, (title, key))| Planned { key, title, scene, epoch: 0, process: None };
+        let planned = |(scene, (title, key))| Planned { key, title, scene, epoch: 0, work: 1, process: None };
         Self {
             settings: settings_map(settings),
             threads,
@@ -80,6 +82,17 @@ impl<C> Plan<C> {
             inputs: vec![],
             measure,
         }
+    }
+
+    /// All epochs of a scene one after the other: its tables are there before the next one begins.
+    pub fn scene_by_scene(mut self) -> Self {
+        self.cases.sort_by_key(|case| case.scene);
+        self
+    }
+
+    /// How long all cases take, as a multiple of the same unit.
+    pub fn work<'a>(cases: impl IntoIterator<Item = &'a Planned>) -> u64 {
+        cases.into_iter().map(|case| case.work).sum()
     }
 }
 

@@ -13,6 +13,7 @@ use std::ffi::OsString;
 use std::io::{self, BufRead, BufReader, Write};
 use std::process::{Child, Command, Stdio};
 use std::str::FromStr;
+use std::sync::{Arc, Mutex, PoisonError, Weak};
 
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
@@ -95,16 +96,21 @@ impl Processes {
         let job_text = serde_json::to_string(job).expect("a job has text keys");
         let mut command = Command::new(program::executable());
         command.arg(format!("--{OPTION}={job_text}")).args(&self.args);
+        // What interrupts the run is told to it alone, and it ends its processes.
+        #[cfg(unix)]
+        std::os::unix::process::CommandExt::process_group(&mut command, 0);
         let child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn();
-        let mut child = Guard(child.map_err(|cause| trouble(format!("it cannot be started: {cause}")))?);
+        let mut child = child.map_err(|cause| trouble(format!("it cannot be started: {cause}")))?;
+        let (told, said) = (child.stdin.take(), child.stdout.take());
+        let child = Guard::new(child);
         let first = serde_json::to_string(&first).expect("a case has text keys");
-        let mut told = child.0.stdin.take().expect("it has an input");
+        let mut told = told.expect("it has an input");
         // A process that has ended already is told by what it has said, or how it ended.
         let mut tell = |line: &str| {
             let _ = writeln!(told, "{line}");
         };
         tell(&first);
-        for line in BufReader::new(child.0.stdout.take().expect("it has an output")).split(b'\n') {
+        for line in BufReader::new(said.expect("it has an output")).split(b'\n') {
             let line = line.map_err(|cause| trouble(cause.to_string()))?;
             let line = String::from_utf8_lossy(&line);
             let Some((own, said)) = line.split_once(MARK) else {
@@ -124,19 +130,42 @@ impl Processes {
             }
             tell("");
         }
-        let status = child.0.wait().map_err(|cause| trouble(cause.to_string()))?;
+        let status = locked(&child.0).wait().map_err(|cause| trouble(cause.to_string()))?;
         Err(trouble(format!("it ended without an answer ({status})")))
     }
 }
 
 /// A process that does not outlive its use.
-struct Guard(Child);
+struct Guard(Arc<Mutex<Child>>);
+
+/// The last one that was started.
+static LAST: Mutex<Weak<Mutex<Child>>> = Mutex::new(Weak::new());
+
+fn locked<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+impl Guard {
+    fn new(child: Child) -> Self {
+        let child = Arc::new(Mutex::new(child));
+        *locked(&LAST) = Arc::downgrade(&child);
+        Self(child)
+    }
+}
 
 impl Drop for Guard {
     fn drop(&mut self) {
         // It has ended, or nobody listens any more.
-        let _ = self.0.kill();
-        let _ = self.0.wait();
+        let mut child = locked(&self.0);
+        let _ = child.kill();
+        let _ = child.wait();
+    }
+}
+
+/// Ends the process that measures, if one does: the run is told that it has ended without an answer.
+pub fn end() {
+    if let Some(child) = locked(&LAST).upgrade() {
+        let _ = locked(&child).kill();
     }
 }
 
@@ -152,15 +181,15 @@ pub fn answer<C: Serialize + DeserializeOwned>(
     let first: Option<C> = serde_json::from_str(&hear()?)?;
     let failed = |sentence| Said::Failed { sentence, of_one_scene: true, wrong_answer: false };
     let said = match plan() {
-        Ok(plan) => match plan.cases.iter().position(|case| case.key == job.key) {
-            Some(number) => {
+        Ok(plan) => match plan.cases.iter().find(|case| case.key == job.key) {
+            Some(case) => {
                 let mut progress = |stage: Stage| {
                     if say(&Said::<C>::from(&stage)).and_then(|()| hear()).is_err() {
                         // The run is gone, and would be disturbed by this process when it goes on.
                         std::process::exit(1);
                     }
                 };
-                match (plan.measure)(number, first.as_ref(), &SystemClock::start(), &mut progress) {
+                match (plan.measure)(case, first.as_ref(), &SystemClock::start(), &mut progress) {
                     Ok(case) => Said::Measured(case),
                     Err(error) => Said::Failed {
                         sentence: error.to_string(),

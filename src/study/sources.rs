@@ -4,6 +4,7 @@ use std::path::Path;
 use std::sync::OnceLock;
 
 use anyhow::Context;
+use rayon::prelude::*;
 
 use super::SAH_TREE;
 use crate::nearest::suggestion;
@@ -19,7 +20,9 @@ use crate::scene::{BUILTIN, Builtin, Scene, load, real_mesh_folder};
 pub fn scenes(named: &[String]) -> anyhow::Result<Vec<Scene>> {
     let all: Vec<String> = BUILTIN.iter().map(|builtin| builtin.name.into()).collect();
     let named = wanted(if named.is_empty() { &all } else { named });
-    let scenes = named.map(|name| scene(name)).collect::<anyhow::Result<Vec<Scene>>>()?;
+    // Large meshes take seconds to load; the first one that cannot be is named.
+    let scenes: Vec<_> = named.collect::<Vec<_>>().into_par_iter().map(|name| scene(name)).collect();
+    let scenes = scenes.into_iter().collect::<anyhow::Result<Vec<Scene>>>()?;
     distinct(&scenes)?;
     Ok(scenes)
 }

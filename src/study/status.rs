@@ -17,6 +17,8 @@ pub enum Status {
     Regression,
     /// The samples do not tell whether a structure became slower.
     Undecided,
+    /// It was interrupted before all was measured.
+    Interrupted,
 }
 
 /// A structure without times, and why.

@@ -6,6 +6,8 @@ mod commands;
 mod compare;
 mod epochs;
 mod input;
+#[cfg(target_os = "linux")]
+mod interrupted;
 mod processes;
 mod rays;
 mod render;

@@ -146,8 +146,8 @@ impl Study for AccuracyStudy {
         let threads = Threads::pinned(1).map_err(anyhow::Error::msg)?;
         let (is_default, runs, seed) = (args.structure.is_empty(), args.runs.into(), args.seed);
         let budget_ns = u64::from(args.budget) * 1_000_000_000;
-        let measure: Measure<JudgedScene> = Box::new(move |number, _, clock, progress| {
-            let scene = &scenes[number];
+        let measure: Measure<JudgedScene> = Box::new(move |case, _, clock, progress| {
+            let scene = &scenes[case.scene];
             let (choices, note) = fitting(&choices, scene, is_default);
             let (kinds, replayed) = (kinds.clone(), replayed.clone());
             let settings = AccuracySettings { choices, kinds, replayed, rays, runs, budget_ns, seed };

@@ -104,9 +104,10 @@ impl Study for CompareStudy {
     }
 
     fn plan(args: &CompareArgs, registry: &Registry) -> anyhow::Result<Plan<Epoch>> {
-        let (scenes, settings) = args.settings(registry)?;
+        let (mut scenes, settings) = args.settings(registry)?;
+        scenes.sort_by_key(|scene| scene.mesh.len());
         let inputs = args.scenes.files().into_iter().chain(args.rays.file().map(Into::into)).collect();
-        Ok(Plan { inputs, ..settings.plan(scenes, args.measuring.epochs) })
+        Ok(Plan { inputs, ..settings.plan(scenes, args.measuring.epochs).scene_by_scene() })
     }
 
     fn answer(cases: &[Epoch], context: &Context<Self>) -> Compared {

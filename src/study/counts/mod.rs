@@ -118,7 +118,7 @@ impl Study for CountsStudy {
         let notes = scenes.iter().flat_map(|scene| scene.notes.iter().map(|note| format!("{}: {note}", scene.name)));
         let notes: Vec<String> = notes.collect();
         let measure: Measure<Counts> =
-            Box::new(move |number, _, _, progress| count_scene(&scenes[number], &settings, progress));
+            Box::new(move |case, _, _, progress| count_scene(&scenes[case.scene], &settings, progress));
         Ok(Plan { notes, inputs: args.scenes.files(), ..Plan::of_scenes(&kept, threads, names, measure) })
     }
 

@@ -29,6 +29,9 @@ impl Settings {
     }
 }
 
+/// As many triangles take the builds of an epoch a quarter of what all else takes, about.
+const TRIANGLES: u64 = 12_000;
+
 /// As [`Settings::plan_of`] where scenes have settings of their own: `which` of them.
 pub fn plan<C: 'static>(
     settings: Vec<Settings>,
@@ -44,7 +47,9 @@ pub fn plan<C: 'static>(
             let name = scene_name(&scene.name, !scene.stand_ins.is_empty());
             let title = format!("epoch {} of {epochs}: {name}", epoch + 1);
             let process = Some(scene.name.clone());
-            cases.push(Planned { key: key(scene, epoch), title, scene: number, epoch, process });
+            // The first epoch checks and counts as well.
+            let work = (4 + scene.mesh.len() as u64 / TRIANGLES) * if epoch == 0 { 2 } else { 1 };
+            cases.push(Planned { key: key(scene, epoch), title, scene: number, epoch, work, process });
         }
     }
     let notes = scenes.iter().flat_map(|scene| scene.notes.iter().map(|note| format!("{}: {note}", scene.name)));
@@ -53,9 +58,8 @@ pub fn plan<C: 'static>(
         threads: settings[0].threads.clone(),
         notes: notes.collect(),
         inputs: vec![],
-        cases: cases.clone(),
-        measure: Box::new(move |number, first, clock, progress| {
-            let Planned { scene: number, epoch, .. } = cases[number];
+        cases,
+        measure: Box::new(move |&Planned { scene: number, epoch, .. }, first, clock, progress| {
             let scene = &scenes[number];
             let settings = &settings[which(scene)];
             let first = first.filter(|_| epoch > 0).map(unwrap);

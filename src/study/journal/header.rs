@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
 use super::JournalError;
-use crate::measure::Provenance;
+use crate::measure::{Provenance, checksum};
 use crate::study::plan::settings_map;
 
 /// The first line of a journal.
@@ -57,6 +57,13 @@ impl Header {
             return Err(JournalError::Schema { path: path.into(), there: self.schema, here: Self::SCHEMA });
         }
         Ok(())
+    }
+
+    /// Tells journals of other settings, builds, machines or cases apart; `keys` are those of all cases that are to be measured.
+    pub fn id<'a>(&self, keys: impl IntoIterator<Item = &'a str>) -> String {
+        let keys: Vec<&str> = keys.into_iter().collect();
+        let text = serde_json::to_string(&(&self.settings, self.machine(), keys)).expect("settings have text keys");
+        format!("{:016x}", checksum(text.bytes().map(u64::from)))
     }
 
     /// What makes a program faster or slower, of all that is known of it.

@@ -142,6 +142,18 @@ impl<C: Serialize + DeserializeOwned> Journal<C> {
         Ok(())
     }
 
+    /// Keeps at `path` what was kept in memory.
+    ///
+    /// # Errors
+    /// As [`open`](Self::open) and [`append`](Self::append).
+    pub fn keep(self, path: &Path) -> Result<(), JournalError> {
+        let Recorded { header, cases, keys } = self.recorded;
+        let mut kept = Self::open(path, header, true)?;
+        let mut keys: Vec<(String, usize)> = keys.into_iter().collect();
+        keys.sort_by_key(|(_, number)| *number);
+        keys.iter().zip(cases).try_for_each(|((key, _), case)| kept.append(key, case))
+    }
+
     /// What the journal of `study` holds, without opening it for writing; a line that is being written is passed over.
     ///
     /// # Errors

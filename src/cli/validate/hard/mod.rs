@@ -50,10 +50,10 @@ pub fn run(registry: &Registry, args: &Args, named: &[String], terminal: &Termin
         .context("this program cannot find itself to ask structures in a process of their own")?;
 
     let mut columns: Vec<Column> = choices.iter().map(Column::of).collect();
-    let mut progress = Progress::over(cases.len(), terminal);
+    let mut progress = Progress::over(cases.len() as u64, terminal);
     let mut records = vec![];
     for case in &cases {
-        progress.scene(case.name);
+        progress.scene(case.name, 1);
         let scores = scores(&program, case, &choices, rays, args.limit())?;
         for ((choice, column), score) in choices.iter().zip(&mut columns).zip(scores) {
             records.push(HardRecord::new(case, choice, &score));

@@ -1,0 +1,115 @@
+//! Tables come scene by scene, and what Ctrl-C interrupts is shown, kept and gone on with.
+
+use std::fs;
+use std::io::{BufRead, BufReader, Read};
+use std::path::Path;
+use std::process::{Child, ChildStdout, Command, Stdio};
+
+use nix::sys::signal::{Signal, kill};
+use nix::unistd::Pid;
+
+use super::command::{RIGHT, command};
+
+const CASES: usize = 16;
+
+/// A comparison of some seconds, the larger scene named first.
+fn compare(folder: &Path, more: &[&str]) -> Command {
+    let small = ["compare", "torus", "cube", "-s", "sah-kd", "-s", "sah-bvh", "-w", "primary", "--rays", "256"];
+    let mut command = command(&[&small[..], &["--epochs", "8"], more].concat());
+    command.current_dir(folder).stdout(Stdio::piped()).stderr(Stdio::piped());
+    command
+}
+
+/// Reads up to the blank line after the first table.
+fn first_table(child: &mut Child) -> (String, BufReader<ChildStdout>) {
+    let mut reader = BufReader::new(child.stdout.take().unwrap());
+    let mut text = String::new();
+    while !text.ends_with("\n\n") {
+        assert!(reader.read_line(&mut text).unwrap() > 0, "it ended without a table: {text}");
+    }
+    (text, reader)
+}
+
+fn rest(mut reader: BufReader<ChildStdout>) -> String {
+    let mut text = String::new();
+    reader.read_to_string(&mut text).unwrap();
+    text
+}
+
+/// Interrupts a run after its first table; all that it says, once it has ended.
+fn interrupted(folder: &Path, more: &[&str]) -> String {
+    let mut child = compare(folder, more).spawn().unwrap();
+    let (first, reader) = first_table(&mut child);
+    kill(Pid::from_raw(child.id() as i32), Signal::SIGINT).unwrap();
+    let text = first + &rest(reader);
+    assert_eq!(child.wait().unwrap().code(), Some(130), "{text}");
+    text
+}
+
+/// How many cases an interrupted run says that it has measured.
+fn measured(text: &str) -> usize {
+    let said = text.split("Interrupted: ").nth(1).unwrap_or_else(|| panic!("it does not say so: {text}"));
+    let number = said.split(' ').next().unwrap().parse().unwrap();
+    assert!(said.contains(&format!(" of {CASES} cases")) && (8..CASES).contains(&number), "{text}");
+    number
+}
+
+/// Processes that work in a folder.
+fn processes(folder: &Path) -> usize {
+    let entries = fs::read_dir("/proc").unwrap().flatten();
+    entries.filter(|entry| fs::read_link(entry.path().join("cwd")).is_ok_and(|cwd| cwd == *folder)).count()
+}
+
+#[test]
+fn the_table_of_the_smallest_scene_is_there_before_the_next_one_is_measured() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut child = compare(folder.path(), &[]).spawn().unwrap();
+    let (first, reader) = first_table(&mut child);
+    child.kill().unwrap();
+    child.wait().unwrap();
+    assert!(first.starts_with("Cube: 12 triangles\n"), "{first}");
+    assert!(!rest(reader).contains("Torus"), "the other scene was measured already");
+}
+
+#[test]
+fn what_is_interrupted_is_shown_and_kept_and_the_same_command_goes_on() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = &folder.path().canonicalize().unwrap();
+    let text = interrupted(folder, &[]);
+    let before = measured(&text);
+    assert_eq!(processes(folder), 0, "nothing goes on in the background");
+    assert!(before == 8 || text.contains(&format!(" ({} of 8 epochs)", before - 8)), "{text}");
+    let kept: Vec<_> = fs::read_dir(folder.join("runs/unfinished")).unwrap().flatten().collect();
+    assert_eq!(kept.len(), 1);
+    assert_eq!(fs::read_to_string(kept[0].path()).unwrap().lines().count(), 1 + before);
+
+    // Another command does not take it.
+    let other = compare(folder, &["--seed", "2"]).output().unwrap();
+    assert_eq!(other.status.code(), Some(RIGHT));
+    assert!(!String::from_utf8_lossy(&other.stdout).contains("interrupted") && kept[0].path().exists());
+
+    let on = compare(folder, &["--export-json", "r.json"]).output().unwrap();
+    let said = String::from_utf8(on.stdout).unwrap();
+    assert_eq!(on.status.code(), Some(RIGHT), "{said}");
+    assert!(said.contains(&format!("{before} of {CASES} cases are those of a run")), "{said}");
+    let records: serde_json::Value = serde_json::from_slice(&fs::read(folder.join("r.json")).unwrap()).unwrap();
+    assert!(records.as_array().unwrap().iter().all(|record| record["epochs"] == 8), "{records}");
+
+    // What is finished is no part of the next run.
+    assert!(!folder.join("runs").exists());
+    let anew = compare(folder, &[]).output().unwrap();
+    assert!(!String::from_utf8_lossy(&anew.stdout).contains("interrupted"));
+}
+
+#[test]
+fn a_journal_that_was_interrupted_is_only_added_to() {
+    let folder = tempfile::tempdir().unwrap();
+    let dir = ["--dir", "kept"];
+    let before = measured(&interrupted(folder.path(), &dir));
+    let journal = folder.path().join("kept/compare.jsonl");
+    let text = fs::read_to_string(&journal).unwrap();
+    assert_eq!(text.lines().count(), 1 + before);
+    assert_eq!(compare(folder.path(), &dir).output().unwrap().status.code(), Some(RIGHT));
+    let whole = fs::read_to_string(&journal).unwrap();
+    assert!(whole.starts_with(&text) && whole.lines().count() == 1 + CASES, "{whole}");
+}
