@@ -56,6 +56,7 @@ pub(super) fn assemble(file: &SceneFile, origin: &Origin) -> Result<Scene, Scene
         shadow_terminator_fix: file.shadow_terminator_fix,
         offset: file.ray_offset.map_or(Offset::ErrorBounded, Offset::Direction),
         size: file.size,
+        is_framed: false,
         stand_ins: parts.stand_ins,
         notes: parts.notes,
         mesh: Arc::new(mesh),

@@ -4,11 +4,14 @@ use std::sync::Arc;
 
 use glam::{DVec3, Vec3};
 
-use super::{Camera, CornerNormals, Light, Material, Model, Offset, Scene, SceneError};
+use super::{Camera, CameraError, CornerNormals, Light, Material, Model, Offset, Scene, SceneError};
 use crate::geometry::{Aabb, Mesh, Transform};
 
 /// Degrees.
 const VERTICAL_FOV: f32 = 40.0;
+
+/// Degrees, in a room.
+const INSIDE_FOV: f32 = 75.0;
 
 /// From the mesh to the camera: from the right, a little above.
 const TOWARDS_CAMERA: DVec3 = DVec3::new(0.5, 0.35, 1.0);
@@ -52,10 +55,32 @@ impl Scene {
             shadow_terminator_fix: false,
             offset: Offset::ErrorBounded,
             size: [512, 512],
+            is_framed: true,
             stand_ins: Vec::new(),
             notes: model.notes,
             mesh: Arc::new(mesh),
         })
+    }
+
+    /// The same scene seen from the middle of its box, along the longest side that is not up; the light that was placed around a bare
+    /// mesh comes in as well.
+    ///
+    /// # Errors
+    /// If the mesh has no such side, or is so large or far away that there is no such camera.
+    pub fn from_inside(mut self) -> Result<Self, CameraError> {
+        let bounds = if self.mesh.is_empty() { return Err(CameraError::NoDirection) } else { self.mesh.bounds() };
+        let (min, max) = (bounds.min.as_dvec3(), bounds.max.as_dvec3());
+        let (middle, extent) = ((min + max) / 2.0, max - min);
+        let up = self.camera.up();
+        let level = DVec3::AXES.into_iter().filter(|axis| axis.dot(up.as_dvec3().normalize()).abs() < 0.9);
+        let along = level.max_by(|a, b| extent.dot(*a).total_cmp(&extent.dot(*b))).expect("two axes are not up");
+        let target = middle + along * extent.dot(along) / 2.0;
+        self.camera = Camera::new(middle.as_vec3(), target.as_vec3(), up, INSIDE_FOV)?;
+        if self.is_framed {
+            let above = DVec3::Y * extent.y * 0.3;
+            self.lights.iter_mut().for_each(|light| light.position = (middle + above).as_vec3());
+        }
+        Ok(self)
     }
 }
 

@@ -33,6 +33,8 @@ pub struct Scene {
     pub offset: Offset,
     /// Width and height of the image that the scene asks for.
     pub size: [u32; 2],
+    /// Whether camera and light were placed around a bare mesh.
+    pub is_framed: bool,
     /// Meshes that stand in for a real one which is not there.
     pub stand_ins: Vec<String>,
     /// What a reader of results should know of the scene, one sentence each.

@@ -40,6 +40,7 @@ pub mod sources;
 mod stage;
 mod status;
 mod timing;
+mod view_args;
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -60,6 +61,7 @@ pub use plan::{Effort, Measure, Plan, Planned, SceneId};
 pub use ray_source::{RaySource, rays_or_all, replayed};
 pub use stage::Stage;
 pub use status::{Status, Trouble};
+pub use view_args::ViewArgs;
 
 /// A question, and how it is answered. A type without values: all that a run is told is in [`Study::Args`].
 pub trait Study: 'static {

@@ -19,7 +19,7 @@ use crate::report::{Cell, Table, Tone};
 use crate::scene::{Sampling, Scene, Workload, WorkloadKind};
 use crate::study::{BRUTE_FORCE, documented_defect};
 use crate::study::{RaySource, replayed};
-use crate::study::{Status, sources};
+use crate::study::{Status, ViewArgs, sources};
 use crate::validate::{LIMIT, Reference, Stratum, Validation, validate_watched, watched};
 
 pub use hard::{CHILD, ChildArgs, described, run_child};
@@ -29,6 +29,8 @@ pub struct Args {
     /// Built-in scenes, scene files (.toml) and mesh files; all built-in scenes if none is named
     #[arg(value_name = "SCENE|FILE")]
     scenes: Vec<String>,
+    #[command(flatten)]
+    from: ViewArgs,
     /// A structure, with keys that differ from their defaults; may be repeated [default: all, one of each name]
     #[arg(long, short, value_name = "NAME[:key=value,..]")]
     structure: Vec<String>,
@@ -84,6 +86,9 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     let structures = sources::structures_at(registry, &args.structure, args.quality.as_deref())?;
     let against = sources::structure(registry, &args.against)?;
     let replay = replayed(&args.rays, &args.scenes)?;
+    if replay.is_some() {
+        args.from.is_unasked()?;
+    }
     anyhow::ensure!(
         replay.is_none() || args.ray.is_empty() && !args.adversarial,
         "the rays are those of the file: leave --ray and --adversarial out"
@@ -97,7 +102,10 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     }
     let (scenes, recorded) = match replay {
         Some((scene, file)) => (vec![scene], Some(file.workload.rays)),
-        None => (sources::scenes(&args.scenes)?, None),
+        None => {
+            let scenes = sources::scenes(&args.scenes)?.into_iter().map(|scene| args.from.of(scene));
+            (scenes.collect::<anyhow::Result<_>>()?, None)
+        }
     };
 
     let mut verdict = Status::Right;

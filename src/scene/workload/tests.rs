@@ -28,6 +28,7 @@ fn room() -> Scene {
         shadow_terminator_fix: true,
         offset: Offset::Direction(0.01),
         size: [24, 16],
+        is_framed: false,
         stand_ins: vec![],
         notes: vec![],
     }

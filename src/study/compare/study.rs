@@ -10,7 +10,9 @@ use crate::report::{Record, Table, to_csv, to_json};
 use crate::scene::{Scene, WorkloadKind};
 use crate::study::args::{Measuring, Scenes, Structures, WORKLOADS, with_twin};
 use crate::study::epoch::{Asked, Epoch, Settings, troubles};
-use crate::study::{Context, Data, Effort, Plan, RaySource, Refused, SceneId, Study, Trouble, replayed, sources};
+use crate::study::{
+    Context, Data, Effort, Plan, RaySource, Refused, SceneId, Study, Trouble, ViewArgs, replayed, sources,
+};
 
 /// The study.
 pub struct CompareStudy;
@@ -20,6 +22,8 @@ pub struct CompareStudy;
 pub struct CompareArgs {
     #[command(flatten)]
     pub scenes: Scenes,
+    #[command(flatten)]
+    pub from: ViewArgs,
     #[command(flatten)]
     pub structures: Structures,
     /// The structure that speeds are related to; takes part even if it is not among those named [default: median-kd and the better
@@ -61,12 +65,14 @@ impl CompareArgs {
         let (structures, _) = self.chosen(registry)?;
         let (scenes, asked) = match replayed(&self.rays, &self.scenes.scenes)? {
             Some((scene, file)) => {
+                self.from.is_unasked()?;
                 anyhow::ensure!(self.workload.is_empty(), "the rays are those of the file: leave --workload out");
                 (vec![scene], Asked::Replayed(file.workload, usize::MAX))
             }
             None => {
                 let kinds = if self.workload.is_empty() { WORKLOADS.into() } else { self.workload.clone() };
-                (self.scenes.read(&[])?, Asked::Kinds(kinds, self.rays.count()))
+                let scenes = self.scenes.read(&[])?.into_iter().map(|scene| self.from.of(scene));
+                (scenes.collect::<anyhow::Result<_>>()?, Asked::Kinds(kinds, self.rays.count()))
             }
         };
         let settings = self.measuring.settings(registry, with_twin(structures), asked)?;
@@ -95,6 +101,7 @@ impl Study for CompareStudy {
         };
         CompareArgs {
             scenes,
+            from: ViewArgs::default(),
             structures: Structures::default(),
             reference: None,
             workload: vec![],

@@ -14,7 +14,7 @@ use serde::Serialize;
 
 use super::args::{Scenes, Structures, WORKLOADS};
 use super::plan::Measure;
-use super::{Context, Data, Effort, Plan, Refused, Study, Trouble, sources};
+use super::{Context, Data, Effort, Plan, Refused, Study, Trouble, ViewArgs, sources};
 use crate::measure::{Provenance, Threads};
 use crate::registry::Registry;
 use crate::report::words::scene_name;
@@ -33,6 +33,8 @@ pub struct CountsStudy;
 pub struct CountsArgs {
     #[command(flatten)]
     scenes: Scenes,
+    #[command(flatten)]
+    from: ViewArgs,
     #[command(flatten)]
     structures: Structures,
     /// A kind of rays; may be repeated [default: primary, shadow, diffuse, random]
@@ -87,12 +89,23 @@ impl Study for CountsStudy {
             Effort::Full => (Scenes::default(), RAYS),
             Effort::Quick => (Scenes::named(&["cube", "torus"]), 1024),
         };
-        let (structures, workload) = (Structures::default(), vec![]);
-        CountsArgs { scenes, structures, workload, rays, seed: 1, threads: 1, no_overlap: false, histograms: false }
+        let (from, structures, workload) = (ViewArgs::default(), Structures::default(), vec![]);
+        CountsArgs {
+            scenes,
+            from,
+            structures,
+            workload,
+            rays,
+            seed: 1,
+            threads: 1,
+            no_overlap: false,
+            histograms: false,
+        }
     }
 
     fn plan(args: &CountsArgs, registry: &Registry) -> anyhow::Result<Plan<Counts>> {
-        let scenes = args.scenes.read(&[])?;
+        let scenes = args.scenes.read(&[])?.into_iter().map(|scene| args.from.of(scene));
+        let scenes = scenes.collect::<anyhow::Result<Vec<Scene>>>()?;
         let threads = Threads::new(args.threads.into()).map_err(anyhow::Error::msg)?;
         let settings = CountSettings {
             structures: args.structures.chosen(registry, &[])?,

@@ -1,0 +1,135 @@
+//! Where a scene is looked at from: the same options wherever rays start at a camera.
+
+use std::str::FromStr;
+
+use anyhow::Context;
+use glam::Vec3;
+
+use crate::scene::{Camera, Scene};
+
+/// Options that take the place of a scene's own camera and picture.
+#[derive(Clone, Debug, Default, clap::Args)]
+pub struct ViewArgs {
+    /// Eye, target and vertical field of view in degrees [default: those of the scene; all of a bare mesh is seen from outside]
+    #[arg(long, value_name = "ex,ey,ez tx,ty,tz [fov]", allow_hyphen_values = true)]
+    camera: Option<Look>,
+    /// Look from the middle of the scene's box along its longer side, for rooms and buildings; the light of a bare mesh is there as well
+    #[arg(long, conflicts_with = "camera")]
+    inside: bool,
+    /// Pixels of the picture: primary rays are one for each [default: those of the scene]
+    #[arg(long, value_name = "WxH")]
+    size: Option<Size>,
+}
+
+/// Width and height.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Size([u32; 2]);
+
+impl FromStr for Size {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let sides = text.split_once('x').and_then(|(w, h)| Some([w.parse().ok()?, h.parse().ok()?]));
+        let admitted = |side: &u32| (1..=16384).contains(side);
+        let sides = sides.filter(|sides: &[u32; 2]| sides.iter().all(admitted));
+        sides.map(Self).ok_or_else(|| "write WIDTHxHEIGHT, both from 1 to 16384, for example 640x480".into())
+    }
+}
+
+/// Where to look from, and where to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Look {
+    eye: Vec3,
+    target: Vec3,
+    vertical_fov: Option<f32>,
+}
+
+impl FromStr for Look {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let refusal = || "write \"ex,ey,ez tx,ty,tz\" and, if you like, a field of view in degrees".to_owned();
+        let numbers = |part: &str| part.split(',').map(|n| n.parse().ok()).collect::<Option<Vec<f32>>>();
+        let parts: Option<Vec<Vec<f32>>> = text.split_whitespace().map(numbers).collect();
+        match parts.ok_or_else(refusal)?.iter().map(Vec::as_slice).collect::<Vec<_>>()[..] {
+            [&[ex, ey, ez], &[tx, ty, tz], ref rest @ ..] if rest.iter().all(|r| r.len() == 1) && rest.len() < 2 => {
+                let vertical_fov = rest.first().map(|fov| fov[0]);
+                Ok(Self { eye: Vec3::new(ex, ey, ez), target: Vec3::new(tx, ty, tz), vertical_fov })
+            }
+            _ => Err(refusal()),
+        }
+    }
+}
+
+impl ViewArgs {
+    /// The scene as it is looked at. A bare mesh that is seen from outside says so.
+    ///
+    /// # Errors
+    /// If there is no such view of the scene.
+    pub fn of(&self, scene: Scene) -> anyhow::Result<Scene> {
+        let mut scene = if self.inside { scene.from_inside().context("--inside")? } else { scene };
+        match self.camera {
+            Some(Look { eye, target, vertical_fov }) => {
+                let vertical_fov = vertical_fov.unwrap_or(scene.camera.vertical_fov());
+                scene.camera = Camera::new(eye, target, scene.camera.up(), vertical_fov).context("--camera")?;
+            }
+            None if scene.is_framed && !self.inside => {
+                scene
+                    .notes
+                    .push("seen from outside, all of it: --inside looks from within, --camera from anywhere".into());
+            }
+            None => {}
+        }
+        scene.size = self.size.map_or(scene.size, |size| size.0);
+        Ok(scene)
+    }
+
+    /// Refuses options that rays of a file do not heed.
+    ///
+    /// # Errors
+    /// If there is one.
+    pub fn is_unasked(&self) -> anyhow::Result<()> {
+        let asked = self.inside || self.camera.is_some() || self.size.is_some();
+        anyhow::ensure!(!asked, "the rays are those of the file: leave --camera, --inside and --size out");
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Builtin;
+
+    #[test]
+    fn sizes() {
+        assert_eq!("640x480".parse(), Ok(Size([640, 480])));
+        for wrong in ["640", "0x5", "5x0", "99999x5", "axb", "-1x2", "1x2x3"] {
+            assert!(wrong.parse::<Size>().is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn cameras() {
+        let (eye, target) = (Vec3::new(-1.0, 2.0, 3.5), Vec3::ZERO);
+        assert_eq!("-1,2,3.5 0,0,0".parse(), Ok(Look { eye, target, vertical_fov: None }));
+        assert_eq!("-1,2,3.5 0,0,0 45".parse(), Ok(Look { eye, target, vertical_fov: Some(45.0) }));
+        for wrong in ["", "1,2,3", "1,2 3,4,5", "1,2,3 4,5,6 7 8", "1,2,3 4,5,6 7,8", "a,b,c 1,2,3"] {
+            assert!(wrong.parse::<Look>().is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn from_inside_the_eye_is_within_the_box_and_looks_along_it() {
+        let scene = Builtin::find("sponza").unwrap().scene(None).unwrap();
+        let (bounds, lights) = (scene.mesh.bounds(), scene.lights.clone());
+        let inside = ViewArgs { inside: true, size: Some(Size([8, 6])), ..ViewArgs::default() }.of(scene).unwrap();
+        let (eye, view) = (inside.camera.eye(), inside.camera.target() - inside.camera.eye());
+        assert!(bounds.min.cmplt(eye).all() && eye.cmplt(bounds.max).all());
+        let extent = bounds.max - bounds.min;
+        let along = if extent.x >= extent.z { view.x } else { view.z };
+        assert!(along.abs() == view.length() && inside.size == [8, 6]);
+        // A scene has its own lights.
+        assert_eq!(inside.lights.len(), lights.len());
+        assert_eq!(inside.lights[0].position, lights[0].position);
+    }
+}
