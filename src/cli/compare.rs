@@ -15,7 +15,7 @@ use crate::registry::Registry;
 use crate::report::to_json;
 use crate::scene::WorkloadKind;
 use crate::study::baseline::{Run, SCENES, against, new_baseline_path, outcome as held_against, read_baseline};
-use crate::study::compare::{CompareArgs, Compared, Reference, scene_table};
+use crate::study::compare::{CompareArgs, Compared, Reference, brief_table, scene_table};
 use crate::study::epoch::{Epoch, Settings, troubles};
 use crate::study::process::{self, Job};
 use crate::study::regression::{Comparison, tables};
@@ -29,10 +29,10 @@ use crate::study::{AnyStudy, BRUTE_FORCE, Chosen, Plan, Screen, Status};
 )]
 struct Gate {
     /// Keep this run under a name, with four times as many epochs, unless answers are wrong
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", conflicts_with = "quick")]
     save_baseline: Option<String>,
     /// Hold this run against one that was kept
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", conflicts_with = "quick")]
     baseline: Option<String>,
     /// Fail, with status 3, if a structure is slower than in the baseline by more than so many per cent; with 4 if that cannot be
     /// told with four times as many epochs
@@ -162,7 +162,7 @@ fn gated(session: &Session, gate: &Gate, matches: &ArgMatches) -> anyhow::Result
     compared.records.iter().for_each(|record| screen.warn(&record.provenance.warnings));
     screen.end();
 
-    print(&compared, comparison.as_ref(), terminal)?;
+    print(&compared, comparison.as_ref(), args.wide, terminal)?;
     terminal.print_lines(&[provenance.line()])?;
     if let Some(file) = json {
         file.write(&to_json(&compared.records))?;
@@ -186,13 +186,14 @@ fn gated(session: &Session, gate: &Gate, matches: &ArgMatches) -> anyhow::Result
     Ok(found)
 }
 
-fn print(compared: &Compared, comparison: Option<&Comparison>, terminal: &Terminal) -> anyhow::Result<()> {
+fn print(compared: &Compared, comparison: Option<&Comparison>, wide: bool, terminal: &Terminal) -> anyhow::Result<()> {
     if let Some(comparison) = comparison {
         return Ok(tables(comparison).iter().try_for_each(|table| terminal.print_table(table))?);
     }
     for records in compared.records.chunk_by(|a, b| a.scene == b.scene) {
         let refused: Vec<_> = compared.refused.iter().filter(|r| r.scene == records[0].scene).cloned().collect();
-        terminal.print_table(&scene_table(records, &Reference::of(records, None), &refused))?;
+        let table = if wide { scene_table } else { brief_table };
+        terminal.print_table(&table(records, &Reference::of(records, None), &refused))?;
     }
     Ok(())
 }

@@ -97,8 +97,9 @@ pub fn run_as(session: &Session, study: &dyn AnyStudy, chosen: Chosen, common: &
     })?;
     drop(screen);
 
-    let Measured { answer, provenance, tables, printed, foot, outcome, failure } = measured;
-    tables[printed..].iter().try_for_each(|table| terminal.print_table(table))?;
+    let Measured { answer, provenance, tables, mut legend, to_print, to_explain, foot, outcome, failure } = measured;
+    to_print.iter().try_for_each(|table| terminal.print_table(table))?;
+    terminal.print_lines(&to_explain)?;
     terminal.print_lines(&foot)?;
     // Files are written whole, when all is measured.
     if outcome == Status::Interrupted {
@@ -112,7 +113,8 @@ pub fn run_as(session: &Session, study: &dyn AnyStudy, chosen: Chosen, common: &
         file.write(&study.csv(answer, &provenance))?;
     }
     if let Some(file) = files.markdown {
-        file.write(&to_markdown(&tables, &foot))?;
+        legend.extend(foot);
+        file.write(&to_markdown(&tables, &legend))?;
     }
     for (file, format) in files.plots {
         let plot = study.plot(answer);

@@ -110,12 +110,21 @@ impl Table {
     }
 
     /// The same table without the columns in which no row says anything; the first one stays.
-    pub fn without_blank_columns(mut self) -> Self {
-        if self.rows.is_empty() {
-            return self;
-        }
-        let says = |i: usize| i == 0 || self.rows.iter().any(|row| !row[i].text.is_empty());
-        let kept: Vec<bool> = (0..self.columns.len()).map(says).collect();
+    pub fn without_blank_columns(self) -> Self {
+        let says = |i: usize| self.rows.is_empty() || self.rows.iter().any(|row| !row[i].text.is_empty());
+        let kept = (0..self.columns.len()).map(says).collect();
+        self.with_columns(kept)
+    }
+
+    /// The same table without the columns of these names; the first one stays.
+    pub fn without_columns(self, names: &[&str]) -> Self {
+        let kept = self.columns.iter().map(|column| !names.contains(&column.as_str())).collect();
+        self.with_columns(kept)
+    }
+
+    /// The columns that are `kept`, and the first one.
+    fn with_columns(mut self, mut kept: Vec<bool>) -> Self {
+        kept.iter_mut().take(1).for_each(|first| *first = true);
         let keep = |i: &mut usize| {
             *i += 1;
             kept[*i - 1]

@@ -60,10 +60,12 @@ pub struct Measured {
     /// The answer of the study.
     pub answer: AnyAnswer,
     pub provenance: Provenance,
-    /// All tables of the answer.
+    /// All tables of the answer, and what their columns mean.
     pub tables: Vec<Table>,
-    /// How many of them were printed while the run went on.
-    pub printed: usize,
+    pub legend: Vec<String>,
+    /// What is to be printed of them: the others were while the run went on.
+    pub to_print: Vec<Table>,
+    pub to_explain: Vec<String>,
     /// Sentences below the tables.
     pub foot: Vec<String>,
     pub outcome: Status,
@@ -103,14 +105,16 @@ pub(super) fn measure<S: Study>(args: &S::Args, plan: &Plan<S::Case>, run: &mut 
     run.screen.begin(Plan::<S::Case>::work(plan.cases.iter().filter(|case| journal.get(&case.key).is_none())));
     let clock = SystemClock::start();
     let epochs = plan.cases.iter().map(|case| case.epoch + 1).max().unwrap_or(0);
-    let (mut failure, mut failed) = (None, vec![]);
-    let (mut tables, mut printed): (Vec<Table>, usize) = (vec![], 0);
-    let mut stopped = false;
+    let (mut failure, mut over) = (None, vec![]);
+    let (mut stopped, mut began) = (false, 0);
     for case in &plan.cases {
-        if failed.contains(&case.scene) {
+        if over.contains(&case.scene) {
             continue;
         }
         let start = clock.now_ns();
+        if case.epoch == 0 {
+            began = start;
+        }
         if journal.get(&case.key).is_none() {
             run.screen.case(&case.title, case.work);
             let of_scene = |other: &&Planned| other.scene == case.scene && other.epoch == 0;
@@ -120,7 +124,7 @@ pub(super) fn measure<S: Study>(args: &S::Args, plan: &Plan<S::Case>, run: &mut 
                 Err(_) if run.screen.is_interrupted() => {}
                 Err(error) if error.is_of_one_scene() => {
                     failure.get_or_insert(error);
-                    failed.push(case.scene);
+                    over.push(case.scene);
                     run.screen.done();
                     continue;
                 }
@@ -130,17 +134,18 @@ pub(super) fn measure<S: Study>(args: &S::Args, plan: &Plan<S::Case>, run: &mut 
         }
         let scene: Vec<S::Case> = of(plan, &journal, |other| other.scene == case.scene);
         stopped = run.screen.is_interrupted();
-        let is_whole = case.epoch + 1 == epochs && journal.get(&case.key).is_some();
+        let is_late = plan.limit_ns.is_some_and(|limit| clock.now_ns() - began > limit);
+        if is_late {
+            over.push(case.scene);
+        }
+        let is_whole = (case.epoch + 1 == epochs || is_late) && journal.get(&case.key).is_some();
         if S::SCENE_BY_SCENE && (is_whole || stopped && !scene.is_empty()) {
-            for table in S::tables(&S::answer(&scene, &context)) {
+            for table in S::printed(&S::answer(&scene, &context)).tables {
                 let of = if is_whole { String::new() } else { format!(" ({} of {epochs} epochs)", scene.len()) };
-                let table = Table { title: table.title + &of, ..table };
-                run.screen.table(&table)?;
-                tables.push(table);
-                printed += 1;
+                run.screen.table(&Table { title: table.title + &of, ..table })?;
             }
         } else if case.epoch == 0 && clock.now_ns() - start > LONG_NS && run.screen.is_watched() {
-            let look = S::tables(&S::answer(&scene[..1], &context)).into_iter().next();
+            let look = S::printed(&S::answer(&scene[..1], &context)).tables.into_iter().next();
             if let Some(table) = look {
                 let title = format!("{} (a first look: epoch 1 of {epochs})", table.title);
                 run.screen.look(&Table { title, ..table });
@@ -161,18 +166,23 @@ pub(super) fn measure<S: Study>(args: &S::Args, plan: &Plan<S::Case>, run: &mut 
     let answer = S::answer(&cases, &context);
     run.screen.warn(&S::warnings(&answer));
     let troubles = S::troubles(&cases);
-    let mut foot = vec![];
+    let (mut tables, mut legend, mut foot) = (vec![], vec![], vec![]);
+    let (mut to_print, mut to_explain) = (vec![], vec![]);
     if !cases.is_empty() || !stopped {
-        if !S::SCENE_BY_SCENE {
-            tables = S::tables(&answer);
-        }
         // A scene with fewer epochs cannot be averaged with the others.
         let lacks =
             |scene: usize| plan.cases.iter().any(|case| case.scene == scene && journal.get(&case.key).is_none());
         let whole = of(plan, &journal, |case| !stopped || !lacks(case.scene));
         let whole = S::answer(if whole.is_empty() { &cases } else { &whole }, &context);
+        let printed = S::printed(&answer);
+        if !S::SCENE_BY_SCENE {
+            to_print = printed.tables;
+        }
+        to_print.extend(S::printed(&whole).summary);
+        to_explain = printed.legend;
+        tables = S::tables(&answer);
         tables.extend(S::summary(&whole));
-        foot.extend(S::legend(&answer));
+        legend = S::legend(&answer);
         foot.extend(troubles.iter().map(|trouble| trouble.sentence.clone()).filter(|sentence| !sentence.is_empty()));
         foot.extend(plan.notes.iter().cloned());
         foot.extend(gone_on);
@@ -194,7 +204,7 @@ pub(super) fn measure<S: Study>(args: &S::Args, plan: &Plan<S::Case>, run: &mut 
         forget(&unfinished);
     }
     run.screen.end();
-    Ok(Measured { answer: Box::new(answer), provenance, tables, printed, foot, outcome, failure })
+    Ok(Measured { answer: Box::new(answer), provenance, tables, legend, to_print, to_explain, foot, outcome, failure })
 }
 
 /// Where runs are kept that were interrupted, if their study keeps no journal otherwise: a folder in that of journals.

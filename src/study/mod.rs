@@ -113,6 +113,11 @@ pub trait Study: 'static {
         vec![]
     }
 
+    /// What of all this is printed: the page and files have the rest as well.
+    fn printed(answer: &Self::Answer) -> Printed {
+        Printed { tables: Self::tables(answer), summary: Self::summary(answer), legend: Self::legend(answer) }
+    }
+
     /// What is said last.
     fn remarks(_: &Self::Answer) -> Vec<String> {
         vec![]
@@ -171,6 +176,16 @@ pub trait Study: 'static {
     fn plot(_: &Self::Answer) -> Option<Figure> {
         None
     }
+}
+
+/// What is printed of an answer.
+pub struct Printed {
+    /// As [`Study::tables`].
+    pub tables: Vec<Table>,
+    /// As [`Study::summary`].
+    pub summary: Vec<Table>,
+    /// As [`Study::legend`].
+    pub legend: Vec<String>,
 }
 
 /// What an answer is made from besides the cases.

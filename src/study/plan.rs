@@ -38,6 +38,8 @@ pub struct Plan<C> {
     pub settings: Map<String, Value>,
     pub threads: Threads,
     pub cases: Vec<Planned>,
+    /// Of a scene that has taken so long no further epoch is begun.
+    pub limit_ns: Option<u64>,
     /// What is said below the tables.
     pub notes: Vec<String>,
     /// Files that are read, and so are not written.
@@ -78,6 +80,7 @@ impl<C> Plan<C> {
             settings: settings_map(settings),
             threads,
             cases: scenes.into_iter().enumerate().map(planned).collect(),
+            limit_ns: None,
             notes: vec![],
             inputs: vec![],
             measure,

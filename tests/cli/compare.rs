@@ -6,7 +6,7 @@ use std::process::Stdio;
 
 use sahara::render::Picture;
 
-use super::command::{RIGHT, SQUARE, command, path_text, sahara, small, stderr, stdout, write};
+use super::command::{RIGHT, SQUARE, command, path_text, refuses, sahara, small, stderr, stdout, write};
 
 #[test]
 fn results_go_to_files_that_read_back() {
@@ -98,6 +98,34 @@ fn compare_says_who_won_and_relates_to_what_is_asked_for() {
     assert!(last.contains("median-kd:leaf=8"), "{last}");
     let help = stdout(&sahara(&["--help"]));
     assert!(help.contains("Exit status") && help.contains("documented"), "{help}");
+}
+
+#[test]
+fn tables_fit_80_columns_and_wide_ones_have_the_rest() {
+    let four = ["compare", "cube", "--rays", "400", "--epochs", "2", "--budget", "1"];
+    let directory = tempfile::tempdir().unwrap();
+    let markdown = path_text(&directory.path().join("r.md"));
+    let brief = stdout(&sahara(&[&four[..], &["--export-markdown", &markdown]].concat()));
+    let wide = stdout(&sahara(&[&four[..], &["--wide"]].concat()));
+    let columns = |text: &str| text.lines().find(|line| line.contains("structure")).unwrap().to_owned();
+    let names =
+        |text: &str| columns(text).split("  ").map(str::trim).filter(|n| !n.is_empty()).collect::<Vec<_>>().join(" ");
+    assert_eq!(names(&brief), "structure primary shadow* diffuse random x obvhs");
+    let rows = brief.lines().skip_while(|line| !line.contains("structure")).take(10);
+    assert!(rows.clone().all(|row| row.chars().count() <= 80), "{brief}");
+    for column in ["build", "peak", "memory", "tests", "steps", "checked", "sampled", "x median"] {
+        let text = fs::read_to_string(&markdown).unwrap();
+        assert!(columns(&wide).contains(column) && columns(&text).contains(column), "{column}");
+        assert!(!columns(&brief).contains(column) && !brief.contains(&format!("{column}:")), "{brief}");
+        assert!(column == "memory" || wide.contains(column) && text.contains(column), "{wide}");
+    }
+}
+
+#[test]
+fn a_quick_comparison_says_that_it_is_coarse() {
+    let text = stdout(&sahara(&["compare", "cube", "-s", "sah-kd", "-s", "sah-bvh", "--quick"]));
+    assert!(text.contains("Coarse: ") && text.trim_end().ends_with("checked rays."), "{text}");
+    refuses(&["compare", "cube", "--quick", "--epochs", "9"], &["--quick", "--epochs"]);
 }
 
 #[test]

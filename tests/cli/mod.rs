@@ -15,3 +15,4 @@ mod report;
 mod resume;
 mod study;
 mod validate;
+mod view;

@@ -7,6 +7,7 @@ use crate::measure::Estimate;
 use crate::report::number::{count, figures, plural};
 use crate::report::words::{ends, explained, interval};
 use crate::report::{Cell, Record, Table, Tone};
+use crate::study::baselines::is_obvhs;
 
 /// Speeds over all scenes: one row for each structure; a column for each workload, and one for all of them, against the
 /// first of the `references`, and one for all against each other reference.
@@ -101,8 +102,8 @@ pub struct Winner {
 
 /// The fastest structure. Nothing where no two structures have a time in all cases.
 ///
-/// The winner is held against `reference`, if that is a structure; where that is nothing or the winner itself, against
-/// the one that comes next.
+/// The winner is held against `reference`, if that is a structure; else against the better BVH of obvhs, if that is not the winner;
+/// else against the one that comes next.
 pub fn winner(records: &[Record], reference: Option<&str>) -> Option<Winner> {
     let labels = names(records, |r| &r.label);
     let of = |label: &str| -> Vec<&Record> { records.iter().filter(|r| r.label == label).collect() };
@@ -130,7 +131,12 @@ pub fn winner(records: &[Record], reference: Option<&str>) -> Option<Winner> {
     order.sort_by(|a, b| b.1.total_cmp(&a.1));
     let best = order.first()?.0;
     let next = reference.filter(|label| *label != best.as_str() && whole.iter().any(|w| w == label));
-    let next = next.or_else(|| Some(order.get(1)?.0.as_str()))?;
+    let second = order.get(1)?.0.as_str();
+    // Without a reference it is held against the better BVH of obvhs, as in the tables.
+    let others = || order.iter().map(|(label, _)| label.as_str());
+    let is_obvhs = |label: &&str| of(label).iter().all(|record| is_obvhs(&record.structure));
+    let obvhs = others().find(is_obvhs).filter(|_| reference.is_none() && !is_obvhs(&best.as_str()));
+    let next = next.or(obvhs).unwrap_or(second);
     let by = ratio(best, next)?;
 
     let over = match (names(records, |r| &r.scene).len(), names(records, |r| &r.workload).len()) {
@@ -139,7 +145,14 @@ pub fn winner(records: &[Record], reference: Option<&str>) -> Option<Winner> {
     };
     // One epoch decides nothing.
     let decided = by.interval.is_some() && !by.holds(1.0);
-    let names = if decided { best.clone() } else { format!("{best} or {next}") };
+    // Who comes second may be as fast.
+    let level =
+        if second == next { None } else { ratio(best, second).filter(|by| by.interval.is_none() || by.holds(1.0)) };
+    let names = match level {
+        Some(_) => format!("{best} or {second}"),
+        None if decided => best.clone(),
+        None => format!("{best} or {next}"),
+    };
     let told = if by.holds(1.0) {
         format!("{over}{best} and {next} cannot be told apart: {} times as many rays a second", interval(by))
     } else {
@@ -156,5 +169,6 @@ pub fn winner(records: &[Record], reference: Option<&str>) -> Option<Winner> {
         0 => String::new(),
         n => format!(" Not ranked, without a time in some of the cases: {}.", plural(n, "structure")),
     };
-    Some(Winner { names, sentence: format!("{told}; {checked}.{left}") })
+    let level = level.map_or(String::new(), |by| format!(" {second} cannot be told apart from it: {}.", interval(by)));
+    Some(Winner { names, sentence: format!("{told}; {checked}.{level}{left}") })
 }

@@ -20,7 +20,7 @@ pub use means::{Winner, mean_table, winner};
 pub use records::compared;
 pub use reference::Reference;
 pub use study::{CompareArgs, CompareStudy};
-pub use table::{legend, scene_table};
+pub use table::{brief_table, details_legend, legend, scene_table};
 
 /// What came of one scene, or of all of them one after the other.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -31,6 +31,9 @@ pub struct Compared {
     pub refused: Vec<Refused>,
     /// The structure that speeds are related to, where one was named.
     pub reference: Option<String>,
+    /// Whether tables are printed with all columns.
+    #[serde(skip)]
+    pub wide: bool,
 }
 
 impl Compared {

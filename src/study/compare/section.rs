@@ -1,6 +1,6 @@
 //! Speed of all structures: bars with intervals against the report's tree, tables beside.
 
-use super::{Reference, legend, mean_table, scene_table, speed, twins};
+use super::{Reference, details_legend, legend, mean_table, scene_table, speed, twins};
 use crate::measure::Estimate;
 use crate::report::document::{Art, Block, Figure};
 use crate::report::number::count;
@@ -33,7 +33,8 @@ pub fn blocks(records: &[Record], command: &str) -> Vec<Block> {
     order.sort_by_key(|records| std::cmp::Reverse(records[0].triangles));
     let rest = order.split_off(order.len().min(OPEN));
     blocks.extend(order.iter().flat_map(|records| of_scene(records)));
-    blocks.extend(legend(&records[0].workload, &references).into_iter().map(Block::Note));
+    let legends = details_legend(&records[0].workload).into_iter().chain(legend(records, &references));
+    blocks.extend(legends.map(Block::Note));
     if !rest.is_empty() {
         let name = format!("The other {} scenes", rest.len());
         blocks.push(Block::Fold(name, rest.iter().flat_map(|records| of_scene(records)).collect()));

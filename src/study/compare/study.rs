@@ -2,16 +2,19 @@
 
 use serde_json::Value;
 
-use super::{Compared, compared, legend, mean_table, scene_table, section, winner};
+use super::{
+    Compared, Reference, brief_table, compared, details_legend, legend, mean_table, scene_table, section, winner,
+};
 use crate::measure::{Provenance, instructions};
 use crate::registry::{Choice, Registry};
 use crate::report::document::Block;
+use crate::report::words::distinct;
 use crate::report::{Record, Table, to_csv, to_json};
 use crate::scene::{Scene, WorkloadKind};
 use crate::study::args::{Measuring, Scenes, Structures, WORKLOADS, with_twin};
 use crate::study::epoch::{Asked, Epoch, Settings, troubles};
 use crate::study::{
-    Context, Data, Effort, Plan, RaySource, Refused, SceneId, Study, Trouble, ViewArgs, replayed, sources,
+    Context, Data, Effort, Plan, Printed, RaySource, Refused, SceneId, Study, Trouble, ViewArgs, replayed, sources,
 };
 
 /// The study.
@@ -38,7 +41,18 @@ pub struct CompareArgs {
     pub rays: RaySource,
     #[command(flatten)]
     pub measuring: Measuring<4, 1, 2>,
+    /// A coarse answer within seconds: up to three epochs of few rays, and no further one of a scene that has taken 2 s
+    #[arg(long, conflicts_with_all = ["epochs", "runs", "budget", "rays"])]
+    pub quick: bool,
+    /// Print all columns: of builds, memory, tests, steps, checks, and ratios to both references
+    #[arg(long)]
+    pub wide: bool,
 }
+
+/// Epochs and rays of a quick run, and after how long no further epoch of a scene is begun.
+const QUICK_EPOCHS: u16 = 3;
+const QUICK_RAYS: usize = 1 << 14;
+const QUICK_NS: u64 = 2_000_000_000;
 
 /// A structure that takes more than so many times as long as the median one is timed on fewer rays: its ratios hardly
 /// gain from more of them, and the run would be about it alone.
@@ -72,7 +86,8 @@ impl CompareArgs {
             None => {
                 let kinds = if self.workload.is_empty() { WORKLOADS.into() } else { self.workload.clone() };
                 let scenes = self.scenes.read(&[])?.into_iter().map(|scene| self.from.of(scene));
-                (scenes.collect::<anyhow::Result<_>>()?, Asked::Kinds(kinds, self.rays.count()))
+                let rays = if self.quick { QUICK_RAYS } else { self.rays.count() };
+                (scenes.collect::<anyhow::Result<_>>()?, Asked::Kinds(kinds, rays))
             }
         };
         let settings = self.measuring.settings(registry, with_twin(structures), asked)?;
@@ -97,7 +112,7 @@ impl Study for CompareStudy {
     fn args(effort: Effort) -> CompareArgs {
         let (scenes, rays) = match effort {
             Effort::Full => (Scenes::default(), usize::MAX),
-            Effort::Quick => (Scenes::named(&["cube", "torus"]), 1024),
+            Effort::Quick => (Scenes::named(&["cube", "torus"]), QUICK_RAYS),
         };
         CompareArgs {
             scenes,
@@ -107,6 +122,8 @@ impl Study for CompareStudy {
             workload: vec![],
             rays: RaySource::Count(rays),
             measuring: Measuring::of(effort),
+            quick: false,
+            wide: false,
         }
     }
 
@@ -114,7 +131,15 @@ impl Study for CompareStudy {
         let (mut scenes, settings) = args.settings(registry)?;
         scenes.sort_by_key(|scene| scene.mesh.len());
         let inputs = args.scenes.files().into_iter().chain(args.rays.file().map(Into::into)).collect();
-        Ok(Plan { inputs, ..settings.plan(scenes, args.measuring.epochs).scene_by_scene() })
+        let epochs = if args.quick { QUICK_EPOCHS } else { args.measuring.epochs };
+        let mut plan = Plan { inputs, ..settings.plan(scenes, epochs).scene_by_scene() };
+        if args.quick {
+            plan.limit_ns = Some(QUICK_NS);
+            plan.notes.push(
+                "Coarse: few epochs of few rays, so that intervals are wide. Without --quick it is measured.".into(),
+            );
+        }
+        Ok(plan)
     }
 
     fn answer(cases: &[Epoch], context: &Context<Self>) -> Compared {
@@ -125,45 +150,38 @@ impl Study for CompareStudy {
             let known = compared.records.iter().find(|r| r.label.eq_ignore_ascii_case(&spec));
             known.map_or(spec, |record| record.label.clone())
         });
-        Compared { reference: label, ..compared }
+        let wide = context.args.is_some_and(|args| args.wide);
+        Compared { reference: label, wide, ..compared }
     }
 
     fn tables(answer: &Compared) -> Vec<Table> {
-        let mut scenes: Vec<&str> = vec![];
-        let all = answer.records.iter().map(|r| &r.scene).chain(answer.refused.iter().map(|r| &r.scene));
-        all.for_each(|scene| {
-            if !scenes.contains(&scene.as_str()) {
-                scenes.push(scene)
-            }
-        });
-        let table = |scene: &&str| {
-            let records: Vec<Record> = answer.records.iter().filter(|r| r.scene == *scene).cloned().collect();
-            let refused: Vec<Refused> = answer.refused.iter().filter(|r| r.scene == *scene).cloned().collect();
-            let mut table = scene_table(&records, &answer.references(&records), &refused);
-            if records.is_empty() {
-                table.title = format!("{scene}: every structure is refused, or no ray is left");
-            }
-            table
-        };
-        scenes.iter().map(table).collect()
+        tables(answer, scene_table)
     }
 
     fn summary(answer: &Compared) -> Vec<Table> {
-        let several = answer.records.iter().any(|r| r.scene != answer.records[0].scene);
-        let means = several.then(|| mean_table(&answer.records, &answer.references(&answer.records)));
-        means.into_iter().filter(Table::says_something).collect()
+        summary(answer, &answer.references(&answer.records))
     }
 
     fn legend(answer: &Compared) -> Vec<String> {
         let records = &answer.records;
-        let Some(first) = records.first() else {
-            return vec!["None of the workloads asked for has a ray in these scenes.".into()];
-        };
-        let mut legend = legend(&first.workload, &answer.references(records));
+        let Some(first) = records.first() else { return vec![NO_RAYS.into()] };
+        let mut all = details_legend(&first.workload);
+        all.extend(legend(records, &answer.references(records)));
         if records.iter().all(|r| r.instructions_per_ray.is_none()) {
-            legend.push(instructions::ABSENT.into());
+            all.push(instructions::ABSENT.into());
         }
-        legend
+        all
+    }
+
+    fn printed(answer: &Compared) -> Printed {
+        if answer.wide {
+            let (tables, summary) = (Self::tables(answer), Self::summary(answer));
+            return Printed { tables, summary, legend: Self::legend(answer) };
+        }
+        let references = answer.references(&answer.records);
+        let last = &references[references.len().saturating_sub(1)..];
+        let legend = if answer.records.is_empty() { vec![NO_RAYS.into()] } else { legend(&answer.records, last) };
+        Printed { tables: tables(answer, brief_table), summary: summary(answer, last), legend }
     }
 
     fn remarks(answer: &Compared) -> Vec<String> {
@@ -218,4 +236,28 @@ impl Study for CompareStudy {
     fn scenes(answer: &Compared) -> Vec<SceneId> {
         answer.records.iter().map(SceneId::of).collect()
     }
+}
+
+const NO_RAYS: &str = "None of the workloads asked for has a ray in these scenes.";
+
+/// The tables of all scenes, each made by `table`.
+fn tables(answer: &Compared, table: impl Fn(&[Record], &[Reference], &[Refused]) -> Table) -> Vec<Table> {
+    let scenes = distinct(answer.records.iter().map(|r| &r.scene).chain(answer.refused.iter().map(|r| &r.scene)));
+    let of = |scene: &String| {
+        let records: Vec<Record> = answer.records.iter().filter(|r| r.scene == *scene).cloned().collect();
+        let refused: Vec<Refused> = answer.refused.iter().filter(|r| r.scene == *scene).cloned().collect();
+        let mut table = table(&records, &answer.references(&records), &refused);
+        if records.is_empty() {
+            table.title = format!("{scene}: every structure is refused, or no ray is left");
+        }
+        table
+    };
+    scenes.iter().map(of).collect()
+}
+
+/// Means over scenes, where there are several.
+fn summary(answer: &Compared, references: &[Reference]) -> Vec<Table> {
+    let several = answer.records.iter().any(|r| r.scene != answer.records[0].scene);
+    let means = several.then(|| mean_table(&answer.records, references));
+    means.into_iter().filter(Table::says_something).collect()
 }

@@ -9,27 +9,45 @@ use crate::report::{Cell, Record, Table, Tone};
 use crate::study::Refused;
 use crate::study::baselines::documented_defect;
 
-/// What the columns mean, once for all tables of [`scene_table`]. `first` is the first workload.
-pub fn legend(first: &str, references: &[Reference]) -> Vec<String> {
-    let columns: Vec<String> = references.iter().map(|reference| format!("x {}", reference.name())).collect();
-    let against: Vec<String> = references.iter().map(|reference| format!("against {}", reference.words())).collect();
-    let (columns, against) = (columns.join(", "), listed(&against));
+/// The columns that are printed where all of them are asked for.
+const DETAILS: [&str; 8] = ["build", "peak", "memory", "tests", "steps", "instructions", "checked", "sampled"];
+
+/// What of [`scene_table`] fits 80 columns and matters first: times, and the ratios to the last of the references.
+pub fn brief_table(records: &[Record], references: &[Reference], refused: &[Refused]) -> Table {
+    scene_table(records, &references[references.len().saturating_sub(1)..], refused).without_columns(&DETAILS)
+}
+
+/// What the [details](brief_table) mean; `first` is the first workload.
+pub fn details_legend(first: &str) -> Vec<String> {
     vec![
         format!(
             "build: seen from outside, median over epochs; peak: most memory held during a build. tests, steps: triangle tests and \
              nodes entered for each {first} ray."
         ),
-        "Under each workload: million rays a second, median, on one thread a second that the thread has a core for; n/m wrong: wrong answers to n of m rays, and then no time. \
-         A workload with a star is timed by any hit, the others by closest hit."
-            .into(),
-        format!(
-            "{columns}: speed {against}, geometric mean over the workloads of the row, on rays that both were timed on, with the interval \
-             that holds the ratio of another run in 95 % of cases; the A/A noise (of one structure built and timed as two) is in it. \
-             =: not distinguishable from 1, each ratio looked at alone. Blank: unknown."
-        ),
         "checked: least number of rays of a workload held against brute force with the same triangle test. sampled: \
-         least share of a workload's rays that was timed; all would take too long."
+         least share of a workload's rays that was timed; all would take too long. Blank: unknown."
             .into(),
+    ]
+}
+
+/// What the other columns of the tables of these records mean, once for all tables.
+pub fn legend(records: &[Record], references: &[Reference]) -> Vec<String> {
+    let columns: Vec<String> = references.iter().map(|reference| format!("x {}", reference.name())).collect();
+    let against: Vec<String> = references.iter().map(|reference| format!("against {}", reference.words())).collect();
+    let (columns, against) = (columns.join(", "), listed(&against));
+    let mut speeds = "Under each kind of rays: million rays a second, median".to_owned();
+    if records.iter().any(|r| r.structure_errors > Some(0)) {
+        speeds += "; n/m wrong: wrong answers to n of m rays, and then no time";
+    }
+    if records.iter().any(|r| r.query == Query::Any) {
+        speeds += "; *: timed by any hit, the others by closest hit";
+    }
+    vec![
+        speeds + ".",
+        format!(
+            "{columns}: speed {against}, geometric mean over the row on the same rays, with the interval that holds the ratio of another \
+             run in 95 % of cases; =: not distinguishable from 1."
+        ),
     ]
 }
 
@@ -87,7 +105,9 @@ pub fn scene_table(records: &[Record], references: &[Reference], refused: &[Refu
     rows.extend(refused.iter().map(|refused| {
         let mut row = vec![Cell::blank(); columns.len()];
         row[0] = refused.label.as_str().into();
-        row[1] = Cell::from("refused").with(Tone::Wrong);
+        // In the first of the columns that are always printed.
+        let times = columns.len() - workloads.len() - references.len() - 2;
+        row[times] = Cell::from("refused").with(Tone::Wrong);
         row
     }));
 

@@ -56,6 +56,7 @@ pub fn plan<C: 'static>(
     Plan {
         settings: settings_map(&settings[0].kept()),
         threads: settings[0].threads.clone(),
+        limit_ns: None,
         notes: notes.collect(),
         inputs: vec![],
         cases,

@@ -1,4 +1,4 @@
-use super::super::{mean_table as mean_table_of, winner};
+use super::super::{Winner, mean_table as mean_table_of, winner};
 use super::*;
 use crate::report::example_record;
 
@@ -138,7 +138,7 @@ fn without_the_usual_references_the_first_structure_is_the_reference() {
     assert_eq!([cell(&table, "sah-bvh", "x sah-kd"), cell(&table, "sah-kd", "x sah-kd")], ["2.00", "1.00"]);
     let named = super::scene_table(&records, &Reference::of(&records, Some("sah-bvh")), &[]);
     assert_eq!(cell(&named, "sah-kd", "x sah-bvh"), "0.500");
-    assert!(legend("primary", &Reference::of(&records, None)).iter().any(|line| line.starts_with("x sah-kd: ")));
+    assert!(legend(&records, &Reference::of(&records, None)).iter().any(|line| line.starts_with("x sah-kd: ")));
 }
 
 #[test]
@@ -169,6 +169,18 @@ fn the_last_line_says_who_won_by_how_much() {
     assert_eq!(said, text);
     let against = winner(&records(), Some("median-kd")).unwrap().sentence;
     assert!(against.contains("sah-kd answers 4.00 times as many rays a second as median-kd [4.00, 4.00]"), "{against}");
+    // Without a reference the rival is the better BVH of obvhs, and whoever is as fast as the winner is named.
+    let mut level = records();
+    let samples = |shift: f64| [0.0, 0.01, -0.01, 0.005, 0.0].map(|x: f64| 1e5 * (1.0 + x * shift)).to_vec();
+    for (i, workload) in ["primary", "random"].into_iter().enumerate() {
+        level[2 + i].samples_ns = samples(1.0);
+        level.push(Record { samples_ns: samples(-1.0), ..record("A", "sah-bvh", workload, level[2 + i].mrays_per_s) });
+    }
+    level.iter_mut().for_each(|record| record.samples_ns.truncate(5));
+    let Winner { names, sentence } = winner(&level, None).unwrap();
+    assert!(names.contains("sah-kd") && names.contains(" or ") && names.contains("sah-bvh"), "{names}");
+    assert!(sentence.contains("times as many rays a second as obvhs-cwbvh ["), "{sentence}");
+    assert!(sentence.contains(" cannot be told apart from it: 1.00 ["), "{sentence}");
     // The winner itself is no rival of its own.
     assert_eq!(winner(&records(), Some("sah-kd")).unwrap().sentence, text);
     // What has no time in a case takes no part, and what is alone has not won.

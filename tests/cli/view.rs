@@ -1,0 +1,59 @@
+//! `--camera`, `--inside` and `--size` mean the same in all commands that look at a scene.
+
+use std::fs;
+use std::path::Path;
+
+use sahara::render::Picture;
+use serde_json::Value;
+use tempfile::TempDir;
+
+use super::command::{path_text, prints, refuses, refuses_in_a_line, write};
+
+/// A closed room, longer than it is wide.
+fn room(folder: &TempDir) -> String {
+    let corner = |i: usize| format!("v {} {} {}\n", [-1, 1][i & 1], [0, 2][i >> 1 & 1], [-3, 3][i >> 2]);
+    let walls = "f 1 2 4 3\nf 5 7 8 6\nf 1 5 6 2\nf 3 4 8 7\nf 1 3 7 5\nf 2 6 8 4\n";
+    write(folder, "room.obj", &((0..8).map(corner).collect::<String>() + walls))
+}
+
+const PRIMARY: [&str; 10] = ["-s", "sah-kd", "-w", "primary", "--epochs", "1", "--budget", "1", "--size", "20x10"];
+
+#[test]
+fn a_room_is_seen_from_outside_and_says_so_or_from_inside() {
+    let folder = TempDir::new().unwrap();
+    let (room, json) = (room(&folder), path_text(&folder.path().join("r.json")));
+    let compared = |view: &[&str]| {
+        let text = prints(&[&["compare", &room], &PRIMARY[..], &["--export-json", &json], view].concat());
+        let records: Value = serde_json::from_slice(&fs::read(&json).unwrap()).unwrap();
+        let number = |field: &str| records[0][field].as_u64().unwrap();
+        (text.contains("seen from outside"), number("workload_rays"), number("hits"))
+    };
+    let (says, rays, hits) = compared(&[]);
+    assert!(says && rays == 200 && hits < 200, "{hits}");
+    // Every ray meets a wall.
+    assert_eq!(compared(&["--inside"]), (false, 200, 200));
+    assert_eq!(compared(&["--camera", "0,1,0 0,1,3 60"]), (false, 200, 200));
+    let (says, _, hits) = compared(&["--camera", "0,1,9 0,1,20"]);
+    assert!(!says && hits == 0, "it looks away");
+}
+
+#[test]
+fn validate_counts_and_render_look_from_there_as_well() {
+    let folder = TempDir::new().unwrap();
+    let (room, picture) = (room(&folder), path_text(&folder.path().join("p.png")));
+    let inside = [&room, "-s", "sah-kd", "--inside", "--size", "20x10"];
+    let validated = prints(&[&["validate"], &inside[..], &["--rays", "600"]].concat());
+    let outside = prints(&["validate", &room, "-s", "sah-kd", "--size", "20x10", "--rays", "600"]);
+    assert!(!validated.contains("seen from outside") && outside.contains("seen from outside"), "{outside}");
+    let counted = prints(&[&["study", "counts"], &inside[..], &["-w", "primary"]].concat());
+    assert!(!counted.contains("seen from outside"), "{counted}");
+    prints(&[&["render"], &inside[..], &["-o", &picture, "--view", "primitive"]].concat());
+    let picture = Picture::read(Path::new(&picture)).unwrap();
+    assert_eq!(picture.size(), [20, 10]);
+
+    refuses(&["compare", &room, "--inside", "--camera", "0,1,0 0,1,3"], &["--inside", "--camera"]);
+    refuses(&["validate", &room, "--size", "20"], &["WIDTHxHEIGHT"]);
+    refuses_in_a_line(&["study", "counts", &room, "--camera", "0,1,0 0,1,0"], &["--camera", "same point"]);
+    let point = write(&folder, "point.obj", "v 1 2 3\nv 1 2 3\nv 1 2 3\nf 1 2 3\n");
+    refuses_in_a_line(&["compare", &point, "--inside"], &["--inside", "same point"]);
+}
