@@ -1,13 +1,16 @@
 //! `report`.
 
-use std::path::PathBuf;
+use std::fs;
+use std::path::{Path, PathBuf};
 
 use super::Suite;
 use super::progress::Progress;
 use super::study::RUNS;
 use super::terminal::Terminal;
+use crate::output::OutputFile;
+use crate::page::results::{self, Results};
 use crate::page::{ReportFolder, Runs, document, draw, files, left_out};
-use crate::study::{Status, sources};
+use crate::study::{Status, Studies, sources};
 
 #[derive(Debug, clap::Args)]
 pub struct Args {
@@ -15,20 +18,25 @@ pub struct Args {
     #[arg(value_name = "RUN")]
     runs: Vec<PathBuf>,
     /// Folder for the page, Markdown, LaTeX, figures and data; an older report there is replaced
-    #[arg(long, short, value_name = "DIR")]
-    output: PathBuf,
+    #[arg(long, short, value_name = "DIR", required_unless_present = "results")]
+    output: Option<PathBuf>,
+    /// Write the findings of one run as a short paper into this folder, RESULTS.md, its figures and results.json, and fill in
+    /// the numbers of the README.md beside the folder, where that has marks for them
+    #[arg(long, value_name = "DIR", num_args = 0..=1, require_equals = true, default_missing_value = "papers")]
+    results: Option<PathBuf>,
     /// Leave out what must be drawn first: thumbnails of the scenes, and heat maps
     #[arg(long)]
     no_pictures: bool,
 }
 
 pub fn run(suite: &Suite, args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
-    let folder = ReportFolder::check(&args.output)?;
+    let folder = args.output.as_deref().map(ReportFolder::check).transpose()?;
+    let results = args.results.as_deref().map(ResultsFolder::check).transpose()?;
     let paths = if args.runs.is_empty() { vec![PathBuf::from(RUNS)] } else { args.runs.clone() };
     let runs = Runs::read(&paths, &suite.studies)?;
 
     let mut pictures = left_out();
-    if !args.no_pictures {
+    if folder.is_some() && !args.no_pictures {
         let scenes = runs.scenes(&suite.studies).len() as u64;
         let mut progress = Progress::over(scenes, terminal);
         pictures = draw(&runs, (&suite.registry, &suite.studies), &|name| sources::scene(name).ok(), &mut |name| {
@@ -36,8 +44,13 @@ pub fn run(suite: &Suite, args: &Args, terminal: &Terminal) -> anyhow::Result<St
         });
         progress.finish();
     }
-    let document = document(&runs, &suite.studies, pictures);
-    folder.write(&files(&document, &runs, &suite.studies))?;
+    let document = document(&runs, &suite.studies, if folder.is_some() { pictures } else { vec![] });
+    if let Some(results) = &results {
+        results.write(Results::new(&document, &runs, &suite.studies)?, &suite.studies)?;
+    }
+    if let Some(folder) = &folder {
+        folder.write(&files(&document, &runs, &suite.studies))?;
+    }
 
     if !document.answer.banner.is_empty() {
         terminal.print_lines(std::slice::from_ref(&document.answer.banner))?;
@@ -49,6 +62,55 @@ pub fn run(suite: &Suite, args: &Args, terminal: &Terminal) -> anyhow::Result<St
     for missing in document.missing() {
         terminal.print(&format!("not measured: {}: {}\n", missing.what, missing.command))?;
     }
-    terminal.print(&format!("{}\n", folder.path().join("index.html").display()))?;
+    let written = folder.iter().map(|folder| folder.path().join("index.html"));
+    for path in written.chain(results.iter().flat_map(ResultsFolder::paths)) {
+        terminal.print(&format!("{}\n", path.display()))?;
+    }
     Ok(Status::Right)
+}
+
+/// Where the paper goes, with what is beside it.
+struct ResultsFolder {
+    figures: ReportFolder,
+    paper: OutputFile,
+    data: OutputFile,
+    /// With its text.
+    readme: Option<(OutputFile, String)>,
+}
+
+impl ResultsFolder {
+    /// Checks that all files can be written.
+    fn check(folder: &Path) -> anyhow::Result<Self> {
+        anyhow::ensure!(
+            folder.is_dir(),
+            "there is no folder {}: make it, or name another one with --results=DIR",
+            folder.display()
+        );
+        let readme = folder.canonicalize()?.parent().map(|parent| parent.join("README.md"));
+        let readme = readme.and_then(|path| Some((fs::read_to_string(&path).ok()?, path)));
+        let readme = readme.filter(|(text, _)| text.contains(results::OPEN));
+        Ok(Self {
+            figures: ReportFolder::check(&folder.join(results::FIGURES))?,
+            paper: OutputFile::check(&folder.join(results::PAPER))?,
+            data: OutputFile::check(&folder.join(results::DATA))?,
+            readme: readme.map(|(text, path)| anyhow::Ok((OutputFile::check(&path)?, text))).transpose()?,
+        })
+    }
+
+    /// Writes README last: its numbers are those of the data.
+    fn write(&self, mut results: Results, studies: &Studies) -> anyhow::Result<()> {
+        let filled = self.readme.as_ref().map(|(_, text)| results.fill(text, studies)).transpose()?;
+        self.figures.write(&results.figures)?;
+        self.paper.write(results.paper.as_bytes())?;
+        self.data.write(&results.json())?;
+        if let (Some((file, _)), Some(text)) = (&self.readme, filled) {
+            file.write(text.as_bytes())?;
+        }
+        Ok(())
+    }
+
+    fn paths(&self) -> Vec<PathBuf> {
+        let files = [&self.paper, &self.data].into_iter().chain(self.readme.iter().map(|(file, _)| file));
+        files.map(|file| file.path().to_path_buf()).collect()
+    }
 }

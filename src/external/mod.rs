@@ -10,6 +10,9 @@
 //! - **Triangles without area** are left out, as for all structures; an empty scene is answered without asking the peer.
 //! - **Conventions** that differ from the contract are declared ([`Accel::CONVENTIONS`](crate::accel::Accel::CONVENTIONS)),
 //!   shown by `sahara list` and told apart from errors.
+//!
+//! # Peers
+#![doc = include_str!("PEERS.md")]
 
 #[cfg(feature = "peer-bvh")]
 pub mod bvh;

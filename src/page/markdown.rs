@@ -1,7 +1,7 @@
 //! The report as Markdown, with pictures beside it.
 
 use crate::report::document::{Art, Block, Document, Figure};
-use crate::report::escaped;
+use crate::report::{escaped, wrapped};
 
 /// The text of the file.
 pub fn markdown(document: &Document) -> String {
@@ -14,7 +14,7 @@ pub fn markdown(document: &Document) -> String {
         text += &format!("- {}: **{}** {}\n", escaped(&number.label), escaped(&number.number), number.interval);
     }
     for sentence in &document.answer.sentences {
-        text += &format!("\n{}\n", escaped(sentence));
+        text += &format!("\n{}\n", prose(sentence));
     }
     for section in &document.sections {
         text += &format!("\n## {}\n\n", escaped(section.title));
@@ -23,10 +23,12 @@ pub fn markdown(document: &Document) -> String {
     text
 }
 
-fn blocks(list: &[Block], text: &mut String) {
+pub fn blocks(list: &[Block], text: &mut String) {
     for block in list {
         match block {
-            Block::Text(words) | Block::Note(words) => *text += &format!("{}\n\n", escaped(words)),
+            Block::Text(words) | Block::Note(words) => {
+                *text += &format!("{}\n\n", wrapped(&prose(words), 120).join("\n"))
+            }
             Block::Table(tabular) => {
                 *text += &tabular.table.to_markdown();
                 *text += &command(&tabular.command);
@@ -44,7 +46,8 @@ fn blocks(list: &[Block], text: &mut String) {
 }
 
 fn figure(figure: &Figure, text: &mut String) {
-    let mut image = |alt: &str, path: &str| *text += &format!("![{}]({path})\n", escaped(alt).replace(['[', ']'], ""));
+    let mut image =
+        |alt: &str, path: &str| *text += &format!("![{}]({path})\n", escaped(alt).replace('[', "(").replace(']', ")"));
     match &figure.art {
         Art::Chart(_) => image(&figure.alt, &format!("figures/{}.svg", figure.id)),
         Art::Gallery(pictures) => {
@@ -54,9 +57,22 @@ fn figure(figure: &Figure, text: &mut String) {
             overlay.pictures.iter().enumerate().for_each(|(i, p)| image(&p.alt, &figure.picture_path(i)));
         }
     }
-    *text += &format!("\n{}\n{}", escaped(&figure.caption), command(&figure.command));
+    *text += &format!("\n{}\n{}", prose(&figure.caption), command(&figure.command));
 }
 
 fn command(command: &str) -> String {
     if command.is_empty() { "\n".into() } else { format!("\n```console\n{command}\n```\n\n") }
+}
+
+/// A sentence as Markdown: what stands between backticks is code, `**` is strong, and all else is text.
+pub fn prose(text: &str) -> String {
+    let pieces = text.split('`').collect::<Vec<_>>();
+    if pieces.len().is_multiple_of(2) {
+        return escaped(text);
+    }
+    let of = |(i, piece): (usize, &&str)| match i % 2 {
+        1 => format!("`{piece}`"),
+        _ => piece.split("**").map(escaped).collect::<Vec<_>>().join("**"),
+    };
+    pieces.iter().enumerate().map(of).collect()
 }

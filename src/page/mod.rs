@@ -10,6 +10,7 @@ mod html;
 mod latex;
 mod markdown;
 mod pictures;
+pub mod results;
 mod runs;
 mod sections;
 #[cfg(test)]

@@ -194,7 +194,9 @@ fn heat_figure(shown: &Shown, runs: &Runs, registry: &Registry) -> Option<Figure
             if Builtin::find(&shown.argument).is_ok() { shown.argument.to_lowercase() } else { shown.argument.clone() }
         ),
         art: Art::Overlay(Overlay {
+            heading: name.clone(),
             pictures,
+            ramp_title: "Triangle tests and steps of a camera ray:".into(),
             ramp: (0..=16).map(|i| hex(heat_colour(libm::round(at(i)) as u64, scale))).collect(),
             ticks: ticks.chain([(1.0, count(scale))]).collect(),
         }),

@@ -20,7 +20,7 @@ fn document(runs: &Runs, pictures: Vec<Section>) -> Document {
 /// What a user may call a scene.
 const EVIL: &str = "<script>alert(\"&'1'\")</script>";
 
-fn provenance(command: &str) -> Provenance {
+pub(super) fn provenance(command: &str) -> Provenance {
     Provenance {
         command: command.into(),
         commit: "c0ffee".into(),
@@ -48,7 +48,7 @@ fn record(scene: &str, label: &str, workload: &str, ns: f64) -> Record {
     }
 }
 
-fn records(scene: &str) -> Vec<Record> {
+pub(super) fn records_of(scene: &str) -> Vec<Record> {
     ["primary", "shadow"]
         .iter()
         .flat_map(|workload| {
@@ -121,7 +121,7 @@ fn curves(scene: &str) -> [(&'static str, Vec<u8>); 4] {
     ]
 }
 
-fn folder(files: &[(&str, Vec<u8>)]) -> tempfile::TempDir {
+pub(super) fn runs_folder(files: &[(&str, Vec<u8>)]) -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     for (name, bytes) in files {
         fs::write(folder.path().join(name), bytes).unwrap();
@@ -134,18 +134,18 @@ fn refused(paths: &[PathBuf]) -> super::RunError {
     Runs::read(paths, &Studies::builtin()).err().expect("it cannot be read")
 }
 
-fn read(folder: &Path) -> Runs {
+pub(super) fn read(folder: &Path) -> Runs {
     Runs::read(&[folder.to_path_buf()], &Studies::builtin()).unwrap()
 }
 
 /// Everything there is, from a scene called `scene`.
 fn whole(scene: &str) -> (Document, Runs) {
     let files = [
-        ("compare.json", to_json(&records(scene))),
+        ("compare.json", to_json(&records_of(scene))),
         ("accuracy.jsonl", accuracy(scene)),
         ("attribution.jsonl", attribution_journal(scene).into_bytes()),
     ];
-    let runs = read(folder(&[&files[..], &curves(scene)].concat()).path());
+    let runs = read(runs_folder(&[&files[..], &curves(scene)].concat()).path());
     let thumbnail = |name: &str| Thumbnail {
         name: name.into(),
         note: "12 triangles".into(),
@@ -162,6 +162,8 @@ fn whole(scene: &str) -> (Document, Runs) {
         data: Table::default(),
     };
     let overlay = Overlay {
+        heading: scene.into(),
+        ramp_title: "Work".into(),
         pictures: vec![thumbnail(scene), thumbnail("b")],
         ramp: vec!["#000000".into(), "#ffffff".into()],
         ticks: vec![(0.0, "0".into()), (1.0, "10".into())],
@@ -182,7 +184,7 @@ fn whole(scene: &str) -> (Document, Runs) {
 }
 
 /// [`whole`] of an ordinary scene, made once.
-fn cube() -> &'static (Document, Runs) {
+pub(super) fn cube() -> &'static (Document, Runs) {
     static CUBE: OnceLock<(Document, Runs)> = OnceLock::new();
     CUBE.get_or_init(|| whole("Cube"))
 }
@@ -243,8 +245,8 @@ fn every_figure_has_a_caption_a_command_and_words_for_those_who_do_not_see() {
 
 #[test]
 fn scenes_of_much_the_same_name_have_figures_of_their_own() {
-    let both = [records("a b"), records("a-b")].concat();
-    let document = document(&read(folder(&[("compare.json", to_json(&both))]).path()), vec![]);
+    let both = [records_of("a b"), records_of("a-b")].concat();
+    let document = document(&read(runs_folder(&[("compare.json", to_json(&both))]).path()), vec![]);
     let ids: Vec<&str> = document.figures().into_iter().map(|figure| figure.id.as_str()).collect();
     assert_eq!(ids, ["speed-a-b", "speed-a-b-v2"]);
 }
@@ -262,7 +264,7 @@ fn the_same_runs_give_the_same_page() {
 
 #[test]
 fn a_part_that_is_not_there_is_named_with_its_command() {
-    let runs = read(folder(&[("compare.json", to_json(&records("Dragon")))]).path());
+    let runs = read(runs_folder(&[("compare.json", to_json(&records_of("Dragon")))]).path());
     let whole = document(&runs, vec![]);
     assert_eq!(whole.answer.verdict, "Yes, on Dragon");
     assert_eq!(whole.answer.numbers[0].number, "8.00 ×");
@@ -273,16 +275,16 @@ fn a_part_that_is_not_there_is_named_with_its_command() {
     let page = page(&whole);
     assert!(missing.iter().all(|command| page.contains(&command.replace('/', "&#x2f;"))));
 
-    let attributed = folder(&[("attribution.jsonl", attribution_journal("Lucy").into_bytes())]);
+    let attributed = runs_folder(&[("attribution.jsonl", attribution_journal("Lucy").into_bytes())]);
     let answer = document(&read(attributed.path()), vec![]).answer;
     assert_eq!((answer.verdict.as_str(), answer.numbers.len()), ("Yes, on Lucy", 1));
 
-    let nothing = document(&read(folder(&[("a.jsonl", accuracy("Cube"))]).path()), vec![]);
+    let nothing = document(&read(runs_folder(&[("a.jsonl", accuracy("Cube"))]).path()), vec![]);
     assert_eq!(nothing.answer.verdict, "Not measured");
     assert_eq!(nothing.sections.len(), 2, "the study that was measured, and where its numbers come from");
 
     // A comparison of other scenes leads with what it has measured.
-    let own = document(&read(folder(&[("compare.json", to_json(&records("Cube")))]).path()), vec![]);
+    let own = document(&read(runs_folder(&[("compare.json", to_json(&records_of("Cube")))]).path()), vec![]);
     assert_eq!(own.title, "Which structure is the fastest on Cube?");
     assert!(own.answer.sentences[0].contains(own.answer.verdict.split(' ').next().unwrap()), "{:?}", own.answer);
     assert!(own.answer.sentences.last().unwrap().contains("sahara replicate"), "{:?}", own.answer);
@@ -290,11 +292,11 @@ fn a_part_that_is_not_there_is_named_with_its_command() {
 
 #[test]
 fn the_newest_run_of_a_scene_counts_and_the_older_one_is_said_to_be_replaced() {
-    let older = folder(&[("old.json", to_json(&[records("Dragon"), records("Cube")].concat()))]);
+    let older = runs_folder(&[("old.json", to_json(&[records_of("Dragon"), records_of("Cube")].concat()))]);
     std::thread::sleep(std::time::Duration::from_millis(20));
-    let mut newer = records("Dragon");
+    let mut newer = records_of("Dragon");
     newer.iter_mut().for_each(|record| record.build_ns = 77);
-    let newer = folder(&[("new.json", to_json(&newer))]);
+    let newer = runs_folder(&[("new.json", to_json(&newer))]);
     // In whatever order they are named.
     for order in [[&older, &newer], [&newer, &older]] {
         let runs = Runs::read(&order.map(|folder| folder.path().to_path_buf()), &Studies::builtin()).unwrap();
@@ -307,7 +309,7 @@ fn the_newest_run_of_a_scene_counts_and_the_older_one_is_said_to_be_replaced() {
 
 #[test]
 fn what_cannot_be_read_is_one_sentence() {
-    let whole = to_json(&records("Cube"));
+    let whole = to_json(&records_of("Cube"));
     let torn = whole[..whole.len() / 2].to_vec();
     let journal = attribution_journal("Cube");
     let other = journal.replacen("\"attribution\"", "\"astrology\"", 1);
@@ -323,7 +325,7 @@ fn what_cannot_be_read_is_one_sentence() {
         ("broken.jsonl", broken.into_bytes(), "line 2"),
     ];
     for (name, bytes, part) in cases {
-        let folder = folder(&[(name, bytes)]);
+        let folder = runs_folder(&[(name, bytes)]);
         let error = refused(&[folder.path().join(name)]).to_string();
         assert!(error.contains(name) && error.contains(part) && error.lines().count() == 1, "{error}");
     }
@@ -335,8 +337,10 @@ fn what_cannot_be_read_is_one_sentence() {
 
 #[test]
 fn what_is_no_run_is_left_out_of_a_folder_and_named() {
-    let folder =
-        folder(&[("compare.json", to_json(&records("Cube"))), ("notes.json", b"[{\"claim\": \"x\"}]".to_vec())]);
+    let folder = runs_folder(&[
+        ("compare.json", to_json(&records_of("Cube"))),
+        ("notes.json", b"[{\"claim\": \"x\"}]".to_vec()),
+    ]);
     let runs = read(folder.path());
     assert_eq!(runs.records().len(), 6);
     let mut left_out: Vec<&str> =
@@ -350,7 +354,7 @@ fn what_is_no_run_is_left_out_of_a_folder_and_named() {
 #[test]
 fn a_journal_that_is_being_written_is_read_as_far_as_it_goes() {
     let text = attribution_journal("Cube") + "{\"key\":\"two\",\"ca";
-    let runs = read(folder(&[("attribution.jsonl", text.into_bytes())]).path());
+    let runs = read(runs_folder(&[("attribution.jsonl", text.into_bytes())]).path());
     assert_eq!(runs.answers.of::<attribution::AttributionStudy>().unwrap().len(), 1);
 }
 

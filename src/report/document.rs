@@ -23,6 +23,8 @@ pub struct Answer {
     pub sentences: Vec<String>,
     /// Headline numbers.
     pub numbers: Vec<Headline>,
+    /// The same as a picture, with intervals; nothing where there are none.
+    pub chart: Option<Chart>,
 }
 
 /// A number that stands for itself.
@@ -95,7 +97,11 @@ pub enum Art {
 /// Pictures of one size on one scale, side by side, and two of them one upon the other.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Overlay {
+    /// What is seen.
+    pub heading: String,
     pub pictures: Vec<Thumbnail>,
+    /// What the scale is of.
+    pub ramp_title: String,
     /// Colours of the scale at equal distances, `#RRGGBB`.
     pub ramp: Vec<String>,
     /// Places on the scale, 0 to 1, and what is there.

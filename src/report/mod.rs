@@ -7,6 +7,7 @@ mod export;
 pub mod number;
 pub mod plot;
 mod record;
+mod statement;
 mod table;
 pub mod words;
 
@@ -15,6 +16,7 @@ pub use export::{Export, to_csv, to_json, to_jsonl, to_tidy_csv};
 pub use record::Record;
 #[cfg(test)]
 pub(crate) use record::example;
+pub use statement::Statement;
 pub use table::{Cell, Screen, Table, Tone, escaped, to_markdown, wrapped};
 
 #[cfg(test)]

@@ -17,6 +17,7 @@ use super::{
 };
 use crate::measure::Provenance;
 use crate::registry::Registry;
+use crate::report::Statement;
 use crate::report::document::Block;
 use crate::report::plot::Figure;
 
@@ -132,6 +133,8 @@ pub trait AnyStudy: Send + Sync {
     fn merge(&self, old: &mut AnyAnswer, new: AnyAnswer) -> bool;
     /// [`Study::data`].
     fn data(&self, answer: &dyn Any) -> Vec<Data>;
+    /// [`Study::statements`].
+    fn statements(&self, answer: &dyn Any) -> Vec<Statement>;
     /// [`Study::section`].
     fn section(&self, answer: &dyn Any, command: &str) -> Vec<Block>;
     /// [`Study::scenes`].
@@ -221,6 +224,10 @@ impl<S: Study> AnyStudy for Typed<S> {
 
     fn data(&self, answer: &dyn Any) -> Vec<Data> {
         S::data(own::<S>(answer))
+    }
+
+    fn statements(&self, answer: &dyn Any) -> Vec<Statement> {
+        S::statements(own::<S>(answer))
     }
 
     fn section(&self, answer: &dyn Any, command: &str) -> Vec<Block> {

@@ -50,7 +50,7 @@ use crate::measure::Provenance;
 use crate::registry::Registry;
 use crate::report::document::Block;
 use crate::report::plot::Figure;
-use crate::report::{Export, Table, to_json};
+use crate::report::{Export, Statement, Table, to_json};
 
 pub use baselines::{BRUTE_FORCE, REPORT_TREE, SAH_TREE, documented_defect};
 pub use engine::{Measured, Run, Screen};
@@ -137,7 +137,13 @@ pub trait Study: 'static {
     /// where all of them are empty.
     fn data(answer: &Self::Answer) -> Vec<Data>;
 
-    /// What the page shows; `command` is the one that measured it.
+    /// What was found, in sentences that the data choose and fill in, the most important first. The page, the paper and README print
+    /// them.
+    fn statements(_: &Self::Answer) -> Vec<Statement> {
+        vec![]
+    }
+
+    /// What the page shows below the statements; `command` is the one that measured it.
     fn section(answer: &Self::Answer, command: &str) -> Vec<Block> {
         let tables = Self::tables(answer).into_iter().chain(Self::summary(answer));
         let notes = Self::legend(answer).into_iter().map(Block::Note);

@@ -90,3 +90,30 @@ fn what_cannot_be_reported_leaves_everything_as_it_was() {
     refuses_in_a_line(&["report", text(empty.path()), "-o", text(&new)], &["no run", "sahara study all"]);
     assert_eq!(fs::read_dir(place.path()).unwrap().count(), 1);
 }
+
+#[test]
+fn results_are_written_with_the_numbers_of_the_readme_beside_them() {
+    let (runs, place) = (runs(), TempDir::new().unwrap());
+    let (papers, readme) = (place.path().join("papers"), place.path().join("README.md"));
+    let results = format!("--results={}", text(&papers));
+    refuses_in_a_line(&["report", text(runs.path()), &results], &["no folder", "papers"]);
+
+    fs::create_dir(&papers).unwrap();
+    let marked = "# Mine\n\nIt is: <!-- sahara: compare.checked -->?<!-- / --> And: <!-- sahara: replicate.hard -->?<!-- / -->\n";
+    fs::write(&readme, marked).unwrap();
+    prints(&["report", text(runs.path()), &results]);
+    let filled = fs::read_to_string(&readme).unwrap();
+    assert!(filled.contains("held against brute force") && filled.contains("(`sahara replicate`)"), "{filled}");
+    let paper = fs::read_to_string(papers.join("RESULTS.md")).unwrap();
+    assert!(paper.starts_with("# Results\n") && paper.contains("Not measured in this run: "), "{paper}");
+    assert!(!paper.contains(text(runs.path())), "no path of this machine");
+    assert!(papers.join("figures/speed-cube.svg").is_file() && papers.join("results.json").is_file());
+
+    // Again it is the same; what is asked for and unknown leaves everything as it was.
+    prints(&["report", text(runs.path()), &results]);
+    assert_eq!(fs::read_to_string(&readme).unwrap(), filled);
+    fs::write(&readme, filled.replace("replicate.hard", "no.such")).unwrap();
+    fs::remove_file(papers.join("RESULTS.md")).unwrap();
+    refuses_in_a_line(&["report", text(runs.path()), &results], &["no.such", "compare.checked"]);
+    assert!(!papers.join("RESULTS.md").exists());
+}

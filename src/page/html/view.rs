@@ -95,6 +95,9 @@ struct FigureView {
     overlay: bool,
     thumbnails: Vec<ThumbnailView>,
     ramp: String,
+    /// Of an overlay: what stands above it, and above its scale.
+    heading: String,
+    ramp_title: String,
     ticks: Vec<TickView>,
     data: TableView,
 }
@@ -225,6 +228,8 @@ fn figure(figure: &document::Figure) -> FigureView {
         overlay: false,
         thumbnails: vec![],
         ramp: String::new(),
+        heading: String::new(),
+        ramp_title: String::new(),
         ticks: vec![],
         data: table(&figure.data, None),
     };
@@ -235,8 +240,10 @@ fn figure(figure: &document::Figure) -> FigureView {
             view.narrow = (!matches!(chart, Chart::Points(_))).then(|| inline(&chart.svg(NARROW)));
         }
         Art::Gallery(thumbnails) => view.thumbnails = thumbnails.iter().map(thumbnail).collect(),
-        Art::Overlay(Overlay { pictures, ramp, ticks }) => {
+        Art::Overlay(Overlay { heading, pictures, ramp_title, ramp, ticks }) => {
             view.overlay = true;
+            view.heading = heading.clone();
+            view.ramp_title = ramp_title.clone();
             view.thumbnails = pictures.iter().map(thumbnail).collect();
             view.ramp = ramp.join(",");
             view.ticks = ticks.iter().map(|(at, text)| TickView { at: at * 100.0, text: text.clone() }).collect();

@@ -5,6 +5,7 @@ use crate::page::runs::Runs;
 use crate::report::Record;
 use crate::report::document::{Answer, Headline};
 use crate::report::number::{figures, plural};
+use crate::report::plot::{Chart, Stack, StackRow};
 use crate::report::words::{ends, listed, scene_name};
 use crate::study::attribution::{self, AttributionStudy};
 use crate::study::compare::{Winner, speed, twins, winner};
@@ -93,7 +94,22 @@ fn otherwise(runs: &Runs) -> (String, Answer) {
         None => (QUESTION.into(), "Not measured".into(), vec![]),
     };
     sentences.push(not.into());
-    (title, Answer { banner: banner(runs), verdict, sentences, numbers: vec![] })
+    (title, Answer { banner: banner(runs), verdict, sentences, numbers: vec![], chart: None })
+}
+
+/// How many times faster, scene by scene: in the parts that it is due to where `attribution` tells them, else as a whole.
+fn chart(runs: &Runs, hard: &[Hard]) -> Stack {
+    let attributed = runs.answers.of::<AttributionStudy>().map_or(&[][..], Vec::as_slice);
+    let parts = attribution::stack(&attribution::hard(attributed).into_iter().map(|(_, r)| r).collect::<Vec<_>>());
+    if parts.rows.len() == hard.len() {
+        return parts;
+    }
+    let row = |hard: &Hard| StackRow {
+        label: scene_name(&hard.scene, hard.stand_in),
+        factors: vec![hard.ratio.estimate],
+        total: hard.ratio,
+    };
+    Stack { parts: vec!["SAH tree".into()], rows: hard.iter().map(row).collect(), ..parts }
 }
 
 /// The question that the runs answer, and the answer, or that there is none yet.
@@ -153,5 +169,7 @@ pub fn answer(runs: &Runs) -> (String, Answer) {
         interval: ends(mean),
         label: "geometric mean".into(),
     });
-    (QUESTION.into(), Answer { banner: banner(runs), verdict, sentences, numbers: numbers.chain(mean).collect() })
+    let numbers = numbers.chain(mean).collect();
+    let chart = Some(Chart::Stack(chart(runs, &hard)));
+    (QUESTION.into(), Answer { banner: banner(runs), verdict, sentences, numbers, chart })
 }

@@ -16,7 +16,8 @@ pub fn document(runs: &Runs, studies: &Studies, pictures: Vec<Section>) -> Docum
         let answer = answer.filter(|answer| study.data(*answer).iter().any(|data| !data.rows.is_empty()));
         match answer {
             Some(answer) => {
-                let blocks = study.section(answer, &runs.command(study));
+                let found = study.statements(answer).into_iter().map(|statement| Block::Text(statement.sentence));
+                let blocks = found.chain(study.section(answer, &runs.command(study))).collect();
                 sections.push(Section { id: study.name(), title: study.question(), blocks });
             }
             None => missing.push(Block::missing(study.question(), &study.command())),

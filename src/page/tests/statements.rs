@@ -14,8 +14,8 @@ fn forms(document: &Document) -> [String; 3] {
 fn a_quick_look_says_so_before_its_verdict() {
     let quick = |record: Record| Record { provenance: provenance("sahara study all --quick"), ..record };
     let records = |quick_one: bool| {
-        let all = records("Dragon").into_iter().map(|record| if quick_one { quick(record) } else { record });
-        read(folder(&[("compare.json", to_json(&all.collect::<Vec<_>>()))]).path())
+        let all = records_of("Dragon").into_iter().map(|record| if quick_one { quick(record) } else { record });
+        read(runs_folder(&[("compare.json", to_json(&all.collect::<Vec<_>>()))]).path())
     };
     for text in forms(&document(&records(true), vec![])) {
         let text = text.replace("\\-", "-").replace("--", "-").replace("\\_", "_");
@@ -38,7 +38,7 @@ fn only_a_page_speaks_of_a_slider() {
 }
 
 fn of_scene(scene: &str) -> Runs {
-    read(folder(&[("compare.json", to_json(&records(scene)))]).path())
+    read(runs_folder(&[("compare.json", to_json(&records_of(scene)))]).path())
 }
 
 /// `Cube`, by its own name or as somebody's mesh.

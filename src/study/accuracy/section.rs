@@ -1,12 +1,45 @@
 //! Speed against error, judged by exact arithmetic.
 
 use super::{AccuracyRecord, figure, legend, tables};
-use crate::report::Table;
 use crate::report::document::{Art, Block, Figure};
 use crate::report::number::{count, figures};
 use crate::report::plot::Chart;
-use crate::report::words::scene_name;
-use crate::report::words::slug;
+use crate::report::words::{distinct, listed, scene_name, slug};
+use crate::report::{Statement, Table};
+use crate::study::documented_defect;
+
+/// For each scene and kind of rays: over which triangle tests our structures are right, and over which they are wrong.
+pub fn statements(records: &[AccuracyRecord]) -> Vec<Statement> {
+    records.chunk_by(|a, b| a.rays == b.rays && a.scene == b.scene).filter_map(of_kind).collect()
+}
+
+fn of_kind(records: &[AccuracyRecord]) -> Option<Statement> {
+    let own = || records.iter().filter(|r| documented_defect(&r.structure).is_none());
+    let first = own().next()?;
+    let (mut right, mut wrong) = (vec![], vec![]);
+    for test in distinct(own().map(|r| &r.triangle_test)) {
+        let of_test = || own().filter(|r| r.triangle_test == test);
+        let most = of_test().map(|r| r.error).fold(0.0, f64::max);
+        let least = of_test().map(|r| r.error).fold(f64::INFINITY, f64::min);
+        let [from, to] = [least, most].map(|error| figures(100.0 * error));
+        match most {
+            0.0 => right.push(test),
+            _ if from != to => wrong.push(format!("{test} {from} to {to} %")),
+            _ => wrong.push(format!("{test} {to} %")),
+        }
+    }
+    let rays = count(own().map(|r| r.judged).max().unwrap_or(0));
+    let right = match &right[..] {
+        [] => format!("over no triangle test are all answers right in {rays} rays"),
+        tests => format!("right in all of {rays} rays over {}", listed(tests)),
+    };
+    let wrong = if wrong.is_empty() { String::new() } else { format!("; wrong over {}", listed(&wrong)) };
+    let fastest = own().filter(|r| r.errors() == 0).min_by(|a, b| a.ns_per_ray.total_cmp(&b.ns_per_ray));
+    let fastest = fastest.map_or(String::new(), |r| format!("; the fastest of ours without an error is {}", r.label));
+    let name = scene_name(&first.scene, first.stand_in);
+    let key = slug(&format!("{} {}", first.scene, first.rays));
+    Some(Statement::new(&key, format!("{name}, {} rays: our structures are {right}{wrong}{fastest}.", first.rays)))
+}
 
 pub fn blocks(records: &[AccuracyRecord], command: &str) -> Vec<Block> {
     let mut blocks = vec![Block::Text(

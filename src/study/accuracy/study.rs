@@ -6,11 +6,11 @@ use serde::{Deserialize, Serialize};
 use super::{AccuracyRecord, AccuracySettings, RayKind, accuracy_scene, figure, legend, section, tables};
 use crate::measure::Threads;
 use crate::registry::{Choice, Registry};
-use crate::report::Table;
 use crate::report::document::Block;
 use crate::report::number::count;
 use crate::report::plot::Figure;
 use crate::report::words::scene_name;
+use crate::report::{Statement, Table};
 use crate::scene::Scene;
 use crate::study::args::Scenes;
 use crate::study::plan::Measure;
@@ -189,6 +189,10 @@ impl Study for AccuracyStudy {
 
     fn data(answer: &Vec<AccuracyRecord>) -> Vec<Data> {
         vec![Data::new(Self::NAME, answer)]
+    }
+
+    fn statements(answer: &Vec<AccuracyRecord>) -> Vec<Statement> {
+        section::statements(answer)
     }
 
     fn section(answer: &Vec<AccuracyRecord>, command: &str) -> Vec<Block> {

@@ -18,13 +18,13 @@ use super::epoch::{Asked, Epoch};
 use super::epoch_args::plan_on;
 use super::{Context, Data, Effort, Plan, Study, rays_or_all, sources};
 use crate::registry::{Choice, ChoiceError, Registry};
-use crate::report::Table;
 use crate::report::document::Block;
+use crate::report::{Statement, Table};
 use crate::scene::WorkloadKind;
 use design::Treatment;
 
 pub use result::{Attribution, CellResult, Effect, Part, Row, Split, Term, result, rows};
-pub use section::{hard, sentences};
+pub use section::{hard, sentences, stack};
 pub use table::{headlines, tables};
 
 /// The cells of the design in their order, then the twins of the report's tree and of the SAH tree, over one triangle test.
@@ -95,6 +95,10 @@ impl Study for AttributionStudy {
 
     fn data(answer: &Vec<Attribution>) -> Vec<Data> {
         vec![Data::new(Self::NAME, &rows(answer))]
+    }
+
+    fn statements(answer: &Vec<Attribution>) -> Vec<Statement> {
+        section::statements(answer)
     }
 
     fn section(answer: &Vec<Attribution>, command: &str) -> Vec<Block> {

@@ -1,13 +1,13 @@
 //! What the speed of the SAH tree is due to.
 
-use crate::report::Table;
 use crate::report::document::{Art, Block, Figure};
+use crate::report::{Statement, Table};
 
 use super::design::Factor;
 use super::{Attribution, headlines, tables};
 use crate::report::number::figures;
 use crate::report::plot::{Chart, Stack, StackRow};
-use crate::report::words::{interval, scene_name};
+use crate::report::words::{interval, listed, scene_name};
 
 /// The parts in the order in which they are told.
 const PARTS: [Factor; 3] = [Factor::Stop, Factor::Plane, Factor::Traversal];
@@ -42,6 +42,34 @@ pub fn sentences(results: &[Attribution]) -> Vec<String> {
     headlines(&hard).notes.into_iter().skip(1).collect()
 }
 
+/// Which of the three gives most of the speedup on the hard scenes, and whether the plane alone would have done.
+pub fn statements(results: &[Attribution]) -> Vec<Statement> {
+    let hard: Vec<Attribution> = hard(results).into_iter().map(|(_, r)| r).collect();
+    if hard.is_empty() {
+        return vec![];
+    }
+    let times = |r: &Attribution, factor: Factor| r.time.parts[factor as usize].times;
+    let scenes = listed(&hard.iter().map(|r| r.scene.as_str()).collect::<Vec<_>>());
+    let told = |factor: Factor| listed(&hard.iter().map(|r| interval(times(r, factor))).collect::<Vec<_>>());
+    // The first of all scenes: its interval lies above the others' there.
+    let first = PARTS.into_iter().find(|&factor| {
+        let above = |r: &Attribution, other: Factor| times(r, factor).low() > times(r, other).high();
+        hard.iter().all(|r| PARTS.into_iter().all(|other| other == factor || above(r, other)))
+    });
+    let most = match first {
+        Some(factor) => {
+            format!("On {scenes} most of the speedup is due to the {}: it gives {} times", factor.name(), told(factor))
+        }
+        None => format!("On {scenes} no one of the three gives most of the speedup everywhere"),
+    };
+    let others: Vec<String> = PARTS
+        .into_iter()
+        .filter(|&factor| Some(factor) != first)
+        .map(|factor| format!("the {} {} times", factor.name(), told(factor)))
+        .collect();
+    vec![Statement::new("parts", format!("{most}; {}.", listed(&others)))]
+}
+
 pub fn blocks(results: &[Attribution], command: &str) -> Vec<Block> {
     let results = sorted(results);
     let mut blocks = vec![
@@ -61,12 +89,21 @@ pub fn blocks(results: &[Attribution], command: &str) -> Vec<Block> {
     blocks
 }
 
-fn figure(results: &[Attribution], command: &str) -> Figure {
+/// The speedup of each scene as a product.
+pub fn stack(results: &[Attribution]) -> Stack {
     let row = |r: &Attribution| StackRow {
         label: r.scene.clone(),
         factors: PARTS.map(|factor| r.time.parts[factor as usize].times.estimate).into(),
         total: r.time.whole,
     };
+    Stack {
+        x_title: "times as fast as the report's tree".into(),
+        parts: PARTS.map(|factor| factor.name().to_owned()).into(),
+        rows: results.iter().map(row).collect(),
+    }
+}
+
+fn figure(results: &[Attribution], command: &str) -> Figure {
     let data = results.iter().map(|r| {
         let [stop, plane, traversal] = PARTS.map(|factor| interval(r.time.parts[factor as usize].times));
         [r.scene.clone(), interval(r.time.whole), stop, plane, traversal]
@@ -84,11 +121,7 @@ fn figure(results: &[Attribution], command: &str) -> Figure {
             .into(),
         alt: format!("Stacked bar chart. {}.", told.collect::<Vec<_>>().join("; ")),
         command: command.into(),
-        art: Art::Chart(Chart::Stack(Stack {
-            x_title: "times as fast as the report's tree".into(),
-            parts: PARTS.map(|factor| factor.name().to_owned()).into(),
-            rows: results.iter().map(row).collect(),
-        })),
+        art: Art::Chart(Chart::Stack(stack(results))),
         data: Table::of_texts("", ["scene", "whole", "stop rule", "plane", "traversal"], data.collect()),
     }
 }

@@ -2,6 +2,7 @@
 
 mod cells;
 mod means;
+mod rank;
 mod records;
 mod reference;
 mod section;
@@ -17,6 +18,7 @@ use crate::report::Record;
 
 pub use cells::{speed, twins};
 pub use means::{Winner, mean_table, winner};
+pub use rank::{Rank, Ranked, Ranks, ranks};
 pub use records::compared;
 pub use reference::Reference;
 pub use study::{CompareArgs, CompareStudy};

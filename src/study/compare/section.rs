@@ -1,6 +1,6 @@
 //! Speed of all structures: bars with intervals against the report's tree, tables beside.
 
-use super::{Reference, details_legend, legend, mean_table, scene_table, speed, twins};
+use super::{Reference, details_legend, legend, mean_table, ranks, scene_table, speed, twins};
 use crate::measure::Estimate;
 use crate::report::document::{Art, Block, Figure};
 use crate::report::number::count;
@@ -8,8 +8,28 @@ use crate::report::plot::{Bar, BarGroup, Bars, Chart};
 use crate::report::words::command_line;
 use crate::report::words::{distinct, slug};
 use crate::report::words::{interval, scene_name};
-use crate::report::{Record, Table};
-use crate::study::{BRUTE_FORCE, REPORT_TREE};
+use crate::report::{Record, Statement, Table};
+use crate::study::{BRUTE_FORCE, REPORT_TREE, documented_defect};
+
+/// The fastest structure of each rank, what right answers cost, and how many answers were checked.
+pub fn statements(records: &[Record]) -> Vec<Statement> {
+    let mut statements = ranks(records).map_or(vec![], |ranks| ranks.statements(records));
+    let checked = |r: &&Record| r.declined.is_none() && r.checked_rays.is_some();
+    let own = || records.iter().filter(checked).filter(|r| documented_defect(&r.structure).is_none());
+    let wrong: usize = own().filter_map(|r| r.structure_errors).sum();
+    let rays: usize = own().filter_map(|r| r.checked_rays).sum();
+    if rays > 0 {
+        let wrong = if wrong == 0 { "none".into() } else { count(wrong as u64) };
+        statements.push(Statement::new(
+            "checked",
+            format!(
+                "Of {} answers of our structures, held against brute force over the same triangle test, {wrong} is wrong.",
+                count(rays as u64)
+            ),
+        ));
+    }
+    statements
+}
 
 /// Scenes shown at once; the others are folded.
 const OPEN: usize = 3;
@@ -23,6 +43,8 @@ pub fn blocks(records: &[Record], command: &str) -> Vec<Block> {
             .into(),
     )];
     let references = Reference::of(records, None);
+    let ranks = ranks(records).map_or(vec![], |ranks| ranks.tables(records));
+    blocks.extend(ranks.into_iter().map(|table| Block::table(table, command)));
     let means = mean_table(records, &references);
     if means.says_something() {
         blocks.push(Block::table(means, command));

@@ -9,7 +9,7 @@ use crate::measure::{Provenance, instructions};
 use crate::registry::{Choice, Registry};
 use crate::report::document::Block;
 use crate::report::words::distinct;
-use crate::report::{Record, Table, to_csv, to_json};
+use crate::report::{Record, Statement, Table, to_csv, to_json};
 use crate::scene::{Scene, WorkloadKind};
 use crate::study::args::{Measuring, Scenes, Structures, WORKLOADS, with_twin};
 use crate::study::epoch::{Asked, Epoch, Settings, troubles};
@@ -57,6 +57,19 @@ const QUICK_NS: u64 = 2_000_000_000;
 /// A structure that takes more than so many times as long as the median one is timed on fewer rays: its ratios hardly
 /// gain from more of them, and the run would be about it alone.
 const SLOWEST: f64 = 4.0;
+
+/// The structures of `study all`: all names, and each again over a triangle test of the other precision.
+const FIELD: [&str; 9] = [
+    sources::ALL,
+    "median-kd:test=moller-trumbore",
+    "sah-kd:test=moller-trumbore",
+    "sah-kd-wide:test=moller-trumbore",
+    "sah-kd-tight:test=moller-trumbore",
+    "sah-hybrid:test=moller-trumbore",
+    "sah-bvh:test=moller-trumbore",
+    "obvhs-bvh2:test=exact",
+    "obvhs-cwbvh:test=exact",
+];
 
 impl CompareArgs {
     /// The structures, the reference among them, and its label.
@@ -110,14 +123,14 @@ impl Study for CompareStudy {
     }
 
     fn args(effort: Effort) -> CompareArgs {
-        let (scenes, rays) = match effort {
-            Effort::Full => (Scenes::default(), usize::MAX),
-            Effort::Quick => (Scenes::named(&["cube", "torus"]), QUICK_RAYS),
+        let (scenes, rays, field) = match effort {
+            Effort::Full => (Scenes::default(), usize::MAX, &FIELD[..]),
+            Effort::Quick => (Scenes::named(&["cube", "torus"]), QUICK_RAYS, &[][..]),
         };
         CompareArgs {
             scenes,
             from: ViewArgs::default(),
-            structures: Structures::default(),
+            structures: Structures { structure: field.iter().map(|&spec| spec.into()).collect(), quality: None },
             reference: None,
             workload: vec![],
             rays: RaySource::Count(rays),
@@ -202,6 +215,10 @@ impl Study for CompareStudy {
 
     fn data(answer: &Compared) -> Vec<Data> {
         vec![Data::new("records", &answer.records)]
+    }
+
+    fn statements(answer: &Compared) -> Vec<Statement> {
+        section::statements(&answer.records)
     }
 
     fn section(answer: &Compared, command: &str) -> Vec<Block> {

@@ -24,8 +24,8 @@ use super::epoch::{Epoch, troubles};
 use super::{Context, Data, Effort, Plan, Study, StudyError, Trouble};
 use crate::measure::spread;
 use crate::registry::Registry;
-use crate::report::Table;
 use crate::report::document::Block;
+use crate::report::{Statement, Table};
 use crate::scene::{Scene, Workload, WorkloadKind};
 
 pub use complexity::complexity;
@@ -33,6 +33,7 @@ pub use curve::Crossing;
 pub use family::{ROOTS, member};
 pub use result::{Member, Race, Row, result, rows};
 pub use table::tables;
+use table::verdict;
 
 /// The KD-tree and the BVH of a pair. In the second and third the node, the leaf and the walk are the same and only the way to divide
 /// the triangles differs; the first are the textbook tree and the BVH from outside. All over one triangle test.
@@ -132,6 +133,10 @@ impl Study for CrossoverStudy {
 
     fn data(answer: &Vec<Race>) -> Vec<Data> {
         vec![Data::new(Self::NAME, &rows(answer))]
+    }
+
+    fn statements(answer: &Vec<Race>) -> Vec<Statement> {
+        section::statements(answer)
     }
 
     fn section(answer: &Vec<Race>, command: &str) -> Vec<Block> {

@@ -1,11 +1,35 @@
 //! KD-tree against BVH by depth complexity.
 
-use super::{Race, tables};
-use crate::report::Table;
+use super::{Race, tables, verdict};
 use crate::report::document::{Art, Block, Figure};
 use crate::report::number::figures;
 use crate::report::plot::{Chart, CurvePoint, Curves, Line, Mark};
 use crate::report::words::{bare, distinct, interval, slug};
+use crate::report::{Statement, Table};
+
+/// The kind of rays that is told in words.
+const PRIMARY: &str = "primary";
+
+/// One sentence for each race on primary rays; on those that there are, without them.
+pub fn statements(races: &[Race]) -> Vec<Statement> {
+    let of = |race: &Race| {
+        let (first, last) = race.members.first().zip(race.members.last())?;
+        let (kd, bvh) = (bare(&race.kd), bare(&race.bvh));
+        let sentence = format!(
+            "On {} rays {kd} takes {} times the time of {bvh} at a depth complexity of {} and {} times at {}; where one overtakes \
+             the other: {}.",
+            race.workload,
+            interval(first.ratio),
+            figures(first.complexity),
+            interval(last.ratio),
+            figures(last.complexity),
+            verdict(race)
+        );
+        Some(Statement::new(&format!("{kd}-{bvh}-{}", slug(&race.workload)), sentence).of(last.ratio))
+    };
+    let has_primary = races.iter().any(|race| race.workload == PRIMARY);
+    races.iter().filter(|race| !has_primary || race.workload == PRIMARY).filter_map(of).collect()
+}
 
 pub fn blocks(races: &[Race], command: &str) -> Vec<Block> {
     let mut blocks = vec![Block::Text(

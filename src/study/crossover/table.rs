@@ -14,8 +14,8 @@ pub fn tables(races: &[Race]) -> Vec<Table> {
     tables
 }
 
-/// What a race says, in words.
-fn verdict(race: &Race) -> String {
+/// What a race says, in words: who is ahead, or where it changes.
+pub(super) fn verdict(race: &Race) -> String {
     let sure: Vec<&Crossing> = race.crossings.iter().filter(|crossing| crossing.is_sure()).collect();
     match (race.crossings.is_empty(), &sure[..]) {
         (true, _) if race.members.iter().all(|m| m.ratio.is_below(1.0)) => {

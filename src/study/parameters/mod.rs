@@ -15,8 +15,8 @@ use super::epoch::{Asked, Epoch};
 use super::replicate::original::{MAIN, SWEEP, SweepRow};
 use super::{Context, Data, Effort, Plan, REPORT_TREE, Study};
 use crate::registry::{Choice, ChoiceError, Registry};
-use crate::report::Table;
 use crate::report::document::Block;
+use crate::report::{Statement, Table};
 use crate::scene::{Builtin, Scene};
 
 pub use result::{Difference, Parameters, Setting, result};
@@ -106,6 +106,10 @@ impl Study for ParametersStudy {
 
     fn data(answer: &Parameters) -> Vec<Data> {
         vec![Data::new(Self::NAME, &answer.settings)]
+    }
+
+    fn statements(answer: &Parameters) -> Vec<Statement> {
+        section::statements(answer)
     }
 
     fn section(answer: &Parameters, command: &str) -> Vec<Block> {

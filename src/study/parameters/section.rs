@@ -4,7 +4,20 @@ use super::{Difference, Parameters, Setting, tables};
 use crate::report::document::{Block, Tabular};
 use crate::report::number::figures;
 use crate::report::words::distinct;
-use crate::report::{Cell, Table};
+use crate::report::{Cell, Statement, Table};
+
+/// How many differences of the sweep are real.
+pub fn statements(result: &Parameters) -> Vec<Statement> {
+    let count = |of: &[Difference]| result.settings.iter().filter(|setting| of.contains(&setting.verdict)).count();
+    let [same, open, real] =
+        [&[Difference::SameTree][..], &[Difference::NotShown], &[Difference::Faster, Difference::Slower]].map(count);
+    let all = same + open + real;
+    let sentence = format!(
+        "Of the {all} differences that the report's sweep of leaf limit and threshold shows, {same} are between identical trees, {open} \
+         cannot be told from none and {real} are real."
+    );
+    (all > 0).then(|| Statement::new("sweep", sentence)).into_iter().collect()
+}
 
 pub fn blocks(result: &Parameters, command: &str) -> Vec<Block> {
     let mut blocks = vec![

@@ -14,7 +14,7 @@ use super::epoch::{Epoch, Settings, troubles};
 use super::{Context, Data, Effort, Plan, SceneId, Study, Trouble};
 use crate::registry::{Choice, ChoiceError, Registry};
 use crate::report::document::Block;
-use crate::report::{Record, Table};
+use crate::report::{Record, Statement, Table};
 
 pub use rows::{KindSpeed, Row, rows};
 use table::LEGEND;
@@ -112,6 +112,10 @@ impl Study for PartitionsStudy {
 
     fn data(answer: &Partitions) -> Vec<Data> {
         vec![Data::new(Self::NAME, &answer.records)]
+    }
+
+    fn statements(answer: &Partitions) -> Vec<Statement> {
+        section::statements(&answer.rows)
     }
 
     fn section(answer: &Partitions, command: &str) -> Vec<Block> {

@@ -2,12 +2,31 @@
 
 use super::table::LEGEND;
 use super::{Row, tables};
-use crate::report::Table;
+use crate::measure::Estimate;
 use crate::report::document::{Art, Block, Figure};
 use crate::report::number::count;
 use crate::report::plot::{Bar, BarGroup, Bars, Chart};
-use crate::report::words::interval;
-use crate::report::words::{distinct, short_labels, slug};
+use crate::report::words::{bare, distinct, interval, listed, short_labels, slug};
+use crate::report::{Statement, Table};
+
+/// Each partition against the fastest obvhs, from the scene where it gains least to the one where it gains most.
+pub fn statements(rows: &[Row]) -> Vec<Statement> {
+    let range = |structure: &String| {
+        let speeds = rows.iter().filter(|row| row.structure == *structure).filter_map(|row| row.all);
+        let mut speeds: Vec<Estimate> = speeds.collect();
+        speeds.sort_by(|a, b| a.estimate.total_cmp(&b.estimate));
+        let (least, most) = (speeds.first()?, speeds.last()?);
+        let most = if speeds.len() > 1 { format!(" to {}", interval(*most)) } else { String::new() };
+        Some(format!("{} {}{most}", bare(structure), interval(*least)))
+    };
+    let told: Vec<String> = distinct(rows.iter().map(|row| &row.structure)).iter().filter_map(range).collect();
+    let scenes = listed(&distinct(rows.iter().map(|row| &row.scene)));
+    let sentence = format!(
+        "As multiples of the speed of the fastest obvhs over all its presets, on {scenes} and over the same triangle test: {}.",
+        listed(&told)
+    );
+    (!told.is_empty()).then(|| Statement::new("obvhs", sentence)).into_iter().collect()
+}
 
 pub fn blocks(rows: &[Row], command: &str) -> Vec<Block> {
     let mut blocks = vec![Block::Text(LEGEND.join(" "))];

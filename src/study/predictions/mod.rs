@@ -27,14 +27,14 @@ use crate::measure::{Estimate, Interval, Threads};
 use crate::registry::Registry;
 use crate::report::document::Block;
 use crate::report::number::figures;
-use crate::report::{Record, Table};
+use crate::report::{Record, Statement, Table};
 use crate::scene::{Builtin, Scene};
 
 pub use claims::result;
 pub use counted::PictureCounts;
 use counted::{key, measure, scenes};
 pub use rank::kendall;
-pub use section::sentence;
+pub use section::{REST_BELOW, sentence};
 pub use table::{table, tone};
 
 /// What there is to judge by. What is missing is empty.
@@ -139,6 +139,10 @@ impl Study for PredictionsStudy {
         let rows = answer.iter().flat_map(|p| p.claims.iter().map(|claim| Row { prediction: p.number, claim }));
         let rows: Vec<Row> = if answer.iter().any(measured) { rows.collect() } else { vec![] };
         vec![Data::new(Self::NAME, &rows)]
+    }
+
+    fn statements(answer: &Vec<Prediction>) -> Vec<Statement> {
+        sentence(answer).map(|sentence| Statement::new("tally", sentence)).into_iter().collect()
     }
 
     fn section(answer: &Vec<Prediction>, command: &str) -> Vec<Block> {

@@ -15,7 +15,7 @@ pub fn blocks(predictions: &[Prediction], command: &str) -> Vec<Block> {
     let mut verdicts =
         Table::of_texts("Claims and verdicts", ["no.", "claim", "expected", "measured", "verdict"], vec![]);
     verdicts.rows = predictions.iter().flat_map(|p| p.claims.iter().map(|claim| row(p.number, claim))).collect();
-    let mut blocks = vec![Block::Text(format!("{}.", tally(predictions).words())), Block::table(verdicts, command)];
+    let mut blocks = vec![Block::table(verdicts, command)];
     let told = |p: &&Prediction| {
         let refuted = p.claims.iter().any(|claim| claim.verdict == Verdict::Refuted);
         (refuted || p.claims.is_empty()) && !p.why.is_empty()
@@ -30,11 +30,14 @@ pub fn blocks(predictions: &[Prediction], command: &str) -> Vec<Block> {
 /// Characters of an explanation that are shown at once.
 const LENGTH: usize = 420;
 
+/// Stands behind an explanation that is cut short, where the whole one is folded below.
+pub const REST_BELOW: &str = " (the rest is below)";
+
 /// An explanation, up to the end of a clause where it is long.
 fn short(why: &str) -> String {
     let clause = |end: usize| [". ", "; ", ", "].iter().filter_map(|mark| why[..end].rfind(mark)).max();
     match why.char_indices().nth(LENGTH).and_then(|(end, _)| clause(end)) {
-        Some(end) => format!("{} … (the rest is below)", &why[..end]),
+        Some(end) => format!("{} …{REST_BELOW}", &why[..end]),
         None => why.into(),
     }
 }

@@ -4,6 +4,7 @@
 //! seconds only in their ratios. `t'` is seconds / (rays x triangles).
 
 pub(in crate::study) mod original;
+mod statements;
 mod tables;
 #[cfg(test)]
 mod tests;
@@ -16,11 +17,12 @@ use super::{BRUTE_FORCE, Context, Data, Effort, Plan, REPORT_TREE, SAH_TREE, Sce
 use crate::accel::Query;
 use crate::measure::{AaNoise, Estimate, Rerun, epoch_values, median};
 use crate::registry::Registry;
-use crate::report::Table;
 use crate::report::document::Block;
+use crate::report::{Statement, Table};
 use crate::scene::Scene;
 use original::{HARD, HardRow, MAIN, SWEEP, t_prime};
 
+use statements::statements;
 pub use tables::tables;
 
 /// The report's three tables, ours beside its own, and its conclusion.
@@ -199,6 +201,10 @@ impl Study for ReplicateStudy {
             Data::new("settings", &answer.parameters),
             Data::new("hard", &answer.hard),
         ]
+    }
+
+    fn statements(answer: &Replication) -> Vec<Statement> {
+        statements(answer)
     }
 
     fn section(answer: &Replication, command: &str) -> Vec<Block> {

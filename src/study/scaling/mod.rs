@@ -18,8 +18,8 @@ use super::epoch::{Epoch, Line, Twins, lines, middles, troubles, twins};
 use super::{Context, Data, Effort, Plan, Study, Trouble, least_squares};
 use crate::measure::{AaNoise, Estimate, Rerun, Variance};
 use crate::registry::Registry;
-use crate::report::Table;
 use crate::report::document::Block;
+use crate::report::{Statement, Table};
 use crate::scene::{Scene, WorkloadKind};
 
 pub use spheres::{LEVELS, sphere};
@@ -93,6 +93,10 @@ impl Study for ScalingStudy {
 
     fn data(answer: &Vec<Growth>) -> Vec<Data> {
         vec![Data::new(Self::NAME, &rows(answer))]
+    }
+
+    fn statements(answer: &Vec<Growth>) -> Vec<Statement> {
+        section::statements(answer)
     }
 
     fn section(answer: &Vec<Growth>, command: &str) -> Vec<Block> {

@@ -3,12 +3,12 @@
 use super::table::{exponents, groups, points};
 use super::{Family, Growth, Point};
 use crate::measure::Estimate;
-use crate::report::Table;
 use crate::report::document::{Art, Block, Figure};
-use crate::report::number::figures;
+use crate::report::number::{count, figures};
 use crate::report::plot::{Chart, CurvePoint, Curves, Line, Mark};
-use crate::report::words::slug;
-use crate::report::words::written;
+use crate::report::words::{listed, slug, written};
+use crate::report::{Statement, Table};
+use crate::study::{REPORT_TREE, SAH_TREE};
 
 /// What is drawn over the number of triangles.
 struct Quantity {
@@ -42,6 +42,28 @@ const MEMORY: Quantity = Quantity {
     value: |point| point.bytes_per_triangle,
     power: |growth| growth.bytes,
 };
+
+/// How the time of a primary ray grows on the spheres with the report's tree and with the SAH tree.
+pub fn statements(growths: &[Growth]) -> Vec<Statement> {
+    let of = |name: &str| {
+        let is = |g: &&Growth| g.family == Family::Spheres && g.workload == "primary" && g.structure == name;
+        let growth = growths.iter().find(is)?;
+        Some((growth, growth.time?))
+    };
+    let found: Vec<(&Growth, Estimate)> = [REPORT_TREE, SAH_TREE].into_iter().filter_map(of).collect();
+    let powers = found.iter().map(|(growth, time)| {
+        let fitted = || growth.points.iter().filter(|p| p.fitted).map(|p| p.triangles as u64);
+        let over = fitted()
+            .min()
+            .zip(fitted().max())
+            .map_or(String::new(), |(from, to)| format!(" from {} to {} triangles", count(from), count(to)));
+        format!("n^{}{over} with {}", written(*time, |x| format!("{x:.2}")), growth.structure)
+    });
+    let powers: Vec<String> = powers.collect();
+    let Some((_, first)) = found.first() else { return vec![] };
+    let sentence = format!("On one sphere of n triangles the time of a primary ray grows like {}.", listed(&powers));
+    vec![Statement::new("spheres", sentence).of(*first)]
+}
 
 pub fn blocks(growths: &[Growth], command: &str) -> Vec<Block> {
     let mut blocks = vec![Block::Text(

@@ -17,7 +17,7 @@ use crate::accel::DynAccel;
 use crate::geometry::{Hit, Ray};
 use crate::measure::Threads;
 use crate::registry::{Choice, Registry};
-use crate::report::Table;
+use crate::report::{Statement, Table};
 use crate::scene::offset::{Offset, SurfacePoint, barycentrics};
 use crate::triangle::{Exact, TriangleTest};
 use crate::validate::{Reference, Sampler};
@@ -203,6 +203,10 @@ impl Study for SelfIntersectionStudy {
 
     fn tables(answer: &Vec<Row>) -> Vec<Table> {
         vec![table(answer)]
+    }
+
+    fn statements(answer: &Vec<Row>) -> Vec<Statement> {
+        table::statements(answer)
     }
 
     fn data(answer: &Vec<Row>) -> Vec<Data> {

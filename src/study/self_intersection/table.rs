@@ -2,7 +2,8 @@
 
 use super::{OFFSETS, PointFrom, Row, Sphere};
 use crate::report::number::count;
-use crate::report::{Cell, Table, Tone};
+use crate::report::words::listed;
+use crate::report::{Cell, Statement, Table, Tone};
 
 /// One row for each sphere and kind of point, one column for each way to start: acne and leaks in percent of their rays, from
 /// the least to the most of the structures and triangle tests.
@@ -98,4 +99,27 @@ fn short(percent: f64) -> String {
         x if x < 10.0 => format!("{x:.1}"),
         x => format!("{x:.0}"),
     }
+}
+
+/// The ways that have neither acne nor leaks on any sphere.
+pub fn statements(study: &[Row]) -> Vec<Statement> {
+    let of = |name: &str| study.iter().filter(|row| row.offset == name && row.outward > 0).collect::<Vec<_>>();
+    let right = |name: &String| of(name).iter().all(|row| row.point != PointFrom::Corners || row.acne + row.leaks == 0);
+    let measured: Vec<String> =
+        OFFSETS.iter().map(|offset| offset.name()).filter(|name| !of(name).is_empty()).collect();
+    let found: Vec<String> = measured.iter().filter(|name| right(name)).cloned().collect();
+    let sentence = match &found[..] {
+        _ if measured.is_empty() => return vec![],
+        [] => format!(
+            "None of {} ways to start a secondary ray is free of acne and leaks on all spheres.",
+            measured.len()
+        ),
+        found => format!(
+            "Of {} ways to start a secondary ray from a point made from the corners, {} without acne and leaks on all spheres: {}.",
+            measured.len(),
+            if found.len() == 1 { "one is".to_owned() } else { format!("{} are", found.len()) },
+            listed(found)
+        ),
+    };
+    vec![Statement::new("offset", sentence)]
 }

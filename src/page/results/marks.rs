@@ -1,0 +1,124 @@
+//! Places of a Markdown file that a run fills in: text between `<!-- sahara: KEY -->` and `<!-- / -->`.
+
+/// Begins a mark.
+pub const OPEN: &str = "<!-- sahara: ";
+const END: &str = " -->";
+const CLOSE: &str = "<!-- / -->";
+
+/// Columns of a line.
+const WIDTH: usize = 120;
+
+/// Why marks cannot be read.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum MarkError {
+    #[error("the mark {0:?} is not closed: write `<!-- / -->` after its text")]
+    Open(String),
+}
+
+/// A marked place: where the text between the marks begins and ends.
+struct Place<'a> {
+    key: &'a str,
+    from: usize,
+    to: usize,
+}
+
+fn places(text: &str) -> Result<Vec<Place<'_>>, MarkError> {
+    let (mut places, mut at) = (vec![], 0);
+    while let Some(open) = text[at..].find(OPEN) {
+        let rest = &text[at + open + OPEN.len()..];
+        let error = |key: &str| MarkError::Open(key.chars().take(40).collect());
+        let (key, after) = rest.split_once(END).ok_or_else(|| error(rest))?;
+        let from = text.len() - after.len();
+        let length = after.find(CLOSE).ok_or_else(|| error(key))?;
+        if after[..length].contains(OPEN) {
+            return Err(error(key));
+        }
+        places.push(Place { key, from, to: from + length });
+        at = from + length + CLOSE.len();
+    }
+    Ok(places)
+}
+
+/// Keys and texts of all marked places, in order; a run of white space is one blank.
+///
+/// # Errors
+/// If a mark is not closed.
+pub fn marked(text: &str) -> Result<Vec<(String, String)>, MarkError> {
+    let plain = |place: &Place| text[place.from..place.to].split_whitespace().collect::<Vec<_>>().join(" ");
+    Ok(places(text)?.iter().map(|place| (place.key.to_owned(), plain(place))).collect())
+}
+
+/// The file with what `of` says in the marked places; what it does not know stays. Paragraphs with marks are wrapped anew, tables
+/// stand in lines of their own.
+///
+/// # Errors
+/// If a mark is not closed.
+pub fn fill(text: &str, of: impl Fn(&str) -> Option<String>) -> Result<String, MarkError> {
+    let (mut filled, mut at) = (String::new(), 0);
+    for Place { key, from, to } in places(text)? {
+        filled += &text[at..from];
+        match of(key) {
+            Some(value) if value.contains('\n') => filled += &format!("\n\n{}\n\n", value.trim()),
+            Some(value) => filled += &value,
+            None => filled += &text[from..to],
+        }
+        at = to;
+    }
+    filled += &text[at..];
+    let is_code = |fences: usize| fences % 2 == 1;
+    let (mut out, mut paragraph, mut fences) = (String::new(), vec![], 0);
+    for line in filled.lines() {
+        let begins = line.starts_with("- ") || line.starts_with('|') || line.starts_with("```") || line.is_empty();
+        if begins || is_code(fences) {
+            flush(&mut paragraph, &mut out);
+        }
+        fences += usize::from(line.starts_with("```"));
+        if line.is_empty() || line.starts_with('|') || line.starts_with("```") || is_code(fences) {
+            out += line;
+            out.push('\n');
+        } else {
+            paragraph.push(line);
+        }
+    }
+    flush(&mut paragraph, &mut out);
+    Ok(out)
+}
+
+/// Writes the lines of a paragraph, anew where it has a mark with text beside it.
+fn flush(paragraph: &mut Vec<&str>, out: &mut String) {
+    let lines = std::mem::take(paragraph);
+    if !lines.iter().any(|line| line.contains(OPEN) && !line.starts_with(OPEN)) {
+        lines.iter().for_each(|line| *out += &format!("{line}\n"));
+        return;
+    }
+    let indent = if lines[0].starts_with("- ") { "  " } else { "" };
+    let mut line = String::new();
+    for word in words(&lines.join(" ")) {
+        if !line.trim().is_empty() && line.chars().count() + 1 + word.chars().count() > WIDTH {
+            *out += &format!("{line}\n");
+            line = format!("{indent}{word}");
+        } else {
+            line = if line.is_empty() { word } else { format!("{line} {word}") };
+        }
+    }
+    *out += &format!("{line}\n");
+}
+
+/// What may stand at the end of a line: a comment is one word with what is before it, for a line that begins with one is no Markdown; so is
+/// a piece of code.
+fn words(text: &str) -> Vec<String> {
+    let (mut words, mut word, mut is_code): (Vec<String>, String, bool) = (vec![], String::new(), false);
+    for piece in text.split_whitespace() {
+        let in_comment = word.rfind("<!--").is_some_and(|at| !word[at..].contains("-->"));
+        if !word.is_empty() && !is_code && !in_comment && !piece.starts_with("<!--") {
+            words.push(std::mem::take(&mut word));
+        }
+        if !word.is_empty() {
+            word.push(' ');
+        }
+        word += piece;
+        is_code ^= piece.matches('`').count() % 2 == 1;
+    }
+    words.extend((!word.is_empty()).then_some(word));
+    words
+}

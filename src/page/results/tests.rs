@@ -1,0 +1,163 @@
+//! The paper, README and the data file agree, and say nothing that no run has measured.
+
+use std::fs;
+use std::path::Path;
+
+use super::{COMMAND, DATA, MarkError, Results, ResultsData, ResultsError, digest, fill, marked};
+use crate::page::tests::{cube, provenance, read, records_of, runs_folder};
+use crate::report::to_json;
+use crate::study::Studies;
+
+/// A file of the repository.
+fn file(path: &str) -> Vec<u8> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(path);
+    fs::read(&path).unwrap_or_else(|cause| panic!("{}: {cause}", path.display()))
+}
+
+fn readme() -> String {
+    String::from_utf8(file("README.md")).unwrap()
+}
+
+fn data() -> ResultsData {
+    serde_json::from_slice(&file(&format!("papers/{DATA}"))).unwrap()
+}
+
+#[test]
+fn readme_and_paper_are_those_of_the_data_file() {
+    let data = data();
+    for (name, known) in &data.files {
+        assert_eq!(
+            digest(&file(&format!("papers/{name}"))),
+            *known,
+            "papers/{name} was changed: `{COMMAND}` makes it anew"
+        );
+    }
+    for (key, text) in marked(&readme()).unwrap() {
+        let told = data.statements.get(&key).map(|told| told.text.split_whitespace().collect::<Vec<_>>().join(" "));
+        assert_eq!(Some(text), told, "README.md, {key}: `{COMMAND}` writes it anew");
+    }
+}
+
+/// The text without code, marked places and targets of links.
+fn unmarked(text: &str) -> String {
+    let filled = fill(text, |_| Some(String::new())).unwrap();
+    let prose: Vec<&str> = filled.split("```").step_by(2).collect();
+    let prose: String = prose.concat().split('`').step_by(2).collect();
+    prose
+        .split("](")
+        .enumerate()
+        .map(|(i, part)| if i == 0 { part } else { part.split_once(')').map_or("", |p| p.1) })
+        .collect()
+}
+
+/// What follows a number that was measured.
+const UNITS: [&str; 16] = [
+    "x ",
+    "×",
+    "times",
+    "%",
+    "Mrays",
+    "million rays",
+    "ns",
+    "us ",
+    "µs",
+    "ms",
+    "KiB",
+    "MiB",
+    "GiB",
+    "-fold",
+    "bytes",
+    "[",
+];
+
+/// Numbers with a unit.
+fn measured(text: &str) -> Vec<String> {
+    let mut found = vec![];
+    for (at, _) in text.match_indices(|c: char| c.is_ascii_digit()) {
+        // Once for a number.
+        if text[..at].ends_with(|c: char| c.is_ascii_digit() || c == '.' || c == ',') {
+            continue;
+        }
+        let rest = text[at..].trim_start_matches(|c: char| c.is_ascii_digit() || c == '.' || c == ',');
+        // The confidence of an interval is no measurement.
+        if rest.starts_with(" %") && text[..at + text[at..].len() - rest.len()].ends_with("95") {
+            continue;
+        }
+        if UNITS.iter().any(|unit| rest.trim_start().starts_with(unit)) {
+            found.push(text[at..].chars().take(40).collect());
+        }
+    }
+    found
+}
+
+#[test]
+fn readme_holds_no_number_that_nothing_holds() {
+    let stray = measured(&unmarked(&readme()));
+    assert!(
+        stray.is_empty(),
+        "mark these in README.md, so that `{COMMAND}` fills them in, or leave them out: {stray:?}"
+    );
+    assert_eq!(measured("1.8 times, 20 rays, 3 %; `4 %`").len(), 3, "it finds what is measured");
+    assert_eq!(measured(&unmarked("a `4 %` [b](5%) <!-- sahara: k -->6 %<!-- / --> c\n```\n7 %\n```\n")), [""; 0]);
+}
+
+#[test]
+fn readme_is_short() {
+    assert!(readme().len() <= 8192, "{} bytes", readme().len());
+    let long = readme().lines().find(|line| line.chars().count() > 120 && !line.starts_with('|')).map(String::from);
+    assert_eq!(long, None);
+}
+
+#[test]
+fn marked_places_are_filled_in_and_wrapped() {
+    let text = "# A\n\n- **Fast.** <!-- sahara: a.b -->old\nold<!-- / --> and more.\n- Next\n\n<!-- sahara: t -->x<!-- / -->\n";
+    assert_eq!(marked(text).unwrap()[0], ("a.b".to_owned(), "old old".to_owned()));
+    let long = "word ".repeat(30);
+    let filled = fill(text, |key| Some(if key == "t" { "| a |\n| - |".into() } else { long.trim().into() })).unwrap();
+    assert!(filled.lines().all(|line| line.chars().count() <= 120), "{filled}");
+    assert!(filled.contains("\n  word word"), "the paragraph is indented as before: {filled}");
+    assert!(filled.contains("<!-- sahara: t -->\n\n| a |\n| - |\n\n<!-- / -->\n"), "{filled}");
+    // Filled in again it is the same.
+    let again = fill(&filled, |key| Some(if key == "t" { "| a |\n| - |".into() } else { long.trim().into() })).unwrap();
+    assert_eq!(again, filled);
+    assert_eq!(fill(&filled, |_| None).unwrap(), filled);
+    assert_eq!(marked("<!-- sahara: k --> never closed"), Err(MarkError::Open("k".into())));
+}
+
+#[test]
+fn every_statement_is_in_the_paper_and_in_the_data() {
+    let (document, runs) = cube();
+    let studies = Studies::builtin();
+    let mut results = Results::new(document, runs, &studies).unwrap();
+    let plain = |text: &str| text.replace(['\\', '`'], "").split_whitespace().collect::<Vec<_>>().join(" ");
+    let paper = plain(&results.paper);
+    assert!(results.data.statements.len() > 8, "{:?}", results.data.statements.keys());
+    for (key, told) in &results.data.statements {
+        assert!(paper.contains(&plain(&told.text)) || key == "compare.rank", "{key}: {}", told.text);
+    }
+    for heading in ["Question", "Answer", "Method", "Results", "Threats to validity", "What would change our mind"] {
+        assert!(results.paper.contains(&format!("\n## {heading}\n")), "{heading}");
+    }
+    // Each figure that it shows is written, and no other.
+    let shown = results.paper.matches("](figures/").count();
+    assert_eq!(shown, results.figures.len(), "{:?}", results.figures.iter().map(|f| &f.0).collect::<Vec<_>>());
+
+    let text = "A <!-- sahara: attribution.parts -->?<!-- / --> b <!-- sahara: replicate.hard -->?<!-- / -->\n";
+    let filled = results.fill(text, &studies).unwrap();
+    assert!(filled.contains("Not measured in this run (`sahara replicate`)"), "{filled}");
+    assert!(results.data.statements.contains_key("replicate.hard"), "the data file says so as well");
+    let unknown = results.fill("<!-- sahara: no.such -->?<!-- / -->", &studies).unwrap_err().to_string();
+    assert!(unknown.contains("no.such") && unknown.lines().count() == 1, "{unknown}");
+}
+
+#[test]
+fn results_are_of_one_commit_and_one_machine() {
+    let mut other = records_of("Torus");
+    other.iter_mut().for_each(|record| record.provenance.commit = "0ther".into());
+    let folder = runs_folder(&[("a.json", to_json(&records_of("Cube"))), ("b.json", to_json(&other))]);
+    let runs = read(folder.path());
+    let document = crate::page::document(&runs, &Studies::builtin(), vec![]);
+    let Err(error) = Results::new(&document, &runs, &Studies::builtin()) else { panic!("two commits are one run") };
+    assert!(matches!(error, ResultsError::Mixed { what: "commit", .. }), "{error}");
+    assert!(error.to_string().contains(&provenance("x").commit), "{error}");
+}

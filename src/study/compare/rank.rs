@@ -1,0 +1,221 @@
+//! One rank of all structures, and the counts that explain it.
+
+use super::reference::{Reference, cell};
+use super::table::names;
+use super::{speed, twins};
+use crate::measure::{Estimate, median};
+use crate::report::number::{figures, plural};
+use crate::report::words::{distinct, explained, interval, listed, scene_name};
+use crate::report::{Cell, Record, Statement, Table, Tone};
+use crate::triangle::{EdgeF64, Exact, FilteredF64, MollerTrumboreF64, TriangleTest};
+
+/// The triangle tests in double precision and beyond. All others round in single precision.
+const PRECISE: [&str; 4] = [FilteredF64::NAME, Exact::NAME, MollerTrumboreF64::NAME, EdgeF64::NAME];
+
+/// Structures of one kind of triangle test by falling speed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rank {
+    pub rows: Vec<Ranked>,
+    /// Structures that lack a time in half of the cells or more, with the number of cells in which they have one.
+    pub unranked: Vec<(String, usize)>,
+}
+
+/// A structure and what explains its place, over the common cells.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Ranked {
+    pub label: String,
+    /// Times as fast as the reference, geometric mean.
+    pub speed: Option<Estimate>,
+    /// For each ray, median; nothing where the structure does not tell.
+    pub tests: Option<f64>,
+    pub steps: Option<f64>,
+    /// Machine instructions for each ray, where they are counted.
+    pub instructions: Option<f64>,
+    pub bytes_per_triangle: Option<f64>,
+}
+
+/// Both ranks over the same cells.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Ranks {
+    pub precise: Rank,
+    pub single: Rank,
+    pub reference: Reference,
+    /// Scene and workload of each common cell, and how many cells there are in all.
+    pub cells: Vec<(String, String)>,
+    pub all_cells: usize,
+}
+
+/// The ranks of `records`, relative to the fastest obvhs in each cell, or to the first reference where there is none. Nothing of
+/// fewer than two structures.
+pub fn ranks(records: &[Record]) -> Option<Ranks> {
+    let reference = Reference::of(records, None).pop()?;
+    let all = names(records, |r| &r.label);
+    let mut cells: Vec<(String, String)> = vec![];
+    for record in records.iter().filter(|r| reference.rival(records, r).is_some()) {
+        let cell = (record.scene.clone(), record.workload.clone());
+        if !cells.contains(&cell) {
+            cells.push(cell);
+        }
+    }
+    let find = |label: &str, (scene, workload): &(String, String)| {
+        let is = |r: &&Record| r.label == label && r.scene == *scene && r.workload == *workload;
+        records.iter().find(is).filter(|r| r.mrays_per_s.is_some())
+    };
+    let timed = |label: &str| cells.iter().filter(|cell| find(label, cell).is_some()).count();
+    let (ranked, unranked): (Vec<&String>, Vec<&String>) =
+        all.iter().partition(|label| 2 * timed(label.as_str()) > cells.len());
+    let common: Vec<(String, String)> =
+        cells.iter().filter(|cell| ranked.iter().all(|label| find(label, cell).is_some())).cloned().collect();
+    if ranked.len() < 2 || common.is_empty() {
+        return None;
+    }
+
+    let noise = twins(records);
+    let of = |label: &str| {
+        let own: Vec<&Record> = common.iter().filter_map(|cell| find(label, cell)).collect();
+        let pairs = reference.pairs(records, own.iter().copied());
+        let middle = |value: &dyn Fn(&Record) -> Option<f64>| {
+            let values: Option<Vec<f64>> = own.iter().map(|r| value(r)).collect();
+            median(&values?)
+        };
+        Ranked {
+            label: label.into(),
+            speed: Reference::ratio(&pairs, &noise),
+            tests: middle(&|r| r.tests_per_ray),
+            steps: middle(&|r| r.steps_per_ray),
+            instructions: middle(&|r| r.instructions_per_ray),
+            bytes_per_triangle: middle(&|r| Some(r.bytes as f64 / r.triangles.max(1) as f64)),
+        }
+    };
+    let is_precise =
+        |label: &str| records.iter().any(|r| r.label == label && PRECISE.contains(&r.triangle_test.as_str()));
+    let rank = |precise: bool| {
+        let mut rows: Vec<Ranked> =
+            ranked.iter().filter(|label| is_precise(label) == precise).map(|label| of(label)).collect();
+        let speed = |row: &Ranked| row.speed.map_or(0.0, |speed| speed.estimate);
+        rows.sort_by(|a, b| speed(b).total_cmp(&speed(a)));
+        let unranked = unranked.iter().filter(|label| is_precise(label) == precise);
+        Rank { rows, unranked: unranked.map(|label| ((*label).clone(), timed(label))).collect() }
+    };
+    let (precise, single) = (rank(true), rank(false));
+    Some(Ranks { precise, single, reference, cells: common, all_cells: cells.len() })
+}
+
+impl Ranks {
+    /// A table for each rank that has rows.
+    pub fn tables(&self, records: &[Record]) -> Vec<Table> {
+        let scenes = records.iter().filter(|r| self.cells.iter().any(|(scene, _)| *scene == r.scene));
+        let scenes: Vec<String> = scenes.map(|r| scene_name(&r.scene, r.stand_in)).collect();
+        let scenes = distinct(scenes.iter());
+        let over = format!(
+            "Geometric means over the {} of scene and kind of rays in which every structure of both tables has a time, of {}: {}.",
+            plural(self.cells.len(), "cell"),
+            self.all_cells,
+            scenes.join(", ")
+        );
+        let titled = [
+            ("Rank with right answers: triangle tests in double precision or exact", &self.precise),
+            ("Rank in single precision", &self.single),
+        ];
+        let tables = titled.into_iter().filter(|(_, rank)| !rank.rows.is_empty());
+        tables.map(|(title, rank)| self.table(title, rank, &over)).collect()
+    }
+
+    fn table(&self, title: &str, rank: &Rank, over: &str) -> Table {
+        let known = |x: Option<f64>| x.map_or(Cell::blank(), |x| figures(x).into());
+        let best = rank.rows.first().map(|row| row.label.clone());
+        let rows = rank.rows.iter().map(|row| {
+            let tone = if Some(&row.label) == best.as_ref() { Tone::Best } else { Tone::Plain };
+            vec![
+                Cell::from(row.label.as_str()),
+                cell(row.speed).with(tone),
+                known(row.tests),
+                known(row.steps),
+                known(row.instructions),
+                known(row.bytes_per_triangle),
+            ]
+        });
+        let speed = format!("x {}", self.reference.name());
+        let columns = ["structure", &speed, "tests", "steps", "instructions", "bytes a triangle"];
+        let mut notes = vec![
+            over.to_owned(),
+            format!(
+                "x {}: times as fast as {} on the same rays, with the 95 % interval for a rerun. tests, steps, instructions: for each ray, median over the cells. \
+                 =: not distinguishable from 1.",
+                self.reference.name(),
+                self.reference.words()
+            ),
+        ];
+        let left: Vec<String> =
+            rank.unranked.iter().map(|(label, n)| format!("{label} ({n} of {} cells)", self.all_cells)).collect();
+        if !left.is_empty() {
+            notes.push(format!("Not ranked, without a time in half of the cells or more: {}.", listed(&left)));
+        }
+        explained(Table::new(title, columns, rows).noted(notes).without_blank_columns())
+    }
+
+    /// The fastest of each rank, and what right answers cost.
+    pub fn statements(&self, records: &[Record]) -> Vec<Statement> {
+        let ranks = [("right", "with right answers", &self.precise), ("single", "in single precision", &self.single)];
+        let firsts = ranks.into_iter().filter_map(|(key, words, rank)| self.first(records, key, words, rank));
+        firsts.chain(self.cost(records)).collect()
+    }
+
+    /// How many times faster `one` is than `other`, over the common cells.
+    fn ratio(&self, records: &[Record], one: &str, other: &str) -> Option<Estimate> {
+        let find = |label: &str, (scene, workload): &(String, String)| {
+            records.iter().find(|r| r.label == label && r.scene == *scene && r.workload == *workload)
+        };
+        let pairs: Option<Vec<_>> = self.cells.iter().map(|cell| find(one, cell).zip(find(other, cell))).collect();
+        speed(pairs?, &twins(records))
+    }
+
+    fn first(&self, records: &[Record], key: &str, words: &str, rank: &Rank) -> Option<Statement> {
+        let first = rank.rows.first()?;
+        let value = first.speed?;
+        let is_level = |row: &&Ranked| self.ratio(records, &first.label, &row.label).is_some_and(|x| x.holds(1.0));
+        let level: Vec<&str> = rank.rows[1..].iter().filter(is_level).map(|row| row.label.as_str()).collect();
+        let level = match level.len() {
+            0 => String::new(),
+            1 => format!("; {} is level with it", level[0]),
+            _ => format!("; {} are level with it", listed(&level)),
+        };
+        let (reference, times) = (self.reference.words(), interval(value));
+        let told = match () {
+            () if value == Estimate::exact(1.0) => "it is that which the others are related to".to_owned(),
+            () if value.holds(1.0) => format!("it is level with {reference}, {times} times as many rays a second"),
+            () => format!("it answers {times} times as many rays a second as {reference}"),
+        };
+        let (all, over) = (plural(rank.rows.len(), "structure"), plural(self.cells.len(), "cell"));
+        let sentence = format!(
+            "Of {all} {words}, {} is the fastest over {over} of scene and kind of rays: {told}{level}.",
+            first.label
+        );
+        Some(Statement::new(key, sentence).of(value))
+    }
+
+    /// Times over the default triangle test as multiples of those in single precision, structure by structure.
+    fn cost(&self, records: &[Record]) -> Option<Statement> {
+        let of = |row: &Ranked| records.iter().find(|r| r.label == row.label);
+        let mut costs: Vec<(&Record, Estimate)> = vec![];
+        for right in self.precise.rows.iter().filter(|row| !row.label.contains(':')).filter_map(of) {
+            let single = self.single.rows.iter().filter_map(of).find(|r| r.structure == right.structure);
+            let cost = single.and_then(|single| self.ratio(records, &single.label, &right.label));
+            costs.extend(cost.map(|cost| (right, cost)));
+        }
+        costs.sort_by(|a, b| a.1.estimate.total_cmp(&b.1.estimate));
+        let told = |(right, cost): &(&Record, Estimate)| format!("{} ({})", interval(*cost), right.structure);
+        let told = match &costs[..] {
+            [] => return None,
+            [one] => told(one),
+            [least, .., most] => format!("{} to {}", told(least), told(most)),
+        };
+        let test = &costs[0].0.triangle_test;
+        Some(Statement::new(
+            "cost",
+            format!(
+                "Over the triangle test {test} the same structures take {told} times as long as in single precision."
+            ),
+        ))
+    }
+}
