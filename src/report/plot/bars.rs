@@ -5,6 +5,7 @@ use super::palette::{FAINT, INK, MIDDLE, colours};
 use super::scale::{Axis, Scale};
 use crate::measure::Estimate;
 use crate::report::number::figures;
+use crate::report::words::interval;
 
 /// Groups of bars that share labels, order and axis.
 #[derive(Clone, Debug, PartialEq)]
@@ -93,6 +94,8 @@ impl Bars {
                         canvas.rect([zero.min(at), y - BAR / 2.0], [zero.max(at), y + BAR / 2.0], colours[row]);
                         let end = zero.max(at).max(whisker(canvas, *value, axis, y)) + 7.0;
                         canvas.text(&figures(value.estimate), [end, y], canvas::SMALL, INK.light, Side::Left);
+                        let told = format!("{}, {}: {}", self.labels[row], group.title, interval(*value));
+                        canvas.tip([x, y - ROW / 2.0], [x + column - 4.0, y + ROW / 2.0], told);
                     }
                 }
             }

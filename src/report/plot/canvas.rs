@@ -1,5 +1,6 @@
 //! The only file that draws with plotters: lines, dots and text in the units of the picture.
 
+use std::cell::RefCell;
 use std::sync::Once;
 
 use plotters::coord::Shift;
@@ -37,6 +38,15 @@ pub enum Side {
 /// What is drawn on.
 pub struct Canvas<'a> {
     area: &'a dyn Surface,
+    /// What a pointer is told, in the order in which it is drawn: later ones are on top.
+    tips: RefCell<Vec<Tip>>,
+}
+
+/// A place and what is there.
+struct Tip {
+    min: [f64; 2],
+    max: [f64; 2],
+    text: String,
 }
 
 /// A drawing area without the type of its backend.
@@ -88,13 +98,18 @@ fn pixels(units: f64) -> i32 {
 pub fn svg([width, height]: [f64; 2], draw: impl FnOnce(&Canvas)) -> String {
     register();
     let mut text = String::new();
+    let tips;
     {
         let size = (pixels(width) as u32, pixels(height) as u32);
         let area = SVGBackend::with_string(&mut text, size).into_drawing_area();
         area.fill(&PAPER.light).expect(DRAWN);
-        draw(&Canvas { area: &area });
+        let canvas = Canvas { area: &area, tips: RefCell::default() };
+        draw(&canvas);
+        tips = canvas.tips.take();
         area.present().expect(DRAWN);
     }
+    let end = text.rfind("</svg>").unwrap_or(text.len());
+    text.insert_str(end, &tips.iter().map(Tip::svg).collect::<String>());
     text
 }
 
@@ -105,11 +120,23 @@ pub fn png([width, height]: [f64; 2], draw: impl FnOnce(&Canvas)) -> Vec<u8> {
     let mut bytes = vec![255; size[0] as usize * size[1] as usize * 3];
     {
         let area = BitMapBackend::with_buffer(&mut bytes, size.into()).into_drawing_area();
-        draw(&Canvas { area: &area });
+        draw(&Canvas { area: &area, tips: RefCell::default() });
         area.present().expect(DRAWN);
     }
     let (colours, _) = bytes.as_chunks::<3>();
     Picture::new(size, colours.to_vec()).png()
+}
+
+impl Tip {
+    fn svg(&self) -> String {
+        let [[x, y], [right, bottom]] = [at(&self.min), at(&self.max)].map(|(x, y)| [x, y]);
+        let text = self.text.replace('&', "&amp;").replace('<', "&lt;");
+        let (width, height) = (right - x, bottom - y);
+        format!(
+            "<rect class=\"tip\" x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" fill=\"none\" pointer-events=\"all\">\
+             <title>{text}</title></rect>\n"
+        )
+    }
 }
 
 impl Canvas<'_> {
@@ -123,6 +150,17 @@ impl Canvas<'_> {
         let inside = if filled { colour } else { PAPER.light };
         self.area.circle(at(&centre), pixels(radius), inside.filled());
         self.area.circle(at(&centre), pixels(radius), colour.stroke_width(pixels(2.0) as u32));
+    }
+
+    /// What a pointer between two corners is told. Pictures of pixels do not have it.
+    pub fn tip(&self, min: [f64; 2], max: [f64; 2], text: String) {
+        self.tips.borrow_mut().push(Tip { min, max, text });
+    }
+
+    /// As [`tip`](Self::tip), about a point.
+    pub fn tip_at(&self, [x, y]: [f64; 2], text: String) {
+        const REACH: f64 = 8.0;
+        self.tip([x - REACH, y - REACH], [x + REACH, y + REACH], text);
     }
 
     /// An arrow down from `from`.

@@ -3,6 +3,9 @@
 use super::canvas::{self, Canvas, Side};
 use super::palette::{Colour, FAINT, INK, MIDDLE, colours};
 use super::scale::{Axis, Scale};
+use crate::measure::Estimate;
+use crate::report::number::figures;
+use crate::report::words::interval;
 
 /// Lines over one pair of axes.
 #[derive(Clone, Debug, PartialEq)]
@@ -211,6 +214,11 @@ fn draw_line(canvas: &Canvas, line: &Line, colour: Colour, x: Axis, y: Axis) {
     let seen = |p: &CurvePoint| (top.min(bottom) - 0.5..=top.max(bottom) + 0.5).contains(&y.place(p.y));
     for run in line.points.chunk_by(|a, b| seen(a) == seen(b)).filter(|run| seen(&run[0])) {
         let places: Vec<[f64; 2]> = run.iter().map(|p| [x.place(p.x), y.place(p.y)]).collect();
+        for (point, place) in run.iter().zip(&places) {
+            let value =
+                point.band.map_or(Estimate::exact(point.y), |[low, high]| Estimate::between(point.y, low, high));
+            canvas.tip_at(*place, format!("{} at {}: {}", line.label, figures(point.x), interval(value)));
+        }
         if line.mark != Mark::Dots {
             canvas.line(&places, colour, 2.0);
         }

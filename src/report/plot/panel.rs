@@ -5,6 +5,7 @@ use super::canvas::{self, Canvas, Side, WIDTH};
 use super::labels::{Rect, place};
 use super::palette::{self, Colour};
 use super::{LABELLED, Panel, Point};
+use crate::report::number::figures;
 
 const INK: Colour = palette::INK.light;
 const MIDDLE: Colour = palette::MIDDLE.light;
@@ -111,6 +112,10 @@ fn marks(panel: &Panel, colours: &[Colour], canvas: &Canvas, places: &[[f64; 2]]
                 canvas.arrow(*place, ARROW, colour);
             }
             canvas.dot(*place, RADIUS, colour, front);
+            let bound = if point.is_bound { "at most " } else { "" };
+            let [x, y] = [point.x, 100.0 * point.y].map(figures);
+            let told = format!("{}: {bound}{y} %; {}: {x}", point.label, panel.x_title);
+            canvas.tip_at(*place, told);
         }
     }
 }

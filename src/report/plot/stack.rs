@@ -7,6 +7,7 @@ use super::palette::{Colour, FAINT, INK, MIDDLE, PAPER, PARTS};
 use super::scale::{Axis, Scale};
 use crate::measure::Estimate;
 use crate::report::number::figures;
+use crate::report::words::interval;
 
 /// Products of the same factors.
 #[derive(Clone, Debug, PartialEq)]
@@ -100,6 +101,8 @@ impl Stack {
             let [colour, on_it] = colours(part);
             canvas.rect([from, y - BAR / 2.0], [to, y + BAR / 2.0], colour);
             let text = figures(factor);
+            let told = format!("{}, {}: {text} times", row.label, self.parts[part]);
+            canvas.tip([from, y - BAR / 2.0], [to, y + BAR / 2.0], told);
             if canvas::width_of(&text, canvas::SMALL) + 8.0 < to - from {
                 canvas.text(&text, [(from + to) * 0.5, y], canvas::SMALL, on_it, Side::Centre);
             }
@@ -109,5 +112,7 @@ impl Stack {
         let to = whisker(canvas, row.total, axis, under);
         let end = axis.place(up).max(axis.place(row.total.estimate)).max(to) + 8.0;
         canvas.text(&figures(row.total.estimate), [end, y], canvas::BODY, INK.light, Side::Left);
+        let told = format!("{}, the whole: {} times", row.label, interval(row.total));
+        canvas.tip([end - 8.0, y - ROW / 2.0], [end + 60.0, y + ROW / 2.0], told);
     }
 }
