@@ -50,10 +50,13 @@ impl ErrorMap {
     pub fn legend(&self) -> String {
         let painted = PAINTED.map(|(outcome, name, colour, _)| format!("{name} {} ({colour})", self.count(outcome)));
         let right = self.count(Outcome::Right) + self.count(Outcome::Nothing);
-        format!("{}, right {right} (grey, brighter where nearer)", painted.join(", "))
+        format!(
+            "{}, right {right} (grey, brighter where nearer); errors are drawn three pixels wide",
+            painted.join(", ")
+        )
     }
 
-    /// Errors in colours, right answers as a dim depth.
+    /// Errors in colours, enlarged; right answers as a dim depth.
     pub fn picture(&self) -> Picture {
         let right = |(outcome, hit): &(Outcome, Option<Hit>)| hit.filter(|_| *outcome == Outcome::Right);
         let nearest = self.pixels.iter().filter_map(right).fold(f32::INFINITY, |near, hit| near.min(hit.t));
@@ -65,7 +68,24 @@ impl ErrorMap {
             let light = |hit: Hit| 1.0 / 3.0 + 2.0 / 3.0 * if hit.t > nearest { nearest / hit.t } else { 1.0 };
             [pixel.1.map_or(0, |hit| (BRIGHTEST * light(hit)) as u8); 3]
         };
-        Picture::new(self.size, self.pixels.iter().map(colour).collect())
+        let mut colours: Vec<[u8; 3]> = self.pixels.iter().map(colour).collect();
+        // One pixel of a large picture is not seen: an error is three wide and high, and hides no other error.
+        let is_error = |outcome: Outcome| PAINTED.iter().any(|(painted, ..)| *painted == outcome);
+        let [width, height] = self.size.map(i64::from);
+        let index = |x: i64, y: i64| (y * width + x) as usize;
+        for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
+            let error = &self.pixels[index(x, y)];
+            if !is_error(error.0) {
+                continue;
+            }
+            for (x, y) in (y - 1..=y + 1).flat_map(|y| (x - 1..=x + 1).map(move |x| (x, y))) {
+                let is_inside = (0..width).contains(&x) && (0..height).contains(&y);
+                if is_inside && !is_error(self.pixels[index(x, y)].0) {
+                    colours[index(x, y)] = colour(error);
+                }
+            }
+        }
+        Picture::new(self.size, colours)
     }
 }
 
