@@ -1,8 +1,9 @@
-//! `completions`.
+//! `completions`, and the manual page.
 
 use clap::builder::PossibleValuesParser;
 use clap::{Arg, Command, ValueHint};
 use clap_complete::Shell;
+use clap_mangen::Man;
 
 use super::Suite;
 use super::terminal::Terminal;
@@ -13,20 +14,67 @@ use crate::study::Status;
 
 #[derive(Debug, clap::Args)]
 pub struct Args {
-    /// The shell
-    shell: Shell,
+    /// The shell; or `man` for the manual page
+    #[arg(value_name = "SHELL|man")]
+    form: Form,
+}
+
+/// What is printed.
+#[derive(Clone, Copy, Debug, clap::ValueEnum)]
+enum Form {
+    Bash,
+    Elvish,
+    Fish,
+    Powershell,
+    Zsh,
+    Man,
+}
+
+impl Form {
+    /// The shell that it is for.
+    fn shell(self) -> Option<Shell> {
+        match self {
+            Self::Bash => Some(Shell::Bash),
+            Self::Elvish => Some(Shell::Elvish),
+            Self::Fish => Some(Shell::Fish),
+            Self::Powershell => Some(Shell::PowerShell),
+            Self::Zsh => Some(Shell::Zsh),
+            Self::Man => None,
+        }
+    }
 }
 
 pub fn run(suite: &Suite, args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
+    let Some(shell) = args.form.shell() else {
+        terminal.print(&String::from_utf8_lossy(&manual(super::command(&suite.studies))?))?;
+        return Ok(Status::Right);
+    };
     let names = Names::of(&suite.registry);
     let mut script = vec![];
-    clap_complete::generate(args.shell, &mut names.told(&super::command(&suite.studies)), "sahara", &mut script);
+    clap_complete::generate(shell, &mut names.told(&super::command(&suite.studies)), "sahara", &mut script);
     let script = String::from_utf8_lossy(&script);
     // Where a scene is expected, a file is right as well: zsh offers what is listed and nothing else.
     let scenes = names.scenes.join(" ");
     let both = format!(":{{ compadd {scenes}; _files }}");
     terminal.print(&script.replace(&format!(":({scenes})"), &both))?;
     Ok(Status::Right)
+}
+
+/// The manual page of the command and of all that it can be told to do, in one.
+fn manual(command: Command) -> std::io::Result<Vec<u8>> {
+    let mut command = command.name("sahara").disable_help_subcommand(true);
+    command.build();
+    let mut page = vec![];
+    Man::new(command.clone()).render(&mut page)?;
+    for own in command.get_subcommands().filter(|own| !own.is_hide_set()) {
+        let man = Man::new(own.clone());
+        let mut part = vec![];
+        man.render_description_section(&mut part)?;
+        man.render_options_section(&mut part)?;
+        let part = String::from_utf8_lossy(&part).replace("\n.SH ", "\n.SS ");
+        page.extend_from_slice(format!("\n.SH \"sahara {}\"\n{part}", own.get_name()).as_bytes());
+    }
+    Ok(page)
 }
 
 /// Commands keep names for ever, and this process ends soon.
@@ -87,6 +135,16 @@ impl Names {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_manual_has_every_command_with_its_options() {
+        let page = manual(super::super::command(&Suite::from(Registry::builtin()).studies)).unwrap();
+        let page = String::from_utf8(page).unwrap();
+        assert!(page.starts_with(".ie") || page.starts_with(".TH"), "{}", &page[..80]);
+        for part in ["sahara compare", "sahara report", "\\-\\-fail\\-on\\-regression", "\\-\\-results"] {
+            assert!(page.contains(part), "{part}");
+        }
+    }
 
     #[test]
     fn shells_know_scenes_structures_workloads_and_views_and_nothing_hidden() {

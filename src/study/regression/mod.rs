@@ -6,6 +6,9 @@
 //! same rounds as all others. The change of a structure is the geometric mean over its cells of new / old, decided by
 //! its [interval](fn@crate::measure::Rerun::change), which allows for all structures and for every look at them; cells
 //! alone are shown and decide nothing, for there are many of them.
+//!
+//! # In continuous integration
+#![doc = include_str!("GATE.md")]
 
 mod changes;
 mod table;
