@@ -3,7 +3,7 @@
 use super::reference::{Reference, cell};
 use super::table::names;
 use super::{speed, twins};
-use crate::measure::{Estimate, median};
+use crate::measure::{Estimate, geometric_mean};
 use crate::report::number::{figures, plural};
 use crate::report::words::{distinct, explained, interval, listed, scene_name};
 use crate::report::{Cell, Record, Statement, Table, Tone};
@@ -26,7 +26,7 @@ pub struct Ranked {
     pub label: String,
     /// Times as fast as the reference, geometric mean.
     pub speed: Option<Estimate>,
-    /// For each ray, median; nothing where the structure does not tell.
+    /// For each ray, geometric mean of one more than the count, less one; nothing where the structure does not tell.
     pub tests: Option<f64>,
     pub steps: Option<f64>,
     /// Machine instructions for each ray, where they are counted.
@@ -76,7 +76,7 @@ pub fn ranks(records: &[Record]) -> Option<Ranks> {
         let pairs = reference.pairs(records, own.iter().copied());
         let middle = |value: &dyn Fn(&Record) -> Option<f64>| {
             let values: Option<Vec<f64>> = own.iter().map(|r| value(r)).collect();
-            median(&values?)
+            middle(&values?)
         };
         Ranked {
             label: label.into(),
@@ -99,6 +99,12 @@ pub fn ranks(records: &[Record]) -> Option<Ranks> {
     };
     let (precise, single) = (rank(true), rank(false));
     Some(Ranks { precise, single, reference, cells: common, all_cells: cells.len() })
+}
+
+/// The geometric mean of counts, each one more than it is, less one: of small scenes some are 0.
+fn middle(counts: &[f64]) -> Option<f64> {
+    let more: Vec<f64> = counts.iter().map(|count| count + 1.0).collect();
+    Some(geometric_mean(&more)? - 1.0)
 }
 
 impl Ranks {
@@ -140,7 +146,8 @@ impl Ranks {
         let mut notes = vec![
             over.to_owned(),
             format!(
-                "x {}: times as fast as {} on the same rays, with the 95 % interval for a rerun. tests, steps, instructions: for each ray, median over the cells. \
+                "x {}: times as fast as {} on the same rays, with the 95 % interval for a rerun. tests, steps, instructions: for each ray, \
+                 geometric means of one more than the count, less one. \
                  =: not distinguishable from 1.",
                 self.reference.name(),
                 self.reference.words()
@@ -217,5 +224,58 @@ impl Ranks {
                 "Over the triangle test {test} the same structures take {told} times as long as in single precision."
             ),
         ))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::example;
+
+    fn record(scene: &str, label: &str, ns: f64) -> Record {
+        let test =
+            label.split("test=").nth(1).unwrap_or(if label.starts_with("obvhs") { "native" } else { "filtered-f64" });
+        Record {
+            scene: scene.into(),
+            label: label.into(),
+            structure: label.split(':').next().unwrap().into(),
+            triangle_test: test.into(),
+            mrays_per_s: Some(1e3 / ns),
+            samples_ns: [1.0, 1.01, 0.99, 1.02, 1.0].map(|f| f * ns).into(),
+            epochs: 5,
+            tests_per_ray: Some(ns),
+            ..example()
+        }
+    }
+
+    #[test]
+    fn structures_are_ranked_over_the_cells_that_all_of_them_have() {
+        let times = [("slow", 4.0), ("fast", 1.0), ("fast:test=moller-trumbore", 0.8), ("obvhs-bvh2", 2.0)];
+        let mut records: Vec<Record> = vec![];
+        for scene in ["a", "b", "c"] {
+            records.extend(times.map(|(label, ns)| record(scene, label, ns)));
+        }
+        // No time in one of three cells, and one that has hardly any.
+        records[0].mrays_per_s = None;
+        records.push(record("a", "rare", 1.0));
+        let ranks = ranks(&records).unwrap();
+        assert_eq!((ranks.cells.len(), ranks.all_cells), (2, 3));
+        let labels = |rank: &Rank| rank.rows.iter().map(|row| row.label.clone()).collect::<Vec<_>>();
+        assert_eq!(labels(&ranks.precise), ["fast", "slow"]);
+        assert_eq!(labels(&ranks.single), ["fast:test=moller-trumbore", "obvhs-bvh2"]);
+        assert_eq!(ranks.precise.unranked, [("rare".to_owned(), 1)]);
+        let speed = ranks.precise.rows[0].speed.unwrap();
+        assert!((speed.estimate - 2.0).abs() < 1e-9, "{speed:?}");
+        assert!((ranks.precise.rows[1].tests.unwrap() - 4.0).abs() < 1e-9);
+
+        let told: Vec<String> = ranks.statements(&records).into_iter().map(|statement| statement.sentence).collect();
+        assert!(
+            told[0].starts_with("Of 2 structures with right answers, fast is the fastest over 2 cells"),
+            "{told:?}"
+        );
+        assert!(told[0].contains("answers 2.00") && !told[0].contains("level"), "{told:?}");
+        assert!(told[2].contains("filtered-f64") && told[2].contains("1.25"), "{told:?}");
+        assert_eq!(ranks.tables(&records).len(), 2);
+        assert!(super::ranks(&records[..1]).is_none());
     }
 }
