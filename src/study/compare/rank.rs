@@ -185,7 +185,8 @@ impl Ranks {
         let level = match level.len() {
             0 => String::new(),
             1 => format!("; {} is level with it", level[0]),
-            _ => format!("; {} are level with it", listed(&level)),
+            2 | 3 => format!("; {} are level with it", listed(&level)),
+            n => format!("; {n} others are level with it"),
         };
         let (reference, times) = (self.reference.words(), interval(value));
         let told = match () {
