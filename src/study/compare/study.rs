@@ -71,6 +71,9 @@ const FIELD: [&str; 9] = [
     "obvhs-cwbvh:test=exact",
 ];
 
+/// Seconds of an epoch of so many.
+const FIELD_BUDGET: u32 = 4;
+
 impl CompareArgs {
     /// The structures, the reference among them, and its label.
     fn chosen(&self, registry: &Registry) -> anyhow::Result<(Vec<Choice>, Option<String>)> {
@@ -123,9 +126,10 @@ impl Study for CompareStudy {
     }
 
     fn args(effort: Effort) -> CompareArgs {
-        let (scenes, rays, field) = match effort {
-            Effort::Full => (Scenes::default(), usize::MAX, &FIELD[..]),
-            Effort::Quick => (Scenes::named(&["cube", "torus"]), QUICK_RAYS, &[][..]),
+        let own = Measuring::of(effort);
+        let (scenes, rays, field, measuring) = match effort {
+            Effort::Full => (Scenes::default(), usize::MAX, &FIELD[..], Measuring { budget: FIELD_BUDGET, ..own }),
+            Effort::Quick => (Scenes::named(&["cube", "torus"]), QUICK_RAYS, &[][..], own),
         };
         CompareArgs {
             scenes,
@@ -134,7 +138,7 @@ impl Study for CompareStudy {
             reference: None,
             workload: vec![],
             rays: RaySource::Count(rays),
-            measuring: Measuring::of(effort),
+            measuring,
             quick: false,
             wide: false,
         }
@@ -277,4 +281,20 @@ fn summary(answer: &Compared, references: &[Reference]) -> Vec<Table> {
     let several = answer.records.iter().any(|r| r.scene != answer.records[0].scene);
     let means = several.then(|| mean_table(&answer.records, references));
     means.into_iter().filter(Table::says_something).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn study_all_compares_every_structure_with_right_answers_and_in_single_precision() {
+        let registry = Registry::builtin();
+        let (chosen, _) = CompareStudy::args(Effort::Full).chosen(&registry).unwrap();
+        let labels: Vec<&str> = chosen.iter().map(|choice| choice.label.as_str()).collect();
+        for name in registry.names() {
+            assert!(labels.contains(&name), "{name} is not among {labels:?}");
+        }
+        assert_eq!(labels.len(), registry.names().len() + FIELD.len() - 1);
+    }
 }
