@@ -29,7 +29,7 @@ use crate::output::OutputError;
 use crate::registry::Registry;
 use crate::simd::Level;
 use crate::study::process::{self, Job, Processes};
-use crate::study::{AnyStudy, Chosen, Effort, Status, Studies, guarded, sources};
+use crate::study::{AnyStudy, Chosen, Status, Studies, guarded, sources};
 use terminal::{Colour, Terminal};
 
 /// One rule for all commands; what a baseline is known to get wrong is no fault of a run.
@@ -224,7 +224,7 @@ fn answer_job(suite: &Suite, matches: &ArgMatches, job: &Job) -> anyhow::Result<
     job.cores.iter().for_each(|cores| keep_to(cores));
     let study = find(suite, &job.study)?;
     let chosen = match matches.subcommand() {
-        None => Chosen::Preset(Effort::Full),
+        None => Chosen::Defaults,
         Some((COMPARE, matches)) => return compare::answer_job(suite, matches, job),
         Some((STUDY, matches)) => match matches.subcommand() {
             Some((all::NAME, matches)) => Chosen::Preset(all::Args::from_arg_matches(matches)?.effort()),
@@ -242,7 +242,7 @@ fn dispatch(session: &Session, matches: &ArgMatches) -> anyhow::Result<Status> {
     match matches.subcommand() {
         None => {
             let compare = suite.studies.find(COMPARE).ok_or_else(|| anyhow::anyhow!("name a command: see --help"))?;
-            return study::run_as(session, compare, Chosen::Preset(Effort::Full), &study::Common::default());
+            return study::run_as(session, compare, Chosen::Defaults, &study::Common::default());
         }
         Some((COMPARE, matches)) => return compare::run(session, matches),
         Some((STUDY, matches)) => match matches.subcommand() {

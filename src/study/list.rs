@@ -87,6 +87,8 @@ impl Studies {
 pub enum Chosen<'a> {
     /// A command line.
     Matches(&'a ArgMatches),
+    /// The defaults of its command.
+    Defaults,
     /// `study all`.
     Preset(Effort),
 }
@@ -158,6 +160,10 @@ fn own<S: Study>(answer: &dyn Any) -> &S::Answer {
 fn args<S: Study>(chosen: Chosen) -> anyhow::Result<S::Args> {
     Ok(match chosen {
         Chosen::Matches(matches) => S::Args::from_arg_matches(matches)?,
+        Chosen::Defaults => {
+            let command = <S::Args as clap::Args>::augment_args(clap::Command::new(S::NAME).no_binary_name(true));
+            S::Args::from_arg_matches(&command.try_get_matches_from([""; 0])?)?
+        }
         Chosen::Preset(effort) => S::args(effort),
     })
 }
@@ -290,5 +296,18 @@ impl Answers {
             Some(old) => study.merge(old, answer),
             None => self.by_name.insert(study.name(), answer).is_some(),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::compare::CompareStudy;
+
+    #[test]
+    fn defaults_are_those_of_the_command_and_not_of_study_all() {
+        let structures = |chosen| args::<CompareStudy>(chosen).unwrap().structures.structure;
+        assert!(structures(Chosen::Defaults).is_empty());
+        assert!(!structures(Chosen::Preset(Effort::Full)).is_empty());
     }
 }
