@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 use std::time::Instant;
 
-use super::Session;
 use super::study::{Common, RUNS, run_as};
+use super::{Session, interrupt};
 use crate::report::Table;
 use crate::report::number::duration;
 use crate::study::{Chosen, Effort, Status};
@@ -51,8 +51,8 @@ pub fn run(session: &Session, args: &Args) -> anyhow::Result<Status> {
         }
         let start = Instant::now();
         let found = run_as(session, *study, Chosen::Preset(args.effort()), &common)?;
-        if found == Status::Interrupted {
-            return Ok(found);
+        if found == Status::Interrupted || interrupt::is_asked() {
+            return Ok(Status::Interrupted);
         }
         outcome = outcome.and(found);
         let words = match found {

@@ -22,7 +22,7 @@ pub struct ExactT {
 /// Where the whole line of `ray` meets the closed triangle, or nothing if it misses or lies in the plane of the triangle.
 ///
 /// The interval of the ray is not looked at: see [`ExactT::is_within`]. Numbers that are not finite hit nothing.
-/// Costs half a microsecond.
+/// Costs about a microsecond.
 ///
 /// The line passes through the triangle when it passes all three edges on the same side, or meets them: three volumes
 /// have no opposite signs.

@@ -86,9 +86,12 @@ pub(super) fn measure<S: Study>(args: &S::Args, plan: &Plan<S::Case>, run: &mut 
     let header = Header::new(S::NAME, &plan.settings, provenance);
     let keys = || plan.cases.iter().map(|case| case.key.as_str());
     let unfinished = run.folder.join(UNFINISHED).join(format!("{}-{}.jsonl", S::NAME, header.id(keys())));
+    // A run that is ended by the clock is not gone on with.
+    let may_go_on = !run.is_kept && plan.limit_ns.is_none();
+    let is_taken_up = may_go_on && unfinished.exists();
     let mut journal: Journal<S::Case> = match () {
         () if run.is_kept => Journal::open(&run.folder.join(format!("{}.jsonl", S::NAME)), header, run.fresh)?,
-        () if unfinished.exists() => Journal::open(&unfinished, header, run.fresh)?,
+        () if is_taken_up => Journal::open(&unfinished, header, run.fresh)?,
         () => Journal::in_memory(header),
     };
     let others =
@@ -100,9 +103,8 @@ pub(super) fn measure<S: Study>(args: &S::Args, plan: &Plan<S::Case>, run: &mut 
         let when = provenance.date.replace(['T', 'Z'], " ");
         format!("{before} of {all} cases are those of a run that was begun at {when}UTC and interrupted; --fresh starts anew.")
     });
-    run.screen.warn(gone_on.as_slice());
-
     run.screen.begin(Plan::<S::Case>::work(plan.cases.iter().filter(|case| journal.get(&case.key).is_none())));
+    run.screen.warn(gone_on.as_slice());
     let clock = SystemClock::start();
     let epochs = plan.cases.iter().map(|case| case.epoch + 1).max().unwrap_or(0);
     let (mut failure, mut over) = (None, vec![]);
@@ -110,6 +112,10 @@ pub(super) fn measure<S: Study>(args: &S::Args, plan: &Plan<S::Case>, run: &mut 
     for case in &plan.cases {
         if over.contains(&case.scene) {
             continue;
+        }
+        if run.screen.is_interrupted() {
+            stopped = true;
+            break;
         }
         let start = clock.now_ns();
         if case.epoch == 0 {
@@ -144,7 +150,7 @@ pub(super) fn measure<S: Study>(args: &S::Args, plan: &Plan<S::Case>, run: &mut 
                 let of = if is_whole { String::new() } else { format!(" ({} of {epochs} epochs)", scene.len()) };
                 run.screen.table(&Table { title: table.title + &of, ..table })?;
             }
-        } else if case.epoch == 0 && clock.now_ns() - start > LONG_NS && run.screen.is_watched() {
+        } else if !stopped && case.epoch == 0 && clock.now_ns() - start > LONG_NS && run.screen.is_watched() {
             let look = S::printed(&S::answer(&scene[..1], &context)).tables.into_iter().next();
             if let Some(table) = look {
                 let title = format!("{} (a first look: epoch 1 of {epochs})", table.title);
@@ -192,14 +198,14 @@ pub(super) fn measure<S: Study>(args: &S::Args, plan: &Plan<S::Case>, run: &mut 
     let mut outcome = Status::of(&troubles);
     if stopped {
         outcome = Status::Interrupted;
-        if !run.is_kept && !unfinished.exists() && !cases.is_empty() {
-            journal.keep(&unfinished)?;
-        }
-        let n = all - left;
-        foot.push(format!(
-            "Interrupted: {n} of {all} cases are measured and kept; the same command goes on with the others."
-        ));
-    } else if !run.is_kept {
+        let is_new = may_go_on && !is_taken_up && !cases.is_empty();
+        let kept = match is_new.then(|| journal.keep(&unfinished)) {
+            Some(Err(error)) => format!(", but not kept: {error}"),
+            None if cases.is_empty() || plan.limit_ns.is_some() => String::new(),
+            _ => " and kept; the same command goes on with the others".into(),
+        };
+        foot.push(format!("Interrupted: {} of {all} cases are measured{kept}.", all - left));
+    } else if may_go_on && failure.is_none() {
         drop(journal);
         forget(&unfinished);
     }

@@ -13,7 +13,10 @@ use std::ffi::OsString;
 use std::io::{self, BufRead, BufReader, Write};
 use std::process::{Child, Command, Stdio};
 use std::str::FromStr;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError, Weak};
+use std::thread;
+use std::time::Duration;
 
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
@@ -130,7 +133,13 @@ impl Processes {
             }
             tell("");
         }
-        let status = locked(&child.0).wait().map_err(|cause| trouble(cause.to_string()))?;
+        // Others may end it meanwhile.
+        let status = loop {
+            if let Some(status) = locked(&child.0).try_wait().map_err(|cause| trouble(cause.to_string()))? {
+                break status;
+            }
+            thread::sleep(Duration::from_millis(1));
+        };
         Err(trouble(format!("it ended without an answer ({status})")))
     }
 }
@@ -141,6 +150,9 @@ struct Guard(Arc<Mutex<Child>>);
 /// The last one that was started.
 static LAST: Mutex<Weak<Mutex<Child>>> = Mutex::new(Weak::new());
 
+/// Whether what measures was to end.
+static ENDED: AtomicBool = AtomicBool::new(false);
+
 fn locked<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
@@ -149,6 +161,9 @@ impl Guard {
     fn new(child: Child) -> Self {
         let child = Arc::new(Mutex::new(child));
         *locked(&LAST) = Arc::downgrade(&child);
+        if ENDED.load(Ordering::SeqCst) {
+            end();
+        }
         Self(child)
     }
 }
@@ -164,6 +179,7 @@ impl Drop for Guard {
 
 /// Ends the process that measures, if one does: the run is told that it has ended without an answer.
 pub fn end() {
+    ENDED.store(true, Ordering::SeqCst);
     if let Some(child) = locked(&LAST).upgrade() {
         let _ = locked(&child).kill();
     }

@@ -90,8 +90,8 @@ impl<const N: usize> FilterBlock<N> {
 /// beyond 2 k rejects no hit, and what is inside by more than 2 k is one. Underflow adds less than [`TINY`] (1 + |s| + 2 E); where an intermediate might overflow the bound is
 /// infinite, and comparisons that involve infinity or NaN decide nothing.
 ///
-/// A hit at t = h / det, with h = f . (s x e), has |h| <= T |det|, where T is not below `to` for the scaled direction. The computed h is off by
-/// less than E / 10 of the slack, det by less than 85 w E E, where the slack is at least 320 w E E; T |det| is at most 12 E E T and rounded by w of
+/// A hit at t = h / det, with h = f . (s x e), has |h| <= T |det|, where T is not below `to` for the scaled direction, nor below the least number whose rounding is relative. The computed h is off by
+/// less than E / 9 of the slack, det by less than 86 w E E, where the slack is at least 320 w E E; T |det| is at most 12 E E T and rounded by w of
 /// itself. So no hit has the computed h beyond that of T |det| by the slack times E + T, of which two thirds are left: that is at
 /// least 16 w of T |det|, more than the test in `f64` may round its t by. The sign of det does not matter to this.
 #[inline(always)]
@@ -126,7 +126,7 @@ pub(super) fn survivors<const N: usize, L: Lanes<N>>(ray: &FilterRay, block: &Fi
     let height = edge2.dot_loosely(q).flip_sign(det);
     let bound = slack.mul_add_loosely(extent, tiny);
     let behind = height.add(bound).lt(L::zero()) & slack.lt(abs_det);
-    let last = L::splat((to * ray.unscaled).max(f32::MIN_POSITIVE));
+    let last = L::splat((to.max(f32::MIN_POSITIVE) * ray.unscaled).max(f32::MIN_POSITIVE));
     let beyond = slack.mul_add_loosely(last, bound).lt(height.sub(last.mul(abs_det)));
     // A NaN in u or v makes the third one, which wins.
     let inside = u.min(v).min(abs_det.sub(u.add(v))).sub(slack);

@@ -15,6 +15,11 @@ fn filtered_f64_gives_the_bits_of_plain_f64() {
         hits += usize::from(plain.is_some());
     }
     assert!(hits > 40_000, "{hits}");
+    // A `t` so small that its rounding is no longer relative.
+    let corners = [[-1.0, -1.0], [1.0, -1.0], [0.0, 1.0]].map(|[x, y]| Vec3::new(x, y, 1.4) * libm::exp2f(-22.0));
+    let ray = Ray::new(Vec3::ZERO, Vec3::Z * libm::exp2f(127.0)).until(f32::from_bits(2));
+    assert_eq!(scalar_hit::<MollerTrumboreF64>(&ray, corners), Some(f32::from_bits(1)));
+    assert_eq!(scalar_hit::<FilteredF64>(&ray, corners), Some(f32::from_bits(1)));
 }
 
 #[test]
