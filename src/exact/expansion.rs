@@ -119,7 +119,11 @@ mod tests {
         // Of similar size, and of all sizes.
         let number = |i: u32| {
             let bits = i.wrapping_mul(2_654_435_761);
-            f64::from(f32::from_bits(if i % 3 == 0 { bits & 0xff7f_ffff } else { bits & 0xbfff_ffff | 0x2000_0000 }))
+            f64::from(f32::from_bits(if i.is_multiple_of(3) {
+                bits & 0xff7f_ffff
+            } else {
+                bits & 0xbfff_ffff | 0x2000_0000
+            }))
         };
         for i in 0..2_000 {
             let [a, b, c, d] = [0, 1, 2, 3].map(|k| Expansion::difference(number(5 * i + k), number(7 * i + 2 * k)));
