@@ -40,7 +40,7 @@ pub struct CompareArgs {
     #[arg(long, value_name = "N|all|F.rays", default_value = "all")]
     pub rays: RaySource,
     #[command(flatten)]
-    pub measuring: Measuring<5, 1, 1>,
+    pub measuring: Measuring<4, 1, 2>,
     /// A coarse answer within seconds: up to three epochs of few rays, and no further one of a scene that has taken 2 s
     #[arg(long, conflicts_with_all = ["epochs", "runs", "budget", "rays"])]
     pub quick: bool,
