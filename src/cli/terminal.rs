@@ -38,7 +38,8 @@ impl Terminal {
             Colour::Always => true,
             Colour::Never => false,
         };
-        let width = if shown { Probe::new().width() } else { None };
+        // Some terminals do not know their width, and say zero.
+        let width = if shown { Probe::new().width().filter(|&width| width > 0) } else { None };
         Self { screen: Screen { width, colour }, shown, quiet }
     }
 
