@@ -9,7 +9,7 @@ use glam::Vec3;
 use rand_core::{RngCore, SeedableRng};
 use rand_pcg::Pcg32;
 use sahara::accel::DynAccel;
-use sahara::geometry::{Mesh, Ray};
+use sahara::geometry::{Hit, Mesh, Ray};
 use sahara::registry::Registry;
 use sahara::scene::{Builtin, Sampling, Workload, WorkloadKind};
 use sahara::simd::Level;
@@ -60,10 +60,8 @@ fn from_the_grid() -> Vec<Ray> {
 }
 
 fn bits(accel: &dyn DynAccel, rays: &[Ray]) -> (Vec<Option<(u32, u32)>>, Vec<bool>) {
-    let (mut hits, mut any) = (vec![None; rays.len()], vec![false; rays.len()]);
-    accel.closest_hits(rays, &mut hits);
-    accel.any_hits(rays, &mut any);
-    (hits.iter().map(|hit| hit.map(|hit| (hit.t.to_bits(), hit.prim.index()))).collect(), any)
+    let bits = |hit: Option<Hit>| hit.map(|hit| (hit.t.to_bits(), hit.prim.index()));
+    (accel.closest(rays).into_iter().map(bits).collect(), accel.any(rays))
 }
 
 #[test]

@@ -10,7 +10,7 @@ use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::{RngSeed, TestRunner};
 use sahara::accel::DynAccel;
-use sahara::geometry::{Hit, Mesh, Ray};
+use sahara::geometry::{Mesh, Ray};
 use sahara::oracle;
 use sahara::registry::Registry;
 use target::{Case, KINDS, float_of};
@@ -32,12 +32,6 @@ const OURS: [&str; 11] = [
 
 fn built(spec: &str, mesh: &Arc<Mesh>) -> Box<dyn DynAccel> {
     Registry::builtin().choose(spec).unwrap().build(mesh).unwrap()
-}
-
-fn closest(accel: &dyn DynAccel, rays: &[Ray]) -> Vec<Option<Hit>> {
-    let mut hits = vec![None; rays.len()];
-    accel.closest_hits(rays, &mut hits);
-    hits
 }
 
 /// A triangle mesh with corners that `number` makes, most triangles sharing corners with others.
@@ -160,7 +154,7 @@ proptest! {
             rays.iter().map(|ray| oracle::nearest(ray, &mesh).map(|(t, ids)| (t.round(), ids[0]))).collect();
         for spec in OURS {
             let accel = built(spec, &mesh);
-            for ((ray, exact), hit) in rays.iter().zip(&exact).zip(closest(&*accel, &rays)) {
+            for ((ray, exact), hit) in rays.iter().zip(&exact).zip(accel.closest(&rays)) {
                 prop_assert_eq!(hit.map(|h| (h.t, h.prim.index())), *exact, "{}: ray \"{}\"", spec, ray);
             }
         }
@@ -190,7 +184,7 @@ proptest! {
         let truths: Vec<Option<(f32, u32)>> = windowed.iter().map(truth).collect();
         for spec in OURS {
             let accel = built(spec, &mesh);
-            for ((ray, truth), hit) in windowed.iter().zip(&truths).zip(closest(&*accel, &windowed)) {
+            for ((ray, truth), hit) in windowed.iter().zip(&truths).zip(accel.closest(&windowed)) {
                 prop_assert_eq!(hit.map(|h| (h.t, h.prim.index())), *truth, "{}: ray \"{}\"", spec, ray);
             }
         }
@@ -204,7 +198,7 @@ proptest! {
         let scaled = Arc::new(Mesh::new(positions, mesh.triangles().to_vec()).unwrap());
         let far: Vec<Ray> = rays.iter().map(|r| Ray { origin: r.origin * scale, direction: r.direction * scale, ..*r }).collect();
         for spec in OURS {
-            prop_assert_eq!(closest(&*built(spec, &mesh), &rays), closest(&*built(spec, &scaled), &far), "{}", spec);
+            prop_assert_eq!(built(spec, &mesh).closest(&rays), built(spec, &scaled).closest(&far), "{}", spec);
         }
     }
 

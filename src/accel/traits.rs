@@ -4,6 +4,7 @@ use std::borrow::Cow;
 use std::fmt::Debug;
 use std::sync::Arc;
 
+use rayon::prelude::*;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
@@ -133,6 +134,25 @@ pub trait Accel: Sized + Send + Sync + 'static {
 pub trait DynAccel: Send + Sync {
     fn closest_hits(&self, rays: &[Ray], hits: &mut [Option<Hit>]);
     fn any_hits(&self, rays: &[Ray], hits: &mut [bool]);
+    /// The closest hit of each ray.
+    fn closest(&self, rays: &[Ray]) -> Vec<Option<Hit>> {
+        let mut hits = vec![None; rays.len()];
+        self.closest_hits(rays, &mut hits);
+        hits
+    }
+    /// Of each ray, whether it hits anything.
+    fn any(&self, rays: &[Ray]) -> Vec<bool> {
+        let mut hits = vec![false; rays.len()];
+        self.any_hits(rays, &mut hits);
+        hits
+    }
+    /// The closest hit of each ray, found on all threads of the pool, each of which takes `chunk` rays at a time.
+    fn closest_by_chunks(&self, rays: &[Ray], chunk: usize) -> Vec<Option<Hit>> {
+        let mut hits = vec![None; rays.len()];
+        let chunks = rays.par_chunks(chunk).zip(hits.par_chunks_mut(chunk));
+        chunks.for_each(|(rays, hits)| self.closest_hits(rays, hits));
+        hits
+    }
     /// As `closest_hits`, adding to `counts` what was done.
     fn closest_hits_counted(&self, rays: &[Ray], hits: &mut [Option<Hit>], counts: &mut Counts);
     /// As `any_hits`, adding to `counts` what was done.

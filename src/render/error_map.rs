@@ -33,10 +33,8 @@ impl ErrorMap {
         let oracle = Oracle::new(&scene.mesh);
         let rays = scene.primary_rays(size, View::CENTRE, 0..size[0] * size[1]);
         let checked = |rays: &[_]| {
-            let mut hits = vec![None; rays.len()];
-            accel.closest_hits(rays, &mut hits);
             let check = |(ray, hit)| (outcome(oracle.nearest(ray).as_ref(), hit, DepthRule::STRICT), hit);
-            rays.iter().zip(hits).map(check).collect::<Vec<_>>()
+            rays.iter().zip(accel.closest(rays)).map(check).collect::<Vec<_>>()
         };
         Self { size, pixels: rays.par_chunks(1024).flat_map_iter(checked).collect() }
     }

@@ -105,8 +105,7 @@ fn shade_level(
     follow: bool,
     counts: &mut RayCounts,
 ) -> (Level, Vec<Ray>) {
-    let mut hits = vec![None; rays.len()];
-    accel.closest_hits(rays, &mut hits);
+    let hits = accel.closest(rays);
     let surfaces: Vec<(usize, Hit, Surface)> =
         hits.iter().enumerate().filter_map(|(i, hit)| hit.map(|hit| (i, hit, scene.surface(&rays[i], hit)))).collect();
 
@@ -115,8 +114,7 @@ fn shade_level(
         .iter()
         .flat_map(|(_, hit, surface)| scene.lights.iter().map(|light| scene.shadow_ray(hit.prim, surface, light)))
         .collect();
-    let mut hidden = vec![false; shadow_rays.len()];
-    accel.any_hits(&shadow_rays, &mut hidden);
+    let hidden = accel.any(&shadow_rays);
     counts.shadow += shadow_rays.len() as u64;
 
     let mut level = Level { colours: vec![scene.background; rays.len()], mirrors: vec![] };

@@ -3,7 +3,6 @@
 use std::sync::Arc;
 
 use glam::Vec3;
-use rayon::prelude::*;
 
 use crate::accel::{Accel, BuildError, DynAccel};
 use crate::brute_force::BruteForce;
@@ -91,10 +90,7 @@ impl Reference {
 
     /// Its closest hits, one for each ray, found on all threads of the pool.
     pub fn closest_hits(&self, rays: &[Ray]) -> Vec<Option<Hit>> {
-        let mut hits = vec![None; rays.len()];
-        let batches = rays.par_chunks(BATCH).zip(hits.par_chunks_mut(BATCH));
-        batches.for_each(|(rays, hits)| self.accel.closest_hits(rays, hits));
-        hits
+        self.accel.closest_by_chunks(rays, BATCH)
     }
 
     /// Whether what a structure lost can be told from what its triangle test did not find.

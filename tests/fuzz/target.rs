@@ -96,7 +96,7 @@ impl Case {
         // Brute force gives the answers of a test alone.
         let answers = |test: &str| {
             let known = registry.find("brute-force", test).is_some();
-            known.then(|| Reference::of_test(test, &mesh).map(|reference| closest(&*reference.accel, &self.rays)))
+            known.then(|| Reference::of_test(test, &mesh).map(|reference| reference.accel.closest(&self.rays)))
         };
         if let Some(exact) = answers("exact") {
             for (ray, hit) in self.rays.iter().zip(exact.map_err(|e| blame(e.to_string()))?) {
@@ -190,10 +190,8 @@ fn same_on_all_levels(accel: &dyn DynAccel, rays: &[Ray]) -> Result<(), String> 
     let mut said = vec![];
     for level in Level::available() {
         level.choose();
-        let mut any = vec![false; rays.len()];
-        accel.any_hits(rays, &mut any);
         let bits = |hit: Option<Hit>| hit.map(|h| (h.t.to_bits(), h.prim.index()));
-        said.push((level, closest(accel, rays).into_iter().map(bits).collect::<Vec<_>>(), any));
+        said.push((level, accel.closest(rays).into_iter().map(bits).collect::<Vec<_>>(), accel.any(rays)));
     }
     before.choose();
     let (first, expected, _) = &said[0];
@@ -204,12 +202,6 @@ fn same_on_all_levels(accel: &dyn DynAccel, rays: &[Ray]) -> Result<(), String> 
         }
     }
     Ok(())
-}
-
-fn closest(accel: &dyn DynAccel, rays: &[Ray]) -> Vec<Option<Hit>> {
-    let mut hits = vec![None; rays.len()];
-    accel.closest_hits(rays, &mut hits);
-    hits
 }
 
 /// Kinds of floats that break traversals; the number of [`float_of`].

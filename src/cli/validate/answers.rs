@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use crate::accel::DynAccel;
-use crate::geometry::{Hit, Mesh, Ray};
+use crate::geometry::{Mesh, Ray};
 use crate::report::{Cell, Table, Tone};
 use crate::scene::offset::barycentrics;
 use crate::validate::watched;
@@ -25,11 +25,7 @@ fn answer(accel: &Arc<dyn DynAccel>, ray: &Ray, mesh: &Mesh, limit: Duration) ->
         return vec![format!("declines {what}").into()];
     }
     let (asked, own) = (Arc::clone(accel), *ray);
-    let found = watched(limit, move || {
-        let mut hits: [Option<Hit>; 1] = [None];
-        asked.closest_hits(&[own], &mut hits);
-        hits[0]
-    });
+    let found = watched(limit, move || asked.closest(&[own])[0]);
     match found {
         Err(_) => vec![Cell::from("no answer").with(Tone::Wrong)],
         Ok(None) => vec!["no hit".into()],

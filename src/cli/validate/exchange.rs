@@ -62,16 +62,8 @@ const BATCH: usize = 256;
 
 fn answers(accel: &dyn DynAccel, query: Query, rays: &[Ray]) -> Vec<Option<Hit>> {
     match query {
-        Query::Closest => {
-            let mut hits = vec![None; rays.len()];
-            accel.closest_hits(rays, &mut hits);
-            hits
-        }
-        Query::Any => {
-            let mut any = vec![false; rays.len()];
-            accel.any_hits(rays, &mut any);
-            any.into_iter().map(|any| any.then(|| Hit::new(0.0, 0))).collect()
-        }
+        Query::Closest => accel.closest(rays),
+        Query::Any => accel.any(rays).into_iter().map(|any| any.then(|| Hit::new(0.0, 0))).collect(),
     }
 }
 

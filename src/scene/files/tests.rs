@@ -37,11 +37,7 @@ fn what_is_replayed_is_what_was_recorded_and_is_answered_the_same() {
             continue;
         }
 
-        let answers = |workload: &Workload| {
-            let mut hits = vec![None; workload.rays.len()];
-            DynAccel::closest_hits(&tree(&scene), &workload.rays, &mut hits);
-            HitFile::new(workload, hits)
-        };
+        let answers = |workload: &Workload| HitFile::new(workload, tree(&scene).closest(&workload.rays));
         let (first, again) = (answers(&file.workload), answers(&back.workload));
         assert_eq!(first, again);
         assert_eq!(HitFile::from_bytes(&first.to_bytes()).unwrap(), first);

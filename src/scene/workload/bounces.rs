@@ -1,7 +1,6 @@
 //! Rays that start where primary rays end.
 
 use glam::Vec3;
-use rayon::prelude::*;
 
 use super::primary;
 use super::source::Source;
@@ -23,9 +22,7 @@ pub struct SurfaceHit {
 
 /// The rays of `rays` that hit, in order, with what they hit.
 pub fn surface_hits(scene: &Scene, rays: &[Ray], accel: &dyn DynAccel) -> Vec<SurfaceHit> {
-    let mut hits = vec![None; rays.len()];
-    rays.par_chunks(CHUNK).zip(hits.par_chunks_mut(CHUNK)).for_each(|(rays, hits)| accel.closest_hits(rays, hits));
-    let hits = rays.iter().zip(hits).enumerate();
+    let hits = rays.iter().zip(accel.closest_by_chunks(rays, CHUNK)).enumerate();
     hits.filter_map(|(number, (&ray, hit))| {
         hit.map(|hit| SurfaceHit { number, ray, hit, surface: scene.surface(&ray, hit) })
     })

@@ -41,10 +41,7 @@ impl Batch {
         let some: Vec<usize> =
             (0..count).map(|i| (i as u128 * self.rays.len() as u128 / count as u128) as usize).collect();
         let rays: Vec<Ray> = some.iter().map(|&i| self.rays[i]).collect();
-        let mut answers = vec![None; count];
-        rays.par_chunks(CHUNK)
-            .zip(answers.par_chunks_mut(CHUNK))
-            .for_each(|(rays, hits)| accel.closest_hits(rays, hits));
+        let answers = accel.closest_by_chunks(&rays, CHUNK);
         let truths: Vec<Option<Truth>> = some.iter().map(|&i| self.truths[i].clone()).collect();
         count_errors(&truths, &answers, DepthRule::STRICT)
     }

@@ -6,8 +6,7 @@ use crate::geometry::Ray;
 pub fn complexity(accel: &dyn DynAccel, rays: &[Ray]) -> Option<f64> {
     let (mut met, mut going) = (0u64, rays.to_vec());
     while !going.is_empty() {
-        let mut hits = vec![None; going.len()];
-        accel.closest_hits(&going, &mut hits);
+        let hits = accel.closest(&going);
         let beyond =
             going.iter().zip(&hits).filter_map(|(ray, hit)| Some(Ray { t_min: hit.as_ref()?.t.next_up(), ..*ray }));
         going = beyond.collect();

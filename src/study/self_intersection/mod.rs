@@ -79,7 +79,7 @@ fn trace(sphere: Sphere, structures: &[Choice], rays: usize, seed: u64) -> Resul
         // Rays with the wrong answer: exactly so, and by the test's own fault.
         let wrong = |rays: &[Ray], hit_is_wrong: bool| {
             let of = |accel: &dyn DynAccel, rays: &[Ray]| {
-                let hits = closest(accel, rays);
+                let hits = accel.closest(rays);
                 rays.iter().zip(hits).filter(|(_, hit)| hit.is_some() == hit_is_wrong).map(|(ray, _)| *ray).collect()
             };
             let found: Vec<Ray> = of(accel.as_ref(), rays);
@@ -90,7 +90,7 @@ fn trace(sphere: Sphere, structures: &[Choice], rays: usize, seed: u64) -> Resul
         // Land on the sphere from outside. At its silhouette a ray may miss: take more than are needed.
         let mut sampler = Sampler::new(seed);
         let views: Vec<Ray> = (0..rays * 2).map(|_| sphere.view(&mut sampler)).collect();
-        let hits = closest(accel.as_ref(), &views);
+        let hits = accel.closest(&views);
         let landed: Vec<(Ray, Hit)> = views.into_iter().zip(hits).filter_map(|(ray, hit)| Some((ray, hit?))).collect();
         let directions: Vec<_> = (0..rays * 2).map(|_| sampler.direction()).collect();
 
@@ -212,10 +212,4 @@ impl Study for SelfIntersectionStudy {
     fn data(answer: &Vec<Row>) -> Vec<Data> {
         vec![Data::new(Self::NAME, answer)]
     }
-}
-
-fn closest(accel: &dyn DynAccel, rays: &[Ray]) -> Vec<Option<Hit>> {
-    let mut hits = vec![None; rays.len()];
-    accel.closest_hits(rays, &mut hits);
-    hits
 }
