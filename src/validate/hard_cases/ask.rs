@@ -62,7 +62,8 @@ pub fn ask(case: &HardCase, subject: &Subject, rays: usize, clock: &dyn Clock) -
             Ok(of_rays(&*accel, &set, build_ns, clock))
         }
         Content::Property(check) => {
-            let property = Some(check(subject, rays));
+            let refused = |why| Property { checked: 1, broken: 1, example: Some(why) };
+            let property = Some(check(subject, rays).unwrap_or_else(refused));
             Ok(Answers { head: Head { property, ..Head::default() }, hits: vec![] })
         }
     }
@@ -72,19 +73,14 @@ pub fn ask(case: &HardCase, subject: &Subject, rays: usize, clock: &dyn Clock) -
 const AGAIN: usize = 500;
 
 fn of_rays(accel: &dyn DynAccel, set: &Set, build_ns: u64, clock: &dyn Clock) -> Answers {
-    let mut hits = vec![None; set.rays.len()];
-    accel.closest_hits(&set.rays, &mut hits);
+    let hits = accel.closest(&set.rays);
     let mut any: Vec<bool> = hits.iter().map(Option::is_none).collect();
     let asks_any = accel.capabilities().any_hit;
     accel.any_hits(&set.rays, &mut any);
 
     let contradicts = |(hit, any): &(&Option<Hit>, &bool)| asks_any && hit.is_some() != **any;
     let any_hit_errors = hits.iter().zip(&any).filter(contradicts).count() as u64;
-    let alone = |(ray, hit): &(&Ray, &Option<Hit>)| {
-        let mut again = [None];
-        accel.closest_hits(&[**ray], &mut again);
-        !same(again[0], **hit)
-    };
+    let alone = |(ray, hit): &(&Ray, &Option<Hit>)| !same(accel.closest(&[**ray])[0], **hit);
     let step = hits.len().div_ceil(AGAIN).max(1);
     let unrepeatable = set.rays.iter().zip(&hits).step_by(step).filter(alone).count() as u64;
 

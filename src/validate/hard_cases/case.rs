@@ -56,8 +56,8 @@ pub enum Content {
         /// Mesh and rays, the same bits on every machine. Fewer rays are the first of more.
         make: fn(usize) -> Set,
     },
-    /// Something that answers must have in common.
-    Property(fn(&Subject, usize) -> Property),
+    /// Something that answers must have in common, or why it cannot be asked.
+    Property(fn(&Subject, usize) -> Result<Property, String>),
 }
 
 /// The right answers to the rays of a case, as far as they are known without looking.
@@ -154,7 +154,7 @@ impl Named {
         self.rays(Expected::SameAs(other), make)
     }
 
-    pub(super) const fn property(self, check: fn(&Subject, usize) -> Property) -> HardCase {
+    pub(super) const fn property(self, check: fn(&Subject, usize) -> Result<Property, String>) -> HardCase {
         self.asks(Content::Property(check))
     }
 }

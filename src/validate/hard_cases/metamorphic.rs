@@ -3,7 +3,7 @@
 use glam::Vec3;
 
 use super::case::Property;
-use super::subject::{built, closest, shared};
+use super::subject::{built, shared};
 use crate::geometry::Ray;
 use crate::triangle::{Exact, TriangleTest};
 use crate::validate::Sampler;
@@ -90,7 +90,7 @@ fn each_point(triangles: &[[Vec3; 3]], change: fn(Vec3) -> Vec3) -> Vec<[Vec3; 3
 }
 
 /// Compares the answers to a scene with those to its changes.
-pub(super) fn metamorphic(subject: &Subject, rays: usize) -> Property {
+pub(super) fn metamorphic(subject: &Subject, rays: usize) -> Result<Property, String> {
     let mut sampler = Sampler::new(75);
     let mut grid = |reach: f32| (sampler.cube() * (reach * 1024.0)).round() / 1024.0;
     let triangles: Vec<[Vec3; 3]> = (0..400)
@@ -106,23 +106,17 @@ pub(super) fn metamorphic(subject: &Subject, rays: usize) -> Property {
         })
         .collect();
 
-    let plain = match built(subject, &mesh(triangles.iter().copied())) {
-        Ok(accel) => accel,
-        Err(broken) => return broken,
-    };
+    let plain = built(subject, &mesh(triangles.iter().copied()))?;
     let mut property = Property::default();
     for change in CHANGES.iter().filter(|change| change.same_rounding || subject.triangle_test == Exact::NAME) {
-        let changed = match built(subject, &mesh((change.mesh)(&triangles))) {
-            Ok(accel) => accel,
-            Err(broken) => return broken,
-        };
+        let changed = built(subject, &mesh((change.mesh)(&triangles)))?;
         for &ray in &rays {
-            let expected = closest(&*plain, ray).map(|hit| hit.t * change.factor);
-            let found = closest(&*changed, (change.ray)(ray)).map(|hit| hit.t);
+            let expected = plain.closest(&[ray])[0].map(|hit| hit.t * change.factor);
+            let found = changed.closest(&[(change.ray)(ray)])[0].map(|hit| hit.t);
             property.note(expected.map(f32::to_bits) == found.map(f32::to_bits), || {
                 format!("{}: t is {found:?} and not {expected:?} on the ray \"{ray}\"", change.name)
             });
         }
     }
-    property
+    Ok(property)
 }

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use super::case::{HardCase, Property, added};
 use super::metamorphic::metamorphic;
 use super::set::star;
-use super::subject::{built, closest, shared};
-use crate::accel::{BuildError, DynAccel};
+use super::subject::{built, shared};
+use crate::accel::DynAccel;
 use crate::geometry::{Mesh, Ray};
 use crate::validate::conformance::Subject;
 use crate::validate::degenerate::{exponential, huge_and_small, needles, soup};
@@ -58,14 +58,11 @@ fn validated(
     meshes: &[Arc<Mesh>],
     rays: usize,
     errors: fn(&crate::validate::Validation) -> (u64, &'static str),
-) -> Property {
+) -> Result<Property, String> {
     let mut property = Property::default();
     let each = shared(rays, meshes.len() * Stratum::ALL.len());
     for mesh in meshes {
-        let accel = match built(subject, mesh) {
-            Ok(accel) => accel,
-            Err(broken) => return broken,
-        };
+        let accel = built(subject, mesh)?;
         let Ok(reference) = Reference::of_test(subject.triangle_test, mesh) else { continue };
         for stratum in Stratum::ALL {
             let validation = validate(&*accel, &reference, mesh, &stratum.rays(mesh, each, 76));
@@ -77,7 +74,7 @@ fn validated(
             property.append(Property { checked: validation.rays, broken, example });
         }
     }
-    property
+    Ok(property)
 }
 
 /// No ray of these scenes has more crossings; a structure that does not move on is stopped here.
@@ -86,7 +83,7 @@ const CROSSINGS: usize = 4096;
 /// The rays that go on behind each hit of `ray` as `accel` finds them, the first being `ray` itself.
 fn continued(accel: &dyn DynAccel, ray: Ray) -> Vec<Ray> {
     let mut rays = vec![ray];
-    while let Some(hit) = closest(accel, rays[rays.len() - 1]) {
+    while let Some(hit) = accel.closest(&rays[rays.len() - 1..])[0] {
         if rays.len() == CROSSINGS {
             break;
         }
@@ -106,31 +103,26 @@ fn through_star(count: usize, seed: u64) -> Vec<Ray> {
 }
 
 /// The structure, and brute force with its triangle test.
-fn both(subject: &Subject, mesh: &Arc<Mesh>) -> Result<(Box<dyn DynAccel>, Reference), Property> {
-    let refused = |error: BuildError| Property { checked: 1, broken: 1, example: Some(error.to_string()) };
-    Ok((built(subject, mesh)?, Reference::of_test(subject.triangle_test, mesh).map_err(refused)?))
+fn both(subject: &Subject, mesh: &Arc<Mesh>) -> Result<(Box<dyn DynAccel>, Reference), String> {
+    let reference = Reference::of_test(subject.triangle_test, mesh).map_err(|error| error.to_string());
+    Ok((built(subject, mesh)?, reference?))
 }
 
 /// Each continued ray is held against brute force, which says where to go on.
-fn continuation(subject: &Subject, rays: usize) -> Property {
+fn continuation(subject: &Subject, rays: usize) -> Result<Property, String> {
     let mesh = star();
-    let (accel, reference) = match both(subject, &mesh) {
-        Ok(both) => both,
-        Err(broken) => return broken,
-    };
+    let (accel, reference) = both(subject, &mesh)?;
     let through = through_star(shared(rays, 10), 73);
     let steps: Vec<Ray> = through.into_iter().flat_map(|ray| continued(&*reference.accel, ray)).collect();
     let found = validate(&*accel, &reference, &mesh, &steps);
-    Property { checked: found.rays, broken: found.errors(), example: found.worst_error().map(ToString::to_string) }
+    let example = found.worst_error().map(ToString::to_string);
+    Ok(Property { checked: found.rays, broken: found.errors(), example })
 }
 
 /// Where brute force with the same test counts an odd number too, the test is to blame.
-fn parity(subject: &Subject, rays: usize) -> Property {
+fn parity(subject: &Subject, rays: usize) -> Result<Property, String> {
     let mesh = star();
-    let (accel, reference) = match both(subject, &mesh) {
-        Ok(both) => both,
-        Err(broken) => return broken,
-    };
+    let (accel, reference) = both(subject, &mesh)?;
     let mut property = Property::default();
     for ray in through_star(shared(rays, 10), 74) {
         let crossings = |accel: &dyn DynAccel| continued(accel, ray).len() - 1;
@@ -138,7 +130,7 @@ fn parity(subject: &Subject, rays: usize) -> Property {
         let holds = own.is_multiple_of(2) || crossings(&*reference.accel) == own;
         property.note(holds, || format!("{own} crossings of a closed mesh by the ray \"{ray}\""));
     }
-    property
+    Ok(property)
 }
 
 /// References a triangle from which on a tree has lost control, whatever it is built over.
@@ -146,15 +138,11 @@ const REFERENCES: usize = 64;
 /// Edges from root to leaf likewise.
 const DEPTH: usize = 1024;
 
-fn limits(subject: &Subject, _rays: usize) -> Property {
+fn limits(subject: &Subject, _rays: usize) -> Result<Property, String> {
     let mut property = Property::default();
     let meshes = [("needles", needles(2200)), ("a sequence", exponential(300)), ("a huge triangle", huge_and_small())];
     for (name, mesh) in meshes {
-        let accel = match built(subject, &mesh) {
-            Ok(accel) => accel,
-            Err(broken) => return broken,
-        };
-        let shape = accel.shape();
+        let shape = built(subject, &mesh)?.shape();
         property.note(shape.references <= REFERENCES * mesh.len(), || {
             format!(
                 "{} references to {} triangles over {name}: at most {REFERENCES} each",
@@ -164,5 +152,5 @@ fn limits(subject: &Subject, _rays: usize) -> Property {
         });
         property.note(shape.depth <= DEPTH, || format!("{} levels over {name}: at most {DEPTH}", shape.depth));
     }
-    property
+    Ok(property)
 }
