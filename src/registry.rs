@@ -2,8 +2,6 @@
 
 mod keys;
 mod peers;
-#[cfg(feature = "planted-slowdown")]
-mod planted;
 
 use std::panic::{self, AssertUnwindSafe};
 use std::sync::Arc;
@@ -23,11 +21,6 @@ use crate::triangle::{
     BaldwinWeber, EdgeF64, Exact, FilteredF64, MollerTrumbore, MollerTrumboreF64, Plucker, TriangleTest, Watertight,
 };
 use crate::validate::conformance::Subject;
-
-#[cfg(feature = "planted-slowdown")]
-type SahKd<T> = planted::Planted<KdTree<T>>;
-#[cfg(not(feature = "planted-slowdown"))]
-type SahKd<T> = KdTree<T>;
 
 /// The structures that a run can choose from, in the order of tables.
 #[derive(Clone)]
@@ -112,7 +105,7 @@ impl Registry {
     fn over<T: TriangleTest>(self) -> Self {
         self.with::<BruteForce<T>>("brute-force", Default::default())
             .with::<KdTree<T>>("median-kd", KdConfig::REPORT)
-            .with::<SahKd<T>>("sah-kd", KdConfig::SAH)
+            .with::<KdTree<T>>("sah-kd", KdConfig::SAH)
             .with::<Bvh8<T>>("sah-kd-wide", Bvh8Config::new(Partition::Cells))
             .with::<Bvh8<T>>("sah-kd-tight", Bvh8Config::new(Partition::Tight))
             .with::<Bvh8<T>>("sah-hybrid", Bvh8Config::new(Partition::Hybrid))
