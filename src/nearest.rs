@@ -1,5 +1,51 @@
 //! Looks up names that people type, in any case, and suggests one for a misspelled name.
 
+/// Declares an enum with a name for each value; it has `ALL` of them, in the order in which they stand, and `name`.
+macro_rules! named_enum {
+    ($(#[$doc:meta])* pub enum $type:ident { $($(#[$of:meta])* $value:ident = $name:literal,)* }) => {
+        $(#[$doc])*
+        pub enum $type {
+            $($(#[$of])* $value,)*
+        }
+
+        impl $type {
+            /// In the order of tables.
+            pub const ALL: [Self; [$($name),*].len()] = [$(Self::$value),*];
+
+            /// As typed, printed and recorded.
+            pub fn name(self) -> &'static str {
+                match self {
+                    $(Self::$value => $name),*
+                }
+            }
+        }
+    };
+}
+pub(crate) use named_enum;
+
+/// A name that is none of those known.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("there is no {what} {name:?}{}; there are: {}", suggestion(name, known.iter().copied()), known.join(", "))]
+pub struct Unknown {
+    what: &'static str,
+    name: String,
+    known: Vec<&'static str>,
+}
+
+/// The one of `all` values, each of them `what`, with the name `wanted`, in any case.
+pub fn find<T: Copy, const N: usize>(
+    what: &'static str,
+    all: [T; N],
+    wanted: &str,
+    name: fn(T) -> &'static str,
+) -> Result<T, Unknown> {
+    named(all, wanted, |&one| name(one)).ok_or_else(|| Unknown {
+        what,
+        name: wanted.into(),
+        known: all.map(name).into(),
+    })
+}
+
 /// The first of `known` with the name `wanted`, in any case.
 pub fn named<T>(known: impl IntoIterator<Item = T>, wanted: &str, name: impl Fn(&T) -> &str) -> Option<T> {
     known.into_iter().find(|one| name(one).eq_ignore_ascii_case(wanted))
@@ -43,6 +89,22 @@ mod tests {
         }
         assert_eq!(nearest("sah", ["sah-kd", "sah-bvh"]), None, "two begin so");
         assert_eq!(suggestion("CUEB", SCENES), " (did you mean Cube?)");
+    }
+
+    named_enum! {
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub enum Fruit {
+            Apple = "apple",
+            SourCherry = "sour-cherry",
+        }
+    }
+
+    #[test]
+    fn a_name_that_is_none_gets_the_list() {
+        let fruit = |wanted| find("fruit", Fruit::ALL, wanted, Fruit::name);
+        assert_eq!(Fruit::ALL.map(|one| fruit(one.name())), Fruit::ALL.map(Ok));
+        let refused = fruit("appel").unwrap_err().to_string();
+        assert_eq!(refused, "there is no fruit \"appel\" (did you mean apple?); there are: apple, sour-cherry");
     }
 
     #[test]

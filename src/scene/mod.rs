@@ -33,4 +33,4 @@ pub use model::Model;
 pub use normals::CornerNormals;
 pub use offset::{Offset, SurfacePoint};
 pub use scene::{Scene, Surface};
-pub use workload::{Sampling, UnknownWorkload, Workload, WorkloadKind};
+pub use workload::{Sampling, Workload, WorkloadKind};

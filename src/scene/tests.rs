@@ -59,14 +59,6 @@ fn all_twelve_have_the_triangles_and_cameras_of_the_report() {
 }
 
 #[test]
-fn names_are_found_in_any_case_and_a_wrong_one_gets_advice() {
-    assert_eq!(Builtin::find("cornellBOX").unwrap().name, "Cornellbox");
-    let error = Builtin::find("billiards").unwrap_err().to_string();
-    assert!(error.contains("`billiards` (did you mean Billards?)"), "{error}");
-    assert!(error.contains("Cube, Sphere, Torus"), "{error}");
-}
-
-#[test]
 fn a_plain_file_gets_the_defaults() {
     let scene = scene(PLAIN).unwrap();
     assert_eq!((scene.size, scene.recursion_limit, scene.shadow_terminator_fix), ([512, 512], 8, true));

@@ -4,88 +4,49 @@ use glam::Vec3;
 
 use super::Sampler;
 use crate::geometry::{Aabb, Mesh, Ray};
+use crate::nearest::named_enum;
 use crate::triangle::{MollerTrumbore, scalar_hit};
 
-/// A kind of ray. Strata are never pooled: each has its own way to fail.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Stratum {
-    /// Random lines through the box: what every structure survives.
-    Random,
-    /// Through a vertex.
-    Vertices,
-    /// Through a point of an edge.
-    Edges,
-    /// Axis-parallel, coordinates taken from vertices, zeros of both signs.
-    AxisParallel,
-    /// In the plane of a face of the box of the mesh or of a triangle.
-    FacePlanes,
-    /// From a vertex.
-    FromVertices,
-    /// From a point of a triangle.
-    FromSurface,
-    /// From a coordinate at which a builder may split: a middle, a median, a quarter, a corner of a triangle's box.
-    FromSplits,
-    /// Nearly in the plane of a triangle.
-    Grazing,
-    /// Along diagonals: components of equal size, one of them perhaps a zero of either sign.
-    Diagonals,
-    /// Two components nearly zero: 1e-9, 1e-30 or denormal.
-    NearlyAxis,
-    /// Directions 1e-30 to 1e30 long.
-    Lengths,
-    /// From 1e3 to 1e8 box sizes away.
-    FarOrigins,
-    /// From very near a triangle: small `t`.
-    NearSurface,
-    /// Intervals that begin or end at a hit, or an ulp beside it.
-    Windows,
-    /// NaN, infinity, zero directions, empty intervals: nothing may be hit.
-    Invalid,
+named_enum! {
+    /// A kind of ray. Strata are never pooled: each has its own way to fail.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    pub enum Stratum {
+        /// Random lines through the box: what every structure survives.
+        Random = "random",
+        /// Through a vertex.
+        Vertices = "vertices",
+        /// Through a point of an edge.
+        Edges = "edges",
+        /// Axis-parallel, coordinates taken from vertices, zeros of both signs.
+        AxisParallel = "axis-parallel",
+        /// In the plane of a face of the box of the mesh or of a triangle.
+        FacePlanes = "face-planes",
+        /// From a vertex.
+        FromVertices = "from-vertices",
+        /// From a point of a triangle.
+        FromSurface = "from-surface",
+        /// From a coordinate at which a builder may split: a middle, a median, a quarter, a corner of a triangle's box.
+        FromSplits = "from-splits",
+        /// Nearly in the plane of a triangle.
+        Grazing = "grazing",
+        /// Along diagonals: components of equal size, one of them perhaps a zero of either sign.
+        Diagonals = "diagonals",
+        /// Two components nearly zero: 1e-9, 1e-30 or denormal.
+        NearlyAxis = "nearly-axis",
+        /// Directions 1e-30 to 1e30 long.
+        Lengths = "lengths",
+        /// From 1e3 to 1e8 box sizes away.
+        FarOrigins = "far-origins",
+        /// From very near a triangle: small `t`.
+        NearSurface = "near-surface",
+        /// Intervals that begin or end at a hit, or an ulp beside it.
+        Windows = "windows",
+        /// NaN, infinity, zero directions, empty intervals: nothing may be hit.
+        Invalid = "invalid",
+    }
 }
 
 impl Stratum {
-    /// All strata, in the order of the tables.
-    pub const ALL: [Self; 16] = [
-        Self::Random,
-        Self::Vertices,
-        Self::Edges,
-        Self::AxisParallel,
-        Self::FacePlanes,
-        Self::FromVertices,
-        Self::FromSurface,
-        Self::FromSplits,
-        Self::Grazing,
-        Self::Diagonals,
-        Self::NearlyAxis,
-        Self::Lengths,
-        Self::FarOrigins,
-        Self::NearSurface,
-        Self::Windows,
-        Self::Invalid,
-    ];
-
-    /// As printed.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Random => "random",
-            Self::Vertices => "vertices",
-            Self::Edges => "edges",
-            Self::AxisParallel => "axis-parallel",
-            Self::FacePlanes => "face-planes",
-            Self::FromVertices => "from-vertices",
-            Self::FromSurface => "from-surface",
-            Self::FromSplits => "from-splits",
-            Self::Grazing => "grazing",
-            Self::Diagonals => "diagonals",
-            Self::NearlyAxis => "nearly-axis",
-            Self::Lengths => "lengths",
-            Self::FarOrigins => "far-origins",
-            Self::NearSurface => "near-surface",
-            Self::Windows => "windows",
-            Self::Invalid => "invalid",
-        }
-    }
-
     /// `count` rays of this kind for `mesh`. An empty mesh is treated as if a triangle of unit size were there.
     pub fn rays(self, mesh: &Mesh, count: usize, seed: u64) -> Vec<Ray> {
         let mut generator = Generator::new(mesh, seed ^ (self as u64) << 32);

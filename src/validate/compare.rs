@@ -45,11 +45,7 @@ pub fn validate_known(
     let batches = admitted.par_chunks(BATCH).zip(expected.par_chunks(BATCH));
     let of_batch = |(rays, expected)| validate_batch(subject, reference, expected, mesh, rays, &Asked::default());
     let batches: Vec<Validation> = batches.map(of_batch).collect();
-    let mut whole = Validation { declined: (rays.len() - admitted.len()) as u64, ..Validation::default() };
-    for batch in batches {
-        whole.append(batch);
-    }
-    whole
+    Validation::of_batches(rays.len() - admitted.len(), batches)
 }
 
 /// Holds closest hits that were found elsewhere against `reference`: as [`validate`], without what only asking can tell.
@@ -71,11 +67,7 @@ pub fn validate_answers(reference: &Reference, mesh: &Mesh, rays: &[Ray], found:
             sums
         })
         .collect();
-    let mut whole = Validation::default();
-    for batch in batches {
-        whole.append(batch);
-    }
-    whole
+    Validation::of_batches(0, batches)
 }
 
 /// One batch; `asked` shows to another thread what the structure is being asked.

@@ -4,6 +4,7 @@ use std::fmt::{Display, Formatter};
 
 use super::asked::Call;
 use crate::geometry::{Hit, Ray};
+use crate::nearest::named_enum;
 
 /// Sums over the rays of a comparison.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -62,60 +63,43 @@ pub struct WorstRay {
     pub gap: f64,
 }
 
-/// How an answer differs, the worst first.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Kind {
-    /// The structure does not answer in time.
-    Hangs,
-    /// The structure panics.
-    Panicked,
-    /// A true hit, and the structure returns none.
-    Lost,
-    /// A true hit, and the structure returns one behind it, or one that is none.
-    NearerLost,
-    /// A hit that the triangle test over all triangles does not give.
-    Invented,
-    /// The right primitive at a `t` that the triangle test does not give.
-    WrongT,
-    /// The right `t`, at a primitive that is not hit there.
-    WrongPrimitive,
-    /// Any hit contradicts closest hit.
-    AnyHitDisagrees,
-    /// Asked again, the structure answers otherwise.
-    Unrepeatable,
-    /// Right but for a `t` that is off by more than the strict rule of depth allows, and by less than the coarse one.
-    Depth,
-    /// The triangle test's own error; the structure is not to blame.
-    Kernel,
-    /// The same `t` at a higher number than the lowest that is hit there: wrong only where the lowest is promised.
-    HigherId,
-    /// The same `t` at another primitive: not an error.
-    Tie,
+named_enum! {
+    /// How an answer differs, the worst first.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+    pub enum Kind {
+        /// The structure does not answer in time.
+        Hangs = "hangs",
+        /// The structure panics.
+        Panicked = "panics",
+        /// A true hit, and the structure returns none.
+        Lost = "lost",
+        /// A true hit, and the structure returns one behind it, or one that is none.
+        NearerLost = "nearer-lost",
+        /// A hit that the triangle test over all triangles does not give.
+        Invented = "invented",
+        /// The right primitive at a `t` that the triangle test does not give.
+        WrongT = "wrong-t",
+        /// The right `t`, at a primitive that is not hit there.
+        WrongPrimitive = "wrong-primitive",
+        /// Any hit contradicts closest hit.
+        AnyHitDisagrees = "any-hit-disagrees",
+        /// Asked again, the structure answers otherwise.
+        Unrepeatable = "unrepeatable",
+        /// Right but for a `t` that is off by more than the strict rule of depth allows, and by less than the coarse one.
+        Depth = "depth",
+        /// The triangle test's own error; the structure is not to blame.
+        Kernel = "kernel",
+        /// The same `t` at a higher number than the lowest that is hit there: wrong only where the lowest is promised.
+        HigherId = "higher-id",
+        /// The same `t` at another primitive: not an error.
+        Tie = "tie",
+    }
 }
 
 impl Kind {
     /// Whether the structure's answer is wrong.
     pub fn is_error(self) -> bool {
         self < Self::Depth
-    }
-
-    /// As printed.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Hangs => "hangs",
-            Self::Panicked => "panics",
-            Self::Lost => "lost",
-            Self::NearerLost => "nearer-lost",
-            Self::Invented => "invented",
-            Self::WrongT => "wrong-t",
-            Self::WrongPrimitive => "wrong-primitive",
-            Self::AnyHitDisagrees => "any-hit-disagrees",
-            Self::Unrepeatable => "unrepeatable",
-            Self::Depth => "depth",
-            Self::Kernel => "kernel",
-            Self::HigherId => "higher-id",
-            Self::Tie => "tie",
-        }
     }
 }
 
@@ -137,6 +121,13 @@ impl Validation {
     /// The worst ray whose answer is wrong.
     pub fn worst_error(&self) -> Option<&WorstRay> {
         self.worst.first().filter(|w| w.kind.is_error())
+    }
+
+    /// A whole of which `declined` rays were not asked, and the others in these batches.
+    pub(super) fn of_batches(declined: usize, batches: impl IntoIterator<Item = Self>) -> Self {
+        let mut whole = Self { declined: declined as u64, ..Self::default() };
+        batches.into_iter().for_each(|batch| whole.append(batch));
+        whole
     }
 
     /// Adds a comparison of further rays, which come after these.

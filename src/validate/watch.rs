@@ -90,7 +90,7 @@ pub fn validate_watched(
     limit: Duration,
 ) -> Validation {
     let admitted = subject.capabilities().admitted(rays).into_owned();
-    let mut whole = Validation { declined: (rays.len() - admitted.len()) as u64, ..Validation::default() };
+    let declined = rays.len() - admitted.len();
     let job = Arc::new(Job {
         subject: Arc::clone(subject),
         reference: Arc::clone(reference),
@@ -136,18 +136,12 @@ pub fn validate_watched(
             let first = if let Call::Ray(index) = call { index } else { 0 };
             let expected = reference.closest_hits(&rays[first..=first])[0];
             batches.insert(number, sums.ended(expected, rays, call, Kind::Hangs, why));
-            for (_, batch) in batches {
-                whole.append(batch);
-            }
-            return whole;
+            return Validation::of_batches(declined, batches.into_values());
         }
     }
     for thread in threads {
         // What a structure panics with was caught: this is a fault of ours.
         thread.join().unwrap_or_else(|fault| resume_unwind(fault));
     }
-    for (_, batch) in batches {
-        whole.append(batch);
-    }
-    whole
+    Validation::of_batches(declined, batches.into_values())
 }

@@ -9,7 +9,7 @@ use super::source::Source;
 use super::{bounces, lines, picture, primary};
 use crate::accel::Query;
 use crate::geometry::Ray;
-use crate::nearest::{named, suggestion};
+use crate::nearest::{Unknown, find};
 
 macro_rules! kinds {
     ($($(#[$doc:meta])* $kind:ident, $name:literal, $query:ident, $make:path;)*) => {
@@ -70,19 +70,10 @@ kinds! {
     ImageShadow, "image-shadow", Any, picture::shadow;
 }
 
-/// A name that is no workload.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error(
-    "there is no workload {0:?}{meant}; there are: {known}",
-    meant = suggestion(.0, WorkloadKind::ALL.map(WorkloadKind::name)),
-    known = WorkloadKind::ALL.map(WorkloadKind::name).join(", ")
-)]
-pub struct UnknownWorkload(pub String);
-
 impl FromStr for WorkloadKind {
-    type Err = UnknownWorkload;
+    type Err = Unknown;
 
-    fn from_str(name: &str) -> Result<Self, UnknownWorkload> {
-        named(Self::ALL, name, |kind| kind.name()).ok_or_else(|| UnknownWorkload(name.into()))
+    fn from_str(name: &str) -> Result<Self, Unknown> {
+        find("workload", Self::ALL, name, Self::name)
     }
 }

@@ -19,7 +19,7 @@ use super::hash::hexadecimal;
 use crate::accel::{DynAccel, Query};
 use crate::geometry::Ray;
 
-pub use kinds::{UnknownWorkload, WorkloadKind};
+pub use kinds::WorkloadKind;
 pub use source::Sampling;
 
 /// Rays of one kind for a scene: the same bits on every machine and with every structure of the same triangle test.

@@ -2,57 +2,34 @@ use std::str::FromStr;
 
 use crate::geometry::{Mesh, Ray};
 use crate::measure::spread;
-use crate::nearest::{named, suggestion};
+use crate::nearest::{Unknown, find, named_enum};
 use crate::scene::{Scene, View};
 use crate::validate::Stratum;
 
-/// A kind of rays whose errors are counted together. Kinds are never pooled: each fails in its own way.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum RayKind {
-    /// Half from the camera, half random lines through the box ([`Stratum::Random`]): what pictures are made of.
-    Uniform,
-    /// Through points of edges ([`Stratum::Edges`]).
-    Edge,
-    /// Through vertices ([`Stratum::Vertices`]).
-    Vertex,
-    /// Along the axes, with coordinates of vertices ([`Stratum::AxisParallel`]).
-    Axis,
-    /// Nearly in the plane of a triangle ([`Stratum::Grazing`]).
-    Grazing,
-    /// With directions 1e-30 to 1e30 long ([`Stratum::Lengths`]).
-    Scale,
-    /// From 1e3 to 1e6 box sizes away: those of [`Stratum::FarOrigins`] that are not farther. Farther away, one step of
-    /// an `f32` is as large as what there is to be hit, and a traversal that must not lose anything visits nearly
-    /// everything.
-    Offset,
+named_enum! {
+    /// A kind of rays whose errors are counted together. Kinds are never pooled: each fails in its own way.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    pub enum RayKind {
+        /// Half from the camera, half random lines through the box ([`Stratum::Random`]): what pictures are made of.
+        Uniform = "uniform",
+        /// Through points of edges ([`Stratum::Edges`]).
+        Edge = "edge",
+        /// Through vertices ([`Stratum::Vertices`]).
+        Vertex = "vertex",
+        /// Along the axes, with coordinates of vertices ([`Stratum::AxisParallel`]).
+        Axis = "axis",
+        /// Nearly in the plane of a triangle ([`Stratum::Grazing`]).
+        Grazing = "grazing",
+        /// With directions 1e-30 to 1e30 long ([`Stratum::Lengths`]).
+        Scale = "scale",
+        /// From 1e3 to 1e6 box sizes away: those of [`Stratum::FarOrigins`] that are not farther. Farther away, one step of
+        /// an `f32` is as large as what there is to be hit, and a traversal that must not lose anything visits nearly
+        /// everything.
+        Offset = "offset",
+    }
 }
 
-/// A kind of rays that is not known.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error(
-    "there is no kind of rays {0:?}{meant}; there are: {known}",
-    meant = suggestion(.0, RayKind::ALL.map(RayKind::name)),
-    known = RayKind::ALL.map(RayKind::name).join(", ")
-)]
-pub struct UnknownKind(String);
-
 impl RayKind {
-    pub const ALL: [Self; 7] =
-        [Self::Uniform, Self::Edge, Self::Vertex, Self::Axis, Self::Grazing, Self::Scale, Self::Offset];
-
-    /// As written on the command line and in records.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Uniform => "uniform",
-            Self::Edge => "edge",
-            Self::Vertex => "vertex",
-            Self::Axis => "axis",
-            Self::Grazing => "grazing",
-            Self::Scale => "scale",
-            Self::Offset => "offset",
-        }
-    }
-
     /// What the rays are, in a few words.
     pub fn description(self) -> &'static str {
         match self {
@@ -108,9 +85,9 @@ fn near_enough(mesh: &Mesh, count: usize, seed: u64) -> Vec<Ray> {
 }
 
 impl FromStr for RayKind {
-    type Err = UnknownKind;
+    type Err = Unknown;
 
-    fn from_str(name: &str) -> Result<Self, UnknownKind> {
-        named(Self::ALL, name, |kind| kind.name()).ok_or_else(|| UnknownKind(name.into()))
+    fn from_str(name: &str) -> Result<Self, Unknown> {
+        find("kind of rays", Self::ALL, name, Self::name)
     }
 }

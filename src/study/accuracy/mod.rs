@@ -28,7 +28,7 @@ use crate::validate::{ErrorCounts, Rate};
 use batch::Batch;
 
 pub use figure::figure;
-pub use kind::{RayKind, UnknownKind};
+pub use kind::RayKind;
 pub use record::AccuracyRecord;
 pub use study::AccuracyStudy;
 pub use table::{legend, tables};

@@ -1,14 +1,18 @@
 //! The cells of the factorial design: every plane with every stop rule and every traversal.
 
-/// What is varied.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Factor {
-    /// Where a node is split.
-    Plane,
-    /// When a node stays a leaf.
-    Stop,
-    /// How rays walk the tree.
-    Traversal,
+use crate::nearest::named_enum;
+
+named_enum! {
+    /// What is varied.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Factor {
+        /// Where a node is split.
+        Plane = "plane",
+        /// When a node stays a leaf.
+        Stop = "stop rule",
+        /// How rays walk the tree.
+        Traversal = "traversal",
+    }
 }
 
 /// One value of a factor.
@@ -50,18 +54,6 @@ const TRAVERSALS: [Level; 2] =
 const COMMON: &str = "traversal_cost=1.0,intersection_cost=0.7,empty_bonus=0.2,duplication=8.0";
 
 impl Factor {
-    /// In the order of a cell's numbers.
-    pub const ALL: [Self; 3] = [Self::Plane, Self::Stop, Self::Traversal];
-
-    /// As tables print it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Plane => "plane",
-            Self::Stop => "stop rule",
-            Self::Traversal => "traversal",
-        }
-    }
-
     /// Its values: the report's first, that of the SAH tree last.
     pub fn levels(self) -> &'static [Level] {
         match self {
