@@ -64,7 +64,6 @@ impl Polygon {
         Self { corners: slots, len: 3, slack: largest * ERROR }
     }
 
-    /// The part of a triangle in `cell`.
     fn clipped(corners: [Vec3; 3], cell: &Aabb) -> Self {
         let mut polygon = Self::new(corners);
         polygon.cut_to(cell);
@@ -94,7 +93,6 @@ impl Polygon {
         corner_box
     }
 
-    /// By the fan of triangles around its first corner.
     #[cfg(feature = "suite")]
     fn area(&self) -> f64 {
         let [first, rest @ ..] = &self.corners[..self.len] else { return 0.0 };
@@ -139,7 +137,6 @@ impl Polygon {
     }
 }
 
-/// The box of corners.
 struct CornerBox {
     min: DVec3,
     max: DVec3,

@@ -80,7 +80,6 @@ impl Gate {
     }
 }
 
-/// The options, with the defaults of runs that are kept.
 fn options(matches: &ArgMatches) -> anyhow::Result<CompareArgs> {
     let mut args = CompareArgs::from_arg_matches(matches)?;
     let is_default = |id: &str| matches.value_source(id) == Some(ValueSource::DefaultValue);

@@ -19,7 +19,6 @@ pub struct Args {
     form: Form,
 }
 
-/// What is printed.
 #[derive(Clone, Copy, Debug, clap::ValueEnum)]
 enum Form {
     Bash,
@@ -31,7 +30,6 @@ enum Form {
 }
 
 impl Form {
-    /// The shell that it is for.
     fn shell(self) -> Option<Shell> {
         match self {
             Self::Bash => Some(Shell::Bash),

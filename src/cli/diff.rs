@@ -51,7 +51,6 @@ pub fn run(args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
     Ok(if comparison.wrong.is_empty() { Status::Right } else { Status::Wrong })
 }
 
-/// The records of a file.
 fn records(path: &Path) -> anyhow::Result<Vec<Record>> {
     let text = std::fs::read(path).with_context(|| format!("cannot read {}", path.display()))?;
     let records: Vec<Record> = serde_json::from_slice(&text).map_err(|cause| {

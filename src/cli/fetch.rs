@@ -55,7 +55,6 @@ pub fn run(args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
     Ok(Status::Right)
 }
 
-/// The scene files named, or those of all built-in scenes.
 fn scenes(named: &[String]) -> anyhow::Result<Vec<SceneFile>> {
     if named.is_empty() {
         return Ok(BUILTIN.iter().map(Builtin::file).collect());
@@ -69,7 +68,6 @@ fn scenes(named: &[String]) -> anyhow::Result<Vec<SceneFile>> {
     named.iter().map(read).collect()
 }
 
-/// What is fetched, from where, and what may be done with it.
 fn described(scene: &str, real: &RealMesh) -> String {
     let size = real.bytes.map_or(String::new(), |n| format!(", {}", bytes(n as usize)));
     let RealMesh { file, origin, licence, url, .. } = real;

@@ -49,7 +49,6 @@ pub fn run(suite: &Suite, args: &Args, terminal: &Terminal) -> anyhow::Result<St
     Ok(Status::Right)
 }
 
-/// All names, on one screen.
 fn names(suite: &Suite) -> Table {
     let mut tests: Vec<&str> = suite.registry.entries().iter().map(|entry| entry.triangle_test).collect();
     let mut seen = std::collections::BTreeSet::new();
@@ -100,7 +99,6 @@ fn structures(registry: &Registry) -> Table {
     Table { notes, ..table(title, &["name", "triangle tests", "declines", ""], rows) }
 }
 
-/// What a structure is not asked.
 fn declined(entry: &Entry) -> Vec<&'static str> {
     let mut declined = entry.capabilities.declined();
     if entry.observed != Observed::ALL {
@@ -124,7 +122,6 @@ fn remarks(entry: &Entry) -> Vec<String> {
     remarks
 }
 
-/// The keys of a structure.
 fn keys(registry: &Registry, name: &str) -> Table {
     let entries: Vec<&Entry> = registry.entries().iter().filter(|e| e.name.eq_ignore_ascii_case(name)).collect();
     let first = entries[0];

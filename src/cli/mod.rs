@@ -137,7 +137,6 @@ const OLD: [(&str, &str); 5] = [
     ("accuracy", "`sahara study accuracy`"),
 ];
 
-/// The whole command line.
 fn command(studies: &Studies) -> clap::Command {
     let whole = clap::Command::new("sahara").version(env!("CARGO_PKG_VERSION")).max_term_width(100);
     let mut command = Global::augment_args(whole).about(ABOUT).long_about(LONG_ABOUT).after_help(STATUSES);
@@ -162,7 +161,6 @@ pub fn main(suite: impl Into<Suite>) -> ExitCode {
     run_with(&suite.into(), std::env::args_os(), Some(&Processes::new(std::env::args_os())))
 }
 
-/// Said after a panic that no command has caught.
 const PANIC: &str = "the panic above ended the command: if it is a structure's, leave that out, or find the mesh or ray with \
                      `sahara validate`; else it is a fault of sahara";
 

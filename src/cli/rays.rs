@@ -109,7 +109,6 @@ fn import(args: &Import, terminal: &Terminal) -> anyhow::Result<Status> {
     finish(&file, &output, terminal)
 }
 
-/// One ray a line.
 fn parse(text: &str) -> Result<Vec<Ray>, String> {
     let mut rays = vec![];
     for (number, line) in text.lines().enumerate() {

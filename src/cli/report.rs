@@ -79,7 +79,6 @@ struct ResultsFolder {
 }
 
 impl ResultsFolder {
-    /// Checks that all files can be written.
     fn check(folder: &Path) -> anyhow::Result<Self> {
         anyhow::ensure!(
             folder.is_dir(),

@@ -41,7 +41,6 @@ pub struct Common {
     pub plot: Vec<PathBuf>,
 }
 
-/// The files of a run.
 #[derive(Default)]
 struct Files {
     json: Option<OutputFile>,

@@ -51,7 +51,6 @@ pub enum Traversal {
     Nearest,
 }
 
-/// A triangle as the crate sees it.
 struct Boxed {
     bounds: Aabb<f32, 3>,
     index: u32,

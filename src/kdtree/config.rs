@@ -187,7 +187,6 @@ impl KdConfig {
         ..Self::REPORT
     };
 
-    /// When nodes stay leaves.
     pub(super) fn rules(&self) -> Rules {
         let leaf = match (self.stop, self.limit) {
             (Stop::Sah, _) => 1,
@@ -203,7 +202,6 @@ impl KdConfig {
         }
     }
 
-    /// What a median asks.
     pub(super) fn median(&self) -> MedianConfig {
         let Self { plane, axis, median, equal, count, .. } = *self;
         MedianConfig { plane, axis, median, equal, count, costs: self.costs() }

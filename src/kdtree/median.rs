@@ -6,7 +6,6 @@ use crate::build::cells::{Content, Context, Place};
 use crate::build::cut::Cut;
 use crate::build::sah::SideAreas;
 
-/// The triangles of a node, ascending.
 pub(super) struct Triangles {
     ids: Vec<u32>,
     /// How many of them went to the sibling as well.

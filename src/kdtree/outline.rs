@@ -4,7 +4,6 @@ use crate::accel::{Outline, Part};
 use crate::triangle::TriangleTest;
 
 impl<T: TriangleTest> KdTree<T> {
-    /// The cells of the tree.
     pub(super) fn cells(&self) -> Outline {
         let outline = Outline::of(Some((0, self.bounds)), |at, cell, references| {
             let node: Node = self.nodes[at];

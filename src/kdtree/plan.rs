@@ -8,7 +8,6 @@ use crate::build::cells::{Binned, Content, Context, Tree, grow};
 use crate::build::cut::Cut;
 use crate::geometry::Mesh;
 
-/// The nodes of a KD-tree and the references of its leaves.
 #[derive(Default)]
 pub(super) struct Plan {
     pub nodes: Vec<Node>,

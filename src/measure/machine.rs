@@ -44,7 +44,6 @@ pub(super) fn idle_ticks(time: Duration) -> BTreeMap<usize, u64> {
     ticks
 }
 
-/// The column of idle time in Linux's table.
 fn idle(stat: &str) -> BTreeMap<usize, u64> {
     let core = |line: &str| {
         let (name, times) = line.split_once(' ')?;

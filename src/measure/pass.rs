@@ -11,13 +11,11 @@ use super::{RandomOrder, Stopwatch, Threads, Timed};
 use crate::accel::{DynAccel, Loaded, Query};
 use crate::geometry::{Hit, PrimId, Ray};
 
-/// The answers to rays.
 enum Answers {
     Closest(Vec<Option<Hit>>),
     Any(Vec<bool>),
 }
 
-/// Where the answers to some rays go.
 enum Slots<'a> {
     Closest(&'a mut [Option<Hit>]),
     Any(&'a mut [bool]),
@@ -47,7 +45,6 @@ impl Answers {
         }
     }
 
-    /// The first `count` of them.
     fn first(&mut self, count: usize) -> Slots<'_> {
         match self {
             Self::Closest(hits) => Slots::Closest(&mut hits[..count]),
@@ -93,7 +90,6 @@ impl<'a> Slots<'a> {
         }
     }
 
-    /// Asks one piece after the other.
     fn ask_all(self, pieces: &[Piece]) {
         pieces.iter().fold(self, |slots, piece| {
             let (own, rest) = slots.split(piece.count);
@@ -102,7 +98,6 @@ impl<'a> Slots<'a> {
         });
     }
 
-    /// Asks the pieces on all threads.
     fn share(self, pieces: &[&Piece], threads: &Threads) {
         let mut work = Vec::with_capacity(pieces.len());
         pieces.iter().fold(self, |slots, &piece| {

@@ -60,7 +60,6 @@ pub fn choose(threads: usize) -> Option<Vec<usize>> {
     Some(cores)
 }
 
-/// The cores that the calling thread may run on.
 #[cfg(target_os = "linux")]
 fn allowed() -> Option<Vec<usize>> {
     let set = sched_getaffinity(THIS_THREAD).ok()?;

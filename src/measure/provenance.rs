@@ -125,13 +125,11 @@ impl Provenance {
     }
 }
 
-/// An argument as a shell would read it back.
 fn quoted(arg: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "-_./:=,+@%".contains(c);
     if !arg.is_empty() && arg.chars().all(plain) { arg.into() } else { format!("'{}'", arg.replace('\'', "'\\''")) }
 }
 
-/// From Linux's description of the processor.
 fn cpu_name() -> Option<String> {
     model_name(&std::fs::read_to_string("/proc/cpuinfo").ok()?)
 }

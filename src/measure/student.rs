@@ -52,7 +52,6 @@ fn quantile(freedom: f64, level: f64) -> f64 {
 /// Beyond so many degrees of freedom t is a normal variable.
 const NORMAL: f64 = 1e9;
 
-/// The density of Student's t.
 fn density(t: f64, freedom: f64) -> f64 {
     let n = freedom.min(NORMAL);
     let log = libm::lgamma((n + 1.0) / 2.0)

@@ -36,14 +36,12 @@ pub fn tiles(rays: usize, level: usize, epoch: usize) -> Vec<Range<usize>> {
     tiles
 }
 
-/// One of every four tiles.
 fn thinned(tiles: &[Range<usize>], random: &mut RandomOrder) -> Vec<Range<usize>> {
     let count = tiles.len() / 4;
     let stratum = |i: usize| i * tiles.len() / count;
     (0..count).map(|i| tiles[stratum(i) + random.below(stratum(i + 1) - stratum(i))].clone()).collect()
 }
 
-/// A quarter of every tile.
 fn shrunk(tiles: &[Range<usize>], random: &mut RandomOrder) -> Vec<Range<usize>> {
     let quarter = |tile: &Range<usize>| {
         let length = tile.len().div_ceil(4);

@@ -62,7 +62,6 @@ impl Span {
     }
 }
 
-/// A number and how far the true one can be away.
 #[derive(Clone, Copy)]
 struct Estimate {
     value: f64,
@@ -86,7 +85,6 @@ impl Estimate {
         -self.value > self.error
     }
 
-    /// No term is other than 0.
     fn is_zero(self) -> bool {
         self.error == 0.0
     }

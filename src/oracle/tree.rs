@@ -41,7 +41,6 @@ enum Content {
     },
 }
 
-/// The most triangles in a leaf.
 const LEAF: usize = 4;
 
 /// The most nodes on the stack: one for each level, and 2^30 triangles halved 28 times fit in a leaf.

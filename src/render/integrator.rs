@@ -61,7 +61,6 @@ pub fn render(scene: &Scene, accel: &dyn DynAccel, size: [u32; 2]) -> (Image, Ra
     (Image::new(size, colours), counts)
 }
 
-/// The rays of one recursion level.
 #[derive(Default)]
 struct Level {
     /// The colour of each ray without its mirror ray.
@@ -70,7 +69,6 @@ struct Level {
     mirrors: Vec<(usize, f32)>,
 }
 
-/// The colours of primary rays.
 fn trace(scene: &Scene, accel: &dyn DynAccel, rays: Vec<Ray>) -> (Vec<Vec3>, RayCounts) {
     let mut counts = RayCounts { primary: rays.len() as u64, ..RayCounts::default() };
 

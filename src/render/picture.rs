@@ -140,7 +140,6 @@ impl Picture {
         Self::new(self.size, self.gaps(other).into_iter().map(colour).collect())
     }
 
-    /// The largest difference of a channel in each pixel.
     fn gaps(&self, other: &Self) -> Vec<u8> {
         assert_eq!(self.size, other.size, "pictures of one size");
         let gap = |(a, b): (&[u8; 3], &[u8; 3])| a.iter().zip(b).map(|(a, b)| a.abs_diff(*b)).max().unwrap_or(0);

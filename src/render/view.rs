@@ -110,7 +110,6 @@ fn hits(scene: &Scene, accel: &dyn DynAccel, size: [u32; 2]) -> Vec<(Ray, Option
     rays.into_iter().zip(hits).collect()
 }
 
-/// A colour for each hit, black for each miss.
 fn from_hits(scene: &Scene, accel: &dyn DynAccel, size: [u32; 2], colour: impl Fn(&Ray, Hit) -> [u8; 3]) -> Picture {
     let hits = hits(scene, accel, size);
     Picture::new(size, hits.iter().map(|(ray, hit)| hit.map_or([0; 3], |hit| colour(ray, hit))).collect())

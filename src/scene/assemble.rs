@@ -63,7 +63,6 @@ pub(super) fn assemble(file: &SceneFile, origin: &Origin) -> Result<Scene, Scene
     })
 }
 
-/// The scene so far, in world space.
 #[derive(Default)]
 struct Parts {
     positions: Vec<glam::Vec3>,
@@ -165,7 +164,6 @@ impl Parts {
         model
     }
 
-    /// Gives the triangles just added their materials.
     fn paint(&mut self, object: &ObjectFile, model: &Model, key: &str, origin: &Origin) -> Result<(), SceneError> {
         // The file's materials come first, sorted by name, and its check has seen that each name is there.
         let number = |materials: &[Material], name: &str| {
@@ -205,7 +203,6 @@ impl Parts {
     }
 }
 
-/// Why an object that has only a real mesh cannot be made.
 fn missing(real: &RealMesh, key: &str, origin: &Origin) -> SceneError {
     let problem = match origin.real_meshes {
         Some(folder) => format!(

@@ -45,7 +45,6 @@ pub trait Kernel {
     fn run<L: EightLanes>(self) -> Self::Output;
 }
 
-/// The level in use, or [`UNCHOSEN`].
 static CURRENT: AtomicU8 = AtomicU8::new(UNCHOSEN);
 const UNCHOSEN: u8 = u8::MAX;
 

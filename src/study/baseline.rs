@@ -136,7 +136,6 @@ pub fn read_baseline(folder: &Path, name: &str) -> Result<Vec<Record>, BaselineE
     serde_json::from_slice(&text).map_err(|cause| BaselineError::Read { path, cause: cause.to_string() })
 }
 
-/// What baselines there are, or how to make one.
 fn known(folder: &Path) -> String {
     let files = fs::read_dir(folder).into_iter().flatten().flatten();
     let mut names: Vec<String> =

@@ -34,7 +34,6 @@ impl Built {
         Self { peak_bytes, ..first }.again(scene, threads, clock)
     }
 
-    /// Builds twice more when that takes no time.
     fn again(self, scene: &Scene, threads: &Threads, clock: &dyn Clock) -> Result<Self, StudyError> {
         let mut times = vec![self.build_ns as f64];
         let mut last = self;
@@ -46,7 +45,6 @@ impl Built {
         Ok(Self { build_ns, ..last })
     }
 
-    /// Builds once.
     fn once(choice: &Choice, scene: &Scene, threads: &Threads, clock: &dyn Clock) -> Result<Self, StudyError> {
         let mesh = Arc::clone(&scene.mesh);
         // As for rays: what others take of the core of a single thread is no time of the build.

@@ -33,7 +33,6 @@ pub(super) fn ratio(epoch_medians: &[Vec<f64>], of: impl Fn(&[f64]) -> f64, nois
     Rerun::of(&values(epoch_medians, of), noise).expect("there is an epoch").ratio()
 }
 
-/// What `of` makes of each epoch.
 pub(super) fn values(epoch_medians: &[Vec<f64>], of: impl Fn(&[f64]) -> f64) -> Vec<f64> {
     epoch_medians.iter().map(|logs| of(logs)).collect()
 }

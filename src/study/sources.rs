@@ -27,7 +27,6 @@ pub fn scenes(named: &[String]) -> anyhow::Result<Vec<Scene>> {
     Ok(scenes)
 }
 
-/// The scene of the only case that this process measures.
 static ONLY: OnceLock<String> = OnceLock::new();
 
 /// From now on no scene of another name is loaded where several are named.

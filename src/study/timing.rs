@@ -20,7 +20,6 @@ impl Case {
     }
 }
 
-/// What samples are taken of, and how.
 pub(super) struct Timing<'a> {
     pub scene: &'a Scene,
     pub built: &'a [Built],
@@ -30,7 +29,6 @@ pub(super) struct Timing<'a> {
     pub clock: &'a dyn Clock,
 }
 
-/// The samples of all cases, in their order.
 pub(super) struct Taken {
     pub samples: Vec<Samples>,
     /// Which of them panicked: their samples mean nothing.

@@ -21,7 +21,6 @@ pub struct ViewArgs {
     size: Option<Size>,
 }
 
-/// Width and height.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Size([u32; 2]);
 
@@ -36,7 +35,6 @@ impl FromStr for Size {
     }
 }
 
-/// Where to look from, and where to.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Look {
     eye: Vec3,

@@ -4,7 +4,6 @@ use std::any::Any;
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
-/// What a panic said.
 pub(super) fn message(payload: &(dyn Any + Send)) -> String {
     let text = payload.downcast_ref::<&str>().map(|text| (*text).to_owned());
     let text = text.or_else(|| payload.downcast_ref::<String>().cloned());

@@ -133,7 +133,6 @@ fn unwritten() -> Option<Hit> {
     Some(Hit::new(f32::NEG_INFINITY, u32::MAX - 1))
 }
 
-/// Closest and any hit of one ray.
 fn answer(subject: &dyn DynAccel, ray: &Ray) -> (Option<Hit>, bool) {
     let mut found = [unwritten()];
     subject.closest_hits(&[*ray], &mut found);
@@ -142,7 +141,6 @@ fn answer(subject: &dyn DynAccel, ray: &Ray) -> (Option<Hit>, bool) {
     (found[0], any[0])
 }
 
-/// Closest and any hits of a loaded batch.
 fn loaded_answers(subject: &dyn DynAccel, rays: &[Ray]) -> (Vec<Option<Hit>>, Vec<bool>) {
     let loaded = subject.load(Cow::Borrowed(rays));
     let mut found = vec![unwritten(); rays.len()];
@@ -152,7 +150,6 @@ fn loaded_answers(subject: &dyn DynAccel, rays: &[Ray]) -> (Vec<Option<Hit>>, Ve
     (found, any)
 }
 
-/// Puts a question to the structure, or gives the message of its panic.
 fn ask<R>(asked: &Asked, call: Call, question: impl FnOnce() -> R) -> Result<R, String> {
     asked.begin(call);
     let answer = catch_unwind(AssertUnwindSafe(question));
@@ -160,7 +157,6 @@ fn ask<R>(asked: &Asked, call: Call, question: impl FnOnce() -> R) -> Result<R, 
     answer.map_err(|payload| message(payload.as_ref()))
 }
 
-/// Finds who is to blame for one answer, and counts it.
 fn tally(
     sums: &mut Validation,
     reference: &Reference,
@@ -187,7 +183,6 @@ fn tally(
     sums.differing += u64::from(!matches!(kind, Kind::Tie | Kind::HigherId));
 }
 
-/// Whether two answers are the same to the bit.
 pub(super) fn same(a: Option<Hit>, b: Option<Hit>) -> bool {
     match (a, b) {
         (Some(a), Some(b)) => a.same_bits(b),

@@ -19,7 +19,6 @@ use crate::geometry::{Mesh, Ray};
 /// How long a structure may take for its build, or for 256 rays, where nobody says otherwise: far longer than any that ends.
 pub const LIMIT: Duration = Duration::from_secs(120);
 
-/// How often the watch looks.
 const PAUSE: Duration = Duration::from_millis(20);
 
 /// Why work on a watched thread has no result.

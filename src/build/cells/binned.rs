@@ -77,7 +77,6 @@ fn cheapest(context: &Context<CellConfig>, part: &Part, sample: &Sample, place: 
     found.into_iter().flatten().reduce(|a, b| if b.0 < a.0 { b } else { a })
 }
 
-/// The cheapest of the planes of one axis.
 fn along(
     context: &Context<CellConfig>,
     part: &Part,

@@ -41,7 +41,6 @@ pub(crate) trait Content: Sized + Send {
     /// What the rule is told.
     type Config: Sync;
 
-    /// Number of references.
     fn len(&self) -> usize;
 
     /// The triangles, in ascending order.
@@ -75,10 +74,8 @@ pub(crate) trait Tree<C>: Default + Send {
     /// Whether leaves without triangles are left out, and the nodes that had one.
     const SKIPS_EMPTY: bool;
 
-    /// Number of nodes.
     fn len(&self) -> usize;
 
-    /// Appends a leaf.
     fn leaf(&mut self, content: C);
 
     /// Appends an inner node, whose children are not known yet.

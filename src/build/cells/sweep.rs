@@ -154,7 +154,6 @@ impl Events {
         self.references.iter().map(side).collect()
     }
 
-    /// The references of one side: those wholly there keep their events, those on both sides are clipped to the cell.
     fn part(&self, context: &Context<CellConfig>, sides: &[Side], here: Side, cell: &Aabb) -> Self {
         let count = sides.iter().filter(|&&side| side == here || side == Side::Both).count();
         let mut references = Vec::with_capacity(count);
@@ -200,7 +199,6 @@ fn push_events(references: &[Reference], first: u32, axis: usize, events: &mut V
     }
 }
 
-/// Both sorted sequences in one.
 fn merge(kept: impl Iterator<Item = Event>, fresh: &[Event], capacity: usize) -> Vec<Event> {
     let mut merged = Vec::with_capacity(capacity);
     let mut rest = fresh;

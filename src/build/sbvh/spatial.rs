@@ -161,7 +161,6 @@ impl Node<'_> {
         cheaper(Some(coarse), fine)
     }
 
-    /// The cheapest of the planes, and its place among them.
     fn along(&self, context: &Context, planes: &Planes, slots: &mut Slots) -> Option<Offer<(Cut, usize)>> {
         let (mesh, sample) = (context.mesh, &self.sample);
         slots.clear(planes);

@@ -164,7 +164,6 @@ impl Args {
     }
 }
 
-/// The table of one scene.
 fn print(
     scene: &Scene,
     rays: &[Ray],
@@ -205,7 +204,6 @@ fn rays(scene: &Scene, registry: &Registry, args: &Args) -> anyhow::Result<Vec<R
     Ok(WorkloadKind::ALL.iter().flat_map(of_kind).collect())
 }
 
-/// What came of one structure on one scene.
 enum Taken {
     Compared(Arc<dyn DynAccel>, Validation),
     /// Its builder does not end.
@@ -244,7 +242,6 @@ fn wrong(found: &Validation, against: &Choice) -> bool {
     errors > 0
 }
 
-/// The row of a structure that was not compared.
 fn set_apart(choice: &Choice, why: &str) -> Vec<Cell> {
     let mut row = vec![Cell::blank(); COLUMNS.len()];
     row[0] = choice.label.as_str().into();

@@ -9,7 +9,6 @@ use super::api::{Api, FLOAT3, Handle, INDICES, TRIANGLES, UINT3, VERTICES, api, 
 use crate::accel::BuildError;
 use crate::geometry::Mesh;
 
-/// What a device tells while it works.
 #[derive(Default)]
 struct Told {
     /// The first error since the last look.

@@ -8,7 +8,6 @@ use super::api::Arguments;
 use super::device::Scene;
 use crate::geometry::Ray;
 
-/// Stands for no geometry and no primitive.
 const NONE: u32 = u32::MAX;
 
 /// `RTCRay`.

@@ -52,7 +52,6 @@ pub struct Obvhs<B, T: LeafTest> {
     rays: Rays,
 }
 
-/// A box of obvhs as ours.
 fn aabb(bounds: obvhs::aabb::Aabb) -> Aabb {
     Aabb { min: bounds.min.into(), max: bounds.max.into() }
 }

@@ -67,7 +67,6 @@ impl Machine {
         samples
     }
 
-    /// The cell of the ratio of two structures.
     fn ratio(&self, times: [f64; 2], random: &mut Random) -> Vec<Vec<f64>> {
         let logs = self.cell(&times, random);
         let epoch = |e: usize| logs[0][e].iter().zip(&logs[1][e]).map(|(a, b)| a - b).collect();
@@ -218,7 +217,6 @@ fn meshes(machine: Machine, random: &mut Random) -> Vec<Vec<f64>> {
     machine.cell(&times, random).iter().map(values).collect()
 }
 
-/// The slope over the meshes of logarithms.
 fn slope(logs: &[f64]) -> f64 {
     let x = |i: usize| (i as f64 - 2.5) * libm::log(4.0);
     let squares: f64 = (0..logs.len()).map(|i| x(i) * x(i)).sum();

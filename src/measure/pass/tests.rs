@@ -16,7 +16,6 @@ fn triangle() -> Box<dyn DynAccel> {
     Box::new(BruteForce::<MollerTrumbore>::build(&Arc::new(mesh), &Default::default()).unwrap())
 }
 
-/// `n` rays of which every second hits.
 fn rays(n: usize) -> Vec<Ray> {
     (0..n).map(|i| Ray::new(Vec3::new(0.2, 0.2, if i % 2 == 0 { -1.0 } else { 1.0 }), Vec3::Z)).collect()
 }

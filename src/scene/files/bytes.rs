@@ -2,7 +2,6 @@
 
 use crate::accel::Query;
 
-/// The first 32 bytes of either file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Head {
     pub query: Query,
@@ -37,7 +36,6 @@ pub(super) fn head(bytes: &[u8], magic: &[u8; 8], what: &str) -> Result<Head, St
     Ok(Head { query, count: u64::from_le_bytes(eight(16)), hash: eight(24) })
 }
 
-/// The bytes of a head.
 pub(super) fn head_bytes(head: &Head, magic: &[u8; 8]) -> Vec<u8> {
     let mut bytes = magic.to_vec();
     bytes.extend(VERSION.to_le_bytes());

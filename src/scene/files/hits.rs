@@ -22,7 +22,6 @@ pub struct HitFile {
 
 const MAGIC: &[u8; 8] = b"SAHAHITS";
 
-/// In place of a primitive: nothing is hit.
 const NOTHING: u32 = u32::MAX;
 
 impl HitFile {

@@ -25,7 +25,6 @@ pub struct RayFile {
 
 const MAGIC: &[u8; 8] = b"SAHARAYS";
 
-/// Where the names begin.
 const NAMES: usize = 72;
 
 impl RayFile {
@@ -139,7 +138,6 @@ fn ray(bytes: &[u8]) -> Ray {
     Ray { origin: vector(0), t_min: float(3), direction: vector(4), t_max: float(7) }
 }
 
-/// The bytes of a hash that [`Scene::hash`] has made.
 fn unhex(text: &str) -> [u8; 32] {
     std::array::from_fn(|i| text.get(2 * i..2 * i + 2).and_then(|two| u8::from_str_radix(two, 16).ok()).unwrap_or(0))
 }

@@ -15,7 +15,6 @@ use crate::scene::Material;
 /// More libraries than any exporter writes; others are not read.
 const MOST_LIBRARIES: usize = 64;
 
-/// What `mtllib` lines name, each once.
 #[derive(Default)]
 pub(super) struct Libraries {
     named: Vec<String>,

@@ -46,19 +46,16 @@ impl<'a> Iterator for Lines<'a> {
     }
 }
 
-/// The words of a line.
 pub(super) fn words(line: &[u8]) -> impl Iterator<Item = &[u8]> + Clone {
     line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty())
 }
 
-/// What a line says after its first word, as text.
 pub(super) fn after_keyword(line: &[u8]) -> String {
     let line = line.trim_ascii_start();
     let keyword = line.iter().position(u8::is_ascii_whitespace).unwrap_or(line.len());
     String::from_utf8_lossy(line[keyword..].trim_ascii()).into_owned()
 }
 
-/// The number that a word is.
 pub(super) fn number<N: std::str::FromStr>(word: &[u8]) -> Option<N> {
     std::str::from_utf8(word).ok()?.parse().ok()
 }

@@ -9,10 +9,8 @@ use crate::{
     scene::{Material, Model},
 };
 
-/// Triangles of one eye.
 const EYE: usize = 96;
 
-/// What tells one creature from another.
 struct Design {
     triangles: usize,
     bounds: Aabb,

@@ -19,7 +19,6 @@ pub(super) fn corners() -> Vec<DVec3> {
     corners
 }
 
-/// The twenty sides, looking outward.
 pub(super) fn sides() -> Vec<[u32; 3]> {
     let lower = |i: u32| 1 + i % 5;
     // The corner above the edge from lower corner i to the next one.

@@ -55,7 +55,6 @@ impl Net {
         row
     }
 
-    /// The triangles of side `abc`, row by row from `a`.
     fn divide(&mut self, [a, b, c]: [u32; 3]) -> Vec<[u32; 3]> {
         let (ab, ac, bc) = (self.edge(a, b), self.edge(a, c), self.edge(b, c));
         let mut triangles = Vec::new();

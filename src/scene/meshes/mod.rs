@@ -81,7 +81,6 @@ fn on_circle(step: u32, steps: u32) -> (f64, f64) {
     }
 }
 
-/// A model whose vertices carry a normal each.
 fn smooth(positions: Vec<DVec3>, normals: Vec<DVec3>, triangles: Vec<[u32; 3]>) -> Model {
     Model {
         positions: positions.into_iter().map(|p| p.as_vec3()).collect(),
@@ -92,7 +91,6 @@ fn smooth(positions: Vec<DVec3>, normals: Vec<DVec3>, triangles: Vec<[u32; 3]>) 
     }
 }
 
-/// A model without normals.
 fn flat(positions: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Model {
     Model { positions, triangles, ..Model::default() }
 }

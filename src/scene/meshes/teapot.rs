@@ -10,7 +10,6 @@ use crate::scene::Model;
 
 const PATCHES: &str = include_str!("teapot_patches.txt");
 
-/// The box of the report's teapot.
 pub(super) const BOUNDS: Aabb =
     Aabb { min: Vec3::new(-23.096241, -9.328575, -15.123246), max: Vec3::new(26.321558, 15.076026, 15.098365) };
 
@@ -93,7 +92,6 @@ fn shell(patch: usize) -> usize {
     }
 }
 
-/// A point of a bicubic Bezier patch.
 fn evaluate(controls: &[DVec3; 16], row: usize, column: usize) -> DVec3 {
     let weights = |step: usize| {
         let t = step as f64 / STEPS as f64;

@@ -33,7 +33,6 @@ fn area(mesh: &Mesh) -> f64 {
     (0..mesh.len() as u32).map(|t| doubled(mesh.corners(t).map(Vec3::as_dvec3)) / 2.0).sum()
 }
 
-/// Positive when a closed mesh looks outward.
 fn volume(mesh: &Mesh) -> f64 {
     let sixfold = |[a, b, c]: [DVec3; 3]| a.dot(b.cross(c));
     (0..mesh.len() as u32).map(|t| sixfold(mesh.corners(t).map(Vec3::as_dvec3)) / 6.0).sum()

@@ -14,9 +14,7 @@ use super::SurfacePoint;
 
 /// Below this magnitude a coordinate is moved by a length.
 const NEAR_ZERO: f32 = 1.0 / 32.0;
-/// That length.
 const LENGTH: f32 = 1.0 / 65536.0;
-/// Floats.
 const FLOATS: f32 = 256.0;
 
 /// The moved point.

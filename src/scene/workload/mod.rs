@@ -59,7 +59,6 @@ impl Workload {
     }
 }
 
-/// At most `limit` of `rays`, at equal distances.
 fn spread(rays: Vec<Ray>, limit: usize) -> Vec<Ray> {
     if rays.len() <= limit {
         return rays;

@@ -12,7 +12,6 @@ impl Sampler {
         Self(Pcg32::seed_from_u64(mixed))
     }
 
-    /// In [-1, 1).
     fn signed(&mut self) -> f64 {
         f64::from(self.0.next_u32()) / f64::from(1u32 << 31) - 1.0
     }

@@ -31,7 +31,6 @@ impl Sampling {
     }
 }
 
-/// What the rays of a workload are made from.
 pub(super) struct Source<'a> {
     pub scene: &'a Scene,
     /// How many rays; [`Sampling::limit`] is applied to what the function returns.

@@ -42,7 +42,6 @@ pub fn figure(records: &[AccuracyRecord]) -> Figure {
     Figure { panels, groups, notes }
 }
 
-/// The label without its triangle test.
 fn structure(record: &AccuracyRecord) -> String {
     let (name, keys) = record.label.split_once(':').unwrap_or((&record.label, ""));
     let keys: Vec<&str> = keys.split(',').filter(|key| !key.is_empty() && !key.starts_with("test=")).collect();

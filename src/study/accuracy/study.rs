@@ -69,7 +69,6 @@ pub struct JudgedScene {
     note: Option<String>,
 }
 
-/// What the records depend on.
 #[derive(Serialize)]
 struct Kept {
     structures: String,

@@ -41,7 +41,6 @@ pub fn parts_by_order(factor: Factor) -> Vec<Weights> {
     ORDERS.iter().map(|&order| in_order(factor, order)).collect()
 }
 
-/// All orders of three.
 const ORDERS: [[usize; 3]; 6] = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
 
 fn in_order(factor: Factor, order: [usize; 3]) -> Weights {

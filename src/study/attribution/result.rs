@@ -143,30 +143,25 @@ fn is_whole(epoch: &Epoch) -> bool {
     epoch.structures.len() == CELLS + 2 && epoch.structures.iter().all(timed)
 }
 
-/// Nanoseconds a ray, on the rays that all trees were timed on.
 fn paces(epoch: &Epoch, tree: &Structure) -> Vec<f64> {
     tree.rays[0].paces(epoch.common_rays(&tree.rays[0].workload))
 }
 
-/// ln nanoseconds a ray of all trees, epoch by epoch.
 fn logs(epochs: &[&Epoch]) -> Vec<Vec<f64>> {
     let logs = |epoch: &Epoch, tree: &Structure| paces(epoch, tree).into_iter().map(libm::log).collect::<Vec<f64>>();
     let of_epoch = |epoch: &&Epoch| epoch.structures.iter().map(|tree| logs(epoch, tree)).collect();
     epoch_medians(epochs.iter().map(of_epoch).collect())
 }
 
-/// The A/A ratios of the report's tree and of the SAH tree.
 fn twins(logs: &[Vec<f64>]) -> [Vec<Vec<f64>>; 2] {
     let twin = |cell: Treatment, twin: usize| values(logs, |logs| logs[cell.number()] - logs[CELLS + twin]);
     [twin(Treatment::REPORT, 0), twin(Treatment::SAH, 1)].map(|logs| logs.into_iter().map(|log| vec![log]).collect())
 }
 
-/// What was counted of a structure on the rays of the study.
 fn counts(structure: &Structure) -> Option<RayCounts> {
     structure.rays.first()?.counts
 }
 
-/// The result of the epochs of one scene. Nothing without its first one.
 fn attribute(epochs: &[&Epoch], epoch_medians: &[Vec<f64>], noise: &AaNoise) -> Option<Attribution> {
     let first = *epochs.iter().find(|epoch| epoch.structures.iter().all(|tree| counts(tree).is_some()))?;
     let counts: Vec<RayCounts> = first.structures.iter().filter_map(counts).collect();
@@ -226,13 +221,11 @@ fn attribute(epochs: &[&Epoch], epoch_medians: &[Vec<f64>], noise: &AaNoise) -> 
     })
 }
 
-/// The mean over the epochs, tree by tree.
 fn mean_of(epoch_medians: &[Vec<f64>]) -> Vec<f64> {
     let n = epoch_medians.len() as f64;
     (0..CELLS).map(|i| epoch_medians.iter().map(|logs| logs[i]).sum::<f64>() / n).collect()
 }
 
-/// A contrast of numbers that do not vary.
 fn exact(weights: &Weights, logs: &[f64]) -> Estimate {
     Estimate::exact(libm::exp(value(weights, logs)))
 }

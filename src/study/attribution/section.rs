@@ -9,7 +9,6 @@ use crate::report::number::figures;
 use crate::report::plot::{Chart, Stack, StackRow};
 use crate::report::words::{interval, listed, scene_name};
 
-/// The parts in the order in which they are told.
 const PARTS: [Factor; 3] = [Factor::Stop, Factor::Plane, Factor::Traversal];
 
 /// The scenes that the question is about.

@@ -83,7 +83,6 @@ fn cells(r: &Attribution) -> Table {
     }
 }
 
-/// The levels of a cell in few words.
 fn short(cell: &CellResult) -> String {
     let plane = cell.plane.replace(" median", "");
     let traversal = cell.traversal.split(' ').next_back().unwrap_or(cell.traversal);

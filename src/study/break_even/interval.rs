@@ -58,7 +58,6 @@ fn border(from: f64, to: f64, is: impl Fn(f64) -> bool) -> Payoff {
     Payoff::Rays(from)
 }
 
-/// Nanoseconds of the build and of a ray, in each epoch.
 struct Costs(Vec<(f64, f64)>);
 
 impl Costs {
@@ -73,7 +72,6 @@ impl Costs {
         libm::log(if rays.is_finite() { build + rays * ray } else { ray })
     }
 
-    /// The share of the rays in that.
     fn share(&self, rays: f64) -> f64 {
         let n = self.0.len() as f64;
         let share = |&(build, ray): &(f64, f64)| if rays.is_finite() { rays * ray / (build + rays * ray) } else { 1.0 };

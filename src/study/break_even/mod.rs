@@ -21,7 +21,6 @@ pub use result::{Market, Offer, Pair, Row, Stretch, result, rows};
 use table::LEGEND;
 pub use table::tables;
 
-/// The structures compared unless others are named.
 const STRUCTURES: [&str; 8] =
     ["brute-force", "median-kd", "sah-kd", "sah-kd-wide", "sah-hybrid", "sah-bvh", "obvhs-bvh2", "obvhs-cwbvh"];
 

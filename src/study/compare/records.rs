@@ -18,7 +18,6 @@ pub fn compared<'a>(epochs: impl IntoIterator<Item = &'a Epoch>, provenance: &Pr
     all
 }
 
-/// One scene: its epochs.
 fn of_scene(epochs: &[&Epoch], provenance: &Provenance) -> Compared {
     let first = epochs[0];
     let mut compared = Compared::default();
@@ -43,7 +42,6 @@ fn of_scene(epochs: &[&Epoch], provenance: &Provenance) -> Compared {
     compared
 }
 
-/// The rays of one kind of a structure, epoch by epoch.
 fn rays<'a>(epochs: &'a [&Epoch], place: usize, kind: usize) -> impl Iterator<Item = &'a Rays> {
     epochs.iter().filter_map(move |epoch| epoch.structures.get(place)?.rays.get(kind))
 }
@@ -120,7 +118,6 @@ fn record(
     })
 }
 
-/// The samples of parts of the rays, all epochs one after the other.
 fn parts(epochs: &[&Epoch], place: usize, kind: usize) -> Vec<Part> {
     let mut all: Vec<Part> = vec![];
     for part in rays(epochs, place, kind).flat_map(|rays| &rays.parts) {
@@ -132,7 +129,6 @@ fn parts(epochs: &[&Epoch], place: usize, kind: usize) -> Vec<Part> {
     all
 }
 
-/// What spoilt the run.
 fn warnings(epochs: &[&Epoch], provenance: &Provenance) -> Vec<String> {
     let mut conditions = Conditions {
         load: provenance.load,

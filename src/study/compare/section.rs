@@ -65,13 +65,11 @@ pub fn blocks(records: &[Record], command: &str) -> Vec<Block> {
     blocks
 }
 
-/// The command that measured these records.
 fn command(records: &[Record]) -> String {
     let commands = records.iter().map(|r| command_line(&r.provenance.command)).collect::<Vec<_>>();
     distinct(commands.iter()).join("\n")
 }
 
-/// Bars and table of one scene.
 fn of_scene(records: &[Record]) -> Vec<Block> {
     let first = &records[0];
     let noise = twins(records);

@@ -261,7 +261,6 @@ impl Study for CompareStudy {
 
 const NO_RAYS: &str = "None of the workloads asked for has a ray in these scenes.";
 
-/// The tables of all scenes, each made by `table`.
 fn tables(answer: &Compared, table: impl Fn(&[Record], &[Reference], &[Refused]) -> Table) -> Vec<Table> {
     let scenes = distinct(answer.records.iter().map(|r| &r.scene).chain(answer.refused.iter().map(|r| &r.scene)));
     let of = |scene: &String| {
@@ -276,7 +275,6 @@ fn tables(answer: &Compared, table: impl Fn(&[Record], &[Reference], &[Refused])
     scenes.iter().map(of).collect()
 }
 
-/// Means over scenes, where there are several.
 fn summary(answer: &Compared, references: &[Reference]) -> Vec<Table> {
     let several = answer.records.iter().any(|r| r.scene != answer.records[0].scene);
     let means = several.then(|| mean_table(&answer.records, references));

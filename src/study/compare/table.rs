@@ -155,7 +155,6 @@ fn defects(records: &[Record]) -> Vec<String> {
     notes
 }
 
-/// Distinct names in the order of their first appearance.
 pub(super) fn names<'a>(records: &'a [Record], name: impl Fn(&'a Record) -> &'a String) -> Vec<String> {
     let mut names: Vec<String> = vec![];
     for record in records {
@@ -181,7 +180,6 @@ fn speed(record: &Record, best: f64) -> Cell {
     }
 }
 
-/// The least share of a workload's rays that was timed.
 fn share(of: &[&Record]) -> String {
     let timed = of.iter().filter(|r| r.mrays_per_s.is_some());
     let least = timed.map(|r| r.rays as f64 / r.workload_rays as f64).min_by(f64::total_cmp);

@@ -15,7 +15,6 @@ use crate::study::args::with_twin;
 use crate::study::epoch::{Asked, Epoch, Settings, measure};
 use crate::triangle::{MollerTrumbore, TriangleTest};
 
-/// Brute force with a flaw.
 struct Flawed {
     inner: BruteForce<MollerTrumbore>,
     flaw: Flaw,
@@ -87,7 +86,6 @@ fn run(specs: &[&str]) -> Result<Vec<Record>, StudyError> {
     compared(specs).map(|compared| compared.records)
 }
 
-/// Compares them.
 fn compared(specs: &[&str]) -> Result<Compared, StudyError> {
     let registry = Registry::builtin().with::<Flawed>("flawed", FlawedConfig::default());
     let chosen = specs.iter().map(|spec| registry.choose(spec).unwrap()).collect();

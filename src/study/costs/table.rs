@@ -28,7 +28,6 @@ pub fn tables(families: &[Family]) -> Vec<Table> {
     vec![costs(families), worst(families)]
 }
 
-/// A cost, of one scene without an interval.
 fn cost(x: Estimate) -> String {
     match x.interval {
         Some(_) => interval(x),

@@ -3,7 +3,6 @@ use super::*;
 use crate::measure::RandomOrder;
 use crate::study::epoch::tests::example;
 
-/// Steps and blocks of a ray.
 const PLACES: [(f64, f64); 8] =
     [(1.0, 2.0), (10.0, 3.0), (40.0, 5.0), (5.0, 300.0), (100.0, 1000.0), (2.0, 0.5), (30.0, 90.0), (8.0, 20.0)];
 

@@ -59,7 +59,6 @@ fn of_triangle(outline: &Outline, mesh: &Mesh, id: u32, places: &[(u32, usize)])
     sum
 }
 
-/// The area of a triangle.
 fn area(mesh: &Mesh, id: u32) -> f64 {
     clipped_area(mesh.corners(id), &mesh.triangle_bounds(id))
 }

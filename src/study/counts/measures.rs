@@ -13,7 +13,6 @@ use crate::study::check::declined;
 use crate::study::counted::Counted;
 use crate::study::{PANICKED, Refused, Stage, StudyError, guarded};
 
-/// What is counted.
 pub(super) struct CountSettings {
     /// The structures, in the order of the tables.
     pub structures: Vec<Choice>,

@@ -59,7 +59,6 @@ pub struct CountsArgs {
 
 const RAYS: u32 = 16384;
 
-/// What the counts depend on.
 #[derive(Serialize)]
 struct Kept {
     structures: String,

@@ -22,7 +22,6 @@ impl Crossing {
     }
 }
 
-/// Logarithms of ratios over logarithms of depths.
 pub(super) struct Curve<'a> {
     depths: Vec<f64>,
     /// Of each depth, of each epoch.

@@ -71,7 +71,6 @@ pub struct CrossoverArgs {
 
 const DEEPEST: u32 = ROOTS[ROOTS.len() - 1];
 
-/// The kinds of rays unless others are named.
 const WORKLOADS: [WorkloadKind; 4] =
     [WorkloadKind::Primary, WorkloadKind::Random, WorkloadKind::Shadow, WorkloadKind::Ambient];
 

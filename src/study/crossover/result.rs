@@ -72,7 +72,6 @@ pub fn result(cases: &[MemberEpoch]) -> Vec<Race> {
     races
 }
 
-/// One pair on one member of the family, epoch by epoch.
 struct Entry<'a> {
     layers: u32,
     complexity: f64,

@@ -7,7 +7,6 @@ use crate::report::plot::{Chart, CurvePoint, Curves, Line, Mark};
 use crate::report::words::{bare, distinct, interval, slug};
 use crate::report::{Statement, Table};
 
-/// The kind of rays that is told in words.
 const PRIMARY: &str = "primary";
 
 /// One sentence for each race on primary rays; on those that there are, without them.

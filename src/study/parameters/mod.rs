@@ -25,12 +25,10 @@ pub use table::tables;
 /// The setting of the report's main table: the others are held against it.
 pub const DEFAULT: (u32, f32) = (100, 0.7);
 
-/// Names of the scenes of the report's sweep.
 fn scenes() -> Vec<&'static str> {
     MAIN.iter().map(|row| row.scene).collect()
 }
 
-/// The number of the default in the sweep.
 pub(super) fn default_row() -> usize {
     SWEEP.iter().position(is_default).expect("the sweep holds the default")
 }

@@ -127,7 +127,6 @@ impl Parameters {
     }
 }
 
-/// One scene.
 struct Measured {
     name: String,
     triangles: usize,

@@ -81,7 +81,6 @@ pub fn rows(records: &[Record]) -> Vec<Row> {
     rows
 }
 
-/// Nanoseconds a ray, the median of the samples.
 fn pace(record: &Record) -> f64 {
     record.trace_ns.map_or(f64::INFINITY, |ns| ns / record.rays as f64)
 }

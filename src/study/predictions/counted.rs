@@ -13,7 +13,6 @@ use crate::study::epoch::Asked;
 use crate::study::replicate::original::MAIN;
 use crate::study::{Stage, StudyError};
 
-/// The scene whose tests are counted.
 pub(super) const CROWDED: &str = "Infinitycandy";
 
 /// The trees whose tests are counted on it: the report's, and a setting of its sweep.
@@ -85,7 +84,6 @@ pub fn measure(
     })
 }
 
-/// Triangle tests for all rays of the picture.
 fn count(accel: &dyn DynAccel, picture: &[Workload]) -> u64 {
     let counted = picture.iter().map(|workload| Counted::new(accel, &workload.rays, workload.query));
     counted.map(|counted| counted.counts.tests).sum()

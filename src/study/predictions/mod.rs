@@ -96,7 +96,6 @@ pub struct PredictionsStudy;
 #[derive(Clone, Debug, clap::Args)]
 pub struct PredictionsArgs {}
 
-/// One claim, for tables that machines read.
 #[derive(Serialize)]
 struct Row<'a> {
     prediction: u8,
@@ -256,12 +255,10 @@ impl Bounds {
 }
 
 impl Claim {
-    /// Of a positive ratio.
     fn ratio(what: impl Into<String>, value: Option<Estimate>, bounds: Bounds) -> Self {
         Self::judged(what, value.map(|value| value.ratio_among(CLAIMS)), bounds)
     }
 
-    /// Of any other number.
     fn number(what: impl Into<String>, value: Option<Estimate>, bounds: Bounds) -> Self {
         Self::judged(what, value.map(|value| value.among(CLAIMS)), bounds)
     }

@@ -16,7 +16,6 @@ fn prediction(inputs: &Inputs, number: u8) -> Prediction {
     result(inputs).into_iter().find(|p| p.number == number).unwrap()
 }
 
-/// Verdicts of its claims, in order.
 fn verdicts(prediction: &Prediction) -> Vec<Verdict> {
     prediction.claims.iter().map(|claim| claim.verdict).collect()
 }

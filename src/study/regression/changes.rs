@@ -130,19 +130,16 @@ fn relative(
     sum.map(|epochs| epochs.iter().map(|epoch| epoch.iter().map(|log| log * share).collect()).collect())
 }
 
-/// The structure `label` with a time in the same cell.
 fn beside<'a>(label: &str, own: &Record, records: &'a [Record]) -> Option<&'a Record> {
     let same = |r: &&Record| r.label == label && r.scene == own.scene && r.workload == own.workload;
     records.iter().find(same).filter(|r| !r.samples_ns.is_empty())
 }
 
-/// ln(nanoseconds a ray).
 fn absolute(own: &Record) -> Vec<Vec<f64>> {
     let logs: Vec<f64> = own.samples_ns.iter().map(|ns| libm::log(ns / own.rays as f64)).collect();
     logs.chunks((logs.len() / own.epochs.max(1)).max(1)).map(<[f64]>::to_vec).collect()
 }
 
-/// What an interval says.
 pub(super) fn finding(time: Option<Estimate>, threshold: Option<f64>) -> Finding {
     let Some(time) = time.filter(|time| time.interval.is_some()) else { return Finding::Unknown };
     let limit = threshold.map_or(f64::INFINITY, libm::exp);

@@ -128,12 +128,10 @@ impl Comparison {
     }
 }
 
-/// The cases that both runs have.
 fn pairs<'a>(old: &'a [Record], new: &'a [Record]) -> Vec<(&'a Record, &'a Record)> {
     old.iter().filter_map(|record| Some((record, counterpart(record, new)?))).collect()
 }
 
-/// The same case in another run.
 fn counterpart<'a>(record: &Record, others: &'a [Record]) -> Option<&'a Record> {
     let same = |other: &&Record| {
         (&other.scene, &other.workload, &other.label) == (&record.scene, &record.workload, &record.label)
@@ -141,12 +139,10 @@ fn counterpart<'a>(record: &Record, others: &'a [Record]) -> Option<&'a Record> 
     others.iter().find(same)
 }
 
-/// A case as sentences name it.
 fn case(record: &Record) -> String {
     format!("{} on the {} rays of {}", record.label, record.workload, record.scene)
 }
 
-/// What is wrong with the new answers that was not with the old.
 fn wrong(old: &Record, new: &Record) -> Option<Wrong> {
     let rate = |r: &Record| r.structure_errors.unwrap_or(0) as f64 / r.checked_rays.unwrap_or(0).max(1) as f64;
     let (errors, checked) = (new.structure_errors.unwrap_or(0), new.checked_rays.unwrap_or(0));

@@ -65,7 +65,6 @@ pub fn unlike(old: &[Record], new: &[Record]) -> Result<(), Unlike> {
     }
 }
 
-/// The first key in which two configurations differ, with both values.
 fn other_key(old: &Value, new: &Value) -> Option<(String, String, String)> {
     let text = |value: Option<&Value>| value.map_or("absent".into(), Value::to_string);
     let keys = |value: &Value| value.as_object().map(|map| map.keys().cloned().collect::<Vec<_>>()).unwrap_or_default();

@@ -220,7 +220,6 @@ impl Study for ReplicateStudy {
 }
 
 impl Replication {
-    /// Adds an easy or normal scene of the report.
     fn add_main(&mut self, epochs: &[&Epoch]) {
         let first = epochs[0];
         let Some(index) = MAIN.iter().position(|row| row.scene == first.scene) else { return };

@@ -21,7 +21,6 @@ fn epochs(scene: &str, stand_in: bool, times: &[u64]) -> Vec<Epoch> {
     (0..3).map(one).collect()
 }
 
-/// The result of one scene after the other.
 fn add(result: &mut Replication, add: fn(&mut Replication, &[&Epoch]), epochs: &[Epoch]) {
     add(result, &epochs.iter().collect::<Vec<_>>());
 }

@@ -25,7 +25,6 @@ use crate::scene::{Scene, WorkloadKind};
 pub use spheres::{LEVELS, sphere};
 pub use table::tables;
 
-/// The structures compared unless others are named.
 const STRUCTURES: [&str; 7] =
     ["median-kd", "sah-kd", "sah-kd-wide", "sah-hybrid", "sah-bvh", "obvhs-bvh2", "obvhs-cwbvh"];
 

@@ -10,7 +10,6 @@ use crate::report::words::{listed, slug, written};
 use crate::report::{Statement, Table};
 use crate::study::{REPORT_TREE, SAH_TREE};
 
-/// What is drawn over the number of triangles.
 struct Quantity {
     id: &'static str,
     words: &'static str,

@@ -11,7 +11,6 @@ pub fn tables(growths: &[Growth]) -> Vec<Table> {
     groups(growths).iter().flat_map(|group| [exponents(group), points(group)]).collect()
 }
 
-/// Those of one family and kind of rays each.
 pub(super) fn groups(growths: &[Growth]) -> Vec<Vec<&Growth>> {
     let mut groups: Vec<Vec<&Growth>> = vec![];
     for growth in growths {

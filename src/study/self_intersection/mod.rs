@@ -150,7 +150,6 @@ pub struct SelfIntersectionArgs {
 
 const RAYS: u32 = 6000;
 
-/// What the rows depend on.
 #[derive(Serialize)]
 struct Kept {
     structures: String,

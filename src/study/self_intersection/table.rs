@@ -35,7 +35,6 @@ pub fn table(study: &[Row]) -> Table {
     }
 }
 
-/// Each structure and test once.
 fn over(study: &[Row]) -> Vec<String> {
     let mut names: Vec<String> = vec![];
     for row in study {

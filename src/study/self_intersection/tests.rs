@@ -3,7 +3,6 @@ use crate::registry::Registry;
 
 const RAYS: usize = 6000;
 
-/// The rows of all spheres.
 fn all(choices: &[Choice], rays: usize, seed: u64) -> Vec<Row> {
     Sphere::ALL.map(|sphere| trace(sphere, choices, rays, seed).unwrap()).concat()
 }

@@ -94,7 +94,6 @@ impl Property {
         }
     }
 
-    /// Adds further comparisons.
     pub(super) fn append(&mut self, other: Self) {
         self.checked += other.checked;
         self.broken += other.broken;
@@ -160,7 +159,6 @@ impl Named {
 }
 
 impl HardCase {
-    /// With another number of rays.
     pub(super) const fn at_most(self, rays: usize) -> Self {
         match self.content {
             Content::Rays { expected, make, .. } => Self { content: Content::Rays { rays, expected, make }, ..self },

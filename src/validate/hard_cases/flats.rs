@@ -59,7 +59,6 @@ pub(super) const CASES: &[HardCase] = &[
         .source("Wald, Havran 2006: planar triangles on either side; Hapala, Havran 2011"),
 ];
 
-/// A point over the sheet.
 fn above(sampler: &mut Sampler, height: f32) -> Vec3 {
     Vec3::new(sampler.signed(), sampler.signed(), height)
 }

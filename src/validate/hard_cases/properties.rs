@@ -92,7 +92,6 @@ fn continued(accel: &dyn DynAccel, ray: Ray) -> Vec<Ray> {
     rays
 }
 
-/// Through the star from outside.
 fn through_star(count: usize, seed: u64) -> Vec<Ray> {
     let mut sampler = Sampler::new(seed);
     let ray = |_| {
@@ -102,7 +101,6 @@ fn through_star(count: usize, seed: u64) -> Vec<Ray> {
     (0..count).map(ray).collect()
 }
 
-/// The structure, and brute force with its triangle test.
 fn both(subject: &Subject, mesh: &Arc<Mesh>) -> Result<(Box<dyn DynAccel>, Reference), String> {
     let reference = Reference::of_test(subject.triangle_test, mesh).map_err(|error| error.to_string());
     Ok((built(subject, mesh)?, reference?))

@@ -27,12 +27,10 @@ impl Set {
     }
 }
 
-/// From `points` and `triangles` that are known to be fit.
 pub(super) fn indexed(points: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Arc<Mesh> {
     Arc::new(Mesh::new(points, triangles).expect("made of finite numbers"))
 }
 
-/// The mesh with every vertex moved by `to`.
 pub(super) fn moved(mesh: &Mesh, to: impl Fn(Vec3) -> Vec3) -> Arc<Mesh> {
     indexed(mesh.positions().iter().copied().map(to).collect(), mesh.triangles().to_vec())
 }
@@ -102,7 +100,6 @@ pub(super) fn tilted(p: Vec3) -> Vec3 {
     AXES[0] * p.x + AXES[1] * p.y + AXES[2] * p.z
 }
 
-/// A random triangle with an area, by its corners.
 pub(super) fn triangle(mesh: &Mesh, sampler: &mut Sampler) -> [Vec3; 3] {
     loop {
         let index = sampler.below(mesh.len()) as u32;
@@ -112,13 +109,11 @@ pub(super) fn triangle(mesh: &Mesh, sampler: &mut Sampler) -> [Vec3; 3] {
     }
 }
 
-/// A random point of a random triangle, rounded.
 pub(super) fn on_surface(mesh: &Mesh, sampler: &mut Sampler) -> Vec3 {
     let ([a, b, c], [u, v, w]) = (triangle(mesh, sampler), sampler.barycentric());
     a * u + b * v + c * w
 }
 
-/// Zero in all components but `axis`, where it is `along`.
 pub(super) fn along_axis(axis: usize, along: f32) -> Vec3 {
     let mut direction = Vec3::ZERO;
     direction[axis] = along;

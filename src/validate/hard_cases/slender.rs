@@ -81,7 +81,6 @@ fn hair(count: usize) -> Set {
     })
 }
 
-/// A disk of 800 triangles around their common corner, zero.
 fn fan() -> Arc<Mesh> {
     const SEGMENTS: u32 = 800;
     let rim = (0..SEGMENTS).map(|i| {

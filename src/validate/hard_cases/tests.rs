@@ -11,7 +11,6 @@ use crate::oracle::Oracle;
 
 use glam::Vec3;
 
-/// Rays of a case in these tests.
 const FEW: usize = 40;
 
 fn sets(count: usize) -> impl Iterator<Item = (&'static HardCase, Expected, Set)> {

@@ -27,10 +27,8 @@ pub struct Args {
     rays: u32,
 }
 
-/// What a Rust program that panicked exits with.
 const PANICKED: i32 = 101;
 
-/// How often a child is looked at.
 const PAUSE: Duration = Duration::from_millis(5);
 
 /// The child's side: answers on standard output.

@@ -30,7 +30,6 @@ use table::{Column, legend, tables};
 
 pub use child::{Args as ChildArgs, COMMAND as CHILD, run as run_child};
 
-/// Children at a time.
 const CHILDREN: usize = 2;
 
 /// Rays of a case, at most; no case has more.

@@ -24,7 +24,6 @@ impl Column {
     }
 }
 
-/// A case without anything wrong.
 const CLEAN: &str = ".";
 
 /// What the tables show, once for all.

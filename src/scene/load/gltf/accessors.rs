@@ -168,7 +168,6 @@ impl<'a> Accessors<'a> {
     }
 }
 
-/// The size of a component type.
 fn bytes(component_type: u32) -> usize {
     match component_type {
         5120 | 5121 => 1,

@@ -13,7 +13,6 @@ use crate::scene::load::error::{Fault, message, quoted};
 /// The bytes of a buffer; buffers of one file share them.
 pub(super) type Bytes = Rc<Vec<u8>>;
 
-/// How many bytes buffers take.
 pub(super) fn size(buffers: &[Bytes]) -> usize {
     let mut distinct: Vec<&Bytes> = buffers.iter().collect();
     distinct.sort_by_key(|data| Rc::as_ptr(data));
@@ -66,7 +65,6 @@ pub(super) fn read(list: &mut [Buffer], mut chunk: Option<Vec<u8>>, folder: &Pat
     Ok(buffers)
 }
 
-/// The bytes of a data URI.
 fn embedded(uri: &str) -> Result<Vec<u8>, String> {
     let (_, data) = uri.split_once(";base64,").ok_or("its data URI is not in base64")?;
     base64::decode(data).map_err(|error| format!("its data URI cannot be read: {}", message(error)))

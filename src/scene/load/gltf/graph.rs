@@ -8,7 +8,6 @@ use crate::scene::load::error::Fault;
 /// Deeper graphs are taken for mistakes.
 const DEEPEST: usize = 1024;
 
-/// A mesh where a node shows it.
 pub(super) struct Placement {
     pub node: usize,
     pub mesh: usize,

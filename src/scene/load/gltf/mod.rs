@@ -140,7 +140,6 @@ fn reserve(
     Err(Fault::file(format!("{shown}, and more than {most} do not fit from files of {bytes} bytes: split the scene")))
 }
 
-/// Why nothing is shown.
 fn nothing(document: &Document, placements: &[Placement], shapes: &[Option<Shape>]) -> String {
     let default = document.scene.map(|number| (number, &document.scenes[number].nodes[..]));
     match default {

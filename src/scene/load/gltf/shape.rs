@@ -6,7 +6,6 @@ use super::accessors::Accessors;
 use super::document::{Mesh, TRIANGLE_FAN, TRIANGLE_STRIP, TRIANGLES};
 use crate::scene::load::error::Fault;
 
-/// The material number of a primitive that names no material.
 pub(super) const NO_MATERIAL: u32 = u32::MAX;
 
 /// Triangles and what they share, checked and not yet read: primitives often use one accessor together.

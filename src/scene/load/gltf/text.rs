@@ -33,7 +33,6 @@ fn no_gltf(problem: &str) -> Fault {
     Fault::file(format!("it is no glTF 2.0 file: {problem}"))
 }
 
-/// The text and the binary chunk of a binary file.
 fn chunks(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), Fault> {
     let word = |at: usize| bytes.get(at..at + 4).map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]]) as usize);
     let end = match (word(4), word(8)) {

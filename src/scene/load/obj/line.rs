@@ -47,7 +47,6 @@ impl<'a> Iterator for Statements<'a> {
     }
 }
 
-/// The line without its end, if it goes on.
 fn continued(line: &[u8]) -> Option<&[u8]> {
     let head = line.strip_suffix(b"\\")?;
     let has_comment = words(line).any(|word| word.starts_with(b"#"));

@@ -75,7 +75,6 @@ fn vertices(text: &[u8], check: &Check) -> Model {
     model
 }
 
-/// The faces so far and what the next one gets.
 #[derive(Default)]
 struct Faces {
     /// Whether any face has normals.
@@ -94,7 +93,6 @@ struct Faces {
 }
 
 impl Faces {
-    /// Adds the triangles of the face that `corners` hold.
     fn add(&mut self, model: &mut Model) {
         if self.corners.len() < 3 {
             return;

@@ -7,7 +7,6 @@ use super::header::{Element, Encoding, Header};
 use super::value::Kind;
 use crate::scene::load::error::{Fault, quoted};
 
-/// Longer lists are refused.
 const LONGEST_LIST: f64 = 1_048_576.0;
 
 #[derive(Clone)]
@@ -81,7 +80,6 @@ impl<'a> Body<'a> {
         words.next().map_or(Ok(()), |_| Err(format!("{} has too many numbers", quoted(line))))
     }
 
-    /// The next value of a binary file.
     fn value(&mut self, kind: Kind) -> Result<f64, String> {
         let (value, rest) =
             self.rest.split_at_checked(kind.bytes()).ok_or("the file ends within this row: it is truncated")?;

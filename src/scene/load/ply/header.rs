@@ -12,7 +12,6 @@ pub(super) const CORNERS: [&str; 2] = ["vertex_indices", "vertex_index"];
 /// Counts of more digits cannot be true.
 const LONGEST_NUMBER: usize = 15;
 
-/// Longer headers are refused.
 const LONGEST_HEADER: usize = 1 << 20;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -60,7 +60,6 @@ pub(super) fn read(bytes: &[u8]) -> Result<Model, Fault> {
     Ok(model)
 }
 
-/// What the rows of a file hold.
 struct Found<'a> {
     /// The body from the first vertex on, and from the first face on.
     vertices: Body<'a>,

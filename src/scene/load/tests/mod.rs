@@ -13,7 +13,6 @@ use glam::Vec3;
 use super::{LoadError, load};
 use crate::scene::Model;
 
-/// Loads the first of the given files, which lie in one folder.
 fn load_files(files: &[(&str, &[u8])]) -> Result<Model, LoadError> {
     let folder = tempfile::tempdir().unwrap();
     for (name, bytes) in files {
@@ -36,7 +35,6 @@ fn assert_refused(name: &str, bytes: &[u8], words: &[&str]) {
     }
 }
 
-/// The corners of all triangles.
 fn corners(model: &Model) -> Vec<[Vec3; 3]> {
     model.triangles.iter().map(|t| t.map(|i| model.positions[i as usize])).collect()
 }

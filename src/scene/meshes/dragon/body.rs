@@ -4,7 +4,6 @@ use glam::Vec3;
 
 use crate::scene::meshes::sdf::{Blend, Frame, Knot, Sdf, Tube, cosine, sine};
 
-/// Centre line and radius from the tip of the tail to the head.
 const SPINE: [Knot; 22] = [
     Knot(0.62, 0.62, 0.84, 0.03),
     Knot(0.78, 0.34, 0.80, 0.05),
@@ -33,7 +32,6 @@ const SPINE: [Knot; 22] = [
 /// Curve pieces between two points of the centre line.
 const PIECES: usize = 6;
 
-/// Scales around the body.
 const AROUND: f32 = 16.0;
 
 /// Adds the body and returns the frame at the end of the neck.
@@ -117,7 +115,6 @@ fn crest(sdf: &mut Sdf, tube: &Tube, frames: &[Frame]) {
     }
 }
 
-/// Flame-shaped blades at the tip of the tail.
 fn tail_tuft(sdf: &mut Sdf, tube: &Tube) {
     sdf.group(Blend::undisplaced(0.03));
     let tip = tube.centres[0];
@@ -173,7 +170,6 @@ fn legs(sdf: &mut Sdf) {
     }
 }
 
-/// Three toes and a spur, each with a claw.
 fn foot(sdf: &mut Sdf, frame: &Frame) {
     let toes = [(-0.5, 1.0), (0.0, 1.1), (0.5, 1.0), (2.7, 0.7)];
     let toe = |turn: f32, long: f32, y: f32| frame.at(long * sine(turn), y, 0.04 + long * cosine(turn));
@@ -190,7 +186,6 @@ fn foot(sdf: &mut Sdf, frame: &Frame) {
     }
 }
 
-/// Three flame-shaped spikes behind a knee.
 fn elbow_tufts(sdf: &mut Sdf, knee: Vec3, up: Vec3, ahead: Vec3) {
     sdf.group(Blend::undisplaced(0.04));
     let back = -ahead.normalize();

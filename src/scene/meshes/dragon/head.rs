@@ -94,7 +94,6 @@ fn horns(sdf: &mut Sdf, head: &Frame) {
     }
 }
 
-/// Blades that spread backwards from the cheeks.
 fn frill(sdf: &mut Sdf, head: &Frame) {
     for side in [-1.0, 1.0] {
         sdf.group(Blend::undisplaced(0.03));

@@ -13,10 +13,8 @@ use crate::{geometry::Aabb, scene::Model};
 /// As many as the dragon of the source report has.
 const TRIANGLES: usize = 130_858;
 
-/// The box of the model.
 const BOUNDS: Aabb = Aabb { min: Vec3::new(-0.102, 0.0, -0.046), max: Vec3::new(0.102, 0.144, 0.046) };
 
-/// Edge length of the surface net.
 const STEP: f32 = 0.0221;
 
 /// An evenly tessellated, closed dragon of 130,858 triangles with smooth normals, about 0.2 wide, standing on y = 0.
@@ -35,7 +33,6 @@ pub fn dragon() -> Model {
     model
 }
 
-/// Pebbles with furrows between them.
 fn pebbled(p: Vec3) -> f32 {
     let (first, second) = noise::pebbles(p * 13.0, 7);
     0.012 * ((second - first) * 3.0).min(1.0) - 0.004

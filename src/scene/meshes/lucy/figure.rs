@@ -133,7 +133,6 @@ fn lowered_arm(sdf: &mut Sdf) {
     }
 }
 
-/// Four fingers and a thumb around the handle at `at`.
 fn grip(sdf: &mut Sdf, at: Vec3, handle: f32) {
     sdf.group(Blend::smooth(0.03));
     for i in 0..4 {

@@ -85,7 +85,6 @@ fn folds(p: Vec3, turn: f32) -> f32 {
     long * (1.0 - breast) + breast * 0.09 * sag * (1.0 - smoothstep(15.4, 16.0, p.y))
 }
 
-/// The bent leg that shows through the cloth, and the feet.
 fn legs(sdf: &mut Sdf) {
     let v = Vec3::new;
     let leg = [
@@ -126,7 +125,6 @@ fn overfold(sdf: &mut Sdf) {
     });
 }
 
-/// Bust and shoulders under thin cloth, and the neckline.
 fn bodice(sdf: &mut Sdf) {
     let v = Vec3::new;
     sdf.group(Blend::smooth(0.25));

@@ -13,10 +13,8 @@ use crate::{geometry::Aabb, scene::Model};
 /// As many as the statue of the source report has.
 const TRIANGLES: usize = 275_690;
 
-/// The box of the model.
 const BOUNDS: Aabb = Aabb { min: Vec3::new(-6.74, 0.0, -3.87), max: Vec3::new(6.74, 23.15, 3.87) };
 
-/// Edge length of the surface net.
 const STEP: f32 = 0.0835;
 
 /// An evenly tessellated, closed statue of 275,690 triangles with smooth normals, 23 high, standing on y = 0.
@@ -36,7 +34,6 @@ pub fn lucy() -> Model {
     model
 }
 
-/// A round base of three steps.
 fn pedestal(sdf: &mut Sdf) {
     sdf.group(Blend::smooth(0.08));
     for (low, high, radius) in [(0.0, 0.75, 3.5), (0.6, 1.35, 3.05), (1.2, 1.8, 3.2)] {

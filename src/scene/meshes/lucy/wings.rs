@@ -32,7 +32,6 @@ fn place(side: f32, out: f32, up: f32, front: f32) -> Vec3 {
     Vec3::new(side * out, up, front - back)
 }
 
-/// A point of a polyline at `t` from 0 to 1.
 fn along<const N: usize>(line: &[[f32; N]], t: f32) -> [f32; N] {
     let s = t.clamp(0.0, 1.0) * (line.len() - 1) as f32;
     let i = (s as usize).min(line.len() - 2);

@@ -26,7 +26,6 @@ type Displacement = Box<dyn Fn(Vec3) -> f32 + Send + Sync>;
 /// Farther than anything is from anything.
 const FAR: f32 = 1e9;
 
-/// One solid within a bounding sphere.
 struct Primitive {
     centre: Vec3,
     radius: f32,

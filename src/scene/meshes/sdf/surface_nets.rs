@@ -124,7 +124,6 @@ fn net(grid: &Grid) -> (Vec<Vec3>, Vec<[u32; 4]>) {
     (positions, quads)
 }
 
-/// Mean of the points where the edges of a cell cut the surface.
 fn middle(grid: &Grid, cell: [usize; 3]) -> Vec3 {
     let (mut sum, mut count) = (Vec3::ZERO, 0.0);
     for axis in 0..3 {

@@ -105,7 +105,6 @@ impl Arch {
         self.keystone(patches, frame, size);
     }
 
-    /// A wedge with a scroll at the crown of the arch.
     fn keystone(&self, patches: &mut Patches, frame: &Frame, size: f32) {
         let crown = self.spring + self.radius;
         patches.of(&material("ornament", [1.02, 0.97, 0.88]));
@@ -129,7 +128,6 @@ impl Arch {
     }
 }
 
-/// Balusters between rails in front of one upper opening.
 fn balustrade(patches: &mut Patches, frame: &Frame, from: f32, length: f32) {
     patches.of(&material("trim", [0.98, 0.93, 0.84]));
     let to = from + length;

@@ -95,7 +95,6 @@ impl Column {
         });
     }
 
-    /// A scroll under a corner of the abacus.
     fn volute(&self, patches: &mut Patches, foot: Vec3, corner: usize) {
         let (sine, cosine) = turn(2 * corner + 1, 8);
         let (out, side) = (Vec3::new(sine, 0.0, cosine), Vec3::new(cosine, 0.0, -sine));

@@ -18,10 +18,8 @@ const TRIANGLES: usize = 174_838;
 /// Half length of the court along x, half width along z, and the z of its middle.
 const COURT: [f32; 3] = [1248.0, 215.0, -38.0];
 
-/// Depth of the walks behind the arcades.
 const WALK: f32 = 280.0;
 
-/// Floor of the upper storey.
 const UPPER: f32 = 470.0;
 
 /// Top of the upper arcade, where the eaves are.

@@ -5,7 +5,6 @@ use glam::Vec3;
 use super::{BAY, COURT, EAVES, Frame, UPPER, WALK, material};
 use crate::scene::meshes::patches::{Finish, Patches, turn};
 
-/// Quads along each edge of a vault.
 const VAULT: usize = 10;
 
 /// The walks of both storeys behind an arcade of `bays` bays.
@@ -55,7 +54,6 @@ fn vault(patches: &mut Patches, frame: &Frame, from: f32, bay: f32) {
     });
 }
 
-/// A framed door under a small gable.
 fn doorway(patches: &mut Patches, frame: &Frame, middle: f32, floor: f32, size: f32) {
     let back = -WALK;
     patches.of(&material("wood", [0.66, 0.48, 0.34]));

@@ -64,7 +64,6 @@ fn by_scene(taus: Vec<(String, f64)>) -> Vec<f64> {
     scenes.values().map(|taus| taus.iter().sum::<f64>() / taus.len() as f64).collect()
 }
 
-/// The records of one scene and one kind of rays.
 fn groups(records: &[Record]) -> Vec<Vec<&Record>> {
     let mut groups: Vec<Vec<&Record>> = vec![];
     for record in records.iter().filter(|r| r.structure != BRUTE_FORCE && r.trace_ns.is_some()) {
@@ -79,7 +78,6 @@ fn groups(records: &[Record]) -> Vec<Vec<&Record>> {
     groups
 }
 
-/// Kendall's tau over couples of different families.
 fn across(group: &[&Record]) -> Option<f64> {
     let known: Vec<(&str, (f64, f64))> = group
         .iter()
