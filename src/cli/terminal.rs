@@ -49,9 +49,6 @@ impl Terminal {
     }
 
     /// Prints text as it is; to standard error where a result goes to standard output.
-    ///
-    /// # Errors
-    /// If it cannot be written; a reader that has gone away is told by its kind.
     pub fn print(&self, text: &str) -> io::Result<()> {
         if stdout_is_taken() {
             return io::stderr().lock().write_all(text.as_bytes());
@@ -62,18 +59,12 @@ impl Terminal {
     }
 
     /// Prints a table, but for columns in which no row says anything, with a blank line after it.
-    ///
-    /// # Errors
-    /// As [`Terminal::print`].
     pub fn print_table(&self, table: &Table) -> io::Result<()> {
         let table = table.clone().without_blank_columns();
         self.print(&(table.to_terminal(self.screen) + "\n"))
     }
 
     /// Prints lines of text, broken where the screen ends.
-    ///
-    /// # Errors
-    /// As [`Terminal::print`].
     pub fn print_lines(&self, lines: &[String]) -> io::Result<()> {
         let width = usize::from(self.screen.width.unwrap_or(120));
         let lines = lines.iter().flat_map(|line| wrapped(line, width));

@@ -23,8 +23,6 @@ impl Limits {
     /// What nodes can name: a tag has 30 bits for the number of a node, and for that of the references of a leaf.
     pub const OF_NODES: Self = Self { nodes: 1 << 30, references: (1 << 30) - 1 };
 
-    /// # Errors
-    /// If a tree of this size exceeds them.
     pub fn check(&self, nodes: usize, references: usize) -> Result<(), BuildError> {
         let Self { nodes: most_nodes, references: most_references } = *self;
         if nodes <= most_nodes && references <= most_references {

@@ -31,9 +31,6 @@ impl EpochArgs {
     }
 
     /// Epochs of `structures` and a twin on rays of these `kinds`, unless others are named.
-    ///
-    /// # Errors
-    /// If the options name what is not there.
     pub fn plan(
         &self,
         registry: &Registry,
@@ -47,9 +44,6 @@ impl EpochArgs {
 }
 
 /// What `plan` makes of the scenes, with their note and their files.
-///
-/// # Errors
-/// If a scene cannot be read.
 pub fn plan_on(named: &ScenesAndMeshes, plan: impl FnOnce(Vec<Scene>) -> Plan<Epoch>) -> anyhow::Result<Plan<Epoch>> {
     let scenes = named.read()?;
     let note = named.note(&scenes);

@@ -8,9 +8,6 @@ use crate::measure::{Estimate, Rerun, Variance, median};
 /// Within an epoch, what slowed a whole round is taken out (the median over the structures of how far each is off its
 /// own median), then each structure has the median of its rounds. Figures that are sums over these add up exactly,
 /// epoch by epoch.
-///
-/// # Panics
-/// If a structure has no samples.
 pub(super) fn epoch_medians(mut epochs: Vec<Vec<Vec<f64>>>) -> Vec<Vec<f64>> {
     let middle = |values: &[f64]| median(values).expect("a structure has samples");
     let rounds = |trees: &[Vec<f64>]| trees.iter().map(Vec::len).min().unwrap_or(0);
@@ -26,9 +23,6 @@ pub(super) fn epoch_medians(mut epochs: Vec<Vec<Vec<f64>>>) -> Vec<Vec<f64>> {
 }
 
 /// e to the power of what `of` makes of an epoch, with its interval; `noise` is what the A/A noise adds to it.
-///
-/// # Panics
-/// If there is no epoch.
 pub(super) fn ratio(epoch_medians: &[Vec<f64>], of: impl Fn(&[f64]) -> f64, noise: Variance) -> Estimate {
     Rerun::of(&values(epoch_medians, of), noise).expect("there is an epoch").ratio()
 }

@@ -151,8 +151,6 @@ pub trait AnyStudy: Send + Sync {
 
 struct Typed<S>(PhantomData<fn() -> S>);
 
-/// # Panics
-/// If it is the answer of another study.
 fn own<S: Study>(answer: &dyn Any) -> &S::Answer {
     answer.downcast_ref().expect("the answer is of this study")
 }

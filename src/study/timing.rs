@@ -39,9 +39,6 @@ impl Timing<'_> {
     /// Takes the samples of `cases`, interleaved, on a pinned thread where there is one. After a first epoch its
     /// samples are given as `before`: `plan.runs` more are added, on as many rays. The samples of any two structures on
     /// a workload, or those of a part of them, are of the same rays.
-    ///
-    /// # Errors
-    /// If a structure answers the same rays differently.
     pub fn take(
         &self,
         cases: &[Case],

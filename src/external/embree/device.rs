@@ -50,9 +50,6 @@ unsafe extern "C" fn on_memory(told: *mut c_void, bytes: isize, _: bool) -> bool
 
 impl Scene {
     /// Builds over the triangles `ids` of `mesh` on `threads` threads.
-    ///
-    /// # Errors
-    /// If Embree is not there, or refuses.
     pub fn new(mesh: &Mesh, ids: &[u32], flags: c_int, quality: c_int, threads: usize) -> Result<Self, BuildError> {
         let api = api().map_err(BuildError::Unavailable)?;
         let options = CString::new(format!("threads={threads},set_affinity=0")).expect("no zero inside");

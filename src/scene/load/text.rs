@@ -3,9 +3,6 @@
 use super::error::Fault;
 
 /// The text without the mark that some editors put before UTF-8.
-///
-/// # Errors
-/// If every character takes two bytes or more.
 pub(super) fn plain(bytes: &[u8]) -> Result<&[u8], Fault> {
     match bytes {
         [0xef, 0xbb, 0xbf, text @ ..] => Ok(text),

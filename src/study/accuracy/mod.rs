@@ -183,9 +183,6 @@ const SLOW: u64 = 30;
 
 /// As many of the rays, evenly spread, as all structures together answer in `budget_ns`: rays differ so much in what
 /// they cost that only times on the same ones can be compared.
-///
-/// # Errors
-/// The structure that panicked, if one did.
 fn common<'a>(built: &'a [Built], rays: &[Ray], clock: &dyn Clock, budget_ns: u64) -> Result<Vec<Ray>, &'a Built> {
     let pilot = spread(rays, PILOT);
     let mut hits = vec![None; pilot.len()];

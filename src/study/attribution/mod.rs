@@ -28,9 +28,6 @@ pub use section::{hard, sentences, stack};
 pub use table::{headlines, tables};
 
 /// The cells of the design in their order, then the twins of the report's tree and of the SAH tree, over one triangle test.
-///
-/// # Errors
-/// If the test is not known.
 fn structures(registry: &Registry, test: &str) -> Result<Vec<Choice>, ChoiceError> {
     let cells = Treatment::all().into_iter().chain([Treatment::REPORT, Treatment::SAH]);
     cells.map(|cell| registry.choose(&cell.spec(test))).collect()

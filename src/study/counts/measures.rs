@@ -103,9 +103,6 @@ pub struct Counts {
 }
 
 /// Builds and counts every structure. One that cannot be built, or that panics, is refused; the others go on.
-///
-/// # Errors
-/// If the guide cannot be built.
 pub(super) fn count_scene(
     scene: &Scene,
     settings: &CountSettings,

@@ -38,9 +38,6 @@ fn is_default(row: &SweepRow) -> bool {
 }
 
 /// The settings of the sweep in their order, then the twin of the default.
-///
-/// # Errors
-/// If the report's tree is not registered as the sweep expects.
 pub(super) fn structures(registry: &Registry) -> Result<Vec<Choice>, ChoiceError> {
     let rows = SWEEP.iter().chain([&SWEEP[default_row()]]);
     let spec = |row: &SweepRow| format!("{REPORT_TREE}:leaf={},threshold={}", row.leaf, row.threshold);

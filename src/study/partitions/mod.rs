@@ -28,9 +28,6 @@ const PRESETS: [&str; 6] = ["fastest", "very-fast", "fast", "medium", "slow", "v
 const LAYOUTS: [&str; 2] = ["obvhs-bvh2", "obvhs-cwbvh"];
 
 /// Ours over the triangle test `test`, the wide ones with what is in `keys` (`,key=value..`), and all of obvhs with its own test.
-///
-/// # Errors
-/// If a structure is not registered or refuses the keys.
 fn structures(registry: &Registry, test: &str, keys: &str) -> Result<Vec<Choice>, ChoiceError> {
     let ours = OURS.iter().map(|&name| {
         let keys = if name == OURS[0] { "" } else { keys };

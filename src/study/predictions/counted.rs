@@ -49,9 +49,6 @@ pub fn key(scene: &Scene) -> String {
 
 /// Counts one of them.
 ///
-/// # Errors
-/// If a structure is not registered or cannot be built.
-///
 /// # Panics
 /// If it is none of [`scenes`].
 pub fn measure(

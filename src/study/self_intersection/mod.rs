@@ -63,9 +63,6 @@ pub struct Row {
 }
 
 /// Traces the rays of one sphere. The same result on every machine.
-///
-/// # Errors
-/// If a structure refuses the sphere.
 fn trace(sphere: Sphere, structures: &[Choice], rays: usize, seed: u64) -> Result<Vec<Row>, StudyError> {
     let refused = |structure: &str, cause| {
         let (structure, scene) = (structure.to_owned(), sphere.to_string());

@@ -25,9 +25,6 @@ pub(super) struct Check {
 
 impl Check {
     /// Goes through the whole text and keeps numbers only.
-    ///
-    /// # Errors
-    /// A number, an index or a line that is wrong; a file without triangles.
     pub fn over(text: &[u8]) -> Result<Self, Fault> {
         let mut check = Self::default();
         for (number, line) in Statements::new(text) {
