@@ -1,6 +1,10 @@
 //! Colours: one for each structure, the same in every figure, in light and in dark.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use plotters::style::RGBColor;
+
+use crate::report::words::bare;
 
 /// A colour of a drawing, by its value on white paper; a page in dark colours shows another in its place.
 pub type Colour = RGBColor;
@@ -8,14 +12,36 @@ pub type Colour = RGBColor;
 /// A colour by its role: what a drawing says, what white paper shows, and what dark paper shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Role {
-    /// Name of the custom property of style sheets.
-    pub name: &'static str,
+    name: &'static str,
+    /// 0 for the colour itself.
+    shade: usize,
     pub light: Colour,
     pub dark: Colour,
 }
 
 const fn role(name: &'static str, light: [u8; 3], dark: [u8; 3]) -> Role {
-    Role { name, light: RGBColor(light[0], light[1], light[2]), dark: RGBColor(dark[0], dark[1], dark[2]) }
+    Role { name, shade: 0, light: RGBColor(light[0], light[1], light[2]), dark: RGBColor(dark[0], dark[1], dark[2]) }
+}
+
+/// How far shades are from their colour, in percent of the way to black on white paper and to white on dark paper: the contrast
+/// to the paper only grows.
+const SHADES: [u16; 4] = [24, 42, 58, 72];
+
+impl Role {
+    /// Name of the custom property of style sheets.
+    pub fn name(self) -> String {
+        format!("{}{}", self.name, ["", "a", "b", "c", "d"][self.shade])
+    }
+
+    /// The `shade`th of [`SHADES`], counted from 1.
+    fn shaded(self, shade: usize) -> Self {
+        let share = SHADES[shade - 1];
+        let mix = |colour: Colour, end: u16| {
+            let channel = |c: u8| ((u16::from(c) * (100 - share) + end * share) / 100) as u8;
+            RGBColor(channel(colour.0), channel(colour.1), channel(colour.2))
+        };
+        Self { shade, light: mix(self.light, 0), dark: mix(self.dark, 255), ..self }
+    }
 }
 
 /// Paper, text, lines.
@@ -62,7 +88,8 @@ pub const PARTS: [Role; 3] = [
 
 /// All roles.
 pub fn roles() -> impl Iterator<Item = Role> {
-    [PAPER, INK, MIDDLE, FAINT].into_iter().chain(SERIES).chain(PARTS)
+    let shades = SERIES.into_iter().flat_map(|role| (1..=SHADES.len()).map(move |shade| role.shaded(shade)));
+    [PAPER, INK, MIDDLE, FAINT].into_iter().chain(SERIES).chain(shades).chain(PARTS)
 }
 
 /// The structures with a colour of their own, the same in every chart.
@@ -84,23 +111,40 @@ const STRUCTURES: [&str; 15] = [
     "tinybvh",
 ];
 
-/// A colour for each label, all different as long as there are enough. The bare name of a structure always has that of its structure; a
-/// structure with keys, or of another name, has one of the others, which its label decides: in another chart it is the same, but where
-/// two labels of one chart meet in a colour.
+/// As [`roles_of`], on white paper.
 pub fn colours(labels: &[String]) -> Vec<Colour> {
-    const OTHERS: usize = SERIES.len() - STRUCTURES.len();
-    let own = |label: &String| STRUCTURES.iter().position(|structure| structure == label);
-    let mut given: Vec<Option<usize>> = labels.iter().map(own).collect();
-    // In the order of their names: that of a chart does not matter.
-    let mut rest: Vec<usize> = (0..labels.len()).filter(|&i| given[i].is_none()).collect();
-    rest.sort_by_key(|&i| &labels[i]);
-    for i in rest {
-        let first = number(&labels[i]) % OTHERS;
-        let order = (0..OTHERS).map(|step| STRUCTURES.len() + (first + step) % OTHERS).chain(0..STRUCTURES.len());
-        let free = order.clone().find(|colour| !given.contains(&Some(*colour)));
-        given[i] = free.or(Some(STRUCTURES.len() + first));
+    roles_of(labels).into_iter().map(|role| role.light).collect()
+}
+
+/// A colour for each label. The bare name of a structure has the colour of its structure, in every chart; with keys it has a shade
+/// of that. Other names have one of the other colours, and their variants shades of it. What has no fixed colour is told by its
+/// text: it is the same in another chart, but where two texts of one chart meet.
+pub fn roles_of(labels: &[String]) -> Vec<Role> {
+    let names: Vec<&str> = labels.iter().map(|label| bare(label)).collect();
+    let own = |name: &str| STRUCTURES.iter().position(|structure| *structure == name);
+    let others = spread(names.iter().copied().filter(|name| own(name).is_none()), SERIES.len() - STRUCTURES.len());
+    let role = |(label, name): (&String, &str)| {
+        let series = own(name).unwrap_or_else(|| STRUCTURES.len() + others[name]);
+        if label == name {
+            return SERIES[series];
+        }
+        let variants = labels.iter().zip(&names).filter(|(label, other)| **other == name && *label != name);
+        let shades = spread(variants.map(|(label, _)| label.as_str()), SHADES.len());
+        SERIES[series].shaded(1 + shades[label.as_str()])
+    };
+    labels.iter().zip(names.iter().copied()).map(role).collect()
+}
+
+/// For each of `texts` a number below `n`, all different as long as there are enough: the one that the text decides, or the next
+/// that is free. The order of the texts does not matter.
+fn spread<'a>(texts: impl Iterator<Item = &'a str>, n: usize) -> BTreeMap<&'a str, usize> {
+    let mut given: BTreeMap<&str, usize> = BTreeMap::new();
+    for text in texts.collect::<BTreeSet<_>>() {
+        let first = number(text) % n;
+        let free = (0..n).map(|step| (first + step) % n).find(|i| given.values().all(|other| other != i));
+        given.insert(text, free.unwrap_or(first));
     }
-    given.into_iter().map(|colour| SERIES[colour.unwrap_or(0)].light).collect()
+    given
 }
 
 /// A number that depends on nothing but the text (Fowler, Noll, Vo: FNV-1a).
@@ -133,36 +177,54 @@ mod tests {
 
     #[test]
     fn everything_that_is_read_has_enough_contrast_in_light_and_dark() {
-        for role in [INK, MIDDLE].into_iter().chain(SERIES) {
+        let drawn_on = [PAPER, FAINT].map(|role| role.light);
+        for role in roles().filter(|role| !drawn_on.contains(&role.light) && PARTS.iter().all(|part| part != role)) {
             for (colour, paper) in [(role.light, PAPER.light), (role.dark, PAPER.dark)] {
-                assert!(contrast(colour, paper) >= 4.5, "{}: {}", role.name, contrast(colour, paper));
+                assert!(contrast(colour, paper) >= 4.5, "{}: {}", role.name(), contrast(colour, paper));
             }
         }
     }
 
     #[test]
-    fn no_two_roles_share_a_colour() {
+    fn no_two_roles_share_a_colour_or_a_name() {
         let all: Vec<Role> = roles().collect();
         for (i, role) in all.iter().enumerate() {
-            assert!(all[..i].iter().all(|other| other.light != role.light && other.dark != role.dark), "{}", role.name);
+            let differs = |o: &Role| o.light != role.light && o.dark != role.dark && o.name() != role.name();
+            assert!(all[..i].iter().all(differs), "{}", role.name());
         }
     }
 
     #[test]
-    fn structures_keep_their_colour_in_every_chart_and_variants_get_one_of_their_own() {
+    fn structures_keep_their_colour_in_every_chart_and_variants_have_shades_of_it() {
         let labels = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect::<Vec<_>>();
-        let alone = |name: &str| colours(&labels(&[name]))[0];
-        let names = ["grid", "sah-kd:leaf=4", "sah-kd", "sah-kd:leaf=8", "median-kd", "embree"];
-        let many = colours(&labels(&names));
-        for (name, colour) in names.iter().zip(&many) {
-            assert_eq!(*colour, alone(name), "{name}");
+        let alone = |name: &str| roles_of(&labels(&[name]))[0];
+        let names = ["grid", "sah-kd:leaf=4", "sah-kd", "sah-kd:leaf=2", "median-kd", "grid:cell=2", "embree"];
+        let many = roles_of(&labels(&names));
+        for (label, role) in names.iter().zip(&many) {
+            assert_eq!(*role, alone(label), "{label}");
+            assert_eq!(role.name, alone(bare(label)).name, "{label}");
+            assert_eq!(role.shade > 0, label.contains(':'), "{label}");
         }
         // In another order, and without the bare name, too.
-        let few = colours(&labels(&["median-kd", "sah-kd:leaf=8"]));
+        let few = roles_of(&labels(&["median-kd", "sah-kd:leaf=2"]));
         assert_eq!(few, [many[4], many[3]]);
-        for (i, colour) in many.iter().enumerate() {
-            assert!(!many[..i].contains(colour), "{i}");
+        for (i, role) in many.iter().enumerate() {
+            assert!(!many[..i].contains(role), "{i}");
         }
-        assert_eq!(colours(&vec!["x".into(); 30]).len(), 30);
+    }
+
+    #[test]
+    fn a_label_never_has_the_colour_of_another_structure_however_many_there_are() {
+        let label = |i: usize| format!("{}:leaf={i}", ["sah-kd", "grid", "median-kd"][i % 3]);
+        let labels: Vec<String> = (0..60).map(label).chain((0..20).map(|i| format!("own-{i}"))).collect();
+        for (label, role) in labels.iter().zip(roles_of(&labels)) {
+            let structure = SERIES.iter().position(|series| series.name == role.name).and_then(|i| STRUCTURES.get(i));
+            let own = bare(label);
+            assert_eq!(structure.copied(), STRUCTURES.contains(&own).then_some(own), "{label}");
+        }
+        // As many variants as there are shades are told apart.
+        let variants: Vec<String> = (0..SHADES.len()).map(|i| format!("sah-kd:leaf={i}")).collect();
+        let shades: BTreeSet<usize> = roles_of(&variants).iter().map(|role| role.shade).collect();
+        assert_eq!(shades.len(), SHADES.len());
     }
 }
