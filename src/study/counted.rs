@@ -7,7 +7,7 @@ use super::guarded;
 use super::timing::Case;
 use crate::accel::{Counts, DynAccel, Observed, Query};
 use crate::geometry::Ray;
-use crate::measure::{checksum, spread};
+use crate::measure::{EventCounter, checksum, spread};
 use crate::scene::Workload;
 
 /// Of one pass of a structure over a batch of rays.
@@ -37,6 +37,15 @@ pub(super) fn count_all(cases: &[Case], built: &[Built], workloads: &[Workload])
         guarded(|| Counted::affordable(accel, &workload.rays, workload.query))
     };
     cases.par_iter().map(of).collect()
+}
+
+/// What the processor counts while a structure answers all `rays` and nobody watches.
+pub(super) fn events(counter: &mut EventCounter, accel: &dyn DynAccel, rays: &[Ray], query: Query) -> Option<u64> {
+    let (mut hits, mut any) = (vec![None; rays.len()], vec![false; rays.len()]);
+    counter.count(|| match query {
+        Query::Closest => accel.closest_hits(rays, &mut hits),
+        Query::Any => accel.any_hits(rays, &mut any),
+    })
 }
 
 impl Counted {

@@ -20,12 +20,20 @@ fn counts_are_printed_and_exported() {
     for part in ["EPO", "Cube, primary rays (closest)", "x minimum", "leaves by size and by depth"] {
         assert!(text.contains(part), "{part:?} is not in {text}");
     }
-    let measures = &json(&file)["result"];
+    // Of all that is counted branch misses alone are not the same again, to the bit.
+    let counted = || {
+        let mut measures = json(&file)["result"].take();
+        for rays in measures.as_array_mut().unwrap().iter_mut().flat_map(|one| one["rays"].as_array_mut().unwrap()) {
+            rays["branch_misses_per_ray"].take();
+        }
+        measures
+    };
+    let measures = counted();
     assert_eq!(measures[0]["structure"], "median-kd");
     assert_eq!(measures[0]["tree"]["leaf_sizes"], serde_json::json!([[12, 1]]));
     assert_eq!(measures[0]["tree"]["end_point_overlap"], 0.0);
-    // The same again, to the bit.
-    assert_eq!(text, prints(&small));
+    prints(&[&small[..], &["--export-json", file.to_str().unwrap()]].concat());
+    assert_eq!(counted(), measures);
     let long = prints(&[&small[..], &["--histograms"]].concat());
     assert!(long.contains("Cube, median-kd: leaves by size"), "{long}");
 

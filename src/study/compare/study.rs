@@ -5,7 +5,7 @@ use serde_json::Value;
 use super::{
     Compared, Reference, brief_table, compared, details_legend, legend, mean_table, scene_table, section, winner,
 };
-use crate::measure::{Provenance, instructions};
+use crate::measure::Provenance;
 use crate::registry::{Choice, Registry};
 use crate::report::document::Block;
 use crate::report::words::distinct;
@@ -185,7 +185,7 @@ impl Study for CompareStudy {
         let mut all = details_legend(&first.workload);
         all.extend(legend(records, &answer.references(records)));
         if records.iter().all(|r| r.instructions_per_ray.is_none()) {
-            all.push(instructions::ABSENT.into());
+            all.push("Instructions are not counted: the system offers no counter of them here.".into());
         }
         all
     }

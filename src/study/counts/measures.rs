@@ -6,11 +6,11 @@ use serde::{Deserialize, Serialize};
 
 use super::end_point_overlap::end_point_overlap;
 use crate::accel::{DynAccel, Histogram, Query};
-use crate::measure::Threads;
+use crate::measure::{EventCounter, Threads};
 use crate::registry::Choice;
 use crate::scene::{Sampling, Scene, Workload, WorkloadKind};
 use crate::study::check::declined;
-use crate::study::counted::Counted;
+use crate::study::counted::{Counted, events};
 use crate::study::{PANICKED, Refused, Stage, StudyError, guarded};
 
 pub(super) struct CountSettings {
@@ -89,6 +89,10 @@ pub struct RayMeasures {
     pub empty_leaf_steps_per_ray: Option<f64>,
     /// Tests as a multiple of the fewest possible, which are one for each ray that hits and none for the others.
     pub tests_over_minimum: Option<f64>,
+    /// Branches that the processor predicts wrongly, the one number here that a machine changes; nothing where it does not count
+    /// them.
+    #[serde(default)]
+    pub branch_misses_per_ray: Option<f64>,
 }
 
 /// What came of one scene, or of all.
@@ -190,5 +194,14 @@ fn of_rays(accel: &dyn DynAccel, workload: &Workload) -> RayMeasures {
         leaf_steps_per_ray: counted.leaf_steps_per_ray(),
         empty_leaf_steps_per_ray: counted.empty_leaf_steps_per_ray(),
         tests_over_minimum: counted.tests_over_minimum(),
+        branch_misses_per_ray: branch_misses(accel, workload),
     }
+}
+
+/// In the second of two passes: the first one trains the predictor.
+fn branch_misses(accel: &dyn DynAccel, workload: &Workload) -> Option<f64> {
+    let mut counter = EventCounter::branch_misses()?;
+    let mut pass = || events(&mut counter, accel, &workload.rays, workload.query);
+    pass();
+    Some(pass()? as f64 / workload.rays.len() as f64)
 }

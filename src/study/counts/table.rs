@@ -7,13 +7,15 @@ use crate::report::{Cell, Table};
 use crate::study::Refused;
 
 /// What the columns mean.
-pub const LEGEND: [&str; 3] = [
+pub const LEGEND: [&str; 4] = [
     "references: (leaf, triangle) pairs; x: those for each triangle; mean and largest: references of a leaf that is not empty. SAH: \
      expected cost of a random line, EPO: end-point overlap, what a ray pays for boxes that hold its end and not its triangle; both \
      in triangle tests, a node costing 1.2.",
     "tests: triangles tested, steps: nodes and leaves entered, leaves and empty: those of them that are leaves, and empty ones, all \
      for each ray. x minimum: tests as a multiple of the fewest possible, which are one for each ray that hits and none for the \
      others.",
+    "branch misses: branches that the processor predicts wrongly, for each ray, where processor and kernel count them; all other \
+     columns are the same on every machine.",
     "Bars: the number of leaves by size and by depth, each from the least to the largest that occurs.",
 ];
 
@@ -95,14 +97,16 @@ fn of_rays(first: &Measures, kind: &RayMeasures, measures: &[Measures]) -> Table
             known(rays.leaf_steps_per_ray),
             known(rays.empty_leaf_steps_per_ray),
             known(rays.tests_over_minimum),
+            known(rays.branch_misses_per_ray),
         ])
     });
     let (rays, hit) = (count(kind.rays as u64), figures(kind.hit_rate * 100.0));
     Table::new(
         format!("{}, {} rays ({}): {rays}, of which {hit} % hit", first.scene, kind.workload, kind.query.name()),
-        ["structure", "tests", "steps", "leaves", "empty", "x minimum"],
+        ["structure", "tests", "steps", "leaves", "empty", "x minimum", "branch misses"],
         rows,
     )
+    .without_blank_columns()
 }
 
 /// Bars of a row of bars, at most.

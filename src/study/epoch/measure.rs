@@ -2,15 +2,15 @@
 
 use super::watch::Watch;
 use super::{Circumstances, Epoch, RayCounts, RayDetails, Rays, Settings, Shape, Structure, StructureDetails};
-use crate::accel::{DynAccel, Query};
+use crate::accel::DynAccel;
 use crate::geometry::Ray;
 use crate::measure::tiles::level_of;
-use crate::measure::{Clock, Instructions, Part, Plan, Samples, spread};
+use crate::measure::{Clock, EventCounter, Part, Plan, Samples, spread};
 use crate::report::CaseCounts;
 use crate::scene::{Scene, Workload};
 use crate::study::built::Built;
 use crate::study::check::{check_all, declined};
-use crate::study::counted::{Counted, count_all};
+use crate::study::counted::{Counted, count_all, events};
 use crate::study::placed::Placed;
 use crate::study::timing::{Case, Taken, Timing};
 use crate::study::{PANICKED, Stage, StudyError};
@@ -240,7 +240,7 @@ impl<'a> Bench<'a> {
     /// Counts what is done for the rays, in a detailed epoch also where answers are wrong.
     fn count(&mut self) {
         let detailed = self.settings.detailed;
-        let mut counter = Instructions::open().filter(|_| detailed && self.settings.threads.count() == 1);
+        let mut counter = EventCounter::instructions().filter(|_| detailed && self.settings.threads.count() == 1);
         let mut cases = Case::all(self.built.len(), self.workloads.len());
         cases.retain(|case| {
             let structure = &self.structures[self.places[case.structure]];
@@ -263,18 +263,12 @@ fn keep(
     counted: &Counted,
     accel: &dyn DynAccel,
     workload: &Workload,
-    counter: Option<&mut Instructions>,
+    counter: Option<&mut EventCounter>,
     into: &mut Rays,
 ) {
     if let Some(details) = &mut into.details {
-        let instructions = counter.and_then(|counter| {
-            let rays = spread(&workload.rays, counted.rays);
-            let (mut hits, mut any) = (vec![None; rays.len()], vec![false; rays.len()]);
-            counter.count(|| match workload.query {
-                Query::Closest => accel.closest_hits(&rays, &mut hits),
-                Query::Any => accel.any_hits(&rays, &mut any),
-            })
-        });
+        let rays = spread(&workload.rays, counted.rays);
+        let instructions = counter.and_then(|counter| events(counter, accel, &rays, workload.query));
         details.leaf_steps_per_ray = counted.leaf_steps_per_ray();
         details.empty_leaf_steps_per_ray = counted.empty_leaf_steps_per_ray();
         details.tests_over_minimum = counted.tests_over_minimum();

@@ -1,19 +1,21 @@
-//! How many instructions a pass takes: a count that, unlike time, neither load nor clock rates change.
+//! Events that the processor counts: instructions, which unlike time neither load nor clock rates change, and branch misses.
 
-/// The processor's counter of instructions in user space, of the calling thread.
-pub struct Instructions {
+/// The processor's counter of one kind of events in user space, of the calling thread.
+pub struct EventCounter {
     #[cfg(target_os = "linux")]
     counter: perf_event::Counter,
 }
 
-/// Said where there is no counter.
-pub const ABSENT: &str = "Instructions are not counted: the system offers no counter of them here.";
-
 #[cfg(target_os = "linux")]
-impl Instructions {
+impl EventCounter {
     /// Nothing where processor or kernel give none: virtual machines often have no counter, and kernels may forbid it.
-    pub fn open() -> Option<Self> {
+    pub fn instructions() -> Option<Self> {
         Self::of(perf_event::events::Hardware::INSTRUCTIONS)
+    }
+
+    /// Branches that the processor predicted wrongly. Nothing likewise.
+    pub fn branch_misses() -> Option<Self> {
+        Self::of(perf_event::events::Hardware::BRANCH_MISSES)
     }
 
     fn of(event: impl perf_event::events::Event) -> Option<Self> {
@@ -22,7 +24,7 @@ impl Instructions {
         Some(Self { counter: counter.build().ok()? })
     }
 
-    /// Instructions that `work` takes on this thread; nothing if the counter did not run all the time.
+    /// Events of `work` on this thread; nothing if the counter did not run all the time.
     pub fn count(&mut self, work: impl FnOnce()) -> Option<u64> {
         self.counter.reset().ok()?;
         self.counter.enable().ok()?;
@@ -34,8 +36,12 @@ impl Instructions {
 }
 
 #[cfg(not(target_os = "linux"))]
-impl Instructions {
-    pub fn open() -> Option<Self> {
+impl EventCounter {
+    pub fn instructions() -> Option<Self> {
+        None
+    }
+
+    pub fn branch_misses() -> Option<Self> {
         None
     }
 
@@ -46,20 +52,42 @@ impl Instructions {
 
 #[cfg(all(test, target_os = "linux"))]
 mod tests {
+    use std::hint::black_box;
+
     use super::*;
 
     #[test]
     fn more_work_is_more_instructions_where_they_are_counted() {
-        let Some(mut counter) = Instructions::open() else { return };
-        let work = |n: u64| move || (0..n).for_each(|i| _ = std::hint::black_box(i));
+        let Some(mut counter) = EventCounter::instructions() else { return };
+        let work = |n: u64| move || (0..n).for_each(|i| _ = black_box(i));
         let (few, many) = (counter.count(work(1000)), counter.count(work(100_000)));
         assert!(few.is_some() && many > few.map(|few| 10 * few), "{few:?} {many:?}");
     }
 
     #[test]
+    fn branches_that_nothing_foretells_are_missed_where_they_are_counted() {
+        let Some(mut counter) = EventCounter::branch_misses() else { return };
+        let mut of = |random: bool| {
+            let mut state = 1u64;
+            counter.count(|| {
+                for _ in 0..100_000 {
+                    state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+                    if !random || state >> 63 == 0 {
+                        black_box(());
+                    } else {
+                        black_box(1);
+                    }
+                }
+            })
+        };
+        let (steady, random) = (of(false), of(true));
+        assert!(random > Some(10 * steady.unwrap_or(0)), "{steady:?} {random:?}");
+    }
+
+    #[test]
     fn a_counter_is_read_as_the_kernel_writes_it() {
         // The kernel's own clock counts everywhere that counters are allowed: nanoseconds of this thread.
-        let Some(mut counter) = Instructions::of(perf_event::events::Software::TASK_CLOCK) else { return };
+        let Some(mut counter) = EventCounter::of(perf_event::events::Software::TASK_CLOCK) else { return };
         let start = std::time::Instant::now();
         let counted = counter.count(|| while start.elapsed().as_micros() < 2000 {});
         // As long as that on a core of its own; less when others ran.
