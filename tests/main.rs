@@ -3,6 +3,7 @@
 use sahara::measure::CountingAllocator;
 
 mod alone;
+mod browser;
 mod cli;
 mod closed_meshes;
 mod conformance;

@@ -4,7 +4,8 @@ use std::sync::OnceLock;
 
 use super::{Runs, files, page};
 use crate::measure::Provenance;
-use crate::report::document::{Art, Block, Document, Figure, Overlay, Section, Thumbnail};
+use crate::report::document::{Art, Block, Colours, Document, Figure, Overlay, Section, Thumbnail};
+use crate::report::inspector::{Answer, InspectedHit, InspectedRay, InspectedStructure, Inspector};
 use crate::report::plot::{Chart, Curves, Line, Mark};
 use crate::report::{Record, Table, example_record, to_json};
 use crate::study::epoch::{Epoch, tests as epoch};
@@ -138,6 +139,32 @@ pub(super) fn read(folder: &Path) -> Runs {
     Runs::read(&[folder.to_path_buf()], &Studies::builtin()).unwrap()
 }
 
+/// Two rays, of which one meets a triangle that one of two structures misses.
+fn inspector(scene: &str) -> Inspector {
+    let hit = Answer { hit: Some(InspectedHit { t: 0.1, triangle: 7, weights: [0.25, 1.0 / 3.0] }), wrong: "" };
+    let (miss, missed) = (Answer { hit: None, wrong: "" }, Answer { hit: None, wrong: "missed" });
+    let ray = |pixel, truth: &Answer, answers: &[&Answer]| InspectedRay {
+        pixel,
+        text: "0.0,0.0,0.0 1.0,0.0,0.0".into(),
+        truth: truth.clone(),
+        answers: answers.iter().map(|&answer| answer.clone()).collect(),
+    };
+    let structure = |label: &str, answers: [usize; 2]| InspectedStructure {
+        label: label.into(),
+        nodes: vec![3, 4],
+        tests: vec![12, 0],
+        answers: answers.into(),
+        ..InspectedStructure::default()
+    };
+    Inspector {
+        size: [2, 2],
+        which: "Some".into(),
+        command: format!("sahara validate {scene} --ray"),
+        rays: vec![ray(0, &hit, &[&hit, &missed]), ray(3, &miss, &[&miss])],
+        structures: vec![structure(scene, [0, 0]), structure("b", [1, 0])],
+    }
+}
+
 /// Everything there is, from a scene called `scene`.
 fn whole(scene: &str) -> (Document, Runs) {
     let files = [
@@ -163,10 +190,13 @@ fn whole(scene: &str) -> (Document, Runs) {
     };
     let overlay = Overlay {
         heading: scene.into(),
-        ramp_title: "Work".into(),
         pictures: vec![thumbnail(scene), thumbnail("b")],
-        ramp: vec!["#000000".into(), "#ffffff".into()],
-        ticks: vec![(0.0, "0".into()), (1.0, "10".into())],
+        colours: Colours::Ramp {
+            title: "Work".into(),
+            colours: vec!["#000000".into(), "#ffffff".into()],
+            ticks: vec![(0.0, "0".into()), (1.0, "10".into())],
+        },
+        inspector: Some(Box::new(inspector(scene))),
     };
     let line = Line { label: scene.into(), note: String::new(), points: vec![], mark: Mark::Both };
     let curves = Curves::logarithmic("x", "y", vec![line]);
@@ -224,6 +254,25 @@ fn the_page_asks_for_nothing_from_elsewhere() {
 }
 
 #[test]
+fn an_inspector_is_data_that_no_name_can_end() {
+    let (document, _) = whole(EVIL);
+    let page = page(&document);
+    let json = page.split("<script type=\"application/json\">").nth(1).unwrap().split("</script>").next().unwrap();
+    let data: serde_json::Value = serde_json::from_str(json).unwrap();
+    assert_eq!(data["command"], format!("sahara validate {EVIL} --ray"));
+    assert_eq!(
+        data["answers"][0].to_string(),
+        "[[0.1,7,0.25,0.333333333],[\"missed\"]]",
+        "t as short as it reads back"
+    );
+    assert_eq!((data["truths"][1].to_string(), data["pixels"].to_string()), ("[]".into(), "[0,3]".into()));
+    assert_eq!(
+        data["structures"][1].to_string(),
+        r#"{"label":"b","nodes":[3,4],"leaves":[],"tests":[12,0],"answers":[1,0]}"#
+    );
+}
+
+#[test]
 fn every_figure_has_a_caption_a_command_and_words_for_those_who_do_not_see() {
     let (document, _) = cube();
     let figures = document.figures();
@@ -248,7 +297,7 @@ fn scenes_of_much_the_same_name_have_figures_of_their_own() {
     let both = [records_of("a b"), records_of("a-b")].concat();
     let document = document(&read(runs_folder(&[("compare.json", to_json(&both))]).path()), vec![]);
     let ids: Vec<&str> = document.figures().into_iter().map(|figure| figure.id.as_str()).collect();
-    assert_eq!(ids, ["speed-a-b", "speed-a-b-v2"]);
+    assert_eq!(ids, ["tradeoff", "speed-a-b", "speed-a-b-v2"]);
 }
 
 #[test]

@@ -4,10 +4,32 @@ use rayon::prelude::*;
 
 use super::Picture;
 use crate::accel::DynAccel;
-use crate::geometry::Hit;
-use crate::oracle::Oracle;
+use crate::geometry::{Hit, Ray};
+use crate::oracle::{Oracle, Truth};
 use crate::scene::{Scene, View};
 use crate::validate::{DepthRule, Outcome, outcome};
+
+/// The primary rays of a picture, row by row, with their exact answers: of the scene, for all structures.
+pub struct ExactPicture {
+    pub size: [u32; 2],
+    pub rays: Vec<Ray>,
+    pub truths: Vec<Option<Truth>>,
+}
+
+impl ExactPicture {
+    /// Costs some microseconds a pixel.
+    pub fn new(scene: &Scene, size: [u32; 2]) -> Self {
+        let oracle = Oracle::new(&scene.mesh);
+        let rays = scene.primary_rays(size, View::CENTRE, 0..size[0] * size[1]);
+        let truths = rays.par_iter().map(|ray| oracle.nearest(ray)).collect();
+        Self { size, rays, truths }
+    }
+
+    /// What became of a pixel with this answer, by the strict depth rule.
+    pub fn outcome(&self, pixel: usize, hit: Option<Hit>) -> Outcome {
+        outcome(self.truths[pixel].as_ref(), hit, DepthRule::STRICT)
+    }
+}
 
 /// The primary rays of a picture, each checked against the exact oracle.
 pub struct ErrorMap {
@@ -24,19 +46,39 @@ const PAINTED: [(Outcome, &str, &str, [u8; 3]); 4] = [
     (Outcome::WrongPrimitive, "wrong primitive at the right depth", "pink", [204, 121, 167]),
 ];
 
+/// What an outcome that is painted as an error is called; nothing of the others.
+pub fn error_name(outcome: Outcome) -> Option<&'static str> {
+    PAINTED.iter().find(|(painted, ..)| *painted == outcome).map(|(_, name, ..)| *name)
+}
+
 /// The brightest grey of a right answer: errors must be brighter.
 const BRIGHTEST: f32 = 90.0;
 
 impl ErrorMap {
     /// Checks the answers of `accel` to the primary rays of `scene`, with the strict depth rule.
     pub fn new(scene: &Scene, accel: &dyn DynAccel, size: [u32; 2]) -> Self {
-        let oracle = Oracle::new(&scene.mesh);
-        let rays = scene.primary_rays(size, View::CENTRE, 0..size[0] * size[1]);
-        let checked = |rays: &[_]| {
-            let check = |(ray, hit)| (outcome(oracle.nearest(ray).as_ref(), hit, DepthRule::STRICT), hit);
-            rays.iter().zip(accel.closest(rays)).map(check).collect::<Vec<_>>()
-        };
-        Self { size, pixels: rays.par_chunks(1024).flat_map_iter(checked).collect() }
+        let exact = ExactPicture::new(scene, size);
+        Self::of(&exact, accel.closest_by_chunks(&exact.rays, 1024))
+    }
+
+    /// Checks answers, one for each pixel.
+    ///
+    /// # Panics
+    /// If there are not as many.
+    pub fn of(exact: &ExactPicture, hits: impl IntoIterator<Item = Option<Hit>>) -> Self {
+        let check = |(pixel, hit)| (exact.outcome(pixel, hit), hit);
+        let pixels: Vec<_> = hits.into_iter().enumerate().map(check).collect();
+        assert_eq!(pixels.len(), exact.rays.len(), "one answer a pixel");
+        Self { size: exact.size, pixels }
+    }
+
+    /// The pixels that are painted as errors, row by row.
+    pub fn errors(&self) -> impl Iterator<Item = usize> {
+        self.pixels
+            .iter()
+            .enumerate()
+            .filter(|(_, (outcome, _))| error_name(*outcome).is_some())
+            .map(|(pixel, _)| pixel)
     }
 
     /// Pixels with this outcome.
@@ -54,6 +96,11 @@ impl ErrorMap {
         )
     }
 
+    /// The colours of errors: what they mean, how many pixels have them, red, green and blue.
+    pub fn colours(&self) -> [(&'static str, usize, [u8; 3]); 4] {
+        PAINTED.map(|(outcome, name, _, colour)| (name, self.count(outcome), colour))
+    }
+
     /// Errors in colours, enlarged; right answers as a dim depth.
     pub fn picture(&self) -> Picture {
         let right = |(outcome, hit): &(Outcome, Option<Hit>)| hit.filter(|_| *outcome == Outcome::Right);
@@ -68,17 +115,16 @@ impl ErrorMap {
         };
         let mut colours: Vec<[u8; 3]> = self.pixels.iter().map(colour).collect();
         // One pixel of a large picture is not seen: an error is three wide and high, and hides no other error.
-        let is_error = |outcome: Outcome| PAINTED.iter().any(|(painted, ..)| *painted == outcome);
         let [width, height] = self.size.map(i64::from);
         let index = |x: i64, y: i64| (y * width + x) as usize;
         for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
             let error = &self.pixels[index(x, y)];
-            if !is_error(error.0) {
+            if error_name(error.0).is_none() {
                 continue;
             }
             for (x, y) in (y - 1..=y + 1).flat_map(|y| (x - 1..=x + 1).map(move |x| (x, y))) {
                 let is_inside = (0..width).contains(&x) && (0..height).contains(&y);
-                if is_inside && !is_error(self.pixels[index(x, y)].0) {
+                if is_inside && error_name(self.pixels[index(x, y)].0).is_none() {
                     colours[index(x, y)] = colour(error);
                 }
             }

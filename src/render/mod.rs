@@ -6,6 +6,7 @@ mod image;
 mod integrator;
 mod picture;
 mod view;
+mod work;
 
 #[cfg(test)]
 mod report_ray_counts;
@@ -13,8 +14,9 @@ mod report_ray_counts;
 mod tests;
 
 pub use colour_map::heat as heat_colour;
-pub use error_map::ErrorMap;
+pub use error_map::{ErrorMap, ExactPicture, error_name};
 pub use image::Image;
 pub use integrator::{RayCounts, render};
 pub use picture::{Difference, Picture, PictureError};
 pub use view::{ViewError, ViewKind, costs, draw, hottest};
+pub use work::Work;

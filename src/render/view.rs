@@ -3,10 +3,9 @@
 use std::str::FromStr;
 
 use glam::Vec3;
-use rayon::prelude::*;
 
-use super::{ErrorMap, Image, Picture, colour_map, render};
-use crate::accel::{Counts, DynAccel, Observed};
+use super::{ErrorMap, Image, Picture, Work, colour_map, render};
+use crate::accel::{DynAccel, Observed};
 use crate::geometry::{Hit, Ray};
 use crate::nearest::{Unknown, find, named_enum};
 use crate::scene::{Scene, View};
@@ -83,12 +82,7 @@ pub fn costs(scene: &Scene, accel: &dyn DynAccel, size: [u32; 2]) -> Result<Vec<
     if accel.observed() != Observed::ALL {
         return Err(ViewError::Unobserved);
     }
-    let cost = |ray: &Ray| {
-        let mut counts = Counts::default();
-        accel.closest_hits_counted(std::slice::from_ref(ray), &mut [None], &mut counts);
-        counts.tests + counts.steps()
-    };
-    Ok(primary(scene, size).par_iter().map(cost).collect())
+    Ok(Work::of(accel, &primary(scene, size)).iter().map(Work::cost).collect())
 }
 
 /// The cost that all but one in two hundred pixels stay below, at least 1: a scale for the heat view that a few extreme

@@ -1,6 +1,7 @@
 //! What a report says, before it has a form: sections of text, tables and figures.
 
 use crate::report::Table;
+use crate::report::inspector::Inspector;
 use crate::report::plot::Chart;
 
 /// A whole report.
@@ -100,12 +101,25 @@ pub struct Overlay {
     /// What is seen.
     pub heading: String,
     pub pictures: Vec<Thumbnail>,
-    /// What the scale is of.
-    pub ramp_title: String,
-    /// Colours of the scale at equal distances, `#RRGGBB`.
-    pub ramp: Vec<String>,
-    /// Places on the scale, 0 to 1, and what is there.
-    pub ticks: Vec<(f64, String)>,
+    pub colours: Colours,
+    /// What can be asked of single pixels.
+    pub inspector: Option<Box<Inspector>>,
+}
+
+/// What the colours of pictures mean.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Colours {
+    /// A scale.
+    Ramp {
+        /// What it is of.
+        title: String,
+        /// Colours at equal distances, `#RRGGBB`.
+        colours: Vec<String>,
+        /// Places on the scale, 0 to 1, and what is there.
+        ticks: Vec<(f64, String)>,
+    },
+    /// Colours, `#RRGGBB`, with a meaning each.
+    Key(Vec<(String, String)>),
 }
 
 /// A small picture.

@@ -4,6 +4,7 @@
 mod counts;
 pub mod document;
 mod export;
+pub mod inspector;
 pub mod number;
 pub mod plot;
 mod record;

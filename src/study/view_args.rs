@@ -82,6 +82,20 @@ impl ViewArgs {
         Ok(scene)
     }
 
+    /// The options among the words of a command, which has run with them.
+    pub fn of_command(words: &[String]) -> Self {
+        let value = |option: &str| {
+            let joined = words.iter().find_map(|word| word.strip_prefix(option)?.strip_prefix('='));
+            let next = words.iter().position(|word| word == option).and_then(|at| words.get(at + 1));
+            joined.or(next.map(String::as_str))
+        };
+        Self {
+            camera: value("--camera").and_then(|text| text.parse().ok()),
+            inside: words.iter().any(|word| word == "--inside"),
+            size: value("--size").and_then(|text| text.parse().ok()),
+        }
+    }
+
     /// Refuses options that rays of a file do not heed.
     ///
     /// # Errors
@@ -114,6 +128,16 @@ mod tests {
         for wrong in ["", "1,2,3", "1,2 3,4,5", "1,2,3 4,5,6 7 8", "1,2,3 4,5,6 7,8", "a,b,c 1,2,3"] {
             assert!(wrong.parse::<Look>().is_err(), "{wrong}");
         }
+    }
+
+    #[test]
+    fn the_options_of_a_command_that_has_run_are_found_again() {
+        let of = |line: &str| ViewArgs::of_command(&crate::measure::words(line));
+        let look = Look { eye: Vec3::Z, target: Vec3::ZERO, vertical_fov: Some(40.0) };
+        let found = of("sahara compare a.ply --camera '0,0,1 0,0,0 40' --size=64x32");
+        assert_eq!((found.camera, found.inside, found.size), (Some(look), false, Some(Size([64, 32]))));
+        let found = of("sahara compare a.ply --inside -s all");
+        assert_eq!((found.camera, found.inside, found.size), (None, true, None));
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! The command from outside: exit statuses, messages, files.
 
 mod baselines;
-mod command;
+pub mod command;
 mod commands;
 mod compare;
 mod epochs;

@@ -1,5 +1,8 @@
 //! The report as one page that needs nothing else.
 
+mod inspector;
+mod json;
+mod scatter;
 mod sort_key;
 mod style;
 mod view;

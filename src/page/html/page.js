@@ -43,36 +43,6 @@
     });
   }
 
-  // Two pictures one upon the other.
-  for (const overlay of document.querySelectorAll("[data-overlay]")) {
-    const pictures = overlay.parentElement.querySelectorAll(".maps img");
-    const [left, right] = overlay.querySelectorAll(".stage img");
-    const stage = overlay.querySelector(".stage"), range = overlay.querySelector("input");
-    const selects = overlay.querySelectorAll("select");
-    const draw = () => {
-      [left, right].forEach((image, side) => {
-        const chosen = pictures[selects[side].value];
-        image.src = chosen.src;
-        image.alt = chosen.alt;
-      });
-      stage.style.setProperty("--cut", range.value + "%");
-      range.setAttribute("aria-valuetext",
-        `${range.value} % ${pictures[selects[0].value].dataset.name}, the rest ${pictures[selects[1].value].dataset.name}`);
-    };
-    const drag = (event) => {
-      const box = stage.getBoundingClientRect();
-      range.value = Math.round((event.clientX - box.left) / box.width * 100);
-      draw();
-    };
-    stage.addEventListener("pointerdown", (event) => { stage.setPointerCapture(event.pointerId); drag(event); });
-    stage.addEventListener("pointermove", (event) => { if (event.buttons) drag(event); });
-    range.addEventListener("input", draw);
-    selects.forEach((select) => select.addEventListener("change", draw));
-    stage.style.aspectRatio = `${pictures[0].width} / ${pictures[0].height}`;
-    overlay.hidden = false;
-    draw();
-  }
-
   // Paper has no summary to click on.
   const folds = document.querySelectorAll("details");
   let closed = [];

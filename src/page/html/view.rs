@@ -3,8 +3,9 @@
 use serde::Serialize;
 
 use super::sort_key::sort_key;
+use super::{inspector, scatter};
 use crate::page::base64::base64;
-use crate::report::document::{self, Answer, Art, Block, Overlay, Tabular, Thumbnail};
+use crate::report::document::{self, Answer, Art, Block, Colours, Overlay, Tabular, Thumbnail};
 use crate::report::plot::Chart;
 use crate::report::{Table, Tone};
 
@@ -92,14 +93,30 @@ struct FigureView {
     command: String,
     wide: Option<String>,
     narrow: Option<String>,
-    overlay: bool,
+    /// The data of a chart that can be changed.
+    scatter: Option<String>,
+    overlay: Option<OverlayView>,
     thumbnails: Vec<ThumbnailView>,
-    ramp: String,
-    /// Of an overlay: what stands above it, and above its scale.
-    heading: String,
-    ramp_title: String,
-    ticks: Vec<TickView>,
     data: TableView,
+}
+
+#[derive(Serialize)]
+struct OverlayView {
+    heading: String,
+    /// Above the scale.
+    ramp_title: String,
+    ramp: String,
+    ticks: Vec<TickView>,
+    /// Colours with their meaning, where there is no scale.
+    key: Vec<KeyView>,
+    /// The data of the inspector.
+    inspector: Option<String>,
+}
+
+#[derive(Serialize)]
+struct KeyView {
+    colour: String,
+    text: String,
 }
 
 #[derive(Serialize)]
@@ -125,7 +142,7 @@ pub fn page(document: &document::Document, css: String) -> PageView {
         answer: answer(&document.answer),
         sections: document.sections.iter().map(section).collect(),
         css,
-        js: include_str!("page.js"),
+        js: concat!(include_str!("page.js"), include_str!("overlay.js"), include_str!("scatter.js")),
         version: env!("CARGO_PKG_VERSION"),
     }
 }
@@ -225,28 +242,45 @@ fn figure(figure: &document::Figure) -> FigureView {
         command: figure.command.clone(),
         wide: None,
         narrow: None,
-        overlay: false,
+        scatter: None,
+        overlay: None,
         thumbnails: vec![],
-        ramp: String::new(),
-        heading: String::new(),
-        ramp_title: String::new(),
-        ticks: vec![],
         data: table(&figure.data, None),
     };
     match &figure.art {
         Art::Chart(chart) => {
             view.wide = Some(inline(&chart.svg(WIDE)));
             // Points have labels all over: they are as wide as they are, and scroll.
+            view.scatter = if let Chart::Scatter(points) = chart { Some(scatter::data(points)) } else { None };
             view.narrow = (!matches!(chart, Chart::Points(_))).then(|| inline(&chart.svg(NARROW)));
         }
         Art::Gallery(thumbnails) => view.thumbnails = thumbnails.iter().map(thumbnail).collect(),
-        Art::Overlay(Overlay { heading, pictures, ramp_title, ramp, ticks }) => {
-            view.overlay = true;
-            view.heading = heading.clone();
-            view.ramp_title = ramp_title.clone();
-            view.thumbnails = pictures.iter().map(thumbnail).collect();
-            view.ramp = ramp.join(",");
+        Art::Overlay(drawn) => {
+            view.thumbnails = drawn.pictures.iter().map(thumbnail).collect();
+            view.overlay = Some(overlay(drawn));
+        }
+    }
+    view
+}
+
+fn overlay(overlay: &Overlay) -> OverlayView {
+    let mut view = OverlayView {
+        heading: overlay.heading.clone(),
+        ramp_title: String::new(),
+        ramp: String::new(),
+        ticks: vec![],
+        key: vec![],
+        inspector: overlay.inspector.as_deref().map(inspector::data),
+    };
+    match &overlay.colours {
+        Colours::Ramp { title, colours, ticks } => {
+            view.ramp_title = title.clone();
+            view.ramp = colours.join(",");
             view.ticks = ticks.iter().map(|(at, text)| TickView { at: at * 100.0, text: text.clone() }).collect();
+        }
+        Colours::Key(key) => {
+            view.key =
+                key.iter().map(|(colour, text)| KeyView { colour: colour.clone(), text: text.clone() }).collect();
         }
     }
     view

@@ -1,7 +1,7 @@
 //! All kinds of plots behind one name.
 
 use super::canvas::{self, Canvas, WIDTH};
-use super::{Bars, Curves, Figure, Stack};
+use super::{Bars, Curves, Figure, Scatter, Stack};
 
 /// A plot of any kind.
 #[derive(Clone, Debug, PartialEq)]
@@ -9,6 +9,7 @@ pub enum Chart {
     Bars(Bars),
     Curves(Curves),
     Stack(Stack),
+    Scatter(Scatter),
     /// Points with labels; always as wide as it is, 800.
     Points(Figure),
 }
@@ -24,6 +25,7 @@ impl Chart {
             Self::Bars(bars) => bars.height(width),
             Self::Curves(curves) => curves.height(width),
             Self::Stack(stack) => stack.height(width),
+            Self::Scatter(scatter) => scatter.curves().height(width),
             Self::Points(figure) => figure.height(),
         }
     }
@@ -33,6 +35,7 @@ impl Chart {
             Self::Bars(bars) => bars.draw(canvas, width),
             Self::Curves(curves) => curves.draw(canvas, width),
             Self::Stack(stack) => stack.draw(canvas, width),
+            Self::Scatter(scatter) => scatter.curves().draw(canvas, width),
             Self::Points(figure) => figure.draw(canvas),
         }
     }

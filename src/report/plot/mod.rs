@@ -12,6 +12,7 @@ mod labels;
 pub mod palette;
 mod panel;
 mod scale;
+mod scatter;
 mod stack;
 
 use canvas::{Canvas, WIDTH};
@@ -21,6 +22,7 @@ pub use bars::{Bar, BarGroup, Bars};
 pub use chart::Chart;
 pub use curves::{CurvePoint, Curves, Line, Mark};
 pub use scale::{Scale, plain as tick_text};
+pub use scatter::{Scatter, ScatterCase, ScatterPoint};
 pub use stack::{Stack, StackRow};
 
 /// A picture of panels, one below the other, with one legend.

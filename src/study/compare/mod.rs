@@ -10,6 +10,7 @@ mod study;
 mod table;
 #[cfg(test)]
 mod tests;
+mod tradeoff;
 
 use serde::Serialize;
 

@@ -1,6 +1,6 @@
 //! Speed of all structures: bars with intervals against the report's tree, tables beside.
 
-use super::{Reference, details_legend, legend, mean_table, ranks, scene_table, speed, twins};
+use super::{Reference, details_legend, legend, mean_table, ranks, scene_table, speed, tradeoff, twins};
 use crate::measure::Estimate;
 use crate::report::document::{Art, Block, Figure};
 use crate::report::number::count;
@@ -54,6 +54,7 @@ pub fn blocks(records: &[Record], command: &str) -> Vec<Block> {
     // The largest scenes are what the question is about.
     let mut order: Vec<Vec<Record>> = scenes.iter().map(of).collect();
     order.sort_by_key(|records| std::cmp::Reverse(records[0].triangles));
+    blocks.extend(tradeoff::figure(&order, &references, command).map(Block::Figure));
     let rest = order.split_off(order.len().min(OPEN));
     blocks.extend(order.iter().flat_map(|records| of_scene(records)));
     let legends = details_legend(&records[0].workload).into_iter().chain(legend(records, &references));

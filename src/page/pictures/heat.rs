@@ -1,0 +1,126 @@
+//! Heat maps: the work of every structure, pixel by pixel.
+
+use super::inspect::{inspector, most_rays};
+use super::seen::{Seen, SeenStructure};
+use crate::accel::Observed;
+use crate::render::{Picture, Work, heat_colour, hottest};
+use crate::report::Table;
+use crate::report::document::{Art, Block, Colours, Figure, Overlay, Section, Thumbnail};
+use crate::report::inspector::Inspector;
+use crate::report::number::{count, figures};
+use crate::report::plot::tick_text;
+use crate::report::words::slug;
+
+pub const TITLE: &str = "Where is the work?";
+
+/// What one structure does for each pixel.
+struct Heat<'a> {
+    label: &'a str,
+    costs: Vec<u64>,
+}
+
+impl<'a> Heat<'a> {
+    fn of(structure: &'a SeenStructure) -> Option<Self> {
+        let costs = || structure.work.iter().map(Work::cost).collect();
+        (structure.observed == Observed::ALL).then(|| Self { label: &structure.label, costs: costs() })
+    }
+
+    fn mean(&self) -> f64 {
+        self.costs.iter().sum::<u64>() as f64 / self.costs.len() as f64
+    }
+}
+
+/// The maps of all structures that tell their work. Nothing where none does.
+pub fn figure(seen: &Seen) -> Option<Figure> {
+    let maps: Vec<Heat> = seen.structures.iter().filter_map(Heat::of).collect();
+    // One scale for all: a structure is as bright as its work.
+    let scale = maps.iter().map(|heat| hottest(&heat.costs)).max()?;
+    let (name, size) = (&seen.name, seen.exact.size);
+    let picture = |heat: &Heat| {
+        let colours = heat.costs.iter().map(|&cost| heat_colour(stepped(cost, scale), scale));
+        let mean = figures(heat.mean());
+        Thumbnail {
+            name: heat.label.into(),
+            note: format!("{mean} a ray"),
+            alt: format!("Heat map of {} on {name}: {mean} tests and steps a ray on average", heat.label),
+            png: Picture::new(size, colours.collect()).png(),
+            size,
+        }
+    };
+    let rows = maps.iter().map(|heat| {
+        let most = heat.costs.iter().max().copied().unwrap_or(0);
+        [heat.label.into(), figures(heat.mean()), count(hottest(&heat.costs)), count(most)]
+    });
+    Some(Figure {
+        id: format!("heat-{}", slug(&seen.shown.scene.name)),
+        caption: format!(
+            "{name}: triangle tests and steps of each camera ray, all structures on one logarithmic scale from 0 to {}, which \
+             all but one in two hundred pixels stay below. Brute force, which tests every triangle for every ray, would \
+             darken all of them and is left out.",
+            count(scale)
+        ),
+        alt: String::new(),
+        command: format!(
+            "sahara render {} --view heat --hottest {scale} --structure NAME -o NAME.png",
+            seen.shown.quoted()
+        ),
+        art: Art::Overlay(Overlay {
+            heading: name.clone(),
+            pictures: maps.iter().map(picture).collect(),
+            colours: ramp(scale),
+            inspector: Some(Box::new(grid(seen))),
+        }),
+        data: Table::of_texts("", ["structure", "mean", "99.5 % below", "most"], rows.collect()),
+    })
+}
+
+/// The rays of a coarse grid of pixels.
+fn grid(seen: &Seen) -> Inspector {
+    let [width, height] = seen.exact.size.map(|side| side as usize);
+    let of = |stride: usize| {
+        let places = |side: usize| (stride / 2..side).step_by(stride);
+        places(height).flat_map(|y| places(width).map(move |x| y * width + x)).collect::<Vec<_>>()
+    };
+    let most = most_rays(seen.structures.len());
+    let strides = (1..).map(|stride| (stride, of(stride)));
+    let found = strides.into_iter().find(|(_, pixels)| pixels.len() <= most);
+    let (stride, pixels) = found.expect("no pixel is few enough");
+    let which = match stride {
+        1 => "Every pixel can be asked for.".into(),
+        _ => format!("One pixel in {stride} of one row in {stride} can be asked for."),
+    };
+    inspector(seen, pixels, which)
+}
+
+fn ramp(scale: u64) -> Colours {
+    let place = |cost: f64| libm::log1p(cost) / libm::log1p(scale as f64);
+    let tens = (0..7).map(|exponent| f64::from(10u32.pow(exponent))).filter(|cost| place(*cost) < 0.93);
+    let ticks = std::iter::once((0.0, "0".to_owned())).chain(tens.map(|cost| (place(cost), tick_text(cost))));
+    let hex = |[r, g, b]: [u8; 3]| format!("#{r:02x}{g:02x}{b:02x}");
+    let at = |i: i32| libm::expm1(f64::from(i) / 16.0 * libm::log1p(scale as f64));
+    Colours::Ramp {
+        title: "Triangle tests and steps of a camera ray:".into(),
+        colours: (0..=16).map(|i| hex(heat_colour(libm::round(at(i)) as u64, scale))).collect(),
+        ticks: ticks.chain([(1.0, count(scale))]).collect(),
+    }
+}
+
+/// A cost in one of a few steps: the eye sees no more, and the file is a third.
+fn stepped(cost: u64, scale: u64) -> u64 {
+    const STEPS: f64 = 48.0;
+    let unit = libm::log1p(scale as f64) / STEPS;
+    let step = libm::round(libm::log1p(cost.min(scale) as f64) / unit);
+    libm::round(libm::expm1(step * unit)) as u64
+}
+
+/// The section with the figures of all scenes.
+pub fn section(figures: Vec<Figure>) -> Section {
+    let mut blocks = vec![];
+    if figures.is_empty() {
+        blocks.push(Block::missing("Heat maps of the structures", "sahara compare --dir runs"));
+    } else {
+        blocks.push(Block::Text("Where the work is: brighter pixels cost more triangle tests and steps.".into()));
+        blocks.extend(figures.into_iter().map(Block::Figure));
+    }
+    Section { id: "heat", title: TITLE, blocks }
+}

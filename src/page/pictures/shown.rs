@@ -1,0 +1,58 @@
+//! The scenes of the runs, found again.
+
+use std::path::Path;
+
+use crate::measure::{quoted, words};
+use crate::scene::{Builtin, Scene};
+use crate::study::{SceneId, ViewArgs};
+
+/// How a scene that was measured is found again; nothing where it is not to be had.
+pub type Find<'a> = &'a dyn Fn(&str) -> Option<Scene>;
+
+/// A scene of the runs.
+pub struct Shown {
+    pub scene: Scene,
+    /// As the command line names it: a built-in scene, or a file.
+    pub argument: String,
+    /// Whether it is not the one that was measured: another mesh of the same name, or another view of it.
+    pub differs: bool,
+}
+
+impl Shown {
+    /// As a shell reads it.
+    pub fn quoted(&self) -> String {
+        if Builtin::find(&self.argument).is_ok() { self.argument.to_lowercase() } else { quoted(&self.argument) }
+    }
+}
+
+/// The scene as one of the `commands`, a line each, has seen it; else the first of its name.
+pub fn found_again(SceneId { name, hash }: &SceneId, commands: &str, find: Find) -> Option<Shown> {
+    let mut other = None;
+    for command in commands.lines().map(words) {
+        for argument in std::iter::once(name.clone()).chain(files_named(&command, name)) {
+            let Some(scene) = find(&argument).and_then(|scene| ViewArgs::of_command(&command).of(scene).ok()) else {
+                continue;
+            };
+            let differs = hash.as_ref().is_some_and(|hash| scene.hash() != *hash);
+            let found = Shown { scene, argument, differs };
+            if !differs {
+                return Some(found);
+            }
+            other = other.or(Some(found));
+        }
+    }
+    other
+}
+
+/// The words of a command that are files named as the scene.
+fn files_named(command: &[String], scene: &str) -> Vec<String> {
+    let is_named = |word: &&String| Path::new(word).file_stem().is_some_and(|stem| stem == scene);
+    command.iter().filter(is_named).cloned().collect()
+}
+
+/// Width and height of a picture of the scene whose longer side has `longest` pixels.
+pub fn size_of(scene: &Scene, longest: u32) -> [u32; 2] {
+    let [width, height] = scene.size;
+    let most = width.max(height).max(1);
+    [width, height].map(|side| (u64::from(side) * u64::from(longest) / u64::from(most)).max(1) as u32)
+}

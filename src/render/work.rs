@@ -1,0 +1,31 @@
+//! What a structure does for single rays.
+
+use rayon::prelude::*;
+
+use crate::accel::{Counts, DynAccel};
+use crate::geometry::{Hit, Ray};
+
+/// The closest-hit query of one ray.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Work {
+    /// What was done, as far as the structure tells.
+    pub counts: Counts,
+    pub hit: Option<Hit>,
+}
+
+impl Work {
+    /// That of `accel` for each of `rays`, which are asked one by one.
+    pub fn of(accel: &dyn DynAccel, rays: &[Ray]) -> Vec<Self> {
+        let work = |ray: &Ray| {
+            let (mut hit, mut counts) = ([None], Counts::default());
+            accel.closest_hits_counted(std::slice::from_ref(ray), &mut hit, &mut counts);
+            Self { counts, hit: hit[0] }
+        };
+        rays.par_iter().map(work).collect()
+    }
+
+    /// Triangle tests and steps: what heat shows.
+    pub fn cost(&self) -> u64 {
+        self.counts.tests + self.counts.steps()
+    }
+}

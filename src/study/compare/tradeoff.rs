@@ -1,0 +1,112 @@
+//! Speed against memory and time of the build.
+
+use super::{Reference, twins};
+use crate::report::document::{Art, Figure};
+use crate::report::number::{bytes, duration, figures};
+use crate::report::plot::{Chart, Scatter, ScatterCase, ScatterPoint};
+use crate::report::words::{distinct, interval, scene_name};
+use crate::report::{Record, Table};
+use crate::study::BRUTE_FORCE;
+
+/// Every scene, in this order, with every kind of rays; nothing where no two structures have a time on the same rays. Brute force,
+/// far away from all others, is left out.
+pub fn figure(scenes: &[Vec<Record>], references: &[Reference], command: &str) -> Option<Figure> {
+    let cases: Vec<ScatterCase> = scenes.iter().flat_map(|records| cases(records, references.first())).collect();
+    let first = cases.first()?;
+    let best = |cost: fn(&ScatterPoint) -> f64| {
+        let least = first.points.iter().min_by(|a, b| cost(a).total_cmp(&cost(b)));
+        least.map_or(String::new(), |point| point.label.clone())
+    };
+    let alt = format!(
+        "Scatter plot of {} structures on {}, {} rays: the fastest is {}, the smallest {}, the first that is built {}.",
+        first.points.len(),
+        first.scene,
+        first.rays,
+        best(|point| point.ns_per_ray),
+        best(|point| point.bytes),
+        best(|point| point.build_ns)
+    );
+    let data = table(&cases);
+    Some(Figure {
+        id: "tradeoff".into(),
+        caption: format!(
+            "{}, {} rays: speed against what it costs; higher is faster, further left is cheaper, and both axes are logarithmic. \
+             On the page any scene and kind of rays can be chosen, and time of the build in place of memory: the solid line joins what \
+             nothing beats in both, the dashed one passes through all that would be done with their build and so many rays as soon as \
+             the first. All are medians; their intervals are in the tables. Brute force is left out.",
+            first.scene, first.rays
+        ),
+        alt,
+        command: command.into(),
+        art: Art::Chart(Chart::Scatter(Scatter { cases })),
+        data,
+    })
+}
+
+fn cases(records: &[Record], reference: Option<&Reference>) -> Vec<ScatterCase> {
+    let noise = twins(records);
+    let point = |record: &Record| {
+        let ns_per_ray = 1e3 / record.mrays_per_s?;
+        let ratio = reference.and_then(|reference| {
+            let ratio = Reference::ratio(&reference.pairs(records, [record]), &noise)?;
+            Some(format!("{} times as fast as {}", interval(ratio), reference.words()))
+        });
+        Some(ScatterPoint {
+            label: record.label.clone(),
+            bytes: record.bytes.max(1) as f64,
+            build_ns: record.build_ns.max(1) as f64,
+            ns_per_ray,
+            ratio: ratio.unwrap_or_default(),
+        })
+    };
+    let case = |workload: &String| {
+        let own = records.iter().filter(|r| r.workload == *workload && r.structure != BRUTE_FORCE);
+        ScatterCase {
+            scene: scene_name(&records[0].scene, records[0].stand_in),
+            rays: workload.clone(),
+            points: own.filter_map(point).collect(),
+        }
+    };
+    let workloads = distinct(records.iter().map(|r| &r.workload));
+    workloads.iter().map(case).filter(|case| case.points.len() > 1).collect()
+}
+
+fn table(cases: &[ScatterCase]) -> Table {
+    let row = |case: &ScatterCase, point: &ScatterPoint| {
+        let [size, build] = [bytes(point.bytes as usize), duration(point.build_ns)];
+        [case.scene.clone(), case.rays.clone(), point.label.clone(), figures(1e3 / point.ns_per_ray), size, build]
+    };
+    let rows = cases.iter().flat_map(|case| case.points.iter().map(move |point| row(case, point)));
+    Table::of_texts("", ["scene", "rays", "structure", "Mrays/s", "memory", "build"], rows.collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::example_record;
+
+    #[test]
+    fn what_has_no_time_or_no_company_is_not_drawn() {
+        let record = |label: &str, workload: &str, speed: Option<f64>| Record {
+            label: label.into(),
+            structure: label.into(),
+            workload: workload.into(),
+            mrays_per_s: speed,
+            ..example_record()
+        };
+        let records = vec![
+            record("brute-force", "primary", Some(0.01)),
+            record("sah-kd", "primary", Some(2.0)),
+            record("sah-bvh", "primary", Some(4.0)),
+            record("wrong", "primary", None),
+            record("sah-kd", "shadow", Some(2.0)),
+        ];
+        let figure = figure(std::slice::from_ref(&records), &[], "sahara compare").unwrap();
+        let Art::Chart(Chart::Scatter(Scatter { cases })) = &figure.art else { panic!("no scatter plot") };
+        assert_eq!(cases.len(), 1, "one structure alone is no comparison");
+        let points: Vec<(&str, f64)> = cases[0].points.iter().map(|p| (p.label.as_str(), p.ns_per_ray)).collect();
+        assert_eq!(points, [("sah-kd", 500.0), ("sah-bvh", 250.0)]);
+        assert!(figure.alt.contains("the fastest is sah-bvh") && figure.data.rows.len() == 2, "{}", figure.alt);
+        assert!(super::figure(&[records[..2].to_vec()], &[], "").is_none());
+    }
+}

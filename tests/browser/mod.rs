@@ -1,0 +1,245 @@
+//! The page of a report in a browser: Chromium, where there is one.
+
+mod chromium;
+
+use std::path::PathBuf;
+use std::sync::OnceLock;
+
+use serde_json::{Value, json};
+use tempfile::TempDir;
+
+use crate::cli::command::prints;
+use chromium::Chromium;
+
+/// A report on a torus, with a structure that answers some pixels wrong.
+fn report() -> PathBuf {
+    static REPORT: OnceLock<TempDir> = OnceLock::new();
+    let folder = REPORT.get_or_init(|| {
+        let folder = TempDir::new().unwrap();
+        let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+        let structures = ["-s", "median-kd", "-s", "sah-kd", "-s", "sah-kd:test=moller-trumbore", "-s", "obvhs-bvh2"];
+        let few =
+            ["--rays", "300", "--runs", "1", "--epochs", "2", "--budget", "1", "--export-json", &path("run.json")];
+        prints(&[&["compare", "torus", "cube"], &structures[..], &few].concat());
+        prints(&["report", &path("run.json"), "-o", &path("page")]);
+        folder
+    });
+    folder.path().join("page/index.html")
+}
+
+/// A browser; without one the test is skipped.
+macro_rules! browser {
+    () => {
+        match Chromium::launch() {
+            Some(browser) => browser,
+            None => {
+                eprintln!("skipped: no chromium on the path");
+                return;
+            }
+        }
+    };
+}
+
+/// Presses Tab until the focus is on what the selector names.
+fn tab_to(browser: &mut Chromium, selector: &str) {
+    for _ in 0..500 {
+        browser.press("Tab");
+        if browser.evaluate(&format!("document.activeElement.matches('{selector}')")) == true {
+            return;
+        }
+    }
+    panic!("the focus never comes to {selector}");
+}
+
+const HEAT: &str = "#figure-heat-torus";
+const ERRORS: &str = "#figure-errors-torus";
+
+/// Column and row of the pixel that a figure shows.
+fn pixel(browser: &mut Chromium, figure: &str) -> [i64; 2] {
+    let said = browser.text(&format!("document.querySelector('{figure} .pixel').textContent"));
+    let numbers = said.strip_prefix("Pixel ").and_then(|rest| rest.split(" from").next());
+    let numbers = numbers.unwrap_or_else(|| panic!("no pixel: {said}"));
+    let (column, row) = numbers.split_once(", ").unwrap();
+    [column, row].map(|number| number.parse().unwrap())
+}
+
+/// The rows of the inspector of a figure, cell by cell.
+fn rows(browser: &mut Chromium, figure: &str) -> Vec<Vec<String>> {
+    let rows = browser.evaluate(&format!(
+        "[...document.querySelectorAll('{figure} .inspector tbody tr')].map((row) => [...row.cells].map((cell) => cell.textContent))"
+    ));
+    serde_json::from_value(rows).unwrap()
+}
+
+/// What the command of the inspector prints.
+fn asked_again(browser: &mut Chromium, figure: &str) -> String {
+    let command = browser.text(&format!("document.querySelector('{figure} .inspector code').textContent"));
+    let (words, ray) = command.split_once(" \"").expect("the ray is quoted");
+    let words: Vec<&str> = words.split(' ').skip(1).chain([ray.trim_end_matches('"')]).collect();
+    let output = crate::cli::command::sahara(&words);
+    crate::cli::command::stdout(&output)
+}
+
+#[test]
+fn the_ray_inspector_works_by_keyboard_alone_and_shows_what_the_command_prints() {
+    let mut browser = browser!();
+    browser.open(&report(), 1400, false);
+    tab_to(&mut browser, &format!("{HEAT} .stage"));
+    let start = pixel(&mut browser, HEAT);
+    for (key, [across, down]) in
+        [("ArrowRight", [1, 0]), ("ArrowUp", [0, -1]), ("ArrowLeft", [-1, 0]), ("ArrowDown", [0, 1])]
+    {
+        let before = pixel(&mut browser, HEAT);
+        browser.press(key);
+        let [column, row] = pixel(&mut browser, HEAT);
+        let moved = [column - before[0], row - before[1]];
+        assert_eq!(moved.map(i64::signum), [across, down], "{key}");
+    }
+    assert_eq!(pixel(&mut browser, HEAT), start);
+
+    // Up to a ray that meets something.
+    for _ in 0..30 {
+        if rows(&mut browser, HEAT)[0][4] != "no hit" {
+            break;
+        }
+        browser.press("ArrowDown");
+    }
+    let shown = rows(&mut browser, HEAT);
+    assert_eq!(shown[0][0], "exact arithmetic");
+    assert_eq!(shown.len(), 5, "{shown:?}");
+    let printed = asked_again(&mut browser, HEAT);
+    for row in &shown[1..] {
+        assert!(row[1..4].iter().all(|count| count.parse::<u64>().is_ok()), "{row:?}");
+        let [t, triangle, u, v] = [&row[4], &row[5], &row[6], &row[7]];
+        let is_line = |line: &&str| [&row[0], t, triangle, u, v].iter().all(|cell| line.contains(cell.as_str()));
+        assert!(u.len() > 5 && printed.lines().any(|line| is_line(&line)), "{row:?} is not in {printed}");
+    }
+
+    browser.press("Enter");
+    // The clipboard answers when it likes.
+    let said = browser.text(&format!(
+        "new Promise((done) => {{ const look = () => {{ const said = document.querySelector('{HEAT} .pixel').textContent; \
+         if (said.startsWith('The command')) done(said); else setTimeout(look, 10); }}; look(); }})"
+    ));
+    assert!(said.contains("copied") || said.contains("selected"), "{said}");
+    assert_eq!(browser.complaints(), Vec::<String>::new());
+}
+
+#[test]
+fn a_click_asks_the_nearest_pixel_of_any_picture() {
+    let mut browser = browser!();
+    browser.open(&report(), 1400, true);
+    for (selector, [across, down]) in [(".stage", [0.25, 0.4]), (".maps li:nth-child(2) img", [0.7, 0.6])] {
+        browser.click(&format!("{HEAT} {selector}"), [across, down]);
+        let [column, row] = pixel(&mut browser, HEAT);
+        let off = [column as f64 - 320.0 * across, row as f64 - 320.0 * down];
+        assert!(off.iter().all(|off| off.abs() < 8.0), "{column}, {row}");
+    }
+    // The border between two structures is moved, and asks nothing.
+    let before = pixel(&mut browser, HEAT);
+    browser.click(&format!("{HEAT} .stage"), [0.5, 0.9]);
+    assert_eq!(pixel(&mut browser, HEAT), before);
+
+    // Of a picture of errors the wrong pixels are asked: each has a structure that exact arithmetic contradicts.
+    browser.click(&format!("{ERRORS} .stage"), [0.9, 0.9]);
+    for _ in 0..5 {
+        let shown = rows(&mut browser, ERRORS);
+        let wrong = ["missed", "false hit", "wrong depth", "wrong primitive"];
+        let names = shown.iter().filter(|row| wrong.iter().any(|wrong| row[0].contains(wrong)));
+        let names: Vec<&str> = names.map(|row| row[0].split(' ').next().unwrap()).collect();
+        assert!(!names.is_empty() && !names.contains(&"median-kd") && !names.contains(&"sah-kd"), "{shown:?}");
+        browser.press("PageUp");
+    }
+    assert_eq!(browser.complaints(), Vec::<String>::new());
+}
+
+#[test]
+fn the_scatter_plot_shows_every_case_and_what_is_done_first() {
+    let mut browser = browser!();
+    browser.open(&report(), 1400, false);
+    let circles = "document.querySelectorAll('#figure-tradeoff .scatter circle').length";
+    let asked = |part: &str| format!("#figure-tradeoff [data-part={part}]");
+    assert_eq!(browser.evaluate(circles), 4);
+    tab_to(&mut browser, &asked("rays"));
+    browser.press("ArrowDown");
+    assert_eq!(browser.text(&format!("document.querySelector('{}').value", asked("rays"))), "shadow");
+    tab_to(&mut browser, &asked("cost"));
+    browser.press("ArrowDown");
+    assert_eq!(browser.evaluate("document.querySelectorAll('#figure-tradeoff .equal').length"), 1);
+    tab_to(&mut browser, "#figure-tradeoff .point");
+    let label = browser.text("document.activeElement.getAttribute('aria-label')");
+    assert!(label.contains("million rays a second") && label.contains("built in"), "{label}");
+
+    // With hardly any ray the quickest build wins, with very many the fastest structure.
+    let data = browser.text("document.querySelector('#figure-tradeoff script').textContent");
+    let cases: Vec<Value> = serde_json::from_str(&data).unwrap();
+    let case = cases.iter().find(|case| case["scene"] == "Torus" && case["rays"] == "shadow").unwrap();
+    let least = |cost: &dyn Fn(&Value) -> f64| {
+        let points = case["points"].as_array().unwrap().iter();
+        points.min_by(|a, b| cost(a).total_cmp(&cost(b))).unwrap()["label"].as_str().unwrap().to_owned()
+    };
+    let total =
+        |rays: f64| move |point: &Value| point["build"].as_f64().unwrap() + rays * point["ray"].as_f64().unwrap();
+    for (power, rays) in [(20, 1e2), (100, 1e10)] {
+        let result = browser.text(&format!(
+            "(() => {{ const range = document.querySelector('#figure-tradeoff .budget input'); range.value = {power}; \
+             range.dispatchEvent(new Event('input')); return document.querySelector('#figure-tradeoff .result').textContent; }})()"
+        ));
+        assert!(result.starts_with(&format!("{} is done first", least(&total(rays)))), "{result}");
+    }
+    assert_eq!(browser.complaints(), Vec::<String>::new());
+}
+
+/// The texts whose contrast to what is behind them is less than WCAG asks for, with that contrast.
+const PALE: &str = r#"(() => {
+  const channels = (text) => {
+    const numbers = text.match(/[\d.e-]+/g).map(Number), scale = text.startsWith("color(") ? 1 : 255;
+    return [...numbers.slice(0, 3).map((n) => n / scale), numbers.length > 3 ? numbers[3] : 1];
+  };
+  const light = (c) => c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4;
+  const luminance = ([r, g, b]) => 0.2126 * light(r) + 0.7152 * light(g) + 0.0722 * light(b);
+  const behind = (element) => {
+    for (let e = element; e; e = e.parentElement) {
+      const colour = channels(getComputedStyle(e).backgroundColor);
+      if (colour[3] > 0) return colour;
+    }
+  };
+  const own = (element) => [...element.childNodes].some((node) => node.nodeType === 3 && node.textContent.trim());
+  const seen = [...document.querySelectorAll("body *")].filter((e) => own(e) && e.checkVisibility() && !e.closest("script, option"));
+  return seen.flatMap((element) => {
+    const svg = element.closest("svg");
+    // Text within bars has a colour of its own beside it.
+    if (svg && !element.closest(".scatter")) return [];
+    const style = getComputedStyle(element);
+    const [a, b] = [channels(svg ? style.fill : style.color), behind(svg ? svg.parentElement : element)].map(luminance);
+    const contrast = (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05);
+    return contrast < 4.5 ? [`${element.textContent.trim().slice(0, 40)}: ${contrast}`] : [];
+  });
+})()"#;
+
+/// What is wider than the window, and columns of ratios that are not seen without scrolling.
+const WIDE: &str = r#"(() => {
+  const page = document.scrollingElement;
+  const found = page.scrollWidth > innerWidth ? [`the page is ${page.scrollWidth} wide`] : [];
+  if (innerWidth < 1400) return found;
+  for (const head of document.querySelectorAll(".table th")) {
+    const edge = head.closest(".scroll").getBoundingClientRect().right;
+    const isRatio = head.textContent.startsWith("x ") && head.checkVisibility();
+    if (isRatio && head.getBoundingClientRect().right > edge + 1) found.push(head.textContent);
+  }
+  return found;
+})()"#;
+
+#[test]
+fn the_page_is_read_in_light_and_dark_on_a_desk_and_on_a_telephone() {
+    let mut browser = browser!();
+    for (width, dark) in [(1400, false), (1400, true), (400, false), (400, true)] {
+        browser.open(&report(), width, dark);
+        let paper = browser.text("getComputedStyle(document.documentElement).backgroundColor");
+        assert_eq!(paper == "rgb(255, 255, 255)", !dark, "{paper}");
+        assert_eq!(browser.evaluate(PALE), json!([]), "{width}, dark: {dark}");
+        assert_eq!(browser.evaluate(WIDE), json!([]), "{width}, dark: {dark}");
+        assert!(browser.evaluate("document.querySelectorAll('.table th').length").as_u64() > Some(10));
+    }
+    assert_eq!(browser.complaints(), Vec::<String>::new());
+}
