@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use anyhow::Context;
 
-use super::{Args, print, reference, row, wrong};
+use super::{Against, Args, print, row};
 use crate::accel::{DynAccel, Query};
 use crate::cli::terminal::Terminal;
 use crate::geometry::{Hit, Ray};
@@ -73,7 +73,7 @@ pub fn check(
     args: &Args,
     scene: &Scene,
     file: &RayFile,
-    against: &Choice,
+    against: &Against,
     terminal: &Terminal,
 ) -> anyhow::Result<Status> {
     let path = args.hits.as_deref().context("the caller has seen it")?;
@@ -83,7 +83,7 @@ pub fn check(
     let answers = HitFile::read(path)?;
     let name = path.display().to_string();
     let found = answers.answers(&file.workload).map_err(|problem| anyhow::anyhow!("{name}: {problem}"))?;
-    let reference = reference(scene, test, against)?;
+    let reference = against.reference(scene, test)?;
     let rays = &file.workload.rays;
     let found = match answers.query() {
         Query::Closest => validate_answers(&reference, &scene.mesh, rays, found),
@@ -94,5 +94,5 @@ pub fn check(
     };
     let notes = scene.notes.iter().cloned().chain(found.worst.iter().map(|worst| format!("{name}: {worst}"))).collect();
     print(scene, rays, against, vec![row(&name, test, &found)], notes, terminal)?;
-    Ok(if wrong(&found, against) { Status::Wrong } else { Status::Right })
+    Ok(if against.refutes(&found) { Status::Wrong } else { Status::Right })
 }

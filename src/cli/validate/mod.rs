@@ -4,6 +4,7 @@ mod answers;
 mod exchange;
 mod hard;
 
+use std::fmt;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
@@ -40,8 +41,8 @@ pub struct Args {
     /// Rays of each scene, shared out among the kinds; or a file of rays to replay
     #[arg(long, value_name = "N|F.rays", default_value = "10000")]
     rays: RaySource,
-    /// What is right: `brute-force` with each structure's own triangle test, or another structure, judged by exact
-    /// arithmetic where the two differ
+    /// What is right: `brute-force` with each structure's own triangle test, or another structure (also `brute-force:test=exact`),
+    /// judged by exact arithmetic where the two differ
     #[arg(long, value_name = "NAME[:key=value,..]", default_value = BRUTE_FORCE)]
     against: String,
     /// Rays that break traversals, in place of those of the workloads
@@ -84,7 +85,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
         return hard::run(registry, args, cases, terminal);
     }
     let structures = sources::structures_at(registry, &args.structure, args.quality.as_deref())?;
-    let against = sources::structure(registry, &args.against)?;
+    let against = Against::named(registry, &args.against)?;
     let replay = replayed(&args.rays, &args.scenes)?;
     if replay.is_some() {
         args.from.is_unasked()?;
@@ -120,7 +121,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
             match check(scene, choice, &against, &rays, args.limit())? {
                 Taken::Compared(accel, found) => {
                     match documented_defect(&choice.entry.name) {
-                        _ if !wrong(&found, &against) => {}
+                        _ if !against.refutes(&found) => {}
                         None => verdict = Status::Wrong,
                         Some(defect) => notes.push(format!(
                             "{}: its documented defects, which do not change the exit status: {defect}",
@@ -167,14 +168,14 @@ impl Args {
 fn print(
     scene: &Scene,
     rays: &[Ray],
-    against: &Choice,
+    against: &Against,
     rows: Vec<Vec<Cell>>,
     notes: Vec<String>,
     terminal: &Terminal,
 ) -> anyhow::Result<()> {
     let stand_in = if scene.stand_ins.is_empty() { "" } else { ", stand-in" };
     let (triangles, rays) = (plural(scene.mesh.len(), "triangle"), plural(rays.len(), "ray"));
-    let title = format!("{}: {triangles}{stand_in}; {rays} against {}", scene.name, against.label);
+    let title = format!("{}: {triangles}{stand_in}; {rays} against {against}", scene.name);
     Ok(terminal.print_table(&Table { title, columns: COLUMNS.map(String::from).into(), rows, notes })?)
 }
 
@@ -212,8 +213,8 @@ enum Taken {
     Refused(String),
 }
 
-fn check(scene: &Scene, choice: &Choice, against: &Choice, rays: &[Ray], limit: Duration) -> anyhow::Result<Taken> {
-    let reference = Arc::new(reference(scene, choice.triangle_test(), against)?);
+fn check(scene: &Scene, choice: &Choice, against: &Against, rays: &[Ray], limit: Duration) -> anyhow::Result<Taken> {
+    let reference = Arc::new(against.reference(scene, choice.triangle_test())?);
     let (own, mesh) = (choice.clone(), Arc::clone(&scene.mesh));
     // A panic of the builder is caught by the registry: what ends without a result hangs.
     let Ok(built) = watched(limit, move || own.build(&mesh)) else { return Ok(Taken::Hangs) };
@@ -225,21 +226,52 @@ fn check(scene: &Scene, choice: &Choice, against: &Choice, rays: &[Ray], limit: 
     Ok(Taken::Compared(accel, found))
 }
 
-/// What a structure with this triangle test is held against.
-fn reference(scene: &Scene, test: &str, against: &Choice) -> anyhow::Result<Reference> {
-    // Brute force by its bare name shares each structure's test; with a test of its own it is a structure like any other.
-    if against.label == BRUTE_FORCE {
-        return Ok(Reference::of_test(test, &scene.mesh)?);
-    }
-    let built = against.build(&scene.mesh);
-    Ok(Reference::structure(built.with_context(|| format!("{} cannot be built over {}", against.label, scene.name))?))
+/// What answers are held against.
+enum Against {
+    /// Brute force with the triangle test of whoever has answered.
+    SameTest,
+    /// A structure that was chosen for its answers; brute force with a test of its own is one like any other.
+    Structure(Choice),
 }
 
-/// Whether the answers are wrong: with their depths judged strictly against a reference that was chosen for its
-/// answers.
-fn wrong(found: &Validation, against: &Choice) -> bool {
-    let errors = if against.label == BRUTE_FORCE { found.errors() } else { found.strict_errors() };
-    errors > 0
+impl Against {
+    /// What --against names: brute force by its bare name shares each structure's test.
+    fn named(registry: &Registry, name: &str) -> anyhow::Result<Self> {
+        if name.eq_ignore_ascii_case(BRUTE_FORCE) {
+            return Ok(Self::SameTest);
+        }
+        Ok(Self::Structure(sources::structure(registry, name)?))
+    }
+
+    /// What a structure with this triangle test is held against.
+    fn reference(&self, scene: &Scene, test: &str) -> anyhow::Result<Reference> {
+        match self {
+            Self::SameTest => Ok(Reference::of_test(test, &scene.mesh)?),
+            Self::Structure(choice) => {
+                let built = choice.build(&scene.mesh);
+                let refused = || format!("{} cannot be built over {}", choice.label, scene.name);
+                Ok(Reference::structure(built.with_context(refused)?))
+            }
+        }
+    }
+
+    /// Whether the answers are wrong: with their depths judged strictly where what they are held against was chosen for its answers.
+    fn refutes(&self, found: &Validation) -> bool {
+        let errors = match self {
+            Self::SameTest => found.errors(),
+            Self::Structure(_) => found.strict_errors(),
+        };
+        errors > 0
+    }
+}
+
+impl fmt::Display for Against {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::SameTest => write!(f, "brute force with the same triangle test"),
+            Self::Structure(choice) => write!(f, "{} over {}", choice.label, choice.triangle_test()),
+        }
+    }
 }
 
 fn set_apart(choice: &Choice, why: &str) -> Vec<Cell> {
