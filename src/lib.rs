@@ -15,12 +15,12 @@
 //! use sahara::bvh8::{Bvh8, Bvh8Config, Partition};
 //! use sahara::geometry::{Hit, Mesh, Ray};
 //! use sahara::glam::Vec3;
-//! use sahara::triangle::FilteredF64;
+//! use sahara::triangle::Exact;
 //!
 //! let triangles: Vec<[Vec3; 3]> = vec![[Vec3::X, Vec3::Y, Vec3::Z], [Vec3::X, Vec3::Y, -Vec3::Z]];
 //! let mesh = Arc::new(Mesh::from_triangles(&triangles)?);
 //! // The structure `sah-hybrid` of the command, over its default triangle test.
-//! let tree = Bvh8::<FilteredF64>::build(&mesh, &Bvh8Config::new(Partition::Hybrid))?;
+//! let tree = Bvh8::<Exact>::build(&mesh, &Bvh8Config::new(Partition::Hybrid))?;
 //!
 //! let rays = [Ray::new(Vec3::ZERO, Vec3::new(1.0, 1.0, -2.0)), Ray::new(Vec3::ZERO, -Vec3::X)];
 //! let (mut hits, mut occluded) = ([None; 2], [false; 2]);

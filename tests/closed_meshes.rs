@@ -9,7 +9,7 @@ use sahara::accel::Accel;
 use sahara::geometry::{Mesh, Ray};
 use sahara::kdtree::{KdConfig, KdTree};
 use sahara::scene::meshes::icosphere;
-use sahara::triangle::{EdgeF64, Exact, FilteredF64, MollerTrumboreF64, TriangleTest, Watertight};
+use sahara::triangle::{EdgeF64, Exact, MollerTrumboreF64, TriangleTest, Watertight};
 use sahara::validate::Sampler;
 use sahara::validate::hard_cases;
 
@@ -65,7 +65,6 @@ fn assert_closed(name: &str, mesh: &Arc<Mesh>, origin: fn(&mut Sampler) -> Vec3)
             (Watertight::NAME, escapes::<Watertight>(mesh, &rays)),
             (MollerTrumboreF64::NAME, escapes::<MollerTrumboreF64>(mesh, &rays)),
             (EdgeF64::NAME, escapes::<EdgeF64>(mesh, &rays)),
-            (FilteredF64::NAME, escapes::<FilteredF64>(mesh, &rays)),
             (Exact::NAME, escapes::<Exact>(mesh, &rays)),
         ];
         for (test, leaks) in leaks {

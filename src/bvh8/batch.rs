@@ -9,6 +9,7 @@ use super::tree::Bvh8;
 use crate::accel::Observer;
 use crate::geometry::{Hit, Ray};
 use crate::simd::{EightLanes, Kernel, Level, dispatch};
+use crate::traversal::leaf::Nearest;
 use crate::traversal::walk::{silent, single};
 use crate::triangle::TriangleTest;
 
@@ -44,6 +45,9 @@ impl Groups {
     }
 }
 
+/// Rays whose hits are told together: what the last bit of a `t` takes does not wait for that of the ray before.
+const TOGETHER: usize = 8;
+
 /// One after the other.
 struct InOrder<'a, const ANY: bool, T: TriangleTest, A, F> {
     tree: &'a Bvh8<T>,
@@ -57,8 +61,22 @@ impl<const ANY: bool, T: TriangleTest, A, F: Fn(Option<Hit>) -> A> Kernel for In
 
     #[inline(always)]
     fn run<L: EightLanes>(self) {
-        for (answer, ray) in self.answers.iter_mut().zip(self.rays) {
-            *answer = (self.form)(silent::<ANY, L, _>(self.tree, ray));
+        let Self { tree, rays, answers, form } = self;
+        if ANY || T::ONE_STAGE || !L::FAST {
+            // There is nothing to wait for.
+            for (answer, ray) in answers.iter_mut().zip(rays) {
+                *answer = form(silent::<ANY, L, _>(tree, ray));
+            }
+            return;
+        }
+        let mut found = [const { Nearest::NOTHING }; TOGETHER];
+        for (rays, answers) in rays.chunks(TOGETHER).zip(answers.chunks_mut(TOGETHER)) {
+            for (nearest, ray) in found.iter_mut().zip(rays) {
+                tree.find::<ANY, L, ()>(ray, nearest, &mut ());
+            }
+            for (answer, nearest) in answers.iter_mut().zip(&found) {
+                *answer = form(nearest.answer::<ANY>());
+            }
         }
     }
 }

@@ -81,7 +81,7 @@ impl<T: TriangleTest> Bvh8<T> {
             loop {
                 if len == 0 || state.unfinished() == 0 {
                     for (i, answer) in answers.iter_mut().enumerate() {
-                        *answer = form(state.hit(i));
+                        *answer = form(state.answer::<ANY>(i));
                     }
                     return true;
                 }

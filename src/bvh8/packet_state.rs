@@ -8,7 +8,7 @@ use super::ray_packet::RayPacket;
 use crate::geometry::{Hit, Ray};
 use crate::simd::{EightLanes, each};
 use crate::traversal::leaf::{LeafBlock, NONE, Nearest, settle};
-use crate::triangle::TriangleTest;
+use crate::triangle::{Depth, TriangleTest};
 
 /// From so many rays on a leaf may be searched triangle by triangle. Of fewer, hardly any finds something, which is soon known ray by
 /// ray; and both halves have some.
@@ -21,13 +21,13 @@ pub(super) struct PacketState<'a, T: TriangleTest> {
     ready: u16,
     nearest: PacketHits<T::Depth>,
     t_min: [f32; RAYS],
-    candidates: [MaybeUninit<Candidates>; RAYS],
+    candidates: [MaybeUninit<Candidates<T>>; RAYS],
     /// Those that still look for a hit, as bits.
     unfinished: u16,
 }
 
 /// The lanes of a block that a ray may hit, and what is known of them.
-type Candidates = (u32, [f32; WIDTH]);
+type Candidates<T> = (u32, <T as TriangleTest>::Values<WIDTH>);
 
 impl<'a, T: TriangleTest> PacketState<'a, T> {
     /// They get their ends in `packet`.
@@ -52,8 +52,8 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
     }
 
     #[inline(always)]
-    pub fn hit(&self, i: usize) -> Option<Hit> {
-        self.nearest.get(i).hit()
+    pub fn answer<const ANY: bool>(&self, i: usize) -> Option<Hit> {
+        self.nearest.get(i).answer::<ANY>()
     }
 
     /// Ray `i` for a search of its own: as its test wants it, where it starts and what it has found.
@@ -148,10 +148,13 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
                 let i = left.trailing_zeros() as usize % RAYS;
                 left &= left - 1;
                 // SAFETY: prepared.
-                let ray = unsafe { self.prepared(i) };
-                let (candidates, value) =
+                let ray = unsafe { self.prepared[i].assume_init_ref() };
+                let (candidates, values) =
                     T::candidates::<WIDTH, L>(ray, &block.triangles, self.t_min[i], self.nearest.t(i));
-                self.candidates[i].write((candidates, value.store()));
+                // Values that are there are stored in any case, which needs no guess.
+                if T::ONE_STAGE || candidates != 0 {
+                    self.candidates[i].write((candidates, values()));
+                }
                 met |= u16::from(candidates != 0) << i;
             }
             while met != 0 {
@@ -179,18 +182,20 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
     /// # Safety
     /// It is prepared.
     #[inline(always)]
-    unsafe fn settle(&mut self, block: &LeafBlock<T, WIDTH>, i: usize, (mut candidates, value): Candidates) {
+    unsafe fn settle(&mut self, block: &LeafBlock<T, WIDTH>, i: usize, (mut candidates, values): Candidates<T>) {
         if T::ONE_STAGE {
             // They are hits already: that needs no call.
             while candidates != 0 {
                 let lane = candidates.trailing_zeros() as usize % WIDTH;
                 candidates &= candidates - 1;
-                self.nearest.offer(i, value[lane], block.ids[lane]);
+                // SAFETY: prepared, as the caller says.
+                let depth = T::decide(unsafe { self.prepared(i) }, &block.triangles, lane, &values);
+                self.nearest.offer(i, depth.expect("the first stage has decided").t(), block.ids[lane]);
             }
         } else {
             let mut nearest = self.nearest.get(i);
             // SAFETY: prepared, as the caller says.
-            settle(block, unsafe { self.prepared(i) }, candidates, value, &mut nearest);
+            settle(block, unsafe { self.prepared(i) }, candidates, &values, &mut nearest);
             self.nearest.set(i, nearest);
         }
     }

@@ -190,7 +190,7 @@ impl<'a, L: EightLanes, T: TriangleTest> Stream<'a, L, T> {
                         continue;
                     }
                 }
-                done(at.number, at.nearest.hit());
+                done(at.number, at.nearest.answer::<ANY>());
                 self.free.put(self.freed, slot);
                 self.freed += 1;
             }

@@ -23,15 +23,28 @@ use crate::triangle::TriangleTest;
 impl<T: TriangleTest> Walk for Bvh8<T> {
     #[inline(always)]
     fn walk<const ANY: bool, L: EightLanes, O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit> {
-        let (t_min, mut nearest) = start::<T>(ray)?;
-        let prepared = T::prepare(ray);
-        let prepared_ray = PreparedRay::<L>::new(ray, &self.bounds, t_min);
-        self.descend::<ANY, L, O>(self.root, &prepared_ray, &prepared, t_min, &mut nearest, observer);
-        nearest.hit()
+        let mut nearest = Nearest::NOTHING;
+        self.find::<ANY, L, O>(ray, &mut nearest, observer);
+        nearest.answer::<ANY>()
     }
 }
 
 impl<T: TriangleTest> Bvh8<T> {
+    /// Searches the whole tree.
+    #[inline(always)]
+    pub(super) fn find<const ANY: bool, L: EightLanes, O: Observer>(
+        &self,
+        ray: &Ray,
+        nearest: &mut Nearest<T::Depth>,
+        observer: &mut O,
+    ) {
+        let Some((t_min, unfound)) = start::<T>(ray) else { return *nearest = Nearest::NOTHING };
+        *nearest = unfound;
+        let prepared = T::prepare(ray);
+        let prepared_ray = PreparedRay::<L>::new(ray, &self.bounds, t_min);
+        self.descend::<ANY, L, O>(self.root, &prepared_ray, &prepared, t_min, nearest, observer);
+    }
+
     /// Searches the subtree at `child`.
     #[inline(always)]
     pub(super) fn descend<const ANY: bool, L: EightLanes, O: Observer>(

@@ -145,7 +145,7 @@ impl<T: TriangleTest> Prepare for SvenstaroBvh<T> {
                 }
             }
         }
-        nearest.hit()
+        nearest.answer::<false>()
     }
 
     #[inline]
@@ -238,6 +238,7 @@ impl TriangleTest for SvenstaroTest {
 
     type Ray = (PreparedRay<f32, 3>, f32);
     type Block<const N: usize> = [[Point3<f32>; 3]; N];
+    type Values<const N: usize> = [f32; N];
     type Depth = f32;
 
     #[inline(always)]
@@ -260,18 +261,18 @@ impl TriangleTest for SvenstaroTest {
         block: &Self::Block<N>,
         from: f32,
         to: f32,
-    ) -> (u32, L) {
+    ) -> (u32, impl FnOnce() -> [f32; N]) {
         let t = L::load(&std::array::from_fn(|lane| {
             let [a, b, c] = &block[lane];
             let front = ray.intersects_triangle(a, b, c).distance;
             let nearer = if front < f32::INFINITY { front } else { ray.intersects_triangle(a, c, b).distance };
             nearer / length
         }));
-        (L::splat(from).le(t) & t.le(L::splat(to.min(f32::MAX))), t)
+        (L::splat(from).le(t) & t.le(L::splat(to.min(f32::MAX))), move || t.store())
     }
 
     #[inline(always)]
-    fn decide<const N: usize>(_: &Self::Ray, _: &Self::Block<N>, _: usize, t: f32) -> Option<f32> {
-        Some(t)
+    fn decide<const N: usize>(_: &Self::Ray, _: &Self::Block<N>, lane: usize, t: &[f32; N]) -> Option<f32> {
+        Some(t[lane])
     }
 }

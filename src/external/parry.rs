@@ -76,7 +76,7 @@ impl<T: TriangleTest> ParryBvh<T> {
             best.found().then_some(if ANY { f32::NEG_INFINITY } else { best.t })
         });
         (0..tests.get()).for_each(|_| observer.test(1));
-        nearest.get().hit()
+        nearest.get().answer::<ANY>()
     }
 }
 
@@ -157,6 +157,7 @@ impl TriangleTest for ParryTest {
 
     type Ray = PreparedRay;
     type Block<const N: usize> = [[Vector; 3]; N];
+    type Values<const N: usize> = [f32; N];
     type Depth = f32;
 
     #[inline(always)]
@@ -179,17 +180,17 @@ impl TriangleTest for ParryTest {
         block: &[[Vector; 3]; N],
         from: f32,
         to: f32,
-    ) -> (u32, L) {
+    ) -> (u32, impl FnOnce() -> [f32; N]) {
         let t = L::load(&std::array::from_fn(|lane| {
             let [a, b, c] = block[lane];
             let hit = local_ray_intersection_with_triangle(a, b, c, ray);
             hit.map_or(f32::INFINITY, |(hit, _)| hit.time_of_impact)
         }));
-        (L::splat(from).le(t) & t.le(L::splat(to.min(f32::MAX))), t)
+        (L::splat(from).le(t) & t.le(L::splat(to.min(f32::MAX))), move || t.store())
     }
 
     #[inline(always)]
-    fn decide<const N: usize>(_: &PreparedRay, _: &[[Vector; 3]; N], _: usize, t: f32) -> Option<f32> {
-        Some(t)
+    fn decide<const N: usize>(_: &PreparedRay, _: &[[Vector; 3]; N], lane: usize, t: &[f32; N]) -> Option<f32> {
+        Some(t[lane])
     }
 }

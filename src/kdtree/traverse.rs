@@ -44,7 +44,7 @@ impl<T: TriangleTest> Walk for KdTree<T> {
                 break;
             }
         }
-        nearest.hit()
+        nearest.answer::<ANY>()
     }
 }
 

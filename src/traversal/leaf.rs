@@ -14,6 +14,9 @@ pub(crate) struct Nearest<D> {
 }
 
 impl<D: Depth> Nearest<D> {
+    /// Of a ray that can hit nothing.
+    pub const NOTHING: Self = Self { t: 0.0, hit: None };
+
     /// Nothing found yet, up to and with `last`.
     #[inline(always)]
     pub fn until(last: f32) -> Self {
@@ -37,9 +40,10 @@ impl<D: Depth> Nearest<D> {
         self.hit.is_some()
     }
 
+    /// The nearest hit; with `ANY`, whose `t` nobody asks for, some hit at a `t` near by.
     #[inline(always)]
-    pub fn hit(&self) -> Option<Hit> {
-        self.hit.map(|(depth, id)| Hit::new(depth.t(), id))
+    pub fn answer<const ANY: bool>(&self) -> Option<Hit> {
+        self.hit.as_ref().map(|(depth, id)| Hit::new(if ANY { depth.bound() } else { depth.t() }, *id))
     }
 }
 
@@ -125,7 +129,7 @@ pub(crate) fn search<const ANY: bool, const N: usize, L: Lanes<N>, T: TriangleTe
         observer.test(fresh);
         let (candidates, values) = T::candidates::<N, L>(ray, &block.triangles, t_min, nearest.t);
         if candidates != 0 {
-            settle(block, ray, candidates, values.store(), nearest);
+            settle(block, ray, candidates, &values(), nearest);
             if ANY && nearest.found() {
                 break;
             }
@@ -139,7 +143,7 @@ pub(crate) fn settle<const N: usize, T: TriangleTest>(
     block: &LeafBlock<T, N>,
     ray: &T::Ray,
     mut candidates: u32,
-    values: [f32; N],
+    values: &T::Values<N>,
     nearest: &mut Nearest<T::Depth>,
 ) {
     while candidates != 0 {
@@ -150,7 +154,7 @@ pub(crate) fn settle<const N: usize, T: TriangleTest>(
         if nearest.hit.as_ref().is_some_and(|(_, nearest)| *nearest == id) {
             continue;
         }
-        if let Some(depth) = T::decide(ray, &block.triangles, lane, values[lane]) {
+        if let Some(depth) = T::decide(ray, &block.triangles, lane, values) {
             nearest.offer(depth, id);
         }
     }

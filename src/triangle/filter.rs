@@ -1,4 +1,4 @@
-//! The first stage of the tests that are exact: rejects nearly all triangles of a block in `f32`, and never one that is hit.
+//! The first stage of the exact test: rejects nearly all triangles of a block in `f32`, and never one that is hit; and sees most hits.
 
 use glam::Vec3;
 
@@ -9,10 +9,11 @@ use crate::simd::{LaneVec3, Lanes};
 /// A ray as the first stage sees it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FilterRay {
-    pub origin: Vec3,
+    origin: Vec3,
     /// The direction, a power of two times longer: its largest component is in [1, 2), or below 1 for denormal directions.
     scaled: Vec3,
-    /// The direction is so many times as long as the scaled one.
+    /// The scaled direction is so many times as long as the direction, which is so many times as long as the scaled one.
+    scale: f32,
     unscaled: f32,
     /// [`TINY`], or infinity if an overflow cannot be ruled out: then nothing is rejected.
     tiny: f32,
@@ -29,8 +30,22 @@ pub struct FilterBlock<const N: usize> {
     lanes: u32,
 }
 
+/// What the first stage knows of the candidates among `N` triangles.
+#[derive(Clone, Copy, Debug)]
+pub struct Sights<const N: usize> {
+    /// The lanes whose triangle the line certainly meets, at an exact `t` in [`low`, `high`], as bits; of the others nothing is known.
+    pub sure: u32,
+    pub low: [f32; N],
+    pub high: [f32; N],
+}
+
+/// 2^-24, by which a difference, a product and a sum are off, relatively.
+const UNIT: f32 = f32::EPSILON / 2.0;
 /// Twice the 40 units of 2^-24 of the argument at [`survivors`], times 2 for the direction.
-const SLACK: f32 = 2.0 * 40.0 * 2.0 / (1 << 24) as f32;
+const SLACK: f32 = 2.0 * 40.0 * 2.0 * UNIT;
+/// The error of the height, in E E |s|, and of det, in E E: 17 and 98 units, of which is said where below.
+const HEIGHT: f32 = 20.0 * UNIT;
+const DETERMINANT: f32 = 112.0 * UNIT;
 /// More than all underflows together: each loses at most 2^-150, and those of u, v and det add up to less than
 /// (4 |s| + 12 E + 42) 2^-150, where TINY (1 + |s| + 2 E) is added. Far more, but the least number that is not denormal: for each sum with
 /// one that is, some processors take a hundred cycles.
@@ -50,7 +65,7 @@ impl FilterRay {
         };
         let tiny = if ray.origin.abs().max_element() <= LARGE { TINY } else { f32::INFINITY };
         let unscaled = f32::from_bits(exponent.max(1) << 23);
-        Self { origin: ray.origin, scaled: ray.direction * scale, unscaled, tiny }
+        Self { origin: ray.origin, scaled: ray.direction * scale, scale, unscaled, tiny }
     }
 }
 
@@ -74,8 +89,7 @@ impl<const N: usize> FilterBlock<N> {
     }
 }
 
-/// The lanes whose triangle the ray may meet at a `t` up to `to`, all of those that it meets there among them; and a number that is positive
-/// where its line certainly meets it.
+/// The lanes whose triangle the ray may meet at a `t` up to `to`, all of those that it meets there among them; and what is seen of them.
 ///
 /// **Why none is lost.** Let s = o - a, e and f the edges from a, det = e . (d x f), u = s . (d x f), v = d . (s x e), exact for
 /// the `f32` corners and ray; the line meets the closed triangle if u, v and det - u - v, taken with the sign of det, are not
@@ -87,15 +101,22 @@ impl<const N: usize> FilterBlock<N> {
 ///
 /// Where the computed sign of det is right, a hit has u and v not below -k, and u + v not beyond |det| + k. Where it is wrong,
 /// the exact |det| is at most k; then so are |u|, |v| and |u + v| of a hit, and the computed ones are at most 2 k. So rejecting what is
-/// beyond 2 k rejects no hit, and what is inside by more than 2 k is one. Underflow adds less than [`TINY`] (1 + |s| + 2 E); where an intermediate might overflow the bound is
-/// infinite, and comparisons that involve infinity or NaN decide nothing.
+/// beyond 2 k rejects no hit, and what is inside by more than 2 k is one. Underflow adds less than [`TINY`] (1 + |s| + 2 E); where an
+/// intermediate might overflow the bound is infinite, and comparisons that involve infinity or NaN decide nothing.
 ///
-/// A hit at t = h / det, with h = f . (s x e), has |h| <= T |det|, where T is not below `to` for the scaled direction, nor below the least number whose rounding is relative. The computed h is off by
-/// less than E / 9 of the slack, det by less than 86 w E E, where the slack is at least 320 w E E; T |det| is at most 12 E E T and rounded by w of
-/// itself. So no hit has the computed h beyond that of T |det| by the slack times E + T, of which two thirds are left: that is at
-/// least 16 w of T |det|, more than the test in `f64` may round its t by. The sign of det does not matter to this.
+/// **Where they are met.** A hit is at t = h / |det|, with h = f . (s x e) taken with the sign of det. The computed h is off by less than
+/// 8.1 w 2 E E |s|, det by less than 86 w E E; both underflow by less than [`TINY`] (1 + E). With bounds dh and dd that are larger by more than
+/// they round: where |det| is beyond dd its sign is certain, and a hit with h below -dh lies behind the origin. One at a t of at most T, where T
+/// is not below `to` for the scaled direction, has h - T |det| at most dh + T dd; the computed T |det|, at most 12 E E T, is off by 12 w E E T,
+/// of which dd has more to spare. Where |det| is beyond 16 dd, |h/d - h'/d'| <= (dh + |h'/d'| dd) / |d'| is at most 16/15 of that with
+/// the computed h/d in place of the exact one, which 9/8 covers with what rounds in it; the quotient and the ends of the interval round by
+/// less than 8 w of t, and [`TINY`] covers what underflows when t is that of the direction again.
 #[inline(always)]
-pub(super) fn survivors<const N: usize, L: Lanes<N>>(ray: &FilterRay, block: &FilterBlock<N>, to: f32) -> (u32, L) {
+pub(super) fn survivors<const N: usize, L: Lanes<N>>(
+    ray: &FilterRay,
+    block: &FilterBlock<N>,
+    to: f32,
+) -> (u32, impl FnOnce() -> Sights<N> + use<N, L>) {
     let direction = LaneVec3::splat(ray.scaled);
     let [a, b, c] = block.corners.load::<L>();
     let to_origin = LaneVec3::splat(ray.origin) - a;
@@ -110,25 +131,44 @@ pub(super) fn survivors<const N: usize, L: Lanes<N>>(ray: &FilterRay, block: &Fi
     let abs_det = det.flip_sign(det);
 
     let extent = L::load(&block.extents);
-    let size = to_origin.abs_sum().add(extent.add(extent));
+    let distance = to_origin.abs_sum();
     let tiny = L::splat(ray.tiny);
-    let slack = size.mul_add_loosely(extent.mul_add_loosely(L::splat(SLACK), tiny), tiny);
+    let slack = distance.add(extent.add(extent)).mul_add_loosely(extent.mul_add_loosely(L::splat(SLACK), tiny), tiny);
     let below = L::zero().sub(slack);
     let outside = u.lt(below) | v.lt(below) | abs_det.add(slack).lt(u.add(v));
-    let lanes = block.lanes & !outside;
-    if lanes == 0 {
-        return (0, slack);
-    }
+    let mut lanes = block.lanes & !outside;
 
-    // Few blocks come here. Reject what lies behind the origin: h, which has the sign of det in front of it, is off by
-    // 8.1 w 2 E E |s|, of which the slack has ten times E, and by its own underflow, which needs a bound of its own: in small scenes
-    // it is the last to be left of all three. Reject what lies beyond `to`.
-    let height = edge2.dot_loosely(q).flip_sign(det);
-    let bound = slack.mul_add_loosely(extent, tiny);
-    let behind = height.add(bound).lt(L::zero()) & slack.lt(abs_det);
-    let last = L::splat((to.max(f32::MIN_POSITIVE) * ray.unscaled).max(f32::MIN_POSITIVE));
-    let beyond = slack.mul_add_loosely(last, bound).lt(height.sub(last.mul(abs_det)));
-    // A NaN in u or v makes the third one, which wins.
-    let inside = u.min(v).min(abs_det.sub(u.add(v))).sub(slack);
-    (lanes & !(behind | beyond), inside)
+    // Few blocks come further, so this is computed again rather than for all of them.
+    let depth = move || {
+        let height = edge2.dot_loosely(q).flip_sign(det);
+        let height_error = extent.mul_add_loosely(extent.mul(distance).mul_add_loosely(L::splat(HEIGHT), tiny), tiny);
+        let det_error = extent.mul_add_loosely(extent.mul_add_loosely(L::splat(DETERMINANT), tiny), tiny);
+        (height, height_error, det_error)
+    };
+    if lanes != 0 {
+        let (height, height_error, det_error) = depth();
+        let behind = height.add(height_error).lt(L::zero()) & det_error.lt(abs_det);
+        let last = L::splat((to.max(f32::MIN_POSITIVE) * ray.unscaled).max(f32::MIN_POSITIVE));
+        let beyond = det_error.mul_add_loosely(last, height_error).lt(height.sub(last.mul(abs_det)));
+        lanes &= !(behind | beyond);
+    }
+    let scale = L::splat(ray.scale);
+    let sights = move || {
+        let (height, height_error, det_error) = depth();
+        // A NaN in u or v makes the third one, which wins.
+        let inside = slack.lt(u.min(v).min(abs_det.sub(u.add(v))));
+        let certain = det_error.mul(L::splat(16.0)).lt(abs_det);
+        let inverse = L::splat(1.0).div(abs_det);
+        let t = height.mul(inverse);
+        let abs_t = t.flip_sign(t);
+        let error = abs_t.mul_add_loosely(det_error, height_error).mul(inverse.mul(L::splat(9.0 / 8.0)));
+        let error = abs_t.mul_add_loosely(L::splat(8.0 * UNIT), error);
+        let tiny = L::splat(TINY);
+        Sights {
+            sure: inside & certain,
+            low: t.sub(error).mul(scale).sub(tiny).store(),
+            high: t.add(error).mul(scale).add(tiny).store(),
+        }
+    };
+    (lanes, sights)
 }

@@ -6,7 +6,6 @@ mod depth;
 mod edge_f64;
 mod exact;
 mod filter;
-mod filtered_f64;
 mod moller_trumbore;
 mod moller_trumbore_f64;
 mod plucker;
@@ -21,14 +20,13 @@ pub use corners::Corners;
 pub use depth::Depth;
 pub use edge_f64::EdgeF64;
 pub use exact::Exact;
-pub use filtered_f64::FilteredF64;
 pub use moller_trumbore::MollerTrumbore;
 pub use moller_trumbore_f64::MollerTrumboreF64;
 pub use plucker::Plucker;
 pub use watertight::Watertight;
 
 use crate::geometry::Ray;
-use crate::simd::{Arithmetic, EightLanes, LaneVec3, Lanes, Portable};
+use crate::simd::{EightLanes, LaneVec3, Lanes, Portable};
 
 /// A way to decide whether and where a ray meets a triangle.
 ///
@@ -37,7 +35,7 @@ use crate::simd::{Arithmetic, EightLanes, LaneVec3, Lanes, Portable};
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a triangle test",
     label = "does not implement `sahara::triangle::TriangleTest`",
-    note = "use one of the tests in `sahara::triangle`, for example `FilteredF64`; a structure with a test of its own needs none: it leaves `Accel::TRIANGLE_TEST` as it is"
+    note = "use one of the tests in `sahara::triangle`, for example `Exact`; a structure with a test of its own needs none: it leaves `Accel::TRIANGLE_TEST` as it is"
 )]
 pub trait TriangleTest: Send + Sync + 'static {
     /// The name used by the command line and records.
@@ -48,6 +46,9 @@ pub trait TriangleTest: Send + Sync + 'static {
 
     /// `N` triangles, stored as the test wants them.
     type Block<const N: usize>: Copy + Send + Sync;
+
+    /// What the first stage hands to the second one about the lanes of a block.
+    type Values<const N: usize>: Copy;
 
     /// Where a hit is, as the test orders hits: `f32` where that is what it computes.
     type Depth: Depth;
@@ -67,16 +68,25 @@ pub trait TriangleTest: Send + Sync + 'static {
         t_max.next_down()
     }
 
-    /// The first stage: the lanes that may be hit at a `t` in [`from`, `to`], as bits, and a value of each lane for the second stage.
-    fn candidates<const N: usize, L: Lanes<N>>(ray: &Self::Ray, block: &Self::Block<N>, from: f32, to: f32)
-    -> (u32, L);
+    /// The first stage: the lanes that may be hit at a `t` in [`from`, `to`], as bits, and what gives the values for the second stage, if
+    /// there is any lane to be decided.
+    fn candidates<const N: usize, L: Lanes<N>>(
+        ray: &Self::Ray,
+        block: &Self::Block<N>,
+        from: f32,
+        to: f32,
+    ) -> (u32, impl FnOnce() -> Self::Values<N>);
 
-    /// The second stage: whether a candidate is hit, and where; `value` is that of its lane. What lies outside the ray's interval is no hit;
-    /// what lies beyond the `to` of the candidates may be one.
-    fn decide<const N: usize>(ray: &Self::Ray, block: &Self::Block<N>, lane: usize, value: f32) -> Option<Self::Depth>;
+    /// The second stage: whether a candidate is hit, and where. What lies outside the ray's interval is no hit; what lies beyond the `to` of
+    /// the candidates may be one.
+    fn decide<const N: usize>(
+        ray: &Self::Ray,
+        block: &Self::Block<N>,
+        lane: usize,
+        values: &Self::Values<N>,
+    ) -> Option<Self::Depth>;
 
-    /// Whether the first stage decides everything: then [`decide`](Self::decide) takes every candidate at the `t` that is its value, and
-    /// [`Depth::of`] knows each depth.
+    /// Whether the first stage decides everything: then [`decide`](Self::decide) takes every candidate, and [`Depth::of`] knows each depth.
     const ONE_STAGE: bool = false;
 
     /// Whether structures offer to answer several rays of a slice at once over this test. Each way to do so is compiled for each test that
@@ -99,8 +109,8 @@ pub trait TriangleTest: Send + Sync + 'static {
     /// The scalar form: the hit of one triangle at a `t` in [`from`, `to`].
     #[inline(always)]
     fn hit(ray: &Self::Ray, triangle: &Self::Block<1>, from: f32, to: f32) -> Option<Self::Depth> {
-        let (candidate, value) = Self::candidates::<1, Portable<1>>(ray, triangle, from, to);
-        if candidate == 0 { None } else { Self::decide(ray, triangle, 0, value.store()[0]) }
+        let (candidate, values) = Self::candidates::<1, Portable<1>>(ray, triangle, from, to);
+        if candidate == 0 { None } else { Self::decide(ray, triangle, 0, &values()) }
     }
 }
 

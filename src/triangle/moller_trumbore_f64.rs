@@ -61,6 +61,7 @@ impl TriangleTest for MollerTrumboreF64 {
 
     type Ray = (Vec3, Vec3);
     type Block<const N: usize> = Corners<N>;
+    type Values<const N: usize> = [f32; N];
     type Depth = f32;
 
     #[inline(always)]
@@ -78,18 +79,18 @@ impl TriangleTest for MollerTrumboreF64 {
         block: &Corners<N>,
         from: f32,
         to: f32,
-    ) -> (u32, L) {
+    ) -> (u32, impl FnOnce() -> [f32; N]) {
         let [a, b, c] = block.load::<L>().map(LaneVec3::widen);
         let wide = |v| LaneVec3::<N, L>::splat(v).widen();
         let (inside, t) = solve(wide(direction), wide(origin) - a, [b - a, c - a]);
         // The beginning before rounding, which may make a zero of what lies behind.
         let inside = inside & L::splat(from).widen().le(t);
         let t = L::narrow(t);
-        (inside & t.le(L::splat(to)), t)
+        (inside & t.le(L::splat(to)), move || t.store())
     }
 
     #[inline(always)]
-    fn decide<const N: usize>(_: &Self::Ray, _: &Self::Block<N>, _: usize, t: f32) -> Option<f32> {
-        Some(t)
+    fn decide<const N: usize>(_: &Self::Ray, _: &Self::Block<N>, lane: usize, t: &[f32; N]) -> Option<f32> {
+        Some(t[lane])
     }
 }

@@ -44,6 +44,7 @@ impl TriangleTest for Plucker {
 
     type Ray = (Vec3, Vec3);
     type Block<const N: usize> = Corners<N>;
+    type Values<const N: usize> = [f32; N];
     type Depth = f32;
 
     #[inline(always)]
@@ -61,13 +62,13 @@ impl TriangleTest for Plucker {
         block: &Corners<N>,
         from: f32,
         to: f32,
-    ) -> (u32, L) {
+    ) -> (u32, impl FnOnce() -> [f32; N]) {
         let (inside, t) = solve::<N, L>(LaneVec3::splat(origin), LaneVec3::splat(direction), block.load());
-        (inside & L::splat(from).le(t) & t.le(L::splat(to)), t)
+        (inside & L::splat(from).le(t) & t.le(L::splat(to)), move || t.store())
     }
 
     #[inline(always)]
-    fn decide<const N: usize>(_: &Self::Ray, _: &Self::Block<N>, _: usize, t: f32) -> Option<f32> {
-        Some(t)
+    fn decide<const N: usize>(_: &Self::Ray, _: &Self::Block<N>, lane: usize, t: &[f32; N]) -> Option<f32> {
+        Some(t[lane])
     }
 }

@@ -4,7 +4,7 @@ mod closed;
 mod every;
 mod exact;
 mod f64_bounds;
-mod filtered_f64;
+mod filter;
 mod intervals;
 mod moller_trumbore;
 

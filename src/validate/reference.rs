@@ -15,8 +15,7 @@ use crate::external::obvhs::RtTest;
 use crate::external::parry::ParryTest;
 use crate::geometry::{Hit, Mesh, Ray};
 use crate::triangle::{
-    BaldwinWeber, EdgeF64, Exact, FilteredF64, MollerTrumbore, MollerTrumboreF64, Plucker, TriangleTest, Watertight,
-    scalar_hit,
+    BaldwinWeber, EdgeF64, Exact, MollerTrumbore, MollerTrumboreF64, Plucker, TriangleTest, Watertight, scalar_hit,
 };
 
 /// One triangle, tested alone: `t` where the ray hits it within its interval.
@@ -40,7 +39,7 @@ pub struct Reference {
 impl Reference {
     /// Brute force with the triangle test named `test` ([`Accel::TRIANGLE_TEST`]); for a test that this crate does not
     /// have, brute force with Möller-Trumbore, which shares nothing; for one that it has only as a scene of one triangle,
-    /// brute force with `filtered-f64`, and that test in disputes.
+    /// brute force with `exact`, and that test in disputes.
     ///
     /// # Errors
     /// If the mesh is refused.
@@ -61,17 +60,7 @@ impl Reference {
                 }
             };
         }
-        among!(
-            MollerTrumbore,
-            MollerTrumboreF64,
-            Watertight,
-            BaldwinWeber,
-            Plucker,
-            EdgeF64,
-            FilteredF64,
-            Exact,
-            RtTest
-        )
+        among!(MollerTrumbore, MollerTrumboreF64, Watertight, BaldwinWeber, Plucker, EdgeF64, Exact, RtTest)
     }
 
     /// Brute force with a triangle test that the structure shares.
@@ -85,7 +74,7 @@ impl Reference {
 
     #[cfg(feature = "peer-embree")]
     fn in_disputes(disputed: ScalarTest, mesh: &Arc<Mesh>) -> Result<Self, BuildError> {
-        Ok(Self { test: None, disputed: Some(disputed), ..Self::brute_force::<FilteredF64>(mesh)? })
+        Ok(Self { test: None, disputed: Some(disputed), ..Self::brute_force::<Exact>(mesh)? })
     }
 
     /// Its closest hits, one for each ray, found on all threads of the pool.

@@ -75,7 +75,7 @@ fn lists_and_completions_name_everything() {
     }
     assert!(list.lines().count() < 24, "it fits a screen: {list}");
     let keys = stdout(&sahara(&["list", "Median-KD"]));
-    for words in ["threshold  0.7", "vertex-median, spatial-median", "where a node is split", "filtered-f64, moller"] {
+    for words in ["threshold  0.7", "vertex-median, spatial-median", "where a node is split", "exact, moller"] {
         let said = keys.split_whitespace().collect::<Vec<_>>().join(" ");
         assert!(said.contains(&words.replace("  ", " ")), "{words} is not in {keys}");
     }

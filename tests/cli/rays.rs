@@ -69,7 +69,7 @@ fn answers_go_out_and_come_back_and_wrong_ones_are_found() {
         right(&folder, &["rays", "record", "torus", "-w", kind, "-o", "f.rays", "--rays", "900"]);
         let exchange = ["validate", "--rays", "f.rays"];
         right(&folder, &[&exchange[..], &["-s", "sah-kd", "--export-hits", "f.hits"]].concat());
-        right(&folder, &[&exchange[..], &["--hits", "f.hits", "--test", "filtered-f64"]].concat());
+        right(&folder, &[&exchange[..], &["--hits", "f.hits", "--test", "exact"]].concat());
         right(&folder, &[&exchange[..], &["--hits", "f.hits"]].concat());
 
         // One hit is taken away.
@@ -78,7 +78,7 @@ fn answers_go_out_and_come_back_and_wrong_ones_are_found() {
         let hit = bytes[32..].chunks_exact(8).position(|answer| answer[4..] != [0xff; 4]).unwrap();
         bytes[32 + 8 * hit + 4..32 + 8 * hit + 8].fill(0xff);
         fs::write(&path, bytes).unwrap();
-        for test in [&["--test", "filtered-f64"][..], &[]] {
+        for test in [&["--test", "exact"][..], &[]] {
             let args = [&exchange[..], &["--hits", "f.hits"], test].concat();
             let (code, printed, _) = sahara(folder.path(), &args);
             assert!(code == Some(2) && printed.contains("lost: ray \""), "{printed}");

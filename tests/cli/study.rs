@@ -30,7 +30,9 @@ fn accuracy_prints_exports_and_draws_what_it_finds() {
     let output = sahara(&args);
     assert_eq!(output.status.code(), Some(RIGHT), "{}", stderr(&output));
     let printed = stdout(&output);
-    for text in ["vertex: 300 rays through vertices", "uniform: 300 rays", "sah-kd:test=exact", "dominated by"] {
+    for text in
+        ["vertex: 300 rays through vertices", "uniform: 300 rays", "sah-kd:test=moller-trumbore", "dominated by"]
+    {
         assert!(printed.contains(text), "{text} is not in {printed}");
     }
     let export: serde_json::Value = serde_json::from_slice(&std::fs::read(json).unwrap()).unwrap();

@@ -43,7 +43,7 @@ const VARIANTS: [(&str, &str); 20] = [
 ];
 
 /// The tests over which several rays of a slice may be answered at once.
-const BATCHED: [&str; 4] = ["moller-trumbore", "filtered-f64", "watertight", "exact"];
+const BATCHED: [&str; 3] = ["moller-trumbore", "watertight", "exact"];
 
 /// The level is that of the process: one case at a time changes it.
 static LEVEL: Mutex<()> = Mutex::new(());
@@ -60,7 +60,7 @@ impl Case {
     /// What must hold: a mesh is refused with a sentence or every structure is built over it; no structure over any
     /// triangle test loses or invents a hit against brute force with the same test, or returns a higher number than the
     /// lowest, and all levels of instructions give the same bits; `exact` gives the mathematical
-    /// answer, by two judges; `filtered-f64` gives the bits of the test that it filters. Nothing panics.
+    /// answer, by two judges. Nothing panics.
     ///
     /// # Errors
     /// What does not hold, with the case.
@@ -112,14 +112,6 @@ impl Case {
                 let second = rational::nearest(ray, mesh.solid().map(|id| (id, mesh.corners(id))));
                 if second != truth {
                     return Err(blame(format!("exact sums: ray \"{ray}\": {truth:?} in place of {second:?}")));
-                }
-            }
-        }
-        if let (Some(filtered), Some(plain)) = (answers("filtered-f64"), answers("moller-trumbore-f64")) {
-            for ((ray, filtered), plain) in self.rays.iter().zip(filtered.unwrap()).zip(plain.unwrap()) {
-                let bits = |hit: Option<Hit>| hit.map(|h| (h.t.to_bits(), h.prim.index()));
-                if bits(filtered) != bits(plain) {
-                    return Err(blame(format!("filtered-f64: ray \"{ray}\": {filtered:?} in place of {plain:?}")));
                 }
             }
         }

@@ -20,16 +20,15 @@ use sahara::scene::{Builtin, WorkloadKind};
 use sahara::study::Studies;
 use sahara::study::compare::compared;
 use sahara::study::epoch::{Asked, Settings, measure};
-use sahara::triangle::{Exact, FilteredF64, MollerTrumbore};
+use sahara::triangle::{Exact, MollerTrumbore};
 use sahara::validate::conformance::{Named, Subject, answers, counting, shapes};
 use sahara::validate::degenerate_meshes;
 
 sahara::conformance!(my_grid, Grid<MollerTrumbore>, GridConfig::default(), lowest_id);
-sahara::conformance!(my_grid_of_one_cell, Grid<FilteredF64>, GridConfig { resolution: 1 });
+sahara::conformance!(my_grid_of_one_cell, Grid<Exact>, GridConfig { resolution: 1 });
 
 fn registry() -> Registry {
     Registry::builtin()
-        .with::<Grid<FilteredF64>>("grid", GridConfig::default())
         .with::<Grid<Exact>>("grid", GridConfig::default())
         .with::<Broken>("broken", BrokenConfig::default())
         .with::<Modest>("modest", GridConfig::default())
@@ -38,14 +37,14 @@ fn registry() -> Registry {
 #[test]
 fn a_registered_structure_is_chosen_like_the_others() {
     let choice = registry().choose("grid:resolution=3").unwrap();
-    assert_eq!((choice.label.as_str(), choice.triangle_test()), ("grid:resolution=3", "filtered-f64"));
+    assert_eq!((choice.label.as_str(), choice.triangle_test()), ("grid:resolution=3", "exact"));
     let refusal = registry().choose("grid:resolution=0").map(|_| ()).unwrap_err().to_string();
     assert!(refusal.contains("resolution must be from 1 to 256"), "{refusal}");
 }
 
 #[test]
 fn it_draws_the_golden_images() {
-    let choice = registry().choose("grid:test=exact").unwrap();
+    let choice = registry().choose("grid").unwrap();
     for name in ["cube", "torus", "cornellbox"] {
         let scene = Builtin::find(name).unwrap().scene(None).unwrap();
         Goldens::builtin().check(&scene, "grid", choice.build(&scene.mesh).unwrap().as_ref()).unwrap();

@@ -21,6 +21,7 @@ impl TriangleTest for RtTest {
 
     type Ray = PreparedRay;
     type Block<const N: usize> = [RtTriangle; N];
+    type Values<const N: usize> = [f32; N];
     type Depth = f32;
 
     #[inline(always)]
@@ -46,13 +47,13 @@ impl TriangleTest for RtTest {
         block: &[RtTriangle; N],
         from: f32,
         to: f32,
-    ) -> (u32, L) {
+    ) -> (u32, impl FnOnce() -> [f32; N]) {
         let t = L::load(&array::from_fn(|lane| block[lane].intersect(ray)));
-        (L::splat(from).le(t) & t.le(L::splat(to.min(f32::MAX))), t)
+        (L::splat(from).le(t) & t.le(L::splat(to.min(f32::MAX))), move || t.store())
     }
 
     #[inline(always)]
-    fn decide<const N: usize>(_: &PreparedRay, _: &[RtTriangle; N], _: usize, t: f32) -> Option<f32> {
-        Some(t)
+    fn decide<const N: usize>(_: &PreparedRay, _: &[RtTriangle; N], lane: usize, t: &[f32; N]) -> Option<f32> {
+        Some(t[lane])
     }
 }

@@ -6,13 +6,13 @@ use crate::geometry::{Hit, Ray};
 use crate::kdtree::{KdConfig, KdTree};
 use crate::output::OutputFile;
 use crate::scene::{Builtin, Sampling, Scene, Workload, WorkloadKind};
-use crate::triangle::FilteredF64;
+use crate::triangle::Exact;
 
 fn scene() -> Scene {
     Builtin::find("cornellbox").unwrap().scene(None).unwrap()
 }
 
-fn tree(scene: &Scene) -> KdTree<FilteredF64> {
+fn tree(scene: &Scene) -> KdTree<Exact> {
     KdTree::build(&scene.mesh, &KdConfig::SAH).unwrap()
 }
 

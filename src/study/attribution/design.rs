@@ -135,7 +135,7 @@ mod tests {
             serde_json::to_value(config).unwrap()
         };
         let different = |cell: Treatment, name: &str| {
-            let (ours, theirs) = (config(&cell.spec("filtered-f64")), config(name));
+            let (ours, theirs) = (config(&cell.spec("exact")), config(name));
             let keys = ours.as_object().unwrap().keys().filter(|key| ours[*key] != theirs[*key]);
             keys.cloned().collect::<Vec<_>>()
         };

@@ -54,7 +54,7 @@ pub struct AttributionArgs {
     measuring: Measuring,
 }
 
-const TEST: &str = "filtered-f64";
+const TEST: &str = "exact";
 
 impl Study for AttributionStudy {
     const NAME: &'static str = "attribution";

@@ -7,10 +7,10 @@ use crate::measure::{Estimate, geometric_mean};
 use crate::report::number::{figures, plural};
 use crate::report::words::{distinct, explained, interval, listed, scene_name};
 use crate::report::{Cell, Record, Statement, Table, Tone};
-use crate::triangle::{EdgeF64, Exact, FilteredF64, MollerTrumboreF64, TriangleTest};
+use crate::triangle::{EdgeF64, Exact, MollerTrumboreF64, TriangleTest};
 
 /// The triangle tests in double precision and beyond. All others round in single precision.
-const PRECISE: [&str; 4] = [FilteredF64::NAME, Exact::NAME, MollerTrumboreF64::NAME, EdgeF64::NAME];
+const PRECISE: [&str; 3] = [Exact::NAME, MollerTrumboreF64::NAME, EdgeF64::NAME];
 
 /// Structures of one kind of triangle test by falling speed.
 #[derive(Clone, Debug, PartialEq)]
@@ -234,8 +234,7 @@ mod tests {
     use crate::report::example;
 
     fn record(scene: &str, label: &str, ns: f64) -> Record {
-        let test =
-            label.split("test=").nth(1).unwrap_or(if label.starts_with("obvhs") { "native" } else { "filtered-f64" });
+        let test = label.split("test=").nth(1).unwrap_or(if label.starts_with("obvhs") { "native" } else { "exact" });
         Record {
             scene: scene.into(),
             label: label.into(),
@@ -275,7 +274,7 @@ mod tests {
             "{told:?}"
         );
         assert!(told[0].contains("answers 2.00") && !told[0].contains("level"), "{told:?}");
-        assert!(told[2].contains("filtered-f64") && told[2].contains("1.25"), "{told:?}");
+        assert!(told[2].contains("exact") && told[2].contains("1.25"), "{told:?}");
         assert_eq!(ranks.tables(&records).len(), 2);
         assert!(super::ranks(&records[..1]).is_none());
     }

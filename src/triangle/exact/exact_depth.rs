@@ -2,15 +2,16 @@ use std::cmp::Ordering;
 
 use glam::Vec3;
 
-use crate::exact::{self, ExactT};
-use crate::geometry::{Ray, round_up};
+use super::enclosure::{Sight, place};
+use crate::exact;
+use crate::geometry::Ray;
 use crate::triangle::Depth;
 
-/// Where a ray meets a triangle, exactly: bounds in `f64`, and what it takes to compute the truth when these do not tell.
+/// Where a ray meets a triangle, exactly: bounds in `f32`, and what it takes to compute the truth when these do not tell.
 #[derive(Clone, Copy, Debug)]
 pub struct ExactDepth {
-    low: f64,
-    high: f64,
+    low: f32,
+    high: f32,
     origin: Vec3,
     direction: Vec3,
     corners: [Vec3; 3],
@@ -19,13 +20,39 @@ pub struct ExactDepth {
 impl ExactDepth {
     /// The exact `t` is in [`low`, `high`], and the line of `ray` meets the triangle.
     #[inline(always)]
-    pub(super) fn new(ray: &Ray, corners: [Vec3; 3], low: f64, high: f64) -> Self {
+    pub(super) fn new(ray: &Ray, corners: [Vec3; 3], low: f32, high: f32) -> Self {
         Self { low, high, origin: ray.origin, direction: ray.direction, corners }
     }
 
+    fn line(&self) -> Ray {
+        Ray::new(self.origin, self.direction)
+    }
+
+    /// Bounds of the exact `t` in `f64`, if it gives any.
+    #[inline(always)]
+    fn narrower(&self) -> Option<(f64, f64)> {
+        match place(&self.line(), self.corners) {
+            Sight::Hit { low, high } => Some((low, high)),
+            Sight::Miss | Sight::Unclear => None,
+        }
+    }
+
     #[cold]
-    fn exact(&self) -> ExactT {
-        exact::hit(&Ray::new(self.origin, self.direction), self.corners).expect("a depth is that of a hit")
+    fn exact(&self) -> exact::ExactT {
+        exact::hit(&self.line(), self.corners).expect("a depth is that of a hit")
+    }
+
+    /// The order of two whose bounds overlap.
+    #[inline(never)]
+    fn order_closely(&self, other: &Self) -> Ordering {
+        if surely_coplanar(&self.corners, &other.corners) {
+            return Ordering::Equal;
+        }
+        match (self.narrower(), other.narrower()) {
+            (Some((_, high)), Some((low, _))) if high < low => Ordering::Less,
+            (Some((low, _)), Some((_, high))) if high < low => Ordering::Greater,
+            _ => self.exact().cmp(&other.exact()),
+        }
     }
 }
 
@@ -50,22 +77,25 @@ impl Depth for ExactDepth {
             Ordering::Less
         } else if self.low > other.high {
             Ordering::Greater
-        } else if surely_coplanar(&self.corners, &other.corners) {
-            Ordering::Equal
         } else {
-            self.exact().cmp(&other.exact())
+            // Copies, so that those that are ordered at once need no place in memory.
+            let (one, other) = (*self, *other);
+            one.order_closely(&other)
         }
     }
 
     /// Correctly rounded.
     #[inline(always)]
     fn t(&self) -> f32 {
-        let (low, high) = (self.low as f32, self.high as f32);
-        if low == high { low } else { self.exact().round() }
+        match self.narrower() {
+            // The upper one: of two zeros it is the positive one.
+            Some((low, high)) if low as f32 == high as f32 => high as f32,
+            _ => self.exact().round(),
+        }
     }
 
     #[inline(always)]
     fn bound(&self) -> f32 {
-        round_up(self.high)
+        self.high
     }
 }

@@ -8,14 +8,15 @@ use glam::Vec3;
 pub use exact_depth::ExactDepth;
 
 use super::TriangleTest;
-use super::filter::{FilterBlock, FilterRay, survivors};
+use super::filter::{FilterBlock, FilterRay, Sights, survivors};
 use crate::exact;
-use crate::geometry::Ray;
+use crate::geometry::{Ray, round_down, round_up};
 use crate::simd::Lanes;
 use enclosure::{Sight, look, place};
 
-/// Exact answers at the price of a filter: what the `f32` stage cannot reject is decided in `f64` with a bound on its error, and what
-/// that cannot decide in exact sums of floats.
+/// Exact answers at the price of a filter: what the `f32` stage cannot decide is decided in `f64` with a bound on its error, and what
+/// that cannot decide in exact sums of floats. Each decision is made when it is needed: hits are ordered by bounds of their `t`, which are
+/// narrowed where they overlap, and one `t` a ray is computed to the last bit.
 ///
 /// Promises: a triangle is hit if and only if the ray as given meets the closed triangle as given; hits are ordered by their exact
 /// `t`, at equal `t` by number; the `t` returned is the exact one, correctly rounded (so that one just before an open end `t_max` may be
@@ -42,6 +43,7 @@ impl TriangleTest for Exact {
 
     type Ray = ExactRay;
     type Block<const N: usize> = FilterBlock<N>;
+    type Values<const N: usize> = Sights<N>;
     type Depth = ExactDepth;
 
     #[inline(always)]
@@ -60,29 +62,52 @@ impl TriangleTest for Exact {
     }
 
     #[inline(always)]
-    fn candidates<const N: usize, L: Lanes<N>>(ray: &ExactRay, block: &FilterBlock<N>, _: f32, to: f32) -> (u32, L) {
-        survivors(&ray.filter, block, to)
+    fn candidates<const N: usize, L: Lanes<N>>(
+        ray: &ExactRay,
+        block: &FilterBlock<N>,
+        _: f32,
+        to: f32,
+    ) -> (u32, impl FnOnce() -> Sights<N>) {
+        survivors::<N, L>(&ray.filter, block, to)
     }
 
     #[inline(always)]
-    fn decide<const N: usize>(ray: &ExactRay, block: &FilterBlock<N>, lane: usize, inside: f32) -> Option<ExactDepth> {
-        let (ray, corners) = (&ray.ray, block.lane(lane));
-        let (start, end) = (f64::from(ray.interval().0), ray.end());
-        let sight = if inside > 0.0 { place(ray, corners) } else { look(ray, corners) };
-        match sight {
-            Sight::Miss => None,
-            Sight::Hit { low, high } if start <= low && high < end => Some(ExactDepth::new(ray, corners, low, high)),
-            Sight::Hit { low, high } if high < start || end <= low => None,
-            Sight::Hit { .. } | Sight::Unclear => exactly(ray, corners),
-        }
+    fn decide<const N: usize>(
+        ray: &ExactRay,
+        block: &FilterBlock<N>,
+        lane: usize,
+        sights: &Sights<N>,
+    ) -> Option<ExactDepth> {
+        let (ray, sure) = (&ray.ray, sights.sure >> lane & 1 == 1);
+        let (low, high, (start, end)) = (sights.low[lane], sights.high[lane], ray.interval());
+        let (low, high) = if sure && start <= low && high < end {
+            (low, high)
+        } else if sure && (high < start || end <= low) {
+            return None;
+        } else {
+            in_f64(ray, block.lane(lane), sure)?
+        };
+        Some(ExactDepth::new(ray, block.lane(lane), low, high))
     }
 }
 
-/// The hit of one triangle, whatever it takes.
+/// Where the ray meets one triangle of which `f32` could not tell, if it does: bounds of the exact `t`. The line is known to be `met` or
+/// not. Rare, so out of line.
+#[inline(never)]
+fn in_f64(ray: &Ray, corners: [Vec3; 3], met: bool) -> Option<(f32, f32)> {
+    let (start, end) = (f64::from(ray.interval().0), ray.end());
+    match if met { place(ray, corners) } else { look(ray, corners) } {
+        Sight::Miss => None,
+        Sight::Hit { low, high } if start <= low && high < end => Some((round_down(low), round_up(high))),
+        Sight::Hit { low, high } if high < start || end <= low => None,
+        Sight::Hit { .. } | Sight::Unclear => exactly(ray, corners),
+    }
+}
+
+/// The same, whatever it takes.
 #[cold]
-fn exactly(ray: &Ray, corners: [Vec3; 3]) -> Option<ExactDepth> {
+fn exactly(ray: &Ray, corners: [Vec3; 3]) -> Option<(f32, f32)> {
     let t = exact::hit(ray, corners).filter(|t| t.is_within(ray))?.round();
     // Rounding is off by at most the distance to the next float.
-    let (low, high) = (t.next_down(), t.next_up());
-    Some(ExactDepth::new(ray, corners, low.into(), high.into()))
+    Some((t.next_down(), t.next_up()))
 }

@@ -42,7 +42,7 @@ pub(super) const CASES: &[HardCase] = &[
             })
         })
         .because("Rays pass a sliver of 1 to 10,000 by less than f64 can tell: the band grows with the aspect ratio.")
-        .source("an independent check: a hit 4.5e-11 outside, where filtered-f64 had promised 1e-15"),
+        .source("an independent check: a hit 4.5e-11 outside, where a test in f64 had promised 1e-15"),
     added(88, "along_a_needle")
         .by_oracle(|n| {
             let corners = [
@@ -55,7 +55,7 @@ pub(super) const CASES: &[HardCase] = &[
             along_edges(corners, first, n, 63, grazing)
         })
         .because("A needle of 1 to 10,000,000 met along its length: f64 has no digit of the determinant left.")
-        .source("an independent check: a hit that filtered-f64 loses"),
+        .source("an independent check: a hit that a test in f64 loses"),
     added(89, "depth_on_a_needle")
         .by_oracle(|n| {
             let corners = [
@@ -68,7 +68,7 @@ pub(super) const CASES: &[HardCase] = &[
             along_edges(corners, first, n, 64, grazing)
         })
         .because("A needle grazed at a sine of 5e-3: t has half of the digits of f64, which a tolerance of 1 % hides.")
-        .source("an independent check: t of filtered-f64 115 ulps off"),
+        .source("an independent check: t of a test in f64 115 ulps off"),
 ];
 
 /// One triangle; the ray that was found first, and others at or beside points of its edges.

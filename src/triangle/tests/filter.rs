@@ -1,0 +1,87 @@
+//! The first stage of the exact test loses nothing, leaves little, and is sure only of what is so.
+
+use super::super::filter::{FilterBlock, FilterRay, survivors};
+use super::*;
+use crate::exact::ExactT;
+use crate::simd::{EightLanes, Kernel, Level, dispatch};
+
+/// What the first stage makes of one triangle, the one in lane 3 of 8: whether it is a candidate, and the bounds of `t` if it is sure of it.
+struct Look<'a>(&'a Ray, [Vec3; 3], f32);
+
+impl Kernel for Look<'_> {
+    type Output = (bool, Option<(f32, f32)>);
+
+    #[inline(always)]
+    fn run<L: EightLanes>(self) -> Self::Output {
+        let Look(ray, corners, to) = self;
+        let (candidates, sights) = survivors::<8, L>(&FilterRay::new(ray), &FilterBlock::new(&[corners; 4]), to);
+        let sights = sights();
+        (candidates >> 3 & 1 == 1, (sights.sure >> 3 & 1 == 1).then(|| (sights.low[3], sights.high[3])))
+    }
+}
+
+/// Aims at or beside a triangle from a few times its size away, in scenes of sizes whose products neither overflow nor underflow.
+fn near(rng: &mut Pcg32) -> (Ray, [Vec3; 3]) {
+    let scale = libm::exp2f((rng.next_u32() % 80) as f32 - 50.0);
+    let corners = triangle(rng, unit).map(|p| p * scale);
+    let (origin, [a, b, c]) = (point(rng, unit) * scale * 4.0, corners);
+    let (u, v) = (unit(rng) * 0.7 + 0.3, unit(rng) * 0.7 + 0.3);
+    let direction = (a + (b - a) * u + (c - a) * v - origin) * libm::exp2f((rng.next_u32() % 60) as f32 - 30.0);
+    (Ray::new(origin, direction), corners)
+}
+
+#[test]
+fn what_is_hit_is_a_candidate_and_what_is_sure_is_so() {
+    let mut rng = Pcg32::seed_from_u64(6);
+    let (mut hits, mut sure, mut narrow, mut cut) = (0, 0, 0, 0);
+    for round in 0..400_000 {
+        let (ray, corners) = if round % 2 == 0 { near(&mut rng) } else { hard(&mut rng, round / 2) };
+        if !ray.is_valid() {
+            continue;
+        }
+        let truth = judge::hit(&ray, corners);
+        let within = |low: f32, high: f32, t: &ExactT| {
+            t.compare(low) != Some(std::cmp::Ordering::Less) && t.compare(high) != Some(std::cmp::Ordering::Greater)
+        };
+        // The end is before, at or after the hit, or far away.
+        let t = truth.as_ref().map_or(1.0, ExactT::round);
+        let to = [f32::INFINITY, t * 0.99, t.next_down(), t, t.next_up()][rng.next_u32() as usize % 5].max(0.0);
+        for level in Level::available() {
+            let (candidate, seen) = dispatch(level, Look(&ray, corners, to));
+            if let Some(t) = &truth
+                && within(0.0, to, t)
+            {
+                assert!(candidate, "{level}: lost {ray:?} {corners:?} up to {to:?}");
+            }
+            cut += usize::from(!candidate && truth.is_some());
+            let Some((low, high)) = seen else { continue };
+            let t = truth.as_ref().unwrap_or_else(|| panic!("{level}: not met by {ray:?}: {corners:?}"));
+            assert!(within(low, high, t), "{level}: {t:?} is not in [{low:?}, {high:?}] {ray:?} {corners:?}");
+            narrow += usize::from(high - low < 1e-3 * high);
+            sure += 1;
+        }
+        hits += usize::from(truth.is_some_and(|t| within(0.0, f32::MAX, &t)));
+    }
+    let levels = Level::available().len();
+    let shares = [hits, sure / levels, narrow / levels, cut / levels];
+    assert!(shares[0] > 100_000 && shares[1] > 50_000 && shares[2] > 40_000 && shares[3] > 10_000, "{shares:?}");
+}
+
+#[test]
+fn the_first_stage_rejects_nearly_all_that_is_missed_and_is_sure_of_nearly_all_that_is_hit() {
+    let mut rng = Pcg32::seed_from_u64(7);
+    let (mut misses, mut kept, mut hits, mut unsure) = (0, 0, 0, 0);
+    for _ in 0..50_000 {
+        let (ray, corners) = near(&mut rng);
+        let (candidate, sure) = dispatch(Level::current(), Look(&ray, corners, f32::INFINITY));
+        if judge::hit(&ray, corners).is_none() {
+            misses += 1;
+            kept += usize::from(candidate);
+        } else if candidate {
+            hits += 1;
+            unsure += usize::from(sure.is_none());
+        }
+    }
+    assert!(misses > 10_000 && kept < misses / 100, "{kept} of {misses} misses survive");
+    assert!(hits > 10_000 && unsure < hits / 50, "{unsure} of {hits} hits are not certain");
+}
