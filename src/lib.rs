@@ -73,6 +73,8 @@ pub mod render;
 #[cfg(feature = "suite")]
 pub mod report;
 #[cfg(feature = "suite")]
+pub mod runner;
+#[cfg(feature = "suite")]
 pub mod scene;
 #[cfg(feature = "suite")]
 pub mod study;

@@ -2,6 +2,7 @@
 
 mod keys;
 mod peers;
+mod runners;
 
 use std::panic::{self, AssertUnwindSafe};
 use std::sync::Arc;
@@ -9,6 +10,7 @@ use std::sync::Arc;
 use serde_json::{Map, Value};
 
 pub use keys::Key;
+pub use runners::RUNNER;
 
 use crate::accel::{Accel, BuildError, Capabilities, DynAccel, Observed};
 use crate::brute_force::BruteForce;

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 /// The rooms by layer, as ARCHITECTURE.md draws them. Those of one layer may import each other in one direction, unless they are structures.
-const LAYERS: [(&str, u32); 27] = [
+const LAYERS: [(&str, u32); 28] = [
     ("geometry", 0),
     ("nearest", 0),
     ("output", 0),
@@ -27,6 +27,7 @@ const LAYERS: [(&str, u32); 27] = [
     ("golden", 5),
     ("validate", 5),
     ("fetch", 5),
+    ("runner", 5),
     ("registry", 6),
     ("study", 6),
     ("report", 6),

@@ -16,4 +16,9 @@ pub trait Loaded: Send + Sync {
     /// # Panics
     /// If there are not as many slots as rays.
     fn any_hits(&self, hits: &mut [bool]);
+
+    /// Nanoseconds of the last answer, where the structure is [`Remote`](super::Remote) and times itself.
+    fn own_ns(&self) -> Option<u64> {
+        None
+    }
 }

@@ -8,6 +8,7 @@ mod loaded;
 mod observer;
 mod outline;
 mod query;
+mod remote;
 mod shape;
 mod traits;
 
@@ -19,6 +20,7 @@ pub use loaded::Loaded;
 pub use observer::{Observed, Observer};
 pub use outline::{Outline, OutlineNode, Part};
 pub use query::Query;
+pub use remote::Remote;
 pub use shape::TreeShape;
 #[cfg(feature = "suite")]
 pub(crate) use traits::AsTheyAre;

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use super::{Capabilities, Counts, Footprint, Loaded, Observed, Observer, Outline, TreeShape};
+use super::{Capabilities, Counts, Footprint, Loaded, Observed, Observer, Outline, Remote, TreeShape};
 use crate::geometry::{Hit, Mesh, Ray};
 
 /// Why a structure could not be built.
@@ -23,6 +23,9 @@ pub enum BuildError {
     /// What the structure needs of the system is not there; the sentence says what, and how to get it.
     #[error("{0}")]
     Unavailable(String),
+    /// The program that it runs in failed; the clause says how.
+    #[error("{0}")]
+    Remote(String),
     /// The rays need what the structure declines.
     #[error("declined: it has no {0}, which these rays need")]
     Declined(&'static str),
@@ -168,6 +171,10 @@ pub trait DynAccel: Send + Sync {
     fn footprint(&self) -> Footprint;
     fn shape(&self) -> TreeShape;
     fn outline(&self) -> Option<Outline> {
+        None
+    }
+    /// What is known of it besides, where it answers in a process of its own.
+    fn remote(&self) -> Option<&dyn Remote> {
         None
     }
 }

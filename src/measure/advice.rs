@@ -72,6 +72,22 @@ impl Conditions {
     }
 }
 
+/// What the time that passed outside may be, as a multiple of what a program says itself.
+const OWN_CLOCK: std::ops::RangeInclusive<f64> = 0.95..=1.25;
+
+/// A sentence about the own clock of the structure `label`, where it and ours disagree.
+pub fn of_own_clock(label: &str, outside: f64) -> Option<String> {
+    if OWN_CLOCK.contains(&outside) {
+        return None;
+    }
+    let why = if outside < 1.0 {
+        "its seconds are none, or are those of several threads together: say the time that elapses"
+    } else {
+        "it leaves work out of its passes, or another program wants its core: look at what it times, or repeat the run"
+    };
+    Some(format!("{label}: as seen from outside, its passes take {outside:.2} times as long as it says: {why}"))
+}
+
 /// Modified z-scores beyond this are outliers (Iglewicz, Hoaglin, "How to detect and handle outliers", 1993).
 const OUTLIER: f64 = 3.5;
 

@@ -2,6 +2,7 @@
 
 mod aa_noise;
 pub mod advice;
+mod answers;
 mod beta;
 mod clock;
 mod estimate;
@@ -14,6 +15,7 @@ mod pass;
 mod pin;
 pub mod program;
 mod provenance;
+mod remote_pass;
 mod samples;
 mod student;
 mod summary;
@@ -22,6 +24,7 @@ pub mod tiles;
 mod variance;
 
 pub use aa_noise::AaNoise;
+pub use answers::checksum;
 pub use beta::beta_quantile;
 pub use clock::{Clock, CpuClock, Stopwatch, SystemClock};
 pub use estimate::{Estimate, Interval};
@@ -29,9 +32,10 @@ pub use events::EventCounter;
 pub use interval::{Rerun, epoch_values, log_ratios};
 pub use memory::{CountingAllocator, peak_bytes};
 pub use order::RandomOrder;
-pub use pass::{Pass, checksum, spread};
-pub use pin::{Pin, keep_to};
+pub use pass::{Pass, spread};
+pub use pin::{Pin, keep_to, on_all_cores};
 pub use provenance::{Provenance, quoted, words};
+pub use remote_pass::RemotePass;
 pub use samples::{Part, Plan, Samples, Timed, UnsteadyAnswers, begin, take};
 pub use student::{LEVEL, factor, holm, two_sided};
 pub use summary::{geometric_mean, median};

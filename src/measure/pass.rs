@@ -6,108 +6,11 @@ use std::time::{Duration, Instant};
 
 use rayon::prelude::*;
 
+use super::answers::{Answers, Slots};
 use super::tiles::{TILE, tiles};
 use super::{RandomOrder, Stopwatch, Threads, Timed};
 use crate::accel::{DynAccel, Loaded, Query};
-use crate::geometry::{Hit, PrimId, Ray};
-
-enum Answers {
-    Closest(Vec<Option<Hit>>),
-    Any(Vec<bool>),
-}
-
-enum Slots<'a> {
-    Closest(&'a mut [Option<Hit>]),
-    Any(&'a mut [bool]),
-}
-
-impl Answers {
-    fn none(query: Query) -> Self {
-        match query {
-            Query::Closest => Self::Closest(vec![]),
-            Query::Any => Self::Any(vec![]),
-        }
-    }
-
-    fn resize(&mut self, count: usize) {
-        match self {
-            Self::Closest(hits) => hits.resize(count, None),
-            Self::Any(hits) => hits.resize(count, false),
-        }
-    }
-
-    /// Answers that no structure gives, or `otherwise` none.
-    fn fill(&mut self, otherwise: bool) {
-        let nowhere = Hit { t: f32::NAN, prim: PrimId::new(0) };
-        match self {
-            Self::Closest(hits) => hits.fill(otherwise.then_some(nowhere)),
-            Self::Any(hits) => hits.fill(otherwise),
-        }
-    }
-
-    fn first(&mut self, count: usize) -> Slots<'_> {
-        match self {
-            Self::Closest(hits) => Slots::Closest(&mut hits[..count]),
-            Self::Any(hits) => Slots::Any(&mut hits[..count]),
-        }
-    }
-
-    fn checksum(&self, of: Range<usize>) -> u64 {
-        let number = |hit: &Hit| u64::from(hit.t.to_bits()) << 32 | u64::from(hit.prim.index());
-        match self {
-            Self::Closest(hits) => checksum(hits[of].iter().map(|hit| hit.as_ref().map_or(u64::MAX, number))),
-            Self::Any(hits) => checksum(hits[of].iter().map(|&hit| hit.into())),
-        }
-    }
-
-    fn len(&self) -> usize {
-        match self {
-            Self::Closest(hits) => hits.len(),
-            Self::Any(hits) => hits.len(),
-        }
-    }
-}
-
-impl<'a> Slots<'a> {
-    fn split(self, count: usize) -> (Self, Self) {
-        match self {
-            Self::Closest(hits) => {
-                let (own, rest) = hits.split_at_mut(count);
-                (Self::Closest(own), Self::Closest(rest))
-            }
-            Self::Any(hits) => {
-                let (own, rest) = hits.split_at_mut(count);
-                (Self::Any(own), Self::Any(rest))
-            }
-        }
-    }
-
-    /// Asks a piece, as many rays as there are slots.
-    fn ask(self, piece: &Piece) {
-        match self {
-            Self::Closest(hits) => piece.rays.closest_hits(hits),
-            Self::Any(hits) => piece.rays.any_hits(hits),
-        }
-    }
-
-    fn ask_all(self, pieces: &[Piece]) {
-        pieces.iter().fold(self, |slots, piece| {
-            let (own, rest) = slots.split(piece.count);
-            own.ask(piece);
-            rest
-        });
-    }
-
-    fn share(self, pieces: &[&Piece], threads: &Threads) {
-        let mut work = Vec::with_capacity(pieces.len());
-        pieces.iter().fold(self, |slots, &piece| {
-            let (own, rest) = slots.split(piece.count);
-            work.push((piece, own));
-            rest
-        });
-        threads.install(|| work.into_par_iter().for_each(|(piece, slots)| slots.ask(piece)));
-    }
-}
+use crate::geometry::Ray;
 
 /// Neighbouring rays that are handed over together, [`TILE`] at most.
 struct Piece<'a> {
@@ -117,9 +20,22 @@ struct Piece<'a> {
     levels: u32,
 }
 
-/// FNV-1a over numbers (Fowler, Noll, Vo).
-pub fn checksum(numbers: impl Iterator<Item = u64>) -> u64 {
-    numbers.fold(0xcbf2_9ce4_8422_2325, |sum, number| (sum ^ number).wrapping_mul(0x0000_0100_0000_01b3))
+fn ask_all(slots: Slots, pieces: &[Piece]) {
+    pieces.iter().fold(slots, |slots, piece| {
+        let (own, rest) = slots.split(piece.count);
+        own.ask(piece.rays.as_ref());
+        rest
+    });
+}
+
+fn share(slots: Slots, pieces: &[&Piece], threads: &Threads) {
+    let mut work = Vec::with_capacity(pieces.len());
+    pieces.iter().fold(slots, |slots, &piece| {
+        let (own, rest) = slots.split(piece.count);
+        work.push((piece, own));
+        rest
+    });
+    threads.install(|| work.into_par_iter().for_each(|(piece, slots)| slots.ask(piece.rays.as_ref())));
 }
 
 /// `count` of `rays`, in order: one from each of `count` parts of equal length, at a seeded random place in it, so that the
@@ -276,12 +192,12 @@ impl Timed for Pass<'_> {
         let start = Instant::now();
         let mut count = self.lead_in.iter().map(|piece| piece.count).sum();
         if self.threads.count() > 1 {
-            self.aside.first(count).share(&self.lead_in.iter().collect::<Vec<_>>(), self.threads);
+            share(self.aside.first(count), &self.lead_in.iter().collect::<Vec<_>>(), self.threads);
         } else {
             let is_whole = self.answers.len() == self.all.len();
             let pieces = self.lead_in.iter().take_while(|_| is_whole || start.elapsed() < LEAD_IN);
             count = pieces.fold(0, |done, piece| {
-                self.aside.first(done + piece.count).split(done).1.ask(piece);
+                self.aside.first(done + piece.count).split(done).1.ask(piece.rays.as_ref());
                 done + piece.count
             });
         }
@@ -298,7 +214,7 @@ impl Timed for Pass<'_> {
                 let of_level = |piece: &&Piece| piece.levels >> level & 1 == 1;
                 let pieces: Vec<&Piece> = self.pieces.iter().filter(of_level).collect();
                 let slots = self.answers.first(pieces.iter().map(|piece| piece.count).sum());
-                ns[level] = watch.time(|| slots.share(&pieces, self.threads));
+                ns[level] = watch.time(|| share(slots, &pieces, self.threads));
             }
             return ns;
         }
@@ -313,13 +229,13 @@ impl Timed for Pass<'_> {
                 {
                     (rays, run) = (rays - first.count, rest);
                 }
-                self.aside.first(rays).ask_all(run);
+                ask_all(self.aside.first(rays), run);
                 continue;
             }
             let count = run.iter().map(|piece| piece.count).sum();
             let (own, others) = rest.split(count);
             rest = others;
-            let took = watch.time(|| own.ask_all(run));
+            let took = watch.time(|| ask_all(own, run));
             (0..self.levels).filter(|level| run[0].levels >> level & 1 == 1).for_each(|level| ns[level] += took);
         }
         ns

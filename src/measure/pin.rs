@@ -60,9 +60,29 @@ pub fn choose(threads: usize) -> Option<Vec<usize>> {
     Some(cores)
 }
 
+/// Does `work`, which starts a program, where that may use all cores that the first thread of this process may: a program
+/// gets those of the thread that starts it.
+pub fn on_all_cores<R>(work: impl FnOnce() -> R) -> R {
+    let _pin = first_thread_allowed().zip(allowed()).map(|(all, before)| {
+        bind(&all);
+        Pin { before }
+    });
+    work()
+}
+
 #[cfg(target_os = "linux")]
 fn allowed() -> Option<Vec<usize>> {
-    let set = sched_getaffinity(THIS_THREAD).ok()?;
+    allowed_for(THIS_THREAD)
+}
+
+#[cfg(target_os = "linux")]
+fn first_thread_allowed() -> Option<Vec<usize>> {
+    allowed_for(Pid::this())
+}
+
+#[cfg(target_os = "linux")]
+fn allowed_for(thread: Pid) -> Option<Vec<usize>> {
+    let set = sched_getaffinity(thread).ok()?;
     Some((0..CpuSet::count()).filter(|&core| set.is_set(core).unwrap_or(false)).collect())
 }
 
@@ -75,6 +95,11 @@ pub(super) fn bind(cores: &[usize]) -> bool {
 
 #[cfg(not(target_os = "linux"))]
 fn allowed() -> Option<Vec<usize>> {
+    None
+}
+
+#[cfg(not(target_os = "linux"))]
+fn first_thread_allowed() -> Option<Vec<usize>> {
     None
 }
 
@@ -97,6 +122,17 @@ mod tests {
         assert_eq!(allowed().unwrap(), before);
         assert!(Pin::to(usize::MAX).is_none(), "there is no such core");
         assert_eq!(allowed().unwrap(), before);
+    }
+
+    #[test]
+    fn a_bound_thread_starts_programs_that_are_not() {
+        let before = allowed().unwrap();
+        // The first thread of the tests is bound to nothing.
+        let first = first_thread_allowed().unwrap();
+        let pin = Pin::to(before[0]).unwrap();
+        assert_eq!(on_all_cores(|| allowed().unwrap()), first);
+        assert_eq!(allowed().unwrap(), [before[0]]);
+        drop(pin);
     }
 
     #[test]

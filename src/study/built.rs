@@ -1,7 +1,7 @@
 use std::sync::Arc;
 
 use super::StudyError;
-use crate::accel::DynAccel;
+use crate::accel::{DynAccel, Remote};
 use crate::measure::{Clock, CpuClock, Threads, median, peak_bytes};
 use crate::registry::Choice;
 use crate::scene::Scene;
@@ -10,7 +10,7 @@ use crate::scene::Scene;
 pub struct Built {
     pub choice: Choice,
     pub accel: Box<dyn DynAccel>,
-    /// Nanoseconds, seen from outside; the median where there were several builds.
+    /// Nanoseconds, seen from outside unless it times itself; the median where there were several builds.
     pub build_ns: u64,
     /// Most bytes held during the first build; nothing where they were not counted.
     pub peak_bytes: Option<usize>,
@@ -26,11 +26,12 @@ impl Built {
     }
 
     /// Likewise, and counts what the first build holds, which takes it less time than builds differ by. What is less than the structure
-    /// itself was not seen: its memory is C++'s.
+    /// itself was not seen: its memory is C++'s, or another process's.
     pub fn counted(choice: &Choice, scene: &Scene, threads: &Threads, clock: &dyn Clock) -> Result<Self, StudyError> {
         let (first, peak) = peak_bytes(|| Self::once(choice, scene, threads, clock));
         let first = first?;
-        let peak_bytes = peak.filter(|&peak| peak >= first.accel.footprint().total());
+        let is_seen = |peak: &usize| first.accel.remote().is_none() && *peak >= first.accel.footprint().total();
+        let peak_bytes = peak.filter(is_seen);
         Self { peak_bytes, ..first }.again(scene, threads, clock)
     }
 
@@ -58,6 +59,7 @@ impl Built {
             scene: scene.name.clone(),
             cause,
         })?;
+        let build_ns = accel.remote().map_or(build_ns, Remote::build_ns);
         Ok(Self { choice: choice.clone(), accel, build_ns, peak_bytes: None })
     }
 }

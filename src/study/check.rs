@@ -9,7 +9,7 @@ use crate::accel::{DynAccel, Query};
 use crate::geometry::{Hit, Ray};
 use crate::measure::spread;
 use crate::scene::{Scene, Workload};
-use crate::validate::{Reference, validate_known};
+use crate::validate::{Reference, Validation, validate_answers, validate_any_answers, validate_known};
 
 /// What of a workload a structure declines, if anything is: then it has no time.
 pub fn declined(accel: &dyn DynAccel, workload: &Workload) -> Option<&'static str> {
@@ -52,15 +52,15 @@ struct Known {
 }
 
 /// Holds every structure against brute force with its own triangle test, on rays of each batch that are evenly spread.
-/// One row for each structure, one check for each batch; nothing for a structure that panicked.
+/// One row for each structure, one check for each workload; nothing for a structure that panicked.
 pub fn check_all(
     scene: &Scene,
     built: &[Built],
-    batches: &[&[Ray]],
+    workloads: &[Workload],
     progress: &mut dyn FnMut(Stage),
 ) -> Result<Vec<Option<Vec<Check>>>, StudyError> {
-    let spread = |rays: &&[Ray]| spread(rays, affordable(rays.len(), scene.mesh.len()));
-    let batches: Vec<Vec<Ray>> = batches.iter().map(spread).collect();
+    let spread = |of: &Workload| spread(&of.rays, affordable(of.rays.len(), scene.mesh.len()));
+    let batches: Vec<Vec<Ray>> = workloads.iter().map(spread).collect();
     let mut all: BTreeMap<&'static str, Known> = BTreeMap::new();
     let mut checks = vec![];
     for built in built {
@@ -78,17 +78,45 @@ pub fn check_all(
         let Known { reference, answers } = &all[test];
         // Brute force is held against itself: that it repeats itself is seen on a few rays.
         let most = if built.choice.entry.name == BRUTE_FORCE { FEWEST } else { MOST };
-        let of_batch = |(rays, answers): (&Vec<Ray>, &Vec<Option<Hit>>)| -> Option<Check> {
+        let of_batch = |((rays, answers), workload): ((&Vec<Ray>, &Vec<Option<Hit>>), &Workload)| -> Option<Check> {
             let step = rays.len().div_ceil(most).max(1);
             let rays: Vec<Ray> = rays.iter().copied().step_by(step).collect();
             let answers: Vec<Option<Hit>> = answers.iter().copied().step_by(step).collect();
-            let found = validate_known(built.accel.as_ref(), reference, &answers, &scene.mesh, &rays);
+            let accel = built.accel.as_ref();
+            let found = match accel.remote() {
+                Some(_) => validate_remote(accel, reference, &answers, scene, &rays, workload.query),
+                None => validate_known(accel, reference, &answers, &scene.mesh, &rays),
+            };
             let errors = found.errors().min(found.rays) as usize;
             (found.panics == 0).then_some(Check { rays: found.rays as usize, errors })
         };
-        checks.push(batches.iter().zip(answers).map(of_batch).collect());
+        checks.push(batches.iter().zip(answers).zip(workloads).map(of_batch).collect());
     }
     Ok(checks)
+}
+
+/// As [`validate_known`], of a structure of which each question takes time: only what is timed is asked, once.
+fn validate_remote(
+    accel: &dyn DynAccel,
+    reference: &Reference,
+    expected: &[Option<Hit>],
+    scene: &Scene,
+    rays: &[Ray],
+    query: Query,
+) -> Validation {
+    match query {
+        Query::Closest => {
+            let mut found = vec![None; rays.len()];
+            accel.closest_hits(rays, &mut found);
+            validate_answers(reference, expected, &scene.mesh, rays, &found)
+        }
+        Query::Any if !accel.capabilities().any_hit => Validation::default(),
+        Query::Any => {
+            let mut found = vec![false; rays.len()];
+            accel.any_hits(rays, &mut found);
+            validate_any_answers(reference, expected, &scene.mesh, rays, &found)
+        }
+    }
 }
 
 #[cfg(test)]

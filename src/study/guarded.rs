@@ -1,6 +1,6 @@
 //! Structures of others may panic on a ray as on a mesh: one of them must not end a run over many.
 
-use std::cell::Cell;
+use std::cell::RefCell;
 use std::panic::{self, AssertUnwindSafe};
 use std::rc::Rc;
 
@@ -36,18 +36,29 @@ pub fn guarded<R>(ask: impl FnOnce() -> R) -> Option<R> {
     panic::catch_unwind(AssertUnwindSafe(ask)).ok()
 }
 
+/// Why a pass means nothing, once it has failed.
+pub(super) type Failure = Rc<RefCell<Option<String>>>;
+
 /// A pass that survives a panic of its structure: from then on it does nothing and says so.
 pub(super) struct Guarded<'a> {
     pass: Pass<'a>,
     levels: usize,
-    panicked: Rc<Cell<bool>>,
+    failure: Failure,
 }
 
 impl<'a> Guarded<'a> {
-    /// The pass, and whether it has panicked.
-    pub fn new(pass: Pass<'a>) -> (Self, Rc<Cell<bool>>) {
-        let panicked = Rc::default();
-        (Self { pass, levels: 1, panicked: Rc::clone(&panicked) }, panicked)
+    /// The pass, and that it has panicked, once it has.
+    pub fn new(pass: Pass<'a>) -> (Self, Failure) {
+        let failure = Failure::default();
+        (Self { pass, levels: 1, failure: Rc::clone(&failure) }, failure)
+    }
+
+    fn has_panicked(&self) -> bool {
+        self.failure.borrow().is_some()
+    }
+
+    fn panics(&self) {
+        *self.failure.borrow_mut() = Some(PANICKED.into());
     }
 }
 
@@ -58,8 +69,8 @@ impl Timed for Guarded<'_> {
 
     fn choose(&mut self, levels: &[usize], epoch: usize) {
         self.levels = levels.len();
-        if !self.panicked.get() && guarded(|| self.pass.choose(levels, epoch)).is_none() {
-            self.panicked.set(true);
+        if !self.has_panicked() && guarded(|| self.pass.choose(levels, epoch)).is_none() {
+            self.panics();
         }
     }
 
@@ -68,22 +79,24 @@ impl Timed for Guarded<'_> {
     }
 
     fn lead_in(&mut self) {
-        if !self.panicked.get() && guarded(|| self.pass.lead_in()).is_none() {
-            self.panicked.set(true);
+        if !self.has_panicked() && guarded(|| self.pass.lead_in()).is_none() {
+            self.panics();
         }
     }
 
     fn run(&mut self, watch: &Stopwatch) -> Vec<u64> {
-        let ns = if self.panicked.get() { None } else { guarded(|| self.pass.run(watch)) };
-        self.panicked.set(ns.is_none());
-        ns.unwrap_or_else(|| vec![0; self.levels])
+        let ns = if self.has_panicked() { None } else { guarded(|| self.pass.run(watch)) };
+        ns.unwrap_or_else(|| {
+            self.panics();
+            vec![0; self.levels]
+        })
     }
 
     fn checksum(&self) -> u64 {
-        if self.panicked.get() { 0 } else { self.pass.checksum() }
+        if self.has_panicked() { 0 } else { self.pass.checksum() }
     }
 
     fn contradicts_itself(&self) -> bool {
-        !self.panicked.get() && self.pass.contradicts_itself()
+        !self.has_panicked() && self.pass.contradicts_itself()
     }
 }

@@ -172,16 +172,27 @@ impl Drop for Guard {
     fn drop(&mut self) {
         // It has ended, or nobody listens any more.
         let mut child = locked(&self.0);
-        let _ = child.kill();
+        kill(&mut child);
         let _ = child.wait();
     }
+}
+
+/// Ends a process, and with it the programs that it has started.
+fn kill(child: &mut Child) {
+    // Until it has been waited for, the number is that of its own group and of no other.
+    #[cfg(target_os = "linux")]
+    if matches!(child.try_wait(), Ok(None)) {
+        let group = nix::unistd::Pid::from_raw(child.id() as i32);
+        let _ = nix::sys::signal::killpg(group, nix::sys::signal::Signal::SIGKILL);
+    }
+    let _ = child.kill();
 }
 
 /// Ends the process that measures, if one does: the run is told that it has ended without an answer.
 pub fn end() {
     ENDED.store(true, Ordering::SeqCst);
     if let Some(child) = locked(&LAST).upgrade() {
-        let _ = locked(&child).kill();
+        kill(&mut locked(&child));
     }
 }
 

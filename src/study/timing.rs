@@ -3,7 +3,7 @@
 use super::StudyError;
 use super::built::Built;
 use super::guarded::Guarded;
-use crate::measure::{Clock, CpuClock, Part, Pass, Plan, Samples, Threads, Timed, begin, take};
+use crate::measure::{Clock, CpuClock, Part, Pass, Plan, RemotePass, Samples, Threads, Timed, begin, take};
 use crate::scene::{Scene, Workload};
 
 /// What is timed together: a structure and a workload, by their numbers.
@@ -31,8 +31,8 @@ pub(super) struct Timing<'a> {
 
 pub(super) struct Taken {
     pub samples: Vec<Samples>,
-    /// Which of them panicked: their samples mean nothing.
-    pub panicked: Vec<bool>,
+    /// Why the samples of some of them mean nothing.
+    pub failures: Vec<Option<String>>,
 }
 
 impl Timing<'_> {
@@ -49,10 +49,14 @@ impl Timing<'_> {
         let pass = |case: &Case| {
             let workload = &self.workloads[case.workload];
             let accel = self.built[case.structure].accel.as_ref();
-            let (pass, panicked) = Guarded::new(Pass::new(accel, &workload.rays, workload.query, self.threads));
-            (Box::new(pass) as Box<dyn Timed>, panicked)
+            if let Some(remote) = accel.remote() {
+                let (pass, failure) = RemotePass::new(accel, remote, &workload.rays, workload.query);
+                return (Box::new(pass) as Box<dyn Timed>, failure);
+            }
+            let (pass, failure) = Guarded::new(Pass::new(accel, &workload.rays, workload.query, self.threads));
+            (Box::new(pass) as Box<dyn Timed>, failure)
         };
-        let (mut passes, panicked): (Vec<_>, Vec<_>) = cases.iter().map(pass).collect();
+        let (mut passes, failures): (Vec<_>, Vec<_>) = cases.iter().map(pass).collect();
         let _pin = self.threads.pin();
         // What others take of the core is no time of a pass.
         let own = CpuClock::of_thread(self.threads);
@@ -83,7 +87,7 @@ impl Timing<'_> {
                 cause,
             }
         })?;
-        Ok(Taken { samples, panicked: panicked.iter().map(|panicked| panicked.get()).collect() })
+        Ok(Taken { samples, failures: failures.iter().map(|failure| failure.borrow().clone()).collect() })
     }
 }
 

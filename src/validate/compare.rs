@@ -48,13 +48,19 @@ pub fn validate_known(
     Validation::of_batches(rays.len() - admitted.len(), batches)
 }
 
-/// Holds closest hits that were found elsewhere against `reference`: as [`validate`], without what only asking can tell.
+/// Holds closest hits that were found elsewhere against `expected`, the answers of `reference`: as [`validate`], without what
+/// only asking can tell.
 ///
 /// # Panics
 /// If there are not as many answers as rays.
-pub fn validate_answers(reference: &Reference, mesh: &Mesh, rays: &[Ray], found: &[Option<Hit>]) -> Validation {
-    assert_eq!(rays.len(), found.len(), "one answer a ray");
-    let expected = reference.closest_hits(rays);
+pub fn validate_answers(
+    reference: &Reference,
+    expected: &[Option<Hit>],
+    mesh: &Mesh,
+    rays: &[Ray],
+    found: &[Option<Hit>],
+) -> Validation {
+    assert!(rays.len() == found.len() && rays.len() == expected.len(), "one answer a ray");
     let batches = rays.par_chunks(BATCH).zip(found.par_chunks(BATCH)).zip(expected.par_chunks(BATCH));
     let batches: Vec<Validation> = batches
         .map(|((rays, found), expected)| {

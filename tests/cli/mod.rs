@@ -13,6 +13,8 @@ mod rays;
 mod render;
 mod report;
 mod resume;
+#[cfg(unix)]
+mod runner;
 mod study;
 mod validate;
 mod view;

@@ -85,11 +85,12 @@ pub fn check(
     let found = answers.answers(&file.workload).map_err(|problem| anyhow::anyhow!("{name}: {problem}"))?;
     let reference = against.reference(scene, test)?;
     let rays = &file.workload.rays;
+    let expected = reference.closest_hits(rays);
     let found = match answers.query() {
-        Query::Closest => validate_answers(&reference, &scene.mesh, rays, found),
+        Query::Closest => validate_answers(&reference, &expected, &scene.mesh, rays, found),
         Query::Any => {
             let found: Vec<bool> = found.iter().map(Option::is_some).collect();
-            validate_any_answers(&reference, &scene.mesh, rays, &found)
+            validate_any_answers(&reference, &expected, &scene.mesh, rays, &found)
         }
     };
     let notes = scene.notes.iter().cloned().chain(found.worst.iter().map(|worst| format!("{name}: {worst}"))).collect();

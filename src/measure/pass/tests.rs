@@ -6,7 +6,7 @@ use glam::Vec3;
 use super::*;
 use crate::accel::{Accel, Counts, Footprint, Observed, TreeShape};
 use crate::brute_force::BruteForce;
-use crate::geometry::Mesh;
+use crate::geometry::{Hit, Mesh};
 use crate::measure::tiles::rays_at;
 use crate::measure::{Clock, SystemClock};
 use crate::triangle::MollerTrumbore;

@@ -20,6 +20,27 @@ pub struct HitFile {
     hits: Vec<Option<Hit>>,
 }
 
+/// What the head of a file of rays says of them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RaysId {
+    query: Query,
+    hash: [u8; 8],
+    count: usize,
+}
+
+impl RaysId {
+    /// That of the rays of a workload.
+    pub fn of(workload: &Workload) -> Self {
+        let hash = Sha256::digest(workload.bytes())[..8].try_into().expect("eight bytes");
+        Self { query: workload.query, hash, count: workload.rays.len() }
+    }
+
+    /// What they ask.
+    pub fn query(&self) -> Query {
+        self.query
+    }
+}
+
 const MAGIC: &[u8; 8] = b"SAHAHITS";
 
 const NOTHING: u32 = u32::MAX;
@@ -31,8 +52,7 @@ impl HitFile {
     /// If there are not as many answers as rays.
     pub fn new(workload: &Workload, hits: Vec<Option<Hit>>) -> Self {
         assert_eq!(workload.rays.len(), hits.len(), "one answer a ray");
-        let hash = Sha256::digest(workload.bytes())[..8].try_into().expect("eight bytes");
-        Self { query: workload.query, hash, hits }
+        Self { query: workload.query, hash: RaysId::of(workload).hash, hits }
     }
 
     /// # Errors
@@ -57,18 +77,25 @@ impl HitFile {
     /// # Errors
     /// If they answer other rays or another question.
     pub fn answers(&self, workload: &Workload) -> Result<&[Option<Hit>], String> {
-        let own = Self::new(workload, vec![None; workload.rays.len()]);
-        if self.hash != own.hash || self.hits.len() != own.hits.len() {
+        self.answers_to(&RaysId::of(workload))
+    }
+
+    /// Likewise, of rays that are known by their hash.
+    ///
+    /// # Errors
+    /// As [`HitFile::answers`].
+    pub fn answers_to(&self, rays: &RaysId) -> Result<&[Option<Hit>], String> {
+        if self.hash != rays.hash || self.hits.len() != rays.count {
             return Err(format!(
                 "these are {} answers to rays with the hash {}, not to the {} rays with the hash {}",
                 self.hits.len(),
                 hexadecimal(&self.hash),
-                own.hits.len(),
-                hexadecimal(&own.hash)
+                rays.count,
+                hexadecimal(&rays.hash)
             ));
         }
-        if self.query != own.query {
-            let (theirs, ours) = (self.query.name(), own.query.name());
+        if self.query != rays.query {
+            let (theirs, ours) = (self.query.name(), rays.query.name());
             return Err(format!("these are answers to the query {theirs:?}, and the rays ask {ours:?}"));
         }
         Ok(&self.hits)

@@ -2,6 +2,7 @@
 
 mod bytes;
 mod hits;
+mod mesh;
 mod rays;
 #[cfg(test)]
 mod tests;
@@ -12,7 +13,8 @@ use std::path::{Path, PathBuf};
 
 use crate::output::OutputError;
 
-pub use hits::HitFile;
+pub use hits::{HitFile, RaysId};
+pub use mesh::write_mesh;
 pub use rays::RayFile;
 
 /// Why a file of rays or hits cannot be used.

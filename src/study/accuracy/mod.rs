@@ -169,7 +169,7 @@ fn time(
     let total = cases.len() * settings.runs;
     let timing = Timing { scene, built, workloads: &workloads, threads, clock };
     let taken = timing.take(&cases, &plan, None, &mut |taken| progress(Stage::Trace(taken, total)))?;
-    match taken.panicked.iter().position(|&panicked| panicked) {
+    match taken.failures.iter().position(Option::is_some) {
         Some(case) => Err(panicked(&built[cases[case].structure])),
         None => Ok(taken.samples),
     }

@@ -43,6 +43,7 @@ pub fn cases(epochs: usize, noise: f64) -> Vec<Epoch> {
                 label: cell.spec("exact"),
                 name: "median-kd".into(),
                 refused: None,
+                outside: None,
                 build_ns: 1000,
                 shape: Shape {
                     bytes: 4096,

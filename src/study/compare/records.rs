@@ -1,7 +1,7 @@
 //! From epochs to one record a case.
 
 use super::{Compared, twins};
-use crate::measure::advice::{Conditions, of_samples};
+use crate::measure::advice::{Conditions, of_own_clock, of_samples};
 use crate::measure::{Part, Provenance, machine, median};
 use crate::report::{CaseCounts, Record};
 use crate::study::Refused;
@@ -145,5 +145,10 @@ fn warnings(epochs: &[&Epoch], provenance: &Provenance) -> Vec<String> {
     let samples: Vec<Vec<f64>> = all.map(|(place, kind)| samples(rays(epochs, place, kind))).collect();
     let samples: Vec<&[f64]> = samples.iter().map(Vec::as_slice).filter(|samples| !samples.is_empty()).collect();
     warnings.extend(of_samples(&samples));
+    let runners = epochs[0].structures.iter().enumerate().filter_map(|(place, structure)| {
+        let outside = epochs.iter().filter_map(|epoch| epoch.structures.get(place)?.outside);
+        of_own_clock(&structure.label, median(&outside.collect::<Vec<_>>())?)
+    });
+    warnings.extend(runners);
     warnings
 }

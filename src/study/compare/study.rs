@@ -1,5 +1,7 @@
 //! `compare` as a study.
 
+use std::time::Duration;
+
 use serde_json::Value;
 
 use super::{
@@ -10,6 +12,7 @@ use crate::registry::{Choice, Registry};
 use crate::report::document::Block;
 use crate::report::words::distinct;
 use crate::report::{Record, Statement, Table, to_csv, to_json};
+use crate::runner::Program;
 use crate::scene::{Scene, WorkloadKind};
 use crate::study::args::{Measuring, Scenes, Structures, WORKLOADS, with_twin};
 use crate::study::epoch::{Asked, Epoch, Settings, troubles};
@@ -29,6 +32,13 @@ pub struct CompareArgs {
     pub from: ViewArgs,
     #[command(flatten)]
     pub structures: Structures,
+    /// A program that takes part as a structure and times itself, with its arguments; may be repeated. FORMAT.md of the ray files
+    /// says what it reads and writes
+    #[arg(long, value_name = "COMMAND")]
+    pub runner: Vec<String>,
+    /// Seconds that such a program may take for an answer, a build among them
+    #[arg(long, value_name = "SECONDS", default_value_t = RUNNER_LIMIT, value_parser = clap::value_parser!(u32).range(1..=86400))]
+    pub runner_limit: u32,
     /// The structure that speeds are related to; takes part even if it is not among those named [default: median-kd and the better
     /// BVH of obvhs; without them the first one]
     #[arg(long, value_name = "NAME[:key=value,..]")]
@@ -48,6 +58,9 @@ pub struct CompareArgs {
     #[arg(long)]
     pub wide: bool,
 }
+
+/// Seconds that a program may take for an answer.
+const RUNNER_LIMIT: u32 = 120;
 
 /// Epochs and rays of a quick run, and after how long no further epoch of a scene is begun.
 const QUICK_EPOCHS: u16 = 3;
@@ -78,13 +91,38 @@ impl CompareArgs {
     /// The structures, the reference among them, and its label.
     fn chosen(&self, registry: &Registry) -> anyhow::Result<(Vec<Choice>, Option<String>)> {
         let mut structures = self.structures.chosen(registry, &[])?;
+        structures.extend(self.runners()?);
         let Some(spec) = &self.reference else { return Ok((structures, None)) };
+        if let Some(runner) = structures.iter().find(|choice| choice.label == *spec) {
+            let label = runner.label.clone();
+            return Ok((structures, Some(label)));
+        }
         let quality = self.structures.quality.as_deref();
         let choice = sources::structures_at(registry, std::slice::from_ref(spec), quality)?.remove(0);
         if structures.iter().all(|other| other.label != choice.label) {
             structures.push(choice.clone());
         }
         Ok((structures, Some(choice.label)))
+    }
+
+    /// The programs that take part, each once.
+    fn runners(&self) -> anyhow::Result<Vec<Choice>> {
+        let mut programs: Vec<Program> = vec![];
+        for command in &self.runner {
+            let program = Program::new(command, Duration::from_secs(self.runner_limit.into()));
+            let program = program.map_err(|problem| anyhow::anyhow!("--runner {command:?}: {problem}"))?;
+            if let Some(other) = programs.iter().find(|other| other.name() == program.name()) {
+                anyhow::ensure!(
+                    other == &program,
+                    "--runner {command:?} and --runner {:?} have one name, {}: call a file otherwise",
+                    other.command(),
+                    program.name()
+                );
+                continue;
+            }
+            programs.push(program);
+        }
+        Ok(programs.into_iter().map(Choice::of_program).collect())
     }
 
     /// Scenes, and the settings for them.
@@ -135,6 +173,8 @@ impl Study for CompareStudy {
             scenes,
             from: ViewArgs::default(),
             structures: Structures { structure: field.iter().map(|&spec| spec.into()).collect(), quality: None },
+            runner: vec![],
+            runner_limit: RUNNER_LIMIT,
             reference: None,
             workload: vec![],
             rays: RaySource::Count(rays),

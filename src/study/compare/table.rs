@@ -81,7 +81,8 @@ pub fn scene_table(records: &[Record], references: &[Reference], refused: &[Refu
                 label.as_str().into(),
                 duration(of[0].build_ns as f64).into(),
                 of[0].build_peak_bytes.map_or(Cell::blank(), |peak| bytes(peak).into()),
-                bytes(of[0].bytes).into(),
+                // A program that does not know its memory says 0.
+                if of[0].bytes > 0 { bytes(of[0].bytes).into() } else { Cell::blank() },
                 known(of[0].tests_per_ray),
                 known(of[0].steps_per_ray),
             ];

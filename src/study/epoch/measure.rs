@@ -2,8 +2,7 @@
 
 use super::watch::Watch;
 use super::{Circumstances, Epoch, RayCounts, RayDetails, Rays, Settings, Shape, Structure, StructureDetails};
-use crate::accel::DynAccel;
-use crate::geometry::Ray;
+use crate::accel::{DynAccel, Remote};
 use crate::measure::tiles::level_of;
 use crate::measure::{Clock, EventCounter, Part, Plan, Samples, spread};
 use crate::report::CaseCounts;
@@ -29,7 +28,7 @@ pub fn measure(
     clock: &dyn Clock,
     progress: &mut dyn FnMut(Stage),
 ) -> Result<Epoch, StudyError> {
-    let mut bench = Bench::set_up(scene, settings, epoch, clock, progress)?;
+    let mut bench = Bench::set_up(scene, settings, epoch, first, clock, progress)?;
     match first {
         None => bench.check(progress)?,
         Some(first) => bench.resume(first)?,
@@ -73,19 +72,37 @@ impl<'a> Bench<'a> {
         scene: &'a Scene,
         settings: &'a Settings,
         epoch: usize,
+        first: Option<&Epoch>,
         clock: &dyn Clock,
         progress: &mut dyn FnMut(Stage),
     ) -> Result<Self, StudyError> {
         let Settings { structures: choices, threads, seed, .. } = settings;
         let detailed = settings.detailed && epoch == 0;
         let seed = seed.wrapping_add(epoch as u64);
-        let mut placed = Placed::new(choices, scene, threads, clock, seed, detailed, progress);
+        // What was refused in the first epoch would take its time to be refused again.
+        let is_refused = |place: usize| first.is_some_and(|first| first.structures[place].refused.is_some());
+        let asked = || choices.iter().enumerate().filter(|(place, _)| !is_refused(*place)).map(|(_, choice)| choice);
+        let mut placed = Placed::new(asked(), scene, threads, clock, seed, detailed, progress);
+        let mut ready = placed.built.drain(..);
         let (mut structures, mut built, mut places) = (vec![], vec![], vec![]);
-        for (choice, one) in choices.iter().zip(placed.built.drain(..)) {
+        for (place, choice) in choices.iter().enumerate() {
             let (label, name) = (choice.label.clone(), choice.entry.name.clone());
             let shape = Shape::default();
-            let none = Structure { label, name, refused: None, build_ns: 0, shape, rays: vec![], details: None };
-            match one {
+            let none = Structure {
+                label,
+                name,
+                refused: None,
+                build_ns: 0,
+                outside: None,
+                shape,
+                rays: vec![],
+                details: None,
+            };
+            if is_refused(place) {
+                structures.push(none);
+                continue;
+            }
+            match ready.next().expect("as many as are asked for") {
                 Ok(one) => {
                     places.push(structures.len());
                     let details = detailed.then(|| StructureDetails {
@@ -105,6 +122,8 @@ impl<'a> Bench<'a> {
             }
         }
 
+        drop(ready);
+
         // Rays that start on a surface start where the guide finds it.
         let own;
         let guide = match built.iter().find(|built| built.choice.label == settings.guide.label) {
@@ -121,11 +140,11 @@ impl<'a> Bench<'a> {
 
     /// Holds all structures against brute force, and says which are timed on which rays.
     fn check(&mut self, progress: &mut dyn FnMut(Stage)) -> Result<(), StudyError> {
-        let batches: Vec<&[Ray]> = self.workloads.iter().map(|workload| &workload.rays[..]).collect();
-        let checks = check_all(self.scene, &self.built, &batches, progress)?;
+        let checks = check_all(self.scene, &self.built, &self.workloads, progress)?;
         for ((&place, built), checks) in self.places.iter().zip(&self.built).zip(checks) {
-            let Some(checks) = checks else {
-                self.structures[place].refused = Some(PANICKED.into());
+            let failure = built.accel.remote().and_then(Remote::failure);
+            let Some(checks) = checks.filter(|_| failure.is_none()) else {
+                self.structures[place].refused = failure.or(Some(PANICKED.into()));
                 continue;
             };
             for ((workload, hash), check) in self.workloads.iter().zip(&self.hashes).zip(checks) {
@@ -217,15 +236,18 @@ impl<'a> Bench<'a> {
         let timing = Timing { scene: self.scene, built: &self.built, workloads: &self.workloads, threads, clock };
         let _pin = threads.pin();
         let watch = Watch::start(clock, threads.cores().map_or(0, |cores| cores[0]));
-        let Taken { samples, panicked, .. } = timing.take(&cases, &plan, samples, &mut told)?;
+        let Taken { samples, failures } = timing.take(&cases, &plan, samples, &mut told)?;
         let circumstances = watch.end(clock);
 
-        for ((case, samples), panicked) in cases.iter().zip(samples).zip(panicked) {
+        for ((case, samples), failure) in cases.iter().zip(samples).zip(failures) {
             let structure = &mut self.structures[self.places[case.structure]];
-            if panicked {
-                structure.refused = Some(PANICKED.into());
+            let remote = self.built[case.structure].accel.remote();
+            let changed = || remote.filter(|_| !samples.same_answers).map(|_| CHANGED.into());
+            if let Some(why) = failure.or_else(changed) {
+                structure.refused = Some(why);
                 continue;
             }
+            structure.outside = remote.and_then(Remote::outside);
             let rays = &mut structure.rays[case.workload];
             if !samples.same_answers {
                 let (structure, scene) = (structure.label.clone(), self.scene.name.clone());
@@ -254,9 +276,14 @@ impl<'a> Bench<'a> {
                 Some(counted) => keep(&counted, accel, workload, counter.as_mut(), &mut structure.rays[case.workload]),
                 None => structure.refused = Some(PANICKED.into()),
             }
+            let failure = accel.remote().and_then(Remote::failure);
+            structure.refused = structure.refused.take().or(failure);
         }
     }
 }
+
+/// Said of a program that answers otherwise once it is started again.
+const CHANGED: &str = "built again, it gives other answers than before: its times cannot be compared";
 
 /// Keeps what was counted in a pass that is not timed, and its instructions where there is a counter.
 fn keep(
@@ -268,7 +295,9 @@ fn keep(
 ) {
     if let Some(details) = &mut into.details {
         let rays = spread(&workload.rays, counted.rays);
-        let instructions = counter.and_then(|counter| events(counter, accel, &rays, workload.query));
+        let instructions = counter
+            .filter(|_| accel.remote().is_none())
+            .and_then(|counter| events(counter, accel, &rays, workload.query));
         details.leaf_steps_per_ray = counted.leaf_steps_per_ray();
         details.empty_leaf_steps_per_ray = counted.empty_leaf_steps_per_ray();
         details.tests_over_minimum = counted.tests_over_minimum();

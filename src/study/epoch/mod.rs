@@ -19,7 +19,7 @@ use serde_json::Value;
 use super::StudyError;
 use crate::accel::Query;
 use crate::measure::{Part, Threads};
-use crate::registry::Choice;
+use crate::registry::{Choice, RUNNER};
 use crate::report::CaseCounts;
 use crate::report::words::scene_name;
 use crate::scene::Scene;
@@ -63,6 +63,8 @@ struct Kept {
     runs: usize,
     budget_ns: u64,
     seed: u64,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    runners: Vec<Value>,
 }
 
 impl Settings {
@@ -70,6 +72,7 @@ impl Settings {
     pub fn kept(&self) -> impl Serialize + use<> {
         let structures: Vec<&str> = self.structures.iter().map(|choice| choice.label.as_str()).collect();
         let (workloads, rays) = self.asked.kept();
+        let runners = self.structures.iter().filter(|choice| choice.entry.name == RUNNER);
         Kept {
             structures: structures.join(" "),
             workloads,
@@ -77,6 +80,7 @@ impl Settings {
             runs: self.runs,
             budget_ns: self.budget_ns,
             seed: self.seed,
+            runners: runners.map(|choice| choice.config.clone()).collect(),
         }
     }
 }
@@ -117,8 +121,11 @@ pub struct Structure {
     pub name: String,
     /// Why it takes no part: a sentence. What follows is then empty.
     pub refused: Option<String>,
-    /// Nanoseconds of the build, seen from outside.
+    /// Nanoseconds of the build, seen from outside unless it times itself.
     pub build_ns: u64,
+    /// How long its passes took as seen from outside, as a multiple of what it says itself, where it times itself.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub outside: Option<f64>,
     pub shape: Shape,
     pub rays: Vec<Rays>,
     /// In a detailed first epoch.

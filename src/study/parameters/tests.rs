@@ -35,6 +35,7 @@ fn cases(scene: &str, epochs: usize, slower: f64, noise: f64) -> Vec<Epoch> {
                 label: i.to_string(),
                 name: REPORT_TREE.into(),
                 refused: None,
+                outside: None,
                 build_ns: 10,
                 shape: Shape { bytes: 100, leaves: 1, references: 12, depth: 0, sah_cost: None },
                 details: None,

@@ -109,7 +109,10 @@ impl Court {
         }
         let reference = &self.references[test];
         let known = reference.knows_structure_errors();
-        let own = known.then(|| validate_answers(reference, &set.mesh, &set.rays, &answers.hits));
+        let own = known.then(|| {
+            let expected = reference.closest_hits(&set.rays);
+            validate_answers(reference, &expected, &set.mesh, &set.rays, &answers.hits)
+        });
 
         let inexact = truths.iter().zip(&answers.hits).filter(|(truth, hit)| match (truth, hit) {
             (Some(truth), Some(hit)) => {

@@ -1,0 +1,91 @@
+//! The answers to rays, of either query.
+
+use std::ops::Range;
+
+use crate::accel::{Loaded, Query};
+use crate::geometry::{Hit, PrimId};
+
+pub(super) enum Answers {
+    Closest(Vec<Option<Hit>>),
+    Any(Vec<bool>),
+}
+
+pub(super) enum Slots<'a> {
+    Closest(&'a mut [Option<Hit>]),
+    Any(&'a mut [bool]),
+}
+
+impl Answers {
+    pub fn none(query: Query) -> Self {
+        match query {
+            Query::Closest => Self::Closest(vec![]),
+            Query::Any => Self::Any(vec![]),
+        }
+    }
+
+    pub fn resize(&mut self, count: usize) {
+        match self {
+            Self::Closest(hits) => hits.resize(count, None),
+            Self::Any(hits) => hits.resize(count, false),
+        }
+    }
+
+    /// Answers that no structure gives, or `otherwise` none.
+    pub fn fill(&mut self, otherwise: bool) {
+        let nowhere = Hit { t: f32::NAN, prim: PrimId::new(0) };
+        match self {
+            Self::Closest(hits) => hits.fill(otherwise.then_some(nowhere)),
+            Self::Any(hits) => hits.fill(otherwise),
+        }
+    }
+
+    pub fn first(&mut self, count: usize) -> Slots<'_> {
+        match self {
+            Self::Closest(hits) => Slots::Closest(&mut hits[..count]),
+            Self::Any(hits) => Slots::Any(&mut hits[..count]),
+        }
+    }
+
+    pub fn checksum(&self, of: Range<usize>) -> u64 {
+        let number = |hit: &Hit| u64::from(hit.t.to_bits()) << 32 | u64::from(hit.prim.index());
+        match self {
+            Self::Closest(hits) => checksum(hits[of].iter().map(|hit| hit.as_ref().map_or(u64::MAX, number))),
+            Self::Any(hits) => checksum(hits[of].iter().map(|&hit| hit.into())),
+        }
+    }
+
+    pub fn len(&self) -> usize {
+        match self {
+            Self::Closest(hits) => hits.len(),
+            Self::Any(hits) => hits.len(),
+        }
+    }
+}
+
+impl<'a> Slots<'a> {
+    pub fn split(self, count: usize) -> (Self, Self) {
+        match self {
+            Self::Closest(hits) => {
+                let (own, rest) = hits.split_at_mut(count);
+                (Self::Closest(own), Self::Closest(rest))
+            }
+            Self::Any(hits) => {
+                let (own, rest) = hits.split_at_mut(count);
+                (Self::Any(own), Self::Any(rest))
+            }
+        }
+    }
+
+    /// Asks a batch, as many rays as there are slots.
+    pub fn ask(self, rays: &dyn Loaded) {
+        match self {
+            Self::Closest(hits) => rays.closest_hits(hits),
+            Self::Any(hits) => rays.any_hits(hits),
+        }
+    }
+}
+
+/// FNV-1a over numbers (Fowler, Noll, Vo).
+pub fn checksum(numbers: impl Iterator<Item = u64>) -> u64 {
+    numbers.fold(0xcbf2_9ce4_8422_2325, |sum, number| (sum ^ number).wrapping_mul(0x0000_0100_0000_01b3))
+}

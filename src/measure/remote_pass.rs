@@ -1,0 +1,143 @@
+//! A structure in a process of its own answering one workload.
+
+use std::borrow::Cow;
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::rc::Rc;
+
+use super::answers::Answers;
+use super::tiles::tiles;
+use super::{Stopwatch, Timed};
+use crate::accel::{DynAccel, Loaded, Query, Remote};
+use crate::geometry::Ray;
+
+/// As [`Pass`](super::Pass), for a structure that is [`Remote`]: it has all rays of a level at once, since each question takes
+/// time, and its time is what it says itself. A failure is kept and told, and ends nothing.
+pub struct RemotePass<'a> {
+    accel: &'a dyn DynAccel,
+    remote: &'a dyn Remote,
+    all: &'a [Ray],
+    /// Of each level.
+    batches: Vec<Batch<'a>>,
+    /// The last rays of the workload, an eighth of those that are timed.
+    lead_in: Option<Batch<'a>>,
+    answers: Answers,
+    aside: Answers,
+    /// Which rays these are, the largest level and the epoch, and the checksums of their answers.
+    chosen: (usize, usize),
+    checksums: BTreeMap<(usize, usize), u64>,
+    /// Whether the lead-in's answers are answers of the pass as well.
+    led_in: bool,
+    failure: Rc<RefCell<Option<String>>>,
+}
+
+struct Batch<'a> {
+    rays: Box<dyn Loaded + 'a>,
+    count: usize,
+}
+
+/// Of what is timed, the share that a lead-in has.
+const LEAD_IN_SHARE: usize = 8;
+
+const UNSTEADY: &str = "asked the same rays again, it gives other answers: the structure is not pure";
+
+impl<'a> RemotePass<'a> {
+    /// A pass over all rays, and why it failed, once it has.
+    ///
+    /// # Panics
+    /// If there are no rays.
+    pub fn new(
+        accel: &'a dyn DynAccel,
+        remote: &'a dyn Remote,
+        rays: &'a [Ray],
+        query: Query,
+    ) -> (Self, Rc<RefCell<Option<String>>>) {
+        assert!(!rays.is_empty(), "a pass has rays");
+        let failure = Rc::<RefCell<Option<String>>>::default();
+        let mut pass = Self {
+            accel,
+            remote,
+            all: rays,
+            batches: vec![],
+            lead_in: None,
+            answers: Answers::none(query),
+            aside: Answers::none(query),
+            chosen: (0, 0),
+            checksums: BTreeMap::new(),
+            led_in: false,
+            failure: Rc::clone(&failure),
+        };
+        pass.choose(&[0], 0);
+        (pass, failure)
+    }
+
+    /// Whether it has failed, now or before.
+    fn has_failed(&self) -> bool {
+        let failure = &mut *self.failure.borrow_mut();
+        *failure = failure.take().or_else(|| self.remote.failure());
+        failure.is_some()
+    }
+}
+
+impl Timed for RemotePass<'_> {
+    fn rays(&self) -> usize {
+        self.all.len()
+    }
+
+    fn choose(&mut self, levels: &[usize], epoch: usize) {
+        let batch = |&level: &usize| {
+            let rays: Vec<Ray> =
+                tiles(self.all.len(), level, epoch).into_iter().flat_map(|tile| &self.all[tile]).copied().collect();
+            Batch { count: rays.len(), rays: self.accel.load(Cow::Owned(rays)) }
+        };
+        let batches: Vec<Batch> = levels.iter().map(batch).collect();
+        let count = batches[0].count / LEAD_IN_SHARE;
+        let last = &self.all[self.all.len() - count..];
+        self.lead_in = (count > 0).then(|| Batch { rays: self.accel.load(Cow::Borrowed(last)), count });
+        self.answers.resize(batches.iter().map(|batch| batch.count).max().unwrap_or(0));
+        self.aside.resize(count);
+        (self.batches, self.chosen) = (batches, (levels[0], epoch));
+    }
+
+    fn clear(&mut self) {
+        self.led_in = false;
+    }
+
+    fn lead_in(&mut self) {
+        if let Some(batch) = self.lead_in.as_ref().filter(|_| !self.has_failed()) {
+            self.aside.first(batch.count).ask(batch.rays.as_ref());
+            self.led_in = self.batches[0].count == self.all.len();
+        }
+    }
+
+    fn run(&mut self, _: &Stopwatch) -> Vec<u64> {
+        let mut ns = vec![0; self.batches.len()];
+        // The first level comes last, and its answers stay.
+        for (batch, ns) in self.batches.iter().zip(&mut ns).rev() {
+            if self.has_failed() {
+                break;
+            }
+            self.answers.first(batch.count).ask(batch.rays.as_ref());
+            *ns = batch.rays.own_ns().unwrap_or(0);
+        }
+        if !self.has_failed() {
+            let (all, led_in) = (self.batches[0].count, self.aside.len());
+            let checksum = self.answers.checksum(0..all);
+            let first = *self.checksums.entry(self.chosen).or_insert(checksum);
+            let contradicts = || self.aside.checksum(0..led_in) != self.answers.checksum(all - led_in..all);
+            if first != checksum || self.led_in && contradicts() {
+                *self.failure.borrow_mut() = Some(UNSTEADY.into());
+            }
+        }
+        ns
+    }
+
+    /// Of the first pass over these rays: of others the failure tells.
+    fn checksum(&self) -> u64 {
+        self.checksums.get(&self.chosen).copied().unwrap_or(0)
+    }
+
+    fn contradicts_itself(&self) -> bool {
+        false
+    }
+}

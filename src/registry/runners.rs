@@ -1,0 +1,33 @@
+//! Programs that take part as structures.
+
+use std::sync::Arc;
+
+use serde_json::json;
+
+use super::{Choice, Entry};
+use crate::accel::{Capabilities, DynAccel, Observed};
+use crate::runner::{Program, Runner};
+
+/// What all of them are called; each has its command as configuration.
+pub const RUNNER: &str = "runner";
+
+impl Choice {
+    /// The structure that `program` is. Its label says whose clock times it.
+    pub fn of_program(program: Program) -> Self {
+        let label = format!("{} (own clock)", program.name());
+        let config = json!({ "command": program.command(), "build": program.build_id(), "clock": "own" });
+        let build = move |mesh: &Arc<_>, _: &_| {
+            Runner::build(&program, mesh).map(|runner| Box::new(runner) as Box<dyn DynAccel>)
+        };
+        let entry = Entry {
+            name: RUNNER.into(),
+            triangle_test: "own",
+            observed: Observed::NONE,
+            conventions: &[],
+            capabilities: Capabilities::ALL,
+            config: config.clone(),
+            build: Arc::new(build),
+        };
+        Self { entry, config, label }
+    }
+}

@@ -1,0 +1,118 @@
+//! Structures in other languages: programs that build, answer and time themselves. What is said between them and this
+//! one stands in [`crate::scene::files`].
+
+mod conversation;
+mod program;
+mod ray_set;
+#[cfg(test)]
+mod tests;
+
+use std::borrow::Cow;
+use std::sync::Mutex;
+
+use tempfile::TempDir;
+
+use self::conversation::{misfit, nanoseconds};
+use self::ray_set::{RaySet, State, locked};
+use crate::accel::{BuildError, Capabilities, Counts, DynAccel, Footprint, Loaded, Observed, Remote, TreeShape};
+use crate::geometry::{Hit, Mesh, Ray};
+use crate::measure::median;
+use crate::scene::files::write_mesh;
+
+pub use program::Program;
+
+/// A structure that a [`Program`] has built.
+pub struct Runner {
+    state: Mutex<State>,
+    /// Of the files that both read and write.
+    folder: TempDir,
+    capabilities: Capabilities,
+    build_ns: u64,
+    bytes: usize,
+    triangles: usize,
+}
+
+impl Runner {
+    /// Starts the program and has it build over `mesh`.
+    ///
+    /// # Errors
+    /// If it cannot be started, does not keep to the protocol, or says why it cannot.
+    pub fn build(program: &Program, mesh: &Mesh) -> Result<Self, BuildError> {
+        Self::begin(program, mesh).map_err(BuildError::Remote)
+    }
+
+    fn begin(program: &Program, mesh: &Mesh) -> Result<Self, String> {
+        let (mut conversation, capabilities) = program.start(rayon::current_num_threads())?;
+        let folder = tempfile::Builder::new().prefix("sahara-runner-").tempdir();
+        let folder = folder.map_err(|cause| format!("no folder for its files can be made: {cause}"))?;
+        let path = folder.path().join("scene.ply");
+        write_mesh(mesh, &path).map_err(|cause| format!("cannot write {}: {cause}", path.display()))?;
+        let (request, form) = (format!("scene {}", path.display()), "built SECONDS BYTES");
+        let answer = conversation.ask(&request)?.text;
+        let read = || {
+            let (seconds, bytes) = answer.strip_prefix("built ")?.split_once(' ')?;
+            Some((nanoseconds(seconds)?, bytes.parse().ok()?))
+        };
+        let (build_ns, bytes) = read().ok_or_else(|| misfit(&request, &answer, form))?;
+        let _ = std::fs::remove_file(path);
+        let state = State::new(conversation);
+        Ok(Self { state: Mutex::new(state), folder, capabilities, build_ns, bytes, triangles: mesh.len() })
+    }
+}
+
+impl Remote for Runner {
+    fn build_ns(&self) -> u64 {
+        self.build_ns
+    }
+
+    fn failure(&self) -> Option<String> {
+        locked(&self.state).failure.clone()
+    }
+
+    fn outside(&self) -> Option<f64> {
+        median(&locked(&self.state).outside)
+    }
+}
+
+impl DynAccel for Runner {
+    fn closest_hits(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
+        self.load(Cow::Borrowed(rays)).closest_hits(hits);
+    }
+
+    fn any_hits(&self, rays: &[Ray], hits: &mut [bool]) {
+        self.load(Cow::Borrowed(rays)).any_hits(hits);
+    }
+
+    fn closest_hits_counted(&self, rays: &[Ray], hits: &mut [Option<Hit>], _: &mut Counts) {
+        DynAccel::closest_hits(self, rays, hits);
+    }
+
+    fn any_hits_counted(&self, rays: &[Ray], hits: &mut [bool], _: &mut Counts) {
+        DynAccel::any_hits(self, rays, hits);
+    }
+
+    fn load<'a>(&'a self, rays: Cow<'a, [Ray]>) -> Box<dyn Loaded + 'a> {
+        Box::new(RaySet::new(&self.state, self.folder.path(), rays))
+    }
+
+    fn observed(&self) -> Observed {
+        Observed::NONE
+    }
+
+    fn capabilities(&self) -> Capabilities {
+        self.capabilities
+    }
+
+    fn footprint(&self) -> Footprint {
+        Footprint { other: self.bytes, ..Footprint::default() }
+    }
+
+    /// Nothing is known of it: it is one leaf.
+    fn shape(&self) -> TreeShape {
+        TreeShape { leaves: 1, references: self.triangles, largest_leaf: self.triangles, ..TreeShape::default() }
+    }
+
+    fn remote(&self) -> Option<&dyn Remote> {
+        Some(self)
+    }
+}

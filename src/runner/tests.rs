@@ -1,0 +1,38 @@
+use std::time::Duration;
+
+use glam::Vec3;
+
+use super::*;
+use crate::scene::load;
+
+#[test]
+fn seconds_are_finite_and_not_negative() {
+    assert_eq!(
+        [nanoseconds("0.001"), nanoseconds("2"), nanoseconds("1e-7")],
+        [1_000_000, 2_000_000_000, 100].map(Some)
+    );
+    for wrong in ["nan", "inf", "-0.5", "1e300", "", "1 s"] {
+        assert_eq!(nanoseconds(wrong), None, "{wrong}");
+    }
+}
+
+#[test]
+fn a_program_is_called_by_its_file_and_arguments() {
+    let name = |command: &str| Program::new(command, Duration::from_secs(10)).map(|program| program.name());
+    let echo = "sh -c 'echo runner 1 closest any; cat > /dev/null'";
+    assert_eq!(name(&format!("/bin/{echo}")).unwrap(), "sh -c echo runner 1 closest any; cat > /dev/null");
+    assert!(name("'").unwrap_err().contains("in quotes"));
+    assert!(name("sh -c 'echo runner 2 closest'").unwrap_err().contains("runner 1 closest any"));
+}
+
+#[test]
+fn a_mesh_is_written_as_it_is_read() {
+    let positions = vec![Vec3::ZERO, Vec3::X, Vec3::new(0.1, -2.5e-30, 3e7), Vec3::Y];
+    let mesh = Mesh::new(positions, vec![[0, 1, 2], [2, 2, 3], [3, 0, 1]]).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mesh.ply");
+    write_mesh(&mesh, &path).unwrap();
+    let read = load(&path).unwrap();
+    assert_eq!((&read.positions[..], &read.triangles[..]), (mesh.positions(), mesh.triangles()));
+    assert_eq!(std::fs::metadata(&path).unwrap().len(), 178 + 4 * 12 + 3 * 13);
+}

@@ -1,0 +1,178 @@
+//! `sahara compare --runner`: programs of others, good ones and bad ones.
+
+use std::fs;
+use std::os::unix::fs::PermissionsExt;
+use std::path::Path;
+use std::process::Command;
+
+use serde_json::Value;
+use tempfile::TempDir;
+
+use super::command::{RIGHT, WRONG, path_text, prints, refuses_in_a_line, sahara, stderr, stdout, write};
+
+const EXAMPLE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/runner/brute_force.cpp");
+
+/// Compiles the example, its text changed; nothing where there is no compiler.
+fn compiled(folder: &TempDir, name: &str, change: impl Fn(String) -> String) -> Option<String> {
+    if Command::new("c++").arg("--version").output().is_err() {
+        println!("skipped: there is no C++ compiler, `c++`, here");
+        return None;
+    }
+    let (source, program) = (folder.path().join(format!("{name}.cpp")), folder.path().join(name));
+    fs::write(&source, change(fs::read_to_string(EXAMPLE).unwrap())).unwrap();
+    let flags = ["-std=c++17", "-O2", "-Wall", "-Werror", "-o"];
+    let output = Command::new("c++").args(flags).args([&program, &source]).output().unwrap();
+    assert!(output.status.success(), "{}", stderr(&output));
+    Some(path_text(&program))
+}
+
+const SMALL: [&str; 13] =
+    ["compare", "cube", "-s", "sah-kd", "-w", "primary", "-w", "shadow", "--rays", "400", "--epochs", "2", "--runner"];
+
+fn records(folder: &TempDir, args: &[&str]) -> (Option<i32>, String, Vec<Value>) {
+    let file = path_text(&folder.path().join("r.json"));
+    let output = sahara(&[args, &["--export-json", &file]].concat());
+    let records = serde_json::from_slice(&fs::read(file).unwrap()).unwrap();
+    let words = stdout(&output) + &stderr(&output);
+    (output.status.code(), words.split_whitespace().collect::<Vec<_>>().join(" "), records)
+}
+
+#[test]
+fn the_example_of_the_document_is_timed_beside_ours() {
+    let folder = TempDir::new().unwrap();
+    let Some(program) = compiled(&folder, "brute_force", |text| text) else { return };
+    let lines = fs::read_to_string(EXAMPLE).unwrap().lines().count();
+    let document = include_str!("../../src/scene/files/FORMAT.md");
+    assert!(lines <= 71 && document.contains("tests/runner/brute_force.cpp") && document.contains("70 lines"));
+
+    let (status, text, records) = records(&folder, &[&SMALL[..], &[&format!("'{program}' --any-argument")]].concat());
+    assert_eq!(status, Some(RIGHT), "{text}");
+    assert!(text.contains("brute_force --any-argument (own clock)"), "{text}");
+    let (ours, theirs) = records.split_at(records.len() / 2);
+    assert_eq!((theirs.len(), &theirs[0]["structure"]), (2, &"runner".into()), "{text}");
+    for (ours, theirs) in ours.iter().zip(theirs) {
+        assert_eq!((&theirs["structure_errors"], &theirs["config"]["clock"]), (&0.into(), &"own".into()), "{theirs}");
+        assert!(theirs["checked_rays"].as_u64() > Some(1000) && theirs["trace_ns"].as_f64() > Some(0.0), "{theirs}");
+        assert!(theirs["bytes"].as_u64() > Some(0) && theirs["tests_per_ray"].is_null(), "{theirs}");
+        for same in ["workload_hash", "epochs", "query"] {
+            assert_eq!(ours[same], theirs[same]);
+        }
+        // Their samples are of the same rounds, and hardly any ray hits by one test and not by the other.
+        assert!(theirs["samples_ns"].as_array().unwrap().len() >= 2, "{theirs}");
+        let hits = |record: &Value| record["hits"].as_f64().unwrap();
+        assert!((hits(ours) - hits(theirs)).abs() <= 0.001 * hits(ours), "{ours} {theirs}");
+    }
+}
+
+#[test]
+fn wrong_answers_of_a_program_cost_it_its_time_alone() {
+    let folder = TempDir::new().unwrap();
+    let Some(program) = compiled(&folder, "loses", |text| text.replace("u >= 0 &&", "u >= 0.5 &&")) else { return };
+    let (status, text, records) = records(&folder, &[&SMALL[..], &[&program]].concat());
+    assert_eq!(status, Some(WRONG), "{text}");
+    assert!(text.contains("loses (own clock)") && text.contains(" wrong"), "{text}");
+    let (ours, theirs) = records.split_at(records.len() / 2);
+    assert!(ours.iter().all(|record| record["trace_ns"].as_f64() > Some(0.0)), "{text}");
+    assert!(theirs.iter().all(|r| r["trace_ns"].is_null() && r["structure_errors"].as_u64() > Some(0)), "{text}");
+}
+
+/// Says that nothing is hit, and misbehaves as its argument says.
+const NOTHING: &str = r#"#!/bin/sh
+while read -r word set path; do
+    case $word in
+    sahara) echo "runner 1 closest" ;;
+    scene)
+        [ "$1" = unbuilt ] && exit 7
+        [ "$1" = refuses ] && echo "error it holds no more than two triangles" && continue
+        echo "built 0.001 0" ;;
+    rays)
+        tail -c +9 "$path" | head -c 24 > "${path%.rays}.head"
+        od -A n -t u8 -j 16 -N 8 "$path" | tr -d ' ' > "${path%.rays}.count"
+        echo "loaded $(od -A n -t u8 -j 16 -N 8 "$path" | tr -d ' ')" ;;
+    pass)
+        [ "$1" = dies ] && exit 3
+        [ "$1" = hangs ] && exec sleep 600
+        [ "$1" = liar ] && sleep 0.05
+        case $1 in nan) echo "passed nan" ;; backwards) echo "passed -1" ;; *) echo "passed 0.001" ;; esac
+        [ "$1" = chatters ] && echo "that was quick" ;;
+    hits)
+        count=$(cat "${path%.hits}.count")
+        [ "$1" = few ] && cut=8
+        { printf SAHAHITS; cat "${path%.hits}.head"; head -c $((8 * count - cut)) /dev/zero | tr '\0' '\377'; } > "$path"
+        echo "written $count" ;;
+    esac
+done
+"#;
+
+fn nothing(folder: &TempDir) -> String {
+    let path = write(folder, "nothing.sh", NOTHING);
+    fs::set_permissions(&path, fs::Permissions::from_mode(0o755)).unwrap();
+    path
+}
+
+#[test]
+fn a_program_that_fails_is_refused_in_a_sentence_and_the_others_go_on() {
+    let folder = TempDir::new().unwrap();
+    let program = nothing(&folder);
+    let failures = [
+        ("unbuilt", "it ends instead of answering \"scene "),
+        ("refuses", "it says: it holds no more than two triangles"),
+        ("dies", "(exit status: 3)"),
+        ("hangs", "it does not answer \"pass 0\" within 1 s"),
+        ("nan", "it answers \"passed nan\" to \"pass 0\", not \"passed SECONDS\""),
+        ("backwards", "it answers \"passed -1\""),
+        ("chatters", "\"that was quick\""),
+        ("few", "its hits are not to be had: "),
+    ];
+    let commands: Vec<String> = failures.iter().map(|(how, _)| format!("{program} {how}")).collect();
+    let runners: Vec<&str> = commands.iter().flat_map(|command| ["--runner", command]).collect();
+    let small = ["compare", "cube", "-s", "sah-kd", "-w", "primary", "--rays", "256", "--epochs", "2"];
+    let (status, text, records) = records(&folder, &[&small[..], &["--runner-limit", "1"], &runners].concat());
+    assert_eq!(status, Some(5), "{text}");
+    assert!(!text.contains("panicked"), "{text}");
+    for (how, sentence) in failures {
+        let label = format!("nothing.sh {how} (own clock): ");
+        let said = text.split(&label).nth(1).unwrap_or_else(|| panic!("{label} in {text}"));
+        let said = &said[..said.len().min(400)];
+        assert!(said.contains(sentence), "{how}: {said}");
+    }
+    assert_eq!(records.len(), 1, "{text}");
+    assert_eq!((&records[0]["label"], &records[0]["epochs"]), (&"sah-kd".into(), &2.into()));
+    assert!(records[0]["trace_ns"].as_f64() > Some(0.0), "{text}");
+}
+
+#[test]
+fn a_clock_that_disagrees_with_ours_is_told_and_what_it_declines_is_not_asked() {
+    let folder = TempDir::new().unwrap();
+    let program = nothing(&folder);
+    let rays = path_text(&folder.path().join("away.rays"));
+    let text = write(&folder, "away.txt", &"9,9,9 0,0,1\n".repeat(100));
+    for (how, any, part) in [("liar", None, "times as long as it says"), ("honest", Some("--any"), "declines any hit")]
+    {
+        let import = ["rays", "import", &text, "-o", &rays, "--scene", "cube"];
+        prints(&import.into_iter().chain(any).collect::<Vec<_>>());
+        let runner = format!("{program} {how}");
+        let args = ["compare", "--rays", &rays, "-s", "sah-kd", "--epochs", "2", "--runs", "2", "--runner", &runner];
+        let (status, text, records) = records(&folder, &args);
+        assert_eq!((status, records.len()), (Some(RIGHT), 2), "{text}");
+        assert!(text.contains(&format!("nothing.sh {how} (own clock)")) && text.contains(part), "{text}");
+        assert_eq!(records[1]["trace_ns"].is_null(), any.is_some(), "{text}");
+    }
+}
+
+#[test]
+fn what_is_no_runner_is_refused_before_anything_is_measured() {
+    let compare = |command| ["compare", "cube", "--runner", command];
+    refuses_in_a_line(&compare("./no-such-program -x"), &["./no-such-program -x", "cannot be started"]);
+    refuses_in_a_line(&compare("true"), &["\"true\"", "it ends instead of answering \"sahara 1 1\""]);
+    refuses_in_a_line(&compare("cat"), &["it answers \"sahara 1 1\"", "runner 1 closest any"]);
+    refuses_in_a_line(&compare("'open"), &["in quotes"]);
+    refuses_in_a_line(&compare(""), &["in quotes"]);
+    let folder = TempDir::new().unwrap();
+    let one = nothing(&folder);
+    fs::create_dir(folder.path().join("b")).unwrap();
+    let other = path_text(&folder.path().join("b/nothing.sh"));
+    fs::copy(Path::new(&one), &other).unwrap();
+    let both = ["compare", "cube", "--runner", &one, "--runner", &other];
+    refuses_in_a_line(&both, &["have one name, nothing.sh"]);
+}
