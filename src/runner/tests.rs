@@ -34,5 +34,14 @@ fn a_mesh_is_written_as_it_is_read() {
     write_mesh(&mesh, &path).unwrap();
     let read = load(&path).unwrap();
     assert_eq!((&read.positions[..], &read.triangles[..]), (mesh.positions(), mesh.triangles()));
-    assert_eq!(std::fs::metadata(&path).unwrap().len(), 178 + 4 * 12 + 3 * 13);
+    let bytes = std::fs::read(&path).unwrap();
+    let (header, body) = bytes.split_at(bytes.len() - 4 * 12 - 3 * 13);
+    let header = String::from_utf8(header.into()).unwrap();
+    // A line each, as the document says.
+    let document = include_str!("../scene/files/FORMAT.md");
+    for line in header.lines() {
+        let line = line.replace("vertex 4", "vertex N").replace("face 3", "face M");
+        assert!(document.split_whitespace().collect::<Vec<_>>().join(" ").contains(&format!("`{line}`")), "{line}");
+    }
+    assert!(header.ends_with("end_header\n") && body[48] == 3);
 }
