@@ -24,6 +24,34 @@ pub fn download(name: &str, bytes: Option<u64>, terminal: &Terminal) -> Progress
     bar
 }
 
+/// How often what takes long is seen to go on.
+const TICK: Duration = Duration::from_secs(1);
+
+/// Says what is done and for how long already, until it is dropped; for work that nobody times.
+pub struct Waiting(ProgressBar);
+
+impl Waiting {
+    pub fn show(what: String, terminal: &Terminal) -> Self {
+        let target = if terminal.quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
+        let bar = ProgressBar::with_draw_target(None, target);
+        bar.set_style(ProgressStyle::with_template("{elapsed:>4} {wide_msg}").expect("the template is valid"));
+        bar.set_message(what);
+        bar.enable_steady_tick(TICK);
+        Self(bar)
+    }
+
+    /// Now something else is done.
+    pub fn says(&self, what: String) {
+        self.0.set_message(what);
+    }
+}
+
+impl Drop for Waiting {
+    fn drop(&mut self) {
+        self.0.finish_and_clear();
+    }
+}
+
 /// Steps of the bar for each unit of work.
 const STEPS: u64 = 100;
 
@@ -108,7 +136,8 @@ impl Progress {
     pub fn scene(&mut self, name: &str, work: u64) {
         (self.scene, self.work) = (name.into(), work);
         self.bar.set_message(name.to_owned());
-        self.bar.tick();
+        // A process of its own loads it now.
+        self.bar.enable_steady_tick(TICK);
     }
 
     /// A scene says what it does.
@@ -122,6 +151,11 @@ impl Progress {
             }
         };
         let text = format!("{} {text}", self.scene);
+        // Nothing is drawn while samples are taken.
+        match stage {
+            Stage::Trace(..) => self.bar.disable_steady_tick(),
+            _ => self.bar.enable_steady_tick(TICK),
+        }
         // Between samples the watch is not woken.
         match stage {
             Stage::Build(_) | Stage::Check(_) => self.watched(Some(&text)),
@@ -172,18 +206,22 @@ impl Progress {
 /// The progress bar and the tables of a study.
 pub struct OnTerminal<'a> {
     terminal: &'a Terminal,
+    /// Until it is known what is measured.
+    loading: Option<Waiting>,
     progress: Option<Progress>,
     _listening: Listening,
 }
 
 impl<'a> OnTerminal<'a> {
     pub fn new(terminal: &'a Terminal) -> Self {
-        Self { terminal, progress: None, _listening: Listening::begin() }
+        let loading = Some(Waiting::show("loads scenes".into(), terminal));
+        Self { terminal, loading, progress: None, _listening: Listening::begin() }
     }
 }
 
 impl Screen for OnTerminal<'_> {
     fn begin(&mut self, work: u64) {
+        self.loading = None;
         self.progress = Some(Progress::over(work, self.terminal));
     }
 

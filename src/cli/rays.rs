@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use anyhow::Context;
 use clap::Subcommand;
 
+use super::progress::Waiting;
 use super::terminal::Terminal;
 use crate::accel::Query;
 use crate::geometry::Ray;
@@ -88,10 +89,15 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
 
 fn record(registry: &Registry, args: &Record, terminal: &Terminal) -> anyhow::Result<Status> {
     let output = sources::output(&args.output, std::slice::from_ref(&args.scene), None)?;
+    let waiting = Waiting::show(format!("loads {}", args.scene), terminal);
     let scene = sources::scene(&args.scene)?;
-    let guide = sources::guide(registry)?.build(&scene.mesh)?;
+    let guide = sources::guide(registry)?;
+    waiting.says(format!("{} builds {}", scene.name, guide.label));
+    let guide = guide.build(&scene.mesh)?;
+    waiting.says(format!("{} makes {} rays", scene.name, args.workload.name()));
     let sampling = Sampling::some(&scene, args.rays, args.seed);
     let workload = Workload::new(&scene, args.workload, &sampling, guide.as_ref());
+    drop(waiting);
     anyhow::ensure!(!workload.rays.is_empty(), "{} has no {} rays: nothing to record", scene.name, workload.name);
     finish(&RayFile::new(&scene, workload), &output, terminal)
 }

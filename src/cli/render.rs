@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Context;
 
+use super::progress::Waiting;
 use super::terminal::Terminal;
 use crate::accel::Observed;
 use crate::registry::Registry;
@@ -39,10 +40,13 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     let choice = sources::structure(registry, &args.structure)?;
     let file = sources::output(&args.output, std::slice::from_ref(&args.scene), None)?;
     is_png(&args.output)?;
+    let waiting = Waiting::show(format!("loads {}", args.scene), terminal);
     let scene = args.from.of(sources::scene(&args.scene)?)?;
     let size = scene.size;
 
+    waiting.says(format!("{} builds {}", scene.name, choice.label));
     let accel = choice.build(&scene.mesh)?;
+    waiting.says(format!("{} is drawn by {}", scene.name, choice.label));
     let scale = match (args.view, args.hottest) {
         (ViewKind::Heat, None) => common_scale(registry, &scene, size)?,
         (_, hottest) => hottest.unwrap_or(1).max(1),
@@ -55,6 +59,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
         };
         Ok((picture, errors))
     });
+    drop(waiting);
     let (picture, errors) = drawn.with_context(|| format!("{}: {PANICKED}", choice.label))??;
     file.write(&picture.png())?;
 

@@ -111,6 +111,14 @@ impl Provenance {
         Self { pinned, clock, governor: machine::governor(core), ..Self::capture(threads.count()) }
     }
 
+    /// A warning, where there are more threads than processors.
+    pub fn too_many_threads(&self) -> Option<String> {
+        let Self { threads, cores, .. } = self;
+        (threads > cores).then(|| {
+            format!("{threads} threads share {cores} cores: they take turns, and times are those of neither number; ask for {cores} at most")
+        })
+    }
+
     /// One line for the foot of a table.
     pub fn line(&self) -> String {
         let threads = if self.threads == 1 { "1 thread".into() } else { format!("{} threads", self.threads) };
@@ -179,6 +187,14 @@ mod tests {
         assert_eq!(quoted(""), "''");
         let arguments = ["sahara", "a b.ply", "it's", "", "--camera", "0,0,1 0,0,0", "\\", "c.ply"];
         assert_eq!(words(&arguments.map(quoted).join(" ")), arguments);
+    }
+
+    #[test]
+    fn more_threads_than_cores_are_told() {
+        let here = Provenance { cores: 2, ..Provenance::capture(2) };
+        assert_eq!(here.too_many_threads(), None);
+        let warning = Provenance { threads: 3, ..here }.too_many_threads().unwrap();
+        assert!(warning.contains("3 threads") && warning.contains("2 cores"), "{warning}");
     }
 
     #[test]

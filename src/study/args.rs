@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::ValueEnum;
 
+use super::baselines::takes_minutes;
 use super::epoch::{Asked, Settings};
 use super::{BRUTE_FORCE, Effort, REPORT_TREE, SAH_TREE, rays_or_all, sources};
 use crate::measure::Threads;
@@ -92,6 +93,13 @@ impl Structures {
         let own: Vec<String> = own.iter().map(|&name| name.into()).collect();
         let named = if self.structure.is_empty() { &own } else { &self.structure };
         sources::structures_at(registry, named, self.quality.as_deref())
+    }
+
+    /// Whether one of the chosen structures is left out among so many triangles: it would take minutes, and was not named.
+    pub fn leaves_out(&self, choice: &Choice, triangles: usize) -> bool {
+        let is_named =
+            |spec: &String| spec.split(':').next().is_some_and(|name| name.eq_ignore_ascii_case(BRUTE_FORCE));
+        takes_minutes(choice, triangles) && !self.structure.iter().any(is_named)
     }
 }
 
@@ -249,5 +257,20 @@ mod tests {
         assert_eq!(of(&["brute-force", "sah-bvh"]), ["brute-force", "sah-bvh", "sah-bvh"]);
         assert_eq!(of(&["median-kd"]), ["median-kd", "median-kd"]);
         assert!(of(&[]).is_empty());
+    }
+
+    #[test]
+    fn brute_force_takes_part_in_a_large_scene_only_where_it_is_named() {
+        let registry = Registry::builtin();
+        let left_out = |named: &[&str], triangles| {
+            let structures = Structures { structure: named.iter().map(|&name| name.into()).collect(), quality: None };
+            let mut chosen = structures.chosen(&registry, &[]).unwrap();
+            chosen.retain(|choice| structures.leaves_out(choice, triangles));
+            chosen.into_iter().map(|choice| choice.label).collect::<Vec<_>>()
+        };
+        assert_eq!(left_out(&[], 10_000_000), [BRUTE_FORCE]);
+        assert_eq!(left_out(&["all"], 10_000_000), [BRUTE_FORCE]);
+        assert!(left_out(&[], 1_000_000).is_empty() && left_out(&["sah-kd"], 10_000_000).is_empty());
+        assert!(left_out(&["all", "Brute-Force:test=exact"], 10_000_000).is_empty());
     }
 }

@@ -1,7 +1,26 @@
 //! The structures that others are compared with, where they take part.
 
+use crate::registry::Choice;
+use crate::scene::Scene;
+
 /// Every ray against every triangle.
 pub const BRUTE_FORCE: &str = "brute-force";
+
+/// Among more triangles brute force takes ten milliseconds and more for a ray: it takes part only where it is named.
+const MANY: usize = 1 << 22;
+
+/// Said of a scene with so many.
+pub fn left_out(scene: &Scene) -> String {
+    format!(
+        "{}: {BRUTE_FORCE} is left out, which would take minutes among so many triangles: --structure {BRUTE_FORCE} asks for it",
+        scene.name
+    )
+}
+
+/// Whether `choice` would take minutes among so many triangles.
+pub fn takes_minutes(choice: &Choice, triangles: usize) -> bool {
+    choice.entry.name == BRUTE_FORCE && triangles > MANY
+}
 
 /// The report's tree.
 pub const REPORT_TREE: &str = "median-kd";

@@ -105,17 +105,9 @@ fn validate_remote(
     query: Query,
 ) -> Validation {
     match query {
-        Query::Closest => {
-            let mut found = vec![None; rays.len()];
-            accel.closest_hits(rays, &mut found);
-            validate_answers(reference, expected, &scene.mesh, rays, &found)
-        }
+        Query::Closest => validate_answers(reference, expected, &scene.mesh, rays, &accel.closest(rays)),
         Query::Any if !accel.capabilities().any_hit => Validation::default(),
-        Query::Any => {
-            let mut found = vec![false; rays.len()];
-            accel.any_hits(rays, &mut found);
-            validate_any_answers(reference, expected, &scene.mesh, rays, &found)
-        }
+        Query::Any => validate_any_answers(reference, expected, &scene.mesh, rays, &accel.any(rays)),
     }
 }
 

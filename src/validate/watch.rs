@@ -14,7 +14,7 @@ use super::asked::{Asked, Call, message};
 use super::compare::{BATCH, validate_batch};
 use super::{Kind, Reference, Validation};
 use crate::accel::DynAccel;
-use crate::geometry::{Mesh, Ray};
+use crate::geometry::{Hit, Mesh, Ray};
 
 /// How long a structure may take for its build, or for 256 rays, where nobody says otherwise: far longer than any that ends.
 pub const LIMIT: Duration = Duration::from_secs(120);
@@ -55,6 +55,8 @@ struct Job {
     reference: Arc<Reference>,
     mesh: Arc<Mesh>,
     rays: Vec<Ray>,
+    /// What the reference answers.
+    expected: Vec<Option<Hit>>,
     next: AtomicUsize,
 }
 
@@ -66,35 +68,41 @@ struct Place {
 }
 
 impl Job {
-    fn batch(&self, number: usize) -> Option<&[Ray]> {
-        self.rays.chunks(BATCH).nth(number)
+    /// Rays, and what is expected of them.
+    fn batch(&self, number: usize) -> Option<(&[Ray], &[Option<Hit>])> {
+        self.rays.chunks(BATCH).zip(self.expected.chunks(BATCH)).nth(number)
     }
 
     fn run(&self, number: usize, asked: &Asked) -> Option<Validation> {
-        let rays = self.batch(number)?;
-        let expected = self.reference.closest_hits(rays);
-        Some(validate_batch(self.subject.as_ref(), &self.reference, &expected, &self.mesh, rays, asked))
+        let (rays, expected) = self.batch(number)?;
+        Some(validate_batch(self.subject.as_ref(), &self.reference, expected, &self.mesh, rays, asked))
     }
 }
 
 /// As [`validate`](super::validate), but a structure that takes longer than `limit` for one question, a ray or 256 of them,
-/// is given up: the ray is named, and what was compared until then stands.
+/// is given up: the ray is named, and what was compared until then stands. `expected` are the answers of `reference` to `rays`.
 ///
 /// Runs on as many threads of its own as the machine has processors. One that hangs is left behind.
 pub fn validate_watched(
     subject: &Arc<dyn DynAccel>,
     reference: &Arc<Reference>,
+    expected: &[Option<Hit>],
     mesh: &Arc<Mesh>,
     rays: &[Ray],
     limit: Duration,
 ) -> Validation {
-    let admitted = subject.capabilities().admitted(rays).into_owned();
+    assert_eq!(rays.len(), expected.len(), "one answer a ray");
+    let can = subject.capabilities();
+    let known = rays.iter().copied().zip(expected.iter().copied());
+    let (admitted, expected): (Vec<Ray>, Vec<Option<Hit>>) =
+        known.filter(|(ray, _)| can.declines(ray).is_none()).unzip();
     let declined = rays.len() - admitted.len();
     let job = Arc::new(Job {
         subject: Arc::clone(subject),
         reference: Arc::clone(reference),
         mesh: Arc::clone(mesh),
         rays: admitted,
+        expected,
         next: AtomicUsize::new(0),
     });
 
@@ -129,12 +137,11 @@ pub fn validate_watched(
         let overdue = |place: &Arc<Place>| Some((place.batch.load(Ordering::Relaxed), place.asked.overdue(limit)?));
         // Batches are taken in order: of several that hang the first is named.
         if let Some((number, call)) = places.iter().filter_map(overdue).min_by_key(|(number, _)| *number) {
-            let rays = job.batch(number).expect("it is being asked");
+            let (rays, expected) = job.batch(number).expect("it is being asked");
             let sums = Validation { rays: rays.len() as u64, ..Validation::default() };
             let why = format!("no answer within {limit:?}");
             let first = if let Call::Ray(index) = call { index } else { 0 };
-            let expected = reference.closest_hits(&rays[first..=first])[0];
-            batches.insert(number, sums.ended(expected, rays, call, Kind::Hangs, why));
+            batches.insert(number, sums.ended(expected[first], rays, call, Kind::Hangs, why));
             return Validation::of_batches(declined, batches.into_values());
         }
     }

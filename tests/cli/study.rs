@@ -5,7 +5,7 @@ use std::path::Path;
 
 use sahara::render::Picture;
 
-use super::command::{RIGHT, path_text, refuses, refuses_in_a_line, sahara, stderr, stdout};
+use super::command::{RIGHT, path_text, refuses, refuses_in_a_line, sahara, small, stderr, stdout};
 
 #[test]
 fn accuracy_prints_exports_and_draws_what_it_finds() {
@@ -69,4 +69,15 @@ fn a_study_prints_its_table_and_writes_its_cases() {
 
     refuses(&["study", "nothing"], &["nothing"]);
     refuses_in_a_line(&["study", "self-intersection", "--export-json", "no/such/s.json"], &["no/such/s.json"]);
+}
+
+#[test]
+fn more_threads_than_cores_are_warned_of() {
+    let cores = std::thread::available_parallelism().unwrap().get();
+    let told = |threads: usize| {
+        let threads = threads.to_string();
+        stderr(&sahara(&[&small("cube")[..], &["-s", "sah-kd", "--epochs", "1", "--threads", &threads]].concat()))
+    };
+    assert!(told(cores + 1).contains(&format!("warning: {} threads share {cores} cores", cores + 1)));
+    assert!(!told(cores).contains("threads share"));
 }

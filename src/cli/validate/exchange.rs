@@ -28,7 +28,7 @@ pub fn export(
     let [choice] = structures else {
         anyhow::bail!("a file holds the answers of one structure: name one with --structure");
     };
-    let output = sources::output(output, &args.scenes, args.rays.file())?;
+    let output = sources::output(output, &args.scenes, args.source().file())?;
     let (own, mesh) = (choice.clone(), Arc::clone(&scene.mesh));
     let built = watched(args.limit(), move || own.build(&mesh));
     let accel: Arc<dyn DynAccel> = Arc::from(built.with_context(|| format!("the builder of {}", choice.label))??);

@@ -11,14 +11,16 @@ use std::time::Duration;
 
 use anyhow::Context;
 
+use super::progress::Waiting;
 use super::terminal::Terminal;
 use crate::accel::DynAccel;
-use crate::geometry::Ray;
+use crate::geometry::{Hit, Ray};
 use crate::registry::{Choice, Registry};
 use crate::report::number::{count, plural};
 use crate::report::{Cell, Table, Tone};
 use crate::scene::{Sampling, Scene, Workload, WorkloadKind};
-use crate::study::{BRUTE_FORCE, documented_defect};
+use crate::study::args::Structures;
+use crate::study::{BRUTE_FORCE, documented_defect, left_out};
 use crate::study::{RaySource, replayed};
 use crate::study::{Status, ViewArgs, sources};
 use crate::validate::{LIMIT, Reference, Stratum, Validation, validate_watched, watched};
@@ -38,9 +40,10 @@ pub struct Args {
     /// How much time the builds of eight-wide trees may take, where a structure is named without a quality of its own
     #[arg(long, value_parser = sources::QUALITIES)]
     quality: Option<String>,
-    /// Rays of each scene, shared out among the kinds; or a file of rays to replay
-    #[arg(long, value_name = "N|F.rays", default_value = "10000")]
-    rays: RaySource,
+    /// Rays of each scene, shared out among the kinds; or a file of rays to replay [default: 10000; fewer where brute force would take
+    /// minutes]
+    #[arg(long, value_name = "N|F.rays")]
+    rays: Option<RaySource>,
     /// What is right: `brute-force` with each structure's own triangle test, or another structure (also `brute-force:test=exact`),
     /// judged by exact arithmetic where the two differ
     #[arg(long, value_name = "NAME[:key=value,..]", default_value = BRUTE_FORCE)]
@@ -76,6 +79,15 @@ pub struct Args {
     seed: u64,
 }
 
+/// Rays of a scene where nobody says how many, and the triangle tests that brute force may make for them with each triangle test.
+const ASKED: usize = 10_000;
+const TESTS: usize = 1 << 33;
+
+/// How many rays of a scene of so many triangles are asked where nobody says.
+fn affordable(triangles: usize, against: &Against) -> usize {
+    if against.is_brute_force() { (TESTS / triangles.max(1)).clamp(1, ASKED) } else { ASKED }
+}
+
 pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
     anyhow::ensure!(
         args.test.is_empty() || args.hard.is_some() || args.hits.is_some(),
@@ -86,7 +98,8 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     }
     let structures = sources::structures_at(registry, &args.structure, args.quality.as_deref())?;
     let against = Against::named(registry, &args.against)?;
-    let replay = replayed(&args.rays, &args.scenes)?;
+    let waiting = Waiting::show("loads scenes".into(), terminal);
+    let replay = replayed(&args.source(), &args.scenes)?;
     if replay.is_some() {
         args.from.is_unasked()?;
     }
@@ -108,17 +121,34 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
             (scenes.collect::<anyhow::Result<_>>()?, None)
         }
     };
+    drop(waiting);
 
     let mut verdict = Status::Right;
     for scene in &scenes {
         let rays = match &recorded {
             Some(recorded) => recorded.clone(),
-            None if args.ray.is_empty() => rays(scene, registry, args)?,
+            None if args.ray.is_empty() => {
+                let _waiting = Waiting::show(format!("{} makes rays", scene.name), terminal);
+                rays(scene, registry, args, &against)?
+            }
             None => args.ray.clone(),
         };
         let (mut rows, mut notes, mut answered) = (vec![], scene.notes.clone(), vec![]);
+        let asked = affordable(scene.mesh.len(), &against);
+        if recorded.is_none() && args.rays.is_none() && args.ray.is_empty() && asked < ASKED {
+            notes.push(format!(
+                "about {asked} rays, since brute force would take minutes for {ASKED}: --rays asks for more"
+            ));
+        }
+        let asked = Structures { structure: args.structure.clone(), quality: None };
+        let mut references = References { scene, against: &against, rays: &rays, known: vec![] };
         for choice in &structures {
-            match check(scene, choice, &against, &rays, args.limit())? {
+            if asked.leaves_out(choice, scene.mesh.len()) {
+                notes.push(left_out(scene));
+                continue;
+            }
+            let waiting = Waiting::show(String::new(), terminal);
+            match check(&mut references, choice, args.limit(), &waiting)? {
                 Taken::Compared(accel, found) => {
                     match documented_defect(&choice.entry.name) {
                         _ if !against.refutes(&found) => {}
@@ -160,6 +190,10 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
 }
 
 impl Args {
+    fn source(&self) -> RaySource {
+        self.rays.clone().unwrap_or(RaySource::Count(ASKED))
+    }
+
     fn limit(&self) -> Duration {
         Duration::from_secs(self.limit.into())
     }
@@ -193,13 +227,17 @@ const LEGEND: [&str; 4] = [
 ];
 
 /// Of every kind the same number, at least one.
-fn rays(scene: &Scene, registry: &Registry, args: &Args) -> anyhow::Result<Vec<Ray>> {
+fn rays(scene: &Scene, registry: &Registry, args: &Args, against: &Against) -> anyhow::Result<Vec<Ray>> {
+    let number = match &args.rays {
+        Some(source) => source.clone(),
+        None => RaySource::Count(affordable(scene.mesh.len(), against)),
+    };
     if args.adversarial {
-        let each = args.rays.number()?.div_ceil(Stratum::ALL.len());
+        let each = number.number()?.div_ceil(Stratum::ALL.len());
         return Ok(Stratum::ALL.iter().flat_map(|stratum| stratum.rays(&scene.mesh, each, args.seed)).collect());
     }
     let guide = sources::guide(registry)?.build(&scene.mesh)?;
-    let limit = args.rays.count().div_ceil(WorkloadKind::ALL.len());
+    let limit = number.count().div_ceil(WorkloadKind::ALL.len());
     let sampling = Sampling::some(scene, limit, args.seed);
     let of_kind = |&kind| Workload::new(scene, kind, &sampling, guide.as_ref()).rays;
     Ok(WorkloadKind::ALL.iter().flat_map(of_kind).collect())
@@ -213,8 +251,48 @@ enum Taken {
     Refused(String),
 }
 
-fn check(scene: &Scene, choice: &Choice, against: &Against, rays: &[Ray], limit: Duration) -> anyhow::Result<Taken> {
-    let reference = Arc::new(against.reference(scene, choice.triangle_test())?);
+/// A reference with its answers to the rays of a scene.
+#[derive(Clone)]
+struct Known {
+    test: &'static str,
+    reference: Arc<Reference>,
+    answers: Arc<Vec<Option<Hit>>>,
+}
+
+/// What structures are held against, each asked once.
+struct References<'a> {
+    scene: &'a Scene,
+    against: &'a Against,
+    rays: &'a [Ray],
+    known: Vec<Known>,
+}
+
+impl References<'_> {
+    /// That of a triangle test.
+    fn of(&mut self, test: &'static str, waiting: &Waiting) -> anyhow::Result<Known> {
+        if let Some(known) = self.known.iter().find(|known| known.test == test) {
+            return Ok(known.clone());
+        }
+        let Self { scene, against, rays, .. } = self;
+        let reference = Arc::new(against.reference(scene, test)?);
+        let mut answers = Vec::with_capacity(rays.len());
+        for some in rays.chunks((TOLD / scene.mesh.len().max(1)).max(1)) {
+            let (name, done, all) = (&scene.name, answers.len(), rays.len());
+            waiting.says(format!("{name}: {against} ({test}) answers {done} of {all} rays"));
+            answers.extend(reference.closest_hits(some));
+        }
+        self.known.push(Known { test, reference, answers: Arc::new(answers) });
+        Ok(self.known.last().expect("it was added").clone())
+    }
+}
+
+/// Triangle tests after which brute force says how far it has come: a second's, about.
+const TOLD: usize = 1 << 29;
+
+fn check(references: &mut References, choice: &Choice, limit: Duration, waiting: &Waiting) -> anyhow::Result<Taken> {
+    let Known { reference, answers, .. } = references.of(choice.triangle_test(), waiting)?;
+    let References { scene, rays, .. } = *references;
+    waiting.says(format!("{} builds {}", scene.name, choice.label));
     let (own, mesh) = (choice.clone(), Arc::clone(&scene.mesh));
     // A panic of the builder is caught by the registry: what ends without a result hangs.
     let Ok(built) = watched(limit, move || own.build(&mesh)) else { return Ok(Taken::Hangs) };
@@ -222,7 +300,8 @@ fn check(scene: &Scene, choice: &Choice, against: &Against, rays: &[Ray], limit:
         Ok(accel) => Arc::from(accel),
         Err(error) => return Ok(Taken::Refused(error.to_string())),
     };
-    let found = validate_watched(&accel, &reference, &scene.mesh, rays, limit);
+    waiting.says(format!("{} checks {}", scene.name, choice.label));
+    let found = validate_watched(&accel, &reference, &answers, &scene.mesh, rays, limit);
     Ok(Taken::Compared(accel, found))
 }
 
@@ -252,6 +331,14 @@ impl Against {
                 let refused = || format!("{} cannot be built over {}", choice.label, scene.name);
                 Ok(Reference::structure(built.with_context(refused)?))
             }
+        }
+    }
+
+    /// Whether every ray is held against every triangle.
+    fn is_brute_force(&self) -> bool {
+        match self {
+            Self::SameTest => true,
+            Self::Structure(choice) => choice.entry.name == BRUTE_FORCE,
         }
     }
 
@@ -307,4 +394,17 @@ fn row(label: &str, test: &str, found: &Validation) -> Vec<Cell> {
         count(found.kernel_differences).into(),
         count(found.ties).into(),
     ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn fewer_rays_are_asked_where_brute_force_would_take_minutes() {
+        let registry = Registry::builtin();
+        let [brute, tree] = [BRUTE_FORCE, "sah-kd"].map(|name| Against::named(&registry, name).unwrap());
+        assert_eq!([0, 12, 800_000, 10_000_000].map(|n| affordable(n, &brute)), [ASKED, ASKED, ASKED, 858]);
+        assert_eq!((affordable(10_000_000, &tree), affordable(usize::MAX, &brute)), (ASKED, 1));
+    }
 }

@@ -15,9 +15,10 @@ use crate::report::{Record, Statement, Table, to_csv, to_json};
 use crate::runner::Program;
 use crate::scene::{Scene, WorkloadKind};
 use crate::study::args::{Measuring, Scenes, Structures, WORKLOADS, with_twin};
-use crate::study::epoch::{Asked, Epoch, Settings, troubles};
+use crate::study::epoch::{self, Asked, Epoch, Settings, troubles};
 use crate::study::{
-    Context, Data, Effort, Plan, Printed, RaySource, Refused, SceneId, Study, Trouble, ViewArgs, replayed, sources,
+    BRUTE_FORCE, Context, Data, Effort, Plan, Printed, RaySource, Refused, SceneId, Study, Trouble, ViewArgs, left_out,
+    replayed, sources,
 };
 
 /// The study.
@@ -189,7 +190,16 @@ impl Study for CompareStudy {
         scenes.sort_by_key(|scene| scene.mesh.len());
         let inputs = args.scenes.files().into_iter().chain(args.rays.file().map(Into::into)).collect();
         let epochs = if args.quick { QUICK_EPOCHS } else { args.measuring.epochs };
-        let mut plan = Plan { inputs, ..settings.plan(scenes, epochs).scene_by_scene() };
+        let mut of_large = settings.clone();
+        of_large.structures.retain(|choice| choice.entry.name != BRUTE_FORCE);
+        let (all, named) = (settings.structures.clone(), args.structures.clone());
+        let is_large = move |scene: &Scene| all.iter().any(|choice| named.leaves_out(choice, scene.mesh.len()));
+        let notes: Vec<String> = scenes.iter().filter(|scene| is_large(scene)).map(left_out).collect();
+        let settings = vec![settings, of_large];
+        let which = move |scene: &Scene| usize::from(is_large(scene));
+        let plan = epoch::plan(settings, which, scenes, epochs, |_, _, epoch| Ok(epoch), |epoch| epoch);
+        let mut plan = Plan { inputs, ..plan.scene_by_scene() };
+        plan.notes.extend(notes);
         if args.quick {
             plan.limit_ns = Some(QUICK_NS);
             plan.notes.push(

@@ -9,6 +9,7 @@ use crate::accel::{DynAccel, Histogram, Query};
 use crate::measure::{EventCounter, Threads};
 use crate::registry::Choice;
 use crate::scene::{Sampling, Scene, Workload, WorkloadKind};
+use crate::study::args::Structures;
 use crate::study::check::declined;
 use crate::study::counted::{Counted, events};
 use crate::study::{PANICKED, Refused, Stage, StudyError, guarded};
@@ -16,6 +17,8 @@ use crate::study::{PANICKED, Refused, Stage, StudyError, guarded};
 pub(super) struct CountSettings {
     /// The structures, in the order of the tables.
     pub structures: Vec<Choice>,
+    /// How they were asked for.
+    pub named: Structures,
     /// The structure that tells where secondary rays start.
     pub guide: Choice,
     /// The kinds of rays; those that a scene has none of are left out.
@@ -28,6 +31,13 @@ pub(super) struct CountSettings {
     pub threads: Threads,
     /// Whether end-point overlap, which takes seconds for a million triangles, is computed.
     pub overlap: bool,
+}
+
+impl CountSettings {
+    /// The structures that are counted about `scene`.
+    pub fn of(&self, scene: &Scene) -> impl Iterator<Item = &Choice> {
+        self.structures.iter().filter(|choice| !self.named.leaves_out(choice, scene.mesh.len()))
+    }
 }
 
 /// Everything counted of one structure over one scene. What is not known is nothing, never 0.
@@ -126,7 +136,7 @@ pub(super) fn count_scene(
     workloads.retain(|workload| !workload.rays.is_empty());
 
     let mut counts = Counts::default();
-    for choice in &settings.structures {
+    for choice in settings.of(scene) {
         progress(Stage::Build(&choice.label));
         let mut refuse = |reason: String| {
             counts.refused.push(Refused { label: choice.label.clone(), scene: scene.name.clone(), reason })

@@ -14,7 +14,7 @@ use serde::Serialize;
 
 use super::args::{Scenes, Structures, WORKLOADS};
 use super::plan::Measure;
-use super::{Context, Data, Effort, Plan, Refused, Study, Trouble, ViewArgs, sources};
+use super::{Context, Data, Effort, Plan, Refused, Study, Trouble, ViewArgs, left_out, sources};
 use crate::measure::{Provenance, Threads};
 use crate::registry::Registry;
 use crate::report::words::scene_name;
@@ -108,6 +108,7 @@ impl Study for CountsStudy {
         let threads = Threads::new(args.threads.into()).map_err(anyhow::Error::msg)?;
         let settings = CountSettings {
             structures: args.structures.chosen(registry, &[])?,
+            named: args.structures.clone(),
             guide: sources::guide(registry)?,
             workloads: if args.workload.is_empty() { WORKLOADS.into() } else { args.workload.clone() },
             rays: args.rays,
@@ -128,7 +129,9 @@ impl Study for CountsStudy {
             |scene: &Scene| format!("{} {}", scene_name(&scene.name, !scene.stand_ins.is_empty()), &scene.hash()[..16]);
         let names: Vec<(String, String)> = scenes.iter().map(|scene| (scene.name.clone(), key(scene))).collect();
         let notes = scenes.iter().flat_map(|scene| scene.notes.iter().map(|note| format!("{}: {note}", scene.name)));
-        let notes: Vec<String> = notes.collect();
+        let mut notes: Vec<String> = notes.collect();
+        let leaves_out = |scene: &&Scene| settings.of(scene).count() < settings.structures.len();
+        notes.extend(scenes.iter().filter(leaves_out).map(left_out));
         let measure: Measure<Counts> =
             Box::new(move |case, _, _, progress| count_scene(&scenes[case.scene], &settings, progress));
         Ok(Plan { notes, inputs: args.scenes.files(), ..Plan::of_scenes(&kept, threads, names, measure) })

@@ -8,6 +8,7 @@ fn a_cube_is_counted_as_one_would_by_hand() {
     let choose = |spec: &str| registry.choose(spec).unwrap();
     let settings = CountSettings {
         structures: ["brute-force", "median-kd", "obvhs-bvh2", "sah-bvh"].map(choose).into(),
+        named: Structures::default(),
         guide: choose("sah-kd"),
         workloads: vec![WorkloadKind::Primary, WorkloadKind::Mirror],
         rays: 400,

@@ -33,6 +33,7 @@ pub use watch::Circumstances;
 pub use whole::WholeTimes;
 
 /// What is measured, and for how long.
+#[derive(Clone)]
 pub struct Settings {
     /// The structures, in the order of the tables.
     pub structures: Vec<Choice>,

@@ -15,14 +15,14 @@ use serde::{Deserialize, Serialize};
 
 use super::args::{Measuring, Rays, Scenes, Structures, with_twin};
 use super::epoch::{Epoch, Line, Twins, lines, middles, troubles, twins};
-use super::{Context, Data, Effort, Plan, Study, Trouble, least_squares};
+use super::{Context, Data, Effort, Plan, Study, Trouble, least_squares, sources};
 use crate::measure::{AaNoise, Estimate, Rerun, Variance};
 use crate::registry::Registry;
 use crate::report::document::Block;
 use crate::report::{Statement, Table};
 use crate::scene::{Scene, WorkloadKind};
 
-pub use spheres::{LEVELS, sphere};
+pub use spheres::{LEVELS, name, sphere};
 pub use table::tables;
 
 const STRUCTURES: [&str; 7] =
@@ -69,7 +69,10 @@ impl Study for ScalingStudy {
         let structures = with_twin(args.structures.chosen(registry, &STRUCTURES)?);
         let asked = args.rays.asked(&[WorkloadKind::Primary, WorkloadKind::Random]);
         let settings = args.measuring.settings(registry, structures, asked)?;
-        let mut scenes: Vec<Scene> = (0..=args.finest).map(sphere).collect::<Result<_, _>>()?;
+        let levels: Vec<String> = (0..=args.finest).map(name).collect();
+        // The finest take seconds to make.
+        let wanted = sources::wanted(&levels).filter_map(|name| levels.iter().position(|level| level == name));
+        let mut scenes: Vec<Scene> = wanted.map(|level| sphere(level as u32)).collect::<Result<_, _>>()?;
         let spheres = scenes.len();
         scenes.extend(args.scenes.read(&["dragon", "lucy", "sponza"])?);
         let family = move |scene: usize| if scene < spheres { Family::Spheres } else { Family::Meshes };

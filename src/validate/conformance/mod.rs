@@ -82,7 +82,8 @@ pub fn findings(subject: &Subject, meshes: &[Named], count: usize) -> Result<Vec
         let reference = Arc::new(reference);
         for stratum in Stratum::ALL {
             let rays = stratum.rays(mesh, count, SEED);
-            let validation = validate_watched(&accel, &reference, mesh, &rays, subject.limit);
+            let expected = reference.closest_hits(&rays);
+            let validation = validate_watched(&accel, &reference, &expected, mesh, &rays, subject.limit);
             let hangs = validation.hangs > 0;
             findings.push(Finding { mesh: name.clone(), stratum, validation });
             if hangs {

@@ -43,7 +43,7 @@ pub fn run(registry: &Registry, args: &Args, named: &[String], terminal: &Termin
     };
     let structures = sources::structures_at(registry, &args.structure, args.quality.as_deref())?;
     let choices = choices(registry, structures, &args.test)?;
-    let rays = u32::try_from(args.rays.number()?.min(MOST_RAYS))?;
+    let rays = u32::try_from(args.source().number()?.min(MOST_RAYS))?;
     let json = args.export_json.as_deref().map(OutputFile::check).transpose()?;
     let program = std::env::current_exe()
         .context("this program cannot find itself to ask structures in a process of their own")?;
