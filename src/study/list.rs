@@ -13,7 +13,7 @@ use super::journal::{Header, Journal, JournalError, Recorded};
 use super::process::{self, Job};
 use super::{
     Context, Data, Effort, SceneId, Study, accuracy, attribution, break_even, compare, costs, counts, crossover,
-    parameters, partitions, predictions, replicate, scaling, self_intersection,
+    parameters, partitions, predictions, replicate, scaling, self_intersection, threads,
 };
 use crate::measure::Provenance;
 use crate::registry::Registry;
@@ -42,6 +42,7 @@ impl Studies {
             .with::<attribution::AttributionStudy>()
             .with::<compare::CompareStudy>()
             .with::<scaling::ScalingStudy>()
+            .with::<threads::ThreadsStudy>()
             .with::<break_even::BreakEvenStudy>()
             .with::<crossover::CrossoverStudy>()
             .with::<costs::CostsStudy>()

@@ -39,6 +39,7 @@ pub mod self_intersection;
 pub mod sources;
 mod stage;
 mod status;
+pub mod threads;
 mod timing;
 mod view_args;
 

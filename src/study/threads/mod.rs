@@ -1,0 +1,157 @@
+//! `threads`: how much faster do builds and rays get with more threads?
+//!
+//! Each epoch measures a scene once with every number of threads, each time in a process of its own: 1, 2, 4 and so on, up
+//! to the cores that there are. Amdahl's serial share is fitted to the times; it is a figure of speech for whatever does not
+//! get faster, memory that all cores share included.
+//!
+//! # References
+//! Amdahl: Validity of the single processor approach to achieving large scale computing capabilities, 1967.
+
+mod section;
+mod speedup;
+mod table;
+#[cfg(test)]
+mod tests;
+
+use serde::{Deserialize, Serialize};
+
+use super::args::{Measuring, Rays, Scenes, Structures, with_twin};
+use super::epoch::{self, Epoch, Settings, measure, troubles};
+use super::plan::settings_map;
+use super::{Context, Data, Effort, Plan, Planned, Study, Trouble};
+use crate::measure::Threads;
+use crate::registry::Registry;
+use crate::report::document::Block;
+use crate::report::{Statement, Table};
+use crate::scene::WorkloadKind;
+
+pub use speedup::{Point, Speedup, speedups};
+use table::tables;
+
+const STRUCTURES: [&str; 4] = ["sah-kd", "sah-hybrid", "sah-bvh", "obvhs-bvh2"];
+
+/// The study.
+pub struct ThreadsStudy;
+
+/// Its options.
+#[derive(Clone, Debug, clap::Args)]
+pub struct ThreadsArgs {
+    #[command(flatten)]
+    scenes: Scenes,
+    /// Threads at most [default: as many as there are cores]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    most: Option<u16>,
+    #[command(flatten)]
+    structures: Structures,
+    #[command(flatten)]
+    rays: Rays,
+    #[command(flatten)]
+    measuring: Measuring<3, 3, 4>,
+}
+
+/// One epoch of one scene with so many threads.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ThreadsEpoch {
+    pub threads: usize,
+    pub epoch: Epoch,
+}
+
+/// 1, 2, 4 and so on, and `most`.
+fn numbers(most: usize) -> Vec<usize> {
+    let mut numbers: Vec<usize> = std::iter::successors(Some(1), |n| Some(2 * n)).take_while(|&n| n < most).collect();
+    numbers.push(most);
+    numbers
+}
+
+impl Study for ThreadsStudy {
+    const NAME: &'static str = "threads";
+    const QUESTION: &'static str = "How much faster do builds and rays get with more threads?";
+
+    type Args = ThreadsArgs;
+    type Case = ThreadsEpoch;
+    type Answer = Vec<Speedup>;
+
+    fn args(effort: Effort) -> ThreadsArgs {
+        let scenes = if effort == Effort::Quick { Scenes::named(&["torus"]) } else { Scenes::default() };
+        let (rays, measuring) = (Rays::of(effort), Measuring::of(effort));
+        ThreadsArgs { scenes, most: None, structures: Structures::default(), rays, measuring }
+    }
+
+    fn plan(args: &ThreadsArgs, registry: &Registry) -> anyhow::Result<Plan<ThreadsEpoch>> {
+        anyhow::ensure!(args.measuring.threads == 1, "every number of threads is measured: --most says up to which");
+        let cores = std::thread::available_parallelism().map_or(1, usize::from);
+        let most = args.most.map_or(cores, usize::from);
+        anyhow::ensure!(
+            most > 1,
+            "one thread has nothing to be compared with: --most 2 asks for two, and a machine of one core does not have them"
+        );
+        let structures = with_twin(args.structures.chosen(registry, &STRUCTURES)?);
+        let asked = args.rays.asked(&[WorkloadKind::Primary, WorkloadKind::Diffuse]);
+        let one = args.measuring.settings(registry, structures, asked)?;
+        let with = |threads: usize| -> anyhow::Result<(usize, Settings)> {
+            let threads_of = Threads::pinned(threads).map_err(anyhow::Error::msg)?;
+            Ok((threads, Settings { threads: threads_of, ..one.clone() }))
+        };
+        let settings = numbers(most).into_iter().map(with).collect::<anyhow::Result<Vec<_>>>()?;
+        let scenes = args.scenes.read(&["dragon"])?;
+
+        let mut cases = vec![];
+        for epoch in 0..usize::from(args.measuring.epochs) {
+            for scene in &scenes {
+                for (threads, _) in &settings {
+                    let key = format!("{} threads {threads}", epoch::key(scene, epoch));
+                    let title =
+                        format!("epoch {} of {}: {}, {threads} threads", epoch + 1, args.measuring.epochs, scene.name);
+                    // Each number of threads has first epochs of its own.
+                    let scene_number = cases.len() % (scenes.len() * settings.len());
+                    let process = Some(scene.name.clone());
+                    cases.push(Planned { key, title, scene: scene_number, epoch, work: 1, process });
+                }
+            }
+        }
+        let notes = scenes.iter().flat_map(|scene| scene.notes.iter().map(|note| format!("{}: {note}", scene.name)));
+        let mut notes: Vec<String> = notes.collect();
+        if most == 2 {
+            notes.push("Two points: Amdahl's curve goes through them whatever the truth is. More cores say how well it describes them.".into());
+        }
+        Ok(Plan {
+            settings: settings_map(&one.kept()),
+            threads: settings.last().map_or(one.threads, |(_, last)| last.threads.clone()),
+            limit_ns: None,
+            notes,
+            inputs: args.scenes.files(),
+            cases,
+            measure: Box::new(move |case, first, clock, progress| {
+                let (scene, (threads, settings)) =
+                    (&scenes[case.scene / settings.len()], &settings[case.scene % settings.len()]);
+                let first = first.map(|first| &first.epoch);
+                let epoch = measure(scene, settings, case.epoch, first, clock, progress)?;
+                Ok(ThreadsEpoch { threads: *threads, epoch })
+            }),
+        })
+    }
+
+    fn answer(cases: &[ThreadsEpoch], _: &Context<Self>) -> Vec<Speedup> {
+        speedups(cases)
+    }
+
+    fn tables(answer: &Vec<Speedup>) -> Vec<Table> {
+        tables(answer)
+    }
+
+    fn troubles(cases: &[ThreadsEpoch]) -> Vec<Trouble> {
+        troubles(cases.iter().map(|case| &case.epoch))
+    }
+
+    fn data(answer: &Vec<Speedup>) -> Vec<Data> {
+        vec![Data::new(Self::NAME, &speedup::rows(answer))]
+    }
+
+    fn statements(answer: &Vec<Speedup>) -> Vec<Statement> {
+        section::statements(answer)
+    }
+
+    fn section(answer: &Vec<Speedup>, command: &str) -> Vec<Block> {
+        section::blocks(answer, command)
+    }
+}

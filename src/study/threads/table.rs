@@ -1,0 +1,56 @@
+//! Speedups as tables for people.
+
+use super::Speedup;
+use crate::report::number::duration;
+use crate::report::words::{distinct, explained, interval, written};
+use crate::report::{Cell, Table};
+
+/// For each scene and each thing that is timed.
+pub fn tables(speedups: &[Speedup]) -> Vec<Table> {
+    groups(speedups).iter().map(|group| table(group)).collect()
+}
+
+/// Of one scene and one thing each, in their order.
+pub(super) fn groups(speedups: &[Speedup]) -> Vec<Vec<&Speedup>> {
+    let mut groups: Vec<Vec<&Speedup>> = vec![];
+    for one in speedups {
+        match groups.iter_mut().find(|group| group[0].scene == one.scene && group[0].what == one.what) {
+            Some(group) => group.push(one),
+            None => groups.push(vec![one]),
+        }
+    }
+    groups
+}
+
+/// What is timed, as titles name it.
+pub(super) fn words(what: &str) -> String {
+    if what == "build" { "builds".into() } else { format!("{what} rays") }
+}
+
+pub(super) fn table(group: &[&Speedup]) -> Table {
+    let mut numbers: Vec<usize> = group.iter().flat_map(|one| &one.points).map(|point| point.threads).collect();
+    numbers.sort_unstable();
+    numbers.dedup();
+    let numbers: Vec<usize> = numbers.into_iter().filter(|&threads| threads > 1).collect();
+    let mut columns = vec!["structure".to_owned(), "1 thread".into()];
+    columns.extend(numbers.iter().map(|threads| format!("x with {threads}")));
+    columns.push("serial share".into());
+    let row = |one: &&Speedup| {
+        let with = |threads: usize| one.points.iter().find(|point| point.threads == threads);
+        let mut row: Vec<Cell> = vec![one.structure.as_str().into()];
+        row.push(with(1).map_or(Cell::blank(), |point| duration(point.ns).into()));
+        row.extend(numbers.iter().map(|&n| with(n).map_or(Cell::blank(), |point| interval(point.speedup).into())));
+        row.push(written(one.serial, |share| format!("{share:.2}")).into());
+        row
+    };
+    let rows = group.iter().map(row).collect();
+    let title = format!("{}, {}: times as fast as one thread", group[0].scene, words(&group[0].what));
+    let note = "serial share: f of Amdahl's law, by which n threads take f + (1 - f) / n of the time of one; fitted to all numbers of \
+                threads. One thread is timed by processor time, several by the time that elapses.";
+    explained(Table { title, columns, rows, notes: vec![note.into()] })
+}
+
+/// Scenes in their order.
+pub(super) fn scenes(speedups: &[Speedup]) -> Vec<String> {
+    distinct(speedups.iter().map(|one| &one.scene))
+}
