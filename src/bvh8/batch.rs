@@ -71,11 +71,12 @@ impl<const ANY: bool, T: TriangleTest, A, F: Fn(Option<Hit>) -> A> Kernel for In
         }
         let mut found = [const { Nearest::NOTHING }; TOGETHER];
         for (rays, answers) in rays.chunks(TOGETHER).zip(answers.chunks_mut(TOGETHER)) {
+            // Those after the last ray keep what others have found, which nobody asks for.
             for (nearest, ray) in found.iter_mut().zip(rays) {
                 tree.find::<ANY, L, ()>(ray, nearest, &mut ());
             }
-            for (answer, nearest) in answers.iter_mut().zip(&found) {
-                *answer = form(nearest.answer::<ANY>());
+            for (answer, hit) in answers.iter_mut().zip(Nearest::answers::<L>(&found)) {
+                *answer = form(hit);
             }
         }
     }

@@ -76,6 +76,13 @@ impl<const N: usize, L: Arithmetic<N>> LaneVec3<N, L> {
         abs(self.x).add(abs(self.y)).add(abs(self.z))
     }
 
+    /// The largest of the components' magnitudes.
+    #[inline(always)]
+    pub fn abs_max(self) -> L {
+        let abs = |x: L| x.flip_sign(x);
+        abs(self.x).max(abs(self.y)).max(abs(self.z))
+    }
+
     #[inline(always)]
     pub fn cross(self, other: Self) -> Self {
         Self::new(

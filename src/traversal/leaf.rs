@@ -2,7 +2,7 @@
 
 use crate::accel::{Footprint, Observer};
 use crate::geometry::{Hit, Mesh, Ray};
-use crate::simd::Lanes;
+use crate::simd::{EightLanes, Lanes, each};
 use crate::triangle::{Depth, TriangleTest};
 
 /// The nearest hit so far, or the end of the interval.
@@ -12,6 +12,9 @@ pub(crate) struct Nearest<D> {
     pub t: f32,
     pub hit: Option<(D, u32)>,
 }
+
+/// From so many hits of eight rays on it is quicker to tell them all at once.
+const MANY: usize = 4;
 
 impl<D: Depth> Nearest<D> {
     /// Of a ray that can hit nothing.
@@ -33,6 +36,19 @@ impl<D: Depth> Nearest<D> {
         if better {
             *self = Self { t: depth.bound(), hit: Some((depth, id)) };
         }
+    }
+
+    /// The nearest hits of eight rays, as [`answer`](Self::answer).
+    #[inline(always)]
+    pub fn answers<L: EightLanes>(found: &[Self; 8]) -> [Option<Hit>; 8] {
+        let hits = || found.iter().filter_map(|nearest| nearest.hit.as_ref());
+        let Some((some, _)) = hits().next().filter(|_| hits().count() >= MANY) else {
+            return each(found, |nearest| nearest.answer::<false>());
+        };
+        // Lanes of rays without a hit repeat one that has.
+        let ts =
+            D::ts::<L>(each(&[0, 1, 2, 3, 4, 5, 6, 7], |&i: &usize| found[i].hit.as_ref().map_or(some, |hit| &hit.0)));
+        std::array::from_fn(|i| found[i].hit.as_ref().map(|&(_, id)| Hit::new(ts[i], id)))
     }
 
     #[inline(always)]

@@ -1,5 +1,7 @@
 use std::cmp::Ordering;
 
+use crate::simd::EightLanes;
+
 /// Where along a ray a hit is, as exactly as its triangle test knows.
 pub trait Depth: Copy {
     /// The order along the ray. Those of one ray are totally ordered.
@@ -10,6 +12,12 @@ pub trait Depth: Copy {
 
     /// As reported: the nearest float.
     fn t(&self) -> f32;
+
+    /// The same of eight at once.
+    #[inline(always)]
+    fn ts<L: EightLanes>(depths: [&Self; 8]) -> [f32; 8] {
+        depths.map(Self::t)
+    }
 
     /// A float that is not before the hit. What lies beyond it along the ray need not be looked at.
     fn bound(&self) -> f32;

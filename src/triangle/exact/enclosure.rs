@@ -3,6 +3,7 @@
 use glam::Vec3;
 
 use crate::geometry::Ray;
+use crate::simd::{Arithmetic, LaneVec3, Lanes, Portable, each};
 
 /// What is certain of a ray and a triangle.
 pub(super) enum Sight {
@@ -55,33 +56,43 @@ pub(super) fn look(ray: &Ray, corners: [Vec3; 3]) -> Sight {
     }
 
     let height_error = 20.0 * UNIT * extent * extent * distance;
-    divide(edge2.dot(q), height_error, det, det_error)
+    let lane = Portable::<1, f64>::splat;
+    let (low, high) = divide(lane(edge2.dot(q)), lane(height_error), lane(det), lane(det_error));
+    Sight::Hit { low: low.store()[0], high: high.store()[0] }
 }
 
-/// As [`look`], where the line is known to meet the triangle: `t` from its plane.
+/// As [`look`], where lines are known to meet their triangles, one in each lane: the lanes where there are bounds of the exact `t`, as
+/// bits, and these. `t` is that of the plane.
 ///
 /// **Bounds.** In the notation of [`look`], the components of the normal e x f are off by 4.1 n 2 E E, so that h = s . (e x f) is
 /// off by 8.1 n 2 E E |s|, and det = -d . (e x f) by 7.1 n 6 D E E.
 #[inline(always)]
-pub(super) fn place(ray: &Ray, corners: [Vec3; 3]) -> Sight {
-    let (origin, direction) = (ray.origin.as_dvec3(), ray.direction.as_dvec3());
-    let [a, b, c] = corners.map(Vec3::as_dvec3);
-    let (to_origin, edge1, edge2) = (origin - a, b - a, c - a);
+pub(super) fn place<const N: usize, L: Lanes<N>>(
+    origin: LaneVec3<N, L>,
+    direction: LaneVec3<N, L>,
+    corners: [LaneVec3<N, L>; 3],
+) -> (u32, L::Double, L::Double) {
+    let (direction, [a, b, c]) = (direction.widen(), each(&corners, |corner| corner.widen()));
+    let (to_origin, edge1, edge2) = (origin.widen() - a, b - a, c - a);
     let normal = edge1.cross(edge2);
-    let (height, det) = (to_origin.dot(normal), -direction.dot(normal));
+    let (height, det) = (to_origin.dot(normal), L::Double::zero().sub(direction.dot(normal)));
 
-    let extent = edge1.abs().max(edge2.abs()).max_element();
-    let scale = UNIT * extent * extent;
-    let height_error = 20.0 * scale * to_origin.abs().element_sum();
-    let det_error = 48.0 * scale * direction.abs().max_element();
-    if det.abs() < 1024.0 * det_error { Sight::Unclear } else { divide(height, height_error, det, det_error) }
+    let times = |x: L::Double, factor: f64| x.mul(L::Double::splat(factor));
+    let extent = edge1.abs_max().max(edge2.abs_max());
+    let scale = times(extent.mul(extent), UNIT);
+    let height_error = times(scale.mul(to_origin.abs_sum()), 20.0);
+    let det_error = times(scale.mul(direction.abs_max()), 48.0);
+    let (low, high) = divide(height, height_error, det, det_error);
+    (times(det_error, 1024.0).le(det.flip_sign(det)), low, high)
 }
 
 /// |h/d - h'/d'| <= (dh + |h'/d'| dd) / (|d'| - dd), where dd is at most 2^-10 |d'|; the rest rounds within 2^-50.
 #[inline(always)]
-fn divide(height: f64, height_error: f64, det: f64, det_error: f64) -> Sight {
-    let inverse = 1.0 / det;
-    let t = height * inverse;
-    let error = (height_error + t.abs() * det_error) * (inverse.abs() * (1.0 + 1.0 / 512.0)) + t.abs() * (8.0 * UNIT);
-    Sight::Hit { low: t - error, high: t + error }
+fn divide<const N: usize, D: Arithmetic<N, Scalar = f64>>(height: D, height_error: D, det: D, det_error: D) -> (D, D) {
+    let abs = |x: D| x.flip_sign(x);
+    let inverse = D::splat(1.0).div(det);
+    let t = height.mul(inverse);
+    let widest = height_error.add(abs(t).mul(det_error)).mul(abs(inverse).mul(D::splat(1.0 + 1.0 / 512.0)));
+    let error = widest.add(abs(t).mul(D::splat(8.0 * UNIT)));
+    (t.sub(error), t.add(error))
 }

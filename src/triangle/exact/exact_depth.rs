@@ -3,54 +3,63 @@ use std::cmp::Ordering;
 use glam::Vec3;
 
 use super::enclosure::{Sight, place};
+use super::seen;
 use crate::exact;
 use crate::geometry::Ray;
+use crate::simd::{EightLanes, LaneVec3, each};
 use crate::triangle::Depth;
 
-/// Where a ray meets a triangle, exactly: bounds in `f32`, and what it takes to compute the truth when these do not tell.
+/// Where a ray meets a triangle, exactly: bounds in `f32`, and what it takes to compute the truth when these do not tell. In rows, from
+/// which those of eight rays are turned to lanes.
 #[derive(Clone, Copy, Debug)]
 pub struct ExactDepth {
-    low: f32,
-    high: f32,
-    origin: Vec3,
-    direction: Vec3,
-    corners: [Vec3; 3],
+    /// The bounds, the origin and the direction.
+    line: [f32; 8],
+    corners: [f32; 9],
 }
 
 impl ExactDepth {
     /// The exact `t` is in [`low`, `high`], and the line of `ray` meets the triangle.
     #[inline(always)]
-    pub(super) fn new(ray: &Ray, corners: [Vec3; 3], low: f32, high: f32) -> Self {
-        Self { low, high, origin: ray.origin, direction: ray.direction, corners }
+    pub(super) fn new(ray: &Ray, [a, b, c]: [Vec3; 3], low: f32, high: f32) -> Self {
+        let (o, d) = (ray.origin, ray.direction);
+        Self { line: [low, high, o.x, o.y, o.z, d.x, d.y, d.z], corners: [a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z] }
     }
 
-    fn line(&self) -> Ray {
-        Ray::new(self.origin, self.direction)
-    }
-
-    /// Bounds of the exact `t` in `f64`, if it gives any.
     #[inline(always)]
-    fn narrower(&self) -> Option<(f64, f64)> {
-        match place(&self.line(), self.corners) {
-            Sight::Hit { low, high } => Some((low, high)),
-            Sight::Miss | Sight::Unclear => None,
-        }
+    fn low(&self) -> f32 {
+        self.line[0]
+    }
+
+    #[inline(always)]
+    fn high(&self) -> f32 {
+        self.line[1]
+    }
+
+    #[inline(always)]
+    fn ray(&self) -> Ray {
+        Ray::new(Vec3::from_slice(&self.line[2..5]), Vec3::from_slice(&self.line[5..8]))
+    }
+
+    #[inline(always)]
+    fn corners(&self) -> [Vec3; 3] {
+        [0, 3, 6].map(|first| Vec3::from_slice(&self.corners[first..first + 3]))
     }
 
     #[cold]
     fn exact(&self) -> exact::ExactT {
-        exact::hit(&self.line(), self.corners).expect("a depth is that of a hit")
+        exact::hit(&self.ray(), self.corners()).expect("a depth is that of a hit")
     }
 
     /// The order of two whose bounds overlap.
     #[inline(never)]
     fn order_closely(&self, other: &Self) -> Ordering {
-        if surely_coplanar(&self.corners, &other.corners) {
+        if surely_coplanar(&self.corners(), &other.corners()) {
             return Ordering::Equal;
         }
-        match (self.narrower(), other.narrower()) {
-            (Some((_, high)), Some((low, _))) if high < low => Ordering::Less,
-            (Some((low, _)), Some((_, high))) if high < low => Ordering::Greater,
+        match (seen(&self.ray(), self.corners()), seen(&other.ray(), other.corners())) {
+            (Sight::Hit { high, .. }, Sight::Hit { low, .. }) if high < low => Ordering::Less,
+            (Sight::Hit { low, .. }, Sight::Hit { high, .. }) if high < low => Ordering::Greater,
             _ => self.exact().cmp(&other.exact()),
         }
     }
@@ -73,9 +82,9 @@ impl Depth for ExactDepth {
 
     #[inline(always)]
     fn order(&self, other: &Self) -> Ordering {
-        if self.high < other.low {
+        if self.high() < other.low() {
             Ordering::Less
-        } else if self.low > other.high {
+        } else if self.low() > other.high() {
             Ordering::Greater
         } else {
             // Copies, so that those that are ordered at once need no place in memory.
@@ -87,15 +96,33 @@ impl Depth for ExactDepth {
     /// Correctly rounded.
     #[inline(always)]
     fn t(&self) -> f32 {
-        match self.narrower() {
+        match seen(&self.ray(), self.corners()) {
             // The upper one: of two zeros it is the positive one.
-            Some((low, high)) if low as f32 == high as f32 => high as f32,
+            Sight::Hit { low, high } if low as f32 == high as f32 => high as f32,
             _ => self.exact().round(),
         }
     }
 
     #[inline(always)]
+    fn ts<L: EightLanes>(depths: [&Self; 8]) -> [f32; 8] {
+        let [_, _, ox, oy, oz, dx, dy, dz] = L::transpose(each(&depths, |depth| L::load(&depth.line)));
+        let first = |depth: &&Self| L::load(depth.corners.first_chunk().expect("nine are eight and one"));
+        let [ax, ay, az, bx, by, bz, cx, cy] = L::transpose(each(&depths, first));
+        let cz = L::load(&each(&depths, |depth| depth.corners[8]));
+        let corners = [LaneVec3::new(ax, ay, az), LaneVec3::new(bx, by, bz), LaneVec3::new(cx, cy, cz)];
+        let (placed, low, high) = place(LaneVec3::new(ox, oy, oz), LaneVec3::new(dx, dy, dz), corners);
+        let (low, high) = (L::narrow(low), L::narrow(high));
+        let (told, mut ts) = (placed & high.le(low), high.store());
+        if told != 0xff {
+            for (i, t) in ts.iter_mut().enumerate().filter(|(i, _)| told >> i & 1 == 0) {
+                *t = depths[i].exact().round();
+            }
+        }
+        ts
+    }
+
+    #[inline(always)]
     fn bound(&self) -> f32 {
-        self.high
+        self.high()
     }
 }

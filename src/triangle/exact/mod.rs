@@ -11,7 +11,7 @@ use super::TriangleTest;
 use super::filter::{FilterBlock, FilterRay, Sights, survivors};
 use crate::exact;
 use crate::geometry::{Ray, round_down, round_up};
-use crate::simd::Lanes;
+use crate::simd::{Arithmetic, LaneVec3, Lanes, Portable};
 use enclosure::{Sight, look, place};
 
 /// Exact answers at the price of a filter: what the `f32` stage cannot decide is decided in `f64` with a bound on its error, and what
@@ -96,11 +96,21 @@ impl TriangleTest for Exact {
 #[inline(never)]
 fn in_f64(ray: &Ray, corners: [Vec3; 3], met: bool) -> Option<(f32, f32)> {
     let (start, end) = (f64::from(ray.interval().0), ray.end());
-    match if met { place(ray, corners) } else { look(ray, corners) } {
+    match if met { seen(ray, corners) } else { look(ray, corners) } {
         Sight::Miss => None,
         Sight::Hit { low, high } if start <= low && high < end => Some((round_down(low), round_up(high))),
         Sight::Hit { low, high } if high < start || end <= low => None,
         Sight::Hit { .. } | Sight::Unclear => exactly(ray, corners),
+    }
+}
+
+/// As [`look`], where the line is known to meet the triangle.
+#[inline(always)]
+fn seen(ray: &Ray, corners: [Vec3; 3]) -> Sight {
+    let one = LaneVec3::<1, Portable<1>>::splat;
+    match place(one(ray.origin), one(ray.direction), corners.map(one)) {
+        (0, ..) => Sight::Unclear,
+        (_, low, high) => Sight::Hit { low: low.store()[0], high: high.store()[0] },
     }
 }
 
