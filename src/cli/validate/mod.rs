@@ -310,7 +310,7 @@ enum Against {
     /// Brute force with the triangle test of whoever has answered.
     SameTest,
     /// A structure that was chosen for its answers; brute force with a test of its own is one like any other.
-    Structure(Choice),
+    Structure(Box<Choice>),
 }
 
 impl Against {
@@ -319,7 +319,7 @@ impl Against {
         if name.eq_ignore_ascii_case(BRUTE_FORCE) {
             return Ok(Self::SameTest);
         }
-        Ok(Self::Structure(sources::structure(registry, name)?))
+        Ok(Self::Structure(Box::new(sources::structure(registry, name)?)))
     }
 
     /// What a structure with this triangle test is held against.
