@@ -16,6 +16,13 @@ pub fn mesh(count: usize, mut corners: impl FnMut(usize) -> [Vec3; 3]) -> Mesh {
     Mesh::new(positions, (0..count as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect()).unwrap()
 }
 
+/// What `build` gives must not depend on the number of threads.
+pub fn same_on_threads<R: PartialEq + Send>(build: impl Fn() -> R + Sync) {
+    let on = |threads| rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap().install(&build);
+    let one = on(1);
+    assert!(one == on(2) && one == on(3));
+}
+
 /// Triangles of very different sizes.
 pub fn soup(count: usize, seed: u64) -> Mesh {
     let mut rng = Pcg32::seed_from_u64(seed);

@@ -32,6 +32,21 @@ impl RandomOrder {
     }
 }
 
+/// Noise for tests.
+#[cfg(test)]
+impl RandomOrder {
+    /// A number between 0 and 1, neither of the two.
+    pub fn uniform(&mut self) -> f64 {
+        (self.below(1 << 30) as f64 + 0.5) / f64::from(1 << 30)
+    }
+
+    /// A standard normal number (Box, Muller 1958).
+    pub fn normal(&mut self) -> f64 {
+        let (radius, turn) = (self.uniform(), self.uniform());
+        libm::sqrt(-2.0 * libm::log(radius)) * libm::cos(std::f64::consts::TAU * turn)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

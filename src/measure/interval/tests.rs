@@ -23,33 +23,16 @@ impl Default for Machine {
     }
 }
 
-struct Random(RandomOrder);
-
-impl Random {
-    fn new(seed: u64) -> Self {
-        Self(RandomOrder::new(seed))
-    }
-
-    fn uniform(&mut self) -> f64 {
-        (self.0.below(1 << 30) as f64 + 0.5) / f64::from(1 << 30)
-    }
-
-    fn normal(&mut self) -> f64 {
-        let (radius, turn) = (self.uniform(), self.uniform());
-        libm::sqrt(-2.0 * libm::log(radius)) * libm::cos(std::f64::consts::TAU * turn)
-    }
-
-    /// Noise of one sample: one in eight is interrupted, and then takes longer by up to `tail`.
-    fn noise(&mut self, tail: f64) -> f64 {
-        let interrupted = self.uniform() < 0.125;
-        0.01 * self.normal() + if interrupted { tail * self.uniform() } else { 0.0 }
-    }
+/// Noise of one sample: one in eight is interrupted, and then takes longer by up to `tail`.
+fn noise(random: &mut RandomOrder, tail: f64) -> f64 {
+    let interrupted = random.uniform() < 0.125;
+    0.01 * random.normal() + if interrupted { tail * random.uniform() } else { 0.0 }
 }
 
 impl Machine {
     /// ln times of as many structures as `times`, epoch by epoch, round by round; the machine grows slower by a fifth
     /// over the run.
-    fn cell(&self, times: &[f64], random: &mut Random) -> Vec<Vec<Vec<f64>>> {
+    fn cell(&self, times: &[f64], random: &mut RandomOrder) -> Vec<Vec<Vec<f64>>> {
         let mut samples = vec![vec![]; times.len()];
         let run: Vec<f64> = times.iter().map(|_| self.run * random.normal()).collect();
         for epoch in 0..EPOCHS {
@@ -59,7 +42,7 @@ impl Machine {
                 for (i, time) in times.iter().enumerate() {
                     let done = (epoch * self.rounds + round) as f64 + random.uniform();
                     let drift = 0.2 * done / (EPOCHS * self.rounds) as f64;
-                    let log = libm::log(*time) + placed[i] + run[i] + drift + random.noise(self.tail);
+                    let log = libm::log(*time) + placed[i] + run[i] + drift + noise(random, self.tail);
                     samples[i][epoch].push(log);
                 }
             }
@@ -67,7 +50,7 @@ impl Machine {
         samples
     }
 
-    fn ratio(&self, times: [f64; 2], random: &mut Random) -> Vec<Vec<f64>> {
+    fn ratio(&self, times: [f64; 2], random: &mut RandomOrder) -> Vec<Vec<f64>> {
         let logs = self.cell(&times, random);
         let epoch = |e: usize| logs[0][e].iter().zip(&logs[1][e]).map(|(a, b)| a - b).collect();
         (0..EPOCHS).map(epoch).collect()
@@ -83,9 +66,9 @@ fn machines() -> Vec<Machine> {
 const PAIRS: u64 = 2500;
 
 /// In how many per cent of pairs of runs the second's estimate lies within the first's interval.
-fn held(pairs: u64, run: impl Fn(&mut Random) -> Rerun) -> f64 {
+fn held(pairs: u64, run: impl Fn(&mut RandomOrder) -> Rerun) -> f64 {
     let once = |pair: &u64| {
-        let mut random = Random::new(*pair);
+        let mut random = RandomOrder::new(*pair);
         let [first, second] = [run(&mut random), run(&mut random)];
         first.plain().holds(second.plain().estimate)
     };
@@ -104,7 +87,7 @@ fn mean_of(cells: &[Vec<Vec<f64>>], noise: Variance) -> Rerun {
 #[test]
 fn the_estimate_of_a_second_run_lies_within_the_interval_of_the_first() {
     for machine in machines() {
-        let run = |random: &mut Random| mean_of(&[machine.ratio([3.0, 1.0], random)], Variance::NONE);
+        let run = |random: &mut RandomOrder| mean_of(&[machine.ratio([3.0, 1.0], random)], Variance::NONE);
         as_promised(held(PAIRS, run), &format!("{machine:?}"));
     }
 }
@@ -125,7 +108,7 @@ fn rounds_filter_interruptions_and_without_them_long_ones_are_not_held() {
 fn that_of_a_longer_run_as_well() {
     let machine = Machine { placement: 0.02, ..Machine::default() };
     let once = |pair: &u64| {
-        let mut random = Random::new(*pair);
+        let mut random = RandomOrder::new(*pair);
         let mut run = || epoch_values(&[machine.ratio([3.0, 1.0], &mut random)]).unwrap();
         let (first, second) = (run(), [run(), run(), run(), run()].concat());
         Rerun::in_epochs(&first, second.len(), Variance::NONE).unwrap().plain().holds(mean(&second))
@@ -146,7 +129,7 @@ fn other_intervals_do_not_hold_it() {
 }
 
 /// One run of two structures and, of the first, a twin, in so many cells: the ratios, and the A/A noise.
-fn with_twins(machine: Machine, cells: usize, random: &mut Random) -> (Vec<Vec<Vec<f64>>>, AaNoise) {
+fn with_twins(machine: Machine, cells: usize, random: &mut RandomOrder) -> (Vec<Vec<Vec<f64>>>, AaNoise) {
     let [mut ratios, mut twins] = [vec![], vec![]];
     for _ in 0..cells {
         let logs = machine.cell(&[3.0, 1.0, 3.0], random);
@@ -164,7 +147,7 @@ fn what_whole_runs_differ_in_is_held_with_the_aa_noise_and_not_without() {
     // The standard error of a ratio is about 0.01 here: run luck of none of it, as much, and three times as much.
     for (run, cells) in [(0.0, 4), (0.0, 8), (0.007, 8), (0.02, 12)] {
         let machine = Machine { run, ..Machine::default() };
-        let own = |random: &mut Random, noise: &dyn Fn(&AaNoise) -> Variance, all: bool| {
+        let own = |random: &mut RandomOrder, noise: &dyn Fn(&AaNoise) -> Variance, all: bool| {
             let (ratios, twins) = with_twins(machine, cells, random);
             mean_of(if all { &ratios } else { &ratios[..1] }, noise(&twins))
         };
@@ -199,7 +182,7 @@ fn a_single_aa_ratio_holds_what_it_can() {
 fn more_cells_do_not_make_the_aa_noise_larger() {
     let machine = Machine { run: 0.01, ..Machine::default() };
     let noise = |cells: usize| {
-        let mut random = Random::new(7);
+        let mut random = RandomOrder::new(7);
         let squares = (0..200).map(|_| with_twins(machine, cells, &mut random).1.log().unwrap());
         libm::sqrt(squares.map(|log| log * log).sum::<f64>() / 200.0)
     };
@@ -211,7 +194,7 @@ fn more_cells_do_not_make_the_aa_noise_larger() {
 }
 
 /// ln times of six meshes whose triangles grow by four: each with its own luck.
-fn meshes(machine: Machine, random: &mut Random) -> Vec<Vec<f64>> {
+fn meshes(machine: Machine, random: &mut RandomOrder) -> Vec<Vec<f64>> {
     let times: Vec<f64> = (0..6).map(|i| libm::pow(4.0, 0.2 * f64::from(i))).collect();
     let values = |logs: &Vec<Vec<f64>>| logs.iter().map(|rounds| median(rounds).unwrap()).collect();
     machine.cell(&times, random).iter().map(values).collect()
@@ -226,7 +209,7 @@ fn slope(logs: &[f64]) -> f64 {
 #[test]
 fn slopes_are_held_and_the_jackknife_of_what_is_linear_is_its_value_in_each_epoch() {
     for machine in machines() {
-        let run = |random: &mut Random| {
+        let run = |random: &mut RandomOrder| {
             let meshes = meshes(machine, random);
             let of_epoch = |e: usize| slope(&meshes.iter().map(|mesh| mesh[e]).collect::<Vec<_>>());
             let figure = |kept: &[usize]| {
@@ -256,14 +239,14 @@ fn share(first: f64, second: f64) -> f64 {
 fn shares_are_held_by_the_jackknife() {
     for placement in [0.0, 0.04, 0.1] {
         let machine = Machine { placement, ..Machine::default() };
-        let effects = |random: &mut Random| {
+        let effects = |random: &mut RandomOrder| {
             let mut of = |times| {
                 let cell = machine.ratio(times, random);
                 cell.iter().map(|rounds| median(rounds).unwrap()).collect::<Vec<f64>>()
             };
             [of([1.5, 1.0]), of([1.0, 1.3])]
         };
-        let run = |random: &mut Random| {
+        let run = |random: &mut RandomOrder| {
             let effects = effects(random);
             let mean = |i: usize, kept: &[usize]| kept.iter().map(|&e| effects[i][e]).sum::<f64>() / kept.len() as f64;
             let figure = |kept: &[usize]| Some(share(mean(0, kept), mean(1, kept)));
@@ -279,7 +262,7 @@ fn all_of_many_hold_together_when_each_allows_for_the_others() {
     const LOOKS: usize = 20;
     let all = |looks: usize| {
         let once = |run: &u64| {
-            let mut random = Random::new(*run);
+            let mut random = RandomOrder::new(*run);
             (0..LOOKS).all(|_| {
                 let mut run = || mean_of(&[machine.ratio([1.0, 1.0], &mut random)], Variance::NONE).plain();
                 let (first, second) = (run(), run());
@@ -318,7 +301,7 @@ fn a_change_is_as_sure_as_both_runs() {
 fn changes_are_held() {
     let machine = Machine { placement: 0.02, ..Machine::default() };
     let once = |run: &u64| {
-        let mut random = Random::new(*run);
+        let mut random = RandomOrder::new(*run);
         let mut run = |times| epoch_values(&[machine.ratio(times, &mut random)]).unwrap();
         let (old, new) = (run([1.0, 1.0]), [run([1.1, 1.0]), run([1.1, 1.0])].concat());
         Rerun::change(&old, &new, [Variance::NONE; 2]).unwrap().plain().holds(libm::log(1.1))

@@ -1,5 +1,6 @@
 use super::result::best;
 use super::*;
+use crate::measure::RandomOrder;
 use crate::study::epoch::tests::example;
 
 /// Three epochs; 1000 rays a sample, so that a sample of 1000 n nanoseconds is n a ray.
@@ -76,24 +77,14 @@ fn of_one_epoch_there_is_no_interval() {
 }
 
 /// Epochs in which builds and rays vary with this standard deviation of their logarithms.
-fn run(random: &mut Normal, sigma: f64) -> Vec<Epoch> {
+fn run(random: &mut RandomOrder, sigma: f64) -> Vec<Epoch> {
     let epoch = |e: usize| {
-        let mut vary = |ns: f64| (ns * libm::exp(sigma * random.next())) as u64;
+        let mut vary = |ns: f64| (ns * libm::exp(sigma * random.normal())) as u64;
         let ns = [vary(1e8), vary(8e7)].map(|ns| [ns]);
         let structures: [(&str, u64, &[u64]); 2] = [("cheap", vary(1e9), &ns[0]), ("dear", vary(5e9), &ns[1])];
         example("a", 10, e, &structures)
     };
     (0..5).map(epoch).collect()
-}
-
-struct Normal(crate::measure::RandomOrder);
-
-impl Normal {
-    fn next(&mut self) -> f64 {
-        let mut uniform = || (self.0.below(1 << 30) as f64 + 0.5) / f64::from(1 << 30);
-        let (radius, turn) = (uniform(), uniform());
-        libm::sqrt(-2.0 * libm::log(radius)) * libm::cos(std::f64::consts::TAU * turn)
-    }
 }
 
 #[test]
@@ -102,7 +93,7 @@ fn the_break_even_point_of_a_second_run_lies_within_the_interval_of_the_first() 
     // Rays differ by a fifth. With a twentieth of noise some runs find that the dear one never pays.
     for sigma in [0.005, 0.05, 0.15] {
         let once = |seed: &u64| {
-            let mut random = Normal(crate::measure::RandomOrder::new(*seed));
+            let mut random = RandomOrder::new(*seed);
             let [first, second] = [(); 2].map(|()| pair(&result(&run(&mut random, sigma))[0], "cheap", "dear").clone());
             let (low, high) = (first.low.unwrap(), first.high.unwrap());
             low.order(&second.rays).is_le() && second.rays.order(&high).is_le()

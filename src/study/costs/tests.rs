@@ -83,8 +83,7 @@ fn of_one_scene_there_is_no_interval_and_nothing_is_left_out() {
 /// Eight scenes of four cases; each scene has a luck of a tenth that all its cases share, and each case a hundredth of
 /// its own.
 fn run(random: &mut RandomOrder) -> Family {
-    let mut uniform = || (random.below(1 << 30) as f64 + 0.5) / f64::from(1 << 30);
-    let mut normal = || libm::sqrt(-2.0 * libm::log(uniform())) * libm::cos(std::f64::consts::TAU * uniform());
+    let mut normal = || random.normal();
     let mut observations = vec![];
     for scene in 0..8 {
         let luck = 0.1 * normal();

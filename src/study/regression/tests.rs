@@ -193,10 +193,8 @@ fn the_aa_noise_of_both_runs_widens_the_interval() {
 /// A run of nothing but noise of a hundredth: `structures` of ours and a reference, in eight epochs.
 fn noise(structures: usize, seed: u64) -> Vec<Record> {
     let mut random = crate::measure::RandomOrder::new(seed);
-    let mut uniform = || (random.below(1 << 30) as f64 + 0.5) / f64::from(1 << 30);
     let mut record = |label: &str| {
-        let mut normal = || libm::sqrt(-2.0 * libm::log(uniform())) * libm::cos(std::f64::consts::TAU * uniform());
-        let samples_ns: Vec<f64> = (0..8).map(|_| 1e6 * libm::exp(0.01 * normal())).collect();
+        let samples_ns: Vec<f64> = (0..8).map(|_| 1e6 * libm::exp(0.01 * random.normal())).collect();
         Record { epochs: 8, runs: 8, samples_ns, ..record_of(label) }
     };
     let mut run: Vec<Record> = (0..structures).map(|i| record(&format!("own-{i}"))).collect();
