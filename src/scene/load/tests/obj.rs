@@ -1,6 +1,6 @@
 use glam::Vec3;
 
-use super::{assert_refused, corners, face_normals, load_files};
+use super::{assert_refused, corners, load_files};
 use crate::scene::{Material, Model};
 
 fn obj(text: &str) -> Model {
@@ -113,14 +113,6 @@ fn lines_without_a_known_keyword_are_told() {
         b"v 1 2 3\np 1\nf 1 1\n",
         &["no triangles: 1 vertices, 1 faces", "1 lines of other elements"],
     );
-}
-
-#[test]
-fn concave_faces_are_no_fans() {
-    let model = obj("v 0 0 0\nv 2 -1 0\nv 0.5 0 0\nv 2 1 0\nf 1 2 3 4\n");
-    assert!(face_normals(&model).iter().all(|normal| normal.z > 0.0), "{:?}", model.triangles);
-    let crossing = obj("v 0 0 0\nv 1 1 0\nv 1 0 0\nv 0 1 0\nf 1 2 3 4\nf 1 2 3 4\n");
-    assert!(crossing.notes[0].starts_with("2 polygons cross themselves"), "{:?}", crossing.notes);
 }
 
 #[test]
