@@ -21,6 +21,7 @@ pub mod epoch;
 mod epoch_args;
 mod epoch_medians;
 mod error;
+mod grouped;
 mod guarded;
 pub mod journal;
 mod least_squares;

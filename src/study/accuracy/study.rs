@@ -2,6 +2,7 @@
 
 use anyhow::Context as _;
 use serde::{Deserialize, Serialize};
+use serde_json::json;
 
 use super::{AccuracyRecord, AccuracySettings, RayKind, accuracy_scene, figure, legend, section, tables};
 use crate::measure::Threads;
@@ -69,16 +70,6 @@ pub struct JudgedScene {
     note: Option<String>,
 }
 
-#[derive(Serialize)]
-struct Kept {
-    structures: String,
-    workloads: String,
-    rays: usize,
-    runs: u16,
-    budget: u32,
-    seed: u64,
-}
-
 impl Study for AccuracyStudy {
     const NAME: &'static str = "accuracy";
     const QUESTION: &'static str =
@@ -128,14 +119,14 @@ impl Study for AccuracyStudy {
         let labels: Vec<&str> = choices.iter().map(|choice| choice.label.as_str()).collect();
         let names: Vec<&str> = kinds.iter().map(|kind| kind.name()).collect();
         let rays = args.rays.number()?;
-        let kept = Kept {
-            structures: labels.join(" "),
-            workloads: replayed.as_ref().map_or(names.join(" "), |rays| format!("replayed {}", rays.hash())),
-            rays,
-            runs: args.runs,
-            budget: args.budget,
-            seed: args.seed,
-        };
+        let kept = json!({
+            "structures": labels.join(" "),
+            "workloads": replayed.as_ref().map_or(names.join(" "), |rays| format!("replayed {}", rays.hash())),
+            "rays": rays,
+            "runs": args.runs,
+            "budget": args.budget,
+            "seed": args.seed,
+        });
         let key =
             |scene: &Scene| format!("{} {}", scene_name(&scene.name, !scene.stand_ins.is_empty()), &scene.hash()[..16]);
         let titles: Vec<(String, String)> = scenes.iter().map(|scene| (scene.name.clone(), key(scene))).collect();

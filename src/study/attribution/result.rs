@@ -7,6 +7,7 @@ use super::effects::{self, TERMS, Weights, value};
 use crate::measure::{AaNoise, Estimate, Rerun, median};
 use crate::study::epoch::{Epoch, RayCounts, Structure};
 use crate::study::epoch_medians::{epoch_medians, ratio, values};
+use crate::study::grouped::grouped;
 
 /// What came of one scene.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -123,15 +124,10 @@ pub fn rows(results: &[Attribution]) -> Vec<Row<'_>> {
 /// One result for each scene, in the order in which the scenes were begun. A scene whose first epoch is missing has
 /// none.
 pub fn result(epochs: &[Epoch]) -> Vec<Attribution> {
-    let mut scenes: Vec<Vec<&Epoch>> = vec![];
     let name = |epoch: &Epoch| (epoch.scene.clone(), epoch.stand_in, epoch.scene_hash.clone());
     // An epoch that does not hold all cells and twins, timed, is passed over.
-    for epoch in epochs.iter().filter(|epoch| is_whole(epoch)) {
-        match scenes.iter_mut().find(|scene| name(scene[0]) == name(epoch)) {
-            Some(scene) => scene.push(epoch),
-            None => scenes.push(vec![epoch]),
-        }
-    }
+    let whole = epochs.iter().filter(|epoch| is_whole(epoch));
+    let scenes = grouped(whole, |a, b| name(a) == name(b));
     let scenes: Vec<_> = scenes.into_iter().map(|scene| (logs(&scene), scene)).collect();
     let twins: Vec<Vec<Vec<f64>>> = scenes.iter().flat_map(|(logs, _)| twins(logs)).collect();
     let noise = AaNoise::new(&twins);

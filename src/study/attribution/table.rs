@@ -69,18 +69,13 @@ fn cells(r: &Attribution) -> Table {
         ]
     };
     let samples = format!("{} epochs of {} samples", r.epochs, r.runs);
-    Table {
-        title: format!("{}: {} triangles, {} rays", r.scene, count(r.triangles as u64), r.workload),
-        columns: ["plane, stop, traversal", "ns/ray", "times faster [95%]", "tests", "steps", "refs", "build ms"]
-            .map(String::from)
-            .into(),
-        rows: r.cells.iter().map(row).collect(),
-        notes: vec![format!(
+    let title = format!("{}: {} triangles, {} rays", r.scene, count(r.triangles as u64), r.workload);
+    let columns = ["plane, stop, traversal", "ns/ray", "times faster [95%]", "tests", "steps", "refs", "build ms"];
+    Table::new(title, columns, r.cells.iter().map(row)).noted(vec![format!(
             "{samples}. times faster: than the report's tree, the first. ns/ray ~: on a part of the rays. tests, steps: triangles tested and nodes \
              entered for each ray. refs: references for each triangle. A/A noise of all scenes: a factor of {:.3}.",
             r.aa_noise
-        )],
-    }
+        )])
 }
 
 fn short(cell: &CellResult) -> String {
@@ -98,12 +93,8 @@ fn levels(r: &Attribution) -> Table {
             figures(effect.steps).into(),
         ]
     });
-    Table {
-        title: format!("{}: main effects", r.scene),
-        columns: ["level", "time [95%]", "tests", "steps"].map(String::from).into(),
-        rows: rows.collect(),
-        notes: vec!["As a multiple of the geometric mean of all 36 trees: below 1 is better.".into()],
-    }
+    Table::new(format!("{}: main effects", r.scene), ["level", "time [95%]", "tests", "steps"], rows)
+        .noted(vec!["As a multiple of the geometric mean of all 36 trees: below 1 is better.".into()])
 }
 
 fn terms(r: &Attribution) -> Table {
@@ -112,12 +103,9 @@ fn terms(r: &Attribution) -> Table {
         let time = written(term.time, percent);
         vec![term.term.as_str().into(), time.into(), percent(term.tests).into(), percent(term.steps).into()]
     });
-    Table {
-        title: format!("{}: what varies with what, % of the variance of the logarithms", r.scene),
-        columns: ["term", "time [95%]", "tests", "steps"].map(String::from).into(),
-        rows: rows.collect(),
-        notes: vec!["a x b: what a gives depends on b.".into()],
-    }
+    let title = format!("{}: what varies with what, % of the variance of the logarithms", r.scene);
+    Table::new(title, ["term", "time [95%]", "tests", "steps"], rows)
+        .noted(vec!["a x b: what a gives depends on b.".into()])
 }
 
 fn splits(r: &Attribution) -> Table {

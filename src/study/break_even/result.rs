@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use super::{Payoff, interval};
 use crate::study::epoch::{Epoch, Line, Twins, lines, twins};
+use crate::study::grouped::grouped;
 
 /// What pays on one kind of rays of one scene.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -51,13 +52,7 @@ pub struct Stretch {
 /// Every scene and kind of rays.
 pub fn result(epochs: &[Epoch]) -> Vec<Market> {
     let twins = twins(epochs);
-    let mut groups: Vec<Vec<Line>> = vec![];
-    for line in lines(epochs) {
-        match groups.iter_mut().find(|g| g[0].scene_hash == line.scene_hash && g[0].workload == line.workload) {
-            Some(group) => group.push(line),
-            None => groups.push(vec![line]),
-        }
-    }
+    let groups = grouped(lines(epochs), |a, b| a.scene_hash == b.scene_hash && a.workload == b.workload);
     groups.into_iter().map(|group| market(group, &twins)).collect()
 }
 

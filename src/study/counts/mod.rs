@@ -10,7 +10,7 @@ mod table;
 #[cfg(test)]
 mod tests;
 
-use serde::Serialize;
+use serde_json::json;
 
 use super::args::{Scenes, Structures, WORKLOADS};
 use super::plan::Measure;
@@ -58,15 +58,6 @@ pub struct CountsArgs {
 }
 
 const RAYS: u32 = 16384;
-
-#[derive(Serialize)]
-struct Kept {
-    structures: String,
-    workloads: String,
-    rays: u32,
-    seed: u64,
-    overlap: bool,
-}
 
 impl Study for CountsStudy {
     const NAME: &'static str = "counts";
@@ -118,13 +109,13 @@ impl Study for CountsStudy {
         };
         let labels: Vec<&str> = settings.structures.iter().map(|choice| choice.label.as_str()).collect();
         let kinds: Vec<&str> = settings.workloads.iter().map(|kind| kind.name()).collect();
-        let kept = Kept {
-            structures: labels.join(" "),
-            workloads: kinds.join(" "),
-            rays: args.rays,
-            seed: args.seed,
-            overlap: settings.overlap,
-        };
+        let kept = json!({
+            "structures": labels.join(" "),
+            "workloads": kinds.join(" "),
+            "rays": args.rays,
+            "seed": args.seed,
+            "overlap": settings.overlap,
+        });
         let key =
             |scene: &Scene| format!("{} {}", scene_name(&scene.name, !scene.stand_ins.is_empty()), &scene.hash()[..16]);
         let names: Vec<(String, String)> = scenes.iter().map(|scene| (scene.name.clone(), key(scene))).collect();

@@ -20,15 +20,9 @@ pub fn tables(result: &Parameters) -> Vec<Table> {
             Cell::from(s.verdict.words()).with(tone),
         ]
     };
-    let table = Table {
-        title: format!("The report's sweep, against its default {}", Parameters::default_name()),
-        columns: ["scene, L / T", "seconds", "report", "time [95%]", "report", "tests/ray", "verdict"]
-            .map(String::from)
-            .into(),
-        rows: result.settings.iter().map(row).collect(),
-        notes: notes(result),
-    };
-    vec![explained(table)]
+    let title = format!("The report's sweep, against its default {}", Parameters::default_name());
+    let columns = ["scene, L / T", "seconds", "report", "time [95%]", "report", "tests/ray", "verdict"];
+    vec![explained(Table::new(title, columns, result.settings.iter().map(row)).noted(notes(result)))]
 }
 
 fn notes(result: &Parameters) -> Vec<String> {

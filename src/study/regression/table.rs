@@ -24,7 +24,6 @@ fn structures(comparison: &Comparison) -> Table {
             worst.into(),
         ]
     });
-    let rows = rows.collect();
     let by = if comparison.references.is_empty() {
         "Times are compared as they are, for the runs have no structure of obvhs in common: a machine that was slower counts as a change."
             .to_owned()
@@ -51,12 +50,8 @@ fn structures(comparison: &Comparison) -> Table {
             notes.push(format!("{} in the {whose} run alone, as {first}.", plural(only.len(), "case")));
         }
     }
-    Table {
-        title: "Change of time, geometric mean over cells, with 95 % interval".into(),
-        columns: ["structure", "time", "finding", "cells", "worst cell"].map(String::from).into(),
-        rows,
-        notes,
-    }
+    let columns = ["structure", "time", "finding", "cells", "worst cell"];
+    Table::new("Change of time, geometric mean over cells, with 95 % interval", columns, rows).noted(notes)
 }
 
 fn cells(comparison: &Comparison) -> Table {
@@ -80,7 +75,6 @@ fn cells(comparison: &Comparison) -> Table {
         cells.extend(comparison.structures.iter().map(of));
         cells
     });
-    let rows = rows.collect();
     let Reproduced { ratios, old_in_new, new_in_old } = comparison.reproduced;
     let share = |n: usize| format!("{n} of {ratios} ({}%)", figures(100.0 * n as f64 / ratios as f64));
     let reproduced = (ratios > 0).then(|| {
@@ -91,7 +85,8 @@ fn cells(comparison: &Comparison) -> Table {
             share(new_in_old)
         )
     });
-    Table { title: "Change of time, cell by cell".into(), columns, rows, notes: reproduced.into_iter().collect() }
+    let (rows, notes) = (rows.collect(), reproduced.into_iter().collect());
+    Table { title: "Change of time, cell by cell".into(), columns, rows, notes }
 }
 
 fn place(cell: &Change) -> String {

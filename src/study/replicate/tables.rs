@@ -19,12 +19,7 @@ pub fn tables(result: &Replication) -> Vec<Table> {
 }
 
 fn table<const N: usize>(title: &str, columns: [&str; N], rows: Vec<[String; N]>, notes: &[&str]) -> Table {
-    explained(Table {
-        title: title.into(),
-        columns: columns.map(String::from).into(),
-        rows: rows.into_iter().map(|row| row.map(Cell::from).into()).collect(),
-        notes: notes.iter().map(|note| (*note).into()).collect(),
-    })
+    explained(Table::of_texts(title, columns, rows).noted(notes.iter().map(|note| (*note).into()).collect()))
 }
 
 fn rays(result: &Replication) -> Table {

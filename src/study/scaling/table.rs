@@ -5,6 +5,7 @@ use crate::measure::Estimate;
 use crate::report::number::{bytes, count, duration, figures};
 use crate::report::words::{explained, written};
 use crate::report::{Cell, Table};
+use crate::study::grouped::grouped;
 
 /// For each family and kind of rays the exponents, then the points they come from.
 pub fn tables(growths: &[Growth]) -> Vec<Table> {
@@ -12,14 +13,7 @@ pub fn tables(growths: &[Growth]) -> Vec<Table> {
 }
 
 pub(super) fn groups(growths: &[Growth]) -> Vec<Vec<&Growth>> {
-    let mut groups: Vec<Vec<&Growth>> = vec![];
-    for growth in growths {
-        match groups.iter_mut().find(|g| g[0].family == growth.family && g[0].workload == growth.workload) {
-            Some(group) => group.push(growth),
-            None => groups.push(vec![growth]),
-        }
-    }
-    groups
+    grouped(growths, |a, b| a.family == b.family && a.workload == b.workload)
 }
 
 fn power(x: Option<Estimate>) -> Cell {

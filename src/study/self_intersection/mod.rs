@@ -10,6 +10,7 @@ mod table;
 mod tests;
 
 use serde::{Deserialize, Serialize};
+use serde_json::json;
 
 use super::plan::Measure;
 use super::{BRUTE_FORCE, Context, Data, Effort, Plan, SAH_TREE, Stage, Study, StudyError, sources};
@@ -147,13 +148,6 @@ pub struct SelfIntersectionArgs {
 
 const RAYS: u32 = 6000;
 
-#[derive(Serialize)]
-struct Kept {
-    structures: String,
-    rays: u32,
-    seed: u64,
-}
-
 impl Study for SelfIntersectionStudy {
     const NAME: &'static str = "self-intersection";
     const QUESTION: &'static str =
@@ -182,7 +176,7 @@ impl Study for SelfIntersectionStudy {
         anyhow::ensure!(!structures.is_empty(), "{SAH_TREE} is not registered: name a structure with --structure");
         let (rays, seed) = (args.rays, args.seed);
         let labels: Vec<&str> = structures.iter().map(|choice| choice.label.as_str()).collect();
-        let kept = Kept { structures: labels.join(" "), rays, seed };
+        let kept = json!({ "structures": labels.join(" "), "rays": rays, "seed": seed });
         let threads = Threads::new(1).map_err(anyhow::Error::msg)?;
         let spheres = Sphere::ALL.map(|sphere| (sphere.to_string(), sphere.to_string()));
         let measure: Measure<Vec<Row>> = Box::new(move |case, _, _, progress| {

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use super::{Bounds, Claim, prediction};
 use crate::report::Record;
 use crate::report::number::figures;
+use crate::study::grouped::grouped;
 use crate::study::predictions::rank::{WELL, kendall, mean};
 use crate::study::predictions::{Inputs, Prediction, Verdict};
 use crate::study::{BRUTE_FORCE, REPORT_TREE, SAH_TREE};
@@ -65,17 +66,8 @@ fn by_scene(taus: Vec<(String, f64)>) -> Vec<f64> {
 }
 
 fn groups(records: &[Record]) -> Vec<Vec<&Record>> {
-    let mut groups: Vec<Vec<&Record>> = vec![];
-    for record in records.iter().filter(|r| r.structure != BRUTE_FORCE && r.trace_ns.is_some()) {
-        let same = |group: &&mut Vec<&Record>| {
-            group[0].scene_hash == record.scene_hash && group[0].workload == record.workload
-        };
-        match groups.iter_mut().find(same) {
-            Some(group) => group.push(record),
-            None => groups.push(vec![record]),
-        }
-    }
-    groups
+    let timed = records.iter().filter(|r| r.structure != BRUTE_FORCE && r.trace_ns.is_some());
+    grouped(timed, |a, b| a.scene_hash == b.scene_hash && a.workload == b.workload)
 }
 
 fn across(group: &[&Record]) -> Option<f64> {
