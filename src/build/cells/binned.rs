@@ -4,6 +4,7 @@
 use super::config::CellConfig;
 use super::grow::{Content, Context, Place};
 use super::sweep::{Events, PARALLEL};
+use crate::build::axes::on_axes;
 use crate::build::cut::Cut;
 use crate::build::part::{Part, at_plane};
 use crate::build::planes::{PLANES, Planes};
@@ -67,13 +68,7 @@ impl Binned {
 
 /// The cheapest plane that makes not too many references, as far as a sample of `part` tells: its cost and the cut.
 fn cheapest(context: &Context<CellConfig>, part: &Part, sample: &Sample, place: &Place) -> Option<(f64, Cut)> {
-    let along = |axis| along(context, part, sample, place, axis);
-    let found = if sample.len() < PARALLEL {
-        [along(0), along(1), along(2)]
-    } else {
-        let (x, (y, z)) = rayon::join(|| along(0), || rayon::join(|| along(1), || along(2)));
-        [x, y, z]
-    };
+    let found = on_axes(sample.len() >= PARALLEL, |axis| along(context, part, sample, place, axis));
     found.into_iter().flatten().reduce(|a, b| if b.0 < a.0 { b } else { a })
 }
 

@@ -9,6 +9,7 @@ use rayon::prelude::*;
 
 use super::config::CellConfig;
 use super::grow::{Content, Context, Place};
+use crate::build::axes::on_axes;
 use crate::build::clip::clipped_bounds;
 use crate::build::cut::Cut;
 use crate::build::reference::Reference;
@@ -228,13 +229,7 @@ impl Content for Events {
 
     fn choose(&self, context: &Context<CellConfig>, place: &Place) -> Option<Cut> {
         let model = &context.config.costs;
-        let sweep = |axis| self.sweep(model, &place.cell, axis);
-        let found: [_; 3] = if self.len() < PARALLEL {
-            [sweep(0), sweep(1), sweep(2)]
-        } else {
-            let (x, (y, z)) = rayon::join(|| sweep(0), || rayon::join(|| sweep(1), || sweep(2)));
-            [x, y, z]
-        };
+        let found = on_axes(self.len() >= PARALLEL, |axis| self.sweep(model, &place.cell, axis));
         let (cost, cut) = found.into_iter().flatten().reduce(|a, b| if b.0 < a.0 { b } else { a })?;
         (!context.rules.pays || cost < model.leaf(self.len())).then_some(cut)
     }

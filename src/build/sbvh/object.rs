@@ -1,6 +1,7 @@
 //! The cheapest way to sort the references of a node into two groups.
 
 use super::offer::{Context, Offer, cheaper};
+use crate::build::axes::on_axes;
 use crate::build::extent::Extent;
 use crate::build::grouping::{BINS, Bins, Group, centres, order};
 use crate::build::reference::{PARALLEL, Reference};
@@ -12,12 +13,7 @@ pub(super) fn cheapest_group(context: &Context, references: &[Reference], area: 
     let sample = Sample::new(references, context.config.sample);
     let along =
         |axis| if exact { sorted(context, references, area, axis) } else { binned(context, &sample, area, axis) };
-    let [x, y, z] = if sample.len() < PARALLEL {
-        [along(0), along(1), along(2)]
-    } else {
-        let (x, (y, z)) = rayon::join(|| along(0), || rayon::join(|| along(1), || along(2)));
-        [x, y, z]
-    };
+    let [x, y, z] = on_axes(sample.len() >= PARALLEL, along);
     cheaper(cheaper(x, y), z)
 }
 

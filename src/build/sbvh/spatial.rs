@@ -3,6 +3,7 @@
 use glam::Vec3A;
 
 use super::offer::{Context, Offer, cheaper};
+use crate::build::axes::on_axes;
 use crate::build::cut::Cut;
 use crate::build::extent::Extent;
 use crate::build::planes::{PLANES, Planes};
@@ -144,9 +145,7 @@ impl Node<'_> {
         let [x, y, z] = if self.sample.len() < PARALLEL {
             [0, 1, 2].map(|axis| along(axis, slots))
         } else {
-            let along = |axis| along(axis, &mut Slots::new());
-            let (x, (y, z)) = rayon::join(|| along(0), || rayon::join(|| along(1), || along(2)));
-            [x, y, z]
+            on_axes(true, |axis| along(axis, &mut Slots::new()))
         };
         let coarse = cheaper(cheaper(x, y), z)?;
         let (Cut { axis, .. }, around) = coarse.split;
