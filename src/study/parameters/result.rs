@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use super::{DEFAULT, default_row, is_default};
 use crate::measure::{AaNoise, Estimate, LEVEL, holm};
+use crate::nearest::named_enum;
 use crate::study::epoch::{Epoch, RayCounts, Rays, Shape, Structure, WholeTimes};
 use crate::study::replicate::original::{MAIN, SWEEP};
 
@@ -42,32 +43,21 @@ pub struct Setting {
     pub verdict: Difference,
 }
 
-/// Whether a setting differs from the default.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Difference {
-    /// It is the default.
-    Default,
-    /// Its tree is that of the default: there is nothing to differ.
-    SameTree,
-    /// Its interval lies below 1, as one of all that are compared.
-    Faster,
-    /// As [`Difference::Faster`].
-    Slower,
-    /// Chance or noise may explain what is seen.
-    NotShown,
-}
-
-impl Difference {
-    /// As tables print it.
-    pub fn words(self) -> &'static str {
-        match self {
-            Self::Default => "default",
-            Self::SameTree => "same tree",
-            Self::Faster => "faster",
-            Self::Slower => "slower",
-            Self::NotShown => "not shown",
-        }
+named_enum! {
+    /// Whether a setting differs from the default.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+    #[serde(rename_all = "kebab-case")]
+    pub enum Difference {
+        /// It is the default.
+        Default = "default",
+        /// Its tree is that of the default: there is nothing to differ.
+        SameTree = "same tree",
+        /// Its interval lies below 1, as one of all that are compared.
+        Faster = "faster",
+        /// As [`Difference::Faster`].
+        Slower = "slower",
+        /// Chance or noise may explain what is seen.
+        NotShown = "not shown",
     }
 }
 

@@ -17,7 +17,7 @@ pub fn tables(result: &Parameters) -> Vec<Table> {
             s.times.map_or(Cell::blank(), |times| interval(times).into()),
             if s.verdict == Difference::Default { Cell::blank() } else { figures(s.report_times).into() },
             figures(s.tests_per_ray).into(),
-            Cell::from(s.verdict.words()).with(tone),
+            Cell::from(s.verdict.name()).with(tone),
         ]
     };
     let title = format!("The report's sweep, against its default {}", Parameters::default_name());

@@ -25,6 +25,7 @@ use super::replicate::{self, ReplicateStudy};
 use super::scaling::{Growth, ScalingStudy};
 use super::{Answers, Context, Data, Effort, Plan, Study};
 use crate::measure::{Estimate, Interval, Threads};
+use crate::nearest::named_enum;
 use crate::registry::Registry;
 use crate::report::document::Block;
 use crate::report::number::figures;
@@ -37,7 +38,7 @@ use counted::{key, measure, scenes};
 pub use rank::kendall;
 pub use section::{REST_BELOW, sentence};
 pub use table::{table, tone};
-pub use tally::{Tally, tally};
+pub use tally::tally;
 
 /// What there is to judge by. What is missing is empty.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -189,29 +190,19 @@ pub struct Figure {
 /// How many claims there are: all are judged together.
 pub const CLAIMS: usize = 24;
 
-/// What came of a claim.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Verdict {
-    /// The whole interval is as expected.
-    Confirmed,
-    /// The whole interval is not.
-    Refuted,
-    /// The interval reaches across a bound, or is not known.
-    Undecided,
-    /// There is nothing to judge by.
-    NotMeasured,
-}
-
-impl Verdict {
-    /// As tables print it.
-    pub fn words(self) -> &'static str {
-        match self {
-            Self::Confirmed => "confirmed",
-            Self::Refuted => "refuted",
-            Self::Undecided => "undecided",
-            Self::NotMeasured => "not measured",
-        }
+named_enum! {
+    /// What came of a claim.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+    #[serde(rename_all = "kebab-case")]
+    pub enum Verdict {
+        /// The whole interval is as expected.
+        Confirmed = "confirmed",
+        /// The whole interval is not.
+        Refuted = "refuted",
+        /// The interval reaches across a bound, or is not known.
+        Undecided = "undecided",
+        /// There is nothing to judge by.
+        NotMeasured = "not measured",
     }
 }
 

@@ -8,7 +8,7 @@ use crate::report::{Cell, Table};
 /// One sentence for the answer of the page; nothing where nothing is measured.
 pub fn sentence(predictions: &[Prediction]) -> Option<String> {
     let measured = predictions.iter().flat_map(|p| &p.claims).any(|claim| claim.value.is_some());
-    measured.then(|| format!("Written before the measurement: {}.", tally(predictions).words()))
+    measured.then(|| format!("Written before the measurement: {}.", tally(predictions)))
 }
 
 pub fn blocks(predictions: &[Prediction], command: &str) -> Vec<Block> {
@@ -48,7 +48,7 @@ fn row(number: u8, claim: &Claim) -> Vec<Cell> {
         claim.what.as_str().into(),
         claim.expected.as_str().into(),
         claim.value.map_or(Cell::blank(), |value| interval(value).into()),
-        Cell::from(claim.verdict.words()).with(tone(claim.verdict)),
+        Cell::from(claim.verdict.name()).with(tone(claim.verdict)),
     ]
 }
 

@@ -20,7 +20,7 @@ pub fn table(predictions: &[Prediction]) -> Table {
         rows.extend(p.claims.iter().map(|claim| {
             vec![
                 format!("{}. {}", p.number, claim.what).into(),
-                Cell::from(claim.verdict.words()).with(tone(claim.verdict)),
+                Cell::from(claim.verdict.name()).with(tone(claim.verdict)),
                 claim.value.map_or(Cell::blank(), |value| interval(value).into()),
                 claim.expected.as_str().into(),
             ]
@@ -43,7 +43,7 @@ pub fn table(predictions: &[Prediction]) -> Table {
     }
     explained(
         Table::new(
-            format!("Claims written before the measurement: {}", tally(predictions).words()),
+            format!("Claims written before the measurement: {}", tally(predictions)),
             ["claim", "verdict", "measured", "expected"],
             rows,
         )

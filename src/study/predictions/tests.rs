@@ -41,10 +41,12 @@ fn nothing_measured_is_said_of_every_claim_with_the_command() {
         assert!(verdicts(p).iter().all(|&verdict| verdict == NotMeasured) && p.why.is_empty() && p.figures.is_empty());
         assert!(p.command.starts_with("sahara "));
     }
-    let expected = Tally { claims: CLAIMS, not_measured: CLAIMS, ..Tally::default() };
-    assert_eq!(tally(&all), expected);
     let table = table(&all);
-    assert!(table.title.ends_with("0 of 24 claims confirmed, 0 refuted, 24 not measured"), "{}", table.title);
+    assert!(
+        table.title.ends_with(&format!("0 of {CLAIMS} claims confirmed, 0 refuted, 24 not measured")),
+        "{}",
+        table.title
+    );
     assert!(table.notes[4].contains("To measure it: sahara study scaling"), "{}", table.notes[4]);
 }
 
@@ -92,8 +94,7 @@ fn rays_are_counted_to_two_scene_by_scene() {
     let refuted: Vec<&Claim> = one_off.claims.iter().filter(|claim| claim.verdict == Refuted).collect();
     assert!(refuted.len() == 1 && refuted[0].what.starts_with("Cornellbox"), "{refuted:?}");
     assert!(one_off.why.contains("Cornellbox is -29 rays off"), "{}", one_off.why);
-    let tally = tally(&[one_off]);
-    assert_eq!(tally.words(), "7 of 8 claims confirmed, 1 refuted");
+    assert_eq!(tally(&[one_off]), "7 of 8 claims confirmed, 1 refuted");
 }
 
 #[test]

@@ -17,6 +17,7 @@ use super::args::{Measuring, Rays, Scenes, Structures, with_twin};
 use super::epoch::{Epoch, Line, Twins, lines, middles, troubles, twins};
 use super::{Context, Data, Effort, Plan, Study, Trouble, least_squares, sources};
 use crate::measure::{AaNoise, Estimate, Rerun, Variance};
+use crate::nearest::named_enum;
 use crate::registry::Registry;
 use crate::report::document::Block;
 use crate::report::{Statement, Table};
@@ -106,23 +107,15 @@ impl Study for ScalingStudy {
     }
 }
 
-/// What grows.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Family {
-    /// One sphere, divided more and more finely.
-    Spheres,
-    /// Different meshes.
-    Meshes,
-}
-
-impl Family {
-    /// As tables name it.
-    pub fn words(self) -> &'static str {
-        match self {
-            Self::Spheres => "icospheres",
-            Self::Meshes => "meshes",
-        }
+named_enum! {
+    /// What grows.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+    #[serde(rename_all = "kebab-case")]
+    pub enum Family {
+        /// One sphere, divided more and more finely.
+        Spheres = "icospheres",
+        /// Different meshes.
+        Meshes = "meshes",
     }
 }
 

@@ -110,11 +110,11 @@ fn figure(group: &[Growth], quantity: &Quantity, command: &str) -> Figure {
     let told: Vec<String> = told.collect();
     let rays = if quantity.id == TIME.id { format!(" {} rays;", first.workload) } else { String::new() };
     Figure {
-        id: format!("scaling-{}-{}-{}", quantity.id, slug(first.family.words()), slug(&first.workload)),
+        id: format!("scaling-{}-{}-{}", quantity.id, slug(first.family.name()), slug(&first.workload)),
         caption: format!(
             "{}, {};{rays} both axes are logarithmic, so that a power of n is a straight line. Its exponent stands behind the name.",
             capital(quantity.words),
-            first.family.words(),
+            first.family.name(),
         ),
         alt: format!("Line chart over the number of triangles. {}.", told.join("; ")),
         command: command.into(),

@@ -21,7 +21,7 @@ fn power(x: Option<Estimate>) -> Cell {
 }
 
 fn title(group: &[&Growth], what: &str) -> String {
-    format!("{}, {} rays: {what}", group[0].family.words(), group[0].workload)
+    format!("{}, {} rays: {what}", group[0].family.name(), group[0].workload)
 }
 
 pub(super) fn exponents(group: &[&Growth]) -> Table {
