@@ -12,8 +12,8 @@ use super::engine::{Measured, Run, measure};
 use super::journal::{Header, Journal, JournalError, Recorded};
 use super::process::{self, Job};
 use super::{
-    Context, Data, Effort, SceneId, Study, accuracy, attribution, break_even, compare, costs, counts, crossover,
-    parameters, partitions, predictions, replicate, scaling, self_intersection, threads,
+    Context, Data, Effort, SceneId, Study, accuracy, attribution, binary, break_even, compare, costs, counts,
+    crossover, parameters, partitions, predictions, replicate, scaling, self_intersection, threads,
 };
 use crate::measure::Provenance;
 use crate::registry::Registry;
@@ -45,6 +45,7 @@ impl Studies {
             .with::<threads::ThreadsStudy>()
             .with::<break_even::BreakEvenStudy>()
             .with::<crossover::CrossoverStudy>()
+            .with::<binary::BinaryStudy>()
             .with::<costs::CostsStudy>()
             .with::<parameters::ParametersStudy>()
             .with::<accuracy::AccuracyStudy>()

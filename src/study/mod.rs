@@ -8,6 +8,7 @@ pub mod args;
 pub mod attribution;
 pub mod baseline;
 mod baselines;
+pub mod binary;
 pub mod break_even;
 mod built;
 mod check;
