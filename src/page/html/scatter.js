@@ -61,7 +61,7 @@
       const svg = document.createElementNS(SVG, "svg");
       for (const [key, value] of [["viewBox", `0 0 ${width} ${height}`], ["role", "group"], ["aria-label", `Speed against ${axis.title}`]]) svg.setAttribute(key, value);
       const [unit, unitName] = axis.unit(xs[1]);
-      for (const tick of ticks(ys.map((v) => v), 8)) {
+      for (const tick of ticks(ys, 8)) {
         draw(svg, "line", { class: "grid", x1: frame.left, x2: frame.right, y1: y(tick), y2: y(tick) });
         draw(svg, "text", { x: frame.left - 6, y: y(tick) + 4, "text-anchor": "end" }, figures(tick));
       }
