@@ -34,7 +34,7 @@ pub use memory::{CountingAllocator, peak_bytes};
 pub use order::RandomOrder;
 pub use pass::{Pass, spread};
 pub use pin::{Pin, keep_to, on_all_cores};
-pub use provenance::{Provenance, quoted, words};
+pub use provenance::{Provenance, quoted};
 pub use remote_pass::RemotePass;
 pub use samples::{Part, Plan, Samples, Timed, UnsteadyAnswers, begin, take};
 pub use student::{LEVEL, factor, holm, two_sided};

@@ -139,25 +139,6 @@ pub fn quoted(arg: &str) -> String {
     if !arg.is_empty() && arg.chars().all(plain) { arg.into() } else { format!("'{}'", arg.replace('\'', "'\\''")) }
 }
 
-/// The arguments of a line of [`quoted`] ones.
-pub fn words(line: &str) -> Vec<String> {
-    let (mut words, mut word, mut is_quoted) = (vec![], None::<String>, false);
-    let mut rest = line.chars();
-    while let Some(c) = rest.next() {
-        match c {
-            '\'' => {
-                is_quoted = !is_quoted;
-                word.get_or_insert_default();
-            }
-            '\\' if !is_quoted => word.get_or_insert_default().extend(rest.next()),
-            c if c.is_whitespace() && !is_quoted => words.extend(word.take()),
-            c => word.get_or_insert_default().push(c),
-        }
-    }
-    words.extend(word);
-    words
-}
-
 fn cpu_name() -> Option<String> {
     model_name(&std::fs::read_to_string("/proc/cpuinfo").ok()?)
 }
@@ -186,7 +167,7 @@ mod tests {
         assert_eq!(quoted("it's"), "'it'\\''s'");
         assert_eq!(quoted(""), "''");
         let arguments = ["sahara", "a b.ply", "it's", "", "--camera", "0,0,1 0,0,0", "\\", "c.ply"];
-        assert_eq!(words(&arguments.map(quoted).join(" ")), arguments);
+        assert_eq!(shlex::split(&arguments.map(quoted).join(" ")).unwrap(), arguments);
     }
 
     #[test]

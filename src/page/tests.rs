@@ -1,17 +1,15 @@
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::sync::OnceLock;
+use std::path::PathBuf;
 
 use super::{Runs, files, page};
-use crate::measure::Provenance;
-use crate::report::document::{Art, Block, Colours, Document, Figure, Overlay, Section, Thumbnail};
-use crate::report::inspector::{Answer, InspectedHit, InspectedRay, InspectedStructure, Inspector};
-use crate::report::plot::{Chart, Curves, Line, Mark};
-use crate::report::{Record, Table, example_record, to_json};
-use crate::study::epoch::{Epoch, tests as epoch};
-use crate::study::journal::Header;
+use crate::report::document::{Art, Document, Section};
+use crate::report::{Record, to_json};
 use crate::study::{Studies, attribution};
+use example::{accuracy, attribution_journal, refused, whole};
 
+pub use example::{cube, provenance, read, records_of, runs_folder};
+
+mod example;
 mod statements;
 
 fn document(runs: &Runs, pictures: Vec<Section>) -> Document {
@@ -20,204 +18,6 @@ fn document(runs: &Runs, pictures: Vec<Section>) -> Document {
 
 /// What a user may call a scene.
 const EVIL: &str = "<script>alert(\"&'1'\")</script>";
-
-pub(super) fn provenance(command: &str) -> Provenance {
-    Provenance {
-        command: command.into(),
-        commit: "c0ffee".into(),
-        cpu: "a processor".into(),
-        load: None,
-        ..example_record().provenance
-    }
-}
-
-fn record(scene: &str, label: &str, workload: &str, ns: f64) -> Record {
-    Record {
-        scene: scene.into(),
-        scene_hash: scene.into(),
-        label: label.into(),
-        structure: label.split(':').next().unwrap().into(),
-        workload: workload.into(),
-        trace_ns: Some(ns),
-        mrays_per_s: Some(500.0 * 1e3 / ns),
-        samples_ns: [1.0, 1.1, 0.9, 1.05, 1.0].map(|f| f * ns).into(),
-        runs: 5,
-        epochs: 5,
-        noise_floor: Some(0.01),
-        provenance: provenance("/opt/somewhere/sahara compare --export-json compare.json"),
-        ..example_record()
-    }
-}
-
-pub(super) fn records_of(scene: &str) -> Vec<Record> {
-    ["primary", "shadow"]
-        .iter()
-        .flat_map(|workload| {
-            [("median-kd", 8e6), ("sah-kd", 1e6), ("obvhs-bvh2", 9e5)]
-                .map(|(label, ns)| record(scene, label, workload, ns))
-        })
-        .collect()
-}
-
-/// A journal with one scene.
-fn accuracy(scene: &str) -> Vec<u8> {
-    let of = |(label, ns, error): (&str, f64, f64)| {
-        serde_json::json!({
-            "schema": 1, "scene": scene, "scene_hash": "aa", "triangles": 12, "stand_in": false, "structure": "sah-kd", "label": label,
-            "config": {}, "triangle_test": "exact", "rays": "uniform", "seed": 1, "judged": 1000, "sampled": false, "hits": 500,
-            "missed": 0, "false_hits": 0, "wrong_depth": 0, "wrong_primitive": 0, "error": error, "error_bound": error + 0.003,
-            "miss_rate": null, "false_hit_rate": null, "wrong_depth_rate": null,
-            "ulps": { "median": 0.25, "p99": 0.5, "max": null }, "ns_per_ray": ns, "timed": 1000, "runs": 3, "dominated_by": null,
-            "provenance": provenance("sahara study accuracy"),
-        })
-    };
-    let records = [("sah-kd:test=exact", 250.0, 0.0), ("sah-kd:test=moller-trumbore", 200.0, 0.02)].map(of);
-    journal("accuracy", vec![serde_json::json!({ "records": records, "refused": [], "note": null })])
-}
-
-/// A journal with one epoch of a scene.
-fn attribution_journal(scene: &str) -> String {
-    let epochs = attribution::tests::cases(2, 0.0).into_iter().map(|epoch| Epoch { scene: scene.into(), ..epoch });
-    String::from_utf8(journal("attribution", epochs.map(|epoch| serde_json::to_value(epoch).unwrap()).collect()))
-        .unwrap()
-}
-
-/// The text of a journal.
-fn journal(study: &str, cases: Vec<serde_json::Value>) -> Vec<u8> {
-    let header = serde_json::json!({
-        "schema": Header::SCHEMA, "study": study, "settings": { "seed": 1 }, "provenance": provenance(&format!("sahara study {study}"))
-    });
-    let lines = cases.iter().enumerate().map(|(i, case)| serde_json::json!({ "key": i.to_string(), "case": case }));
-    std::iter::once(header).chain(lines).map(|line| format!("{line}\n")).collect::<String>().into_bytes()
-}
-
-/// Journals of the studies of curves.
-fn curves(scene: &str) -> [(&'static str, Vec<u8>); 4] {
-    let epoch = |triangles: usize, number: usize| {
-        let ns: [&[u64]; 3] = [&[90_000, 91_000], &[40_000, 41_000], &[30_000, 30_500]];
-        let structures = [("median-kd", 1000, ns[0]), ("sah-kd", 5000, ns[1]), ("obvhs-bvh2", 9000, ns[2])];
-        let grown = structures.map(|(label, build, ns)| (label, build * triangles as u64, ns));
-        epoch::example(&format!("{scene} {triangles}"), triangles, number, &grown)
-    };
-    let epochs: Vec<Epoch> = [20, 320, 5120].iter().flat_map(|&n| [epoch(n, 0), epoch(n, 1)]).collect();
-    let json = |epoch: &Epoch| serde_json::to_value(epoch).unwrap();
-    let depth = |epoch: &Epoch| serde_json::json!([["primary", (epoch.triangles as f64).log2()]]);
-    [
-        (
-            "scaling.jsonl",
-            journal("scaling", epochs.iter().map(|e| serde_json::json!({ "family": "spheres", "epoch": e })).collect()),
-        ),
-        ("break-even.jsonl", journal("break-even", epochs.iter().map(json).collect())),
-        ("costs.jsonl", journal("costs", epochs.iter().map(json).collect())),
-        (
-            "crossover.jsonl",
-            journal(
-                "crossover",
-                epochs
-                    .iter()
-                    .map(|e| serde_json::json!({ "layers": e.triangles, "complexity": depth(e), "epoch": e }))
-                    .collect(),
-            ),
-        ),
-    ]
-}
-
-pub(super) fn runs_folder(files: &[(&str, Vec<u8>)]) -> tempfile::TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    for (name, bytes) in files {
-        fs::write(folder.path().join(name), bytes).unwrap();
-    }
-    folder
-}
-
-/// Why paths cannot be read.
-fn refused(paths: &[PathBuf]) -> super::RunError {
-    Runs::read(paths, &Studies::builtin()).err().expect("it cannot be read")
-}
-
-pub(super) fn read(folder: &Path) -> Runs {
-    Runs::read(&[folder.to_path_buf()], &Studies::builtin()).unwrap()
-}
-
-/// Two rays, of which one meets a triangle that one of two structures misses.
-fn inspector(scene: &str) -> Inspector {
-    let hit = Answer { hit: Some(InspectedHit { t: 0.1, triangle: 7, weights: [0.25, 1.0 / 3.0] }), wrong: "" };
-    let (miss, missed) = (Answer { hit: None, wrong: "" }, Answer { hit: None, wrong: "missed" });
-    let ray = |pixel, truth: &Answer, answers: &[&Answer]| InspectedRay {
-        pixel,
-        text: "0.0,0.0,0.0 1.0,0.0,0.0".into(),
-        truth: truth.clone(),
-        answers: answers.iter().map(|&answer| answer.clone()).collect(),
-    };
-    let structure = |label: &str, answers: [usize; 2]| InspectedStructure {
-        label: label.into(),
-        nodes: vec![3, 4],
-        tests: vec![12, 0],
-        answers: answers.into(),
-        ..InspectedStructure::default()
-    };
-    Inspector {
-        size: [2, 2],
-        which: "Some".into(),
-        command: format!("sahara validate {scene} --ray"),
-        rays: vec![ray(0, &hit, &[&hit, &missed]), ray(3, &miss, &[&miss])],
-        structures: vec![structure(scene, [0, 0]), structure("b", [1, 0])],
-    }
-}
-
-/// Everything there is, from a scene called `scene`.
-fn whole(scene: &str) -> (Document, Runs) {
-    let files = [
-        ("compare.json", to_json(&records_of(scene))),
-        ("accuracy.jsonl", accuracy(scene)),
-        ("attribution.jsonl", attribution_journal(scene).into_bytes()),
-    ];
-    let runs = read(runs_folder(&[&files[..], &curves(scene)].concat()).path());
-    let thumbnail = |name: &str| Thumbnail {
-        name: name.into(),
-        note: "12 triangles".into(),
-        alt: format!("{name}, rendered"),
-        png: vec![1, 2, 3],
-        size: [2, 2],
-    };
-    let figure = |id: &str, art: Art| Figure {
-        id: id.into(),
-        caption: "A caption".into(),
-        alt: "A picture".into(),
-        command: "sahara render".into(),
-        art,
-        data: Table::default(),
-    };
-    let overlay = Overlay {
-        heading: scene.into(),
-        pictures: vec![thumbnail(scene), thumbnail("b")],
-        colours: Colours::Ramp {
-            title: "Work".into(),
-            colours: vec!["#000000".into(), "#ffffff".into()],
-            ticks: vec![(0.0, "0".into()), (1.0, "10".into())],
-        },
-        inspector: Some(Box::new(inspector(scene))),
-    };
-    let line = Line { label: scene.into(), note: String::new(), points: vec![], mark: Mark::Both };
-    let curves = Curves::logarithmic("x", "y", vec![line]);
-    let pictures = Section {
-        id: "pictures",
-        title: "Pictures",
-        blocks: vec![
-            Block::Figure(figure("gallery", Art::Gallery(vec![thumbnail(scene)]))),
-            Block::Figure(figure("overlay", Art::Overlay(overlay))),
-            Block::Figure(figure("curves", Art::Chart(Chart::Curves(curves)))),
-            Block::Note(scene.into()),
-        ],
-    };
-    (document(&runs, vec![pictures]), runs)
-}
-
-/// [`whole`] of an ordinary scene, made once.
-pub(super) fn cube() -> &'static (Document, Runs) {
-    static CUBE: OnceLock<(Document, Runs)> = OnceLock::new();
-    CUBE.get_or_init(|| whole("Cube"))
-}
 
 #[test]
 fn what_users_name_is_text_in_every_form() {

@@ -132,7 +132,7 @@ mod tests {
 
     #[test]
     fn the_options_of_a_command_that_has_run_are_found_again() {
-        let of = |line: &str| ViewArgs::of_command(&crate::measure::words(line));
+        let of = |line: &str| ViewArgs::of_command(&shlex::split(line).unwrap());
         let look = Look { eye: Vec3::Z, target: Vec3::ZERO, vertical_fov: Some(40.0) };
         let found = of("sahara compare a.ply --camera '0,0,1 0,0,0 40' --size=64x32");
         assert_eq!((found.camera, found.inside, found.size), (Some(look), false, Some(Size([64, 32]))));

@@ -5,7 +5,8 @@ use std::sync::Arc;
 
 use anyhow::Context;
 
-use super::{Against, Args, print, row};
+use super::against::Against;
+use super::{Args, print, row};
 use crate::accel::{DynAccel, Query};
 use crate::cli::terminal::Terminal;
 use crate::geometry::{Hit, Ray};

@@ -1,10 +1,10 @@
 //! `validate`.
 
+mod against;
 mod answers;
 mod exchange;
 mod hard;
 
-use std::fmt;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
@@ -24,6 +24,8 @@ use crate::study::{BRUTE_FORCE, documented_defect, left_out};
 use crate::study::{RaySource, replayed};
 use crate::study::{Status, ViewArgs, sources};
 use crate::validate::{LIMIT, Reference, Stratum, Validation, validate_watched, watched};
+
+use against::{ASKED, Against, Known, References};
 
 pub use hard::{CHILD, ChildArgs, described, run_child};
 
@@ -79,15 +81,6 @@ pub struct Args {
     seed: u64,
 }
 
-/// Rays of a scene where nobody says how many, and the triangle tests that brute force may make for them with each triangle test.
-const ASKED: usize = 10_000;
-const TESTS: usize = 1 << 33;
-
-/// How many rays of a scene of so many triangles are asked where nobody says.
-fn affordable(triangles: usize, against: &Against) -> usize {
-    if against.is_brute_force() { (TESTS / triangles.max(1)).clamp(1, ASKED) } else { ASKED }
-}
-
 pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
     anyhow::ensure!(
         args.test.is_empty() || args.hard.is_some() || args.hits.is_some(),
@@ -134,14 +127,14 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
             None => args.ray.clone(),
         };
         let (mut rows, mut notes, mut answered) = (vec![], scene.notes.clone(), vec![]);
-        let asked = affordable(scene.mesh.len(), &against);
+        let asked = against.affordable(scene.mesh.len());
         if recorded.is_none() && args.rays.is_none() && args.ray.is_empty() && asked < ASKED {
             notes.push(format!(
                 "about {asked} rays, since brute force would take minutes for {ASKED}: --rays asks for more"
             ));
         }
         let asked = Structures { structure: args.structure.clone(), quality: None };
-        let mut references = References { scene, against: &against, rays: &rays, known: vec![] };
+        let mut references = References::new(scene, &against, &rays);
         for choice in &structures {
             if asked.leaves_out(choice, scene.mesh.len()) {
                 notes.push(left_out(scene));
@@ -230,7 +223,7 @@ const LEGEND: [&str; 4] = [
 fn rays(scene: &Scene, registry: &Registry, args: &Args, against: &Against) -> anyhow::Result<Vec<Ray>> {
     let number = match &args.rays {
         Some(source) => source.clone(),
-        None => RaySource::Count(affordable(scene.mesh.len(), against)),
+        None => RaySource::Count(against.affordable(scene.mesh.len())),
     };
     if args.adversarial {
         let each = number.number()?.div_ceil(Stratum::ALL.len());
@@ -251,47 +244,9 @@ enum Taken {
     Refused(String),
 }
 
-/// A reference with its answers to the rays of a scene.
-#[derive(Clone)]
-struct Known {
-    test: &'static str,
-    reference: Arc<Reference>,
-    answers: Arc<Vec<Option<Hit>>>,
-}
-
-/// What structures are held against, each asked once.
-struct References<'a> {
-    scene: &'a Scene,
-    against: &'a Against,
-    rays: &'a [Ray],
-    known: Vec<Known>,
-}
-
-impl References<'_> {
-    /// That of a triangle test.
-    fn of(&mut self, test: &'static str, waiting: &Waiting) -> anyhow::Result<Known> {
-        if let Some(known) = self.known.iter().find(|known| known.test == test) {
-            return Ok(known.clone());
-        }
-        let Self { scene, against, rays, .. } = self;
-        let reference = Arc::new(against.reference(scene, test)?);
-        let mut answers = Vec::with_capacity(rays.len());
-        for some in rays.chunks((TOLD / scene.mesh.len().max(1)).max(1)) {
-            let (name, done, all) = (&scene.name, answers.len(), rays.len());
-            waiting.says(format!("{name}: {against} ({test}) answers {done} of {all} rays"));
-            answers.extend(reference.closest_hits(some));
-        }
-        self.known.push(Known { test, reference, answers: Arc::new(answers) });
-        Ok(self.known.last().expect("it was added").clone())
-    }
-}
-
-/// Triangle tests after which brute force says how far it has come: a second's, about.
-const TOLD: usize = 1 << 29;
-
 fn check(references: &mut References, choice: &Choice, limit: Duration, waiting: &Waiting) -> anyhow::Result<Taken> {
-    let Known { reference, answers, .. } = references.of(choice.triangle_test(), waiting)?;
-    let References { scene, rays, .. } = *references;
+    let Known { reference, answers } = references.of(choice.triangle_test(), waiting)?;
+    let (scene, rays) = (references.scene, references.rays);
     waiting.says(format!("{} builds {}", scene.name, choice.label));
     let (own, mesh) = (choice.clone(), Arc::clone(&scene.mesh));
     // A panic of the builder is caught by the registry: what ends without a result hangs.
@@ -303,62 +258,6 @@ fn check(references: &mut References, choice: &Choice, limit: Duration, waiting:
     waiting.says(format!("{} checks {}", scene.name, choice.label));
     let found = validate_watched(&accel, &reference, &answers, &scene.mesh, rays, limit);
     Ok(Taken::Compared(accel, found))
-}
-
-/// What answers are held against.
-enum Against {
-    /// Brute force with the triangle test of whoever has answered.
-    SameTest,
-    /// A structure that was chosen for its answers; brute force with a test of its own is one like any other.
-    Structure(Box<Choice>),
-}
-
-impl Against {
-    /// What --against names: brute force by its bare name shares each structure's test.
-    fn named(registry: &Registry, name: &str) -> anyhow::Result<Self> {
-        if name.eq_ignore_ascii_case(BRUTE_FORCE) {
-            return Ok(Self::SameTest);
-        }
-        Ok(Self::Structure(Box::new(sources::structure(registry, name)?)))
-    }
-
-    /// What a structure with this triangle test is held against.
-    fn reference(&self, scene: &Scene, test: &str) -> anyhow::Result<Reference> {
-        match self {
-            Self::SameTest => Ok(Reference::of_test(test, &scene.mesh)?),
-            Self::Structure(choice) => {
-                let built = choice.build(&scene.mesh);
-                let refused = || format!("{} cannot be built over {}", choice.label, scene.name);
-                Ok(Reference::structure(built.with_context(refused)?))
-            }
-        }
-    }
-
-    /// Whether every ray is held against every triangle.
-    fn is_brute_force(&self) -> bool {
-        match self {
-            Self::SameTest => true,
-            Self::Structure(choice) => choice.entry.name == BRUTE_FORCE,
-        }
-    }
-
-    /// Whether the answers are wrong: with their depths judged strictly where what they are held against was chosen for its answers.
-    fn refutes(&self, found: &Validation) -> bool {
-        let errors = match self {
-            Self::SameTest => found.errors(),
-            Self::Structure(_) => found.strict_errors(),
-        };
-        errors > 0
-    }
-}
-
-impl fmt::Display for Against {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::SameTest => write!(f, "brute force with the same triangle test"),
-            Self::Structure(choice) => write!(f, "{} over {}", choice.label, choice.triangle_test()),
-        }
-    }
 }
 
 fn set_apart(choice: &Choice, why: &str) -> Vec<Cell> {
@@ -394,17 +293,4 @@ fn row(label: &str, test: &str, found: &Validation) -> Vec<Cell> {
         count(found.kernel_differences).into(),
         count(found.ties).into(),
     ]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn fewer_rays_are_asked_where_brute_force_would_take_minutes() {
-        let registry = Registry::builtin();
-        let [brute, tree] = [BRUTE_FORCE, "sah-kd"].map(|name| Against::named(&registry, name).unwrap());
-        assert_eq!([0, 12, 800_000, 10_000_000].map(|n| affordable(n, &brute)), [ASKED, ASKED, ASKED, 858]);
-        assert_eq!((affordable(10_000_000, &tree), affordable(usize::MAX, &brute)), (ASKED, 1));
-    }
 }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::measure::{quoted, words};
+use crate::measure::quoted;
 use crate::scene::{Builtin, Scene};
 use crate::study::{SceneId, ViewArgs};
 
@@ -28,7 +28,7 @@ impl Shown {
 /// The scene as one of the `commands`, a line each, has seen it; else the first of its name.
 pub fn found_again(SceneId { name, hash }: &SceneId, commands: &str, find: Find) -> Option<Shown> {
     let mut other = None;
-    for command in commands.lines().map(words) {
+    for command in commands.lines().filter_map(shlex::split) {
         for argument in std::iter::once(name.clone()).chain(files_named(&command, name)) {
             let Some(scene) = find(&argument).and_then(|scene| ViewArgs::of_command(&command).of(scene).ok()) else {
                 continue;
