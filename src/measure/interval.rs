@@ -6,7 +6,7 @@
 //! understanding of confidence intervals and standard error bars", 2004). What is printed here is a prediction interval
 //! for the estimate of another run of the same plan: it holds that estimate in 95 % of cases.
 //!
-//! **The model.** In epoch e, a process of its own, all structures are built anew; in round r of it every case is timed once, in random order.
+//! **The model.** In epoch e, a process of its own, all structures are built anew; in round r of it every case is timed once, in random order, structure by structure for one kind of rays after the other.
 //! For two cases let y = ln(time of one / time of the other) in the same round: what slows the machine for a while
 //! slows both and cancels. Then y = theta + p(e) + n(e, r), where p is the luck of placement, the same for a whole
 //! epoch, since address space, stack and heap are those of the process (Kalibera, Jones, "Rigorous benchmarking in reasonable time", 2013; Mytkowicz, Diwan, Hauswirth, Sweeney,

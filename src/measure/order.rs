@@ -30,6 +30,15 @@ impl RandomOrder {
         }
         order
     }
+
+    /// Numbers of the `groups`, one for each member, shuffled so that the members of a group follow each other: the groups are in
+    /// random order, and so are the members of each.
+    pub fn shuffled_by_group(&mut self, groups: &[usize]) -> Vec<usize> {
+        let ranks = self.shuffled(groups.iter().max().map_or(0, |last| last + 1));
+        let mut order = self.shuffled(groups.len());
+        order.sort_by_key(|&member| ranks[groups[member]]);
+        order
+    }
 }
 
 /// Noise for tests.
@@ -60,6 +69,24 @@ mod tests {
         assert_ne!(order, sorted);
         assert_eq!(order, RandomOrder::new(1).shuffled(20));
         assert_ne!(order, RandomOrder::new(2).shuffled(20));
+    }
+
+    #[test]
+    fn members_of_a_group_follow_each_other() {
+        let mut orders = RandomOrder::new(3);
+        let groups = [0, 1, 2, 0, 1, 2, 0, 1];
+        let mut seen = std::collections::BTreeSet::new();
+        for _ in 0..20_000 {
+            let mut order = orders.shuffled_by_group(&groups);
+            let mut blocks: Vec<usize> = order.iter().map(|&member| groups[member]).collect();
+            seen.insert(order.clone());
+            blocks.dedup();
+            assert_eq!(blocks.len(), 3, "{order:?}");
+            order.sort_unstable();
+            assert_eq!(order, (0..groups.len()).collect::<Vec<_>>());
+        }
+        assert_eq!(seen.len(), 6 * 6 * 6 * 2, "all orders of groups, and of the members of each");
+        assert!(orders.shuffled_by_group(&[]).is_empty());
     }
 
     #[test]

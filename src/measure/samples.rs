@@ -138,23 +138,25 @@ pub fn begin(
     (runs, levels.iter().zip(&all).map(|(&level, &all)| Samples::none(rays_at(all, level))).collect())
 }
 
-/// An epoch: adds `plan.runs` samples of every case, in each round every case once, in random order. `samples` say on
-/// how many rays, and hold those of earlier epochs of the same cases, whose structures have been built again.
+/// An epoch: adds `plan.runs` samples of every case, in each round every case once, in random order, those that are compared
+/// one after the other: what disturbs them lasts, and is in all of them. `compared` has a number for each case, the same for
+/// those that are compared. `samples` say on how many rays, and hold those of earlier epochs of the same cases, whose structures have been built again.
 /// `progress` is told the number of samples taken, between them.
 ///
 /// # Errors
 /// If a case gives different answers to the same rays.
 ///
 /// # Panics
-/// If there are not as many samples as cases, or they are of numbers of rays that are no level's.
+/// If there are not as many samples or numbers as cases, or the samples are of numbers of rays that are no level's.
 pub fn take(
     clock: &dyn Clock,
     cases: &mut [Box<dyn Timed + '_>],
+    compared: &[usize],
     plan: &Plan,
     samples: &mut [Samples],
     progress: &mut dyn FnMut(usize),
 ) -> Result<(), UnsteadyAnswers> {
-    assert_eq!(cases.len(), samples.len(), "samples are of the same cases");
+    assert_eq!([cases.len(); 2], [samples.len(), compared.len()], "samples are of the same cases");
     let watch = Stopwatch::new(clock);
     let mut levels_of = vec![];
     for (i, (case, samples)) in cases.iter_mut().zip(samples.iter_mut()).enumerate() {
@@ -178,7 +180,7 @@ pub fn take(
     let mut checksums = vec![None; cases.len()];
     let mut taken = 0;
     for _ in 0..plan.runs {
-        for i in order.shuffled(cases.len()) {
+        for i in order.shuffled_by_group(compared) {
             let (case, samples) = (&mut cases[i], &mut samples[i]);
             case.clear();
             case.lead_in();

@@ -78,7 +78,8 @@ impl Timing<'_> {
                 (runs, samples)
             }
         };
-        take(clock, &mut passes, &Plan { runs, ..*plan }, &mut samples, progress).map_err(|cause| {
+        let compared: Vec<usize> = cases.iter().map(|case| case.workload).collect();
+        take(clock, &mut passes, &compared, &Plan { runs, ..*plan }, &mut samples, progress).map_err(|cause| {
             let Case { structure, workload } = cases[cause.case];
             StudyError::Unsteady {
                 structure: self.built[structure].choice.label.clone(),

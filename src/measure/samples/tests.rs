@@ -93,7 +93,7 @@ impl Bench {
     fn take(&self, cases: &mut [Box<dyn Timed>], plan: &Plan) -> Result<Vec<Samples>, UnsteadyAnswers> {
         let (runs, mut samples) = self.begin(cases, plan);
         let mut told = vec![];
-        take(&self.clock, cases, &Plan { runs, ..*plan }, &mut samples, &mut |n| told.push(n))?;
+        take(&self.clock, cases, &vec![0; cases.len()], &Plan { runs, ..*plan }, &mut samples, &mut |n| told.push(n))?;
         assert_eq!(told, (1..=runs * cases.len()).collect::<Vec<_>>());
         Ok(samples)
     }
@@ -181,7 +181,7 @@ fn parts_are_timed_along() {
     let bench = Bench::new();
     let mut samples = [Samples::none(65_536)];
     samples[0].parts = [1024, 64].map(|rays| Part { rays, ns: vec![] }).into();
-    take(&bench.clock, &mut [bench.case('a', 10, 65_536)], &Plan { runs: 2, ..PLAN }, &mut samples, &mut |_| {})
+    take(&bench.clock, &mut [bench.case('a', 10, 65_536)], &[0], &Plan { runs: 2, ..PLAN }, &mut samples, &mut |_| {})
         .unwrap();
     assert_eq!(samples[0].ns, [655_360; 2]);
     assert_eq!(samples[0].parts, [(1024, 10_240), (64, 640)].map(|(rays, ns)| Part { rays, ns: vec![ns; 2] }));
@@ -195,13 +195,13 @@ fn another_epoch_takes_as_many_rays_and_tells_other_answers() {
         let mut samples = bench.take(&mut [bench.case('a', 10, whole)], &plan(0)).unwrap();
         // Built again, and slower: as many rays as in the first epoch.
         let mut again = [bench.case('a', 20, whole)];
-        take(&bench.clock, &mut again, &plan(1), &mut samples, &mut |_| {}).unwrap();
+        take(&bench.clock, &mut again, &[0], &plan(1), &mut samples, &mut |_| {}).unwrap();
         assert_eq!((samples[0].rays, samples[0].checksum), (rays, 7));
         assert_eq!(samples[0].ns, [[10 * rays as u64; 5], [20 * rays as u64; 5]].concat());
         assert!(samples[0].same_answers);
 
         let other = Mock { right: 8, ..bench.mock('a', 20, whole) };
-        take(&bench.clock, &mut [Box::new(other) as _], &plan(2), &mut samples, &mut |_| {}).unwrap();
+        take(&bench.clock, &mut [Box::new(other) as _], &[0], &plan(2), &mut samples, &mut |_| {}).unwrap();
         assert!(!samples[0].same_answers && samples[0].checksum == 7 && samples[0].ns.len() == 15);
     }
 }

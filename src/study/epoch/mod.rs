@@ -1,6 +1,6 @@
 //! One epoch of one scene: what the studies of curves are made of.
 //!
-//! In an epoch all structures are built anew and timed on all kinds of rays in rounds, each round every case once, in random order.
+//! In an epoch all structures are built anew and timed on all kinds of rays in rounds, each round every case once, in random order, one kind of rays after the other.
 //! A case of a journal is one epoch of one scene, so that a run that is killed loses one at most.
 
 mod asked;
