@@ -109,7 +109,8 @@ impl Names {
             told = told.version(lasting(version));
         }
         let shown = command.get_subcommands().filter(|subcommand| !subcommand.is_hide_set());
-        told.args(command.get_arguments().map(|arg| self.arg(arg))).subcommands(shown.map(|inner| self.told(inner)))
+        let args = command.get_arguments().filter(|arg| !arg.is_hide_set());
+        told.args(args.map(|arg| self.arg(arg))).subcommands(shown.map(|inner| self.told(inner)))
     }
 
     fn arg(&self, arg: &Arg) -> Arg {
@@ -156,7 +157,9 @@ mod tests {
             for word in ["dragon", "sah-hybrid", "image-shadow", "heat", "partitions", "self-intersection"] {
                 assert!(script.contains(word), "{shell}: {word}");
             }
-            assert!(!script.contains(crate::cli::validate::CHILD), "{shell}");
+            for hidden in [crate::cli::validate::CHILD, "--case", "compare-runs"] {
+                assert!(!script.contains(hidden), "{shell}: {hidden}");
+            }
         }
         // The command itself takes more than names.
         let args = ["sahara", "compare", "my-mesh.obj", "-s", "sah-kd:leaf=4", "--reference", "median-kd:leaf=8"];

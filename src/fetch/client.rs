@@ -94,9 +94,11 @@ impl Client {
         }
 
         let body = response.into_body().into_reader();
-        let got = self.append(file, start, body, progress)?;
+        let got = self.append(file, start, expected, body, progress)?;
         match expected {
-            Some(expected) if got < expected => Err(FetchError::Cut { url: file.url.clone(), got, expected }),
+            Some(expected) if got < expected => {
+                Err(FetchError::Cut { url: file.url.clone(), got, expected: Some(expected) })
+            }
             _ => Ok(start),
         }
     }
@@ -106,6 +108,7 @@ impl Client {
         &self,
         file: &DataFile,
         start: u64,
+        expected: Option<u64>,
         mut body: impl Read,
         progress: &mut dyn FnMut(u64),
     ) -> Result<u64, FetchError> {
@@ -128,7 +131,7 @@ impl Client {
                     return Err(FetchError::Connection { url: file.url.clone(), cause: cause.to_string() });
                 }
                 Err(_) => {
-                    return Err(FetchError::Cut { url: file.url.clone(), got, expected: file.bytes.unwrap_or(got) });
+                    return Err(FetchError::Cut { url: file.url.clone(), got, expected });
                 }
             };
             got += n as u64;

@@ -39,8 +39,8 @@ pub enum FetchError {
     Status { url: String, status: u16 },
     #[error("{url}: {cause}: check the connection and fetch again")]
     Connection { url: String, cause: String },
-    #[error("{url}: the connection ended after {got} of {expected} bytes: fetch again to go on from there")]
-    Cut { url: String, got: u64, expected: u64 },
+    #[error("{url}: the connection ended after {got}{} bytes: fetch again to go on from there", expected.map_or(String::new(), |all| format!(" of {all}")))]
+    Cut { url: String, got: u64, expected: Option<u64> },
     #[error("{url}: the server sent nothing, or next to nothing, for {} s: fetch again \
          to go on after {got} bytes", patience.as_secs_f32())]
     Stalled { url: String, got: u64, patience: Duration },

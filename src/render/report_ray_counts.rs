@@ -12,7 +12,7 @@ struct Known {
     mirror: u64,
     shadow: u64,
     report: u64,
-    /// How far the total may be from the report's, as README tells it.
+    /// How far the total may be from the report's.
     within: u64,
     /// How far mirror and shadow rays may be from the recount.
     recount: u64,

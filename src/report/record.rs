@@ -5,7 +5,7 @@ use serde_json::Value;
 
 use super::CaseCounts;
 use crate::accel::Query;
-use crate::measure::{Part, Provenance, log_ratios};
+use crate::measure::{Part, Provenance, log_ratios, median};
 
 /// What is known of one case; the fields are described in the [module](super).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -77,6 +77,11 @@ impl Record {
         }
         let part = self.parts.iter().find(|part| part.rays == rays)?;
         Some(part.ns.iter().map(|&ns| ns.max(1) as f64).collect())
+    }
+
+    /// Nanoseconds a ray, the median of the samples, over so many rays: all of it or a part. Nothing where these were not timed.
+    pub fn ns_per_ray_of(&self, rays: usize) -> Option<f64> {
+        Some(median(&self.samples_of(rays)?)? / rays as f64)
     }
 
     /// How many times faster this case is than `other`, as logarithms, round by round in each epoch, both on the same

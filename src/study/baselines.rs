@@ -33,7 +33,7 @@ pub const SAH_TREE: &str = "sah-kd";
 pub fn documented_defect(structure: &str) -> Option<&'static str> {
     match structure {
         "obvhs-bvh2" | "obvhs-cwbvh" => Some(
-            "obvhs 0.4.0 clamps the inverse of small direction components, loses rays in the plane of a box face, and its \
+            "obvhs 0.4.0 has a triangle test in single precision, clamps the inverse of small direction components, loses rays in the plane of a box face, and its \
              CwBvh rays with a component of -0.0",
         ),
         "bvh" => Some(

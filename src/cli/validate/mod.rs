@@ -14,7 +14,7 @@ use anyhow::Context;
 use super::progress::Waiting;
 use super::terminal::Terminal;
 use crate::accel::DynAccel;
-use crate::geometry::{Hit, Ray};
+use crate::geometry::Ray;
 use crate::registry::{Choice, Registry};
 use crate::report::number::{count, plural};
 use crate::report::{Cell, Table, Tone};
@@ -23,7 +23,7 @@ use crate::study::args::Structures;
 use crate::study::{BRUTE_FORCE, documented_defect, left_out};
 use crate::study::{RaySource, replayed};
 use crate::study::{Status, ViewArgs, sources};
-use crate::validate::{LIMIT, Reference, Stratum, Validation, validate_watched, watched};
+use crate::validate::{LIMIT, Stratum, Validation, validate_watched, watched};
 
 use against::{ASKED, Against, Known, References};
 
@@ -68,7 +68,7 @@ pub struct Args {
     #[arg(long, short, value_name = "NAME")]
     test: Vec<String>,
     /// Write the results of --hard as JSON
-    #[arg(long, value_name = "FILE", requires = "hard")]
+    #[arg(long, value_name = "FILE")]
     export_json: Option<PathBuf>,
     /// Write the answers of the one structure to the rays of the file of --rays
     #[arg(long, value_name = "F.hits")]
@@ -85,6 +85,10 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     anyhow::ensure!(
         args.test.is_empty() || args.hard.is_some() || args.hits.is_some(),
         "--test is for --hits and --hard: here name it with the structure, as in sah-kd:test=exact"
+    );
+    anyhow::ensure!(
+        args.export_json.is_none() || args.hard.is_some(),
+        "--export-json is for --hard: here answers are written by --export-hits"
     );
     if let Some(cases) = &args.hard {
         return hard::run(registry, args, cases, terminal);

@@ -56,6 +56,8 @@ pub struct ResultsData {
     pub run: RunFacts,
     /// By key: the name of the study or part, a full stop, and the name of the statement in it.
     pub statements: BTreeMap<String, Told>,
+    /// The triangle test of each structure that is compared, by its label: after a change of a default the numbers are of another.
+    pub tests: BTreeMap<String, String>,
     /// Digests (SHA-256) of the other files, by their paths beside this one.
     pub files: BTreeMap<String, String>,
 }
@@ -67,6 +69,8 @@ pub struct RunFacts {
     pub commit: String,
     pub cpu: String,
     pub simd: String,
+    /// Threads of the study that takes the most.
+    pub threads: usize,
     pub rustc: String,
     pub target: String,
     pub obvhs: String,
@@ -115,7 +119,8 @@ impl Results {
         let mut files: BTreeMap<String, String> =
             figures.iter().map(|(name, bytes)| (format!("{FIGURES}/{name}"), digest(bytes))).collect();
         files.insert(PAPER.into(), digest(paper.as_bytes()));
-        let data = ResultsData { schema: 1, made_by: COMMAND.into(), run, statements, files };
+        let tests = runs.records().iter().map(|record| (record.label.clone(), record.triangle_test.clone())).collect();
+        let data = ResultsData { schema: 2, made_by: COMMAND.into(), run, statements, tests, files };
         Ok(Self { data, paper, figures })
     }
 
@@ -202,6 +207,7 @@ impl RunFacts {
             commit: one("commit", |p| &p.commit)?,
             cpu: one("machine", |p| &p.cpu)?,
             simd: one("instruction set", |p| &p.simd)?,
+            threads: all.iter().map(|p| p.threads).max().unwrap_or(1),
             rustc: one("compiler", |p| &p.rustc)?,
             target: one("target", |p| &p.target)?,
             obvhs: one("version of obvhs", |p| &p.obvhs)?,
@@ -216,8 +222,14 @@ impl RunFacts {
         let days = if first == last { first.clone() } else { format!("{first} to {last}") };
         let Self { version, commit, cpu, simd, .. } = self;
         format!(
-            "All numbers are of one run of sahara {version}, commit {commit}, on one thread ({cpu}, {simd}), {days}."
+            "All numbers are of one run of sahara {version}, commit {commit}, on {} ({cpu}, {simd}), {days}.",
+            self.threads()
         )
+    }
+
+    /// How many threads build and trace.
+    fn threads(&self) -> &'static str {
+        if self.threads > 1 { "one thread where no other number is named" } else { "one thread" }
     }
 }
 

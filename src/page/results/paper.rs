@@ -168,7 +168,7 @@ fn threats(runs: &Runs, run: &RunFacts, text: &mut String) {
              in other sizes; these are the kinds of meshes shown here. obvhs was not tuned by us.",
             listed(&TUNED_ON)
         ),
-        format!("**One machine, one thread.** {} with {}: on another one the order may be another.", run.cpu, run.simd),
+        format!("**One machine, {}.** {} with {}: on another one the order may be another.", run.threads(), run.cpu, run.simd),
         "**Intervals are of reruns.** They hold what another run of the same plan finds on this machine, not what other meshes, cameras \
          or machines would."
             .into(),

@@ -5,7 +5,8 @@ use std::path::Path;
 
 use super::{COMMAND, DATA, MarkError, Results, ResultsData, ResultsError, digest, fill, marked};
 use crate::page::tests::{cube, provenance, read, records_of, runs_folder};
-use crate::report::to_json;
+use crate::registry::Registry;
+use crate::report::{Record, to_json};
 use crate::study::Studies;
 
 /// A file of the repository.
@@ -37,6 +38,30 @@ fn readme_and_paper_are_those_of_the_data_file() {
         assert_eq!(Some(text), told, "README.md, {key}: `{COMMAND}` writes it anew");
     }
 }
+
+#[test]
+fn structures_of_the_data_file_are_still_called_so_and_have_the_same_triangle_tests() {
+    let registry = Registry::builtin();
+    let tests = data().tests;
+    assert!(tests.contains_key("sah-hybrid"), "{tests:?}");
+    for (label, test) in tests {
+        let name = label.split(':').next().unwrap();
+        // Peers take part in the run whose features are on.
+        if registry.names().contains(&name) {
+            let choice = registry.choose(&label).unwrap();
+            assert_eq!(
+                choice.triangle_test(),
+                test,
+                "{label}: the numbers are of another test, `{COMMAND}` makes them anew"
+            );
+        } else {
+            assert!(PEERS.contains(&name), "{label} is no structure any more: `{COMMAND}` makes the numbers anew");
+        }
+    }
+}
+
+/// Structures of features that are off by default.
+const PEERS: [&str; 5] = ["bvh", "embree", "embree-robust", "parry", "tinybvh"];
 
 /// The text without code, marked places and targets of links.
 fn unmarked(text: &str) -> String {
@@ -148,6 +173,19 @@ fn every_statement_is_in_the_paper_and_in_the_data() {
     assert!(results.data.statements.contains_key("replicate.hard"), "the data file says so as well");
     let unknown = results.fill("<!-- sahara: no.such -->?<!-- / -->", &studies).unwrap_err().to_string();
     assert!(unknown.contains("no.such") && unknown.lines().count() == 1, "{unknown}");
+}
+
+#[test]
+fn threads_are_told_as_they_were() {
+    let mut records = records_of("Cube");
+    let told = |records: &[Record]| {
+        let runs = read(runs_folder(&[("a.json", to_json(records))]).path());
+        let document = crate::page::document(&runs, &Studies::builtin(), vec![]);
+        Results::new(&document, &runs, &Studies::builtin()).unwrap().data.run.sentence()
+    };
+    assert!(told(&records).contains("on one thread ("), "{}", told(&records));
+    records[0].provenance.threads = 2;
+    assert!(told(&records).contains("where no other number is named"), "{}", told(&records));
 }
 
 #[test]

@@ -3,6 +3,7 @@
 use super::*;
 use crate::page::pictures::draw;
 use crate::registry::Registry;
+use crate::report::document::Block;
 use crate::scene::Scene;
 
 /// The three forms of a document.

@@ -93,7 +93,7 @@ pub fn roles() -> impl Iterator<Item = Role> {
 }
 
 /// The structures with a colour of their own, the same in every chart.
-const STRUCTURES: [&str; 15] = [
+const STRUCTURES: [&str; 14] = [
     "brute-force",
     "median-kd",
     "sah-kd",
@@ -106,7 +106,6 @@ const STRUCTURES: [&str; 15] = [
     "bvh",
     "embree",
     "embree-robust",
-    "kdtree-ray",
     "parry",
     "tinybvh",
 ];

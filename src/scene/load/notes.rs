@@ -20,10 +20,10 @@ impl Notes {
         }
     }
 
-    /// As [`Notes::add`], where there is something to count.
+    /// Where there is something to count: a sentence that stands for many, and is never left out.
     pub fn count(&mut self, count: usize, what: &str) {
         if count > 0 {
-            self.add(format!("{count} {what}"));
+            self.kept.push(format!("{count} {what}"));
         }
     }
 

@@ -180,7 +180,11 @@ impl Ranks {
     fn first(&self, records: &[Record], key: &str, words: &str, rank: &Rank) -> Option<Statement> {
         let first = rank.rows.first()?;
         let value = first.speed?;
-        let is_level = |row: &&Ranked| self.ratio(records, &first.label, &row.label).is_some_and(|x| x.holds(1.0));
+        // All others are looked at: one of them would too easily seem slower by chance.
+        let looks = rank.rows.len() - 1;
+        let is_level = |row: &&Ranked| {
+            self.ratio(records, &first.label, &row.label).is_some_and(|ratio| ratio.ratio_among(looks).holds(1.0))
+        };
         let level: Vec<&str> = rank.rows[1..].iter().filter(is_level).map(|row| row.label.as_str()).collect();
         let level = match level.len() {
             0 => String::new(),

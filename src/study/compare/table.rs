@@ -39,6 +39,9 @@ pub fn legend(records: &[Record], references: &[Reference]) -> Vec<String> {
     if records.iter().any(|r| r.structure_errors > Some(0)) {
         speeds += "; n/m wrong: wrong answers to n of m rays, and then no time";
     }
+    if records.iter().any(|r| r.mrays_per_s.is_some() && r.sampled) {
+        speeds += "; ~: of a part of the rays, all would take too long";
+    }
     if records.iter().any(|r| r.query == Query::Any) {
         speeds += "; *: timed by any hit, the others by closest hit";
     }
@@ -175,7 +178,8 @@ fn best_speed(records: &[Record], workload: &str, counts: impl Fn(&Record) -> bo
 fn speed(record: &Record, best: f64) -> Cell {
     let errors = record.structure_errors.unwrap_or(0);
     match record.mrays_per_s {
-        Some(speed) => Cell::from(figures(speed)).with(if speed >= best { Tone::Best } else { Tone::Plain }),
+        Some(speed) => Cell::from(format!("{}{}", if record.sampled { "~" } else { "" }, figures(speed)))
+            .with(if speed >= best { Tone::Best } else { Tone::Plain }),
         None if errors == 0 && record.declined.is_some() => "declined".into(),
         None => Cell::from(format!("{errors}/{} wrong", record.checked_rays.unwrap_or(0))).with(Tone::Wrong),
     }

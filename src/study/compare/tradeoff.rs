@@ -33,7 +33,7 @@ pub fn figure(scenes: &[Vec<Record>], references: &[Reference], command: &str) -
             "{}, {} rays: speed against what it costs; higher is faster, further left is cheaper, and both axes are logarithmic. \
              On the page any scene and kind of rays can be chosen, and time of the build in place of memory: the solid line joins what \
              nothing beats in both, the dashed one passes through all that would be done with their build and so many rays as soon as \
-             the first. All are medians; their intervals are in the tables. Brute force is left out.",
+             the first. All are medians, on the same rays for all; their intervals are in the tables. Brute force is left out.",
             first.scene, first.rays
         ),
         alt,
@@ -45,8 +45,14 @@ pub fn figure(scenes: &[Vec<Record>], references: &[Reference], command: &str) -
 
 fn cases(records: &[Record], reference: Option<&Reference>) -> Vec<ScatterCase> {
     let noise = twins(records);
+    // All on the same rays: as many as the slowest is timed on.
+    let drawn = |workload: &str| -> Vec<&Record> {
+        let is_drawn = |r: &&Record| r.workload == workload && r.structure != BRUTE_FORCE && r.mrays_per_s.is_some();
+        records.iter().filter(is_drawn).collect()
+    };
     let point = |record: &Record| {
-        let ns_per_ray = 1e3 / record.mrays_per_s?;
+        let common = drawn(&record.workload).iter().map(|r| r.rays).min()?;
+        let ns_per_ray = record.ns_per_ray_of(common)?;
         let ratio = reference.and_then(|reference| {
             let ratio = Reference::ratio(&reference.pairs(records, [record]), &noise)?;
             Some(format!("{} times as fast as {}", interval(ratio), reference.words()))
@@ -59,13 +65,10 @@ fn cases(records: &[Record], reference: Option<&Reference>) -> Vec<ScatterCase> 
             ratio: ratio.unwrap_or_default(),
         })
     };
-    let case = |workload: &String| {
-        let own = records.iter().filter(|r| r.workload == *workload && r.structure != BRUTE_FORCE);
-        ScatterCase {
-            scene: scene_name(&records[0].scene, records[0].stand_in),
-            rays: workload.clone(),
-            points: own.filter_map(point).collect(),
-        }
+    let case = |workload: &String| ScatterCase {
+        scene: scene_name(&records[0].scene, records[0].stand_in),
+        rays: workload.clone(),
+        points: drawn(workload).into_iter().filter_map(point).collect(),
     };
     let workloads = distinct(records.iter().map(|r| &r.workload));
     workloads.iter().map(case).filter(|case| case.points.len() > 1).collect()
@@ -83,6 +86,7 @@ fn table(cases: &[ScatterCase]) -> Table {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::measure::Part;
     use crate::report::example_record;
 
     #[test]
@@ -91,7 +95,9 @@ mod tests {
             label: label.into(),
             structure: label.into(),
             workload: workload.into(),
+            rays: 125,
             mrays_per_s: speed,
+            samples_ns: speed.map(|speed| 125.0 * 1e3 / speed).into_iter().collect(),
             ..example_record()
         };
         let records = vec![
@@ -108,5 +114,14 @@ mod tests {
         assert_eq!(points, [("sah-kd", 500.0), ("sah-bvh", 250.0)]);
         assert!(figure.alt.contains("the fastest is sah-bvh") && figure.data.rows.len() == 2, "{}", figure.alt);
         assert!(super::figure(&[records[..2].to_vec()], &[], "").is_none());
+
+        // One that is timed on a part of the rays, which take it less than the others, is compared on them.
+        let part = Part { rays: 25, ns: vec![10_000] };
+        let mut records = records;
+        records[1].parts = vec![part.clone()];
+        records[2] = Record { rays: 25, samples_ns: vec![5_000.0], ..records[2].clone() };
+        let drawn = super::figure(std::slice::from_ref(&records), &[], "").unwrap();
+        let Art::Chart(Chart::Scatter(Scatter { cases })) = &drawn.art else { panic!("no scatter plot") };
+        assert_eq!(cases[0].points.iter().map(|p| p.ns_per_ray).collect::<Vec<_>>(), [400.0, 200.0]);
     }
 }

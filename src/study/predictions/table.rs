@@ -32,7 +32,8 @@ pub fn table(predictions: &[Prediction]) -> Table {
     }
     let mut notes = vec![format!(
         "Confirmed or refuted: the whole interval is as expected, or is not. Intervals of claims allow for {CLAIMS} of them judged together; \
-         figures without a claim have no verdict."
+         figures without a claim have no verdict. The words name no number for what is well ordered (a tau of 0.7 or more), badly (0.5 or \
+         less) and near 1 (0.8 to 1.2): these bounds are ours."
     )];
     for p in predictions {
         let missing =

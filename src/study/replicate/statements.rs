@@ -16,8 +16,13 @@ fn hard(answer: &Replication) -> Option<Statement> {
     };
     let scenes: Vec<String> = answer.hard.iter().map(of).collect();
     let mean = answer.conclusion.sah_over_median?;
+    let told = match () {
+        () if mean.is_above(1.0) => "are faster with the SAH tree than with",
+        () if mean.holds(1.0) => "cannot be told to be faster or slower with the SAH tree than with",
+        () => "are slower with the SAH tree than with",
+    };
     let sentence = format!(
-        "Primary rays are faster with the SAH tree than with the report's tree: {}; geometric mean {}.",
+        "Primary rays {told} the report's tree, by this much: {}; geometric mean {}.",
         listed(&scenes),
         interval(mean)
     );

@@ -41,6 +41,18 @@ fn the_conclusion_is_the_mean_of_the_hard_scenes() {
 }
 
 #[test]
+fn what_is_said_of_the_hard_scenes_is_what_was_found() {
+    let told = |tree: u64, sah: u64, twin: u64| {
+        let mut result = Replication::default();
+        add(&mut result, Replication::add_hard, &epochs("Dragon", false, &[tree, sah, twin]));
+        super::statements::statements(&result).remove(0).sentence
+    };
+    assert!(told(800, 100, 800).starts_with("Primary rays are faster with"), "{}", told(800, 100, 800));
+    assert!(told(100, 800, 100).starts_with("Primary rays are slower with"), "{}", told(100, 800, 100));
+    assert!(told(101, 100, 180).contains("cannot be told"), "{}", told(101, 100, 180));
+}
+
+#[test]
 fn a_tree_that_twins_cannot_tell_apart_has_a_wider_interval() {
     let ratio = |twin: u64| {
         let mut result = Replication::default();

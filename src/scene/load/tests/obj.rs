@@ -70,8 +70,9 @@ fn a_library_is_read_once_and_notes_are_few() {
     let model = load_files(&[("a.obj", text.as_bytes()), bad]).unwrap();
     assert_eq!(model.notes.len(), 1, "{:?}", model.notes);
     let model = obj(&(lines(1000, "mtllib b#.mtl\n") + triangle));
-    assert_eq!(model.notes.len(), 13, "{:?}", model.notes);
-    assert!(model.notes[12].ends_with("more notes on this file are left out"), "{:?}", model.notes);
+    assert_eq!(model.notes.len(), 14, "{:?}", model.notes);
+    assert!(model.notes[12].contains("are not followed"), "{:?}", model.notes);
+    assert!(model.notes[13].ends_with("more notes on this file are left out"), "{:?}", model.notes);
     let outside = obj(&format!("mtllib ../a.mtl\nmtllib /etc/hosts\n{triangle}"));
     assert!(outside.notes[..2].iter().all(|note| note.contains("not below the folder")), "{:?}", outside.notes);
     // The later of two materials with one name counts, whole.
@@ -79,6 +80,12 @@ fn a_library_is_read_once_and_notes_are_few() {
     let model = load_files(&[("a.obj", format!("mtllib a.mtl\n{triangle}").as_bytes()), twice]).unwrap();
     assert_eq!(model.materials, [Material { diffuse: Vec3::Y, ..Material::named("a") }]);
     assert!(model.notes.is_empty(), "{:?}", model.notes);
+    // What stands for many is told behind whatever else there is.
+    let textured = lines(20, "Kd #x\n") + "map_Kd a.png\n";
+    let textured = ("a.mtl", [&b"newmtl a\n"[..], textured.as_bytes()].concat());
+    let text = format!("mtllib a.mtl\n{triangle}");
+    let model = load_files(&[("a.obj", text.as_bytes()), (textured.0, &textured.1)]).unwrap();
+    assert!(model.notes.iter().any(|note| note.starts_with("1 materials have textures")), "{:?}", model.notes);
 }
 
 #[test]

@@ -18,7 +18,11 @@ pub(super) fn rays(inputs: &Inputs) -> Prediction {
     let scenes = || MAIN.iter().map(|row| row.scene).filter(|&scene| scene != OWN);
     let claims: Vec<Claim> = scenes()
         .map(|scene| {
-            let what = format!("{scene}: rays more than the report's");
+            let exact = inputs.counted.iter().find(|case| case.scene == scene && case.default_rays != case.rays);
+            let exact = exact.map_or(String::new(), |case| {
+                format!(" ({:+} with the exact test)", case.default_rays as f64 - case.report_rays as f64)
+            });
+            let what = format!("{scene}: rays more than the report's{exact}");
             Claim::number(what, difference(scene).map(Estimate::exact), Bounds::within(-2.0, 2.0))
         })
         .collect();
