@@ -33,7 +33,7 @@ use crate::study::{AnyStudy, Chosen, Status, Studies, guarded, sources};
 use terminal::{Colour, Terminal};
 
 /// One rule for all commands; what a baseline is known to get wrong is no fault of a run.
-const STATUSES: &str = "Exit status:
+pub(crate) const STATUSES: &str = "Exit status:
   0  right
   1  usage, or input or output that cannot be had
   2  wrong answers, or answers without an end

@@ -104,10 +104,8 @@ impl Reader<'_> {
         let mut words = words(line);
         let Some(keyword) = words.next() else { return Ok(()) };
         if keyword == b"newmtl" {
+            // No name is a name as well: `usemtl` alone uses it.
             let name = after_keyword(line);
-            if name.is_empty() {
-                return Err(());
-            }
             *current = self.used.contains_key(&name).then_some(name);
             if let Some(name) = current {
                 self.known.insert(name.clone(), Material::named(name.clone()));

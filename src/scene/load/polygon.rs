@@ -5,8 +5,10 @@ use robust::{Coord, orient2d};
 
 use super::notes::Notes;
 
-/// Ear clipping takes time in the square of the corners; a larger polygon that is not convex becomes a fan.
-const LARGEST: usize = 4096;
+/// Ear clipping takes time in the square of the corners: up to so many pairs of corners are looked at in a file, those of polygons with
+/// up to so many corners not counted. What is beyond and not convex becomes a fan.
+const MOST_PAIRS: usize = 1 << 27;
+const SMALL: usize = 64;
 
 /// A polygon with a corner farther than this from its plane, relative to its extent, is noted as bent.
 const BENT: f64 = 0.01;
@@ -30,6 +32,7 @@ pub(super) struct Splitter {
     crossing: usize,
     bent: usize,
     large: usize,
+    pairs: usize,
 }
 
 impl Splitter {
@@ -51,7 +54,7 @@ impl Splitter {
                 "cross themselves: they are fans around their first corner, which may not be what was meant",
             ),
             (self.bent, "are neither convex nor flat: their surface is one of several that they could mean"),
-            (self.large, "have more than 4096 corners and are not convex: they are fans, which may overlap"),
+            (self.large, "have very many corners and are not convex: they are fans, which may overlap"),
         ] {
             if count > 0 {
                 notes.add(format!("{count} polygons {what}"));
@@ -73,10 +76,12 @@ impl Splitter {
         if is_convex(&self.seen_from) {
             return false;
         }
-        if corners.len() > LARGEST {
+        let pairs = self.pairs.saturating_add(corners.len().saturating_mul(corners.len().saturating_sub(SMALL)));
+        if pairs > MOST_PAIRS {
             self.large += 1;
             return false;
         }
+        self.pairs = pairs;
         if crosses_itself(&self.seen_from) || !clip(&self.seen_from, &mut self.triangles) {
             self.crossing += 1;
             return false;
@@ -286,8 +291,17 @@ mod tests {
         let mut arrow = polygon(&[[0.0, 0.0], [2.0, -1.0], [0.5, 0.0], [2.0, 1.0]]);
         arrow[2].z = 0.5;
         assert!(noted(&arrow).contains("neither convex nor flat"));
-        let saw: Vec<[f32; 2]> = (0..5000).map(|i| [i as f32, (i % 2) as f32]).chain([[2500.0, -9.0]]).collect();
-        assert!(noted(&polygon(&saw)).contains("more than 4096"));
+        // So many pairs of corners are looked at in one polygon, or in all of them together; small ones are not counted.
+        let saw = |teeth: usize| {
+            let middle = [teeth as f32 / 2.0, -9.0];
+            polygon(&(0..teeth).map(|i| [i as f32, (i % 2) as f32]).chain([middle]).collect::<Vec<_>>())
+        };
+        assert!(noted(&saw(12_000)).contains("very many corners"));
+        let mut splitter = Splitter { pairs: MOST_PAIRS - 1000 * (1000 - SMALL), ..Splitter::default() };
+        for (teeth, large) in [(999, 0), (99, 1), (63, 1)] {
+            splitter.split(&saw(teeth));
+            assert_eq!(splitter.large, large, "{teeth}");
+        }
     }
 
     #[test]

@@ -7,6 +7,8 @@ pub(super) fn plain(bytes: &[u8]) -> Result<&[u8], Fault> {
     match bytes {
         [0xef, 0xbb, 0xbf, text @ ..] => Ok(text),
         [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => Err(wide()),
+        // With the mark or a first ASCII character, either end first.
+        [0, 0, 0xfe, 0xff, ..] | [0, 0, 0, 1..=0x7f, ..] | [1..=0x7f, 0, 0, 0, ..] => Err(wide()),
         [0, a, 0, b, ..] | [a, 0, b, 0, ..] if *a != 0 && *b != 0 => Err(wide()),
         _ => Ok(bytes),
     }
@@ -72,7 +74,15 @@ mod tests {
     #[test]
     fn wide_text_is_refused_and_a_mark_is_not_read() {
         assert_eq!(plain(b"\xef\xbb\xbfv 0").unwrap(), b"v 0");
-        for wide in [&b"\xff\xfev\0 \0"[..], b"\xfe\xff\0v", b"v\0 \x000\0", b"\0v\0 "] {
+        for wide in [
+            &b"\xff\xfev\0 \0"[..],
+            b"\xfe\xff\0v",
+            b"v\0 \x000\0",
+            b"\0v\0 ",
+            b"\0\0\xfe\xff\0\0\0v",
+            b"\0\0\0v",
+            b"v\0\0\0",
+        ] {
             assert!(plain(wide).unwrap_err().problem.contains("UTF-16"));
         }
         assert!(plain(&[0; 8]).is_ok() && plain(b"").is_ok());

@@ -157,6 +157,13 @@ impl<'a> Accessors<'a> {
         if stride < size {
             return Err(format!("its elements of {size} bytes overlap in buffer view {number}, {stride} bytes apart"));
         }
+        let buffers = self.buffers.len();
+        if view.buffer >= buffers {
+            return Err(format!(
+                "its buffer view {number} is of buffer {}, there are {buffers}, counted from 0",
+                view.buffer
+            ));
+        }
         let view_end = view.byte_offset.checked_add(view.byte_length);
         let data = view_end.and_then(|end| self.buffers.get(view.buffer)?.get(view.byte_offset..end));
         let data = data.ok_or_else(|| format!("its buffer view {number} reaches beyond the end of its buffer"))?;

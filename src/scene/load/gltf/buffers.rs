@@ -83,6 +83,9 @@ fn read_start(path: &Path, length: u64) -> Result<Bytes, String> {
 
 /// The file that a URI names, which is below this one's folder, by the one path that all its names lead to.
 fn file(uri: &str, folder: &Path) -> Result<PathBuf, String> {
+    if uri.is_empty() {
+        return Err("its URI is empty: name the file of the buffer".into());
+    }
     if uri.contains(':') {
         return Err(format!("its URI {} is no relative path: put the buffer beside the file", quoted(uri)));
     }
@@ -91,7 +94,7 @@ fn file(uri: &str, folder: &Path) -> Result<PathBuf, String> {
     let path = below(folder, &name).ok_or_else(outside)?;
     match fs::metadata(&path) {
         Ok(file) if file.is_file() => Ok(fs::canonicalize(&path).unwrap_or(path)),
-        Ok(_) => Err(format!("{} is not a regular file", quoted(&name))),
+        Ok(_) => Err(format!("its file {} is not a regular file: name the file of the buffer", quoted(&name))),
         Err(cause) => Err(format!("its file {} cannot be read ({cause}): put it beside this one", quoted(&name))),
     }
 }

@@ -122,6 +122,7 @@ pub(super) struct Node {
 
 #[derive(Deserialize)]
 pub(super) struct Scene {
+    #[serde(default)]
     pub nodes: Vec<usize>,
 }
 
@@ -166,7 +167,8 @@ impl Document {
             return Err(Fault::part("scene", format!("it names scene {scene}, but the file has {scenes} scenes")));
         }
         let within = |index: usize, list: usize, place: &dyn Fn() -> String| {
-            let problem = || format!("index {index} is out of bounds, there are {list}: export the file again");
+            let problem =
+                || format!("index {index} is out of bounds, there are {list}, counted from 0: export the file again");
             if index < list { Ok(()) } else { Err(Fault::part(place(), problem())) }
         };
         for (s, scene) in self.scenes.iter().enumerate() {
@@ -191,8 +193,8 @@ impl Document {
                 for (accessor, key) in accessors {
                     accessor.map_or(Ok(()), |accessor| within(accessor, self.accessors.len(), &|| place(key)))?;
                 }
-                let material = primitive.material.map_or(0, |material| material + 1);
-                within(material, self.materials.len() + 1, &|| place("material"))?;
+                let materials = self.materials.len();
+                primitive.material.map_or(Ok(()), |material| within(material, materials, &|| place("material")))?;
                 if primitive.mode > TRIANGLE_FAN {
                     let problem = format!("{} is an invalid value: export the file again", primitive.mode);
                     return Err(Fault::part(place("mode"), problem));

@@ -18,7 +18,7 @@ pub(super) struct Placement {
 /// visits a node before its children.
 ///
 /// # Errors
-/// A graph that is not a forest: a node with two parents, a cycle, a scene that shows a node twice; or one that is
+/// A graph that is not a forest: a node with two parents, a cycle, a scene that shows a node twice or names one that is no root; or one that is
 /// deeper than 1024 nodes.
 pub(super) fn placements(document: &Document) -> Result<Vec<Placement>, Fault> {
     let nodes = &document.nodes;
@@ -35,6 +35,15 @@ pub(super) fn placements(document: &Document) -> Result<Vec<Placement>, Fault> {
     let seen = walk(nodes, roots(), |_, _, _| ())?;
     if let Some(number) = seen.iter().position(|seen| !seen) {
         return Err(Fault::part(format!("node {number}"), "it is its own ancestor: remove the cycle"));
+    }
+
+    for (number, scene) in document.scenes.iter().enumerate() {
+        let inner = scene.nodes.iter().position(|&node| parent[node].is_some());
+        if let Some(at) = inner {
+            let node = scene.nodes[at];
+            let problem = format!("node {node} is a child of another one: list roots only");
+            return Err(Fault::part(format!("scenes[{number}].nodes[{at}]"), problem));
+        }
     }
 
     let mut placements = Vec::new();

@@ -146,6 +146,9 @@ fn nothing(document: &Document, placements: &[Placement], shapes: &[Option<Shape
         _ if shapes.iter().flatten().any(|shape| !shape.parts.is_empty()) => {
             "its primitives have too few corners for a triangle".into()
         }
+        _ if !placements.is_empty() && placements.iter().all(|p| document.meshes[p.mesh].primitives.is_empty()) => {
+            "its meshes have no primitives".into()
+        }
         _ if !placements.is_empty() => "its meshes have only points, lines or primitives without positions".into(),
         _ if document.meshes.is_empty() => "it has no meshes".into(),
         Some((scene, [])) => format!("scene {scene}, its default, has no nodes"),

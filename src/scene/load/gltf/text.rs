@@ -1,7 +1,9 @@
 //! The text of a glTF document, alone or in a binary file.
 
+use serde::Deserialize;
+
 use super::document::Document;
-use crate::scene::load::error::{Fault, message};
+use crate::scene::load::error::{Fault, message, quoted};
 use crate::scene::load::text::plain;
 
 /// A document takes some hundred bytes for each object in its text, which may be as short as `{}`.
@@ -17,16 +19,39 @@ const ENTRIES_AN_OBJECT: usize = 12;
 pub(super) fn parse(bytes: &[u8]) -> Result<(Document, Option<&[u8]>), Fault> {
     let (text, chunk) = if bytes.starts_with(b"glTF") { chunks(bytes)? } else { (plain(bytes)?, None) };
     check_text(text, bytes.len())?;
-    let document: Document = serde_json::from_slice(text).map_err(|error| match message(&error) {
-        // Both are left out in valid files.
-        missing if missing.contains("missing field `nodes`") => {
-            let problem = "a scene has no `nodes`, so that it shows nothing: give it nodes, or remove it";
-            Fault::line(error.line(), problem)
-        }
-        other => no_gltf(&other),
-    })?;
+    check_version(text)?;
+    let document: Document = serde_json::from_slice(text).map_err(|error| no_gltf(&message(&error)))?;
     document.check()?;
     Ok((document, chunk))
+}
+
+/// The part of a document that is alike in all versions.
+#[derive(Deserialize)]
+struct Versioned {
+    asset: Asset,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+struct Asset {
+    version: Option<String>,
+    min_version: Option<String>,
+}
+
+/// Other versions have objects where this one has lists: what they say of that would mislead.
+fn check_version(text: &[u8]) -> Result<(), Fault> {
+    let Ok(Versioned { asset }) = serde_json::from_slice(text) else { return Ok(()) };
+    let is_read = |version: &str| version.split('.').next() == Some("2");
+    match asset {
+        Asset { min_version: Some(least), .. } if least != "2.0" => Err(Fault::part(
+            "asset",
+            format!("it needs glTF {}, and 2.0 is read here: export it as that", quoted(least)),
+        )),
+        Asset { version: Some(version), .. } if !is_read(&version) => {
+            Err(Fault::part("asset", format!("it is glTF {}: convert it to 2.0", quoted(version))))
+        }
+        _ => Ok(()),
+    }
 }
 
 fn no_gltf(problem: &str) -> Fault {

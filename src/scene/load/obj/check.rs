@@ -13,6 +13,7 @@ pub(super) struct Check {
     /// Whether any face has normals.
     pub smooth: bool,
     small_faces: usize,
+    shapes: usize,
     skipped: usize,
     unknown: usize,
     /// The line of the first unknown keyword, and what it says.
@@ -35,6 +36,7 @@ impl Check {
 
     pub fn note(&self, notes: &mut Notes) {
         notes.count(self.small_faces, "faces with fewer than three corners are left out");
+        notes.count(self.shapes, "points, lines, curves or surfaces are left out");
         if let Some((number, line)) = &self.first_unknown {
             let count = self.unknown;
             notes.add(format!(
@@ -70,6 +72,7 @@ impl Check {
                 self.triangles += count.saturating_sub(2);
                 self.smooth |= smooth && count >= 3;
             }
+            Line::Shape => self.shapes += 1,
             Line::Skipped => self.skipped += 1,
             Line::Unknown(line) => {
                 self.unknown += 1;
@@ -98,9 +101,9 @@ impl Check {
                 Err(Fault::line(*number, problem))
             }
             None => Err(Fault::file(format!(
-                "it holds no triangles: {} vertices, {} faces with fewer than three corners, {} lines of other \
-                 elements",
-                self.vertices, self.small_faces, self.skipped
+                "it holds no triangles: {} vertices, {} faces with fewer than three corners, {} points, lines, curves or \
+                 surfaces, {} other statements",
+                self.vertices, self.small_faces, self.shapes, self.skipped
             ))),
         }
     }

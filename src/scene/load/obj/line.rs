@@ -8,11 +8,12 @@ use crate::scene::Model;
 use crate::scene::load::error::quoted;
 use crate::scene::load::text::{Lines, after_keyword, number, words};
 
-/// What the format knows beside what is read: texture coordinates, groups, points, lines, curves, surfaces, and how
-/// these are displayed.
-const SKIPPED: &str = "vt vp g o s p l cstype deg bmat step curv curv2 surf parm trim hole scrv sp end con mg bevel \
-    c_interp d_interp lod maplib usemap shadow_obj trace_obj ctech stech call csh bsp bzp cdc cdp res fo \
-    cg texid smooth";
+/// What the format knows to show beside faces: points, lines, curves and surfaces.
+const SHAPES: &str = "p l curv curv2 surf bsp bzp cdc cdp";
+
+/// What it knows beside that and what is read: texture coordinates, groups, parameters, and how all is displayed.
+const SKIPPED: &str = "vt vp g o s cstype deg bmat step parm trim hole scrv sp end con mg bevel c_interp d_interp lod \
+    maplib usemap shadow_obj trace_obj ctech stech call csh res fo cg texid smooth";
 
 /// Statements with the numbers of the lines that they begin on: a line whose last character is `\` goes on in the next,
 /// unless it ends in a comment.
@@ -60,7 +61,9 @@ pub(super) enum Line<W> {
     Face(W),
     Material(String),
     Library(String),
-    /// Something that is left out: see [`SKIPPED`].
+    /// A shape that is left out: see [`SHAPES`].
+    Shape,
+    /// Something that is not needed: see [`SKIPPED`].
     Skipped,
     /// Nothing, or a comment.
     Empty,
@@ -79,10 +82,15 @@ impl Line<()> {
             Some(b"usemtl") => Line::Material(after_keyword(line)),
             Some(b"mtllib") => Line::Library(after_keyword(line)),
             Some(comment) if comment.starts_with(b"#") => Line::Empty,
-            Some(keyword) if SKIPPED.split(' ').any(|skipped| skipped.as_bytes() == keyword) => Line::Skipped,
+            Some(keyword) if is_among(SHAPES, keyword) => Line::Shape,
+            Some(keyword) if is_among(SKIPPED, keyword) => Line::Skipped,
             Some(_) => Line::Unknown(quoted(line)),
         }
     }
+}
+
+fn is_among(keywords: &str, keyword: &[u8]) -> bool {
+    keywords.split(' ').any(|known| known.as_bytes() == keyword)
 }
 
 /// The first three numbers; a fourth coordinate and colours are ignored.

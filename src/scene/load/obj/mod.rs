@@ -48,7 +48,7 @@ pub(super) fn read(bytes: &[u8], folder: &Path) -> Result<Model, Fault> {
             }
             Line::Material(name) => (faces.current, faces.material) = (Some(name), None),
             Line::Library(name) => faces.libraries.add(name),
-            Line::Skipped | Line::Empty | Line::Unknown(_) => {}
+            Line::Shape | Line::Skipped | Line::Empty | Line::Unknown(_) => {}
         }
     }
     faces.finish(&mut model, folder, &mut notes);

@@ -47,6 +47,8 @@ pub(super) struct Header {
     /// The byte that ends a line.
     pub line_end: u8,
     pub elements: Vec<Element>,
+    /// Names of elements, and of properties behind that of their element.
+    seen: HashSet<String>,
 }
 
 impl Header {
@@ -61,7 +63,7 @@ impl Header {
         if bytes.split(is_end).next().is_none_or(|first| first.trim_ascii_end() != b"ply") {
             return Err(Fault::line(1, "a PLY file begins with the line `ply`: this is another format"));
         }
-        let mut header = Self { encoding: None, line_end, elements: vec![] };
+        let mut header = Self { encoding: None, line_end, elements: vec![], seen: HashSet::new() };
         let (mut lines, mut read) = (0, 0);
         let text = &bytes[..bytes.len().min(LONGEST_HEADER)];
         for line in text.split_inclusive(is_end).take_while(|line| line.last().is_some_and(is_end)) {
@@ -100,6 +102,9 @@ impl Header {
             ["format", "binary_big_endian", "1.0"] => self.encoding = Some(Encoding::Big),
             ["element", name, count] => {
                 let count = count.parse().map_err(|_| unknown())?;
+                if !self.seen.insert(name.into()) {
+                    return Err(format!("the element {} is declared twice: give each its own name", quoted(name)));
+                }
                 self.elements.push(Element { name: name.into(), count, properties: vec![] });
             }
             ["property", "list", length, entry, name] => self.property(name, Some(kind(length)?), kind(entry)?)?,
@@ -116,21 +121,17 @@ impl Header {
         // A text may state any length, whatever the width of its type.
         let length = length.map(|length| if self.encoding == Some(Encoding::Ascii) { Kind::F64 } else { length });
         let element = self.elements.last_mut().ok_or("it precedes all elements of the PLY header")?;
+        if !self.seen.insert(format!("{} {name}", element.name)) {
+            return Err(format!("the property {} is declared twice: give each its own name", quoted(name)));
+        }
         element.properties.push(Property { name: name.into(), length, kind });
         Ok(())
     }
 
     /// Whether the header declares a mesh: vertices with positions and faces with corners.
-    fn check<'a>(&'a self) -> Result<(), Fault> {
+    fn check(&self) -> Result<(), Fault> {
         if self.encoding.is_none() {
             return Err(Fault::file("the PLY header has no line `format`: the file is damaged"));
-        }
-        let names = |element: &'a Element| {
-            element.properties.iter().map(|p| (&element.name, Some(&p.name))).chain([(&element.name, None)])
-        };
-        let mut seen = HashSet::new();
-        if !self.elements.iter().flat_map(names).all(|name| seen.insert(name)) {
-            return Err(Fault::file("the PLY header declares an element or a property twice: give each its own name"));
         }
         let Some(vertex) = self.element("vertex") else {
             return Err(Fault::file("the PLY header declares no element `vertex`: there is no mesh in this file"));

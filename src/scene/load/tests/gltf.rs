@@ -163,7 +163,47 @@ fn what_shows_nothing_says_why() {
     all["nodes"] = json!([{}]);
     assert!(message(&all).ends_with("no node has a mesh"), "{}", message(&all));
     all["scenes"] = json!([{"name": "empty"}]);
-    assert!(message(&all).contains("line 1: a scene has no `nodes`"), "{}", message(&all));
+    all["scene"] = json!(0);
+    assert!(message(&all).ends_with("scene 0, its default, has no nodes"), "{}", message(&all));
+    all["nodes"] = json!([{"mesh": 0}]);
+    all["scenes"] = json!([{"nodes": [0]}, {"name": "empty"}]);
+    let whole = load_files(&[("a.gltf", all.to_string().as_bytes()), ("a.bin", &data())]).unwrap();
+    assert!(!whole.triangles.is_empty(), "a second scene may be empty");
+    all["meshes"][0]["primitives"] = json!([]);
+    assert!(message(&all).ends_with("its meshes have no primitives"), "{}", message(&all));
+}
+
+#[test]
+fn other_versions_are_told_before_their_forms() {
+    for (asset, words) in [
+        (json!({"version": "1.0"}), "it is glTF `1.0`: convert it"),
+        (json!({"version": "3.0"}), "it is glTF `3.0`"),
+        (json!({"version": "2.1", "minVersion": "2.1"}), "it needs glTF `2.1`"),
+    ] {
+        let text = json!({"asset": asset, "meshes": {"a": {}}}).to_string();
+        assert_refused("a.gltf", text.as_bytes(), &["asset", words]);
+    }
+    let mut later = document();
+    later["asset"] = json!({"version": "2.1", "minVersion": "2.0"});
+    assert!(load_files(&[("a.gltf", later.to_string().as_bytes()), ("a.bin", &data())]).is_ok());
+}
+
+#[test]
+fn what_names_nothing_is_told_with_its_number() {
+    refused(
+        &[("/meshes/0/primitives/0/material", json!(9))],
+        &["meshes[0].primitives[0].material", "index 9 is out of"],
+    );
+    refused(&[("/meshes/0/primitives/0/material", json!(u64::MAX))], &["primitives[0].material", "is out of bounds"]);
+    refused(&[("/bufferViews/0/buffer", json!(5))], &["of buffer 5, there are 1"]);
+    refused(&[("/buffers/0/uri", json!(""))], &["buffer 0", "its URI is empty"]);
+    refused(
+        &[
+            ("/nodes", json!([{"children": [1], "translation": [9, 9, 9]}, {"mesh": 0}])),
+            ("/scenes/0/nodes", json!([1])),
+        ],
+        &["scenes[0].nodes[0]", "node 1 is a child of another one"],
+    );
 }
 
 #[test]

@@ -109,17 +109,24 @@ fn marks_line_ends_and_comments_do_not_hide_vertices() {
 }
 
 #[test]
+fn shapes_beside_faces_are_told_and_a_material_without_a_name_is_one() {
+    let model = obj(&format!("{SQUARE}l 1 2\np 1\nf 1 2 3\ncurv 0 1 1 2\no name\n"));
+    assert_eq!(model.notes, ["3 points, lines, curves or surfaces are left out"]);
+    let library = ("a.mtl", &b"newmtl red\nKd 1 0 0\nnewmtl\nKd 0 1 0\n"[..]);
+    let text = format!("mtllib a.mtl\n{SQUARE}usemtl red\nf 1 2 3\nusemtl\nf 1 2 3\n");
+    let model = load_files(&[("a.obj", text.as_bytes()), library]).unwrap();
+    assert_eq!(model.materials.iter().map(|m| m.diffuse).collect::<Vec<_>>(), [Vec3::X, Vec3::Y]);
+    assert!(model.notes.is_empty(), "{:?}", model.notes);
+}
+
+#[test]
 fn lines_without_a_known_keyword_are_told() {
     let model = obj(&format!("{SQUARE}vertex 1 2 3\nfoo\nf 1 2 3\nvt 0 0\ncstype bezier\n"));
     assert_eq!(model.notes, ["2 lines without a keyword of OBJ are passed over, the first is line 6: `vertex 1 2 3`"]);
     let html = b"\n<!DOCTYPE html>\n<p>404</p>\n";
     assert_refused("a.obj", html, &["line 2: `<!DOCTYPE html>`", "no keyword of OBJ", "another format"]);
     assert_refused("a.obj", b"", &["holds no triangles"]);
-    assert_refused(
-        "a.obj",
-        b"v 1 2 3\np 1\nf 1 1\n",
-        &["no triangles: 1 vertices, 1 faces", "1 lines of other elements"],
-    );
+    assert_refused("a.obj", b"v 1 2 3\np 1\nf 1 1\n", &["no triangles: 1 vertices, 1 faces", "1 points"]);
 }
 
 #[test]
