@@ -9,19 +9,26 @@ use std::time::SystemTime;
 
 use serde_json::Value;
 
+use super::machines::{Machine, OfMachine};
 use crate::measure::Provenance;
 use crate::report::Record;
-use crate::report::words::command_line;
-use crate::study::compare::CompareStudy;
+use crate::report::words::{command_line, distinct};
+use crate::study::compare::{CompareStudy, Compared};
 use crate::study::journal::{Header, JournalError};
-use crate::study::{Answers, AnyAnswer, AnyStudy, SceneId, Studies};
+use crate::study::{Answers, AnyAnswer, AnyStudy, SceneId, Studies, Study};
 
 /// Everything that a report is made of.
 #[derive(Default)]
 pub struct Runs {
     /// What was read, oldest first.
     pub sources: Vec<Source>,
+    /// What studies say; of `compare` what it says of the first machine.
     pub answers: Answers,
+    /// What was compared, machine by machine: the one with the most times first, or the newest of these, then those
+    /// measured last at the end.
+    pub machines: Vec<OfMachine>,
+    /// The machines that the other answers are of, where files tell.
+    measured_on: BTreeMap<&'static str, Machine>,
     /// The commands that measured what a study says.
     commands: BTreeMap<&'static str, Vec<String>>,
     provenances: Vec<Provenance>,
@@ -62,6 +69,9 @@ pub enum RunError {
 
 /// The kind of a file of a folder that is passed over.
 const NO_RUN: &str = "no run";
+
+/// What is said of a file whose measurements were made again.
+const REPLACED: &str = "what a newer file of this kind holds as well";
 
 /// A file and when it was last written: the newest counts where two measured the same.
 struct File {
@@ -109,6 +119,7 @@ impl Runs {
         if let (true, Some(path)) = (runs.sources.iter().all(|source| source.kind == NO_RUN), paths.first()) {
             return Err(RunError::Empty { path: path.clone() });
         }
+        runs.lead(studies);
         let made = studies.iter().filter(|study| study.is_last()).map(|study| {
             let answer = study.answer_alone(&Provenance::capture(1), &runs.answers);
             (study, answer)
@@ -151,24 +162,69 @@ impl Runs {
         Err(RunError::Foreign { path: path.into() })
     }
 
-    /// Adds the answer of a file. Without its provenance the records tell it.
+    /// Adds the answer of a file.
     fn take(&mut self, path: &Path, study: &dyn AnyStudy, answer: AnyAnswer, provenance: Option<&Provenance>) {
-        let of_records = |answer: &dyn Any| {
-            let compared = answer.downcast_ref::<crate::study::compare::Compared>()?;
-            Some(compared.records.first()?.provenance.clone())
-        };
-        let provenance = provenance.cloned().or_else(|| of_records(&*answer as &dyn Any));
-        let command = provenance.as_ref().map_or("", |provenance| &provenance.command).to_owned();
-        if self.answers.add(study, answer) {
-            let older = self.sources.iter_mut().filter(|source| source.kind == study.name());
-            older.for_each(|source| source.replaced = "what a newer file of this kind holds as well".into());
+        let mut provenances: Vec<Provenance> = provenance.cloned().into_iter().collect();
+        if study.name() == CompareStudy::NAME && (*answer).is::<Compared>() {
+            let compared = (answer as Box<dyn Any>).downcast().expect("it is one");
+            self.compare(*compared, &mut provenances);
+        } else {
+            self.measured_on.remove(study.name());
+            self.measured_on.extend(provenance.map(|provenance| (study.name(), Machine::of(provenance))));
+            if self.answers.add(study, answer) {
+                let older = self.sources.iter_mut().filter(|source| source.kind == study.name());
+                older.for_each(|source| source.replaced = REPLACED.into());
+            }
         }
+        let command = provenances.first().map_or("", |provenance| &provenance.command).to_owned();
         let commands = self.commands.entry(study.name()).or_default();
         if !commands.contains(&command_line(&command)) {
             commands.push(command_line(&command));
         }
-        self.provenances.extend(provenance.filter(|provenance| !self.provenances.contains(provenance)));
+        for provenance in provenances {
+            if !self.provenances.contains(&provenance) {
+                self.provenances.push(provenance);
+            }
+        }
         self.note(path, study.name(), &command);
+    }
+
+    /// Adds a comparison to those of its machine. Where the file does not tell `provenances` the records do.
+    fn compare(&mut self, compared: Compared, provenances: &mut Vec<Provenance>) {
+        let parts = OfMachine::parts(compared, provenances.first(), self.sources.len());
+        if provenances.is_empty() {
+            let first = |part: &OfMachine| Some(part.compared.records.first()?.provenance.clone());
+            provenances.extend(parts.iter().filter_map(first));
+        }
+        for part in parts {
+            let known = self.machines.iter().position(|older| older.machine == part.machine);
+            let Some(mut older) = known.map(|place| self.machines.remove(place)) else {
+                self.machines.push(part);
+                continue;
+            };
+            let sources = older.sources.clone();
+            if older.merge(part) {
+                sources.into_iter().for_each(|source| self.sources[source].replaced = REPLACED.into());
+            }
+            self.machines.push(older);
+        }
+    }
+
+    /// Makes the machine with the most times the one that the whole page speaks of, the newest of these.
+    fn lead(&mut self, studies: &Studies) {
+        let most = (0..self.machines.len()).max_by_key(|&place| self.machines[place].timed());
+        let (Some(place), Some(study)) = (most, studies.find(CompareStudy::NAME)) else { return };
+        let leading = self.machines.remove(place);
+        let commands = leading.sources.iter().map(|&source| &self.sources[source].command);
+        self.commands.insert(study.name(), distinct(commands.filter(|command| !command.is_empty())));
+        self.answers.add(study, Box::new(leading.compared.clone()));
+        self.machines.insert(0, leading);
+    }
+
+    /// The machine that a study was measured on and the one that was compared on, where these differ.
+    pub fn elsewhere(&self, study: &str) -> Option<[&Machine; 2]> {
+        let (own, leading) = (self.measured_on.get(study)?, &self.machines.first()?.machine);
+        (own != leading).then_some([own, leading])
     }
 
     /// Where the numbers come from, one for each command.

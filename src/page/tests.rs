@@ -10,6 +10,7 @@ use example::{accuracy, attribution_journal, refused, whole};
 pub use example::{cube, provenance, read, records_of, runs_folder};
 
 mod example;
+mod machines;
 mod statements;
 
 fn document(runs: &Runs, pictures: Vec<Section>) -> Document {

@@ -1,11 +1,13 @@
 //! The whole page: a section for each study, in the order of the list, and what frames them.
 
 mod answer;
+mod machines;
 mod provenance;
 
 use super::runs::Runs;
 use crate::report::document::{Block, Document, Section};
-use crate::study::Studies;
+use crate::study::compare::CompareStudy;
+use crate::study::{Studies, Study};
 
 /// The whole report; `pictures` are the sections that are drawn and not measured. Studies whose answers have no data are named at
 /// the end, with the commands that measure them.
@@ -17,8 +19,14 @@ pub fn document(runs: &Runs, studies: &Studies, pictures: Vec<Section>) -> Docum
         match answer {
             Some(answer) => {
                 let found = study.statements(answer).into_iter().map(|statement| Block::Text(statement.sentence));
-                let blocks = found.chain(study.section(answer, &runs.command(study))).collect();
+                let elsewhere = runs.elsewhere(study.name()).map(|[own, leading]| {
+                    Block::Note(format!("Measured on {own}; the comparison of all structures is of {leading}."))
+                });
+                let blocks = found.chain(elsewhere).chain(study.section(answer, &runs.command(study))).collect();
                 sections.push(Section { id: study.name(), title: study.question(), blocks });
+                if study.name() == CompareStudy::NAME {
+                    sections.extend(machines::section(runs));
+                }
             }
             None => missing.push(Block::missing(study.question(), &study.command())),
         }

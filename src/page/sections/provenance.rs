@@ -21,7 +21,7 @@ pub fn section(runs: &Runs, missing: Vec<Block>) -> Section {
     );
     files.notes.push(
         "Where several files measured the same scene with the same command, the one last written counts: samples of \
-         different runs are no pairs."
+         different runs are no pairs. Comparisons on different machines stand side by side."
             .into(),
     );
     let mut blocks = vec![Block::table(files, ""), Block::table(machines(&runs.provenances()), "")];
