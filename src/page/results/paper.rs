@@ -7,6 +7,7 @@ use crate::report::Record;
 use crate::report::document::{Art, Block, Document, Figure, Section};
 use crate::report::words::{distinct, listed};
 use crate::report::wrapped;
+use crate::study::compare::bias;
 use crate::study::predictions::REST_BELOW;
 use crate::study::{AnyStudy, Studies};
 
@@ -15,9 +16,6 @@ pub const ANSWER: &str = "answer.svg";
 
 /// Figures and tables of a study that the paper shows; the page has all.
 const SHOWN: usize = 2;
-
-/// The meshes that the builders and layouts of our trees were tuned on; `papers/TUNING.md` has what was tried.
-const TUNED_ON: [&str; 6] = ["kitchen", "sponza-nave", "dragon-scan", "bunny", "lucy-scan", "engine"];
 
 /// Where the paper looks for a figure.
 pub fn path(id: &str) -> String {
@@ -163,11 +161,7 @@ fn threats(runs: &Runs, run: &RunFacts, text: &mut String) {
     let stand_ins: Vec<&Record> = runs.records().iter().filter(|record| record.stand_in).collect();
     let stand_ins = distinct(stand_ins.iter().map(|record| &record.scene));
     let mut points = vec![
-        format!(
-            "**We are judges in our own cause.** Builders and layouts of our eight-wide trees were tuned on the meshes {}, and on Dragon and Lucy \
-             in other sizes; these are the kinds of meshes shown here. obvhs was not tuned by us.",
-            listed(&TUNED_ON)
-        ),
+        format!("**We are judges in our own cause.** {} The meshes shown here are of the same kinds.", bias()),
         format!("**One machine, {}.** {} with {}: on another one the order may be another.", run.threads(), run.cpu, run.simd),
         "**Intervals are of reruns.** They hold what another run of the same plan finds on this machine, not what other meshes, cameras \
          or machines would."

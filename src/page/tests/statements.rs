@@ -38,6 +38,18 @@ fn only_a_page_speaks_of_a_slider() {
     assert!(said.contains("Where the work is") && !said.contains("slider"));
 }
 
+#[test]
+fn a_rank_says_whom_it_may_favour() {
+    let said = "tuned on the meshes kitchen, sponza-nave, dragon-scan, bunny, lucy-scan and engine";
+    for text in forms(&cube().0) {
+        let text = text.split_whitespace().collect::<Vec<_>>().join(" ").replace("\\-", "-");
+        assert!(text.contains(said) && text.contains("Neither obvhs nor any other peer was tuned by us"), "{text}");
+    }
+    let alone = [records_of("Cube").remove(0)];
+    let runs = read(runs_folder(&[("compare.json", to_json(&alone))]).path());
+    assert!(!page(&document(&runs, vec![])).contains("tuned on"), "there is no rank");
+}
+
 fn of_scene(scene: &str) -> Runs {
     read(runs_folder(&[("compare.json", to_json(&records_of(scene)))]).path())
 }

@@ -22,6 +22,7 @@ pub use means::{Winner, mean_table, winner};
 pub use rank::{Rank, Ranked, Ranks, ranks};
 pub use records::compared;
 pub use reference::{Reference, cell as ratio_cell};
+pub use section::bias;
 pub use study::{CompareArgs, CompareStudy};
 pub use table::{brief_table, details_legend, legend, scene_table};
 
