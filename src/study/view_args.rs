@@ -60,26 +60,39 @@ impl FromStr for Look {
 }
 
 impl ViewArgs {
-    /// The scene as it is looked at. A bare mesh that is seen from outside says so.
+    /// The scene as it is looked at.
     ///
     /// # Errors
     /// If there is no such view of the scene.
-    pub fn of(&self, scene: Scene) -> anyhow::Result<Scene> {
+    pub fn seen(&self, scene: Scene) -> anyhow::Result<Scene> {
         let mut scene = if self.inside { scene.from_inside().context("--inside")? } else { scene };
-        match self.camera {
-            Some(Look { eye, target, vertical_fov }) => {
-                let vertical_fov = vertical_fov.unwrap_or(scene.camera.vertical_fov());
-                scene.camera = Camera::new(eye, target, scene.camera.up(), vertical_fov).context("--camera")?;
-            }
-            None if scene.is_framed && !self.inside => {
-                scene
-                    .notes
-                    .push("seen from outside, all of it: --inside looks from within, --camera from anywhere".into());
-            }
-            None => {}
+        if let Some(Look { eye, target, vertical_fov }) = self.camera {
+            let vertical_fov = vertical_fov.unwrap_or(scene.camera.vertical_fov());
+            scene.camera = Camera::new(eye, target, scene.camera.up(), vertical_fov).context("--camera")?;
         }
         scene.size = self.size.map_or(scene.size, |size| size.0);
         Ok(scene)
+    }
+
+    /// As [`seen`](Self::seen). A bare mesh that is seen from outside says so.
+    ///
+    /// # Errors
+    /// As [`seen`](Self::seen).
+    pub fn of(&self, scene: Scene) -> anyhow::Result<Scene> {
+        let mut scene = self.seen(scene)?;
+        if scene.is_framed && self.looks_from().is_none() {
+            scene.notes.push("seen from outside, all of it: --inside looks from within, --camera from anywhere".into());
+        }
+        Ok(scene)
+    }
+
+    /// The option that says from where the scene is seen, if it was given.
+    pub fn looks_from(&self) -> Option<&'static str> {
+        match (self.inside, self.camera) {
+            (true, _) => Some("--inside"),
+            (false, Some(_)) => Some("--camera"),
+            (false, None) => None,
+        }
     }
 
     /// The options among the words of a command, which has run with them.
@@ -101,7 +114,7 @@ impl ViewArgs {
     /// # Errors
     /// If there is one.
     pub fn is_unasked(&self) -> anyhow::Result<()> {
-        let asked = self.inside || self.camera.is_some() || self.size.is_some();
+        let asked = self.looks_from().is_some() || self.size.is_some();
         anyhow::ensure!(!asked, "the rays are those of the file: leave --camera, --inside and --size out");
         Ok(())
     }

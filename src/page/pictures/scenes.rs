@@ -6,7 +6,7 @@ use crate::render::{Picture, ViewKind, draw};
 use crate::report::Table;
 use crate::report::document::{Art, Block, Figure, Section, Thumbnail};
 use crate::report::number::count;
-use crate::report::words::scene_name;
+use crate::report::words::{listed, scene_name};
 use crate::scene::Builtin;
 use crate::study::{SAH_TREE, guarded};
 
@@ -47,21 +47,34 @@ fn halved(fine: &Picture) -> Picture {
     Picture::new([width, height], pixels.collect())
 }
 
+/// From where the scenes are seen.
+fn caption(shown: &[Shown]) -> String {
+    let all_builtin = shown.iter().all(|one| Builtin::find(&one.argument).is_ok());
+    let cameras = if all_builtin {
+        "with the source report's cameras, lights and materials"
+    } else {
+        "the built-in ones with the source report's cameras, lights and materials, those of scene files with their own, and meshes with \
+         a camera that has them whole in view"
+    };
+    let asked = shown.iter().filter_map(|one| Some(format!("{} as {}", one.scene.name, one.view?)));
+    let asked: Vec<String> = asked.collect();
+    let asked = match asked.len() {
+        0 => String::new(),
+        1 => format!(", but {} of its command says", asked[0]),
+        _ => format!(", but {} of their commands say", listed(&asked)),
+    };
+    let colon = if all_builtin { "" } else { ":" };
+    format!("The scenes as they were traced, rendered by sahara{colon} {cameras}{asked}.")
+}
+
 /// `lost` are the scenes without a picture.
 pub fn section(thumbnails: Vec<Thumbnail>, shown: &[Shown], lost: &[String]) -> Section {
     let mut blocks = vec![];
-    let all_builtin = shown.iter().all(|one| Builtin::find(&one.argument).is_ok());
     if !thumbnails.is_empty() {
         let rows = thumbnails.iter().map(|t| [t.name.clone(), t.note.clone()]).collect();
         blocks.push(Block::Figure(Figure {
             id: "scenes".into(),
-            caption: if all_builtin {
-                "The scenes as they were traced, rendered by sahara with the source report's cameras, lights and materials."
-            } else {
-                "The scenes as they were traced, rendered by sahara: the built-in ones with the source report's cameras, lights and \
-                 materials, those of scene files with their own, and meshes with a camera that has them whole in view."
-            }
-            .into(),
+            caption: caption(shown),
             alt: String::new(),
             command: "sahara render SCENE -o SCENE.png".into(),
             art: Art::Gallery(thumbnails),

@@ -14,6 +14,8 @@ pub struct Shown {
     pub scene: Scene,
     /// As the command line names it: a built-in scene, or a file.
     pub argument: String,
+    /// The option of the command that says from where it is seen, if it has one.
+    pub view: Option<&'static str>,
     /// Whether it is not the one that was measured: another mesh of the same name, or another view of it.
     pub differs: bool,
 }
@@ -29,12 +31,11 @@ impl Shown {
 pub fn found_again(SceneId { name, hash }: &SceneId, commands: &str, find: Find) -> Option<Shown> {
     let mut other = None;
     for command in commands.lines().filter_map(shlex::split) {
+        let view = ViewArgs::of_command(&command);
         for argument in std::iter::once(name.clone()).chain(files_named(&command, name)) {
-            let Some(scene) = find(&argument).and_then(|scene| ViewArgs::of_command(&command).of(scene).ok()) else {
-                continue;
-            };
+            let Some(scene) = find(&argument).and_then(|scene| view.seen(scene).ok()) else { continue };
             let differs = hash.as_ref().is_some_and(|hash| scene.hash() != *hash);
-            let found = Shown { scene, argument, differs };
+            let found = Shown { scene, argument, view: view.looks_from(), differs };
             if !differs {
                 return Some(found);
             }

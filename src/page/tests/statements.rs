@@ -66,14 +66,28 @@ fn find(name: &str) -> Option<Scene> {
 
 #[test]
 fn only_built_in_scenes_have_the_cameras_of_the_source_report() {
-    let caption = |scene: &str| {
-        let runs = of_scene(scene);
+    let caption = |scene: &str, command: &str| {
+        let command = format!("/opt/somewhere/sahara compare {command}");
+        let of_command = |record| Record { provenance: provenance(&command), ..record };
+        let records: Vec<Record> = records_of(scene).into_iter().map(of_command).collect();
+        let runs = read(runs_folder(&[("compare.json", to_json(&records))]).path());
         let sections = draw(&runs, (&Registry::builtin(), &Studies::builtin()), &find, &mut |_| ());
         let mut blocks = sections.into_iter().find(|section| section.id == "scenes").unwrap().blocks;
         let Block::Figure(figure) = blocks.remove(0) else { panic!("{scene} is not drawn") };
         figure.caption
     };
-    assert!(caption("Cube").contains("rendered by sahara with the source report's cameras"));
-    let mine = caption("mine");
+    let cube = caption("Cube", "cube");
+    assert!(cube.contains("rendered by sahara with the source report's cameras") && !cube.contains("--"), "{cube}");
+    let mine = caption("mine", "mine");
     assert!(mine.contains("the built-in ones with the source report's") && mine.contains("whole in view"), "{mine}");
+    assert!(!mine.contains("--"), "{mine}");
+
+    // Views that a command has asked for are those of no file.
+    let inside = caption("mine", "mine --inside");
+    assert!(
+        inside.contains("whole in view") && inside.ends_with("but mine as --inside of its command says."),
+        "{inside}"
+    );
+    let looked = caption("Cube", "cube --camera '0,0,9 0,0,0'");
+    assert!(looked.ends_with("but Cube as --camera of its command says."), "{looked}");
 }
