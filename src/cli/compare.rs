@@ -163,6 +163,7 @@ fn gated(session: &Session, gate: &Gate, matches: &ArgMatches) -> anyhow::Result
     screen.end();
 
     print(&compared, comparison.as_ref(), args.wide, terminal)?;
+    terminal.print_lines(&plan.notes)?;
     terminal.print_lines(&[provenance.line()])?;
     if let Some(file) = json {
         file.write(&to_json(&compared.records))?;

@@ -8,7 +8,7 @@ use std::process::Output;
 use serde_json::Value;
 use tempfile::TempDir;
 
-use super::command::{NOISE, REGRESSION, RIGHT, USAGE, WRONG, sahara, stderr, stdout};
+use super::command::{NOISE, REGRESSION, RIGHT, SQUARE, USAGE, WRONG, prints, sahara, stderr, stdout};
 
 /// A folder of runs with the baseline `old`.
 struct Kept {
@@ -93,6 +93,20 @@ fn a_regression_noise_and_neither_have_their_statuses() {
     });
     let (status, said) = kept.against("noisy", &fail);
     assert!(status == NOISE && said.contains("too noisy"), "{said}");
+}
+
+#[test]
+fn notes_on_the_scenes_are_printed() {
+    let folder = tempfile::tempdir().unwrap();
+    let (mesh, dir) = (folder.path().join("square.obj"), folder.path().to_str().unwrap());
+    fs::write(&mesh, SQUARE).unwrap();
+    let small =
+        ["compare", mesh.to_str().unwrap(), "-s", "median-kd", "-s", "obvhs-bvh2", "-w", "primary", "--dir", dir];
+    for gate in ["--save-baseline", "--baseline"] {
+        let said =
+            prints(&[&small[..], &["--rays", "256", "--epochs", "2", "--runs", "2", "--quiet", gate, "old"]].concat());
+        assert!(said.contains("square: seen from outside, all of it"), "{said}");
+    }
 }
 
 #[test]
