@@ -135,6 +135,7 @@ fn gated(session: &Session, gate: &Gate, matches: &ArgMatches) -> anyhow::Result
     let looks = 1 + usize::from(most - first).div_ceil(STEP.into());
     let process_per_epoch = session.processes(&common).is_some();
     let provenance = Provenance { process_per_epoch, ..Provenance::of(&plan.threads) };
+    screen.warn(&plan.warnings);
     screen.warn(provenance.too_many_threads().as_slice());
     let (compared, comparison) = loop {
         let step = if run.epochs() == 0 { first } else { STEP };

@@ -59,6 +59,7 @@ pub(super) fn assemble(file: &SceneFile, origin: &Origin) -> Result<Scene, Scene
         is_framed: false,
         stand_ins: parts.stand_ins,
         notes: parts.notes,
+        warnings: vec![],
         mesh: Arc::new(mesh),
     })
 }

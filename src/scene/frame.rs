@@ -58,6 +58,7 @@ impl Scene {
             is_framed: true,
             stand_ins: Vec::new(),
             notes: model.notes,
+            warnings: vec![],
             mesh: Arc::new(mesh),
         })
     }

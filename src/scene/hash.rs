@@ -12,7 +12,8 @@ impl Scene {
     pub fn hash(&self) -> String {
         // Every field of the scene is named, so that a new one is not forgotten here.
         let Self { mesh, normals, materials, material_of, lights, camera, background, .. } = self;
-        let Self { recursion_limit, shadow_terminator_fix, offset, size, name: _, stand_ins: _, notes: _, .. } = self;
+        let Self { recursion_limit, shadow_terminator_fix, offset, size, .. } = self;
+        let Self { name: _, is_framed: _, stand_ins: _, notes: _, warnings: _, .. } = self;
         let mut hash = Hash(Sha256::new());
         hash.vectors(mesh.positions());
         hash.triples(mesh.triangles());

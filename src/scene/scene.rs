@@ -39,6 +39,8 @@ pub struct Scene {
     pub stand_ins: Vec<String>,
     /// What a reader of results should know of the scene, one sentence each.
     pub notes: Vec<String>,
+    /// Of the notes those that a reader should know before anything is measured.
+    pub warnings: Vec<String>,
 }
 
 /// What shading needs to know about a hit.

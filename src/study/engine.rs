@@ -44,7 +44,7 @@ pub trait Screen {
     fn is_watched(&self) -> bool;
     /// A first look.
     fn look(&mut self, table: &Table);
-    /// Shows what spoilt the run.
+    /// Shows what spoils the run, or may not be what was meant.
     fn warn(&mut self, warnings: &[String]);
     /// A table of the result.
     ///
@@ -105,6 +105,7 @@ pub(super) fn measure<S: Study>(args: &S::Args, plan: &Plan<S::Case>, run: &mut 
     });
     run.screen.begin(Plan::<S::Case>::work(plan.cases.iter().filter(|case| journal.get(&case.key).is_none())));
     run.screen.warn(gone_on.as_slice());
+    run.screen.warn(&plan.warnings);
     run.screen.warn(Provenance::of(&plan.threads).too_many_threads().as_slice());
     let clock = SystemClock::start();
     let epochs = plan.cases.iter().map(|case| case.epoch + 1).max().unwrap_or(0);

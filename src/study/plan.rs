@@ -8,6 +8,7 @@ use serde_json::{Map, Value};
 use super::{Stage, StudyError};
 use crate::measure::{Clock, Threads};
 use crate::report::Record;
+use crate::scene::Scene;
 
 /// How much `study all` measures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,6 +43,8 @@ pub struct Plan<C> {
     pub limit_ns: Option<u64>,
     /// What is said below the tables.
     pub notes: Vec<String>,
+    /// Of the notes those that are said before anything is measured.
+    pub warnings: Vec<String>,
     /// Files that are read, and so are not written.
     pub inputs: Vec<PathBuf>,
     pub measure: Measure<C>,
@@ -82,6 +85,7 @@ impl<C> Plan<C> {
             cases: scenes.into_iter().enumerate().map(planned).collect(),
             limit_ns: None,
             notes: vec![],
+            warnings: vec![],
             inputs: vec![],
             measure,
         }
@@ -97,6 +101,11 @@ impl<C> Plan<C> {
     pub fn work<'a>(cases: impl IntoIterator<Item = &'a Planned>) -> u64 {
         cases.into_iter().map(|case| case.work).sum()
     }
+}
+
+/// Notes `of` scenes, each with the name of its scene.
+pub fn named_notes(scenes: &[Scene], of: fn(&Scene) -> &Vec<String>) -> Vec<String> {
+    scenes.iter().flat_map(|scene| of(scene).iter().map(|note| format!("{}: {note}", scene.name))).collect()
 }
 
 /// Settings by name.

@@ -34,6 +34,11 @@ pub fn load_only(scene: &str) {
     ONLY.get_or_init(|| scene.into());
 }
 
+/// Whether this process measures for a run, which has loaded all scenes and says what is to be known of them.
+pub fn is_process_of_run() -> bool {
+    ONLY.get().is_some()
+}
+
 /// What is loaded of what is named.
 pub fn wanted<S: AsRef<str>>(named: &[S]) -> impl Iterator<Item = &S> {
     let is_only = |named: &str| ONLY.get().is_none_or(|only| name_of(named).is_none_or(|name| name == *only));

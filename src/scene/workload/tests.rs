@@ -31,6 +31,7 @@ fn room() -> Scene {
         is_framed: false,
         stand_ins: vec![],
         notes: vec![],
+        warnings: vec![],
     }
 }
 

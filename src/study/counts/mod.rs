@@ -13,7 +13,7 @@ mod tests;
 use serde_json::json;
 
 use super::args::{Scenes, Structures, WORKLOADS};
-use super::plan::Measure;
+use super::plan::{Measure, named_notes};
 use super::{Context, Data, Effort, Plan, Refused, Study, Trouble, ViewArgs, left_out, sources};
 use crate::measure::{Provenance, Threads};
 use crate::registry::Registry;
@@ -119,13 +119,13 @@ impl Study for CountsStudy {
         let key =
             |scene: &Scene| format!("{} {}", scene_name(&scene.name, !scene.stand_ins.is_empty()), &scene.hash()[..16]);
         let names: Vec<(String, String)> = scenes.iter().map(|scene| (scene.name.clone(), key(scene))).collect();
-        let notes = scenes.iter().flat_map(|scene| scene.notes.iter().map(|note| format!("{}: {note}", scene.name)));
-        let mut notes: Vec<String> = notes.collect();
+        let mut notes = named_notes(&scenes, |scene| &scene.notes);
+        let warnings = named_notes(&scenes, |scene| &scene.warnings);
         let leaves_out = |scene: &&Scene| settings.of(scene).count() < settings.structures.len();
         notes.extend(scenes.iter().filter(leaves_out).map(left_out));
         let measure: Measure<Counts> =
             Box::new(move |case, _, _, progress| count_scene(&scenes[case.scene], &settings, progress));
-        Ok(Plan { notes, inputs: args.scenes.files(), ..Plan::of_scenes(&kept, threads, names, measure) })
+        Ok(Plan { notes, warnings, inputs: args.scenes.files(), ..Plan::of_scenes(&kept, threads, names, measure) })
     }
 
     fn answer(cases: &[Counts], context: &Context<Self>) -> Counts {

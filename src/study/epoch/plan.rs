@@ -3,7 +3,7 @@
 use super::{Epoch, Settings, key, measure};
 use crate::report::words::scene_name;
 use crate::scene::Scene;
-use crate::study::plan::settings_map;
+use crate::study::plan::{named_notes, settings_map};
 use crate::study::{Plan, Planned, StudyError};
 
 impl Settings {
@@ -52,12 +52,14 @@ pub fn plan<C: 'static>(
             cases.push(Planned { key: key(scene, epoch), title, scene: number, epoch, work, process });
         }
     }
-    let notes = scenes.iter().flat_map(|scene| scene.notes.iter().map(|note| format!("{}: {note}", scene.name)));
+    let notes = named_notes(&scenes, |scene| &scene.notes);
+    let warnings = named_notes(&scenes, |scene| &scene.warnings);
     Plan {
         settings: settings_map(&settings[0].kept()),
         threads: settings[0].threads.clone(),
         limit_ns: None,
-        notes: notes.collect(),
+        notes,
+        warnings,
         inputs: vec![],
         cases,
         measure: Box::new(move |&Planned { scene: number, epoch, .. }, first, clock, progress| {

@@ -17,7 +17,7 @@ use serde::{Deserialize, Serialize};
 
 use super::args::{Measuring, Rays, Scenes, Structures, with_twin};
 use super::epoch::{self, Epoch, Settings, measure, troubles};
-use super::plan::settings_map;
+use super::plan::{named_notes, settings_map};
 use super::{Context, Data, Effort, Plan, Planned, Study, Trouble};
 use crate::measure::Threads;
 use crate::registry::Registry;
@@ -109,8 +109,7 @@ impl Study for ThreadsStudy {
                 }
             }
         }
-        let notes = scenes.iter().flat_map(|scene| scene.notes.iter().map(|note| format!("{}: {note}", scene.name)));
-        let mut notes: Vec<String> = notes.collect();
+        let mut notes = named_notes(&scenes, |scene| &scene.notes);
         if most == 2 {
             notes.push("Two points: Amdahl's curve goes through them whatever the truth is. More cores say how well it describes them.".into());
         }
@@ -119,6 +118,7 @@ impl Study for ThreadsStudy {
             threads: settings.last().map_or(one.threads, |(_, last)| last.threads.clone()),
             limit_ns: None,
             notes,
+            warnings: vec![],
             inputs: args.scenes.files(),
             cases,
             measure: Box::new(move |case, first, clock, progress| {
