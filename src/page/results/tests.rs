@@ -164,7 +164,7 @@ fn every_statement_is_in_the_paper_and_in_the_data() {
 #[test]
 fn threads_are_told_as_they_were() {
     let mut records = records_of("Cube");
-    let told = |records: &[Record]| {
+    let told = |records: &Vec<Record>| {
         let runs = read(runs_folder(&[("a.json", to_json(records))]).path());
         let document = crate::page::document(&runs, &Studies::builtin(), vec![]);
         Results::new(&document, &runs, &Studies::builtin()).unwrap().data.run.sentence()
