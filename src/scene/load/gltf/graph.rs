@@ -37,12 +37,11 @@ pub(super) fn placements(document: &Document) -> Result<Vec<Placement>, Fault> {
         return Err(Fault::part(format!("node {number}"), "it is its own ancestor: remove the cycle"));
     }
 
-    for (number, scene) in document.scenes.iter().enumerate() {
-        let inner = scene.nodes.iter().position(|&node| parent[node].is_some());
-        if let Some(at) = inner {
-            let node = scene.nodes[at];
-            let problem = format!("node {node} is a child of another one: list roots only");
-            return Err(Fault::part(format!("scenes[{number}].nodes[{at}]"), problem));
+    if let Some(scene) = document.scene {
+        let shown = &document.scenes[scene].nodes;
+        if let Some(at) = shown.iter().position(|&node| parent[node].is_some()) {
+            let problem = format!("node {} is a child of another one: list roots only", shown[at]);
+            return Err(Fault::part(format!("scenes[{scene}].nodes[{at}]"), problem));
         }
     }
 

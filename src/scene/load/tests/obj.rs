@@ -16,7 +16,8 @@ fn polygons_are_fans_and_vertices_keep_their_number() {
     assert_eq!(model.positions.len(), 5);
     assert!(model.normals.is_empty() && model.normal_indices.is_empty() && model.material_of.is_empty());
     assert_eq!(model.materials, [Material::named("default")]);
-    assert_eq!(model.notes, ["1 faces with fewer than three corners are left out"]);
+    let left_out = ["1 faces with fewer than three corners", "2 points, lines, curves or surfaces"];
+    assert_eq!(model.notes, left_out.map(|what| format!("{what} are left out")));
 }
 
 #[test]
