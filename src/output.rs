@@ -1,4 +1,6 @@
-//! Files written whole or not at all.
+//! Files and folders written whole or not at all.
+
+mod folder;
 
 use std::fs;
 use std::io::{self, Write};
@@ -6,6 +8,8 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use tempfile::{Builder, NamedTempFile};
+
+pub use folder::{FolderError, OutputFolder};
 
 /// The file name that stands for standard output.
 pub const STDOUT: &str = "-";
@@ -124,7 +128,7 @@ impl OutputFile {
     }
 }
 
-/// The error of the system itself: tempfile adds the path of a file that the user did not name.
+/// The error of the system itself: tempfile adds the path of a file or folder that the user did not name.
 fn plain(error: io::Error) -> io::Error {
     let text = error.to_string();
     match text.split_once(" at path ") {

@@ -102,7 +102,7 @@ enum Command {
     Diff(diff::Args),
     /// Hold every structure against a reference, hit for hit
     Validate(validate::Args),
-    /// Record, import and show files of rays
+    /// Record, import and show files of rays; write rays with exact answers
     Rays(rays::Args),
     /// Write what runs have measured as a page, Markdown, LaTeX and tidy data
     Report(report::Args),

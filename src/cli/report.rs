@@ -7,9 +7,9 @@ use super::Suite;
 use super::progress::Progress;
 use super::study::RUNS;
 use super::terminal::Terminal;
-use crate::output::OutputFile;
+use crate::output::{OutputFile, OutputFolder};
 use crate::page::results::{self, Results};
-use crate::page::{ReportFolder, Runs, document, draw, files, left_out};
+use crate::page::{Runs, document, draw, files, left_out};
 use crate::study::{Status, Studies, sources};
 
 #[derive(Debug, clap::Args)]
@@ -30,7 +30,7 @@ pub struct Args {
 }
 
 pub fn run(suite: &Suite, args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
-    let folder = args.output.as_deref().map(ReportFolder::check).transpose()?;
+    let folder = args.output.as_deref().map(OutputFolder::check).transpose()?;
     let results = args.results.as_deref().map(ResultsFolder::check).transpose()?;
     let paths = if args.runs.is_empty() { vec![PathBuf::from(RUNS)] } else { args.runs.clone() };
     let runs = Runs::read(&paths, &suite.studies)?;
@@ -71,7 +71,7 @@ pub fn run(suite: &Suite, args: &Args, terminal: &Terminal) -> anyhow::Result<St
 
 /// Where the paper goes, with what is beside it.
 struct ResultsFolder {
-    figures: ReportFolder,
+    figures: OutputFolder,
     paper: OutputFile,
     data: OutputFile,
     /// With its text.
@@ -89,7 +89,7 @@ impl ResultsFolder {
         let readme = readme.and_then(|path| Some((fs::read_to_string(&path).ok()?, path)));
         let readme = readme.filter(|(text, _)| text.contains(results::OPEN));
         Ok(Self {
-            figures: ReportFolder::check(&folder.join(results::FIGURES))?,
+            figures: OutputFolder::check(&folder.join(results::FIGURES))?,
             paper: OutputFile::check(&folder.join(results::PAPER))?,
             data: OutputFile::check(&folder.join(results::DATA))?,
             readme: readme.map(|(text, path)| anyhow::Ok((OutputFile::check(&path)?, text))).transpose()?,

@@ -5,7 +5,6 @@
 
 mod base64;
 mod files;
-mod folder;
 mod html;
 mod latex;
 mod machines;
@@ -18,7 +17,6 @@ mod sections;
 mod tests;
 
 pub use files::files;
-pub use folder::{FolderError, ReportFolder};
 pub use html::page;
 pub use machines::{Machine, OfMachine};
 pub use pictures::{draw, left_out};

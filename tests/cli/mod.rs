@@ -4,6 +4,7 @@ mod baselines;
 pub mod command;
 mod commands;
 mod compare;
+mod corpus;
 mod epochs;
 mod input;
 #[cfg(target_os = "linux")]

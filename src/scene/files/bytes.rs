@@ -1,6 +1,9 @@
-//! What both kinds of files share: the first 32 bytes, and reading numbers without running over the end.
+//! What the files of rays and of answers share: the first 32 bytes, and reading numbers without running over the end.
+
+use sha2::{Digest, Sha256};
 
 use crate::accel::Query;
+use crate::scene::Workload;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Head {
@@ -43,6 +46,11 @@ pub(super) fn head_bytes(head: &Head, magic: &[u8; 8]) -> Vec<u8> {
     bytes.extend(head.count.to_le_bytes());
     bytes.extend(head.hash);
     bytes
+}
+
+/// By which files of answers name the rays that they answer: the first bytes of the SHA-256 of all of them.
+pub(super) fn rays_hash(workload: &Workload) -> [u8; 8] {
+    Sha256::digest(workload.bytes())[..8].try_into().expect("eight bytes")
 }
 
 /// The `u32` at `at`, which lies within.

@@ -2,9 +2,7 @@
 
 use std::path::Path;
 
-use sha2::{Digest, Sha256};
-
-use super::bytes::{HEAD, Head, body, head, head_bytes, number};
+use super::bytes::{HEAD, Head, body, head, head_bytes, number, rays_hash};
 use super::{FileError, content, read};
 use crate::accel::Query;
 use crate::geometry::Hit;
@@ -31,8 +29,7 @@ pub struct RaysId {
 impl RaysId {
     /// That of the rays of a workload.
     pub fn of(workload: &Workload) -> Self {
-        let hash = Sha256::digest(workload.bytes())[..8].try_into().expect("eight bytes");
-        Self { query: workload.query, hash, count: workload.rays.len() }
+        Self { query: workload.query, hash: rays_hash(workload), count: workload.rays.len() }
     }
 
     /// What they ask.
@@ -52,7 +49,7 @@ impl HitFile {
     /// If there are not as many answers as rays.
     pub fn new(workload: &Workload, hits: Vec<Option<Hit>>) -> Self {
         assert_eq!(workload.rays.len(), hits.len(), "one answer a ray");
-        Self { query: workload.query, hash: RaysId::of(workload).hash, hits }
+        Self { query: workload.query, hash: rays_hash(workload), hits }
     }
 
     /// # Errors

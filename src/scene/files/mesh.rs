@@ -13,6 +13,18 @@ use crate::geometry::Mesh;
 /// If the file cannot be written.
 pub fn write_mesh(mesh: &Mesh, path: &Path) -> io::Result<()> {
     let mut file = BufWriter::with_capacity(1 << 16, File::create(path)?);
+    write_to(mesh, &mut file)?;
+    file.flush()
+}
+
+/// The bytes of that file.
+pub fn mesh_bytes(mesh: &Mesh) -> Vec<u8> {
+    let mut bytes = vec![];
+    write_to(mesh, &mut bytes).expect("memory takes everything");
+    bytes
+}
+
+fn write_to(mesh: &Mesh, file: &mut impl Write) -> io::Result<()> {
     write!(
         file,
         "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty float z\n\
@@ -27,5 +39,5 @@ pub fn write_mesh(mesh: &Mesh, path: &Path) -> io::Result<()> {
         file.write_all(&[3])?;
         triangle.iter().try_for_each(|corner| file.write_all(&corner.to_le_bytes()))?;
     }
-    file.flush()
+    Ok(())
 }

@@ -6,6 +6,7 @@ mod mesh;
 mod rays;
 #[cfg(test)]
 mod tests;
+mod truth;
 
 use std::fs::File;
 use std::io::Read;
@@ -14,10 +15,11 @@ use std::path::{Path, PathBuf};
 use crate::output::OutputError;
 
 pub use hits::{HitFile, RaysId};
-pub use mesh::write_mesh;
+pub use mesh::{mesh_bytes, write_mesh};
 pub use rays::RayFile;
+pub use truth::TruthFile;
 
-/// Why a file of rays or hits cannot be used.
+/// Why a file of rays or answers cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum FileError {
     #[error("cannot read {}: {cause}: check that it exists and may be read", path.display())]

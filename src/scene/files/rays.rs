@@ -88,7 +88,8 @@ impl RayFile {
         }
     }
 
-    pub(super) fn to_bytes(&self) -> Vec<u8> {
+    /// The bytes of the file.
+    pub fn to_bytes(&self) -> Vec<u8> {
         let Workload { name, query, rays } = &self.workload;
         let body = self.workload.bytes();
         let hash = Sha256::digest(&body)[..8].try_into().expect("eight bytes");

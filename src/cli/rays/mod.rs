@@ -1,13 +1,15 @@
 //! `rays`: files of rays, so that others replay exactly ours.
 
+mod corpus;
+
 use std::path::PathBuf;
 
 use anyhow::Context;
 use clap::Subcommand;
 
-use super::progress::Waiting;
-use super::terminal::Terminal;
 use crate::accel::Query;
+use crate::cli::progress::Waiting;
+use crate::cli::terminal::Terminal;
 use crate::geometry::Ray;
 use crate::output::OutputFile;
 use crate::registry::Registry;
@@ -31,6 +33,8 @@ enum Action {
     Import(Import),
     /// Say what a ray file holds
     Show(Show),
+    /// Write a folder of meshes, rays and exact answers: whoever answers these rays can count the wrong answers
+    Corpus(corpus::Args),
 }
 
 #[derive(Debug, clap::Args)]
@@ -84,6 +88,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
         Action::Record(args) => record(registry, args, terminal),
         Action::Import(args) => import(args, terminal),
         Action::Show(args) => show(args, terminal),
+        Action::Corpus(args) => corpus::run(args, terminal),
     }
 }
 

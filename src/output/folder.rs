@@ -6,12 +6,14 @@ use std::path::{Path, PathBuf};
 
 use tempfile::Builder;
 
-/// The file that tells a folder of ours from others: it lists what is in it.
-pub const MARK: &str = "sahara-report.json";
+use super::plain;
 
-/// A folder for a report.
+/// The file that tells a folder of ours from others: it lists what is in it.
+const MARK: &str = "sahara-files.json";
+
+/// A folder that results will go to; everything in it is ours.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct ReportFolder {
+pub struct OutputFolder {
     path: PathBuf,
 }
 
@@ -20,15 +22,17 @@ pub struct ReportFolder {
 pub enum FolderError {
     #[error("{} is a file: name a folder that does not exist yet", .0.display())]
     File(PathBuf),
-    #[error("{} holds something that is not a report of sahara, {other}: name another folder, or empty it", path.display())]
+    #[error("{} holds something that sahara has not written there, {other}: name another folder, or empty it", path.display())]
     Foreign { path: PathBuf, other: String },
+    #[error("cannot replace {}: {}, one of the files to read, is in it: name another folder", path.display(), input.display())]
+    Input { path: PathBuf, input: PathBuf },
     #[error("cannot write {}: {cause}: choose a place that exists, may be written and has room", path.display())]
     Write { path: PathBuf, cause: io::Error },
 }
 
-impl ReportFolder {
-    /// Checks that `path` may be written: it does not exist, is empty or holds an older report and nothing else. Leaves nothing
-    /// behind.
+impl OutputFolder {
+    /// Checks that `path` may be written: it does not exist, is empty or holds what was written there before and
+    /// nothing else. Leaves nothing behind.
     ///
     /// # Errors
     /// If it is a file, holds anything else, or its parent takes no folder.
@@ -44,7 +48,22 @@ impl ReportFolder {
         Ok(folder)
     }
 
-    /// The name of anything in the folder that no report has put there.
+    /// The same, if none of `inputs`, the files that its contents are made from, is in it.
+    ///
+    /// # Errors
+    /// If one is, by whatever path.
+    pub fn apart_from<'a>(self, inputs: impl IntoIterator<Item = &'a Path>) -> Result<Self, FolderError> {
+        let own = self.path.canonicalize().ok();
+        let inside = |input: &Path| {
+            own.as_ref().is_some_and(|own| input.canonicalize().is_ok_and(|input| input.starts_with(own)))
+        };
+        match inputs.into_iter().find(|input| inside(input)) {
+            Some(input) => Err(FolderError::Input { path: self.path, input: input.into() }),
+            None => Ok(self),
+        }
+    }
+
+    /// The name of anything in the folder that is not on its list.
     fn foreign(&self) -> io::Result<Option<String>> {
         if !self.path.exists() {
             return Ok(None);
@@ -66,7 +85,7 @@ impl ReportFolder {
     /// Writes files by their paths in the folder, with `/`, in place of what was there.
     ///
     /// # Errors
-    /// If the system refuses, or there is no room; then an older report is as it was.
+    /// If the system refuses, or there is no room; then what was there before is as it was.
     pub fn write(&self, files: &[(String, Vec<u8>)]) -> Result<(), FolderError> {
         self.place(files).map_err(|cause| self.error(cause))
     }
@@ -82,7 +101,7 @@ impl ReportFolder {
             fs::write(path, bytes)?;
         }
 
-        // An old report moves aside, and back when the new one cannot take its place.
+        // An old folder moves aside, and back when the new one cannot take its place.
         let target = self.path.canonicalize().unwrap_or_else(|_| self.path.clone());
         if !target.exists() {
             return fs::rename(new.keep(), &target);
@@ -113,13 +132,7 @@ impl ReportFolder {
     }
 
     fn error(&self, cause: io::Error) -> FolderError {
-        // tempfile adds the path of a folder that the user did not name.
-        let text = cause.to_string();
-        let cause = match text.split_once(" at path ") {
-            Some((plain, _)) => io::Error::new(cause.kind(), plain),
-            None => cause,
-        };
-        FolderError::Write { path: self.path.clone(), cause }
+        FolderError::Write { path: self.path.clone(), cause: plain(cause) }
     }
 }
 
@@ -155,16 +168,16 @@ mod tests {
     }
 
     #[test]
-    fn a_report_replaces_a_report_and_leaves_nothing_beside() {
+    fn what_is_ours_is_replaced_and_nothing_is_left_beside() {
         let parent = tempfile::tempdir().unwrap();
         let path = parent.path().join("out");
         for text in ["one", "two"] {
-            ReportFolder::check(&path).unwrap().write(&files(text)).unwrap();
+            OutputFolder::check(&path).unwrap().write(&files(text)).unwrap();
             assert_eq!(fs::read_to_string(path.join("data/a.csv")).unwrap(), text);
             assert_eq!(entries(parent.path()), 1);
         }
         // What the new one does not have is gone with the old one.
-        ReportFolder::check(&path).unwrap().write(&files("three")[..1]).unwrap();
+        OutputFolder::check(&path).unwrap().write(&files("three")[..1]).unwrap();
         assert!(!path.join("data").exists());
     }
 
@@ -172,26 +185,39 @@ mod tests {
     fn what_is_not_ours_stays() {
         let parent = tempfile::tempdir().unwrap();
         let path = parent.path().join("out");
-        ReportFolder::check(&path).unwrap().write(&files("one")).unwrap();
+        OutputFolder::check(&path).unwrap().write(&files("one")).unwrap();
         for name in ["notes.txt", "data/notes.txt"] {
             fs::write(path.join(name), "mine").unwrap();
-            let error = ReportFolder::check(&path).unwrap_err().to_string();
+            let error = OutputFolder::check(&path).unwrap_err().to_string();
             assert!(error.contains(name) && error.contains("another folder"), "{error}");
             fs::remove_file(path.join(name)).unwrap();
         }
         fs::create_dir(path.join("empty")).unwrap();
-        assert!(ReportFolder::check(&path).is_err());
+        assert!(OutputFolder::check(&path).is_err());
         let file = parent.path().join("file");
         fs::write(&file, "mine").unwrap();
-        assert!(matches!(ReportFolder::check(&file), Err(FolderError::File(_))));
-        assert!(matches!(ReportFolder::check(&file.join("x")), Err(FolderError::Write { .. })));
-        assert!(matches!(ReportFolder::check(&parent.path().join("no/such")), Err(FolderError::Write { .. })));
+        assert!(matches!(OutputFolder::check(&file), Err(FolderError::File(_))));
+        assert!(matches!(OutputFolder::check(&file.join("x")), Err(FolderError::Write { .. })));
+        assert!(matches!(OutputFolder::check(&parent.path().join("no/such")), Err(FolderError::Write { .. })));
+    }
+
+    #[test]
+    fn what_is_read_is_not_replaced() {
+        let parent = tempfile::tempdir().unwrap();
+        let path = parent.path().join("out");
+        let folder = OutputFolder::check(&path).unwrap();
+        folder.write(&files("one")).unwrap();
+        let (inside, beside) = (path.join("../out/data/a.csv"), parent.path().join("a.csv"));
+        fs::write(&beside, "mine").unwrap();
+        let error = folder.clone().apart_from([beside.as_path(), &inside]).unwrap_err().to_string();
+        assert!(error.contains("a.csv, one of the files to read") && error.contains("another folder"), "{error}");
+        folder.apart_from([beside.as_path(), &parent.path().join("not-there")]).unwrap();
     }
 
     #[test]
     fn an_empty_folder_is_taken() {
         let parent = tempfile::tempdir().unwrap();
-        ReportFolder::check(parent.path()).unwrap().write(&files("one")).unwrap();
+        OutputFolder::check(parent.path()).unwrap().write(&files("one")).unwrap();
         assert_eq!(entries(parent.path()), 3);
     }
 }

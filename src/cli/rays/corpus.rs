@@ -1,0 +1,190 @@
+//! `rays corpus`: meshes, rays of all kinds and their exact answers, so that anyone can count wrong answers without this
+//! program.
+
+#[cfg(test)]
+mod tests;
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use rayon::prelude::*;
+use sha2::{Digest, Sha256};
+
+use crate::accel::Query;
+use crate::cli::progress::Waiting;
+use crate::cli::terminal::Terminal;
+use crate::exact;
+use crate::geometry::{Mesh, Ray};
+use crate::oracle::Oracle;
+use crate::output::OutputFolder;
+use crate::report::number::{bytes, count, plural};
+use crate::report::words::{listed, slug};
+use crate::report::{Cell, Table};
+use crate::scene::files::{RayFile, TruthFile, mesh_bytes};
+use crate::scene::{BUILTIN, Builtin, Scene, Workload};
+use crate::study::accuracy::RayKind;
+use crate::study::{Status, sources};
+
+/// The SHA-256 of `SHA256SUMS` in the corpus of all defaults.
+const CORPUS_SHA256: &str = "9bc006cf13cc363b3dd01482d31935d2a04193f9eee06a48ff32e2375aa2ae7b";
+
+/// The file of all others' hashes.
+const SUMS: &str = "SHA256SUMS";
+
+const RAYS: u32 = 256;
+const SEED: u64 = 1;
+
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    /// Scenes, with our own meshes in place of fetched ones; scene files or mesh files [default: all built-in scenes]
+    #[arg(value_name = "SCENE|FILE")]
+    scenes: Vec<String>,
+    /// The folder; an older corpus there is replaced
+    #[arg(long, short, value_name = "DIR")]
+    output: PathBuf,
+    /// Rays of each of the seven kinds
+    #[arg(long, value_name = "N", default_value_t = RAYS, value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
+    rays: u32,
+    /// Seed of the rays
+    #[arg(long, value_name = "N", default_value_t = SEED)]
+    seed: u64,
+}
+
+impl Args {
+    fn is_default(&self) -> bool {
+        self.scenes.is_empty() && (self.rays, self.seed) == (RAYS, SEED)
+    }
+}
+
+/// The files of a corpus, by their names.
+type Files = BTreeMap<String, Vec<u8>>;
+
+pub fn run(args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
+    let inputs = args.scenes.iter().filter(|name| Builtin::find(name).is_err()).map(Path::new);
+    let folder = OutputFolder::check(&args.output)?.apart_from(inputs)?;
+    let all = || BUILTIN.iter().map(|builtin| builtin.name.to_owned()).collect();
+    let named = if args.scenes.is_empty() { all() } else { args.scenes.clone() };
+
+    // One scene at a time: an oracle takes much more memory than its files.
+    let (mut files, mut rows, mut stand_ins) = (Files::new(), vec![], vec![]);
+    let waiting = Waiting::show("loads scenes".into(), terminal);
+    for name in &named {
+        waiting.says(format!("loads {name}"));
+        let scene = load(name)?;
+        let part = part(&scene, args, &waiting)?;
+        if let Some(twice) = part.files.keys().find(|name| files.contains_key(*name)) {
+            anyhow::bail!("two of these scenes would have a file {twice}: name each once, or rename one");
+        }
+        rows.push(part.row(&scene));
+        if !scene.stand_ins.is_empty() {
+            stand_ins.push(scene.name);
+        }
+        files.extend(part.files);
+    }
+
+    waiting.says(format!("writes {}", folder.path().display()));
+    let sums = sums(&files);
+    let digest = sha256(sums.as_bytes());
+    files.insert(SUMS.into(), sums.into_bytes());
+    folder.write(&files.into_iter().collect::<Vec<_>>())?;
+    drop(waiting);
+
+    let title = format!("{}: rays of {} kinds with their exact answers", args.output.display(), RayKind::ALL.len());
+    let note = format!("{} with meshes of our own, whether or not the real ones were fetched.", listed(&stand_ins));
+    let notes = if stand_ins.is_empty() { vec![] } else { vec![note] };
+    terminal.print_table(&Table::new(title, ["scene", "triangles", "rays", "hits", "bytes"], rows).noted(notes))?;
+    verdict(args, &digest, terminal)
+}
+
+/// Prints the hash, and whether it is the one that it should be.
+fn verdict(args: &Args, digest: &str, terminal: &Terminal) -> anyhow::Result<Status> {
+    let (status, said) = match args.is_default() {
+        false => (Status::Right, ""),
+        true if digest == CORPUS_SHA256 => (Status::Right, ", as published"),
+        true => (Status::Wrong, ""),
+    };
+    if status == Status::Wrong {
+        terminal.print_lines(&[format!(
+            "This machine computes something else than the published corpus, whose {SUMS} has the SHA-256 {CORPUS_SHA256}: \
+             do not compare with numbers of others, and report this."
+        )])?;
+    }
+    terminal.print(&format!("SHA-256 of {SUMS}: {digest}{said}\n"))?;
+    Ok(status)
+}
+
+/// A built-in scene with our own meshes, which are the same everywhere; else what is named.
+fn load(name: &str) -> anyhow::Result<Scene> {
+    match Builtin::find(name) {
+        Ok(builtin) => Ok(builtin.scene(None)?),
+        Err(_) => sources::scene(name),
+    }
+}
+
+/// What a corpus holds of one scene.
+struct Part {
+    files: Files,
+    rays: usize,
+    hits: usize,
+}
+
+impl Part {
+    fn row(&self, scene: &Scene) -> Vec<Cell> {
+        let counts = [scene.mesh.len(), self.rays, self.hits].map(|n| count(n as u64));
+        let size = bytes(self.files.values().map(Vec::len).sum());
+        [scene.name.clone()].into_iter().chain(counts).chain([size]).map(Cell::from).collect()
+    }
+}
+
+fn part(scene: &Scene, args: &Args, waiting: &Waiting) -> anyhow::Result<Part> {
+    let stem = slug(&scene.name);
+    let mut part = Part { files: Files::new(), rays: 0, hits: 0 };
+    part.files.insert(format!("{stem}.ply"), mesh_bytes(&scene.mesh));
+    waiting.says(format!("{} builds the oracle", scene.name));
+    let oracle = Oracle::new(&scene.mesh);
+    for kind in RayKind::ALL {
+        let name = kind.name();
+        waiting.says(format!("{} answers {} exactly: {name}", scene.name, plural(args.rays as usize, "ray")));
+        let (file, truth) = answered(scene, kind, args.rays as usize, args.seed, &oracle).map_err(|problem| {
+            anyhow::anyhow!("no {name} rays can be made for {}: {problem}: scale the mesh", scene.name)
+        })?;
+        part.rays += truth.answers.len();
+        part.hits += truth.answers.iter().flatten().count();
+        part.files.insert(format!("{stem}-{name}.rays"), file.to_bytes());
+        part.files.insert(format!("{stem}-{name}.truth"), truth.to_bytes());
+    }
+    Ok(part)
+}
+
+/// The rays of one kind, for no scene in particular, so that they fit the mesh in the folder, and their exact answers.
+fn answered(
+    scene: &Scene,
+    kind: RayKind,
+    count: usize,
+    seed: u64,
+    oracle: &Oracle,
+) -> Result<(RayFile, TruthFile), String> {
+    let workload = Workload { name: kind.name().into(), query: Query::Closest, rays: kind.rays(scene, count, seed) };
+    RayFile::check(&workload.rays)?;
+    RayFile::check_names(&scene.name, &workload.name)?;
+    let answers = workload.rays.par_iter().map(|ray| exact_answer(oracle, &scene.mesh, ray)).collect();
+    let truth = TruthFile::new(&workload, answers);
+    Ok((RayFile { scene: scene.name.clone(), scene_hash: None, workload }, truth))
+}
+
+/// The distance of the nearest hit, with a relative error below 2^-50, and all triangles that are hit there.
+fn exact_answer(oracle: &Oracle, mesh: &Mesh, ray: &Ray) -> Option<(f64, Vec<u32>)> {
+    let ids = oracle.nearest(ray)?.ids;
+    // The last bits are those of the triangle with the lowest number, whichever the oracle has met first.
+    let t = exact::hit(ray, mesh.corners(ids[0])).expect("the oracle has found it");
+    Some((t.approximate(), ids))
+}
+
+/// A line for each file, as `sha256sum` writes and checks them.
+fn sums(files: &Files) -> String {
+    files.iter().map(|(name, bytes)| format!("{}  {name}\n", sha256(bytes))).collect()
+}
+
+fn sha256(bytes: &[u8]) -> String {
+    format!("{:x}", Sha256::digest(bytes))
+}

@@ -1,0 +1,102 @@
+use std::process::Command;
+
+use super::*;
+use crate::accel::{Accel, DynAccel};
+use crate::kdtree::{KdConfig, KdTree};
+use crate::scene::files::HitFile;
+use crate::triangle::MollerTrumbore;
+use crate::validate::{DepthRule, count_errors};
+
+const DOCUMENT: &str = include_str!("../../../scene/files/FORMAT.md");
+
+#[test]
+fn the_document_states_the_hash_of_the_corpus() {
+    assert!(
+        DOCUMENT.lines().any(|line| line == format!("`{CORPUS_SHA256}`")),
+        "FORMAT.md does not say {CORPUS_SHA256}"
+    );
+    let defaults = Args { scenes: vec![], output: "d".into(), rays: RAYS, seed: SEED };
+    let others = [
+        Args { scenes: vec!["cube".into()], output: "d".into(), ..defaults },
+        Args { scenes: vec![], output: "d".into(), rays: RAYS + 1, ..defaults },
+        Args { scenes: vec![], output: "d".into(), seed: SEED + 1, ..defaults },
+    ];
+    assert!(defaults.is_default() && !others.iter().any(Args::is_default));
+}
+
+#[test]
+fn files_are_listed_as_sha256sum_lists_them() {
+    let files = Files::from([("b.rays".into(), b"abc".to_vec()), ("a.ply".into(), vec![])]);
+    let empty = "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855";
+    let abc = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
+    assert_eq!(sums(&files), format!("{empty}  a.ply\n{abc}  b.rays\n"));
+}
+
+/// The judge of the document, run as it stands there.
+#[test]
+fn the_python_of_the_document_counts_the_errors_that_we_count() {
+    if Command::new("python3").arg("--version").output().is_err() {
+        println!("skipped: there is no python3 here");
+        return;
+    }
+    let code = DOCUMENT.split("```python\n").nth(2).and_then(|rest| rest.split("```").next()).unwrap();
+    assert!(code.lines().count() <= 30, "the document's judge is short");
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, bytes: &[u8]| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, bytes).unwrap();
+        path
+    };
+    let script = write("judge.py", code.as_bytes());
+
+    let scene = load("cornellbox").unwrap();
+    let oracle = Oracle::new(&scene.mesh);
+    let tree = KdTree::<MollerTrumbore>::build(&scene.mesh, &KdConfig::SAH).unwrap();
+    let mut wrong = 0;
+    for kind in [RayKind::Vertex, RayKind::Edge] {
+        let (rays, truth) = answered(&scene, kind, 2000, 3, &oracle).unwrap();
+        let found = tree.closest(&rays.workload.rays);
+        let truths: Vec<_> = rays.workload.rays.iter().map(|ray| oracle.nearest(ray)).collect();
+        let ours = count_errors(&truths, &found, DepthRule::STRICT);
+        let hits = HitFile::new(&rays.workload, found);
+        let hits_path = folder.path().join("f.hits");
+        hits.write(&crate::output::OutputFile::check(&hits_path).unwrap()).unwrap();
+
+        let judged = Command::new("python3").args([&script, &write("f.truth", &truth.to_bytes()), &hits_path]).output();
+        let judged = judged.unwrap();
+        assert!(judged.status.success(), "{}", String::from_utf8_lossy(&judged.stderr));
+        let expected = format!(
+            "missed {}\nfalse hits {}\nwrong depth {}\nwrong primitive {}\n",
+            ours.missed, ours.false_hits, ours.wrong_depth, ours.wrong_primitive
+        );
+        assert_eq!(String::from_utf8_lossy(&judged.stdout).replace('\r', ""), expected, "{}", kind.name());
+        wrong += ours.errors();
+    }
+    assert!(wrong > 0, "these rays do not tell a right judge from one that finds nothing");
+
+    let other = answered(&scene, RayKind::Uniform, 10, 3, &oracle).unwrap().1;
+    let args = [&script, &write("f.truth", &other.to_bytes()), &folder.path().join("f.hits")];
+    let refused = Command::new("python3").args(args).output().unwrap();
+    assert!(String::from_utf8_lossy(&refused.stderr).contains("answers to other rays"));
+}
+
+#[test]
+fn answers_are_those_of_the_oracle() {
+    let scene = load("cube").unwrap();
+    let oracle = Oracle::new(&scene.mesh);
+    let (mut shared, mut none) = (0, 0);
+    for kind in RayKind::ALL {
+        let (rays, truth) = answered(&scene, kind, 200, 1, &oracle).unwrap();
+        for (ray, answer) in rays.workload.rays.iter().zip(&truth.answers) {
+            let Some((t, ids)) = answer else {
+                none += 1;
+                continue;
+            };
+            let truth = oracle.nearest(ray).unwrap();
+            assert_eq!(*ids, truth.ids);
+            assert!((t - truth.t.approximate()).abs() <= t.abs() * 2.0_f64.powi(-49), "{ray}");
+            shared += usize::from(ids.len() > 1);
+        }
+    }
+    assert!(shared > 100 && none > 50, "{shared} {none}");
+}

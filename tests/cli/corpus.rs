@@ -1,0 +1,106 @@
+//! `rays corpus`, from outside: the same files wherever it runs, which other programs and our own commands read.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+use sahara::scene::files::{RayFile, TruthFile};
+
+use super::command::{RIGHT, SQUARE, command, path_text, prints, refuses, refuses_in_a_line, stderr, stdout, write};
+
+/// All files of a folder.
+fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap());
+    entries.map(|entry| (entry.file_name().into_string().unwrap(), fs::read(entry.path()).unwrap())).collect()
+}
+
+/// What `sha256sum -c` says of the files of a folder; nothing where there is no such program.
+fn checked(folder: &Path) -> Option<String> {
+    let output = Command::new("sha256sum").args(["-c", "--strict", "SHA256SUMS"]).current_dir(folder).output().ok()?;
+    assert!(output.status.success(), "{}{}", stdout(&output), stderr(&output));
+    Some(stdout(&output))
+}
+
+#[test]
+fn a_corpus_is_the_same_again_and_what_it_says() {
+    let parent = tempfile::tempdir().unwrap();
+    let folder = parent.path().join("d");
+    let out = path_text(&folder);
+    let printed = prints(&["rays", "corpus", "cube", "-o", &out, "--rays", "40"]);
+    assert!(printed.contains("Cube") && printed.contains("280") && !printed.contains("published"), "{printed}");
+    let first = files(&folder);
+    // A mesh, seven kinds of rays with their truths, the hashes and the list of what is ours.
+    assert_eq!(first.len(), 1 + 2 * 7 + 2, "{:?}", first.keys());
+    if let Some(said) = checked(&folder) {
+        let names: Vec<&str> = said.lines().map(|line| line.strip_suffix(": OK").unwrap()).collect();
+        let owed: Vec<&str> = first.keys().map(String::as_str).filter(|name| name.contains("cube")).collect();
+        assert!(names.is_sorted() && names == owed, "{names:?}");
+    } else {
+        println!("not checked: there is no sha256sum here");
+    }
+
+    // Over the old one, on another number of threads and other instructions.
+    let again = command(&["rays", "corpus", "CUBE", "-o", &out, "--rays", "40", "--level", "portable"])
+        .env("RAYON_NUM_THREADS", "1")
+        .output()
+        .unwrap();
+    assert_eq!((again.status.code(), stdout(&again)), (Some(RIGHT), printed), "{}", stderr(&again));
+    assert!(files(&folder) == first, "it is another one");
+    prints(&["rays", "corpus", "cube", "-o", &out, "--rays", "40", "--seed", "2"]);
+    assert!(files(&folder) != first, "the seed changes nothing");
+
+    let (mesh, rays) = (path_text(&folder.join("cube.ply")), path_text(&folder.join("cube-edge.rays")));
+    prints(&["validate", &mesh, "--rays", &rays, "-s", "sah-kd"]);
+    let (rays, truth) =
+        (RayFile::read(Path::new(&rays)).unwrap(), TruthFile::read(&folder.join("cube-edge.truth")).unwrap());
+    assert_eq!((rays.workload.rays.len(), truth.answers.len()), (40, 40));
+    assert_eq!(truth.hash.map(|byte| format!("{byte:02x}")).concat(), rays.workload.hash());
+
+    // From the corpus itself: rays of the camera are others, for the mesh alone is seen from elsewhere.
+    let beside = parent.path().join("e");
+    prints(&["rays", "corpus", &mesh, "-o", &path_text(&beside), "--rays", "40", "--seed", "2"]);
+    for name in ["cube.ply", "cube-vertex.rays", "cube-vertex.truth", "cube-offset.truth"] {
+        assert!(files(&folder)[name] == files(&beside)[name], "{name}");
+    }
+}
+
+#[test]
+fn what_a_corpus_cannot_be_made_of_is_refused_and_nothing_of_others_is_replaced() {
+    let parent = tempfile::tempdir().unwrap();
+    let out = path_text(&parent.path().join("d"));
+    refuses(&["rays", "corpus", "cube"], &["--output"]);
+    for count in ["0", "-1", "many", "99999999"] {
+        refuses(&["rays", "corpus", "cube", "-o", &out, "--rays", count], &["--rays"]);
+    }
+    refuses_in_a_line(&["rays", "corpus", "cubee", "-o", &out], &["cubee", "did you mean Cube?"]);
+    refuses_in_a_line(&["rays", "corpus", "no/mesh.ply", "-o", &out], &["no/mesh.ply", "check that it exists"]);
+    refuses_in_a_line(&["rays", "corpus", "cube", "Cube", "-o", &out, "--rays", "1"], &["cube", "name each once"]);
+    assert!(!Path::new(&out).exists(), "what was refused has left a folder");
+
+    let foreign = tempfile::tempdir().unwrap();
+    let notes = write(&foreign, "notes.txt", "mine");
+    let theirs = path_text(foreign.path());
+    refuses_in_a_line(&["rays", "corpus", "cube", "-o", &theirs], &["notes.txt", "another folder"]);
+    refuses_in_a_line(&["rays", "corpus", "cube", "-o", &notes], &["notes.txt is a file"]);
+    assert_eq!(files(foreign.path()).len(), 1);
+
+    // A corpus is not made of what it replaces.
+    let square = write(&parent, "square.obj", SQUARE);
+    prints(&["rays", "corpus", &square, "-o", &out, "--rays", "3"]);
+    let before = files(Path::new(&out));
+    let inside = path_text(&Path::new(&out).join("square.ply"));
+    refuses_in_a_line(&["rays", "corpus", &inside, "-o", &out], &["square.ply", "files to read"]);
+    assert!(files(Path::new(&out)) == before);
+}
+
+#[test]
+#[ignore = "long: the exact answers to all rays of all twelve scenes"]
+fn the_whole_corpus_is_as_published() {
+    let parent = tempfile::tempdir().unwrap();
+    let folder = parent.path().join("d");
+    let printed = prints(&["rays", "corpus", "-o", &path_text(&folder)]);
+    let last = printed.lines().last().unwrap();
+    assert!(last.starts_with("SHA-256 of SHA256SUMS: ") && last.ends_with(", as published"), "{last}");
+    checked(&folder);
+}
