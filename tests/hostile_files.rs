@@ -139,7 +139,7 @@ fn ply_files() -> Vec<(Files, [&'static str; 2])> {
         (vec![("a.ply", [&b"ply\n"[..], &b"comment\n".repeat(4_000_000)].concat())], ["line 13", "does not end"]),
         (
             vec![("a.ply", [b"ply\nformat ascii 1.0\n", &b"element e 0\n".repeat(4_000_000)[..]].concat())],
-            ["line", "does not"],
+            ["line 4:", "declared twice"],
         ),
         (ply("format ascii 2.0\n", b""), ["a.ply", "PLY header"]),
         (ply("format ascii 1.0\nelement vertex -1\n", b""), ["line 3:", "no line of a PLY header"]),
