@@ -6,6 +6,8 @@ mod all;
 mod compare;
 mod completions;
 mod diff;
+#[cfg(test)]
+mod documented;
 mod fetch;
 mod golden;
 mod interrupt;

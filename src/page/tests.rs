@@ -138,6 +138,7 @@ fn a_part_that_is_not_there_is_named_with_its_command() {
     assert_eq!(own.title, "Which structure is the fastest on Cube?");
     assert!(own.answer.sentences[0].contains(own.answer.verdict.split(' ').next().unwrap()), "{:?}", own.answer);
     assert!(own.answer.sentences.last().unwrap().contains("sahara replicate"), "{:?}", own.answer);
+    assert_eq!(own.sections[0].id, "compare");
 }
 
 #[test]

@@ -48,6 +48,8 @@ pub struct Record {
     pub tests_per_ray: Option<f64>,
     pub steps_per_ray: Option<f64>,
     pub instructions_per_ray: Option<f64>,
+    #[serde(default)]
+    pub branch_misses_per_ray: Option<f64>,
     pub bytes: usize,
     pub declined: Option<String>,
     pub checked_rays: Option<usize>,
@@ -142,6 +144,7 @@ pub(crate) fn example() -> Record {
         tests_per_ray: None,
         steps_per_ray: Some(1.5),
         instructions_per_ray: None,
+        branch_misses_per_ray: None,
         bytes: 4096,
         declined: None,
         checked_rays: Some(100),

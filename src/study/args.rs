@@ -176,7 +176,7 @@ pub enum Meshes {
     /// Stand-ins, and the real meshes where they have been fetched
     #[default]
     Both,
-    /// Real meshes where they have been fetched, else stand-ins
+    /// Real meshes alone: a scene whose mesh has not been fetched is refused
     Real,
     /// Stand-ins alone
     StandIns,
@@ -202,7 +202,7 @@ impl ScenesAndMeshes {
     /// The scenes named, all built-in ones without a name; of those with a stand-in both forms, if the meshes are to be both.
     ///
     /// # Errors
-    /// As [`sources::scene`].
+    /// As [`sources::scene`], and if real meshes are asked for and one is not there.
     pub fn read(&self) -> anyhow::Result<Vec<Scene>> {
         let all: Vec<String> = BUILTIN.iter().map(|builtin| builtin.name.to_owned()).collect();
         let mut scenes: Vec<Scene> = vec![];
@@ -223,6 +223,9 @@ impl ScenesAndMeshes {
             }
         }
         sources::distinct(&scenes)?;
+        if let (Meshes::Real, Some(note)) = (self.meshes, self.note(&scenes)) {
+            anyhow::bail!("{note} Without `--meshes real` stand-ins are measured.");
+        }
         Ok(scenes)
     }
 

@@ -39,13 +39,41 @@ pub(super) fn count_all(cases: &[Case], built: &[Built], workloads: &[Workload])
     cases.par_iter().map(of).collect()
 }
 
-/// What the processor counts while a structure answers all `rays` and nobody watches.
-pub(super) fn events(counter: &mut EventCounter, accel: &dyn DynAccel, rays: &[Ray], query: Query) -> Option<u64> {
-    let (mut hits, mut any) = (vec![None; rays.len()], vec![false; rays.len()]);
-    counter.count(|| match query {
-        Query::Closest => accel.closest_hits(rays, &mut hits),
-        Query::Any => accel.any_hits(rays, &mut any),
-    })
+/// The processor's counters of events, those that it has.
+pub(super) struct Events {
+    instructions: Option<EventCounter>,
+    branch_misses: Option<EventCounter>,
+}
+
+/// Means of a pass in which no observer takes part; nothing where there is no counter.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct EventsPerRay {
+    pub instructions: Option<f64>,
+    pub branch_misses: Option<f64>,
+}
+
+impl Events {
+    /// Of this thread.
+    pub fn of_thread() -> Self {
+        Self { instructions: EventCounter::instructions(), branch_misses: EventCounter::branch_misses() }
+    }
+
+    /// Counts while `accel` answers all `rays`.
+    pub fn per_ray(&mut self, accel: &dyn DynAccel, rays: &[Ray], query: Query) -> EventsPerRay {
+        let (mut hits, mut any) = (vec![None; rays.len()], vec![false; rays.len()]);
+        let mut pass = || match query {
+            Query::Closest => accel.closest_hits(rays, &mut hits),
+            Query::Any => accel.any_hits(rays, &mut any),
+        };
+        let per_ray = |events: u64| events as f64 / rays.len() as f64;
+        let instructions = self.instructions.as_mut().and_then(|counter| counter.count(&mut pass)).map(per_ray);
+        // Misses are those of a predictor that has been trained, whether or not instructions were counted.
+        let branch_misses = self.branch_misses.as_mut().and_then(|counter| {
+            pass();
+            counter.count(&mut pass).map(per_ray)
+        });
+        EventsPerRay { instructions, branch_misses }
+    }
 }
 
 impl Counted {

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use sahara::render::Picture;
 
-use super::command::{RIGHT, path_text, refuses, refuses_in_a_line, sahara, small, stderr, stdout};
+use super::command::{RIGHT, USAGE, command, path_text, refuses, refuses_in_a_line, sahara, small, stderr, stdout};
 
 #[test]
 fn accuracy_prints_exports_and_draws_what_it_finds() {
@@ -80,4 +80,17 @@ fn more_threads_than_cores_are_warned_of() {
     };
     assert!(told(cores + 1).contains(&format!("warning: {} threads share {cores} cores", cores + 1)));
     assert!(!told(cores).contains("threads share"));
+}
+
+#[test]
+fn real_meshes_that_are_asked_for_are_never_replaced() {
+    let empty = tempfile::tempdir().unwrap();
+    let args = ["--quiet", "study", "break-even", "cube", "dragon", "--meshes", "real"];
+    let output = command(&args).env("SAHARA_DATA", empty.path()).output().unwrap();
+    let said = stderr(&output);
+    assert_eq!(output.status.code(), Some(USAGE), "{said}");
+    assert!(
+        said.contains("real meshes of Dragon are not there: `sahara fetch`") && said.lines().count() == 1,
+        "{said}"
+    );
 }

@@ -13,7 +13,10 @@ use crate::study::{Studies, Study};
 /// the end, with the commands that measure them.
 pub fn document(runs: &Runs, studies: &Studies, pictures: Vec<Section>) -> Document {
     let (mut sections, mut missing) = (pictures, vec![]);
-    for study in studies.iter() {
+    let (title, answer) = answer::answer(runs);
+    // Runs on somebody's own scenes are not about what was expected of the report's.
+    let studies = if answer.chart.is_some() { studies.iter().collect() } else { studies.in_order_of_measuring() };
+    for study in studies {
         let answer = runs.answers.get(study.name());
         let answer = answer.filter(|answer| study.data(*answer).iter().any(|data| !data.rows.is_empty()));
         match answer {
@@ -31,7 +34,6 @@ pub fn document(runs: &Runs, studies: &Studies, pictures: Vec<Section>) -> Docum
             None => missing.push(Block::missing(study.question(), &study.command())),
         }
     }
-    let (title, answer) = answer::answer(runs);
     let mut document = Document { title, answer, sections };
     let mut known = vec![];
     document.sections.iter_mut().for_each(|section| name_apart(&mut section.blocks, &mut known));

@@ -31,6 +31,8 @@ pub struct Ranked {
     pub steps: Option<f64>,
     /// Machine instructions for each ray, where they are counted.
     pub instructions: Option<f64>,
+    /// Branches that the processor predicted wrongly, for each ray, where they are counted.
+    pub branch_misses: Option<f64>,
     pub bytes_per_triangle: Option<f64>,
 }
 
@@ -84,6 +86,7 @@ pub fn ranks(records: &[Record]) -> Option<Ranks> {
             tests: middle(&|r| r.tests_per_ray),
             steps: middle(&|r| r.steps_per_ray),
             instructions: middle(&|r| r.instructions_per_ray),
+            branch_misses: middle(&|r| r.branch_misses_per_ray),
             bytes_per_triangle: middle(&|r| Some(r.bytes as f64 / r.triangles.max(1) as f64)),
         }
     };
@@ -138,16 +141,17 @@ impl Ranks {
                 known(row.tests),
                 known(row.steps),
                 known(row.instructions),
+                known(row.branch_misses),
                 known(row.bytes_per_triangle),
             ]
         });
         let speed = format!("x {}", self.reference.name());
-        let columns = ["structure", &speed, "tests", "steps", "instructions", "bytes a triangle"];
+        let columns = ["structure", &speed, "tests", "steps", "instructions", "branch misses", "bytes a triangle"];
         let mut notes = vec![
             over.to_owned(),
             format!(
-                "x {}: times as fast as {} on the same rays, with the 95 % interval for a rerun. tests, steps, instructions: for each ray, \
-                 geometric means of one more than the count, less one. \
+                "x {}: times as fast as {} on the same rays, with the 95 % interval for a rerun. Counts are for each ray: geometric \
+                 means of one more than the count, less one. \
                  =: not distinguishable from 1.",
                 self.reference.name(),
                 self.reference.words()
@@ -279,7 +283,14 @@ mod tests {
         );
         assert!(told[0].contains("answers 2.00") && !told[0].contains("level"), "{told:?}");
         assert!(told[2].contains("exact") && told[2].contains("1.25"), "{told:?}");
-        assert_eq!(ranks.tables(&records).len(), 2);
+        let columns = |records: &[Record]| -> Vec<Vec<String>> {
+            super::ranks(records).unwrap().tables(records).into_iter().map(|table| table.columns).collect()
+        };
+        let shown = ["structure", "x best obvhs", "tests", "steps", "bytes a triangle"];
+        assert_eq!(columns(&records), [shown, shown]);
+        records.iter_mut().for_each(|record| record.branch_misses_per_ray = Some(0.5));
+        let shown = ["structure", "x best obvhs", "tests", "steps", "branch misses", "bytes a triangle"];
+        assert_eq!(columns(&records), [shown, shown]);
         assert!(super::ranks(&records[..1]).is_none());
     }
 }

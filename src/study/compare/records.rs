@@ -104,6 +104,7 @@ fn record(
         tests_per_ray: first.counts.and_then(|counts| counts.tests_per_ray()),
         steps_per_ray: first.counts.and_then(|counts| counts.steps_per_ray()),
         instructions_per_ray: of_rays.instructions_per_ray,
+        branch_misses_per_ray: of_rays.branch_misses_per_ray,
         bytes: structure.shape.bytes,
         declined: declined.clone(),
         checked_rays: Some(checked),

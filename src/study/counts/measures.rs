@@ -6,12 +6,12 @@ use serde::{Deserialize, Serialize};
 
 use super::end_point_overlap::end_point_overlap;
 use crate::accel::{DynAccel, Histogram, Query};
-use crate::measure::{EventCounter, Threads};
+use crate::measure::Threads;
 use crate::registry::Choice;
 use crate::scene::{Sampling, Scene, Workload, WorkloadKind};
 use crate::study::args::Structures;
 use crate::study::check::declined;
-use crate::study::counted::{Counted, events};
+use crate::study::counted::{Counted, Events};
 use crate::study::{PANICKED, Refused, Stage, StudyError, guarded};
 
 pub(super) struct CountSettings {
@@ -204,14 +204,6 @@ fn of_rays(accel: &dyn DynAccel, workload: &Workload) -> RayMeasures {
         leaf_steps_per_ray: counted.leaf_steps_per_ray(),
         empty_leaf_steps_per_ray: counted.empty_leaf_steps_per_ray(),
         tests_over_minimum: counted.tests_over_minimum(),
-        branch_misses_per_ray: branch_misses(accel, workload),
+        branch_misses_per_ray: Events::of_thread().per_ray(accel, &workload.rays, workload.query).branch_misses,
     }
-}
-
-/// In the second of two passes: the first one trains the predictor.
-fn branch_misses(accel: &dyn DynAccel, workload: &Workload) -> Option<f64> {
-    let mut counter = EventCounter::branch_misses()?;
-    let mut pass = || events(&mut counter, accel, &workload.rays, workload.query);
-    pass();
-    Some(pass()? as f64 / workload.rays.len() as f64)
 }

@@ -4,12 +4,12 @@ use super::watch::Watch;
 use super::{Circumstances, Epoch, RayCounts, RayDetails, Rays, Settings, Shape, Structure, StructureDetails};
 use crate::accel::{DynAccel, Remote};
 use crate::measure::tiles::level_of;
-use crate::measure::{Clock, EventCounter, Part, Plan, Samples, spread};
+use crate::measure::{Clock, Part, Plan, Samples, spread};
 use crate::report::CaseCounts;
 use crate::scene::{Scene, Workload};
 use crate::study::built::Built;
 use crate::study::check::{check_all, declined};
-use crate::study::counted::{Counted, count_all, events};
+use crate::study::counted::{Counted, Events, count_all};
 use crate::study::placed::Placed;
 use crate::study::timing::{Case, Taken, Timing};
 use crate::study::{PANICKED, Stage, StudyError};
@@ -262,7 +262,7 @@ impl<'a> Bench<'a> {
     /// Counts what is done for the rays, in a detailed epoch also where answers are wrong.
     fn count(&mut self) {
         let detailed = self.settings.detailed;
-        let mut counter = EventCounter::instructions().filter(|_| detailed && self.settings.threads.count() == 1);
+        let mut events = (detailed && self.settings.threads.count() == 1).then(Events::of_thread);
         let mut cases = Case::all(self.built.len(), self.workloads.len());
         cases.retain(|case| {
             let structure = &self.structures[self.places[case.structure]];
@@ -273,7 +273,7 @@ impl<'a> Bench<'a> {
             let structure = &mut self.structures[self.places[case.structure]];
             let (accel, workload) = (self.built[case.structure].accel.as_ref(), &self.workloads[case.workload]);
             match counted {
-                Some(counted) => keep(&counted, accel, workload, counter.as_mut(), &mut structure.rays[case.workload]),
+                Some(counted) => keep(&counted, accel, workload, events.as_mut(), &mut structure.rays[case.workload]),
                 None => structure.refused = Some(PANICKED.into()),
             }
             let failure = accel.remote().and_then(Remote::failure);
@@ -285,23 +285,17 @@ impl<'a> Bench<'a> {
 /// Said of a program that answers otherwise once it is started again.
 const CHANGED: &str = "built again, it gives other answers than before: its times cannot be compared";
 
-/// Keeps what was counted in a pass that is not timed, and its instructions where there is a counter.
-fn keep(
-    counted: &Counted,
-    accel: &dyn DynAccel,
-    workload: &Workload,
-    counter: Option<&mut EventCounter>,
-    into: &mut Rays,
-) {
+/// Keeps what was counted in a pass that is not timed, and what the processor counts.
+fn keep(counted: &Counted, accel: &dyn DynAccel, workload: &Workload, events: Option<&mut Events>, into: &mut Rays) {
     if let Some(details) = &mut into.details {
         let rays = spread(&workload.rays, counted.rays);
-        let instructions = counter
-            .filter(|_| accel.remote().is_none())
-            .and_then(|counter| events(counter, accel, &rays, workload.query));
+        let events = events.filter(|_| accel.remote().is_none());
+        let events = events.map(|events| events.per_ray(accel, &rays, workload.query)).unwrap_or_default();
         details.leaf_steps_per_ray = counted.leaf_steps_per_ray();
         details.empty_leaf_steps_per_ray = counted.empty_leaf_steps_per_ray();
         details.tests_over_minimum = counted.tests_over_minimum();
-        details.instructions_per_ray = instructions.map(|n| n as f64 / counted.rays as f64);
+        details.instructions_per_ray = events.instructions;
+        details.branch_misses_per_ray = events.branch_misses;
     }
     into.counts = Some(RayCounts {
         rays: counted.rays,

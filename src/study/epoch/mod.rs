@@ -202,6 +202,8 @@ pub struct RayDetails {
     pub empty_leaf_steps_per_ray: Option<f64>,
     pub tests_over_minimum: Option<f64>,
     pub instructions_per_ray: Option<f64>,
+    #[serde(default)]
+    pub branch_misses_per_ray: Option<f64>,
 }
 
 impl Rays {

@@ -2,6 +2,7 @@
 
 use super::{Claim, Prediction, Verdict, table as claims, tally, tone};
 use crate::report::document::Block;
+use crate::report::number::plural;
 use crate::report::words::interval;
 use crate::report::{Cell, Table};
 
@@ -14,8 +15,16 @@ pub fn sentence(predictions: &[Prediction]) -> Option<String> {
 pub fn blocks(predictions: &[Prediction], command: &str) -> Vec<Block> {
     let mut verdicts =
         Table::of_texts("Claims and verdicts", ["no.", "claim", "expected", "measured", "verdict"], vec![]);
-    verdicts.rows = predictions.iter().flat_map(|p| p.claims.iter().map(|claim| row(p.number, claim))).collect();
+    let (measured, missing): (Vec<_>, Vec<_>) = predictions
+        .iter()
+        .flat_map(|p| p.claims.iter().map(|claim| (p.number, claim)))
+        .partition(|(_, claim)| claim.value.is_some());
+    verdicts.rows = measured.into_iter().map(|(number, claim)| row(number, claim)).collect();
     let mut blocks = vec![Block::table(verdicts, command)];
+    if !missing.is_empty() {
+        let missing = plural(missing.len(), "claim");
+        blocks.push(Block::Note(format!("{missing} not measured: `sahara study all` measures all of them.")));
+    }
     let told = |p: &&Prediction| {
         let refuted = p.claims.iter().any(|claim| claim.verdict == Verdict::Refuted);
         (refuted || p.claims.is_empty()) && !p.why.is_empty()

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::measure::Estimate;
+use crate::report::document::Block;
 use crate::study::attribution;
 
 fn interval(estimate: f64, low: f64, high: f64) -> Estimate {
@@ -89,6 +90,9 @@ fn rays_are_counted_to_two_scene_by_scene() {
     part.counted.retain(|case| case.scene != "Cornellbox");
     let missing = |p: &Prediction| verdicts(p).iter().filter(|&&verdict| verdict == NotMeasured).count();
     assert_eq!(missing(&prediction(&part, 1)), 1);
+    let blocks = section::blocks(&[prediction(&part, 1)], "sahara study predictions");
+    let (Block::Table(measured), Block::Note(note)) = (&blocks[0], &blocks[1]) else { panic!("{blocks:?}") };
+    assert_eq!((measured.table.rows.len(), note.split(':').next()), (7, Some("1 claim not measured")));
     part.counted.push(counted("Cornellbox", 1000, 1029, vec![]));
     let one_off = prediction(&part, 1);
     let refuted: Vec<&Claim> = one_off.claims.iter().filter(|claim| claim.verdict == Refuted).collect();

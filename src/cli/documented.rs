@@ -1,0 +1,67 @@
+//! Every command that a document of this repository names is one.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use clap::error::ErrorKind;
+
+use crate::study::Studies;
+
+/// All documents below `folder`, but what was compiled.
+fn documents(folder: &Path, into: &mut Vec<PathBuf>) {
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        let name = path.file_name().unwrap().to_string_lossy().into_owned();
+        if path.is_dir() && name != "target" && !name.starts_with('.') {
+            documents(&path, into);
+        } else if name.ends_with(".md") {
+            into.push(path);
+        }
+    }
+}
+
+/// The commands of a document: its lines that begin with one, and those within sentences.
+fn commands(text: &str) -> (Vec<String>, Vec<String>) {
+    let own = |text: &str| {
+        let rest = text.strip_prefix("$ ").unwrap_or(text);
+        let cargo = rest.strip_prefix("cargo run --release");
+        let cargo = cargo.map(|rest| rest.split_once("-- ").map_or("", |(_, args)| args));
+        Some(format!("sahara {}", cargo.or_else(|| rest.strip_prefix("sahara "))?))
+    };
+    let lines = text.lines().map(|line| line.split("  #").next().unwrap_or(line)).map(str::trim).filter_map(own);
+    let spans = text.split('`').skip(1).step_by(2).filter(|span| span.starts_with("sahara ")).map(String::from);
+    (lines.collect(), spans.collect())
+}
+
+#[test]
+fn commands_of_documents_are_understood() {
+    let mut found = vec![];
+    documents(Path::new(env!("CARGO_MANIFEST_DIR")), &mut found);
+    let parsed = |line: &str| {
+        let words = shlex::split(line).unwrap_or_else(|| panic!("{line}"));
+        let words = words.into_iter().take_while(|word| !word.starts_with(['#', '>', '|']));
+        super::command(&Studies::builtin()).try_get_matches_from(words)
+    };
+    let mut understood = 0;
+    for path in &found {
+        let (lines, spans) = commands(&fs::read_to_string(path).unwrap());
+        for line in &lines {
+            parsed(line).unwrap_or_else(|error| panic!("{}: {line}: {error}", path.display()));
+        }
+        // Sentences name commands without what they are about.
+        let whole = |error: &clap::Error| {
+            matches!(
+                error.kind(),
+                ErrorKind::MissingRequiredArgument | ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand
+            )
+        };
+        let spans: Vec<&String> = spans.iter().filter(|span| !span.contains("NAME") && !span.contains('\n')).collect();
+        for span in &spans {
+            if let Some(error) = parsed(span).err().filter(|error| !whole(error)) {
+                panic!("{}: {span}: {error}", path.display());
+            }
+        }
+        understood += lines.len() + spans.len();
+    }
+    assert!(understood > 60, "{understood} commands in {} documents", found.len());
+}
