@@ -149,11 +149,11 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
                 left &= left - 1;
                 // SAFETY: prepared.
                 let ray = unsafe { self.prepared[i].assume_init_ref() };
-                let (candidates, values) =
+                let (candidates, first) =
                     T::candidates::<WIDTH, L>(ray, &block.triangles, self.t_min[i], self.nearest.t(i));
                 // Values that are there are stored in any case, which needs no guess.
                 if T::ONE_STAGE || candidates != 0 {
-                    self.candidates[i].write((candidates, values()));
+                    self.candidates[i].write((candidates, T::values(first)));
                 }
                 met |= u16::from(candidates != 0) << i;
             }

@@ -143,9 +143,9 @@ pub(crate) fn search<const ANY: bool, const N: usize, L: Lanes<N>, T: TriangleTe
             continue;
         }
         observer.test(fresh);
-        let (candidates, values) = T::candidates::<N, L>(ray, &block.triangles, t_min, nearest.t);
+        let (candidates, first) = T::candidates::<N, L>(ray, &block.triangles, t_min, nearest.t);
         if candidates != 0 {
-            settle(block, ray, candidates, &values(), nearest);
+            settle(block, ray, candidates, &T::values(first), nearest);
             if ANY && nearest.found() {
                 break;
             }

@@ -49,6 +49,7 @@ impl TriangleTest for BaldwinWeber {
 
     type Ray = (Vec3, Vec3);
     type Block<const N: usize> = ToUnit<N>;
+    type First<const N: usize, L: Lanes<N>> = L;
     type Values<const N: usize> = [f32; N];
     type Depth = f32;
 
@@ -77,7 +78,7 @@ impl TriangleTest for BaldwinWeber {
         block: &ToUnit<N>,
         from: f32,
         to: f32,
-    ) -> (u32, impl FnOnce() -> [f32; N]) {
+    ) -> (u32, L) {
         let (origin, direction) = (LaneVec3::splat(origin), LaneVec3::splat(direction));
         let [to_u, to_v, to_height] = [0, 1, 2].map(|i| LaneVec3::<N, L>::load(&block.rows[i]));
         let [move_u, move_v, move_height] = [0, 1, 2].map(|i| L::load(&block.translation[i]));
@@ -90,7 +91,12 @@ impl TriangleTest for BaldwinWeber {
         let u = to_u.dot(point).add(move_u);
         let v = to_v.dot(point).add(move_v);
         let inside = zero.le(u) & zero.le(v) & u.add(v).le(L::splat(1.0));
-        (inside & L::splat(from).le(t) & t.le(L::splat(to)), move || t.store())
+        (inside & L::splat(from).le(t) & t.le(L::splat(to)), t)
+    }
+
+    #[inline(always)]
+    fn values<const N: usize, L: Lanes<N>>(t: L) -> [f32; N] {
+        t.store()
     }
 
     #[inline(always)]

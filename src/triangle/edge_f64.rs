@@ -61,6 +61,7 @@ impl TriangleTest for EdgeF64 {
 
     type Ray = (Vec3, Vec3);
     type Block<const N: usize> = Corners<N>;
+    type First<const N: usize, L: Lanes<N>> = L;
     type Values<const N: usize> = [f32; N];
     type Depth = f32;
 
@@ -79,13 +80,18 @@ impl TriangleTest for EdgeF64 {
         block: &Corners<N>,
         from: f32,
         to: f32,
-    ) -> (u32, impl FnOnce() -> [f32; N]) {
+    ) -> (u32, L) {
         let wide = |v| LaneVec3::<N, L>::splat(v).widen();
         let (inside, t) = solve(wide(origin), wide(direction), block.load::<L>().map(LaneVec3::widen));
         // The beginning before rounding, which may make a zero of what lies behind.
         let inside = inside & L::splat(from).widen().le(t);
         let t = L::narrow(t);
-        (inside & t.le(L::splat(to)), move || t.store())
+        (inside & t.le(L::splat(to)), t)
+    }
+
+    #[inline(always)]
+    fn values<const N: usize, L: Lanes<N>>(t: L) -> [f32; N] {
+        t.store()
     }
 
     #[inline(always)]

@@ -30,6 +30,24 @@ pub struct FilterBlock<const N: usize> {
     lanes: u32,
 }
 
+/// What the first stage has computed of `N` triangles, in the notation of [`survivors`].
+#[derive(Clone, Copy, Debug)]
+pub struct Survivors<L> {
+    /// f and s x e.
+    edge2: [L; 3],
+    q: [L; 3],
+    det: L,
+    /// With the sign of det.
+    u: L,
+    v: L,
+    abs_det: L,
+    slack: L,
+    extent: L,
+    distance: L,
+    tiny: L,
+    scale: f32,
+}
+
 /// What the first stage knows of the candidates among `N` triangles.
 #[derive(Clone, Copy, Debug)]
 pub struct Sights<const N: usize> {
@@ -89,6 +107,46 @@ impl<const N: usize> FilterBlock<N> {
     }
 }
 
+impl<L> Survivors<L> {
+    /// The height, with the sign of det, and by how much it and det are off at most. Few blocks come so far: for these it is computed
+    /// again.
+    #[inline(always)]
+    fn height<const N: usize>(&self) -> (L, L, L)
+    where
+        L: Lanes<N>,
+    {
+        let &Self { edge2: [fx, fy, fz], q: [qx, qy, qz], det, extent, distance, tiny, .. } = self;
+        let height = LaneVec3::new(fx, fy, fz).dot_loosely(LaneVec3::new(qx, qy, qz)).flip_sign(det);
+        let height_error = extent.mul_add_loosely(extent.mul(distance).mul_add_loosely(L::splat(HEIGHT), tiny), tiny);
+        let det_error = extent.mul_add_loosely(extent.mul_add_loosely(L::splat(DETERMINANT), tiny), tiny);
+        (height, height_error, det_error)
+    }
+
+    /// What is certain of them, and where they are met.
+    #[inline(always)]
+    pub fn sights<const N: usize>(&self) -> Sights<N>
+    where
+        L: Lanes<N>,
+    {
+        let &Self { abs_det, u, v, slack, scale, .. } = self;
+        let (height, height_error, det_error) = self.height();
+        // A NaN in u or v makes the third one, which wins.
+        let inside = slack.lt(u.min(v).min(abs_det.sub(u.add(v))));
+        let certain = det_error.mul(L::splat(16.0)).lt(abs_det);
+        let inverse = L::splat(1.0).div(abs_det);
+        let t = height.mul(inverse);
+        let abs_t = t.flip_sign(t);
+        let error = abs_t.mul_add_loosely(det_error, height_error).mul(inverse.mul(L::splat(9.0 / 8.0)));
+        let error = abs_t.mul_add_loosely(L::splat(8.0 * UNIT), error);
+        let (scale, tiny) = (L::splat(scale), L::splat(TINY));
+        Sights {
+            sure: inside & certain,
+            low: t.sub(error).mul(scale).sub(tiny).store(),
+            high: t.add(error).mul(scale).add(tiny).store(),
+        }
+    }
+}
+
 /// The lanes whose triangle the ray may meet at a `t` up to `to`, all of those that it meets there among them; and what is seen of them.
 ///
 /// **Why none is lost.** Let s = o - a, e and f the edges from a, det = e . (d x f), u = s . (d x f), v = d . (s x e), exact for
@@ -116,7 +174,7 @@ pub(super) fn survivors<const N: usize, L: Lanes<N>>(
     ray: &FilterRay,
     block: &FilterBlock<N>,
     to: f32,
-) -> (u32, impl FnOnce() -> Sights<N> + use<N, L>) {
+) -> (u32, Survivors<L>) {
     let direction = LaneVec3::splat(ray.scaled);
     let [a, b, c] = block.corners.load::<L>();
     let to_origin = LaneVec3::splat(ray.origin) - a;
@@ -138,37 +196,26 @@ pub(super) fn survivors<const N: usize, L: Lanes<N>>(
     let outside = u.lt(below) | v.lt(below) | abs_det.add(slack).lt(u.add(v));
     let mut lanes = block.lanes & !outside;
 
-    // Few blocks come further, so this is computed again rather than for all of them.
-    let depth = move || {
-        let height = edge2.dot_loosely(q).flip_sign(det);
-        let height_error = extent.mul_add_loosely(extent.mul(distance).mul_add_loosely(L::splat(HEIGHT), tiny), tiny);
-        let det_error = extent.mul_add_loosely(extent.mul_add_loosely(L::splat(DETERMINANT), tiny), tiny);
-        (height, height_error, det_error)
+    let rows = |v: LaneVec3<N, L>| [v.x, v.y, v.z];
+    let survivors = Survivors {
+        edge2: rows(edge2),
+        q: rows(q),
+        det,
+        u,
+        v,
+        abs_det,
+        slack,
+        extent,
+        distance,
+        tiny,
+        scale: ray.scale,
     };
     if lanes != 0 {
-        let (height, height_error, det_error) = depth();
+        let (height, height_error, det_error) = survivors.height();
         let behind = height.add(height_error).lt(L::zero()) & det_error.lt(abs_det);
         let last = L::splat((to.max(f32::MIN_POSITIVE) * ray.unscaled).max(f32::MIN_POSITIVE));
         let beyond = det_error.mul_add_loosely(last, height_error).lt(height.sub(last.mul(abs_det)));
         lanes &= !(behind | beyond);
     }
-    let scale = L::splat(ray.scale);
-    let sights = move || {
-        let (height, height_error, det_error) = depth();
-        // A NaN in u or v makes the third one, which wins.
-        let inside = slack.lt(u.min(v).min(abs_det.sub(u.add(v))));
-        let certain = det_error.mul(L::splat(16.0)).lt(abs_det);
-        let inverse = L::splat(1.0).div(abs_det);
-        let t = height.mul(inverse);
-        let abs_t = t.flip_sign(t);
-        let error = abs_t.mul_add_loosely(det_error, height_error).mul(inverse.mul(L::splat(9.0 / 8.0)));
-        let error = abs_t.mul_add_loosely(L::splat(8.0 * UNIT), error);
-        let tiny = L::splat(TINY);
-        Sights {
-            sure: inside & certain,
-            low: t.sub(error).mul(scale).sub(tiny).store(),
-            high: t.add(error).mul(scale).add(tiny).store(),
-        }
-    };
-    (lanes, sights)
+    (lanes, survivors)
 }

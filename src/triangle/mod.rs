@@ -47,7 +47,10 @@ pub trait TriangleTest: Send + Sync + 'static {
     /// `N` triangles, stored as the test wants them.
     type Block<const N: usize>: Copy + Send + Sync;
 
-    /// What the first stage hands to the second one about the lanes of a block.
+    /// What the first stage has computed of the lanes of a block.
+    type First<const N: usize, L: Lanes<N>>: Copy;
+
+    /// What it hands to the second one.
     type Values<const N: usize>: Copy;
 
     /// Where a hit is, as the test orders hits: `f32` where that is what it computes.
@@ -68,14 +71,19 @@ pub trait TriangleTest: Send + Sync + 'static {
         t_max.next_down()
     }
 
-    /// The first stage: the lanes that may be hit at a `t` in [`from`, `to`], as bits, and what gives the values for the second stage, if
-    /// there is any lane to be decided.
+    /// The first stage: the lanes that may be hit at a `t` in [`from`, `to`], as bits, and what [`values`](Self::values) needs if there is any
+    /// lane to be decided.
+    ///
+    /// No closure: it would be inlined or not as the compiler likes, and outside of the walk its arithmetic is calls.
     fn candidates<const N: usize, L: Lanes<N>>(
         ray: &Self::Ray,
         block: &Self::Block<N>,
         from: f32,
         to: f32,
-    ) -> (u32, impl FnOnce() -> Self::Values<N>);
+    ) -> (u32, Self::First<N, L>);
+
+    /// The values for the second stage.
+    fn values<const N: usize, L: Lanes<N>>(first: Self::First<N, L>) -> Self::Values<N>;
 
     /// The second stage: whether a candidate is hit, and where. What lies outside the ray's interval is no hit; what lies beyond the `to` of
     /// the candidates may be one.
@@ -109,8 +117,8 @@ pub trait TriangleTest: Send + Sync + 'static {
     /// The scalar form: the hit of one triangle at a `t` in [`from`, `to`].
     #[inline(always)]
     fn hit(ray: &Self::Ray, triangle: &Self::Block<1>, from: f32, to: f32) -> Option<Self::Depth> {
-        let (candidate, values) = Self::candidates::<1, Portable<1>>(ray, triangle, from, to);
-        if candidate == 0 { None } else { Self::decide(ray, triangle, 0, &values()) }
+        let (candidate, first) = Self::candidates::<1, Portable<1>>(ray, triangle, from, to);
+        if candidate == 0 { None } else { Self::decide(ray, triangle, 0, &Self::values(first)) }
     }
 }
 

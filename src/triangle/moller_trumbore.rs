@@ -61,6 +61,7 @@ impl TriangleTest for MollerTrumbore {
 
     type Ray = (Vec3, Vec3);
     type Block<const N: usize> = Edges<N>;
+    type First<const N: usize, L: Lanes<N>> = L;
     type Values<const N: usize> = [f32; N];
     type Depth = f32;
 
@@ -89,14 +90,19 @@ impl TriangleTest for MollerTrumbore {
         block: &Edges<N>,
         from: f32,
         to: f32,
-    ) -> (u32, impl FnOnce() -> [f32; N]) {
+    ) -> (u32, L) {
         let to_origin = LaneVec3::splat(origin) - LaneVec3::load(&block.corner);
         let edges = [LaneVec3::load(&block.edge1), LaneVec3::load(&block.edge2)];
         let Solution { u, v, abs_det, t } = solve::<N, L>(LaneVec3::splat(direction), to_origin, edges);
         let zero = L::zero();
         let inside = zero.le(u) & zero.le(v) & u.add(v).le(abs_det) & zero.lt(abs_det);
         // An overflow may have made t NaN: such a lane hits nothing.
-        (inside & L::splat(from).le(t) & t.le(L::splat(to)), move || t.store())
+        (inside & L::splat(from).le(t) & t.le(L::splat(to)), t)
+    }
+
+    #[inline(always)]
+    fn values<const N: usize, L: Lanes<N>>(t: L) -> [f32; N] {
+        t.store()
     }
 
     #[inline(always)]

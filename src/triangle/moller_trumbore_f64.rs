@@ -61,6 +61,7 @@ impl TriangleTest for MollerTrumboreF64 {
 
     type Ray = (Vec3, Vec3);
     type Block<const N: usize> = Corners<N>;
+    type First<const N: usize, L: Lanes<N>> = L;
     type Values<const N: usize> = [f32; N];
     type Depth = f32;
 
@@ -79,14 +80,19 @@ impl TriangleTest for MollerTrumboreF64 {
         block: &Corners<N>,
         from: f32,
         to: f32,
-    ) -> (u32, impl FnOnce() -> [f32; N]) {
+    ) -> (u32, L) {
         let [a, b, c] = block.load::<L>().map(LaneVec3::widen);
         let wide = |v| LaneVec3::<N, L>::splat(v).widen();
         let (inside, t) = solve(wide(direction), wide(origin) - a, [b - a, c - a]);
         // The beginning before rounding, which may make a zero of what lies behind.
         let inside = inside & L::splat(from).widen().le(t);
         let t = L::narrow(t);
-        (inside & t.le(L::splat(to)), move || t.store())
+        (inside & t.le(L::splat(to)), t)
+    }
+
+    #[inline(always)]
+    fn values<const N: usize, L: Lanes<N>>(t: L) -> [f32; N] {
+        t.store()
     }
 
     #[inline(always)]

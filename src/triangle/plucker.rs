@@ -44,6 +44,7 @@ impl TriangleTest for Plucker {
 
     type Ray = (Vec3, Vec3);
     type Block<const N: usize> = Corners<N>;
+    type First<const N: usize, L: Lanes<N>> = L;
     type Values<const N: usize> = [f32; N];
     type Depth = f32;
 
@@ -62,9 +63,14 @@ impl TriangleTest for Plucker {
         block: &Corners<N>,
         from: f32,
         to: f32,
-    ) -> (u32, impl FnOnce() -> [f32; N]) {
+    ) -> (u32, L) {
         let (inside, t) = solve::<N, L>(LaneVec3::splat(origin), LaneVec3::splat(direction), block.load());
-        (inside & L::splat(from).le(t) & t.le(L::splat(to)), move || t.store())
+        (inside & L::splat(from).le(t) & t.le(L::splat(to)), t)
+    }
+
+    #[inline(always)]
+    fn values<const N: usize, L: Lanes<N>>(t: L) -> [f32; N] {
+        t.store()
     }
 
     #[inline(always)]

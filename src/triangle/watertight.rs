@@ -37,6 +37,7 @@ impl TriangleTest for Watertight {
 
     type Ray = Sheared;
     type Block<const N: usize> = Corners<N>;
+    type First<const N: usize, L: Lanes<N>> = L;
     type Values<const N: usize> = [f32; N];
     type Depth = f32;
 
@@ -61,12 +62,7 @@ impl TriangleTest for Watertight {
     }
 
     #[inline(always)]
-    fn candidates<const N: usize, L: Lanes<N>>(
-        ray: &Sheared,
-        block: &Corners<N>,
-        from: f32,
-        to: f32,
-    ) -> (u32, impl FnOnce() -> [f32; N]) {
+    fn candidates<const N: usize, L: Lanes<N>>(ray: &Sheared, block: &Corners<N>, from: f32, to: f32) -> (u32, L) {
         // Corners as seen from the origin, sheared.
         let [[x, y, z], shear] = [ray.origin, ray.shear].map(|v| v.map(L::splat));
         let zs = block.axis::<L>(ray.axes[2]).map(|corner| corner.sub(z));
@@ -99,7 +95,12 @@ impl TriangleTest for Watertight {
         let abs_det = det.flip_sign(det);
         let [za, zb, zc] = zs.map(|z| z.mul(shear[2]));
         let t = u.mul(za).add(v.mul(zb)).add(w.mul(zc)).div(det);
-        ((above | below) & zero.lt(abs_det) & L::splat(from).le(t) & t.le(L::splat(to)), move || t.store())
+        ((above | below) & zero.lt(abs_det) & L::splat(from).le(t) & t.le(L::splat(to)), t)
+    }
+
+    #[inline(always)]
+    fn values<const N: usize, L: Lanes<N>>(t: L) -> [f32; N] {
+        t.store()
     }
 
     #[inline(always)]

@@ -21,6 +21,7 @@ impl TriangleTest for RtTest {
 
     type Ray = PreparedRay;
     type Block<const N: usize> = [RtTriangle; N];
+    type First<const N: usize, L: Lanes<N>> = L;
     type Values<const N: usize> = [f32; N];
     type Depth = f32;
 
@@ -47,9 +48,14 @@ impl TriangleTest for RtTest {
         block: &[RtTriangle; N],
         from: f32,
         to: f32,
-    ) -> (u32, impl FnOnce() -> [f32; N]) {
+    ) -> (u32, L) {
         let t = L::load(&array::from_fn(|lane| block[lane].intersect(ray)));
-        (L::splat(from).le(t) & t.le(L::splat(to.min(f32::MAX))), move || t.store())
+        (L::splat(from).le(t) & t.le(L::splat(to.min(f32::MAX))), t)
+    }
+
+    #[inline(always)]
+    fn values<const N: usize, L: Lanes<N>>(t: L) -> [f32; N] {
+        t.store()
     }
 
     #[inline(always)]

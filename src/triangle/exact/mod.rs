@@ -8,7 +8,7 @@ use glam::Vec3;
 pub use exact_depth::ExactDepth;
 
 use super::TriangleTest;
-use super::filter::{FilterBlock, FilterRay, Sights, survivors};
+use super::filter::{FilterBlock, FilterRay, Sights, Survivors, survivors};
 use crate::exact;
 use crate::geometry::{Ray, round_down, round_up};
 use crate::simd::{Arithmetic, LaneVec3, Lanes, Portable};
@@ -43,6 +43,7 @@ impl TriangleTest for Exact {
 
     type Ray = ExactRay;
     type Block<const N: usize> = FilterBlock<N>;
+    type First<const N: usize, L: Lanes<N>> = Survivors<L>;
     type Values<const N: usize> = Sights<N>;
     type Depth = ExactDepth;
 
@@ -67,8 +68,13 @@ impl TriangleTest for Exact {
         block: &FilterBlock<N>,
         _: f32,
         to: f32,
-    ) -> (u32, impl FnOnce() -> Sights<N>) {
+    ) -> (u32, Survivors<L>) {
         survivors::<N, L>(&ray.filter, block, to)
+    }
+
+    #[inline(always)]
+    fn values<const N: usize, L: Lanes<N>>(first: Survivors<L>) -> Sights<N> {
+        first.sights()
     }
 
     #[inline(always)]

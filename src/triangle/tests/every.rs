@@ -13,8 +13,8 @@ fn all_widths_agree<T: TriangleTest>() {
         let mut hits = 0;
         for chunk in triangles.chunks(N) {
             let block = T::block::<N>(chunk);
-            let (candidates, values) = T::candidates::<N, L>(&prepared, &block, t_min, last);
-            let values = values();
+            let (candidates, first) = T::candidates::<N, L>(&prepared, &block, t_min, last);
+            let values = T::values(first);
             assert_eq!(candidates as u64 >> chunk.len(), 0, "{}: an unused lane is a candidate", T::NAME);
             for (lane, &corners) in chunk.iter().enumerate() {
                 let is_candidate = candidates >> lane & 1 == 1;

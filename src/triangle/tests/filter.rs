@@ -14,8 +14,8 @@ impl Kernel for Look<'_> {
     #[inline(always)]
     fn run<L: EightLanes>(self) -> Self::Output {
         let Look(ray, corners, to) = self;
-        let (candidates, sights) = survivors::<8, L>(&FilterRay::new(ray), &FilterBlock::new(&[corners; 4]), to);
-        let sights = sights();
+        let (candidates, first) = survivors::<8, L>(&FilterRay::new(ray), &FilterBlock::new(&[corners; 4]), to);
+        let sights = first.sights();
         (candidates >> 3 & 1 == 1, (sights.sure >> 3 & 1 == 1).then(|| (sights.low[3], sights.high[3])))
     }
 }

@@ -26,7 +26,7 @@ fn eight_rays_get_the_bits_of_one_by_one() {
                 for (i, ray) in rays.iter().enumerate() {
                     let prepared = MollerTrumbore::prepare(ray);
                     let (alone, value) = MollerTrumbore::candidates::<8, L>(&prepared, &block, -everywhere, everywhere);
-                    let (t, value) = (t.store()[i], value()[lane]);
+                    let (t, value) = (t.store()[i], MollerTrumbore::values(value)[lane]);
                     // Without an interval even NaN is left.
                     assert_eq!(met[i] == 1.0 && !t.is_nan(), alone >> lane & 1 == 1, "{ray:?} {corners:?}");
                     assert!(t.to_bits() == value.to_bits() || t.is_nan() && value.is_nan(), "{t:e} {value:e}");
