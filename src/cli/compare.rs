@@ -17,6 +17,7 @@ use crate::scene::WorkloadKind;
 use crate::study::baseline::{Run, SCENES, against, new_baseline_path, outcome as held_against, read_baseline};
 use crate::study::compare::{CompareArgs, Compared, Reference, brief_table, scene_table};
 use crate::study::epoch::{Epoch, Settings, troubles};
+use crate::study::history;
 use crate::study::process::{self, Job};
 use crate::study::regression::{Comparison, tables};
 use crate::study::{AnyStudy, BRUTE_FORCE, Chosen, Plan, Screen, Status};
@@ -123,6 +124,11 @@ fn gated(session: &Session, gate: &Gate, matches: &ArgMatches) -> anyhow::Result
     let baseline = gate.baseline.as_deref().map(|name| read_baseline(&folder, name)).transpose()?;
     let kept = gate.save_baseline.as_deref().map(|name| new_baseline_path(&folder, name)).transpose()?;
     let kept = kept.as_deref().map(OutputFile::check).transpose()?;
+    let past = folder.join("baselines").join(history::FILE);
+    if kept.is_some() {
+        // What cannot be added to is refused before the long run.
+        history::read(&past)?;
+    }
     let json = common.export_json.as_deref().map(OutputFile::check).transpose()?;
     let (args, plan) = gated_plan(&session.suite.registry, matches)?;
     let most = args.measuring.epochs.saturating_mul(MOST);
@@ -181,7 +187,14 @@ fn gated(session: &Session, gate: &Gate, matches: &ArgMatches) -> anyhow::Result
         } else {
             file.write(&to_json(&compared.records))?;
             let name = gate.save_baseline.as_deref().unwrap_or_default();
-            format!("Kept as baseline {name}: {}.", file.path().display())
+            let added = match history::Entry::new(name, &compared.records) {
+                Some(entry) => {
+                    history::add(&past, entry)?;
+                    format!("added to {}", past.display())
+                }
+                None => "not added to the history, for no structure of obvhs has a time to relate others to".into(),
+            };
+            format!("Kept as baseline {name}: {}; {added}.", file.path().display())
         };
         terminal.print_lines(&[line])?;
     }

@@ -26,7 +26,9 @@ fn commands(text: &str) -> (Vec<String>, Vec<String>) {
         let rest = text.strip_prefix("$ ").unwrap_or(text);
         let cargo = rest.strip_prefix("cargo run --release");
         let cargo = cargo.map(|rest| rest.split_once("-- ").map_or("", |(_, args)| args));
-        Some(format!("sahara {}", cargo.or_else(|| rest.strip_prefix("sahara "))?))
+        // The line of a manifest names the crate.
+        let args = cargo.or_else(|| rest.strip_prefix("sahara ").filter(|rest| !rest.starts_with('=')))?;
+        Some(format!("sahara {args}"))
     };
     let lines = text.lines().map(|line| line.split("  #").next().unwrap_or(line)).map(str::trim).filter_map(own);
     let spans = text.split('`').skip(1).step_by(2).filter(|span| span.starts_with("sahara ")).map(String::from);
@@ -55,7 +57,9 @@ fn commands_of_documents_are_understood() {
                 ErrorKind::MissingRequiredArgument | ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand
             )
         };
-        let spans: Vec<&String> = spans.iter().filter(|span| !span.contains("NAME") && !span.contains('\n')).collect();
+        // A place for a name is none, and a line of a protocol is no command.
+        let is_command = |span: &&String| !["NAME", "THREADS", "\n"].iter().any(|other| span.contains(other));
+        let spans: Vec<&String> = spans.iter().filter(is_command).collect();
         for span in &spans {
             if let Some(error) = parsed(span).err().filter(|error| !whole(error)) {
                 panic!("{}: {span}: {error}", path.display());

@@ -14,6 +14,7 @@ use crate::measure::Provenance;
 use crate::report::Record;
 use crate::report::words::{command_line, distinct};
 use crate::study::compare::{CompareStudy, Compared};
+use crate::study::history::{self, Entry, HistoryError};
 use crate::study::journal::{Header, JournalError};
 use crate::study::{Answers, AnyAnswer, AnyStudy, SceneId, Studies, Study};
 
@@ -32,6 +33,8 @@ pub struct Runs {
     /// The commands that measured what a study says.
     commands: BTreeMap<&'static str, Vec<String>>,
     provenances: Vec<Provenance>,
+    /// Runs that were kept as baselines, the oldest first.
+    pub history: Vec<Entry>,
 }
 
 /// A file that was read.
@@ -62,6 +65,8 @@ pub enum RunError {
     Unknown { path: PathBuf, study: String },
     #[error(transparent)]
     Journal(#[from] JournalError),
+    #[error(transparent)]
+    History(#[from] HistoryError),
     #[error("there is no run in {}: `sahara study all` makes a whole one, `sahara compare --export-json {}/compare.json` a small one",
         path.display(), path.display())]
     Empty { path: PathBuf },
@@ -88,10 +93,19 @@ impl Runs {
     /// If there is nothing, or a file is torn, foreign or of another version.
     pub fn read(paths: &[PathBuf], studies: &Studies) -> Result<Self, RunError> {
         let mut files = vec![];
+        let mut history = vec![];
         for path in paths {
+            // A file that was named itself, or that of a folder.
+            if path.file_name().is_some_and(|name| name == history::FILE) {
+                history.extend(history::read(path)?);
+                continue;
+            }
+            if path.is_dir() {
+                history.extend(history::read(&path.join("baselines").join(history::FILE))?);
+            }
             let is_folder = path.is_dir();
             let found = if is_folder { folder(path)? } else { vec![path.clone()] };
-            if found.is_empty() {
+            if found.is_empty() && history.is_empty() {
                 return Err(RunError::Empty { path: path.clone() });
             }
             for path in found {
@@ -102,7 +116,7 @@ impl Runs {
         }
         files.sort_by(|a, b| (a.modified, &a.path).cmp(&(b.modified, &b.path)));
         files.dedup_by(|a, b| a.path == b.path);
-        let mut runs = Self::default();
+        let mut runs = Self { history, ..Self::default() };
         let mut last = vec![];
         for file in files {
             match runs.add(&file.path, studies) {
@@ -116,7 +130,9 @@ impl Runs {
                 added => drop(added?),
             }
         }
-        if let (true, Some(path)) = (runs.sources.iter().all(|source| source.kind == NO_RUN), paths.first()) {
+        if let (true, true, Some(path)) =
+            (runs.history.is_empty(), runs.sources.iter().all(|source| source.kind == NO_RUN), paths.first())
+        {
             return Err(RunError::Empty { path: path.clone() });
         }
         runs.lead(studies);

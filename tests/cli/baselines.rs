@@ -201,3 +201,33 @@ fn exported_runs_are_compared() {
     let (status, said) = compare("old", "slower", &["--export-json", &path("old")]);
     assert!(status == USAGE && said.contains("another"), "nothing that is read is written: {said}");
 }
+
+#[test]
+fn each_run_that_is_kept_is_a_line_of_the_history_which_the_page_shows() {
+    let kept = Kept::new();
+    let history = kept.folder.path().join("baselines/history.jsonl");
+    let line: Value = serde_json::from_str(fs::read_to_string(&history).unwrap().lines().next().unwrap()).unwrap();
+    assert_eq!((&line["baseline"], &line["references"][0]), (&"old".into(), &"obvhs-bvh2".into()));
+    assert_eq!(line["structures"][1]["label"], "sah-kd");
+    // An older commit, in which the SAH tree took e to the power of 5 times as long.
+    let mut older = line.clone();
+    older["provenance"]["commit"] = "0ddba11".into();
+    let logs = older["structures"][1]["epochs"].as_array_mut().unwrap();
+    logs.iter_mut().for_each(|log| *log = (log.as_f64().unwrap() + 5.0).into());
+    fs::write(&history, format!("{older}\n{line}\n")).unwrap();
+    let page = kept.folder.path().join("page");
+    let report = sahara(&["--quiet", "report", history.to_str().unwrap(), "-o", page.to_str().unwrap()]);
+    assert_eq!(report.status.code(), Some(RIGHT), "{}", stderr(&report));
+    let text = fs::read_to_string(page.join("report.md")).unwrap();
+    assert!(text.contains("2 runs kept; in the last one") && text.contains("sah-kd takes 0.0"), "{text}");
+    assert!(text.contains("Changes that are real") && text.contains("faster"), "{text}");
+
+    fs::write(&history, "{}\n").unwrap();
+    let refused = kept.compare(&["--save-baseline", "old"]);
+    assert_eq!(refused.status.code(), Some(USAGE));
+    assert!(
+        stderr(&refused).contains("line 1 of") && stderr(&refused).contains("history.jsonl"),
+        "{}",
+        stderr(&refused)
+    );
+}

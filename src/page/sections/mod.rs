@@ -1,6 +1,7 @@
 //! The whole page: a section for each study, in the order of the list, and what frames them.
 
 mod answer;
+mod history;
 mod machines;
 mod provenance;
 
@@ -34,6 +35,7 @@ pub fn document(runs: &Runs, studies: &Studies, pictures: Vec<Section>) -> Docum
             None => missing.push(Block::missing(study.question(), &study.command())),
         }
     }
+    sections.extend(history::section(runs));
     let mut document = Document { title, answer, sections };
     let mut known = vec![];
     document.sections.iter_mut().for_each(|section| name_apart(&mut section.blocks, &mut known));

@@ -74,11 +74,17 @@ impl Curves {
     /// Height of the drawing where it is `width` wide.
     pub(super) fn height(&self, width: f64) -> f64 {
         let names = if has_room(width) { 0.0 } else { self.lines.len() as f64 * LINE + 8.0 };
-        plot_height(width) + names
+        self.plot_height(width) + names
+    }
+
+    /// Height of the axes with their titles: names beside them have a line each.
+    fn plot_height(&self, width: f64) -> f64 {
+        let names = self.lines.len() as f64 * LINE + TOP + BOTTOM;
+        if has_room(width) { (0.5 * width).min(430.0).max(names) } else { 0.8 * width }
     }
 
     pub(super) fn draw(&self, canvas: &Canvas, width: f64) {
-        let (height, beside) = (plot_height(width), has_room(width));
+        let (height, beside) = (self.plot_height(width), has_room(width));
         let labels: Vec<String> = self.lines.iter().map(|line| line.label.clone()).collect();
         let (names, colours): (Vec<String>, _) = (self.lines.iter().map(Line::name).collect(), colours(&labels));
         let widest = |names: &mut dyn Iterator<Item = &String>| {
@@ -162,11 +168,6 @@ fn has_room(width: f64) -> bool {
     width >= 560.0
 }
 
-/// Height of the axes with their titles.
-fn plot_height(width: f64) -> f64 {
-    if has_room(width) { (0.5 * width).min(430.0) } else { 0.8 * width }
-}
-
 /// The range of values with some room at both ends; from zero where a linear scale comes near it.
 fn padded(scale: Scale, values: &mut dyn Iterator<Item = f64>, room: f64) -> [f64; 2] {
     let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
@@ -237,6 +238,15 @@ mod tests {
         assert_eq!(apart(&[10.0, 50.0], 20.0, [0.0, 100.0]), [10.0, 50.0]);
         assert_eq!(apart(&[10.0, 12.0, 14.0], 20.0, [0.0, 100.0]), [10.0, 30.0, 50.0]);
         assert_eq!(apart(&[95.0, 97.0, 99.0], 20.0, [0.0, 100.0]), [60.0, 80.0, 100.0]);
+    }
+
+    #[test]
+    fn there_is_a_line_for_each_name() {
+        let line =
+            |i: usize| Line { label: format!("tree {i}"), note: String::new(), points: vec![], mark: Mark::Dots };
+        let of = |lines: usize| Curves::logarithmic("", "", (0..lines).map(line).collect());
+        assert_eq!(of(3).height(800.0), 400.0);
+        assert!(of(30).height(800.0) - TOP - BOTTOM >= 30.0 * LINE);
     }
 
     #[test]

@@ -286,10 +286,10 @@ mod tests {
         let columns = |records: &[Record]| -> Vec<Vec<String>> {
             super::ranks(records).unwrap().tables(records).into_iter().map(|table| table.columns).collect()
         };
-        let shown = ["structure", "x best obvhs", "tests", "steps", "bytes a triangle"];
+        let shown = ["structure", "x obvhs", "tests", "steps", "bytes a triangle"];
         assert_eq!(columns(&records), [shown, shown]);
         records.iter_mut().for_each(|record| record.branch_misses_per_ray = Some(0.5));
-        let shown = ["structure", "x best obvhs", "tests", "steps", "branch misses", "bytes a triangle"];
+        let shown = ["structure", "x obvhs", "tests", "steps", "branch misses", "bytes a triangle"];
         assert_eq!(columns(&records), [shown, shown]);
         assert!(super::ranks(&records[..1]).is_none());
     }

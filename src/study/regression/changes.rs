@@ -1,22 +1,10 @@
 //! Changes of time, each with what its interval says.
 
+use super::relative::{references, relative, weighted};
 use super::{Change, Finding};
 use crate::measure::{AaNoise, Estimate, Rerun, epoch_values};
 use crate::report::Record;
-use crate::study::baselines::is_obvhs;
 use crate::study::compare::twins;
-
-/// Labels of the structures that both runs are normalised by.
-pub(super) fn references(pairs: &[(&Record, &Record)]) -> Vec<String> {
-    let mut labels: Vec<String> = vec![];
-    for (old, new) in pairs {
-        let timed = !old.samples_ns.is_empty() && !new.samples_ns.is_empty();
-        if is_obvhs(&old.structure) && timed && !labels.contains(&old.label) {
-            labels.push(old.label.clone());
-        }
-    }
-    labels
-}
 
 /// Of the structures, of which each is looked at `looks` times, and of their cells.
 pub(super) fn all(
@@ -88,56 +76,8 @@ pub(super) fn all(
 
 /// The geometric mean over cells of new / old, of ratios to the mean of so many references.
 fn change(old: &[Vec<Vec<f64>>], new: &[Vec<Vec<f64>>], noises: &[AaNoise; 2], references: usize) -> Option<Estimate> {
-    let mut weights = vec![-1.0 / references.max(1) as f64; references];
-    weights.push(1.0);
-    // The luck of each cell is its own.
-    let share = 1.0 / libm::sqrt(old.len().max(1) as f64);
-    let noises = [&noises[0], &noises[1]].map(|noise| noise.weighted(&weights).times(share));
+    let noises = [&noises[0], &noises[1]].map(|noise| weighted(noise, references, old.len()));
     Some(Rerun::change(&epoch_values(old)?, &epoch_values(new)?, noises)?.ratio())
-}
-
-/// ln(time of `own` / geometric mean of the references' times) of each round in each epoch; ln of the time itself where
-/// there is no reference. Only references that have a time in the same cell of `others`, too, count, so that both runs
-/// are divided by the same. Nothing where there is no time.
-fn relative(
-    own: &Record,
-    records: &[Record],
-    other: &Record,
-    others: &[Record],
-    references: &[String],
-) -> Option<Vec<Vec<f64>>> {
-    if own.samples_ns.is_empty() || other.samples_ns.is_empty() {
-        return None;
-    }
-    let rivals: Vec<&Record> = references
-        .iter()
-        .filter(|label| beside(label, other, others).is_some())
-        .filter_map(|label| beside(label, own, records))
-        .collect();
-    if rivals.is_empty() {
-        return references.is_empty().then(|| absolute(own));
-    }
-    let mut sum: Option<Vec<Vec<f64>>> = None;
-    for rival in &rivals {
-        // How many times faster the reference is.
-        let logs = rival.speed_against(own)?;
-        sum = Some(match sum {
-            None => logs,
-            Some(sum) => sum.iter().zip(&logs).map(|(a, b)| a.iter().zip(b).map(|(a, b)| a + b).collect()).collect(),
-        });
-    }
-    let share = 1.0 / rivals.len() as f64;
-    sum.map(|epochs| epochs.iter().map(|epoch| epoch.iter().map(|log| log * share).collect()).collect())
-}
-
-fn beside<'a>(label: &str, own: &Record, records: &'a [Record]) -> Option<&'a Record> {
-    let same = |r: &&Record| r.label == label && r.scene == own.scene && r.workload == own.workload;
-    records.iter().find(same).filter(|r| !r.samples_ns.is_empty())
-}
-
-fn absolute(own: &Record) -> Vec<Vec<f64>> {
-    let logs: Vec<f64> = own.samples_ns.iter().map(|ns| libm::log(ns / own.rays as f64)).collect();
-    logs.chunks((logs.len() / own.epochs.max(1)).max(1)).map(<[f64]>::to_vec).collect()
 }
 
 pub(super) fn finding(time: Option<Estimate>, threshold: Option<f64>) -> Finding {

@@ -11,6 +11,7 @@
 #![doc = include_str!("GATE.md")]
 
 mod changes;
+mod relative;
 mod table;
 #[cfg(test)]
 mod tests;
@@ -23,6 +24,7 @@ use super::compare::twins;
 use crate::measure::{AaNoise, Estimate, Rerun, epoch_values};
 use crate::report::Record;
 
+pub use relative::{RelativeTime, relative_times};
 pub use table::tables;
 pub use unlike::{Unlike, unlike};
 
@@ -110,7 +112,7 @@ impl Comparison {
         let threshold = threshold_percent.map(|percent| libm::log1p(percent / 100.0));
         let (structures, cells) = changes::all(old, new, &pairs, threshold, looks);
         Self {
-            references: changes::references(&pairs),
+            references: relative::references(&pairs),
             threshold_percent,
             looks,
             structures,

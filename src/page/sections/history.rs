@@ -1,0 +1,124 @@
+//! How fast structures were from commit to commit.
+
+use crate::measure::Estimate;
+use crate::page::runs::Runs;
+use crate::report::document::{Art, Block, Figure, Section};
+use crate::report::number::{figures, plural};
+use crate::report::plot::{Chart, CurvePoint, Curves, Line, Mark, Scale};
+use crate::report::words::{interval, listed, slug};
+use crate::report::{Cell, Table, Tone};
+use crate::study::history::{Series, Step, series};
+
+const TITLE: &str = "How fast were the structures from commit to commit?";
+
+/// Nothing where no run was kept.
+pub fn section(runs: &Runs) -> Option<Section> {
+    let series = series(&runs.history);
+    if series.is_empty() {
+        return None;
+    }
+    let note = "A change is real if its interval does not hold 1, corrected for looking at every structure in every pair of neighbouring \
+                runs. Times are relative to obvhs in the same rounds; runs of other machines, rays or names are other series.";
+    let blocks = series.iter().flat_map(blocks).chain([Block::Note(note.into())]).collect();
+    Some(Section { id: "history", title: TITLE, blocks })
+}
+
+/// The name of a series.
+fn name(series: &Series) -> String {
+    let first = &series.runs[0];
+    let p = &first.provenance;
+    format!("{}, {}, {}, {}", first.baseline, p.cpu, p.simd, plural(p.threads, "thread"))
+}
+
+/// A run, as tables name it.
+fn run(series: &Series, number: usize) -> String {
+    let p = &series.runs[number].provenance;
+    format!("{} of {}", p.commit, p.date.split('T').next().unwrap_or(&p.date))
+}
+
+fn blocks(series: &Series) -> Vec<Block> {
+    let last = series.runs.len() - 1;
+    let command = &series.runs[last].provenance.command;
+    let mut blocks = vec![Block::Text(sentence(series))];
+    if last > 0 {
+        blocks.push(Block::Figure(figure(series, command)));
+    }
+    if !series.changes.is_empty() {
+        blocks.push(Block::table(changes(series), command));
+    }
+    blocks.push(Block::Fold(format!("All runs of {}", name(series)), vec![Block::table(runs(series), command)]));
+    blocks
+}
+
+fn sentence(series: &Series) -> String {
+    let kept = plural(series.runs.len(), "run");
+    let last = series.runs.len() - 1;
+    let of_last: Vec<String> = series.changes.iter().filter(|step| step.run == last).map(told).collect();
+    let changed = match (last, of_last.is_empty()) {
+        (0, _) => "a second one tells what changed".to_owned(),
+        (_, true) => format!("the last one, {}, is not distinguishable from the one before", run(series, last)),
+        (_, false) => format!("in the last one, {}, {}", run(series, last), listed(&of_last)),
+    };
+    format!("{}: {kept} kept; {changed}.", name(series))
+}
+
+fn told(step: &Step) -> String {
+    format!("{} takes {} times as long as before", step.structure, interval(step.time))
+}
+
+fn changes(series: &Series) -> Table {
+    let row = |step: &Step| {
+        let tone = if step.time.is_above(1.0) { Tone::Wrong } else { Tone::Best };
+        vec![
+            run(series, step.run).into(),
+            step.structure.as_str().into(),
+            Cell::from(if step.time.is_above(1.0) { "slower" } else { "faster" }).with(tone),
+            interval(step.time).into(),
+        ]
+    };
+    let columns = ["run", "structure", "change", "time / time before"];
+    Table::new("Changes that are real", columns, series.changes.iter().map(row))
+}
+
+fn runs(series: &Series) -> Table {
+    let labels = series.structures();
+    let rows = (0..series.runs.len()).map(|number| {
+        let speeds = labels
+            .iter()
+            .map(|label| series.speed(number, label).map_or(Cell::blank(), |speed| interval(speed).into()));
+        [Cell::from(run(series, number).as_str())].into_iter().chain(speeds).collect()
+    });
+    let columns = ["run"].into_iter().chain(labels.iter().copied()).map(String::from).collect();
+    let title = "Times as fast as obvhs, geometric mean over the rays of the baseline".into();
+    Table { title, columns, rows: rows.collect(), notes: vec![] }
+}
+
+fn figure(series: &Series, command: &str) -> Figure {
+    let point = |number: usize, speed: Estimate| CurvePoint {
+        x: (number + 1) as f64,
+        y: speed.estimate,
+        band: speed.low().zip(speed.high()).map(|(low, high)| [low, high]),
+    };
+    let line = |label: &str| Line {
+        label: label.into(),
+        note: String::new(),
+        points: (0..series.runs.len()).filter_map(|n| Some(point(n, series.speed(n, label)?))).collect(),
+        mark: Mark::Both,
+    };
+    let labels = series.structures();
+    let lines = labels.iter().map(|label| line(label)).collect();
+    let last = series.runs.len() - 1;
+    let told =
+        labels.iter().filter_map(|label| Some(format!("{label} {}", figures(series.speed(last, label)?.estimate))));
+    let told: Vec<String> = told.collect();
+    let y_title = "times as fast as obvhs";
+    let curves = Curves { x_scale: Scale::Linear, ..Curves::logarithmic("run, the oldest first", y_title, lines) };
+    Figure {
+        id: format!("history-{}", slug(&series.runs[0].baseline)),
+        caption: format!("{}: speed of each kept run, with its interval.", name(series)),
+        alt: format!("Line chart over {}. In the last one: {}.", plural(last + 1, "run"), told.join("; ")),
+        command: command.into(),
+        art: Art::Chart(Chart::Curves(curves)),
+        data: runs(series),
+    }
+}

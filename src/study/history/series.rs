@@ -1,0 +1,72 @@
+//! Runs that can be held against each other, and what changed between them.
+
+use super::Entry;
+use crate::measure::{Estimate, Rerun};
+use crate::study::regression::RelativeTime;
+
+/// Runs of one name on one machine, the oldest first.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Series {
+    pub runs: Vec<Entry>,
+    /// Changes that are real: of all structures and pairs of neighbouring runs those whose interval, corrected for looking so often, does
+    /// not hold 1.
+    pub changes: Vec<Step>,
+}
+
+/// A structure that became faster or slower.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Step {
+    pub structure: String,
+    /// The number of the later run.
+    pub run: usize,
+    /// Its time over that of the run before.
+    pub time: Estimate,
+}
+
+/// The series of a history, in the order in which they begin.
+pub fn series(entries: &[Entry]) -> Vec<Series> {
+    let mut all: Vec<Vec<Entry>> = vec![];
+    for entry in entries {
+        match all.iter_mut().find(|runs| runs[0].is_of_series_of(entry)) {
+            Some(runs) => runs.push(entry.clone()),
+            None => all.push(vec![entry.clone()]),
+        }
+    }
+    all.into_iter().map(|runs| Series { changes: changes(&runs), runs }).collect()
+}
+
+fn changes(runs: &[Entry]) -> Vec<Step> {
+    let mut found = vec![];
+    for (number, pair) in runs.windows(2).enumerate() {
+        for new in &pair[1].structures {
+            let old = pair[0].structures.iter().find(|old| old.label == new.label && old.rays == new.rays);
+            let change = old.and_then(|old| Rerun::change(&old.epochs, &new.epochs, [old.noise(), new.noise()]));
+            found.extend(change.map(|change| Step {
+                structure: new.label.clone(),
+                run: number + 1,
+                time: change.ratio(),
+            }));
+        }
+    }
+    let looks = found.len();
+    found.retain(|step| step.time.interval.is_some() && !step.time.ratio_among(looks).holds(1.0));
+    found
+}
+
+impl Series {
+    /// Labels of the structures, in the order in which they first appear.
+    pub fn structures(&self) -> Vec<&str> {
+        let mut labels: Vec<&str> = vec![];
+        for one in self.runs.iter().flat_map(|run| &run.structures) {
+            if !labels.contains(&one.label.as_str()) {
+                labels.push(&one.label);
+            }
+        }
+        labels
+    }
+
+    /// How many times as fast as the references a structure was in a run.
+    pub fn speed(&self, run: usize, label: &str) -> Option<Estimate> {
+        self.runs[run].structures.iter().find(|one| one.label == label).and_then(RelativeTime::speed)
+    }
+}
