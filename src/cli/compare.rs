@@ -169,7 +169,7 @@ fn gated(session: &Session, gate: &Gate, matches: &ArgMatches) -> anyhow::Result
     if let Some(file) = json {
         file.write(&to_json(&compared.records))?;
     }
-    let own = Status::of(&troubles(run.all()));
+    let own = Status::of(&troubles(&run.all()));
     let found = match (own, comparison.as_ref().map(held_against)) {
         (Status::Wrong, _) | (_, None) => own,
         (own, Some(Status::Right)) => own,

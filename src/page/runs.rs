@@ -1,4 +1,4 @@
-//! What was measured: journals and exports of studies, found out by their content.
+//! What was measured: cases and exports of studies, found out by their content.
 
 use std::any::Any;
 use std::collections::BTreeMap;
@@ -12,10 +12,11 @@ use serde_json::Value;
 use super::machines::{Machine, OfMachine};
 use crate::measure::Provenance;
 use crate::report::Record;
+use crate::report::number::plural;
 use crate::report::words::{command_line, distinct};
 use crate::study::compare::{CompareStudy, Compared};
-use crate::study::journal::{Header, JournalError};
-use crate::study::{Answers, AnyAnswer, AnyStudy, SceneId, Studies, Study};
+use crate::study::journal::{self, CaseFile, Group, JournalError, groups, is_case};
+use crate::study::{Answers, AnyAnswer, AnyStudy, Found, SceneId, Studies, Study};
 
 /// Everything that a report is made of.
 #[derive(Default)]
@@ -29,12 +30,14 @@ pub struct Runs {
     pub machines: Vec<OfMachine>,
     /// The machines that the other answers are of, where files tell.
     measured_on: BTreeMap<&'static str, Machine>,
+    /// What is missing of it, or left out, a sentence each.
+    pub notes: Vec<String>,
     /// The commands that measured what a study says.
     commands: BTreeMap<&'static str, Vec<String>>,
     provenances: Vec<Provenance>,
 }
 
-/// A file that was read.
+/// A file that was read, or a folder of cases.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Source {
     /// As named on the command line, or found in a folder that was.
@@ -58,7 +61,7 @@ pub enum RunError {
     Form { path: PathBuf, study: &'static str, cause: serde_json::Error },
     #[error("{} is JSON but no run of sahara: name files of `--export-json`, or of a study", path.display())]
     Foreign { path: PathBuf },
-    #[error("{} is the journal of the study {study:?}, which this sahara does not know: leave it out", path.display())]
+    #[error("{} is a case of the study {study:?}, which this sahara does not know: leave it out", path.display())]
     Unknown { path: PathBuf, study: String },
     #[error(transparent)]
     Journal(#[from] JournalError),
@@ -73,62 +76,90 @@ const NO_RUN: &str = "no run";
 /// What is said of a file whose measurements were made again.
 const REPLACED: &str = "what a newer file of this kind holds as well";
 
-/// A file and when it was last written: the newest counts where two measured the same.
+/// A file of a folder, or one that was named itself.
 struct File {
     path: PathBuf,
-    modified: SystemTime,
-    /// Whether it was named itself, and not the folder it is in.
     is_named: bool,
 }
 
+/// What one answer is made of, and when it was last written: the newest counts where two measured the same.
+struct Part<'a> {
+    modified: SystemTime,
+    path: PathBuf,
+    study: &'a dyn AnyStudy,
+    holds: Holds,
+}
+
+enum Holds {
+    Export(Box<AnyAnswer>),
+    /// Cases of one build and machine; whether another set of them counts in its place.
+    Cases(Box<Group<Value>>, bool),
+}
+
 impl Runs {
-    /// Reads files, and all `.json` and `.jsonl` files of folders.
+    /// Reads files, and of folders all `.json` files and those of journals in them.
     ///
     /// # Errors
-    /// If there is nothing, or a file is torn, foreign or of another version.
+    /// If there is nothing, a file is torn, foreign or of another version, or cases of a study are of different settings.
     pub fn read(paths: &[PathBuf], studies: &Studies) -> Result<Self, RunError> {
-        let mut files = vec![];
+        let mut files: Vec<File> = vec![];
         for path in paths {
             let is_folder = path.is_dir();
-            let found = if is_folder { folder(path)? } else { vec![path.clone()] };
+            let found = if is_folder { folder(path, studies)? } else { vec![path.clone()] };
             if found.is_empty() {
                 return Err(RunError::Empty { path: path.clone() });
             }
-            for path in found {
-                let modified = fs::metadata(&path).and_then(|meta| meta.modified());
-                let modified = modified.map_err(|cause| RunError::Read { path: path.clone(), cause })?;
-                files.push(File { path, modified, is_named: !is_folder });
-            }
+            files.extend(found.into_iter().map(|path| File { path, is_named: !is_folder }));
         }
-        files.sort_by(|a, b| (a.modified, &a.path).cmp(&(b.modified, &b.path)));
+        files.sort_by(|a, b| a.path.cmp(&b.path));
         files.dedup_by(|a, b| a.path == b.path);
+
         let mut runs = Self::default();
-        let mut last = vec![];
+        let mut parts = vec![];
+        let mut cases: BTreeMap<&'static str, Vec<CaseFile<Value>>> = BTreeMap::new();
         for file in files {
-            match runs.add(&file.path, studies) {
-                // Its answer is made from all others.
-                Ok(Some(study)) => last.push((study, file.path)),
+            match content(&file.path, studies) {
+                Ok(Content::Export(study, answer)) => {
+                    let (modified, holds) = (modified(&file.path)?, Holds::Export(Box::new(answer)));
+                    parts.push(Part { modified, path: file.path, study, holds });
+                }
+                Ok(Content::Case(study, case)) => cases.entry(study.name()).or_default().push(*case),
                 // A folder may hold what studies export besides.
                 Err(RunError::Foreign { path } | RunError::Unknown { path, .. }) if !file.is_named => {
                     runs.note(&path, NO_RUN, "");
                     runs.sources.last_mut().expect("it was noted").replaced = "all of it".into();
                 }
-                added => drop(added?),
+                Err(error) => return Err(error),
             }
         }
-        if let (true, Some(path)) = (runs.sources.iter().all(|source| source.kind == NO_RUN), paths.first()) {
+        for (study, cases) in cases {
+            let study = studies.find(study).expect("it was found before");
+            let mut groups = groups(cases)?.into_iter().peekable();
+            while let Some(group) = groups.next() {
+                let of = |file: &CaseFile<Value>| modified(&file.path);
+                let times = group.files.iter().map(of).collect::<Result<Vec<SystemTime>, RunError>>()?;
+                let modified = times.into_iter().max().expect("a group has a case");
+                let path = group.files[0].path.parent().unwrap_or(Path::new(".")).into();
+                let holds = Holds::Cases(Box::new(group), groups.peek().is_some());
+                parts.push(Part { modified, path, study, holds });
+            }
+        }
+        // Of several builds or machines the one with the most cases counts, and comes last.
+        let is_less = |part: &Part| matches!(part.holds, Holds::Cases(_, true));
+        parts.sort_by(|a, b| (!is_less(a), a.modified, &a.path).cmp(&(!is_less(b), b.modified, &b.path)));
+        if let (true, Some(path)) = (parts.is_empty(), paths.first()) {
             return Err(RunError::Empty { path: path.clone() });
         }
+        // What is made from the others comes after them.
+        let (last, first): (Vec<Part>, Vec<Part>) = parts.into_iter().partition(|part| part.study.is_last());
+        first.into_iter().try_for_each(|part| runs.add(part))?;
         runs.lead(studies);
         let made = studies.iter().filter(|study| study.is_last()).map(|study| {
             let answer = study.answer_alone(&Provenance::capture(1), &runs.answers);
             (study, answer)
         });
         let made: Vec<(&dyn AnyStudy, AnyAnswer)> = made.collect();
-        for (study, path) in &last {
-            let (header, answer) = study.read_journal(path, &runs.answers)?;
-            runs.take(path, *study, answer, Some(&header.provenance));
-        }
+        last.into_iter().try_for_each(|part| runs.add(part))?;
         for (study, answer) in made {
             if runs.answers.get(study.name()).is_none() {
                 runs.answers.add(study, answer);
@@ -137,29 +168,28 @@ impl Runs {
         Ok(runs)
     }
 
-    /// Adds a file; one whose answer is made from the others is given back, for later.
-    fn add<'a>(&mut self, path: &Path, studies: &'a Studies) -> Result<Option<&'a dyn AnyStudy>, RunError> {
-        let text = fs::read_to_string(path).map_err(|cause| RunError::Read { path: path.into(), cause })?;
-        let header: Option<Header> = text.lines().next().and_then(|line| serde_json::from_str(line).ok());
-        if let Some(Header { study: name, .. }) = header {
-            let study = studies.find(&name);
-            let study = study.ok_or_else(|| RunError::Unknown { path: path.into(), study: name })?;
-            if study.is_last() {
-                return Ok(Some(study));
+    /// Adds an answer.
+    fn add(&mut self, part: Part) -> Result<(), RunError> {
+        let Part { path, study, holds, .. } = part;
+        match holds {
+            Holds::Export(answer) => self.take(&path, study, *answer, None),
+            Holds::Cases(group, _) => {
+                let Found { answer, notes } = study.read_cases(&group, &self.answers)?;
+                self.take(&path, study, answer, Some(&group.provenance));
+                self.notes.extend(notes.into_iter().map(|note| format!("{}: {note}", study.name())));
+                let again = group.replaced.len();
+                if again > 0 {
+                    let note = format!(
+                        "{}: {} measured again since, as in {}.",
+                        study.name(),
+                        plural(again, "case"),
+                        group.replaced[0].display()
+                    );
+                    self.notes.push(note);
+                }
             }
-            let (header, answer) = study.read_journal(path, &Answers::default())?;
-            self.take(path, study, answer, Some(&header.provenance));
-            return Ok(None);
         }
-        let value: Value = serde_json::from_str(&text).map_err(|cause| RunError::Torn { path: path.into(), cause })?;
-        for study in studies.iter() {
-            if let Some(read) = study.read_export(&value) {
-                let form = |cause| RunError::Form { path: path.into(), study: study.name(), cause };
-                self.take(path, study, read.map_err(form)?, None);
-                return Ok(None);
-            }
-        }
-        Err(RunError::Foreign { path: path.into() })
+        Ok(())
     }
 
     /// Adds the answer of a file.
@@ -267,17 +297,48 @@ impl Runs {
     }
 }
 
-/// The files of a folder that may be runs, by name.
-fn folder(path: &Path) -> Result<Vec<PathBuf>, RunError> {
-    let error = |cause| RunError::Read { path: path.into(), cause };
-    let mut found = vec![];
-    for entry in fs::read_dir(path).map_err(error)? {
-        let path = entry.map_err(error)?.path();
-        let is_json = path.extension().is_some_and(|ending| ending == "json" || ending == "jsonl");
-        if is_json && path.is_file() {
-            found.push(path);
+/// What a file holds.
+enum Content<'a> {
+    Export(&'a dyn AnyStudy, AnyAnswer),
+    Case(&'a dyn AnyStudy, Box<CaseFile<Value>>),
+}
+
+fn content<'a>(path: &Path, studies: &'a Studies) -> Result<Content<'a>, RunError> {
+    if path.extension().is_some_and(|ending| ending == "jsonl") {
+        return Err(JournalError::Old(path.into()).into());
+    }
+    let text = fs::read_to_string(path).map_err(|cause| RunError::Read { path: path.into(), cause })?;
+    let value: Value = serde_json::from_str(&text).map_err(|cause| RunError::Torn { path: path.into(), cause })?;
+    if is_case(&value) {
+        let case = CaseFile::of(path, value)?;
+        let name = case.header.study.clone();
+        let study = studies.find(&name).ok_or_else(|| RunError::Unknown { path: path.into(), study: name })?;
+        return Ok(Content::Case(study, Box::new(case)));
+    }
+    for study in studies.iter() {
+        if let Some(read) = study.read_export(&value) {
+            let form = |cause| RunError::Form { path: path.into(), study: study.name(), cause };
+            return Ok(Content::Export(study, read.map_err(form)?));
         }
     }
-    found.sort();
+    Err(RunError::Foreign { path: path.into() })
+}
+
+fn modified(path: &Path) -> Result<SystemTime, RunError> {
+    let modified = fs::metadata(path).and_then(|meta| meta.modified());
+    modified.map_err(|cause| RunError::Read { path: path.into(), cause })
+}
+
+/// The files of a folder that may be runs, by name: its own, and those of the journals in it.
+fn folder(path: &Path, studies: &Studies) -> Result<Vec<PathBuf>, RunError> {
+    let mut found = journal::files(path)?;
+    for study in studies.iter() {
+        let old = path.join(format!("{}.jsonl", study.name()));
+        found.extend(old.is_file().then_some(old));
+        let cases = path.join(study.name());
+        if cases.is_dir() {
+            found.extend(journal::files(&cases)?);
+        }
+    }
     Ok(found)
 }

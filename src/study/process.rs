@@ -4,13 +4,15 @@
 //! the process lives: only samples from several processes say by how much (Mytkowicz et al., Producing Wrong Data Without
 //! Doing Anything Obviously Wrong!, 2009; Kalibera and Jones, Rigorous Benchmarking in Reasonable Time, 2013).
 //!
-//! The process is this program with the same command line and a [`Job`]. The first line of its standard input is the first epoch
-//! of the scene, where a later one is measured; on its standard output it says, a marked line of JSON each, what it does, and at
-//! last what it has measured. After each line it waits for one in answer: so the run that listens does nothing while it times. Other
-//! lines are a structure's own, and go to standard error.
+//! The process is this program with the same command line and a [`Job`]. On its standard output it says, a marked line of JSON each,
+//! what it does, and at last what it has measured. After each line it waits for one in answer: so the run that listens does nothing
+//! while it times. Other lines are a structure's own, and go to standard error.
+//!
+//! A job on another machine is the same command line with a file beside: it says nothing, and [writes](write) the case.
 
 use std::ffi::OsString;
 use std::io::{self, BufRead, BufReader, Write};
+use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::str::FromStr;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -21,20 +23,38 @@ use std::time::Duration;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
-use super::{Plan, Stage, StudyError};
-use crate::measure::{SystemClock, program};
+use super::engine::Screen;
+use super::journal::{self, CaseFile, Header};
+use super::{Plan, Planned, Stage, StudyError};
+use crate::measure::{Provenance, SystemClock, program, quoted};
 
 /// Which case a process measures.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Job {
     /// Name of the study.
     pub study: String,
-    /// Name of the scene: of those named on the command line no other is loaded.
-    pub scene: String,
+    /// Name of the scene: of those named on the command line no other is loaded. Nothing where the case is of no process of its own.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scene: Option<String>,
     /// Key of the case.
     pub key: String,
     /// The cores that the threads of the run are bound to.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cores: Option<Vec<usize>>,
+}
+
+impl Job {
+    /// Of a case of `study`, on whatever cores.
+    pub fn of(study: &str, case: &Planned) -> Self {
+        Self { study: study.into(), scene: case.process.clone(), key: case.key.clone(), cores: None }
+    }
+
+    /// The case of a plan that this is.
+    fn case<'a, C>(&self, plan: &'a Plan<C>) -> Result<&'a Planned, StudyError> {
+        let cause = || "its scene is not what it was when the run was planned: plan it anew".to_owned();
+        let found = plan.cases.iter().find(|case| case.key == self.key);
+        found.ok_or_else(|| StudyError::Job { key: self.key.clone(), cause: cause() })
+    }
 }
 
 impl FromStr for Job {
@@ -76,8 +96,9 @@ pub struct Processes {
 /// What the lines of a process begin with.
 const MARK: &str = "\u{1e}case ";
 
-/// The option that gives a process its job.
+/// The option that gives a process its job, and the one that has it write a file.
 pub const OPTION: &str = "case";
+pub const OUT: &str = "out";
 
 impl Processes {
     /// Of this program, which was started with `args`, its name first.
@@ -92,7 +113,6 @@ impl Processes {
     pub fn measure<C: Serialize + DeserializeOwned>(
         &self,
         job: &Job,
-        first: Option<&C>,
         progress: &mut dyn FnMut(Stage),
     ) -> Result<C, StudyError> {
         let trouble = |cause: String| StudyError::Process { key: job.key.clone(), cause };
@@ -106,13 +126,11 @@ impl Processes {
         let mut child = child.map_err(|cause| trouble(format!("it cannot be started: {cause}")))?;
         let (told, said) = (child.stdin.take(), child.stdout.take());
         let child = Guard::new(child);
-        let first = serde_json::to_string(&first).expect("a case has text keys");
         let mut told = told.expect("it has an input");
         // A process that has ended already is told by what it has said, or how it ended.
         let mut tell = |line: &str| {
             let _ = writeln!(told, "{line}");
         };
-        tell(&first);
         for line in BufReader::new(said.expect("it has an output")).split(b'\n') {
             let line = line.map_err(|cause| trouble(cause.to_string()))?;
             let line = String::from_utf8_lossy(&line);
@@ -205,31 +223,91 @@ pub fn answer<C: Serialize + DeserializeOwned>(
     job: &Job,
 ) -> io::Result<()> {
     end_with_parent();
-    let first: Option<C> = serde_json::from_str(&hear()?)?;
-    let failed = |sentence| Said::Failed { sentence, of_one_scene: true, wrong_answer: false };
     let said = match plan() {
-        Ok(plan) => match plan.cases.iter().find(|case| case.key == job.key) {
-            Some(case) => {
+        Ok(plan) => match job.case(&plan) {
+            Ok(case) => {
                 let mut progress = |stage: Stage| {
                     if say(&Said::<C>::from(&stage)).and_then(|()| hear()).is_err() {
                         // The run is gone, and would be disturbed by this process when it goes on.
                         std::process::exit(1);
                     }
                 };
-                match (plan.measure)(case, first.as_ref(), &SystemClock::start(), &mut progress) {
+                match (plan.measure)(case, &SystemClock::start(), &mut progress) {
                     Ok(case) => Said::Measured(case),
-                    Err(error) => Said::Failed {
-                        sentence: error.to_string(),
-                        of_one_scene: error.is_of_one_scene(),
-                        wrong_answer: error.is_wrong_answer(),
-                    },
+                    Err(error) => failed(&error),
                 }
             }
-            None => failed(format!("the scene {} is not what it was when the run began: start anew", job.scene)),
+            Err(error) => failed(&error),
         },
-        Err(error) => failed(format!("{error:#}")),
+        Err(error) => Said::Failed { sentence: format!("{error:#}"), of_one_scene: true, wrong_answer: false },
     };
     say(&said)
+}
+
+fn failed<C>(error: &StudyError) -> Said<C> {
+    Said::Failed {
+        sentence: error.to_string(),
+        of_one_scene: error.is_of_one_scene(),
+        wrong_answer: error.is_wrong_answer(),
+    }
+}
+
+/// What became of a job that writes a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Done {
+    Measured,
+    /// It had been measured before.
+    Before,
+    /// Another one has measured it meanwhile.
+    Meanwhile,
+}
+
+/// Measures the case of `plan` that is the job and writes it into the file `out`, unless it is there.
+///
+/// # Errors
+/// If the file cannot be written or holds anything else, or nothing can be measured: then it is as it was.
+pub fn write<C: Serialize + DeserializeOwned>(
+    plan: &Plan<C>,
+    job: &Job,
+    out: &Path,
+    screen: &mut dyn Screen,
+) -> Result<Done, StudyError> {
+    let case = job.case(plan)?;
+    // As the run that would have started a process for it.
+    let process_per_epoch = plan.cases.iter().any(|case| case.process.is_some());
+    let command = command_of_run(std::env::args());
+    let provenance = Provenance { process_per_epoch, command, ..Provenance::of(&plan.threads) };
+    let header = Header::new(&job.study, &plan.settings, provenance);
+    let there = || CaseFile::<C>::there(out, &header, &case.key);
+    if there()?.is_some() {
+        return Ok(Done::Before);
+    }
+    let file = journal::place(out)?;
+    screen.begin(case.work);
+    screen.case(&case.title, case.work);
+    let measured = (plan.measure)(case, &SystemClock::start(), &mut |stage| screen.stage(&stage))?;
+    screen.end();
+    if journal::write(&file, &journal::text(&header, &case.key, &measured))? {
+        return Ok(Done::Measured);
+    }
+    there()?;
+    Ok(Done::Meanwhile)
+}
+
+/// The command line without the job: the same for all jobs of a run.
+fn command_of_run(args: impl Iterator<Item = String>) -> String {
+    let [case, out] = [OPTION, OUT].map(|option| format!("--{option}"));
+    let mut words = vec![];
+    let mut skips = false;
+    for arg in args {
+        let is_value = std::mem::replace(&mut skips, arg == case || arg == out);
+        let is_job =
+            |option: &String| arg.strip_prefix(option).is_some_and(|rest| rest.is_empty() || rest.starts_with('='));
+        if !is_value && !is_job(&case) && !is_job(&out) {
+            words.push(quoted(&arg));
+        }
+    }
+    words.join(" ")
 }
 
 fn say<C: Serialize>(said: &Said<C>) -> io::Result<()> {
@@ -260,11 +338,20 @@ mod tests {
     use crate::study::epoch::Epoch;
 
     #[test]
+    fn the_jobs_of_a_run_have_its_command() {
+        let words = ["sahara", "study", "costs", "my mesh.ply", "--case={\"key\":\"a\"}", "--out", "runs/costs/a.json"];
+        assert_eq!(command_of_run(words.map(String::from).into_iter()), "sahara study costs 'my mesh.ply'");
+        let words = ["sahara", "--case", "{}", "compare", "--out=a.json", "--outer"];
+        assert_eq!(command_of_run(words.map(String::from).into_iter()), "sahara compare --outer");
+    }
+
+    #[test]
     fn a_process_that_ends_without_an_answer_is_one_sentence() {
         // The program of these tests knows no such option.
         let processes = Processes::new(["tests".into(), "--no-such-option".into()]);
-        let job = Job { study: "compare".into(), scene: "Cube".into(), key: "Cube 0123 epoch 0".into(), cores: None };
-        let error = processes.measure::<Epoch>(&job, None, &mut |_| ()).unwrap_err();
+        let job =
+            Job { study: "compare".into(), scene: Some("Cube".into()), key: "Cube 0123 epoch 0".into(), cores: None };
+        let error = processes.measure::<Epoch>(&job, &mut |_| ()).unwrap_err();
         let sentence = error.to_string();
         assert!(sentence.contains("Cube 0123 epoch 0") && sentence.contains("without an answer"), "{sentence}");
         assert!(error.is_of_one_scene() && !error.is_wrong_answer());
