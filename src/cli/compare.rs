@@ -17,7 +17,8 @@ use crate::scene::WorkloadKind;
 use crate::study::baseline::{Run, SCENES, against, new_baseline_path, outcome as held_against, read_baseline};
 use crate::study::compare::{CompareArgs, Compared, Reference, brief_table, scene_table};
 use crate::study::epoch::{Epoch, Settings, troubles};
-use crate::study::process::{self, Job};
+use crate::study::job::Job;
+use crate::study::process;
 use crate::study::regression::{Comparison, tables};
 use crate::study::{AnyStudy, BRUTE_FORCE, Chosen, Plan, Screen, Status};
 

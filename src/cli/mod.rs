@@ -30,7 +30,8 @@ use crate::measure::{keep_to, program};
 use crate::output::OutputError;
 use crate::registry::Registry;
 use crate::simd::Level;
-use crate::study::process::{self, Done, Job, Processes};
+use crate::study::job::{self, Done, Job};
+use crate::study::process::Processes;
 use crate::study::{AnyStudy, Chosen, Status, Studies, guarded, sources};
 use progress::OnTerminal;
 use terminal::{Colour, Terminal};
@@ -80,10 +81,10 @@ struct Global {
     #[arg(long, global = true)]
     level: Option<Level>,
     /// Measure this case of a run, and say it in lines of JSON: how a run starts a process
-    #[arg(long = process::OPTION, global = true, hide = true)]
+    #[arg(long = job::OPTION, global = true, hide = true)]
     job: Option<Job>,
     /// Write that case into this file, and say nothing: a line of `study plan`
-    #[arg(long = process::OUT, global = true, hide = true, requires = "job")]
+    #[arg(long = job::OUT, global = true, hide = true, requires = "job")]
     out: Option<PathBuf>,
 }
 

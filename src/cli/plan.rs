@@ -6,8 +6,8 @@ use super::study::RUNS;
 use super::{Session, chosen, command};
 use crate::measure::quoted;
 use crate::simd::Level;
+use crate::study::job::{Job, OPTION, OUT};
 use crate::study::journal::file_name;
-use crate::study::process::{Job, OPTION, OUT};
 use crate::study::{AnyStudy, Status};
 
 /// Name of the command.
@@ -71,6 +71,7 @@ pub fn run(session: &Session, args: &Args, level: Option<Level>) -> anyhow::Resu
     } else {
         names.iter().map(|name| super::find(suite, name)).collect::<anyhow::Result<_>>()?
     };
+    let mut lines = String::new();
     for study in studies {
         if study.is_last() {
             told(
@@ -88,9 +89,10 @@ pub fn run(session: &Session, args: &Args, level: Option<Level>) -> anyhow::Resu
         for case in study.planned(chosen(&parsed)?, &suite.registry)? {
             let job = serde_json::to_string(&Job::of(study.name(), &case)).expect("a job has text keys");
             let file = args.dir.join(study.name()).join(file_name(&case.key));
-            terminal.print(&(line(&words, &job, &file)? + "\n"))?;
+            lines += &(line(&words, &job, &file)? + "\n");
         }
     }
+    terminal.print(&lines)?;
     Ok(Status::Right)
 }
 

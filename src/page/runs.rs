@@ -2,20 +2,20 @@
 
 use std::any::Any;
 use std::collections::BTreeMap;
-use std::fs;
-use std::io;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
 use serde_json::Value;
 
+use super::content::{Content, content, folder, modified};
 use super::machines::{Machine, OfMachine};
+use super::run_error::RunError;
 use crate::measure::Provenance;
 use crate::report::Record;
 use crate::report::number::plural;
 use crate::report::words::{command_line, distinct};
 use crate::study::compare::{CompareStudy, Compared};
-use crate::study::journal::{self, CaseFile, Group, JournalError, groups, is_case};
+use crate::study::journal::{CaseFile, Group, groups};
 use crate::study::{Answers, AnyAnswer, AnyStudy, Found, SceneId, Studies, Study};
 
 /// Everything that a report is made of.
@@ -50,26 +50,6 @@ pub struct Source {
     pub replaced: String,
 }
 
-/// Why runs cannot be read.
-#[derive(Debug, thiserror::Error)]
-pub enum RunError {
-    #[error("cannot read {}: {cause}: name files of `--export-json`, or a folder of them", path.display())]
-    Read { path: PathBuf, cause: io::Error },
-    #[error("{} is torn or no JSON ({cause}): make it again with its command", path.display())]
-    Torn { path: PathBuf, cause: serde_json::Error },
-    #[error("{} holds an export of {study} of another version of sahara ({cause}): make it again with its command", path.display())]
-    Form { path: PathBuf, study: &'static str, cause: serde_json::Error },
-    #[error("{} is JSON but no run of sahara: name files of `--export-json`, or of a study", path.display())]
-    Foreign { path: PathBuf },
-    #[error("{} is a case of the study {study:?}, which this sahara does not know: leave it out", path.display())]
-    Unknown { path: PathBuf, study: String },
-    #[error(transparent)]
-    Journal(#[from] JournalError),
-    #[error("there is no run in {}: `sahara study all` makes a whole one, `sahara compare --export-json {}/compare.json` a small one",
-        path.display(), path.display())]
-    Empty { path: PathBuf },
-}
-
 /// The kind of a file of a folder that is passed over.
 const NO_RUN: &str = "no run";
 
@@ -81,6 +61,9 @@ struct File {
     path: PathBuf,
     is_named: bool,
 }
+
+/// What is said of cases of which another build or machine has measured more.
+const LESS: &str = "all of it: another build or machine has measured as many cases or more";
 
 /// What one answer is made of, and when it was last written: the newest counts where two measured the same.
 struct Part<'a> {
@@ -173,20 +156,20 @@ impl Runs {
         let Part { path, study, holds, .. } = part;
         match holds {
             Holds::Export(answer) => self.take(&path, study, *answer, None),
+            // Of comparisons all machines are shown, of other studies one.
+            Holds::Cases(group, true) if study.name() != CompareStudy::NAME => {
+                self.note(&path, study.name(), &group.provenance.command);
+                self.sources.last_mut().expect("it was noted").replaced = LESS.into();
+            }
             Holds::Cases(group, _) => {
                 let Found { answer, notes } = study.read_cases(&group, &self.answers)?;
                 self.take(&path, study, answer, Some(&group.provenance));
-                self.notes.extend(notes.into_iter().map(|note| format!("{}: {note}", study.name())));
-                let again = group.replaced.len();
-                if again > 0 {
-                    let note = format!(
-                        "{}: {} measured again since, as in {}.",
-                        study.name(),
-                        plural(again, "case"),
-                        group.replaced[0].display()
-                    );
-                    self.notes.push(note);
-                }
+                let again = group.replaced.first().map(|path| {
+                    let count = plural(group.replaced.len(), "case");
+                    format!("{count} measured again since, as in {}.", path.display())
+                });
+                let notes = notes.into_iter().chain(again);
+                self.notes.extend(notes.map(|note| format!("{}: {note}", study.name())));
             }
         }
         Ok(())
@@ -295,50 +278,4 @@ impl Runs {
             replaced: String::new(),
         });
     }
-}
-
-/// What a file holds.
-enum Content<'a> {
-    Export(&'a dyn AnyStudy, AnyAnswer),
-    Case(&'a dyn AnyStudy, Box<CaseFile<Value>>),
-}
-
-fn content<'a>(path: &Path, studies: &'a Studies) -> Result<Content<'a>, RunError> {
-    if path.extension().is_some_and(|ending| ending == "jsonl") {
-        return Err(JournalError::Old(path.into()).into());
-    }
-    let text = fs::read_to_string(path).map_err(|cause| RunError::Read { path: path.into(), cause })?;
-    let value: Value = serde_json::from_str(&text).map_err(|cause| RunError::Torn { path: path.into(), cause })?;
-    if is_case(&value) {
-        let case = CaseFile::of(path, value)?;
-        let name = case.header.study.clone();
-        let study = studies.find(&name).ok_or_else(|| RunError::Unknown { path: path.into(), study: name })?;
-        return Ok(Content::Case(study, Box::new(case)));
-    }
-    for study in studies.iter() {
-        if let Some(read) = study.read_export(&value) {
-            let form = |cause| RunError::Form { path: path.into(), study: study.name(), cause };
-            return Ok(Content::Export(study, read.map_err(form)?));
-        }
-    }
-    Err(RunError::Foreign { path: path.into() })
-}
-
-fn modified(path: &Path) -> Result<SystemTime, RunError> {
-    let modified = fs::metadata(path).and_then(|meta| meta.modified());
-    modified.map_err(|cause| RunError::Read { path: path.into(), cause })
-}
-
-/// The files of a folder that may be runs, by name: its own, and those of the journals in it.
-fn folder(path: &Path, studies: &Studies) -> Result<Vec<PathBuf>, RunError> {
-    let mut found = journal::files(path)?;
-    for study in studies.iter() {
-        let old = path.join(format!("{}.jsonl", study.name()));
-        found.extend(old.is_file().then_some(old));
-        let cases = path.join(study.name());
-        if cases.is_dir() {
-            found.extend(journal::files(&cases)?);
-        }
-    }
-    Ok(found)
 }

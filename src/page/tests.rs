@@ -237,7 +237,9 @@ fn cases_of_other_settings_are_refused_by_the_names_of_settings_and_files() {
 
 #[test]
 fn cases_of_other_machines_and_builds_are_never_of_one_answer() {
-    for change in [("\"cpu\":\"a processor\"", "\"cpu\":\"another\""), ("\"commit\":\"c0ffee\"", "\"commit\":\"decade\"")] {
+    for change in
+        [("\"cpu\":\"a processor\"", "\"cpu\":\"another\""), ("\"commit\":\"c0ffee\"", "\"commit\":\"decade\"")]
+    {
         let runs = both(|text| text.replacen(change.0, change.1, 1)).unwrap();
         let answer = runs.answers.of::<attribution::AttributionStudy>().unwrap();
         assert_eq!(answer.len(), 1);

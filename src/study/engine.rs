@@ -7,8 +7,9 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use super::epoch::{Joined, join};
+use super::job::Job;
 use super::journal::{Header, Journal};
-use super::process::{Job, Processes};
+use super::process::Processes;
 use super::{Answers, AnyAnswer, Context, Plan, Planned, Stage, Status, Studies, Study, StudyError};
 use crate::measure::{Clock, Provenance, SystemClock};
 use crate::registry::Registry;

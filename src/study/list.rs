@@ -10,8 +10,9 @@ use serde_json::Value;
 
 use super::engine::{Measured, Run, measure};
 use super::epoch::join;
+use super::job::{self, Done, Job};
 use super::journal::{self, CaseFile, Group, JournalError};
-use super::process::{self, Done, Job};
+use super::process;
 use super::{
     Context, Data, Effort, Planned, SceneId, Screen, Study, accuracy, attribution, binary, break_even, compare, costs,
     counts, crossover, parameters, partitions, predictions, replicate, scaling, self_intersection, threads,
@@ -143,10 +144,10 @@ pub trait AnyStudy: Send + Sync {
     /// # Errors
     /// If that is closed.
     fn answer_job(&self, chosen: Chosen, registry: &Registry, job: &Job) -> anyhow::Result<()>;
-    /// What a process with a job and a file does: as [`process::write`].
+    /// What a process with a job and a file does: as [`job::write`].
     ///
     /// # Errors
-    /// As [`Study::plan`] and [`process::write`].
+    /// As [`Study::plan`] and [`job::write`].
     fn write_job(
         &self,
         chosen: Chosen,
@@ -262,7 +263,7 @@ impl<S: Study> AnyStudy for Typed<S> {
         out: &Path,
         screen: &mut dyn Screen,
     ) -> anyhow::Result<Done> {
-        Ok(process::write(&S::plan(&args::<S>(chosen)?, registry)?, job, out, screen)?)
+        Ok(job::write(&S::plan(&args::<S>(chosen)?, registry)?, job, out, screen)?)
     }
 
     fn read_cases(&self, group: &Group<Value>, others: &Answers) -> Result<Found, JournalError> {

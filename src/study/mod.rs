@@ -24,6 +24,7 @@ mod epoch_medians;
 mod error;
 mod grouped;
 mod guarded;
+pub mod job;
 pub mod journal;
 mod least_squares;
 mod list;

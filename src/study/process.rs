@@ -8,13 +8,11 @@
 //! what it does, and at last what it has measured. After each line it waits for one in answer: so the run that listens does nothing
 //! while it times. Other lines are a structure's own, and go to standard error.
 //!
-//! A job on another machine is the same command line with a file beside: it says nothing, and [writes](write) the case.
+//! A job on another machine is the same command line with a file beside: it says nothing, and [writes](super::job::write) the case.
 
 use std::ffi::OsString;
 use std::io::{self, BufRead, BufReader, Write};
-use std::path::Path;
 use std::process::{Child, Command, Stdio};
-use std::str::FromStr;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError, Weak};
 use std::thread;
@@ -23,47 +21,9 @@ use std::time::Duration;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
-use super::engine::Screen;
-use super::journal::{self, CaseFile, Header};
-use super::{Plan, Planned, Stage, StudyError};
-use crate::measure::{Provenance, SystemClock, program, quoted};
-
-/// Which case a process measures.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Job {
-    /// Name of the study.
-    pub study: String,
-    /// Name of the scene: of those named on the command line no other is loaded. Nothing where the case is of no process of its own.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub scene: Option<String>,
-    /// Key of the case.
-    pub key: String,
-    /// The cores that the threads of the run are bound to.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub cores: Option<Vec<usize>>,
-}
-
-impl Job {
-    /// Of a case of `study`, on whatever cores.
-    pub fn of(study: &str, case: &Planned) -> Self {
-        Self { study: study.into(), scene: case.process.clone(), key: case.key.clone(), cores: None }
-    }
-
-    /// The case of a plan that this is.
-    fn case<'a, C>(&self, plan: &'a Plan<C>) -> Result<&'a Planned, StudyError> {
-        let cause = || "its scene is not what it was when the run was planned: plan it anew".to_owned();
-        let found = plan.cases.iter().find(|case| case.key == self.key);
-        found.ok_or_else(|| StudyError::Job { key: self.key.clone(), cause: cause() })
-    }
-}
-
-impl FromStr for Job {
-    type Err = serde_json::Error;
-
-    fn from_str(text: &str) -> Result<Self, Self::Err> {
-        serde_json::from_str(text)
-    }
-}
+use super::job::{Job, OPTION};
+use super::{Plan, Stage, StudyError};
+use crate::measure::{SystemClock, program};
 
 /// A line of a process.
 #[derive(Serialize, Deserialize)]
@@ -95,10 +55,6 @@ pub struct Processes {
 
 /// What the lines of a process begin with.
 const MARK: &str = "\u{1e}case ";
-
-/// The option that gives a process its job, and the one that has it write a file.
-pub const OPTION: &str = "case";
-pub const OUT: &str = "out";
 
 impl Processes {
     /// Of this program, which was started with `args`, its name first.
@@ -224,7 +180,7 @@ pub fn answer<C: Serialize + DeserializeOwned>(
 ) -> io::Result<()> {
     end_with_parent();
     let said = match plan() {
-        Ok(plan) => match job.case(&plan) {
+        Ok(plan) => match job.find(&plan) {
             Ok(case) => {
                 let mut progress = |stage: Stage| {
                     if say(&Said::<C>::from(&stage)).and_then(|()| hear()).is_err() {
@@ -250,64 +206,6 @@ fn failed<C>(error: &StudyError) -> Said<C> {
         of_one_scene: error.is_of_one_scene(),
         wrong_answer: error.is_wrong_answer(),
     }
-}
-
-/// What became of a job that writes a file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Done {
-    Measured,
-    /// It had been measured before.
-    Before,
-    /// Another one has measured it meanwhile.
-    Meanwhile,
-}
-
-/// Measures the case of `plan` that is the job and writes it into the file `out`, unless it is there.
-///
-/// # Errors
-/// If the file cannot be written or holds anything else, or nothing can be measured: then it is as it was.
-pub fn write<C: Serialize + DeserializeOwned>(
-    plan: &Plan<C>,
-    job: &Job,
-    out: &Path,
-    screen: &mut dyn Screen,
-) -> Result<Done, StudyError> {
-    let case = job.case(plan)?;
-    // As the run that would have started a process for it.
-    let process_per_epoch = plan.cases.iter().any(|case| case.process.is_some());
-    let command = command_of_run(std::env::args());
-    let provenance = Provenance { process_per_epoch, command, ..Provenance::of(&plan.threads) };
-    let header = Header::new(&job.study, &plan.settings, provenance);
-    let there = || CaseFile::<C>::there(out, &header, &case.key);
-    if there()?.is_some() {
-        return Ok(Done::Before);
-    }
-    let file = journal::place(out)?;
-    screen.begin(case.work);
-    screen.case(&case.title, case.work);
-    let measured = (plan.measure)(case, &SystemClock::start(), &mut |stage| screen.stage(&stage))?;
-    screen.end();
-    if journal::write(&file, &journal::text(&header, &case.key, &measured))? {
-        return Ok(Done::Measured);
-    }
-    there()?;
-    Ok(Done::Meanwhile)
-}
-
-/// The command line without the job: the same for all jobs of a run.
-fn command_of_run(args: impl Iterator<Item = String>) -> String {
-    let [case, out] = [OPTION, OUT].map(|option| format!("--{option}"));
-    let mut words = vec![];
-    let mut skips = false;
-    for arg in args {
-        let is_value = std::mem::replace(&mut skips, arg == case || arg == out);
-        let is_job =
-            |option: &String| arg.strip_prefix(option).is_some_and(|rest| rest.is_empty() || rest.starts_with('='));
-        if !is_value && !is_job(&case) && !is_job(&out) {
-            words.push(quoted(&arg));
-        }
-    }
-    words.join(" ")
 }
 
 fn say<C: Serialize>(said: &Said<C>) -> io::Result<()> {
@@ -336,14 +234,6 @@ fn end_with_parent() {
 mod tests {
     use super::*;
     use crate::study::epoch::Epoch;
-
-    #[test]
-    fn the_jobs_of_a_run_have_its_command() {
-        let words = ["sahara", "study", "costs", "my mesh.ply", "--case={\"key\":\"a\"}", "--out", "runs/costs/a.json"];
-        assert_eq!(command_of_run(words.map(String::from).into_iter()), "sahara study costs 'my mesh.ply'");
-        let words = ["sahara", "--case", "{}", "compare", "--out=a.json", "--outer"];
-        assert_eq!(command_of_run(words.map(String::from).into_iter()), "sahara compare --outer");
-    }
 
     #[test]
     fn a_process_that_ends_without_an_answer_is_one_sentence() {

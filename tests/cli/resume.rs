@@ -80,7 +80,8 @@ fn a_killed_study_ends_as_one_that_was_left_alone() {
     assert_eq!(counts(&killed), counts(&alone));
 
     // A finished study is printed again and measures nothing.
-    let times = || files(&killed).iter().map(|path| fs::metadata(path).unwrap().modified().unwrap()).collect::<Vec<_>>();
+    let times =
+        || files(&killed).iter().map(|path| fs::metadata(path).unwrap().modified().unwrap()).collect::<Vec<_>>();
     let written = times();
     let again = finish(&killed, "64");
     assert_eq!(again.stdout, output.stdout);

@@ -10,9 +10,9 @@ use crate::geometry::{Hit, Mesh, Ray};
 use crate::measure::{Provenance, SystemClock, Threads};
 use crate::registry::Registry;
 use crate::scene::{Builtin, WorkloadKind};
-use crate::study::{Study, StudyError};
 use crate::study::args::with_twin;
 use crate::study::epoch::{Asked, Epoch, Settings, join, measure};
+use crate::study::{Study, StudyError};
 use crate::triangle::{MollerTrumbore, TriangleTest};
 
 struct Flawed {

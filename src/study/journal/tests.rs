@@ -65,7 +65,17 @@ fn what_was_appended_is_there_when_opened_again() {
 
 #[test]
 fn names_of_files_are_plain_and_of_one_key_alone() {
-    let keys = ["Cube 0123 epoch 0", "cube 0123 epoch 0", "Cube 0123 epoch 00", "r=10 @1e5", "\u{fc}", "", "a b", "a-b", "a--b"];
+    let keys = [
+        "Cube 0123 epoch 0",
+        "cube 0123 epoch 0",
+        "Cube 0123 epoch 00",
+        "r=10 @1e5",
+        "\u{fc}",
+        "",
+        "a b",
+        "a-b",
+        "a--b",
+    ];
     let mut names: Vec<String> = keys.iter().map(|key| file_name(key)).collect();
     assert!(names[0].starts_with("cube-0123-epoch-0-"), "{names:?}");
     names.push(file_name(&"long ".repeat(100)));
@@ -266,9 +276,8 @@ fn cases_of_builds_and_machines_are_apart_and_those_of_hosts_are_not() {
         file("a", "n3", "new", "2026-04"),
     ];
     let found = groups(files.clone()).unwrap();
-    let of = |group: &Group<()>| -> Vec<String> {
-        group.files.iter().map(|file| file.path.display().to_string()).collect()
-    };
+    let of =
+        |group: &Group<()>| -> Vec<String> { group.files.iter().map(|file| file.path.display().to_string()).collect() };
     assert_eq!(found.iter().map(of).collect::<Vec<_>>(), [vec!["a-n1-old"], vec!["a-n3-new", "b-n2-new"]]);
     assert_eq!(found[1].replaced, [PathBuf::from("a-n1-new")]);
     assert_eq!(found[1].provenance.date, "2026-02");
