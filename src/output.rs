@@ -89,6 +89,30 @@ impl OutputFile {
         self.place(bytes).map_err(|cause| self.error(cause))
     }
 
+    /// Writes a file that is not there yet, whole; tells whether it was not. Of several writers, also of machines that share a file
+    /// system, one wins: what is there stays as it is. When this returns the file is on the disk.
+    ///
+    /// # Errors
+    /// As [`write`](Self::write); then nothing is there.
+    pub fn write_new(&self, bytes: &[u8]) -> Result<bool, OutputError> {
+        self.place_new(bytes).map_err(|cause| self.error(cause))
+    }
+
+    fn place_new(&self, bytes: &[u8]) -> io::Result<bool> {
+        let mut file = self.beside()?;
+        file.write_all(bytes)?;
+        file.as_file().sync_all()?;
+        match file.persist_noclobber(&self.path) {
+            Ok(_) => {}
+            Err(error) if error.error.kind() == io::ErrorKind::AlreadyExists => return Ok(false),
+            Err(error) => return Err(error.error),
+        }
+        // Makes its name as lasting as its contents, where the system knows how.
+        let folder = self.path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let _ = fs::File::open(folder).and_then(|folder| folder.sync_all());
+        Ok(true)
+    }
+
     fn place(&self, bytes: &[u8]) -> io::Result<()> {
         if self.is_stdout() {
             let mut out = io::stdout().lock();
@@ -157,6 +181,14 @@ mod tests {
         file.write(b"two").unwrap();
         assert_eq!(fs::read(file.path()).unwrap(), b"two");
         assert_eq!(names(directory.path()), ["a.json"]);
+    }
+
+    #[test]
+    fn a_new_file_replaces_nothing() {
+        let directory = tempfile::tempdir().unwrap();
+        let file = OutputFile::check(&directory.path().join("a.json")).unwrap();
+        assert!(file.write_new(b"one").unwrap() && !file.write_new(b"two").unwrap());
+        assert_eq!((fs::read(file.path()).unwrap(), names(directory.path())), (b"one".to_vec(), vec!["a.json".into()]));
     }
 
     #[test]

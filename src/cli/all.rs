@@ -27,12 +27,15 @@ pub struct Args {
     /// A few minutes for trying out: few scenes, rays and epochs; its numbers mean little
     #[arg(long)]
     quick: bool,
+    /// Scenes and mesh files, in place of those of each study; some have scenes of their own
+    #[arg(long, value_name = "SCENE|FILE", num_args = 1..)]
+    scenes: Vec<String>,
 }
 
 impl Args {
-    /// How much is measured.
-    pub fn effort(&self) -> Effort {
-        if self.quick { Effort::Quick } else { Effort::Full }
+    /// How much is measured, and of which scenes.
+    pub fn chosen(&self) -> Chosen<'static> {
+        Chosen::Preset(if self.quick { Effort::Quick } else { Effort::Full }, self.scenes.clone())
     }
 }
 
@@ -50,7 +53,7 @@ pub fn run(session: &Session, args: &Args) -> anyhow::Result<Status> {
             eprintln!("{}; then left: {left}", study.name());
         }
         let start = Instant::now();
-        let found = run_as(session, *study, Chosen::Preset(args.effort()), &common)?;
+        let found = run_as(session, *study, args.chosen(), &common)?;
         if found == Status::Interrupted || interrupt::is_asked() {
             return Ok(Status::Interrupted);
         }
@@ -61,7 +64,7 @@ pub fn run(session: &Session, args: &Args) -> anyhow::Result<Status> {
             _ => "right",
         };
         let took = duration(start.elapsed().as_nanos() as f64);
-        rows.push([study.name().into(), took, words.into(), format!("{}.jsonl", study.name())]);
+        rows.push([study.name().into(), took, words.into(), format!("{}/", study.name())]);
     }
     let title = format!("All studies, in {}", args.dir.display());
     let mut table = Table::of_texts(&title, ["study", "took", "answers", "journal"], rows);

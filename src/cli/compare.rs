@@ -18,7 +18,8 @@ use crate::study::baseline::{Run, SCENES, against, new_baseline_path, outcome as
 use crate::study::compare::{CompareArgs, Compared, Reference, brief_table, scene_table};
 use crate::study::epoch::{Epoch, Settings, troubles};
 use crate::study::history;
-use crate::study::process::{self, Job};
+use crate::study::job::Job;
+use crate::study::process;
 use crate::study::regression::{Comparison, tables};
 use crate::study::{AnyStudy, BRUTE_FORCE, Chosen, Plan, Screen, Status};
 
@@ -175,7 +176,7 @@ fn gated(session: &Session, gate: &Gate, matches: &ArgMatches) -> anyhow::Result
     if let Some(file) = json {
         file.write(&to_json(&compared.records))?;
     }
-    let own = Status::of(&troubles(run.all()));
+    let own = Status::of(&troubles(&run.all()));
     let found = match (own, comparison.as_ref().map(held_against)) {
         (Status::Wrong, _) | (_, None) => own,
         (own, Some(Status::Right)) => own,

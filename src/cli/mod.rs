@@ -12,6 +12,7 @@ mod fetch;
 mod golden;
 mod interrupt;
 mod list;
+mod plan;
 mod progress;
 mod rays;
 mod render;
@@ -22,6 +23,7 @@ mod validate;
 
 use std::ffi::OsString;
 use std::io;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{ArgMatches, Args as _, FromArgMatches, Subcommand};
@@ -30,8 +32,10 @@ use crate::measure::{keep_to, program};
 use crate::output::OutputError;
 use crate::registry::Registry;
 use crate::simd::Level;
-use crate::study::process::{self, Job, Processes};
+use crate::study::job::{self, Done, Job};
+use crate::study::process::Processes;
 use crate::study::{AnyStudy, Chosen, Status, Studies, guarded, sources};
+use progress::OnTerminal;
 use terminal::{Colour, Terminal};
 
 /// One rule for all commands; what a baseline is known to get wrong is no fault of a run.
@@ -79,8 +83,11 @@ struct Global {
     #[arg(long, global = true)]
     level: Option<Level>,
     /// Measure this case of a run, and say it in lines of JSON: how a run starts a process
-    #[arg(long = process::OPTION, global = true, hide = true)]
+    #[arg(long = job::OPTION, global = true, hide = true)]
     job: Option<Job>,
+    /// Write that case into this file, and say nothing: a line of `study plan`
+    #[arg(long = job::OUT, global = true, hide = true, requires = "job")]
+    out: Option<PathBuf>,
 }
 
 /// What studies are run with.
@@ -150,6 +157,7 @@ fn command(studies: &Studies) -> clap::Command {
         .subcommand_required(true)
         .arg_required_else_help(true)
         .subcommand(all::Args::augment_args(all))
+        .subcommand(plan::Args::augment_args(clap::Command::new(plan::NAME)))
         .subcommands(studies.iter().map(study::command));
     command = Command::augment_subcommands(command.subcommand(listed));
     let rest = || clap::Arg::new("rest").num_args(0..).trailing_var_arg(true).allow_hyphen_values(true);
@@ -188,8 +196,8 @@ fn run_with(suite: &Suite, args: impl IntoIterator<Item = OsString>, processes: 
     let may_panic = matches.subcommand_name() == Some(validate::CHILD);
     let session = Session { suite, terminal: &terminal, processes };
     let run = || match &global.job {
-        Some(job) => answer_job(suite, &matches, job).map(|()| Status::Right),
-        None => dispatch(&session, &matches),
+        Some(job) => answer_job(&session, &matches, job, global.out.as_deref()).map(|()| Status::Right),
+        None => dispatch(&session, &matches, &global),
     };
     // A structure of another crate may panic where its command has nothing else to go on with.
     let found = if may_panic { run() } else { guarded(run).unwrap_or_else(|| Err(anyhow::anyhow!(PANIC))) };
@@ -218,25 +226,43 @@ fn told(message: &clap::Error) -> ExitCode {
     ExitCode::from(u8::from(message.use_stderr()))
 }
 
-/// What a process with a job does, on the command line of the run that has started it.
-fn answer_job(suite: &Suite, matches: &ArgMatches, job: &Job) -> anyhow::Result<()> {
-    sources::load_only(&job.scene);
+/// What a process with a job does, on the command line of the run that it is a part of.
+fn answer_job(session: &Session, matches: &ArgMatches, job: &Job, out: Option<&Path>) -> anyhow::Result<()> {
+    let &Session { suite, terminal, .. } = session;
+    job.scene.iter().for_each(|scene| sources::load_only(scene));
     job.cores.iter().for_each(|cores| keep_to(cores));
     let study = find(suite, &job.study)?;
-    let chosen = match matches.subcommand() {
+    if let Some(out) = out {
+        let done = study.write_job(chosen(matches)?, &suite.registry, job, out, &mut OnTerminal::new(terminal))?;
+        match done {
+            Done::Measured => {}
+            Done::Before => eprintln!("{} holds this case already: nothing is measured.", out.display()),
+            Done::Meanwhile => {
+                eprintln!("{} has been written by another job meanwhile: its case is kept.", out.display());
+            }
+        }
+        return Ok(());
+    }
+    if let Some((COMPARE, matches)) = matches.subcommand() {
+        return compare::answer_job(suite, matches, job);
+    }
+    study.answer_job(chosen(matches)?, &suite.registry, job)
+}
+
+/// Where the options of a study come from on a command line.
+fn chosen(matches: &ArgMatches) -> anyhow::Result<Chosen<'_>> {
+    Ok(match matches.subcommand() {
         None => Chosen::Defaults,
-        Some((COMPARE, matches)) => return compare::answer_job(suite, matches, job),
         Some((STUDY, matches)) => match matches.subcommand() {
-            Some((all::NAME, matches)) => Chosen::Preset(all::Args::from_arg_matches(matches)?.effort()),
+            Some((all::NAME, matches)) => all::Args::from_arg_matches(matches)?.chosen(),
             Some((_, matches)) => Chosen::Matches(matches),
             None => anyhow::bail!("a job is of a study"),
         },
         Some((_, matches)) => Chosen::Matches(matches),
-    };
-    study.answer_job(chosen, &suite.registry, job)
+    })
 }
 
-fn dispatch(session: &Session, matches: &ArgMatches) -> anyhow::Result<Status> {
+fn dispatch(session: &Session, matches: &ArgMatches, global: &Global) -> anyhow::Result<Status> {
     let &Session { suite, terminal, .. } = session;
     let registry = &suite.registry;
     match matches.subcommand() {
@@ -247,6 +273,9 @@ fn dispatch(session: &Session, matches: &ArgMatches) -> anyhow::Result<Status> {
         Some((COMPARE, matches)) => return compare::run(session, matches),
         Some((STUDY, matches)) => match matches.subcommand() {
             Some((all::NAME, matches)) => return all::run(session, &all::Args::from_arg_matches(matches)?),
+            Some((plan::NAME, matches)) => {
+                return plan::run(session, &plan::Args::from_arg_matches(matches)?, global.level);
+            }
             Some((name, matches)) => return study::run(session, find(suite, name)?, matches),
             None => {}
         },

@@ -14,7 +14,7 @@ use crate::study::{Status, Studies, sources};
 
 #[derive(Debug, clap::Args)]
 pub struct Args {
-    /// Files of `--export-json` and of studies, and folders of them [default: runs]
+    /// Files of `--export-json`, and folders of them and of journals, of however many machines [default: runs]
     #[arg(value_name = "RUN")]
     runs: Vec<PathBuf>,
     /// Folder for the page, Markdown, LaTeX, figures and data; an older report there is replaced
@@ -58,6 +58,9 @@ pub fn run(suite: &Suite, args: &Args, terminal: &Terminal) -> anyhow::Result<St
     terminal.print(&format!("{} {}.\n", document.title, document.answer.verdict))?;
     for number in &document.answer.numbers {
         terminal.print(&format!("  {}: {} {}\n", number.label, number.number, number.interval))?;
+    }
+    for note in &runs.notes {
+        terminal.print(&format!("{note}\n"))?;
     }
     for missing in document.missing() {
         terminal.print(&format!("not measured: {}: {}\n", missing.what, missing.command))?;

@@ -31,6 +31,9 @@ pub struct Provenance {
     pub target_features: String,
     /// Instruction set of our own lanes.
     pub simd: String,
+    /// Name of the computer; `unknown` where the system does not tell.
+    #[serde(default = "unknown")]
+    pub host: String,
     /// Name of the processor; `unknown` where the system does not tell.
     pub cpu: String,
     /// Processors that the system offers to this process.
@@ -87,7 +90,8 @@ impl Provenance {
             target: env!("SAHARA_TARGET").into(),
             target_features: env!("SAHARA_TARGET_FEATURES").into(),
             simd: Level::current().name().into(),
-            cpu: cpu_name().unwrap_or_else(|| "unknown".into()),
+            host: host_name().unwrap_or_else(unknown),
+            cpu: cpu_name().unwrap_or_else(unknown),
             cores: std::thread::available_parallelism().map_or(1, usize::from),
             threads,
             os: std::env::consts::OS.into(),
@@ -137,6 +141,11 @@ impl Provenance {
 pub fn quoted(arg: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "-_./:=,+@%".contains(c);
     if !arg.is_empty() && arg.chars().all(plain) { arg.into() } else { format!("'{}'", arg.replace('\'', "'\\''")) }
+}
+
+fn host_name() -> Option<String> {
+    let name = std::fs::read_to_string("/proc/sys/kernel/hostname").ok().or_else(|| std::env::var("HOSTNAME").ok())?;
+    Some(name.trim().to_owned()).filter(|name| !name.is_empty())
 }
 
 fn cpu_name() -> Option<String> {

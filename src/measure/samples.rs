@@ -1,7 +1,7 @@
 //! Taking samples of many cases, interleaved.
 
-use super::tiles::{last_level, level_of, level_within, rays_at};
-use super::{Clock, RandomOrder, Stopwatch, median};
+use super::tiles::{last_level, level_of, rays_at};
+use super::{Clock, RandomOrder, Stopwatch};
 
 /// Something to time: a workload of which a part can be timed.
 pub trait Timed {
@@ -54,10 +54,10 @@ pub struct Plan {
 pub struct Samples {
     /// Rays of a sample: fewer than the case has when it was slow.
     pub rays: usize,
-    /// Of the answers to these rays; where they are tiles, to a few of those of the first epoch.
+    /// The level of the rays of the first epoch whose answers are kept, if they are not those of the samples.
+    pub asked: Option<usize>,
+    /// Of the answers to these rays: another epoch gives the same.
     pub checksum: u64,
-    /// Whether structures that were built again gave the same answers.
-    pub same_answers: bool,
     /// Nanoseconds of each sample, in the order of the rounds: those of two cases with the same index are a pair.
     pub ns: Vec<u64>,
     /// The same samples, for a part of their rays: as many as a slower case with the same rays is timed on.
@@ -75,9 +75,11 @@ pub struct Part {
 }
 
 impl Samples {
-    /// Of a case that is timed on `rays` rays, before the first one is taken.
-    pub fn none(rays: usize) -> Self {
-        Self { rays, checksum: 0, same_answers: true, ns: vec![], parts: vec![] }
+    /// Of a case with `all` rays that is timed at `level`, before the first one is taken. Each epoch has tiles of its own: a sixteenth
+    /// of those of the first tells whether answers are the same.
+    pub fn none(all: usize, level: usize) -> Self {
+        let asked = (level > 0).then(|| (level + 2).min(last_level(all)));
+        Self { rays: rays_at(all, level), asked, checksum: 0, ns: vec![], parts: vec![] }
     }
 
     /// Nanoseconds a ray, of each sample.
@@ -94,54 +96,9 @@ pub struct UnsteadyAnswers {
     pub case: usize,
 }
 
-/// The first pass of a case takes so many rays at least, to find out how slow it is.
-const PILOT: u64 = 64;
-
-/// A pass that takes so long says enough of the speed.
-const LONG_PILOT_NS: u64 = 5_000_000;
-
-/// Finds how many rays of each case and how many samples fit the budget; cases of equal `groups` get as many rays. No
-/// sample is taken yet.
-pub fn begin(
-    clock: &dyn Clock,
-    cases: &mut [Box<dyn Timed + '_>],
-    groups: &[usize],
-    plan: &Plan,
-) -> (usize, Vec<Samples>) {
-    let watch = Stopwatch::new(clock);
-    let paces: Vec<u64> = cases.iter_mut().map(|case| picoseconds(&watch, case.as_mut(), plan)).collect();
-    let all: Vec<usize> = cases.iter().map(|case| case.rays()).collect();
-    let mut levels: Vec<usize> = all.iter().map(|&rays| level_within(rays, plan.most_rays)).collect();
-    let cost = |case: usize, level: usize| {
-        // A lead-in is an eighth more.
-        (rays_at(all[case], level) as u128 * u128::from(paces[case]) * 9 / 8 / 1000) as u64
-    };
-
-    let mut runs = plan.runs;
-    loop {
-        let costs: Vec<u64> = levels.iter().enumerate().map(|(case, &level)| cost(case, level)).collect();
-        let total: u64 = costs.iter().sum();
-        let fits = total.saturating_mul(runs as u64) <= plan.budget_ns;
-        let middle = median(&costs.iter().map(|&ns| ns as f64).collect::<Vec<_>>()).unwrap_or(0.0);
-        let smaller = (0..costs.len()).filter(|&case| levels[case] < last_level(all[case]));
-        let slowest = smaller.max_by_key(|&case| costs[case]);
-        match slowest {
-            Some(case) if (!fits && runs == 1) || costs[case] as f64 > plan.slowest * middle => {
-                let alike = |&other: &usize| groups[other] == groups[case];
-                (0..levels.len()).filter(alike).for_each(|other| levels[other] = levels[case].max(levels[other]));
-                (0..levels.len()).filter(alike).for_each(|other| levels[other] += 1);
-            }
-            _ if fits || runs == 1 => break,
-            _ => runs = (plan.budget_ns / total.max(1)).clamp(1, runs as u64 - 1) as usize,
-        }
-    }
-    (runs, levels.iter().zip(&all).map(|(&level, &all)| Samples::none(rays_at(all, level))).collect())
-}
-
 /// An epoch: adds `plan.runs` samples of every case, in each round every case once, in random order, those that are compared
 /// one after the other: what disturbs them lasts, and is in all of them. `compared` has a number for each case, the same for
-/// those that are compared. `samples` say on how many rays, and hold those of earlier epochs of the same cases, whose structures have been built again.
-/// `progress` is told the number of samples taken, between them.
+/// those that are compared. `samples` say on how many rays. `progress` is told the number of samples taken, between them.
 ///
 /// # Errors
 /// If a case gives different answers to the same rays.
@@ -163,13 +120,11 @@ pub fn take(
         let level_of = |rays: usize| level_of(case.rays(), rays).expect("a part is as large as a level");
         let mut levels = vec![level_of(samples.rays)];
         levels.extend(samples.parts.iter().map(|part| level_of(part.rays)));
-        // Each epoch has tiles of its own: some of the first tell whether the answers are the same.
-        if levels[0] > 0 {
-            let answers = ask_some(&watch, case.as_mut(), levels[0]);
-            if plan.epoch == 0 && answers != ask_some(&watch, case.as_mut(), levels[0]) {
+        if let Some(level) = samples.asked {
+            samples.checksum = ask_some(&watch, case.as_mut(), level);
+            if plan.epoch == 0 && samples.checksum != ask_some(&watch, case.as_mut(), level) {
                 return Err(UnsteadyAnswers { case: i });
             }
-            remember(samples, answers, plan.epoch);
         }
         levels_of.push(levels);
     }
@@ -189,8 +144,8 @@ pub fn take(
             if *checksums[i].get_or_insert(checksum) != checksum || case.contradicts_itself() {
                 return Err(UnsteadyAnswers { case: i });
             }
-            if samples.rays == case.rays() {
-                remember(samples, checksum, plan.epoch);
+            if samples.asked.is_none() {
+                samples.checksum = checksum;
             }
             samples.ns.push(ns[0]);
             samples.parts.iter_mut().zip(&ns[1..]).for_each(|(part, &ns)| part.ns.push(ns));
@@ -201,40 +156,12 @@ pub fn take(
     Ok(())
 }
 
-/// Keeps the checksum of the first epoch, and compares those of later ones with it.
-fn remember(samples: &mut Samples, checksum: u64, epoch: usize) {
-    if epoch == 0 {
-        samples.checksum = checksum;
-    }
-    samples.same_answers &= samples.checksum == checksum;
-}
-
-/// The checksum of a sixteenth of the rays that `case` is timed on in the first epoch at `level`.
+/// The checksum of the rays that `case` is timed on in the first epoch at `level`.
 fn ask_some(watch: &Stopwatch, case: &mut dyn Timed, level: usize) -> u64 {
-    case.choose(&[(level + 2).min(last_level(case.rays()))], 0);
+    case.choose(&[level], 0);
     case.clear();
     case.run(watch);
     case.checksum()
-}
-
-/// Picoseconds that a ray of `case` takes, about: of a pass over few rays, and of one that is long enough to tell.
-fn picoseconds(watch: &Stopwatch, case: &mut dyn Timed, plan: &Plan) -> u64 {
-    let all = case.rays();
-    let largest = level_within(all, plan.most_rays);
-    let with = |rays: u64| {
-        let level = (largest..=last_level(all)).rev().find(|&level| rays_at(all, level) as u64 >= rays);
-        level.unwrap_or(largest)
-    };
-    let mut pace = |level: usize| {
-        case.choose(&[level], 0);
-        case.clear();
-        let ns = case.run(watch)[0].max(1);
-        (u128::from(ns) * 1000 / rays_at(all, level) as u128).max(1) as u64
-    };
-    let few = with(PILOT);
-    let first = pace(few);
-    let enough = with(LONG_PILOT_NS.saturating_mul(1000) / first);
-    if enough < few { pace(enough) } else { first }
 }
 
 #[cfg(test)]

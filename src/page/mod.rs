@@ -4,6 +4,7 @@
 //! has measured is named with its command.
 
 mod base64;
+mod content;
 mod files;
 mod html;
 mod latex;
@@ -11,6 +12,7 @@ mod machines;
 mod markdown;
 mod pictures;
 pub mod results;
+mod run_error;
 mod runs;
 mod sections;
 #[cfg(test)]
@@ -20,5 +22,6 @@ pub use files::files;
 pub use html::page;
 pub use machines::{Machine, OfMachine};
 pub use pictures::{draw, left_out};
-pub use runs::{RunError, Runs, Source};
+pub use run_error::RunError;
+pub use runs::{Runs, Source};
 pub use sections::document;

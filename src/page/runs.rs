@@ -1,22 +1,23 @@
-//! What was measured: journals and exports of studies, found out by their content.
+//! What was measured: cases and exports of studies, found out by their content.
 
 use std::any::Any;
 use std::collections::BTreeMap;
-use std::fs;
-use std::io;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
 use serde_json::Value;
 
+use super::content::{Content, content, folder, modified};
 use super::machines::{Machine, OfMachine};
+use super::run_error::RunError;
 use crate::measure::Provenance;
 use crate::report::Record;
+use crate::report::number::plural;
 use crate::report::words::{command_line, distinct};
 use crate::study::compare::{CompareStudy, Compared};
-use crate::study::history::{self, Entry, HistoryError};
-use crate::study::journal::{Header, JournalError};
-use crate::study::{Answers, AnyAnswer, AnyStudy, SceneId, Studies, Study};
+use crate::study::history::{self, Entry};
+use crate::study::journal::{CaseFile, Group, groups};
+use crate::study::{Answers, AnyAnswer, AnyStudy, Found, SceneId, Studies, Study};
 
 /// Everything that a report is made of.
 #[derive(Default)]
@@ -30,6 +31,8 @@ pub struct Runs {
     pub machines: Vec<OfMachine>,
     /// The machines that the other answers are of, where files tell.
     measured_on: BTreeMap<&'static str, Machine>,
+    /// What is missing of it, or left out, a sentence each.
+    pub notes: Vec<String>,
     /// The commands that measured what a study says.
     commands: BTreeMap<&'static str, Vec<String>>,
     provenances: Vec<Provenance>,
@@ -37,7 +40,7 @@ pub struct Runs {
     pub history: Vec<Entry>,
 }
 
-/// A file that was read.
+/// A file that was read, or a folder of cases.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Source {
     /// As named on the command line, or found in a folder that was.
@@ -50,49 +53,42 @@ pub struct Source {
     pub replaced: String,
 }
 
-/// Why runs cannot be read.
-#[derive(Debug, thiserror::Error)]
-pub enum RunError {
-    #[error("cannot read {}: {cause}: name files of `--export-json`, or a folder of them", path.display())]
-    Read { path: PathBuf, cause: io::Error },
-    #[error("{} is torn or no JSON ({cause}): make it again with its command", path.display())]
-    Torn { path: PathBuf, cause: serde_json::Error },
-    #[error("{} holds an export of {study} of another version of sahara ({cause}): make it again with its command", path.display())]
-    Form { path: PathBuf, study: &'static str, cause: serde_json::Error },
-    #[error("{} is JSON but no run of sahara: name files of `--export-json`, or of a study", path.display())]
-    Foreign { path: PathBuf },
-    #[error("{} is the journal of the study {study:?}, which this sahara does not know: leave it out", path.display())]
-    Unknown { path: PathBuf, study: String },
-    #[error(transparent)]
-    Journal(#[from] JournalError),
-    #[error(transparent)]
-    History(#[from] HistoryError),
-    #[error("there is no run in {}: `sahara study all` makes a whole one, `sahara compare --export-json {}/compare.json` a small one",
-        path.display(), path.display())]
-    Empty { path: PathBuf },
-}
-
 /// The kind of a file of a folder that is passed over.
 const NO_RUN: &str = "no run";
 
 /// What is said of a file whose measurements were made again.
 const REPLACED: &str = "what a newer file of this kind holds as well";
 
-/// A file and when it was last written: the newest counts where two measured the same.
+/// A file of a folder, or one that was named itself.
 struct File {
     path: PathBuf,
-    modified: SystemTime,
-    /// Whether it was named itself, and not the folder it is in.
     is_named: bool,
 }
 
+/// What is said of cases of which another build or machine has measured more.
+const LESS: &str = "all of it: another build or machine has measured as many cases or more";
+
+/// What one answer is made of, and when it was last written: the newest counts where two measured the same.
+struct Part<'a> {
+    modified: SystemTime,
+    path: PathBuf,
+    study: &'a dyn AnyStudy,
+    holds: Holds,
+}
+
+enum Holds {
+    Export(Box<AnyAnswer>),
+    /// Cases of one build and machine; whether another set of them counts in its place.
+    Cases(Box<Group<Value>>, bool),
+}
+
 impl Runs {
-    /// Reads files, and all `.json` and `.jsonl` files of folders.
+    /// Reads files, and of folders all `.json` files and those of journals in them.
     ///
     /// # Errors
-    /// If there is nothing, or a file is torn, foreign or of another version.
+    /// If there is nothing, a file is torn, foreign or of another version, or cases of a study are of different settings.
     pub fn read(paths: &[PathBuf], studies: &Studies) -> Result<Self, RunError> {
-        let mut files = vec![];
+        let mut files: Vec<File> = vec![];
         let mut history = vec![];
         for path in paths {
             // A file that was named itself, or that of a folder.
@@ -104,47 +100,61 @@ impl Runs {
                 history.extend(history::read(&path.join("baselines").join(history::FILE))?);
             }
             let is_folder = path.is_dir();
-            let found = if is_folder { folder(path)? } else { vec![path.clone()] };
+            let found = if is_folder { folder(path, studies)? } else { vec![path.clone()] };
             if found.is_empty() && history.is_empty() {
                 return Err(RunError::Empty { path: path.clone() });
             }
-            for path in found {
-                let modified = fs::metadata(&path).and_then(|meta| meta.modified());
-                let modified = modified.map_err(|cause| RunError::Read { path: path.clone(), cause })?;
-                files.push(File { path, modified, is_named: !is_folder });
-            }
+            files.extend(found.into_iter().map(|path| File { path, is_named: !is_folder }));
         }
-        files.sort_by(|a, b| (a.modified, &a.path).cmp(&(b.modified, &b.path)));
+        files.sort_by(|a, b| a.path.cmp(&b.path));
         files.dedup_by(|a, b| a.path == b.path);
+
         let mut runs = Self { history, ..Self::default() };
-        let mut last = vec![];
+        let mut parts = vec![];
+        let mut cases: BTreeMap<&'static str, Vec<CaseFile<Value>>> = BTreeMap::new();
         for file in files {
-            match runs.add(&file.path, studies) {
-                // Its answer is made from all others.
-                Ok(Some(study)) => last.push((study, file.path)),
+            match content(&file.path, studies) {
+                Ok(Content::Export(study, answer)) => {
+                    let (modified, holds) = (modified(&file.path)?, Holds::Export(Box::new(answer)));
+                    parts.push(Part { modified, path: file.path, study, holds });
+                }
+                Ok(Content::Case(study, case)) => cases.entry(study.name()).or_default().push(*case),
                 // A folder may hold what studies export besides.
                 Err(RunError::Foreign { path } | RunError::Unknown { path, .. }) if !file.is_named => {
                     runs.note(&path, NO_RUN, "");
                     runs.sources.last_mut().expect("it was noted").replaced = "all of it".into();
                 }
-                added => drop(added?),
+                Err(error) => return Err(error),
             }
         }
-        if let (true, true, Some(path)) =
-            (runs.history.is_empty(), runs.sources.iter().all(|source| source.kind == NO_RUN), paths.first())
-        {
+        for (study, cases) in cases {
+            let study = studies.find(study).expect("it was found before");
+            let mut groups = groups(cases)?.into_iter().peekable();
+            while let Some(group) = groups.next() {
+                let of = |file: &CaseFile<Value>| modified(&file.path);
+                let times = group.files.iter().map(of).collect::<Result<Vec<SystemTime>, RunError>>()?;
+                let modified = times.into_iter().max().expect("a group has a case");
+                let path = group.files[0].path.parent().unwrap_or(Path::new(".")).into();
+                let holds = Holds::Cases(Box::new(group), groups.peek().is_some());
+                parts.push(Part { modified, path, study, holds });
+            }
+        }
+        // Of several builds or machines the one with the most cases counts, and comes last.
+        let is_less = |part: &Part| matches!(part.holds, Holds::Cases(_, true));
+        parts.sort_by(|a, b| (!is_less(a), a.modified, &a.path).cmp(&(!is_less(b), b.modified, &b.path)));
+        if let (true, Some(path)) = (parts.is_empty() && runs.history.is_empty(), paths.first()) {
             return Err(RunError::Empty { path: path.clone() });
         }
+        // What is made from the others comes after them.
+        let (last, first): (Vec<Part>, Vec<Part>) = parts.into_iter().partition(|part| part.study.is_last());
+        first.into_iter().try_for_each(|part| runs.add(part))?;
         runs.lead(studies);
         let made = studies.iter().filter(|study| study.is_last()).map(|study| {
             let answer = study.answer_alone(&Provenance::capture(1), &runs.answers);
             (study, answer)
         });
         let made: Vec<(&dyn AnyStudy, AnyAnswer)> = made.collect();
-        for (study, path) in &last {
-            let (header, answer) = study.read_journal(path, &runs.answers)?;
-            runs.take(path, *study, answer, Some(&header.provenance));
-        }
+        last.into_iter().try_for_each(|part| runs.add(part))?;
         for (study, answer) in made {
             if runs.answers.get(study.name()).is_none() {
                 runs.answers.add(study, answer);
@@ -153,29 +163,28 @@ impl Runs {
         Ok(runs)
     }
 
-    /// Adds a file; one whose answer is made from the others is given back, for later.
-    fn add<'a>(&mut self, path: &Path, studies: &'a Studies) -> Result<Option<&'a dyn AnyStudy>, RunError> {
-        let text = fs::read_to_string(path).map_err(|cause| RunError::Read { path: path.into(), cause })?;
-        let header: Option<Header> = text.lines().next().and_then(|line| serde_json::from_str(line).ok());
-        if let Some(Header { study: name, .. }) = header {
-            let study = studies.find(&name);
-            let study = study.ok_or_else(|| RunError::Unknown { path: path.into(), study: name })?;
-            if study.is_last() {
-                return Ok(Some(study));
+    /// Adds an answer.
+    fn add(&mut self, part: Part) -> Result<(), RunError> {
+        let Part { path, study, holds, .. } = part;
+        match holds {
+            Holds::Export(answer) => self.take(&path, study, *answer, None),
+            // Of comparisons all machines are shown, of other studies one.
+            Holds::Cases(group, true) if study.name() != CompareStudy::NAME => {
+                self.note(&path, study.name(), &group.provenance.command);
+                self.sources.last_mut().expect("it was noted").replaced = LESS.into();
             }
-            let (header, answer) = study.read_journal(path, &Answers::default())?;
-            self.take(path, study, answer, Some(&header.provenance));
-            return Ok(None);
-        }
-        let value: Value = serde_json::from_str(&text).map_err(|cause| RunError::Torn { path: path.into(), cause })?;
-        for study in studies.iter() {
-            if let Some(read) = study.read_export(&value) {
-                let form = |cause| RunError::Form { path: path.into(), study: study.name(), cause };
-                self.take(path, study, read.map_err(form)?, None);
-                return Ok(None);
+            Holds::Cases(group, _) => {
+                let Found { answer, notes } = study.read_cases(&group, &self.answers)?;
+                self.take(&path, study, answer, Some(&group.provenance));
+                let again = group.replaced.first().map(|path| {
+                    let count = plural(group.replaced.len(), "case");
+                    format!("{count} measured again since, as in {}.", path.display())
+                });
+                let notes = notes.into_iter().chain(again);
+                self.notes.extend(notes.map(|note| format!("{}: {note}", study.name())));
             }
         }
-        Err(RunError::Foreign { path: path.into() })
+        Ok(())
     }
 
     /// Adds the answer of a file.
@@ -281,19 +290,4 @@ impl Runs {
             replaced: String::new(),
         });
     }
-}
-
-/// The files of a folder that may be runs, by name.
-fn folder(path: &Path) -> Result<Vec<PathBuf>, RunError> {
-    let error = |cause| RunError::Read { path: path.into(), cause };
-    let mut found = vec![];
-    for entry in fs::read_dir(path).map_err(error)? {
-        let path = entry.map_err(error)?.path();
-        let is_json = path.extension().is_some_and(|ending| ending == "json" || ending == "jsonl");
-        if is_json && path.is_file() {
-            found.push(path);
-        }
-    }
-    found.sort();
-    Ok(found)
 }

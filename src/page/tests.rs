@@ -1,11 +1,11 @@
 use std::fs;
 use std::path::PathBuf;
 
-use super::{Runs, files, page};
+use super::{RunError, Runs, files, page};
 use crate::report::document::{Art, Document, Section};
 use crate::report::{Record, to_json};
 use crate::study::{Studies, attribution};
-use example::{accuracy, attribution_journal, refused, whole};
+use example::{Files, accuracy, attribution as attribution_files, exported, refused, whole};
 
 pub use example::{cube, provenance, read, records_of, runs_folder};
 
@@ -125,11 +125,11 @@ fn a_part_that_is_not_there_is_named_with_its_command() {
     let page = page(&whole);
     assert!(missing.iter().all(|command| page.contains(&command.replace('/', "&#x2f;"))));
 
-    let attributed = runs_folder(&[("attribution.jsonl", attribution_journal("Lucy").into_bytes())]);
+    let attributed = runs_folder(&attribution_files("Lucy"));
     let answer = document(&read(attributed.path()), vec![]).answer;
     assert_eq!((answer.verdict.as_str(), answer.numbers.len()), ("Yes, on Lucy", 1));
 
-    let nothing = document(&read(runs_folder(&[("a.jsonl", accuracy("Cube"))]).path()), vec![]);
+    let nothing = document(&read(runs_folder(&accuracy("Cube")).path()), vec![]);
     assert_eq!(nothing.answer.verdict, "Not measured");
     assert_eq!(nothing.sections.len(), 2, "the study that was measured, and where its numbers come from");
 
@@ -162,18 +162,22 @@ fn the_newest_run_of_a_scene_counts_and_the_older_one_is_said_to_be_replaced() {
 fn what_cannot_be_read_is_one_sentence() {
     let whole = to_json(&records_of("Cube"));
     let torn = whole[..whole.len() / 2].to_vec();
-    let journal = attribution_journal("Cube");
-    let other = journal.replacen("\"attribution\"", "\"astrology\"", 1);
-    let broken = journal.replacen("\"epoch\":", "\"epic\":", 1);
-    let cases: [(&str, Vec<u8>, &str); 8] = [
+    let case = String::from_utf8(attribution_files("Cube").swap_remove(0).1).unwrap();
+    let other = case.replacen("\"attribution\"", "\"astrology\"", 1);
+    let broken = case.replacen("\"epoch\":", "\"epic\":", 1);
+    let newer = case.replacen("\"schema\":3", "\"schema\":4", 1);
+    let cases: [(&str, Vec<u8>, &str); 11] = [
         ("torn.json", torn, "torn"),
         ("empty.json", vec![], "torn"),
         ("text.json", b"hello".to_vec(), "torn"),
         ("other.json", b"{\"a\": 1}".to_vec(), "no run of sahara"),
         ("list.json", b"[1, 2]".to_vec(), "no run of sahara"),
         ("old.json", b"[{\"workload_hash\": \"1\"}]".to_vec(), "another version"),
-        ("astrology.jsonl", other.into_bytes(), "astrology"),
-        ("broken.jsonl", broken.into_bytes(), "line 2"),
+        ("attribution.jsonl", b"{}\n".to_vec(), "a journal of an older sahara"),
+        ("half.json", case.as_bytes()[..case.len() / 2].to_vec(), "torn"),
+        ("astrology.json", other.into_bytes(), "astrology"),
+        ("broken.json", broken.into_bytes(), "missing field `epoch`"),
+        ("newer.json", newer.into_bytes(), "has version 4"),
     ];
     for (name, bytes, part) in cases {
         let folder = runs_folder(&[(name, bytes)]);
@@ -203,10 +207,61 @@ fn what_is_no_run_is_left_out_of_a_folder_and_named() {
 }
 
 #[test]
-fn a_journal_that_is_being_written_is_read_as_far_as_it_goes() {
-    let text = attribution_journal("Cube") + "{\"key\":\"two\",\"ca";
-    let runs = read(runs_folder(&[("attribution.jsonl", text.into_bytes())]).path());
+fn a_case_that_is_being_written_is_none_yet() {
+    let mut files = attribution_files("Cube");
+    files.push(("attribution/.sahara-1234.part".into(), b"{\"schema\":3,\"stu".to_vec()));
+    let runs = read(runs_folder(&files).path());
     assert_eq!(runs.answers.of::<attribution::AttributionStudy>().unwrap().len(), 1);
+    assert!(runs.notes.is_empty(), "{:?}", runs.notes);
+}
+
+/// The text of every file changed so.
+fn changed(files: Files, change: impl Fn(&str) -> String) -> Files {
+    let of = |bytes: Vec<u8>| change(&String::from_utf8(bytes).unwrap()).into_bytes();
+    files.into_iter().map(|(name, bytes)| (name, of(bytes))).collect()
+}
+
+/// Two folders of attribution, the second changed so, read together.
+fn both(change: impl Fn(&str) -> String) -> Result<Runs, RunError> {
+    let one = runs_folder(&attribution_files("Cube"));
+    let other = runs_folder(&changed(attribution_files("Cube"), change));
+    Runs::read(&[one.path().into(), other.path().into()], &Studies::builtin())
+}
+
+#[test]
+fn cases_of_other_settings_are_refused_by_the_names_of_settings_and_files() {
+    let Err(error) = both(|text| text.replacen("\"seed\":1", "\"seed\":2", 1)) else { panic!("they are mixed") };
+    let error = error.to_string();
+    assert!(error.contains("seed was 1 and is 2") && error.matches("attribution/").count() == 2, "{error}");
+    assert_eq!(error.lines().count(), 1, "{error}");
+}
+
+#[test]
+fn cases_of_other_machines_and_builds_are_never_of_one_answer() {
+    for change in
+        [("\"cpu\":\"a processor\"", "\"cpu\":\"another\""), ("\"commit\":\"c0ffee\"", "\"commit\":\"decade\"")]
+    {
+        let runs = both(|text| text.replacen(change.0, change.1, 1)).unwrap();
+        let answer = runs.answers.of::<attribution::AttributionStudy>().unwrap();
+        assert_eq!(answer.len(), 1);
+        assert_eq!(runs.sources.len(), 2, "each is an answer of its own: {:?}", runs.sources);
+        assert_eq!(runs.sources.iter().filter(|source| !source.replaced.is_empty()).count(), 1);
+    }
+    // A case that was measured twice by one build on one machine counts once.
+    let runs = both(|text| text.replacen("\"host\":\"", "\"host\":\"b", 1)).unwrap();
+    assert_eq!((runs.sources.len(), runs.notes.len()), (1, 1), "{:?}", runs.notes);
+    assert!(runs.notes[0].contains("attribution: 2 cases measured again since"), "{:?}", runs.notes);
+}
+
+#[test]
+fn a_scene_that_was_not_checked_is_left_out_and_named() {
+    let mut files = attribution_files("Cube");
+    files.remove(0);
+    let runs = read(runs_folder(&files).path());
+    assert!(runs.answers.of::<attribution::AttributionStudy>().unwrap().is_empty());
+    assert!(runs.notes[0].starts_with("attribution: Cube (stand-in): epoch 0 is not measured"), "{:?}", runs.notes);
+    let document = document(&runs, vec![]);
+    assert!(page(&document).contains("epoch 0 is not measured"));
 }
 
 #[test]

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::compare::{CompareStudy, Compared, compared};
 use super::engine::measure_case;
-use super::epoch::Epoch;
+use super::epoch::{Epoch, Joined, join};
 use super::process::Processes;
 use super::regression::{Comparison, Finding, Unlike, unlike};
 use super::{Plan, Refused, Screen, Status, Study, StudyError};
@@ -45,23 +45,25 @@ impl<'a> Run<'a> {
             // Of how many it is not known yet.
             let title = format!("epoch {}: {}", epoch + 1, case.process.as_deref().unwrap_or(&case.title));
             screen.case(&title, case.work);
-            let first = self.epochs.get(case.scene);
-            let measured =
-                measure_case(CompareStudy::NAME, self.plan, case, first, self.processes, self.clock, screen)?;
+            let measured = measure_case(CompareStudy::NAME, self.plan, case, self.processes, self.clock, screen)?;
             self.epochs.push(measured);
             screen.done();
         }
-        Ok(())
+        self.joined().failures.pop().map_or(Ok(()), Err)
     }
 
-    /// All epochs.
-    pub fn all(&self) -> &[Epoch] {
-        &self.epochs
+    fn joined(&self) -> Joined<Epoch> {
+        join(self.epochs.clone(), CompareStudy::epoch, CompareStudy::WHOLE)
+    }
+
+    /// All epochs, joined.
+    pub fn all(&self) -> Vec<Epoch> {
+        self.joined().cases
     }
 
     /// Their records.
     pub fn compared(&self, provenance: &Provenance) -> Compared {
-        compared(&self.epochs, provenance)
+        compared(&self.all(), provenance)
     }
 }
 

@@ -83,6 +83,14 @@ impl Study for BinaryStudy {
         Ok(Plan { inputs: args.scenes.files(), ..plan })
     }
 
+    fn named(args: &mut Self::Args) -> Option<&mut Vec<String>> {
+        Some(&mut args.scenes.scenes)
+    }
+
+    fn epoch(case: &mut Epoch) -> Option<(&mut Epoch, usize)> {
+        Some((case, 0))
+    }
+
     fn answer(cases: &[Epoch], context: &Context<Self>) -> Vec<Scenario> {
         scenarios(&compared(cases, context.provenance).records)
     }

@@ -30,6 +30,11 @@ const RAYS: usize = 16384;
 /// Triangle tests that a count may take, about: structures that test more for each ray are counted on fewer.
 const TESTS: u64 = 1 << 24;
 
+/// Rays that tell what a ray costs, those where triangle tests are many, and the tests that the former may take.
+const FEW: usize = 512;
+const FEWEST: usize = 32;
+const FEW_TESTS: u64 = 1 << 20;
+
 /// Of each case as many rays as are worth it, on all threads; nothing where the structure panics.
 pub(super) fn count_all(cases: &[Case], built: &[Built], workloads: &[Workload]) -> Vec<Option<Counted>> {
     let of = |case: &Case| {
@@ -84,6 +89,14 @@ impl Counted {
         let pilot = counted(64);
         let affordable = (TESTS * pilot.rays as u64 / pilot.counts.tests.max(1)) as usize;
         if affordable >= RAYS { counted(RAYS) } else { counted(1 << affordable.max(64).ilog2()) }
+    }
+
+    /// Of a few of `rays`, evenly spread: what tells their cost, and costs nothing to speak of itself.
+    pub fn few(accel: &dyn DynAccel, rays: &[Ray], query: Query) -> Self {
+        let counted = |count: usize| Self::new(accel, &spread(rays, count), query);
+        let first = counted(FEWEST);
+        let affordable = FEW_TESTS * first.rays as u64 / first.counts.tests.max(1);
+        if affordable >= FEW as u64 { counted(FEW) } else { first }
     }
 
     /// Asks `query` of all `rays`, and watches.

@@ -6,8 +6,10 @@ use std::{fs, io};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
+use super::epoch::{Joined, join};
+use super::job::Job;
 use super::journal::{Header, Journal};
-use super::process::{Job, Processes};
+use super::process::Processes;
 use super::{Answers, AnyAnswer, Context, Plan, Planned, Stage, Status, Studies, Study, StudyError};
 use crate::measure::{Clock, Provenance, SystemClock};
 use crate::registry::Registry;
@@ -85,12 +87,12 @@ pub(super) fn measure<S: Study>(args: &S::Args, plan: &Plan<S::Case>, run: &mut 
     let provenance = Provenance { process_per_epoch, ..Provenance::of(&plan.threads) };
     let header = Header::new(S::NAME, &plan.settings, provenance);
     let keys = || plan.cases.iter().map(|case| case.key.as_str());
-    let unfinished = run.folder.join(UNFINISHED).join(format!("{}-{}.jsonl", S::NAME, header.id(keys())));
+    let unfinished = run.folder.join(UNFINISHED).join(format!("{}-{}", S::NAME, header.id(keys())));
     // A run that is ended by the clock is not gone on with.
     let may_go_on = !run.is_kept && plan.limit_ns.is_none();
     let is_taken_up = may_go_on && unfinished.exists();
     let mut journal: Journal<S::Case> = match () {
-        () if run.is_kept => Journal::open(&run.folder.join(format!("{}.jsonl", S::NAME)), header, run.fresh)?,
+        () if run.is_kept => Journal::open(&run.folder.join(S::NAME), header, run.fresh)?,
         () if is_taken_up => Journal::open(&unfinished, header, run.fresh)?,
         () => Journal::in_memory(header),
     };
@@ -125,9 +127,7 @@ pub(super) fn measure<S: Study>(args: &S::Args, plan: &Plan<S::Case>, run: &mut 
         }
         if journal.get(&case.key).is_none() {
             run.screen.case(&case.title, case.work);
-            let of_scene = |other: &&Planned| other.scene == case.scene && other.epoch == 0;
-            let first = plan.cases.iter().find(of_scene).and_then(|first| journal.get(&first.key));
-            match measure_case(S::NAME, plan, case, first, run.processes, &clock, run.screen) {
+            match measure_case(S::NAME, plan, case, run.processes, &clock, run.screen) {
                 Ok(measured) => journal.append(&case.key, measured)?,
                 Err(_) if run.screen.is_interrupted() => {}
                 Err(error) if error.is_of_one_scene() => {
@@ -140,8 +140,13 @@ pub(super) fn measure<S: Study>(args: &S::Args, plan: &Plan<S::Case>, run: &mut 
             }
             run.screen.done();
         }
-        let scene: Vec<S::Case> = of(plan, &journal, |other| other.scene == case.scene);
+        let Joined { cases: scene, mut failures, .. } = joined::<S>(plan, &journal, |other| other.scene == case.scene);
         stopped = run.screen.is_interrupted();
+        if let Some(error) = failures.pop() {
+            failure.get_or_insert(error);
+            over.push(case.scene);
+            continue;
+        }
         let is_late = plan.limit_ns.is_some_and(|limit| clock.now_ns() - began > limit);
         if is_late {
             over.push(case.scene);
@@ -153,7 +158,7 @@ pub(super) fn measure<S: Study>(args: &S::Args, plan: &Plan<S::Case>, run: &mut 
                 run.screen.table(&Table { title: table.title + &of, ..table })?;
             }
         } else if !stopped && case.epoch == 0 && clock.now_ns() - start > LONG_NS && run.screen.is_watched() {
-            let look = S::printed(&S::answer(&scene[..1], &context)).tables.into_iter().next();
+            let look = S::printed(&S::answer(&scene[..1.min(scene.len())], &context)).tables.into_iter().next();
             if let Some(table) = look {
                 let title = format!("{} (a first look: epoch 1 of {epochs})", table.title);
                 run.screen.look(&Table { title, ..table });
@@ -167,7 +172,8 @@ pub(super) fn measure<S: Study>(args: &S::Args, plan: &Plan<S::Case>, run: &mut 
     stopped &= left > 0;
 
     // The journal may hold other scenes as well: those asked for are shown.
-    let cases = of(plan, &journal, |_| true);
+    let Joined { cases, unchecked, failures, .. } = joined::<S>(plan, &journal, |_| true);
+    failure = failure.or(failures.into_iter().next());
     if let (true, Some(error)) = (cases.is_empty(), failure.take_if(|_| cases.is_empty())) {
         return Err(error.into());
     }
@@ -180,7 +186,7 @@ pub(super) fn measure<S: Study>(args: &S::Args, plan: &Plan<S::Case>, run: &mut 
         // A scene with fewer epochs cannot be averaged with the others.
         let lacks =
             |scene: usize| plan.cases.iter().any(|case| case.scene == scene && journal.get(&case.key).is_none());
-        let whole = of(plan, &journal, |case| !stopped || !lacks(case.scene));
+        let whole = joined::<S>(plan, &journal, |case| !stopped || !lacks(case.scene)).cases;
         let whole = S::answer(if whole.is_empty() { &cases } else { &whole }, &context);
         let printed = S::printed(&answer);
         if !S::SCENE_BY_SCENE {
@@ -192,6 +198,7 @@ pub(super) fn measure<S: Study>(args: &S::Args, plan: &Plan<S::Case>, run: &mut 
         tables.extend(S::summary(&whole));
         legend = S::legend(&answer);
         foot.extend(troubles.iter().map(|trouble| trouble.sentence.clone()).filter(|sentence| !sentence.is_empty()));
+        foot.extend(unchecked);
         foot.extend(plan.notes.iter().cloned());
         foot.extend(gone_on);
         foot.push(provenance.line());
@@ -220,7 +227,7 @@ const UNFINISHED: &str = "unfinished";
 
 /// Removes what was kept of a run that is finished now, so that it is not taken for a new one; and the folders, if nothing else is in them.
 fn forget(unfinished: &Path) {
-    if fs::remove_file(unfinished).is_ok() {
+    if fs::remove_dir_all(unfinished).is_ok() {
         let _ = unfinished.ancestors().skip(1).take(2).try_for_each(fs::remove_dir);
     }
 }
@@ -233,28 +240,26 @@ pub(super) fn measure_case<C: Serialize + DeserializeOwned>(
     study: &str,
     plan: &Plan<C>,
     case: &Planned,
-    first: Option<&C>,
     processes: Option<&Processes>,
     clock: &dyn Clock,
     screen: &mut dyn Screen,
 ) -> Result<C, StudyError> {
     let mut progress = |stage: Stage| screen.stage(&stage);
-    let Planned { key, epoch, process, .. } = case;
-    let first = first.filter(|_| *epoch > 0);
-    match processes.zip(process.clone()) {
-        Some((processes, scene)) => {
+    match processes.filter(|_| case.process.is_some()) {
+        Some(processes) => {
             let cores = plan.threads.cores().map(Into::into);
-            processes.measure(&Job { study: study.into(), scene, key: key.clone(), cores }, first, &mut progress)
+            processes.measure(&Job { cores, ..Job::of(study, case) }, &mut progress)
         }
-        None => (plan.measure)(case, first, clock, &mut progress),
+        None => (plan.measure)(case, clock, &mut progress),
     }
 }
 
-/// The measured cases of the plan that `is` picks.
-fn of<C: Clone + Serialize + DeserializeOwned>(
-    plan: &Plan<C>,
-    journal: &Journal<C>,
+/// The measured cases of the plan that `is` picks, so that answers can be made from them.
+fn joined<S: Study>(
+    plan: &Plan<S::Case>,
+    journal: &Journal<S::Case>,
     is: impl Fn(&Planned) -> bool,
-) -> Vec<C> {
-    plan.cases.iter().filter(|case| is(case)).filter_map(|case| journal.get(&case.key).cloned()).collect()
+) -> Joined<S::Case> {
+    let measured = plan.cases.iter().filter(|case| is(case)).filter_map(|case| journal.get(&case.key).cloned());
+    join(measured.collect(), S::epoch, S::WHOLE)
 }

@@ -30,6 +30,11 @@ impl EpochArgs {
         }
     }
 
+    /// The scenes that are named.
+    pub fn scenes(&mut self) -> &mut Vec<String> {
+        &mut self.scenes.named.scenes
+    }
+
     /// Epochs of `structures` and a twin on rays of these `kinds`, unless others are named.
     pub fn plan(
         &self,

@@ -28,11 +28,13 @@ pub enum StudyError {
     #[error("{scene} has no rays of the kind asked for: leave the scene out, or ask for another kind of rays")]
     NoRays { scene: String },
     #[error(
-        "{structure} on {scene}, built again, gives other answers than before, or is asked other rays: its times cannot be compared"
+        "{structure} on the {rays} rays of {scene}: epoch 0 and epoch {epoch} differ in {what}, so that their times cannot be compared"
     )]
-    Changed { structure: String, scene: String },
+    Apart { structure: String, scene: String, rays: String, epoch: usize, what: &'static str },
     #[error("the process that measures {key}: {cause}; with --in-process it is measured in this one, and shows more")]
     Process { key: String, cause: String },
+    #[error("the case {key} cannot be measured: {cause}")]
+    Job { key: String, cause: String },
     #[error("{sentence}")]
     Told { sentence: String, of_one_scene: bool, wrong_answer: bool },
     #[error(transparent)]
@@ -54,7 +56,7 @@ impl StudyError {
         matches!(
             self,
             Self::Wrong { .. }
-                | Self::Changed { .. }
+                | Self::Apart { .. }
                 | Self::Disagree { .. }
                 | Self::Missing { wrong: true, .. }
                 | Self::Told { wrong_answer: true, .. }

@@ -9,11 +9,13 @@ use clap::{ArgMatches, Command, FromArgMatches};
 use serde_json::Value;
 
 use super::engine::{Measured, Run, measure};
-use super::journal::{Header, Journal, JournalError, Recorded};
-use super::process::{self, Job};
+use super::epoch::join;
+use super::job::{self, Done, Job};
+use super::journal::{self, CaseFile, Group, JournalError};
+use super::process;
 use super::{
-    Context, Data, Effort, SceneId, Study, accuracy, attribution, binary, break_even, compare, costs, counts,
-    crossover, parameters, partitions, predictions, replicate, scaling, self_intersection, threads,
+    Context, Data, Effort, Planned, SceneId, Screen, Study, accuracy, attribution, binary, break_even, compare, costs,
+    counts, crossover, parameters, partitions, predictions, replicate, scaling, self_intersection, threads,
 };
 use crate::measure::Provenance;
 use crate::registry::Registry;
@@ -58,10 +60,14 @@ impl Studies {
     /// Adds a study.
     ///
     /// # Panics
-    /// If its name is taken, is `all`, or holds anything but lower-case letters, digits and hyphens.
+    /// If its name is taken, is `all` or `plan`, or holds anything but lower-case letters, digits and hyphens.
     pub fn with<S: Study>(mut self) -> Self {
         let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
-        assert!(!S::NAME.is_empty() && S::NAME != "all" && S::NAME.chars().all(plain), "the name {:?}", S::NAME);
+        assert!(
+            !S::NAME.is_empty() && !["all", "plan"].contains(&S::NAME) && S::NAME.chars().all(plain),
+            "the name {:?}",
+            S::NAME
+        );
         assert!(self.find(S::NAME).is_none(), "there is already a study {:?}", S::NAME);
         self.list.push(Box::new(Typed::<S>(PhantomData)));
         self
@@ -91,8 +97,15 @@ pub enum Chosen<'a> {
     Matches(&'a ArgMatches),
     /// The defaults of its command.
     Defaults,
-    /// `study all`.
-    Preset(Effort),
+    /// `study all`, on these scenes where there are any.
+    Preset(Effort, Vec<String>),
+}
+
+/// What is read of cases.
+pub struct Found {
+    pub answer: AnyAnswer,
+    /// What is missing or left out, a sentence each.
+    pub notes: Vec<String>,
 }
 
 /// A study whose types are not known. The answers that it takes are its own.
@@ -109,6 +122,13 @@ pub trait AnyStudy: Send + Sync {
     fn is_last(&self) -> bool;
     /// Adds the options of the study to a command.
     fn augment(&self, command: Command) -> Command;
+    /// Whether its options name scenes.
+    fn names_scenes(&self) -> bool;
+    /// The cases that would be measured.
+    ///
+    /// # Errors
+    /// As [`Study::plan`].
+    fn planned(&self, chosen: Chosen, registry: &Registry) -> anyhow::Result<Vec<Planned>>;
     /// Measures and answers. `check` is told which files are read, before anything is measured.
     ///
     /// # Errors
@@ -124,11 +144,23 @@ pub trait AnyStudy: Send + Sync {
     /// # Errors
     /// If that is closed.
     fn answer_job(&self, chosen: Chosen, registry: &Registry, job: &Job) -> anyhow::Result<()>;
-    /// What a journal holds: its first line and the answer.
+    /// What a process with a job and a file does: as [`job::write`].
     ///
     /// # Errors
-    /// If it cannot be read, or is not of this study.
-    fn read_journal(&self, path: &Path, others: &Answers) -> Result<(Header, AnyAnswer), JournalError>;
+    /// As [`Study::plan`] and [`job::write`].
+    fn write_job(
+        &self,
+        chosen: Chosen,
+        registry: &Registry,
+        job: &Job,
+        out: &Path,
+        screen: &mut dyn Screen,
+    ) -> anyhow::Result<Done>;
+    /// The answer to cases of one build and machine.
+    ///
+    /// # Errors
+    /// If one of them is not of this study.
+    fn read_cases(&self, group: &Group<Value>, others: &Answers) -> Result<Found, JournalError>;
     /// [`Study::read`].
     fn read_export(&self, value: &Value) -> Option<serde_json::Result<AnyAnswer>>;
     /// The answer without any case.
@@ -164,7 +196,13 @@ fn args<S: Study>(chosen: Chosen) -> anyhow::Result<S::Args> {
             let command = <S::Args as clap::Args>::augment_args(clap::Command::new(S::NAME).no_binary_name(true));
             S::Args::from_arg_matches(&command.try_get_matches_from([""; 0])?)?
         }
-        Chosen::Preset(effort) => S::args(effort),
+        Chosen::Preset(effort, scenes) => {
+            let mut args = S::args(effort);
+            if let (Some(named), false) = (S::named(&mut args), scenes.is_empty()) {
+                *named = scenes;
+            }
+            args
+        }
     })
 }
 
@@ -193,6 +231,14 @@ impl<S: Study> AnyStudy for Typed<S> {
         <S::Args as clap::Args>::augment_args(command)
     }
 
+    fn names_scenes(&self) -> bool {
+        S::named(&mut S::args(Effort::Quick)).is_some()
+    }
+
+    fn planned(&self, chosen: Chosen, registry: &Registry) -> anyhow::Result<Vec<Planned>> {
+        Ok(S::plan(&args::<S>(chosen)?, registry)?.cases)
+    }
+
     fn run(
         &self,
         chosen: Chosen,
@@ -209,10 +255,27 @@ impl<S: Study> AnyStudy for Typed<S> {
         Ok(process::answer(|| S::plan(&args::<S>(chosen)?, registry), job)?)
     }
 
-    fn read_journal(&self, path: &Path, others: &Answers) -> Result<(Header, AnyAnswer), JournalError> {
-        let Recorded { header, cases, .. } = Journal::<S::Case>::read(path, S::NAME)?;
-        let answer = S::answer(&cases, &Context { provenance: &header.provenance, others, args: None });
-        Ok((header, Box::new(answer)))
+    fn write_job(
+        &self,
+        chosen: Chosen,
+        registry: &Registry,
+        job: &Job,
+        out: &Path,
+        screen: &mut dyn Screen,
+    ) -> anyhow::Result<Done> {
+        Ok(job::write(&S::plan(&args::<S>(chosen)?, registry)?, job, out, screen)?)
+    }
+
+    fn read_cases(&self, group: &Group<Value>, others: &Answers) -> Result<Found, JournalError> {
+        let typed = |file: &CaseFile<Value>| Ok(file.clone().typed::<S::Case>()?.case);
+        let mut cases = group.files.iter().map(typed).collect::<Result<Vec<S::Case>, JournalError>>()?;
+        // As they come from many machines in no order: small scenes first.
+        cases.sort_by_cached_key(|case| S::epoch(&mut case.clone()).map(|(epoch, _)| epoch.triangles));
+        let joined = join(cases, S::epoch, S::WHOLE);
+        let failures = joined.failures.iter().map(|failure| format!("{failure}; the scene is left out."));
+        let notes = failures.chain(joined.unchecked).chain(joined.missing);
+        let answer = S::answer(&joined.cases, &Context { provenance: &group.provenance, others, args: None });
+        Ok(Found { notes: notes.collect(), answer: Box::new(answer) })
     }
 
     fn read_export(&self, value: &Value) -> Option<serde_json::Result<AnyAnswer>> {
@@ -271,10 +334,14 @@ impl Answers {
     pub fn read(folder: &Path, studies: &Studies, without: &str) -> Result<Self, JournalError> {
         let mut answers = Self::default();
         for study in studies.iter().filter(|study| study.name() != without && !study.is_last()) {
-            let path = folder.join(format!("{}.jsonl", study.name()));
-            if path.exists() {
-                let (_, answer) = study.read_journal(&path, &Self::default())?;
-                answers.by_name.insert(study.name(), answer);
+            let folder = folder.join(study.name());
+            if folder.is_dir() {
+                let files = journal::files(&folder)?;
+                let groups = journal::groups(files.iter().map(|path| CaseFile::read(path)).collect::<Result<_, _>>()?)?;
+                if let Some(largest) = groups.last() {
+                    let Found { answer, .. } = study.read_cases(largest, &Self::default())?;
+                    answers.by_name.insert(study.name(), answer);
+                }
             }
         }
         Ok(answers)
@@ -308,6 +375,6 @@ mod tests {
     fn defaults_are_those_of_the_command_and_not_of_study_all() {
         let structures = |chosen| args::<CompareStudy>(chosen).unwrap().structures.structure;
         assert!(structures(Chosen::Defaults).is_empty());
-        assert!(!structures(Chosen::Preset(Effort::Full)).is_empty());
+        assert!(!structures(Chosen::Preset(Effort::Full, vec![])).is_empty());
     }
 }

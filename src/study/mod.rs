@@ -25,6 +25,7 @@ mod error;
 mod grouped;
 mod guarded;
 pub mod history;
+pub mod job;
 pub mod journal;
 mod least_squares;
 mod list;
@@ -34,6 +35,7 @@ mod placed;
 mod plan;
 pub mod predictions;
 pub mod process;
+mod ray_cost;
 mod ray_source;
 pub mod regression;
 pub mod replicate;
@@ -50,6 +52,8 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 
+use epoch::Epoch;
+
 use crate::measure::Provenance;
 use crate::registry::Registry;
 use crate::report::document::Block;
@@ -60,7 +64,7 @@ pub use baselines::{BRUTE_FORCE, REPORT_TREE, SAH_TREE, documented_defect, left_
 pub use engine::{Measured, Run, Screen};
 pub use error::StudyError;
 pub use guarded::{PANICKED, Refused, guarded};
-pub use list::{Answers, AnyAnswer, AnyStudy, Chosen, Studies};
+pub use list::{Answers, AnyAnswer, AnyStudy, Chosen, Found, Studies};
 pub use plan::{Effort, Measure, Plan, Planned, SceneId};
 pub use ray_source::{RaySource, rays_or_all, replayed};
 pub use stage::Stage;
@@ -79,10 +83,12 @@ pub trait Study: 'static {
     const KEPT: bool = true;
     /// Whether its answer is made from those of the other studies. It is then measured last.
     const LAST: bool = false;
+    /// Whether a scene is nothing without a time of each of its structures: it is left out then.
+    const WHOLE: bool = false;
 
     /// Its options.
     type Args: clap::Args;
-    /// What is measured at a time and kept as one line of the journal.
+    /// What is measured at a time, whatever else is, and kept as one file of the journal.
     type Case: Clone + Serialize + DeserializeOwned + 'static;
     /// What all cases come to.
     type Answer: Serialize + Send + Sync + 'static;
@@ -100,6 +106,17 @@ pub trait Study: 'static {
     /// # Errors
     /// If the options name what is not there.
     fn plan(args: &Self::Args, registry: &Registry) -> anyhow::Result<Plan<Self::Case>>;
+
+    /// The scenes that its options name, where they name any.
+    fn named(_: &mut Self::Args) -> Option<&mut Vec<String>> {
+        None
+    }
+
+    /// The epoch that a case is, where it is one, and the number of its series where a scene has several. Before there is an answer the
+    /// epochs of each series are [joined](epoch::join).
+    fn epoch(_: &mut Self::Case) -> Option<(&mut Epoch, usize)> {
+        None
+    }
 
     /// The answer: a pure function of what was measured.
     fn answer(cases: &[Self::Case], context: &Context<Self>) -> Self::Answer;

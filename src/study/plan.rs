@@ -50,8 +50,8 @@ pub struct Plan<C> {
     pub measure: Measure<C>,
 }
 
-/// Measures a case of the plan. A later epoch of a scene is given the first one.
-pub type Measure<C> = Box<dyn Fn(&Planned, Option<&C>, &dyn Clock, &mut dyn FnMut(Stage)) -> Result<C, StudyError>>;
+/// Measures a case of the plan, whatever others are measured.
+pub type Measure<C> = Box<dyn Fn(&Planned, &dyn Clock, &mut dyn FnMut(Stage)) -> Result<C, StudyError>>;
 
 /// One case of a plan.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -4,15 +4,15 @@
 //! the process lives: only samples from several processes say by how much (Mytkowicz et al., Producing Wrong Data Without
 //! Doing Anything Obviously Wrong!, 2009; Kalibera and Jones, Rigorous Benchmarking in Reasonable Time, 2013).
 //!
-//! The process is this program with the same command line and a [`Job`]. The first line of its standard input is the first epoch
-//! of the scene, where a later one is measured; on its standard output it says, a marked line of JSON each, what it does, and at
-//! last what it has measured. After each line it waits for one in answer: so the run that listens does nothing while it times. Other
-//! lines are a structure's own, and go to standard error.
+//! The process is this program with the same command line and a [`Job`]. On its standard output it says, a marked line of JSON each,
+//! what it does, and at last what it has measured. After each line it waits for one in answer: so the run that listens does nothing
+//! while it times. Other lines are a structure's own, and go to standard error.
+//!
+//! A job on another machine is the same command line with a file beside: it says nothing, and [writes](super::job::write) the case.
 
 use std::ffi::OsString;
 use std::io::{self, BufRead, BufReader, Write};
 use std::process::{Child, Command, Stdio};
-use std::str::FromStr;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError, Weak};
 use std::thread;
@@ -21,29 +21,9 @@ use std::time::Duration;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
+use super::job::{Job, OPTION};
 use super::{Plan, Stage, StudyError};
 use crate::measure::{SystemClock, program};
-
-/// Which case a process measures.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Job {
-    /// Name of the study.
-    pub study: String,
-    /// Name of the scene: of those named on the command line no other is loaded.
-    pub scene: String,
-    /// Key of the case.
-    pub key: String,
-    /// The cores that the threads of the run are bound to.
-    pub cores: Option<Vec<usize>>,
-}
-
-impl FromStr for Job {
-    type Err = serde_json::Error;
-
-    fn from_str(text: &str) -> Result<Self, Self::Err> {
-        serde_json::from_str(text)
-    }
-}
 
 /// A line of a process.
 #[derive(Serialize, Deserialize)]
@@ -76,9 +56,6 @@ pub struct Processes {
 /// What the lines of a process begin with.
 const MARK: &str = "\u{1e}case ";
 
-/// The option that gives a process its job.
-pub const OPTION: &str = "case";
-
 impl Processes {
     /// Of this program, which was started with `args`, its name first.
     pub fn new(args: impl IntoIterator<Item = OsString>) -> Self {
@@ -92,7 +69,6 @@ impl Processes {
     pub fn measure<C: Serialize + DeserializeOwned>(
         &self,
         job: &Job,
-        first: Option<&C>,
         progress: &mut dyn FnMut(Stage),
     ) -> Result<C, StudyError> {
         let trouble = |cause: String| StudyError::Process { key: job.key.clone(), cause };
@@ -106,13 +82,11 @@ impl Processes {
         let mut child = child.map_err(|cause| trouble(format!("it cannot be started: {cause}")))?;
         let (told, said) = (child.stdin.take(), child.stdout.take());
         let child = Guard::new(child);
-        let first = serde_json::to_string(&first).expect("a case has text keys");
         let mut told = told.expect("it has an input");
         // A process that has ended already is told by what it has said, or how it ended.
         let mut tell = |line: &str| {
             let _ = writeln!(told, "{line}");
         };
-        tell(&first);
         for line in BufReader::new(said.expect("it has an output")).split(b'\n') {
             let line = line.map_err(|cause| trouble(cause.to_string()))?;
             let line = String::from_utf8_lossy(&line);
@@ -205,31 +179,33 @@ pub fn answer<C: Serialize + DeserializeOwned>(
     job: &Job,
 ) -> io::Result<()> {
     end_with_parent();
-    let first: Option<C> = serde_json::from_str(&hear()?)?;
-    let failed = |sentence| Said::Failed { sentence, of_one_scene: true, wrong_answer: false };
     let said = match plan() {
-        Ok(plan) => match plan.cases.iter().find(|case| case.key == job.key) {
-            Some(case) => {
+        Ok(plan) => match job.find(&plan) {
+            Ok(case) => {
                 let mut progress = |stage: Stage| {
                     if say(&Said::<C>::from(&stage)).and_then(|()| hear()).is_err() {
                         // The run is gone, and would be disturbed by this process when it goes on.
                         std::process::exit(1);
                     }
                 };
-                match (plan.measure)(case, first.as_ref(), &SystemClock::start(), &mut progress) {
+                match (plan.measure)(case, &SystemClock::start(), &mut progress) {
                     Ok(case) => Said::Measured(case),
-                    Err(error) => Said::Failed {
-                        sentence: error.to_string(),
-                        of_one_scene: error.is_of_one_scene(),
-                        wrong_answer: error.is_wrong_answer(),
-                    },
+                    Err(error) => failed(&error),
                 }
             }
-            None => failed(format!("the scene {} is not what it was when the run began: start anew", job.scene)),
+            Err(error) => failed(&error),
         },
-        Err(error) => failed(format!("{error:#}")),
+        Err(error) => Said::Failed { sentence: format!("{error:#}"), of_one_scene: true, wrong_answer: false },
     };
     say(&said)
+}
+
+fn failed<C>(error: &StudyError) -> Said<C> {
+    Said::Failed {
+        sentence: error.to_string(),
+        of_one_scene: error.is_of_one_scene(),
+        wrong_answer: error.is_wrong_answer(),
+    }
 }
 
 fn say<C: Serialize>(said: &Said<C>) -> io::Result<()> {
@@ -263,8 +239,9 @@ mod tests {
     fn a_process_that_ends_without_an_answer_is_one_sentence() {
         // The program of these tests knows no such option.
         let processes = Processes::new(["tests".into(), "--no-such-option".into()]);
-        let job = Job { study: "compare".into(), scene: "Cube".into(), key: "Cube 0123 epoch 0".into(), cores: None };
-        let error = processes.measure::<Epoch>(&job, None, &mut |_| ()).unwrap_err();
+        let job =
+            Job { study: "compare".into(), scene: Some("Cube".into()), key: "Cube 0123 epoch 0".into(), cores: None };
+        let error = processes.measure::<Epoch>(&job, &mut |_| ()).unwrap_err();
         let sentence = error.to_string();
         assert!(sentence.contains("Cube 0123 epoch 0") && sentence.contains("without an answer"), "{sentence}");
         assert!(error.is_of_one_scene() && !error.is_wrong_answer());

@@ -3,7 +3,12 @@
 use super::StudyError;
 use super::built::Built;
 use super::guarded::Guarded;
-use crate::measure::{Clock, CpuClock, Part, Pass, Plan, RemotePass, Samples, Threads, Timed, begin, take};
+use super::ray_cost;
+use crate::measure::tiles::{last_level, rays_at};
+use crate::measure::{
+    Allotment, Clock, Cost, CpuClock, Part, Pass, Plan, RemotePass, Samples, Stopwatch, Threads, Timed, allot,
+    level_by_clock, pilot_level, take,
+};
 use crate::scene::{Scene, Workload};
 
 /// What is timed together: a structure and a workload, by their numbers.
@@ -35,20 +40,53 @@ pub(super) struct Taken {
     pub failures: Vec<Option<String>>,
 }
 
+/// What decides how much of cases is timed, and is the same in every epoch.
+pub(super) struct Allotted {
+    cases: Vec<Case>,
+    allotment: Allotment,
+}
+
+impl Allotted {
+    /// Samples of every case.
+    pub fn runs(&self) -> usize {
+        self.allotment.runs
+    }
+}
+
 impl Timing<'_> {
-    /// Takes the samples of `cases`, interleaved, on a pinned thread where there is one. After a first epoch its
-    /// samples are given as `before`: `plan.runs` more are added, on as many rays. The samples of any two structures on
-    /// a workload, or those of a part of them, are of the same rays.
+    /// How many rays of each of `cases` are timed, and how often, by what their rays cost.
+    pub fn allot(&self, cases: &[Case], plan: &Plan) -> Allotted {
+        // Twins, structures of one label, take as many rays.
+        let group = |case: &Case| {
+            let label = |structure: usize| &self.built[structure].choice.label;
+            let alike =
+                |other: &Case| other.workload == case.workload && label(other.structure) == label(case.structure);
+            cases.iter().position(alike).expect("it is among them")
+        };
+        let costs = ray_cost::picoseconds(cases, self.built, self.workloads);
+        let cost =
+            |(case, ps): (&Case, u64)| Cost { rays: self.workloads[case.workload].rays.len(), ps, group: group(case) };
+        let costs: Vec<Cost> = cases.iter().zip(costs).map(cost).collect();
+        Allotted { cases: cases.to_vec(), allotment: allot(&costs, plan) }
+    }
+
+    /// Takes samples of as many rays as are allotted, of those cases that `is_timed` picks, interleaved, on a pinned thread where there
+    /// is one. The samples of any two structures on a workload, or those of a part of them, are of the same rays.
+    ///
+    /// What a ray costs a program is not known: its own clock may allot it fewer rays, in another epoch other ones. So it is timed, and
+    /// with it all others of its workload, on the next level as well: epochs have rays in common then.
     pub fn take(
         &self,
-        cases: &[Case],
+        allotted: &Allotted,
+        is_timed: &dyn Fn(&Case) -> bool,
         plan: &Plan,
-        before: Option<Vec<Samples>>,
         progress: &mut dyn FnMut(usize),
     ) -> Result<Taken, StudyError> {
-        let pass = |case: &Case| {
-            let workload = &self.workloads[case.workload];
-            let accel = self.built[case.structure].accel.as_ref();
+        let Allotted { cases: all, allotment: Allotment { runs, levels, share_ns } } = allotted;
+        let timed: Vec<usize> = (0..all.len()).filter(|&i| is_timed(&all[i])).collect();
+        let pass = |&i: &usize| {
+            let workload = &self.workloads[all[i].workload];
+            let accel = self.built[all[i].structure].accel.as_ref();
             if let Some(remote) = accel.remote() {
                 let (pass, failure) = RemotePass::new(accel, remote, &workload.rays, workload.query);
                 return (Box::new(pass) as Box<dyn Timed>, failure);
@@ -56,65 +94,93 @@ impl Timing<'_> {
             let (pass, failure) = Guarded::new(Pass::new(accel, &workload.rays, workload.query, self.threads));
             (Box::new(pass) as Box<dyn Timed>, failure)
         };
-        let (mut passes, failures): (Vec<_>, Vec<_>) = cases.iter().map(pass).collect();
+        let (mut passes, failures): (Vec<_>, Vec<_>) = timed.iter().map(pass).collect();
         let _pin = self.threads.pin();
         // What others take of the core is no time of a pass.
         let own = CpuClock::of_thread(self.threads);
         let clock = own.as_ref().map_or(self.clock, |clock| clock as &dyn Clock);
-        let (runs, mut samples) = match before {
-            Some(before) => (plan.runs, before),
-            None => {
-                // Twins, structures of one label, take as many rays.
-                let group = |case: &Case| {
-                    let label = |structure: usize| &self.built[structure].choice.label;
-                    let alike = |other: &Case| {
-                        other.workload == case.workload && label(other.structure) == label(case.structure)
-                    };
-                    cases.iter().position(alike).expect("it is among them")
-                };
-                let groups: Vec<usize> = cases.iter().map(group).collect();
-                let (runs, mut samples) = begin(clock, &mut passes, &groups, plan);
-                add_parts(cases, &mut samples);
-                (runs, samples)
-            }
-        };
-        let compared: Vec<usize> = cases.iter().map(|case| case.workload).collect();
-        take(clock, &mut passes, &compared, &Plan { runs, ..*plan }, &mut samples, progress).map_err(|cause| {
-            let Case { structure, workload } = cases[cause.case];
-            StudyError::Unsteady {
-                structure: self.built[structure].choice.label.clone(),
-                scene: self.scene.name.clone(),
-                rays: self.workloads[workload].name.clone(),
-                cause,
-            }
-        })?;
+
+        let mut levels = levels.clone();
+        let is_remote = |i: usize| self.built[all[i].structure].accel.remote().is_some();
+        for (&i, pass) in timed.iter().zip(&mut passes).filter(|(i, _)| is_remote(**i)) {
+            levels[i] = level_by_clock(&Stopwatch::new(clock), pass.as_mut(), levels[i], *share_ns);
+        }
+        let cases: Vec<Of> = (0..all.len())
+            .map(|i| Of {
+                workload: all[i].workload,
+                all: self.workloads[all[i].workload].rays.len(),
+                level: levels[i],
+                is_remote: is_remote(i),
+            })
+            .collect();
+        let mut samples: Vec<Samples> = timed.iter().map(|&i| none(&cases[i], &cases)).collect();
+        let compared: Vec<usize> = timed.iter().map(|&i| all[i].workload).collect();
+        take(clock, &mut passes, &compared, &Plan { runs: *runs, ..*plan }, &mut samples, progress).map_err(
+            |cause| {
+                let Case { structure, workload } = all[timed[cause.case]];
+                StudyError::Unsteady {
+                    structure: self.built[structure].choice.label.clone(),
+                    scene: self.scene.name.clone(),
+                    rays: self.workloads[workload].name.clone(),
+                    cause,
+                }
+            },
+        )?;
         Ok(Taken { samples, failures: failures.iter().map(|failure| failure.borrow().clone()).collect() })
     }
 }
 
-/// Has every case timed on the rays of each slower one of its workload as well.
-fn add_parts(cases: &[Case], samples: &mut [Samples]) {
-    for i in 0..cases.len() {
-        let of_workload = (0..cases.len()).filter(|&other| cases[other].workload == cases[i].workload);
-        let mut fewer: Vec<usize> =
-            of_workload.map(|other| samples[other].rays).filter(|&rays| rays < samples[i].rays).collect();
-        fewer.sort_unstable_by(|a, b| b.cmp(a));
-        fewer.dedup();
-        samples[i].parts = fewer.into_iter().map(|rays| Part { rays, ns: vec![] }).collect();
+/// What decides on which rays a case is timed.
+struct Of {
+    workload: usize,
+    /// Rays of the workload.
+    all: usize,
+    level: usize,
+    is_remote: bool,
+}
+
+/// The samples of `case` before the first one, of its own rays and those of each slower one of its workload.
+fn none(case: &Of, cases: &[Of]) -> Samples {
+    let own = Samples::none(case.all, case.level);
+    let mut fewer = vec![];
+    for other in cases.iter().filter(|other| other.workload == case.workload) {
+        fewer.push(rays_at(other.all, other.level));
+        if other.is_remote && other.level < last_level(other.all) {
+            fewer.push(rays_at(other.all, other.level + 1));
+        }
     }
+    fewer.retain(|&rays| rays < own.rays);
+    fewer.sort_unstable_by(|a, b| b.cmp(a));
+    fewer.dedup();
+    // Whatever rays it is timed on, its answers to the same ones are kept.
+    let asked = if case.is_remote { Some(pilot_level(case.all)) } else { own.asked };
+    Samples { asked, parts: fewer.into_iter().map(|rays| Part { rays, ns: vec![] }).collect(), ..own }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    /// The rays of the parts of cases on two workloads.
+    fn parts(cases: &[(usize, usize, bool)]) -> Vec<Vec<usize>> {
+        let of = |&(workload, level, is_remote): &(usize, usize, bool)| Of { workload, all: 65_536, level, is_remote };
+        let cases: Vec<Of> = cases.iter().map(of).collect();
+        cases.iter().map(|case| none(case, &cases).parts.iter().map(|part| part.rays).collect()).collect()
+    }
+
     #[test]
     fn every_case_is_timed_on_the_rays_of_each_slower_one_of_its_workload() {
-        // Three structures on two workloads.
-        let cases = Case::all(3, 2);
-        let mut samples = [4096, 4096, 4096, 64, 256, 4096].map(Samples::none);
-        add_parts(&cases, &mut samples);
-        let parts = samples.map(|samples| samples.parts.iter().map(|part| part.rays).collect::<Vec<_>>());
-        assert_eq!(parts, [vec![256], vec![64], vec![256], vec![], vec![], vec![64]]);
+        let cases = [(0, 2, false), (1, 2, false), (0, 2, false), (1, 5, false), (0, 4, false), (1, 2, false)];
+        assert_eq!(parts(&cases), [vec![256], vec![64], vec![256], vec![], vec![], vec![64]]);
+    }
+
+    #[test]
+    fn a_program_and_all_that_it_is_compared_with_are_timed_on_the_next_level_as_well() {
+        let cases = [(0, 0, false), (0, 1, true), (0, 3, false), (1, 0, false)];
+        assert_eq!(parts(&cases), [vec![16_384, 4096, 1024], vec![4096, 1024], vec![], vec![]]);
+        // At the last level there is no next one.
+        assert_eq!(parts(&[(0, 0, false), (0, 5, true)]), [vec![64], vec![]]);
+        let program = Of { workload: 0, all: 65_536, level: 1, is_remote: true };
+        assert_eq!(none(&program, &[]).asked, Some(5));
     }
 }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
@@ -24,16 +24,17 @@ fn finish(dir: &Path, rays: &str) -> Output {
     study(dir, rays).output().expect("the command runs")
 }
 
-/// Whole lines of the journal, none where there is no journal.
-fn lines(dir: &Path) -> usize {
-    let text = fs::read_to_string(dir.join("attribution.jsonl")).unwrap_or_default();
-    text.matches('\n').count()
+/// The files of the journal, none where there is no journal.
+fn files(dir: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(dir.join("attribution")).into_iter().flatten();
+    let paths = entries.map(|entry| entry.unwrap().path());
+    paths.filter(|path| path.extension().is_some_and(|ending| ending == "json")).collect()
 }
 
-/// Kills it as `kill -9` does, as soon as the journal has `wanted` lines.
+/// Kills it as `kill -9` does, as soon as the journal has `wanted` cases.
 fn kill_at(mut child: Child, dir: &Path, wanted: usize) {
     let start = Instant::now();
-    while lines(dir) < wanted {
+    while files(dir).len() < wanted {
         assert!(child.try_wait().unwrap().is_none(), "it ended before it could be killed");
         assert!(start.elapsed() < Duration::from_secs(600), "it measures nothing");
         std::thread::sleep(Duration::from_millis(2));
@@ -44,18 +45,17 @@ fn kill_at(mut child: Child, dir: &Path, wanted: usize) {
 
 /// What no clock decides, of every case: by its key; a key that is there twice is found out.
 fn counts(dir: &Path) -> BTreeMap<String, Value> {
-    let text = fs::read_to_string(dir.join("attribution.jsonl")).unwrap();
     let mut cases = BTreeMap::new();
-    for line in text.lines().skip(1) {
-        let mut line: Value = serde_json::from_str(line).unwrap();
-        for structure in line["case"]["structures"].as_array_mut().unwrap() {
+    for path in files(dir) {
+        let mut file: Value = serde_json::from_slice(&fs::read(path).unwrap()).unwrap();
+        for structure in file["case"]["structures"].as_array_mut().unwrap() {
             structure["build_ns"] = Value::Null;
             let rays = structure["rays"][0].as_object_mut().unwrap();
             let samples = rays.remove("ns").unwrap();
             rays.insert("samples".into(), samples.as_array().unwrap().len().into());
         }
-        let key = line["key"].as_str().unwrap().to_owned();
-        assert!(cases.insert(key.clone(), line).is_none(), "{key} is there twice");
+        let key = file["key"].as_str().unwrap().to_owned();
+        assert!(cases.insert(key.clone(), file["case"].take()).is_none(), "{key} is there twice");
     }
     cases
 }
@@ -66,27 +66,26 @@ fn a_killed_study_ends_as_one_that_was_left_alone() {
     let (alone, killed) = (folder.path().join("alone"), folder.path().join("killed"));
     assert!(finish(&alone, "64").status.success());
 
-    // Once with nothing but the header, once with a case behind it and in the middle of the next.
+    // Once with a case, and once with another one.
     kill_at(study(&killed, "64").spawn().unwrap(), &killed, 1);
     kill_at(study(&killed, "64").spawn().unwrap(), &killed, 2);
-    // As if the power had failed while a line was written.
-    let journal = killed.join("attribution.jsonl");
-    let mut text = fs::read_to_string(&journal).unwrap();
-    let before = lines(&killed);
-    text.push_str("{\"key\":\"Cube 0000");
-    fs::write(&journal, text).unwrap();
+    // As if the power had failed while a case was written.
+    fs::write(killed.join("attribution/.sahara-1234.part"), "{\"schema\":3,\"st").unwrap();
+    let before = files(&killed).len();
 
     let output = finish(&killed, "64");
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    assert!(before < lines(&killed));
+    assert!(before < files(&killed).len());
     assert_eq!(counts(&alone).len(), EPOCHS);
     assert_eq!(counts(&killed), counts(&alone));
 
     // A finished study is printed again and measures nothing.
-    let text = fs::read(&journal).unwrap();
+    let times =
+        || files(&killed).iter().map(|path| fs::metadata(path).unwrap().modified().unwrap()).collect::<Vec<_>>();
+    let written = times();
     let again = finish(&killed, "64");
     assert_eq!(again.stdout, output.stdout);
-    assert_eq!(fs::read(&journal).unwrap(), text);
+    assert_eq!(times(), written);
 
     // Other settings are refused in one line.
     let refused = finish(&killed, "65");

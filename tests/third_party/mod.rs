@@ -67,7 +67,7 @@ fn it_is_compared_like_our_own() {
         threads: Threads::new(1).unwrap(),
     };
     let scene = Builtin::find("sphere").unwrap().scene(None).unwrap();
-    let epoch = measure(&scene, &settings, 0, None, &SystemClock::start(), &mut |_| {}).unwrap();
+    let epoch = measure(&scene, &settings, 0, &SystemClock::start(), &mut |_| {}).unwrap();
     let records = compared([&epoch], &Provenance::capture(1)).records;
     assert_eq!(records.len(), 6);
     assert!(records[..4].iter().all(|r| r.structure_errors == Some(0) && r.mrays_per_s > Some(0.0)));
@@ -242,10 +242,10 @@ fn a_study_of_another_crate_is_in_the_command_in_study_all_and_on_the_page() {
     assert!(std::fs::read_to_string(path("d.json")).unwrap().contains("references_per_triangle"));
     assert!(std::fs::read_to_string(path("d.csv")).unwrap().starts_with("schema,study,scene,structure"));
     let (printed, right) = sahara(&format!("study duplication torus -s grid --dir {runs}"));
-    assert!(!right && printed.contains("begun with other settings: structures was"), "{printed}");
+    assert!(!right && printed.contains("measured with other settings: structures was"), "{printed}");
 
     let (printed, right) = sahara(&format!("study all --quick --fresh --dir {runs}"));
-    assert!(right && printed.contains("duplication.jsonl") && printed.contains("Nothing is left"), "{printed}");
+    assert!(right && printed.contains("duplication/") && printed.contains("Nothing is left"), "{printed}");
     let (printed, right) = sahara(&format!("report {runs} -o {page} --no-pictures"));
     assert!(right && printed.contains("index.html"), "{printed}");
     let html = std::fs::read_to_string(folder.path().join("page/index.html")).unwrap();

@@ -60,7 +60,7 @@ impl Study for DuplicationStudy {
             }
             Ok(found)
         };
-        let measure: Measure<Self::Case> = Box::new(move |case, _, _, progress| of(&scenes[case.scene], progress));
+        let measure: Measure<Self::Case> = Box::new(move |case, _, progress| of(&scenes[case.scene], progress));
         let settings = std::collections::BTreeMap::from([("structures", labels.join(" "))]);
         let threads = sahara::measure::Threads::new(1).map_err(anyhow::Error::msg)?;
         Ok(Plan::of_scenes(&settings, threads, keys, measure))

@@ -2,6 +2,8 @@ use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 
 use super::*;
+use crate::measure::level_by_clock;
+use crate::measure::tiles::level_within;
 
 #[derive(Default)]
 struct MockClock(Cell<u64>);
@@ -85,16 +87,13 @@ impl Bench {
         Box::new(self.mock(name, ns, all))
     }
 
-    fn begin(&self, cases: &mut [Box<dyn Timed>], plan: &Plan) -> (usize, Vec<Samples>) {
-        let groups: Vec<usize> = (0..cases.len()).collect();
-        begin(&self.clock, cases, &groups, plan)
-    }
-
+    /// Samples of as many rays as the plan allows.
     fn take(&self, cases: &mut [Box<dyn Timed>], plan: &Plan) -> Result<Vec<Samples>, UnsteadyAnswers> {
-        let (runs, mut samples) = self.begin(cases, plan);
+        let none = |case: &Box<dyn Timed>| Samples::none(case.rays(), level_within(case.rays(), plan.most_rays));
+        let mut samples: Vec<Samples> = cases.iter().map(none).collect();
         let mut told = vec![];
-        take(&self.clock, cases, &vec![0; cases.len()], &Plan { runs, ..*plan }, &mut samples, &mut |n| told.push(n))?;
-        assert_eq!(told, (1..=runs * cases.len()).collect::<Vec<_>>());
+        take(&self.clock, cases, &vec![0; cases.len()], plan, &mut samples, &mut |n| told.push(n))?;
+        assert_eq!(told, (1..=plan.runs * cases.len()).collect::<Vec<_>>());
         Ok(samples)
     }
 }
@@ -106,47 +105,9 @@ fn only_the_pass_is_timed_and_every_case_has_all_its_samples() {
     let bench = Bench::new();
     let mut cases = [bench.case('a', 10, 1000), bench.case('b', 20, 1000)];
     let samples = bench.take(&mut cases, &PLAN).unwrap();
-    let taken = |ns| Samples { rays: 1000, checksum: 7, same_answers: true, ns: vec![ns; 5], parts: vec![] };
+    let taken = |ns| Samples { rays: 1000, asked: None, checksum: 7, ns: vec![ns; 5], parts: vec![] };
     assert_eq!(samples, [taken(10_000), taken(20_000)]);
     assert_eq!(samples[1].ns_per_ray(), [20.0; 5]);
-}
-
-#[test]
-fn the_slow_do_with_fewer_rays_then_all_with_fewer_samples_and_then_with_fewer_rays() {
-    let plan = |budget_ns| Plan { budget_ns, ..PLAN };
-    let started = |budget_ns| {
-        let bench = Bench::new();
-        let case = |(name, ns)| bench.case(name, ns, 65_536);
-        let (runs, samples) = bench.begin(&mut [('a', 10), ('b', 15), ('c', 10_000)].map(case), &plan(budget_ns));
-        (runs, samples.iter().map(|samples| samples.rays).collect::<Vec<_>>())
-    };
-    // All rays of the two fast ones take 1.84 ms with their lead-ins, those of the slow one 737 ms, and 2.88 ms where it takes no more than
-    // eight times as long as the middle one.
-    assert_eq!(started(4_000_000_000), (5, vec![65_536, 65_536, 256]));
-    assert_eq!(started(24_000_000), (5, vec![65_536, 65_536, 256]));
-    assert_eq!(started(12_000_000), (2, vec![65_536, 65_536, 256]));
-    assert_eq!(started(2_700_000), (1, vec![65_536, 65_536, 64]));
-    assert_eq!(started(1_000_000), (1, vec![16_384, 4096, 64]));
-    // Where no case is too slow, samples are left out first, and then all rays are spared.
-    let bench = Bench::new();
-    let mut cases = [('a', 10), ('b', 15), ('c', 10_000)].map(|(name, ns)| bench.case(name, ns, 65_536));
-    let patient = Plan { slowest: f64::INFINITY, ..plan(1_000_000_000) };
-    let (runs, samples) = bench.begin(&mut cases, &patient);
-    assert_eq!((runs, samples.iter().map(|s| s.rays).collect::<Vec<_>>()), (1, vec![65_536; 3]));
-    // There is always a ray.
-    assert_eq!(started(1), (1, vec![rays_at(65_536, last_level(65_536)); 3]));
-}
-
-#[test]
-fn no_more_rays_are_timed_than_asked_for_and_alike_cases_take_as_many() {
-    let bench = Bench::new();
-    let cases = || [bench.case('a', 10, 65_536), bench.case('a', 900, 65_536), bench.case('b', 10, 65_536)];
-    let plan = Plan { most_rays: 20_000, budget_ns: 30_000_000, ..PLAN };
-    let rays = |groups: &[usize]| {
-        begin(&bench.clock, &mut cases(), groups, &plan).1.iter().map(|s| s.rays).collect::<Vec<_>>()
-    };
-    assert_eq!(rays(&[0, 1, 2]), [16_384, 1024, 16_384]);
-    assert_eq!(rays(&[0, 0, 2]), [1024, 1024, 16_384]);
 }
 
 #[test]
@@ -166,10 +127,9 @@ fn rounds_are_interleaved_in_changing_order() {
 
 #[test]
 fn other_answers_to_the_same_rays_are_no_measurement() {
-    // A pilot, then five samples: the second of them, or its lead-in, answers otherwise.
-    for (runs, most_rays) in [(5, usize::MAX), (5, 16), (1, 16)] {
+    // The second of five samples, or its lead-in; where a part of the rays is timed, the second look at some of them.
+    for (runs, most_rays, fickle_at) in [(5, usize::MAX, 2), (5, 16, 4), (1, 16, 2)] {
         let bench = Bench::new();
-        let fickle_at = if most_rays == 16 { 3 } else { 2 };
         let mut cases: [Box<dyn Timed>; 1] = [Box::new(Mock { fickle_at, ..bench.mock('a', 10, 64) })];
         let plan = Plan { runs, most_rays, ..PLAN };
         assert_eq!(bench.take(&mut cases, &plan), Err(UnsteadyAnswers { case: 0 }), "{runs} {most_rays}");
@@ -179,7 +139,7 @@ fn other_answers_to_the_same_rays_are_no_measurement() {
 #[test]
 fn parts_are_timed_along() {
     let bench = Bench::new();
-    let mut samples = [Samples::none(65_536)];
+    let mut samples = [Samples::none(65_536, 0)];
     samples[0].parts = [1024, 64].map(|rays| Part { rays, ns: vec![] }).into();
     take(&bench.clock, &mut [bench.case('a', 10, 65_536)], &[0], &Plan { runs: 2, ..PLAN }, &mut samples, &mut |_| {})
         .unwrap();
@@ -188,20 +148,30 @@ fn parts_are_timed_along() {
 }
 
 #[test]
-fn another_epoch_takes_as_many_rays_and_tells_other_answers() {
-    for (whole, rays) in [(1000, 1000), (65_536, 16_384)] {
+fn another_epoch_has_the_checksum_of_the_first_unless_it_answers_otherwise() {
+    for (whole, rays, asked) in [(1000, 1000, None), (65_536, 16_384, Some(3))] {
         let bench = Bench::new();
-        let plan = |epoch| Plan { most_rays: 16_384, epoch, ..PLAN };
-        let mut samples = bench.take(&mut [bench.case('a', 10, whole)], &plan(0)).unwrap();
-        // Built again, and slower: as many rays as in the first epoch.
-        let mut again = [bench.case('a', 20, whole)];
-        take(&bench.clock, &mut again, &[0], &plan(1), &mut samples, &mut |_| {}).unwrap();
-        assert_eq!((samples[0].rays, samples[0].checksum), (rays, 7));
-        assert_eq!(samples[0].ns, [[10 * rays as u64; 5], [20 * rays as u64; 5]].concat());
-        assert!(samples[0].same_answers);
-
-        let other = Mock { right: 8, ..bench.mock('a', 20, whole) };
-        take(&bench.clock, &mut [Box::new(other) as _], &[0], &plan(2), &mut samples, &mut |_| {}).unwrap();
-        assert!(!samples[0].same_answers && samples[0].checksum == 7 && samples[0].ns.len() == 15);
+        let checksum = |right: u64, epoch: usize| {
+            let mut cases: [Box<dyn Timed>; 1] = [Box::new(Mock { right, ..bench.mock('a', 10, whole) })];
+            let samples = bench.take(&mut cases, &Plan { most_rays: 16_384, epoch, ..PLAN }).unwrap();
+            assert_eq!((samples[0].rays, samples[0].asked, samples[0].ns.len()), (rays, asked, 5));
+            samples[0].checksum
+        };
+        assert_eq!([(7, 0), (7, 1), (8, 2)].map(|(right, epoch)| checksum(right, epoch)), [7, 7, 8]);
     }
+}
+
+#[test]
+fn a_case_of_unknown_cost_takes_as_many_rays_as_its_clock_says_that_it_can() {
+    let bench = Bench::new();
+    let level = |ns: u64, from: usize, most_ns: u64| {
+        let watch = Stopwatch::new(&bench.clock);
+        rays_at(65_536, level_by_clock(&watch, &mut bench.mock('a', ns, 65_536), from, most_ns))
+    };
+    // 65,536 rays of 100 ns take 9 ms with what is asked beside them.
+    assert_eq!(level(100, 0, 10_000_000), 65_536);
+    assert_eq!(level(100, 0, 9_000_000), 16_384);
+    assert_eq!(level(100, 2, 9_000_000), 4096);
+    assert_eq!(level(100_000, 0, 9_000_000), 64);
+    assert_eq!(level(100_000_000, 0, 9_000_000), 64);
 }

@@ -16,7 +16,7 @@ pub fn section(runs: &Runs, missing: Vec<Block>) -> Section {
     });
     let mut files = Table::of_texts(
         "Files that this report was made from, oldest first",
-        ["file", "holds", "made by", "left out"],
+        ["file or folder", "holds", "made by", "left out"],
         sources.collect(),
     );
     files.notes.push(
@@ -26,6 +26,7 @@ pub fn section(runs: &Runs, missing: Vec<Block>) -> Section {
     );
     let mut blocks = vec![Block::table(files, ""), Block::table(machines(&runs.provenances()), "")];
     blocks.extend(warnings(&runs.provenances()).map(|table| Block::table(table, "")));
+    blocks.extend(runs.notes.iter().map(|note| Block::Note(note.clone())));
     if !missing.is_empty() {
         blocks.push(Block::Fold(format!("Not measured: {}", plural(missing.len(), "part")), missing));
     }

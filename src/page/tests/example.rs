@@ -11,8 +11,8 @@ use crate::report::inspector::{Answer, InspectedHit, InspectedRay, InspectedStru
 use crate::report::plot::{Chart, Curves, Line, Mark};
 use crate::report::{Record, Table, example_record, to_json};
 use crate::study::epoch::{Epoch, tests as epoch};
-use crate::study::journal::Header;
-use crate::study::{Studies, attribution};
+use crate::study::journal::{self, Header};
+use crate::study::{Studies, attribution as study};
 
 pub fn provenance(command: &str) -> Provenance {
     Provenance {
@@ -52,8 +52,11 @@ pub fn records_of(scene: &str) -> Vec<Record> {
         .collect()
 }
 
+/// Files by their paths in a folder.
+pub type Files = Vec<(String, Vec<u8>)>;
+
 /// A journal with one scene.
-pub fn accuracy(scene: &str) -> Vec<u8> {
+pub fn accuracy(scene: &str) -> Files {
     let of = |(label, ns, error): (&str, f64, f64)| {
         serde_json::json!({
             "schema": 1, "scene": scene, "scene_hash": "aa", "triangles": 12, "stand_in": false, "structure": "sah-kd", "label": label,
@@ -68,24 +71,24 @@ pub fn accuracy(scene: &str) -> Vec<u8> {
     journal("accuracy", vec![serde_json::json!({ "records": records, "refused": [], "note": null })])
 }
 
-/// A journal with one epoch of a scene.
-pub fn attribution_journal(scene: &str) -> String {
-    let epochs = attribution::tests::cases(2, 0.0).into_iter().map(|epoch| Epoch { scene: scene.into(), ..epoch });
-    String::from_utf8(journal("attribution", epochs.map(|epoch| serde_json::to_value(epoch).unwrap()).collect()))
-        .unwrap()
+/// A journal with two epochs of a scene.
+pub fn attribution(scene: &str) -> Files {
+    let epochs = study::tests::cases(2, 0.0).into_iter().map(|epoch| Epoch { scene: scene.into(), ..epoch });
+    journal("attribution", epochs.map(|epoch| serde_json::to_value(epoch).unwrap()).collect())
 }
 
-/// The text of a journal.
-fn journal(study: &str, cases: Vec<serde_json::Value>) -> Vec<u8> {
-    let header = serde_json::json!({
-        "schema": Header::SCHEMA, "study": study, "settings": { "seed": 1 }, "provenance": provenance(&format!("sahara study {study}"))
-    });
-    let lines = cases.iter().enumerate().map(|(i, case)| serde_json::json!({ "key": i.to_string(), "case": case }));
-    std::iter::once(header).chain(lines).map(|line| format!("{line}\n")).collect::<String>().into_bytes()
+/// The files of a journal.
+fn journal(study: &str, cases: Vec<serde_json::Value>) -> Files {
+    let header = Header::new(study, &serde_json::json!({ "seed": 1 }), provenance(&format!("sahara study {study}")));
+    let file = |(i, case): (usize, serde_json::Value)| {
+        let key = i.to_string();
+        (format!("{study}/{}", journal::file_name(&key)), journal::text(&header, &key, &case).into_bytes())
+    };
+    cases.into_iter().enumerate().map(file).collect()
 }
 
 /// Journals of the studies of curves.
-fn curves(scene: &str) -> [(&'static str, Vec<u8>); 4] {
+fn curves(scene: &str) -> Files {
     let epoch = |triangles: usize, number: usize| {
         let ns: [&[u64]; 3] = [&[90_000, 91_000], &[40_000, 41_000], &[30_000, 30_500]];
         let structures = [("median-kd", 1000, ns[0]), ("sah-kd", 5000, ns[1]), ("obvhs-bvh2", 9000, ns[2])];
@@ -95,32 +98,31 @@ fn curves(scene: &str) -> [(&'static str, Vec<u8>); 4] {
     let epochs: Vec<Epoch> = [20, 320, 5120].iter().flat_map(|&n| [epoch(n, 0), epoch(n, 1)]).collect();
     let json = |epoch: &Epoch| serde_json::to_value(epoch).unwrap();
     let depth = |epoch: &Epoch| serde_json::json!([["primary", (epoch.triangles as f64).log2()]]);
+    let spheres = |epoch: &Epoch| serde_json::json!({ "family": "spheres", "epoch": epoch });
+    let members =
+        |epoch: &Epoch| serde_json::json!({ "layers": epoch.triangles, "complexity": depth(epoch), "epoch": epoch });
     [
-        (
-            "scaling.jsonl",
-            journal("scaling", epochs.iter().map(|e| serde_json::json!({ "family": "spheres", "epoch": e })).collect()),
-        ),
-        ("break-even.jsonl", journal("break-even", epochs.iter().map(json).collect())),
-        ("costs.jsonl", journal("costs", epochs.iter().map(json).collect())),
-        (
-            "crossover.jsonl",
-            journal(
-                "crossover",
-                epochs
-                    .iter()
-                    .map(|e| serde_json::json!({ "layers": e.triangles, "complexity": depth(e), "epoch": e }))
-                    .collect(),
-            ),
-        ),
+        journal("scaling", epochs.iter().map(spheres).collect()),
+        journal("break-even", epochs.iter().map(json).collect()),
+        journal("costs", epochs.iter().map(json).collect()),
+        journal("crossover", epochs.iter().map(members).collect()),
     ]
+    .concat()
 }
 
-pub fn runs_folder(files: &[(&str, Vec<u8>)]) -> tempfile::TempDir {
+pub fn runs_folder<N: AsRef<str>>(files: &[(N, Vec<u8>)]) -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     for (name, bytes) in files {
-        fs::write(folder.path().join(name), bytes).unwrap();
+        let path = folder.path().join(name.as_ref());
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, bytes).unwrap();
     }
     folder
+}
+
+/// The records of a comparison in a file.
+pub fn exported(records: &[Record]) -> Files {
+    vec![("compare.json".into(), to_json(&records))]
 }
 
 /// Why paths cannot be read.
@@ -160,12 +162,8 @@ fn inspector(scene: &str) -> Inspector {
 
 /// Everything there is, from a scene called `scene`.
 pub fn whole(scene: &str) -> (Document, Runs) {
-    let files = [
-        ("compare.json", to_json(&records_of(scene))),
-        ("accuracy.jsonl", accuracy(scene)),
-        ("attribution.jsonl", attribution_journal(scene).into_bytes()),
-    ];
-    let runs = read(runs_folder(&[&files[..], &curves(scene)].concat()).path());
+    let files = [exported(&records_of(scene)), accuracy(scene), attribution(scene), curves(scene)].concat();
+    let runs = read(runs_folder(&files).path());
     let thumbnail = |name: &str| Thumbnail {
         name: name.into(),
         note: "12 triangles".into(),

@@ -131,8 +131,8 @@ fn one_machine_has_no_such_section_and_replaces_its_own_runs_alone() {
 #[test]
 fn a_study_of_another_machine_says_so() {
     let files = |cpu: &str| {
-        let compared = to_json(&on(cpu, 1.0, records_of("Cube")));
-        read(runs_folder(&[("compare.json", compared), ("accuracy.jsonl", accuracy("Cube"))]).path())
+        let files = [exported(&on(cpu, 1.0, records_of("Cube"))), accuracy("Cube")].concat();
+        read(runs_folder(&files).path())
     };
     let says = |runs: &Runs| page(&document(runs, vec![])).contains("Measured on a processor, ");
     assert!(says(&files("Other")) && !says(&files("a processor")));

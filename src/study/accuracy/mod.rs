@@ -12,9 +12,8 @@ mod table;
 #[cfg(test)]
 mod tests;
 
-use std::borrow::Cow;
-
 use super::built::Built;
+use super::ray_cost::picoseconds;
 use super::timing::{Case, Timing};
 use super::{PANICKED, Refused, Stage, StudyError, guarded};
 use crate::accel::{BuildError, Query};
@@ -149,12 +148,13 @@ fn time(
     clock: &dyn Clock,
     progress: &mut dyn FnMut(Stage),
 ) -> Result<Vec<Samples>, StudyError> {
-    // Besides its samples a workload has a pass that learns how slow it is, and lead-ins.
-    let of_all = settings.budget_ns / (workloads.len() * (settings.runs + 2)).max(1) as u64;
-    let panicked =
-        |built: &Built| StudyError::Panicked { structure: built.choice.label.clone(), scene: scene.name.clone() };
-    for workload in &mut workloads {
-        workload.rays = common(built, &workload.rays, clock, of_all).map_err(panicked)?;
+    // Besides its samples a workload has lead-ins.
+    let of_all = settings.budget_ns / (workloads.len() * (settings.runs + 1)).max(1) as u64;
+    let mut cases = Case::all(built.len(), workloads.len());
+    cases.sort_by_key(|case| case.workload);
+    let costs = picoseconds(&cases, built, &workloads);
+    for (workload, costs) in workloads.iter_mut().zip(costs.chunks(built.len().max(1))) {
+        workload.rays = common(&workload.rays, costs, of_all);
     }
     let plan = Plan {
         runs: settings.runs,
@@ -164,40 +164,32 @@ fn time(
         seed: settings.seed,
         epoch: 0,
     };
-    let mut cases = Case::all(built.len(), workloads.len());
-    cases.sort_by_key(|case| case.workload);
-    let total = cases.len() * settings.runs;
     let timing = Timing { scene, built, workloads: &workloads, threads, clock };
-    let taken = timing.take(&cases, &plan, None, &mut |taken| progress(Stage::Trace(taken, total)))?;
+    let allotted = timing.allot(&cases, &plan);
+    let total = cases.len() * allotted.runs();
+    let taken = timing.take(&allotted, &|_| true, &plan, &mut |taken| progress(Stage::Trace(taken, total)))?;
+    let panicked =
+        |built: &Built| StudyError::Panicked { structure: built.choice.label.clone(), scene: scene.name.clone() };
     match taken.failures.iter().position(Option::is_some) {
         Some(case) => Err(panicked(&built[cases[case].structure])),
         None => Ok(taken.samples),
     }
 }
 
-/// Rays from which the speed of all structures is learnt.
-const PILOT: usize = 256;
+/// Rays that are timed at least.
+const FEWEST: usize = 256;
 
 /// Structures that are slower than this times the fastest do not decide how many rays are timed.
 const SLOW: u64 = 30;
 
-/// As many of the rays, evenly spread, as all structures together answer in `budget_ns`: rays differ so much in what
-/// they cost that only times on the same ones can be compared.
-fn common<'a>(built: &'a [Built], rays: &[Ray], clock: &dyn Clock, budget_ns: u64) -> Result<Vec<Ray>, &'a Built> {
-    let pilot = spread(rays, PILOT);
-    let mut hits = vec![None; pilot.len()];
-    let mut pass = |built: &'a Built| {
-        let loaded = built.accel.load(Cow::Borrowed(&pilot));
-        let start = clock.now_ns();
-        guarded(|| loaded.closest_hits(&mut hits)).ok_or(built)?;
-        Ok((clock.now_ns() - start).max(1))
-    };
-    // The first pass finds cold caches.
-    let ns = built.iter().map(|built| Ok(pass(built)?.min(pass(built)?))).collect::<Result<Vec<u64>, &Built>>()?;
-    let fastest = ns.iter().copied().min().unwrap_or(1);
-    let together: u64 = ns.iter().filter(|&&ns| ns <= SLOW * fastest).sum();
-    let count = pilot.len() as u128 * u128::from(budget_ns) / u128::from(together.max(1));
-    Ok(spread(rays, count.clamp(pilot.len() as u128, rays.len() as u128) as usize))
+/// As many of the rays, evenly spread, as all structures together answer in `budget_ns`, one of which takes them so many picoseconds:
+/// rays differ so much in what they cost that only times on the same ones can be compared.
+fn common(rays: &[Ray], costs: &[u64], budget_ns: u64) -> Vec<Ray> {
+    let fastest = costs.iter().copied().min().unwrap_or(1);
+    let together: u64 = costs.iter().filter(|&&ps| ps <= SLOW * fastest).sum();
+    let count = u128::from(budget_ns) * 1000 / u128::from(together.max(1));
+    let fewest = FEWEST.min(rays.len()) as u128;
+    spread(rays, count.clamp(fewest, rays.len() as u128) as usize)
 }
 
 #[allow(clippy::too_many_arguments)]

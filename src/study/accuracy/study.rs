@@ -136,7 +136,7 @@ impl Study for AccuracyStudy {
         let threads = Threads::pinned(1).map_err(anyhow::Error::msg)?;
         let (is_default, runs, seed) = (args.structure.is_empty(), args.runs.into(), args.seed);
         let budget_ns = u64::from(args.budget) * 1_000_000_000;
-        let measure: Measure<JudgedScene> = Box::new(move |case, _, clock, progress| {
+        let measure: Measure<JudgedScene> = Box::new(move |case, clock, progress| {
             let scene = &scenes[case.scene];
             let (choices, note) = fitting(&choices, scene, is_default);
             let (kinds, replayed) = (kinds.clone(), replayed.clone());
@@ -145,6 +145,10 @@ impl Study for AccuracyStudy {
             Ok(JudgedScene { records, refused, note })
         });
         Ok(Plan { notes, inputs, ..Plan::of_scenes(&kept, threads, titles, measure) })
+    }
+
+    fn named(args: &mut Self::Args) -> Option<&mut Vec<String>> {
+        Some(&mut args.scenes.scenes)
     }
 
     fn answer(cases: &[JudgedScene], _: &Context<Self>) -> Vec<AccuracyRecord> {

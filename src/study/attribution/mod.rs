@@ -60,6 +60,7 @@ impl Study for AttributionStudy {
     const NAME: &'static str = "attribution";
     const QUESTION: &'static str =
         "What of the SAH tree's speed is due to the stop rule, what to the plane and what to the traversal?";
+    const WHOLE: bool = true;
 
     type Args = AttributionArgs;
     type Case = Epoch;
@@ -75,7 +76,15 @@ impl Study for AttributionStudy {
         sources::known_tests(registry, std::slice::from_ref(&args.test))?;
         let asked = Asked::Kinds(vec![args.workload], args.rays);
         let settings = args.measuring.settings(registry, structures(registry, &args.test)?, asked)?;
-        plan_on(&args.scenes, |scenes| settings.plan_of_whole(scenes, args.measuring.epochs))
+        plan_on(&args.scenes, |scenes| settings.plan(scenes, args.measuring.epochs))
+    }
+
+    fn named(args: &mut Self::Args) -> Option<&mut Vec<String>> {
+        Some(&mut args.scenes.named.scenes)
+    }
+
+    fn epoch(case: &mut Epoch) -> Option<(&mut Epoch, usize)> {
+        Some((case, 0))
     }
 
     fn answer(cases: &[Epoch], _: &Context<Self>) -> Vec<Attribution> {

@@ -43,6 +43,14 @@ impl Study for BreakEvenStudy {
         args.plan(registry, &STRUCTURES, &[WorkloadKind::Primary, WorkloadKind::Diffuse])
     }
 
+    fn named(args: &mut EpochArgs) -> Option<&mut Vec<String>> {
+        Some(args.scenes())
+    }
+
+    fn epoch(case: &mut Epoch) -> Option<(&mut Epoch, usize)> {
+        Some((case, 0))
+    }
+
     fn answer(cases: &[Epoch], _: &Context<Self>) -> Vec<Market> {
         result(cases)
     }

@@ -197,7 +197,7 @@ impl Study for CompareStudy {
         let notes: Vec<String> = scenes.iter().filter(|scene| is_large(scene)).map(left_out).collect();
         let settings = vec![settings, of_large];
         let which = move |scene: &Scene| usize::from(is_large(scene));
-        let plan = epoch::plan(settings, which, scenes, epochs, |_, _, epoch| Ok(epoch), |epoch| epoch);
+        let plan = epoch::plan(settings, which, scenes, epochs, |_, _, epoch| Ok(epoch));
         let mut plan = Plan { inputs, ..plan.scene_by_scene() };
         plan.notes.extend(notes);
         if args.quick {
@@ -207,6 +207,14 @@ impl Study for CompareStudy {
             );
         }
         Ok(plan)
+    }
+
+    fn named(args: &mut Self::Args) -> Option<&mut Vec<String>> {
+        Some(&mut args.scenes.scenes)
+    }
+
+    fn epoch(case: &mut Epoch) -> Option<(&mut Epoch, usize)> {
+        Some((case, 0))
     }
 
     fn answer(cases: &[Epoch], context: &Context<Self>) -> Compared {

@@ -61,6 +61,14 @@ impl Study for CostsStudy {
         args.plan(registry, &STRUCTURES, &WORKLOADS)
     }
 
+    fn named(args: &mut EpochArgs) -> Option<&mut Vec<String>> {
+        Some(args.scenes())
+    }
+
+    fn epoch(case: &mut Epoch) -> Option<(&mut Epoch, usize)> {
+        Some((case, 0))
+    }
+
     fn answer(cases: &[Epoch], _: &Context<Self>) -> Vec<Family> {
         result(cases)
     }

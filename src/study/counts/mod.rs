@@ -124,8 +124,12 @@ impl Study for CountsStudy {
         let leaves_out = |scene: &&Scene| settings.of(scene).count() < settings.structures.len();
         notes.extend(scenes.iter().filter(leaves_out).map(left_out));
         let measure: Measure<Counts> =
-            Box::new(move |case, _, _, progress| count_scene(&scenes[case.scene], &settings, progress));
+            Box::new(move |case, _, progress| count_scene(&scenes[case.scene], &settings, progress));
         Ok(Plan { notes, warnings, inputs: args.scenes.files(), ..Plan::of_scenes(&kept, threads, names, measure) })
+    }
+
+    fn named(args: &mut Self::Args) -> Option<&mut Vec<String>> {
+        Some(&mut args.scenes.scenes)
     }
 
     fn answer(cases: &[Counts], context: &Context<Self>) -> Counts {

@@ -115,7 +115,11 @@ impl Study for CrossoverStudy {
             let complexity = workloads.into_iter().filter_map(of).collect();
             Ok(MemberEpoch { layers: roots[number] * roots[number], complexity, epoch })
         };
-        Ok(settings.plan_of(scenes, args.measuring.epochs, wrap, |case| &case.epoch))
+        Ok(settings.plan_of(scenes, args.measuring.epochs, wrap))
+    }
+
+    fn epoch(case: &mut MemberEpoch) -> Option<(&mut Epoch, usize)> {
+        Some((&mut case.epoch, 0))
     }
 
     fn answer(cases: &[MemberEpoch], _: &Context<Self>) -> Vec<Race> {

@@ -3,8 +3,7 @@
 use super::watch::Watch;
 use super::{Circumstances, Epoch, RayCounts, RayDetails, Rays, Settings, Shape, Structure, StructureDetails};
 use crate::accel::{DynAccel, Remote};
-use crate::measure::tiles::level_of;
-use crate::measure::{Clock, Part, Plan, Samples, spread};
+use crate::measure::{Clock, Plan, spread};
 use crate::report::CaseCounts;
 use crate::scene::{Scene, Workload};
 use crate::study::built::Built;
@@ -14,9 +13,9 @@ use crate::study::placed::Placed;
 use crate::study::timing::{Case, Taken, Timing};
 use crate::study::{PANICKED, Stage, StudyError};
 
-/// Builds all structures, checks and counts them if this is the first epoch, and takes their samples. A later epoch needs the
-/// `first` one: what took part then is timed on the same rays, and must give the same answers. What cannot be built or panics is
-/// refused, what answers wrongly gets no time; the others go on.
+/// Builds all structures, checks and counts them if this is the first epoch, and takes their samples. No epoch needs another: what
+/// they owe each other is found when they are [joined](super::join). What cannot be built or panics is refused, what answers wrongly
+/// gets no time; the others go on.
 ///
 /// # Errors
 /// If the guide cannot be built, or a structure answers the same rays differently.
@@ -24,17 +23,15 @@ pub fn measure(
     scene: &Scene,
     settings: &Settings,
     epoch: usize,
-    first: Option<&Epoch>,
     clock: &dyn Clock,
     progress: &mut dyn FnMut(Stage),
 ) -> Result<Epoch, StudyError> {
-    let mut bench = Bench::set_up(scene, settings, epoch, first, clock, progress)?;
-    match first {
-        None => bench.check(progress)?,
-        Some(first) => bench.resume(first)?,
+    let mut bench = Bench::set_up(scene, settings, epoch, clock, progress)?;
+    if epoch == 0 {
+        bench.check(progress)?;
     }
-    let circumstances = bench.sample(epoch, first, clock, progress)?;
-    if first.is_none() {
+    let circumstances = bench.sample(epoch, clock, progress)?;
+    if epoch == 0 {
         bench.count();
     }
     Ok(Epoch {
@@ -54,8 +51,6 @@ struct Bench<'a> {
     scene: &'a Scene,
     settings: &'a Settings,
     workloads: Vec<Workload>,
-    /// Of each workload.
-    hashes: Vec<String>,
     /// All structures asked for, and what is known of them.
     structures: Vec<Structure>,
     /// Those that could be built.
@@ -72,20 +67,16 @@ impl<'a> Bench<'a> {
         scene: &'a Scene,
         settings: &'a Settings,
         epoch: usize,
-        first: Option<&Epoch>,
         clock: &dyn Clock,
         progress: &mut dyn FnMut(Stage),
     ) -> Result<Self, StudyError> {
         let Settings { structures: choices, threads, seed, .. } = settings;
         let detailed = settings.detailed && epoch == 0;
         let seed = seed.wrapping_add(epoch as u64);
-        // What was refused in the first epoch would take its time to be refused again.
-        let is_refused = |place: usize| first.is_some_and(|first| first.structures[place].refused.is_some());
-        let asked = || choices.iter().enumerate().filter(|(place, _)| !is_refused(*place)).map(|(_, choice)| choice);
-        let mut placed = Placed::new(asked(), scene, threads, clock, seed, detailed, progress);
+        let mut placed = Placed::new(choices, scene, threads, clock, seed, detailed, progress);
         let mut ready = placed.built.drain(..);
         let (mut structures, mut built, mut places) = (vec![], vec![], vec![]);
-        for (place, choice) in choices.iter().enumerate() {
+        for choice in choices {
             let (label, name) = (choice.label.clone(), choice.entry.name.clone());
             let shape = Shape::default();
             let none = Structure {
@@ -98,10 +89,6 @@ impl<'a> Bench<'a> {
                 rays: vec![],
                 details: None,
             };
-            if is_refused(place) {
-                structures.push(none);
-                continue;
-            }
             match ready.next().expect("as many as are asked for") {
                 Ok(one) => {
                     places.push(structures.len());
@@ -134,125 +121,77 @@ impl<'a> Bench<'a> {
             }
         };
         let workloads = settings.asked.workloads(scene, settings.seed, guide, progress);
-        let hashes = workloads.iter().map(Workload::hash).collect();
-        Ok(Self { scene, settings, workloads, hashes, structures, built, places, _placed: placed })
+        let hashes: Vec<String> = workloads.iter().map(Workload::hash).collect();
+        for (&place, built) in places.iter().zip(&built) {
+            let asked = |(workload, hash): (&Workload, &String)| asked(built, workload, hash, detailed);
+            let structure: &mut Structure = &mut structures[place];
+            structure.rays = workloads.iter().zip(&hashes).map(asked).collect();
+        }
+        Ok(Self { scene, settings, workloads, structures, built, places, _placed: placed })
     }
 
-    /// Holds all structures against brute force, and says which are timed on which rays.
+    /// Holds all structures against brute force, and says which have no time for it.
     fn check(&mut self, progress: &mut dyn FnMut(Stage)) -> Result<(), StudyError> {
         let checks = check_all(self.scene, &self.built, &self.workloads, progress)?;
         for ((&place, built), checks) in self.places.iter().zip(&self.built).zip(checks) {
             let failure = built.accel.remote().and_then(Remote::failure);
+            let structure = &mut self.structures[place];
             let Some(checks) = checks.filter(|_| failure.is_none()) else {
-                self.structures[place].refused = failure.or(Some(PANICKED.into()));
+                structure.refused = Some(failure.unwrap_or_else(|| PANICKED.into()));
+                structure.rays.clear();
                 continue;
             };
-            for ((workload, hash), check) in self.workloads.iter().zip(&self.hashes).zip(checks) {
-                let what = declined(built.accel.as_ref(), workload);
-                let declined = what.map(|what| format!("declined: it has no {what}"));
-                let details = self.settings.detailed.then(|| RayDetails {
-                    checked: check.rays,
-                    errors: check.errors,
-                    declined: what.map(String::from),
-                    ..RayDetails::default()
-                });
-                let wrong =
-                    (check.errors > 0).then(|| format!("{} wrong answers to {} rays", check.errors, check.rays));
-                self.structures[place].rays.push(Rays {
-                    workload: workload.name.clone(),
-                    hash: hash.clone(),
-                    query: workload.query,
-                    all: workload.rays.len(),
-                    rays: 0,
-                    checksum: 0,
-                    ns: vec![],
-                    parts: vec![],
-                    wrong: declined.is_none() && wrong.is_some(),
-                    untimed: declined.or(wrong),
-                    counts: None,
-                    details,
-                });
+            for (rays, check) in structure.rays.iter_mut().zip(checks) {
+                if let Some(details) = &mut rays.details {
+                    (details.checked, details.errors) = (check.rays, check.errors);
+                }
+                rays.wrong = rays.untimed.is_none() && check.errors > 0;
+                if rays.wrong {
+                    rays.untimed = Some(format!("{} wrong answers to {} rays", check.errors, check.rays));
+                }
             }
         }
         Ok(())
     }
 
-    /// Takes over what was found in the first epoch, if it was of these rays.
-    fn resume(&mut self, first: &Epoch) -> Result<(), StudyError> {
-        let same = |rays: &[Rays]| {
-            let timed = |rays: &Rays| {
-                let mut parts = std::iter::once(rays.rays).chain(rays.parts.iter().map(|part| part.rays));
-                rays.untimed.is_some() || parts.all(|part| level_of(rays.all, part).is_some())
-            };
-            rays.iter().map(|rays| &rays.hash).eq(&self.hashes) && rays.iter().all(timed)
-        };
-        // By place: twins have one label.
-        for (structure, before) in self.structures.iter_mut().zip(&first.structures) {
-            if before.refused.is_none() && !same(&before.rays) {
-                let (structure, scene) = (structure.label.clone(), self.scene.name.clone());
-                return Err(StudyError::Changed { structure, scene });
-            }
-            structure.refused = structure.refused.take().or_else(|| before.refused.clone());
-            let again = |rays: &Rays| Rays { ns: vec![], counts: None, details: None, ..rays.clone() };
-            structure.rays = before.rays.iter().map(again).collect();
-        }
-        Ok(())
-    }
-
-    /// What is timed: structures by their numbers among those built.
-    fn cases(&self) -> Vec<Case> {
-        let mut cases = Case::all(self.built.len(), self.workloads.len());
-        cases.retain(|case| {
-            let structure = &self.structures[self.places[case.structure]];
-            structure.refused.is_none() && structure.rays[case.workload].untimed.is_none()
-        });
-        cases
-    }
-
-    /// Takes the samples of everything that is timed; of as many rays as `before`.
+    /// Takes the samples of everything that is timed. How much of it is decided by all that is asked, whether right or wrong: an epoch
+    /// that checks nothing decides the same.
     fn sample(
         &mut self,
         epoch: usize,
-        before: Option<&Epoch>,
         clock: &dyn Clock,
         progress: &mut dyn FnMut(Stage),
     ) -> Result<Circumstances, StudyError> {
-        let cases = self.cases();
         let Settings { asked, runs, budget_ns, slowest, seed, threads, .. } = self.settings;
-        let rays_of = |case: &Case| &self.structures[self.places[case.structure]].rays[case.workload];
-        let runs = before.map_or(*runs, Epoch::runs);
-        let (budget_ns, slowest, most_rays) = (*budget_ns, *slowest, asked.rays());
+        let (runs, budget_ns, slowest, most_rays) = (*runs, *budget_ns, *slowest, asked.rays());
         let plan = Plan { runs, budget_ns, slowest, most_rays, seed: *seed, epoch };
-        let samples = before.map(|_| {
-            let none = |case: &Case| {
-                let Rays { rays, checksum, ref parts, .. } = *rays_of(case);
-                let parts = parts.iter().map(|part| Part { ns: vec![], ..part.clone() }).collect();
-                Samples { checksum, parts, ..Samples::none(rays) }
-            };
-            cases.iter().map(none).collect()
-        });
-        let total = cases.len() * runs;
-        let mut told = |taken| progress(Stage::Trace(taken, total));
         let timing = Timing { scene: self.scene, built: &self.built, workloads: &self.workloads, threads, clock };
+        let mut asked = Case::all(self.built.len(), self.workloads.len());
+        asked.retain(|case| {
+            declined(self.built[case.structure].accel.as_ref(), &self.workloads[case.workload]).is_none()
+        });
+        let allotted = timing.allot(&asked, &plan);
+
+        let is_timed = |case: &Case| {
+            let structure = &self.structures[self.places[case.structure]];
+            structure.refused.is_none() && structure.rays[case.workload].untimed.is_none()
+        };
+        let cases: Vec<Case> = asked.into_iter().filter(is_timed).collect();
+        let total = cases.len() * allotted.runs();
+        let mut told = |taken| progress(Stage::Trace(taken, total));
         let _pin = threads.pin();
         let watch = Watch::start(clock, threads.cores().map_or(0, |cores| cores[0]));
-        let Taken { samples, failures } = timing.take(&cases, &plan, samples, &mut told)?;
+        let Taken { samples, failures } = timing.take(&allotted, &is_timed, &plan, &mut told)?;
         let circumstances = watch.end(clock);
 
         for ((case, samples), failure) in cases.iter().zip(samples).zip(failures) {
             let structure = &mut self.structures[self.places[case.structure]];
-            let remote = self.built[case.structure].accel.remote();
-            let changed = || remote.filter(|_| !samples.same_answers).map(|_| CHANGED.into());
-            if let Some(why) = failure.or_else(changed) {
-                structure.refused = Some(why);
+            if failure.is_some() {
+                structure.refused = failure;
                 continue;
             }
-            structure.outside = remote.and_then(Remote::outside);
+            structure.outside = self.built[case.structure].accel.remote().and_then(Remote::outside);
             let rays = &mut structure.rays[case.workload];
-            if !samples.same_answers {
-                let (structure, scene) = (structure.label.clone(), self.scene.name.clone());
-                return Err(StudyError::Changed { structure, scene });
-            }
             (rays.rays, rays.checksum) = (samples.rays, samples.checksum);
             (rays.ns, rays.parts) = (samples.ns, samples.parts);
         }
@@ -282,8 +221,24 @@ impl<'a> Bench<'a> {
     }
 }
 
-/// Said of a program that answers otherwise once it is started again.
-const CHANGED: &str = "built again, it gives other answers than before: its times cannot be compared";
+/// What a structure is asked, before it is.
+fn asked(built: &Built, workload: &Workload, hash: &str, detailed: bool) -> Rays {
+    let declined = declined(built.accel.as_ref(), workload);
+    Rays {
+        workload: workload.name.clone(),
+        hash: hash.into(),
+        query: workload.query,
+        all: workload.rays.len(),
+        rays: 0,
+        checksum: 0,
+        ns: vec![],
+        parts: vec![],
+        untimed: declined.map(|what| format!("declined: it has no {what}")),
+        wrong: false,
+        counts: None,
+        details: detailed.then(|| RayDetails { declined: declined.map(String::from), ..RayDetails::default() }),
+    }
+}
 
 /// Keeps what was counted in a pass that is not timed, and what the processor counts.
 fn keep(counted: &Counted, accel: &dyn DynAccel, workload: &Workload, events: Option<&mut Events>, into: &mut Rays) {

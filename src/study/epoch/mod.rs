@@ -4,6 +4,7 @@
 //! A case of a journal is one epoch of one scene, so that a run that is killed loses one at most.
 
 mod asked;
+mod join;
 mod line;
 mod measure;
 mod plan;
@@ -25,6 +26,7 @@ use crate::report::words::scene_name;
 use crate::scene::Scene;
 
 pub use asked::{Asked, PICTURE};
+pub use join::{Joined, join};
 pub use line::{Line, Twins, lines, middles, scenes, twin_of, twins};
 pub use measure::measure;
 pub use plan::plan;
@@ -172,7 +174,7 @@ pub struct Rays {
     pub all: usize,
     /// Rays of a sample, fewer where the structure is slow.
     pub rays: usize,
-    /// Of the answers to these rays.
+    /// Of the answers to these rays, or to a few that another epoch is asked as well.
     pub checksum: u64,
     /// Nanoseconds of each sample; those of two structures with the same index are a pair. None where there is no time.
     pub ns: Vec<u64>,
@@ -182,7 +184,7 @@ pub struct Rays {
     pub untimed: Option<String>,
     /// Whether that is for wrong answers.
     pub wrong: bool,
-    /// Of the first epoch; they do not change.
+    /// Of epoch 0 alone; they do not change.
     pub counts: Option<RayCounts>,
     /// In a detailed first epoch.
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -9,23 +9,17 @@ use crate::study::{Plan, Planned, StudyError};
 impl Settings {
     /// A plan of so many epochs of `scenes`, whose cases are the epochs themselves.
     pub fn plan(self, scenes: Vec<Scene>, epochs: u16) -> Plan<Epoch> {
-        self.plan_of(scenes, epochs, |_, _, epoch| Ok(epoch), |epoch| epoch)
+        self.plan_of(scenes, epochs, |_, _, epoch| Ok(epoch))
     }
 
-    /// Likewise; a study that is nothing without all of its structures on all rays fails where one is missing.
-    pub fn plan_of_whole(self, scenes: Vec<Scene>, epochs: u16) -> Plan<Epoch> {
-        self.plan_of(scenes, epochs, |_, _, epoch| epoch.is_whole().map(|()| epoch), |epoch| epoch)
-    }
-
-    /// Likewise. `wrap` makes a case of the epoch of a scene, by the number of the scene; `unwrap` is its inverse.
+    /// Likewise. `wrap` makes a case of the epoch of a scene, by the number of the scene.
     pub fn plan_of<C: 'static>(
         self,
         scenes: Vec<Scene>,
         epochs: u16,
         wrap: impl Fn(usize, &Scene, Epoch) -> Result<C, StudyError> + 'static,
-        unwrap: fn(&C) -> &Epoch,
     ) -> Plan<C> {
-        plan(vec![self], |_| 0, scenes, epochs, wrap, unwrap)
+        plan(vec![self], |_| 0, scenes, epochs, wrap)
     }
 }
 
@@ -39,7 +33,6 @@ pub fn plan<C: 'static>(
     scenes: Vec<Scene>,
     epochs: u16,
     wrap: impl Fn(usize, &Scene, Epoch) -> Result<C, StudyError> + 'static,
-    unwrap: fn(&C) -> &Epoch,
 ) -> Plan<C> {
     let mut cases = vec![];
     for epoch in 0..usize::from(epochs) {
@@ -62,11 +55,9 @@ pub fn plan<C: 'static>(
         warnings,
         inputs: vec![],
         cases,
-        measure: Box::new(move |&Planned { scene: number, epoch, .. }, first, clock, progress| {
+        measure: Box::new(move |&Planned { scene: number, epoch, .. }, clock, progress| {
             let scene = &scenes[number];
-            let settings = &settings[which(scene)];
-            let first = first.filter(|_| epoch > 0).map(unwrap);
-            wrap(number, scene, measure(scene, settings, epoch, first, clock, progress)?)
+            wrap(number, scene, measure(scene, &settings[which(scene)], epoch, clock, progress)?)
         }),
     }
 }

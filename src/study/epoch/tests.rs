@@ -69,11 +69,11 @@ fn settings(structures: &[&str]) -> Settings {
 }
 
 #[test]
-fn a_second_epoch_asks_the_same_rays_and_counts_nothing_again() {
+fn epochs_measured_in_any_order_ask_the_same_rays_and_the_first_alone_is_counted() {
     let scene = Builtin::find("torus").unwrap().scene(None).unwrap();
     let (settings, clock) = (settings(&["median-kd", "sah-bvh"]), SystemClock::start());
-    let first = measure(&scene, &settings, 0, None, &clock, &mut |_| ()).unwrap();
-    let second = measure(&scene, &settings, 1, Some(&first), &clock, &mut |_| ()).unwrap();
+    let second = measure(&scene, &settings, 1, &clock, &mut |_| ()).unwrap();
+    let first = measure(&scene, &settings, 0, &clock, &mut |_| ()).unwrap();
     assert_eq!((first.epoch, second.epoch, first.triangles), (0, 1, 2304));
     for (one, other) in first.structures.iter().zip(&second.structures) {
         assert_eq!((one.rays.len(), &one.label, &one.shape), (2, &other.label, &other.shape));
@@ -83,6 +83,8 @@ fn a_second_epoch_asks_the_same_rays_and_counts_nothing_again() {
             assert_eq!((one.all, &one.hash), (other.all, &other.hash));
         }
     }
+    let joined = join(vec![second.clone(), first.clone()], |epoch| Some((epoch, 0)), true);
+    assert_eq!(joined.cases, [second.clone(), first.clone()]);
     let lines = lines([&second, &first]);
     assert_eq!(lines.len(), 4);
     assert!(lines.iter().all(|line| line.trace.len() == 2 && line.trace[0].len() == 2 && line.tests.is_some()));

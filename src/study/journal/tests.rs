@@ -27,7 +27,7 @@ fn open(path: &Path) -> Result<Journal<Case>, JournalError> {
 
 /// A journal of `n` cases in a folder that is not there before.
 fn journal(folder: &tempfile::TempDir, n: u32) -> PathBuf {
-    let path = folder.path().join("runs/tiny.jsonl");
+    let path = folder.path().join("runs/tiny");
     let mut journal = open(&path).unwrap();
     for i in 0..n {
         journal.append(&format!("case {i}"), case(i)).unwrap();
@@ -47,134 +47,185 @@ fn sentence(error: JournalError, parts: &[&str]) {
     }
 }
 
+fn contents(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
+    let mut found: Vec<PathBuf> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    found.sort();
+    found.into_iter().map(|path| (path.clone(), fs::read(path).unwrap())).collect()
+}
+
 #[test]
 fn what_was_appended_is_there_when_opened_again() {
     let folder = folder();
     let path = journal(&folder, 3);
+    assert_eq!(contents(&path).len(), 3, "one file a case");
     let again = open(&path).unwrap();
-    assert_eq!(again.cases(), [case(0), case(1), case(2)]);
-    assert_eq!(again.get("case 1"), Some(&case(1)));
+    assert_eq!(["case 0", "case 1", "case 2"].map(|key| again.get(key).cloned()), [0, 1, 2].map(|i| Some(case(i))));
     assert_eq!(again.left(["case 2", "case 3"]), ["case 3"]);
-    drop(again);
-    let read = Journal::<Case>::read(&path, "tiny").unwrap();
-    assert_eq!((read.header, read.cases.len()), (header(5), 3));
 }
 
 #[test]
-fn a_journal_cut_anywhere_goes_on_with_its_whole_lines_and_ends_the_same() {
-    let folder = folder();
-    let path = journal(&folder, 3);
-    let whole = fs::read(&path).unwrap();
-    let near_an_end = |length: usize| whole[length.saturating_sub(2)..whole.len().min(length + 1)].contains(&b'\n');
-    for length in (0..=whole.len()).filter(|&length| length % 41 == 0 || near_an_end(length)) {
-        fs::write(&path, &whole[..length]).unwrap();
-        let lines = whole[..length].iter().filter(|&&byte| byte == b'\n').count();
-        let mut journal = open(&path).unwrap();
-        assert_eq!(journal.cases().len(), lines.saturating_sub(1), "cut to {length} bytes");
-        for i in 0..3 {
-            if journal.get(&format!("case {i}")).is_none() {
-                journal.append(&format!("case {i}"), case(i)).unwrap();
-            }
-        }
-        drop(journal);
-        assert_eq!(fs::read(&path).unwrap(), whole, "cut to {length} bytes");
+fn names_of_files_are_plain_and_of_one_key_alone() {
+    let keys = [
+        "Cube 0123 epoch 0",
+        "cube 0123 epoch 0",
+        "Cube 0123 epoch 00",
+        "r=10 @1e5",
+        "\u{fc}",
+        "",
+        "a b",
+        "a-b",
+        "a--b",
+    ];
+    let mut names: Vec<String> = keys.iter().map(|key| file_name(key)).collect();
+    assert!(names[0].starts_with("cube-0123-epoch-0-"), "{names:?}");
+    names.push(file_name(&"long ".repeat(100)));
+    for name in &names {
+        let case = name.strip_suffix(".json").unwrap();
+        assert!(case.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-'), "{name}");
+        assert!(!case.is_empty() && name.len() < 128, "{name}");
     }
+    let count = names.len();
+    names.sort();
+    names.dedup();
+    assert_eq!(names.len(), count);
 }
 
 #[test]
-fn a_reader_passes_over_a_line_that_is_being_written() {
+fn what_is_being_written_is_no_case() {
     let folder = folder();
     let path = journal(&folder, 2);
-    let whole = fs::read(&path).unwrap();
-    fs::write(&path, &whole[..whole.len() - 4]).unwrap();
-    assert_eq!(Journal::<Case>::read(&path, "tiny").unwrap().cases, [case(0)]);
+    fs::write(path.join(".sahara-1234.part"), b"{\"schema\":3,\"stu").unwrap();
+    assert_eq!(open(&path).unwrap().left(["case 0", "case 1", "case 2"]), ["case 2"]);
 }
 
 #[test]
 fn other_settings_are_refused_with_what_differs_and_the_way_out() {
     let folder = folder();
     let path = journal(&folder, 1);
+    let before = contents(&path);
     let other = Journal::<Case>::open(&path, header(7), false).unwrap_err();
-    sentence(other, &["tiny.jsonl", "runs was 5 and is 7", "--fresh", "--dir"]);
+    sentence(other, &["case-0", "runs was 5 and is 7", "--fresh", "--dir"]);
     let mut more = header(5);
     more.settings.insert("seed".into(), 1.into());
-    let more = Journal::<Case>::open(&path, more, false).unwrap_err();
-    sentence(more, &["seed was not there and is 1"]);
+    sentence(Journal::<Case>::open(&path, more, false).unwrap_err(), &["seed was not there and is 1"]);
     let mut study = header(5);
     study.study = "other".into();
-    let study = Journal::<Case>::open(&path, study, false).unwrap_err();
-    sentence(study, &["the study tiny, not of other"]);
-    sentence(Journal::<Case>::read(&path, "other").unwrap_err(), &["the study tiny, not of other"]);
+    sentence(Journal::<Case>::open(&path, study, false).unwrap_err(), &["the study tiny, not of other"]);
     // Nothing of this has changed the journal.
-    assert_eq!(open(&path).unwrap().cases().len(), 1);
-    assert_eq!(Journal::<Case>::open(&path, header(7), true).unwrap().cases().len(), 0);
+    assert_eq!(contents(&path), before);
+    assert_eq!(Journal::<Case>::open(&path, header(7), true).unwrap().left(["case 0"]), ["case 0"]);
+    assert!(contents(&path).is_empty());
 }
 
 #[test]
-fn another_build_may_read_a_journal_but_does_not_take_its_cases_for_its_own() {
+fn another_build_or_processor_is_refused_and_another_host_goes_on() {
     let folder = folder();
     let path = journal(&folder, 2);
-    let mut other = header(5);
-    other.provenance.commit = "decade".into();
-    let refused = Journal::<Case>::open(&path, other, false).unwrap_err();
-    sentence(refused, &["commit was c0ffee and is decade", "--fresh", "sahara report"]);
-    // The same commit with other changes to it, or with other flags.
-    let mut other = header(5);
-    other.provenance.build = "0123456789abcdef".into();
-    let refused = Journal::<Case>::open(&path, other, false).unwrap_err();
-    sentence(refused, &["build was ", " and is 0123456789abcdef", "--fresh"]);
-    assert_eq!(Journal::<Case>::read(&path, "tiny").unwrap().cases.len(), 2);
-    // The command line and the load of the machine are no reason.
-    let mut same = header(5);
-    same.provenance.command = "sahara study tiny --quiet".into();
-    Journal::open(&path, same, false).unwrap().append("case 2", case(2)).unwrap();
+    let with = |change: fn(&mut Provenance)| {
+        let mut other = header(5);
+        change(&mut other.provenance);
+        Journal::<Case>::open(&path, other, false)
+    };
+    sentence(with(|p| p.commit = "decade".into()).unwrap_err(), &["commit was c0ffee and is decade", "sahara report"]);
+    sentence(with(|p| p.build = "0123".into()).unwrap_err(), &["build was ", " and is 0123", "--fresh"]);
+    sentence(with(|p| p.cpu = "another".into()).unwrap_err(), &["cpu was ", " and is another", "--fresh"]);
+    // The command line, the load and the name of the machine are no reason.
+    let mut same = with(|p| (p.command, p.host) = ("sahara study tiny -q".into(), "node2".into())).unwrap();
+    same.append("case 2", case(2)).unwrap();
+    assert_eq!(open(&path).unwrap().left(["case 0", "case 1", "case 2"]), [""; 0]);
 }
 
 #[test]
-fn one_process_writes_at_a_time() {
+fn the_provenance_is_that_of_the_oldest_case() {
+    let folder = folder();
+    let path = folder.path().join("tiny");
+    for (key, date) in [("b", "2026-01-02T00:00:00Z"), ("a", "2026-01-03T00:00:00Z"), ("c", "2026-01-01T00:00:00Z")] {
+        let mut own = header(5);
+        own.provenance.date = date.into();
+        Journal::open(&path, own, false).unwrap().append(key, case(0)).unwrap();
+    }
+    assert_eq!(open(&path).unwrap().provenance().date, "2026-01-01T00:00:00Z");
+}
+
+#[test]
+fn of_two_writers_of_a_case_the_first_wins_and_both_go_on_with_it() {
     let folder = folder();
     let path = journal(&folder, 1);
-    let first = open(&path).unwrap();
-    sentence(open(&path).unwrap_err(), &["tiny.jsonl", "another sahara", "--dir"]);
-    // To throw it away is to write, too.
-    sentence(Journal::<Case>::open(&path, header(5), true).unwrap_err(), &["another sahara"]);
-    assert_eq!(Journal::<Case>::read(&path, "tiny").unwrap().cases.len(), 1);
-    drop(first);
-    open(&path).unwrap();
+    let [mut one, mut other] = [open(&path).unwrap(), open(&path).unwrap()];
+    one.append("case 1", case(1)).unwrap();
+    other.append("case 1", case(9)).unwrap();
+    assert_eq!((one.get("case 1"), other.get("case 1")), (Some(&case(1)), Some(&case(1))));
+    assert_eq!(contents(&path).len(), 2);
+    // Of other settings it is refused.
+    let mut third = Journal::<Case>::in_memory(header(7));
+    third.folder = Some(path);
+    sentence(third.append("case 1", case(1)).unwrap_err(), &["runs was 5 and is 7"]);
 }
 
 #[test]
-fn what_is_no_journal_is_left_alone() {
+fn what_is_no_case_is_left_alone() {
     let folder = folder();
-    let path = folder.path().join("notes.jsonl");
-    for text in ["my notes", "my notes\n", "{\"a\":1}\n", "{\"schema\":1,\"study\":\"tinyish"] {
-        fs::write(&path, text).unwrap();
-        sentence(open(&path).unwrap_err(), &["notes.jsonl", "not the journal of a study"]);
-        assert_eq!(fs::read_to_string(&path).unwrap(), text);
+    let path = journal(&folder, 0);
+    for (text, part) in [("my notes", "does not read"), ("{\"a\":1}", "not a case of a study"), ("[]", "not a case")] {
+        fs::write(path.join("notes.json"), text).unwrap();
+        sentence(open(&path).unwrap_err(), &["notes.json", part]);
+        assert_eq!(fs::read_to_string(path.join("notes.json")).unwrap(), text);
     }
-    sentence(open(folder.path()).unwrap_err(), &["it is no regular file"]);
-    sentence(open(&path.join("tiny.jsonl")).unwrap_err(), &["cannot write", "--dir"]);
-    sentence(
-        Journal::<Case>::read(&folder.path().join("none.jsonl"), "tiny").unwrap_err(),
-        &["cannot read", "none.jsonl"],
-    );
+    fs::write(path.join("notes.json"), "{\"schema\":2,\"study\":\"tiny\",\"settings\":{},\"provenance\":{}}").unwrap();
+    sentence(open(&path).unwrap_err(), &["version 2", "version 3", "--fresh"]);
+    sentence(open(&path.join("notes.json")).unwrap_err(), &["cannot write", "--dir"]);
 }
 
 #[test]
-fn damage_in_the_middle_is_named_by_its_line() {
+fn the_one_file_of_older_versions_is_one_sentence() {
     let folder = folder();
-    let path = journal(&folder, 3);
-    let text = fs::read_to_string(&path).unwrap();
-    let lines: Vec<&str> = text.lines().collect();
-    let write = |lines: &[&str]| fs::write(&path, lines.join("\n") + "\n").unwrap();
-    write(&[lines[0], lines[1], "{\"key\":\"case 1\",\"ca", lines[3]]);
-    sentence(open(&path).unwrap_err(), &["line 3 of", "tiny.jsonl", "remove that line"]);
-    write(&[lines[0], lines[1], "{\"key\":\"case 1\",\"case\":{\"times\":[]}}"]);
-    sentence(open(&path).unwrap_err(), &["line 3 of", "samples"]);
-    write(&[lines[0], lines[1], lines[1]]);
-    sentence(open(&path).unwrap_err(), &["line 3 of", "a second time"]);
-    write(&["{\"schema\":1,\"study\":\"tiny\"}"]);
-    sentence(open(&path).unwrap_err(), &["line 1 of", "settings"]);
+    let path = journal(&folder, 1);
+    fs::write(path.with_extension("jsonl"), "{\"schema\":2}\n").unwrap();
+    sentence(open(&path).unwrap_err(), &["tiny.jsonl is a journal of an older sahara", "--dir"]);
+    Journal::<Case>::open(&path, header(5), true).unwrap();
+    assert!(!path.with_extension("jsonl").exists());
+}
+
+#[test]
+fn a_case_in_two_files_is_refused_by_both_names() {
+    let folder = folder();
+    let path = journal(&folder, 1);
+    fs::copy(path.join(file_name("case 0")), path.join("again.json")).unwrap();
+    sentence(open(&path).unwrap_err(), &["again.json", "case-0", "the same case \"case 0\""]);
+}
+
+#[test]
+fn damage_is_named_with_what_is_wrong() {
+    let folder = folder();
+    let path = journal(&folder, 1);
+    let file = path.join(file_name("case 0"));
+    let text = fs::read_to_string(&file).unwrap();
+    fs::write(&file, &text[..text.len() / 2]).unwrap();
+    sentence(open(&path).unwrap_err(), &["case-0", "does not read: EOF", "remove it"]);
+    fs::write(&file, text.replace("\"samples\"", "\"times\"")).unwrap();
+    sentence(open(&path).unwrap_err(), &["case-0", "missing field `samples`"]);
+}
+
+#[test]
+fn a_file_is_there_for_its_own_case_alone() {
+    let folder = folder();
+    let path = journal(&folder, 1).join(file_name("case 0"));
+    let there = |runs, key| CaseFile::<Case>::there(&path, &header(runs), key);
+    assert_eq!(there(5, "case 0").unwrap().unwrap().case, case(0));
+    sentence(there(5, "case 1").unwrap_err(), &["holds the case \"case 0\", not \"case 1\""]);
+    sentence(there(7, "case 0").unwrap_err(), &["runs was 5 and is 7"]);
+    fs::remove_file(&path).unwrap();
+    assert!(there(5, "case 0").unwrap().is_none());
+}
+
+#[test]
+fn what_was_kept_in_memory_can_be_kept_in_a_folder() {
+    let folder = folder();
+    let path = folder.path().join("unfinished/tiny-1");
+    let mut journal = Journal::in_memory(header(5));
+    journal.append("case 0", case(0)).unwrap();
+    journal.keep(&path).unwrap();
+    assert_eq!(open(&path).unwrap().get("case 0"), Some(&case(0)));
 }
 
 #[test]
@@ -197,24 +248,42 @@ fn a_case_that_would_not_read_back_is_not_written() {
 fn what_cannot_be_written_is_one_sentence_and_loses_nothing() {
     let folder = folder();
     let path = journal(&folder, 1);
-    let before = fs::read(&path).unwrap();
     let mut journal = open(&path).unwrap();
-    // As on a full disk: the system takes nothing more.
-    let good = journal.file.replace(File::open(&path).unwrap());
-    sentence(journal.append("case 1", case(1)).unwrap_err(), &["cannot write", "tiny.jsonl", "kept", "--dir"]);
-    assert_eq!((fs::read(&path).unwrap(), journal.cases().len()), (before, 1));
-    journal.file = good;
+    let before = contents(&path);
+    // A folder that takes no file: a file stands where it was.
+    let moved = path.with_extension("moved");
+    fs::rename(&path, &moved).unwrap();
+    fs::write(&path, b"x").unwrap();
+    sentence(journal.append("case 1", case(1)).unwrap_err(), &["cannot write", "case-1", "kept", "--dir"]);
+    fs::remove_file(&path).unwrap();
+    fs::rename(&moved, &path).unwrap();
+    assert_eq!((contents(&path), journal.left(["case 1"]).len()), (before, 1));
     journal.append("case 1", case(1)).unwrap();
-    assert_eq!(Journal::<Case>::read(&path, "tiny").unwrap().cases.len(), 2);
 }
 
 #[test]
-fn a_half_written_line_is_overwritten_by_the_next() {
-    let folder = folder();
-    let path = journal(&folder, 1);
-    let mut journal = open(&path).unwrap();
-    // A write that failed half-way, and could not be taken back.
-    journal.file.as_mut().unwrap().write_all(&[b'x'; 500]).unwrap();
-    journal.append("case 1", case(1)).unwrap();
-    assert_eq!(Journal::<Case>::read(&path, "tiny").unwrap().cases, [case(0), case(1)]);
+fn cases_of_builds_and_machines_are_apart_and_those_of_hosts_are_not() {
+    let file = |key: &str, host: &str, commit: &str, date: &str| {
+        let mut header = header(5);
+        let p = &mut header.provenance;
+        (p.host, p.commit, p.date) = (host.into(), commit.into(), date.into());
+        CaseFile { path: format!("{key}-{host}-{commit}").into(), header, key: key.into(), case: () }
+    };
+    let files = vec![
+        file("a", "n1", "new", "2026-03"),
+        file("a", "n1", "old", "2026-01"),
+        file("b", "n2", "new", "2026-02"),
+        file("a", "n3", "new", "2026-04"),
+    ];
+    let found = groups(files.clone()).unwrap();
+    let of =
+        |group: &Group<()>| -> Vec<String> { group.files.iter().map(|file| file.path.display().to_string()).collect() };
+    assert_eq!(found.iter().map(of).collect::<Vec<_>>(), [vec!["a-n1-old"], vec!["a-n3-new", "b-n2-new"]]);
+    assert_eq!(found[1].replaced, [PathBuf::from("a-n1-new")]);
+    assert_eq!(found[1].provenance.date, "2026-02");
+
+    let mut other = files;
+    other[1].header.settings.insert("runs".into(), 6.into());
+    let Err(error) = groups(other) else { panic!("they are mixed") };
+    sentence(error, &["a-n1-new", "a-n1-old", "the study tiny", "runs was 5 and is 6"]);
 }

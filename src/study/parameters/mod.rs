@@ -60,6 +60,7 @@ pub struct ParametersArgs {
 impl Study for ParametersStudy {
     const NAME: &'static str = "parameters";
     const QUESTION: &'static str = "Which differences of the report's sweep of leaf limit and threshold are real?";
+    const WHOLE: bool = true;
 
     type Args = ParametersArgs;
     type Case = Epoch;
@@ -88,7 +89,15 @@ impl Study for ParametersStudy {
             }
         }
         let settings = args.measuring.settings(registry, structures(registry)?, Asked::Picture)?;
-        Ok(settings.plan_of_whole(chosen, args.measuring.epochs))
+        Ok(settings.plan(chosen, args.measuring.epochs))
+    }
+
+    fn named(args: &mut Self::Args) -> Option<&mut Vec<String>> {
+        Some(&mut args.scenes.scenes)
+    }
+
+    fn epoch(case: &mut Epoch) -> Option<(&mut Epoch, usize)> {
+        Some((case, 0))
     }
 
     fn answer(cases: &[Epoch], _: &Context<Self>) -> Parameters {

@@ -90,6 +90,14 @@ impl Study for PartitionsStudy {
         Ok(Plan { inputs: args.scenes.files(), ..plan })
     }
 
+    fn named(args: &mut Self::Args) -> Option<&mut Vec<String>> {
+        Some(&mut args.scenes.scenes)
+    }
+
+    fn epoch(case: &mut Epoch) -> Option<(&mut Epoch, usize)> {
+        Some((case, 0))
+    }
+
     fn answer(cases: &[Epoch], context: &Context<Self>) -> Partitions {
         let records = compared(cases, context.provenance).records;
         Partitions { rows: rows(&records), records }

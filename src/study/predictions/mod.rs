@@ -124,7 +124,7 @@ impl Study for PredictionsStudy {
         let names: Vec<(String, String)> = scenes.iter().map(|scene| (scene.name.clone(), key(scene))).collect();
         let (registry, own) = (registry.clone(), threads.clone());
         let measure: Measure<PictureCounts> =
-            Box::new(move |case, _, clock, progress| measure(&registry, &scenes[case.scene], &own, clock, progress));
+            Box::new(move |case, clock, progress| measure(&registry, &scenes[case.scene], &own, clock, progress));
         Ok(Plan::of_scenes(&serde_json::Map::new(), threads, names, measure))
     }
 

@@ -78,8 +78,16 @@ impl Study for ScalingStudy {
         scenes.extend(args.scenes.read(&["dragon", "lucy", "sponza"])?);
         let family = move |scene: usize| if scene < spheres { Family::Spheres } else { Family::Meshes };
         let wrap = move |scene, _: &Scene, epoch| Ok(FamilyEpoch { family: family(scene), epoch });
-        let plan = settings.plan_of(scenes, args.measuring.epochs, wrap, |case| &case.epoch);
+        let plan = settings.plan_of(scenes, args.measuring.epochs, wrap);
         Ok(Plan { inputs: args.scenes.files(), ..plan })
+    }
+
+    fn named(args: &mut Self::Args) -> Option<&mut Vec<String>> {
+        Some(&mut args.scenes.scenes)
+    }
+
+    fn epoch(case: &mut FamilyEpoch) -> Option<(&mut Epoch, usize)> {
+        Some((&mut case.epoch, case.family as usize))
     }
 
     fn answer(cases: &[FamilyEpoch], _: &Context<Self>) -> Vec<Growth> {

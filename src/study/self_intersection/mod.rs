@@ -179,7 +179,7 @@ impl Study for SelfIntersectionStudy {
         let kept = json!({ "structures": labels.join(" "), "rays": rays, "seed": seed });
         let threads = Threads::new(1).map_err(anyhow::Error::msg)?;
         let spheres = Sphere::ALL.map(|sphere| (sphere.to_string(), sphere.to_string()));
-        let measure: Measure<Vec<Row>> = Box::new(move |case, _, _, progress| {
+        let measure: Measure<Vec<Row>> = Box::new(move |case, _, progress| {
             let sphere = Sphere::ALL[case.scene];
             progress(Stage::Rays("secondary"));
             trace(sphere, &structures, rays as usize, seed)

@@ -121,14 +121,21 @@ impl Study for ThreadsStudy {
             warnings: vec![],
             inputs: args.scenes.files(),
             cases,
-            measure: Box::new(move |case, first, clock, progress| {
+            measure: Box::new(move |case, clock, progress| {
                 let (scene, (threads, settings)) =
                     (&scenes[case.scene / settings.len()], &settings[case.scene % settings.len()]);
-                let first = first.map(|first| &first.epoch);
-                let epoch = measure(scene, settings, case.epoch, first, clock, progress)?;
+                let epoch = measure(scene, settings, case.epoch, clock, progress)?;
                 Ok(ThreadsEpoch { threads: *threads, epoch })
             }),
         })
+    }
+
+    fn named(args: &mut Self::Args) -> Option<&mut Vec<String>> {
+        Some(&mut args.scenes.scenes)
+    }
+
+    fn epoch(case: &mut ThreadsEpoch) -> Option<(&mut Epoch, usize)> {
+        Some((&mut case.epoch, case.threads))
     }
 
     fn answer(cases: &[ThreadsEpoch], _: &Context<Self>) -> Vec<Speedup> {

@@ -1,0 +1,142 @@
+//! How many rays of each case are timed, and how often: decided before any sample, from what a ray costs.
+
+use super::tiles::{last_level, level_within, rays_at};
+use super::{Plan, Stopwatch, Timed, median};
+
+/// A case before it is timed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Cost {
+    /// Rays of its workload, at least 1.
+    pub rays: usize,
+    /// Picoseconds that one of them takes, about.
+    pub ps: u64,
+    /// A number for each set of cases that take as many rays.
+    pub group: usize,
+}
+
+/// What cases may take.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Allotment {
+    /// Samples of every case.
+    pub runs: usize,
+    /// The [level](super::tiles) of each case.
+    pub levels: Vec<usize>,
+    /// Nanoseconds that a sample of a case may take of which the cost is not known.
+    pub share_ns: u64,
+}
+
+/// Finds how many rays of each case and how many samples fit the budget: another epoch, on whatever machine, finds the same.
+pub fn allot(cases: &[Cost], plan: &Plan) -> Allotment {
+    let mut levels: Vec<usize> = cases.iter().map(|case| level_within(case.rays, plan.most_rays)).collect();
+    let cost = |case: usize, level: usize| {
+        let Cost { rays, ps, .. } = cases[case];
+        // A lead-in is an eighth more.
+        (rays_at(rays, level) as u128 * u128::from(ps) * 9 / 8 / 1000) as u64
+    };
+
+    let mut runs = plan.runs;
+    let middle = loop {
+        let costs: Vec<u64> = levels.iter().enumerate().map(|(case, &level)| cost(case, level)).collect();
+        let total = costs.iter().fold(0_u64, |total, &ns| total.saturating_add(ns));
+        let fits = total.saturating_mul(runs as u64) <= plan.budget_ns;
+        let middle = median(&costs.iter().map(|&ns| ns as f64).collect::<Vec<_>>()).unwrap_or(0.0);
+        let smaller = (0..costs.len()).filter(|&case| levels[case] < last_level(cases[case].rays));
+        let slowest = smaller.max_by_key(|&case| costs[case]);
+        match slowest {
+            Some(case) if (!fits && runs == 1) || costs[case] as f64 > plan.slowest * middle => {
+                let alike = |&other: &usize| cases[other].group == cases[case].group;
+                (0..levels.len()).filter(alike).for_each(|other| levels[other] = levels[case].max(levels[other]));
+                (0..levels.len()).filter(alike).for_each(|other| levels[other] += 1);
+            }
+            _ if fits || runs == 1 => break middle,
+            _ => runs = (plan.budget_ns / total.max(1)).clamp(1, runs as u64 - 1) as usize,
+        }
+    };
+    let slowest_ns = if middle > 0.0 { (plan.slowest * middle) as u64 } else { u64::MAX };
+    let share_ns = slowest_ns.min(plan.budget_ns / (runs * cases.len().max(1)) as u64);
+    Allotment { runs, levels, share_ns }
+}
+
+/// The first pass of a case takes so many rays at least, to find out how slow it is.
+const PILOT: usize = 64;
+
+/// A pass that takes so long says enough of the speed.
+const LONG_PILOT_NS: u64 = 5_000_000;
+
+/// The level at which a few rays of so many are asked, at least [`PILOT`] where there are as many.
+pub fn pilot_level(rays: usize) -> usize {
+    (0..=last_level(rays)).rev().find(|&level| rays_at(rays, level) >= PILOT).unwrap_or(0)
+}
+
+/// The first level from `from` on at which a sample of a case whose cost is not known takes `most_ns` at most, by a clock.
+pub fn level_by_clock(watch: &Stopwatch, case: &mut dyn Timed, from: usize, most_ns: u64) -> usize {
+    let all = case.rays();
+    let mut pace = |level: usize| {
+        case.choose(&[level], 0);
+        case.clear();
+        let ns = case.run(watch)[0].max(1);
+        (u128::from(ns) * 1000 / rays_at(all, level) as u128).max(1)
+    };
+    // A pass over few rays, and one that is long enough to tell.
+    let few = pilot_level(all).max(from);
+    let first = pace(few);
+    let rays = u128::from(LONG_PILOT_NS) * 1000 / first;
+    let enough = (from..few).rev().find(|&level| rays_at(all, level) as u128 >= rays).unwrap_or(from);
+    let ps = if enough < few && rays > rays_at(all, few) as u128 { pace(enough) } else { first };
+    // With its lead-in, and the rays of the next level, which it is asked by themselves.
+    let fits = |level: &usize| rays_at(all, *level) as u128 * ps * 11 / 8 / 1000 <= u128::from(most_ns);
+    let last = last_level(all);
+    (from..last).find(fits).unwrap_or(last.max(from))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const PLAN: Plan = Plan { runs: 5, budget_ns: 0, slowest: 8.0, most_rays: usize::MAX, seed: 3, epoch: 0 };
+
+    fn cases(ns: &[u64]) -> Vec<Cost> {
+        ns.iter().enumerate().map(|(group, ns)| Cost { rays: 65_536, ps: 1000 * ns, group }).collect()
+    }
+
+    fn rays(cases: &[Cost], plan: &Plan) -> (usize, Vec<usize>) {
+        let Allotment { runs, levels, .. } = allot(cases, plan);
+        (runs, levels.iter().map(|&level| rays_at(65_536, level)).collect())
+    }
+
+    #[test]
+    fn the_slow_do_with_fewer_rays_then_all_with_fewer_samples_and_then_with_fewer_rays() {
+        let of = |budget_ns| rays(&cases(&[10, 15, 10_000]), &Plan { budget_ns, ..PLAN });
+        // All rays of the two fast ones take 1.84 ms with their lead-ins, those of the slow one 737 ms, and 2.88 ms where it takes no
+        // more than eight times as long as the middle one.
+        assert_eq!(of(4_000_000_000), (5, vec![65_536, 65_536, 256]));
+        assert_eq!(of(24_000_000), (5, vec![65_536, 65_536, 256]));
+        assert_eq!(of(12_000_000), (2, vec![65_536, 65_536, 256]));
+        assert_eq!(of(2_700_000), (1, vec![65_536, 65_536, 64]));
+        assert_eq!(of(1_000_000), (1, vec![16_384, 4096, 64]));
+        // Where no case is too slow, samples are left out first, and then all rays are spared.
+        let patient = Plan { slowest: f64::INFINITY, budget_ns: 1_000_000_000, ..PLAN };
+        assert_eq!(rays(&cases(&[10, 15, 10_000]), &patient), (1, vec![65_536; 3]));
+        // There is always a ray.
+        assert_eq!(of(1), (1, vec![rays_at(65_536, last_level(65_536)); 3]));
+        assert_eq!(allot(&[], &PLAN).levels, []);
+    }
+
+    #[test]
+    fn no_more_rays_are_timed_than_asked_for_and_alike_cases_take_as_many() {
+        let plan = Plan { most_rays: 20_000, budget_ns: 30_000_000, ..PLAN };
+        let mut cases = cases(&[10, 900, 10]);
+        assert_eq!(rays(&cases, &plan).1, [16_384, 1024, 16_384]);
+        cases[1].group = 0;
+        assert_eq!(rays(&cases, &plan).1, [1024, 1024, 16_384]);
+    }
+
+    #[test]
+    fn what_is_not_known_gets_a_share_of_the_budget_and_no_more_than_the_slowest_may_take() {
+        let share = |slowest, budget_ns| allot(&cases(&[100, 100]), &Plan { slowest, budget_ns, ..PLAN }).share_ns;
+        // 65,536 rays of 100 ns and a lead-in.
+        assert_eq!(share(4.0, u64::MAX), 4 * 7_372_800);
+        assert_eq!(share(f64::INFINITY, 1_000_000_000), 100_000_000);
+        assert_eq!(share(f64::INFINITY, u64::MAX), u64::MAX / 10);
+    }
+}

@@ -1,0 +1,306 @@
+//! Epochs of a scene, measured each by itself, as one measurement: a pure function of what was measured.
+//!
+//! Epoch 0 alone is held against brute force and counted: what it found holds for all of them, and without it there is no answer.
+//! What epochs have in common says that they are of one measurement: the rays, how many of them are timed and the answers to them.
+
+use super::{Epoch, Rays, Structure};
+use crate::registry::RUNNER;
+use crate::report::words::listed;
+use crate::study::StudyError;
+
+/// Cases that answers can be made from, and why others are none of them.
+#[derive(Debug)]
+pub struct Joined<C> {
+    /// In the order in which they were given.
+    pub cases: Vec<C>,
+    /// What ends a scene: its cases are left out.
+    pub failures: Vec<StudyError>,
+    /// Scenes that are not checked, a sentence each: their cases are left out.
+    pub unchecked: Vec<String>,
+    /// Scenes with fewer epochs than others, a sentence each: they are there.
+    pub missing: Vec<String>,
+}
+
+/// Joins the epochs of each scene. `epoch` gives the epoch that a case is, and the number of its series where a scene has several;
+/// cases that are none are as they were. With `whole` a scene is left out in which a structure lacks a time.
+pub fn join<C: Clone>(mut cases: Vec<C>, epoch: fn(&mut C) -> Option<(&mut Epoch, usize)>, whole: bool) -> Joined<C> {
+    // The places of the cases of each series.
+    let mut series: Vec<((String, usize), Vec<usize>)> = vec![];
+    let mut epochs = 0;
+    for (place, case) in cases.iter_mut().enumerate() {
+        let Some((own, number)) = epoch(case) else { continue };
+        epochs = epochs.max(own.epoch + 1);
+        let key = (own.scene_hash.clone(), number);
+        match series.iter_mut().find(|(known, _)| *known == key) {
+            Some((_, places)) => places.push(place),
+            None => series.push((key, vec![place])),
+        }
+    }
+    let mut joined = Joined { cases: vec![], failures: vec![], unchecked: vec![], missing: vec![] };
+    let mut out = vec![];
+    for (_, mut places) in series {
+        let number = |cases: &mut [C], place: usize| epoch(&mut cases[place]).expect("it is one").0.epoch;
+        places.sort_by_cached_key(|&place| number(&mut cases, place));
+        let mut own: Vec<Epoch> =
+            places.iter().map(|&place| epoch(&mut cases[place]).expect("it is one").0.clone()).collect();
+        let missing: Vec<usize> = (0..epochs).filter(|&number| own.iter().all(|epoch| epoch.epoch != number)).collect();
+        let lacks = || lacks(&own[0], &missing);
+        if own[0].epoch != 0 {
+            joined.unchecked.push(format!("{}; epoch 0 checks the answers, so the scene is left out.", lacks()));
+            out.extend(places);
+            continue;
+        }
+        if !missing.is_empty() {
+            joined.missing.push(format!("{}.", lacks()));
+        }
+        let found = one(&mut own).and_then(|()| if whole { own.iter().try_for_each(Epoch::is_whole) } else { Ok(()) });
+        if let Err(error) = found {
+            joined.failures.push(error);
+            out.extend(places);
+            continue;
+        }
+        for (place, own) in places.into_iter().zip(own) {
+            *epoch(&mut cases[place]).expect("it is one").0 = own;
+        }
+    }
+    let kept = cases.into_iter().enumerate().filter(|(place, _)| !out.contains(place));
+    joined.cases = kept.map(|(_, case)| case).collect();
+    joined
+}
+
+/// `Dragon: epochs 0 and 2 are not measured`.
+fn lacks(epoch: &Epoch, missing: &[usize]) -> String {
+    let numbers: Vec<String> = missing.iter().map(ToString::to_string).collect();
+    let (epochs, are) = if missing.len() == 1 { ("epoch", "is") } else { ("epochs", "are") };
+    format!("{}: {epochs} {} {are} not measured", epoch.title(), listed(&numbers))
+}
+
+/// Makes the epochs of a scene, the first of which is epoch 0, one measurement.
+fn one(epochs: &mut [Epoch]) -> Result<(), StudyError> {
+    let (title, structures) = (epochs[0].title(), epochs[0].structures.len());
+    for place in 0..structures {
+        let label = epochs[0].structures[place].label.clone();
+        let apart = |epoch: &Epoch, rays: &str, what: &'static str| StudyError::Apart {
+            structure: label.clone(),
+            scene: title.clone(),
+            rays: rays.into(),
+            epoch: epoch.epoch,
+            what,
+        };
+        if let Some(other) = epochs.iter().find(|e| e.structures.get(place).is_none_or(|own| own.label != label)) {
+            return Err(apart(other, "", "the structures"));
+        }
+        // What takes no part in one of them takes part in none.
+        let refused = epochs.iter().find_map(|epoch| epoch.structures[place].refused.clone());
+        if refused.is_some() {
+            refuse(epochs, place, &refused);
+            continue;
+        }
+        for kind in 0..epochs[0].structures[place].rays.len() {
+            let first = epochs[0].structures[place].rays[kind].clone();
+            let alike = |epoch: &&Epoch| {
+                let own = epoch.structures[place].rays.get(kind);
+                own.is_some_and(|own| own.hash == first.hash && own.workload == first.workload && own.all == first.all)
+            };
+            if let Some(other) = epochs.iter().find(|epoch| !alike(epoch)) {
+                return Err(apart(other, &first.workload, "the rays"));
+            }
+            if first.untimed.is_some() {
+                let (untimed, wrong) = (first.untimed, first.wrong);
+                for rays in epochs.iter_mut().skip(1).map(|epoch| &mut epoch.structures[place].rays[kind]) {
+                    *rays = Rays {
+                        ns: vec![],
+                        parts: vec![],
+                        rays: 0,
+                        checksum: 0,
+                        untimed: untimed.clone(),
+                        wrong,
+                        ..rays.clone()
+                    };
+                }
+                continue;
+            }
+            let of = |epoch: &Epoch| epoch.structures[place].rays[kind].clone();
+            let is_program = epochs[0].structures[place].name == RUNNER;
+            let other = epochs.iter().find(|epoch| of(epoch).checksum != first.checksum);
+            match (other, is_program) {
+                (Some(_), true) => {
+                    refuse(epochs, place, &Some(CHANGED.into()));
+                    break;
+                }
+                (Some(other), false) => return Err(apart(other, &first.workload, "the answers")),
+                (None, _) => {}
+            }
+            let Some(other) = epochs.iter().find(|epoch| of(epoch).rays != first.rays) else { continue };
+            if !is_program {
+                return Err(apart(other, &first.workload, "the number of rays that are timed"));
+            }
+            if !reduce(epochs, place, kind) {
+                refuse(epochs, place, &Some(UNSTEADY.into()));
+                break;
+            }
+        }
+    }
+    keep_common_parts(epochs);
+    Ok(())
+}
+
+/// Said of a program that answers otherwise once it is started again.
+const CHANGED: &str = "built again, it gives other answers than before: its times cannot be compared";
+
+/// Said of a program whose epochs have no rays in common.
+const UNSTEADY: &str =
+    "by its own clock it is more than sixteen times as slow in one epoch as in another: they have no rays in common";
+
+fn refuse(epochs: &mut [Epoch], place: usize, refused: &Option<String>) {
+    for structure in epochs.iter_mut().map(|epoch| &mut epoch.structures[place]) {
+        *structure = Structure { refused: refused.clone(), rays: vec![], ..structure.clone() };
+    }
+}
+
+/// Leaves of the samples of a program the largest part that all epochs have. Whether there is one.
+fn reduce(epochs: &mut [Epoch], place: usize, kind: usize) -> bool {
+    let timed = |rays: &Rays, count: usize| rays.rays == count || rays.parts.iter().any(|part| part.rays == count);
+    let of = |epoch: &Epoch| epoch.structures[place].rays[kind].clone();
+    let first = of(&epochs[0]);
+    let counts = std::iter::once(first.rays).chain(first.parts.iter().map(|part| part.rays));
+    let Some(common) = counts.into_iter().find(|&count| epochs.iter().all(|epoch| timed(&of(epoch), count))) else {
+        return false;
+    };
+    for rays in epochs.iter_mut().map(|epoch| &mut epoch.structures[place].rays[kind]) {
+        if let Some(part) = rays.parts.iter().find(|part| part.rays == common) {
+            (rays.ns, rays.rays) = (part.ns.clone(), common);
+        }
+        rays.parts.retain(|part| part.rays < common);
+    }
+    true
+}
+
+/// Leaves of each structure the parts that all epochs have.
+fn keep_common_parts(epochs: &mut [Epoch]) {
+    for place in 0..epochs[0].structures.len() {
+        for kind in 0..epochs[0].structures[place].rays.len() {
+            let parts = |epoch: &Epoch| -> Vec<usize> {
+                epoch.structures[place].rays[kind].parts.iter().map(|part| part.rays).collect()
+            };
+            let all: Vec<Vec<usize>> = epochs.iter().map(parts).collect();
+            for rays in epochs.iter_mut().map(|epoch| &mut epoch.structures[place].rays[kind]) {
+                rays.parts.retain(|part| all.iter().all(|own| own.contains(&part.rays)));
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::{example, rays};
+    use super::*;
+    use crate::measure::Part;
+
+    fn epochs(scene: &str, numbers: &[usize]) -> Vec<Epoch> {
+        numbers.iter().map(|&n| example(scene, 10, n, &[("x", 50, &[1000; 3]), ("y", 10, &[500; 3])])).collect()
+    }
+
+    fn joined(epochs: Vec<Epoch>) -> Joined<Epoch> {
+        join(epochs, |epoch| Some((epoch, 0)), false)
+    }
+
+    /// Why two epochs of which the second is changed so are not joined.
+    fn failure(change: impl Fn(&mut Epoch)) -> String {
+        let mut epochs = epochs("a", &[0, 1]);
+        change(&mut epochs[1]);
+        let Joined { cases, failures, .. } = joined(epochs);
+        assert!(cases.is_empty() && failures.len() == 1, "{failures:?}");
+        failures[0].to_string()
+    }
+
+    #[test]
+    fn epochs_need_no_order_and_come_out_as_they_came_in() {
+        let given = [epochs("a", &[2, 0]), epochs("b", &[1, 0, 2]), epochs("a", &[1])].concat();
+        let Joined { cases, failures, unchecked, missing } = joined(given.clone());
+        assert_eq!(cases, given);
+        assert!(failures.is_empty() && unchecked.is_empty() && missing.is_empty());
+    }
+
+    #[test]
+    fn a_scene_without_its_first_epoch_is_left_out_and_one_without_another_is_named() {
+        let given = [epochs("a", &[1, 2]), epochs("b", &[0, 2]), epochs("c", &[0, 1, 2])].concat();
+        let Joined { cases, unchecked, missing, .. } = joined(given);
+        assert!(cases.len() == 5 && cases.iter().all(|epoch| epoch.scene != "a"));
+        assert_eq!(unchecked, ["a: epoch 0 is not measured; epoch 0 checks the answers, so the scene is left out."]);
+        assert_eq!(missing, ["b: epoch 1 is not measured."]);
+    }
+
+    #[test]
+    fn what_the_first_epoch_found_wrong_has_no_time_anywhere() {
+        let mut given = epochs("a", &[1, 0]);
+        let wrong = &mut given[1].structures[0].rays[0];
+        (wrong.untimed, wrong.wrong, wrong.ns) = (Some("3 wrong answers to 9 rays".into()), true, vec![]);
+        let Joined { cases, .. } = joined(given.clone());
+        let one = &cases[0].structures[0].rays[0];
+        assert!(one.ns.is_empty() && one.wrong && one.untimed.as_deref() == Some("3 wrong answers to 9 rays"));
+        assert_eq!(cases[0].structures[1], given[0].structures[1]);
+        // A study that compares all or nothing leaves the scene out.
+        let Joined { cases, failures, .. } = join(given, |epoch| Some((epoch, 0)), true);
+        assert!(cases.is_empty() && failures[0].is_wrong_answer(), "{failures:?}");
+    }
+
+    #[test]
+    fn what_takes_no_part_in_one_epoch_takes_part_in_none() {
+        let mut given = epochs("a", &[0, 1, 2]);
+        given[1].structures[1].refused = Some("it fell over".into());
+        let Joined { cases, .. } = joined(given);
+        assert!(cases.iter().all(|epoch| epoch.structures[1].refused.as_deref() == Some("it fell over")));
+        assert!(cases.iter().all(|epoch| epoch.structures[0].refused.is_none()));
+    }
+
+    #[test]
+    fn epochs_that_differ_in_what_they_must_not_are_named() {
+        let answers = failure(|epoch| epoch.structures[1].rays[0].checksum = 2);
+        assert!(answers.contains("y on the primary rays of a") && answers.contains("epoch 1"), "{answers}");
+        assert!(answers.contains("the answers"), "{answers}");
+        assert!(failure(|epoch| epoch.structures[1].rays[0].hash = "12".into()).contains("differ in the rays"));
+        assert!(failure(|epoch| epoch.structures[1].rays[0].rays = 250).contains("the number of rays that are timed"));
+        assert!(failure(|epoch| epoch.structures[1].label = "z".into()).contains("the structures"));
+    }
+
+    #[test]
+    fn series_of_a_scene_are_joined_each_by_itself() {
+        let mut given: Vec<(usize, Epoch)> = vec![];
+        for threads in [1, 2] {
+            given.extend(epochs("a", &[0, 1]).into_iter().map(|epoch| (threads, epoch)));
+        }
+        given.iter_mut().filter(|(threads, _)| *threads == 2).for_each(|(_, epoch)| {
+            epoch.structures[0].rays[0].rays = 250;
+        });
+        let joined = join(given.clone(), |(threads, epoch)| Some((epoch, *threads)), false);
+        assert_eq!(joined.cases, given);
+    }
+
+    #[test]
+    fn a_program_whose_clock_chose_otherwise_is_timed_on_the_rays_that_all_epochs_have() {
+        let program = |number: usize, counts: &[usize]| {
+            let mut epoch = example("a", 10, number, &[("p", 50, &[1000]), ("y", 10, &[500])]);
+            let parts = |from: usize| counts[from..].iter().map(|&rays| Part { rays, ns: vec![rays as u64] }).collect();
+            let ns = vec![counts[0] as u64];
+            epoch.structures[0].name = RUNNER.into();
+            epoch.structures[0].rays = vec![Rays { ns, parts: parts(1), rays: counts[0], ..rays("primary") }];
+            epoch.structures[1].rays[0].parts = parts(0);
+            epoch
+        };
+        let Joined { cases, failures, .. } = joined(vec![program(0, &[400, 100]), program(1, &[100, 25])]);
+        assert!(failures.is_empty());
+        for epoch in &cases {
+            let [one, other] = [0, 1].map(|place| &epoch.structures[place].rays[0]);
+            assert_eq!((one.rays, &one.ns, one.parts.len()), (100, &vec![100], 0), "{one:?}");
+            assert_eq!(other.parts.iter().map(|part| part.rays).collect::<Vec<_>>(), [100]);
+        }
+        let Joined { cases, .. } = joined(vec![program(0, &[400, 100]), program(1, &[25, 6])]);
+        assert!(cases.iter().all(|epoch| epoch.structures[0].refused.as_deref() == Some(UNSTEADY)));
+        // Another checksum is another answer, on however many rays.
+        let mut other = program(1, &[400, 100]);
+        other.structures[0].rays[0].checksum = 2;
+        let Joined { cases, .. } = joined(vec![program(0, &[400, 100]), other]);
+        assert!(cases.iter().all(|epoch| epoch.structures[0].refused.as_deref() == Some(CHANGED)));
+    }
+}

@@ -1,0 +1,127 @@
+//! A case as a job: the command line of a run, and which of its cases a process measures.
+
+use std::path::Path;
+use std::str::FromStr;
+
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+
+use super::engine::Screen;
+use super::journal::{self, CaseFile, Header};
+use super::{Plan, Planned, StudyError};
+use crate::measure::{Provenance, SystemClock, quoted};
+
+/// Which case a process measures.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Job {
+    /// Name of the study.
+    pub study: String,
+    /// Name of the scene: of those named on the command line no other is loaded. Nothing where the case is of no process of its own.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scene: Option<String>,
+    /// Key of the case.
+    pub key: String,
+    /// The cores that the threads of the run are bound to.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cores: Option<Vec<usize>>,
+}
+
+impl Job {
+    /// Of a case of `study`, on whatever cores.
+    pub fn of(study: &str, case: &Planned) -> Self {
+        Self { study: study.into(), scene: case.process.clone(), key: case.key.clone(), cores: None }
+    }
+
+    /// The case of a plan that this is.
+    ///
+    /// # Errors
+    /// If there is none.
+    pub fn find<'a, C>(&self, plan: &'a Plan<C>) -> Result<&'a Planned, StudyError> {
+        let cause = || "its scene is not what it was when the run was planned: plan it anew".to_owned();
+        let found = plan.cases.iter().find(|case| case.key == self.key);
+        found.ok_or_else(|| StudyError::Job { key: self.key.clone(), cause: cause() })
+    }
+}
+
+impl FromStr for Job {
+    type Err = serde_json::Error;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        serde_json::from_str(text)
+    }
+}
+
+/// The option that gives a process its job, and the one that has it write a file.
+pub const OPTION: &str = "case";
+pub const OUT: &str = "out";
+
+/// What became of a job that writes a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Done {
+    Measured,
+    /// It had been measured before.
+    Before,
+    /// Another one has measured it meanwhile.
+    Meanwhile,
+}
+
+/// Measures the case of `plan` that is the job and writes it into the file `out`, unless it is there.
+///
+/// # Errors
+/// If the file cannot be written or holds anything else, or nothing can be measured: then it is as it was.
+pub fn write<C: Serialize + DeserializeOwned>(
+    plan: &Plan<C>,
+    job: &Job,
+    out: &Path,
+    screen: &mut dyn Screen,
+) -> Result<Done, StudyError> {
+    let case = job.find(plan)?;
+    // As the run that would have started a process for it.
+    let process_per_epoch = plan.cases.iter().any(|case| case.process.is_some());
+    let command = command_of_run(std::env::args());
+    let provenance = Provenance { process_per_epoch, command, ..Provenance::of(&plan.threads) };
+    let header = Header::new(&job.study, &plan.settings, provenance);
+    let there = || CaseFile::<C>::there(out, &header, &case.key);
+    if there()?.is_some() {
+        return Ok(Done::Before);
+    }
+    let file = journal::place(out)?;
+    screen.begin(case.work);
+    screen.case(&case.title, case.work);
+    let measured = (plan.measure)(case, &SystemClock::start(), &mut |stage| screen.stage(&stage))?;
+    screen.end();
+    if journal::write(&file, &journal::text(&header, &case.key, &measured))? {
+        return Ok(Done::Measured);
+    }
+    there()?;
+    Ok(Done::Meanwhile)
+}
+
+/// The command line without the job: the same for all jobs of a run.
+fn command_of_run(args: impl Iterator<Item = String>) -> String {
+    let [case, out] = [OPTION, OUT].map(|option| format!("--{option}"));
+    let mut words = vec![];
+    let mut skips = false;
+    for arg in args {
+        let is_value = std::mem::replace(&mut skips, arg == case || arg == out);
+        let is_job =
+            |option: &String| arg.strip_prefix(option).is_some_and(|rest| rest.is_empty() || rest.starts_with('='));
+        if !is_value && !is_job(&case) && !is_job(&out) {
+            words.push(quoted(&arg));
+        }
+    }
+    words.join(" ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_jobs_of_a_run_have_its_command() {
+        let words = ["sahara", "study", "costs", "my mesh.ply", "--case={\"key\":\"a\"}", "--out", "runs/costs/a.json"];
+        assert_eq!(command_of_run(words.map(String::from).into_iter()), "sahara study costs 'my mesh.ply'");
+        let words = ["sahara", "--case", "{}", "compare", "--out=a.json", "--outer"];
+        assert_eq!(command_of_run(words.map(String::from).into_iter()), "sahara compare --outer");
+    }
+}

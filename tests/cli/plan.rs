@@ -1,0 +1,300 @@
+//! `study plan`: jobs that need each other in nothing, one file each, and what becomes of them.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+use serde_json::Value;
+use tempfile::TempDir;
+
+use super::command::{RIGHT, USAGE, command, prints, refuses_in_a_line, sahara, stderr, stdout};
+
+/// A study of seconds.
+const SMALL: [&str; 9] = ["attribution", "--rays", "64", "--runs", "1", "--budget", "1", "--epochs", "2"];
+const SCENES: [&str; 3] = ["--scenes", "cube", "sphere"];
+
+/// The lines of a plan.
+fn plan(folder: &Path, args: &[&str]) -> Vec<String> {
+    let dir = folder.to_str().unwrap();
+    let text = prints(&[&["study", "plan"], args, &["--dir", dir]].concat());
+    text.lines().map(String::from).collect()
+}
+
+/// What a shell makes of a line.
+fn words(line: &str) -> Vec<String> {
+    let words = shlex::split(line).unwrap_or_else(|| panic!("{line}"));
+    assert_eq!(words[0], "sahara", "{line}");
+    words
+}
+
+fn file(line: &str) -> PathBuf {
+    let words = words(line);
+    assert_eq!(words[words.len() - 2], "--out", "{line}");
+    words[words.len() - 1].clone().into()
+}
+
+/// A job, as a shell on some machine would start it.
+fn job(line: &str) -> Command {
+    let words = words(line);
+    let mut command = command(&words[1..].iter().map(String::as_str).collect::<Vec<_>>());
+    command.stdout(Stdio::piped()).stderr(Stdio::piped());
+    command
+}
+
+fn run(line: &str) -> Output {
+    job(line).output().unwrap()
+}
+
+fn done(line: &str) {
+    let output = run(line);
+    assert_eq!(output.status.code(), Some(RIGHT), "{}", stderr(&output));
+    assert!(output.stdout.is_empty() && file(line).is_file());
+}
+
+fn json(path: &Path) -> Value {
+    serde_json::from_slice(&fs::read(path).unwrap()).unwrap()
+}
+
+/// What no clock decides, of every case: by its key. A case that is there twice is found out.
+fn answers(folder: &Path, study: &str) -> BTreeMap<String, Value> {
+    let mut cases = BTreeMap::new();
+    for entry in fs::read_dir(folder.join(study)).unwrap() {
+        let mut file = json(&entry.unwrap().path());
+        let mut case = file["case"].take();
+        if !case["epoch"]["structures"].is_null() {
+            case = case["epoch"].take();
+        }
+        case["circumstances"] = Value::Null;
+        for structure in case["structures"].as_array_mut().unwrap() {
+            structure["build_ns"] = Value::Null;
+            structure["details"]["build_peak_bytes"] = Value::Null;
+            for rays in structure["rays"].as_array_mut().unwrap() {
+                rays["ns"] = rays["ns"].as_array().unwrap().len().into();
+                rays["details"]["instructions_per_ray"] = Value::Null;
+                rays["parts"].as_array_mut().unwrap().iter_mut().for_each(|part| part["ns"] = Value::Null);
+            }
+        }
+        let key = file["key"].as_str().unwrap().to_owned();
+        assert!(cases.insert(key.clone(), case).is_none(), "{key} is there twice");
+    }
+    cases
+}
+
+#[test]
+fn a_plan_is_one_command_a_case_with_a_file_of_its_own() {
+    let folder = TempDir::new().unwrap();
+    let dir = folder.path().join("my runs");
+    let args = [&SMALL[..], &SCENES].concat();
+    let lines = plan(&dir, &args);
+    assert_eq!(lines.len(), 4, "two epochs of two scenes");
+    assert_eq!(plan(&dir, &args), lines, "the same plan has the same names");
+    let mut files: Vec<PathBuf> = lines.iter().map(|line| file(line)).collect();
+    for path in &files {
+        assert_eq!(path.parent().unwrap(), dir.join("attribution"));
+        let name = path.file_name().unwrap().to_str().unwrap().strip_suffix(".json").unwrap();
+        assert!(name.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-'), "{name}");
+    }
+    files.sort();
+    files.dedup();
+    assert_eq!(files.len(), 4);
+    assert!(!dir.exists(), "nothing is made");
+
+    // All studies, in the quick form; what is made from the others has no job, and is named.
+    let output = sahara(&["study", "plan", "all", "--quick", "--dir", "r"]);
+    let (text, said) = (stdout(&output), stderr(&output));
+    assert_eq!(output.status.code(), Some(RIGHT), "{said}");
+    let mut names: Vec<String> = text.lines().map(|line| file(line).to_str().unwrap().to_owned()).collect();
+    for study in ["compare", "replicate", "attribution", "scaling", "accuracy", "counts", "threads", "crossover"] {
+        assert!(names.iter().any(|name| name.starts_with(&format!("r/{study}/"))), "{study}: {names:?}");
+    }
+    assert!(!text.contains("predictions") && said.contains("predictions: no jobs"), "{said}");
+    let count = names.len();
+    names.sort();
+    names.dedup();
+    assert_eq!(names.len(), count);
+}
+
+#[test]
+fn what_cannot_be_planned_is_one_sentence() {
+    refuses_in_a_line(&["study", "plan", "attributoin"], &["attributoin"]);
+    refuses_in_a_line(&["study", "plan", "attribution", "--scenes", "cub"], &["cub", "Cube"]);
+    refuses_in_a_line(&["study", "plan", "attribution", "--scenes"], &["--scenes SCENE"]);
+    refuses_in_a_line(&["study", "plan", "attribution", "--scenes", "cube", "--dir", "a\tb"], &["tab"]);
+    let output = sahara(&["study", "plan", "attribution", "--quick", "--epoch", "3"]);
+    assert!(output.status.code() == Some(USAGE) && stderr(&output).contains("--epoch"), "{}", stderr(&output));
+    assert!(output.stdout.is_empty());
+}
+
+#[test]
+fn jobs_in_any_order_are_the_study() {
+    let folder = TempDir::new().unwrap();
+    let [apart, one] = ["apart", "one"].map(|name| folder.path().join(name));
+    let lines = plan(&apart, &[&SMALL[..], &SCENES].concat());
+    // The last one first.
+    lines.iter().rev().for_each(|line| done(line));
+    let study = |dir: &Path, more: &[&str]| {
+        let own = ["study", "attribution", "cube", "sphere", "--dir", dir.to_str().unwrap()];
+        prints(&[&own[..], &SMALL[1..], more].concat())
+    };
+    study(&one, &["--in-process"]);
+    assert_eq!(answers(&apart, "attribution").len(), 4);
+    assert_eq!(answers(&apart, "attribution"), answers(&one, "attribution"));
+
+    // They are the journal of the study: it has nothing left to measure, and changes nothing.
+    let before: Vec<Vec<u8>> = lines.iter().map(|line| fs::read(file(line)).unwrap()).collect();
+    assert!(study(&apart, &[]).contains("Cube"));
+    assert_eq!(lines.iter().map(|line| fs::read(file(line)).unwrap()).collect::<Vec<_>>(), before);
+    assert_eq!(fs::read_dir(apart.join("attribution")).unwrap().count(), 4);
+
+    // Each says where it comes from, and names the run and not the job.
+    let case = json(&file(&lines[0]));
+    for field in ["host", "cpu", "commit", "target_features", "date", "command"] {
+        assert!(!case["provenance"][field].as_str().unwrap().is_empty(), "{field}");
+    }
+    let command = case["provenance"]["command"].as_str().unwrap();
+    assert!(command.ends_with("study attribution cube sphere --rays 64 --runs 1 --budget 1 --epochs 2"), "{command}");
+}
+
+#[test]
+fn detailed_studies_and_whole_scenes_are_jobs_as_well() {
+    let folder = TempDir::new().unwrap();
+    let [apart, one] = ["apart", "one"].map(|name| folder.path().join(name));
+    let own = ["-s", "sah-kd", "-s", "sah-bvh", "-w", "diffuse", "--rays", "256", "--epochs", "2", "--budget", "1"];
+    let lines = plan(&apart, &[&["compare"][..], &["--scenes", "cube", "torus"], &own].concat());
+    assert_eq!(lines.len(), 4);
+    lines.iter().rev().for_each(|line| done(line));
+    let dir = one.to_str().unwrap();
+    prints(&[&["compare", "cube", "torus", "--dir", dir][..], &own].concat());
+    assert_eq!(answers(&apart, "compare"), answers(&one, "compare"));
+
+    let lines = plan(&apart, &["counts", "--scenes", "cube", "-s", "sah-kd", "-w", "primary", "--rays", "100"]);
+    assert_eq!(lines.len(), 1);
+    done(&lines[0]);
+    assert_eq!(json(&file(&lines[0]))["study"], "counts");
+}
+
+#[test]
+fn a_job_measures_once_and_refuses_what_is_not_its_own() {
+    let folder = TempDir::new().unwrap();
+    let lines = plan(folder.path(), &[&SMALL[..], &["--scenes", "cube"]].concat());
+    done(&lines[0]);
+    let path = file(&lines[0]);
+    let before = fs::read(&path).unwrap();
+    let again = run(&lines[0]);
+    assert_eq!(again.status.code(), Some(RIGHT));
+    assert!(stderr(&again).contains("nothing is measured") && stderr(&again).lines().count() == 1);
+    assert_eq!(fs::read(&path).unwrap(), before);
+
+    let refused = |line: &str, part: &str| {
+        let output = run(line);
+        let said = stderr(&output);
+        assert_eq!((output.status.code(), said.lines().count()), (Some(USAGE), 1), "{said}");
+        assert!(said.contains(part), "{said}");
+    };
+    refused(&lines[0].replace("--rays 64", "--rays 65"), "rays was 64 and is 65");
+    refused(&lines[1].replace(file(&lines[1]).to_str().unwrap(), path.to_str().unwrap()), "holds the case");
+    assert_eq!(fs::read(&path).unwrap(), before);
+    let text = String::from_utf8(before).unwrap();
+    for (name, value) in [("cpu", "Other"), ("commit", "decade"), ("build", "0123")] {
+        let mut case: Value = serde_json::from_str(&text).unwrap();
+        case["provenance"][name] = value.into();
+        fs::write(&path, serde_json::to_string(&case).unwrap()).unwrap();
+        refused(&lines[0], &format!("and is "));
+        refused(&lines[0], &format!("{name} was {value}"));
+    }
+    // The study refuses it as well, and the report keeps it apart.
+    let dir = folder.path().to_str().unwrap();
+    let study = [&["study", "attribution", "cube", "--dir", dir], &SMALL[1..]].concat();
+    refuses_in_a_line(&study, &["build was 0123"]);
+}
+
+#[test]
+fn of_two_jobs_at_one_file_one_wins_and_both_are_content() {
+    let folder = TempDir::new().unwrap();
+    let lines = plan(folder.path(), &[&SMALL[..], &["--scenes", "cube"]].concat());
+    let both = [0, 1].map(|_| job(&lines[0]).spawn().unwrap());
+    let both = both.map(|child| child.wait_with_output().unwrap());
+    assert!(both.iter().all(|output| output.status.code() == Some(RIGHT)), "{both:?}");
+    assert!(both.iter().filter(|output| output.stderr.is_empty()).count() <= 1, "{both:?}");
+    assert_eq!(fs::read_dir(folder.path().join("attribution")).unwrap().count(), 1);
+    assert_eq!(json(&file(&lines[0]))["study"], "attribution");
+}
+
+#[test]
+fn a_job_that_is_killed_leaves_no_result() {
+    let folder = TempDir::new().unwrap();
+    let lines = plan(folder.path(), &[&SMALL[..], &["--scenes", "sphere"]].concat());
+    let mut child = job(&lines[0]).spawn().unwrap();
+    std::thread::sleep(std::time::Duration::from_millis(300));
+    child.kill().unwrap();
+    child.wait().unwrap();
+    let left = fs::read_dir(folder.path().join("attribution")).map_or(0, |entries| {
+        entries.filter(|entry| entry.as_ref().unwrap().path().extension().is_some_and(|e| e == "json")).count()
+    });
+    assert_eq!(left, 0);
+    done(&lines[0]);
+}
+
+#[test]
+fn what_cannot_be_written_is_one_sentence_and_no_file() {
+    let folder = TempDir::new().unwrap();
+    let lines = plan(&folder.path().join("runs"), &[&SMALL[..], &["--scenes", "cube"]].concat());
+    // A file stands where the folder should be.
+    fs::write(folder.path().join("runs"), "x").unwrap();
+    let output = run(&lines[0]);
+    let said = stderr(&output);
+    assert_eq!((output.status.code(), said.lines().count()), (Some(USAGE), 1), "{said}");
+    assert!(said.contains("cannot write") && said.contains("runs/attribution"), "{said}");
+    fs::remove_file(folder.path().join("runs")).unwrap();
+
+    // As on a full disk: the system takes no more than a thousand bytes of a file.
+    #[cfg(target_os = "linux")]
+    {
+        let shell = format!("trap '' XFSZ; ulimit -f 1; exec \"$0\" {}", lines[0].strip_prefix("sahara ").unwrap());
+        let mut command = Command::new("sh");
+        command.args(["-c", &shell, env!("CARGO_BIN_EXE_sahara")]).env_remove("SAHARA_DATA");
+        let output = command.stdin(Stdio::null()).output().unwrap();
+        let said = stderr(&output);
+        assert_eq!((output.status.code(), said.lines().count()), (Some(USAGE), 1), "{said}");
+        assert!(said.contains("cannot write") && said.contains("give it room"), "{said}");
+        assert_eq!(fs::read_dir(folder.path().join("runs/attribution")).unwrap().count(), 0, "nothing is left");
+    }
+    done(&lines[0]);
+}
+
+#[test]
+fn the_report_keeps_machines_apart_and_names_what_is_missing() {
+    let folder = TempDir::new().unwrap();
+    let [here, there, page] = ["here", "there", "page"].map(|name| folder.path().join(name));
+    let own = ["-s", "sah-kd", "-s", "obvhs-bvh2", "-w", "primary", "--rays", "256", "--epochs", "2", "--budget", "1"];
+    let planned = |dir: &Path| plan(dir, &[&["compare", "--scenes", "cube", "torus"][..], &own].concat());
+    planned(&here).iter().for_each(|line| done(line));
+    // As another machine would have measured them, but for one.
+    fs::create_dir_all(there.join("compare")).unwrap();
+    for (i, line) in planned(&here).iter().enumerate().filter(|(i, _)| *i != 2) {
+        let mut case = json(&file(line));
+        case["provenance"]["cpu"] = "Another Processor".into();
+        fs::write(there.join(format!("compare/{i}.json")), case.to_string()).unwrap();
+    }
+    let report = |more: &[&Path]| {
+        let mut args = vec!["report", "--no-pictures", "-o", page.to_str().unwrap()];
+        args.extend(more.iter().map(|path| path.to_str().unwrap()));
+        sahara(&args)
+    };
+    let output = report(&[&here, &there]);
+    assert_eq!(output.status.code(), Some(RIGHT), "{}", stderr(&output));
+    assert!(stdout(&output).contains("compare: ") && stdout(&output).contains("not measured"), "{}", stdout(&output));
+    let html = fs::read_to_string(page.join("index.html")).unwrap();
+    assert!(html.contains("Another Processor") && html.contains("M2"), "two machines, side by side");
+    let records = fs::read_to_string(page.join("data/records.jsonl")).unwrap();
+    assert!(!records.contains("Another Processor") && records.lines().count() == 4, "{records}");
+
+    // Conflicting settings are refused by the names of settings and files.
+    let other: Vec<String> = planned(&there).iter().map(|line| line.replace("--rays 256", "--rays 64")).collect();
+    done(&other[2]);
+    let output = report(&[&here, &there]);
+    let said = stderr(&output);
+    assert_eq!((output.status.code(), said.lines().count()), (Some(USAGE), 1), "{said}");
+    assert!(said.contains("rays was 256 and is 64") && said.matches(".json").count() == 2, "{said}");
+}
