@@ -15,6 +15,7 @@ mod sdf;
 mod sheets;
 mod sponza;
 mod teapot;
+mod terrain;
 mod torus;
 mod uv_sphere;
 
@@ -34,6 +35,7 @@ pub use plane::{cornellbox, cube, plane_y};
 pub use sheets::{SHEET_SIDE, sheets};
 pub use sponza::sponza;
 pub use teapot::teapot;
+pub use terrain::terrain;
 pub use torus::torus;
 pub use uv_sphere::uv_sphere;
 
