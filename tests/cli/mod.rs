@@ -9,6 +9,7 @@ mod epochs;
 mod input;
 #[cfg(target_os = "linux")]
 mod interrupted;
+mod large;
 mod processes;
 mod rays;
 mod render;

@@ -73,7 +73,8 @@ pub struct Args {
     /// Write the answers of the one structure to the rays of the file of --rays
     #[arg(long, value_name = "F.hits")]
     export_hits: Option<PathBuf>,
-    /// Seconds that a structure may take for its build, or for 256 rays, before it counts as hanging
+    /// Seconds that a structure may take for 256 rays, or for its build and for each further million triangles of it, before it counts
+    /// as hanging
     #[arg(long, value_name = "SECONDS", default_value_t = LIMIT.as_secs() as u32, value_parser = clap::value_parser!(u32).range(1..=86400))]
     limit: u32,
     /// Seed of the rays
@@ -145,7 +146,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
                 continue;
             }
             let waiting = Waiting::show(String::new(), terminal);
-            match check(&mut references, choice, args.limit(), &waiting)? {
+            match check(&mut references, choice, args, &waiting)? {
                 Taken::Compared(accel, found) => {
                     match documented_defect(&choice.entry.name) {
                         _ if !against.refutes(&found) => {}
@@ -165,7 +166,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
                 Taken::Hangs => {
                     verdict = Status::Wrong;
                     rows.push(set_apart(choice, "hangs"));
-                    let limit = args.limit;
+                    let limit = args.build_limit(scene.mesh.len()).as_secs();
                     notes.push(format!("{}: its builder did not end within {limit} s: see --limit", choice.label));
                 }
                 Taken::Refused(reason) => {
@@ -193,6 +194,11 @@ impl Args {
 
     fn limit(&self) -> Duration {
         Duration::from_secs(self.limit.into())
+    }
+
+    /// What a build over so many triangles may take.
+    fn build_limit(&self, triangles: usize) -> Duration {
+        self.limit() * u32::try_from(1 + triangles / 1_000_000).unwrap_or(u32::MAX)
     }
 }
 
@@ -248,19 +254,21 @@ enum Taken {
     Refused(String),
 }
 
-fn check(references: &mut References, choice: &Choice, limit: Duration, waiting: &Waiting) -> anyhow::Result<Taken> {
+fn check(references: &mut References, choice: &Choice, args: &Args, waiting: &Waiting) -> anyhow::Result<Taken> {
     let Known { reference, answers } = references.of(choice.triangle_test(), waiting)?;
     let (scene, rays) = (references.scene, references.rays);
     waiting.says(format!("{} builds {}", scene.name, choice.label));
     let (own, mesh) = (choice.clone(), Arc::clone(&scene.mesh));
     // A panic of the builder is caught by the registry: what ends without a result hangs.
-    let Ok(built) = watched(limit, move || own.build(&mesh)) else { return Ok(Taken::Hangs) };
+    let Ok(built) = watched(args.build_limit(scene.mesh.len()), move || own.build(&mesh)) else {
+        return Ok(Taken::Hangs);
+    };
     let accel: Arc<dyn DynAccel> = match built {
         Ok(accel) => Arc::from(accel),
         Err(error) => return Ok(Taken::Refused(error.to_string())),
     };
     waiting.says(format!("{} checks {}", scene.name, choice.label));
-    let found = validate_watched(&accel, &reference, &answers, &scene.mesh, rays, limit);
+    let found = validate_watched(&accel, &reference, &answers, &scene.mesh, rays, args.limit());
     Ok(Taken::Compared(accel, found))
 }
 

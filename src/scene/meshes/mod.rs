@@ -29,7 +29,7 @@ use super::Model;
 pub use creatures::{elephant, fox, rabbit};
 pub use dragon::dragon;
 pub use icosahedron::{icosahedron, inside_out_icosahedron};
-pub use icosphere::icosphere;
+pub use icosphere::{divided_icosphere, icosphere};
 pub use lucy::lucy;
 pub use plane::{cornellbox, cube, plane_y};
 pub use sheets::{SHEET_SIDE, sheets};

@@ -1,6 +1,6 @@
 //! `scaling`: how do time, build and memory grow with the number of triangles?
 //!
-//! Icospheres of 20 to 1.3 million triangles, seen alike, so that nothing changes but how finely one surface is
+//! Icospheres of 20 to 16 million triangles, seen alike, so that nothing changes but how finely one surface is
 //! divided; and the meshes that are named, which differ in more than their number of triangles, so that their exponent
 //! says less. Powers are fitted to medians on logarithms, over the meshes on which the structure has more than one
 //! leaf: a single leaf is brute force.
@@ -23,7 +23,7 @@ use crate::report::document::Block;
 use crate::report::{Statement, Table};
 use crate::scene::{Scene, WorkloadKind};
 
-pub use spheres::{LEVELS, name, sphere};
+pub use spheres::{FINEST, name, sphere};
 pub use table::tables;
 
 const STRUCTURES: [&str; 7] =
@@ -38,8 +38,8 @@ pub struct ScalingArgs {
     // Beside the icospheres.
     #[command(flatten)]
     scenes: Scenes,
-    /// The finest icosphere, of 20 times 4 to that power triangles
-    #[arg(long, value_name = "LEVEL", default_value_t = *LEVELS.end(), value_parser = clap::value_parser!(u32).range(0..=10))]
+    /// The finest icosphere: 0 has 20 triangles, each next one four times as many, and the last one 16 million
+    #[arg(long, value_name = "LEVEL", default_value_t = FINEST, value_parser = clap::value_parser!(u32).range(0..=i64::from(FINEST)))]
     finest: u32,
     #[command(flatten)]
     structures: Structures,
@@ -59,7 +59,7 @@ impl Study for ScalingStudy {
 
     fn args(effort: Effort) -> ScalingArgs {
         let (scenes, finest) = match effort {
-            Effort::Full => (Scenes::default(), *LEVELS.end()),
+            Effort::Full => (Scenes::default(), FINEST),
             Effort::Quick => (Scenes::named(&["torus"]), 4),
         };
         let (rays, measuring) = (Rays::of(effort), Measuring::of(effort));

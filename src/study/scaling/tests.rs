@@ -78,4 +78,7 @@ fn spheres_are_seen_alike() {
     let (coarse, fine) = (sphere(0).unwrap(), sphere(3).unwrap());
     assert_eq!((coarse.mesh.len(), fine.mesh.len()), (20, 1280));
     assert_eq!(coarse.camera, fine.camera);
+    // The names of levels are their numbers; the finest has sixteen million.
+    assert_eq!((name(0).as_str(), FINEST), ("icosphere 0", 10));
+    assert_eq!(sphere(5).unwrap().mesh.len(), 20 << 10);
 }
