@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use super::format::{LightFile, ObjectFile, RealMesh, SceneFile, TerrainFile};
+use super::format::{LightFile, ObjectFile, RealMesh, SceneFile};
 use super::{Camera, CornerNormals, Light, Material, Model, Offset, Scene, SceneError, load, meshes};
 use crate::geometry::{Mesh, Transform};
 
@@ -132,8 +132,8 @@ impl Parts {
             }
         }
         let placement = Transform::new(object.rot.into(), object.sca.into(), object.tra.into());
-        if let Some(TerrainFile { triangles, seed }) = object.terrain {
-            return Ok((meshes::terrain(triangles, seed), placement));
+        if let Some(terrain) = object.terrain {
+            return Ok((terrain.model(), placement));
         }
         let mesh = match (&object.mesh, &object.real) {
             (Some(mesh), _) => mesh,

@@ -6,6 +6,7 @@ use serde::Deserialize;
 
 use super::SceneError;
 use crate::scene::Material;
+use crate::scene::meshes::Terrain;
 
 /// A scene file as it is written; [`SceneFile::parse`] checks its values, [`super::Scene::read`] makes the scene.
 #[derive(Clone, Debug, Deserialize)]
@@ -101,7 +102,7 @@ pub struct ObjectFile {
     /// `real` will do, or where there is a `terrain`.
     pub mesh: Option<String>,
     /// Ground that is made in place of a mesh.
-    pub terrain: Option<TerrainFile>,
+    pub terrain: Option<Terrain>,
     /// The material of the whole mesh. Without `material` and `materials` the mesh keeps its own, or is grey.
     pub material: Option<String>,
     /// Materials by part, where parts are the materials that the mesh itself names.
@@ -117,16 +118,6 @@ pub struct ObjectFile {
     pub stands_in_for: Option<String>,
     /// The mesh file to use instead when it is there, or the only one.
     pub real: Option<RealMesh>,
-}
-
-/// Ground of so many triangles: see [`super::meshes::terrain`].
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct TerrainFile {
-    /// 1 to 2^27.
-    pub triangles: usize,
-    #[serde(default = "one")]
-    pub seed: u32,
 }
 
 /// A mesh file that is not part of the project, how to get it and where it stands.
@@ -157,9 +148,6 @@ pub struct RealMesh {
     pub exclude_materials: Vec<String>,
 }
 
-/// Triangles of a terrain, at most: their mesh takes some gigabytes.
-const MOST_TERRAIN: usize = 1 << 27;
-
 fn default_size() -> [u32; 2] {
     [512, 512]
 }
@@ -170,10 +158,6 @@ fn default_recursion_limit() -> u32 {
 
 fn default_up() -> [f32; 3] {
     [0.0, 1.0, 0.0]
-}
-
-fn one() -> u32 {
-    1
 }
 
 fn ones() -> [f32; 3] {
@@ -230,7 +214,7 @@ impl SceneFile {
                 let problem = "give it alone: `mesh`, `real` and `stands_in_for` are for other objects";
                 demand(alone, &format!("objects[{i}].terrain"), problem)?;
                 let key = format!("objects[{i}].terrain.triangles");
-                demand((1..=MOST_TERRAIN).contains(&terrain.triangles), &key, "give 1 to 134217728 (2^27)")?;
+                demand((1..=Terrain::MOST).contains(&terrain.triangles), &key, "give 1 to 134217728 (2^27)")?;
             } else if object.mesh.is_none() {
                 let problem = "name a mesh or a file, or give `terrain` or `real`";
                 demand(object.real.is_some(), &format!("objects[{i}].mesh"), problem)?;

@@ -5,8 +5,9 @@ use std::sync::Arc;
 
 use anyhow::Context;
 
+use super::Args;
 use super::against::Against;
-use super::{Args, print, row};
+use super::table::{print, row};
 use crate::accel::{DynAccel, Query};
 use crate::cli::terminal::Terminal;
 use crate::geometry::{Hit, Ray};

@@ -4,6 +4,7 @@ mod against;
 mod answers;
 mod exchange;
 mod hard;
+mod table;
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -16,8 +17,7 @@ use super::terminal::Terminal;
 use crate::accel::DynAccel;
 use crate::geometry::Ray;
 use crate::registry::{Choice, Registry};
-use crate::report::number::{count, plural};
-use crate::report::{Cell, Table, Tone};
+use crate::report::number::plural;
 use crate::scene::{Sampling, Scene, Workload, WorkloadKind};
 use crate::study::args::Structures;
 use crate::study::{BRUTE_FORCE, documented_defect, left_out};
@@ -26,6 +26,7 @@ use crate::study::{Status, ViewArgs, sources};
 use crate::validate::{LIMIT, Stratum, Validation, validate_watched, watched};
 
 use against::{ASKED, Against, Known, References};
+use table::{LEGEND, print, row, set_apart};
 
 pub use hard::{CHILD, ChildArgs, described, run_child};
 
@@ -202,33 +203,6 @@ impl Args {
     }
 }
 
-fn print(
-    scene: &Scene,
-    rays: &[Ray],
-    against: &Against,
-    rows: Vec<Vec<Cell>>,
-    notes: Vec<String>,
-    terminal: &Terminal,
-) -> anyhow::Result<()> {
-    let stand_in = if scene.stand_ins.is_empty() { "" } else { ", stand-in" };
-    let (triangles, rays) = (plural(scene.mesh.len(), "triangle"), plural(rays.len(), "ray"));
-    let title = format!("{}: {triangles}{stand_in}; {rays} against {against}", scene.name);
-    Ok(terminal.print_table(&Table { title, columns: COLUMNS.map(String::from).into(), rows, notes })?)
-}
-
-const COLUMNS: [&str; 8] =
-    ["structure", "triangle test", "hits", "structure errors", "answer errors", "coarse", "kernel", "ties"];
-
-const LEGEND: [&str; 4] = [
-    "structure errors: hits lost or invented although the structure's own triangle test, run over all triangles, says \
-     otherwise, contradictions, panics and questions without an end; none in a correct structure. answer errors: wrong answers where the reference has another triangle test.",
-    "A depth is wrong if it is off by more than 4 ulps and more than 1e-6. coarse: the answer errors that remain if up to 1 %, \
-     or 0.1 % on another triangle, is allowed; the others are common where tests in f32 meet grazing rays, and without \
-     --against they do not decide about the exit status.",
-    "kernel: differences that the triangle test is to blame for. ties: as near a hit on another triangle; no error.",
-    "To ask a ray again: sahara validate SCENE --structure NAME --ray \"ox,oy,oz dx,dy,dz\"",
-];
-
 /// Of every kind the same number, at least one.
 fn rays(scene: &Scene, registry: &Registry, args: &Args, against: &Against) -> anyhow::Result<Vec<Ray>> {
     let number = match &args.rays {
@@ -272,14 +246,6 @@ fn check(references: &mut References, choice: &Choice, args: &Args, waiting: &Wa
     Ok(Taken::Compared(accel, found))
 }
 
-fn set_apart(choice: &Choice, why: &str) -> Vec<Cell> {
-    let mut row = vec![Cell::blank(); COLUMNS.len()];
-    row[0] = choice.label.as_str().into();
-    row[1] = choice.triangle_test().into();
-    row[2] = Cell::from(why).with(Tone::Wrong);
-    row
-}
-
 /// What a structure was not asked.
 fn declined(choice: &Choice, found: &Validation) -> Option<String> {
     let can = choice.entry.capabilities;
@@ -289,20 +255,4 @@ fn declined(choice: &Choice, found: &Validation) -> Option<String> {
         n => format!(": {} not asked", plural(n as usize, "ray")),
     };
     (!what.is_empty()).then(|| format!("{} declines {}{rays}", choice.label, what.join(", ")))
-}
-
-fn row(label: &str, test: &str, found: &Validation) -> Vec<Cell> {
-    let errors = |n: u64| Cell::from(count(n)).with(if n > 0 { Tone::Wrong } else { Tone::Plain });
-    let own = found.errors() - found.answer_errors;
-    let hits = if found.rays == 0 && found.declined > 0 { "declined".into() } else { count(found.hits) };
-    vec![
-        label.into(),
-        test.into(),
-        hits.into(),
-        errors(own),
-        errors(found.answer_errors + found.depth_errors),
-        count(found.answer_errors).into(),
-        count(found.kernel_differences).into(),
-        count(found.ties).into(),
-    ]
 }

@@ -35,7 +35,7 @@ pub use plane::{cornellbox, cube, plane_y};
 pub use sheets::{SHEET_SIDE, sheets};
 pub use sponza::sponza;
 pub use teapot::teapot;
-pub use terrain::terrain;
+pub use terrain::Terrain;
 pub use torus::torus;
 pub use uv_sphere::uv_sphere;
 

@@ -2,6 +2,7 @@
 
 use glam::Vec3;
 use rayon::prelude::*;
+use serde::Deserialize;
 
 use super::{flat, halves, noise};
 use crate::scene::Model;
@@ -12,28 +13,49 @@ const HEIGHT: f32 = 0.2;
 /// Hills of the first octave from one side to the other.
 const HILLS: f32 = 4.0;
 
-/// Ground over the square with corners (+-1, +-1) of x and z, looking up: `triangles` in rows of square cells, the last row as far as they
+/// Ground over the square with corners (+-1, +-1) of x and z, looking up, in rows of square cells, the last row as far as the triangles
 /// reach. The same `seed` is the same ground, however finely it is divided; cells are the size of the finest hills.
-pub fn terrain(triangles: usize, seed: u32) -> Model {
-    let cells = triangles.div_ceil(2);
-    let columns = cells.isqrt() + usize::from(cells.isqrt() * cells.isqrt() < cells);
-    let rows = cells.div_ceil(columns.max(1));
-    // Features that are narrower than two cells would be noise from vertex to vertex.
-    let octaves = (0..).take_while(|&k| HILLS * (1 << k) as f32 <= columns as f32 / 2.0).count().max(1) as u32;
-    let across = columns + 1;
-    let place = |i: usize| {
-        let at = |step: usize| 2.0 * (step as f64 / columns as f64) as f32 - 1.0;
-        let (x, z) = (at(i % across), at(i / across));
-        Vec3::new(x, height(x, z, octaves, seed), z)
-    };
-    let corner = |column: usize, row: usize| (row * across + column) as u32;
-    let triangle = |i: usize| {
-        let (column, row) = (i / 2 % columns, i / 2 / columns);
-        let [left, right] = [column, column + 1];
-        halves([corner(left, row + 1), corner(right, row + 1), corner(right, row), corner(left, row)])[i % 2]
-    };
-    let vertices = if cells > 0 { across * (rows + 1) } else { 0 };
-    flat((0..vertices).into_par_iter().map(place).collect(), (0..triangles).into_par_iter().map(triangle).collect())
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Terrain {
+    /// At most [`Terrain::MOST`].
+    pub triangles: usize,
+    #[serde(default = "one")]
+    pub seed: u32,
+}
+
+fn one() -> u32 {
+    1
+}
+
+impl Terrain {
+    /// The mesh of so many takes some gigabytes.
+    pub const MOST: usize = 1 << 27;
+
+    pub fn model(self) -> Model {
+        let cells = self.triangles.div_ceil(2);
+        let columns = cells.isqrt() + usize::from(cells.isqrt() * cells.isqrt() < cells);
+        let rows = cells.div_ceil(columns.max(1));
+        // Hills that are narrower than two cells would be noise from vertex to vertex.
+        let octaves = (0..).take_while(|&k| HILLS * (1 << k) as f32 <= columns as f32 / 2.0).count().max(1) as u32;
+        let across = columns + 1;
+        let vertex = |i: usize| {
+            let at = |step: usize| 2.0 * (step as f64 / columns as f64) as f32 - 1.0;
+            let (x, z) = (at(i % across), at(i / across));
+            Vec3::new(x, height(x, z, octaves, self.seed), z)
+        };
+        let corner = |column: usize, row: usize| (row * across + column) as u32;
+        let triangle = |i: usize| {
+            let (left, far) = (i / 2 % columns, i / 2 / columns);
+            let (right, near) = (left + 1, far + 1);
+            halves([corner(left, near), corner(right, near), corner(right, far), corner(left, far)])[i % 2]
+        };
+        let vertices = if cells > 0 { across * (rows + 1) } else { 0 };
+        flat(
+            (0..vertices).into_par_iter().map(vertex).collect(),
+            (0..self.triangles).into_par_iter().map(triangle).collect(),
+        )
+    }
 }
 
 fn height(x: f32, z: f32, octaves: u32, seed: u32) -> f32 {
@@ -49,6 +71,10 @@ fn height(x: f32, z: f32, octaves: u32, seed: u32) -> f32 {
 mod tests {
     use super::*;
     use crate::geometry::Mesh;
+
+    fn terrain(triangles: usize, seed: u32) -> Model {
+        Terrain { triangles, seed }.model()
+    }
 
     #[test]
     fn every_number_of_triangles_is_a_ground_without_gaps_that_looks_up() {

@@ -126,6 +126,9 @@ pub struct FamilyEpoch {
     pub epoch: Epoch,
 }
 
+/// Triangles of the icosphere of level 8.
+pub const LEVEL_8: usize = 20 << 16;
+
 /// How one structure grows on one family and one kind of rays.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Growth {
@@ -138,6 +141,8 @@ pub struct Growth {
     /// Time a ray grows like this power of the number of triangles. Nothing with fewer than three meshes of more than
     /// one leaf.
     pub time: Option<Estimate>,
+    /// Likewise over the meshes of at most [`LEVEL_8`] triangles: what a claim about these is judged by.
+    pub time_to_level_8: Option<Estimate>,
     /// Half of the 95 % interval that this power would have by the scatter of the meshes about it alone, were they
     /// drawn from a family at random.
     pub scatter: Option<f64>,
@@ -219,8 +224,9 @@ pub fn rows(growths: &[Growth]) -> Vec<Row<'_>> {
 /// That of the lines of one structure and one kind of rays, from the fewest triangles to the most.
 fn growth(family: Family, lines: &[&Line], twins: &Twins) -> Growth {
     let fitted: Vec<&Line> = lines.iter().copied().filter(|line| line.leaves > 1).collect();
-    let measured = |logs: fn(&Line) -> &[Vec<f64>], noise: &AaNoise| {
-        power(&fitted, &|line| Some(middles(logs(line))), |weights| noise.weighted(weights)).map(|rerun| rerun.plain())
+    let coarser: Vec<&Line> = fitted.iter().copied().filter(|line| line.triangles <= LEVEL_8).collect();
+    let measured = |lines: &[&Line], logs: fn(&Line) -> &[Vec<f64>], noise: &AaNoise| {
+        power(lines, &|line| Some(middles(logs(line))), |weights| noise.weighted(weights)).map(|rerun| rerun.plain())
     };
     // Counts and bytes do not vary.
     let counted = |value: &dyn Fn(&Line) -> Option<f64>| {
@@ -234,9 +240,10 @@ fn growth(family: Family, lines: &[&Line], twins: &Twins) -> Growth {
         structure: lines[0].structure.clone(),
         workload: lines[0].workload.clone(),
         points: lines.iter().map(|line| point(line)).collect(),
-        time: measured(|line| &line.trace, &twins.trace),
+        time: measured(&fitted, |line| &line.trace, &twins.trace),
+        time_to_level_8: measured(&coarser, |line| &line.trace, &twins.trace),
         scatter: least_squares::scatter(&points),
-        build: measured(|line| &line.build, &twins.build),
+        build: measured(&fitted, |line| &line.build, &twins.build),
         bytes: counted(&|line| Some(line.bytes as f64)),
         tests: counted(&|line| line.tests),
         steps: counted(&|line| line.steps),
