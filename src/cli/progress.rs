@@ -34,7 +34,7 @@ impl Waiting {
     pub fn show(what: String, terminal: &Terminal) -> Self {
         let target = if terminal.quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
         let bar = ProgressBar::with_draw_target(None, target);
-        bar.set_style(ProgressStyle::with_template("{elapsed:>4} {wide_msg}").expect("the template is valid"));
+        bar.set_style(ProgressStyle::with_template("{elapsed_precise} {wide_msg}").expect("the template is valid"));
         bar.set_message(what);
         bar.enable_steady_tick(TICK);
         Self(bar)
@@ -102,7 +102,7 @@ impl Progress {
     pub fn over(work: u64, terminal: &Terminal) -> Self {
         let target = if terminal.quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
         let bar = ProgressBar::with_draw_target(Some(work * STEPS), target);
-        let style = ProgressStyle::with_template("{bar:24} {percent:>3}% {elapsed:>4}{left} {wide_msg}");
+        let style = ProgressStyle::with_template("{bar:24} {percent:>3}% {elapsed_precise}{left} {wide_msg}");
         let left = |state: &ProgressState, out: &mut dyn fmt::Write| {
             // Long cases and short ones follow each other: what all of them took says more than the last seconds.
             let (done, all) = (state.pos(), state.len().unwrap_or(0));

@@ -6,11 +6,11 @@ use anyhow::Context;
 
 use super::progress::Waiting;
 use super::terminal::Terminal;
-use crate::accel::Observed;
-use crate::registry::Registry;
+use crate::accel::{DynAccel, Observed};
+use crate::registry::{Choice, Registry};
 use crate::render::{ErrorMap, ViewError, ViewKind, costs, draw, hottest};
 use crate::scene::Scene;
-use crate::study::{BRUTE_FORCE, PANICKED, SAH_TREE, guarded};
+use crate::study::{BRUTE_FORCE, PANICKED, SAH_TREE, guarded, is_large};
 use crate::study::{Status, ViewArgs, sources};
 
 #[derive(Debug, clap::Args)]
@@ -31,7 +31,7 @@ pub struct Args {
     #[command(flatten)]
     from: ViewArgs,
     /// Tests and steps that the heat view shows brightest [default: of the costliest tree of all, so that the pictures of
-    /// all structures can be compared]
+    /// all structures can be compared; where building all of them would take minutes, of the one that answers]
     #[arg(long, value_name = "N")]
     hottest: Option<u64>,
 }
@@ -46,11 +46,13 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
 
     waiting.says(format!("{} builds {}", scene.name, choice.label));
     let accel = choice.build(&scene.mesh)?;
-    waiting.says(format!("{} is drawn by {}", scene.name, choice.label));
+    let scaled_alone = args.hottest.is_none() && is_large(scene.mesh.len());
     let scale = match (args.view, args.hottest) {
-        (ViewKind::Heat, None) => common_scale(registry, &scene, size)?,
+        (ViewKind::Heat, None) if scaled_alone => own_scale(&choice, &scene, accel.as_ref(), size)?,
+        (ViewKind::Heat, None) => common_scale(registry, &scene, size, &waiting)?,
         (_, hottest) => hottest.unwrap_or(1).max(1),
     };
+    waiting.says(format!("{} is drawn by {}", scene.name, choice.label));
     let drawn = guarded(|| -> Result<_, ViewError> {
         let errors = (args.view == ViewKind::Error).then(|| ErrorMap::new(&scene, accel.as_ref(), size));
         let picture = match &errors {
@@ -68,6 +70,13 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     terminal.print(&format!("{}: {} x {} pixels, {what}{scale}\n", args.output.display(), size[0], size[1]))?;
     let notes: Vec<String> = scene.notes.iter().map(|note| format!("{}: {note}", scene.name)).collect();
     terminal.print_lines(&notes)?;
+    if args.view == ViewKind::Heat && scaled_alone {
+        terminal.print_lines(&[format!(
+            "{}: the scale is that of this structure alone, since it would take minutes to build all among so many triangles: --hottest \
+             gives several pictures one scale",
+            scene.name
+        )])?;
+    }
     if let Some(errors) = errors {
         terminal.print(&format!("{}\n", errors.legend()))?;
     }
@@ -87,11 +96,18 @@ fn is_png(path: &Path) -> anyhow::Result<()> {
     }
 }
 
+/// The scale of one structure.
+fn own_scale(choice: &Choice, scene: &Scene, accel: &dyn DynAccel, size: [u32; 2]) -> anyhow::Result<u64> {
+    let costs = guarded(|| costs(scene, accel, size)).with_context(|| format!("{}: {PANICKED}", choice.label))?;
+    Ok(hottest(&costs?).max(1))
+}
+
 /// One scale for the heat of all structures: the hottest of the trees. Brute force would darken all of them.
-fn common_scale(registry: &Registry, scene: &Scene, size: [u32; 2]) -> anyhow::Result<u64> {
+fn common_scale(registry: &Registry, scene: &Scene, size: [u32; 2], waiting: &Waiting) -> anyhow::Result<u64> {
     let mut scale = 1;
     for choice in sources::structures(registry, &[])? {
         if choice.entry.name != BRUTE_FORCE && choice.entry.observed == Observed::ALL {
+            waiting.says(format!("{} builds {} for the scale", scene.name, choice.label));
             scale = scale.max(hottest(&costs(scene, choice.build(&scene.mesh)?.as_ref(), size)?));
         }
     }

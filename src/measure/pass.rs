@@ -38,15 +38,15 @@ fn share(slots: Slots, pieces: &[&Piece], threads: &Threads) {
     threads.install(|| work.into_par_iter().for_each(|(piece, slots)| slots.ask(piece.rays.as_ref())));
 }
 
-/// `count` of `rays`, in order: one from each of `count` parts of equal length, at a seeded random place in it, so that the
-/// rows and columns of an image are not favoured. All rays when there are not more. For checks and counts; what is timed are [`tiles`].
-pub fn spread(rays: &[Ray], count: usize) -> Vec<Ray> {
-    if count >= rays.len() {
-        return rays.to_vec();
+/// `count` of `all`, in order: one from each of `count` parts of equal length, at a seeded random place in it, so that the
+/// rows and columns of an image are not favoured. All when there are not more. For checks and counts; what is timed are [`tiles`].
+pub fn spread<T: Copy>(all: &[T], count: usize) -> Vec<T> {
+    if count >= all.len() {
+        return all.to_vec();
     }
     let mut random = RandomOrder::new(0);
-    let part = |i: usize| (i as u128 * rays.len() as u128 / count as u128) as usize;
-    (0..count).map(|i| rays[part(i) + random.below(part(i + 1) - part(i))]).collect()
+    let part = |i: usize| (i as u128 * all.len() as u128 / count as u128) as usize;
+    (0..count).map(|i| all[part(i) + random.below(part(i + 1) - part(i))]).collect()
 }
 
 /// A structure, a workload and a query: what is timed.

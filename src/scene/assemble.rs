@@ -91,22 +91,26 @@ impl Parts {
         let (mut model, placement) = self.choose(object, key, origin)?;
         self.notes.append(&mut model.notes);
 
-        let first = self.positions.len();
+        let (first, before) = (self.positions.len(), self.triangles.len());
         let shifted = |indices: &[u32; 3], by: usize| indices.map(|i| i + by as u32);
         if (first + model.positions.len()).max(self.normals.len() + model.normals.len()) > i32::MAX as usize {
             return Err(origin.value(key, "the scene has more than 2^31 vertices or normals: split it".into()));
         }
-        self.positions.extend(model.positions.iter().map(|&p| placement.point(p)));
-        self.triangles.extend(model.triangles.iter().map(|t| shifted(t, first)));
+        model.positions.iter_mut().for_each(|p| *p = placement.point(*p));
+        append(&mut self.positions, std::mem::take(&mut model.positions));
+        model.triangles.iter_mut().for_each(|t| *t = shifted(t, first));
+        append(&mut self.triangles, std::mem::take(&mut model.triangles));
 
         let first = self.normals.len();
         self.normals.extend(model.normals.iter().map(|&n| placement.normal(n)));
-        if model.normal_indices.is_empty() {
-            self.normal_indices.resize(self.triangles.len(), CornerNormals::FLAT);
-        } else {
+        // Where no mesh has normals there is nothing to say of each triangle.
+        if !model.normal_indices.is_empty() {
             let flat = |n: &[u32; 3]| n.contains(&Model::FLAT);
             let placed = |n| if flat(n) { CornerNormals::FLAT } else { shifted(n, first) };
+            self.normal_indices.resize(before, CornerNormals::FLAT);
             self.normal_indices.extend(model.normal_indices.iter().map(placed));
+        } else if !self.normal_indices.is_empty() {
+            self.normal_indices.resize(self.triangles.len(), CornerNormals::FLAT);
         }
         self.paint(object, &model, key, origin)
     }
@@ -127,6 +131,10 @@ impl Parts {
                 return Ok((model, placement));
             }
         }
+        let placement = Transform::new(object.rot.into(), object.sca.into(), object.tra.into());
+        if let Some(terrain) = object.terrain {
+            return Ok((terrain.model(), placement));
+        }
         let mesh = match (&object.mesh, &object.real) {
             (Some(mesh), _) => mesh,
             (None, Some(real)) => return Err(missing(real, key, origin)),
@@ -138,7 +146,6 @@ impl Parts {
         }
 
         let key = format!("{key}.mesh");
-        let placement = Transform::new(object.rot.into(), object.sca.into(), object.tra.into());
         let is_file = Path::new(mesh).extension().is_some();
         match (is_file, origin.folder) {
             (true, Some(folder)) => Ok((load_file(&folder.join(mesh), &key, origin)?, placement)),
@@ -201,6 +208,15 @@ impl Parts {
             self.material_of.extend(model.material_of.iter().map(|&part| numbers[part as usize]));
         }
         Ok(())
+    }
+}
+
+/// Puts `more` behind `all`; without a copy where it is the first.
+fn append<T>(all: &mut Vec<T>, mut more: Vec<T>) {
+    if all.is_empty() {
+        *all = more;
+    } else {
+        all.append(&mut more);
     }
 }
 

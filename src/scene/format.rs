@@ -6,6 +6,7 @@ use serde::Deserialize;
 
 use super::SceneError;
 use crate::scene::Material;
+use crate::scene::meshes::Terrain;
 
 /// A scene file as it is written; [`SceneFile::parse`] checks its values, [`super::Scene::read`] makes the scene.
 #[derive(Clone, Debug, Deserialize)]
@@ -98,8 +99,10 @@ impl MaterialFile {
 #[serde(deny_unknown_fields)]
 pub struct ObjectFile {
     /// The name of a generator ([`super::meshes::GENERATORS`]), or a path relative to the scene file; none where only
-    /// `real` will do.
+    /// `real` will do, or where there is a `terrain`.
     pub mesh: Option<String>,
+    /// Ground that is made in place of a mesh.
+    pub terrain: Option<Terrain>,
     /// The material of the whole mesh. Without `material` and `materials` the mesh keeps its own, or is grey.
     pub material: Option<String>,
     /// Materials by part, where parts are the materials that the mesh itself names.
@@ -206,8 +209,15 @@ impl SceneFile {
             for (rot, sca, tra) in placements.into_iter().flatten() {
                 numbers(&[rot, sca, tra].concat(), f32::MIN, &format!("objects[{i}].rot, sca or tra"))?;
             }
-            if object.mesh.is_none() {
-                demand(object.real.is_some(), &format!("objects[{i}].mesh"), "name a mesh or a file, or give `real`")?;
+            if let Some(terrain) = object.terrain {
+                let alone = object.mesh.is_none() && object.real.is_none() && object.stands_in_for.is_none();
+                let problem = "give it alone: `mesh`, `real` and `stands_in_for` are for other objects";
+                demand(alone, &format!("objects[{i}].terrain"), problem)?;
+                let key = format!("objects[{i}].terrain.triangles");
+                demand((1..=Terrain::MOST).contains(&terrain.triangles), &key, "give 1 to 134217728 (2^27)")?;
+            } else if object.mesh.is_none() {
+                let problem = "name a mesh or a file, or give `terrain` or `real`";
+                demand(object.real.is_some(), &format!("objects[{i}].mesh"), problem)?;
                 let placed = (object.rot, object.sca, object.tra) != ([0.0; 3], [1.0; 3], [0.0; 3]);
                 let problem = "there is no `mesh` that it is about: put it into `real`, or leave it out";
                 demand(!placed, &format!("objects[{i}].rot, sca or tra"), problem)?;
@@ -257,7 +267,7 @@ mod tests {
     /// Keys that the parser knows where `table` begins a table, from what it says of one that it does not know.
     fn known(table: &str) -> Vec<String> {
         let error = SceneFile::parse(&format!("{table}nobodys_key = 1\n"), "x").unwrap_err().to_string();
-        let (_, list) = error.split_once("expected one of").unwrap_or_else(|| panic!("{error}"));
+        let (_, list) = error.split_once("expected ").unwrap_or_else(|| panic!("{error}"));
         list.split('`').skip(1).step_by(2).map(String::from).collect()
     }
 
@@ -268,6 +278,7 @@ mod tests {
             ("`[camera]`", "[camera]\n"),
             ("`[[lights]]`", "[[lights]]\n"),
             ("`[[objects]]`", "[[objects]]\n"),
+            ("`[objects.terrain]`", "[[objects]]\n[objects.terrain]\n"),
             ("`[objects.real]`", "[[objects]]\n[objects.real]\n"),
             ("`[materials.NAME]`", "[materials.X]\n"),
         ] {

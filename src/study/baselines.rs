@@ -17,9 +17,14 @@ pub fn left_out(scene: &Scene) -> String {
     )
 }
 
+/// Whether so many triangles are so many that what grows with each of them is sampled or left out.
+pub fn is_large(triangles: usize) -> bool {
+    triangles > MANY
+}
+
 /// Whether `choice` would take minutes among so many triangles.
 pub fn takes_minutes(choice: &Choice, triangles: usize) -> bool {
-    choice.entry.name == BRUTE_FORCE && triangles > MANY
+    choice.entry.name == BRUTE_FORCE && is_large(triangles)
 }
 
 /// The report's tree.

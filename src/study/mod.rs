@@ -60,7 +60,7 @@ use crate::report::document::Block;
 use crate::report::plot::Figure;
 use crate::report::{Export, Statement, Table, to_json};
 
-pub use baselines::{BRUTE_FORCE, REPORT_TREE, SAH_TREE, documented_defect, left_out};
+pub use baselines::{BRUTE_FORCE, REPORT_TREE, SAH_TREE, documented_defect, is_large, left_out};
 pub use engine::{Measured, Run, Screen};
 pub use error::StudyError;
 pub use guarded::{PANICKED, Refused, guarded};

@@ -10,6 +10,7 @@ mod input;
 #[cfg(target_os = "linux")]
 mod interrupted;
 mod plan;
+mod large;
 mod processes;
 mod rays;
 mod render;

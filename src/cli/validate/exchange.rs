@@ -5,8 +5,9 @@ use std::sync::Arc;
 
 use anyhow::Context;
 
+use super::Args;
 use super::against::Against;
-use super::{Args, print, row};
+use super::table::{print, row};
 use crate::accel::{DynAccel, Query};
 use crate::cli::terminal::Terminal;
 use crate::geometry::{Hit, Ray};
@@ -31,7 +32,7 @@ pub fn export(
     };
     let output = sources::output(output, &args.scenes, args.source().file())?;
     let (own, mesh) = (choice.clone(), Arc::clone(&scene.mesh));
-    let built = watched(args.limit(), move || own.build(&mesh));
+    let built = watched(args.build_limit(scene.mesh.len()), move || own.build(&mesh));
     let accel: Arc<dyn DynAccel> = Arc::from(built.with_context(|| format!("the builder of {}", choice.label))??);
     let rays = &file.workload.rays;
     let can = accel.capabilities();

@@ -4,6 +4,7 @@ mod against;
 mod answers;
 mod exchange;
 mod hard;
+mod table;
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -16,8 +17,7 @@ use super::terminal::Terminal;
 use crate::accel::DynAccel;
 use crate::geometry::Ray;
 use crate::registry::{Choice, Registry};
-use crate::report::number::{count, plural};
-use crate::report::{Cell, Table, Tone};
+use crate::report::number::plural;
 use crate::scene::{Sampling, Scene, Workload, WorkloadKind};
 use crate::study::args::Structures;
 use crate::study::{BRUTE_FORCE, documented_defect, left_out};
@@ -26,6 +26,7 @@ use crate::study::{Status, ViewArgs, sources};
 use crate::validate::{LIMIT, Stratum, Validation, validate_watched, watched};
 
 use against::{ASKED, Against, Known, References};
+use table::{LEGEND, print, row, set_apart};
 
 pub use hard::{CHILD, ChildArgs, described, run_child};
 
@@ -73,7 +74,8 @@ pub struct Args {
     /// Write the answers of the one structure to the rays of the file of --rays
     #[arg(long, value_name = "F.hits")]
     export_hits: Option<PathBuf>,
-    /// Seconds that a structure may take for its build, or for 256 rays, before it counts as hanging
+    /// Seconds that a structure may take for 256 rays, or for its build and for each further million triangles of it, before it counts
+    /// as hanging
     #[arg(long, value_name = "SECONDS", default_value_t = LIMIT.as_secs() as u32, value_parser = clap::value_parser!(u32).range(1..=86400))]
     limit: u32,
     /// Seed of the rays
@@ -145,7 +147,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
                 continue;
             }
             let waiting = Waiting::show(String::new(), terminal);
-            match check(&mut references, choice, args.limit(), &waiting)? {
+            match check(&mut references, choice, args, &waiting)? {
                 Taken::Compared(accel, found) => {
                     match documented_defect(&choice.entry.name) {
                         _ if !against.refutes(&found) => {}
@@ -165,7 +167,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
                 Taken::Hangs => {
                     verdict = Status::Wrong;
                     rows.push(set_apart(choice, "hangs"));
-                    let limit = args.limit;
+                    let limit = args.build_limit(scene.mesh.len()).as_secs();
                     notes.push(format!("{}: its builder did not end within {limit} s: see --limit", choice.label));
                 }
                 Taken::Refused(reason) => {
@@ -194,34 +196,12 @@ impl Args {
     fn limit(&self) -> Duration {
         Duration::from_secs(self.limit.into())
     }
+
+    /// What a build over so many triangles may take.
+    fn build_limit(&self, triangles: usize) -> Duration {
+        self.limit() * u32::try_from(1 + triangles / 1_000_000).unwrap_or(u32::MAX)
+    }
 }
-
-fn print(
-    scene: &Scene,
-    rays: &[Ray],
-    against: &Against,
-    rows: Vec<Vec<Cell>>,
-    notes: Vec<String>,
-    terminal: &Terminal,
-) -> anyhow::Result<()> {
-    let stand_in = if scene.stand_ins.is_empty() { "" } else { ", stand-in" };
-    let (triangles, rays) = (plural(scene.mesh.len(), "triangle"), plural(rays.len(), "ray"));
-    let title = format!("{}: {triangles}{stand_in}; {rays} against {against}", scene.name);
-    Ok(terminal.print_table(&Table { title, columns: COLUMNS.map(String::from).into(), rows, notes })?)
-}
-
-const COLUMNS: [&str; 8] =
-    ["structure", "triangle test", "hits", "structure errors", "answer errors", "coarse", "kernel", "ties"];
-
-const LEGEND: [&str; 4] = [
-    "structure errors: hits lost or invented although the structure's own triangle test, run over all triangles, says \
-     otherwise, contradictions, panics and questions without an end; none in a correct structure. answer errors: wrong answers where the reference has another triangle test.",
-    "A depth is wrong if it is off by more than 4 ulps and more than 1e-6. coarse: the answer errors that remain if up to 1 %, \
-     or 0.1 % on another triangle, is allowed; the others are common where tests in f32 meet grazing rays, and without \
-     --against they do not decide about the exit status.",
-    "kernel: differences that the triangle test is to blame for. ties: as near a hit on another triangle; no error.",
-    "To ask a ray again: sahara validate SCENE --structure NAME --ray \"ox,oy,oz dx,dy,dz\"",
-];
 
 /// Of every kind the same number, at least one.
 fn rays(scene: &Scene, registry: &Registry, args: &Args, against: &Against) -> anyhow::Result<Vec<Ray>> {
@@ -248,28 +228,22 @@ enum Taken {
     Refused(String),
 }
 
-fn check(references: &mut References, choice: &Choice, limit: Duration, waiting: &Waiting) -> anyhow::Result<Taken> {
+fn check(references: &mut References, choice: &Choice, args: &Args, waiting: &Waiting) -> anyhow::Result<Taken> {
     let Known { reference, answers } = references.of(choice.triangle_test(), waiting)?;
     let (scene, rays) = (references.scene, references.rays);
     waiting.says(format!("{} builds {}", scene.name, choice.label));
     let (own, mesh) = (choice.clone(), Arc::clone(&scene.mesh));
     // A panic of the builder is caught by the registry: what ends without a result hangs.
-    let Ok(built) = watched(limit, move || own.build(&mesh)) else { return Ok(Taken::Hangs) };
+    let Ok(built) = watched(args.build_limit(scene.mesh.len()), move || own.build(&mesh)) else {
+        return Ok(Taken::Hangs);
+    };
     let accel: Arc<dyn DynAccel> = match built {
         Ok(accel) => Arc::from(accel),
         Err(error) => return Ok(Taken::Refused(error.to_string())),
     };
     waiting.says(format!("{} checks {}", scene.name, choice.label));
-    let found = validate_watched(&accel, &reference, &answers, &scene.mesh, rays, limit);
+    let found = validate_watched(&accel, &reference, &answers, &scene.mesh, rays, args.limit());
     Ok(Taken::Compared(accel, found))
-}
-
-fn set_apart(choice: &Choice, why: &str) -> Vec<Cell> {
-    let mut row = vec![Cell::blank(); COLUMNS.len()];
-    row[0] = choice.label.as_str().into();
-    row[1] = choice.triangle_test().into();
-    row[2] = Cell::from(why).with(Tone::Wrong);
-    row
 }
 
 /// What a structure was not asked.
@@ -281,20 +255,4 @@ fn declined(choice: &Choice, found: &Validation) -> Option<String> {
         n => format!(": {} not asked", plural(n as usize, "ray")),
     };
     (!what.is_empty()).then(|| format!("{} declines {}{rays}", choice.label, what.join(", ")))
-}
-
-fn row(label: &str, test: &str, found: &Validation) -> Vec<Cell> {
-    let errors = |n: u64| Cell::from(count(n)).with(if n > 0 { Tone::Wrong } else { Tone::Plain });
-    let own = found.errors() - found.answer_errors;
-    let hits = if found.rays == 0 && found.declined > 0 { "declined".into() } else { count(found.hits) };
-    vec![
-        label.into(),
-        test.into(),
-        hits.into(),
-        errors(own),
-        errors(found.answer_errors + found.depth_errors),
-        count(found.answer_errors).into(),
-        count(found.kernel_differences).into(),
-        count(found.ties).into(),
-    ]
 }

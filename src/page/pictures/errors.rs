@@ -84,14 +84,15 @@ fn pixels(seen: &Seen, wrong: &[(&SeenStructure, ErrorMap)]) -> Inspector {
     inspector(seen, chosen, which)
 }
 
-/// The section with what is known of all scenes.
-pub fn section(found: Vec<Block>) -> Section {
+/// The section with what is known of all scenes, and what is said of those without a picture.
+pub fn section(found: Vec<Block>, left_out: Vec<Block>) -> Section {
     let mut blocks = vec![];
-    if found.is_empty() {
+    if found.is_empty() && left_out.is_empty() {
         blocks.push(Block::missing("Pictures of wrong answers", "sahara compare --dir runs"));
-    } else {
+    } else if !found.is_empty() {
         blocks.push(Block::Text("The camera rays of a picture, each held against exact arithmetic.".into()));
         blocks.extend(found);
     }
+    blocks.extend(left_out);
     Section { id: "errors", title: TITLE, blocks }
 }

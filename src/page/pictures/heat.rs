@@ -113,14 +113,15 @@ fn stepped(cost: u64, scale: u64) -> u64 {
     libm::round(libm::expm1(step * unit)) as u64
 }
 
-/// The section with the figures of all scenes.
-pub fn section(figures: Vec<Figure>) -> Section {
+/// The section with the figures of all scenes, and what is said of those without one.
+pub fn section(figures: Vec<Figure>, left_out: Vec<Block>) -> Section {
     let mut blocks = vec![];
-    if figures.is_empty() {
+    if figures.is_empty() && left_out.is_empty() {
         blocks.push(Block::missing("Heat maps of the structures", "sahara compare --dir runs"));
-    } else {
+    } else if !figures.is_empty() {
         blocks.push(Block::Text("Where the work is: brighter pixels cost more triangle tests and steps.".into()));
         blocks.extend(figures.into_iter().map(Block::Figure));
     }
+    blocks.extend(left_out);
     Section { id: "heat", title: TITLE, blocks }
 }

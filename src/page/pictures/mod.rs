@@ -10,7 +10,7 @@ mod shown;
 use crate::page::runs::Runs;
 use crate::registry::Registry;
 use crate::report::document::{Block, Section};
-use crate::study::Studies;
+use crate::study::{Studies, is_large};
 
 use seen::Seen;
 use shown::{Find, Shown, found_again};
@@ -38,6 +38,8 @@ pub fn draw(runs: &Runs, suite: (&Registry, &Studies), find: Find, progress: &mu
     }
     let mut largest: Vec<&Shown> = shown.iter().collect();
     largest.sort_by_key(|one| std::cmp::Reverse(one.scene.mesh.len()));
+    let (too_large, largest): (Vec<&Shown>, Vec<_>) =
+        largest.into_iter().partition(|one| is_large(one.scene.mesh.len()));
     let (mut heat, mut errors) = (vec![], vec![]);
     for one in largest.into_iter().take(LARGEST) {
         progress(&one.scene.name);
@@ -45,7 +47,23 @@ pub fn draw(runs: &Runs, suite: (&Registry, &Studies), find: Find, progress: &mu
         heat.extend(heat::figure(&seen));
         errors.extend(errors::block(&seen));
     }
-    vec![scenes::section(thumbnails, &shown, &lost), heat::section(heat), errors::section(errors)]
+    vec![
+        scenes::section(thumbnails, &shown, &lost),
+        heat::section(heat, without(&too_large, "heat")),
+        errors::section(errors, without(&too_large, "error")),
+    ]
+}
+
+/// What is said of scenes with so many triangles that it would take minutes to build all structures again for a picture.
+fn without(too_large: &[&Shown], view: &str) -> Vec<Block> {
+    let block = |one: &&Shown| {
+        let what = format!(
+            "A picture of the {view} view of {}: to build all structures again among so many triangles would take minutes",
+            one.scene.name
+        );
+        Block::missing(&what, &format!("sahara render {} --view {view} --structure NAME -o NAME.png", one.quoted()))
+    };
+    too_large.iter().map(block).collect()
 }
 
 /// The sections of a report without pictures, which say so.
@@ -57,4 +75,24 @@ pub fn left_out() -> Vec<Section> {
         Section { id: "heat", title: heat::TITLE, blocks: missing("Heat maps of the structures") },
         Section { id: "errors", title: errors::TITLE, blocks: missing("Pictures of wrong answers") },
     ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Builtin;
+
+    #[test]
+    fn a_scene_that_is_too_large_to_be_built_again_is_named_with_a_command() {
+        let scene = Builtin::find("cube").unwrap().scene(None).unwrap();
+        let shown = Shown { scene, argument: "cube".into(), view: None, differs: false };
+        for (section, view) in [
+            (heat::section(vec![], without(&[&shown], "heat")), "heat"),
+            (errors::section(vec![], without(&[&shown], "error")), "error"),
+        ] {
+            let [Block::Missing(missing)] = &section.blocks[..] else { panic!("{:?}", section.blocks) };
+            assert!(missing.what.contains(&format!("{view} view of Cube")), "{}", missing.what);
+            assert!(missing.command.starts_with(&format!("sahara render cube --view {view} ")), "{}", missing.command);
+        }
+    }
 }

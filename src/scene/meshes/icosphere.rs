@@ -7,17 +7,26 @@ use glam::DVec3;
 use super::{icosahedron, normals, smooth};
 use crate::scene::Model;
 
-/// A closed, smooth sphere of radius 1: `20 * 4^subdivisions` triangles, `10 * 4^subdivisions + 2` vertices.
-///
-/// Each side of the icosahedron is cut into a flat, even net, whose points are then moved out to the sphere: so the
-/// course's sphere was made, as the silhouette of the report's scene shows. (Halving the edges and moving out after
-/// each halving gives another sphere.)
+/// The [`divided_icosphere`] with edges in `2^subdivisions` parts: `20 * 4^subdivisions` triangles.
 ///
 /// # Panics
 /// Above 12 subdivisions, where a mesh holds no more triangles.
 pub fn icosphere(subdivisions: u32) -> Model {
     assert!(subdivisions <= 12, "an icosphere has at most 12 subdivisions, not {subdivisions}");
-    let mut net = Net { points: icosahedron::corners(), rows: HashMap::new(), steps: 1 << subdivisions };
+    divided_icosphere(1 << subdivisions)
+}
+
+/// A closed, smooth sphere of radius 1: `20 * steps^2` triangles, `10 * steps^2 + 2` vertices.
+///
+/// Each side of the icosahedron is cut into a flat, even net of so many steps along each edge, whose points are then moved out to the sphere: so the
+/// course's sphere was made, as the silhouette of the report's scene shows. (Halving the edges and moving out after
+/// each halving gives another sphere.)
+///
+/// # Panics
+/// Without a step, and above 4096 steps, where a mesh holds no more triangles.
+pub fn divided_icosphere(steps: u32) -> Model {
+    assert!((1..=4096).contains(&steps), "an icosphere has 1 to 4096 steps, not {steps}");
+    let mut net = Net { points: icosahedron::corners(), rows: HashMap::new(), steps };
     let triangles: Vec<[u32; 3]> = icosahedron::sides().into_iter().flat_map(|side| net.divide(side)).collect();
     let normals = normals::of_the_course(&net.points, &triangles);
     smooth(net.points, normals, triangles)

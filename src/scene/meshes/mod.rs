@@ -15,6 +15,7 @@ mod sdf;
 mod sheets;
 mod sponza;
 mod teapot;
+mod terrain;
 mod torus;
 mod uv_sphere;
 
@@ -28,12 +29,13 @@ use super::Model;
 pub use creatures::{elephant, fox, rabbit};
 pub use dragon::dragon;
 pub use icosahedron::{icosahedron, inside_out_icosahedron};
-pub use icosphere::icosphere;
+pub use icosphere::{divided_icosphere, icosphere};
 pub use lucy::lucy;
 pub use plane::{cornellbox, cube, plane_y};
 pub use sheets::{SHEET_SIDE, sheets};
 pub use sponza::sponza;
 pub use teapot::teapot;
+pub use terrain::Terrain;
 pub use torus::torus;
 pub use uv_sphere::uv_sphere;
 

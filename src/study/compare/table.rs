@@ -7,7 +7,7 @@ use crate::report::number::{bytes, count, duration, figures, plural};
 use crate::report::words::{explained, listed};
 use crate::report::{Cell, Record, Table, Tone};
 use crate::study::Refused;
-use crate::study::baselines::documented_defect;
+use crate::study::baselines::{documented_defect, is_large};
 
 /// The columns that are printed where all of them are asked for.
 const DETAILS: [&str; 8] = ["build", "peak", "memory", "tests", "steps", "instructions", "checked", "sampled"];
@@ -15,6 +15,18 @@ const DETAILS: [&str; 8] = ["build", "peak", "memory", "tests", "steps", "instru
 /// What of [`scene_table`] fits 80 columns and matters first: times, and the ratios to the last of the references.
 pub fn brief_table(records: &[Record], references: &[Reference], refused: &[Refused]) -> Table {
     scene_table(records, &references[references.len().saturating_sub(1)..], refused).without_columns(&DETAILS)
+}
+
+/// Said where brute force could check few rays, since there are so many triangles.
+fn few_checked(records: &[Record]) -> Option<String> {
+    let triangles = records.first()?.triangles;
+    let least = records.iter().filter(|r| r.declined.is_none()).filter_map(|r| r.checked_rays).min()?;
+    is_large(triangles).then(|| {
+        format!(
+            "Answers were checked on {} rays of a kind, evenly spread: against so many triangles brute force would take minutes for more.",
+            count(least as u64)
+        )
+    })
 }
 
 /// What the [details](brief_table) mean; `first` is the first workload.
@@ -127,6 +139,7 @@ pub fn scene_table(records: &[Record], references: &[Reference], refused: &[Refu
         notes.push(format!("{} declines {what}, which {} rays need.", record.label, record.workload));
     }
     notes.extend(defects(records));
+    notes.extend(few_checked(records));
     notes.extend(control(records));
     explained(Table { title, columns, rows, notes }.without_blank_columns())
 }

@@ -17,9 +17,11 @@ use super::plan::{Measure, named_notes};
 use super::{Context, Data, Effort, Plan, Refused, Study, Trouble, ViewArgs, left_out, sources};
 use crate::measure::{Provenance, Threads};
 use crate::registry::Registry;
+use crate::report::number::count;
 use crate::report::words::scene_name;
 use crate::report::{Export, Table, to_json};
 use crate::scene::{Scene, WorkloadKind};
+use end_point_overlap::MOST;
 use measures::{CountSettings, count_scene};
 pub use measures::{Counts, Measures, RayMeasures, TreeMeasures};
 pub use table::tables;
@@ -49,7 +51,7 @@ pub struct CountsArgs {
     /// Threads that build; the trees do not depend on it
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: u16,
-    /// Leave out end-point overlap, which takes seconds for a million triangles
+    /// Leave out end-point overlap, which takes seconds for a million triangles; of more than that it is estimated
     #[arg(long)]
     no_overlap: bool,
     /// Print the leaves by size and by depth in numbers
@@ -58,6 +60,15 @@ pub struct CountsArgs {
 }
 
 const RAYS: u32 = 16384;
+
+/// Said of a scene with so many triangles that some of them tell the overlap.
+fn estimated_note(scene: &Scene) -> String {
+    format!(
+        "{}: EPO is estimated from {} of its triangles, evenly spread, since all would take minutes",
+        scene.name,
+        count(MOST as u64)
+    )
+}
 
 impl Study for CountsStudy {
     const NAME: &'static str = "counts";
@@ -120,6 +131,8 @@ impl Study for CountsStudy {
             |scene: &Scene| format!("{} {}", scene_name(&scene.name, !scene.stand_ins.is_empty()), &scene.hash()[..16]);
         let names: Vec<(String, String)> = scenes.iter().map(|scene| (scene.name.clone(), key(scene))).collect();
         let mut notes = named_notes(&scenes, |scene| &scene.notes);
+        let estimated = |scene: &&Scene| settings.overlap && scene.mesh.solid().count() > MOST;
+        notes.extend(scenes.iter().filter(estimated).map(estimated_note));
         let warnings = named_notes(&scenes, |scene| &scene.warnings);
         let leaves_out = |scene: &&Scene| settings.of(scene).count() < settings.structures.len();
         notes.extend(scenes.iter().filter(leaves_out).map(left_out));

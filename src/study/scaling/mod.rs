@@ -1,6 +1,6 @@
 //! `scaling`: how do time, build and memory grow with the number of triangles?
 //!
-//! Icospheres of 20 to 1.3 million triangles, seen alike, so that nothing changes but how finely one surface is
+//! Icospheres of 20 to 16 million triangles, seen alike, so that nothing changes but how finely one surface is
 //! divided; and the meshes that are named, which differ in more than their number of triangles, so that their exponent
 //! says less. Powers are fitted to medians on logarithms, over the meshes on which the structure has more than one
 //! leaf: a single leaf is brute force.
@@ -23,7 +23,7 @@ use crate::report::document::Block;
 use crate::report::{Statement, Table};
 use crate::scene::{Scene, WorkloadKind};
 
-pub use spheres::{LEVELS, name, sphere};
+pub use spheres::{FINEST, name, sphere};
 pub use table::tables;
 
 const STRUCTURES: [&str; 7] =
@@ -38,8 +38,8 @@ pub struct ScalingArgs {
     // Beside the icospheres.
     #[command(flatten)]
     scenes: Scenes,
-    /// The finest icosphere, of 20 times 4 to that power triangles
-    #[arg(long, value_name = "LEVEL", default_value_t = *LEVELS.end(), value_parser = clap::value_parser!(u32).range(0..=10))]
+    /// The finest icosphere: 0 has 20 triangles, each next one four times as many, and the last one 16 million
+    #[arg(long, value_name = "LEVEL", default_value_t = FINEST, value_parser = clap::value_parser!(u32).range(0..=i64::from(FINEST)))]
     finest: u32,
     #[command(flatten)]
     structures: Structures,
@@ -59,7 +59,7 @@ impl Study for ScalingStudy {
 
     fn args(effort: Effort) -> ScalingArgs {
         let (scenes, finest) = match effort {
-            Effort::Full => (Scenes::default(), *LEVELS.end()),
+            Effort::Full => (Scenes::default(), FINEST),
             Effort::Quick => (Scenes::named(&["torus"]), 4),
         };
         let (rays, measuring) = (Rays::of(effort), Measuring::of(effort));
@@ -134,6 +134,9 @@ pub struct FamilyEpoch {
     pub epoch: Epoch,
 }
 
+/// Triangles of the icosphere of level 8.
+pub const LEVEL_8: usize = 20 << 16;
+
 /// How one structure grows on one family and one kind of rays.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Growth {
@@ -146,6 +149,8 @@ pub struct Growth {
     /// Time a ray grows like this power of the number of triangles. Nothing with fewer than three meshes of more than
     /// one leaf.
     pub time: Option<Estimate>,
+    /// Likewise over the meshes of at most [`LEVEL_8`] triangles: what a claim about these is judged by.
+    pub time_to_level_8: Option<Estimate>,
     /// Half of the 95 % interval that this power would have by the scatter of the meshes about it alone, were they
     /// drawn from a family at random.
     pub scatter: Option<f64>,
@@ -227,8 +232,9 @@ pub fn rows(growths: &[Growth]) -> Vec<Row<'_>> {
 /// That of the lines of one structure and one kind of rays, from the fewest triangles to the most.
 fn growth(family: Family, lines: &[&Line], twins: &Twins) -> Growth {
     let fitted: Vec<&Line> = lines.iter().copied().filter(|line| line.leaves > 1).collect();
-    let measured = |logs: fn(&Line) -> &[Vec<f64>], noise: &AaNoise| {
-        power(&fitted, &|line| Some(middles(logs(line))), |weights| noise.weighted(weights)).map(|rerun| rerun.plain())
+    let coarser: Vec<&Line> = fitted.iter().copied().filter(|line| line.triangles <= LEVEL_8).collect();
+    let measured = |lines: &[&Line], logs: fn(&Line) -> &[Vec<f64>], noise: &AaNoise| {
+        power(lines, &|line| Some(middles(logs(line))), |weights| noise.weighted(weights)).map(|rerun| rerun.plain())
     };
     // Counts and bytes do not vary.
     let counted = |value: &dyn Fn(&Line) -> Option<f64>| {
@@ -242,9 +248,10 @@ fn growth(family: Family, lines: &[&Line], twins: &Twins) -> Growth {
         structure: lines[0].structure.clone(),
         workload: lines[0].workload.clone(),
         points: lines.iter().map(|line| point(line)).collect(),
-        time: measured(|line| &line.trace, &twins.trace),
+        time: measured(&fitted, |line| &line.trace, &twins.trace),
+        time_to_level_8: measured(&coarser, |line| &line.trace, &twins.trace),
         scatter: least_squares::scatter(&points),
-        build: measured(|line| &line.build, &twins.build),
+        build: measured(&fitted, |line| &line.build, &twins.build),
         bytes: counted(&|line| Some(line.bytes as f64)),
         tests: counted(&|line| line.tests),
         steps: counted(&|line| line.steps),

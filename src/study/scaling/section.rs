@@ -68,7 +68,8 @@ pub fn blocks(growths: &[Growth], command: &str) -> Vec<Block> {
     let mut blocks = vec![Block::Text(
         "If a query were logarithmic in the number of triangles n, its power of n would be near 0; a power of 1 means that \
          twice the triangles take twice the time. One sphere, divided more and more finely and seen alike, asks this \
-         without anything else that changes; different meshes differ in more than their size."
+         without anything else that changes; different meshes differ in more than their size. What more threads give is the \
+         question of `sahara study threads`."
             .into(),
     )];
     for group in growths.chunk_by(|a, b| a.family == b.family && a.workload == b.workload) {

@@ -1,11 +1,13 @@
-use std::ops::RangeInclusive;
-
 use glam::Vec3;
 
 use crate::scene::{Camera, Light, Scene, SceneError, meshes};
 
-/// Subdivisions of the icospheres: 20 to 1,310,720 triangles.
-pub const LEVELS: RangeInclusive<u32> = 0..=8;
+/// Steps along an edge of the icosahedron, by level: 20 triangles and four times as many from each level to the next, but for the last
+/// one. That has 16 million, since all structures over 21 million would not fit the memory of many machines.
+const STEPS: [u32; 11] = [1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 895];
+
+/// The finest level.
+pub const FINEST: u32 = STEPS.len() as u32 - 1;
 
 /// What the icosphere of a level is called.
 pub fn name(level: u32) -> String {
@@ -18,10 +20,10 @@ pub fn name(level: u32) -> String {
 /// None for the levels there are.
 ///
 /// # Panics
-/// As [`meshes::icosphere`].
+/// If there is no such level.
 pub fn sphere(level: u32) -> Result<Scene, SceneError> {
     let name = name(level);
-    let scene = Scene::framed(&name, meshes::icosphere(level))?;
+    let scene = Scene::framed(&name, meshes::divided_icosphere(STEPS[level as usize]))?;
     let camera = Camera::new(Vec3::new(0.0, 0.0, 5.0), Vec3::ZERO, Vec3::Y, 60.0)
         .map_err(|cause| SceneError::Camera { file: name, cause })?;
     let light = Light { position: Vec3::new(2.0, 5.0, 3.0), colour: Vec3::ONE, linear: 0.0, quadratic: 0.0 };

@@ -42,6 +42,23 @@ fn noise_widens_the_interval_about_the_true_power() {
 }
 
 #[test]
+fn a_claim_about_coarser_meshes_is_judged_by_these_alone() {
+    let mut cases = family(0.25, 1.0, 0.0);
+    let both = |cases: &[FamilyEpoch]| (result(cases)[0].time.unwrap(), result(cases)[0].time_to_level_8.unwrap());
+    let (all, coarser) = both(&cases);
+    assert_eq!(all, coarser);
+    // Beyond level 8 the power is another one.
+    for epoch in 0..2 {
+        let triangles = 16 * LEVEL_8;
+        let ns = 1 << 40;
+        let epoch = example("finest", triangles, epoch, &[("sah-kd", 1 << 40, &[ns; 3])]);
+        cases.push(FamilyEpoch { family: Family::Spheres, epoch });
+    }
+    let (all, coarser) = both(&cases);
+    assert!((coarser.estimate - 0.25).abs() < 1e-3 && all.estimate > 0.3, "{all:?} {coarser:?}");
+}
+
+#[test]
 fn a_single_leaf_takes_no_part() {
     let mut cases = family(0.25, 1.0, 0.0);
     for case in cases.iter_mut().filter(|case| case.epoch.triangles == 100) {
@@ -78,4 +95,7 @@ fn spheres_are_seen_alike() {
     let (coarse, fine) = (sphere(0).unwrap(), sphere(3).unwrap());
     assert_eq!((coarse.mesh.len(), fine.mesh.len()), (20, 1280));
     assert_eq!(coarse.camera, fine.camera);
+    // The names of levels are their numbers; the finest has sixteen million.
+    assert_eq!((name(0).as_str(), FINEST), ("icosphere 0", 10));
+    assert_eq!(sphere(5).unwrap().mesh.len(), 20 << 10);
 }

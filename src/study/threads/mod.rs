@@ -109,10 +109,7 @@ impl Study for ThreadsStudy {
                 }
             }
         }
-        let mut notes = named_notes(&scenes, |scene| &scene.notes);
-        if most == 2 {
-            notes.push("Two points: Amdahl's curve goes through them whatever the truth is. More cores say how well it describes them.".into());
-        }
+        let notes = named_notes(&scenes, |scene| &scene.notes);
         Ok(Plan {
             settings: settings_map(&one.kept()),
             threads: settings.last().map_or(one.threads, |(_, last)| last.threads.clone()),

@@ -1,7 +1,7 @@
 //! What the page says of threads.
 
 use super::Speedup;
-use super::table::{groups, scenes, table, words};
+use super::table::{groups, scenes, table, two_points, words};
 use crate::report::document::{Art, Block, Figure};
 use crate::report::number::figures;
 use crate::report::plot::{Chart, CurvePoint, Curves, Line, Mark};
@@ -62,7 +62,8 @@ fn figure(group: &[&Speedup], command: &str) -> Figure {
     Figure {
         id: format!("threads-{}-{}", slug(scene), slug(&group[0].what)),
         caption: format!(
-            "{scene}, {what}: speed over the number of threads, both axes logarithmic. Behind each name stands Amdahl's serial share f."
+            "{scene}, {what}: speed over the number of threads, both axes logarithmic. Behind each name stands Amdahl's serial share f.{}",
+            two_points(group).map_or(String::new(), |sentence| format!(" {sentence}"))
         ),
         alt: format!("Line chart over the number of threads. {}.", told.join("; ")),
         command: command.into(),

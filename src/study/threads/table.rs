@@ -44,10 +44,20 @@ pub(super) fn table(group: &[&Speedup]) -> Table {
         row
     };
     let rows = group.iter().map(row).collect();
+    let mut notes = vec![NOTE.into()];
+    notes.extend(two_points(group));
     let title = format!("{}, {}: times as fast as one thread", group[0].scene, words(&group[0].what));
-    let note = "serial share: f of Amdahl's law, by which n threads take f + (1 - f) / n of the time of one; fitted to all numbers of \
-                threads. One thread is timed by processor time, several by the time that elapses.";
-    explained(Table { title, columns, rows, notes: vec![note.into()] })
+    explained(Table { title, columns, rows, notes })
+}
+
+const NOTE: &str = "serial share: f of Amdahl's law, by which n threads take f + (1 - f) / n of the time of one; fitted to all numbers of \
+                    threads. One thread is timed by processor time, several by the time that elapses.";
+
+/// Said where one number of threads is all that is held against one thread, as on a machine with two cores.
+pub(super) fn two_points(group: &[&Speedup]) -> Option<String> {
+    let most = group.iter().map(|one| one.points.len()).max()?;
+    let sentence = "Two points: Amdahl's curve goes through them whatever the truth is. More cores say how well it describes them.";
+    (most == 2).then(|| sentence.into())
 }
 
 /// Scenes in their order.

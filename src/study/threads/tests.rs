@@ -47,6 +47,19 @@ fn every_number_of_threads_is_a_column_and_a_point() {
     assert_eq!(rays.columns, ["structure", "1 thread", "x with 2", "x with 3", "serial share"]);
     assert!(builds.title.contains("builds") && rays.rows[0][4].text.starts_with("0.25"), "{rays:?}");
     assert_eq!(section::blocks(&speedups, "").len(), 4);
+    assert!(rays.notes.iter().all(|note| !note.starts_with("Two points")));
     let told = &section::statements(&speedups)[0].sentence;
     assert!(told.starts_with("On a, 3 threads build sah-kd 1.00"), "{told}");
+}
+
+#[test]
+fn two_points_are_told_in_table_and_figure() {
+    let two = super::speedups(&cases(0.25, &[1, 2]));
+    let tables = tables(&two);
+    assert!(tables.iter().all(|table| table.notes.iter().any(|note| note.starts_with("Two points"))), "{tables:?}");
+    let figures = section::blocks(&two, "").into_iter().filter_map(|block| match block {
+        Block::Figure(figure) => Some(figure.caption),
+        _ => None,
+    });
+    assert!(figures.into_iter().all(|caption| caption.contains("Two points")));
 }

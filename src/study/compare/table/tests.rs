@@ -51,6 +51,18 @@ fn records() -> Vec<Record> {
 }
 
 #[test]
+fn a_table_of_very_many_triangles_says_how_few_rays_were_checked() {
+    let of = |triangles: usize, checked: usize| {
+        let many = |r: Record| Record { triangles, checked_rays: Some(checked), ..r };
+        let records: Vec<Record> = records().into_iter().map(many).collect();
+        let tables = [scene_table(&records, &[]), brief_table(&records, &Reference::of(&records, None), &[])];
+        tables.map(|table| table.notes.concat())
+    };
+    assert!(of(10_000_000, 64).iter().all(|notes| notes.contains("checked on 64 rays of a kind")));
+    assert!(of(12, 8192).iter().all(|notes| !notes.contains("checked")));
+}
+
+#[test]
 fn ratios_are_geometric_means_against_the_tree_and_the_better_bvh() {
     let table = scene_table(&records(), &[]);
     assert_eq!(cell(&table, "sah-kd", "x median"), "4.00");

@@ -5,15 +5,12 @@ use crate::measure::Estimate;
 use crate::report::number::{count, figures};
 use crate::scene::WorkloadKind;
 use crate::study::predictions::{Inputs, Prediction, Verdict};
-use crate::study::scaling::{Family, Growth, Point};
+use crate::study::scaling::{Family, Growth, LEVEL_8, Point};
 use crate::study::{REPORT_TREE, SAH_TREE};
 
 /// What is near 1, and the most expected of the SAH tree.
 const NEAR_ONE: [f64; 2] = [0.8, 1.2];
 const MOST_OF_SAH: f64 = 0.2;
-
-/// Triangles of the icosphere of level 8, the finest of the claim.
-const CLAIMED: usize = 20 << 16;
 
 pub(super) fn growth(inputs: &Inputs) -> Prediction {
     let words = "Time per ray ~ n^b with the report's rule: b near 1 on one mesh refined (icosphere levels 0..8, same view); a proper SAH tree: b \
@@ -23,15 +20,16 @@ pub(super) fn growth(inputs: &Inputs) -> Prediction {
         spheres.into_iter().find(|g| g.workload == WorkloadKind::Primary.name())
     };
     let (report, sah) = (of(REPORT_TREE), of(SAH_TREE));
-    // What is measured on fewer levels is shown, and not judged.
-    let judged = |growth: Option<&Growth>| growth.filter(|growth| finest(growth) >= CLAIMED).and_then(|g| g.time);
+    // What is measured on fewer levels is shown, and not judged; level 8 is the finest of the claim.
+    let judged =
+        |growth: Option<&Growth>| growth.filter(|growth| finest(growth) >= LEVEL_8).and_then(|g| g.time_to_level_8);
     let [of_report, of_sah] = ["b of the report's tree", "b of the SAH tree"];
     let claims = vec![
         Claim::number(of_report, judged(report), Bounds::within(NEAR_ONE[0], NEAR_ONE[1])),
         Claim::number(of_sah, judged(sah), Bounds::at_most(MOST_OF_SAH)),
     ];
     let shown = [(of_report, report), (of_sah, sah)].into_iter().filter_map(|(what, growth)| {
-        let growth = growth.filter(|growth| finest(growth) < CLAIMED)?;
+        let growth = growth.filter(|growth| finest(growth) < LEVEL_8)?;
         let what = format!("{what} up to {} triangles", count(finest(growth) as u64));
         Some(Figure { what, value: growth.time? })
     });

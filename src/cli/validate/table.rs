@@ -1,0 +1,64 @@
+//! The table of a scene: one row for each structure.
+
+use super::against::Against;
+use crate::cli::terminal::Terminal;
+use crate::geometry::Ray;
+use crate::registry::Choice;
+use crate::report::number::{count, plural};
+use crate::report::{Cell, Table, Tone};
+use crate::scene::Scene;
+use crate::validate::Validation;
+
+pub fn print(
+    scene: &Scene,
+    rays: &[Ray],
+    against: &Against,
+    rows: Vec<Vec<Cell>>,
+    notes: Vec<String>,
+    terminal: &Terminal,
+) -> anyhow::Result<()> {
+    let stand_in = if scene.stand_ins.is_empty() { "" } else { ", stand-in" };
+    let (triangles, rays) = (plural(scene.mesh.len(), "triangle"), plural(rays.len(), "ray"));
+    let title = format!("{}: {triangles}{stand_in}; {rays} against {against}", scene.name);
+    Ok(terminal.print_table(&Table { title, columns: COLUMNS.map(String::from).into(), rows, notes })?)
+}
+
+const COLUMNS: [&str; 8] =
+    ["structure", "triangle test", "hits", "structure errors", "answer errors", "coarse", "kernel", "ties"];
+
+/// What the columns mean.
+pub const LEGEND: [&str; 4] = [
+    "structure errors: hits lost or invented although the structure's own triangle test, run over all triangles, says \
+     otherwise, contradictions, panics and questions without an end; none in a correct structure. answer errors: wrong answers where the reference has another triangle test.",
+    "A depth is wrong if it is off by more than 4 ulps and more than 1e-6. coarse: the answer errors that remain if up to 1 %, \
+     or 0.1 % on another triangle, is allowed; the others are common where tests in f32 meet grazing rays, and without \
+     --against they do not decide about the exit status.",
+    "kernel: differences that the triangle test is to blame for. ties: as near a hit on another triangle; no error.",
+    "To ask a ray again: sahara validate SCENE --structure NAME --ray \"ox,oy,oz dx,dy,dz\"",
+];
+
+/// The row of a structure that gave no answers.
+pub fn set_apart(choice: &Choice, why: &str) -> Vec<Cell> {
+    let mut row = vec![Cell::blank(); COLUMNS.len()];
+    row[0] = choice.label.as_str().into();
+    row[1] = choice.triangle_test().into();
+    row[2] = Cell::from(why).with(Tone::Wrong);
+    row
+}
+
+/// The row of what was found.
+pub fn row(label: &str, test: &str, found: &Validation) -> Vec<Cell> {
+    let errors = |n: u64| Cell::from(count(n)).with(if n > 0 { Tone::Wrong } else { Tone::Plain });
+    let own = found.errors() - found.answer_errors;
+    let hits = if found.rays == 0 && found.declined > 0 { "declined".into() } else { count(found.hits) };
+    vec![
+        label.into(),
+        test.into(),
+        hits.into(),
+        errors(own),
+        errors(found.answer_errors + found.depth_errors),
+        count(found.answer_errors).into(),
+        count(found.kernel_differences).into(),
+        count(found.ties).into(),
+    ]
+}
