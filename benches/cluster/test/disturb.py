@@ -260,6 +260,7 @@ def cluster(folder, is_wanted):
     start = [str(HERE / "start_slurm.sh"), str(folder)]
     if is_wanted:
         os.environ["SLURM_CONF"] = str(folder / "slurm.conf")
+        os.environ["PATH"] = f"{folder / 'bin'}:{os.environ['PATH']}"
         output(*start)
     try:
         yield
@@ -285,4 +286,6 @@ def main(name):
 
 
 if __name__ == "__main__":
+    # Cluster and disk are taken down as well when the test is ended.
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit("ended"))
     main(*sys.argv[1:])

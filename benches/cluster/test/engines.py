@@ -20,14 +20,15 @@ class Snakemake:
     """Snakemake, on this machine or with the Slurm executor. A job that fails is run again by itself."""
 
     # Without accounting the executor would wait for ever for the answers of sacct. The first look is early: the jobs are short.
-    SLURM = ["--executor", "slurm", "--slurm-status-command", "squeue", "--slurm-no-account", "--jobs", "2"]
+    SLURM = ["--executor", "slurm", "--slurm-status-command", "squeue", "--slurm-no-account", "--jobs", "100"]
     SLURM += ["--slurm-init-seconds-before-status-checks", "5"]
 
     def __init__(self, place, studies, options, slurm):
         self.place = place
         config = [f"studies={' '.join(studies)}", f"options={' '.join(options)}"]
         where = self.SLURM if slurm else ["--cores", "1"]
-        self.command = ["snakemake", "--snakefile", str(CLUSTER / "Snakefile"), "--keep-going", *where, "--config", *config]
+        self.command = ["snakemake", "--snakefile", str(CLUSTER / "Snakefile"), "--keep-going", "--retries", "2", *where]
+        self.command += ["--config", *config]
         self.process = None
 
     def start(self):

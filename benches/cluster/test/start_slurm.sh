@@ -1,7 +1,7 @@
 #!/bin/sh
 # A cluster of one node, this machine, in a folder of its own: munge, controller and worker. Nothing of the system is changed.
 #
-#   start_slurm.sh FOLDER        starts it; SLURM_CONF=FOLDER/slurm.conf is what sbatch, squeue and scontrol then need
+#   start_slurm.sh FOLDER        starts it; sbatch, squeue and others find it by SLURM_CONF=FOLDER/slurm.conf and PATH=FOLDER/bin:$PATH
 #   start_slurm.sh FOLDER stop   ends it
 set -eu
 
@@ -73,6 +73,11 @@ PartitionName=test Nodes=$host Default=YES MaxTime=INFINITE State=UP
 CONF
 slurmctld -c
 slurmd -c
+
+# The executor of Snakemake drops SLURM_CONF where it starts a step of a job.
+mkdir -p "$folder/bin"
+printf '#!/bin/sh\nSLURM_CONF="%s" exec "%s" "$@"\n' "$SLURM_CONF" "$(command -v srun)" > "$folder/bin/srun"
+chmod +x "$folder/bin/srun"
 
 # It is there when the node is idle.
 for _ in $(seq 100); do
