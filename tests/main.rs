@@ -6,6 +6,7 @@ mod alone;
 mod browser;
 mod cli;
 mod closed_meshes;
+mod cluster;
 mod conformance;
 mod fetch;
 mod findings;

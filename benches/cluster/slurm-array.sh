@@ -1,0 +1,33 @@
+#!/bin/sh
+# The jobs of a plan as one Slurm job array: task N runs line N of plan.txt.
+#
+#   sahara study plan all --dir runs > plan.txt
+#   sbatch --array="1-$(wc -l < plan.txt)%16" benches/cluster/slurm-array.sh plan.txt
+#
+# %16 is how many run at once. The same command again measures what is missing: a job whose file is there ends at once.
+# SAHARA names the program where `sahara` is not on the PATH of the nodes.
+#
+#SBATCH --job-name=sahara
+#SBATCH --ntasks=1
+#SBATCH --cpus-per-task=1
+# Lost with its node, a task is measured anew by itself; what it has said so far stays in its log.
+#SBATCH --requeue
+#SBATCH --open-mode=append
+#SBATCH --output=slurm-%A_%a.log
+set -eu
+
+plan=${1:?name the file that "sahara study plan" has printed}
+line=$(sed -n "${SLURM_ARRAY_TASK_ID:?no task of an array: hand this script to sbatch with --array}p" "$plan")
+if [ -z "$line" ]; then
+  echo "error: $plan has no line $SLURM_ARRAY_TASK_ID: --array goes from 1 to the number of its lines" >&2
+  exit 1
+fi
+
+# sahara binds itself to the idlest core that it may use. Two jobs that may use each other's cores can choose the same one.
+if [ "$(nproc)" -gt "${SLURM_CPUS_ON_NODE:-$(nproc)}" ]; then
+  echo "warning: this cluster does not bind jobs to their cores: ask for whole nodes, sbatch --exclusive" >&2
+fi
+
+# A line is a complete shell command that begins with the word sahara.
+sahara() { command "${SAHARA:-sahara}" "$@"; }
+eval "$line"

@@ -1,0 +1,56 @@
+//! The jobs of `study plan` on engines that people have: the test of `benches/cluster`, where they are installed.
+
+use std::process::Command;
+use std::sync::{Mutex, PoisonError};
+
+/// One cluster at a time.
+static CLUSTER: Mutex<()> = Mutex::new(());
+
+/// The plan on an engine, disturbed, and its result held against an undisturbed one.
+#[track_caller]
+fn disturbed(engine: &str) {
+    let _alone = CLUSTER.lock().unwrap_or_else(PoisonError::into_inner);
+    let mut test = Command::new("python3");
+    test.args(["benches/cluster/test/disturb.py", engine]).current_dir(env!("CARGO_MANIFEST_DIR"));
+    let output = test.env("SAHARA", env!("CARGO_BIN_EXE_sahara")).env_remove("SAHARA_DATA").output();
+    let output = output.expect("python3 runs");
+    let (out, errors) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+    assert!(output.status.success(), "disturb.py {engine}: {out}{errors}");
+    print!("{out}");
+}
+
+fn has_snakemake() -> bool {
+    Command::new("snakemake").arg("--version").output().is_ok()
+}
+
+/// Whether the tests that start a cluster are wanted.
+fn wants_slurm() -> bool {
+    std::env::var_os("SAHARA_SLURM").is_some_and(|wanted| wanted == "1")
+}
+
+#[test]
+fn snakemake_on_this_machine() {
+    if !has_snakemake() {
+        println!("skipped: there is no snakemake on the path");
+        return;
+    }
+    disturbed("local");
+}
+
+#[test]
+fn snakemake_on_slurm() {
+    if !wants_slurm() || !has_snakemake() {
+        println!("skipped: SAHARA_SLURM=1, with a snakemake on the path, starts a cluster");
+        return;
+    }
+    disturbed("slurm");
+}
+
+#[test]
+fn a_job_array_of_slurm() {
+    if !wants_slurm() {
+        println!("skipped: SAHARA_SLURM=1 starts a cluster");
+        return;
+    }
+    disturbed("array");
+}
