@@ -79,6 +79,6 @@ mod tests {
         assert!(costs[1] < costs[0] / 4 && costs[2..].iter().all(|&cost| cost < costs[1]), "{costs:?}");
         assert_eq!(picoseconds(&cases, &built, &workloads), costs, "no clock takes part");
 
-        assert_eq!(picoseconds(&[], &built, &workloads), []);
+        assert!(picoseconds(&[], &built, &workloads).is_empty());
     }
 }

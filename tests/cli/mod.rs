@@ -9,8 +9,8 @@ mod epochs;
 mod input;
 #[cfg(target_os = "linux")]
 mod interrupted;
-mod plan;
 mod large;
+mod plan;
 mod processes;
 mod rays;
 mod render;
