@@ -157,6 +157,7 @@ pub(crate) fn example() -> Record {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::study::journal::{self, Header};
 
     /// Names in the first column of the tables of the document, up to a line that starts with `end`.
     fn documented(text: &str) -> Vec<&str> {
@@ -172,10 +173,14 @@ mod tests {
         let record = serde_json::to_value(example()).unwrap();
         let (record_part, rest) =
             include_str!("SCHEMA.md").split_once("`provenance`:").expect("the document has all tables");
-        let (provenance_part, counts_part) = rest.split_once("`counts`:").expect("the document has all tables");
+        let (provenance_part, rest) = rest.split_once("`counts`:").expect("the document has all tables");
+        let (counts_part, case_part) = rest.split_once("# Cases").expect("the document has all tables");
         assert_eq!(documented(record_part), serialised(&record));
         assert_eq!(documented(provenance_part), serialised(&record["provenance"]));
         assert_eq!(documented(counts_part), serialised(&record["counts"]));
+        let header = Header::new("a study", &serde_json::json!({"seed": 1}), example().provenance);
+        let case: Value = serde_json::from_str(&journal::text(&header, "Cube epoch 0", &7)).unwrap();
+        assert_eq!(documented(case_part), serialised(&case));
     }
 
     #[test]

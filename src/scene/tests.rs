@@ -148,7 +148,9 @@ fn a_scene_of_real_meshes_alone_says_how_to_get_them() {
     let with = |key: &str| message(&PLAIN.replace("mesh = \"cube\"", &format!("{key}, {real}")));
     assert!(with("sca = [2, 2, 2]").contains("put it into `real`"));
     assert!(with("stands_in_for = \"a thing\"").contains("`objects[0].stands_in_for`"));
-    assert!(message(&PLAIN.replace("mesh = \"cube\"", "")).contains("name a mesh or a file, or give `real`"));
+    assert!(
+        message(&PLAIN.replace("mesh = \"cube\"", "")).contains("name a mesh or a file, or give `terrain` or `real`")
+    );
 
     fs::write(folder.path().join("thing.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").unwrap();
     let scene = made(&text, Some(folder.path())).unwrap();

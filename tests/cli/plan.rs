@@ -119,7 +119,7 @@ fn a_plan_is_one_command_a_case_with_a_file_of_its_own() {
 fn what_cannot_be_planned_is_one_sentence() {
     refuses_in_a_line(&["study", "plan", "attributoin"], &["attributoin"]);
     refuses_in_a_line(&["study", "plan", "attribution", "--scenes", "cub"], &["cub", "Cube"]);
-    refuses_in_a_line(&["study", "plan", "attribution", "--scenes"], &["--scenes SCENE"]);
+    refuses_in_a_line(&["study", "plan", "attribution", "costs", "--scenes"], &["--scenes SCENE"]);
     refuses_in_a_line(&["study", "plan", "attribution", "--scenes", "cube", "--dir", "a\tb"], &["tab"]);
     let output = sahara(&["study", "plan", "attribution", "--quick", "--epoch", "3"]);
     assert!(output.status.code() == Some(USAGE) && stderr(&output).contains("--epoch"), "{}", stderr(&output));

@@ -31,7 +31,8 @@ pub fn groups<C>(files: Vec<CaseFile<C>>) -> Result<Vec<Group<C>>, JournalError>
     for file in files {
         let settings = &file.header.settings;
         let (path, known) = first.get_or_insert_with(|| (file.path.clone(), settings.clone()));
-        let differences = differences(known, settings);
+        let differences =
+            differences(known, settings, |one, other| format!("is {one} in the first and {other} in the second"));
         if !differences.is_empty() {
             let (paths, study) = (Box::new([path.clone(), file.path]), file.header.study);
             return Err(JournalError::Conflict { paths, study, differences });

@@ -32,11 +32,11 @@ impl Header {
             let (there, here) = (there.study.clone(), self.study.clone());
             return Err(JournalError::Study { path: path.into(), there, here });
         }
-        let settings = differences(&there.settings, &self.settings);
+        let settings = changes(&there.settings, &self.settings);
         if !settings.is_empty() {
             return Err(JournalError::Settings { path: path.into(), differences: settings });
         }
-        let machine = differences(&there.machine(), &self.machine());
+        let machine = changes(&there.machine(), &self.machine());
         if !machine.is_empty() {
             return Err(JournalError::Machine { path: path.into(), differences: machine });
         }
@@ -70,16 +70,25 @@ impl Header {
     }
 }
 
-/// `runs was 5 and is 7, seed was 1 and is 2`: what differs.
-pub(super) fn differences(there: &Map<String, Value>, here: &Map<String, Value>) -> String {
-    let names = there.keys().chain(here.keys().filter(|name| !there.contains_key(*name)));
+/// `runs was 5 and is 7, seed was 1 and is 2`: what was there and is not so here.
+fn changes(there: &Map<String, Value>, here: &Map<String, Value>) -> String {
+    differences(there, here, |there, here| format!("was {there} and is {here}"))
+}
+
+/// What differs, each name with what `both` says of the two.
+pub(super) fn differences(
+    one: &Map<String, Value>,
+    other: &Map<String, Value>,
+    both: impl Fn(String, String) -> String,
+) -> String {
+    let names = one.keys().chain(other.keys().filter(|name| !one.contains_key(*name)));
     let text = |value: Option<&Value>| match value {
         None => "not there".to_owned(),
         Some(Value::String(text)) => text.clone(),
         Some(other) => other.to_string(),
     };
-    let different = names.filter(|name| there.get(*name) != here.get(*name));
+    let different = names.filter(|name| one.get(*name) != other.get(*name));
     let parts: Vec<String> =
-        different.map(|name| format!("{name} was {} and is {}", text(there.get(name)), text(here.get(name)))).collect();
+        different.map(|name| format!("{name} {}", both(text(one.get(name)), text(other.get(name))))).collect();
     parts.join(", ")
 }
