@@ -33,11 +33,11 @@ fn triangles() -> Vec<[Vec3; 3]> {
 fn test_all<T: TriangleTest, const N: usize, L: Lanes<N>>(ray: &Ray, blocks: &[T::Block<N>]) -> usize {
     let prepared = T::prepare(ray);
     let hits = |block| {
-        let (candidates, values) = T::candidates::<N, L>(&prepared, block, 0.0, f32::MAX);
+        let (candidates, first) = T::candidates::<N, L>(&prepared, block, 0.0, f32::MAX);
         if candidates == 0 {
             return 0;
         }
-        let values = values();
+        let values = T::values::<N, L>(first);
         let hit = |lane| T::decide(&prepared, block, lane, &values).is_some();
         (0..N).filter(|&lane| candidates >> lane & 1 == 1 && hit(lane)).count()
     };

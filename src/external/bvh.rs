@@ -238,6 +238,7 @@ impl TriangleTest for SvenstaroTest {
 
     type Ray = (PreparedRay<f32, 3>, f32);
     type Block<const N: usize> = [[Point3<f32>; 3]; N];
+    type First<const N: usize, L: Lanes<N>> = L;
     type Values<const N: usize> = [f32; N];
     type Depth = f32;
 
@@ -261,14 +262,19 @@ impl TriangleTest for SvenstaroTest {
         block: &Self::Block<N>,
         from: f32,
         to: f32,
-    ) -> (u32, impl FnOnce() -> [f32; N]) {
+    ) -> (u32, L) {
         let t = L::load(&std::array::from_fn(|lane| {
             let [a, b, c] = &block[lane];
             let front = ray.intersects_triangle(a, b, c).distance;
             let nearer = if front < f32::INFINITY { front } else { ray.intersects_triangle(a, c, b).distance };
             nearer / length
         }));
-        (L::splat(from).le(t) & t.le(L::splat(to.min(f32::MAX))), move || t.store())
+        (L::splat(from).le(t) & t.le(L::splat(to.min(f32::MAX))), t)
+    }
+
+    #[inline(always)]
+    fn values<const N: usize, L: Lanes<N>>(t: L) -> [f32; N] {
+        t.store()
     }
 
     #[inline(always)]

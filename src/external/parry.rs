@@ -157,6 +157,7 @@ impl TriangleTest for ParryTest {
 
     type Ray = PreparedRay;
     type Block<const N: usize> = [[Vector; 3]; N];
+    type First<const N: usize, L: Lanes<N>> = L;
     type Values<const N: usize> = [f32; N];
     type Depth = f32;
 
@@ -180,13 +181,18 @@ impl TriangleTest for ParryTest {
         block: &[[Vector; 3]; N],
         from: f32,
         to: f32,
-    ) -> (u32, impl FnOnce() -> [f32; N]) {
+    ) -> (u32, L) {
         let t = L::load(&std::array::from_fn(|lane| {
             let [a, b, c] = block[lane];
             let hit = local_ray_intersection_with_triangle(a, b, c, ray);
             hit.map_or(f32::INFINITY, |(hit, _)| hit.time_of_impact)
         }));
-        (L::splat(from).le(t) & t.le(L::splat(to.min(f32::MAX))), move || t.store())
+        (L::splat(from).le(t) & t.le(L::splat(to.min(f32::MAX))), t)
+    }
+
+    #[inline(always)]
+    fn values<const N: usize, L: Lanes<N>>(t: L) -> [f32; N] {
+        t.store()
     }
 
     #[inline(always)]

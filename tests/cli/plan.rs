@@ -200,7 +200,7 @@ fn a_job_measures_once_and_refuses_what_is_not_its_own() {
         let mut case: Value = serde_json::from_str(&text).unwrap();
         case["provenance"][name] = value.into();
         fs::write(&path, serde_json::to_string(&case).unwrap()).unwrap();
-        refused(&lines[0], &format!("and is "));
+        refused(&lines[0], "and is ");
         refused(&lines[0], &format!("{name} was {value}"));
     }
     // The study refuses it as well, and the report keeps it apart.

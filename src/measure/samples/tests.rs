@@ -89,8 +89,8 @@ impl Bench {
 
     /// Samples of as many rays as the plan allows.
     fn take(&self, cases: &mut [Box<dyn Timed>], plan: &Plan) -> Result<Vec<Samples>, UnsteadyAnswers> {
-        let none = |case: &Box<dyn Timed>| Samples::none(case.rays(), level_within(case.rays(), plan.most_rays));
-        let mut samples: Vec<Samples> = cases.iter().map(none).collect();
+        let none = |rays: usize| Samples::none(rays, level_within(rays, plan.most_rays));
+        let mut samples: Vec<Samples> = cases.iter().map(|case| none(case.rays())).collect();
         let mut told = vec![];
         take(&self.clock, cases, &vec![0; cases.len()], plan, &mut samples, &mut |n| told.push(n))?;
         assert_eq!(told, (1..=plan.runs * cases.len()).collect::<Vec<_>>());

@@ -26,7 +26,8 @@ pub struct Group<C> {
 /// # Errors
 /// If they are of different settings.
 pub fn groups<C>(files: Vec<CaseFile<C>>) -> Result<Vec<Group<C>>, JournalError> {
-    let mut groups: Vec<(Map<String, Value>, Vec<CaseFile<C>>)> = vec![];
+    let mut machines: Vec<Map<String, Value>> = vec![];
+    let mut of_machines: Vec<Vec<CaseFile<C>>> = vec![];
     let mut first: Option<(PathBuf, Map<String, Value>)> = None;
     for file in files {
         let settings = &file.header.settings;
@@ -38,13 +39,15 @@ pub fn groups<C>(files: Vec<CaseFile<C>>) -> Result<Vec<Group<C>>, JournalError>
             return Err(JournalError::Conflict { paths, study, differences });
         }
         let machine = file.header.machine();
-        let place = groups.iter().position(|(known, _)| *known == machine).unwrap_or_else(|| {
-            groups.push((machine, vec![]));
-            groups.len() - 1
-        });
-        groups[place].1.push(file);
+        match machines.iter().position(|known| *known == machine) {
+            Some(place) => of_machines[place].push(file),
+            None => {
+                machines.push(machine);
+                of_machines.push(vec![file]);
+            }
+        }
     }
-    let group = |(_, mut files): (_, Vec<CaseFile<C>>)| {
+    let group = |mut files: Vec<CaseFile<C>>| {
         let date = |file: &CaseFile<C>| file.header.provenance.date.clone();
         // Of one case the newest comes first.
         files.sort_by_cached_key(|file| (file.key.clone(), Reverse(date(file)), file.path.clone()));
@@ -56,7 +59,7 @@ pub fn groups<C>(files: Vec<CaseFile<C>>) -> Result<Vec<Group<C>>, JournalError>
         let oldest = files.iter().min_by_key(|file| date(file)).expect("a group has a case");
         Group { provenance: oldest.header.provenance.clone(), replaced: paths, files }
     };
-    let mut groups: Vec<Group<C>> = groups.into_iter().map(group).collect();
+    let mut groups: Vec<Group<C>> = of_machines.into_iter().map(group).collect();
     groups.sort_by_cached_key(|group| (group.files.len(), group.provenance.date.clone()));
     Ok(groups)
 }

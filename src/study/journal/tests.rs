@@ -285,5 +285,5 @@ fn cases_of_builds_and_machines_are_apart_and_those_of_hosts_are_not() {
     let mut other = files;
     other[1].header.settings.insert("runs".into(), 6.into());
     let Err(error) = groups(other) else { panic!("they are mixed") };
-    sentence(error, &["a-n1-new", "a-n1-old", "the study tiny", "runs was 5 and is 6"]);
+    sentence(error, &["a-n1-new", "a-n1-old", "the study tiny", "runs is 5 in the first and 6 in the second"]);
 }
