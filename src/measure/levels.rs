@@ -63,7 +63,7 @@ const PILOT: usize = 64;
 /// A pass that takes so long says enough of the speed.
 const LONG_PILOT_NS: u64 = 5_000_000;
 
-/// The level at which a few rays of so many are asked, at least [`PILOT`] where there are as many.
+/// The level at which a few rays of so many are asked, at least 64 where there are as many.
 pub fn pilot_level(rays: usize) -> usize {
     (0..=last_level(rays)).rev().find(|&level| rays_at(rays, level) >= PILOT).unwrap_or(0)
 }
