@@ -54,9 +54,9 @@ class Snakemake:
             self.process.send_signal(signal.SIGCONT)
 
     def stop(self):
-        """Ends it, as Ctrl-C would."""
+        """Ends it. Asked to end, it waits for its jobs, which may wait for a node that is drained."""
         if not self.is_over():
-            self.process.terminate()
+            self.process.kill()
             self.process.wait()
 
 
