@@ -1,6 +1,8 @@
 //! Every structure that the registry offers, held to the contract on every mesh of the suite and every kind of ray.
 
 use std::borrow::Cow;
+use std::fs;
+use std::path::Path;
 use std::sync::Arc;
 
 use sahara::accel::{Capabilities, Loaded};
@@ -9,7 +11,7 @@ use sahara::bvh8::{Bvh8, Bvh8Config, Partition};
 use sahara::geometry::{Hit, Mesh, Ray};
 use sahara::kdtree::{KdConfig, KdTree};
 use sahara::registry::{Choice, Registry};
-use sahara::scene::{BUILTIN, Difficulty};
+use sahara::scene::{BUILTIN, Difficulty, Scene};
 use sahara::triangle::MollerTrumbore;
 use sahara::validate::conformance::{Subject, answers, counting, shapes};
 use sahara::validate::{Stratum, degenerate_meshes};
@@ -110,6 +112,23 @@ fn our_trees_are_right_on_the_hard_scenes() {
     for spec in TREES {
         passes(answers(&subject(&registry.choose(spec).unwrap(), true), &meshes, 60));
     }
+}
+
+#[test]
+fn our_trees_are_right_where_surfaces_coincide() {
+    let (registry, meshes) = (Registry::builtin(), coincident());
+    for spec in TREES {
+        passes(answers(&subject(&registry.choose(spec).unwrap(), true), &meshes, 12));
+    }
+}
+
+/// The scenes of `scenes/coincident`.
+fn coincident() -> Vec<(String, Arc<Mesh>)> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/coincident");
+    let files = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    let meshes: Vec<_> = files.map(|file| Scene::read(&file, None).unwrap()).map(|s| (s.name, s.mesh)).collect();
+    assert_eq!(meshes.len(), 6);
+    meshes
 }
 
 /// What the baseline answers wrongly is in `tests/findings.rs`; what it counts and how it looks is sound. Structures with

@@ -77,9 +77,9 @@ fn cause(scene: &Scene, accel: &dyn DynAccel) -> anyhow::Result<String> {
     let rays = scene.primary_rays(SIZE, View::CENTRE, 0..SIZE[0] * SIZE[1]);
     let found = validate(accel, &Reference::of_test(TRIANGLE_TEST, &scene.mesh)?, &scene.mesh, &rays);
     let (wrong, ties) = (count(found.errors()), count(found.ties));
-    let kernel = count(found.kernel_differences);
+    let test_errors = count(found.test_errors);
     Ok(format!(
-        "of the primary rays {wrong} are answered wrong, {ties} by another triangle at the same t, {kernel} otherwise for \
+        "of the primary rays {wrong} are answered wrong, {ties} by another triangle at the same t, {test_errors} otherwise for \
          the triangle test's own reasons"
     ))
 }

@@ -32,7 +32,7 @@ pub fn validate_any_answers(
             (true, _) if reference.test.is_some() => Kind::Invented,
             (true, false) => Kind::Invented,
             (false, true) => Kind::Lost,
-            _ => Kind::Kernel,
+            _ => Kind::TriangleTest,
         };
         let verdict = match truth {
             Some(truth) => format!("any hit says {found}; exactly, there is a hit at {:?}", truth.rounded()),
@@ -42,7 +42,7 @@ pub fn validate_any_answers(
         sums.worst.push(WorstRay { index, ray: *ray, expected, found: None, kind, verdict, gap: f64::INFINITY });
         sums.differing += 1;
         match kind {
-            Kind::Kernel => sums.kernel_differences += 1,
+            Kind::TriangleTest => sums.test_errors += 1,
             _ if reference.test.is_some() => sums.structure_errors += 1,
             _ => sums.answer_errors += 1,
         }

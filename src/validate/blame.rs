@@ -49,17 +49,17 @@ pub(super) fn blame(
 fn own_test(own: ScalarTest, mesh: &Mesh, ray: &Ray, expected: Option<Hit>, found: Option<Hit>, other: Blame) -> Blame {
     let exists = |hit: &Hit| (hit.prim.index() as usize) < mesh.len();
     let of = |hit: Option<Hit>| hit.filter(exists).and_then(|hit| own(ray, mesh.corners(hit.prim.index())));
-    let kernel = |sentence: &str| verdict(Kind::Kernel, format!("{}, but {sentence}", other.sentence));
+    let by_the_test = |sentence: &str| verdict(Kind::TriangleTest, format!("{}, but {sentence}", other.sentence));
     match (other.kind, found) {
         // What its test does not find, or not in front of what was found, no walk can return.
         (Kind::Lost | Kind::NearerLost, _) => match (of(expected), found) {
-            (None, _) => kernel("the structure's own test does not hit it"),
-            (Some(t), Some(f)) if t >= f.t => kernel(&format!("the structure's own test hits it at {t:?}")),
+            (None, _) => by_the_test("the structure's own test does not hit it"),
+            (Some(t), Some(f)) if t >= f.t => by_the_test(&format!("the structure's own test hits it at {t:?}")),
             _ => other,
         },
         // What its test gives, whatever is true, it may return.
         (Kind::WrongT | Kind::Invented, Some(f)) => match of(found) {
-            Some(t) if close(t, f.t, true) => kernel("so says the structure's own test"),
+            Some(t) if close(t, f.t, true) => by_the_test("so says the structure's own test"),
             _ => other,
         },
         _ => other,
@@ -109,16 +109,16 @@ fn same_test(test: ScalarTest, mesh: &Mesh, ray: &Ray, expected: Option<Hit>, fo
 /// The structure returns less than its test found: an error if that hit is real.
 fn lost(mesh: &Mesh, ray: &Ray, expected: Hit, found: Option<Hit>) -> Blame {
     let Some(nearer) = true_hit(mesh, ray, expected) else {
-        return verdict(Kind::Kernel, format!("exactly, {:?} is not hit in the interval", expected.prim));
+        return verdict(Kind::TriangleTest, format!("exactly, {:?} is not hit in the interval", expected.prim));
     };
     let sure = format!("exactly, {:?} is hit at {:?}", expected.prim, nearer.round());
     let Some(f) = found else { return verdict(Kind::Lost, sure) };
     if nearer.compare(f.t).is_some_and(Ordering::is_ge) {
         // What lies behind a hit as computed may be culled.
-        return verdict(Kind::Kernel, format!("{sure}, not before the computed t of {:?}", f.prim));
+        return verdict(Kind::TriangleTest, format!("{sure}, not before the computed t of {:?}", f.prim));
     }
     match true_hit(mesh, ray, f) {
-        Some(t) if t <= nearer => verdict(Kind::Kernel, format!("{sure}, {:?} not later", f.prim)),
+        Some(t) if t <= nearer => verdict(Kind::TriangleTest, format!("{sure}, {:?} not later", f.prim)),
         Some(t) => verdict(Kind::NearerLost, format!("{sure}, {:?} later, at {:?}", f.prim, t.round())),
         None => verdict(Kind::NearerLost, format!("{sure}, {:?} is not hit in the interval", f.prim)),
     }
@@ -151,12 +151,12 @@ fn may_be_at(mesh: &Mesh, ray: &Ray, hit: Hit) -> bool {
 /// Two answers that agree but for their depth: which of them is off?
 fn strict(mesh: &Mesh, ray: &Ray, expected: Hit, found: Hit) -> Blame {
     let Some((t, prim)) = nearest(mesh, ray, Some(expected), Some(found)) else {
-        return verdict(Kind::Kernel, "exactly, neither is a hit in the interval".into());
+        return verdict(Kind::TriangleTest, "exactly, neither is a hit in the interval".into());
     };
     let rounded = t.round();
     let sure = format!("exactly, {prim:?} is hit at {rounded:?}");
     if DepthRule::STRICT.allows(t.approximate(), found.t, found.prim == prim) {
-        return verdict(Kind::Kernel, format!("{sure}: the reference is wrong"));
+        return verdict(Kind::TriangleTest, format!("{sure}: the reference is wrong"));
     }
     verdict(Kind::Depth, format!("{sure}, {} ulps away", rounded.to_bits().abs_diff(found.t.to_bits())))
 }
@@ -170,14 +170,14 @@ fn nearest(mesh: &Mesh, ray: &Ray, expected: Option<Hit>, found: Option<Hit>) ->
 /// Two tests round differently: only the exact answer can judge, and it judges structure and test together.
 fn other_test(mesh: &Mesh, ray: &Ray, expected: Option<Hit>, found: Option<Hit>) -> Blame {
     match (nearest(mesh, ray, expected, found), found) {
-        (None, None) => verdict(Kind::Kernel, "exactly, neither is a hit in the interval".into()),
+        (None, None) => verdict(Kind::TriangleTest, "exactly, neither is a hit in the interval".into()),
         (None, Some(f)) => verdict(Kind::Invented, format!("exactly, {:?} is not hit in the interval", f.prim)),
         (Some((t, prim)), None) => verdict(Kind::Lost, format!("exactly, {prim:?} is hit at {:?}", t.round())),
         (Some((t, prim)), Some(f)) => {
             let t = t.round();
             let sure = format!("exactly, {prim:?} is hit at {t:?}");
             match (close(t, f.t, f.prim == prim), f.t > t, f.prim == prim) {
-                (true, ..) => verdict(Kind::Kernel, format!("{sure}: the reference is wrong")),
+                (true, ..) => verdict(Kind::TriangleTest, format!("{sure}: the reference is wrong")),
                 (false, _, true) => verdict(Kind::WrongT, sure),
                 (false, true, false) => verdict(Kind::NearerLost, sure),
                 (false, false, false) => verdict(Kind::Invented, sure),

@@ -181,7 +181,7 @@ fn tally(
             sums.ties += 1;
             sums.higher_ids += 1;
         }
-        Kind::Kernel => sums.kernel_differences += 1,
+        Kind::TriangleTest => sums.test_errors += 1,
         Kind::Depth => sums.depth_errors += 1,
         _ if reference.knows_structure_errors() => sums.structure_errors += 1,
         _ => sums.answer_errors += 1,

@@ -1,7 +1,7 @@
 //! Validation: a structure against a reference, hit for hit, with the exact oracle as judge where they differ.
 //!
 //! Two errors are told apart. A *structure error* is a hit that the traversal lost or invented, although its own triangle
-//! test, run over all triangles, says otherwise: a correct structure has none, on any ray. A *kernel difference* is the
+//! test, run over all triangles, says otherwise: a correct structure has none, on any ray. A *triangle-test error* is the
 //! triangle test's own: the float test calls a hit what exactly is none, and the traversal was free to cull it.
 //! Where structure and reference have different tests, the two cannot be separated: then there are *answer errors*.
 

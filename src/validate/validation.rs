@@ -21,7 +21,7 @@ pub struct Validation {
     /// Hits lost or invented by the structure; zero in a correct one.
     pub structure_errors: u64,
     /// Differences that the triangle test is to blame for: its hit exactly is none, or exactly is not the nearer one.
-    pub kernel_differences: u64,
+    pub test_errors: u64,
     /// Wrong answers of a structure whose triangle test the reference does not share; of depths those that are wrong by
     /// [`DepthRule::COARSE`](super::DepthRule::COARSE).
     pub answer_errors: u64,
@@ -88,7 +88,7 @@ named_enum! {
         /// Right but for a `t` that is off by more than the strict rule of depth allows, and by less than the coarse one.
         Depth = "depth",
         /// The triangle test's own error; the structure is not to blame.
-        Kernel = "kernel",
+        TriangleTest = "triangle-test",
         /// The same `t` at a higher number than the lowest that is hit there: wrong only where the lowest is promised.
         HigherId = "higher-id",
         /// The same `t` at another primitive: not an error.
@@ -140,7 +140,7 @@ impl Validation {
         self.hits += later.hits;
         self.differing += later.differing;
         self.structure_errors += later.structure_errors;
-        self.kernel_differences += later.kernel_differences;
+        self.test_errors += later.test_errors;
         self.answer_errors += later.answer_errors;
         self.depth_errors += later.depth_errors;
         self.any_hit_errors += later.any_hit_errors;

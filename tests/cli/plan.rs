@@ -296,5 +296,8 @@ fn the_report_keeps_machines_apart_and_names_what_is_missing() {
     let output = report(&[&here, &there]);
     let said = stderr(&output);
     assert_eq!((output.status.code(), said.lines().count()), (Some(USAGE), 1), "{said}");
-    assert!(said.contains("rays was 256 and is 64") && said.matches(".json").count() == 2, "{said}");
+    assert!(
+        said.contains("rays is 256 in the first and 64 in the second") && said.matches(".json").count() == 2,
+        "{said}"
+    );
 }

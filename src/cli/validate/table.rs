@@ -24,7 +24,7 @@ pub fn print(
 }
 
 const COLUMNS: [&str; 8] =
-    ["structure", "triangle test", "hits", "structure errors", "answer errors", "coarse", "kernel", "ties"];
+    ["structure", "triangle test", "hits", "structure errors", "answer errors", "coarse", "test errors", "ties"];
 
 /// What the columns mean.
 pub const LEGEND: [&str; 4] = [
@@ -33,7 +33,7 @@ pub const LEGEND: [&str; 4] = [
     "A depth is wrong if it is off by more than 4 ulps and more than 1e-6. coarse: the answer errors that remain if up to 1 %, \
      or 0.1 % on another triangle, is allowed; the others are common where tests in f32 meet grazing rays, and without \
      --against they do not decide about the exit status.",
-    "kernel: differences that the triangle test is to blame for. ties: as near a hit on another triangle; no error.",
+    "test errors: those that the triangle test is to blame for, not the structure. ties: as near a hit on another triangle; no error.",
     "To ask a ray again: sahara validate SCENE --structure NAME --ray \"ox,oy,oz dx,dy,dz\"",
 ];
 
@@ -58,7 +58,7 @@ pub fn row(label: &str, test: &str, found: &Validation) -> Vec<Cell> {
         errors(own),
         errors(found.answer_errors + found.depth_errors),
         count(found.answer_errors).into(),
-        count(found.kernel_differences).into(),
+        count(found.test_errors).into(),
         count(found.ties).into(),
     ]
 }

@@ -1,6 +1,7 @@
 //! Meshes made by our own code, each the same bit for bit on every machine.
 
 mod catmull_clark;
+mod coincident;
 mod creatures;
 mod dragon;
 mod fit;
@@ -26,6 +27,7 @@ use glam::{DVec3, Vec3};
 
 use super::Model;
 
+pub use coincident::{fan, growing_shells, near_duplicates, shared_faces, tiled_floor, two_cities};
 pub use creatures::{elephant, fox, rabbit};
 pub use dragon::dragon;
 pub use icosahedron::{icosahedron, inside_out_icosahedron};
@@ -62,6 +64,12 @@ pub const GENERATORS: &[Generator] = &[
     Generator { name: "dragon", make: dragon },
     Generator { name: "lucy", make: lucy },
     Generator { name: "sponza", make: sponza },
+    Generator { name: "two_cities", make: two_cities },
+    Generator { name: "shared_faces", make: shared_faces },
+    Generator { name: "tiled_floor", make: tiled_floor },
+    Generator { name: "fan", make: || fan(1500) },
+    Generator { name: "near_duplicates", make: near_duplicates },
+    Generator { name: "growing_shells", make: growing_shells },
 ];
 
 /// The mesh called `name`, or none when there is no such generator.

@@ -26,6 +26,8 @@ named_enum! {
         /// an `f32` is as large as what there is to be hit, and a traversal that must not lose anything visits nearly
         /// everything.
         Offset = "offset",
+        /// From points of triangles ([`Stratum::FromSurface`]), where a test must tell the surface itself from what lies in it.
+        Surface = "surface",
     }
 }
 
@@ -40,6 +42,7 @@ impl RayKind {
             Self::Grazing => "rays nearly in the plane of a triangle",
             Self::Scale => "rays with directions 1e-30 to 1e30 long",
             Self::Offset => "rays from 1e3 to 1e6 scene sizes away",
+            Self::Surface => "rays from points of triangles",
         }
     }
 
@@ -53,6 +56,7 @@ impl RayKind {
             Self::Grazing => Stratum::Grazing,
             Self::Scale => Stratum::Lengths,
             Self::Offset => Stratum::FarOrigins,
+            Self::Surface => Stratum::FromSurface,
         };
         if self == Self::Offset {
             return near_enough(&scene.mesh, count, seed);

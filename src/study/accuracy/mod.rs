@@ -7,6 +7,7 @@ mod front;
 mod kind;
 mod record;
 mod section;
+mod slowest;
 mod study;
 mod table;
 #[cfg(test)]
@@ -25,6 +26,7 @@ use crate::scene::{Scene, Workload};
 use crate::validate::{ErrorCounts, Rate};
 
 use batch::Batch;
+use slowest::slowest;
 
 pub use figure::figure;
 pub use kind::RayKind;
@@ -117,14 +119,14 @@ pub fn accuracy_scene(
         rays: batch.rays.clone(),
     };
     let workloads: Vec<Workload> = names.iter().zip(&batches).map(batch).collect();
-    let samples = time(scene, &built, workloads, settings, &threads, clock, progress)?;
+    let timed = time(scene, &built, workloads, settings, &threads, clock, progress)?;
 
     let (provenance, hash) = (Provenance::of(&threads), scene.hash());
     let mut records = vec![];
-    for (case, (judged, samples)) in verdicts.iter().zip(samples).enumerate() {
+    for (case, (judged, timed)) in verdicts.iter().zip(timed).enumerate() {
         let (batch, built) = (case / built.len(), &built[case % built.len()]);
         let kind = (names[batch].as_str(), batches[batch].rays.len());
-        records.push(record(scene, &hash, built, kind, settings, judged, &samples, &provenance));
+        records.push(record(scene, &hash, built, kind, settings, judged, &timed, &provenance));
     }
     // What is not proven is not credited: an error that was seen once may be less than one that was not seen in fewer
     // rays.
@@ -138,7 +140,14 @@ pub fn accuracy_scene(
     Ok((records, refused))
 }
 
-/// Samples of all structures on all workloads, interleaved; in the order of the workloads, structure by structure.
+/// How long a case takes.
+struct Times {
+    samples: Samples,
+    /// The longest that a single ray takes, nanoseconds.
+    slowest_ns: u64,
+}
+
+/// Those of all structures on all workloads, interleaved; in the order of the workloads, structure by structure.
 fn time(
     scene: &Scene,
     built: &[Built],
@@ -147,7 +156,7 @@ fn time(
     threads: &Threads,
     clock: &dyn Clock,
     progress: &mut dyn FnMut(Stage),
-) -> Result<Vec<Samples>, StudyError> {
+) -> Result<Vec<Times>, StudyError> {
     // Besides its samples a workload has lead-ins.
     let of_all = settings.budget_ns / (workloads.len() * (settings.runs + 1)).max(1) as u64;
     let mut cases = Case::all(built.len(), workloads.len());
@@ -170,10 +179,15 @@ fn time(
     let taken = timing.take(&allotted, &|_| true, &plan, &mut |taken| progress(Stage::Trace(taken, total)))?;
     let panicked =
         |built: &Built| StudyError::Panicked { structure: built.choice.label.clone(), scene: scene.name.clone() };
-    match taken.failures.iter().position(Option::is_some) {
-        Some(case) => Err(panicked(&built[cases[case].structure])),
-        None => Ok(taken.samples),
+    if let Some(case) = taken.failures.iter().position(Option::is_some) {
+        return Err(panicked(&built[cases[case].structure]));
     }
+    let _pin = threads.pin();
+    let of_case = |(case, samples): (&Case, Samples)| {
+        let rays = spread(&workloads[case.workload].rays, samples.rays);
+        Times { slowest_ns: slowest(built[case.structure].accel.as_ref(), &rays, clock), samples }
+    };
+    Ok(cases.iter().zip(taken.samples).map(of_case).collect())
 }
 
 /// Rays that are timed at least.
@@ -200,7 +214,7 @@ fn record(
     (kind, rays): (&str, usize),
     settings: &AccuracySettings,
     judged: &ErrorCounts,
-    samples: &Samples,
+    Times { samples, slowest_ns }: &Times,
     provenance: &Provenance,
 ) -> AccuracyRecord {
     let both = |rate: Rate| Some([rate.share()?, rate.bound()?]);
@@ -231,6 +245,7 @@ fn record(
         wrong_depth_rate: both(judged.wrong_depth_rate()),
         ulps: judged.ulps,
         ns_per_ray: median(&samples.ns_per_ray()).expect("there is a sample"),
+        slowest_ns: Some(*slowest_ns),
         timed: samples.rays,
         runs: samples.ns.len(),
         dominated_by: None,

@@ -49,6 +49,9 @@ pub struct AccuracyRecord {
     pub ulps: Option<Ulps>,
     /// Median of the samples, nanoseconds.
     pub ns_per_ray: f64,
+    /// The longest that a single one of the timed rays takes when it is asked alone, nanoseconds; nothing in records of older versions.
+    #[serde(default)]
+    pub slowest_ns: Option<u64>,
     /// Rays of a sample.
     pub timed: usize,
     /// Samples.

@@ -36,7 +36,7 @@ pub struct AccuracyArgs {
     /// A triangle test; may be repeated [default: all]
     #[arg(long, short, value_name = "NAME")]
     test: Vec<String>,
-    /// A kind of rays: uniform, edge, vertex, axis, grazing, scale or offset; may be repeated [default: all]
+    /// A kind of rays: uniform, edge, vertex, axis, grazing, scale, offset or surface; may be repeated [default: all]
     #[arg(long, short, value_name = "KIND")]
     workload: Vec<RayKind>,
     /// Rays of each kind: without an error among n, the error is below about 3/n with 95 % confidence; or a file of rays to

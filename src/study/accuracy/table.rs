@@ -12,9 +12,10 @@ pub fn tables(records: &[AccuracyRecord], notes: &[String]) -> Vec<Table> {
     tables
 }
 
-const COLUMNS: [&str; 12] = [
+const COLUMNS: [&str; 13] = [
     "structure",
     "ns/ray",
+    "slowest",
     "error",
     "at most",
     "missed",
@@ -62,6 +63,7 @@ fn row(record: &AccuracyRecord) -> Vec<Cell> {
     vec![
         record.label.as_str().into(),
         Cell::from(figures(record.ns_per_ray)).with(tone),
+        record.slowest_ns.map_or(Cell::blank(), |ns| figures(ns as f64).into()),
         Cell::from(percent(record.error)).with(tone),
         percent(record.error_bound).into(),
         errors(record.missed),
@@ -83,6 +85,7 @@ pub fn percent(share: f64) -> String {
 /// What the columns mean.
 pub fn legend() -> Vec<String> {
     [
+        "slowest: nanoseconds that the slowest of the rays takes when it is asked alone, with what asking takes.",
         "error: share of rays with a wrong answer by exact arithmetic: missed, false hits, or a depth that is off by more than 4 \
          units in the last place and more than 1e-6; at most: its upper bound with 95 % confidence by Clopper \
          and Pearson (no error in n rays: about 3/n).",

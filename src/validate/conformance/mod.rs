@@ -125,7 +125,7 @@ impl Finding {
         let worst = v.worst.first().map_or("no ray".into(), ToString::to_string);
         format!(
             "{subject} on {:?}, {} rays: of {} rays, {} structure errors, {} answer errors, {} any-hit errors, {} unrepeatable, \
-             {} panics, {} hangs, {} kernel differences, {} ties ({} at a higher number), {} declined; worst: {worst}",
+             {} panics, {} hangs, {} triangle-test errors, {} ties ({} at a higher number), {} declined; worst: {worst}",
             self.mesh,
             self.stratum.name(),
             v.rays,
@@ -135,7 +135,7 @@ impl Finding {
             v.unrepeatable,
             v.panics,
             v.hangs,
-            v.kernel_differences,
+            v.test_errors,
             v.ties,
             v.higher_ids,
             v.declined,

@@ -7,6 +7,7 @@ use glam::Vec3;
 use super::case::{HardCase, moderate};
 use super::set::{Set, indexed, moved, on_surface, tilted};
 use crate::geometry::{Mesh, Ray};
+use crate::scene::meshes;
 use crate::validate::Sampler;
 use crate::validate::degenerate::{mesh, needles};
 
@@ -82,13 +83,8 @@ fn hair(count: usize) -> Set {
 }
 
 fn fan() -> Arc<Mesh> {
-    const SEGMENTS: u32 = 800;
-    let rim = (0..SEGMENTS).map(|i| {
-        let (sine, cosine) = libm::sincos(f64::from(i) * std::f64::consts::TAU / f64::from(SEGMENTS));
-        Vec3::new(cosine as f32, sine as f32, 0.0)
-    });
-    let points = std::iter::once(Vec3::ZERO).chain(rim).collect();
-    indexed(points, (0..SEGMENTS).map(|i| [0, 1 + i, 1 + (i + 1) % SEGMENTS]).collect())
+    let fan = meshes::fan(800);
+    indexed(fan.positions, fan.triangles)
 }
 
 /// A point from which the backs of the fan are seen.

@@ -1,0 +1,105 @@
+//! Surfaces that coincide, as models from drawing programs have them: where several triangles are hit at the same or nearly the same `t`,
+//! a test that is right must decide between them, and one that rounds need not notice.
+
+use glam::Vec3;
+
+use super::{cube, flat, halves, noise};
+use crate::scene::Model;
+
+/// Two cities on one ground: the square with corners (+-1, 0, +-1), divided by one into 32 x 32 cells and by the other into 31 x 31, with
+/// 144 houses each. Floors of houses lie in the ground, and houses stand in each other: 7,474 triangles.
+pub fn two_cities() -> Model {
+    const BLOCKS: i32 = 12;
+    let city = |cells: u32, salt: u32, shift: f32| {
+        let houses = (0..BLOCKS * BLOCKS).map(move |i| {
+            let (x, z) = (i % BLOCKS, i / BLOCKS);
+            let middle = |block: i32| (2.0 * (block as f32 + 0.5) / BLOCKS as f32 - 1.0) * 0.9 + shift;
+            let height = 0.05 + 0.2 * noise::cell(x, 0, z, salt);
+            let half = Vec3::new(0.04, height / 2.0, 0.04);
+            boxed(Vec3::new(middle(x), half.y, middle(z)), half)
+        });
+        std::iter::once(ground(cells)).chain(houses)
+    };
+    joined(city(32, 1, 0.0).chain(city(31, 2, 0.03)))
+}
+
+/// 10 x 10 x 10 closed cubes side by side: every face between two of them is there twice, looking both ways: 12,000 triangles.
+pub fn shared_faces() -> Model {
+    let cube = |i: u32| boxed(Vec3::new((i % 10) as f32, (i / 10 % 10) as f32, (i / 100) as f32), Vec3::splat(0.5));
+    joined((0..1000).map(cube))
+}
+
+/// A floor of 40 x 40 slabs side by side, the tops in one plane, on two triangles in the plane of all undersides: 19,202 triangles.
+pub fn tiled_floor() -> Model {
+    const SIDE: u32 = 40;
+    let (half, thick) = (1.0 / SIDE as f32, 0.01);
+    let slab = |i: u32| {
+        let middle = |column: u32| (2 * column + 1) as f32 * half - 1.0;
+        boxed(Vec3::new(middle(i % SIDE), thick, middle(i / SIDE)), Vec3::new(half, thick, half))
+    };
+    joined(std::iter::once(ground(1)).chain((0..SIDE * SIDE).map(slab)))
+}
+
+/// `segments` triangles in the plane z = 0 around the origin, which is a corner of all, with a rim of radius 1.
+pub fn fan(segments: u32) -> Model {
+    let rim = (0..segments).map(|i| {
+        let (sine, cosine) = libm::sincos(f64::from(i) * std::f64::consts::TAU / f64::from(segments));
+        Vec3::new(cosine as f32, sine as f32, 0.0)
+    });
+    flat(
+        std::iter::once(Vec3::ZERO).chain(rim).collect(),
+        (0..segments).map(|i| [0, 1 + i, 1 + (i + 1) % segments]).collect(),
+    )
+}
+
+/// One triangle 5,000 times, each coordinate where it belongs or one step of an `f32` beside it.
+pub fn near_duplicates() -> Model {
+    const CORNERS: [Vec3; 3] = [Vec3::new(-1.1, -0.7, 0.3), Vec3::new(1.3, -0.9, -0.4), Vec3::new(0.1, 1.2, 0.2)];
+    joined((0..5000).map(|copy| {
+        let corner = |(i, corner): (i32, Vec3)| {
+            Vec3::from_array(std::array::from_fn(|axis| match (3.0 * noise::cell(copy, i, axis as i32, 0)) as u32 {
+                0 => corner[axis].next_down(),
+                1 => corner[axis],
+                _ => corner[axis].next_up(),
+            }))
+        };
+        flat((0..).zip(CORNERS).map(corner).collect(), vec![[0, 1, 2]])
+    }))
+}
+
+/// 283 cubes about the origin, each a fiftieth larger than the one before: whatever enters the largest may meet them all, and no plane
+/// separates any two: 3,396 triangles.
+pub fn growing_shells() -> Model {
+    let sides = std::iter::successors(Some(1.0_f32), |side| Some(side * 1.02));
+    joined(sides.take(283).map(|side| boxed(Vec3::ZERO, Vec3::splat(side))))
+}
+
+/// The square with corners (+-1, 0, +-1), looking up, in so many cells a side.
+fn ground(cells: u32) -> Model {
+    let at = |step: u32| 2.0 * step as f32 / cells as f32 - 1.0;
+    let across = cells + 1;
+    let quad = |i: u32| {
+        let left = i / cells * across + i % cells;
+        halves([left + across, left + across + 1, left + 1, left])
+    };
+    flat(
+        (0..across * across).map(|i| Vec3::new(at(i % across), 0.0, at(i / across))).collect(),
+        (0..cells * cells).flat_map(quad).collect(),
+    )
+}
+
+/// The closed cube, its middle and half its sides as given.
+fn boxed(middle: Vec3, half: Vec3) -> Model {
+    let unit = cube();
+    flat(unit.positions.iter().map(|&corner| middle + half * corner).collect(), unit.triangles)
+}
+
+fn joined(parts: impl Iterator<Item = Model>) -> Model {
+    let (mut positions, mut triangles) = (vec![], vec![]);
+    for part in parts {
+        let first = positions.len() as u32;
+        positions.extend(part.positions);
+        triangles.extend(part.triangles.iter().map(|corners| corners.map(|corner| first + corner)));
+    }
+    flat(positions, triangles)
+}
