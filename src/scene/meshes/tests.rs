@@ -81,6 +81,12 @@ const KNOWN: &[Known] = &[
     Known { name: "dragon", vertices: 65_415, triangles: 130_858, degenerate: 0, pieces: 1, edges: (0, 0), bounds: bounds([-0.102, 0.102], [0.0, 0.144], [-0.046, 0.046]), fingerprint: "355d211535ade223" },
     Known { name: "lucy", vertices: 137_835, triangles: 275_690, degenerate: 0, pieces: 1, edges: (0, 0), bounds: bounds([-6.74, 6.74], [0.0, 23.15], [-3.87, 3.87]), fingerprint: "84b49e7f5aae0aa1" },
     Known { name: "sponza", vertices: 153_288, triangles: 174_838, degenerate: 0, pieces: 14_523, edges: (49_766, 1764), bounds: bounds([-1921.0, 1800.0], [-126.0, 1429.0], [-1183.0, 1105.0]), fingerprint: "3bf9bc78684c66f7" },
+    Known { name: "two_cities", vertices: 4417, triangles: 7426, degenerate: 0, pieces: 290, edges: (252, 0), bounds: bounds([-1.0, 1.0], [0.0, 0.249_142_44], [-1.0, 1.0]), fingerprint: "6679b16641656a67" },
+    Known { name: "shared_faces", vertices: 8000, triangles: 12_000, degenerate: 0, pieces: 1000, edges: (0, 6210), bounds: bounds([-0.5, 9.5], [-0.5, 9.5], [-0.5, 9.5]), fingerprint: "67398947b20d5cfd" },
+    Known { name: "tiled_floor", vertices: 12_804, triangles: 19_202, degenerate: 0, pieces: 1601, edges: (4, 4693), bounds: bounds([-1.0, 1.0], [0.0, 0.02], [-1.0, 1.0]), fingerprint: "0ead9dda660df537" },
+    Known { name: "fan", vertices: 1501, triangles: 1500, degenerate: 0, pieces: 1, edges: (1500, 0), bounds: bounds([-1.0, 1.0], [-1.0, 1.0], [0.0, 0.0]), fingerprint: "418d5c5f2b924619" },
+    Known { name: "near_duplicates", vertices: 15_000, triangles: 5000, degenerate: 0, pieces: 5000, edges: (14, 2114), bounds: bounds([-1.100_000_1, 1.300_000_1], [-0.900_000_04, 1.200_000_2], [-0.400_000_04, 0.300_000_04]), fingerprint: "ad596224925d48c8" },
+    Known { name: "growing_shells", vertices: 2264, triangles: 3396, degenerate: 0, pieces: 283, edges: (0, 0), bounds: bounds([-266.223_36, 266.223_36], [-266.223_36, 266.223_36], [-266.223_36, 266.223_36]), fingerprint: "1eb57e4815e770ed" },
 ];
 
 #[test]
