@@ -58,7 +58,7 @@ pub(super) struct Children {
 }
 
 impl Children {
-    /// In the order of lanes.
+    /// In the order of lanes, up to the last one.
     pub fn parts(&self) -> &[Part] {
         &self.parts[..self.len]
     }
@@ -179,12 +179,13 @@ impl<'a> Collapse<'a> {
         let keys = found.map(|part| (matches!(part, Part::Leaf(_)), self.bounds(part).half_area()));
         let mut places: [usize; WIDTH] = std::array::from_fn(|place| place);
         places[..len].sort_by(|&a, &b| keys[a].0.cmp(&keys[b].0).then(keys[a].1.total_cmp(&keys[b].1)));
+        let empty = WIDTH - len;
         let mut lanes = [0; WIDTH];
-        (0..).zip(&places[..len]).for_each(|(lane, &place)| lanes[place] = lane);
+        (empty as u32..).zip(&places[..len]).for_each(|(lane, &place)| lanes[place] = lane);
 
-        // Empty lanes come before the first.
-        let empty = (len..WIDTH).fold(0, |order, lane| order << 3 | lane as u32);
-        let orders = self.orders(at, WIDTH, &mut lanes.iter()).0.map(|order| empty << (3 * len) | order);
+        // Empty lanes come after the last, so that the first to visit is looked at first.
+        let unused = (0..empty as u32).rev().fold(0, |order, lane| order << 3 | lane);
+        let orders = self.orders(at, WIDTH, &mut lanes.iter()).0.map(|order| order << (3 * empty) | unused);
         Children { parts: places.map(|place| found[place]), len, orders }
     }
 
@@ -275,11 +276,11 @@ mod tests {
             let children = collapse.children(at);
             for (octant, order) in children.orders.into_iter().enumerate() {
                 let lanes: Vec<usize> = (0..WIDTH).rev().map(|i| (order >> (3 * i) & 7) as usize).collect();
-                let (empty, used) = lanes.split_at(WIDTH - children.len);
-                assert!(empty.iter().all(|&lane| lane >= children.len), "empty lanes come before the first");
+                let (used, empty) = lanes.split_at(children.len);
+                assert!(empty.iter().all(|&lane| lane < empty.len()), "empty lanes come after the last");
                 let mut expected = vec![];
                 gathered(&collapse, at, WIDTH, octant, &mut expected);
-                assert_eq!(used.iter().map(|&lane| children.parts()[lane]).collect::<Vec<_>>(), expected);
+                assert_eq!(used.iter().map(|&lane| children.parts()[lane - empty.len()]).collect::<Vec<_>>(), expected);
             }
             stack.extend(children.parts());
             nodes += 1;

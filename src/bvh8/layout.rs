@@ -117,7 +117,8 @@ impl<'a, T: TriangleTest> Piece<'a, T> {
                 self.depth = self.depth.max(depth + 1);
                 let children = self.collapse.children(at);
                 let mut node = Node { orders: children.orders, ..Node::EMPTY };
-                for (lane, &part) in children.parts().iter().enumerate() {
+                let parts = children.parts();
+                for (lane, &part) in (WIDTH - parts.len()..).zip(parts) {
                     let child = if self.is_left(part) {
                         self.cuts.push(Cut { part, parent: own, lane, depth: depth + 1 });
                         Child::NOTHING
