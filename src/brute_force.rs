@@ -42,7 +42,7 @@ impl<T: TriangleTest> Walk for BruteForce<T> {
         observer.leaf(self.references as u32);
         let count = self.references as u32;
         search::<ANY, 8, L, T, O>(&self.blocks, count, &prepared, t_min, &mut nearest, &mut None, observer);
-        nearest.answer::<ANY>()
+        nearest.answer::<ANY>(ray)
     }
 }
 

@@ -11,7 +11,7 @@ use crate::geometry::{Hit, Ray};
 use crate::simd::{EightLanes, Kernel, Level, dispatch};
 use crate::traversal::leaf::Nearest;
 use crate::traversal::walk::{silent, single};
-use crate::triangle::TriangleTest;
+use crate::triangle::{Depth, INPUTS, TriangleTest};
 
 /// Rays of a slice that are answered before the next ones are looked at: so many that the last ones under way, when no others follow,
 /// are few beside them.
@@ -45,8 +45,52 @@ impl Groups {
     }
 }
 
-/// Rays whose hits are told together: what the last bit of a `t` takes does not wait for that of the ray before.
+/// Hits whose `t` are computed together: what the last bit of one takes does not wait for that of the one before.
+struct Together {
+    /// What their `t` are computed from, and which rays and triangles they belong to.
+    inputs: [[f32; TOGETHER]; INPUTS],
+    rays: [usize; TOGETHER],
+    ids: [u32; TOGETHER],
+    len: usize,
+}
+
 const TOGETHER: usize = 8;
+
+impl Together {
+    const NONE: Self = Self { inputs: [[0.0; TOGETHER]; INPUTS], rays: [0; TOGETHER], ids: [0; TOGETHER], len: 0 };
+
+    /// Takes a hit of ray number `i`; whether there are as many as fit.
+    ///
+    /// The depth is not kept: it would be copied as a whole where it was just written in pieces, which a processor is slow to do.
+    #[inline(always)]
+    fn push<D: Depth>(&mut self, i: usize, ray: &Ray, depth: &D, id: u32) -> bool {
+        let lane = self.len % TOGETHER;
+        for (column, input) in self.inputs.iter_mut().zip(depth.inputs(ray)) {
+            column[lane] = input;
+        }
+        (self.rays[lane], self.ids[lane]) = (i, id);
+        self.len = lane + 1;
+        self.len == TOGETHER
+    }
+
+    /// Hands over the hits, and holds none any more.
+    #[inline(always)]
+    fn finish<L: EightLanes, D: Depth>(&mut self, mut hit: impl FnMut(usize, Hit)) {
+        let len = std::mem::take(&mut self.len);
+        if len == 0 {
+            return;
+        }
+        // Lanes left over repeat the first one.
+        for column in &mut self.inputs {
+            let first = column[0];
+            column[len..].fill(first);
+        }
+        let ts = D::ts::<L>(&self.inputs);
+        for ((&ray, &id), t) in self.rays.iter().zip(&self.ids).zip(ts).take(len) {
+            hit(ray, Hit::new(t, id));
+        }
+    }
+}
 
 /// One after the other.
 struct InOrder<'a, const ANY: bool, T: TriangleTest, A, F> {
@@ -62,23 +106,28 @@ impl<const ANY: bool, T: TriangleTest, A, F: Fn(Option<Hit>) -> A> Kernel for In
     #[inline(always)]
     fn run<L: EightLanes>(self) {
         let Self { tree, rays, answers, form } = self;
-        if ANY || T::ONE_STAGE || !L::FAST {
+        if ANY || !T::Depth::LATE || !L::FAST {
             // There is nothing to wait for.
             for (answer, ray) in answers.iter_mut().zip(rays) {
                 *answer = form(silent::<ANY, L, _>(tree, ray));
             }
             return;
         }
-        let mut found = [const { Nearest::NOTHING }; TOGETHER];
-        for (rays, answers) in rays.chunks(TOGETHER).zip(answers.chunks_mut(TOGETHER)) {
-            // Those after the last ray keep what others have found, which nobody asks for.
-            for (nearest, ray) in found.iter_mut().zip(rays) {
-                tree.find::<ANY, L, ()>(ray, nearest, &mut ());
-            }
-            for (answer, hit) in answers.iter_mut().zip(Nearest::answers::<L>(&found)) {
-                *answer = form(hit);
+        let mut hits = Together::NONE;
+        let mut answer = |i: usize, hit: Option<Hit>| answers[i] = form(hit);
+        for (i, ray) in rays.iter().enumerate() {
+            let mut nearest = Nearest::NOTHING;
+            tree.find::<ANY, L, ()>(ray, &mut nearest, &mut ());
+            match &nearest.hit {
+                None => answer(i, None),
+                Some((depth, id)) => {
+                    if hits.push(i, ray, depth, *id) {
+                        hits.finish::<L, T::Depth<'_>>(|i, hit| answer(i, Some(hit)));
+                    }
+                }
             }
         }
+        hits.finish::<L, T::Depth<'_>>(|i, hit| answer(i, Some(hit)));
     }
 }
 

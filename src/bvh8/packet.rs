@@ -39,9 +39,9 @@ struct Entry {
 impl<T: TriangleTest> Bvh8<T> {
     /// Answers sixteen rays; false if they cannot travel together.
     #[inline(always)]
-    pub(super) fn intersect_packet<const ANY: bool, L: EightLanes, A>(
-        &self,
-        rays: &[Ray; RAYS],
+    pub(super) fn intersect_packet<'a, const ANY: bool, L: EightLanes, A>(
+        &'a self,
+        rays: &'a [Ray; RAYS],
         answers: &mut [A; RAYS],
         form: &impl Fn(Option<Hit>) -> A,
     ) -> bool {
@@ -105,12 +105,12 @@ impl<T: TriangleTest> Bvh8<T> {
 
     /// Searches what is below `child` for the rays `active`, one after the other.
     #[inline(always)]
-    fn one_by_one<const ANY: bool, L: EightLanes>(
-        &self,
+    fn one_by_one<'a, const ANY: bool, L: EightLanes>(
+        &'a self,
         child: Child,
         mut active: u16,
         packet: &mut RayPacket<L>,
-        state: &mut PacketState<T>,
+        state: &mut PacketState<'a, T>,
     ) {
         while active != 0 {
             let i = active.trailing_zeros() as usize % RAYS;

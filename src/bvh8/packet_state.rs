@@ -19,7 +19,7 @@ pub(super) struct PacketState<'a, T: TriangleTest> {
     /// The rays as their test wants them, from their first leaf on: many never come to one.
     prepared: [MaybeUninit<T::Ray>; RAYS],
     ready: u16,
-    nearest: PacketHits<T::Depth>,
+    nearest: PacketHits<T::Depth<'a>>,
     t_min: [f32; RAYS],
     candidates: [MaybeUninit<Candidates<T>>; RAYS],
     /// Those that still look for a hit, as bits.
@@ -53,12 +53,12 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
 
     #[inline(always)]
     pub fn answer<const ANY: bool>(&self, i: usize) -> Option<Hit> {
-        self.nearest.get(i).answer::<ANY>()
+        self.nearest.get(i).answer::<ANY>(&self.rays[i])
     }
 
     /// Ray `i` for a search of its own: as its test wants it, where it starts and what it has found.
     #[inline(always)]
-    pub fn single(&mut self, i: usize) -> (&T::Ray, f32, Nearest<T::Depth>) {
+    pub fn single(&mut self, i: usize) -> (&T::Ray, f32, Nearest<T::Depth<'a>>) {
         self.prepare(1 << i);
         // SAFETY: prepared.
         (unsafe { self.prepared(i) }, self.t_min[i], self.nearest.get(i))
@@ -69,7 +69,7 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
     pub fn put_back<const ANY: bool, L: EightLanes>(
         &mut self,
         i: usize,
-        nearest: Nearest<T::Depth>,
+        nearest: Nearest<T::Depth<'a>>,
         packet: &mut RayPacket<L>,
     ) {
         self.nearest.set(i, nearest);
@@ -80,7 +80,7 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
     #[inline(always)]
     pub fn search<const ANY: bool, L: EightLanes>(
         &mut self,
-        blocks: &[LeafBlock<T, WIDTH>],
+        blocks: &'a [LeafBlock<T, WIDTH>],
         active: u16,
         packet: &mut RayPacket<L>,
     ) {
@@ -102,7 +102,7 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
     #[inline(always)]
     fn triangle_by_triangle<L: EightLanes>(
         &mut self,
-        blocks: &[LeafBlock<T, WIDTH>],
+        blocks: &'a [LeafBlock<T, WIDTH>],
         active: u16,
         packet: &mut RayPacket<L>,
     ) -> bool {
@@ -136,7 +136,7 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
     #[inline(always)]
     fn ray_by_ray<const ANY: bool, L: EightLanes>(
         &mut self,
-        blocks: &[LeafBlock<T, WIDTH>],
+        blocks: &'a [LeafBlock<T, WIDTH>],
         active: u16,
         packet: &mut RayPacket<L>,
     ) {
@@ -182,7 +182,7 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
     /// # Safety
     /// It is prepared.
     #[inline(always)]
-    unsafe fn settle(&mut self, block: &LeafBlock<T, WIDTH>, i: usize, (mut candidates, values): Candidates<T>) {
+    unsafe fn settle(&mut self, block: &'a LeafBlock<T, WIDTH>, i: usize, (mut candidates, values): Candidates<T>) {
         if T::ONE_STAGE {
             // They are hits already: that needs no call.
             while candidates != 0 {
@@ -190,7 +190,7 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
                 candidates &= candidates - 1;
                 // SAFETY: prepared, as the caller says.
                 let depth = T::decide(unsafe { self.prepared(i) }, &block.triangles, lane, &values);
-                self.nearest.offer(i, depth.expect("the first stage has decided").t(), block.ids[lane]);
+                self.nearest.offer(i, depth.expect("the first stage has decided").bound(), block.ids[lane]);
             }
         } else {
             let mut nearest = self.nearest.get(i);

@@ -12,44 +12,70 @@ pub(super) const SIZE: usize = DEPTH * (WIDTH - 1) + WIDTH;
 ///
 /// Where it lies matters: eight entries are written at once, and a processor is slow to write across the border of two pages. Where the
 /// first few dozen entries of an array, those that most walks use, lie so, walks take 1.25 to 1.4 times as long (Xeon). So a walk of one ray
-/// has its stack begin with a page, see [`OnePage`]. Of several stacks in use at once each had better begin elsewhere in its page, for
+/// has its stack in one page, see [`OnePage`]. Of several stacks in use at once each had better begin elsewhere in its page, for
 /// the nearest cache has few places for the same part of many pages.
 #[repr(C)]
-pub(super) struct Stack {
+pub(super) struct Entries {
     children: [MaybeUninit<Child>; SIZE],
     enters: [MaybeUninit<f32>; SIZE],
+}
+
+/// The first `len` of some entries. The length is not beside them, so that it stays in a register.
+pub(super) struct Stack<'a> {
+    entries: &'a mut Entries,
     len: usize,
 }
 
-/// What begins with a page of memory.
-#[repr(align(4096))]
-pub(super) struct OnePage<T>(pub T);
+/// What lies in a page of memory, a quarter of it after its beginning: there the compiler keeps what it has no registers for, and a load
+/// waits for a store to the same place of another page (1.01 times as fast as at its beginning, half of it 1.005, Xeon).
+#[repr(C, align(4096))]
+pub(super) struct OnePage<T>(pub [MaybeUninit<u8>; BEFORE], pub T);
 
-/// Entries of the second array that lie within the page.
-const _: () = assert!(4096 / size_of::<Child>() - SIZE > 300);
+const BEFORE: usize = 1024;
 
-impl Stack {
+/// Entries of the second array that lie within the page: more than most walks use.
+const _: () = assert!((4096 - BEFORE) / size_of::<Child>() - SIZE > 50);
+
+impl<T> OnePage<T> {
+    #[inline(always)]
+    pub fn new(value: T) -> Self {
+        Self([const { MaybeUninit::uninit() }; BEFORE], value)
+    }
+}
+
+impl Entries {
     #[inline(always)]
     pub fn new() -> Self {
-        Self {
-            children: [const { MaybeUninit::uninit() }; SIZE],
-            enters: [const { MaybeUninit::uninit() }; SIZE],
-            len: 0,
-        }
+        Self { children: [const { MaybeUninit::uninit() }; SIZE], enters: [const { MaybeUninit::uninit() }; SIZE] }
     }
 
-    /// Starts a stack anew, above the [`BOTTOM`](Child::BOTTOM).
+    /// Makes the first of them the [`BOTTOM`](Child::BOTTOM).
     ///
     /// # Safety
-    /// There is room for one.
+    /// There is room for them.
     #[inline(always)]
-    pub unsafe fn reset(stack: *mut Self) {
+    pub unsafe fn reset(entries: *mut Self) {
         // SAFETY: as the caller says; no reference is made to what is not initialised.
         unsafe {
-            (&raw mut (*stack).children[0]).write(MaybeUninit::new(Child::BOTTOM));
-            (&raw mut (*stack).enters[0]).write(MaybeUninit::new(f32::NEG_INFINITY));
-            (&raw mut (*stack).len).write(1);
+            (&raw mut (*entries).children[0]).write(MaybeUninit::new(Child::BOTTOM));
+            (&raw mut (*entries).enters[0]).write(MaybeUninit::new(f32::NEG_INFINITY));
         }
+    }
+}
+
+impl<'a> Stack<'a> {
+    /// Those that are left of it.
+    ///
+    /// # Safety
+    /// The first `len` were written.
+    #[inline(always)]
+    pub unsafe fn of(entries: &'a mut Entries, len: usize) -> Self {
+        Self { entries, len }
+    }
+
+    #[inline(always)]
+    pub fn len(&self) -> usize {
+        self.len
     }
 
     /// Pushes the children that are met, and returns the first to visit instead of pushing it. With `ANY` in the order of lanes,
@@ -71,11 +97,17 @@ impl Stack {
         let order = node.orders[octant & 7];
         // SAFETY: `len` is at most 1 + (DEPTH - 1) * (WIDTH - 1), so that eight more fit; a child is a number in memory.
         let met = unsafe {
-            let chosen = self.children.as_mut_ptr().add(self.len).cast();
+            let chosen = self.entries.children.as_mut_ptr().add(self.len).cast();
             if ANY {
                 enter.compress(leave, children, chosen)
             } else {
-                enter.compress_ordered(leave, children, order, self.enters.as_mut_ptr().add(self.len).cast(), chosen)
+                enter.compress_ordered(
+                    leave,
+                    children,
+                    order,
+                    self.entries.enters.as_mut_ptr().add(self.len).cast(),
+                    chosen,
+                )
             }
         };
         for place in (0..WIDTH).rev() {
@@ -106,11 +138,11 @@ impl Stack {
         let children = Child::bits(&node.children);
         // SAFETY: as there.
         let met = unsafe {
-            let chosen = self.children.as_mut_ptr().add(self.len).cast();
+            let chosen = self.entries.children.as_mut_ptr().add(self.len).cast();
             if ANY {
                 enter.compress(leave, children, chosen)
             } else {
-                let enters = self.enters.as_mut_ptr().add(self.len).cast();
+                let enters = self.entries.enters.as_mut_ptr().add(self.len).cast();
                 enter.compress_ordered(leave, children, node.orders[octant & 7], enters, chosen)
             }
         };
@@ -127,10 +159,10 @@ impl Stack {
         // were not.
         unsafe {
             self.len -= 1;
-            while !ANY && self.enters.get_unchecked(self.len).assume_init() > end {
+            while !ANY && self.entries.enters.get_unchecked(self.len).assume_init() > end {
                 self.len -= 1;
             }
-            self.children.get_unchecked(self.len).assume_init()
+            self.entries.children.get_unchecked(self.len).assume_init()
         }
     }
 
@@ -141,8 +173,8 @@ impl Stack {
             self.len -= 1;
             // SAFETY: all below the old length was written; with `ANY` the entries were not.
             unsafe {
-                if ANY || self.enters.get_unchecked(self.len).assume_init() <= end {
-                    return Some(self.children.get_unchecked(self.len).assume_init());
+                if ANY || self.entries.enters.get_unchecked(self.len).assume_init() <= end {
+                    return Some(self.entries.children.get_unchecked(self.len).assume_init());
                 }
             }
         }

@@ -10,7 +10,7 @@ use std::mem::MaybeUninit;
 
 use super::node::{Child, WIDTH};
 use super::prepared_ray::PreparedRay;
-use super::stack::Stack;
+use super::stack::{Entries, Stack};
 use super::tree::Bvh8;
 use crate::geometry::{Hit, Ray};
 use crate::simd::EightLanes;
@@ -23,37 +23,40 @@ use crate::triangle::TriangleTest;
 const SLOTS: usize = 8;
 
 /// A ray under way.
-struct StreamRay<L, T: TriangleTest> {
+struct StreamRay<'a, L, T: TriangleTest> {
     prepared_ray: PreparedRay<L>,
+    asked: &'a Ray,
     ray: T::Ray,
     t_min: f32,
-    nearest: Nearest<T::Depth>,
+    nearest: Nearest<T::Depth<'a>>,
     /// It is of no interest after.
     end: f32,
     /// Where it is.
     child: Child,
     /// Which ray it is.
     number: usize,
-    stack: Stack,
+    entries: Entries,
+    /// How many of them are left to visit.
+    left: usize,
 }
 
 /// Room for rays under way.
-pub(super) struct Slots<L, T: TriangleTest>([MaybeUninit<StreamRay<L, T>>; SLOTS]);
+pub(super) struct Slots<'a, L, T: TriangleTest>([MaybeUninit<StreamRay<'a, L, T>>; SLOTS]);
 
-impl<L, T: TriangleTest> Slots<L, T> {
+impl<L, T: TriangleTest> Slots<'_, L, T> {
     pub const EMPTY: Self = Self([const { MaybeUninit::uninit() }; SLOTS]);
 }
 
 /// Some of the slots.
-struct List<L, T: TriangleTest>([*mut StreamRay<L, T>; SLOTS]);
+struct List<'a, L, T: TriangleTest>([*mut StreamRay<'a, L, T>; SLOTS]);
 
-impl<L, T: TriangleTest> List<L, T> {
+impl<'a, L, T: TriangleTest> List<'a, L, T> {
     const EMPTY: Self = Self([std::ptr::null_mut(); SLOTS]);
 
     /// # Safety
     /// There are less than `SLOTS` before it.
     #[inline(always)]
-    unsafe fn put(&mut self, i: usize, slot: *mut StreamRay<L, T>) {
+    unsafe fn put(&mut self, i: usize, slot: *mut StreamRay<'a, L, T>) {
         debug_assert!(i < SLOTS);
         // SAFETY: as the caller says.
         unsafe { *self.0.get_unchecked_mut(i) = slot };
@@ -62,7 +65,7 @@ impl<L, T: TriangleTest> List<L, T> {
     /// # Safety
     /// It was put there.
     #[inline(always)]
-    unsafe fn get(&self, i: usize) -> *mut StreamRay<L, T> {
+    unsafe fn get(&self, i: usize) -> *mut StreamRay<'a, L, T> {
         debug_assert!(i < SLOTS);
         // SAFETY: as the caller says.
         unsafe { *self.0.get_unchecked(i) }
@@ -72,13 +75,13 @@ impl<L, T: TriangleTest> List<L, T> {
 /// Rays under way through a tree. Each slot is in one of the lists, once.
 pub(super) struct Stream<'a, L, T: TriangleTest> {
     tree: &'a Bvh8<T>,
-    slots: PhantomData<&'a mut Slots<L, T>>,
+    slots: PhantomData<&'a mut Slots<'a, L, T>>,
     /// With a ray at a node.
-    nodes: List<L, T>,
+    nodes: List<'a, L, T>,
     /// With a ray at a leaf.
-    leaves: List<L, T>,
+    leaves: List<'a, L, T>,
     /// Without a ray.
-    free: List<L, T>,
+    free: List<'a, L, T>,
     /// How many each list has.
     at_nodes: usize,
     at_leaves: usize,
@@ -87,7 +90,7 @@ pub(super) struct Stream<'a, L, T: TriangleTest> {
 
 impl<'a, L: EightLanes, T: TriangleTest> Stream<'a, L, T> {
     #[inline(always)]
-    pub fn new(tree: &'a Bvh8<T>, slots: &'a mut Slots<L, T>) -> Self {
+    pub fn new(tree: &'a Bvh8<T>, slots: &'a mut Slots<'a, L, T>) -> Self {
         let mut free = List::EMPTY;
         for (place, slot) in free.0.iter_mut().zip(&mut slots.0) {
             *place = slot.as_mut_ptr();
@@ -98,9 +101,9 @@ impl<'a, L: EightLanes, T: TriangleTest> Stream<'a, L, T> {
 
     /// Brings rays through, which are handed to `done` by their numbers.
     #[inline(always)]
-    pub fn run<'r, const ANY: bool>(
+    pub fn run<const ANY: bool>(
         &mut self,
-        mut rays: impl Iterator<Item = (usize, &'r Ray)>,
+        mut rays: impl Iterator<Item = (usize, &'a Ray)>,
         mut done: impl FnMut(usize, Option<Hit>),
     ) {
         loop {
@@ -117,7 +120,7 @@ impl<'a, L: EightLanes, T: TriangleTest> Stream<'a, L, T> {
 
     /// Sends a ray on its way. There is a free slot.
     #[inline(always)]
-    fn push(&mut self, number: usize, ray: &Ray, done: &mut impl FnMut(usize, Option<Hit>)) {
+    fn push(&mut self, number: usize, ray: &'a Ray, done: &mut impl FnMut(usize, Option<Hit>)) {
         let Some((t_min, nearest)) = start::<T>(ray) else { return done(number, None) };
         self.freed -= 1;
         let root = self.tree.root;
@@ -126,13 +129,15 @@ impl<'a, L: EightLanes, T: TriangleTest> Stream<'a, L, T> {
         unsafe {
             let slot = self.free.get(self.freed);
             (&raw mut (*slot).prepared_ray).write(PreparedRay::new(ray, &self.tree.bounds, t_min));
+            (&raw mut (*slot).asked).write(ray);
             (&raw mut (*slot).ray).write(T::prepare(ray));
             (&raw mut (*slot).t_min).write(t_min);
             (&raw mut (*slot).end).write(after(nearest.t));
             (&raw mut (*slot).nearest).write(nearest);
             (&raw mut (*slot).child).write(root);
             (&raw mut (*slot).number).write(number);
-            Stack::reset(&raw mut (*slot).stack);
+            Entries::reset(&raw mut (*slot).entries);
+            (&raw mut (*slot).left).write(1);
             if root.is_leaf() {
                 self.leaves.put(self.at_leaves, slot);
                 self.at_leaves += 1;
@@ -156,12 +161,10 @@ impl<'a, L: EightLanes, T: TriangleTest> Stream<'a, L, T> {
                 let slot = self.nodes.get(k);
                 let at = &mut *slot;
                 let node = tree.nodes.get_unchecked(at.child.index());
-                at.stack.push_all::<ANY, L>(
-                    node,
-                    at.prepared_ray.octant,
-                    at.prepared_ray.cross(node, L::splat(at.end)),
-                );
-                at.child = at.stack.pop_down::<ANY>(at.end);
+                let mut stack = Stack::of(&mut at.entries, at.left);
+                stack.push_all::<ANY, L>(node, at.prepared_ray.octant, at.prepared_ray.cross(node, L::splat(at.end)));
+                at.child = stack.pop_down::<ANY>(at.end);
+                at.left = stack.len();
                 tree.fetch(at.child);
                 self.nodes.put(nodes, slot);
                 self.leaves.put(self.at_leaves + k - nodes, slot);
@@ -181,7 +184,9 @@ impl<'a, L: EightLanes, T: TriangleTest> Stream<'a, L, T> {
                     search::<ANY, WIDTH, L, T, ()>(blocks, u32::MAX, ray, at.t_min, nearest, &mut None, &mut ());
                     if !(ANY && at.nearest.found()) {
                         at.end = after(at.nearest.t);
-                        at.child = at.stack.pop_down::<ANY>(at.end);
+                        let mut stack = Stack::of(&mut at.entries, at.left);
+                        at.child = stack.pop_down::<ANY>(at.end);
+                        at.left = stack.len();
                         tree.fetch(at.child);
                         self.nodes.put(nodes, slot);
                         self.leaves.put(leaves, slot);
@@ -190,7 +195,7 @@ impl<'a, L: EightLanes, T: TriangleTest> Stream<'a, L, T> {
                         continue;
                     }
                 }
-                done(at.number, at.nearest.answer::<ANY>());
+                done(at.number, at.nearest.answer::<ANY>(at.asked));
                 self.free.put(self.freed, slot);
                 self.freed += 1;
             }

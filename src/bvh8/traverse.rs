@@ -10,7 +10,7 @@
 
 use super::node::{Child, WIDTH};
 use super::prepared_ray::PreparedRay;
-use super::stack::{OnePage, Stack};
+use super::stack::{Entries, OnePage, Stack};
 use super::tree::Bvh8;
 use crate::accel::Observer;
 use crate::geometry::{Hit, Ray};
@@ -25,17 +25,17 @@ impl<T: TriangleTest> Walk for Bvh8<T> {
     fn walk<const ANY: bool, L: EightLanes, O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit> {
         let mut nearest = Nearest::NOTHING;
         self.find::<ANY, L, O>(ray, &mut nearest, observer);
-        nearest.answer::<ANY>()
+        nearest.answer::<ANY>(ray)
     }
 }
 
 impl<T: TriangleTest> Bvh8<T> {
     /// Searches the whole tree.
     #[inline(always)]
-    pub(super) fn find<const ANY: bool, L: EightLanes, O: Observer>(
-        &self,
+    pub(super) fn find<'a, const ANY: bool, L: EightLanes, O: Observer>(
+        &'a self,
         ray: &Ray,
-        nearest: &mut Nearest<T::Depth>,
+        nearest: &mut Nearest<T::Depth<'a>>,
         observer: &mut O,
     ) {
         let Some((t_min, unfound)) = start::<T>(ray) else { return *nearest = Nearest::NOTHING };
@@ -47,16 +47,18 @@ impl<T: TriangleTest> Bvh8<T> {
 
     /// Searches the subtree at `child`.
     #[inline(always)]
-    pub(super) fn descend<const ANY: bool, L: EightLanes, O: Observer>(
-        &self,
+    pub(super) fn descend<'a, const ANY: bool, L: EightLanes, O: Observer>(
+        &'a self,
         mut child: Child,
         prepared_ray: &PreparedRay<L>,
         prepared: &T::Ray,
         t_min: f32,
-        nearest: &mut Nearest<T::Depth>,
+        nearest: &mut Nearest<T::Depth<'a>>,
         observer: &mut O,
     ) {
-        let OnePage(stack) = &mut OnePage(Stack::new());
+        let OnePage(_, entries) = &mut OnePage::new(Entries::new());
+        // SAFETY: none is looked at.
+        let mut stack = unsafe { Stack::of(entries, 0) };
         let mut end = after(nearest.t);
         loop {
             let next = if let Some((first, count)) = child.blocks() {

@@ -145,7 +145,7 @@ impl<T: TriangleTest> Prepare for SvenstaroBvh<T> {
                 }
             }
         }
-        nearest.answer::<false>()
+        nearest.answer::<false>(&start.asked)
     }
 
     #[inline]
@@ -240,7 +240,7 @@ impl TriangleTest for SvenstaroTest {
     type Block<const N: usize> = [[Point3<f32>; 3]; N];
     type First<const N: usize, L: Lanes<N>> = L;
     type Values<const N: usize> = [f32; N];
-    type Depth = f32;
+    type Depth<'a> = f32;
 
     #[inline(always)]
     fn prepare(ray: &Ray) -> Self::Ray {

@@ -14,6 +14,7 @@ pub(super) struct Leaves<T: TriangleTest> {
 
 /// What the triangle test wants of a ray.
 pub(super) struct Start<T: TriangleTest> {
+    pub asked: Ray,
     pub ray: T::Ray,
     pub t_min: f32,
     /// A hit must lie at or before this `t`.
@@ -24,12 +25,12 @@ impl<T: TriangleTest> Start<T> {
     /// Nothing if the ray can hit nothing.
     #[inline(always)]
     pub fn new(ray: &Ray) -> Option<Self> {
-        start::<T>(ray).map(|(t_min, nearest)| Self { ray: T::prepare(ray), t_min, last: nearest.t })
+        start::<T>(ray).map(|(t_min, nearest)| Self { asked: *ray, ray: T::prepare(ray), t_min, last: nearest.t })
     }
 
     /// Nothing found yet.
     #[inline(always)]
-    pub fn nearest(&self) -> Nearest<T::Depth> {
+    pub fn nearest<'a>(&self) -> Nearest<T::Depth<'a>> {
         Nearest::until(self.last)
     }
 }
@@ -56,9 +57,9 @@ impl<T: TriangleTest> Leaves<T> {
 
     /// Tests triangle `index`, and keeps its hit if it is the nearest so far.
     #[inline(always)]
-    pub fn test(&self, index: usize, start: &Start<T>, nearest: &mut Nearest<T::Depth>) {
+    pub fn test<'a>(&'a self, index: usize, start: &Start<T>, nearest: &mut Nearest<T::Depth<'a>>) {
         if let Some(depth) = T::hit(&start.ray, &self.triangles[index], start.t_min, nearest.t) {
-            nearest.offer(depth, self.ids[index]);
+            nearest.offer(depth, self.ids[index], |one, other| T::order(&start.ray, one, other));
         }
     }
 

@@ -76,7 +76,7 @@ impl<T: TriangleTest> ParryBvh<T> {
             best.found().then_some(if ANY { f32::NEG_INFINITY } else { best.t })
         });
         (0..tests.get()).for_each(|_| observer.test(1));
-        nearest.get().answer::<ANY>()
+        nearest.get().answer::<ANY>(&start.asked)
     }
 }
 
@@ -159,7 +159,7 @@ impl TriangleTest for ParryTest {
     type Block<const N: usize> = [[Vector; 3]; N];
     type First<const N: usize, L: Lanes<N>> = L;
     type Values<const N: usize> = [f32; N];
-    type Depth = f32;
+    type Depth<'a> = f32;
 
     #[inline(always)]
     fn prepare(ray: &Ray) -> PreparedRay {

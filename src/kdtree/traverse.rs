@@ -44,7 +44,7 @@ impl<T: TriangleTest> Walk for KdTree<T> {
                 break;
             }
         }
-        nearest.answer::<ANY>()
+        nearest.answer::<ANY>(ray)
     }
 }
 

@@ -1,8 +1,10 @@
 //! Triangles as leaves hold them, and the search through them.
 
+use std::cmp::Ordering;
+
 use crate::accel::{Footprint, Observer};
 use crate::geometry::{Hit, Mesh, Ray};
-use crate::simd::{EightLanes, Lanes, each};
+use crate::simd::Lanes;
 use crate::triangle::{Depth, TriangleTest};
 
 /// The nearest hit so far, or the end of the interval.
@@ -12,9 +14,6 @@ pub(crate) struct Nearest<D> {
     pub t: f32,
     pub hit: Option<(D, u32)>,
 }
-
-/// From so many hits of eight rays on it is quicker to tell them all at once.
-const MANY: usize = 4;
 
 impl<D: Depth> Nearest<D> {
     /// Of a ray that can hit nothing.
@@ -26,11 +25,11 @@ impl<D: Depth> Nearest<D> {
         Self { t: last, hit: None }
     }
 
-    /// Takes a hit that is nearer, or as near with a lower number.
+    /// Takes a hit that is nearer, by the order of its test, or as near with a lower number.
     #[inline(always)]
-    pub fn offer(&mut self, depth: D, id: u32) {
+    pub fn offer(&mut self, depth: D, id: u32, order: impl FnOnce(&D, &D) -> Ordering) {
         let better = match &self.hit {
-            Some((nearest, lowest)) => depth.order(nearest).then(id.cmp(lowest)).is_lt(),
+            Some((nearest, lowest)) => order(&depth, nearest).then(id.cmp(lowest)).is_lt(),
             None => true,
         };
         if better {
@@ -38,28 +37,15 @@ impl<D: Depth> Nearest<D> {
         }
     }
 
-    /// The nearest hits of eight rays, as [`answer`](Self::answer).
-    #[inline(always)]
-    pub fn answers<L: EightLanes>(found: &[Self; 8]) -> [Option<Hit>; 8] {
-        let hits = || found.iter().filter_map(|nearest| nearest.hit.as_ref());
-        let Some((some, _)) = hits().next().filter(|_| hits().count() >= MANY) else {
-            return each(found, |nearest| nearest.answer::<false>());
-        };
-        // Lanes of rays without a hit repeat one that has.
-        let ts =
-            D::ts::<L>(each(&[0, 1, 2, 3, 4, 5, 6, 7], |&i: &usize| found[i].hit.as_ref().map_or(some, |hit| &hit.0)));
-        std::array::from_fn(|i| found[i].hit.as_ref().map(|&(_, id)| Hit::new(ts[i], id)))
-    }
-
     #[inline(always)]
     pub fn found(&self) -> bool {
         self.hit.is_some()
     }
 
-    /// The nearest hit; with `ANY`, whose `t` nobody asks for, some hit at a `t` near by.
+    /// The nearest hit of `ray`; with `ANY`, whose `t` nobody asks for, some hit at a `t` near by.
     #[inline(always)]
-    pub fn answer<const ANY: bool>(&self) -> Option<Hit> {
-        self.hit.as_ref().map(|(depth, id)| Hit::new(if ANY { depth.bound() } else { depth.t() }, *id))
+    pub fn answer<const ANY: bool>(&self, ray: &Ray) -> Option<Hit> {
+        self.hit.as_ref().map(|(depth, id)| Hit::new(if ANY { depth.bound() } else { depth.t(ray) }, *id))
     }
 }
 
@@ -125,12 +111,12 @@ impl Mailbox {
 /// Searches the `count` triangles in the blocks of one leaf and tells the observer of each block that is tested. With
 /// `ANY`, returns at the first block with a hit in the interval.
 #[inline(always)]
-pub(crate) fn search<const ANY: bool, const N: usize, L: Lanes<N>, T: TriangleTest, O: Observer>(
-    blocks: &[LeafBlock<T, N>],
+pub(crate) fn search<'a, const ANY: bool, const N: usize, L: Lanes<N>, T: TriangleTest, O: Observer>(
+    blocks: &'a [LeafBlock<T, N>],
     count: u32,
     ray: &T::Ray,
     t_min: f32,
-    nearest: &mut Nearest<T::Depth>,
+    nearest: &mut Nearest<T::Depth<'a>>,
     mailbox: &mut Option<Mailbox>,
     observer: &mut O,
 ) {
@@ -155,12 +141,12 @@ pub(crate) fn search<const ANY: bool, const N: usize, L: Lanes<N>, T: TriangleTe
 
 /// Decides about the candidates of a block. Rare, and out of line, so that it does not cost the walk its registers.
 #[inline(never)]
-pub(crate) fn settle<const N: usize, T: TriangleTest>(
-    block: &LeafBlock<T, N>,
+pub(crate) fn settle<'a, const N: usize, T: TriangleTest>(
+    block: &'a LeafBlock<T, N>,
     ray: &T::Ray,
     mut candidates: u32,
     values: &T::Values<N>,
-    nearest: &mut Nearest<T::Depth>,
+    nearest: &mut Nearest<T::Depth<'a>>,
 ) {
     while candidates != 0 {
         let lane = candidates.trailing_zeros() as usize;
@@ -171,7 +157,7 @@ pub(crate) fn settle<const N: usize, T: TriangleTest>(
             continue;
         }
         if let Some(depth) = T::decide(ray, &block.triangles, lane, values) {
-            nearest.offer(depth, id);
+            nearest.offer(depth, id, |one, other| T::order(ray, one, other));
         }
     }
 }
@@ -182,7 +168,7 @@ pub(crate) fn settle<const N: usize, T: TriangleTest>(
 /// The prepared ray is not among them: handed out of here it would be copied, and the processor waits for what it has
 /// just written.
 #[inline(always)]
-pub(crate) fn start<T: TriangleTest>(ray: &Ray) -> Option<(f32, Nearest<T::Depth>)> {
+pub(crate) fn start<'a, T: TriangleTest>(ray: &Ray) -> Option<(f32, Nearest<T::Depth<'a>>)> {
     let (t_min, t_max) = ray.interval();
     ray.is_valid().then(|| (t_min, Nearest::until(T::last(t_max))))
 }

@@ -51,7 +51,7 @@ impl TriangleTest for BaldwinWeber {
     type Block<const N: usize> = ToUnit<N>;
     type First<const N: usize, L: Lanes<N>> = L;
     type Values<const N: usize> = [f32; N];
-    type Depth = f32;
+    type Depth<'a> = f32;
 
     #[inline(always)]
     fn prepare(ray: &Ray) -> Self::Ray {

@@ -42,9 +42,30 @@ impl<const N: usize> Corners<N> {
 
     /// One triangle.
     #[inline(always)]
-    pub(super) fn lane(&self, lane: usize) -> [Vec3; 3] {
-        let corner = |[x, y, z]: &[[f32; N]; 3]| Vec3::new(x[lane], y[lane], z[lane]);
-        let [a, b, c] = &self.0;
-        [corner(a), corner(b), corner(c)]
+    pub(super) fn place(&self, lane: usize) -> Place<'_> {
+        assert!(lane < N);
+        Place { coordinates: self.0.as_flattened().as_flattened(), lane }
+    }
+}
+
+/// One of the triangles of a block: its corners are read when somebody asks for them.
+#[derive(Clone, Copy, Debug)]
+pub struct Place<'a> {
+    coordinates: &'a [f32],
+    lane: usize,
+}
+
+impl Place<'_> {
+    /// The coordinates of the three corners, one after the other.
+    #[inline(always)]
+    pub(super) fn coordinates(&self) -> [f32; 9] {
+        let lanes = self.coordinates.len() / 9;
+        std::array::from_fn(|row| self.coordinates[row * lanes + self.lane])
+    }
+
+    #[inline(always)]
+    pub(super) fn corners(&self) -> [Vec3; 3] {
+        let [ax, ay, az, bx, by, bz, cx, cy, cz] = self.coordinates();
+        [Vec3::new(ax, ay, az), Vec3::new(bx, by, bz), Vec3::new(cx, cy, cz)]
     }
 }

@@ -1,22 +1,35 @@
 use std::cmp::Ordering;
 
+use crate::geometry::Ray;
 use crate::simd::EightLanes;
+
+/// Coordinates of three corners, an origin and a direction.
+pub const INPUTS: usize = 15;
 
 /// Where along a ray a hit is, as exactly as its triangle test knows.
 pub trait Depth: Copy {
-    /// The order along the ray. Those of one ray are totally ordered.
-    fn order(&self, other: &Self) -> Ordering;
+    /// The order along the ray; nothing where it takes the ray to tell, see [`TriangleTest::order`](super::TriangleTest::order).
+    fn order(&self, other: &Self) -> Option<Ordering>;
 
     /// The depth of a hit at `t`, if that is all there is to know of it.
     fn of(t: f32) -> Option<Self>;
 
-    /// As reported: the nearest float.
-    fn t(&self) -> f32;
+    /// As reported, of a hit of `ray`: the nearest float.
+    fn t(&self, ray: &Ray) -> f32;
 
-    /// The same of eight at once.
+    /// Whether `t` takes more than the depth, so that it pays to compute that of eight hits together.
+    const LATE: bool = false;
+
+    /// What `ts` takes of a hit of `ray`: the corners of the triangle, the origin and the direction. Asked for where `t` is [late](Self::LATE).
     #[inline(always)]
-    fn ts<L: EightLanes>(depths: [&Self; 8]) -> [f32; 8] {
-        depths.map(Self::t)
+    fn inputs(&self, _ray: &Ray) -> [f32; INPUTS] {
+        [0.0; INPUTS]
+    }
+
+    /// `t` of eight hits, from their inputs.
+    #[inline(always)]
+    fn ts<L: EightLanes>(_inputs: &[[f32; 8]; INPUTS]) -> [f32; 8] {
+        [0.0; 8]
     }
 
     /// A float that is not before the hit. What lies beyond it along the ray need not be looked at.
@@ -31,12 +44,12 @@ impl Depth for f32 {
     }
 
     #[inline(always)]
-    fn order(&self, other: &Self) -> Ordering {
-        self.partial_cmp(other).unwrap_or(Ordering::Equal)
+    fn order(&self, other: &Self) -> Option<Ordering> {
+        self.partial_cmp(other)
     }
 
     #[inline(always)]
-    fn t(&self) -> f32 {
+    fn t(&self, _: &Ray) -> f32 {
         *self
     }
 

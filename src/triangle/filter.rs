@@ -3,6 +3,7 @@
 use glam::Vec3;
 
 use super::Corners;
+use super::corners::Place;
 use crate::geometry::Ray;
 use crate::simd::{LaneVec3, Lanes};
 
@@ -102,24 +103,20 @@ impl<const N: usize> FilterBlock<N> {
     }
 
     #[inline(always)]
-    pub fn lane(&self, lane: usize) -> [Vec3; 3] {
-        self.corners.lane(lane)
+    pub fn place(&self, lane: usize) -> Place<'_> {
+        self.corners.place(lane)
     }
 }
 
 impl<L> Survivors<L> {
-    /// The height, with the sign of det, and by how much it and det are off at most. Few blocks come so far: for these it is computed
-    /// again.
+    /// The height, with the sign of det.
     #[inline(always)]
-    fn height<const N: usize>(&self) -> (L, L, L)
+    fn height<const N: usize>(&self) -> L
     where
         L: Lanes<N>,
     {
-        let &Self { edge2: [fx, fy, fz], q: [qx, qy, qz], det, extent, distance, tiny, .. } = self;
-        let height = LaneVec3::new(fx, fy, fz).dot_loosely(LaneVec3::new(qx, qy, qz)).flip_sign(det);
-        let height_error = extent.mul_add_loosely(extent.mul(distance).mul_add_loosely(L::splat(HEIGHT), tiny), tiny);
-        let det_error = extent.mul_add_loosely(extent.mul_add_loosely(L::splat(DETERMINANT), tiny), tiny);
-        (height, height_error, det_error)
+        let &Self { edge2: [fx, fy, fz], q: [qx, qy, qz], det, .. } = self;
+        LaneVec3::new(fx, fy, fz).dot_loosely(LaneVec3::new(qx, qy, qz)).flip_sign(det)
     }
 
     /// What is certain of them, and where they are met.
@@ -128,8 +125,10 @@ impl<L> Survivors<L> {
     where
         L: Lanes<N>,
     {
-        let &Self { abs_det, u, v, slack, scale, .. } = self;
-        let (height, height_error, det_error) = self.height();
+        let &Self { abs_det, u, v, slack, extent, distance, tiny, scale, .. } = self;
+        let height = self.height();
+        let height_error = extent.mul_add_loosely(extent.mul(distance).mul_add_loosely(L::splat(HEIGHT), tiny), tiny);
+        let det_error = extent.mul_add_loosely(extent.mul_add_loosely(L::splat(DETERMINANT), tiny), tiny);
         // A NaN in u or v makes the third one, which wins.
         let inside = slack.lt(u.min(v).min(abs_det.sub(u.add(v))));
         let certain = det_error.mul(L::splat(16.0)).lt(abs_det);
@@ -166,7 +165,7 @@ impl<L> Survivors<L> {
 /// 8.1 w 2 E E |s|, det by less than 86 w E E; both underflow by less than [`TINY`] (1 + E). With bounds dh and dd that are larger by more than
 /// they round: where |det| is beyond dd its sign is certain, and a hit with h below -dh lies behind the origin. One at a t of at most T, where T
 /// is not below `to` for the scaled direction, has h - T |det| at most dh + T dd; the computed T |det|, at most 12 E E T, is off by 12 w E E T,
-/// of which dd has more to spare. Where |det| is beyond 16 dd, |h/d - h'/d'| <= (dh + |h'/d'| dd) / |d'| is at most 16/15 of that with
+/// of which dd has more to spare. Here the slack 2 k (of 320 w E E or more) stands for dd, and E times an eighth of it for dh. Where |det| is beyond 16 dd, |h/d - h'/d'| <= (dh + |h'/d'| dd) / |d'| is at most 16/15 of that with
 /// the computed h/d in place of the exact one, which 9/8 covers with what rounds in it; the quotient and the ends of the interval round by
 /// less than 8 w of t, and [`TINY`] covers what underflows when t is that of the direction again.
 #[inline(always)]
@@ -194,7 +193,6 @@ pub(super) fn survivors<const N: usize, L: Lanes<N>>(
     let slack = distance.add(extent.add(extent)).mul_add_loosely(extent.mul_add_loosely(L::splat(SLACK), tiny), tiny);
     let below = L::zero().sub(slack);
     let outside = u.lt(below) | v.lt(below) | abs_det.add(slack).lt(u.add(v));
-    let mut lanes = block.lanes & !outside;
 
     let rows = |v: LaneVec3<N, L>| [v.x, v.y, v.z];
     let survivors = Survivors {
@@ -210,12 +208,11 @@ pub(super) fn survivors<const N: usize, L: Lanes<N>>(
         tiny,
         scale: ray.scale,
     };
-    if lanes != 0 {
-        let (height, height_error, det_error) = survivors.height();
-        let behind = height.add(height_error).lt(L::zero()) & det_error.lt(abs_det);
-        let last = L::splat((to.max(f32::MIN_POSITIVE) * ray.unscaled).max(f32::MIN_POSITIVE));
-        let beyond = det_error.mul_add_loosely(last, height_error).lt(height.sub(last.mul(abs_det)));
-        lanes &= !(behind | beyond);
-    }
-    (lanes, survivors)
+    // In any case, also where no lane is left: whether one is cannot be predicted, and one guess a block is enough.
+    let height = survivors.height();
+    let height_error = extent.mul(L::splat(HEIGHT / SLACK)).mul_add_loosely(slack, tiny);
+    let behind = height.add(height_error).lt(L::zero()) & slack.lt(abs_det);
+    let last = L::splat((to.max(f32::MIN_POSITIVE) * ray.unscaled).max(f32::MIN_POSITIVE));
+    let beyond = slack.mul_add_loosely(last, height_error).lt(height.sub(last.mul(abs_det)));
+    (block.lanes & !(outside | behind | beyond), survivors)
 }

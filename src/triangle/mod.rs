@@ -13,11 +13,13 @@ mod plucker;
 mod tests;
 mod watertight;
 
+use std::cmp::Ordering;
+
 use glam::Vec3;
 
 pub use baldwin_weber::BaldwinWeber;
 pub use corners::Corners;
-pub use depth::Depth;
+pub use depth::{Depth, INPUTS};
 pub use edge_f64::EdgeF64;
 pub use exact::Exact;
 pub use moller_trumbore::MollerTrumbore;
@@ -53,8 +55,8 @@ pub trait TriangleTest: Send + Sync + 'static {
     /// What it hands to the second one.
     type Values<const N: usize>: Copy;
 
-    /// Where a hit is, as the test orders hits: `f32` where that is what it computes.
-    type Depth: Depth;
+    /// Where a hit is, as the test orders hits: `f32` where that is what it computes. It may refer to the block.
+    type Depth<'a>: Depth;
 
     /// Prepares a valid ray.
     fn prepare(ray: &Ray) -> Self::Ray;
@@ -87,12 +89,23 @@ pub trait TriangleTest: Send + Sync + 'static {
 
     /// The second stage: whether a candidate is hit, and where. What lies outside the ray's interval is no hit; what lies beyond the `to` of
     /// the candidates may be one.
-    fn decide<const N: usize>(
+    fn decide<'a, const N: usize>(
         ray: &Self::Ray,
-        block: &Self::Block<N>,
+        block: &'a Self::Block<N>,
         lane: usize,
         values: &Self::Values<N>,
-    ) -> Option<Self::Depth>;
+    ) -> Option<Self::Depth<'a>>;
+
+    /// The order of two hits along their ray. Those of one ray are totally ordered.
+    #[inline(always)]
+    fn order<'a>(ray: &Self::Ray, one: &Self::Depth<'a>, other: &Self::Depth<'a>) -> Ordering {
+        one.order(other).unwrap_or_else(|| Self::order_closely(ray, one, other))
+    }
+
+    /// The same where [`Depth::order`] cannot tell.
+    fn order_closely(_ray: &Self::Ray, _one: &Self::Depth<'_>, _other: &Self::Depth<'_>) -> Ordering {
+        Ordering::Equal
+    }
 
     /// Whether the first stage decides everything: then [`decide`](Self::decide) takes every candidate, and [`Depth::of`] knows each depth.
     const ONE_STAGE: bool = false;
@@ -116,7 +129,7 @@ pub trait TriangleTest: Send + Sync + 'static {
 
     /// The scalar form: the hit of one triangle at a `t` in [`from`, `to`].
     #[inline(always)]
-    fn hit(ray: &Self::Ray, triangle: &Self::Block<1>, from: f32, to: f32) -> Option<Self::Depth> {
+    fn hit<'a>(ray: &Self::Ray, triangle: &'a Self::Block<1>, from: f32, to: f32) -> Option<Self::Depth<'a>> {
         let (candidate, first) = Self::candidates::<1, Portable<1>>(ray, triangle, from, to);
         if candidate == 0 { None } else { Self::decide(ray, triangle, 0, &Self::values(first)) }
     }
@@ -125,6 +138,7 @@ pub trait TriangleTest: Send + Sync + 'static {
 /// `t` where `ray`, if it is valid, meets the triangle within its interval.
 pub fn scalar_hit<T: TriangleTest>(ray: &Ray, corners: [Vec3; 3]) -> Option<f32> {
     let (t_min, t_max) = ray.interval();
-    let hit = || T::hit(&T::prepare(ray), &T::block(&[corners]), t_min, T::last(t_max));
-    ray.is_valid().then(hit)?.map(|depth| depth.t())
+    let triangle = T::block(&[corners]);
+    let hit = || T::hit(&T::prepare(ray), &triangle, t_min, T::last(t_max));
+    ray.is_valid().then(hit)?.map(|depth| depth.t(ray))
 }

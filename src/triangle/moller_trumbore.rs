@@ -63,7 +63,7 @@ impl TriangleTest for MollerTrumbore {
     type Block<const N: usize> = Edges<N>;
     type First<const N: usize, L: Lanes<N>> = L;
     type Values<const N: usize> = [f32; N];
-    type Depth = f32;
+    type Depth<'a> = f32;
 
     #[inline(always)]
     fn prepare(ray: &Ray) -> Self::Ray {

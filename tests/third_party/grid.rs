@@ -63,7 +63,7 @@ impl<T: TriangleTest> Grid<T> {
             [t - slack, t + slack]
         };
 
-        let mut nearest: Option<(T::Depth, u32)> = None;
+        let mut nearest: Option<(T::Depth<'_>, u32)> = None;
         for step in 0..self.resolution {
             let layer = if direction[main] > 0.0 { step } else { self.resolution - 1 - step };
             let ([a, b], [c, d]) = (plane(layer), plane(layer + 1));
@@ -85,16 +85,18 @@ impl<T: TriangleTest> Grid<T> {
                 observer.test(cell.len() as u32);
                 for &id in cell {
                     let hit = T::hit(&prepared, &self.triangles[id as usize], t_min, T::last(t_max));
+                    let Some(depth) = hit else { continue };
                     // The nearest wins, and of equals the lowest number.
-                    let wins = |d: &T::Depth| nearest.is_none_or(|(n, i)| d.order(&n).then(id.cmp(&i)).is_lt());
-                    nearest = hit.filter(wins).map(|depth| (depth, id)).or(nearest);
+                    if nearest.is_none_or(|(n, i)| T::order(&prepared, &depth, &n).then(id.cmp(&i)).is_lt()) {
+                        nearest = Some((depth, id));
+                    }
                 }
             }
             if ANY && nearest.is_some() {
                 break;
             }
         }
-        nearest.map(|(depth, id)| Hit::new(depth.t(), id))
+        nearest.map(|(depth, id)| Hit::new(depth.t(ray), id))
     }
 }
 

@@ -31,20 +31,20 @@ pub struct Over<T>(PhantomData<T>);
 impl<T: TriangleTest> LeafTest for Over<T> {
     const NAME: &'static str = T::NAME;
     type Triangle = T::Block<1>;
-    type Ray = T::Ray;
+    type Ray = (Ray, T::Ray);
 
     fn triangle(corners: [Vec3; 3]) -> T::Block<1> {
         T::block(&[corners])
     }
 
     #[inline(always)]
-    fn prepare(ray: &Ray) -> T::Ray {
-        T::prepare(ray)
+    fn prepare(ray: &Ray) -> Self::Ray {
+        (*ray, T::prepare(ray))
     }
 
     #[inline(always)]
-    fn test(triangle: &T::Block<1>, ray: &PreparedRay, prepared: &T::Ray) -> f32 {
-        T::hit(prepared, triangle, ray.tmin, ray.tmax).map_or(f32::INFINITY, |depth| depth.t())
+    fn test(triangle: &T::Block<1>, ray: &PreparedRay, (asked, prepared): &Self::Ray) -> f32 {
+        T::hit(prepared, triangle, ray.tmin, ray.tmax).map_or(f32::INFINITY, |depth| depth.t(asked))
     }
 }
 

@@ -3,6 +3,8 @@
 mod enclosure;
 mod exact_depth;
 
+use std::cmp::Ordering;
+
 use glam::Vec3;
 
 pub use exact_depth::ExactDepth;
@@ -45,7 +47,7 @@ impl TriangleTest for Exact {
     type Block<const N: usize> = FilterBlock<N>;
     type First<const N: usize, L: Lanes<N>> = Survivors<L>;
     type Values<const N: usize> = Sights<N>;
-    type Depth = ExactDepth;
+    type Depth<'a> = ExactDepth<'a>;
 
     #[inline(always)]
     fn prepare(ray: &Ray) -> ExactRay {
@@ -78,12 +80,12 @@ impl TriangleTest for Exact {
     }
 
     #[inline(always)]
-    fn decide<const N: usize>(
+    fn decide<'a, const N: usize>(
         ray: &ExactRay,
-        block: &FilterBlock<N>,
+        block: &'a FilterBlock<N>,
         lane: usize,
         sights: &Sights<N>,
-    ) -> Option<ExactDepth> {
+    ) -> Option<ExactDepth<'a>> {
         let (ray, sure) = (&ray.ray, sights.sure >> lane & 1 == 1);
         let (low, high, (start, end)) = (sights.low[lane], sights.high[lane], ray.interval());
         let (low, high) = if sure && start <= low && high < end {
@@ -91,9 +93,16 @@ impl TriangleTest for Exact {
         } else if sure && (high < start || end <= low) {
             return None;
         } else {
-            in_f64(ray, block.lane(lane), sure)?
+            in_f64(ray, block.place(lane).corners(), sure)?
         };
-        Some(ExactDepth::new(ray, block.lane(lane), low, high))
+        Some(ExactDepth::new(block.place(lane), low, high))
+    }
+
+    #[inline(always)]
+    fn order_closely(ray: &ExactRay, one: &ExactDepth, other: &ExactDepth) -> Ordering {
+        // Copies, so that those that are ordered at once need no place in memory.
+        let (one, other) = (*one, *other);
+        one.order_closely(&other, &ray.ray)
     }
 }
 

@@ -20,7 +20,12 @@ fn all_widths_agree<T: TriangleTest>() {
                 let is_candidate = candidates >> lane & 1 == 1;
                 let hit = is_candidate.then(|| T::decide(&prepared, &block, lane, &values)).flatten();
                 let scalar = scalar_hit::<T>(ray, corners);
-                assert_eq!(hit.map(|d| d.t().to_bits()), scalar.map(f32::to_bits), "{}: {ray:?} {corners:?}", T::NAME);
+                assert_eq!(
+                    hit.map(|d| d.t(ray).to_bits()),
+                    scalar.map(f32::to_bits),
+                    "{}: {ray:?} {corners:?}",
+                    T::NAME
+                );
                 hits += usize::from(hit.is_some());
             }
         }
