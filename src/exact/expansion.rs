@@ -23,6 +23,19 @@ impl Expansion {
         difference
     }
 
+    /// `x` times 2 to the power of `exponent`.
+    pub fn of_integer(mut x: i128, exponent: i32) -> Self {
+        let scale = f64::from_bits(((1023 + exponent) as u64) << 52);
+        let mut terms = SmallVec::new();
+        while x != 0 {
+            let term = x as f64;
+            terms.push(term * scale);
+            x -= term as i128;
+        }
+        terms.reverse();
+        Self(terms)
+    }
+
     /// Adds a float: Shewchuk's growing of an expansion, zeros left out.
     fn add(&mut self, mut x: f64) {
         let mut kept = 0;

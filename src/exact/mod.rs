@@ -1,6 +1,7 @@
 //! One ray against one triangle, without rounding: what a ray of `f32` numbers meets, and in which order, is decidable.
 
 mod expansion;
+mod fixed;
 #[cfg(any(test, feature = "suite"))]
 pub mod rational;
 
@@ -22,7 +23,7 @@ pub struct ExactT {
 /// Where the whole line of `ray` meets the closed triangle, or nothing if it misses or lies in the plane of the triangle.
 ///
 /// The interval of the ray is not looked at: see [`ExactT::is_within`]. Numbers that are not finite hit nothing.
-/// Costs about a microsecond.
+/// Costs 50 nanoseconds where numbers are of similar size, else about a microsecond.
 ///
 /// The line passes through the triangle when it passes all three edges on the same side, or meets them: three volumes
 /// have no opposite signs.
@@ -33,6 +34,11 @@ pub fn hit(ray: &Ray, corners: [Vec3; 3]) -> Option<ExactT> {
     if !ray.origin.is_finite() || !ray.direction.is_finite() || !corners.iter().all(|p| p.is_finite()) {
         return None;
     }
+    fixed::hit(ray, corners).unwrap_or_else(|| hit_by_sums(ray, corners))
+}
+
+/// The same for all finite numbers, in sums of floats.
+fn hit_by_sums(ray: &Ray, corners: [Vec3; 3]) -> Option<ExactT> {
     let difference = |p: Vec3, q: Vec3| -> [Expansion; 3] {
         std::array::from_fn(|axis| Expansion::difference(p[axis].into(), q[axis].into()))
     };
@@ -84,6 +90,9 @@ impl ExactT {
         if t.is_infinite() {
             return 0.0_f64.total_cmp(&t);
         }
+        if t == 0.0 {
+            return self.numerator.sign();
+        }
         let one = Expansion::from(1.0);
         Expansion::minor(&self.numerator, &one, &Expansion::from(t), &self.denominator).sign()
     }
@@ -96,6 +105,9 @@ impl ExactT {
 
     /// The nearest `f32`, ties to even: infinite from half an ulp beyond the largest finite number on.
     pub fn round(&self) -> f32 {
+        if self.numerator.sign().is_eq() {
+            return 0.0;
+        }
         let near = self.approximate() as f32;
         // Rounded twice, it may be the neighbour of the nearest one: look at the middles between them, where `f64` is exact. Infinity
         // stands for 2^128.

@@ -28,10 +28,10 @@ fn a_corpus_is_the_same_again_and_what_it_says() {
     let folder = parent.path().join("d");
     let out = path_text(&folder);
     let printed = prints(&["rays", "corpus", "cube", "-o", &out, "--rays", "40"]);
-    assert!(printed.contains("Cube") && printed.contains("280") && !printed.contains("published"), "{printed}");
+    assert!(printed.contains("Cube") && printed.contains("320") && !printed.contains("published"), "{printed}");
     let first = files(&folder);
-    // A mesh, seven kinds of rays with their truths, the hashes and the list of what is ours.
-    assert_eq!(first.len(), 1 + 2 * 7 + 2, "{:?}", first.keys());
+    // A mesh, eight kinds of rays with their truths, the hashes and the list of what is ours.
+    assert_eq!(first.len(), 1 + 2 * 8 + 2, "{:?}", first.keys());
     if let Some(said) = checked(&folder) {
         let names: Vec<&str> = said.lines().map(|line| line.strip_suffix(": OK").unwrap()).collect();
         let owed: Vec<&str> = first.keys().map(String::as_str).filter(|name| name.contains("cube")).collect();

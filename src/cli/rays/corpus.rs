@@ -42,7 +42,7 @@ pub struct Args {
     /// The folder; an older corpus there is replaced
     #[arg(long, short, value_name = "DIR")]
     output: PathBuf,
-    /// Rays of each of the seven kinds
+    /// Rays of each kind
     #[arg(long, value_name = "N", default_value_t = RAYS, value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
     rays: u32,
     /// Seed of the rays

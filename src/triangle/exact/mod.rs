@@ -110,6 +110,9 @@ impl TriangleTest for Exact {
 /// not. Rare, so out of line.
 #[inline(never)]
 fn in_f64(ray: &Ray, corners: [Vec3; 3], met: bool) -> Option<(f32, f32)> {
+    if !met && runs_along(ray, &corners) {
+        return None;
+    }
     let (start, end) = (f64::from(ray.interval().0), ray.end());
     match if met { seen(ray, corners) } else { look(ray, corners) } {
         Sight::Miss => None,
@@ -117,6 +120,12 @@ fn in_f64(ray: &Ray, corners: [Vec3; 3], met: bool) -> Option<(f32, f32)> {
         Sight::Hit { low, high } if high < start || end <= low => None,
         Sight::Hit { .. } | Sight::Unclear => exactly(ray, corners),
     }
+}
+
+/// Whether one look tells that the ray is parallel to the plane of the triangle, or in it: an axis-aligned one, as grounds and walls are.
+#[inline(always)]
+fn runs_along(ray: &Ray, [a, b, c]: &[Vec3; 3]) -> bool {
+    (a.cmpeq(*b) & a.cmpeq(*c) & ray.direction.cmpeq(Vec3::ZERO)).any()
 }
 
 /// As [`look`], where the line is known to meet the triangle.
