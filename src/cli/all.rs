@@ -44,13 +44,18 @@ pub fn run(session: &Session, args: &Args) -> anyhow::Result<Status> {
     let common =
         Common { dir: Some(args.dir.clone()), fresh: args.fresh, in_process: args.in_process, ..Common::default() };
     let mut outcome = Status::Right;
-    let mut rows = vec![];
+    let (mut rows, mut notes) = (vec![], vec![]);
     let studies = suite.studies.in_order_of_measuring();
     for (i, study) in studies.iter().enumerate() {
         if !terminal.quiet {
             let rest: Vec<&str> = studies[i + 1..].iter().map(|study| study.name()).collect();
             let left = if rest.is_empty() { "nothing".into() } else { rest.join(", ") };
             eprintln!("{}; then left: {left}", study.name());
+        }
+        if let Some(why) = study.cannot_be_measured_here() {
+            rows.push([study.name().into(), "-".into(), "left out".into(), "-".into()]);
+            notes.push(format!("{}: left out, for {why}.", study.name()));
+            continue;
         }
         let start = Instant::now();
         let found = run_as(session, *study, args.chosen(), &common)?;
@@ -68,6 +73,7 @@ pub fn run(session: &Session, args: &Args) -> anyhow::Result<Status> {
     }
     let title = format!("All studies, in {}", args.dir.display());
     let mut table = Table::of_texts(&title, ["study", "took", "answers", "journal"], rows);
+    table.notes.append(&mut notes);
     table.notes.push(format!("Nothing is left. `sahara report {} -o OUT` makes the page.", args.dir.display()));
     terminal.print_table(&table)?;
     Ok(outcome)

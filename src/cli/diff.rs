@@ -9,7 +9,7 @@ use crate::measure::Provenance;
 use crate::output::OutputFile;
 use crate::report::{Export, Record, to_json, to_markdown};
 use crate::study::Status;
-use crate::study::regression::{Comparison, tables, unlike};
+use crate::study::regression::{Comparison, Machines, tables, unlike};
 
 #[derive(Debug, clap::Args)]
 pub struct Args {
@@ -34,7 +34,7 @@ pub fn run(args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
     };
     let (json, markdown) = (check(&args.export_json)?, check(&args.export_markdown)?);
     let (old, new) = (records(&args.old)?, records(&args.new)?);
-    unlike(&old, &new)?;
+    unlike(&old, &new, Machines::Any)?;
 
     let comparison = Comparison::new(&old, &new, None, 1);
     let tables = tables(&comparison);

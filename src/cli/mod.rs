@@ -107,7 +107,7 @@ impl<'a> Session<'a> {
 // The commands that are no study. No doc comment: clap would take it for what the whole command does.
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Hold two exported runs of `compare` against each other
+    /// Hold two exported runs of `compare` against each other; those of two machines by their ratios to obvhs
     Diff(diff::Args),
     /// Hold every structure against a reference, hit for hit
     Validate(validate::Args),

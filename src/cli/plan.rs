@@ -80,6 +80,10 @@ pub fn run(session: &Session, args: &Args, level: Option<Level>) -> anyhow::Resu
             );
             continue;
         }
+        if let Some(why) = study.cannot_be_measured_here().filter(|_| whole) {
+            told(terminal.quiet, &format!("{}: no jobs, for {why}", study.name()));
+            continue;
+        }
         if !args.scenes.is_empty() && !study.names_scenes() {
             told(terminal.quiet, &format!("{}: on scenes of its own, whatever --scenes names", study.name()));
         }

@@ -7,7 +7,7 @@ use super::compare::{CompareStudy, Compared, compared};
 use super::engine::measure_case;
 use super::epoch::{Epoch, Joined, join};
 use super::process::Processes;
-use super::regression::{Comparison, Finding, Unlike, unlike};
+use super::regression::{Comparison, Finding, Machines, Unlike, unlike};
 use super::{Plan, Refused, Screen, Status, Study, StudyError};
 use crate::measure::{Clock, Provenance};
 use crate::report::Record;
@@ -157,7 +157,7 @@ pub fn against(
     threshold_percent: Option<f64>,
     looks: usize,
 ) -> Result<Comparison, BaselineError> {
-    unlike(baseline, &run.records)?;
+    unlike(baseline, &run.records, Machines::Same)?;
     let comparison = Comparison::new(baseline, &run.records, threshold_percent, looks);
     if let Some(case) = comparison.only_new.first() {
         return Err(BaselineError::New(case.clone()));

@@ -37,7 +37,9 @@ impl Job {
     /// # Errors
     /// If there is none.
     pub fn find<'a, C>(&self, plan: &'a Plan<C>) -> Result<&'a Planned, StudyError> {
-        let cause = || "its scene is not what it was when the run was planned: plan it anew".to_owned();
+        let cause = || {
+            "its scene, or the number of cores, is not what it was when the run was planned: plan it anew".to_owned()
+        };
         let found = plan.cases.iter().find(|case| case.key == self.key);
         found.ok_or_else(|| StudyError::Job { key: self.key.clone(), cause: cause() })
     }

@@ -120,6 +120,8 @@ pub trait AnyStudy: Send + Sync {
     fn is_kept(&self) -> bool;
     /// [`Study::LAST`].
     fn is_last(&self) -> bool;
+    /// [`Study::cannot_be_measured_here`].
+    fn cannot_be_measured_here(&self) -> Option<&'static str>;
     /// Adds the options of the study to a command.
     fn augment(&self, command: Command) -> Command;
     /// Whether its options name scenes.
@@ -225,6 +227,10 @@ impl<S: Study> AnyStudy for Typed<S> {
 
     fn is_last(&self) -> bool {
         S::LAST
+    }
+
+    fn cannot_be_measured_here(&self) -> Option<&'static str> {
+        S::cannot_be_measured_here()
     }
 
     fn augment(&self, command: Command) -> Command {

@@ -101,6 +101,11 @@ pub trait Study: 'static {
     /// The options of `study all`.
     fn args(effort: Effort) -> Self::Args;
 
+    /// Why `study all` and its plan leave it out on this machine, in a sentence without the study's name; nothing where they do not.
+    fn cannot_be_measured_here() -> Option<&'static str> {
+        None
+    }
+
     /// What is to be measured. No time is spent here, and whatever can be refused is refused.
     ///
     /// # Errors

@@ -192,6 +192,9 @@ fn exported_runs_are_compared() {
     let (status, said) = compare("old", "slower", &[]);
     assert!(status == RIGHT && said.contains("slower"), "{said}");
     assert_eq!(compare("old", "other", &[]).0, WRONG);
+    kept.edit("elsewhere", |r| r["provenance"]["cpu"] = "Other".into());
+    let (status, said) = compare("old", "elsewhere", &[]);
+    assert!(status == RIGHT && said.contains("Two machines, ") && said.contains("Other ("), "{said}");
     let (status, said) = compare("old", "none", &[]);
     assert!(status == USAGE && said.contains("none.json"), "{said}");
     fs::write(kept.path("empty"), "[]").unwrap();

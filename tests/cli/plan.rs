@@ -105,14 +105,40 @@ fn a_plan_is_one_command_a_case_with_a_file_of_its_own() {
     let (text, said) = (stdout(&output), stderr(&output));
     assert_eq!(output.status.code(), Some(RIGHT), "{said}");
     let mut names: Vec<String> = text.lines().map(|line| file(line).to_str().unwrap().to_owned()).collect();
-    for study in ["compare", "replicate", "attribution", "scaling", "accuracy", "counts", "threads", "crossover"] {
+    for study in ["compare", "replicate", "attribution", "scaling", "accuracy", "counts", "crossover"] {
         assert!(names.iter().any(|name| name.starts_with(&format!("r/{study}/"))), "{study}: {names:?}");
     }
+    let has_threads = names.iter().any(|name| name.starts_with("r/threads/"));
+    assert_eq!(has_threads, std::thread::available_parallelism().unwrap().get() > 1, "one core leaves them out");
     assert!(!text.contains("predictions") && said.contains("predictions: no jobs"), "{said}");
     let count = names.len();
     names.sort();
     names.dedup();
     assert_eq!(names.len(), count);
+}
+
+/// A process that may use one core.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_machine_of_one_core_has_no_jobs_for_threads() {
+    let mut taskset = Command::new("taskset");
+    taskset.args(["-c", &one_core(), env!("CARGO_BIN_EXE_sahara"), "study", "plan", "all", "--quick", "--dir", "r"]);
+    let Ok(output) = taskset.env_remove("SAHARA_DATA").output() else {
+        println!("skipped: there is no taskset here");
+        return;
+    };
+    let (text, said) = (stdout(&output), stderr(&output));
+    assert_eq!(output.status.code(), Some(RIGHT), "{said}");
+    assert!(text.contains("r/counts/") && !text.contains("r/threads/"), "{text}");
+    assert!(said.contains("threads: no jobs, for one core"), "{said}");
+}
+
+/// The first core that this process may use.
+#[cfg(target_os = "linux")]
+fn one_core() -> String {
+    let status = fs::read_to_string("/proc/self/status").unwrap();
+    let list = status.lines().find_map(|line| line.strip_prefix("Cpus_allowed_list:")).unwrap().trim();
+    list.split([',', '-']).next().unwrap().into()
 }
 
 #[test]

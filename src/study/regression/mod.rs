@@ -3,9 +3,12 @@
 //!
 //! Two runs of different moments on a shared machine cannot be compared by their times. They are compared by their
 //! ratios to references: the structures of obvhs, whose code is the same in both runs and which are measured in the
-//! same rounds as all others. The change of a structure is the geometric mean over its cells of new / old, decided by
-//! its [interval](fn@crate::measure::Rerun::change), which allows for all structures and for every look at them; cells
-//! alone are shown and decide nothing, for there are many of them.
+//! same rounds as all others. So `diff` compares commits on two machines as well, and says that the machine may be the
+//! reason of a change; a gate wants one machine.
+//!
+//! The change of a structure is the geometric mean over its cells of new / old, decided by its
+//! [interval](fn@crate::measure::Rerun::change), which allows for all structures and for every look at them; cells alone
+//! are shown and decide nothing, for there are many of them.
 //!
 //! # In continuous integration
 #![doc = include_str!("GATE.md")]
@@ -26,7 +29,7 @@ use crate::report::Record;
 
 pub use relative::{RelativeTime, relative_times};
 pub use table::tables;
-pub use unlike::{Unlike, unlike};
+pub use unlike::{Machines, Unlike, unlike};
 
 /// Two runs side by side.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -43,6 +46,8 @@ pub struct Comparison {
     pub cells: Vec<Change>,
     /// Answers that were right, or others, in the old run.
     pub wrong: Vec<Wrong>,
+    /// Processor and lanes of the old and of the new run, where they are not the same.
+    pub machines: Option<[String; 2]>,
     /// Cases that only one of the runs has.
     pub only_old: Vec<String>,
     pub only_new: Vec<String>,
@@ -118,6 +123,7 @@ impl Comparison {
             structures,
             cells,
             wrong: pairs.iter().filter_map(|(old, new)| wrong(old, new)).collect(),
+            machines: pairs.iter().find_map(|(old, new)| other_machine(old, new)),
             only_old: only(old, new),
             only_new: only(new, old),
             reproduced: reproduced(old, new),
@@ -139,6 +145,12 @@ fn counterpart<'a>(record: &Record, others: &'a [Record]) -> Option<&'a Record> 
         (&other.scene, &other.workload, &other.label) == (&record.scene, &record.workload, &record.label)
     };
     others.iter().find(same)
+}
+
+fn other_machine(old: &Record, new: &Record) -> Option<[String; 2]> {
+    let machine = |record: &Record| format!("{} ({})", record.provenance.cpu, record.provenance.simd);
+    let machines = [old, new].map(machine);
+    (machines[0] != machines[1]).then_some(machines)
 }
 
 fn case(record: &Record) -> String {

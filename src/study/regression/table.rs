@@ -38,6 +38,9 @@ fn structures(comparison: &Comparison) -> Table {
         )
     });
     let mut notes = vec![by];
+    notes.extend(comparison.machines.as_ref().map(|[old, new]| {
+        format!("Two machines, {old} and {new}: what has changed may be due to them and not to the code.")
+    }));
     notes.push(format!(
         "Each interval allows for {} judged together{}: in 95 % of the cases all of them hold.",
         plural(comparison.structures.len(), "structure"),

@@ -123,7 +123,7 @@ fn runs_that_differ_in_more_than_their_code_are_unlike() {
     let with = |change: &dyn Fn(&mut Record)| {
         let mut new = run(1.0, 1.0);
         new.iter_mut().for_each(change);
-        unlike(&old, &new).map_err(|error| error.to_string())
+        unlike(&old, &new, Machines::Same).map_err(|error| error.to_string())
     };
     assert_eq!(with(&|_| {}), Ok(()));
     assert_eq!(with(&|r| r.provenance.commit = "other".into()), Ok(()));
@@ -146,6 +146,42 @@ fn runs_that_differ_in_more_than_their_code_are_unlike() {
         let refused = with(change).unwrap_err();
         assert!(refused.contains(part), "{part:?} is not in {refused:?}");
     }
+}
+
+#[test]
+fn on_two_machines_ratios_to_obvhs_are_compared_and_nothing_else() {
+    let elsewhere = |change: &dyn Fn(&mut Record)| {
+        let mut new = run(3.0, 1.1);
+        let machine = |r: &mut Record| {
+            (r.provenance.cpu, r.provenance.simd) = ("Other".into(), "avx2".into());
+            (r.provenance.target, r.provenance.target_features) = ("aarch64".into(), "neon".into());
+        };
+        new.iter_mut().for_each(machine);
+        new.iter_mut().for_each(change);
+        new
+    };
+    let (old, new) = (run(1.0, 1.0), elsewhere(&|_| {}));
+    assert_eq!(unlike(&old, &new, Machines::Any), Ok(()));
+    assert!(unlike(&old, &new, Machines::Same).is_err());
+    let comparison = Comparison::new(&old, &new, None, 1);
+    assert!((change_of(&comparison, "sah-kd").time.unwrap().estimate - 1.1).abs() < 1e-9);
+    assert!(
+        tables(&comparison)[0]
+            .notes
+            .iter()
+            .any(|note| note.contains("Two machines, ") && note.contains("Other (avx2)"))
+    );
+    assert_eq!(Comparison::new(&old, &run(3.0, 1.1), None, 1).machines, None);
+
+    // Settings are refused there as well, and so are times without a unit.
+    let refused = |new: &[Record]| unlike(&old, new, Machines::Any).unwrap_err().to_string();
+    assert!(refused(&elsewhere(&|r| r.provenance.threads = 2)).contains("the number of threads"));
+    assert!(refused(&elsewhere(&|r| r.workload_hash = "ff".into())).contains("the primary rays of Cube"));
+    assert!(refused(&elsewhere(&|r| r.provenance.obvhs = "0.5.0".into())).contains("the version of obvhs"));
+    let untimed = elsewhere(&|r| r.trace_ns = r.trace_ns.filter(|_| !is_obvhs(&r.structure)));
+    assert!(
+        refused(&untimed).contains("the processor is") && refused(&untimed).contains("ratio to a structure of obvhs")
+    );
 }
 
 #[test]

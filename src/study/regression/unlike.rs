@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use super::{case, counterpart};
+use super::{case, counterpart, pairs};
 use crate::report::Record;
 use crate::study::baselines::is_obvhs;
 
@@ -17,15 +17,30 @@ pub struct Unlike {
 }
 
 const SAME_MACHINE: &str = "measure both on the same machine, with the same options";
+const SAME_UNIT: &str =
+    "on two machines nothing is compared but the ratio to a structure of obvhs that both runs time, which these do not";
 const SAME_INPUT: &str = "measure the old one again on the same scenes and rays";
 const SAME_BUILD: &str = "build both alike";
 
-/// Refuses runs that differ in more than their code and moment.
+/// On which machines two runs may have been measured.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Machines {
+    /// On one.
+    Same,
+    /// On any two, if both have timed the same structure of obvhs.
+    Any,
+}
+
+/// Refuses runs that differ in more than their code and moment, and their machine where that is allowed.
 ///
 /// # Errors
 /// The first difference: of machine, instructions, threads, profile, compiler flags, references, scene, rays, or configuration
 /// of a structure; or that they have no case in common.
-pub fn unlike(old: &[Record], new: &[Record]) -> Result<(), Unlike> {
+pub fn unlike(old: &[Record], new: &[Record], machines: Machines) -> Result<(), Unlike> {
+    let is_unit =
+        |(old, new): &(&Record, &Record)| is_obvhs(&old.structure) && old.trace_ns.is_some() && new.trace_ns.is_some();
+    let has_unit = pairs(old, new).iter().any(is_unit);
+    let advice = if machines == Machines::Any { SAME_UNIT } else { SAME_MACHINE };
     let differ = |what: &str, old: &str, new: &str, advice| {
         if old == new { Ok(()) } else { Err(Unlike { what: what.into(), old: old.into(), new: new.into(), advice }) }
     };
@@ -34,15 +49,17 @@ pub fn unlike(old: &[Record], new: &[Record]) -> Result<(), Unlike> {
         let Some(after) = counterpart(before, new) else { continue };
         common = true;
         let (a, b) = (&before.provenance, &after.provenance);
-        differ("the processor", &a.cpu, &b.cpu, SAME_MACHINE)?;
-        differ("the instruction set of our lanes", &a.simd, &b.simd, SAME_MACHINE)?;
+        if machines == Machines::Same || !has_unit {
+            differ("the processor", &a.cpu, &b.cpu, advice)?;
+            differ("the instruction set of our lanes", &a.simd, &b.simd, advice)?;
+            differ("the target", &a.target, &b.target, SAME_BUILD)?;
+            differ("the set of instructions for the compiler", &a.target_features, &b.target_features, SAME_BUILD)?;
+        }
         differ("the number of threads", &a.threads.to_string(), &b.threads.to_string(), SAME_MACHINE)?;
         let [old, new] = [a, b].map(|p| if p.process_per_epoch { "an epoch each" } else { "all epochs" });
         differ("what a process measures", old, new, SAME_MACHINE)?;
         differ("the clock", &a.clock, &b.clock, SAME_MACHINE)?;
         differ("the profile", &a.profile, &b.profile, SAME_BUILD)?;
-        differ("the target", &a.target, &b.target, SAME_BUILD)?;
-        differ("the set of instructions for the compiler", &a.target_features, &b.target_features, SAME_BUILD)?;
         if is_obvhs(&before.structure) {
             differ("the version of obvhs, the reference,", &a.obvhs, &b.obvhs, SAME_BUILD)?;
         }

@@ -63,6 +63,11 @@ fn numbers(most: usize) -> Vec<usize> {
     numbers
 }
 
+/// Cores that this process may use.
+fn cores() -> usize {
+    std::thread::available_parallelism().map_or(1, usize::from)
+}
+
 impl Study for ThreadsStudy {
     const NAME: &'static str = "threads";
     const QUESTION: &'static str = "How much faster do builds and rays get with more threads?";
@@ -77,10 +82,13 @@ impl Study for ThreadsStudy {
         ThreadsArgs { scenes, most: None, structures: Structures::default(), rays, measuring }
     }
 
+    fn cannot_be_measured_here() -> Option<&'static str> {
+        (cores() == 1).then_some("one core has no second one that its threads could be compared on")
+    }
+
     fn plan(args: &ThreadsArgs, registry: &Registry) -> anyhow::Result<Plan<ThreadsEpoch>> {
         anyhow::ensure!(args.measuring.threads == 1, "every number of threads is measured: --most says up to which");
-        let cores = std::thread::available_parallelism().map_or(1, usize::from);
-        let most = args.most.map_or(cores, usize::from);
+        let most = args.most.map_or_else(cores, usize::from);
         anyhow::ensure!(
             most > 1,
             "one thread has nothing to be compared with: --most 2 asks for two, and a machine of one core does not have them"
