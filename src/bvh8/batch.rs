@@ -59,11 +59,13 @@ const TOGETHER: usize = 8;
 impl Together {
     const NONE: Self = Self { inputs: [[0.0; TOGETHER]; INPUTS], rays: [0; TOGETHER], ids: [0; TOGETHER], len: 0 };
 
-    /// Takes a hit of ray number `i`; whether there are as many as fit.
+    /// Takes a hit of ray number `i`; whether there are as many as fit, which are to be handed over then.
     ///
     /// The depth is not kept: it would be copied as a whole where it was just written in pieces, which a processor is slow to do.
+    #[must_use]
     #[inline(always)]
     fn push<D: Depth>(&mut self, i: usize, ray: &Ray, depth: &D, id: u32) -> bool {
+        debug_assert!(self.len < TOGETHER);
         let lane = self.len % TOGETHER;
         for (column, input) in self.inputs.iter_mut().zip(depth.inputs(ray)) {
             column[lane] = input;
@@ -85,7 +87,7 @@ impl Together {
             let first = column[0];
             column[len..].fill(first);
         }
-        let ts = D::ts::<L>(&self.inputs);
+        let ts = D::ts::<L>(&self.inputs, len);
         for ((&ray, &id), t) in self.rays.iter().zip(&self.ids).zip(ts).take(len) {
             hit(ray, Hit::new(t, id));
         }

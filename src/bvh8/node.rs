@@ -66,7 +66,7 @@ pub(super) struct Node {
     pub planes: [[[f32; WIDTH]; 2]; 3],
     pub children: [Child; WIDTH],
     /// For each octant of directions (bit 0 is set for a negative x), the lanes from the last to the first that such a ray
-    /// should visit: three bits each, the last one lowest. Lanes that are not in use come last; they are those below the others.
+    /// should visit: three bits each, the last one lowest. The lanes not in use are the lowest ones, and come last.
     pub orders: [u32; 8],
 }
 

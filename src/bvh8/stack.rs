@@ -20,14 +20,14 @@ pub(super) struct Entries {
     enters: [MaybeUninit<f32>; SIZE],
 }
 
-/// The first `len` of some entries. The length is not beside them, so that it stays in a register.
-pub(super) struct Stack<'a> {
+/// The first `len` of some entries, of a search for any hit or the closest. The length is not beside them, so that it stays in a register.
+pub(super) struct Stack<'a, const ANY: bool> {
     entries: &'a mut Entries,
     len: usize,
 }
 
 /// What lies in a page of memory, a quarter of it after its beginning: there the compiler keeps what it has no registers for, and a load
-/// waits for a store to the same place of another page (1.01 times as fast as at its beginning, half of it 1.005, Xeon).
+/// waits for a store to the same place of another page. 1.01 times as fast as at the beginning of a page; half a page after it, 1.005 (Xeon).
 #[repr(C, align(4096))]
 pub(super) struct OnePage<T>(pub [MaybeUninit<u8>; BEFORE], pub T);
 
@@ -52,7 +52,7 @@ impl Entries {
     /// Makes the first of them the [`BOTTOM`](Child::BOTTOM).
     ///
     /// # Safety
-    /// There is room for them.
+    /// `entries` is valid for writes.
     #[inline(always)]
     pub unsafe fn reset(entries: *mut Self) {
         // SAFETY: as the caller says; no reference is made to what is not initialised.
@@ -63,11 +63,11 @@ impl Entries {
     }
 }
 
-impl<'a> Stack<'a> {
+impl<'a, const ANY: bool> Stack<'a, ANY> {
     /// Those that are left of it.
     ///
     /// # Safety
-    /// The first `len` were written.
+    /// `len` is 0, or that of a stack for the same query after which nobody wrote to the entries.
     #[inline(always)]
     pub unsafe fn of(entries: &'a mut Entries, len: usize) -> Self {
         Self { entries, len }
@@ -87,12 +87,7 @@ impl<'a> Stack<'a> {
     /// # Safety
     /// Every node on the way here has been pushed once, and there are at most [`DEPTH`].
     #[inline(always)]
-    pub unsafe fn push<const ANY: bool, L: EightLanes>(
-        &mut self,
-        node: &Node,
-        octant: usize,
-        (enter, leave): (L, L),
-    ) -> Option<Child> {
+    pub unsafe fn push<L: EightLanes>(&mut self, node: &Node, octant: usize, (enter, leave): (L, L)) -> Option<Child> {
         let children = Child::bits(&node.children);
         let order = node.orders[octant & 7];
         // SAFETY: `len` is at most 1 + (DEPTH - 1) * (WIDTH - 1), so that eight more fit; a child is a number in memory.
@@ -129,12 +124,7 @@ impl<'a> Stack<'a> {
     /// # Safety
     /// As of [`push`](Self::push).
     #[inline(always)]
-    pub unsafe fn push_all<const ANY: bool, L: EightLanes>(
-        &mut self,
-        node: &Node,
-        octant: usize,
-        (enter, leave): (L, L),
-    ) {
+    pub unsafe fn push_all<L: EightLanes>(&mut self, node: &Node, octant: usize, (enter, leave): (L, L)) {
         let children = Child::bits(&node.children);
         // SAFETY: as there.
         let met = unsafe {
@@ -154,7 +144,7 @@ impl<'a> Stack<'a> {
     /// # Safety
     /// The stack was reset, and that has not been returned since.
     #[inline(always)]
-    pub unsafe fn pop_down<const ANY: bool>(&mut self, end: f32) -> Child {
+    pub unsafe fn pop_down(&mut self, end: f32) -> Child {
         // SAFETY: all below the old length was written, and at the bottom is what every ray enters in time; with `ANY` the entries
         // were not.
         unsafe {
@@ -168,7 +158,7 @@ impl<'a> Stack<'a> {
 
     /// The next child that the ray enters not after `end`.
     #[inline(always)]
-    pub fn pop<const ANY: bool>(&mut self, end: f32) -> Option<Child> {
+    pub fn pop(&mut self, end: f32) -> Option<Child> {
         while self.len > 0 {
             self.len -= 1;
             // SAFETY: all below the old length was written; with `ANY` the entries were not.

@@ -161,9 +161,9 @@ impl<'a, L: EightLanes, T: TriangleTest> Stream<'a, L, T> {
                 let slot = self.nodes.get(k);
                 let at = &mut *slot;
                 let node = tree.nodes.get_unchecked(at.child.index());
-                let mut stack = Stack::of(&mut at.entries, at.left);
-                stack.push_all::<ANY, L>(node, at.prepared_ray.octant, at.prepared_ray.cross(node, L::splat(at.end)));
-                at.child = stack.pop_down::<ANY>(at.end);
+                let mut stack = Stack::<ANY>::of(&mut at.entries, at.left);
+                stack.push_all::<L>(node, at.prepared_ray.octant, at.prepared_ray.cross(node, L::splat(at.end)));
+                at.child = stack.pop_down(at.end);
                 at.left = stack.len();
                 tree.fetch(at.child);
                 self.nodes.put(nodes, slot);
@@ -184,8 +184,8 @@ impl<'a, L: EightLanes, T: TriangleTest> Stream<'a, L, T> {
                     search::<ANY, WIDTH, L, T, ()>(blocks, u32::MAX, ray, at.t_min, nearest, &mut None, &mut ());
                     if !(ANY && at.nearest.found()) {
                         at.end = after(at.nearest.t);
-                        let mut stack = Stack::of(&mut at.entries, at.left);
-                        at.child = stack.pop_down::<ANY>(at.end);
+                        let mut stack = Stack::<ANY>::of(&mut at.entries, at.left);
+                        at.child = stack.pop_down(at.end);
                         at.left = stack.len();
                         tree.fetch(at.child);
                         self.nodes.put(nodes, slot);

@@ -170,6 +170,36 @@ fn long_slices_are_answered_as_their_rays_are() {
     }
 }
 
+/// Slices of all small lengths, in which some rays miss, some begin on a triangle, where only exact arithmetic tells, and many hit.
+#[test]
+fn short_slices_are_answered_as_their_rays_are_over_the_exact_test() {
+    let mesh = Arc::new(soup(300, 6));
+    let tree = Bvh8::<Exact>::build(&mesh, &Bvh8Config::default()).unwrap();
+    let ray = |i: u32| {
+        let [a, b, c] = mesh.corners(i * 7 % 300);
+        match i % 4 {
+            0 => Ray::new(a, scattered(i).direction),
+            1 => scattered(i),
+            _ => Ray::new(scattered(i).origin, (a + b + c) / 3.0 - scattered(i).origin),
+        }
+    };
+    let rays: Vec<Ray> = (0..400).map(ray).collect();
+    let alone: Vec<_> = rays.iter().map(|ray| tree.closest_hit(ray, &mut ())).collect();
+    let at_once = alone.iter().flatten().filter(|hit| hit.t == 0.0).count();
+    assert!(at_once > 50 && alone.iter().any(Option::is_none), "{at_once} begin on a triangle");
+    for len in (0..20).chain([rays.len()]) {
+        for first in (0..=rays.len() - len).step_by(13) {
+            let mut hits = vec![None; len];
+            tree.closest_hits(&rays[first..first + len], &mut hits, &mut ());
+            let same = |(x, y): (&Option<Hit>, &Option<Hit>)| match (x, y) {
+                (Some(x), Some(y)) => x.same_bits(*y),
+                (x, y) => x.is_none() && y.is_none(),
+            };
+            assert!(hits.iter().zip(&alone[first..]).all(same), "{len} rays from {first}");
+        }
+    }
+}
+
 #[test]
 fn several_rays_at_once_are_refused_over_tests_that_they_are_not_compiled_for() {
     let mesh = Arc::new(soup(3, 1));

@@ -58,7 +58,7 @@ impl<T: TriangleTest> Bvh8<T> {
     ) {
         let OnePage(_, entries) = &mut OnePage::new(Entries::new());
         // SAFETY: none is looked at.
-        let mut stack = unsafe { Stack::of(entries, 0) };
+        let mut stack = unsafe { Stack::<ANY>::of(entries, 0) };
         let mut end = after(nearest.t);
         loop {
             let next = if let Some((first, count)) = child.blocks() {
@@ -81,10 +81,10 @@ impl<T: TriangleTest> Bvh8<T> {
                 // SAFETY: children name nodes that are there; the depth was checked when the tree was built.
                 unsafe {
                     let node = self.nodes.get_unchecked(child.index());
-                    stack.push::<ANY, L>(node, prepared_ray.octant, prepared_ray.cross(node, L::splat(end)))
+                    stack.push::<L>(node, prepared_ray.octant, prepared_ray.cross(node, L::splat(end)))
                 }
             };
-            match next.or_else(|| stack.pop::<ANY>(end)) {
+            match next.or_else(|| stack.pop(end)) {
                 Some(next) => child = next,
                 None => return,
             }

@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 use smallvec::SmallVec;
 
 /// A number as the exact sum of floats, none of them zero, the least first; zero is the empty sum. Their bits do not overlap nor, since
-/// rounding is to even, touch each other.
+/// rounding is to even, touch each other; those of an integer may touch, but the largest term is within 2^-53 of the whole.
 ///
 /// Exact as long as nothing overflows or underflows: products of six differences of `f32` numbers do neither, for they are below 2^780 and
 /// multiples of 2^-894. Products rely on the fused multiplication of the machine, or of the C library where it has none.
@@ -23,8 +23,9 @@ impl Expansion {
         difference
     }
 
-    /// `x` times 2 to the power of `exponent`.
+    /// `x`, which is less than 2^126, times 2 to the power of `exponent`, which is that of a float whose bits are all used.
     pub fn of_integer(mut x: i128, exponent: i32) -> Self {
+        debug_assert!(x.unsigned_abs() < 1 << 126 && (-1022..=800).contains(&exponent));
         let scale = f64::from_bits(((1023 + exponent) as u64) << 52);
         let mut terms = SmallVec::new();
         while x != 0 {
@@ -124,6 +125,24 @@ mod tests {
     use dashu_ratio::RBig;
 
     use super::*;
+
+    #[test]
+    fn integers_are_those_of_rationals() {
+        // The second term is half of the lowest bit of the first; and numbers around all powers of two.
+        let touching = (((1_i128 << 52) + 1) << 73) + (1 << 72) - 1;
+        let around = (0..126).flat_map(|bits| [-1, 0, 1].map(|k| (1_i128 << bits) + k)).filter(|&x| x < 1 << 126);
+        for x in around.chain([touching, (1 << 126) - 1, 0x1234_5678_9abc_def0_1234_5678_9abc]) {
+            for (x, exponent) in [(x, 0), (-x, -447), (x, 300)] {
+                let scale = RBig::try_from(2.0_f64.powi(exponent)).unwrap();
+                let sum = Expansion::of_integer(x, exponent);
+                let right = RBig::from(x) * scale;
+                assert_eq!(RBig::from(&sum), right, "{x} {exponent}");
+                assert_eq!(sum.sign(), x.cmp(&0));
+                let error = (RBig::try_from(sum.approximate()).unwrap() - &right) * RBig::from(1_u64 << 51);
+                assert!(error >= -right.clone().max(-right.clone()) && error <= right.clone().max(-right));
+            }
+        }
+    }
 
     /// Terms of all sizes and signs, some of which cancel.
     #[test]

@@ -1,4 +1,4 @@
-//! The same in integers, where the numbers are of similar size: several times as fast as sums of floats.
+//! The same in integers, where all bits in use lie within forty places: several times as fast as sums of floats.
 
 use glam::Vec3;
 
@@ -6,11 +6,11 @@ use super::ExactT;
 use super::expansion::Expansion;
 use crate::geometry::Ray;
 
-/// Bits from the lowest one in use to the highest among the numbers of one kind. With them differences have 41 bits and a sign, components
-/// of cross products 84, and their products with a third number, three of them added, 127 with the sign.
+/// Places from the lowest bit in use to the highest among the numbers of one kind. Then numbers are below 2^40, differences below 2^41,
+/// components of cross products below 2^83, and three products of these with a third number together below 2^126.
 const BITS: i32 = 40;
 
-/// As [`hit`](super::hit), for finite numbers; nothing where they are not of similar size.
+/// As [`hit`](super::hit), for finite numbers; nothing where they do not fit.
 pub(super) fn hit(ray: &Ray, corners: [Vec3; 3]) -> Option<Option<ExactT>> {
     let [a, b, c] = corners;
     let (points, unit) = integers([ray.origin, a, b, c])?;
@@ -104,6 +104,27 @@ mod tests {
             }
         }
         assert!(hits > 5_000 && misses > 30_000 && others > 50, "{hits} {misses} {others}");
+    }
+
+    /// The largest integers, of all signs, in the smallest and the largest units.
+    #[test]
+    fn what_just_fits_does_not_overflow() {
+        let most = (1_i64 << 40) - (1 << 16);
+        for exponent in [-149, 0, 87] {
+            let number = |sign: i64| ((sign * most) as f64 * 2.0_f64.powi(exponent)) as f32;
+            let unit = 2.0_f64.powi(exponent) as f32;
+            for signs in 0..1_u32 << 15 {
+                let x = |k: u32| number(1 - 2 * i64::from(signs >> k & 1));
+                let vector = |k: u32| Vec3::new(x(3 * k), x(3 * k + 1), x(3 * k + 2));
+                // One number that uses the lowest place.
+                let ray = Ray::new(Vec3 { x: unit, ..vector(0) }, Vec3 { y: unit, ..vector(1) });
+                let corners = [vector(2), vector(3), vector(4)];
+                let found = hit(&ray, corners).expect("it fits");
+                if signs % 7 == 0 {
+                    assert_eq!(found, hit_by_sums(&ray, corners), "{ray:?} {corners:?}");
+                }
+            }
+        }
     }
 
     #[test]

@@ -23,7 +23,7 @@ pub struct ExactT {
 /// Where the whole line of `ray` meets the closed triangle, or nothing if it misses or lies in the plane of the triangle.
 ///
 /// The interval of the ray is not looked at: see [`ExactT::is_within`]. Numbers that are not finite hit nothing.
-/// Costs 50 nanoseconds where numbers are of similar size, else about a microsecond.
+/// Costs 50 nanoseconds where all bits in use lie within forty places, else about a microsecond.
 ///
 /// The line passes through the triangle when it passes all three edges on the same side, or meets them: three volumes
 /// have no opposite signs.

@@ -17,19 +17,20 @@ pub trait Depth: Copy {
     /// As reported, of a hit of `ray`: the nearest float.
     fn t(&self, ray: &Ray) -> f32;
 
-    /// Whether `t` takes more than the depth, so that it pays to compute that of eight hits together.
+    /// Whether `t` takes more than the depth, so that it pays to compute that of eight hits together. A test that says so writes
+    /// [`inputs`](Self::inputs) and [`ts`](Self::ts) as well.
     const LATE: bool = false;
 
-    /// What `ts` takes of a hit of `ray`: the corners of the triangle, the origin and the direction. Asked for where `t` is [late](Self::LATE).
+    /// What `ts` takes of a hit of `ray`: the corners of the triangle, the origin and the direction.
     #[inline(always)]
     fn inputs(&self, _ray: &Ray) -> [f32; INPUTS] {
-        [0.0; INPUTS]
+        unreachable!("a depth whose `t` is late has inputs")
     }
 
-    /// `t` of eight hits, from their inputs.
+    /// The same bits as [`t`](Self::t), of the first `len` of eight hits, from their inputs. The other lanes repeat the first.
     #[inline(always)]
-    fn ts<L: EightLanes>(_inputs: &[[f32; 8]; INPUTS]) -> [f32; 8] {
-        [0.0; 8]
+    fn ts<L: EightLanes>(_inputs: &[[f32; 8]; INPUTS], _len: usize) -> [f32; 8] {
+        unreachable!("a depth whose `t` is late computes those of eight hits")
     }
 
     /// A float that is not before the hit. What lies beyond it along the ray need not be looked at.

@@ -65,6 +65,8 @@ const SLACK: f32 = 2.0 * 40.0 * 2.0 * UNIT;
 /// The error of the height, in E E |s|, and of det, in E E: 17 and 98 units, of which is said where below.
 const HEIGHT: f32 = 20.0 * UNIT;
 const DETERMINANT: f32 = 112.0 * UNIT;
+// What culling relies on.
+const _: () = assert!(2.0 * SLACK > DETERMINANT && HEIGHT / SLACK == 0.125);
 /// More than all underflows together: each loses at most 2^-150, and those of u, v and det add up to less than
 /// (4 |s| + 12 E + 42) 2^-150, where TINY (1 + |s| + 2 E) is added. Far more, but the least number that is not denormal: for each sum with
 /// one that is, some processors take a hundred cycles.
@@ -103,7 +105,7 @@ impl<const N: usize> FilterBlock<N> {
     }
 
     #[inline(always)]
-    pub fn place(&self, lane: usize) -> Place<'_> {
+    pub(super) fn place(&self, lane: usize) -> Place<'_> {
         self.corners.place(lane)
     }
 }

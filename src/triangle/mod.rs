@@ -96,13 +96,13 @@ pub trait TriangleTest: Send + Sync + 'static {
         values: &Self::Values<N>,
     ) -> Option<Self::Depth<'a>>;
 
-    /// The order of two hits along their ray. Those of one ray are totally ordered.
+    /// The order of two hits along their `ray`, the one that they were decided with. Those of one ray are totally ordered.
     #[inline(always)]
     fn order<'a>(ray: &Self::Ray, one: &Self::Depth<'a>, other: &Self::Depth<'a>) -> Ordering {
         one.order(other).unwrap_or_else(|| Self::order_closely(ray, one, other))
     }
 
-    /// The same where [`Depth::order`] cannot tell.
+    /// The same where [`Depth::order`] cannot tell; a test whose depths cannot must write it.
     fn order_closely(_ray: &Self::Ray, _one: &Self::Depth<'_>, _other: &Self::Depth<'_>) -> Ordering {
         Ordering::Equal
     }

@@ -90,13 +90,13 @@ impl Depth for ExactDepth<'_> {
     }
 
     #[inline(always)]
-    fn ts<L: EightLanes>(inputs: &[[f32; 8]; INPUTS]) -> [f32; 8] {
+    fn ts<L: EightLanes>(inputs: &[[f32; 8]; INPUTS], len: usize) -> [f32; 8] {
         let vector = |first: usize| LaneVec3::load(&[inputs[first], inputs[first + 1], inputs[first + 2]]);
         let (placed, low, high) = place::<8, L>(vector(9), vector(12), [vector(0), vector(3), vector(6)]);
         let (low, high) = (L::narrow(low), L::narrow(high));
         let (told, mut ts) = (placed & high.le(low), high.store());
         if told != 0xff {
-            for (lane, t) in ts.iter_mut().enumerate().filter(|(lane, _)| told >> lane & 1 == 0) {
+            for (lane, t) in ts[..len].iter_mut().enumerate().filter(|(lane, _)| told >> lane & 1 == 0) {
                 *t = exact_t(inputs, lane);
             }
         }
@@ -109,10 +109,10 @@ impl Depth for ExactDepth<'_> {
     }
 }
 
-/// Of the hit in `lane`; 0 where that lane holds none.
+/// Of the hit in `lane`.
 #[cold]
 fn exact_t(inputs: &[[f32; 8]; INPUTS], lane: usize) -> f32 {
     let vector = |first: usize| Vec3::new(inputs[first][lane], inputs[first + 1][lane], inputs[first + 2][lane]);
     let ray = Ray::new(vector(9), vector(12));
-    exact::hit(&ray, [vector(0), vector(3), vector(6)]).map_or(0.0, |t| t.round())
+    exact::hit(&ray, [vector(0), vector(3), vector(6)]).expect("a depth is that of a hit").round()
 }

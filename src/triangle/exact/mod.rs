@@ -24,7 +24,7 @@ use enclosure::{Sight, look, place};
 /// `t`, at equal `t` by number; the `t` returned is the exact one, correctly rounded (so that one just before an open end `t_max` may be
 /// returned as `t_max`). In a structure that loses nothing the answer to every ray is the mathematical one. Does not promise:
 /// speed where many rays pass exactly through edges or begin in planes of triangles: each such triangle costs 50 nanoseconds, or a
-/// microsecond where coordinates are of very different size.
+/// microsecond where the bits of the coordinates lie more than forty places apart.
 ///
 /// # References
 /// Filters before exact arithmetic: Fortune, Van Wyk: Efficient exact arithmetic for computational geometry. SoCG 1993. Shewchuk:
