@@ -34,11 +34,8 @@ pub struct FilterBlock<const N: usize> {
 /// What the first stage has computed of `N` triangles, in the notation of [`survivors`].
 #[derive(Clone, Copy, Debug)]
 pub struct Survivors<L> {
-    /// f and s x e.
-    edge2: [L; 3],
-    q: [L; 3],
-    det: L,
     /// With the sign of det.
+    height: L,
     u: L,
     v: L,
     abs_det: L,
@@ -111,24 +108,13 @@ impl<const N: usize> FilterBlock<N> {
 }
 
 impl<L> Survivors<L> {
-    /// The height, with the sign of det.
-    #[inline(always)]
-    fn height<const N: usize>(&self) -> L
-    where
-        L: Lanes<N>,
-    {
-        let &Self { edge2: [fx, fy, fz], q: [qx, qy, qz], det, .. } = self;
-        LaneVec3::new(fx, fy, fz).dot_loosely(LaneVec3::new(qx, qy, qz)).flip_sign(det)
-    }
-
     /// What is certain of them, and where they are met.
     #[inline(always)]
     pub fn sights<const N: usize>(&self) -> Sights<N>
     where
         L: Lanes<N>,
     {
-        let &Self { abs_det, u, v, slack, extent, distance, tiny, scale, .. } = self;
-        let height = self.height();
+        let &Self { height, abs_det, u, v, slack, extent, distance, tiny, scale } = self;
         let height_error = extent.mul_add_loosely(extent.mul(distance).mul_add_loosely(L::splat(HEIGHT), tiny), tiny);
         let det_error = extent.mul_add_loosely(extent.mul_add_loosely(L::splat(DETERMINANT), tiny), tiny);
         // A NaN in u or v makes the third one, which wins.
@@ -196,25 +182,12 @@ pub(super) fn survivors<const N: usize, L: Lanes<N>>(
     let below = L::zero().sub(slack);
     let outside = u.lt(below) | v.lt(below) | abs_det.add(slack).lt(u.add(v));
 
-    let rows = |v: LaneVec3<N, L>| [v.x, v.y, v.z];
-    let survivors = Survivors {
-        edge2: rows(edge2),
-        q: rows(q),
-        det,
-        u,
-        v,
-        abs_det,
-        slack,
-        extent,
-        distance,
-        tiny,
-        scale: ray.scale,
-    };
     // In any case, also where no lane is left: whether one is cannot be predicted, and one guess a block is enough.
-    let height = survivors.height();
+    let height = edge2.dot_loosely(q).flip_sign(det);
     let height_error = extent.mul(L::splat(HEIGHT / SLACK)).mul_add_loosely(slack, tiny);
     let behind = height.add(height_error).lt(L::zero()) & slack.lt(abs_det);
     let last = L::splat((to.max(f32::MIN_POSITIVE) * ray.unscaled).max(f32::MIN_POSITIVE));
     let beyond = slack.mul_add_loosely(last, height_error).lt(height.sub(last.mul(abs_det)));
+    let survivors = Survivors { height, u, v, abs_det, slack, extent, distance, tiny, scale: ray.scale };
     (block.lanes & !(outside | behind | beyond), survivors)
 }
