@@ -16,7 +16,7 @@ use crate::accel::Observer;
 use crate::geometry::{Hit, Ray};
 use crate::simd::EightLanes;
 use crate::traversal::leaf::{Nearest, search, start};
-use crate::traversal::line::{Line, after, before};
+use crate::traversal::line::after;
 use crate::traversal::walk::Walk;
 use crate::triangle::TriangleTest;
 
@@ -40,11 +40,6 @@ impl<T: TriangleTest> Bvh8<T> {
     ) {
         let Some((t_min, unfound)) = start::<T>(ray) else { return *nearest = Nearest::NOTHING };
         *nearest = unfound;
-        // No box stands above the blocks of a root that is a leaf: one look spares the rays that miss them all.
-        let several = self.root.blocks().is_some_and(|(_, count)| count > 1);
-        if several && Line::new(ray, &self.bounds).clip(&self.bounds, before(t_min), after(unfound.t)).is_none() {
-            return;
-        }
         let prepared = T::prepare(ray);
         let prepared_ray = PreparedRay::<L>::new(ray, &self.bounds, t_min);
         self.descend::<ANY, L, O>(self.root, &prepared_ray, &prepared, t_min, nearest, observer);
