@@ -152,6 +152,8 @@ impl<'a> Collapse<'a> {
         if let Some(root) = tree.nodes.first() {
             let whole = Some(root.bounds.half_area()).filter(|&whole| whole > 0.0).unwrap_or(1.0);
             Chooser { tree, costs, whole }.choose(0, &mut best, &mut vec![]);
+            // A root of several blocks stays below a box, which spares the rays that miss them all.
+            best[0].leaf &= best[0].triangles as usize <= WIDTH;
         }
         Self { tree, best }
     }
@@ -172,7 +174,8 @@ impl<'a> Collapse<'a> {
     pub fn children(&self, at: u32) -> Children {
         let (mut found, mut len) = ([Part::Leaf(0); WIDTH], 0);
         self.gather(at, WIDTH, &mut |part| {
-            found[len] = part;
+            // What is not dealt out is the one child of its node.
+            found[len] = if part == Part::Node(at) { Part::Leaf(at) } else { part };
             len += 1;
         });
         // Nodes come before leaves, small boxes before large ones.

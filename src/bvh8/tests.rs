@@ -27,6 +27,35 @@ fn lanes_left_over_are_not_counted_as_triangles() {
     }
 }
 
+/// Triangles of one place, which no partition can divide, and a cube.
+#[test]
+fn rays_that_miss_a_root_of_several_blocks_test_no_triangle() {
+    let coincident = mesh(40, |_| [Vec3::X, Vec3::Y, Vec3::Z]);
+    let apart = soup(12, 3);
+    for mesh in [coincident, apart].map(Arc::new) {
+        for partition in ALL {
+            for batch in [Batch::Single, Batch::Packets, Batch::Interleaved] {
+                let tree = Tree::build(&mesh, &Bvh8Config { batch, ..Bvh8Config::new(partition) }).unwrap();
+                let bounds = mesh.bounds();
+                let beside = Ray::new(bounds.max + bounds.max.abs(), Vec3::ONE);
+                let mut counts = Counts::default();
+                assert_eq!(tree.closest_hit(&beside, &mut counts), None);
+                assert_eq!(counts.tests, 0, "{partition:?}");
+                let [mut hits, mut alone] = [[None; 32]; 2];
+                let centroid = |mesh: &Mesh, i: u32| mesh.corners(i).iter().sum::<Vec3>() / 3.0;
+                let rays: [Ray; 32] = std::array::from_fn(|i| {
+                    let from = bounds.min - Vec3::splat(0.5 + i as f32 / 64.0);
+                    Ray::new(from, centroid(&mesh, i as u32 % 12) - from)
+                });
+                tree.closest_hits(&rays, &mut hits, &mut ());
+                rays.iter().zip(&mut alone).for_each(|(ray, hit)| *hit = tree.closest_hit(ray, &mut ()));
+                assert_eq!(hits, alone, "{partition:?}, {batch:?}");
+                assert!(hits.iter().flatten().count() > 4, "nothing is proven by rays that hit nothing");
+            }
+        }
+    }
+}
+
 #[test]
 fn the_unit_of_length_does_not_matter() {
     let metres = soup(2000, 31);
