@@ -6,6 +6,7 @@ use super::config::Batch;
 use super::packet_hits::RAYS;
 use super::stream::{Slots, Stream};
 use super::tree::Bvh8;
+use super::trial::Next;
 use crate::accel::Observer;
 use crate::geometry::{Hit, Ray};
 use crate::simd::{EightLanes, Kernel, Level, dispatch};
@@ -16,6 +17,9 @@ use crate::triangle::{Depth, INPUTS, TriangleTest};
 /// Rays of a slice that are answered before the next ones are looked at: so many that the last ones under way, when no others follow,
 /// are few beside them.
 const WINDOW: usize = 4096;
+
+/// Groups of a window that show which way is faster.
+const ENOUGH: usize = WINDOW / RAYS / 2;
 
 /// Groups of a window, by their numbers; the last one may be shorter.
 pub(super) struct Groups {
@@ -42,6 +46,24 @@ impl Groups {
     fn places(&self, rays: usize) -> impl Iterator<Item = Range<usize>> {
         let first = |&number: &u8| usize::from(number) * RAYS;
         self.numbers[..self.len].iter().map(first).map(move |first| first..rays.min(first + RAYS))
+    }
+
+    /// The same, those that follow each other in one.
+    fn runs(&self, rays: usize) -> impl Iterator<Item = Range<usize>> {
+        let numbers = &self.numbers[..self.len];
+        numbers.chunk_by(|one, next| one + 1 == *next).map(move |run| {
+            let [first, last] = [run[0], run[run.len() - 1]].map(usize::from);
+            first * RAYS..rays.min((last + 1) * RAYS)
+        })
+    }
+
+    /// Two halves that are alike: four of them belong to the one, the next four to the other.
+    fn halves(&self) -> [Self; 2] {
+        let mut halves = [Self::NONE; 2];
+        for (place, &number) in self.numbers[..self.len].iter().enumerate() {
+            halves[place / 4 % 2].push(number.into());
+        }
+        halves
     }
 }
 
@@ -225,11 +247,45 @@ pub(super) fn answer<const ANY: bool, T: TriangleTest, A, O: Observer>(
         }
         for (rays, answers) in rays.chunks(WINDOW).zip(answers.chunks_mut(WINDOW)) {
             let form = &form;
-            let which = match tree.batch {
-                Batch::Packets => dispatch(level, InPackets::<ANY, T, A, _> { tree, rays, answers, form }),
-                _ => Groups::all(rays.len()),
-            };
-            dispatch(level, Interleaved::<ANY, T, A, _> { tree, rays, which: &which, answers, form });
+            if tree.batch == Batch::Interleaved {
+                let which = &Groups::all(rays.len());
+                dispatch(level, Interleaved::<ANY, T, A, _> { tree, rays, which, answers, form });
+            } else {
+                let which = dispatch(level, InPackets::<ANY, T, A, _> { tree, rays, answers, form });
+                answer_apart::<ANY, T, A>(tree, rays, &which, answers, form);
+            }
+        }
+    }
+}
+
+/// Answers rays of a window that cannot travel together in the faster one of two ways.
+fn answer_apart<const ANY: bool, T: TriangleTest, A>(
+    tree: &Bvh8<T>,
+    rays: &[Ray],
+    which: &Groups,
+    answers: &mut [A],
+    form: &impl Fn(Option<Hit>) -> A,
+) {
+    let level = Level::current();
+    let mut run = |which: &Groups, one_by_one: bool| {
+        if one_by_one {
+            for run in which.runs(rays.len()) {
+                let (rays, answers) = (&rays[run.clone()], &mut answers[run]);
+                dispatch(level, InOrder::<ANY, T, A, _> { tree, rays, answers, form });
+            }
+        } else {
+            dispatch(level, Interleaved::<ANY, T, A, _> { tree, rays, which, answers, form });
+        }
+    };
+    if which.len < ENOUGH {
+        return run(which, false);
+    }
+    let trial = &tree.apart[usize::from(ANY)];
+    match trial.next() {
+        Next::All(way) => run(which, way == 1),
+        Next::Both { first } => {
+            let halves = which.halves();
+            trial.run(first, |way| run(&halves[usize::from(way != first)], way == 1));
         }
     }
 }

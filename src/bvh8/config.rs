@@ -47,7 +47,8 @@ pub enum Partition {
 pub enum Batch {
     /// One after the other.
     Single,
-    /// Sixteen in a row travel together where they share an octant; of the others eight are under way at a time.
+    /// Sixteen in a row travel together where they share an octant. Of the others eight are under way at a time or one follows the other,
+    /// whichever was faster on the last ones of which both were tried.
     Packets,
     /// Eight at a time are under way, also where they agree.
     Interleaved,

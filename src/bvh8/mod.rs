@@ -19,6 +19,7 @@ mod stream;
 mod tests;
 mod traverse;
 mod tree;
+mod trial;
 
 pub use config::{Batch, Bvh8Config, Partition};
 pub use tree::Bvh8;

@@ -4,6 +4,7 @@ use glam::Vec3;
 
 use super::batch::{Groups, Interleaved};
 use super::node::Limits;
+use super::trial::Trial;
 use super::*;
 use crate::accel::{Accel, BuildError, Counts};
 use crate::build::Quality;
@@ -187,14 +188,23 @@ fn long_slices_are_answered_as_their_rays_are() {
     let alone: Vec<_> = rays.iter().map(|ray| single.closest_hit(ray, &mut ())).collect();
     let met = |of: &dyn Fn(usize) -> bool| (0..rays.len()).filter(|&i| of(i) && alone[i].is_some()).count();
     assert!(met(&|i| i / 16 % 3 == 0) > 2000 && met(&|i| i / 16 % 3 != 0) > 4000, "nearly all hit something");
-    for batch in [Batch::Single, Batch::Packets, Batch::Interleaved] {
-        let tree = Tree::build(&mesh, &Bvh8Config { batch, ..Bvh8Config::default() }).unwrap();
+    let decided = [Batch::Packets; 2].into_iter().zip([Some(0), Some(1)]);
+    for (batch, winner) in
+        [Batch::Single, Batch::Packets, Batch::Interleaved].map(|batch| (batch, None)).into_iter().chain(decided)
+    {
+        let mut tree = Tree::build(&mesh, &Bvh8Config { batch, ..Bvh8Config::default() }).unwrap();
+        if let Some(winner) = winner {
+            tree.apart = [Trial::won_by(winner), Trial::won_by(winner)];
+        }
         for len in [0, 15, 4095, 4096, 4097, rays.len()] {
             let (mut hits, mut any) = (vec![None; len], vec![false; len]);
             tree.closest_hits(&rays[..len], &mut hits, &mut ());
             tree.any_hits(&rays[..len], &mut any, &mut ());
-            assert!(hits == alone[..len], "{batch:?}, {len} rays");
-            assert!(any.iter().zip(&alone).all(|(any, hit)| *any == hit.is_some()), "{batch:?}, {len} rays");
+            assert!(hits == alone[..len], "{batch:?}, {winner:?}, {len} rays");
+            assert!(
+                any.iter().zip(&alone).all(|(any, hit)| *any == hit.is_some()),
+                "{batch:?}, {winner:?}, {len} rays"
+            );
         }
     }
 }

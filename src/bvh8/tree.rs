@@ -2,6 +2,7 @@ use super::collapse::Collapse;
 use super::config::{Batch, Bvh8Config};
 use super::layout::Layout;
 use super::node::{Child, Limits, Node, WIDTH};
+use super::trial::Trial;
 use crate::accel::BuildError;
 use crate::build::sah::CostModel;
 use crate::geometry::{Aabb, Mesh};
@@ -27,6 +28,8 @@ pub struct Bvh8<T: TriangleTest> {
     pub(super) blocks: Vec<LeafBlock<T, WIDTH>>,
     pub(super) bounds: Aabb,
     pub(super) batch: Batch,
+    /// Of rays that cannot travel together, for the closest hit and for any: several under way at once, or one after the other.
+    pub(super) apart: [Trial; 2],
 }
 
 impl<T: TriangleTest> Bvh8<T> {
@@ -36,6 +39,6 @@ impl<T: TriangleTest> Bvh8<T> {
         let tree = config.partition(mesh);
         let collapse = Collapse::new(&tree, &CostModel::new(1.0, config.block_cost, 0.0));
         let Layout { root, nodes, blocks } = Layout::new(mesh, &collapse, limits)?;
-        Ok(Self { root, nodes, blocks, bounds: mesh.bounds(), batch: config.batch })
+        Ok(Self { root, nodes, blocks, bounds: mesh.bounds(), batch: config.batch, apart: Default::default() })
     }
 }
