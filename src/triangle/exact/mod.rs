@@ -10,6 +10,7 @@ use glam::Vec3;
 pub use exact_depth::ExactDepth;
 
 use super::TriangleTest;
+use super::corners::Place;
 use super::filter::{FilterBlock, FilterRay, Sights, Survivors, survivors};
 use crate::exact;
 use crate::geometry::{Ray, round_down, round_up};
@@ -94,7 +95,7 @@ impl TriangleTest for Exact {
         } else if sure && (high < start || end <= low) {
             return None;
         } else {
-            in_f64(ray, block.place(lane).corners(), sure)?
+            in_f64(ray, block.place(lane), sure)?
         };
         Some(ExactDepth::new(block.place(lane), low, high))
     }
@@ -110,7 +111,8 @@ impl TriangleTest for Exact {
 /// Where the ray meets one triangle of which `f32` could not tell, if it does: bounds of the exact `t`. The line is known to be `met` or
 /// not. Rare, so out of line.
 #[inline(never)]
-fn in_f64(ray: &Ray, corners: [Vec3; 3], met: bool) -> Option<(f32, f32)> {
+fn in_f64(ray: &Ray, triangle: Place, met: bool) -> Option<(f32, f32)> {
+    let corners = triangle.corners();
     if !met && runs_along(ray, &corners) {
         return None;
     }
