@@ -60,7 +60,9 @@ impl Place<'_> {
     #[inline(always)]
     pub(super) fn coordinates(&self) -> [f32; 9] {
         let lanes = self.coordinates.len() / 9;
-        std::array::from_fn(|row| self.coordinates[row * lanes + self.lane])
+        debug_assert!(self.lane < lanes);
+        // SAFETY: there are nine rows of `lanes`, and `place` has checked that the lane is one of them.
+        std::array::from_fn(|row| unsafe { *self.coordinates.get_unchecked(row * lanes + self.lane) })
     }
 
     #[inline(always)]
