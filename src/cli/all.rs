@@ -50,7 +50,7 @@ pub fn run(session: &Session, args: &Args) -> anyhow::Result<Status> {
         if !terminal.quiet {
             let rest: Vec<&str> = studies[i + 1..].iter().map(|study| study.name()).collect();
             let left = if rest.is_empty() { "nothing".into() } else { rest.join(", ") };
-            eprintln!("{}; then left: {left}", study.name());
+            crate::output::tell(format_args!("{}; then left: {left}", study.name()));
         }
         if let Some(why) = study.cannot_be_measured_here() {
             rows.push([study.name().into(), "-".into(), "left out".into(), "-".into()]);

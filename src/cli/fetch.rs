@@ -47,7 +47,7 @@ pub fn run(args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
             continue;
         }
         if let Err(error) = fetch(real, &folder, terminal) {
-            eprintln!("error: {error:#}");
+            crate::output::tell(format_args!("error: {error:#}"));
             failed += 1;
         }
     }

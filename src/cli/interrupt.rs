@@ -24,7 +24,7 @@ pub fn watch() {
                 if !LISTENS.load(Ordering::SeqCst) || ASKED.swap(true, Ordering::SeqCst) {
                     std::process::exit(STATUS.into());
                 }
-                eprintln!("\nStops; Ctrl-C once more ends at once.");
+                crate::output::tell(format_args!("\nStops; Ctrl-C once more ends at once."));
                 crate::study::process::end();
             }
         });

@@ -212,7 +212,7 @@ fn run_with(suite: &Suite, args: impl IntoIterator<Item = OsString>, processes: 
         Err(error) => match error.downcast_ref::<clap::Error>() {
             Some(message) => told(message),
             None => {
-                eprintln!("error: {error:#}");
+                crate::output::tell(format_args!("error: {error:#}"));
                 ExitCode::from(1)
             }
         },
@@ -236,9 +236,14 @@ fn answer_job(session: &Session, matches: &ArgMatches, job: &Job, out: Option<&P
         let done = study.write_job(chosen(matches)?, &suite.registry, job, out, &mut OnTerminal::new(terminal))?;
         match done {
             Done::Measured => {}
-            Done::Before => eprintln!("{} holds this case already: nothing is measured.", out.display()),
+            Done::Before => {
+                crate::output::tell(format_args!("{} holds this case already: nothing is measured.", out.display()))
+            }
             Done::Meanwhile => {
-                eprintln!("{} has been written by another job meanwhile: its case is kept.", out.display());
+                crate::output::tell(format_args!(
+                    "{} has been written by another job meanwhile: its case is kept.",
+                    out.display()
+                ));
             }
         }
         return Ok(());

@@ -117,7 +117,7 @@ impl Progress {
             let limit = LIMIT.as_secs();
             let advice =
                 "if it hangs, end this run; `sahara validate` gives it up after --limit seconds and names the ray";
-            own.suspend(|| eprintln!("{stage} for more than {limit} s: {advice}"));
+            own.suspend(|| crate::output::tell(format_args!("{stage} for more than {limit} s: {advice}")));
         });
         Self {
             bar,
@@ -186,7 +186,7 @@ impl Progress {
     pub fn warn<'a>(&mut self, warnings: impl IntoIterator<Item = &'a String>) {
         for warning in warnings {
             if !self.quiet && !self.warned.contains(warning) {
-                self.bar.suspend(|| eprintln!("warning: {warning}"));
+                self.bar.suspend(|| crate::output::tell(format_args!("warning: {warning}")));
                 self.warned.push(warning.clone());
             }
         }

@@ -122,7 +122,7 @@ pub fn run_as(session: &Session, study: &dyn AnyStudy, chosen: Chosen, common: &
     }
     match failure {
         Some(error) if error.is_wrong_answer() => {
-            eprintln!("error: {error}");
+            crate::output::tell(format_args!("error: {error}"));
             Ok(Status::Wrong)
         }
         Some(error) => Err(error.into()),

@@ -91,10 +91,10 @@ impl Processes {
             let line = line.map_err(|cause| trouble(cause.to_string()))?;
             let line = String::from_utf8_lossy(&line);
             let Some((own, said)) = line.split_once(MARK) else {
-                eprintln!("{line}");
+                crate::output::tell(&line);
                 continue;
             };
-            eprint!("{own}");
+            let _ = write!(io::stderr(), "{own}");
             match serde_json::from_str(said).map_err(|cause| trouble(format!("it said {said:?}: {cause}")))? {
                 Said::Build(what) => progress(Stage::Build(&what)),
                 Said::Rays(what) => progress(Stage::Rays(&what)),
