@@ -2,7 +2,20 @@
 
 use std::path::Path;
 
-use super::command::{RIGHT, SQUARE, path_text, refuses, refuses_in_a_line, sahara, small, stderr, stdout, write};
+use super::command::{
+    RIGHT, SQUARE, USAGE, command, path_text, refuses, refuses_in_a_line, sahara, small, stderr, stdout, write,
+};
+
+#[test]
+#[cfg(target_os = "linux")]
+fn messages_that_cannot_be_written_end_no_run() {
+    let status = |args: &[&str]| {
+        let full = std::fs::File::options().write(true).open("/dev/full").unwrap();
+        command(args).stderr(full).output().unwrap().status.code()
+    };
+    assert_eq!(status(&["compare", "cube", "-s", "sah-kd", "--quick"]), Some(RIGHT));
+    assert_eq!(status(&["compare", "sponsa"]), Some(USAGE));
+}
 
 #[test]
 fn what_is_not_known_is_refused_with_what_is() {
