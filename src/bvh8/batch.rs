@@ -6,7 +6,7 @@ use super::config::Batch;
 use super::packet_hits::RAYS;
 use super::stream::{Slots, Stream};
 use super::tree::Bvh8;
-use super::trial::Next;
+use super::trial::Way;
 use crate::accel::Observer;
 use crate::geometry::{Hit, Ray};
 use crate::simd::{EightLanes, Kernel, Level, dispatch};
@@ -18,14 +18,13 @@ use crate::triangle::{Depth, INPUTS, TriangleTest};
 /// are few beside them.
 const WINDOW: usize = 4096;
 
-/// Groups of a window that show which way is faster.
-const ENOUGH: usize = WINDOW / RAYS / 2;
-
-/// Groups of a window, by their numbers; the last one may be shorter.
+/// Groups of a window, by their numbers in ascending order; the last one may be shorter.
 pub(super) struct Groups {
     numbers: [u8; WINDOW / RAYS],
     len: usize,
 }
+
+const _: () = assert!(WINDOW / RAYS <= 1 << u8::BITS);
 
 impl Groups {
     const NONE: Self = Self { numbers: [0; WINDOW / RAYS], len: 0 };
@@ -51,13 +50,13 @@ impl Groups {
     /// The same, those that follow each other in one.
     fn runs(&self, rays: usize) -> impl Iterator<Item = Range<usize>> {
         let numbers = &self.numbers[..self.len];
-        numbers.chunk_by(|one, next| one + 1 == *next).map(move |run| {
+        numbers.chunk_by(|one, next| next - one == 1).map(move |run| {
             let [first, last] = [run[0], run[run.len() - 1]].map(usize::from);
             first * RAYS..rays.min((last + 1) * RAYS)
         })
     }
 
-    /// Two halves that are alike: four of them belong to the one, the next four to the other.
+    /// Two halves that are alike, up to four of them: four belong to the one, the next four to the other.
     fn halves(&self) -> [Self; 2] {
         let mut halves = [Self::NONE; 2];
         for (place, &number) in self.numbers[..self.len].iter().enumerate() {
@@ -252,7 +251,7 @@ pub(super) fn answer<const ANY: bool, T: TriangleTest, A, O: Observer>(
                 dispatch(level, Interleaved::<ANY, T, A, _> { tree, rays, which, answers, form });
             } else {
                 let which = dispatch(level, InPackets::<ANY, T, A, _> { tree, rays, answers, form });
-                answer_apart::<ANY, T, A>(tree, rays, &which, answers, form);
+                answer_apart::<ANY, T, A>(level, tree, rays, &which, answers, form);
             }
         }
     }
@@ -260,32 +259,28 @@ pub(super) fn answer<const ANY: bool, T: TriangleTest, A, O: Observer>(
 
 /// Answers rays of a window that cannot travel together in the faster one of two ways.
 fn answer_apart<const ANY: bool, T: TriangleTest, A>(
+    level: Level,
     tree: &Bvh8<T>,
     rays: &[Ray],
     which: &Groups,
     answers: &mut [A],
     form: &impl Fn(Option<Hit>) -> A,
 ) {
-    let level = Level::current();
-    let mut run = |which: &Groups, one_by_one: bool| {
-        if one_by_one {
-            for run in which.runs(rays.len()) {
-                let (rays, answers) = (&rays[run.clone()], &mut answers[run]);
+    let mut run = |which: &Groups, way: Way| match way {
+        Way::Interleaved => dispatch(level, Interleaved::<ANY, T, A, _> { tree, rays, which, answers, form }),
+        Way::InOrder => {
+            for places in which.runs(rays.len()) {
+                let (rays, answers) = (&rays[places.clone()], &mut answers[places]);
                 dispatch(level, InOrder::<ANY, T, A, _> { tree, rays, answers, form });
             }
-        } else {
-            dispatch(level, Interleaved::<ANY, T, A, _> { tree, rays, which, answers, form });
         }
     };
-    if which.len < ENOUGH {
-        return run(which, false);
-    }
     let trial = &tree.apart[usize::from(ANY)];
-    match trial.next() {
-        Next::All(way) => run(which, way == 1),
-        Next::Both { first } => {
+    match trial.due(which.len) {
+        None => run(which, trial.choice()),
+        Some(race) => {
             let halves = which.halves();
-            trial.run(first, |way| run(&halves[usize::from(way != first)], way == 1));
+            race.run([halves[0].len, halves[1].len], |way, half| run(&halves[half], way));
         }
     }
 }

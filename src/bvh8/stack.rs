@@ -67,7 +67,7 @@ impl<'a, const ANY: bool> Stack<'a, ANY> {
     /// Those that are left of it.
     ///
     /// # Safety
-    /// `len` is 0, or that of a stack for the same query after which nobody wrote to the entries.
+    /// `len` is 0, 1 after [`reset`](Entries::reset), or that of a stack for the same query after which nobody wrote to the entries.
     #[inline(always)]
     pub unsafe fn of(entries: &'a mut Entries, len: usize) -> Self {
         Self { entries, len }

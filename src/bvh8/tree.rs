@@ -28,8 +28,9 @@ pub struct Bvh8<T: TriangleTest> {
     pub(super) blocks: Vec<LeafBlock<T, WIDTH>>,
     pub(super) bounds: Aabb,
     pub(super) batch: Batch,
-    /// Of rays that cannot travel together, for the closest hit and for any: several under way at once, or one after the other.
-    pub(super) apart: [Trial; 2],
+    /// Of rays that cannot travel together, for the closest hit and for any: several under way at once, or one after the other. What is learned
+    /// there lies apart from what all threads read.
+    pub(super) apart: Box<[Trial; 2]>,
 }
 
 impl<T: TriangleTest> Bvh8<T> {

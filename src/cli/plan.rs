@@ -135,6 +135,6 @@ fn line(words: &[String], job: &str, file: &Path) -> anyhow::Result<String> {
 /// Says on standard error what is no job.
 fn told(quiet: bool, sentence: &str) {
     if !quiet {
-        crate::output::tell(format_args!("{sentence}"));
+        crate::output::tell(sentence);
     }
 }

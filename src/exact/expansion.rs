@@ -23,7 +23,7 @@ impl Expansion {
         difference
     }
 
-    /// `x`, which is less than 2^126, times 2 to the power of `exponent`, which is that of a float whose bits are all used.
+    /// `x`, which is less than 2^126, times 2 to the power of `exponent`, which is in [-1022, 800].
     pub fn of_integer(mut x: i128, exponent: i32) -> Self {
         debug_assert!(x.unsigned_abs() < 1 << 126 && (-1022..=800).contains(&exponent));
         let scale = f64::from_bits(((1023 + exponent) as u64) << 52);

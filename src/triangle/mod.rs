@@ -104,7 +104,7 @@ pub trait TriangleTest: Send + Sync + 'static {
 
     /// The same where [`Depth::order`] cannot tell; a test whose depths cannot must write it.
     fn order_closely(_ray: &Self::Ray, _one: &Self::Depth<'_>, _other: &Self::Depth<'_>) -> Ordering {
-        Ordering::Equal
+        unreachable!("depths that need the ray to be ordered have an order of their own")
     }
 
     /// Whether the first stage decides everything: then [`decide`](Self::decide) takes every candidate, and [`Depth::of`] knows each depth.
