@@ -17,7 +17,7 @@ use super::args::{Measuring, Rays, Scenes, Structures, with_twin};
 use super::epoch::{Epoch, Line, Twins, lines, middles, troubles, twins};
 use super::{Context, Data, Effort, Plan, Study, Trouble, least_squares, sources};
 use crate::measure::{AaNoise, Estimate, Rerun, Variance};
-use crate::nearest::named_enum;
+use crate::names::named_enum;
 use crate::registry::Registry;
 use crate::report::document::Block;
 use crate::report::{Statement, Table};
@@ -45,8 +45,9 @@ pub struct ScalingArgs {
     structures: Structures,
     #[command(flatten)]
     rays: Rays,
+    // The builds of the finest sphere alone take minutes an epoch.
     #[command(flatten)]
-    measuring: Measuring,
+    measuring: Measuring<3>,
 }
 
 impl Study for ScalingStudy {
