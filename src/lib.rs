@@ -59,7 +59,7 @@ pub mod golden;
 #[cfg(feature = "suite")]
 pub mod measure;
 #[cfg(feature = "suite")]
-mod nearest;
+mod names;
 #[cfg(feature = "suite")]
 pub mod oracle;
 #[cfg(feature = "suite")]

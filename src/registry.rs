@@ -18,7 +18,7 @@ use crate::bvh8::{Bvh8, Bvh8Config, Partition};
 use crate::external::obvhs::{Native, ObvhsBvh2, ObvhsConfig, ObvhsCwBvh, Over, RtTest};
 use crate::geometry::Mesh;
 use crate::kdtree::{KdConfig, KdTree};
-use crate::nearest::suggestion;
+use crate::names::suggestion;
 use crate::triangle::{
     BaldwinWeber, EdgeF64, Exact, MollerTrumbore, MollerTrumboreF64, Plucker, TriangleTest, Watertight,
 };

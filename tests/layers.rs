@@ -7,7 +7,7 @@ use std::path::Path;
 /// The rooms by layer, as ARCHITECTURE.md draws them. Those of one layer may import each other in one direction, unless they are structures.
 const LAYERS: [(&str, u32); 28] = [
     ("geometry", 0),
-    ("nearest", 0),
+    ("names", 0),
     ("output", 0),
     ("simd", 0),
     ("exact", 1),

@@ -4,7 +4,7 @@ use super::Suite;
 use super::terminal::Terminal;
 use super::validate::described;
 use crate::accel::{Observed, Query};
-use crate::nearest::suggestion;
+use crate::names::suggestion;
 use crate::registry::{Entry, Registry};
 use crate::render::ViewKind;
 use crate::report::number::count;

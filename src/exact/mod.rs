@@ -1,7 +1,7 @@
 //! One ray against one triangle, without rounding: what a ray of `f32` numbers meets, and in which order, is decidable.
 
 mod expansion;
-mod fixed;
+mod integers;
 #[cfg(any(test, feature = "suite"))]
 pub mod rational;
 
@@ -34,7 +34,7 @@ pub fn hit(ray: &Ray, corners: [Vec3; 3]) -> Option<ExactT> {
     if !ray.origin.is_finite() || !ray.direction.is_finite() || !corners.iter().all(|p| p.is_finite()) {
         return None;
     }
-    fixed::hit(ray, corners).unwrap_or_else(|| hit_by_sums(ray, corners))
+    integers::hit(ray, corners).unwrap_or_else(|| hit_by_sums(ray, corners))
 }
 
 /// The same for all finite numbers, in sums of floats.

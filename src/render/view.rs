@@ -7,7 +7,7 @@ use glam::Vec3;
 use super::{ErrorMap, Image, Picture, Work, colour_map, render};
 use crate::accel::{DynAccel, Observed};
 use crate::geometry::{Hit, Ray};
-use crate::nearest::{Unknown, find, named_enum};
+use crate::names::{Unknown, find, named_enum};
 use crate::scene::{Scene, View};
 
 named_enum! {

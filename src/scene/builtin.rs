@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use super::assemble::{Origin, assemble};
 use super::format::SceneFile;
 use super::{Scene, SceneError};
-use crate::nearest::{named, suggestion};
+use crate::names::{named, suggestion};
 
 /// How the source report groups its scenes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use clap::ValueEnum;
 
-use super::baselines::takes_minutes;
 use super::epoch::{Asked, Settings};
+use super::reference_structures::takes_minutes;
 use super::{BRUTE_FORCE, Effort, REPORT_TREE, SAH_TREE, rays_or_all, sources};
 use crate::measure::Threads;
 use crate::registry::{Choice, Registry};

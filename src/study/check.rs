@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use super::baselines::BRUTE_FORCE;
 use super::built::Built;
+use super::reference_structures::BRUTE_FORCE;
 use super::{Stage, StudyError};
 use crate::accel::{DynAccel, Query};
 use crate::geometry::{Hit, Ray};

@@ -2,10 +2,10 @@
 
 use rayon::prelude::*;
 
-use super::baselines::BRUTE_FORCE;
 use super::built::Built;
 use super::counted::Counted;
 use super::guarded;
+use super::reference_structures::BRUTE_FORCE;
 use super::timing::Case;
 use crate::measure::median;
 use crate::scene::Workload;

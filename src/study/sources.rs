@@ -7,7 +7,7 @@ use anyhow::Context;
 use rayon::prelude::*;
 
 use super::SAH_TREE;
-use crate::nearest::suggestion;
+use crate::names::suggestion;
 use crate::output::OutputFile;
 use crate::registry::{Choice, Registry};
 use crate::scene::format::SceneFile;

@@ -4,7 +4,7 @@ use glam::Vec3;
 
 use super::Sampler;
 use crate::geometry::{Aabb, Mesh, Ray};
-use crate::nearest::named_enum;
+use crate::names::named_enum;
 use crate::triangle::{MollerTrumbore, scalar_hit};
 
 named_enum! {

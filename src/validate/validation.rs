@@ -4,7 +4,7 @@ use std::fmt::{Display, Formatter};
 
 use super::asked::Call;
 use crate::geometry::{Hit, Ray};
-use crate::nearest::named_enum;
+use crate::names::named_enum;
 
 /// Sums over the rays of a comparison.
 #[derive(Clone, Debug, Default, PartialEq)]

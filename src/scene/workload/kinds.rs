@@ -9,7 +9,7 @@ use super::source::Source;
 use super::{bounces, lines, picture, primary};
 use crate::accel::Query;
 use crate::geometry::Ray;
-use crate::nearest::{Unknown, find};
+use crate::names::{Unknown, find};
 
 macro_rules! kinds {
     ($($(#[$doc:meta])* $kind:ident, $name:literal, $query:ident, $make:path;)*) => {

@@ -2,7 +2,7 @@ use std::str::FromStr;
 
 use crate::geometry::{Mesh, Ray};
 use crate::measure::spread;
-use crate::nearest::{Unknown, find, named_enum};
+use crate::names::{Unknown, find, named_enum};
 use crate::scene::{Scene, View};
 use crate::validate::Stratum;
 

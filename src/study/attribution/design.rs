@@ -1,6 +1,6 @@
 //! The cells of the factorial design: every plane with every stop rule and every traversal.
 
-use crate::nearest::named_enum;
+use crate::names::named_enum;
 
 named_enum! {
     /// What is varied.

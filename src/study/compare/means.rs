@@ -7,7 +7,7 @@ use crate::measure::Estimate;
 use crate::report::number::{count, figures, plural};
 use crate::report::words::{ends, explained, interval};
 use crate::report::{Cell, Record, Table, Tone};
-use crate::study::baselines::is_obvhs;
+use crate::study::reference_structures::is_obvhs;
 
 /// Speeds over all scenes: one row for each structure; a column for each workload, and one for all of them, against the
 /// first of the `references`, and one for all against each other reference.
@@ -86,7 +86,7 @@ pub fn mean_table(records: &[Record], references: &[Reference]) -> Table {
     notes.extend(control(records));
     let over = plural(scenes.len(), "scene");
     let against = references.first().map_or("?", Reference::name);
-    let against = if against == "median" { crate::study::baselines::REPORT_TREE } else { against };
+    let against = if against == "median" { crate::study::reference_structures::REPORT_TREE } else { against };
     let title = format!("Speed x {against}: geometric means over {over}; all: over scenes and workloads");
     explained(Table { title, columns, rows, notes }.without_blank_columns())
 }

@@ -4,7 +4,7 @@ use super::cells::speed;
 use crate::measure::{AaNoise, Estimate};
 use crate::report::words::interval;
 use crate::report::{Cell, Record};
-use crate::study::baselines::{REPORT_TREE, is_obvhs};
+use crate::study::reference_structures::{REPORT_TREE, is_obvhs};
 
 /// The other side of a column of ratios.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -7,7 +7,7 @@ use crate::report::number::{bytes, count, duration, figures, plural};
 use crate::report::words::{explained, listed};
 use crate::report::{Cell, Record, Table, Tone};
 use crate::study::Refused;
-use crate::study::baselines::{documented_defect, is_large};
+use crate::study::reference_structures::{documented_defect, is_large};
 
 /// The columns that are printed where all of them are asked for.
 const DETAILS: [&str; 8] = ["build", "peak", "memory", "tests", "steps", "instructions", "checked", "sampled"];

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::{DEFAULT, default_row, is_default};
 use crate::measure::{AaNoise, Estimate, LEVEL, holm};
-use crate::nearest::named_enum;
+use crate::names::named_enum;
 use crate::study::epoch::{Epoch, RayCounts, Rays, Shape, Structure, WholeTimes};
 use crate::study::replicate::original::{MAIN, SWEEP};
 

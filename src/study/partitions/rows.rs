@@ -4,8 +4,8 @@ use serde::Serialize;
 
 use crate::measure::Estimate;
 use crate::report::Record;
-use crate::study::baselines::is_obvhs;
 use crate::study::compare::{speed, twins};
+use crate::study::reference_structures::is_obvhs;
 
 /// The build whose time is the unit.
 const DEAREST: [&str; 2] = ["obvhs-bvh2", "very-slow"];

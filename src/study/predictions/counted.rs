@@ -6,10 +6,10 @@ use crate::accel::DynAccel;
 use crate::measure::{Clock, Threads};
 use crate::registry::Registry;
 use crate::scene::{Scene, Workload};
-use crate::study::baselines::{REPORT_TREE, SAH_TREE};
 use crate::study::built::Built;
 use crate::study::counted::Counted;
 use crate::study::epoch::Asked;
+use crate::study::reference_structures::{REPORT_TREE, SAH_TREE};
 use crate::study::replicate::original::MAIN;
 use crate::study::{Stage, StudyError};
 

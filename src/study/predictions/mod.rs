@@ -25,7 +25,7 @@ use super::replicate::{self, ReplicateStudy};
 use super::scaling::{Growth, ScalingStudy};
 use super::{Answers, Context, Data, Effort, Plan, Study};
 use crate::measure::{Estimate, Interval, Threads};
-use crate::nearest::named_enum;
+use crate::names::named_enum;
 use crate::registry::Registry;
 use crate::report::document::Block;
 use crate::report::number::figures;

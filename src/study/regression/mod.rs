@@ -22,8 +22,8 @@ mod unlike;
 
 use serde::Serialize;
 
-use super::baselines::{REPORT_TREE, documented_defect, is_obvhs};
 use super::compare::twins;
+use super::reference_structures::{REPORT_TREE, documented_defect, is_obvhs};
 use crate::measure::{AaNoise, Estimate, Rerun, epoch_values};
 use crate::report::Record;
 

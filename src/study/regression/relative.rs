@@ -4,8 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::measure::{AaNoise, Estimate, Rerun, Variance, checksum, epoch_values};
 use crate::report::Record;
-use crate::study::baselines::is_obvhs;
 use crate::study::compare::twins;
+use crate::study::reference_structures::is_obvhs;
 
 /// The time of a structure in one run, relative to the references.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -4,7 +4,7 @@ use serde_json::Value;
 
 use super::{case, counterpart, pairs};
 use crate::report::Record;
-use crate::study::baselines::is_obvhs;
+use crate::study::reference_structures::is_obvhs;
 
 /// Why two runs cannot be compared: what differs, in the old run and in the new.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]

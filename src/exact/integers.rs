@@ -1,4 +1,4 @@
-//! The same in integers, where all bits in use lie within forty places: several times as fast as sums of floats.
+//! Where a line meets a triangle, in integers, where all bits in use lie within forty places: several times as fast as sums of floats.
 
 use glam::Vec3;
 
