@@ -238,9 +238,8 @@ impl TriangleTest for SvenstaroTest {
 
     type Ray = (PreparedRay<f32, 3>, f32);
     type Block<const N: usize> = [[Point3<f32>; 3]; N];
-    type First<const N: usize, L: Lanes<N>> = L;
-    type Values<const N: usize> = [f32; N];
-    type Depth<'a> = f32;
+
+    decided_at_once!();
 
     #[inline(always)]
     fn prepare(ray: &Ray) -> Self::Ray {
@@ -270,15 +269,5 @@ impl TriangleTest for SvenstaroTest {
             nearer / length
         }));
         (L::splat(from).le(t) & t.le(L::splat(to.min(f32::MAX))), t)
-    }
-
-    #[inline(always)]
-    fn values<const N: usize, L: Lanes<N>>(t: L) -> [f32; N] {
-        t.store()
-    }
-
-    #[inline(always)]
-    fn decide<const N: usize>(_: &Self::Ray, _: &Self::Block<N>, lane: usize, t: &[f32; N]) -> Option<f32> {
-        Some(t[lane])
     }
 }

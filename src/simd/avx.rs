@@ -9,7 +9,18 @@ use super::{Arithmetic, EightLanes, Lanes};
 #[derive(Clone, Copy, Debug)]
 pub struct Avx<const MASKS: bool>(__m256);
 
-// SAFETY of every block below: whoever names this type has seen to it that the instructions exist; loads and stores are
+/// Operations of two vectors that are one instruction.
+macro_rules! lanewise {
+    ($($name:ident: $instruction:ident),*) => {$(
+        #[inline(always)]
+        fn $name(self, other: Self) -> Self {
+            // SAFETY: see above.
+            Self(unsafe { $instruction(self.0, other.0) })
+        }
+    )*};
+}
+
+// SAFETY of every block below, and of those of `lanewise`: whoever names this type has seen to it that the instructions exist; loads and stores are
 // unaligned ones, of arrays of exactly the register's size unless another comment says so.
 impl<const MASKS: bool> Arithmetic<8> for Avx<MASKS> {
     type Scalar = f32;
@@ -33,41 +44,8 @@ impl<const MASKS: bool> Arithmetic<8> for Avx<MASKS> {
         values
     }
 
-    #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        // SAFETY: see above.
-        Self(unsafe { _mm256_add_ps(self.0, other.0) })
-    }
-
-    #[inline(always)]
-    fn sub(self, other: Self) -> Self {
-        // SAFETY: see above.
-        Self(unsafe { _mm256_sub_ps(self.0, other.0) })
-    }
-
-    #[inline(always)]
-    fn mul(self, other: Self) -> Self {
-        // SAFETY: see above.
-        Self(unsafe { _mm256_mul_ps(self.0, other.0) })
-    }
-
-    #[inline(always)]
-    fn div(self, other: Self) -> Self {
-        // SAFETY: see above.
-        Self(unsafe { _mm256_div_ps(self.0, other.0) })
-    }
-
-    #[inline(always)]
-    fn min(self, other: Self) -> Self {
-        // SAFETY: see above.
-        Self(unsafe { _mm256_min_ps(self.0, other.0) })
-    }
-
-    #[inline(always)]
-    fn max(self, other: Self) -> Self {
-        // SAFETY: see above.
-        Self(unsafe { _mm256_max_ps(self.0, other.0) })
-    }
+    lanewise!(add: _mm256_add_ps, sub: _mm256_sub_ps, mul: _mm256_mul_ps, div: _mm256_div_ps);
+    lanewise!(min: _mm256_min_ps, max: _mm256_max_ps);
 
     #[inline(always)]
     fn flip_sign(self, other: Self) -> Self {

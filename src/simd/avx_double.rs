@@ -18,7 +18,18 @@ impl F64x8 {
     }
 }
 
-// SAFETY of every block below: whoever names this type has seen to it that the instructions exist; stores are unaligned
+/// Operations of two vectors that are one instruction for each half.
+macro_rules! lanewise {
+    ($($name:ident: $instruction:ident),*) => {$(
+        #[inline(always)]
+        fn $name(self, other: Self) -> Self {
+            // SAFETY: see above.
+            self.zip(other, |a, b| unsafe { $instruction(a, b) })
+        }
+    )*};
+}
+
+// SAFETY of every block below, and of those of `lanewise`: whoever names this type has seen to it that the instructions exist; stores are unaligned
 // ones, into halves of an array of exactly two registers' size.
 impl Arithmetic<8> for F64x8 {
     type Scalar = f64;
@@ -44,41 +55,8 @@ impl Arithmetic<8> for F64x8 {
         values
     }
 
-    #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        // SAFETY: see above.
-        self.zip(other, |a, b| unsafe { _mm256_add_pd(a, b) })
-    }
-
-    #[inline(always)]
-    fn sub(self, other: Self) -> Self {
-        // SAFETY: see above.
-        self.zip(other, |a, b| unsafe { _mm256_sub_pd(a, b) })
-    }
-
-    #[inline(always)]
-    fn mul(self, other: Self) -> Self {
-        // SAFETY: see above.
-        self.zip(other, |a, b| unsafe { _mm256_mul_pd(a, b) })
-    }
-
-    #[inline(always)]
-    fn div(self, other: Self) -> Self {
-        // SAFETY: see above.
-        self.zip(other, |a, b| unsafe { _mm256_div_pd(a, b) })
-    }
-
-    #[inline(always)]
-    fn min(self, other: Self) -> Self {
-        // SAFETY: see above.
-        self.zip(other, |a, b| unsafe { _mm256_min_pd(a, b) })
-    }
-
-    #[inline(always)]
-    fn max(self, other: Self) -> Self {
-        // SAFETY: see above.
-        self.zip(other, |a, b| unsafe { _mm256_max_pd(a, b) })
-    }
+    lanewise!(add: _mm256_add_pd, sub: _mm256_sub_pd, mul: _mm256_mul_pd, div: _mm256_div_pd);
+    lanewise!(min: _mm256_min_pd, max: _mm256_max_pd);
 
     #[inline(always)]
     fn flip_sign(self, other: Self) -> Self {

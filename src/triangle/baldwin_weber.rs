@@ -49,9 +49,8 @@ impl TriangleTest for BaldwinWeber {
 
     type Ray = (Vec3, Vec3);
     type Block<const N: usize> = ToUnit<N>;
-    type First<const N: usize, L: Lanes<N>> = L;
-    type Values<const N: usize> = [f32; N];
-    type Depth<'a> = f32;
+
+    decided_at_once!();
 
     #[inline(always)]
     fn prepare(ray: &Ray) -> Self::Ray {
@@ -92,15 +91,5 @@ impl TriangleTest for BaldwinWeber {
         let v = to_v.dot(point).add(move_v);
         let inside = zero.le(u) & zero.le(v) & u.add(v).le(L::splat(1.0));
         (inside & L::splat(from).le(t) & t.le(L::splat(to)), t)
-    }
-
-    #[inline(always)]
-    fn values<const N: usize, L: Lanes<N>>(t: L) -> [f32; N] {
-        t.store()
-    }
-
-    #[inline(always)]
-    fn decide<const N: usize>(_: &Self::Ray, _: &Self::Block<N>, lane: usize, t: &[f32; N]) -> Option<f32> {
-        Some(t[lane])
     }
 }

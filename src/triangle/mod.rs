@@ -1,5 +1,8 @@
 //! Triangle tests: common property of all structures, so that hits with the same test are bit-identical.
 
+#[macro_use]
+mod decided_at_once;
+
 mod baldwin_weber;
 mod corners;
 mod depth;

@@ -61,9 +61,8 @@ impl TriangleTest for MollerTrumbore {
 
     type Ray = (Vec3, Vec3);
     type Block<const N: usize> = Edges<N>;
-    type First<const N: usize, L: Lanes<N>> = L;
-    type Values<const N: usize> = [f32; N];
-    type Depth<'a> = f32;
+
+    decided_at_once!();
 
     #[inline(always)]
     fn prepare(ray: &Ray) -> Self::Ray {
@@ -98,16 +97,6 @@ impl TriangleTest for MollerTrumbore {
         let inside = zero.le(u) & zero.le(v) & u.add(v).le(abs_det) & zero.lt(abs_det);
         // An overflow may have made t NaN: such a lane hits nothing.
         (inside & L::splat(from).le(t) & t.le(L::splat(to)), t)
-    }
-
-    #[inline(always)]
-    fn values<const N: usize, L: Lanes<N>>(t: L) -> [f32; N] {
-        t.store()
-    }
-
-    #[inline(always)]
-    fn decide<const N: usize>(_: &Self::Ray, _: &Edges<N>, lane: usize, t: &[f32; N]) -> Option<f32> {
-        Some(t[lane])
     }
 
     const ONE_STAGE: bool = true;

@@ -61,9 +61,8 @@ impl TriangleTest for MollerTrumboreF64 {
 
     type Ray = (Vec3, Vec3);
     type Block<const N: usize> = Corners<N>;
-    type First<const N: usize, L: Lanes<N>> = L;
-    type Values<const N: usize> = [f32; N];
-    type Depth<'a> = f32;
+
+    decided_at_once!();
 
     #[inline(always)]
     fn prepare(ray: &Ray) -> Self::Ray {
@@ -88,15 +87,5 @@ impl TriangleTest for MollerTrumboreF64 {
         let inside = inside & L::splat(from).widen().le(t);
         let t = L::narrow(t);
         (inside & t.le(L::splat(to)), t)
-    }
-
-    #[inline(always)]
-    fn values<const N: usize, L: Lanes<N>>(t: L) -> [f32; N] {
-        t.store()
-    }
-
-    #[inline(always)]
-    fn decide<const N: usize>(_: &Self::Ray, _: &Self::Block<N>, lane: usize, t: &[f32; N]) -> Option<f32> {
-        Some(t[lane])
     }
 }

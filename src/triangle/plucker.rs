@@ -44,9 +44,8 @@ impl TriangleTest for Plucker {
 
     type Ray = (Vec3, Vec3);
     type Block<const N: usize> = Corners<N>;
-    type First<const N: usize, L: Lanes<N>> = L;
-    type Values<const N: usize> = [f32; N];
-    type Depth<'a> = f32;
+
+    decided_at_once!();
 
     #[inline(always)]
     fn prepare(ray: &Ray) -> Self::Ray {
@@ -66,15 +65,5 @@ impl TriangleTest for Plucker {
     ) -> (u32, L) {
         let (inside, t) = solve::<N, L>(LaneVec3::splat(origin), LaneVec3::splat(direction), block.load());
         (inside & L::splat(from).le(t) & t.le(L::splat(to)), t)
-    }
-
-    #[inline(always)]
-    fn values<const N: usize, L: Lanes<N>>(t: L) -> [f32; N] {
-        t.store()
-    }
-
-    #[inline(always)]
-    fn decide<const N: usize>(_: &Self::Ray, _: &Self::Block<N>, lane: usize, t: &[f32; N]) -> Option<f32> {
-        Some(t[lane])
     }
 }

@@ -37,9 +37,8 @@ impl TriangleTest for Watertight {
 
     type Ray = Sheared;
     type Block<const N: usize> = Corners<N>;
-    type First<const N: usize, L: Lanes<N>> = L;
-    type Values<const N: usize> = [f32; N];
-    type Depth<'a> = f32;
+
+    decided_at_once!();
 
     #[inline(always)]
     fn prepare(ray: &Ray) -> Sheared {
@@ -96,16 +95,6 @@ impl TriangleTest for Watertight {
         let [za, zb, zc] = zs.map(|z| z.mul(shear[2]));
         let t = u.mul(za).add(v.mul(zb)).add(w.mul(zc)).div(det);
         ((above | below) & zero.lt(abs_det) & L::splat(from).le(t) & t.le(L::splat(to)), t)
-    }
-
-    #[inline(always)]
-    fn values<const N: usize, L: Lanes<N>>(t: L) -> [f32; N] {
-        t.store()
-    }
-
-    #[inline(always)]
-    fn decide<const N: usize>(_: &Self::Ray, _: &Self::Block<N>, lane: usize, t: &[f32; N]) -> Option<f32> {
-        Some(t[lane])
     }
 }
 

@@ -1,0 +1,18 @@
+/// What tests have in common whose first stage decides in `f32` where each lane is hit.
+macro_rules! decided_at_once {
+    () => {
+        type First<const N: usize, L: $crate::simd::Lanes<N>> = L;
+        type Values<const N: usize> = [f32; N];
+        type Depth<'a> = f32;
+
+        #[inline(always)]
+        fn values<const N: usize, L: $crate::simd::Lanes<N>>(t: L) -> [f32; N] {
+            t.store()
+        }
+
+        #[inline(always)]
+        fn decide<const N: usize>(_: &Self::Ray, _: &Self::Block<N>, lane: usize, t: &[f32; N]) -> Option<f32> {
+            Some(t[lane])
+        }
+    };
+}
