@@ -50,14 +50,17 @@ fn figure(families: &[Family], command: &str) -> Figure {
             .map_or(String::new(), |off| format!(", off by {:.2} at the median", off.median));
         format!("{}: {} cases{off}", family.family, family.observations.len())
     });
+    let dots = structures.iter().map(dots).collect();
+    let axes = ["predicted nanoseconds a ray", "measured nanoseconds a ray"];
+    let curves = Curves { diagonal: Some("as predicted".into()), ..Curves::logarithmic(axes[0], axes[1], dots) };
     Figure {
         id: "costs".into(),
-        caption: "Measured against predicted time of a ray, each structure by the costs of its family on the other scenes. On the line the \
-                  prediction is exact; both axes are logarithmic."
+        caption: "Measured against predicted time of a ray, each structure by the costs of its family on the other scenes. On \
+                  the line the prediction is exact; both axes are logarithmic."
             .into(),
         alt: format!("Scatter plot. {}.", told.collect::<Vec<_>>().join("; ")),
         command: command.into(),
-        art: Art::Chart(Chart::Curves(Curves { diagonal: Some("as predicted".into()), ..Curves::logarithmic("predicted nanoseconds a ray", "measured nanoseconds a ray", structures.iter().map(dots).collect()) })),
+        art: Art::Chart(Chart::Curves(curves)),
         data: Table::of_texts("", ["structure", "scene", "rays", "measured ns", "predicted ns"], rows.collect()),
     }
 }

@@ -46,13 +46,15 @@ fn answers(races: &[Race]) -> Table {
         let pair = format!("{} / {}, {}", bare(&race.kd), bare(&race.bvh), race.workload);
         vec![pair.into(), from, to, trend, verdict(race).into()]
     });
-    explained(Table::new("Does a KD-tree overtake a BVH where rays would meet more surfaces?", ["pair, rays", "first member", "last member", "power", "crosses 1 at a depth complexity of"], rows).noted(vec![
-            "Ratios are the KD-tree's time over the BVH's: below 1 the KD-tree is faster. power: the ratio grows like this power of the \
-             depth complexity. 95 % intervals for another run; a crossing is named where one is surely ahead before it and the other beyond, \
-             all members considered."
+    let columns = ["pair, rays", "first member", "last member", "power", "crosses 1 at a depth complexity of"];
+    let title = "Does a KD-tree overtake a BVH where rays would meet more surfaces?";
+    explained(Table::new(title, columns, rows).noted(vec![
+            "Ratios are the KD-tree's time over the BVH's: below 1 the KD-tree is faster. power: the ratio grows like this power of \
+             the depth complexity. 95 % intervals for another run; a crossing is named where one is surely ahead before it \
+             and the other beyond, all members considered."
                 .into(),
-            "Depth complexity: surfaces that a ray would meet if none stopped it, measured. All members have the same number of \
-             triangles."
+            "Depth complexity: surfaces that a ray would meet if none stopped it, measured. All members have the same \
+             number of triangles."
                 .into(),
         ]))
 }

@@ -13,7 +13,7 @@ use crate::validate::degenerate::{TRIANGLE, box_grid, exponential, huge_and_smal
 
 pub(super) const CASES: &[HardCase] = &[
     moderate(43, "huge_tri_1e6")
-.by_oracle(|n| {
+        .by_oracle(|n| {
             Set::new(huge_and_small(), n, 30, |sampler| {
                 let origin = sampler.direction() * 4.0;
                 Ray::new(origin, sampler.cube() - origin)
@@ -22,11 +22,14 @@ pub(super) const CASES: &[HardCase] = &[
         .because("One triangle a million times the size of the scene: it dominates every bound and every cost.")
         .source("survey"),
     moderate(44, "teapot_in_stadium_1e5")
-.all_hit(stadium)
-        .because("A teapot in a stadium a hundred thousand times its size, seen from the seats: boxes are below the rounding of t.")
+        .all_hit(stadium)
+        .because(
+            "A teapot in a stadium a hundred thousand times its size, seen from the seats: boxes are \
+             below the rounding of t.",
+        )
         .source("folklore of spatial subdivision; survey"),
     moderate(46, "one_triangle")
-.all_hit(|n| {
+        .all_hit(|n| {
             let [a, b, c] = TRIANGLE;
             Set::new(mesh([TRIANGLE]), n, 31, |sampler| {
                 let [u, v, w] = sampler.barycentric().map(|weight| 0.2 + 0.4 * weight);
@@ -37,36 +40,39 @@ pub(super) const CASES: &[HardCase] = &[
         .because("The root is a leaf.")
         .source("survey"),
     moderate(47, "one_triangle_vertex_edge")
-.all_hit(|n| Set::new(mesh([SIMPLE]), n, 32, exactly_on_the_rim))
+        .all_hit(|n| Set::new(mesh([SIMPLE]), n, 32, exactly_on_the_rim))
         .because("Rays that meet the vertices and edges of a lone triangle exactly: it is closed.")
         .source("Woop, Benthin, Wald 2013: no promise for the rim of an open mesh"),
     unranked(48, "empty")
-.all_miss(|n| Set::new(mesh([]), n, 33, |sampler| Ray::new(sampler.cube(), sampler.direction())))
+        .all_miss(|n| Set::new(mesh([]), n, 33, |sampler| Ray::new(sampler.cube(), sampler.direction())))
         .because("No triangle at all: no root box, no node, no hit, no panic.")
         .source("kdtree-ray: asserts; Embree, verify.cpp, empty_scene"),
     moderate(49, "far_1e3")
-.by_oracle(|n| from_afar(n, 1e3))
+        .by_oracle(|n| from_afar(n, 1e3))
         .because("From 1e3 away: the boxes of thin leaves are a few ulps of t deep.")
         .source("Ize 2013"),
     moderate(50, "far_1e6")
-.by_oracle(|n| from_afar(n, 1e6))
+        .by_oracle(|n| from_afar(n, 1e6))
         .because("From 1e6 away: entry and exit of most boxes are one float.")
         .source("Ize 2013"),
     extreme(51, "far_1e8")
-.by_oracle(|n| from_afar(n, 1e8))
+        .by_oracle(|n| from_afar(n, 1e8))
         .because("From 1e8 away: the scene is smaller than an ulp of t.")
         .source("Ize 2013"),
     moderate(52, "shells_nested_in")
-.all_hit(|n| {
+        .all_hit(|n| {
             Set::new(shells(), n, 34, |sampler| {
                 let inside = libm::scalbnf(0.1, sampler.below(61) as i32 - 30);
                 Ray::new(sampler.cube() * inside, sampler.direction())
             })
         })
-        .because("Octahedra from 2^-30 to 2^30 around zero, from among them: the next is hit, within any absolute epsilon.")
+        .because(
+            "Octahedra from 2^-30 to 2^30 around zero, from among them: the next is hit, within any \
+             absolute epsilon.",
+        )
         .source("obvhs, CwBvh node.rs EPSILON"),
     moderate(53, "shells_nested_out")
-.all_hit(|n| {
+        .all_hit(|n| {
             let outermost = libm::scalbnf(1.0, 30);
             Set::new(shells(), n, 35, |sampler| {
                 let origin = sampler.direction() * (2.0 * outermost);
@@ -74,20 +80,32 @@ pub(super) const CASES: &[HardCase] = &[
                 Ray::new(origin, (target - origin) / outermost)
             })
         })
-        .because("The same octahedra from outside: the outermost is hit, in spite of all that is nearer to the middle.")
+        .because(
+            "The same octahedra from outside: the outermost is hit, in spite of all that is nearer to \
+             the middle.",
+        )
         .source("survey"),
     moderate(55, "exp_sequence_1.3")
-.all_hit(exponential_rays)
-        .because("Each of 300 triangles is 1.3 times as large as the one before: trees become chains, and fixed stacks overflow.")
+        .all_hit(exponential_rays)
+        .because(
+            "Each of 300 triangles is 1.3 times as large as the one before: trees become chains, and \
+             fixed stacks overflow.",
+        )
         .source("svenstaro/bvh, iter.rs: a stack of 32 panics"),
     unranked(57, "nonfinite_verts")
-.by_oracle(largest_numbers)
-        .because("The mesh's door refuses vertices that are NaN or infinite, so that no structure can be fed one; this is the \
-                 worst that passes: some vertices at the largest float, so that extents and areas are infinite.")
+        .by_oracle(largest_numbers)
+        .because(
+            "The mesh's door refuses vertices that are NaN or infinite, so that no structure can be \
+             fed one; this is the \
+                 worst that passes: some vertices at the largest float, so that extents and areas are infinite.",
+        )
         .source("obvhs, ploc, and svenstaro/bvh, bvh_node.rs: builders panic"),
     added(83, "deep_chain")
-.all_hit(deep_chain)
-        .because("A triangle at every power of two from 2^-60 to 2^60: halving the box takes off one at a time, deeper than 64.")
+        .all_hit(deep_chain)
+        .because(
+            "A triangle at every power of two from 2^-60 to 2^60: halving the box takes off one at a \
+             time, deeper than 64.",
+        )
         .source("stacks of 32 or 64 entries in svenstaro/bvh and pbrt-v4"),
 ];
 

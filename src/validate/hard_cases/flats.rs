@@ -10,13 +10,11 @@ use crate::validate::degenerate::coplanar;
 
 pub(super) const CASES: &[HardCase] = &[
     moderate(10, "flat_down")
-.all_hit(|n| {
-            Set::new(sheet(32), n, 6, |sampler| Ray::new(above(sampler, 1.0), Vec3::new(0.0, 0.0, -1.0)))
-        })
+        .all_hit(|n| Set::new(sheet(32), n, 6, |sampler| Ray::new(above(sampler, 1.0), Vec3::new(0.0, 0.0, -1.0))))
         .because("The root box has no thickness: an interval of one point must not count as empty.")
         .source("Hapala, Havran 2011: flat cells"),
     moderate(11, "flat_inplane")
-.all_miss(|n| {
+        .all_miss(|n| {
             Set::new(sheet(32), n, 7, |sampler| {
                 let direction = sampler.direction();
                 Ray::new(above(sampler, 0.0), Vec3::new(direction.x, direction.y, 0.0))
@@ -25,15 +23,18 @@ pub(super) const CASES: &[HardCase] = &[
         .because("A ray in the plane of every triangle meets none in a point: the determinant is 0.")
         .source("Möller, Trumbore 1997"),
     moderate(12, "flat_grazing_1e-3")
-.by_oracle(|n| grazing(n, 1e-3))
+        .by_oracle(|n| grazing(n, 1e-3))
         .because("Rays at a slope of 1e-3 on a tilted plane: the determinant loses ten bits.")
         .source("Embree issue 387"),
     moderate(13, "flat_grazing_1e-6")
-.by_oracle(|n| grazing(n, 1e-6))
-        .because("At a slope of 1e-6 the determinant is all rounding: t is wrong by a hundred thousand ulps, hits are missed and invented.")
+        .by_oracle(|n| grazing(n, 1e-6))
+        .because(
+            "At a slope of 1e-6 the determinant is all rounding: t is wrong by a hundred thousand \
+             ulps, hits are missed and invented.",
+        )
         .source("Embree issue 387; measured: 55 to 75 % of the depths wrong in every f32 system"),
     moderate(42, "coplanar_overlap_200")
-.by_oracle(|n| {
+        .by_oracle(|n| {
             let mesh = coplanar(200, Vec3::new(0.9, 0.1, 0.3), Vec3::new(-0.2, 0.8, 0.7));
             Set::new(mesh, n, 8, |sampler| {
                 let normal = Vec3::new(-0.17, -0.69, 0.74);
@@ -47,7 +48,7 @@ pub(super) const CASES: &[HardCase] = &[
         .because("Overlapping triangles of one tilted plane: which is nearer is below the rounding of t.")
         .source("survey"),
     added(79, "planar_in_split_plane")
-.by_oracle(|n| {
+        .by_oracle(|n| {
             let mesh = moved(&sheet(32), |p| Vec3::new(0.5, p.x, p.y));
             Set::new(mesh, n, 9, |sampler| {
                 // Every other ray starts in the plane.

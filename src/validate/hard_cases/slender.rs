@@ -13,19 +13,19 @@ use crate::validate::degenerate::{mesh, needles};
 
 pub(super) const CASES: &[HardCase] = &[
     moderate(35, "slivers_1e6_axis")
-.by_oracle(|n| slivers(n, |p| p))
+        .by_oracle(|n| slivers(n, |p| p))
         .because("Strips of 1000 x 1e-3 along the axes: a million times longer than wide.")
         .source("Woop, Benthin, Wald 2013: t is as accurate as the least accurate axis"),
     moderate(36, "slivers_1e6_rot")
-.by_oracle(|n| slivers(n, tilted))
+        .by_oracle(|n| slivers(n, tilted))
         .because("The same strips tilted: the f32 normal has no digit left, and t is wrong by percents.")
         .source("Embree, stable_triangle_normal; measured: 36 to 44 % of the depths wrong"),
     moderate(37, "hair_diag")
-.by_oracle(hair)
+        .by_oracle(hair)
         .because("Needles of 2 x 1e-3 along a diagonal: their boxes are almost empty, and all overlap.")
         .source("survey"),
     moderate(38, "fan_apex")
-.all_hit(|n| {
+        .all_hit(|n| {
             // The apex is zero: -p aims at it exactly.
             Set::new(fan(), n, 14, |sampler| {
                 let origin = below(sampler);
@@ -33,10 +33,16 @@ pub(super) const CASES: &[HardCase] = &[
             })
         })
         .at_most(2000)
-        .because("800 triangles meet in the vertex that is aimed at: all of them hit, at edges, and none may fall out of its box.")
-        .source("obvhs, rt_triangle.rs: seen from behind, 0 times a negative number is -0.0, and counts as outside"),
+        .because(
+            "800 triangles meet in the vertex that is aimed at: all of them hit, at edges, and none \
+             may fall out of its box.",
+        )
+        .source(
+            "obvhs, rt_triangle.rs: seen from behind, 0 times a negative number is -0.0, and counts as \
+             outside",
+        ),
     moderate(39, "fan_random")
-.all_hit(|n| {
+        .all_hit(|n| {
             Set::new(fan(), n, 15, |sampler| {
                 let origin = below(sampler);
                 let target = Vec3::new(sampler.signed(), sampler.signed(), 0.0) * 0.4;
@@ -46,7 +52,7 @@ pub(super) const CASES: &[HardCase] = &[
         .because("The same fan, aimed at beside its apex.")
         .source("survey"),
     moderate(56, "needle_stack_kd")
-.by_oracle(|n| {
+        .by_oracle(|n| {
             Set::new(needles(2200), n, 16, |sampler| {
                 let origin = sampler.direction() * 12.0;
                 Ray::new(origin, sampler.cube() * 3.0 - origin)
