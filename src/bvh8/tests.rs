@@ -9,6 +9,7 @@ use super::*;
 use crate::accel::{Accel, BuildError, Counts};
 use crate::build::Quality;
 use crate::build::check::{mesh, soup};
+use crate::exact;
 use crate::geometry::{Hit, Mesh, Ray};
 use crate::simd::{Level, dispatch};
 use crate::triangle::{Exact, MollerTrumbore, Plucker, TriangleTest};
@@ -250,6 +251,42 @@ fn short_slices_are_answered_as_their_rays_are_over_the_exact_test() {
             assert!(all_same_bits(&hits, &alone[first..first + len]), "{len} rays from {first}");
         }
     }
+}
+
+/// Sixty-four triangles a few bits apart, some of them the same, in the order of their numbers or not; rays from anywhere, from one of them
+/// and from just beside, over intervals that end there: what `f32` cannot order is what sums of floats say.
+#[test]
+fn crowds_of_triangles_are_ordered_exactly() {
+    let bits = |i: u32| i.wrapping_mul(0x9e37_79b1).rotate_left(11).wrapping_mul(2_654_435_761);
+    let moved = |x: f32, i: u32| f32::from_bits((x.to_bits() as i32 + bits(i) as i32 % 5) as u32);
+    let mut crowded = 0;
+    for scale in [1.0, 1e-12, 3e9] {
+        let mesh = Arc::new(mesh(64, |id| {
+            let corner = |k: u32, x: f32, y: f32, z: f32| {
+                let number = |axis: u32, x: f32| moved(x * scale, 9 * (id as u32 / 2 * 2) + 3 * k + axis);
+                Vec3::new(number(0, x), number(1, y), number(2, z))
+            };
+            [corner(0, -2.1, -1.7, 0.9), corner(1, 2.3, -1.3, 1.1), corner(2, 0.1, 2.7, 1.3)]
+        }));
+        let tree = Bvh8::<Exact>::build(&mesh, &Bvh8Config::default()).unwrap();
+        for i in 0..600 {
+            let id = bits(i) % 64;
+            let [a, b, c] = mesh.corners(id);
+            let from = scattered(i);
+            let ray = match i % 5 {
+                0 => Ray::new(from.origin * scale, (a + b + c) / 3.0 - from.origin * scale),
+                1 => Ray::new(a * 0.25 + b * 0.5 + c * 0.25, from.direction),
+                2 => Ray::new(a * 0.3 + b * 0.3 + c * 0.4, Vec3::Z).until(scale * 1e-6),
+                3 => Ray::new(a, from.direction),
+                _ => Ray::new(a * 0.5 + b * 0.5, from.direction),
+            };
+            let hits = (0..64).filter_map(|id| Some((exact::hit(&ray, mesh.corners(id))?, id)));
+            let right = hits.filter(|(t, _)| t.is_within(&ray)).min().map(|(t, id)| Hit::new(t.round(), id));
+            assert!(all_same_bits(&[tree.closest_hit(&ray, &mut ())], &[right]), "{ray:?}, {right:?}");
+            crowded += u32::from(right.is_some());
+        }
+    }
+    assert!(crowded > 900, "{crowded}");
 }
 
 #[test]

@@ -40,6 +40,13 @@ pub(super) fn hit(ray: &Ray, corners: [Vec3; 3]) -> Option<Option<ExactT>> {
     }))
 }
 
+/// As [`height`](super::height), where the numbers fit.
+pub(super) fn height(origin: Vec3, [a, b, c]: [Vec3; 3]) -> Option<f64> {
+    let ([origin, a, b, c], unit) = integers([origin, a, b, c])?;
+    let height = dot(minus(a, origin), cross(minus(b, a), minus(c, a)));
+    Some(Expansion::of_integer(height, 3 * unit).approximate())
+}
+
 /// Vectors as multiples of 2 to the power of one number, and that number.
 fn integers<const N: usize>(vectors: [Vec3; N]) -> Option<([[i64; 3]; N], i32)> {
     let (mut lowest, mut highest) = (i32::MAX, i32::MIN);

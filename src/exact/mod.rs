@@ -37,14 +37,32 @@ pub fn hit(ray: &Ray, corners: [Vec3; 3]) -> Option<ExactT> {
     integers::hit(ray, corners).unwrap_or_else(|| hit_by_sums(ray, corners))
 }
 
-/// The same for all finite numbers, in sums of floats.
+/// Six times the volume of the tetrahedron of `origin` and a triangle, (a - origin) . (e x f), with a relative error below 2^-49: the numerator of
+/// the `t` at which lines from there meet its plane. Zero if and only if `origin` lies in that plane. For finite numbers.
+///
+/// Costs a quarter of [`hit`].
+pub fn height(origin: Vec3, corners: [Vec3; 3]) -> f64 {
+    let of_sums = || {
+        let [a, ..] = corners;
+        Expansion::dot(&difference(a, origin), &normal(corners)).approximate()
+    };
+    integers::height(origin, corners).unwrap_or_else(of_sums)
+}
+
+fn difference(p: Vec3, q: Vec3) -> [Expansion; 3] {
+    std::array::from_fn(|axis| Expansion::difference(p[axis].into(), q[axis].into()))
+}
+
+fn cross(p: &[Expansion; 3], q: &[Expansion; 3]) -> [Expansion; 3] {
+    [(1, 2), (2, 0), (0, 1)].map(|(i, j)| Expansion::minor(&p[i], &q[j], &p[j], &q[i]))
+}
+
+fn normal([a, b, c]: [Vec3; 3]) -> [Expansion; 3] {
+    cross(&difference(b, a), &difference(c, a))
+}
+
+/// [`hit`] for all finite numbers, in sums of floats.
 fn hit_by_sums(ray: &Ray, corners: [Vec3; 3]) -> Option<ExactT> {
-    let difference = |p: Vec3, q: Vec3| -> [Expansion; 3] {
-        std::array::from_fn(|axis| Expansion::difference(p[axis].into(), q[axis].into()))
-    };
-    let cross = |p: &[Expansion; 3], q: &[Expansion; 3]| {
-        [(1, 2), (2, 0), (0, 1)].map(|(i, j)| Expansion::minor(&p[i], &q[j], &p[j], &q[i]))
-    };
     let direction = ray.direction.to_array().map(|x| Expansion::from(f64::from(x)));
 
     let [a, b, c] = corners.map(|corner| difference(corner, ray.origin));
@@ -60,7 +78,7 @@ fn hit_by_sums(ray: &Ray, corners: [Vec3; 3]) -> Option<ExactT> {
         }
     }
 
-    let normal = cross(&difference(corners[1], corners[0]), &difference(corners[2], corners[0]));
+    let normal = normal(corners);
     let (mut numerator, mut denominator) = (Expansion::dot(&a, &normal), Expansion::dot(&direction, &normal));
     match denominator.sign() {
         Ordering::Equal => return None,

@@ -1,4 +1,5 @@
 use dashu_ratio::RBig;
+use dashu_ratio::ops::Abs;
 use rand_core::{RngCore, SeedableRng};
 use rand_pcg::Pcg32;
 
@@ -10,6 +11,11 @@ fn assert_agree(ray: &Ray, corners: [Vec3; 3]) -> bool {
     let as_rational = |t: ExactT| RBig::from(&t.numerator) / RBig::from(&t.denominator);
     assert_eq!(ours.clone().map(as_rational), twin, "{ray:?} {corners:?}");
     assert_eq!(ours.as_ref().map(ExactT::round), twin.map(|t| t.to_f32().value()), "{ray:?} {corners:?}");
+    let [a, ..] = corners;
+    let sums = RBig::from(&Expansion::dot(&difference(a, ray.origin), &normal(corners)));
+    let found = RBig::try_from(height(ray.origin, corners)).unwrap();
+    let most = RBig::try_from(libm::exp2(-49.0)).unwrap() * sums.clone().abs();
+    assert!((found - sums).abs() <= most, "{ray:?} {corners:?}");
     ours.is_some()
 }
 

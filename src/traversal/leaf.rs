@@ -139,6 +139,9 @@ pub(crate) fn search<'a, const ANY: bool, const N: usize, L: Lanes<N>, T: Triang
     }
 }
 
+/// So many candidates are soon decided one by one.
+const FEW: u32 = 2;
+
 /// Decides about the candidates of a block. Rare, and out of line, so that it does not cost the walk its registers.
 #[inline(never)]
 pub(crate) fn settle<'a, const N: usize, T: TriangleTest>(
@@ -148,6 +151,15 @@ pub(crate) fn settle<'a, const N: usize, T: TriangleTest>(
     values: &T::Values<N>,
     nearest: &mut Nearest<T::Depth<'a>>,
 ) {
+    let closer;
+    let mut values = values;
+    if candidates.count_ones() > FEW {
+        let nearest = nearest.hit.as_ref().map(|(depth, _)| depth);
+        if let Some((left, told)) = T::look_closer(ray, &block.triangles, candidates, values, nearest) {
+            (candidates, closer) = (left, told);
+            values = &closer;
+        }
+    }
     while candidates != 0 {
         let lane = candidates.trailing_zeros() as usize;
         candidates &= candidates - 1;

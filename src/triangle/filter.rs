@@ -102,6 +102,11 @@ impl<const N: usize> FilterBlock<N> {
     }
 
     #[inline(always)]
+    pub(super) fn corners(&self) -> &Corners<N> {
+        &self.corners
+    }
+
+    #[inline(always)]
     pub(super) fn place(&self, lane: usize) -> Place<'_> {
         self.corners.place(lane)
     }

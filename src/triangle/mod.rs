@@ -99,6 +99,19 @@ pub trait TriangleTest: Send + Sync + 'static {
         values: &Self::Values<N>,
     ) -> Option<Self::Depth<'a>>;
 
+    /// A closer look at many candidates at once, where it may tell more: those left of them, and the values for [`decide`](Self::decide).
+    /// What lies beyond `nearest` need not be left.
+    #[inline(always)]
+    fn look_closer<const N: usize>(
+        _ray: &Self::Ray,
+        _block: &Self::Block<N>,
+        _candidates: u32,
+        _values: &Self::Values<N>,
+        _nearest: Option<&Self::Depth<'_>>,
+    ) -> Option<(u32, Self::Values<N>)> {
+        None
+    }
+
     /// The order of two hits along their `ray`, the one that they were decided with. Those of one ray are totally ordered.
     #[inline(always)]
     fn order<'a>(ray: &Self::Ray, one: &Self::Depth<'a>, other: &Self::Depth<'a>) -> Ordering {

@@ -2,6 +2,7 @@
 
 use glam::Vec3;
 
+use crate::exact;
 use crate::geometry::Ray;
 use crate::simd::{Arithmetic, LaneVec3, Lanes, Portable, each};
 
@@ -84,6 +85,24 @@ pub(super) fn place<const N: usize, L: Lanes<N>>(
     let det_error = times(scale.mul(direction.abs_max()), 48.0);
     let (low, high) = divide(height, height_error, det, det_error);
     (times(det_error, 1024.0).le(det.flip_sign(det)), low, high)
+}
+
+/// As [`place`] of one line and triangle, with the exact height in place of a rounded one: however near to the plane the origin lies, the
+/// bounds are off only as the determinant is, relatively, and in the plane they are zero.
+pub(super) fn place_closely(ray: &Ray, corners: [Vec3; 3]) -> Sight {
+    let direction = ray.direction.as_dvec3();
+    let [a, b, c] = corners.map(Vec3::as_dvec3);
+    let (edge1, edge2) = (b - a, c - a);
+    let extent = edge1.abs().max(edge2.abs()).max_element();
+    let det = direction.dot(edge1.cross(edge2));
+    let det_error = 48.0 * UNIT * extent * extent * direction.abs().max_element();
+    if det.abs() < 1024.0 * det_error || det == 0.0 {
+        return Sight::Unclear;
+    }
+    let height = exact::height(ray.origin, corners);
+    let lane = Portable::<1, f64>::splat;
+    let (low, high) = divide(lane(height), lane(8.0 * f64::EPSILON * height.abs()), lane(det), lane(det_error));
+    Sight::Hit { low: low.store()[0], high: high.store()[0] }
 }
 
 /// |h/d - h'/d'| <= (dh + |h'/d'| dd) / (|d'| - dd), where dd is at most 2^-10 |d'|; the rest rounds within 2^-50.

@@ -2,7 +2,7 @@ use std::cmp::Ordering;
 
 use glam::Vec3;
 
-use super::enclosure::{Sight, place};
+use super::enclosure::{Sight, place, place_closely};
 use super::seen;
 use crate::exact;
 use crate::geometry::Ray;
@@ -25,6 +25,20 @@ impl<'a> ExactDepth<'a> {
         Self { low, high, triangle }
     }
 
+    /// Whether `t` may be that of a hit between these bounds.
+    #[inline(always)]
+    pub(super) fn overlaps(&self, low: f32, high: f32) -> bool {
+        low <= self.high && self.low <= high
+    }
+
+    /// What the exact `t` does not exceed, by `f64`.
+    pub(super) fn latest(&self, ray: &Ray) -> f64 {
+        match seen(ray, self.triangle.corners()) {
+            Sight::Hit { high, .. } => high,
+            _ => self.high.into(),
+        }
+    }
+
     #[cold]
     fn exact(&self, ray: &Ray) -> exact::ExactT {
         exact::hit(ray, self.triangle.corners()).expect("a depth is that of a hit")
@@ -37,11 +51,15 @@ impl<'a> ExactDepth<'a> {
         if surely_coplanar(&own, &others) {
             return Ordering::Equal;
         }
-        match (seen(ray, own), seen(ray, others)) {
-            (Sight::Hit { high, .. }, Sight::Hit { low, .. }) if high < low => Ordering::Less,
-            (Sight::Hit { low, .. }, Sight::Hit { high, .. }) if high < low => Ordering::Greater,
-            _ => self.exact(ray).cmp(&other.exact(ray)),
-        }
+        let order = |look: fn(&Ray, [Vec3; 3]) -> Sight| match (look(ray, own), look(ray, others)) {
+            (Sight::Hit { high, .. }, Sight::Hit { low, .. }) if high < low => Some(Ordering::Less),
+            (Sight::Hit { low, .. }, Sight::Hit { high, .. }) if high < low => Some(Ordering::Greater),
+            (Sight::Hit { low, high }, Sight::Hit { low: 0.0, high: 0.0 }) if low == high && high == 0.0 => {
+                Some(Ordering::Equal)
+            }
+            _ => None,
+        };
+        order(seen).or_else(|| order(place_closely)).unwrap_or_else(|| self.exact(ray).cmp(&other.exact(ray)))
     }
 }
 
@@ -74,11 +92,7 @@ impl Depth for ExactDepth<'_> {
     /// Correctly rounded.
     #[inline(always)]
     fn t(&self, ray: &Ray) -> f32 {
-        match seen(ray, self.triangle.corners()) {
-            // The upper one: of two zeros it is the positive one.
-            Sight::Hit { low, high } if low as f32 == high as f32 => high as f32,
-            _ => self.exact(ray).round(),
-        }
+        rounded(seen(ray, self.triangle.corners())).unwrap_or_else(|| exact_t(ray, self.triangle.corners()))
     }
 
     const LATE: bool = true;
@@ -97,7 +111,8 @@ impl Depth for ExactDepth<'_> {
         let (told, mut ts) = (placed & high.le(low), high.store());
         if told != 0xff {
             for (lane, t) in ts[..len].iter_mut().enumerate().filter(|(lane, _)| told >> lane & 1 == 0) {
-                *t = exact_t(inputs, lane);
+                let vector = |first: usize| Vec3::from_array([0, 1, 2].map(|axis| inputs[first + axis][lane]));
+                *t = exact_t(&Ray::new(vector(9), vector(12)), [vector(0), vector(3), vector(6)]);
             }
         }
         ts
@@ -109,10 +124,19 @@ impl Depth for ExactDepth<'_> {
     }
 }
 
-/// Of the hit in `lane`.
+/// The float that all numbers between these bounds round to, if it is one.
+#[inline(always)]
+fn rounded(sight: Sight) -> Option<f32> {
+    match sight {
+        // The upper one: of two zeros it is the positive one.
+        Sight::Hit { low, high } if low as f32 == high as f32 => Some(high as f32),
+        _ => None,
+    }
+}
+
+/// Where the line of `ray` meets a triangle that it is known to meet, rounded once, whatever it takes.
 #[cold]
-fn exact_t(inputs: &[[f32; 8]; INPUTS], lane: usize) -> f32 {
-    let vector = |first: usize| Vec3::new(inputs[first][lane], inputs[first + 1][lane], inputs[first + 2][lane]);
-    let ray = Ray::new(vector(9), vector(12));
-    exact::hit(&ray, [vector(0), vector(3), vector(6)]).expect("a depth is that of a hit").round()
+fn exact_t(ray: &Ray, corners: [Vec3; 3]) -> f32 {
+    let exact = || exact::hit(ray, corners).expect("a depth is that of a hit").round();
+    rounded(place_closely(ray, corners)).unwrap_or_else(exact)
 }

@@ -15,7 +15,7 @@ use super::filter::{FilterBlock, FilterRay, Sights, Survivors, survivors};
 use crate::exact;
 use crate::geometry::{Ray, round_down, round_up};
 use crate::simd::{Arithmetic, LaneVec3, Lanes, Portable};
-use enclosure::{Sight, look, place};
+use enclosure::{Sight, look, place, place_closely};
 
 /// Exact answers at the price of a filter: what the `f32` stage cannot decide is decided in `f64` with a bound on its error, and what
 /// that cannot decide in integers or exact sums of floats. Each decision is made when it is needed: hits are ordered by bounds of their `t`, which are
@@ -101,6 +101,23 @@ impl TriangleTest for Exact {
     }
 
     #[inline(always)]
+    fn look_closer<const N: usize>(
+        ray: &ExactRay,
+        block: &FilterBlock<N>,
+        candidates: u32,
+        sights: &Sights<N>,
+        nearest: Option<&ExactDepth>,
+    ) -> Option<(u32, Sights<N>)> {
+        let start = ray.ray.interval().0;
+        let overlaps =
+            |low: f32, high: f32| nearest.is_some_and(|hit| hit.overlaps(low, high)) || low < start && start <= high;
+        let unclear = |lane: &usize| {
+            (candidates & sights.sure) >> lane & 1 == 1 && overlaps(sights.low[*lane], sights.high[*lane])
+        };
+        ((0..N).filter(unclear).count() > 2).then(|| crowd(&ray.ray, block, candidates, sights, nearest))
+    }
+
+    #[inline(always)]
     fn order_closely(ray: &ExactRay, one: &ExactDepth, other: &ExactDepth) -> Ordering {
         // Copies, so that those that are ordered at once need no place in memory.
         let (one, other) = (*one, *other);
@@ -117,12 +134,39 @@ fn in_f64(ray: &Ray, triangle: Place, met: bool) -> Option<(f32, f32)> {
         return None;
     }
     let (start, end) = (f64::from(ray.interval().0), ray.end());
-    match if met { seen(ray, corners) } else { look(ray, corners) } {
-        Sight::Miss => None,
-        Sight::Hit { low, high } if start <= low && high < end => Some((round_down(low), round_up(high))),
-        Sight::Hit { low, high } if high < start || end <= low => None,
-        Sight::Hit { .. } | Sight::Unclear => exactly(ray, corners),
+    let within = |sight: Sight| match sight {
+        Sight::Miss => Some(None),
+        Sight::Hit { low, high } if start <= low && high < end => Some(Some((round_down(low), round_up(high)))),
+        Sight::Hit { low, high } if high < start || end <= low => Some(None),
+        Sight::Hit { .. } | Sight::Unclear => None,
+    };
+    let sight = if met { seen(ray, corners) } else { look(ray, corners) };
+    let met = matches!(sight, Sight::Hit { .. });
+    within(sight).or_else(|| met.then(|| within(place_closely(ray, corners)))?).unwrap_or_else(|| exactly(ray, corners))
+}
+
+/// Many triangles of a block that lie so close together, or so close to the origin, that `f32` cannot tell them apart: those left of the
+/// candidates, and what `f64` tells of them.
+#[inline(never)]
+fn crowd<const N: usize>(
+    ray: &Ray,
+    block: &FilterBlock<N>,
+    mut candidates: u32,
+    sights: &Sights<N>,
+    nearest: Option<&ExactDepth>,
+) -> (u32, Sights<N>) {
+    let corners = block.corners().load::<Portable<N>>();
+    let (placed, low, high) = place(LaneVec3::splat(ray.origin), LaneVec3::splat(ray.direction), corners);
+    let (low, high, mut sights) = (low.store(), high.store(), *sights);
+    let (start, last) = (f64::from(ray.interval().0), nearest.map_or(f64::INFINITY, |hit| hit.latest(ray)));
+    let known = candidates & sights.sure & placed;
+    for lane in (0..N).filter(|lane| known >> lane & 1 == 1) {
+        if high[lane] < start || low[lane] > last {
+            candidates ^= 1 << lane;
+        }
+        (sights.low[lane], sights.high[lane]) = (round_down(low[lane]), round_up(high[lane]));
     }
+    (candidates, sights)
 }
 
 /// Whether one look tells that the ray is parallel to the plane of the triangle, or in it: an axis-aligned one, as grounds and walls are.
