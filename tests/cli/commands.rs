@@ -40,6 +40,16 @@ fn what_is_not_known_is_refused_with_what_is() {
     refuses_in_a_line(&["compare", "cube", "--export-json", "-", "--export-csv", "-"], &["two results"]);
     refuses(&["render", "cube", "-o", "x.png", "--size", "12"], &["WIDTHxHEIGHT"]);
     refuses(&["validate", "cube", "--ray", "1,2,3"], &["ox,oy,oz dx,dy,dz"]);
+    for (ray, fault) in [
+        ("0,0,0 0,-0,0", "direction is zero"),
+        ("0,0,0 1,0,inf", "direction is not finite"),
+        ("0,nan,0 1,0,0", "origin is not finite"),
+        ("0,0,0 1,0,0 [2,2]", "t_max above 0 and above t_min"),
+        ("0,0,0 1,0,0 [-2,0]", "t_max above 0 and above t_min"),
+        ("0,0,0 1,0,0 [nan,1]", "t_max above 0 and above t_min"),
+    ] {
+        refuses(&["validate", "cube", "--ray", ray], &[ray, "--ray", fault]);
+    }
     refuses_in_a_line(&["validate", "cube", "--against", "nothing"], &["nothing", "brute-force"]);
     refuses_in_a_line(&["study", "accuracy", "cube", "--test", "woop"], &["woop", "exact", "watertight"]);
     refuses_in_a_line(&["study", "accuracy", "cube", "-s", "obvhs-bvh2", "-t", "watertight"], &["sahara list"]);
