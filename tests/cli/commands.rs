@@ -26,6 +26,12 @@ fn what_is_not_known_is_refused_with_what_is() {
     let foo = refuses(&["golden", "check", "foo"], &["foo", "Cube, Sphere"]);
     assert!(!foo.contains("did you mean"), "{foo}");
     refuses_in_a_line(&["compare", "cube", "--structure", "median-kd:leef=3"], &["leef", "leaf, ", "threshold"]);
+    refuses_in_a_line(&["compare", "cube", "-s", "sah-kd:leaf=abc"], &["sah-kd", "leaf=abc", "integer of at least 0"]);
+    refuses_in_a_line(&["compare", "cube", "-s", "sah-kd:threshold=x"], &["threshold=x", "number"]);
+    refuses_in_a_line(
+        &["compare", "cube", "-s", "sah-kd:mailbox=true,plane=sah-sweap"],
+        &["plane=sah-sweap", "did you mean sah-sweep?", "vertex-median, spatial-median"],
+    );
     refuses_in_a_line(&["compare", "cube", "--structure", "median-kd:leaf=0"], &["leaf must be at least 1"]);
     refuses_in_a_line(&["compare", "cube", "--structure", "median-kd:leaf"], &["key=value"]);
     refuses(&["compare", "cube", "--workload", "primry"], &["primry", "did you mean primary?", "shadow"]);
