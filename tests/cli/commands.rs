@@ -68,6 +68,7 @@ fn what_is_not_known_is_refused_with_what_is() {
 fn bad_files_are_named_with_the_place_of_the_fault() {
     let directory = tempfile::tempdir().unwrap();
     refuses_in_a_line(&["compare", "no/such/mesh.obj"], &["no/such/mesh.obj", "check that it exists"]);
+    refuses_in_a_line(&["compare", &path_text(directory.path())], &["this is a folder", ".glb", ".toml"]);
     let unknown = write(&directory, "mesh.xyz", "");
     refuses_in_a_line(&["compare", &unknown], &["mesh.xyz", ".obj, .ply, .gltf or .glb"]);
     let nan = write(&directory, "nan.obj", &SQUARE.replace("v 1 1 0", "v 1 nan 0"));
