@@ -39,6 +39,9 @@ fn what_is_not_known_is_refused_with_what_is() {
     refuses(&["compare", "cube", "--threads", "0"], &["0"]);
     refuses(&["compare", "cube", "--quality", "best"], &["best", "fast", "balanced", "high"]);
     refuses(&["frobnicate"], &["frobnicate"]);
+    refuses_in_a_line(&["study", "foo"], &["foo", "counts", "attribution", "crossover", "plan"]);
+    refuses_in_a_line(&["study", "atribution", "cube"], &["did you mean attribution?"]);
+    refuses_in_a_line(&["diff", "no/a.json", "no/b.json"], &["no/a.json", "compare --export-json"]);
     refuses(&["render", "cube"], &["--output"]);
     refuses(&["render", "cube", "-o", "x.png", "--view", "pretty"], &["pretty", "shaded", "heat"]);
     refuses(&["render", "cube", "-o", "x.png", "--view", "heta"], &["did you mean heat?"]);
