@@ -5,7 +5,8 @@ use std::time::Duration;
 use serde_json::Value;
 
 use super::{
-    Compared, Reference, brief_table, compared, details_legend, legend, mean_table, scene_table, section, winner,
+    Compared, Reference, brief_table, compared, details_legend, legend, mean_table, refusals, scene_table, section,
+    winner,
 };
 use crate::measure::Provenance;
 use crate::registry::{Choice, Registry};
@@ -239,12 +240,15 @@ impl Study for CompareStudy {
 
     fn legend(answer: &Compared) -> Vec<String> {
         let records = &answer.records;
-        let Some(first) = records.first() else { return vec![NO_RAYS.into()] };
-        let mut all = details_legend(&first.workload);
-        all.extend(legend(records, &answer.references(records)));
-        if records.iter().all(|r| r.instructions_per_ray.is_none()) {
-            all.push("Instructions are not counted: the system offers no counter of them here.".into());
+        let mut all = vec![NO_RAYS.into()];
+        if let Some(first) = records.first() {
+            all = details_legend(&first.workload);
+            all.extend(legend(records, &answer.references(records)));
+            if records.iter().all(|r| r.instructions_per_ray.is_none()) {
+                all.push("Instructions are not counted: the system offers no counter of them here.".into());
+            }
         }
+        all.extend(refusals(&answer.refused));
         all
     }
 
@@ -255,7 +259,8 @@ impl Study for CompareStudy {
         }
         let references = answer.references(&answer.records);
         let last = &references[references.len().saturating_sub(1)..];
-        let legend = if answer.records.is_empty() { vec![NO_RAYS.into()] } else { legend(&answer.records, last) };
+        let mut legend = if answer.records.is_empty() { vec![NO_RAYS.into()] } else { legend(&answer.records, last) };
+        legend.extend(refusals(&answer.refused));
         Printed { tables: tables(answer, brief_table), summary: summary(answer, last), legend }
     }
 
@@ -269,10 +274,21 @@ impl Study for CompareStudy {
     }
 
     fn warnings(answer: &Compared) -> Vec<String> {
-        let mut warnings: Vec<String> = answer.records.iter().flat_map(|r| r.provenance.warnings.clone()).collect();
-        let mut seen = std::collections::BTreeSet::new();
-        warnings.retain(|warning| seen.insert(warning.clone()));
-        warnings
+        let all = distinct(answer.records.iter().flat_map(|r| &r.provenance.warnings));
+        // Those of several scenes that differ in their numbers alone are one.
+        let words = |warning: &str| warning.replace(|c: char| c.is_ascii_digit() || c == '.', "");
+        let mut warnings: Vec<(String, Vec<String>)> = vec![];
+        for warning in all {
+            match warnings.iter_mut().find(|(of, _)| *of == words(&warning)) {
+                Some((_, alike)) => alike.push(warning),
+                None => warnings.push((words(&warning), vec![warning])),
+            }
+        }
+        let told = |(_, alike): (String, Vec<String>)| match alike.len() {
+            1 => alike[0].clone(),
+            n => format!("{} (the first of {n} scenes of which that is so)", alike[0]),
+        };
+        warnings.into_iter().map(told).collect()
     }
 
     fn data(answer: &Compared) -> Vec<Data> {

@@ -75,6 +75,9 @@ fn ratios_are_geometric_means_against_the_tree_and_the_better_bvh() {
     let whole: Vec<Record> = records().into_iter().map(|record| Record { sampled: false, ..record }).collect();
     assert_eq!(cell(&scene_table(&whole, &[]), "sah-kd", "primary"), "8.00");
     assert!(!legend(&whole, &[])[0].contains('~'));
+    let one_epoch: Vec<Record> = records().into_iter().map(|record| Record { epochs: 1, ..record }).collect();
+    let [told, once] = [&records(), &one_epoch].map(|records| legend(records, &[])[1].contains("interval"));
+    assert!(told && !once, "one epoch has no interval");
 }
 
 #[test]
