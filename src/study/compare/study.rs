@@ -1,5 +1,6 @@
 //! `compare` as a study.
 
+use std::collections::BTreeSet;
 use std::time::Duration;
 
 use serde_json::Value;
@@ -53,7 +54,8 @@ pub struct CompareArgs {
     pub rays: RaySource,
     #[command(flatten)]
     pub measuring: Measuring<4, 1, 2>,
-    /// A coarse answer within seconds: up to three epochs of few rays, and no further one of a scene that has taken 2 s
+    /// A coarse answer within seconds: up to three epochs of few rays, without brute-force unless it is named, and no further epoch
+    /// that would take a scene beyond 4 s
     #[arg(long, conflicts_with_all = ["epochs", "runs", "budget", "rays"])]
     pub quick: bool,
     /// Print all columns: of builds, memory, tests, steps, checks, and ratios to both references
@@ -64,10 +66,13 @@ pub struct CompareArgs {
 /// Seconds that a program may take for an answer.
 const RUNNER_LIMIT: u32 = 120;
 
-/// Epochs and rays of a quick run, and after how long no further epoch of a scene is begun.
+/// Of a quick run: its epochs and rays, what all epochs of a scene may take, the samples of one of them, and the triangle tests of all
+/// checks together. These are totals, however many structures take part.
 const QUICK_EPOCHS: u16 = 3;
 const QUICK_RAYS: usize = 1 << 14;
-const QUICK_NS: u64 = 2_000_000_000;
+const QUICK_NS: u64 = 4_000_000_000;
+const QUICK_SAMPLES_NS: u64 = 250_000_000;
+const QUICK_CHECKS: usize = 1 << 28;
 
 /// A structure that takes more than so many times as long as the median one is timed on fewer rays: its ratios hardly
 /// gain from more of them, and the run would be about it alone.
@@ -147,7 +152,17 @@ impl CompareArgs {
             }
         };
         let settings = self.measuring.settings(registry, with_twin(structures), asked)?;
-        Ok((scenes, Settings { slowest: SLOWEST, detailed: true, ..settings }))
+        let mut settings = Settings { slowest: SLOWEST, detailed: true, ..settings };
+        if self.quick {
+            if self.structures.structure.is_empty() {
+                settings.structures.retain(|choice| choice.entry.name != BRUTE_FORCE);
+            }
+            let tests: BTreeSet<&str> = settings.structures.iter().map(Choice::triangle_test).collect();
+            let kinds = if self.workload.is_empty() { WORKLOADS.len() } else { self.workload.len() };
+            settings.check_tests = QUICK_CHECKS / (tests.len() * kinds).max(1);
+            settings.budget_ns = QUICK_SAMPLES_NS;
+        }
+        Ok((scenes, settings))
     }
 }
 
@@ -203,9 +218,8 @@ impl Study for CompareStudy {
         plan.notes.extend(notes);
         if args.quick {
             plan.limit_ns = Some(QUICK_NS);
-            plan.notes.push(
-                "Coarse: few epochs of few rays, so that intervals are wide. Without --quick it is measured.".into(),
-            );
+            plan.notes
+                .push("Coarse: few rays, few checks and up to three epochs. Without --quick it is measured.".into());
         }
         Ok(plan)
     }
@@ -358,6 +372,20 @@ fn summary(answer: &Compared, references: &[Reference]) -> Vec<Table> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::report::example;
+
+    #[test]
+    fn warnings_that_differ_in_their_numbers_alone_are_one() {
+        let record = |warnings: &[&str]| {
+            let mut record = example();
+            record.provenance.warnings = warnings.iter().map(|&warning| warning.into()).collect();
+            record
+        };
+        let records =
+            vec![record(&["made way 3 times in 1.5 s", "hot"]), record(&["made way 40 times in 12 s", "hot"])];
+        let warnings = CompareStudy::warnings(&Compared { records, ..Compared::default() });
+        assert_eq!(warnings, ["made way 3 times in 1.5 s (the first of 2 scenes of which that is so)", "hot"]);
+    }
 
     #[test]
     fn study_all_compares_every_structure_with_right_answers_and_in_single_precision() {

@@ -97,6 +97,7 @@ fn compared(specs: &[&str]) -> Result<Compared, StudyError> {
         runs: 2,
         budget_ns: 60_000_000_000,
         slowest: 4.0,
+        check_tests: crate::study::check::TESTS,
         detailed: true,
         seed: 1,
         threads: Threads::new(1).unwrap(),
