@@ -107,15 +107,22 @@ impl Results {
     pub fn new(document: &Document, runs: &Runs, studies: &Studies) -> Result<Self, ResultsError> {
         let run = RunFacts::new(&runs.provenances())?;
         let statements = statements(document, runs, studies, &run);
-        let paper = paper::text(document, runs, studies, &run);
+        let mut paper = paper::text(document, runs, studies, &run);
         let shown = document.figures().into_iter().filter(|figure| paper.contains(&paper::path(&figure.id)));
         let drawn = shown.filter_map(|figure| match &figure.art {
-            Art::Chart(chart) => Some((format!("{}.svg", figure.id), chart.svg(WIDTH).into_bytes())),
+            Art::Chart(chart) => Some((figure.id.clone(), chart.svg(WIDTH).into_bytes())),
             _ => None,
         });
-        let answer =
-            document.answer.chart.as_ref().map(|chart| (paper::ANSWER.to_owned(), chart.svg(WIDTH).into_bytes()));
-        let figures: Vec<(String, Vec<u8>)> = answer.into_iter().chain(drawn).collect();
+        let drawn: Vec<(String, Vec<u8>)> = drawn.collect();
+        let answer = document.answer.chart.as_ref().map(|chart| (paper::ANSWER.into(), chart.svg(WIDTH).into_bytes()));
+        let mut figures: Vec<(String, Vec<u8>)> = answer.into_iter().collect();
+        for (id, bytes) in drawn {
+            // The answer may be the figure of a study as well: it is kept once.
+            match figures.iter().find(|(_, known)| *known == bytes) {
+                Some((known, _)) => paper = paper.replace(&paper::path(&id), &format!("{FIGURES}/{known}")),
+                None => figures.push((format!("{id}.svg"), bytes)),
+            }
+        }
         let mut files: BTreeMap<String, String> =
             figures.iter().map(|(name, bytes)| (format!("{FIGURES}/{name}"), digest(bytes))).collect();
         files.insert(PAPER.into(), digest(paper.as_bytes()));

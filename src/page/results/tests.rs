@@ -1,10 +1,11 @@
 //! The paper, README and the data file agree, and say nothing that no run has measured.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
 use super::{COMMAND, DATA, MarkError, Results, ResultsData, ResultsError, digest, fill, marked};
-use crate::page::tests::{cube, provenance, read, records_of, runs_folder};
+use crate::page::tests::{attribution_files, cube, provenance, read, records_of, runs_folder};
 use crate::registry::Registry;
 use crate::report::{Record, to_json};
 use crate::study::Studies;
@@ -135,6 +136,25 @@ fn marked_places_are_filled_in_and_wrapped() {
     assert_eq!(marked("<!-- sahara: k --> never closed"), Err(MarkError::Open("k".into())));
 }
 
+/// Each figure that the paper shows is written, no other one, and none twice.
+fn are_shown(results: &Results) {
+    let shown: BTreeSet<&str> =
+        results.paper.split("](figures/").skip(1).filter_map(|rest| rest.split(')').next()).collect();
+    let written: BTreeSet<&str> = results.figures.iter().map(|(name, _)| name.as_str()).collect();
+    assert_eq!(shown, written);
+    let different: BTreeSet<&Vec<u8>> = results.figures.iter().map(|(_, bytes)| bytes).collect();
+    assert_eq!(different.len(), results.figures.len(), "no figure is kept twice");
+}
+
+#[test]
+fn a_figure_that_is_the_answer_is_kept_once() {
+    let runs = read(runs_folder(&attribution_files("Dragon")).path());
+    let document = crate::page::document(&runs, &Studies::builtin(), vec![]);
+    let results = Results::new(&document, &runs, &Studies::builtin()).unwrap();
+    are_shown(&results);
+    assert_eq!(results.paper.matches("](figures/answer.svg)").count(), 2, "{}", results.paper);
+}
+
 #[test]
 fn every_statement_is_in_the_paper_and_in_the_data() {
     let (document, runs) = cube();
@@ -149,9 +169,7 @@ fn every_statement_is_in_the_paper_and_in_the_data() {
     for heading in ["Question", "Answer", "Method", "Results", "Threats to validity", "What would change our mind"] {
         assert!(results.paper.contains(&format!("\n## {heading}\n")), "{heading}");
     }
-    // Each figure that it shows is written, and no other.
-    let shown = results.paper.matches("](figures/").count();
-    assert_eq!(shown, results.figures.len(), "{:?}", results.figures.iter().map(|f| &f.0).collect::<Vec<_>>());
+    are_shown(&results);
 
     let text = "A <!-- sahara: attribution.parts -->?<!-- / --> b <!-- sahara: replicate.hard -->?<!-- / -->\n";
     let filled = results.fill(text, &studies).unwrap();
