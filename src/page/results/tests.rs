@@ -4,10 +4,13 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-use super::{COMMAND, DATA, MarkError, Results, ResultsData, ResultsError, digest, fill, marked};
+use super::{COMMAND, DATA, MarkError, Results, ResultsData, ResultsError, counts, digest, fill, marked, work};
+use crate::accel::Counts;
+use crate::measure::spread;
 use crate::page::tests::{attribution_files, cube, provenance, read, records_of, runs_folder};
 use crate::registry::Registry;
 use crate::report::{Record, to_json};
+use crate::scene::{Builtin, Sampling, Scene, Workload, WorkloadKind};
 use crate::study::Studies;
 
 /// A file of the repository.
@@ -59,6 +62,68 @@ fn structures_of_the_data_file_are_still_called_so_and_have_the_same_triangle_te
             assert!(PEERS.contains(&name), "{label} is no structure any more: `{COMMAND}` makes the numbers anew");
         }
     }
+}
+
+/// What `label` counts for so many primary rays of a scene.
+fn recounted(scene: &Scene, label: &str, rays: usize) -> String {
+    let registry = Registry::builtin();
+    let build = |label: &str| registry.choose(label).unwrap().build(&scene.mesh).unwrap();
+    let workload = Workload::new(
+        scene,
+        WorkloadKind::Primary,
+        &Sampling { seed: 1, ..Sampling::of(scene) },
+        build("sah-kd").as_ref(),
+    );
+    let (accel, rays) = (build(label), spread(&workload.rays, rays));
+    let (mut hits, mut counts) = (vec![None; rays.len()], Counts::default());
+    accel.closest_hits_counted(&rays, &mut hits, &mut counts);
+    let observed = accel.observed();
+    let [tests, steps] = [observed.tests.then_some(counts.tests), observed.steps.then_some(counts.steps())];
+    work(rays.len(), hits.iter().flatten().count(), tests, steps)
+}
+
+#[test]
+#[ignore = "after a change of trees or searches it fails until the results are made anew"]
+fn trees_and_searches_are_those_of_the_data_file() {
+    let (data, registry) = (data(), Registry::builtin());
+    assert!(!data.counts.is_empty(), "papers/{DATA} holds no counts: `{COMMAND}` makes it anew");
+    for (name, structures) in &data.counts {
+        let scene = Builtin::find(name).unwrap().scene(None).unwrap();
+        // Peers take part in the run whose features are on.
+        for (label, known) in structures.iter().filter(|(label, _)| registry.choose(label).is_ok()) {
+            let rays = known.split(' ').next().unwrap().parse().unwrap();
+            assert_eq!(
+                recounted(&scene, label, rays),
+                *known,
+                "{label} on {name}: the numbers are of other trees or searches, those of commit {}; `{COMMAND}` makes them anew",
+                data.run.commit
+            );
+        }
+    }
+}
+
+#[test]
+fn counts_are_kept_of_small_scenes_that_anybody_has() {
+    let scene = Builtin::find("torus").unwrap().scene(None).unwrap();
+    let told = recounted(&scene, "sah-bvh", 1000);
+    let number = |what: &str| -> f64 {
+        let before = told.split(what).next().unwrap().trim();
+        before.rsplit(' ').next().unwrap().parse().unwrap()
+    };
+    let record = Record {
+        scene: "Torus".into(),
+        scene_hash: scene.hash(),
+        triangles: scene.mesh.len(),
+        label: "sah-bvh".into(),
+        counted_rays: 1000,
+        hits: number("hits") as usize,
+        tests_per_ray: Some(number("tests") / 1000.0),
+        steps_per_ray: Some(number("steps") / 1000.0),
+        ..records_of("Torus").swap_remove(0)
+    };
+    assert!(told.starts_with("1000 rays: ") && number("tests") > 100.0, "{told}");
+    assert_eq!(counts(std::slice::from_ref(&record))["Torus"]["sah-bvh"], told);
+    assert!(counts(&[Record { scene_hash: "another mesh".into(), ..record }]).is_empty());
 }
 
 /// Structures of features that are off by default.
