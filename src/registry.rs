@@ -44,6 +44,8 @@ pub struct Entry {
     /// [`Accel::CAPABILITIES`].
     pub capabilities: Capabilities,
     config: Value,
+    /// Whether a configuration can be read, before it is known whether its values go together.
+    read: fn(&Value) -> Result<(), String>,
     build: Build,
 }
 
@@ -70,8 +72,10 @@ pub enum ChoiceError {
     Key { name: String, key: String, suggestion: String, known: String },
     #[error("{part:?} in {spec:?} is not of the form key=value")]
     Form { spec: String, part: String },
+    #[error("{name} does not take {given} ({reason}){suggestion}; allowed: {values}")]
+    Value { name: String, given: String, reason: String, suggestion: String, values: String },
     #[error("{name} cannot be configured so: {reason}")]
-    Value { name: String, reason: String },
+    Config { name: String, reason: String },
 }
 
 impl Registry {
@@ -144,6 +148,7 @@ impl Registry {
             conventions: A::CONVENTIONS,
             capabilities: A::CAPABILITIES,
             config,
+            read: |config| parse::<A>(config).map(drop),
             build,
         });
         self
@@ -246,6 +251,16 @@ impl Entry {
                 return Err(unknown());
             }
             let value = serde_json::from_str(text).unwrap_or_else(|_| Value::String(text.into()));
+            self.takes(key, &value).map_err(|reason| {
+                let values = self.values(key);
+                ChoiceError::Value {
+                    name: self.name.clone(),
+                    given: format!("{key}={text}"),
+                    reason: reason.split(", expected").next().unwrap_or_default().into(),
+                    suggestion: suggestion(text, values.split(", ")),
+                    values,
+                }
+            })?;
             if keys[key] != value {
                 shown.push(format!("{key}={text}"));
             }
@@ -254,11 +269,18 @@ impl Entry {
         let label = if shown.is_empty() { self.name.clone() } else { format!("{}:{}", self.name, shown.join(",")) };
         let choice = Choice { entry: self.clone(), config, label };
         match choice.build(&Arc::new(empty())) {
-            Err(BuildError::Config(reason)) => Err(ChoiceError::Value { name: self.name.clone(), reason }),
+            Err(BuildError::Config(reason)) => Err(ChoiceError::Config { name: self.name.clone(), reason }),
             // What is absent, or cannot do with the empty mesh, is refused when it is built over a mesh: it must not end a run
             // over many.
             _ => Ok(choice),
         }
+    }
+
+    /// Whether a key can have a value, whatever the others have; the error is the reader's.
+    fn takes(&self, key: &str, value: &Value) -> Result<(), String> {
+        let mut config = self.config.clone();
+        config[key] = value.clone();
+        (self.read)(&config)
     }
 }
 

@@ -15,13 +15,13 @@ use crate::registry::Registry;
 use crate::report::to_json;
 use crate::scene::WorkloadKind;
 use crate::study::baseline::{Run, SCENES, against, new_baseline_path, outcome as held_against, read_baseline};
-use crate::study::compare::{CompareArgs, Compared, Reference, brief_table, scene_table};
+use crate::study::compare::{CompareArgs, CompareStudy, Compared, Reference, brief_table, refusals, scene_table};
 use crate::study::epoch::{Epoch, Settings, troubles};
 use crate::study::history;
 use crate::study::job::Job;
 use crate::study::process;
 use crate::study::regression::{Comparison, tables};
-use crate::study::{AnyStudy, BRUTE_FORCE, Chosen, Plan, Screen, Status};
+use crate::study::{AnyStudy, BRUTE_FORCE, Chosen, Plan, Screen, Status, Study as _};
 
 /// Options about runs that are kept.
 #[derive(Clone, Debug, clap::Args)]
@@ -167,10 +167,11 @@ fn gated(session: &Session, gate: &Gate, matches: &ArgMatches) -> anyhow::Result
         !compared.records.is_empty(),
         "nothing was measured: these scenes have no rays of the kinds asked for"
     );
-    compared.records.iter().for_each(|record| screen.warn(&record.provenance.warnings));
+    screen.warn(&CompareStudy::warnings(&compared));
     screen.end();
 
     print(&compared, comparison.as_ref(), args.wide, terminal)?;
+    terminal.print_lines(&refusals(&compared.refused))?;
     terminal.print_lines(&plan.notes)?;
     terminal.print_lines(&[provenance.line()])?;
     if let Some(file) = json {

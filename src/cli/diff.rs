@@ -2,8 +2,6 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::Context;
-
 use super::terminal::Terminal;
 use crate::measure::Provenance;
 use crate::output::OutputFile;
@@ -52,7 +50,9 @@ pub fn run(args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
 }
 
 fn records(path: &Path) -> anyhow::Result<Vec<Record>> {
-    let text = std::fs::read(path).with_context(|| format!("cannot read {}", path.display()))?;
+    let text = std::fs::read(path).map_err(|cause| {
+        anyhow::anyhow!("cannot read {} ({cause}): give a file of `sahara compare --export-json`", path.display())
+    })?;
     let records: Vec<Record> = serde_json::from_slice(&text).map_err(|cause| {
         anyhow::anyhow!("{} holds no records of `sahara compare --export-json`: {cause}", path.display())
     })?;

@@ -29,6 +29,7 @@ use std::process::ExitCode;
 use clap::{ArgMatches, Args as _, FromArgMatches, Subcommand};
 
 use crate::measure::{keep_to, program};
+use crate::nearest::suggestion;
 use crate::output::OutputError;
 use crate::registry::Registry;
 use crate::simd::Level;
@@ -156,6 +157,8 @@ fn command(studies: &Studies) -> clap::Command {
         .about("Run an experiment with a question of its own")
         .subcommand_required(true)
         .arg_required_else_help(true)
+        // A name that is no study gets the list of those there are.
+        .allow_external_subcommands(true)
         .subcommand(all::Args::augment_args(all))
         .subcommand(plan::Args::augment_args(clap::Command::new(plan::NAME)))
         .subcommands(studies.iter().map(study::command));
@@ -306,7 +309,11 @@ fn dispatch(session: &Session, matches: &ArgMatches, global: &Global) -> anyhow:
 }
 
 fn find<'a>(suite: &'a Suite, study: &str) -> anyhow::Result<&'a dyn AnyStudy> {
-    suite.studies.find(study).ok_or_else(|| anyhow::anyhow!("there is no study {study:?}"))
+    suite.studies.find(study).ok_or_else(|| {
+        let names: Vec<&str> = suite.studies.iter().map(|study| study.name()).chain([all::NAME, plan::NAME]).collect();
+        let suggestion = suggestion(study, names.iter().copied());
+        anyhow::anyhow!("there is no study {study:?}{suggestion}; there are: {}", names.join(", "))
+    })
 }
 
 /// Whether the reader of our output has gone away, as `head` does.

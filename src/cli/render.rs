@@ -8,7 +8,8 @@ use super::progress::Waiting;
 use super::terminal::Terminal;
 use crate::accel::{DynAccel, Observed};
 use crate::registry::{Choice, Registry};
-use crate::render::{ErrorMap, ViewError, ViewKind, costs, draw, hottest};
+use crate::render::{ErrorMap, ViewError, ViewKind, coarse_size, costs, draw, heat_bar, hottest};
+use crate::report::number::count;
 use crate::scene::Scene;
 use crate::study::{BRUTE_FORCE, PANICKED, SAH_TREE, guarded, is_large};
 use crate::study::{Status, ViewArgs, sources};
@@ -48,8 +49,8 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     let accel = choice.build(&scene.mesh)?;
     let scaled_alone = args.hottest.is_none() && is_large(scene.mesh.len());
     let scale = match (args.view, args.hottest) {
-        (ViewKind::Heat, None) if scaled_alone => own_scale(&choice, &scene, accel.as_ref(), size)?,
-        (ViewKind::Heat, None) => common_scale(registry, &scene, size, &waiting)?,
+        (ViewKind::Heat, None) if scaled_alone => own_scale(&choice, &scene, accel.as_ref())?,
+        (ViewKind::Heat, None) => common_scale(registry, &scene, &waiting)?,
         (_, hottest) => hottest.unwrap_or(1).max(1),
     };
     waiting.says(format!("{} is drawn by {}", scene.name, choice.label));
@@ -62,12 +63,20 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
         Ok((picture, errors))
     });
     drop(waiting);
-    let (picture, errors) = drawn.with_context(|| format!("{}: {PANICKED}", choice.label))??;
+    let (mut picture, errors) = drawn.with_context(|| format!("{}: {PANICKED}", choice.label))??;
+    let mut legend = String::new();
+    if args.view == ViewKind::Heat {
+        picture = picture.above(&heat_bar(size[0], scale));
+        legend = format!(
+            "; below it the colours from 0 to {} tests and steps, marked at 1 and each power of ten",
+            count(scale)
+        );
+    }
     file.write(&picture.png())?;
 
-    let scale = if args.view == ViewKind::Heat { format!(", brightest at {scale} tests and steps") } else { "".into() };
+    let size = picture.size();
     let what = format!("{} view of {} by {}", args.view.name(), scene.name, choice.label);
-    terminal.print(&format!("{}: {} x {} pixels, {what}{scale}\n", args.output.display(), size[0], size[1]))?;
+    terminal.print(&format!("{}: {} x {} pixels, {what}{legend}\n", args.output.display(), size[0], size[1]))?;
     let notes: Vec<String> = scene.notes.iter().map(|note| format!("{}: {note}", scene.name)).collect();
     terminal.print_lines(&notes)?;
     if args.view == ViewKind::Heat && scaled_alone {
@@ -97,13 +106,15 @@ fn is_png(path: &Path) -> anyhow::Result<()> {
 }
 
 /// The scale of one structure.
-fn own_scale(choice: &Choice, scene: &Scene, accel: &dyn DynAccel, size: [u32; 2]) -> anyhow::Result<u64> {
-    let costs = guarded(|| costs(scene, accel, size)).with_context(|| format!("{}: {PANICKED}", choice.label))?;
+fn own_scale(choice: &Choice, scene: &Scene, accel: &dyn DynAccel) -> anyhow::Result<u64> {
+    let costs =
+        guarded(|| costs(scene, accel, coarse_size(scene))).with_context(|| format!("{}: {PANICKED}", choice.label))?;
     Ok(hottest(&costs?).max(1))
 }
 
 /// One scale for the heat of all structures: the hottest of the trees. Brute force would darken all of them.
-fn common_scale(registry: &Registry, scene: &Scene, size: [u32; 2], waiting: &Waiting) -> anyhow::Result<u64> {
+fn common_scale(registry: &Registry, scene: &Scene, waiting: &Waiting) -> anyhow::Result<u64> {
+    let size = coarse_size(scene);
     let mut scale = 1;
     for choice in sources::structures(registry, &[])? {
         if choice.entry.name != BRUTE_FORCE && choice.entry.observed == Observed::ALL {

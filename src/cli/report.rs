@@ -62,8 +62,13 @@ pub fn run(suite: &Suite, args: &Args, terminal: &Terminal) -> anyhow::Result<St
     for note in &runs.notes {
         terminal.print(&format!("{note}\n"))?;
     }
-    for missing in document.missing() {
-        terminal.print(&format!("not measured: {}: {}\n", missing.what, missing.command))?;
+    match &document.missing()[..] {
+        [] => {}
+        [one] => terminal.print(&format!("not measured: {}: {}\n", one.what, one.command))?,
+        all => terminal.print(&format!(
+            "not measured: {} other questions, which the end of the page names with their commands; `sahara study all` measures all\n",
+            all.len()
+        ))?,
     }
     let written = folder.iter().map(|folder| folder.path().join("index.html"));
     for path in written.chain(results.iter().flat_map(ResultsFolder::paths)) {

@@ -5,9 +5,9 @@ use super::{RunError, Runs, files, page};
 use crate::report::document::{Art, Document, Section};
 use crate::report::{Record, to_json};
 use crate::study::{Studies, attribution};
-use example::{Files, accuracy, attribution as attribution_files, exported, refused, whole};
+use example::{Files, accuracy, exported, refused, whole};
 
-pub use example::{cube, provenance, read, records_of, runs_folder};
+pub use example::{attribution as attribution_files, cube, provenance, read, records_of, runs_folder};
 
 mod example;
 mod machines;

@@ -50,20 +50,21 @@ impl Entry {
         let key = |(name, value): (&String, &Value)| Key {
             name: name.clone(),
             meaning: known(name),
-            values: self.values(name, value),
+            values: self.values(name),
             default: shown(value),
         };
         self.config().as_object().into_iter().flatten().map(key).collect()
     }
 
     /// What a key takes: its words as the configuration itself lists them where they are refused.
-    fn values(&self, key: &str, default: &Value) -> String {
-        match default {
+    pub(super) fn values(&self, key: &str) -> String {
+        match &self.config()[key] {
             Value::Bool(_) => "true, false".into(),
             Value::Number(n) if n.is_f64() => "number".into(),
+            Value::Number(_) if self.takes(key, &Value::from(-1)).is_err() => "integer of at least 0".into(),
             Value::Number(_) => "integer".into(),
             _ => {
-                let refused = self.configure(&[(key, "?")], false).err().map_or(String::new(), |e| e.to_string());
+                let refused = self.takes(key, &Value::from("?")).err().unwrap_or_default();
                 let words: Vec<&str> = refused.rsplit("expected").next().unwrap_or("").split('`').collect();
                 words.chunks(2).filter_map(|pair| pair.get(1).copied()).collect::<Vec<_>>().join(", ")
             }
@@ -100,7 +101,7 @@ mod tests {
         let median = registry.entries().iter().find(|entry| entry.name == "median-kd").unwrap();
         let keys = median.keys();
         let of = |name: &str| keys.iter().find(|key| key.name == name).unwrap();
-        assert_eq!((of("threshold").default.as_str(), of("leaf").values.as_str()), ("0.7", "integer"));
+        assert_eq!((of("threshold").default.as_str(), of("leaf").values.as_str()), ("0.7", "integer of at least 0"));
         assert!(of("plane").values.starts_with("vertex-median, "), "{:?}", of("plane"));
     }
 }

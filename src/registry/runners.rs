@@ -26,6 +26,7 @@ impl Choice {
             conventions: &[],
             capabilities: Capabilities::ALL,
             config: config.clone(),
+            read: |_| Ok(()),
             build: Arc::new(build),
         };
         Self { entry, config, label }

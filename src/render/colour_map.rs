@@ -1,5 +1,7 @@
 //! The colour map of the heat view.
 
+use super::Picture;
+
 /// Nine colours of the map "inferno" at equal distances: lightness rises evenly, also in grey and for colour-blind
 /// eyes.
 ///
@@ -34,9 +36,34 @@ pub fn heat(cost: u64, hottest: u64) -> [u8; 3] {
     std::array::from_fn(|c| ((u32::from(below[c]) * (255 - part) + u32::from(above[c]) * part + 127) / 255) as u8)
 }
 
+/// The colours of all costs from 0 to `hottest` as a bar of so many pixels, below it a mark at 1 and each power of ten.
+pub fn bar(width: u32, hottest: u64) -> Picture {
+    let black = vec![[0; 3]; width as usize];
+    let (last, whole) = (f64::from(width.max(2) - 1), libm::log1p(hottest as f64));
+    let colour = |x: u32| heat(libm::round(libm::expm1(f64::from(x) / last * whole)) as u64, hottest);
+    let mut marks = black.clone();
+    let tens = std::iter::successors(Some(1_u64), |ten| ten.checked_mul(10)).take_while(|&ten| ten <= hottest);
+    tens.for_each(|ten| marks[libm::round(libm::log1p(ten as f64) / whole * f64::from(width - 1)) as usize] = [255; 3]);
+    let colours: Vec<[u8; 3]> = (0..width).map(colour).collect();
+    let rows = [vec![black; 2], vec![colours; 10], vec![marks; 3]].concat();
+    Picture::new([width, rows.len() as u32], rows.concat())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_bar_has_every_colour_of_the_scale_and_marks_at_powers_of_ten() {
+        let bar = bar(101, 999);
+        let row = |y: usize| &bar.pixels()[101 * y..101 * (y + 1)];
+        assert_eq!((row(5)[0], row(5)[100], bar.size()), (INFERNO[0], INFERNO[8], [101, 15]));
+        assert_eq!(row(5)[50], heat(31, 999), "the root of 1000, less one, is in the middle");
+        let marks: Vec<usize> = (0..101).filter(|&x| row(14)[x] != [0; 3]).collect();
+        assert_eq!(marks, [10, 35, 67], "1, 10 and 100 of 999");
+        // A scale of one cost, and one pixel.
+        assert_eq!(super::bar(1, 1).size(), [1, 15]);
+    }
 
     #[test]
     fn the_scale_runs_from_black_to_pale_yellow_and_stays_there() {

@@ -13,10 +13,10 @@ mod report_ray_counts;
 #[cfg(test)]
 mod tests;
 
-pub use colour_map::heat as heat_colour;
+pub use colour_map::{bar as heat_bar, heat as heat_colour};
 pub use error_map::{ErrorMap, ExactPicture, error_name};
 pub use image::Image;
 pub use integrator::{RayCounts, render};
 pub use picture::{Difference, Picture, PictureError};
-pub use view::{ViewError, ViewKind, costs, draw, hottest};
+pub use view::{ViewError, ViewKind, coarse_size, costs, draw, hottest, size_of};
 pub use work::Work;

@@ -57,6 +57,16 @@ impl Picture {
         &self.pixels
     }
 
+    /// This picture with `other` below it.
+    ///
+    /// # Panics
+    /// If they are not of one width.
+    pub fn above(self, other: &Self) -> Self {
+        let [width, height] = self.size;
+        assert_eq!(width, other.size[0], "pictures of one width");
+        Self::new([width, height + other.size[1]], [self.pixels, other.pixels.clone()].concat())
+    }
+
     /// The bytes of a PNG file; the same for the same picture.
     ///
     /// # Panics

@@ -94,6 +94,18 @@ pub fn hottest(costs: &[u64]) -> u64 {
     sorted.get(place).copied().unwrap_or(1).max(1)
 }
 
+/// Width and height of a picture of the scene whose longer side has `longest` pixels.
+pub fn size_of(scene: &Scene, longest: u32) -> [u32; 2] {
+    let [width, height] = scene.size;
+    let most = width.max(height).max(1);
+    [width, height].map(|side| (u64::from(side) * u64::from(longest) / u64::from(most)).max(1) as u32)
+}
+
+/// Width and height of the pictures of the page, whose pixels also tell the scale of heat: one scale for both.
+pub fn coarse_size(scene: &Scene) -> [u32; 2] {
+    size_of(scene, 320)
+}
+
 fn primary(scene: &Scene, size: [u32; 2]) -> Vec<Ray> {
     scene.primary_rays(size, View::CENTRE, 0..size[0] * size[1])
 }

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::ValueEnum;
 
+use super::check::TESTS;
 use super::epoch::{Asked, Settings};
 use super::reference_structures::takes_minutes;
 use super::{BRUTE_FORCE, Effort, REPORT_TREE, SAH_TREE, rays_or_all, sources};
@@ -66,6 +67,7 @@ impl<const EPOCHS: u16, const RUNS: u16, const BUDGET: u32> Measuring<EPOCHS, RU
             runs: self.runs.into(),
             budget_ns: u64::from(self.budget) * 1_000_000_000,
             slowest: f64::INFINITY,
+            check_tests: TESTS,
             detailed: false,
             seed: self.seed,
             threads: self.pinned()?,

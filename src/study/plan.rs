@@ -39,7 +39,7 @@ pub struct Plan<C> {
     pub settings: Map<String, Value>,
     pub threads: Threads,
     pub cases: Vec<Planned>,
-    /// Of a scene that has taken so long no further epoch is begun.
+    /// Of a scene no further epoch is begun that would take it beyond this.
     pub limit_ns: Option<u64>,
     /// What is said below the tables.
     pub notes: Vec<String>,

@@ -26,6 +26,12 @@ fn what_is_not_known_is_refused_with_what_is() {
     let foo = refuses(&["golden", "check", "foo"], &["foo", "Cube, Sphere"]);
     assert!(!foo.contains("did you mean"), "{foo}");
     refuses_in_a_line(&["compare", "cube", "--structure", "median-kd:leef=3"], &["leef", "leaf, ", "threshold"]);
+    refuses_in_a_line(&["compare", "cube", "-s", "sah-kd:leaf=abc"], &["sah-kd", "leaf=abc", "integer of at least 0"]);
+    refuses_in_a_line(&["compare", "cube", "-s", "sah-kd:threshold=x"], &["threshold=x", "number"]);
+    refuses_in_a_line(
+        &["compare", "cube", "-s", "sah-kd:mailbox=true,plane=sah-sweap"],
+        &["plane=sah-sweap", "did you mean sah-sweep?", "vertex-median, spatial-median"],
+    );
     refuses_in_a_line(&["compare", "cube", "--structure", "median-kd:leaf=0"], &["leaf must be at least 1"]);
     refuses_in_a_line(&["compare", "cube", "--structure", "median-kd:leaf"], &["key=value"]);
     refuses(&["compare", "cube", "--workload", "primry"], &["primry", "did you mean primary?", "shadow"]);
@@ -33,6 +39,9 @@ fn what_is_not_known_is_refused_with_what_is() {
     refuses(&["compare", "cube", "--threads", "0"], &["0"]);
     refuses(&["compare", "cube", "--quality", "best"], &["best", "fast", "balanced", "high"]);
     refuses(&["frobnicate"], &["frobnicate"]);
+    refuses_in_a_line(&["study", "foo"], &["foo", "counts", "attribution", "crossover", "plan"]);
+    refuses_in_a_line(&["study", "atribution", "cube"], &["did you mean attribution?"]);
+    refuses_in_a_line(&["diff", "no/a.json", "no/b.json"], &["no/a.json", "compare --export-json"]);
     refuses(&["render", "cube"], &["--output"]);
     refuses(&["render", "cube", "-o", "x.png", "--view", "pretty"], &["pretty", "shaded", "heat"]);
     refuses(&["render", "cube", "-o", "x.png", "--view", "heta"], &["did you mean heat?"]);
@@ -40,6 +49,16 @@ fn what_is_not_known_is_refused_with_what_is() {
     refuses_in_a_line(&["compare", "cube", "--export-json", "-", "--export-csv", "-"], &["two results"]);
     refuses(&["render", "cube", "-o", "x.png", "--size", "12"], &["WIDTHxHEIGHT"]);
     refuses(&["validate", "cube", "--ray", "1,2,3"], &["ox,oy,oz dx,dy,dz"]);
+    for (ray, fault) in [
+        ("0,0,0 0,-0,0", "direction is zero"),
+        ("0,0,0 1,0,inf", "direction is not finite"),
+        ("0,nan,0 1,0,0", "origin is not finite"),
+        ("0,0,0 1,0,0 [2,2]", "t_max above 0 and above t_min"),
+        ("0,0,0 1,0,0 [-2,0]", "t_max above 0 and above t_min"),
+        ("0,0,0 1,0,0 [nan,1]", "t_max above 0 and above t_min"),
+    ] {
+        refuses(&["validate", "cube", "--ray", ray], &[ray, "--ray", fault]);
+    }
     refuses_in_a_line(&["validate", "cube", "--against", "nothing"], &["nothing", "brute-force"]);
     refuses_in_a_line(&["study", "accuracy", "cube", "--test", "woop"], &["woop", "exact", "watertight"]);
     refuses_in_a_line(&["study", "accuracy", "cube", "-s", "obvhs-bvh2", "-t", "watertight"], &["sahara list"]);
@@ -52,6 +71,7 @@ fn what_is_not_known_is_refused_with_what_is() {
 fn bad_files_are_named_with_the_place_of_the_fault() {
     let directory = tempfile::tempdir().unwrap();
     refuses_in_a_line(&["compare", "no/such/mesh.obj"], &["no/such/mesh.obj", "check that it exists"]);
+    refuses_in_a_line(&["compare", &path_text(directory.path())], &["this is a folder", ".glb", ".toml"]);
     let unknown = write(&directory, "mesh.xyz", "");
     refuses_in_a_line(&["compare", &unknown], &["mesh.xyz", ".obj, .ply, .gltf or .glb"]);
     let nan = write(&directory, "nan.obj", &SQUARE.replace("v 1 1 0", "v 1 nan 0"));

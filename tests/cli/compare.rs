@@ -89,7 +89,7 @@ fn compare_says_who_won_and_relates_to_what_is_asked_for() {
     let said = |args: &[&str]| stdout(&sahara(args)).split_whitespace().collect::<Vec<_>>().join(" ");
     let text = said(&args);
     assert!(text.contains("x sah-kd") && !text.contains("x median"), "{text}");
-    assert!(text.contains("; nothing wrong in ") && text.ends_with(" checked rays."), "{text}");
+    assert!(text.contains(" is wrong in ") && text.ends_with(" checked rays."), "{text}");
     assert!(text.contains("times as many rays a second as sah-") || text.contains("cannot be told apart"), "{text}");
     let text = said(&[&args[..], &["--reference", "median-kd:leaf=8"]].concat());
     assert!(text.contains("x median-kd:leaf=8: speed against median-kd:leaf=8"), "{text}");

@@ -62,6 +62,7 @@ fn it_is_compared_like_our_own() {
         runs: 3,
         budget_ns: 60_000_000_000,
         slowest: 4.0,
+        check_tests: 1 << 27,
         detailed: true,
         seed: 1,
         threads: Threads::new(1).unwrap(),

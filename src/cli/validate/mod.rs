@@ -11,11 +11,12 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use anyhow::Context;
+use glam::Vec3;
 
 use super::progress::Waiting;
 use super::terminal::Terminal;
 use crate::accel::DynAccel;
-use crate::geometry::Ray;
+use crate::geometry::{Ray, RayTextError};
 use crate::registry::{Choice, Registry};
 use crate::report::number::plural;
 use crate::scene::{Sampling, Scene, Workload, WorkloadKind};
@@ -59,7 +60,7 @@ pub struct Args {
     #[arg(long, value_name = "CASE", num_args = 0.., conflicts_with_all = ["scenes", "ray", "adversarial", "hits", "export_hits"])]
     hard: Option<Vec<String>>,
     /// Ask this ray alone, and print what every structure answers; may be repeated
-    #[arg(long, value_name = "ox,oy,oz dx,dy,dz", allow_hyphen_values = true)]
+    #[arg(long, value_name = "ox,oy,oz dx,dy,dz", allow_hyphen_values = true, value_parser = valid_ray)]
     ray: Vec<Ray>,
     /// Hold the answers of a file, to the rays of the file of --rays, against the reference, in place of structures
     #[arg(long, value_name = "F.hits", conflicts_with_all = ["structure", "export_hits"])]
@@ -186,6 +187,21 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     }
     terminal.print_lines(&LEGEND.map(String::from))?;
     Ok(verdict)
+}
+
+/// A ray that can hit something: of another one "no hit" would say nothing about a mesh.
+fn valid_ray(text: &str) -> Result<Ray, String> {
+    let ray: Ray = text.parse().map_err(|error: RayTextError| error.to_string())?;
+    let fault = if !ray.origin.is_finite() {
+        "its origin is not finite: give three finite numbers"
+    } else if !ray.direction.is_finite() {
+        "its direction is not finite: give three finite numbers"
+    } else if ray.direction == Vec3::ZERO {
+        "its direction is zero: give one that has a length"
+    } else {
+        "its interval is empty: give a t_max above 0 and above t_min"
+    };
+    if ray.is_valid() { Ok(ray) } else { Err(format!("such a ray hits nothing anywhere, since {fault}")) }
 }
 
 impl Args {

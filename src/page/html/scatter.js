@@ -77,7 +77,13 @@
       front.sort((a, b) => a[by] - b[by]);
       const stair = front.flatMap((p, i) => [[x(p[by]), i ? y(speed(front[i - 1])) : frame.bottom], [x(p[by]), y(speed(p))]]);
       stair.push([frame.right, stair.at(-1)[1]]);
-      draw(svg, "polyline", { class: "front", points: stair.map((place) => place.join(",")).join(" ") });
+      const lines = [];
+      const join = (places, name) => {
+        draw(svg, "polyline", { class: name, points: places.map((place) => place.join(",")).join(" ") });
+        const box = ([ax, ay], [bx, by]) => ({ left: Math.min(ax, bx) - 1, right: Math.max(ax, bx) + 1, top: Math.min(ay, by) - 1, bottom: Math.max(ay, by) + 1 });
+        places.slice(1).forEach((place, i) => lines.push(box(places[i], place)));
+      };
+      join(stair, "front");
 
       // What takes as long as the first, build included.
       if (by === "build") {
@@ -87,7 +93,7 @@
           if (left > 0) line.push([x(build), y(1e3 * n / left)]);
         }
         const within = line.filter((place) => place[1] >= frame.top && place[1] <= frame.bottom);
-        draw(svg, "polyline", { class: "equal", points: within.map((place) => place.join(",")).join(" ") });
+        join(within, "equal");
       }
 
       const taken = points.map((p) => ({ left: x(p[by]) - 6, right: x(p[by]) + 6, top: y(speed(p)) - 6, bottom: y(speed(p)) + 6 }));
@@ -103,9 +109,10 @@
         // The first place that is free: right, left, above, below.
         const places = [[cx + 9, cy + 4], [cx - 9 - wide, cy + 4], [cx - wide / 2, cy - 10], [cx - wide / 2, cy + 18], [cx + 9, cy - 10], [cx + 9, cy + 18], [cx - 9 - wide, cy - 10], [cx - 9 - wide, cy + 18]];
         const box = ([left, base]) => ({ left, right: left + wide, top: base - 11, bottom: base + 3 });
-        const free = (b) => b.left > frame.left && b.right < width && b.top > 16 && b.bottom < frame.bottom
-          && taken.every((o) => b.right < o.left || b.left > o.right || b.bottom < o.top || b.top > o.bottom);
-        const place = places.find((one) => free(box(one)));
+        const free = (b, others) => b.left > frame.left && b.right < width && b.top > 16 && b.bottom < frame.bottom
+          && others.every((o) => b.right < o.left || b.left > o.right || b.bottom < o.top || b.top > o.bottom);
+        // Beside the lines where there is room.
+        const place = places.find((one) => free(box(one), [...taken, ...lines])) ?? places.find((one) => free(box(one), taken));
         if (!place) { text.remove(); continue; }
         text.setAttribute("x", place[0]);
         text.setAttribute("y", place[1]);

@@ -1,8 +1,8 @@
 //! The scenes, as the report's course shades them.
 
-use super::shown::{Shown, size_of};
+use super::shown::Shown;
 use crate::registry::Registry;
-use crate::render::{Picture, ViewKind, draw};
+use crate::render::{Picture, ViewKind, draw, size_of};
 use crate::report::Table;
 use crate::report::document::{Art, Block, Figure, Section, Thumbnail};
 use crate::report::number::count;

@@ -1,15 +1,12 @@
 //! What all structures do for the camera rays of one scene.
 
-use super::shown::{Shown, size_of};
+use super::shown::Shown;
 use crate::accel::Observed;
 use crate::page::runs::Runs;
 use crate::registry::Registry;
-use crate::render::{ErrorMap, ExactPicture, Work};
+use crate::render::{ErrorMap, ExactPicture, Work, coarse_size};
 use crate::report::words::{distinct, scene_name};
 use crate::study::{BRUTE_FORCE, REPORT_TREE, SAH_TREE, guarded};
-
-/// Longest side of the pictures, in pixels.
-const LONGEST: u32 = 320;
 
 /// A picture of a scene, answered by exact arithmetic and by every structure of the runs but brute force, whose work would darken
 /// that of all others.
@@ -32,7 +29,7 @@ impl<'a> Seen<'a> {
     /// Structures that cannot be built, panic or decline these rays are left out.
     pub fn new(shown: &'a Shown, runs: &Runs, registry: &Registry) -> Self {
         let scene = &shown.scene;
-        let exact = ExactPicture::new(scene, size_of(scene, LONGEST));
+        let exact = ExactPicture::new(scene, coarse_size(scene));
         let labels = distinct(runs.records().iter().filter(|r| r.scene == scene.name).map(|r| &r.label));
         let labels = if labels.is_empty() { [REPORT_TREE, SAH_TREE].map(String::from).into() } else { labels };
         let structure = |label: String| {

@@ -50,10 +50,3 @@ fn files_named(command: &[String], scene: &str) -> Vec<String> {
     let is_named = |word: &&String| Path::new(word).file_stem().is_some_and(|stem| stem == scene);
     command.iter().filter(is_named).cloned().collect()
 }
-
-/// Width and height of a picture of the scene whose longer side has `longest` pixels.
-pub fn size_of(scene: &Scene, longest: u32) -> [u32; 2] {
-    let [width, height] = scene.size;
-    let most = width.max(height).max(1);
-    [width, height].map(|side| (u64::from(side) * u64::from(longest) / u64::from(most)).max(1) as u32)
-}

@@ -19,7 +19,8 @@ use super::runs::Runs;
 use crate::measure::{Estimate, Provenance};
 use crate::report::document::{Art, Document};
 use crate::report::words::command_line;
-use crate::report::{Statement, to_json};
+use crate::report::{Record, Statement, to_json};
+use crate::scene::{Builtin, WorkloadKind};
 use crate::study::Studies;
 use crate::study::compare::ranks;
 
@@ -58,6 +59,10 @@ pub struct ResultsData {
     pub statements: BTreeMap<String, Told>,
     /// The triangle test of each structure that is compared, by its label: after a change of a default the numbers are of another.
     pub tests: BTreeMap<String, String>,
+    /// What structures count for primary rays, by scene and label. No machine changes it: it tells whether trees and searches are still
+    /// those of the run.
+    #[serde(default)]
+    pub counts: BTreeMap<String, BTreeMap<String, String>>,
     /// Digests (SHA-256) of the other files, by their paths beside this one.
     pub files: BTreeMap<String, String>,
 }
@@ -107,20 +112,35 @@ impl Results {
     pub fn new(document: &Document, runs: &Runs, studies: &Studies) -> Result<Self, ResultsError> {
         let run = RunFacts::new(&runs.provenances())?;
         let statements = statements(document, runs, studies, &run);
-        let paper = paper::text(document, runs, studies, &run);
+        let mut paper = paper::text(document, runs, studies, &run);
         let shown = document.figures().into_iter().filter(|figure| paper.contains(&paper::path(&figure.id)));
         let drawn = shown.filter_map(|figure| match &figure.art {
-            Art::Chart(chart) => Some((format!("{}.svg", figure.id), chart.svg(WIDTH).into_bytes())),
+            Art::Chart(chart) => Some((figure.id.clone(), chart.svg(WIDTH).into_bytes())),
             _ => None,
         });
-        let answer =
-            document.answer.chart.as_ref().map(|chart| (paper::ANSWER.to_owned(), chart.svg(WIDTH).into_bytes()));
-        let figures: Vec<(String, Vec<u8>)> = answer.into_iter().chain(drawn).collect();
+        let drawn: Vec<(String, Vec<u8>)> = drawn.collect();
+        let answer = document.answer.chart.as_ref().map(|chart| (paper::ANSWER.into(), chart.svg(WIDTH).into_bytes()));
+        let mut figures: Vec<(String, Vec<u8>)> = answer.into_iter().collect();
+        for (id, bytes) in drawn {
+            // The answer may be the figure of a study as well: it is kept once.
+            match figures.iter().find(|(_, known)| *known == bytes) {
+                Some((known, _)) => paper = paper.replace(&paper::path(&id), &format!("{FIGURES}/{known}")),
+                None => figures.push((format!("{id}.svg"), bytes)),
+            }
+        }
         let mut files: BTreeMap<String, String> =
             figures.iter().map(|(name, bytes)| (format!("{FIGURES}/{name}"), digest(bytes))).collect();
         files.insert(PAPER.into(), digest(paper.as_bytes()));
         let tests = runs.records().iter().map(|record| (record.label.clone(), record.triangle_test.clone())).collect();
-        let data = ResultsData { schema: 2, made_by: COMMAND.into(), run, statements, tests, files };
+        let data = ResultsData {
+            schema: 3,
+            made_by: COMMAND.into(),
+            run,
+            statements,
+            tests,
+            counts: counts(runs.records()),
+            files,
+        };
         Ok(Self { data, paper, figures })
     }
 
@@ -153,6 +173,36 @@ impl Results {
 /// The digest by which the data file knows a file.
 pub fn digest(bytes: &[u8]) -> String {
     Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// Triangles of the scenes whose counts are kept, at most: they are counted again in seconds.
+const RECOUNTED: usize = 1 << 16;
+
+/// Of small scenes that need no mesh of others.
+fn counts(records: &[Record]) -> BTreeMap<String, BTreeMap<String, String>> {
+    let is_own = |record: &Record| {
+        let scene = Builtin::find(&record.scene).ok().and_then(|builtin| builtin.scene(None).ok());
+        scene.is_some_and(|scene| scene.hash() == record.scene_hash)
+    };
+    let counted = |record: &Record| {
+        let rays = record.counted_rays as f64;
+        let [tests, steps] = [record.tests_per_ray, record.steps_per_ray]
+            .map(|per_ray| per_ray.map(|per_ray| libm::round(per_ray * rays) as u64));
+        (record.label.clone(), work(record.counted_rays, record.hits, tests, steps))
+    };
+    let scenes = records.chunk_by(|a, b| a.scene == b.scene);
+    let scenes = scenes.filter(|scene| scene[0].triangles <= RECOUNTED && is_own(&scene[0]));
+    let of = |scene: &[Record]| {
+        let primary = scene.iter().filter(|r| r.workload == WorkloadKind::Primary.name() && r.counted_rays > 0);
+        (scene[0].scene.clone(), primary.map(counted).collect())
+    };
+    scenes.map(of).collect()
+}
+
+/// What a structure counts for so many rays.
+fn work(rays: usize, hits: usize, tests: Option<u64>, steps: Option<u64>) -> String {
+    let told = |n: Option<u64>, what: &str| n.map_or(String::new(), |n| format!(", {n} {what}"));
+    format!("{rays} rays: {hits} hits{}{}", told(tests, "tests"), told(steps, "steps"))
 }
 
 /// Every statement of every study, the answer, the rank and the run by their keys.

@@ -10,6 +10,8 @@ use crate::geometry::MeshError;
 pub enum LoadError {
     #[error("{}: the name does not tell a known format: give an .obj, .ply, .gltf or .glb file", file.display())]
     UnknownFormat { file: PathBuf },
+    #[error("{}: this is a folder: give a mesh file in it, .obj, .ply, .gltf or .glb, or a scene file, .toml", file.display())]
+    Folder { file: PathBuf },
     #[error("{}: the file cannot be read ({cause}): check that it exists and may be opened", file.display())]
     Unreadable { file: PathBuf, cause: std::io::Error },
     #[error("{}{place}: {problem}", file.display())]

@@ -35,6 +35,9 @@ pub use error::{LoadError, Place};
 /// # Errors
 /// A file that cannot be read or breaks its format, a vertex that is not finite, an index out of range, no triangles.
 pub fn load(path: &Path) -> Result<Model, LoadError> {
+    if path.is_dir() {
+        return Err(LoadError::Folder { file: path.into() });
+    }
     let ending = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
     let read: fn(Vec<u8>, &Path) -> Result<Model, Fault> = match ending.as_deref() {
         Some("obj") => |bytes, folder| obj::read(&bytes, folder),

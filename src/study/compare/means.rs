@@ -5,7 +5,7 @@ use super::table::{control, names};
 use super::twins;
 use crate::measure::Estimate;
 use crate::report::number::{count, figures, plural};
-use crate::report::words::{ends, explained, interval};
+use crate::report::words::{ends, explained, interval, listed};
 use crate::report::{Cell, Record, Table, Tone};
 use crate::study::reference_structures::is_obvhs;
 
@@ -164,14 +164,24 @@ pub fn winner(records: &[Record], reference: Option<&str>) -> Option<Winner> {
     };
     let checked: Option<usize> = of(best).iter().map(|r| r.checked_rays).sum();
     let checked = match checked {
-        None => "its answers are not checked".into(),
-        Some(rays) => format!("nothing wrong in {} checked rays", count(rays as u64)),
+        None => format!("the answers of {best} are not checked"),
+        Some(rays) => format!("no answer of {best} is wrong in {} checked rays", count(rays as u64)),
     };
+    let wrong: Vec<String> = labels.iter().filter_map(|label| wrong(label, &of(label))).collect();
+    let wrong =
+        if wrong.is_empty() { String::new() } else { format!(" Wrong answers, and so no time: {}.", listed(&wrong)) };
     let left = labels.len() - whole.len();
     let left = match left {
         0 => String::new(),
         n => format!(" Not ranked, without a time in some of the cases: {}.", plural(n, "structure")),
     };
     let level = level.map_or(String::new(), |by| format!(" {second} cannot be told apart from it: {}.", interval(by)));
-    Some(Winner { names, sentence: format!("{told}; {checked}.{level}{left}") })
+    Some(Winner { names, sentence: format!("{told}; {checked}.{level}{wrong}{left}") })
+}
+
+/// A structure with the number of its wrong answers, where there are any.
+fn wrong(label: &str, records: &[&Record]) -> Option<String> {
+    let errors: usize = records.iter().filter_map(|r| r.structure_errors).sum();
+    let checked: usize = records.iter().filter_map(|r| r.checked_rays).sum();
+    (errors > 0).then(|| format!("{label} ({} of {} checked rays)", count(errors as u64), count(checked as u64)))
 }

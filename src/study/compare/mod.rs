@@ -24,7 +24,7 @@ pub use records::compared;
 pub use reference::{Reference, cell as ratio_cell};
 pub use section::bias;
 pub use study::{CompareArgs, CompareStudy};
-pub use table::{brief_table, details_legend, legend, scene_table};
+pub use table::{brief_table, details_legend, legend, refusals, scene_table};
 
 /// What came of one scene, or of all of them one after the other.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]

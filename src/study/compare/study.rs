@@ -1,11 +1,13 @@
 //! `compare` as a study.
 
+use std::collections::BTreeSet;
 use std::time::Duration;
 
 use serde_json::Value;
 
 use super::{
-    Compared, Reference, brief_table, compared, details_legend, legend, mean_table, scene_table, section, winner,
+    Compared, Reference, brief_table, compared, details_legend, legend, mean_table, refusals, scene_table, section,
+    winner,
 };
 use crate::measure::Provenance;
 use crate::registry::{Choice, Registry};
@@ -52,7 +54,8 @@ pub struct CompareArgs {
     pub rays: RaySource,
     #[command(flatten)]
     pub measuring: Measuring<4, 1, 2>,
-    /// A coarse answer within seconds: up to three epochs of few rays, and no further one of a scene that has taken 2 s
+    /// A coarse answer within seconds: up to three epochs of few rays, without brute-force unless it is named, and no further epoch
+    /// that would take a scene beyond 4 s
     #[arg(long, conflicts_with_all = ["epochs", "runs", "budget", "rays"])]
     pub quick: bool,
     /// Print all columns: of builds, memory, tests, steps, checks, and ratios to both references
@@ -63,10 +66,13 @@ pub struct CompareArgs {
 /// Seconds that a program may take for an answer.
 const RUNNER_LIMIT: u32 = 120;
 
-/// Epochs and rays of a quick run, and after how long no further epoch of a scene is begun.
+/// Of a quick run: its epochs and rays, what all epochs of a scene may take, the samples of one of them, and the triangle tests of all
+/// checks together. These are totals, however many structures take part.
 const QUICK_EPOCHS: u16 = 3;
 const QUICK_RAYS: usize = 1 << 14;
-const QUICK_NS: u64 = 2_000_000_000;
+const QUICK_NS: u64 = 4_000_000_000;
+const QUICK_SAMPLES_NS: u64 = 250_000_000;
+const QUICK_CHECKS: usize = 1 << 28;
 
 /// A structure that takes more than so many times as long as the median one is timed on fewer rays: its ratios hardly
 /// gain from more of them, and the run would be about it alone.
@@ -146,7 +152,17 @@ impl CompareArgs {
             }
         };
         let settings = self.measuring.settings(registry, with_twin(structures), asked)?;
-        Ok((scenes, Settings { slowest: SLOWEST, detailed: true, ..settings }))
+        let mut settings = Settings { slowest: SLOWEST, detailed: true, ..settings };
+        if self.quick {
+            if self.structures.structure.is_empty() {
+                settings.structures.retain(|choice| choice.entry.name != BRUTE_FORCE);
+            }
+            let tests: BTreeSet<&str> = settings.structures.iter().map(Choice::triangle_test).collect();
+            let kinds = if self.workload.is_empty() { WORKLOADS.len() } else { self.workload.len() };
+            settings.check_tests = QUICK_CHECKS / (tests.len() * kinds).max(1);
+            settings.budget_ns = QUICK_SAMPLES_NS;
+        }
+        Ok((scenes, settings))
     }
 }
 
@@ -202,9 +218,8 @@ impl Study for CompareStudy {
         plan.notes.extend(notes);
         if args.quick {
             plan.limit_ns = Some(QUICK_NS);
-            plan.notes.push(
-                "Coarse: few epochs of few rays, so that intervals are wide. Without --quick it is measured.".into(),
-            );
+            plan.notes
+                .push("Coarse: few rays, few checks and up to three epochs. Without --quick it is measured.".into());
         }
         Ok(plan)
     }
@@ -239,12 +254,15 @@ impl Study for CompareStudy {
 
     fn legend(answer: &Compared) -> Vec<String> {
         let records = &answer.records;
-        let Some(first) = records.first() else { return vec![NO_RAYS.into()] };
-        let mut all = details_legend(&first.workload);
-        all.extend(legend(records, &answer.references(records)));
-        if records.iter().all(|r| r.instructions_per_ray.is_none()) {
-            all.push("Instructions are not counted: the system offers no counter of them here.".into());
+        let mut all = vec![NO_RAYS.into()];
+        if let Some(first) = records.first() {
+            all = details_legend(&first.workload);
+            all.extend(legend(records, &answer.references(records)));
+            if records.iter().all(|r| r.instructions_per_ray.is_none()) {
+                all.push("Instructions are not counted: the system offers no counter of them here.".into());
+            }
         }
+        all.extend(refusals(&answer.refused));
         all
     }
 
@@ -255,7 +273,8 @@ impl Study for CompareStudy {
         }
         let references = answer.references(&answer.records);
         let last = &references[references.len().saturating_sub(1)..];
-        let legend = if answer.records.is_empty() { vec![NO_RAYS.into()] } else { legend(&answer.records, last) };
+        let mut legend = if answer.records.is_empty() { vec![NO_RAYS.into()] } else { legend(&answer.records, last) };
+        legend.extend(refusals(&answer.refused));
         Printed { tables: tables(answer, brief_table), summary: summary(answer, last), legend }
     }
 
@@ -269,10 +288,21 @@ impl Study for CompareStudy {
     }
 
     fn warnings(answer: &Compared) -> Vec<String> {
-        let mut warnings: Vec<String> = answer.records.iter().flat_map(|r| r.provenance.warnings.clone()).collect();
-        let mut seen = std::collections::BTreeSet::new();
-        warnings.retain(|warning| seen.insert(warning.clone()));
-        warnings
+        let all = distinct(answer.records.iter().flat_map(|r| &r.provenance.warnings));
+        // Those of several scenes that differ in their numbers alone are one.
+        let words = |warning: &str| warning.replace(|c: char| c.is_ascii_digit() || c == '.', "");
+        let mut warnings: Vec<(String, Vec<String>)> = vec![];
+        for warning in all {
+            match warnings.iter_mut().find(|(of, _)| *of == words(&warning)) {
+                Some((_, alike)) => alike.push(warning),
+                None => warnings.push((words(&warning), vec![warning])),
+            }
+        }
+        let told = |(_, alike): (String, Vec<String>)| match alike.len() {
+            1 => alike[0].clone(),
+            n => format!("{} (the first of {n} scenes of which that is so)", alike[0]),
+        };
+        warnings.into_iter().map(told).collect()
     }
 
     fn data(answer: &Compared) -> Vec<Data> {
@@ -342,6 +372,20 @@ fn summary(answer: &Compared, references: &[Reference]) -> Vec<Table> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::report::example;
+
+    #[test]
+    fn warnings_that_differ_in_their_numbers_alone_are_one() {
+        let record = |warnings: &[&str]| {
+            let mut record = example();
+            record.provenance.warnings = warnings.iter().map(|&warning| warning.into()).collect();
+            record
+        };
+        let records =
+            vec![record(&["made way 3 times in 1.5 s", "hot"]), record(&["made way 40 times in 12 s", "hot"])];
+        let warnings = CompareStudy::warnings(&Compared { records, ..Compared::default() });
+        assert_eq!(warnings, ["made way 3 times in 1.5 s (the first of 2 scenes of which that is so)", "hot"]);
+    }
 
     #[test]
     fn study_all_compares_every_structure_with_right_answers_and_in_single_precision() {

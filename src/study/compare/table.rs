@@ -4,7 +4,7 @@ use super::reference::{Reference, cell};
 use super::twins;
 use crate::accel::Query;
 use crate::report::number::{bytes, count, duration, figures, plural};
-use crate::report::words::{explained, listed};
+use crate::report::words::{distinct, explained, listed};
 use crate::report::{Cell, Record, Table, Tone};
 use crate::study::Refused;
 use crate::study::reference_structures::{documented_defect, is_large};
@@ -57,20 +57,28 @@ pub fn legend(records: &[Record], references: &[Reference]) -> Vec<String> {
     if records.iter().any(|r| r.query == Query::Any) {
         speeds += "; *: timed by any hit, the others by closest hit";
     }
-    vec![
-        speeds + ".",
-        format!(
-            "{columns}: speed {against}, geometric mean over the row on the same rays, with the interval that holds the ratio of another \
-             run in 95 % of cases; =: not distinguishable from 1."
-        ),
-    ]
+    let intervals = match records.iter().any(|r| r.epochs > 1) {
+        true => {
+            ", with the interval that holds the ratio of another run in 95 % of cases; =: not distinguishable from 1"
+        }
+        false => "",
+    };
+    vec![speeds + ".", format!("{columns}: speed {against}, geometric mean over the row on the same rays{intervals}.")]
+}
+
+/// Why structures are refused, each reason once for all tables.
+pub fn refusals(refused: &[Refused]) -> Vec<String> {
+    let reason = |reason: &String| {
+        let of = refused.iter().filter(|r| r.reason == *reason).map(|r| &r.label);
+        format!("Refused: {}: {reason}.", listed(&distinct(of)))
+    };
+    distinct(refused.iter().map(|r| &r.reason)).iter().map(reason).collect()
 }
 
 /// The records of one scene, one row for each structure, those that are refused last, with a column of ratios for each of the
 /// `references`.
 pub fn scene_table(records: &[Record], references: &[Reference], refused: &[Refused]) -> Table {
-    let notes = || refused.iter().map(|r| format!("{}: {}", r.label, r.reason));
-    let Some(first) = records.first() else { return Table { notes: notes().collect(), ..Table::default() } };
+    let Some(first) = records.first() else { return Table::default() };
     let workloads = names(records, |r| &r.workload);
     let structures = names(records, |r| &r.label);
     let of = |label: &str| -> Vec<&Record> { records.iter().filter(|r| r.label == label).collect() };
@@ -133,7 +141,7 @@ pub fn scene_table(records: &[Record], references: &[Reference], refused: &[Refu
     };
     let stand_in = if first.stand_in { ", stand-in" } else { "" };
     let title = format!("{}: {}{degenerate}{stand_in}", first.scene, plural(first.triangles, "triangle"));
-    let mut notes: Vec<String> = notes().collect();
+    let mut notes = vec![];
     for record in records {
         let Some(what) = &record.declined else { continue };
         notes.push(format!("{} declines {what}, which {} rays need.", record.label, record.workload));

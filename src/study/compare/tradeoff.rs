@@ -31,9 +31,9 @@ pub fn figure(scenes: &[Vec<Record>], references: &[Reference], command: &str) -
         id: "tradeoff".into(),
         caption: format!(
             "{}, {} rays: speed against what it costs; higher is faster, further left is cheaper, and both axes are logarithmic. \
-             On the page any scene and kind of rays can be chosen, and time of the build in place of memory: the solid line joins what \
-             nothing beats in both, the dashed one passes through all that would be done with their build and so many rays as soon as \
-             the first. All are medians, on the same rays for all; their intervals are in the tables. Brute force is left out.",
+             On the page any scene and kind of rays can be chosen, and time of the build in place of memory. There the solid line joins \
+             what nothing beats in both; over time of the build a dashed one passes through all that would be done with their build and \
+             so many rays as soon as the first. All are medians, on the same rays for all; their intervals are in the tables. Brute force is left out.",
             first.scene, first.rays
         ),
         alt,

@@ -132,7 +132,7 @@ impl<'a> Bench<'a> {
 
     /// Holds all structures against brute force, and says which have no time for it.
     fn check(&mut self, progress: &mut dyn FnMut(Stage)) -> Result<(), StudyError> {
-        let checks = check_all(self.scene, &self.built, &self.workloads, progress)?;
+        let checks = check_all(self.scene, &self.built, &self.workloads, self.settings.check_tests, progress)?;
         for ((&place, built), checks) in self.places.iter().zip(&self.built).zip(checks) {
             let failure = built.accel.remote().and_then(Remote::failure);
             let structure = &mut self.structures[place];

@@ -49,6 +49,8 @@ pub struct Settings {
     pub budget_ns: u64,
     /// A structure that takes more than so many times as long as the median one is timed on fewer rays; infinite where none is.
     pub slowest: f64,
+    /// Triangle tests that brute force may make to check a workload, about.
+    pub check_tests: usize,
     /// Whether what only records tell is measured: the memory of builds, instructions, and what happens to the thread.
     pub detailed: bool,
     /// Seed of the workloads and of the order of samples.

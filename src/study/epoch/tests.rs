@@ -62,6 +62,7 @@ fn settings(structures: &[&str]) -> Settings {
         runs: 2,
         budget_ns: 50_000_000,
         slowest: f64::INFINITY,
+        check_tests: crate::study::check::TESTS,
         detailed: false,
         seed: 1,
         threads: Threads::new(1).unwrap(),

@@ -30,7 +30,7 @@ use crate::registry::Registry;
 use crate::report::document::Block;
 use crate::report::number::figures;
 use crate::report::{Record, Statement, Table};
-use crate::scene::{Builtin, Scene};
+use crate::scene::{BUILTIN, Builtin, Scene};
 
 pub use claims::result;
 pub use counted::PictureCounts;
@@ -79,9 +79,15 @@ impl Inputs {
             attribution: others.of::<AttributionStudy>().cloned().unwrap_or_default(),
             scaling: others.of::<ScalingStudy>().cloned().unwrap_or_default(),
             crossover: others.of::<CrossoverStudy>().cloned().unwrap_or_default(),
-            compare: others.of::<CompareStudy>().map_or(vec![], |compared| compared.records.clone()),
+            compare: others.of::<CompareStudy>().map_or(vec![], |compared| of_builtin(&compared.records)),
         }
     }
+}
+
+/// The records of built-in scenes: nothing was expected of others.
+fn of_builtin(records: &[Record]) -> Vec<Record> {
+    let is = |record: &&Record| BUILTIN.iter().any(|builtin| builtin.name == record.scene);
+    records.iter().filter(is).cloned().collect()
 }
 
 /// The last case of every scene: what is counted on a scene is counted again when the scene changes.
@@ -137,7 +143,7 @@ impl Study for PredictionsStudy {
     }
 
     fn data(answer: &Vec<Prediction>) -> Vec<Data> {
-        let measured = |p: &Prediction| !p.figures.is_empty() || p.claims.iter().any(|claim| claim.value.is_some());
+        let measured = |p: &Prediction| !p.figures.is_empty() || p.claims.iter().any(Claim::is_judged);
         let rows = answer.iter().flat_map(|p| p.claims.iter().map(|claim| Row { prediction: p.number, claim }));
         let rows: Vec<Row> = if answer.iter().any(measured) { rows.collect() } else { vec![] };
         vec![Data::new(Self::NAME, &rows)]
@@ -252,6 +258,11 @@ impl Claim {
 
     fn number(what: impl Into<String>, value: Option<Estimate>, bounds: Bounds) -> Self {
         Self::judged(what, value.map(|value| value.among(CLAIMS)), bounds)
+    }
+
+    /// Whether there is an interval to judge it by: one epoch or one scene has none.
+    fn is_judged(&self) -> bool {
+        self.value.is_some_and(|value| value.interval.is_some())
     }
 
     /// Of a number whose interval allows for all claims already.

@@ -6,10 +6,10 @@ use crate::report::number::plural;
 use crate::report::words::interval;
 use crate::report::{Cell, Table};
 
-/// One sentence for the answer of the page; nothing where nothing is measured.
+/// One sentence for the answer of the page; nothing where no claim could be judged.
 pub fn sentence(predictions: &[Prediction]) -> Option<String> {
-    let measured = predictions.iter().flat_map(|p| &p.claims).any(|claim| claim.value.is_some());
-    measured.then(|| format!("Written before the measurement: {}.", tally(predictions)))
+    let judged = predictions.iter().flat_map(|p| &p.claims).any(Claim::is_judged);
+    judged.then(|| format!("Written before the measurement: {}.", tally(predictions)))
 }
 
 pub fn blocks(predictions: &[Prediction], command: &str) -> Vec<Block> {

@@ -75,6 +75,9 @@ fn ratios_are_geometric_means_against_the_tree_and_the_better_bvh() {
     let whole: Vec<Record> = records().into_iter().map(|record| Record { sampled: false, ..record }).collect();
     assert_eq!(cell(&scene_table(&whole, &[]), "sah-kd", "primary"), "8.00");
     assert!(!legend(&whole, &[])[0].contains('~'));
+    let one_epoch: Vec<Record> = records().into_iter().map(|record| Record { epochs: 1, ..record }).collect();
+    let [told, once] = [&records(), &one_epoch].map(|records| legend(records, &[])[1].contains("interval"));
+    assert!(told && !once, "one epoch has no interval");
 }
 
 #[test]
@@ -181,7 +184,7 @@ fn a_mean_over_fewer_scenes_names_its_count_and_is_not_ranked() {
 fn the_last_line_says_who_won_by_how_much() {
     let said = winner(&records(), None).unwrap().sentence;
     let text = "Over 1 scene and 2 kinds of rays, sah-kd answers 2.00 times as many rays a second as obvhs-cwbvh [2.00, 2.00]; \
-                nothing wrong in 200 checked rays.";
+                no answer of sah-kd is wrong in 200 checked rays.";
     assert_eq!(said, text);
     let against = winner(&records(), Some("median-kd")).unwrap().sentence;
     assert!(against.contains("sah-kd answers 4.00 times as many rays a second as median-kd [4.00, 4.00]"), "{against}");
@@ -204,5 +207,6 @@ fn the_last_line_says_who_won_by_how_much() {
     some[3] = Record { mrays_per_s: None, structure_errors: Some(2), ..some[3].clone() };
     let said = winner(&some, None).unwrap().sentence;
     assert!(said.contains("obvhs-cwbvh answers") && said.ends_with("some of the cases: 1 structure."), "{said}");
+    assert!(said.contains("Wrong answers, and so no time: sah-kd (2 of 200 checked rays)."), "{said}");
     assert_eq!(winner(&records()[..2], None), None);
 }
