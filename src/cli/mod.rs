@@ -29,7 +29,7 @@ use std::process::ExitCode;
 use clap::{ArgMatches, Args as _, FromArgMatches, Subcommand};
 
 use crate::measure::{keep_to, program};
-use crate::nearest::suggestion;
+use crate::names::suggestion;
 use crate::output::OutputError;
 use crate::registry::Registry;
 use crate::simd::Level;
