@@ -22,6 +22,7 @@ use crate::external::prepared::{Prepare, prepared_queries};
 use crate::geometry::{Hit, Mesh, Ray};
 use crate::simd::Lanes;
 use crate::triangle::TriangleTest;
+use crate::triangle::decided_at_once::decided_at_once;
 
 /// The BVH of the crate `bvh` over the triangle test `T`.
 pub struct SvenstaroBvh<T: TriangleTest> {

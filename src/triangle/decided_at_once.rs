@@ -16,3 +16,6 @@ macro_rules! decided_at_once {
         }
     };
 }
+
+#[cfg(feature = "peer-bvh")]
+pub(crate) use decided_at_once;

@@ -1,7 +1,7 @@
 //! Triangle tests: common property of all structures, so that hits with the same test are bit-identical.
 
 #[macro_use]
-mod decided_at_once;
+pub(crate) mod decided_at_once;
 
 mod baldwin_weber;
 mod corners;
