@@ -2,7 +2,7 @@
 
 use super::config::{SbvhConfig, Splits};
 use super::object::cheapest_group;
-use super::offer::{Context, Offer, cheaper};
+use super::offer::{Context, Offer};
 use super::spatial::{Slots, cheapest_cut};
 use crate::build::binary_tree::{BinaryNode, BinaryTree, Content};
 use crate::build::cut::Cut;
@@ -140,21 +140,27 @@ fn cheapest(
             if overlap.is_some_and(|area| area <= f64::from(context.config.alpha) * context.root_area) {
                 return set;
             }
-            cheaper(set.map(|o| dearer_by_overlap(context, references.len(), o)), space())
+            match (set, space()) {
+                (Some(set), Some(space)) => {
+                    let overlap = overlap_cost(context, references.len(), &set, &space);
+                    Some(if space.cost < set.cost + overlap { space } else { set })
+                }
+                (set, space) => set.or(space),
+            }
         }
     }
 }
 
-/// An object split as spatial splits see it. The heuristic lets every ray visit each box that it meets; but a ray with a hit in the nearer
-/// side need not visit the other, unless the two overlap. So what both have in common costs once more, by the side with fewer triangles.
-/// In small nodes it does not pay: references that a spatial split adds there fill blocks of their own.
-fn dearer_by_overlap(context: &Context, count: usize, mut object: Offer<Split>) -> Offer<Split> {
-    if count >= 4 * BLOCK {
-        let fewer = object.counts[0].min(object.counts[1]);
-        let common = context.costs.box_leaf(object.sides[0].overlap(object.sides[1]), fewer);
-        object.cost += f64::from(context.config.overlap_cost) * common;
+/// What an object split of `count` references costs more beside the best spatial one. The heuristic lets every ray visit each box that it
+/// meets; but a ray with a hit in the nearer side need not visit the other, unless the two overlap. So what both have in common costs once
+/// more, by the side with fewer triangles. Not where the plane adds more than a sixteenth of the references, as where shells are nested: those
+/// are then missing below. And not in small nodes, where references that are added fill blocks of their own.
+fn overlap_cost(context: &Context, count: usize, object: &Offer<Split>, spatial: &Offer<Split>) -> f64 {
+    if count < 4 * BLOCK || spatial.counts.iter().sum::<usize>() > count + count / 16 {
+        return 0.0;
     }
-    object
+    let fewer = object.counts[0].min(object.counts[1]);
+    f64::from(context.config.overlap_cost) * context.costs.box_leaf(object.sides[0].overlap(object.sides[1]), fewer)
 }
 
 /// Makes the subtree at `own` one leaf where that is cheaper; what it costs then.
