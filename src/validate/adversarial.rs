@@ -75,28 +75,13 @@ impl<'a> Generator<'a> {
     fn ray(&mut self, stratum: Stratum) -> Ray {
         match stratum {
             Stratum::Random => self.random(),
-            Stratum::Vertices => {
-                let target = self.vertex();
-                self.towards(target)
-            }
-            Stratum::Edges => {
-                let target = self.on_edge();
-                self.towards(target)
-            }
+            Stratum::Vertices => self.towards(Self::vertex),
+            Stratum::Edges => self.towards(Self::on_edge),
             Stratum::AxisParallel => self.axis_parallel(),
             Stratum::FacePlanes => self.face_plane(),
-            Stratum::FromVertices => {
-                let origin = self.vertex();
-                Ray::new(origin, self.any_direction(origin))
-            }
-            Stratum::FromSurface => {
-                let origin = self.on_surface();
-                Ray::new(origin, self.any_direction(origin))
-            }
-            Stratum::FromSplits => {
-                let origin = Vec3::from_array(std::array::from_fn(|axis| self.split(axis)));
-                Ray::new(origin, self.any_direction(origin))
-            }
+            Stratum::FromVertices => self.from(Self::vertex),
+            Stratum::FromSurface => self.from(Self::on_surface),
+            Stratum::FromSplits => self.from(Self::on_splits),
             Stratum::Grazing => self.grazing(),
             Stratum::Diagonals => {
                 let direction = self.diagonal();
@@ -177,14 +162,23 @@ impl<'a> Generator<'a> {
         }
     }
 
-    fn random(&mut self) -> Ray {
-        let target = self.bounds.centre() + self.sampler.cube() * (self.bounds.extent() * 0.5);
-        self.towards(target)
+    /// A point of such coordinates.
+    fn on_splits(&mut self) -> Vec3 {
+        Vec3::from_array(std::array::from_fn(|axis| self.split(axis)))
     }
 
-    fn towards(&mut self, target: Vec3) -> Ray {
-        let origin = self.origin();
+    fn random(&mut self) -> Ray {
+        self.towards(|own| own.bounds.centre() + own.sampler.cube() * (own.bounds.extent() * 0.5))
+    }
+
+    fn towards(&mut self, target: impl Fn(&mut Self) -> Vec3) -> Ray {
+        let (target, origin) = (target(self), self.origin());
         Ray::new(origin, target - origin)
+    }
+
+    fn from(&mut self, origin: impl Fn(&mut Self) -> Vec3) -> Ray {
+        let origin = origin(self);
+        Ray::new(origin, self.any_direction(origin))
     }
 
     /// Through a vertex, an edge point or a split, along `direction`, from outside the box or inside.
@@ -192,7 +186,7 @@ impl<'a> Generator<'a> {
         let target = match self.sampler.below(3) {
             0 => self.vertex(),
             1 => self.on_edge(),
-            _ => Vec3::from_array(std::array::from_fn(|axis| self.split(axis))),
+            _ => self.on_splits(),
         };
         let away = self.sampler.pick(&[0.0, 0.25, 1.0, 2.0, 10.0]);
         // The steps along equal components are equal, which keeps the ray in its plane when coordinates are simple.
@@ -277,7 +271,7 @@ impl<'a> Generator<'a> {
     fn window(&mut self) -> Ray {
         let [a, b, c] = self.corners();
         let [u, v, w] = self.sampler.barycentric();
-        let ray = self.towards(a * u + b * v + c * w);
+        let ray = self.towards(|_| a * u + b * v + c * w);
         let t = scalar_hit::<MollerTrumbore>(&ray, [a, b, c]).unwrap_or(1.0);
         let (t_min, t_max) = match self.sampler.below(7) {
             0 => (0.0, t),

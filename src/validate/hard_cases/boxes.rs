@@ -2,39 +2,31 @@
 
 use glam::Vec3;
 
-use super::case::{HardCase, moderate};
+use super::case::cases;
 use super::set::{Set, along_axis, cube, z_to};
 use crate::geometry::Ray;
 use crate::validate::Sampler;
 
-pub(super) const CASES: &[HardCase] = &[
-    moderate(4, "cube_random")
-        .all_hit(|n| in_cube(n, Sampler::direction))
-        .because("Random rays inside a cube: faces in the planes of the root box.")
-        .source("survey"),
-    moderate(5, "cube_axis_aligned")
-        .all_hit(|n| in_cube(n, |sampler| axis_direction(sampler, 0.0)))
-        .because("Two direction components of +0.0: their inverse is infinite, and 0 times it is NaN.")
-        .source("madmann91/bvh issue 9"),
-    moderate(6, "cube_axis_negzero")
-        .same_as("cube_axis_aligned", |n| in_cube(n, |sampler| axis_direction(sampler, -0.0)))
-        .because("The same rays with components of -0.0: an octant from d < 0 contradicts the sign of 1 / d.")
-        .source("tinybvh pull request 282; madmann91/bvh issue 20; obvhs, CwBvh"),
-    moderate(7, "cube_faceplane_grid")
-        .all_hit(face_planes)
-        .because(
-            "Rays in box faces and split planes, through vertices and along edges of the silhouette: 0 times infinity.",
-        )
-        .source("Embree pull request 589; svenstaro/bvh pull request 149; Hapala, Havran 2011"),
-    moderate(8, "cube_diagonal_111")
-        .all_hit(|n| diagonals(n, false))
-        .because("Space diagonals through grid points meet three planes, and diagonals of cells, at once.")
-        .source("Hapala, Havran 2011"),
-    moderate(9, "cube_diag_110")
-        .all_hit(|n| diagonals(n, true))
-        .because("A diagonal with one zero component, often in the plane of a face.")
-        .source("Embree pull request 589; Ize 2013"),
-];
+cases! {
+    Moderate 4 "cube_random", Hit => |n| in_cube(n, Sampler::direction),
+        "Random rays inside a cube: faces in the planes of the root box.",
+        "survey";
+    Moderate 5 "cube_axis_aligned", Hit => |n| in_cube(n, |sampler| axis_direction(sampler, 0.0)),
+        "Two direction components of +0.0: their inverse is infinite, and 0 times it is NaN.",
+        "madmann91/bvh issue 9";
+    Moderate 6 "cube_axis_negzero", SameAs("cube_axis_aligned") => |n| in_cube(n, |sampler| axis_direction(sampler, -0.0)),
+        "The same rays with components of -0.0: an octant from d < 0 contradicts the sign of 1 / d.",
+        "tinybvh pull request 282; madmann91/bvh issue 20; obvhs, CwBvh";
+    Moderate 7 "cube_faceplane_grid", Hit => face_planes,
+        "Rays in box faces and split planes, through vertices and along edges of the silhouette: 0 times infinity.",
+        "Embree pull request 589; svenstaro/bvh pull request 149; Hapala, Havran 2011";
+    Moderate 8 "cube_diagonal_111", Hit => |n| diagonals(n, false),
+        "Space diagonals through grid points meet three planes, and diagonals of cells, at once.",
+        "Hapala, Havran 2011";
+    Moderate 9 "cube_diag_110", Hit => |n| diagonals(n, true),
+        "A diagonal with one zero component, often in the plane of a face.",
+        "Embree pull request 589; Ize 2013";
+}
 
 /// Squares along an edge of the cube [-1, 1]^3: corners at multiples of an eighth.
 const SQUARES: usize = 16;

@@ -101,76 +101,29 @@ impl Property {
     }
 }
 
-/// An entry of which nothing but the name is written.
-pub(super) struct Named {
-    rank: Rank,
-    number: u32,
-    name: &'static str,
-}
-
-pub(super) const fn moderate(number: u32, name: &'static str) -> Named {
-    Named { rank: Rank::Moderate, number, name }
-}
-
-pub(super) const fn extreme(number: u32, name: &'static str) -> Named {
-    Named { rank: Rank::Extreme, number, name }
-}
-
-pub(super) const fn unranked(number: u32, name: &'static str) -> Named {
-    Named { rank: Rank::Unranked, number, name }
-}
-
-pub(super) const fn added(number: u32, name: &'static str) -> Named {
-    Named { rank: Rank::Added, number, name }
-}
-
-/// So many rays has a case that names no other number.
-const RAYS: usize = 10_000;
-
-impl Named {
-    const fn asks(self, content: Content) -> HardCase {
-        let Self { rank, number, name } = self;
-        HardCase { number, name, rank, content, reason: "", source: "" }
-    }
-
-    const fn rays(self, expected: Expected, make: fn(usize) -> Set) -> HardCase {
-        self.asks(Content::Rays { rays: RAYS, expected, make })
-    }
-
-    pub(super) const fn all_hit(self, make: fn(usize) -> Set) -> HardCase {
-        self.rays(Expected::Hit, make)
-    }
-
-    pub(super) const fn all_miss(self, make: fn(usize) -> Set) -> HardCase {
-        self.rays(Expected::Miss, make)
-    }
-
-    pub(super) const fn by_oracle(self, make: fn(usize) -> Set) -> HardCase {
-        self.rays(Expected::Oracle, make)
-    }
-
-    pub(super) const fn same_as(self, other: &'static str, make: fn(usize) -> Set) -> HardCase {
-        self.rays(Expected::SameAs(other), make)
-    }
-
-    pub(super) const fn property(self, check: fn(&Subject, usize) -> Result<Property, String>) -> HardCase {
-        self.asks(Content::Property(check))
-    }
-}
-
-impl HardCase {
-    pub(super) const fn at_most(self, rays: usize) -> Self {
-        match self.content {
-            Content::Rays { expected, make, .. } => Self { content: Content::Rays { rays, expected, make }, ..self },
-            Content::Property(_) => self,
+/// The table of a family, `CASES`. A row is rank, number and name; what its rays owe, how many they are unless 10,000, and how
+/// mesh and rays are made, or the property that is checked; why systems fail here, in a sentence; who says so.
+macro_rules! cases {
+    ($($rank:ident $number:literal $name:literal, $owed:ident $(($of:literal))? $(x $rays:literal)? => $make:expr,
+        $reason:literal, $source:expr;)*) => {
+        pub(super) const CASES: &[$crate::validate::hard_cases::HardCase] = &[$($crate::validate::hard_cases::HardCase {
+            number: $number,
+            name: $name,
+            rank: $crate::validate::hard_cases::Rank::$rank,
+            content: cases!(@content $owed $(($of))?, [$($rays,)? 10_000][0], $make),
+            reason: $reason,
+            source: $source,
+        }),*];
+    };
+    (@content Property, $rays:expr, $check:expr) => {
+        $crate::validate::hard_cases::Content::Property($check)
+    };
+    (@content $owed:ident $(($of:literal))?, $rays:expr, $make:expr) => {
+        $crate::validate::hard_cases::Content::Rays {
+            rays: $rays,
+            expected: $crate::validate::hard_cases::Expected::$owed $(($of))?,
+            make: $make,
         }
-    }
-
-    pub(super) const fn because(self, reason: &'static str) -> Self {
-        Self { reason, ..self }
-    }
-
-    pub(super) const fn source(self, source: &'static str) -> Self {
-        Self { source, ..self }
-    }
+    };
 }
+pub(super) use cases;

@@ -21,21 +21,24 @@ struct Change {
     factor: f32,
 }
 
+/// What a change leaves as it is.
+const SAME: Change =
+    Change { name: "", same_rounding: false, mesh: |triangles| triangles.to_vec(), ray: |ray| ray, factor: 1.0 };
+
 /// Coordinates of the scene are multiples of 2^-10 below 8: what these changes compute is exact.
 const CHANGES: [Change; 7] = [
     Change {
         name: "in another order",
         same_rounding: true,
         mesh: |triangles| triangles.iter().rev().copied().collect(),
-        ray: |ray| ray,
-        factor: 1.0,
+        ..SAME
     },
     Change {
         name: "mirrored",
         same_rounding: true,
         mesh: |triangles| each_point(triangles, |p| p * MIRROR),
         ray: |ray| Ray { origin: ray.origin * MIRROR, direction: ray.direction * MIRROR, ..ray },
-        factor: 1.0,
+        ..SAME
     },
     Change {
         name: "1024 times as large",
@@ -46,44 +49,39 @@ const CHANGES: [Change; 7] = [
     },
     Change {
         name: "with axes exchanged",
-        same_rounding: false,
-        mesh: |triangles| each_point(triangles, |p| Vec3::new(p.y, p.z, p.x)),
-        ray: |ray| {
-            let turn = |p: Vec3| Vec3::new(p.y, p.z, p.x);
-            Ray { origin: turn(ray.origin), direction: turn(ray.direction), ..ray }
-        },
-        factor: 1.0,
+        mesh: |triangles| each_point(triangles, turned),
+        ray: |ray| Ray { origin: turned(ray.origin), direction: turned(ray.direction), ..ray },
+        ..SAME
     },
     Change {
         name: "wound the other way",
-        same_rounding: false,
         mesh: |triangles| triangles.iter().map(|&[a, b, c]| [a, c, b]).collect(),
-        ray: |ray| ray,
-        factor: 1.0,
+        ..SAME
     },
     Change {
         name: "moved",
-        same_rounding: false,
-        mesh: |triangles| each_point(triangles, |p| p + Vec3::new(32.0, -64.0, 16.0)),
-        ray: |ray| Ray { origin: ray.origin + Vec3::new(32.0, -64.0, 16.0), ..ray },
-        factor: 1.0,
+        mesh: |triangles| each_point(triangles, |p| p + SHIFT),
+        ray: |ray| Ray { origin: ray.origin + SHIFT, ..ray },
+        ..SAME
     },
     Change {
         name: "with every triangle cut in two",
-        same_rounding: false,
-        mesh: |triangles| {
-            let halves = |&[a, b, c]: &[Vec3; 3]| {
-                let middle = (b + c) * 0.5;
-                [[a, b, middle], [a, middle, c]]
-            };
-            triangles.iter().flat_map(halves).collect()
-        },
-        ray: |ray| ray,
-        factor: 1.0,
+        mesh: |triangles| triangles.iter().flat_map(halves).collect(),
+        ..SAME
     },
 ];
 
 const MIRROR: Vec3 = Vec3::new(-1.0, 1.0, 1.0);
+const SHIFT: Vec3 = Vec3::new(32.0, -64.0, 16.0);
+
+fn turned(p: Vec3) -> Vec3 {
+    Vec3::new(p.y, p.z, p.x)
+}
+
+fn halves(&[a, b, c]: &[Vec3; 3]) -> [[Vec3; 3]; 2] {
+    let middle = (b + c) * 0.5;
+    [[a, b, middle], [a, middle, c]]
+}
 
 fn each_point(triangles: &[[Vec3; 3]], change: fn(Vec3) -> Vec3) -> Vec<[Vec3; 3]> {
     triangles.iter().map(|corners| corners.map(change)).collect()

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::case::{HardCase, Property, added};
+use super::case::{Property, cases};
 use super::metamorphic::metamorphic;
 use super::set::star;
 use super::subject::{built, shared};
@@ -12,60 +12,36 @@ use crate::validate::conformance::Subject;
 use crate::validate::degenerate::{exponential, huge_and_small, needles, soup};
 use crate::validate::{Reference, Sampler, Stratum, validate};
 
-pub(super) const CASES: &[HardCase] = &[
-    added(73, "continuation")
-        .property(continuation)
-        .because("Going on behind each hit must visit all crossings of a ray, each once.")
-        .source("Embree, verify.cpp, sphere_filter_multi_hit"),
-    added(74, "parity")
-        .property(parity)
-        .because("A ray from outside crosses a closed surface an even number of times.")
-        .source("survey: tests of volumes and of points in solids rest on it"),
-    added(75, "metamorphic")
-        .property(metamorphic)
-        .because(
-            "Reordered, mirrored and doubled scenes have the same t; so have turned, moved and cut \
-             ones where answers are exact.",
-        )
-        .source("survey: finds what a comparison with one's own test cannot"),
-    added(76, "any_equals_closest")
-        .property(|subject, rays| {
-            validated(subject, &[star(), soup(500, 1)], rays, |v| {
-                (
-                    v.any_hit_errors,
-                    "any hit contradicts \
-             closest hit",
-                )
-            })
-        })
-        .because("Any hit has a loop of its own in most systems, and its own mistakes.")
-        .source("pbrt-v4: a second copy of the loop"),
-    added(77, "batch_equals_single")
-        .property(|subject, rays| {
-            validated(subject, &[star(), soup(500, 1)], rays, |v| {
-                (v.unrepeatable, "asked alone, the answer is another")
-            })
-        })
-        .because("Packets and batches must answer as single rays do.")
-        .source("Embree, verify.cpp: the same tests for every packet size"),
-    added(81, "sizes_0_to_40")
-        .property(|subject, rays| {
-            let meshes: Vec<Arc<Mesh>> = (0..=40).map(|n| soup(n, 100 + n as u64)).collect();
-            validated(subject, &meshes, rays, |v| (v.errors(), "an answer is wrong"))
-        })
-        .because("No, one, two, three triangles and all sizes of a leaf: where blocks and nodes are partly filled.")
-        .source("survey"),
-    added(84, "limits")
-        .property(limits)
-        .because(
-            "Numbers of nodes and references must stay bounded where triangles cannot be separated, \
-             before memory ends.",
-        )
-        .source(
-            "pbrt-v4, kd-tree: depth 8 + 1.3 log2 N and bad refines; Embree, regression with failing \
-             allocations",
-        ),
-];
+cases! {
+    Added 73 "continuation", Property => continuation,
+        "Going on behind each hit must visit all crossings of a ray, each once.",
+        "Embree, verify.cpp, sphere_filter_multi_hit";
+    Added 74 "parity", Property => parity,
+        "A ray from outside crosses a closed surface an even number of times.",
+        "survey: tests of volumes and of points in solids rest on it";
+    Added 75 "metamorphic", Property => metamorphic,
+        "Reordered, mirrored and doubled scenes have the same t; so have turned, moved and cut ones where answers are exact.",
+        "survey: finds what a comparison with one's own test cannot";
+    Added 76 "any_equals_closest", Property => |subject, rays| {
+        validated(subject, &[star(), soup(500, 1)], rays, |v| (v.any_hit_errors, "any hit contradicts closest hit"))
+    },
+        "Any hit has a loop of its own in most systems, and its own mistakes.",
+        "pbrt-v4: a second copy of the loop";
+    Added 77 "batch_equals_single", Property => |subject, rays| {
+        validated(subject, &[star(), soup(500, 1)], rays, |v| (v.unrepeatable, "asked alone, the answer is another"))
+    },
+        "Packets and batches must answer as single rays do.",
+        "Embree, verify.cpp: the same tests for every packet size";
+    Added 81 "sizes_0_to_40", Property => |subject, rays| {
+        let meshes: Vec<Arc<Mesh>> = (0..=40).map(|n| soup(n, 100 + n as u64)).collect();
+        validated(subject, &meshes, rays, |v| (v.errors(), "an answer is wrong"))
+    },
+        "No, one, two, three triangles and all sizes of a leaf: where blocks and nodes are partly filled.",
+        "survey";
+    Added 84 "limits", Property => limits,
+        "Numbers of nodes and references must stay bounded where triangles cannot be separated, before memory ends.",
+        "pbrt-v4, kd-tree: depth 8 + 1.3 log2 N and bad refines; Embree, regression with failing allocations";
+}
 
 /// Holds all strata on some meshes against brute force, and counts one kind of error.
 fn validated(

@@ -27,12 +27,23 @@ impl Set {
     }
 }
 
+pub(super) fn ray_to(origin: Vec3, target: Vec3) -> Ray {
+    Ray::new(origin, target - origin)
+}
+
 pub(super) fn indexed(points: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Arc<Mesh> {
     Arc::new(Mesh::new(points, triangles).expect("made of finite numbers"))
 }
 
 pub(super) fn moved(mesh: &Mesh, to: impl Fn(Vec3) -> Vec3) -> Arc<Mesh> {
     indexed(mesh.positions().iter().copied().map(to).collect(), mesh.triangles().to_vec())
+}
+
+/// All of `one`, then all of `other`.
+pub(super) fn joined(one: &Mesh, other: &Mesh) -> Arc<Mesh> {
+    let first = one.positions().len() as u32;
+    let moved_on = other.triangles().iter().map(|corners| corners.map(|corner| first + corner));
+    indexed([one.positions(), other.positions()].concat(), one.triangles().iter().copied().chain(moved_on).collect())
 }
 
 /// A closed sphere of meridians and parallels, radius 1: neighbours have the same corners bit for bit.
@@ -51,12 +62,10 @@ pub(super) fn star() -> Arc<Mesh> {
         // The vertices of a pole are one point.
         let pole = p.x == 0.0 && p.z == 0.0;
         let radius = 1.0 + 5.0 * sampler.unit();
-        p * if !pole {
-            radius
-        } else if p.y > 0.0 {
-            top
-        } else {
-            bottom
+        p * match p.y > 0.0 {
+            _ if !pole => radius,
+            true => top,
+            false => bottom,
         }
     });
     indexed(points.collect(), sphere.triangles().to_vec())
@@ -107,6 +116,11 @@ pub(super) fn triangle(mesh: &Mesh, sampler: &mut Sampler) -> [Vec3; 3] {
             return mesh.corners(index);
         }
     }
+}
+
+pub(super) fn on_edge(mesh: &Mesh, sampler: &mut Sampler) -> Vec3 {
+    let [a, b, _] = triangle(mesh, sampler);
+    a.lerp(b, sampler.unit())
 }
 
 pub(super) fn on_surface(mesh: &Mesh, sampler: &mut Sampler) -> Vec3 {

@@ -4,63 +4,40 @@ use std::sync::Arc;
 
 use glam::Vec3;
 
-use super::case::{HardCase, moderate};
-use super::set::{Set, indexed, moved, on_surface, tilted};
+use super::case::cases;
+use super::set::{Set, indexed, moved, on_surface, ray_to, tilted};
 use crate::geometry::{Mesh, Ray};
 use crate::scene::meshes;
 use crate::validate::Sampler;
 use crate::validate::degenerate::{mesh, needles};
 
-pub(super) const CASES: &[HardCase] = &[
-    moderate(35, "slivers_1e6_axis")
-        .by_oracle(|n| slivers(n, |p| p))
-        .because("Strips of 1000 x 1e-3 along the axes: a million times longer than wide.")
-        .source("Woop, Benthin, Wald 2013: t is as accurate as the least accurate axis"),
-    moderate(36, "slivers_1e6_rot")
-        .by_oracle(|n| slivers(n, tilted))
-        .because("The same strips tilted: the f32 normal has no digit left, and t is wrong by percents.")
-        .source("Embree, stable_triangle_normal; measured: 36 to 44 % of the depths wrong"),
-    moderate(37, "hair_diag")
-        .by_oracle(hair)
-        .because("Needles of 2 x 1e-3 along a diagonal: their boxes are almost empty, and all overlap.")
-        .source("survey"),
-    moderate(38, "fan_apex")
-        .all_hit(|n| {
-            // The apex is zero: -p aims at it exactly.
-            Set::new(fan(), n, 14, |sampler| {
-                let origin = below(sampler);
-                Ray::new(origin, -origin)
-            })
+cases! {
+    Moderate 35 "slivers_1e6_axis", Oracle => |n| slivers(n, |p| p),
+        "Strips of 1000 x 1e-3 along the axes: a million times longer than wide.",
+        "Woop, Benthin, Wald 2013: t is as accurate as the least accurate axis";
+    Moderate 36 "slivers_1e6_rot", Oracle => |n| slivers(n, tilted),
+        "The same strips tilted: the f32 normal has no digit left, and t is wrong by percents.",
+        "Embree, stable_triangle_normal; measured: 36 to 44 % of the depths wrong";
+    Moderate 37 "hair_diag", Oracle => hair,
+        "Needles of 2 x 1e-3 along a diagonal: their boxes are almost empty, and all overlap.",
+        "survey";
+    // The apex is zero: it is aimed at exactly.
+    Moderate 38 "fan_apex", Hit x 2000 => |n| Set::new(fan(), n, 14, |sampler| ray_to(below(sampler), Vec3::ZERO)),
+        "800 triangles meet in the vertex that is aimed at: all of them hit, at edges, and none may fall out of its box.",
+        "obvhs, rt_triangle.rs: seen from behind, 0 times a negative number is -0.0, and counts as outside";
+    Moderate 39 "fan_random", Hit => |n| {
+        Set::new(fan(), n, 15, |sampler| {
+            ray_to(below(sampler), Vec3::new(sampler.signed(), sampler.signed(), 0.0) * 0.4)
         })
-        .at_most(2000)
-        .because(
-            "800 triangles meet in the vertex that is aimed at: all of them hit, at edges, and none \
-             may fall out of its box.",
-        )
-        .source(
-            "obvhs, rt_triangle.rs: seen from behind, 0 times a negative number is -0.0, and counts as \
-             outside",
-        ),
-    moderate(39, "fan_random")
-        .all_hit(|n| {
-            Set::new(fan(), n, 15, |sampler| {
-                let origin = below(sampler);
-                let target = Vec3::new(sampler.signed(), sampler.signed(), 0.0) * 0.4;
-                Ray::new(origin, target - origin)
-            })
-        })
-        .because("The same fan, aimed at beside its apex.")
-        .source("survey"),
-    moderate(56, "needle_stack_kd")
-        .by_oracle(|n| {
-            Set::new(needles(2200), n, 16, |sampler| {
-                let origin = sampler.direction() * 12.0;
-                Ray::new(origin, sampler.cube() * 3.0 - origin)
-            })
-        })
-        .because("Needles that cross in one place: no plane separates them, and every split doubles references.")
-        .source("pbrt-v4, kd-tree: bad refines; Wald, Havran 2006"),
-];
+    },
+        "The same fan, aimed at beside its apex.",
+        "survey";
+    Moderate 56 "needle_stack_kd", Oracle => |n| {
+        Set::new(needles(2200), n, 16, |sampler| ray_to(sampler.direction() * 12.0, sampler.cube() * 3.0))
+    },
+        "Needles that cross in one place: no plane separates them, and every split doubles references.",
+        "pbrt-v4, kd-tree: bad refines; Wald, Havran 2006";
+}
 
 /// A thousand strips side by side, over a field of 1000 x 1, from above.
 fn slivers(count: usize, placed: fn(Vec3) -> Vec3) -> Set {
@@ -81,11 +58,8 @@ fn hair(count: usize) -> Set {
         let root = sampler.cube() * 2.0;
         [root, root + Vec3::splat(2.0 / 1.732_050_8), root + sampler.direction() * 1e-3]
     });
-    let mesh: Arc<Mesh> = mesh(hairs);
-    Set::new(Arc::clone(&mesh), count, 13, |sampler| {
-        let origin = sampler.direction() * 8.0;
-        Ray::new(origin, on_surface(&mesh, sampler) - origin)
-    })
+    let mesh = mesh(hairs);
+    Set::new(mesh.clone(), count, 13, |sampler| ray_to(sampler.direction() * 8.0, on_surface(&mesh, sampler)))
 }
 
 fn fan() -> Arc<Mesh> {
