@@ -3,7 +3,6 @@
 //! Runs become a document of text, tables and figures by pure functions; every form is written from that. What no run
 //! has measured is named with its command.
 
-mod base64;
 mod content;
 mod files;
 mod html;

@@ -7,7 +7,6 @@ mod sort_key;
 mod style;
 mod view;
 
-use minijinja::value::Serde;
 use minijinja::{AutoEscape, Environment, UndefinedBehavior};
 
 use crate::report::document::Document;
@@ -21,7 +20,7 @@ pub fn page(document: &Document) -> String {
     environment.set_undefined_behavior(UndefinedBehavior::Strict);
     environment.add_template("page.html", include_str!("page.html")).expect(RENDERED);
     let template = environment.get_template("page.html").expect(RENDERED);
-    template.render(Serde(view::page(document, style::sheet()))).expect(RENDERED)
+    template.render(view::page(document, style::sheet())).expect(RENDERED)
 }
 
 const RENDERED: &str = "a test renders the template with all kinds of blocks";
