@@ -18,6 +18,7 @@ use serde::{Deserialize, Serialize};
 
 use super::leaves::{Leaves, Start};
 use crate::accel::{Accel, BuildError, Footprint, Observed, Observer, TreeShape};
+use crate::external::lanes;
 use crate::external::prepared::{Prepare, prepared_queries};
 use crate::geometry::{Hit, Mesh, Ray};
 use crate::simd::Lanes;
@@ -101,9 +102,13 @@ fn entry(ray: &PreparedRay<f32, 3>, bounds: &Aabb<f32, 3>) -> Option<f32> {
 /// allowed before a box counts as behind the hit.
 const SLACK: f32 = 1.0 + 8.0 * f32::EPSILON;
 
+fn point(v: Vec3) -> Point3<f32> {
+    Point3::new(v.x, v.y, v.z)
+}
+
 fn prepare(ray: &Ray) -> PreparedRay<f32, 3> {
-    let (o, d) = (ray.origin, ray.direction);
-    PreparedRay::new(Point3::new(o.x, o.y, o.z), Vector3::new(d.x, d.y, d.z))
+    let d = ray.direction;
+    PreparedRay::new(point(ray.origin), Vector3::new(d.x, d.y, d.z))
 }
 
 /// A ray as the crate and the triangle test want it.
@@ -171,7 +176,6 @@ impl<T: TriangleTest> Accel for SvenstaroBvh<T> {
 
     fn build(mesh: &Arc<Mesh>, config: &SvenstaroBvhConfig) -> Result<Self, BuildError> {
         let leaves = Leaves::new(mesh);
-        let point = |v: Vec3| Point3::new(v.x, v.y, v.z);
         let boxed = |(index, [min, max]): (usize, [Vec3; 2])| Boxed {
             bounds: Aabb::with_bounds(point(min), point(max)),
             index: index as u32,
@@ -248,12 +252,7 @@ impl TriangleTest for SvenstaroTest {
     }
 
     fn block<const N: usize>(triangles: &[[Vec3; 3]]) -> Self::Block<N> {
-        assert!(triangles.len() <= N, "a block of {N} lanes cannot hold {} triangles", triangles.len());
-        let mut block = [[Point3::origin(); 3]; N];
-        for (slot, corners) in block.iter_mut().zip(triangles) {
-            *slot = corners.map(|v| Point3::new(v.x, v.y, v.z));
-        }
-        block
+        lanes::block(triangles, |corners| corners.map(point))
     }
 
     #[inline(always)]
@@ -263,12 +262,11 @@ impl TriangleTest for SvenstaroTest {
         from: f32,
         to: f32,
     ) -> (u32, L) {
-        let t = L::load(&std::array::from_fn(|lane| {
+        lanes::candidates(from, to, |lane| {
             let [a, b, c] = &block[lane];
             let front = ray.intersects_triangle(a, b, c).distance;
             let nearer = if front < f32::INFINITY { front } else { ray.intersects_triangle(a, c, b).distance };
             nearer / length
-        }));
-        (L::splat(from).le(t) & t.le(L::splat(to.min(f32::MAX))), t)
+        })
     }
 }

@@ -18,6 +18,7 @@
 pub mod bvh;
 #[cfg(feature = "peer-embree")]
 pub mod embree;
+mod lanes;
 #[cfg(any(feature = "peer-bvh", feature = "peer-parry"))]
 mod leaves;
 pub mod obvhs;

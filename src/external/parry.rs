@@ -18,10 +18,12 @@ use serde::{Deserialize, Serialize};
 
 use super::leaves::{Leaves, Start};
 use crate::accel::{Accel, BuildError, Footprint, Observed, Observer, TreeShape};
+use crate::external::lanes;
 use crate::external::prepared::{Prepare, prepared_queries};
 use crate::geometry::{Hit, Mesh, Ray};
 use crate::simd::Lanes;
 use crate::triangle::TriangleTest;
+use crate::triangle::decided_at_once::decided_at_once;
 
 /// The BVH of parry over the triangle test `T`.
 pub struct ParryBvh<T: TriangleTest> {
@@ -157,9 +159,8 @@ impl TriangleTest for ParryTest {
 
     type Ray = PreparedRay;
     type Block<const N: usize> = [[Vector; 3]; N];
-    type First<const N: usize, L: Lanes<N>> = L;
-    type Values<const N: usize> = [f32; N];
-    type Depth<'a> = f32;
+
+    decided_at_once!();
 
     #[inline(always)]
     fn prepare(ray: &Ray) -> PreparedRay {
@@ -167,12 +168,7 @@ impl TriangleTest for ParryTest {
     }
 
     fn block<const N: usize>(triangles: &[[Vec3; 3]]) -> [[Vector; 3]; N] {
-        assert!(triangles.len() <= N, "a block of {N} lanes cannot hold {} triangles", triangles.len());
-        let mut block = [[Vector::ZERO; 3]; N];
-        for (slot, corners) in block.iter_mut().zip(triangles) {
-            *slot = corners.map(vector);
-        }
-        block
+        lanes::block(triangles, |corners| corners.map(vector))
     }
 
     #[inline(always)]
@@ -182,21 +178,10 @@ impl TriangleTest for ParryTest {
         from: f32,
         to: f32,
     ) -> (u32, L) {
-        let t = L::load(&std::array::from_fn(|lane| {
+        lanes::candidates(from, to, |lane| {
             let [a, b, c] = block[lane];
             let hit = local_ray_intersection_with_triangle(a, b, c, ray);
             hit.map_or(f32::INFINITY, |(hit, _)| hit.time_of_impact)
-        }));
-        (L::splat(from).le(t) & t.le(L::splat(to.min(f32::MAX))), t)
-    }
-
-    #[inline(always)]
-    fn values<const N: usize, L: Lanes<N>>(t: L) -> [f32; N] {
-        t.store()
-    }
-
-    #[inline(always)]
-    fn decide<const N: usize>(_: &PreparedRay, _: &[[Vector; 3]; N], lane: usize, t: &[f32; N]) -> Option<f32> {
-        Some(t[lane])
+        })
     }
 }

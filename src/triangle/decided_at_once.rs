@@ -17,5 +17,5 @@ macro_rules! decided_at_once {
     };
 }
 
-#[cfg(feature = "peer-bvh")]
+#[cfg(feature = "suite")]
 pub(crate) use decided_at_once;

@@ -1,12 +1,12 @@
-use std::array;
-
 use glam::{Vec3, Vec3A};
 use obvhs::ray::Ray as PreparedRay;
 use obvhs::rt_triangle::RtTriangle;
 
+use crate::external::lanes;
 use crate::geometry::Ray;
 use crate::simd::Lanes;
 use crate::triangle::TriangleTest;
+use crate::triangle::decided_at_once::decided_at_once;
 
 /// The triangle test of obvhs: Möller-Trumbore on precomputed edges and normal, 64 bytes a triangle.
 ///
@@ -21,9 +21,8 @@ impl TriangleTest for RtTest {
 
     type Ray = PreparedRay;
     type Block<const N: usize> = [RtTriangle; N];
-    type First<const N: usize, L: Lanes<N>> = L;
-    type Values<const N: usize> = [f32; N];
-    type Depth<'a> = f32;
+
+    decided_at_once!();
 
     #[inline(always)]
     fn prepare(ray: &Ray) -> PreparedRay {
@@ -32,13 +31,9 @@ impl TriangleTest for RtTest {
     }
 
     fn block<const N: usize>(triangles: &[[Vec3; 3]]) -> [RtTriangle; N] {
-        assert!(triangles.len() <= N, "a block of {N} lanes cannot hold {} triangles", triangles.len());
-        array::from_fn(|lane| match triangles.get(lane) {
-            Some(corners) => {
-                let [a, b, c] = corners.map(Vec3A::from);
-                RtTriangle::new(a, b, c)
-            }
-            None => RtTriangle::new(Vec3A::ZERO, Vec3A::ZERO, Vec3A::ZERO),
+        lanes::block(triangles, |corners| {
+            let [a, b, c] = corners.map(Vec3A::from);
+            RtTriangle::new(a, b, c)
         })
     }
 
@@ -49,17 +44,6 @@ impl TriangleTest for RtTest {
         from: f32,
         to: f32,
     ) -> (u32, L) {
-        let t = L::load(&array::from_fn(|lane| block[lane].intersect(ray)));
-        (L::splat(from).le(t) & t.le(L::splat(to.min(f32::MAX))), t)
-    }
-
-    #[inline(always)]
-    fn values<const N: usize, L: Lanes<N>>(t: L) -> [f32; N] {
-        t.store()
-    }
-
-    #[inline(always)]
-    fn decide<const N: usize>(_: &PreparedRay, _: &[RtTriangle; N], lane: usize, t: &[f32; N]) -> Option<f32> {
-        Some(t[lane])
+        lanes::candidates(from, to, |lane| block[lane].intersect(ray))
     }
 }
