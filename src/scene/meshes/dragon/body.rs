@@ -127,43 +127,19 @@ fn tail_tuft(sdf: &mut Sdf, tube: &Tube) {
     }
 }
 
-/// Hip or shoulder, knee, ankle, and where the foot points, for one leg.
-struct Leg {
-    joints: [Vec3; 3],
-    thick: f32,
-    ahead: Vec3,
-}
-
 fn legs(sdf: &mut Sdf) {
     let v = Vec3::new;
+    // Hip or shoulder, knee and ankle; thickness; where the foot points.
     let legs = [
-        Leg {
-            joints: [v(0.98, 0.98, 0.24), v(0.86, 0.55, 0.56), v(1.12, 0.17, 0.60)],
-            thick: 0.2,
-            ahead: v(0.9, 0.0, 0.35),
-        },
-        Leg {
-            joints: [v(0.98, 0.98, -0.20), v(0.92, 0.55, -0.48), v(1.30, 0.17, -0.48)],
-            thick: 0.2,
-            ahead: v(1.0, 0.0, -0.2),
-        },
-        Leg {
-            joints: [v(-0.52, 0.68, -0.12), v(-0.12, 0.52, 0.28), v(-0.38, 0.16, 0.34)],
-            thick: 0.24,
-            ahead: v(0.95, 0.0, 0.2),
-        },
-        Leg {
-            joints: [v(-0.52, 0.68, -0.5), v(-0.2, 0.5, -0.72), v(-0.42, 0.16, -0.7)],
-            thick: 0.24,
-            ahead: v(1.0, 0.0, -0.1),
-        },
+        ([v(0.98, 0.98, 0.24), v(0.86, 0.55, 0.56), v(1.12, 0.17, 0.60)], 0.2, v(0.9, 0.0, 0.35)),
+        ([v(0.98, 0.98, -0.20), v(0.92, 0.55, -0.48), v(1.30, 0.17, -0.48)], 0.2, v(1.0, 0.0, -0.2)),
+        ([v(-0.52, 0.68, -0.12), v(-0.12, 0.52, 0.28), v(-0.38, 0.16, 0.34)], 0.24, v(0.95, 0.0, 0.2)),
+        ([v(-0.52, 0.68, -0.5), v(-0.2, 0.5, -0.72), v(-0.42, 0.16, -0.7)], 0.24, v(1.0, 0.0, -0.1)),
     ];
-    for leg in &legs {
-        let [hip, knee, ankle] = leg.joints;
-        let thick = leg.thick;
+    for ([hip, knee, ankle], thick, ahead) in legs {
         sdf.group(Blend::smooth(0.12)).cone(hip, thick, knee, 0.58 * thick);
         sdf.group(Blend::smooth(0.05)).cone(knee, 0.56 * thick, ankle, 0.42 * thick);
-        let frame = Frame::looking(ankle, leg.ahead, Vec3::Y);
+        let frame = Frame::looking(ankle, ahead, Vec3::Y);
         sdf.group(Blend::smooth(0.06)).cone(frame.at(0.0, -0.07, 0.0), 0.085, frame.at(0.0, -0.09, 0.14), 0.07);
         foot(sdf, &frame);
         elbow_tufts(sdf, knee, knee - ankle, frame.ahead);

@@ -15,9 +15,8 @@ struct Arch {
     /// Half of the bay, and of the opening.
     half_bay: f32,
     radius: f32,
-    /// Height where the arch begins, and where its wall ends.
-    spring: f32,
-    top: f32,
+    /// Where the arch begins, and where its wall ends.
+    heights: [f32; 2],
     half_wall: f32,
     /// Pieces of the half circle.
     pieces: usize,
@@ -32,30 +31,14 @@ pub fn build(patches: &mut Patches, frame: &Frame, bays: usize, bay: f32) {
         let u = i as f32 * bay;
         lower.build(patches, &Frame { origin: frame.at(u, 0.0, 0.0), ..*frame });
         let (half_bay, radius) = (0.5 * bay, 0.5 * bay - 32.0);
-        let arch = Arch {
-            middle: u + half_bay,
-            half_bay,
-            radius,
-            spring: 306.0,
-            top: UPPER - 40.0,
-            half_wall: HALF_WALL,
-            pieces: 20,
-        };
-        arch.build(patches, frame);
+        let (heights, half_wall) = ([306.0, UPPER - 40.0], HALF_WALL);
+        Arch { middle: u + half_bay, half_bay, radius, heights, half_wall, pieces: 20 }.build(patches, frame);
         for half in 0..2 {
             let u = u + 0.5 * bay * half as f32;
             upper.build(patches, &Frame { origin: frame.at(u, UPPER + 100.0, 0.0), ..*frame });
             let (half_bay, radius) = (0.25 * bay, 0.25 * bay - 15.0);
-            let arch = Arch {
-                middle: u + half_bay,
-                half_bay,
-                radius,
-                spring: UPPER + 336.0,
-                top: EAVES,
-                half_wall: 0.6 * HALF_WALL,
-                pieces: 14,
-            };
-            arch.build(patches, frame);
+            let (heights, half_wall) = ([UPPER + 336.0, EAVES], 0.6 * HALF_WALL);
+            Arch { middle: u + half_bay, half_bay, radius, heights, half_wall, pieces: 14 }.build(patches, frame);
             balustrade(patches, frame, u, 0.5 * bay);
         }
     }
@@ -66,11 +49,11 @@ impl Arch {
     /// Point of a circle of `radius` about the arch's middle; step 0 is on the left, the last on the right.
     fn on_circle(&self, step: usize, radius: f32) -> [f32; 2] {
         let angle = step as f32 / self.pieces as f32 * std::f32::consts::PI;
-        [self.middle - radius * cosine(angle), self.spring + radius * sine(angle)]
+        [self.middle - radius * cosine(angle), self.heights[0] + radius * sine(angle)]
     }
 
     fn build(&self, patches: &mut Patches, frame: &Frame) {
-        let w = self.half_wall;
+        let (w, [spring, top]) = (self.half_wall, self.heights);
         let ends = [self.middle - self.half_bay, self.middle + self.half_bay];
 
         // Wall faces on both sides: a fan of quads over the arch, and the piers beside it.
@@ -79,11 +62,11 @@ impl Arch {
             let place = |u: f32, y: f32| frame.at(u, y, w * side);
             patches.patch([self.pieces, 1], false, Finish::Flat, |column, row| {
                 let [u, y] = self.on_circle(if side > 0.0 { column } else { self.pieces - column }, self.radius);
-                place(u, if row == 0 { y } else { self.top })
+                place(u, if row == 0 { y } else { top })
             });
             for [a, b] in [[ends[0], self.middle - self.radius], [self.middle + self.radius, ends[1]]] {
                 let [a, b] = if side > 0.0 { [a, b] } else { [b, a] };
-                patches.quad([place(a, self.spring), place(b, self.spring), place(b, self.top), place(a, self.top)]);
+                patches.quad([place(a, spring), place(b, spring), place(b, top), place(a, top)]);
             }
         }
 
@@ -106,7 +89,7 @@ impl Arch {
     }
 
     fn keystone(&self, patches: &mut Patches, frame: &Frame, size: f32) {
-        let crown = self.spring + self.radius;
+        let crown = self.heights[0] + self.radius;
         patches.of(&material("ornament", [1.02, 0.97, 0.88]));
         let profile = [
             [-3.0, 2.0],
