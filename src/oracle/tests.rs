@@ -4,6 +4,7 @@ use rand_pcg::Pcg32;
 
 use super::*;
 use crate::exact::rational;
+use crate::validate::degenerate::box_grid;
 
 /// A source of floats.
 pub struct Numbers {
@@ -116,30 +117,11 @@ fn a_second_judge_says_the_same() {
     assert!(hits > 40, "{hits}");
 }
 
-/// The cube [-1, 1]^3, `n` squares an edge, with shared vertices: closed.
-fn cube(n: i32) -> Mesh {
-    let (mut positions, mut triangles) = (vec![], vec![]);
-    for (axis, side) in [(0, -1.0), (0, 1.0), (1, -1.0), (1, 1.0), (2, -1.0), (2, 1.0)] {
-        let first = positions.len() as u32;
-        for k in 0..(n + 1) * (n + 1) {
-            let mut p = Vec3::splat(side);
-            p[(axis + 1) % 3] = (k % (n + 1)) as f32 * 2.0 / n as f32 - 1.0;
-            p[(axis + 2) % 3] = (k / (n + 1)) as f32 * 2.0 / n as f32 - 1.0;
-            positions.push(p);
-        }
-        for k in (0..(n + 1) * n).filter(|k| k % (n + 1) != n) {
-            let [p, q] = [0, n + 1].map(|row| first + (k + row) as u32);
-            triangles.extend([[p, p + 1, q + 1], [p, q + 1, q]]);
-        }
-    }
-    Mesh::new(positions, triangles).unwrap()
-}
-
 /// In a closed mesh whose corners are on a grid, along the axes: `t` is known, through faces, edges, vertices, and in
 /// the planes of sides.
 #[test]
 fn rays_in_a_cube_hit_the_far_side_where_they_must() {
-    let mesh = Arc::new(cube(4));
+    let mesh = box_grid(4);
     let oracle = Oracle::new(&mesh);
     let grid = || (-8..=8).map(|k| k as f32 / 8.0);
     for (x, y) in grid().flat_map(|x| grid().map(move |y| (x, y))) {
@@ -160,7 +142,7 @@ fn rays_in_a_cube_hit_the_far_side_where_they_must() {
 
 #[test]
 fn no_ray_leaves_a_closed_mesh_and_none_outside_enters() {
-    let mesh = Arc::new(cube(3));
+    let mesh = box_grid(3);
     let oracle = Oracle::new(&mesh);
     let mut numbers = Numbers::all().next().unwrap();
     for round in 0..3000 {

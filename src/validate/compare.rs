@@ -37,15 +37,19 @@ pub fn validate_known(
     mesh: &Mesh,
     rays: &[Ray],
 ) -> Validation {
-    assert_eq!(rays.len(), expected.len(), "one answer a ray");
-    let can = subject.capabilities();
-    let known = rays.iter().copied().zip(expected.iter().copied());
-    let (admitted, expected): (Vec<Ray>, Vec<Option<Hit>>) =
-        known.filter(|(ray, _)| can.declines(ray).is_none()).unzip();
+    let (admitted, expected) = admitted(subject, rays, expected);
     let batches = admitted.par_chunks(BATCH).zip(expected.par_chunks(BATCH));
     let of_batch = |(rays, expected)| validate_batch(subject, reference, expected, mesh, rays, &Asked::default());
     let batches: Vec<Validation> = batches.map(of_batch).collect();
     Validation::of_batches(rays.len() - admitted.len(), batches)
+}
+
+/// The rays that `subject` does not decline, and what is expected of them.
+pub(super) fn admitted(subject: &dyn DynAccel, rays: &[Ray], expected: &[Option<Hit>]) -> (Vec<Ray>, Vec<Option<Hit>>) {
+    assert_eq!(rays.len(), expected.len(), "one answer a ray");
+    let can = subject.capabilities();
+    let known = rays.iter().copied().zip(expected.iter().copied());
+    known.filter(|(ray, _)| can.declines(ray).is_none()).unzip()
 }
 
 /// Holds closest hits that were found elsewhere against `expected`, the answers of `reference`: as [`validate`], without what

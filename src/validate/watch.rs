@@ -11,7 +11,7 @@ use std::thread;
 use std::time::Duration;
 
 use super::asked::{Asked, Call, message};
-use super::compare::{BATCH, validate_batch};
+use super::compare::{BATCH, admitted, validate_batch};
 use super::{Kind, Reference, Validation};
 use crate::accel::DynAccel;
 use crate::geometry::{Hit, Mesh, Ray};
@@ -91,11 +91,7 @@ pub fn validate_watched(
     rays: &[Ray],
     limit: Duration,
 ) -> Validation {
-    assert_eq!(rays.len(), expected.len(), "one answer a ray");
-    let can = subject.capabilities();
-    let known = rays.iter().copied().zip(expected.iter().copied());
-    let (admitted, expected): (Vec<Ray>, Vec<Option<Hit>>) =
-        known.filter(|(ray, _)| can.declines(ray).is_none()).unzip();
+    let (admitted, expected) = admitted(subject.as_ref(), rays, expected);
     let declined = rays.len() - admitted.len();
     let job = Arc::new(Job {
         subject: Arc::clone(subject),
