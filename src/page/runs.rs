@@ -121,8 +121,7 @@ impl Runs {
                 Ok(Content::Case(study, case)) => cases.entry(study.name()).or_default().push(*case),
                 // A folder may hold what studies export besides.
                 Err(RunError::Foreign { path } | RunError::Unknown { path, .. }) if !file.is_named => {
-                    runs.note(&path, NO_RUN, "");
-                    runs.sources.last_mut().expect("it was noted").replaced = "all of it".into();
+                    runs.note(&path, NO_RUN, "", "all of it");
                 }
                 Err(error) => return Err(error),
             }
@@ -170,8 +169,7 @@ impl Runs {
             Holds::Export(answer) => self.take(&path, study, *answer, None),
             // Of comparisons all machines are shown, of other studies one.
             Holds::Cases(group, true) if study.name() != CompareStudy::NAME => {
-                self.note(&path, study.name(), &group.provenance.command);
-                self.sources.last_mut().expect("it was noted").replaced = LESS.into();
+                self.note(&path, study.name(), &group.provenance.command, LESS);
             }
             Holds::Cases(group, _) => {
                 let Found { answer, notes } = study.read_cases(&group, &self.answers)?;
@@ -211,7 +209,7 @@ impl Runs {
                 self.provenances.push(provenance);
             }
         }
-        self.note(path, study.name(), &command);
+        self.note(path, study.name(), &command, "");
     }
 
     /// Adds a comparison to those of its machine. Where the file does not tell `provenances` the records do.
@@ -282,12 +280,12 @@ impl Runs {
         found
     }
 
-    fn note(&mut self, path: &Path, kind: &str, command: &str) {
+    fn note(&mut self, path: &Path, kind: &str, command: &str, replaced: &str) {
         self.sources.push(Source {
             path: path.into(),
             kind: kind.into(),
             command: command_line(command),
-            replaced: String::new(),
+            replaced: replaced.into(),
         });
     }
 }

@@ -7,7 +7,7 @@ use crate::report::{Record, to_json};
 use crate::study::{Studies, attribution};
 use example::{Files, accuracy, exported, refused, whole};
 
-pub use example::{attribution as attribution_files, cube, provenance, read, records_of, runs_folder};
+pub use example::{attribution as attribution_files, compared, cube, provenance, read, records_of, runs_folder};
 
 mod example;
 mod machines;
@@ -96,7 +96,7 @@ fn every_figure_has_a_caption_a_command_and_words_for_those_who_do_not_see() {
 #[test]
 fn scenes_of_much_the_same_name_have_figures_of_their_own() {
     let both = [records_of("a b"), records_of("a-b")].concat();
-    let document = document(&read(runs_folder(&[("compare.json", to_json(&both))]).path()), vec![]);
+    let document = document(&compared(&both), vec![]);
     let ids: Vec<&str> = document.figures().into_iter().map(|figure| figure.id.as_str()).collect();
     assert_eq!(ids, ["tradeoff", "speed-a-b", "speed-a-b-v2"]);
 }
@@ -114,7 +114,7 @@ fn the_same_runs_give_the_same_page() {
 
 #[test]
 fn a_part_that_is_not_there_is_named_with_its_command() {
-    let runs = read(runs_folder(&[("compare.json", to_json(&records_of("Dragon")))]).path());
+    let runs = compared(&records_of("Dragon"));
     let whole = document(&runs, vec![]);
     assert_eq!(whole.answer.verdict, "Yes, on Dragon");
     assert_eq!(whole.answer.numbers[0].number, "8.00 ×");
@@ -134,7 +134,7 @@ fn a_part_that_is_not_there_is_named_with_its_command() {
     assert_eq!(nothing.sections.len(), 2, "the study that was measured, and where its numbers come from");
 
     // A comparison of other scenes leads with what it has measured.
-    let own = document(&read(runs_folder(&[("compare.json", to_json(&records_of("Cube")))]).path()), vec![]);
+    let own = document(&compared(&records_of("Cube")), vec![]);
     assert_eq!(own.title, "Which structure is the fastest on Cube?");
     assert!(own.answer.sentences[0].contains(own.answer.verdict.split(' ').next().unwrap()), "{:?}", own.answer);
     assert!(own.answer.sentences.last().unwrap().contains("sahara replicate"), "{:?}", own.answer);

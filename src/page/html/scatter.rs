@@ -1,29 +1,11 @@
 //! The data of a scatter plot as its script reads them.
 
-use serde::Serialize;
+use serde_json::{Value, json};
 
-use super::json::json;
+use super::json::json as in_script;
 use crate::report::plot::palette::roles_of;
 use crate::report::plot::{Scatter, ScatterCase, ScatterPoint};
 use crate::report::words::distinct;
-
-#[derive(Serialize)]
-struct CaseData<'a> {
-    scene: &'a str,
-    rays: &'a str,
-    points: Vec<PointData<'a>>,
-}
-
-#[derive(Serialize)]
-struct PointData<'a> {
-    label: &'a str,
-    /// Name of the custom property with its colour.
-    colour: String,
-    bytes: f64,
-    build: f64,
-    ray: f64,
-    ratio: &'a str,
-}
 
 /// As JSON that may stand in a script element.
 pub fn data(scatter: &Scatter) -> String {
@@ -35,22 +17,20 @@ pub fn data(scatter: &Scatter) -> String {
         let place = labels.iter().position(|other| other == label).expect("all labels are listed");
         format!("--{}", roles[place].name())
     };
-    json(&cases(scatter, &colour))
-}
-
-fn cases<'a>(scatter: &'a Scatter, colour: &dyn Fn(&String) -> String) -> Vec<CaseData<'a>> {
-    let point = |p: &'a ScatterPoint| PointData {
-        label: &p.label,
-        colour: colour(&p.label),
-        bytes: p.bytes,
-        build: p.build_ns,
-        ray: p.ns_per_ray,
-        ratio: &p.ratio,
+    let point = |p: &ScatterPoint| {
+        json!({
+            "label": p.label,
+            // Name of the custom property with its colour.
+            "colour": colour(&p.label),
+            "bytes": p.bytes,
+            "build": p.build_ns,
+            "ray": p.ns_per_ray,
+            "ratio": p.ratio,
+        })
     };
-    let case = |case: &'a ScatterCase| CaseData {
-        scene: &case.scene,
-        rays: &case.rays,
-        points: case.points.iter().map(point).collect(),
+    let case = |case: &ScatterCase| {
+        let points: Vec<Value> = case.points.iter().map(point).collect();
+        json!({ "scene": case.scene, "rays": case.rays, "points": points })
     };
-    scatter.cases.iter().map(case).collect()
+    in_script(&scatter.cases.iter().map(case).collect::<Vec<Value>>())
 }

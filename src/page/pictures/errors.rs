@@ -2,6 +2,7 @@
 
 use super::inspect::{inspector, most_rays};
 use super::seen::{Seen, SeenStructure};
+use super::told;
 use crate::render::ErrorMap;
 use crate::report::Table;
 use crate::report::document::{Art, Block, Colours, Figure, Overlay, Section, Thumbnail};
@@ -86,13 +87,6 @@ fn pixels(seen: &Seen, wrong: &[(&SeenStructure, ErrorMap)]) -> Inspector {
 
 /// The section with what is known of all scenes, and what is said of those without a picture.
 pub fn section(found: Vec<Block>, left_out: Vec<Block>) -> Section {
-    let mut blocks = vec![];
-    if found.is_empty() && left_out.is_empty() {
-        blocks.push(Block::missing("Pictures of wrong answers", "sahara compare --dir runs"));
-    } else if !found.is_empty() {
-        blocks.push(Block::Text("The camera rays of a picture, each held against exact arithmetic.".into()));
-        blocks.extend(found);
-    }
-    blocks.extend(left_out);
-    Section { id: "errors", title: TITLE, blocks }
+    let what = "The camera rays of a picture, each held against exact arithmetic.";
+    Section { id: "errors", title: TITLE, blocks: told("Pictures of wrong answers", what, found, left_out) }
 }

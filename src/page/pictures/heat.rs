@@ -2,6 +2,7 @@
 
 use super::inspect::{inspector, most_rays};
 use super::seen::{Seen, SeenStructure};
+use super::told;
 use crate::accel::Observed;
 use crate::render::{Picture, Work, heat_colour, hottest};
 use crate::report::Table;
@@ -115,13 +116,7 @@ fn stepped(cost: u64, scale: u64) -> u64 {
 
 /// The section with the figures of all scenes, and what is said of those without one.
 pub fn section(figures: Vec<Figure>, left_out: Vec<Block>) -> Section {
-    let mut blocks = vec![];
-    if figures.is_empty() && left_out.is_empty() {
-        blocks.push(Block::missing("Heat maps of the structures", "sahara compare --dir runs"));
-    } else if !figures.is_empty() {
-        blocks.push(Block::Text("Where the work is: brighter pixels cost more triangle tests and steps.".into()));
-        blocks.extend(figures.into_iter().map(Block::Figure));
-    }
-    blocks.extend(left_out);
-    Section { id: "heat", title: TITLE, blocks }
+    let what = "Where the work is: brighter pixels cost more triangle tests and steps.";
+    let found = figures.into_iter().map(Block::Figure).collect();
+    Section { id: "heat", title: TITLE, blocks: told("Heat maps of the structures", what, found, left_out) }
 }

@@ -66,6 +66,16 @@ fn without(too_large: &[&Shown], view: &str) -> Vec<Block> {
     too_large.iter().map(block).collect()
 }
 
+/// What was `found`, introduced by a sentence, then what was left out; where there is neither, that these pictures are missing.
+fn told(pictures: &str, sentence: &str, found: Vec<Block>, left_out: Vec<Block>) -> Vec<Block> {
+    let first = match (found.is_empty(), left_out.is_empty()) {
+        (true, true) => Some(Block::missing(pictures, "sahara compare --dir runs")),
+        (true, false) => None,
+        (false, _) => Some(Block::Text(sentence.into())),
+    };
+    first.into_iter().chain(found).chain(left_out).collect()
+}
+
 /// The sections of a report without pictures, which say so.
 pub fn left_out() -> Vec<Section> {
     let command = "sahara report, without --no-pictures";

@@ -18,7 +18,7 @@ pub use marks::{MarkError, OPEN, fill, marked};
 use super::runs::Runs;
 use crate::measure::{Estimate, Provenance};
 use crate::report::document::{Art, Document};
-use crate::report::words::command_line;
+use crate::report::words::{command_line, distinct};
 use crate::report::{Record, Statement, to_json};
 use crate::scene::{Builtin, WorkloadKind};
 use crate::study::Studies;
@@ -172,7 +172,7 @@ impl Results {
 
 /// The digest by which the data file knows a file.
 pub fn digest(bytes: &[u8]) -> String {
-    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
+    format!("{:x}", Sha256::digest(bytes))
 }
 
 /// Triangles of the scenes whose counts are kept, at most: they are counted again in seconds.
@@ -246,12 +246,7 @@ impl RunFacts {
         days.sort_unstable();
         let ends =
             days.first().zip(days.last()).map_or([String::new(), String::new()], |(a, b)| [a.clone(), b.clone()]);
-        let mut commands: Vec<String> = vec![];
-        for command in all.iter().map(|p| portable(&command_line(&p.command))) {
-            if !commands.contains(&command) {
-                commands.push(command);
-            }
-        }
+        let commands: Vec<String> = all.iter().map(|p| portable(&command_line(&p.command))).collect();
         Ok(Self {
             version: one("version", |p| &p.version)?,
             commit: one("commit", |p| &p.commit)?,
@@ -262,7 +257,7 @@ impl RunFacts {
             target: one("target", |p| &p.target)?,
             obvhs: one("version of obvhs", |p| &p.obvhs)?,
             days: ends,
-            commands,
+            commands: distinct(commands.iter()),
         })
     }
 

@@ -7,7 +7,7 @@ use std::path::Path;
 use super::{COMMAND, DATA, MarkError, Results, ResultsData, ResultsError, counts, digest, fill, marked, work};
 use crate::accel::Counts;
 use crate::measure::spread;
-use crate::page::tests::{attribution_files, cube, provenance, read, records_of, runs_folder};
+use crate::page::tests::{attribution_files, compared, cube, provenance, read, records_of, runs_folder};
 use crate::registry::Registry;
 use crate::report::{Record, to_json};
 use crate::scene::{Builtin, Sampling, Scene, Workload, WorkloadKind};
@@ -248,7 +248,7 @@ fn every_statement_is_in_the_paper_and_in_the_data() {
 fn threads_are_told_as_they_were() {
     let mut records = records_of("Cube");
     let told = |records: &Vec<Record>| {
-        let runs = read(runs_folder(&[("a.json", to_json(records))]).path());
+        let runs = compared(records);
         let document = crate::page::document(&runs, &Studies::builtin(), vec![]);
         Results::new(&document, &runs, &Studies::builtin()).unwrap().data.run.sentence()
     };

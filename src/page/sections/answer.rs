@@ -6,7 +6,7 @@ use crate::report::Record;
 use crate::report::document::{Answer, Headline};
 use crate::report::number::{figures, plural};
 use crate::report::plot::{Chart, Stack, StackRow};
-use crate::report::words::{ends, listed, scene_name};
+use crate::report::words::{distinct, ends, listed, scene_name};
 use crate::study::attribution::{self, AttributionStudy};
 use crate::study::compare::{Winner, speed, twins, winner};
 use crate::study::predictions::{self, PredictionsStudy};
@@ -80,12 +80,7 @@ fn banner(runs: &Runs) -> String {
 /// What runs say that are not of the hard scenes: which structure is the fastest where several were compared.
 fn otherwise(runs: &Runs) -> (String, Answer) {
     let not = "The source report's question is not measured by these runs: `sahara replicate` measures it.";
-    let mut scenes: Vec<&str> = vec![];
-    for record in runs.records() {
-        if !scenes.contains(&record.scene.as_str()) {
-            scenes.push(&record.scene);
-        }
-    }
+    let scenes = distinct(runs.records().iter().map(|record| &record.scene));
     let (title, verdict, mut sentences) = match winner(runs.records(), None) {
         Some(Winner { names, sentence }) => {
             let on = if scenes.len() > SCENES { plural(scenes.len(), "scene") } else { listed(&scenes) };

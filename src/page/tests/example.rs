@@ -125,6 +125,11 @@ pub fn exported(records: &[Record]) -> Files {
     vec![("compare.json".into(), to_json(&records))]
 }
 
+/// What is read of such a file.
+pub fn compared(records: &[Record]) -> Runs {
+    read(runs_folder(&exported(records)).path())
+}
+
 /// Why paths cannot be read.
 pub fn refused(paths: &[PathBuf]) -> RunError {
     Runs::read(paths, &Studies::builtin()).err().expect("it cannot be read")

@@ -16,7 +16,7 @@ fn a_quick_look_says_so_before_its_verdict() {
     let quick = |record: Record| Record { provenance: provenance("sahara study all --quick"), ..record };
     let records = |quick_one: bool| {
         let all = records_of("Dragon").into_iter().map(|record| if quick_one { quick(record) } else { record });
-        read(runs_folder(&[("compare.json", to_json(&all.collect::<Vec<_>>()))]).path())
+        compared(&all.collect::<Vec<_>>())
     };
     for text in forms(&document(&records(true), vec![])) {
         let text = text.replace("\\-", "-").replace("--", "-").replace("\\_", "_");
@@ -46,12 +46,12 @@ fn a_rank_says_whom_it_may_favour() {
         assert!(text.contains(said) && text.contains("Neither obvhs nor any other peer was tuned by us"), "{text}");
     }
     let alone = [records_of("Cube").remove(0)];
-    let runs = read(runs_folder(&[("compare.json", to_json(&alone))]).path());
+    let runs = compared(&alone);
     assert!(!page(&document(&runs, vec![])).contains("tuned on"), "there is no rank");
 }
 
 fn of_scene(scene: &str) -> Runs {
-    read(runs_folder(&[("compare.json", to_json(&records_of(scene)))]).path())
+    compared(&records_of(scene))
 }
 
 /// `Cube`, by its own name or as somebody's mesh.
@@ -70,7 +70,7 @@ fn only_built_in_scenes_have_the_cameras_of_the_source_report() {
         let command = format!("/opt/somewhere/sahara compare {command}");
         let of_command = |record| Record { provenance: provenance(&command), ..record };
         let records: Vec<Record> = records_of(scene).into_iter().map(of_command).collect();
-        let runs = read(runs_folder(&[("compare.json", to_json(&records))]).path());
+        let runs = compared(&records);
         let sections = draw(&runs, (&Registry::builtin(), &Studies::builtin()), &find, &mut |_| ());
         let mut blocks = sections.into_iter().find(|section| section.id == "scenes").unwrap().blocks;
         let Block::Figure(figure) = blocks.remove(0) else { panic!("{scene} is not drawn") };
