@@ -13,13 +13,20 @@ use crate::report::Table;
 use crate::study::{Screen, Stage};
 use crate::validate::LIMIT;
 
+/// A bar of so many steps, if that is known.
+fn bar(steps: Option<u64>, terminal: &Terminal) -> ProgressBar {
+    let target = if terminal.quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
+    ProgressBar::with_draw_target(steps, target)
+}
+
+fn style(template: &str) -> ProgressStyle {
+    ProgressStyle::with_template(template).expect("the template is valid")
+}
+
 /// The bar of a download of `bytes`, if that is known; told how many there are.
 #[cfg(feature = "fetch")]
 pub fn download(name: &str, bytes: Option<u64>, terminal: &Terminal) -> ProgressBar {
-    let target = if terminal.quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
-    let bar = ProgressBar::with_draw_target(bytes, target);
-    let style = ProgressStyle::with_template("{bar:24} {bytes} of {total_bytes} {wide_msg}");
-    bar.set_style(style.expect("the template is valid"));
+    let bar = bar(bytes, terminal).with_style(style("{bar:24} {bytes} of {total_bytes} {wide_msg}"));
     bar.set_message(name.to_owned());
     bar
 }
@@ -32,9 +39,7 @@ pub struct Waiting(ProgressBar);
 
 impl Waiting {
     pub fn show(what: String, terminal: &Terminal) -> Self {
-        let target = if terminal.quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
-        let bar = ProgressBar::with_draw_target(None, target);
-        bar.set_style(ProgressStyle::with_template("{elapsed_precise} {wide_msg}").expect("the template is valid"));
+        let bar = bar(None, terminal).with_style(style("{elapsed_precise} {wide_msg}"));
         bar.set_message(what);
         bar.enable_steady_tick(TICK);
         Self(bar)
@@ -100,9 +105,6 @@ pub struct Progress {
 
 impl Progress {
     pub fn over(work: u64, terminal: &Terminal) -> Self {
-        let target = if terminal.quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
-        let bar = ProgressBar::with_draw_target(Some(work * STEPS), target);
-        let style = ProgressStyle::with_template("{bar:24} {percent:>3}% {elapsed_precise}{left} {wide_msg}");
         let left = |state: &ProgressState, out: &mut dyn fmt::Write| {
             // Long cases and short ones follow each other: what all of them took says more than the last seconds.
             let (done, all) = (state.pos(), state.len().unwrap_or(0));
@@ -111,7 +113,8 @@ impl Progress {
                 let _ = write!(out, ", {:#} left", HumanDuration(left));
             }
         };
-        bar.set_style(style.expect("the template is valid").with_key("left", left));
+        let style = style("{bar:24} {percent:>3}% {elapsed_precise}{left} {wide_msg}").with_key("left", left);
+        let bar = bar(Some(work * STEPS), terminal).with_style(style);
         let own = bar.clone();
         let watch = watch(LIMIT, move |stage| {
             let limit = LIMIT.as_secs();

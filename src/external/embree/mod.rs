@@ -239,24 +239,20 @@ impl<M: Mode> Accel for Embree<M> {
         assert_eq!(rays.len(), hits.len(), "one answer a ray");
         if self.packets {
             let blocks = rays.chunks(LANES).zip(hits.chunks_mut(LANES));
-            blocks.for_each(|(rays, hits)| self.closest_of_packet(&Packet::new(rays), hits));
-            return;
+            return blocks.for_each(|(rays, hits)| self.closest_of_packet(&Packet::new(rays), hits));
         }
-        for (ray, hit) in rays.iter().zip(hits) {
-            *hit = self.ready(ray).and_then(|ready| self.closest(&ready, &mut ()));
-        }
+        let answer = |ray| self.ready(ray).and_then(|ready| self.closest(&ready, &mut ()));
+        rays.iter().zip(hits).for_each(|(ray, hit)| *hit = answer(ray));
     }
 
     fn any_hits<O: Observer>(&self, rays: &[Ray], hits: &mut [bool], _: &mut O) {
         assert_eq!(rays.len(), hits.len(), "one answer a ray");
         if self.packets {
             let blocks = rays.chunks(LANES).zip(hits.chunks_mut(LANES));
-            blocks.for_each(|(rays, hits)| self.any_of_packet(&Packet::new(rays), hits));
-            return;
+            return blocks.for_each(|(rays, hits)| self.any_of_packet(&Packet::new(rays), hits));
         }
-        for (ray, hit) in rays.iter().zip(hits) {
-            *hit = self.ready(ray).is_some_and(|ready| self.any(&ready, &mut ()));
-        }
+        let answer = |ray| self.ready(ray).is_some_and(|ready| self.any(&ready, &mut ()));
+        rays.iter().zip(hits).for_each(|(ray, hit)| *hit = answer(ray));
     }
 
     fn load<'a>(&'a self, rays: Cow<'a, [Ray]>) -> Box<dyn Loaded + 'a> {
