@@ -8,10 +8,10 @@
 
 use serde::Serialize;
 
-use super::args::{Measuring, Rays, Scenes, WORKLOADS, with_twin};
+use super::args::{Measuring, QUICK_EPOCHS, Rays, Scenes, WORKLOADS, with_twin};
 use super::compare::{compared, speed, twins};
-use super::epoch::{Epoch, Settings, troubles};
-use super::{Context, Data, Effort, Plan, SceneId, Study, Trouble};
+use super::epoch::{Epoch, Settings};
+use super::{Context, Data, Plan, SceneId, Study};
 use crate::measure::Estimate;
 use crate::registry::{Choice, ChoiceError, Registry};
 use crate::report::number::{count, figures, plural};
@@ -65,15 +65,11 @@ const TEST: &str = "moller-trumbore";
 impl Study for BinaryStudy {
     const NAME: &'static str = "binary";
     const QUESTION: &'static str = "Is a binary KD-tree faster than a binary BVH in every case?";
+    const QUICK: &'static str = QUICK_EPOCHS;
 
     type Args = BinaryArgs;
     type Case = Epoch;
     type Answer = Vec<Scenario>;
-
-    fn args(effort: Effort) -> BinaryArgs {
-        let scenes = if effort == Effort::Quick { Scenes::named(&["torus"]) } else { Scenes::default() };
-        BinaryArgs { scenes, test: TEST.into(), rays: Rays::of(effort), measuring: Measuring::of(effort) }
-    }
 
     fn plan(args: &BinaryArgs, registry: &Registry) -> anyhow::Result<Plan<Epoch>> {
         let choose = |name: &str| registry.choose(&format!("{name}:test={}", args.test));
@@ -81,10 +77,6 @@ impl Study for BinaryStudy {
         let settings = args.measuring.settings(registry, with_twin(pair), args.rays.asked(&WORKLOADS))?;
         let plan = Settings { detailed: true, ..settings }.plan(args.scenes.read(&[])?, args.measuring.epochs);
         Ok(Plan { inputs: args.scenes.files(), ..plan })
-    }
-
-    fn named(args: &mut Self::Args) -> Option<&mut Vec<String>> {
-        Some(&mut args.scenes.scenes)
     }
 
     fn epoch(case: &mut Epoch) -> Option<(&mut Epoch, usize)> {
@@ -104,10 +96,6 @@ impl Study for BinaryStudy {
             "How many times as fast the KD-tree, {KD_TREE}, is as the BVH, {BVH}, with the interval that holds the ratio of another run \
              in 95 % of cases; build, memory: the KD-tree's as a multiple of the BVH's."
         )]
-    }
-
-    fn troubles(cases: &[Epoch]) -> Vec<Trouble> {
-        troubles(cases)
     }
 
     fn data(answer: &Vec<Scenario>) -> Vec<Data> {

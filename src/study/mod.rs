@@ -85,8 +85,12 @@ pub trait Study: 'static {
     const LAST: bool = false;
     /// Whether a scene is nothing without a time of each of its structures: it is left out then.
     const WHOLE: bool = false;
+    /// What `study all` measures, in words of the command line: scenes, which others may take the place of, then options.
+    const FULL: &'static str = "";
+    /// Likewise `study all --quick`.
+    const QUICK: &'static str = "";
 
-    /// Its options.
+    /// Its options. Scenes are the only ones without a name.
     type Args: clap::Args;
     /// What is measured at a time, whatever else is, and kept as one file of the journal.
     type Case: Clone + Serialize + DeserializeOwned + 'static;
@@ -98,9 +102,6 @@ pub trait Study: 'static {
         format!("sahara study {}", Self::NAME)
     }
 
-    /// The options of `study all`.
-    fn args(effort: Effort) -> Self::Args;
-
     /// Why `study all` and its plan leave it out on this machine, in a sentence without the study's name; nothing where they do not.
     fn cannot_be_measured_here() -> Option<&'static str> {
         None
@@ -111,11 +112,6 @@ pub trait Study: 'static {
     /// # Errors
     /// If the options name what is not there.
     fn plan(args: &Self::Args, registry: &Registry) -> anyhow::Result<Plan<Self::Case>>;
-
-    /// The scenes that its options name, where they name any.
-    fn named(_: &mut Self::Args) -> Option<&mut Vec<String>> {
-        None
-    }
 
     /// The epoch that a case is, where it is one, and the number of its series where a scene has several. Before there is an answer the
     /// epochs of each series are [joined](epoch::join).
@@ -149,9 +145,10 @@ pub trait Study: 'static {
         vec![]
     }
 
-    /// The structures that have no time, or whose answers are wrong.
-    fn troubles(_: &[Self::Case]) -> Vec<Trouble> {
-        vec![]
+    /// The structures that have no time, or whose answers are wrong: without a rule of its own those of the epochs.
+    fn troubles(cases: &[Self::Case]) -> Vec<Trouble> {
+        let mut cases = cases.to_vec();
+        epoch::troubles(cases.iter_mut().filter_map(Self::epoch).map(|(epoch, _)| &*epoch))
     }
 
     /// What spoilt the run, and what to do.

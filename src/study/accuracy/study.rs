@@ -16,8 +16,7 @@ use crate::scene::Scene;
 use crate::study::args::Scenes;
 use crate::study::plan::Measure;
 use crate::study::{
-    BRUTE_FORCE, Context, Data, Effort, Plan, RaySource, Refused, SceneId, Study, Trouble, documented_defect, replayed,
-    sources,
+    BRUTE_FORCE, Context, Data, Plan, RaySource, Refused, SceneId, Study, Trouble, documented_defect, replayed, sources,
 };
 use crate::triangle::{Exact, TriangleTest};
 
@@ -54,7 +53,6 @@ pub struct AccuracyArgs {
     seed: u64,
 }
 
-const RAYS: usize = 20_000;
 const RUNS: u16 = 7;
 const BUDGET: u32 = 40;
 
@@ -75,36 +73,12 @@ impl Study for AccuracyStudy {
     const QUESTION: &'static str =
         "What does being right cost: how wrong and how fast is every structure over every triangle test?";
     const SCENE_BY_SCENE: bool = true;
+    const FULL: &'static str = "dragon cornellbox -w uniform -w vertex -w grazing";
+    const QUICK: &'static str = "cube -w vertex --rays 500 --runs 2 --budget 1";
 
     type Args = AccuracyArgs;
     type Case = JudgedScene;
     type Answer = Vec<AccuracyRecord>;
-
-    fn args(effort: Effort) -> AccuracyArgs {
-        let (structure, test) = (vec![], vec![]);
-        match effort {
-            Effort::Full => AccuracyArgs {
-                scenes: Scenes::named(&["dragon", "cornellbox"]),
-                structure,
-                test,
-                workload: vec![RayKind::Uniform, RayKind::Vertex, RayKind::Grazing],
-                rays: RaySource::Count(RAYS),
-                runs: RUNS,
-                budget: BUDGET,
-                seed: 1,
-            },
-            Effort::Quick => AccuracyArgs {
-                scenes: Scenes::named(&["cube"]),
-                structure,
-                test,
-                workload: vec![RayKind::Vertex],
-                rays: RaySource::Count(500),
-                runs: 2,
-                budget: 1,
-                seed: 1,
-            },
-        }
-    }
 
     fn plan(args: &AccuracyArgs, registry: &Registry) -> anyhow::Result<Plan<JudgedScene>> {
         let choices = choices(registry, &args.structure, &args.test)?;
@@ -145,10 +119,6 @@ impl Study for AccuracyStudy {
             Ok(JudgedScene { records, refused, note })
         });
         Ok(Plan { notes, inputs, ..Plan::of_scenes(&kept, threads, titles, measure) })
-    }
-
-    fn named(args: &mut Self::Args) -> Option<&mut Vec<String>> {
-        Some(&mut args.scenes.scenes)
     }
 
     fn answer(cases: &[JudgedScene], _: &Context<Self>) -> Vec<AccuracyRecord> {

@@ -20,8 +20,8 @@ mod tests;
 use serde::{Deserialize, Serialize};
 
 use super::args::{Measuring, Rays, Structures, with_twin};
-use super::epoch::{Epoch, troubles};
-use super::{Context, Data, Effort, Plan, Study, StudyError, Trouble};
+use super::epoch::Epoch;
+use super::{Context, Data, Plan, Study, StudyError};
 use crate::measure::spread;
 use crate::registry::Registry;
 use crate::report::document::Block;
@@ -80,15 +80,11 @@ const PROBES: usize = 2048;
 impl Study for CrossoverStudy {
     const NAME: &'static str = "crossover";
     const QUESTION: &'static str = "Does a KD-tree overtake a BVH where rays would meet more surfaces?";
+    const QUICK: &'static str = "--rays 1024 --epochs 2 --runs 2 --budget 1";
 
     type Args = CrossoverArgs;
     type Case = MemberEpoch;
     type Answer = Vec<Race>;
-
-    fn args(effort: Effort) -> CrossoverArgs {
-        let (rays, measuring) = (Rays::of(effort), Measuring::of(effort));
-        CrossoverArgs { deepest: DEEPEST, structures: Structures::default(), rays, measuring }
-    }
 
     fn plan(args: &CrossoverArgs, registry: &Registry) -> anyhow::Result<Plan<MemberEpoch>> {
         let mut own = PAIRS.as_flattened().to_vec();
@@ -128,10 +124,6 @@ impl Study for CrossoverStudy {
 
     fn tables(answer: &Vec<Race>) -> Vec<Table> {
         tables(answer)
-    }
-
-    fn troubles(cases: &[MemberEpoch]) -> Vec<Trouble> {
-        troubles(cases.iter().map(|case| &case.epoch))
     }
 
     fn data(answer: &Vec<Race>) -> Vec<Data> {

@@ -23,7 +23,7 @@ use super::crossover::{CrossoverStudy, Race};
 use super::plan::Measure;
 use super::replicate::{self, ReplicateStudy};
 use super::scaling::{Growth, ScalingStudy};
-use super::{Answers, Context, Data, Effort, Plan, Study};
+use super::{Answers, Context, Data, Plan, Study};
 use crate::measure::{Estimate, Interval, Threads};
 use crate::names::named_enum;
 use crate::registry::Registry;
@@ -118,10 +118,6 @@ impl Study for PredictionsStudy {
     type Args = PredictionsArgs;
     type Case = PictureCounts;
     type Answer = Vec<Prediction>;
-
-    fn args(_: Effort) -> PredictionsArgs {
-        PredictionsArgs {}
-    }
 
     fn plan(_: &PredictionsArgs, registry: &Registry) -> anyhow::Result<Plan<PictureCounts>> {
         let scenes: Vec<Scene> =

@@ -14,8 +14,8 @@ mod tests;
 use serde::{Deserialize, Serialize};
 
 use super::args::{Measuring, Rays, Scenes, Structures, with_twin};
-use super::epoch::{Epoch, Line, Twins, lines, middles, troubles, twins};
-use super::{Context, Data, Effort, Plan, Study, Trouble, least_squares, sources};
+use super::epoch::{Epoch, Line, Twins, lines, middles, twins};
+use super::{Context, Data, Plan, Study, least_squares, sources};
 use crate::measure::{AaNoise, Estimate, Rerun, Variance};
 use crate::names::named_enum;
 use crate::registry::Registry;
@@ -53,19 +53,11 @@ pub struct ScalingArgs {
 impl Study for ScalingStudy {
     const NAME: &'static str = "scaling";
     const QUESTION: &'static str = "How do time, build and memory grow with the number of triangles?";
+    const QUICK: &'static str = "torus --finest 4 --rays 1024 --epochs 2 --runs 2 --budget 1";
 
     type Args = ScalingArgs;
     type Case = FamilyEpoch;
     type Answer = Vec<Growth>;
-
-    fn args(effort: Effort) -> ScalingArgs {
-        let (scenes, finest) = match effort {
-            Effort::Full => (Scenes::default(), FINEST),
-            Effort::Quick => (Scenes::named(&["torus"]), 4),
-        };
-        let (rays, measuring) = (Rays::of(effort), Measuring::of(effort));
-        ScalingArgs { scenes, finest, structures: Structures::default(), rays, measuring }
-    }
 
     fn plan(args: &ScalingArgs, registry: &Registry) -> anyhow::Result<Plan<FamilyEpoch>> {
         let structures = with_twin(args.structures.chosen(registry, &STRUCTURES)?);
@@ -83,10 +75,6 @@ impl Study for ScalingStudy {
         Ok(Plan { inputs: args.scenes.files(), ..plan })
     }
 
-    fn named(args: &mut Self::Args) -> Option<&mut Vec<String>> {
-        Some(&mut args.scenes.scenes)
-    }
-
     fn epoch(case: &mut FamilyEpoch) -> Option<(&mut Epoch, usize)> {
         Some((&mut case.epoch, case.family as usize))
     }
@@ -97,10 +85,6 @@ impl Study for ScalingStudy {
 
     fn tables(answer: &Vec<Growth>) -> Vec<Table> {
         tables(answer)
-    }
-
-    fn troubles(cases: &[FamilyEpoch]) -> Vec<Trouble> {
-        troubles(cases.iter().map(|case| &case.epoch))
     }
 
     fn data(answer: &Vec<Growth>) -> Vec<Data> {
