@@ -53,6 +53,13 @@ impl From<&str> for Cell {
     }
 }
 
+/// What is not known is blank.
+impl<T: Into<Cell>> From<Option<T>> for Cell {
+    fn from(text: Option<T>) -> Self {
+        text.map_or(Self::blank(), Into::into)
+    }
+}
+
 impl Cell {
     /// Nothing: what is not known.
     pub fn blank() -> Self {

@@ -139,7 +139,7 @@ fn table(scenarios: &[Scenario]) -> Table {
     let row = |s: &Scenario| {
         let ratio = |workload: &String| {
             let speed = s.kinds.iter().find(|kind| kind.workload == *workload).and_then(|kind| kind.speed);
-            speed.map_or(Cell::blank(), |speed| interval(speed).into())
+            speed.map(interval).into()
         };
         let name = [scene_name(&s.scene, s.stand_in), count(s.triangles as u64)].map(Cell::from);
         let costs = [figures(s.build), figures(s.bytes)].map(Cell::from);

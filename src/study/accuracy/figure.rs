@@ -1,15 +1,11 @@
 use super::{AccuracyRecord, RayKind};
 use crate::report::number::count;
 use crate::report::plot::{Figure, LABELLED, Panel, Point};
+use crate::report::words::each_once;
 
 /// Error against time: one panel for each scene and kind of rays.
 pub fn figure(records: &[AccuracyRecord]) -> Figure {
-    let mut groups: Vec<String> = vec![];
-    for record in records {
-        if !groups.contains(&structure(record)) {
-            groups.push(structure(record));
-        }
-    }
+    let groups = each_once(records.iter().map(structure));
     let panel = |of_kind: &[AccuracyRecord]| {
         let first = &of_kind[0];
         let stand_in = if first.stand_in { " (stand-in)" } else { "" };

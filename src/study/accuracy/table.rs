@@ -56,14 +56,12 @@ fn table(records: &[AccuracyRecord]) -> Table {
 
 fn row(record: &AccuracyRecord) -> Vec<Cell> {
     let errors = |n: u64| Cell::from(count(n)).with(if n > 0 { Tone::Wrong } else { Tone::Plain });
-    let ulps = |value: fn(&crate::validate::Ulps) -> f64| {
-        record.ulps.as_ref().map_or(Cell::blank(), |u| figures(value(u)).into())
-    };
+    let ulps = |value: fn(&crate::validate::Ulps) -> f64| record.ulps.as_ref().map(|u| figures(value(u))).into();
     let tone = if record.dominated_by.is_none() { Tone::Best } else { Tone::Plain };
     vec![
         record.label.as_str().into(),
         Cell::from(figures(record.ns_per_ray)).with(tone),
-        record.slowest_ns.map_or(Cell::blank(), |ns| figures(ns as f64).into()),
+        record.slowest_ns.map(|ns| figures(ns as f64)).into(),
         Cell::from(percent(record.error)).with(tone),
         percent(record.error_bound).into(),
         errors(record.missed),

@@ -32,7 +32,7 @@ fn table(market: &Market) -> Table {
         ];
         for cheap in &names[..names.len().saturating_sub(1)] {
             let pair = market.pairs.iter().find(|pair| pair.cheap == **cheap && pair.dear == offer.structure);
-            row.push(pair.map_or(Cell::blank(), |pair| cell(pair).into()));
+            row.push(pair.map(cell).into());
         }
         row
     });

@@ -1,11 +1,10 @@
 //! One rank of all structures, and the counts that explain it.
 
 use super::reference::{Reference, cell};
-use super::table::names;
 use super::{speed, twins};
 use crate::measure::{Estimate, geometric_mean};
 use crate::report::number::{figures, plural};
-use crate::report::words::{distinct, explained, interval, listed, scene_name};
+use crate::report::words::{distinct, each_once, explained, interval, listed, scene_name};
 use crate::report::{Cell, Record, Statement, Table, Tone};
 use crate::triangle::{EdgeF64, Exact, MollerTrumboreF64, TriangleTest};
 
@@ -51,14 +50,9 @@ pub struct Ranks {
 /// fewer than two structures.
 pub fn ranks(records: &[Record]) -> Option<Ranks> {
     let reference = Reference::of(records, None).pop()?;
-    let all = names(records, |r| &r.label);
-    let mut cells: Vec<(String, String)> = vec![];
-    for record in records.iter().filter(|r| reference.rival(records, r).is_some()) {
-        let cell = (record.scene.clone(), record.workload.clone());
-        if !cells.contains(&cell) {
-            cells.push(cell);
-        }
-    }
+    let all = distinct(records.iter().map(|r| &r.label));
+    let related = records.iter().filter(|r| reference.rival(records, r).is_some());
+    let cells = each_once(related.map(|r| (r.scene.clone(), r.workload.clone())));
     let find = |label: &str, (scene, workload): &(String, String)| {
         let is = |r: &&Record| r.label == label && r.scene == *scene && r.workload == *workload;
         records.iter().find(is).filter(|r| r.mrays_per_s.is_some())
@@ -131,7 +125,7 @@ impl Ranks {
     }
 
     fn table(&self, title: &str, rank: &Rank, over: &str) -> Table {
-        let known = |x: Option<f64>| x.map_or(Cell::blank(), |x| figures(x).into());
+        let known = |x: Option<f64>| x.map(figures).into();
         let best = rank.rows.first().map(|row| row.label.clone());
         let rows = rank.rows.iter().map(|row| {
             let tone = if Some(&row.label) == best.as_ref() { Tone::Best } else { Tone::Plain };

@@ -18,6 +18,7 @@ use crate::runner::Program;
 use crate::scene::{Scene, WorkloadKind};
 use crate::study::args::{Measuring, Scenes, Structures, WORKLOADS, with_twin};
 use crate::study::epoch::{self, Asked, Epoch, Settings, troubles};
+use crate::study::grouped::grouped;
 use crate::study::{
     BRUTE_FORCE, Context, Data, Plan, Printed, RaySource, Refused, SceneId, Study, Trouble, ViewArgs, left_out,
     replayed, sources,
@@ -257,14 +258,8 @@ impl Study for CompareStudy {
         let all = distinct(answer.records.iter().flat_map(|r| &r.provenance.warnings));
         // Those of several scenes that differ in their numbers alone are one.
         let words = |warning: &str| warning.replace(|c: char| c.is_ascii_digit() || c == '.', "");
-        let mut warnings: Vec<(String, Vec<String>)> = vec![];
-        for warning in all {
-            match warnings.iter_mut().find(|(of, _)| *of == words(&warning)) {
-                Some((_, alike)) => alike.push(warning),
-                None => warnings.push((words(&warning), vec![warning])),
-            }
-        }
-        let told = |(_, alike): (String, Vec<String>)| match alike.len() {
+        let warnings = grouped(all, |a, b| words(a) == words(b));
+        let told = |alike: Vec<String>| match alike.len() {
             1 => alike[0].clone(),
             n => format!("{} (the first of {n} scenes of which that is so)", alike[0]),
         };

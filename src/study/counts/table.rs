@@ -5,6 +5,7 @@ use crate::accel::Histogram;
 use crate::report::number::{bytes, count, figures};
 use crate::report::{Cell, Table};
 use crate::study::Refused;
+use crate::study::grouped::grouped;
 
 /// What the columns mean.
 pub const LEGEND: [&str; 4] = [
@@ -29,13 +30,9 @@ pub fn tables(measures: &[Measures], refused: &[Refused]) -> Vec<Table> {
         }];
     };
     let mut tables = vec![trees(first, measures, refused), looks(measures)];
-    let mut kinds: Vec<&RayMeasures> = vec![];
-    for rays in measures.iter().flat_map(|one| &one.rays) {
-        if kinds.iter().all(|kind| kind.workload != rays.workload) {
-            kinds.push(rays);
-        }
-    }
-    tables.extend(kinds.into_iter().map(|kind| of_rays(first, kind, measures)));
+    let rays = measures.iter().flat_map(|one| &one.rays);
+    let kinds = grouped(rays, |a, b| a.workload == b.workload);
+    tables.extend(kinds.into_iter().map(|kind| of_rays(first, kind[0], measures)));
     tables
 }
 
@@ -44,7 +41,7 @@ fn refusals(refused: &[Refused]) -> Vec<String> {
 }
 
 fn known(x: Option<f64>) -> Cell {
-    x.map_or(Cell::blank(), |x| figures(x).into())
+    x.map(figures).into()
 }
 
 fn trees(first: &Measures, measures: &[Measures], refused: &[Refused]) -> Table {

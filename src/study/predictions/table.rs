@@ -21,7 +21,7 @@ pub fn table(predictions: &[Prediction]) -> Table {
             vec![
                 format!("{}. {}", p.number, claim.what).into(),
                 Cell::from(claim.verdict.name()).with(tone(claim.verdict)),
-                claim.value.map_or(Cell::blank(), |value| interval(value).into()),
+                claim.value.map(interval).into(),
                 claim.expected.as_str().into(),
             ]
         }));

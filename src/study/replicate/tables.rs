@@ -98,8 +98,8 @@ fn parameters(result: &Replication) -> Table {
                 |s: &&super::Setting| s.scene == scene && s.leaf == setting.leaf && s.threshold == setting.threshold;
             result.parameters.iter().find(same)
         };
-        let ours = |scene: &&str| of(scene).map_or(Cell::blank(), |s| figures_marked(s.seconds, s.extrapolated).into());
-        let theirs = |scene: &&str| of(scene).map_or(Cell::blank(), |s| figures(s.report_s).into());
+        let ours = |scene: &&str| of(scene).map(|s| figures_marked(s.seconds, s.extrapolated)).into();
+        let theirs = |scene: &&str| of(scene).map(|s| figures(s.report_s)).into();
         rows.push(std::iter::once(Cell::from(name)).chain(scenes.iter().map(ours)).collect());
         rows.push(std::iter::once(Cell::from("  report")).chain(scenes.iter().map(theirs)).collect());
     }

@@ -20,6 +20,7 @@ use crate::measure::{AaNoise, Estimate, Rerun, Variance};
 use crate::names::named_enum;
 use crate::registry::Registry;
 use crate::report::document::Block;
+use crate::report::words::each_once;
 use crate::report::{Statement, Table};
 use crate::scene::{Scene, WorkloadKind};
 
@@ -173,13 +174,7 @@ pub fn result(cases: &[FamilyEpoch]) -> Vec<Growth> {
         let of_family = cases.iter().filter(|case| case.family == family).map(|case| &case.epoch);
         let mut all = lines(of_family);
         all.sort_by_key(|line| line.triangles);
-        let mut kinds: Vec<(&str, &str)> = vec![];
-        for line in &all {
-            let kind = (line.workload.as_str(), line.structure.as_str());
-            if !kinds.contains(&kind) {
-                kinds.push(kind);
-            }
-        }
+        let mut kinds = each_once(all.iter().map(|line| (line.workload.as_str(), line.structure.as_str())));
         // Kind of rays by kind of rays, structures in the order in which they were asked.
         let order: Vec<&str> = cases.iter().flat_map(|case| &case.epoch.structures).map(|s| s.label.as_str()).collect();
         kinds.sort_by_key(|&(workload, structure)| {

@@ -17,7 +17,7 @@ pub(super) fn groups(growths: &[Growth]) -> Vec<Vec<&Growth>> {
 }
 
 fn power(x: Option<Estimate>) -> Cell {
-    x.map_or(Cell::blank(), |x| written(x, |x| format!("{x:.2}")).into())
+    x.map(|x| written(x, |x| format!("{x:.2}"))).into()
 }
 
 fn title(group: &[&Growth], what: &str) -> String {
@@ -33,7 +33,7 @@ pub(super) fn exponents(group: &[&Growth]) -> Table {
             }
             _ => "0".into(),
         };
-        let scatter = growth.scatter.map_or(Cell::blank(), |half| format!("{half:.2}").into());
+        let scatter = growth.scatter.map(|half| format!("{half:.2}")).into();
         let powers = [growth.build, growth.bytes, growth.tests, growth.steps].map(power);
         [growth.structure.as_str().into(), power(growth.time), scatter]
             .into_iter()
@@ -50,7 +50,7 @@ pub(super) fn exponents(group: &[&Growth]) -> Table {
 }
 
 pub(super) fn points(group: &[&Growth]) -> Table {
-    let known = |x: Option<f64>| x.map_or(Cell::blank(), |x| figures(x).into());
+    let known = |x: Option<f64>| x.map(figures).into();
     let rows = group.iter().flat_map(|growth| {
         growth.points.iter().map(|point| {
             let of = format!("{}{}", growth.structure, if point.fitted { "" } else { " (one leaf)" });

@@ -4,6 +4,7 @@ use super::Speedup;
 use crate::report::number::duration;
 use crate::report::words::{distinct, explained, interval, written};
 use crate::report::{Cell, Table};
+use crate::study::grouped::grouped;
 
 /// For each scene and each thing that is timed.
 pub fn tables(speedups: &[Speedup]) -> Vec<Table> {
@@ -12,14 +13,7 @@ pub fn tables(speedups: &[Speedup]) -> Vec<Table> {
 
 /// Of one scene and one thing each, in their order.
 pub(super) fn groups(speedups: &[Speedup]) -> Vec<Vec<&Speedup>> {
-    let mut groups: Vec<Vec<&Speedup>> = vec![];
-    for one in speedups {
-        match groups.iter_mut().find(|group| group[0].scene == one.scene && group[0].what == one.what) {
-            Some(group) => group.push(one),
-            None => groups.push(vec![one]),
-        }
-    }
-    groups
+    grouped(speedups, |a, b| a.scene == b.scene && a.what == b.what)
 }
 
 /// What is timed, as titles name it.
@@ -38,8 +32,8 @@ pub(super) fn table(group: &[&Speedup]) -> Table {
     let row = |one: &&Speedup| {
         let with = |threads: usize| one.points.iter().find(|point| point.threads == threads);
         let mut row: Vec<Cell> = vec![one.structure.as_str().into()];
-        row.push(with(1).map_or(Cell::blank(), |point| duration(point.ns).into()));
-        row.extend(numbers.iter().map(|&n| with(n).map_or(Cell::blank(), |point| interval(point.speedup).into())));
+        row.push(with(1).map(|point| duration(point.ns)).into());
+        row.extend(numbers.iter().map(|&n| with(n).map(|point| interval(point.speedup)).into()));
         row.push(written(one.serial, |share| format!("{share:.2}")).into());
         row
     };
