@@ -241,4 +241,16 @@ impl Data {
         let row = |row| serde_json::to_value(row).expect("a row has text keys");
         Self { name, rows: rows.iter().map(row).collect() }
     }
+
+    /// One row for each item of the lists `inner` of `outer`: these `fields` of what holds the list, then those of the item.
+    pub fn nested(name: &'static str, outer: &[impl Serialize], fields: &[&str], inner: &str) -> Self {
+        let mut rows = vec![];
+        for outer in Self::new(name, outer).rows {
+            for item in outer[inner].as_array().into_iter().flatten() {
+                let own = fields.iter().map(|&field| (field.to_owned(), outer[field].clone()));
+                rows.push(own.chain(item.as_object().expect("an item has fields").clone()).collect());
+            }
+        }
+        Self { name, rows }
+    }
 }

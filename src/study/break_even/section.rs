@@ -43,14 +43,9 @@ fn figure(market: &Market, command: &str) -> Figure {
     let total = |offer: &Offer, rays: f64| offer.build_ns + rays * offer.ns_per_ray;
     let quickest = |rays: f64| market.offers.iter().map(|offer| total(offer, rays)).fold(f64::INFINITY, f64::min);
     let rays: Vec<f64> = TENTHS.map(|tenth| libm::pow(10.0, f64::from(tenth) / 10.0)).collect();
-    let line = |offer: &Offer| Line {
-        label: offer.structure.clone(),
-        note: String::new(),
-        points: rays
-            .iter()
-            .map(|&rays| CurvePoint { x: rays, y: total(offer, rays) / quickest(rays), band: None })
-            .collect(),
-        mark: Mark::Line,
+    let line = |offer: &Offer| {
+        let points = rays.iter().map(|&rays| CurvePoint::exact(rays, total(offer, rays) / quickest(rays)));
+        Line::new(&offer.structure, Mark::Line, points)
     };
     let rows = market.offers.iter().map(|o| [o.structure.clone(), duration(o.build_ns), duration(o.ns_per_ray)]);
     let best: Vec<String> = market

@@ -19,7 +19,7 @@ use crate::registry::Registry;
 use crate::report::Table;
 use crate::report::document::Block;
 
-pub use result::{Family, Observation, Off, Row, result, rows};
+pub use result::{Family, Observation, Off, result};
 use table::LEGEND;
 pub use table::tables;
 
@@ -75,7 +75,7 @@ impl Study for CostsStudy {
     }
 
     fn data(answer: &Vec<Family>) -> Vec<Data> {
-        vec![Data::new(Self::NAME, &rows(answer))]
+        vec![Data::nested(Self::NAME, answer, &["family"], "observations")]
     }
 
     fn section(answer: &Vec<Family>, command: &str) -> Vec<Block> {

@@ -175,20 +175,3 @@ fn r_squared(observations: &[Observation]) -> f64 {
     let rest: f64 = logs.iter().zip(observations).map(|(log, o)| square(log - libm::log(o.predicted_ns))).sum();
     1.0 - rest / all
 }
-
-/// One observation, for tables that machines read.
-#[derive(Clone, Debug, Serialize)]
-pub struct Row<'a> {
-    pub family: &'a str,
-    #[serde(flatten)]
-    pub observation: &'a Observation,
-}
-
-/// All observations of all families.
-pub fn rows(families: &[Family]) -> Vec<Row<'_>> {
-    let mut rows = vec![];
-    for Family { family, observations, .. } in families {
-        rows.extend(observations.iter().map(|observation| Row { family, observation }));
-    }
-    rows
-}

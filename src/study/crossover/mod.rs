@@ -31,7 +31,7 @@ use crate::scene::{Scene, Workload, WorkloadKind};
 pub use complexity::complexity;
 pub use curve::Crossing;
 pub use family::{ROOTS, member};
-pub use result::{Member, Race, Row, result, rows};
+pub use result::{Member, Race, result};
 pub use table::tables;
 use table::verdict;
 
@@ -127,7 +127,7 @@ impl Study for CrossoverStudy {
     }
 
     fn data(answer: &Vec<Race>) -> Vec<Data> {
-        vec![Data::new(Self::NAME, &rows(answer))]
+        vec![Data::nested(Self::NAME, answer, &["kd", "bvh", "workload"], "members")]
     }
 
     fn statements(answer: &Vec<Race>) -> Vec<Statement> {

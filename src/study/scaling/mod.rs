@@ -89,7 +89,7 @@ impl Study for ScalingStudy {
     }
 
     fn data(answer: &Vec<Growth>) -> Vec<Data> {
-        vec![Data::new(Self::NAME, &rows(answer))]
+        vec![Data::nested(Self::NAME, answer, &["family", "structure", "workload"], "points")]
     }
 
     fn statements(answer: &Vec<Growth>) -> Vec<Statement> {
@@ -188,25 +188,6 @@ pub fn result(cases: &[FamilyEpoch]) -> Vec<Growth> {
         }
     }
     growths
-}
-
-/// One point of one growth, for tables that machines read.
-#[derive(Clone, Debug, Serialize)]
-pub struct Row<'a> {
-    pub family: Family,
-    pub structure: &'a str,
-    pub workload: &'a str,
-    #[serde(flatten)]
-    pub point: &'a Point,
-}
-
-/// All points.
-pub fn rows(growths: &[Growth]) -> Vec<Row<'_>> {
-    let mut rows = vec![];
-    for Growth { family, structure, workload, points, .. } in growths {
-        rows.extend(points.iter().map(|point| Row { family: *family, structure, workload, point }));
-    }
-    rows
 }
 
 /// That of the lines of one structure and one kind of rays, from the fewest triangles to the most.

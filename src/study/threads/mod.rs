@@ -143,7 +143,7 @@ impl Study for ThreadsStudy {
     }
 
     fn data(answer: &Vec<Speedup>) -> Vec<Data> {
-        vec![Data::new(Self::NAME, &speedup::rows(answer))]
+        vec![Data::nested(Self::NAME, answer, &["scene", "structure", "what"], "points")]
     }
 
     fn statements(answer: &Vec<Speedup>) -> Vec<Statement> {

@@ -38,17 +38,9 @@ pub fn blocks(speedups: &[Speedup], command: &str) -> Vec<Block> {
 fn figure(group: &[&Speedup], command: &str) -> Figure {
     let (scene, what) = (&group[0].scene, words(&group[0].what));
     let line = |one: &&Speedup| {
-        let point = |point: &super::Point| CurvePoint {
-            x: point.threads as f64,
-            y: point.speedup.estimate,
-            band: point.speedup.low().zip(point.speedup.high()).map(|(low, high)| [low, high]),
-        };
-        Line {
-            label: one.structure.clone(),
-            note: format!("f = {:.2}", one.serial.estimate),
-            points: one.points.iter().map(point).collect(),
-            mark: Mark::Both,
-        }
+        let point = |point: &super::Point| CurvePoint::of(point.threads as f64, point.speedup);
+        let note = format!("f = {:.2}", one.serial.estimate);
+        Line { note, ..Line::new(&one.structure, Mark::Both, one.points.iter().map(point)) }
     };
     let rows = group.iter().flat_map(|one| {
         one.points.iter().map(|p| [one.structure.clone(), p.threads.to_string(), figures(p.speedup.estimate)])

@@ -45,6 +45,12 @@ fn every_number_of_threads_is_a_column_and_a_point() {
     let speedups = speedups(&cases(0.25, &[1, 2, 3]));
     let [builds, rays] = &tables(&speedups)[..] else { panic!("a table each") };
     assert_eq!(rays.columns, ["structure", "1 thread", "x with 2", "x with 3", "serial share"]);
+    let data = &ThreadsStudy::data(&speedups)[0].rows;
+    let names: Vec<&String> = data[0].as_object().unwrap().keys().collect();
+    assert_eq!(
+        (data.len(), names),
+        (6, ["scene", "structure", "what", "threads", "ns", "speedup"].map(String::from).iter().collect())
+    );
     assert!(builds.title.contains("builds") && rays.rows[0][4].text.starts_with("0.25"), "{rays:?}");
     assert_eq!(section::blocks(&speedups, "").len(), 4);
     assert!(rays.notes.iter().all(|note| !note.starts_with("Two points")));
