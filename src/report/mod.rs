@@ -18,7 +18,7 @@ pub use record::Record;
 #[cfg(test)]
 pub(crate) use record::example;
 pub use statement::Statement;
-pub use table::{Cell, Screen, Table, Tone, escaped, to_markdown, wrapped};
+pub use table::{Cell, Column, Screen, Table, Tone, escaped, to_markdown, wrapped};
 
 #[cfg(test)]
 pub(crate) use record::example as example_record;

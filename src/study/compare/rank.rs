@@ -5,7 +5,7 @@ use super::{speed, twins};
 use crate::measure::{Estimate, geometric_mean};
 use crate::report::number::{figures, plural};
 use crate::report::words::{distinct, each_once, explained, interval, listed, scene_name};
-use crate::report::{Cell, Record, Statement, Table, Tone};
+use crate::report::{Record, Statement, Table, Tone};
 use crate::triangle::{EdgeF64, Exact, MollerTrumboreF64, TriangleTest};
 
 /// The triangle tests in double precision and beyond. All others round in single precision.
@@ -127,20 +127,21 @@ impl Ranks {
     fn table(&self, title: &str, rank: &Rank, over: &str) -> Table {
         let known = |x: Option<f64>| x.map(figures).into();
         let best = rank.rows.first().map(|row| row.label.clone());
-        let rows = rank.rows.iter().map(|row| {
-            let tone = if Some(&row.label) == best.as_ref() { Tone::Best } else { Tone::Plain };
-            vec![
-                Cell::from(row.label.as_str()),
-                cell(row.speed).with(tone),
-                known(row.tests),
-                known(row.steps),
-                known(row.instructions),
-                known(row.branch_misses),
-                known(row.bytes_per_triangle),
-            ]
-        });
+        let tone = |row: &Ranked| if Some(&row.label) == best.as_ref() { Tone::Best } else { Tone::Plain };
         let speed = format!("x {}", self.reference.name());
-        let columns = ["structure", &speed, "tests", "steps", "instructions", "branch misses", "bytes a triangle"];
+        let table = Table::of(
+            title,
+            &rank.rows,
+            &[
+                ("structure", &|row| row.label.as_str().into()),
+                (&speed, &|row| cell(row.speed).with(tone(row))),
+                ("tests", &|row| known(row.tests)),
+                ("steps", &|row| known(row.steps)),
+                ("instructions", &|row| known(row.instructions)),
+                ("branch misses", &|row| known(row.branch_misses)),
+                ("bytes a triangle", &|row| known(row.bytes_per_triangle)),
+            ],
+        );
         let mut notes = vec![
             over.to_owned(),
             format!(
@@ -156,7 +157,7 @@ impl Ranks {
         if !left.is_empty() {
             notes.push(format!("Not ranked, without a time in half of the cells or more: {}.", listed(&left)));
         }
-        explained(Table::new(title, columns, rows).noted(notes).without_blank_columns())
+        explained(table.noted(notes).without_blank_columns())
     }
 
     /// The fastest of each rank, and what right answers cost.

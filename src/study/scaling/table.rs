@@ -1,6 +1,6 @@
 //! The growth as tables for people.
 
-use super::Growth;
+use super::{Growth, Point};
 use crate::measure::Estimate;
 use crate::report::number::{bytes, count, duration, figures};
 use crate::report::words::{explained, written};
@@ -25,23 +25,30 @@ fn title(group: &[&Growth], what: &str) -> String {
 }
 
 pub(super) fn exponents(group: &[&Growth]) -> Table {
-    let rows = group.iter().map(|growth| {
+    let over = |growth: &&Growth| {
         let fitted: Vec<usize> = growth.points.iter().filter(|p| p.fitted).map(|p| p.triangles).collect();
-        let over = match (fitted.first(), fitted.last()) {
+        match (fitted.first(), fitted.last()) {
             (Some(&first), Some(&last)) => {
                 format!("{}: {} to {}", fitted.len(), count(first as u64), count(last as u64))
             }
             _ => "0".into(),
-        };
-        let scatter = growth.scatter.map(|half| format!("{half:.2}")).into();
-        let powers = [growth.build, growth.bytes, growth.tests, growth.steps].map(power);
-        [growth.structure.as_str().into(), power(growth.time), scatter]
-            .into_iter()
-            .chain(powers)
-            .chain([over.into()])
-            .collect()
-    });
-    explained(Table::new(title(group, "powers of the number of triangles"), ["structure", "time a ray", "+-", "build", "memory", "tests", "steps", "meshes: triangles"], rows).noted(vec![
+        }
+    };
+    let table = Table::of(
+        title(group, "powers of the number of triangles"),
+        group.iter().copied(),
+        &[
+            ("structure", &|growth| growth.structure.as_str().into()),
+            ("time a ray", &|growth| power(growth.time)),
+            ("+-", &|growth| growth.scatter.map(|half| format!("{half:.2}")).into()),
+            ("build", &|growth| power(growth.build)),
+            ("memory", &|growth| power(growth.bytes)),
+            ("tests", &|growth| power(growth.tests)),
+            ("steps", &|growth| power(growth.steps)),
+            ("meshes: triangles", &|growth| over(growth).into()),
+        ],
+    );
+    explained(table.noted(vec![
             "Least squares on logarithms over the meshes on which the structure has more than one leaf, with 95 % intervals for another run \
              on these meshes; counts and memory do not vary. +-: half of the 95 % interval of the power of time by the scatter of the meshes \
              about it."
@@ -50,25 +57,21 @@ pub(super) fn exponents(group: &[&Growth]) -> Table {
 }
 
 pub(super) fn points(group: &[&Growth]) -> Table {
-    let known = |x: Option<f64>| x.map(figures).into();
-    let rows = group.iter().flat_map(|growth| {
-        growth.points.iter().map(|point| {
-            let of = format!("{}{}", growth.structure, if point.fitted { "" } else { " (one leaf)" });
-            vec![
-                of.into(),
-                point.scene.as_str().into(),
-                count(point.triangles as u64).into(),
-                duration(point.ns_per_ray).into(),
-                known(point.tests_per_ray),
-                known(point.steps_per_ray),
-                duration(point.build_ns).into(),
-                bytes(point.bytes_per_triangle as usize).into(),
-            ]
-        })
-    });
-    Table::new(
+    let known = |x: Option<f64>| Cell::from(x.map(figures));
+    let one_leaf = |p: &Point| if p.fitted { "" } else { " (one leaf)" };
+    let points = group.iter().flat_map(|growth| growth.points.iter().map(|point| (&growth.structure, point)));
+    Table::of(
         title(group, "what was measured"),
-        ["structure", "mesh", "triangles", "time a ray", "tests", "steps", "build", "memory a triangle"],
-        rows,
+        points,
+        &[
+            ("structure", &|(structure, p)| format!("{structure}{}", one_leaf(p)).into()),
+            ("mesh", &|(_, p)| p.scene.as_str().into()),
+            ("triangles", &|(_, p)| count(p.triangles as u64).into()),
+            ("time a ray", &|(_, p)| duration(p.ns_per_ray).into()),
+            ("tests", &|(_, p)| known(p.tests_per_ray)),
+            ("steps", &|(_, p)| known(p.steps_per_ray)),
+            ("build", &|(_, p)| duration(p.build_ns).into()),
+            ("memory a triangle", &|(_, p)| bytes(p.bytes_per_triangle as usize).into()),
+        ],
     )
 }
