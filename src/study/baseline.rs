@@ -176,11 +176,11 @@ pub fn against(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::example;
+    use crate::report::timed_example;
     use crate::study::regression::Wrong;
 
     fn record(label: &str) -> Record {
-        Record { label: label.into(), epochs: 3, samples_ns: vec![1e6; 3], ..example() }
+        timed_example(label, "primary", &[1e6; 3], 3)
     }
 
     #[test]

@@ -191,19 +191,12 @@ fn statement(scenarios: &[Scenario]) -> Option<Statement> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::example;
+    use crate::report::timed_example;
 
     fn record(structure: &str, workload: &str, ns: f64) -> Record {
-        Record {
-            structure: structure.into(),
-            label: format!("{structure}:test={TEST}"),
-            workload: workload.into(),
-            samples_ns: [1.0, 1.001, 1.0, 1.001].map(|f| f * ns).into(),
-            trace_ns: Some(ns),
-            epochs: 4,
-            build_ns: if structure == BVH { 100 } else { 250 },
-            ..example()
-        }
+        let samples_ns = [1.0, 1.001, 1.0, 1.001].map(|f| f * ns);
+        let build_ns = if structure == BVH { 100 } else { 250 };
+        Record { build_ns, ..timed_example(&format!("{structure}:test={TEST}"), workload, &samples_ns, 4) }
     }
 
     fn told(ns: [f64; 2]) -> String {

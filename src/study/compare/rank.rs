@@ -234,20 +234,16 @@ impl Ranks {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::example;
+    use crate::report::timed_example;
 
     fn record(scene: &str, label: &str, ns: f64) -> Record {
         let test = label.split("test=").nth(1).unwrap_or(if label.starts_with("obvhs") { "native" } else { "exact" });
         Record {
             scene: scene.into(),
-            label: label.into(),
-            structure: label.split(':').next().unwrap().into(),
             triangle_test: test.into(),
             mrays_per_s: Some(1e3 / ns),
-            samples_ns: [1.0, 1.01, 0.99, 1.02, 1.0].map(|f| f * ns).into(),
-            epochs: 5,
             tests_per_ray: Some(ns),
-            ..example()
+            ..timed_example(label, "primary", &[1.0, 1.01, 0.99, 1.02, 1.0].map(|f| f * ns), 5)
         }
     }
 
