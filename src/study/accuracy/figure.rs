@@ -26,7 +26,7 @@ pub fn figure(records: &[AccuracyRecord]) -> Figure {
             points: of_kind.iter().map(point).collect(),
         }
     };
-    let panels: Vec<Panel> = records.chunk_by(|a, b| a.rays == b.rays && a.scene == b.scene).map(panel).collect();
+    let panels: Vec<Panel> = records.chunk_by(AccuracyRecord::is_beside).map(panel).collect();
     let mut notes = vec![
         "Labels name the triangle test, colours the structure. Filled: nothing is faster and less wrong.".into(),
         "Arrow: not one wrong answer was seen in n rays; the dot is the upper bound with 95 % confidence, about 3/n."

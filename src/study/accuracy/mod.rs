@@ -32,7 +32,7 @@ pub use figure::figure;
 pub use kind::RayKind;
 pub use record::AccuracyRecord;
 pub use study::AccuracyStudy;
-pub use table::{legend, tables};
+pub use table::{legend, table};
 
 /// What is measured, and for how long.
 pub struct AccuracySettings {

@@ -4,17 +4,16 @@ use anyhow::Context as _;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
-use super::{AccuracyRecord, AccuracySettings, RayKind, accuracy_scene, figure, legend, section, tables};
+use super::{AccuracyRecord, AccuracySettings, RayKind, accuracy_scene, figure, legend, section, table};
 use crate::measure::Threads;
 use crate::registry::{Choice, Registry};
 use crate::report::document::Block;
 use crate::report::number::count;
 use crate::report::plot::Figure;
-use crate::report::words::scene_name;
 use crate::report::{Statement, Table};
 use crate::scene::Scene;
 use crate::study::args::Scenes;
-use crate::study::plan::Measure;
+use crate::study::plan::{Measure, named_notes, scene_key};
 use crate::study::{
     BRUTE_FORCE, Context, Data, Plan, RaySource, Refused, SceneId, Study, Trouble, documented_defect, replayed, sources,
 };
@@ -101,11 +100,8 @@ impl Study for AccuracyStudy {
             "budget": args.budget,
             "seed": args.seed,
         });
-        let key =
-            |scene: &Scene| format!("{} {}", scene_name(&scene.name, !scene.stand_ins.is_empty()), &scene.hash()[..16]);
-        let titles: Vec<(String, String)> = scenes.iter().map(|scene| (scene.name.clone(), key(scene))).collect();
-        let notes = scenes.iter().flat_map(|scene| scene.notes.iter().map(|note| format!("{}: {note}", scene.name)));
-        let notes = notes.collect();
+        let titles: Vec<(String, String)> = scenes.iter().map(|scene| (scene.name.clone(), scene_key(scene))).collect();
+        let notes = named_notes(&scenes, |scene| &scene.notes);
         let inputs = args.scenes.files().into_iter().chain(args.rays.file().map(Into::into)).collect();
         let threads = Threads::pinned(1).map_err(anyhow::Error::msg)?;
         let (is_default, runs, seed) = (args.structure.is_empty(), args.runs.into(), args.seed);
@@ -126,7 +122,7 @@ impl Study for AccuracyStudy {
     }
 
     fn tables(answer: &Vec<AccuracyRecord>) -> Vec<Table> {
-        tables(answer, &[])
+        answer.chunk_by(AccuracyRecord::is_beside).map(table).collect()
     }
 
     fn legend(_: &Vec<AccuracyRecord>) -> Vec<String> {

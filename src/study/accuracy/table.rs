@@ -3,17 +3,8 @@ use crate::report::number::{count, figures};
 use crate::report::{Cell, Table, Tone};
 use crate::validate::Ulps;
 
-/// One table for each kind of rays of a scene.
-pub fn tables(records: &[AccuracyRecord], notes: &[String]) -> Vec<Table> {
-    let tables = records.chunk_by(|a, b| a.rays == b.rays && a.scene == b.scene).map(table);
-    let mut tables: Vec<Table> = tables.collect();
-    if let Some(last) = tables.last_mut() {
-        last.notes.extend_from_slice(notes);
-    }
-    tables
-}
-
-fn table(records: &[AccuracyRecord]) -> Table {
+/// That of one scene and kind of rays.
+pub fn table(records: &[AccuracyRecord]) -> Table {
     let first = &records[0];
     let stand_in = if first.stand_in { ", stand-in" } else { "" };
     let what = first.rays.parse().map_or("rays of a file", RayKind::description);

@@ -19,8 +19,7 @@ use crate::scene::WorkloadKind;
 
 pub use payoff::Payoff;
 pub use result::{Market, Offer, Pair, Row, Stretch, result, rows};
-use table::LEGEND;
-pub use table::tables;
+use table::{LEGEND, table};
 
 const STRUCTURES: [&str; 8] =
     ["brute-force", "median-kd", "sah-kd", "sah-kd-wide", "sah-hybrid", "sah-bvh", "obvhs-bvh2", "obvhs-cwbvh"];
@@ -50,7 +49,7 @@ impl Study for BreakEvenStudy {
     }
 
     fn tables(answer: &Vec<Market>) -> Vec<Table> {
-        tables(answer)
+        answer.iter().map(table).collect()
     }
 
     fn legend(_: &Vec<Market>) -> Vec<String> {

@@ -1,7 +1,7 @@
 //! After how many rays a dearer build pays.
 
-use super::table::LEGEND;
-use super::{Market, Offer, tables};
+use super::table::{LEGEND, table};
+use super::{Market, Offer};
 use crate::report::Table;
 use crate::report::document::{Art, Block, Figure};
 use crate::report::number::{count, duration};
@@ -19,10 +19,7 @@ pub fn blocks(markets: &[Market], command: &str) -> Vec<Block> {
          structure takes for as many rays: where a line touches 1 the structure is the best choice."
             .into(),
     )];
-    let one = |market: &Market| {
-        let table = tables(std::slice::from_ref(market)).remove(0);
-        [Block::Figure(figure(market, command)), Block::table(table, command)]
-    };
+    let one = |market: &Market| [Block::Figure(figure(market, command)), Block::table(table(market), command)];
     let rest = markets.split_off(markets.len().min(OPEN));
     blocks.extend(markets.iter().flat_map(one));
     blocks.extend(LEGEND.map(|words| Block::Note(words.into())));

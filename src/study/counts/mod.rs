@@ -13,12 +13,11 @@ mod tests;
 use serde_json::json;
 
 use super::args::{Scenes, Structures, WORKLOADS};
-use super::plan::{Measure, named_notes};
+use super::plan::{Measure, named_notes, scene_key};
 use super::{Context, Data, Plan, Refused, Study, Trouble, ViewArgs, left_out, sources};
 use crate::measure::{Provenance, Threads};
 use crate::registry::Registry;
 use crate::report::number::count;
-use crate::report::words::scene_name;
 use crate::report::{Export, Table, to_json};
 use crate::scene::{Scene, WorkloadKind};
 use end_point_overlap::MOST;
@@ -109,9 +108,7 @@ impl Study for CountsStudy {
             "seed": args.seed,
             "overlap": settings.overlap,
         });
-        let key =
-            |scene: &Scene| format!("{} {}", scene_name(&scene.name, !scene.stand_ins.is_empty()), &scene.hash()[..16]);
-        let names: Vec<(String, String)> = scenes.iter().map(|scene| (scene.name.clone(), key(scene))).collect();
+        let names: Vec<(String, String)> = scenes.iter().map(|scene| (scene.name.clone(), scene_key(scene))).collect();
         let mut notes = named_notes(&scenes, |scene| &scene.notes);
         let estimated = |scene: &&Scene| settings.overlap && scene.mesh.solid().count() > MOST;
         notes.extend(scenes.iter().filter(estimated).map(estimated_note));

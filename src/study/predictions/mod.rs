@@ -11,7 +11,6 @@ mod counted;
 mod rank;
 mod section;
 mod table;
-mod tally;
 #[cfg(test)]
 mod tests;
 
@@ -37,8 +36,7 @@ pub use counted::PictureCounts;
 use counted::{key, measure, scenes};
 pub use rank::kendall;
 pub use section::{REST_BELOW, sentence};
-pub use table::{table, tone};
-pub use tally::tally;
+pub use table::{table, tally, tone};
 
 /// What there is to judge by. What is missing is empty.
 #[derive(Clone, Debug, Default, PartialEq)]

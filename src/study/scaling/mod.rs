@@ -25,7 +25,7 @@ use crate::report::{Statement, Table};
 use crate::scene::{Scene, WorkloadKind};
 
 pub use spheres::{FINEST, name, sphere};
-pub use table::tables;
+use table::{exponents, groups, points};
 
 const STRUCTURES: [&str; 7] =
     ["median-kd", "sah-kd", "sah-kd-wide", "sah-hybrid", "sah-bvh", "obvhs-bvh2", "obvhs-cwbvh"];
@@ -85,7 +85,7 @@ impl Study for ScalingStudy {
     }
 
     fn tables(answer: &Vec<Growth>) -> Vec<Table> {
-        tables(answer)
+        groups(answer).iter().flat_map(|group| [exponents(group), points(group)]).collect()
     }
 
     fn data(answer: &Vec<Growth>) -> Vec<Data> {

@@ -7,11 +7,6 @@ use crate::report::words::{explained, written};
 use crate::report::{Cell, Table};
 use crate::study::grouped::grouped;
 
-/// For each family and kind of rays the exponents, then the points they come from.
-pub fn tables(growths: &[Growth]) -> Vec<Table> {
-    groups(growths).iter().flat_map(|group| [exponents(group), points(group)]).collect()
-}
-
 pub(super) fn groups(growths: &[Growth]) -> Vec<Vec<&Growth>> {
     grouped(growths, |a, b| a.family == b.family && a.workload == b.workload)
 }

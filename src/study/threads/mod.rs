@@ -26,7 +26,7 @@ use crate::report::{Statement, Table};
 use crate::scene::WorkloadKind;
 
 pub use speedup::{Point, Speedup, speedups};
-use table::tables;
+use table::{groups, table};
 
 const STRUCTURES: [&str; 4] = ["sah-kd", "sah-hybrid", "sah-bvh", "obvhs-bvh2"];
 
@@ -139,7 +139,7 @@ impl Study for ThreadsStudy {
     }
 
     fn tables(answer: &Vec<Speedup>) -> Vec<Table> {
-        tables(answer)
+        groups(answer).iter().map(|group| table(group)).collect()
     }
 
     fn data(answer: &Vec<Speedup>) -> Vec<Data> {

@@ -2,14 +2,9 @@
 
 use super::Speedup;
 use crate::report::number::duration;
-use crate::report::words::{distinct, explained, interval, written};
+use crate::report::words::{explained, interval, written};
 use crate::report::{Cell, Table};
 use crate::study::grouped::grouped;
-
-/// For each scene and each thing that is timed.
-pub fn tables(speedups: &[Speedup]) -> Vec<Table> {
-    groups(speedups).iter().map(|group| table(group)).collect()
-}
 
 /// Of one scene and one thing each, in their order.
 pub(super) fn groups(speedups: &[Speedup]) -> Vec<Vec<&Speedup>> {
@@ -52,9 +47,4 @@ pub(super) fn two_points(group: &[&Speedup]) -> Option<String> {
     let most = group.iter().map(|one| one.points.len()).max()?;
     let sentence = "Two points: Amdahl's curve goes through them whatever the truth is. More cores say how well it describes them.";
     (most == 2).then(|| sentence.into())
-}
-
-/// Scenes in their order.
-pub(super) fn scenes(speedups: &[Speedup]) -> Vec<String> {
-    distinct(speedups.iter().map(|one| &one.scene))
 }
