@@ -14,8 +14,8 @@ use super::job::{self, Done, Job};
 use super::journal::{self, CaseFile, Group, JournalError};
 use super::process;
 use super::{
-    Context, Data, Effort, Planned, SceneId, Screen, Study, accuracy, attribution, binary, break_even, compare, costs,
-    counts, crossover, parameters, partitions, predictions, replicate, scaling, self_intersection, threads,
+    Context, Data, Effort, Planned, SceneId, Screen, Study, accuracy, attribution, break_even, compare, costs, counts,
+    crossover, kd_or_bvh, parameters, partitions, predictions, replicate, scaling, self_intersection, threads,
 };
 use crate::measure::Provenance;
 use crate::registry::Registry;
@@ -47,7 +47,7 @@ impl Studies {
             .with::<threads::ThreadsStudy>()
             .with::<break_even::BreakEvenStudy>()
             .with::<crossover::CrossoverStudy>()
-            .with::<binary::BinaryStudy>()
+            .with::<kd_or_bvh::KdOrBvhStudy>()
             .with::<costs::CostsStudy>()
             .with::<parameters::ParametersStudy>()
             .with::<accuracy::AccuracyStudy>()

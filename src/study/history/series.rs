@@ -3,8 +3,8 @@
 use super::Entry;
 use crate::measure::{Estimate, Rerun};
 use crate::report::words::each_once;
+use crate::study::diff::RelativeTime;
 use crate::study::grouped::grouped;
-use crate::study::regression::RelativeTime;
 
 /// Runs of one name on one machine, the oldest first.
 #[derive(Clone, Debug, PartialEq)]

@@ -44,11 +44,11 @@ pub struct KindSpeed {
 }
 
 /// The study.
-pub struct BinaryStudy;
+pub struct KdOrBvhStudy;
 
 /// Its options.
 #[derive(Clone, Debug, clap::Args)]
-pub struct BinaryArgs {
+pub struct KdOrBvhArgs {
     #[command(flatten)]
     scenes: Scenes,
     /// The triangle test of both
@@ -62,16 +62,16 @@ pub struct BinaryArgs {
 
 const TEST: &str = "moller-trumbore";
 
-impl Study for BinaryStudy {
+impl Study for KdOrBvhStudy {
     const NAME: &'static str = "binary";
     const QUESTION: &'static str = "Is a binary KD-tree faster than a binary BVH in every case?";
     const QUICK: &'static str = QUICK_EPOCHS;
 
-    type Args = BinaryArgs;
+    type Args = KdOrBvhArgs;
     type Case = Epoch;
     type Answer = Vec<Scenario>;
 
-    fn plan(args: &BinaryArgs, registry: &Registry) -> anyhow::Result<Plan<Epoch>> {
+    fn plan(args: &KdOrBvhArgs, registry: &Registry) -> anyhow::Result<Plan<Epoch>> {
         let choose = |name: &str| registry.choose(&format!("{name}:test={}", args.test));
         let pair = [KD_TREE, BVH].into_iter().map(choose).collect::<Result<Vec<Choice>, ChoiceError>>()?;
         let settings = args.measuring.settings(registry, with_twin(pair), args.rays.asked(&WORKLOADS))?;
