@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::ValueEnum;
 
-use super::check::TESTS;
+use super::bench::check::TESTS;
 use super::epoch::{Asked, Settings};
 use super::reference_structures::takes_minutes;
 use super::{BRUTE_FORCE, REPORT_TREE, SAH_TREE, rays_or_all, sources};

@@ -62,7 +62,7 @@ pub fn settings(registry: &Registry, structures: &[&str]) -> Settings {
         runs: 2,
         budget_ns: 50_000_000,
         slowest: f64::INFINITY,
-        check_tests: crate::study::check::TESTS,
+        check_tests: crate::study::bench::check::TESTS,
         detailed: false,
         seed: 1,
         threads: Threads::new(1).unwrap(),
