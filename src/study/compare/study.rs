@@ -82,7 +82,7 @@ const SLOWEST: f64 = 4.0;
 /// The options of `study all`: all names, and each again over a triangle test of the other precision.
 const FIELD: &str = "-s all -s median-kd:test=moller-trumbore -s sah-kd:test=moller-trumbore -s sah-kd-wide:test=moller-trumbore \
     -s sah-kd-tight:test=moller-trumbore -s sah-hybrid:test=moller-trumbore -s sah-bvh:test=moller-trumbore \
-    -s obvhs-bvh2:test=exact -s obvhs-cwbvh:test=exact --budget 4";
+    -s obvhs-bvh2:test=exact -s obvhs-cwbvh:test=exact --epochs 4 --runs 1 --budget 4";
 
 impl CompareArgs {
     /// The structures, the reference among them, and its label.
