@@ -180,13 +180,13 @@ impl Document {
 
     /// All figures, in their order.
     pub fn figures(&self) -> Vec<&Figure> {
-        let figure = |block| if let &Block::Figure(ref figure) = block { Some(figure) } else { None };
-        self.blocks().into_iter().filter_map(figure).collect()
+        let blocks = self.blocks().into_iter();
+        blocks.filter_map(|block| if let Block::Figure(figure) = block { Some(figure) } else { None }).collect()
     }
 
     /// What no run has measured.
     pub fn missing(&self) -> Vec<&Missing> {
-        let missing = |block| if let &Block::Missing(ref missing) = block { Some(missing) } else { None };
-        self.blocks().into_iter().filter_map(missing).collect()
+        let blocks = self.blocks().into_iter();
+        blocks.filter_map(|block| if let Block::Missing(missing) = block { Some(missing) } else { None }).collect()
     }
 }
