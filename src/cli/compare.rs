@@ -16,11 +16,11 @@ use crate::report::to_json;
 use crate::scene::WorkloadKind;
 use crate::study::baseline::{Run, SCENES, against, new_baseline_path, outcome as held_against, read_baseline};
 use crate::study::compare::{CompareArgs, CompareStudy, Compared, Reference, brief_table, refusals, scene_table};
+use crate::study::diff::{Comparison, tables};
 use crate::study::epoch::{Epoch, Settings, troubles};
 use crate::study::history;
 use crate::study::job::Job;
 use crate::study::process;
-use crate::study::regression::{Comparison, tables};
 use crate::study::{AnyStudy, BRUTE_FORCE, Chosen, Plan, Screen, Status, Study as _};
 
 /// Options about runs that are kept.

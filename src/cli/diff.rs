@@ -7,7 +7,7 @@ use crate::measure::Provenance;
 use crate::output::OutputFile;
 use crate::report::{Export, Record, to_json, to_markdown};
 use crate::study::Status;
-use crate::study::regression::{Comparison, Machines, tables, unlike};
+use crate::study::diff::{Comparison, Machines, tables, unlike};
 
 #[derive(Debug, clap::Args)]
 pub struct Args {

@@ -163,14 +163,13 @@ impl Block {
 }
 
 impl Document {
-    /// All figures, in their order.
-    pub fn figures(&self) -> Vec<&Figure> {
-        fn collect<'a>(blocks: &'a [Block], found: &mut Vec<&'a Figure>) {
+    /// All blocks, in their order, with those that are folded.
+    fn blocks(&self) -> Vec<&Block> {
+        fn collect<'a>(blocks: &'a [Block], found: &mut Vec<&'a Block>) {
             for block in blocks {
-                match block {
-                    Block::Figure(figure) => found.push(figure),
-                    Block::Fold(_, inner) => collect(inner, found),
-                    _ => {}
+                found.push(block);
+                if let Block::Fold(_, inner) = block {
+                    collect(inner, found);
                 }
             }
         }
@@ -179,19 +178,15 @@ impl Document {
         found
     }
 
+    /// All figures, in their order.
+    pub fn figures(&self) -> Vec<&Figure> {
+        let blocks = self.blocks().into_iter();
+        blocks.filter_map(|block| if let Block::Figure(figure) = block { Some(figure) } else { None }).collect()
+    }
+
     /// What no run has measured.
     pub fn missing(&self) -> Vec<&Missing> {
-        fn collect<'a>(blocks: &'a [Block], found: &mut Vec<&'a Missing>) {
-            for block in blocks {
-                match block {
-                    Block::Missing(missing) => found.push(missing),
-                    Block::Fold(_, inner) => collect(inner, found),
-                    _ => {}
-                }
-            }
-        }
-        let mut found = vec![];
-        self.sections.iter().for_each(|section| collect(&section.blocks, &mut found));
-        found
+        let blocks = self.blocks().into_iter();
+        blocks.filter_map(|block| if let Block::Missing(missing) = block { Some(missing) } else { None }).collect()
     }
 }

@@ -4,6 +4,7 @@ use serde::Serialize;
 use serde_json::Value;
 
 use super::Record;
+use super::words::each_once;
 use crate::measure::Provenance;
 
 /// What a study exports: its result, and where it comes from.
@@ -84,12 +85,7 @@ pub fn to_tidy_csv(rows: &[impl Serialize]) -> Vec<u8> {
         fields
     };
     let rows: Vec<Vec<(String, String)>> = rows.iter().map(flat).collect();
-    let mut names: Vec<&str> = vec![];
-    for (name, _) in rows.iter().flatten() {
-        if !names.contains(&name.as_str()) {
-            names.push(name);
-        }
-    }
+    let names = each_once(rows.iter().flatten().map(|(name, _)| name.as_str()));
     // A field that is unknown in one row and has fields of its own in another is those fields.
     let has_fields =
         |name: &str| names.iter().any(|other| other.strip_prefix(name).is_some_and(|rest| rest.starts_with('.')));

@@ -15,10 +15,8 @@ pub mod words;
 pub use counts::CaseCounts;
 pub use export::{Export, to_csv, to_json, to_jsonl, to_tidy_csv};
 pub use record::Record;
-#[cfg(test)]
-pub(crate) use record::example;
 pub use statement::Statement;
-pub use table::{Cell, Screen, Table, Tone, escaped, to_markdown, wrapped};
+pub use table::{Cell, Column, Screen, Table, Tone, escaped, to_markdown, wrapped};
 
 #[cfg(test)]
-pub(crate) use record::example as example_record;
+pub(crate) use record::{example, example as example_record, timed_example};

@@ -154,6 +154,21 @@ pub(crate) fn example() -> Record {
     }
 }
 
+/// The structure `label` on rays of this kind, as if its samples had been taken in so many epochs.
+#[cfg(test)]
+pub(crate) fn timed_example(label: &str, workload: &str, samples_ns: &[f64], epochs: usize) -> Record {
+    Record {
+        structure: super::words::bare(label).into(),
+        label: label.into(),
+        workload: workload.into(),
+        epochs,
+        runs: samples_ns.len(),
+        trace_ns: median(samples_ns),
+        samples_ns: samples_ns.into(),
+        ..example()
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

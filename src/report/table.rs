@@ -53,6 +53,13 @@ impl From<&str> for Cell {
     }
 }
 
+/// What is not known is blank.
+impl<T: Into<Cell>> From<Option<T>> for Cell {
+    fn from(text: Option<T>) -> Self {
+        text.map_or(Self::blank(), Into::into)
+    }
+}
+
 impl Cell {
     /// Nothing: what is not known.
     pub fn blank() -> Self {
@@ -64,6 +71,9 @@ impl Cell {
         Self { tone, ..self }
     }
 }
+
+/// What stands above a column, and what its cells say of an item.
+pub type Column<'a, T> = (&'a str, &'a dyn Fn(&T) -> Cell);
 
 /// Blanks before the first column, and after every one.
 const INDENT: usize = 2;
@@ -78,6 +88,18 @@ impl Table {
     ) -> Self {
         let columns = columns.map(String::from).into();
         Self { title: title.into(), columns, rows: rows.into_iter().collect(), notes: vec![] }
+    }
+
+    /// A table with a row for each of `items`, column by column, without notes.
+    pub fn of<T>(title: impl Into<String>, items: impl IntoIterator<Item = T>, columns: &[Column<T>]) -> Self {
+        let row = |item: T| columns.iter().map(|(_, of)| of(&item)).collect();
+        let rows = items.into_iter().map(row).collect();
+        Self {
+            title: title.into(),
+            columns: columns.iter().map(|(name, _)| (*name).into()).collect(),
+            rows,
+            notes: vec![],
+        }
     }
 
     /// A table of texts, without notes.

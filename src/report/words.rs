@@ -103,10 +103,15 @@ pub fn bare(label: &str) -> &str {
 
 /// Distinct names in the order of their first appearance.
 pub fn distinct<'a>(names: impl Iterator<Item = &'a String>) -> Vec<String> {
-    let mut found: Vec<String> = vec![];
-    for name in names {
-        if !found.contains(name) {
-            found.push(name.clone());
+    each_once(names).into_iter().cloned().collect()
+}
+
+/// Each of `items` once, in the order of their first appearance.
+pub fn each_once<T: PartialEq>(items: impl IntoIterator<Item = T>) -> Vec<T> {
+    let mut found: Vec<T> = vec![];
+    for item in items {
+        if !found.contains(&item) {
+            found.push(item);
         }
     }
     found

@@ -4,10 +4,10 @@ use std::path::PathBuf;
 
 use clap::ValueEnum;
 
-use super::check::TESTS;
+use super::bench::check::TESTS;
 use super::epoch::{Asked, Settings};
 use super::reference_structures::takes_minutes;
-use super::{BRUTE_FORCE, Effort, REPORT_TREE, SAH_TREE, rays_or_all, sources};
+use super::{BRUTE_FORCE, REPORT_TREE, SAH_TREE, rays_or_all, sources};
 use crate::measure::Threads;
 use crate::registry::{Choice, Registry};
 use crate::report::words::listed;
@@ -16,6 +16,13 @@ use crate::scene::{BUILTIN, Builtin, Scene, WorkloadKind};
 /// The kinds of rays of studies that have no others.
 pub const WORKLOADS: [WorkloadKind; 4] =
     [WorkloadKind::Primary, WorkloadKind::Shadow, WorkloadKind::Diffuse, WorkloadKind::Random];
+
+/// What most studies of epochs measure in `study all`. It is spelt out: clap keeps one default of an option for all parameters of
+/// [`Measuring`], that of the study which is asked first.
+pub const FULL_EPOCHS: &str = "--epochs 5 --runs 3 --budget 8";
+
+/// What most of them measure in `study all --quick`.
+pub const QUICK_EPOCHS: &str = "torus --rays 1024 --epochs 2 --runs 2 --budget 1";
 
 /// How much is timed. The numbers are the defaults of a study.
 #[derive(Clone, Debug, clap::Args)]
@@ -38,15 +45,6 @@ pub struct Measuring<const EPOCHS: u16 = 5, const RUNS: u16 = 3, const BUDGET: u
 }
 
 impl<const EPOCHS: u16, const RUNS: u16, const BUDGET: u32> Measuring<EPOCHS, RUNS, BUDGET> {
-    /// The options of `study all`.
-    pub fn of(effort: Effort) -> Self {
-        let (epochs, runs, budget) = match effort {
-            Effort::Full => (EPOCHS, RUNS, BUDGET),
-            Effort::Quick => (2, 2, 1),
-        };
-        Self { epochs, runs, budget, threads: 1, seed: 1 }
-    }
-
     /// The threads, each on a processor of its own where the system allows it.
     ///
     /// # Errors
@@ -127,11 +125,6 @@ pub struct Rays {
 }
 
 impl Rays {
-    /// The options of `study all`.
-    pub fn of(effort: Effort) -> Self {
-        Self { workload: vec![], rays: if effort == Effort::Quick { 1024 } else { usize::MAX } }
-    }
-
     /// The kinds named, else `own`.
     pub fn kinds(&self, own: &[WorkloadKind]) -> Vec<WorkloadKind> {
         if self.workload.is_empty() { own.into() } else { self.workload.clone() }
@@ -195,12 +188,6 @@ pub struct ScenesAndMeshes {
 }
 
 impl ScenesAndMeshes {
-    /// The options of `study all`.
-    pub fn of(effort: Effort) -> Self {
-        let names: &[&str] = if effort == Effort::Quick { &["torus"] } else { &[] };
-        Self { named: Scenes::named(names), meshes: Meshes::Both }
-    }
-
     /// The scenes named, all built-in ones without a name; of those with a stand-in both forms, if the meshes are to be both.
     ///
     /// # Errors

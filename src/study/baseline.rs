@@ -4,10 +4,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::compare::{CompareStudy, Compared, compared};
+use super::diff::{Comparison, Finding, Machines, Unlike, unlike};
 use super::engine::measure_case;
 use super::epoch::{Epoch, Joined, join};
 use super::process::Processes;
-use super::regression::{Comparison, Finding, Machines, Unlike, unlike};
 use super::{Plan, Refused, Screen, Status, Study, StudyError};
 use crate::measure::{Clock, Provenance};
 use crate::report::Record;
@@ -176,11 +176,11 @@ pub fn against(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::example;
-    use crate::study::regression::Wrong;
+    use crate::report::timed_example;
+    use crate::study::diff::Wrong;
 
     fn record(label: &str) -> Record {
-        Record { label: label.into(), epochs: 3, samples_ns: vec![1e6; 3], ..example() }
+        timed_example(label, "primary", &[1e6; 3], 3)
     }
 
     #[test]

@@ -1,8 +1,8 @@
 //! Options of studies that time structures on scenes with their meshes, and what they plan.
 
+use super::Plan;
 use super::args::{Measuring, Rays, ScenesAndMeshes, Structures, with_twin};
 use super::epoch::Epoch;
-use super::{Effort, Plan};
 use crate::registry::Registry;
 use crate::scene::{Scene, WorkloadKind};
 
@@ -20,21 +20,6 @@ pub struct EpochArgs {
 }
 
 impl EpochArgs {
-    /// The options of `study all`.
-    pub fn of(effort: Effort) -> Self {
-        Self {
-            scenes: ScenesAndMeshes::of(effort),
-            structures: Structures::default(),
-            rays: Rays::of(effort),
-            measuring: Measuring::of(effort),
-        }
-    }
-
-    /// The scenes that are named.
-    pub fn scenes(&mut self) -> &mut Vec<String> {
-        &mut self.scenes.named.scenes
-    }
-
     /// Epochs of `structures` and a twin on rays of these `kinds`, unless others are named.
     pub fn plan(
         &self,

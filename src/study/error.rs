@@ -1,4 +1,4 @@
-use super::guarded::PANICKED;
+use super::bench::guarded::PANICKED;
 use super::journal::JournalError;
 use crate::accel::BuildError;
 use crate::measure::UnsteadyAnswers;

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::marker::PhantomData;
 use std::path::Path;
 
-use clap::{ArgMatches, Command, FromArgMatches};
+use clap::{ArgMatches, Args, Command, FromArgMatches};
 use serde_json::Value;
 
 use super::engine::{Measured, Run, measure};
@@ -14,8 +14,8 @@ use super::job::{self, Done, Job};
 use super::journal::{self, CaseFile, Group, JournalError};
 use super::process;
 use super::{
-    Context, Data, Effort, Planned, SceneId, Screen, Study, accuracy, attribution, binary, break_even, compare, costs,
-    counts, crossover, parameters, partitions, predictions, replicate, scaling, self_intersection, threads,
+    Context, Data, Effort, Planned, SceneId, Screen, Study, accuracy, attribution, break_even, compare, costs, counts,
+    crossover, kd_or_bvh, parameters, partitions, predictions, replicate, scaling, self_intersection, threads,
 };
 use crate::measure::Provenance;
 use crate::registry::Registry;
@@ -47,7 +47,7 @@ impl Studies {
             .with::<threads::ThreadsStudy>()
             .with::<break_even::BreakEvenStudy>()
             .with::<crossover::CrossoverStudy>()
-            .with::<binary::BinaryStudy>()
+            .with::<kd_or_bvh::KdOrBvhStudy>()
             .with::<costs::CostsStudy>()
             .with::<parameters::ParametersStudy>()
             .with::<accuracy::AccuracyStudy>()
@@ -60,7 +60,8 @@ impl Studies {
     /// Adds a study.
     ///
     /// # Panics
-    /// If its name is taken, is `all` or `plan`, or holds anything but lower-case letters, digits and hyphens.
+    /// If its name is taken, is `all` or `plan`, or holds anything but lower-case letters, digits and hyphens; where assertions are
+    /// compiled in, also if what `study all` measures is no command line of its own.
     pub fn with<S: Study>(mut self) -> Self {
         let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
         assert!(
@@ -69,6 +70,8 @@ impl Studies {
             S::NAME
         );
         assert!(self.find(S::NAME).is_none(), "there is already a study {:?}", S::NAME);
+        let is_preset = |effort| args::<S>(Chosen::Preset(effort, vec![])).is_ok();
+        debug_assert!(is_preset(Effort::Full) && is_preset(Effort::Quick), "the presets of {:?}", S::NAME);
         self.list.push(Box::new(Typed::<S>(PhantomData)));
         self
     }
@@ -191,21 +194,27 @@ fn own<S: Study>(answer: &dyn Any) -> &S::Answer {
     answer.downcast_ref().expect("the answer is of this study")
 }
 
-fn args<S: Study>(chosen: Chosen) -> anyhow::Result<S::Args> {
-    Ok(match chosen {
-        Chosen::Matches(matches) => S::Args::from_arg_matches(matches)?,
-        Chosen::Defaults => {
-            let command = <S::Args as clap::Args>::augment_args(clap::Command::new(S::NAME).no_binary_name(true));
-            S::Args::from_arg_matches(&command.try_get_matches_from([""; 0])?)?
-        }
-        Chosen::Preset(effort, scenes) => {
-            let mut args = S::args(effort);
-            if let (Some(named), false) = (S::named(&mut args), scenes.is_empty()) {
-                *named = scenes;
-            }
-            args
-        }
-    })
+fn command<S: Study>() -> Command {
+    S::Args::augment_args(Command::new(S::NAME).no_binary_name(true))
+}
+
+fn has_scenes<S: Study>() -> bool {
+    command::<S>().get_positionals().next().is_some()
+}
+
+pub(super) fn args<S: Study>(chosen: Chosen) -> anyhow::Result<S::Args> {
+    let (preset, scenes) = match chosen {
+        Chosen::Matches(matches) => return Ok(S::Args::from_arg_matches(matches)?),
+        Chosen::Defaults => ("", vec![]),
+        Chosen::Preset(Effort::Full, scenes) => (S::FULL, scenes),
+        Chosen::Preset(Effort::Quick, scenes) => (S::QUICK, scenes),
+    };
+    let mut words: Vec<String> = preset.split_whitespace().map(String::from).collect();
+    if has_scenes::<S>() && !scenes.is_empty() {
+        words = words.into_iter().skip_while(|word| !word.starts_with('-')).collect();
+        words.extend(std::iter::once("--".into()).chain(scenes));
+    }
+    Ok(S::Args::from_arg_matches(&command::<S>().try_get_matches_from(words)?)?)
 }
 
 impl<S: Study> AnyStudy for Typed<S> {
@@ -234,11 +243,11 @@ impl<S: Study> AnyStudy for Typed<S> {
     }
 
     fn augment(&self, command: Command) -> Command {
-        <S::Args as clap::Args>::augment_args(command)
+        S::Args::augment_args(command)
     }
 
     fn names_scenes(&self) -> bool {
-        S::named(&mut S::args(Effort::Quick)).is_some()
+        has_scenes::<S>()
     }
 
     fn planned(&self, chosen: Chosen, registry: &Registry) -> anyhow::Result<Vec<Planned>> {

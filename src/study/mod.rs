@@ -7,37 +7,32 @@ pub mod accuracy;
 pub mod args;
 pub mod attribution;
 pub mod baseline;
-pub mod binary;
+mod bench;
 pub mod break_even;
-mod built;
-mod check;
 pub mod compare;
 pub mod costs;
-mod counted;
 pub mod counts;
 pub mod crossover;
+pub mod diff;
 mod engine;
 pub mod epoch;
 mod epoch_args;
 mod epoch_medians;
 mod error;
 mod grouped;
-mod guarded;
 pub mod history;
 pub mod job;
 pub mod journal;
+pub mod kd_or_bvh;
 mod least_squares;
 mod list;
 pub mod parameters;
 pub mod partitions;
-mod placed;
 mod plan;
 pub mod predictions;
 pub mod process;
-mod ray_cost;
 mod ray_source;
 mod reference_structures;
-pub mod regression;
 pub mod replicate;
 pub mod scaling;
 pub mod self_intersection;
@@ -45,7 +40,6 @@ pub mod sources;
 mod stage;
 mod status;
 pub mod threads;
-mod timing;
 mod view_args;
 
 use serde::Serialize;
@@ -60,9 +54,9 @@ use crate::report::document::Block;
 use crate::report::plot::Figure;
 use crate::report::{Export, Statement, Table, to_json};
 
+pub use bench::guarded::{PANICKED, Refused, guarded};
 pub use engine::{Measured, Run, Screen};
 pub use error::StudyError;
-pub use guarded::{PANICKED, Refused, guarded};
 pub use list::{Answers, AnyAnswer, AnyStudy, Chosen, Found, Studies};
 pub use plan::{Effort, Measure, Plan, Planned, SceneId};
 pub use ray_source::{RaySource, rays_or_all, replayed};
@@ -85,8 +79,12 @@ pub trait Study: 'static {
     const LAST: bool = false;
     /// Whether a scene is nothing without a time of each of its structures: it is left out then.
     const WHOLE: bool = false;
+    /// What `study all` measures, in words of the command line: scenes, which others may take the place of, then options.
+    const FULL: &'static str = "";
+    /// Likewise `study all --quick`.
+    const QUICK: &'static str = "";
 
-    /// Its options.
+    /// Its options. Scenes are the only ones without a name.
     type Args: clap::Args;
     /// What is measured at a time, whatever else is, and kept as one file of the journal.
     type Case: Clone + Serialize + DeserializeOwned + 'static;
@@ -98,9 +96,6 @@ pub trait Study: 'static {
         format!("sahara study {}", Self::NAME)
     }
 
-    /// The options of `study all`.
-    fn args(effort: Effort) -> Self::Args;
-
     /// Why `study all` and its plan leave it out on this machine, in a sentence without the study's name; nothing where they do not.
     fn cannot_be_measured_here() -> Option<&'static str> {
         None
@@ -111,11 +106,6 @@ pub trait Study: 'static {
     /// # Errors
     /// If the options name what is not there.
     fn plan(args: &Self::Args, registry: &Registry) -> anyhow::Result<Plan<Self::Case>>;
-
-    /// The scenes that its options name, where they name any.
-    fn named(_: &mut Self::Args) -> Option<&mut Vec<String>> {
-        None
-    }
 
     /// The epoch that a case is, where it is one, and the number of its series where a scene has several. Before there is an answer the
     /// epochs of each series are [joined](epoch::join).
@@ -149,9 +139,10 @@ pub trait Study: 'static {
         vec![]
     }
 
-    /// The structures that have no time, or whose answers are wrong.
-    fn troubles(_: &[Self::Case]) -> Vec<Trouble> {
-        vec![]
+    /// The structures that have no time, or whose answers are wrong: without a rule of its own those of the epochs.
+    fn troubles(cases: &[Self::Case]) -> Vec<Trouble> {
+        let mut cases = cases.to_vec();
+        epoch::troubles(cases.iter_mut().filter_map(Self::epoch).map(|(epoch, _)| &*epoch))
     }
 
     /// What spoilt the run, and what to do.
@@ -243,5 +234,17 @@ impl Data {
     pub fn new(name: &'static str, rows: &[impl Serialize]) -> Self {
         let row = |row| serde_json::to_value(row).expect("a row has text keys");
         Self { name, rows: rows.iter().map(row).collect() }
+    }
+
+    /// One row for each item of the lists `inner` of `outer`: these `fields` of what holds the list, then those of the item.
+    pub fn nested(name: &'static str, outer: &[impl Serialize], fields: &[&str], inner: &str) -> Self {
+        let mut rows = vec![];
+        for outer in Self::new(name, outer).rows {
+            for item in outer[inner].as_array().into_iter().flatten() {
+                let own = fields.iter().map(|&field| (field.to_owned(), outer[field].clone()));
+                rows.push(own.chain(item.as_object().expect("an item has fields").clone()).collect());
+            }
+        }
+        Self { name, rows }
     }
 }

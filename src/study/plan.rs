@@ -8,6 +8,7 @@ use serde_json::{Map, Value};
 use super::{Stage, StudyError};
 use crate::measure::{Clock, Threads};
 use crate::report::Record;
+use crate::report::words::scene_name;
 use crate::scene::Scene;
 
 /// How much `study all` measures.
@@ -101,6 +102,11 @@ impl<C> Plan<C> {
     pub fn work<'a>(cases: impl IntoIterator<Item = &'a Planned>) -> u64 {
         cases.into_iter().map(|case| case.work).sum()
     }
+}
+
+/// The key of a case that is a whole scene.
+pub fn scene_key(scene: &Scene) -> String {
+    format!("{} {}", scene_name(&scene.name, !scene.stand_ins.is_empty()), &scene.hash()[..16])
 }
 
 /// Notes `of` scenes, each with the name of its scene.

@@ -4,7 +4,7 @@ use sahara::report::Table;
 use sahara::scene::Scene;
 use sahara::serde::{Deserialize, Serialize};
 use sahara::study::args::{Scenes, Structures};
-use sahara::study::{Context, Data, Effort, Measure, Plan, Stage, Study, StudyError};
+use sahara::study::{Context, Data, Measure, Plan, Stage, Study, StudyError};
 use sahara::{anyhow, clap};
 
 /// The study.
@@ -31,14 +31,12 @@ pub struct Duplication {
 impl Study for DuplicationStudy {
     const NAME: &'static str = "duplication";
     const QUESTION: &'static str = "How often does a structure refer to a triangle?";
+    const FULL: &'static str = "cube torus";
+    const QUICK: &'static str = "cube torus";
 
     type Args = DuplicationArgs;
     type Case = Vec<Duplication>;
     type Answer = Vec<Duplication>;
-
-    fn args(_: Effort) -> DuplicationArgs {
-        DuplicationArgs { scenes: Scenes::named(&["cube", "torus"]), structures: Structures::default() }
-    }
 
     fn plan(args: &DuplicationArgs, registry: &Registry) -> anyhow::Result<Plan<Self::Case>> {
         let scenes = args.scenes.read(&["cube"])?;

@@ -46,6 +46,11 @@ pub enum Mark {
 }
 
 impl Line {
+    /// A line with nothing behind its label.
+    pub fn new(label: &str, mark: Mark, points: impl IntoIterator<Item = CurvePoint>) -> Self {
+        Self { label: label.into(), note: String::new(), points: points.into_iter().collect(), mark }
+    }
+
     fn name(&self) -> String {
         if self.note.is_empty() { self.label.clone() } else { format!("{} {}", self.label, self.note) }
     }
@@ -58,6 +63,18 @@ pub struct CurvePoint {
     pub y: f64,
     /// Lower and upper end.
     pub band: Option<[f64; 2]>,
+}
+
+impl CurvePoint {
+    /// A point without an interval.
+    pub fn exact(x: f64, y: f64) -> Self {
+        Self { x, y, band: None }
+    }
+
+    /// The estimate at `x`, with its interval if it has one.
+    pub fn of(x: f64, y: Estimate) -> Self {
+        Self { x, y: y.estimate, band: y.interval.map(|interval| [interval.low, interval.high]) }
+    }
 }
 
 const LINE: f64 = 19.0;
@@ -242,8 +259,7 @@ mod tests {
 
     #[test]
     fn there_is_a_line_for_each_name() {
-        let line =
-            |i: usize| Line { label: format!("tree {i}"), note: String::new(), points: vec![], mark: Mark::Dots };
+        let line = |i: usize| Line::new(&format!("tree {i}"), Mark::Dots, []);
         let of = |lines: usize| Curves::logarithmic("", "", (0..lines).map(line).collect());
         assert_eq!(of(3).height(800.0), 400.0);
         assert!(of(30).height(800.0) - TOP - BOTTOM >= 30.0 * LINE);

@@ -3,7 +3,6 @@
 //!
 //! Pictures are drawn at twice their own units, so that they are sharp where they are shown smaller.
 
-mod axis;
 mod bars;
 mod canvas;
 mod chart;

@@ -1,9 +1,9 @@
 //! One panel: frame, axes, the front, points and their labels.
 
-use super::axis::{LogAxis, power};
 use super::canvas::{self, Canvas, Side, WIDTH};
 use super::labels::{Rect, place};
 use super::palette::{self, Colour};
+use super::scale::{Axis, Scale, power};
 use super::{LABELLED, Panel, Point};
 use crate::report::number::figures;
 
@@ -49,25 +49,29 @@ pub fn draw(panel: &Panel, colours: &[Colour], canvas: &Canvas, top: f64) {
 }
 
 /// Axes with room around all points: on the right for a label, below for the arrows of bounds.
-fn axes(points: &[Point], frame: Rect) -> (LogAxis, LogAxis) {
+fn axes(points: &[Point], frame: Rect) -> (Axis, Axis) {
     let least = |value: fn(&Point) -> f64| points.iter().map(value).fold(f64::INFINITY, f64::min);
     let most = |value: fn(&Point) -> f64| points.iter().map(value).fold(0.0, f64::max);
     let (fast, slow) = (least(|p| p.x), most(|p| p.x));
     let spread = (slow / fast).max(1.6);
-    let x = LogAxis::new(fast / libm::pow(spread, 0.12), slow * libm::pow(spread, 0.22), [frame.min[0], frame.max[0]]);
+    let x = Axis::new(
+        Scale::Log,
+        [fast / libm::pow(spread, 0.12), slow * libm::pow(spread, 0.22)],
+        [frame.min[0], frame.max[0]],
+    );
     // A third of a decade stays free below the lowest point and above the highest, and there are at least two decades.
     let low = libm::floor(libm::log10(least(|p| p.y)) - 0.34);
     let high = libm::ceil(libm::log10(most(|p| p.y)) + 0.34).min(0.0).max(low + 2.0);
-    (x, LogAxis::new(power(low as i32), 1.3 * power(high as i32), [frame.max[1], frame.min[1]]))
+    (x, Axis::new(Scale::Log, [power(low as i32), 1.3 * power(high as i32)], [frame.max[1], frame.min[1]]))
 }
 
-fn grid(canvas: &Canvas, x: LogAxis, y: LogAxis, frame: Rect) {
-    for tick in x.ticks() {
+fn grid(canvas: &Canvas, x: Axis, y: Axis, frame: Rect) {
+    for tick in x.round_values() {
         let at = x.place(tick);
         canvas.line(&[[at, frame.min[1]], [at, frame.max[1]]], FAINT, 1.0);
         canvas.text(&plain(tick), [at, frame.max[1] + 14.0], canvas::BODY, INK, Side::Centre);
     }
-    for tick in y.ticks().into_iter().filter(|&tick| libm::log10(tick).fract().abs() < 1e-9) {
+    for tick in y.round_values().into_iter().filter(|&tick| libm::log10(tick).fract().abs() < 1e-9) {
         let at = y.place(tick);
         canvas.line(&[[frame.min[0], at], [frame.max[0], at]], FAINT, 1.0);
         canvas.text(&format!("{} %", plain(tick * 100.0)), [frame.min[0] - 8.0, at], canvas::BODY, INK, Side::Right);

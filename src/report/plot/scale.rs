@@ -1,6 +1,5 @@
 //! An axis, linear or logarithmic, with ticks that do not run into each other.
 
-use super::axis::{LogAxis, power};
 use super::canvas;
 use crate::report::number::count;
 
@@ -12,54 +11,64 @@ pub enum Scale {
     Log,
 }
 
+impl Scale {
+    /// A value as the scale counts it.
+    fn of(self, value: f64) -> f64 {
+        match self {
+            Self::Linear => value,
+            Self::Log => libm::log10(value),
+        }
+    }
+}
+
 /// A scale between two values, drawn between two places.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Axis {
-    Linear { ends: [f64; 2], places: [f64; 2] },
-    Log(LogAxis),
+pub struct Axis {
+    scale: Scale,
+    /// The values at both ends, as the scale counts them.
+    ends: [f64; 2],
+    /// Places of these.
+    places: [f64; 2],
 }
 
 impl Axis {
     /// From `low` at the first of `places` to `high`, which is larger, at the second.
     pub fn new(scale: Scale, [low, high]: [f64; 2], places: [f64; 2]) -> Self {
-        match scale {
-            Scale::Linear => Self::Linear { ends: [low, high], places },
-            Scale::Log => Self::Log(LogAxis::new(low, high, places)),
-        }
+        Self { scale, ends: [scale.of(low), scale.of(high)], places }
     }
 
     /// Where `value` is.
     pub fn place(&self, value: f64) -> f64 {
-        match self {
-            Self::Log(axis) => axis.place(value),
-            Self::Linear { ends, places } => {
-                places[0] + (value - ends[0]) / (ends[1] - ends[0]) * (places[1] - places[0])
-            }
-        }
+        let share = (self.scale.of(value) - self.ends[0]) / (self.ends[1] - self.ends[0]);
+        self.places[0] + share * (self.places[1] - self.places[0])
     }
 
     /// Where it begins and ends.
     pub fn places(&self) -> [f64; 2] {
-        match self {
-            Self::Log(axis) => axis.places(),
-            Self::Linear { places, .. } => *places,
-        }
+        self.places
     }
 
-    /// Round values on the axis. Ascending.
-    fn candidates(&self) -> Vec<f64> {
-        match self {
-            Self::Log(axis) => axis.ticks(),
-            Self::Linear { ends: [low, high], .. } => {
-                let span = high - low;
-                let unit = power(libm::floor(libm::log10(span)) as i32);
-                let step = [0.1, 0.2, 0.5, 1.0, 2.0].map(|f| f * unit).into_iter().find(|s| span / s <= 8.5);
-                let step = step.unwrap_or(unit);
-                (libm::ceil(low / step - 1e-9) as i64..=libm::floor(high / step + 1e-9) as i64)
-                    .map(|i| i as f64 * step)
-                    .collect()
-            }
+    /// Round values on the axis, ascending. On a logarithmic one the powers of ten; where they are few, numbers between them as well.
+    pub fn round_values(&self) -> Vec<f64> {
+        const SLACK: f64 = 1e-9;
+        let [low, high] = self.ends;
+        let span = high - low;
+        if self.scale == Scale::Linear {
+            let unit = power(libm::floor(libm::log10(span)) as i32);
+            let step = [0.1, 0.2, 0.5, 1.0, 2.0].map(|f| f * unit).into_iter().find(|s| span / s <= 8.5);
+            let step = step.unwrap_or(unit);
+            let steps = libm::ceil(low / step - SLACK) as i64..=libm::floor(high / step + SLACK) as i64;
+            return steps.map(|i| i as f64 * step).collect();
         }
+        let factors: &[f64] = match span {
+            decades if decades > 2.5 => &[1.0],
+            decades if decades > 1.2 => &[1.0, 2.0, 5.0],
+            _ => &[1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 7.0],
+        };
+        (libm::floor(low) as i32..=libm::ceil(high) as i32)
+            .flat_map(|exponent| factors.iter().map(move |factor| factor * power(exponent)))
+            .filter(|tick| (low - SLACK..=high + SLACK).contains(&libm::log10(*tick)))
+            .collect()
     }
 
     /// Values with their texts, for a horizontal axis: as many as fit beside each other.
@@ -73,7 +82,7 @@ impl Axis {
     }
 
     fn ticks(&self, room: impl Fn(&str) -> f64) -> Vec<(f64, String)> {
-        let all: Vec<(f64, String)> = self.candidates().into_iter().map(|tick| (tick, plain(tick))).collect();
+        let all: Vec<(f64, String)> = self.round_values().into_iter().map(|tick| (tick, plain(tick))).collect();
         // Every one, or every second, third or fifth: what is left out must be even.
         let fits = |ticks: &[(f64, String)]| {
             ticks.windows(2).all(|pair| {
@@ -86,10 +95,8 @@ impl Axis {
             return all;
         }
         // On a logarithmic axis powers of ten stay together, else the ones that start at zero.
-        let powers: Vec<(f64, String)> = match self {
-            Self::Log(_) => all.iter().filter(|(tick, _)| is_power(*tick)).cloned().collect(),
-            Self::Linear { .. } => vec![],
-        };
+        let is_power = |(tick, _): &&(f64, String)| self.scale == Scale::Log && is_power(*tick);
+        let powers: Vec<(f64, String)> = all.iter().filter(is_power).cloned().collect();
         if powers.len() > 1 && fits(&powers) {
             return powers;
         }
@@ -99,6 +106,11 @@ impl Axis {
         }
         [2, 3, 4, 6].into_iter().map(sparse).find(|ticks| fits(ticks)).unwrap_or_default()
     }
+}
+
+/// A power of ten, as exact as it can be.
+pub fn power(exponent: i32) -> f64 {
+    format!("1e{exponent}").parse().expect("a number")
 }
 
 fn is_power(value: f64) -> bool {
@@ -137,6 +149,22 @@ mod tests {
     fn numbers_are_short() {
         let texts = [0.0, 0.001, 0.5, 20.0, -3.0, 5000.0, 1e6, 2e6, 1e-5].map(plain);
         assert_eq!(texts, ["0", "0.001", "0.5", "20", "−3", "5,000", "10⁶", "2·10⁶", "10⁻⁵"]);
+    }
+
+    #[test]
+    fn places_are_even_in_the_logarithm() {
+        let axis = Axis::new(Scale::Log, [1e-3, 1.0], [300.0, 0.0]);
+        for (value, place) in [(1e-3, 300.0), (1e-2, 200.0), (1e-1, 100.0), (1.0, 0.0)] {
+            assert!((axis.place(value) - place).abs() < 1e-9, "{value}");
+        }
+    }
+
+    #[test]
+    fn logarithmic_ticks_are_round_numbers_on_the_axis() {
+        let of = |low, high| Axis::new(Scale::Log, [low, high], [0.0, 1.0]).round_values();
+        assert_eq!(of(90.0, 6000.0), [100.0, 200.0, 500.0, 1000.0, 2000.0, 5000.0]);
+        assert_eq!(of(140.0, 410.0), [150.0, 200.0, 300.0, 400.0]);
+        assert_eq!(of(1e-4, 1.0), [1e-4, 1e-3, 1e-2, 1e-1, 1.0]);
     }
 
     #[test]

@@ -32,11 +32,9 @@ pub struct ScatterPoint {
 impl Scatter {
     /// The first case over memory.
     pub(super) fn curves(&self) -> Curves {
-        let dot = |point: &ScatterPoint| Line {
-            label: point.label.clone(),
-            note: String::new(),
-            points: vec![CurvePoint { x: point.bytes / f64::from(1 << 20), y: 1e3 / point.ns_per_ray, band: None }],
-            mark: Mark::Dots,
+        let dot = |point: &ScatterPoint| {
+            let dot = CurvePoint::exact(point.bytes / f64::from(1 << 20), 1e3 / point.ns_per_ray);
+            Line::new(&point.label, Mark::Dots, [dot])
         };
         let points = self.cases.first().map_or(&[][..], |case| &case.points);
         Curves::logarithmic("memory, MiB", "million rays a second", points.iter().map(dot).collect())

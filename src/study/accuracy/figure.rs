@@ -1,15 +1,11 @@
 use super::{AccuracyRecord, RayKind};
 use crate::report::number::count;
 use crate::report::plot::{Figure, LABELLED, Panel, Point};
+use crate::report::words::each_once;
 
 /// Error against time: one panel for each scene and kind of rays.
 pub fn figure(records: &[AccuracyRecord]) -> Figure {
-    let mut groups: Vec<String> = vec![];
-    for record in records {
-        if !groups.contains(&structure(record)) {
-            groups.push(structure(record));
-        }
-    }
+    let groups = each_once(records.iter().map(structure));
     let panel = |of_kind: &[AccuracyRecord]| {
         let first = &of_kind[0];
         let stand_in = if first.stand_in { " (stand-in)" } else { "" };
@@ -30,7 +26,7 @@ pub fn figure(records: &[AccuracyRecord]) -> Figure {
             points: of_kind.iter().map(point).collect(),
         }
     };
-    let panels: Vec<Panel> = records.chunk_by(|a, b| a.rays == b.rays && a.scene == b.scene).map(panel).collect();
+    let panels: Vec<Panel> = records.chunk_by(AccuracyRecord::is_beside).map(panel).collect();
     let mut notes = vec![
         "Labels name the triangle test, colours the structure. Filled: nothing is faster and less wrong.".into(),
         "Arrow: not one wrong answer was seen in n rays; the dot is the upper bound with 95 % confidence, about 3/n."

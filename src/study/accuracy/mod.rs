@@ -13,9 +13,9 @@ mod table;
 #[cfg(test)]
 mod tests;
 
-use super::built::Built;
-use super::ray_cost::picoseconds;
-use super::timing::{Case, Timing};
+use super::bench::built::Built;
+use super::bench::ray_cost::picoseconds;
+use super::bench::timing::{Case, Timing};
 use super::{PANICKED, Refused, Stage, StudyError, guarded};
 use crate::accel::{BuildError, Query};
 use crate::geometry::Ray;
@@ -32,7 +32,7 @@ pub use figure::figure;
 pub use kind::RayKind;
 pub use record::AccuracyRecord;
 pub use study::AccuracyStudy;
-pub use table::{legend, tables};
+pub use table::{legend, table};
 
 /// What is measured, and for how long.
 pub struct AccuracySettings {

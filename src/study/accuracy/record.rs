@@ -65,6 +65,11 @@ pub struct AccuracyRecord {
 impl AccuracyRecord {
     pub const SCHEMA: u32 = 1;
 
+    /// Whether the other one is of the same scene and kind of rays.
+    pub fn is_beside(&self, other: &Self) -> bool {
+        self.rays == other.rays && self.scene == other.scene
+    }
+
     /// Misses, false hits and wrong depths.
     pub fn errors(&self) -> u64 {
         self.missed + self.false_hits + self.wrong_depth

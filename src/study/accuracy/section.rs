@@ -1,6 +1,6 @@
 //! Speed against error, judged by exact arithmetic.
 
-use super::{AccuracyRecord, figure, legend, tables};
+use super::{AccuracyRecord, figure, legend, table};
 use crate::report::document::{Art, Block, Figure};
 use crate::report::number::{count, figures};
 use crate::report::plot::Chart;
@@ -10,7 +10,7 @@ use crate::study::documented_defect;
 
 /// For each scene and kind of rays: over which triangle tests our structures are right, and over which they are wrong.
 pub fn statements(records: &[AccuracyRecord]) -> Vec<Statement> {
-    records.chunk_by(|a, b| a.rays == b.rays && a.scene == b.scene).filter_map(of_kind).collect()
+    records.chunk_by(AccuracyRecord::is_beside).filter_map(of_kind).collect()
 }
 
 fn of_kind(records: &[AccuracyRecord]) -> Option<Statement> {
@@ -47,9 +47,10 @@ pub fn blocks(records: &[AccuracyRecord], command: &str) -> Vec<Block> {
          way. On the front are those that nothing beats in both speed and error."
             .into(),
     )];
-    for (i, of_kind) in records.chunk_by(|a, b| a.rays == b.rays && a.scene == b.scene).enumerate() {
+    for (i, of_kind) in records.chunk_by(AccuracyRecord::is_beside).enumerate() {
         blocks.push(Block::Figure(one(i, of_kind, command)));
-        let table = tables(of_kind, &legend()).remove(0);
+        let mut table = table(of_kind);
+        table.notes.extend(legend());
         let name = table.title.clone();
         blocks.push(Block::Fold(format!("Table: {name}"), vec![Block::table(table, command)]));
     }

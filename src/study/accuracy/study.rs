@@ -4,20 +4,18 @@ use anyhow::Context as _;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
-use super::{AccuracyRecord, AccuracySettings, RayKind, accuracy_scene, figure, legend, section, tables};
+use super::{AccuracyRecord, AccuracySettings, RayKind, accuracy_scene, figure, legend, section, table};
 use crate::measure::Threads;
 use crate::registry::{Choice, Registry};
 use crate::report::document::Block;
 use crate::report::number::count;
 use crate::report::plot::Figure;
-use crate::report::words::scene_name;
 use crate::report::{Statement, Table};
 use crate::scene::Scene;
 use crate::study::args::Scenes;
-use crate::study::plan::Measure;
+use crate::study::plan::{Measure, named_notes, scene_key};
 use crate::study::{
-    BRUTE_FORCE, Context, Data, Effort, Plan, RaySource, Refused, SceneId, Study, Trouble, documented_defect, replayed,
-    sources,
+    BRUTE_FORCE, Context, Data, Plan, RaySource, Refused, SceneId, Study, Trouble, documented_defect, replayed, sources,
 };
 use crate::triangle::{Exact, TriangleTest};
 
@@ -54,7 +52,6 @@ pub struct AccuracyArgs {
     seed: u64,
 }
 
-const RAYS: usize = 20_000;
 const RUNS: u16 = 7;
 const BUDGET: u32 = 40;
 
@@ -75,36 +72,12 @@ impl Study for AccuracyStudy {
     const QUESTION: &'static str =
         "What does being right cost: how wrong and how fast is every structure over every triangle test?";
     const SCENE_BY_SCENE: bool = true;
+    const FULL: &'static str = "dragon cornellbox -w uniform -w vertex -w grazing";
+    const QUICK: &'static str = "cube -w vertex --rays 500 --runs 2 --budget 1";
 
     type Args = AccuracyArgs;
     type Case = JudgedScene;
     type Answer = Vec<AccuracyRecord>;
-
-    fn args(effort: Effort) -> AccuracyArgs {
-        let (structure, test) = (vec![], vec![]);
-        match effort {
-            Effort::Full => AccuracyArgs {
-                scenes: Scenes::named(&["dragon", "cornellbox"]),
-                structure,
-                test,
-                workload: vec![RayKind::Uniform, RayKind::Vertex, RayKind::Grazing],
-                rays: RaySource::Count(RAYS),
-                runs: RUNS,
-                budget: BUDGET,
-                seed: 1,
-            },
-            Effort::Quick => AccuracyArgs {
-                scenes: Scenes::named(&["cube"]),
-                structure,
-                test,
-                workload: vec![RayKind::Vertex],
-                rays: RaySource::Count(500),
-                runs: 2,
-                budget: 1,
-                seed: 1,
-            },
-        }
-    }
 
     fn plan(args: &AccuracyArgs, registry: &Registry) -> anyhow::Result<Plan<JudgedScene>> {
         let choices = choices(registry, &args.structure, &args.test)?;
@@ -127,11 +100,8 @@ impl Study for AccuracyStudy {
             "budget": args.budget,
             "seed": args.seed,
         });
-        let key =
-            |scene: &Scene| format!("{} {}", scene_name(&scene.name, !scene.stand_ins.is_empty()), &scene.hash()[..16]);
-        let titles: Vec<(String, String)> = scenes.iter().map(|scene| (scene.name.clone(), key(scene))).collect();
-        let notes = scenes.iter().flat_map(|scene| scene.notes.iter().map(|note| format!("{}: {note}", scene.name)));
-        let notes = notes.collect();
+        let titles: Vec<(String, String)> = scenes.iter().map(|scene| (scene.name.clone(), scene_key(scene))).collect();
+        let notes = named_notes(&scenes, |scene| &scene.notes);
         let inputs = args.scenes.files().into_iter().chain(args.rays.file().map(Into::into)).collect();
         let threads = Threads::pinned(1).map_err(anyhow::Error::msg)?;
         let (is_default, runs, seed) = (args.structure.is_empty(), args.runs.into(), args.seed);
@@ -147,16 +117,12 @@ impl Study for AccuracyStudy {
         Ok(Plan { notes, inputs, ..Plan::of_scenes(&kept, threads, titles, measure) })
     }
 
-    fn named(args: &mut Self::Args) -> Option<&mut Vec<String>> {
-        Some(&mut args.scenes.scenes)
-    }
-
     fn answer(cases: &[JudgedScene], _: &Context<Self>) -> Vec<AccuracyRecord> {
         cases.iter().flat_map(|case| case.records.iter().cloned()).collect()
     }
 
     fn tables(answer: &Vec<AccuracyRecord>) -> Vec<Table> {
-        tables(answer, &[])
+        answer.chunk_by(AccuracyRecord::is_beside).map(table).collect()
     }
 
     fn legend(_: &Vec<AccuracyRecord>) -> Vec<String> {

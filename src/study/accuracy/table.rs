@@ -1,34 +1,10 @@
 use super::{AccuracyRecord, RayKind};
 use crate::report::number::{count, figures};
 use crate::report::{Cell, Table, Tone};
+use crate::validate::Ulps;
 
-/// One table for each kind of rays of a scene.
-pub fn tables(records: &[AccuracyRecord], notes: &[String]) -> Vec<Table> {
-    let tables = records.chunk_by(|a, b| a.rays == b.rays && a.scene == b.scene).map(table);
-    let mut tables: Vec<Table> = tables.collect();
-    if let Some(last) = tables.last_mut() {
-        last.notes.extend_from_slice(notes);
-    }
-    tables
-}
-
-const COLUMNS: [&str; 13] = [
-    "structure",
-    "ns/ray",
-    "slowest",
-    "error",
-    "at most",
-    "missed",
-    "false",
-    "depth",
-    "primitive",
-    "ulps: median",
-    "99 %",
-    "max",
-    "dominated by",
-];
-
-fn table(records: &[AccuracyRecord]) -> Table {
+/// That of one scene and kind of rays.
+pub fn table(records: &[AccuracyRecord]) -> Table {
     let first = &records[0];
     let stand_in = if first.stand_in { ", stand-in" } else { "" };
     let what = first.rays.parse().map_or("rays of a file", RayKind::description);
@@ -41,7 +17,6 @@ fn table(records: &[AccuracyRecord]) -> Table {
         count(rays),
         count(records.iter().map(|record| record.hits).max().unwrap_or(0)),
     );
-    let rows = records.iter().map(row).collect();
     let mut notes = vec![];
     for record in records.iter().filter(|record| record.sampled) {
         notes.push(format!("{}: judged on {} of the rays", record.label, count(record.judged)));
@@ -51,30 +26,33 @@ fn table(records: &[AccuracyRecord]) -> Table {
         let [own, others] = [record.timed, timed].map(|n| count(n as u64));
         notes.push(format!("{}: timed on {own} of the {others} rays that the others are timed on", record.label));
     }
-    Table { title, columns: COLUMNS.map(String::from).into(), rows, notes }
+    Table { notes, ..cells(title, records) }
 }
 
-fn row(record: &AccuracyRecord) -> Vec<Cell> {
+fn cells(title: String, records: &[AccuracyRecord]) -> Table {
+    let tone = |r: &AccuracyRecord| if r.dominated_by.is_none() { Tone::Best } else { Tone::Plain };
     let errors = |n: u64| Cell::from(count(n)).with(if n > 0 { Tone::Wrong } else { Tone::Plain });
-    let ulps = |value: fn(&crate::validate::Ulps) -> f64| {
-        record.ulps.as_ref().map_or(Cell::blank(), |u| figures(value(u)).into())
-    };
-    let tone = if record.dominated_by.is_none() { Tone::Best } else { Tone::Plain };
-    vec![
-        record.label.as_str().into(),
-        Cell::from(figures(record.ns_per_ray)).with(tone),
-        record.slowest_ns.map_or(Cell::blank(), |ns| figures(ns as f64).into()),
-        Cell::from(percent(record.error)).with(tone),
-        percent(record.error_bound).into(),
-        errors(record.missed),
-        errors(record.false_hits),
-        errors(record.wrong_depth),
-        count(record.wrong_primitive).into(),
-        ulps(|u| u.median),
-        ulps(|u| u.p99),
-        ulps(|u| u.max),
-        record.dominated_by.as_deref().unwrap_or("").into(),
-    ]
+    let ulps =
+        |r: &AccuracyRecord, value: fn(&Ulps) -> f64| Cell::from(r.ulps.as_ref().map(|ulps| figures(value(ulps))));
+    Table::of(
+        title,
+        records,
+        &[
+            ("structure", &|r| r.label.as_str().into()),
+            ("ns/ray", &|r| Cell::from(figures(r.ns_per_ray)).with(tone(r))),
+            ("slowest", &|r| r.slowest_ns.map(|ns| figures(ns as f64)).into()),
+            ("error", &|r| Cell::from(percent(r.error)).with(tone(r))),
+            ("at most", &|r| percent(r.error_bound).into()),
+            ("missed", &|r| errors(r.missed)),
+            ("false", &|r| errors(r.false_hits)),
+            ("depth", &|r| errors(r.wrong_depth)),
+            ("primitive", &|r| count(r.wrong_primitive).into()),
+            ("ulps: median", &|r| ulps(r, |ulps| ulps.median)),
+            ("99 %", &|r| ulps(r, |ulps| ulps.p99)),
+            ("max", &|r| ulps(r, |ulps| ulps.max)),
+            ("dominated by", &|r| r.dominated_by.as_deref().into()),
+        ],
+    )
 }
 
 /// A share as people read it.

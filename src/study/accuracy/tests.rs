@@ -2,6 +2,7 @@ use super::*;
 use crate::measure::SystemClock;
 use crate::registry::Registry;
 use crate::scene::Builtin;
+use crate::study::Study;
 use crate::triangle::{Exact, MollerTrumbore, TriangleTest};
 
 fn records(specs: &[&str], kinds: &[RayKind], rays: usize) -> Vec<AccuracyRecord> {
@@ -50,10 +51,9 @@ fn exact_is_right_and_single_precision_is_not() {
 fn tables_and_pictures_name_every_case() {
     let specs = ["sah-kd:test=exact", "brute-force", "sah-kd:mailbox=true,test=exact"];
     let records = records(&specs, &[RayKind::Uniform], 100);
-    let tables = tables(&records, &["a note".into()]);
-    assert_eq!((tables.len(), tables[0].rows.len()), (1, 3));
+    let tables = AccuracyStudy::tables(&records);
+    assert_eq!((tables.len(), tables[0].rows.len(), tables[0].notes.len()), (1, 3, 0));
     assert!(tables[0].rows.iter().all(|row| row.len() == tables[0].columns.len()));
-    assert_eq!(tables[0].notes, ["a note"]);
     let figure = figure(&records);
     assert_eq!(figure.groups, ["sah-kd", "brute-force", "sah-kd:mailbox=true"]);
     assert_eq!(figure.panels[0].points.len(), 3);

@@ -132,19 +132,9 @@ mod tests {
         close(value(&part(Factor::Plane), &logs), 1.0 + 0.4);
         close(value(&part(Factor::Stop), &logs), 3.0 + 0.4);
         close(value(&part(Factor::Traversal), &logs), 0.5);
-        let orders = parts_by_order(Factor::Plane).map_values(&logs);
+        let orders: Vec<f64> = parts_by_order(Factor::Plane).iter().map(|weights| value(weights, &logs)).collect();
         assert_eq!(orders.iter().filter(|&&gain| (gain - 1.0).abs() < 1e-12).count(), 3);
         assert_eq!(orders.iter().filter(|&&gain| (gain - 1.8).abs() < 1e-12).count(), 3);
-    }
-
-    trait MapValues {
-        fn map_values(&self, logs: &[f64]) -> Vec<f64>;
-    }
-
-    impl MapValues for Vec<Weights> {
-        fn map_values(&self, logs: &[f64]) -> Vec<f64> {
-            self.iter().map(|weights| value(weights, logs)).collect()
-        }
     }
 
     #[test]
@@ -185,11 +175,9 @@ mod tests {
     fn the_three_way_interaction_is_what_is_left() {
         let logs: Vec<f64> = (0..CELLS).map(|i| libm::cos(i as f64 * 2.3)).collect();
         close(shares(&logs).unwrap().iter().sum(), 1.0);
-        let mean = logs.iter().sum::<f64>() / CELLS as f64;
         let only_last = |cell: &Treatment| if *cell == Treatment::SAH { 1.0 } else { 0.0 };
         let spike: Vec<f64> = Treatment::all().iter().map(only_last).collect();
         // One cell apart: a share of (6-1)(3-1)(2-1) of 35 degrees of freedom is three-way.
         close(shares(&spike).unwrap()[6], 10.0 / 35.0);
-        assert!(mean.is_finite());
     }
 }

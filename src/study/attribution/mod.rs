@@ -13,10 +13,10 @@ mod table;
 #[cfg(test)]
 pub(crate) mod tests;
 
-use super::args::{Measuring, ScenesAndMeshes};
+use super::args::{FULL_EPOCHS, Measuring, QUICK_EPOCHS, ScenesAndMeshes};
 use super::epoch::{Asked, Epoch};
 use super::epoch_args::plan_on;
-use super::{Context, Data, Effort, Plan, Study, rays_or_all, sources};
+use super::{Context, Data, Plan, Study, rays_or_all, sources};
 use crate::registry::{Choice, ChoiceError, Registry};
 use crate::report::document::Block;
 use crate::report::{Statement, Table};
@@ -61,26 +61,18 @@ impl Study for AttributionStudy {
     const QUESTION: &'static str =
         "What of the SAH tree's speed is due to the stop rule, what to the plane and what to the traversal?";
     const WHOLE: bool = true;
+    const FULL: &'static str = FULL_EPOCHS;
+    const QUICK: &'static str = QUICK_EPOCHS;
 
     type Args = AttributionArgs;
     type Case = Epoch;
     type Answer = Vec<Attribution>;
-
-    fn args(effort: Effort) -> AttributionArgs {
-        let rays = if effort == Effort::Quick { 1024 } else { usize::MAX };
-        let (scenes, measuring) = (ScenesAndMeshes::of(effort), Measuring::of(effort));
-        AttributionArgs { scenes, workload: WorkloadKind::Primary, rays, test: TEST.into(), measuring }
-    }
 
     fn plan(args: &AttributionArgs, registry: &Registry) -> anyhow::Result<Plan<Epoch>> {
         sources::known_tests(registry, std::slice::from_ref(&args.test))?;
         let asked = Asked::Kinds(vec![args.workload], args.rays);
         let settings = args.measuring.settings(registry, structures(registry, &args.test)?, asked)?;
         plan_on(&args.scenes, |scenes| settings.plan(scenes, args.measuring.epochs))
-    }
-
-    fn named(args: &mut Self::Args) -> Option<&mut Vec<String>> {
-        Some(&mut args.scenes.named.scenes)
     }
 
     fn epoch(case: &mut Epoch) -> Option<(&mut Epoch, usize)> {

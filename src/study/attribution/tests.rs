@@ -3,8 +3,8 @@
 use super::design::{CELLS, Factor, Treatment};
 use super::*;
 use crate::measure::RandomOrder;
-use crate::study::epoch::tests::rays;
-use crate::study::epoch::{Epoch, RayCounts, Rays, Shape, Structure};
+use crate::study::epoch::tests;
+use crate::study::epoch::{Epoch, RayCounts, Shape};
 
 /// How many times faster each factor makes the tree, and what the plane gives more once the stop rule is the SAH's.
 const STOP: f64 = 8.0;
@@ -28,44 +28,19 @@ pub fn cases(epochs: usize, noise: f64) -> Vec<Epoch> {
     let mut uniform = move || random.below(1 << 20) as f64 / f64::from(1 << 20);
     let mut of = |number: usize| {
         let slow: Vec<f64> = (0..3).map(|_| 1.0 + uniform() / 3.0).collect();
-        let trees = cells.iter().map(|&cell| {
+        let labels: Vec<String> = cells.iter().map(|cell| cell.spec("exact")).collect();
+        let structures: Vec<(&str, u64, &[u64])> = labels.iter().map(|label| (&label[..], 1000, &[][..])).collect();
+        let mut epoch = Epoch { stand_in: true, ..tests::example("Dragon", 100, number, &structures) };
+        for (tree, &cell) in epoch.structures.iter_mut().zip(&cells) {
             let placed = 1.0 + noise * (uniform() - 0.5);
-            let ns = slow.iter().map(|slow| (4e8 / factor(cell) * placed * slow) as u64).collect();
-            let counts = RayCounts {
-                rays: 1000,
-                hits: 500,
-                distances: 9,
-                tests: Some((24_000_000.0 / factor(cell)) as u64),
-                blocks: Some(3_000_000),
-                steps: Some(5000),
-            };
-            Structure {
-                label: cell.spec("exact"),
-                name: "median-kd".into(),
-                refused: None,
-                outside: None,
-                build_ns: 1000,
-                shape: Shape {
-                    bytes: 4096,
-                    leaves: 10,
-                    references: 300,
-                    depth: 5,
-                    sah_cost: Some(20.0 / factor(cell)),
-                },
-                details: None,
-                rays: vec![Rays { ns, counts: (number == 0).then_some(counts), ..rays("primary") }],
-            }
-        });
-        Epoch {
-            scene: "Dragon".into(),
-            scene_hash: "00".into(),
-            stand_in: true,
-            triangles: 100,
-            degenerate: 0,
-            epoch: number,
-            circumstances: None,
-            structures: trees.collect(),
+            tree.shape = Shape { references: 300, sah_cost: Some(20.0 / factor(cell)), ..tree.shape.clone() };
+            let rays = &mut tree.rays[0];
+            rays.ns = slow.iter().map(|slow| (4e8 / factor(cell) * placed * slow) as u64).collect();
+            let tests = Some((24_000_000.0 / factor(cell)) as u64);
+            let counts = rays.counts.filter(|_| number == 0);
+            rays.counts = counts.map(|counts| RayCounts { tests, steps: Some(5000), ..counts });
         }
+        epoch
     };
     (0..epochs).map(&mut of).collect()
 }

@@ -8,9 +8,10 @@ mod table;
 #[cfg(test)]
 mod tests;
 
-use super::epoch::{Epoch, troubles};
+use super::args::{FULL_EPOCHS, QUICK_EPOCHS};
+use super::epoch::Epoch;
 use super::epoch_args::EpochArgs;
-use super::{Context, Data, Effort, Plan, Study, Trouble};
+use super::{Context, Data, Plan, Study};
 use crate::registry::Registry;
 use crate::report::Table;
 use crate::report::document::Block;
@@ -18,8 +19,7 @@ use crate::scene::WorkloadKind;
 
 pub use payoff::Payoff;
 pub use result::{Market, Offer, Pair, Row, Stretch, result, rows};
-use table::LEGEND;
-pub use table::tables;
+use table::{LEGEND, table};
 
 const STRUCTURES: [&str; 8] =
     ["brute-force", "median-kd", "sah-kd", "sah-kd-wide", "sah-hybrid", "sah-bvh", "obvhs-bvh2", "obvhs-cwbvh"];
@@ -30,21 +30,15 @@ pub struct BreakEvenStudy;
 impl Study for BreakEvenStudy {
     const NAME: &'static str = "break-even";
     const QUESTION: &'static str = "After how many rays does a dearer build pay?";
+    const FULL: &'static str = FULL_EPOCHS;
+    const QUICK: &'static str = QUICK_EPOCHS;
 
     type Args = EpochArgs;
     type Case = Epoch;
     type Answer = Vec<Market>;
 
-    fn args(effort: Effort) -> EpochArgs {
-        EpochArgs::of(effort)
-    }
-
     fn plan(args: &EpochArgs, registry: &Registry) -> anyhow::Result<Plan<Epoch>> {
         args.plan(registry, &STRUCTURES, &[WorkloadKind::Primary, WorkloadKind::Diffuse])
-    }
-
-    fn named(args: &mut EpochArgs) -> Option<&mut Vec<String>> {
-        Some(args.scenes())
     }
 
     fn epoch(case: &mut Epoch) -> Option<(&mut Epoch, usize)> {
@@ -56,15 +50,11 @@ impl Study for BreakEvenStudy {
     }
 
     fn tables(answer: &Vec<Market>) -> Vec<Table> {
-        tables(answer)
+        answer.iter().map(table).collect()
     }
 
     fn legend(_: &Vec<Market>) -> Vec<String> {
         LEGEND.map(String::from).into()
-    }
-
-    fn troubles(cases: &[Epoch]) -> Vec<Trouble> {
-        troubles(cases)
     }
 
     fn data(answer: &Vec<Market>) -> Vec<Data> {

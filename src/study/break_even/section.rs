@@ -1,7 +1,7 @@
 //! After how many rays a dearer build pays.
 
-use super::table::LEGEND;
-use super::{Market, Offer, tables};
+use super::table::{LEGEND, table};
+use super::{Market, Offer};
 use crate::report::Table;
 use crate::report::document::{Art, Block, Figure};
 use crate::report::number::{count, duration};
@@ -19,10 +19,7 @@ pub fn blocks(markets: &[Market], command: &str) -> Vec<Block> {
          structure takes for as many rays: where a line touches 1 the structure is the best choice."
             .into(),
     )];
-    let one = |market: &Market| {
-        let table = tables(std::slice::from_ref(market)).remove(0);
-        [Block::Figure(figure(market, command)), Block::table(table, command)]
-    };
+    let one = |market: &Market| [Block::Figure(figure(market, command)), Block::table(table(market), command)];
     let rest = markets.split_off(markets.len().min(OPEN));
     blocks.extend(markets.iter().flat_map(one));
     blocks.extend(LEGEND.map(|words| Block::Note(words.into())));
@@ -43,14 +40,9 @@ fn figure(market: &Market, command: &str) -> Figure {
     let total = |offer: &Offer, rays: f64| offer.build_ns + rays * offer.ns_per_ray;
     let quickest = |rays: f64| market.offers.iter().map(|offer| total(offer, rays)).fold(f64::INFINITY, f64::min);
     let rays: Vec<f64> = TENTHS.map(|tenth| libm::pow(10.0, f64::from(tenth) / 10.0)).collect();
-    let line = |offer: &Offer| Line {
-        label: offer.structure.clone(),
-        note: String::new(),
-        points: rays
-            .iter()
-            .map(|&rays| CurvePoint { x: rays, y: total(offer, rays) / quickest(rays), band: None })
-            .collect(),
-        mark: Mark::Line,
+    let line = |offer: &Offer| {
+        let points = rays.iter().map(|&rays| CurvePoint::exact(rays, total(offer, rays) / quickest(rays)));
+        Line::new(&offer.structure, Mark::Line, points)
     };
     let rows = market.offers.iter().map(|o| [o.structure.clone(), duration(o.build_ns), duration(o.ns_per_ray)]);
     let best: Vec<String> = market

@@ -13,12 +13,8 @@ pub const LEGEND: [&str; 2] = [
     "Build and rays on one thread, the builders that use several included, unless --threads says otherwise.",
 ];
 
-/// One table for each scene and kind of rays.
-pub fn tables(markets: &[Market]) -> Vec<Table> {
-    markets.iter().map(table).collect()
-}
-
-fn table(market: &Market) -> Table {
+/// That of one scene and kind of rays.
+pub fn table(market: &Market) -> Table {
     let names: Vec<&str> = market.offers.iter().map(|offer| offer.structure.as_str()).collect();
     let mut columns: Vec<String> = ["structure", "build", "time a ray"].map(String::from).into();
     columns.extend(names[..names.len().saturating_sub(1)].iter().map(|name| format!("over {name}")));
@@ -32,7 +28,7 @@ fn table(market: &Market) -> Table {
         ];
         for cheap in &names[..names.len().saturating_sub(1)] {
             let pair = market.pairs.iter().find(|pair| pair.cheap == **cheap && pair.dear == offer.structure);
-            row.push(pair.map_or(Cell::blank(), |pair| cell(pair).into()));
+            row.push(pair.map(cell).into());
         }
         row
     });

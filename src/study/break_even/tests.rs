@@ -39,7 +39,7 @@ fn pairs_break_even_where_arithmetic_says() {
     // Dearer and slower.
     let of = pair(market, "quick", "dear");
     assert_eq!((of.rays, of.low, of.high), (Payoff::Never, Some(Payoff::Never), Some(Payoff::Never)));
-    assert_eq!(tables(&markets).len(), 1);
+    assert_eq!(BreakEvenStudy::tables(&markets).len(), 1);
     assert_eq!(rows(&markets).len(), 3);
 }
 
@@ -71,7 +71,7 @@ fn of_one_epoch_there_is_no_interval() {
     epochs.truncate(1);
     let markets = result(&epochs);
     assert_eq!((markets[0].pairs[0].low, markets[0].pairs[0].high), (None, None));
-    let table = &tables(&markets)[0];
+    let table = &table(&markets[0]);
     assert!(table.rows[1][3].text.ends_with("(one epoch)"), "{table:?}");
     assert!(table.notes.iter().any(|note| note.contains("one epoch, no interval")));
 }

@@ -1,11 +1,11 @@
 //! Means over scenes, and who won.
 
 use super::reference::{Reference, cell};
-use super::table::{control, names};
+use super::table::control;
 use super::twins;
 use crate::measure::Estimate;
 use crate::report::number::{count, figures, plural};
-use crate::report::words::{ends, explained, interval, listed};
+use crate::report::words::{distinct, each_once, ends, explained, interval, listed};
 use crate::report::{Cell, Record, Table, Tone};
 use crate::study::reference_structures::is_obvhs;
 
@@ -15,36 +15,31 @@ use crate::study::reference_structures::is_obvhs;
 /// A mean is over the cases in which the reference has a time. A row that lacks some of them names how many it has, and
 /// takes no part in what is the best of a column: means over different scenes cannot be ranked.
 pub fn mean_table(records: &[Record], references: &[Reference]) -> Table {
-    let workloads = names(records, |r| &r.workload);
-    let structures = names(records, |r| &r.label);
-    let scenes = names(records, |r| &r.scene);
+    let workloads = distinct(records.iter().map(|r| &r.workload));
+    let structures = distinct(records.iter().map(|r| &r.label));
+    let scenes = distinct(records.iter().map(|r| &r.scene));
     let noise = twins(records);
 
     // The cells of one column: of every structure, and which of them are over all cases.
     let column = |reference: &Reference, workload: Option<&str>| -> Vec<Cell> {
         let asked = |r: &&Record| workload.is_none_or(|w| r.workload == w);
         // A case is there if the reference has a time; what the reference itself is does not matter.
-        let mut cases: Vec<(&str, &str)> = vec![];
-        for record in records.iter().filter(asked) {
-            let case = (record.scene.as_str(), record.workload.as_str());
-            if !cases.contains(&case) && reference.rival(records, record).is_some() {
-                cases.push(case);
-            }
-        }
+        let has_rival = |r: &&Record| reference.rival(records, r).is_some();
+        let related = records.iter().filter(asked).filter(has_rival);
+        let cases = each_once(related.map(|r| (&r.scene, &r.workload))).len();
         let of = |label: &String| {
             let pairs = reference.pairs(records, records.iter().filter(asked).filter(|r| r.label == *label));
             (Reference::ratio(&pairs, &noise), pairs.len())
         };
         let rows: Vec<_> = structures.iter().map(of).collect();
-        let whole =
-            rows.iter().filter(|(_, n)| *n == cases.len()).filter_map(|(ratio, _)| Some(ratio.as_ref()?.estimate));
+        let whole = rows.iter().filter(|(_, n)| *n == cases).filter_map(|(ratio, _)| Some(ratio.as_ref()?.estimate));
         let best = whole.max_by(f64::total_cmp);
         let shown = |(ratio, n): &(Option<Estimate>, usize)| match ratio {
             None => Cell::blank(),
             Some(known) => {
                 let text = if workload.is_some() { figures(known.estimate) } else { cell(*ratio).text };
-                if *n < cases.len() {
-                    return format!("{text} ({n} of {})", cases.len()).into();
+                if *n < cases {
+                    return format!("{text} ({n} of {cases})").into();
                 }
                 let is_best = Some(known.estimate) == best;
                 Cell::from(text).with(if is_best { Tone::Best } else { Tone::Plain })
@@ -105,7 +100,7 @@ pub struct Winner {
 /// The winner is held against `reference`, if that is a structure; else against the better BVH of obvhs, if that is not the winner;
 /// else against the one that comes next.
 pub fn winner(records: &[Record], reference: Option<&str>) -> Option<Winner> {
-    let labels = names(records, |r| &r.label);
+    let labels = distinct(records.iter().map(|r| &r.label));
     let of = |label: &str| -> Vec<&Record> { records.iter().filter(|r| r.label == label).collect() };
     let cases = labels.iter().map(|label| of(label).len()).max()?;
     let whole: Vec<&String> = labels
@@ -142,10 +137,11 @@ pub fn winner(records: &[Record], reference: Option<&str>) -> Option<Winner> {
     let ratio = |one: &str, other: &str| ratio(one, other).map(|by| by.ratio_among(looks));
     let by = ratio(best, next)?;
 
-    let over = match (names(records, |r| &r.scene).len(), names(records, |r| &r.workload).len()) {
-        (1, 1) => String::new(),
-        (scenes, kinds) => format!("Over {} and {} of rays, ", plural(scenes, "scene"), plural(kinds, "kind")),
-    };
+    let over =
+        match (distinct(records.iter().map(|r| &r.scene)).len(), distinct(records.iter().map(|r| &r.workload)).len()) {
+            (1, 1) => String::new(),
+            (scenes, kinds) => format!("Over {} and {} of rays, ", plural(scenes, "scene"), plural(kinds, "kind")),
+        };
     // One epoch decides nothing.
     let decided = by.interval.is_some() && !by.holds(1.0);
     // Who comes second may be as fast.

@@ -1,12 +1,11 @@
 //! One rank of all structures, and the counts that explain it.
 
 use super::reference::{Reference, cell};
-use super::table::names;
 use super::{speed, twins};
 use crate::measure::{Estimate, geometric_mean};
 use crate::report::number::{figures, plural};
-use crate::report::words::{distinct, explained, interval, listed, scene_name};
-use crate::report::{Cell, Record, Statement, Table, Tone};
+use crate::report::words::{distinct, each_once, explained, interval, listed, scene_name};
+use crate::report::{Record, Statement, Table, Tone};
 use crate::triangle::{EdgeF64, Exact, MollerTrumboreF64, TriangleTest};
 
 /// The triangle tests in double precision and beyond. All others round in single precision.
@@ -51,14 +50,9 @@ pub struct Ranks {
 /// fewer than two structures.
 pub fn ranks(records: &[Record]) -> Option<Ranks> {
     let reference = Reference::of(records, None).pop()?;
-    let all = names(records, |r| &r.label);
-    let mut cells: Vec<(String, String)> = vec![];
-    for record in records.iter().filter(|r| reference.rival(records, r).is_some()) {
-        let cell = (record.scene.clone(), record.workload.clone());
-        if !cells.contains(&cell) {
-            cells.push(cell);
-        }
-    }
+    let all = distinct(records.iter().map(|r| &r.label));
+    let related = records.iter().filter(|r| reference.rival(records, r).is_some());
+    let cells = each_once(related.map(|r| (r.scene.clone(), r.workload.clone())));
     let find = |label: &str, (scene, workload): &(String, String)| {
         let is = |r: &&Record| r.label == label && r.scene == *scene && r.workload == *workload;
         records.iter().find(is).filter(|r| r.mrays_per_s.is_some())
@@ -131,22 +125,23 @@ impl Ranks {
     }
 
     fn table(&self, title: &str, rank: &Rank, over: &str) -> Table {
-        let known = |x: Option<f64>| x.map_or(Cell::blank(), |x| figures(x).into());
+        let known = |x: Option<f64>| x.map(figures).into();
         let best = rank.rows.first().map(|row| row.label.clone());
-        let rows = rank.rows.iter().map(|row| {
-            let tone = if Some(&row.label) == best.as_ref() { Tone::Best } else { Tone::Plain };
-            vec![
-                Cell::from(row.label.as_str()),
-                cell(row.speed).with(tone),
-                known(row.tests),
-                known(row.steps),
-                known(row.instructions),
-                known(row.branch_misses),
-                known(row.bytes_per_triangle),
-            ]
-        });
+        let tone = |row: &Ranked| if Some(&row.label) == best.as_ref() { Tone::Best } else { Tone::Plain };
         let speed = format!("x {}", self.reference.name());
-        let columns = ["structure", &speed, "tests", "steps", "instructions", "branch misses", "bytes a triangle"];
+        let table = Table::of(
+            title,
+            &rank.rows,
+            &[
+                ("structure", &|row| row.label.as_str().into()),
+                (&speed, &|row| cell(row.speed).with(tone(row))),
+                ("tests", &|row| known(row.tests)),
+                ("steps", &|row| known(row.steps)),
+                ("instructions", &|row| known(row.instructions)),
+                ("branch misses", &|row| known(row.branch_misses)),
+                ("bytes a triangle", &|row| known(row.bytes_per_triangle)),
+            ],
+        );
         let mut notes = vec![
             over.to_owned(),
             format!(
@@ -162,7 +157,7 @@ impl Ranks {
         if !left.is_empty() {
             notes.push(format!("Not ranked, without a time in half of the cells or more: {}.", listed(&left)));
         }
-        explained(Table::new(title, columns, rows).noted(notes).without_blank_columns())
+        explained(table.noted(notes).without_blank_columns())
     }
 
     /// The fastest of each rank, and what right answers cost.
@@ -239,20 +234,16 @@ impl Ranks {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::example;
+    use crate::report::timed_example;
 
     fn record(scene: &str, label: &str, ns: f64) -> Record {
         let test = label.split("test=").nth(1).unwrap_or(if label.starts_with("obvhs") { "native" } else { "exact" });
         Record {
             scene: scene.into(),
-            label: label.into(),
-            structure: label.split(':').next().unwrap().into(),
             triangle_test: test.into(),
             mrays_per_s: Some(1e3 / ns),
-            samples_ns: [1.0, 1.01, 0.99, 1.02, 1.0].map(|f| f * ns).into(),
-            epochs: 5,
             tests_per_ray: Some(ns),
-            ..example()
+            ..timed_example(label, "primary", &[1.0, 1.01, 0.99, 1.02, 1.0].map(|f| f * ns), 5)
         }
     }
 

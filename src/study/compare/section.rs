@@ -5,9 +5,7 @@ use crate::measure::Estimate;
 use crate::report::document::{Art, Block, Figure};
 use crate::report::number::count;
 use crate::report::plot::{Bar, BarGroup, Bars, Chart};
-use crate::report::words::command_line;
-use crate::report::words::{distinct, listed, slug};
-use crate::report::words::{interval, scene_name};
+use crate::report::words::{command_line, distinct, interval, listed, scene_name, slug};
 use crate::report::{Record, Statement, Table};
 use crate::study::{BRUTE_FORCE, REPORT_TREE, documented_defect};
 

@@ -18,8 +18,9 @@ use crate::runner::Program;
 use crate::scene::{Scene, WorkloadKind};
 use crate::study::args::{Measuring, Scenes, Structures, WORKLOADS, with_twin};
 use crate::study::epoch::{self, Asked, Epoch, Settings, troubles};
+use crate::study::grouped::grouped;
 use crate::study::{
-    BRUTE_FORCE, Context, Data, Effort, Plan, Printed, RaySource, Refused, SceneId, Study, Trouble, ViewArgs, left_out,
+    BRUTE_FORCE, Context, Data, Plan, Printed, RaySource, Refused, SceneId, Study, Trouble, ViewArgs, left_out,
     replayed, sources,
 };
 
@@ -78,21 +79,10 @@ const QUICK_CHECKS: usize = 1 << 28;
 /// gain from more of them, and the run would be about it alone.
 const SLOWEST: f64 = 4.0;
 
-/// The structures of `study all`: all names, and each again over a triangle test of the other precision.
-const FIELD: [&str; 9] = [
-    sources::ALL,
-    "median-kd:test=moller-trumbore",
-    "sah-kd:test=moller-trumbore",
-    "sah-kd-wide:test=moller-trumbore",
-    "sah-kd-tight:test=moller-trumbore",
-    "sah-hybrid:test=moller-trumbore",
-    "sah-bvh:test=moller-trumbore",
-    "obvhs-bvh2:test=exact",
-    "obvhs-cwbvh:test=exact",
-];
-
-/// Seconds of an epoch of so many.
-const FIELD_BUDGET: u32 = 4;
+/// The options of `study all`: all names, and each again over a triangle test of the other precision.
+const FIELD: &str = "-s all -s median-kd:test=moller-trumbore -s sah-kd:test=moller-trumbore -s sah-kd-wide:test=moller-trumbore \
+    -s sah-kd-tight:test=moller-trumbore -s sah-hybrid:test=moller-trumbore -s sah-bvh:test=moller-trumbore \
+    -s obvhs-bvh2:test=exact -s obvhs-cwbvh:test=exact --epochs 4 --runs 1 --budget 4";
 
 impl CompareArgs {
     /// The structures, the reference among them, and its label.
@@ -171,6 +161,8 @@ impl Study for CompareStudy {
     const QUESTION: &'static str = "How fast is every structure, and is it right?";
     const SCENE_BY_SCENE: bool = true;
     const KEPT: bool = false;
+    const FULL: &'static str = FIELD;
+    const QUICK: &'static str = "cube torus --rays 16384 --epochs 2 --runs 2 --budget 1";
 
     type Args = CompareArgs;
     type Case = Epoch;
@@ -178,27 +170,6 @@ impl Study for CompareStudy {
 
     fn command() -> String {
         "sahara compare --dir runs".into()
-    }
-
-    fn args(effort: Effort) -> CompareArgs {
-        let own = Measuring::of(effort);
-        let (scenes, rays, field, measuring) = match effort {
-            Effort::Full => (Scenes::default(), usize::MAX, &FIELD[..], Measuring { budget: FIELD_BUDGET, ..own }),
-            Effort::Quick => (Scenes::named(&["cube", "torus"]), QUICK_RAYS, &[][..], own),
-        };
-        CompareArgs {
-            scenes,
-            from: ViewArgs::default(),
-            structures: Structures { structure: field.iter().map(|&spec| spec.into()).collect(), quality: None },
-            runner: vec![],
-            runner_limit: RUNNER_LIMIT,
-            reference: None,
-            workload: vec![],
-            rays: RaySource::Count(rays),
-            measuring,
-            quick: false,
-            wide: false,
-        }
     }
 
     fn plan(args: &CompareArgs, registry: &Registry) -> anyhow::Result<Plan<Epoch>> {
@@ -222,10 +193,6 @@ impl Study for CompareStudy {
                 .push("Coarse: few rays, few checks and up to three epochs. Without --quick it is measured.".into());
         }
         Ok(plan)
-    }
-
-    fn named(args: &mut Self::Args) -> Option<&mut Vec<String>> {
-        Some(&mut args.scenes.scenes)
     }
 
     fn epoch(case: &mut Epoch) -> Option<(&mut Epoch, usize)> {
@@ -291,14 +258,8 @@ impl Study for CompareStudy {
         let all = distinct(answer.records.iter().flat_map(|r| &r.provenance.warnings));
         // Those of several scenes that differ in their numbers alone are one.
         let words = |warning: &str| warning.replace(|c: char| c.is_ascii_digit() || c == '.', "");
-        let mut warnings: Vec<(String, Vec<String>)> = vec![];
-        for warning in all {
-            match warnings.iter_mut().find(|(of, _)| *of == words(&warning)) {
-                Some((_, alike)) => alike.push(warning),
-                None => warnings.push((words(&warning), vec![warning])),
-            }
-        }
-        let told = |(_, alike): (String, Vec<String>)| match alike.len() {
+        let warnings = grouped(all, |a, b| words(a) == words(b));
+        let told = |alike: Vec<String>| match alike.len() {
             1 => alike[0].clone(),
             n => format!("{} (the first of {n} scenes of which that is so)", alike[0]),
         };
@@ -373,6 +334,8 @@ fn summary(answer: &Compared, references: &[Reference]) -> Vec<Table> {
 mod tests {
     use super::*;
     use crate::report::example;
+    use crate::study::list::args;
+    use crate::study::{Chosen, Effort};
 
     #[test]
     fn warnings_that_differ_in_their_numbers_alone_are_one() {
@@ -390,11 +353,12 @@ mod tests {
     #[test]
     fn study_all_compares_every_structure_with_right_answers_and_in_single_precision() {
         let registry = Registry::builtin();
-        let (chosen, _) = CompareStudy::args(Effort::Full).chosen(&registry).unwrap();
+        let args = args::<CompareStudy>(Chosen::Preset(Effort::Full, vec![])).unwrap();
+        let (chosen, _) = args.chosen(&registry).unwrap();
         let labels: Vec<&str> = chosen.iter().map(|choice| choice.label.as_str()).collect();
         for name in registry.names() {
             assert!(labels.contains(&name), "{name} is not among {labels:?}");
         }
-        assert_eq!(labels.len(), registry.names().len() + FIELD.len() - 1);
+        assert_eq!(labels.len(), registry.names().len() + FIELD.matches("-s ").count() - 1);
     }
 }

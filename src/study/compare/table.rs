@@ -79,8 +79,8 @@ pub fn refusals(refused: &[Refused]) -> Vec<String> {
 /// `references`.
 pub fn scene_table(records: &[Record], references: &[Reference], refused: &[Refused]) -> Table {
     let Some(first) = records.first() else { return Table::default() };
-    let workloads = names(records, |r| &r.workload);
-    let structures = names(records, |r| &r.label);
+    let workloads = distinct(records.iter().map(|r| &r.workload));
+    let structures = distinct(records.iter().map(|r| &r.label));
     let of = |label: &str| -> Vec<&Record> { records.iter().filter(|r| r.label == label).collect() };
 
     let noise = twins(records);
@@ -99,11 +99,11 @@ pub fn scene_table(records: &[Record], references: &[Reference], refused: &[Refu
         .iter()
         .map(|label| {
             let of = of(label);
-            let known = |x: Option<f64>| x.map_or(Cell::blank(), |x| figures(x).into());
+            let known = |x: Option<f64>| x.map(figures).into();
             let mut row: Vec<Cell> = vec![
                 label.as_str().into(),
                 duration(of[0].build_ns as f64).into(),
-                of[0].build_peak_bytes.map_or(Cell::blank(), |peak| bytes(peak).into()),
+                of[0].build_peak_bytes.map(bytes).into(),
                 // A program that does not know its memory says 0.
                 if of[0].bytes > 0 { bytes(of[0].bytes).into() } else { Cell::blank() },
                 known(of[0].tests_per_ray),
@@ -121,7 +121,7 @@ pub fn scene_table(records: &[Record], references: &[Reference], refused: &[Refu
                 cell(if whole { Reference::ratio(&pairs, &noise) } else { None })
             }));
             let checked = of.iter().filter(|r| r.declined.is_none()).map(|r| r.checked_rays).min().flatten();
-            row.push(checked.map_or(Cell::blank(), |n| count(n as u64).into()));
+            row.push(checked.map(|n| count(n as u64)).into());
             row.push(share(&of).into());
             row
         })
@@ -165,7 +165,7 @@ pub(super) fn control(records: &[Record]) -> Option<String> {
 /// A footnote for each baseline that gives wrong answers for a documented reason.
 fn defects(records: &[Record]) -> Vec<String> {
     let mut notes = vec![];
-    for label in names(records, |r| &r.label) {
+    for label in distinct(records.iter().map(|r| &r.label)) {
         let wrong = |r: &&Record| r.label == label && r.structure_errors.unwrap_or(0) > 0;
         let share = |r: &Record| {
             let (errors, checked) = (r.structure_errors.unwrap_or(0), r.checked_rays.unwrap_or(0));
@@ -178,16 +178,6 @@ fn defects(records: &[Record]) -> Vec<String> {
         }
     }
     notes
-}
-
-pub(super) fn names<'a>(records: &'a [Record], name: impl Fn(&'a Record) -> &'a String) -> Vec<String> {
-    let mut names: Vec<String> = vec![];
-    for record in records {
-        if !names.contains(name(record)) {
-            names.push(name(record).clone());
-        }
-    }
-    names
 }
 
 /// The greatest speed on `workload` among the records that `counts` admits.

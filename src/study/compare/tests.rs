@@ -7,10 +7,11 @@ use super::*;
 use crate::accel::{Accel, BuildError, Footprint, Observed, Observer, TreeShape};
 use crate::brute_force::BruteForce;
 use crate::geometry::{Hit, Mesh, Ray};
-use crate::measure::{Provenance, SystemClock, Threads};
+use crate::measure::{Provenance, SystemClock};
 use crate::registry::Registry;
 use crate::scene::{Builtin, WorkloadKind};
 use crate::study::args::with_twin;
+use crate::study::epoch::tests::settings;
 use crate::study::epoch::{Asked, Epoch, Settings, join, measure};
 use crate::study::{Study, StudyError};
 use crate::triangle::{MollerTrumbore, TriangleTest};
@@ -92,15 +93,11 @@ fn compared(specs: &[&str]) -> Result<Compared, StudyError> {
     let kinds = vec![WorkloadKind::Primary, WorkloadKind::Mirror, WorkloadKind::Shadow];
     let settings = Settings {
         structures: with_twin(chosen),
-        guide: registry.choose("sah-kd").unwrap(),
         asked: Asked::Kinds(kinds, 1024),
-        runs: 2,
         budget_ns: 60_000_000_000,
         slowest: 4.0,
-        check_tests: crate::study::check::TESTS,
         detailed: true,
-        seed: 1,
-        threads: Threads::new(1).unwrap(),
+        ..settings(&registry, &[])
     };
     let scene = Builtin::find("cube").unwrap().scene(None).unwrap();
     let clock = SystemClock::start();

@@ -11,15 +11,15 @@ mod table;
 #[cfg(test)]
 mod tests;
 
-use super::args::WORKLOADS;
-use super::epoch::{Epoch, troubles};
+use super::args::{FULL_EPOCHS, QUICK_EPOCHS, WORKLOADS};
+use super::epoch::Epoch;
 use super::epoch_args::EpochArgs;
-use super::{Context, Data, Effort, Plan, Study, Trouble};
+use super::{Context, Data, Plan, Study};
 use crate::registry::Registry;
 use crate::report::Table;
 use crate::report::document::Block;
 
-pub use result::{Family, Observation, Off, Row, result, rows};
+pub use result::{Family, Observation, Off, result};
 use table::LEGEND;
 pub use table::tables;
 
@@ -48,21 +48,15 @@ pub struct CostsStudy;
 impl Study for CostsStudy {
     const NAME: &'static str = "costs";
     const QUESTION: &'static str = "What does a step, and what does a triangle test cost on this machine?";
+    const FULL: &'static str = FULL_EPOCHS;
+    const QUICK: &'static str = QUICK_EPOCHS;
 
     type Args = EpochArgs;
     type Case = Epoch;
     type Answer = Vec<Family>;
 
-    fn args(effort: Effort) -> EpochArgs {
-        EpochArgs::of(effort)
-    }
-
     fn plan(args: &EpochArgs, registry: &Registry) -> anyhow::Result<Plan<Epoch>> {
         args.plan(registry, &STRUCTURES, &WORKLOADS)
-    }
-
-    fn named(args: &mut EpochArgs) -> Option<&mut Vec<String>> {
-        Some(args.scenes())
     }
 
     fn epoch(case: &mut Epoch) -> Option<(&mut Epoch, usize)> {
@@ -81,12 +75,8 @@ impl Study for CostsStudy {
         LEGEND.map(String::from).into()
     }
 
-    fn troubles(cases: &[Epoch]) -> Vec<Trouble> {
-        troubles(cases)
-    }
-
     fn data(answer: &Vec<Family>) -> Vec<Data> {
-        vec![Data::new(Self::NAME, &rows(answer))]
+        vec![Data::nested(Self::NAME, answer, &["family"], "observations")]
     }
 
     fn section(answer: &Vec<Family>, command: &str) -> Vec<Block> {

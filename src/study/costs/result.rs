@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use super::regression::{Costs, regress};
 use crate::measure::{Estimate, Rerun, Variance, median};
+use crate::report::words::each_once;
 use crate::study::epoch::{Epoch, lines};
 
 /// A structure on one kind of rays of one scene.
@@ -113,12 +114,7 @@ pub(super) fn costs(family: &str, mut observations: Vec<Observation>) -> Option<
     if observations.len() < FEWEST {
         return None;
     }
-    let mut scenes: Vec<String> = vec![];
-    for observation in &observations {
-        if !scenes.iter().any(|known| known == scene(observation)) {
-            scenes.push(scene(observation).into());
-        }
-    }
+    let scenes = each_once(observations.iter().map(|observation| scene(observation).to_owned()));
     let row = |o: &Observation| [o.steps_per_ray, o.blocks_per_ray, o.ns_per_ray];
     let on = |kept: &[usize]| {
         let kept = |o: &&Observation| kept.iter().any(|&i| scenes[i] == scene(o));
@@ -178,21 +174,4 @@ fn r_squared(observations: &[Observation]) -> f64 {
     let all: f64 = logs.iter().map(|log| square(log - mean)).sum();
     let rest: f64 = logs.iter().zip(observations).map(|(log, o)| square(log - libm::log(o.predicted_ns))).sum();
     1.0 - rest / all
-}
-
-/// One observation, for tables that machines read.
-#[derive(Clone, Debug, Serialize)]
-pub struct Row<'a> {
-    pub family: &'a str,
-    #[serde(flatten)]
-    pub observation: &'a Observation,
-}
-
-/// All observations of all families.
-pub fn rows(families: &[Family]) -> Vec<Row<'_>> {
-    let mut rows = vec![];
-    for Family { family, observations, .. } in families {
-        rows.extend(observations.iter().map(|observation| Row { family, observation }));
-    }
-    rows
 }

@@ -26,21 +26,16 @@ pub fn blocks(families: &[Family], command: &str) -> Vec<Block> {
 
 fn figure(families: &[Family], command: &str) -> Figure {
     let all: Vec<&Observation> = families.iter().flat_map(|family| &family.observations).collect();
-    let dots = |structure: &String| Line {
-        label: structure.clone(),
-        note: String::new(),
-        points: all
-            .iter()
-            .filter(|o| bare(&o.structure) == *structure && o.foreseen_ns.unwrap_or(o.predicted_ns) > 0.0)
-            .map(|o| CurvePoint { x: o.foreseen_ns.unwrap_or(o.predicted_ns), y: o.ns_per_ray, band: None })
-            .collect(),
-        mark: Mark::Dots,
+    let predicted = |o: &Observation| o.foreseen_ns.unwrap_or(o.predicted_ns);
+    let dots = |structure: &String| {
+        let own = all.iter().filter(|o| bare(&o.structure) == *structure && predicted(o) > 0.0);
+        Line::new(structure, Mark::Dots, own.map(|o| CurvePoint::exact(predicted(o), o.ns_per_ray)))
     };
     // Without keys: those of one family differ little, and eyes tell few colours apart.
     let names: Vec<String> = all.iter().map(|o| bare(&o.structure).into()).collect();
     let structures = distinct(names.iter());
     let rows = all.iter().map(|o| {
-        let [measured, predicted] = [o.ns_per_ray, o.foreseen_ns.unwrap_or(o.predicted_ns)].map(figures);
+        let [measured, predicted] = [o.ns_per_ray, predicted(o)].map(figures);
         [o.structure.clone(), o.scene.clone(), o.workload.clone(), measured, predicted]
     });
     let told = families.iter().map(|family| {

@@ -3,9 +3,9 @@
 use super::{Family, Observation, Off};
 use crate::kdtree::KdConfig;
 use crate::measure::Estimate;
+use crate::report::Table;
 use crate::report::number::{duration, figures};
 use crate::report::words::interval;
-use crate::report::{Cell, Table};
 use crate::study::SAH_TREE;
 
 /// What the columns mean.
@@ -37,15 +37,14 @@ fn cost(x: Estimate) -> String {
 
 fn costs(families: &[Family]) -> Table {
     let rows = families.iter().map(|family| {
-        let off =
-            |off: Option<Off>| off.map_or(Cell::blank(), |off| format!("{:.2}, {:.2}", off.median, off.worst).into());
+        let off = |off: Option<Off>| off.map(|off| format!("{:.2}, {:.2}", off.median, off.worst)).into();
         vec![
             family.family.as_str().into(),
             format!("{}, {}", family.observations.len(), family.scenes).into(),
             cost(family.ray_ns).into(),
             cost(family.step_ns).into(),
             cost(family.block_ns).into(),
-            family.steps_per_block.map_or(Cell::blank(), |ratio| cost(ratio).into()),
+            family.steps_per_block.map(cost).into(),
             format!("{:.3}", family.r_squared).into(),
             off(family.known),
             off(family.foreseen),

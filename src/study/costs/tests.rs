@@ -40,7 +40,7 @@ fn a_family_has_the_costs_that_its_times_are_made_of_however_full_blocks_are() {
         assert_eq!(family.scenes, 8);
     }
     assert_eq!(tables(&families).len(), 2);
-    assert_eq!(rows(&families).len(), 16);
+    assert_eq!(CostsStudy::data(&families)[0].rows.len(), 16);
 }
 
 #[test]

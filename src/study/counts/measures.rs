@@ -10,8 +10,8 @@ use crate::measure::Threads;
 use crate::registry::Choice;
 use crate::scene::{Sampling, Scene, Workload, WorkloadKind};
 use crate::study::args::Structures;
-use crate::study::check::declined;
-use crate::study::counted::{Counted, Events};
+use crate::study::bench::check::declined;
+use crate::study::bench::counted::{Counted, Events};
 use crate::study::{PANICKED, Refused, Stage, StudyError, guarded};
 
 pub(super) struct CountSettings {

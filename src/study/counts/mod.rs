@@ -13,12 +13,11 @@ mod tests;
 use serde_json::json;
 
 use super::args::{Scenes, Structures, WORKLOADS};
-use super::plan::{Measure, named_notes};
-use super::{Context, Data, Effort, Plan, Refused, Study, Trouble, ViewArgs, left_out, sources};
+use super::plan::{Measure, named_notes, scene_key};
+use super::{Context, Data, Plan, Refused, Study, Trouble, ViewArgs, left_out, sources};
 use crate::measure::{Provenance, Threads};
 use crate::registry::Registry;
 use crate::report::number::count;
-use crate::report::words::scene_name;
 use crate::report::{Export, Table, to_json};
 use crate::scene::{Scene, WorkloadKind};
 use end_point_overlap::MOST;
@@ -76,6 +75,7 @@ impl Study for CountsStudy {
         "What of a structure does no machine change: nodes, references, overlap, steps and tests?";
     const SCENE_BY_SCENE: bool = true;
     const KEPT: bool = false;
+    const QUICK: &'static str = "cube torus --rays 1024";
 
     type Args = CountsArgs;
     type Case = Counts;
@@ -83,25 +83,6 @@ impl Study for CountsStudy {
 
     fn command() -> String {
         format!("sahara study {} --dir runs", Self::NAME)
-    }
-
-    fn args(effort: Effort) -> CountsArgs {
-        let (scenes, rays) = match effort {
-            Effort::Full => (Scenes::default(), RAYS),
-            Effort::Quick => (Scenes::named(&["cube", "torus"]), 1024),
-        };
-        let (from, structures, workload) = (ViewArgs::default(), Structures::default(), vec![]);
-        CountsArgs {
-            scenes,
-            from,
-            structures,
-            workload,
-            rays,
-            seed: 1,
-            threads: 1,
-            no_overlap: false,
-            histograms: false,
-        }
     }
 
     fn plan(args: &CountsArgs, registry: &Registry) -> anyhow::Result<Plan<Counts>> {
@@ -127,9 +108,7 @@ impl Study for CountsStudy {
             "seed": args.seed,
             "overlap": settings.overlap,
         });
-        let key =
-            |scene: &Scene| format!("{} {}", scene_name(&scene.name, !scene.stand_ins.is_empty()), &scene.hash()[..16]);
-        let names: Vec<(String, String)> = scenes.iter().map(|scene| (scene.name.clone(), key(scene))).collect();
+        let names: Vec<(String, String)> = scenes.iter().map(|scene| (scene.name.clone(), scene_key(scene))).collect();
         let mut notes = named_notes(&scenes, |scene| &scene.notes);
         let estimated = |scene: &&Scene| settings.overlap && scene.mesh.solid().count() > MOST;
         notes.extend(scenes.iter().filter(estimated).map(estimated_note));
@@ -139,10 +118,6 @@ impl Study for CountsStudy {
         let measure: Measure<Counts> =
             Box::new(move |case, _, progress| count_scene(&scenes[case.scene], &settings, progress));
         Ok(Plan { notes, warnings, inputs: args.scenes.files(), ..Plan::of_scenes(&kept, threads, names, measure) })
-    }
-
-    fn named(args: &mut Self::Args) -> Option<&mut Vec<String>> {
-        Some(&mut args.scenes.scenes)
     }
 
     fn answer(cases: &[Counts], context: &Context<Self>) -> Counts {

@@ -5,6 +5,7 @@ use crate::accel::Histogram;
 use crate::report::number::{bytes, count, figures};
 use crate::report::{Cell, Table};
 use crate::study::Refused;
+use crate::study::grouped::grouped;
 
 /// What the columns mean.
 pub const LEGEND: [&str; 4] = [
@@ -29,13 +30,9 @@ pub fn tables(measures: &[Measures], refused: &[Refused]) -> Vec<Table> {
         }];
     };
     let mut tables = vec![trees(first, measures, refused), looks(measures)];
-    let mut kinds: Vec<&RayMeasures> = vec![];
-    for rays in measures.iter().flat_map(|one| &one.rays) {
-        if kinds.iter().all(|kind| kind.workload != rays.workload) {
-            kinds.push(rays);
-        }
-    }
-    tables.extend(kinds.into_iter().map(|kind| of_rays(first, kind, measures)));
+    let rays = measures.iter().flat_map(|one| &one.rays);
+    let kinds = grouped(rays, |a, b| a.workload == b.workload);
+    tables.extend(kinds.into_iter().map(|kind| of_rays(first, kind[0], measures)));
     tables
 }
 
@@ -44,67 +41,49 @@ fn refusals(refused: &[Refused]) -> Vec<String> {
 }
 
 fn known(x: Option<f64>) -> Cell {
-    x.map_or(Cell::blank(), |x| figures(x).into())
+    x.map(figures).into()
 }
 
 fn trees(first: &Measures, measures: &[Measures], refused: &[Refused]) -> Table {
     let number = |n: usize| Cell::from(count(n as u64));
-    let rows = measures.iter().map(|Measures { structure, tree, .. }| {
-        vec![
-            structure.as_str().into(),
-            number(tree.inner_nodes),
-            number(tree.leaves),
-            number(tree.empty_leaves),
-            number(tree.references),
-            known(tree.duplication),
-            known(tree.mean_leaf),
-            number(tree.largest_leaf),
-            number(tree.depth),
-            known(tree.sah_cost),
-            known(tree.end_point_overlap),
-            bytes(tree.bytes).into(),
-        ]
-    });
     let stand_in = if first.stand_in { ", stand-in" } else { "" };
-    Table::new(
+    Table::of(
         format!("{}: {} triangles{stand_in}", first.scene, count(first.triangles as u64)),
-        [
-            "structure",
-            "inner",
-            "leaves",
-            "empty",
-            "references",
-            "x",
-            "mean",
-            "largest",
-            "depth",
-            "SAH",
-            "EPO",
-            "memory",
+        measures,
+        &[
+            ("structure", &|one| one.structure.as_str().into()),
+            ("inner", &|one| number(one.tree.inner_nodes)),
+            ("leaves", &|one| number(one.tree.leaves)),
+            ("empty", &|one| number(one.tree.empty_leaves)),
+            ("references", &|one| number(one.tree.references)),
+            ("x", &|one| known(one.tree.duplication)),
+            ("mean", &|one| known(one.tree.mean_leaf)),
+            ("largest", &|one| number(one.tree.largest_leaf)),
+            ("depth", &|one| number(one.tree.depth)),
+            ("SAH", &|one| known(one.tree.sah_cost)),
+            ("EPO", &|one| known(one.tree.end_point_overlap)),
+            ("memory", &|one| bytes(one.tree.bytes).into()),
         ],
-        rows,
     )
     .noted(refusals(refused))
 }
 
 fn of_rays(first: &Measures, kind: &RayMeasures, measures: &[Measures]) -> Table {
-    let rows = measures.iter().filter_map(|one| {
-        let rays = one.rays.iter().find(|rays| rays.workload == kind.workload)?;
-        Some(vec![
-            one.structure.as_str().into(),
-            known(rays.tests_per_ray),
-            known(rays.steps_per_ray),
-            known(rays.leaf_steps_per_ray),
-            known(rays.empty_leaf_steps_per_ray),
-            known(rays.tests_over_minimum),
-            known(rays.branch_misses_per_ray),
-        ])
-    });
+    let is_of_kind = |rays: &&RayMeasures| rays.workload == kind.workload;
+    let asked = measures.iter().filter_map(|one| Some((&one.structure, one.rays.iter().find(is_of_kind)?)));
     let (rays, hit) = (count(kind.rays as u64), figures(kind.hit_rate * 100.0));
-    Table::new(
+    Table::of(
         format!("{}, {} rays ({}): {rays}, of which {hit} % hit", first.scene, kind.workload, kind.query.name()),
-        ["structure", "tests", "steps", "leaves", "empty", "x minimum", "branch misses"],
-        rows,
+        asked,
+        &[
+            ("structure", &|(structure, _)| structure.as_str().into()),
+            ("tests", &|(_, rays)| known(rays.tests_per_ray)),
+            ("steps", &|(_, rays)| known(rays.steps_per_ray)),
+            ("leaves", &|(_, rays)| known(rays.leaf_steps_per_ray)),
+            ("empty", &|(_, rays)| known(rays.empty_leaf_steps_per_ray)),
+            ("x minimum", &|(_, rays)| known(rays.tests_over_minimum)),
+            ("branch misses", &|(_, rays)| known(rays.branch_misses_per_ray)),
+        ],
     )
     .without_blank_columns()
 }

@@ -19,9 +19,9 @@ mod tests;
 
 use serde::{Deserialize, Serialize};
 
-use super::args::{Measuring, Rays, Structures, with_twin};
-use super::epoch::{Epoch, troubles};
-use super::{Context, Data, Effort, Plan, Study, StudyError, Trouble};
+use super::args::{FULL_EPOCHS, Measuring, Rays, Structures, with_twin};
+use super::epoch::Epoch;
+use super::{Context, Data, Plan, Study, StudyError};
 use crate::measure::spread;
 use crate::registry::Registry;
 use crate::report::document::Block;
@@ -31,7 +31,7 @@ use crate::scene::{Scene, Workload, WorkloadKind};
 pub use complexity::complexity;
 pub use curve::Crossing;
 pub use family::{ROOTS, member};
-pub use result::{Member, Race, Row, result, rows};
+pub use result::{Member, Race, result};
 pub use table::tables;
 use table::verdict;
 
@@ -80,15 +80,12 @@ const PROBES: usize = 2048;
 impl Study for CrossoverStudy {
     const NAME: &'static str = "crossover";
     const QUESTION: &'static str = "Does a KD-tree overtake a BVH where rays would meet more surfaces?";
+    const FULL: &'static str = FULL_EPOCHS;
+    const QUICK: &'static str = "--rays 1024 --epochs 2 --runs 2 --budget 1";
 
     type Args = CrossoverArgs;
     type Case = MemberEpoch;
     type Answer = Vec<Race>;
-
-    fn args(effort: Effort) -> CrossoverArgs {
-        let (rays, measuring) = (Rays::of(effort), Measuring::of(effort));
-        CrossoverArgs { deepest: DEEPEST, structures: Structures::default(), rays, measuring }
-    }
 
     fn plan(args: &CrossoverArgs, registry: &Registry) -> anyhow::Result<Plan<MemberEpoch>> {
         let mut own = PAIRS.as_flattened().to_vec();
@@ -130,12 +127,8 @@ impl Study for CrossoverStudy {
         tables(answer)
     }
 
-    fn troubles(cases: &[MemberEpoch]) -> Vec<Trouble> {
-        troubles(cases.iter().map(|case| &case.epoch))
-    }
-
     fn data(answer: &Vec<Race>) -> Vec<Data> {
-        vec![Data::new(Self::NAME, &rows(answer))]
+        vec![Data::nested(Self::NAME, answer, &["kd", "bvh", "workload"], "members")]
     }
 
     fn statements(answer: &Vec<Race>) -> Vec<Statement> {

@@ -100,22 +100,3 @@ fn race(kd: String, bvh: String, workload: &str, entries: &[Entry], noise: &AaNo
         trend: curve.trend(),
     }
 }
-
-/// One pair on one member, for tables that machines read.
-#[derive(Clone, Debug, Serialize)]
-pub struct Row<'a> {
-    pub kd: &'a str,
-    pub bvh: &'a str,
-    pub workload: &'a str,
-    #[serde(flatten)]
-    pub member: &'a Member,
-}
-
-/// All members of all races.
-pub fn rows(races: &[Race]) -> Vec<Row<'_>> {
-    let mut rows = vec![];
-    for Race { kd, bvh, workload, members, .. } in races {
-        rows.extend(members.iter().map(|member| Row { kd, bvh, workload, member }));
-    }
-    rows
-}

@@ -48,27 +48,17 @@ pub fn blocks(races: &[Race], command: &str) -> Vec<Block> {
 }
 
 fn figure(races: &[&Race], command: &str) -> Figure {
-    let line = |race: &&Race| Line {
-        label: format!("{} / {}", bare(&race.kd), bare(&race.bvh)),
-        note: String::new(),
-        points: race
-            .members
-            .iter()
-            .map(|m| CurvePoint {
-                x: m.complexity,
-                y: m.ratio.estimate,
-                band: m.ratio.low().zip(m.ratio.high()).map(|(low, high)| [low, high]),
-            })
-            .collect(),
-        mark: Mark::Both,
+    let pair = |race: &Race| format!("{} / {}", bare(&race.kd), bare(&race.bvh));
+    let line = |race: &&Race| {
+        Line::new(&pair(race), Mark::Both, race.members.iter().map(|m| CurvePoint::of(m.complexity, m.ratio)))
     };
     let rows = races.iter().flat_map(|race| {
-        let pair = format!("{} / {}", bare(&race.kd), bare(&race.bvh));
+        let pair = pair(race);
         race.members.iter().map(move |m| [pair.clone(), m.layers.to_string(), figures(m.complexity), interval(m.ratio)])
     });
     let told = races.iter().filter_map(|race| {
         let (first, last) = race.members.first().zip(race.members.last())?;
-        let (pair, [from, to]) = (line(race).label, [first, last].map(|m| interval(m.ratio)));
+        let (pair, [from, to]) = (pair(race), [first, last].map(|m| interval(m.ratio)));
         Some(format!(
             "{pair}: {from} at depth complexity {}, {to} at {}",
             figures(first.complexity),

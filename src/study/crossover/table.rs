@@ -42,7 +42,7 @@ fn answers(races: &[Race]) -> Table {
         let (from, to) = ends.map_or((Cell::blank(), Cell::blank()), |(first, last)| {
             (interval(first.ratio).into(), interval(last.ratio).into())
         });
-        let trend = race.trend.map_or(Cell::blank(), |x| written(x, |x| format!("{x:.2}")).into());
+        let trend = race.trend.map(|x| written(x, |x| format!("{x:.2}"))).into();
         let pair = format!("{} / {}, {}", bare(&race.kd), bare(&race.bvh), race.workload);
         vec![pair.into(), from, to, trend, verdict(race).into()]
     });

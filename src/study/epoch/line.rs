@@ -2,6 +2,7 @@
 
 use super::{Epoch, Structure};
 use crate::measure::{AaNoise, median};
+use crate::study::grouped::grouped;
 
 /// All epochs of one structure on one kind of rays of one scene.
 #[derive(Clone, Debug, PartialEq)]
@@ -70,13 +71,7 @@ pub fn twins<'a>(epochs: impl IntoIterator<Item = &'a Epoch>) -> Twins {
 
 /// The epochs scene by scene, in their order.
 pub fn scenes<'a>(epochs: impl IntoIterator<Item = &'a Epoch>) -> Vec<Vec<&'a Epoch>> {
-    let mut scenes: Vec<Vec<&Epoch>> = vec![];
-    for epoch in epochs {
-        match scenes.iter_mut().find(|scene| scene[0].scene_hash == epoch.scene_hash) {
-            Some(scene) => scene.push(epoch),
-            None => scenes.push(vec![epoch]),
-        }
-    }
+    let mut scenes = grouped(epochs, |a, b| a.scene_hash == b.scene_hash);
     scenes.iter_mut().for_each(|scene| scene.sort_by_key(|epoch| epoch.epoch));
     scenes
 }

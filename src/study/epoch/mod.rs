@@ -18,6 +18,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::StudyError;
+use super::plan::scene_key;
 use crate::accel::Query;
 use crate::measure::{Part, Threads};
 use crate::registry::{Choice, RUNNER};
@@ -305,5 +306,5 @@ impl Epoch {
 
 /// The key of an epoch of a scene.
 pub fn key(scene: &Scene, epoch: usize) -> String {
-    format!("{} {} epoch {epoch}", scene_name(&scene.name, !scene.stand_ins.is_empty()), &scene.hash()[..16])
+    format!("{} epoch {epoch}", scene_key(scene))
 }

@@ -52,8 +52,8 @@ pub fn example(scene: &str, triangles: usize, epoch: usize, structures: &[(&str,
     }
 }
 
-fn settings(structures: &[&str]) -> Settings {
-    let registry = Registry::builtin();
+/// Settings for a moment of these structures.
+pub fn settings(registry: &Registry, structures: &[&str]) -> Settings {
     let choose = |spec: &&str| registry.choose(spec).unwrap();
     Settings {
         structures: structures.iter().map(choose).collect(),
@@ -62,7 +62,7 @@ fn settings(structures: &[&str]) -> Settings {
         runs: 2,
         budget_ns: 50_000_000,
         slowest: f64::INFINITY,
-        check_tests: crate::study::check::TESTS,
+        check_tests: crate::study::bench::check::TESTS,
         detailed: false,
         seed: 1,
         threads: Threads::new(1).unwrap(),
@@ -72,7 +72,7 @@ fn settings(structures: &[&str]) -> Settings {
 #[test]
 fn epochs_measured_in_any_order_ask_the_same_rays_and_the_first_alone_is_counted() {
     let scene = Builtin::find("torus").unwrap().scene(None).unwrap();
-    let (settings, clock) = (settings(&["median-kd", "sah-bvh"]), SystemClock::start());
+    let (settings, clock) = (settings(&Registry::builtin(), &["median-kd", "sah-bvh"]), SystemClock::start());
     let second = measure(&scene, &settings, 1, &clock, &mut |_| ()).unwrap();
     let first = measure(&scene, &settings, 0, &clock, &mut |_| ()).unwrap();
     assert_eq!((first.epoch, second.epoch, first.triangles), (0, 1, 2304));

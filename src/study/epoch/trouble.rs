@@ -1,4 +1,5 @@
 use super::Epoch;
+use crate::report::words::each_once;
 use crate::study::Trouble;
 
 /// Everything without a time, each once.
@@ -14,12 +15,8 @@ pub fn troubles<'a>(epochs: impl IntoIterator<Item = &'a Epoch>) -> Vec<Trouble>
                 let why = rays.untimed.as_ref()?;
                 Some(trouble(format!("{on}, {} rays, has no time: {why}.", rays.workload), false, rays.wrong))
             });
-            for found in refused.chain(untimed) {
-                if !troubles.contains(&found) {
-                    troubles.push(found);
-                }
-            }
+            troubles.extend(refused.chain(untimed));
         }
     }
-    troubles
+    each_once(troubles)
 }

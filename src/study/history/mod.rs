@@ -11,7 +11,7 @@ mod tests;
 
 use serde::{Deserialize, Serialize};
 
-use super::regression::{RelativeTime, relative_times};
+use super::diff::{RelativeTime, relative_times};
 use crate::measure::Provenance;
 use crate::report::Record;
 

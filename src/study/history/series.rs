@@ -2,7 +2,9 @@
 
 use super::Entry;
 use crate::measure::{Estimate, Rerun};
-use crate::study::regression::RelativeTime;
+use crate::report::words::each_once;
+use crate::study::diff::RelativeTime;
+use crate::study::grouped::grouped;
 
 /// Runs of one name on one machine, the oldest first.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,14 +27,8 @@ pub struct Step {
 
 /// The series of a history, in the order in which they begin.
 pub fn series(entries: &[Entry]) -> Vec<Series> {
-    let mut all: Vec<Vec<Entry>> = vec![];
-    for entry in entries {
-        match all.iter_mut().find(|runs| runs[0].is_of_series_of(entry)) {
-            Some(runs) => runs.push(entry.clone()),
-            None => all.push(vec![entry.clone()]),
-        }
-    }
-    all.into_iter().map(|runs| Series { changes: changes(&runs), runs }).collect()
+    let runs = grouped(entries.iter().cloned(), Entry::is_of_series_of);
+    runs.into_iter().map(|runs| Series { changes: changes(&runs), runs }).collect()
 }
 
 fn changes(runs: &[Entry]) -> Vec<Step> {
@@ -56,13 +52,7 @@ fn changes(runs: &[Entry]) -> Vec<Step> {
 impl Series {
     /// Labels of the structures, in the order in which they first appear.
     pub fn structures(&self) -> Vec<&str> {
-        let mut labels: Vec<&str> = vec![];
-        for one in self.runs.iter().flat_map(|run| &run.structures) {
-            if !labels.contains(&one.label.as_str()) {
-                labels.push(&one.label);
-            }
-        }
-        labels
+        each_once(self.runs.iter().flat_map(|run| &run.structures).map(|one| one.label.as_str()))
     }
 
     /// How many times as fast as the references a structure was in a run.

@@ -1,7 +1,7 @@
 use std::fs;
 
 use super::*;
-use crate::report::example;
+use crate::report::timed_example;
 
 const EPOCHS: usize = 6;
 
@@ -9,9 +9,8 @@ const EPOCHS: usize = 6;
 fn record(label: &str, commit: &str, ns: f64) -> Record {
     let epoch = |e: usize| 1.0 + 0.002 * (e as f64 - 2.5);
     let samples_ns: Vec<f64> = (0..EPOCHS).flat_map(|e| [ns * epoch(e); 3]).collect();
-    let provenance = Provenance { commit: commit.into(), ..example().provenance };
-    let (structure, label) = (label.to_owned(), label.to_owned());
-    Record { structure, label, epochs: EPOCHS, runs: samples_ns.len(), samples_ns, provenance, ..example() }
+    let record = timed_example(label, "primary", &samples_ns, EPOCHS);
+    Record { provenance: Provenance { commit: commit.into(), ..record.provenance }, ..record }
 }
 
 /// A run on a machine that is `slow` times as slow, in which the SAH tree takes `sah` times its time.

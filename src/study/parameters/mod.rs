@@ -10,10 +10,10 @@ mod table;
 #[cfg(test)]
 mod tests;
 
-use super::args::{Measuring, Scenes};
+use super::args::{FULL_EPOCHS, Measuring, Scenes};
 use super::epoch::{Asked, Epoch};
 use super::replicate::original::{MAIN, SWEEP, SweepRow};
-use super::{Context, Data, Effort, Plan, REPORT_TREE, Study};
+use super::{Context, Data, Plan, REPORT_TREE, Study};
 use crate::registry::{Choice, ChoiceError, Registry};
 use crate::report::document::Block;
 use crate::report::{Statement, Table};
@@ -61,15 +61,12 @@ impl Study for ParametersStudy {
     const NAME: &'static str = "parameters";
     const QUESTION: &'static str = "Which differences of the report's sweep of leaf limit and threshold are real?";
     const WHOLE: bool = true;
+    const FULL: &'static str = FULL_EPOCHS;
+    const QUICK: &'static str = "cube torus --epochs 2 --runs 2 --budget 1";
 
     type Args = ParametersArgs;
     type Case = Epoch;
     type Answer = Parameters;
-
-    fn args(effort: Effort) -> ParametersArgs {
-        let scenes = if effort == Effort::Quick { Scenes::named(&["cube", "torus"]) } else { Scenes::default() };
-        ParametersArgs { scenes, measuring: Measuring::of(effort) }
-    }
 
     fn plan(args: &ParametersArgs, registry: &Registry) -> anyhow::Result<Plan<Epoch>> {
         let all = scenes();
@@ -90,10 +87,6 @@ impl Study for ParametersStudy {
         }
         let settings = args.measuring.settings(registry, structures(registry)?, Asked::Picture)?;
         Ok(settings.plan(chosen, args.measuring.epochs))
-    }
-
-    fn named(args: &mut Self::Args) -> Option<&mut Vec<String>> {
-        Some(&mut args.scenes.scenes)
     }
 
     fn epoch(case: &mut Epoch) -> Option<(&mut Epoch, usize)> {

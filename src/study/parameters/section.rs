@@ -60,9 +60,9 @@ fn matrix(result: &Parameters, command: &str) -> Tabular {
             let found = others().find(|s| s.scene == *scene && name(s) == *setting);
             let times = found.and_then(|s| s.times);
             let is_real = found.is_some_and(|s| matches!(s.verdict, Difference::Faster | Difference::Slower));
-            row.push(times.map_or(Cell::blank(), |times| figures(times.estimate).into()));
+            row.push(times.map(|times| figures(times.estimate)).into());
             shades_of_row.push(times.filter(|_| is_real).map(|times| shade(times.estimate)));
-            row.push(found.map_or(Cell::blank(), |s| figures(s.report_times).into()));
+            row.push(found.map(|s| figures(s.report_times)).into());
             shades_of_row.push(found.map(|s| shade(s.report_times)));
         }
         rows.push(row);

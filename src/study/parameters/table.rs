@@ -14,7 +14,7 @@ pub fn tables(result: &Parameters) -> Vec<Table> {
             format!("{} {} / {}", s.scene, s.leaf, s.threshold).into(),
             figures(s.seconds).into(),
             figures(s.report_s).into(),
-            s.times.map_or(Cell::blank(), |times| interval(times).into()),
+            s.times.map(interval).into(),
             if s.verdict == Difference::Default { Cell::blank() } else { figures(s.report_times).into() },
             figures(s.tests_per_ray).into(),
             Cell::from(s.verdict.name()).with(tone),

@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::measure::RandomOrder;
-use crate::study::epoch::tests::rays;
-use crate::study::epoch::{Epoch, RayCounts, Rays, Shape, Structure};
+use crate::study::epoch::tests::{example, rays};
+use crate::study::epoch::{Epoch, RayCounts, Rays};
 use crate::study::replicate::original::SWEEP;
 
 /// `epochs` epochs of a scene where the first setting takes `slower` times the default's time, the others the same.
@@ -13,45 +13,21 @@ fn cases(scene: &str, epochs: usize, slower: f64, noise: f64) -> Vec<Epoch> {
     let mut of = |number: usize| {
         let slow: Vec<f64> = (0..3).map(|_| 1.2 + 0.4 * uniform()).collect();
         let same = scene == "Cube";
-        let structures = (0..=SWEEP.len()).map(|i| {
+        let labels: Vec<String> = (0..=SWEEP.len()).map(|i| i.to_string()).collect();
+        let structures: Vec<(&str, u64, &[u64])> = labels.iter().map(|label| (&label[..], 10, &[][..])).collect();
+        let mut epoch = example(scene, 12, number, &structures);
+        for (i, tree) in epoch.structures.iter_mut().enumerate() {
             let times = if i == 0 { slower } else { 1.0 } * (1.0 + noise * uniform());
             let ns: Vec<u64> = slow.iter().map(|slow| (1e8 * times * slow) as u64).collect();
-            let counts = |all, tests| RayCounts {
-                rays: all,
-                hits: 10,
-                distances: 3,
-                tests: Some(tests),
-                blocks: Some(tests),
-                steps: Some(10),
+            let rays = |workload, all, tests| {
+                let own = rays(workload);
+                let counts = own.counts.filter(|_| number == 0);
+                let counts = counts.map(|counts| RayCounts { rays: all, tests: Some(tests), ..counts });
+                Rays { all, rays: 50, ns: ns.clone(), counts, ..own }
             };
-            let rays = |workload, all, tests| Rays {
-                all,
-                rays: 50,
-                ns: ns.clone(),
-                counts: (number == 0).then_some(counts(all, tests)),
-                ..rays(workload)
-            };
-            Structure {
-                label: i.to_string(),
-                name: REPORT_TREE.into(),
-                refused: None,
-                outside: None,
-                build_ns: 10,
-                shape: Shape { bytes: 100, leaves: 1, references: 12, depth: 0, sah_cost: None },
-                details: None,
-                rays: vec![rays("image", 100, 1000), rays("image-shadow", 50, if same { 0 } else { i as u64 })],
-            }
-        });
-        Epoch {
-            scene: scene.into(),
-            scene_hash: "00".into(),
-            stand_in: false,
-            triangles: 12,
-            degenerate: 0,
-            epoch: number,
-            circumstances: None,
-            structures: structures.collect(),
+            tree.rays = vec![rays("image", 100, 1000), rays("image-shadow", 50, if same { 0 } else { i as u64 })];
         }
+        epoch
     };
     (0..epochs).map(&mut of).collect()
 }

@@ -8,10 +8,10 @@ mod tests;
 
 use serde::Serialize;
 
-use super::args::{Measuring, Rays, Scenes, WORKLOADS, with_twin};
+use super::args::{Measuring, QUICK_EPOCHS, Rays, Scenes, WORKLOADS, with_twin};
 use super::compare::compared;
-use super::epoch::{Epoch, Settings, troubles};
-use super::{Context, Data, Effort, Plan, SceneId, Study, Trouble};
+use super::epoch::{Epoch, Settings};
+use super::{Context, Data, Plan, SceneId, Study};
 use crate::registry::{Choice, ChoiceError, Registry};
 use crate::report::document::Block;
 use crate::report::{Record, Statement, Table};
@@ -70,16 +70,12 @@ impl Study for PartitionsStudy {
     const NAME: &'static str = "partitions";
     const QUESTION: &'static str =
         "Which way to divide the triangles is the fastest, for the same node, leaf and traversal?";
+    const FULL: &'static str = "--epochs 3 --runs 5 --budget 40";
+    const QUICK: &'static str = QUICK_EPOCHS;
 
     type Args = PartitionsArgs;
     type Case = Epoch;
     type Answer = Partitions;
-
-    fn args(effort: Effort) -> PartitionsArgs {
-        let scenes = if effort == Effort::Quick { Scenes::named(&["torus"]) } else { Scenes::default() };
-        let (rays, measuring) = (Rays::of(effort), Measuring::of(effort));
-        PartitionsArgs { scenes, test: TEST.into(), keys: String::new(), rays, measuring }
-    }
 
     fn plan(args: &PartitionsArgs, registry: &Registry) -> anyhow::Result<Plan<Epoch>> {
         let keys = if args.keys.is_empty() { String::new() } else { format!(",{}", args.keys) };
@@ -88,10 +84,6 @@ impl Study for PartitionsStudy {
         let settings = args.measuring.settings(registry, structures, args.rays.asked(&WORKLOADS))?;
         let plan = Settings { slowest: 4.0, detailed: true, ..settings }.plan(scenes, args.measuring.epochs);
         Ok(Plan { inputs: args.scenes.files(), ..plan })
-    }
-
-    fn named(args: &mut Self::Args) -> Option<&mut Vec<String>> {
-        Some(&mut args.scenes.scenes)
     }
 
     fn epoch(case: &mut Epoch) -> Option<(&mut Epoch, usize)> {
@@ -109,10 +101,6 @@ impl Study for PartitionsStudy {
 
     fn legend(_: &Partitions) -> Vec<String> {
         LEGEND.map(String::from).into()
-    }
-
-    fn troubles(cases: &[Epoch]) -> Vec<Trouble> {
-        troubles(cases)
     }
 
     fn data(answer: &Partitions) -> Vec<Data> {

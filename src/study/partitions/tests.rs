@@ -1,21 +1,13 @@
 use super::*;
-use crate::report::example;
+use crate::report::timed_example;
 
 fn record(label: &str, workload: &str, ns: &[f64], preset: Option<&str>) -> Record {
-    let mut sorted = ns.to_vec();
-    sorted.sort_by(f64::total_cmp);
     Record {
-        structure: label.split(':').next().unwrap().into(),
-        label: label.into(),
-        workload: workload.into(),
-        rays: 100,
-        samples_ns: ns.to_vec(),
-        trace_ns: sorted.get(sorted.len() / 2).copied(),
         config: preset.map_or(serde_json::json!({}), |preset| serde_json::json!({ "preset": preset })),
         triangles: 10,
         bytes: 800,
         build_ns: if preset.is_some() { 50 } else { 100 },
-        ..example()
+        ..timed_example(label, workload, ns, 1)
     }
 }
 

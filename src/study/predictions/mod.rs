@@ -11,7 +11,6 @@ mod counted;
 mod rank;
 mod section;
 mod table;
-mod tally;
 #[cfg(test)]
 mod tests;
 
@@ -23,7 +22,7 @@ use super::crossover::{CrossoverStudy, Race};
 use super::plan::Measure;
 use super::replicate::{self, ReplicateStudy};
 use super::scaling::{Growth, ScalingStudy};
-use super::{Answers, Context, Data, Effort, Plan, Study};
+use super::{Answers, Context, Data, Plan, Study};
 use crate::measure::{Estimate, Interval, Threads};
 use crate::names::named_enum;
 use crate::registry::Registry;
@@ -37,8 +36,7 @@ pub use counted::PictureCounts;
 use counted::{key, measure, scenes};
 pub use rank::kendall;
 pub use section::{REST_BELOW, sentence};
-pub use table::{table, tone};
-pub use tally::tally;
+pub use table::{table, tally, tone};
 
 /// What there is to judge by. What is missing is empty.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -118,10 +116,6 @@ impl Study for PredictionsStudy {
     type Args = PredictionsArgs;
     type Case = PictureCounts;
     type Answer = Vec<Prediction>;
-
-    fn args(_: Effort) -> PredictionsArgs {
-        PredictionsArgs {}
-    }
 
     fn plan(_: &PredictionsArgs, registry: &Registry) -> anyhow::Result<Plan<PictureCounts>> {
         let scenes: Vec<Scene> =

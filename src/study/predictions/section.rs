@@ -56,7 +56,7 @@ fn row(number: u8, claim: &Claim) -> Vec<Cell> {
         number.to_string().into(),
         claim.what.as_str().into(),
         claim.expected.as_str().into(),
-        claim.value.map_or(Cell::blank(), |value| interval(value).into()),
+        claim.value.map(interval).into(),
         Cell::from(claim.verdict.name()).with(tone(claim.verdict)),
     ]
 }

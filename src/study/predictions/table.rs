@@ -1,6 +1,6 @@
 //! The verdicts as a table for people.
 
-use super::{CLAIMS, Prediction, Verdict, tally};
+use super::{CLAIMS, Prediction, Verdict};
 use crate::report::words::{explained, interval};
 use crate::report::{Cell, Table, Tone};
 
@@ -21,7 +21,7 @@ pub fn table(predictions: &[Prediction]) -> Table {
             vec![
                 format!("{}. {}", p.number, claim.what).into(),
                 Cell::from(claim.verdict.name()).with(tone(claim.verdict)),
-                claim.value.map_or(Cell::blank(), |value| interval(value).into()),
+                claim.value.map(interval).into(),
                 claim.expected.as_str().into(),
             ]
         }));
@@ -50,4 +50,18 @@ pub fn table(predictions: &[Prediction]) -> Table {
         )
         .noted(notes),
     )
+}
+
+/// `14 of 24 claims confirmed, 6 refuted, 3 undecided, 1 not measured`.
+pub fn tally(predictions: &[Prediction]) -> String {
+    let claims = || predictions.iter().flat_map(|prediction| &prediction.claims);
+    let count = |verdict| claims().filter(|claim| claim.verdict == verdict).count();
+    let [confirmed, refuted, undecided, not_measured] = Verdict::ALL.map(count);
+    let mut words = format!("{confirmed} of {} claims confirmed, {refuted} refuted", claims().count());
+    for (n, what) in [(undecided, Verdict::Undecided), (not_measured, Verdict::NotMeasured)] {
+        if n > 0 {
+            words += &format!(", {n} {}", what.name());
+        }
+    }
+    words
 }

@@ -13,7 +13,7 @@ use serde::Serialize;
 
 use super::args::Measuring;
 use super::epoch::{self, Asked, Epoch, PICTURE, Settings, Structure, WholeTimes};
-use super::{BRUTE_FORCE, Context, Data, Effort, Plan, REPORT_TREE, SAH_TREE, SceneId, Study, parameters, sources};
+use super::{BRUTE_FORCE, Context, Data, Plan, REPORT_TREE, SAH_TREE, SceneId, Study, parameters, sources};
 use crate::accel::Query;
 use crate::measure::{AaNoise, Estimate, Rerun, epoch_values, median};
 use crate::registry::Registry;
@@ -148,6 +148,8 @@ impl Study for ReplicateStudy {
     const NAME: &'static str = "replicate";
     const QUESTION: &'static str = "Are the source report's tables found again, and is its conclusion true?";
     const WHOLE: bool = true;
+    const FULL: &'static str = "--epochs 4 --runs 3 --budget 8";
+    const QUICK: &'static str = "--epochs 2 --runs 2 --budget 1";
 
     type Args = ReplicateArgs;
     type Case = Epoch;
@@ -155,10 +157,6 @@ impl Study for ReplicateStudy {
 
     fn command() -> String {
         "sahara replicate".into()
-    }
-
-    fn args(effort: Effort) -> ReplicateArgs {
-        ReplicateArgs { measuring: Measuring::of(effort) }
     }
 
     fn plan(args: &ReplicateArgs, registry: &Registry) -> anyhow::Result<Plan<Epoch>> {

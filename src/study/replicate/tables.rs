@@ -18,71 +18,65 @@ pub fn tables(result: &Replication) -> Vec<Table> {
     tables
 }
 
-fn table<const N: usize>(title: &str, columns: [&str; N], rows: Vec<[String; N]>, notes: &[&str]) -> Table {
-    explained(Table::of_texts(title, columns, rows).noted(notes.iter().map(|note| (*note).into()).collect()))
-}
-
 fn rays(result: &Replication) -> Table {
-    let rows = result.rays.iter().map(|r| {
-        let difference = r.total as i64 - r.report as i64;
-        let difference = if difference == 0 { "0".into() } else { format!("{difference:+}") };
-        [
-            r.scene.clone(),
-            count(r.primary),
-            count(r.mirror),
-            count(r.shadow),
-            count(r.total),
-            count(r.report),
-            difference,
-        ]
-    });
-    table(
+    let difference = |r: &super::Rays| match r.total as i64 - r.report as i64 {
+        0 => "0".into(),
+        difference => format!("{difference:+}"),
+    };
+    Table::of(
         "Rays of a 512 x 512 picture",
-        ["scene", "primary", "mirror", "shadow", "total", "report", "difference"],
-        rows.collect(),
-        &["Hard scenes: primary rays alone, as in the report. Starters has creatures of our own, and so its own rays."],
+        &result.rays,
+        &[
+            ("scene", &|r| r.scene.as_str().into()),
+            ("primary", &|r| count(r.primary).into()),
+            ("mirror", &|r| count(r.mirror).into()),
+            ("shadow", &|r| count(r.shadow).into()),
+            ("total", &|r| count(r.total).into()),
+            ("report", &|r| count(r.report).into()),
+            ("difference", &|r| difference(r).into()),
+        ],
     )
+    .noted(vec![
+        "Hard scenes: primary rays alone, as in the report. Starters has creatures of our own, and so its own rays."
+            .into(),
+    ])
 }
 
 fn seconds(result: &Replication) -> Table {
-    let rows = result.main.iter().map(|m| {
-        [
-            m.scene.clone(),
-            count(m.triangles as u64),
-            marked(&m.tree),
-            figures(m.report_tree_s),
-            marked(&m.brute_force),
-            figures(m.report_brute_force_s),
-            interval(m.improvement),
-            figures(m.report_improvement),
-            marked(&m.sah),
-        ]
-    });
-    table(
+    let table = Table::of(
         "Seconds of all rays, construction left out",
-        ["scene", "triangles", "median-kd", "report", "brute-force", "report", "improvement [95%]", "report", "sah-kd"],
-        rows.collect(),
-        &["improvement: brute-force / median-kd. ~ a part of the rays was timed and stands for all."],
+        &result.main,
+        &[
+            ("scene", &|m| m.scene.as_str().into()),
+            ("triangles", &|m| count(m.triangles as u64).into()),
+            ("median-kd", &|m| marked(&m.tree).into()),
+            ("report", &|m| figures(m.report_tree_s).into()),
+            ("brute-force", &|m| marked(&m.brute_force).into()),
+            ("report", &|m| figures(m.report_brute_force_s).into()),
+            ("improvement [95%]", &|m| interval(m.improvement).into()),
+            ("report", &|m| figures(m.report_improvement).into()),
+            ("sah-kd", &|m| marked(&m.sah).into()),
+        ],
+    );
+    explained(
+        table.noted(vec![
+            "improvement: brute-force / median-kd. ~ a part of the rays was timed and stands for all.".into(),
+        ]),
     )
 }
 
 fn t_primes(result: &Replication) -> Table {
-    let rows = result.main.iter().map(|m| {
-        let t_primes = [
-            m.tree.t_prime.estimate,
-            m.report_tree_t_prime,
-            m.brute_force.t_prime.estimate,
-            m.report_brute_force_t_prime,
-            m.sah.t_prime.estimate,
-        ];
-        let [a, b, c, d, e] = t_primes.map(figures);
-        [m.scene.clone(), a, b, c, d, e]
-    });
-    table(
+    Table::of(
         "t' = seconds / (rays x triangles)",
-        ["scene", "median-kd", "report", "brute-force", "report", "sah-kd"],
-        rows.collect(),
-        &[],
+        &result.main,
+        &[
+            ("scene", &|m| m.scene.as_str().into()),
+            ("median-kd", &|m| figures(m.tree.t_prime.estimate).into()),
+            ("report", &|m| figures(m.report_tree_t_prime).into()),
+            ("brute-force", &|m| figures(m.brute_force.t_prime.estimate).into()),
+            ("report", &|m| figures(m.report_brute_force_t_prime).into()),
+            ("sah-kd", &|m| figures(m.sah.t_prime.estimate).into()),
+        ],
     )
 }
 
@@ -98,8 +92,8 @@ fn parameters(result: &Replication) -> Table {
                 |s: &&super::Setting| s.scene == scene && s.leaf == setting.leaf && s.threshold == setting.threshold;
             result.parameters.iter().find(same)
         };
-        let ours = |scene: &&str| of(scene).map_or(Cell::blank(), |s| figures_marked(s.seconds, s.extrapolated).into());
-        let theirs = |scene: &&str| of(scene).map_or(Cell::blank(), |s| figures(s.report_s).into());
+        let ours = |scene: &&str| of(scene).map(|s| figures_marked(s.seconds, s.extrapolated)).into();
+        let theirs = |scene: &&str| of(scene).map(|s| figures(s.report_s)).into();
         rows.push(std::iter::once(Cell::from(name)).chain(scenes.iter().map(ours)).collect());
         rows.push(std::iter::once(Cell::from("  report")).chain(scenes.iter().map(theirs)).collect());
     }
@@ -114,26 +108,23 @@ fn parameters(result: &Replication) -> Table {
 }
 
 fn hard(result: &Replication) -> Table {
-    let rows = result.hard.iter().map(|h| {
-        [
-            scene_name(&h.scene, h.stand_in),
-            count(h.triangles as u64),
-            marked(&h.tree),
-            figures(h.report_tree_s),
-            figures(h.tree.t_prime.estimate),
-            figures(h.report_tree_t_prime),
-            figures(h.tree_build_s),
-            figures(h.report_tree_build_s),
-            marked(&h.sah),
-            figures(h.sah_build_s),
-        ]
-    });
-    table(
+    Table::of(
         "Hard scenes: seconds of the primary rays, and of the construction",
-        ["scene", "triangles", "median-kd", "report", "t'", "report", "build", "report", "sah-kd", "build"],
-        rows.collect(),
-        &["~ a part of the rays was timed and stands for all."],
+        &result.hard,
+        &[
+            ("scene", &|h| scene_name(&h.scene, h.stand_in).into()),
+            ("triangles", &|h| count(h.triangles as u64).into()),
+            ("median-kd", &|h| marked(&h.tree).into()),
+            ("report", &|h| figures(h.report_tree_s).into()),
+            ("t'", &|h| figures(h.tree.t_prime.estimate).into()),
+            ("report", &|h| figures(h.report_tree_t_prime).into()),
+            ("build", &|h| figures(h.tree_build_s).into()),
+            ("report", &|h| figures(h.report_tree_build_s).into()),
+            ("sah-kd", &|h| marked(&h.sah).into()),
+            ("build", &|h| figures(h.sah_build_s).into()),
+        ],
     )
+    .noted(vec!["~ a part of the rays was timed and stands for all.".into()])
 }
 
 fn conclusion(result: &Replication) -> Table {
@@ -142,14 +133,12 @@ fn conclusion(result: &Replication) -> Table {
     if let Some(mean) = &result.conclusion.sah_over_median {
         rows.push([format!("geometric mean of {}", result.conclusion.scenes.join(", ")), interval(*mean)]);
     }
-    table(
-        "The report's conclusion: how much faster is sah-kd than median-kd on the hard scenes?",
-        ["scene", "times faster [95%]"],
-        rows,
-        &[
-            "Times of one round divided, their median in each epoch, geometric mean over the epochs, with the interval that holds that of another run in 95 % of cases.",
-        ],
-    )
+    let title = "The report's conclusion: how much faster is sah-kd than median-kd on the hard scenes?";
+    explained(Table::of_texts(title, ["scene", "times faster [95%]"], rows).noted(vec![
+        "Times of one round divided, their median in each epoch, geometric mean over the epochs, with the interval that holds that of \
+         another run in 95 % of cases."
+            .into(),
+    ]))
 }
 
 fn marked(seconds: &Seconds) -> String {

@@ -14,17 +14,18 @@ mod tests;
 use serde::{Deserialize, Serialize};
 
 use super::args::{Measuring, Rays, Scenes, Structures, with_twin};
-use super::epoch::{Epoch, Line, Twins, lines, middles, troubles, twins};
-use super::{Context, Data, Effort, Plan, Study, Trouble, least_squares, sources};
+use super::epoch::{Epoch, Line, Twins, lines, middles, twins};
+use super::{Context, Data, Plan, Study, least_squares, sources};
 use crate::measure::{AaNoise, Estimate, Rerun, Variance};
 use crate::names::named_enum;
 use crate::registry::Registry;
 use crate::report::document::Block;
+use crate::report::words::each_once;
 use crate::report::{Statement, Table};
 use crate::scene::{Scene, WorkloadKind};
 
 pub use spheres::{FINEST, name, sphere};
-pub use table::tables;
+use table::{exponents, groups, points};
 
 const STRUCTURES: [&str; 7] =
     ["median-kd", "sah-kd", "sah-kd-wide", "sah-hybrid", "sah-bvh", "obvhs-bvh2", "obvhs-cwbvh"];
@@ -53,19 +54,12 @@ pub struct ScalingArgs {
 impl Study for ScalingStudy {
     const NAME: &'static str = "scaling";
     const QUESTION: &'static str = "How do time, build and memory grow with the number of triangles?";
+    const FULL: &'static str = "--epochs 3 --runs 3 --budget 8";
+    const QUICK: &'static str = "torus --finest 4 --rays 1024 --epochs 2 --runs 2 --budget 1";
 
     type Args = ScalingArgs;
     type Case = FamilyEpoch;
     type Answer = Vec<Growth>;
-
-    fn args(effort: Effort) -> ScalingArgs {
-        let (scenes, finest) = match effort {
-            Effort::Full => (Scenes::default(), FINEST),
-            Effort::Quick => (Scenes::named(&["torus"]), 4),
-        };
-        let (rays, measuring) = (Rays::of(effort), Measuring::of(effort));
-        ScalingArgs { scenes, finest, structures: Structures::default(), rays, measuring }
-    }
 
     fn plan(args: &ScalingArgs, registry: &Registry) -> anyhow::Result<Plan<FamilyEpoch>> {
         let structures = with_twin(args.structures.chosen(registry, &STRUCTURES)?);
@@ -83,10 +77,6 @@ impl Study for ScalingStudy {
         Ok(Plan { inputs: args.scenes.files(), ..plan })
     }
 
-    fn named(args: &mut Self::Args) -> Option<&mut Vec<String>> {
-        Some(&mut args.scenes.scenes)
-    }
-
     fn epoch(case: &mut FamilyEpoch) -> Option<(&mut Epoch, usize)> {
         Some((&mut case.epoch, case.family as usize))
     }
@@ -96,15 +86,11 @@ impl Study for ScalingStudy {
     }
 
     fn tables(answer: &Vec<Growth>) -> Vec<Table> {
-        tables(answer)
-    }
-
-    fn troubles(cases: &[FamilyEpoch]) -> Vec<Trouble> {
-        troubles(cases.iter().map(|case| &case.epoch))
+        groups(answer).iter().flat_map(|group| [exponents(group), points(group)]).collect()
     }
 
     fn data(answer: &Vec<Growth>) -> Vec<Data> {
-        vec![Data::new(Self::NAME, &rows(answer))]
+        vec![Data::nested(Self::NAME, answer, &["family", "structure", "workload"], "points")]
     }
 
     fn statements(answer: &Vec<Growth>) -> Vec<Statement> {
@@ -189,13 +175,7 @@ pub fn result(cases: &[FamilyEpoch]) -> Vec<Growth> {
         let of_family = cases.iter().filter(|case| case.family == family).map(|case| &case.epoch);
         let mut all = lines(of_family);
         all.sort_by_key(|line| line.triangles);
-        let mut kinds: Vec<(&str, &str)> = vec![];
-        for line in &all {
-            let kind = (line.workload.as_str(), line.structure.as_str());
-            if !kinds.contains(&kind) {
-                kinds.push(kind);
-            }
-        }
+        let mut kinds = each_once(all.iter().map(|line| (line.workload.as_str(), line.structure.as_str())));
         // Kind of rays by kind of rays, structures in the order in which they were asked.
         let order: Vec<&str> = cases.iter().flat_map(|case| &case.epoch.structures).map(|s| s.label.as_str()).collect();
         kinds.sort_by_key(|&(workload, structure)| {
@@ -209,25 +189,6 @@ pub fn result(cases: &[FamilyEpoch]) -> Vec<Growth> {
         }
     }
     growths
-}
-
-/// One point of one growth, for tables that machines read.
-#[derive(Clone, Debug, Serialize)]
-pub struct Row<'a> {
-    pub family: Family,
-    pub structure: &'a str,
-    pub workload: &'a str,
-    #[serde(flatten)]
-    pub point: &'a Point,
-}
-
-/// All points.
-pub fn rows(growths: &[Growth]) -> Vec<Row<'_>> {
-    let mut rows = vec![];
-    for Growth { family, structure, workload, points, .. } in growths {
-        rows.extend(points.iter().map(|point| Row { family: *family, structure, workload, point }));
-    }
-    rows
 }
 
 /// That of the lines of one structure and one kind of rays, from the fewest triangles to the most.

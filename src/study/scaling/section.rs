@@ -91,15 +91,11 @@ pub fn blocks(growths: &[Growth], command: &str) -> Vec<Block> {
 
 fn figure(group: &[Growth], quantity: &Quantity, command: &str) -> Figure {
     let first = &group[0];
-    let line = |growth: &Growth| Line {
-        label: growth.structure.clone(),
-        note: (quantity.power)(growth).map_or(String::new(), |power| format!("n^{:.2}", power.estimate)),
-        points: growth
-            .points
-            .iter()
-            .map(|point| CurvePoint { x: point.triangles as f64, y: (quantity.value)(point), band: None })
-            .collect(),
-        mark: Mark::Both,
+    let line = |growth: &Growth| {
+        let point = |point: &Point| CurvePoint::exact(point.triangles as f64, (quantity.value)(point));
+        let power = (quantity.power)(growth).map(|power| format!("n^{:.2}", power.estimate));
+        let note = power.unwrap_or_default();
+        Line { note, ..Line::new(&growth.structure, Mark::Both, growth.points.iter().map(point)) }
     };
     let rows = group.iter().flat_map(|growth| {
         growth.points.iter().map(|p| [growth.structure.clone(), p.triangles.to_string(), figures((quantity.value)(p))])

@@ -28,7 +28,7 @@ fn a_power_is_found_where_there_is_one() {
     assert!(growths[0].tests.unwrap().estimate.abs() < 1e-9);
     assert_eq!(growths[0].points.len(), 4);
     assert!((growths[0].points[0].bytes_per_triangle - 100.0).abs() < 1e-9);
-    assert_eq!(tables(&growths).len(), 2);
+    assert_eq!(ScalingStudy::tables(&growths).len(), 2);
 }
 
 #[test]

@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::json;
 
 use super::plan::Measure;
-use super::{BRUTE_FORCE, Context, Data, Effort, Plan, SAH_TREE, Stage, Study, StudyError, sources};
+use super::{BRUTE_FORCE, Context, Data, Plan, SAH_TREE, Stage, Study, StudyError, sources};
 use crate::accel::DynAccel;
 use crate::geometry::{Hit, Ray};
 use crate::measure::Threads;
@@ -153,6 +153,7 @@ impl Study for SelfIntersectionStudy {
     const QUESTION: &'static str =
         "Which way to start a secondary ray neither meets its own surface again nor passes another one?";
     const KEPT: bool = false;
+    const QUICK: &'static str = "--rays 100";
 
     type Args = SelfIntersectionArgs;
     type Case = Vec<Row>;
@@ -160,11 +161,6 @@ impl Study for SelfIntersectionStudy {
 
     fn command() -> String {
         format!("sahara study {} --dir runs", Self::NAME)
-    }
-
-    fn args(effort: Effort) -> SelfIntersectionArgs {
-        let rays = if effort == Effort::Quick { 100 } else { RAYS };
-        SelfIntersectionArgs { structure: vec![], rays, seed: 1 }
     }
 
     fn plan(args: &SelfIntersectionArgs, registry: &Registry) -> anyhow::Result<Plan<Vec<Row>>> {

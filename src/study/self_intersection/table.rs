@@ -2,7 +2,7 @@
 
 use super::{OFFSETS, PointFrom, Row, Sphere};
 use crate::report::number::count;
-use crate::report::words::listed;
+use crate::report::words::{each_once, listed};
 use crate::report::{Cell, Statement, Table, Tone};
 
 /// One row for each sphere and kind of point, one column for each way to start: acne and leaks in percent of their rays, from
@@ -36,13 +36,7 @@ pub fn table(study: &[Row]) -> Table {
 }
 
 fn over(study: &[Row]) -> Vec<String> {
-    let mut names: Vec<String> = vec![];
-    for row in study {
-        if !names.contains(&traced(row)) {
-            names.push(traced(row));
-        }
-    }
-    names
+    each_once(study.iter().map(traced))
 }
 
 fn traced(row: &Row) -> String {

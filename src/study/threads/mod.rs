@@ -15,10 +15,10 @@ mod tests;
 
 use serde::{Deserialize, Serialize};
 
-use super::args::{Measuring, Rays, Scenes, Structures, with_twin};
-use super::epoch::{self, Epoch, Settings, measure, troubles};
+use super::args::{Measuring, QUICK_EPOCHS, Rays, Scenes, Structures, with_twin};
+use super::epoch::{self, Epoch, Settings, measure};
 use super::plan::{named_notes, settings_map};
-use super::{Context, Data, Effort, Plan, Planned, Study, Trouble};
+use super::{Context, Data, Plan, Planned, Study};
 use crate::measure::Threads;
 use crate::registry::Registry;
 use crate::report::document::Block;
@@ -26,7 +26,7 @@ use crate::report::{Statement, Table};
 use crate::scene::WorkloadKind;
 
 pub use speedup::{Point, Speedup, speedups};
-use table::tables;
+use table::{groups, table};
 
 const STRUCTURES: [&str; 4] = ["sah-kd", "sah-hybrid", "sah-bvh", "obvhs-bvh2"];
 
@@ -71,16 +71,12 @@ fn cores() -> usize {
 impl Study for ThreadsStudy {
     const NAME: &'static str = "threads";
     const QUESTION: &'static str = "How much faster do builds and rays get with more threads?";
+    const FULL: &'static str = "--epochs 3 --runs 3 --budget 4";
+    const QUICK: &'static str = QUICK_EPOCHS;
 
     type Args = ThreadsArgs;
     type Case = ThreadsEpoch;
     type Answer = Vec<Speedup>;
-
-    fn args(effort: Effort) -> ThreadsArgs {
-        let scenes = if effort == Effort::Quick { Scenes::named(&["torus"]) } else { Scenes::default() };
-        let (rays, measuring) = (Rays::of(effort), Measuring::of(effort));
-        ThreadsArgs { scenes, most: None, structures: Structures::default(), rays, measuring }
-    }
 
     fn cannot_be_measured_here() -> Option<&'static str> {
         (cores() == 1).then_some("one core has no second one that its threads could be compared on")
@@ -135,10 +131,6 @@ impl Study for ThreadsStudy {
         })
     }
 
-    fn named(args: &mut Self::Args) -> Option<&mut Vec<String>> {
-        Some(&mut args.scenes.scenes)
-    }
-
     fn epoch(case: &mut ThreadsEpoch) -> Option<(&mut Epoch, usize)> {
         Some((&mut case.epoch, case.threads))
     }
@@ -148,15 +140,11 @@ impl Study for ThreadsStudy {
     }
 
     fn tables(answer: &Vec<Speedup>) -> Vec<Table> {
-        tables(answer)
-    }
-
-    fn troubles(cases: &[ThreadsEpoch]) -> Vec<Trouble> {
-        troubles(cases.iter().map(|case| &case.epoch))
+        groups(answer).iter().map(|group| table(group)).collect()
     }
 
     fn data(answer: &Vec<Speedup>) -> Vec<Data> {
-        vec![Data::new(Self::NAME, &speedup::rows(answer))]
+        vec![Data::nested(Self::NAME, answer, &["scene", "structure", "what"], "points")]
     }
 
     fn statements(answer: &Vec<Speedup>) -> Vec<Statement> {

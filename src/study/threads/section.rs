@@ -1,11 +1,11 @@
 //! What the page says of threads.
 
 use super::Speedup;
-use super::table::{groups, scenes, table, two_points, words};
+use super::table::{groups, table, two_points, words};
 use crate::report::document::{Art, Block, Figure};
 use crate::report::number::figures;
 use crate::report::plot::{Chart, CurvePoint, Curves, Line, Mark};
-use crate::report::words::{listed, slug, written};
+use crate::report::words::{distinct, listed, slug, written};
 use crate::report::{Statement, Table};
 
 /// Of each scene, how much the most threads give each structure's build.
@@ -23,7 +23,7 @@ pub fn statements(speedups: &[Speedup]) -> Vec<Statement> {
         let sentence = format!("On {scene}, {last} threads build {}.", listed(&parts));
         Some(Statement::new(&slug(scene), sentence).of(own.first()?.points.last()?.speedup))
     };
-    scenes(speedups).iter().filter_map(of).collect()
+    distinct(speedups.iter().map(|one| &one.scene)).iter().filter_map(of).collect()
 }
 
 pub fn blocks(speedups: &[Speedup], command: &str) -> Vec<Block> {
@@ -38,17 +38,9 @@ pub fn blocks(speedups: &[Speedup], command: &str) -> Vec<Block> {
 fn figure(group: &[&Speedup], command: &str) -> Figure {
     let (scene, what) = (&group[0].scene, words(&group[0].what));
     let line = |one: &&Speedup| {
-        let point = |point: &super::Point| CurvePoint {
-            x: point.threads as f64,
-            y: point.speedup.estimate,
-            band: point.speedup.low().zip(point.speedup.high()).map(|(low, high)| [low, high]),
-        };
-        Line {
-            label: one.structure.clone(),
-            note: format!("f = {:.2}", one.serial.estimate),
-            points: one.points.iter().map(point).collect(),
-            mark: Mark::Both,
-        }
+        let point = |point: &super::Point| CurvePoint::of(point.threads as f64, point.speedup);
+        let note = format!("f = {:.2}", one.serial.estimate);
+        Line { note, ..Line::new(&one.structure, Mark::Both, one.points.iter().map(point)) }
     };
     let rows = group.iter().flat_map(|one| {
         one.points.iter().map(|p| [one.structure.clone(), p.threads.to_string(), figures(p.speedup.estimate)])

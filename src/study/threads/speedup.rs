@@ -31,24 +31,6 @@ pub struct Point {
     pub speedup: Estimate,
 }
 
-/// A point as data files have it.
-#[derive(Serialize)]
-pub(super) struct Row<'a> {
-    scene: &'a str,
-    structure: &'a str,
-    what: &'a str,
-    #[serde(flatten)]
-    point: &'a Point,
-}
-
-pub(super) fn rows(speedups: &[Speedup]) -> Vec<Row<'_>> {
-    let mut rows = vec![];
-    for Speedup { scene, structure, what, points, .. } in speedups {
-        rows.extend(points.iter().map(|point| Row { scene, structure, what, point }));
-    }
-    rows
-}
-
 /// Those of all scenes and structures that are timed with one thread and with more.
 pub fn speedups(cases: &[ThreadsEpoch]) -> Vec<Speedup> {
     let noise = twins(cases.iter().filter(|case| case.threads == 1).map(|case| &case.epoch));

@@ -2,24 +2,13 @@
 
 use super::Speedup;
 use crate::report::number::duration;
-use crate::report::words::{distinct, explained, interval, written};
+use crate::report::words::{explained, interval, written};
 use crate::report::{Cell, Table};
-
-/// For each scene and each thing that is timed.
-pub fn tables(speedups: &[Speedup]) -> Vec<Table> {
-    groups(speedups).iter().map(|group| table(group)).collect()
-}
+use crate::study::grouped::grouped;
 
 /// Of one scene and one thing each, in their order.
 pub(super) fn groups(speedups: &[Speedup]) -> Vec<Vec<&Speedup>> {
-    let mut groups: Vec<Vec<&Speedup>> = vec![];
-    for one in speedups {
-        match groups.iter_mut().find(|group| group[0].scene == one.scene && group[0].what == one.what) {
-            Some(group) => group.push(one),
-            None => groups.push(vec![one]),
-        }
-    }
-    groups
+    grouped(speedups, |a, b| a.scene == b.scene && a.what == b.what)
 }
 
 /// What is timed, as titles name it.
@@ -38,8 +27,8 @@ pub(super) fn table(group: &[&Speedup]) -> Table {
     let row = |one: &&Speedup| {
         let with = |threads: usize| one.points.iter().find(|point| point.threads == threads);
         let mut row: Vec<Cell> = vec![one.structure.as_str().into()];
-        row.push(with(1).map_or(Cell::blank(), |point| duration(point.ns).into()));
-        row.extend(numbers.iter().map(|&n| with(n).map_or(Cell::blank(), |point| interval(point.speedup).into())));
+        row.push(with(1).map(|point| duration(point.ns)).into());
+        row.extend(numbers.iter().map(|&n| with(n).map(|point| interval(point.speedup)).into()));
         row.push(written(one.serial, |share| format!("{share:.2}")).into());
         row
     };
@@ -58,9 +47,4 @@ pub(super) fn two_points(group: &[&Speedup]) -> Option<String> {
     let most = group.iter().map(|one| one.points.len()).max()?;
     let sentence = "Two points: Amdahl's curve goes through them whatever the truth is. More cores say how well it describes them.";
     (most == 2).then(|| sentence.into())
-}
-
-/// Scenes in their order.
-pub(super) fn scenes(speedups: &[Speedup]) -> Vec<String> {
-    distinct(speedups.iter().map(|one| &one.scene))
 }

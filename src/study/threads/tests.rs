@@ -36,15 +36,21 @@ fn the_serial_share_is_found_where_there_is_one() {
 #[test]
 fn without_one_thread_or_another_nothing_is_said() {
     assert!(speedups(&cases(0.5, &[2, 4])).is_empty() && speedups(&cases(0.5, &[1])).is_empty());
-    assert!(speedups(&[]).is_empty() && tables(&[]).is_empty());
+    assert!(speedups(&[]).is_empty() && ThreadsStudy::tables(&vec![]).is_empty());
 }
 
 #[test]
 fn every_number_of_threads_is_a_column_and_a_point() {
     assert_eq!([2, 3, 8, 24].map(numbers), [vec![1, 2], vec![1, 2, 3], vec![1, 2, 4, 8], vec![1, 2, 4, 8, 16, 24]]);
     let speedups = speedups(&cases(0.25, &[1, 2, 3]));
-    let [builds, rays] = &tables(&speedups)[..] else { panic!("a table each") };
+    let [builds, rays] = &ThreadsStudy::tables(&speedups)[..] else { panic!("a table each") };
     assert_eq!(rays.columns, ["structure", "1 thread", "x with 2", "x with 3", "serial share"]);
+    let data = &ThreadsStudy::data(&speedups)[0].rows;
+    let names: Vec<&String> = data[0].as_object().unwrap().keys().collect();
+    assert_eq!(
+        (data.len(), names),
+        (6, ["scene", "structure", "what", "threads", "ns", "speedup"].map(String::from).iter().collect())
+    );
     assert!(builds.title.contains("builds") && rays.rows[0][4].text.starts_with("0.25"), "{rays:?}");
     assert_eq!(section::blocks(&speedups, "").len(), 4);
     assert!(rays.notes.iter().all(|note| !note.starts_with("Two points")));
@@ -55,7 +61,7 @@ fn every_number_of_threads_is_a_column_and_a_point() {
 #[test]
 fn two_points_are_told_in_table_and_figure() {
     let two = super::speedups(&cases(0.25, &[1, 2]));
-    let tables = tables(&two);
+    let tables = ThreadsStudy::tables(&two);
     assert!(tables.iter().all(|table| table.notes.iter().any(|note| note.starts_with("Two points"))), "{tables:?}");
     let figures = section::blocks(&two, "").into_iter().filter_map(|block| match block {
         Block::Figure(figure) => Some(figure.caption),

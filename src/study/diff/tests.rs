@@ -1,6 +1,6 @@
 use super::changes::finding;
 use super::*;
-use crate::report::example;
+use crate::report::timed_example;
 
 const EPOCHS: usize = 5;
 
@@ -8,17 +8,7 @@ const EPOCHS: usize = 5;
 fn record(label: &str, workload: &str, ns: f64) -> Record {
     let epoch = |e: usize| 1.0 + 0.002 * (e as f64 - 2.0);
     let samples_ns: Vec<f64> = (0..EPOCHS).flat_map(|e| [ns * epoch(e); 3]).collect();
-    Record {
-        structure: label.split(':').next().unwrap().into(),
-        label: label.into(),
-        workload: workload.into(),
-        epochs: EPOCHS,
-        runs: samples_ns.len(),
-        trace_ns: Some(ns),
-        samples_ns,
-        noise_floor: None,
-        ..example()
-    }
+    timed_example(label, workload, &samples_ns, EPOCHS)
 }
 
 /// A run in which the machine is `slow` times as slow and the SAH tree takes `sah` times its time.
@@ -231,15 +221,11 @@ fn noise(structures: usize, seed: u64) -> Vec<Record> {
     let mut random = crate::measure::RandomOrder::new(seed);
     let mut record = |label: &str| {
         let samples_ns: Vec<f64> = (0..8).map(|_| 1e6 * libm::exp(0.01 * random.normal())).collect();
-        Record { epochs: 8, runs: 8, samples_ns, ..record_of(label) }
+        timed_example(label, "primary", &samples_ns, 8)
     };
     let mut run: Vec<Record> = (0..structures).map(|i| record(&format!("own-{i}"))).collect();
     run.push(record("obvhs-bvh2"));
     run
-}
-
-fn record_of(label: &str) -> Record {
-    record(label, "primary", 1e6)
 }
 
 #[test]

@@ -6,8 +6,8 @@ use std::rc::Rc;
 
 use serde::{Deserialize, Serialize};
 
-use super::Trouble;
 use crate::measure::{Pass, Stopwatch, Timed};
+use crate::study::Trouble;
 
 /// A structure that takes no part, and why.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -37,10 +37,10 @@ pub fn guarded<R>(ask: impl FnOnce() -> R) -> Option<R> {
 }
 
 /// Why a pass means nothing, once it has failed.
-pub(super) type Failure = Rc<RefCell<Option<String>>>;
+pub type Failure = Rc<RefCell<Option<String>>>;
 
 /// A pass that survives a panic of its structure: from then on it does nothing and says so.
-pub(super) struct Guarded<'a> {
+pub struct Guarded<'a> {
     pass: Pass<'a>,
     levels: usize,
     failure: Failure,

@@ -1,6 +1,5 @@
 //! Samples of many structures on many workloads: the one place where studies take time.
 
-use super::StudyError;
 use super::built::Built;
 use super::guarded::Guarded;
 use super::ray_cost;
@@ -10,10 +9,11 @@ use crate::measure::{
     level_by_clock, pilot_level, take,
 };
 use crate::scene::{Scene, Workload};
+use crate::study::StudyError;
 
 /// What is timed together: a structure and a workload, by their numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Case {
+pub struct Case {
     pub structure: usize,
     pub workload: usize,
 }
@@ -25,7 +25,7 @@ impl Case {
     }
 }
 
-pub(super) struct Timing<'a> {
+pub struct Timing<'a> {
     pub scene: &'a Scene,
     pub built: &'a [Built],
     /// None of them empty.
@@ -34,14 +34,14 @@ pub(super) struct Timing<'a> {
     pub clock: &'a dyn Clock,
 }
 
-pub(super) struct Taken {
+pub struct Taken {
     pub samples: Vec<Samples>,
     /// Why the samples of some of them mean nothing.
     pub failures: Vec<Option<String>>,
 }
 
 /// What decides how much of cases is timed, and is the same in every epoch.
-pub(super) struct Allotted {
+pub struct Allotted {
     cases: Vec<Case>,
     allotment: Allotment,
 }

@@ -4,6 +4,7 @@ use super::relative::{references, relative, weighted};
 use super::{Change, Finding};
 use crate::measure::{AaNoise, Estimate, Rerun, epoch_values};
 use crate::report::Record;
+use crate::report::words::each_once;
 use crate::study::compare::twins;
 
 /// Of the structures, of which each is looked at `looks` times, and of their cells.
@@ -17,10 +18,8 @@ pub(super) fn all(
     let references = references(pairs);
     let noises = [old, new].map(twins);
     let (mut structures, mut cells): (Vec<Change>, Vec<Change>) = (vec![], vec![]);
-    let mut labels: Vec<&str> = pairs.iter().map(|(old, _)| old.label.as_str()).collect();
-    labels.retain(|label| !references.iter().any(|reference| reference == label));
-    let mut seen = std::collections::BTreeSet::new();
-    labels.retain(|label| seen.insert(*label));
+    let labels = each_once(pairs.iter().map(|(old, _)| old.label.as_str()));
+    let labels: Vec<&str> = labels.into_iter().filter(|label| !references.iter().any(|one| one == label)).collect();
     // All structures are judged together, as often as is looked; their cells decide nothing.
     let looks = looks * labels.len();
     for label in labels {

@@ -1,10 +1,10 @@
 use std::sync::Arc;
 
-use super::StudyError;
 use crate::accel::{DynAccel, Remote};
 use crate::measure::{Clock, CpuClock, Threads, median, peak_bytes};
 use crate::registry::Choice;
 use crate::scene::Scene;
+use crate::study::StudyError;
 
 /// A finished structure, and how long it took.
 pub struct Built {

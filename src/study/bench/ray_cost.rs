@@ -4,11 +4,11 @@ use rayon::prelude::*;
 
 use super::built::Built;
 use super::counted::Counted;
-use super::guarded;
-use super::reference_structures::BRUTE_FORCE;
+use super::guarded::guarded;
 use super::timing::Case;
 use crate::measure::median;
 use crate::scene::Workload;
+use crate::study::BRUTE_FORCE;
 
 /// Nanoseconds of a ray, of a node or leaf entered and of a block of triangles tested: what `sahara study costs` finds over all
 /// families of structures (papers/RESULTS.md), rounded. With these the default run of `compare` times nine in ten cases on as many rays
@@ -26,7 +26,7 @@ const STEPS: f64 = 12.0;
 
 /// Picoseconds of a ray of each case. What does not count its steps and tests, a structure of others or a program, is taken for the
 /// median of those that do, brute force left out.
-pub(super) fn picoseconds(cases: &[Case], built: &[Built], workloads: &[Workload]) -> Vec<u64> {
+pub fn picoseconds(cases: &[Case], built: &[Built], workloads: &[Workload]) -> Vec<u64> {
     let predicted: Vec<Option<f64>> = cases.par_iter().map(|case| predicted(case, built, workloads)).collect();
     let is_brute = |case: &Case| built[case.structure].choice.entry.name == BRUTE_FORCE;
     let others = |case: &Case| {

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::measure::{AaNoise, Estimate, Rerun, Variance, checksum, epoch_values};
 use crate::report::Record;
+use crate::report::words::{distinct, each_once};
 use crate::study::compare::twins;
 use crate::study::reference_structures::is_obvhs;
 
@@ -37,12 +38,8 @@ pub fn relative_times(records: &[Record]) -> (Vec<String>, Vec<RelativeTime>) {
     let own: Vec<(&Record, &Record)> = records.iter().map(|record| (record, record)).collect();
     let references = references(&own);
     let noise = twins(records);
-    let mut labels: Vec<&str> = vec![];
-    for record in records {
-        if !labels.contains(&record.label.as_str()) && !references.contains(&record.label) {
-            labels.push(&record.label);
-        }
-    }
+    let labels = records.iter().map(|record| record.label.as_str());
+    let labels = each_once(labels.filter(|label| !references.iter().any(|reference| reference == label)));
     let of = |label: &&str| {
         let timed = records.iter().filter(|record| record.label == *label);
         let cells = timed.filter_map(|own| Some((own, relative(own, records, own, records, &references)?)));
@@ -74,14 +71,9 @@ pub(super) fn weighted(noise: &AaNoise, references: usize, cells: usize) -> Vari
 
 /// Labels of the structures that both runs are normalised by.
 pub(super) fn references(pairs: &[(&Record, &Record)]) -> Vec<String> {
-    let mut labels: Vec<String> = vec![];
-    for (old, new) in pairs {
-        let timed = !old.samples_ns.is_empty() && !new.samples_ns.is_empty();
-        if is_obvhs(&old.structure) && timed && !labels.contains(&old.label) {
-            labels.push(old.label.clone());
-        }
-    }
-    labels
+    let is_timed = |(old, new): &&(&Record, &Record)| !old.samples_ns.is_empty() && !new.samples_ns.is_empty();
+    let timed = pairs.iter().filter(is_timed).map(|(old, _)| old);
+    distinct(timed.filter(|old| is_obvhs(&old.structure)).map(|old| &old.label))
 }
 
 /// ln(time of `own` / geometric mean of the references' times) of each round in each epoch; ln of the time itself where

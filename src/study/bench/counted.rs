@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::built::Built;
-use super::guarded;
+use super::guarded::guarded;
 use super::timing::Case;
 use crate::accel::{Counts, DynAccel, Observed, Query};
 use crate::geometry::Ray;
@@ -36,7 +36,7 @@ const FEWEST: usize = 32;
 const FEW_TESTS: u64 = 1 << 20;
 
 /// Of each case as many rays as are worth it, on all threads; nothing where the structure panics.
-pub(super) fn count_all(cases: &[Case], built: &[Built], workloads: &[Workload]) -> Vec<Option<Counted>> {
+pub fn count_all(cases: &[Case], built: &[Built], workloads: &[Workload]) -> Vec<Option<Counted>> {
     let of = |case: &Case| {
         let (accel, workload) = (built[case.structure].accel.as_ref(), &workloads[case.workload]);
         guarded(|| Counted::affordable(accel, &workload.rays, workload.query))
@@ -45,14 +45,14 @@ pub(super) fn count_all(cases: &[Case], built: &[Built], workloads: &[Workload])
 }
 
 /// The processor's counters of events, those that it has.
-pub(super) struct Events {
+pub struct Events {
     instructions: Option<EventCounter>,
     branch_misses: Option<EventCounter>,
 }
 
 /// Means of a pass in which no observer takes part; nothing where there is no counter.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct EventsPerRay {
+pub struct EventsPerRay {
     pub instructions: Option<f64>,
     pub branch_misses: Option<f64>,
 }

@@ -3,12 +3,12 @@
 use std::collections::BTreeMap;
 
 use super::built::Built;
-use super::reference_structures::BRUTE_FORCE;
-use super::{Stage, StudyError};
 use crate::accel::{DynAccel, Query};
 use crate::geometry::{Hit, Ray};
 use crate::measure::spread;
 use crate::scene::{Scene, Workload};
+use crate::study::BRUTE_FORCE;
+use crate::study::{Stage, StudyError};
 use crate::validate::{Reference, Validation, validate_answers, validate_any_answers, validate_known};
 
 /// What of a workload a structure declines, if anything is: then it has no time.

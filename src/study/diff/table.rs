@@ -2,7 +2,7 @@
 
 use super::{Change, Comparison, Finding, Reproduced};
 use crate::report::number::{figures, plural};
-use crate::report::words::{explained, written};
+use crate::report::words::{each_once, explained, written};
 use crate::report::{Cell, Table, Tone};
 
 /// One table of the structures, one of their cells.
@@ -58,12 +58,7 @@ fn structures(comparison: &Comparison) -> Table {
 }
 
 fn cells(comparison: &Comparison) -> Table {
-    let mut places: Vec<String> = vec![];
-    for cell in &comparison.cells {
-        if !places.contains(&place(cell)) {
-            places.push(place(cell));
-        }
-    }
+    let places = each_once(comparison.cells.iter().map(place));
     let mut columns = vec!["scene, rays".to_owned()];
     columns.extend(comparison.structures.iter().map(|change| change.structure.clone()));
     let rows = places.iter().map(|row| {

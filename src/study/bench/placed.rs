@@ -1,14 +1,14 @@
 //! The structures of an epoch.
 
 use super::built::Built;
-use super::{Stage, StudyError};
 use crate::measure::{Clock, RandomOrder, Threads};
 use crate::registry::Choice;
 use crate::scene::Scene;
+use crate::study::{Stage, StudyError};
 
 /// Structures built in an order, and between blocks of memory, that are this epoch's own: where a structure happens to lie can change
 /// its speed by some percent, and only samples from several places say by how much.
-pub(super) struct Placed {
+pub struct Placed {
     /// One for each choice, in their order.
     pub built: Vec<Result<Built, StudyError>>,
     /// Kept as long as the structures.

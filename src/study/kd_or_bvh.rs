@@ -8,10 +8,10 @@
 
 use serde::Serialize;
 
-use super::args::{Measuring, Rays, Scenes, WORKLOADS, with_twin};
+use super::args::{FULL_EPOCHS, Measuring, QUICK_EPOCHS, Rays, Scenes, WORKLOADS, with_twin};
 use super::compare::{compared, speed, twins};
-use super::epoch::{Epoch, Settings, troubles};
-use super::{Context, Data, Effort, Plan, SceneId, Study, Trouble};
+use super::epoch::{Epoch, Settings};
+use super::{Context, Data, Plan, SceneId, Study};
 use crate::measure::Estimate;
 use crate::registry::{Choice, ChoiceError, Registry};
 use crate::report::number::{count, figures, plural};
@@ -44,11 +44,11 @@ pub struct KindSpeed {
 }
 
 /// The study.
-pub struct BinaryStudy;
+pub struct KdOrBvhStudy;
 
 /// Its options.
 #[derive(Clone, Debug, clap::Args)]
-pub struct BinaryArgs {
+pub struct KdOrBvhArgs {
     #[command(flatten)]
     scenes: Scenes,
     /// The triangle test of both
@@ -62,29 +62,22 @@ pub struct BinaryArgs {
 
 const TEST: &str = "moller-trumbore";
 
-impl Study for BinaryStudy {
+impl Study for KdOrBvhStudy {
     const NAME: &'static str = "binary";
     const QUESTION: &'static str = "Is a binary KD-tree faster than a binary BVH in every case?";
+    const FULL: &'static str = FULL_EPOCHS;
+    const QUICK: &'static str = QUICK_EPOCHS;
 
-    type Args = BinaryArgs;
+    type Args = KdOrBvhArgs;
     type Case = Epoch;
     type Answer = Vec<Scenario>;
 
-    fn args(effort: Effort) -> BinaryArgs {
-        let scenes = if effort == Effort::Quick { Scenes::named(&["torus"]) } else { Scenes::default() };
-        BinaryArgs { scenes, test: TEST.into(), rays: Rays::of(effort), measuring: Measuring::of(effort) }
-    }
-
-    fn plan(args: &BinaryArgs, registry: &Registry) -> anyhow::Result<Plan<Epoch>> {
+    fn plan(args: &KdOrBvhArgs, registry: &Registry) -> anyhow::Result<Plan<Epoch>> {
         let choose = |name: &str| registry.choose(&format!("{name}:test={}", args.test));
         let pair = [KD_TREE, BVH].into_iter().map(choose).collect::<Result<Vec<Choice>, ChoiceError>>()?;
         let settings = args.measuring.settings(registry, with_twin(pair), args.rays.asked(&WORKLOADS))?;
         let plan = Settings { detailed: true, ..settings }.plan(args.scenes.read(&[])?, args.measuring.epochs);
         Ok(Plan { inputs: args.scenes.files(), ..plan })
-    }
-
-    fn named(args: &mut Self::Args) -> Option<&mut Vec<String>> {
-        Some(&mut args.scenes.scenes)
     }
 
     fn epoch(case: &mut Epoch) -> Option<(&mut Epoch, usize)> {
@@ -104,10 +97,6 @@ impl Study for BinaryStudy {
             "How many times as fast the KD-tree, {KD_TREE}, is as the BVH, {BVH}, with the interval that holds the ratio of another run \
              in 95 % of cases; build, memory: the KD-tree's as a multiple of the BVH's."
         )]
-    }
-
-    fn troubles(cases: &[Epoch]) -> Vec<Trouble> {
-        troubles(cases)
     }
 
     fn data(answer: &Vec<Scenario>) -> Vec<Data> {
@@ -151,7 +140,7 @@ fn table(scenarios: &[Scenario]) -> Table {
     let row = |s: &Scenario| {
         let ratio = |workload: &String| {
             let speed = s.kinds.iter().find(|kind| kind.workload == *workload).and_then(|kind| kind.speed);
-            speed.map_or(Cell::blank(), |speed| interval(speed).into())
+            speed.map(interval).into()
         };
         let name = [scene_name(&s.scene, s.stand_in), count(s.triangles as u64)].map(Cell::from);
         let costs = [figures(s.build), figures(s.bytes)].map(Cell::from);
@@ -203,19 +192,12 @@ fn statement(scenarios: &[Scenario]) -> Option<Statement> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::example;
+    use crate::report::timed_example;
 
     fn record(structure: &str, workload: &str, ns: f64) -> Record {
-        Record {
-            structure: structure.into(),
-            label: format!("{structure}:test={TEST}"),
-            workload: workload.into(),
-            samples_ns: [1.0, 1.001, 1.0, 1.001].map(|f| f * ns).into(),
-            trace_ns: Some(ns),
-            epochs: 4,
-            build_ns: if structure == BVH { 100 } else { 250 },
-            ..example()
-        }
+        let samples_ns = [1.0, 1.001, 1.0, 1.001].map(|f| f * ns);
+        let build_ns = if structure == BVH { 100 } else { 250 };
+        Record { build_ns, ..timed_example(&format!("{structure}:test={TEST}"), workload, &samples_ns, 4) }
     }
 
     fn told(ns: [f64; 2]) -> String {

@@ -1,0 +1,9 @@
+//! What structures are built, checked, counted and timed with on one scene.
+
+pub mod built;
+pub mod check;
+pub mod counted;
+pub mod guarded;
+pub mod placed;
+pub mod ray_cost;
+pub mod timing;
