@@ -17,24 +17,20 @@ use crate::scene::{BUILTIN, Builtin, Scene, WorkloadKind};
 pub const WORKLOADS: [WorkloadKind; 4] =
     [WorkloadKind::Primary, WorkloadKind::Shadow, WorkloadKind::Diffuse, WorkloadKind::Random];
 
-/// What most studies of epochs measure in `study all`. It is spelt out: clap keeps one default of an option for all parameters of
-/// [`Measuring`], that of the study which is asked first.
-pub const FULL_EPOCHS: &str = "--epochs 5 --runs 3 --budget 8";
-
 /// What most of them measure in `study all --quick`.
 pub const QUICK_EPOCHS: &str = "torus --rays 1024 --epochs 2 --runs 2 --budget 1";
 
-/// How much is timed. The numbers are the defaults of a study.
+/// How much is timed. The numbers are the defaults of a study, as texts: clap keeps one default value of another type for all parameters.
 #[derive(Clone, Debug, clap::Args)]
 pub struct Measuring<const EPOCHS: u16 = 5, const RUNS: u16 = 3, const BUDGET: u32 = 8> {
     /// Epochs: in each all structures are built anew; more of them can be added later
-    #[arg(long, value_name = "N", default_value_t = EPOCHS, value_parser = clap::value_parser!(u16).range(1..=1000))]
+    #[arg(long, value_name = "N", default_value = EPOCHS.to_string(), value_parser = clap::value_parser!(u16).range(1..=1000))]
     pub epochs: u16,
     /// Samples of every case in an epoch; fewer where there is not time for them all
-    #[arg(long, value_name = "N", default_value_t = RUNS, value_parser = clap::value_parser!(u16).range(1..=1000))]
+    #[arg(long, value_name = "N", default_value = RUNS.to_string(), value_parser = clap::value_parser!(u16).range(1..=1000))]
     pub runs: u16,
     /// Seconds that the samples of an epoch of a scene may take: slow cases are timed on fewer rays to keep within them
-    #[arg(long, value_name = "SECONDS", default_value_t = BUDGET, value_parser = clap::value_parser!(u32).range(1..=86400))]
+    #[arg(long, value_name = "SECONDS", default_value = BUDGET.to_string(), value_parser = clap::value_parser!(u32).range(1..=86400))]
     pub budget: u32,
     /// Threads that build and trace; 1 is the unit of comparison
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=1024))]

@@ -8,7 +8,7 @@
 
 use serde::Serialize;
 
-use super::args::{FULL_EPOCHS, Measuring, QUICK_EPOCHS, Rays, Scenes, WORKLOADS, with_twin};
+use super::args::{Measuring, QUICK_EPOCHS, Rays, Scenes, WORKLOADS, with_twin};
 use super::compare::{compared, speed, twins};
 use super::epoch::{Epoch, Settings};
 use super::{Context, Data, Plan, SceneId, Study};
@@ -65,7 +65,6 @@ const TEST: &str = "moller-trumbore";
 impl Study for KdOrBvhStudy {
     const NAME: &'static str = "binary";
     const QUESTION: &'static str = "Is a binary KD-tree faster than a binary BVH in every case?";
-    const FULL: &'static str = FULL_EPOCHS;
     const QUICK: &'static str = QUICK_EPOCHS;
 
     type Args = KdOrBvhArgs;

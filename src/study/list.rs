@@ -401,6 +401,25 @@ mod tests {
         }
     }
 
+    /// Asked one after the other: none takes over what another one has.
+    #[test]
+    fn every_study_has_its_own_defaults_of_the_options_that_they_share() {
+        let studies = Studies::builtin();
+        for (name, defaults) in [
+            ("compare", ["4", "1", "2"]),
+            ("attribution", ["5", "3", "8"]),
+            ("partitions", ["3", "5", "40"]),
+            ("replicate", ["4", "3", "8"]),
+            ("scaling", ["3", "3", "8"]),
+            ("threads", ["3", "3", "4"]),
+        ] {
+            let command = studies.find(name).expect("it is built in").augment(Command::new(name));
+            let default =
+                |option: &str| command.get_arguments().find(|arg| arg.get_id() == option)?.get_default_values().first();
+            assert_eq!(["epochs", "runs", "budget"].map(|option| default(option).unwrap()), defaults, "{name}");
+        }
+    }
+
     #[test]
     fn defaults_are_those_of_the_command_and_not_of_study_all() {
         let structures = |chosen| args::<CompareStudy>(chosen).unwrap().structures.structure;

@@ -13,7 +13,7 @@ mod table;
 #[cfg(test)]
 pub(crate) mod tests;
 
-use super::args::{FULL_EPOCHS, Measuring, QUICK_EPOCHS, ScenesAndMeshes};
+use super::args::{Measuring, QUICK_EPOCHS, ScenesAndMeshes};
 use super::epoch::{Asked, Epoch};
 use super::epoch_args::plan_on;
 use super::{Context, Data, Plan, Study, rays_or_all, sources};
@@ -61,7 +61,6 @@ impl Study for AttributionStudy {
     const QUESTION: &'static str =
         "What of the SAH tree's speed is due to the stop rule, what to the plane and what to the traversal?";
     const WHOLE: bool = true;
-    const FULL: &'static str = FULL_EPOCHS;
     const QUICK: &'static str = QUICK_EPOCHS;
 
     type Args = AttributionArgs;

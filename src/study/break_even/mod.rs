@@ -8,7 +8,7 @@ mod table;
 #[cfg(test)]
 mod tests;
 
-use super::args::{FULL_EPOCHS, QUICK_EPOCHS};
+use super::args::QUICK_EPOCHS;
 use super::epoch::Epoch;
 use super::epoch_args::EpochArgs;
 use super::{Context, Data, Plan, Study};
@@ -30,7 +30,6 @@ pub struct BreakEvenStudy;
 impl Study for BreakEvenStudy {
     const NAME: &'static str = "break-even";
     const QUESTION: &'static str = "After how many rays does a dearer build pay?";
-    const FULL: &'static str = FULL_EPOCHS;
     const QUICK: &'static str = QUICK_EPOCHS;
 
     type Args = EpochArgs;

@@ -11,7 +11,7 @@ mod table;
 #[cfg(test)]
 mod tests;
 
-use super::args::{FULL_EPOCHS, QUICK_EPOCHS, WORKLOADS};
+use super::args::{QUICK_EPOCHS, WORKLOADS};
 use super::epoch::Epoch;
 use super::epoch_args::EpochArgs;
 use super::{Context, Data, Plan, Study};
@@ -48,7 +48,6 @@ pub struct CostsStudy;
 impl Study for CostsStudy {
     const NAME: &'static str = "costs";
     const QUESTION: &'static str = "What does a step, and what does a triangle test cost on this machine?";
-    const FULL: &'static str = FULL_EPOCHS;
     const QUICK: &'static str = QUICK_EPOCHS;
 
     type Args = EpochArgs;

@@ -19,7 +19,7 @@ mod tests;
 
 use serde::{Deserialize, Serialize};
 
-use super::args::{FULL_EPOCHS, Measuring, Rays, Structures, with_twin};
+use super::args::{Measuring, Rays, Structures, with_twin};
 use super::epoch::Epoch;
 use super::{Context, Data, Plan, Study, StudyError};
 use crate::measure::spread;
@@ -80,7 +80,6 @@ const PROBES: usize = 2048;
 impl Study for CrossoverStudy {
     const NAME: &'static str = "crossover";
     const QUESTION: &'static str = "Does a KD-tree overtake a BVH where rays would meet more surfaces?";
-    const FULL: &'static str = FULL_EPOCHS;
     const QUICK: &'static str = "--rays 1024 --epochs 2 --runs 2 --budget 1";
 
     type Args = CrossoverArgs;

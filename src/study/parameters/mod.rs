@@ -10,7 +10,7 @@ mod table;
 #[cfg(test)]
 mod tests;
 
-use super::args::{FULL_EPOCHS, Measuring, Scenes};
+use super::args::{Measuring, Scenes};
 use super::epoch::{Asked, Epoch};
 use super::replicate::original::{MAIN, SWEEP, SweepRow};
 use super::{Context, Data, Plan, REPORT_TREE, Study};
@@ -61,7 +61,6 @@ impl Study for ParametersStudy {
     const NAME: &'static str = "parameters";
     const QUESTION: &'static str = "Which differences of the report's sweep of leaf limit and threshold are real?";
     const WHOLE: bool = true;
-    const FULL: &'static str = FULL_EPOCHS;
     const QUICK: &'static str = "cube torus --epochs 2 --runs 2 --budget 1";
 
     type Args = ParametersArgs;

@@ -70,7 +70,6 @@ impl Study for PartitionsStudy {
     const NAME: &'static str = "partitions";
     const QUESTION: &'static str =
         "Which way to divide the triangles is the fastest, for the same node, leaf and traversal?";
-    const FULL: &'static str = "--epochs 3 --runs 5 --budget 40";
     const QUICK: &'static str = QUICK_EPOCHS;
 
     type Args = PartitionsArgs;

@@ -148,7 +148,6 @@ impl Study for ReplicateStudy {
     const NAME: &'static str = "replicate";
     const QUESTION: &'static str = "Are the source report's tables found again, and is its conclusion true?";
     const WHOLE: bool = true;
-    const FULL: &'static str = "--epochs 4 --runs 3 --budget 8";
     const QUICK: &'static str = "--epochs 2 --runs 2 --budget 1";
 
     type Args = ReplicateArgs;

@@ -54,7 +54,6 @@ pub struct ScalingArgs {
 impl Study for ScalingStudy {
     const NAME: &'static str = "scaling";
     const QUESTION: &'static str = "How do time, build and memory grow with the number of triangles?";
-    const FULL: &'static str = "--epochs 3 --runs 3 --budget 8";
     const QUICK: &'static str = "torus --finest 4 --rays 1024 --epochs 2 --runs 2 --budget 1";
 
     type Args = ScalingArgs;

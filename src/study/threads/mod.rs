@@ -71,7 +71,6 @@ fn cores() -> usize {
 impl Study for ThreadsStudy {
     const NAME: &'static str = "threads";
     const QUESTION: &'static str = "How much faster do builds and rays get with more threads?";
-    const FULL: &'static str = "--epochs 3 --runs 3 --budget 4";
     const QUICK: &'static str = QUICK_EPOCHS;
 
     type Args = ThreadsArgs;
