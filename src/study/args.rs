@@ -17,7 +17,7 @@ use crate::scene::{BUILTIN, Builtin, Scene, WorkloadKind};
 pub const WORKLOADS: [WorkloadKind; 4] =
     [WorkloadKind::Primary, WorkloadKind::Shadow, WorkloadKind::Diffuse, WorkloadKind::Random];
 
-/// What most of them measure in `study all --quick`.
+/// What most studies of epochs measure in `study all --quick`.
 pub const QUICK_EPOCHS: &str = "torus --rays 1024 --epochs 2 --runs 2 --budget 1";
 
 /// How much is timed. The numbers are the defaults of a study, as texts: clap keeps one default value of another type for all parameters.
