@@ -9,7 +9,7 @@ use super::tree::Bvh8;
 use super::trial::Way;
 use crate::accel::Observer;
 use crate::geometry::{Hit, Ray};
-use crate::simd::{EightLanes, Kernel, Level, dispatch};
+use crate::simd::{EightLanes, Kernel, Level, dispatch, each};
 use crate::traversal::leaf::Nearest;
 use crate::traversal::walk::{silent, single};
 use crate::triangle::{Depth, INPUTS, TriangleTest};
@@ -88,8 +88,9 @@ impl Together {
     fn push<D: Depth>(&mut self, i: usize, ray: &Ray, depth: &D, id: u32) -> bool {
         debug_assert!(self.len < TOGETHER);
         let lane = self.len % TOGETHER;
-        for (column, input) in self.inputs.iter_mut().zip(depth.inputs(ray)) {
-            column[lane] = input;
+        let inputs = depth.inputs(ray);
+        for i in 0..INPUTS {
+            self.inputs[i][lane] = inputs[i];
         }
         (self.rays[lane], self.ids[lane]) = (i, id);
         self.len = lane + 1;
@@ -105,12 +106,13 @@ impl Together {
         }
         // Lanes left over repeat the first one.
         for column in &mut self.inputs {
-            let first = column[0];
-            column[len..].fill(first);
+            for lane in len..TOGETHER {
+                column[lane] = column[0];
+            }
         }
         let ts = D::ts::<L>(&self.inputs, len);
-        for ((&ray, &id), t) in self.rays.iter().zip(&self.ids).zip(ts).take(len) {
-            hit(ray, Hit::new(t, id));
+        for i in 0..len {
+            hit(self.rays[i], Hit::new(ts[i], self.ids[i]));
         }
     }
 }
@@ -216,7 +218,7 @@ impl<const ANY: bool, T: TriangleTest, A, F: Fn(Option<Hit>) -> A> Kernel for In
 /// Whether some of the rays are of one octant: most that cannot travel together are soon told so.
 #[inline(always)]
 fn alike(rays: &[Ray; RAYS]) -> bool {
-    let signs = |i: usize| rays[i].direction.to_array().map(f32::to_bits);
+    let signs = |i: usize| each(&rays[i].direction.to_array(), |x| x.to_bits());
     let first = signs(0);
     let differ = |i: usize| (0..3).fold(0, |bits, axis| bits | (signs(i)[axis] ^ first[axis]));
     (differ(5) | differ(10) | differ(15)) >> 31 == 0

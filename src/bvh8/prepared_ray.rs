@@ -4,7 +4,7 @@ use glam::Vec3A;
 
 use super::node::{Node, WIDTH};
 use crate::geometry::{Aabb, Ray};
-use crate::simd::{Lanes, each};
+use crate::simd::{Lanes, each, indexed};
 use crate::traversal::line::inverses;
 
 /// A ray, prepared for the boxes of nodes.
@@ -36,7 +36,7 @@ pub(super) const ENLARGED: f32 = 1.0 + 8.0 * f32::EPSILON;
 /// By axis, which of the six rows of planes are near and which are far for rays of an octant.
 #[inline(always)]
 pub(super) fn rows(octant: usize) -> ([usize; 3], [usize; 3]) {
-    let [x, y, z] = [0, 1, 2].map(|axis| octant >> axis & 1);
+    let [x, y, z] = indexed(|axis| octant >> axis & 1);
     ([x, 2 + y, 4 + z], [1 - x, 3 - y, 5 - z])
 }
 
@@ -52,13 +52,13 @@ impl<L: Lanes<WIDTH>> PreparedRay<L> {
     #[inline(always)]
     pub fn of(origin: [f32; 3], inverse: [f32; 3], t_min: f32, octant: usize) -> Self {
         let (near, far) = rows(octant);
-        let bytes = |row: usize| row * size_of::<[f32; WIDTH]>();
+        let bytes = |&row: &usize| row * size_of::<[f32; WIDTH]>();
         Self {
             origin: each(&origin, |&o| L::splat(o)),
             inverse: each(&inverse, |&i| L::splat(i)),
             enlarged: each(&inverse, |&i| L::splat(i * ENLARGED)),
-            near: near.map(bytes),
-            far: far.map(bytes),
+            near: each(&near, bytes),
+            far: each(&far, bytes),
             t_min: L::splat(t_min),
             octant,
         }

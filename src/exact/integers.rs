@@ -5,6 +5,7 @@ use glam::Vec3;
 use super::ExactT;
 use super::expansion::Expansion;
 use crate::geometry::Ray;
+use crate::simd::each;
 
 /// Places from the lowest bit in use to the highest among the numbers of one kind. Then numbers are below 2^40, differences below 2^41,
 /// components of cross products below 2^83, and three products of these with a third number together below 2^126.
@@ -16,7 +17,7 @@ pub(super) fn hit(ray: &Ray, corners: [Vec3; 3]) -> Option<Option<ExactT>> {
     let (points, unit) = integers([ray.origin, a, b, c])?;
     let ([direction], direction_unit) = integers([ray.direction])?;
     let [origin, corners @ ..] = points;
-    let [a, b, c] = corners.map(|corner| minus(corner, origin));
+    let [a, b, c] = each(&corners, |&corner| minus(corner, origin));
 
     let (mut left, mut right) = (false, false);
     for (p, q) in [(c, b), (a, c), (b, a)] {
@@ -60,7 +61,8 @@ fn integers<const N: usize>(vectors: [Vec3; N]) -> Option<([[i64; 3]; N], i32)> 
         return Some(([[0; 3]; N], 0));
     }
     let times = f64::from_bits(((1023 - lowest) as u64) << 52);
-    (highest - lowest <= BITS).then(|| (vectors.map(|v| v.to_array().map(|x| (f64::from(x) * times) as i64)), lowest))
+    (highest - lowest <= BITS)
+        .then(|| (each(&vectors, |v| each(&v.to_array(), |&x| (f64::from(x) * times) as i64)), lowest))
 }
 
 fn minus(p: [i64; 3], q: [i64; 3]) -> [i64; 3] {
@@ -69,7 +71,7 @@ fn minus(p: [i64; 3], q: [i64; 3]) -> [i64; 3] {
 
 fn cross(p: [i64; 3], q: [i64; 3]) -> [i128; 3] {
     let times = |x: i64, y: i64| i128::from(x) * i128::from(y);
-    [(1, 2), (2, 0), (0, 1)].map(|(i, j)| times(p[i], q[j]) - times(p[j], q[i]))
+    each(&[(1, 2), (2, 0), (0, 1)], |&(i, j)| times(p[i], q[j]) - times(p[j], q[i]))
 }
 
 fn dot(p: [i64; 3], q: [i128; 3]) -> i128 {

@@ -80,7 +80,7 @@ impl<const MASKS: bool> Lanes<8> for Avx<MASKS> {
         // SAFETY: see above.
         unsafe {
             let halves = [_mm256_castps256_ps128(self.0), _mm256_extractf128_ps::<1>(self.0)];
-            F64x8(halves.map(|half| _mm256_cvtps_pd(half)))
+            F64x8([_mm256_cvtps_pd(halves[0]), _mm256_cvtps_pd(halves[1])])
         }
     }
 

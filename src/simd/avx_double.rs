@@ -48,9 +48,10 @@ impl Arithmetic<8> for F64x8 {
     #[inline(always)]
     fn store(self) -> [f64; 8] {
         let mut values = [0.0; 8];
-        for (half, values) in self.0.into_iter().zip(values.chunks_exact_mut(4)) {
-            // SAFETY: see above.
-            unsafe { _mm256_storeu_pd(values.as_mut_ptr(), half) };
+        // SAFETY: see above.
+        unsafe {
+            _mm256_storeu_pd(values.as_mut_ptr(), self.0[0]);
+            _mm256_storeu_pd(values.as_mut_ptr().add(4), self.0[1]);
         }
         values
     }

@@ -1,13 +1,20 @@
 use std::mem::MaybeUninit;
 
-/// `array::map` that is always inlined: a function of the standard library is compiled without the instructions of a
-/// [`Level`](super::Level), and lanes that pass through it take the way through memory.
+/// `array::from_fn` that is always inlined: a function of the standard library is compiled without the instructions of a
+/// [`Level`](super::Level), and whether it is inlined depends on how the compiler divides a crate; lanes that pass through it take the way
+/// through memory.
 #[inline(always)]
-pub fn each<const N: usize, A, B: Copy>(values: &[A; N], f: impl Fn(&A) -> B) -> [B; N] {
+pub fn indexed<const N: usize, B: Copy>(f: impl Fn(usize) -> B) -> [B; N] {
     let mut results = [const { MaybeUninit::uninit() }; N];
     for i in 0..N {
-        results[i].write(f(&values[i]));
+        results[i].write(f(i));
     }
     // SAFETY: all were written, and `MaybeUninit<B>` has the layout of `B`.
     unsafe { std::ptr::from_ref(&results).cast::<[B; N]>().read() }
+}
+
+/// Likewise `array::map`.
+#[inline(always)]
+pub fn each<const N: usize, A, B: Copy>(values: &[A; N], f: impl Fn(&A) -> B) -> [B; N] {
+    indexed(|i| f(&values[i]))
 }

@@ -9,7 +9,7 @@ mod level;
 mod portable;
 mod vector;
 
-pub use each::each;
+pub use each::{each, indexed};
 pub use level::{Kernel, Level, UnknownLevel, dispatch};
 pub use portable::Portable;
 pub use vector::LaneVec3;

@@ -1,4 +1,4 @@
-use super::{Arithmetic, EightLanes, Lanes};
+use super::{Arithmetic, EightLanes, Lanes, each, indexed};
 
 /// Lanes as an array: the slow twin of the others, and what machines without them run.
 #[derive(Clone, Copy, Debug)]
@@ -9,7 +9,7 @@ macro_rules! arithmetic {
         impl<const N: usize> Portable<N, $scalar> {
             #[inline(always)]
             fn zip(self, other: Self, f: impl Fn($scalar, $scalar) -> $scalar) -> Self {
-                Self(std::array::from_fn(|i| f(self.0[i], other.0[i])))
+                Self(indexed(|i| f(self.0[i], other.0[i])))
             }
 
             #[inline(always)]
@@ -97,12 +97,12 @@ impl<const N: usize> Lanes<N> for Portable<N> {
 
     #[inline(always)]
     fn widen(self) -> Portable<N, f64> {
-        Portable(self.0.map(f64::from))
+        Portable(each(&self.0, |&x| f64::from(x)))
     }
 
     #[inline(always)]
     fn narrow(wide: Portable<N, f64>) -> Self {
-        Self(wide.0.map(|x| x as f32))
+        Self(each(&wide.0, |&x| x as f32))
     }
 
     #[inline(always)]
@@ -163,7 +163,7 @@ impl EightLanes for Portable<8> {
 
     #[inline(always)]
     fn transpose(rows: [Self; 8]) -> [Self; 8] {
-        std::array::from_fn(|i| Self(std::array::from_fn(|j| rows[j].0[i])))
+        indexed(|i| Self(indexed(|j| rows[j].0[i])))
     }
 
     #[inline(always)]
@@ -193,7 +193,7 @@ impl EightLanes for Portable<8> {
 
     #[inline(always)]
     fn choose(self, other: Self, mask: u32) -> Self {
-        Self(std::array::from_fn(|i| if mask >> i & 1 == 1 { self.0[i] } else { other.0[i] }))
+        Self(indexed(|i| if mask >> i & 1 == 1 { self.0[i] } else { other.0[i] }))
     }
 
     #[inline(always)]
@@ -218,6 +218,6 @@ impl EightLanes for Portable<8> {
 
     #[inline(always)]
     fn choose_numbers(one: [u32; 8], other: [u32; 8], mask: u32) -> [u32; 8] {
-        std::array::from_fn(|i| if mask >> i & 1 == 1 { one[i] } else { other[i] })
+        indexed(|i| if mask >> i & 1 == 1 { one[i] } else { other[i] })
     }
 }

@@ -45,7 +45,8 @@ impl<D: Depth> Nearest<D> {
     /// The nearest hit of `ray`; with `ANY`, whose `t` nobody asks for, some hit at a `t` near by.
     #[inline(always)]
     pub fn answer<const ANY: bool>(&self, ray: &Ray) -> Option<Hit> {
-        self.hit.as_ref().map(|(depth, id)| Hit::new(if ANY { depth.bound() } else { depth.t(ray) }, *id))
+        let (depth, id) = self.hit.as_ref()?;
+        Some(Hit::new(if ANY { depth.bound() } else { depth.t(ray) }, *id))
     }
 }
 

@@ -3,7 +3,7 @@
 use glam::Vec3A;
 
 use crate::geometry::{Aabb, Ray};
-use crate::simd::Lanes;
+use crate::simd::{Lanes, each};
 
 /// The line of a ray, prepared for crossing axis-aligned planes.
 ///
@@ -67,7 +67,7 @@ impl Line {
     /// For planes that cut the box `bounds` or are its faces.
     #[inline(always)]
     pub fn new(ray: &Ray, bounds: &Aabb) -> Self {
-        let backward = ray.direction.to_array().map(f32::is_sign_negative);
+        let backward = each(&ray.direction.to_array(), |x| x.is_sign_negative());
         Self { origin: ray.origin.to_array(), inverse: inverses(ray, bounds), backward }
     }
 

@@ -2,7 +2,7 @@ use glam::{DVec3, Vec3};
 
 use super::TriangleTest;
 use crate::geometry::Ray;
-use crate::simd::{LaneVec3, Lanes};
+use crate::simd::{LaneVec3, Lanes, indexed};
 
 /// Baldwin-Weber, in `f32`: the ray is taken into the space in which the triangle is the unit one.
 ///
@@ -79,8 +79,8 @@ impl TriangleTest for BaldwinWeber {
         to: f32,
     ) -> (u32, L) {
         let (origin, direction) = (LaneVec3::splat(origin), LaneVec3::splat(direction));
-        let [to_u, to_v, to_height] = [0, 1, 2].map(|i| LaneVec3::<N, L>::load(&block.rows[i]));
-        let [move_u, move_v, move_height] = [0, 1, 2].map(|i| L::load(&block.translation[i]));
+        let [to_u, to_v, to_height] = indexed(|i| LaneVec3::<N, L>::load(&block.rows[i]));
+        let [move_u, move_v, move_height] = indexed(|i| L::load(&block.translation[i]));
 
         let zero = L::zero();
         let t = zero.sub(to_height.dot(origin).add(move_height)).div(to_height.dot(direction));

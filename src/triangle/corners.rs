@@ -1,6 +1,6 @@
 use glam::Vec3;
 
-use crate::simd::{LaneVec3, Lanes};
+use crate::simd::{LaneVec3, Lanes, indexed};
 
 /// `N` triangles as their corners, coordinate by coordinate: 36 bytes each, nothing rounded.
 #[derive(Clone, Copy, Debug)]
@@ -62,7 +62,7 @@ impl Place<'_> {
         let lanes = self.coordinates.len() / 9;
         debug_assert!(self.lane < lanes);
         // SAFETY: there are nine rows of `lanes`, and `place` has checked that the lane is one of them.
-        std::array::from_fn(|row| unsafe { *self.coordinates.get_unchecked(row * lanes + self.lane) })
+        indexed(|row| unsafe { *self.coordinates.get_unchecked(row * lanes + self.lane) })
     }
 
     #[inline(always)]

@@ -2,7 +2,7 @@ use glam::Vec3;
 
 use super::{Corners, TriangleTest};
 use crate::geometry::Ray;
-use crate::simd::{Arithmetic, LaneVec3, Lanes};
+use crate::simd::{Arithmetic, LaneVec3, Lanes, each};
 
 /// The edge test of [`Plucker`](super::Plucker) in `f64` over corners in `f32`, widened by its own rounding: scalar triple products for
 /// the sides, `t` from the plane equation relative to the origin, rounded to `f32` at the end.
@@ -81,7 +81,7 @@ impl TriangleTest for EdgeF64 {
         to: f32,
     ) -> (u32, L) {
         let wide = |v| LaneVec3::<N, L>::splat(v).widen();
-        let (inside, t) = solve(wide(origin), wide(direction), block.load::<L>().map(LaneVec3::widen));
+        let (inside, t) = solve(wide(origin), wide(direction), each(&block.load::<L>(), |corner| corner.widen()));
         // The beginning before rounding, which may make a zero of what lies behind.
         let inside = inside & L::splat(from).widen().le(t);
         let t = L::narrow(t);

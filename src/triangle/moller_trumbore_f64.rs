@@ -2,7 +2,7 @@ use glam::Vec3;
 
 use super::{Corners, TriangleTest};
 use crate::geometry::Ray;
-use crate::simd::{Arithmetic, LaneVec3, Lanes};
+use crate::simd::{Arithmetic, LaneVec3, Lanes, each};
 
 /// [`MollerTrumbore`](super::MollerTrumbore) in `f64` over corners in `f32`, widened by its own rounding; `t` is rounded to `f32` at
 /// the end.
@@ -80,7 +80,7 @@ impl TriangleTest for MollerTrumboreF64 {
         from: f32,
         to: f32,
     ) -> (u32, L) {
-        let [a, b, c] = block.load::<L>().map(LaneVec3::widen);
+        let [a, b, c] = each(&block.load::<L>(), |corner| corner.widen());
         let wide = |v| LaneVec3::<N, L>::splat(v).widen();
         let (inside, t) = solve(wide(direction), wide(origin) - a, [b - a, c - a]);
         // The beginning before rounding, which may make a zero of what lies behind.

@@ -2,7 +2,7 @@ use glam::Vec3;
 
 use super::{Corners, TriangleTest};
 use crate::geometry::Ray;
-use crate::simd::{LaneVec3, Lanes};
+use crate::simd::{LaneVec3, Lanes, each};
 
 /// Edge test in `f32`: the ray passes the three edges on the same side, by triple products of the corners as seen from the
 /// origin; `t` from the plane through the first corner.
@@ -26,8 +26,8 @@ fn solve<const N: usize, L: Lanes<N>>(
     direction: LaneVec3<N, L>,
     corners: [LaneVec3<N, L>; 3],
 ) -> (u32, L) {
-    let [a, b, c] = corners.map(|corner| corner - origin);
-    let volumes = [c.cross(b), a.cross(c), b.cross(a)].map(|side| direction.dot(side));
+    let [a, b, c] = each(&corners, |&corner| corner - origin);
+    let volumes = each(&[c.cross(b), a.cross(c), b.cross(a)], |&side| direction.dot(side));
     let zero = L::zero();
     let above = volumes.iter().fold(u32::MAX, |lanes, v| lanes & zero.le(*v));
     let below = volumes.iter().fold(u32::MAX, |lanes, v| lanes & v.le(zero));

@@ -2,7 +2,7 @@ use glam::Vec3;
 
 use super::{Corners, TriangleTest};
 use crate::geometry::Ray;
-use crate::simd::Lanes;
+use crate::simd::{Lanes, each, indexed};
 
 /// Watertight, in `f32`: the triangle is sheared so that the ray becomes the third axis, and edges are tested in 2D;
 /// edge values that are exactly zero, very small or very large are computed again in `f64`.
@@ -51,7 +51,7 @@ impl TriangleTest for Watertight {
         let along = ray.direction[z];
         Sheared {
             axes: [x, y, z],
-            origin: [x, y, z].map(|axis| ray.origin[axis]),
+            origin: each(&[x, y, z], |&axis| ray.origin[axis]),
             shear: [ray.direction[x] / along, ray.direction[y] / along, 1.0 / along],
         }
     }
@@ -63,10 +63,10 @@ impl TriangleTest for Watertight {
     #[inline(always)]
     fn candidates<const N: usize, L: Lanes<N>>(ray: &Sheared, block: &Corners<N>, from: f32, to: f32) -> (u32, L) {
         // Corners as seen from the origin, sheared.
-        let [[x, y, z], shear] = [ray.origin, ray.shear].map(|v| v.map(L::splat));
-        let zs = block.axis::<L>(ray.axes[2]).map(|corner| corner.sub(z));
+        let [[x, y, z], shear] = each(&[ray.origin, ray.shear], |v| each(v, |&x| L::splat(x)));
+        let zs = each(&block.axis::<L>(ray.axes[2]), |corner| corner.sub(z));
         let sheared = |axis: usize, origin: L, shear: L| {
-            let [a, b, c] = block.axis::<L>(axis).map(|corner| corner.sub(origin));
+            let [a, b, c] = each(&block.axis::<L>(axis), |corner| corner.sub(origin));
             [a.sub(shear.mul(zs[0])), b.sub(shear.mul(zs[1])), c.sub(shear.mul(zs[2]))]
         };
         let xs = sheared(ray.axes[0], x, shear[0]);
@@ -92,7 +92,7 @@ impl TriangleTest for Watertight {
         let below = u.le(zero) & v.le(zero) & w.le(zero);
         let det = u.add(v).add(w);
         let abs_det = det.flip_sign(det);
-        let [za, zb, zc] = zs.map(|z| z.mul(shear[2]));
+        let [za, zb, zc] = each(&zs, |z| z.mul(shear[2]));
         let t = u.mul(za).add(v.mul(zb)).add(w.mul(zc)).div(det);
         ((above | below) & zero.lt(abs_det) & L::splat(from).le(t) & t.le(L::splat(to)), t)
     }
@@ -106,15 +106,15 @@ const LARGE: f32 = (1_u64 << 40) as f32;
 /// `f64`, all three times a power of two, which changes neither their signs nor `t`.
 #[cold]
 fn in_f64<const N: usize, L: Lanes<N>>(volumes: [L; 3], xs: [L; 3], ys: [L; 3]) -> [L; 3] {
-    let mut values = volumes.map(L::store);
-    let (xs, ys) = (xs.map(L::store), ys.map(L::store));
+    let mut values = each(&volumes, |v| v.store());
+    let (xs, ys) = (each(&xs, |x| x.store()), each(&ys, |y| y.store()));
     for lane in 0..N {
-        let [u, v, w] = [0, 1, 2].map(|i| values[i][lane]);
+        let [u, v, w] = indexed(|i| values[i][lane]);
         if [u, v, w].iter().all(|v| *v != 0.0) && (SMALL..=LARGE).contains(&(u + v + w).abs()) {
             continue;
         }
         // Products of two floats are exact, and so is the sign of a difference.
-        let [[ax, bx, cx], [ay, by, cy]] = [xs, ys].map(|v| v.map(|corner| f64::from(corner[lane])));
+        let [[ax, bx, cx], [ay, by, cy]] = each(&[xs, ys], |v| each(v, |corner| f64::from(corner[lane])));
         let exact = [cx * by - cy * bx, ax * cy - ay * cx, bx * ay - by * ax];
         let largest = exact.iter().fold(0.0_f64, |most, v| most.max(v.abs()));
         let scale = if largest > 0.0 && largest.is_finite() { inverse_power_of_two(largest) } else { 1.0 };
@@ -122,7 +122,7 @@ fn in_f64<const N: usize, L: Lanes<N>>(volumes: [L; 3], xs: [L; 3], ys: [L; 3]) 
             value[lane] = (exact * scale) as f32;
         }
     }
-    values.map(|v| L::load(&v))
+    each(&values, L::load)
 }
 
 /// The reciprocal of the largest power of two that does not exceed `x`, which is far from the ends of `f64`.

@@ -34,7 +34,7 @@ const UNIT: f64 = f64::EPSILON / 2.0;
 #[inline(always)]
 pub(super) fn look(ray: &Ray, corners: [Vec3; 3]) -> Sight {
     let (origin, direction) = (ray.origin.as_dvec3(), ray.direction.as_dvec3());
-    let [a, b, c] = corners.map(Vec3::as_dvec3);
+    let [a, b, c] = each(&corners, |corner| corner.as_dvec3());
     let (to_origin, edge1, edge2) = (origin - a, b - a, c - a);
     let (p, q) = (direction.cross(edge2), to_origin.cross(edge1));
     let (det, u, v) = (edge1.dot(p), to_origin.dot(p), direction.dot(q));
@@ -91,7 +91,7 @@ pub(super) fn place<const N: usize, L: Lanes<N>>(
 /// bounds are off only as the determinant is, relatively, and in the plane they are zero.
 pub(super) fn place_closely(ray: &Ray, corners: [Vec3; 3]) -> Sight {
     let direction = ray.direction.as_dvec3();
-    let [a, b, c] = corners.map(Vec3::as_dvec3);
+    let [a, b, c] = each(&corners, |corner| corner.as_dvec3());
     let (edge1, edge2) = (b - a, c - a);
     let extent = edge1.abs().max(edge2.abs()).max_element();
     let det = direction.dot(edge1.cross(edge2));

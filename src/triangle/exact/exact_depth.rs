@@ -6,7 +6,7 @@ use super::enclosure::{Sight, place, place_closely};
 use super::seen;
 use crate::exact;
 use crate::geometry::Ray;
-use crate::simd::{EightLanes, LaneVec3};
+use crate::simd::{EightLanes, LaneVec3, indexed};
 use crate::triangle::corners::Place;
 use crate::triangle::{Depth, INPUTS};
 
@@ -92,7 +92,11 @@ impl Depth for ExactDepth<'_> {
     /// Correctly rounded.
     #[inline(always)]
     fn t(&self, ray: &Ray) -> f32 {
-        rounded(seen(ray, self.triangle.corners())).unwrap_or_else(|| exact_t(ray, self.triangle.corners()))
+        let corners = self.triangle.corners();
+        match rounded(seen(ray, corners)) {
+            Some(t) => t,
+            None => exact_t(ray, corners),
+        }
     }
 
     const LATE: bool = true;
@@ -111,7 +115,7 @@ impl Depth for ExactDepth<'_> {
         let (told, mut ts) = (placed & high.le(low), high.store());
         if told != 0xff {
             for (lane, t) in ts[..len].iter_mut().enumerate().filter(|(lane, _)| told >> lane & 1 == 0) {
-                let vector = |first: usize| Vec3::from_array([0, 1, 2].map(|axis| inputs[first + axis][lane]));
+                let vector = |first: usize| Vec3::from_array(indexed(|axis| inputs[first + axis][lane]));
                 *t = exact_t(&Ray::new(vector(9), vector(12)), [vector(0), vector(3), vector(6)]);
             }
         }

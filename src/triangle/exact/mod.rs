@@ -14,7 +14,7 @@ use super::corners::Place;
 use super::filter::{FilterBlock, FilterRay, Sights, Survivors, survivors};
 use crate::exact;
 use crate::geometry::{Ray, round_down, round_up};
-use crate::simd::{Arithmetic, LaneVec3, Lanes, Portable};
+use crate::simd::{Arithmetic, LaneVec3, Lanes, Portable, each};
 use enclosure::{Sight, look, place, place_closely};
 
 /// Exact answers at the price of a filter: what the `f32` stage cannot decide is decided in `f64` with a bound on its error, and what
@@ -179,7 +179,7 @@ fn runs_along(ray: &Ray, [a, b, c]: &[Vec3; 3]) -> bool {
 #[inline(always)]
 fn seen(ray: &Ray, corners: [Vec3; 3]) -> Sight {
     let one = LaneVec3::<1, Portable<1>>::splat;
-    match place(one(ray.origin), one(ray.direction), corners.map(one)) {
+    match place(one(ray.origin), one(ray.direction), each(&corners, |&corner| one(corner))) {
         (0, ..) => Sight::Unclear,
         (_, low, high) => Sight::Hit { low: low.store()[0], high: high.store()[0] },
     }
