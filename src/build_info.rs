@@ -5,11 +5,6 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 fn main() {
-    // Only the suite says what it was built from: the core is compiled again for its own changes alone.
-    if env::var_os("CARGO_FEATURE_SUITE").is_none() {
-        println!("cargo::rerun-if-changed=src/build_info.rs");
-        return;
-    }
     let root = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").expect("cargo sets CARGO_MANIFEST_DIR"));
     let rustc = env::var("RUSTC").unwrap_or_else(|_| "rustc".into());
     let set = |name: &str, value: Option<String>| {

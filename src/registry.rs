@@ -13,15 +13,15 @@ pub use keys::Key;
 pub use runners::RUNNER;
 
 use crate::accel::{Accel, BuildError, Capabilities, DynAccel, Observed};
-use crate::brute_force::BruteForce;
+use crate::brute_force::{BruteForce, BruteForceConfig};
 use crate::bvh8::{Bvh8, Bvh8Config, Partition};
 use crate::external::obvhs::{Native, ObvhsBvh2, ObvhsConfig, ObvhsCwBvh, Over, RtTest};
 use crate::geometry::Mesh;
 use crate::kdtree::{KdConfig, KdTree};
 use crate::names::suggestion;
-use crate::triangle::{
-    BaldwinWeber, EdgeF64, Exact, MollerTrumbore, MollerTrumboreF64, Plucker, TriangleTest, Watertight,
-};
+use crate::offered::Offered;
+use crate::triangle::{BaldwinWeber, EdgeF64, Exact, MollerTrumbore, MollerTrumboreF64, Plucker, Watertight};
+use crate::validate::Judged;
 use crate::validate::conformance::Subject;
 
 /// The structures that a run can choose from, in the order of tables.
@@ -49,7 +49,8 @@ pub struct Entry {
     build: Build,
 }
 
-type Build = Arc<dyn Fn(&Arc<Mesh>, &Value) -> Result<Box<dyn DynAccel>, BuildError> + Send + Sync>;
+type Built = Result<Box<dyn DynAccel>, BuildError>;
+type Build = Arc<dyn Fn(&Arc<Mesh>, &Value) -> Built + Send + Sync>;
 
 /// A structure that a run has chosen: what is built, and the name to print.
 #[derive(Clone)]
@@ -96,25 +97,30 @@ impl Registry {
             .over::<MollerTrumboreF64>()
             .over::<EdgeF64>();
         let with_obvhs = ours
-            .with::<ObvhsBvh2<Native>>("obvhs-bvh2", ObvhsConfig::default())
-            .with::<ObvhsBvh2<Over<MollerTrumbore>>>("obvhs-bvh2", ObvhsConfig::default())
-            .with::<ObvhsBvh2<Over<Exact>>>("obvhs-bvh2", ObvhsConfig::default())
-            .with::<ObvhsCwBvh<Native>>("obvhs-cwbvh", ObvhsConfig::default())
-            .with::<ObvhsCwBvh<Over<MollerTrumbore>>>("obvhs-cwbvh", ObvhsConfig::default())
-            .with::<ObvhsCwBvh<Over<Exact>>>("obvhs-cwbvh", ObvhsConfig::default())
-            .with::<BruteForce<RtTest>>("brute-force", Default::default());
+            .offering::<ObvhsBvh2<Native>>("obvhs-bvh2", ObvhsConfig::default())
+            .offering::<ObvhsBvh2<Over<MollerTrumbore>>>("obvhs-bvh2", ObvhsConfig::default())
+            .offering::<ObvhsBvh2<Over<Exact>>>("obvhs-bvh2", ObvhsConfig::default())
+            .offering::<ObvhsCwBvh<Native>>("obvhs-cwbvh", ObvhsConfig::default())
+            .offering::<ObvhsCwBvh<Over<MollerTrumbore>>>("obvhs-cwbvh", ObvhsConfig::default())
+            .offering::<ObvhsCwBvh<Over<Exact>>>("obvhs-cwbvh", ObvhsConfig::default())
+            .offering::<BruteForce<RtTest>>("brute-force", Default::default());
         with_obvhs.with_peers()
     }
 
     /// The structures of this crate over the triangle test `T`.
-    fn over<T: TriangleTest>(self) -> Self {
-        self.with::<BruteForce<T>>("brute-force", Default::default())
-            .with::<KdTree<T>>("median-kd", KdConfig::REPORT)
-            .with::<KdTree<T>>("sah-kd", KdConfig::SAH)
-            .with::<Bvh8<T>>("sah-kd-wide", Bvh8Config::new(Partition::Cells))
-            .with::<Bvh8<T>>("sah-kd-tight", Bvh8Config::new(Partition::Tight))
-            .with::<Bvh8<T>>("sah-hybrid", Bvh8Config::new(Partition::Hybrid))
-            .with::<Bvh8<T>>("sah-bvh", Bvh8Config::new(Partition::Objects))
+    fn over<T: Judged>(self) -> Self
+    where
+        BruteForce<T>: Offered<Config = BruteForceConfig>,
+        KdTree<T>: Offered<Config = KdConfig>,
+        Bvh8<T>: Offered<Config = Bvh8Config>,
+    {
+        self.offering::<BruteForce<T>>("brute-force", Default::default())
+            .offering::<KdTree<T>>("median-kd", KdConfig::REPORT)
+            .offering::<KdTree<T>>("sah-kd", KdConfig::SAH)
+            .offering::<Bvh8<T>>("sah-kd-wide", Bvh8Config::new(Partition::Cells))
+            .offering::<Bvh8<T>>("sah-kd-tight", Bvh8Config::new(Partition::Tight))
+            .offering::<Bvh8<T>>("sah-hybrid", Bvh8Config::new(Partition::Hybrid))
+            .offering::<Bvh8<T>>("sah-bvh", Bvh8Config::new(Partition::Objects))
     }
 
     /// Adds a structure under `name`, with `config` as what a user gets who names no keys.
@@ -122,7 +128,16 @@ impl Registry {
     /// # Panics
     /// If `name` is `all` or holds a character that the command line gives a meaning (`:`, `,`, `=` or white space), if the name
     /// is taken for the same triangle test, or if `config` does not serialise to a map of keys.
-    pub fn with<A: Accel>(mut self, name: &str, config: A::Config) -> Self {
+    pub fn with<A: Accel>(self, name: &str, config: A::Config) -> Self {
+        self.entered::<A>(name, config, |mesh, config| Ok(Box::new(A::build(mesh, config)?)))
+    }
+
+    /// As [`with`](Self::with), for what is compiled elsewhere.
+    fn offering<A: Offered>(self, name: &str, config: A::Config) -> Self {
+        self.entered::<A>(name, config, A::boxed)
+    }
+
+    fn entered<A: Accel>(mut self, name: &str, config: A::Config, build: fn(&Arc<Mesh>, &A::Config) -> Built) -> Self {
         assert!(
             !name.is_empty() && name != "all" && !name.contains([':', ',', '=', ' ', '\t', '\n']),
             "the name {name:?} must not be \"all\" nor hold ':', ',', '=' or white space"
@@ -135,11 +150,10 @@ impl Registry {
             value @ Value::Object(_) => value,
             other => panic!("the configuration of {name:?} must be a struct with named fields, not {other}"),
         };
-        let build: Build = Arc::new(|mesh, config| {
+        let build: Build = Arc::new(move |mesh, config| {
             let config = parse::<A>(config).map_err(BuildError::Config)?;
             // Builders of other crates may panic on a mesh that they did not expect; one structure must not end a run.
-            let built = panic::catch_unwind(AssertUnwindSafe(|| A::build(mesh, &config)));
-            Ok(Box::new(built.unwrap_or_else(|_| Err(BuildError::Panic))?))
+            panic::catch_unwind(AssertUnwindSafe(|| build(mesh, &config))).unwrap_or(Err(BuildError::Panic))
         });
         self.entries.push(Entry {
             name: name.into(),

@@ -15,10 +15,10 @@ impl Registry {
             use crate::external::bvh::{SvenstaroBvh, SvenstaroBvhConfig, SvenstaroTest};
             use crate::triangle::{Exact, MollerTrumbore};
             let config = SvenstaroBvhConfig::default();
-            this.with::<SvenstaroBvh<SvenstaroTest>>("bvh", config)
-                .with::<SvenstaroBvh<MollerTrumbore>>("bvh", config)
-                .with::<SvenstaroBvh<Exact>>("bvh", config)
-                .with::<BruteForce<SvenstaroTest>>("brute-force", Default::default())
+            this.offering::<SvenstaroBvh<SvenstaroTest>>("bvh", config)
+                .offering::<SvenstaroBvh<MollerTrumbore>>("bvh", config)
+                .offering::<SvenstaroBvh<Exact>>("bvh", config)
+                .offering::<BruteForce<SvenstaroTest>>("brute-force", Default::default())
         };
 
         #[cfg(feature = "peer-parry")]
@@ -27,20 +27,20 @@ impl Registry {
             use crate::external::parry::{ParryBvh, ParryConfig, ParryTest};
             use crate::triangle::{Exact, MollerTrumbore};
             let config = ParryConfig::default();
-            this.with::<ParryBvh<ParryTest>>("parry", config)
-                .with::<ParryBvh<MollerTrumbore>>("parry", config)
-                .with::<ParryBvh<Exact>>("parry", config)
-                .with::<BruteForce<ParryTest>>("brute-force", Default::default())
+            this.offering::<ParryBvh<ParryTest>>("parry", config)
+                .offering::<ParryBvh<MollerTrumbore>>("parry", config)
+                .offering::<ParryBvh<Exact>>("parry", config)
+                .offering::<BruteForce<ParryTest>>("brute-force", Default::default())
         };
 
         #[cfg(feature = "peer-tinybvh")]
-        let this = this.with::<crate::external::tinybvh::TinyBvh>("tinybvh", Default::default());
+        let this = this.offering::<crate::external::tinybvh::TinyBvh>("tinybvh", Default::default());
 
         #[cfg(feature = "peer-embree")]
         let this = {
             use crate::external::embree::{Embree, EmbreeConfig, Fast, Robust};
-            this.with::<Embree<Fast>>("embree", EmbreeConfig::default())
-                .with::<Embree<Robust>>("embree-robust", EmbreeConfig::default())
+            this.offering::<Embree<Fast>>("embree", EmbreeConfig::default())
+                .offering::<Embree<Robust>>("embree-robust", EmbreeConfig::default())
         };
 
         this

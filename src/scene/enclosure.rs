@@ -5,9 +5,9 @@ use std::sync::Arc;
 use glam::Vec3;
 use rayon::prelude::*;
 
-use crate::accel::Accel;
 use crate::brute_force::{BruteForce, BruteForceConfig};
 use crate::geometry::{Mesh, Ray};
+use crate::offered::Offered;
 use crate::triangle::Exact;
 
 /// What rays from the middle of a mesh's box meet first.
@@ -67,9 +67,9 @@ impl Enclosure {
         if mesh.is_empty() || rays < LEAST {
             return None;
         }
-        let triangles = BruteForce::<Exact>::build(mesh, &BruteForceConfig::default()).ok()?;
+        let triangles = BruteForce::<Exact>::boxed(mesh, &BruteForceConfig::default()).ok()?;
         let is_wall = |direction: Vec3| {
-            let hit = triangles.closest_hit(&Ray::new(mesh.bounds().centre(), direction), &mut ());
+            let [hit] = triangles.closest(&[Ray::new(mesh.bounds().centre(), direction)])[..] else { return false };
             hit.is_some_and(|hit| {
                 let [a, b, c] = mesh.corners(hit.prim.index()).map(Vec3::as_dvec3);
                 (b - a).cross(c - a).dot(direction.as_dvec3()) < 0.0

@@ -26,7 +26,7 @@ pub use compare::{validate, validate_answers, validate_known};
 pub use degenerate::degenerate_meshes;
 pub use error_counts::{DepthRule, ErrorCounts, Outcome, Ulps, count_errors, outcome};
 pub use rate::Rate;
-pub use reference::{Reference, ScalarTest};
+pub use reference::{Judged, Reference, ScalarTest};
 pub use sampler::Sampler;
 pub use validation::{Kind, Validation, WorstRay};
 pub use watch::{Ended, LIMIT, validate_watched, watched};

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use glam::Vec3;
 
-use crate::accel::{Accel, BuildError, DynAccel};
-use crate::brute_force::BruteForce;
+use crate::accel::{BuildError, DynAccel};
+use crate::brute_force::{BruteForce, BruteForceConfig};
 #[cfg(feature = "peer-bvh")]
 use crate::external::bvh::SvenstaroTest;
 #[cfg(feature = "peer-embree")]
@@ -14,12 +14,43 @@ use crate::external::obvhs::RtTest;
 #[cfg(feature = "peer-parry")]
 use crate::external::parry::ParryTest;
 use crate::geometry::{Hit, Mesh, Ray};
+use crate::offered::Offered;
 use crate::triangle::{
     BaldwinWeber, EdgeF64, Exact, MollerTrumbore, MollerTrumboreF64, Plucker, TriangleTest, Watertight, scalar_hit,
 };
 
 /// One triangle, tested alone: `t` where the ray hits it within its interval.
 pub type ScalarTest = fn(&Ray, [Vec3; 3]) -> Option<f32>;
+
+/// A triangle test with a reference of its own. The registry takes no other one over which it offers structures, so that none is judged by
+/// another test in silence.
+pub trait Judged: TriangleTest {}
+
+type OfMesh = fn(&Arc<Mesh>) -> Result<Reference, BuildError>;
+
+macro_rules! judged {
+    ($($(#[$feature:meta])? $test:ty),* $(,)?) => {
+        $($(#[$feature])? impl Judged for $test {})*
+
+        /// The reference of each test, by its name.
+        const JUDGED: &[(&str, OfMesh)] = &[$($(#[$feature])? (<$test>::NAME, Reference::brute_force::<$test>)),*];
+    };
+}
+
+judged!(
+    Exact,
+    MollerTrumbore,
+    Watertight,
+    BaldwinWeber,
+    Plucker,
+    MollerTrumboreF64,
+    EdgeF64,
+    RtTest,
+    #[cfg(feature = "peer-bvh")]
+    SvenstaroTest,
+    #[cfg(feature = "peer-parry")]
+    ParryTest,
+);
 
 /// Rays that a thread asks at a time: few, since brute force takes milliseconds for each.
 const BATCH: usize = 32;
@@ -44,32 +75,28 @@ impl Reference {
     /// # Errors
     /// If the mesh is refused.
     pub fn of_test(test: &str, mesh: &Arc<Mesh>) -> Result<Self, BuildError> {
-        macro_rules! among {
-            ($($known:ty),*) => {
-                match test {
-                    $(<$known>::NAME => Self::brute_force::<$known>(mesh),)*
-                    #[cfg(feature = "peer-bvh")]
-                    SvenstaroTest::NAME => Self::brute_force::<SvenstaroTest>(mesh),
-                    #[cfg(feature = "peer-parry")]
-                    ParryTest::NAME => Self::brute_force::<ParryTest>(mesh),
-                    #[cfg(feature = "peer-embree")]
-                    <embree::Fast as embree::Mode>::TEST => Self::in_disputes(embree::alone::<embree::Fast>, mesh),
-                    #[cfg(feature = "peer-embree")]
-                    <embree::Robust as embree::Mode>::TEST => Self::in_disputes(embree::alone::<embree::Robust>, mesh),
-                    _ => Ok(Self { test: None, ..Self::brute_force::<MollerTrumbore>(mesh)? }),
-                }
-            };
+        match test {
+            #[cfg(feature = "peer-embree")]
+            <embree::Fast as embree::Mode>::TEST => Self::in_disputes(embree::alone::<embree::Fast>, mesh),
+            #[cfg(feature = "peer-embree")]
+            <embree::Robust as embree::Mode>::TEST => Self::in_disputes(embree::alone::<embree::Robust>, mesh),
+            test => match JUDGED.iter().find(|(name, _)| *name == test) {
+                Some((_, reference)) => reference(mesh),
+                None => Ok(Self { test: None, ..Self::brute_force::<MollerTrumbore>(mesh)? }),
+            },
         }
-        among!(MollerTrumbore, MollerTrumboreF64, Watertight, BaldwinWeber, Plucker, EdgeF64, Exact, RtTest)
     }
 
     /// Brute force with a triangle test that the structure shares.
     ///
     /// # Errors
     /// If the mesh is refused.
-    pub fn brute_force<T: TriangleTest>(mesh: &Arc<Mesh>) -> Result<Self, BuildError> {
-        let accel = <BruteForce<T> as Accel>::build(mesh, &Default::default())?;
-        Ok(Self { accel: Box::new(accel), test: Some(scalar_hit::<T>), disputed: None })
+    pub(super) fn brute_force<T: TriangleTest>(mesh: &Arc<Mesh>) -> Result<Self, BuildError>
+    where
+        BruteForce<T>: Offered<Config = BruteForceConfig>,
+    {
+        let accel = BruteForce::<T>::boxed(mesh, &BruteForceConfig::default())?;
+        Ok(Self { accel, test: Some(scalar_hit::<T>), disputed: None })
     }
 
     #[cfg(feature = "peer-embree")]

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use crate::accel::Outline;
-use crate::build::clip::clipped_area;
+use crate::build::clipped_area;
 use crate::geometry::Mesh;
 use crate::measure::spread;
 

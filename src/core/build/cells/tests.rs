@@ -1,7 +1,7 @@
 use glam::Vec3;
 
 use super::{CellConfig, build};
-use crate::build::sah::CostModel;
+use crate::build::sah_cost::CostModel;
 use crate::build::{Quality, check};
 use crate::geometry::Mesh;
 

@@ -2,7 +2,7 @@
 
 use super::config::SbvhConfig;
 use crate::build::extent::Extent;
-use crate::build::sah::CostModel;
+use crate::build::sah_cost::CostModel;
 use crate::geometry::Mesh;
 
 /// What every step of a build knows.

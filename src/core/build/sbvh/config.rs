@@ -1,5 +1,5 @@
 use crate::build::quality::Quality;
-use crate::build::sah::CostModel;
+use crate::build::sah_cost::CostModel;
 
 /// How a binary tree of tight boxes is built. [`SbvhConfig::new`] has the values that were measured.
 #[derive(Clone, Copy, Debug, PartialEq)]

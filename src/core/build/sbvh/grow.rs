@@ -10,7 +10,7 @@ use crate::build::extent::Extent;
 use crate::build::grouping::{Group, median};
 use crate::build::part::{Part, at_plane, by_group};
 use crate::build::reference::{PARALLEL, Reference};
-use crate::build::sah::BLOCK;
+use crate::build::sah_cost::BLOCK;
 use crate::geometry::Mesh;
 
 /// A tree that grows, and how many references its nodes have looked at: what the time of a build is proportional to.

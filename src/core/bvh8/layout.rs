@@ -155,7 +155,7 @@ mod tests {
     use super::*;
     use crate::build::Quality;
     use crate::build::check::soup;
-    use crate::build::sah::CostModel;
+    use crate::build::sah_cost::CostModel;
     use crate::build::sbvh::{SbvhConfig, Splits, build};
     use crate::triangle::MollerTrumbore;
 

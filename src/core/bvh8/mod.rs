@@ -2,6 +2,7 @@
 
 mod accel;
 mod batch;
+mod child_order;
 mod collapse;
 mod config;
 mod frustum;

@@ -5,7 +5,7 @@
 
 use super::node::WIDTH;
 use crate::build::binary_tree::{BinaryTree, Content};
-use crate::build::sah::CostModel;
+use crate::build::sah_cost::CostModel;
 use crate::geometry::Aabb;
 
 /// Blocks of the largest leaf that is made of several.
@@ -16,7 +16,7 @@ const PARALLEL: usize = 2048;
 
 /// For each node of a binary tree how it is represented best by at most 1 to 7 parts.
 pub(super) struct Collapse<'a> {
-    tree: &'a BinaryTree,
+    pub(super) tree: &'a BinaryTree,
     best: Vec<Best>,
 }
 
@@ -192,12 +192,12 @@ impl<'a> Collapse<'a> {
         Children { parts: places.map(|place| found[place]), len, orders }
     }
 
-    fn part(&self, at: u32) -> Part {
+    pub(super) fn part(&self, at: u32) -> Part {
         if self.best[at as usize].leaf { Part::Leaf(at) } else { Part::Node(at) }
     }
 
     /// How at most `parts` parts of `at` are dealt to its children: nothing where it is one part itself.
-    fn dealt(&self, at: u32, parts: usize) -> Option<[(u32, usize); 2]> {
+    pub(super) fn dealt(&self, at: u32, parts: usize) -> Option<[(u32, usize); 2]> {
         let left = |parts: usize| (parts, self.best[at as usize].left[parts - 1] as usize);
         let (parts, left) = (1..=parts).rev().map(left).find(|&(_, left)| left > 0)?;
         match self.tree.nodes[at as usize].content {
@@ -214,34 +214,6 @@ impl<'a> Collapse<'a> {
         }
     }
 
-    /// The lanes of the at most `parts` parts of `at` as rays of each octant should visit them, three bits each, the last one lowest;
-    /// and how many bits these are. Takes the lanes in the order in which the parts are gathered.
-    fn orders<'b>(&self, at: u32, parts: usize, lanes: &mut impl Iterator<Item = &'b u32>) -> ([u32; 8], u32) {
-        let Some([l, r]) = self.dealt(at, parts) else {
-            return ([*lanes.next().expect("a lane for each part"); 8], 3);
-        };
-        let ((left, left_bits), (right, right_bits)) = (self.orders(l.0, l.1, lanes), self.orders(r.0, r.1, lanes));
-        let (axis, backward) = self.apart(l.0, r.0);
-        let order = |octant: usize| {
-            let right_first = backward != (octant >> axis & 1 == 1);
-            if right_first {
-                right[octant] << left_bits | left[octant]
-            } else {
-                left[octant] << right_bits | right[octant]
-            }
-        };
-        (std::array::from_fn(order), left_bits + right_bits)
-    }
-
-    /// The axis along which the boxes are furthest apart, and whether `r` comes before `l` on it.
-    fn apart(&self, l: u32, r: u32) -> (usize, bool) {
-        let [l, r] = [l, r].map(|at| &self.tree.nodes[at as usize].bounds);
-        let (up, down) = (r.min - l.max, l.min - r.max);
-        let apart = up.max(down);
-        let axis = (0..3).reduce(|a, b| if apart[b] > apart[a] { b } else { a }).unwrap_or(0);
-        (axis, down[axis] > up[axis])
-    }
-
     pub fn bounds(&self, part: Part) -> &Aabb {
         let (Part::Node(at) | Part::Leaf(at)) = part;
         &self.tree.nodes[at as usize].bounds
@@ -254,42 +226,6 @@ mod tests {
     use crate::build::Quality;
     use crate::build::check::soup;
     use crate::build::sbvh::{SbvhConfig, Splits, build};
-
-    /// The parts as rays of an octant see them, gathered for that octant alone.
-    fn gathered(collapse: &Collapse, at: u32, parts: usize, octant: usize, into: &mut Vec<Part>) {
-        match collapse.dealt(at, parts) {
-            Some([l, r]) => {
-                let (axis, backward) = collapse.apart(l.0, r.0);
-                let right_first = backward != (octant >> axis & 1 == 1);
-                for (at, parts) in if right_first { [r, l] } else { [l, r] } {
-                    gathered(collapse, at, parts, octant, into);
-                }
-            }
-            None => into.push(collapse.part(at)),
-        }
-    }
-
-    #[test]
-    fn orders_of_all_octants_at_once_are_those_of_one_after_the_other() {
-        let tree = build(&soup(3000, 43), &SbvhConfig::new(Splits::SpatialAndObject, Quality::Balanced));
-        let collapse = Collapse::new(&tree, &CostModel::new(1.0, 1.0, 0.0));
-        let (mut stack, mut nodes) = (vec![collapse.root().unwrap()], 0);
-        while let Some(part) = stack.pop() {
-            let Part::Node(at) = part else { continue };
-            let children = collapse.children(at);
-            for (octant, order) in children.orders.into_iter().enumerate() {
-                let lanes: Vec<usize> = (0..WIDTH).rev().map(|i| (order >> (3 * i) & 7) as usize).collect();
-                let (used, empty) = lanes.split_at(children.len);
-                assert!(empty.iter().all(|&lane| lane < empty.len()), "empty lanes come after the last");
-                let mut expected = vec![];
-                gathered(&collapse, at, WIDTH, octant, &mut expected);
-                assert_eq!(used.iter().map(|&lane| children.parts()[lane - empty.len()]).collect::<Vec<_>>(), expected);
-            }
-            stack.extend(children.parts());
-            nodes += 1;
-        }
-        assert!(nodes > 50, "{nodes}");
-    }
 
     /// Merged leaves are counted only where they may win; here always.
     #[test]

@@ -8,7 +8,7 @@ use crate::build::axes::on_axes;
 use crate::build::cut::Cut;
 use crate::build::part::{Part, at_plane};
 use crate::build::planes::{PLANES, Planes};
-use crate::build::sah::SideAreas;
+use crate::build::sah_cost::SideAreas;
 use crate::build::sample::Sample;
 use crate::geometry::Aabb;
 
@@ -191,7 +191,7 @@ mod tests {
     use crate::build::Quality;
     use crate::build::cells::Rules;
     use crate::build::check::{mesh, room, soup};
-    use crate::build::sah::CostModel;
+    use crate::build::sah_cost::CostModel;
 
     /// The naive twin: every plane by itself, counting all references.
     #[test]

@@ -13,7 +13,7 @@ use crate::build::axes::on_axes;
 use crate::build::clip::clipped_bounds;
 use crate::build::cut::Cut;
 use crate::build::reference::Reference;
-use crate::build::sah::{CostModel, SideAreas};
+use crate::build::sah_cost::{CostModel, SideAreas};
 use crate::geometry::Aabb;
 
 /// Where a reference begins or ends on an axis: coordinate, kind and number of the reference, in this order from the

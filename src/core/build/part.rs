@@ -6,7 +6,7 @@ use super::cut::Cut;
 use super::extent::Extent;
 use super::grouping::{Group, median, order};
 use super::reference::{CHUNK, PARALLEL, Reference, bounds};
-use super::sah::BLOCK;
+use super::sah_cost::BLOCK;
 use crate::geometry::Mesh;
 
 /// References and their box.

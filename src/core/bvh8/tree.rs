@@ -4,7 +4,7 @@ use super::layout::Layout;
 use super::node::{Child, Limits, Node, WIDTH};
 use super::trial::Trial;
 use crate::accel::BuildError;
-use crate::build::sah::CostModel;
+use crate::build::sah_cost::CostModel;
 use crate::geometry::{Aabb, Mesh};
 use crate::traversal::leaf::LeafBlock;
 use crate::triangle::TriangleTest;

@@ -15,9 +15,11 @@ mod planes;
 mod quality;
 mod reference;
 pub(crate) mod reinsert;
-pub(crate) mod sah;
+pub(crate) mod sah_cost;
 mod sample;
 pub(crate) mod sbvh;
 mod slices;
 
+#[cfg(feature = "suite")]
+pub use clip::clipped_area;
 pub use quality::Quality;

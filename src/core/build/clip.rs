@@ -40,7 +40,7 @@ pub(crate) fn cut_bounds(corners: [Vec3; 3], bounds: &Aabb, axis: usize, plane: 
 /// The area of the part of the triangle `corners` in `cell`, its faces included. Off by less than 1e-12 of the square of the triangle's
 /// largest coordinate.
 #[cfg(feature = "suite")]
-pub(crate) fn clipped_area(corners: [Vec3; 3], cell: &Aabb) -> f64 {
+pub fn clipped_area(corners: [Vec3; 3], cell: &Aabb) -> f64 {
     let mut polygon = Polygon { slack: DVec3::ZERO, ..Polygon::new(corners) };
     polygon.cut_to(cell);
     polygon.area()

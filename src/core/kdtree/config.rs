@@ -2,7 +2,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::accel::BuildError;
 use crate::build::cells::{CellConfig, Rules};
-use crate::build::sah::CostModel;
+use crate::build::sah_cost::CostModel;
 
 /// How a [`KdTree`](super::KdTree) is built and traversed: `median-kd` and `sah-kd` are two values of it. A value that the others leave
 /// unread is refused.

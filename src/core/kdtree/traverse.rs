@@ -16,7 +16,7 @@ use super::node::Node;
 use super::tree::KdTree;
 use crate::accel::Observer;
 use crate::build::cells::DEEPEST;
-use crate::build::sah::BLOCK;
+use crate::build::sah_cost::BLOCK;
 use crate::geometry::{Aabb, Hit, Ray};
 use crate::simd::EightLanes;
 use crate::traversal::leaf::{Mailbox, search, start};

@@ -1,5 +1,5 @@
 use crate::build::quality::Quality;
-use crate::build::sah::CostModel;
+use crate::build::sah_cost::CostModel;
 
 /// How the cheapest cut of a cell is searched.
 #[derive(Clone, Copy, Debug)]

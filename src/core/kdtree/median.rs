@@ -1,10 +1,10 @@
-//! The rules that know no cost: the median of vertex coordinates, as in the report, or of centroids, or the middle of the
+//! Planes that know no cost: the median of vertex coordinates, as in the report, or of centroids, or the middle of the
 //! cell. Sides are decided by whole triangles.
 
 use super::config::{AxisRule, CountOf, Equal, Median, MedianConfig, Plane};
 use crate::build::cells::{Content, Context, Place};
 use crate::build::cut::Cut;
-use crate::build::sah::SideAreas;
+use crate::build::sah_cost::SideAreas;
 
 pub(super) struct Triangles {
     ids: Vec<u32>,

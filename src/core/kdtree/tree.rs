@@ -4,7 +4,7 @@ use super::config::KdConfig;
 use super::node::{Limits, Node};
 use super::plan::{Plan, plan};
 use crate::accel::{Accel, BuildError, Footprint, Outline, TreeShape};
-use crate::build::sah::BLOCK;
+use crate::build::sah_cost::BLOCK;
 use crate::geometry::{Aabb, Mesh};
 use crate::traversal::leaf::LeafBlock;
 use crate::traversal::pages;

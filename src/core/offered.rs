@@ -1,0 +1,79 @@
+//! The structures that are offered by name, each over each triangle test that it is offered with. Their builds and searches are compiled here, once and
+//! with the settings of this crate: a type parameter alone would have them compiled anew in each crate that names one.
+
+use std::sync::Arc;
+
+use crate::accel::{Accel, BuildError, DynAccel};
+use crate::brute_force::BruteForce;
+use crate::bvh8::Bvh8;
+#[cfg(feature = "suite")]
+use crate::external::obvhs::{Native, ObvhsBvh2, ObvhsCwBvh, Over, RtTest};
+use crate::geometry::Mesh;
+use crate::kdtree::KdTree;
+use crate::triangle::{BaldwinWeber, EdgeF64, Exact, MollerTrumbore, MollerTrumboreF64, Plucker, Watertight};
+
+/// A structure that is compiled in this crate.
+pub trait Offered: Accel {
+    /// As [`Accel::build`], without its type.
+    ///
+    /// # Errors
+    /// If the mesh or the configuration is refused.
+    fn boxed(mesh: &Arc<Mesh>, config: &Self::Config) -> Result<Box<dyn DynAccel>, BuildError>;
+}
+
+macro_rules! offered {
+    ($($structure:ty),* $(,)?) => {$(
+        impl Offered for $structure {
+            // A function without type parameters, and never copied into another crate.
+            #[inline(never)]
+            fn boxed(mesh: &Arc<Mesh>, config: &Self::Config) -> Result<Box<dyn DynAccel>, BuildError> {
+                Ok(Box::new(Self::build(mesh, config)?))
+            }
+        }
+    )*};
+}
+
+/// All structures of this crate, over each of these tests.
+macro_rules! offered_over {
+    ($($test:ty),* $(,)?) => {
+        $(offered!(BruteForce<$test>, KdTree<$test>, Bvh8<$test>);)*
+    };
+}
+
+offered_over!(Exact, MollerTrumbore, Watertight, BaldwinWeber, Plucker, MollerTrumboreF64, EdgeF64);
+
+#[cfg(feature = "suite")]
+offered!(
+    ObvhsBvh2<Native>,
+    ObvhsBvh2<Over<MollerTrumbore>>,
+    ObvhsBvh2<Over<Exact>>,
+    ObvhsCwBvh<Native>,
+    ObvhsCwBvh<Over<MollerTrumbore>>,
+    ObvhsCwBvh<Over<Exact>>,
+    BruteForce<RtTest>,
+);
+
+#[cfg(feature = "peer-bvh")]
+mod svenstaro {
+    use super::*;
+    use crate::external::bvh::{SvenstaroBvh, SvenstaroTest};
+
+    offered!(SvenstaroBvh<SvenstaroTest>, SvenstaroBvh<MollerTrumbore>, SvenstaroBvh<Exact>, BruteForce<SvenstaroTest>,);
+}
+
+#[cfg(feature = "peer-parry")]
+mod parry {
+    use super::*;
+    use crate::external::parry::{ParryBvh, ParryTest};
+
+    offered!(ParryBvh<ParryTest>, ParryBvh<MollerTrumbore>, ParryBvh<Exact>, BruteForce<ParryTest>);
+}
+
+#[cfg(feature = "peer-tinybvh")]
+offered!(crate::external::tinybvh::TinyBvh);
+
+#[cfg(feature = "peer-embree")]
+offered!(
+    crate::external::embree::Embree<crate::external::embree::Fast>,
+    crate::external::embree::Embree<crate::external::embree::Robust>,
+);
