@@ -8,6 +8,7 @@ mod completions;
 mod diff;
 #[cfg(test)]
 mod documented;
+pub(crate) mod exit_status;
 mod fetch;
 mod golden;
 mod interrupt;
@@ -22,7 +23,6 @@ mod terminal;
 mod validate;
 
 use std::ffi::OsString;
-use std::io;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -30,7 +30,6 @@ use clap::{ArgMatches, Args as _, FromArgMatches, Subcommand};
 
 use crate::measure::{keep_to, program};
 use crate::names::suggestion;
-use crate::output::OutputError;
 use crate::registry::Registry;
 use crate::simd::Level;
 use crate::study::job::{self, Done, Job};
@@ -38,20 +37,6 @@ use crate::study::process::Processes;
 use crate::study::{AnyStudy, Chosen, Status, Studies, guarded, sources};
 use progress::OnTerminal;
 use terminal::{Colour, Terminal};
-
-/// One rule for all commands; what a baseline is known to get wrong is no fault of a run.
-pub(crate) const STATUSES: &str = "Exit status:
-  0  right
-  1  usage, or input or output that cannot be had
-  2  wrong answers, or answers without an end
-  3  a regression (compare --fail-on-regression)
-  4  the samples do not tell whether there is a regression
-  5  right, but for a structure that could not be built, panicked or could not take part
-130  interrupted by Ctrl-C: what was measured is shown and kept, and the same command goes on
-Wrong answers of a baseline from another project whose defects are documented are shown, cost it its time,
-and do not change the status: 2 is for everything else. Tables name the defects.
-
-`-` in place of a file to write is standard output; tables and messages go to standard error then.";
 
 const ABOUT: &str = "Benchmark, validate and image-test ray-tracing acceleration structures.";
 
@@ -149,7 +134,7 @@ const OLD: [(&str, &str); 5] = [
 
 fn command(studies: &Studies) -> clap::Command {
     let whole = clap::Command::new("sahara").version(env!("CARGO_PKG_VERSION")).max_term_width(100);
-    let mut command = Global::augment_args(whole).about(ABOUT).long_about(LONG_ABOUT).after_help(STATUSES);
+    let mut command = Global::augment_args(whole).about(ABOUT).long_about(LONG_ABOUT).after_help(exit_status::STATUSES);
     command = command.subcommands(studies.find(COMPARE).map(compare::command));
     command = command.subcommands(studies.find(REPLICATE).map(study::command));
     let all = clap::Command::new(all::NAME);
@@ -189,7 +174,7 @@ fn run_with(suite: &Suite, args: impl IntoIterator<Item = OsString>, processes: 
     let parsed = parsed.and_then(|matches| Ok((Global::from_arg_matches(&matches)?, matches)));
     let (global, matches) = match parsed {
         Ok(parsed) => parsed,
-        Err(message) => return told(&message),
+        Err(message) => return exit_status::told(&message),
     };
     if let Some(level) = global.level {
         level.choose();
@@ -204,29 +189,7 @@ fn run_with(suite: &Suite, args: impl IntoIterator<Item = OsString>, processes: 
     };
     // A structure of another crate may panic where its command has nothing else to go on with.
     let found = if may_panic { run() } else { guarded(run).unwrap_or_else(|| Err(anyhow::anyhow!(PANIC))) };
-    match found {
-        Ok(Status::Right) => ExitCode::SUCCESS,
-        Ok(Status::Wrong) => ExitCode::from(2),
-        Ok(Status::Regression) => ExitCode::from(3),
-        Ok(Status::Undecided) => ExitCode::from(4),
-        Ok(Status::Refused) => ExitCode::from(5),
-        Ok(Status::Interrupted) => ExitCode::from(interrupt::STATUS),
-        Err(error) if is_broken_pipe(&error) => ExitCode::SUCCESS,
-        Err(error) => match error.downcast_ref::<clap::Error>() {
-            Some(message) => told(message),
-            None => {
-                crate::output::tell(format_args!("error: {error:#}"));
-                ExitCode::from(1)
-            }
-        },
-    }
-}
-
-/// Prints what the command line is told. Help and version are answers, not errors; a reader that has gone away is no error
-/// either.
-fn told(message: &clap::Error) -> ExitCode {
-    let _ = message.print();
-    ExitCode::from(u8::from(message.use_stderr()))
+    exit_status::of(found)
 }
 
 /// What a process with a job does, on the command line of the run that it is a part of.
@@ -314,13 +277,4 @@ fn find<'a>(suite: &'a Suite, study: &str) -> anyhow::Result<&'a dyn AnyStudy> {
         let suggestion = suggestion(study, names.iter().copied());
         anyhow::anyhow!("there is no study {study:?}{suggestion}; there are: {}", names.join(", "))
     })
-}
-
-/// Whether the reader of our output has gone away, as `head` does.
-fn is_broken_pipe(error: &anyhow::Error) -> bool {
-    let of_file = error.downcast_ref::<OutputError>().and_then(|error| match error {
-        OutputError::Write { cause, .. } => Some(cause),
-        _ => None,
-    });
-    error.downcast_ref::<io::Error>().or(of_file).is_some_and(|error| error.kind() == io::ErrorKind::BrokenPipe)
 }

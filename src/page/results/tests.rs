@@ -164,7 +164,9 @@ fn readme_holds_no_number_that_nothing_holds() {
     let (statuses, after) = statuses.split_once("\n\n").unwrap();
     for status in statuses.split_once(". ").map_or(statuses, |first| first.0).split(", ") {
         let Some((number, words)) = status.split_once(' ').filter(|s| s.0.parse::<u8>().is_ok()) else { continue };
-        let known = crate::cli::STATUSES.lines().find_map(|line| line.trim().strip_prefix(number)?.strip_prefix("  "));
+        let known = crate::cli::exit_status::STATUSES
+            .lines()
+            .find_map(|line| line.trim().strip_prefix(number)?.strip_prefix("  "));
         let word = words.split_whitespace().find(|word| word.len() > 3).unwrap();
         assert!(known.is_some_and(|known| known.contains(word)), "README.md: {status}; --help: {known:?}");
     }

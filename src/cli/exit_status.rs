@@ -1,0 +1,58 @@
+//! How the command ends: a number for what it found.
+
+use std::io;
+use std::process::ExitCode;
+
+use super::interrupt;
+use crate::output::OutputError;
+use crate::study::Status;
+
+/// One rule for all commands; what a baseline is known to get wrong is no fault of a run.
+pub(crate) const STATUSES: &str = "Exit status:
+  0  right
+  1  usage, or input or output that cannot be had
+  2  wrong answers, or answers without an end
+  3  a regression (compare --fail-on-regression)
+  4  the samples do not tell whether there is a regression
+  5  right, but for a structure that could not be built, panicked or could not take part
+130  interrupted by Ctrl-C: what was measured is shown and kept, and the same command goes on
+Wrong answers of a baseline from another project whose defects are documented are shown, cost it its time,
+and do not change the status: 2 is for everything else. Tables name the defects.
+
+`-` in place of a file to write is standard output; tables and messages go to standard error then.";
+
+/// Ends with what was found; an error is told first.
+pub(super) fn of(found: anyhow::Result<Status>) -> ExitCode {
+    match found {
+        Ok(Status::Right) => ExitCode::SUCCESS,
+        Ok(Status::Wrong) => ExitCode::from(2),
+        Ok(Status::Regression) => ExitCode::from(3),
+        Ok(Status::Undecided) => ExitCode::from(4),
+        Ok(Status::Refused) => ExitCode::from(5),
+        Ok(Status::Interrupted) => ExitCode::from(interrupt::STATUS),
+        Err(error) if is_broken_pipe(&error) => ExitCode::SUCCESS,
+        Err(error) => match error.downcast_ref::<clap::Error>() {
+            Some(message) => told(message),
+            None => {
+                crate::output::tell(format_args!("error: {error:#}"));
+                ExitCode::from(1)
+            }
+        },
+    }
+}
+
+/// Prints what the command line is told. Help and version are answers, not errors; a reader that has gone away is no error
+/// either.
+pub(super) fn told(message: &clap::Error) -> ExitCode {
+    let _ = message.print();
+    ExitCode::from(u8::from(message.use_stderr()))
+}
+
+/// Whether the reader of our output has gone away, as `head` does.
+fn is_broken_pipe(error: &anyhow::Error) -> bool {
+    let of_file = error.downcast_ref::<OutputError>().and_then(|error| match error {
+        OutputError::Write { cause, .. } => Some(cause),
+        _ => None,
+    });
+    error.downcast_ref::<io::Error>().or(of_file).is_some_and(|error| error.kind() == io::ErrorKind::BrokenPipe)
+}
