@@ -26,7 +26,10 @@
 //!
 //! A program of your own compiles the searches that it names, with its own settings. Those of [`offered`] are compiled with this crate.
 
+#![warn(missing_docs)]
+
 pub mod accel;
+/// Every triangle, tested in order.
 pub mod brute_force;
 pub mod build;
 pub mod bvh8;

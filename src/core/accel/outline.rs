@@ -6,6 +6,7 @@ use crate::geometry::Aabb;
 /// A finished tree as plain data, for whoever counts: nodes in depth-first order, every node before its children.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Outline {
+    /// Every node before its children.
     pub nodes: Vec<OutlineNode>,
     /// Triangles of the mesh, leaf by leaf in the order of the nodes: those below a node stand in a row.
     pub references: Vec<u32>,
@@ -16,9 +17,11 @@ pub struct Outline {
 /// A node or a leaf.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OutlineNode {
+    /// What lies below it lies inside.
     pub bounds: Aabb,
     /// Edges from the root.
     pub depth: usize,
+    /// Whether it is a leaf.
     pub leaf: bool,
     /// The first of the references below it.
     pub first: usize,

@@ -5,6 +5,7 @@ use super::Histogram;
 /// Counts of a finished tree. A structure without a tree is one leaf.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TreeShape {
+    /// Nodes with children.
     pub inner: usize,
     /// Leaves, empty ones included.
     pub leaves: usize,

@@ -122,8 +122,10 @@ pub trait Accel: Sized + Send + Sync + 'static {
         Box::new(AsTheyAre { accel: self, rays })
     }
 
+    /// Bytes that the finished structure takes.
     fn footprint(&self) -> Footprint;
 
+    /// What its tree looks like.
     fn shape(&self) -> TreeShape;
 
     /// The whole tree as plain data, for measures that need more than counts; nothing where it cannot be walked. Takes 64
@@ -135,7 +137,9 @@ pub trait Accel: Sized + Send + Sync + 'static {
 
 /// [`Accel`] without its type: one virtual call hands over a batch, inside everything is monomorphised.
 pub trait DynAccel: Send + Sync {
+    /// As [`Accel::closest_hits`], unobserved.
     fn closest_hits(&self, rays: &[Ray], hits: &mut [Option<Hit>]);
+    /// As [`Accel::any_hits`], unobserved.
     fn any_hits(&self, rays: &[Ray], hits: &mut [bool]);
     /// The closest hit of each ray.
     fn closest(&self, rays: &[Ray]) -> Vec<Option<Hit>> {
@@ -164,12 +168,17 @@ pub trait DynAccel: Send + Sync {
     fn load<'a>(&'a self, rays: Cow<'a, [Ray]>) -> Box<dyn Loaded + 'a> {
         Box::new(AsTheyAre { accel: self, rays })
     }
+    /// [`Accel::OBSERVED`].
     fn observed(&self) -> Observed;
+    /// [`Accel::CAPABILITIES`].
     fn capabilities(&self) -> Capabilities {
         Capabilities::ALL
     }
+    /// As [`Accel::footprint`].
     fn footprint(&self) -> Footprint;
+    /// As [`Accel::shape`].
     fn shape(&self) -> TreeShape;
+    /// As [`Accel::outline`].
     fn outline(&self) -> Option<Outline> {
         None
     }

@@ -88,9 +88,8 @@ impl Together {
     fn push<D: Depth>(&mut self, i: usize, ray: &Ray, depth: &D, id: u32) -> bool {
         debug_assert!(self.len < TOGETHER);
         let lane = self.len % TOGETHER;
-        let inputs = depth.inputs(ray);
-        for i in 0..INPUTS {
-            self.inputs[i][lane] = inputs[i];
+        for (column, input) in self.inputs.iter_mut().zip(depth.inputs(ray)) {
+            column[lane] = input;
         }
         (self.rays[lane], self.ids[lane]) = (i, id);
         self.len = lane + 1;
@@ -106,13 +105,12 @@ impl Together {
         }
         // Lanes left over repeat the first one.
         for column in &mut self.inputs {
-            for lane in len..TOGETHER {
-                column[lane] = column[0];
-            }
+            let first = column[0];
+            column[len..].fill(first);
         }
         let ts = D::ts::<L>(&self.inputs, len);
-        for i in 0..len {
-            hit(self.rays[i], Hit::new(ts[i], self.ids[i]));
+        for ((&ray, &id), t) in self.rays.iter().zip(&self.ids).zip(ts).take(len) {
+            hit(ray, Hit::new(t, id));
         }
     }
 }

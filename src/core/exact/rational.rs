@@ -13,9 +13,11 @@ use crate::geometry::Ray;
 pub struct Solution {
     /// The determinant that the other three were divided by; not zero.
     pub determinant: RBig,
-    /// Barycentrics of the second and the third corner.
+    /// Barycentric of the second corner.
     pub u: RBig,
+    /// Barycentric of the third corner.
     pub v: RBig,
+    /// Ray parameter.
     pub t: RBig,
 }
 

@@ -5,7 +5,9 @@ use glam::{DVec3, Vec3};
 /// The closed box of points between `min` and `max`; empty when a component of `min` exceeds that of `max`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Aabb {
+    /// The least coordinates.
     pub min: Vec3,
+    /// The greatest coordinates.
     pub max: Vec3,
 }
 
@@ -13,35 +15,42 @@ impl Aabb {
     /// The box that contains nothing: the identity of [`Aabb::union`].
     pub const EMPTY: Self = Self { min: Vec3::INFINITY, max: Vec3::NEG_INFINITY };
 
+    /// The smallest box that contains these points.
     #[inline]
     pub fn of_points(points: impl IntoIterator<Item = Vec3>) -> Self {
         points.into_iter().fold(Self::EMPTY, Self::with_point)
     }
 
+    /// The smallest box that also contains `point`.
     #[inline]
     pub fn with_point(self, point: Vec3) -> Self {
         Self { min: self.min.min(point), max: self.max.max(point) }
     }
 
+    /// The smallest box that contains both.
     #[inline]
     pub fn union(self, other: Self) -> Self {
         Self { min: self.min.min(other.min), max: self.max.max(other.max) }
     }
 
+    /// What both contain; empty where they are apart.
     #[inline]
     pub fn intersection(self, other: Self) -> Self {
         Self { min: self.min.max(other.min), max: self.max.min(other.max) }
     }
 
+    /// Whether it contains no point.
     pub fn is_empty(&self) -> bool {
         !self.min.cmple(self.max).all()
     }
 
+    /// Its edges; negative components where it is empty.
     #[inline]
     pub fn extent(&self) -> Vec3 {
         self.max - self.min
     }
 
+    /// Its middle; overflows for no finite box.
     pub fn centre(&self) -> Vec3 {
         self.min * 0.5 + self.max * 0.5
     }
@@ -53,6 +62,7 @@ impl Aabb {
         half_area(self.min.as_dvec3(), self.max.as_dvec3())
     }
 
+    /// The number of the axis of its longest edge, the first of equal ones.
     #[inline]
     pub fn longest_axis(&self) -> usize {
         let e = self.extent();
@@ -75,6 +85,7 @@ impl Aabb {
         (below, above)
     }
 
+    /// Whether all of `other` lies in it.
     pub fn contains(&self, other: &Self) -> bool {
         other.is_empty() || (self.min.cmple(other.min).all() && self.max.cmpge(other.max).all())
     }

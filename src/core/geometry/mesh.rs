@@ -18,10 +18,16 @@ pub struct Mesh {
 /// Why [`Mesh::new`] refuses its input. Numbers count from 0.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum MeshError {
+    /// A coordinate is infinite or no number.
+    #[allow(missing_docs)]
     #[error("vertex {vertex} has the coordinates ({x}, {y}, {z}): every coordinate must be a finite number")]
     NotFinite { vertex: usize, x: f32, y: f32, z: f32 },
+    /// A triangle names a vertex that is not there.
+    #[allow(missing_docs)]
     #[error("triangle {triangle} names vertex {index}, but there are only {vertices} vertices")]
     OutOfRange { triangle: usize, index: u32, vertices: usize },
+    /// There are more than numbers can tell apart.
+    #[allow(missing_docs)]
     #[error("{count} {what} are more than the {limit} a mesh can hold: split the scene")]
     TooMany { what: &'static str, count: usize, limit: usize },
 }
@@ -73,6 +79,7 @@ impl Mesh {
         Ok(())
     }
 
+    /// The vertices.
     pub fn positions(&self) -> &[Vec3] {
         &self.positions
     }
@@ -87,6 +94,7 @@ impl Mesh {
         self.triangles.len()
     }
 
+    /// Whether it has no triangle.
     pub fn is_empty(&self) -> bool {
         self.triangles.is_empty()
     }

@@ -12,9 +12,13 @@ use glam::{Vec3, Vec3A};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(16))]
 pub struct Ray {
+    /// Where `t` is 0.
     pub origin: Vec3,
+    /// The interval begins here, inclusive.
     pub t_min: f32,
+    /// Of any length but 0.
     pub direction: Vec3,
+    /// The interval ends here, exclusive.
     pub t_max: f32,
 }
 
@@ -75,6 +79,7 @@ impl PrimId {
         Self(NonZeroU32::new(!index).expect("a primitive number is below u32::MAX"))
     }
 
+    /// The number, below `u32::MAX`.
     #[inline(always)]
     pub fn index(self) -> u32 {
         !self.0.get()
@@ -92,12 +97,17 @@ impl std::fmt::Debug for PrimId {
 pub struct Hit {
     /// Ray parameter, in lengths of the direction.
     pub t: f32,
+    /// The triangle of the mesh.
     pub prim: PrimId,
 }
 
 const _: () = assert!(size_of::<Option<Hit>>() == 8);
 
 impl Hit {
+    /// A hit of triangle `index` at `t`.
+    ///
+    /// # Panics
+    /// If the number is `u32::MAX`.
     #[inline(always)]
     pub fn new(t: f32, index: u32) -> Self {
         Self { t, prim: PrimId::new(index) }

@@ -25,14 +25,22 @@ impl Display for Ray {
 /// Why a text is not a ray.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum RayTextError {
+    /// Not two parts, or three.
+    #[allow(missing_docs)]
     #[error(
         "the ray {text:?} has {count} parts: write \"ox,oy,oz dx,dy,dz\", then \" [t_min,t_max]\" if it is bounded"
     )]
     Parts { text: String, count: usize },
+    /// A part with too few numbers, or too many.
+    #[allow(missing_docs)]
     #[error("{part:?} in the ray {text:?} has {count} numbers: it must have {expected}, separated by commas")]
     Count { text: String, part: String, count: usize, expected: usize },
+    /// What should be a number is none.
+    #[allow(missing_docs)]
     #[error("{number:?} in the ray {text:?} is not a number")]
     Number { text: String, number: String },
+    /// An interval without brackets.
+    #[allow(missing_docs)]
     #[error("the interval {part:?} in the ray {text:?} must stand in brackets: [t_min,t_max)")]
     Brackets { text: String, part: String },
 }

@@ -6,8 +6,8 @@ use std::mem::MaybeUninit;
 #[inline(always)]
 pub fn indexed<const N: usize, B: Copy>(f: impl Fn(usize) -> B) -> [B; N] {
     let mut results = [const { MaybeUninit::uninit() }; N];
-    for i in 0..N {
-        results[i].write(f(i));
+    for (i, result) in results.iter_mut().enumerate() {
+        result.write(f(i));
     }
     // SAFETY: all were written, and `MaybeUninit<B>` has the layout of `B`.
     unsafe { std::ptr::from_ref(&results).cast::<[B; N]>().read() }

@@ -39,6 +39,7 @@ pub struct UnknownLevel {
 
 /// What is written once over eight lanes and runs on any level.
 pub trait Kernel {
+    /// What it gives.
     type Output;
 
     /// Mark it, and all that it calls with lanes, `#[inline(always)]`: only what is inlined is compiled for the level.

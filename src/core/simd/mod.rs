@@ -16,15 +16,22 @@ pub use vector::LaneVec3;
 
 /// `N` lanes of one type of float. Arithmetic is that of IEEE 754, lane by lane and never fused.
 pub trait Arithmetic<const N: usize>: Copy {
+    /// The type of one lane.
     type Scalar: Copy;
 
     /// Zero in every lane.
     fn zero() -> Self;
+    /// The same number in every lane.
     fn splat(value: Self::Scalar) -> Self;
+    /// The lanes as an array.
     fn store(self) -> [Self::Scalar; N];
+    /// Sums.
     fn add(self, other: Self) -> Self;
+    /// Differences.
     fn sub(self, other: Self) -> Self;
+    /// Products.
     fn mul(self, other: Self) -> Self;
+    /// Quotients.
     fn div(self, other: Self) -> Self;
     /// The lesser; `other` where they are equal or one is NaN.
     fn min(self, other: Self) -> Self;
@@ -40,8 +47,10 @@ pub trait Arithmetic<const N: usize>: Copy {
 
 /// `N` lanes of `f32`.
 pub trait Lanes<const N: usize>: Arithmetic<N, Scalar = f32> {
+    /// As many lanes of `f64`.
     type Double: Arithmetic<N, Scalar = f64>;
 
+    /// The lanes of an array.
     fn load(values: &[f32; N]) -> Self;
     /// The same numbers.
     fn widen(self) -> Self::Double;
@@ -96,9 +105,11 @@ pub trait EightLanes: Lanes<8> {
     /// `self` in the lanes of `mask`, `other` elsewhere.
     fn choose(self, other: Self, mask: Self::Mask) -> Self;
 
+    /// The lanes of an array.
     fn numbers(numbers: &[u32; 8]) -> Self::Numbers;
     /// The same number in every lane.
     fn splat_number(number: u32) -> Self::Numbers;
+    /// The lanes as an array.
     fn store_numbers(numbers: Self::Numbers) -> [u32; 8];
     /// Lanes where `one <= other`.
     fn cmp_le_numbers(one: Self::Numbers, other: Self::Numbers) -> Self::Mask;

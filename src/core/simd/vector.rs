@@ -8,18 +8,23 @@ use super::{Arithmetic, Lanes};
 /// A 3-vector in every lane. Sums of products are taken from x to z.
 #[derive(Clone, Copy, Debug)]
 pub struct LaneVec3<const N: usize, L> {
+    /// The x of each lane.
     pub x: L,
+    /// The y of each lane.
     pub y: L,
+    /// The z of each lane.
     pub z: L,
     width: PhantomData<[f32; N]>,
 }
 
 impl<const N: usize, L: Lanes<N>> LaneVec3<N, L> {
+    /// The same vector in every lane.
     #[inline(always)]
     pub fn splat(v: Vec3) -> Self {
         Self::new(L::splat(v.x), L::splat(v.y), L::splat(v.z))
     }
 
+    /// Vectors that stand coordinate by coordinate.
     #[inline(always)]
     pub fn load([x, y, z]: &[[f32; N]; 3]) -> Self {
         Self::new(L::load(x), L::load(y), L::load(z))
@@ -59,11 +64,13 @@ impl<const N: usize, L: Lanes<N>> LaneVec3<N, L> {
 }
 
 impl<const N: usize, L: Arithmetic<N>> LaneVec3<N, L> {
+    /// From its coordinates.
     #[inline(always)]
     pub fn new(x: L, y: L, z: L) -> Self {
         Self { x, y, z, width: PhantomData }
     }
 
+    /// Scalar products.
     #[inline(always)]
     pub fn dot(self, other: Self) -> L {
         self.x.mul(other.x).add(self.y.mul(other.y)).add(self.z.mul(other.z))
@@ -83,6 +90,7 @@ impl<const N: usize, L: Arithmetic<N>> LaneVec3<N, L> {
         abs(self.x).max(abs(self.y)).max(abs(self.z))
     }
 
+    /// Vector products.
     #[inline(always)]
     pub fn cross(self, other: Self) -> Self {
         Self::new(

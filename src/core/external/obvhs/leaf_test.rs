@@ -18,10 +18,13 @@ pub trait LeafTest: Send + Sync + 'static {
     /// What the test prepares once a ray.
     type Ray: Copy + Send + Sync;
 
+    /// Prepares a triangle.
     fn triangle(corners: [Vec3; 3]) -> Self::Triangle;
 
+    /// Prepares a ray.
     fn prepare(ray: &Ray) -> Self::Ray;
 
+    /// The `t` of a hit, infinity for a miss.
     fn test(triangle: &Self::Triangle, ray: &PreparedRay, prepared: &Self::Ray) -> f32;
 }
 

@@ -58,11 +58,13 @@ fn aabb(bounds: obvhs::aabb::Aabb) -> Aabb {
 
 /// What the two trees of obvhs have in common. Tests give `t` of a triangle in the order of the tree, infinity for a miss.
 pub trait Tree: Send + Sync + Sized + 'static {
+    /// Builds it.
     fn build(triangles: &[Triangle], params: BvhBuildParams) -> Self;
 
     /// Moves the nodes to where they stay; gives the triangle for each place in the tree, which is not kept.
     fn settle(&mut self) -> Vec<u32>;
 
+    /// Bytes of its nodes.
     fn node_bytes(&self) -> usize;
 
     /// Whether all links lead to nodes, and all leaves hold places below `triangles`. What walks rely on.
