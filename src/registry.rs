@@ -103,8 +103,16 @@ impl Registry {
             .offering::<ObvhsCwBvh<Native>>("obvhs-cwbvh", ObvhsConfig::default())
             .offering::<ObvhsCwBvh<Over<MollerTrumbore>>>("obvhs-cwbvh", ObvhsConfig::default())
             .offering::<ObvhsCwBvh<Over<Exact>>>("obvhs-cwbvh", ObvhsConfig::default())
-            .offering::<BruteForce<RtTest>>("brute-force", Default::default());
+            .brute_force::<RtTest>();
         with_obvhs.with_peers()
+    }
+
+    /// Brute force over the triangle test `T`, which structures over it are held against.
+    fn brute_force<T: Judged>(self) -> Self
+    where
+        BruteForce<T>: Offered<Config = BruteForceConfig>,
+    {
+        self.offering::<BruteForce<T>>("brute-force", BruteForceConfig::default())
     }
 
     /// The structures of this crate over the triangle test `T`.
@@ -114,7 +122,7 @@ impl Registry {
         KdTree<T>: Offered<Config = KdConfig>,
         Bvh8<T>: Offered<Config = Bvh8Config>,
     {
-        self.offering::<BruteForce<T>>("brute-force", Default::default())
+        self.brute_force::<T>()
             .offering::<KdTree<T>>("median-kd", KdConfig::REPORT)
             .offering::<KdTree<T>>("sah-kd", KdConfig::SAH)
             .offering::<Bvh8<T>>("sah-kd-wide", Bvh8Config::new(Partition::Cells))

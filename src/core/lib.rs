@@ -24,7 +24,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! A program of your own compiles the searches that it names, with its own settings. Those of [`offered`] are compiled with this crate.
+//! A program compiles the structures that it names, with its own settings: `codegen-units = 1` in its `[profile.release]` is what they are measured
+//! with.
 
 #![warn(missing_docs)]
 
@@ -38,10 +39,12 @@ pub mod exact;
 pub mod external;
 pub mod geometry;
 pub mod kdtree;
+#[cfg(feature = "suite")]
 pub mod offered;
 pub mod simd;
 mod traversal;
 pub mod triangle;
 
-/// The version that this crate uses.
+// The versions that this crate uses.
 pub use glam;
+pub use serde;

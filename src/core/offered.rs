@@ -6,7 +6,6 @@ use std::sync::Arc;
 use crate::accel::{Accel, BuildError, DynAccel};
 use crate::brute_force::BruteForce;
 use crate::bvh8::Bvh8;
-#[cfg(feature = "suite")]
 use crate::external::obvhs::{Native, ObvhsBvh2, ObvhsCwBvh, Over, RtTest};
 use crate::geometry::Mesh;
 use crate::kdtree::KdTree;
@@ -42,7 +41,6 @@ macro_rules! offered_over {
 
 offered_over!(Exact, MollerTrumbore, Watertight, BaldwinWeber, Plucker, MollerTrumboreF64, EdgeF64);
 
-#[cfg(feature = "suite")]
 offered!(
     ObvhsBvh2<Native>,
     ObvhsBvh2<Over<MollerTrumbore>>,

@@ -11,26 +11,24 @@ impl Registry {
 
         #[cfg(feature = "peer-bvh")]
         let this = {
-            use crate::brute_force::BruteForce;
             use crate::external::bvh::{SvenstaroBvh, SvenstaroBvhConfig, SvenstaroTest};
             use crate::triangle::{Exact, MollerTrumbore};
             let config = SvenstaroBvhConfig::default();
             this.offering::<SvenstaroBvh<SvenstaroTest>>("bvh", config)
                 .offering::<SvenstaroBvh<MollerTrumbore>>("bvh", config)
                 .offering::<SvenstaroBvh<Exact>>("bvh", config)
-                .offering::<BruteForce<SvenstaroTest>>("brute-force", Default::default())
+                .brute_force::<SvenstaroTest>()
         };
 
         #[cfg(feature = "peer-parry")]
         let this = {
-            use crate::brute_force::BruteForce;
             use crate::external::parry::{ParryBvh, ParryConfig, ParryTest};
             use crate::triangle::{Exact, MollerTrumbore};
             let config = ParryConfig::default();
             this.offering::<ParryBvh<ParryTest>>("parry", config)
                 .offering::<ParryBvh<MollerTrumbore>>("parry", config)
                 .offering::<ParryBvh<Exact>>("parry", config)
-                .offering::<BruteForce<ParryTest>>("brute-force", Default::default())
+                .brute_force::<ParryTest>()
         };
 
         #[cfg(feature = "peer-tinybvh")]

@@ -22,9 +22,9 @@ use crate::triangle::{
 /// One triangle, tested alone: `t` where the ray hits it within its interval.
 pub type ScalarTest = fn(&Ray, [Vec3; 3]) -> Option<f32>;
 
-/// A triangle test with a reference of its own. The registry takes no other one over which it offers structures, so that none is judged by
-/// another test in silence.
-pub trait Judged: TriangleTest {}
+/// A triangle test that has a reference of its own. Without one, a structure would be compared with Möller-Trumbore. The registry offers brute
+/// force, and all of this crate's structures, over such tests alone.
+pub(crate) trait Judged: TriangleTest {}
 
 type OfMesh = fn(&Arc<Mesh>) -> Result<Reference, BuildError>;
 

@@ -4,7 +4,7 @@ use std::array;
 
 use glam::Vec3;
 
-use crate::simd::Lanes;
+use crate::simd::{Lanes, indexed};
 
 /// A block of `triangles` as `make` brings them into the form of the test; lanes that are left over have no area.
 pub(super) fn block<B, const N: usize>(triangles: &[[Vec3; 3]], make: impl Fn([Vec3; 3]) -> B) -> [B; N] {
@@ -14,7 +14,7 @@ pub(super) fn block<B, const N: usize>(triangles: &[[Vec3; 3]], make: impl Fn([V
 
 /// The lanes with `t` in the interval, and all `t`; what is missed is infinitely far.
 #[inline(always)]
-pub(super) fn candidates<const N: usize, L: Lanes<N>>(from: f32, to: f32, t: impl FnMut(usize) -> f32) -> (u32, L) {
-    let t = L::load(&array::from_fn(t));
+pub(super) fn candidates<const N: usize, L: Lanes<N>>(from: f32, to: f32, t: impl Fn(usize) -> f32) -> (u32, L) {
+    let t = L::load(&indexed(t));
     (L::splat(from).le(t) & t.le(L::splat(to.min(f32::MAX))), t)
 }

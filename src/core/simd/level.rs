@@ -14,7 +14,7 @@ use super::{EightLanes, Portable};
 /// machine may lack, only be given them.
 ///
 /// ```compile_fail,E0603
-/// let level = sahara::simd::Level::Avx512;
+/// let level = sahara_core::simd::Level::Avx512;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[repr(u8)]
