@@ -68,7 +68,7 @@ pub struct Reference {
 }
 
 impl Reference {
-    /// Brute force with the triangle test named `test` ([`Accel::TRIANGLE_TEST`]); for a test that this crate does not
+    /// Brute force with the triangle test named `test` ([`TRIANGLE_TEST`](crate::accel::Accel::TRIANGLE_TEST)); for a test that this crate does not
     /// have, brute force with Möller-Trumbore, which shares nothing; for one that it has only as a scene of one triangle,
     /// brute force with `exact`, and that test in disputes.
     ///
