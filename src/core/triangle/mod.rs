@@ -1,6 +1,6 @@
 //! Triangle tests: common property of all structures, so that hits with the same test are bit-identical.
 //!
-//! To add one: a file here that implements [`TriangleTest`], a word in the list of [`offered`](crate::offered), a line in
+//! To add one: a file here that implements [`TriangleTest`], a word in the list of `offered.rs`, a line in
 //! `Registry::builtin` (which does not compile before the test is in the list of references, `validate/reference.rs`), and one in
 //! `triangle/tests/every.rs`.
 
