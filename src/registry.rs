@@ -1,5 +1,8 @@
 //! The structures by name: the only place that names them all.
 
+mod builtin;
+mod choice;
+mod entry;
 mod keys;
 mod peers;
 mod runners;
@@ -9,20 +12,16 @@ use std::sync::Arc;
 
 use serde_json::{Map, Value};
 
-pub use keys::Key;
-pub use runners::RUNNER;
-
-use crate::accel::{Accel, BuildError, Capabilities, DynAccel, Observed};
-use crate::brute_force::{BruteForce, BruteForceConfig};
-use crate::bvh8::{Bvh8, Bvh8Config, Partition};
-use crate::external::obvhs::{Native, ObvhsBvh2, ObvhsConfig, ObvhsCwBvh, Over, RtTest};
+use crate::accel::{Accel, BuildError};
 use crate::geometry::Mesh;
-use crate::kdtree::{KdConfig, KdTree};
 use crate::names::suggestion;
 use crate::offered::Offered;
-use crate::triangle::{BaldwinWeber, EdgeF64, Exact, MollerTrumbore, MollerTrumboreF64, Plucker, Watertight};
-use crate::validate::Judged;
-use crate::validate::conformance::Subject;
+use entry::{Build, Built};
+
+pub use choice::{Choice, ChoiceError};
+pub use entry::Entry;
+pub use keys::Key;
+pub use runners::RUNNER;
 
 /// The structures that a run can choose from, in the order of tables.
 #[derive(Clone)]
@@ -30,105 +29,10 @@ pub struct Registry {
     entries: Vec<Entry>,
 }
 
-/// One structure over one triangle test, with its default configuration.
-#[derive(Clone)]
-pub struct Entry {
-    /// As written on the command line; entries of one structure over several tests share it.
-    pub name: String,
-    /// [`Accel::TRIANGLE_TEST`].
-    pub triangle_test: &'static str,
-    /// [`Accel::OBSERVED`].
-    pub observed: Observed,
-    /// [`Accel::CONVENTIONS`].
-    pub conventions: &'static [&'static str],
-    /// [`Accel::CAPABILITIES`].
-    pub capabilities: Capabilities,
-    config: Value,
-    /// Whether a configuration can be read, before it is known whether its values go together.
-    read: fn(&Value) -> Result<(), String>,
-    build: Build,
-}
-
-type Built = Result<Box<dyn DynAccel>, BuildError>;
-type Build = Arc<dyn Fn(&Arc<Mesh>, &Value) -> Built + Send + Sync>;
-
-/// A structure that a run has chosen: what is built, and the name to print.
-#[derive(Clone)]
-pub struct Choice {
-    pub entry: Entry,
-    /// The whole configuration, defaults included.
-    pub config: Value,
-    /// `name`, or `name:key=value,..` with the values that differ from the default.
-    pub label: String,
-}
-
-/// Why a choice of structure is refused.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum ChoiceError {
-    #[error("there is no structure {name:?}{suggestion}; there are: {known}")]
-    Unknown { name: String, suggestion: String, known: String },
-    #[error("{name} is not offered over the triangle test {test:?}{suggestion}; it is over: {known}")]
-    Test { name: String, test: String, suggestion: String, known: String },
-    #[error("{name} has no key {key:?}{suggestion}; its keys are: {known}")]
-    Key { name: String, key: String, suggestion: String, known: String },
-    #[error("{part:?} in {spec:?} is not of the form key=value")]
-    Form { spec: String, part: String },
-    #[error("{name} does not take {given} ({reason}){suggestion}; allowed: {values}")]
-    Value { name: String, given: String, reason: String, suggestion: String, values: String },
-    #[error("{name} cannot be configured so: {reason}")]
-    Config { name: String, reason: String },
-}
-
 impl Registry {
     /// No structure at all.
     pub fn empty() -> Self {
         Self { entries: vec![] }
-    }
-
-    /// The structures of this crate.
-    pub fn builtin() -> Self {
-        // The default comes first: the one that is right on every ray.
-        let ours = Self::empty()
-            .over::<Exact>()
-            .over::<MollerTrumbore>()
-            .over::<Watertight>()
-            .over::<BaldwinWeber>()
-            .over::<Plucker>()
-            .over::<MollerTrumboreF64>()
-            .over::<EdgeF64>();
-        let with_obvhs = ours
-            .offering::<ObvhsBvh2<Native>>("obvhs-bvh2", ObvhsConfig::default())
-            .offering::<ObvhsBvh2<Over<MollerTrumbore>>>("obvhs-bvh2", ObvhsConfig::default())
-            .offering::<ObvhsBvh2<Over<Exact>>>("obvhs-bvh2", ObvhsConfig::default())
-            .offering::<ObvhsCwBvh<Native>>("obvhs-cwbvh", ObvhsConfig::default())
-            .offering::<ObvhsCwBvh<Over<MollerTrumbore>>>("obvhs-cwbvh", ObvhsConfig::default())
-            .offering::<ObvhsCwBvh<Over<Exact>>>("obvhs-cwbvh", ObvhsConfig::default())
-            .brute_force::<RtTest>();
-        with_obvhs.with_peers()
-    }
-
-    /// Brute force over the triangle test `T`, which structures over it are held against.
-    fn brute_force<T: Judged>(self) -> Self
-    where
-        BruteForce<T>: Offered<Config = BruteForceConfig>,
-    {
-        self.offering::<BruteForce<T>>("brute-force", BruteForceConfig::default())
-    }
-
-    /// The structures of this crate over the triangle test `T`.
-    fn over<T: Judged>(self) -> Self
-    where
-        BruteForce<T>: Offered<Config = BruteForceConfig>,
-        KdTree<T>: Offered<Config = KdConfig>,
-        Bvh8<T>: Offered<Config = Bvh8Config>,
-    {
-        self.brute_force::<T>()
-            .offering::<KdTree<T>>("median-kd", KdConfig::REPORT)
-            .offering::<KdTree<T>>("sah-kd", KdConfig::SAH)
-            .offering::<Bvh8<T>>("sah-kd-wide", Bvh8Config::new(Partition::Cells))
-            .offering::<Bvh8<T>>("sah-kd-tight", Bvh8Config::new(Partition::Tight))
-            .offering::<Bvh8<T>>("sah-hybrid", Bvh8Config::new(Partition::Hybrid))
-            .offering::<Bvh8<T>>("sah-bvh", Bvh8Config::new(Partition::Objects))
     }
 
     /// Adds a structure under `name`, with `config` as what a user gets who names no keys.
@@ -219,13 +123,14 @@ impl Registry {
                 })?
             }
         };
-        entry.configure(&overrides, !std::ptr::eq(entry, first))
+        Choice::of(entry, &overrides, !std::ptr::eq(entry, first))
     }
 
     /// The default choice of every entry, in order.
     pub fn all(&self) -> Vec<Choice> {
         let first = |e: &Entry| self.entries.iter().find(|f| f.name == e.name).is_some_and(|f| std::ptr::eq(f, e));
-        self.entries.iter().map(|e| e.configure(&[], !first(e)).expect("a default configuration is accepted")).collect()
+        let default = |e| Choice::of(e, &[], !first(e)).expect("a default configuration is accepted");
+        self.entries.iter().map(default).collect()
     }
 
     /// Names without repetition, in order.
@@ -240,95 +145,6 @@ impl Registry {
     }
 }
 
-impl Entry {
-    /// The default configuration, by key.
-    pub fn config(&self) -> &Value {
-        &self.config
-    }
-
-    /// Why the structure cannot take part on this system; nothing if it can.
-    pub fn absence(&self) -> Option<String> {
-        match (self.build)(&Arc::new(empty()), &self.config) {
-            Err(BuildError::Unavailable(sentence)) => Some(sentence),
-            _ => None,
-        }
-    }
-
-    fn configure(&self, overrides: &[(&str, &str)], name_test: bool) -> Result<Choice, ChoiceError> {
-        let mut config = self.config.clone();
-        let keys = config.as_object_mut().expect("checked when it was registered");
-        let mut shown = vec![];
-        if name_test {
-            shown.push(format!("test={}", self.triangle_test));
-        }
-        for &(key, text) in overrides {
-            let known: Vec<&str> = keys.keys().map(String::as_str).collect();
-            let unknown = || ChoiceError::Key {
-                name: self.name.clone(),
-                key: key.into(),
-                suggestion: suggestion(key, known.iter().copied()),
-                known: known.join(", "),
-            };
-            if !keys.contains_key(key) {
-                return Err(unknown());
-            }
-            let value = serde_json::from_str(text).unwrap_or_else(|_| Value::String(text.into()));
-            self.takes(key, &value).map_err(|reason| {
-                let values = self.values(key);
-                ChoiceError::Value {
-                    name: self.name.clone(),
-                    given: format!("{key}={text}"),
-                    reason: reason.split(", expected").next().unwrap_or_default().into(),
-                    suggestion: suggestion(text, values.split(", ")),
-                    values,
-                }
-            })?;
-            if keys[key] != value {
-                shown.push(format!("{key}={text}"));
-            }
-            keys.insert(key.into(), value);
-        }
-        let label = if shown.is_empty() { self.name.clone() } else { format!("{}:{}", self.name, shown.join(",")) };
-        let choice = Choice { entry: self.clone(), config, label };
-        match choice.build(&Arc::new(empty())) {
-            Err(BuildError::Config(reason)) => Err(ChoiceError::Config { name: self.name.clone(), reason }),
-            // What is absent, or cannot do with the empty mesh, is refused when it is built over a mesh: it must not end a run
-            // over many.
-            _ => Ok(choice),
-        }
-    }
-
-    /// Whether a key can have a value, whatever the others have; the error is the reader's.
-    fn takes(&self, key: &str, value: &Value) -> Result<(), String> {
-        let mut config = self.config.clone();
-        config[key] = value.clone();
-        (self.read)(&config)
-    }
-}
-
-impl Choice {
-    /// # Errors
-    /// If the structure does not admit the mesh.
-    pub fn build(&self, mesh: &Arc<Mesh>) -> Result<Box<dyn DynAccel>, BuildError> {
-        (self.entry.build)(mesh, &self.config)
-    }
-
-    /// The structure as the functions of [`crate::validate::conformance`] take it.
-    pub fn subject(&self) -> Subject {
-        let own = self.clone();
-        Subject::new(&self.label, self.triangle_test(), move |mesh| own.build(mesh))
-    }
-
-    /// The triangle test whose answers this structure gives.
-    pub fn triangle_test(&self) -> &'static str {
-        self.entry.triangle_test
-    }
-}
-
-fn empty() -> Mesh {
-    Mesh::new(vec![], vec![]).expect("the empty mesh is valid")
-}
-
 /// A configuration from its map of keys; a type without fields serialises to null.
 fn parse<A: Accel>(config: &Value) -> Result<A::Config, String> {
     serde_json::from_value(config.clone()).or_else(|error| match config {
@@ -339,6 +155,7 @@ fn parse<A: Accel>(config: &Value) -> Result<A::Config, String> {
 
 #[cfg(test)]
 mod tests {
+    use super::entry::empty;
     use super::*;
 
     #[test]

@@ -1,0 +1,58 @@
+//! The structures of this crate, and those of obvhs.
+
+use super::Registry;
+use crate::brute_force::{BruteForce, BruteForceConfig};
+use crate::bvh8::{Bvh8, Bvh8Config, Partition};
+use crate::external::obvhs::{Native, ObvhsBvh2, ObvhsConfig, ObvhsCwBvh, Over, RtTest};
+use crate::kdtree::{KdConfig, KdTree};
+use crate::offered::Offered;
+use crate::triangle::{BaldwinWeber, EdgeF64, Exact, MollerTrumbore, MollerTrumboreF64, Plucker, Watertight};
+use crate::validate::Judged;
+
+impl Registry {
+    /// The structures of this crate.
+    pub fn builtin() -> Self {
+        // The default comes first: the one that is right on every ray.
+        let ours = Self::empty()
+            .over::<Exact>()
+            .over::<MollerTrumbore>()
+            .over::<Watertight>()
+            .over::<BaldwinWeber>()
+            .over::<Plucker>()
+            .over::<MollerTrumboreF64>()
+            .over::<EdgeF64>();
+        let with_obvhs = ours
+            .offering::<ObvhsBvh2<Native>>("obvhs-bvh2", ObvhsConfig::default())
+            .offering::<ObvhsBvh2<Over<MollerTrumbore>>>("obvhs-bvh2", ObvhsConfig::default())
+            .offering::<ObvhsBvh2<Over<Exact>>>("obvhs-bvh2", ObvhsConfig::default())
+            .offering::<ObvhsCwBvh<Native>>("obvhs-cwbvh", ObvhsConfig::default())
+            .offering::<ObvhsCwBvh<Over<MollerTrumbore>>>("obvhs-cwbvh", ObvhsConfig::default())
+            .offering::<ObvhsCwBvh<Over<Exact>>>("obvhs-cwbvh", ObvhsConfig::default())
+            .brute_force::<RtTest>();
+        with_obvhs.with_peers()
+    }
+
+    /// Brute force over the triangle test `T`, which structures over it are held against.
+    pub(super) fn brute_force<T: Judged>(self) -> Self
+    where
+        BruteForce<T>: Offered<Config = BruteForceConfig>,
+    {
+        self.offering::<BruteForce<T>>("brute-force", BruteForceConfig::default())
+    }
+
+    /// The structures of this crate over the triangle test `T`.
+    fn over<T: Judged>(self) -> Self
+    where
+        BruteForce<T>: Offered<Config = BruteForceConfig>,
+        KdTree<T>: Offered<Config = KdConfig>,
+        Bvh8<T>: Offered<Config = Bvh8Config>,
+    {
+        self.brute_force::<T>()
+            .offering::<KdTree<T>>("median-kd", KdConfig::REPORT)
+            .offering::<KdTree<T>>("sah-kd", KdConfig::SAH)
+            .offering::<Bvh8<T>>("sah-kd-wide", Bvh8Config::new(Partition::Cells))
+            .offering::<Bvh8<T>>("sah-kd-tight", Bvh8Config::new(Partition::Tight))
+            .offering::<Bvh8<T>>("sah-hybrid", Bvh8Config::new(Partition::Hybrid))
+            .offering::<Bvh8<T>>("sah-bvh", Bvh8Config::new(Partition::Objects))
+    }
+}

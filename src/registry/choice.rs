@@ -1,0 +1,103 @@
+use std::sync::Arc;
+
+use serde_json::Value;
+
+use super::entry::{Entry, empty};
+use crate::accel::{BuildError, DynAccel};
+use crate::geometry::Mesh;
+use crate::names::suggestion;
+use crate::validate::conformance::Subject;
+
+/// A structure that a run has chosen: what is built, and the name to print.
+#[derive(Clone)]
+pub struct Choice {
+    pub entry: Entry,
+    /// The whole configuration, defaults included.
+    pub config: Value,
+    /// `name`, or `name:key=value,..` with the values that differ from the default.
+    pub label: String,
+}
+
+/// Why a choice of structure is refused.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum ChoiceError {
+    #[error("there is no structure {name:?}{suggestion}; there are: {known}")]
+    Unknown { name: String, suggestion: String, known: String },
+    #[error("{name} is not offered over the triangle test {test:?}{suggestion}; it is over: {known}")]
+    Test { name: String, test: String, suggestion: String, known: String },
+    #[error("{name} has no key {key:?}{suggestion}; its keys are: {known}")]
+    Key { name: String, key: String, suggestion: String, known: String },
+    #[error("{part:?} in {spec:?} is not of the form key=value")]
+    Form { spec: String, part: String },
+    #[error("{name} does not take {given} ({reason}){suggestion}; allowed: {values}")]
+    Value { name: String, given: String, reason: String, suggestion: String, values: String },
+    #[error("{name} cannot be configured so: {reason}")]
+    Config { name: String, reason: String },
+}
+
+impl Choice {
+    /// `entry` with values of some keys; `name_test` where its name alone would be that of another entry.
+    ///
+    /// # Errors
+    /// If a key is not known, or a value does not fit.
+    pub(super) fn of(entry: &Entry, overrides: &[(&str, &str)], name_test: bool) -> Result<Self, ChoiceError> {
+        let mut config = entry.config.clone();
+        let keys = config.as_object_mut().expect("checked when it was registered");
+        let mut shown = vec![];
+        if name_test {
+            shown.push(format!("test={}", entry.triangle_test));
+        }
+        for &(key, text) in overrides {
+            let known: Vec<&str> = keys.keys().map(String::as_str).collect();
+            let unknown = || ChoiceError::Key {
+                name: entry.name.clone(),
+                key: key.into(),
+                suggestion: suggestion(key, known.iter().copied()),
+                known: known.join(", "),
+            };
+            if !keys.contains_key(key) {
+                return Err(unknown());
+            }
+            let value = serde_json::from_str(text).unwrap_or_else(|_| Value::String(text.into()));
+            entry.takes(key, &value).map_err(|reason| {
+                let values = entry.values(key);
+                ChoiceError::Value {
+                    name: entry.name.clone(),
+                    given: format!("{key}={text}"),
+                    reason: reason.split(", expected").next().unwrap_or_default().into(),
+                    suggestion: suggestion(text, values.split(", ")),
+                    values,
+                }
+            })?;
+            if keys[key] != value {
+                shown.push(format!("{key}={text}"));
+            }
+            keys.insert(key.into(), value);
+        }
+        let label = if shown.is_empty() { entry.name.clone() } else { format!("{}:{}", entry.name, shown.join(",")) };
+        let choice = Self { entry: entry.clone(), config, label };
+        match choice.build(&Arc::new(empty())) {
+            Err(BuildError::Config(reason)) => Err(ChoiceError::Config { name: entry.name.clone(), reason }),
+            // What is absent, or cannot do with the empty mesh, is refused when it is built over a mesh: it must not end a run
+            // over many.
+            _ => Ok(choice),
+        }
+    }
+
+    /// # Errors
+    /// If the structure does not admit the mesh.
+    pub fn build(&self, mesh: &Arc<Mesh>) -> Result<Box<dyn DynAccel>, BuildError> {
+        (self.entry.build)(mesh, &self.config)
+    }
+
+    /// The structure as the functions of [`crate::validate::conformance`] take it.
+    pub fn subject(&self) -> Subject {
+        let own = self.clone();
+        Subject::new(&self.label, self.triangle_test(), move |mesh| own.build(mesh))
+    }
+
+    /// The triangle test whose answers this structure gives.
+    pub fn triangle_test(&self) -> &'static str {
+        self.entry.triangle_test
+    }
+}
