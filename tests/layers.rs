@@ -40,9 +40,6 @@ const LAYERS: [(&str, u32); 29] = [
 /// No structure imports another.
 const STRUCTURES: u32 = 3;
 
-/// Rooms whose files still import each other in circles. It may only shrink.
-const CIRCLES_LEFT: &[&str] = &["study"];
-
 /// Source files by module path, `bvh8::node`; a folder's `mod.rs` is the folder. Without comments, and without what is compiled for tests alone.
 struct Sources(BTreeMap<String, String>);
 
@@ -333,12 +330,7 @@ fn imports_go_downward_between_rooms() {
 #[test]
 fn files_do_not_import_each_other_in_circles() {
     let circles = circles(&Sources::of_the_crate().imports());
-    let new: Vec<_> = circles.iter().filter(|circle| !CIRCLES_LEFT.contains(&room(&circle[0]))).collect();
-    assert!(new.is_empty(), "files import each other in circles:\n{new:#?}");
-    for left in CIRCLES_LEFT {
-        let is_left = circles.iter().any(|circle| room(&circle[0]) == *left);
-        assert!(is_left, "{left} has no circles any more: take it out of CIRCLES_LEFT");
-    }
+    assert!(circles.is_empty(), "files import each other in circles:\n{circles:#?}");
 }
 
 /// A small crate: each file's module and text.

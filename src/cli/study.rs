@@ -82,7 +82,7 @@ pub fn run_as(session: &Session, study: &dyn AnyStudy, chosen: Chosen, common: &
     let mut screen = OnTerminal::new(terminal);
     let mut run = Run {
         registry: &suite.registry,
-        studies: &suite.studies,
+        others: &|| suite.studies.answers(&folder, study.name()),
         folder: &folder,
         is_kept: common.dir.is_some() || study.is_kept(),
         fresh: common.fresh,

@@ -156,7 +156,7 @@ impl Runs {
         last.into_iter().try_for_each(|part| runs.add(part))?;
         for (study, answer) in made {
             if runs.answers.get(study.name()).is_none() {
-                runs.answers.add(study, answer);
+                study.add(&mut runs.answers, answer);
             }
         }
         Ok(runs)
@@ -194,7 +194,7 @@ impl Runs {
         } else {
             self.measured_on.remove(study.name());
             self.measured_on.extend(provenance.map(|provenance| (study.name(), Machine::of(provenance))));
-            if self.answers.add(study, answer) {
+            if study.add(&mut self.answers, answer) {
                 let older = self.sources.iter_mut().filter(|source| source.kind == study.name());
                 older.for_each(|source| source.replaced = REPLACED.into());
             }
@@ -240,7 +240,7 @@ impl Runs {
         let leading = self.machines.remove(place);
         let commands = leading.sources.iter().map(|&source| &self.sources[source].command);
         self.commands.insert(study.name(), distinct(commands.filter(|command| !command.is_empty())));
-        self.answers.add(study, Box::new(leading.compared.clone()));
+        study.add(&mut self.answers, Box::new(leading.compared.clone()));
         self.machines.insert(0, leading);
     }
 

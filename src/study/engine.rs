@@ -1,16 +1,16 @@
 //! Runs a study: measures the cases that its journal lacks, one by one, and answers.
 
+use std::fs;
 use std::path::Path;
-use std::{fs, io};
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use super::epoch::{Joined, join};
 use super::job::Job;
-use super::journal::{Header, Journal};
+use super::journal::{Header, Journal, JournalError};
 use super::process::Processes;
-use super::{Answers, AnyAnswer, Context, Plan, Planned, Stage, Status, Studies, Study, StudyError};
+use super::{Answers, AnyAnswer, Context, Plan, Planned, Screen, Stage, Status, Study, StudyError};
 use crate::measure::{Clock, Provenance, SystemClock};
 use crate::registry::Registry;
 use crate::report::Table;
@@ -18,7 +18,8 @@ use crate::report::Table;
 /// What a study is run with.
 pub struct Run<'a> {
     pub registry: &'a Registry,
-    pub studies: &'a Studies,
+    /// Reads the answers of the other studies, from which one that is [`Study::LAST`] is made.
+    pub others: &'a dyn Fn() -> Result<Answers, JournalError>,
     /// Where journals are kept.
     pub folder: &'a Path,
     /// Whether the journal stays there when all is measured.
@@ -28,33 +29,6 @@ pub struct Run<'a> {
     /// Starts a process for each timed case; without it they are measured in this one.
     pub processes: Option<&'a Processes>,
     pub screen: &'a mut dyn Screen,
-}
-
-/// Shows how far a run has come. It is never called inside a timed region.
-pub trait Screen {
-    /// So much is to be measured, as a multiple of any unit.
-    fn begin(&mut self, work: u64);
-    /// The next case is measured, which is so much of it.
-    fn case(&mut self, title: &str, work: u64);
-    /// What is done for it.
-    fn stage(&mut self, stage: &Stage);
-    /// It is measured.
-    fn done(&mut self);
-    /// Whether the run is to stop.
-    fn is_interrupted(&self) -> bool;
-    /// Whether somebody watches, who may want a first look at a scene of which not all epochs are measured.
-    fn is_watched(&self) -> bool;
-    /// A first look.
-    fn look(&mut self, table: &Table);
-    /// Shows what spoils the run, or may not be what was meant.
-    fn warn(&mut self, warnings: &[String]);
-    /// A table of the result.
-    ///
-    /// # Errors
-    /// If it cannot be printed.
-    fn table(&mut self, table: &Table) -> io::Result<()>;
-    /// Nothing more is measured.
-    fn end(&mut self);
 }
 
 /// What came of a run.
@@ -96,8 +70,7 @@ pub(super) fn measure<S: Study>(args: &S::Args, plan: &Plan<S::Case>, run: &mut 
         () if is_taken_up => Journal::open(&unfinished, header, run.fresh)?,
         () => Journal::in_memory(header),
     };
-    let others =
-        if run.is_kept && S::LAST { Answers::read(run.folder, run.studies, S::NAME)? } else { Answers::default() };
+    let others = if run.is_kept && S::LAST { (run.others)()? } else { Answers::default() };
     let provenance = journal.provenance().clone();
     let context = Context::<S> { provenance: &provenance, others: &others, args: Some(args) };
     let (all, before) = (plan.cases.len(), plan.cases.len() - journal.left(keys()).len());

@@ -6,9 +6,8 @@ use std::str::FromStr;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
-use super::engine::Screen;
 use super::journal::{self, CaseFile, Header};
-use super::{Plan, Planned, StudyError};
+use super::{Plan, Planned, Screen, StudyError};
 use crate::measure::{Provenance, SystemClock, quoted};
 
 /// Which case a process measures.

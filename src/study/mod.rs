@@ -4,11 +4,14 @@
 //! the page of `sahara report` walk that list.
 
 pub mod accuracy;
+mod answers;
+mod any_study;
 pub mod args;
 pub mod attribution;
 pub mod baseline;
 mod bench;
 pub mod break_even;
+mod chosen;
 pub mod compare;
 pub mod costs;
 pub mod counts;
@@ -35,6 +38,7 @@ mod ray_source;
 mod reference_structures;
 pub mod replicate;
 pub mod scaling;
+mod screen;
 pub mod self_intersection;
 pub mod sources;
 mod stage;
@@ -54,13 +58,17 @@ use crate::report::document::Block;
 use crate::report::plot::Figure;
 use crate::report::{Export, Statement, Table, to_json};
 
+pub use answers::{Answers, AnyAnswer};
+pub use any_study::{AnyStudy, Found};
 pub use bench::guarded::{PANICKED, Refused, guarded};
-pub use engine::{Measured, Run, Screen};
+pub use chosen::Chosen;
+pub use engine::{Measured, Run};
 pub use error::StudyError;
-pub use list::{Answers, AnyAnswer, AnyStudy, Chosen, Found, Studies};
+pub use list::Studies;
 pub use plan::{Effort, Measure, Plan, Planned, SceneId};
 pub use ray_source::{RaySource, rays_or_all, replayed};
 pub use reference_structures::{BRUTE_FORCE, REPORT_TREE, SAH_TREE, documented_defect, is_large, left_out};
+pub use screen::Screen;
 pub use stage::Stage;
 pub use status::{Status, Trouble};
 pub use view_args::ViewArgs;
@@ -219,6 +227,13 @@ pub struct Context<'a, S: Study + ?Sized> {
     pub others: &'a Answers,
     /// The options of this run; nothing where a journal is shown.
     pub args: Option<&'a S::Args>,
+}
+
+impl Answers {
+    /// That of the study `S`, if there is one.
+    pub fn of<S: Study>(&self) -> Option<&S::Answer> {
+        self.get(S::NAME)?.downcast_ref()
+    }
 }
 
 /// A table for machines.

@@ -14,8 +14,9 @@ mod table;
 mod tests;
 
 use super::bench::built::Built;
+use super::bench::case::Case;
 use super::bench::ray_cost::picoseconds;
-use super::bench::timing::{Case, Timing};
+use super::bench::timing::Timing;
 use super::{PANICKED, Refused, Stage, StudyError, guarded};
 use crate::accel::{BuildError, Query};
 use crate::geometry::Ray;

@@ -3,8 +3,8 @@
 use rayon::prelude::*;
 
 use super::built::Built;
+use super::case::Case;
 use super::guarded::guarded;
-use super::timing::Case;
 use crate::accel::{Counts, DynAccel, Observed, Query};
 use crate::geometry::Ray;
 use crate::measure::{EventCounter, checksum, spread};

@@ -1,6 +1,7 @@
 //! What structures are built, checked, counted and timed with on one scene.
 
 pub mod built;
+pub mod case;
 pub mod check;
 pub mod counted;
 pub mod guarded;

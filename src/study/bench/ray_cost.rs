@@ -3,9 +3,9 @@
 use rayon::prelude::*;
 
 use super::built::Built;
+use super::case::Case;
 use super::counted::Counted;
 use super::guarded::guarded;
-use super::timing::Case;
 use crate::measure::median;
 use crate::scene::Workload;
 use crate::study::BRUTE_FORCE;

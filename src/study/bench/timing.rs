@@ -1,6 +1,7 @@
 //! Samples of many structures on many workloads: the one place where studies take time.
 
 use super::built::Built;
+use super::case::Case;
 use super::guarded::Guarded;
 use super::ray_cost;
 use crate::measure::tiles::{last_level, rays_at};
@@ -10,20 +11,6 @@ use crate::measure::{
 };
 use crate::scene::{Scene, Workload};
 use crate::study::StudyError;
-
-/// What is timed together: a structure and a workload, by their numbers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Case {
-    pub structure: usize,
-    pub workload: usize,
-}
-
-impl Case {
-    /// Every structure on every workload, structure by structure.
-    pub fn all(structures: usize, workloads: usize) -> Vec<Self> {
-        (0..structures).flat_map(|structure| (0..workloads).map(move |workload| Self { structure, workload })).collect()
-    }
-}
 
 pub struct Timing<'a> {
     pub scene: &'a Scene,

@@ -334,7 +334,7 @@ fn summary(answer: &Compared, references: &[Reference]) -> Vec<Table> {
 mod tests {
     use super::*;
     use crate::report::example;
-    use crate::study::list::args;
+    use crate::study::chosen::args;
     use crate::study::{Chosen, Effort};
 
     #[test]

@@ -11,13 +11,13 @@
 mod complexity;
 mod curve;
 mod family;
+mod member_epoch;
+mod pairs;
 mod result;
 mod section;
 mod table;
 #[cfg(test)]
 mod tests;
-
-use serde::{Deserialize, Serialize};
 
 use super::args::{Measuring, Rays, Structures, with_twin};
 use super::epoch::Epoch;
@@ -31,26 +31,11 @@ use crate::scene::{Scene, Workload, WorkloadKind};
 pub use complexity::complexity;
 pub use curve::Crossing;
 pub use family::{ROOTS, member};
+pub use member_epoch::MemberEpoch;
+pub use pairs::PAIRS;
 pub use result::{Member, Race, result};
 pub use table::tables;
 use table::verdict;
-
-/// The KD-tree and the BVH of a pair. In the second and third the node, the leaf and the walk are the same and only the way to divide
-/// the triangles differs; the first are the textbook tree and the BVH from outside. All over one triangle test.
-pub const PAIRS: [[&str; 2]; 3] = [
-    ["sah-kd:test=moller-trumbore", "obvhs-bvh2"],
-    ["sah-kd-wide:test=moller-trumbore", "sah-bvh:test=moller-trumbore"],
-    ["sah-kd-tight:test=moller-trumbore", "sah-bvh:test=moller-trumbore"],
-];
-
-/// One epoch of one member of the family.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct MemberEpoch {
-    pub layers: u32,
-    /// Of each kind of rays of the epoch's, by name.
-    pub complexity: Vec<(String, f64)>,
-    pub epoch: Epoch,
-}
 
 /// The study.
 pub struct CrossoverStudy;

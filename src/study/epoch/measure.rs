@@ -7,10 +7,11 @@ use crate::measure::{Clock, Plan, spread};
 use crate::report::CaseCounts;
 use crate::scene::{Scene, Workload};
 use crate::study::bench::built::Built;
+use crate::study::bench::case::Case;
 use crate::study::bench::check::{check_all, declined};
 use crate::study::bench::counted::{Counted, Events, count_all};
 use crate::study::bench::placed::Placed;
-use crate::study::bench::timing::{Case, Taken, Timing};
+use crate::study::bench::timing::{Taken, Timing};
 use crate::study::{PANICKED, Stage, StudyError};
 
 /// Builds all structures, checks and counts them if this is the first epoch, and takes their samples. No epoch needs another: what

@@ -1,6 +1,8 @@
 //! Tables from epochs whose truth is known.
 
+use super::original::SWEEP;
 use super::*;
+use crate::accel::Query;
 use crate::study::epoch::Rays as Timed;
 use crate::study::epoch::tests::{example, rays};
 

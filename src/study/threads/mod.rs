@@ -12,8 +12,7 @@ mod speedup;
 mod table;
 #[cfg(test)]
 mod tests;
-
-use serde::{Deserialize, Serialize};
+mod threads_epoch;
 
 use super::args::{Measuring, QUICK_EPOCHS, Rays, Scenes, Structures, with_twin};
 use super::epoch::{self, Epoch, Settings, measure};
@@ -27,6 +26,7 @@ use crate::scene::WorkloadKind;
 
 pub use speedup::{Point, Speedup, speedups};
 use table::{groups, table};
+pub use threads_epoch::ThreadsEpoch;
 
 const STRUCTURES: [&str; 4] = ["sah-kd", "sah-hybrid", "sah-bvh", "obvhs-bvh2"];
 
@@ -47,13 +47,6 @@ pub struct ThreadsArgs {
     rays: Rays,
     #[command(flatten)]
     measuring: Measuring<3, 3, 4>,
-}
-
-/// One epoch of one scene with so many threads.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct ThreadsEpoch {
-    pub threads: usize,
-    pub epoch: Epoch,
 }
 
 /// 1, 2, 4 and so on, and `most`.

@@ -1,0 +1,13 @@
+/// What is timed together: a structure and a workload, by their numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Case {
+    pub structure: usize,
+    pub workload: usize,
+}
+
+impl Case {
+    /// Every structure on every workload, structure by structure.
+    pub fn all(structures: usize, workloads: usize) -> Vec<Self> {
+        (0..structures).flat_map(|structure| (0..workloads).map(move |workload| Self { structure, workload })).collect()
+    }
+}

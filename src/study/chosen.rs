@@ -1,0 +1,56 @@
+//! The options of a study, whatever they are chosen by.
+
+use clap::{ArgMatches, Args, Command, FromArgMatches};
+
+use super::{Effort, Study};
+
+/// Where the options of a study come from.
+pub enum Chosen<'a> {
+    /// A command line.
+    Matches(&'a ArgMatches),
+    /// The defaults of its command.
+    Defaults,
+    /// `study all`, on these scenes where there are any.
+    Preset(Effort, Vec<String>),
+}
+
+fn command<S: Study>() -> Command {
+    S::Args::augment_args(Command::new(S::NAME).no_binary_name(true))
+}
+
+/// Whether the options of a study name scenes.
+pub(super) fn has_scenes<S: Study>() -> bool {
+    command::<S>().get_positionals().next().is_some()
+}
+
+/// The options of a study.
+///
+/// # Errors
+/// If they are not those of its command.
+pub(super) fn args<S: Study>(chosen: Chosen) -> anyhow::Result<S::Args> {
+    let (preset, scenes) = match chosen {
+        Chosen::Matches(matches) => return Ok(S::Args::from_arg_matches(matches)?),
+        Chosen::Defaults => ("", vec![]),
+        Chosen::Preset(Effort::Full, scenes) => (S::FULL, scenes),
+        Chosen::Preset(Effort::Quick, scenes) => (S::QUICK, scenes),
+    };
+    let mut words: Vec<String> = preset.split_whitespace().map(String::from).collect();
+    if has_scenes::<S>() && !scenes.is_empty() {
+        words = words.into_iter().skip_while(|word| !word.starts_with('-')).collect();
+        words.extend(std::iter::once("--".into()).chain(scenes));
+    }
+    Ok(S::Args::from_arg_matches(&command::<S>().try_get_matches_from(words)?)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::compare::CompareStudy;
+
+    #[test]
+    fn defaults_are_those_of_the_command_and_not_of_study_all() {
+        let structures = |chosen| args::<CompareStudy>(chosen).unwrap().structures.structure;
+        assert!(structures(Chosen::Defaults).is_empty());
+        assert!(!structures(Chosen::Preset(Effort::Full, vec![])).is_empty());
+    }
+}
