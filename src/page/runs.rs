@@ -149,7 +149,7 @@ impl Runs {
         first.into_iter().try_for_each(|part| runs.add(part))?;
         runs.lead(studies);
         let made = studies.iter().filter(|study| study.is_last()).map(|study| {
-            let answer = study.answer_alone(&Provenance::capture(1), &runs.answers);
+            let answer = study.answer(&[], &Provenance::capture(1), &runs.answers, None);
             (study, answer)
         });
         let made: Vec<(&dyn AnyStudy, AnyAnswer)> = made.collect();

@@ -194,7 +194,7 @@ mod tests {
         assert_eq!(documented(provenance_part), serialised(&record["provenance"]));
         assert_eq!(documented(counts_part), serialised(&record["counts"]));
         let header = Header::new("a study", &serde_json::json!({"seed": 1}), example().provenance);
-        let case: Value = serde_json::from_str(&journal::text(&header, "Cube epoch 0", &7)).unwrap();
+        let case: Value = serde_json::from_str(&journal::text(&header, "Cube epoch 0", &7, |_| Ok(7))).unwrap();
         assert_eq!(documented(case_part), serialised(&case));
     }
 

@@ -2,32 +2,21 @@
 
 use std::any::Any;
 use std::marker::PhantomData;
-use std::path::{Path, PathBuf};
 
 use clap::{Args, Command};
 use serde_json::Value;
 
 #[cfg(test)]
 use super::Effort;
+use super::any_case::{self, AnyCase};
 use super::chosen::{args, has_scenes};
-use super::engine::{Measured, Run, measure};
-use super::epoch::join;
-use super::job::{self, Done, Job};
-use super::journal::{CaseFile, Group, JournalError};
-use super::process;
-use super::{Answers, AnyAnswer, Chosen, Context, Data, Planned, SceneId, Screen, Study};
+use super::journal::Read;
+use super::{Answers, AnyAnswer, Chosen, Context, Data, Plan, Printed, SceneId, Study, Trouble};
 use crate::measure::Provenance;
 use crate::registry::Registry;
-use crate::report::Statement;
 use crate::report::document::Block;
 use crate::report::plot::Figure;
-
-/// What is read of cases.
-pub struct Found {
-    pub answer: AnyAnswer,
-    /// What is missing or left out, a sentence each.
-    pub notes: Vec<String>,
-}
+use crate::report::{Statement, Table};
 
 /// A study whose types are not known. The answers that it takes are its own.
 pub trait AnyStudy: Send + Sync {
@@ -41,6 +30,10 @@ pub trait AnyStudy: Send + Sync {
     fn is_kept(&self) -> bool;
     /// [`Study::LAST`].
     fn is_last(&self) -> bool;
+    /// [`Study::SCENE_BY_SCENE`].
+    fn is_scene_by_scene(&self) -> bool;
+    /// [`Study::WHOLE`].
+    fn is_whole(&self) -> bool;
     /// [`Study::cannot_be_measured_here`].
     fn cannot_be_measured_here(&self) -> Option<&'static str>;
     /// Adds the options of the study to a command.
@@ -50,47 +43,30 @@ pub trait AnyStudy: Send + Sync {
     /// That its options take what `study all` measures.
     #[cfg(test)]
     fn takes_presets(&self) -> anyhow::Result<()>;
-    /// The cases that would be measured.
+    /// Its options.
     ///
     /// # Errors
-    /// As [`Study::plan`].
-    fn planned(&self, chosen: Chosen, registry: &Registry) -> anyhow::Result<Vec<Planned>>;
-    /// Measures and answers. `check` is told which files are read, before anything is measured.
+    /// If what is chosen is not taken.
+    fn args(&self, chosen: Chosen) -> anyhow::Result<Box<dyn Any>>;
+    /// [`Study::plan`].
     ///
     /// # Errors
-    /// As [`Study::plan`], as `check`, and if the journal cannot be used or nothing can be measured.
-    fn run(
+    /// As that.
+    fn plan(&self, args: &dyn Any, registry: &Registry) -> anyhow::Result<Plan<Box<dyn AnyCase>>>;
+    /// How its cases are read.
+    fn reader(&self) -> Read<Box<dyn AnyCase>>;
+    /// [`Study::answer`].
+    fn answer(
         &self,
-        chosen: Chosen,
-        run: &mut Run,
-        check: &mut dyn FnMut(&[PathBuf]) -> anyhow::Result<()>,
-    ) -> anyhow::Result<Measured>;
-    /// What a process with a job does: measures that one case, and says so on standard output.
-    ///
-    /// # Errors
-    /// If that is closed.
-    fn answer_job(&self, chosen: Chosen, registry: &Registry, job: &Job) -> anyhow::Result<()>;
-    /// What a process with a job and a file does: as [`job::write`].
-    ///
-    /// # Errors
-    /// As [`Study::plan`] and [`job::write`].
-    fn write_job(
-        &self,
-        chosen: Chosen,
-        registry: &Registry,
-        job: &Job,
-        out: &Path,
-        screen: &mut dyn Screen,
-    ) -> anyhow::Result<Done>;
-    /// The answer to cases of one build and machine.
-    ///
-    /// # Errors
-    /// If one of them is not of this study.
-    fn read_cases(&self, group: &Group<Value>, others: &Answers) -> Result<Found, JournalError>;
+        cases: &[Box<dyn AnyCase>],
+        provenance: &Provenance,
+        others: &Answers,
+        args: Option<&dyn Any>,
+    ) -> AnyAnswer;
+    /// [`Study::troubles`].
+    fn troubles(&self, cases: &[Box<dyn AnyCase>]) -> Vec<Trouble>;
     /// [`Study::read`].
     fn read_export(&self, value: &Value) -> Option<serde_json::Result<AnyAnswer>>;
-    /// The answer without any case.
-    fn answer_alone(&self, provenance: &Provenance, others: &Answers) -> AnyAnswer;
     /// [`Study::merge`].
     fn merge(&self, old: &mut AnyAnswer, new: AnyAnswer) -> bool;
     /// Adds its answer, newer than what is there; tells whether some of that is replaced.
@@ -103,6 +79,18 @@ pub trait AnyStudy: Send + Sync {
             }
         }
     }
+    /// [`Study::printed`].
+    fn printed(&self, answer: &dyn Any) -> Printed;
+    /// [`Study::tables`].
+    fn tables(&self, answer: &dyn Any) -> Vec<Table>;
+    /// [`Study::summary`].
+    fn summary(&self, answer: &dyn Any) -> Vec<Table>;
+    /// [`Study::legend`].
+    fn legend(&self, answer: &dyn Any) -> Vec<String>;
+    /// [`Study::remarks`].
+    fn remarks(&self, answer: &dyn Any) -> Vec<String>;
+    /// [`Study::warnings`].
+    fn warnings(&self, answer: &dyn Any) -> Vec<String>;
     /// [`Study::data`].
     fn data(&self, answer: &dyn Any) -> Vec<Data>;
     /// [`Study::statements`].
@@ -121,6 +109,10 @@ pub trait AnyStudy: Send + Sync {
 
 /// A study whose types are known.
 pub(super) struct Typed<S>(pub PhantomData<fn() -> S>);
+
+fn own_args<S: Study>(args: &dyn Any) -> &S::Args {
+    args.downcast_ref().expect("the options are of this study")
+}
 
 fn own<S: Study>(answer: &dyn Any) -> &S::Answer {
     answer.downcast_ref().expect("the answer is of this study")
@@ -147,6 +139,14 @@ impl<S: Study> AnyStudy for Typed<S> {
         S::LAST
     }
 
+    fn is_scene_by_scene(&self) -> bool {
+        S::SCENE_BY_SCENE
+    }
+
+    fn is_whole(&self) -> bool {
+        S::WHOLE
+    }
+
     fn cannot_be_measured_here(&self) -> Option<&'static str> {
         S::cannot_be_measured_here()
     }
@@ -167,60 +167,64 @@ impl<S: Study> AnyStudy for Typed<S> {
         })
     }
 
-    fn planned(&self, chosen: Chosen, registry: &Registry) -> anyhow::Result<Vec<Planned>> {
-        Ok(S::plan(&args::<S>(chosen)?, registry)?.cases)
+    fn args(&self, chosen: Chosen) -> anyhow::Result<Box<dyn Any>> {
+        Ok(Box::new(args::<S>(chosen)?))
     }
 
-    fn run(
+    fn plan(&self, args: &dyn Any, registry: &Registry) -> anyhow::Result<Plan<Box<dyn AnyCase>>> {
+        Ok(S::plan(own_args::<S>(args), registry)?.map(any_case::of::<S>))
+    }
+
+    fn reader(&self) -> Read<Box<dyn AnyCase>> {
+        any_case::read::<S>
+    }
+
+    fn answer(
         &self,
-        chosen: Chosen,
-        run: &mut Run,
-        check: &mut dyn FnMut(&[PathBuf]) -> anyhow::Result<()>,
-    ) -> anyhow::Result<Measured> {
-        let args = args::<S>(chosen)?;
-        let plan = S::plan(&args, run.registry)?;
-        check(&plan.inputs)?;
-        measure::<S>(&args, &plan, run)
+        cases: &[Box<dyn AnyCase>],
+        provenance: &Provenance,
+        others: &Answers,
+        args: Option<&dyn Any>,
+    ) -> AnyAnswer {
+        let context = Context { provenance, others, args: args.map(own_args::<S>) };
+        Box::new(S::answer(&any_case::typed::<S>(cases), &context))
     }
 
-    fn answer_job(&self, chosen: Chosen, registry: &Registry, job: &Job) -> anyhow::Result<()> {
-        Ok(process::answer(|| S::plan(&args::<S>(chosen)?, registry), job)?)
-    }
-
-    fn write_job(
-        &self,
-        chosen: Chosen,
-        registry: &Registry,
-        job: &Job,
-        out: &Path,
-        screen: &mut dyn Screen,
-    ) -> anyhow::Result<Done> {
-        Ok(job::write(&S::plan(&args::<S>(chosen)?, registry)?, job, out, screen)?)
-    }
-
-    fn read_cases(&self, group: &Group<Value>, others: &Answers) -> Result<Found, JournalError> {
-        let typed = |file: &CaseFile<Value>| Ok(file.clone().typed::<S::Case>()?.case);
-        let mut cases = group.files.iter().map(typed).collect::<Result<Vec<S::Case>, JournalError>>()?;
-        // As they come from many machines in no order: small scenes first.
-        cases.sort_by_cached_key(|case| S::epoch(&mut case.clone()).map(|(epoch, _)| epoch.triangles));
-        let joined = join(cases, S::epoch, S::WHOLE);
-        let failures = joined.failures.iter().map(|failure| format!("{failure}; the scene is left out."));
-        let notes = failures.chain(joined.unchecked).chain(joined.missing);
-        let answer = S::answer(&joined.cases, &Context { provenance: &group.provenance, others, args: None });
-        Ok(Found { notes: notes.collect(), answer: Box::new(answer) })
+    fn troubles(&self, cases: &[Box<dyn AnyCase>]) -> Vec<Trouble> {
+        S::troubles(&any_case::typed::<S>(cases))
     }
 
     fn read_export(&self, value: &Value) -> Option<serde_json::Result<AnyAnswer>> {
         S::read(value).map(|read| read.map(|answer| Box::new(answer) as AnyAnswer))
     }
 
-    fn answer_alone(&self, provenance: &Provenance, others: &Answers) -> AnyAnswer {
-        Box::new(S::answer(&[], &Context { provenance, others, args: None }))
-    }
-
     fn merge(&self, old: &mut AnyAnswer, new: AnyAnswer) -> bool {
         let new = (new as Box<dyn Any>).downcast::<S::Answer>().expect("the answer is of this study");
         S::merge((**old).downcast_mut().expect("the answer is of this study"), *new)
+    }
+
+    fn printed(&self, answer: &dyn Any) -> Printed {
+        S::printed(own::<S>(answer))
+    }
+
+    fn tables(&self, answer: &dyn Any) -> Vec<Table> {
+        S::tables(own::<S>(answer))
+    }
+
+    fn summary(&self, answer: &dyn Any) -> Vec<Table> {
+        S::summary(own::<S>(answer))
+    }
+
+    fn legend(&self, answer: &dyn Any) -> Vec<String> {
+        S::legend(own::<S>(answer))
+    }
+
+    fn remarks(&self, answer: &dyn Any) -> Vec<String> {
+        S::remarks(own::<S>(answer))
+    }
+
+    fn warnings(&self, answer: &dyn Any) -> Vec<String> {
+        S::warnings(own::<S>(answer))
     }
 
     fn data(&self, answer: &dyn Any) -> Vec<Data> {

@@ -3,6 +3,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use serde::Deserialize;
+
 use super::compare::{CompareStudy, Compared, compared};
 use super::diff::{Comparison, Finding, Machines, Unlike, unlike};
 use super::engine::measure_case;
@@ -45,7 +47,15 @@ impl<'a> Run<'a> {
             // Of how many it is not known yet.
             let title = format!("epoch {}: {}", epoch + 1, case.process.as_deref().unwrap_or(&case.title));
             screen.case(&title, case.work);
-            let measured = measure_case(CompareStudy::NAME, self.plan, case, self.processes, self.clock, screen)?;
+            let measured = measure_case(
+                CompareStudy::NAME,
+                self.plan,
+                case,
+                |value| Epoch::deserialize(value),
+                self.processes,
+                self.clock,
+                screen,
+            )?;
             self.epochs.push(measured);
             screen.done();
         }

@@ -1,16 +1,14 @@
 //! Runs a study: measures the cases that its journal lacks, one by one, and answers.
 
+use std::any::Any;
 use std::fs;
-use std::path::Path;
-
-use serde::Serialize;
-use serde::de::DeserializeOwned;
+use std::path::{Path, PathBuf};
 
 use super::epoch::{Joined, join};
 use super::job::Job;
-use super::journal::{Header, Journal, JournalError};
+use super::journal::{Header, Journal, JournalError, Read};
 use super::process::Processes;
-use super::{Answers, AnyAnswer, Context, Plan, Planned, Screen, Stage, Status, Study, StudyError};
+use super::{Answers, AnyAnswer, AnyCase, AnyStudy, Chosen, Plan, Planned, Screen, Stage, Status, StudyError};
 use crate::measure::{Clock, Provenance, SystemClock};
 use crate::registry::Registry;
 use crate::report::Table;
@@ -18,7 +16,7 @@ use crate::report::Table;
 /// What a study is run with.
 pub struct Run<'a> {
     pub registry: &'a Registry,
-    /// Reads the answers of the other studies, from which one that is [`Study::LAST`] is made.
+    /// Reads the answers of the other studies, from which one that is [`Study::LAST`](super::Study::LAST) is made.
     pub others: &'a dyn Fn() -> Result<Answers, JournalError>,
     /// Where journals are kept.
     pub folder: &'a Path,
@@ -52,33 +50,65 @@ pub struct Measured {
 /// An epoch that takes so long is worth a first look.
 const LONG_NS: u64 = 5_000_000_000;
 
+impl dyn AnyStudy + '_ {
+    /// The cases that would be measured.
+    ///
+    /// # Errors
+    /// As [`Study::plan`](super::Study::plan).
+    pub fn planned(&self, chosen: Chosen, registry: &Registry) -> anyhow::Result<Vec<Planned>> {
+        Ok(self.plan(&*self.args(chosen)?, registry)?.cases)
+    }
+
+    /// Measures and answers. `check` is told which files are read, before anything is measured.
+    ///
+    /// # Errors
+    /// As [`Study::plan`](super::Study::plan), as `check`, and if the journal cannot be used or nothing can be measured.
+    pub fn run(
+        &self,
+        chosen: Chosen,
+        run: &mut Run,
+        check: &mut dyn FnMut(&[PathBuf]) -> anyhow::Result<()>,
+    ) -> anyhow::Result<Measured> {
+        let args = self.args(chosen)?;
+        let plan = self.plan(&*args, run.registry)?;
+        check(&plan.inputs)?;
+        measure(self, &*args, &plan, run)
+    }
+}
+
 /// Measures what `plan` asks for and the journal lacks.
 ///
 /// # Errors
 /// If the journal cannot be used, or nothing can be measured.
-pub(super) fn measure<S: Study>(args: &S::Args, plan: &Plan<S::Case>, run: &mut Run) -> anyhow::Result<Measured> {
+fn measure(
+    study: &dyn AnyStudy,
+    args: &dyn Any,
+    plan: &Plan<Box<dyn AnyCase>>,
+    run: &mut Run,
+) -> anyhow::Result<Measured> {
+    let name = study.name();
     let process_per_epoch = run.processes.is_some() && plan.cases.iter().any(|case| case.process.is_some());
     let provenance = Provenance { process_per_epoch, ..Provenance::of(&plan.threads) };
-    let header = Header::new(S::NAME, &plan.settings, provenance);
+    let header = Header::new(name, &plan.settings, provenance);
     let keys = || plan.cases.iter().map(|case| case.key.as_str());
-    let unfinished = run.folder.join(UNFINISHED).join(format!("{}-{}", S::NAME, header.id(keys())));
+    let unfinished = run.folder.join(UNFINISHED).join(format!("{name}-{}", header.id(keys())));
     // A run that is ended by the clock is not gone on with.
     let may_go_on = !run.is_kept && plan.limit_ns.is_none();
     let is_taken_up = may_go_on && unfinished.exists();
-    let mut journal: Journal<S::Case> = match () {
-        () if run.is_kept => Journal::open(&run.folder.join(S::NAME), header, run.fresh)?,
-        () if is_taken_up => Journal::open(&unfinished, header, run.fresh)?,
-        () => Journal::in_memory(header),
+    let mut journal = match () {
+        () if run.is_kept => Journal::open(&run.folder.join(name), header, run.fresh, study.reader())?,
+        () if is_taken_up => Journal::open(&unfinished, header, run.fresh, study.reader())?,
+        () => Journal::in_memory(header, study.reader()),
     };
-    let others = if run.is_kept && S::LAST { (run.others)()? } else { Answers::default() };
+    let others = if run.is_kept && study.is_last() { (run.others)()? } else { Answers::default() };
     let provenance = journal.provenance().clone();
-    let context = Context::<S> { provenance: &provenance, others: &others, args: Some(args) };
+    let answer = |cases: &[Box<dyn AnyCase>]| study.answer(cases, &provenance, &others, Some(args));
     let (all, before) = (plan.cases.len(), plan.cases.len() - journal.left(keys()).len());
     let gone_on = (before > 0 && !run.is_kept).then(|| {
         let when = provenance.date.replace(['T', 'Z'], " ");
         format!("{before} of {all} cases are those of a run that was begun at {when}UTC and interrupted; --fresh starts anew.")
     });
-    run.screen.begin(Plan::<S::Case>::work(plan.cases.iter().filter(|case| journal.get(&case.key).is_none())));
+    run.screen.begin(Plan::<Box<dyn AnyCase>>::work(plan.cases.iter().filter(|case| journal.get(&case.key).is_none())));
     run.screen.warn(gone_on.as_slice());
     run.screen.warn(&plan.warnings);
     run.screen.warn(Provenance::of(&plan.threads).too_many_threads().as_slice());
@@ -100,7 +130,7 @@ pub(super) fn measure<S: Study>(args: &S::Args, plan: &Plan<S::Case>, run: &mut 
         }
         if journal.get(&case.key).is_none() {
             run.screen.case(&case.title, case.work);
-            match measure_case(S::NAME, plan, case, run.processes, &clock, run.screen) {
+            match measure_case(name, plan, case, study.reader(), run.processes, &clock, run.screen) {
                 Ok(measured) => journal.append(&case.key, measured)?,
                 Err(_) if run.screen.is_interrupted() => {}
                 Err(error) if error.is_of_one_scene() => {
@@ -113,7 +143,8 @@ pub(super) fn measure<S: Study>(args: &S::Args, plan: &Plan<S::Case>, run: &mut 
             }
             run.screen.done();
         }
-        let Joined { cases: scene, mut failures, .. } = joined::<S>(plan, &journal, |other| other.scene == case.scene);
+        let Joined { cases: scene, mut failures, .. } =
+            joined(study, plan, &journal, |other| other.scene == case.scene);
         stopped = run.screen.is_interrupted();
         if let Some(error) = failures.pop() {
             failure.get_or_insert(error);
@@ -129,13 +160,13 @@ pub(super) fn measure<S: Study>(args: &S::Args, plan: &Plan<S::Case>, run: &mut 
             over.push(case.scene);
         }
         let is_whole = (case.epoch + 1 == epochs || is_late) && journal.get(&case.key).is_some();
-        if S::SCENE_BY_SCENE && (is_whole || stopped && !scene.is_empty()) {
-            for table in S::printed(&S::answer(&scene, &context)).tables {
+        if study.is_scene_by_scene() && (is_whole || stopped && !scene.is_empty()) {
+            for table in study.printed(&*answer(&scene)).tables {
                 let of = if is_whole { String::new() } else { format!(" ({} of {epochs} epochs)", scene.len()) };
                 run.screen.table(&Table { title: table.title + &of, ..table })?;
             }
         } else if !stopped && case.epoch == 0 && clock.now_ns() - start > LONG_NS && run.screen.is_watched() {
-            let look = S::printed(&S::answer(&scene[..1.min(scene.len())], &context)).tables.into_iter().next();
+            let look = study.printed(&*answer(&scene[..1.min(scene.len())])).tables.into_iter().next();
             if let Some(table) = look {
                 let title = format!("{} (a first look: epoch 1 of {epochs})", table.title);
                 run.screen.look(&Table { title, ..table });
@@ -149,37 +180,37 @@ pub(super) fn measure<S: Study>(args: &S::Args, plan: &Plan<S::Case>, run: &mut 
     stopped &= left > 0;
 
     // The journal may hold other scenes as well: those asked for are shown.
-    let Joined { cases, unchecked, failures, .. } = joined::<S>(plan, &journal, |_| true);
+    let Joined { cases, unchecked, failures, .. } = joined(study, plan, &journal, |_| true);
     failure = failure.or(failures.into_iter().next());
     if let (true, Some(error)) = (cases.is_empty(), failure.take_if(|_| cases.is_empty())) {
         return Err(error.into());
     }
-    let answer = S::answer(&cases, &context);
-    run.screen.warn(&S::warnings(&answer));
-    let troubles = S::troubles(&cases);
+    let found = answer(&cases);
+    run.screen.warn(&study.warnings(&*found));
+    let troubles = study.troubles(&cases);
     let (mut tables, mut legend, mut foot) = (vec![], vec![], vec![]);
     let (mut to_print, mut to_explain) = (vec![], vec![]);
     if !cases.is_empty() || !stopped {
         // A scene with fewer epochs cannot be averaged with the others.
         let lacks =
             |scene: usize| plan.cases.iter().any(|case| case.scene == scene && journal.get(&case.key).is_none());
-        let whole = joined::<S>(plan, &journal, |case| !stopped || !lacks(case.scene)).cases;
-        let whole = S::answer(if whole.is_empty() { &cases } else { &whole }, &context);
-        let printed = S::printed(&answer);
-        if !S::SCENE_BY_SCENE {
+        let whole = joined(study, plan, &journal, |case| !stopped || !lacks(case.scene)).cases;
+        let whole = answer(if whole.is_empty() { &cases } else { &whole });
+        let printed = study.printed(&*found);
+        if !study.is_scene_by_scene() {
             to_print = printed.tables;
         }
-        to_print.extend(S::printed(&whole).summary);
+        to_print.extend(study.printed(&*whole).summary);
         to_explain = printed.legend;
-        tables = S::tables(&answer);
-        tables.extend(S::summary(&whole));
-        legend = S::legend(&answer);
+        tables = study.tables(&*found);
+        tables.extend(study.summary(&*whole));
+        legend = study.legend(&*found);
         foot.extend(troubles.iter().map(|trouble| trouble.sentence.clone()).filter(|sentence| !sentence.is_empty()));
         foot.extend(unchecked);
         foot.extend(plan.notes.iter().cloned());
         foot.extend(gone_on);
         foot.push(provenance.line());
-        foot.extend(S::remarks(&whole));
+        foot.extend(study.remarks(&*whole));
     }
     let mut outcome = Status::of(&troubles);
     if stopped {
@@ -196,7 +227,7 @@ pub(super) fn measure<S: Study>(args: &S::Args, plan: &Plan<S::Case>, run: &mut 
         forget(&unfinished);
     }
     run.screen.end();
-    Ok(Measured { answer: Box::new(answer), provenance, tables, legend, to_print, to_explain, foot, outcome, failure })
+    Ok(Measured { answer: found, provenance, tables, legend, to_print, to_explain, foot, outcome, failure })
 }
 
 /// Where runs are kept that were interrupted, if their study keeps no journal otherwise: a folder in that of journals.
@@ -213,10 +244,11 @@ fn forget(unfinished: &Path) {
 ///
 /// # Errors
 /// As [`Plan::measure`] and [`Processes::measure`].
-pub(super) fn measure_case<C: Serialize + DeserializeOwned>(
+pub(super) fn measure_case<C>(
     study: &str,
     plan: &Plan<C>,
     case: &Planned,
+    read: Read<C>,
     processes: Option<&Processes>,
     clock: &dyn Clock,
     screen: &mut dyn Screen,
@@ -225,18 +257,19 @@ pub(super) fn measure_case<C: Serialize + DeserializeOwned>(
     match processes.filter(|_| case.process.is_some()) {
         Some(processes) => {
             let cores = plan.threads.cores().map(Into::into);
-            processes.measure(&Job { cores, ..Job::of(study, case) }, &mut progress)
+            processes.measure(&Job { cores, ..Job::of(study, case) }, read, &mut progress)
         }
         None => (plan.measure)(case, clock, &mut progress),
     }
 }
 
 /// The measured cases of the plan that `is` picks, so that answers can be made from them.
-fn joined<S: Study>(
-    plan: &Plan<S::Case>,
-    journal: &Journal<S::Case>,
+fn joined(
+    study: &dyn AnyStudy,
+    plan: &Plan<Box<dyn AnyCase>>,
+    journal: &Journal<Box<dyn AnyCase>>,
     is: impl Fn(&Planned) -> bool,
-) -> Joined<S::Case> {
+) -> Joined<Box<dyn AnyCase>> {
     let measured = plan.cases.iter().filter(|case| is(case)).filter_map(|case| journal.get(&case.key).cloned());
-    join(measured.collect(), S::epoch, S::WHOLE)
+    join(measured.collect(), |case| case.epoch(), study.is_whole())
 }

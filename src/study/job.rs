@@ -3,12 +3,12 @@
 use std::path::Path;
 use std::str::FromStr;
 
-use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
-use super::journal::{self, CaseFile, Header};
-use super::{Plan, Planned, Screen, StudyError};
+use super::journal::{self, CaseFile, Header, Read};
+use super::{AnyStudy, Chosen, Plan, Planned, Screen, StudyError};
 use crate::measure::{Provenance, SystemClock, quoted};
+use crate::registry::Registry;
 
 /// Which case a process measures.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -66,14 +66,30 @@ pub enum Done {
     Meanwhile,
 }
 
+impl dyn AnyStudy + '_ {
+    /// What a process with a job and a file does: measures the case and writes it, unless it is there.
+    ///
+    /// # Errors
+    /// As [`Study::plan`](super::Study::plan), and if the file cannot be written or holds anything else, or nothing can be measured:
+    /// then it is as it was.
+    pub fn write_job(
+        &self,
+        chosen: Chosen,
+        registry: &Registry,
+        job: &Job,
+        out: &Path,
+        screen: &mut dyn Screen,
+    ) -> anyhow::Result<Done> {
+        Ok(write(&self.plan(&*self.args(chosen)?, registry)?, job, out, self.reader(), screen)?)
+    }
+}
+
 /// Measures the case of `plan` that is the job and writes it into the file `out`, unless it is there.
-///
-/// # Errors
-/// If the file cannot be written or holds anything else, or nothing can be measured: then it is as it was.
-pub fn write<C: Serialize + DeserializeOwned>(
+fn write<C: Serialize>(
     plan: &Plan<C>,
     job: &Job,
     out: &Path,
+    read: Read<C>,
     screen: &mut dyn Screen,
 ) -> Result<Done, StudyError> {
     let case = job.find(plan)?;
@@ -82,7 +98,7 @@ pub fn write<C: Serialize + DeserializeOwned>(
     let command = command_of_run(std::env::args());
     let provenance = Provenance { process_per_epoch, command, ..Provenance::of(&plan.threads) };
     let header = Header::new(&job.study, &plan.settings, provenance);
-    let there = || CaseFile::<C>::there(out, &header, &case.key);
+    let there = || CaseFile::there(out, &header, &case.key, read);
     if there()?.is_some() {
         return Ok(Done::Before);
     }
@@ -91,7 +107,7 @@ pub fn write<C: Serialize + DeserializeOwned>(
     screen.case(&case.title, case.work);
     let measured = (plan.measure)(case, &SystemClock::start(), &mut |stage| screen.stage(&stage))?;
     screen.end();
-    if journal::write(&file, &journal::text(&header, &case.key, &measured))? {
+    if journal::write(&file, &journal::text(&header, &case.key, &measured, read))? {
         return Ok(Done::Measured);
     }
     there()?;

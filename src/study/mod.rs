@@ -5,6 +5,7 @@
 
 pub mod accuracy;
 mod answers;
+mod any_case;
 mod any_study;
 pub mod args;
 pub mod attribution;
@@ -22,6 +23,7 @@ pub mod epoch;
 mod epoch_args;
 mod epoch_medians;
 mod error;
+mod found;
 mod grouped;
 pub mod history;
 pub mod job;
@@ -59,11 +61,13 @@ use crate::report::plot::Figure;
 use crate::report::{Export, Statement, Table, to_json};
 
 pub use answers::{Answers, AnyAnswer};
-pub use any_study::{AnyStudy, Found};
+pub use any_case::AnyCase;
+pub use any_study::AnyStudy;
 pub use bench::guarded::{PANICKED, Refused, guarded};
 pub use chosen::Chosen;
 pub use engine::{Measured, Run};
 pub use error::StudyError;
+pub use found::Found;
 pub use list::Studies;
 pub use plan::{Effort, Measure, Plan, Planned, SceneId};
 pub use ray_source::{RaySource, rays_or_all, replayed};

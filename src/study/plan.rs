@@ -92,6 +92,16 @@ impl<C> Plan<C> {
         }
     }
 
+    /// The same plan of other cases: those that `of` makes of these.
+    pub fn map<D: 'static>(self, of: fn(C) -> D) -> Plan<D>
+    where
+        C: 'static,
+    {
+        let Self { settings, threads, cases, limit_ns, notes, warnings, inputs, measure } = self;
+        let measure: Measure<D> = Box::new(move |case, clock, progress| measure(case, clock, progress).map(of));
+        Plan { settings, threads, cases, limit_ns, notes, warnings, inputs, measure }
+    }
+
     /// All epochs of a scene one after the other: its tables are there before the next one begins.
     pub fn scene_by_scene(mut self) -> Self {
         self.cases.sort_by_key(|case| case.scene);

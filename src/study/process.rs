@@ -18,25 +18,27 @@ use std::sync::{Arc, Mutex, PoisonError, Weak};
 use std::thread;
 use std::time::Duration;
 
-use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
 use super::job::{Job, OPTION};
-use super::{Plan, Stage, StudyError};
+use super::journal::Read;
+use super::{AnyStudy, Chosen, Plan, Stage, StudyError};
 use crate::measure::{SystemClock, program};
+use crate::registry::Registry;
 
 /// A line of a process.
 #[derive(Serialize, Deserialize)]
-enum Said<C> {
+enum Said {
     Build(String),
     Rays(String),
     Check(String),
     Trace(usize, usize),
-    Measured(C),
+    Measured(Value),
     Failed { sentence: String, of_one_scene: bool, wrong_answer: bool },
 }
 
-impl<C> From<&Stage<'_>> for Said<C> {
+impl From<&Stage<'_>> for Said {
     fn from(stage: &Stage) -> Self {
         match *stage {
             Stage::Build(what) => Self::Build(what.into()),
@@ -66,11 +68,14 @@ impl Processes {
     ///
     /// # Errors
     /// As the measuring of the case, and if the process cannot be started or ends without an answer.
-    pub fn measure<C: Serialize + DeserializeOwned>(
-        &self,
-        job: &Job,
-        progress: &mut dyn FnMut(Stage),
-    ) -> Result<C, StudyError> {
+    pub fn measure<C>(&self, job: &Job, read: Read<C>, progress: &mut dyn FnMut(Stage)) -> Result<C, StudyError> {
+        let value = self.value(job, progress)?;
+        let cause = |cause| format!("it said {:?}: {cause}", value.to_string());
+        read(&value).map_err(|error| StudyError::Process { key: job.key.clone(), cause: cause(error) })
+    }
+
+    /// Likewise, as the process says it.
+    fn value(&self, job: &Job, progress: &mut dyn FnMut(Stage)) -> Result<Value, StudyError> {
         let trouble = |cause: String| StudyError::Process { key: job.key.clone(), cause };
         let job_text = serde_json::to_string(job).expect("a job has text keys");
         let mut command = Command::new(program::executable());
@@ -170,26 +175,33 @@ pub fn end() {
     }
 }
 
+impl dyn AnyStudy + '_ {
+    /// What a process with a job does: measures that one case, and says so on standard output.
+    ///
+    /// # Errors
+    /// If that is closed.
+    pub fn answer_job(&self, chosen: Chosen, registry: &Registry, job: &Job) -> anyhow::Result<()> {
+        Ok(answer(|| self.plan(&*self.args(chosen)?, registry), job)?)
+    }
+}
+
 /// What a process with a job does: measures the case of the plan that `plan` makes, and says so.
 ///
 /// # Errors
 /// If nobody listens; all else is said.
-pub fn answer<C: Serialize + DeserializeOwned>(
-    plan: impl FnOnce() -> anyhow::Result<Plan<C>>,
-    job: &Job,
-) -> io::Result<()> {
+pub fn answer<C: Serialize>(plan: impl FnOnce() -> anyhow::Result<Plan<C>>, job: &Job) -> io::Result<()> {
     end_with_parent();
     let said = match plan() {
         Ok(plan) => match job.find(&plan) {
             Ok(case) => {
                 let mut progress = |stage: Stage| {
-                    if say(&Said::<C>::from(&stage)).and_then(|()| hear()).is_err() {
+                    if say(&Said::from(&stage)).and_then(|()| hear()).is_err() {
                         // The run is gone, and would be disturbed by this process when it goes on.
                         std::process::exit(1);
                     }
                 };
                 match (plan.measure)(case, &SystemClock::start(), &mut progress) {
-                    Ok(case) => Said::Measured(case),
+                    Ok(case) => Said::Measured(serde_json::to_value(case).expect("a case has text keys")),
                     Err(error) => failed(&error),
                 }
             }
@@ -200,7 +212,7 @@ pub fn answer<C: Serialize + DeserializeOwned>(
     say(&said)
 }
 
-fn failed<C>(error: &StudyError) -> Said<C> {
+fn failed(error: &StudyError) -> Said {
     Said::Failed {
         sentence: error.to_string(),
         of_one_scene: error.is_of_one_scene(),
@@ -208,7 +220,7 @@ fn failed<C>(error: &StudyError) -> Said<C> {
     }
 }
 
-fn say<C: Serialize>(said: &Said<C>) -> io::Result<()> {
+fn say(said: &Said) -> io::Result<()> {
     let line = serde_json::to_string(said).expect("what is said has text keys");
     let mut out = io::stdout().lock();
     writeln!(out, "{MARK}{line}")?;
@@ -241,7 +253,7 @@ mod tests {
         let processes = Processes::new(["tests".into(), "--no-such-option".into()]);
         let job =
             Job { study: "compare".into(), scene: Some("Cube".into()), key: "Cube 0123 epoch 0".into(), cores: None };
-        let error = processes.measure::<Epoch>(&job, &mut |_| ()).unwrap_err();
+        let error = processes.measure(&job, |value| Epoch::deserialize(value), &mut |_| ()).unwrap_err();
         let sentence = error.to_string();
         assert!(sentence.contains("Cube 0123 epoch 0") && sentence.contains("without an answer"), "{sentence}");
         assert!(error.is_of_one_scene() && !error.is_wrong_answer());

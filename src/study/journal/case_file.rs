@@ -3,7 +3,6 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
@@ -46,15 +45,18 @@ pub fn file_name(key: &str) -> String {
 /// Characters of a name before what tells it from others, at most.
 const LONGEST: usize = 100;
 
+/// Reads a case of a study from what its file has of it.
+pub type Read<C> = fn(&Value) -> serde_json::Result<C>;
+
 /// The text of the file of a case.
 ///
 /// # Panics
 /// If the case would not read back.
-pub fn text<C: Serialize + DeserializeOwned>(header: &Header, key: &str, case: &C) -> String {
+pub fn text<C: Serialize>(header: &Header, key: &str, case: &C, read: Read<C>) -> String {
     let Header { study, settings, provenance } = header.clone();
     let case = serde_json::to_value(case).expect("a case has text keys");
     // Numbers that are infinite or none become null, and would make the case unreadable.
-    assert!(C::deserialize(&case).is_ok(), "the case {key:?} does not read back: {case}");
+    assert!(read(&case).is_ok(), "the case {key:?} does not read back: {case}");
     let fields = Fields { schema: SCHEMA, study, settings, provenance, key: key.into(), case };
     serde_json::to_string(&fields).expect("names are text") + "\n"
 }
@@ -88,19 +90,19 @@ impl CaseFile<Value> {
     ///
     /// # Errors
     /// If it is none.
-    pub fn typed<C: DeserializeOwned>(self) -> Result<CaseFile<C>, JournalError> {
+    pub fn typed<C>(self, read: Read<C>) -> Result<CaseFile<C>, JournalError> {
         let Self { path, header, key, case } = self;
-        let case = serde_json::from_value(case).map_err(|cause| damaged(&path, &cause))?;
+        let case = read(&case).map_err(|cause| damaged(&path, &cause))?;
         Ok(CaseFile { path, header, key, case })
     }
 }
 
-impl<C: DeserializeOwned> CaseFile<C> {
+impl<C> CaseFile<C> {
     /// What the file `path` holds, if there is one: the case `key`, as a run with the header `here` would measure it.
     ///
     /// # Errors
     /// If it holds anything else.
-    pub fn there(path: &Path, here: &Header, key: &str) -> Result<Option<Self>, JournalError> {
+    pub fn there(path: &Path, here: &Header, key: &str, read: Read<C>) -> Result<Option<Self>, JournalError> {
         if !path.exists() {
             return Ok(None);
         }
@@ -109,7 +111,7 @@ impl<C: DeserializeOwned> CaseFile<C> {
         if there.key != key {
             return Err(JournalError::Key { path: path.into(), there: there.key, here: key.into() });
         }
-        there.typed().map(Some)
+        there.typed(read).map(Some)
     }
 }
 

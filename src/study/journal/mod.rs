@@ -17,9 +17,8 @@ use std::path::{Path, PathBuf};
 
 use crate::measure::Provenance;
 use serde::Serialize;
-use serde::de::DeserializeOwned;
 
-pub use case_file::{CaseFile, SCHEMA, file_name, is_case, place, text, write};
+pub use case_file::{CaseFile, Read, SCHEMA, file_name, is_case, place, text, write};
 pub use error::JournalError;
 pub use groups::{Group, groups};
 pub use header::Header;
@@ -32,13 +31,14 @@ pub struct Journal<C> {
     header: Header,
     /// Of the oldest case, or of this process.
     provenance: Provenance,
+    read: Read<C>,
     cases: BTreeMap<String, C>,
 }
 
-impl<C: Serialize + DeserializeOwned> Journal<C> {
+impl<C: Serialize> Journal<C> {
     /// A journal that is forgotten when it is dropped.
-    pub fn in_memory(header: Header) -> Self {
-        Self { folder: None, provenance: header.provenance.clone(), header, cases: BTreeMap::new() }
+    pub fn in_memory(header: Header, read: Read<C>) -> Self {
+        Self { folder: None, provenance: header.provenance.clone(), header, read, cases: BTreeMap::new() }
     }
 
     /// Opens the journal in `folder`, to go on with it; makes the folder where there is none. With `fresh` the cases there are thrown
@@ -47,15 +47,14 @@ impl<C: Serialize + DeserializeOwned> Journal<C> {
     /// # Errors
     /// If what is there cannot be read, or is not of this study, of these settings, this build and this machine; or if the folder cannot
     /// be made.
-    pub fn open(folder: &Path, header: Header, fresh: bool) -> Result<Self, JournalError> {
+    pub fn open(folder: &Path, header: Header, fresh: bool, read: Read<C>) -> Result<Self, JournalError> {
         let unwritable = |cause| JournalError::Write { path: folder.into(), cause };
         let old = old(folder);
         if old.exists() && !fresh {
             return Err(JournalError::Old(old));
         }
         fs::create_dir_all(folder).map_err(unwritable)?;
-        let mut journal =
-            Self { folder: Some(folder.into()), provenance: header.provenance.clone(), header, cases: BTreeMap::new() };
+        let mut journal = Self { folder: Some(folder.into()), ..Self::in_memory(header, read) };
         let files = files(folder)?;
         if fresh {
             files.iter().chain(old.exists().then_some(&old)).try_for_each(fs::remove_file).map_err(unwritable)?;
@@ -65,7 +64,7 @@ impl<C: Serialize + DeserializeOwned> Journal<C> {
         for path in files {
             let file = CaseFile::read(&path)?;
             journal.header.admits(&file.header, &path)?;
-            let CaseFile { header, key, case, .. } = file.typed()?;
+            let CaseFile { header, key, case, .. } = file.typed(read)?;
             if let Some(other) = paths.insert(key.clone(), path.clone()) {
                 return Err(JournalError::Twice { paths: [other, path], key });
             }
@@ -101,12 +100,12 @@ impl<C: Serialize + DeserializeOwned> Journal<C> {
     /// If there is a case with this key, or the case would not read back.
     pub fn append(&mut self, key: &str, case: C) -> Result<(), JournalError> {
         assert!(self.get(key).is_none(), "the case {key:?} is measured twice");
-        let text = text(&self.header, key, &case);
+        let text = text(&self.header, key, &case, self.read);
         let mut case = case;
         if let Some(folder) = &self.folder {
             let file = place(&folder.join(file_name(key)))?;
             if !write(&file, &text)?
-                && let Some(there) = CaseFile::there(file.path(), &self.header, key)?
+                && let Some(there) = CaseFile::there(file.path(), &self.header, key, self.read)?
             {
                 case = there.case;
             }
@@ -120,7 +119,7 @@ impl<C: Serialize + DeserializeOwned> Journal<C> {
     /// # Errors
     /// As [`open`](Self::open) and [`append`](Self::append).
     pub fn keep(self, folder: &Path) -> Result<(), JournalError> {
-        let mut kept = Self::open(folder, self.header, true)?;
+        let mut kept = Self::open(folder, self.header, true, self.read)?;
         self.cases.into_iter().try_for_each(|(key, case)| kept.append(&key, case))
     }
 }

@@ -11,6 +11,10 @@ struct Case {
     samples: Vec<f64>,
 }
 
+fn read(value: &serde_json::Value) -> serde_json::Result<Case> {
+    Case::deserialize(value)
+}
+
 fn case(i: u32) -> Case {
     Case { samples: vec![f64::from(i), 0.1 + f64::from(i) / 3.0] }
 }
@@ -22,7 +26,7 @@ fn header(runs: u32) -> Header {
 }
 
 fn open(path: &Path) -> Result<Journal<Case>, JournalError> {
-    Journal::open(path, header(5), false)
+    Journal::open(path, header(5), false, read)
 }
 
 /// A journal of `n` cases in a folder that is not there before.
@@ -103,17 +107,17 @@ fn other_settings_are_refused_with_what_differs_and_the_way_out() {
     let folder = folder();
     let path = journal(&folder, 1);
     let before = contents(&path);
-    let other = Journal::<Case>::open(&path, header(7), false).unwrap_err();
+    let other = Journal::<Case>::open(&path, header(7), false, read).unwrap_err();
     sentence(other, &["case-0", "runs was 5 and is 7", "--fresh", "--dir"]);
     let mut more = header(5);
     more.settings.insert("seed".into(), 1.into());
-    sentence(Journal::<Case>::open(&path, more, false).unwrap_err(), &["seed was not there and is 1"]);
+    sentence(Journal::<Case>::open(&path, more, false, read).unwrap_err(), &["seed was not there and is 1"]);
     let mut study = header(5);
     study.study = "other".into();
-    sentence(Journal::<Case>::open(&path, study, false).unwrap_err(), &["the study tiny, not of other"]);
+    sentence(Journal::<Case>::open(&path, study, false, read).unwrap_err(), &["the study tiny, not of other"]);
     // Nothing of this has changed the journal.
     assert_eq!(contents(&path), before);
-    assert_eq!(Journal::<Case>::open(&path, header(7), true).unwrap().left(["case 0"]), ["case 0"]);
+    assert_eq!(Journal::<Case>::open(&path, header(7), true, read).unwrap().left(["case 0"]), ["case 0"]);
     assert!(contents(&path).is_empty());
 }
 
@@ -124,7 +128,7 @@ fn another_build_or_processor_is_refused_and_another_host_goes_on() {
     let with = |change: fn(&mut Provenance)| {
         let mut other = header(5);
         change(&mut other.provenance);
-        Journal::<Case>::open(&path, other, false)
+        Journal::<Case>::open(&path, other, false, read)
     };
     sentence(with(|p| p.commit = "decade".into()).unwrap_err(), &["commit was c0ffee and is decade", "sahara report"]);
     sentence(with(|p| p.build = "0123".into()).unwrap_err(), &["build was ", " and is 0123", "--fresh"]);
@@ -142,7 +146,7 @@ fn the_provenance_is_that_of_the_oldest_case() {
     for (key, date) in [("b", "2026-01-02T00:00:00Z"), ("a", "2026-01-03T00:00:00Z"), ("c", "2026-01-01T00:00:00Z")] {
         let mut own = header(5);
         own.provenance.date = date.into();
-        Journal::open(&path, own, false).unwrap().append(key, case(0)).unwrap();
+        Journal::open(&path, own, false, read).unwrap().append(key, case(0)).unwrap();
     }
     assert_eq!(open(&path).unwrap().provenance().date, "2026-01-01T00:00:00Z");
 }
@@ -157,7 +161,7 @@ fn of_two_writers_of_a_case_the_first_wins_and_both_go_on_with_it() {
     assert_eq!((one.get("case 1"), other.get("case 1")), (Some(&case(1)), Some(&case(1))));
     assert_eq!(contents(&path).len(), 2);
     // Of other settings it is refused.
-    let mut third = Journal::<Case>::in_memory(header(7));
+    let mut third = Journal::<Case>::in_memory(header(7), read);
     third.folder = Some(path);
     sentence(third.append("case 1", case(1)).unwrap_err(), &["runs was 5 and is 7"]);
 }
@@ -182,7 +186,7 @@ fn the_one_file_of_older_versions_is_one_sentence() {
     let path = journal(&folder, 1);
     fs::write(path.with_extension("jsonl"), "{\"schema\":2}\n").unwrap();
     sentence(open(&path).unwrap_err(), &["tiny.jsonl is a journal of an older sahara", "--dir"]);
-    Journal::<Case>::open(&path, header(5), true).unwrap();
+    Journal::<Case>::open(&path, header(5), true, read).unwrap();
     assert!(!path.with_extension("jsonl").exists());
 }
 
@@ -210,7 +214,7 @@ fn damage_is_named_with_what_is_wrong() {
 fn a_file_is_there_for_its_own_case_alone() {
     let folder = folder();
     let path = journal(&folder, 1).join(file_name("case 0"));
-    let there = |runs, key| CaseFile::<Case>::there(&path, &header(runs), key);
+    let there = |runs, key| CaseFile::<Case>::there(&path, &header(runs), key, read);
     assert_eq!(there(5, "case 0").unwrap().unwrap().case, case(0));
     sentence(there(5, "case 1").unwrap_err(), &["holds the case \"case 0\", not \"case 1\""]);
     sentence(there(7, "case 0").unwrap_err(), &["runs was 5 and is 7"]);
@@ -222,7 +226,7 @@ fn a_file_is_there_for_its_own_case_alone() {
 fn what_was_kept_in_memory_can_be_kept_in_a_folder() {
     let folder = folder();
     let path = folder.path().join("unfinished/tiny-1");
-    let mut journal = Journal::in_memory(header(5));
+    let mut journal = Journal::in_memory(header(5), read);
     journal.append("case 0", case(0)).unwrap();
     journal.keep(&path).unwrap();
     assert_eq!(open(&path).unwrap().get("case 0"), Some(&case(0)));
