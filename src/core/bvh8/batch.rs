@@ -1,5 +1,6 @@
 //! Slices of rays.
 
+use std::marker::PhantomData;
 use std::ops::Range;
 
 use super::config::Batch;
@@ -98,7 +99,7 @@ impl Together {
 
     /// Hands over the hits, and holds none any more.
     #[inline(always)]
-    fn finish<L: EightLanes, D: Depth>(&mut self, mut hit: impl FnMut(usize, Hit)) {
+    fn finish<D: Depth>(&mut self, level: Level, mut hit: impl FnMut(usize, Hit)) {
         let len = std::mem::take(&mut self.len);
         if len == 0 {
             return;
@@ -108,10 +109,26 @@ impl Together {
             let first = column[0];
             column[len..].fill(first);
         }
-        let ts = D::ts::<L>(&self.inputs, len);
+        let ts = dispatch(level, LastBits::<D> { inputs: &self.inputs, len, depth: PhantomData });
         for ((&ray, &id), t) in self.rays.iter().zip(&self.ids).zip(ts).take(len) {
             hit(ray, Hit::new(t, id));
         }
+    }
+}
+
+/// The `t` of hits together: a kernel of its own, because it would cost the walk its registers.
+struct LastBits<'a, D> {
+    inputs: &'a [[f32; TOGETHER]; INPUTS],
+    len: usize,
+    depth: PhantomData<D>,
+}
+
+impl<D: Depth> Kernel for LastBits<'_, D> {
+    type Output = [f32; TOGETHER];
+
+    #[inline(always)]
+    fn run<L: EightLanes>(self) -> [f32; TOGETHER] {
+        D::ts::<L>(self.inputs, self.len)
     }
 }
 
@@ -121,6 +138,7 @@ struct InOrder<'a, const ANY: bool, T: TriangleTest, A, F> {
     rays: &'a [Ray],
     answers: &'a mut [A],
     form: F,
+    level: Level,
 }
 
 impl<const ANY: bool, T: TriangleTest, A, F: Fn(Option<Hit>) -> A> Kernel for InOrder<'_, ANY, T, A, F> {
@@ -128,7 +146,7 @@ impl<const ANY: bool, T: TriangleTest, A, F: Fn(Option<Hit>) -> A> Kernel for In
 
     #[inline(always)]
     fn run<L: EightLanes>(self) {
-        let Self { tree, rays, answers, form } = self;
+        let Self { tree, rays, answers, form, level } = self;
         if ANY || !T::Depth::LATE || !L::FAST {
             // There is nothing to wait for.
             for (answer, ray) in answers.iter_mut().zip(rays) {
@@ -145,12 +163,12 @@ impl<const ANY: bool, T: TriangleTest, A, F: Fn(Option<Hit>) -> A> Kernel for In
                 None => answer(i, None),
                 Some((depth, id)) => {
                     if hits.push(i, ray, depth, *id) {
-                        hits.finish::<L, T::Depth<'_>>(|i, hit| answer(i, Some(hit)));
+                        hits.finish::<T::Depth<'_>>(level, |i, hit| answer(i, Some(hit)));
                     }
                 }
             }
         }
-        hits.finish::<L, T::Depth<'_>>(|i, hit| answer(i, Some(hit)));
+        hits.finish::<T::Depth<'_>>(level, |i, hit| answer(i, Some(hit)));
     }
 }
 
@@ -242,7 +260,7 @@ pub(super) fn answer<const ANY: bool, T: TriangleTest, A, O: Observer>(
     } else {
         let level = Level::current();
         if !T::BATCHED || tree.batch == Batch::Single {
-            return dispatch(level, InOrder::<ANY, T, A, _> { tree, rays, answers, form });
+            return dispatch(level, InOrder::<ANY, T, A, _> { tree, rays, answers, form, level });
         }
         for (rays, answers) in rays.chunks(WINDOW).zip(answers.chunks_mut(WINDOW)) {
             let form = &form;
@@ -271,7 +289,7 @@ fn answer_apart<const ANY: bool, T: TriangleTest, A>(
         Way::InOrder => {
             for places in which.runs(rays.len()) {
                 let (rays, answers) = (&rays[places.clone()], &mut answers[places]);
-                dispatch(level, InOrder::<ANY, T, A, _> { tree, rays, answers, form });
+                dispatch(level, InOrder::<ANY, T, A, _> { tree, rays, answers, form, level });
             }
         }
     };

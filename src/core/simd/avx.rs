@@ -64,6 +64,18 @@ impl<const MASKS: bool> Arithmetic<8> for Avx<MASKS> {
         // SAFETY: see above.
         unsafe { _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LT_OQ>(self.0, other.0)) as u32 }
     }
+
+    #[inline(always)]
+    fn mul_add_loosely(self, factor: Self, term: Self) -> Self {
+        // SAFETY: see above.
+        Self(unsafe { _mm256_fmadd_ps(self.0, factor.0, term.0) })
+    }
+
+    #[inline(always)]
+    fn mul_sub_loosely(self, factor: Self, term: Self) -> Self {
+        // SAFETY: see above.
+        Self(unsafe { _mm256_fmsub_ps(self.0, factor.0, term.0) })
+    }
 }
 
 impl<const MASKS: bool> Lanes<8> for Avx<MASKS> {
@@ -88,18 +100,6 @@ impl<const MASKS: bool> Lanes<8> for Avx<MASKS> {
     fn narrow(F64x8([low, high]): F64x8) -> Self {
         // SAFETY: see above.
         Self(unsafe { _mm256_set_m128(_mm256_cvtpd_ps(high), _mm256_cvtpd_ps(low)) })
-    }
-
-    #[inline(always)]
-    fn mul_add_loosely(self, factor: Self, term: Self) -> Self {
-        // SAFETY: see above.
-        Self(unsafe { _mm256_fmadd_ps(self.0, factor.0, term.0) })
-    }
-
-    #[inline(always)]
-    fn mul_sub_loosely(self, factor: Self, term: Self) -> Self {
-        // SAFETY: see above.
-        Self(unsafe { _mm256_fmsub_ps(self.0, factor.0, term.0) })
     }
 }
 

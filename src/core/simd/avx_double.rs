@@ -1,8 +1,8 @@
 use std::arch::x86_64::*;
 
-use super::Arithmetic;
+use super::{Arithmetic, indexed};
 
-/// 8 lanes of `f64` in two AVX registers, for machines with AVX2.
+/// 8 lanes of `f64` in two AVX registers, for machines with AVX2 and FMA.
 #[derive(Clone, Copy, Debug)]
 pub struct F64x8(pub(super) [__m256d; 2]);
 
@@ -75,5 +75,17 @@ impl Arithmetic<8> for F64x8 {
     fn lt(self, other: Self) -> u32 {
         // SAFETY: see above.
         self.bits(other, |a, b| unsafe { _mm256_movemask_pd(_mm256_cmp_pd::<_CMP_LT_OQ>(a, b)) })
+    }
+
+    #[inline(always)]
+    fn mul_add_loosely(self, factor: Self, term: Self) -> Self {
+        // SAFETY: see above.
+        Self(indexed(|half| unsafe { _mm256_fmadd_pd(self.0[half], factor.0[half], term.0[half]) }))
+    }
+
+    #[inline(always)]
+    fn mul_sub_loosely(self, factor: Self, term: Self) -> Self {
+        // SAFETY: see above.
+        Self(indexed(|half| unsafe { _mm256_fmsub_pd(self.0[half], factor.0[half], term.0[half]) }))
     }
 }

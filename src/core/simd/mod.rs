@@ -14,7 +14,7 @@ pub use level::{Kernel, Level, UnknownLevel, dispatch};
 pub use portable::Portable;
 pub use vector::LaneVec3;
 
-/// `N` lanes of one type of float. Arithmetic is that of IEEE 754, lane by lane and never fused.
+/// `N` lanes of one type of float. Arithmetic is that of IEEE 754, lane by lane and never fused but where a name says so.
 pub trait Arithmetic<const N: usize>: Copy {
     /// The type of one lane.
     type Scalar: Copy;
@@ -43,6 +43,10 @@ pub trait Arithmetic<const N: usize>: Copy {
     fn le(self, other: Self) -> u32;
     /// Lanes where `self < other`, likewise.
     fn lt(self, other: Self) -> u32;
+    /// `self * factor + term`, rounded once where the machine does that in one step, else twice: only for what no hit depends on.
+    fn mul_add_loosely(self, factor: Self, term: Self) -> Self;
+    /// `self * factor - term`, likewise.
+    fn mul_sub_loosely(self, factor: Self, term: Self) -> Self;
 }
 
 /// `N` lanes of `f32`.
@@ -56,10 +60,6 @@ pub trait Lanes<const N: usize>: Arithmetic<N, Scalar = f32> {
     fn widen(self) -> Self::Double;
     /// The nearest floats.
     fn narrow(wide: Self::Double) -> Self;
-    /// `self * factor + term`, rounded once where the machine does that in one step, else twice: only for what no hit depends on.
-    fn mul_add_loosely(self, factor: Self, term: Self) -> Self;
-    /// `self * factor - term`, likewise.
-    fn mul_sub_loosely(self, factor: Self, term: Self) -> Self;
 }
 
 /// Eight lanes that can be chosen from by comparisons, and numbers beside them.

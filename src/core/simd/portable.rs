@@ -80,6 +80,16 @@ macro_rules! arithmetic {
             fn lt(self, other: Self) -> u32 {
                 self.bits(other, |a, b| a < b)
             }
+
+            #[inline(always)]
+            fn mul_add_loosely(self, factor: Self, term: Self) -> Self {
+                self.mul(factor).add(term)
+            }
+
+            #[inline(always)]
+            fn mul_sub_loosely(self, factor: Self, term: Self) -> Self {
+                self.mul(factor).sub(term)
+            }
         }
     };
 }
@@ -103,16 +113,6 @@ impl<const N: usize> Lanes<N> for Portable<N> {
     #[inline(always)]
     fn narrow(wide: Portable<N, f64>) -> Self {
         Self(each(&wide.0, |&x| x as f32))
-    }
-
-    #[inline(always)]
-    fn mul_add_loosely(self, factor: Self, term: Self) -> Self {
-        self.mul(factor).add(term)
-    }
-
-    #[inline(always)]
-    fn mul_sub_loosely(self, factor: Self, term: Self) -> Self {
-        self.mul(factor).sub(term)
     }
 }
 

@@ -39,23 +39,6 @@ impl<const N: usize, L: Lanes<N>> LaneVec3<N, L> {
         Self::new(L::splat(x[lane]), L::splat(y[lane]), L::splat(z[lane]))
     }
 
-    /// As `dot`, by [`Lanes::mul_add_loosely`].
-    #[inline(always)]
-    pub fn dot_loosely(self, other: Self) -> L {
-        self.z.mul_add_loosely(other.z, self.y.mul_add_loosely(other.y, self.x.mul(other.x)))
-    }
-
-    /// As `cross`, by [`Lanes::mul_add_loosely`].
-    #[inline(always)]
-    pub fn cross_loosely(self, other: Self) -> Self {
-        let minor = |a: L, b: L, c: L, d: L| a.mul_sub_loosely(b, c.mul(d));
-        Self::new(
-            minor(self.y, other.z, self.z, other.y),
-            minor(self.z, other.x, self.x, other.z),
-            minor(self.x, other.y, self.y, other.x),
-        )
-    }
-
     /// The same numbers in `f64`.
     #[inline(always)]
     pub fn widen(self) -> LaneVec3<N, L::Double> {
@@ -74,6 +57,23 @@ impl<const N: usize, L: Arithmetic<N>> LaneVec3<N, L> {
     #[inline(always)]
     pub fn dot(self, other: Self) -> L {
         self.x.mul(other.x).add(self.y.mul(other.y)).add(self.z.mul(other.z))
+    }
+
+    /// As `dot`, by [`Arithmetic::mul_add_loosely`].
+    #[inline(always)]
+    pub fn dot_loosely(self, other: Self) -> L {
+        self.z.mul_add_loosely(other.z, self.y.mul_add_loosely(other.y, self.x.mul(other.x)))
+    }
+
+    /// As `cross`, by [`Arithmetic::mul_add_loosely`].
+    #[inline(always)]
+    pub fn cross_loosely(self, other: Self) -> Self {
+        let minor = |a: L, b: L, c: L, d: L| a.mul_sub_loosely(b, c.mul(d));
+        Self::new(
+            minor(self.y, other.z, self.z, other.y),
+            minor(self.z, other.x, self.x, other.z),
+            minor(self.x, other.y, self.y, other.x),
+        )
     }
 
     /// The sum of the components' magnitudes.

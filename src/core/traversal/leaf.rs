@@ -140,12 +140,49 @@ pub(crate) fn search<'a, const ANY: bool, const N: usize, L: Lanes<N>, T: Triang
     }
 }
 
+/// Decides about the candidates of a block. Rare, and out of line, so that it does not cost the walk its registers.
+///
+/// What takes a call is left to [`settle_closely`]: most candidates take none, and then this function saves no register either.
+#[inline(never)]
+pub(crate) fn settle<'a, const N: usize, T: TriangleTest>(
+    block: &'a LeafBlock<T, N>,
+    ray: &T::Ray,
+    mut candidates: u32,
+    values: &T::Values<N>,
+    nearest: &mut Nearest<T::Depth<'a>>,
+) {
+    while candidates != 0 {
+        let lane = candidates.trailing_zeros() as usize % N.next_power_of_two();
+        // SAFETY: candidates are lanes of the block.
+        let id = unsafe { *block.ids.get_unchecked(lane) };
+        // A triangle of several leaves is met again.
+        if nearest.hit.as_ref().is_none_or(|(_, nearest)| *nearest != id) {
+            let Some(decided) = T::decide_at_once(ray, &block.triangles, lane, values) else {
+                return settle_closely(block, ray, candidates, values, nearest);
+            };
+            if let Some(depth) = decided {
+                let better = match &nearest.hit {
+                    None => true,
+                    Some((other, lowest)) => match depth.order(other) {
+                        Some(order) => order.then(id.cmp(lowest)).is_lt(),
+                        None => return settle_closely(block, ray, candidates, values, nearest),
+                    },
+                };
+                if better {
+                    *nearest = Nearest { t: depth.bound(), hit: Some((depth, id)) };
+                }
+            }
+        }
+        candidates &= candidates - 1;
+    }
+}
+
 /// So many candidates are soon decided one by one.
 const FEW: u32 = 2;
 
-/// Decides about the candidates of a block. Rare, and out of line, so that it does not cost the walk its registers.
+/// The same, whatever it takes.
 #[inline(never)]
-pub(crate) fn settle<'a, const N: usize, T: TriangleTest>(
+fn settle_closely<'a, const N: usize, T: TriangleTest>(
     block: &'a LeafBlock<T, N>,
     ray: &T::Ray,
     mut candidates: u32,
@@ -164,7 +201,6 @@ pub(crate) fn settle<'a, const N: usize, T: TriangleTest>(
     while candidates != 0 {
         let lane = candidates.trailing_zeros() as usize;
         candidates &= candidates - 1;
-        // A triangle of several leaves is met again.
         let id = block.ids[lane];
         if nearest.hit.as_ref().is_some_and(|(_, nearest)| *nearest == id) {
             continue;

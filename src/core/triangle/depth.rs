@@ -3,8 +3,8 @@ use std::cmp::Ordering;
 use crate::geometry::Ray;
 use crate::simd::EightLanes;
 
-/// Coordinates of three corners, an origin and a direction.
-pub const INPUTS: usize = 15;
+/// Coordinates of three corners, an origin and a direction, and how far apart bounds of the `t` are.
+pub const INPUTS: usize = 16;
 
 /// Where along a ray a hit is, as exactly as its triangle test knows.
 pub trait Depth: Copy {
@@ -21,7 +21,7 @@ pub trait Depth: Copy {
     /// [`inputs`](Self::inputs) and [`ts`](Self::ts) as well.
     const LATE: bool = false;
 
-    /// What `ts` takes of a hit of `ray`: the corners of the triangle, the origin and the direction.
+    /// What `ts` takes of a hit of `ray`: the corners of the triangle, the origin, the direction and the distance of its bounds.
     #[inline(always)]
     fn inputs(&self, _ray: &Ray) -> [f32; INPUTS] {
         unreachable!("a depth whose `t` is late has inputs")

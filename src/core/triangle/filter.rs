@@ -1,6 +1,6 @@
 //! The first stage of the exact test: rejects nearly all triangles of a block in `f32`, and never one that is hit; and sees most hits.
 
-use glam::Vec3;
+use glam::{Vec3, Vec3Swizzles as _};
 
 use super::Corners;
 use super::corners::Place;
@@ -25,10 +25,12 @@ pub(super) struct FilterRay {
 #[repr(C)]
 pub struct FilterBlock<const N: usize> {
     corners: Corners<N>,
-    /// The largest component of the two edges, which bounds the rounding; infinite if an overflow cannot be ruled out.
+    /// The largest component of the two edges, which bounds the rounding; infinite if an overflow cannot be ruled out, negative in lanes
+    /// left over.
     extents: [f32; N],
-    /// The lanes in use.
-    lanes: u32,
+    /// 10 units of 2^-24 of the largest component of the normal, were the magnitudes of its two products added: bounds the rounding of heights and
+    /// determinants more closely than the extent does, and far more closely where triangles are narrow.
+    areas: [f32; N],
 }
 
 /// What the first stage has computed of `N` triangles, in the notation of [`survivors`].
@@ -36,13 +38,13 @@ pub struct FilterBlock<const N: usize> {
 pub struct Survivors<L> {
     /// With the sign of det.
     height: L,
-    u: L,
-    v: L,
     abs_det: L,
+    /// The least of u, v and |det| - u - v; NaN if one is.
+    least: L,
     slack: L,
-    extent: L,
-    distance: L,
-    tiny: L,
+    height_error: L,
+    area: L,
+    underflow: L,
     scale: f32,
 }
 
@@ -59,11 +61,9 @@ pub struct Sights<const N: usize> {
 const UNIT: f32 = f32::EPSILON / 2.0;
 /// Twice the 40 units of 2^-24 of the argument at [`survivors`], times 2 for the direction.
 const SLACK: f32 = 2.0 * 40.0 * 2.0 * UNIT;
-/// The error of the height, in E E |s|, and of det, in E E: 17 and 98 units, of which is said where below.
-const HEIGHT: f32 = 20.0 * UNIT;
-const DETERMINANT: f32 = 112.0 * UNIT;
-// What culling relies on.
-const _: () = assert!(2.0 * SLACK > DETERMINANT && HEIGHT / SLACK == 0.125);
+/// The error of the height, in N |s|, and so many times that, in N, of det: 8.1 and 43 units, of which is said where below.
+const HEIGHT: f32 = 10.0 * UNIT;
+const DETERMINANT: f32 = 6.0;
 /// More than all underflows together: each loses at most 2^-150, and those of u, v and det add up to less than
 /// (4 |s| + 12 E + 42) 2^-150, where TINY (1 + |s| + 2 E) is added. Far more, but the least number that is not denormal: for each sum with
 /// one that is, some processors take a hundred cycles.
@@ -92,13 +92,17 @@ impl<const N: usize> FilterBlock<N> {
     /// If there are more than `N` triangles.
     pub fn new(triangles: &[[Vec3; 3]]) -> Self {
         let corners = Corners::new(triangles);
-        let mut extents = [0.0; N];
-        for (extent, &[a, b, c]) in extents.iter_mut().zip(triangles) {
+        let (mut extents, mut areas) = ([-1.0; N], [0.0; N]);
+        for (lane, &[a, b, c]) in triangles.iter().enumerate() {
             let reach = a.abs().max(b.abs()).max(c.abs()).max_element();
             let edge = (b - a).abs().max((c - a).abs()).max_element();
-            *extent = if reach <= LARGE { edge } else { f32::INFINITY };
+            extents[lane] = if reach <= LARGE { edge } else { f32::INFINITY };
+            let [a, b, c] = [a, b, c].map(|corner| corner.as_dvec3());
+            let (e, f) = ((b - a).abs(), (c - a).abs());
+            let normal = e.yzx() * f.zxy() + e.zxy() * f.yzx();
+            areas[lane] = (normal.max_element() as f32 * HEIGHT).next_up().max(f32::MIN_POSITIVE);
         }
-        Self { corners, extents, lanes: ((1_u64 << triangles.len()) - 1) as u32 }
+        Self { corners, extents, areas }
     }
 
     #[inline(always)]
@@ -119,11 +123,9 @@ impl<L> Survivors<L> {
     where
         L: Lanes<N>,
     {
-        let &Self { height, abs_det, u, v, slack, extent, distance, tiny, scale } = self;
-        let height_error = extent.mul_add_loosely(extent.mul(distance).mul_add_loosely(L::splat(HEIGHT), tiny), tiny);
-        let det_error = extent.mul_add_loosely(extent.mul_add_loosely(L::splat(DETERMINANT), tiny), tiny);
-        // A NaN in u or v makes the third one, which wins.
-        let inside = slack.lt(u.min(v).min(abs_det.sub(u.add(v))));
+        let &Self { height, height_error, abs_det, least, slack, area, underflow, scale } = self;
+        let det_error = area.mul_add_loosely(L::splat(DETERMINANT), underflow);
+        let inside = slack.lt(least);
         let certain = det_error.mul(L::splat(16.0)).lt(abs_det);
         let inverse = L::splat(1.0).div(abs_det);
         let t = height.mul(inverse);
@@ -154,11 +156,13 @@ impl<L> Survivors<L> {
 /// beyond 2 k rejects no hit, and what is inside by more than 2 k is one. Underflow adds less than [`TINY`] (1 + |s| + 2 E); where an
 /// intermediate might overflow the bound is infinite, and comparisons that involve infinity or NaN decide nothing.
 ///
-/// **Where they are met.** A hit is at t = h / |det|, with h = f . (s x e) taken with the sign of det. The computed h is off by less than
-/// 8.1 w 2 E E |s|, det by less than 86 w E E; both underflow by less than [`TINY`] (1 + E). With bounds dh and dd that are larger by more than
-/// they round: where |det| is beyond dd its sign is certain, and a hit with h below -dh lies behind the origin. One at a t of at most T, where T
-/// is not below `to` for the scaled direction, has h - T |det| at most dh + T dd; the computed T |det|, at most 12 E E T, is off by 12 w E E T,
-/// of which dd has more to spare. Here the slack 2 k (of 320 w E E or more) stands for dd, and E times an eighth of it for dh. Where |det| is beyond 16 dd, |h/d - h'/d'| <= (dh + |h'/d'| dd) / |d'| is at most 16/15 of that with
+/// **Where they are met.** A hit is at t = h / |det|, with h = f . (s x e) taken with the sign of det. Let N bound |e_i f_k| + |e_k f_i|
+/// for each pair of axes: the components of e x f, without what cancels. In the computed h each term s_i e_k f_j is off by 8.1 w of itself, in det
+/// each d_i e_k f_j by 7.1 w, so that h is off by less than 8.1 w N |s| and det by less than 43 w N; both underflow by less than [`TINY`]
+/// (1 + E). With bounds dh and dd of 10 w N |s| and 60 w N, more than both and their own rounding: where |det| is beyond dd its sign is certain,
+/// and a hit with h below -dh lies behind the origin. One at a t of at most T, where T is not below `to` for the scaled direction, has
+/// h - T |det| at most dh + T dd; the computed difference, in which T |det| is at most 6 N T, is off by 7 w N T and w of itself, of which dd has more to
+/// spare. Here the slack 2 k (160 w N or more) stands for dd. Where |det| is beyond 16 dd, |h/d - h'/d'| <= (dh + |h'/d'| dd) / |d'| is at most 16/15 of that with
 /// the computed h/d in place of the exact one, which 9/8 covers with what rounds in it; the quotient and the ends of the interval round by
 /// less than 8 w of t, and [`TINY`] covers what underflows when t is that of the direction again.
 #[inline(always)]
@@ -184,15 +188,20 @@ pub(super) fn survivors<const N: usize, L: Lanes<N>>(
     let distance = to_origin.abs_sum();
     let tiny = L::splat(ray.tiny);
     let slack = distance.add(extent.add(extent)).mul_add_loosely(extent.mul_add_loosely(L::splat(SLACK), tiny), tiny);
-    let below = L::zero().sub(slack);
-    let outside = u.lt(below) | v.lt(below) | abs_det.add(slack).lt(u.add(v));
+    // A NaN in u or v makes the third one, which wins.
+    let least = u.min(v).min(abs_det.sub(u.add(v)));
+    let outside = least.add(slack);
 
     // In any case, also where no lane is left: whether one is cannot be predicted, and one guess a block is enough.
     let height = edge2.dot_loosely(q).flip_sign(det);
-    let height_error = extent.mul(L::splat(HEIGHT / SLACK)).mul_add_loosely(slack, tiny);
-    let behind = height.add(height_error).lt(L::zero()) & slack.lt(abs_det);
+    let (area, underflow) = (L::load(&block.areas), extent.mul_add_loosely(tiny, tiny));
+    let height_error = area.mul_add_loosely(distance, underflow);
+    let behind = slack.sub(abs_det).max(height.add(height_error));
     let last = L::splat((to.max(f32::MIN_POSITIVE) * ray.unscaled).max(f32::MIN_POSITIVE));
-    let beyond = slack.mul_add_loosely(last, height_error).lt(height.sub(last.mul(abs_det)));
-    let survivors = Survivors { height, u, v, abs_det, slack, extent, distance, tiny, scale: ray.scale };
-    (block.lanes & !(outside | behind | beyond), survivors)
+    let beyond = slack.mul_add_loosely(last, height_error).add(last.mul_sub_loosely(abs_det, height));
+
+    // Each is negative where it rejects, or NaN where it cannot tell: then it wins, or another does. The extent of lanes left over is negative.
+    let rejected = beyond.min(behind).min(outside).min(extent).lt(L::zero());
+    let survivors = Survivors { height, height_error, abs_det, least, slack, area, underflow, scale: ray.scale };
+    (!rejected & ((1_u64 << N) - 1) as u32, survivors)
 }

@@ -103,6 +103,17 @@ pub trait TriangleTest: Send + Sync + 'static {
         values: &Self::Values<N>,
     ) -> Option<Self::Depth<'a>>;
 
+    /// What is decided about a candidate without more ado, if anything: what [`decide`](Self::decide) says, and no call.
+    #[inline(always)]
+    fn decide_at_once<'a, const N: usize>(
+        ray: &Self::Ray,
+        block: &'a Self::Block<N>,
+        lane: usize,
+        values: &Self::Values<N>,
+    ) -> Option<Option<Self::Depth<'a>>> {
+        Self::ONE_STAGE.then(|| Self::decide(ray, block, lane, values))
+    }
+
     /// A closer look at many candidates at once, where it may tell more: those left of them, and the values for [`decide`](Self::decide).
     /// What lies beyond `nearest` need not be left.
     #[inline(always)]

@@ -2,7 +2,7 @@ use std::cmp::Ordering;
 
 use glam::Vec3;
 
-use super::enclosure::{Sight, place, place_closely};
+use super::enclosure::{Sight, pass_plane, place_closely};
 use super::seen;
 use crate::exact;
 use crate::geometry::Ray;
@@ -15,14 +15,22 @@ use crate::triangle::{Depth, INPUTS};
 pub struct ExactDepth<'a> {
     low: f32,
     high: f32,
+    /// How far apart the bounds are that the filter gave; infinite where they are not its own.
+    width: f32,
     triangle: Place<'a>,
 }
 
 impl<'a> ExactDepth<'a> {
-    /// The exact `t` is in [`low`, `high`], and the line of the ray meets the triangle.
+    /// The exact `t` is in [`low`, `high`], as the filter says, and the line of the ray meets the triangle.
     #[inline(always)]
     pub(super) fn new(triangle: Place<'a>, low: f32, high: f32) -> Self {
-        Self { low, high, triangle }
+        Self { low, high, width: high - low, triangle }
+    }
+
+    /// The same by a closer look than the filter's, whose bounds do not say what `f64` can tell.
+    #[inline(always)]
+    pub(super) fn looked_up(self) -> Self {
+        Self { width: f32::INFINITY, ..self }
     }
 
     /// Whether `t` may be that of a hit between these bounds.
@@ -104,19 +112,21 @@ impl Depth for ExactDepth<'_> {
     #[inline(always)]
     fn inputs(&self, ray: &Ray) -> [f32; INPUTS] {
         let ([ax, ay, az, bx, by, bz, cx, cy, cz], o, d) = (self.triangle.coordinates(), ray.origin, ray.direction);
-        [ax, ay, az, bx, by, bz, cx, cy, cz, o.x, o.y, o.z, d.x, d.y, d.z]
+        [ax, ay, az, bx, by, bz, cx, cy, cz, o.x, o.y, o.z, d.x, d.y, d.z, self.width]
     }
 
     #[inline(always)]
     fn ts<L: EightLanes>(inputs: &[[f32; 8]; INPUTS], len: usize) -> [f32; 8] {
         let vector = |first: usize| LaneVec3::load(&[inputs[first], inputs[first + 1], inputs[first + 2]]);
-        let (placed, low, high) = place::<8, L>(vector(9), vector(12), [vector(0), vector(3), vector(6)]);
+        let (low, high) =
+            pass_plane::<8, L>(vector(9), vector(12), [vector(0), vector(3), vector(6)], L::load(&inputs[15]));
         let (low, high) = (L::narrow(low), L::narrow(high));
-        let (told, mut ts) = (placed & high.le(low), high.store());
+        let (told, mut ts) = (high.le(low), high.store());
         if told != 0xff {
             for (lane, t) in ts[..len].iter_mut().enumerate().filter(|(lane, _)| told >> lane & 1 == 0) {
                 let vector = |first: usize| Vec3::from_array(indexed(|axis| inputs[first + axis][lane]));
-                *t = exact_t(&Ray::new(vector(9), vector(12)), [vector(0), vector(3), vector(6)]);
+                let (ray, corners) = (Ray::new(vector(9), vector(12)), [vector(0), vector(3), vector(6)]);
+                *t = rounded(seen(&ray, corners)).unwrap_or_else(|| exact_t(&ray, corners));
             }
         }
         ts

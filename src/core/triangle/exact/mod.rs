@@ -88,16 +88,32 @@ impl TriangleTest for Exact {
         lane: usize,
         sights: &Sights<N>,
     ) -> Option<ExactDepth<'a>> {
-        let (ray, sure) = (&ray.ray, sights.sure >> lane & 1 == 1);
-        let (low, high, (start, end)) = (sights.low[lane], sights.high[lane], ray.interval());
-        let (low, high) = if sure && start <= low && high < end {
-            (low, high)
-        } else if sure && (high < start || end <= low) {
+        if let Some(decided) = Self::decide_at_once(ray, block, lane, sights) {
+            // These bounds may be of a closer look.
+            return decided.map(ExactDepth::looked_up);
+        }
+        let (low, high) = in_f64(&ray.ray, block.place(lane), sights.sure >> lane & 1 == 1)?;
+        Some(ExactDepth::new(block.place(lane), low, high).looked_up())
+    }
+
+    #[inline(always)]
+    fn decide_at_once<'a, const N: usize>(
+        ray: &ExactRay,
+        block: &'a FilterBlock<N>,
+        lane: usize,
+        sights: &Sights<N>,
+    ) -> Option<Option<ExactDepth<'a>>> {
+        if sights.sure >> lane & 1 == 0 {
             return None;
+        }
+        let (low, high, (start, end)) = (sights.low[lane], sights.high[lane], ray.ray.interval());
+        if start <= low && high < end {
+            Some(Some(ExactDepth::new(block.place(lane), low, high)))
+        } else if high < start || end <= low {
+            Some(None)
         } else {
-            in_f64(ray, block.place(lane), sure)?
-        };
-        Some(ExactDepth::new(block.place(lane), low, high))
+            None
+        }
     }
 
     #[inline(always)]

@@ -1,6 +1,7 @@
 //! The exact test is held against exact sums and rationals.
 
 use super::*;
+use crate::simd::{EightLanes, Kernel, Level, Portable, dispatch};
 
 /// In a scene of 1e-15, the products of three lengths underflow before those of two.
 #[test]
@@ -43,6 +44,63 @@ fn the_exact_test_agrees_with_the_judges_everywhere() {
         hits += usize::from(found.is_some());
     }
     assert!(hits > 30_000, "{hits}");
+}
+
+/// The last bits of eight hits together.
+struct LastBits<'a>(&'a [[f32; 8]; INPUTS], usize);
+
+impl Kernel for LastBits<'_> {
+    type Output = [f32; 8];
+
+    #[inline(always)]
+    fn run<L: EightLanes>(self) -> [f32; 8] {
+        <Exact as TriangleTest>::Depth::ts::<L>(self.0, self.1)
+    }
+}
+
+/// Long, narrow or along axes, where the filter knows heights best, and the rays beside them.
+pub(super) fn narrow(rng: &mut Pcg32) -> (Ray, [Vec3; 3]) {
+    let mut corners = triangle(rng, unit);
+    let width = libm::exp2f(-((rng.next_u32() % 24) as f32));
+    corners[2] = corners[rng.next_u32() as usize % 2] + point(rng, unit) * width;
+    let axis = (rng.next_u32() % 4) as usize;
+    if axis < 3 {
+        corners.each_mut().map(|corner| corner[axis] = 0.75);
+    }
+    let [a, b, c] = corners;
+    let weights = [0, 1].map(|_| unit(rng) * 0.5 + 0.5);
+    let target = a + (b - a) * weights[0] + (c - a) * (weights[1] * (1.0 - weights[0]));
+    let origin = target + point(rng, unit) * libm::exp2f(-((rng.next_u32() % 30) as f32));
+    (Ray::new(origin, target - origin), corners)
+}
+
+#[test]
+fn the_last_bits_of_eight_hits_are_those_of_each() {
+    let mut rng = Pcg32::seed_from_u64(8);
+    let (mut inputs, mut owed, mut len, mut hits) = ([[0.0; 8]; INPUTS], [0.0; 8], 0, 0);
+    for round in 0..400_000 {
+        let (ray, corners) = if round % 2 == 0 { narrow(&mut rng) } else { hard(&mut rng, round / 2) };
+        let Some(t) = true_t(&ray, corners) else { continue };
+        let (prepared, block) = (Exact::prepare(&ray), Exact::block(&[corners]));
+        let (_, first) = Exact::candidates::<1, Portable<1>>(&prepared, &block, 0.0, f32::INFINITY);
+        let values = Exact::values(first);
+        let depth = Exact::decide_at_once(&prepared, &block, 0, &values)
+            .unwrap_or_else(|| Exact::decide(&prepared, &block, 0, &values));
+        for (column, input) in inputs.iter_mut().zip(depth.expect("it is hit").inputs(&ray)) {
+            column[len] = input;
+        }
+        owed[len] = t;
+        len += 1;
+        hits += 1;
+        if len == 8 {
+            for level in Level::available() {
+                let ts = dispatch(level, LastBits(&inputs, len));
+                assert_eq!(ts.map(f32::to_bits), owed.map(f32::to_bits), "{level}: {inputs:?}");
+            }
+            len = 0;
+        }
+    }
+    assert!(hits > 50_000, "{hits}");
 }
 
 /// Both corners of a pair of triangles at the same exact `t`: the lower number wins, whatever `f64` makes of them.

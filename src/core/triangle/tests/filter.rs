@@ -35,7 +35,11 @@ fn what_is_hit_is_a_candidate_and_what_is_sure_is_so() {
     let mut rng = Pcg32::seed_from_u64(6);
     let (mut hits, mut sure, mut narrow, mut cut) = (0, 0, 0, 0);
     for round in 0..400_000 {
-        let (ray, corners) = if round % 2 == 0 { near(&mut rng) } else { hard(&mut rng, round / 2) };
+        let (ray, corners) = match round % 3 {
+            0 => near(&mut rng),
+            1 => super::exact::narrow(&mut rng),
+            _ => hard(&mut rng, round / 3),
+        };
         if !ray.is_valid() {
             continue;
         }
