@@ -12,7 +12,7 @@ use sahara::validate::conformance::{Named, counting, findings, shapes};
 use sahara::validate::{Kind, Reference, Stratum, Validation, degenerate_meshes, validate};
 
 /// Every way in which peers are asked; those whose feature is off or whose library is absent are left out.
-const PEERS: [&str; 14] = [
+const PEERS: [&str; 15] = [
     "bvh",
     "bvh:test=moller-trumbore",
     "bvh:traversal=nearest",
@@ -23,6 +23,7 @@ const PEERS: [&str; 14] = [
     "tinybvh:quality=medium",
     "embree",
     "embree:quality=medium",
+    "embree:packet=8,rays=coherent",
     "embree:packet=16",
     "embree:packet=16,rays=coherent",
     "embree-robust",

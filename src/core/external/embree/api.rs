@@ -75,6 +75,8 @@ api! {
     attach_geometry = "rtcAttachGeometry": fn(Handle, Handle) -> c_uint;
     intersect1 = "rtcIntersect1": fn(Handle, *mut c_void, *const Arguments);
     occluded1 = "rtcOccluded1": fn(Handle, *mut c_void, *const Arguments);
+    intersect8 = "rtcIntersect8": fn(*const c_int, Handle, *mut c_void, *const Arguments);
+    occluded8 = "rtcOccluded8": fn(*const c_int, Handle, *mut c_void, *const Arguments);
     intersect16 = "rtcIntersect16": fn(*const c_int, Handle, *mut c_void, *const Arguments);
     occluded16 = "rtcOccluded16": fn(*const c_int, Handle, *mut c_void, *const Arguments);
 }

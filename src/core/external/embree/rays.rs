@@ -1,4 +1,4 @@
-//! Rays as Embree takes them, one or sixteen.
+//! Rays as Embree takes them, one, eight or sixteen.
 //!
 //! A query reads the ray and writes its end and the hit behind it: a ray that is kept is copied to be asked.
 
@@ -38,10 +38,10 @@ struct AskedSingle {
 
 const _: () = assert!(size_of::<Single>() == 48 && size_of::<AskedSingle>() == 96);
 
-/// `RTCRay16`.
+/// `RTCRay8` or `RTCRay16`.
 #[repr(C, align(64))]
 #[derive(Clone, Copy)]
-struct Sixteen {
+struct Several<const LANES: usize> {
     origin: [[f32; LANES]; 3],
     t_near: [f32; LANES],
     direction: [[f32; LANES]; 3],
@@ -52,10 +52,10 @@ struct Sixteen {
     flags: [u32; LANES],
 }
 
-/// `RTCRayHit16`, with the same room.
+/// `RTCRayHit8` or `RTCRayHit16`, with the same room.
 #[repr(C, align(64))]
-struct AskedSixteen {
-    rays: Sixteen,
+struct AskedSeveral<const LANES: usize> {
+    rays: Several<LANES>,
     normal: [[f32; LANES]; 3],
     barycentrics: [[f32; LANES]; 2],
     primitive: [u32; LANES],
@@ -63,17 +63,15 @@ struct AskedSixteen {
     instances: [[u32; LANES]; 2],
 }
 
-const _: () = assert!(size_of::<Sixteen>() == 768 && size_of::<AskedSixteen>() == 1344);
+const _: () = assert!(size_of::<Several<16>>() == 768 && size_of::<AskedSeveral<16>>() == 1344);
+const _: () = assert!(size_of::<Several<8>>() == 384 && size_of::<AskedSeveral<8>>() >= 672);
 
-/// Rays of a packet.
-pub const LANES: usize = 16;
-
-/// At most [`LANES`] rays; those that are not valid are not asked.
+/// At most `LANES` rays, 8 or 16; those that are not valid are not asked.
 #[repr(C, align(64))]
-pub struct Packet {
+pub struct Packet<const LANES: usize> {
     /// -1 for the lanes that are asked.
     valid: [c_int; LANES],
-    rays: Sixteen,
+    rays: Several<LANES>,
 }
 
 /// The last `t` that a ray which ends before `t_max` may have: Embree's end is closed.
@@ -126,13 +124,13 @@ impl Single {
     }
 }
 
-impl Packet {
+impl<const LANES: usize> Packet<LANES> {
     /// # Panics
-    /// If there are more than [`LANES`] rays.
+    /// If there are more than `LANES` rays.
     pub fn new(rays: &[Ray]) -> Self {
         assert!(rays.len() <= LANES, "a packet has {LANES} lanes");
         let mut valid = [0; LANES];
-        let mut packet = Sixteen {
+        let mut packet = Several {
             origin: [[0.0; LANES]; 3],
             t_near: [0.0; LANES],
             direction: [[0.0; LANES]; 3],
@@ -157,8 +155,12 @@ impl Packet {
 
     /// As [`Single::closest`], lane by lane.
     #[inline]
-    pub fn closest(&self, scene: &Scene, arguments: &Arguments) -> impl Iterator<Item = Option<(f32, u32)>> + use<> {
-        let mut asked = AskedSixteen {
+    pub fn closest(
+        &self,
+        scene: &Scene,
+        arguments: &Arguments,
+    ) -> impl Iterator<Item = Option<(f32, u32)>> + use<LANES> {
+        let mut asked = AskedSeveral {
             rays: self.rays,
             normal: [[0.0; LANES]; 3],
             barycentrics: [[0.0; LANES]; 2],
@@ -166,20 +168,20 @@ impl Packet {
             geometry: [NONE; LANES],
             instances: [[NONE; LANES]; 2],
         };
-        let (query, valid) = (scene.api().intersect16, self.valid.as_ptr());
+        let query = if const { LANES == 8 } { scene.api().intersect8 } else { scene.api().intersect16 };
         // SAFETY: the scene is committed; mask and packet are aligned and as large as any Embree 4 reads and writes.
-        unsafe { query(valid, scene.handle(), (&raw mut asked).cast(), arguments) };
+        unsafe { query(self.valid.as_ptr(), scene.handle(), (&raw mut asked).cast(), arguments) };
         let (geometry, t, primitive) = (asked.geometry, asked.rays.t_far, asked.primitive);
         (0..LANES).map(move |lane| (geometry[lane] != NONE).then_some((t[lane], primitive[lane])))
     }
 
     /// As [`Single::any`], lane by lane.
     #[inline]
-    pub fn any(&self, scene: &Scene, arguments: &Arguments) -> impl Iterator<Item = bool> + use<> {
+    pub fn any(&self, scene: &Scene, arguments: &Arguments) -> impl Iterator<Item = bool> + use<LANES> {
         let mut asked = self.rays;
-        let (query, valid) = (scene.api().occluded16, self.valid.as_ptr());
+        let query = if const { LANES == 8 } { scene.api().occluded8 } else { scene.api().occluded16 };
         // SAFETY: as above; this query has no hit.
-        unsafe { query(valid, scene.handle(), (&raw mut asked).cast(), arguments) };
+        unsafe { query(self.valid.as_ptr(), scene.handle(), (&raw mut asked).cast(), arguments) };
         asked.t_far.into_iter().map(|t| t == f32::NEG_INFINITY)
     }
 }
