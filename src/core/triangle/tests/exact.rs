@@ -65,7 +65,9 @@ pub(super) fn narrow(rng: &mut Pcg32) -> (Ray, [Vec3; 3]) {
     corners[2] = corners[rng.next_u32() as usize % 2] + point(rng, unit) * width;
     let axis = (rng.next_u32() % 4) as usize;
     if axis < 3 {
-        corners.each_mut().map(|corner| corner[axis] = 0.75);
+        for corner in &mut corners {
+            corner[axis] = 0.75;
+        }
     }
     let [a, b, c] = corners;
     let weights = [0, 1].map(|_| unit(rng) * 0.5 + 0.5);
