@@ -152,9 +152,9 @@ pub(crate) fn settle<'a, const N: usize, T: TriangleTest>(
     nearest: &mut Nearest<T::Depth<'a>>,
 ) {
     while candidates != 0 {
-        let lane = candidates.trailing_zeros() as usize % N.next_power_of_two();
-        // SAFETY: candidates are lanes of the block.
-        let id = unsafe { *block.ids.get_unchecked(lane) };
+        // A lane in any case, so that nothing is left to check.
+        let lane = candidates.trailing_zeros() as usize % N;
+        let id = block.ids[lane];
         // A triangle of several leaves is met again.
         if nearest.hit.as_ref().is_none_or(|(_, nearest)| *nearest != id) {
             let Some(decided) = T::decide_at_once(ray, &block.triangles, lane, values) else {
