@@ -39,6 +39,8 @@ pub enum OutputError {
     Directory(PathBuf),
     #[error("cannot write {}: it is one of the files to read: name another one", .0.display())]
     Input(PathBuf),
+    #[error("cannot write two results to {}: name another file for one of them", .0.display())]
+    Same(PathBuf),
     #[error("cannot write two results to standard output: name a file for one of them")]
     Twice,
     #[error("cannot write {}: {cause}: choose a place that exists, may be written and has room", path.display())]
@@ -74,6 +76,30 @@ impl OutputFile {
         let own = self.path.canonicalize().ok().filter(|own| own.is_file());
         let same = |input: &Path| own.is_some() && input.canonicalize().ok() == own;
         if inputs.into_iter().any(same) { Err(OutputError::Input(self.path)) } else { Ok(self) }
+    }
+
+    /// Refuses a place that one of the `others` has, too.
+    ///
+    /// # Errors
+    /// If one has, by whatever path.
+    pub fn unlike(&self, others: &[&Self]) -> Result<(), OutputError> {
+        // A pipe or a terminal takes several; standard output is looked after by [`check`](Self::check).
+        let is_special = self.is_stdout() || fs::metadata(&self.path).is_ok_and(|there| !there.is_file());
+        let place = |file: &Self| {
+            let target = file.target();
+            // A file that is not there yet lies in a folder that is.
+            Some((file.folder().canonicalize().ok()?, target.file_name()?.to_owned()))
+        };
+        let own = place(self).filter(|_| !is_special);
+        let same = own.is_some() && others.iter().any(|other| place(other) == own);
+        if same { Err(OutputError::Same(self.path.clone())) } else { Ok(()) }
+    }
+
+    /// The folder of the file itself.
+    fn folder(&self) -> PathBuf {
+        let target = self.target();
+        let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty());
+        folder.unwrap_or(Path::new(".")).into()
     }
 
     pub fn path(&self) -> &Path {
@@ -136,8 +162,7 @@ impl OutputFile {
 
     /// A new file in the same directory, with the permissions of any new file.
     fn beside(&self) -> io::Result<NamedTempFile> {
-        let target = self.target();
-        let directory = target.parent().filter(|d| !d.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let directory = self.folder();
         let mut builder = Builder::new();
         builder.prefix(".sahara-").suffix(".part");
         #[cfg(unix)]
@@ -232,6 +257,19 @@ mod tests {
         }
         apart(&other).unwrap();
         apart(&directory.path().join("new.obj")).unwrap();
+    }
+
+    #[test]
+    fn two_results_have_two_places() {
+        let directory = tempfile::tempdir().unwrap();
+        let file = |name: &str| OutputFile::check(&directory.path().join(name)).unwrap();
+        let (one, again, other) = (file("a.json"), file("./a.json"), file("a.csv"));
+        other.unlike(&[&one]).unwrap();
+        for _ in 0..2 {
+            let error = again.unlike(&[&other, &one]).unwrap_err().to_string();
+            assert!(error.contains("a.json") && error.contains("two results"), "{error}");
+            one.write(b"there").unwrap();
+        }
     }
 
     #[cfg(unix)]

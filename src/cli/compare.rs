@@ -38,7 +38,7 @@ struct Gate {
     baseline: Option<String>,
     /// Fail, with status 3, if a structure is slower than in the baseline by more than so many per cent; with 4 if that cannot be
     /// told with four times as many epochs
-    #[arg(long, value_name = "PCT", requires = "baseline", value_parser = percent)]
+    #[arg(long, value_name = "PCT", requires = "baseline", conflicts_with = "quick", value_parser = percent)]
     fail_on_regression: Option<f64>,
 }
 

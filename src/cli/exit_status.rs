@@ -3,6 +3,8 @@
 use std::io;
 use std::process::ExitCode;
 
+use clap::error::{ContextKind, ContextValue};
+
 use super::interrupt;
 use crate::output::OutputError;
 use crate::study::Status;
@@ -31,9 +33,9 @@ pub(super) fn of(found: anyhow::Result<Status>) -> ExitCode {
         Ok(Status::Refused) => ExitCode::from(5),
         Ok(Status::Interrupted) => ExitCode::from(interrupt::STATUS),
         Err(error) if is_broken_pipe(&error) => ExitCode::SUCCESS,
-        Err(error) => match error.downcast_ref::<clap::Error>() {
-            Some(message) => told(message),
-            None => {
+        Err(error) => match error.downcast::<clap::Error>() {
+            Ok(message) => told(message),
+            Err(error) => {
                 crate::output::tell(format_args!("error: {error:#}"));
                 ExitCode::from(1)
             }
@@ -43,9 +45,22 @@ pub(super) fn of(found: anyhow::Result<Status>) -> ExitCode {
 
 /// Prints what the command line is told. Help and version are answers, not errors; a reader that has gone away is no error
 /// either.
-pub(super) fn told(message: &clap::Error) -> ExitCode {
+pub(super) fn told(message: clap::Error) -> ExitCode {
+    let message = advised(message);
     let _ = message.print();
     ExitCode::from(u8::from(message.use_stderr()))
+}
+
+/// Where --quick is no option, one that is written alike is no help: the command that has it is named instead.
+fn advised(mut message: clap::Error) -> clap::Error {
+    if message.get(ContextKind::InvalidArg) == Some(&ContextValue::String("--quick".into())) {
+        message.remove(ContextKind::SuggestedArg);
+        // It shows the same option.
+        message.remove(ContextKind::Usage);
+        let tip = "`sahara study all --quick` runs the quick form of every study, `sahara study plan NAME --quick` prints that of one";
+        message.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![tip.into()]));
+    }
+    message
 }
 
 /// Whether the reader of our output has gone away, as `head` does.

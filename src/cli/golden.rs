@@ -1,5 +1,6 @@
 //! `golden`.
 
+use anyhow::Context;
 use clap::ValueEnum;
 
 use super::terminal::Terminal;
@@ -33,7 +34,9 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     let scenes: Vec<&Builtin> = if args.scenes.is_empty() {
         BUILTIN.iter().collect()
     } else {
-        args.scenes.iter().map(|name| Builtin::find(name)).collect::<Result<_, _>>()?
+        let find =
+            |name: &String| Builtin::find(name).context("golden images are of built-in scenes alone, not of files");
+        args.scenes.iter().map(find).collect::<anyhow::Result<_>>()?
     };
     // A golden image belongs to the scene: all structures with one triangle test owe it the same bytes.
     let all = registry.all();

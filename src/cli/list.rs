@@ -1,5 +1,7 @@
 //! `list`.
 
+use glam::Vec3;
+
 use super::Suite;
 use super::terminal::Terminal;
 use super::validate::described;
@@ -7,25 +9,27 @@ use crate::accel::{Observed, Query};
 use crate::names::suggestion;
 use crate::registry::{Entry, Registry};
 use crate::render::ViewKind;
-use crate::report::number::count;
+use crate::report::number::{count, figures};
 use crate::report::{Cell, Table, Tone};
+use crate::scene::meshes::{GENERATORS, Generator};
 use crate::scene::{BUILTIN, WorkloadKind, real_mesh_folder};
 use crate::study::Status;
 
 #[derive(Debug, clap::Args)]
 pub struct Args {
-    /// What to tell more of: a structure, `scenes`, `structures`, `workloads`, `studies` or `hard` [default: all names]
+    /// What to tell more of: a structure, `scenes`, `meshes`, `structures`, `workloads`, `studies` or `hard` [default: all names]
     #[arg(value_name = "STRUCTURE|KIND")]
     what: Option<String>,
 }
 
-const KINDS: [&str; 5] = ["scenes", "structures", "workloads", "studies", "hard"];
+const KINDS: [&str; 6] = ["scenes", "meshes", "structures", "workloads", "studies", "hard"];
 
 pub fn run(suite: &Suite, args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
     let registry = &suite.registry;
     let table = match args.what.as_deref().map(str::to_lowercase).as_deref() {
         None => names(suite),
         Some("scenes") => scenes()?,
+        Some("meshes") => meshes(),
         Some("structures") => structures(registry),
         Some("workloads") => workloads(),
         Some("studies") => studies(suite),
@@ -55,6 +59,7 @@ fn names(suite: &Suite) -> Table {
     tests.retain(|test| seen.insert(*test));
     let lines = [
         ("scenes", BUILTIN.iter().map(|builtin| builtin.name).collect()),
+        ("meshes of scene files", GENERATORS.iter().map(|generator| generator.name).collect()),
         ("structures", suite.registry.names()),
         ("triangle tests", tests),
         ("workloads", WorkloadKind::ALL.map(WorkloadKind::name).into()),
@@ -79,6 +84,21 @@ fn scenes() -> anyhow::Result<Table> {
         rows.push([builtin.name, &difficulty, &triangles, &lights, mirrors, meshes].map(Cell::from).into());
     }
     Ok(table("Scenes", &["name", "difficulty", "triangles", "lights", "mirrors", "meshes"], rows))
+}
+
+/// The meshes of our own that a scene file can name.
+fn meshes() -> Table {
+    let row = |generator: &Generator| {
+        let model = (generator.make)();
+        let (low, high) = model
+            .positions
+            .iter()
+            .fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), &point| (low.min(point), high.max(point)));
+        let size = (high - low).to_array().map(|side| figures(side.into())).join(" x ");
+        vec![generator.name.into(), count(model.triangles.len() as u64).into(), size.into()]
+    };
+    let title = "Meshes that a scene file can name: mesh = \"teapot\"";
+    table(title, &["name", "triangles", "size"], GENERATORS.iter().map(row).collect())
 }
 
 /// One row for each structure: the triangle tests it is offered over, the default first, and what it declines by design.

@@ -174,7 +174,7 @@ fn run_with(suite: &Suite, args: impl IntoIterator<Item = OsString>, processes: 
     let parsed = parsed.and_then(|matches| Ok((Global::from_arg_matches(&matches)?, matches)));
     let (global, matches) = match parsed {
         Ok(parsed) => parsed,
-        Err(message) => return exit_status::told(&message),
+        Err(message) => return exit_status::told(message),
     };
     if let Some(level) = global.level {
         level.choose();

@@ -13,6 +13,9 @@ use crate::study::{AnyStudy, Status};
 /// Name of the command.
 pub const NAME: &str = "plan";
 
+/// Options that write what came of a whole study.
+const OUTPUTS: [&str; 4] = ["--export-json", "--export-csv", "--export-markdown", "--plot"];
+
 /// Print a study as jobs for a cluster: one command a line, each of which measures one case and writes one file
 #[derive(Clone, Debug, clap::Args)]
 pub struct Args {
@@ -65,6 +68,15 @@ impl Args {
 pub fn run(session: &Session, args: &Args, level: Option<Level>) -> anyhow::Result<Status> {
     let &Session { suite, terminal, .. } = session;
     let (args, names, options) = args.split()?;
+    let output = options.iter().find(|word| {
+        let name = word.split('=').next().unwrap_or(word);
+        OUTPUTS.contains(&name)
+    });
+    if let Some(output) = output {
+        anyhow::bail!(
+            "{output} is of a whole study, and each job measures one case of it: give it to the study once all jobs are done"
+        );
+    }
     let whole = names.iter().any(|name| name == super::all::NAME);
     let studies: Vec<&dyn AnyStudy> = if whole {
         suite.studies.in_order_of_measuring()

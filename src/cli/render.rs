@@ -33,11 +33,15 @@ pub struct Args {
     from: ViewArgs,
     /// Tests and steps that the heat view shows brightest [default: of the costliest tree of all, so that the pictures of
     /// all structures can be compared; where building all of them would take minutes, of the one that answers]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     hottest: Option<u64>,
 }
 
 pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
+    anyhow::ensure!(
+        args.hottest.is_none() || args.view == ViewKind::Heat,
+        "--hottest is the scale of --view heat: leave it out, or ask for that view"
+    );
     let choice = sources::structure(registry, &args.structure)?;
     let file = sources::output(&args.output, std::slice::from_ref(&args.scene), None)?;
     is_png(&args.output)?;
@@ -51,7 +55,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     let scale = match (args.view, args.hottest) {
         (ViewKind::Heat, None) if scaled_alone => own_scale(&choice, &scene, accel.as_ref())?,
         (ViewKind::Heat, None) => common_scale(registry, &scene, &waiting)?,
-        (_, hottest) => hottest.unwrap_or(1).max(1),
+        (_, hottest) => hottest.unwrap_or(1),
     };
     waiting.says(format!("{} is drawn by {}", scene.name, choice.label));
     let drawn = guarded(|| -> Result<_, ViewError> {

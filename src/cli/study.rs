@@ -21,7 +21,7 @@ pub struct Common {
     /// `compare`, keep only what Ctrl-C has interrupted]
     #[arg(long, value_name = "DIR")]
     pub dir: Option<PathBuf>,
-    /// Throw away what was measured before, and start anew
+    /// Throw away all that the folder of the study holds, cases of other scenes and settings as well, and start anew
     #[arg(long)]
     pub fresh: bool,
     /// Measure all epochs in one process: quicker, but how it happens to lie in memory is then in none of the intervals
@@ -59,7 +59,13 @@ impl Common {
         let (json, csv, markdown) =
             (check(&self.export_json)?, check(&self.export_csv)?, check(&self.export_markdown)?);
         let plots = self.plot.iter().map(|path| anyhow::Ok((file(path)?, Format::of(path)?)));
-        Ok(Files { json, csv, markdown, plots: plots.collect::<anyhow::Result<_>>()? })
+        let files = Files { json, csv, markdown, plots: plots.collect::<anyhow::Result<_>>()? };
+        let tables = [&files.json, &files.csv, &files.markdown].into_iter().flatten();
+        let all: Vec<&OutputFile> = tables.chain(files.plots.iter().map(|(file, _)| file)).collect();
+        for (i, file) in all.iter().enumerate() {
+            file.unlike(&all[..i])?;
+        }
+        Ok(files)
     }
 }
 
@@ -89,6 +95,12 @@ pub fn run_as(session: &Session, study: &dyn AnyStudy, chosen: Chosen, common: &
         processes: session.processes(common),
         screen: &mut screen,
     };
+    // A picture that there is not is refused before the long run.
+    anyhow::ensure!(
+        common.plot.is_empty() || study.has_plot(),
+        "study {} has no picture: leave --plot out",
+        study.name()
+    );
     let mut files = Files::default();
     let measured = study.run(chosen, &mut run, &mut |inputs| {
         files = common.check(inputs)?;
@@ -116,8 +128,7 @@ pub fn run_as(session: &Session, study: &dyn AnyStudy, chosen: Chosen, common: &
         file.write(&to_markdown(&tables, &legend))?;
     }
     for (file, format) in files.plots {
-        let plot = study.plot(answer);
-        let plot = plot.ok_or_else(|| anyhow::anyhow!("study {} has no picture: leave --plot out", study.name()))?;
+        let Some(plot) = study.plot(answer) else { continue };
         file.write(&plot.bytes(format))?;
     }
     match failure {

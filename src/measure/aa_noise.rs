@@ -82,10 +82,11 @@ impl AaNoise {
         self.weighted(&(0..logs.len()).map(|i| slope(i).unwrap_or(0.0)).collect::<Vec<_>>())
     }
 
-    /// How many of the ratios' intervals hold 1; nothing where they have none.
-    pub fn holding_one(&self) -> Option<usize> {
-        let known = self.ratios.iter().any(|ratio| ratio.interval.is_some());
-        known.then(|| self.ratios.iter().filter(|ratio| ratio.holds(1.0)).count())
+    /// How many of the ratios' intervals hold 1, and how many have one; nothing where none has.
+    pub fn holding_one(&self) -> Option<(usize, usize)> {
+        let known = self.ratios.iter().filter(|ratio| ratio.interval.is_some());
+        let holding = known.clone().filter(|ratio| ratio.holds(1.0)).count();
+        Some((holding, known.count())).filter(|&(_, known)| known > 0)
     }
 }
 
@@ -107,7 +108,7 @@ mod tests {
         let many = twins(&[0.01, -0.03, 0.02].repeat(20));
         assert!((many.log().unwrap() - one.log().unwrap()).abs() < 1e-12);
         assert_eq!((one.of_ratio().freedom, many.of_ratio().freedom), (4.0, 60.0));
-        assert_eq!((one.holding_one(), twins(&[0.0]).holding_one()), (Some(0), Some(1)));
+        assert_eq!((one.holding_one(), twins(&[0.0]).holding_one()), (Some((0, 3)), Some((1, 1))));
     }
 
     #[test]
@@ -124,6 +125,9 @@ mod tests {
         let noise = AaNoise::new(&[vec![vec![0.01, 0.03]]]);
         assert!((noise.log().unwrap() - 0.02).abs() < 1e-12);
         assert_eq!(noise.holding_one(), None);
+        // A cell of one epoch beside another has no interval that could hold anything.
+        let both = AaNoise::new(&[vec![vec![0.01, 0.03]], vec![vec![0.0; 3]; 5]]);
+        assert_eq!((both.ratios.len(), both.holding_one()), (2, Some((1, 1))));
     }
 
     #[test]

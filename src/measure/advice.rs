@@ -39,8 +39,9 @@ impl Conditions {
         }
         if let Some(load) = self.load.filter(|&load| load > 0.5 * self.cores as f64) {
             let cores = self.cores;
+            let noun = if cores == 1 { "core" } else { "cores" };
             warnings.push(format!(
-                "the load average was {load:.1} on {cores} cores before the run: end other programs; until then trust ratios, not times"
+                "the load average was {load:.1} on {cores} {noun} before the run: end other programs; until then trust ratios, not times"
             ));
         }
         if let Some(governor) = self.governor.as_deref().filter(|&governor| governor == "powersave") {

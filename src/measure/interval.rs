@@ -58,6 +58,13 @@ pub fn log_ratios(numerator: &[f64], denominator: &[f64], epochs: usize) -> Vec<
     logs.chunks((logs.len() / epochs).max(1)).map(<[f64]>::to_vec).collect()
 }
 
+/// Leaves of all cells the first epochs alone, as many as each of them has: a mean over cells has no others. Which they are does not depend
+/// on what was measured in them, so the mean is none the worse.
+pub fn cut_to_shared_epochs(cells: &mut [Vec<Vec<f64>>]) {
+    let fewest = cells.iter().map(Vec::len).min().unwrap_or(0);
+    cells.iter_mut().for_each(|cell| cell.truncate(fewest));
+}
+
 /// z(e) of every epoch: the mean over the cells of the median of its rounds, a logarithm. A cell is what [`log_ratios`]
 /// gives. Nothing when there is no cell or one is empty.
 ///

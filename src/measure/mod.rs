@@ -30,7 +30,7 @@ pub use beta::beta_quantile;
 pub use clock::{Clock, CpuClock, Stopwatch, SystemClock};
 pub use estimate::{Estimate, Interval};
 pub use events::EventCounter;
-pub use interval::{Rerun, epoch_values, log_ratios};
+pub use interval::{Rerun, cut_to_shared_epochs, epoch_values, log_ratios};
 pub use memory::{CountingAllocator, peak_bytes};
 pub use order::RandomOrder;
 pub use pass::{Pass, spread};

@@ -119,7 +119,8 @@ impl Provenance {
     pub fn too_many_threads(&self) -> Option<String> {
         let Self { threads, cores, .. } = self;
         (threads > cores).then(|| {
-            format!("{threads} threads share {cores} cores: they take turns, and times are those of neither number; ask for {cores} at most")
+            let noun = if *cores == 1 { "core" } else { "cores" };
+            format!("{threads} threads share {cores} {noun}: they take turns, and times are those of neither number; ask for {cores} at most")
         })
     }
 

@@ -1,6 +1,6 @@
 //! The threads that build and trace.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use super::machine;
 use super::pin::{self, Pin};
@@ -8,7 +8,8 @@ use super::pin::{self, Pin};
 /// The threads that build and trace; a clone is the same threads.
 #[derive(Clone)]
 pub struct Threads {
-    pool: Arc<rayon::ThreadPool>,
+    /// Empty until they start.
+    pool: Arc<OnceLock<rayon::ThreadPool>>,
     count: usize,
     /// The core of each, where they are bound.
     cores: Option<Vec<usize>>,
@@ -20,7 +21,7 @@ impl Threads {
     /// # Errors
     /// If the system does not give that many threads; the sentence is its own.
     pub fn new(count: usize) -> Result<Self, String> {
-        Self::on(count, None)
+        Self::on(count, None).started()
     }
 
     /// Threads each of which is bound to a core of its own, where the system allows that and has as many: to measure.
@@ -28,20 +29,40 @@ impl Threads {
     /// # Errors
     /// As [`Threads::new`].
     pub fn pinned(count: usize) -> Result<Self, String> {
+        Self::unstarted(count).started()
+    }
+
+    /// As [`Threads::pinned`], but they start with their first work: where they may have none, for their start is time of the process
+    /// in which another thread is timed.
+    pub fn unstarted(count: usize) -> Self {
         Self::on(count, pin::choose(count))
     }
 
-    fn on(count: usize, cores: Option<Vec<usize>>) -> Result<Self, String> {
+    fn on(count: usize, cores: Option<Vec<usize>>) -> Self {
         // What the load was before these threads made some.
         machine::load_at_start();
-        let own = cores.clone();
+        Self { pool: Arc::default(), count, cores }
+    }
+
+    fn started(self) -> Result<Self, String> {
+        let pool = self.start()?;
+        Ok(Self { pool: Arc::new(OnceLock::from(pool)), ..self })
+    }
+
+    fn start(&self) -> Result<rayon::ThreadPool, String> {
+        let own = self.cores.clone();
         let bind = move |i: usize| {
             if let Some(cores) = &own {
                 pin::bind(&cores[i..=i]);
             }
         };
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(count).start_handler(bind);
-        Ok(Self { pool: Arc::new(pool.build().map_err(|error| error.to_string())?), count, cores })
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(self.count).start_handler(bind);
+        pool.build().map_err(|error| error.to_string())
+    }
+
+    #[cfg(test)]
+    pub fn are_started(&self) -> bool {
+        self.pool.get().is_some()
     }
 
     /// The core of each thread; nothing where they are not bound.
@@ -59,7 +80,11 @@ impl Threads {
     }
 
     /// Runs `work` on these threads: all parallel iterators in it stay on them.
+    ///
+    /// # Panics
+    /// If they are [unstarted](Self::unstarted) and the system does not give that many.
     pub fn install<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R {
-        self.pool.install(work)
+        let start = || self.start().unwrap_or_else(|cause| panic!("{} threads do not start: {cause}", self.count));
+        self.pool.get_or_init(start).install(work)
     }
 }

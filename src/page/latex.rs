@@ -1,6 +1,7 @@
 //! The report as LaTeX: tables with booktabs, figures as pictures beside it.
 
 use crate::report::document::{Art, Block, Document, Figure};
+use crate::report::words::ended;
 use crate::report::{Table, Tone};
 
 const HEAD: &str = r"\documentclass[a4paper]{article}
@@ -42,8 +43,8 @@ fn blocks(list: &[Block], text: &mut String) {
             Block::Table(tabular) => *text += &table(&tabular.table),
             Block::Figure(f) => figure(f, text),
             Block::Missing(missing) => {
-                let [what, command] = [&missing.what, &missing.command].map(|words| escaped(words));
-                *text += &format!("Not measured: {what}. \\texttt{{{command}}} measures it.\n\n");
+                let [what, command] = [&ended(&missing.what), &missing.command].map(|words| escaped(words));
+                *text += &format!("Not measured: {what} \\texttt{{{command}}} measures it.\n\n");
             }
             Block::Fold(name, inner) => {
                 *text += &format!("\\subsection*{{{}}}\n\n", escaped(name));

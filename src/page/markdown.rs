@@ -1,6 +1,7 @@
 //! The report as Markdown, with pictures beside it.
 
 use crate::report::document::{Art, Block, Document, Figure};
+use crate::report::words::ended;
 use crate::report::{escaped, wrapped};
 
 /// The text of the file.
@@ -35,7 +36,8 @@ pub fn blocks(list: &[Block], text: &mut String) {
             }
             Block::Figure(f) => figure(f, text),
             Block::Missing(missing) => {
-                *text += &format!("Not measured: {}. `{}` measures it.\n\n", escaped(&missing.what), missing.command);
+                let what = ended(&missing.what);
+                *text += &format!("Not measured: {} `{}` measures it.\n\n", escaped(&what), missing.command);
             }
             Block::Fold(name, inner) => {
                 *text += &format!("**{}**\n\n", escaped(name));

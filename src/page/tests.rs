@@ -122,6 +122,9 @@ fn a_part_that_is_not_there_is_named_with_its_command() {
     assert!(missing.iter().any(|command| command.starts_with("sahara replicate")), "{missing:?}");
     assert!(missing.iter().any(|command| command.starts_with("sahara study attribution")), "{missing:?}");
     assert!(missing.iter().all(|command| !command.starts_with("sahara compare")), "{missing:?}");
+    // What is asked ends with its own sign.
+    let forms = [page(&whole), super::markdown::markdown(&whole), super::latex::latex(&whole)];
+    assert!(forms.iter().all(|text| text.contains("Not measured") && !text.contains("?.")));
     let page = page(&whole);
     assert!(missing.iter().all(|command| page.contains(&command.replace('/', "&#x2f;"))));
 

@@ -196,6 +196,11 @@ mod tests {
         let header = Header::new("a study", &serde_json::json!({"seed": 1}), example().provenance);
         let case: Value = serde_json::from_str(&journal::text(&header, "Cube epoch 0", &7, |_| Ok(7))).unwrap();
         assert_eq!(documented(case_part), serialised(&case));
+        for (part, schema) in [(record_part, Record::SCHEMA), (case_part, journal::SCHEMA)] {
+            assert!(part.contains(&format!("version of this list, {schema}")), "{schema}");
+        }
+        // What is counted is of `counted_rays`.
+        assert!(!record_part.contains("mean over `rays`") && !counts_part.contains("mean over `rays`"));
     }
 
     #[test]

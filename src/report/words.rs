@@ -24,6 +24,11 @@ pub fn written(x: Estimate, number: impl Fn(f64) -> String) -> String {
     }
 }
 
+/// With a full stop, unless it ends already: a question is one as well.
+pub fn ended(words: &str) -> String {
+    if words.ends_with(['.', '?', '!']) { words.into() } else { format!("{words}.") }
+}
+
 /// `[19.2, 21.4]`; `(one epoch)` without an interval.
 pub fn ends(x: Estimate) -> String {
     match x.interval {

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use super::format::{LightFile, ObjectFile, RealMesh, SceneFile};
 use super::{Camera, CornerNormals, Light, Material, Model, Offset, Scene, SceneError, load, meshes};
 use crate::geometry::{Mesh, Transform};
+use crate::names::suggestion;
 
 /// Where a scene file came from, and where to look for other files.
 pub(super) struct Origin<'a> {
@@ -151,7 +152,8 @@ impl Parts {
             (true, Some(folder)) => Ok((load_file(&folder.join(mesh), &key, origin)?, placement)),
             _ => {
                 let names: Vec<&str> = meshes::GENERATORS.iter().map(|g| g.name).collect();
-                let problem = format!("there is no mesh `{mesh}`: give a file or one of {}", names.join(", "));
+                let meant = suggestion(mesh, names.iter().copied());
+                let problem = format!("there is no mesh `{mesh}`{meant}; give a file or one of {}", names.join(", "));
                 let model = meshes::by_name(mesh).ok_or_else(|| origin.value(&key, problem))?;
                 Ok((model, placement))
             }

@@ -184,6 +184,9 @@ impl SceneFile {
     }
 
     fn check(&self) -> Result<(), (String, String)> {
+        // It stands in tables, lines of plans and titles of files.
+        let is_word = !self.name.trim().is_empty() && !self.name.contains(char::is_control);
+        demand(is_word, "name", "give a name, in one line and without control characters")?;
         let in_size = self.size.iter().all(|n| (1..=16384).contains(n));
         demand(in_size, "size", "width and height lie between 1 and 16384: change them")?;
         demand(self.recursion_limit <= 64, "recursion_limit", "give at most 64")?;
@@ -201,7 +204,9 @@ impl SceneFile {
             for (key, colour) in [("Ka", material.Ka), ("Kd", material.Kd), ("Ks", material.Ks)] {
                 numbers(&colour, 0.0, &format!("materials.{name}.{key}"))?;
             }
-            numbers(&[material.Ns, material.r], 0.0, &format!("materials.{name}.Ns or r"))?;
+            numbers(&[material.Ns], 0.0, &format!("materials.{name}.Ns"))?;
+            let is_share = (0.0..=1.0).contains(&material.r);
+            demand(is_share, &format!("materials.{name}.r"), "give a share, from 0 to 1")?;
         }
         for (i, object) in self.objects.iter().enumerate() {
             let placements =

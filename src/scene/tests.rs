@@ -75,7 +75,10 @@ fn errors_name_file_place_and_remedy() {
     starts(changed("mesh", "mseh"), "test.toml, line 4: unknown field `mseh`");
     starts(changed("name = \"Test\"", ""), "test.toml, line 1: missing field `name`");
     starts(changed("60", "'60'"), "test.toml, line 3: invalid type");
-    starts(changed("cube", "cub"), "test.toml, `objects[0].mesh`: there is no mesh `cub`: give a file or one of cube,");
+    starts(
+        changed("cube", "cub"),
+        "test.toml, `objects[0].mesh`: there is no mesh `cub` (did you mean cube?); give a file or one of cube,",
+    );
     starts(changed("60", "180"), "test.toml, `camera`: the camera's vertical field of view must lie");
     starts(changed("[0, 0, 0]", "[0, 0, 5]"), "test.toml, `camera`: the camera's eye and target are the same");
     starts(changed("[0, 0, 0]", "[0, 1, 5]"), "test.toml, `camera`: the camera's up points along");
@@ -85,6 +88,14 @@ fn errors_name_file_place_and_remedy() {
     );
     starts(changed("\"cube\"", "\"cube\", tra = [nan, 0, 0]"), "test.toml, `objects[0].rot, sca or tra`: give finite");
     starts(changed("\"cube\"", "\"cube\", sca = [3e38, 3e38, 3e38], tra = [3e38, 0, 0]"), "test.toml: vertex");
+    let named = |name: &str| message(&PLAIN.replace("\"Test\"", name));
+    for name in ["\"\"", "\" \"", "\"a\\tb\"", "\"a\\u001bb\""] {
+        starts(named(name), "test.toml, `name`: give a name");
+    }
+    let mirror = |r: &str| format!("{PLAIN}\n[materials.M]\nKa = [0, 0, 0]\nKd = [0, 0, 0]\nKs = [0, 0, 0]\nr = {r}\n");
+    for r in ["1.5", "-0.1", "nan"] {
+        starts(message(&mirror(r)), "test.toml, `materials.M.r`: give a share, from 0 to 1");
+    }
     starts(changed("name", "size = [0, 1]\nname"), "test.toml, `size`: width and height lie between");
     starts(changed("name", "triangles = 13\nname"), "test.toml, `triangles`: the file says 13 triangles, but");
 

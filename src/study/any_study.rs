@@ -34,6 +34,8 @@ pub trait AnyStudy: Send + Sync {
     fn is_scene_by_scene(&self) -> bool;
     /// [`Study::WHOLE`].
     fn is_whole(&self) -> bool;
+    /// [`Study::PLOT`].
+    fn has_plot(&self) -> bool;
     /// [`Study::cannot_be_measured_here`].
     fn cannot_be_measured_here(&self) -> Option<&'static str>;
     /// Adds the options of the study to a command.
@@ -145,6 +147,10 @@ impl<S: Study> AnyStudy for Typed<S> {
 
     fn is_whole(&self) -> bool {
         S::WHOLE
+    }
+
+    fn has_plot(&self) -> bool {
+        S::PLOT
     }
 
     fn cannot_be_measured_here(&self) -> Option<&'static str> {

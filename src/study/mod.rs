@@ -91,6 +91,8 @@ pub trait Study: 'static {
     const LAST: bool = false;
     /// Whether a scene is nothing without a time of each of its structures: it is left out then.
     const WHOLE: bool = false;
+    /// Whether its answer has a picture, for `--plot`.
+    const PLOT: bool = false;
     /// What `study all` measures, in words of the command line: scenes, which others may take the place of, then options.
     const FULL: &'static str = "";
     /// Likewise `study all --quick`.
@@ -207,7 +209,7 @@ pub trait Study: 'static {
         vec![]
     }
 
-    /// What `--plot` draws.
+    /// What `--plot` draws where there is a [picture](Self::PLOT).
     fn plot(_: &Self::Answer) -> Option<Figure> {
         None
     }

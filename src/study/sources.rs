@@ -24,7 +24,15 @@ pub fn scenes(named: &[String]) -> anyhow::Result<Vec<Scene>> {
     let scenes: Vec<_> = named.collect::<Vec<_>>().into_par_iter().map(|name| scene(name)).collect();
     let scenes = scenes.into_iter().collect::<anyhow::Result<Vec<Scene>>>()?;
     distinct(&scenes)?;
-    Ok(scenes)
+    // What is named twice counts once.
+    let mut each: Vec<Scene> = vec![];
+    for scene in scenes {
+        let is_there = each.iter().any(|other| same_name(other, &scene) && other.hash() == scene.hash());
+        if !is_there {
+            each.push(scene);
+        }
+    }
+    Ok(each)
 }
 
 static ONLY: OnceLock<String> = OnceLock::new();
@@ -59,16 +67,17 @@ fn is_scene_file(path: &Path) -> bool {
     path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"))
 }
 
+fn same_name(one: &Scene, other: &Scene) -> bool {
+    one.name.eq_ignore_ascii_case(&other.name) && one.stand_ins.is_empty() == other.stand_ins.is_empty()
+}
+
 /// Refuses different scenes of one name: no table could tell them apart.
 ///
 /// # Errors
 /// If there are two, naming them.
 pub fn distinct(scenes: &[Scene]) -> anyhow::Result<()> {
     for (i, scene) in scenes.iter().enumerate() {
-        let same = |other: &&Scene| {
-            other.name.eq_ignore_ascii_case(&scene.name) && other.stand_ins.is_empty() == scene.stand_ins.is_empty()
-        };
-        if scenes[..i].iter().filter(same).any(|other| other.hash() != scene.hash()) {
+        if scenes[..i].iter().any(|other| same_name(other, scene) && other.hash() != scene.hash()) {
             anyhow::bail!(
                 "two different scenes are called {}: tables could not tell them apart; rename one",
                 scene.name

@@ -110,6 +110,16 @@ impl ViewArgs {
         }
     }
 
+    /// Likewise, with its value, as a shell reads it.
+    pub fn looks_from_words(&self) -> Option<String> {
+        let look = self.camera.filter(|_| !self.inside).map(|Look { eye, target, vertical_fov }| {
+            let point = |at: Vec3| at.to_array().map(|x| x.to_string()).join(",");
+            let fov = vertical_fov.map_or(String::new(), |fov| format!(" {fov}"));
+            format!(" '{} {}{fov}'", point(eye), point(target))
+        });
+        Some(self.looks_from()?.to_owned() + &look.unwrap_or_default())
+    }
+
     /// The options among the words of a command, which has run with them.
     pub fn of_command(words: &[String]) -> Self {
         let value = |option: &str| {
@@ -164,7 +174,11 @@ mod tests {
         let look = Look { eye: Vec3::Z, target: Vec3::ZERO, vertical_fov: Some(40.0) };
         let found = of("sahara compare a.ply --camera '0,0,1 0,0,0 40' --size=64x32");
         assert_eq!((found.camera, found.inside, found.size), (Some(look), false, Some(Size([64, 32]))));
+        let words = found.looks_from_words().unwrap();
+        assert_eq!((words.as_str(), of(&words).camera), ("--camera '0,0,1 0,0,0 40'", Some(look)));
+        assert_eq!(of("sahara compare a.ply").looks_from_words(), None);
         let found = of("sahara compare a.ply --inside -s all");
+        assert_eq!(found.looks_from_words().as_deref(), Some("--inside"));
         assert_eq!((found.camera, found.inside, found.size), (None, true, None));
     }
 

@@ -170,6 +170,8 @@ fn baselines_that_are_not_there_are_named_with_those_that_are() {
     says("old", &["--fail-on-regression", "much"], &["much"]);
     let alone = kept.compare(&["--fail-on-regression", "5"]);
     assert!(alone.status.code() == Some(USAGE) && stderr(&alone).contains("--baseline"));
+    let quick = kept.compare(&["--fail-on-regression", "5", "--quick"]);
+    assert!(quick.status.code() == Some(USAGE) && stderr(&quick).contains("--quick"), "{}", stdout(&quick));
 }
 
 #[test]

@@ -47,6 +47,13 @@ fn what_is_not_known_is_refused_with_what_is() {
     refuses(&["render", "cube", "-o", "x.png", "--view", "heta"], &["did you mean heat?"]);
     refuses_in_a_line(&["render", "cube", "-o", "x.jpg"], &["x.jpg", "PNG", ".png"]);
     refuses_in_a_line(&["compare", "cube", "--export-json", "-", "--export-csv", "-"], &["two results"]);
+    refuses_in_a_line(&["golden", "check", "my.toml"], &["my.toml", "built-in scenes alone"]);
+    refuses_in_a_line(&["render", "cube", "-o", "x.png", "--hottest", "10"], &["--hottest", "--view heat"]);
+    refuses(&["render", "cube", "-o", "x.png", "--view", "heat", "--hottest", "0"], &["--hottest", "0"]);
+    for command in [&["replicate"][..], &["study", "attribution"], &["validate"]] {
+        let quick = refuses(&[command, &["--quick"]].concat(), &["--quick", "sahara study all --quick"]);
+        assert!(!quick.contains("--quiet"), "{quick}");
+    }
     refuses(&["render", "cube", "-o", "x.png", "--size", "12"], &["WIDTHxHEIGHT"]);
     refuses(&["validate", "cube", "--ray", "1,2,3"], &["ox,oy,oz dx,dy,dz"]);
     for (ray, fault) in [
@@ -103,7 +110,9 @@ fn what_cannot_be_written_is_refused_before_the_long_run() {
 #[test]
 fn lists_and_completions_name_everything() {
     let list = stdout(&sahara(&["list"]));
-    for name in ["Cube", "Sponza", "median-kd", "image-shadow", "heat", "moller-trumbore", "rt-triangle", "crossover"] {
+    for name in
+        ["Cube", "Sponza", "teapot", "median-kd", "image-shadow", "heat", "moller-trumbore", "rt-triangle", "crossover"]
+    {
         assert!(list.contains(name), "{name} is not in {list}");
     }
     assert!(list.lines().count() < 24, "it fits a screen: {list}");
@@ -113,7 +122,7 @@ fn lists_and_completions_name_everything() {
         assert!(said.contains(&words.replace("  ", " ")), "{words} is not in {keys}");
     }
     refuses_in_a_line(&["list", "octree"], &["octree", "median-kd", "scenes"]);
-    for kind in ["scenes", "structures", "workloads", "studies"] {
+    for kind in ["scenes", "meshes", "structures", "workloads", "studies"] {
         assert_eq!(sahara(&["list", kind]).status.code(), Some(RIGHT), "{kind}");
     }
     for shell in ["bash", "zsh", "fish"] {

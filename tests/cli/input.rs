@@ -20,7 +20,7 @@ fn render_and_counts_print_what_was_left_out() {
     let rendered = prints(&["render", &mesh, "-o", picture.to_str().unwrap(), "--size", "8x8"]);
     let counted = prints(&["study", "counts", &mesh, "-s", "median-kd", "-w", "primary", "--rays", "16"]);
     for printed in [rendered, counted] {
-        assert!(printed.contains("1 faces with fewer than three corners are left out"), "{printed}");
+        assert!(printed.contains("1 face with fewer than three corners is left out"), "{printed}");
         assert!(printed.contains("no.mtl cannot be read"), "{printed}");
     }
 }

@@ -327,3 +327,10 @@ fn the_report_keeps_machines_apart_and_names_what_is_missing() {
         "{said}"
     );
 }
+
+#[test]
+fn a_plan_takes_no_option_that_writes_what_came_of_a_study() {
+    for option in [&["--export-json", "x.json"][..], &["--export-csv=x.csv"], &["--plot", "x.svg"]] {
+        refuses_in_a_line(&[&["study", "plan"], &SMALL[..], option].concat(), &["--", "once all jobs are done"]);
+    }
+}

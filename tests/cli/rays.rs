@@ -69,8 +69,10 @@ fn answers_go_out_and_come_back_and_wrong_ones_are_found() {
         right(&folder, &["rays", "record", "torus", "-w", kind, "-o", "f.rays", "--rays", "900"]);
         let exchange = ["validate", "--rays", "f.rays"];
         right(&folder, &[&exchange[..], &["-s", "sah-kd", "--export-hits", "f.hits"]].concat());
-        right(&folder, &[&exchange[..], &["--hits", "f.hits", "--test", "exact"]].concat());
-        right(&folder, &[&exchange[..], &["--hits", "f.hits"]].concat());
+        let same = right(&folder, &[&exchange[..], &["--hits", "f.hits", "--test", "exact"]].concat());
+        assert!(same.contains("against brute force with exact"), "{same}");
+        let own = right(&folder, &[&exchange[..], &["--hits", "f.hits"]].concat());
+        assert!(own.contains("against brute force with moller-trumbore, where they differ"), "{own}");
 
         // One hit is taken away.
         let path = folder.path().join("f.hits");

@@ -78,7 +78,7 @@ fn more_threads_than_cores_are_warned_of() {
         let threads = threads.to_string();
         stderr(&sahara(&[&small("cube")[..], &["-s", "sah-kd", "--epochs", "1", "--threads", &threads]].concat()))
     };
-    assert!(told(cores + 1).contains(&format!("warning: {} threads share {cores} cores", cores + 1)));
+    assert!(told(cores + 1).contains(&format!("warning: {} threads share {cores} core", cores + 1)));
     assert!(!told(cores).contains("threads share"));
 }
 
@@ -93,4 +93,20 @@ fn real_meshes_that_are_asked_for_are_never_replaced() {
         said.contains("real meshes of Dragon are not there: `sahara fetch`") && said.lines().count() == 1,
         "{said}"
     );
+}
+
+#[test]
+fn a_picture_that_there_is_not_is_refused_before_anything_is_measured() {
+    let directory = tempfile::tempdir().unwrap();
+    let (dir, svg) = (path_text(&directory.path().join("runs")), path_text(&directory.path().join("a.svg")));
+    refuses(&["study", "self-intersection", "--rays", "20", "--plot", &svg, "--dir", &dir], &["no picture", "--plot"]);
+    assert!(!Path::new(&dir).exists() && !Path::new(&svg).exists());
+}
+
+#[test]
+fn two_results_are_not_written_to_one_place() {
+    let directory = tempfile::tempdir().unwrap();
+    let [one, again] = ["a.json", "./a.json"].map(|name| format!("{}/{name}", path_text(directory.path())));
+    let twice = ["--export-json", &one, "--export-csv", &again];
+    refuses(&[&["study", "self-intersection", "--rays", "20"][..], &twice].concat(), &["two results", "a.json"]);
 }

@@ -112,3 +112,12 @@ fn the_hard_cases_run_over_the_tests_asked_for() {
     let text = stdout(&output);
     assert!(text.contains("median-kd  median-kd:test=edge-f64"), "{text}");
 }
+
+#[test]
+fn what_is_named_twice_counts_once() {
+    let output = sahara(&["validate", "cube", "Cube", "--rays", "100", "-s", "sah-kd"]);
+    assert_eq!(stdout(&output).matches("12 triangles").count(), 1, "{}", stdout(&output));
+    let output = sahara(&["validate", "--hard", "limits", "limits", "-s", "sah-kd"]);
+    let rows = stdout(&output).lines().filter(|line| line.trim_start().starts_with("limits+ ")).count();
+    assert_eq!(rows, 1, "{}", stdout(&output));
+}

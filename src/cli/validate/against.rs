@@ -10,6 +10,7 @@ use crate::geometry::{Hit, Ray};
 use crate::registry::{Choice, Registry};
 use crate::scene::Scene;
 use crate::study::{BRUTE_FORCE, sources};
+use crate::triangle::{MollerTrumbore, TriangleTest};
 use crate::validate::{Reference, Validation};
 
 /// Rays of a scene where nobody says how many, and the triangle tests that brute force may make for them with each triangle test.
@@ -45,6 +46,18 @@ impl Against {
                 let refused = || format!("{} cannot be built over {}", choice.label, scene.name);
                 Ok(Reference::structure(built.with_context(refused)?))
             }
+        }
+    }
+
+    /// What answers from elsewhere by this triangle test are held against: `reference`, in words.
+    pub fn of_answers(&self, reference: &Reference, test: &str) -> String {
+        match self {
+            Self::SameTest if reference.knows_structure_errors() => format!("brute force with {test}"),
+            Self::SameTest => {
+                let other = MollerTrumbore::NAME;
+                format!("brute force with {other}, where they differ judged by exact arithmetic")
+            }
+            Self::Structure(_) => self.to_string(),
         }
     }
 

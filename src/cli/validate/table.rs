@@ -1,6 +1,7 @@
 //! The table of a scene: one row for each structure.
 
-use super::against::Against;
+use std::fmt;
+
 use crate::cli::terminal::Terminal;
 use crate::geometry::Ray;
 use crate::registry::Choice;
@@ -12,7 +13,7 @@ use crate::validate::Validation;
 pub fn print(
     scene: &Scene,
     rays: &[Ray],
-    against: &Against,
+    against: &dyn fmt::Display,
     rows: Vec<Vec<Cell>>,
     notes: Vec<String>,
     terminal: &Terminal,

@@ -122,7 +122,8 @@
       count.textContent = `With ${rays(n)} rays:`;
       range.setAttribute("aria-valuetext", `${rays(n)} rays`);
       const after = points.filter((p) => p !== first).sort((a, b) => total(a) - total(b))[0];
-      const next = after ? `; ${after.label} takes ${figures(total(after) / total(first))} times as long` : "";
+      const times = after ? figures(total(after) / total(first)) : "";
+      const next = after ? `; ${after.label} takes ${times === "1" ? "" : `${times} times `}as long` : "";
       result.textContent = `${first.label} is done first, build included, after ${duration(total(first))}${next}.`;
 
       // Who is next to overtake, from no ray upward.

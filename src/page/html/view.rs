@@ -8,6 +8,7 @@ use crate::report::document::{
     Answer, Art, Block, Colours, Document, Figure, Headline, Overlay, Section, Tabular, Thumbnail,
 };
 use crate::report::plot::Chart;
+use crate::report::words::ended;
 use crate::report::{Cell, Table, Tone};
 
 /// Widths of drawings: on a desk, and on a telephone.
@@ -57,7 +58,9 @@ fn blocks(list: &[Block]) -> Vec<Value> {
             context! { kind => "table", table => table(&tabular.table, Some(tabular)), command => &tabular.command }
         }
         Block::Figure(f) => context! { kind => "figure", figure => figure(f) },
-        Block::Missing(missing) => context! { kind => "missing", text => &missing.what, command => &missing.command },
+        Block::Missing(missing) => {
+            context! { kind => "missing", text => ended(&missing.what), command => &missing.command }
+        }
         Block::Fold(name, inner) => context! { kind => "fold", text => name, blocks => blocks(inner) },
     };
     values(list, block)

@@ -95,14 +95,19 @@ mod tests {
     #[test]
     fn a_scene_that_is_too_large_to_be_built_again_is_named_with_a_command() {
         let scene = Builtin::find("cube").unwrap().scene(None).unwrap();
-        let shown = Shown { scene, argument: "cube".into(), view: None, differs: false };
+        let (view, view_words) = (Some("--inside"), Some("--inside".into()));
+        let shown = Shown { scene, argument: "cube".into(), view, view_words, differs: false };
         for (section, view) in [
             (heat::section(vec![], without(&[&shown], "heat")), "heat"),
             (errors::section(vec![], without(&[&shown], "error")), "error"),
         ] {
             let [Block::Missing(missing)] = &section.blocks[..] else { panic!("{:?}", section.blocks) };
             assert!(missing.what.contains(&format!("{view} view of Cube")), "{}", missing.what);
-            assert!(missing.command.starts_with(&format!("sahara render cube --view {view} ")), "{}", missing.command);
+            assert!(
+                missing.command.starts_with(&format!("sahara render cube --inside --view {view} ")),
+                "{}",
+                missing.command
+            );
         }
     }
 }

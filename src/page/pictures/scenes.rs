@@ -56,13 +56,13 @@ fn caption(shown: &[Shown]) -> String {
         "the built-in ones with the source report's cameras, lights and materials, those of scene files with their own, and meshes with \
          a camera that has them whole in view"
     };
-    let asked = shown.iter().filter_map(|one| Some(format!("{} as {}", one.scene.name, one.view?)));
+    let asked = shown.iter().filter_map(|one| {
+        let view = one.view?;
+        let from = if view == "--inside" { "within" } else { "where its command says" };
+        Some(format!("{} is seen from {from} ({view})", one.scene.name))
+    });
     let asked: Vec<String> = asked.collect();
-    let asked = match asked.len() {
-        0 => String::new(),
-        1 => format!(", but {} of its command says", asked[0]),
-        _ => format!(", but {} of their commands say", listed(&asked)),
-    };
+    let asked = if asked.is_empty() { String::new() } else { format!("; {}", listed(&asked)) };
     let colon = if all_builtin { "" } else { ":" };
     format!("The scenes as they were traced, rendered by sahara{colon} {cameras}{asked}.")
 }

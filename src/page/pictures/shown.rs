@@ -16,14 +16,18 @@ pub struct Shown {
     pub argument: String,
     /// The option of the command that says from where it is seen, if it has one.
     pub view: Option<&'static str>,
+    /// That option with its value, as a shell reads it.
+    pub view_words: Option<String>,
     /// Whether it is not the one that was measured: another mesh of the same name, or another view of it.
     pub differs: bool,
 }
 
 impl Shown {
-    /// As a shell reads it.
+    /// As a shell reads it, and as it is seen.
     pub fn quoted(&self) -> String {
-        if Builtin::find(&self.argument).is_ok() { self.argument.to_lowercase() } else { quoted(&self.argument) }
+        let is_builtin = Builtin::find(&self.argument).is_ok();
+        let scene = if is_builtin { self.argument.to_lowercase() } else { quoted(&self.argument) };
+        [Some(scene), self.view_words.clone()].into_iter().flatten().collect::<Vec<_>>().join(" ")
     }
 }
 
@@ -35,7 +39,8 @@ pub fn found_again(SceneId { name, hash }: &SceneId, commands: &str, find: Find)
         for argument in std::iter::once(name.clone()).chain(files_named(&command, name)) {
             let Some(scene) = find(&argument).and_then(|scene| view.seen(scene).ok()) else { continue };
             let differs = hash.as_ref().is_some_and(|hash| scene.hash() != *hash);
-            let found = Shown { scene, argument, view: view.looks_from(), differs };
+            let found =
+                Shown { scene, argument, view: view.looks_from(), view_words: view.looks_from_words(), differs };
             if !differs {
                 return Some(found);
             }

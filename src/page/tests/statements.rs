@@ -84,10 +84,7 @@ fn only_built_in_scenes_have_the_cameras_of_the_source_report() {
 
     // Views that a command has asked for are those of no file.
     let inside = caption("mine", "mine --inside");
-    assert!(
-        inside.contains("whole in view") && inside.ends_with("but mine as --inside of its command says."),
-        "{inside}"
-    );
+    assert!(inside.contains("whole in view") && inside.ends_with("; mine is seen from within (--inside)."), "{inside}");
     let looked = caption("Cube", "cube --camera '0,0,9 0,0,0'");
-    assert!(looked.ends_with("but Cube as --camera of its command says."), "{looked}");
+    assert!(looked.ends_with("; Cube is seen from where its command says (--camera)."), "{looked}");
 }

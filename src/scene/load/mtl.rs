@@ -58,8 +58,14 @@ impl Libraries {
                 Err(cause) => notes.add(format!("the materials in {} cannot be read ({cause})", path.display())),
             }
         }
-        notes.count(self.more, &format!("mtllib lines after the first {MOST_LIBRARIES} are not followed"));
-        notes.count(reader.textured.len(), "materials have textures, which are left out: they show Kd as it is");
+        let [one, many] = [("line", "is"), ("lines", "are")]
+            .map(|(lines, are)| format!("mtllib {lines} after the first {MOST_LIBRARIES} {are} not followed"));
+        notes.count(self.more, [&one, &many]);
+        let textured = [
+            "material has a texture, which is left out: it shows Kd as it is",
+            "materials have textures, which are left out: they show Kd as it is",
+        ];
+        notes.count(reader.textured.len(), textured);
         reader.known
     }
 }

@@ -20,8 +20,9 @@ impl Notes {
         }
     }
 
-    /// Where there is something to count: a sentence that stands for many, and is never left out.
-    pub fn count(&mut self, count: usize, what: &str) {
+    /// Where there is something to count: a sentence about one or many, which stands for all and is never left out.
+    pub fn count(&mut self, count: usize, [one, many]: [&str; 2]) {
+        let what = if count == 1 { one } else { many };
         if count > 0 {
             self.kept.push(format!("{count} {what}"));
         }

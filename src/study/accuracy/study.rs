@@ -72,6 +72,7 @@ impl Study for AccuracyStudy {
     const QUESTION: &'static str =
         "What does being right cost: how wrong and how fast is every structure over every triangle test?";
     const SCENE_BY_SCENE: bool = true;
+    const PLOT: bool = true;
     const FULL: &'static str = "dragon cornellbox -w uniform -w vertex -w grazing";
     const QUICK: &'static str = "cube -w vertex --rays 500 --runs 2 --budget 1";
 

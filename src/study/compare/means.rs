@@ -1,11 +1,13 @@
 //! Means over scenes, and who won.
 
+use std::collections::BTreeSet;
+
 use super::reference::{Reference, cell};
 use super::table::control;
 use super::twins;
 use crate::measure::Estimate;
 use crate::report::number::{count, figures, plural};
-use crate::report::words::{distinct, each_once, ends, explained, interval, listed};
+use crate::report::words::{ONE_EPOCH, distinct, each_once, ends, explained, interval, listed};
 use crate::report::{Cell, Record, Table, Tone};
 use crate::study::reference_structures::is_obvhs;
 
@@ -78,6 +80,7 @@ pub fn mean_table(records: &[Record], references: &[Reference]) -> Table {
                 .into(),
         );
     }
+    notes.extend(uneven(records));
     notes.extend(control(records));
     let over = plural(scenes.len(), "scene");
     let against = references.first().map_or("?", Reference::name);
@@ -86,10 +89,19 @@ pub fn mean_table(records: &[Record], references: &[Reference]) -> Table {
     explained(Table { title, columns, rows, notes }.without_blank_columns())
 }
 
+/// Said where scenes have different numbers of epochs.
+fn uneven(records: &[Record]) -> Option<String> {
+    let timed = records.iter().filter(|record| record.mrays_per_s.is_some());
+    let epochs: BTreeSet<usize> = timed.map(|record| record.epochs).collect();
+    let (least, most) = (*epochs.first()?, *epochs.last()?);
+    let first = if least == 1 { "the first".to_owned() } else { format!("the first {least}") };
+    (least < most).then(|| format!("Scenes have {least} to {most} epochs: means over them are of {first} of each."))
+}
+
 /// The structure that is the fastest over all cases.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Winner {
-    /// Its label, and that of the next one where the two cannot be told apart.
+    /// Its label, and that of the next one where the two cannot be told apart; of one epoch, which decides nothing, with a word of that.
     pub names: String,
     /// Which one it is, by how much, and how many of its answers were checked.
     pub sentence: String,
@@ -148,11 +160,12 @@ pub fn winner(records: &[Record], reference: Option<&str>) -> Option<Winner> {
     let level =
         if second == next { None } else { ratio(best, second).filter(|by| by.interval.is_none() || by.holds(1.0)) };
     let names = match level {
+        _ if by.interval.is_none() => format!("{best} {ONE_EPOCH}"),
         Some(_) => format!("{best} or {second}"),
         None if decided => best.clone(),
         None => format!("{best} or {next}"),
     };
-    let told = if by.holds(1.0) {
+    let told = if by.interval.is_some() && by.holds(1.0) {
         format!("{over}{best} and {next} cannot be told apart: {} times as many rays a second", interval(by))
     } else {
         let ends = ends(by);
@@ -171,7 +184,10 @@ pub fn winner(records: &[Record], reference: Option<&str>) -> Option<Winner> {
         0 => String::new(),
         n => format!(" Not ranked, without a time in some of the cases: {}.", plural(n, "structure")),
     };
-    let level = level.map_or(String::new(), |by| format!(" {second} cannot be told apart from it: {}.", interval(by)));
+    let level = level.map_or(String::new(), |by| match by.interval {
+        Some(_) => format!(" {second} cannot be told apart from it: {}.", interval(by)),
+        None => format!(" Next: {second}, {}.", interval(by)),
+    });
     Some(Winner { names, sentence: format!("{told}; {checked}.{level}{wrong}{left}") })
 }
 

@@ -156,10 +156,14 @@ pub fn scene_table(records: &[Record], references: &[Reference], refused: &[Refu
 pub(super) fn control(records: &[Record]) -> Option<String> {
     let (twins, label) = (twins(records), &records.iter().find(|r| r.twin_samples_ns.is_some())?.label);
     let noise = libm::exp(twins.log()?) - 1.0;
-    let all = twins.ratios.len();
-    let holding =
-        twins.holding_one().map_or(String::new(), |n| format!("; {n} of {all} ratios hold 1 in their intervals"));
-    Some(format!("A/A noise ({label} twice): {}%{holding}.", figures(noise * 100.0)))
+    let holding = twins.holding_one();
+    let holding = holding.map_or(String::new(), |(n, all)| format!("; {n} of {all} ratios hold 1 in their intervals"));
+    // What the epochs scatter by may hide it: that is no proof of none.
+    let noise = match noise {
+        0.0 => "not seen above the scatter of the epochs".into(),
+        _ => format!("{}%", figures(noise * 100.0)),
+    };
+    Some(format!("A/A noise ({label} twice): {noise}{holding}."))
 }
 
 /// A footnote for each baseline that gives wrong answers for a documented reason.

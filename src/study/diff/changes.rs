@@ -2,7 +2,7 @@
 
 use super::relative::{references, relative, weighted};
 use super::{Change, Finding};
-use crate::measure::{AaNoise, Estimate, Rerun, epoch_values};
+use crate::measure::{AaNoise, Estimate, Rerun, cut_to_shared_epochs, epoch_values};
 use crate::report::Record;
 use crate::report::words::each_once;
 use crate::study::compare::twins;
@@ -49,13 +49,9 @@ pub(super) fn all(
             }
         }
         let n = all.0.len();
-        // A mean over cells that differ in their epochs has none of its own.
-        let even = |cells: &[Vec<Vec<f64>>]| cells.iter().all(|cell| cell.len() == cells[0].len());
-        let time = if missing || !even(&all.0) || !even(&all.1) {
-            None
-        } else {
-            change(&all.0, &all.1, &noises, references.len())
-        };
+        cut_to_shared_epochs(&mut all.0);
+        cut_to_shared_epochs(&mut all.1);
+        let time = if missing { None } else { change(&all.0, &all.1, &noises, references.len()) };
         let time = time.map(|time| time.ratio_among(looks));
         // What never had a time, as what answers wrongly, has nothing that could change.
         if n == 0 && !missing {

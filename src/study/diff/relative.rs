@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::measure::{AaNoise, Estimate, Rerun, Variance, checksum, epoch_values};
+use crate::measure::{AaNoise, Estimate, Rerun, Variance, checksum, cut_to_shared_epochs, epoch_values};
 use crate::report::Record;
 use crate::report::words::{distinct, each_once};
 use crate::study::compare::twins;
@@ -33,7 +33,7 @@ impl RelativeTime {
 }
 
 /// The structures of obvhs that have a time, and what of a run can be held against another one: all structures over the cells in which they have
-/// a time, if these have the same epochs.
+/// a time, and the epochs that all of these have.
 pub fn relative_times(records: &[Record]) -> (Vec<String>, Vec<RelativeTime>) {
     let own: Vec<(&Record, &Record)> = records.iter().map(|record| (record, record)).collect();
     let references = references(&own);
@@ -43,8 +43,8 @@ pub fn relative_times(records: &[Record]) -> (Vec<String>, Vec<RelativeTime>) {
     let of = |label: &&str| {
         let timed = records.iter().filter(|record| record.label == *label);
         let cells = timed.filter_map(|own| Some((own, relative(own, records, own, records, &references)?)));
-        let (own, cells): (Vec<&Record>, Vec<Vec<Vec<f64>>>) = cells.unzip();
-        let even = cells.iter().all(|cell| cell.len() == cells[0].len());
+        let (own, mut cells): (Vec<&Record>, Vec<Vec<Vec<f64>>>) = cells.unzip();
+        cut_to_shared_epochs(&mut cells);
         let noise = weighted(&noise, references.len(), cells.len());
         let bytes = |record: &&Record| {
             let Record { scene_hash, workload_hash, .. } = *record;
@@ -53,7 +53,7 @@ pub fn relative_times(records: &[Record]) -> (Vec<String>, Vec<RelativeTime>) {
         Some(RelativeTime {
             label: (*label).into(),
             rays: format!("{:016x}", checksum(own.iter().flat_map(bytes).map(u64::from))),
-            epochs: even.then(|| epoch_values(&cells))??,
+            epochs: epoch_values(&cells)?,
             noise: noise.freedom.is_finite().then_some([noise.square, noise.freedom]),
         })
     };

@@ -39,7 +39,10 @@ fn structures(comparison: &Comparison) -> Table {
     });
     let mut notes = vec![by];
     notes.extend(comparison.machines.as_ref().map(|[old, new]| {
-        format!("Two machines, {old} and {new}: what has changed may be due to them and not to the code.")
+        // The lanes stand in brackets.
+        let cpu = |machine: &String| machine.rsplit_once(" (").map(|(cpu, _)| cpu.to_owned());
+        let two = if cpu(old) == cpu(new) { "Two sets of lanes" } else { "Two machines" };
+        format!("{two}, {old} and {new}: what has changed may be due to them and not to the code.")
     }));
     notes.push(format!(
         "Each interval allows for {} judged together{}: in 95 % of the cases all of them hold.",

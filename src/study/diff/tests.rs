@@ -162,6 +162,11 @@ fn on_two_machines_ratios_to_obvhs_are_compared_and_nothing_else() {
             .any(|note| note.contains("Two machines, ") && note.contains("Other (avx2)"))
     );
     assert_eq!(Comparison::new(&old, &run(3.0, 1.1), None, 1).machines, None);
+    // Another set of lanes on one machine is no other machine.
+    let mut other_lanes = run(1.0, 1.1);
+    other_lanes.iter_mut().for_each(|r| r.provenance.simd = "others".into());
+    let notes = &tables(&Comparison::new(&old, &other_lanes, None, 1))[0].notes;
+    assert!(notes.iter().any(|note| note.contains("Two sets of lanes, ")), "{notes:?}");
 
     // Settings are refused there as well, and so are times without a unit.
     let refused = |new: &[Record]| unlike(&old, new, Machines::Any).unwrap_err().to_string();
@@ -244,6 +249,19 @@ fn twelve_structures_and_several_looks_do_not_make_a_false_alarm() {
     let comparison = Comparison::new(&noise(12, 1), &noise(12, 2), Some(5.0), 10);
     let note = &tables(&comparison)[0].notes[1];
     assert!(note.contains("12 structures judged together at up to 10 looks"), "{note}");
+}
+
+#[test]
+fn scenes_with_other_numbers_of_epochs_have_a_mean_over_the_first_of_each() {
+    let two = |seed: u64| -> Vec<Record> {
+        let shorter = |r: Record| Record { scene: "B".into(), epochs: 3, samples_ns: r.samples_ns[..3].to_vec(), ..r };
+        let run = noise(1, seed);
+        run.clone().into_iter().chain(run.into_iter().map(shorter)).collect()
+    };
+    let comparison = Comparison::new(&two(1), &two(2), None, 1);
+    let change = change_of(&comparison, "own-0");
+    assert!(change.cells == 2 && change.time.unwrap().interval.is_some(), "{change:?}");
+    assert_ne!(tables(&comparison)[0].rows[0][2].text, "no time");
 }
 
 #[test]

@@ -17,7 +17,7 @@ mod threads_epoch;
 use super::args::{Measuring, QUICK_EPOCHS, Rays, Scenes, Structures, with_twin};
 use super::epoch::{self, Epoch, Settings, measure};
 use super::plan::{named_notes, settings_map};
-use super::{Context, Data, Plan, Planned, Study};
+use super::{Context, Data, Plan, Planned, Study, StudyError};
 use crate::measure::Threads;
 use crate::registry::Registry;
 use crate::report::document::Block;
@@ -84,22 +84,18 @@ impl Study for ThreadsStudy {
         let structures = with_twin(args.structures.chosen(registry, &STRUCTURES)?);
         let asked = args.rays.asked(&[WorkloadKind::Primary, WorkloadKind::Diffuse]);
         let one = args.measuring.settings(registry, structures, asked)?;
-        let with = |threads: usize| -> anyhow::Result<(usize, Settings)> {
-            let threads_of = Threads::pinned(threads).map_err(anyhow::Error::msg)?;
-            Ok((threads, Settings { threads: threads_of, ..one.clone() }))
-        };
-        let settings = numbers(most).into_iter().map(with).collect::<anyhow::Result<Vec<_>>>()?;
+        let numbers = numbers(most);
         let scenes = args.scenes.read(&["dragon"])?;
 
         let mut cases = vec![];
         for epoch in 0..usize::from(args.measuring.epochs) {
             for scene in &scenes {
-                for (threads, _) in &settings {
+                for threads in &numbers {
                     let key = format!("{} threads {threads}", epoch::key(scene, epoch));
                     let title =
                         format!("epoch {} of {}: {}, {threads} threads", epoch + 1, args.measuring.epochs, scene.name);
                     // Each number of threads has first epochs of its own.
-                    let scene_number = cases.len() % (scenes.len() * settings.len());
+                    let scene_number = cases.len() % (scenes.len() * numbers.len());
                     let process = Some(scene.name.clone());
                     cases.push(Planned { key, title, scene: scene_number, epoch, work: 1, process });
                 }
@@ -108,17 +104,18 @@ impl Study for ThreadsStudy {
         let notes = named_notes(&scenes, |scene| &scene.notes);
         Ok(Plan {
             settings: settings_map(&one.kept()),
-            threads: settings.last().map_or(one.threads, |(_, last)| last.threads.clone()),
+            threads: Threads::unstarted(most),
             limit_ns: None,
             notes,
             warnings: vec![],
             inputs: args.scenes.files(),
             cases,
             measure: Box::new(move |case, clock, progress| {
-                let (scene, (threads, settings)) =
-                    (&scenes[case.scene / settings.len()], &settings[case.scene % settings.len()]);
-                let epoch = measure(scene, settings, case.epoch, clock, progress)?;
-                Ok(ThreadsEpoch { threads: *threads, epoch })
+                let (scene, number) = (&scenes[case.scene / numbers.len()], numbers[case.scene % numbers.len()]);
+                // No others are started: one thread is timed by the clock of the process, which would count them.
+                let threads = Threads::pinned(number).map_err(StudyError::Threads)?;
+                let epoch = measure(scene, &Settings { threads, ..one.clone() }, case.epoch, clock, progress)?;
+                Ok(ThreadsEpoch { threads: number, epoch })
             }),
         })
     }

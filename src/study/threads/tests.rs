@@ -69,3 +69,19 @@ fn two_points_are_told_in_table_and_figure() {
     });
     assert!(figures.into_iter().all(|caption| caption.contains("Two points")));
 }
+
+#[test]
+fn a_plan_starts_no_threads_and_a_case_those_of_its_own_alone() {
+    use clap::{Args as _, FromArgMatches as _};
+    let command = ThreadsArgs::augment_args(clap::Command::new("threads"));
+    let matches =
+        command.get_matches_from(["threads", "cube", "--most", "2", "--epochs", "2", "-s", "sah-kd", "--rays", "64"]);
+    let args = ThreadsArgs::from_arg_matches(&matches).unwrap();
+    let plan = ThreadsStudy::plan(&args, &Registry::builtin()).unwrap();
+    assert_eq!((plan.cases.len(), plan.threads.count()), (4, 2));
+    for case in &plan.cases[..2] {
+        let threads = (plan.measure)(case, &crate::measure::SystemClock::start(), &mut |_| {}).unwrap().threads;
+        assert!(case.title.ends_with(&format!(", {threads} threads")), "{}", case.title);
+        assert!(!plan.threads.are_started());
+    }
+}

@@ -4,6 +4,7 @@ mod child;
 mod record;
 mod table;
 
+use std::collections::HashSet;
 use std::io;
 use std::path::Path;
 use std::sync::Mutex;
@@ -36,11 +37,14 @@ const CHILDREN: usize = 2;
 const MOST_RAYS: usize = 10_000;
 
 pub fn run(registry: &Registry, args: &Args, named: &[String], terminal: &Terminal) -> anyhow::Result<Status> {
-    let cases = if named.is_empty() {
+    let mut cases = if named.is_empty() {
         catalogue()
     } else {
         named.iter().map(|name| find_all(name)).collect::<Result<Vec<_>, _>>()?.concat()
     };
+    // What is named twice, alone and with its family, counts once.
+    let mut seen = HashSet::new();
+    cases.retain(|case| seen.insert(case.name));
     let structures = sources::structures_at(registry, &args.structure, args.quality.as_deref())?;
     let choices = choices(registry, structures, &args.test)?;
     let rays = u32::try_from(args.source().number()?.min(MOST_RAYS))?;

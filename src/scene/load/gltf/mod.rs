@@ -77,10 +77,22 @@ pub(super) fn read(bytes: Vec<u8>, folder: &Path) -> Result<Model, Fault> {
     let mut notes = Notes::default();
     let skinned = document.nodes.iter().filter(|node| node.skin.is_some() && node.mesh.is_some()).count();
     let sum = |count: fn(&Shape) -> usize| shapes.iter().flatten().map(count).sum();
-    notes.count(skinned, "nodes have a skin: they stand unposed");
-    notes.count(textured, "materials have textures, which are left out: they show their base colour as it is");
-    notes.count(sum(|s| s.morphed), "primitives have morph targets, which are left out: they keep their basic form");
-    notes.count(sum(|s| s.left_out), "primitives are points or lines, or have no positions: they are left out");
+    notes.count(skinned, ["node has a skin: it stands unposed", "nodes have a skin: they stand unposed"]);
+    let texture = [
+        "material has a texture, which is left out: it shows its base colour as it is",
+        "materials have textures, which are left out: they show their base colour as it is",
+    ];
+    notes.count(textured, texture);
+    let morph = [
+        "primitive has morph targets, which are left out: it keeps its basic form",
+        "primitives have morph targets, which are left out: they keep their basic form",
+    ];
+    notes.count(sum(|s| s.morphed), morph);
+    let left_out = [
+        "primitive is points or lines, or has no positions: it is left out",
+        "primitives are points or lines, or have no positions: they are left out",
+    ];
+    notes.count(sum(|s| s.left_out), left_out);
     model.notes = notes.into_vec();
     Ok(model)
 }

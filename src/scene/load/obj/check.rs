@@ -35,8 +35,14 @@ impl Check {
     }
 
     pub fn note(&self, notes: &mut Notes) {
-        notes.count(self.small_faces, "faces with fewer than three corners are left out");
-        notes.count(self.shapes, "points, lines, curves or surfaces are left out");
+        notes.count(
+            self.small_faces,
+            ["face with fewer than three corners is left out", "faces with fewer than three corners are left out"],
+        );
+        notes.count(
+            self.shapes,
+            ["point, line, curve or surface is left out", "points, lines, curves or surfaces are left out"],
+        );
         if let Some((number, line)) = &self.first_unknown {
             let count = self.unknown;
             notes.add(format!(

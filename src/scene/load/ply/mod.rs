@@ -54,7 +54,10 @@ pub(super) fn read(bytes: &[u8]) -> Result<Model, Fault> {
     }
 
     let mut notes = Notes::default();
-    notes.count(found.small_faces, "faces with fewer than three corners are left out");
+    notes.count(
+        found.small_faces,
+        ["face with fewer than three corners is left out", "faces with fewer than three corners are left out"],
+    );
     splitter.note(&mut notes);
     model.notes = notes.into_vec();
     Ok(model)

@@ -132,7 +132,7 @@ fn strips_and_fans_and_what_is_no_triangle() {
     for lines in 0..4 {
         refused(&[("/meshes/0/primitives/0", primitive(lines))], &["no triangles", "only points, lines"]);
         let both = gltf(&[("/meshes/0/primitives/-", primitive(lines))]);
-        assert_eq!((both.triangles.len(), &both.notes[0][..12]), (2, "1 primitives"));
+        assert!(both.triangles.len() == 2 && both.notes[0].starts_with("1 primitive is points"), "{:?}", both.notes);
     }
 }
 
@@ -220,7 +220,7 @@ fn textures_and_morph_targets_are_told() {
     ];
     let notes = gltf(&changes).notes;
     assert!(
-        notes[0].starts_with("1 materials have textures") && notes[1].starts_with("1 primitives have morph"),
+        notes[0].starts_with("1 material has a texture") && notes[1].starts_with("1 primitive has morph"),
         "{notes:?}"
     );
 }

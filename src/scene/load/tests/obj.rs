@@ -16,8 +16,9 @@ fn polygons_are_fans_and_vertices_keep_their_number() {
     assert_eq!(model.positions.len(), 5);
     assert!(model.normals.is_empty() && model.normal_indices.is_empty() && model.material_of.is_empty());
     assert_eq!(model.materials, [Material::named("default")]);
-    let left_out = ["1 faces with fewer than three corners", "2 points, lines, curves or surfaces"];
-    assert_eq!(model.notes, left_out.map(|what| format!("{what} are left out")));
+    let left_out =
+        ["1 face with fewer than three corners is left out", "2 points, lines, curves or surfaces are left out"];
+    assert_eq!(model.notes, left_out);
 }
 
 #[test]
@@ -59,7 +60,7 @@ fn materials_come_from_the_mtl_file() {
     assert!(
         model.notes[0].contains("line 13") && model.notes[1].contains("line 14") && model.notes[3].contains("`lost`")
     );
-    assert!(model.notes[2].starts_with("1 materials have textures"), "{}", model.notes[2]);
+    assert!(model.notes[2].starts_with("1 material has a texture"), "{}", model.notes[2]);
 }
 
 #[test]
@@ -86,7 +87,7 @@ fn a_library_is_read_once_and_notes_are_few() {
     let textured = ("a.mtl", [&b"newmtl a\n"[..], textured.as_bytes()].concat());
     let text = format!("mtllib a.mtl\n{triangle}");
     let model = load_files(&[("a.obj", text.as_bytes()), (textured.0, &textured.1)]).unwrap();
-    assert!(model.notes.iter().any(|note| note.starts_with("1 materials have textures")), "{:?}", model.notes);
+    assert!(model.notes.iter().any(|note| note.starts_with("1 material has a texture")), "{:?}", model.notes);
 }
 
 #[test]

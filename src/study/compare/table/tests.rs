@@ -147,6 +147,14 @@ fn what_lies_within_the_noise_is_said_to_be_no_difference() {
     let table = scene_table(&records, &[]);
     assert!(cell(&table, "sah-kd", "x obvhs").ends_with(" ="), "{table:?}");
     assert!(table.notes[0].starts_with("A/A noise (median-kd twice): 1.00%; 0 of 2"), "{:?}", table.notes);
+    // A twin that differs from epoch to epoch by more than on the whole.
+    for record in &mut records[..2] {
+        let by = [1.02, 0.98, 1.03, 0.98, 1.0];
+        let twin = record.samples_ns.iter().zip(by).map(|(ns, by)| ns * by);
+        record.twin_samples_ns = Some(twin.collect());
+    }
+    let note = &scene_table(&records, &[]).notes[0];
+    assert!(note.contains("twice): not seen above the scatter of the epochs; 2 of 2"), "{note}");
 }
 
 #[test]
@@ -181,6 +189,23 @@ fn a_mean_over_fewer_scenes_names_its_count_and_is_not_ranked() {
 }
 
 #[test]
+fn scenes_with_fewer_epochs_have_means_and_a_winner_over_the_first_of_each() {
+    let mut all = records();
+    for label in ["median-kd", "sah-kd", "obvhs-bvh2"] {
+        let speed = if label == "sah-kd" { 8.0 } else { 1.0 };
+        let samples_ns = vec![5e5 / speed; 2];
+        all.push(Record { epochs: 1, samples_ns, ..record("B", label, "primary", Some(speed)) });
+    }
+    let table = mean_table(&all);
+    assert_eq!(cell(&table, "sah-kd", "primary"), "8.00");
+    assert!(table.notes.contains(&"Scenes have 1 to 5 epochs: means over them are of the first of each.".into()));
+    assert!(mean_table(&records()).notes.iter().all(|note| !note.contains("epochs")));
+    let whole: Vec<Record> = all.into_iter().filter(|record| record.label != "obvhs-cwbvh").collect();
+    let sentence = winner(&whole, None).unwrap().sentence;
+    assert!(sentence.contains("sah-kd answers") && sentence.contains("(one epoch)"), "{sentence}");
+}
+
+#[test]
 fn the_last_line_says_who_won_by_how_much() {
     let said = winner(&records(), None).unwrap().sentence;
     let text = "Over 1 scene and 2 kinds of rays, sah-kd answers 2.00 times as many rays a second as obvhs-cwbvh [2.00, 2.00]; \
@@ -200,6 +225,11 @@ fn the_last_line_says_who_won_by_how_much() {
     assert!(names.contains("sah-kd") && names.contains(" or ") && names.contains("sah-bvh"), "{names}");
     assert!(sentence.contains("times as many rays a second as obvhs-cwbvh ["), "{sentence}");
     assert!(sentence.contains(" cannot be told apart from it: 1.00 ["), "{sentence}");
+    // One epoch names who is ahead, and no more.
+    let one = |r: Record| Record { epochs: 1, samples_ns: r.samples_ns[..1].to_vec(), ..r };
+    let Winner { names, sentence } = winner(&level.into_iter().map(one).collect::<Vec<_>>(), None).unwrap();
+    assert!(names.ends_with(" (one epoch)") && !names.contains(" or "), "{names}");
+    assert!(sentence.contains(" Next: ") && !sentence.contains("told apart"), "{sentence}");
     // The winner itself is no rival of its own.
     assert_eq!(winner(&records(), Some("sah-kd")).unwrap().sentence, text);
     // What has no time in a case takes no part, and what is alone has not won.
