@@ -3,7 +3,7 @@
 use std::io;
 use std::process::ExitCode;
 
-use clap::error::{ContextKind, ContextValue};
+use clap::error::{ContextKind, ContextValue, ErrorKind};
 
 use super::interrupt;
 use crate::output::OutputError;
@@ -53,7 +53,8 @@ pub(super) fn told(message: clap::Error) -> ExitCode {
 
 /// Where --quick is no option, one that is written alike is no help: the command that has it is named instead.
 fn advised(mut message: clap::Error) -> clap::Error {
-    if message.get(ContextKind::InvalidArg) == Some(&ContextValue::String("--quick".into())) {
+    let is_unknown = message.kind() == ErrorKind::UnknownArgument;
+    if is_unknown && message.get(ContextKind::InvalidArg) == Some(&ContextValue::String("--quick".into())) {
         message.remove(ContextKind::SuggestedArg);
         // It shows the same option.
         message.remove(ContextKind::Usage);

@@ -172,6 +172,7 @@ fn baselines_that_are_not_there_are_named_with_those_that_are() {
     assert!(alone.status.code() == Some(USAGE) && stderr(&alone).contains("--baseline"));
     let quick = kept.compare(&["--fail-on-regression", "5", "--quick"]);
     assert!(quick.status.code() == Some(USAGE) && stderr(&quick).contains("--quick"), "{}", stdout(&quick));
+    assert!(!stderr(&quick).contains("tip"), "{}", stderr(&quick));
 }
 
 #[test]

@@ -74,7 +74,7 @@ pub fn mean_table(records: &[Record], references: &[Reference]) -> Table {
             notes.push(format!("{} {why} left out.", plural(n, "case")));
         }
     }
-    if cells.iter().flatten().any(|cell| cell.text.ends_with(')')) {
+    if cells.iter().flatten().any(|cell| cell.text.contains(" of ")) {
         notes.push(
             "(n of m): the mean is over n of the m cases in which the reference has a time; it cannot be ranked with the others."
                 .into(),
