@@ -10,13 +10,13 @@ use crate::geometry::Mesh;
 pub struct Entry {
     /// As written on the command line; entries of one structure over several tests share it.
     pub name: String,
-    /// [`Accel::TRIANGLE_TEST`].
+    /// [`Accel::TRIANGLE_TEST`](crate::accel::Accel::TRIANGLE_TEST).
     pub triangle_test: &'static str,
-    /// [`Accel::OBSERVED`].
+    /// [`Accel::OBSERVED`](crate::accel::Accel::OBSERVED).
     pub observed: Observed,
-    /// [`Accel::CONVENTIONS`].
+    /// [`Accel::CONVENTIONS`](crate::accel::Accel::CONVENTIONS).
     pub conventions: &'static [&'static str],
-    /// [`Accel::CAPABILITIES`].
+    /// [`Accel::CAPABILITIES`](crate::accel::Accel::CAPABILITIES).
     pub capabilities: Capabilities,
     pub(super) config: Value,
     /// Whether a configuration can be read, before it is known whether its values go together.

@@ -8,7 +8,7 @@
 //! what it does, and at last what it has measured. After each line it waits for one in answer: so the run that listens does nothing
 //! while it times. Other lines are a structure's own, and go to standard error.
 //!
-//! A job on another machine is the same command line with a file beside: it says nothing, and [writes](super::job::write) the case.
+//! A job on another machine is the same command line with a file beside: it says nothing, and writes the case.
 
 use std::ffi::OsString;
 use std::io::{self, BufRead, BufReader, Write};
