@@ -128,6 +128,7 @@ impl<const LANES: usize> Packet<LANES> {
     /// # Panics
     /// If there are more than `LANES` rays.
     pub fn new(rays: &[Ray]) -> Self {
+        const { assert!(LANES == 8 || LANES == 16, "there are queries for packets of 8 and of 16") };
         assert!(rays.len() <= LANES, "a packet has {LANES} lanes");
         let mut valid = [0; LANES];
         let mut packet = Several {
