@@ -54,6 +54,20 @@ impl<const EPOCHS: u16, const RUNS: u16, const BUDGET: u32> Measuring<EPOCHS, RU
     /// # Errors
     /// If the system does not give the threads.
     pub fn settings(&self, registry: &Registry, structures: Vec<Choice>, asked: Asked) -> anyhow::Result<Settings> {
+        self.settings_on(self.pinned()?, registry, structures, asked)
+    }
+
+    /// The same on these threads.
+    ///
+    /// # Errors
+    /// If there is no structure to check against.
+    pub fn settings_on(
+        &self,
+        threads: Threads,
+        registry: &Registry,
+        structures: Vec<Choice>,
+        asked: Asked,
+    ) -> anyhow::Result<Settings> {
         Ok(Settings {
             structures,
             guide: sources::guide(registry)?,
@@ -64,7 +78,7 @@ impl<const EPOCHS: u16, const RUNS: u16, const BUDGET: u32> Measuring<EPOCHS, RU
             check_tests: TESTS,
             detailed: false,
             seed: self.seed,
-            threads: self.pinned()?,
+            threads,
         })
     }
 }

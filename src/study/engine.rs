@@ -191,7 +191,7 @@ fn measure(
     let (mut tables, mut legend, mut foot) = (vec![], vec![], vec![]);
     let (mut to_print, mut to_explain) = (vec![], vec![]);
     if !cases.is_empty() || !stopped {
-        // A scene with fewer epochs cannot be averaged with the others.
+        // A scene that was interrupted would cut means over scenes to as many epochs as it has.
         let lacks =
             |scene: usize| plan.cases.iter().any(|case| case.scene == scene && journal.get(&case.key).is_none());
         let whole = joined(study, plan, &journal, |case| !stopped || !lacks(case.scene)).cases;

@@ -17,10 +17,15 @@ impl dyn AnyStudy + '_ {
     /// # Errors
     /// If one of them is not of this study.
     pub fn read_cases(&self, group: &Group<Value>, others: &Answers) -> Result<Found, JournalError> {
-        let typed = |file: &CaseFile<Value>| Ok(file.clone().typed(self.reader())?.case);
-        let mut cases = group.files.iter().map(typed).collect::<Result<Vec<Box<dyn AnyCase>>, JournalError>>()?;
+        let read = |file: &CaseFile<Value>| {
+            let mut case = file.read_case(self.reader())?;
+            Ok((case.epoch().map(|(epoch, _)| epoch.triangles), case))
+        };
+        let mut cases =
+            group.files.iter().map(read).collect::<Result<Vec<(Option<usize>, Box<dyn AnyCase>)>, JournalError>>()?;
         // As they come from many machines in no order: small scenes first.
-        cases.sort_by_cached_key(|case| case.clone().epoch().map(|(epoch, _)| epoch.triangles));
+        cases.sort_by_key(|(triangles, _)| *triangles);
+        let cases = cases.into_iter().map(|(_, case)| case).collect();
         let joined = join(cases, |case| case.epoch(), self.is_whole());
         let failures = joined.failures.iter().map(|failure| format!("{failure}; the scene is left out."));
         let notes = failures.chain(joined.unchecked).chain(joined.missing);

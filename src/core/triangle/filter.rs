@@ -149,7 +149,7 @@ impl<L> Survivors<L> {
 /// bars mean computed. A difference of inputs is off by w of itself, a product and a sum by w of themselves. The components of d x f
 /// are bounded by 2 D E and off by 3.1 w 2 D E; those of s x e by 2 E |s|, in sum, and off by 4.1 w of that. Hence
 /// u is off by 7.1 w 2 D E |s|, v by 7.1 w 2 D E |s|, and det by 7.1 w 6 D E E. The sum of all three and of the rounding of u + v
-/// is within k = 40 w D E (|s| + 2 E), in which more than 6 w D E |s| are left for the rounding of k itself.
+/// and of what is left of det (the sign of its sum with the slack is exact) is within k = 40 w D E (|s| + 2 E), in which more than 6 w D E |s| are left for the rounding of k itself.
 ///
 /// Where the computed sign of det is right, a hit has u and v not below -k, and u + v not beyond |det| + k. Where it is wrong,
 /// the exact |det| is at most k; then so are |u|, |v| and |u + v| of a hit, and the computed ones are at most 2 k. So rejecting what is

@@ -103,7 +103,8 @@ pub trait TriangleTest: Send + Sync + 'static {
         values: &Self::Values<N>,
     ) -> Option<Self::Depth<'a>>;
 
-    /// What is decided about a candidate without more ado, if anything: what [`decide`](Self::decide) says, and no call.
+    /// Whether a candidate is hit, as [`decide`](Self::decide) says, where the first stage alone tells: without a call. The values are those of
+    /// [`values`](Self::values), not of a closer look.
     #[inline(always)]
     fn decide_at_once<'a, const N: usize>(
         ray: &Self::Ray,

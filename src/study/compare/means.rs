@@ -95,7 +95,8 @@ fn uneven(records: &[Record]) -> Option<String> {
     let epochs: BTreeSet<usize> = timed.map(|record| record.epochs).collect();
     let (least, most) = (*epochs.first()?, *epochs.last()?);
     let first = if least == 1 { "the first".to_owned() } else { format!("the first {least}") };
-    (least < most).then(|| format!("Scenes have {least} to {most} epochs: means over them are of {first} of each."))
+    (least < most)
+        .then(|| format!("Scenes have {least} to {most} epochs: means over all of them are of {first} of each."))
 }
 
 /// The structure that is the fastest over all cases.

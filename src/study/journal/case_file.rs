@@ -91,9 +91,17 @@ impl CaseFile<Value> {
     /// # Errors
     /// If it is none.
     pub fn typed<C>(self, read: Read<C>) -> Result<CaseFile<C>, JournalError> {
-        let Self { path, header, key, case } = self;
-        let case = read(&case).map_err(|cause| damaged(&path, &cause))?;
+        let case = self.read_case(read)?;
+        let Self { path, header, key, .. } = self;
         Ok(CaseFile { path, header, key, case })
+    }
+
+    /// Its case, as one of the study.
+    ///
+    /// # Errors
+    /// If it is none.
+    pub fn read_case<C>(&self, read: Read<C>) -> Result<C, JournalError> {
+        read(&self.case).map_err(|cause| damaged(&self.path, &cause))
     }
 }
 

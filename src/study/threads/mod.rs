@@ -83,7 +83,7 @@ impl Study for ThreadsStudy {
         );
         let structures = with_twin(args.structures.chosen(registry, &STRUCTURES)?);
         let asked = args.rays.asked(&[WorkloadKind::Primary, WorkloadKind::Diffuse]);
-        let one = args.measuring.settings(registry, structures, asked)?;
+        let one = args.measuring.settings_on(Threads::unstarted(1), registry, structures, asked)?;
         let numbers = numbers(most);
         let scenes = args.scenes.read(&["dragon"])?;
 

@@ -3,9 +3,10 @@
 //!
 //! Its flag ROBUST changes the triangle test with the boxes, and so makes a structure of its own here: `embree` and
 //! `embree-robust`. Its own triangle test is the only one; brute force over it is a scene of one triangle for every triangle
-//! that is asked for ([`alone`]). Rays and blocks of sixteen are brought into its form before the clock starts: 48 and 768
-//! bytes, all that it reads. It writes into them the end of the hit, so that they are copied to the stack to be asked, followed by
-//! an empty hit: the cheapest way to ask the same rays again, and what a renderer does that makes rays where it needs them. It builds on the threads of the caller. What its tree looks like is not known: its shape is that of one leaf.
+//! that is asked for ([`alone`]). Rays and packets of eight or sixteen are brought into its form before the clock starts: 48, 384
+//! and 768 bytes, all that it reads. It writes into them the end of the hit, so that they are copied to the stack to be asked,
+//! followed by an empty hit: the cheapest way to ask the same rays again, and what a renderer does that makes rays where it needs
+//! them. It builds on the threads of the caller. What its tree looks like is not known: its shape is that of one leaf.
 //!
 //! # References
 //! Wald, Woop, Benthin, Johnson, Ernst: Embree: a kernel framework for efficient CPU ray tracing. SIGGRAPH 2014.

@@ -89,7 +89,7 @@ impl TriangleTest for Exact {
         sights: &Sights<N>,
     ) -> Option<ExactDepth<'a>> {
         if let Some(decided) = Self::decide_at_once(ray, block, lane, sights) {
-            // These bounds may be of a closer look.
+            // The bounds may be of a closer look, and would be taken for those of the filter.
             return decided.map(ExactDepth::looked_up);
         }
         let (low, high) = in_f64(&ray.ray, block.place(lane), sights.sure >> lane & 1 == 1)?;

@@ -15,6 +15,7 @@ impl Kernel for Look<'_> {
     fn run<L: EightLanes>(self) -> Self::Output {
         let Look(ray, corners, to) = self;
         let (candidates, first) = survivors::<8, L>(&FilterRay::new(ray), &FilterBlock::new(&[corners; 4]), to);
+        assert_eq!(candidates >> 4, 0, "a lane left over is a candidate");
         let sights = first.sights();
         (candidates >> 3 & 1 == 1, (sights.sure >> 3 & 1 == 1).then(|| (sights.low[3], sights.high[3])))
     }

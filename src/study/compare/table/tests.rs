@@ -198,7 +198,9 @@ fn scenes_with_fewer_epochs_have_means_and_a_winner_over_the_first_of_each() {
     }
     let table = mean_table(&all);
     assert_eq!(cell(&table, "sah-kd", "primary"), "8.00");
-    assert!(table.notes.contains(&"Scenes have 1 to 5 epochs: means over them are of the first of each.".into()));
+    assert!(
+        table.notes.contains(&"Scenes have 1 to 5 epochs: means over all of them are of the first of each.".into())
+    );
     assert!(mean_table(&records()).notes.iter().all(|note| !note.contains("epochs")));
     let whole: Vec<Record> = all.into_iter().filter(|record| record.label != "obvhs-cwbvh").collect();
     assert!(mean_table(&whole).notes.iter().all(|note| !note.starts_with("(n of m)")), "no row lacks a case");
