@@ -19,31 +19,40 @@ pub struct Built {
 /// A build as short as this is repeated, for a steadier median.
 const SHORT_BUILD_NS: u64 = 20_000_000;
 
+/// One build, timed.
+type Build = fn(&Choice, &Scene, &Threads, &dyn Clock) -> Result<Built, StudyError>;
+
 impl Built {
     /// Builds once, or three times when that takes no time.
     pub fn new(choice: &Choice, scene: &Scene, threads: &Threads, clock: &dyn Clock) -> Result<Self, StudyError> {
-        Self::once(choice, scene, threads, clock)?.again(scene, threads, clock)
+        Self::once(choice, scene, threads, clock)?.again(scene, threads, clock, Self::once)
     }
 
-    /// Likewise, and counts what the first build holds, which takes it less time than builds differ by. What is less than the structure
-    /// itself was not seen: its memory is C++'s, or another process's.
+    /// Likewise, and counts what the first build holds, which takes it less time than builds differ by.
     pub fn counted(choice: &Choice, scene: &Scene, threads: &Threads, clock: &dyn Clock) -> Result<Self, StudyError> {
-        let (first, peak) = peak_bytes(|| Self::once(choice, scene, threads, clock));
-        let first = first?;
-        let is_seen = |peak: &usize| first.accel.remote().is_none() && *peak >= first.accel.footprint().total();
-        let peak_bytes = peak.filter(is_seen);
-        Self { peak_bytes, ..first }.again(scene, threads, clock)
+        Self::once_counted(choice, scene, threads, clock)?.again(scene, threads, clock, Self::once_counted)
     }
 
-    fn again(self, scene: &Scene, threads: &Threads, clock: &dyn Clock) -> Result<Self, StudyError> {
+    /// Builds of which nothing is known yet of what they hold are `unseen`: what another thread gives back meanwhile may hide that of one.
+    fn again(self, scene: &Scene, threads: &Threads, clock: &dyn Clock, unseen: Build) -> Result<Self, StudyError> {
         let mut times = vec![self.build_ns as f64];
         let mut last = self;
         while last.build_ns <= SHORT_BUILD_NS && times.len() < 3 {
-            last = Self { peak_bytes: last.peak_bytes, ..Self::once(&last.choice, scene, threads, clock)? };
+            let build = if last.peak_bytes.is_none() { unseen } else { Self::once };
+            let next = build(&last.choice, scene, threads, clock)?;
+            last = Self { peak_bytes: last.peak_bytes.or(next.peak_bytes), ..next };
             times.push(last.build_ns as f64);
         }
         let build_ns = median(&times).expect("there is a build") as u64;
         Ok(Self { build_ns, ..last })
+    }
+
+    /// What is less than the structure itself was not seen: its memory is C++'s, or another process's.
+    fn once_counted(choice: &Choice, scene: &Scene, threads: &Threads, clock: &dyn Clock) -> Result<Self, StudyError> {
+        let (built, peak) = peak_bytes(|| Self::once(choice, scene, threads, clock));
+        let built = built?;
+        let is_seen = |peak: &usize| built.accel.remote().is_none() && *peak >= built.accel.footprint().total();
+        Ok(Self { peak_bytes: peak.filter(is_seen), ..built })
     }
 
     fn once(choice: &Choice, scene: &Scene, threads: &Threads, clock: &dyn Clock) -> Result<Self, StudyError> {
