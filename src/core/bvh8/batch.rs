@@ -104,22 +104,23 @@ impl Together {
         if len == 0 {
             return;
         }
-        // Lanes left over repeat the first one.
-        for column in &mut self.inputs {
-            let first = column[0];
-            column[len..].fill(first);
-        }
-        let ts = dispatch(level, LastBits::<D> { inputs: &self.inputs, len, depth: PhantomData });
+        let ts = last_bits::<D>(level, &self.inputs, (1 << len) - 1);
         for ((&ray, &id), t) in self.rays.iter().zip(&self.ids).zip(ts).take(len) {
             hit(ray, Hit::new(t, id));
         }
     }
 }
 
+/// As [`Depth::ts`].
+#[inline(always)]
+pub(super) fn last_bits<D: Depth>(level: Level, inputs: &[[f32; TOGETHER]; INPUTS], which: u32) -> [f32; TOGETHER] {
+    dispatch(level, LastBits::<D> { inputs, which, depth: PhantomData })
+}
+
 /// The `t` of hits together: a kernel of its own, because it would cost the walk its registers.
 struct LastBits<'a, D> {
     inputs: &'a [[f32; TOGETHER]; INPUTS],
-    len: usize,
+    which: u32,
     depth: PhantomData<D>,
 }
 
@@ -128,7 +129,7 @@ impl<D: Depth> Kernel for LastBits<'_, D> {
 
     #[inline(always)]
     fn run<L: EightLanes>(self) -> [f32; TOGETHER] {
-        D::ts::<L>(self.inputs, self.len)
+        D::ts::<L>(self.inputs, self.which)
     }
 }
 
@@ -178,6 +179,7 @@ struct InPackets<'a, const ANY: bool, T: TriangleTest, A, F> {
     rays: &'a [Ray],
     answers: &'a mut [A],
     form: &'a F,
+    level: Level,
 }
 
 impl<const ANY: bool, T: TriangleTest, A, F: Fn(Option<Hit>) -> A> Kernel for InPackets<'_, ANY, T, A, F> {
@@ -185,12 +187,12 @@ impl<const ANY: bool, T: TriangleTest, A, F: Fn(Option<Hit>) -> A> Kernel for In
 
     #[inline(always)]
     fn run<L: EightLanes>(self) -> Groups {
-        let Self { tree, rays, answers, form } = self;
+        let Self { tree, rays, answers, form, level } = self;
         let mut others = Groups::NONE;
         for (number, (rays, answers)) in rays.chunks(RAYS).zip(answers.chunks_mut(RAYS)).enumerate() {
             let together = match (rays.try_into(), answers.try_into()) {
                 (Ok(rays), Ok(answers)) if L::FAST => {
-                    alike(rays) && tree.intersect_packet::<ANY, L, A>(rays, answers, form)
+                    alike(rays) && tree.intersect_packet::<ANY, L, A>(level, rays, answers, form)
                 }
                 _ => false,
             };
@@ -268,7 +270,7 @@ pub(super) fn answer<const ANY: bool, T: TriangleTest, A, O: Observer>(
                 let which = &Groups::all(rays.len());
                 dispatch(level, Interleaved::<ANY, T, A, _> { tree, rays, which, answers, form });
             } else {
-                let which = dispatch(level, InPackets::<ANY, T, A, _> { tree, rays, answers, form });
+                let which = dispatch(level, InPackets::<ANY, T, A, _> { tree, rays, answers, form, level });
                 answer_apart::<ANY, T, A>(level, tree, rays, &which, answers, form);
             }
         }

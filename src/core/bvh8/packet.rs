@@ -18,7 +18,7 @@ use super::ray_packet::RayPacket;
 use super::stack::SIZE;
 use super::tree::Bvh8;
 use crate::geometry::{Hit, Ray};
-use crate::simd::EightLanes;
+use crate::simd::{EightLanes, Level};
 use crate::triangle::TriangleTest;
 
 /// At most this many rays that are left go on alone.
@@ -41,13 +41,14 @@ impl<T: TriangleTest> Bvh8<T> {
     #[inline(always)]
     pub(super) fn intersect_packet<'a, const ANY: bool, L: EightLanes, A>(
         &'a self,
+        level: Level,
         rays: &'a [Ray; RAYS],
         answers: &mut [A; RAYS],
         form: &impl Fn(Option<Hit>) -> A,
     ) -> bool {
         let Some(mut packet) = RayPacket::<L>::new(rays, &self.bounds) else { return false };
         let frustum = Frustum::new(&packet);
-        let mut state = PacketState::<T>::new(rays, &mut packet);
+        let mut state = PacketState::<T>::new(rays, &self.blocks, &mut packet);
         let mut stack = [const { MaybeUninit::<Entry>::uninit() }; SIZE];
         let mut len = 0;
         let (mut child, mut active) = (self.root, u16::MAX);
@@ -55,7 +56,7 @@ impl<T: TriangleTest> Bvh8<T> {
             if let Some((first, count)) = child.blocks() {
                 // SAFETY: leaves name blocks that are there.
                 let blocks = unsafe { self.blocks.get_unchecked(first..first + count) };
-                state.search::<ANY, L>(blocks, active, &mut packet);
+                state.search::<ANY, L>(first, blocks, active, &mut packet);
             } else if active.count_ones() <= FEW {
                 self.one_by_one::<ANY, L>(child, active, &mut packet, &mut state);
             } else {
@@ -80,9 +81,7 @@ impl<T: TriangleTest> Bvh8<T> {
             }
             loop {
                 if len == 0 || state.unfinished() == 0 {
-                    for (i, answer) in answers.iter_mut().enumerate() {
-                        *answer = form(state.answer::<ANY>(i));
-                    }
+                    state.answer::<ANY, L>(level, &packet, |i, hit| answers[i] = form(hit));
                     return true;
                 }
                 len -= 1;

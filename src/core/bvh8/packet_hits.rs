@@ -1,45 +1,81 @@
 use super::node::WIDTH;
 use crate::simd::{EightLanes, each};
-use crate::traversal::leaf::{NONE, Nearest};
-use crate::triangle::Depth;
+use crate::traversal::leaf::{LeafBlock, NONE, Nearest};
+use crate::triangle::{Depth, EightMet, TriangleTest};
 
 /// Rays that travel together.
 pub(super) const RAYS: usize = 16;
 pub(super) const HALVES: usize = RAYS / WIDTH;
 
 /// The nearest hits of sixteen rays so far, or the ends of their intervals, side by side: a [`Nearest`] each.
-pub(super) struct PacketHits<D> {
+pub(super) struct PacketHits<'a, T: TriangleTest> {
+    /// The blocks of the tree.
+    blocks: &'a [LeafBlock<T, WIDTH>],
     t: [[f32; WIDTH]; HALVES],
+    /// Not behind the hits; infinite where nothing is found.
+    least: [[f32; WIDTH]; HALVES],
     /// [`NONE`] where nothing is found.
     ids: [[u32; WIDTH]; HALVES],
-    /// Of hits that are more than their `t`.
-    depths: [Option<D>; RAYS],
+    /// Which lanes of which blocks they are, unless they were found alone: eight times the number of the block, and the lane.
+    places: [[u32; WIDTH]; HALVES],
+    /// Of hits that were found alone, by the rays of these bits, and are more than their `t`.
+    depths: [Option<T::Depth<'a>>; RAYS],
+    alone: u16,
 }
 
 /// Those of one half of the rays, in lanes.
 #[derive(Clone, Copy)]
 pub(super) struct HitLanes<L: EightLanes> {
     pub t: L,
+    least: L,
     ids: L::Numbers,
+    places: L::Numbers,
+    /// The rays that have found something since.
+    fresh: L::Mask,
 }
 
 impl<L: EightLanes> HitLanes<L> {
-    /// Takes in the lanes of `met` hits of triangle `id` at `t` that are nearer, or as near with a lower number.
+    /// Takes in the lanes of `active` what triangle `id` at `place` is found to be, where it is nearer, or as near with a lower number. Returns the lanes of
+    /// which that cannot be told, as bits.
     #[inline(always)]
-    pub fn offer(&mut self, met: L::Mask, t: L, id: u32) {
+    pub fn offer<T: TriangleTest>(&mut self, active: L::Mask, found: &EightMet<L>, id: u32, place: u32) -> u32 {
         let id = L::splat_number(id);
-        let as_near = L::both(t.cmp_le(self.t), L::cmp_le_numbers(id, self.ids));
-        let better = L::both(met, L::either(t.cmp_lt(self.t), as_near));
-        self.t = t.choose(self.t, better);
-        self.ids = L::choose_numbers(id, self.ids, better);
+        let not_above = L::cmp_le_numbers(id, self.ids);
+        let met = L::both(found.met, active);
+        if T::ONE_STAGE {
+            let as_near = L::both(found.high.cmp_le(self.t), not_above);
+            let better = L::both(met, L::either(found.high.cmp_lt(self.t), as_near));
+            self.t = found.high.choose(self.t, better);
+            self.ids = L::choose_numbers(id, self.ids, better);
+            return 0;
+        }
+        let nearer = L::both(met, found.high.cmp_lt(self.least));
+        // A triangle of several leaves is met again.
+        let again = L::both(not_above, L::cmp_le_numbers(self.ids, id));
+        let further = L::both(met, self.t.cmp_lt(found.low));
+        let known = L::either(L::either(nearer, further), L::either(found.missed, again));
+        self.t = found.high.choose(self.t, nearer);
+        self.least = found.low.choose(self.least, nearer);
+        self.ids = L::choose_numbers(id, self.ids, nearer);
+        self.places = L::choose_numbers(L::splat_number(place), self.places, nearer);
+        self.fresh = L::either(self.fresh, nearer);
+        L::bits(active) & !L::bits(known)
     }
 }
 
-impl<D: Depth> PacketHits<D> {
+impl<'a, T: TriangleTest> PacketHits<'a, T> {
     /// Nothing found yet, each ray up to and with its `last`.
     #[inline(always)]
-    pub fn until(last: impl Fn(usize) -> f32) -> Self {
-        let mut hits = Self { t: [[0.0; WIDTH]; HALVES], ids: [[NONE; WIDTH]; HALVES], depths: [const { None }; RAYS] };
+    pub fn until(blocks: &'a [LeafBlock<T, WIDTH>], last: impl Fn(usize) -> f32) -> Self {
+        let mut hits = Self {
+            blocks,
+            t: [[0.0; WIDTH]; HALVES],
+            least: [[f32::INFINITY; WIDTH]; HALVES],
+            ids: [[NONE; WIDTH]; HALVES],
+            places: [[0; WIDTH]; HALVES],
+            depths: [const { None }; RAYS],
+            alone: 0,
+        };
         for i in 0..RAYS {
             hits.t[i / WIDTH][i % WIDTH] = last(i);
         }
@@ -53,17 +89,33 @@ impl<D: Depth> PacketHits<D> {
     }
 
     #[inline(always)]
-    pub fn get(&self, i: usize) -> Nearest<D> {
+    pub fn get(&self, i: usize) -> Nearest<T::Depth<'a>> {
         let (t, id) = (self.t(i), self.ids[i / WIDTH][i % WIDTH]);
-        let depth = || D::of(t).or(self.depths[i]).expect("what is found has a depth");
-        Nearest { t, hit: (id != NONE).then(|| (depth(), id)) }
+        Nearest { t, hit: (id != NONE).then(|| (self.depth(i), id)) }
+    }
+
+    /// Of ray `i`, which has found something.
+    #[inline(always)]
+    pub fn depth(&self, i: usize) -> T::Depth<'a> {
+        let (half, lane) = (i / WIDTH, i % WIDTH);
+        if let Some(depth) = T::Depth::of(self.t[half][lane]) {
+            return depth;
+        }
+        if self.alone >> i & 1 == 1 {
+            return self.depths[i].expect("what is found has a depth");
+        }
+        let place = self.places[half][lane] as usize;
+        let triangles = &self.blocks[place / WIDTH].triangles;
+        T::depth_between(triangles, place % WIDTH, self.least[half][lane], self.t[half][lane])
     }
 
     #[inline(always)]
-    pub fn set(&mut self, i: usize, nearest: Nearest<D>) {
+    pub fn set(&mut self, i: usize, nearest: Nearest<T::Depth<'a>>) {
         if let Some((depth, id)) = nearest.hit {
-            (self.t[i / WIDTH][i % WIDTH], self.ids[i / WIDTH][i % WIDTH]) = (nearest.t, id);
+            let (half, lane) = (i / WIDTH, i % WIDTH);
+            (self.t[half][lane], self.least[half][lane], self.ids[half][lane]) = (nearest.t, depth.least(), id);
             self.depths[i] = Some(depth);
+            self.alone |= 1 << i;
         }
     }
 
@@ -74,6 +126,25 @@ impl<D: Depth> PacketHits<D> {
         if t < *own || t == *own && id < *own_id {
             (*own, *own_id) = (t, id);
         }
+    }
+
+    /// The same of a hit that is more, in lane and block `place`; false if it cannot be told which one is nearer.
+    #[inline(always)]
+    pub fn offer_between(&mut self, i: usize, depth: &T::Depth<'_>, id: u32, place: u32) -> bool {
+        let (half, lane) = (i / WIDTH, i % WIDTH);
+        if depth.bound() < self.least[half][lane] {
+            (self.t[half][lane], self.least[half][lane]) = (depth.bound(), depth.least());
+            (self.ids[half][lane], self.places[half][lane]) = (id, place);
+            self.alone &= !(1 << i);
+            return true;
+        }
+        self.t[half][lane] < depth.least()
+    }
+
+    /// The triangle that ray `i` has found, or [`NONE`].
+    #[inline(always)]
+    pub fn id(&self, i: usize) -> u32 {
+        self.ids[i / WIDTH][i % WIDTH]
     }
 
     #[inline(always)]
@@ -89,14 +160,24 @@ impl<D: Depth> PacketHits<D> {
 
     #[inline(always)]
     pub fn lanes<L: EightLanes>(&self) -> [HitLanes<L>; HALVES] {
-        let half = |half: usize| HitLanes { t: L::load(&self.t[half]), ids: L::numbers(&self.ids[half]) };
+        let half = |half: usize| HitLanes {
+            t: L::load(&self.t[half]),
+            least: L::load(&self.least[half]),
+            ids: L::numbers(&self.ids[half]),
+            places: L::numbers(&self.places[half]),
+            fresh: L::mask(0),
+        };
         [half(0), half(1)]
     }
 
-    /// Of hits that are no more than their `t`.
     #[inline(always)]
     pub fn set_lanes<L: EightLanes>(&mut self, lanes: &[HitLanes<L>; HALVES]) {
         self.t = each(lanes, |half| half.t.store());
         self.ids = each(lanes, |half| L::store_numbers(half.ids));
+        if !T::ONE_STAGE {
+            self.least = each(lanes, |half| half.least.store());
+            self.places = each(lanes, |half| L::store_numbers(half.places));
+            self.alone &= !((L::bits(lanes[0].fresh) | L::bits(lanes[1].fresh) << WIDTH) as u16);
+        }
     }
 }

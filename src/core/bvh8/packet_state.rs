@@ -2,11 +2,12 @@
 
 use std::mem::MaybeUninit;
 
+use super::batch::last_bits;
 use super::node::WIDTH;
 use super::packet_hits::{HALVES, PacketHits, RAYS};
 use super::ray_packet::RayPacket;
 use crate::geometry::{Hit, Ray};
-use crate::simd::{EightLanes, each};
+use crate::simd::{EightLanes, Level, each};
 use crate::traversal::leaf::{LeafBlock, NONE, Nearest, settle};
 use crate::triangle::{Depth, TriangleTest};
 
@@ -19,7 +20,7 @@ pub(super) struct PacketState<'a, T: TriangleTest> {
     /// The rays as their test wants them, from their first leaf on: many never come to one.
     prepared: [MaybeUninit<T::Ray>; RAYS],
     ready: u16,
-    nearest: PacketHits<T::Depth<'a>>,
+    nearest: PacketHits<'a, T>,
     t_min: [f32; RAYS],
     candidates: [MaybeUninit<Candidates<T>>; RAYS],
     /// Those that still look for a hit, as bits.
@@ -30,10 +31,14 @@ pub(super) struct PacketState<'a, T: TriangleTest> {
 type Candidates<T> = (u32, <T as TriangleTest>::Values<WIDTH>);
 
 impl<'a, T: TriangleTest> PacketState<'a, T> {
-    /// They get their ends in `packet`.
+    /// They look for triangles of `blocks`, and get their ends in `packet`.
     #[inline(always)]
-    pub fn new<L: EightLanes>(rays: &'a [Ray; RAYS], packet: &mut RayPacket<L>) -> Self {
-        let nearest = PacketHits::until(|i| T::last(rays[i].t_max));
+    pub fn new<L: EightLanes>(
+        rays: &'a [Ray; RAYS],
+        blocks: &'a [LeafBlock<T, WIDTH>],
+        packet: &mut RayPacket<L>,
+    ) -> Self {
+        let nearest = PacketHits::until(blocks, |i| T::last(rays[i].t_max));
         packet.end_all(each(&nearest.lanes::<L>(), |half| half.t));
         Self {
             rays,
@@ -51,9 +56,39 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
         self.unfinished
     }
 
+    /// What the rays have found, handed over by number.
     #[inline(always)]
-    pub fn answer<const ANY: bool>(&self, i: usize) -> Option<Hit> {
-        self.nearest.get(i).answer::<ANY>(&self.rays[i])
+    pub fn answer<const ANY: bool, L: EightLanes>(
+        &self,
+        level: Level,
+        packet: &RayPacket<L>,
+        mut answer: impl FnMut(usize, Option<Hit>),
+    ) {
+        if ANY || !T::Depth::LATE {
+            for (i, ray) in self.rays.iter().enumerate() {
+                answer(i, self.nearest.get(i).answer::<ANY>(ray));
+            }
+            return;
+        }
+        for half in 0..HALVES {
+            let (mut inputs, mut found) = (packet.inputs(half), 0);
+            for lane in 0..WIDTH {
+                let i = half * WIDTH + lane;
+                if self.nearest.has_found(i) {
+                    found |= 1 << lane;
+                    let own = self.nearest.depth(i).inputs(&self.rays[i]);
+                    for column in 0..9 {
+                        inputs[column][lane] = own[column];
+                    }
+                    inputs[15][lane] = own[15];
+                }
+            }
+            let ts = if found == 0 { [0.0; WIDTH] } else { last_bits::<T::Depth<'_>>(level, &inputs, found) };
+            for lane in 0..WIDTH {
+                let i = half * WIDTH + lane;
+                answer(i, (found >> lane & 1 == 1).then(|| Hit::new(ts[lane], self.nearest.id(i))));
+            }
+        }
     }
 
     /// Ray `i` for a search of its own: as its test wants it, where it starts and what it has found.
@@ -80,6 +115,7 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
     #[inline(always)]
     pub fn search<const ANY: bool, L: EightLanes>(
         &mut self,
+        first: usize,
         blocks: &'a [LeafBlock<T, WIDTH>],
         active: u16,
         packet: &mut RayPacket<L>,
@@ -87,47 +123,51 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
         // Ray by ray takes a step for each ray and block, triangle by triangle one for each triangle and half of the rays.
         let rays = active.count_ones();
         let triangles = || blocks.iter().map(LeafBlock::len).sum::<u32>();
-        let pays = T::ONE_STAGE && rays >= MANY && triangles() * HALVES as u32 <= rays * blocks.len() as u32;
-        if pays && self.triangle_by_triangle(blocks, active, packet) {
+        let pays = T::EIGHT && rays >= MANY && triangles() * HALVES as u32 <= rays * blocks.len() as u32;
+        let mut left = active;
+        if pays {
+            left = self.triangle_by_triangle(first, blocks, active, packet);
             if ANY {
                 self.unfinished &= !self.nearest.found();
+                left &= self.unfinished;
             }
-        } else {
-            self.ray_by_ray::<ANY, L>(blocks, active, packet);
+        }
+        if left != 0 {
+            self.ray_by_ray::<ANY, L>(first, blocks, left, packet);
         }
     }
 
     /// Triangle by triangle, half of the rays at once. Nothing is decided by a branch: whether some ray meets a triangle cannot be
-    /// predicted. False where the test cannot.
+    /// predicted. Returns the rays that have to look for themselves: all where the test has no such form.
     #[inline(always)]
     fn triangle_by_triangle<L: EightLanes>(
         &mut self,
+        first: usize,
         blocks: &'a [LeafBlock<T, WIDTH>],
         active: u16,
         packet: &mut RayPacket<L>,
-    ) -> bool {
+    ) -> u16 {
         let active = [L::mask(u32::from(active & 0xff)), L::mask(u32::from(active >> WIDTH))];
-        let halves = packet.halves();
+        let halves = [packet.half(0), packet.half(1)];
         let mut nearest = self.nearest.lanes::<L>();
-        for block in blocks {
+        let mut left = 0;
+        for (number, block) in (first..).zip(blocks) {
             for (lane, &id) in block.ids.iter().enumerate() {
                 if id == NONE {
                     break;
                 }
+                let place = (number * WIDTH + lane) as u32;
                 for half in 0..HALVES {
-                    let (origin, direction, t_min) = halves[half];
-                    let Some((met, t)) = T::intersect_rays(origin, direction, &block.triangles, lane) else {
-                        return false;
-                    };
-                    // An overflow may have made t NaN: such a lane hits nothing.
-                    let within = L::both(t_min.cmp_le(t), t.cmp_le(nearest[half].t));
-                    nearest[half].offer(L::both(L::both(met, active[half]), within), t, id);
+                    let to = nearest[half].t;
+                    if let Some(found) = T::meet_eight(&halves[half], &block.triangles, lane, to, active[half]) {
+                        left |= nearest[half].offer::<T>(active[half], &found, id, place) << (half * WIDTH);
+                    }
                 }
             }
         }
         self.nearest.set_lanes(&nearest);
         packet.end_all(each(&nearest, |half| half.t));
-        true
+        left as u16
     }
 
     /// Ray by ray, the triangles of a block at once. The candidates of all rays come before what is decided about them: whether there
@@ -136,13 +176,14 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
     #[inline(always)]
     fn ray_by_ray<const ANY: bool, L: EightLanes>(
         &mut self,
+        first: usize,
         blocks: &'a [LeafBlock<T, WIDTH>],
         active: u16,
         packet: &mut RayPacket<L>,
     ) {
         self.prepare(active);
         let mut searching = active;
-        for block in blocks {
+        for (number, block) in (first..).zip(blocks) {
             let (mut left, mut met) = (searching, 0);
             while left != 0 {
                 let i = left.trailing_zeros() as usize % RAYS;
@@ -163,7 +204,7 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
                 // SAFETY: written above for this block, as `met` says.
                 let candidates = unsafe { self.candidates[i].assume_init() };
                 // SAFETY: prepared, as all that take part.
-                unsafe { self.settle(block, i, candidates) };
+                unsafe { self.settle(number, block, i, candidates) };
                 if ANY && self.nearest.has_found(i) {
                     searching &= !(1 << i);
                 }
@@ -182,7 +223,13 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
     /// # Safety
     /// It is prepared.
     #[inline(always)]
-    unsafe fn settle(&mut self, block: &'a LeafBlock<T, WIDTH>, i: usize, (mut candidates, values): Candidates<T>) {
+    unsafe fn settle(
+        &mut self,
+        number: usize,
+        block: &'a LeafBlock<T, WIDTH>,
+        i: usize,
+        (mut candidates, values): Candidates<T>,
+    ) {
         if T::ONE_STAGE {
             // They are hits already: that needs no call.
             while candidates != 0 {
@@ -193,10 +240,26 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
                 self.nearest.offer(i, depth.expect("the first stage has decided").bound(), block.ids[lane]);
             }
         } else {
-            let mut nearest = self.nearest.get(i);
-            // SAFETY: prepared, as the caller says.
-            settle(block, unsafe { self.prepared(i) }, candidates, &values, &mut nearest);
-            self.nearest.set(i, nearest);
+            while candidates != 0 {
+                let lane = candidates.trailing_zeros() as usize % WIDTH;
+                let (id, place) = (block.ids[lane], (number * WIDTH + lane) as u32);
+                // A triangle of several leaves is met again.
+                let told = self.nearest.id(i) == id || {
+                    // SAFETY: prepared, as the caller says.
+                    match T::decide_at_once(unsafe { self.prepared(i) }, &block.triangles, lane, &values) {
+                        Some(Some(depth)) => self.nearest.offer_between(i, &depth, id, place),
+                        Some(None) => true,
+                        None => false,
+                    }
+                };
+                if !told {
+                    let mut nearest = self.nearest.get(i);
+                    // SAFETY: prepared, as the caller says.
+                    settle(block, unsafe { self.prepared(i) }, candidates, &values, &mut nearest);
+                    return self.nearest.set(i, nearest);
+                }
+                candidates &= candidates - 1;
+            }
         }
     }
 

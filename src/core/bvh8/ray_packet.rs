@@ -6,6 +6,7 @@ use super::prepared_ray::{ENLARGED, PreparedRay};
 use crate::geometry::{Aabb, Ray};
 use crate::simd::{EightLanes, LaneVec3, each};
 use crate::traversal::line::{after, lanes_after};
+use crate::triangle::{EightRays, INPUTS};
 
 /// A number of each ray.
 type Row = [[f32; WIDTH]; HALVES];
@@ -17,6 +18,10 @@ pub(super) struct RayPacket<L> {
     pub inverse: [[L; HALVES]; 3],
     pub enlarged: [[L; HALVES]; 3],
     pub t_min: [L; HALVES],
+    t_max: [L; HALVES],
+    /// The largest magnitude of a component of the directions, and of the origins.
+    longest: f32,
+    farthest: f32,
     ends: Row,
     pub octant: usize,
 }
@@ -31,6 +36,13 @@ fn numbers<L: EightLanes>(rays: &[Ray]) -> [L; 8] {
         *row = L::load(&[o.x, o.y, o.z, t_min, d.x, d.y, d.z, t_max]);
     }
     L::transpose(rows)
+}
+
+/// The greatest number of all lanes.
+#[inline(always)]
+fn greatest<L: EightLanes>(lanes: L) -> f32 {
+    let lanes = lanes.store();
+    lanes[1..].iter().fold(lanes[0], |most, &lane| if lane > most { lane } else { most })
 }
 
 impl<L: EightLanes> RayPacket<L> {
@@ -70,7 +82,13 @@ impl<L: EightLanes> RayPacket<L> {
         if good & 0xff != 0xff {
             return None;
         }
-        Some(Self { origin, direction, inverse, enlarged, t_min, ends: [[0.0; WIDTH]; HALVES], octant })
+        let largest = |[x, y, z]: &[[L; HALVES]; 3]| {
+            let of = |[low, high]: &[L; HALVES]| abs(*low).max(abs(*high));
+            greatest(of(x).max(of(y)).max(of(z)))
+        };
+        let (longest, farthest) = (largest(&direction), largest(&origin));
+        let ends = [[0.0; WIDTH]; HALVES];
+        Some(Self { origin, direction, inverse, enlarged, t_min, t_max, longest, farthest, ends, octant })
     }
 
     /// The rays that meet the box of `lane` before their ends, as bits.
@@ -119,13 +137,28 @@ impl<L: EightLanes> RayPacket<L> {
         self.ends = each(&t, |t| lanes_after(*t).store());
     }
 
-    /// Both halves of the rays: their origins, their directions and where they start.
+    /// What [`Depth::inputs`](crate::triangle::Depth::inputs) says of half of the rays.
     #[inline(always)]
-    pub fn halves(&self) -> [(LaneVec3<WIDTH, L>, LaneVec3<WIDTH, L>, L); HALVES] {
-        let half = |half: usize| {
-            let row = |[x, y, z]: &[[L; HALVES]; 3]| LaneVec3::new(x[half], y[half], z[half]);
-            (row(&self.origin), row(&self.direction), self.t_min[half])
-        };
-        [half(0), half(1)]
+    pub fn inputs(&self, half: usize) -> [[f32; WIDTH]; INPUTS] {
+        let mut inputs = [[0.0; WIDTH]; INPUTS];
+        for axis in 0..3 {
+            inputs[9 + axis] = self.origin[axis][half].store();
+            inputs[12 + axis] = self.direction[axis][half].store();
+        }
+        inputs
+    }
+
+    /// Half of the rays.
+    #[inline(always)]
+    pub fn half(&self, half: usize) -> EightRays<L> {
+        let row = |[x, y, z]: &[[L; HALVES]; 3]| LaneVec3::new(x[half], y[half], z[half]);
+        EightRays {
+            origin: row(&self.origin),
+            direction: row(&self.direction),
+            t_min: self.t_min[half],
+            t_max: self.t_max[half],
+            longest: self.longest,
+            farthest: self.farthest,
+        }
     }
 }

@@ -222,6 +222,12 @@ impl<const MASKS: bool> EightLanes for Avx<MASKS> {
     }
 
     #[inline(always)]
+    fn bits(mask: __m256) -> u32 {
+        // SAFETY: see above.
+        unsafe { _mm256_movemask_ps(mask) as u32 }
+    }
+
+    #[inline(always)]
     fn both(one: __m256, other: __m256) -> __m256 {
         // SAFETY: see above.
         unsafe { _mm256_and_ps(one, other) }

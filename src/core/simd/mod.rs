@@ -98,6 +98,8 @@ pub trait EightLanes: Lanes<8> {
     fn cmp_lt(self, other: Self) -> Self::Mask;
     /// The lanes of the bits that are set, lane 0 lowest.
     fn mask(bits: u32) -> Self::Mask;
+    /// The lanes of a mask as bits, lane 0 lowest.
+    fn bits(mask: Self::Mask) -> u32;
     /// The lanes of both masks.
     fn both(one: Self::Mask, other: Self::Mask) -> Self::Mask;
     /// The lanes of either mask.

@@ -182,6 +182,11 @@ impl EightLanes for Portable<8> {
     }
 
     #[inline(always)]
+    fn bits(mask: u32) -> u32 {
+        mask
+    }
+
+    #[inline(always)]
     fn both(one: u32, other: u32) -> u32 {
         one & other
     }

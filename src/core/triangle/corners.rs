@@ -33,6 +33,13 @@ impl<const N: usize> Corners<N> {
         [LaneVec3::load(a), LaneVec3::load(b), LaneVec3::load(c)]
     }
 
+    /// Those of one triangle in every lane.
+    #[inline(always)]
+    pub(super) fn splat<const M: usize, L: Lanes<M>>(&self, lane: usize) -> [LaneVec3<M, L>; 3] {
+        let [a, b, c] = &self.0;
+        [LaneVec3::splat_lane(a, lane), LaneVec3::splat_lane(b, lane), LaneVec3::splat_lane(c, lane)]
+    }
+
     /// One coordinate of the three corners.
     #[inline(always)]
     pub(super) fn axis<L: Lanes<N>>(&self, axis: usize) -> [L; 3] {

@@ -27,14 +27,17 @@ pub trait Depth: Copy {
         unreachable!("a depth whose `t` is late has inputs")
     }
 
-    /// The same bits as [`t`](Self::t), of the first `len` of eight hits, from their inputs. The other lanes repeat the first.
+    /// The same bits as [`t`](Self::t), of those of eight hits that `which` names as bits, from their inputs.
     #[inline(always)]
-    fn ts<L: EightLanes>(_inputs: &[[f32; 8]; INPUTS], _len: usize) -> [f32; 8] {
+    fn ts<L: EightLanes>(_inputs: &[[f32; 8]; INPUTS], _which: u32) -> [f32; 8] {
         unreachable!("a depth whose `t` is late computes those of eight hits")
     }
 
     /// A float that is not before the hit. What lies beyond it along the ray need not be looked at.
     fn bound(&self) -> f32;
+
+    /// A float that is not behind it.
+    fn least(&self) -> f32;
 }
 
 /// What an `f32` test computes, which is never NaN.
@@ -56,6 +59,11 @@ impl Depth for f32 {
 
     #[inline(always)]
     fn bound(&self) -> f32 {
+        *self
+    }
+
+    #[inline(always)]
+    fn least(&self) -> f32 {
         *self
     }
 }

@@ -2,17 +2,24 @@
 
 use glam::{Vec3, Vec3Swizzles as _};
 
-use super::Corners;
 use super::corners::Place;
+use super::{Corners, EightMet, EightRays};
 use crate::geometry::Ray;
-use crate::simd::{LaneVec3, Lanes};
+use crate::simd::{EightLanes, LaneVec3, Lanes};
 
 /// A ray as the first stage sees it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FilterRay {
     origin: Vec3,
-    /// The direction, a power of two times longer: its largest component is in [1, 2), or below 1 for denormal directions.
+    /// The direction, scaled.
     scaled: Vec3,
+    scaling: Scaling,
+}
+
+/// By how much the directions of rays are scaled: by a power of two, so that the largest component of all is in [1, 2), or below 1 if it is
+/// denormal.
+#[derive(Clone, Copy, Debug)]
+struct Scaling {
     /// The scaled direction is so many times as long as the direction, which is so many times as long as the scaled one.
     scale: f32,
     unscaled: f32,
@@ -72,18 +79,26 @@ const _: () = assert!(TINY.is_normal());
 /// Coordinates up to here cannot overflow: with them E is at most 2^41, |s| below 2^43, and no intermediate exceeds 2 E E |s|.
 const LARGE: f32 = (1_u64 << 40) as f32;
 
-impl FilterRay {
+impl Scaling {
+    /// For directions and origins whose components are at most so large.
     #[inline(always)]
-    pub fn new(ray: &Ray) -> Self {
+    fn new(longest: f32, farthest: f32) -> Self {
         // Multiply by two to the negative exponent of the largest component: exact, but for components that become denormal.
-        let exponent = ray.direction.abs().max_element().to_bits() >> 23;
+        let exponent = longest.to_bits() >> 23;
         let scale = match exponent {
             254 => f32::MIN_POSITIVE / 2.0,
             _ => f32::from_bits((254 - exponent.max(1)) << 23),
         };
-        let tiny = if ray.origin.abs().max_element() <= LARGE { TINY } else { f32::INFINITY };
-        let unscaled = f32::from_bits(exponent.max(1) << 23);
-        Self { origin: ray.origin, scaled: ray.direction * scale, scale, unscaled, tiny }
+        let tiny = if farthest <= LARGE { TINY } else { f32::INFINITY };
+        Self { scale, unscaled: f32::from_bits(exponent.max(1) << 23), tiny }
+    }
+}
+
+impl FilterRay {
+    #[inline(always)]
+    pub fn new(ray: &Ray) -> Self {
+        let scaling = Scaling::new(ray.direction.abs().max_element(), ray.origin.abs().max_element());
+        Self { origin: ray.origin, scaled: ray.direction * scaling.scale, scaling }
     }
 }
 
@@ -123,21 +138,27 @@ impl<L> Survivors<L> {
     where
         L: Lanes<N>,
     {
+        let ([inside, certain], [low, high]) = self.look();
+        Sights { sure: inside[0].lt(inside[1]) & certain[0].lt(certain[1]), low: low.store(), high: high.store() }
+    }
+
+    /// Two pairs: where the first is below the second in both, the line certainly meets the triangle at an exact `t` between the two bounds that
+    /// come after.
+    #[inline(always)]
+    fn look<const N: usize>(&self) -> ([[L; 2]; 2], [L; 2])
+    where
+        L: Lanes<N>,
+    {
         let &Self { height, height_error, abs_det, least, slack, area, underflow, scale } = self;
         let det_error = area.mul_add_loosely(L::splat(DETERMINANT), underflow);
-        let inside = slack.lt(least);
-        let certain = det_error.mul(L::splat(16.0)).lt(abs_det);
         let inverse = L::splat(1.0).div(abs_det);
         let t = height.mul(inverse);
         let abs_t = t.flip_sign(t);
         let error = abs_t.mul_add_loosely(det_error, height_error).mul(inverse.mul(L::splat(9.0 / 8.0)));
         let error = abs_t.mul_add_loosely(L::splat(8.0 * UNIT), error);
         let (scale, tiny) = (L::splat(scale), L::splat(TINY));
-        Sights {
-            sure: inside & certain,
-            low: t.sub(error).mul(scale).sub(tiny).store(),
-            high: t.add(error).mul(scale).add(tiny).store(),
-        }
+        let bounds = [t.sub(error).mul(scale).sub(tiny), t.add(error).mul(scale).add(tiny)];
+        ([[slack, least], [det_error.mul(L::splat(16.0)), abs_det]], bounds)
     }
 }
 
@@ -171,9 +192,55 @@ pub(super) fn survivors<const N: usize, L: Lanes<N>>(
     block: &FilterBlock<N>,
     to: f32,
 ) -> (u32, Survivors<L>) {
-    let direction = LaneVec3::splat(ray.scaled);
-    let [a, b, c] = block.corners.load::<L>();
-    let to_origin = LaneVec3::splat(ray.origin) - a;
+    let last = L::splat((to.max(f32::MIN_POSITIVE) * ray.scaling.unscaled).max(f32::MIN_POSITIVE));
+    let (origin, direction) = (LaneVec3::splat(ray.origin), LaneVec3::splat(ray.scaled));
+    let (extents, areas) = (L::load(&block.extents), L::load(&block.areas));
+    let (signs, survivors) = survive(origin, direction, ray.scaling, block.corners.load::<L>(), [extents, areas], last);
+    (!signs.lt(L::zero()) & ((1_u64 << N) - 1) as u32, survivors)
+}
+
+/// As [`survivors`], for eight rays and the triangle in one lane of a block: what of the triangle is certain is the same for a ray alone, but where the
+/// directions differ in length, of which fewer are.
+#[inline(always)]
+pub(super) fn survive_eight<const N: usize, L: EightLanes>(
+    rays: &EightRays<L>,
+    block: &FilterBlock<N>,
+    lane: usize,
+    to: L,
+    active: L::Mask,
+) -> Option<EightMet<L>> {
+    let scaling = Scaling::new(rays.longest, rays.farthest);
+    let least = L::splat(f32::MIN_POSITIVE);
+    let last = to.max(least).mul(L::splat(scaling.unscaled)).max(least);
+    let scale = L::splat(scaling.scale);
+    let LaneVec3 { x, y, z, .. } = rays.direction;
+    let direction = LaneVec3::new(x.mul(scale), y.mul(scale), z.mul(scale));
+    let sizes = [L::splat(block.extents[lane]), L::splat(block.areas[lane])];
+    let (signs, survivors) = survive(rays.origin, direction, scaling, block.corners.splat(lane), sizes, last);
+    let rejected = signs.cmp_lt(L::zero());
+    if L::bits(active) & !L::bits(rejected) == 0 {
+        return None;
+    }
+    let ([inside, certain], [low, high]) = survivors.look();
+    let sure = L::both(inside[0].cmp_lt(inside[1]), certain[0].cmp_lt(certain[1]));
+    let within = L::both(rays.t_min.cmp_le(low), high.cmp_lt(rays.t_max));
+    let without = L::either(high.cmp_lt(rays.t_min), rays.t_max.cmp_le(low));
+    let missed = L::either(rejected, L::both(sure, without));
+    Some(EightMet { met: L::both(sure, within), missed, low, high })
+}
+
+/// The same of lines and triangles, lane by lane, the latter by their corners, extents and areas: where the first answer is negative, the line does not meet
+/// the triangle at a `t`, for the scaled direction, up to `last`.
+#[inline(always)]
+fn survive<const N: usize, L: Lanes<N>>(
+    origin: LaneVec3<N, L>,
+    direction: LaneVec3<N, L>,
+    scaling: Scaling,
+    [a, b, c]: [LaneVec3<N, L>; 3],
+    [extent, area]: [L; 2],
+    last: L,
+) -> (L, Survivors<L>) {
+    let to_origin = origin - a;
     let (edge1, edge2) = (b - a, c - a);
 
     // Möller-Trumbore without the division. Fusing leaves out roundings, which the bound need not know.
@@ -184,9 +251,8 @@ pub(super) fn survivors<const N: usize, L: Lanes<N>>(
     let v = direction.dot_loosely(q).flip_sign(det);
     let abs_det = det.flip_sign(det);
 
-    let extent = L::load(&block.extents);
     let distance = to_origin.abs_sum();
-    let tiny = L::splat(ray.tiny);
+    let tiny = L::splat(scaling.tiny);
     let slack = distance.add(extent.add(extent)).mul_add_loosely(extent.mul_add_loosely(L::splat(SLACK), tiny), tiny);
     // A NaN in u or v makes the third one, which wins.
     let least = u.min(v).min(abs_det.sub(u.add(v)));
@@ -194,14 +260,13 @@ pub(super) fn survivors<const N: usize, L: Lanes<N>>(
 
     // In any case, also where no lane is left: whether one is cannot be predicted, and one guess a block is enough.
     let height = edge2.dot_loosely(q).flip_sign(det);
-    let (area, underflow) = (L::load(&block.areas), extent.mul_add_loosely(tiny, tiny));
+    let underflow = extent.mul_add_loosely(tiny, tiny);
     let height_error = area.mul_add_loosely(distance, underflow);
     let behind = slack.sub(abs_det).max(height.add(height_error));
-    let last = L::splat((to.max(f32::MIN_POSITIVE) * ray.unscaled).max(f32::MIN_POSITIVE));
     let beyond = slack.mul_add_loosely(last, height_error).add(last.mul_sub_loosely(abs_det, height));
 
     // Each is negative where it rejects, or NaN where it cannot tell: then it wins, or another does. The extent of lanes left over is negative.
-    let rejected = beyond.min(behind).min(outside).min(extent).lt(L::zero());
-    let survivors = Survivors { height, height_error, abs_det, least, slack, area, underflow, scale: ray.scale };
-    (!rejected & ((1_u64 << N) - 1) as u32, survivors)
+    let signs = beyond.min(behind).min(outside).min(extent);
+    let scale = scaling.scale;
+    (signs, Survivors { height, height_error, abs_det, least, slack, area, underflow, scale })
 }

@@ -11,6 +11,7 @@ mod baldwin_weber;
 mod corners;
 mod depth;
 mod edge_f64;
+mod eight_rays;
 mod exact;
 mod filter;
 mod moller_trumbore;
@@ -28,6 +29,7 @@ pub use baldwin_weber::BaldwinWeber;
 pub use corners::Corners;
 pub use depth::{Depth, INPUTS};
 pub use edge_f64::EdgeF64;
+pub use eight_rays::{EightMet, EightRays};
 pub use exact::Exact;
 pub use moller_trumbore::MollerTrumbore;
 pub use moller_trumbore_f64::MollerTrumboreF64;
@@ -35,7 +37,7 @@ pub use plucker::Plucker;
 pub use watertight::Watertight;
 
 use crate::geometry::Ray;
-use crate::simd::{EightLanes, LaneVec3, Lanes, Portable};
+use crate::simd::{EightLanes, Lanes, Portable};
 
 /// A way to decide whether and where a ray meets a triangle.
 ///
@@ -146,17 +148,26 @@ pub trait TriangleTest: Send + Sync + 'static {
     /// says so, and takes longer to compile than all else.
     const BATCHED: bool = false;
 
-    /// The first stage for eight rays and one triangle, the one in `lane` of a block: the rays, given by origin and direction, whose lines
-    /// meet it, and where. The same bits as of [`candidates`](Self::candidates), but that the interval is left to the caller, and a `t` may be
-    /// NaN where a line is met. Nothing where the test has no such form, or more than [one stage](Self::ONE_STAGE).
+    /// Whether the test has the form [`meet_eight`](Self::meet_eight).
+    const EIGHT: bool = false;
+
+    /// Eight rays and one triangle, the one in `lane` of a block: what those of `active` find of it at a `t` up to `to`, as far as one look tells.
+    /// Nothing if all of them miss it.
     #[inline(always)]
-    fn intersect_rays<const N: usize, L: EightLanes>(
-        _origin: LaneVec3<8, L>,
-        _direction: LaneVec3<8, L>,
+    fn meet_eight<const N: usize, L: EightLanes>(
+        _rays: &EightRays<L>,
         _block: &Self::Block<N>,
         _lane: usize,
-    ) -> Option<(L::Mask, L)> {
-        None
+        _to: L,
+        _active: L::Mask,
+    ) -> Option<EightMet<L>> {
+        unreachable!("a test that has this form writes it")
+    }
+
+    /// The depth of a hit that [`meet_eight`](Self::meet_eight) has found between two bounds, where [`Depth::of`] does not know it.
+    #[inline(always)]
+    fn depth_between<const N: usize>(_block: &Self::Block<N>, _lane: usize, _low: f32, _high: f32) -> Self::Depth<'_> {
+        unreachable!("a depth that takes more than a float is made by its test")
     }
 
     /// The scalar form: the hit of one triangle at a `t` in [`from`, `to`].

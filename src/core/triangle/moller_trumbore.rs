@@ -1,6 +1,6 @@
 use glam::Vec3;
 
-use super::TriangleTest;
+use super::{EightMet, EightRays, TriangleTest};
 use crate::geometry::Ray;
 use crate::simd::{EightLanes, LaneVec3, Lanes};
 
@@ -58,6 +58,7 @@ fn solve<const N: usize, L: Lanes<N>>(
 impl TriangleTest for MollerTrumbore {
     const NAME: &'static str = "moller-trumbore";
     const BATCHED: bool = true;
+    const EIGHT: bool = true;
 
     type Ray = (Vec3, Vec3);
     type Block<const N: usize> = Edges<N>;
@@ -102,18 +103,22 @@ impl TriangleTest for MollerTrumbore {
     const ONE_STAGE: bool = true;
 
     #[inline(always)]
-    fn intersect_rays<const N: usize, L: EightLanes>(
-        origin: LaneVec3<8, L>,
-        direction: LaneVec3<8, L>,
+    fn meet_eight<const N: usize, L: EightLanes>(
+        rays: &EightRays<L>,
         block: &Edges<N>,
         lane: usize,
-    ) -> Option<(L::Mask, L)> {
-        let to_origin = origin - LaneVec3::splat_lane(&block.corner, lane);
+        to: L,
+        _active: L::Mask,
+    ) -> Option<EightMet<L>> {
+        let to_origin = rays.origin - LaneVec3::splat_lane(&block.corner, lane);
         let edges = [LaneVec3::splat_lane(&block.edge1, lane), LaneVec3::splat_lane(&block.edge2, lane)];
-        let Solution { u, v, abs_det, t } = solve(direction, to_origin, edges);
+        let Solution { u, v, abs_det, t } = solve(rays.direction, to_origin, edges);
         let zero = L::zero();
         let barycentrics = L::both(zero.cmp_le(u), zero.cmp_le(v));
         let inside = L::both(u.add(v).cmp_le(abs_det), zero.cmp_lt(abs_det));
-        Some((L::both(barycentrics, inside), t))
+        // An overflow may have made t NaN: such a lane hits nothing.
+        let within = L::both(rays.t_min.cmp_le(t), t.cmp_le(to));
+        let met = L::both(L::both(barycentrics, inside), within);
+        Some(EightMet { met, missed: L::mask(0), low: t, high: t })
     }
 }

@@ -1,12 +1,12 @@
 //! What the tests of triangle tests have in common: numbers, rays and triangles.
 
 mod closed;
+mod eight_rays;
 mod every;
 mod exact;
 mod f64_bounds;
 mod filter;
 mod intervals;
-mod moller_trumbore;
 
 use glam::Vec3;
 use rand_core::{RngCore, SeedableRng};

@@ -116,14 +116,14 @@ impl Depth for ExactDepth<'_> {
     }
 
     #[inline(always)]
-    fn ts<L: EightLanes>(inputs: &[[f32; 8]; INPUTS], len: usize) -> [f32; 8] {
+    fn ts<L: EightLanes>(inputs: &[[f32; 8]; INPUTS], which: u32) -> [f32; 8] {
         let vector = |first: usize| LaneVec3::load(&[inputs[first], inputs[first + 1], inputs[first + 2]]);
         let (low, high) =
             pass_plane::<8, L>(vector(9), vector(12), [vector(0), vector(3), vector(6)], L::load(&inputs[15]));
         let (low, high) = (L::narrow(low), L::narrow(high));
-        let (told, mut ts) = (high.le(low), high.store());
-        if told != 0xff {
-            for (lane, t) in ts[..len].iter_mut().enumerate().filter(|(lane, _)| told >> lane & 1 == 0) {
+        let (untold, mut ts) = (which & !high.le(low), high.store());
+        if untold != 0 {
+            for (lane, t) in ts.iter_mut().enumerate().filter(|(lane, _)| untold >> lane & 1 == 1) {
                 let vector = |first: usize| Vec3::from_array(indexed(|axis| inputs[first + axis][lane]));
                 let (ray, corners) = (Ray::new(vector(9), vector(12)), [vector(0), vector(3), vector(6)]);
                 *t = rounded(seen(&ray, corners)).unwrap_or_else(|| exact_t(&ray, corners));
@@ -135,6 +135,11 @@ impl Depth for ExactDepth<'_> {
     #[inline(always)]
     fn bound(&self) -> f32 {
         self.high
+    }
+
+    #[inline(always)]
+    fn least(&self) -> f32 {
+        self.low
     }
 }
 

@@ -9,12 +9,12 @@ use glam::Vec3;
 
 pub use exact_depth::ExactDepth;
 
-use super::TriangleTest;
 use super::corners::Place;
-use super::filter::{FilterBlock, FilterRay, Sights, Survivors, survivors};
+use super::filter::{FilterBlock, FilterRay, Sights, Survivors, survive_eight, survivors};
+use super::{EightMet, EightRays, TriangleTest};
 use crate::exact;
 use crate::geometry::{Ray, round_down, round_up};
-use crate::simd::{Arithmetic, LaneVec3, Lanes, Portable, each};
+use crate::simd::{Arithmetic, EightLanes, LaneVec3, Lanes, Portable, each};
 use enclosure::{Sight, look, place, place_closely};
 
 /// Exact answers at the price of a filter: what the `f32` stage cannot decide is decided in `f64` with a bound on its error, and what
@@ -44,6 +44,7 @@ pub struct ExactRay {
 impl TriangleTest for Exact {
     const NAME: &'static str = "exact";
     const BATCHED: bool = true;
+    const EIGHT: bool = true;
 
     type Ray = ExactRay;
     type Block<const N: usize> = FilterBlock<N>;
@@ -131,6 +132,22 @@ impl TriangleTest for Exact {
             (candidates & sights.sure) >> lane & 1 == 1 && overlaps(sights.low[*lane], sights.high[*lane])
         };
         ((0..N).filter(unclear).count() > 2).then(|| crowd(&ray.ray, block, candidates, sights, nearest))
+    }
+
+    #[inline(always)]
+    fn meet_eight<const N: usize, L: EightLanes>(
+        rays: &EightRays<L>,
+        block: &FilterBlock<N>,
+        lane: usize,
+        to: L,
+        active: L::Mask,
+    ) -> Option<EightMet<L>> {
+        survive_eight(rays, block, lane, to, active)
+    }
+
+    #[inline(always)]
+    fn depth_between<const N: usize>(block: &FilterBlock<N>, lane: usize, low: f32, high: f32) -> ExactDepth<'_> {
+        ExactDepth::new(block.place(lane), low, high)
     }
 
     #[inline(always)]
