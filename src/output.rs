@@ -57,12 +57,23 @@ impl OutputFile {
         if file.is_stdout() {
             return if TO_STDOUT.swap(true, Ordering::Relaxed) { Err(OutputError::Twice) } else { Ok(file) };
         }
+        Self::check_place(path)?;
+        Ok(file)
+    }
+
+    /// The same of the place alone, as often as one likes: standard output is not taken by it.
+    ///
+    /// # Errors
+    /// If `path` is a directory, or its directory takes no file.
+    pub fn check_place(path: &Path) -> Result<(), OutputError> {
+        let file = Self { path: path.into() };
         match fs::metadata(path) {
+            _ if file.is_stdout() => {}
             Ok(there) if there.is_dir() => return Err(OutputError::Directory(path.into())),
             Ok(there) if !there.is_file() => {}
             _ => drop(file.beside().map_err(|cause| file.error(cause))?),
         }
-        Ok(file)
+        Ok(())
     }
 
     /// The same, if it is none of `inputs`, the files that its contents are made from.

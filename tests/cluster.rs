@@ -29,6 +29,7 @@ fn wants_slurm() -> bool {
 }
 
 #[test]
+#[ignore = "minutes: it measures a plan twice, job by job"]
 fn snakemake_on_this_machine() {
     if !has_snakemake() {
         println!("skipped: there is no snakemake on the path");

@@ -50,6 +50,12 @@ struct Files {
 }
 
 impl Common {
+    /// Refuses files that cannot be written. Scenes take seconds to load, and only then it is known what the files must not be.
+    fn check_places(&self) -> anyhow::Result<()> {
+        let exports = [&self.export_json, &self.export_csv, &self.export_markdown].into_iter().flatten();
+        exports.chain(&self.plot).try_for_each(|path| Ok(OutputFile::check_place(path)?))
+    }
+
     /// Checks all files before the long run; none of them is one of `inputs`.
     fn check(&self, inputs: &[PathBuf]) -> anyhow::Result<Files> {
         let file = |path: &PathBuf| -> anyhow::Result<OutputFile> {
@@ -101,6 +107,7 @@ pub fn run_as(session: &Session, study: &dyn AnyStudy, chosen: Chosen, common: &
         "study {} has no picture: leave --plot out",
         study.name()
     );
+    common.check_places()?;
     let mut files = Files::default();
     let measured = study.run(chosen, &mut run, &mut |inputs| {
         files = common.check(inputs)?;

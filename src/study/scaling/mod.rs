@@ -61,12 +61,14 @@ impl Study for ScalingStudy {
         let structures = with_twin(args.structures.chosen(registry, &STRUCTURES)?);
         let asked = args.rays.asked(&[WorkloadKind::Primary, WorkloadKind::Random]);
         let settings = args.measuring.settings(registry, structures, asked)?;
+        // Before the spheres, for they may not be there.
+        let meshes = args.scenes.read(&["dragon", "lucy", "sponza"])?;
         let levels: Vec<String> = (0..=args.finest).map(name).collect();
         // The finest take seconds to make.
         let wanted = sources::wanted(&levels).filter_map(|name| levels.iter().position(|level| level == name));
         let mut scenes: Vec<Scene> = wanted.map(|level| sphere(level as u32)).collect::<Result<_, _>>()?;
         let spheres = scenes.len();
-        scenes.extend(args.scenes.read(&["dragon", "lucy", "sponza"])?);
+        scenes.extend(meshes);
         let family = move |scene: usize| if scene < spheres { Family::Spheres } else { Family::Meshes };
         let wrap = move |scene, _: &Scene, epoch| Ok(FamilyEpoch { family: family(scene), epoch });
         let plan = settings.plan_of(scenes, args.measuring.epochs, wrap);
