@@ -1,5 +1,7 @@
 //! Where a line meets a triangle, in integers, where all bits in use lie within forty places: several times as fast as sums of floats.
 
+use std::cmp::Ordering;
+
 use glam::Vec3;
 
 use super::ExactT;
@@ -41,6 +43,13 @@ pub(super) fn hit(ray: &Ray, corners: [Vec3; 3]) -> Option<Option<ExactT>> {
     }))
 }
 
+/// As [`side`](super::side), where the numbers fit.
+pub(super) fn side(ray: &Ray, [p, q]: [Vec3; 2]) -> Option<Ordering> {
+    let ([origin, p, q], _) = integers([ray.origin, p, q])?;
+    let ([direction], _) = integers([ray.direction])?;
+    Some(dot(direction, cross(minus(p, origin), minus(q, origin))).cmp(&0))
+}
+
 /// As [`height`](super::height), where the numbers fit.
 pub(super) fn height(origin: Vec3, [a, b, c]: [Vec3; 3]) -> Option<f64> {
     let ([origin, a, b, c], unit) = integers([origin, a, b, c])?;
@@ -80,7 +89,7 @@ fn dot(p: [i64; 3], q: [i128; 3]) -> i128 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::hit_by_sums;
+    use super::super::{difference, direction, hit_by_sums, side_by_sums};
     use super::*;
 
     /// Numbers of a coarse grid, so that much is coplanar, on edges and at corners; and of a fine one.
@@ -103,6 +112,9 @@ mod tests {
                 None => others += 1,
                 Some(found) => {
                     assert_eq!(found, right, "{ray:?} {corners:?}");
+                    let edge = [corners[0], corners[1]];
+                    let [p, q] = edge.map(|corner| difference(corner, ray.origin));
+                    assert_eq!(side(&ray, edge), Some(side_by_sums(&direction(&ray), &p, &q)), "{ray:?} {edge:?}");
                     if let (Some(found), Some(right)) = (found, right) {
                         assert_eq!(found.round().to_bits(), right.round().to_bits());
                         hits += 1;

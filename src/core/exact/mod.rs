@@ -49,6 +49,27 @@ pub fn height(origin: Vec3, corners: [Vec3; 3]) -> f64 {
     integers::height(origin, corners).unwrap_or_else(of_sums)
 }
 
+/// On which side the line of `ray` passes the line through two points: the sign of direction . ((p - origin) x (q - origin)). Equal where the two
+/// lines meet, or are parallel. For finite numbers.
+///
+/// Costs a sixth of [`hit`].
+pub fn side(ray: &Ray, edge: [Vec3; 2]) -> Ordering {
+    let of_sums = || {
+        let [p, q] = edge.map(|corner| difference(corner, ray.origin));
+        side_by_sums(&direction(ray), &p, &q)
+    };
+    integers::side(ray, edge).unwrap_or_else(of_sums)
+}
+
+/// The same for points that are given from the origin.
+fn side_by_sums(direction: &[Expansion; 3], p: &[Expansion; 3], q: &[Expansion; 3]) -> Ordering {
+    Expansion::dot(direction, &cross(p, q)).sign()
+}
+
+fn direction(ray: &Ray) -> [Expansion; 3] {
+    ray.direction.to_array().map(|x| Expansion::from(f64::from(x)))
+}
+
 fn difference(p: Vec3, q: Vec3) -> [Expansion; 3] {
     std::array::from_fn(|axis| Expansion::difference(p[axis].into(), q[axis].into()))
 }
@@ -63,12 +84,11 @@ fn normal([a, b, c]: [Vec3; 3]) -> [Expansion; 3] {
 
 /// [`hit`] for all finite numbers, in sums of floats.
 fn hit_by_sums(ray: &Ray, corners: [Vec3; 3]) -> Option<ExactT> {
-    let direction = ray.direction.to_array().map(|x| Expansion::from(f64::from(x)));
-
+    let direction = direction(ray);
     let [a, b, c] = corners.map(|corner| difference(corner, ray.origin));
     let (mut left, mut right) = (false, false);
     for (p, q) in [(&c, &b), (&a, &c), (&b, &a)] {
-        match Expansion::dot(&direction, &cross(p, q)).sign() {
+        match side_by_sums(&direction, p, q) {
             Ordering::Less => left = true,
             Ordering::Greater => right = true,
             Ordering::Equal => {}

@@ -52,14 +52,29 @@ pub(super) fn look(ray: &Ray, corners: [Vec3; 3]) -> Sight {
     }
     let certain = (u.abs() > side_error) & (v.abs() > side_error) & (w.abs() > third_error);
     let det_error = 48.0 * unit * extent;
-    if !certain || det.abs() < 1024.0 * det_error {
+    if det.abs() < 1024.0 * det_error || det == 0.0 {
         return Sight::Unclear;
+    }
+    if !certain && passes_by(ray, corners, det, [(u, side_error), (v, side_error), (w, third_error)]) {
+        return Sight::Miss;
     }
 
     let height_error = 20.0 * UNIT * extent * extent * distance;
     let lane = Portable::<1, f64>::splat;
     let (low, high) = divide(lane(edge2.dot(q)), lane(height_error), lane(det), lane(det_error));
     Sight::Hit { low: low.store()[0], high: high.store()[0] }
+}
+
+/// Whether the line passes the triangle by, from det, the sign of which is certain, and u, v and w with their errors, in the notation of [`look`]: whether one of
+/// these has not the sign of det, which is their sum. A ray through an edge is not certain of that edge alone.
+#[cold]
+fn passes_by(ray: &Ray, [a, b, c]: [Vec3; 3], det: f64, sides: [(f64, f64); 3]) -> bool {
+    let sign = det.total_cmp(&0.0);
+    let mut edges = sides.into_iter().zip([[a, c], [b, a], [c, b]]);
+    edges.any(|((x, error), edge)| {
+        let side = if x.abs() > error { x.total_cmp(&0.0) } else { exact::side(ray, edge) };
+        side == sign.reverse()
+    })
 }
 
 /// As [`look`], where lines are known to meet their triangles, one in each lane: the lanes where there are bounds of the exact `t`, as

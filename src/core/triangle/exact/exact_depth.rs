@@ -67,7 +67,11 @@ impl<'a> ExactDepth<'a> {
             }
             _ => None,
         };
-        order(seen).or_else(|| order(place_closely)).unwrap_or_else(|| self.exact(ray).cmp(&other.exact(ray)))
+        let equal = || meet_at_an_edge(ray, &own, &others).then_some(Ordering::Equal);
+        order(seen)
+            .or_else(equal)
+            .or_else(|| order(place_closely))
+            .unwrap_or_else(|| self.exact(ray).cmp(&other.exact(ray)))
     }
 }
 
@@ -78,6 +82,15 @@ fn surely_coplanar(a: &[Vec3; 3], b: &[Vec3; 3]) -> bool {
     let first = a[0];
     let level = |axis: usize| a.iter().chain(b).all(|p| p[axis] == first[axis]);
     a.iter().all(|p| b.contains(p)) && b.iter().all(|p| a.contains(p)) || (0..3).any(level)
+}
+
+/// Whether a line that is known to meet two triangles meets both in an edge that they share, at the same `t`.
+fn meet_at_an_edge(ray: &Ray, a: &[Vec3; 3], b: &[Vec3; 3]) -> bool {
+    let shared = |edge: &[Vec3; 2]| b.contains(&edge[0]) && b.contains(&edge[1]);
+    [[a[0], a[1]], [a[1], a[2]], [a[2], a[0]]]
+        .into_iter()
+        .find(shared)
+        .is_some_and(|edge| exact::side(ray, edge).is_eq())
 }
 
 impl Depth for ExactDepth<'_> {
