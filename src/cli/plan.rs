@@ -1,5 +1,6 @@
 //! `study plan`: studies as jobs that need each other in nothing, for the machines of a cluster.
 
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 use super::study::RUNS;
@@ -84,7 +85,9 @@ pub fn run(session: &Session, args: &Args, level: Option<Level>) -> anyhow::Resu
         names.iter().map(|name| super::find(suite, name)).collect::<anyhow::Result<_>>()?
     };
     let mut lines = String::new();
-    for study in studies {
+    // Two jobs of one case would write one file.
+    let mut seen = HashSet::new();
+    for study in studies.into_iter().filter(|study| seen.insert(study.name())) {
         if study.is_last() {
             told(
                 terminal.quiet,

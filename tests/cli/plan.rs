@@ -334,3 +334,10 @@ fn a_plan_takes_no_option_that_writes_what_came_of_a_study() {
         refuses_in_a_line(&[&["study", "plan"], &SMALL[..], option].concat(), &["--", "once all jobs are done"]);
     }
 }
+
+#[test]
+fn a_study_that_is_named_twice_is_planned_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let planned = |names: &[&str]| plan(folder.path(), &[names, &["--scenes", "cube"]].concat());
+    assert_eq!(planned(&["counts", "counts"]), planned(&["counts"]));
+}
