@@ -112,6 +112,9 @@ fn measure(
     run.screen.warn(gone_on.as_slice());
     run.screen.warn(&plan.warnings);
     run.screen.warn(Provenance::of(&plan.threads).too_many_threads().as_slice());
+    if before < all {
+        plan.threads.are_given().map_err(StudyError::Threads)?;
+    }
     let clock = SystemClock::start();
     let epochs = plan.cases.iter().map(|case| case.epoch + 1).max().unwrap_or(0);
     let (mut failure, mut over) = (None, vec![]);

@@ -13,7 +13,7 @@ pub enum StudyError {
     Unsteady { structure: String, scene: String, rays: String, cause: UnsteadyAnswers },
     #[error("{structure} on {scene}: {PANICKED}")]
     Panicked { structure: String, scene: String },
-    #[error("the system gives no thread to trace on: {0}")]
+    #[error("{0}")]
     Threads(String),
     #[error("the study needs a structure that is not registered as it expects: {0}")]
     Structure(#[from] ChoiceError),
