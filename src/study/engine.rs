@@ -183,7 +183,11 @@ fn measure(
     stopped &= left > 0;
 
     // The journal may hold other scenes as well: those asked for are shown.
-    let Joined { cases, unchecked, failures, .. } = joined(study, plan, &journal, |_| true);
+    let Joined { mut cases, unchecked, failures, .. } = joined(study, plan, &journal, |_| true);
+    let says_nothing = |case: &mut Box<dyn AnyCase>| case.epoch().is_some_and(|(epoch, _)| epoch.says_nothing());
+    if !stopped && !cases.is_empty() && cases.iter_mut().all(says_nothing) {
+        return Err(StudyError::Nothing.into());
+    }
     failure = failure.or(failures.into_iter().next());
     if let (true, Some(error)) = (cases.is_empty(), failure.take_if(|_| cases.is_empty())) {
         return Err(error.into());
