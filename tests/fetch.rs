@@ -323,7 +323,10 @@ fn the_command_shows_the_licence_before_it_fetches() {
 
     let (code, printed, _) = run(&scene("/mesh.obj", &hash), &["--list"]);
     assert!(code == Some(0) && printed.contains("licence: free for tests") && server.asked().is_empty(), "{printed}");
-    let (code, printed, errors) = run(&scene("/mesh.obj", &hash), &[]);
+    let file = scene("/mesh.obj", &hash);
+    let (_, printed, _) = run(&file, &["--list", file.to_str().unwrap()]);
+    assert_eq!(printed.matches("licence:").count(), 1, "{printed}");
+    let (code, printed, errors) = run(&file, &[]);
     assert_eq!(code, Some(0), "{errors}");
     assert!(printed.find("free for tests").unwrap() < printed.find("SHA-256 verified").unwrap(), "{printed}");
     assert_eq!(fs::read(data.join("mesh.obj")).unwrap(), mesh());

@@ -21,7 +21,7 @@ use crate::study::epoch::{Epoch, Settings, troubles};
 use crate::study::history;
 use crate::study::job::Job;
 use crate::study::process;
-use crate::study::{AnyStudy, BRUTE_FORCE, Chosen, Plan, Screen, Status, Study as _};
+use crate::study::{AnyStudy, BRUTE_FORCE, Chosen, Plan, Screen, Status, Study as _, StudyError};
 
 /// Options about runs that are kept.
 #[derive(Clone, Debug, clap::Args)]
@@ -109,7 +109,7 @@ fn gated_plan(registry: &Registry, matches: &ArgMatches) -> anyhow::Result<(Comp
     if matches.value_source("budget") == Some(ValueSource::DefaultValue) {
         settings.budget_ns = u64::MAX;
     }
-    if args.structures.structure.is_empty() {
+    if args.structures.structure.is_empty() && !args.named().names_brute_force() {
         settings.structures.retain(|choice| choice.entry.name != BRUTE_FORCE);
     }
     let most = args.measuring.epochs.saturating_mul(MOST);
@@ -163,10 +163,7 @@ fn gated(session: &Session, gate: &Gate, matches: &ArgMatches) -> anyhow::Result
             break (compared, comparison);
         }
     };
-    anyhow::ensure!(
-        !compared.records.is_empty(),
-        "nothing was measured: these scenes have no rays of the kinds asked for"
-    );
+    anyhow::ensure!(!compared.records.is_empty(), StudyError::Nothing);
     screen.warn(&CompareStudy::warnings(&compared));
     screen.end();
 

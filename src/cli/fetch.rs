@@ -1,5 +1,6 @@
 //! `fetch`.
 
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 use super::terminal::Terminal;
@@ -30,6 +31,9 @@ pub fn run(args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
     for scene in scenes(&args.scenes)? {
         files.extend(scene.objects.into_iter().filter_map(|object| object.real).map(|real| (scene.name.clone(), real)));
     }
+    // What is named twice counts once.
+    let mut seen = HashSet::new();
+    files.retain(|(scene, real)| seen.insert((scene.clone(), real.file.clone())));
     if files.is_empty() {
         terminal.print("these scenes name no real mesh: there is nothing to fetch\n")?;
         return Ok(Status::Right);

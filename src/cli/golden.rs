@@ -1,5 +1,7 @@
 //! `golden`.
 
+use std::collections::HashSet;
+
 use anyhow::Context;
 use clap::ValueEnum;
 
@@ -38,6 +40,9 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
             |name: &String| Builtin::find(name).context("golden images are of built-in scenes alone, not of files");
         args.scenes.iter().map(find).collect::<anyhow::Result<_>>()?
     };
+    // What is named twice counts once.
+    let mut seen = HashSet::new();
+    let scenes = scenes.into_iter().filter(|builtin| seen.insert(builtin.name));
     // A golden image belongs to the scene: all structures with one triangle test owe it the same bytes.
     let all = registry.all();
     let common: Vec<&Choice> = all.iter().filter(|choice| choice.triangle_test() == TRIANGLE_TEST).collect();

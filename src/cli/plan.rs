@@ -1,5 +1,6 @@
 //! `study plan`: studies as jobs that need each other in nothing, for the machines of a cluster.
 
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 use super::study::RUNS;
@@ -52,11 +53,12 @@ impl Args {
                     own.dir = value.ok_or_else(|| anyhow::anyhow!("--dir needs a folder: --dir DIR"))?.into();
                 }
                 ("--scenes", value) => {
-                    own.scenes = value.map(String::from).into_iter().collect();
+                    let before = own.scenes.len();
+                    own.scenes.extend(value.map(String::from));
                     while let Some(scene) = rest.next_if(|word| !word.starts_with('-')) {
                         own.scenes.push(scene.clone());
                     }
-                    anyhow::ensure!(!own.scenes.is_empty(), "--scenes needs a scene: --scenes SCENE..");
+                    anyhow::ensure!(own.scenes.len() > before, "--scenes needs a scene: --scenes SCENE..");
                 }
                 _ => options.push(word.clone()),
             }
@@ -77,6 +79,10 @@ pub fn run(session: &Session, args: &Args, level: Option<Level>) -> anyhow::Resu
             "{output} is of a whole study, and each job measures one case of it: give it to the study once all jobs are done"
         );
     }
+    anyhow::ensure!(
+        !options.iter().any(|word| word == "--fresh"),
+        "--fresh empties the folder of a study, and each job measures one case of it: name another folder with --dir, or remove this one"
+    );
     let whole = names.iter().any(|name| name == super::all::NAME);
     let studies: Vec<&dyn AnyStudy> = if whole {
         suite.studies.in_order_of_measuring()
@@ -84,7 +90,9 @@ pub fn run(session: &Session, args: &Args, level: Option<Level>) -> anyhow::Resu
         names.iter().map(|name| super::find(suite, name)).collect::<anyhow::Result<_>>()?
     };
     let mut lines = String::new();
-    for study in studies {
+    // Two jobs of one case would write one file.
+    let mut seen = HashSet::new();
+    for study in studies.into_iter().filter(|study| seen.insert(study.name())) {
         if study.is_last() {
             told(
                 terminal.quiet,

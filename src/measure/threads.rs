@@ -19,7 +19,7 @@ impl Threads {
     /// Threads that run where the system likes.
     ///
     /// # Errors
-    /// If the system does not give that many threads; the sentence is its own.
+    /// If the system does not give that many threads.
     pub fn new(count: usize) -> Result<Self, String> {
         Self::on(count, None).started()
     }
@@ -57,7 +57,17 @@ impl Threads {
             }
         };
         let pool = rayon::ThreadPoolBuilder::new().num_threads(self.count).start_handler(bind);
-        pool.build().map_err(|error| error.to_string())
+        pool.build().map_err(|error| {
+            format!("the system does not give {} threads ({error}): ask for fewer, or raise its limit", self.count)
+        })
+    }
+
+    /// Starts as many threads and ends them again, unless these have started: to find out before the long run.
+    ///
+    /// # Errors
+    /// As [`Threads::new`].
+    pub fn are_given(&self) -> Result<(), String> {
+        if self.pool.get().is_some() { Ok(()) } else { self.start().map(drop) }
     }
 
     #[cfg(test)]
@@ -84,7 +94,7 @@ impl Threads {
     /// # Panics
     /// If they are [unstarted](Self::unstarted) and the system does not give that many.
     pub fn install<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R {
-        let start = || self.start().unwrap_or_else(|cause| panic!("{} threads do not start: {cause}", self.count));
+        let start = || self.start().unwrap_or_else(|cause| panic!("{cause}"));
         self.pool.get_or_init(start).install(work)
     }
 }

@@ -10,7 +10,7 @@ use super::reference_structures::takes_minutes;
 use super::{BRUTE_FORCE, REPORT_TREE, SAH_TREE, rays_or_all, sources};
 use crate::measure::Threads;
 use crate::registry::{Choice, Registry};
-use crate::report::words::listed;
+use crate::report::words::{each_once, listed};
 use crate::scene::{BUILTIN, Builtin, Scene, WorkloadKind};
 
 /// The kinds of rays of studies that have no others.
@@ -107,9 +107,14 @@ impl Structures {
 
     /// Whether one of the chosen structures is left out among so many triangles: it would take minutes, and was not named.
     pub fn leaves_out(&self, choice: &Choice, triangles: usize) -> bool {
+        takes_minutes(choice, triangles) && !self.names_brute_force()
+    }
+
+    /// Whether brute force is named: `all` does not.
+    pub fn names_brute_force(&self) -> bool {
         let is_named =
             |spec: &String| spec.split(':').next().is_some_and(|name| name.eq_ignore_ascii_case(BRUTE_FORCE));
-        takes_minutes(choice, triangles) && !self.structure.iter().any(is_named)
+        self.structure.iter().any(is_named)
     }
 }
 
@@ -135,15 +140,15 @@ pub struct Rays {
 }
 
 impl Rays {
-    /// The kinds named, else `own`.
-    pub fn kinds(&self, own: &[WorkloadKind]) -> Vec<WorkloadKind> {
-        if self.workload.is_empty() { own.into() } else { self.workload.clone() }
-    }
-
     /// What structures are asked.
     pub fn asked(&self, own: &[WorkloadKind]) -> Asked {
-        Asked::Kinds(self.kinds(own), self.rays)
+        Asked::Kinds(kinds(&self.workload, own), self.rays)
     }
+}
+
+/// The kinds of rays that are named, each once, else `own`: the same one twice would count twice in every mean.
+pub fn kinds<K: Copy + PartialEq>(named: &[K], own: &[K]) -> Vec<K> {
+    each_once(if named.is_empty() { own } else { named }.iter().copied())
 }
 
 /// Scenes.
@@ -247,6 +252,13 @@ impl ScenesAndMeshes {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn kinds_of_rays_that_are_named_twice_count_once() {
+        use WorkloadKind::{Primary, Random, Shadow};
+        assert_eq!(kinds(&[Shadow, Primary, Shadow], &WORKLOADS), [Shadow, Primary]);
+        assert_eq!(kinds(&[], &[Random]), [Random]);
+    }
 
     #[test]
     fn every_field_has_a_twin_of_a_structure_that_is_not_slow() {

@@ -112,6 +112,9 @@ fn measure(
     run.screen.warn(gone_on.as_slice());
     run.screen.warn(&plan.warnings);
     run.screen.warn(Provenance::of(&plan.threads).too_many_threads().as_slice());
+    if before < all {
+        plan.threads.are_given().map_err(StudyError::Threads)?;
+    }
     let clock = SystemClock::start();
     let epochs = plan.cases.iter().map(|case| case.epoch + 1).max().unwrap_or(0);
     let (mut failure, mut over) = (None, vec![]);
@@ -180,7 +183,11 @@ fn measure(
     stopped &= left > 0;
 
     // The journal may hold other scenes as well: those asked for are shown.
-    let Joined { cases, unchecked, failures, .. } = joined(study, plan, &journal, |_| true);
+    let Joined { mut cases, unchecked, failures, .. } = joined(study, plan, &journal, |_| true);
+    let says_nothing = |case: &mut Box<dyn AnyCase>| case.epoch().is_some_and(|(epoch, _)| epoch.says_nothing());
+    if !stopped && !cases.is_empty() && cases.iter_mut().all(says_nothing) {
+        return Err(StudyError::Nothing.into());
+    }
     failure = failure.or(failures.into_iter().next());
     if let (true, Some(error)) = (cases.is_empty(), failure.take_if(|_| cases.is_empty())) {
         return Err(error.into());

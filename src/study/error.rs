@@ -13,7 +13,7 @@ pub enum StudyError {
     Unsteady { structure: String, scene: String, rays: String, cause: UnsteadyAnswers },
     #[error("{structure} on {scene}: {PANICKED}")]
     Panicked { structure: String, scene: String },
-    #[error("the system gives no thread to trace on: {0}")]
+    #[error("{0}")]
     Threads(String),
     #[error("the study needs a structure that is not registered as it expects: {0}")]
     Structure(#[from] ChoiceError),
@@ -25,6 +25,8 @@ pub enum StudyError {
         "{one} and {other}, over the same triangle test, give different answers to the {rays} rays of {scene}: one is wrong"
     )]
     Disagree { one: String, other: String, scene: String, rays: String },
+    #[error("nothing was measured: these scenes have no rays of the kinds asked for")]
+    Nothing,
     #[error("{scene} has no rays of the kind asked for: leave the scene out, or ask for another kind of rays")]
     NoRays { scene: String },
     #[error(
@@ -45,7 +47,7 @@ impl StudyError {
     /// Whether other scenes can be measured all the same.
     pub fn is_of_one_scene(&self) -> bool {
         match self {
-            Self::Threads(_) | Self::Structure(_) | Self::Journal(_) => false,
+            Self::Threads(_) | Self::Nothing | Self::Structure(_) | Self::Journal(_) => false,
             Self::Told { of_one_scene, .. } => *of_one_scene,
             _ => true,
         }

@@ -32,7 +32,8 @@ pub fn validate_any_answers(
             (true, _) if reference.test.is_some() => Kind::Invented,
             (true, false) => Kind::Invented,
             (false, true) => Kind::Lost,
-            _ => Kind::TriangleTest,
+            _ if reference.test.is_some() => Kind::TriangleTest,
+            _ => Kind::Reference,
         };
         let verdict = match truth {
             Some(truth) => format!("any hit says {found}; exactly, there is a hit at {:?}", truth.rounded()),
@@ -43,6 +44,7 @@ pub fn validate_any_answers(
         sums.differing += 1;
         match kind {
             Kind::TriangleTest => sums.test_errors += 1,
+            Kind::Reference => sums.reference_errors += 1,
             _ if reference.test.is_some() => sums.structure_errors += 1,
             _ => sums.answer_errors += 1,
         }

@@ -156,7 +156,7 @@ fn strict(mesh: &Mesh, ray: &Ray, expected: Hit, found: Hit) -> Blame {
     let rounded = t.round();
     let sure = format!("exactly, {prim:?} is hit at {rounded:?}");
     if DepthRule::STRICT.allows(t.approximate(), found.t, found.prim == prim) {
-        return verdict(Kind::TriangleTest, format!("{sure}: the reference is wrong"));
+        return verdict(Kind::Reference, sure);
     }
     verdict(Kind::Depth, format!("{sure}, {} ulps away", rounded.to_bits().abs_diff(found.t.to_bits())))
 }
@@ -170,14 +170,14 @@ fn nearest(mesh: &Mesh, ray: &Ray, expected: Option<Hit>, found: Option<Hit>) ->
 /// Two tests round differently: only the exact answer can judge, and it judges structure and test together.
 fn other_test(mesh: &Mesh, ray: &Ray, expected: Option<Hit>, found: Option<Hit>) -> Blame {
     match (nearest(mesh, ray, expected, found), found) {
-        (None, None) => verdict(Kind::TriangleTest, "exactly, neither is a hit in the interval".into()),
+        (None, None) => verdict(Kind::Reference, "exactly, nothing is hit there in the interval".into()),
         (None, Some(f)) => verdict(Kind::Invented, format!("exactly, {:?} is not hit in the interval", f.prim)),
         (Some((t, prim)), None) => verdict(Kind::Lost, format!("exactly, {prim:?} is hit at {:?}", t.round())),
         (Some((t, prim)), Some(f)) => {
             let t = t.round();
             let sure = format!("exactly, {prim:?} is hit at {t:?}");
             match (close(t, f.t, f.prim == prim), f.t > t, f.prim == prim) {
-                (true, ..) => verdict(Kind::TriangleTest, format!("{sure}: the reference is wrong")),
+                (true, ..) => verdict(Kind::Reference, sure),
                 (false, _, true) => verdict(Kind::WrongT, sure),
                 (false, true, false) => verdict(Kind::NearerLost, sure),
                 (false, false, false) => verdict(Kind::Invented, sure),

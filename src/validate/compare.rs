@@ -186,6 +186,7 @@ fn tally(
             sums.higher_ids += 1;
         }
         Kind::TriangleTest => sums.test_errors += 1,
+        Kind::Reference => sums.reference_errors += 1,
         Kind::Depth => sums.depth_errors += 1,
         _ if reference.knows_structure_errors() => sums.structure_errors += 1,
         _ => sums.answer_errors += 1,

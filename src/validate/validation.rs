@@ -22,6 +22,8 @@ pub struct Validation {
     pub structure_errors: u64,
     /// Differences that the triangle test is to blame for: its hit exactly is none, or exactly is not the nearer one.
     pub test_errors: u64,
+    /// Differences that the reference is to blame for, which has another triangle test: the answer is right.
+    pub reference_errors: u64,
     /// Wrong answers of a structure whose triangle test the reference does not share; of depths those that are wrong by
     /// [`DepthRule::COARSE`](super::DepthRule::COARSE).
     pub answer_errors: u64,
@@ -89,6 +91,8 @@ named_enum! {
         Depth = "depth",
         /// The triangle test's own error; the structure is not to blame.
         TriangleTest = "triangle-test",
+        /// The reference, which has another triangle test, is wrong; the answer is right.
+        Reference = "reference",
         /// The same `t` at a higher number than the lowest that is hit there: wrong only where the lowest is promised.
         HigherId = "higher-id",
         /// The same `t` at another primitive: not an error.
@@ -141,6 +145,7 @@ impl Validation {
         self.differing += later.differing;
         self.structure_errors += later.structure_errors;
         self.test_errors += later.test_errors;
+        self.reference_errors += later.reference_errors;
         self.answer_errors += later.answer_errors;
         self.depth_errors += later.depth_errors;
         self.any_hit_errors += later.any_hit_errors;

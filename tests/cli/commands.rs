@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::command::{
-    RIGHT, SQUARE, USAGE, command, path_text, refuses, refuses_in_a_line, sahara, small, stderr, stdout, write,
+    RIGHT, SQUARE, USAGE, command, path_text, prints, refuses, refuses_in_a_line, sahara, small, stderr, stdout, write,
 };
 
 #[test]
@@ -15,6 +15,11 @@ fn messages_that_cannot_be_written_end_no_run() {
     };
     assert_eq!(status(&["compare", "cube", "-s", "sah-kd", "--quick"]), Some(RIGHT));
     assert_eq!(status(&["compare", "sponsa"]), Some(USAGE));
+}
+
+#[test]
+fn golden_images_are_held_once_against_a_scene_named_twice() {
+    assert_eq!(prints(&["golden", "check", "cube", "Cube"]).lines().count(), 1);
 }
 
 #[test]

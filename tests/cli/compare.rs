@@ -6,7 +6,9 @@ use std::process::Stdio;
 
 use sahara::render::Picture;
 
-use super::command::{RIGHT, SQUARE, command, path_text, refuses, sahara, small, stderr, stdout, write};
+use super::command::{
+    RIGHT, SQUARE, command, path_text, prints, refuses, refuses_in_a_line, sahara, small, stderr, stdout, write,
+};
 
 #[test]
 fn results_go_to_files_that_read_back() {
@@ -145,4 +147,28 @@ fn a_reader_that_goes_away_is_no_error() {
     let output = child.wait_with_output().unwrap();
     assert_eq!(output.status.code(), Some(RIGHT), "{}", stderr(&output));
     assert!(stderr(&output).lines().all(|line| line.starts_with("warning: ")), "{}", stderr(&output));
+}
+
+#[test]
+fn rays_that_no_scene_has_are_no_result() {
+    let folder = tempfile::tempdir().unwrap();
+    let json = path_text(&folder.path().join("none.json"));
+    let sentence = ["nothing was measured: these scenes have no rays of the kinds asked for"];
+    refuses_in_a_line(
+        &["compare", "cube", "-w", "mirror", "--quick", "-s", "sah-kd", "--export-json", &json],
+        &sentence,
+    );
+    assert!(!folder.path().join("none.json").exists());
+    let threads = ["study", "threads", "cube", "-w", "mirror", "--most", "2", "--epochs", "1"];
+    refuses_in_a_line(&[&threads[..], &["--dir", &path_text(folder.path())]].concat(), &sentence);
+    // A scene that has them is enough.
+    prints(&["compare", "cube", "billards", "-w", "mirror", "--quick", "-s", "sah-kd"]);
+}
+
+#[test]
+fn a_kind_of_rays_that_is_named_twice_is_measured_once() {
+    let text =
+        prints(&["compare", "cube", "-w", "primary", "-w", "primary", "--quick", "-s", "sah-kd", "--export-json", "-"]);
+    let records: serde_json::Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(records.as_array().unwrap().len(), 1, "{text}");
 }

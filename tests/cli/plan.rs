@@ -333,4 +333,16 @@ fn a_plan_takes_no_option_that_writes_what_came_of_a_study() {
     for option in [&["--export-json", "x.json"][..], &["--export-csv=x.csv"], &["--plot", "x.svg"]] {
         refuses_in_a_line(&[&["study", "plan"], &SMALL[..], option].concat(), &["--", "once all jobs are done"]);
     }
+    // A job that finds its case measures nothing, whatever is asked.
+    refuses_in_a_line(&[&["study", "plan"], &SMALL[..], &["--fresh"]].concat(), &["--fresh", "--dir"]);
+}
+
+#[test]
+fn a_study_that_is_named_twice_is_planned_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let planned = |names: &[&str]| plan(folder.path(), &[names, &["--scenes", "cube"]].concat());
+    assert_eq!(planned(&["counts", "counts"]), planned(&["counts"]));
+    // Scenes are added up, as everywhere.
+    let torus = ["counts", "--scenes", "torus"];
+    assert_eq!(planned(&torus), plan(folder.path(), &[&torus[..], &["cube"]].concat()));
 }

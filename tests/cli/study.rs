@@ -110,3 +110,26 @@ fn two_results_are_not_written_to_one_place() {
     let twice = ["--export-json", &one, "--export-csv", &again];
     refuses(&[&["study", "self-intersection", "--rays", "20"][..], &twice].concat(), &["two results", "a.json"]);
 }
+
+/// A limit of the memory that may be addressed stands for one of the threads.
+#[test]
+#[cfg(target_os = "linux")]
+fn more_threads_than_the_system_gives_are_refused_before_anything_is_measured() {
+    let folder = tempfile::tempdir().unwrap();
+    let limited = |words: &str| {
+        let script = format!("ulimit -v 1500000; exec {} {words}", env!("CARGO_BIN_EXE_sahara"));
+        let mut command = std::process::Command::new("sh");
+        let output = command.args(["-c", &script]).current_dir(folder.path()).output().unwrap();
+        assert_eq!(output.status.code(), Some(USAGE), "{}", stderr(&output));
+        stderr(&output)
+    };
+    for words in ["study threads cube --most 1024", "study counts cube --threads 1024"] {
+        let message = limited(&format!("-q {words}"));
+        assert!(message.starts_with("error: the system does not give 1024 threads"), "{message}");
+        assert!(message.contains("ask for fewer") && message.lines().count() == 1, "{message}");
+    }
+    let measured = std::fs::read_dir(folder.path().join("runs/threads")).map_or(0, |files| {
+        files.filter(|file| file.as_ref().unwrap().path().extension().is_some_and(|ending| ending == "json")).count()
+    });
+    assert_eq!(measured, 0);
+}

@@ -2,7 +2,9 @@
 
 use std::fs;
 
-use super::command::{RIGHT, WRONG, path_text, refuses_in_a_line, sahara, stderr, stdout};
+use super::command::{
+    RIGHT, SQUARE, WRONG, path_text, prints, refuses, refuses_in_a_line, sahara, stderr, stdout, write,
+};
 
 #[test]
 fn validation_tells_right_from_wrong() {
@@ -120,4 +122,46 @@ fn what_is_named_twice_counts_once() {
     let output = sahara(&["validate", "--hard", "limits", "limits", "-s", "sah-kd"]);
     let rows = stdout(&output).lines().filter(|line| line.trim_start().starts_with("limits+ ")).count();
     assert_eq!(rows, 1, "{}", stdout(&output));
+    let output = sahara(&["validate", "--hard", "one_triangle", "-s", "sah-kd", "-t", "exact", "-t", "EXACT"]);
+    let columns: Vec<String> =
+        stdout(&output).lines().filter(|line| line.contains("case ")).map(String::from).collect();
+    assert!(!columns.is_empty() && columns.iter().all(|line| line.matches("sah-kd").count() == 1), "{columns:?}");
+}
+
+#[test]
+fn options_that_the_rays_asked_for_do_not_heed_are_refused() {
+    let ray = ["--ray", "0,0,9 0,0,-1"];
+    let hard = ["--hard", "limits", "-s", "sah-kd"];
+    for (asked, unheeded) in [
+        (&hard[..], &[&["--against", "sah-bvh"][..], &["--seed", "2"], &["--inside"], &["--size", "8x8"]][..]),
+        (&ray, &[&["--rays", "9"], &["--seed", "2"], &["--inside"], &["--camera", "0,0,5 0,0,0"]]),
+        (&["--adversarial"], &[&["--inside"], &["--size", "8x8"], &["--camera", "0,0,5 0,0,0"]]),
+        (&["--hits", "a.hits", "--rays", "a.rays"], &[&["--quality", "fast"], &["--limit", "3"]]),
+        (&["--export-hits", "a.hits", "--rays", "a.rays"], &[&["--against", "sah-kd"]]),
+    ] {
+        for unheeded in unheeded {
+            let scene = if asked[0] == "--hard" { &[][..] } else { &["cube"] };
+            refuses(&[&["validate"], scene, asked, unheeded].concat(), &[asked[0], unheeded[0], "cannot be used with"]);
+        }
+    }
+    // From where a mesh is seen matters to none of these rays, and is not advised about.
+    let directory = tempfile::tempdir().unwrap();
+    let mesh = write(&directory, "square.obj", SQUARE);
+    for rays in [&ray[..], &["--adversarial", "--rays", "20"]] {
+        let text = prints(&[&["validate", &mesh, "-s", "sah-kd"], rays].concat());
+        assert!(!text.contains("--inside"), "{text}");
+    }
+}
+
+/// Möller-Trumbore overflows on a triangle as large as this, and finds none of its hits.
+#[test]
+fn a_wrong_reference_is_no_error_of_a_triangle_test() {
+    let directory = tempfile::tempdir().unwrap();
+    let huge = write(&directory, "huge.obj", "v 1e30 0 0\nv 1e30 1e30 0\nv 0 1e30 1e30\nf 1 2 3\n");
+    let reference = "brute-force:test=moller-trumbore";
+    let text = prints(&["validate", &huge, "-s", "sah-kd", "--rays", "300", "--against", reference]);
+    let row: Vec<&str> = text.lines().find(|line| line.contains("  sah-kd ")).unwrap().split_whitespace().collect();
+    assert_eq!(row, ["sah-kd", "exact", "0", "0", "0", "0", "0", "0"], "{text}");
+    assert!(text.contains("rays the reference is wrong and not sah-kd"), "{text}");
+    assert!(text.contains("No ray hits anything by the reference"), "{text}");
 }

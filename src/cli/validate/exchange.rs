@@ -7,7 +7,7 @@ use anyhow::Context;
 
 use super::Args;
 use super::against::Against;
-use super::table::{print, row};
+use super::table::{note_on_reference, print, row};
 use crate::accel::{DynAccel, Query};
 use crate::cli::terminal::Terminal;
 use crate::geometry::{Hit, Ray};
@@ -96,12 +96,7 @@ pub fn check(
         }
     };
     let notes = scene.notes.iter().cloned().chain(found.worst.iter().map(|worst| format!("{name}: {worst}")));
-    // With another test than the answers have, exact arithmetic may find either of the two wrong.
-    let wrong = found.test_errors as usize;
-    let wrong = (wrong > 0 && !reference.knows_structure_errors()).then(|| {
-        format!("On {} the reference is wrong and not {name}: these are the test errors.", plural(wrong, "ray"))
-    });
-    let notes = notes.chain(wrong).collect();
+    let notes = notes.chain(note_on_reference(&name, &found)).collect();
     print(scene, rays, &against.of_answers(&reference, test), vec![row(&name, test, &found)], notes, terminal)?;
     Ok(if against.refutes(&found) { Status::Wrong } else { Status::Right })
 }

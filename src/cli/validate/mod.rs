@@ -27,7 +27,7 @@ use crate::study::{Status, ViewArgs, sources};
 use crate::validate::{LIMIT, Stratum, Validation, validate_watched, watched};
 
 use against::{ASKED, Against, Known, References};
-use table::{LEGEND, print, row, set_apart};
+use table::{LEGEND, note_on_reference, print, row, set_apart};
 
 pub use hard::{CHILD, ChildArgs, described, run_child};
 
@@ -53,17 +53,20 @@ pub struct Args {
     #[arg(long, value_name = "NAME[:key=value,..]", default_value = BRUTE_FORCE)]
     against: String,
     /// Rays that break traversals, in place of those of the workloads
-    #[arg(long, conflicts_with = "ray")]
+    #[arg(long, conflicts_with_all = ["ray", "camera", "inside", "size"])]
     adversarial: bool,
     /// Hard cases by name or number, in place of scenes: what ray tracers are known to get wrong, each structure in a process of its
     /// own; all cases if none is named (see `sahara list hard`)
-    #[arg(long, value_name = "CASE", num_args = 0.., conflicts_with_all = ["scenes", "ray", "adversarial", "hits", "export_hits"])]
+    #[arg(long, value_name = "CASE", num_args = 0.., conflicts_with_all = [
+        "scenes", "ray", "adversarial", "hits", "export_hits", "against", "seed", "camera", "inside", "size",
+    ])]
     hard: Option<Vec<String>>,
     /// Ask this ray alone, and print what every structure answers; may be repeated
-    #[arg(long, value_name = "ox,oy,oz dx,dy,dz", allow_hyphen_values = true, value_parser = valid_ray)]
+    #[arg(long, value_name = "ox,oy,oz dx,dy,dz", allow_hyphen_values = true, value_parser = valid_ray,
+        conflicts_with_all = ["rays", "seed", "camera", "inside", "size"])]
     ray: Vec<Ray>,
     /// Hold the answers of a file, to the rays of the file of --rays, against the reference, in place of structures
-    #[arg(long, value_name = "F.hits", conflicts_with_all = ["structure", "export_hits"])]
+    #[arg(long, value_name = "F.hits", conflicts_with_all = ["structure", "quality", "export_hits", "limit"])]
     hits: Option<PathBuf>,
     /// The triangle test of the answers of --hits [default: one of their own, judged by exact arithmetic]; with --hard the test of all
     /// structures that are offered over it, may be repeated [default: each structure's own]
@@ -73,15 +76,15 @@ pub struct Args {
     #[arg(long, value_name = "FILE")]
     export_json: Option<PathBuf>,
     /// Write the answers of the one structure to the rays of the file of --rays
-    #[arg(long, value_name = "F.hits")]
+    #[arg(long, value_name = "F.hits", conflicts_with = "against")]
     export_hits: Option<PathBuf>,
     /// Seconds that a structure may take for 256 rays, or for its build and for each further million triangles of it, before it counts
     /// as hanging
     #[arg(long, value_name = "SECONDS", default_value_t = LIMIT.as_secs() as u32, value_parser = clap::value_parser!(u32).range(1..=86400))]
     limit: u32,
-    /// Seed of the rays
-    #[arg(long, value_name = "N", default_value_t = 1)]
-    seed: u64,
+    /// Seed of the rays [default: 1]
+    #[arg(long, value_name = "N")]
+    seed: Option<u64>,
 }
 
 pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
@@ -104,8 +107,8 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
         args.from.is_unasked()?;
     }
     anyhow::ensure!(
-        replay.is_none() || args.ray.is_empty() && !args.adversarial,
-        "the rays are those of the file: leave --ray and --adversarial out"
+        replay.is_none() || args.seed.is_none() && !args.adversarial,
+        "the rays are those of the file: leave --adversarial and --seed out"
     );
     if args.hits.is_some() || args.export_hits.is_some() {
         let (scene, file) = replay.context("answers belong to rays of a file: give one with --rays F.rays")?;
@@ -117,7 +120,10 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     let (scenes, recorded) = match replay {
         Some((scene, file)) => (vec![scene], Some(file.workload.rays)),
         None => {
-            let scenes = sources::scenes(&args.scenes)?.into_iter().map(|scene| args.from.of(scene));
+            // Other rays start wherever the scene is seen from.
+            let is_seen = args.ray.is_empty() && !args.adversarial;
+            let seen = |scene| if is_seen { args.from.of(scene) } else { Ok(scene) };
+            let scenes = sources::scenes(&args.scenes)?.into_iter().map(seen);
             (scenes.collect::<anyhow::Result<_>>()?, None)
         }
     };
@@ -134,6 +140,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
             None => args.ray.clone(),
         };
         let (mut rows, mut notes, mut answered) = (vec![], scene.notes.clone(), vec![]);
+        let mut hits = vec![];
         let asked = against.affordable(scene.mesh.len());
         if recorded.is_none() && args.rays.is_none() && args.ray.is_empty() && asked < ASKED {
             notes.push(format!(
@@ -162,8 +169,10 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
                         answered.extend(answers::answers(&choice.label, &accel, &rays, &scene.mesh, args.limit()));
                     }
                     rows.push(row(&choice.label, choice.triangle_test(), &found));
+                    hits.push(found.hits);
                     notes.extend(declined(choice, &found));
                     notes.extend(found.worst.iter().map(|worst| format!("{}: {worst}", choice.label)));
+                    notes.extend(note_on_reference(&choice.label, &found));
                 }
                 Taken::Hangs => {
                     verdict = Status::Wrong;
@@ -179,6 +188,9 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
                     notes.push(format!("{}: {reason}", choice.label));
                 }
             }
+        }
+        if args.ray.is_empty() && !hits.is_empty() && hits.iter().all(|&hits| hits == 0) {
+            notes.push("No ray hits anything by the reference: no hit could be lost, and this shows little.".into());
         }
         print(scene, &rays, &against, rows, notes, terminal)?;
         if !args.ray.is_empty() {
@@ -209,6 +221,10 @@ impl Args {
         self.rays.clone().unwrap_or(RaySource::Count(ASKED))
     }
 
+    fn seed(&self) -> u64 {
+        self.seed.unwrap_or(1)
+    }
+
     fn limit(&self) -> Duration {
         Duration::from_secs(self.limit.into())
     }
@@ -227,11 +243,11 @@ fn rays(scene: &Scene, registry: &Registry, args: &Args, against: &Against) -> a
     };
     if args.adversarial {
         let each = number.number()?.div_ceil(Stratum::ALL.len());
-        return Ok(Stratum::ALL.iter().flat_map(|stratum| stratum.rays(&scene.mesh, each, args.seed)).collect());
+        return Ok(Stratum::ALL.iter().flat_map(|stratum| stratum.rays(&scene.mesh, each, args.seed())).collect());
     }
     let guide = sources::guide(registry)?.build(&scene.mesh)?;
     let limit = number.count().div_ceil(WorkloadKind::ALL.len());
-    let sampling = Sampling::some(scene, limit, args.seed);
+    let sampling = Sampling::some(scene, limit, args.seed());
     let of_kind = |&kind| Workload::new(scene, kind, &sampling, guide.as_ref()).rays;
     Ok(WorkloadKind::ALL.iter().flat_map(of_kind).collect())
 }

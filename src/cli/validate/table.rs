@@ -27,9 +27,15 @@ pub fn print(
 const COLUMNS: [&str; 8] =
     ["structure", "triangle test", "hits", "structure errors", "answer errors", "coarse", "test errors", "ties"];
 
+/// Where the reference has another triangle test, exact arithmetic may find either of the two wrong.
+pub fn note_on_reference(name: &str, found: &Validation) -> Option<String> {
+    let rays = plural(found.reference_errors as usize, "ray");
+    (found.reference_errors > 0).then(|| format!("On {rays} the reference is wrong and not {name}: no errors of it."))
+}
+
 /// What the columns mean.
 pub const LEGEND: [&str; 4] = [
-    "structure errors: hits lost or invented although the structure's own triangle test, run over all triangles, says \
+    "hits: rays that hit something by the reference. structure errors: hits lost or invented although the structure's own triangle test, run over all triangles, says \
      otherwise, contradictions, panics and questions without an end; none in a correct structure. answer errors: wrong answers where the reference has another triangle test.",
     "A depth is wrong if it is off by more than 4 ulps and more than 1e-6. coarse: the answer errors that remain if up to 1 %, \
      or 0.1 % on another triangle, is allowed; the others are common where tests in f32 meet grazing rays, and without \

@@ -57,6 +57,7 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
     }
 
     /// What the rays have found, handed over by number.
+    #[allow(clippy::needless_range_loop)] // a lane is a column of many
     #[inline(always)]
     pub fn answer<const ANY: bool, L: EightLanes>(
         &self,

@@ -41,7 +41,7 @@ pub enum RayTextError {
     Number { text: String, number: String },
     /// An interval without brackets.
     #[allow(missing_docs)]
-    #[error("the interval {part:?} in the ray {text:?} must stand in brackets: [t_min,t_max)")]
+    #[error("the interval {part:?} in the ray {text:?} must stand in brackets: [t_min,t_max]")]
     Brackets { text: String, part: String },
 }
 
@@ -122,7 +122,7 @@ mod tests {
         assert!(error("1,2,3").contains("has 1 parts"));
         assert!(error("1,2,3 4,5").contains("\"4,5\" in the ray \"1,2,3 4,5\" has 2 numbers"));
         assert!(error("1,2,3 4,5,x").contains("\"x\""));
-        assert!(error("1,2,3 4,5,6 0,1").contains("brackets"));
+        assert!(error("1,2,3 4,5,6 0,1").contains("brackets: [t_min,t_max]"));
         assert!(error("1,2,3 4,5,6 [0,1,2]").contains("it must have 2"));
         assert!(error(&"1 ".repeat(1 << 20)).len() < 300);
     }

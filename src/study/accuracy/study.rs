@@ -12,7 +12,7 @@ use crate::report::number::count;
 use crate::report::plot::Figure;
 use crate::report::{Statement, Table};
 use crate::scene::Scene;
-use crate::study::args::Scenes;
+use crate::study::args::{Scenes, kinds};
 use crate::study::plan::{Measure, named_notes, scene_key};
 use crate::study::{
     BRUTE_FORCE, Context, Data, Plan, RaySource, Refused, SceneId, Study, Trouble, documented_defect, replayed, sources,
@@ -89,7 +89,7 @@ impl Study for AccuracyStudy {
             }
             None => (args.scenes.read(&[])?, None),
         };
-        let kinds = if args.workload.is_empty() { RayKind::ALL.into() } else { args.workload.clone() };
+        let kinds = kinds(&args.workload, &RayKind::ALL);
         let labels: Vec<&str> = choices.iter().map(|choice| choice.label.as_str()).collect();
         let names: Vec<&str> = kinds.iter().map(|kind| kind.name()).collect();
         let rays = args.rays.number()?;

@@ -10,6 +10,7 @@ use crate::report::number::{count, figures, plural};
 use crate::report::words::{ONE_EPOCH, distinct, each_once, ends, explained, interval, listed};
 use crate::report::{Cell, Record, Table, Tone};
 use crate::study::reference_structures::is_obvhs;
+use crate::triangle::{Exact, TriangleTest};
 
 /// Speeds over all scenes: one row for each structure; a column for each workload, and one for all of them, against the
 /// first of the `references`, and one for all against each other reference.
@@ -175,7 +176,13 @@ pub fn winner(records: &[Record], reference: Option<&str>) -> Option<Winner> {
     let checked: Option<usize> = of(best).iter().map(|r| r.checked_rays).sum();
     let checked = match checked {
         None => format!("the answers of {best} are not checked"),
-        Some(rays) => format!("no answer of {best} is wrong in {} checked rays", count(rays as u64)),
+        Some(rays) => {
+            let own = match of(best)[0].triangle_test.as_str() {
+                Exact::NAME => String::new(),
+                own => format!(" by its own triangle test, {own}"),
+            };
+            format!("no answer of {best} is wrong in {} checked rays{own}", count(rays as u64))
+        }
     };
     let wrong: Vec<String> = labels.iter().filter_map(|label| wrong(label, &of(label))).collect();
     let wrong =

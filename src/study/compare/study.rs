@@ -16,7 +16,7 @@ use crate::report::words::distinct;
 use crate::report::{Record, Statement, Table, to_csv, to_json};
 use crate::runner::Program;
 use crate::scene::{Scene, WorkloadKind};
-use crate::study::args::{Measuring, Scenes, Structures, WORKLOADS, with_twin};
+use crate::study::args::{Measuring, Scenes, Structures, WORKLOADS, kinds, with_twin};
 use crate::study::epoch::{self, Asked, Epoch, Settings, troubles};
 use crate::study::grouped::grouped;
 use crate::study::{
@@ -41,7 +41,7 @@ pub struct CompareArgs {
     #[arg(long, value_name = "COMMAND")]
     pub runner: Vec<String>,
     /// Seconds that such a program may take for an answer, a build among them
-    #[arg(long, value_name = "SECONDS", default_value_t = RUNNER_LIMIT, value_parser = clap::value_parser!(u32).range(1..=86400))]
+    #[arg(long, value_name = "SECONDS", requires = "runner", default_value_t = RUNNER_LIMIT, value_parser = clap::value_parser!(u32).range(1..=86400))]
     pub runner_limit: u32,
     /// The structure that speeds are related to; takes part even if it is not among those named [default: median-kd and the better
     /// BVH of obvhs; without them the first one]
@@ -102,6 +102,13 @@ impl CompareArgs {
         Ok((structures, Some(choice.label)))
     }
 
+    /// What is named, the reference among it.
+    pub fn named(&self) -> Structures {
+        let mut named = self.structures.clone();
+        named.structure.extend(self.reference.clone());
+        named
+    }
+
     /// The programs that take part, each once.
     fn runners(&self) -> anyhow::Result<Vec<Choice>> {
         let mut programs: Vec<Program> = vec![];
@@ -135,7 +142,7 @@ impl CompareArgs {
                 (vec![scene], Asked::Replayed(file.workload, usize::MAX))
             }
             None => {
-                let kinds = if self.workload.is_empty() { WORKLOADS.into() } else { self.workload.clone() };
+                let kinds = kinds(&self.workload, &WORKLOADS);
                 let scenes = self.scenes.read(&[])?.into_iter().map(|scene| self.from.of(scene));
                 let rays = if self.quick { QUICK_RAYS } else { self.rays.count() };
                 (scenes.collect::<anyhow::Result<_>>()?, Asked::Kinds(kinds, rays))
@@ -144,11 +151,11 @@ impl CompareArgs {
         let settings = self.measuring.settings(registry, with_twin(structures), asked)?;
         let mut settings = Settings { slowest: SLOWEST, detailed: true, ..settings };
         if self.quick {
-            if self.structures.structure.is_empty() {
+            if !self.named().names_brute_force() {
                 settings.structures.retain(|choice| choice.entry.name != BRUTE_FORCE);
             }
             let tests: BTreeSet<&str> = settings.structures.iter().map(Choice::triangle_test).collect();
-            let kinds = if self.workload.is_empty() { WORKLOADS.len() } else { self.workload.len() };
+            let kinds = kinds(&self.workload, &WORKLOADS).len();
             settings.check_tests = QUICK_CHECKS / (tests.len() * kinds).max(1);
             settings.budget_ns = QUICK_SAMPLES_NS;
         }
@@ -179,7 +186,7 @@ impl Study for CompareStudy {
         let epochs = if args.quick { QUICK_EPOCHS } else { args.measuring.epochs };
         let mut of_large = settings.clone();
         of_large.structures.retain(|choice| choice.entry.name != BRUTE_FORCE);
-        let (all, named) = (settings.structures.clone(), args.structures.clone());
+        let (all, named) = (settings.structures.clone(), args.named());
         let is_large = move |scene: &Scene| all.iter().any(|choice| named.leaves_out(choice, scene.mesh.len()));
         let notes: Vec<String> = scenes.iter().filter(|scene| is_large(scene)).map(left_out).collect();
         let settings = vec![settings, of_large];
@@ -221,7 +228,7 @@ impl Study for CompareStudy {
 
     fn legend(answer: &Compared) -> Vec<String> {
         let records = &answer.records;
-        let mut all = vec![NO_RAYS.into()];
+        let mut all = vec![];
         if let Some(first) = records.first() {
             all = details_legend(&first.workload);
             all.extend(legend(records, &answer.references(records)));
@@ -240,7 +247,7 @@ impl Study for CompareStudy {
         }
         let references = answer.references(&answer.records);
         let last = &references[references.len().saturating_sub(1)..];
-        let mut legend = if answer.records.is_empty() { vec![NO_RAYS.into()] } else { legend(&answer.records, last) };
+        let mut legend = if answer.records.is_empty() { vec![] } else { legend(&answer.records, last) };
         legend.extend(refusals(&answer.refused));
         Printed { tables: tables(answer, brief_table), summary: summary(answer, last), legend }
     }
@@ -308,8 +315,6 @@ impl Study for CompareStudy {
     }
 }
 
-const NO_RAYS: &str = "None of the workloads asked for has a ray in these scenes.";
-
 fn tables(answer: &Compared, table: impl Fn(&[Record], &[Reference], &[Refused]) -> Table) -> Vec<Table> {
     let scenes = distinct(answer.records.iter().map(|r| &r.scene).chain(answer.refused.iter().map(|r| &r.scene)));
     let of = |scene: &String| {
@@ -348,6 +353,21 @@ mod tests {
             vec![record(&["made way 3 times in 1.5 s", "hot"]), record(&["made way 40 times in 12 s", "hot"])];
         let warnings = CompareStudy::warnings(&Compared { records, ..Compared::default() });
         assert_eq!(warnings, ["made way 3 times in 1.5 s (the first of 2 scenes of which that is so)", "hot"]);
+    }
+
+    #[test]
+    fn brute_force_takes_part_in_a_quick_run_where_it_is_named_alone() {
+        use clap::{Args as _, FromArgMatches as _};
+        let registry = Registry::builtin();
+        let takes_part = |words: &[&str]| {
+            let command = CompareArgs::augment_args(clap::Command::new("compare"));
+            let matches = command.get_matches_from([&["compare", "cube", "--quick"], words].concat());
+            let (_, settings) = CompareArgs::from_arg_matches(&matches).unwrap().settings(&registry).unwrap();
+            settings.structures.iter().any(|choice| choice.entry.name == BRUTE_FORCE)
+        };
+        assert!(!takes_part(&[]) && !takes_part(&["-s", "all"]) && !takes_part(&["-s", "sah-kd"]));
+        assert!(takes_part(&["-s", "all", "-s", BRUTE_FORCE]));
+        assert!(takes_part(&["--reference", BRUTE_FORCE]) && takes_part(&["-s", "sah-kd", "--reference", BRUTE_FORCE]));
     }
 
     #[test]

@@ -8,6 +8,7 @@ use crate::report::words::{distinct, explained, listed};
 use crate::report::{Cell, Record, Table, Tone};
 use crate::study::Refused;
 use crate::study::reference_structures::{documented_defect, is_large};
+use crate::triangle::{Exact, TriangleTest};
 
 /// The columns that are printed where all of them are asked for.
 const DETAILS: [&str; 8] = ["build", "peak", "memory", "tests", "steps", "instructions", "checked", "sampled"];
@@ -147,6 +148,7 @@ pub fn scene_table(records: &[Record], references: &[Reference], refused: &[Refu
         notes.push(format!("{} declines {what}, which {} rays need.", record.label, record.workload));
     }
     notes.extend(defects(records));
+    notes.extend(unfit_tests(records));
     notes.extend(few_checked(records));
     notes.extend(control(records));
     explained(Table { title, columns, rows, notes }.without_blank_columns())
@@ -179,6 +181,31 @@ fn defects(records: &[Record]) -> Vec<String> {
         let structure = records.iter().find(wrong).map(|r| r.structure.as_str());
         if let Some(defect) = structure.and_then(documented_defect) {
             notes.push(format!("{label} answers {} rays wrong; its documented defects: {defect}.", shares.join(", ")));
+        }
+    }
+    notes
+}
+
+/// A footnote for each triangle test that finds another number of hits than the exact one, by more than 1 %: no check of a structure by its
+/// own test tells that.
+fn unfit_tests(records: &[Record]) -> Vec<String> {
+    let exact = |of: &Record| {
+        let same = |r: &&Record| r.workload_hash == of.workload_hash && r.counted_rays == of.counted_rays;
+        records.iter().filter(|r| r.triangle_test == Exact::NAME).find(same).map(|r| r.hits)
+    };
+    let mut notes: Vec<String> = vec![];
+    for record in records.iter().filter(|r| r.mrays_per_s.is_some()) {
+        let Some(hits) = exact(record).filter(|&hits| 100 * hits.abs_diff(record.hits) > hits) else { continue };
+        let note = format!(
+            "By {} {} of {} {} rays hit something, by exact arithmetic {}: its speed is one of wrong answers.",
+            record.triangle_test,
+            count(record.hits as u64),
+            count(record.counted_rays as u64),
+            record.workload,
+            count(hits as u64)
+        );
+        if !notes.contains(&note) {
+            notes.push(note);
         }
     }
     notes

@@ -12,7 +12,7 @@ mod tests;
 
 use serde_json::json;
 
-use super::args::{Scenes, Structures, WORKLOADS};
+use super::args::{Scenes, Structures, WORKLOADS, kinds};
 use super::plan::{Measure, named_notes, scene_key};
 use super::{Context, Data, Plan, Refused, Study, Trouble, ViewArgs, left_out, sources};
 use crate::measure::{Provenance, Threads};
@@ -93,7 +93,7 @@ impl Study for CountsStudy {
             structures: args.structures.chosen(registry, &[])?,
             named: args.structures.clone(),
             guide: sources::guide(registry)?,
-            workloads: if args.workload.is_empty() { WORKLOADS.into() } else { args.workload.clone() },
+            workloads: kinds(&args.workload, &WORKLOADS),
             rays: args.rays,
             seed: args.seed,
             threads: threads.clone(),

@@ -273,6 +273,12 @@ impl Epoch {
         timed.map(|rays| rays.rays).min().unwrap_or(0)
     }
 
+    /// Whether no structure takes part in it for want of rays.
+    pub fn says_nothing(&self) -> bool {
+        let is_idle = |structure: &Structure| structure.refused.is_none() && structure.rays.is_empty();
+        self.structures.iter().all(is_idle)
+    }
+
     /// That every structure is timed on rays of all kinds, and that all of them, being over one triangle test, give the same answers to the bit.
     ///
     /// # Errors

@@ -85,6 +85,8 @@ pub(super) fn differences(
     let text = |value: Option<&Value>| match value {
         None => "not there".to_owned(),
         Some(Value::String(text)) => text.clone(),
+        // As it is typed: all rays that there are.
+        Some(number) if number.as_u64() == Some(u64::MAX) => "all".to_owned(),
         Some(other) => other.to_string(),
     };
     let different = names.filter(|name| one.get(*name) != other.get(*name));

@@ -112,6 +112,9 @@ fn other_settings_are_refused_with_what_differs_and_the_way_out() {
     let mut more = header(5);
     more.settings.insert("seed".into(), 1.into());
     sentence(Journal::<Case>::open(&path, more, false, read).unwrap_err(), &["seed was not there and is 1"]);
+    let mut all = header(5);
+    all.settings.insert("rays".into(), usize::MAX.into());
+    sentence(Journal::<Case>::open(&path, all, false, read).unwrap_err(), &["rays was not there and is all"]);
     let mut study = header(5);
     study.study = "other".into();
     sentence(Journal::<Case>::open(&path, study, false, read).unwrap_err(), &["the study tiny, not of other"]);

@@ -95,7 +95,7 @@ fn owed(choice: &Choice, score: &Score) -> bool {
 /// own, and structures that are offered over none of the tests, stay as they are.
 fn choices(registry: &Registry, structures: Vec<Choice>, tests: &[String]) -> anyhow::Result<Vec<Choice>> {
     sources::known_tests(registry, tests)?;
-    let mut choices = vec![];
+    let mut choices: Vec<Choice> = vec![];
     for choice in structures {
         let name = &choice.entry.name;
         let offered: Vec<&String> = tests.iter().filter(|test| registry.find(name, test).is_some()).collect();
@@ -108,6 +108,9 @@ fn choices(registry: &Registry, structures: Vec<Choice>, tests: &[String]) -> an
             choices.push(sources::structure(registry, &format!("{}{separator}test={test}", choice.label))?);
         }
     }
+    // Tests may be named twice, and a structure over the test that it is named with as well.
+    let mut seen = HashSet::new();
+    choices.retain(|choice| seen.insert(choice.label.clone()));
     Ok(choices)
 }
 

@@ -106,6 +106,25 @@ fn a_wrong_structure_shows_its_errors_and_no_time() {
 }
 
 #[test]
+fn a_triangle_test_that_misses_what_is_hit_is_named() {
+    let mut records = records();
+    for record in &mut records {
+        let test = if record.label.starts_with("obvhs") { "rt-triangle" } else { "exact" };
+        record.triangle_test = test.into();
+    }
+    assert!(scene_table(&records, &[]).notes.is_empty());
+    let label = records[4].label.clone();
+    records[4].hits = 0;
+    let notes = scene_table(&records, &[]).notes;
+    assert_eq!((label.as_str(), notes.len()), ("obvhs-bvh2", 1), "{notes:?}");
+    assert!(
+        notes[0].starts_with("By rt-triangle 0 of 1,000 primary rays hit something, by exact arithmetic 20"),
+        "{notes:?}"
+    );
+    assert!(winner(&records, None).unwrap().sentence.ends_with("no answer of sah-kd is wrong in 200 checked rays."));
+}
+
+#[test]
 fn a_documented_defect_of_a_baseline_is_named_and_gets_no_time_either() {
     let mut records = records();
     records[4].mrays_per_s = None;
@@ -212,7 +231,7 @@ fn scenes_with_fewer_epochs_have_means_and_a_winner_over_the_first_of_each() {
 fn the_last_line_says_who_won_by_how_much() {
     let said = winner(&records(), None).unwrap().sentence;
     let text = "Over 1 scene and 2 kinds of rays, sah-kd answers 2.00 times as many rays a second as obvhs-cwbvh [2.00, 2.00]; \
-                no answer of sah-kd is wrong in 200 checked rays.";
+                no answer of sah-kd is wrong in 200 checked rays by its own triangle test, moller-trumbore.";
     assert_eq!(said, text);
     let against = winner(&records(), Some("median-kd")).unwrap().sentence;
     assert!(against.contains("sah-kd answers 4.00 times as many rays a second as median-kd [4.00, 4.00]"), "{against}");
