@@ -5,8 +5,9 @@
 //! for all rays at once only leaves out boxes that each of them would leave out (see [`Frustum`]). So every ray goes through the
 //! same leaves in the same order as alone.
 //!
-//! A leaf that nearly all rays come to is searched triangle by triangle, eight rays at once, without a branch that depends on what is
-//! found; others ray by ray. The nearest of the same hits is the same in either order.
+//! A leaf that nearly all rays come to is searched triangle by triangle, eight rays at once, others ray by ray. A ray of which eight at
+//! once cannot tell whether it meets a triangle, or whether that is the nearest, searches the leaf once more alone. The nearest of the
+//! same hits is the same in either order.
 
 use std::mem::MaybeUninit;
 

@@ -199,8 +199,11 @@ pub(super) fn survivors<const N: usize, L: Lanes<N>>(
     (!signs.lt(L::zero()) & ((1_u64 << N) - 1) as u32, survivors)
 }
 
-/// As [`survivors`], for eight rays and the triangle in one lane of a block: what of the triangle is certain is the same for a ray alone, but where the
-/// directions differ in length, of which fewer are.
+/// As [`survivors`], for eight rays and the triangle in one lane of a block. Nothing where all rays of `active` are rejected: that many triangles of a leaf
+/// are is worth a guess, which saves the bounds.
+///
+/// All directions are scaled as the longest one is. The argument at [`survivors`] takes of them only that no component is beyond 2, and that what becomes
+/// denormal is off by 2^-150 at most, so it holds for the others too; of much shorter ones less is certain.
 #[inline(always)]
 pub(super) fn survive_eight<const N: usize, L: EightLanes>(
     rays: &EightRays<L>,
