@@ -138,8 +138,8 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
         }
     }
 
-    /// Triangle by triangle, half of the rays at once. Nothing is decided by a branch: whether some ray meets a triangle cannot be
-    /// predicted. Returns the rays that have to look for themselves: all where the test has no such form.
+    /// Triangle by triangle, half of the rays at once. No branch depends on which of them meets a triangle: that cannot be predicted. Returns the
+    /// rays that have to look for themselves.
     #[inline(always)]
     fn triangle_by_triangle<L: EightLanes>(
         &mut self,
