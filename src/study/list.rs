@@ -114,9 +114,9 @@ mod tests {
         let studies = Studies::builtin();
         for (name, defaults) in [
             ("compare", ["4", "1", "2"]),
-            ("attribution", ["5", "3", "8"]),
+            ("attribution", ["8", "3", "5"]),
             ("partitions", ["3", "5", "40"]),
-            ("replicate", ["4", "3", "8"]),
+            ("replicate", ["8", "3", "5"]),
             ("scaling", ["3", "3", "8"]),
             ("threads", ["3", "3", "4"]),
         ] {
