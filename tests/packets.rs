@@ -32,7 +32,13 @@ fn bundles(mesh: &Mesh) -> Vec<Ray> {
         (0..16).map(step)
     });
     let near: Vec<Ray> = neighbours.collect();
-    [mixed, sorted, near].concat()
+    // The same with directions of very different lengths: what is certain of the longest is not of the others.
+    let unequal = near.iter().enumerate().map(|(i, ray)| {
+        let longer = (3.0 * (i % 16) as f32).exp2();
+        Ray { direction: ray.direction / longer, t_min: ray.t_min * longer, ..*ray }.until(ray.t_max * longer)
+    });
+    let unequal: Vec<Ray> = unequal.collect();
+    [mixed, sorted, near, unequal].concat()
 }
 
 /// Triangles on a coarse grid, so that many are hit at once, at 0 and -0, on edges, and by rays that lie in them.

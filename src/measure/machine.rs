@@ -22,6 +22,17 @@ pub fn clock_rate(core: usize) -> Option<f64> {
     first_number(&fs::read_to_string(format!("/sys/devices/system/cpu/cpu{core}/cpufreq/scaling_cur_freq")).ok()?)
 }
 
+/// Bytes of memory that programs may use here, those of a container where it has fewer.
+pub fn memory() -> Option<u64> {
+    let machine = || {
+        let text = fs::read_to_string("/proc/meminfo").ok()?;
+        let kib = first_number(text.lines().find_map(|line| line.strip_prefix("MemTotal:"))?)?;
+        Some(kib as u64 * 1024)
+    };
+    let container = || fs::read_to_string("/sys/fs/cgroup/memory.max").ok()?.trim().parse().ok();
+    machine().into_iter().chain(container()).min()
+}
+
 /// Of the calling thread so far: how often it had to make way for another.
 #[cfg(target_os = "linux")]
 pub fn interruptions() -> Option<u64> {

@@ -11,6 +11,11 @@ pub enum StudyError {
     Build { structure: String, scene: String, cause: BuildError },
     #[error("{structure} on the {rays} rays of {scene}: {cause}")]
     Unsteady { structure: String, scene: String, rays: String, cause: UnsteadyAnswers },
+    #[error(
+        "{scene}: {structures} structures at once need about {needed:.0} GB, and there are {there:.0} GB of memory: name fewer structures, or a \
+         smaller scene"
+    )]
+    Memory { scene: String, structures: usize, needed: f64, there: f64 },
     #[error("{structure} on {scene}: {PANICKED}")]
     Panicked { structure: String, scene: String },
     #[error("{0}")]

@@ -2,8 +2,8 @@
 //!
 //! **The same answers as one by one.** A packet visits the children of a node in the order of the octant, which its rays
 //! share, and a ray takes part in a visit just when its own test of the box says so, with its own end. What the packet decides
-//! for all rays at once only leaves out boxes that each of them would leave out (see [`Frustum`]). So every ray goes through the
-//! same leaves in the same order as alone.
+//! for all rays at once only leaves out boxes that each of them would leave out (see [`Frustum`]). So every ray goes through all
+//! leaves that it needs, in the same order as alone; where eight at once know less closely where a hit is, perhaps through some behind it as well.
 //!
 //! A leaf that nearly all rays come to is searched triangle by triangle, eight rays at once, others ray by ray. A ray of which eight at
 //! once cannot tell whether it meets a triangle, or whether that is the nearest, searches the leaf once more alone. The nearest of the

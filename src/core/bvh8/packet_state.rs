@@ -9,7 +9,7 @@ use super::ray_packet::RayPacket;
 use crate::geometry::{Hit, Ray};
 use crate::simd::{EightLanes, Level, each};
 use crate::traversal::leaf::{LeafBlock, NONE, Nearest, settle};
-use crate::triangle::{Depth, TriangleTest};
+use crate::triangle::{BETWEEN_BOUNDS, Depth, ORIGIN, TriangleTest};
 
 /// From so many rays on a leaf may be searched triangle by triangle. Of fewer, hardly any finds something, which is soon known ray by
 /// ray; and both halves have some.
@@ -72,17 +72,27 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
             return;
         }
         for half in 0..HALVES {
-            let (mut inputs, mut found) = (packet.inputs(half), 0);
-            for lane in 0..WIDTH {
+            let mut inputs = packet.inputs(half);
+            let (found, one) = self.nearest.found_in(half);
+            let of_lane = |lane: usize| {
                 let i = half * WIDTH + lane;
-                if self.nearest.has_found(i) {
-                    found |= 1 << lane;
-                    let own = self.nearest.depth(i).inputs(&self.rays[i]);
-                    for column in 0..9 {
+                self.nearest.depth(i).inputs(&self.rays[i])
+            };
+            // Neighbours often meet the same triangle, which need not be gathered then.
+            if one {
+                let own = of_lane(found.trailing_zeros() as usize % WIDTH);
+                for column in 0..ORIGIN {
+                    inputs[column] = [own[column]; WIDTH];
+                }
+            }
+            for lane in (0..WIDTH).filter(|lane| found >> lane & 1 == 1) {
+                let own = of_lane(lane);
+                if !one {
+                    for column in 0..ORIGIN {
                         inputs[column][lane] = own[column];
                     }
-                    inputs[15][lane] = own[15];
                 }
+                inputs[BETWEEN_BOUNDS][lane] = own[BETWEEN_BOUNDS];
             }
             let ts = if found == 0 { [0.0; WIDTH] } else { last_bits::<T::Depth<'_>>(level, &inputs, found) };
             for lane in 0..WIDTH {

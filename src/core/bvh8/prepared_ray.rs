@@ -16,7 +16,7 @@ use crate::traversal::line::inverses;
 /// where n is not negative, and t_min <= F; and because the last rounding is monotonic, also where the products underflow, the
 /// rounded ones are in that order. Where n is negative, t_min stands for it. `end` is 8 units beyond the last parameter of interest,
 /// which n does not exceed. Infinite crossings (`d` = 0) order correctly, and what has no answer is NaN (see
-/// [`inverses`]), which leaves the interval as it is. Nothing is fused, so that all levels visit the same boxes.
+/// [`inverses`]), which leaves the interval as it is. Nothing is fused, so that all levels visit the same boxes for the same `end`.
 #[derive(Clone, Copy)]
 pub(super) struct PreparedRay<L> {
     origin: [L; 3],

@@ -6,7 +6,7 @@ use super::prepared_ray::{ENLARGED, PreparedRay};
 use crate::geometry::{Aabb, Ray};
 use crate::simd::{EightLanes, LaneVec3, each};
 use crate::traversal::line::{after, lanes_after};
-use crate::triangle::{EightRays, INPUTS};
+use crate::triangle::{DIRECTION, EightRays, INPUTS, ORIGIN};
 
 /// A number of each ray.
 type Row = [[f32; WIDTH]; HALVES];
@@ -142,8 +142,8 @@ impl<L: EightLanes> RayPacket<L> {
     pub fn inputs(&self, half: usize) -> [[f32; WIDTH]; INPUTS] {
         let mut inputs = [[0.0; WIDTH]; INPUTS];
         for axis in 0..3 {
-            inputs[9 + axis] = self.origin[axis][half].store();
-            inputs[12 + axis] = self.direction[axis][half].store();
+            inputs[ORIGIN + axis] = self.origin[axis][half].store();
+            inputs[DIRECTION + axis] = self.direction[axis][half].store();
         }
         inputs
     }

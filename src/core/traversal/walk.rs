@@ -35,7 +35,7 @@ pub(crate) fn silent<const ANY: bool, L: EightLanes, W: Walk>(structure: &W, ray
     }
 }
 
-/// A walk that somebody watches: on portable lanes, because all levels take the same steps, and who counts does not hurry. Out of line, so that
+/// A walk that somebody watches: on portable lanes, so that counts are the same on every machine, and who counts does not hurry. Out of line, so that
 /// there is one copy of it.
 #[inline(never)]
 fn watched<const ANY: bool, W: Walk, O: Observer>(structure: &W, ray: &Ray, observer: &mut O) -> Option<Hit> {

@@ -3,8 +3,14 @@ use std::cmp::Ordering;
 use crate::geometry::Ray;
 use crate::simd::EightLanes;
 
-/// Coordinates of three corners, an origin and a direction, and how far apart bounds of the `t` are.
+/// How many numbers [`Depth::inputs`] are. First come the coordinates of three corners; where the others begin, the constants beside this one tell.
 pub const INPUTS: usize = 16;
+/// The first coordinate of the origin among the inputs.
+pub const ORIGIN: usize = 9;
+/// That of the direction.
+pub const DIRECTION: usize = 12;
+/// How far apart the bounds of the `t` are.
+pub const BETWEEN_BOUNDS: usize = 15;
 
 /// Where along a ray a hit is, as exactly as its triangle test knows.
 pub trait Depth: Copy {

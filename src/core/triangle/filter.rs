@@ -3,7 +3,7 @@
 use glam::{Vec3, Vec3Swizzles as _};
 
 use super::corners::Place;
-use super::{Corners, EightMet, EightRays};
+use super::{Corners, EightRays};
 use crate::geometry::Ray;
 use crate::simd::{EightLanes, LaneVec3, Lanes};
 
@@ -145,7 +145,7 @@ impl<L> Survivors<L> {
     /// Two pairs: where the first is below the second in both, the line certainly meets the triangle at an exact `t` between the two bounds that
     /// come after.
     #[inline(always)]
-    fn look<const N: usize>(&self) -> ([[L; 2]; 2], [L; 2])
+    pub(super) fn look<const N: usize>(&self) -> ([[L; 2]; 2], [L; 2])
     where
         L: Lanes<N>,
     {
@@ -183,9 +183,11 @@ impl<L> Survivors<L> {
 /// (1 + E). With bounds dh and dd of 10 w N |s| and 60 w N, more than both and their own rounding: where |det| is beyond dd its sign is certain,
 /// and a hit with h below -dh lies behind the origin. One at a t of at most T, where T is not below `to` for the scaled direction, has
 /// h - T |det| at most dh + T dd; the computed difference, in which T |det| is at most 6 N T, is off by 7 w N T and w of itself, of which dd has more to
-/// spare. Here the slack 2 k (160 w N or more) stands for dd. Where |det| is beyond 16 dd, |h/d - h'/d'| <= (dh + |h'/d'| dd) / |d'| is at most 16/15 of that with
-/// the computed h/d in place of the exact one, which 9/8 covers with what rounds in it; the quotient and the ends of the interval round by
-/// less than 8 w of t, and [`TINY`] covers what underflows when t is that of the direction again.
+/// spare. Here the slack 2 k (160 w N or more) stands for dd. Where the computed |det|, d', is beyond 16 dd, and h' is the
+/// computed height, |h/d - h'/d'| <= (dh + |h'/d'| dd) / |d| is at most 16/15 of that with d' in place of d, which 9/8 covers with what rounds in it; the
+/// quotient and the ends of the interval round by less than 8 w of t, and [`TINY`] covers what underflows when t is that of the direction again. Before that
+/// nothing underflows that counts: what is inside by more than 2 k has |s| > 2^-18 E, and a det beyond 16 TINY takes an E above 2^-63, so that the error is
+/// beyond 2^-104.
 #[inline(always)]
 pub(super) fn survivors<const N: usize, L: Lanes<N>>(
     ray: &FilterRay,
@@ -199,8 +201,7 @@ pub(super) fn survivors<const N: usize, L: Lanes<N>>(
     (!signs.lt(L::zero()) & ((1_u64 << N) - 1) as u32, survivors)
 }
 
-/// As [`survivors`], for eight rays and the triangle in one lane of a block. Nothing where all rays of `active` are rejected: that many triangles of a leaf
-/// are is worth a guess, which saves the bounds.
+/// As [`survivors`], for eight rays and the triangle in one lane of a block: the rays that do not meet it.
 ///
 /// All directions are scaled as the longest one is. The argument at [`survivors`] takes of them only that no component is beyond 2, and that what becomes
 /// denormal is off by 2^-150 at most, so it holds for the others too; of much shorter ones less is certain.
@@ -210,8 +211,7 @@ pub(super) fn survive_eight<const N: usize, L: EightLanes>(
     block: &FilterBlock<N>,
     lane: usize,
     to: L,
-    active: L::Mask,
-) -> Option<EightMet<L>> {
+) -> (L::Mask, Survivors<L>) {
     let scaling = Scaling::new(rays.longest, rays.farthest);
     let least = L::splat(f32::MIN_POSITIVE);
     let last = to.max(least).mul(L::splat(scaling.unscaled)).max(least);
@@ -220,16 +220,7 @@ pub(super) fn survive_eight<const N: usize, L: EightLanes>(
     let direction = LaneVec3::new(x.mul(scale), y.mul(scale), z.mul(scale));
     let sizes = [L::splat(block.extents[lane]), L::splat(block.areas[lane])];
     let (signs, survivors) = survive(rays.origin, direction, scaling, block.corners.splat(lane), sizes, last);
-    let rejected = signs.cmp_lt(L::zero());
-    if L::bits(active) & !L::bits(rejected) == 0 {
-        return None;
-    }
-    let ([inside, certain], [low, high]) = survivors.look();
-    let sure = L::both(inside[0].cmp_lt(inside[1]), certain[0].cmp_lt(certain[1]));
-    let within = L::both(rays.t_min.cmp_le(low), high.cmp_lt(rays.t_max));
-    let without = L::either(high.cmp_lt(rays.t_min), rays.t_max.cmp_le(low));
-    let missed = L::either(rejected, L::both(sure, without));
-    Some(EightMet { met: L::both(sure, within), missed, low, high })
+    (signs.cmp_lt(L::zero()), survivors)
 }
 
 /// The same of lines and triangles, lane by lane, the latter by their corners, extents and areas: where the first answer is negative, the line does not meet

@@ -27,7 +27,7 @@ use glam::Vec3;
 
 pub use baldwin_weber::BaldwinWeber;
 pub use corners::Corners;
-pub use depth::{Depth, INPUTS};
+pub use depth::{BETWEEN_BOUNDS, DIRECTION, Depth, INPUTS, ORIGIN};
 pub use edge_f64::EdgeF64;
 pub use eight_rays::{EightMet, EightRays};
 pub use exact::Exact;

@@ -19,10 +19,11 @@ use super::runs::Runs;
 use crate::measure::{Estimate, Provenance};
 use crate::report::document::{Art, Document};
 use crate::report::words::{command_line, distinct};
-use crate::report::{Record, Statement, to_json};
+use crate::report::{Record, Statement, Table, to_json};
 use crate::scene::{Builtin, WorkloadKind};
-use crate::study::Studies;
-use crate::study::compare::ranks;
+use crate::study::compare::{CompareStudy, ranks};
+use crate::study::partitions::{PartitionsStudy, all_scenes};
+use crate::study::{Studies, Study};
 
 /// The command that makes all of it.
 pub const COMMAND: &str = "sahara report RUN.. --results";
@@ -220,11 +221,15 @@ fn statements(document: &Document, runs: &Runs, studies: &Studies, run: &RunFact
         let found = runs.answers.get(study.name()).map_or(vec![], |answer| study.statements(answer));
         found.into_iter().for_each(|statement| add(study.name(), statement));
     }
-    let tables = ranks(runs.records()).map_or(vec![], |ranks| ranks.tables(runs.records()));
-    if let Some(first) = tables.into_iter().next() {
-        let text = crate::report::Table { title: String::new(), notes: vec![], ..first }.to_markdown();
-        add("compare", Statement::new("rank", text.trim().trim_start_matches('#').trim()));
-    }
+    let mut add_table = |part: &str, key: &str, table: Option<Table>| {
+        if let Some(table) = table {
+            let text = Table { title: String::new(), notes: vec![], ..table }.to_markdown();
+            add(part, Statement::new(key, text.trim().trim_start_matches('#').trim()));
+        }
+    };
+    let ranked = ranks(runs.records()).map_or(vec![], |ranks| ranks.tables(runs.records()));
+    add_table(CompareStudy::NAME, "rank", ranked.into_iter().next());
+    add_table(PartitionsStudy::NAME, "all", runs.answers.of::<PartitionsStudy>().and_then(all_scenes));
     all
 }
 

@@ -7,4 +7,5 @@ pub mod counted;
 pub mod guarded;
 pub mod placed;
 pub mod ray_cost;
+pub mod room;
 pub mod timing;

@@ -11,6 +11,7 @@ use crate::study::bench::case::Case;
 use crate::study::bench::check::{check_all, declined};
 use crate::study::bench::counted::{Counted, Events, count_all};
 use crate::study::bench::placed::Placed;
+use crate::study::bench::room::fits;
 use crate::study::bench::timing::{Taken, Timing};
 use crate::study::{PANICKED, Stage, StudyError};
 
@@ -72,6 +73,7 @@ impl<'a> Bench<'a> {
         progress: &mut dyn FnMut(Stage),
     ) -> Result<Self, StudyError> {
         let Settings { structures: choices, threads, seed, .. } = settings;
+        fits(choices, scene)?;
         let detailed = settings.detailed && epoch == 0;
         let seed = seed.wrapping_add(epoch as u64);
         let mut placed = Placed::new(choices, scene, threads, clock, seed, detailed, progress);

@@ -16,9 +16,9 @@ use crate::registry::{Choice, ChoiceError, Registry};
 use crate::report::document::Block;
 use crate::report::{Record, Statement, Table};
 
-pub use rows::{KindSpeed, Row, rows};
+pub use rows::{KindSpeed, Overall, Row, overall, rows};
 use table::LEGEND;
-pub use table::tables;
+pub use table::{all_scenes, tables};
 
 /// Those whose speed is asked for: the binary tree, and the wide one over each partition.
 const OURS: [&str; 5] = ["sah-kd", "sah-kd-wide", "sah-kd-tight", "sah-hybrid", "sah-bvh"];
@@ -41,6 +41,8 @@ fn structures(registry: &Registry, test: &str, keys: &str) -> Result<Vec<Choice>
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Partitions {
     pub rows: Vec<Row>,
+    /// Means over all scenes, where there is more than one.
+    pub overall: Vec<Overall>,
     pub records: Vec<Record>,
 }
 
@@ -91,11 +93,11 @@ impl Study for PartitionsStudy {
 
     fn answer(cases: &[Epoch], context: &Context<Self>) -> Partitions {
         let records = compared(cases, context.provenance).records;
-        Partitions { rows: rows(&records), records }
+        Partitions { rows: rows(&records), overall: overall(&records), records }
     }
 
     fn tables(answer: &Partitions) -> Vec<Table> {
-        tables(&answer.rows)
+        tables(answer)
     }
 
     fn legend(_: &Partitions) -> Vec<String> {
@@ -111,7 +113,7 @@ impl Study for PartitionsStudy {
     }
 
     fn section(answer: &Partitions, command: &str) -> Vec<Block> {
-        section::blocks(&answer.rows, command)
+        section::blocks(answer, command)
     }
 
     fn scenes(answer: &Partitions) -> Vec<SceneId> {

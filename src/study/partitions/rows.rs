@@ -2,8 +2,9 @@
 
 use serde::Serialize;
 
-use crate::measure::Estimate;
+use crate::measure::{AaNoise, Estimate, geometric_mean};
 use crate::report::Record;
+use crate::report::words::distinct;
 use crate::study::compare::{speed, twins};
 use crate::study::reference_structures::is_obvhs;
 
@@ -40,45 +41,99 @@ pub struct KindSpeed {
     pub tests: Option<f64>,
 }
 
+/// One structure over all scenes.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Overall {
+    /// As chosen.
+    pub structure: String,
+    /// Geometric mean of its build times as shares of those of `obvhs-bvh2` with its dearest preset.
+    pub build: Option<f64>,
+    /// Kinds of rays, with the geometric mean of the speeds over the scenes.
+    pub kinds: Vec<(String, Option<Estimate>)>,
+    /// Over all cells.
+    pub all: Option<Estimate>,
+}
+
 /// Compares the records of one run over the structures of the study.
 pub fn rows(records: &[Record]) -> Vec<Row> {
     let noise = twins(records);
-    let mut rows: Vec<Row> = vec![];
-    let mut pairs: Vec<Vec<Option<(&Record, &Record)>>> = vec![];
-    for record in records.iter().filter(|r| !is_obvhs(&r.structure)) {
-        let rivals = || records.iter().filter(|b| b.scene == record.scene && is_obvhs(&b.structure));
-        let timed = rivals().filter(|b| b.workload == record.workload && b.trace_ns.is_some());
-        let best = timed.min_by(|a, b| pace(a).total_cmp(&pace(b)));
-        let pair = best.filter(|_| record.trace_ns.is_some()).map(|best| (record, best));
-        let cell = KindSpeed {
-            workload: record.workload.clone(),
-            speed: pair.and_then(|pair| speed([pair], &noise)),
-            baseline: best.map(|best| best.label.clone()),
-            steps: record.steps_per_ray,
-            tests: record.tests_per_ray,
-        };
-        let begun = rows.last().is_some_and(|row| row.scene == record.scene && row.structure == record.label);
-        if !begun {
-            let dearest = |b: &&Record| [&b.structure, b.config["preset"].as_str().unwrap_or("")] == DEAREST;
-            rows.push(Row {
-                scene: record.scene.clone(),
-                triangles: record.triangles,
-                structure: record.label.clone(),
-                build: rivals().find(dearest).map(|b| record.build_ns as f64 / b.build_ns as f64),
-                bytes: record.bytes as f64 / record.triangles as f64,
-                cells: vec![],
-                all: None,
-            });
-            pairs.push(vec![]);
+    let row = |own: &[&Record]| {
+        let first = own[0];
+        Row {
+            scene: first.scene.clone(),
+            triangles: first.triangles,
+            structure: first.label.clone(),
+            build: build(first, records),
+            bytes: first.bytes as f64 / first.triangles as f64,
+            cells: own.iter().map(|record| cell(record, records, &noise)).collect(),
+            all: mean(own, records, &noise),
         }
-        rows.last_mut().expect("begun").cells.push(cell);
-        pairs.last_mut().expect("begun").push(pair);
+    };
+    ours(records).chunk_by(|a, b| a.scene == b.scene && a.label == b.label).map(row).collect()
+}
+
+/// The same structures over all scenes, where there is more than one: those that take part in all of them.
+pub fn overall(records: &[Record]) -> Vec<Overall> {
+    let (noise, ours) = (twins(records), ours(records));
+    let scenes = |own: &[&Record]| distinct(own.iter().map(|record| &record.scene)).len();
+    let every = scenes(&ours);
+    let of = |structure: String| {
+        let own: Vec<&Record> = ours.iter().copied().filter(|record| record.label == structure).collect();
+        if every < 2 || scenes(&own) < every {
+            return None;
+        }
+        let builds = own.chunk_by(|a, b| a.scene == b.scene).map(|scene| build(scene[0], records));
+        let builds: Option<Vec<f64>> = builds.collect();
+        let of_kind = |workload: String| {
+            let cells: Vec<&Record> = own.iter().copied().filter(|record| record.workload == workload).collect();
+            let mean = mean(&cells, records, &noise);
+            (workload, mean)
+        };
+        let kinds = distinct(own.iter().map(|record| &record.workload)).into_iter().map(of_kind).collect();
+        let all = mean(&own, records, &noise);
+        Some(Overall { structure, build: builds.and_then(|builds| geometric_mean(&builds)), kinds, all })
+    };
+    distinct(ours.iter().map(|record| &record.label)).into_iter().filter_map(of).collect()
+}
+
+fn ours(records: &[Record]) -> Vec<&Record> {
+    records.iter().filter(|record| !is_obvhs(&record.structure)).collect()
+}
+
+/// The records of obvhs on the scene of `record`.
+fn rivals<'a>(record: &Record, records: &'a [Record]) -> impl Iterator<Item = &'a Record> {
+    records.iter().filter(move |rival| rival.scene == record.scene && is_obvhs(&rival.structure))
+}
+
+/// The fastest of them on the same rays.
+fn fastest<'a>(record: &Record, records: &'a [Record]) -> Option<&'a Record> {
+    let timed = rivals(record, records).filter(|b| b.workload == record.workload && b.trace_ns.is_some());
+    timed.min_by(|a, b| pace(a).total_cmp(&pace(b)))
+}
+
+/// Build time as a share of that of the dearest.
+fn build(record: &Record, records: &[Record]) -> Option<f64> {
+    let is_dearest = |b: &&Record| [&b.structure, b.config["preset"].as_str().unwrap_or("")] == DEAREST;
+    rivals(record, records).find(is_dearest).map(|dearest| record.build_ns as f64 / dearest.build_ns as f64)
+}
+
+fn cell(record: &Record, records: &[Record], noise: &AaNoise) -> KindSpeed {
+    KindSpeed {
+        workload: record.workload.clone(),
+        speed: mean(&[record], records, noise),
+        baseline: fastest(record, records).map(|best| best.label.clone()),
+        steps: record.steps_per_ray,
+        tests: record.tests_per_ray,
     }
-    for (row, pairs) in rows.iter_mut().zip(pairs) {
-        let pairs: Option<Vec<(&Record, &Record)>> = pairs.into_iter().collect();
-        row.all = pairs.and_then(|pairs| speed(pairs, &noise));
-    }
-    rows
+}
+
+/// The geometric mean of speeds, each against the fastest of obvhs there; nothing where one is missing.
+fn mean(own: &[&Record], records: &[Record], noise: &AaNoise) -> Option<Estimate> {
+    let pairs = own.iter().map(|&record| {
+        record.trace_ns?;
+        Some((record, fastest(record, records)?))
+    });
+    speed(pairs.collect::<Option<Vec<_>>>()?, noise)
 }
 
 fn pace(record: &Record) -> f64 {

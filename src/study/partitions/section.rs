@@ -1,7 +1,7 @@
 //! The same node, leaf and walk over four ways to divide the triangles.
 
-use super::table::LEGEND;
-use super::{Row, tables};
+use super::table::{LEGEND, table};
+use super::{Partitions, Row, all_scenes};
 use crate::measure::Estimate;
 use crate::report::document::{Art, Block, Figure};
 use crate::report::number::count;
@@ -20,7 +20,8 @@ pub fn statements(rows: &[Row]) -> Vec<Statement> {
         Some(format!("{} {}{most}", bare(structure), interval(*least)))
     };
     let told: Vec<String> = distinct(rows.iter().map(|row| &row.structure)).iter().filter_map(range).collect();
-    let scenes = listed(&distinct(rows.iter().map(|row| &row.scene)));
+    let scenes = distinct(rows.iter().map(|row| &row.scene));
+    let scenes = if scenes.len() > 3 { format!("{} scenes", scenes.len()) } else { listed(&scenes) };
     let sentence = format!(
         "As multiples of the speed of the fastest obvhs over all its presets, on {scenes} and over the same triangle test: {}.",
         listed(&told)
@@ -28,11 +29,12 @@ pub fn statements(rows: &[Row]) -> Vec<Statement> {
     (!told.is_empty()).then(|| Statement::new("obvhs", sentence)).into_iter().collect()
 }
 
-pub fn blocks(rows: &[Row], command: &str) -> Vec<Block> {
+pub fn blocks(answer: &Partitions, command: &str) -> Vec<Block> {
     let mut blocks = vec![Block::Text(LEGEND.join(" "))];
-    for of_scene in rows.chunk_by(|a, b| a.scene == b.scene) {
+    blocks.extend(all_scenes(answer).map(|table| Block::table(table, command)));
+    for of_scene in answer.rows.chunk_by(|a, b| a.scene == b.scene) {
         blocks.push(Block::Figure(figure(of_scene, command)));
-        blocks.extend(tables(of_scene).into_iter().map(|table| Block::table(table, command)));
+        blocks.push(Block::table(table(of_scene), command));
     }
     blocks
 }

@@ -33,7 +33,7 @@ fn each_cell_is_held_against_the_fastest_rival_there() {
     assert_eq!(speed(1), (8.0, "obvhs-cwbvh:preset=fast"));
     assert!((rows[0].all.unwrap().estimate - 4.0).abs() < 1e-12);
     assert_eq!((rows[0].build, rows[0].bytes), (Some(2.0), 80.0));
-    assert_eq!(tables(&rows).len(), 1);
+    assert_eq!(overall(&records), []);
 }
 
 #[test]
@@ -46,6 +46,24 @@ fn what_has_no_time_has_no_speed_and_no_mean() {
     let rows = rows(&records);
     assert!(rows[0].cells[0].speed.is_some() && rows[0].cells[1].speed.is_none());
     assert_eq!(rows[0].all, None);
+}
+
+#[test]
+fn over_several_scenes_the_means_are_of_all_cells() {
+    let on = |scene: &str, record: Record| Record { scene: scene.into(), ..record };
+    let dearest = |ns: f64| record("obvhs-bvh2:preset=very-slow", "primary", &[ns; 3], Some("very-slow"));
+    let own = || record("sah-bvh", "primary", &[100.0; 3], None);
+    // Refused on the other scene: its mean would be of other cells.
+    let on_one = || record("sah-kd", "primary", &[10.0; 3], None);
+    let records = [on("A", dearest(200.0)), on("A", own()), on("A", on_one()), on("B", dearest(800.0)), on("B", own())];
+    let answer = Partitions { rows: rows(&records), overall: overall(&records), records: records.into() };
+    let [all] = &answer.overall[..] else { panic!("{:?}", answer.overall) };
+    assert_eq!((all.structure.as_str(), all.build), ("sah-bvh", Some(2.0)));
+    assert!((all.all.unwrap().estimate - 4.0).abs() < 1e-12);
+    assert_eq!(all.kinds, [("primary".to_owned(), all.all)]);
+    let tables = tables(&answer);
+    assert_eq!(tables.iter().map(|table| table.rows.len()).collect::<Vec<_>>(), [2, 1, 1]);
+    assert!(tables[2].title.starts_with("All 2 scenes"), "{}", tables[2].title);
 }
 
 #[test]

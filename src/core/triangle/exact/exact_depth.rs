@@ -8,7 +8,7 @@ use crate::exact;
 use crate::geometry::Ray;
 use crate::simd::{EightLanes, LaneVec3, indexed};
 use crate::triangle::corners::Place;
-use crate::triangle::{Depth, INPUTS};
+use crate::triangle::{BETWEEN_BOUNDS, DIRECTION, Depth, INPUTS, ORIGIN};
 
 /// Where a ray meets a triangle, exactly: bounds of its `t` in `f32`, and the triangle, for when these do not tell.
 #[derive(Clone, Copy, Debug)]
@@ -131,14 +131,15 @@ impl Depth for ExactDepth<'_> {
     #[inline(always)]
     fn ts<L: EightLanes>(inputs: &[[f32; 8]; INPUTS], which: u32) -> [f32; 8] {
         let vector = |first: usize| LaneVec3::load(&[inputs[first], inputs[first + 1], inputs[first + 2]]);
-        let (low, high) =
-            pass_plane::<8, L>(vector(9), vector(12), [vector(0), vector(3), vector(6)], L::load(&inputs[15]));
+        let corners = [vector(0), vector(3), vector(6)];
+        let width = L::load(&inputs[BETWEEN_BOUNDS]);
+        let (low, high) = pass_plane::<8, L>(vector(ORIGIN), vector(DIRECTION), corners, width);
         let (low, high) = (L::narrow(low), L::narrow(high));
         let (untold, mut ts) = (which & !high.le(low), high.store());
         if untold != 0 {
             for (lane, t) in ts.iter_mut().enumerate().filter(|(lane, _)| untold >> lane & 1 == 1) {
                 let vector = |first: usize| Vec3::from_array(indexed(|axis| inputs[first + axis][lane]));
-                let (ray, corners) = (Ray::new(vector(9), vector(12)), [vector(0), vector(3), vector(6)]);
+                let (ray, corners) = (Ray::new(vector(ORIGIN), vector(DIRECTION)), [vector(0), vector(3), vector(6)]);
                 *t = rounded(seen(&ray, corners)).unwrap_or_else(|| exact_t(&ray, corners));
             }
         }

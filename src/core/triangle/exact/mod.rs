@@ -25,7 +25,8 @@ use enclosure::{Sight, look, place, place_closely};
 /// `t`, at equal `t` by number; the `t` returned is the exact one, correctly rounded (so that one just before an open end `t_max` may be
 /// returned as `t_max`). In a structure that loses nothing the answer to every ray is the mathematical one. Does not promise:
 /// speed where many rays pass exactly through edges or begin in planes of triangles: each such triangle costs 50 nanoseconds, or a
-/// microsecond where the bits of the coordinates lie more than forty places apart.
+/// microsecond where the bits of the coordinates lie more than forty places apart; and right answers where the processor has been told to take
+/// denormal numbers for zero.
 ///
 /// # References
 /// Filters before exact arithmetic: Fortune, Van Wyk: Efficient exact arithmetic for computational geometry. SoCG 1993. Shewchuk:
@@ -142,7 +143,17 @@ impl TriangleTest for Exact {
         to: L,
         active: L::Mask,
     ) -> Option<EightMet<L>> {
-        survive_eight(rays, block, lane, to, active)
+        let (rejected, survivors) = survive_eight(rays, block, lane, to);
+        // That all of them miss is worth a guess, for many triangles of a leaf are missed by all: it saves the bounds.
+        if L::bits(active) & !L::bits(rejected) == 0 {
+            return None;
+        }
+        let ([inside, certain], [low, high]) = survivors.look();
+        let sure = L::both(inside[0].cmp_lt(inside[1]), certain[0].cmp_lt(certain[1]));
+        let within = L::both(rays.t_min.cmp_le(low), high.cmp_lt(rays.t_max));
+        let without = L::either(high.cmp_lt(rays.t_min), rays.t_max.cmp_le(low));
+        let missed = L::either(rejected, L::both(sure, without));
+        Some(EightMet { met: L::both(sure, within), missed, low, high })
     }
 
     #[inline(always)]
@@ -190,14 +201,16 @@ fn crowd<const N: usize>(
 ) -> (u32, Sights<N>) {
     let corners = block.corners().load::<Portable<N>>();
     let (placed, low, high) = place(LaneVec3::splat(ray.origin), LaneVec3::splat(ray.direction), corners);
-    let (low, high, mut sights) = (low.store(), high.store(), *sights);
     let (start, last) = (f64::from(ray.interval().0), nearest.map_or(f64::INFINITY, |hit| hit.latest(ray)));
     let known = candidates & sights.sure & placed;
-    for lane in (0..N).filter(|lane| known >> lane & 1 == 1) {
-        if high[lane] < start || low[lane] > last {
-            candidates ^= 1 << lane;
-        }
-        (sights.low[lane], sights.high[lane]) = (round_down(low[lane]), round_up(high[lane]));
+    let splat = <Portable<N> as Lanes<N>>::Double::splat;
+    candidates &= !(known & (high.lt(splat(start)) | splat(last).lt(low)));
+    let (mut sights, mut left) = (*sights, candidates & known);
+    while left != 0 {
+        let lane = left.trailing_zeros() as usize % N;
+        // Read where it is needed: most blocks have none left.
+        (sights.low[lane], sights.high[lane]) = (round_down(low.store()[lane]), round_up(high.store()[lane]));
+        left &= left - 1;
     }
     (candidates, sights)
 }

@@ -92,7 +92,7 @@ fn the_last_bits_of_eight_hits_are_those_of_each() {
         for (column, input) in inputs.iter_mut().zip(depth.expect("it is hit").inputs(&ray)) {
             column[lane] = input;
         }
-        seen += usize::from(inputs[INPUTS - 1][lane].is_finite());
+        seen += usize::from(inputs[BETWEEN_BOUNDS][lane].is_finite());
         owed.push((lane, t.to_bits()));
         hits += 1;
         if owed.len() == len {
