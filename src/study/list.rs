@@ -117,7 +117,7 @@ mod tests {
             ("attribution", ["8", "3", "5"]),
             ("partitions", ["3", "5", "40"]),
             ("replicate", ["8", "3", "5"]),
-            ("scaling", ["3", "3", "8"]),
+            ("scaling", ["8", "3", "5"]),
             ("threads", ["3", "3", "4"]),
         ] {
             let command = studies.find(name).expect("it is built in").augment(Command::new(name));

@@ -1,4 +1,5 @@
 use super::*;
+use crate::measure::Estimate;
 use crate::study::epoch::tests::example;
 
 /// Four levels, two epochs of three rounds: 2 ns times n^b, the build 1000 n^c, both with an odd epoch.
@@ -29,6 +30,25 @@ fn a_power_is_found_where_there_is_one() {
     assert_eq!(growths[0].points.len(), 4);
     assert!((growths[0].points[0].bytes_per_triangle - 100.0).abs() < 1e-9);
     assert_eq!(ScalingStudy::tables(&growths).len(), 2);
+}
+
+#[test]
+fn meshes_of_few_epochs_take_none_from_a_claim_about_the_others() {
+    let mut cases = family(0.25, 1.0, 0.02);
+    let ns = |epoch: usize| (2e6 * libm::pow(4.0 * LEVEL_8 as f64, 0.25)) as u64 + epoch as u64;
+    let of = |scene: &str, n: usize, epoch: usize, ns: u64| FamilyEpoch {
+        family: Family::Spheres,
+        epoch: example(scene, n, epoch, &[("sah-kd", ns, &[ns; 3])]),
+    };
+    // Four more epochs of the coarser ones, and two of one that is beyond level 8.
+    for (i, n) in [100usize, 400, 1600, 6400].into_iter().enumerate() {
+        let ns = (2e6 * libm::pow(n as f64, 0.25)) as u64;
+        cases.extend((2..6).map(|epoch| of(&format!("sphere {n}"), n, epoch, ns + (i + epoch) as u64 % 2 * 100_000)));
+    }
+    cases.extend((0..2).map(|epoch| of("finest", 4 * LEVEL_8, epoch, ns(epoch))));
+    let growth = &result(&cases)[0];
+    let freedom = |estimate: Option<Estimate>| estimate.unwrap().interval.unwrap().freedom;
+    assert_eq!((freedom(growth.time_to_level_8), freedom(growth.time)), (5.0, 1.0), "{growth:?}");
 }
 
 #[test]
