@@ -6,17 +6,15 @@ mod table;
 #[cfg(test)]
 mod tests;
 
-use serde::Serialize;
-
 use super::args::{Measuring, QUICK_EPOCHS, Rays, Scenes, WORKLOADS, with_twin};
 use super::compare::compared;
 use super::epoch::{Epoch, Settings};
 use super::{Context, Data, Plan, SceneId, Study};
 use crate::registry::{Choice, ChoiceError, Registry};
 use crate::report::document::Block;
-use crate::report::{Record, Statement, Table};
+use crate::report::{Statement, Table};
 
-pub use rows::{KindSpeed, Overall, Row, overall, rows};
+pub use rows::{KindSpeed, Overall, Partitions, Row};
 use table::LEGEND;
 pub use table::{all_scenes, tables};
 
@@ -35,15 +33,6 @@ fn structures(registry: &Registry, test: &str, keys: &str) -> Result<Vec<Choice>
     });
     let presets = LAYOUTS.iter().flat_map(|layout| PRESETS.map(|preset| format!("{layout}:preset={preset}")));
     ours.chain(presets.map(|spec| registry.choose(&spec))).collect()
-}
-
-/// What the study says.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub struct Partitions {
-    pub rows: Vec<Row>,
-    /// Means over all scenes, where there is more than one.
-    pub overall: Vec<Overall>,
-    pub records: Vec<Record>,
 }
 
 /// The study.
@@ -92,8 +81,7 @@ impl Study for PartitionsStudy {
     }
 
     fn answer(cases: &[Epoch], context: &Context<Self>) -> Partitions {
-        let records = compared(cases, context.provenance).records;
-        Partitions { rows: rows(&records), overall: overall(&records), records }
+        Partitions::of(compared(cases, context.provenance).records)
     }
 
     fn tables(answer: &Partitions) -> Vec<Table> {

@@ -11,6 +11,22 @@ use crate::study::reference_structures::is_obvhs;
 /// The build whose time is the unit.
 const DEAREST: [&str; 2] = ["obvhs-bvh2", "very-slow"];
 
+/// What the study says.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Partitions {
+    pub rows: Vec<Row>,
+    /// Means over all scenes, where there is more than one.
+    pub overall: Vec<Overall>,
+    pub records: Vec<Record>,
+}
+
+impl Partitions {
+    /// What these records of one run say.
+    pub fn of(records: Vec<Record>) -> Self {
+        Self { rows: rows(&records), overall: overall(&records), records }
+    }
+}
+
 /// One structure on one scene.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Row {
@@ -55,7 +71,7 @@ pub struct Overall {
 }
 
 /// Compares the records of one run over the structures of the study.
-pub fn rows(records: &[Record]) -> Vec<Row> {
+fn rows(records: &[Record]) -> Vec<Row> {
     let noise = twins(records);
     let row = |own: &[&Record]| {
         let first = own[0];
@@ -73,7 +89,7 @@ pub fn rows(records: &[Record]) -> Vec<Row> {
 }
 
 /// The same structures over all scenes, where there is more than one: those that take part in all of them.
-pub fn overall(records: &[Record]) -> Vec<Overall> {
+fn overall(records: &[Record]) -> Vec<Overall> {
     let (noise, ours) = (twins(records), ours(records));
     let scenes = |own: &[&Record]| distinct(own.iter().map(|record| &record.scene)).len();
     let every = scenes(&ours);

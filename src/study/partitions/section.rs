@@ -1,7 +1,7 @@
 //! The same node, leaf and walk over four ways to divide the triangles.
 
-use super::table::{LEGEND, table};
-use super::{Partitions, Row, all_scenes};
+use super::rows::{Partitions, Row};
+use super::table::{LEGEND, all_scenes, table};
 use crate::measure::Estimate;
 use crate::report::document::{Art, Block, Figure};
 use crate::report::number::count;

@@ -1,6 +1,6 @@
 //! The rows as tables for people.
 
-use super::{Overall, Partitions, Row};
+use super::rows::{Overall, Partitions, Row};
 use crate::measure::Estimate;
 use crate::report::number::{count, figures};
 use crate::report::words::{bare, distinct, explained, written};

@@ -1,5 +1,5 @@
 use super::*;
-use crate::report::timed_example;
+use crate::report::{Record, timed_example};
 
 fn record(label: &str, workload: &str, ns: &[f64], preset: Option<&str>) -> Record {
     Record {
@@ -21,7 +21,7 @@ fn each_cell_is_held_against_the_fastest_rival_there() {
     };
     let ours = ["primary", "random"].map(|w| record("sah-hybrid", w, &[100.0; 3], None));
     let records = [&rivals("primary", 200.0, 300.0)[..], &rivals("random", 900.0, 800.0), &ours].concat();
-    let rows = rows(&records);
+    let Partitions { rows, overall, .. } = Partitions::of(records);
     assert_eq!(rows.len(), 1);
     let speed = |i: usize| {
         (
@@ -33,7 +33,7 @@ fn each_cell_is_held_against_the_fastest_rival_there() {
     assert_eq!(speed(1), (8.0, "obvhs-cwbvh:preset=fast"));
     assert!((rows[0].all.unwrap().estimate - 4.0).abs() < 1e-12);
     assert_eq!((rows[0].build, rows[0].bytes), (Some(2.0), 80.0));
-    assert_eq!(overall(&records), []);
+    assert_eq!(overall, []);
 }
 
 #[test]
@@ -43,7 +43,7 @@ fn what_has_no_time_has_no_speed_and_no_mean() {
         record("sah-bvh", "primary", &[5.0; 3], None),
         record("sah-bvh", "random", &[5.0; 3], None),
     ];
-    let rows = rows(&records);
+    let rows = Partitions::of(records.into()).rows;
     assert!(rows[0].cells[0].speed.is_some() && rows[0].cells[1].speed.is_none());
     assert_eq!(rows[0].all, None);
 }
@@ -56,7 +56,7 @@ fn over_several_scenes_the_means_are_of_all_cells() {
     // Refused on the other scene: its mean would be of other cells.
     let on_one = || record("sah-kd", "primary", &[10.0; 3], None);
     let records = [on("A", dearest(200.0)), on("A", own()), on("A", on_one()), on("B", dearest(800.0)), on("B", own())];
-    let answer = Partitions { rows: rows(&records), overall: overall(&records), records: records.into() };
+    let answer = Partitions::of(records.into());
     let [all] = &answer.overall[..] else { panic!("{:?}", answer.overall) };
     assert_eq!((all.structure.as_str(), all.build), ("sah-bvh", Some(2.0)));
     assert!((all.all.unwrap().estimate - 4.0).abs() < 1e-12);
