@@ -14,12 +14,15 @@ from pathlib import Path
 OF_CASES = {"provenance", "circumstances", "build_ns", "build_peak_bytes", "outside", "instructions_per_ray", "ns", "slowest_ns"}
 OF_REPORTS = {"build_samples_ns", "trace_ns", "samples_ns", "twin_samples_ns", "ns_per_ray", "mrays_per_s", "noise_floor", "speedup"}
 MOMENT = OF_CASES | OF_REPORTS
+# What is found by comparing times: even whether it is known.
+BY_TIMES = {"dominated_by"}
 
 
 def counts(value):
     """A result without its times: of each is left whether it is known, and of samples how many there are."""
     if isinstance(value, dict):
-        return {name: known(field) if name in MOMENT else counts(field) for name, field in value.items()}
+        fields = ((name, field) for name, field in value.items() if name not in BY_TIMES)
+        return {name: known(field) if name in MOMENT else counts(field) for name, field in fields}
     return [counts(item) for item in value] if isinstance(value, list) else value
 
 
