@@ -152,15 +152,6 @@ impl<'a, T: TriangleTest> PacketHits<'a, T> {
         self.ids[i / WIDTH][i % WIDTH] != NONE
     }
 
-    /// The rays of one half that have found something, as bits, and whether it is the same triangle.
-    #[inline(always)]
-    pub fn found_in(&self, half: usize) -> (u32, bool) {
-        let ids = &self.ids[half];
-        let found = ids.iter().enumerate().fold(0, |found, (lane, &id)| found | u32::from(id != NONE) << lane);
-        let first = ids[found.trailing_zeros() as usize % WIDTH];
-        (found, found != 0 && ids.iter().all(|&id| id == first || id == NONE))
-    }
-
     /// The rays that have found something, as bits.
     #[inline(always)]
     pub fn found(&self) -> u16 {

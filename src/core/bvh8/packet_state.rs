@@ -72,27 +72,17 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
             return;
         }
         for half in 0..HALVES {
-            let mut inputs = packet.inputs(half);
-            let (found, one) = self.nearest.found_in(half);
-            let of_lane = |lane: usize| {
+            let (mut inputs, mut found) = (packet.inputs(half), 0);
+            for lane in 0..WIDTH {
                 let i = half * WIDTH + lane;
-                self.nearest.depth(i).inputs(&self.rays[i])
-            };
-            // Neighbours often meet the same triangle, which need not be gathered then.
-            if one {
-                let own = of_lane(found.trailing_zeros() as usize % WIDTH);
-                for column in 0..ORIGIN {
-                    inputs[column] = [own[column]; WIDTH];
-                }
-            }
-            for lane in (0..WIDTH).filter(|lane| found >> lane & 1 == 1) {
-                let own = of_lane(lane);
-                if !one {
-                    for column in 0..ORIGIN {
+                if self.nearest.has_found(i) {
+                    found |= 1 << lane;
+                    let own = self.nearest.depth(i).inputs(&self.rays[i]);
+                    // All but the ray.
+                    for column in (0..ORIGIN).chain([BETWEEN_BOUNDS]) {
                         inputs[column][lane] = own[column];
                     }
                 }
-                inputs[BETWEEN_BOUNDS][lane] = own[BETWEEN_BOUNDS];
             }
             let ts = if found == 0 { [0.0; WIDTH] } else { last_bits::<T::Depth<'_>>(level, &inputs, found) };
             for lane in 0..WIDTH {
