@@ -17,6 +17,7 @@ use super::epoch::Epoch;
 use super::{Context, Data, Plan, Study, sources};
 use crate::registry::Registry;
 use crate::report::document::Block;
+use crate::report::number::count;
 use crate::report::{Statement, Table};
 use crate::scene::{Scene, WorkloadKind};
 
@@ -76,7 +77,14 @@ impl Study for ScalingStudy {
         let wrap = move |scene, _: &Scene, epoch| Ok(FamilyEpoch { family: family(scene), epoch });
         let takes_minutes: Vec<bool> = scenes.iter().map(|scene| scene.mesh.len() > LEVEL_8).collect();
         let mut plan = settings.plan_of(scenes, args.measuring.epochs, wrap);
+        let all = plan.cases.len();
         plan.cases.retain(|case| case.epoch < EPOCHS_OF_FINEST || !takes_minutes[case.scene]);
+        if plan.cases.len() < all {
+            plan.notes.push(format!(
+                "Meshes of more than {} triangles are measured in {EPOCHS_OF_FINEST} epochs, for their builds take minutes.",
+                count(LEVEL_8 as u64)
+            ));
+        }
         Ok(Plan { inputs: args.scenes.files(), ..plan })
     }
 

@@ -25,8 +25,8 @@ use enclosure::{Sight, look, place, place_closely};
 /// `t`, at equal `t` by number; the `t` returned is the exact one, correctly rounded (so that one just before an open end `t_max` may be
 /// returned as `t_max`). In a structure that loses nothing the answer to every ray is the mathematical one. Does not promise:
 /// speed where many rays pass exactly through edges or begin in planes of triangles: each such triangle costs 50 nanoseconds, or a
-/// microsecond where the bits of the coordinates lie more than forty places apart; and right answers where the processor has been told to take
-/// denormal numbers for zero.
+/// microsecond where the bits of the coordinates lie more than forty places apart. Where the processor has been told to take denormal numbers for
+/// zero, answers may be wrong.
 ///
 /// # References
 /// Filters before exact arithmetic: Fortune, Van Wyk: Efficient exact arithmetic for computational geometry. SoCG 1993. Shewchuk:
