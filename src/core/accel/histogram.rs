@@ -25,20 +25,9 @@ impl Histogram {
         self.0.values().sum()
     }
 
-    /// Occurrences of `value`.
-    pub fn times(&self, value: usize) -> usize {
-        self.0.get(&value).copied().unwrap_or(0)
-    }
-
     /// The largest value that occurs; nothing of nothing.
     pub fn largest(&self) -> Option<usize> {
         self.0.last_key_value().map(|(&value, _)| value)
-    }
-
-    /// The mean of the values; nothing of nothing.
-    pub fn mean(&self) -> Option<f64> {
-        let sum: f64 = self.iter().map(|(value, times)| value as f64 * times as f64).sum();
-        (!self.0.is_empty()).then(|| sum / self.total() as f64)
     }
 }
 
@@ -61,11 +50,10 @@ mod tests {
     #[test]
     fn values_are_counted_in_order_and_read_back() {
         let mut histogram = Histogram::default();
-        assert_eq!((histogram.mean(), histogram.largest(), histogram.total()), (None, None, 0));
+        assert_eq!((histogram.largest(), histogram.total()), (None, 0));
         [4, 0, 4, 7].into_iter().for_each(|value| histogram.add(value));
         assert_eq!(histogram.iter().collect::<Vec<_>>(), [(0, 1), (4, 2), (7, 1)]);
-        assert_eq!((histogram.mean(), histogram.largest(), histogram.total()), (Some(3.75), Some(7), 4));
-        assert_eq!((histogram.times(4), histogram.times(5)), (2, 0));
+        assert_eq!((histogram.largest(), histogram.total()), (Some(7), 4));
         let text = serde_json::to_string(&histogram).unwrap();
         assert_eq!(text, "[[0,1],[4,2],[7,1]]");
         assert_eq!(serde_json::from_str::<Histogram>(&text).unwrap(), histogram);

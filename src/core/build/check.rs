@@ -1,5 +1,7 @@
 //! What the tests of all partitions need: meshes, and what every binary tree must keep.
 
+use std::fmt::Debug;
+
 use glam::{DVec3, Vec3};
 use rand_core::{RngCore, SeedableRng};
 use rand_pcg::Pcg32;
@@ -11,24 +13,46 @@ pub fn unit(rng: &mut Pcg32) -> Vec3 {
     Vec3::from_array(std::array::from_fn(|_| rng.next_u32() as f32 / u32::MAX as f32 * 2.0 - 1.0))
 }
 
-pub fn mesh(count: usize, mut corners: impl FnMut(usize) -> [Vec3; 3]) -> Mesh {
-    let positions = (0..count).flat_map(&mut corners).collect();
-    Mesh::new(positions, (0..count as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect()).unwrap()
+pub fn mesh(count: usize, corners: impl FnMut(usize) -> [Vec3; 3]) -> Mesh {
+    let triangles: Vec<[Vec3; 3]> = (0..count).map(corners).collect();
+    Mesh::from_triangles(&triangles).unwrap()
 }
 
 /// What `build` gives must not depend on the number of threads.
-pub fn same_on_threads<R: PartialEq + Send>(build: impl Fn() -> R + Sync) {
-    let on = |threads| rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap().install(&build);
+pub fn same_on_threads<R: Debug>(build: impl Fn() -> R + Sync) {
+    let on = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| format!("{:?}", build()))
+    };
     let one = on(1);
     assert!(one == on(2) && one == on(3));
 }
 
 /// Triangles of very different sizes.
 pub fn soup(count: usize, seed: u64) -> Mesh {
+    mixed(count, seed, 50, 0.1)
+}
+
+/// The same with more of the large ones, so that many straddle.
+pub fn straddling_soup(count: usize, seed: u64) -> Mesh {
+    mixed(count, seed, 10, 0.2)
+}
+
+/// Small triangles, and a large one among `every` so many.
+fn mixed(count: usize, seed: u64, every: usize, small: f32) -> Mesh {
     let mut rng = Pcg32::seed_from_u64(seed);
     mesh(count, |i| {
-        let (centre, size) = (unit(&mut rng) * 4.0, if i % 50 == 0 { 3.0 } else { 0.1 });
+        let (centre, size) = (unit(&mut rng) * 4.0, if i.is_multiple_of(every) { 3.0 } else { small });
         std::array::from_fn(|_| centre + unit(&mut rng) * size)
+    })
+}
+
+/// Needles that all cross near one point and straddle every plane.
+pub fn needles(count: usize, seed: u64) -> Mesh {
+    let mut rng = Pcg32::seed_from_u64(seed);
+    mesh(count, |_| {
+        let d = unit(&mut rng) * 10.0;
+        [d, -d, -d + unit(&mut rng) * 1e-3]
     })
 }
 
@@ -49,7 +73,20 @@ pub fn room(cells: usize) -> Mesh {
             }
         }
     }
-    mesh(corners.len(), |i| corners[i])
+    Mesh::from_triangles(&corners).unwrap()
+}
+
+/// A point of a triangle, at random.
+pub fn point_in(rng: &mut Pcg32, corners: [Vec3; 3]) -> DVec3 {
+    let [p, q, r] = corners.map(Vec3::as_dvec3);
+    let (u, v) = (f64::from(rng.next_u32()) / 4294967295.0, f64::from(rng.next_u32()) / 4294967295.0);
+    let (u, v) = if u + v > 1.0 { (1.0 - u, 1.0 - v) } else { (u, v) };
+    p + (q - p) * u + (r - p) * v
+}
+
+/// Whether the point lies in the closed box.
+pub fn holds(bounds: &Aabb, point: DVec3) -> bool {
+    bounds.min.as_dvec3().cmple(point).all() && bounds.max.as_dvec3().cmpge(point).all()
 }
 
 /// The boxes and references of all leaves, after checking what holds for every tree: leaves of at most `most` references.
@@ -89,14 +126,10 @@ pub fn covers(tree: &BinaryTree, mesh: &Mesh, seed: u64) {
     }
     let mut rng = Pcg32::seed_from_u64(seed);
     for id in mesh.solid() {
-        let [p, q, r] = mesh.corners(id).map(Vec3::as_dvec3);
         for _ in 0..20 {
-            let (u, v) = (f64::from(rng.next_u32()) / 4294967295.0, f64::from(rng.next_u32()) / 4294967295.0);
-            let (u, v) = if u + v > 1.0 { (1.0 - u, 1.0 - v) } else { (u, v) };
-            let x: DVec3 = p + (q - p) * u + (r - p) * v;
-            let inside = |b: &Aabb| b.min.as_dvec3().cmple(x).all() && b.max.as_dvec3().cmpge(x).all();
+            let x = point_in(&mut rng, mesh.corners(id));
             let boxes = &of[id as usize];
-            assert!(boxes.iter().any(inside), "{x} of triangle {id} is in none of {boxes:?}");
+            assert!(boxes.iter().any(|b| holds(b, x)), "{x} of triangle {id} is in none of {boxes:?}");
         }
     }
 }

@@ -167,11 +167,12 @@ mod tests {
     use rand_core::{RngCore, SeedableRng};
 
     use super::*;
+    use crate::build::check::{holds, point_in, unit};
     use crate::exact;
     use crate::geometry::Ray;
 
     fn point(rng: &mut rand_pcg::Pcg32) -> Vec3 {
-        Vec3::from_array(std::array::from_fn(|_| rng.next_u32() as f32 / u32::MAX as f32 * 4.0 - 2.0))
+        unit(rng) * 2.0
     }
 
     #[test]
@@ -190,17 +191,10 @@ mod tests {
             assert!(cell.contains(&clipped) && known.contains(&clipped));
 
             // Points of the triangle, in f64: those in the cell must be in the box.
-            let [p, q, r] = corners.map(Vec3::as_dvec3);
             for _ in 0..20 {
-                let (mut u, mut v) =
-                    (f64::from(rng.next_u32()) / 4294967295.0, f64::from(rng.next_u32()) / 4294967295.0);
-                if u + v > 1.0 {
-                    (u, v) = (1.0 - u, 1.0 - v);
-                }
-                let x = p * (1.0 - u - v) + q * u + r * v;
-                let inside = |b: &Aabb| b.min.as_dvec3().cmple(x).all() && b.max.as_dvec3().cmpge(x).all();
-                if inside(&cell) {
-                    assert!(inside(&clipped), "{x} of {corners:?} in {cell:?} is outside {clipped:?}");
+                let x = point_in(&mut rng, corners);
+                if holds(&cell, x) {
+                    assert!(holds(&clipped, x), "{x} of {corners:?} in {cell:?} is outside {clipped:?}");
                     seen += 1;
                 }
             }

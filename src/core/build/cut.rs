@@ -12,7 +12,7 @@ pub(crate) struct Cut {
 }
 
 impl Cut {
-    /// On which sides a reference has a part.
+    /// On which sides a reference has a part: below, above.
     #[inline(always)]
     pub fn sides(&self, reference: &Reference) -> [bool; 2] {
         let (low, high) = (reference.min(self.axis), reference.max(self.axis));

@@ -54,13 +54,16 @@ pub(crate) fn centres<'a>(references: impl Iterator<Item = &'a Reference>, axis:
 
 /// The places of the references in ascending order of centres, equal ones as they stand.
 pub(crate) fn order(references: &[Reference], axis: usize) -> Vec<u32> {
-    let key = |(i, r): (u32, &Reference)| {
-        // Negative floats order backwards: flip all their bits, and the sign bit of the others.
-        let bits = (r.centre(axis) + 0.0).to_bits();
-        let ordered = if bits >> 31 == 1 { !bits } else { bits | 1 << 31 };
-        u64::from(ordered) << 32 | u64::from(i)
-    };
+    let key = |(i, r): (u32, &Reference)| u64::from(ordered_bits(r.centre(axis))) << 32 | u64::from(i);
     let mut keys: Vec<u64> = (0..).zip(references).map(key).collect();
     keys.sort_unstable();
     keys.into_iter().map(|key| key as u32).collect()
+}
+
+/// Bits in the order of the floats, the same for both zeros.
+#[inline(always)]
+pub(crate) fn ordered_bits(x: f32) -> u32 {
+    // Negative floats order backwards: flip all their bits, and the sign bit of the others. -0.0 becomes 0.0.
+    let bits = (x + 0.0).to_bits();
+    if bits >> 31 == 1 { !bits } else { bits | 1 << 31 }
 }

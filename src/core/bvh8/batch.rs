@@ -1,6 +1,5 @@
 //! Slices of rays.
 
-use std::marker::PhantomData;
 use std::ops::Range;
 
 use super::config::Batch;
@@ -13,7 +12,7 @@ use crate::geometry::{Hit, Ray};
 use crate::simd::{EightLanes, Kernel, Level, dispatch, each};
 use crate::traversal::leaf::Nearest;
 use crate::traversal::walk::{silent, single};
-use crate::triangle::{Depth, INPUTS, TriangleTest};
+use crate::triangle::{Depth, INPUTS, TriangleTest, last_bits};
 
 /// Rays of a slice that are answered before the next ones are looked at: so many that the last ones under way, when no others follow,
 /// are few beside them.
@@ -108,28 +107,6 @@ impl Together {
         for ((&ray, &id), t) in self.rays.iter().zip(&self.ids).zip(ts).take(len) {
             hit(ray, Hit::new(t, id));
         }
-    }
-}
-
-/// As [`Depth::ts`].
-#[inline(always)]
-pub(super) fn last_bits<D: Depth>(level: Level, inputs: &[[f32; TOGETHER]; INPUTS], which: u32) -> [f32; TOGETHER] {
-    dispatch(level, LastBits::<D> { inputs, which, depth: PhantomData })
-}
-
-/// The `t` of hits together: a kernel of its own, because it would cost the walk its registers.
-struct LastBits<'a, D> {
-    inputs: &'a [[f32; TOGETHER]; INPUTS],
-    which: u32,
-    depth: PhantomData<D>,
-}
-
-impl<D: Depth> Kernel for LastBits<'_, D> {
-    type Output = [f32; TOGETHER];
-
-    #[inline(always)]
-    fn run<L: EightLanes>(self) -> [f32; TOGETHER] {
-        D::ts::<L>(self.inputs, self.which)
     }
 }
 

@@ -154,7 +154,7 @@ impl<'a, T: TriangleTest> Piece<'a, T> {
 mod tests {
     use super::*;
     use crate::build::Quality;
-    use crate::build::check::soup;
+    use crate::build::check::{same_on_threads, soup};
     use crate::build::sah_cost::CostModel;
     use crate::build::sbvh::{SbvhConfig, Splits, build};
     use crate::triangle::MollerTrumbore;
@@ -199,16 +199,11 @@ mod tests {
     fn the_layout_does_not_depend_on_the_number_of_threads() {
         let mesh = soup(30_000, 42);
         let tree = build(&mesh, &SbvhConfig::new(Splits::SpatialAndObject, Quality::Fast));
-        let run = |threads| {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            pool.install(|| {
-                let collapse = Collapse::new(&tree, &CostModel::new(1.0, 1.0, 0.0));
-                let Layout { root, nodes, blocks } = Tree::new(&mesh, &collapse, &Limits::OF_NODES).unwrap();
-                let ids: Vec<[u32; WIDTH]> = blocks.iter().map(|block| block.ids).collect();
-                (root, format!("{nodes:?}"), ids)
-            })
-        };
-        let one = run(1);
-        assert!(one == run(2) && one == run(3));
+        same_on_threads(|| {
+            let collapse = Collapse::new(&tree, &CostModel::new(1.0, 1.0, 0.0));
+            let Layout { root, nodes, blocks } = Tree::new(&mesh, &collapse, &Limits::OF_NODES).unwrap();
+            let ids: Vec<[u32; WIDTH]> = blocks.iter().map(|block| block.ids).collect();
+            (root, nodes, ids)
+        });
     }
 }

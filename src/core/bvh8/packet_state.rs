@@ -2,14 +2,13 @@
 
 use std::mem::MaybeUninit;
 
-use super::batch::last_bits;
 use super::node::WIDTH;
 use super::packet_hits::{HALVES, PacketHits, RAYS};
 use super::ray_packet::RayPacket;
 use crate::geometry::{Hit, Ray};
 use crate::simd::{EightLanes, Level, each};
 use crate::traversal::leaf::{LeafBlock, NONE, Nearest, settle};
-use crate::triangle::{BETWEEN_BOUNDS, Depth, ORIGIN, TriangleTest};
+use crate::triangle::{BETWEEN_BOUNDS, Depth, ORIGIN, TriangleTest, last_bits};
 
 /// From so many rays on a leaf may be searched triangle by triangle. Of fewer, hardly any finds something, which is soon known ray by
 /// ray; and both halves have some.

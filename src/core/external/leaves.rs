@@ -9,7 +9,7 @@ use crate::triangle::TriangleTest;
 pub(super) struct Leaves<T: TriangleTest> {
     triangles: Vec<T::Block<1>>,
     /// The triangle of the mesh for each of them.
-    ids: Vec<u32>,
+    pub ids: Vec<u32>,
 }
 
 /// What the triangle test wants of a ray.
@@ -40,11 +40,6 @@ impl<T: TriangleTest> Leaves<T> {
         let ids: Vec<u32> = mesh.solid().collect();
         let triangles = ids.iter().map(|&id| T::block(&[mesh.corners(id)])).collect();
         Self { triangles, ids }
-    }
-
-    #[cfg(feature = "peer-parry")]
-    pub fn len(&self) -> usize {
-        self.ids.len()
     }
 
     /// The boxes of the triangles, in order.

@@ -131,7 +131,7 @@ impl<T: TriangleTest> Accel for ParryBvh<T> {
 
     /// Without SAH cost: the tree shows its nodes only to a walk.
     fn shape(&self) -> TreeShape {
-        let leaves = self.leaves.len();
+        let leaves = self.leaves.ids.len();
         match leaves {
             0 => TreeShape { leaves: 1, empty: 1, ..TreeShape::default() },
             1 => TreeShape { leaves, references: 1, largest_leaf: 1, ..TreeShape::default() },

@@ -132,11 +132,6 @@ impl Mesh {
     pub fn bounds(&self) -> Aabb {
         self.bounds
     }
-
-    /// Bytes of the vertex and index arrays.
-    pub fn bytes(&self) -> usize {
-        size_of_val(&self.positions[..]) + size_of_val(&self.triangles[..])
-    }
 }
 
 /// Whether three points lie on one line, exactly: they do if they do in all three coordinate planes.

@@ -1,33 +1,22 @@
 use std::sync::Arc;
 
 use glam::Vec3;
-use rand_core::{RngCore, SeedableRng};
+use rand_core::SeedableRng;
 
 use super::node::Limits;
 use super::plan::{Plan, plan};
 use super::*;
 use crate::accel::{Accel, BuildError, Counts};
 use crate::brute_force::BruteForce;
+use crate::build::check::{needles, same_on_threads, straddling_soup, unit};
 use crate::geometry::{Mesh, Ray};
 use crate::traversal::pages;
 use crate::triangle::MollerTrumbore;
 
 type Tree = KdTree<MollerTrumbore>;
 
-fn unit(rng: &mut rand_pcg::Pcg32) -> Vec3 {
-    Vec3::from_array(std::array::from_fn(|_| rng.next_u32() as f32 / u32::MAX as f32 * 2.0 - 1.0))
-}
-
-/// Triangles of very different sizes, so that many straddle.
 fn soup(count: usize, seed: u64) -> Arc<Mesh> {
-    let mut rng = rand_pcg::Pcg32::seed_from_u64(seed);
-    let mut positions = vec![];
-    for i in 0..count {
-        let (centre, size) = (unit(&mut rng) * 4.0, if i % 10 == 0 { 3.0 } else { 0.2 });
-        positions.extend((0..3).map(|_| centre + unit(&mut rng) * size));
-    }
-    let triangles = (0..count as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
-    Arc::new(Mesh::new(positions, triangles).unwrap())
+    Arc::new(straddling_soup(count, seed))
 }
 
 fn rays(count: usize, seed: u64) -> Vec<Ray> {
@@ -74,13 +63,11 @@ fn every_configuration_answers_as_brute_force() {
 #[test]
 fn the_middle_of_a_cell_finds_a_small_mesh_on_a_large_floor() {
     let mut rng = rand_pcg::Pcg32::seed_from_u64(9);
-    let mesh_point = |i: usize| Vec3::new((i / 3) as f32 / 500.0, 0.0, 0.0);
-    let mut positions: Vec<Vec3> = (0..1500).map(|i| mesh_point(i) + unit(&mut rng) * 0.01).collect();
-    let floor = [[-9.0, -7.0], [10.0, -7.0], [-9.0, 8.0], [10.0, 8.0]];
-    positions.extend(floor.map(|[x, z]| Vec3::new(x, 0.0, z)));
-    let mut triangles: Vec<[u32; 3]> = (0..500).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
-    triangles.extend([[1500, 1501, 1502], [1501, 1502, 1503]]);
-    let mesh = Arc::new(Mesh::new(positions, triangles).unwrap());
+    let mut corner = |i: u16| Vec3::new(f32::from(i) / 500.0, 0.0, 0.0) + unit(&mut rng) * 0.01;
+    let mut triangles: Vec<[Vec3; 3]> = (0..500).map(|i| [corner(i), corner(i), corner(i)]).collect();
+    let [a, b, c, d] = [[-9.0, -7.0], [10.0, -7.0], [-9.0, 8.0], [10.0, 8.0]].map(|[x, z]| Vec3::new(x, 0.0, z));
+    triangles.extend([[a, b, c], [b, c, d]]);
+    let mesh = Arc::new(Mesh::from_triangles(&triangles).unwrap());
     for stop in [Stop::Leaf, Stop::Report] {
         let config =
             KdConfig { plane: Plane::SpatialMedian, axis: AxisRule::Longest, stop, leaf: 400, ..KdConfig::REPORT };
@@ -93,27 +80,16 @@ fn the_middle_of_a_cell_finds_a_small_mesh_on_a_large_floor() {
 fn the_tree_does_not_depend_on_the_number_of_threads() {
     let mesh = soup(30_000, 7);
     for config in [KdConfig::REPORT, KdConfig::SAH] {
-        let build = |threads| {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            pool.install(|| Tree::build(&mesh, &config).unwrap())
-        };
-        let (one, four) = (build(1), build(4));
-        assert_eq!(one.nodes, four.nodes);
-        assert_eq!(one.shape(), four.shape());
+        same_on_threads(|| {
+            let tree = Tree::build(&mesh, &config).unwrap();
+            (tree.shape(), tree.nodes)
+        });
     }
 }
 
 #[test]
 fn duplication_stays_within_the_budget() {
-    // Needles that all cross near one point straddle every plane.
-    let mut rng = rand_pcg::Pcg32::seed_from_u64(8);
-    let mut positions = vec![];
-    for _ in 0..2000 {
-        let d = unit(&mut rng) * 10.0;
-        positions.extend([d, -d, -d + unit(&mut rng) * 1e-3]);
-    }
-    let triangles = (0..2000).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
-    let mesh = Arc::new(Mesh::new(positions, triangles).unwrap());
+    let mesh = Arc::new(needles(2000, 8));
     for duplication in [1.0, 2.0, 8.0] {
         let tree = Tree::build(&mesh, &KdConfig { duplication, ..KdConfig::SAH }).unwrap();
         let shape = tree.shape();

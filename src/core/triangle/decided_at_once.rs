@@ -17,5 +17,24 @@ macro_rules! decided_at_once {
     };
 }
 
+/// What those of them have in common that take rays and corners as they are.
+macro_rules! decided_on_corners {
+    () => {
+        type Ray = (glam::Vec3, glam::Vec3);
+        type Block<const N: usize> = $crate::triangle::Corners<N>;
+
+        decided_at_once!();
+
+        #[inline(always)]
+        fn prepare(ray: &$crate::geometry::Ray) -> Self::Ray {
+            (ray.origin, ray.direction)
+        }
+
+        fn block<const N: usize>(triangles: &[[glam::Vec3; 3]]) -> Self::Block<N> {
+            $crate::triangle::Corners::new(triangles)
+        }
+    };
+}
+
 #[cfg(feature = "suite")]
 pub(crate) use decided_at_once;

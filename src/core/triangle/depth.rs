@@ -1,7 +1,8 @@
 use std::cmp::Ordering;
+use std::marker::PhantomData;
 
 use crate::geometry::Ray;
-use crate::simd::EightLanes;
+use crate::simd::{EightLanes, Kernel, Level, dispatch};
 
 /// How many numbers [`Depth::inputs`] are. First come the coordinates of three corners; where the others begin, the constants beside this one tell.
 pub const INPUTS: usize = 16;
@@ -44,6 +45,28 @@ pub trait Depth: Copy {
 
     /// A float that is not behind it.
     fn least(&self) -> f32;
+}
+
+/// As [`Depth::ts`], on a level.
+#[inline(always)]
+pub(crate) fn last_bits<D: Depth>(level: Level, inputs: &[[f32; 8]; INPUTS], which: u32) -> [f32; 8] {
+    dispatch(level, LastBits::<D> { inputs, which, depth: PhantomData })
+}
+
+/// The `t` of hits together: a kernel of its own, because it would cost the walk its registers.
+struct LastBits<'a, D> {
+    inputs: &'a [[f32; 8]; INPUTS],
+    which: u32,
+    depth: PhantomData<D>,
+}
+
+impl<D: Depth> Kernel for LastBits<'_, D> {
+    type Output = [f32; 8];
+
+    #[inline(always)]
+    fn run<L: EightLanes>(self) -> [f32; 8] {
+        D::ts::<L>(self.inputs, self.which)
+    }
 }
 
 /// What an `f32` test computes, which is never NaN.

@@ -1,7 +1,4 @@
-use glam::Vec3;
-
 use super::{Corners, TriangleTest};
-use crate::geometry::Ray;
 use crate::simd::{Arithmetic, LaneVec3, Lanes, each};
 
 /// The edge test of [`Plucker`](super::Plucker) in `f64` over corners in `f32`, widened by its own rounding: scalar triple products for
@@ -59,19 +56,7 @@ fn solve<const N: usize, L: Arithmetic<N, Scalar = f64>>(
 impl TriangleTest for EdgeF64 {
     const NAME: &'static str = "edge-f64";
 
-    type Ray = (Vec3, Vec3);
-    type Block<const N: usize> = Corners<N>;
-
-    decided_at_once!();
-
-    #[inline(always)]
-    fn prepare(ray: &Ray) -> Self::Ray {
-        (ray.origin, ray.direction)
-    }
-
-    fn block<const N: usize>(triangles: &[[Vec3; 3]]) -> Corners<N> {
-        Corners::new(triangles)
-    }
+    decided_on_corners!();
 
     #[inline(always)]
     fn candidates<const N: usize, L: Lanes<N>>(

@@ -27,6 +27,7 @@ use glam::Vec3;
 
 pub use baldwin_weber::BaldwinWeber;
 pub use corners::Corners;
+pub(crate) use depth::last_bits;
 pub use depth::{BETWEEN_BOUNDS, DIRECTION, Depth, INPUTS, ORIGIN};
 pub use edge_f64::EdgeF64;
 pub use eight_rays::{EightMet, EightRays};

@@ -1,7 +1,4 @@
-use glam::Vec3;
-
 use super::{Corners, TriangleTest};
-use crate::geometry::Ray;
 use crate::simd::{LaneVec3, Lanes, each};
 
 /// Edge test in `f32`: the ray passes the three edges on the same side, by triple products of the corners as seen from the
@@ -42,19 +39,7 @@ fn solve<const N: usize, L: Lanes<N>>(
 impl TriangleTest for Plucker {
     const NAME: &'static str = "plucker";
 
-    type Ray = (Vec3, Vec3);
-    type Block<const N: usize> = Corners<N>;
-
-    decided_at_once!();
-
-    #[inline(always)]
-    fn prepare(ray: &Ray) -> Self::Ray {
-        (ray.origin, ray.direction)
-    }
-
-    fn block<const N: usize>(triangles: &[[Vec3; 3]]) -> Corners<N> {
-        Corners::new(triangles)
-    }
+    decided_on_corners!();
 
     #[inline(always)]
     fn candidates<const N: usize, L: Lanes<N>>(

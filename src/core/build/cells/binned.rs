@@ -53,7 +53,7 @@ impl Binned {
     pub fn into_part(self) -> Part {
         match self {
             Self::Coarse(part) => part,
-            Self::Fine(events) => Part::new(events.into_references()),
+            Self::Fine(events) => Part::new(events.references),
         }
     }
 
@@ -139,7 +139,7 @@ impl Content for Binned {
     fn ids(&self) -> impl Iterator<Item = u32> {
         let references = match self {
             Self::Coarse(part) => &part.references[..],
-            Self::Fine(events) => events.references(),
+            Self::Fine(events) => &events.references[..],
         };
         references.iter().map(|r| r.id())
     }

@@ -12,6 +12,7 @@ use super::grow::{Content, Context, Place};
 use crate::build::axes::on_axes;
 use crate::build::clip::clipped_bounds;
 use crate::build::cut::Cut;
+use crate::build::grouping::ordered_bits;
 use crate::build::reference::Reference;
 use crate::build::sah_cost::{CostModel, SideAreas};
 use crate::geometry::Aabb;
@@ -32,10 +33,7 @@ enum Kind {
 
 impl Event {
     fn new(coordinate: f32, kind: Kind, reference: u32) -> Self {
-        // Negative floats order backwards: flip all their bits, and the sign bit of the others. -0.0 becomes 0.0.
-        let bits = (coordinate + 0.0).to_bits();
-        let ordered = if bits >> 31 == 1 { !bits } else { bits | 1 << 31 };
-        Self(u64::from(ordered) << 32 | (kind as u64) << 30 | u64::from(reference))
+        Self(u64::from(ordered_bits(coordinate)) << 32 | (kind as u64) << 30 | u64::from(reference))
     }
 
     fn coordinate(self) -> f32 {
@@ -63,19 +61,12 @@ impl Event {
 
 /// References in ascending order of triangles, and their events on every axis in the order of the sweep.
 pub(crate) struct Events {
-    references: Vec<Reference>,
+    pub(super) references: Vec<Reference>,
     axes: [Vec<Event>; 3],
 }
 
 /// Below this many references a node is swept by one thread.
 pub(super) const PARALLEL: usize = 8192;
-
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Side {
-    Below,
-    Above,
-    Both,
-}
 
 impl Events {
     /// References in ascending order of triangles.
@@ -91,14 +82,6 @@ impl Events {
             events
         });
         Self { references, axes }
-    }
-
-    pub fn references(&self) -> &[Reference] {
-        &self.references
-    }
-
-    pub fn into_references(self) -> Vec<Reference> {
-        self.references
     }
 
     /// The cheapest plane of one axis: its cost and the cut.
@@ -141,33 +124,20 @@ impl Events {
         best
     }
 
-    /// On which side of the cut each reference lies.
-    fn sides(&self, cut: Cut) -> Vec<Side> {
-        let side = |r: &Reference| {
-            let (lo, hi) = (r.min(cut.axis), r.max(cut.axis));
-            match (hi <= cut.plane, lo >= cut.plane) {
-                (true, true) if cut.flat_below => Side::Below,
-                (true, true) | (false, true) => Side::Above,
-                (true, false) => Side::Below,
-                (false, false) => Side::Both,
-            }
-        };
-        self.references.iter().map(side).collect()
-    }
-
-    fn part(&self, context: &Context<CellConfig>, sides: &[Side], here: Side, cell: &Aabb) -> Self {
-        let count = sides.iter().filter(|&&side| side == here || side == Side::Both).count();
+    /// What has a part on the side `here`, in `cell`: below, which is 0, or above. `sides` says on which each has one.
+    fn part(&self, context: &Context<CellConfig>, sides: &[[bool; 2]], here: usize, cell: &Aabb) -> Self {
+        let count = sides.iter().filter(|side| side[here]).count();
         let mut references = Vec::with_capacity(count);
         let mut names = vec![u32::MAX; sides.len()];
         let mut clipped = vec![];
-        for (i, (reference, &side)) in self.references.iter().zip(sides).enumerate() {
-            if side == here {
-                names[i] = references.len() as u32;
-                references.push(*reference);
-            } else if side == Side::Both {
+        for (i, (reference, side)) in self.references.iter().zip(sides).enumerate() {
+            if side[here] && side[1 - here] {
                 let bounds = clipped_bounds(context.mesh.corners(reference.id()), cell, &reference.bounds());
                 clipped.push(references.len() as u32);
                 references.push(Reference::new(reference.id(), bounds));
+            } else if side[here] {
+                names[i] = references.len() as u32;
+                references.push(*reference);
             }
         }
 
@@ -235,20 +205,18 @@ impl Content for Events {
     }
 
     fn divide(self, context: &Context<CellConfig>, place: &Place, cut: Cut) -> Result<(Self, Self), Self> {
-        let sides = self.sides(cut);
-        let both = sides.iter().filter(|&&side| side == Side::Both).count();
-        let below = both + sides.iter().filter(|&&side| side == Side::Below).count();
-        let above = self.len() + both - below;
-        if !place.accepts(context, self.len(), [below, above]) {
+        let counts = cut.counts(&self.references);
+        if !place.accepts(context, self.len(), counts) {
             return Err(self);
         }
 
-        let (below_cell, above_cell) = place.cell.cut(cut.axis, cut.plane);
+        let sides: Vec<[bool; 2]> = self.references.iter().map(|r| cut.sides(r)).collect();
+        let (below, above) = place.cell.cut(cut.axis, cut.plane);
         let part = |here, cell| self.part(context, &sides, here, cell);
         Ok(if self.len() < PARALLEL {
-            (part(Side::Below, &below_cell), part(Side::Above, &above_cell))
+            (part(0, &below), part(1, &above))
         } else {
-            rayon::join(|| part(Side::Below, &below_cell), || part(Side::Above, &above_cell))
+            rayon::join(|| part(0, &below), || part(1, &above))
         })
     }
 }

@@ -38,9 +38,6 @@ pub enum Preset {
 }
 
 impl Preset {
-    /// All presets, the fastest build first.
-    pub const ALL: [Self; 6] = [Self::Fastest, Self::VeryFast, Self::Fast, Self::Medium, Self::Slow, Self::VerySlow];
-
     pub(super) fn params(self) -> BvhBuildParams {
         match self {
             Self::Fastest => BvhBuildParams::fastest_build(),

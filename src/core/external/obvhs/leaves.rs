@@ -11,9 +11,9 @@ use crate::traversal::pages;
 
 /// Triangles in the order of a tree, ready for the test `T`.
 pub(super) struct Leaves<T: LeafTest> {
-    triangles: Vec<T::Triangle>,
+    pub triangles: Vec<T::Triangle>,
     /// The triangle of the mesh for each of them.
-    ids: Vec<u32>,
+    pub ids: Vec<u32>,
 }
 
 /// What the builders of obvhs take: the triangles with an area, and their numbers.
@@ -34,16 +34,6 @@ impl<T: LeafTest> Leaves<T> {
         let mut triangles = pages::with_capacity(order.len());
         triangles.par_extend(ids.par_iter().map(|&id| T::triangle(mesh.corners(id))));
         Self { triangles, ids }
-    }
-
-    #[cfg(test)]
-    pub fn triangle(&self, index: usize) -> &T::Triangle {
-        &self.triangles[index]
-    }
-
-    #[cfg(test)]
-    pub fn are_large(&self) -> bool {
-        pages::are_large(&self.triangles) && pages::are_large(&self.ids)
     }
 
     pub fn len(&self) -> usize {
@@ -73,11 +63,6 @@ impl<T: LeafTest> Leaves<T> {
         }
     }
 
-    /// The triangle of the mesh at a place of the tree.
-    pub fn id(&self, place: u32) -> u32 {
-        self.ids[place as usize]
-    }
-
     /// Bytes of the triangles and of their numbers.
     pub fn bytes(&self) -> (usize, usize) {
         (size_of_val(&self.triangles[..]), size_of_val(&self.ids[..]))
@@ -85,6 +70,6 @@ impl<T: LeafTest> Leaves<T> {
 
     #[inline(always)]
     pub fn hit(&self, found: RayHit) -> Hit {
-        Hit::new(found.t, self.id(found.primitive_id))
+        Hit::new(found.t, self.ids[found.primitive_id as usize])
     }
 }

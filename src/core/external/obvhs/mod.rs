@@ -139,7 +139,7 @@ impl<B: Tree, T: LeafTest> Accel for Obvhs<B, T> {
 
     fn outline(&self) -> Option<Outline> {
         let mut outline = self.tree.outline();
-        outline.references.iter_mut().for_each(|place| *place = self.leaves.id(*place));
+        outline.references.iter_mut().for_each(|place| *place = self.leaves.ids[*place as usize]);
         Some(outline)
     }
 }

@@ -1,25 +1,15 @@
 use std::borrow::Cow;
 
 use glam::Vec3;
-use rand_core::{RngCore, SeedableRng};
+use rand_core::SeedableRng;
 use rand_pcg::Pcg32;
 
 use super::*;
+use crate::build::check::{straddling_soup, unit};
 use crate::traversal::pages;
 
-fn unit(random: &mut Pcg32) -> Vec3 {
-    Vec3::from_array(std::array::from_fn(|_| random.next_u32() as f32 / u32::MAX as f32 * 2.0 - 1.0))
-}
-
-fn soup(triangles: u32) -> Arc<Mesh> {
-    let mut random = Pcg32::seed_from_u64(3);
-    let mut positions = vec![];
-    for i in 0..triangles {
-        let (centre, size) = (unit(&mut random) * 4.0, if i % 10 == 0 { 3.0 } else { 0.2 });
-        positions.extend((0..3).map(|_| centre + unit(&mut random) * size));
-    }
-    let triangles = (0..triangles).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
-    Arc::new(Mesh::new(positions, triangles).unwrap())
+fn soup(triangles: usize) -> Arc<Mesh> {
+    Arc::new(straddling_soup(triangles, 3))
 }
 
 /// Of all directions, along the axes with both zeros, and with intervals that begin or end among the triangles.
@@ -59,7 +49,7 @@ macro_rules! own_walk {
     () => {
         |built, ray| {
             let Some((ray, ())) = built.leaves.start(ray) else { return (None, false) };
-            let test = |ray: &PreparedRay, index: usize| built.leaves.triangle(index).intersect(ray);
+            let test = |ray: &PreparedRay, index: usize| built.leaves.triangles[index].intersect(ray);
             let mut hit = RayHit::none();
             let found = built.tree.ray_traverse(ray, &mut hit, test).then(|| built.leaves.hit(hit));
             (found, !built.tree.ray_traverse_miss(ray, test))
@@ -120,5 +110,7 @@ fn it_lives_in_the_pages_of_our_own_trees() {
     let binary = ObvhsBvh2::<Native>::build(&mesh, &ObvhsConfig::default()).unwrap();
     let wide = ObvhsCwBvh::<Native>::build(&mesh, &ObvhsConfig::default()).unwrap();
     assert!(pages::are_large(&binary.tree.nodes) && pages::are_large(&wide.tree.nodes));
-    assert!(binary.leaves.are_large() && wide.leaves.are_large());
+    for leaves in [binary.leaves, wide.leaves] {
+        assert!(pages::are_large(&leaves.triangles) && pages::are_large(&leaves.ids));
+    }
 }

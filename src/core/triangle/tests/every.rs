@@ -2,6 +2,7 @@
 
 use std::marker::PhantomData;
 
+use super::intervals::{a_t_beyond_the_largest_float_is_no_hit, intervals_are_half_open, survives_all_numbers};
 use super::*;
 use crate::simd::{EightLanes, Kernel, Level, dispatch};
 
@@ -96,42 +97,27 @@ fn exact_on_a_grid<T: TriangleTest>() {
 }
 
 macro_rules! every_test {
-    ($($module:ident: $test:ty [$($more:ident),*];)*) => {$(
+    (@$module:ident: $test:ty [$($check:ident)*]) => {
         mod $module {
             use super::*;
 
-            #[test]
-            fn all_widths_agree() {
-                super::all_widths_agree::<$test>();
-            }
-
-            #[test]
-            fn right_away_from_edges() {
-                super::right_away_from_edges::<$test>();
-            }
-
-            #[test]
-            fn survives_all_numbers() {
-                intervals::survives_all_numbers::<$test>();
-            }
-
-            #[test]
-            fn intervals_are_half_open() {
-                intervals::are_half_open::<$test>();
-            }
-
-            #[test]
-            fn a_t_beyond_the_largest_float_is_no_hit() {
-                intervals::end_at_the_largest_float::<$test>();
-            }
-
             $(
                 #[test]
-                fn $more() {
-                    super::$more::<$test>();
+                fn $check() {
+                    super::$check::<$test>();
                 }
             )*
         }
+    };
+    ($($module:ident: $test:ty [$($more:ident)*];)*) => {$(
+        every_test!(@$module: $test [
+            all_widths_agree
+            right_away_from_edges
+            survives_all_numbers
+            intervals_are_half_open
+            a_t_beyond_the_largest_float_is_no_hit
+            $($more)*
+        ]);
     )*};
 }
 

@@ -1,7 +1,7 @@
 //! The exact test is held against exact sums and rationals.
 
 use super::*;
-use crate::simd::{EightLanes, Kernel, Level, Portable, dispatch};
+use crate::simd::{Level, Portable};
 
 /// In a scene of 1e-15, the products of three lengths underflow before those of two.
 #[test]
@@ -46,18 +46,6 @@ fn the_exact_test_agrees_with_the_judges_everywhere() {
     assert!(hits > 30_000, "{hits}");
 }
 
-/// The last bits of eight hits together.
-struct LastBits<'a>(&'a [[f32; 8]; INPUTS], u32);
-
-impl Kernel for LastBits<'_> {
-    type Output = [f32; 8];
-
-    #[inline(always)]
-    fn run<L: EightLanes>(self) -> [f32; 8] {
-        <Exact as TriangleTest>::Depth::ts::<L>(self.0, self.1)
-    }
-}
-
 /// Long, narrow or along axes, where the filter knows heights best, and the rays beside them.
 pub(super) fn narrow(rng: &mut Pcg32) -> (Ray, [Vec3; 3]) {
     let mut corners = triangle(rng, unit);
@@ -98,7 +86,7 @@ fn the_last_bits_of_eight_hits_are_those_of_each() {
         if owed.len() == len {
             let which = owed.iter().fold(0, |which, (lane, _)| which | 1 << lane);
             for level in Level::available() {
-                let ts = dispatch(level, LastBits(&inputs, which)).map(f32::to_bits);
+                let ts = last_bits::<<Exact as TriangleTest>::Depth<'_>>(level, &inputs, which).map(f32::to_bits);
                 for &(lane, t) in &owed {
                     assert_eq!(ts[lane], t, "{level}, {lane} of {which:b}: {inputs:?}");
                 }

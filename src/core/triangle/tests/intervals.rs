@@ -21,7 +21,7 @@ pub(super) fn survives_all_numbers<T: TriangleTest>() {
 
 /// Where a test gives the true `t`, and that is a float: an interval holds it if it begins there, and not if it ends
 /// there.
-pub(super) fn are_half_open<T: TriangleTest>() {
+pub(super) fn intervals_are_half_open<T: TriangleTest>() {
     let mut rng = Pcg32::seed_from_u64(13);
     let mut hits = 0;
     for _ in 0..60_000 {
@@ -50,7 +50,7 @@ pub(super) fn are_half_open<T: TriangleTest>() {
 }
 
 /// A ray without end ends where no finite float is the nearest.
-pub(super) fn end_at_the_largest_float<T: TriangleTest>() {
+pub(super) fn a_t_beyond_the_largest_float_is_no_hit<T: TriangleTest>() {
     let at = |z: f32| [Vec3::new(-1.0, -1.0, z), Vec3::new(3.0, -1.0, z), Vec3::new(-1.0, 3.0, z)];
     let short = |length: f32| Ray::new(Vec3::ZERO, Vec3::new(0.0, 0.0, length));
     let (tiny, far) = (libm::exp2f(-100.0), libm::exp2f(27.0));
