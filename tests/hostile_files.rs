@@ -4,7 +4,7 @@
 use std::fs;
 
 use sahara::measure::peak_bytes;
-use sahara::scene::files::{HitFile, RayFile, TruthFile};
+use sahara::scene::files::{HitFile, RayFile};
 use sahara::scene::load;
 use serde_json::{Value, json};
 
@@ -26,7 +26,6 @@ fn loaded(files: &Files) -> Result<Result<usize, String>, String> {
     let (result, peak) = match path.extension().and_then(|ending| ending.to_str()) {
         Some("rays") => measured(|| RayFile::read(&path).map(|file| file.workload.rays.len())),
         Some("hits") => measured(|| HitFile::read(&path).map(|_| 0)),
-        Some("truth") => measured(|| TruthFile::read(&path).map(|file| file.answers.len())),
         _ => measured(|| load(&path).map(|model| model.triangles.len())),
     };
     let size: usize = files.iter().map(|(_, bytes)| bytes.len()).sum();
@@ -253,11 +252,6 @@ fn ray_files() -> Vec<(Files, [&'static str; 2])> {
         (vec![("a.hits", head(b"SAHAHITS", 0))], ["a.hits", "40 bytes follow"]),
         (vec![("a.hits", head(b"SAHAHITS", u64::MAX))], ["a.hits", "cut short"]),
         (vec![("a.hits", b"SAHAHITS".to_vec())], ["a.hits", "cut short"]),
-        (vec![("a.truth", head(b"SAHATRUE", u64::MAX))], ["a.truth", "ends within answer 4"]),
-        (
-            vec![("a.truth", [head(b"SAHATRUE", 1)[..40].to_vec(), vec![0xff; 4]].concat())],
-            ["a.truth", "within answer 1"],
-        ),
     ]
 }
 

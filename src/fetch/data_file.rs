@@ -1,5 +1,5 @@
 use std::fs::{self, File};
-use std::io::{self, Read};
+use std::io;
 use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
@@ -80,13 +80,9 @@ impl DataFile {
 }
 
 fn hash(path: &Path) -> Result<String, FetchError> {
-    let unreadable = |cause: io::Error| FetchError::Read { path: path.into(), cause };
-    let mut file = File::open(path).map_err(unreadable)?;
-    let (mut hasher, mut buffer) = (Sha256::new(), vec![0; 1 << 16]);
-    loop {
-        match file.read(&mut buffer).map_err(unreadable)? {
-            0 => return Ok(hasher.finalize().iter().map(|byte| format!("{byte:02x}")).collect()),
-            n => hasher.update(&buffer[..n]),
-        }
-    }
+    let mut hasher = Sha256::new();
+    File::open(path)
+        .and_then(|mut file| io::copy(&mut file, &mut hasher))
+        .map_err(|cause| FetchError::Read { path: path.into(), cause })?;
+    Ok(format!("{:x}", hasher.finalize()))
 }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::{Golden, GoldenError, file_name, make};
+use super::{Golden, GoldenError, file_name, put};
 use crate::render::Picture;
 
 /// When a picture is accepted.
@@ -50,19 +50,12 @@ const OUT: &str = "out/golden";
 pub fn assert_image(path: impl AsRef<Path>, actual: &Picture, how: Match) {
     let path = path.as_ref();
     let result = match std::env::var(UPDATE).as_deref() {
-        Ok("update") => update(path, actual),
+        Ok("update") => put(path, actual),
         _ => check_image(path, actual, how, Path::new(OUT)),
     };
     if let Err(error) = result {
         panic!("{error}");
     }
-}
-
-fn update(path: &Path, actual: &Picture) -> Result<(), GoldenError> {
-    if let Some(folder) = path.parent() {
-        make(folder)?;
-    }
-    Ok(actual.write(path)?)
 }
 
 /// As [`assert_image`], without a panic and with the pictures of a failure in `out`.
@@ -94,7 +87,7 @@ mod tests {
         let (golden, out) = (directory.path().join("a/b.png"), directory.path().join("out"));
         let refusal = |actual: &Picture, how| check_image(&golden, actual, how, &out).unwrap_err().to_string();
         assert!(refusal(&picture(10), Match::Exact).contains("SAHARA_GOLDEN=update"));
-        update(&golden, &picture(10)).unwrap();
+        put(&golden, &picture(10)).unwrap();
         check_image(&golden, &picture(10), Match::Exact, &out).unwrap();
         assert!(!out.exists());
 

@@ -183,11 +183,3 @@ fn all_triangles_at_the_nearest_t_are_named() {
         assert_eq!(oracle.nearest(&bad), None);
     }
 }
-
-#[test]
-fn no_triangle_no_hit() {
-    let flat = Mesh::new(vec![Vec3::ZERO, Vec3::X, Vec3::X * 2.0], vec![[0, 1, 2]]).unwrap();
-    for mesh in [Mesh::new(vec![], vec![]).unwrap(), flat] {
-        assert_eq!(Oracle::new(&Arc::new(mesh)).nearest(&Ray::new(Vec3::Y, Vec3::NEG_Y)), None);
-    }
-}

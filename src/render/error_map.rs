@@ -74,11 +74,7 @@ impl ErrorMap {
 
     /// The pixels that are painted as errors, row by row.
     pub fn errors(&self) -> impl Iterator<Item = usize> {
-        self.pixels
-            .iter()
-            .enumerate()
-            .filter(|(_, (outcome, _))| error_name(*outcome).is_some())
-            .map(|(pixel, _)| pixel)
+        (0..self.pixels.len()).filter(move |&pixel| error_name(self.pixels[pixel].0).is_some())
     }
 
     /// Pixels with this outcome.
@@ -116,16 +112,13 @@ impl ErrorMap {
         let mut colours: Vec<[u8; 3]> = self.pixels.iter().map(colour).collect();
         // One pixel of a large picture is not seen: an error is three wide and high, and hides no other error.
         let [width, height] = self.size.map(i64::from);
-        let index = |x: i64, y: i64| (y * width + x) as usize;
-        for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
-            let error = &self.pixels[index(x, y)];
-            if error_name(error.0).is_none() {
-                continue;
-            }
+        for error in self.errors() {
+            let (x, y) = (error as i64 % width, error as i64 / width);
             for (x, y) in (y - 1..=y + 1).flat_map(|y| (x - 1..=x + 1).map(move |x| (x, y))) {
                 let is_inside = (0..width).contains(&x) && (0..height).contains(&y);
-                if is_inside && error_name(self.pixels[index(x, y)].0).is_none() {
-                    colours[index(x, y)] = colour(error);
+                let at = (y * width + x) as usize;
+                if is_inside && error_name(self.pixels[at].0).is_none() {
+                    colours[at] = colour(&self.pixels[error]);
                 }
             }
         }

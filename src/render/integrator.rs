@@ -1,11 +1,8 @@
 //! The course's renderer: Phong materials, hard shadows, mirrors.
 
-use std::ops::AddAssign;
-
 use glam::Vec3;
 use rayon::prelude::*;
 
-use super::Image;
 use crate::accel::DynAccel;
 use crate::geometry::{Hit, Ray};
 use crate::scene::{Light, Material, Scene, Surface, View};
@@ -27,22 +24,16 @@ impl RayCounts {
     }
 }
 
-impl AddAssign for RayCounts {
-    fn add_assign(&mut self, other: Self) {
-        self.primary += other.primary;
-        self.mirror += other.mirror;
-        self.shadow += other.shadow;
-    }
-}
-
 /// Pixels in a batch of rays. The image does not depend on it.
 const CHUNK: u32 = 4096;
 
 /// Renders `scene` with the rays answered by `accel`, which must be built over the scene's mesh.
 ///
+/// The colours are linear RGB, row by row, the top row first.
+///
 /// All rays of one kind and level of a few thousand pixels go out as one batch; chunks of pixels run in parallel, and
 /// the image does not depend on the number of threads.
-pub fn render(scene: &Scene, accel: &dyn DynAccel, size: [u32; 2]) -> (Image, RayCounts) {
+pub fn render(scene: &Scene, accel: &dyn DynAccel, size: [u32; 2]) -> (Vec<Vec3>, RayCounts) {
     let pixels = size[0] * size[1];
     let chunks: Vec<(Vec<Vec3>, RayCounts)> = (0..pixels.div_ceil(CHUNK))
         .into_par_iter()
@@ -56,9 +47,11 @@ pub fn render(scene: &Scene, accel: &dyn DynAccel, size: [u32; 2]) -> (Image, Ra
     let mut colours = Vec::with_capacity(pixels as usize);
     for (chunk, rays) in chunks {
         colours.extend(chunk);
-        counts += rays;
+        counts.primary += rays.primary;
+        counts.mirror += rays.mirror;
+        counts.shadow += rays.shadow;
     }
-    (Image::new(size, colours), counts)
+    (colours, counts)
 }
 
 #[derive(Default)]

@@ -2,7 +2,6 @@
 
 mod colour_map;
 mod error_map;
-mod image;
 mod integrator;
 mod picture;
 mod view;
@@ -15,7 +14,6 @@ mod tests;
 
 pub use colour_map::{bar as heat_bar, heat as heat_colour};
 pub use error_map::{ErrorMap, ExactPicture, error_name};
-pub use image::Image;
 pub use integrator::{RayCounts, render};
 pub use picture::{Difference, Picture, PictureError};
 pub use view::{ViewError, ViewKind, coarse_size, costs, draw, hottest, size_of};

@@ -3,9 +3,9 @@
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
+use glam::Vec3;
 use png::{BitDepth, DecodingError};
 
-use super::Image;
 use crate::output::{OutputError, OutputFile};
 
 /// Bytes of a picture that is read, at most.
@@ -46,6 +46,15 @@ impl Picture {
     pub fn new(size: [u32; 2], pixels: Vec<[u8; 3]>) -> Self {
         assert_eq!(pixels.len() as u64, u64::from(size[0]) * u64::from(size[1]), "one colour a pixel");
         Self { size, pixels }
+    }
+
+    /// The picture of linear RGB colours: each channel times 255, rounded to the nearest; what is below 0 or above 1 is
+    /// clamped, what is not a number is 0. Without a gamma curve, as the course.
+    ///
+    /// # Panics
+    /// As [`Picture::new`].
+    pub fn of_colours(size: [u32; 2], colours: &[Vec3]) -> Self {
+        Self::new(size, colours.iter().map(|colour| colour.to_array().map(quantised)).collect())
     }
 
     /// Width and height.
@@ -157,32 +166,23 @@ impl Picture {
     }
 }
 
-impl From<&Image> for Picture {
-    /// Each channel times 255, rounded to the nearest; what is below 0 or above 1 is clamped, what is not a number is
-    /// 0.
-    ///
-    /// Without a gamma curve, as the course.
-    fn from(image: &Image) -> Self {
-        let channel = |value: f32| (value * 255.0 + 0.5) as u8;
-        Self::new(image.size(), image.pixels().iter().map(|colour| colour.to_array().map(channel)).collect())
-    }
+pub(super) fn quantised(channel: f32) -> u8 {
+    (channel * 255.0 + 0.5) as u8
 }
 
 #[cfg(test)]
 mod tests {
-    use glam::Vec3;
-
     use super::*;
 
     fn gradient() -> Picture {
-        let image = Image::new([5, 3], (0..15).map(|i| Vec3::new(i as f32 / 14.0, 0.5, 1.5)).collect());
-        Picture::from(&image)
+        let colours: Vec<Vec3> = (0..15).map(|i| Vec3::new(i as f32 / 14.0, 0.5, 1.5)).collect();
+        Picture::of_colours([5, 3], &colours)
     }
 
     #[test]
     fn channels_are_rounded_and_clamped() {
-        let image = Image::new([2, 1], vec![Vec3::new(-1.0, 0.5, 2.0), Vec3::new(f32::NAN, 1.0, 0.1)]);
-        assert_eq!(Picture::from(&image).pixels(), [[0, 128, 255], [0, 255, 26]]);
+        let colours = [Vec3::new(-1.0, 0.5, 2.0), Vec3::new(f32::NAN, 1.0, 0.1)];
+        assert_eq!(Picture::of_colours([2, 1], &colours).pixels(), [[0, 128, 255], [0, 255, 26]]);
     }
 
     #[test]

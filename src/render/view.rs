@@ -2,9 +2,8 @@
 
 use std::str::FromStr;
 
-use glam::Vec3;
-
-use super::{ErrorMap, Image, Picture, Work, colour_map, render};
+use super::picture::quantised;
+use super::{ErrorMap, Picture, Work, colour_map, render};
 use crate::accel::{DynAccel, Observed};
 use crate::geometry::{Hit, Ray};
 use crate::names::{Unknown, find, named_enum};
@@ -30,12 +29,10 @@ named_enum! {
     }
 }
 
-/// A view that cannot be named or drawn.
+/// The heat of a structure that does not report tests and steps.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum ViewError {
-    #[error("the structure does not report its tests and steps, so there is no heat to show: choose another view")]
-    Unobserved,
-}
+#[error("the structure does not report its tests and steps, so there is no heat to show: choose another view")]
+pub struct ViewError;
 
 impl FromStr for ViewKind {
     type Err = Unknown;
@@ -60,12 +57,12 @@ pub fn draw(
     hottest: u64,
 ) -> Result<Picture, ViewError> {
     Ok(match view {
-        ViewKind::Shaded => Picture::from(&render(scene, accel, size).0),
+        ViewKind::Shaded => Picture::of_colours(size, &render(scene, accel, size).0),
         ViewKind::Depth => depth(scene, accel, size),
-        ViewKind::Normal => from_hits(scene, accel, size, |ray, hit| {
+        ViewKind::Normal => from_hits(size, &hits(scene, accel, size), |ray, hit| {
             (scene.surface(ray, hit).shading_normal * 0.5 + 0.5).to_array().map(quantised)
         }),
-        ViewKind::Primitive => from_hits(scene, accel, size, |_, hit| identity(hit.prim.index())),
+        ViewKind::Primitive => from_hits(size, &hits(scene, accel, size), |_, hit| identity(hit.prim.index())),
         ViewKind::Heat => {
             let colours = costs(scene, accel, size)?.into_iter().map(|cost| colour_map::heat(cost, hottest));
             Picture::new(size, colours.collect())
@@ -80,7 +77,7 @@ pub fn draw(
 /// If the structure does not report both.
 pub fn costs(scene: &Scene, accel: &dyn DynAccel, size: [u32; 2]) -> Result<Vec<u64>, ViewError> {
     if accel.observed() != Observed::ALL {
-        return Err(ViewError::Unobserved);
+        return Err(ViewError);
     }
     Ok(Work::of(accel, &primary(scene, size)).iter().map(Work::cost).collect())
 }
@@ -116,8 +113,7 @@ fn hits(scene: &Scene, accel: &dyn DynAccel, size: [u32; 2]) -> Vec<(Ray, Option
     rays.into_iter().zip(hits).collect()
 }
 
-fn from_hits(scene: &Scene, accel: &dyn DynAccel, size: [u32; 2], colour: impl Fn(&Ray, Hit) -> [u8; 3]) -> Picture {
-    let hits = hits(scene, accel, size);
+fn from_hits(size: [u32; 2], hits: &[(Ray, Option<Hit>)], colour: impl Fn(&Ray, Hit) -> [u8; 3]) -> Picture {
     Picture::new(size, hits.iter().map(|(ray, hit)| hit.map_or([0; 3], |hit| colour(ray, hit))).collect())
 }
 
@@ -133,12 +129,7 @@ fn depth(scene: &Scene, accel: &dyn DynAccel, size: [u32; 2]) -> Picture {
         let share = (near / t.max(near) - near / far) / (1.0 - near / far);
         0.15 + 0.85 * if far > near { share } else { 1.0 }
     };
-    let colour = |hit: &Option<Hit>| hit.map_or(Vec3::ZERO, |hit| Vec3::splat(brightness(hit.t)));
-    Picture::from(&Image::new(size, hits.iter().map(|(_, hit)| colour(hit)).collect()))
-}
-
-fn quantised(value: f32) -> u8 {
-    (value * 255.0 + 0.5) as u8
+    from_hits(size, &hits, |_, hit| [quantised(brightness(hit.t)); 3])
 }
 
 /// A colour that no other primitive below 2^24 - 1 has, and not black: the steps of an odd constant go through all
@@ -151,10 +142,12 @@ fn identity(index: u32) -> [u8; 3] {
 #[cfg(test)]
 mod tests {
     use std::collections::HashSet;
+    use std::sync::Arc;
 
     use super::*;
-    use crate::accel::Accel;
-    use crate::brute_force::BruteForce;
+    use crate::accel::{Accel, BuildError, Footprint, Observer, TreeShape};
+    use crate::brute_force::{BruteForce, BruteForceConfig};
+    use crate::geometry::Mesh;
     use crate::kdtree::{KdConfig, KdTree};
     use crate::scene::Builtin;
     use crate::triangle::MollerTrumbore;
@@ -170,11 +163,8 @@ mod tests {
         };
         for view in [ViewKind::Shaded, ViewKind::Depth, ViewKind::Normal, ViewKind::Primitive] {
             assert_eq!(draw(&scene, &tree, view, [64, 64], 1), draw(&scene, &all, view, [64, 64], 9), "{view:?}");
-            assert_eq!(
-                colours(view, &tree).0,
-                if view == ViewKind::Shaded { [51, 64, 77] } else { [0; 3] },
-                "{view:?}"
-            );
+            let miss = if view == ViewKind::Shaded { [51, 64, 77] } else { [0; 3] };
+            assert_eq!(colours(view, &tree).0, miss, "{view:?}");
         }
         // The eye sees three sides, so six triangles.
         assert_eq!(colours(ViewKind::Normal, &tree).1.len(), 3 + 1);
@@ -190,37 +180,30 @@ mod tests {
     struct Unobserved;
 
     impl Accel for Unobserved {
-        type Config = crate::brute_force::BruteForceConfig;
+        type Config = BruteForceConfig;
         const OBSERVED: Observed = Observed::TESTS;
 
-        fn build(
-            _: &std::sync::Arc<crate::geometry::Mesh>,
-            _: &Self::Config,
-        ) -> Result<Self, crate::accel::BuildError> {
+        fn build(_: &Arc<Mesh>, _: &BruteForceConfig) -> Result<Self, BuildError> {
             Ok(Self)
         }
 
-        fn closest_hit<O: crate::accel::Observer>(&self, _: &Ray, _: &mut O) -> Option<Hit> {
+        fn closest_hit<O: Observer>(&self, _: &Ray, _: &mut O) -> Option<Hit> {
             None
         }
 
-        fn any_hit<O: crate::accel::Observer>(&self, _: &Ray, _: &mut O) -> bool {
-            false
+        fn footprint(&self) -> Footprint {
+            Footprint::default()
         }
 
-        fn footprint(&self) -> crate::accel::Footprint {
-            Default::default()
-        }
-
-        fn shape(&self) -> crate::accel::TreeShape {
-            Default::default()
+        fn shape(&self) -> TreeShape {
+            TreeShape::default()
         }
     }
 
     #[test]
     fn heat_is_refused_where_steps_are_unknown() {
         let scene = Builtin::find("cube").unwrap().scene(None).unwrap();
-        assert_eq!(draw(&scene, &Unobserved, ViewKind::Heat, [4, 4], 1), Err(ViewError::Unobserved));
+        assert_eq!(draw(&scene, &Unobserved, ViewKind::Heat, [4, 4], 1), Err(ViewError));
         assert!(draw(&scene, &Unobserved, ViewKind::Depth, [4, 4], 1).is_ok());
     }
 

@@ -69,7 +69,7 @@ impl<'a> RaySet<'a> {
 
     fn ask(&self, state: &mut State, query: Query) -> Result<Vec<Option<Hit>>, String> {
         let told = &mut *locked(&self.told);
-        let id = match told.filter(|told| told.query() == query) {
+        let id = match told.filter(|told| told.query == query) {
             Some(id) => id,
             None => *told.insert(self.hand_over(state, query)?),
         };

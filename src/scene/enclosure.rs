@@ -3,10 +3,9 @@
 use std::sync::Arc;
 
 use glam::Vec3;
-use rayon::prelude::*;
 
 use crate::brute_force::{BruteForce, BruteForceConfig};
-use crate::geometry::{Mesh, Ray};
+use crate::geometry::{Hit, Mesh, Ray};
 use crate::offered::Offered;
 use crate::triangle::Exact;
 
@@ -68,15 +67,14 @@ impl Enclosure {
             return None;
         }
         let triangles = BruteForce::<Exact>::boxed(mesh, &BruteForceConfig::default()).ok()?;
-        let is_wall = |direction: Vec3| {
-            let [hit] = triangles.closest(&[Ray::new(mesh.bounds().centre(), direction)])[..] else { return false };
-            hit.is_some_and(|hit| {
-                let [a, b, c] = mesh.corners(hit.prim.index()).map(Vec3::as_dvec3);
-                (b - a).cross(c - a).dot(direction.as_dvec3()) < 0.0
-            })
+        let from_middle = |&way: &[f32; 3]| Ray::new(mesh.bounds().centre(), Vec3::from_array(way));
+        let rays: Vec<Ray> = DIRECTIONS[..rays].iter().map(from_middle).collect();
+        let is_wall = |(ray, hit): &(&Ray, Hit)| {
+            let [a, b, c] = mesh.corners(hit.prim.index()).map(Vec3::as_dvec3);
+            (b - a).cross(c - a).dot(ray.direction.as_dvec3()) < 0.0
         };
-        let walls = DIRECTIONS[..rays].par_iter().filter(|direction| is_wall(Vec3::from_array(**direction))).count();
-        Some(Self { rays, walls })
+        let hits = rays.iter().zip(triangles.closest_by_chunks(&rays, 1)).filter_map(|(ray, hit)| Some((ray, hit?)));
+        Some(Self { walls: hits.filter(is_wall).count(), rays: rays.len() })
     }
 
     /// Whether at least two thirds of the rays meet a wall: of kitchens, halls and boxes that are open at a side it is more than

@@ -1,5 +1,7 @@
 //! What a scene is, as one number: times, counts and pictures of two scenes can be compared only if it is the same.
 
+use std::io::{BufWriter, Write};
+
 use glam::Vec3;
 use sha2::{Digest, Sha256};
 
@@ -14,7 +16,7 @@ impl Scene {
         let Self { mesh, normals, materials, material_of, lights, camera, background, .. } = self;
         let Self { recursion_limit, shadow_terminator_fix, offset, size, .. } = self;
         let Self { name: _, is_framed: _, stand_ins: _, notes: _, warnings: _, .. } = self;
-        let mut hash = Hash(Sha256::new());
+        let mut hash = Hash(BufWriter::new(Sha256::new()));
         hash.vectors(mesh.positions());
         hash.triples(mesh.triangles());
         let (corner_normals, corners) = normals.as_ref().map_or((&[][..], &[][..]), |normals| normals.parts());
@@ -47,26 +49,18 @@ impl Scene {
         };
         hash.words([way]);
         hash.floats(&[length]);
-        hexadecimal(&hash.0.finalize())
+        hexadecimal(&hash.0.into_inner().expect(SUMMED).finalize())
     }
 }
 
-struct Hash(Sha256);
+/// Buffered: handing over a word at a time takes longer than the sum itself.
+struct Hash(BufWriter<Sha256>);
+
+const SUMMED: &str = "a sum takes all bytes";
 
 impl Hash {
     fn words(&mut self, words: impl IntoIterator<Item = u32>) {
-        // Handing over a word at a time takes longer than the sum itself.
-        let mut block = [0; 4096];
-        let mut filled = 0;
-        for word in words {
-            block[filled..filled + 4].copy_from_slice(&word.to_le_bytes());
-            filled += 4;
-            if filled == block.len() {
-                self.0.update(block);
-                filled = 0;
-            }
-        }
-        self.0.update(&block[..filled]);
+        words.into_iter().for_each(|word| self.0.write_all(&word.to_le_bytes()).expect(SUMMED));
     }
 
     fn floats(&mut self, floats: &[f32]) {
@@ -75,7 +69,7 @@ impl Hash {
 
     /// How many follow: two lists are not one longer one.
     fn count(&mut self, n: usize) {
-        self.0.update((n as u64).to_le_bytes());
+        self.0.write_all(&(n as u64).to_le_bytes()).expect(SUMMED);
     }
 
     fn vectors(&mut self, vectors: &[Vec3]) {

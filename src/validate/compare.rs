@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
 
 use rayon::prelude::*;
 
@@ -10,6 +11,7 @@ use super::blame::{Blame, blame, gap};
 use super::{Kind, Reference, Validation, WorstRay};
 use crate::accel::DynAccel;
 use crate::geometry::{Hit, Mesh, Ray};
+use crate::oracle::Oracle;
 
 /// Rays a batch: part of the result's definition, so that no thread count changes it.
 pub(super) const BATCH: usize = 256;
@@ -78,6 +80,48 @@ pub fn validate_answers(
         })
         .collect();
     Validation::of_batches(0, batches)
+}
+
+/// Holds answers to the any-hit query that were found elsewhere against `expected`, the closest hits of `reference`,
+/// with the exact oracle as judge where they differ. Where the triangle test is shared, a hit that the reference does
+/// not have is invented, whatever is exactly so.
+///
+/// # Panics
+/// If there are not as many answers as rays.
+pub fn validate_any_answers(
+    reference: &Reference,
+    expected: &[Option<Hit>],
+    mesh: &Arc<Mesh>,
+    rays: &[Ray],
+    found: &[bool],
+) -> Validation {
+    assert!(rays.len() == found.len() && rays.len() == expected.len(), "one answer a ray");
+    let hits = expected.iter().flatten().count() as u64;
+    let mut sums = Validation { rays: rays.len() as u64, hits, ..Validation::default() };
+    let shares_test = reference.test.is_some();
+    let mut oracle = None;
+    for (index, (ray, &found)) in rays.iter().zip(found).enumerate() {
+        let expected = expected[index];
+        if found == expected.is_some() {
+            continue;
+        }
+        let truth = oracle.get_or_insert_with(|| Oracle::new(mesh)).nearest(ray);
+        let kind = match (found, truth.is_some()) {
+            (true, _) if shares_test => Kind::Invented,
+            (true, false) => Kind::Invented,
+            (false, true) => Kind::Lost,
+            _ if shares_test => Kind::TriangleTest,
+            _ => Kind::Reference,
+        };
+        let verdict = match truth {
+            Some(truth) => format!("any hit says {found}; exactly, there is a hit at {:?}", truth.rounded()),
+            None => format!("any hit says {found}; exactly, nothing is hit in the interval"),
+        };
+        let (index, gap) = (index as u64, f64::INFINITY);
+        sums.note(WorstRay { index, ray: *ray, expected, found: None, kind, verdict, gap }, shares_test);
+    }
+    sums.keep_worst();
+    sums
 }
 
 /// One batch; `asked` shows to another thread what the structure is being asked.
@@ -178,20 +222,8 @@ fn tally(
 ) {
     let Some(Blame { kind, sentence: verdict }) = blame(reference, mesh, ray, expected, found) else { return };
     let (index, gap) = (index as u64, gap(expected, found));
-    sums.worst.push(WorstRay { index, ray: *ray, expected, found, kind, verdict, gap });
-    match kind {
-        Kind::Tie => sums.ties += 1,
-        Kind::HigherId => {
-            sums.ties += 1;
-            sums.higher_ids += 1;
-        }
-        Kind::TriangleTest => sums.test_errors += 1,
-        Kind::Reference => sums.reference_errors += 1,
-        Kind::Depth => sums.depth_errors += 1,
-        _ if reference.knows_structure_errors() => sums.structure_errors += 1,
-        _ => sums.answer_errors += 1,
-    }
-    sums.differing += u64::from(!matches!(kind, Kind::Tie | Kind::HigherId));
+    let ray = WorstRay { index, ray: *ray, expected, found, kind, verdict, gap };
+    sums.note(ray, reference.knows_structure_errors());
 }
 
 pub(super) fn same(a: Option<Hit>, b: Option<Hit>) -> bool {

@@ -23,7 +23,7 @@ pub fn degenerate_meshes() -> Vec<(String, Arc<Mesh>)> {
         ("box of a grid".into(), box_grid(4)),
         ("same centroid".into(), same_centroid(300)),
         ("a huge triangle and small ones".into(), huge_and_small()),
-        ("far from zero".into(), offset(200, Vec3::new(148_376.0, 1234.0, -223_423.0))),
+        ("far from zero".into(), mesh(soup_triangles(200, 3).map(|t| t.map(|p| p + FAR)))),
         ("soup".into(), soup(500, 1)),
         ("closed sphere".into(), sphere(3)),
     ];
@@ -34,6 +34,8 @@ pub fn degenerate_meshes() -> Vec<(String, Arc<Mesh>)> {
     }
     meshes
 }
+
+const FAR: Vec3 = Vec3::new(148_376.0, 1234.0, -223_423.0);
 
 pub(crate) const TRIANGLE: [Vec3; 3] =
     [Vec3::new(-1.0, -0.5, 0.25), Vec3::new(1.5, -0.75, 0.5), Vec3::new(0.25, 1.0, -0.5)];
@@ -55,10 +57,6 @@ pub(crate) fn soup_triangles(n: usize, seed: u64) -> impl Iterator<Item = [Vec3;
 
 pub(crate) fn soup(n: usize, seed: u64) -> Arc<Mesh> {
     mesh(soup_triangles(n, seed))
-}
-
-fn offset(n: usize, by: Vec3) -> Arc<Mesh> {
-    mesh(soup_triangles(n, 3).map(|t| t.map(|p| p + by)))
 }
 
 pub(crate) fn coplanar(n: usize, u: Vec3, v: Vec3) -> Arc<Mesh> {

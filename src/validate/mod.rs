@@ -6,7 +6,6 @@
 //! Where structure and reference have different tests, the two cannot be separated: then there are *answer errors*.
 
 pub mod adversarial;
-mod any;
 mod asked;
 mod blame;
 mod compare;
@@ -21,8 +20,7 @@ mod validation;
 mod watch;
 
 pub use adversarial::Stratum;
-pub use any::validate_any_answers;
-pub use compare::{validate, validate_answers, validate_known};
+pub use compare::{validate, validate_answers, validate_any_answers, validate_known};
 pub use degenerate::degenerate_meshes;
 pub use error_counts::{DepthRule, ErrorCounts, Outcome, Ulps, count_errors, outcome};
 pub use rate::Rate;

@@ -158,7 +158,26 @@ impl Validation {
         self.keep_worst();
     }
 
-    /// The same, of a batch that `kind`, a panic or an endless loop, has ended at a ray, or at the first of a whole batch,
+    /// Counts a ray on which structure and reference differ. `tells_structure_errors` says whether an error of the
+    /// structure can be told from one of its triangle test.
+    pub(super) fn note(&mut self, ray: WorstRay, tells_structure_errors: bool) {
+        match ray.kind {
+            Kind::Tie => self.ties += 1,
+            Kind::HigherId => {
+                self.ties += 1;
+                self.higher_ids += 1;
+            }
+            Kind::TriangleTest => self.test_errors += 1,
+            Kind::Reference => self.reference_errors += 1,
+            Kind::Depth => self.depth_errors += 1,
+            _ if tells_structure_errors => self.structure_errors += 1,
+            _ => self.answer_errors += 1,
+        }
+        self.differing += u64::from(!matches!(ray.kind, Kind::Tie | Kind::HigherId));
+        self.worst.push(ray);
+    }
+
+    /// The sums of a batch that `kind`, a panic or an endless loop, has ended at a ray, or at the first of a whole batch,
     /// where the reference answers `expected`.
     pub(super) fn ended(mut self, expected: Option<Hit>, rays: &[Ray], call: Call, kind: Kind, why: String) -> Self {
         let (index, verdict) = match call {

@@ -88,7 +88,7 @@ pub fn check(
     let reference = against.reference(scene, test)?;
     let rays = &file.workload.rays;
     let expected = reference.closest_hits(rays);
-    let found = match answers.query() {
+    let found = match answers.query {
         Query::Closest => validate_answers(&reference, &expected, &scene.mesh, rays, found),
         Query::Any => {
             let found: Vec<bool> = found.iter().map(Option::is_some).collect();

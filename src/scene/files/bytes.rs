@@ -3,7 +3,6 @@
 use sha2::{Digest, Sha256};
 
 use crate::accel::Query;
-use crate::scene::Workload;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Head {
@@ -48,9 +47,9 @@ pub(super) fn head_bytes(head: &Head, magic: &[u8; 8]) -> Vec<u8> {
     bytes
 }
 
-/// By which files of answers name the rays that they answer: the first bytes of the SHA-256 of all of them.
-pub(super) fn rays_hash(workload: &Workload) -> [u8; 8] {
-    Sha256::digest(workload.bytes())[..8].try_into().expect("eight bytes")
+/// By which files name rays: the first bytes of the SHA-256 of [`Workload::bytes`](crate::scene::Workload::bytes).
+pub(super) fn rays_hash(rays: &[u8]) -> [u8; 8] {
+    Sha256::digest(rays)[..8].try_into().expect("eight bytes")
 }
 
 /// The `u32` at `at`, which lies within.

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::bytes::{HEAD, Head, body, head, head_bytes, number, rays_hash};
-use super::{FileError, content, read};
+use super::{FileError, read};
 use crate::accel::Query;
 use crate::geometry::Hit;
 use crate::output::OutputFile;
@@ -13,7 +13,8 @@ use crate::scene::hash::hexadecimal;
 /// Answers to the rays of a file, in their order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HitFile {
-    query: Query,
+    /// What was asked.
+    pub query: Query,
     hash: [u8; 8],
     hits: Vec<Option<Hit>>,
 }
@@ -21,7 +22,8 @@ pub struct HitFile {
 /// What the head of a file of rays says of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RaysId {
-    query: Query,
+    /// What they ask.
+    pub query: Query,
     hash: [u8; 8],
     count: usize,
 }
@@ -29,17 +31,13 @@ pub struct RaysId {
 impl RaysId {
     /// That of the rays of a workload.
     pub fn of(workload: &Workload) -> Self {
-        Self { query: workload.query, hash: rays_hash(workload), count: workload.rays.len() }
-    }
-
-    /// What they ask.
-    pub fn query(&self) -> Query {
-        self.query
+        Self { query: workload.query, hash: rays_hash(&workload.bytes()), count: workload.rays.len() }
     }
 }
 
 const MAGIC: &[u8; 8] = b"SAHAHITS";
 
+/// Stands for no hit: no primitive has this number.
 const NOTHING: u32 = u32::MAX;
 
 impl HitFile {
@@ -49,24 +47,19 @@ impl HitFile {
     /// If there are not as many answers as rays.
     pub fn new(workload: &Workload, hits: Vec<Option<Hit>>) -> Self {
         assert_eq!(workload.rays.len(), hits.len(), "one answer a ray");
-        Self { query: workload.query, hash: rays_hash(workload), hits }
+        Self { query: workload.query, hash: rays_hash(&workload.bytes()), hits }
     }
 
     /// # Errors
     /// If the file cannot be read, is no file of hits or is not whole.
     pub fn read(path: &Path) -> Result<Self, FileError> {
-        Self::from_bytes(&read(path, MAGIC)?).map_err(content(path))
+        read(path, MAGIC, Self::from_bytes)
     }
 
     /// # Errors
     /// If the file cannot be written.
     pub fn write(&self, file: &OutputFile) -> Result<(), FileError> {
         Ok(file.write(&self.to_bytes())?)
-    }
-
-    /// What was asked.
-    pub fn query(&self) -> Query {
-        self.query
     }
 
     /// The answers, if they are those to `workload`.
@@ -100,21 +93,27 @@ impl HitFile {
 
     pub(super) fn to_bytes(&self) -> Vec<u8> {
         let mut bytes = head_bytes(&Head { query: self.query, count: self.hits.len() as u64, hash: self.hash }, MAGIC);
-        for hit in &self.hits {
-            let (t, prim) = hit.map_or((0.0, NOTHING), |hit| (hit.t, hit.prim.index()));
-            bytes.extend(t.to_bits().to_le_bytes());
-            bytes.extend(prim.to_le_bytes());
-        }
+        bytes.extend(hits_to_bytes(&self.hits));
         bytes
     }
 
     pub(super) fn from_bytes(bytes: &[u8]) -> Result<Self, String> {
         let Head { query, count, hash } = head(bytes, MAGIC, "hits")?;
-        let answers = body(bytes, HEAD, count, 8)?.chunks_exact(8);
-        let answer = |answer: &[u8]| match number(answer, 4) {
-            NOTHING => None,
-            prim => Some(Hit::new(f32::from_bits(number(answer, 0)), prim)),
-        };
-        Ok(Self { query, hash, hits: answers.map(answer).collect() })
+        Ok(Self { query, hash, hits: hits_from_bytes(body(bytes, HEAD, count, 8)?) })
     }
+}
+
+/// Eight bytes a hit: the bits of `t` and the number of the primitive, little-endian.
+pub(crate) fn hits_to_bytes(hits: &[Option<Hit>]) -> Vec<u8> {
+    let numbers = |hit: &Option<Hit>| hit.map_or([0, NOTHING], |hit| [hit.t.to_bits(), hit.prim.index()]);
+    hits.iter().flat_map(numbers).flat_map(u32::to_le_bytes).collect()
+}
+
+/// The hits that [`hits_to_bytes`] makes these bytes of.
+pub(crate) fn hits_from_bytes(bytes: &[u8]) -> Vec<Option<Hit>> {
+    let hit = |bytes: &[u8]| match number(bytes, 4) {
+        NOTHING => None,
+        prim => Some(Hit::new(f32::from_bits(number(bytes, 0)), prim)),
+    };
+    bytes.chunks_exact(8).map(hit).collect()
 }

@@ -15,6 +15,7 @@ use std::path::{Path, PathBuf};
 use crate::output::OutputError;
 
 pub use hits::{HitFile, RaysId};
+pub(crate) use hits::{hits_from_bytes, hits_to_bytes};
 pub use mesh::{mesh_bytes, write_mesh};
 pub use rays::RayFile;
 pub use truth::TruthFile;
@@ -30,9 +31,9 @@ pub enum FileError {
     Write(#[from] OutputError),
 }
 
-/// The bytes of a file; of one that does not begin with `magic` its beginning only, for it may be large or without an
-/// end.
-fn read(path: &Path, magic: &[u8; 8]) -> Result<Vec<u8>, FileError> {
+/// What `parse` makes of the bytes of a file; of one that does not begin with `magic` it gets the beginning only, for
+/// the file may be large or without an end.
+fn read<F>(path: &Path, magic: &[u8; 8], parse: fn(&[u8]) -> Result<F, String>) -> Result<F, FileError> {
     let bytes = || {
         let (mut file, mut bytes) = (File::open(path)?, vec![]);
         file.by_ref().take(8).read_to_end(&mut bytes)?;
@@ -41,9 +42,6 @@ fn read(path: &Path, magic: &[u8; 8]) -> Result<Vec<u8>, FileError> {
         }
         Ok(bytes)
     };
-    bytes().map_err(|cause| FileError::Read { path: path.into(), cause })
-}
-
-fn content(path: &Path) -> impl Fn(String) -> FileError {
-    move |problem| FileError::Content { path: path.into(), problem }
+    let bytes: Vec<u8> = bytes().map_err(|cause| FileError::Read { path: path.into(), cause })?;
+    parse(&bytes).map_err(|problem| FileError::Content { path: path.into(), problem })
 }

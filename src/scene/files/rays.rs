@@ -3,10 +3,9 @@
 use std::path::Path;
 
 use glam::Vec3;
-use sha2::{Digest, Sha256};
 
-use super::bytes::{HEAD, Head, body, head, head_bytes, number};
-use super::{FileError, content, read};
+use super::bytes::{HEAD, Head, body, head, head_bytes, number, rays_hash};
+use super::{FileError, read};
 use crate::geometry::Ray;
 use crate::output::OutputFile;
 use crate::scene::hash::hexadecimal;
@@ -36,7 +35,7 @@ impl RayFile {
     /// # Errors
     /// If the file cannot be read, is no ray file, is not whole, or holds a ray that is none.
     pub fn read(path: &Path) -> Result<Self, FileError> {
-        Self::from_bytes(&read(path, MAGIC)?).map_err(content(path))
+        read(path, MAGIC, Self::from_bytes)
     }
 
     /// # Errors
@@ -92,8 +91,8 @@ impl RayFile {
     pub fn to_bytes(&self) -> Vec<u8> {
         let Workload { name, query, rays } = &self.workload;
         let body = self.workload.bytes();
-        let hash = Sha256::digest(&body)[..8].try_into().expect("eight bytes");
-        let mut bytes = head_bytes(&Head { query: *query, count: rays.len() as u64, hash }, MAGIC);
+        let head = Head { query: *query, count: rays.len() as u64, hash: rays_hash(&body) };
+        let mut bytes = head_bytes(&head, MAGIC);
         bytes.extend(self.scene_hash.as_deref().map_or([0; 32], unhex));
         bytes.extend((self.scene.len() as u32).to_le_bytes());
         bytes.extend((name.len() as u32).to_le_bytes());
@@ -122,7 +121,7 @@ impl RayFile {
 
         let start = (NAMES + lengths[0] + lengths[1]).next_multiple_of(HEAD);
         let body = body(bytes, start, count, 32)?;
-        if Sha256::digest(body)[..8] != hash {
+        if rays_hash(body) != hash {
             return Err("the rays do not have the hash that the head says: the file was changed".into());
         }
         let rays: Vec<Ray> = body.chunks_exact(32).map(ray).collect();

@@ -8,7 +8,7 @@ use glam::Vec3;
 
 use super::error::quoted;
 use super::notes::Notes;
-use super::text::{Lines, after_keyword, number, plain, words};
+use super::text::{after_keyword, lines, number, plain, words};
 use super::{below, read_file};
 use crate::scene::Material;
 
@@ -98,7 +98,7 @@ impl Reader<'_> {
         };
         // The material of the lines to come; none where nothing uses it.
         let mut current: Option<String> = None;
-        for (number, line) in Lines::new(text) {
+        for (number, line) in lines(text) {
             if self.line(line, &mut current).is_err() {
                 notes.add(format!("{}, line {number}: {} is ignored", path.display(), quoted(line)));
             }

@@ -10,6 +10,10 @@ pub(super) struct Notes {
 /// More of them are only counted.
 const MOST: usize = 12;
 
+/// What [`Notes::count`] says of faces that make no triangle.
+pub(super) const SMALL_FACES: [&str; 2] =
+    ["face with fewer than three corners is left out", "faces with fewer than three corners are left out"];
+
 impl Notes {
     pub fn add(&mut self, note: impl Into<String>) {
         let note = note.into();

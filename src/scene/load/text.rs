@@ -19,30 +19,18 @@ fn wide() -> Fault {
 }
 
 /// The lines of a text with their numbers from 1, whether they end with `\n`, `\r\n` or `\r`, without these.
-pub(super) struct Lines<'a> {
-    rest: &'a [u8],
-    number: usize,
-}
-
-impl<'a> Lines<'a> {
-    pub fn new(text: &'a [u8]) -> Self {
-        Self { rest: text, number: 0 }
-    }
-}
-
-impl<'a> Iterator for Lines<'a> {
-    type Item = (usize, &'a [u8]);
-
-    fn next(&mut self) -> Option<Self::Item> {
-        if self.rest.is_empty() {
+pub(super) fn lines(text: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
+    let (mut rest, mut number) = (text, 0);
+    std::iter::from_fn(move || {
+        if rest.is_empty() {
             return None;
         }
-        self.number += 1;
-        let end = self.rest.iter().position(|&b| b == b'\n' || b == b'\r').unwrap_or(self.rest.len());
-        let (line, rest) = self.rest.split_at(end);
-        self.rest = rest.strip_prefix(b"\r\n").unwrap_or(rest.get(1..).unwrap_or_default());
-        Some((self.number, line))
-    }
+        number += 1;
+        let end = rest.iter().position(|&b| b == b'\n' || b == b'\r').unwrap_or(rest.len());
+        let (line, after) = rest.split_at(end);
+        rest = after.strip_prefix(b"\r\n").unwrap_or(after.get(1..).unwrap_or_default());
+        Some((number, line))
+    })
 }
 
 pub(super) fn words(line: &[u8]) -> impl Iterator<Item = &[u8]> + Clone {
@@ -65,10 +53,10 @@ mod tests {
 
     #[test]
     fn lines_end_in_three_ways() {
-        let lines = |text: &'static str| Lines::new(text.as_bytes()).collect::<Vec<_>>();
-        assert_eq!(lines("a\nb\r\n\rc\r"), [(1, &b"a"[..]), (2, b"b"), (3, b""), (4, b"c")]);
-        assert_eq!(lines("\n\n"), [(1, &b""[..]), (2, b"")]);
-        assert!(lines("").is_empty());
+        let all = |text: &'static str| lines(text.as_bytes()).collect::<Vec<_>>();
+        assert_eq!(all("a\nb\r\n\rc\r"), [(1, &b"a"[..]), (2, b"b"), (3, b""), (4, b"c")]);
+        assert_eq!(all("\n\n"), [(1, &b""[..]), (2, b"")]);
+        assert!(all("").is_empty());
     }
 
     #[test]

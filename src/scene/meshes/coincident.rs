@@ -3,7 +3,7 @@
 
 use glam::Vec3;
 
-use super::{cube, flat, halves, noise};
+use super::{cube, flat, net, noise};
 use crate::scene::Model;
 
 /// Two cities on one ground: the square with corners (+-1, 0, +-1), divided by one into 32 x 32 cells and by the other into 31 x 31, with
@@ -78,14 +78,12 @@ pub fn growing_shells() -> Model {
 fn ground(cells: u32) -> Model {
     let at = |step: u32| 2.0 * step as f32 / cells as f32 - 1.0;
     let across = cells + 1;
-    let quad = |i: u32| {
-        let left = i / cells * across + i % cells;
-        halves([left + across, left + across + 1, left + 1, left])
+    let quad = |row: u32, column: u32| {
+        let left = row * across + column;
+        [left + across, left + across + 1, left + 1, left]
     };
-    flat(
-        (0..across * across).map(|i| Vec3::new(at(i % across), 0.0, at(i / across))).collect(),
-        (0..cells * cells).flat_map(quad).collect(),
-    )
+    let corners = (0..across * across).map(|i| Vec3::new(at(i % across), 0.0, at(i / across)));
+    flat(corners.collect(), net(cells, cells, quad))
 }
 
 /// The closed cube, its middle and half its sides as given.

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use glam::DVec3;
 
-use super::{icosahedron, normals, smooth};
+use super::{icosahedron, smooth};
 use crate::scene::Model;
 
 /// The [`divided_icosphere`] with edges in `2^subdivisions` parts: `20 * 4^subdivisions` triangles.
@@ -27,9 +27,8 @@ pub fn icosphere(subdivisions: u32) -> Model {
 pub fn divided_icosphere(steps: u32) -> Model {
     assert!((1..=4096).contains(&steps), "an icosphere has 1 to 4096 steps, not {steps}");
     let mut net = Net { points: icosahedron::corners(), rows: HashMap::new(), steps };
-    let triangles: Vec<[u32; 3]> = icosahedron::sides().into_iter().flat_map(|side| net.divide(side)).collect();
-    let normals = normals::of_the_course(&net.points, &triangles);
-    smooth(net.points, normals, triangles)
+    let triangles = icosahedron::sides().into_iter().flat_map(|side| net.divide(side)).collect();
+    smooth(net.points, triangles)
 }
 
 struct Net {

@@ -91,10 +91,11 @@ fn on_circle(step: u32, steps: u32) -> (f64, f64) {
     }
 }
 
-fn smooth(positions: Vec<DVec3>, normals: Vec<DVec3>, triangles: Vec<[u32; 3]>) -> Model {
+/// With the normals of the course's mesh files.
+fn smooth(points: Vec<DVec3>, triangles: Vec<[u32; 3]>) -> Model {
     Model {
-        positions: positions.into_iter().map(|p| p.as_vec3()).collect(),
-        normals: normals.into_iter().map(|n| n.as_vec3()).collect(),
+        normals: normals::of_the_course(&points, &triangles),
+        positions: points.into_iter().map(|p| p.as_vec3()).collect(),
         normal_indices: triangles.clone(),
         triangles,
         ..Model::default()
@@ -103,6 +104,12 @@ fn smooth(positions: Vec<DVec3>, normals: Vec<DVec3>, triangles: Vec<[u32; 3]>) 
 
 fn flat(positions: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Model {
     Model { positions, triangles, ..Model::default() }
+}
+
+/// The triangles of a net of quadrilaterals, row by row; `quad` gives the corners of the one in a row and a column.
+fn net(rows: u32, columns: u32, quad: impl Fn(u32, u32) -> [u32; 4]) -> Vec<[u32; 3]> {
+    let cells = (0..rows).flat_map(|row| (0..columns).map(move |column| (row, column)));
+    cells.flat_map(|(row, column)| halves(quad(row, column))).collect()
 }
 
 /// Both triangles of a quadrilateral, cut from its first corner to its third.

@@ -3,7 +3,7 @@
 use glam::Vec3;
 
 use super::sdf::{Frame, cosine, sine};
-use super::{halves, normals};
+use super::{net, normals};
 use crate::scene::{Material, Model};
 
 /// How a patch is shaded.
@@ -44,11 +44,9 @@ impl Patches {
         let across = if round { columns } else { columns + 1 };
         let positions: Vec<Vec3> =
             (0..=rows).flat_map(|row| (0..across).map(move |c| (c, row))).map(|(c, r)| at(c, r)).collect();
-        let corner = |column: usize, row: usize| (row * across + column % across) as u32;
-        let cells = (0..rows).flat_map(|row| (0..columns).map(move |column| (column, row)));
-        let triangles: Vec<[u32; 3]> = cells
-            .flat_map(|(c, r)| halves([corner(c, r), corner(c + 1, r), corner(c + 1, r + 1), corner(c, r + 1)]))
-            .collect();
+        let corner = |column: u32, row: u32| row * across as u32 + column % across as u32;
+        let quad = |r: u32, c: u32| [corner(c, r), corner(c + 1, r), corner(c + 1, r + 1), corner(c, r + 1)];
+        let triangles = net(rows as u32, columns as u32, quad);
 
         let model = &mut self.model;
         let shifted = |by: usize| triangles.iter().map(move |t| t.map(|v| v + by as u32));

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use glam::{DVec3, Vec3};
 
-use super::{catmull_clark, fit::map_box, halves, normals, smooth};
+use super::{catmull_clark, fit::map_box, halves, smooth};
 use crate::geometry::Aabb;
 use crate::scene::Model;
 
@@ -27,9 +27,8 @@ pub fn teapot() -> Model {
     let (points, faces) = welded_patches();
     let (points, quads) = catmull_clark::subdivide(&points, &faces);
     let points = into_bounds(&points);
-    let triangles: Vec<[u32; 3]> = quads.into_iter().flat_map(|quad| along_longer_diagonal(&points, quad)).collect();
-    let normals = normals::of_the_course(&points, &triangles);
-    smooth(points, normals, triangles)
+    let triangles = quads.into_iter().flat_map(|quad| along_longer_diagonal(&points, quad)).collect();
+    smooth(points, triangles)
 }
 
 /// Number, published and used x of a control point on the rim: the report's mesh has two digits of it exchanged, which

@@ -89,6 +89,23 @@ const KNOWN: &[Known] = &[
     Known { name: "growing_shells", vertices: 2264, triangles: 3396, degenerate: 0, pieces: 283, edges: (0, 0), bounds: bounds([-266.223_36, 266.223_36], [-266.223_36, 266.223_36], [-266.223_36, 266.223_36]), fingerprint: "1eb57e4815e770ed" },
 ];
 
+/// Normals are of unit length and look the way the triangles do.
+fn assert_normals(name: &str, model: &Model) {
+    assert!(model.normal_indices.is_empty() || model.normal_indices.len() == model.triangles.len(), "{name}");
+    // Steps of 1/32767 leave a normal a little short.
+    assert!(model.normals.iter().all(|n| (0.9999..1.000_001).contains(&n.length())), "{name}");
+    // Those of coarse surface nets are of the solid, which bends more sharply than its triangles.
+    let is_coarse = ["rabbit", "fox", "elephant", "dragon", "lucy"].contains(&name);
+    for (corners, normals) in model.triangles.iter().zip(&model.normal_indices) {
+        let [a, b, c] = corners.map(|i| model.positions[i as usize]);
+        let face = (b - a).cross(c - a);
+        if *normals != [Model::FLAT; 3] {
+            let faces = normals.map(|i| face.dot(model.normals[i as usize]) >= 0.0);
+            assert!(is_coarse || faces == [true; 3], "{name}");
+        }
+    }
+}
+
 #[test]
 fn each_mesh_is_what_it_is_known_to_be() {
     assert_eq!(GENERATORS.iter().map(|g| g.name).collect::<Vec<_>>(), KNOWN.iter().map(|k| k.name).collect::<Vec<_>>());
@@ -100,6 +117,7 @@ fn each_mesh_is_what_it_is_known_to_be() {
         assert_eq!(loose_and_crowded_edges(&mesh), known.edges, "edges of {name}");
         assert_eq!(mesh.bounds(), known.bounds, "bounds of {name}");
         assert_eq!(fingerprint(&model), known.fingerprint, "fingerprint of {name}");
+        assert_normals(name, &model);
         assert!(model.material_of.is_empty() || model.material_of.len() == known.triangles, "materials of {name}");
         assert!(model.material_of.iter().all(|&m| (m as usize) < model.materials.len()), "materials of {name}");
     }
@@ -128,26 +146,6 @@ fn areas_and_volumes_are_the_polyhedra_s() {
     for name in ["icosphere", "uv_sphere"] {
         let share = volume(&mesh(name)) / (std::f64::consts::PI * 4.0 / 3.0);
         assert!((0.98..1.0).contains(&share), "{name} fills {share} of the ball");
-    }
-}
-
-#[test]
-fn normals_are_of_unit_length_and_look_the_way_the_triangles_do() {
-    for Generator { name, make } in GENERATORS {
-        let model = make();
-        assert!(model.normal_indices.is_empty() || model.normal_indices.len() == model.triangles.len(), "{name}");
-        // Steps of 1/32767 leave a normal a little short.
-        assert!(model.normals.iter().all(|n| (0.9999..1.000_001).contains(&n.length())), "{name}");
-        // Those of coarse surface nets are of the solid, which bends more sharply than its triangles.
-        let is_coarse = ["rabbit", "fox", "elephant", "dragon", "lucy"].contains(name);
-        for (corners, normals) in model.triangles.iter().zip(&model.normal_indices) {
-            let [a, b, c] = corners.map(|i| model.positions[i as usize]);
-            let face = (b - a).cross(c - a);
-            if *normals != [Model::FLAT; 3] {
-                let faces = normals.map(|i| face.dot(model.normals[i as usize]) >= 0.0);
-                assert!(is_coarse || faces == [true; 3], "{name}");
-            }
-        }
     }
 }
 

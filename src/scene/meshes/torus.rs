@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{halves, normals, on_circle, smooth};
+use super::{net, on_circle, smooth};
 use crate::scene::Model;
 
 /// A closed, smooth torus about the y axis: `segments` around the ring of radius 1, `sides` around the tube of radius
@@ -23,11 +23,7 @@ pub fn torus(segments: u32, sides: u32, tube: f64) -> Model {
         }
     }
 
-    let vertex = |segment, side| segment % segments * sides + side % sides;
-    let cells = (0..segments).flat_map(|segment| (0..sides).map(move |side| (segment, side)));
-    let triangles: Vec<[u32; 3]> = cells
-        .flat_map(|(s, t)| halves([vertex(s, t), vertex(s, t + 1), vertex(s + 1, t + 1), vertex(s + 1, t)]))
-        .collect();
-    let normals = normals::of_the_course(&points, &triangles);
-    smooth(points, normals, triangles)
+    let vertex = |segment: u32, side: u32| segment % segments * sides + side % sides;
+    let quad = |s: u32, t: u32| [vertex(s, t), vertex(s, t + 1), vertex(s + 1, t + 1), vertex(s + 1, t)];
+    smooth(points, net(segments, sides, quad))
 }

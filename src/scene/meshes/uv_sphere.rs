@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{halves, normals, on_circle, smooth};
+use super::{net, on_circle, smooth};
 use crate::scene::Model;
 
 /// A smooth sphere of radius 1 with poles on the y axis: `segments * (bands + 1)` vertices, `2 * segments * bands`
@@ -24,11 +24,7 @@ pub fn uv_sphere(segments: u32, bands: u32) -> Model {
         }
     }
 
-    let vertex = |band, segment| band * segments + segment % segments;
-    let cells = (0..bands).flat_map(|band| (0..segments).map(move |segment| (band, segment)));
-    let triangles: Vec<[u32; 3]> = cells
-        .flat_map(|(b, s)| halves([vertex(b, s + 1), vertex(b + 1, s + 1), vertex(b + 1, s), vertex(b, s)]))
-        .collect();
-    let normals = normals::of_the_course(&points, &triangles);
-    smooth(points, normals, triangles)
+    let vertex = |band: u32, segment: u32| band * segments + segment % segments;
+    let quad = |b: u32, s: u32| [vertex(b, s + 1), vertex(b + 1, s + 1), vertex(b + 1, s), vertex(b, s)];
+    smooth(points, net(bands, segments, quad))
 }

@@ -49,17 +49,15 @@ impl Offset {
     ///
     /// It starts on the side of the triangle that it leaves to. Costs a few additions and multiplications.
     pub fn leave(self, start: &SurfacePoint, direction: Vec3) -> Ray {
+        let from = |origin: Vec3| Ray::new(origin, unit(direction));
         match self {
-            Self::None => Ray::new(start.position, unit(direction)),
-            Self::Normal(distance) => Ray::new(start.position + start.towards(direction) * distance, unit(direction)),
-            Self::TMin(t_min) => Ray { t_min, ..Ray::new(start.position, unit(direction)) },
+            Self::None => from(start.position),
+            Self::Normal(distance) => from(start.position + start.towards(direction) * distance),
+            Self::TMin(t_min) => Ray { t_min, ..from(start.position) },
             Self::Direction(distance) => moved_along(start.position, direction, distance),
-            Self::WachterBinder => Ray::new(wachter_binder::origin(start, direction), unit(direction)),
+            Self::WachterBinder => from(wachter_binder::origin(start, direction)),
             // What touches the start itself is the surface that the ray leaves.
-            Self::ErrorBounded => Ray {
-                t_min: error_bounded::T_MIN,
-                ..Ray::new(error_bounded::origin(start, direction), unit(direction))
-            },
+            Self::ErrorBounded => Ray { t_min: error_bounded::T_MIN, ..from(error_bounded::origin(start, direction)) },
         }
     }
 

@@ -6,32 +6,27 @@ use super::*;
 use crate::accel::{Accel, DynAccel};
 use crate::geometry::Mesh;
 use crate::kdtree::{KdConfig, KdTree};
-use crate::scene::{Camera, Light, Material, Offset, meshes};
+use crate::scene::{Camera, Light, Material, Model, Offset, meshes};
 use crate::triangle::MollerTrumbore;
 
 /// A mirror floor and a ceiling that the eye looks at from between, with two lights.
 fn room() -> Scene {
     let square = |y: f32| [[-4.0, y, -4.0], [-4.0, y, 4.0], [4.0, y, 4.0], [4.0, y, -4.0]].map(Vec3::from_array);
-    let positions = [square(0.0), square(2.0)].concat();
-    let triangles = vec![[0, 1, 2], [0, 2, 3], [4, 6, 5], [4, 7, 6]];
-    let light = |x| Light { position: Vec3::new(x, 1.0, 0.0), colour: Vec3::ONE, linear: 0.0, quadratic: 0.0 };
-    Scene {
-        name: "room".into(),
-        mesh: Arc::new(Mesh::new(positions, triangles).unwrap()),
-        normals: None,
+    let model = Model {
+        positions: [square(0.0), square(2.0)].concat(),
+        triangles: vec![[0, 1, 2], [0, 2, 3], [4, 6, 5], [4, 7, 6]],
         materials: vec![Material { mirror: 0.5, ..Material::named("floor") }, Material::named("ceiling")],
         material_of: vec![0, 0, 1, 1],
+        ..Model::default()
+    };
+    let light = |x| Light { position: Vec3::new(x, 1.0, 0.0), colour: Vec3::ONE, linear: 0.0, quadratic: 0.0 };
+    Scene {
         lights: vec![light(-1.0), light(1.0)],
         camera: Camera::new(Vec3::new(0.0, 1.0, 6.0), Vec3::new(0.0, 0.9, 0.0), Vec3::Y, 60.0).unwrap(),
-        background: Vec3::ZERO,
-        recursion_limit: 8,
         shadow_terminator_fix: true,
         offset: Offset::Direction(0.01),
         size: [24, 16],
-        is_framed: false,
-        stand_ins: vec![],
-        notes: vec![],
-        warnings: vec![],
+        ..Scene::framed("room", model).unwrap()
     }
 }
 

@@ -1,7 +1,5 @@
-use std::sync::Arc;
-
 use super::*;
-use crate::accel::{Accel, BuildError, Counts, Footprint, TreeShape};
+use crate::accel::{Accel, BuildError, Footprint, Observed, Observer, TreeShape};
 use crate::brute_force::BruteForce;
 use crate::triangle::MollerTrumbore;
 use crate::validate::{Stratum, degenerate_meshes};
@@ -15,30 +13,20 @@ struct Broken {
     any: fn(bool) -> bool,
 }
 
-impl DynAccel for Broken {
-    fn closest_hits(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
-        for (ray, hit) in rays.iter().zip(hits) {
-            *hit = (self.damage)(ray.origin.x.to_bits(), self.correct.closest_hit(ray, &mut ()));
-        }
+impl Accel for Broken {
+    type Config = ();
+    const OBSERVED: Observed = Observed::NONE;
+
+    fn build(_: &Arc<Mesh>, _: &()) -> Result<Self, BuildError> {
+        unreachable!("the tests make it of a correct one")
     }
 
-    fn any_hits(&self, rays: &[Ray], hits: &mut [bool]) {
-        for (ray, hit) in rays.iter().zip(hits) {
-            let found = (self.damage)(ray.origin.x.to_bits(), self.correct.closest_hit(ray, &mut ()));
-            *hit = (self.any)(found.is_some());
-        }
+    fn closest_hit<O: Observer>(&self, ray: &Ray, _: &mut O) -> Option<Hit> {
+        (self.damage)(ray.origin.x.to_bits(), self.correct.closest_hit(ray, &mut ()))
     }
 
-    fn closest_hits_counted(&self, rays: &[Ray], hits: &mut [Option<Hit>], _: &mut Counts) {
-        self.closest_hits(rays, hits);
-    }
-
-    fn any_hits_counted(&self, rays: &[Ray], hits: &mut [bool], _: &mut Counts) {
-        self.any_hits(rays, hits);
-    }
-
-    fn observed(&self) -> crate::accel::Observed {
-        crate::accel::Observed::NONE
+    fn any_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> bool {
+        (self.any)(self.closest_hit(ray, observer).is_some())
     }
 
     fn footprint(&self) -> Footprint {

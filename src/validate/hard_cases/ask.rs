@@ -9,6 +9,7 @@ use super::set::Set;
 use crate::accel::{BuildError, DynAccel, Loaded};
 use crate::geometry::{Hit, Ray};
 use crate::measure::{Clock, median};
+use crate::scene::files::{hits_from_bytes, hits_to_bytes};
 use crate::validate::compare::same;
 use crate::validate::conformance::Subject;
 
@@ -121,15 +122,11 @@ fn slowness(accel: &dyn DynAccel, set: &Set, clock: &dyn Clock) -> Option<f64> {
 }
 
 impl Answers {
-    /// A line of JSON, then for each hit the bits of `t` and the number of the primitive, little-endian.
+    /// A line of JSON, then eight bytes a hit, as in a file of hits.
     pub fn to_bytes(&self) -> Vec<u8> {
         let mut bytes = serde_json::to_vec(&self.head).expect("numbers and texts");
         bytes.push(b'\n');
-        for hit in &self.hits {
-            let [t, prim] = hit.map_or([0, NO_HIT], |hit| [hit.t.to_bits(), hit.prim.index()]);
-            bytes.extend_from_slice(&t.to_le_bytes());
-            bytes.extend_from_slice(&prim.to_le_bytes());
-        }
+        bytes.extend(hits_to_bytes(&self.hits));
         bytes
     }
 
@@ -140,20 +137,13 @@ impl Answers {
         let head: Head =
             serde_json::from_slice(&bytes[..end]).map_err(|error| AnswersError::Head(error.to_string()))?;
         let body = bytes.get(end + 1..).unwrap_or(&[]);
-        let (pairs, rest) = body.as_chunks::<8>();
-        if !rest.is_empty() || pairs.len() != head.rays {
-            return Err(AnswersError::Short { got: body.len(), expected: head.rays * 8 });
+        let expected = head.rays.saturating_mul(8);
+        if body.len() != expected {
+            return Err(AnswersError::Short { got: body.len(), expected });
         }
-        let hit = |&[a, b, c, d, e, f, g, h]: &[u8; 8]| {
-            let [t, prim] = [[a, b, c, d], [e, f, g, h]].map(u32::from_le_bytes);
-            (prim != NO_HIT).then(|| Hit::new(f32::from_bits(t), prim))
-        };
-        Ok(Self { hits: pairs.iter().map(hit).collect(), head })
+        Ok(Self { hits: hits_from_bytes(body), head })
     }
 }
-
-/// Stands for no hit: no primitive has this number.
-const NO_HIT: u32 = u32::MAX;
 
 #[cfg(test)]
 mod tests {

@@ -3,7 +3,7 @@
 use glam::Vec3;
 
 use super::case::cases;
-use super::set::{Set, along_axis, cube, z_to};
+use super::set::{Set, cube};
 use crate::geometry::Ray;
 use crate::validate::Sampler;
 
@@ -56,8 +56,15 @@ fn face_planes(count: usize) -> Set {
     Set::new(cube(SQUARES), count, 4, |sampler| {
         let (axis, sign) = (sampler.below(3), sampler.sign());
         let origin = Vec3::new(on_grid(sampler), on_grid(sampler), -3.0 * sign);
-        Ray::new(z_to(axis, origin), along_axis(axis, 1.0) * sign)
+        Ray::new(z_to(axis, origin), Vec3::AXES[axis] * sign)
     })
+}
+
+/// The coordinates turned, so that what was z becomes `axis`.
+fn z_to(axis: usize, p: Vec3) -> Vec3 {
+    let mut turned = p.to_array();
+    turned.rotate_left(2 - axis);
+    Vec3::from_array(turned)
 }
 
 /// Through a grid point of the cube from four steps away; without a component when `flat`.

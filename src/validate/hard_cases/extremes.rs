@@ -103,10 +103,8 @@ fn stadium(count: usize) -> Set {
     let pot = moved(&indexed(model.positions, model.triangles), |p| p * 0.04);
     let mesh = joined(&pot, &moved(&box_grid(8), |p| p * 1e5));
     Set::new(mesh, count, 37, |sampler| {
-        let [a, b, c] = pot.corners(sampler.below(pot.len()) as u32);
-        let [u, v, w] = sampler.barycentric();
-        let direction = sampler.direction();
-        Ray::new(a * u + b * v + c * w - direction * 7e4, direction)
+        let (target, direction) = (on_surface(&pot, sampler), sampler.direction());
+        Ray::new(target - direction * 7e4, direction)
     })
 }
 

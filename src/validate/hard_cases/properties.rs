@@ -10,7 +10,7 @@ use crate::accel::DynAccel;
 use crate::geometry::{Mesh, Ray};
 use crate::validate::conformance::Subject;
 use crate::validate::degenerate::{exponential, huge_and_small, needles, soup};
-use crate::validate::{Reference, Sampler, Stratum, validate};
+use crate::validate::{Reference, Sampler, Stratum, Validation, validate};
 
 cases! {
     Added 73 "continuation", Property => continuation,
@@ -48,13 +48,12 @@ fn validated(
     subject: &Subject,
     meshes: &[Arc<Mesh>],
     rays: usize,
-    errors: fn(&crate::validate::Validation) -> (u64, &'static str),
+    errors: fn(&Validation) -> (u64, &'static str),
 ) -> Result<Property, String> {
     let mut property = Property::default();
     let each = shared(rays, meshes.len() * Stratum::ALL.len());
     for mesh in meshes {
-        let accel = built(subject, mesh)?;
-        let Ok(reference) = Reference::of_test(subject.triangle_test, mesh) else { continue };
+        let (accel, reference) = both(subject, mesh)?;
         for stratum in Stratum::ALL {
             let validation = validate(&*accel, &reference, mesh, &stratum.rays(mesh, each, 76));
             let (broken, what) = errors(&validation);
@@ -92,6 +91,7 @@ fn through_star(count: usize, seed: u64) -> Vec<Ray> {
     (0..count).map(ray).collect()
 }
 
+/// The structure and brute force with its triangle test.
 fn both(subject: &Subject, mesh: &Arc<Mesh>) -> Result<(Box<dyn DynAccel>, Reference), String> {
     let reference = Reference::of_test(subject.triangle_test, mesh).map_err(|error| error.to_string());
     Ok((built(subject, mesh)?, reference?))

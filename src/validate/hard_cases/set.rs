@@ -127,16 +127,3 @@ pub(super) fn on_surface(mesh: &Mesh, sampler: &mut Sampler) -> Vec3 {
     let ([a, b, c], [u, v, w]) = (triangle(mesh, sampler), sampler.barycentric());
     a * u + b * v + c * w
 }
-
-pub(super) fn along_axis(axis: usize, along: f32) -> Vec3 {
-    let mut direction = Vec3::ZERO;
-    direction[axis] = along;
-    direction
-}
-
-/// The coordinates turned, so that what was z becomes `axis`.
-pub(super) fn z_to(axis: usize, p: Vec3) -> Vec3 {
-    let mut turned = p.to_array();
-    turned.rotate_left(2 - axis);
-    Vec3::from_array(turned)
-}

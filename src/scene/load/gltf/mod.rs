@@ -7,6 +7,7 @@ mod graph;
 mod shape;
 mod text;
 
+use std::collections::HashSet;
 use std::path::Path;
 
 use glam::{DMat3, DVec3, Vec3};
@@ -56,14 +57,9 @@ pub(super) fn read(bytes: Vec<u8>, folder: &Path) -> Result<Model, Fault> {
     if model.normals.is_empty() {
         model.normal_indices = Vec::new();
     }
-    let mut used = vec![false; document.materials.len()];
-    for &number in &model.material_of {
-        if let Some(used) = used.get_mut(number as usize) {
-            *used = true;
-        }
-    }
-    let textured =
-        document.materials.iter().zip(used).filter(|(material, used)| *used && material.is_textured()).count();
+    let used: HashSet<u32> = model.material_of.iter().copied().collect();
+    let numbered = (0_u32..).zip(&document.materials);
+    let textured = numbered.filter(|(number, material)| used.contains(number) && material.is_textured()).count();
     model.materials = document.materials.iter().enumerate().map(material).collect();
     let default = model.materials.len() as u32;
     if model.material_of.contains(&shape::NO_MATERIAL) || model.materials.is_empty() {

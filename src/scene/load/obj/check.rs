@@ -1,9 +1,9 @@
 //! Whether a text is an OBJ file, and how much there is in it.
 
-use super::line::{Line, Statements, corners, vector};
+use super::line::{Line, corners, statements, vector};
 use crate::scene::Model;
 use crate::scene::load::error::{Fault, quoted};
-use crate::scene::load::notes::Notes;
+use crate::scene::load::notes::{Notes, SMALL_FACES};
 
 #[derive(Default)]
 pub(super) struct Check {
@@ -28,17 +28,14 @@ impl Check {
     /// Goes through the whole text and keeps numbers only.
     pub fn over(text: &[u8]) -> Result<Self, Fault> {
         let mut check = Self::default();
-        for (number, line) in Statements::new(text) {
+        for (number, line) in statements(text) {
             check.line(number, &line).map_err(|problem| Fault::line(number, problem))?;
         }
         check.finish()
     }
 
     pub fn note(&self, notes: &mut Notes) {
-        notes.count(
-            self.small_faces,
-            ["face with fewer than three corners is left out", "faces with fewer than three corners are left out"],
-        );
+        notes.count(self.small_faces, SMALL_FACES);
         notes.count(
             self.shapes,
             ["point, line, curve or surface is left out", "points, lines, curves or surfaces are left out"],

@@ -6,7 +6,7 @@ use glam::Vec3;
 
 use crate::scene::Model;
 use crate::scene::load::error::quoted;
-use crate::scene::load::text::{Lines, after_keyword, number, words};
+use crate::scene::load::text::{after_keyword, lines, number, words};
 
 /// What the format knows to show beside faces: points, lines, curves and surfaces.
 const SHAPES: &str = "p l curv curv2 surf bsp bzp cdc cdp";
@@ -17,35 +17,22 @@ const SKIPPED: &str = "vt vp g o s cstype deg bmat step parm trim hole scrv sp e
 
 /// Statements with the numbers of the lines that they begin on: a line whose last character is `\` goes on in the next,
 /// unless it ends in a comment.
-pub(super) struct Statements<'a> {
-    lines: Lines<'a>,
-}
-
-impl<'a> Statements<'a> {
-    pub fn new(text: &'a [u8]) -> Self {
-        Self { lines: Lines::new(text) }
-    }
-}
-
-impl<'a> Iterator for Statements<'a> {
-    type Item = (usize, Cow<'a, [u8]>);
-
-    fn next(&mut self) -> Option<Self::Item> {
-        let (number, mut line) = self.lines.next()?;
-        let Some(mut head) = continued(line) else { return Some((number, Cow::Borrowed(line))) };
+pub(super) fn statements(text: &[u8]) -> impl Iterator<Item = (usize, Cow<'_, [u8]>)> {
+    let mut lines = lines(text);
+    std::iter::from_fn(move || {
+        let (number, mut line) = lines.next()?;
+        if continued(line).is_none() {
+            return Some((number, Cow::Borrowed(line)));
+        }
         let mut whole = Vec::new();
-        loop {
+        while let Some(head) = continued(line) {
             whole.extend_from_slice(head);
             whole.push(b' ');
-            line = self.lines.next().map_or(&[], |(_, line)| line);
-            match continued(line) {
-                Some(next) => head = next,
-                None => break,
-            }
+            line = lines.next().map_or(&[], |(_, line)| line);
         }
         whole.extend_from_slice(line);
         Some((number, Cow::Owned(whole)))
-    }
+    })
 }
 
 fn continued(line: &[u8]) -> Option<&[u8]> {

@@ -15,7 +15,7 @@ use std::path::Path;
 use glam::Vec3;
 
 use self::check::Check;
-use self::line::{Line, Statements, corners, vector};
+use self::line::{Line, corners, statements, vector};
 use super::error::{Fault, quoted};
 use super::mtl::Libraries;
 use super::notes::Notes;
@@ -35,7 +35,7 @@ pub(super) fn read(bytes: &[u8], folder: &Path) -> Result<Model, Fault> {
 
     let mut faces = Faces { smooth: check.smooth, ..Faces::default() };
     let (mut positions, mut normals) = (0, 0);
-    for (number, line) in Statements::new(text) {
+    for (number, line) in statements(text) {
         match Line::of(&line) {
             Line::Vertex(_) => positions += 1,
             Line::Normal(_) => normals += 1,
@@ -65,7 +65,7 @@ fn vertices(text: &[u8], check: &Check) -> Model {
         model.normals.reserve_exact(check.normals);
         model.normal_indices.reserve_exact(check.triangles);
     }
-    for (_, line) in Statements::new(text) {
+    for (_, line) in statements(text) {
         match Line::of(&line) {
             Line::Vertex(words) => model.positions.extend(vector(words)),
             Line::Normal(words) if check.smooth => model.normals.extend(vector(words)),

@@ -9,7 +9,7 @@ use glam::Vec3;
 use self::body::Body;
 use self::header::{CORNERS, Header};
 use super::error::Fault;
-use super::notes::Notes;
+use super::notes::{Notes, SMALL_FACES};
 use super::polygon::Splitter;
 use crate::scene::{Material, Model};
 
@@ -54,10 +54,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Model, Fault> {
     }
 
     let mut notes = Notes::default();
-    notes.count(
-        found.small_faces,
-        ["face with fewer than three corners is left out", "faces with fewer than three corners are left out"],
-    );
+    notes.count(found.small_faces, SMALL_FACES);
     splitter.note(&mut notes);
     model.notes = notes.into_vec();
     Ok(model)

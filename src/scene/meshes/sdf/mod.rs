@@ -17,11 +17,8 @@ pub use split::split_to;
 #[cfg(test)]
 pub use surface_nets::pieces;
 
-/// Signed distance to a surface, negative inside; it may be too small but never grow faster than about 1 per unit.
-type Distance = Box<dyn Fn(Vec3) -> f32 + Send + Sync>;
-
-/// Height added to the surface at a point near it, times the share of the group there.
-type Displacement = Box<dyn Fn(Vec3) -> f32 + Send + Sync>;
+/// A number for every point.
+type Field = Box<dyn Fn(Vec3) -> f32 + Send + Sync>;
 
 /// Farther than anything is from anything.
 const FAR: f32 = 1e9;
@@ -29,7 +26,9 @@ const FAR: f32 = 1e9;
 struct Primitive {
     centre: Vec3,
     radius: f32,
-    distance: Distance,
+    /// Signed distance to the surface, negative inside; it may be too small but never grow faster than about 1 per
+    /// unit.
+    distance: Field,
 }
 
 /// How a group of primitives is joined to the solid so far.
@@ -68,7 +67,8 @@ struct Group {
 /// A solid: groups joined in their order, the primitives of one group by plain union.
 pub struct Sdf {
     groups: Vec<Group>,
-    displacement: Displacement,
+    /// Height added to the surface at a point near it, times the share of the group there.
+    displacement: Field,
     /// Largest magnitude of the displacement.
     highest: f32,
 }

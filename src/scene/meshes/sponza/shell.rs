@@ -81,7 +81,6 @@ fn doorway(patches: &mut Patches, frame: &Frame, middle: f32, floor: f32, size: 
 /// Court floor, ground outside, outer walls.
 pub fn grounds(patches: &mut Patches) {
     let [half_length, half_width, middle] = COURT;
-    let world = Frame { origin: Vec3::ZERO, right: Vec3::X, up: Vec3::Y, ahead: Vec3::Z };
     let v = Vec3::new;
 
     // Large slabs, one for each bay.
@@ -100,10 +99,10 @@ pub fn grounds(patches: &mut Patches) {
     patches.of(&material("brick", [0.93, 0.84, 0.72]));
     let (near, far) = (middle - half_width - WALK - 1.0, middle + half_width + WALK + 1.0);
     let (left, right) = (from - 1.0, to + 1.0);
-    patches.block(&world, [-1800.0, -126.0, -1100.0], [1700.0, 980.0, near]);
-    patches.block(&world, [-1800.0, -126.0, far], [1700.0, 980.0, 1022.0]);
-    patches.block(&world, [-1800.0, -126.0, near], [left, 980.0, far]);
-    patches.block(&world, [right, -126.0, near], [1700.0, 980.0, far]);
+    patches.block(&Frame::WORLD, [-1800.0, -126.0, -1100.0], [1700.0, 980.0, near]);
+    patches.block(&Frame::WORLD, [-1800.0, -126.0, far], [1700.0, 980.0, 1022.0]);
+    patches.block(&Frame::WORLD, [-1800.0, -126.0, near], [left, 980.0, far]);
+    patches.block(&Frame::WORLD, [right, -126.0, near], [1700.0, 980.0, far]);
     patches.of(&material("floor", [0.86, 0.80, 0.72]));
     patches.quad([
         v(-1921.0, -126.0, 1105.0),
