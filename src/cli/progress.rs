@@ -248,11 +248,6 @@ impl Screen for OnTerminal<'_> {
         interrupt::is_asked()
     }
 
-    fn look(&mut self, table: &Table) {
-        // Nothing is lost with it.
-        let _ = self.table(table);
-    }
-
     fn warn(&mut self, warnings: &[String]) {
         self.progress.iter_mut().for_each(|progress| progress.warn(warnings));
     }

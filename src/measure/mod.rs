@@ -37,7 +37,7 @@ pub use pass::{Pass, spread};
 pub use pin::{Pin, keep_to, on_all_cores};
 pub use provenance::{Provenance, quoted};
 pub use ray_allotment::{Allotment, Cost, allot, level_by_clock, pilot_level};
-pub use remote_pass::RemotePass;
+pub use remote_pass::{Failure, RemotePass};
 pub use samples::{Part, Plan, Samples, Timed, UnsteadyAnswers, take};
 pub use student::{LEVEL, factor, holm, two_sided};
 pub use summary::{geometric_mean, median};

@@ -10,8 +10,8 @@ use nix::{
 
 use super::machine;
 
-#[cfg(target_os = "linux")]
-const THIS_THREAD: Pid = Pid::from_raw(0);
+/// The thread that calls, as the system numbers it; the first one of a process has the number of the process.
+const THIS_THREAD: u32 = 0;
 
 /// Binds the calling thread to a core until it is dropped; then the thread may run where it might before.
 #[derive(Debug)]
@@ -22,7 +22,7 @@ pub struct Pin {
 impl Pin {
     /// Binds the calling thread to `core`; nothing where the system does not allow it.
     pub fn to(core: usize) -> Option<Self> {
-        let before = allowed()?;
+        let before = allowed(THIS_THREAD)?;
         bind(&[core]).then_some(Self { before })
     }
 }
@@ -45,7 +45,7 @@ pub fn keep_to(cores: &[usize]) {
 /// The cores for `threads` threads: those [kept to](keep_to), or those that have been the most idle during the last tenth of a second, of those the highest, for
 /// interrupts go to the lowest. Nothing where threads cannot be bound, or there are fewer cores than threads.
 pub fn choose(threads: usize) -> Option<Vec<usize>> {
-    let mut cores = allowed()?;
+    let mut cores = allowed(THIS_THREAD)?;
     if let Some(chosen) = CHOSEN.get().filter(|chosen| chosen.len() == threads) {
         return chosen.iter().all(|core| cores.contains(core)).then(|| chosen.clone());
     }
@@ -63,43 +63,29 @@ pub fn choose(threads: usize) -> Option<Vec<usize>> {
 /// Does `work`, which starts a program, where that may use all cores that the first thread of this process may: a program
 /// gets those of the thread that starts it.
 pub fn on_all_cores<R>(work: impl FnOnce() -> R) -> R {
-    let _pin = first_thread_allowed().zip(allowed()).map(|(all, before)| {
+    let _pin = allowed(std::process::id()).zip(allowed(THIS_THREAD)).map(|(all, before)| {
         bind(&all);
         Pin { before }
     });
     work()
 }
 
+/// The cores that a thread may run on.
 #[cfg(target_os = "linux")]
-fn allowed() -> Option<Vec<usize>> {
-    allowed_for(THIS_THREAD)
-}
-
-#[cfg(target_os = "linux")]
-fn first_thread_allowed() -> Option<Vec<usize>> {
-    allowed_for(Pid::this())
-}
-
-#[cfg(target_os = "linux")]
-fn allowed_for(thread: Pid) -> Option<Vec<usize>> {
-    let set = sched_getaffinity(thread).ok()?;
+fn allowed(thread: u32) -> Option<Vec<usize>> {
+    let set = sched_getaffinity(Pid::from_raw(thread as i32)).ok()?;
     Some((0..CpuSet::count()).filter(|&core| set.is_set(core).unwrap_or(false)).collect())
 }
 
 /// Lets the calling thread run on `cores` only. Whether it worked.
 #[cfg(target_os = "linux")]
 pub(super) fn bind(cores: &[usize]) -> bool {
-    let mut set = CpuSet::new();
-    cores.iter().all(|&core| set.set(core).is_ok()) && sched_setaffinity(THIS_THREAD, &set).is_ok()
+    let (thread, mut set) = (Pid::from_raw(THIS_THREAD as i32), CpuSet::new());
+    cores.iter().all(|&core| set.set(core).is_ok()) && sched_setaffinity(thread, &set).is_ok()
 }
 
 #[cfg(not(target_os = "linux"))]
-fn allowed() -> Option<Vec<usize>> {
-    None
-}
-
-#[cfg(not(target_os = "linux"))]
-fn first_thread_allowed() -> Option<Vec<usize>> {
+fn allowed(_: u32) -> Option<Vec<usize>> {
     None
 }
 
@@ -114,30 +100,30 @@ mod tests {
 
     #[test]
     fn a_thread_is_bound_and_let_go() {
-        let before = allowed().unwrap();
+        let before = allowed(THIS_THREAD).unwrap();
         let core = *before.last().unwrap();
         let pin = Pin::to(core).unwrap();
-        assert_eq!(allowed().unwrap(), [core]);
+        assert_eq!(allowed(THIS_THREAD).unwrap(), [core]);
         drop(pin);
-        assert_eq!(allowed().unwrap(), before);
+        assert_eq!(allowed(THIS_THREAD).unwrap(), before);
         assert!(Pin::to(usize::MAX).is_none(), "there is no such core");
-        assert_eq!(allowed().unwrap(), before);
+        assert_eq!(allowed(THIS_THREAD).unwrap(), before);
     }
 
     #[test]
     fn a_bound_thread_starts_programs_that_are_not() {
-        let before = allowed().unwrap();
+        let before = allowed(THIS_THREAD).unwrap();
         // The first thread of the tests is bound to nothing.
-        let first = first_thread_allowed().unwrap();
+        let first = allowed(std::process::id()).unwrap();
         let pin = Pin::to(before[0]).unwrap();
-        assert_eq!(on_all_cores(|| allowed().unwrap()), first);
-        assert_eq!(allowed().unwrap(), [before[0]]);
+        assert_eq!(on_all_cores(|| allowed(THIS_THREAD).unwrap()), first);
+        assert_eq!(allowed(THIS_THREAD).unwrap(), [before[0]]);
         drop(pin);
     }
 
     #[test]
     fn there_are_never_two_threads_for_one_core() {
-        let cores = allowed().unwrap();
+        let cores = allowed(THIS_THREAD).unwrap();
         assert_eq!(choose(1).unwrap().len(), 1);
         assert!(cores.contains(&choose(1).unwrap()[0]));
         assert_eq!(choose(cores.len() + 1), None);

@@ -1,7 +1,7 @@
 //! The program that runs: which one it is, and when it began.
 
 use std::fs::File;
-use std::io::{self, Read};
+use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 use std::time::{SystemTime, UNIX_EPOCH};
@@ -26,13 +26,9 @@ pub fn executable() -> PathBuf {
 /// # Errors
 /// If it cannot be read.
 pub fn file_id(path: &Path) -> io::Result<String> {
-    let (mut file, mut hasher, mut buffer) = (File::open(path)?, Sha256::new(), vec![0; 1 << 16]);
-    loop {
-        match file.read(&mut buffer)? {
-            0 => return Ok(hasher.finalize()[..8].iter().map(|byte| format!("{byte:02x}")).collect()),
-            n => hasher.update(&buffer[..n]),
-        }
-    }
+    let mut hasher = Sha256::new();
+    io::copy(&mut File::open(path)?, &mut hasher)?;
+    Ok(hasher.finalize()[..8].iter().map(|byte| format!("{byte:02x}")).collect())
 }
 
 /// When this was first asked, in UTC: `2026-03-01T12:30:59Z`.

@@ -11,6 +11,9 @@ use super::{Stopwatch, Timed};
 use crate::accel::{DynAccel, Loaded, Query, Remote};
 use crate::geometry::Ray;
 
+/// Why a pass means nothing, once it has failed.
+pub type Failure = Rc<RefCell<Option<String>>>;
+
 /// As [`Pass`](super::Pass), for a structure that is [`Remote`]: it has all rays of a level at once, since each question takes
 /// time, and its time is what it says itself. A failure is kept and told, and ends nothing.
 pub struct RemotePass<'a> {
@@ -28,7 +31,7 @@ pub struct RemotePass<'a> {
     checksums: BTreeMap<(usize, usize), u64>,
     /// Whether the lead-in's answers are answers of the pass as well.
     led_in: bool,
-    failure: Rc<RefCell<Option<String>>>,
+    failure: Failure,
 }
 
 struct Batch<'a> {
@@ -46,14 +49,9 @@ impl<'a> RemotePass<'a> {
     ///
     /// # Panics
     /// If there are no rays.
-    pub fn new(
-        accel: &'a dyn DynAccel,
-        remote: &'a dyn Remote,
-        rays: &'a [Ray],
-        query: Query,
-    ) -> (Self, Rc<RefCell<Option<String>>>) {
+    pub fn new(accel: &'a dyn DynAccel, remote: &'a dyn Remote, rays: &'a [Ray], query: Query) -> (Self, Failure) {
         assert!(!rays.is_empty(), "a pass has rays");
-        let failure = Rc::<RefCell<Option<String>>>::default();
+        let failure = Failure::default();
         let mut pass = Self {
             accel,
             remote,

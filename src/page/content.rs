@@ -7,7 +7,7 @@ use std::time::SystemTime;
 use serde_json::Value;
 
 use super::run_error::RunError;
-use crate::study::journal::{self, CaseFile, JournalError, is_case};
+use crate::study::journal::{self, CaseFile, is_case};
 use crate::study::{AnyAnswer, AnyStudy, Studies};
 
 /// What a file holds.
@@ -21,9 +21,6 @@ pub(super) enum Content<'a> {
 /// # Errors
 /// If it is torn, foreign or of another version.
 pub(super) fn content<'a>(path: &Path, studies: &'a Studies) -> Result<Content<'a>, RunError> {
-    if path.extension().is_some_and(|ending| ending == "jsonl") {
-        return Err(JournalError::Old(path.into()).into());
-    }
     let text = fs::read_to_string(path).map_err(|cause| RunError::Read { path: path.into(), cause })?;
     let value: Value = serde_json::from_str(&text).map_err(|cause| RunError::Torn { path: path.into(), cause })?;
     if is_case(&value) {
@@ -57,8 +54,6 @@ pub(super) fn modified(path: &Path) -> Result<SystemTime, RunError> {
 pub(super) fn folder(path: &Path, studies: &Studies) -> Result<Vec<PathBuf>, RunError> {
     let mut found = journal::files(path)?;
     for study in studies.iter() {
-        let old = path.join(format!("{}.jsonl", study.name()));
-        found.extend(old.is_file().then_some(old));
         let cases = path.join(study.name());
         if cases.is_dir() {
             found.extend(journal::files(&cases)?);

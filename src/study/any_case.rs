@@ -15,7 +15,6 @@ pub trait AnyCase {
     /// [`Study::epoch`].
     fn epoch(&mut self) -> Option<(&mut Epoch, usize)>;
     fn cloned(&self) -> Box<dyn AnyCase>;
-    /// The case itself.
     fn as_any(&self) -> &dyn Any;
 }
 

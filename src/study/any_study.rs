@@ -6,8 +6,6 @@ use std::marker::PhantomData;
 use clap::{Args, Command};
 use serde_json::Value;
 
-#[cfg(test)]
-use super::Effort;
 use super::any_case::{self, AnyCase};
 use super::chosen::{args, has_scenes};
 use super::journal::Read;
@@ -17,6 +15,46 @@ use crate::registry::Registry;
 use crate::report::document::Block;
 use crate::report::plot::Figure;
 use crate::report::{Statement, Table};
+
+/// Hands what is made of an answer, a function of [`Study`] each, to another macro.
+macro_rules! views {
+    ($each:ident) => {
+        $each! {
+            printed() -> Printed;
+            tables() -> Vec<Table>;
+            summary() -> Vec<Table>;
+            legend() -> Vec<String>;
+            remarks() -> Vec<String>;
+            warnings() -> Vec<String>;
+            data() -> Vec<Data>;
+            statements() -> Vec<Statement>;
+            section(command: &str) -> Vec<Block>;
+            scenes() -> Vec<SceneId>;
+            plot() -> Option<Figure>;
+            json(provenance: &Provenance) -> Vec<u8>;
+            csv(provenance: &Provenance) -> Vec<u8>;
+        }
+    };
+}
+
+macro_rules! declared {
+    ($($view:ident($($more:ident: $of:ty)?) -> $made:ty;)*) => {
+        $(
+            #[doc = concat!("[`Study::", stringify!($view), "`].")]
+            fn $view(&self, answer: &dyn Any $(, $more: $of)?) -> $made;
+        )*
+    };
+}
+
+macro_rules! forwarded {
+    ($($view:ident($($more:ident: $of:ty)?) -> $made:ty;)*) => {
+        $(
+            fn $view(&self, answer: &dyn Any $(, $more: $of)?) -> $made {
+                S::$view(own::<S>(answer) $(, $more)?)
+            }
+        )*
+    };
+}
 
 /// A study whose types are not known. The answers that it takes are its own.
 pub trait AnyStudy: Send + Sync {
@@ -42,9 +80,6 @@ pub trait AnyStudy: Send + Sync {
     fn augment(&self, command: Command) -> Command;
     /// Whether its options name scenes.
     fn names_scenes(&self) -> bool;
-    /// That its options take what `study all` measures.
-    #[cfg(test)]
-    fn takes_presets(&self) -> anyhow::Result<()>;
     /// Its options.
     ///
     /// # Errors
@@ -81,32 +116,7 @@ pub trait AnyStudy: Send + Sync {
             }
         }
     }
-    /// [`Study::printed`].
-    fn printed(&self, answer: &dyn Any) -> Printed;
-    /// [`Study::tables`].
-    fn tables(&self, answer: &dyn Any) -> Vec<Table>;
-    /// [`Study::summary`].
-    fn summary(&self, answer: &dyn Any) -> Vec<Table>;
-    /// [`Study::legend`].
-    fn legend(&self, answer: &dyn Any) -> Vec<String>;
-    /// [`Study::remarks`].
-    fn remarks(&self, answer: &dyn Any) -> Vec<String>;
-    /// [`Study::warnings`].
-    fn warnings(&self, answer: &dyn Any) -> Vec<String>;
-    /// [`Study::data`].
-    fn data(&self, answer: &dyn Any) -> Vec<Data>;
-    /// [`Study::statements`].
-    fn statements(&self, answer: &dyn Any) -> Vec<Statement>;
-    /// [`Study::section`].
-    fn section(&self, answer: &dyn Any, command: &str) -> Vec<Block>;
-    /// [`Study::scenes`].
-    fn scenes(&self, answer: &dyn Any) -> Vec<SceneId>;
-    /// [`Study::plot`].
-    fn plot(&self, answer: &dyn Any) -> Option<Figure>;
-    /// [`Study::json`].
-    fn json(&self, answer: &dyn Any, provenance: &Provenance) -> Vec<u8>;
-    /// [`Study::csv`].
-    fn csv(&self, answer: &dyn Any, provenance: &Provenance) -> Vec<u8>;
+    views!(declared);
 }
 
 /// A study whose types are known.
@@ -165,14 +175,6 @@ impl<S: Study> AnyStudy for Typed<S> {
         has_scenes::<S>()
     }
 
-    #[cfg(test)]
-    fn takes_presets(&self) -> anyhow::Result<()> {
-        [Effort::Full, Effort::Quick].into_iter().try_for_each(|effort| {
-            args::<S>(Chosen::Preset(effort, vec![]))?;
-            args::<S>(Chosen::Preset(effort, vec!["a.ply".into()])).map(drop)
-        })
-    }
-
     fn args(&self, chosen: Chosen) -> anyhow::Result<Box<dyn Any>> {
         Ok(Box::new(args::<S>(chosen)?))
     }
@@ -209,55 +211,5 @@ impl<S: Study> AnyStudy for Typed<S> {
         S::merge((**old).downcast_mut().expect("the answer is of this study"), *new)
     }
 
-    fn printed(&self, answer: &dyn Any) -> Printed {
-        S::printed(own::<S>(answer))
-    }
-
-    fn tables(&self, answer: &dyn Any) -> Vec<Table> {
-        S::tables(own::<S>(answer))
-    }
-
-    fn summary(&self, answer: &dyn Any) -> Vec<Table> {
-        S::summary(own::<S>(answer))
-    }
-
-    fn legend(&self, answer: &dyn Any) -> Vec<String> {
-        S::legend(own::<S>(answer))
-    }
-
-    fn remarks(&self, answer: &dyn Any) -> Vec<String> {
-        S::remarks(own::<S>(answer))
-    }
-
-    fn warnings(&self, answer: &dyn Any) -> Vec<String> {
-        S::warnings(own::<S>(answer))
-    }
-
-    fn data(&self, answer: &dyn Any) -> Vec<Data> {
-        S::data(own::<S>(answer))
-    }
-
-    fn statements(&self, answer: &dyn Any) -> Vec<Statement> {
-        S::statements(own::<S>(answer))
-    }
-
-    fn section(&self, answer: &dyn Any, command: &str) -> Vec<Block> {
-        S::section(own::<S>(answer), command)
-    }
-
-    fn scenes(&self, answer: &dyn Any) -> Vec<SceneId> {
-        S::scenes(own::<S>(answer))
-    }
-
-    fn plot(&self, answer: &dyn Any) -> Option<Figure> {
-        S::plot(own::<S>(answer))
-    }
-
-    fn json(&self, answer: &dyn Any, provenance: &Provenance) -> Vec<u8> {
-        S::json(own::<S>(answer), provenance)
-    }
-
-    fn csv(&self, answer: &dyn Any, provenance: &Provenance) -> Vec<u8> {
-        S::csv(own::<S>(answer), provenance)
-    }
+    views!(forwarded);
 }

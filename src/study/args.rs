@@ -41,20 +41,13 @@ pub struct Measuring<const EPOCHS: u16 = 5, const RUNS: u16 = 3, const BUDGET: u
 }
 
 impl<const EPOCHS: u16, const RUNS: u16, const BUDGET: u32> Measuring<EPOCHS, RUNS, BUDGET> {
-    /// The threads, each on a processor of its own where the system allows it.
-    ///
-    /// # Errors
-    /// If the system does not give them.
-    pub fn pinned(&self) -> anyhow::Result<Threads> {
-        Threads::pinned(self.threads.into()).map_err(anyhow::Error::msg)
-    }
-
-    /// The settings for `structures` and what they are asked.
+    /// The settings for `structures` and what they are asked: each thread has a processor of its own where the system allows it.
     ///
     /// # Errors
     /// If the system does not give the threads.
     pub fn settings(&self, registry: &Registry, structures: Vec<Choice>, asked: Asked) -> anyhow::Result<Settings> {
-        self.settings_on(self.pinned()?, registry, structures, asked)
+        let threads = Threads::pinned(self.threads.into()).map_err(anyhow::Error::msg)?;
+        self.settings_on(threads, registry, structures, asked)
     }
 
     /// The same on these threads.
@@ -209,24 +202,16 @@ impl ScenesAndMeshes {
     /// As [`sources::scene`], and if real meshes are asked for and one is not there.
     pub fn read(&self) -> anyhow::Result<Vec<Scene>> {
         let all: Vec<String> = BUILTIN.iter().map(|builtin| builtin.name.to_owned()).collect();
-        let mut scenes: Vec<Scene> = vec![];
+        let mut forms: Vec<Scene> = vec![];
         for name in sources::wanted(if self.named.scenes.is_empty() { &all } else { &self.named.scenes }) {
-            let mut forms = vec![];
-            if let (Ok(builtin), true) = (Builtin::find(name), self.meshes != Meshes::Real) {
-                forms.push(builtin.scene(None)?);
-            }
-            if forms.is_empty() || self.meshes == Meshes::Both {
+            let builtin = Builtin::find(name).ok().filter(|_| self.meshes != Meshes::Real);
+            forms.extend(builtin.map(|builtin| builtin.scene(None)).transpose()?);
+            if builtin.is_none() || self.meshes == Meshes::Both {
                 forms.push(sources::scene(name)?);
             }
-            // The same scene twice, or a scene without a real mesh, is measured once.
-            for scene in forms {
-                let same = |other: &Scene| other.name == scene.name && other.hash() == scene.hash();
-                if !scenes.iter().any(same) {
-                    scenes.push(scene);
-                }
-            }
         }
-        sources::distinct(&scenes)?;
+        // Both forms of a scene without a real mesh are one.
+        let scenes = sources::distinct(forms)?;
         if let (Meshes::Real, Some(note)) = (self.meshes, self.note(&scenes)) {
             anyhow::bail!("{note} Without `--meshes real` stand-ins are measured.");
         }
@@ -252,13 +237,6 @@ impl ScenesAndMeshes {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn kinds_of_rays_that_are_named_twice_count_once() {
-        use WorkloadKind::{Primary, Random, Shadow};
-        assert_eq!(kinds(&[Shadow, Primary, Shadow], &WORKLOADS), [Shadow, Primary]);
-        assert_eq!(kinds(&[], &[Random]), [Random]);
-    }
 
     #[test]
     fn every_field_has_a_twin_of_a_structure_that_is_not_slow() {

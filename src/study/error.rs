@@ -22,8 +22,6 @@ pub enum StudyError {
     Threads(String),
     #[error("the study needs a structure that is not registered as it expects: {0}")]
     Structure(#[from] ChoiceError),
-    #[error("{structure} gives {errors} wrong answers to {checked} rays of {scene}: its times would mean nothing")]
-    Wrong { structure: String, scene: String, errors: usize, checked: usize },
     #[error("{trouble} The study compares all of its trees or none.")]
     Missing { trouble: String, wrong: bool },
     #[error(
@@ -49,6 +47,11 @@ pub enum StudyError {
 }
 
 impl StudyError {
+    /// What comes of the cause why `structure` cannot be built over `scene`.
+    pub fn of_build(structure: &str, scene: &str) -> impl FnOnce(BuildError) -> Self {
+        move |cause| Self::Build { structure: structure.into(), scene: scene.into(), cause }
+    }
+
     /// Whether other scenes can be measured all the same.
     pub fn is_of_one_scene(&self) -> bool {
         match self {
@@ -62,8 +65,7 @@ impl StudyError {
     pub fn is_wrong_answer(&self) -> bool {
         matches!(
             self,
-            Self::Wrong { .. }
-                | Self::Apart { .. }
+            Self::Apart { .. }
                 | Self::Disagree { .. }
                 | Self::Missing { wrong: true, .. }
                 | Self::Told { wrong_answer: true, .. }

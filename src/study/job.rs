@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
-use super::journal::{self, CaseFile, Header, Read};
+use super::journal::{self, CaseFile, Header};
 use super::{AnyStudy, Chosen, Plan, Planned, Screen, StudyError};
 use crate::measure::{Provenance, SystemClock, quoted};
 use crate::registry::Registry;
@@ -13,12 +13,10 @@ use crate::registry::Registry;
 /// Which case a process measures.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Job {
-    /// Name of the study.
     pub study: String,
     /// Name of the scene: of those named on the command line no other is loaded. Nothing where the case is of no process of its own.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub scene: Option<String>,
-    /// Key of the case.
     pub key: String,
     /// The cores that the threads of the run are bound to.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -80,38 +78,28 @@ impl dyn AnyStudy + '_ {
         out: &Path,
         screen: &mut dyn Screen,
     ) -> anyhow::Result<Done> {
-        Ok(write(&self.plan(&*self.args(chosen)?, registry)?, job, out, self.reader(), screen)?)
+        let (plan, read) = (self.plan(&*self.args(chosen)?, registry)?, self.reader());
+        let case = job.find(&plan)?;
+        // As the run that would have started a process for it.
+        let process_per_epoch = plan.cases.iter().any(|case| case.process.is_some());
+        let command = command_of_run(std::env::args());
+        let provenance = Provenance { process_per_epoch, command, ..Provenance::of(&plan.threads) };
+        let header = Header::new(&job.study, &plan.settings, provenance);
+        let there = || CaseFile::there(out, &header, &case.key, read);
+        if there()?.is_some() {
+            return Ok(Done::Before);
+        }
+        let file = journal::place(out)?;
+        screen.begin(case.work);
+        screen.case(&case.title, case.work);
+        let measured = (plan.measure)(case, &SystemClock::start(), &mut |stage| screen.stage(&stage))?;
+        screen.end();
+        if journal::write(&file, &journal::text(&header, &case.key, &measured, read))? {
+            return Ok(Done::Measured);
+        }
+        there()?;
+        Ok(Done::Meanwhile)
     }
-}
-
-/// Measures the case of `plan` that is the job and writes it into the file `out`, unless it is there.
-fn write<C: Serialize>(
-    plan: &Plan<C>,
-    job: &Job,
-    out: &Path,
-    read: Read<C>,
-    screen: &mut dyn Screen,
-) -> Result<Done, StudyError> {
-    let case = job.find(plan)?;
-    // As the run that would have started a process for it.
-    let process_per_epoch = plan.cases.iter().any(|case| case.process.is_some());
-    let command = command_of_run(std::env::args());
-    let provenance = Provenance { process_per_epoch, command, ..Provenance::of(&plan.threads) };
-    let header = Header::new(&job.study, &plan.settings, provenance);
-    let there = || CaseFile::there(out, &header, &case.key, read);
-    if there()?.is_some() {
-        return Ok(Done::Before);
-    }
-    let file = journal::place(out)?;
-    screen.begin(case.work);
-    screen.case(&case.title, case.work);
-    let measured = (plan.measure)(case, &SystemClock::start(), &mut |stage| screen.stage(&stage))?;
-    screen.end();
-    if journal::write(&file, &journal::text(&header, &case.key, &measured, read))? {
-        return Ok(Done::Measured);
-    }
-    there()?;
-    Ok(Done::Meanwhile)
 }
 
 /// The command line without the job: the same for all jobs of a run.

@@ -43,10 +43,8 @@ pub struct KindSpeed {
     pub speed: Option<Estimate>,
 }
 
-/// The study.
 pub struct KdOrBvhStudy;
 
-/// Its options.
 #[derive(Clone, Debug, clap::Args)]
 pub struct KdOrBvhArgs {
     #[command(flatten)]
@@ -77,10 +75,6 @@ impl Study for KdOrBvhStudy {
         let settings = args.measuring.settings(registry, with_twin(pair), args.rays.asked(&WORKLOADS))?;
         let plan = Settings { detailed: true, ..settings }.plan(args.scenes.read(&[])?, args.measuring.epochs);
         Ok(Plan { inputs: args.scenes.files(), ..plan })
-    }
-
-    fn epoch(case: &mut Epoch) -> Option<(&mut Epoch, usize)> {
-        Some((case, 0))
     }
 
     fn answer(cases: &[Epoch], context: &Context<Self>) -> Vec<Scenario> {

@@ -16,7 +16,6 @@ pub struct Studies {
 }
 
 impl Studies {
-    /// None at all.
     pub fn empty() -> Self {
         Self { list: vec![] }
     }
@@ -57,7 +56,6 @@ impl Studies {
         self
     }
 
-    /// All of them.
     pub fn iter(&self) -> impl Iterator<Item = &dyn AnyStudy> {
         self.list.iter().map(|study| &**study)
     }
@@ -69,7 +67,6 @@ impl Studies {
         studies
     }
 
-    /// The study `name`.
     pub fn find(&self, name: &str) -> Option<&dyn AnyStudy> {
         self.iter().find(|study| study.name() == name)
     }
@@ -100,11 +97,17 @@ mod tests {
     use clap::Command;
 
     use super::*;
+    use crate::study::{Chosen, Effort};
 
     #[test]
     fn what_study_all_measures_is_a_command_line_of_each_study() {
         for study in Studies::builtin().iter() {
-            study.takes_presets().unwrap_or_else(|error| panic!("{}: {error}", study.name()));
+            for effort in [Effort::Full, Effort::Quick] {
+                for scenes in [vec![], vec!["a.ply".into()]] {
+                    let taken = study.args(Chosen::Preset(effort, scenes));
+                    assert!(taken.is_ok(), "{}: {:?}", study.name(), taken.err());
+                }
+            }
         }
     }
 

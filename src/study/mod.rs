@@ -48,6 +48,8 @@ mod status;
 pub mod threads;
 mod view_args;
 
+use std::any::Any;
+
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
@@ -105,9 +107,9 @@ pub trait Study: 'static {
     /// What all cases come to.
     type Answer: Serialize + Send + Sync + 'static;
 
-    /// The command that measures it for the page.
+    /// The command that measures it for the page, which reads its journal.
     fn command() -> String {
-        format!("sahara study {}", Self::NAME)
+        format!("sahara study {}{}", Self::NAME, if Self::KEPT { "" } else { " --dir runs" })
     }
 
     /// Why `study all` and its plan leave it out on this machine, in a sentence without the study's name; nothing where they do not.
@@ -121,10 +123,11 @@ pub trait Study: 'static {
     /// If the options name what is not there.
     fn plan(args: &Self::Args, registry: &Registry) -> anyhow::Result<Plan<Self::Case>>;
 
-    /// The epoch that a case is, where it is one, and the number of its series where a scene has several. Before there is an answer the
-    /// epochs of each series are [joined](epoch::join).
-    fn epoch(_: &mut Self::Case) -> Option<(&mut Epoch, usize)> {
-        None
+    /// The epoch that a case holds, and the number of its series where a scene has several: without a rule of its own the case itself,
+    /// where that is an epoch. Before there is an answer the epochs of each series are [joined](epoch::join).
+    fn epoch(case: &mut Self::Case) -> Option<(&mut Epoch, usize)> {
+        let case: &mut dyn Any = case;
+        case.downcast_mut().map(|epoch| (epoch, 0))
     }
 
     /// The answer: a pure function of what was measured.

@@ -17,8 +17,6 @@ pub trait Screen {
     fn is_interrupted(&self) -> bool;
     /// Whether somebody watches, who may want a first look at a scene of which not all epochs are measured.
     fn is_watched(&self) -> bool;
-    /// A first look.
-    fn look(&mut self, table: &Table);
     /// Shows what spoils the run, or may not be what was meant.
     fn warn(&mut self, warnings: &[String]);
     /// A table of the result.

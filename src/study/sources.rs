@@ -22,17 +22,7 @@ pub fn scenes(named: &[String]) -> anyhow::Result<Vec<Scene>> {
     let named = wanted(if named.is_empty() { &all } else { named });
     // Large meshes take seconds to load; the first one that cannot be is named.
     let scenes: Vec<_> = named.collect::<Vec<_>>().into_par_iter().map(|name| scene(name)).collect();
-    let scenes = scenes.into_iter().collect::<anyhow::Result<Vec<Scene>>>()?;
-    distinct(&scenes)?;
-    // What is named twice counts once.
-    let mut each: Vec<Scene> = vec![];
-    for scene in scenes {
-        let is_there = each.iter().any(|other| same_name(other, &scene) && other.hash() == scene.hash());
-        if !is_there {
-            each.push(scene);
-        }
-    }
-    Ok(each)
+    distinct(scenes.into_iter().collect::<anyhow::Result<Vec<Scene>>>()?)
 }
 
 static ONLY: OnceLock<String> = OnceLock::new();
@@ -71,20 +61,24 @@ fn same_name(one: &Scene, other: &Scene) -> bool {
     one.name.eq_ignore_ascii_case(&other.name) && one.stand_ins.is_empty() == other.stand_ins.is_empty()
 }
 
-/// Refuses different scenes of one name: no table could tell them apart.
+/// Each of the scenes once, however often it is named.
 ///
 /// # Errors
-/// If there are two, naming them.
-pub fn distinct(scenes: &[Scene]) -> anyhow::Result<()> {
-    for (i, scene) in scenes.iter().enumerate() {
-        if scenes[..i].iter().any(|other| same_name(other, scene) && other.hash() != scene.hash()) {
-            anyhow::bail!(
-                "two different scenes are called {}: tables could not tell them apart; rename one",
-                scene.name
-            );
-        }
+/// If there are two different ones of one name, naming them: no table could tell them apart.
+pub fn distinct(scenes: Vec<Scene>) -> anyhow::Result<Vec<Scene>> {
+    let mut each: Vec<Scene> = vec![];
+    for scene in scenes {
+        let Some(other) = each.iter().find(|other| same_name(other, &scene)) else {
+            each.push(scene);
+            continue;
+        };
+        anyhow::ensure!(
+            other.hash() == scene.hash(),
+            "two different scenes are called {}: tables could not tell them apart; rename one",
+            scene.name
+        );
     }
-    Ok(())
+    Ok(each)
 }
 
 /// A built-in scene by its name in any case, a scene file, or a scene around a mesh file. What is neither a known name nor

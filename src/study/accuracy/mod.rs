@@ -176,7 +176,7 @@ fn time(
     };
     let timing = Timing { scene, built, workloads: &workloads, threads, clock };
     let allotted = timing.allot(&cases, &plan);
-    let total = cases.len() * allotted.runs();
+    let total = cases.len() * allotted.allotment.runs;
     let taken = timing.take(&allotted, &|_| true, &plan, &mut |taken| progress(Stage::Trace(taken, total)))?;
     let panicked =
         |built: &Built| StudyError::Panicked { structure: built.choice.label.clone(), scene: scene.name.clone() };

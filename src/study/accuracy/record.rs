@@ -7,7 +7,6 @@ use crate::validate::Ulps;
 /// One structure over one triangle test on the rays of one kind: how wrong, and how fast.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AccuracyRecord {
-    /// Version of these fields.
     pub schema: u32,
     pub scene: String,
     /// SHA-256 of the scene.

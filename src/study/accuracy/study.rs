@@ -19,10 +19,8 @@ use crate::study::{
 };
 use crate::triangle::{Exact, TriangleTest};
 
-/// The study.
 pub struct AccuracyStudy;
 
-/// Its options.
 #[derive(Clone, Debug, clap::Args)]
 pub struct AccuracyArgs {
     #[command(flatten)]

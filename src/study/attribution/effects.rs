@@ -29,8 +29,7 @@ pub fn gain(from: Treatment, to: Treatment) -> Weights {
 /// three factors can be switched (Shapley, "A value for n-person games", 1953). The three parts add up to the whole.
 pub fn part(factor: Factor) -> Weights {
     let mut sum = [0.0; CELLS];
-    for order in ORDERS {
-        let gain = in_order(factor, order);
+    for gain in parts_by_order(factor) {
         sum.iter_mut().zip(gain).for_each(|(sum, weight)| *sum += weight / ORDERS.len() as f64);
     }
     sum
@@ -38,15 +37,14 @@ pub fn part(factor: Factor) -> Weights {
 
 /// The gain of `factor` in every order of switching.
 pub fn parts_by_order(factor: Factor) -> Vec<Weights> {
-    ORDERS.iter().map(|&order| in_order(factor, order)).collect()
+    let in_order = |order: &[usize; 3]| {
+        let before: usize = order.iter().take_while(|&&f| f != factor as usize).map(|f| 1 << f).sum();
+        gain(Treatment::corner(before), Treatment::corner(before | 1 << factor as usize))
+    };
+    ORDERS.iter().map(in_order).collect()
 }
 
 const ORDERS: [[usize; 3]; 6] = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
-
-fn in_order(factor: Factor, order: [usize; 3]) -> Weights {
-    let before: usize = order.iter().take_while(|&&f| f != factor as usize).map(|f| 1 << f).sum();
-    gain(Treatment::corner(before), Treatment::corner(before | 1 << factor as usize))
-}
 
 fn weights(of: impl Fn(Treatment) -> f64) -> Weights {
     let cells = Treatment::all();

@@ -24,7 +24,7 @@ use crate::scene::WorkloadKind;
 use design::Treatment;
 
 pub use result::{Attribution, CellResult, Effect, Part, Row, Split, Term, result, rows};
-pub use section::{hard, sentences, stack};
+pub use section::{HARD, hard, sentences, stack};
 pub use table::{headlines, tables};
 
 /// The cells of the design in their order, then the twins of the report's tree and of the SAH tree, over one triangle test.
@@ -33,10 +33,8 @@ fn structures(registry: &Registry, test: &str) -> Result<Vec<Choice>, ChoiceErro
     cells.map(|cell| registry.choose(&cell.spec(test))).collect()
 }
 
-/// The study.
 pub struct AttributionStudy;
 
-/// Its options.
 #[derive(Clone, Debug, clap::Args)]
 pub struct AttributionArgs {
     #[command(flatten)]
@@ -73,10 +71,6 @@ impl Study for AttributionStudy {
         let asked = Asked::Kinds(vec![args.workload], args.rays);
         let settings = args.measuring.settings(registry, structures(registry, &args.test)?, asked)?;
         plan_on(&args.scenes, |scenes| settings.plan(scenes, args.measuring.epochs))
-    }
-
-    fn epoch(case: &mut Epoch) -> Option<(&mut Epoch, usize)> {
-        Some((case, 0))
     }
 
     fn answer(cases: &[Epoch], _: &Context<Self>) -> Vec<Attribution> {

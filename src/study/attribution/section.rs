@@ -12,7 +12,7 @@ use crate::report::words::{interval, listed, scene_name};
 const PARTS: [Factor; 3] = [Factor::Stop, Factor::Plane, Factor::Traversal];
 
 /// The scenes that the question is about.
-const HARD: [&str; 3] = ["Dragon", "Lucy", "Sponza"];
+pub const HARD: [&str; 3] = ["Dragon", "Lucy", "Sponza"];
 
 /// Those of the hard scenes first.
 fn sorted(results: &[Attribution]) -> Vec<Attribution> {

@@ -63,11 +63,7 @@ impl Built {
         let start = clock.now_ns();
         let accel = threads.install(|| choice.build(&mesh));
         let build_ns = clock.now_ns() - start;
-        let accel = accel.map_err(|cause| StudyError::Build {
-            structure: choice.label.clone(),
-            scene: scene.name.clone(),
-            cause,
-        })?;
+        let accel = accel.map_err(StudyError::of_build(&choice.label, &scene.name))?;
         let build_ns = accel.remote().map_or(build_ns, Remote::build_ns);
         Ok(Self { choice: choice.clone(), accel, build_ns, peak_bytes: None })
     }

@@ -69,11 +69,8 @@ pub fn check_all(
         progress(Stage::Check(&built.choice.label));
         let test = built.choice.triangle_test();
         if !all.contains_key(test) {
-            let reference = Reference::of_test(test, &scene.mesh).map_err(|cause| StudyError::Build {
-                structure: BRUTE_FORCE.into(),
-                scene: scene.name.clone(),
-                cause,
-            })?;
+            let reference = Reference::of_test(test, &scene.mesh);
+            let reference = reference.map_err(StudyError::of_build(BRUTE_FORCE, &scene.name))?;
             let answers = batches.iter().map(|rays| reference.closest_hits(rays)).collect();
             all.insert(test, Known { reference, answers });
         }

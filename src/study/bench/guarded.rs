@@ -1,12 +1,11 @@
 //! Structures of others may panic on a ray as on a mesh: one of them must not end a run over many.
 
-use std::cell::RefCell;
 use std::panic::{self, AssertUnwindSafe};
 use std::rc::Rc;
 
 use serde::{Deserialize, Serialize};
 
-use crate::measure::{Pass, Stopwatch, Timed};
+use crate::measure::{Failure, Pass, Stopwatch, Timed};
 use crate::study::Trouble;
 
 /// A structure that takes no part, and why.
@@ -36,9 +35,6 @@ pub fn guarded<R>(ask: impl FnOnce() -> R) -> Option<R> {
     panic::catch_unwind(AssertUnwindSafe(ask)).ok()
 }
 
-/// Why a pass means nothing, once it has failed.
-pub type Failure = Rc<RefCell<Option<String>>>;
-
 /// A pass that survives a panic of its structure: from then on it does nothing and says so.
 pub struct Guarded<'a> {
     pass: Pass<'a>,
@@ -57,8 +53,13 @@ impl<'a> Guarded<'a> {
         self.failure.borrow().is_some()
     }
 
-    fn panics(&self) {
-        *self.failure.borrow_mut() = Some(PANICKED.into());
+    /// What the pass gives; nothing from its first panic on.
+    fn ask<R>(&mut self, ask: impl FnOnce(&mut Pass<'a>) -> R) -> Option<R> {
+        let given = if self.has_panicked() { None } else { guarded(|| ask(&mut self.pass)) };
+        if given.is_none() {
+            *self.failure.borrow_mut() = Some(PANICKED.into());
+        }
+        given
     }
 }
 
@@ -69,9 +70,7 @@ impl Timed for Guarded<'_> {
 
     fn choose(&mut self, levels: &[usize], epoch: usize) {
         self.levels = levels.len();
-        if !self.has_panicked() && guarded(|| self.pass.choose(levels, epoch)).is_none() {
-            self.panics();
-        }
+        self.ask(|pass| pass.choose(levels, epoch));
     }
 
     fn clear(&mut self) {
@@ -79,17 +78,11 @@ impl Timed for Guarded<'_> {
     }
 
     fn lead_in(&mut self) {
-        if !self.has_panicked() && guarded(|| self.pass.lead_in()).is_none() {
-            self.panics();
-        }
+        self.ask(Pass::lead_in);
     }
 
     fn run(&mut self, watch: &Stopwatch) -> Vec<u64> {
-        let ns = if self.has_panicked() { None } else { guarded(|| self.pass.run(watch)) };
-        ns.unwrap_or_else(|| {
-            self.panics();
-            vec![0; self.levels]
-        })
+        self.ask(|pass| pass.run(watch)).unwrap_or_else(|| vec![0; self.levels])
     }
 
     fn checksum(&self) -> u64 {

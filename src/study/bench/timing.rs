@@ -30,14 +30,7 @@ pub struct Taken {
 /// What decides how much of cases is timed, and is the same in every epoch.
 pub struct Allotted {
     cases: Vec<Case>,
-    allotment: Allotment,
-}
-
-impl Allotted {
-    /// Samples of every case.
-    pub fn runs(&self) -> usize {
-        self.allotment.runs
-    }
+    pub allotment: Allotment,
 }
 
 impl Timing<'_> {

@@ -36,8 +36,8 @@ pub(super) fn interval(cheap: &Line, dear: &Line, rays: Payoff, twins: &Twins) -
         Some(i) if i + 1 == numbers.len() => Payoff::Never,
         Some(i) => border(numbers[i], numbers[i + 1], |rays| !dear_ahead(rays)),
     };
-    let low = if low.order(&rays).is_gt() { rays } else { low };
-    let high = if high.order(&rays).is_lt() { rays } else { high };
+    let low = if low > rays { rays } else { low };
+    let high = if high < rays { rays } else { high };
     Some([low, high])
 }
 

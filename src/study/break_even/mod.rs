@@ -24,7 +24,6 @@ use table::{LEGEND, table};
 const STRUCTURES: [&str; 8] =
     ["brute-force", "median-kd", "sah-kd", "sah-kd-wide", "sah-hybrid", "sah-bvh", "obvhs-bvh2", "obvhs-cwbvh"];
 
-/// The study.
 pub struct BreakEvenStudy;
 
 impl Study for BreakEvenStudy {
@@ -38,10 +37,6 @@ impl Study for BreakEvenStudy {
 
     fn plan(args: &EpochArgs, registry: &Registry) -> anyhow::Result<Plan<Epoch>> {
         args.plan(registry, &STRUCTURES, &[WorkloadKind::Primary, WorkloadKind::Diffuse])
-    }
-
-    fn epoch(case: &mut Epoch) -> Option<(&mut Epoch, usize)> {
-        Some((case, 0))
     }
 
     fn answer(cases: &[Epoch], _: &Context<Self>) -> Vec<Market> {

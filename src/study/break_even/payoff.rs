@@ -1,11 +1,9 @@
-use std::cmp::Ordering;
-
 use serde::Serialize;
 
 use crate::report::number::figures;
 
-/// When a dearer build pays.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+/// When a dearer build pays, the sooner first.
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Payoff {
     /// Before the first ray: the build is not dearer after all, and the rays are faster.
@@ -26,19 +24,6 @@ impl Payoff {
             Self::AtOnce
         } else {
             Self::Rays(dearer / faster)
-        }
-    }
-
-    /// The sooner first.
-    pub fn order(&self, other: &Self) -> Ordering {
-        self.number().total_cmp(&other.number())
-    }
-
-    fn number(self) -> f64 {
-        match self {
-            Self::AtOnce => 0.0,
-            Self::Rays(rays) => rays,
-            Self::Never => f64::INFINITY,
         }
     }
 
@@ -78,7 +63,7 @@ mod tests {
     #[test]
     fn the_order_is_that_of_waiting() {
         let mut payoffs = [Payoff::Never, Payoff::Rays(5.0), Payoff::AtOnce, Payoff::Rays(2.0)];
-        payoffs.sort_by(Payoff::order);
+        payoffs.sort_by(|a, b| a.partial_cmp(b).unwrap());
         assert_eq!(payoffs, [Payoff::AtOnce, Payoff::Rays(2.0), Payoff::Rays(5.0), Payoff::Never]);
         assert_eq!(payoffs.map(Payoff::words), ["at once", "2.00", "5.00", "never"]);
         let words = [1234.0, 9.996e5, 2.5e6, 4e9].map(|rays| Payoff::Rays(rays).words());

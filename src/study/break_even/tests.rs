@@ -96,7 +96,7 @@ fn the_break_even_point_of_a_second_run_lies_within_the_interval_of_the_first() 
             let mut random = RandomOrder::new(*seed);
             let [first, second] = [(); 2].map(|()| pair(&result(&run(&mut random, sigma))[0], "cheap", "dear").clone());
             let (low, high) = (first.low.unwrap(), first.high.unwrap());
-            low.order(&second.rays).is_le() && second.rays.order(&high).is_le()
+            low <= second.rays && second.rays <= high
         };
         let held = (0..PAIRS).filter(once).count() as f64 * 100.0 / PAIRS as f64;
         assert!((93.0..=97.0).contains(&held), "{held:.1} % with noise of {sigma}");

@@ -24,10 +24,8 @@ use crate::study::{
     replayed, sources,
 };
 
-/// The study.
 pub struct CompareStudy;
 
-/// Its options.
 #[derive(Clone, Debug, clap::Args)]
 pub struct CompareArgs {
     #[command(flatten)]
@@ -200,10 +198,6 @@ impl Study for CompareStudy {
                 .push("Coarse: few rays, few checks and up to three epochs. Without --quick it is measured.".into());
         }
         Ok(plan)
-    }
-
-    fn epoch(case: &mut Epoch) -> Option<(&mut Epoch, usize)> {
-        Some((case, 0))
     }
 
     fn answer(cases: &[Epoch], context: &Context<Self>) -> Compared {

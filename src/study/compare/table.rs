@@ -95,7 +95,11 @@ pub fn scene_table(records: &[Record], references: &[Reference], refused: &[Refu
     columns.extend(references.iter().map(|reference| format!("x {}", reference.name())));
     columns.extend(["checked", "sampled"].map(String::from));
 
-    let best: Vec<f64> = workloads.iter().map(|w| best_speed(records, w, |_| true).unwrap_or(f64::INFINITY)).collect();
+    let best_of = |workload: &String| {
+        let speeds = records.iter().filter(|r| r.workload == *workload).filter_map(|r| r.mrays_per_s);
+        speeds.max_by(f64::total_cmp).unwrap_or(f64::INFINITY)
+    };
+    let best: Vec<f64> = workloads.iter().map(best_of).collect();
     let mut rows: Vec<Vec<Cell>> = structures
         .iter()
         .map(|label| {
@@ -209,12 +213,6 @@ fn unfit_tests(records: &[Record]) -> Vec<String> {
         }
     }
     notes
-}
-
-/// The greatest speed on `workload` among the records that `counts` admits.
-fn best_speed(records: &[Record], workload: &str, counts: impl Fn(&Record) -> bool) -> Option<f64> {
-    let speeds = records.iter().filter(|r| r.workload == workload && counts(r)).filter_map(|r| r.mrays_per_s);
-    speeds.max_by(f64::total_cmp)
 }
 
 fn speed(record: &Record, best: f64) -> Cell {

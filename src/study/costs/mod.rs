@@ -42,7 +42,6 @@ const STRUCTURES: [&str; 14] = [
     "obvhs-cwbvh",
 ];
 
-/// The study.
 pub struct CostsStudy;
 
 impl Study for CostsStudy {
@@ -56,10 +55,6 @@ impl Study for CostsStudy {
 
     fn plan(args: &EpochArgs, registry: &Registry) -> anyhow::Result<Plan<Epoch>> {
         args.plan(registry, &STRUCTURES, &WORKLOADS)
-    }
-
-    fn epoch(case: &mut Epoch) -> Option<(&mut Epoch, usize)> {
-        Some((case, 0))
     }
 
     fn answer(cases: &[Epoch], _: &Context<Self>) -> Vec<Family> {

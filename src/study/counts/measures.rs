@@ -124,11 +124,7 @@ pub(super) fn count_scene(
 ) -> Result<Counts, StudyError> {
     let build = |choice: &Choice| settings.threads.install(|| choice.build(&Arc::clone(&scene.mesh)));
     progress(Stage::Build(&settings.guide.label));
-    let guide = build(&settings.guide).map_err(|cause| StudyError::Build {
-        structure: settings.guide.label.clone(),
-        scene: scene.name.clone(),
-        cause,
-    })?;
+    let guide = build(&settings.guide).map_err(StudyError::of_build(&settings.guide.label, &scene.name))?;
     progress(Stage::Rays("all"));
     let sampling = Sampling::some(scene, settings.rays as usize, settings.seed);
     let kinds = settings.workloads.iter().filter(|&&kind| kind != WorkloadKind::Mirror || scene.has_mirrors());

@@ -26,10 +26,8 @@ pub use measures::{Counts, Measures, RayMeasures, TreeMeasures};
 pub use table::tables;
 use table::{LEGEND, histogram_tables};
 
-/// The study.
 pub struct CountsStudy;
 
-/// Its options.
 #[derive(Clone, Debug, clap::Args)]
 pub struct CountsArgs {
     #[command(flatten)]
@@ -80,10 +78,6 @@ impl Study for CountsStudy {
     type Args = CountsArgs;
     type Case = Counts;
     type Answer = Counts;
-
-    fn command() -> String {
-        format!("sahara study {} --dir runs", Self::NAME)
-    }
 
     fn plan(args: &CountsArgs, registry: &Registry) -> anyhow::Result<Plan<Counts>> {
         let scenes = args.scenes.read(&[])?.into_iter().map(|scene| args.from.of(scene));

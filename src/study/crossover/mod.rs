@@ -11,8 +11,6 @@
 mod complexity;
 mod curve;
 mod family;
-mod member_epoch;
-mod pairs;
 mod result;
 mod section;
 mod table;
@@ -31,16 +29,12 @@ use crate::scene::{Scene, Workload, WorkloadKind};
 pub use complexity::complexity;
 pub use curve::Crossing;
 pub use family::{ROOTS, member};
-pub use member_epoch::MemberEpoch;
-pub use pairs::PAIRS;
-pub use result::{Member, Race, result};
+pub use result::{Member, MemberEpoch, PAIRS, Race, result};
 pub use table::tables;
 use table::verdict;
 
-/// The study.
 pub struct CrossoverStudy;
 
-/// Its options.
 #[derive(Clone, Debug, clap::Args)]
 pub struct CrossoverArgs {
     /// Leave out the members of more than this squared layers
@@ -88,9 +82,7 @@ impl Study for CrossoverStudy {
 
         let (guide, asked, seed) = (settings.guide.clone(), settings.asked.clone(), settings.seed);
         let wrap = move |number: usize, scene: &Scene, epoch| {
-            let (structure, name) = (guide.label.clone(), scene.name.clone());
-            let guide =
-                guide.build(&scene.mesh).map_err(|cause| StudyError::Build { structure, scene: name, cause })?;
+            let guide = guide.build(&scene.mesh).map_err(StudyError::of_build(&guide.label, &scene.name))?;
             let of = |w: Workload| Some((w.name, complexity(guide.as_ref(), &spread(&w.rays, PROBES))?));
             let workloads = asked.workloads(scene, seed, guide.as_ref(), &mut |_| ());
             let complexity = workloads.into_iter().filter_map(of).collect();

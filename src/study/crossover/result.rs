@@ -1,12 +1,28 @@
 //! Where a KD-tree overtakes a BVH.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::curve::{Crossing, Curve};
-use super::{MemberEpoch, PAIRS};
 use crate::measure::{AaNoise, Estimate, Rerun};
 use crate::report::words::distinct;
-use crate::study::epoch::{Line, lines, middles, twins};
+use crate::study::epoch::{Epoch, Line, lines, middles, twins};
+
+/// The KD-tree and the BVH of a pair. In the second and third the node, the leaf and the walk are the same and only the way to divide
+/// the triangles differs; the first are the textbook tree and the BVH from outside. All over one triangle test.
+pub const PAIRS: [[&str; 2]; 3] = [
+    ["sah-kd:test=moller-trumbore", "obvhs-bvh2"],
+    ["sah-kd-wide:test=moller-trumbore", "sah-bvh:test=moller-trumbore"],
+    ["sah-kd-tight:test=moller-trumbore", "sah-bvh:test=moller-trumbore"],
+];
+
+/// One epoch of one member of the family.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MemberEpoch {
+    pub layers: u32,
+    /// Of each kind of rays of the epoch's, by name.
+    pub complexity: Vec<(String, f64)>,
+    pub epoch: Epoch,
+}
 
 /// One pair on one kind of rays, over the family.
 #[derive(Clone, Debug, PartialEq, Serialize)]

@@ -180,7 +180,7 @@ impl<'a> Bench<'a> {
             structure.refused.is_none() && structure.rays[case.workload].untimed.is_none()
         };
         let cases: Vec<Case> = asked.into_iter().filter(is_timed).collect();
-        let total = cases.len() * allotted.runs();
+        let total = cases.len() * allotted.allotment.runs;
         let mut told = |taken| progress(Stage::Trace(taken, total));
         let _pin = threads.pin();
         let watch = Watch::start(clock, threads.cores().map_or(0, |cores| cores[0]));

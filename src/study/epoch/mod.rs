@@ -260,12 +260,6 @@ impl Epoch {
         scene_name(&self.scene, self.stand_in)
     }
 
-    /// Samples of every case.
-    pub fn runs(&self) -> usize {
-        let rays = self.structures.iter().flat_map(|structure| &structure.rays);
-        rays.map(|rays| rays.ns.len()).find(|&runs| runs > 0).unwrap_or(1)
-    }
-
     /// Rays of a workload on which all structures with a time are timed: as many as the slowest takes.
     pub fn common_rays(&self, workload: &str) -> usize {
         let rays = self.structures.iter().filter(|structure| structure.refused.is_none()).flat_map(|s| &s.rays);

@@ -21,9 +21,7 @@ pub use series::{Series, Step, series};
 /// A run that was kept.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Entry {
-    /// Version of this form.
     pub schema: u32,
-    /// Name of the baseline.
     pub baseline: String,
     pub provenance: Provenance,
     /// Structures of obvhs whose mean time is the unit.

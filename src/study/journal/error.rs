@@ -6,69 +6,47 @@ use crate::output::OutputError;
 /// Why a journal, or a case of one, cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum JournalError {
-    /// It cannot be read.
     #[error("cannot read {}: {cause}: name what a study has written", path.display())]
     Read { path: PathBuf, cause: io::Error },
-    /// It cannot be written; what was measured before still is there.
     #[error(
         "cannot write {}: {cause}: what was measured before is kept; give it room, or name another folder with --dir",
         path.display()
     )]
     Write { path: PathBuf, cause: io::Error },
-    /// Nothing can be written there.
     #[error(transparent)]
     Place(OutputError),
-    /// A journal in the form of versions that kept one file for all cases.
-    #[error(
-        "{} is a journal of an older sahara, which kept all cases in one file: this one keeps a folder with one file a case, and does not \
-         read it; move it away, or name another folder with --dir",
-        .0.display()
-    )]
-    Old(PathBuf),
-    /// It is some other file.
     #[error("{} is not a case of a study: move it away, or name another place", .0.display())]
     Foreign(PathBuf),
-    /// It is of another study.
     #[error("{} is a case of the study {there}, not of {here}: name another place", path.display())]
     Study { path: PathBuf, there: String, here: String },
-    /// It is another case.
     #[error("{} holds the case {there:?}, not {here:?}: name another place", path.display())]
     Key { path: PathBuf, there: String, here: String },
-    /// A case is there in two files.
     #[error("{} and {} hold the same case {key:?}: move one of them away", paths[0].display(), paths[1].display())]
     Twice { paths: [PathBuf; 2], key: String },
-    /// Its form is another version.
     #[error(
         "{} has version {there} of the form of cases, this sahara writes version {here}: --fresh starts anew, or name another folder \
          with --dir",
         path.display()
     )]
     Schema { path: PathBuf, there: u32, here: u32 },
-    /// It was measured with other settings.
     #[error(
         "{} was measured with other settings: {differences}; give the same ones to go on, --fresh to start anew, or another folder \
          with --dir",
         path.display()
     )]
     Settings { path: PathBuf, differences: String },
-    /// It comes from another build or machine.
     #[error(
         "{} was measured by another build or on another machine: {differences}; it is not what this sahara measures: --fresh starts anew, \
          --dir names another folder, and `sahara report` shows it as it is",
         path.display()
     )]
     Machine { path: PathBuf, differences: String },
-    /// Two cases of a study are of other settings.
     #[error(
         "{} and {} are cases of the study {study} with other settings: {differences}; report them apart, or measure one of them anew",
         paths[0].display(),
         paths[1].display()
     )]
     Conflict { paths: Box<[PathBuf; 2]>, study: String, differences: String },
-    /// It does not read.
     #[error("{} does not read: {problem}; remove it to measure its case again, or --fresh starts anew", path.display())]
     Damaged { path: PathBuf, problem: String },
-    /// A file that other commands export does not read.
-    #[error("{} is not what sahara exports under that name: {problem}; export it again, or name another folder with --dir", path.display())]
-    Json { path: PathBuf, problem: String },
 }

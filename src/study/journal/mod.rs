@@ -49,15 +49,11 @@ impl<C: Serialize> Journal<C> {
     /// be made.
     pub fn open(folder: &Path, header: Header, fresh: bool, read: Read<C>) -> Result<Self, JournalError> {
         let unwritable = |cause| JournalError::Write { path: folder.into(), cause };
-        let old = old(folder);
-        if old.exists() && !fresh {
-            return Err(JournalError::Old(old));
-        }
         fs::create_dir_all(folder).map_err(unwritable)?;
         let mut journal = Self { folder: Some(folder.into()), ..Self::in_memory(header, read) };
         let files = files(folder)?;
         if fresh {
-            files.iter().chain(old.exists().then_some(&old)).try_for_each(fs::remove_file).map_err(unwritable)?;
+            files.iter().try_for_each(fs::remove_file).map_err(unwritable)?;
             return Ok(journal);
         }
         let mut paths: BTreeMap<String, PathBuf> = BTreeMap::new();
@@ -122,11 +118,6 @@ impl<C: Serialize> Journal<C> {
         let mut kept = Self::open(folder, self.header, true, self.read)?;
         self.cases.into_iter().try_for_each(|(key, case)| kept.append(&key, case))
     }
-}
-
-/// Where versions that kept one file kept it.
-fn old(folder: &Path) -> PathBuf {
-    folder.with_extension("jsonl")
 }
 
 /// The files of a folder that may be cases, by name.

@@ -184,16 +184,6 @@ fn what_is_no_case_is_left_alone() {
 }
 
 #[test]
-fn the_one_file_of_older_versions_is_one_sentence() {
-    let folder = folder();
-    let path = journal(&folder, 1);
-    fs::write(path.with_extension("jsonl"), "{\"schema\":2}\n").unwrap();
-    sentence(open(&path).unwrap_err(), &["tiny.jsonl is a journal of an older sahara", "--dir"]);
-    Journal::<Case>::open(&path, header(5), true, read).unwrap();
-    assert!(!path.with_extension("jsonl").exists());
-}
-
-#[test]
 fn a_case_in_two_files_is_refused_by_both_names() {
     let folder = folder();
     let path = journal(&folder, 1);

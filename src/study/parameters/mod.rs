@@ -12,7 +12,7 @@ mod tests;
 
 use super::args::{Measuring, Scenes};
 use super::epoch::{Asked, Epoch};
-use super::replicate::original::{MAIN, SWEEP, SweepRow};
+use super::replicate::original::{SWEEP, SweepRow, main_scenes};
 use super::{Context, Data, Plan, REPORT_TREE, Study};
 use crate::registry::{Choice, ChoiceError, Registry};
 use crate::report::document::Block;
@@ -24,10 +24,6 @@ pub use table::tables;
 
 /// The setting of the report's main table: the others are held against it.
 pub const DEFAULT: (u32, f32) = (100, 0.7);
-
-fn scenes() -> Vec<&'static str> {
-    MAIN.iter().map(|row| row.scene).collect()
-}
 
 pub(super) fn default_row() -> usize {
     SWEEP.iter().position(is_default).expect("the sweep holds the default")
@@ -44,10 +40,8 @@ pub(super) fn structures(registry: &Registry) -> Result<Vec<Choice>, ChoiceError
     rows.map(|row| registry.choose(&spec(row))).collect()
 }
 
-/// The study.
 pub struct ParametersStudy;
 
-/// Its options.
 #[derive(Clone, Debug, clap::Args)]
 pub struct ParametersArgs {
     // Of the report's sweep; all of them if none is named.
@@ -68,7 +62,7 @@ impl Study for ParametersStudy {
     type Answer = Parameters;
 
     fn plan(args: &ParametersArgs, registry: &Registry) -> anyhow::Result<Plan<Epoch>> {
-        let all = scenes();
+        let all = main_scenes();
         let named = args.scenes.scenes.iter().map(String::as_str);
         let named: Vec<&str> = if args.scenes.scenes.is_empty() { all.clone() } else { named.collect() };
         let mut chosen: Vec<Scene> = vec![];
@@ -86,10 +80,6 @@ impl Study for ParametersStudy {
         }
         let settings = args.measuring.settings(registry, structures(registry)?, Asked::Picture)?;
         Ok(settings.plan(chosen, args.measuring.epochs))
-    }
-
-    fn epoch(case: &mut Epoch) -> Option<(&mut Epoch, usize)> {
-        Some((case, 0))
     }
 
     fn answer(cases: &[Epoch], _: &Context<Self>) -> Parameters {

@@ -6,7 +6,7 @@ use super::{DEFAULT, default_row, is_default};
 use crate::measure::{AaNoise, Estimate, LEVEL, holm};
 use crate::names::named_enum;
 use crate::study::epoch::{Epoch, RayCounts, Rays, Shape, Structure, WholeTimes};
-use crate::study::replicate::original::{MAIN, SWEEP};
+use crate::study::replicate::original::{SWEEP, main_scenes};
 
 /// What came of the sweep.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -63,7 +63,7 @@ named_enum! {
 
 /// Compares the settings of all scenes whose first epoch is there.
 pub fn result(epochs: &[Epoch]) -> Parameters {
-    let names: Vec<&str> = MAIN.iter().map(|row| row.scene).collect();
+    let names = main_scenes();
     let of = |scene: &&str| epochs.iter().filter(|epoch| epoch.scene == **scene).collect::<Vec<_>>();
     let scenes: Vec<Measured> = names.iter().filter_map(|scene| Measured::of(&of(scene))).collect();
     let default = default_row();

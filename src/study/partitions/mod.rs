@@ -35,10 +35,8 @@ fn structures(registry: &Registry, test: &str, keys: &str) -> Result<Vec<Choice>
     ours.chain(presets.map(|spec| registry.choose(&spec))).collect()
 }
 
-/// The study.
 pub struct PartitionsStudy;
 
-/// Its options.
 #[derive(Clone, Debug, clap::Args)]
 pub struct PartitionsArgs {
     #[command(flatten)]
@@ -74,10 +72,6 @@ impl Study for PartitionsStudy {
         let settings = args.measuring.settings(registry, structures, args.rays.asked(&WORKLOADS))?;
         let plan = Settings { slowest: 4.0, detailed: true, ..settings }.plan(scenes, args.measuring.epochs);
         Ok(Plan { inputs: args.scenes.files(), ..plan })
-    }
-
-    fn epoch(case: &mut Epoch) -> Option<(&mut Epoch, usize)> {
-        Some((case, 0))
     }
 
     fn answer(cases: &[Epoch], context: &Context<Self>) -> Partitions {

@@ -37,11 +37,6 @@ pub struct PictureCounts {
     pub tests: Vec<u64>,
 }
 
-/// The scenes to count: the report's easy and normal ones.
-pub fn scenes() -> Vec<&'static str> {
-    MAIN.iter().map(|row| row.scene).collect()
-}
-
 /// The key of a scene: what is counted on it changes with its meshes and lights.
 pub fn key(scene: &Scene) -> String {
     format!("{} {}", scene.name, &scene.hash()[..16])
@@ -50,7 +45,7 @@ pub fn key(scene: &Scene) -> String {
 /// Counts one of them.
 ///
 /// # Panics
-/// If it is none of [`scenes`].
+/// If it is none of the report's easy and normal scenes.
 pub fn measure(
     registry: &Registry,
     scene: &Scene,

@@ -20,6 +20,7 @@ use super::attribution::{Attribution, AttributionStudy};
 use super::compare::CompareStudy;
 use super::crossover::{CrossoverStudy, Race};
 use super::plan::Measure;
+use super::replicate::original::main_scenes;
 use super::replicate::{self, ReplicateStudy};
 use super::scaling::{Growth, ScalingStudy};
 use super::{Answers, Context, Data, Plan, Study};
@@ -33,7 +34,7 @@ use crate::scene::{BUILTIN, Builtin, Scene};
 
 pub use claims::result;
 pub use counted::PictureCounts;
-use counted::{key, measure, scenes};
+use counted::{key, measure};
 pub use rank::kendall;
 pub use section::{REST_BELOW, sentence};
 pub use table::{table, tally, tone};
@@ -94,10 +95,8 @@ fn newest(cases: &[PictureCounts]) -> Vec<PictureCounts> {
     cases.iter().enumerate().filter(last).map(|(_, case)| case.clone()).collect()
 }
 
-/// The study.
 pub struct PredictionsStudy;
 
-/// Its options: none.
 #[derive(Clone, Debug, clap::Args)]
 pub struct PredictionsArgs {}
 
@@ -119,7 +118,7 @@ impl Study for PredictionsStudy {
 
     fn plan(_: &PredictionsArgs, registry: &Registry) -> anyhow::Result<Plan<PictureCounts>> {
         let scenes: Vec<Scene> =
-            scenes().into_iter().map(|name| Builtin::find(name)?.scene(None)).collect::<Result<_, _>>()?;
+            main_scenes().into_iter().map(|name| Builtin::find(name)?.scene(None)).collect::<Result<_, _>>()?;
         let threads = Threads::pinned(1).map_err(anyhow::Error::msg)?;
         let names: Vec<(String, String)> = scenes.iter().map(|scene| (scene.name.clone(), key(scene))).collect();
         let (registry, own) = (registry.clone(), threads.clone());

@@ -10,15 +10,7 @@ pub fn kendall(pairs: &[(f64, f64)], compared: impl Fn(usize, usize) -> bool) ->
     let (mut same, mut x_differ, mut y_differ) = (0.0, 0.0, 0.0);
     for i in 0..pairs.len() {
         for j in (0..i).filter(|&j| compared(i, j)) {
-            let sign = |d: f64| {
-                if d > 0.0 {
-                    1.0
-                } else if d < 0.0 {
-                    -1.0
-                } else {
-                    0.0
-                }
-            };
+            let sign = |d: f64| f64::from(i8::from(d > 0.0) - i8::from(d < 0.0));
             let (x, y): (f64, f64) = (sign(pairs[i].0 - pairs[j].0), sign(pairs[i].1 - pairs[j].1));
             same += x * y;
             x_differ += x * x;

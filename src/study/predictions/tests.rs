@@ -84,7 +84,7 @@ fn a_claim_is_decided_by_its_whole_interval() {
 #[test]
 fn rays_are_counted_to_two_scene_by_scene() {
     let exact = |name: &&str| counted(name, 12, if *name == "Starters" { 50 } else { 13 }, vec![]);
-    let right = Inputs { counted: scenes().iter().map(exact).collect(), ..Inputs::default() };
+    let right = Inputs { counted: main_scenes().iter().map(exact).collect(), ..Inputs::default() };
     assert_eq!(verdicts(&prediction(&right, 1)), [Confirmed; 8]);
     let mut part = right.clone();
     part.counted.retain(|case| case.scene != "Cornellbox");

@@ -17,15 +17,13 @@ use crate::registry::Registry;
 use crate::report::document::Block;
 use crate::report::{Statement, Table};
 use crate::scene::Scene;
-use original::{HARD, MAIN};
+use original::{HARD, main_scenes};
 pub use replication::{Conclusion, Hard, Main, Rays, Replication, Seconds, Setting};
 use statements::statements;
 pub use tables::tables;
 
-/// The study.
 pub struct ReplicateStudy;
 
-/// Its options.
 #[derive(Clone, Debug, clap::Args)]
 pub struct ReplicateArgs {
     // Claims are judged by these numbers, all of them together: few epochs leave what is sure to luck.
@@ -56,15 +54,11 @@ impl Study for ReplicateStudy {
             .map(|(structures, asked)| args.measuring.settings(registry, structures, asked))
             .into_iter()
             .collect::<anyhow::Result<Vec<Settings>>>()?;
-        let names: Vec<&str> = MAIN.iter().map(|row| row.scene).chain(HARD.iter().map(|row| row.scene)).collect();
+        let names: Vec<&str> = main_scenes().into_iter().chain(HARD.iter().map(|row| row.scene)).collect();
         let scenes =
             sources::wanted(&names).map(|name| sources::scene(name)).collect::<anyhow::Result<Vec<Scene>>>()?;
         let is_hard = |scene: &Scene| usize::from(HARD.iter().any(|row| row.scene == scene.name));
         Ok(epoch::plan(settings, is_hard, scenes, args.measuring.epochs, |_, _, epoch| Ok(epoch)))
-    }
-
-    fn epoch(case: &mut Epoch) -> Option<(&mut Epoch, usize)> {
-        Some((case, 0))
     }
 
     fn answer(cases: &[Epoch], _: &Context<Self>) -> Replication {

@@ -39,6 +39,11 @@ pub const MAIN: [MainRow; 9] = [
     main_row("Starters", 4480, 776_648, 47.746, 440.416, 9.224),
 ];
 
+/// Their names.
+pub fn main_scenes() -> Vec<&'static str> {
+    MAIN.iter().map(|row| row.scene).collect()
+}
+
 /// A row of the report's table of hard scenes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HardRow {

@@ -122,16 +122,13 @@ impl Replication {
     pub fn of(cases: &[Epoch]) -> Self {
         let mut replication = Self::default();
         for epochs in epoch::scenes(cases) {
-            if MAIN.iter().any(|row| row.scene == epochs[0].scene) {
-                replication.add_main(&epochs);
-            } else {
-                replication.add_hard(&epochs);
-            }
+            replication.add_main(&epochs);
+            replication.add_hard(&epochs);
         }
         replication
     }
 
-    /// Adds an easy or normal scene of the report.
+    /// Adds an easy or normal scene of the report; nothing of another one.
     pub(super) fn add_main(&mut self, epochs: &[&Epoch]) {
         let first = epochs[0];
         let Some(index) = MAIN.iter().position(|row| row.scene == first.scene) else { return };
@@ -170,7 +167,7 @@ impl Replication {
         }
     }
 
-    /// Adds a hard scene of the report: its tree, the SAH tree, and its tree once more.
+    /// Adds a hard scene of the report, likewise: its tree, the SAH tree, and its tree once more.
     pub(super) fn add_hard(&mut self, epochs: &[&Epoch]) {
         const TREE: usize = 0;
         const TWIN: usize = 2;

@@ -31,10 +31,8 @@ const STRUCTURES: [&str; 7] =
 /// Epochs of meshes of more than [`LEVEL_8`] triangles, at most: the builds of the finest sphere alone take minutes in each.
 const EPOCHS_OF_FINEST: usize = 3;
 
-/// The study.
 pub struct ScalingStudy;
 
-/// Its options.
 #[derive(Clone, Debug, clap::Args)]
 pub struct ScalingArgs {
     // Beside the icospheres.

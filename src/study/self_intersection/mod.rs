@@ -65,15 +65,11 @@ pub struct Row {
 
 /// Traces the rays of one sphere. The same result on every machine.
 fn trace(sphere: Sphere, structures: &[Choice], rays: usize, seed: u64) -> Result<Vec<Row>, StudyError> {
-    let refused = |structure: &str, cause| {
-        let (structure, scene) = (structure.to_owned(), sphere.to_string());
-        StudyError::Build { structure, scene, cause }
-    };
-    let mesh = sphere.mesh();
-    let judge = Reference::of_test(Exact::NAME, &mesh).map_err(|cause| refused(BRUTE_FORCE, cause))?;
+    let (mesh, scene) = (sphere.mesh(), sphere.to_string());
+    let judge = Reference::of_test(Exact::NAME, &mesh).map_err(StudyError::of_build(BRUTE_FORCE, &scene))?;
     let mut rows = vec![];
     for choice in structures {
-        let accel = choice.build(&mesh).map_err(|cause| refused(&choice.label, cause))?;
+        let accel = choice.build(&mesh).map_err(StudyError::of_build(&choice.label, &scene))?;
         // Rays with the wrong answer: exactly so, and by the test's own fault.
         let wrong = |rays: &[Ray], hit_is_wrong: bool| {
             let of = |accel: &dyn DynAccel, rays: &[Ray]| {
@@ -129,10 +125,8 @@ fn trace(sphere: Sphere, structures: &[Choice], rays: usize, seed: u64) -> Resul
     Ok(rows)
 }
 
-/// The study.
 pub struct SelfIntersectionStudy;
 
-/// Its options.
 #[derive(Clone, Debug, clap::Args)]
 pub struct SelfIntersectionArgs {
     /// A structure, with keys that differ from their defaults; may be repeated [default: sah-kd over every triangle test]
@@ -158,10 +152,6 @@ impl Study for SelfIntersectionStudy {
     type Args = SelfIntersectionArgs;
     type Case = Vec<Row>;
     type Answer = Vec<Row>;
-
-    fn command() -> String {
-        format!("sahara study {} --dir runs", Self::NAME)
-    }
 
     fn plan(args: &SelfIntersectionArgs, registry: &Registry) -> anyhow::Result<Plan<Vec<Row>>> {
         let structures = if args.structure.is_empty() {

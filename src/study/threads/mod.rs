@@ -12,7 +12,6 @@ mod speedup;
 mod table;
 #[cfg(test)]
 mod tests;
-mod threads_epoch;
 
 use super::args::{Measuring, QUICK_EPOCHS, Rays, Scenes, Structures, with_twin};
 use super::epoch::{self, Epoch, Settings, measure};
@@ -24,16 +23,13 @@ use crate::report::document::Block;
 use crate::report::{Statement, Table};
 use crate::scene::WorkloadKind;
 
-pub use speedup::{Point, Speedup, speedups};
+pub use speedup::{Point, Speedup, ThreadsEpoch, speedups};
 use table::{groups, table};
-pub use threads_epoch::ThreadsEpoch;
 
 const STRUCTURES: [&str; 4] = ["sah-kd", "sah-hybrid", "sah-bvh", "obvhs-bvh2"];
 
-/// The study.
 pub struct ThreadsStudy;
 
-/// Its options.
 #[derive(Clone, Debug, clap::Args)]
 pub struct ThreadsArgs {
     #[command(flatten)]

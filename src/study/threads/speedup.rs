@@ -1,11 +1,17 @@
 //! From times to speedups, and the serial share that Amdahl's law makes of them.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
-use super::ThreadsEpoch;
 use crate::measure::{Estimate, Rerun, Variance};
 use crate::report::words::distinct;
-use crate::study::epoch::{Line, lines, middles, twins};
+use crate::study::epoch::{Epoch, Line, lines, middles, twins};
+
+/// One epoch of one scene with so many threads.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ThreadsEpoch {
+    pub threads: usize,
+    pub epoch: Epoch,
+}
 
 /// One structure on one scene: its build, or its rays of one kind.
 #[derive(Clone, Debug, PartialEq, Serialize)]

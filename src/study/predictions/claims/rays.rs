@@ -5,7 +5,7 @@ use crate::measure::Estimate;
 use crate::report::number::count;
 use crate::report::words::listed;
 use crate::study::predictions::{Inputs, PictureCounts, Prediction, Verdict};
-use crate::study::replicate::original::MAIN;
+use crate::study::replicate::original::main_scenes;
 
 /// Its creatures must not be copied: its rays are our own.
 const OWN: &str = "Starters";
@@ -15,7 +15,7 @@ pub(super) fn rays(inputs: &Inputs) -> Prediction {
         let case = inputs.counted.iter().find(|case| case.scene == scene)?;
         Some(case.rays as f64 - case.report_rays as f64)
     };
-    let scenes = || MAIN.iter().map(|row| row.scene).filter(|&scene| scene != OWN);
+    let scenes = || main_scenes().into_iter().filter(|&scene| scene != OWN);
     let claims: Vec<Claim> = scenes()
         .map(|scene| {
             let exact = inputs.counted.iter().find(|case| case.scene == scene && case.default_rays != case.rays);

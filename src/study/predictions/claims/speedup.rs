@@ -3,10 +3,8 @@
 use super::{Bounds, Claim, prediction};
 use crate::report::number::figures;
 use crate::report::words::{listed, scene_name};
-use crate::study::attribution::{Attribution, CellResult};
+use crate::study::attribution::{Attribution, CellResult, HARD};
 use crate::study::predictions::{Inputs, Prediction, Verdict};
-
-const HARD: [&str; 3] = ["Dragon", "Lucy", "Sponza"];
 
 const COMMAND: &str = "sahara study attribution dragon lucy sponza";
 
