@@ -99,18 +99,11 @@ impl OutputFile {
         let place = |file: &Self| {
             let target = file.target();
             // A file that is not there yet lies in a folder that is.
-            Some((file.folder().canonicalize().ok()?, target.file_name()?.to_owned()))
+            Some((folder_of(&target).canonicalize().ok()?, target.file_name()?.to_owned()))
         };
         let own = place(self).filter(|_| !is_special);
         let same = own.is_some() && others.iter().any(|other| place(other) == own);
         if same { Err(OutputError::Same(self.path.clone())) } else { Ok(()) }
-    }
-
-    /// The folder of the file itself.
-    fn folder(&self) -> PathBuf {
-        let target = self.target();
-        let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty());
-        folder.unwrap_or(Path::new(".")).into()
     }
 
     pub fn path(&self) -> &Path {
@@ -137,17 +130,13 @@ impl OutputFile {
     }
 
     fn place_new(&self, bytes: &[u8]) -> io::Result<bool> {
-        let mut file = self.beside()?;
-        file.write_all(bytes)?;
-        file.as_file().sync_all()?;
-        match file.persist_noclobber(&self.path) {
+        match self.written_beside(bytes)?.persist_noclobber(&self.path) {
             Ok(_) => {}
             Err(error) if error.error.kind() == io::ErrorKind::AlreadyExists => return Ok(false),
             Err(error) => return Err(error.error),
         }
         // Makes its name as lasting as its contents, where the system knows how.
-        let folder = self.path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        let _ = fs::File::open(folder).and_then(|folder| folder.sync_all());
+        let _ = fs::File::open(folder_of(&self.path)).and_then(|folder| folder.sync_all());
         Ok(true)
     }
 
@@ -159,10 +148,7 @@ impl OutputFile {
         if fs::metadata(&self.path).is_ok_and(|there| !there.is_file()) {
             return fs::OpenOptions::new().write(true).open(&self.path)?.write_all(bytes);
         }
-        let mut file = self.beside()?;
-        file.write_all(bytes)?;
-        file.as_file().sync_all()?;
-        file.persist(self.target())?;
+        self.written_beside(bytes)?.persist(self.target())?;
         Ok(())
     }
 
@@ -173,20 +159,38 @@ impl OutputFile {
 
     /// A new file in the same directory, with the permissions of any new file.
     fn beside(&self) -> io::Result<NamedTempFile> {
-        let directory = self.folder();
-        let mut builder = Builder::new();
-        builder.prefix(".sahara-").suffix(".part");
-        #[cfg(unix)]
-        {
-            use std::os::unix::fs::PermissionsExt;
-            builder.permissions(fs::Permissions::from_mode(0o666));
-        }
-        builder.tempfile_in(directory)
+        part(0o666).tempfile_in(folder_of(&self.target()))
+    }
+
+    /// The same with `bytes` in it, which are on the disk.
+    fn written_beside(&self, bytes: &[u8]) -> io::Result<NamedTempFile> {
+        let mut file = self.beside()?;
+        file.write_all(bytes)?;
+        file.as_file().sync_all()?;
+        Ok(file)
     }
 
     fn error(&self, cause: io::Error) -> OutputError {
         OutputError::Write { path: self.path.clone(), cause: plain(cause) }
     }
+}
+
+/// The folder that `path` is in.
+fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+/// What makes the files and folders that move to their places when they are whole; where there are permissions, with
+/// `mode` less what the system's mask takes.
+fn part(#[cfg_attr(not(unix), expect(unused_variables))] mode: u32) -> Builder<'static, 'static> {
+    let mut builder = Builder::new();
+    builder.prefix(".sahara-").suffix(".part");
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        builder.permissions(fs::Permissions::from_mode(mode));
+    }
+    builder
 }
 
 /// The error of the system itself: tempfile adds the path of a file or folder that the user did not name.

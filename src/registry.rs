@@ -55,8 +55,7 @@ impl Registry {
             "the name {name:?} must not be \"all\" nor hold ':', ',', '=' or white space"
         );
         let test = A::TRIANGLE_TEST;
-        let taken = self.entries.iter().any(|e| e.name == name && e.triangle_test == test);
-        assert!(!taken, "there is already a structure {name:?} over the test {test:?}");
+        assert!(self.find(name, test).is_none(), "there is already a structure {name:?} over the test {test:?}");
         let config = match serde_json::to_value(config).expect("a configuration serialises") {
             Value::Null => Value::Object(Map::new()),
             value @ Value::Object(_) => value,
@@ -69,7 +68,7 @@ impl Registry {
         });
         self.entries.push(Entry {
             name: name.into(),
-            triangle_test: A::TRIANGLE_TEST,
+            triangle_test: test,
             observed: A::OBSERVED,
             conventions: A::CONVENTIONS,
             capabilities: A::CAPABILITIES,
@@ -157,19 +156,6 @@ fn parse<A: Accel>(config: &Value) -> Result<A::Config, String> {
 mod tests {
     use super::entry::empty;
     use super::*;
-
-    #[test]
-    fn unknown_names_and_keys_are_answered_with_the_known_ones() {
-        let registry = Registry::builtin();
-        let error = registry.choose("brute").map(|_| ()).unwrap_err().to_string();
-        assert!(error.contains("\"brute\"") && error.contains("brute-force"), "{error}");
-        let error = registry.choose("brute-force:leaf=3").map(|_| ()).unwrap_err();
-        assert!(matches!(error, ChoiceError::Key { .. }), "{error}");
-        let error = registry.choose("brute-force:leaf").map(|_| ()).unwrap_err();
-        assert!(matches!(error, ChoiceError::Form { .. }), "{error}");
-        let error = registry.choose("brute-force:test=none").map(|_| ()).unwrap_err();
-        assert!(matches!(error, ChoiceError::Test { .. }), "{error}");
-    }
 
     /// Cannot do with the empty mesh, by a panic or by a sentence.
     struct NeedsTriangles<const PANICS: bool>;

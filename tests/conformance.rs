@@ -65,13 +65,13 @@ const OURS: [&str; 37] = [
     "sah-hybrid:batch=interleaved",
 ];
 
-const TREES: [&str; 6] = ["median-kd", "sah-kd", "sah-kd-wide", "sah-kd-tight", "sah-hybrid", "sah-bvh"];
+pub const TREES: [&str; 6] = ["median-kd", "sah-kd", "sah-kd-wide", "sah-kd-tight", "sah-hybrid", "sah-bvh"];
 
 fn subject(choice: &Choice, lowest_id: bool) -> Subject {
     Subject { name: format!("{} over {}", choice.label, choice.triangle_test()), lowest_id, ..choice.subject() }
 }
 
-fn passes(outcome: Result<(), String>) {
+pub fn passes(outcome: Result<(), String>) {
     if let Err(report) = outcome {
         panic!("{report}");
     }

@@ -62,12 +62,8 @@ impl Sources {
         Self(files)
     }
 
-    /// The file in which the item of a path is defined; re-exports are followed.
-    fn home(&self, path: &[String]) -> Option<String> {
-        self.home_within(path, 0)
-    }
-
-    fn home_within(&self, path: &[String], rounds: usize) -> Option<String> {
+    /// The file in which the item of a path is defined; re-exports are followed, `rounds` of them so far.
+    fn home(&self, path: &[String], rounds: usize) -> Option<String> {
         let mut module = String::new();
         for (i, segment) in path.iter().enumerate() {
             let below = join(&module, segment);
@@ -80,7 +76,7 @@ impl Sources {
             for export in uses(text).into_iter().filter(|used| used.public && rounds < 8) {
                 let target = self.absolute(&module, &export.path).filter(|target| target.last() == Some(segment));
                 if let Some(target) = target {
-                    return self.home_within(&[&target[..], &path[i + 1..]].concat(), rounds + 1);
+                    return self.home(&[&target[..], &path[i + 1..]].concat(), rounds + 1);
                 }
             }
             return Some(module);
@@ -116,7 +112,7 @@ impl Sources {
         for (module, text) in self.0.iter().filter(|(module, _)| !["", "lib", "main"].contains(&module.as_str())) {
             // What a folder hands on of its files is no import of its own.
             let used = uses(text).into_iter().filter(|used| !used.public).map(|used| used.path);
-            let homes = used.chain(paths(text)).filter_map(|path| self.home(&self.absolute(module, &path)?));
+            let homes = used.chain(paths(text)).filter_map(|path| self.home(&self.absolute(module, &path)?, 0));
             imports.insert(module.clone(), homes.filter(|home| home != module).collect());
         }
         imports

@@ -11,6 +11,9 @@ use sahara::registry::{Choice, Registry};
 use sahara::validate::conformance::{Named, counting, findings, shapes};
 use sahara::validate::{Kind, Reference, Stratum, Validation, degenerate_meshes, validate};
 
+use crate::conformance::passes;
+use crate::findings::mesh;
+
 /// Every way in which peers are asked; those whose feature is off or whose library is absent are left out.
 const PEERS: [&str; 15] = [
     "bvh",
@@ -58,12 +61,6 @@ fn meshes(choice: &Choice) -> Vec<Named> {
     });
     assert!(meshes.len() > 50, "{} admits {} meshes", choice.label, meshes.len());
     meshes
-}
-
-fn passes(outcome: Result<(), String>) {
-    if let Err(report) = outcome {
-        panic!("{report}");
-    }
 }
 
 /// Kinds of rays that a peer answers rightly on every mesh, and whether it is known to err on all others: Embree and tinybvh
@@ -151,8 +148,7 @@ const FINDINGS: [Finding; 4] = [
 
 /// One ray over the box of a grid.
 fn asked(choice: &Choice, ray: &str) -> Validation {
-    let mesh =
-        degenerate_meshes().into_iter().find(|(name, _)| name == "box of a grid").expect("a mesh of the suite").1;
+    let mesh = mesh("box of a grid");
     let reference = Reference::of_test(choice.triangle_test(), &mesh).unwrap();
     let ray: Ray = ray.parse().unwrap();
     validate(&*choice.build(&mesh).unwrap(), &reference, &mesh, slice::from_ref(&ray))
@@ -190,9 +186,9 @@ fn what_lies_at_the_start_of_an_open_interval_is_not_counted() {
 #[test]
 fn the_stack_of_bvh_panics_on_a_deep_tree() {
     for choice in present(&["bvh"]) {
-        let deep = degenerate_meshes().into_iter().find(|(name, _)| name == "exponential sequence").unwrap();
-        let accel = choice.build(&deep.1).unwrap();
-        let rays: Vec<Ray> = Stratum::ALL.iter().flat_map(|stratum| stratum.rays(&deep.1, 200, 1)).collect();
+        let deep = mesh("exponential sequence");
+        let accel = choice.build(&deep).unwrap();
+        let rays: Vec<Ray> = Stratum::ALL.iter().flat_map(|stratum| stratum.rays(&deep, 200, 1)).collect();
         let mut hits = vec![None; rays.len()];
         let asked = panic::catch_unwind(AssertUnwindSafe(|| accel.closest_hits(&rays, &mut hits)));
         assert!(asked.is_err(), "its stack has grown");
@@ -202,8 +198,7 @@ fn the_stack_of_bvh_panics_on_a_deep_tree() {
 #[test]
 fn tinybvh_is_kept_from_trees_that_overflow_its_stack() {
     for choice in present(&["tinybvh"]) {
-        let same = degenerate_meshes().into_iter().find(|(name, _)| name == "2000 coincident").unwrap();
-        let refused = choice.build(&same.1).err().expect("refused").to_string();
+        let refused = choice.build(&mesh("2000 coincident")).err().expect("refused").to_string();
         assert!(refused.contains("stack of 256 nodes"), "{refused}");
     }
 }

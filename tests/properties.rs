@@ -144,20 +144,25 @@ fn config() -> ProptestConfig {
     }
 }
 
+/// Not brute force but the exact oracle judges: nearest `t`, correctly rounded, and the lowest number there.
+fn all_are_exact(mesh: &Arc<Mesh>, rays: &[Ray]) -> Result<(), TestCaseError> {
+    let exact = |ray: &Ray| oracle::nearest(ray, mesh).map(|(t, ids)| (t.round(), ids[0]));
+    let exact: Vec<Option<(f32, u32)>> = rays.iter().map(exact).collect();
+    for spec in OURS {
+        let accel = built(spec, mesh);
+        for ((ray, exact), hit) in rays.iter().zip(&exact).zip(accel.closest(rays)) {
+            prop_assert_eq!(hit.map(|h| (h.t, h.prim.index())), *exact, "{}: ray \"{}\"", spec, ray);
+        }
+    }
+    Ok(())
+}
+
 proptest! {
     #![proptest_config(config())]
 
-    /// Not brute force but the exact oracle judges: nearest `t`, correctly rounded, and the lowest number there.
     #[test]
     fn on_an_integer_grid_every_structure_is_exact(mesh in meshes(integers(), 60), rays in rays(integers(), 40)) {
-        let exact: Vec<Option<(f32, u32)>> =
-            rays.iter().map(|ray| oracle::nearest(ray, &mesh).map(|(t, ids)| (t.round(), ids[0]))).collect();
-        for spec in OURS {
-            let accel = built(spec, &mesh);
-            for ((ray, exact), hit) in rays.iter().zip(&exact).zip(accel.closest(&rays)) {
-                prop_assert_eq!(hit.map(|h| (h.t, h.prim.index())), *exact, "{}: ray \"{}\"", spec, ray);
-            }
-        }
+        all_are_exact(&mesh, &rays)?;
     }
 
     /// The ends of intervals fall on the hits themselves, and on halves: what the oracle finds is found, and nothing
@@ -180,14 +185,7 @@ proptest! {
                 windowed.extend([at, behind].map(|t_min| Ray { t_min, ..*ray }));
             }
         }
-        let truth = |ray: &Ray| oracle::nearest(ray, &mesh).map(|(t, ids)| (t.round(), ids[0]));
-        let truths: Vec<Option<(f32, u32)>> = windowed.iter().map(truth).collect();
-        for spec in OURS {
-            let accel = built(spec, &mesh);
-            for ((ray, truth), hit) in windowed.iter().zip(&truths).zip(accel.closest(&windowed)) {
-                prop_assert_eq!(hit.map(|h| (h.t, h.prim.index())), *truth, "{}: ray \"{}\"", spec, ray);
-            }
-        }
+        all_are_exact(&mesh, &windowed)?;
     }
 
     /// Scaling by a power of two scales nothing but the coordinates: the same `t`, the same primitive, to the bit.

@@ -29,91 +29,63 @@ fn real(name: &str) -> Option<(Model, Mesh)> {
     Some((model, Mesh::new(positions, triangles).unwrap()))
 }
 
-struct Expected {
-    triangles: usize,
-    vertices: usize,
-    degenerate: usize,
-    materials: usize,
-    min: [f32; 3],
-    max: [f32; 3],
-}
+/// Of a file: triangles, vertices, degenerate triangles and materials; the corners of its box.
+type Expected = (&'static str, [usize; 4], [[f32; 3]; 2]);
 
-fn check(name: &str, expected: Expected) {
-    let Some((model, mesh)) = real(name) else { return };
-    let Expected { triangles, vertices, degenerate, materials, min, max } = expected;
-    let found = (mesh.len(), mesh.positions().len(), mesh.degenerate().len(), model.materials.len());
-    assert_eq!(found, (triangles, vertices, degenerate, materials), "triangles, vertices, degenerate, materials");
-    assert_eq!(mesh.bounds(), Aabb { min: min.into(), max: max.into() });
-}
-
-#[test]
-fn dragon() {
-    let (min, max) = ([-7.0467, 0.0, -3.15129995], [7.0467, 9.9399004, 3.15129995]);
-    check("dragon.obj", Expected { triangles: 100_000, vertices: 50_000, degenerate: 0, materials: 1, min, max });
-}
-
-#[test]
-fn lucy() {
-    let max = [464.913574, 798.450562, 266.838562];
-    let min = max.map(|c: f32| -c);
-    check("lucy.ply", Expected { triangles: 100_000, vertices: 50_002, degenerate: 0, materials: 1, min, max });
-}
-
-#[test]
-fn sponza() {
-    let (min, max) = ([-1920.94592, -126.442497, -1182.80713], [1799.90808, 1429.43323, 1105.42603]);
-    check("sponza.obj", Expected { triangles: 262_267, vertices: 145_185, degenerate: 1, materials: 25, min, max });
-}
-
-#[test]
-fn sponza_dabrovic() {
-    let (min, max) = ([-17.4027596, -0.906688988, -7.79851198], [17.4172401, 15.6533117, 7.80148888]);
-    check(
+const MESHES: [Expected; 10] = [
+    ("dragon.obj", [100_000, 50_000, 0, 1], [[-7.0467, 0.0, -3.15129995], [7.0467, 9.9399004, 3.15129995]]),
+    (
+        "lucy.ply",
+        [100_000, 50_002, 0, 1],
+        [[-464.913574, -798.450562, -266.838562], [464.913574, 798.450562, 266.838562]],
+    ),
+    (
+        "sponza.obj",
+        [262_267, 145_185, 1, 25],
+        [[-1920.94592, -126.442497, -1182.80713], [1799.90808, 1429.43323, 1105.42603]],
+    ),
+    (
         "sponza_dabrovic.obj",
-        Expected { triangles: 66_454, vertices: 39_999, degenerate: 1, materials: 1, min, max },
-    );
-}
-
-#[test]
-fn teapot() {
-    let (min, max) = ([-3.0, 0.0, -2.0], [3.43400002, 3.1500001, 2.0]);
-    check("teapot.obj", Expected { triangles: 6320, vertices: 3644, degenerate: 0, materials: 1, min, max });
-}
-
-#[test]
-fn teapot_4032() {
-    let (min, max) = ([-23.096241, -9.32857513, -15.1232462], [26.321558, 15.076026, 15.0983648]);
-    check("teapot_4032.obj", Expected { triangles: 4032, vertices: 2082, degenerate: 0, materials: 1, min, max });
-}
-
-#[test]
-fn bunny() {
-    let (min, max) = ([-0.0946898982, 0.0329874001, -0.0618735999], [0.0610091016, 0.187321007, 0.0587996989]);
-    check("bunny.ply", Expected { triangles: 69_451, vertices: 35_947, degenerate: 0, materials: 1, min, max });
-}
-
-#[test]
-fn kitchen() {
-    let (min, max) = ([-1.930758, -0.0342309996, -2.479913], [3.61457396, 2.52319098, 2.59347892]);
-    check("kitchen.obj", Expected { triangles: 56_939, vertices: 74_303, degenerate: 25, materials: 33, min, max });
-}
-
-#[test]
-fn two_cylinder_engine() {
-    let (min, max) = ([-371.692261, -180.971558, -140.0], [371.692169, 92.0415649, 128.0]);
-    check(
+        [66_454, 39_999, 1, 1],
+        [[-17.4027596, -0.906688988, -7.79851198], [17.4172401, 15.6533117, 7.80148888]],
+    ),
+    ("teapot.obj", [6320, 3644, 0, 1], [[-3.0, 0.0, -2.0], [3.43400002, 3.1500001, 2.0]]),
+    (
+        "teapot_4032.obj",
+        [4032, 2082, 0, 1],
+        [[-23.096241, -9.32857513, -15.1232462], [26.321558, 15.076026, 15.0983648]],
+    ),
+    (
+        "bunny.ply",
+        [69_451, 35_947, 0, 1],
+        [[-0.0946898982, 0.0329874001, -0.0618735999], [0.0610091016, 0.187321007, 0.0587996989]],
+    ),
+    (
+        "kitchen.obj",
+        [56_939, 74_303, 25, 33],
+        [[-1.930758, -0.0342309996, -2.479913], [3.61457396, 2.52319098, 2.59347892]],
+    ),
+    (
         "two_cylinder_engine.glb",
-        Expected { triangles: 121_496, vertices: 84_657, degenerate: 11_160, materials: 34, min, max },
-    );
-}
+        [121_496, 84_657, 11_160, 34],
+        [[-371.692261, -180.971558, -140.0], [371.692169, 92.0415649, 128.0]],
+    ),
+    (
+        "san_miguel_part.glb",
+        [1_093_419, 691_308, 239, 117],
+        [[-37.9735985, -0.381559014, -36.9506989], [46.7743988, 53.5195999, 36.9362984]],
+    ),
+];
 
 #[test]
-fn san_miguel_part() {
-    let (min, max) = ([-37.9735985, -0.381559014, -36.9506989], [46.7743988, 53.5195999, 36.9362984]);
-    check(
-        "san_miguel_part.glb",
-        Expected { triangles: 1_093_419, vertices: 691_308, degenerate: 239, materials: 117, min, max },
-    );
+fn the_loaders_find_what_is_in_them() {
+    for (name, counts, corners) in MESHES {
+        let Some((model, mesh)) = real(name) else { continue };
+        let found = [mesh.len(), mesh.positions().len(), mesh.degenerate().len(), model.materials.len()];
+        assert_eq!(found, counts, "{name}: triangles, vertices, degenerate, materials");
+        let [min, max] = corners;
+        assert_eq!(mesh.bounds(), Aabb { min: min.into(), max: max.into() }, "{name}");
+    }
 }
 
 /// How much of a picture of 128 x 128 pixels they fill, in percent.

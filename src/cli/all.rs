@@ -47,11 +47,9 @@ pub fn run(session: &Session, args: &Args) -> anyhow::Result<Status> {
     let (mut rows, mut notes) = (vec![], vec![]);
     let studies = suite.studies.in_order_of_measuring();
     for (i, study) in studies.iter().enumerate() {
-        if !terminal.quiet {
-            let rest: Vec<&str> = studies[i + 1..].iter().map(|study| study.name()).collect();
-            let left = if rest.is_empty() { "nothing".into() } else { rest.join(", ") };
-            crate::output::tell(format_args!("{}; then left: {left}", study.name()));
-        }
+        let rest: Vec<&str> = studies[i + 1..].iter().map(|study| study.name()).collect();
+        let left = if rest.is_empty() { "nothing".into() } else { rest.join(", ") };
+        terminal.tell(&format!("{}; then left: {left}", study.name()));
         if let Some(why) = study.cannot_be_measured_here() {
             rows.push([study.name().into(), "-".into(), "left out".into(), "-".into()]);
             notes.push(format!("{}: left out, for {why}.", study.name()));

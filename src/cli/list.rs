@@ -10,6 +10,7 @@ use crate::names::suggestion;
 use crate::registry::{Entry, Registry};
 use crate::render::ViewKind;
 use crate::report::number::{count, figures};
+use crate::report::words::each_once;
 use crate::report::{Cell, Table, Tone};
 use crate::scene::meshes::{GENERATORS, Generator};
 use crate::scene::{BUILTIN, WorkloadKind, real_mesh_folder};
@@ -54,9 +55,7 @@ pub fn run(suite: &Suite, args: &Args, terminal: &Terminal) -> anyhow::Result<St
 }
 
 fn names(suite: &Suite) -> Table {
-    let mut tests: Vec<&str> = suite.registry.entries().iter().map(|entry| entry.triangle_test).collect();
-    let mut seen = std::collections::BTreeSet::new();
-    tests.retain(|test| seen.insert(*test));
+    let tests = each_once(suite.registry.entries().iter().map(|entry| entry.triangle_test));
     let lines = [
         ("scenes", BUILTIN.iter().map(|builtin| builtin.name).collect()),
         ("meshes of scene files", GENERATORS.iter().map(|generator| generator.name).collect()),
@@ -69,7 +68,7 @@ fn names(suite: &Suite) -> Table {
     // Notes are wrapped.
     let notes = lines.into_iter().map(|(what, names): (&str, Vec<&str>)| format!("{what}: {}.", names.join(", ")));
     let more = format!("`sahara list STRUCTURE` says what its keys mean; other lists are: {}.", KINDS.join(", "));
-    Table { notes: notes.chain([more]).collect(), ..table("What there is", &[], vec![]) }
+    Table::new("What there is", [], vec![]).noted(notes.chain([more]).collect())
 }
 
 fn scenes() -> anyhow::Result<Table> {
@@ -83,12 +82,12 @@ fn scenes() -> anyhow::Result<Table> {
         let (triangles, lights) = (count(scene.mesh.len() as u64), scene.lights.len().to_string());
         rows.push([builtin.name, &difficulty, &triangles, &lights, mirrors, meshes].map(Cell::from).into());
     }
-    Ok(table("Scenes", &["name", "difficulty", "triangles", "lights", "mirrors", "meshes"], rows))
+    Ok(Table::new("Scenes", ["name", "difficulty", "triangles", "lights", "mirrors", "meshes"], rows))
 }
 
 /// The meshes of our own that a scene file can name.
 fn meshes() -> Table {
-    let row = |generator: &Generator| {
+    let row = |generator: &Generator| -> Vec<Cell> {
         let model = (generator.make)();
         let (low, high) = model
             .positions
@@ -98,7 +97,7 @@ fn meshes() -> Table {
         vec![generator.name.into(), count(model.triangles.len() as u64).into(), size.into()]
     };
     let title = "Meshes that a scene file can name: mesh = \"teapot\"";
-    table(title, &["name", "triangles", "size"], GENERATORS.iter().map(row).collect())
+    Table::new(title, ["name", "triangles", "size"], GENERATORS.iter().map(row))
 }
 
 /// One row for each structure: the triangle tests it is offered over, the default first, and what it declines by design.
@@ -116,7 +115,7 @@ fn structures(registry: &Registry) -> Table {
         notes.extend(remarks(first));
     }
     let title = "Structures and their triangle tests; the first is the default";
-    Table { notes, ..table(title, &["name", "triangle tests", "declines", ""], rows) }
+    Table::new(title, ["name", "triangle tests", "declines", ""], rows).noted(notes)
 }
 
 fn declined(entry: &Entry) -> Vec<&'static str> {
@@ -166,20 +165,16 @@ fn keys(registry: &Registry, name: &str) -> Table {
     }
     notes.extend(remarks(first));
     let title = format!("{}: keys, as in --structure {}:key=value,..", first.name, first.name);
-    Table { notes, ..Table::of_texts(&title, ["key", "default", "values"], shown) }
+    Table::of_texts(&title, ["key", "default", "values"], shown).noted(notes)
 }
 
 fn workloads() -> Table {
     let query = |kind: WorkloadKind| if kind.query() == Query::Any { "any hit" } else { "closest hit" };
-    let rows = WorkloadKind::ALL.map(|kind| vec![kind.name().into(), query(kind).into()]);
-    table("Workloads", &["name", "query"], rows.into())
+    let rows = WorkloadKind::ALL.map(|kind| vec![Cell::from(kind.name()), query(kind).into()]);
+    Table::new("Workloads", ["name", "query"], rows)
 }
 
 fn studies(suite: &Suite) -> Table {
     let rows = suite.studies.iter().map(|study| [study.name().to_owned(), study.question().to_owned()]).collect();
     Table::of_texts("Studies", ["name", "question"], rows)
-}
-
-fn table(title: &str, columns: &[&str], rows: Vec<Vec<Cell>>) -> Table {
-    Table { title: title.into(), columns: columns.iter().map(|c| (*c).into()).collect(), rows, notes: vec![] }
 }

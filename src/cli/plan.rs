@@ -94,18 +94,16 @@ pub fn run(session: &Session, args: &Args, level: Option<Level>) -> anyhow::Resu
     let mut seen = HashSet::new();
     for study in studies.into_iter().filter(|study| seen.insert(study.name())) {
         if study.is_last() {
-            told(
-                terminal.quiet,
-                &format!("{}: no jobs, for it is made from the others: run it when they are measured", study.name()),
-            );
+            let name = study.name();
+            terminal.tell(&format!("{name}: no jobs, for it is made from the others: run it when they are measured"));
             continue;
         }
         if let Some(why) = study.cannot_be_measured_here().filter(|_| whole) {
-            told(terminal.quiet, &format!("{}: no jobs, for {why}", study.name()));
+            terminal.tell(&format!("{}: no jobs, for {why}", study.name()));
             continue;
         }
         if !args.scenes.is_empty() && !study.names_scenes() {
-            told(terminal.quiet, &format!("{}: on scenes of its own, whatever --scenes names", study.name()));
+            terminal.tell(&format!("{}: on scenes of its own, whatever --scenes names", study.name()));
         }
         // As the job will read it.
         let words = words(study, &args, whole, level, &options);
@@ -150,11 +148,4 @@ fn line(words: &[String], job: &str, file: &Path) -> anyhow::Result<String> {
         "{line:?} holds a tab or the end of a line, and would be no line: call the folder or the scene otherwise"
     );
     Ok(line)
-}
-
-/// Says on standard error what is no job.
-fn told(quiet: bool, sentence: &str) {
-    if !quiet {
-        crate::output::tell(sentence);
-    }
 }

@@ -5,7 +5,7 @@ use std::io::{self, IsTerminal, Write};
 use clap::ValueEnum;
 use comfy_table::Table as Probe;
 
-use crate::output::stdout_is_taken;
+use crate::output::{stdout_is_taken, tell};
 use crate::report::{Screen, Table, wrapped};
 
 /// When to use colour.
@@ -56,6 +56,13 @@ impl Terminal {
         let mut out = io::stdout().lock();
         out.write_all(text.as_bytes())?;
         out.flush()
+    }
+
+    /// Says on standard error what is no result, unless progress is left out.
+    pub fn tell(&self, sentence: &str) {
+        if !self.quiet {
+            tell(sentence);
+        }
     }
 
     /// Prints a table, but for columns in which no row says anything, with a blank line after it.

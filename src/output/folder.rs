@@ -4,9 +4,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use tempfile::Builder;
-
-use super::plain;
+use super::{folder_of, part, plain};
 
 /// The file that tells a folder of ours from others: it lists what is in it.
 const MARK: &str = "sahara-files.json";
@@ -102,7 +100,7 @@ impl OutputFolder {
         }
 
         // An old folder moves aside, and back when the new one cannot take its place.
-        let target = self.path.canonicalize().unwrap_or_else(|_| self.path.clone());
+        let target = self.target();
         if !target.exists() {
             return fs::rename(new.keep(), &target);
         }
@@ -119,16 +117,12 @@ impl OutputFolder {
 
     /// A new folder in the same directory, with the permissions of any new folder; it goes when it is dropped.
     fn beside(&self) -> io::Result<tempfile::TempDir> {
-        let target = self.path.canonicalize().unwrap_or_else(|_| self.path.clone());
-        let directory = target.parent().filter(|d| !d.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        let mut builder = Builder::new();
-        builder.prefix(".sahara-").suffix(".part");
-        #[cfg(unix)]
-        {
-            use std::os::unix::fs::PermissionsExt;
-            builder.permissions(fs::Permissions::from_mode(0o777));
-        }
-        builder.tempdir_in(directory)
+        part(0o777).tempdir_in(folder_of(&self.target()))
+    }
+
+    /// The folder itself, where `path` is a link to it.
+    fn target(&self) -> PathBuf {
+        self.path.canonicalize().unwrap_or_else(|_| self.path.clone())
     }
 
     fn error(&self, cause: io::Error) -> FolderError {

@@ -36,19 +36,12 @@ pub fn files(document: &Document, runs: &Runs, studies: &Studies) -> Vec<(String
 fn of_figure(figure: &Figure) -> Vec<(String, Vec<u8>)> {
     let mut files = vec![];
     let path = |ending: &str| format!("figures/{}.{ending}", figure.id);
-    match &figure.art {
-        Art::Chart(chart) => {
-            files.push((path("svg"), chart.svg(WIDTH).into_bytes()));
-            files.push((path("png"), chart.png(WIDTH)));
-        }
-        Art::Gallery(pictures) => {
-            files.extend(pictures.iter().enumerate().map(|(i, p)| (figure.picture_path(i), p.png.clone())));
-        }
-        Art::Overlay(overlay) => {
-            let pictures = overlay.pictures.iter().enumerate();
-            files.extend(pictures.map(|(i, p)| (figure.picture_path(i), p.png.clone())));
-        }
+    if let Art::Chart(chart) = &figure.art {
+        files.push((path("svg"), chart.svg(WIDTH).into_bytes()));
+        files.push((path("png"), chart.png(WIDTH)));
     }
+    let pictures = figure.pictures().iter().enumerate();
+    files.extend(pictures.map(|(i, picture)| (figure.picture_path(i), picture.png.clone())));
     if !figure.data.columns.is_empty() {
         files.push((path("csv"), csv(&figure.data)));
     }

@@ -79,18 +79,13 @@ fn table(table: &Table) -> String {
 }
 
 fn figure(figure: &Figure, text: &mut String) {
-    let pictures = match &figure.art {
+    let one = |i| format!("\\includegraphics[width=0.24\\linewidth]{{{}}}\n", figure.picture_path(i));
+    let pictures: String = match &figure.art {
         Art::Chart(_) => format!("\\includegraphics[width=\\linewidth]{{figures/{}.png}}\n", figure.id),
-        Art::Gallery(pictures) => grid(figure, pictures.len()),
-        Art::Overlay(overlay) => grid(figure, overlay.pictures.len()),
+        Art::Gallery(_) | Art::Overlay(_) => (0..figure.pictures().len()).map(one).collect(),
     };
     let caption = escaped(&figure.caption);
     *text += &format!("\\begin{{center}}\n{pictures}\\captionof{{figure}}{{{caption}}}\n\\end{{center}}\n\n");
-}
-
-fn grid(figure: &Figure, count: usize) -> String {
-    let one = |i| format!("\\includegraphics[width=0.24\\linewidth]{{{}}}\n", figure.picture_path(i));
-    (0..count).map(one).collect()
 }
 
 /// Text that LaTeX would read as commands, and what the usual fonts lack.

@@ -50,15 +50,10 @@ pub fn blocks(list: &[Block], text: &mut String) {
 fn figure(figure: &Figure, text: &mut String) {
     let mut image =
         |alt: &str, path: &str| *text += &format!("![{}]({path})\n", escaped(alt).replace('[', "(").replace(']', ")"));
-    match &figure.art {
-        Art::Chart(_) => image(&figure.alt, &format!("figures/{}.svg", figure.id)),
-        Art::Gallery(pictures) => {
-            pictures.iter().enumerate().for_each(|(i, p)| image(&p.alt, &figure.picture_path(i)));
-        }
-        Art::Overlay(overlay) => {
-            overlay.pictures.iter().enumerate().for_each(|(i, p)| image(&p.alt, &figure.picture_path(i)));
-        }
+    if matches!(figure.art, Art::Chart(_)) {
+        image(&figure.alt, &format!("figures/{}.svg", figure.id));
     }
+    figure.pictures().iter().enumerate().for_each(|(i, p)| image(&p.alt, &figure.picture_path(i)));
     *text += &format!("\n{}\n{}", prose(&figure.caption), command(&figure.command));
 }
 

@@ -35,7 +35,8 @@ pub struct Runs {
     pub notes: Vec<String>,
     /// The commands that measured what a study says.
     commands: BTreeMap<&'static str, Vec<String>>,
-    provenances: Vec<Provenance>,
+    /// Where the numbers come from, one for each command.
+    pub provenances: Vec<Provenance>,
     /// Runs that were kept as baselines, the oldest first.
     pub history: Vec<Entry>,
 }
@@ -248,11 +249,6 @@ impl Runs {
     pub fn elsewhere(&self, study: &str) -> Option<[&Machine; 2]> {
         let (own, leading) = (self.measured_on.get(study)?, &self.machines.first()?.machine);
         (own != leading).then_some([own, leading])
-    }
-
-    /// Where the numbers come from, one for each command.
-    pub fn provenances(&self) -> Vec<&Provenance> {
-        self.provenances.iter().collect()
     }
 
     /// The commands that measured a study; the one that would where none has.

@@ -145,6 +145,15 @@ pub struct Missing {
 }
 
 impl Figure {
+    /// The pictures of pixels that it consists of; none in a chart.
+    pub fn pictures(&self) -> &[Thumbnail] {
+        match &self.art {
+            Art::Chart(_) => &[],
+            Art::Gallery(pictures) => pictures,
+            Art::Overlay(overlay) => &overlay.pictures,
+        }
+    }
+
     /// Where a picture of it is, in the folder of a report.
     pub fn picture_path(&self, index: usize) -> String {
         format!("figures/{}-{}.png", self.id, index + 1)

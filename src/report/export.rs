@@ -57,17 +57,14 @@ pub fn to_json(value: &impl Serialize) -> Vec<u8> {
     bytes
 }
 
-/// One row per record under a row of names; see the [module](super) for the form of nested fields.
+/// As [`to_tidy_csv`], but for the configurations, whose keys differ: they are JSON text.
 pub fn to_csv(records: &[Record]) -> Vec<u8> {
-    let mut writer = csv::Writer::from_writer(vec![]);
-    for (i, record) in records.iter().enumerate() {
-        let fields = flat(record);
-        if i == 0 {
-            writer.write_record(fields.iter().map(|(name, _)| name)).expect("memory takes every write");
-        }
-        writer.write_record(fields.iter().map(|(_, value)| value)).expect("all records have the same fields");
-    }
-    writer.into_inner().expect("memory takes every write")
+    let row = |record: &Record| {
+        let mut row = serde_json::to_value(record).expect("records have text keys and finite numbers");
+        row["config"] = row["config"].to_string().into();
+        row
+    };
+    to_tidy_csv(&records.iter().map(row).collect::<Vec<Value>>())
 }
 
 /// One record per line.
@@ -110,21 +107,6 @@ fn flatten(name: &str, value: Value, fields: &mut Vec<(String, String)>) {
         }
         value => fields.push((name.into(), text(value))),
     }
-}
-
-/// Name and text of every field, in the order of the record.
-fn flat(record: &Record) -> Vec<(String, String)> {
-    let Ok(Value::Object(fields)) = serde_json::to_value(record) else { unreachable!("a record is a map of fields") };
-    let mut flat = vec![];
-    for (name, value) in fields {
-        match value {
-            Value::Object(inner) if name == "provenance" || name == "counts" => {
-                flat.extend(inner.into_iter().map(|(key, value)| (format!("{name}.{key}"), text(value))));
-            }
-            value => flat.push((name, text(value))),
-        }
-    }
-    flat
 }
 
 fn text(value: Value) -> String {

@@ -1,7 +1,10 @@
 //! Single rays of a picture, and what every structure does for them: data of a part of the page that is looked into.
 
-/// Some rays of a picture, each with all answers.
-#[derive(Clone, Debug, Default, PartialEq)]
+use serde::ser::SerializeSeq;
+use serde::{Serialize, Serializer};
+
+/// Some rays of a picture, each with all answers: columns, so that a few thousand rays stay small on a page.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Inspector {
     /// Width and height of the picture in pixels.
     pub size: [u32; 2],
@@ -9,23 +12,16 @@ pub struct Inspector {
     pub which: String,
     /// The command that asks all structures again, up to the text of the ray.
     pub command: String,
-    /// Row by row.
-    pub rays: Vec<InspectedRay>,
+    /// Numbers of the pixels, row by row from the top left.
+    pub pixels: Vec<u32>,
+    /// The rays through the centres of the pixels, as `--ray` reads them.
+    pub rays: Vec<String>,
+    /// What exact arithmetic answers.
+    pub truths: Vec<Answer>,
+    /// The different answers of the structures.
+    pub answers: Vec<Vec<Answer>>,
     /// Labels, and what each structure does for each ray.
     pub structures: Vec<InspectedStructure>,
-}
-
-/// A ray through the centre of a pixel.
-#[derive(Clone, Debug, PartialEq)]
-pub struct InspectedRay {
-    /// Number of the pixel, row by row from the top left.
-    pub pixel: u32,
-    /// As `--ray` reads it.
-    pub text: String,
-    /// What exact arithmetic answers.
-    pub truth: Answer,
-    /// The different answers of the structures.
-    pub answers: Vec<Answer>,
 }
 
 /// A closest hit, or that there is none.
@@ -34,6 +30,25 @@ pub struct Answer {
     pub hit: Option<InspectedHit>,
     /// What is wrong with it, in a few words; empty where nothing is.
     pub wrong: &'static str,
+}
+
+/// `[t, triangle, u, v]`, or `[]` of a miss; what is wrong with it stands behind.
+impl Serialize for Answer {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut fields = serializer.serialize_seq(None)?;
+        if let Some(hit) = &self.hit {
+            fields.serialize_element(&hit.t)?;
+            fields.serialize_element(&hit.triangle)?;
+            for weight in hit.weights {
+                // As many digits as are printed.
+                fields.serialize_element(&(libm::round(weight * 1e9) / 1e9))?;
+            }
+        }
+        if !self.wrong.is_empty() {
+            fields.serialize_element(self.wrong)?;
+        }
+        fields.end()
+    }
 }
 
 /// A hit as it is printed.
@@ -46,7 +61,7 @@ pub struct InspectedHit {
 }
 
 /// What one structure does, ray by ray. What it does not tell is empty.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct InspectedStructure {
     pub label: String,
     /// Inner nodes and leaves entered.

@@ -1,7 +1,6 @@
 //! What a run leaves: records as JSON, CSV and Markdown, tables for people.
 #![doc = include_str!("SCHEMA.md")]
 
-mod counts;
 pub mod document;
 mod export;
 pub mod inspector;
@@ -12,9 +11,8 @@ mod statement;
 mod table;
 pub mod words;
 
-pub use counts::CaseCounts;
 pub use export::{Export, to_csv, to_json, to_jsonl, to_tidy_csv};
-pub use record::Record;
+pub use record::{CaseCounts, Record};
 pub use statement::Statement;
 pub use table::{Cell, Column, Screen, Table, Tone, escaped, to_markdown, wrapped};
 

@@ -145,19 +145,11 @@ impl Table {
     }
 
     /// The columns that are `kept`, and the first one.
-    fn with_columns(mut self, mut kept: Vec<bool>) -> Self {
+    fn with_columns(self, mut kept: Vec<bool>) -> Self {
         kept.iter_mut().take(1).for_each(|first| *first = true);
-        let keep = |i: &mut usize| {
-            *i += 1;
-            kept[*i - 1]
-        };
-        let (mut i, columns) = (0, &mut self.columns);
-        columns.retain(|_| keep(&mut i));
-        for row in &mut self.rows {
-            let mut i = 0;
-            row.retain(|_| keep(&mut i));
-        }
-        self
+        let columns = only(self.columns, &kept);
+        let rows = self.rows.into_iter().map(|row| only(row, &kept)).collect();
+        Self { columns, rows, ..self }
     }
 
     /// Whether it has rows that say something beside their names.
@@ -239,6 +231,11 @@ impl Table {
         }
         text
     }
+}
+
+/// The `items` that are `kept`.
+fn only<T>(items: Vec<T>, kept: &[bool]) -> Vec<T> {
+    items.into_iter().zip(kept).filter(|(_, kept)| **kept).map(|(item, _)| item).collect()
 }
 
 /// Tables and the lines below them as one Markdown document.

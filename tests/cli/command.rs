@@ -4,6 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
+use serde_json::Value;
 use tempfile::TempDir;
 
 pub const RIGHT: i32 = 0;
@@ -11,6 +12,11 @@ pub const USAGE: i32 = 1;
 pub const WRONG: i32 = 2;
 pub const REGRESSION: i32 = 3;
 pub const NOISE: i32 = 4;
+
+/// The words of a command line in which nothing is quoted.
+pub fn words(line: &str) -> Vec<&str> {
+    line.split(' ').collect()
+}
 
 /// The command, whatever the environment of the tests is: without real meshes.
 pub fn command(args: &[&str]) -> Command {
@@ -39,13 +45,12 @@ pub fn prints(args: &[&str]) -> String {
     stdout(&output)
 }
 
-/// The command fails, prints nothing as a result, and one message that holds all of `parts`. The message is given.
+/// A command has failed with one message, which holds all of `parts` and is given, and printed nothing as a result.
 #[track_caller]
-pub fn refuses(args: &[&str], parts: &[&str]) -> String {
-    let output = sahara(&[&["--quiet"], args].concat());
-    let message = stderr(&output);
+fn refused(output: &Output, parts: &[&str], args: &[&str]) -> String {
+    let message = stderr(output);
     assert_eq!(output.status.code(), Some(USAGE), "{args:?}: {message}");
-    assert!(output.stdout.is_empty(), "{args:?} prints {}", stdout(&output));
+    assert!(output.stdout.is_empty(), "{args:?} prints {}", stdout(output));
     assert!(message.starts_with("error: "), "{args:?}: {message}");
     assert!(!message.contains("panicked") && !message.contains("backtrace"), "{args:?}: {message}");
     for part in parts {
@@ -54,11 +59,30 @@ pub fn refuses(args: &[&str], parts: &[&str]) -> String {
     message
 }
 
+/// As [`refused`], in one line.
+#[track_caller]
+pub fn refused_in_a_line(output: &Output, parts: &[&str]) {
+    let message = refused(output, parts, &[]);
+    assert_eq!(message.lines().count(), 1, "{message}");
+}
+
+/// As [`refused`], by the command with these arguments.
+#[track_caller]
+pub fn refuses(args: &[&str], parts: &[&str]) -> String {
+    refused(&sahara(&[&["--quiet"], args].concat()), parts, args)
+}
+
 /// As [`refuses`], in one line.
 #[track_caller]
 pub fn refuses_in_a_line(args: &[&str], parts: &[&str]) {
     let message = refuses(args, parts);
     assert_eq!(message.lines().count(), 1, "{args:?}: {message}");
+}
+
+/// What a file of JSON holds.
+#[track_caller]
+pub fn json(path: impl AsRef<Path>) -> Value {
+    serde_json::from_slice(&fs::read(path).unwrap()).unwrap()
 }
 
 /// The path of a new file.

@@ -1,15 +1,9 @@
 //! `counts` and the studies of curves from outside: what they print, keep and refuse.
 
-use std::path::Path;
-
-use serde_json::Value;
 use tempfile::TempDir;
 
-use super::command::{prints, refuses};
-
-fn json(path: &Path) -> Value {
-    serde_json::from_slice(&std::fs::read(path).unwrap()).unwrap()
-}
+use super::command::{json, prints, refuses, refuses_in_a_line};
+use super::journal::cases;
 
 #[test]
 fn counts_are_printed_and_exported() {
@@ -36,10 +30,6 @@ fn counts_are_printed_and_exported() {
     assert_eq!(counted(), measures);
     let long = prints(&[&small[..], &["--histograms"]].concat());
     assert!(long.contains("Cube, median-kd: leaves by size"), "{long}");
-
-    refuses(&["study", "counts", "cub"], &["cub", "did you mean Cube"]);
-    refuses(&["study", "counts", "cube", "-s", "octree"], &["octree", "median-kd"]);
-    refuses(&["study", "counts", "cube", "--export-json", "/no/such/folder/f.json"], &["/no/such/folder"]);
 }
 
 /// A study that takes no time, in a folder.
@@ -59,8 +49,7 @@ fn a_study_goes_on_where_it_stopped_and_repeats_what_it_said() {
     for study in STUDIES {
         let folder = TempDir::new().unwrap();
         let dir = folder.path().to_str().unwrap();
-        let journal = folder.path().join(study[0]);
-        let cases = || std::fs::read_dir(&journal).unwrap().map(|entry| entry.unwrap().path()).collect::<Vec<_>>();
+        let cases = || cases(folder.path(), study[0]);
         let one = [&small(study, dir)[..], &["--epochs", "1"]].concat();
         let first = prints(&one);
         let measured = cases().len();
@@ -76,7 +65,7 @@ fn a_study_goes_on_where_it_stopped_and_repeats_what_it_said() {
         prints(&[&small(study, dir)[..], &["--epochs", "2"]].concat());
         assert_eq!(cases().len(), 2 * measured, "{study:?}");
 
-        refuses(&[&one[..], &["--seed", "2"]].concat(), &["seed was 1 and is 2", "--fresh"]);
+        refuses_in_a_line(&[&one[..], &["--seed", "2"]].concat(), &["seed was 1 and is 2", "--fresh"]);
     }
 }
 

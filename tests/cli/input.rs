@@ -1,21 +1,11 @@
 //! Mesh files as users give them: what is wrong is said, and so is what is left out.
 
-use std::fs;
-
-use tempfile::TempDir;
-
-use super::command::{prints, refuses_in_a_line};
-
-fn put(folder: &TempDir, name: &str, text: impl AsRef<[u8]>) -> String {
-    let path = folder.path().join(name);
-    fs::write(&path, text).unwrap();
-    path.to_str().unwrap().into()
-}
+use super::command::{prints, refuses_in_a_line, write};
 
 #[test]
 fn render_and_counts_print_what_was_left_out() {
     let folder = tempfile::tempdir().unwrap();
-    let mesh = put(&folder, "a.obj", "mtllib no.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2\n");
+    let mesh = write(&folder, "a.obj", "mtllib no.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2\n");
     let picture = folder.path().join("a.png");
     let rendered = prints(&["render", &mesh, "-o", picture.to_str().unwrap(), "--size", "8x8"]);
     let counted = prints(&["study", "counts", &mesh, "-s", "median-kd", "-w", "primary", "--rays", "16"]);
@@ -33,15 +23,11 @@ fn what_cannot_be_shown_is_refused_by_its_reason() {
         refuses_in_a_line(&["render", file, "-o", picture.to_str().unwrap()], parts);
         assert!(!picture.exists());
     };
-    let far = put(&folder, "far.obj", "v -3e38 0 0\nv 3e38 0 0\nv 0 3e38 0\nf 1 2 3\n");
+    let far = write(&folder, "far.obj", "v -3e38 0 0\nv 3e38 0 0\nv 0 3e38 0\nf 1 2 3\n");
     refused(&far, &["far", "its coordinates reach from", "3e38"]);
-    let points = put(&folder, "points.obj", "v 0 0 0\nv 1 0 0\np 1 2\n");
+    let points = write(&folder, "points.obj", "v 0 0 0\nv 1 0 0\np 1 2\n");
     refused(&points, &["points.obj", "no triangles: 2 vertices"]);
     let scene = "name = \"S\"\n[camera]\neye = [0, 0, 5]\ntarget = [0, 0, 0]\nvertical_fov = 40\n\
                  [[objects]]\nmesh = \"cube\"\n[[objects]]\nmesh = \"points.obj\"\n";
-    refused(&put(&folder, "s.toml", scene), &["s.toml", "`objects[1].mesh`", "points.obj", "no triangles"]);
-    let mut head = [b"SAHARAYS\x01\0\0\0".as_slice(), &[0; 60]].concat();
-    head.resize(72, 0);
-    let rays = put(&folder, "a.rays", head);
-    refuses_in_a_line(&["rays", "show", &rays], &["a.rays", "cut short", "72 bytes"]);
+    refused(&write(&folder, "s.toml", scene), &["s.toml", "`objects[1].mesh`", "points.obj", "no triangles"]);
 }

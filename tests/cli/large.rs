@@ -2,7 +2,8 @@
 
 use std::fs;
 
-use super::command::{RIGHT, path_text, prints, refuses, sahara, stderr};
+use super::command::{json, path_text, prints, refuses, write};
+use crate::conformance::TREES;
 
 /// A scene file with a terrain of so many triangles.
 fn terrain(triangles: &str) -> String {
@@ -20,17 +21,15 @@ const BOUND: f64 = 200.0;
 fn builds_hold_less_than_200_bytes_a_triangle() {
     let triangles = 200_000;
     let folder = tempfile::tempdir().unwrap();
-    let (scene, json) = (folder.path().join("ground.toml"), folder.path().join("r.json"));
-    fs::write(&scene, terrain(&triangles.to_string())).unwrap();
-    let (scene, json) = (path_text(&scene), path_text(&json));
-    let structures = ["median-kd", "sah-kd", "sah-kd-wide", "sah-kd-tight", "sah-hybrid", "sah-bvh"];
+    let scene = write(&folder, "ground.toml", &terrain(&triangles.to_string()));
+    let export = path_text(&folder.path().join("r.json"));
     let mut args = vec!["compare", &scene, "--quick", "--in-process", "-w", "primary", "--size", "16x16"];
-    args.extend(["--export-json", &json]);
-    structures.iter().for_each(|name| args.extend(["-s", name]));
-    let output = sahara(&args);
-    assert_eq!(output.status.code(), Some(RIGHT), "{}", stderr(&output));
-    let records: Vec<serde_json::Value> = serde_json::from_slice(&fs::read(&json).unwrap()).unwrap();
-    assert_eq!(records.len(), structures.len());
+    args.extend(["--export-json", &export]);
+    TREES.iter().for_each(|name| args.extend(["-s", name]));
+    prints(&args);
+    let records = json(&export);
+    let records = records.as_array().unwrap();
+    assert_eq!(records.len(), TREES.len());
     for record in records {
         assert_eq!(record["triangles"], triangles);
         let peak =

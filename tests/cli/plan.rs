@@ -1,14 +1,15 @@
 //! `study plan`: jobs that need each other in nothing, one file each, and what becomes of them.
 
-use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
-use serde_json::Value;
 use tempfile::TempDir;
 
-use super::command::{RIGHT, USAGE, command, prints, refuses_in_a_line, sahara, stderr, stdout};
+use super::command::{
+    RIGHT, command, json, prints, refused_in_a_line, refuses, refuses_in_a_line, sahara, stderr, stdout,
+};
+use super::journal::{answers, cases};
 
 /// A study of seconds.
 const SMALL: [&str; 9] = ["attribution", "--rays", "64", "--runs", "1", "--budget", "1", "--epochs", "2"];
@@ -50,35 +51,6 @@ fn done(line: &str) {
     let output = run(line);
     assert_eq!(output.status.code(), Some(RIGHT), "{}", stderr(&output));
     assert!(output.stdout.is_empty() && file(line).is_file());
-}
-
-fn json(path: &Path) -> Value {
-    serde_json::from_slice(&fs::read(path).unwrap()).unwrap()
-}
-
-/// What no clock decides, of every case: by its key. A case that is there twice is found out.
-fn answers(folder: &Path, study: &str) -> BTreeMap<String, Value> {
-    let mut cases = BTreeMap::new();
-    for entry in fs::read_dir(folder.join(study)).unwrap() {
-        let mut file = json(&entry.unwrap().path());
-        let mut case = file["case"].take();
-        if !case["epoch"]["structures"].is_null() {
-            case = case["epoch"].take();
-        }
-        case["circumstances"] = Value::Null;
-        for structure in case["structures"].as_array_mut().unwrap() {
-            structure["build_ns"] = Value::Null;
-            structure["details"]["build_peak_bytes"] = Value::Null;
-            for rays in structure["rays"].as_array_mut().unwrap() {
-                rays["ns"] = rays["ns"].as_array().unwrap().len().into();
-                rays["details"]["instructions_per_ray"] = Value::Null;
-                rays["parts"].as_array_mut().unwrap().iter_mut().for_each(|part| part["ns"] = Value::Null);
-            }
-        }
-        let key = file["key"].as_str().unwrap().to_owned();
-        assert!(cases.insert(key.clone(), case).is_none(), "{key} is there twice");
-    }
-    cases
 }
 
 #[test]
@@ -147,9 +119,7 @@ fn what_cannot_be_planned_is_one_sentence() {
     refuses_in_a_line(&["study", "plan", "attribution", "--scenes", "cub"], &["cub", "Cube"]);
     refuses_in_a_line(&["study", "plan", "attribution", "costs", "--scenes"], &["--scenes SCENE"]);
     refuses_in_a_line(&["study", "plan", "attribution", "--scenes", "cube", "--dir", "a\tb"], &["tab"]);
-    let output = sahara(&["study", "plan", "attribution", "--quick", "--epoch", "3"]);
-    assert!(output.status.code() == Some(USAGE) && stderr(&output).contains("--epoch"), "{}", stderr(&output));
-    assert!(output.stdout.is_empty());
+    refuses(&["study", "plan", "attribution", "--quick", "--epoch", "3"], &["--epoch"]);
 }
 
 #[test]
@@ -174,7 +144,7 @@ fn jobs_in_any_order_are_the_study() {
     assert_eq!(fs::read_dir(apart.join("attribution")).unwrap().count(), 4);
 
     // Each says where it comes from, and names the run and not the job.
-    let case = json(&file(&lines[0]));
+    let case = json(file(&lines[0]));
     for field in ["host", "cpu", "commit", "target_features", "date", "command"] {
         assert!(!case["provenance"][field].as_str().unwrap().is_empty(), "{field}");
     }
@@ -197,7 +167,7 @@ fn detailed_studies_and_whole_scenes_are_jobs_as_well() {
     let lines = plan(&apart, &["counts", "--scenes", "cube", "-s", "sah-kd", "-w", "primary", "--rays", "100"]);
     assert_eq!(lines.len(), 1);
     done(&lines[0]);
-    assert_eq!(json(&file(&lines[0]))["study"], "counts");
+    assert_eq!(json(file(&lines[0]))["study"], "counts");
 }
 
 #[test]
@@ -212,23 +182,14 @@ fn a_job_measures_once_and_refuses_what_is_not_its_own() {
     assert!(stderr(&again).contains("nothing is measured") && stderr(&again).lines().count() == 1);
     assert_eq!(fs::read(&path).unwrap(), before);
 
-    let refused = |line: &str, part: &str| {
-        let output = run(line);
-        let said = stderr(&output);
-        assert_eq!((output.status.code(), said.lines().count()), (Some(USAGE), 1), "{said}");
-        assert!(said.contains(part), "{said}");
-    };
+    let refused = |line: &str, part: &str| refused_in_a_line(&run(line), &[part]);
     refused(&lines[0].replace("--rays 64", "--rays 65"), "rays was 64 and is 65");
     refused(&lines[1].replace(file(&lines[1]).to_str().unwrap(), path.to_str().unwrap()), "holds the case");
     assert_eq!(fs::read(&path).unwrap(), before);
-    let text = String::from_utf8(before).unwrap();
-    for (name, value) in [("cpu", "Other"), ("commit", "decade"), ("build", "0123")] {
-        let mut case: Value = serde_json::from_str(&text).unwrap();
-        case["provenance"][name] = value.into();
-        fs::write(&path, serde_json::to_string(&case).unwrap()).unwrap();
-        refused(&lines[0], "and is ");
-        refused(&lines[0], &format!("{name} was {value}"));
-    }
+    let mut case = json(&path);
+    case["provenance"]["build"] = "0123".into();
+    fs::write(&path, case.to_string()).unwrap();
+    refused(&lines[0], "build was 0123 and is ");
     // The study refuses it as well, and the report keeps it apart.
     let dir = folder.path().to_str().unwrap();
     let study = [&["study", "attribution", "cube", "--dir", dir], &SMALL[1..]].concat();
@@ -244,7 +205,7 @@ fn of_two_jobs_at_one_file_one_wins_and_both_are_content() {
     assert!(both.iter().all(|output| output.status.code() == Some(RIGHT)), "{both:?}");
     assert!(both.iter().filter(|output| output.stderr.is_empty()).count() <= 1, "{both:?}");
     assert_eq!(fs::read_dir(folder.path().join("attribution")).unwrap().count(), 1);
-    assert_eq!(json(&file(&lines[0]))["study"], "attribution");
+    assert_eq!(json(file(&lines[0]))["study"], "attribution");
 }
 
 #[test]
@@ -255,10 +216,7 @@ fn a_job_that_is_killed_leaves_no_result() {
     std::thread::sleep(std::time::Duration::from_millis(300));
     child.kill().unwrap();
     child.wait().unwrap();
-    let left = fs::read_dir(folder.path().join("attribution")).map_or(0, |entries| {
-        entries.filter(|entry| entry.as_ref().unwrap().path().extension().is_some_and(|e| e == "json")).count()
-    });
-    assert_eq!(left, 0);
+    assert!(cases(folder.path(), "attribution").is_empty());
     done(&lines[0]);
 }
 
@@ -268,10 +226,7 @@ fn what_cannot_be_written_is_one_sentence_and_no_file() {
     let lines = plan(&folder.path().join("runs"), &[&SMALL[..], &["--scenes", "cube"]].concat());
     // A file stands where the folder should be.
     fs::write(folder.path().join("runs"), "x").unwrap();
-    let output = run(&lines[0]);
-    let said = stderr(&output);
-    assert_eq!((output.status.code(), said.lines().count()), (Some(USAGE), 1), "{said}");
-    assert!(said.contains("cannot write") && said.contains("runs/attribution"), "{said}");
+    refused_in_a_line(&run(&lines[0]), &["cannot write", "runs/attribution"]);
     fs::remove_file(folder.path().join("runs")).unwrap();
 
     // As on a full disk: the system takes no more than a thousand bytes of a file.
@@ -281,9 +236,7 @@ fn what_cannot_be_written_is_one_sentence_and_no_file() {
         let mut command = Command::new("sh");
         command.args(["-c", &shell, env!("CARGO_BIN_EXE_sahara")]).env_remove("SAHARA_DATA");
         let output = command.stdin(Stdio::null()).output().unwrap();
-        let said = stderr(&output);
-        assert_eq!((output.status.code(), said.lines().count()), (Some(USAGE), 1), "{said}");
-        assert!(said.contains("cannot write") && said.contains("give it room"), "{said}");
+        refused_in_a_line(&output, &["cannot write", "give it room"]);
         assert_eq!(fs::read_dir(folder.path().join("runs/attribution")).unwrap().count(), 0, "nothing is left");
     }
     done(&lines[0]);
@@ -299,7 +252,7 @@ fn the_report_keeps_machines_apart_and_names_what_is_missing() {
     // As another machine would have measured them, but for one.
     fs::create_dir_all(there.join("compare")).unwrap();
     for (i, line) in planned(&here).iter().enumerate().filter(|(i, _)| *i != 2) {
-        let mut case = json(&file(line));
+        let mut case = json(file(line));
         case["provenance"]["cpu"] = "Another Processor".into();
         fs::write(there.join(format!("compare/{i}.json")), case.to_string()).unwrap();
     }
@@ -320,12 +273,8 @@ fn the_report_keeps_machines_apart_and_names_what_is_missing() {
     let other: Vec<String> = planned(&there).iter().map(|line| line.replace("--rays 256", "--rays 64")).collect();
     done(&other[2]);
     let output = report(&[&here, &there]);
-    let said = stderr(&output);
-    assert_eq!((output.status.code(), said.lines().count()), (Some(USAGE), 1), "{said}");
-    assert!(
-        said.contains("rays is 256 in the first and 64 in the second") && said.matches(".json").count() == 2,
-        "{said}"
-    );
+    refused_in_a_line(&output, &["rays is 256 in the first and 64 in the second"]);
+    assert_eq!(stderr(&output).matches(".json").count(), 2, "{}", stderr(&output));
 }
 
 #[test]

@@ -7,7 +7,8 @@ use std::process::Stdio;
 use serde_json::Value;
 use tempfile::TempDir;
 
-use super::command::{command, prints, refuses, stderr};
+use super::command::{command, json, prints, refuses, stderr};
+use super::journal;
 
 const SMALL: [&str; 13] =
     ["compare", "cube", "torus", "-s", "sah-kd", "-s", "sah-bvh", "-w", "diffuse", "--rays", "256", "--epochs", "2"];
@@ -34,9 +35,7 @@ fn all_in_one_process_answers_the_same() {
 
 /// The cases of a journal, by their keys.
 fn cases(folder: &Path) -> Vec<Value> {
-    let entries = std::fs::read_dir(folder.join("compare")).unwrap();
-    let read = |path| serde_json::from_slice(&std::fs::read(path).unwrap()).unwrap();
-    let mut cases: Vec<Value> = entries.map(|entry| read(entry.unwrap().path())).collect();
+    let mut cases: Vec<Value> = journal::cases(folder, "compare").iter().map(json).collect();
     cases.sort_by_key(|case| case["key"].as_str().unwrap().to_owned());
     cases
 }

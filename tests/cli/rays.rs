@@ -5,7 +5,7 @@ use std::path::Path;
 
 use tempfile::TempDir;
 
-use super::command::{command, stderr, stdout};
+use super::command::{command, refused_in_a_line, stderr, stdout};
 
 fn sahara(folder: &Path, args: &[&str]) -> (Option<i32>, String, String) {
     let output = command(args).current_dir(folder).output().unwrap();
@@ -23,9 +23,7 @@ fn right(folder: &TempDir, args: &[&str]) -> String {
 /// The command refuses in one line that holds all of `parts`.
 #[track_caller]
 fn refuses(folder: &TempDir, args: &[&str], parts: &[&str]) {
-    let (code, printed, errors) = sahara(folder.path(), args);
-    assert!(code == Some(1) && printed.is_empty() && errors.lines().count() == 1, "{args:?}: {printed}{errors}");
-    assert!(parts.iter().all(|part| errors.contains(part)), "{args:?}: {errors}");
+    refused_in_a_line(&command(args).current_dir(folder).output().unwrap(), parts);
 }
 
 fn records(folder: &TempDir, name: &str) -> Vec<serde_json::Value> {

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use tempfile::TempDir;
 
-use super::command::{prints, refuses_in_a_line};
+use super::command::{prints, refuses_in_a_line, words};
 
 fn text(path: &Path) -> &str {
     path.to_str().expect("the path is UTF-8")
@@ -15,22 +15,8 @@ fn text(path: &Path) -> &str {
 fn runs() -> TempDir {
     let folder = TempDir::new().unwrap();
     let file = folder.path().join("compare.json");
-    prints(&[
-        "compare",
-        "cube",
-        "-s",
-        "median-kd",
-        "-s",
-        "sah-kd",
-        "--rays",
-        "500",
-        "--runs",
-        "1",
-        "--epochs",
-        "1",
-        "--export-json",
-        text(&file),
-    ]);
+    let small = "compare cube -s median-kd -s sah-kd --rays 500 --runs 1 --epochs 1 --export-json";
+    prints(&[words(small), vec![text(&file)]].concat());
     folder
 }
 

@@ -5,37 +5,26 @@ use std::path::Path;
 
 use sahara::render::Picture;
 
-use super::command::{RIGHT, USAGE, command, path_text, refuses, refuses_in_a_line, sahara, small, stderr, stdout};
+use super::command::{
+    command, json, path_text, prints, refused_in_a_line, refuses_in_a_line, sahara, small, stderr, words,
+};
 
 #[test]
 fn accuracy_prints_exports_and_draws_what_it_finds() {
     let directory = tempfile::tempdir().unwrap();
     let file = |name: &str| path_text(&directory.path().join(name));
-    let (json, svg, png) = (file("a.json"), file("a.svg"), file("a.png"));
-    let mut args = vec!["study", "accuracy", "cube", "--rays", "300", "--runs", "2", "--budget", "1"];
-    args.extend([
-        "-s",
-        "sah-kd",
-        "-t",
-        "exact",
-        "-t",
-        "moller-trumbore",
-        "--workload",
-        "vertex",
-        "--workload",
-        "uniform",
-    ]);
+    let (export, svg, png) = (file("a.json"), file("a.svg"), file("a.png"));
+    let small = "study accuracy cube --rays 300 --runs 2 --budget 1 --workload vertex --workload uniform";
+    let over = "-s sah-kd -t exact -t moller-trumbore";
     let dir = file("runs");
-    args.extend(["--export-json", &json, "--plot", &svg, "--plot", &png, "--dir", &dir]);
-    let output = sahara(&args);
-    assert_eq!(output.status.code(), Some(RIGHT), "{}", stderr(&output));
-    let printed = stdout(&output);
+    let files = ["--export-json", &export, "--plot", &svg, "--plot", &png, "--dir", &dir];
+    let printed = prints(&[words(small), words(over), files.into()].concat());
     for text in
         ["vertex: 300 rays through vertices", "uniform: 300 rays", "sah-kd:test=moller-trumbore", "dominated by"]
     {
         assert!(printed.contains(text), "{text} is not in {printed}");
     }
-    let export: serde_json::Value = serde_json::from_slice(&std::fs::read(json).unwrap()).unwrap();
+    let export = json(&export);
     let records = &export["result"];
     assert_eq!((&export["study"], records.as_array().unwrap().len()), (&"accuracy".into(), 4));
     let exact = records.as_array().unwrap().iter().filter(|record| record["triangle_test"] == "exact");
@@ -43,32 +32,24 @@ fn accuracy_prints_exports_and_draws_what_it_finds() {
     let bounded = |record: &serde_json::Value| (record["error_bound"].as_f64().unwrap() - 0.009_936).abs() < 1e-6;
     assert!(exact.clone().all(|record| record["error"] == 0.0 && bounded(record)), "{records}");
     assert_eq!(exact.count(), 2);
-    assert!(std::fs::read_to_string(svg).unwrap().contains("moller-trumbore"));
+    assert!(fs::read_to_string(svg).unwrap().contains("moller-trumbore"));
     assert_eq!(Picture::read(Path::new(&png)).unwrap().size()[0], 1600);
 }
 
 #[test]
 fn a_study_prints_its_table_and_writes_its_cases() {
     let directory = tempfile::tempdir().unwrap();
-    let json = path_text(&directory.path().join("s.json"));
+    let export = path_text(&directory.path().join("s.json"));
     let few = ["study", "self-intersection", "--rays", "20", "-s", "sah-kd", "-s", "brute-force"];
-    let output = sahara(&[&few[..], &["--export-json", &json]].concat());
-    assert_eq!(output.status.code(), Some(RIGHT), "{}", stderr(&output));
-    assert!(
-        stdout(&output).contains("waechter-binder") && stdout(&output).contains("r=10 @1e5"),
-        "{}",
-        stdout(&output)
-    );
+    let printed = prints(&[&few[..], &["--export-json", &export]].concat());
+    assert!(printed.contains("waechter-binder") && printed.contains("r=10 @1e5"), "{printed}");
 
-    let study: serde_json::Value = serde_json::from_slice(&fs::read(&json).unwrap()).unwrap();
+    let study = json(&export);
     let rows = study["result"].as_array().unwrap();
     assert_eq!(rows.len(), 6 * 2 * 2 * 5);
     let bounded = |row: &&serde_json::Value| row["offset"] == "error-bounded" && row["point"] == "corners";
     let mut bounded = rows.iter().filter(bounded);
     assert!(bounded.all(|row| row["outward"] == 20 && row["acne"] == 0 && row["leaks"] == 0), "{rows:?}");
-
-    refuses(&["study", "nothing"], &["nothing"]);
-    refuses_in_a_line(&["study", "self-intersection", "--export-json", "no/such/s.json"], &["no/such/s.json"]);
 }
 
 #[test]
@@ -87,19 +68,15 @@ fn real_meshes_that_are_asked_for_are_never_replaced() {
     let empty = tempfile::tempdir().unwrap();
     let args = ["--quiet", "study", "break-even", "cube", "dragon", "--meshes", "real"];
     let output = command(&args).env("SAHARA_DATA", empty.path()).output().unwrap();
-    let said = stderr(&output);
-    assert_eq!(output.status.code(), Some(USAGE), "{said}");
-    assert!(
-        said.contains("real meshes of Dragon are not there: `sahara fetch`") && said.lines().count() == 1,
-        "{said}"
-    );
+    refused_in_a_line(&output, &["real meshes of Dragon are not there: `sahara fetch`"]);
 }
 
 #[test]
 fn a_picture_that_there_is_not_is_refused_before_anything_is_measured() {
     let directory = tempfile::tempdir().unwrap();
     let (dir, svg) = (path_text(&directory.path().join("runs")), path_text(&directory.path().join("a.svg")));
-    refuses(&["study", "self-intersection", "--rays", "20", "--plot", &svg, "--dir", &dir], &["no picture", "--plot"]);
+    let few = ["study", "self-intersection", "--rays", "20", "--plot", &svg, "--dir", &dir];
+    refuses_in_a_line(&few, &["no picture", "--plot"]);
     assert!(!Path::new(&dir).exists() && !Path::new(&svg).exists());
 }
 
@@ -107,8 +84,8 @@ fn a_picture_that_there_is_not_is_refused_before_anything_is_measured() {
 fn two_results_are_not_written_to_one_place() {
     let directory = tempfile::tempdir().unwrap();
     let [one, again] = ["a.json", "./a.json"].map(|name| format!("{}/{name}", path_text(directory.path())));
-    let twice = ["--export-json", &one, "--export-csv", &again];
-    refuses(&[&["study", "self-intersection", "--rays", "20"][..], &twice].concat(), &["two results", "a.json"]);
+    let twice = ["study", "self-intersection", "--rays", "20", "--export-json", &one, "--export-csv", &again];
+    refuses_in_a_line(&twice, &["two results", "a.json"]);
 }
 
 /// A limit of the memory that may be addressed stands for one of the threads.
@@ -116,20 +93,11 @@ fn two_results_are_not_written_to_one_place() {
 #[cfg(target_os = "linux")]
 fn more_threads_than_the_system_gives_are_refused_before_anything_is_measured() {
     let folder = tempfile::tempdir().unwrap();
-    let limited = |words: &str| {
-        let script = format!("ulimit -v 1500000; exec {} {words}", env!("CARGO_BIN_EXE_sahara"));
+    for words in ["study threads cube --most 1024", "study counts cube --threads 1024"] {
+        let script = format!("ulimit -v 1500000; exec {} -q {words}", env!("CARGO_BIN_EXE_sahara"));
         let mut command = std::process::Command::new("sh");
         let output = command.args(["-c", &script]).current_dir(folder.path()).output().unwrap();
-        assert_eq!(output.status.code(), Some(USAGE), "{}", stderr(&output));
-        stderr(&output)
-    };
-    for words in ["study threads cube --most 1024", "study counts cube --threads 1024"] {
-        let message = limited(&format!("-q {words}"));
-        assert!(message.starts_with("error: the system does not give 1024 threads"), "{message}");
-        assert!(message.contains("ask for fewer") && message.lines().count() == 1, "{message}");
+        refused_in_a_line(&output, &["error: the system does not give 1024 threads", "ask for fewer"]);
     }
-    let measured = std::fs::read_dir(folder.path().join("runs/threads")).map_or(0, |files| {
-        files.filter(|file| file.as_ref().unwrap().path().extension().is_some_and(|ending| ending == "json")).count()
-    });
-    assert_eq!(measured, 0);
+    assert!(super::journal::cases(&folder.path().join("runs"), "threads").is_empty());
 }

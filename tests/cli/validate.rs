@@ -1,22 +1,17 @@
 //! `sahara validate`, its hard cases among them.
 
-use std::fs;
-
 use super::command::{
-    RIGHT, SQUARE, WRONG, path_text, prints, refuses, refuses_in_a_line, sahara, stderr, stdout, write,
+    RIGHT, SQUARE, WRONG, json, path_text, prints, refuses, refuses_in_a_line, sahara, stdout, words, write,
 };
 
 #[test]
 fn validation_tells_right_from_wrong() {
-    let right = sahara(&["validate", "cube", "torus", "--rays", "2000", "-s", "median-kd", "-s", "sah-kd"]);
-    assert_eq!(right.status.code(), Some(RIGHT), "{}", stdout(&right));
+    prints(&["validate", "cube", "torus", "--rays", "2000", "-s", "median-kd", "-s", "sah-kd"]);
 
     // obvhs' CwBvh misses every ray with a component of -0.0: this one hits the cube in the middle of a face.
     let ray = ["validate", "cube", "--ray", "0.5,0.25,5 -0,0,-1", "-s"];
-    let wrong = sahara(&[&ray[..], &["obvhs-cwbvh"]].concat());
     // A documented defect of a baseline is shown and named, and changes no status, here as in every command.
-    assert_eq!(wrong.status.code(), Some(RIGHT), "{}", stdout(&wrong));
-    let printed = stdout(&wrong);
+    let printed = prints(&[&ray[..], &["obvhs-cwbvh"]].concat());
     assert!(printed.contains("obvhs-cwbvh: its documented defects, which do not change the exit status"), "{printed}");
     assert!(printed.contains("0.5,0.25,5.0 -0.0,0.0,-1.0"), "the ray can be asked again: {printed}");
     // What each structure answers is printed, right or wrong: the cube's front face is at z = 1.
@@ -31,18 +26,15 @@ fn validation_tells_right_from_wrong() {
     let [t, triangle, u, v] = &right[right.len() - 4..] else { panic!("{right:?}") };
     assert!(t == "4" && triangle.parse::<u32>().is_ok_and(|n| n < 12), "{right:?}");
     assert!([u, v].iter().all(|x| x.parse::<f64>().is_ok_and(|x| (0.0..=1.0).contains(&x))), "{right:?}");
-    let against = sahara(&[&ray[..], &["sah-kd", "--against", "obvhs-bvh2"]].concat());
-    assert_eq!(against.status.code(), Some(RIGHT), "{}", stdout(&against));
+    prints(&[&ray[..], &["sah-kd", "--against", "obvhs-bvh2"]].concat());
 }
 
 /// A needle along which a ray grazes: `f64` gets its depth 115 ulps wrong, which is no error of 1 %.
 #[test]
 fn validation_against_exact_answers_judges_depths_strictly() {
     let directory = tempfile::tempdir().unwrap();
-    let mesh = directory.path().join("needle.obj");
     let corners = "v -405851.38 785724.8 -466819.28\nv 405851.56 -785725.3 466820.28\nv 365266.44 -707152.8 420138.3\n";
-    std::fs::write(&mesh, format!("{corners}f 1 2 3\n")).unwrap();
-    let mesh = path_text(&mesh);
+    let mesh = write(&directory, "needle.obj", &format!("{corners}f 1 2 3\n"));
     let ray = "49.000397,-704.82355,176.40697 -9731.703,19450.404,-11313.292";
     let asked = |structure: &str| {
         sahara(&["validate", &mesh, "--ray", ray, "-s", structure, "--against", "brute-force:test=exact"])
@@ -61,27 +53,21 @@ fn hard_cases_are_named_and_explained() {
         &["flat_grasing", "flat_grazing_1e-3", "sahara list hard"],
     );
     refuses_in_a_line(&["validate", "--hard", "--test", "moeller"], &["\"moeller\"", "moller-trumbore", "exact"]);
-    let output = sahara(&["list", "hard"]);
-    assert_eq!(output.status.code(), Some(RIGHT));
-    let list = stdout(&output);
+    let list = prints(&["list", "hard"]);
     assert!(list.contains("41 duplicates_20000: 200 rays\n") && list.contains("84 limits: a property\n"), "{list}");
 }
 
 #[test]
 fn a_hard_case_tells_what_each_structure_gets_wrong() {
     let directory = tempfile::tempdir().unwrap();
-    let json = path_text(&directory.path().join("hard.json"));
-    let structures = ["--structure", "sah-kd", "--structure", "obvhs-cwbvh"];
-    let mut args = vec!["validate", "--hard", "cube_axis_negzero", "limits", "--rays", "50", "--export-json", &json];
-    args.extend(structures);
-    let output = sahara(&args);
+    let export = path_text(&directory.path().join("hard.json"));
+    let hard = "validate --hard cube_axis_negzero limits --rays 50 -s sah-kd -s obvhs-cwbvh --export-json";
     // What is known of a baseline does not fail the run.
-    assert_eq!(output.status.code(), Some(RIGHT), "{}", stderr(&output));
-    let text = stdout(&output);
+    let text = prints(&[words(hard), vec![export.as_str()]].concat());
     let row = text.lines().find(|line| line.trim_start().starts_with("cube_axis_negzero")).expect("a row");
     assert_eq!(row.split_whitespace().collect::<Vec<_>>(), ["cube_axis_negzero", ".", "m", "100", "S", "100"]);
 
-    let run: serde_json::Value = serde_json::from_slice(&fs::read(&json).unwrap()).unwrap();
+    let run = json(&export);
     let results = run["results"].as_array().unwrap();
     assert_eq!(results.len(), 4);
     let of = |case: &str, structure: &str| {
@@ -96,35 +82,19 @@ fn a_hard_case_tells_what_each_structure_gets_wrong() {
 
 #[test]
 fn the_hard_cases_run_over_the_tests_asked_for() {
-    let args = [
-        "validate",
-        "--hard",
-        "one_triangle",
-        "--rays",
-        "20",
-        "--test",
-        "exact",
-        "--test",
-        "edge-f64",
-        "-s",
-        "median-kd",
-    ];
-    let output = sahara(&args);
-    assert_eq!(output.status.code(), Some(RIGHT), "{}", stderr(&output));
-    let text = stdout(&output);
+    let text = prints(&words("validate --hard one_triangle --rays 20 --test exact --test edge-f64 -s median-kd"));
     assert!(text.contains("median-kd  median-kd:test=edge-f64"), "{text}");
 }
 
 #[test]
 fn what_is_named_twice_counts_once() {
-    let output = sahara(&["validate", "cube", "Cube", "--rays", "100", "-s", "sah-kd"]);
-    assert_eq!(stdout(&output).matches("12 triangles").count(), 1, "{}", stdout(&output));
-    let output = sahara(&["validate", "--hard", "limits", "limits", "-s", "sah-kd"]);
-    let rows = stdout(&output).lines().filter(|line| line.trim_start().starts_with("limits+ ")).count();
-    assert_eq!(rows, 1, "{}", stdout(&output));
-    let output = sahara(&["validate", "--hard", "one_triangle", "-s", "sah-kd", "-t", "exact", "-t", "EXACT"]);
-    let columns: Vec<String> =
-        stdout(&output).lines().filter(|line| line.contains("case ")).map(String::from).collect();
+    let text = prints(&["validate", "cube", "Cube", "--rays", "100", "-s", "sah-kd"]);
+    assert_eq!(text.matches("12 triangles").count(), 1, "{text}");
+    let text = prints(&["validate", "--hard", "limits", "limits", "-s", "sah-kd"]);
+    let rows = text.lines().filter(|line| line.trim_start().starts_with("limits+ ")).count();
+    assert_eq!(rows, 1, "{text}");
+    let text = prints(&["validate", "--hard", "one_triangle", "-s", "sah-kd", "-t", "exact", "-t", "EXACT"]);
+    let columns: Vec<&str> = text.lines().filter(|line| line.contains("case ")).collect();
     assert!(!columns.is_empty() && columns.iter().all(|line| line.matches("sah-kd").count() == 1), "{columns:?}");
 }
 

@@ -63,7 +63,6 @@ fn validate_counts_and_render_look_from_there_as_well() {
     assert_eq!(picture.size(), [20, 10]);
 
     refuses(&["compare", &room, "--inside", "--camera", "0,1,0 0,1,3"], &["--inside", "--camera"]);
-    refuses(&["validate", &room, "--size", "20"], &["WIDTHxHEIGHT"]);
     refuses_in_a_line(&["study", "counts", &room, "--camera", "0,1,0 0,1,0"], &["--camera", "same point"]);
     let point = write(&folder, "point.obj", "v 1 2 3\nv 1 2 3\nv 1 2 3\nf 1 2 3\n");
     refuses_in_a_line(&["compare", &point, "--inside"], &["--inside", "same point"]);

@@ -46,12 +46,7 @@ pub fn table(scene: &str, mut rows: Vec<Vec<Cell>>) -> Table {
     // Ray by ray, in the order of the structures.
     rows.sort_by_key(|row| number(row));
     let note = "u, v: weights of the second and third corner of the triangle where the ray meets its plane, in f64. Triangles count from 0.";
-    Table {
-        title: format!("{scene}: answers"),
-        columns: COLUMNS.map(String::from).into(),
-        rows,
-        notes: vec![note.into()],
-    }
+    Table::new(format!("{scene}: answers"), COLUMNS, rows).noted(vec![note.into()])
 }
 
 fn number(row: &[Cell]) -> usize {

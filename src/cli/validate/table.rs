@@ -21,7 +21,7 @@ pub fn print(
     let stand_in = if scene.stand_ins.is_empty() { "" } else { ", stand-in" };
     let (triangles, rays) = (plural(scene.mesh.len(), "triangle"), plural(rays.len(), "ray"));
     let title = format!("{}: {triangles}{stand_in}; {rays} against {against}", scene.name);
-    Ok(terminal.print_table(&Table { title, columns: COLUMNS.map(String::from).into(), rows, notes })?)
+    Ok(terminal.print_table(&Table::new(title, COLUMNS, rows).noted(notes))?)
 }
 
 const COLUMNS: [&str; 8] =

@@ -1,13 +1,12 @@
 //! The report as one page that needs nothing else.
 
-mod inspector;
-mod json;
 mod scatter;
 mod sort_key;
 mod style;
 mod view;
 
 use minijinja::{AutoEscape, Environment, UndefinedBehavior};
+use serde::Serialize;
 
 use crate::report::document::Document;
 
@@ -21,6 +20,11 @@ pub fn page(document: &Document) -> String {
     environment.add_template("page.html", include_str!("page.html")).expect(RENDERED);
     let template = environment.get_template("page.html").expect(RENDERED);
     template.render(view::page(document, style::sheet())).expect(RENDERED)
+}
+
+/// JSON as it may stand in a script element, which no text in it can end.
+fn in_script(data: &impl Serialize) -> String {
+    serde_json::to_string(data).expect("data have text keys").replace('<', "\\u003c")
 }
 
 const RENDERED: &str = "a test renders the template with all kinds of blocks";

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::json::json as in_script;
+use super::in_script;
 use crate::report::plot::palette::roles_of;
 use crate::report::plot::{Scatter, ScatterCase, ScatterPoint};
 use crate::report::words::distinct;

@@ -20,7 +20,7 @@ pub fn sort_key(text: &str) -> Option<f64> {
         "us" | "µs" => 1e3,
         "ms" => 1e6,
         "s" => 1e9,
-        "%" | "[" => 0.01,
+        "%" => 0.01,
         _ if rest.starts_with('%') => 0.01,
         _ => return None,
     };

@@ -3,7 +3,7 @@
 use minijinja::{Value, context};
 
 use super::sort_key::sort_key;
-use super::{inspector, scatter};
+use super::{in_script, scatter};
 use crate::report::document::{
     Answer, Art, Block, Colours, Document, Figure, Headline, Overlay, Section, Tabular, Thumbnail,
 };
@@ -106,7 +106,7 @@ fn table(table: &Table, shaded: Option<&Tabular>) -> Value {
 fn figure(figure: &Figure) -> Value {
     // The data of a chart that can be changed.
     let (mut wide, mut narrow, mut scatter) = (None, None, None);
-    let (mut pictures, mut laid) = (&[][..], None);
+    let mut laid = None;
     match &figure.art {
         Art::Chart(chart) => {
             wide = Some(inline(&chart.svg(WIDE)));
@@ -114,8 +114,8 @@ fn figure(figure: &Figure) -> Value {
             narrow = (!matches!(chart, Chart::Points(_))).then(|| inline(&chart.svg(NARROW)));
             scatter = if let Chart::Scatter(points) = chart { Some(scatter::data(points)) } else { None };
         }
-        Art::Gallery(thumbnails) => pictures = thumbnails,
-        Art::Overlay(drawn) => (pictures, laid) = (&drawn.pictures, Some(overlay(drawn))),
+        Art::Gallery(_) => {}
+        Art::Overlay(drawn) => laid = Some(overlay(drawn)),
     }
     context! {
         id => &figure.id,
@@ -126,7 +126,7 @@ fn figure(figure: &Figure) -> Value {
         narrow => narrow,
         scatter => scatter,
         overlay => laid,
-        thumbnails => values(pictures, thumbnail),
+        thumbnails => values(figure.pictures(), thumbnail),
         data => table(&figure.data, None),
     }
 }
@@ -144,7 +144,7 @@ fn overlay(overlay: &Overlay) -> Value {
             context! { ramp => "", key => values(key, meaning) }
         }
     };
-    let inspector = overlay.inspector.as_deref().map(inspector::data);
+    let inspector = overlay.inspector.as_deref().map(in_script);
     context! { heading => &overlay.heading, inspector => inspector, ..colours }
 }
 

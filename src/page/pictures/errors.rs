@@ -2,7 +2,7 @@
 
 use super::inspect::{inspector, most_rays};
 use super::seen::{Seen, SeenStructure};
-use super::told;
+use super::{hex, told};
 use crate::render::ErrorMap;
 use crate::report::Table;
 use crate::report::document::{Art, Block, Colours, Figure, Overlay, Section, Thumbnail};
@@ -39,7 +39,6 @@ fn figure(seen: &Seen, wrong: &[(&SeenStructure, ErrorMap)], right: &[&str]) -> 
             size: seen.exact.size,
         }
     };
-    let hex = |[r, g, b]: [u8; 3]| format!("#{r:02x}{g:02x}{b:02x}");
     let names = wrong[0].1.colours().map(|(name, _, colour)| (hex(colour), name.to_owned()));
     let columns = ["structure".to_owned()].into_iter().chain(names.iter().map(|(_, name)| name.clone())).collect();
     let row = |(structure, map): &(&SeenStructure, ErrorMap)| {

@@ -2,7 +2,7 @@
 
 use super::inspect::{inspector, most_rays};
 use super::seen::{Seen, SeenStructure};
-use super::told;
+use super::{hex, told};
 use crate::accel::Observed;
 use crate::render::{Picture, Work, heat_colour, hottest};
 use crate::report::Table;
@@ -97,7 +97,6 @@ fn ramp(scale: u64) -> Colours {
     let place = |cost: f64| libm::log1p(cost) / libm::log1p(scale as f64);
     let tens = (0..7).map(|exponent| f64::from(10u32.pow(exponent))).filter(|cost| place(*cost) < 0.93);
     let ticks = std::iter::once((0.0, "0".to_owned())).chain(tens.map(|cost| (place(cost), tick_text(cost))));
-    let hex = |[r, g, b]: [u8; 3]| format!("#{r:02x}{g:02x}{b:02x}");
     let at = |i: i32| libm::expm1(f64::from(i) / 16.0 * libm::log1p(scale as f64));
     Colours::Ramp {
         title: "Triangle tests and steps of a camera ray:".into(),

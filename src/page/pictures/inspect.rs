@@ -3,7 +3,8 @@
 use super::seen::{Seen, SeenStructure};
 use crate::geometry::{Hit, Ray};
 use crate::render::{Work, error_name};
-use crate::report::inspector::{Answer, InspectedHit, InspectedRay, InspectedStructure, Inspector};
+use crate::report::inspector::{Answer, InspectedHit, InspectedStructure, Inspector};
+use crate::report::words::each_once;
 use crate::scene::offset::barycentrics;
 
 /// Numbers that a picture may hold, at most: some ten bytes each on the page.
@@ -19,32 +20,35 @@ pub fn most_rays(structures: usize) -> usize {
 
 /// Everything about `pixels`, which are numbers of pixels in ascending order. `which` says in a sentence which ones they are.
 pub fn inspector(seen: &Seen, pixels: Vec<usize>, which: String) -> Inspector {
-    let structures: Vec<String> = seen.structures.iter().map(|s| format!("-s {}", s.label)).collect();
-    let rays: Vec<InspectedRay> = pixels.iter().map(|&pixel| of_ray(seen, pixel)).collect();
+    let options: Vec<String> = seen.structures.iter().map(|s| format!("-s {}", s.label)).collect();
+    let answers: Vec<Vec<Answer>> = pixels.iter().map(|&pixel| answers(seen, pixel)).collect();
     let of_structure = |structure: &SeenStructure| {
         let numbers = |known: bool, number: fn(&Work) -> u64| {
             let asked = pixels.iter().map(|&pixel| number(&structure.work[pixel]));
             if known { asked.collect() } else { vec![] }
         };
-        let own = |(ray, &pixel): (&InspectedRay, &usize)| {
+        let own = |(answers, &pixel): (&Vec<Answer>, &usize)| {
             let answer = answer(seen, pixel, structure.work[pixel].hit);
-            ray.answers.iter().position(|other| *other == answer).expect("the ray has the answers of all structures")
+            answers.iter().position(|other| *other == answer).expect("the ray has the answers of all structures")
         };
         InspectedStructure {
             label: structure.label.clone(),
             nodes: numbers(structure.observed.steps, |work| work.counts.inner),
             leaves: numbers(sees_leaves(structure), |work| work.counts.leaves),
             tests: numbers(structure.observed.tests, |work| work.counts.tests),
-            answers: rays.iter().zip(&pixels).map(own).collect(),
+            answers: answers.iter().zip(&pixels).map(own).collect(),
         }
     };
-    let structures_asked = seen.structures.iter().map(of_structure).collect();
+    let structures = seen.structures.iter().map(of_structure).collect();
     Inspector {
         size: seen.exact.size,
         which,
-        command: format!("sahara validate {} {} --ray", seen.shown.quoted(), structures.join(" ")),
-        structures: structures_asked,
-        rays,
+        command: format!("sahara validate {} {} --ray", seen.shown.quoted(), options.join(" ")),
+        pixels: pixels.iter().map(|&pixel| pixel as u32).collect(),
+        rays: pixels.iter().map(|&pixel| seen.exact.rays[pixel].to_string()).collect(),
+        truths: pixels.iter().map(|&pixel| truth(seen, pixel)).collect(),
+        answers,
+        structures,
     }
 }
 
@@ -54,22 +58,14 @@ fn sees_leaves(structure: &SeenStructure) -> bool {
     structure.observed.steps && (any(|work| work.counts.leaves) || !any(|work| work.counts.tests))
 }
 
-fn of_ray(seen: &Seen, pixel: usize) -> InspectedRay {
-    let ray = &seen.exact.rays[pixel];
-    let mut answers: Vec<Answer> = vec![];
-    for structure in &seen.structures {
-        let answer = answer(seen, pixel, structure.work[pixel].hit);
-        if !answers.contains(&answer) {
-            answers.push(answer);
-        }
-    }
+fn truth(seen: &Seen, pixel: usize) -> Answer {
     let truth = seen.exact.truths[pixel].as_ref().map(|truth| Hit::new(truth.rounded(), truth.ids[0]));
-    InspectedRay {
-        pixel: pixel as u32,
-        text: ray.to_string(),
-        truth: Answer { hit: truth.map(|hit| of_hit(seen, ray, hit)), wrong: "" },
-        answers,
-    }
+    Answer { hit: truth.map(|hit| of_hit(seen, &seen.exact.rays[pixel], hit)), wrong: "" }
+}
+
+/// The different answers of all structures.
+fn answers(seen: &Seen, pixel: usize) -> Vec<Answer> {
+    each_once(seen.structures.iter().map(|structure| answer(seen, pixel, structure.work[pixel].hit)))
 }
 
 fn answer(seen: &Seen, pixel: usize, hit: Option<Hit>) -> Answer {

@@ -66,6 +66,11 @@ fn without(too_large: &[&Shown], view: &str) -> Vec<Block> {
     too_large.iter().map(block).collect()
 }
 
+/// A colour of a picture as the page writes it.
+fn hex([r, g, b]: [u8; 3]) -> String {
+    format!("#{r:02x}{g:02x}{b:02x}")
+}
+
 /// What was `found`, introduced by a sentence, then what was left out; where there is neither, that these pictures are missing.
 fn told(pictures: &str, sentence: &str, found: Vec<Block>, left_out: Vec<Block>) -> Vec<Block> {
     let first = match (found.is_empty(), left_out.is_empty()) {
@@ -91,12 +96,13 @@ pub fn left_out() -> Vec<Section> {
 mod tests {
     use super::*;
     use crate::scene::Builtin;
+    use crate::study::ViewArgs;
 
     #[test]
     fn a_scene_that_is_too_large_to_be_built_again_is_named_with_a_command() {
         let scene = Builtin::find("cube").unwrap().scene(None).unwrap();
-        let (view, view_words) = (Some("--inside"), Some("--inside".into()));
-        let shown = Shown { scene, argument: "cube".into(), view, view_words, differs: false };
+        let view = ViewArgs::of_command(&["--inside".into()]);
+        let shown = Shown { scene, argument: "cube".into(), view, differs: false };
         for (section, view) in [
             (heat::section(vec![], without(&[&shown], "heat")), "heat"),
             (errors::section(vec![], without(&[&shown], "error")), "error"),

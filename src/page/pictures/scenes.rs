@@ -8,7 +8,7 @@ use crate::report::document::{Art, Block, Figure, Section, Thumbnail};
 use crate::report::number::count;
 use crate::report::words::{listed, scene_name};
 use crate::scene::Builtin;
-use crate::study::{SAH_TREE, guarded};
+use crate::study::{guarded, sources};
 
 /// Longest side of a thumbnail, in pixels.
 const THUMBNAIL: u32 = 208;
@@ -18,8 +18,7 @@ pub const TITLE: &str = "The scenes";
 /// The scene as the report's course shades it, four rays a pixel.
 pub fn thumbnail(shown: &Shown, registry: &Registry) -> Option<Thumbnail> {
     let scene = &shown.scene;
-    let choice = registry.choose(SAH_TREE).ok().or_else(|| registry.all().into_iter().next())?;
-    let accel = choice.build(&scene.mesh).ok()?;
+    let accel = sources::guide(registry).ok()?.build(&scene.mesh).ok()?;
     let size = size_of(scene, THUMBNAIL);
     let fine =
         guarded(|| draw(scene, accel.as_ref(), ViewKind::Shaded, size.map(|side| 2 * side), 1)).and_then(Result::ok)?;
@@ -57,7 +56,7 @@ fn caption(shown: &[Shown]) -> String {
          a camera that has them whole in view"
     };
     let asked = shown.iter().filter_map(|one| {
-        let view = one.view?;
+        let view = one.view.looks_from()?;
         let from = if view == "--inside" { "within" } else { "where its command says" };
         Some(format!("{} is seen from {from} ({view})", one.scene.name))
     });

@@ -14,10 +14,8 @@ pub struct Shown {
     pub scene: Scene,
     /// As the command line names it: a built-in scene, or a file.
     pub argument: String,
-    /// The option of the command that says from where it is seen, if it has one.
-    pub view: Option<&'static str>,
-    /// That option with its value, as a shell reads it.
-    pub view_words: Option<String>,
+    /// From where the command sees it.
+    pub view: ViewArgs,
     /// Whether it is not the one that was measured: another mesh of the same name, or another view of it.
     pub differs: bool,
 }
@@ -27,7 +25,7 @@ impl Shown {
     pub fn quoted(&self) -> String {
         let is_builtin = Builtin::find(&self.argument).is_ok();
         let scene = if is_builtin { self.argument.to_lowercase() } else { quoted(&self.argument) };
-        [Some(scene), self.view_words.clone()].into_iter().flatten().collect::<Vec<_>>().join(" ")
+        [Some(scene), self.view.looks_from_words()].into_iter().flatten().collect::<Vec<_>>().join(" ")
     }
 }
 
@@ -36,11 +34,12 @@ pub fn found_again(SceneId { name, hash }: &SceneId, commands: &str, find: Find)
     let mut other = None;
     for command in commands.lines().filter_map(shlex::split) {
         let view = ViewArgs::of_command(&command);
-        for argument in std::iter::once(name.clone()).chain(files_named(&command, name)) {
-            let Some(scene) = find(&argument).and_then(|scene| view.seen(scene).ok()) else { continue };
+        // Words that are files named as the scene.
+        let is_named = |word: &&String| Path::new(word).file_stem().is_some_and(|stem| stem == name.as_str());
+        for argument in std::iter::once(name).chain(command.iter().filter(is_named)) {
+            let Some(scene) = find(argument).and_then(|scene| view.seen(scene).ok()) else { continue };
             let differs = hash.as_ref().is_some_and(|hash| scene.hash() != *hash);
-            let found =
-                Shown { scene, argument, view: view.looks_from(), view_words: view.looks_from_words(), differs };
+            let found = Shown { scene, argument: argument.clone(), view: view.clone(), differs };
             if !differs {
                 return Some(found);
             }
@@ -48,10 +47,4 @@ pub fn found_again(SceneId { name, hash }: &SceneId, commands: &str, find: Find)
         }
     }
     other
-}
-
-/// The words of a command that are files named as the scene.
-fn files_named(command: &[String], scene: &str) -> Vec<String> {
-    let is_named = |word: &&String| Path::new(word).file_stem().is_some_and(|stem| stem == scene);
-    command.iter().filter(is_named).cloned().collect()
 }

@@ -111,7 +111,7 @@ impl Results {
     /// # Errors
     /// If the runs are of different commits or machines.
     pub fn new(document: &Document, runs: &Runs, studies: &Studies) -> Result<Self, ResultsError> {
-        let run = RunFacts::new(&runs.provenances())?;
+        let run = RunFacts::new(&runs.provenances)?;
         let statements = statements(document, runs, studies, &run);
         let mut paper = paper::text(document, runs, studies, &run);
         let shown = document.figures().into_iter().filter(|figure| paper.contains(&paper::path(&figure.id)));
@@ -236,7 +236,7 @@ fn statements(document: &Document, runs: &Runs, studies: &Studies, run: &RunFact
 impl RunFacts {
     /// # Errors
     /// If there is more than one commit or machine.
-    fn new(all: &[&Provenance]) -> Result<Self, ResultsError> {
+    fn new(all: &[Provenance]) -> Result<Self, ResultsError> {
         let one = |what: &'static str, of: fn(&Provenance) -> &String| -> Result<String, ResultsError> {
             let mut values: Vec<&str> = all.iter().map(|p| of(p).as_str()).collect();
             values.sort_unstable();

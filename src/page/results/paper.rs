@@ -3,7 +3,6 @@
 use super::{COMMAND, FIGURES, RunFacts, portable};
 use crate::page::markdown::{blocks, prose};
 use crate::page::runs::Runs;
-use crate::report::Record;
 use crate::report::document::{Art, Block, Document, Figure, Section};
 use crate::report::words::{distinct, listed};
 use crate::report::wrapped;
@@ -73,9 +72,8 @@ fn question(document: &Document, text: &mut String) {
 
 fn method(runs: &Runs, run: &RunFacts, text: &mut String) {
     *text += "## Method\n\n";
-    let scenes: Vec<&Record> = runs.records().iter().collect();
-    let names = distinct(scenes.iter().map(|record| &record.scene));
-    let structures = distinct(scenes.iter().map(|record| &record.label));
+    let names = distinct(runs.records().iter().map(|record| &record.scene));
+    let structures = distinct(runs.records().iter().map(|record| &record.label));
     let compared = match names.len() {
         0 => "No comparison of all structures is in this run.".to_owned(),
         _ => format!("Compared are {} on {}.", listed(&structures), listed(&names)),
@@ -95,8 +93,7 @@ fn method(runs: &Runs, run: &RunFacts, text: &mut String) {
          structure differ by (A/A). Where many findings are judged together each interval allows for the others.",
         text,
     );
-    let commands: Vec<String> = run.commands.clone();
-    *text += &format!("```console\n{}\n```\n\n", commands.join("\n"));
+    *text += &format!("```console\n{}\n```\n\n", run.commands.join("\n"));
     paragraph(
         &format!(
             "Compiler: {}, {}. obvhs {}, by its default preset where none is named.",
@@ -158,8 +155,8 @@ fn alone(block: Block) -> Block {
 
 fn threats(runs: &Runs, run: &RunFacts, text: &mut String) {
     *text += "## Threats to validity\n\n";
-    let stand_ins: Vec<&Record> = runs.records().iter().filter(|record| record.stand_in).collect();
-    let stand_ins = distinct(stand_ins.iter().map(|record| &record.scene));
+    let stand_ins = runs.records().iter().filter(|record| record.stand_in);
+    let stand_ins = distinct(stand_ins.map(|record| &record.scene));
     let mut points = vec![
         format!("**We are judges in our own cause.** {} The meshes shown here are of the same kinds.", bias()),
         format!("**One machine, {}.** {} with {}: on another one the order may be another.", run.threads(), run.cpu, run.simd),
@@ -174,8 +171,7 @@ fn threats(runs: &Runs, run: &RunFacts, text: &mut String) {
             listed(&stand_ins)
         ));
     }
-    let warnings = runs.provenances();
-    let warnings = distinct(warnings.iter().flat_map(|p| &p.warnings));
+    let warnings = distinct(runs.provenances.iter().flat_map(|p| &p.warnings));
     if !warnings.is_empty() {
         points.push(format!("**What spoilt the run**, as it says itself: {}", warnings.join(" ")));
     }
@@ -200,7 +196,7 @@ fn change(document: &Document, text: &mut String) {
             "The report's question is not decided by this run. Real meshes and more epochs decide it (`sahara replicate --epochs N`)."
         }
     };
-    let checked: u64 = document.sections.iter().filter(|section| section.id == "accuracy").count() as u64;
+    let is_judged = document.sections.iter().any(|section| section.id == "accuracy");
     let points = [
         conclusion.to_owned(),
         "A structure, a preset or keys that are ahead of the first of a rank, by an interval that does not hold 1, on meshes that nobody \
@@ -209,7 +205,7 @@ fn change(document: &Document, text: &mut String) {
         format!(
             "One ray to which a structure of ours gives an answer that exact arithmetic refutes and its own triangle test does not make \
              (`sahara validate`, `sahara validate --hard`){}.",
-            if checked == 0 { "; this run has no judged rays" } else { "" }
+            if is_judged { "" } else { "; this run has no judged rays" }
         ),
         "A claim that is undecided here is decided by more epochs, either way (`sahara study predictions`).".into(),
     ];

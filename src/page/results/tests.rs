@@ -8,6 +8,7 @@ use super::{COMMAND, DATA, MarkError, Results, ResultsData, ResultsError, counts
 use crate::accel::Counts;
 use crate::measure::spread;
 use crate::page::tests::{attribution_files, compared, cube, provenance, read, records_of, runs_folder};
+use crate::page::{Runs, document};
 use crate::registry::Registry;
 use crate::report::{Record, to_json};
 use crate::scene::{Builtin, Sampling, Scene, Workload, WorkloadKind};
@@ -203,6 +204,12 @@ fn marked_places_are_filled_in_and_wrapped() {
     assert_eq!(marked("<!-- sahara: k --> never closed"), Err(MarkError::Open("k".into())));
 }
 
+/// The results of runs without pictures.
+fn results(runs: &Runs) -> Result<Results, ResultsError> {
+    let studies = Studies::builtin();
+    Results::new(&document(runs, &studies, vec![]), runs, &studies)
+}
+
 /// Each figure that the paper shows is written, no other one, and none twice.
 fn are_shown(results: &Results) {
     let shown: BTreeSet<&str> =
@@ -216,8 +223,7 @@ fn are_shown(results: &Results) {
 #[test]
 fn a_figure_that_is_the_answer_is_kept_once() {
     let runs = read(runs_folder(&attribution_files("Dragon")).path());
-    let document = crate::page::document(&runs, &Studies::builtin(), vec![]);
-    let results = Results::new(&document, &runs, &Studies::builtin()).unwrap();
+    let results = results(&runs).unwrap();
     are_shown(&results);
     assert_eq!(results.paper.matches("](figures/answer.svg)").count(), 2, "{}", results.paper);
 }
@@ -249,11 +255,7 @@ fn every_statement_is_in_the_paper_and_in_the_data() {
 #[test]
 fn threads_are_told_as_they_were() {
     let mut records = records_of("Cube");
-    let told = |records: &Vec<Record>| {
-        let runs = compared(records);
-        let document = crate::page::document(&runs, &Studies::builtin(), vec![]);
-        Results::new(&document, &runs, &Studies::builtin()).unwrap().data.run.sentence()
-    };
+    let told = |records: &Vec<Record>| results(&compared(records)).unwrap().data.run.sentence();
     assert!(told(&records).contains("on one thread ("), "{}", told(&records));
     records[0].provenance.threads = 2;
     assert!(told(&records).contains("where no other number is named"), "{}", told(&records));
@@ -264,9 +266,7 @@ fn results_are_of_one_commit_and_one_machine() {
     let mut other = records_of("Torus");
     other.iter_mut().for_each(|record| record.provenance.commit = "0ther".into());
     let folder = runs_folder(&[("a.json", to_json(&records_of("Cube"))), ("b.json", to_json(&other))]);
-    let runs = read(folder.path());
-    let document = crate::page::document(&runs, &Studies::builtin(), vec![]);
-    let Err(error) = Results::new(&document, &runs, &Studies::builtin()) else { panic!("two commits are one run") };
+    let Err(error) = results(&read(folder.path())) else { panic!("two commits are one run") };
     assert!(matches!(error, ResultsError::Mixed { what: "commit", .. }), "{error}");
     assert!(error.to_string().contains(&provenance("x").commit), "{error}");
 }

@@ -69,7 +69,7 @@ const MUCH: f64 = 2.0;
 /// That the runs were made for trying out, where one of them was.
 fn banner(runs: &Runs) -> String {
     let quick = |command: &str| command.split(' ').any(|word| word == "--quick");
-    if !runs.provenances().iter().any(|provenance| quick(&provenance.command)) {
+    if !runs.provenances.iter().any(|provenance| quick(&provenance.command)) {
         return String::new();
     }
     "A quick look, for trying out: these runs were made with --quick, on few scenes, few rays and few epochs. Their numbers and what \

@@ -1,6 +1,5 @@
 //! How fast structures were from commit to commit.
 
-use crate::measure::Estimate;
 use crate::page::runs::Runs;
 use crate::report::document::{Art, Block, Figure, Section};
 use crate::report::number::{figures, plural};
@@ -94,16 +93,9 @@ fn runs(series: &Series) -> Table {
 }
 
 fn figure(series: &Series, command: &str) -> Figure {
-    let point = |number: usize, speed: Estimate| CurvePoint {
-        x: (number + 1) as f64,
-        y: speed.estimate,
-        band: speed.low().zip(speed.high()).map(|(low, high)| [low, high]),
-    };
-    let line = |label: &str| Line {
-        label: label.into(),
-        note: String::new(),
-        points: (0..series.runs.len()).filter_map(|n| Some(point(n, series.speed(n, label)?))).collect(),
-        mark: Mark::Both,
+    let line = |label: &str| {
+        let point = |n: usize| Some(CurvePoint::of((n + 1) as f64, series.speed(n, label)?));
+        Line::new(label, Mark::Both, (0..series.runs.len()).filter_map(point))
     };
     let labels = series.structures();
     let lines = labels.iter().map(|label| line(label)).collect();

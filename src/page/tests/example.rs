@@ -7,7 +7,7 @@ use std::sync::OnceLock;
 use crate::measure::Provenance;
 use crate::page::{RunError, Runs, document};
 use crate::report::document::{Art, Block, Colours, Document, Figure, Overlay, Section, Thumbnail};
-use crate::report::inspector::{Answer, InspectedHit, InspectedRay, InspectedStructure, Inspector};
+use crate::report::inspector::{Answer, InspectedHit, InspectedStructure, Inspector};
 use crate::report::plot::{Chart, Curves, Line, Mark};
 use crate::report::{Record, Table, example_record, to_json};
 use crate::study::epoch::{Epoch, tests as epoch};
@@ -144,12 +144,6 @@ pub fn read(folder: &Path) -> Runs {
 fn inspector(scene: &str) -> Inspector {
     let hit = Answer { hit: Some(InspectedHit { t: 0.1, triangle: 7, weights: [0.25, 1.0 / 3.0] }), wrong: "" };
     let (miss, missed) = (Answer { hit: None, wrong: "" }, Answer { hit: None, wrong: "missed" });
-    let ray = |pixel, truth: &Answer, answers: &[&Answer]| InspectedRay {
-        pixel,
-        text: "0.0,0.0,0.0 1.0,0.0,0.0".into(),
-        truth: truth.clone(),
-        answers: answers.iter().map(|&answer| answer.clone()).collect(),
-    };
     let structure = |label: &str, answers: [usize; 2]| InspectedStructure {
         label: label.into(),
         nodes: vec![3, 4],
@@ -161,7 +155,10 @@ fn inspector(scene: &str) -> Inspector {
         size: [2, 2],
         which: "Some".into(),
         command: format!("sahara validate {scene} --ray"),
-        rays: vec![ray(0, &hit, &[&hit, &missed]), ray(3, &miss, &[&miss])],
+        pixels: vec![0, 3],
+        rays: vec!["0.0,0.0,0.0 1.0,0.0,0.0".into(); 2],
+        truths: vec![hit.clone(), miss.clone()],
+        answers: vec![vec![hit, missed], vec![miss]],
         structures: vec![structure(scene, [0, 0]), structure("b", [1, 0])],
     }
 }
@@ -195,8 +192,7 @@ pub fn whole(scene: &str) -> (Document, Runs) {
         },
         inspector: Some(Box::new(inspector(scene))),
     };
-    let line = Line { label: scene.into(), note: String::new(), points: vec![], mark: Mark::Both };
-    let curves = Curves::logarithmic("x", "y", vec![line]);
+    let curves = Curves::logarithmic("x", "y", vec![Line::new(scene, Mark::Both, [])]);
     let pictures = Section {
         id: "pictures",
         title: "Pictures",

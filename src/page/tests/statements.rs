@@ -6,11 +6,6 @@ use crate::registry::Registry;
 use crate::report::document::Block;
 use crate::scene::Scene;
 
-/// The three forms of a document.
-fn forms(document: &Document) -> [String; 3] {
-    [page(document), crate::page::markdown::markdown(document), crate::page::latex::latex(document)]
-}
-
 #[test]
 fn a_quick_look_says_so_before_its_verdict() {
     let quick = |record: Record| Record { provenance: provenance("sahara study all --quick"), ..record };

@@ -76,11 +76,7 @@ impl Bars {
             let axis = Axis::new(Scale::Log, ends, [x, x + column - 62.0]);
             canvas.text(&group.title, [x, top + 12.0], canvas::BODY, INK.light, Side::Left);
             let (above, below) = (top + HEAD - 4.0, top + HEAD + self.labels.len() as f64 * ROW);
-            for (tick, text) in axis.ticks_across() {
-                let at = axis.place(tick);
-                canvas.line(&[[at, above], [at, below]], FAINT.light, 1.0);
-                canvas.text(&text, [at, below + 12.0], canvas::SMALL, MIDDLE.light, Side::Centre);
-            }
+            upright_ticks(canvas, axis, [above, below]);
             let zero = axis.place(self.reference);
             for (row, bar) in group.bars.iter().enumerate() {
                 let y = top + HEAD + (row as f64 + 0.5) * ROW;
@@ -113,6 +109,15 @@ impl Bars {
         let estimates = values().map(|value| value.estimate);
         let [low, high] = estimates.fold([self.reference; 2], |[low, high], v| [low.min(v), high.max(v)]);
         with_intervals([low, high.max(1.5 * low)], values())
+    }
+}
+
+/// A line from top to bottom for each tick of a horizontal axis, with its text below.
+pub(super) fn upright_ticks(canvas: &Canvas, axis: Axis, [top, bottom]: [f64; 2]) {
+    for (tick, text) in axis.ticks_across() {
+        let at = axis.place(tick);
+        canvas.line(&[[at, top], [at, bottom]], FAINT.light, 1.0);
+        canvas.text(&text, [at, bottom + 12.0], canvas::SMALL, MIDDLE.light, Side::Centre);
     }
 }
 

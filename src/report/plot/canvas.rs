@@ -171,11 +171,6 @@ impl Canvas<'_> {
         self.area.polygon(tip.iter().map(at).collect(), colour.filled());
     }
 
-    /// Paper between two corners: what is under a label must not cross it.
-    pub fn plate(&self, min: [f64; 2], max: [f64; 2]) {
-        self.rect(min, max, PAPER.light);
-    }
-
     /// A rectangle between two corners.
     pub fn rect(&self, min: [f64; 2], max: [f64; 2], colour: Colour) {
         let corners = [min, [max[0], min[1]], max, [min[0], max[1]]];

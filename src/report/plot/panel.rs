@@ -3,10 +3,11 @@
 use super::canvas::{self, Canvas, Side, WIDTH};
 use super::labels::{Rect, place};
 use super::palette::{self, Colour};
-use super::scale::{Axis, Scale, power};
+use super::scale::{Axis, Scale, power, rounded};
 use super::{LABELLED, Panel, Point};
-use crate::report::number::figures;
+use crate::report::number::{count, figures};
 
+const PAPER: Colour = palette::PAPER.light;
 const INK: Colour = palette::INK.light;
 const MIDDLE: Colour = palette::MIDDLE.light;
 const FAINT: Colour = palette::FAINT.light;
@@ -82,12 +83,7 @@ fn grid(canvas: &Canvas, x: Axis, y: Axis, frame: Rect) {
 
 /// A round number without an exponent, thousands apart: `0.001`, `20`, `5,000`.
 fn plain(value: f64) -> String {
-    if value >= 1000.0 { crate::report::number::count(value.round() as u64) } else { format!("{}", rounded(value)) }
-}
-
-/// Without the last digits of a product by 100.
-fn rounded(value: f64) -> f64 {
-    format!("{value:.6e}").parse().expect("a number")
+    if value >= 1000.0 { count(value.round() as u64) } else { rounded(value).to_string() }
 }
 
 /// The border of what is reached: a stair through the points of the front.
@@ -152,7 +148,8 @@ fn labels(panel: &Panel, colours: &[Colour], canvas: &Canvas, places: &[[f64; 2]
     }
     for (i, rect) in order.iter().zip(placed) {
         let middle = (rect.min[1] + rect.max[1]) * 0.5;
-        canvas.plate([rect.min[0] - 1.0, rect.min[1] + 1.0], [rect.max[0] - 1.0, rect.max[1] - 1.0]);
+        // What is under a label must not cross it.
+        canvas.rect([rect.min[0] - 1.0, rect.min[1] + 1.0], [rect.max[0] - 1.0, rect.max[1] - 1.0], PAPER);
         canvas.text(&of(i).label, [rect.min[0], middle], canvas::SMALL, colours[of(i).group], Side::Left);
     }
 }

@@ -121,7 +121,6 @@ fn is_power(value: f64) -> bool {
 /// A round number as an axis says it: `0.001`, `20`, `5,000`, `10⁶`.
 pub fn plain(value: f64) -> String {
     let size = value.abs();
-    let rounded: f64 = format!("{value:.6e}").parse().expect("a number");
     if size >= 1e5 || (size > 0.0 && size < 1e-3) {
         let exponent = libm::floor(libm::log10(size) + 1e-9) as i32;
         let mantissa = value / power(exponent);
@@ -131,8 +130,13 @@ pub fn plain(value: f64) -> String {
         let sign = if value < 0.0 { "−" } else { "" };
         format!("{sign}{}", count(size.round() as u64))
     } else {
-        format!("{rounded}").replace('-', "−")
+        rounded(value).to_string().replace('-', "−")
     }
+}
+
+/// Without the last digits, which the product of a round number and a power of ten may have.
+pub fn rounded(value: f64) -> f64 {
+    format!("{value:.6e}").parse().expect("a number")
 }
 
 fn superscript(exponent: i32) -> String {

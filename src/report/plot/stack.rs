@@ -1,9 +1,9 @@
 //! Factors of a product as bars side by side: on a logarithmic axis their lengths add up to the whole.
 
-use super::bars::{whisker, with_intervals};
+use super::bars::{upright_ticks, whisker, with_intervals};
 use super::canvas::{self, Canvas, Side};
 use super::labels;
-use super::palette::{Colour, FAINT, INK, MIDDLE, PAPER, PARTS};
+use super::palette::{Colour, INK, MIDDLE, PAPER, PARTS};
 use super::scale::{Axis, Scale};
 use crate::measure::Estimate;
 use crate::report::number::figures;
@@ -75,11 +75,7 @@ impl Stack {
         let ends = with_intervals(ends, self.rows.iter().map(|row| row.total));
         let axis = Axis::new(Scale::Log, ends, [left, width - 64.0]);
         let bottom = top + self.rows.len() as f64 * ROW;
-        for (tick, text) in axis.ticks_across() {
-            let at = axis.place(tick);
-            canvas.line(&[[at, top], [at, bottom]], FAINT.light, 1.0);
-            canvas.text(&text, [at, bottom + 12.0], canvas::SMALL, MIDDLE.light, Side::Centre);
-        }
+        upright_ticks(canvas, axis, [top, bottom]);
         for (i, row) in self.rows.iter().enumerate() {
             let y = top + (i as f64 + 0.5) * ROW;
             canvas.text(&row.label, [left - 12.0, y], canvas::BODY, INK.light, Side::Right);
