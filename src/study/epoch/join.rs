@@ -7,6 +7,7 @@ use super::{Epoch, Rays, Structure};
 use crate::registry::RUNNER;
 use crate::report::words::listed;
 use crate::study::StudyError;
+use crate::study::reference_structures::documented_defect;
 
 /// Cases that answers can be made from, and why others are none of them.
 #[derive(Debug)]
@@ -121,9 +122,10 @@ fn one(epochs: &mut [Epoch]) -> Result<(), StudyError> {
                 continue;
             }
             let of = |epoch: &Epoch| epoch.structures[place].rays[kind].clone();
-            let is_program = epochs[0].structures[place].name == RUNNER;
+            let name = &epochs[0].structures[place].name;
+            let (is_program, may_err) = (name == RUNNER, name == RUNNER || documented_defect(name).is_some());
             let other = epochs.iter().find(|epoch| of(epoch).checksum != first.checksum);
-            match (other, is_program) {
+            match (other, may_err) {
                 (Some(_), true) => {
                     refuse(epochs, place, &Some(CHANGED.into()));
                     break;
@@ -145,7 +147,7 @@ fn one(epochs: &mut [Epoch]) -> Result<(), StudyError> {
     Ok(())
 }
 
-/// Said of a program that answers otherwise once it is started again.
+/// Said of a structure of others that answers otherwise once it is built again, as packets do in which other rays travel together.
 const CHANGED: &str = "built again, it gives other answers than before: its times cannot be compared";
 
 /// Said of a program whose epochs have no rays in common.
@@ -262,6 +264,19 @@ mod tests {
         assert!(failure(|epoch| epoch.structures[1].rays[0].hash = "12".into()).contains("differ in the rays"));
         assert!(failure(|epoch| epoch.structures[1].rays[0].rays = 250).contains("the number of rays that are timed"));
         assert!(failure(|epoch| epoch.structures[1].label = "z".into()).contains("the structures"));
+    }
+
+    #[test]
+    fn a_structure_of_others_that_answers_otherwise_takes_no_part() {
+        let mut given = epochs("a", &[0, 1]);
+        given.iter_mut().for_each(|epoch| epoch.structures[1].name = "embree".into());
+        given[1].structures[1].rays[0].checksum = 2;
+        let Joined { cases, failures, .. } = joined(given);
+        assert!(failures.is_empty(), "{failures:?}");
+        for epoch in cases {
+            let refused: Vec<Option<&str>> = epoch.structures.iter().map(|s| s.refused.as_deref()).collect();
+            assert_eq!(refused, [None, Some(CHANGED)]);
+        }
     }
 
     #[test]
