@@ -1,4 +1,4 @@
-//! The grid, broken in seven ways: what conformance must reject, and `validate` too.
+//! The grid, broken in nine ways: what conformance must reject, and `validate` too.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
