@@ -199,7 +199,7 @@ impl ScenesAndMeshes {
     /// The scenes named, all built-in ones without a name; of those with a stand-in both forms, if the meshes are to be both.
     ///
     /// # Errors
-    /// As [`sources::scene`], and if real meshes are asked for and one is not there.
+    /// As [`sources::scene`] and [`sources::distinct`], and if real meshes are asked for and one is not there.
     pub fn read(&self) -> anyhow::Result<Vec<Scene>> {
         let all: Vec<String> = BUILTIN.iter().map(|builtin| builtin.name.to_owned()).collect();
         let mut forms: Vec<Scene> = vec![];

@@ -16,7 +16,7 @@ use crate::scene::{BUILTIN, Builtin, Scene, load, real_mesh_folder};
 /// The scenes named, or all built-in ones.
 ///
 /// # Errors
-/// If a name is not known, or a file cannot be loaded.
+/// If a name is not known, a file cannot be loaded, or two different scenes have one name.
 pub fn scenes(named: &[String]) -> anyhow::Result<Vec<Scene>> {
     let all: Vec<String> = BUILTIN.iter().map(|builtin| builtin.name.into()).collect();
     let named = wanted(if named.is_empty() { &all } else { named });
