@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 /// The rooms by layer, as ARCHITECTURE.md draws them. Those of one layer may import each other in one direction, unless they are structures.
-const LAYERS: [(&str, u32); 29] = [
+const LAYERS: [(&str, u32); 28] = [
     ("geometry", 0),
     ("names", 0),
     ("output", 0),
@@ -21,7 +21,6 @@ const LAYERS: [(&str, u32); 29] = [
     ("external", STRUCTURES),
     ("offered", 4),
     ("scene", 4),
-    ("workload", 4),
     ("oracle", 4),
     ("render", 5),
     ("measure", 5),
