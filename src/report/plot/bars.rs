@@ -44,15 +44,28 @@ const FOOT: f64 = 34.0;
 /// Least width of a group, without the labels.
 const GROUP: f64 = 190.0;
 
+/// Height of a label that stands above its bar.
+pub(super) const LABEL: f64 = 17.0;
+
 impl Bars {
     /// Height of the drawing where it is `width` wide.
     pub(super) fn height(&self, width: f64) -> f64 {
-        self.groups.len().div_ceil(self.columns(width)).max(1) as f64 * self.line() + 24.0
+        self.groups.len().div_ceil(self.columns(width)).max(1) as f64 * self.line(width) + 24.0
     }
 
     /// Height of the groups that stand side by side.
-    fn line(&self) -> f64 {
-        HEAD + self.labels.len() as f64 * ROW + FOOT
+    fn line(&self, width: f64) -> f64 {
+        HEAD + self.labels.len() as f64 * self.row(width) + FOOT
+    }
+
+    /// Height of a bar with what is above it.
+    fn row(&self, width: f64) -> f64 {
+        if self.are_above(width) { ROW + LABEL } else { ROW }
+    }
+
+    /// Whether labels stand above their bars: beside them they would leave the bars less than half of the width.
+    fn are_above(&self, width: f64) -> bool {
+        self.label_width() > width / 2.0
     }
 
     fn label_width(&self) -> f64 {
@@ -61,11 +74,16 @@ impl Bars {
 
     /// Groups side by side.
     fn columns(&self, width: f64) -> usize {
+        if self.are_above(width) {
+            return 1;
+        }
         (((width - self.label_width()) / GROUP) as usize).clamp(1, self.groups.len().max(1))
     }
 
     pub(super) fn draw(&self, canvas: &Canvas, width: f64) {
-        let (left, columns, line) = (self.label_width(), self.columns(width), self.line());
+        let (columns, line, height, are_above) =
+            (self.columns(width), self.line(width), self.row(width), self.are_above(width));
+        let left = if are_above { 0.0 } else { self.label_width() };
         let column = (width - left) / columns as f64;
         let colours = colours(&self.labels);
         let ends = self.ends();
@@ -75,12 +93,14 @@ impl Bars {
             // Room for the number at the end of the longest bar.
             let axis = Axis::new(Scale::Log, ends, [x, x + column - 62.0]);
             canvas.text(&group.title, [x, top + 12.0], canvas::BODY, INK.light, Side::Left);
-            let (above, below) = (top + HEAD - 4.0, top + HEAD + self.labels.len() as f64 * ROW);
+            let (above, below) = (top + HEAD - 4.0, top + line - FOOT);
             upright_ticks(canvas, axis, [above, below]);
             let zero = axis.place(self.reference);
             for (row, bar) in group.bars.iter().enumerate() {
-                let y = top + HEAD + (row as f64 + 0.5) * ROW;
-                if i % columns == 0 {
+                let y = top + HEAD + (row + 1) as f64 * height - ROW / 2.0;
+                if are_above {
+                    canvas.text(&self.labels[row], [x, y - ROW / 2.0 - 3.0], canvas::BODY, INK.light, Side::Left);
+                } else if i % columns == 0 {
                     canvas.text(&self.labels[row], [left - 12.0, y], canvas::BODY, INK.light, Side::Right);
                 }
                 match bar {

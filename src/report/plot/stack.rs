@@ -1,6 +1,6 @@
 //! Factors of a product as bars side by side: on a logarithmic axis their lengths add up to the whole.
 
-use super::bars::{upright_ticks, whisker, with_intervals};
+use super::bars::{LABEL, upright_ticks, whisker, with_intervals};
 use super::canvas::{self, Canvas, Side};
 use super::labels;
 use super::palette::{Colour, INK, MIDDLE, PAPER, PARTS};
@@ -43,13 +43,27 @@ fn colours(part: usize) -> [Colour; 2] {
 impl Stack {
     /// Height of the drawing where it is `width` wide.
     pub(super) fn height(&self, width: f64) -> f64 {
-        self.top(width) + self.rows.len() as f64 * ROW + FOOT
+        self.top(width) + self.rows.len() as f64 * self.row(width) + FOOT
     }
 
     /// Where the names of the parts stand: as many in a line as there is room for.
     fn legend(&self, width: f64) -> Vec<[f64; 2]> {
         let widths = self.parts.iter().map(|name| 20.0 + canvas::width_of(name, canvas::SMALL));
         labels::legend(widths, 20.0, width, LEGEND)
+    }
+
+    fn label_width(&self) -> f64 {
+        self.rows.iter().map(|row| canvas::width_of(&row.label, canvas::BODY)).fold(0.0, f64::max) + 12.0
+    }
+
+    /// Whether labels stand above their bars: beside them they would leave the bars less than half of the width.
+    fn are_above(&self, width: f64) -> bool {
+        self.label_width() > width / 2.0
+    }
+
+    /// Height of a bar with what is above it.
+    fn row(&self, width: f64) -> f64 {
+        if self.are_above(width) { ROW + LABEL } else { ROW }
     }
 
     /// Where the rows begin.
@@ -63,8 +77,8 @@ impl Stack {
             canvas.rect([x, y - 6.0], [x + 12.0, y + 6.0], colours(part)[0]);
             canvas.text(&self.parts[part], [x + 20.0, y], canvas::SMALL, INK.light, Side::Left);
         }
-        let label = |row: &StackRow| canvas::width_of(&row.label, canvas::BODY);
-        let left = self.rows.iter().map(label).fold(0.0, f64::max) + 12.0;
+        let (are_above, height) = (self.are_above(width), self.row(width));
+        let left = if are_above { 0.0 } else { self.label_width() };
         // Parts below 1 take from the whole: they stand to the left of 1.
         let reach = |row: &StackRow| {
             let low: f64 = row.factors.iter().filter(|f| **f < 1.0).product();
@@ -74,11 +88,14 @@ impl Stack {
         let ends = self.rows.iter().map(reach).fold([1.0f64, 1.5f64], |a, b| [a[0].min(b[0]), a[1].max(b[1])]);
         let ends = with_intervals(ends, self.rows.iter().map(|row| row.total));
         let axis = Axis::new(Scale::Log, ends, [left, width - 64.0]);
-        let bottom = top + self.rows.len() as f64 * ROW;
+        let bottom = top + self.rows.len() as f64 * height;
         upright_ticks(canvas, axis, [top, bottom]);
         for (i, row) in self.rows.iter().enumerate() {
-            let y = top + (i as f64 + 0.5) * ROW;
-            canvas.text(&row.label, [left - 12.0, y], canvas::BODY, INK.light, Side::Right);
+            let y = top + (i + 1) as f64 * height - ROW * 0.5;
+            match are_above {
+                true => canvas.text(&row.label, [0.0, y - ROW * 0.5], canvas::BODY, INK.light, Side::Left),
+                false => canvas.text(&row.label, [left - 12.0, y], canvas::BODY, INK.light, Side::Right),
+            }
             self.draw_row(canvas, row, axis, y);
         }
         let one = axis.place(1.0);

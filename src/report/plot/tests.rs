@@ -1,6 +1,7 @@
 use std::path::Path;
 
 use super::*;
+use crate::measure::Estimate;
 use crate::render::Picture;
 
 fn figure() -> Figure {
@@ -53,5 +54,37 @@ fn the_ending_tells_the_form() {
     assert_eq!(Format::of(Path::new("b.png")), Ok(Format::Png));
     for wrong in ["b", "b.pdf", "svg", ".png"] {
         assert!(Format::of(Path::new(wrong)).unwrap_err().to_string().contains(".svg or .png"));
+    }
+}
+
+#[test]
+fn long_names_leave_bars_their_room() {
+    let long = "sah-hybrid:test=moller-trumbore,batch=packets,quality=high".to_owned();
+    let value = Estimate::exact(2.0);
+    let bars = |labels: Vec<String>| {
+        let bars = labels.iter().map(|_| Bar::Of(value)).collect();
+        Chart::Bars(Bars {
+            x_title: "times".into(),
+            reference: 1.0,
+            labels,
+            groups: vec![BarGroup { title: "rays".into(), bars }],
+        })
+    };
+    let stack = |label: String| {
+        let rows = vec![StackRow { label, factors: vec![2.0], total: value }];
+        Chart::Stack(Stack { x_title: "times".into(), parts: vec!["plane".into()], rows })
+    };
+    // On a narrow screen names stand above their bars, which makes the drawing higher.
+    for (short, long) in
+        [(bars(vec!["a".into(); 2]), bars(vec![long.clone(); 2])), (stack("a".into()), stack(long.clone()))]
+    {
+        let height = |chart: &Chart, width: f64| {
+            let svg = chart.svg(width);
+            let (_, rest) = svg.split_once("height=\"").unwrap();
+            rest.split_once('"').unwrap().0.parse::<f64>().unwrap()
+        };
+        assert!(height(&long, 360.0) > height(&short, 360.0));
+        assert_eq!(height(&long, 1600.0), height(&short, 1600.0));
+        assert!(long.svg(360.0).contains("packets"));
     }
 }
