@@ -80,9 +80,9 @@ fn method(runs: &Runs, run: &RunFacts, text: &mut String) {
     };
     paragraph(
         &format!(
-            "All structures answer the same rays behind one interface: the rays of the whole picture of a scene, kind by kind. {compared} \
-             Answers are held against brute force over the same triangle test before anything is timed, and a structure of ours that \
-             is wrong has no time."
+            "All structures answer the same rays behind one interface: the rays of the whole picture of a scene, kind by kind, or whole \
+             tiles of them where there is not time for all. {compared} Answers are held against brute force over the same triangle test \
+             before anything is timed, and wrong answers get no time."
         ),
         text,
     );
@@ -113,7 +113,7 @@ fn results(study: &dyn AnyStudy, section: &Section, runs: &Runs, text: &mut Stri
     let kept: Vec<Block> = section.blocks[statements..]
         .iter()
         .filter(|block| match block {
-            Block::Figure(Figure { art: Art::Chart(_), .. }) => {
+            Block::Figure(figure) if matches!(figure.art, Art::Chart(_)) => {
                 figures += 1;
                 figures <= SHOWN
             }
@@ -147,7 +147,7 @@ fn words(block: &Block) -> Option<String> {
 fn alone(block: Block) -> Block {
     match block {
         Block::Table(tabular) => Block::table(tabular.table, ""),
-        Block::Figure(figure) => Block::Figure(Figure { command: String::new(), ..figure }),
+        Block::Figure(figure) => Block::figure(Figure { command: String::new(), ..*figure }),
         Block::Text(words) => Block::Text(words.replace(REST_BELOW, "")),
         other => other,
     }
