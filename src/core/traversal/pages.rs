@@ -33,6 +33,7 @@ pub(crate) fn fetch(at: *const u8) {
 #[cfg(target_os = "linux")]
 fn advise<T>(start: *const T, bytes: usize) {
     use std::ffi::{c_int, c_void};
+    // SAFETY: as the C library of Linux declares it.
     unsafe extern "C" {
         fn madvise(start: *mut c_void, bytes: usize, advice: c_int) -> c_int;
     }

@@ -32,8 +32,10 @@ unsafe impl Send for Scene {}
 // SAFETY: as above; `Told` is made of atomics and a lock.
 unsafe impl Sync for Scene {}
 
+/// # Safety
+/// `told` is what was given with this function, and outlives the device; `text` is null or a string of C.
 unsafe extern "C" fn on_error(told: *mut c_void, _: c_int, text: *const c_char) {
-    // SAFETY: `told` is what the scene shares and releases after its device; `text` is Embree's.
+    // SAFETY: as the caller says.
     let (told, text) = unsafe { (&*told.cast::<Told>(), sentence(text)) };
     if let Ok(mut error) = told.error.lock() {
         error.get_or_insert(text);
@@ -43,7 +45,7 @@ unsafe extern "C" fn on_error(told: *mut c_void, _: c_int, text: *const c_char) 
 /// # Safety
 /// `told` is what was given with this function, and outlives the device.
 unsafe extern "C" fn on_memory(told: *mut c_void, bytes: isize, _: bool) -> bool {
-    // SAFETY: as above.
+    // SAFETY: as the caller says.
     unsafe { &*told.cast::<Told>() }.bytes.fetch_add(bytes, Ordering::Relaxed);
     true
 }

@@ -50,6 +50,7 @@ unsafe impl Sync for Tree {}
 #[cfg(target_env = "msvc")]
 compile_error!("peer-tinybvh calls C++ by the names of the Itanium ABI, which Microsoft's compiler does not follow");
 
+// SAFETY: the names hold the types of the arguments, and the results are those of tinybvh in the version that `Cargo.toml` pins.
 unsafe extern "C" {
     #[link_name = "_ZNK7tinybvh8BVH8_CPU9IntersectERNS_3RayE"]
     fn intersect(tree: *const c_void, ray: *mut Whole) -> i32;
