@@ -12,13 +12,18 @@ use sahara::scene::format::SceneFile;
 use sahara::scene::{Model, Scene, SceneError, View, load};
 use sahara::triangle::MollerTrumbore;
 
+/// The folder with the files; where none is named it says so, and how `name` is treated.
+fn folder(name: &str, treated: &str) -> Option<PathBuf> {
+    let folder = std::env::var_os("SAHARA_DATA").map(PathBuf::from);
+    if folder.is_none() {
+        println!("{name}: {treated}, the environment variable SAHARA_DATA names no folder with meshes");
+    }
+    folder
+}
+
 /// The model and mesh of a file, nothing when there is no such file.
 fn real(name: &str) -> Option<(Model, Mesh)> {
-    let Some(folder) = std::env::var_os("SAHARA_DATA") else {
-        println!("{name}: skipped, the environment variable SAHARA_DATA names no folder with meshes");
-        return None;
-    };
-    let path = PathBuf::from(folder).join(name);
+    let path = folder(name, "skipped")?.join(name);
     if !path.is_file() {
         println!("{name}: skipped, there is no {}", path.display());
         return None;
@@ -100,16 +105,12 @@ const VIEWS: [(&str, std::ops::RangeInclusive<usize>); 6] = [
 
 #[test]
 fn the_views_look_at_their_meshes() {
-    let folder = std::env::var_os("SAHARA_DATA").map(PathBuf::from);
     for (name, filled) in VIEWS {
         let path = PathBuf::from(format!("scenes/views/{name}.toml"));
         let nowhere = Scene::read(&path, Some(Path::new("/nowhere"))).unwrap_err().to_string();
         assert!(nowhere.contains("is not in /nowhere: `sahara fetch scenes/views/"), "{nowhere}");
-        let Some(folder) = &folder else {
-            println!("{name}: only read, the environment variable SAHARA_DATA names no folder with meshes");
-            continue;
-        };
-        let scene = match Scene::read(&path, Some(folder)) {
+        let Some(folder) = folder(name, "only read") else { continue };
+        let scene = match Scene::read(&path, Some(&folder)) {
             Err(SceneError::Value { key, problem, .. }) if key.ends_with("real.file") => {
                 println!("{name}: skipped, {problem}");
                 continue;
