@@ -1,5 +1,6 @@
 //! `study all`: everything that the page shows, in one run that can be killed and goes on with the case that it was measuring.
 
+use std::io;
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -7,7 +8,8 @@ use super::study::{Common, RUNS, run_as};
 use super::{Session, interrupt};
 use crate::report::Table;
 use crate::report::number::duration;
-use crate::study::{Chosen, Effort, Status};
+use crate::study::journal::JournalError;
+use crate::study::{Chosen, Effort, Status, sources};
 
 /// Name of the command.
 pub const NAME: &str = "all";
@@ -21,7 +23,8 @@ pub struct Args {
     /// Throw away what was measured before, and start anew
     #[arg(long)]
     fresh: bool,
-    /// Measure all epochs in one process: quicker, but how it happens to lie in memory is then in none of the intervals
+    /// Measure all scenes and epochs in one process: quicker, but how it happens to lie in memory is then in none of the
+    /// intervals
     #[arg(long)]
     in_process: bool,
     /// A few minutes for trying out: few scenes, rays and epochs; its numbers mean little
@@ -43,7 +46,11 @@ pub fn run(session: &Session, args: &Args) -> anyhow::Result<Status> {
     let &Session { suite, terminal, .. } = session;
     let common =
         Common { dir: Some(args.dir.clone()), fresh: args.fresh, in_process: args.in_process, ..Common::default() };
-    let mut outcome = Status::Right;
+    if !args.scenes.is_empty() {
+        // What is not there is refused before the studies that have scenes of their own are measured.
+        sources::scenes(&args.scenes)?;
+    }
+    let (mut outcome, mut has_failed) = (Status::Right, false);
     let (mut rows, mut notes) = (vec![], vec![]);
     let studies = suite.studies.in_order_of_measuring();
     for (i, study) in studies.iter().enumerate() {
@@ -56,13 +63,21 @@ pub fn run(session: &Session, args: &Args) -> anyhow::Result<Status> {
             continue;
         }
         let start = Instant::now();
-        let found = run_as(session, *study, args.chosen(), &common)?;
+        let found = match run_as(session, *study, args.chosen(), &common) {
+            Err(error) if !ends_all(&error) => {
+                crate::output::tell(format_args!("error: {}: {error:#}", study.name()));
+                Status::Failed
+            }
+            found => found?,
+        };
         if found == Status::Interrupted || interrupt::is_asked() {
             return Ok(Status::Interrupted);
         }
         outcome = outcome.and(found);
+        has_failed |= found == Status::Failed;
         let words = match found {
             Status::Wrong => "wrong answers",
+            Status::Failed => "failed",
             Status::Refused => "a structure took no part",
             _ => "right",
         };
@@ -70,9 +85,37 @@ pub fn run(session: &Session, args: &Args) -> anyhow::Result<Status> {
         rows.push([study.name().into(), took, words.into(), format!("{}/", study.name())]);
     }
     let title = format!("All studies, in {}", args.dir.display());
-    let mut table = Table::of_texts(&title, ["study", "took", "answers", "journal"], rows);
+    // Without the cases that were measured before.
+    let mut table = Table::of_texts(&title, ["study", "took this time", "answers", "journal"], rows);
     table.notes.append(&mut notes);
-    table.notes.push(format!("Nothing is left. `sahara report {} -o OUT` makes the page.", args.dir.display()));
+    let left = if has_failed { "The same command tries again what failed." } else { "Nothing is left." };
+    table.notes.push(format!("{left} `sahara report {} -o OUT` makes the page.", args.dir.display()));
     terminal.print_table(&table)?;
     Ok(outcome)
+}
+
+/// Whether the next studies would fare no better: what is wrong is the folder of journals, or whoever reads what is printed.
+fn ends_all(error: &anyhow::Error) -> bool {
+    error.is::<JournalError>() || error.is::<io::Error>()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cli::Suite;
+    use crate::cli::terminal::{Colour, Terminal};
+    use crate::registry::Registry;
+    use crate::study::Studies;
+    use crate::study::tests::Tiny;
+
+    #[test]
+    fn a_study_whose_scenes_fail_does_not_keep_the_next_one_from_being_measured() {
+        let folder = tempfile::tempdir().unwrap();
+        let studies = Studies::empty().with::<Tiny<true>>().with::<Tiny<false>>();
+        let suite = Suite { registry: Registry::empty(), studies };
+        let session = Session { suite: &suite, terminal: &Terminal::new(Colour::Never, true), processes: None };
+        let args = Args { dir: folder.path().into(), fresh: false, in_process: true, quick: false, scenes: vec![] };
+        assert_eq!(run(&session, &args).unwrap(), Status::Wrong);
+        assert_eq!(std::fs::read_dir(folder.path().join("right")).unwrap().count(), 6);
+    }
 }

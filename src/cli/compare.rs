@@ -14,7 +14,9 @@ use crate::output::OutputFile;
 use crate::registry::Registry;
 use crate::report::to_json;
 use crate::scene::WorkloadKind;
-use crate::study::baseline::{Run, SCENES, against, new_baseline_path, outcome as held_against, read_baseline};
+use crate::study::baseline::{
+    Run, SCENES, against, may_replace, new_baseline_path, outcome as held_against, read_baseline,
+};
 use crate::study::compare::{CompareArgs, CompareStudy, Compared, Reference, brief_table, refusals, scene_table};
 use crate::study::diff::{Comparison, tables};
 use crate::study::epoch::{Epoch, Settings, troubles};
@@ -131,17 +133,20 @@ fn gated(session: &Session, gate: &Gate, matches: &ArgMatches) -> anyhow::Result
         history::read(&past)?;
     }
     let json = common.export_json.as_deref().map(OutputFile::check).transpose()?;
+    let mut screen = OnTerminal::new(terminal);
     let (args, plan) = gated_plan(&session.suite.registry, matches)?;
     let most = args.measuring.epochs.saturating_mul(MOST);
     let first = if kept.is_some() { most } else { args.measuring.epochs };
     let clock = SystemClock::start();
-    let mut screen = OnTerminal::new(terminal);
-    screen.begin(Plan::<Epoch>::work(&plan.cases));
     let mut run = Run::new(&plan, session.processes(&common), &clock);
     // Where nothing is decided there are more epochs and another look.
     let looks = 1 + usize::from(most - first).div_ceil(STEP.into());
     let process_per_epoch = session.processes(&common).is_some();
     let provenance = Provenance { process_per_epoch, ..Provenance::of(&plan.threads) };
+    if let Some(name) = &gate.save_baseline {
+        may_replace(&folder, name, &provenance)?;
+    }
+    screen.begin(Plan::<Epoch>::work(&plan.cases));
     screen.warn(&plan.warnings);
     screen.warn(provenance.too_many_threads().as_slice());
     let (compared, comparison) = loop {

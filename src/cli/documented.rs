@@ -20,8 +20,9 @@ fn documents(folder: &Path, into: &mut Vec<PathBuf>) {
     }
 }
 
-/// The commands of a document: its lines that begin with one, and those within sentences.
+/// The commands of a document: its lines that begin with one, with those that go on with it, and those within sentences.
 fn commands(text: &str) -> (Vec<String>, Vec<String>) {
+    let text = &text.replace("\\\n", " ");
     let own = |text: &str| {
         let rest = text.strip_prefix("$ ").unwrap_or(text);
         let cargo = rest.strip_prefix("cargo run --release");

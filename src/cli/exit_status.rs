@@ -12,14 +12,14 @@ use crate::study::Status;
 /// One rule for all commands; what a baseline is known to get wrong is no fault of a run.
 pub(crate) const STATUSES: &str = "Exit status:
   0  right
-  1  usage, or input or output that cannot be had
+  1  usage, input or output that cannot be had, or a scene that could not be measured
   2  wrong answers, or answers without an end
   3  a regression (compare --fail-on-regression)
   4  the samples do not tell whether there is a regression
   5  right, but for a structure that could not be built, panicked or could not take part
 130  interrupted by Ctrl-C: what was measured is shown and kept, and the same command goes on
-Wrong answers of a baseline from another project whose defects are documented are shown, cost it its time,
-and do not change the status: 2 is for everything else. Tables name the defects.
+Wrong answers of a baseline from another project whose defects are documented are shown, cost it its time, and do not \
+change the status: 2 is for everything else. Tables name the defects.
 
 `-` in place of a file to write is standard output; tables and messages go to standard error then.";
 
@@ -27,6 +27,7 @@ and do not change the status: 2 is for everything else. Tables name the defects.
 pub(super) fn of(found: anyhow::Result<Status>) -> ExitCode {
     match found {
         Ok(Status::Right) => ExitCode::SUCCESS,
+        Ok(Status::Failed) => ExitCode::from(1),
         Ok(Status::Wrong) => ExitCode::from(2),
         Ok(Status::Regression) => ExitCode::from(3),
         Ok(Status::Undecided) => ExitCode::from(4),

@@ -1,6 +1,5 @@
 //! `fetch`.
 
-use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 use super::terminal::Terminal;
@@ -8,6 +7,7 @@ use crate::fetch::DataFile;
 #[cfg(feature = "fetch")]
 use crate::fetch::{Client, Fetched};
 use crate::report::number::bytes;
+use crate::report::words::each_once_by;
 use crate::scene::format::{RealMesh, SceneFile};
 use crate::scene::{BUILTIN, Builtin, real_mesh_folder};
 use crate::study::{Status, sources};
@@ -32,8 +32,7 @@ pub fn run(args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
         files.extend(scene.objects.into_iter().filter_map(|object| object.real).map(|real| (scene.name.clone(), real)));
     }
     // What is named twice counts once.
-    let mut seen = HashSet::new();
-    files.retain(|(scene, real)| seen.insert((scene.clone(), real.file.clone())));
+    let files = each_once_by(files, |one, other| (&one.0, &one.1.file) == (&other.0, &other.1.file));
     if files.is_empty() {
         terminal.print("these scenes name no real mesh: there is nothing to fetch\n")?;
         return Ok(Status::Right);

@@ -1,7 +1,5 @@
 //! `golden`.
 
-use std::collections::HashSet;
-
 use anyhow::Context;
 use clap::ValueEnum;
 
@@ -10,6 +8,7 @@ use crate::accel::DynAccel;
 use crate::golden::{GoldenError, Goldens, SIZE, TRIANGLE_TEST};
 use crate::registry::{Choice, Registry};
 use crate::report::number::count;
+use crate::report::words::each_once_by;
 use crate::scene::{BUILTIN, Builtin, Scene, View};
 use crate::study::Status;
 use crate::study::{BRUTE_FORCE, documented_defect};
@@ -41,8 +40,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
         args.scenes.iter().map(find).collect::<anyhow::Result<_>>()?
     };
     // What is named twice counts once.
-    let mut seen = HashSet::new();
-    let scenes = scenes.into_iter().filter(|builtin| seen.insert(builtin.name));
+    let scenes = each_once_by(scenes, |one, other| one.name == other.name);
     // A golden image belongs to the scene: all structures with one triangle test owe it the same bytes.
     let all = registry.all();
     let common: Vec<&Choice> = all.iter().filter(|choice| choice.triangle_test() == TRIANGLE_TEST).collect();

@@ -22,6 +22,7 @@ pub fn watch() {
         std::thread::spawn(move || {
             while signals.wait().is_ok() {
                 if !LISTENS.load(Ordering::SeqCst) || ASKED.swap(true, Ordering::SeqCst) {
+                    crate::measure::process_group::end_started_by(std::process::id());
                     std::process::exit(STATUS.into());
                 }
                 crate::output::tell(format_args!("\nStops; Ctrl-C once more ends at once."));

@@ -71,7 +71,7 @@ struct Global {
     /// Measure this case of a run, and say it in lines of JSON: how a run starts a process
     #[arg(long = job::OPTION, global = true, hide = true)]
     job: Option<Job>,
-    /// Write that case into this file, and say nothing: a line of `study plan`
+    /// Write that case into this file: a line of `study plan`
     #[arg(long = job::OUT, global = true, hide = true, requires = "job")]
     out: Option<PathBuf>,
 }
@@ -112,7 +112,7 @@ enum Command {
     Golden(golden::Args),
     /// Name what there is, and say what the keys of a structure mean
     List(list::Args),
-    /// Print a completion script for a shell
+    /// Print a completion script for a shell, or the manual page
     Completions(completions::Args),
 }
 
@@ -195,11 +195,11 @@ fn run_with(suite: &Suite, args: impl IntoIterator<Item = OsString>, processes: 
 /// What a process with a job does, on the command line of the run that it is a part of.
 fn answer_job(session: &Session, matches: &ArgMatches, job: &Job, out: Option<&Path>) -> anyhow::Result<()> {
     let &Session { suite, terminal, .. } = session;
-    job.scene.iter().for_each(|scene| sources::load_only(scene));
+    sources::load_only(&job.scene);
     job.cores.iter().for_each(|cores| keep_to(cores));
     let study = find(suite, &job.study)?;
     if let Some(out) = out {
-        let done = study.write_job(chosen(matches)?, &suite.registry, job, out, &mut OnTerminal::new(terminal))?;
+        let done = study.write_job(chosen(matches)?, &suite.registry, job, out, &mut OnTerminal::of_job(terminal))?;
         match done {
             Done::Measured => {}
             Done::Before => {

@@ -1,15 +1,16 @@
 //! `study plan`: studies as jobs that need each other in nothing, for the machines of a cluster.
 
-use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
+use super::progress::Waiting;
 use super::study::RUNS;
 use super::{Session, chosen, command};
 use crate::measure::quoted;
+use crate::report::words::{each_once, each_once_by};
 use crate::simd::Level;
 use crate::study::job::{Job, OPTION, OUT};
 use crate::study::journal::file_name;
-use crate::study::{AnyStudy, Status};
+use crate::study::{AnyStudy, Effort, Status};
 
 /// Name of the command.
 pub const NAME: &str = "plan";
@@ -20,12 +21,12 @@ const OUTPUTS: [&str; 4] = ["--export-json", "--export-csv", "--export-markdown"
 /// Print a study as jobs for a cluster: one command a line, each of which measures one case and writes one file
 #[derive(Clone, Debug, clap::Args)]
 pub struct Args {
-    /// Studies, or `all`, as `study all` measures them
-    #[arg(value_name = "NAME", required = true)]
-    name: String,
-    /// Folder of journals: each job writes DIR/NAME/CASE.json
-    #[arg(long, value_name = "DIR", default_value = RUNS)]
-    dir: PathBuf,
+    /// Studies, or `all`, as `study all` measures them [default: all]
+    #[arg(value_name = "NAME")]
+    name: Option<String>,
+    /// Folder of journals: each job writes DIR/NAME/CASE.json [default: runs]
+    #[arg(long, value_name = "DIR")]
+    dir: Option<PathBuf>,
     /// The quick form of each study, which `study all --quick` measures
     #[arg(long)]
     quick: bool,
@@ -38,19 +39,25 @@ pub struct Args {
 }
 
 impl Args {
-    /// What is asked for: the names of studies, and the options that are theirs.
+    /// What is asked for: the names of studies, and the options that are theirs. An option that is given twice is refused as clap refuses
+    /// one before `rest`.
     fn split(&self) -> anyhow::Result<(Self, Vec<String>, Vec<String>)> {
-        let (mut own, mut names, mut options) = (self.clone(), vec![self.name.clone()], vec![]);
+        let name = self.name.clone().unwrap_or_else(|| super::all::NAME.into());
+        let (mut own, mut names, mut options) = (self.clone(), vec![name], vec![]);
         let mut rest = self.rest.iter().peekable();
         while let Some(word) = rest.next_if(|word| !word.starts_with('-')) {
             names.push(word.clone());
         }
         while let Some(word) = rest.next() {
             match word.split_once('=').map_or((word.as_str(), None), |(name, value)| (name, Some(value))) {
-                ("--quick", None) => own.quick = true,
+                ("--quick", None) => {
+                    anyhow::ensure!(!own.quick, "the argument '--quick' cannot be used multiple times");
+                    own.quick = true;
+                }
                 ("--dir", value) => {
+                    anyhow::ensure!(own.dir.is_none(), "the argument '--dir <DIR>' cannot be used multiple times");
                     let value = value.or_else(|| rest.next().map(String::as_str));
-                    own.dir = value.ok_or_else(|| anyhow::anyhow!("--dir needs a folder: --dir DIR"))?.into();
+                    own.dir = Some(value.ok_or_else(|| anyhow::anyhow!("--dir needs a folder: --dir DIR"))?.into());
                 }
                 ("--scenes", value) => {
                     let before = own.scenes.len();
@@ -83,21 +90,14 @@ pub fn run(session: &Session, args: &Args, level: Option<Level>) -> anyhow::Resu
         !options.iter().any(|word| word == "--fresh"),
         "--fresh empties the folder of a study, and each job measures one case of it: name another folder with --dir, or remove this one"
     );
-    let whole = names.iter().any(|name| name == super::all::NAME);
-    let studies: Vec<&dyn AnyStudy> = if whole {
-        suite.studies.in_order_of_measuring()
-    } else {
-        names.iter().map(|name| super::find(suite, name)).collect::<anyhow::Result<_>>()?
-    };
-    let mut lines = String::new();
+    let named = names.iter().filter(|name| *name != super::all::NAME);
+    let named: Vec<&dyn AnyStudy> = named.map(|name| super::find(suite, name)).collect::<anyhow::Result<_>>()?;
+    let whole = named.len() < names.len();
+    let studies = if whole { suite.studies.in_order_of_measuring() } else { named };
+    let dir = args.dir.as_deref().unwrap_or(Path::new(RUNS));
+    let (mut lines, mut warnings) = (String::new(), vec![]);
     // Two jobs of one case would write one file.
-    let mut seen = HashSet::new();
-    for study in studies.into_iter().filter(|study| seen.insert(study.name())) {
-        if study.is_last() {
-            let name = study.name();
-            terminal.tell(&format!("{name}: no jobs, for it is made from the others: run it when they are measured"));
-            continue;
-        }
+    for study in each_once_by(studies, |one, other| one.name() == other.name()) {
         if let Some(why) = study.cannot_be_measured_here().filter(|_| whole) {
             terminal.tell(&format!("{}: no jobs, for {why}", study.name()));
             continue;
@@ -106,35 +106,39 @@ pub fn run(session: &Session, args: &Args, level: Option<Level>) -> anyhow::Resu
             terminal.tell(&format!("{}: on scenes of its own, whatever --scenes names", study.name()));
         }
         // As the job will read it.
-        let words = words(study, &args, whole, level, &options);
+        let mut words = words(study, &args, whole, level, &options);
         let parsed = command(&suite.studies).try_get_matches_from(&words)?;
-        for case in study.planned(chosen(&parsed)?, &suite.registry)? {
-            let job = serde_json::to_string(&Job::of(study.name(), &case)).expect("a job has text keys");
-            let file = args.dir.join(study.name()).join(file_name(&case.key));
+        let waiting = Waiting::show(format!("plans {}", study.name()), terminal);
+        let own = study.args(chosen(&parsed)?)?;
+        let plan = study.plan(&*own, &suite.registry)?;
+        drop(waiting);
+        words.extend(study.decided_here(&*own));
+        warnings.extend(plan.warnings);
+        for case in &plan.cases {
+            let job = serde_json::to_string(&Job::of(study.name(), case)).expect("a job has text keys");
+            let file = dir.join(study.name()).join(file_name(&case.key));
             lines += &(line(&words, &job, &file)? + "\n");
         }
     }
+    // Several studies may measure one scene.
+    each_once(warnings).iter().for_each(|warning| terminal.tell(&format!("warning: {warning}")));
     terminal.print(&lines)?;
     Ok(Status::Right)
 }
 
 /// The command of a study.
 fn words(study: &dyn AnyStudy, args: &Args, whole: bool, level: Option<Level>, options: &[String]) -> Vec<String> {
-    let mut words: Vec<&str> = vec!["sahara"];
-    words.extend(level.iter().flat_map(|level| ["--level", level.name()]));
-    words.push("study");
-    let scenes = args.scenes.iter().map(String::as_str).filter(|_| study.names_scenes());
-    if whole || args.quick {
-        words.push(super::all::NAME);
-        words.extend(args.quick.then_some("--quick"));
-        let scenes: Vec<&str> = scenes.collect();
-        words.extend((!scenes.is_empty()).then_some("--scenes"));
-        words.extend(scenes);
-    } else {
-        words.push(study.name());
-        words.extend(scenes);
-    }
-    words.into_iter().map(String::from).chain(options.iter().cloned()).collect()
+    let mut words: Vec<String> = vec!["sahara".into()];
+    words.extend(level.iter().flat_map(|level| ["--level", level.name()]).map(String::from));
+    words.extend(["study", study.name()].map(String::from));
+    words.extend(match (args.quick, whole) {
+        (true, _) => study.preset(Effort::Quick, &args.scenes),
+        (false, true) => study.preset(Effort::Full, &args.scenes),
+        (false, false) if study.names_scenes() => args.scenes.clone(),
+        (false, false) => vec![],
+    });
+    words.extend(options.iter().cloned());
+    words
 }
 
 /// A line that a shell reads as the command with a job and a file.

@@ -152,6 +152,7 @@ impl Progress {
             Stage::Trace(taken, total) => {
                 ("is timed".into(), 30 + (STEPS - 30) * *taken as u64 / (*total).max(1) as u64)
             }
+            Stage::Count => ("is counted".into(), STEPS),
         };
         let text = format!("{} {text}", self.scene);
         // Nothing is drawn while samples are taken.
@@ -162,7 +163,7 @@ impl Progress {
         // Between samples the watch is not woken.
         match stage {
             Stage::Build(_) | Stage::Check(_) => self.watched(Some(&text)),
-            Stage::Rays(_) | Stage::Trace(..) => self.watched(None),
+            Stage::Rays(_) | Stage::Trace(..) | Stage::Count => self.watched(None),
         }
         self.bar.set_message(text);
         self.step = self.step.max(step);
@@ -212,13 +213,21 @@ pub struct OnTerminal<'a> {
     /// Until it is known what is measured.
     loading: Option<Waiting>,
     progress: Option<Progress>,
-    _listening: Listening,
+    /// Whether it shows a job: one case, of which there is nothing to show or keep before it is measured.
+    is_job: bool,
+    /// While a run measures: all else is ended by Ctrl-C at once.
+    listening: Option<Listening>,
 }
 
 impl<'a> OnTerminal<'a> {
     pub fn new(terminal: &'a Terminal) -> Self {
         let loading = Some(Waiting::show("loads scenes".into(), terminal));
-        Self { terminal, loading, progress: None, _listening: Listening::begin() }
+        Self { terminal, loading, progress: None, is_job: false, listening: None }
+    }
+
+    /// That of a job, which says what it measures in a line that is there in a log as well.
+    pub fn of_job(terminal: &'a Terminal) -> Self {
+        Self { is_job: true, ..Self::new(terminal) }
     }
 }
 
@@ -226,9 +235,15 @@ impl Screen for OnTerminal<'_> {
     fn begin(&mut self, work: u64) {
         self.loading = None;
         self.progress = Some(Progress::over(work, self.terminal));
+        if !self.is_job {
+            self.listening.get_or_insert_with(Listening::begin);
+        }
     }
 
     fn case(&mut self, title: &str, work: u64) {
+        if self.is_job {
+            self.terminal.tell(&format!("measures {title}"));
+        }
         self.progress.iter_mut().for_each(|progress| progress.scene(title, work));
     }
 

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::Suite;
-use super::progress::Progress;
+use super::progress::Waiting;
 use super::study::RUNS;
 use super::terminal::Terminal;
 use crate::output::{OutputFile, OutputFolder};
@@ -37,12 +37,9 @@ pub fn run(suite: &Suite, args: &Args, terminal: &Terminal) -> anyhow::Result<St
 
     let mut pictures = left_out();
     if folder.is_some() && !args.no_pictures {
-        let scenes = runs.scenes(&suite.studies).len() as u64;
-        let mut progress = Progress::over(scenes, terminal);
-        pictures = draw(&runs, (&suite.registry, &suite.studies), &|name| sources::scene(name).ok(), &mut |name| {
-            progress.scene(name, 1);
-        });
-        progress.finish();
+        let waiting = Waiting::show("loads scenes".into(), terminal);
+        let find = |name: &str| sources::scene(name).ok();
+        pictures = draw(&runs, (&suite.registry, &suite.studies), &find, &mut |what| waiting.says(what));
     }
     let document = document(&runs, &suite.studies, if folder.is_some() { pictures } else { vec![] });
     if let Some(results) = &results {

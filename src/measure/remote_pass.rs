@@ -2,7 +2,6 @@
 
 use std::borrow::Cow;
 use std::cell::RefCell;
-use std::collections::BTreeMap;
 use std::rc::Rc;
 
 use super::answers::Answers;
@@ -26,9 +25,6 @@ pub struct RemotePass<'a> {
     lead_in: Option<Batch<'a>>,
     answers: Answers,
     aside: Answers,
-    /// Which rays these are, the largest level and the epoch, and the checksums of their answers.
-    chosen: (usize, usize),
-    checksums: BTreeMap<(usize, usize), u64>,
     /// Whether the lead-in's answers are answers of the pass as well.
     led_in: bool,
     failure: Failure,
@@ -41,8 +37,6 @@ struct Batch<'a> {
 
 /// Of what is timed, the share that a lead-in has.
 const LEAD_IN_SHARE: usize = 8;
-
-const UNSTEADY: &str = "asked the same rays again, it gives other answers: the structure is not pure";
 
 impl<'a> RemotePass<'a> {
     /// A pass over all rays, and why it failed, once it has.
@@ -60,8 +54,6 @@ impl<'a> RemotePass<'a> {
             lead_in: None,
             answers: Answers::none(query),
             aside: Answers::none(query),
-            chosen: (0, 0),
-            checksums: BTreeMap::new(),
             led_in: false,
             failure: Rc::clone(&failure),
         };
@@ -94,7 +86,7 @@ impl Timed for RemotePass<'_> {
         self.lead_in = (count > 0).then(|| Batch { rays: self.accel.load(Cow::Borrowed(last)), count });
         self.answers.resize(batches.iter().map(|batch| batch.count).max().unwrap_or(0));
         self.aside.resize(count);
-        (self.batches, self.chosen) = (batches, (levels[0], epoch));
+        self.batches = batches;
     }
 
     fn clear(&mut self) {
@@ -118,24 +110,16 @@ impl Timed for RemotePass<'_> {
             self.answers.first(batch.count).ask(batch.rays.as_ref());
             *ns = batch.rays.own_ns().unwrap_or(0);
         }
-        if !self.has_failed() {
-            let (all, led_in) = (self.batches[0].count, self.aside.len());
-            let checksum = self.answers.checksum(0..all);
-            let first = *self.checksums.entry(self.chosen).or_insert(checksum);
-            let contradicts = || self.aside.checksum(0..led_in) != self.answers.checksum(all - led_in..all);
-            if first != checksum || self.led_in && contradicts() {
-                *self.failure.borrow_mut() = Some(UNSTEADY.into());
-            }
-        }
         ns
     }
 
-    /// Of the first pass over these rays: of others the failure tells.
     fn checksum(&self) -> u64 {
-        self.checksums.get(&self.chosen).copied().unwrap_or(0)
+        if self.has_failed() { 0 } else { self.answers.checksum(0..self.batches[0].count) }
     }
 
     fn contradicts_itself(&self) -> bool {
-        false
+        let (all, led_in) = (self.batches[0].count, self.aside.len());
+        let contradicts = || self.aside.checksum(0..led_in) != self.answers.checksum(all - led_in..all);
+        self.led_in && !self.has_failed() && contradicts()
     }
 }

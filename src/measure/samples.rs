@@ -62,6 +62,8 @@ pub struct Samples {
     pub ns: Vec<u64>,
     /// The same samples, for a part of their rays: as many as a slower case with the same rays is timed on.
     pub parts: Vec<Part>,
+    /// Whether the same rays had the same answers every time: a sample without an answer is not a measurement.
+    pub is_steady: bool,
 }
 
 /// A part of the samples of a case.
@@ -79,7 +81,7 @@ impl Samples {
     /// of those of the first tells whether answers are the same.
     pub fn none(all: usize, level: usize) -> Self {
         let asked = (level > 0).then(|| (level + 2).min(last_level(all)));
-        Self { rays: rays_at(all, level), asked, checksum: 0, ns: vec![], parts: vec![] }
+        Self { rays: rays_at(all, level), asked, checksum: 0, ns: vec![], parts: vec![], is_steady: true }
     }
 
     /// Nanoseconds a ray, of each sample.
@@ -88,20 +90,10 @@ impl Samples {
     }
 }
 
-/// A sample without an answer is not a measurement.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("asked the same rays again, it gave other answers: the structure is not pure")]
-pub struct UnsteadyAnswers {
-    /// Number of the case.
-    pub case: usize,
-}
-
-/// An epoch: adds `plan.runs` samples of every case, in each round every case once, in random order, those that are compared
-/// one after the other: what disturbs them lasts, and is in all of them. `compared` has a number for each case, the same for
-/// those that are compared. `samples` say on how many rays. `progress` is told the number of samples taken, between them.
-///
-/// # Errors
-/// If a case gives different answers to the same rays.
+/// An epoch: adds `plan.runs` samples of every case, in each round every case once, in random order, those that are
+/// compared one after the other: what disturbs them lasts, and is in all of them. `compared` has a number for each
+/// case, the same for those that are compared. `samples` say on how many rays. A case that is not steady is asked no
+/// more. `progress` is told the number of samples taken, those left out included, between them.
 ///
 /// # Panics
 /// If there are not as many samples or numbers as cases, or the samples are of numbers of rays that are no level's.
@@ -112,19 +104,17 @@ pub fn take(
     plan: &Plan,
     samples: &mut [Samples],
     progress: &mut dyn FnMut(usize),
-) -> Result<(), UnsteadyAnswers> {
+) {
     assert_eq!([cases.len(); 2], [samples.len(), compared.len()], "samples are of the same cases");
     let watch = Stopwatch::new(clock);
     let mut levels_of = vec![];
-    for (i, (case, samples)) in cases.iter_mut().zip(samples.iter_mut()).enumerate() {
+    for (case, samples) in cases.iter_mut().zip(samples.iter_mut()) {
         let level_of = |rays: usize| level_of(case.rays(), rays).expect("a part is as large as a level");
         let mut levels = vec![level_of(samples.rays)];
         levels.extend(samples.parts.iter().map(|part| level_of(part.rays)));
         if let Some(level) = samples.asked {
             samples.checksum = ask_some(&watch, case.as_mut(), level);
-            if plan.epoch == 0 && samples.checksum != ask_some(&watch, case.as_mut(), level) {
-                return Err(UnsteadyAnswers { case: i });
-            }
+            samples.is_steady = plan.epoch > 0 || samples.checksum == ask_some(&watch, case.as_mut(), level);
         }
         levels_of.push(levels);
     }
@@ -137,23 +127,22 @@ pub fn take(
     for _ in 0..plan.runs {
         for i in order.shuffled_by_group(compared) {
             let (case, samples) = (&mut cases[i], &mut samples[i]);
-            case.clear();
-            case.lead_in();
-            let ns = case.run(&watch);
-            let checksum = case.checksum();
-            if *checksums[i].get_or_insert(checksum) != checksum || case.contradicts_itself() {
-                return Err(UnsteadyAnswers { case: i });
+            if samples.is_steady {
+                case.clear();
+                case.lead_in();
+                let ns = case.run(&watch);
+                let checksum = case.checksum();
+                samples.is_steady = *checksums[i].get_or_insert(checksum) == checksum && !case.contradicts_itself();
+                if samples.asked.is_none() {
+                    samples.checksum = checksum;
+                }
+                samples.ns.push(ns[0]);
+                samples.parts.iter_mut().zip(&ns[1..]).for_each(|(part, &ns)| part.ns.push(ns));
             }
-            if samples.asked.is_none() {
-                samples.checksum = checksum;
-            }
-            samples.ns.push(ns[0]);
-            samples.parts.iter_mut().zip(&ns[1..]).for_each(|(part, &ns)| part.ns.push(ns));
             taken += 1;
             progress(taken);
         }
     }
-    Ok(())
 }
 
 /// The checksum of the rays that `case` is timed on in the first epoch at `level`.

@@ -17,10 +17,12 @@ pub struct Machine {
     pub threads: usize,
 }
 
-/// What was compared on one machine.
+/// What was compared on one machine by one build.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OfMachine {
     pub machine: Machine,
+    /// The commit, and the digest of the program: [`Provenance::build`].
+    pub build: [String; 2],
     pub compared: Compared,
     /// The files that it was read from, by their places among [`Runs::sources`](super::Runs::sources).
     pub sources: Vec<usize>,
@@ -41,26 +43,28 @@ impl fmt::Display for Machine {
 }
 
 impl OfMachine {
-    /// The answer of the file `source` in parts of one machine each, which the records tell. What was refused belongs to the first
-    /// of them. `provenance` tells the machine of an answer without records; nothing is left where neither does.
+    /// The answer of the file `source` in parts of one machine and build each, which the records tell. What was refused belongs to the
+    /// first of them. `provenance` tells those of an answer without records; nothing is left where neither does.
     pub fn parts(compared: Compared, provenance: Option<&Provenance>, source: usize) -> Vec<Self> {
         let Compared { records, refused, reference, wide } = compared;
-        let empty = |machine: Machine| {
-            let compared = Compared { reference: reference.clone(), wide, ..Compared::default() };
-            Self { machine, compared, sources: vec![source] }
+        let empty = |provenance: &Provenance| Self {
+            machine: Machine::of(provenance),
+            build: [&provenance.commit, &provenance.build].map(String::clone),
+            compared: Compared { reference: reference.clone(), wide, ..Compared::default() },
+            sources: vec![source],
         };
         let mut parts: Vec<Self> = vec![];
         for record in records {
-            let machine = Machine::of(&record.provenance);
-            let known = parts.iter().position(|part| part.machine == machine);
+            let own = empty(&record.provenance);
+            let known = parts.iter().position(|part| part.is_like(&own));
             let place = known.unwrap_or(parts.len());
             if known.is_none() {
-                parts.push(empty(machine));
+                parts.push(own);
             }
             parts[place].compared.records.push(record);
         }
         if parts.is_empty() {
-            parts.extend(provenance.map(Machine::of).map(empty));
+            parts.extend(provenance.map(empty));
         }
         if let Some(first) = parts.first_mut() {
             first.compared.refused = refused;
@@ -68,7 +72,12 @@ impl OfMachine {
         parts
     }
 
-    /// Adds a newer answer of the same machine; tells whether some of the older one is replaced.
+    /// Whether both are of one machine and build.
+    pub fn is_like(&self, other: &Self) -> bool {
+        self.machine == other.machine && self.build == other.build
+    }
+
+    /// Adds a newer answer of the same machine and build; tells whether some of the older one is replaced.
     pub fn merge(&mut self, newer: Self) -> bool {
         self.sources.extend(newer.sources);
         CompareStudy::merge(&mut self.compared, newer.compared)

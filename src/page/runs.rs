@@ -26,8 +26,8 @@ pub struct Runs {
     pub sources: Vec<Source>,
     /// What studies say; of `compare` what it says of the first machine.
     pub answers: Answers,
-    /// What was compared, machine by machine: the one with the most times first, or the newest of these, then those
-    /// measured last at the end.
+    /// What was compared, machine by machine, on each by one build: the one with the most times first, or the newest of these, then
+    /// those measured last at the end.
     pub machines: Vec<OfMachine>,
     /// The machines that the other answers are of, where files tell.
     measured_on: BTreeMap<&'static str, Machine>,
@@ -68,6 +68,9 @@ struct File {
 
 /// What is said of cases of which another build or machine has measured more.
 const LESS: &str = "all of it: another build or machine has measured as many cases or more";
+
+/// What is said of a comparison where another build has measured more on the same machine.
+const OTHER_BUILD: &str = "times of one build: another one has as many or more on the same machine";
 
 /// What one answer is made of, and when it was last written: the newest counts where two measured the same.
 struct Part<'a> {
@@ -129,25 +132,28 @@ impl Runs {
         }
         for (study, cases) in cases {
             let study = studies.find(study).expect("it was found before");
-            let mut groups = groups(cases)?.into_iter().peekable();
-            while let Some(group) = groups.next() {
+            let groups = groups(cases)?;
+            let machines: Vec<Machine> = groups.iter().map(|group| Machine::of(&group.provenance)).collect();
+            for (place, group) in groups.into_iter().enumerate() {
                 let of = |file: &CaseFile<Value>| modified(&file.path);
                 let times = group.files.iter().map(of).collect::<Result<Vec<SystemTime>, RunError>>()?;
                 let modified = times.into_iter().max().expect("a group has a case");
                 let path = group.files[0].path.parent().unwrap_or(Path::new(".")).into();
-                let holds = Holds::Cases(Box::new(group), groups.peek().is_some());
-                parts.push(Part { modified, path, study, holds });
+                // The set with the most cases comes last. Of comparisons all machines are shown and of other studies one, of a machine
+                // one build.
+                let is_beside = |more: &Machine| study.name() == CompareStudy::NAME && *more != machines[place];
+                let is_less = machines[place + 1..].iter().any(|more| !is_beside(more));
+                parts.push(Part { modified, path, study, holds: Holds::Cases(Box::new(group), is_less) });
             }
         }
-        // Of several builds or machines the one with the most cases counts, and comes last.
-        let is_less = |part: &Part| matches!(part.holds, Holds::Cases(_, true));
-        parts.sort_by(|a, b| (!is_less(a), a.modified, &a.path).cmp(&(!is_less(b), b.modified, &b.path)));
+        parts.sort_by(|a, b| (a.modified, &a.path).cmp(&(b.modified, &b.path)));
         if let (true, Some(path)) = (parts.is_empty() && runs.history.is_empty(), paths.first()) {
             return Err(RunError::Empty { path: path.clone() });
         }
         // What is made from the others comes after them.
         let (last, first): (Vec<Part>, Vec<Part>) = parts.into_iter().partition(|part| part.study.is_last());
         first.into_iter().try_for_each(|part| runs.add(part))?;
+        runs.leave_one_build();
         runs.lead(studies);
         let made = studies.iter().filter(|study| study.is_last()).map(|study| {
             let answer = study.answer(&[], &Provenance::capture(1), &runs.answers, None);
@@ -168,11 +174,8 @@ impl Runs {
         let Part { path, study, holds, .. } = part;
         match holds {
             Holds::Export(answer) => self.take(&path, study, *answer, None),
-            // Of comparisons all machines are shown, of other studies one.
-            Holds::Cases(group, true) if study.name() != CompareStudy::NAME => {
-                self.note(&path, study.name(), &group.provenance.command, LESS);
-            }
-            Holds::Cases(group, _) => {
+            Holds::Cases(group, true) => self.note(&path, study.name(), &group.provenance.command, LESS),
+            Holds::Cases(group, false) => {
                 let Found { answer, notes } = study.read_cases(&group, &self.answers)?;
                 self.take(&path, study, answer, Some(&group.provenance));
                 let again = group.replaced.first().map(|path| {
@@ -213,7 +216,7 @@ impl Runs {
         self.note(path, study.name(), &command, "");
     }
 
-    /// Adds a comparison to those of its machine. Where the file does not tell `provenances` the records do.
+    /// Adds a comparison to those of its machine and build. Where the file does not tell `provenances` the records do.
     fn compare(&mut self, compared: Compared, provenances: &mut Vec<Provenance>) {
         let parts = OfMachine::parts(compared, provenances.first(), self.sources.len());
         if provenances.is_empty() {
@@ -221,7 +224,7 @@ impl Runs {
             provenances.extend(parts.iter().filter_map(first));
         }
         for part in parts {
-            let known = self.machines.iter().position(|older| older.machine == part.machine);
+            let known = self.machines.iter().position(|older| older.is_like(&part));
             let Some(mut older) = known.map(|place| self.machines.remove(place)) else {
                 self.machines.push(part);
                 continue;
@@ -231,6 +234,22 @@ impl Runs {
                 sources.into_iter().for_each(|source| self.sources[source].replaced = REPLACED.into());
             }
             self.machines.push(older);
+        }
+    }
+
+    /// Leaves of each machine the build with the most times, the newest of these.
+    fn leave_one_build(&mut self) {
+        let counts = |own: &OfMachine| {
+            let of_machine = self.machines.iter().filter(|one| one.machine == own.machine);
+            of_machine.max_by_key(|one| one.timed()).is_some_and(|most| most.is_like(own))
+        };
+        let counts: Vec<bool> = self.machines.iter().map(counts).collect();
+        for (own, counts) in std::mem::take(&mut self.machines).into_iter().zip(counts) {
+            if counts {
+                self.machines.push(own);
+            } else {
+                own.sources.iter().for_each(|&source| self.sources[source].replaced = OTHER_BUILD.into());
+            }
         }
     }
 

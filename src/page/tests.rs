@@ -3,9 +3,11 @@ use std::path::PathBuf;
 
 use super::{Runs, files, page};
 use crate::report::document::{Art, Document, Section};
+use crate::report::plot::Chart;
 use crate::report::{Record, to_json};
+use crate::study::history::{self, Entry};
 use crate::study::{Studies, attribution};
-use example::{accuracy, exported, refused, whole};
+use example::{Files, accuracy, comparison, exported, refused, scaling, whole};
 
 pub use example::{attribution as attribution_files, compared, cube, provenance, read, records_of, runs_folder};
 
@@ -212,30 +214,86 @@ fn what_is_no_run_is_left_out_of_a_folder_and_named() {
     assert!(refused(&[folder.path().into()]).to_string().contains("there is no run"));
 }
 
-/// Two folders of attribution, the text of every file of the second changed so, read together.
-fn both(change: impl Fn(&str) -> String) -> Runs {
-    let one = runs_folder(&attribution_files("Cube"));
-    let of = |bytes: Vec<u8>| change(&String::from_utf8(bytes).unwrap()).into_bytes();
-    let changed = attribution_files("Cube").into_iter().map(|(name, bytes)| (name, of(bytes)));
-    let other = runs_folder(&changed.collect::<Vec<_>>());
+/// What is changed in the text of a case, and what it becomes.
+const OTHER_CPU: [&str; 2] = ["\"cpu\":\"a processor\"", "\"cpu\":\"another\""];
+const OTHER_COMMIT: [&str; 2] = ["\"commit\":\"c0ffee\"", "\"commit\":\"decade\""];
+
+/// Two folders with these files, the text of every file of the second changed so, read together.
+fn both([one, other]: [&Files; 2], change: impl Fn(&str) -> String) -> Runs {
+    let of = |bytes: &[u8]| change(str::from_utf8(bytes).unwrap()).into_bytes();
+    let changed: Files = other.iter().map(|(name, bytes)| (name.clone(), of(bytes))).collect();
+    let [one, other] = [one, &changed].map(|files| runs_folder(files));
     Runs::read(&[one.path().into(), other.path().into()], &Studies::builtin()).unwrap()
 }
 
 #[test]
 fn cases_of_other_machines_and_builds_are_never_of_one_answer() {
-    for change in
-        [("\"cpu\":\"a processor\"", "\"cpu\":\"another\""), ("\"commit\":\"c0ffee\"", "\"commit\":\"decade\"")]
-    {
-        let runs = both(|text| text.replacen(change.0, change.1, 1));
+    let files = attribution_files("Cube");
+    for change in [OTHER_CPU, OTHER_COMMIT] {
+        let runs = both([&files; 2], |text| text.replacen(change[0], change[1], 1));
         let answer = runs.answers.of::<attribution::AttributionStudy>().unwrap();
         assert_eq!(answer.len(), 1);
         assert_eq!(runs.sources.len(), 2, "each is an answer of its own: {:?}", runs.sources);
         assert_eq!(runs.sources.iter().filter(|source| !source.replaced.is_empty()).count(), 1);
     }
     // A case that was measured twice by one build on one machine counts once.
-    let runs = both(|text| text.replacen("\"host\":\"", "\"host\":\"b", 1));
-    assert_eq!((runs.sources.len(), runs.notes.len()), (1, 1), "{:?}", runs.notes);
-    assert!(runs.notes[0].contains("attribution: 2 cases measured again since"), "{:?}", runs.notes);
+    let of_hosts = |files: [&Files; 2]| {
+        let mut runs = both(files, |text| text.replacen("\"host\":\"", "\"host\":\"b", 1));
+        assert_eq!((runs.sources.len(), runs.notes.len()), (1, 1), "{:?}", runs.notes);
+        runs.notes.remove(0)
+    };
+    let note = of_hosts([&files; 2]);
+    assert!(note.contains("attribution: 2 cases measured again since"), "{note}");
+    // Hosts of one processor are one machine, and are named.
+    let note = of_hosts([&files[..1].to_vec(), &files[1..].to_vec()]);
+    assert!(note.starts_with("attribution: cases of 2 hosts: "), "{note}");
+}
+
+#[test]
+fn a_comparison_is_of_one_build_and_another_machine_stands_beside_it() {
+    // One of them measured a scene that the other lacks.
+    let files = [comparison(&["Dragon", "Cube", "Lucy"]), comparison(&["Dragon", "Torus"])];
+    for (change, machines) in [(OTHER_COMMIT, 1), (OTHER_CPU, 2)] {
+        let runs = both(files.each_ref(), |text| text.replacen(change[0], change[1], 1));
+        assert_eq!(runs.records().len(), 6);
+        for record in runs.records() {
+            assert_eq!((&*record.provenance.commit, &*record.provenance.cpu), ("c0ffee", "a processor"));
+        }
+        let left_out = runs.sources.iter().filter(|source| !source.replaced.is_empty()).count();
+        assert_eq!((runs.machines.len(), left_out), (machines, 2 - machines), "{:?}", runs.sources);
+    }
+}
+
+#[test]
+fn epochs_that_no_plan_has_are_not_missing() {
+    // Of the larger ones `scaling` measures three.
+    let notes = |epochs: usize| read(runs_folder(&scaling(&[(1280, 4), (20 << 18, epochs)])).path()).notes;
+    assert_eq!(notes(3), [""; 0]);
+    assert_eq!(notes(2), ["scaling: sphere 5242880: epoch 2 is not measured."]);
+}
+
+#[test]
+fn the_picture_of_a_history_names_commits_and_marks_changes() {
+    let run = |(commit, slower): (&str, f64)| {
+        let of = |mut record: Record| {
+            record.provenance.commit = commit.into();
+            if record.label == "sah-kd" {
+                record.samples_ns.iter_mut().for_each(|ns| *ns *= slower);
+            }
+            record
+        };
+        let records: Vec<Record> = records_of("Cube").into_iter().map(of).collect();
+        serde_json::to_string(&Entry::new("nightly", &records).unwrap()).unwrap()
+    };
+    let lines = [("0123456789ab", 1.0), ("decade", 1.0), ("decade+changes", 2.0)].map(run).join("\n");
+    let folder = runs_folder(&[(format!("baselines/{}", history::FILE), lines.into_bytes())]);
+    let document = document(&read(folder.path()), vec![]);
+    let figure = document.figures().into_iter().find(|figure| figure.id == "history-nightly").unwrap();
+    let Art::Chart(Chart::Curves(curves)) = &figure.art else { panic!("no curves") };
+    assert_eq!(curves.x_names, ["0123456", "decade", "decade+"]);
+    let points = curves.lines.iter().flat_map(|line| line.points.iter().map(move |point| (&*line.label, point)));
+    let marked: Vec<(&str, f64)> = points.filter(|(_, point)| point.is_marked).map(|(label, p)| (label, p.x)).collect();
+    assert_eq!(marked, [("sah-kd", 3.0)]);
 }
 
 #[test]

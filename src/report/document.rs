@@ -55,7 +55,7 @@ pub enum Block {
     /// What columns mean, small.
     Note(String),
     Table(Tabular),
-    Figure(Figure),
+    Figure(Box<Figure>),
     /// What is not there, and how to make it.
     Missing(Missing),
     /// Blocks that are opened on demand, below their name.
@@ -161,6 +161,10 @@ impl Figure {
 }
 
 impl Block {
+    pub fn figure(figure: Figure) -> Self {
+        Self::Figure(Box::new(figure))
+    }
+
     /// A table without colours.
     pub fn table(table: Table, command: &str) -> Self {
         Self::Table(Tabular { table, command: command.into(), shades: vec![] })
@@ -190,7 +194,7 @@ impl Document {
     /// All figures, in their order.
     pub fn figures(&self) -> Vec<&Figure> {
         let blocks = self.blocks().into_iter();
-        blocks.filter_map(|block| if let Block::Figure(figure) = block { Some(figure) } else { None }).collect()
+        blocks.filter_map(|block| if let Block::Figure(figure) = block { Some(&**figure) } else { None }).collect()
     }
 
     /// What no run has measured.

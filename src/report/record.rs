@@ -51,8 +51,8 @@ pub struct Record {
     pub branch_misses_per_ray: Option<f64>,
     pub bytes: usize,
     pub declined: Option<String>,
-    pub checked_rays: Option<usize>,
-    pub structure_errors: Option<usize>,
+    pub checked_rays: usize,
+    pub structure_errors: usize,
     pub provenance: Provenance,
     pub counts: CaseCounts,
 }
@@ -68,7 +68,7 @@ impl Record {
 
     /// Whether wrong answers cost the case its time.
     pub fn is_disqualified(&self) -> bool {
-        self.structure_errors.is_some_and(|errors| errors > 0)
+        self.structure_errors > 0
     }
 
     /// Nanoseconds of every sample for `rays` rays, which are all of it or a part. Nothing where these were not timed.
@@ -180,8 +180,8 @@ pub(crate) fn example() -> Record {
         branch_misses_per_ray: None,
         bytes: 4096,
         declined: None,
-        checked_rays: Some(100),
-        structure_errors: Some(0),
+        checked_rays: 100,
+        structure_errors: 0,
         provenance: Provenance::capture(1),
         counts: CaseCounts { leaves: 7, tests_over_minimum: Some(2.5), ..CaseCounts::default() },
     }

@@ -113,9 +113,14 @@ pub fn distinct<'a>(names: impl Iterator<Item = &'a String>) -> Vec<String> {
 
 /// Each of `items` once, in the order of their first appearance.
 pub fn each_once<T: PartialEq>(items: impl IntoIterator<Item = T>) -> Vec<T> {
+    each_once_by(items, T::eq)
+}
+
+/// As [`each_once`], where `same` tells whether two of them are one.
+pub fn each_once_by<T>(items: impl IntoIterator<Item = T>, same: impl Fn(&T, &T) -> bool) -> Vec<T> {
     let mut found: Vec<T> = vec![];
     for item in items {
-        if !found.contains(&item) {
+        if !found.iter().any(|other| same(other, &item)) {
             found.push(item);
         }
     }
@@ -150,6 +155,12 @@ mod tests {
         assert!(table(Estimate::exact(2.0)).is_empty());
         assert!(table(Estimate::alone(2.0))[0].contains("one epoch, no interval"));
         assert_eq!(scene_name("Dragon", true), "Dragon (stand-in)");
+    }
+
+    #[test]
+    fn what_is_there_twice_counts_once_at_its_first_place() {
+        assert_eq!(each_once([3, 1, 3, 2, 1]), [3, 1, 2]);
+        assert_eq!(each_once_by(["b", "a", "B"], |one, other| one.eq_ignore_ascii_case(other)), ["b", "a"]);
     }
 
     #[test]

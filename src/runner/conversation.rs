@@ -2,11 +2,11 @@
 
 use std::io::{BufRead, BufReader, Read, Write};
 use std::process::{Child, ChildStdin, Command, ExitStatus, Stdio};
-use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use crate::measure::on_all_cores;
+use crate::measure::{on_all_cores, process_group};
 
 /// A program that is asked line by line, and may take so long for each answer.
 pub(super) struct Conversation {
@@ -35,10 +35,12 @@ impl Conversation {
     pub fn start(words: &[String], threads: usize, limit: Duration) -> Result<Self, String> {
         let mut command = Command::new(&words[0]);
         command.args(&words[1..]).stdin(Stdio::piped()).stdout(Stdio::piped());
+        process_group::set_apart(&mut command);
         let child = if threads > 1 { on_all_cores(|| command.spawn()) } else { command.spawn() };
         let mut child = child.map_err(|cause| format!("it cannot be started: {cause}"))?;
         let (input, output) = (child.stdin.take(), child.stdout.take().expect("it has an output"));
-        let (sender, lines) = channel();
+        // More than was asked for stays in the pipe and stops the program: it costs no memory, and no time of others.
+        let (sender, lines) = sync_channel(1);
         thread::spawn(move || {
             let mut output = BufReader::new(output);
             loop {
@@ -93,20 +95,18 @@ impl Conversation {
         }
     }
 
-    /// Tells it that there is no more, waits so long, and ends it; how it ended, if it did of itself.
+    /// Tells it that there is no more, waits so long, and ends it with all that it has started; how it ended, if it did
+    /// of itself.
     fn end(&mut self, patience: Duration) -> Option<ExitStatus> {
         self.input = None;
         let start = Instant::now();
-        loop {
-            match self.child.try_wait() {
-                Ok(Some(status)) => return Some(status),
-                Ok(None) if start.elapsed() < patience => thread::sleep(PAUSE),
-                _ => break,
-            }
+        let mut has_ended = process_group::has_ended(&mut self.child);
+        while !has_ended && start.elapsed() < patience {
+            thread::sleep(PAUSE);
+            has_ended = process_group::has_ended(&mut self.child);
         }
-        let _ = self.child.kill();
-        let _ = self.child.wait();
-        None
+        process_group::end(&mut self.child);
+        self.child.wait().ok().filter(|_| has_ended)
     }
 }
 
@@ -131,4 +131,33 @@ pub(super) fn misfit(request: &str, answer: &str, form: &str) -> String {
 pub(super) fn nanoseconds(seconds: &str) -> Option<u64> {
     let seconds: f64 = seconds.parse().ok()?;
     (0.0..1e9).contains(&seconds).then_some((seconds * 1e9) as u64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn shell(script: &str) -> Conversation {
+        let words = ["sh", "-c", script].map(String::from);
+        Conversation::start(&words, 1, Duration::from_secs(10)).unwrap()
+    }
+
+    #[test]
+    fn a_program_that_says_more_than_it_is_asked_is_stopped() {
+        let mut conversation = shell("head -c 1000000 /dev/zero");
+        assert_eq!(conversation.end(FAREWELL), None, "it has said all of it");
+    }
+
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn what_a_program_has_started_ends_with_it() {
+        for (script, ends_of_itself) in [("wait", false), ("exit", true)] {
+            let mut conversation = shell(&format!("read -r line; sleep 60 & echo started; {script}"));
+            assert_eq!(conversation.ask("start").unwrap().text, "started");
+            assert_eq!(conversation.end(FAREWELL).is_some(), ends_of_itself, "{script}");
+            // Its output is closed once nobody has it.
+            let next = conversation.lines.recv_timeout(Duration::from_secs(10));
+            assert_eq!(next, Err(RecvTimeoutError::Disconnected), "{script}");
+        }
+    }
 }

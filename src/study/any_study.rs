@@ -7,9 +7,9 @@ use clap::{Args, Command};
 use serde_json::Value;
 
 use super::any_case::{self, AnyCase};
-use super::chosen::{args, has_scenes};
+use super::chosen::{args, has_scenes, preset};
 use super::journal::Read;
-use super::{Answers, AnyAnswer, Chosen, Context, Data, Plan, Printed, SceneId, Study, Trouble};
+use super::{Answers, AnyAnswer, Chosen, Context, Data, Effort, Plan, Printed, SceneId, Study, Trouble};
 use crate::measure::Provenance;
 use crate::registry::Registry;
 use crate::report::document::Block;
@@ -30,7 +30,6 @@ macro_rules! views {
             statements() -> Vec<Statement>;
             section(command: &str) -> Vec<Block>;
             scenes() -> Vec<SceneId>;
-            plot() -> Option<Figure>;
             json(provenance: &Provenance) -> Vec<u8>;
             csv(provenance: &Provenance) -> Vec<u8>;
         }
@@ -72,24 +71,34 @@ pub trait AnyStudy: Send + Sync {
     fn is_scene_by_scene(&self) -> bool;
     /// [`Study::WHOLE`].
     fn is_whole(&self) -> bool;
-    /// [`Study::PLOT`].
+    /// [`Study::BOTH_MESHES`].
+    fn shows_both_meshes(&self) -> bool;
+    /// Whether there is a [`Study::PLOT`].
     fn has_plot(&self) -> bool;
+    /// [`Study::PLOT`] of an answer.
+    fn plot(&self, answer: &dyn Any) -> Option<Figure>;
     /// [`Study::cannot_be_measured_here`].
     fn cannot_be_measured_here(&self) -> Option<&'static str>;
     /// Adds the options of the study to a command.
     fn augment(&self, command: Command) -> Command;
     /// Whether its options name scenes.
     fn names_scenes(&self) -> bool;
+    /// What `study all` measures of it, in words of its command line; on these scenes, where there are any.
+    fn preset(&self, effort: Effort, scenes: &[String]) -> Vec<String>;
     /// Its options.
     ///
     /// # Errors
     /// If what is chosen is not taken.
     fn args(&self, chosen: Chosen) -> anyhow::Result<Box<dyn Any>>;
+    /// [`Study::decided_here`].
+    fn decided_here(&self, args: &dyn Any) -> Vec<String>;
     /// [`Study::plan`].
     ///
     /// # Errors
     /// As that.
     fn plan(&self, args: &dyn Any, registry: &Registry) -> anyhow::Result<Plan<Box<dyn AnyCase>>>;
+    /// [`Study::epochs`].
+    fn epochs(&self, most: usize, triangles: usize) -> usize;
     /// How its cases are read.
     fn reader(&self) -> Read<Box<dyn AnyCase>>;
     /// [`Study::answer`].
@@ -159,8 +168,16 @@ impl<S: Study> AnyStudy for Typed<S> {
         S::WHOLE
     }
 
+    fn shows_both_meshes(&self) -> bool {
+        S::BOTH_MESHES
+    }
+
     fn has_plot(&self) -> bool {
-        S::PLOT
+        S::PLOT.is_some()
+    }
+
+    fn plot(&self, answer: &dyn Any) -> Option<Figure> {
+        S::PLOT.map(|plot| plot(own::<S>(answer)))
     }
 
     fn cannot_be_measured_here(&self) -> Option<&'static str> {
@@ -175,12 +192,24 @@ impl<S: Study> AnyStudy for Typed<S> {
         has_scenes::<S>()
     }
 
+    fn preset(&self, effort: Effort, scenes: &[String]) -> Vec<String> {
+        preset::<S>(effort, scenes)
+    }
+
     fn args(&self, chosen: Chosen) -> anyhow::Result<Box<dyn Any>> {
         Ok(Box::new(args::<S>(chosen)?))
     }
 
+    fn decided_here(&self, args: &dyn Any) -> Vec<String> {
+        S::decided_here(own_args::<S>(args))
+    }
+
     fn plan(&self, args: &dyn Any, registry: &Registry) -> anyhow::Result<Plan<Box<dyn AnyCase>>> {
         Ok(S::plan(own_args::<S>(args), registry)?.map(any_case::of::<S>))
+    }
+
+    fn epochs(&self, most: usize, triangles: usize) -> usize {
+        S::epochs(most, triangles)
     }
 
     fn reader(&self) -> Read<Box<dyn AnyCase>> {

@@ -20,6 +20,10 @@ pub const WORKLOADS: [WorkloadKind; 4] =
 /// What most studies of epochs measure in `study all --quick`.
 pub const QUICK_EPOCHS: &str = "torus --rays 1024 --epochs 2 --runs 2 --budget 1";
 
+/// Where pairs are compared each on its own rays, a structure that takes more than so many times as long as the median one is timed on
+/// fewer: its ratios hardly gain from more of them, and the run would be about it alone.
+pub const SLOWEST: f64 = 4.0;
+
 /// How much is timed. The numbers are the defaults of a study, as texts: clap keeps one default value of another type for all parameters.
 #[derive(Clone, Debug, clap::Args)]
 pub struct Measuring<const EPOCHS: u16 = 5, const RUNS: u16 = 3, const BUDGET: u32 = 8> {

@@ -13,6 +13,7 @@ use super::process::Processes;
 use super::{Plan, Refused, Screen, Status, Study, StudyError};
 use crate::measure::{Clock, Provenance};
 use crate::report::Record;
+use crate::report::number::plural;
 
 /// Scenes whose structures are built in a moment, with few triangles, many, and walls.
 pub const SCENES: [&str; 3] = ["teapot", "starters", "cornellbox"];
@@ -45,7 +46,7 @@ impl<'a> Run<'a> {
         let epoch = self.epochs();
         for case in self.plan.cases.iter().filter(|case| case.epoch == epoch) {
             // Of how many it is not known yet.
-            let title = format!("epoch {}: {}", epoch + 1, case.process.as_deref().unwrap_or(&case.title));
+            let title = format!("epoch {}: {}", epoch + 1, case.loads);
             screen.case(&title, case.work);
             let measured = measure_case(
                 CompareStudy::NAME,
@@ -100,6 +101,8 @@ pub enum BaselineError {
     Read { path: PathBuf, cause: String },
     #[error("the folder {} for baselines cannot be made: {cause}: choose another with --dir", path.display())]
     Folder { path: PathBuf, cause: std::io::Error },
+    #[error("the baseline {name} is of another machine ({machine}): choose another name, or remove {}", path.display())]
+    OtherMachine { name: String, machine: String, path: PathBuf },
     #[error(transparent)]
     Unlike(#[from] Unlike),
     #[error("the baseline lacks {0}: save it again with --save-baseline, or compare what it holds")]
@@ -129,6 +132,22 @@ pub fn new_baseline_path(folder: &Path, name: &str) -> Result<PathBuf, BaselineE
     let folder = folder.join("baselines");
     fs::create_dir_all(&folder).map_err(|cause| BaselineError::Folder { path: folder, cause })?;
     Ok(path)
+}
+
+/// Whether a run of `provenance` may take the place of the baseline `name`: one of another machine, which nothing here can measure again, is
+/// kept. What is no baseline may be replaced.
+///
+/// # Errors
+/// If there is one of another machine.
+pub fn may_replace(folder: &Path, name: &str, provenance: &Provenance) -> Result<(), BaselineError> {
+    let machine = |of: &Provenance| format!("{}, {}, {}", of.cpu, of.simd, plural(of.threads, "thread"));
+    let old = read_baseline(folder, name).unwrap_or_default().first().map(|record| machine(&record.provenance));
+    match old.filter(|old| *old != machine(provenance)) {
+        Some(machine) => {
+            Err(BaselineError::OtherMachine { name: name.into(), machine, path: baseline_path(folder, name)? })
+        }
+        None => Ok(()),
+    }
 }
 
 /// The records of a baseline.

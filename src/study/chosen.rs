@@ -23,22 +23,29 @@ pub(super) fn has_scenes<S: Study>() -> bool {
     command::<S>().get_positionals().next().is_some()
 }
 
+/// What `study all` measures of a study, in words of its command line: scenes, those given where there are any, then options.
+pub(super) fn preset<S: Study>(effort: Effort, scenes: &[String]) -> Vec<String> {
+    let own = match effort {
+        Effort::Full => S::FULL,
+        Effort::Quick => S::QUICK,
+    };
+    let own = own.split_whitespace().map(String::from);
+    if scenes.is_empty() || !has_scenes::<S>() {
+        return own.collect();
+    }
+    scenes.iter().cloned().chain(own.skip_while(|word| !word.starts_with('-'))).collect()
+}
+
 /// The options of a study.
 ///
 /// # Errors
 /// If they are not those of its command.
 pub(super) fn args<S: Study>(chosen: Chosen) -> anyhow::Result<S::Args> {
-    let (preset, scenes) = match chosen {
+    let words = match chosen {
         Chosen::Matches(matches) => return Ok(S::Args::from_arg_matches(matches)?),
-        Chosen::Defaults => ("", vec![]),
-        Chosen::Preset(Effort::Full, scenes) => (S::FULL, scenes),
-        Chosen::Preset(Effort::Quick, scenes) => (S::QUICK, scenes),
+        Chosen::Defaults => vec![],
+        Chosen::Preset(effort, scenes) => preset::<S>(effort, &scenes),
     };
-    let mut words: Vec<String> = preset.split_whitespace().map(String::from).collect();
-    if has_scenes::<S>() && !scenes.is_empty() {
-        words = words.into_iter().skip_while(|word| !word.starts_with('-')).collect();
-        words.extend(std::iter::once("--".into()).chain(scenes));
-    }
     Ok(S::Args::from_arg_matches(&command::<S>().try_get_matches_from(words)?)?)
 }
 

@@ -24,15 +24,15 @@ pub struct Run<'a> {
     pub is_kept: bool,
     /// Whether what was measured before is thrown away.
     pub fresh: bool,
-    /// Starts a process for each timed case; without it they are measured in this one.
+    /// Starts a process for each case; without it they are measured in this one.
     pub processes: Option<&'a Processes>,
     pub screen: &'a mut dyn Screen,
 }
 
 /// What came of a run.
 pub struct Measured {
-    /// The answer of the study.
-    pub answer: AnyAnswer,
+    /// The answer of the study. Nothing where it was interrupted, or no scene could be measured: then no file is written.
+    pub answer: Option<AnyAnswer>,
     pub provenance: Provenance,
     /// All tables of the answer, and what their columns mean.
     pub tables: Vec<Table>,
@@ -43,22 +43,14 @@ pub struct Measured {
     /// Sentences below the tables.
     pub foot: Vec<String>,
     pub outcome: Status,
-    /// What ended the measuring of a scene; the others are measured.
-    pub failure: Option<StudyError>,
+    /// What ended the measuring of scenes; the others are measured.
+    pub failures: Vec<StudyError>,
 }
 
 /// An epoch that takes so long is worth a first look.
 const LONG_NS: u64 = 5_000_000_000;
 
 impl dyn AnyStudy + '_ {
-    /// The cases that would be measured.
-    ///
-    /// # Errors
-    /// As [`Study::plan`](super::Study::plan).
-    pub fn planned(&self, chosen: Chosen, registry: &Registry) -> anyhow::Result<Vec<Planned>> {
-        Ok(self.plan(&*self.args(chosen)?, registry)?.cases)
-    }
-
     /// Measures and answers. `check` is told which files are read, before anything is measured.
     ///
     /// # Errors
@@ -87,7 +79,7 @@ fn measure(
     run: &mut Run,
 ) -> anyhow::Result<Measured> {
     let name = study.name();
-    let process_per_epoch = run.processes.is_some() && plan.cases.iter().any(|case| case.process.is_some());
+    let process_per_epoch = run.processes.is_some();
     let provenance = Provenance { process_per_epoch, ..Provenance::of(&plan.threads) };
     let header = Header::new(name, &plan.settings, provenance);
     let keys = || plan.cases.iter().map(|case| case.key.as_str());
@@ -95,10 +87,14 @@ fn measure(
     // A run that is ended by the clock is not gone on with.
     let may_go_on = !run.is_kept && plan.limit_ns.is_none();
     let is_taken_up = may_go_on && unfinished.exists();
-    let mut journal = match () {
-        () if run.is_kept => Journal::open(&run.folder.join(name), header, run.fresh, study.reader())?,
-        () if is_taken_up => Journal::open(&unfinished, header, run.fresh, study.reader())?,
-        () => Journal::in_memory(header, study.reader()),
+    let folder = match () {
+        () if run.is_kept => Some(run.folder.join(name)),
+        () if is_taken_up => Some(unfinished.clone()),
+        () => None,
+    };
+    let mut journal = match folder {
+        Some(folder) => Journal::open_to_measure(&folder, header, run.fresh, study.reader(), keys())?,
+        None => Journal::in_memory(header, study.reader()),
     };
     let others = if run.is_kept && study.is_last() { (run.others)()? } else { Answers::default() };
     let provenance = journal.provenance().clone();
@@ -117,10 +113,11 @@ fn measure(
     }
     let clock = SystemClock::start();
     let epochs = plan.cases.iter().map(|case| case.epoch + 1).max().unwrap_or(0);
-    let (mut failure, mut over) = (None, vec![]);
+    // Why scenes failed, which they are, and those that have no time for another epoch.
+    let (mut failures, mut failed, mut late) = (vec![], vec![], vec![]);
     let (mut stopped, mut began) = (false, 0);
     for case in &plan.cases {
-        if over.contains(&case.scene) {
+        if failed.contains(&case.scene) || late.contains(&case.scene) {
             continue;
         }
         if run.screen.is_interrupted() {
@@ -137,38 +134,39 @@ fn measure(
                 Ok(measured) => journal.append(&case.key, measured)?,
                 Err(_) if run.screen.is_interrupted() => {}
                 Err(error) if error.is_of_one_scene() => {
-                    failure.get_or_insert(error);
-                    over.push(case.scene);
-                    run.screen.done();
-                    continue;
+                    failures.push(error);
+                    failed.push(case.scene);
                 }
                 Err(error) => return Err(error.into()),
             }
             run.screen.done();
         }
-        let Joined { cases: scene, mut failures, .. } =
+        let Joined { cases: scene, failures: apart, .. } =
             joined(study, plan, &journal, |other| other.scene == case.scene);
         stopped = run.screen.is_interrupted();
-        if let Some(error) = failures.pop() {
-            failure.get_or_insert(error);
-            over.push(case.scene);
-            continue;
+        if !apart.is_empty() {
+            failed.push(case.scene);
         }
+        let has_failed = failed.contains(&case.scene);
         // The next epoch takes as long as this one, about.
         let is_late = plan.limit_ns.is_some_and(|limit| {
             let now = clock.now_ns();
             (now - began) + (now - start) > limit
         });
         if is_late {
-            over.push(case.scene);
+            late.push(case.scene);
         }
-        let is_whole = (case.epoch + 1 == epochs || is_late) && journal.get(&case.key).is_some();
-        if study.is_scene_by_scene() && (is_whole || stopped && !scene.is_empty()) {
+        let is_whole = !has_failed && (case.epoch + 1 == epochs || is_late) && journal.get(&case.key).is_some();
+        if study.is_scene_by_scene() && (is_whole || (stopped || has_failed) && !scene.is_empty()) {
             for table in study.printed(&*answer(&scene)).tables {
                 let of = if is_whole { String::new() } else { format!(" ({} of {epochs} epochs)", scene.len()) };
                 run.screen.table(&Table { title: table.title + &of, ..table })?;
             }
-        } else if !stopped && case.epoch == 0 && clock.now_ns() - start > LONG_NS && run.screen.is_watched() {
+        } else if !(stopped || has_failed)
+            && case.epoch == 0
+            && clock.now_ns() - start > LONG_NS
+            && run.screen.is_watched()
+        {
             let look = study.printed(&*answer(&scene[..1.min(scene.len())])).tables.into_iter().next();
             if let Some(table) = look {
                 let title = format!("{} (a first look: epoch 1 of {epochs})", table.title);
@@ -184,25 +182,25 @@ fn measure(
     stopped &= left > 0;
 
     // The journal may hold other scenes as well: those asked for are shown.
-    let Joined { mut cases, unchecked, failures, .. } = joined(study, plan, &journal, |_| true);
+    let Joined { mut cases, unchecked, failures: apart, .. } = joined(study, plan, &journal, |_| true);
+    failures.extend(apart);
     let says_nothing = |case: &mut Box<dyn AnyCase>| case.epoch().is_some_and(|(epoch, _)| epoch.says_nothing());
     if !stopped && !cases.is_empty() && cases.iter_mut().all(says_nothing) {
-        return Err(StudyError::Nothing.into());
+        failures.push(StudyError::Nothing);
+        cases.clear();
     }
-    failure = failure.or(failures.into_iter().next());
-    if let (true, Some(error)) = (cases.is_empty(), failure.take_if(|_| cases.is_empty())) {
-        return Err(error.into());
-    }
+    let is_answered = !stopped && (failures.is_empty() || !cases.is_empty());
     let found = answer(&cases);
     run.screen.warn(&study.warnings(&*found));
     let troubles = study.troubles(&cases);
     let (mut tables, mut legend, mut foot) = (vec![], vec![], vec![]);
     let (mut to_print, mut to_explain) = (vec![], vec![]);
-    if !cases.is_empty() || !stopped {
-        // A scene that was interrupted would cut means over scenes to as many epochs as it has.
+    if is_answered || !cases.is_empty() {
+        // A scene that was interrupted or failed would cut means over scenes to as many epochs as it has.
         let lacks =
             |scene: usize| plan.cases.iter().any(|case| case.scene == scene && journal.get(&case.key).is_none());
-        let whole = joined(study, plan, &journal, |case| !stopped || !lacks(case.scene)).cases;
+        let is_cut = |scene: usize| failed.contains(&scene) || stopped && lacks(scene);
+        let whole = joined(study, plan, &journal, |case| !is_cut(case.scene)).cases;
         let whole = answer(if whole.is_empty() { &cases } else { &whole });
         let printed = study.printed(&*found);
         if !study.is_scene_by_scene() {
@@ -220,7 +218,8 @@ fn measure(
         foot.push(provenance.line());
         foot.extend(study.remarks(&*whole));
     }
-    let mut outcome = Status::of(&troubles);
+    let told = failures.iter().map(|error| if error.is_wrong_answer() { Status::Wrong } else { Status::Failed });
+    let mut outcome = told.fold(Status::of(&troubles), Status::and);
     if stopped {
         outcome = Status::Interrupted;
         let is_new = may_go_on && !is_taken_up && !cases.is_empty();
@@ -230,12 +229,13 @@ fn measure(
             _ => " and kept; the same command goes on with the others".into(),
         };
         foot.push(format!("Interrupted: {} of {all} cases are measured{kept}.", all - left));
-    } else if may_go_on && failure.is_none() {
+    } else if may_go_on && failures.is_empty() {
         drop(journal);
         forget(&unfinished);
     }
     run.screen.end();
-    Ok(Measured { answer: found, provenance, tables, legend, to_print, to_explain, foot, outcome, failure })
+    let answer = is_answered.then_some(found);
+    Ok(Measured { answer, provenance, tables, legend, to_print, to_explain, foot, outcome, failures })
 }
 
 /// Where runs are kept that were interrupted, if their study keeps no journal otherwise: a folder in that of journals.
@@ -262,7 +262,7 @@ pub(super) fn measure_case<C>(
     screen: &mut dyn Screen,
 ) -> Result<C, StudyError> {
     let mut progress = |stage: Stage| screen.stage(&stage);
-    match processes.filter(|_| case.process.is_some()) {
+    match processes {
         Some(processes) => {
             let cores = plan.threads.cores().map(Into::into);
             processes.measure(&Job { cores, ..Job::of(study, case) }, read, &mut progress)

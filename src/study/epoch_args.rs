@@ -1,8 +1,8 @@
 //! Options of studies that time structures on scenes with their meshes, and what they plan.
 
 use super::Plan;
-use super::args::{Measuring, Rays, ScenesAndMeshes, Structures, with_twin};
-use super::epoch::Epoch;
+use super::args::{Measuring, Rays, SLOWEST, ScenesAndMeshes, Structures, with_twin};
+use super::epoch::{Epoch, Settings};
 use crate::registry::Registry;
 use crate::scene::{Scene, WorkloadKind};
 
@@ -29,6 +29,7 @@ impl EpochArgs {
     ) -> anyhow::Result<Plan<Epoch>> {
         let structures = with_twin(self.structures.chosen(registry, structures)?);
         let settings = self.measuring.settings(registry, structures, self.rays.asked(kinds))?;
+        let settings = Settings { slowest: SLOWEST, ..settings };
         plan_on(&self.scenes, |scenes| settings.plan(scenes, self.measuring.epochs))
     }
 }

@@ -1,7 +1,6 @@
-use super::bench::guarded::PANICKED;
+use super::bench::failed::Failed;
 use super::journal::JournalError;
 use crate::accel::BuildError;
-use crate::measure::UnsteadyAnswers;
 use crate::registry::ChoiceError;
 
 /// Why a study cannot go on.
@@ -9,15 +8,14 @@ use crate::registry::ChoiceError;
 pub enum StudyError {
     #[error("{structure} cannot be built over {scene}: {cause}")]
     Build { structure: String, scene: String, cause: BuildError },
-    #[error("{structure} on the {rays} rays of {scene}: {cause}")]
-    Unsteady { structure: String, scene: String, rays: String, cause: UnsteadyAnswers },
+    #[error("{structure} on {scene}: {cause}")]
+    Failed { structure: String, scene: String, cause: Failed },
     #[error(
-        "{scene}: {structures} structures at once need about {needed:.0} GB, and there are {there:.0} GB of memory: name fewer structures, or a \
-         smaller scene"
+        "{scene}: {structures} structures at once need about {needed:.0} GB, and there are {there:.0} GB of memory: \
+         name {}a smaller scene",
+        fewer(*most)
     )]
-    Memory { scene: String, structures: usize, needed: f64, there: f64 },
-    #[error("{structure} on {scene}: {PANICKED}")]
-    Panicked { structure: String, scene: String },
+    Memory { scene: String, structures: usize, needed: f64, there: f64, most: usize },
     #[error("{0}")]
     Threads(String),
     #[error("the study needs a structure that is not registered as it expects: {0}")]
@@ -46,6 +44,11 @@ pub enum StudyError {
     Journal(#[from] JournalError),
 }
 
+/// What to name where so many structures fit into memory, before what else helps.
+fn fewer(most: usize) -> String {
+    if most == 0 { String::new() } else { format!("at most {most} structures with -s, or ") }
+}
+
 impl StudyError {
     /// What comes of the cause why `structure` cannot be built over `scene`.
     pub fn of_build(structure: &str, scene: &str) -> impl FnOnce(BuildError) -> Self {
@@ -67,6 +70,7 @@ impl StudyError {
             self,
             Self::Apart { .. }
                 | Self::Disagree { .. }
+                | Self::Failed { cause: Failed::Unsteady, .. }
                 | Self::Missing { wrong: true, .. }
                 | Self::Told { wrong_answer: true, .. }
         )

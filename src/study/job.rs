@@ -14,9 +14,8 @@ use crate::registry::Registry;
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Job {
     pub study: String,
-    /// Name of the scene: of those named on the command line no other is loaded. Nothing where the case is of no process of its own.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub scene: Option<String>,
+    /// Name of the scene: of those named on the command line no other is loaded.
+    pub scene: String,
     pub key: String,
     /// The cores that the threads of the run are bound to.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -26,7 +25,7 @@ pub struct Job {
 impl Job {
     /// Of a case of `study`, on whatever cores.
     pub fn of(study: &str, case: &Planned) -> Self {
-        Self { study: study.into(), scene: case.process.clone(), key: case.key.clone(), cores: None }
+        Self { study: study.into(), scene: case.loads.clone(), key: case.key.clone(), cores: None }
     }
 
     /// The case of a plan that this is.
@@ -68,8 +67,8 @@ impl dyn AnyStudy + '_ {
     /// What a process with a job and a file does: measures the case and writes it, unless it is there.
     ///
     /// # Errors
-    /// As [`Study::plan`](super::Study::plan), and if the file cannot be written or holds anything else, or nothing can be measured:
-    /// then it is as it was.
+    /// As [`Study::plan`](super::Study::plan), and if the file cannot be written or holds anything else, there are fewer cores than
+    /// threads, or nothing can be measured: then it is as it was.
     pub fn write_job(
         &self,
         chosen: Chosen,
@@ -81,17 +80,20 @@ impl dyn AnyStudy + '_ {
         let (plan, read) = (self.plan(&*self.args(chosen)?, registry)?, self.reader());
         let case = job.find(&plan)?;
         // As the run that would have started a process for it.
-        let process_per_epoch = plan.cases.iter().any(|case| case.process.is_some());
         let command = command_of_run(std::env::args());
-        let provenance = Provenance { process_per_epoch, command, ..Provenance::of(&plan.threads) };
+        let provenance = Provenance { process_per_epoch: true, command, ..Provenance::of(&plan.threads) };
         let header = Header::new(&job.study, &plan.settings, provenance);
         let there = || CaseFile::there(out, &header, &case.key, read);
         if there()?.is_some() {
             return Ok(Done::Before);
         }
+        // A run warns of it. Nobody reads the logs of all jobs, and a file that is there is not measured again.
+        if let Some(cause) = header.provenance.too_many_threads() {
+            return Err(StudyError::Job { key: case.key.clone(), cause }.into());
+        }
         let file = journal::place(out)?;
         screen.begin(case.work);
-        screen.case(&case.title, case.work);
+        screen.case(&format!("{}, {}", job.study, case.title), case.work);
         let measured = (plan.measure)(case, &SystemClock::start(), &mut |stage| screen.stage(&stage))?;
         screen.end();
         if journal::write(&file, &journal::text(&header, &case.key, &measured, read))? {

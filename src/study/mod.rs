@@ -45,6 +45,8 @@ pub mod self_intersection;
 pub mod sources;
 mod stage;
 mod status;
+#[cfg(test)]
+pub(crate) mod tests;
 pub mod threads;
 mod view_args;
 
@@ -93,8 +95,10 @@ pub trait Study: 'static {
     const LAST: bool = false;
     /// Whether a scene is nothing without a time of each of its structures: it is left out then.
     const WHOLE: bool = false;
-    /// Whether its answer has a picture, for `--plot`.
-    const PLOT: bool = false;
+    /// Whether it shows a scene with a stand-in beside the same one with its real mesh. Elsewhere the one that was measured last counts.
+    const BOTH_MESHES: bool = false;
+    /// Draws what `--plot` writes, where the answer has a picture.
+    const PLOT: Option<fn(&Self::Answer) -> Figure> = None;
     /// What `study all` measures, in words of the command line: scenes, which others may take the place of, then options.
     const FULL: &'static str = "";
     /// Likewise `study all --quick`.
@@ -117,6 +121,11 @@ pub trait Study: 'static {
         None
     }
 
+    /// What this machine decides and another one would decide otherwise, in words of the command line: a plan says it to its jobs.
+    fn decided_here(_: &Self::Args) -> Vec<String> {
+        vec![]
+    }
+
     /// What is to be measured. No time is spent here, and whatever can be refused is refused.
     ///
     /// # Errors
@@ -128,6 +137,11 @@ pub trait Study: 'static {
     fn epoch(case: &mut Self::Case) -> Option<(&mut Epoch, usize)> {
         let case: &mut dyn Any = case;
         case.downcast_mut().map(|epoch| (epoch, 0))
+    }
+
+    /// Epochs that are planned of a scene of so many triangles, where no scene has more than `most`.
+    fn epochs(most: usize, _: usize) -> usize {
+        most
     }
 
     /// The answer: a pure function of what was measured.
@@ -210,11 +224,6 @@ pub trait Study: 'static {
     /// The scenes that the page shows pictures of.
     fn scenes(_: &Self::Answer) -> Vec<SceneId> {
         vec![]
-    }
-
-    /// What `--plot` draws where there is a [picture](Self::PLOT).
-    fn plot(_: &Self::Answer) -> Option<Figure> {
-        None
     }
 }
 

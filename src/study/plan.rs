@@ -67,19 +67,22 @@ pub struct Planned {
     pub epoch: usize,
     /// How long it takes, about, as a multiple of any unit.
     pub work: u64,
-    /// Where the case is measured in a process of its own: the name of the scene that it loads.
-    pub process: Option<String>,
+    /// Name of its scene: of those that are named, the process that measures the case loads no other.
+    pub loads: String,
 }
 
 impl<C> Plan<C> {
-    /// A plan of one case for each of `titles`, by their keys.
+    /// A plan of one case for each of `scenes`, by their names and keys.
     pub fn of_scenes(
         settings: &impl Serialize,
         threads: Threads,
         scenes: impl IntoIterator<Item = (String, String)>,
         measure: Measure<C>,
     ) -> Self {
-        let planned = |(scene, (title, key))| Planned { key, title, scene, epoch: 0, work: 1, process: None };
+        let planned = |(scene, (loads, key)): (usize, (String, String))| {
+            let title = loads.clone();
+            Planned { key, title, scene, epoch: 0, work: 1, loads }
+        };
         Self {
             settings: settings_map(settings),
             threads,
@@ -116,7 +119,17 @@ impl<C> Plan<C> {
 
 /// The key of a case that is a whole scene.
 pub fn scene_key(scene: &Scene) -> String {
-    format!("{} {}", scene_name(&scene.name, !scene.stand_ins.is_empty()), &scene.hash()[..16])
+    format!("{} {}", scene_name(&scene.name, !scene.stand_ins.is_empty()), &scene.hash()[..HASH])
+}
+
+/// Digits of the hash of a scene in keys.
+const HASH: usize = 16;
+
+/// The name of the scene and the hash in a key that begins with them, as [`scene_key`] does.
+pub fn scene_of_key(key: &str) -> Option<(&str, &str)> {
+    let is_hash = |word: &&str| word.len() == HASH && word.bytes().all(|byte| byte.is_ascii_hexdigit());
+    let hash = |at: usize| key[at + 1..].split(' ').next().filter(is_hash);
+    key.match_indices(' ').find_map(|(at, _)| Some((&key[..at], hash(at)?)))
 }
 
 /// Notes `of` scenes, each with the name of its scene.
@@ -132,5 +145,20 @@ pub fn settings_map(settings: &impl Serialize) -> Map<String, Value> {
     match serde_json::to_value(settings).expect("settings serialise") {
         Value::Object(settings) => settings,
         other => panic!("settings must be a struct with named fields, not {other}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Builtin;
+
+    #[test]
+    fn the_scene_of_a_key_is_found_again() {
+        let scene = Scene { name: "my mesh".into(), ..Builtin::find("cube").unwrap().scene(None).unwrap() };
+        let (key, hash) = (scene_key(&scene), scene.hash());
+        let expected = Some(("my mesh", &hash[..16]));
+        assert_eq!((scene_of_key(&key), scene_of_key(&format!("{key} epoch 0"))), (expected, expected));
+        assert_eq!(scene_of_key("r=10 @1e5"), None);
     }
 }

@@ -8,7 +8,7 @@
 //! what it does, and at last what it has measured. After each line it waits for one in answer: so the run that listens does nothing
 //! while it times. Other lines are a structure's own, and go to standard error.
 //!
-//! A job on another machine is the same command line with a file beside: it says nothing, and writes the case.
+//! A job on another machine is the same command line with a file beside: it writes the case, and nobody answers it.
 
 use std::ffi::OsString;
 use std::io::{self, BufRead, BufReader, Write};
@@ -24,7 +24,7 @@ use serde_json::Value;
 use super::job::{Job, OPTION};
 use super::journal::Read;
 use super::{AnyStudy, Chosen, Plan, Stage, StudyError};
-use crate::measure::{SystemClock, program};
+use crate::measure::{SystemClock, process_group, program};
 use crate::registry::Registry;
 
 /// A line of a process.
@@ -34,6 +34,7 @@ enum Said {
     Rays(String),
     Check(String),
     Trace(usize, usize),
+    Count,
     Measured(Value),
     Failed { sentence: String, of_one_scene: bool, wrong_answer: bool },
 }
@@ -45,6 +46,7 @@ impl From<&Stage<'_>> for Said {
             Stage::Rays(what) => Self::Rays(what.into()),
             Stage::Check(what) => Self::Check(what.into()),
             Stage::Trace(taken, total) => Self::Trace(taken, total),
+            Stage::Count => Self::Count,
         }
     }
 }
@@ -80,9 +82,7 @@ impl Processes {
         let job_text = serde_json::to_string(job).expect("a job has text keys");
         let mut command = Command::new(program::executable());
         command.arg(format!("--{OPTION}={job_text}")).args(&self.args);
-        // What interrupts the run is told to it alone, and it ends its processes.
-        #[cfg(unix)]
-        std::os::unix::process::CommandExt::process_group(&mut command, 0);
+        process_group::set_apart(&mut command);
         let child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn();
         let mut child = child.map_err(|cause| trouble(format!("it cannot be started: {cause}")))?;
         let (told, said) = (child.stdin.take(), child.stdout.take());
@@ -105,6 +105,7 @@ impl Processes {
                 Said::Rays(what) => progress(Stage::Rays(&what)),
                 Said::Check(what) => progress(Stage::Check(&what)),
                 Said::Trace(taken, total) => progress(Stage::Trace(taken, total)),
+                Said::Count => progress(Stage::Count),
                 Said::Measured(case) => return Ok(case),
                 Said::Failed { sentence, of_one_scene, wrong_answer } => {
                     return Err(StudyError::Told { sentence, of_one_scene, wrong_answer });
@@ -151,27 +152,16 @@ impl Drop for Guard {
     fn drop(&mut self) {
         // It has ended, or nobody listens any more.
         let mut child = locked(&self.0);
-        kill(&mut child);
+        process_group::end(&mut child);
         let _ = child.wait();
     }
-}
-
-/// Ends a process, and with it the programs that it has started.
-fn kill(child: &mut Child) {
-    // Until it has been waited for, the number is that of its own group and of no other.
-    #[cfg(target_os = "linux")]
-    if matches!(child.try_wait(), Ok(None)) {
-        let group = nix::unistd::Pid::from_raw(child.id() as i32);
-        let _ = nix::sys::signal::killpg(group, nix::sys::signal::Signal::SIGKILL);
-    }
-    let _ = child.kill();
 }
 
 /// Ends the process that measures, if one does: the run is told that it has ended without an answer.
 pub fn end() {
     ENDED.store(true, Ordering::SeqCst);
     if let Some(child) = locked(&LAST).upgrade() {
-        kill(&mut locked(&child));
+        process_group::end(&mut locked(&child));
     }
 }
 
@@ -251,8 +241,7 @@ mod tests {
     fn a_process_that_ends_without_an_answer_is_one_sentence() {
         // The program of these tests knows no such option.
         let processes = Processes::new(["tests".into(), "--no-such-option".into()]);
-        let job =
-            Job { study: "compare".into(), scene: Some("Cube".into()), key: "Cube 0123 epoch 0".into(), cores: None };
+        let job = Job { study: "compare".into(), scene: "Cube".into(), key: "Cube 0123 epoch 0".into(), cores: None };
         let error = processes.measure(&job, |value| Epoch::deserialize(value), &mut |_| ()).unwrap_err();
         let sentence = error.to_string();
         assert!(sentence.contains("Cube 0123 epoch 0") && sentence.contains("without an answer"), "{sentence}");

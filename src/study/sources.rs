@@ -10,6 +10,7 @@ use super::SAH_TREE;
 use crate::names::suggestion;
 use crate::output::OutputFile;
 use crate::registry::{Choice, Registry};
+use crate::report::words::each_once_by;
 use crate::scene::format::SceneFile;
 use crate::scene::{BUILTIN, Builtin, Scene, load, real_mesh_folder};
 
@@ -143,14 +144,9 @@ pub fn text(path: &Path) -> anyhow::Result<String> {
 /// # Errors
 /// If a name, key or value is not known.
 pub fn structures(registry: &Registry, specs: &[String]) -> anyhow::Result<Vec<Choice>> {
-    let mut choices: Vec<Choice> = vec![];
-    for spec in self::specs(registry, specs) {
-        let choice = structure(registry, &spec)?;
-        if choices.iter().all(|other| other.label != choice.label) {
-            choices.push(choice);
-        }
-    }
-    Ok(choices)
+    let specs = self::specs(registry, specs);
+    let choices = specs.iter().map(|spec| structure(registry, spec)).collect::<anyhow::Result<Vec<_>>>()?;
+    Ok(each_once_by(choices, |one, other| one.label == other.label))
 }
 
 /// The qualities that `--quality` takes.

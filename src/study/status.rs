@@ -11,6 +11,8 @@ pub enum Status {
     Right,
     /// A structure gave wrong answers.
     Wrong,
+    /// Something could not be measured, and why has been told.
+    Failed,
     /// A structure could not be built or panicked; the others are right.
     Refused,
     /// A structure became slower.
@@ -46,12 +48,28 @@ impl Status {
         }
     }
 
-    /// That of two runs: what is wrong weighs more than what is refused.
+    /// That of two runs: what is wrong weighs more than what failed, and that more than what is refused.
     pub fn and(self, other: Self) -> Self {
         match (self, other) {
             (Self::Right, other) => other,
             (_, Self::Wrong) => Self::Wrong,
+            (Self::Refused, Self::Failed) => Self::Failed,
             (before, _) => before,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_worst_of_several_counts_in_whatever_order() {
+        let worse = [Status::Right, Status::Refused, Status::Failed, Status::Wrong];
+        for (i, one) in worse.into_iter().enumerate() {
+            for (j, other) in worse.into_iter().enumerate() {
+                assert_eq!(one.and(other), worse[i.max(j)], "{one:?} and {other:?}");
+            }
         }
     }
 }

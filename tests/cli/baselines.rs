@@ -149,6 +149,18 @@ fn unlike_runs_are_refused_with_the_difference() {
 }
 
 #[test]
+fn the_baseline_of_another_machine_is_not_replaced() {
+    let kept = Kept::new();
+    kept.edit("other", |r| r["provenance"]["cpu"] = "Other".into());
+    let before = fs::read(kept.path("other")).unwrap();
+    let refused = kept.compare(&["--save-baseline", "other"]);
+    let said = stderr(&refused);
+    assert!(refused.status.code() == Some(USAGE) && said.contains("another machine (Other, "), "{said}");
+    assert!(said.contains("other.json") && said.lines().count() == 1, "{said}");
+    assert_eq!(fs::read(kept.path("other")).unwrap(), before);
+}
+
+#[test]
 fn baselines_that_are_not_there_are_named_with_those_that_are() {
     let kept = Kept::new();
     let says = |name: &str, more: &[&str], parts: &[&str]| {

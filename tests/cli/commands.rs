@@ -136,6 +136,9 @@ fn lists_and_completions_name_everything() {
         assert_eq!(output.status.code(), Some(RIGHT));
         assert!(stderr(&output).is_empty() && stdout(&output).contains("sahara"), "{line}");
     }
+    // Its sentences are broken where the screen ends, and nowhere else.
+    let help = prints(&["--help"]);
+    assert!(!help.lines().any(|line| line == "time,"), "{help}");
 }
 
 #[test]

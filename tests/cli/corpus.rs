@@ -40,8 +40,8 @@ fn a_corpus_is_the_same_again_and_what_it_says() {
         println!("not checked: there is no sha256sum here");
     }
 
-    // Over the old one, on another number of threads and other instructions.
-    let again = command(&["rays", "corpus", "CUBE", "-o", &out, "--rays", "40", "--level", "portable"])
+    // Over the old one, on another number of threads and other instructions; a scene that is named twice counts once.
+    let again = command(&["rays", "corpus", "CUBE", "cube", "-o", &out, "--rays", "40", "--level", "portable"])
         .env("RAYON_NUM_THREADS", "1")
         .output()
         .unwrap();
@@ -75,7 +75,10 @@ fn what_a_corpus_cannot_be_made_of_is_refused_and_nothing_of_others_is_replaced(
     }
     refuses_in_a_line(&["rays", "corpus", "cubee", "-o", &out], &["cubee", "did you mean Cube?"]);
     refuses_in_a_line(&["rays", "corpus", "no/mesh.ply", "-o", &out], &["no/mesh.ply", "check that it exists"]);
-    refuses_in_a_line(&["rays", "corpus", "cube", "Cube", "-o", &out, "--rays", "1"], &["cube", "name each once"]);
+    let other = write(&parent, "cube.obj", SQUARE);
+    refuses_in_a_line(&["rays", "corpus", "cube", &other, "-o", &out], &["two different scenes are called cube"]);
+    let [spaced, joined] = ["a square.obj", "a-square.obj"].map(|name| write(&parent, name, SQUARE));
+    refuses_in_a_line(&["rays", "corpus", &spaced, &joined, "-o", &out, "--rays", "3"], &["have a file a-square-"]);
     assert!(!Path::new(&out).exists(), "what was refused has left a folder");
 
     let foreign = tempfile::tempdir().unwrap();

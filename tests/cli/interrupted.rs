@@ -5,11 +5,15 @@ use std::fs;
 use std::io::{BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 use std::process::{Child, ChildStdout, Command, Stdio};
+use std::thread;
+use std::time::Duration;
 
 use nix::sys::signal::{Signal, kill};
 use nix::unistd::Pid;
 
 use super::command::{RIGHT, command};
+use super::plan::{file, job, plan};
+use super::runner::nothing;
 
 const CASES: usize = 16;
 
@@ -59,6 +63,16 @@ fn measured(text: &str) -> usize {
 fn processes(folder: &Path) -> usize {
     let entries = fs::read_dir("/proc").unwrap().flatten();
     entries.filter(|entry| fs::read_link(entry.path().join("cwd")).is_ok_and(|cwd| cwd == *folder)).count()
+}
+
+/// Nothing goes on in a folder. What is killed takes the system a moment.
+#[track_caller]
+fn is_left(folder: &Path) {
+    let is_left = (0..500).any(|_| {
+        thread::sleep(Duration::from_millis(10));
+        processes(folder) == 0
+    });
+    assert!(is_left, "{} processes go on", processes(folder));
 }
 
 #[test]
@@ -117,4 +131,40 @@ fn a_journal_that_was_interrupted_is_only_added_to() {
     assert_eq!(compare(folder.path(), &dir).output().unwrap().status.code(), Some(RIGHT));
     let whole = files();
     assert!(whole.len() == CASES && kept.iter().all(|(path, bytes)| whole.get(path) == Some(bytes)));
+}
+
+#[test]
+fn a_job_ends_at_once_and_leaves_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    // Half a minute of samples.
+    let long = ["attribution", "--scenes", "sphere", "--runs", "1000", "--budget", "30", "--epochs", "2"];
+    let lines = plan(folder.path(), &long);
+    let mut child = job(&lines[1]).spawn().unwrap();
+    let (mut reader, mut said) = (BufReader::new(child.stderr.take().unwrap()), String::new());
+    reader.read_line(&mut said).unwrap();
+    assert_eq!(said, "measures attribution, epoch 2 of 2: Sphere\n");
+    kill(Pid::from_raw(child.id() as i32), Signal::SIGINT).unwrap();
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    assert_eq!(fs::read_dir(file(&lines[1]).parent().unwrap()).unwrap().count(), 0);
+}
+
+#[test]
+fn what_a_runner_has_started_ends_with_the_run() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().canonicalize().unwrap();
+    interrupted(&path, &["--runner", &format!("{} leaves", nothing(&folder))]);
+    is_left(&path);
+}
+
+#[test]
+fn a_runner_that_does_not_answer_ends_with_the_command() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().canonicalize().unwrap();
+    let mut child = compare(&path, &["--runner", "sh -c 'echo here >&2; sleep 600; exit'"]).spawn().unwrap();
+    let mut said = String::new();
+    BufReader::new(child.stderr.take().unwrap()).read_line(&mut said).unwrap();
+    assert_eq!(said, "here\n");
+    kill(Pid::from_raw(child.id() as i32), Signal::SIGINT).unwrap();
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    is_left(&path);
 }

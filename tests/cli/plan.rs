@@ -4,6 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
+use serde_json::Value;
 use tempfile::TempDir;
 
 use super::command::{
@@ -16,7 +17,7 @@ const SMALL: [&str; 9] = ["attribution", "--rays", "64", "--runs", "1", "--budge
 const SCENES: [&str; 3] = ["--scenes", "cube", "sphere"];
 
 /// The lines of a plan.
-fn plan(folder: &Path, args: &[&str]) -> Vec<String> {
+pub fn plan(folder: &Path, args: &[&str]) -> Vec<String> {
     let dir = folder.to_str().unwrap();
     let text = prints(&[&["study", "plan"], args, &["--dir", dir]].concat());
     text.lines().map(String::from).collect()
@@ -29,14 +30,14 @@ fn words(line: &str) -> Vec<String> {
     words
 }
 
-fn file(line: &str) -> PathBuf {
+pub fn file(line: &str) -> PathBuf {
     let words = words(line);
     assert_eq!(words[words.len() - 2], "--out", "{line}");
     words[words.len() - 1].clone().into()
 }
 
 /// A job, as a shell on some machine would start it.
-fn job(line: &str) -> Command {
+pub fn job(line: &str) -> Command {
     let words = words(line);
     let mut command = command(&words[1..].iter().map(String::as_str).collect::<Vec<_>>());
     command.stdout(Stdio::piped()).stderr(Stdio::piped());
@@ -51,6 +52,7 @@ fn done(line: &str) {
     let output = run(line);
     assert_eq!(output.status.code(), Some(RIGHT), "{}", stderr(&output));
     assert!(output.stdout.is_empty() && file(line).is_file());
+    assert!(stderr(&output).starts_with("measures "), "its log says what it was: {}", stderr(&output));
 }
 
 #[test]
@@ -72,17 +74,16 @@ fn a_plan_is_one_command_a_case_with_a_file_of_its_own() {
     assert_eq!(files.len(), 4);
     assert!(!dir.exists(), "nothing is made");
 
-    // All studies, in the quick form; what is made from the others has no job, and is named.
-    let output = sahara(&["study", "plan", "all", "--quick", "--dir", "r"]);
+    // All studies, in the quick form.
+    let output = sahara(&["study", "plan", "--quick", "--dir", "r"]);
     let (text, said) = (stdout(&output), stderr(&output));
     assert_eq!(output.status.code(), Some(RIGHT), "{said}");
     let mut names: Vec<String> = text.lines().map(|line| file(line).to_str().unwrap().to_owned()).collect();
-    for study in ["compare", "replicate", "attribution", "scaling", "accuracy", "counts", "crossover"] {
+    for study in ["compare", "replicate", "attribution", "scaling", "accuracy", "counts", "crossover", "predictions"] {
         assert!(names.iter().any(|name| name.starts_with(&format!("r/{study}/"))), "{study}: {names:?}");
     }
     let has_threads = names.iter().any(|name| name.starts_with("r/threads/"));
     assert_eq!(has_threads, std::thread::available_parallelism().unwrap().get() > 1, "one core leaves them out");
-    assert!(!text.contains("predictions") && said.contains("predictions: no jobs"), "{said}");
     let count = names.len();
     names.sort();
     names.dedup();
@@ -116,10 +117,51 @@ fn one_core() -> String {
 #[test]
 fn what_cannot_be_planned_is_one_sentence() {
     refuses_in_a_line(&["study", "plan", "attributoin"], &["attributoin"]);
+    refuses_in_a_line(&["study", "plan", "all", "attributoin", "--quick"], &["attributoin"]);
     refuses_in_a_line(&["study", "plan", "attribution", "--scenes", "cub"], &["cub", "Cube"]);
     refuses_in_a_line(&["study", "plan", "attribution", "costs", "--scenes"], &["--scenes SCENE"]);
     refuses_in_a_line(&["study", "plan", "attribution", "--scenes", "cube", "--dir", "a\tb"], &["tab"]);
     refuses(&["study", "plan", "attribution", "--quick", "--epoch", "3"], &["--epoch"]);
+    // An option that is given twice, wherever it stands.
+    let twice = "cannot be used multiple times";
+    refuses(&["study", "plan", "counts", "--dir", "a", "--dir", "b"], &["--dir", twice]);
+    for line in ["--dir a counts costs --dir=b", "counts costs --dir a --dir b"] {
+        let options: Vec<&str> = line.split(' ').collect();
+        refuses_in_a_line(&[&["study", "plan"], &options[..]].concat(), &["--dir", twice]);
+    }
+    refuses_in_a_line(&["study", "plan", "counts", "--rays", "64", "--quick", "--quick"], &["--quick", twice]);
+}
+
+#[test]
+fn jobs_of_threads_say_up_to_how_many_whatever_cores_their_machine_has() {
+    let folder = TempDir::new().unwrap();
+    let cores = std::thread::available_parallelism().unwrap().get();
+    let most = |args: &[&str]| -> Vec<Vec<String>> {
+        let lines = plan(folder.path(), &[&["threads", "--scenes", "cube"][..], args].concat());
+        let of = |line: &String| -> Vec<String> {
+            let words = words(line);
+            let pairs = words.windows(2).filter(|pair| pair[0] == "--most");
+            pairs.map(|pair| pair[1].clone()).collect()
+        };
+        lines.iter().map(of).collect()
+    };
+    assert_eq!(most(&["--epochs", "1", "--most", "2"]), [["2"], ["2"]], "with one thread and with two");
+    if cores > 1 {
+        for args in [&["--epochs", "1"][..], &["--quick"]] {
+            let most = most(args);
+            assert!(!most.is_empty() && most.iter().all(|most| *most == [cores.to_string()]), "{most:?}");
+        }
+    }
+}
+
+#[test]
+fn a_job_on_fewer_cores_than_threads_measures_nothing() {
+    let folder = TempDir::new().unwrap();
+    let cores = std::thread::available_parallelism().unwrap().get();
+    let threads = (cores + 1).to_string();
+    let lines = plan(folder.path(), &[&SMALL[..], &["--scenes", "cube", "--threads", &threads]].concat());
+    refused_in_a_line(&run(&lines[0]), &["cannot be measured", &format!("{threads} threads share {cores} core")]);
+    assert!(!file(&lines[0]).exists());
 }
 
 #[test]
@@ -171,6 +213,54 @@ fn detailed_studies_and_whole_scenes_are_jobs_as_well() {
 }
 
 #[test]
+fn a_job_loads_its_scene_and_no_other() {
+    let folder = TempDir::new().unwrap();
+    let studies: [(&[&str], [&str; 2]); 4] = [
+        (&["accuracy", "--scenes", "cube", "torus"], ["Cube", "Torus"]),
+        (&["counts", "--scenes", "cube", "torus"], ["Cube", "Torus"]),
+        (&["crossover", "--deepest", "2"], ["1 layer", "4 layers"]),
+        (&["predictions"], ["Cube", "Sphere"]),
+    ];
+    for (args, [own, other]) in studies {
+        let [own_scene, other_scene] = [own, other].map(|name| format!("\"scene\":\"{name}\""));
+        let line = &plan(folder.path(), args)[0];
+        assert!(line.contains(&own_scene), "{line}");
+        refused_in_a_line(&run(&line.replace(&own_scene, &other_scene)), &[own, "plan it anew"]);
+    }
+}
+
+#[test]
+fn predictions_are_jobs_as_well_and_a_report_has_their_verdicts() {
+    let folder = TempDir::new().unwrap();
+    let [runs, page, export] = ["runs", "page", "export.json"].map(|name| folder.path().join(name));
+    let lines = plan(&runs, &["predictions"]);
+    assert_eq!(lines.len(), 9, "the easy and normal scenes of the report");
+    done(&lines[0]);
+    // The others take longer: as if they had as many rays.
+    let counted = json(file(&lines[0]));
+    for line in &lines[1..] {
+        let words = words(line);
+        let job = words.iter().find_map(|word| word.strip_prefix("--case=")).unwrap();
+        let job: Value = serde_json::from_str(job).unwrap();
+        let mut case = counted.clone();
+        (case["key"], case["case"]["scene"]) = (job["key"].clone(), job["scene"].clone());
+        fs::write(file(line), case.to_string()).unwrap();
+    }
+    let [dir, page_name, export_name] = [&runs, &page, &export].map(|path| path.to_str().unwrap());
+    prints(&["study", "predictions", "--dir", dir, "--export-json", export_name]);
+    prints(&["report", dir, "--no-pictures", "-o", page_name]);
+
+    let verdict = |claim: &Value| claim["verdict"].as_str().unwrap().to_owned();
+    let answer = json(&export)["result"].take();
+    let claims = answer.as_array().unwrap().iter().flat_map(|prediction| prediction["claims"].as_array().unwrap());
+    let answered: Vec<String> = claims.map(verdict).collect();
+    let rows = fs::read_to_string(page.join("data/predictions.jsonl")).unwrap();
+    let shown: Vec<String> = rows.lines().map(|row| verdict(&serde_json::from_str(row).unwrap())).collect();
+    assert_eq!(shown, answered);
+    assert!(shown[..8].iter().all(|verdict| verdict == "confirmed"), "{shown:?}");
+}
+
+#[test]
 fn a_job_measures_once_and_refuses_what_is_not_its_own() {
     let folder = TempDir::new().unwrap();
     let lines = plan(folder.path(), &[&SMALL[..], &["--scenes", "cube"]].concat());
@@ -203,7 +293,8 @@ fn of_two_jobs_at_one_file_one_wins_and_both_are_content() {
     let both = [0, 1].map(|_| job(&lines[0]).spawn().unwrap());
     let both = both.map(|child| child.wait_with_output().unwrap());
     assert!(both.iter().all(|output| output.status.code() == Some(RIGHT)), "{both:?}");
-    assert!(both.iter().filter(|output| output.stderr.is_empty()).count() <= 1, "{both:?}");
+    let is_first = |output: &&Output| !stderr(output).contains("case");
+    assert!(both.iter().filter(is_first).count() <= 1, "{both:?}");
     assert_eq!(fs::read_dir(folder.path().join("attribution")).unwrap().count(), 1);
     assert_eq!(json(file(&lines[0]))["study"], "attribution");
 }
@@ -232,7 +323,8 @@ fn what_cannot_be_written_is_one_sentence_and_no_file() {
     // As on a full disk: the system takes no more than a thousand bytes of a file.
     #[cfg(target_os = "linux")]
     {
-        let shell = format!("trap '' XFSZ; ulimit -f 1; exec \"$0\" {}", lines[0].strip_prefix("sahara ").unwrap());
+        let job = lines[0].strip_prefix("sahara ").unwrap();
+        let shell = format!("trap '' XFSZ; ulimit -f 1; exec \"$0\" --quiet {job}");
         let mut command = Command::new("sh");
         command.args(["-c", &shell, env!("CARGO_BIN_EXE_sahara")]).env_remove("SAHARA_DATA");
         let output = command.stdin(Stdio::null()).output().unwrap();

@@ -85,6 +85,7 @@ while read -r word set path; do
     scene)
         [ "$1" = unbuilt ] && exit 7
         [ "$1" = refuses ] && echo "error it holds no more than two triangles" && continue
+        [ "$1" = leaves ] && sleep 600 &
         echo "built 0.001 0" ;;
     rays)
         tail -c +9 "$path" | head -c 24 > "${path%.rays}.head"
@@ -95,6 +96,7 @@ while read -r word set path; do
         [ "$1" = hangs ] && exec sleep 600
         [ "$1" = liar ] && sleep 0.05
         case $1 in nan) echo "passed nan" ;; backwards) echo "passed -1" ;; *) echo "passed 0.001" ;; esac
+        [ "$1" = floods ] && exec yes "that was much"
         [ "$1" = chatters ] && echo "that was quick" ;;
     hits)
         count=$(cat "${path%.hits}.count")
@@ -105,7 +107,7 @@ while read -r word set path; do
 done
 "#;
 
-fn nothing(folder: &TempDir) -> String {
+pub fn nothing(folder: &TempDir) -> String {
     let path = write(folder, "nothing.sh", NOTHING);
     fs::set_permissions(&path, fs::Permissions::from_mode(0o755)).unwrap();
     path
@@ -123,6 +125,7 @@ fn a_program_that_fails_is_refused_in_a_sentence_and_the_others_go_on() {
         ("nan", "it answers \"passed nan\" to \"pass 0\", not \"passed SECONDS\""),
         ("backwards", "it answers \"passed -1\""),
         ("chatters", "\"that was quick\""),
+        ("floods", "\"that was much\""),
         ("few", "its hits are not to be had: "),
     ];
     let commands: Vec<String> = failures.iter().map(|(how, _)| format!("{program} {how}")).collect();
@@ -167,6 +170,7 @@ fn what_is_no_runner_is_refused_before_anything_is_measured() {
     refuses_in_a_line(&compare("./no-such-program -x"), &["./no-such-program -x", "cannot be started"]);
     refuses_in_a_line(&compare("true"), &["\"true\"", "it ends instead of answering \"sahara 1 1\""]);
     refuses_in_a_line(&compare("cat"), &["it answers \"sahara 1 1\"", "runner 1 closest any"]);
+    refuses_in_a_line(&compare("yes"), &["\"yes\"", "\"y\"", "\"sahara 1 1\""]);
     refuses_in_a_line(&compare("'open"), &["in quotes"]);
     refuses_in_a_line(&compare(""), &["in quotes"]);
     let folder = TempDir::new().unwrap();

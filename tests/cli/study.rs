@@ -32,6 +32,12 @@ fn accuracy_prints_exports_and_draws_what_it_finds() {
     let bounded = |record: &serde_json::Value| (record["error_bound"].as_f64().unwrap() - 0.009_936).abs() < 1e-6;
     assert!(exact.clone().all(|record| record["error"] == 0.0 && bounded(record)), "{records}");
     assert_eq!(exact.count(), 2);
+    // A process has measured them, and each names the run.
+    let of_run = |record: &serde_json::Value| {
+        let provenance = &record["provenance"];
+        provenance["process_per_epoch"] == true && !provenance["command"].as_str().unwrap().contains("--case")
+    };
+    assert!(records.as_array().unwrap().iter().all(of_run), "{records}");
     assert!(fs::read_to_string(svg).unwrap().contains("moller-trumbore"));
     assert_eq!(Picture::read(Path::new(&png)).unwrap().size()[0], 1600);
 }

@@ -95,4 +95,7 @@ fn what_looks_like_a_room_is_said_once_before_anything_is_measured() {
             "{words}"
         );
     }
+    // Whoever plans is told as well.
+    let planned = stderr(&sahara(&["study", "plan", "compare", "counts", "--scenes", &room, "--dir", &dir]));
+    assert_eq!((planned.matches(&format!("warning: {says}")).count(), planned.lines().count()), (1, 1), "{planned}");
 }

@@ -12,10 +12,12 @@ from pathlib import Path
 
 # What a clock, or the moment, decides. All else must be equal, so that a field which is new is compared until it is named here.
 OF_CASES = {"provenance", "circumstances", "build_ns", "build_peak_bytes", "outside", "instructions_per_ray", "ns", "slowest_ns"}
-OF_REPORTS = {"build_samples_ns", "trace_ns", "samples_ns", "twin_samples_ns", "ns_per_ray", "mrays_per_s", "noise_floor", "speedup"}
+OF_REPORTS = {"build_samples_ns", "trace_ns", "samples_ns", "twin_samples_ns", "ns_per_ray", "mrays_per_s", "noise_floor"}
+# The last is what came of a claim of `predictions`.
+OF_REPORTS |= {"speedup", "value"}
 MOMENT = OF_CASES | OF_REPORTS
 # What is found by comparing times: even whether it is known.
-BY_TIMES = {"dominated_by"}
+BY_TIMES = {"dominated_by", "verdict"}
 
 
 def counts(value):
@@ -51,8 +53,7 @@ def results(folder):
 
 def rows(report):
     """The rows of a report, by file and line."""
-    # Whether a prediction has come true is decided by times.
-    files = sorted(file for file in Path(report).glob("data/*.jsonl") if file.stem != "predictions")
+    files = sorted(Path(report).glob("data/*.jsonl"))
     lines = {file.name: file.read_text().splitlines() for file in files}
     return {f"{name} line {i + 1}": counts(json.loads(line)) for name in lines for i, line in enumerate(lines[name])}
 

@@ -65,15 +65,19 @@ pub fn run(args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
     let all = || BUILTIN.iter().map(|builtin| builtin.name.to_owned()).collect();
     let named = if args.scenes.is_empty() { all() } else { args.scenes.clone() };
 
-    // One scene at a time: an oracle takes much more memory than its files.
-    let (mut files, mut rows, mut stand_ins) = (Files::new(), vec![], vec![]);
     let waiting = Waiting::show("loads scenes".into(), terminal);
-    for name in &named {
+    let loaded = named.iter().map(|name| {
         waiting.says(format!("loads {name}"));
-        let scene = load(name)?;
+        load(name)
+    });
+    let scenes = sources::distinct(loaded.collect::<anyhow::Result<_>>()?)?;
+
+    // One scene at a time: an oracle takes much more memory than its scene and files.
+    let (mut files, mut rows, mut stand_ins) = (Files::new(), vec![], vec![]);
+    for scene in scenes {
         let part = part(&scene, args, &waiting)?;
         if let Some(twice) = part.files.keys().find(|name| files.contains_key(*name)) {
-            anyhow::bail!("two of these scenes would have a file {twice}: name each once, or rename one");
+            anyhow::bail!("two of these scenes would have a file {twice}: rename one");
         }
         rows.push(part.row(&scene));
         if !scene.stand_ins.is_empty() {

@@ -114,7 +114,10 @@ fn import(args: &Import, terminal: &Terminal) -> anyhow::Result<Status> {
     let query = if args.any { Query::Any } else { Query::Closest };
     let workload = Workload { name: args.name.clone(), query, rays };
     let file = match &args.scene {
-        Some(scene) => RayFile::new(&sources::scene(scene)?, workload),
+        Some(scene) => {
+            let _waiting = Waiting::show(format!("loads {scene}"), terminal);
+            RayFile::new(&sources::scene(scene)?, workload)
+        }
         None => RayFile { scene: String::new(), scene_hash: None, workload },
     };
     finish(&file, &output, terminal)

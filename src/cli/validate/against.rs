@@ -7,9 +7,11 @@ use anyhow::Context;
 
 use crate::cli::progress::Waiting;
 use crate::geometry::{Hit, Ray};
+use crate::measure::spread;
 use crate::registry::{Choice, Registry};
+use crate::report::number::count;
 use crate::scene::Scene;
-use crate::study::{BRUTE_FORCE, sources};
+use crate::study::{BRUTE_FORCE, SAH_TREE, sources};
 use crate::triangle::{MollerTrumbore, TriangleTest};
 use crate::validate::{Reference, Validation};
 
@@ -63,15 +65,30 @@ impl Against {
 
     /// How many rays of a scene of so many triangles are asked where nobody says.
     pub fn affordable(&self, triangles: usize) -> usize {
-        if self.is_brute_force() { (TESTS / triangles.max(1)).clamp(1, ASKED) } else { ASKED }
+        self.most(triangles).min(ASKED)
     }
 
-    /// Whether every ray is held against every triangle.
-    fn is_brute_force(&self) -> bool {
-        match self {
+    /// The rays of a file that are asked, all or some evenly spread, each with what belongs to it; and what is to be said where they are
+    /// not all.
+    pub fn sample<T: Copy>(&self, recorded: &[T], triangles: usize) -> (Vec<T>, Option<String>) {
+        let asked = spread(recorded, self.most(triangles));
+        let note = (asked.len() < recorded.len()).then(|| {
+            let [some, all] = [asked.len(), recorded.len()].map(|rays| count(rays as u64));
+            format!(
+                "{some} of the {all} rays of the file, evenly spread, since brute force would take minutes for all: --against {SAH_TREE} \
+                 asks all"
+            )
+        });
+        (asked, note)
+    }
+
+    /// Rays beyond which brute force, which holds every one against every triangle, would take minutes.
+    fn most(&self, triangles: usize) -> usize {
+        let is_brute_force = match self {
             Self::SameTest => true,
             Self::Structure(choice) => choice.entry.name == BRUTE_FORCE,
-        }
+        };
+        if is_brute_force { (TESTS / triangles.max(1)).max(1) } else { usize::MAX }
     }
 
     /// Whether the answers are wrong: with their depths judged strictly where what they are held against was chosen for its answers.
@@ -125,17 +142,28 @@ impl<'a> References<'a> {
             return Ok(known.clone());
         }
         let reference = Arc::new(against.reference(scene, test)?);
-        let mut answers = Vec::with_capacity(rays.len());
-        for some in rays.chunks((TOLD / scene.mesh.len().max(1)).max(1)) {
-            let (name, done, all) = (&scene.name, answers.len(), rays.len());
-            let over = key.map(|test| format!(" ({test})")).unwrap_or_default();
-            waiting.says(format!("{name}: {against}{over} answers {done} of {all} rays"));
-            answers.extend(reference.closest_hits(some));
-        }
+        let over = key.map(|test| format!(" ({test})")).unwrap_or_default();
+        let answers = closest_hits(&reference, scene, rays, &format!("{against}{over}"), waiting);
         let known = Known { reference, answers: Arc::new(answers) };
         self.known.push((key, known.clone()));
         Ok(known)
     }
+}
+
+/// What a reference, `name` in words, answers to rays of a scene.
+pub fn closest_hits(
+    reference: &Reference,
+    scene: &Scene,
+    rays: &[Ray],
+    name: &str,
+    waiting: &Waiting,
+) -> Vec<Option<Hit>> {
+    let mut answers = Vec::with_capacity(rays.len());
+    for some in rays.chunks((TOLD / scene.mesh.len().max(1)).max(1)) {
+        waiting.says(format!("{}: {name} answers {} of {} rays", scene.name, answers.len(), rays.len()));
+        answers.extend(reference.closest_hits(some));
+    }
+    answers
 }
 
 #[cfg(test)]
@@ -150,6 +178,21 @@ mod tests {
         let [brute, tree] = [BRUTE_FORCE, "sah-kd"].map(|name| Against::named(&registry, name).unwrap());
         assert_eq!([0, 12, 800_000, 10_000_000].map(|n| brute.affordable(n)), [ASKED, ASKED, ASKED, 858]);
         assert_eq!((tree.affordable(10_000_000), brute.affordable(usize::MAX)), (ASKED, 1));
+    }
+
+    #[test]
+    fn of_a_file_brute_force_is_asked_some_rays_and_a_tree_all() {
+        let registry = Registry::builtin();
+        let [brute, exact, tree] =
+            [BRUTE_FORCE, "brute-force:test=exact", "sah-kd"].map(|name| Against::named(&registry, name).unwrap());
+        let recorded: Vec<usize> = (0..20_000).collect();
+        for against in [&brute, &exact] {
+            assert_eq!(against.sample(&recorded, 12), (recorded.clone(), None));
+            let (asked, note) = against.sample(&recorded, 10_000_000);
+            assert!(asked.len() == 858 && asked.is_sorted() && asked[857] > 19_900, "{asked:?}");
+            assert!(note.is_some_and(|note| note.starts_with("858 of the 20,000 rays")));
+        }
+        assert_eq!(tree.sample(&recorded, 10_000_000), (recorded, None));
     }
 
     #[test]

@@ -6,9 +6,10 @@ use std::sync::Arc;
 use anyhow::Context;
 
 use super::Args;
-use super::against::Against;
+use super::against::{Against, closest_hits};
 use super::table::{note_on_reference, print, row};
 use crate::accel::{DynAccel, Query};
+use crate::cli::progress::Waiting;
 use crate::cli::terminal::Terminal;
 use crate::geometry::{Hit, Ray};
 use crate::registry::{Choice, Registry};
@@ -25,12 +26,14 @@ pub fn export(
     structures: &[Choice],
     args: &Args,
     output: &Path,
+    waiting: Waiting,
     terminal: &Terminal,
 ) -> anyhow::Result<Status> {
     let [choice] = structures else {
         anyhow::bail!("a file holds the answers of one structure: name one with --structure");
     };
     let output = sources::output(output, &args.scenes, args.source().file())?;
+    waiting.says(format!("{} builds {}", scene.name, choice.label));
     let (own, mesh) = (choice.clone(), Arc::clone(&scene.mesh));
     let built = watched(args.build_limit(scene.mesh.len()), move || own.build(&mesh));
     let accel: Arc<dyn DynAccel> = Arc::from(built.with_context(|| format!("the builder of {}", choice.label))??);
@@ -41,6 +44,7 @@ pub fn export(
     if let Some(what) = declined {
         anyhow::bail!("{} declines {what}, which these rays need", choice.label);
     }
+    waiting.says(format!("{}: {} answers {}", scene.name, choice.label, plural(rays.len(), "ray")));
     let mut hits = vec![];
     for batch in rays.chunks(BATCH) {
         let (accel, query, batch) = (Arc::clone(&accel), file.workload.query, batch.to_vec());
@@ -49,6 +53,7 @@ pub fn export(
         hits.extend(answers.with_context(ray)?);
     }
     HitFile::new(&file.workload, hits).write(&output)?;
+    drop(waiting);
     let what = plural(rays.len(), "answer");
     terminal.print(&format!(
         "{}: {what} of {} to the rays {}\n",
@@ -76,6 +81,7 @@ pub fn check(
     scene: &Scene,
     file: &RayFile,
     against: &Against,
+    waiting: Waiting,
     terminal: &Terminal,
 ) -> anyhow::Result<Status> {
     let path = args.hits.as_deref().context("the caller has seen it")?;
@@ -85,18 +91,22 @@ pub fn check(
     let answers = HitFile::read(path)?;
     let name = path.display().to_string();
     let found = answers.answers(&file.workload).map_err(|problem| anyhow::anyhow!("{name}: {problem}"))?;
+    let recorded: Vec<(Ray, Option<Hit>)> = file.workload.rays.iter().copied().zip(found.iter().copied()).collect();
+    let (asked, some) = against.sample(&recorded, scene.mesh.len());
+    let (rays, found): (Vec<Ray>, Vec<Option<Hit>>) = asked.into_iter().unzip();
     let reference = against.reference(scene, test)?;
-    let rays = &file.workload.rays;
-    let expected = reference.closest_hits(rays);
+    let who = against.of_answers(&reference, test);
+    let expected = closest_hits(&reference, scene, &rays, &who, &waiting);
     let found = match answers.query {
-        Query::Closest => validate_answers(&reference, &expected, &scene.mesh, rays, found),
+        Query::Closest => validate_answers(&reference, &expected, &scene.mesh, &rays, &found),
         Query::Any => {
             let found: Vec<bool> = found.iter().map(Option::is_some).collect();
-            validate_any_answers(&reference, &expected, &scene.mesh, rays, &found)
+            validate_any_answers(&reference, &expected, &scene.mesh, &rays, &found)
         }
     };
-    let notes = scene.notes.iter().cloned().chain(found.worst.iter().map(|worst| format!("{name}: {worst}")));
-    let notes = notes.chain(note_on_reference(&name, &found)).collect();
-    print(scene, rays, &against.of_answers(&reference, test), vec![row(&name, test, &found)], notes, terminal)?;
+    drop(waiting);
+    let worst = found.worst.iter().map(|worst| format!("{name}: {worst}"));
+    let notes = scene.notes.iter().cloned().chain(some).chain(worst).chain(note_on_reference(&name, &found)).collect();
+    print(scene, &rays, &who, vec![row(&name, test, &found)], notes, terminal)?;
     Ok(if against.refutes(&found) { Status::Wrong } else { Status::Right })
 }

@@ -44,8 +44,8 @@ pub struct Args {
     /// How much time the builds of eight-wide trees may take, where a structure is named without a quality of its own
     #[arg(long, value_parser = sources::QUALITIES)]
     quality: Option<String>,
-    /// Rays of each scene, shared out among the kinds; or a file of rays to replay [default: 10000; fewer where brute force would take
-    /// minutes]
+    /// Rays of each scene, shared out among the kinds, or a file of rays to replay; of a file, and of the default, fewer where brute
+    /// force would take minutes [default: 10000]
     #[arg(long, value_name = "N|F.rays")]
     rays: Option<RaySource>,
     /// What is right: `brute-force` with each structure's own triangle test, or another structure (also `brute-force:test=exact`),
@@ -113,8 +113,8 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     if args.hits.is_some() || args.export_hits.is_some() {
         let (scene, file) = replay.context("answers belong to rays of a file: give one with --rays F.rays")?;
         return match &args.export_hits {
-            Some(output) => exchange::export(&scene, &file, &structures, args, output, terminal),
-            None => exchange::check(registry, args, &scene, &file, &against, terminal),
+            Some(output) => exchange::export(&scene, &file, &structures, args, output, waiting, terminal),
+            None => exchange::check(registry, args, &scene, &file, &against, waiting, terminal),
         };
     }
     let (scenes, recorded) = match replay {
@@ -131,16 +131,20 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
 
     let mut verdict = Status::Right;
     for scene in &scenes {
+        let mut notes = scene.notes.clone();
         let rays = match &recorded {
-            Some(recorded) => recorded.clone(),
+            Some(recorded) => {
+                let (asked, some) = against.sample(recorded, scene.mesh.len());
+                notes.extend(some);
+                asked
+            }
             None if args.ray.is_empty() => {
                 let _waiting = Waiting::show(format!("{} makes rays", scene.name), terminal);
                 rays(scene, registry, args, &against)?
             }
             None => args.ray.clone(),
         };
-        let (mut rows, mut notes, mut answered) = (vec![], scene.notes.clone(), vec![]);
-        let mut hits = vec![];
+        let (mut rows, mut answered, mut hits) = (vec![], vec![], vec![]);
         let asked = against.affordable(scene.mesh.len());
         if recorded.is_none() && args.rays.is_none() && args.ray.is_empty() && asked < ASKED {
             notes.push(format!(

@@ -23,7 +23,7 @@ pub fn block(seen: &Seen) -> Option<Block> {
         (true, false) => {
             Some(Block::Text(format!("{}: all {rays} are answered right by {}.", seen.name, listed(&right))))
         }
-        (false, _) => Some(Block::Figure(figure(seen, &wrong, &right))),
+        (false, _) => Some(Block::figure(figure(seen, &wrong, &right))),
     }
 }
 

@@ -116,6 +116,6 @@ fn stepped(cost: u64, scale: u64) -> u64 {
 /// The section with the figures of all scenes, and what is said of those without one.
 pub fn section(figures: Vec<Figure>, left_out: Vec<Block>) -> Section {
     let what = "Where the work is: brighter pixels cost more triangle tests and steps.";
-    let found = figures.into_iter().map(Block::Figure).collect();
+    let found = figures.into_iter().map(Block::figure).collect();
     Section { id: "heat", title: TITLE, blocks: told("Heat maps of the structures", what, found, left_out) }
 }

@@ -18,11 +18,12 @@ use shown::{Find, Shown, found_again};
 /// Scenes with heat maps and pictures of errors: the largest.
 const LARGEST: usize = 3;
 
-/// The sections of scenes, heat maps and errors. `progress` is told the scene that is drawn.
-pub fn draw(runs: &Runs, suite: (&Registry, &Studies), find: Find, progress: &mut dyn FnMut(&str)) -> Vec<Section> {
+/// The sections of scenes, heat maps and errors. `progress` is told what is done.
+pub fn draw(runs: &Runs, suite: (&Registry, &Studies), find: Find, progress: &mut dyn FnMut(String)) -> Vec<Section> {
     let (registry, studies) = suite;
     let (mut shown, mut lost): (Vec<Shown>, Vec<String>) = (vec![], vec![]);
     for (scene, command) in runs.scenes(studies) {
+        progress(format!("loads {}", scene.name));
         match found_again(&scene, &command, find) {
             Some(found) => shown.push(found),
             None => lost.push(scene.name),
@@ -30,7 +31,7 @@ pub fn draw(runs: &Runs, suite: (&Registry, &Studies), find: Find, progress: &mu
     }
     let mut thumbnails = vec![];
     for one in &shown {
-        progress(&one.scene.name);
+        progress(format!("draws {}", one.scene.name));
         match scenes::thumbnail(one, registry) {
             Some(thumbnail) => thumbnails.push(thumbnail),
             None => lost.push(one.scene.name.clone()),
@@ -42,7 +43,7 @@ pub fn draw(runs: &Runs, suite: (&Registry, &Studies), find: Find, progress: &mu
         largest.into_iter().partition(|one| is_large(one.scene.mesh.len()));
     let (mut heat, mut errors) = (vec![], vec![]);
     for one in largest.into_iter().take(LARGEST) {
-        progress(&one.scene.name);
+        progress(format!("draws heat and errors of {}", one.scene.name));
         let seen = Seen::new(one, runs, registry);
         heat.extend(heat::figure(&seen));
         errors.extend(errors::block(&seen));

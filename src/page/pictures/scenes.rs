@@ -71,7 +71,7 @@ pub fn section(thumbnails: Vec<Thumbnail>, shown: &[Shown], lost: &[String]) -> 
     let mut blocks = vec![];
     if !thumbnails.is_empty() {
         let rows = thumbnails.iter().map(|t| [t.name.clone(), t.note.clone()]).collect();
-        blocks.push(Block::Figure(Figure {
+        blocks.push(Block::figure(Figure {
             id: "scenes".into(),
             caption: caption(shown),
             alt: String::new(),

@@ -17,7 +17,8 @@ pub fn section(runs: &Runs) -> Option<Section> {
         return None;
     }
     let note = "A change is real if its interval does not hold 1, corrected for looking at every structure in every pair of neighbouring \
-                runs. Times are relative to obvhs in the same rounds; runs of other machines, rays or names are other series.";
+                runs. Times are relative to obvhs in the same rounds; runs of another machine, name or compiler setting, and those that \
+                measured all epochs in one process, are another series.";
     let blocks = series.iter().flat_map(blocks).chain([Block::Note(note.into())]).collect();
     Some(Section { id: "history", title: TITLE, blocks })
 }
@@ -26,7 +27,14 @@ pub fn section(runs: &Runs) -> Option<Section> {
 fn name(series: &Series) -> String {
     let first = &series.runs[0];
     let p = &first.provenance;
-    format!("{}, {}, {}, {}", first.baseline, p.cpu, p.simd, plural(p.threads, "thread"))
+    let process = if p.process_per_epoch { "" } else { ", all epochs in one process" };
+    format!("{}, {}, {}, {}{process}", first.baseline, p.cpu, p.simd, plural(p.threads, "thread"))
+}
+
+/// A commit as an axis names it: its first digits, with a plus where the sources differed from it.
+fn short(commit: &str) -> String {
+    let (digits, changes) = commit.split_once('+').map_or((commit, ""), |(digits, _)| (digits, "+"));
+    format!("{digits:.7}{changes}")
 }
 
 /// A run, as tables name it.
@@ -40,7 +48,7 @@ fn blocks(series: &Series) -> Vec<Block> {
     let command = &series.runs[last].provenance.command;
     let mut blocks = vec![Block::Text(sentence(series))];
     if last > 0 {
-        blocks.push(Block::Figure(figure(series, command)));
+        blocks.push(Block::figure(figure(series, command)));
     }
     if !series.changes.is_empty() {
         blocks.push(Block::table(changes(series), command));
@@ -94,7 +102,10 @@ fn runs(series: &Series) -> Table {
 
 fn figure(series: &Series, command: &str) -> Figure {
     let line = |label: &str| {
-        let point = |n: usize| Some(CurvePoint::of((n + 1) as f64, series.speed(n, label)?));
+        let point = |n: usize| {
+            let is_marked = series.changes.iter().any(|step| step.run == n && step.structure == label);
+            Some(CurvePoint { is_marked, ..CurvePoint::of((n + 1) as f64, series.speed(n, label)?) })
+        };
         Line::new(label, Mark::Both, (0..series.runs.len()).filter_map(point))
     };
     let labels = series.structures();
@@ -104,10 +115,12 @@ fn figure(series: &Series, command: &str) -> Figure {
         labels.iter().filter_map(|label| Some(format!("{label} {}", figures(series.speed(last, label)?.estimate))));
     let told: Vec<String> = told.collect();
     let y_title = "times as fast as obvhs";
-    let curves = Curves { x_scale: Scale::Linear, ..Curves::logarithmic("run, the oldest first", y_title, lines) };
+    let x_names = series.runs.iter().map(|run| short(&run.provenance.commit)).collect();
+    let curves = Curves::logarithmic("commit of the run, the oldest first", y_title, lines);
+    let curves = Curves { x_scale: Scale::Linear, x_names, ..curves };
     Figure {
         id: format!("history-{}", slug(&series.runs[0].baseline)),
-        caption: format!("{}: speed of each kept run, with its interval.", name(series)),
+        caption: format!("{}: speed of each kept run, with its interval. Rings: changes that are real.", name(series)),
         alt: format!("Line chart over {}. In the last one: {}.", plural(last + 1, "run"), told.join("; ")),
         command: command.into(),
         art: Art::Chart(Chart::Curves(curves)),

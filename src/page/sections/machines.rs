@@ -1,5 +1,6 @@
 //! The comparison on several machines, side by side: places and ratios of each, and never a ratio between them.
 
+use std::cmp::Reverse;
 use std::collections::BTreeSet;
 
 use crate::measure::Estimate;
@@ -21,7 +22,7 @@ const NO_RATIO: &str = "No number relates one machine to another: samples of dif
 /// A time: hashes of scene and rays, and the structure.
 type Case<'a> = (&'a str, &'a str, &'a str);
 
-/// What the machines make of the cases in which all of them have a time.
+/// What machines make of the cases in which all of them have a time.
 struct Shared {
     /// `M1: AMD EPYC, avx512, 1 thread`, one for each machine.
     legend: Vec<String>,
@@ -30,51 +31,87 @@ struct Shared {
 
 /// Nothing where all was compared on one machine.
 pub fn section(runs: &Runs) -> Option<Section> {
-    let machines: Vec<&OfMachine> = runs.machines.iter().filter(|one| !one.compared.records.is_empty()).collect();
-    if machines.len() < 2 {
+    let all: Vec<&OfMachine> = runs.machines.iter().filter(|one| !one.compared.records.is_empty()).collect();
+    if all.len() < 2 {
         return None;
     }
-    let all = || machines.iter().flat_map(|one| &one.compared.records);
-    let commands: Vec<String> = all().map(|record| command_line(&record.provenance.command)).collect();
+    let commands = all.iter().flat_map(|one| &one.compared.records).map(|r| command_line(&r.provenance.command));
+    let commands: Vec<String> = commands.collect();
     let command = distinct(commands.iter()).join("\n");
 
-    let timed: Vec<BTreeSet<Case>> = machines.iter().map(|one| timed(&one.compared.records)).collect();
-    let some = timed.iter().flatten().copied().collect::<BTreeSet<Case>>();
-    let common: BTreeSet<Case> =
-        some.iter().copied().filter(|case| timed.iter().all(|own| own.contains(case))).collect();
-    // In the order of the first machine, so that all have the same reference.
-    let order = machines[0].compared.records.iter().map(case).filter(|case| common.contains(case));
-    let records = machines.iter().map(|one| {
-        let find = |asked: Case| one.compared.records.iter().find(|record| case(record) == asked);
-        order.clone().filter_map(find).cloned().collect()
-    });
-    let records: Vec<Vec<Record>> = records.collect();
-    let ranks: Option<Vec<Ranks>> = records.iter().map(|records| ranks(records)).collect();
-    let legend = machines.iter().enumerate().map(|(i, one)| format!("{}: {}", name(i), one.machine)).collect();
-
-    let left = some.len() - common.len();
-    let left = match left {
-        0 => String::new(),
-        n => format!(" Left out: {} that some machine has no time of.", plural(n, "case")),
-    };
-    let over = format!(
-        "Over {} of scene, rays and structure with a time on every machine, the same meshes and rays by their hashes.{left}",
-        plural(common.len(), "case")
-    );
-    let shared = ranks.map(|ranks| Shared { legend, ranks });
-    let mut blocks = match &shared {
-        Some(shared) => shared.blocks(&over, &command),
+    // As many machines as have something in common: of all of them, one could leave nothing.
+    let sets = all.iter().rev().map(|&first| sharing(first, &all));
+    let (machines, common) = sets.max_by_key(|(machines, _)| machines.len())?;
+    let ranks = machines.iter().map(|one| ranks(&of_cases(one, machines[0], &common)));
+    let ranks = ranks.collect::<Option<Vec<Ranks>>>().filter(|ranks| ranks.len() > 1);
+    let mut blocks = match ranks {
+        Some(ranks) => {
+            let legend = machines.iter().enumerate().map(|(i, one)| format!("{}: {}", name(i), one.machine)).collect();
+            let over = format!(
+                "Over {} of scene, rays and structure with a time on every machine, the same meshes and rays by their \
+                 hashes.{}",
+                plural(common.len(), "case"),
+                left_out(&machines, common.len())
+            );
+            Shared { legend, ranks }.blocks(&over, &command)
+        }
         None => vec![Block::Text(format!(
-            "These runs compared on {}, with no two structures that all of them have timed on the same rays, so that nothing is side \
-             by side here.{left}",
-            listed(&machines.iter().map(|one| one.machine.to_string()).collect::<Vec<_>>())
+            "These runs compared on {}, with no two structures that two of them have timed on the same rays, so that \
+             nothing is side by side here.{}",
+            named(&all),
+            left_out(&all, 0)
         ))],
     };
+    let is_apart = |one: &&OfMachine| machines.iter().all(|shown| shown.machine != one.machine);
+    let apart: Vec<&OfMachine> = all.iter().copied().filter(is_apart).collect();
+    if machines.len() > 1 && !apart.is_empty() {
+        let apart = named(&apart);
+        blocks.push(Block::Note(format!("Not beside them, for they have too few cases in common: {apart}.")));
+    }
     blocks.push(Block::Note(format!(
         "What else this page says of the comparison is of one machine alone: {}.",
-        machines[0].machine
+        all[0].machine
     )));
     Some(Section { id: "machines", title: TITLE, blocks })
+}
+
+/// `first` and the machines that can stand beside it, and the cases in which all of these have a time. Those that share the most with
+/// it come before those that would keep them out.
+fn sharing<'a>(first: &'a OfMachine, all: &[&'a OfMachine]) -> (Vec<&'a OfMachine>, BTreeSet<Case<'a>>) {
+    let mut common = timed(first);
+    let others = all.iter().copied().filter(|one| one.machine != first.machine);
+    let mut others: Vec<(&OfMachine, BTreeSet<Case>)> = others.map(|one| (one, timed(one))).collect();
+    others.sort_by_key(|(_, own)| Reverse(own.intersection(&common).count()));
+    let mut machines = vec![first];
+    for (one, own) in others {
+        let shared: BTreeSet<Case> = own.intersection(&common).copied().collect();
+        if [first, one].iter().all(|own| ranks(&of_cases(own, first, &shared)).is_some()) {
+            machines.push(one);
+            common = shared;
+        }
+    }
+    (machines, common)
+}
+
+/// The records of a machine of these cases, in the order of the first machine, so that all have the same reference.
+fn of_cases(one: &OfMachine, first: &OfMachine, cases: &BTreeSet<Case>) -> Vec<Record> {
+    let order = first.compared.records.iter().map(case).filter(|case| cases.contains(case));
+    let find = |asked: Case| one.compared.records.iter().find(|record| case(record) == asked);
+    order.filter_map(find).cloned().collect()
+}
+
+/// What is said of cases of `machines` of which so many are common.
+fn left_out(machines: &[&OfMachine], common: usize) -> String {
+    let some: BTreeSet<Case> = machines.iter().flat_map(|one| timed(one)).collect();
+    match some.len() - common {
+        0 => String::new(),
+        n => format!(" Left out: {} that some machine has no time of.", plural(n, "case")),
+    }
+}
+
+/// Machines as sentences name them.
+fn named(machines: &[&OfMachine]) -> String {
+    listed(&machines.iter().map(|one| one.machine.to_string()).collect::<Vec<_>>())
 }
 
 /// As columns name a machine.
@@ -86,8 +123,9 @@ fn case(record: &Record) -> Case<'_> {
     (&record.scene_hash, &record.workload_hash, &record.label)
 }
 
-fn timed(records: &[Record]) -> BTreeSet<Case<'_>> {
-    records.iter().filter(|record| record.mrays_per_s.is_some()).map(case).collect()
+/// The cases in which a machine has a time.
+fn timed(one: &OfMachine) -> BTreeSet<Case<'_>> {
+    one.compared.records.iter().filter(|record| record.mrays_per_s.is_some()).map(case).collect()
 }
 
 /// One of the two ranks of a page.
@@ -132,7 +170,7 @@ impl Shared {
         for kind in KINDS.iter().filter(|kind| !(kind.of)(&self.ranks[0]).rows.is_empty()) {
             blocks.push(Block::table(self.table(kind, &notes), command));
         }
-        blocks.push(Block::Figure(self.figure(command)));
+        blocks.push(Block::figure(self.figure(command)));
         blocks
     }
 

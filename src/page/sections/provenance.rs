@@ -20,7 +20,8 @@ pub fn section(runs: &Runs, missing: Vec<Block>) -> Section {
     );
     files.notes.push(
         "Where several files measured the same scene with the same command, the one last written counts: samples of \
-         different runs are no pairs. Comparisons on different machines stand side by side."
+         different runs are no pairs. Comparisons on different machines stand side by side; of several builds on one machine \
+         the one with the most times counts."
             .into(),
     );
     let mut blocks = vec![Block::table(files, ""), Block::table(machines(&runs.provenances), "")];

@@ -9,8 +9,8 @@ use crate::page::{RunError, Runs, document};
 use crate::report::document::{Art, Block, Colours, Document, Figure, Overlay, Section, Thumbnail};
 use crate::report::inspector::{Answer, InspectedHit, InspectedStructure, Inspector};
 use crate::report::plot::{Chart, Curves, Line, Mark};
-use crate::report::{Record, Table, example_record, to_json};
-use crate::study::epoch::{Epoch, tests as epoch};
+use crate::report::{CaseCounts, Record, Table, example_record, to_json};
+use crate::study::epoch::{Epoch, RayDetails, StructureDetails, tests as epoch};
 use crate::study::journal::{self, Header};
 use crate::study::{Studies, attribution as study};
 
@@ -75,6 +75,36 @@ pub fn accuracy(scene: &str) -> Files {
 pub fn attribution(scene: &str) -> Files {
     let epochs = study::tests::cases(2, 0.0).into_iter().map(|epoch| Epoch { scene: scene.into(), ..epoch });
     journal("attribution", epochs.map(|epoch| serde_json::to_value(epoch).unwrap()).collect())
+}
+
+/// A journal of a comparison, one epoch of each of these scenes.
+pub fn comparison(scenes: &[&str]) -> Files {
+    let case = |scene: &&str| {
+        let mut epoch =
+            epoch::example(scene, 12, 0, &[("median-kd", 1000, &[8_000_000]), ("sah-kd", 2000, &[1_000_000])]);
+        for structure in &mut epoch.structures {
+            structure.details = Some(StructureDetails {
+                config: serde_json::json!({}),
+                triangle_test: "exact".into(),
+                build_peak_bytes: None,
+                counts: CaseCounts::default(),
+            });
+            structure.rays[0].details = Some(RayDetails::default());
+        }
+        serde_json::to_value(epoch).unwrap()
+    };
+    journal("compare", scenes.iter().map(case).collect())
+}
+
+/// A journal of spheres of so many triangles, each with so many epochs.
+pub fn scaling(spheres: &[(usize, usize)]) -> Files {
+    let case = |triangles: usize, number: usize| {
+        let name = format!("sphere {triangles}");
+        let epoch = epoch::example(&name, triangles, number, &[("sah-kd", 1000, &[90_000, 91_000])]);
+        serde_json::json!({ "family": "spheres", "epoch": epoch })
+    };
+    let cases = spheres.iter().flat_map(|&(triangles, epochs)| (0..epochs).map(move |number| case(triangles, number)));
+    journal("scaling", cases.collect())
 }
 
 /// The files of a journal.
@@ -197,9 +227,9 @@ pub fn whole(scene: &str) -> (Document, Runs) {
         id: "pictures",
         title: "Pictures",
         blocks: vec![
-            Block::Figure(figure("gallery", Art::Gallery(vec![thumbnail(scene)]))),
-            Block::Figure(figure("overlay", Art::Overlay(overlay))),
-            Block::Figure(figure("curves", Art::Chart(Chart::Curves(curves)))),
+            Block::figure(figure("gallery", Art::Gallery(vec![thumbnail(scene)]))),
+            Block::figure(figure("overlay", Art::Overlay(overlay))),
+            Block::figure(figure("curves", Art::Chart(Chart::Curves(curves)))),
             Block::Note(scene.into()),
         ],
     };

@@ -129,6 +129,36 @@ fn one_machine_has_no_such_section_and_replaces_its_own_runs_alone() {
 }
 
 #[test]
+fn of_two_builds_the_one_with_the_most_times_counts() {
+    let built = |commit: &str, mut records: Vec<Record>| {
+        records.iter_mut().for_each(|record| record.provenance.commit = commit.into());
+        records
+    };
+    let both = [records_of("Dragon"), records_of("Cube")].concat();
+    let runs = runs_of(&[("a.json", built("c0ffee", both)), ("b.json", built("decade", records_of("Torus")))]);
+    assert!(runs.records().len() == 12 && runs.records().iter().all(|r| r.provenance.commit == "c0ffee"));
+    let replaced: Vec<bool> = runs.sources.iter().map(|source| !source.replaced.is_empty()).collect();
+    assert_eq!(replaced, [false, true]);
+    assert!(section(&runs).is_none());
+}
+
+#[test]
+fn a_machine_of_other_scenes_is_named_and_the_others_stand_side_by_side() {
+    let dragon = |cpu: &str| on(cpu, 1.0, records_of("Dragon"));
+    // The newest of as many times leads the page, and shares nothing with the others.
+    let third = on("Third", 1.0, records_of("Cube"));
+    let runs = runs_of(&[("a.json", dragon("One")), ("b.json", dragon("Other")), ("c.json", third)]);
+    assert!(runs.records().iter().all(|record| record.scene == "Cube"));
+    let blocks = section(&runs).unwrap();
+    let tables = tables(&blocks);
+    assert_eq!(tables[0].columns, ["structure", "M1 #", "M1 x obvhs", "M2 #", "M2 x obvhs"]);
+    let notes = tables[0].notes.join("\n");
+    assert!(notes.contains("M1: One, ") && notes.contains("M2: Other, ") && notes.contains("Over 6 cases"), "{notes}");
+    let text = format!("{blocks:?}");
+    assert!(text.contains("Not beside them") && !text.contains("Left out"), "{text}");
+}
+
+#[test]
 fn a_study_of_another_machine_says_so() {
     let files = |cpu: &str| {
         let files = [exported(&on(cpu, 1.0, records_of("Cube"))), accuracy("Cube")].concat();

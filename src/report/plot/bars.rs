@@ -1,6 +1,7 @@
 //! Bars with intervals on one logarithmic axis: how many times faster.
 
 use super::canvas::{self, Canvas, Side};
+use super::labels::BarLabels;
 use super::palette::{FAINT, INK, MIDDLE, colours};
 use super::scale::{Axis, Scale};
 use crate::measure::Estimate;
@@ -44,9 +45,6 @@ const FOOT: f64 = 34.0;
 /// Least width of a group, without the labels.
 const GROUP: f64 = 190.0;
 
-/// Height of a label that stands above its bar.
-pub(super) const LABEL: f64 = 17.0;
-
 impl Bars {
     /// Height of the drawing where it is `width` wide.
     pub(super) fn height(&self, width: f64) -> f64 {
@@ -60,30 +58,21 @@ impl Bars {
 
     /// Height of a bar with what is above it.
     fn row(&self, width: f64) -> f64 {
-        if self.are_above(width) { ROW + LABEL } else { ROW }
-    }
-
-    /// Whether labels stand above their bars: beside them they would leave the bars less than half of the width.
-    fn are_above(&self, width: f64) -> bool {
-        self.label_width() > width / 2.0
-    }
-
-    fn label_width(&self) -> f64 {
-        self.labels.iter().map(|label| canvas::width_of(label, canvas::BODY)).fold(0.0, f64::max) + 12.0
+        ROW + BarLabels::of(&self.labels, width).height()
     }
 
     /// Groups side by side.
     fn columns(&self, width: f64) -> usize {
-        if self.are_above(width) {
-            return 1;
+        match BarLabels::of(&self.labels, width) {
+            BarLabels::Above => 1,
+            BarLabels::Beside(column) => (((width - column) / GROUP) as usize).clamp(1, self.groups.len().max(1)),
         }
-        (((width - self.label_width()) / GROUP) as usize).clamp(1, self.groups.len().max(1))
     }
 
     pub(super) fn draw(&self, canvas: &Canvas, width: f64) {
-        let (columns, line, height, are_above) =
-            (self.columns(width), self.line(width), self.row(width), self.are_above(width));
-        let left = if are_above { 0.0 } else { self.label_width() };
+        let (columns, line, height) = (self.columns(width), self.line(width), self.row(width));
+        let labels = BarLabels::of(&self.labels, width);
+        let left = labels.left();
         let column = (width - left) / columns as f64;
         let colours = colours(&self.labels);
         let ends = self.ends();
@@ -98,7 +87,7 @@ impl Bars {
             let zero = axis.place(self.reference);
             for (row, bar) in group.bars.iter().enumerate() {
                 let y = top + HEAD + (row + 1) as f64 * height - ROW / 2.0;
-                if are_above {
+                if labels == BarLabels::Above {
                     canvas.text(&self.labels[row], [x, y - ROW / 2.0 - 3.0], canvas::BODY, INK.light, Side::Left);
                 } else if i % columns == 0 {
                     canvas.text(&self.labels[row], [left - 12.0, y], canvas::BODY, INK.light, Side::Right);

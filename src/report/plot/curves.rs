@@ -13,6 +13,8 @@ pub struct Curves {
     pub x_title: String,
     pub y_title: String,
     pub x_scale: Scale,
+    /// Names of the values 1, 2 and so on, which the axis shows in their place; none where it shows numbers.
+    pub x_names: Vec<String>,
     pub y_scale: Scale,
     pub lines: Vec<Line>,
     /// A horizontal line at this height, and what it means: "equal".
@@ -63,17 +65,20 @@ pub struct CurvePoint {
     pub y: f64,
     /// Lower and upper end.
     pub band: Option<[f64; 2]>,
+    /// Whether a ring is about it.
+    pub is_marked: bool,
 }
 
 impl CurvePoint {
     /// A point without an interval.
     pub fn exact(x: f64, y: f64) -> Self {
-        Self { x, y, band: None }
+        Self { x, y, band: None, is_marked: false }
     }
 
     /// The estimate at `x`, with its interval if it has one.
     pub fn of(x: f64, y: Estimate) -> Self {
-        Self { x, y: y.estimate, band: y.interval.map(|interval| [interval.low, interval.high]) }
+        let band = y.interval.map(|interval| [interval.low, interval.high]);
+        Self { band, ..Self::exact(x, y.estimate) }
     }
 }
 
@@ -85,7 +90,17 @@ impl Curves {
     /// Lines over two logarithmic axes.
     pub fn logarithmic(x_title: &str, y_title: &str, lines: Vec<Line>) -> Self {
         let (x_title, y_title, scale) = (x_title.into(), y_title.into(), Scale::Log);
-        Self { x_title, y_title, x_scale: scale, y_scale: scale, lines, level: None, highest: None, diagonal: None }
+        Self {
+            x_title,
+            y_title,
+            x_scale: scale,
+            x_names: vec![],
+            y_scale: scale,
+            lines,
+            level: None,
+            highest: None,
+            diagonal: None,
+        }
     }
 
     /// Height of the drawing where it is `width` wide.
@@ -119,10 +134,11 @@ impl Curves {
             canvas.line(&[[left, at], [right, at]], FAINT.light, 1.0);
             canvas.text(&text, [left - 8.0, at], canvas::SMALL, MIDDLE.light, Side::Right);
         }
-        for (tick, text) in x.ticks_across() {
+        let ticks = if self.x_names.is_empty() { x.ticks_across() } else { x.names_across(&self.x_names) };
+        for (tick, text) in ticks {
             let at = x.place(tick);
             canvas.line(&[[at, height - BOTTOM], [at, height - BOTTOM + 5.0]], MIDDLE.light, 1.0);
-            canvas.text(&text, [at, height - BOTTOM + 16.0], canvas::SMALL, MIDDLE.light, Side::Centre);
+            canvas.centred(&text, [at, height - BOTTOM + 16.0], canvas::SMALL, MIDDLE.light, width);
         }
         canvas.line(&[[left, height - BOTTOM], [right, height - BOTTOM]], MIDDLE.light, 1.0);
         let below = [(left + right) * 0.5, height - 12.0];
@@ -140,7 +156,7 @@ impl Curves {
             canvas.text(meaning, [end[0] - 10.0, end[1] + 4.0], canvas::SMALL, MIDDLE.light, Side::Right);
         }
         for (line, &colour) in self.lines.iter().zip(&colours) {
-            draw_line(canvas, line, colour, x, y);
+            draw_line(canvas, line, colour, &self.x_names, x, y);
         }
         if beside {
             self.names_beside(canvas, &colours, right + 10.0, y, [TOP, height - BOTTOM]);
@@ -173,10 +189,11 @@ impl Curves {
         let level = self.level.as_ref().map(|(level, _)| *level);
         let highest = self.highest.unwrap_or(f64::INFINITY);
         // Bands may be so wide that nothing else would be seen: they do not make room for themselves.
-        [
-            padded(self.x_scale, &mut points().map(|p| p.x), 0.02),
-            padded(self.y_scale, &mut points().map(|p| p.y.min(highest)).chain(level), 0.08),
-        ]
+        let y = padded(self.y_scale, &mut points().map(|p| p.y.min(highest)).chain(level), 0.08);
+        match self.x_names.len() {
+            0 => [padded(self.x_scale, &mut points().map(|p| p.x), 0.02), y],
+            names => [[0.5, names as f64 + 0.5], y],
+        }
     }
 }
 
@@ -220,7 +237,7 @@ fn apart(places: &[f64], gap: f64, frame: [f64; 2]) -> Vec<f64> {
     moved
 }
 
-fn draw_line(canvas: &Canvas, line: &Line, colour: Colour, x: Axis, y: Axis) {
+fn draw_line(canvas: &Canvas, line: &Line, colour: Colour, x_names: &[String], x: Axis, y: Axis) {
     let bands: Vec<(f64, [f64; 2])> = line.points.iter().filter_map(|p| Some((x.place(p.x), p.band?))).collect();
     let [bottom, top] = y.places();
     let within = |value: f64| y.place(value).clamp(top.min(bottom), bottom.max(top));
@@ -235,10 +252,15 @@ fn draw_line(canvas: &Canvas, line: &Line, colour: Colour, x: Axis, y: Axis) {
         for (point, place) in run.iter().zip(&places) {
             let value =
                 point.band.map_or(Estimate::exact(point.y), |[low, high]| Estimate::between(point.y, low, high));
-            canvas.tip_at(*place, format!("{} at {}: {}", line.label, figures(point.x), interval(value)));
+            let name = x_names.get((point.x as usize).saturating_sub(1));
+            let at = name.map_or_else(|| figures(point.x), String::clone);
+            canvas.tip_at(*place, format!("{} at {at}: {}", line.label, interval(value)));
         }
         if line.mark != Mark::Dots {
             canvas.line(&places, colour, 2.0);
+        }
+        for (_, place) in run.iter().zip(&places).filter(|(point, _)| point.is_marked) {
+            canvas.dot(*place, 7.0, colour, false);
         }
         if line.mark != Mark::Line {
             places.into_iter().for_each(|place| canvas.dot(place, 3.0, colour, true));
@@ -255,6 +277,23 @@ mod tests {
         assert_eq!(apart(&[10.0, 50.0], 20.0, [0.0, 100.0]), [10.0, 50.0]);
         assert_eq!(apart(&[10.0, 12.0, 14.0], 20.0, [0.0, 100.0]), [10.0, 30.0, 50.0]);
         assert_eq!(apart(&[95.0, 97.0, 99.0], 20.0, [0.0, 100.0]), [60.0, 80.0, 100.0]);
+    }
+
+    #[test]
+    fn names_stand_for_numbers_and_rings_about_marked_points() {
+        let names: Vec<String> = (1..=40).map(|n| format!("c0ffe{n:02}")).collect();
+        let svg = |marked: usize| {
+            let point = |n: usize| CurvePoint { is_marked: n == marked, ..CurvePoint::exact(n as f64, 2.0) };
+            let curves = Curves::logarithmic("commit", "", vec![Line::new("tree", Mark::Both, (1..=40).map(point))]);
+            let curves = Curves { x_scale: Scale::Linear, x_names: names.clone(), ..curves };
+            canvas::svg([360.0, curves.height(360.0)], |canvas| curves.draw(canvas, 360.0))
+        };
+        let plain = svg(0);
+        // The last one is always there, others where there is room; a pointer is told each.
+        assert!(plain.contains("\nc0ffe40\n") && !plain.contains("\nc0ffe39\n"), "{plain}");
+        assert!(plain.contains("tree at c0ffe39: 2.00"), "{plain}");
+        let circles = |svg: &str| svg.matches("<circle").count();
+        assert_eq!(circles(&svg(7)), circles(&plain) + 2, "one that is filled, and its outline");
     }
 
     #[test]

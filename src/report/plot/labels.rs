@@ -1,5 +1,7 @@
 //! Where labels go, so that none covers another or a point.
 
+use super::canvas;
+
 /// A box by its top left and bottom right corner.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rect {
@@ -74,6 +76,40 @@ pub fn legend(widths: impl IntoIterator<Item = f64>, gap: f64, width: f64, heigh
         place
     };
     widths.into_iter().map(place).collect()
+}
+
+/// Where the labels of bars stand.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum BarLabels {
+    /// To the left of their bars, in a column of this width.
+    Beside(f64),
+    /// Each above its bar.
+    Above,
+}
+
+impl BarLabels {
+    /// Those of a drawing `width` wide: above the bars where beside them they would leave the bars less than half of it.
+    pub fn of<'a>(labels: impl IntoIterator<Item = &'a String>, width: f64) -> Self {
+        let widths = labels.into_iter().map(|label| canvas::width_of(label, canvas::BODY));
+        let column = widths.fold(0.0, f64::max) + 12.0;
+        if column > width / 2.0 { Self::Above } else { Self::Beside(column) }
+    }
+
+    /// Where the bars begin.
+    pub fn left(self) -> f64 {
+        match self {
+            Self::Beside(column) => column,
+            Self::Above => 0.0,
+        }
+    }
+
+    /// What a label adds to the height of its bar.
+    pub fn height(self) -> f64 {
+        match self {
+            Self::Beside(_) => 0.0,
+            Self::Above => 17.0,
+        }
+    }
 }
 
 #[cfg(test)]

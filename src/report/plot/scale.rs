@@ -73,7 +73,15 @@ impl Axis {
 
     /// Values with their texts, for a horizontal axis: as many as fit beside each other.
     pub fn ticks_across(&self) -> Vec<(f64, String)> {
-        self.ticks(|text| canvas::width_of(text, canvas::SMALL) + 10.0)
+        self.ticks(across)
+    }
+
+    /// The values 1, 2 and so on with these names, for a horizontal axis: the last one, and before it at even distances as
+    /// many as fit.
+    pub fn names_across(&self, names: &[String]) -> Vec<(f64, String)> {
+        let all: Vec<(f64, String)> = (1..=names.len()).map(|n| n as f64).zip(names.iter().cloned()).collect();
+        let sparse = |step: usize| all.iter().rev().step_by(step).cloned().collect::<Vec<_>>();
+        (1..=all.len()).map(sparse).find(|ticks| self.fit(ticks, &across)).unwrap_or_default()
     }
 
     /// Values with their texts, for a vertical axis: as many as fit above each other.
@@ -84,12 +92,7 @@ impl Axis {
     fn ticks(&self, room: impl Fn(&str) -> f64) -> Vec<(f64, String)> {
         let all: Vec<(f64, String)> = self.round_values().into_iter().map(|tick| (tick, plain(tick))).collect();
         // Every one, or every second, third or fifth: what is left out must be even.
-        let fits = |ticks: &[(f64, String)]| {
-            ticks.windows(2).all(|pair| {
-                let gap = (self.place(pair[1].0) - self.place(pair[0].0)).abs();
-                gap >= 0.5 * (room(&pair[0].1) + room(&pair[1].1))
-            })
-        };
+        let fits = |ticks: &[(f64, String)]| self.fit(ticks, &room);
         let sparse = |step: usize| all.iter().step_by(step).cloned().collect::<Vec<_>>();
         if fits(&all) {
             return all;
@@ -106,6 +109,19 @@ impl Axis {
         }
         [2, 3, 4, 6].into_iter().map(sparse).find(|ticks| fits(ticks)).unwrap_or_default()
     }
+
+    /// Whether these texts do not touch, each of which takes so much `room`.
+    fn fit(&self, ticks: &[(f64, String)], room: &impl Fn(&str) -> f64) -> bool {
+        ticks.windows(2).all(|pair| {
+            let gap = (self.place(pair[1].0) - self.place(pair[0].0)).abs();
+            gap >= 0.5 * (room(&pair[0].1) + room(&pair[1].1))
+        })
+    }
+}
+
+/// The room that a text takes beside others.
+fn across(text: &str) -> f64 {
+    canvas::width_of(text, canvas::SMALL) + 10.0
 }
 
 /// A power of ten, as exact as it can be.

@@ -1,8 +1,8 @@
 //! Factors of a product as bars side by side: on a logarithmic axis their lengths add up to the whole.
 
-use super::bars::{LABEL, upright_ticks, whisker, with_intervals};
+use super::bars::{upright_ticks, whisker, with_intervals};
 use super::canvas::{self, Canvas, Side};
-use super::labels;
+use super::labels::{self, BarLabels};
 use super::palette::{Colour, INK, MIDDLE, PAPER, PARTS};
 use super::scale::{Axis, Scale};
 use crate::measure::Estimate;
@@ -52,18 +52,13 @@ impl Stack {
         labels::legend(widths, 20.0, width, LEGEND)
     }
 
-    fn label_width(&self) -> f64 {
-        self.rows.iter().map(|row| canvas::width_of(&row.label, canvas::BODY)).fold(0.0, f64::max) + 12.0
-    }
-
-    /// Whether labels stand above their bars: beside them they would leave the bars less than half of the width.
-    fn are_above(&self, width: f64) -> bool {
-        self.label_width() > width / 2.0
+    fn labels(&self, width: f64) -> BarLabels {
+        BarLabels::of(self.rows.iter().map(|row| &row.label), width)
     }
 
     /// Height of a bar with what is above it.
     fn row(&self, width: f64) -> f64 {
-        if self.are_above(width) { ROW + LABEL } else { ROW }
+        ROW + self.labels(width).height()
     }
 
     /// Where the rows begin.
@@ -77,8 +72,8 @@ impl Stack {
             canvas.rect([x, y - 6.0], [x + 12.0, y + 6.0], colours(part)[0]);
             canvas.text(&self.parts[part], [x + 20.0, y], canvas::SMALL, INK.light, Side::Left);
         }
-        let (are_above, height) = (self.are_above(width), self.row(width));
-        let left = if are_above { 0.0 } else { self.label_width() };
+        let (labels, height) = (self.labels(width), self.row(width));
+        let left = labels.left();
         // Parts below 1 take from the whole: they stand to the left of 1.
         let reach = |row: &StackRow| {
             let low: f64 = row.factors.iter().filter(|f| **f < 1.0).product();
@@ -92,9 +87,9 @@ impl Stack {
         upright_ticks(canvas, axis, [top, bottom]);
         for (i, row) in self.rows.iter().enumerate() {
             let y = top + (i + 1) as f64 * height - ROW * 0.5;
-            match are_above {
-                true => canvas.text(&row.label, [0.0, y - ROW * 0.5], canvas::BODY, INK.light, Side::Left),
-                false => canvas.text(&row.label, [left - 12.0, y], canvas::BODY, INK.light, Side::Right),
+            match labels {
+                BarLabels::Above => canvas.text(&row.label, [0.0, y - ROW * 0.5], canvas::BODY, INK.light, Side::Left),
+                BarLabels::Beside(_) => canvas.text(&row.label, [left - 12.0, y], canvas::BODY, INK.light, Side::Right),
             }
             self.draw_row(canvas, row, axis, y);
         }

@@ -1,8 +1,10 @@
+use std::hint::black_box;
+
 use rayon::prelude::*;
 
 use crate::accel::DynAccel;
 use crate::geometry::Ray;
-use crate::measure::Clock;
+use crate::measure::{Clock, spread};
 use crate::oracle::{Oracle, Truth};
 use crate::validate::{DepthRule, ErrorCounts, count_errors};
 
@@ -12,8 +14,8 @@ pub struct Batch {
     truths: Vec<Option<Truth>>,
 }
 
-/// Rays from which the speed of a structure is learnt, and the fewest that are judged.
-const PILOT: usize = 64;
+/// Rays that are judged at least, and those from which the speed of a program is learnt.
+const FEWEST: usize = 64;
 
 /// Rays that a thread hands over at once.
 const CHUNK: usize = 1024;
@@ -25,21 +27,21 @@ impl Batch {
         Self { rays, truths }
     }
 
-    /// Judges the answers of `accel`, on all threads: to all rays, or where that would take longer than `budget_ns` to
-    /// as many as fit, evenly spread.
-    pub fn judge(&self, accel: &dyn DynAccel, clock: &dyn Clock, budget_ns: u64) -> ErrorCounts {
-        let all = self.rays.len();
-        let pilot = PILOT.min(all);
+    /// Picoseconds that a ray takes `accel`, by a clock.
+    pub fn picoseconds(&self, accel: &dyn DynAccel, clock: &dyn Clock) -> u64 {
+        let few = spread(&self.rays, FEWEST);
         let start = clock.now_ns();
-        let judged = self.judge_some(accel, pilot);
-        let ns = (clock.now_ns() - start).max(1);
-        let affordable = (pilot as u128 * u128::from(budget_ns) / u128::from(ns)).min(all as u128) as usize;
-        if affordable <= pilot { judged } else { self.judge_some(accel, affordable) }
+        black_box(accel.closest(&few));
+        (clock.now_ns() - start) * 1000 / few.len().max(1) as u64
     }
 
-    fn judge_some(&self, accel: &dyn DynAccel, count: usize) -> ErrorCounts {
-        let some: Vec<usize> =
-            (0..count).map(|i| (i as u128 * self.rays.len() as u128 / count as u128) as usize).collect();
+    /// Judges the answers of `accel`, on all threads: to all rays, or where one takes so many picoseconds that all would take longer
+    /// than `budget_ns` to as many as fit, evenly spread. How many that are no clock decides, so that another run judges the same.
+    pub fn judge(&self, accel: &dyn DynAccel, ps: u64, budget_ns: u64) -> ErrorCounts {
+        let all = self.rays.len();
+        let affordable = u128::from(budget_ns) * 1000 / u128::from(ps.max(1));
+        let count = affordable.clamp(FEWEST.min(all) as u128, all as u128) as usize;
+        let some: Vec<usize> = (0..count).map(|i| (i as u128 * all as u128 / count as u128) as usize).collect();
         let rays: Vec<Ray> = some.iter().map(|&i| self.rays[i]).collect();
         let answers = accel.closest_by_chunks(&rays, CHUNK);
         let truths: Vec<Option<Truth>> = some.iter().map(|&i| self.truths[i].clone()).collect();

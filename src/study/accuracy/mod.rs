@@ -15,12 +15,13 @@ mod tests;
 
 use super::bench::built::Built;
 use super::bench::case::Case;
+use super::bench::failed::Failed;
 use super::bench::ray_cost::picoseconds;
 use super::bench::timing::Timing;
 use super::{PANICKED, Refused, Stage, StudyError, guarded};
 use crate::accel::{BuildError, Query};
 use crate::geometry::Ray;
-use crate::measure::{Clock, Plan, Provenance, Samples, Threads, median, spread};
+use crate::measure::{Clock, Plan, Samples, Threads, median, spread};
 use crate::oracle::Oracle;
 use crate::registry::Choice;
 use crate::scene::{Scene, Workload};
@@ -67,14 +68,13 @@ pub fn accuracy_scene(
     progress: &mut dyn FnMut(Stage),
 ) -> Result<(Vec<AccuracyRecord>, Vec<Refused>), StudyError> {
     let threads = Threads::pinned(1).map_err(StudyError::Threads)?;
+    let refusal = |label: &str, reason: String| Refused { label: label.into(), scene: scene.name.clone(), reason };
     let (mut built, mut refused) = (vec![], vec![]);
     for choice in &settings.choices {
         progress(Stage::Build(&choice.label));
         match Built::new(choice, scene, &threads, clock) {
             Ok(structure) => built.push(structure),
-            Err(StudyError::Build { structure, cause, .. }) => {
-                refused.push(Refused { label: structure, scene: scene.name.clone(), reason: cause.to_string() });
-            }
+            Err(StudyError::Build { structure, cause, .. }) => refused.push(refusal(&structure, cause.to_string())),
             Err(other) => return Err(other),
         }
     }
@@ -88,46 +88,50 @@ pub fn accuracy_scene(
     };
     let (names, rays): (Vec<String>, Vec<Vec<Ray>>) = made.into_iter().unzip();
     let batches: Vec<Batch> = rays.into_iter().map(|rays| Batch::new(rays, &oracle)).collect();
-
-    let cases = (built.len() * batches.len()).max(1) as u64;
-    let budget_ns = (settings.budget_ns / 2 / cases).max(SHORT_JUDGING_NS);
-    let (mut judged, mut of_structures) = (vec![], vec![]);
-    for built in built {
-        progress(Stage::Check(&built.choice.label));
-        let can = built.accel.capabilities();
-        if let Some(what) = batches.iter().flat_map(|batch| &batch.rays).find_map(|ray| can.declines(ray)) {
-            let reason = BuildError::Declined(what).to_string();
-            refused.push(Refused { label: built.choice.label, scene: scene.name.clone(), reason });
-            continue;
-        }
-        let judge = |batch: &Batch| batch.judge(built.accel.as_ref(), clock, budget_ns);
-        match guarded(|| batches.iter().map(judge).collect::<Vec<_>>()) {
-            Some(of_structure) => {
-                judged.push(built);
-                of_structures.push(of_structure);
-            }
-            None => {
-                refused.push(Refused { label: built.choice.label, scene: scene.name.clone(), reason: PANICKED.into() })
-            }
-        }
-    }
-    let built = judged;
-    let verdicts: Vec<&ErrorCounts> =
-        (0..batches.len()).flat_map(|batch| of_structures.iter().map(move |verdicts| &verdicts[batch])).collect();
     let batch = |(name, batch): (&String, &Batch)| Workload {
         name: name.clone(),
         query: Query::Closest,
         rays: batch.rays.clone(),
     };
     let workloads: Vec<Workload> = names.iter().zip(&batches).map(batch).collect();
+    built.retain(|built| {
+        let can = built.accel.capabilities();
+        let declined = batches.iter().flat_map(|batch| &batch.rays).find_map(|ray| can.declines(ray));
+        refused.extend(declined.map(|what| refusal(&built.choice.label, BuildError::Declined(what).to_string())));
+        declined.is_none()
+    });
+
+    let cases = Case::all(built.len(), workloads.len());
+    let costs = picoseconds(&cases, &built.iter().map(Some).collect::<Vec<_>>(), &workloads);
+    let budget_ns = (settings.budget_ns / 2 / cases.len().max(1) as u64).max(SHORT_JUDGING_NS);
+    let (mut judged, mut of_structures) = (vec![], vec![]);
+    for (built, costs) in built.into_iter().zip(costs.chunks(workloads.len().max(1))) {
+        progress(Stage::Check(&built.choice.label));
+        let accel = built.accel.as_ref();
+        let judge = |(batch, &ps): (&Batch, &u64)| {
+            // What a ray costs a program is not known before it is asked.
+            let ps = if accel.remote().is_some() { batch.picoseconds(accel, clock) } else { ps };
+            batch.judge(accel, ps, budget_ns)
+        };
+        match guarded(|| batches.iter().zip(costs).map(judge).collect::<Vec<_>>()) {
+            Some(of_structure) => {
+                judged.push(built);
+                of_structures.push(of_structure);
+            }
+            None => refused.push(refusal(&built.choice.label, PANICKED.into())),
+        }
+    }
+    let built = judged;
+    let verdicts: Vec<&ErrorCounts> =
+        (0..batches.len()).flat_map(|batch| of_structures.iter().map(move |verdicts| &verdicts[batch])).collect();
     let timed = time(scene, &built, workloads, settings, &threads, clock, progress)?;
 
-    let (provenance, hash) = (Provenance::of(&threads), scene.hash());
+    let hash = scene.hash();
     let mut records = vec![];
     for (case, (judged, timed)) in verdicts.iter().zip(timed).enumerate() {
         let (batch, built) = (case / built.len(), &built[case % built.len()]);
         let kind = (names[batch].as_str(), batches[batch].rays.len());
-        records.push(record(scene, &hash, built, kind, settings, judged, &timed, &provenance));
+        records.push(record(scene, &hash, built, kind, settings, judged, &timed));
     }
     // What is not proven is not credited: an error that was seen once may be less than one that was not seen in fewer
     // rays.
@@ -162,7 +166,9 @@ fn time(
     let of_all = settings.budget_ns / (workloads.len() * (settings.runs + 1)).max(1) as u64;
     let mut cases = Case::all(built.len(), workloads.len());
     cases.sort_by_key(|case| case.workload);
-    let costs = picoseconds(&cases, built, &workloads);
+    let choices: Vec<Choice> = built.iter().map(|built| built.choice.clone()).collect();
+    let all: Vec<Option<&Built>> = built.iter().map(Some).collect();
+    let costs = picoseconds(&cases, &all, &workloads);
     for (workload, costs) in workloads.iter_mut().zip(costs.chunks(built.len().max(1))) {
         workload.rays = common(&workload.rays, costs, of_all);
     }
@@ -174,21 +180,27 @@ fn time(
         seed: settings.seed,
         epoch: 0,
     };
-    let timing = Timing { scene, built, workloads: &workloads, threads, clock };
+    let timing = Timing { choices: &choices, built: &all, workloads: &workloads, threads, clock };
     let allotted = timing.allot(&cases, &plan);
-    let total = cases.len() * allotted.allotment.runs;
-    let taken = timing.take(&allotted, &|_| true, &plan, &mut |taken| progress(Stage::Trace(taken, total)))?;
-    let panicked =
-        |built: &Built| StudyError::Panicked { structure: built.choice.label.clone(), scene: scene.name.clone() };
-    if let Some(case) = taken.failures.iter().position(Option::is_some) {
-        return Err(panicked(&built[cases[case].structure]));
-    }
-    let _pin = threads.pin();
-    let of_case = |(case, samples): (&Case, Samples)| {
-        let rays = spread(&workloads[case.workload].rays, samples.rays);
-        Times { slowest_ns: slowest(built[case.structure].accel.as_ref(), &rays, clock), samples }
+    // After its samples every case is asked single rays.
+    let sampled = cases.len() * allotted.allotment.runs;
+    let total = sampled + cases.len();
+    let taken = timing.take(&allotted, &|_| true, &plan, &mut |taken| progress(Stage::Trace(taken, total)));
+    let failed = |case: &Case, cause: Failed| StudyError::Failed {
+        structure: choices[case.structure].label.clone(),
+        scene: scene.name.clone(),
+        cause,
     };
-    Ok(cases.iter().zip(taken.samples).map(of_case).collect())
+    let samples = cases.iter().zip(taken).map(|(case, samples)| samples.map_err(|cause| failed(case, cause)));
+    let samples: Vec<Samples> = samples.collect::<Result<_, _>>()?;
+    let _pin = threads.pin();
+    let mut times = vec![];
+    for (case, samples) in cases.iter().zip(samples) {
+        progress(Stage::Trace(sampled + times.len(), total));
+        let rays = spread(&workloads[case.workload].rays, samples.rays);
+        times.push(Times { slowest_ns: slowest(built[case.structure].accel.as_ref(), &rays, clock), samples });
+    }
+    Ok(times)
 }
 
 /// Rays that are timed at least.
@@ -207,7 +219,6 @@ fn common(rays: &[Ray], costs: &[u64], budget_ns: u64) -> Vec<Ray> {
     spread(rays, count.clamp(fewest, rays.len() as u128) as usize)
 }
 
-#[allow(clippy::too_many_arguments)]
 fn record(
     scene: &Scene,
     hash: &str,
@@ -216,7 +227,6 @@ fn record(
     settings: &AccuracySettings,
     judged: &ErrorCounts,
     Times { samples, slowest_ns }: &Times,
-    provenance: &Provenance,
 ) -> AccuracyRecord {
     let both = |rate: Rate| Some([rate.share()?, rate.bound()?]);
     let [error, error_bound] = both(judged.error()).expect("some rays are judged");
@@ -250,6 +260,6 @@ fn record(
         timed: samples.rays,
         runs: samples.ns.len(),
         dominated_by: None,
-        provenance: provenance.clone(),
+        provenance: None,
     }
 }

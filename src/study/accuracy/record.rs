@@ -58,7 +58,9 @@ pub struct AccuracyRecord {
     /// The label of a structure on the front that is at most as slow and at most as wrong; nothing for the front
     /// itself.
     pub dominated_by: Option<String>,
-    pub provenance: Provenance,
+    /// Of the run, in an answer; a journal tells it of whole cases.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub provenance: Option<Provenance>,
 }
 
 impl AccuracyRecord {

@@ -48,7 +48,7 @@ pub fn blocks(records: &[AccuracyRecord], command: &str) -> Vec<Block> {
             .into(),
     )];
     for (i, of_kind) in records.chunk_by(AccuracyRecord::is_beside).enumerate() {
-        blocks.push(Block::Figure(one(i, of_kind, command)));
+        blocks.push(Block::figure(one(i, of_kind, command)));
         let mut table = table(of_kind);
         table.notes.extend(legend());
         let name = table.title.clone();

@@ -10,6 +10,7 @@ use crate::registry::{Choice, Registry};
 use crate::report::document::Block;
 use crate::report::number::count;
 use crate::report::plot::Figure;
+use crate::report::words::each_once_by;
 use crate::report::{Statement, Table};
 use crate::scene::Scene;
 use crate::study::args::{Scenes, kinds};
@@ -70,7 +71,7 @@ impl Study for AccuracyStudy {
     const QUESTION: &'static str =
         "What does being right cost: how wrong and how fast is every structure over every triangle test?";
     const SCENE_BY_SCENE: bool = true;
-    const PLOT: bool = true;
+    const PLOT: Option<fn(&Self::Answer) -> Figure> = Some(|answer| figure(answer));
     const FULL: &'static str = "dragon cornellbox -w uniform -w vertex -w grazing";
     const QUICK: &'static str = "cube -w vertex --rays 500 --runs 2 --budget 1";
 
@@ -116,8 +117,10 @@ impl Study for AccuracyStudy {
         Ok(Plan { notes, inputs, ..Plan::of_scenes(&kept, threads, titles, measure) })
     }
 
-    fn answer(cases: &[JudgedScene], _: &Context<Self>) -> Vec<AccuracyRecord> {
-        cases.iter().flat_map(|case| case.records.iter().cloned()).collect()
+    fn answer(cases: &[JudgedScene], context: &Context<Self>) -> Vec<AccuracyRecord> {
+        let provenance = Some(context.provenance.clone());
+        let of_run = |record: &AccuracyRecord| AccuracyRecord { provenance: provenance.clone(), ..record.clone() };
+        cases.iter().flat_map(|case| &case.records).map(of_run).collect()
     }
 
     fn tables(answer: &Vec<AccuracyRecord>) -> Vec<Table> {
@@ -161,10 +164,6 @@ impl Study for AccuracyStudy {
     fn scenes(answer: &Vec<AccuracyRecord>) -> Vec<SceneId> {
         answer.iter().map(|r| SceneId { name: r.scene.clone(), hash: Some(r.scene_hash.clone()) }).collect()
     }
-
-    fn plot(answer: &Vec<AccuracyRecord>) -> Option<Figure> {
-        Some(figure(answer))
-    }
 }
 
 /// Every structure over every triangle test that it is offered with and that is asked for.
@@ -185,12 +184,10 @@ fn choices(registry: &Registry, structures: &[String], tests: &[String]) -> anyh
                 (false, "") => format!("{}:test={}", entry.name, entry.triangle_test),
                 (false, keys) => format!("{}:{keys},test={}", entry.name, entry.triangle_test),
             };
-            let choice = sources::structure(registry, &with_test)?;
-            if choices.iter().all(|other| other.label != choice.label) {
-                choices.push(choice);
-            }
+            choices.push(sources::structure(registry, &with_test)?);
         }
     }
+    let choices = each_once_by(choices, |one, other| one.label == other.label);
     choices
         .first()
         .context("none of the structures is offered over the triangle tests asked for: see `sahara list`")?;

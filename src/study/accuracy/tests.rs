@@ -48,6 +48,16 @@ fn exact_is_right_and_single_precision_is_not() {
 }
 
 #[test]
+fn costs_and_no_clock_decide_how_many_rays_are_judged() {
+    let scene = Builtin::find("torus").unwrap().scene(None).unwrap();
+    let accel = Registry::builtin().choose("sah-kd").unwrap().build(&scene.mesh).unwrap();
+    let batch = Batch::new(RayKind::Uniform.rays(&scene, 400, 1), &Oracle::new(&scene.mesh));
+    // A millisecond, of rays that take nothing to speak of, five microseconds each, or for ever.
+    let judged = |ps| batch.judge(accel.as_ref(), ps, 1_000_000).rays;
+    assert_eq!([1, 5_000_000, u64::MAX].map(judged), [400, 200, 64]);
+}
+
+#[test]
 fn tables_and_pictures_name_every_case() {
     let specs = ["sah-kd:test=exact", "brute-force", "sah-kd:mailbox=true,test=exact"];
     let records = records(&specs, &[RayKind::Uniform], 100);

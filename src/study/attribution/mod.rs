@@ -60,6 +60,7 @@ impl Study for AttributionStudy {
     const QUESTION: &'static str =
         "What of the SAH tree's speed is due to the stop rule, what to the plane and what to the traversal?";
     const WHOLE: bool = true;
+    const BOTH_MESHES: bool = true;
     const QUICK: &'static str = QUICK_EPOCHS;
 
     type Args = AttributionArgs;

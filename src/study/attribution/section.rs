@@ -78,7 +78,7 @@ pub fn blocks(results: &[Attribution], command: &str) -> Vec<Block> {
              switching, so that the parts multiply to the whole."
                 .into(),
         ),
-        Block::Figure(figure(&results, command)),
+        Block::figure(figure(&results, command)),
         Block::table(headlines(&results), command),
     ];
     for r in &results {

@@ -54,9 +54,9 @@ struct Known {
 /// Holds every structure against brute force with its own triangle test, on rays of each batch that are evenly spread, for which brute
 /// force makes about `tests` triangle tests.
 /// One row for each structure, one check for each workload; nothing for a structure that panicked.
-pub fn check_all(
+pub fn check_all<'a>(
     scene: &Scene,
-    built: &[Built],
+    built: impl IntoIterator<Item = &'a Built>,
     workloads: &[Workload],
     tests: usize,
     progress: &mut dyn FnMut(Stage),

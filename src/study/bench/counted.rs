@@ -35,11 +35,11 @@ const FEW: usize = 512;
 const FEWEST: usize = 32;
 const FEW_TESTS: u64 = 1 << 20;
 
-/// Of each case as many rays as are worth it, on all threads; nothing where the structure panics.
-pub fn count_all(cases: &[Case], built: &[Built], workloads: &[Workload]) -> Vec<Option<Counted>> {
+/// Of each case as many rays as are worth it, on all threads; nothing where the structure could not be built or panics.
+pub fn count_all(cases: &[Case], built: &[Option<Built>], workloads: &[Workload]) -> Vec<Option<Counted>> {
     let of = |case: &Case| {
-        let (accel, workload) = (built[case.structure].accel.as_ref(), &workloads[case.workload]);
-        guarded(|| Counted::affordable(accel, &workload.rays, workload.query))
+        let (built, workload) = (built[case.structure].as_ref()?, &workloads[case.workload]);
+        guarded(|| Counted::affordable(built.accel.as_ref(), &workload.rays, workload.query))
     };
     cases.par_iter().map(of).collect()
 }

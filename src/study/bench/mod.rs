@@ -4,6 +4,7 @@ pub mod built;
 pub mod case;
 pub mod check;
 pub mod counted;
+pub mod failed;
 pub mod guarded;
 pub mod placed;
 pub mod ray_cost;

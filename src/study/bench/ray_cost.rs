@@ -4,6 +4,7 @@ use rayon::prelude::*;
 
 use super::built::Built;
 use super::case::Case;
+use super::check::declined;
 use super::counted::Counted;
 use super::guarded::guarded;
 use crate::measure::median;
@@ -24,11 +25,11 @@ const UNOPTIMISED: f64 = if cfg!(debug_assertions) { 12.0 } else { 1.0 };
 /// Steps of a ray where nothing can be counted: of a tree over a hundred thousand triangles, about.
 const STEPS: f64 = 12.0;
 
-/// Picoseconds of a ray of each case. What does not count its steps and tests, a structure of others or a program, is taken for the
-/// median of those that do, brute force left out.
-pub fn picoseconds(cases: &[Case], built: &[Built], workloads: &[Workload]) -> Vec<u64> {
+/// Picoseconds of a ray of each case. What does not count its steps and tests, a structure of others or a program, what
+/// could not be built and what is declined are taken for the median of the others, brute force left out.
+pub fn picoseconds(cases: &[Case], built: &[Option<&Built>], workloads: &[Workload]) -> Vec<u64> {
     let predicted: Vec<Option<f64>> = cases.par_iter().map(|case| predicted(case, built, workloads)).collect();
-    let is_brute = |case: &Case| built[case.structure].choice.entry.name == BRUTE_FORCE;
+    let is_brute = |case: &Case| built[case.structure].is_some_and(|built| built.choice.entry.name == BRUTE_FORCE);
     let others = |case: &Case| {
         let alike =
             cases.iter().zip(&predicted).filter(|(other, _)| other.workload == case.workload && !is_brute(other));
@@ -41,11 +42,12 @@ pub fn picoseconds(cases: &[Case], built: &[Built], workloads: &[Workload]) -> V
     cases.iter().zip(&predicted).map(nanoseconds).collect()
 }
 
-/// Nothing where it does not count, or panics: then its samples tell.
-fn predicted(case: &Case, built: &[Built], workloads: &[Workload]) -> Option<f64> {
-    let (accel, workload) = (built[case.structure].accel.as_ref(), &workloads[case.workload]);
+/// Nothing where it cannot be asked, does not count, or panics: then its samples tell.
+fn predicted(case: &Case, built: &[Option<&Built>], workloads: &[Workload]) -> Option<f64> {
+    let (accel, workload) = (built[case.structure]?.accel.as_ref(), &workloads[case.workload]);
     let observed = accel.observed();
-    if accel.remote().is_some() || !observed.steps || !observed.tests {
+    let cannot_count = accel.remote().is_some() || !observed.steps || !observed.tests;
+    if cannot_count || declined(accel, workload).is_some() {
         return None;
     }
     let counted = guarded(|| Counted::few(accel, &workload.rays, workload.query))?;
@@ -68,17 +70,23 @@ mod tests {
             let choice = registry.choose(spec).unwrap();
             Built::new(&choice, &scene, &threads, &SystemClock::start()).unwrap()
         };
-        let built = ["brute-force", "median-kd", "sah-kd", "sah-bvh"].map(build);
-        let guide = built[2].accel.as_ref();
+        let all = ["brute-force", "median-kd", "sah-kd", "sah-bvh"].map(build);
+        let guide = all[2].accel.as_ref();
         let workloads = [Workload::new(&scene, WorkloadKind::Primary, &Sampling::of(&scene), guide)];
-        let cases = Case::all(built.len(), 1);
+        let cases = Case::all(all.len(), 1);
+        let mut built = all.each_ref().map(Some);
         let costs = picoseconds(&cases, &built, &workloads);
         // 2304 triangles in blocks of eight, and one leaf.
         let brute = UNOPTIMISED * (RAY_NS + STEP_NS + 288.0 * BLOCK_NS) * 1000.0;
         assert_eq!(costs[0], brute as u64);
         assert!(costs[1] < costs[0] / 4 && costs[2..].iter().all(|&cost| cost < costs[1]), "{costs:?}");
         assert_eq!(picoseconds(&cases, &built, &workloads), costs, "no clock takes part");
-
         assert!(picoseconds(&[], &built, &workloads).is_empty());
+
+        // So is what could not be built, and the others cost what they did.
+        built[1] = None;
+        let without = picoseconds(&cases, &built, &workloads);
+        assert!(without[1].abs_diff(costs[2].midpoint(costs[3])) <= 1, "{without:?} {costs:?}");
+        assert_eq!([without[0], without[2], without[3]], [costs[0], costs[2], costs[3]]);
     }
 }

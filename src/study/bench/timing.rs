@@ -2,29 +2,26 @@
 
 use super::built::Built;
 use super::case::Case;
+use super::failed::Failed;
 use super::guarded::Guarded;
 use super::ray_cost;
 use crate::measure::tiles::{last_level, rays_at};
 use crate::measure::{
-    Allotment, Clock, Cost, CpuClock, Part, Pass, Plan, RemotePass, Samples, Stopwatch, Threads, Timed, allot,
+    Allotment, Clock, Cost, CpuClock, Failure, Part, Pass, Plan, RemotePass, Samples, Stopwatch, Threads, Timed, allot,
     level_by_clock, pilot_level, take,
 };
-use crate::scene::{Scene, Workload};
-use crate::study::StudyError;
+use crate::registry::Choice;
+use crate::scene::Workload;
 
 pub struct Timing<'a> {
-    pub scene: &'a Scene,
-    pub built: &'a [Built],
+    /// The structures asked for.
+    pub choices: &'a [Choice],
+    /// Each of them, if it could be built.
+    pub built: &'a [Option<&'a Built>],
     /// None of them empty.
     pub workloads: &'a [Workload],
     pub threads: &'a Threads,
     pub clock: &'a dyn Clock,
-}
-
-pub struct Taken {
-    pub samples: Vec<Samples>,
-    /// Why the samples of some of them mean nothing.
-    pub failures: Vec<Option<String>>,
 }
 
 /// What decides how much of cases is timed, and is the same in every epoch.
@@ -34,11 +31,12 @@ pub struct Allotted {
 }
 
 impl Timing<'_> {
-    /// How many rays of each of `cases` are timed, and how often, by what their rays cost.
+    /// How many rays of each of `cases` are timed, and how often, by what their rays cost. What could not be built and
+    /// what is declined are among them: so an epoch in which a program fails decides the same for the others.
     pub fn allot(&self, cases: &[Case], plan: &Plan) -> Allotted {
         // Twins, structures of one label, take as many rays.
         let group = |case: &Case| {
-            let label = |structure: usize| &self.built[structure].choice.label;
+            let label = |structure: usize| &self.choices[structure].label;
             let alike =
                 |other: &Case| other.workload == case.workload && label(other.structure) == label(case.structure);
             cases.iter().position(alike).expect("it is among them")
@@ -55,18 +53,21 @@ impl Timing<'_> {
     ///
     /// What a ray costs a program is not known: its own clock may allot it fewer rays, in another epoch other ones. So it is timed, and
     /// with it all others of its workload, on the next level as well: epochs have rays in common then.
+    ///
+    /// # Panics
+    /// If a structure is picked that could not be built.
     pub fn take(
         &self,
         allotted: &Allotted,
         is_timed: &dyn Fn(&Case) -> bool,
         plan: &Plan,
         progress: &mut dyn FnMut(usize),
-    ) -> Result<Taken, StudyError> {
+    ) -> Vec<Result<Samples, Failed>> {
         let Allotted { cases: all, allotment: Allotment { runs, levels, share_ns } } = allotted;
         let timed: Vec<usize> = (0..all.len()).filter(|&i| is_timed(&all[i])).collect();
         let pass = |&i: &usize| {
             let workload = &self.workloads[all[i].workload];
-            let accel = self.built[all[i].structure].accel.as_ref();
+            let accel = self.built[all[i].structure].expect("what is timed is built").accel.as_ref();
             if let Some(remote) = accel.remote() {
                 let (pass, failure) = RemotePass::new(accel, remote, &workload.rays, workload.query);
                 return (Box::new(pass) as Box<dyn Timed>, failure);
@@ -81,7 +82,7 @@ impl Timing<'_> {
         let clock = own.as_ref().map_or(self.clock, |clock| clock as &dyn Clock);
 
         let mut levels = levels.clone();
-        let is_remote = |i: usize| self.built[all[i].structure].accel.remote().is_some();
+        let is_remote = |i: usize| self.built[all[i].structure].is_some_and(|built| built.accel.remote().is_some());
         for (&i, pass) in timed.iter().zip(&mut passes).filter(|(i, _)| is_remote(**i)) {
             levels[i] = level_by_clock(&Stopwatch::new(clock), pass.as_mut(), levels[i], *share_ns);
         }
@@ -95,18 +96,13 @@ impl Timing<'_> {
             .collect();
         let mut samples: Vec<Samples> = timed.iter().map(|&i| none(&cases[i], &cases)).collect();
         let compared: Vec<usize> = timed.iter().map(|&i| all[i].workload).collect();
-        take(clock, &mut passes, &compared, &Plan { runs: *runs, ..*plan }, &mut samples, progress).map_err(
-            |cause| {
-                let Case { structure, workload } = all[timed[cause.case]];
-                StudyError::Unsteady {
-                    structure: self.built[structure].choice.label.clone(),
-                    scene: self.scene.name.clone(),
-                    rays: self.workloads[workload].name.clone(),
-                    cause,
-                }
-            },
-        )?;
-        Ok(Taken { samples, failures: failures.iter().map(|failure| failure.borrow().clone()).collect() })
+        take(clock, &mut passes, &compared, &Plan { runs: *runs, ..*plan }, &mut samples, progress);
+        let taken = |(samples, failure): (Samples, &Failure)| match failure.borrow().clone() {
+            Some(clause) => Err(Failed::Ended(clause)),
+            None if samples.is_steady => Ok(samples),
+            None => Err(Failed::Unsteady),
+        };
+        samples.into_iter().zip(&failures).map(taken).collect()
     }
 }
 

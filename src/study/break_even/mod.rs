@@ -29,6 +29,7 @@ pub struct BreakEvenStudy;
 impl Study for BreakEvenStudy {
     const NAME: &'static str = "break-even";
     const QUESTION: &'static str = "After how many rays does a dearer build pay?";
+    const BOTH_MESHES: bool = true;
     const QUICK: &'static str = QUICK_EPOCHS;
 
     type Args = EpochArgs;

@@ -26,10 +26,11 @@ pub struct Offer {
     /// As chosen.
     pub structure: String,
     pub build_ns: f64,
+    /// On all rays that it is timed on.
     pub ns_per_ray: f64,
 }
 
-/// Two structures, of which one takes longer to build.
+/// Two structures, of which one takes longer to build, both on the rays of the one that is timed on fewer.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Pair {
     pub cheap: String,
@@ -68,9 +69,10 @@ fn market(mut lines: Vec<Line>, twins: &Twins) -> Market {
         .collect();
     let mut pairs = vec![];
     for (i, dear) in lines.iter().enumerate() {
-        pairs.extend(lines[..i].iter().map(|cheap| pair(cheap, dear, twins)));
+        pairs.extend(lines[..i].iter().filter_map(|cheap| pair(cheap, dear, twins)));
     }
-    let (first, best) = (&lines[0], best(&offers));
+    let first = &lines[0];
+    let best = best(&first.structure, &pairs);
     Market {
         scene: first.scene.clone(),
         triangles: first.triangles,
@@ -81,27 +83,27 @@ fn market(mut lines: Vec<Line>, twins: &Twins) -> Market {
     }
 }
 
-fn pair(cheap: &Line, dear: &Line, twins: &Twins) -> Pair {
+/// Nothing where the two were not timed on the same rays.
+fn pair(cheap: &Line, dear: &Line, twins: &Twins) -> Option<Pair> {
+    let [cheap, dear] = &[cheap.beside(dear)?, dear.beside(cheap)?];
     let costs = |line: &Line| (line.build_ns(), line.ns_per_ray());
     let rays = Payoff::of(costs(cheap), costs(dear));
     let [low, high] = interval::interval(cheap, dear, rays, twins).map_or([None; 2], |ends| ends.map(Some));
-    Pair { cheap: cheap.structure.clone(), dear: dear.structure.clone(), rays, low, high }
+    Some(Pair { cheap: cheap.structure.clone(), dear: dear.structure.clone(), rays, low, high })
 }
 
-/// The lower envelope of build + rays * time, of offers in the order of their builds.
-pub(super) fn best(offers: &[Offer]) -> Vec<Stretch> {
-    let Some(mut now) = offers.first() else { return vec![] };
-    let (mut best, mut from) = (vec![Stretch { structure: now.structure.clone(), from: 0.0 }], 0.0);
+/// The lower envelope of build + rays * time, from the structure `first` on, whose build takes the least, of all `pairs` in the order of
+/// their dear builds.
+pub(super) fn best(first: &str, pairs: &[Pair]) -> Vec<Stretch> {
+    let mut best = vec![Stretch { structure: first.into(), from: 0.0 }];
     loop {
-        // Who is next to overtake; of several at once the fastest.
-        let next = offers.iter().filter(|offer| offer.ns_per_ray < now.ns_per_ray).min_by(|a, b| {
-            let at = |o: &Offer| (o.build_ns - now.build_ns) / (now.ns_per_ray - o.ns_per_ray);
-            at(a).total_cmp(&at(b)).then(a.ns_per_ray.total_cmp(&b.ns_per_ray))
-        });
+        let now = &best[best.len() - 1];
+        // Who is next to overtake; of several at once the one with the dearest build is the fastest.
+        let ahead = pairs.iter().rev().filter(|pair| pair.cheap == now.structure && pair.rays < Payoff::Never);
+        let next = ahead.min_by(|a, b| a.rays.partial_cmp(&b.rays).expect("numbers"));
         let Some(next) = next else { return best };
-        from = ((next.build_ns - now.build_ns) / (now.ns_per_ray - next.ns_per_ray)).max(from);
-        best.push(Stretch { structure: next.structure.clone(), from });
-        now = next;
+        let from = if let Payoff::Rays(rays) = next.rays { rays.max(now.from) } else { now.from };
+        best.push(Stretch { structure: next.dear.clone(), from });
     }
 }
 

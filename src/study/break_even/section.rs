@@ -19,7 +19,7 @@ pub fn blocks(markets: &[Market], command: &str) -> Vec<Block> {
          structure takes for as many rays: where a line touches 1 the structure is the best choice."
             .into(),
     )];
-    let one = |market: &Market| [Block::Figure(figure(market, command)), Block::table(table(market), command)];
+    let one = |market: &Market| [Block::figure(figure(market, command)), Block::table(table(market), command)];
     let rest = markets.split_off(markets.len().min(OPEN));
     blocks.extend(markets.iter().flat_map(one));
     blocks.extend(LEGEND.map(|words| Block::Note(words.into())));

@@ -10,7 +10,8 @@ pub const LEGEND: [&str; 2] = [
     "Each cell: rays after which the structure of its row, which takes longer to build, is ahead of that of its column, with the 95 % \
      interval for another run; k, M and G are thousands, millions and thousands of millions. A picture of 512 x 512 pixels has 262k \
      primary rays.",
-    "Build and rays on one thread, the builders that use several included, unless --threads says otherwise.",
+    "Build and rays on one thread, the builders that use several included, unless --threads says otherwise. A slow structure is timed on \
+     fewer rays than the others; a pair is compared on the same ones.",
 ];
 
 /// That of one scene and kind of rays.

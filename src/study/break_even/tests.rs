@@ -1,6 +1,6 @@
 use super::result::best;
 use super::*;
-use crate::measure::RandomOrder;
+use crate::measure::{Part, RandomOrder};
 use crate::study::epoch::tests::example;
 
 /// Three epochs; 1000 rays a sample, so that a sample of 1000 n nanoseconds is n a ray.
@@ -44,6 +44,29 @@ fn pairs_break_even_where_arithmetic_says() {
 }
 
 #[test]
+fn what_is_timed_on_few_rays_changes_no_pair_but_its_own() {
+    let structures = [("slow", 1000, 100), ("quick", 10_000, 10)];
+    let alone = result(&epochs(&structures));
+    let mut epochs = epochs(&[structures[0], structures[1], ("brute", 1, 1000)]);
+    // It is timed on ten rays, on which the others take three times as long.
+    for structure in epochs.iter_mut().flat_map(|epoch| &mut epoch.structures) {
+        let rays = &mut structure.rays[0];
+        let of_ten = |times: u64| -> Vec<u64> { rays.ns.iter().map(|ns| ns * times / 100).collect() };
+        if structure.label == "brute" {
+            (rays.rays, rays.ns) = (10, of_ten(1));
+        } else {
+            rays.parts = vec![Part { rays: 10, ns: of_ten(3) }];
+        }
+    }
+    let markets = result(&epochs);
+    assert_eq!(pair(&markets[0], "slow", "quick"), pair(&alone[0], "slow", "quick"));
+    assert!(alone[0].offers.iter().all(|offer| markets[0].offers.contains(offer)), "{markets:?}");
+    // 9,999 nanoseconds of a build, and 1000 - 30 of a ray.
+    let of = pair(&markets[0], "brute", "quick");
+    assert!(matches!(of.rays, Payoff::Rays(rays) if (rays / 10.3 - 1.0).abs() < 0.02), "{of:?}");
+}
+
+#[test]
 fn what_noise_cannot_tell_apart_may_never_pay() {
     // Half a per cent faster, and the epochs differ by three, not all in step.
     let mut epochs = epochs(&[("cheap", 1000, 1000), ("dear", 2000, 995)]);
@@ -56,11 +79,19 @@ fn what_noise_cannot_tell_apart_may_never_pay() {
 
 #[test]
 fn the_best_changes_only_where_it_is_overtaken() {
-    let offer =
-        |structure: &str, build_ns: f64, ns_per_ray: f64| Offer { structure: structure.into(), build_ns, ns_per_ray };
     // The second is beaten by the third before it has beaten the first.
-    let offers = [offer("a", 0.0, 10.0), offer("b", 90.0, 9.0), offer("c", 100.0, 5.0), offer("d", 1000.0, 4.0)];
-    let best = best(&offers);
+    let offers = [("a", (0.0, 10.0)), ("b", (90.0, 9.0)), ("c", (100.0, 5.0)), ("d", (1000.0, 4.0))];
+    let mut pairs = vec![];
+    for (i, &(dear, costs)) in offers.iter().enumerate() {
+        pairs.extend(offers[..i].iter().map(|&(cheap, own)| Pair {
+            cheap: cheap.into(),
+            dear: dear.into(),
+            rays: Payoff::of(own, costs),
+            low: None,
+            high: None,
+        }));
+    }
+    let best = best("a", &pairs);
     let of: Vec<(&str, f64)> = best.iter().map(|stretch| (stretch.structure.as_str(), stretch.from)).collect();
     assert_eq!(of, [("a", 0.0), ("c", 20.0), ("d", 900.0)]);
 }

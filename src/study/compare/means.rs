@@ -173,10 +173,9 @@ pub fn winner(records: &[Record], reference: Option<&str>) -> Option<Winner> {
         let ends = ends(by);
         format!("{over}{best} answers {} times as many rays a second as {next} {ends}", figures(by.estimate))
     };
-    let checked: Option<usize> = of(best).iter().map(|r| r.checked_rays).sum();
-    let checked = match checked {
-        None => format!("the answers of {best} are not checked"),
-        Some(rays) => {
+    let checked = match of(best).iter().map(|r| r.checked_rays).sum::<usize>() {
+        0 => format!("the answers of {best} are not checked"),
+        rays => {
             let own = match of(best)[0].triangle_test.as_str() {
                 Exact::NAME => String::new(),
                 own => format!(" by its own triangle test, {own}"),
@@ -201,7 +200,7 @@ pub fn winner(records: &[Record], reference: Option<&str>) -> Option<Winner> {
 
 /// A structure with the number of its wrong answers, where there are any.
 fn wrong(label: &str, records: &[&Record]) -> Option<String> {
-    let errors: usize = records.iter().filter_map(|r| r.structure_errors).sum();
-    let checked: usize = records.iter().filter_map(|r| r.checked_rays).sum();
+    let errors: usize = records.iter().map(|r| r.structure_errors).sum();
+    let checked: usize = records.iter().map(|r| r.checked_rays).sum();
     (errors > 0).then(|| format!("{label} ({} of {} checked rays)", count(errors as u64), count(checked as u64)))
 }

@@ -107,8 +107,8 @@ fn record(
         branch_misses_per_ray: of_rays.branch_misses_per_ray,
         bytes: structure.shape.bytes,
         declined: declined.clone(),
-        checked_rays: Some(checked),
-        structure_errors: Some(errors),
+        checked_rays: checked,
+        structure_errors: errors,
         provenance: Provenance { warnings: warnings.to_vec(), ..provenance.clone() },
         counts: CaseCounts {
             leaf_steps_per_ray: of_rays.leaf_steps_per_ray,

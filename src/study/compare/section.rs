@@ -12,10 +12,10 @@ use crate::study::{BRUTE_FORCE, REPORT_TREE, documented_defect};
 /// The fastest structure of each rank, what right answers cost, and how many answers were checked.
 pub fn statements(records: &[Record]) -> Vec<Statement> {
     let mut statements = ranks(records).map_or(vec![], |ranks| ranks.statements(records));
-    let checked = |r: &&Record| r.declined.is_none() && r.checked_rays.is_some();
-    let own = || records.iter().filter(checked).filter(|r| documented_defect(&r.structure).is_none());
-    let wrong: usize = own().filter_map(|r| r.structure_errors).sum();
-    let rays: usize = own().filter_map(|r| r.checked_rays).sum();
+    let is_own = |r: &&Record| r.declined.is_none() && documented_defect(&r.structure).is_none();
+    let own = || records.iter().filter(is_own);
+    let wrong: usize = own().map(|r| r.structure_errors).sum();
+    let rays: usize = own().map(|r| r.checked_rays).sum();
     if rays > 0 {
         let wrong = if wrong == 0 { "none".into() } else { count(wrong as u64) };
         statements.push(Statement::new(
@@ -68,7 +68,7 @@ pub fn blocks(records: &[Record], command: &str) -> Vec<Block> {
     // The largest scenes are what the question is about.
     let mut order: Vec<Vec<Record>> = scenes.iter().map(of).collect();
     order.sort_by_key(|records| std::cmp::Reverse(records[0].triangles));
-    blocks.extend(tradeoff::figure(&order, &references, command).map(Block::Figure));
+    blocks.extend(tradeoff::figure(&order, &references, command).map(Block::figure));
     let rest = order.split_off(order.len().min(OPEN));
     blocks.extend(order.iter().flat_map(|records| of_scene(records)));
     let legends = details_legend(&records[0].workload).into_iter().chain(legend(records, &references));
@@ -139,7 +139,7 @@ fn of_scene(records: &[Record]) -> Vec<Block> {
         data,
     };
     vec![
-        Block::Figure(figure),
+        Block::figure(figure),
         Block::table(ratios_first(scene_table(records, &Reference::of(records, None), &[])), &command(records)),
     ]
 }

@@ -16,7 +16,7 @@ use crate::report::words::distinct;
 use crate::report::{Record, Statement, Table, to_csv, to_json};
 use crate::runner::Program;
 use crate::scene::{Scene, WorkloadKind};
-use crate::study::args::{Measuring, Scenes, Structures, WORKLOADS, kinds, with_twin};
+use crate::study::args::{Measuring, SLOWEST, Scenes, Structures, WORKLOADS, kinds, with_twin};
 use crate::study::epoch::{self, Asked, Epoch, Settings, troubles};
 use crate::study::grouped::grouped;
 use crate::study::{
@@ -72,10 +72,6 @@ const QUICK_RAYS: usize = 1 << 14;
 const QUICK_NS: u64 = 4_000_000_000;
 const QUICK_SAMPLES_NS: u64 = 250_000_000;
 const QUICK_CHECKS: usize = 1 << 28;
-
-/// A structure that takes more than so many times as long as the median one is timed on fewer rays: its ratios hardly
-/// gain from more of them, and the run would be about it alone.
-const SLOWEST: f64 = 4.0;
 
 /// The options of `study all`: all names, and each again over a triangle test of the other precision.
 const FIELD: &str = "-s all -s median-kd:test=moller-trumbore -s sah-kd:test=moller-trumbore -s sah-kd-wide:test=moller-trumbore \

@@ -21,7 +21,7 @@ pub fn brief_table(records: &[Record], references: &[Reference], refused: &[Refu
 /// Said where brute force could check few rays, since there are so many triangles.
 fn few_checked(records: &[Record]) -> Option<String> {
     let triangles = records.first()?.triangles;
-    let least = records.iter().filter(|r| r.declined.is_none()).filter_map(|r| r.checked_rays).min()?;
+    let least = records.iter().filter(|r| r.declined.is_none()).map(|r| r.checked_rays).min()?;
     is_large(triangles).then(|| {
         format!(
             "Answers were checked on {} rays of a kind, evenly spread: against so many triangles brute force would take minutes for more.",
@@ -49,7 +49,7 @@ pub fn legend(records: &[Record], references: &[Reference]) -> Vec<String> {
     let against: Vec<String> = references.iter().map(|reference| format!("against {}", reference.words())).collect();
     let (columns, against) = (columns.join(", "), listed(&against));
     let mut speeds = "Under each kind of rays: million rays a second, median".to_owned();
-    if records.iter().any(|r| r.structure_errors > Some(0)) {
+    if records.iter().any(Record::is_disqualified) {
         speeds += "; n/m wrong: wrong answers to n of m rays, and then no time";
     }
     if records.iter().any(|r| r.mrays_per_s.is_some() && r.sampled) {
@@ -125,7 +125,7 @@ pub fn scene_table(records: &[Record], references: &[Reference], refused: &[Refu
                 let whole = pairs.len() == asked.len();
                 cell(if whole { Reference::ratio(&pairs, &noise) } else { None })
             }));
-            let checked = of.iter().filter(|r| r.declined.is_none()).map(|r| r.checked_rays).min().flatten();
+            let checked = of.iter().filter(|r| r.declined.is_none()).map(|r| r.checked_rays).min();
             row.push(checked.map(|n| count(n as u64)).into());
             row.push(share(&of).into());
             row
@@ -176,10 +176,9 @@ pub(super) fn control(records: &[Record]) -> Option<String> {
 fn defects(records: &[Record]) -> Vec<String> {
     let mut notes = vec![];
     for label in distinct(records.iter().map(|r| &r.label)) {
-        let wrong = |r: &&Record| r.label == label && r.structure_errors.unwrap_or(0) > 0;
+        let wrong = |r: &&Record| r.label == label && r.is_disqualified();
         let share = |r: &Record| {
-            let (errors, checked) = (r.structure_errors.unwrap_or(0), r.checked_rays.unwrap_or(0));
-            format!("{} of {} {}", count(errors as u64), count(checked as u64), r.workload)
+            format!("{} of {} {}", count(r.structure_errors as u64), count(r.checked_rays as u64), r.workload)
         };
         let shares: Vec<String> = records.iter().filter(wrong).map(share).collect();
         let structure = records.iter().find(wrong).map(|r| r.structure.as_str());
@@ -216,12 +215,12 @@ fn unfit_tests(records: &[Record]) -> Vec<String> {
 }
 
 fn speed(record: &Record, best: f64) -> Cell {
-    let errors = record.structure_errors.unwrap_or(0);
+    let errors = record.structure_errors;
     match record.mrays_per_s {
         Some(speed) => Cell::from(format!("{}{}", if record.sampled { "~" } else { "" }, figures(speed)))
             .with(if speed >= best { Tone::Best } else { Tone::Plain }),
         None if errors == 0 && record.declined.is_some() => "declined".into(),
-        None => Cell::from(format!("{errors}/{} wrong", record.checked_rays.unwrap_or(0))).with(Tone::Wrong),
+        None => Cell::from(format!("{errors}/{} wrong", record.checked_rays)).with(Tone::Wrong),
     }
 }
 

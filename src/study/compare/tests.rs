@@ -1,5 +1,5 @@
 use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use serde::{Deserialize, Serialize};
 
@@ -11,9 +11,10 @@ use crate::measure::{Provenance, SystemClock};
 use crate::registry::Registry;
 use crate::scene::{Builtin, WorkloadKind};
 use crate::study::args::with_twin;
+use crate::study::bench::failed::Failed;
 use crate::study::epoch::tests::settings;
-use crate::study::epoch::{Asked, Epoch, Settings, join, measure};
-use crate::study::{Study, StudyError};
+use crate::study::epoch::{Asked, Epoch, Joined, Settings, join, measure, troubles};
+use crate::study::{Stage, Status, Study, StudyError};
 use crate::triangle::{MollerTrumbore, TriangleTest};
 
 struct Flawed {
@@ -31,11 +32,18 @@ enum Flaw {
     Lossy,
     /// Loses the hit of every 13th ray that it is asked for.
     Fickle,
+    /// Loses all hits once [`HAS_TURNED`] is set.
+    Turning,
     /// Panics on every ray.
     Panicking,
     /// Panics over every mesh with triangles.
     Unbuildable,
+    /// The same, while [`IS_AWAY`] is set.
+    Away,
 }
+
+static HAS_TURNED: AtomicBool = AtomicBool::new(false);
+static IS_AWAY: AtomicBool = AtomicBool::new(false);
 
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 struct FlawedConfig {
@@ -45,7 +53,8 @@ struct FlawedConfig {
 impl Flawed {
     fn loses(&self, ray: &Ray) -> bool {
         match self.flaw {
-            Flaw::None | Flaw::Unbuildable => false,
+            Flaw::None | Flaw::Unbuildable | Flaw::Away => false,
+            Flaw::Turning => HAS_TURNED.load(Ordering::Relaxed),
             Flaw::Panicking => panic!("a traversal panics"),
             Flaw::Lossy => ray.direction.x.to_bits() & 1 == 0,
             Flaw::Fickle => self.asked.fetch_add(1, Ordering::Relaxed).is_multiple_of(13),
@@ -60,7 +69,12 @@ impl Accel for Flawed {
     const OBSERVED: Observed = Observed::NONE;
 
     fn build(mesh: &Arc<Mesh>, config: &FlawedConfig) -> Result<Self, BuildError> {
-        assert!(config.flaw != Flaw::Unbuildable || mesh.is_empty(), "a builder panics");
+        let panics = match config.flaw {
+            Flaw::Unbuildable => true,
+            Flaw::Away => IS_AWAY.load(Ordering::Relaxed),
+            _ => false,
+        };
+        assert!(!panics || mesh.is_empty(), "a builder panics");
         let inner = Accel::build(mesh, &Default::default())?;
         Ok(Self { inner, flaw: config.flaw, asked: AtomicUsize::new(0) })
     }
@@ -87,8 +101,12 @@ fn run(specs: &[&str]) -> Result<Vec<Record>, StudyError> {
     compared(specs).map(|compared| compared.records)
 }
 
+fn registry() -> Registry {
+    Registry::builtin().with::<Flawed>("flawed", FlawedConfig::default())
+}
+
 fn compared(specs: &[&str]) -> Result<Compared, StudyError> {
-    let registry = Registry::builtin().with::<Flawed>("flawed", FlawedConfig::default());
+    let registry = registry();
     let chosen = specs.iter().map(|spec| registry.choose(spec).unwrap()).collect();
     let kinds = vec![WorkloadKind::Primary, WorkloadKind::Mirror, WorkloadKind::Shadow];
     let settings = Settings {
@@ -118,11 +136,11 @@ fn a_right_structure_has_a_time_and_the_hits_of_all_others() {
     let structures = ["brute-force", "median-kd", "flawed"];
     assert_eq!(cases, structures.map(|s| [(s, "primary"), (s, "shadow")]).concat());
     for record in &records {
-        assert_eq!(record.structure_errors, Some(0));
+        assert_eq!(record.structure_errors, 0);
         assert!(
             record.trace_ns > Some(0.0) && record.mrays_per_s > Some(0.0) && record.runs == 4 && record.epochs == 2
         );
-        assert!(record.checked_rays > Some(0) && record.rays <= record.workload_rays);
+        assert!(record.checked_rays > 0 && record.rays <= record.workload_rays);
     }
     // 1024 rays take no time worth cutting.
     let of = |workload: &str| records.iter().filter(|r| r.workload == workload).map(|r| r.hits).collect::<Vec<_>>();
@@ -138,7 +156,7 @@ fn a_right_structure_has_a_time_and_the_hits_of_all_others() {
 #[test]
 fn a_wrong_structure_has_errors_and_no_time() {
     let records = run(&["brute-force", "flawed:flaw=lossy"]).unwrap();
-    let wrong: Vec<&Record> = records.iter().filter(|r| r.structure_errors > Some(0)).collect();
+    let wrong: Vec<&Record> = records.iter().filter(|r| r.structure_errors > 0).collect();
     assert!(!wrong.is_empty() && wrong.iter().all(|r| r.label == "flawed:flaw=lossy"));
     for record in wrong {
         assert!(record.is_disqualified());
@@ -150,11 +168,55 @@ fn a_wrong_structure_has_errors_and_no_time() {
 #[test]
 fn a_structure_that_changes_its_mind_is_no_measurement() {
     match run(&["flawed:flaw=fickle"]) {
-        Err(StudyError::Unsteady { structure, .. }) => assert_eq!(structure, "flawed:flaw=fickle"),
         // Answers of two epochs may differ, or the check finds it first.
         Err(StudyError::Apart { structure, .. }) => assert_eq!(structure, "flawed:flaw=fickle"),
-        Ok(records) => assert!(records[0].is_disqualified(), "{records:?}"),
+        Ok(records) => assert!(records.first().is_none_or(Record::is_disqualified), "{records:?}"),
         Err(other) => panic!("{other}"),
+    }
+}
+
+/// Settings for some primary rays, which are not checked for long.
+fn of_primary(registry: &Registry, specs: &[&str]) -> Settings {
+    Settings {
+        asked: Asked::Kinds(vec![WorkloadKind::Primary], 1024),
+        budget_ns: 60_000_000_000,
+        check_tests: 1 << 20,
+        ..settings(registry, specs)
+    }
+}
+
+#[test]
+fn a_structure_with_other_answers_in_the_next_round_is_refused_and_the_others_go_on() {
+    let settings = of_primary(&registry(), &["sah-kd", "flawed:flaw=turning"]);
+    let scene = Builtin::find("cube").unwrap().scene(None).unwrap();
+    // It turns after the first of two rounds.
+    let epoch = measure(&scene, &settings, 0, &SystemClock::start(), &mut |stage| {
+        HAS_TURNED.fetch_or(stage == Stage::Trace(2, 4), Ordering::Relaxed);
+    });
+    let epoch = epoch.unwrap();
+    let [kd, turning] = &epoch.structures[..] else { panic!("{epoch:?}") };
+    assert_eq!((kd.rays[0].ns.len(), &kd.refused), (2, &None));
+    assert_eq!(turning.refused, Some(Failed::Unsteady.to_string()));
+    assert_eq!(Status::of(&troubles([&epoch])), Status::Wrong);
+}
+
+#[test]
+fn what_cannot_be_built_in_one_epoch_costs_nobody_else_a_measurement() {
+    // Brute force is slow beside two others, and hardly slow beside one.
+    let settings = of_primary(&registry(), &["sah-kd", "brute-force", "flawed:flaw=away"]);
+    let settings = Settings { slowest: 4.0, ..settings };
+    let scene = Builtin::find("torus").unwrap().scene(None).unwrap();
+    let epochs = [0, 1].map(|epoch| {
+        IS_AWAY.store(epoch == 1, Ordering::Relaxed);
+        measure(&scene, &settings, epoch, &SystemClock::start(), &mut |_| ()).unwrap()
+    });
+    let Joined { cases, failures, .. } = join(epochs.into(), CompareStudy::epoch, CompareStudy::WHOLE);
+    assert!(failures.is_empty(), "{failures:?}");
+    assert_eq!(cases.len(), 2);
+    for epoch in &cases {
+        let [kd, brute, away] = &epoch.structures[..] else { panic!("{epoch:?}") };
+        assert_eq!([kd, brute, away].map(|structure| structure.refused.is_some()), [false, false, true]);
+        assert!(brute.rays[0].rays < kd.rays[0].rays, "{brute:?} {kd:?}");
     }
 }
 

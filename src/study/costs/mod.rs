@@ -47,6 +47,7 @@ pub struct CostsStudy;
 impl Study for CostsStudy {
     const NAME: &'static str = "costs";
     const QUESTION: &'static str = "What does a step, and what does a triangle test cost on this machine?";
+    const BOTH_MESHES: bool = true;
     const QUICK: &'static str = QUICK_EPOCHS;
 
     type Args = EpochArgs;

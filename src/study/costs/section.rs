@@ -17,7 +17,7 @@ pub fn blocks(families: &[Family], command: &str) -> Vec<Block> {
     )];
     // Each structure's own family predicts it; `all` is the first.
     if families.len() > 1 {
-        blocks.push(Block::Figure(figure(&families[1..], command)));
+        blocks.push(Block::figure(figure(&families[1..], command)));
     }
     blocks.extend(tables(families).into_iter().map(|table| Block::table(table, command)));
     blocks.extend(LEGEND.map(|words| Block::Note(words.into())));

@@ -10,6 +10,12 @@ const FACING: Vec3 = Vec3::new(2.0 / 3.0, -1.0 / 3.0, 2.0 / 3.0);
 const ACROSS: Vec3 = Vec3::new(2.0 / 3.0, 2.0 / 3.0, -1.0 / 3.0);
 const UPWARD: Vec3 = Vec3::new(-1.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0);
 
+/// What the member of `root * root` layers is called.
+pub fn name(root: u32) -> String {
+    let layers = root * root;
+    format!("{layers} layer{}", if layers == 1 { "" } else { "s" })
+}
+
 /// The member of `root * root` layers, seen from before the first, a little from the side and so narrowly that every primary ray
 /// passes all layers. The light is behind the last: shadow rays pass those that primary rays have not passed.
 ///
@@ -19,8 +25,7 @@ const UPWARD: Vec3 = Vec3::new(-1.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0);
 /// # Panics
 /// As [`meshes::sheets`].
 pub fn member(root: u32) -> Result<Scene, SceneError> {
-    let layers = root * root;
-    let name = format!("{layers} layer{}", if layers == 1 { "" } else { "s" });
+    let name = name(root);
     let scene = Scene::framed(&name, meshes::sheets(root))?;
     let camera = Camera::new(FACING * 6.0 + ACROSS * 0.9, Vec3::ZERO, UPWARD, 12.0)
         .map_err(|cause| SceneError::Camera { file: name, cause })?;

@@ -19,7 +19,7 @@ mod tests;
 
 use super::args::{Measuring, Rays, Structures, with_twin};
 use super::epoch::Epoch;
-use super::{Context, Data, Plan, Study, StudyError};
+use super::{Context, Data, Plan, Study, StudyError, sources};
 use crate::measure::spread;
 use crate::registry::Registry;
 use crate::report::document::Block;
@@ -28,7 +28,7 @@ use crate::scene::{Scene, Workload, WorkloadKind};
 
 pub use complexity::complexity;
 pub use curve::Crossing;
-pub use family::{ROOTS, member};
+pub use family::{ROOTS, member, name};
 pub use result::{Member, MemberEpoch, PAIRS, Race, result};
 pub use table::tables;
 use table::verdict;
@@ -77,7 +77,8 @@ impl Study for CrossoverStudy {
             PAIRS.map(|[kd, bvh]| format!("{kd} and {bvh}")).join("; ")
         );
         let settings = args.measuring.settings(registry, structures, args.rays.asked(&WORKLOADS))?;
-        let roots: Vec<u32> = ROOTS.into_iter().filter(|&root| root <= args.deepest).collect();
+        let is_wanted = |&root: &u32| root <= args.deepest && sources::wanted(&[name(root)]).next().is_some();
+        let roots: Vec<u32> = ROOTS.into_iter().filter(is_wanted).collect();
         let scenes: Vec<Scene> = roots.iter().map(|&root| member(root)).collect::<Result<_, _>>()?;
 
         let (guide, asked, seed) = (settings.guide.clone(), settings.asked.clone(), settings.seed);

@@ -38,7 +38,7 @@ pub fn blocks(races: &[Race], command: &str) -> Vec<Block> {
     )];
     for workload in distinct(races.iter().map(|race| &race.workload)) {
         let of: Vec<&Race> = races.iter().filter(|race| race.workload == workload).collect();
-        blocks.push(Block::Figure(figure(&of, command)));
+        blocks.push(Block::figure(figure(&of, command)));
     }
     let mut tables = tables(races).into_iter();
     blocks.extend(tables.next().map(|answers| Block::table(answers, command)));

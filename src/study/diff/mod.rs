@@ -158,20 +158,16 @@ fn case(record: &Record) -> String {
 }
 
 fn wrong(old: &Record, new: &Record) -> Option<Wrong> {
-    let rate = |r: &Record| r.structure_errors.unwrap_or(0) as f64 / r.checked_rays.unwrap_or(0).max(1) as f64;
-    let (errors, checked) = (new.structure_errors.unwrap_or(0), new.checked_rays.unwrap_or(0));
+    let rate = |r: &Record| r.structure_errors as f64 / r.checked_rays.max(1) as f64;
+    let (errors, checked) = (new.structure_errors, new.checked_rays);
     // How many rays are checked depends on time: what an error was before is no new one if its rate is the same, and
     // what a baseline is documented to get wrong may be met at any time.
     let known = documented_defect(&new.structure).is_some();
-    let more = errors > 0 && !known && (old.structure_errors == Some(0) || rate(new) > 2.0 * rate(old));
+    let more = errors > 0 && !known && (old.structure_errors == 0 || rate(new) > 2.0 * rate(old));
     let what = if more {
-        format!(
-            "{errors} of {checked} answers are wrong, {} of {} were",
-            old.structure_errors.unwrap_or(0),
-            old.checked_rays.unwrap_or(0)
-        )
-    } else if old.rays == new.rays && old.hits != new.hits {
-        format!("{} of {} rays hit, {} did", new.hits, new.rays, old.hits)
+        format!("{errors} of {checked} answers are wrong, {} of {} were", old.structure_errors, old.checked_rays)
+    } else if old.counted_rays == new.counted_rays && old.hits != new.hits {
+        format!("{} of {} rays hit, {} did", new.hits, new.counted_rays, old.hits)
     } else if old.rays == new.rays && old.answers.is_some() && new.answers.is_some() && old.answers != new.answers {
         "hits have another t or primitive".into()
     } else {

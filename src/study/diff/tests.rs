@@ -81,16 +81,17 @@ fn answers_that_changed_are_wrong() {
         Comparison::new(&old, &new, None, 1).wrong
     };
     assert!(with(&|_| {}).is_empty());
-    let wrong = with(&|r| r.structure_errors = Some(3));
+    let wrong = with(&|r| r.structure_errors = 3);
     assert_eq!(wrong.len(), 1);
     assert_eq!(
         (&wrong[0].case[..], &wrong[0].what[..]),
         ("sah-kd on the primary rays of Cube", "3 of 100 answers are wrong, 0 of 100 were")
     );
-    assert!(with(&|r| r.hits = 19)[0].what.contains("19 of 500"));
+    assert!(with(&|r| r.hits = 19)[0].what.contains("19 of 1000 rays hit, 20 did"));
     assert!(with(&|r| r.answers = Some("0".into()))[0].what.contains("another t"));
-    // Other rays have other answers, and an unknown answer is none.
-    assert!(with(&|r| (r.rays, r.hits, r.answers) = (250, 9, Some("0".into()))).is_empty());
+    // Other rays have other answers, be they timed or counted, and an unknown answer is none.
+    assert!(with(&|r| (r.counted_rays, r.hits) = (500, 9)).is_empty());
+    assert!(with(&|r| (r.rays, r.answers) = (250, Some("0".into()))).is_empty());
     assert!(with(&|r| r.answers = None).is_empty());
 }
 
@@ -98,7 +99,7 @@ fn answers_that_changed_are_wrong() {
 fn known_errors_are_no_new_ones() {
     let erring = |i: usize, errors, checked| {
         let mut run = run(1.0, 1.0);
-        (run[i].structure_errors, run[i].checked_rays) = (Some(errors), Some(checked));
+        (run[i].structure_errors, run[i].checked_rays) = (errors, checked);
         run
     };
     let ours = |errors, checked| erring(1, errors, checked);

@@ -7,7 +7,6 @@ use super::{Epoch, Rays, Structure};
 use crate::registry::RUNNER;
 use crate::report::words::listed;
 use crate::study::StudyError;
-use crate::study::reference_structures::documented_defect;
 
 /// Cases that answers can be made from, and why others are none of them.
 #[derive(Debug)]
@@ -18,41 +17,23 @@ pub struct Joined<C> {
     pub failures: Vec<StudyError>,
     /// Scenes that are not checked, a sentence each: their cases are left out.
     pub unchecked: Vec<String>,
-    /// Scenes with fewer epochs than others, a sentence each: they are there.
-    pub missing: Vec<String>,
 }
 
 /// Joins the epochs of each scene. `epoch` gives the epoch that a case is, and the number of its series where a scene has several;
 /// cases that are none are as they were. With `whole` a scene is left out in which a structure lacks a time.
 pub fn join<C: Clone>(mut cases: Vec<C>, epoch: fn(&mut C) -> Option<(&mut Epoch, usize)>, whole: bool) -> Joined<C> {
-    // The places of the cases of each series.
-    let mut series: Vec<((String, usize), Vec<usize>)> = vec![];
-    let mut epochs = 0;
-    for (place, case) in cases.iter_mut().enumerate() {
-        let Some((own, number)) = epoch(case) else { continue };
-        epochs = epochs.max(own.epoch + 1);
-        let key = (own.scene_hash.clone(), number);
-        match series.iter_mut().find(|(known, _)| *known == key) {
-            Some((_, places)) => places.push(place),
-            None => series.push((key, vec![place])),
-        }
-    }
-    let mut joined = Joined { cases: vec![], failures: vec![], unchecked: vec![], missing: vec![] };
+    let mut joined = Joined { cases: vec![], failures: vec![], unchecked: vec![] };
     let mut out = vec![];
-    for (_, mut places) in series {
+    for mut places in series(&mut cases, epoch) {
         let number = |cases: &mut [C], place: usize| epoch(&mut cases[place]).expect("it is one").0.epoch;
         places.sort_by_cached_key(|&place| number(&mut cases, place));
         let mut own: Vec<Epoch> =
             places.iter().map(|&place| epoch(&mut cases[place]).expect("it is one").0.clone()).collect();
-        let missing: Vec<usize> = (0..epochs).filter(|&number| own.iter().all(|epoch| epoch.epoch != number)).collect();
-        let lacks = || lacks(&own[0], &missing);
         if own[0].epoch != 0 {
-            joined.unchecked.push(format!("{}; epoch 0 checks the answers, so the scene is left out.", lacks()));
+            let lacks = lacks(&own[0], &[0]);
+            joined.unchecked.push(format!("{lacks}; epoch 0 checks the answers, so the scene is left out."));
             out.extend(places);
             continue;
-        }
-        if !missing.is_empty() {
-            joined.missing.push(format!("{}.", lacks()));
         }
         let found = one(&mut own).and_then(|()| if whole { own.iter().try_for_each(Epoch::is_whole) } else { Ok(()) });
         if let Err(error) = found {
@@ -69,7 +50,44 @@ pub fn join<C: Clone>(mut cases: Vec<C>, epoch: fn(&mut C) -> Option<(&mut Epoch
     joined
 }
 
-/// `Dragon: epochs 0 and 2 are not measured`.
+/// The epochs that are planned and not there, of scenes that are checked, a sentence each. `planned` is told the most epochs that a scene
+/// has, and the triangles of the scene that it is asked about.
+pub fn missing<C>(
+    cases: &mut [C],
+    epoch: fn(&mut C) -> Option<(&mut Epoch, usize)>,
+    planned: impl Fn(usize, usize) -> usize,
+) -> Vec<String> {
+    let series = series(cases, epoch);
+    let mut number = |&place: &usize| epoch(&mut cases[place]).expect("it is one").0.epoch;
+    let numbers: Vec<Vec<usize>> = series.iter().map(|places| places.iter().map(&mut number).collect()).collect();
+    let most = numbers.iter().flatten().max().map_or(0, |last| last + 1);
+    let mut missing = vec![];
+    for (places, there) in series.iter().zip(&numbers).filter(|(_, there)| there.contains(&0)) {
+        let (first, _) = epoch(&mut cases[places[0]]).expect("it is one");
+        let not_there = (0..planned(most, first.triangles)).filter(|number| !there.contains(number));
+        let not_there: Vec<usize> = not_there.collect();
+        if !not_there.is_empty() {
+            missing.push(format!("{}.", lacks(first, &not_there)));
+        }
+    }
+    missing
+}
+
+/// The places of the cases of each series.
+fn series<C>(cases: &mut [C], epoch: fn(&mut C) -> Option<(&mut Epoch, usize)>) -> Vec<Vec<usize>> {
+    let mut found: Vec<((String, usize), Vec<usize>)> = vec![];
+    for (place, case) in cases.iter_mut().enumerate() {
+        let Some((own, number)) = epoch(case) else { continue };
+        let key = (own.scene_hash.clone(), number);
+        match found.iter_mut().find(|(known, _)| *known == key) {
+            Some((_, places)) => places.push(place),
+            None => found.push((key, vec![place])),
+        }
+    }
+    found.into_iter().map(|(_, places)| places).collect()
+}
+
+/// `Dragon: epochs 1 and 2 are not measured`.
 fn lacks(epoch: &Epoch, missing: &[usize]) -> String {
     let numbers: Vec<String> = missing.iter().map(ToString::to_string).collect();
     let (epochs, are) = if missing.len() == 1 { ("epoch", "is") } else { ("epochs", "are") };
@@ -93,8 +111,8 @@ fn one(epochs: &mut [Epoch]) -> Result<(), StudyError> {
         }
         // What takes no part in one of them takes part in none.
         let refused = epochs.iter().find_map(|epoch| epoch.structures[place].refused.clone());
-        if refused.is_some() {
-            refuse(epochs, place, &refused);
+        if let Some(reason) = refused {
+            refuse(epochs, place, &reason);
             continue;
         }
         for kind in 0..epochs[0].structures[place].rays.len() {
@@ -122,12 +140,12 @@ fn one(epochs: &mut [Epoch]) -> Result<(), StudyError> {
                 continue;
             }
             let of = |epoch: &Epoch| epoch.structures[place].rays[kind].clone();
-            let name = &epochs[0].structures[place].name;
-            let (is_program, may_err) = (name == RUNNER, name == RUNNER || documented_defect(name).is_some());
+            let structure = &epochs[0].structures[place];
+            let (is_program, may_err) = (structure.name == RUNNER, structure.may_err());
             let other = epochs.iter().find(|epoch| of(epoch).checksum != first.checksum);
             match (other, may_err) {
                 (Some(_), true) => {
-                    refuse(epochs, place, &Some(CHANGED.into()));
+                    refuse(epochs, place, CHANGED);
                     break;
                 }
                 (Some(other), false) => return Err(apart(other, &first.workload, "the answers")),
@@ -138,7 +156,7 @@ fn one(epochs: &mut [Epoch]) -> Result<(), StudyError> {
                 return Err(apart(other, &first.workload, "the number of rays that are timed"));
             }
             if !reduce(epochs, place, kind) {
-                refuse(epochs, place, &Some(UNSTEADY.into()));
+                refuse(epochs, place, UNSTEADY);
                 break;
             }
         }
@@ -154,9 +172,11 @@ const CHANGED: &str = "built again, it gives other answers than before: its time
 const UNSTEADY: &str =
     "by its own clock it is more than sixteen times as slow in one epoch as in another: they have no rays in common";
 
-fn refuse(epochs: &mut [Epoch], place: usize, refused: &Option<String>) {
+/// It takes no part, for wrong answers if that is so in one of the epochs.
+fn refuse(epochs: &mut [Epoch], place: usize, reason: &str) {
+    let wrong = epochs.iter().any(|epoch| epoch.structures[place].wrong);
     for structure in epochs.iter_mut().map(|epoch| &mut epoch.structures[place]) {
-        *structure = Structure { refused: refused.clone(), rays: vec![], ..structure.clone() };
+        *structure = Structure { refused: Some(reason.into()), wrong, rays: vec![], ..structure.clone() };
     }
 }
 
@@ -219,15 +239,16 @@ mod tests {
     #[test]
     fn epochs_need_no_order_and_come_out_as_they_came_in() {
         let given = [epochs("a", &[2, 0]), epochs("b", &[1, 0, 2]), epochs("a", &[1])].concat();
-        let Joined { cases, failures, unchecked, missing } = joined(given.clone());
+        let Joined { cases, failures, unchecked } = joined(given.clone());
         assert_eq!(cases, given);
-        assert!(failures.is_empty() && unchecked.is_empty() && missing.is_empty());
+        assert!(failures.is_empty() && unchecked.is_empty());
     }
 
     #[test]
     fn a_scene_without_its_first_epoch_is_left_out_and_one_without_another_is_named() {
-        let given = [epochs("a", &[1, 2]), epochs("b", &[0, 2]), epochs("c", &[0, 1, 2])].concat();
-        let Joined { cases, unchecked, missing, .. } = joined(given);
+        let mut given = [epochs("a", &[1, 2]), epochs("b", &[0, 2]), epochs("c", &[0, 1, 2])].concat();
+        let missing = missing(&mut given, |epoch| Some((epoch, 0)), |most, _| most);
+        let Joined { cases, unchecked, .. } = joined(given);
         assert!(cases.len() == 5 && cases.iter().all(|epoch| epoch.scene != "a"));
         assert_eq!(unchecked, ["a: epoch 0 is not measured; epoch 0 checks the answers, so the scene is left out."]);
         assert_eq!(missing, ["b: epoch 1 is not measured."]);
@@ -250,9 +271,10 @@ mod tests {
     #[test]
     fn what_takes_no_part_in_one_epoch_takes_part_in_none() {
         let mut given = epochs("a", &[0, 1, 2]);
-        given[1].structures[1].refused = Some("it fell over".into());
+        (given[1].structures[1].refused, given[1].structures[1].wrong) = (Some("it fell over".into()), true);
         let Joined { cases, .. } = joined(given);
         assert!(cases.iter().all(|epoch| epoch.structures[1].refused.as_deref() == Some("it fell over")));
+        assert!(cases.iter().all(|epoch| epoch.structures[1].wrong));
         assert!(cases.iter().all(|epoch| epoch.structures[0].refused.is_none()));
     }
 

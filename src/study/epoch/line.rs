@@ -1,6 +1,6 @@
 //! All epochs of one structure on one kind of rays.
 
-use super::{Epoch, Structure};
+use super::{Epoch, Rays, Structure};
 use crate::measure::{AaNoise, median};
 use crate::study::grouped::grouped;
 
@@ -22,8 +22,12 @@ pub struct Line {
     pub tests: Option<f64>,
     pub blocks: Option<f64>,
     pub steps: Option<f64>,
-    /// ln nanoseconds of a ray, epoch by epoch, round by round, on rays that are the same for all structures.
+    /// Rays of a sample: a slow structure is timed on fewer than others.
+    pub rays: usize,
+    /// ln nanoseconds of a ray, epoch by epoch, round by round.
     pub trace: Vec<Vec<f64>>,
+    /// The same of the parts of the samples that slower structures are timed on, by the number of rays.
+    parts: Vec<(usize, Vec<Vec<f64>>)>,
     /// ln nanoseconds of the build, epoch by epoch.
     pub build: Vec<Vec<f64>>,
 }
@@ -81,19 +85,19 @@ pub fn twin_of(epoch: &Epoch, place: usize) -> Option<usize> {
     epoch.structures[..place].iter().position(|first| first.label == epoch.structures[place].label)
 }
 
-/// One line, if it was timed in every epoch. Structures have the same places in all epochs.
+/// One line, if it was timed in every epoch. Structures have the same places in all epochs, and the same rays.
 fn line(scene: &[&Epoch], place: usize, workload: &str) -> Option<Line> {
-    let (mut trace, mut build) = (vec![], vec![]);
-    let mut first = None;
+    let (mut samples, mut build): (Vec<&Rays>, _) = (vec![], vec![]);
     for epoch in scene {
         let timed = |s: &&Structure| s.label == scene[0].structures[place].label && s.refused.is_none();
         let structure = epoch.structures.get(place).filter(timed)?;
-        let rays = structure.rays.iter().find(|rays| rays.workload == workload && !rays.ns.is_empty())?;
-        first = first.or(Some((structure, rays)));
-        trace.push(rays.paces(epoch.common_rays(workload)).into_iter().map(libm::log).collect());
+        samples.push(structure.rays.iter().find(|rays| rays.workload == workload && !rays.ns.is_empty())?);
         build.push(vec![libm::log(structure.build_ns.max(1) as f64)]);
     }
-    let (structure, rays) = first?;
+    let (structure, rays) = (&scene[0].structures[place], samples[0]);
+    let trace = |count: usize| -> Vec<Vec<f64>> {
+        samples.iter().map(|own| own.paces(count).into_iter().map(libm::log).collect()).collect()
+    };
     Some(Line {
         scene: scene[0].title(),
         scene_hash: scene[0].scene_hash.clone(),
@@ -106,7 +110,9 @@ fn line(scene: &[&Epoch], place: usize, workload: &str) -> Option<Line> {
         tests: rays.counts.and_then(|counts| counts.tests_per_ray()),
         blocks: rays.counts.and_then(|counts| counts.blocks_per_ray()),
         steps: rays.counts.and_then(|counts| counts.steps_per_ray()),
-        trace,
+        rays: rays.rays,
+        trace: trace(rays.rays),
+        parts: rays.parts.iter().map(|part| (part.rays, trace(part.rays))).collect(),
         build,
     })
 }
@@ -122,9 +128,19 @@ impl Line {
         libm::exp(centre(&self.build))
     }
 
-    /// ln of this line's time over that of `other`, pair by pair. Nothing where they were not measured together.
+    /// This line on no more rays than `other`: two lines are compared on the rays of the one that is timed on fewer. Nothing where
+    /// those were not timed.
+    pub fn beside(&self, other: &Self) -> Option<Self> {
+        if self.rays <= other.rays {
+            return Some(self.clone());
+        }
+        let (rays, trace) = self.parts.iter().find(|(rays, _)| *rays == other.rays)?;
+        Some(Self { rays: *rays, trace: trace.clone(), ..self.clone() })
+    }
+
+    /// ln of this line's time over that of `other` on the same rays, pair by pair. Nothing where they were not measured together.
     pub fn log_ratios(&self, other: &Self) -> Option<Vec<Vec<f64>>> {
-        log_ratios(&self.trace, &other.trace)
+        log_ratios(&self.beside(other)?.trace, &other.beside(self)?.trace)
     }
 }
 

@@ -10,17 +10,18 @@ use crate::study::bench::built::Built;
 use crate::study::bench::case::Case;
 use crate::study::bench::check::{check_all, declined};
 use crate::study::bench::counted::{Counted, Events, count_all};
+use crate::study::bench::failed::Failed;
 use crate::study::bench::placed::Placed;
 use crate::study::bench::room::fits;
-use crate::study::bench::timing::{Taken, Timing};
+use crate::study::bench::timing::Timing;
 use crate::study::{PANICKED, Stage, StudyError};
 
-/// Builds all structures, checks and counts them if this is the first epoch, and takes their samples. No epoch needs another: what
-/// they owe each other is found when they are [joined](super::join). What cannot be built or panics is refused, what answers wrongly
-/// gets no time; the others go on.
+/// Builds all structures, checks and counts them if this is the first epoch, and takes their samples. No epoch needs
+/// another: what they owe each other is found when they are [joined](super::join). What cannot be built, panics or
+/// answers the same rays differently is refused, what answers wrongly gets no time; the others go on.
 ///
 /// # Errors
-/// If the guide cannot be built, or a structure answers the same rays differently.
+/// If the structures do not fit into memory, or the guide cannot be built.
 pub fn measure(
     scene: &Scene,
     settings: &Settings,
@@ -32,7 +33,8 @@ pub fn measure(
     if epoch == 0 {
         bench.check(progress)?;
     }
-    let circumstances = bench.sample(epoch, clock, progress)?;
+    let circumstances = bench.sample(epoch, clock, progress);
+    progress(Stage::Count);
     if epoch == 0 {
         bench.count();
     }
@@ -55,10 +57,8 @@ struct Bench<'a> {
     workloads: Vec<Workload>,
     /// All structures asked for, and what is known of them.
     structures: Vec<Structure>,
-    /// Those that could be built.
-    built: Vec<Built>,
-    /// The number of each of them among all.
-    places: Vec<usize>,
+    /// Each of them, if it could be built.
+    built: Vec<Option<Built>>,
     /// Where they lie.
     _placed: Placed,
 }
@@ -77,24 +77,24 @@ impl<'a> Bench<'a> {
         let detailed = settings.detailed && epoch == 0;
         let seed = seed.wrapping_add(epoch as u64);
         let mut placed = Placed::new(choices, scene, threads, clock, seed, detailed, progress);
-        let mut ready = placed.built.drain(..);
-        let (mut structures, mut built, mut places) = (vec![], vec![], vec![]);
-        for choice in choices {
+        let mut structures: Vec<Structure> = vec![];
+        let mut built: Vec<Option<Built>> = vec![];
+        for (choice, ready) in choices.iter().zip(placed.built.drain(..)) {
             let (label, name) = (choice.label.clone(), choice.entry.name.clone());
             let shape = Shape::default();
             let none = Structure {
                 label,
                 name,
                 refused: None,
+                wrong: false,
                 build_ns: 0,
                 outside: None,
                 shape,
                 rays: vec![],
                 details: None,
             };
-            match ready.next().expect("as many as are asked for") {
+            match ready {
                 Ok(one) => {
-                    places.push(structures.len());
                     let details = detailed.then(|| StructureDetails {
                         config: choice.config.clone(),
                         triangle_test: choice.triangle_test().into(),
@@ -103,20 +103,19 @@ impl<'a> Bench<'a> {
                     });
                     let shape = Shape::of(one.accel.as_ref());
                     structures.push(Structure { build_ns: one.build_ns, shape, details, ..none });
-                    built.push(one);
+                    built.push(Some(one));
                 }
                 Err(StudyError::Build { cause, .. }) => {
                     structures.push(Structure { refused: Some(cause.to_string()), ..none });
+                    built.push(None);
                 }
                 Err(other) => return Err(other),
             }
         }
 
-        drop(ready);
-
         // Rays that start on a surface start where the guide finds it.
         let own;
-        let guide = match built.iter().find(|built| built.choice.label == settings.guide.label) {
+        let guide = match built.iter().flatten().find(|built| built.choice.label == settings.guide.label) {
             Some(built) => built.accel.as_ref(),
             None => {
                 own = Built::new(&settings.guide, scene, &settings.threads, clock)?;
@@ -125,20 +124,22 @@ impl<'a> Bench<'a> {
         };
         let workloads = settings.asked.workloads(scene, settings.seed, guide, progress);
         let hashes: Vec<String> = workloads.iter().map(Workload::hash).collect();
-        for (&place, built) in places.iter().zip(&built) {
+        for (structure, built) in structures.iter_mut().zip(&built) {
+            let Some(built) = built else { continue };
             let asked = |(workload, hash): (&Workload, &String)| asked(built, workload, hash, detailed);
-            let structure: &mut Structure = &mut structures[place];
             structure.rays = workloads.iter().zip(&hashes).map(asked).collect();
         }
-        Ok(Self { scene, settings, workloads, structures, built, places, _placed: placed })
+        Ok(Self { scene, settings, workloads, structures, built, _placed: placed })
     }
 
     /// Holds all structures against brute force, and says which have no time for it.
     fn check(&mut self, progress: &mut dyn FnMut(Stage)) -> Result<(), StudyError> {
-        let checks = check_all(self.scene, &self.built, &self.workloads, self.settings.check_tests, progress)?;
-        for ((&place, built), checks) in self.places.iter().zip(&self.built).zip(checks) {
+        let built = self.built.iter().flatten();
+        let checks = check_all(self.scene, built, &self.workloads, self.settings.check_tests, progress)?;
+        let structures = self.structures.iter_mut().zip(&self.built);
+        let structures = structures.filter_map(|(structure, built)| Some((structure, built.as_ref()?)));
+        for ((structure, built), checks) in structures.zip(checks) {
             let failure = built.accel.remote().and_then(Remote::failure);
-            let structure = &mut self.structures[place];
             let Some(checks) = checks.filter(|_| failure.is_none()) else {
                 structure.refused = Some(failure.unwrap_or_else(|| PANICKED.into()));
                 structure.rays.clear();
@@ -157,26 +158,19 @@ impl<'a> Bench<'a> {
         Ok(())
     }
 
-    /// Takes the samples of everything that is timed. How much of it is decided by all that is asked, whether right or wrong: an epoch
-    /// that checks nothing decides the same.
-    fn sample(
-        &mut self,
-        epoch: usize,
-        clock: &dyn Clock,
-        progress: &mut dyn FnMut(Stage),
-    ) -> Result<Circumstances, StudyError> {
-        let Settings { asked, runs, budget_ns, slowest, seed, threads, .. } = self.settings;
+    /// Takes the samples of everything that is timed. How much of it is decided by all that is asked for, built or not,
+    /// right or wrong: an epoch in which a program fails, or that checks nothing, decides the same.
+    fn sample(&mut self, epoch: usize, clock: &dyn Clock, progress: &mut dyn FnMut(Stage)) -> Circumstances {
+        let Settings { structures: choices, asked, runs, budget_ns, slowest, seed, threads, .. } = self.settings;
         let (runs, budget_ns, slowest, most_rays) = (*runs, *budget_ns, *slowest, asked.rays());
         let plan = Plan { runs, budget_ns, slowest, most_rays, seed: *seed, epoch };
-        let timing = Timing { scene: self.scene, built: &self.built, workloads: &self.workloads, threads, clock };
-        let mut asked = Case::all(self.built.len(), self.workloads.len());
-        asked.retain(|case| {
-            declined(self.built[case.structure].accel.as_ref(), &self.workloads[case.workload]).is_none()
-        });
+        let built: Vec<Option<&Built>> = self.built.iter().map(Option::as_ref).collect();
+        let timing = Timing { choices, built: &built, workloads: &self.workloads, threads, clock };
+        let asked = Case::all(self.structures.len(), self.workloads.len());
         let allotted = timing.allot(&asked, &plan);
 
         let is_timed = |case: &Case| {
-            let structure = &self.structures[self.places[case.structure]];
+            let structure = &self.structures[case.structure];
             structure.refused.is_none() && structure.rays[case.workload].untimed.is_none()
         };
         let cases: Vec<Case> = asked.into_iter().filter(is_timed).collect();
@@ -184,36 +178,41 @@ impl<'a> Bench<'a> {
         let mut told = |taken| progress(Stage::Trace(taken, total));
         let _pin = threads.pin();
         let watch = Watch::start(clock, threads.cores().map_or(0, |cores| cores[0]));
-        let Taken { samples, failures } = timing.take(&allotted, &is_timed, &plan, &mut told)?;
+        let taken = timing.take(&allotted, &is_timed, &plan, &mut told);
         let circumstances = watch.end(clock);
 
-        for ((case, samples), failure) in cases.iter().zip(samples).zip(failures) {
-            let structure = &mut self.structures[self.places[case.structure]];
-            if failure.is_some() {
-                structure.refused = failure;
-                continue;
-            }
-            structure.outside = self.built[case.structure].accel.remote().and_then(Remote::outside);
+        for (case, samples) in cases.iter().zip(taken) {
+            let structure = &mut self.structures[case.structure];
+            let samples = match samples {
+                Ok(samples) => samples,
+                Err(cause) => {
+                    structure.wrong |= cause == Failed::Unsteady && !structure.may_err();
+                    structure.refused = Some(cause.to_string());
+                    continue;
+                }
+            };
+            structure.outside = built[case.structure].and_then(|built| built.accel.remote()?.outside());
             let rays = &mut structure.rays[case.workload];
             (rays.rays, rays.checksum) = (samples.rays, samples.checksum);
             (rays.ns, rays.parts) = (samples.ns, samples.parts);
         }
-        Ok(circumstances)
+        circumstances
     }
 
     /// Counts what is done for the rays, in a detailed epoch also where answers are wrong.
     fn count(&mut self) {
         let detailed = self.settings.detailed;
         let mut events = (detailed && self.settings.threads.count() == 1).then(Events::of_thread);
-        let mut cases = Case::all(self.built.len(), self.workloads.len());
+        let mut cases = Case::all(self.structures.len(), self.workloads.len());
         cases.retain(|case| {
-            let structure = &self.structures[self.places[case.structure]];
+            let structure = &self.structures[case.structure];
             let counts = |rays: &Rays| rays.untimed.is_none() || detailed && rays.wrong;
             structure.refused.is_none() && structure.rays.get(case.workload).is_some_and(counts)
         });
         for (case, counted) in cases.iter().zip(count_all(&cases, &self.built, &self.workloads)) {
-            let structure = &mut self.structures[self.places[case.structure]];
-            let (accel, workload) = (self.built[case.structure].accel.as_ref(), &self.workloads[case.workload]);
+            let Some(built) = &self.built[case.structure] else { continue };
+            let (structure, workload) = (&mut self.structures[case.structure], &self.workloads[case.workload]);
+            let accel = built.accel.as_ref();
             match counted {
                 Some(counted) => keep(&counted, accel, workload, events.as_mut(), &mut structure.rays[case.workload]),
                 None => structure.refused = Some(PANICKED.into()),

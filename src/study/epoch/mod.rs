@@ -17,8 +17,8 @@ mod whole;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use super::StudyError;
 use super::plan::scene_key;
+use super::{StudyError, documented_defect};
 use crate::accel::Query;
 use crate::measure::{Part, Threads};
 use crate::registry::{Choice, RUNNER};
@@ -27,7 +27,7 @@ use crate::report::words::scene_name;
 use crate::scene::Scene;
 
 pub use asked::{Asked, PICTURE};
-pub use join::{Joined, join};
+pub use join::{Joined, join, missing};
 pub use line::{Line, Twins, lines, middles, scenes, twin_of, twins};
 pub use measure::measure;
 pub use plan::plan;
@@ -127,6 +127,9 @@ pub struct Structure {
     pub name: String,
     /// Why it takes no part: a sentence. What follows is then empty.
     pub refused: Option<String>,
+    /// Whether that is for wrong answers.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub wrong: bool,
     /// Nanoseconds of the build, seen from outside unless it times itself.
     pub build_ns: u64,
     /// How long its passes took as seen from outside, as a multiple of what it says itself, where it times itself.
@@ -209,6 +212,14 @@ pub struct RayDetails {
     pub instructions_per_ray: Option<f64>,
     #[serde(default)]
     pub branch_misses_per_ray: Option<f64>,
+}
+
+impl Structure {
+    /// Whether other answers than before cost it its part alone: those of a program, or of a structure whose defects are
+    /// documented.
+    fn may_err(&self) -> bool {
+        self.name == RUNNER || documented_defect(&self.name).is_some()
+    }
 }
 
 impl Rays {

@@ -39,10 +39,10 @@ pub fn plan<C: 'static>(
         for (number, scene) in scenes.iter().enumerate() {
             let name = scene_name(&scene.name, !scene.stand_ins.is_empty());
             let title = format!("epoch {} of {epochs}: {name}", epoch + 1);
-            let process = Some(scene.name.clone());
+            let loads = scene.name.clone();
             // The first epoch checks and counts as well.
             let work = (4 + scene.mesh.len() as u64 / TRIANGLES) * if epoch == 0 { 2 } else { 1 };
-            cases.push(Planned { key: key(scene, epoch), title, scene: number, epoch, work, process });
+            cases.push(Planned { key: key(scene, epoch), title, scene: number, epoch, work, loads });
         }
     }
     let notes = named_notes(&scenes, |scene| &scene.notes);

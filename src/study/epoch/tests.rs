@@ -2,6 +2,7 @@ use super::*;
 use crate::measure::SystemClock;
 use crate::registry::Registry;
 use crate::scene::{Builtin, WorkloadKind};
+use crate::study::Stage;
 
 /// 1000 closest-hit rays of a workload as if they had been counted, not timed.
 pub fn rays(workload: &str) -> Rays {
@@ -34,6 +35,7 @@ pub fn example(scene: &str, triangles: usize, epoch: usize, structures: &[(&str,
         label: label.into(),
         name: label.split(':').next().unwrap().into(),
         refused: None,
+        wrong: false,
         outside: None,
         build_ns,
         shape: Shape { bytes: 100 * triangles, leaves: 8, references: 2 * triangles, depth: 3, sah_cost: None },
@@ -73,7 +75,9 @@ pub fn settings(registry: &Registry, structures: &[&str]) -> Settings {
 fn epochs_measured_in_any_order_ask_the_same_rays_and_the_first_alone_is_counted() {
     let scene = Builtin::find("torus").unwrap().scene(None).unwrap();
     let (settings, clock) = (settings(&Registry::builtin(), &["median-kd", "sah-bvh"]), SystemClock::start());
-    let second = measure(&scene, &settings, 1, &clock, &mut |_| ()).unwrap();
+    let mut counts = false;
+    let second = measure(&scene, &settings, 1, &clock, &mut |stage| counts = stage == Stage::Count).unwrap();
+    assert!(counts, "after the last sample it says that nothing is timed any more");
     let first = measure(&scene, &settings, 0, &clock, &mut |_| ()).unwrap();
     assert_eq!((first.epoch, second.epoch, first.triangles), (0, 1, 2304));
     for (one, other) in first.structures.iter().zip(&second.structures) {
@@ -114,6 +118,21 @@ fn what_lacks_a_time_in_an_epoch_has_no_line() {
     assert!(middles(&ratio).iter().all(|log| (libm::exp(*log) - 4.0).abs() < 1e-12));
     epochs[1].structures[0].refused = Some("it fell over".into());
     assert_eq!(lines(&epochs).iter().map(|line| line.structure.as_str()).collect::<Vec<_>>(), ["y"]);
+}
+
+#[test]
+fn a_slow_structure_does_not_change_what_a_ray_costs_another() {
+    const ALL: usize = 1 << 18;
+    let mut epoch = example("a", 10, 0, &[("x", 50, &[10 * ALL as u64; 3]), ("y", 10, &[64 * 300; 3])]);
+    let x = &mut epoch.structures[0].rays[0];
+    (x.all, x.rays, x.parts) = (ALL, ALL, vec![Part { rays: 64, ns: vec![64 * 30; 3] }]);
+    let y = &mut epoch.structures[1].rays[0];
+    (y.all, y.rays) = (ALL, 64);
+    let lines = lines([&epoch]);
+    assert!((lines[0].ns_per_ray() - 10.0).abs() < 1e-9 && (lines[1].ns_per_ray() - 300.0).abs() < 1e-9, "{lines:?}");
+    // The two are compared on the rays of the slow one.
+    let ratio = lines[1].log_ratios(&lines[0]).unwrap();
+    assert!(middles(&ratio).iter().all(|log| (libm::exp(*log) - 10.0).abs() < 1e-9), "{ratio:?}");
 }
 
 #[test]

@@ -10,7 +10,8 @@ pub fn troubles<'a>(epochs: impl IntoIterator<Item = &'a Epoch>) -> Vec<Trouble>
             let trouble =
                 |sentence, refused, wrong| Trouble { structure: structure.name.clone(), sentence, refused, wrong };
             let on = format!("{} on {}", structure.label, epoch.title());
-            let refused = structure.refused.iter().map(|why| trouble(format!("{on} is refused: {why}."), true, false));
+            let refused =
+                structure.refused.iter().map(|why| trouble(format!("{on} is refused: {why}."), true, structure.wrong));
             let untimed = structure.rays.iter().filter_map(|rays| {
                 let why = rays.untimed.as_ref()?;
                 Some(trouble(format!("{on}, {} rays, has no time: {why}.", rays.workload), false, rays.wrong))

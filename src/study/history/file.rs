@@ -1,6 +1,6 @@
 //! The file of a history: JSON lines, the oldest run first.
 
-use std::fs;
+use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -39,18 +39,27 @@ pub fn read(path: &Path) -> Result<Vec<Entry>, HistoryError> {
         }
         Ok(entry)
     };
-    text.lines().enumerate().map(entry).collect()
+    text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty()).map(entry).collect()
 }
 
-/// Adds a run, in place of an older one of the same commit and machine. The file is written anew, whole or not at all.
+/// Adds a run, in the place of an older one of the same commit and machine: a commit that is measured again is no newer
+/// for it. The file is written anew, whole or not at all.
 ///
 /// # Errors
 /// As [`read`], and if the file cannot be written.
 pub fn add(path: &Path, entry: Entry) -> Result<(), HistoryError> {
     let file = OutputFile::check(path)?;
+    // Of two machines that add at once one waits: it would write away what the other has added. Where files cannot be
+    // locked, as on some network file systems, nobody waits.
+    let lock = File::create(path.with_extension("lock"));
+    if let Ok(lock) = &lock {
+        let _ = lock.lock();
+    }
     let mut entries = read(path)?;
-    entries.retain(|older| !entry.replaces(older));
-    entries.push(entry);
+    match entries.iter_mut().find(|older| entry.replaces(older)) {
+        Some(older) => *older = entry,
+        None => entries.push(entry),
+    }
     let line = |entry: &Entry| serde_json::to_string(entry).expect("a run has text keys") + "\n";
     file.write(entries.iter().map(line).collect::<String>().as_bytes())?;
     Ok(())

@@ -1,8 +1,8 @@
 //! How fast structures were from commit to commit.
 //!
 //! `compare --save-baseline` adds a line to a file, `history.jsonl` beside the baselines: of each structure what it takes to hold this run
-//! against any other one. Times of different days are compared as `diff` compares them, relative to obvhs in the same rounds; runs of
-//! different machines, rays or obvhs are different series.
+//! against any other one. Times of different days are compared as `diff` compares them, relative to obvhs in the same rounds; runs that
+//! [`unlike`](fn@super::diff::unlike) refuses on one machine are different series.
 
 mod file;
 mod series;
@@ -41,10 +41,22 @@ impl Entry {
         (!entry.references.is_empty() && !entry.structures.is_empty()).then_some(entry)
     }
 
-    /// What runs of one series have in common.
-    fn of_series(&self) -> [&dyn std::fmt::Debug; 7] {
+    /// What runs of one series have in common: the name, and what `unlike` asks of a machine and a build.
+    fn of_series(&self) -> [&dyn std::fmt::Debug; 11] {
         let Self { baseline, references, provenance: p, .. } = self;
-        [baseline, references, &p.cpu, &p.simd, &p.threads, &p.obvhs, &p.profile]
+        [
+            baseline,
+            references,
+            &p.cpu,
+            &p.simd,
+            &p.target,
+            &p.target_features,
+            &p.threads,
+            &p.process_per_epoch,
+            &p.clock,
+            &p.profile,
+            &p.obvhs,
+        ]
     }
 
     fn is_of_series_of(&self, other: &Self) -> bool {

@@ -57,6 +57,23 @@ fn what_cannot_be_compared_is_another_series_or_no_change() {
 }
 
 #[test]
+fn runs_that_no_baseline_is_held_against_are_another_series() {
+    let changes: [fn(&mut Provenance); 5] = [
+        |p| p.process_per_epoch ^= true,
+        |p| p.clock += " or another",
+        |p| p.target += "-other",
+        |p| p.target_features += ",other",
+        |p| p.threads += 1,
+    ];
+    for change in changes {
+        let mut other = run("b", 1.0, 2.0);
+        change(&mut other.provenance);
+        let all = series(&[run("a", 1.0, 1.0), other]);
+        assert!(all.len() == 2 && all.iter().all(|one| one.changes.is_empty()), "{:?}", all[1].runs[0].provenance);
+    }
+}
+
+#[test]
 fn a_file_holds_one_run_a_commit_and_machine() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join(FILE);
@@ -71,8 +88,22 @@ fn a_file_holds_one_run_a_commit_and_machine() {
     add(&path, again.clone()).unwrap();
     add(&path, elsewhere.clone()).unwrap();
     let [a, _, c, changed] = runs;
-    assert_eq!(read(&path).unwrap(), [a, c, changed, again, elsewhere]);
+    assert_eq!(read(&path).unwrap(), [a, again, c, changed, elsewhere], "the order of commits stays");
     assert_eq!(fs::read_to_string(&path).unwrap().lines().count(), 5);
+}
+
+#[cfg(unix)]
+#[test]
+fn of_machines_that_add_at_once_none_is_lost() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = &folder.path().join(FILE);
+    let runs: Vec<Entry> = (0..8).map(|i| run(&format!("c{i}"), 1.0, 1.0)).collect();
+    std::thread::scope(|scope| {
+        for run in &runs {
+            scope.spawn(move || add(path, run.clone()).unwrap());
+        }
+    });
+    assert_eq!(read(path).unwrap().len(), runs.len());
 }
 
 #[test]
@@ -81,12 +112,14 @@ fn a_line_that_does_not_read_is_named_and_nothing_is_lost() {
     let path = folder.path().join(FILE);
     add(&path, run("a", 1.0, 1.0)).unwrap();
     let whole = fs::read_to_string(&path).unwrap();
-    for (line, words) in
-        [("{\"schema\":1}\n", "line 2"), (&*whole.replace("\"schema\":1", "\"schema\":9"), "version 9")]
-    {
+    let newer = whole.replace("\"schema\":1", "\"schema\":9");
+    let torn = &whole[..20];
+    for (line, words) in [("{\"schema\":1}\n", "line 2"), (&*newer, "version 9"), (torn, "line 2")] {
         fs::write(&path, format!("{whole}{line}")).unwrap();
         let told = add(&path, run("b", 1.0, 1.0)).unwrap_err().to_string();
         assert!(told.contains(words) && told.contains("history.jsonl") && told.contains("remove that line"), "{told}");
         assert_eq!(fs::read_to_string(&path).unwrap(), format!("{whole}{line}"));
     }
+    fs::write(&path, format!("\n{whole} \n")).unwrap();
+    assert_eq!(read(&path).unwrap(), [run("a", 1.0, 1.0)], "a blank line is no run");
 }

@@ -13,6 +13,11 @@ pub enum JournalError {
         path.display()
     )]
     Write { path: PathBuf, cause: io::Error },
+    #[error(
+        "another run is measuring into {}: give the same command again when it has ended, or name another folder with --dir",
+        .0.display()
+    )]
+    Busy(PathBuf),
     #[error(transparent)]
     Place(OutputError),
     #[error("{} is not a case of a study: move it away, or name another place", .0.display())]

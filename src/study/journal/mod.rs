@@ -2,14 +2,17 @@
 //! machines add to one journal without talking to each other.
 //!
 //! Each file has the case with its key, settings and provenance. It is written whole, by one writer, and never changed: what begins with
-//! a dot is being written, or was when its writer was killed, and is no case. Anybody may read at any time.
+//! a dot is being written, or was when its writer was killed, and is no case. Anybody may read at any time, and any number of jobs of a
+//! plan may write; of runs that measure all that is missing there is one at a time.
 
 mod case_file;
 mod error;
 mod groups;
 mod header;
+mod lock;
 #[cfg(test)]
 mod tests;
+mod versions;
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -22,6 +25,8 @@ pub use case_file::{CaseFile, Read, SCHEMA, file_name, is_case, place, text, wri
 pub use error::JournalError;
 pub use groups::{Group, groups};
 pub use header::Header;
+use lock::Lock;
+pub use versions::newest;
 
 /// The cases of a study that are measured, and where those go that will be.
 #[derive(Debug)]
@@ -33,12 +38,14 @@ pub struct Journal<C> {
     provenance: Provenance,
     read: Read<C>,
     cases: BTreeMap<String, C>,
+    /// Where a run measures.
+    _lock: Option<Lock>,
 }
 
 impl<C: Serialize> Journal<C> {
     /// A journal that is forgotten when it is dropped.
     pub fn in_memory(header: Header, read: Read<C>) -> Self {
-        Self { folder: None, provenance: header.provenance.clone(), header, read, cases: BTreeMap::new() }
+        Self { folder: None, provenance: header.provenance.clone(), header, read, cases: BTreeMap::new(), _lock: None }
     }
 
     /// Opens the journal in `folder`, to go on with it; makes the folder where there is none. With `fresh` the cases there are thrown
@@ -70,6 +77,32 @@ impl<C: Serialize> Journal<C> {
             journal.cases.insert(key, case);
         }
         Ok(journal)
+    }
+
+    /// As [`open`](Self::open), for a run that measures those of `keys` that are not there. One at a time does so: two would measure the same
+    /// cases, and disturb each other's times.
+    ///
+    /// # Errors
+    /// Likewise, and if something is to be measured or thrown away while another run measures into the folder.
+    pub fn open_to_measure<'a>(
+        folder: &Path,
+        header: Header,
+        fresh: bool,
+        read: Read<C>,
+        keys: impl IntoIterator<Item = &'a str>,
+    ) -> Result<Self, JournalError> {
+        fs::create_dir_all(folder).map_err(|cause| JournalError::Write { path: folder.into(), cause })?;
+        // Before the cases are read: what another run has measured until it ended is among them.
+        let lock = Lock::take(folder);
+        let busy = || JournalError::Busy(folder.into());
+        if fresh && lock.is_none() {
+            return Err(busy());
+        }
+        let journal = Self::open(folder, header, fresh, read)?;
+        if journal.left(keys).is_empty() {
+            return Ok(journal);
+        }
+        Ok(Self { _lock: Some(lock.ok_or_else(busy)?), ..journal })
     }
 
     /// The case `key`, if it has been measured.

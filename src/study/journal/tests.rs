@@ -169,6 +169,29 @@ fn of_two_writers_of_a_case_the_first_wins_and_both_go_on_with_it() {
     sentence(third.append("case 1", case(1)).unwrap_err(), &["runs was 5 and is 7"]);
 }
 
+#[cfg(unix)]
+#[test]
+fn one_run_at_a_time_measures_and_others_may_look() {
+    let folder = folder();
+    let path = journal(&folder, 2);
+    let run = |fresh: bool, keys: &[&str]| {
+        Journal::<Case>::open_to_measure(&path, header(5), fresh, read, keys.iter().copied())
+    };
+    let (measured, missing) = (["case 0", "case 1"], ["case 1", "case 2"]);
+    let mut one = run(false, &missing).unwrap();
+    sentence(run(false, &missing).unwrap_err(), &["another run", "runs/tiny", "when it has ended", "--dir"]);
+    sentence(run(true, &measured).unwrap_err(), &["another run"]);
+    // What measures nothing throws nothing away, and holds up nobody.
+    let look = run(false, &measured).unwrap();
+    one.append("case 2", case(2)).unwrap();
+    assert_eq!((look.left(measured).len(), contents(&path).len()), (0, 3));
+    drop(one);
+    let again = run(false, &["case 3"]).unwrap();
+    assert_eq!(again.get("case 2"), Some(&case(2)));
+    drop(again);
+    assert!(run(true, &[]).unwrap().left(measured).len() == 2 && contents(&path).is_empty());
+}
+
 #[test]
 fn what_is_no_case_is_left_alone() {
     let folder = folder();
@@ -256,6 +279,29 @@ fn what_cannot_be_written_is_one_sentence_and_loses_nothing() {
     fs::rename(&moved, &path).unwrap();
     assert_eq!((contents(&path), journal.left(["case 1"]).len()), (before, 1));
     journal.append("case 1", case(1)).unwrap();
+}
+
+#[test]
+fn of_a_scene_that_has_changed_the_last_version_counts() {
+    let file = |key: &str, date: &str| {
+        let mut header = header(5);
+        header.provenance.date = date.into();
+        CaseFile { path: key.into(), header, key: key.into(), case: () }
+    };
+    let files = [
+        file("Dragon (stand-in) 00000000000000aa epoch 0", "2026-01"),
+        file("Dragon 00000000000000bb epoch 0", "2026-03"),
+        file("Dragon 00000000000000cc epoch 0", "2026-02"),
+        file("Dragon 00000000000000cc epoch 1", "2026-02"),
+        file("r=10 @1e5", "2026-01"),
+    ];
+    let of = |both_meshes: bool| {
+        let (kept, notes) = newest(&files, both_meshes);
+        let is_kept = |i: &usize| kept.iter().any(|file| file.key == files[*i].key);
+        ((0..files.len()).filter(is_kept).collect::<Vec<_>>(), notes.join(" "))
+    };
+    assert_eq!(of(false), (vec![1, 4], "Dragon: left out, for the scene has changed since: 3 cases.".into()));
+    assert_eq!(of(true), (vec![0, 1, 4], "Dragon: left out, for the scene has changed since: 2 cases.".into()));
 }
 
 #[test]

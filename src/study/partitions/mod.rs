@@ -6,7 +6,7 @@ mod table;
 #[cfg(test)]
 mod tests;
 
-use super::args::{Measuring, QUICK_EPOCHS, Rays, Scenes, WORKLOADS, with_twin};
+use super::args::{Measuring, QUICK_EPOCHS, Rays, SLOWEST, Scenes, WORKLOADS, with_twin};
 use super::compare::compared;
 use super::epoch::{Epoch, Settings};
 use super::{Context, Data, Plan, SceneId, Study};
@@ -70,7 +70,7 @@ impl Study for PartitionsStudy {
         let structures = with_twin(structures(registry, &args.test, &keys)?);
         let scenes = args.scenes.read(&["dragon", "lucy", "sponza"])?;
         let settings = args.measuring.settings(registry, structures, args.rays.asked(&WORKLOADS))?;
-        let plan = Settings { slowest: 4.0, detailed: true, ..settings }.plan(scenes, args.measuring.epochs);
+        let plan = Settings { slowest: SLOWEST, detailed: true, ..settings }.plan(scenes, args.measuring.epochs);
         Ok(Plan { inputs: args.scenes.files(), ..plan })
     }
 

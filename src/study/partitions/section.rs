@@ -33,7 +33,7 @@ pub fn blocks(answer: &Partitions, command: &str) -> Vec<Block> {
     let mut blocks = vec![Block::Text(LEGEND.join(" "))];
     blocks.extend(all_scenes(answer).map(|table| Block::table(table, command)));
     for of_scene in answer.rows.chunk_by(|a, b| a.scene == b.scene) {
-        blocks.push(Block::Figure(figure(of_scene, command)));
+        blocks.push(Block::figure(figure(of_scene, command)));
         blocks.push(Block::table(table(of_scene), command));
     }
     blocks

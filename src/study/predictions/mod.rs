@@ -23,7 +23,7 @@ use super::plan::Measure;
 use super::replicate::original::main_scenes;
 use super::replicate::{self, ReplicateStudy};
 use super::scaling::{Growth, ScalingStudy};
-use super::{Answers, Context, Data, Plan, Study};
+use super::{Answers, Context, Data, Plan, Study, sources};
 use crate::measure::{Estimate, Interval, Threads};
 use crate::names::named_enum;
 use crate::registry::Registry;
@@ -73,7 +73,7 @@ impl Inputs {
         };
         let replicated = others.of::<ReplicateStudy>().map(|replication| replication.main.iter().map(main).collect());
         Self {
-            counted: newest(counted),
+            counted: counted.to_vec(),
             replicated: replicated.unwrap_or_default(),
             attribution: others.of::<AttributionStudy>().cloned().unwrap_or_default(),
             scaling: others.of::<ScalingStudy>().cloned().unwrap_or_default(),
@@ -87,12 +87,6 @@ impl Inputs {
 fn of_builtin(records: &[Record]) -> Vec<Record> {
     let is = |record: &&Record| BUILTIN.iter().any(|builtin| builtin.name == record.scene);
     records.iter().filter(is).cloned().collect()
-}
-
-/// The last case of every scene: what is counted on a scene is counted again when the scene changes.
-fn newest(cases: &[PictureCounts]) -> Vec<PictureCounts> {
-    let last = |(i, case): &(usize, &PictureCounts)| !cases[i + 1..].iter().any(|later| later.scene == case.scene);
-    cases.iter().enumerate().filter(last).map(|(_, case)| case.clone()).collect()
 }
 
 pub struct PredictionsStudy;
@@ -118,7 +112,7 @@ impl Study for PredictionsStudy {
 
     fn plan(_: &PredictionsArgs, registry: &Registry) -> anyhow::Result<Plan<PictureCounts>> {
         let scenes: Vec<Scene> =
-            main_scenes().into_iter().map(|name| Builtin::find(name)?.scene(None)).collect::<Result<_, _>>()?;
+            sources::wanted(&main_scenes()).map(|name| Builtin::find(name)?.scene(None)).collect::<Result<_, _>>()?;
         let threads = Threads::pinned(1).map_err(anyhow::Error::msg)?;
         let names: Vec<(String, String)> = scenes.iter().map(|scene| (scene.name.clone(), key(scene))).collect();
         let (registry, own) = (registry.clone(), threads.clone());

@@ -133,6 +133,10 @@ fn the_speedup_is_claimed_scene_by_scene_and_explained_by_counts() {
     let one = Inputs { attribution: vec![attributed("Lucy", false, 30.0, 2.0)], ..Inputs::default() };
     let one = verdicts(&prediction(&one, 5));
     assert_eq!(one, [NotMeasured, NotMeasured, Confirmed, Confirmed, NotMeasured, NotMeasured]);
+    // Of other rays than primary ones nothing was expected.
+    let shadow = attribution::Attribution { workload: "shadow".into(), ..attributed("Lucy", false, 3.0, 2.0) };
+    let shadow = Inputs { attribution: vec![shadow], ..Inputs::default() };
+    assert_eq!(verdicts(&prediction(&shadow, 5)), [NotMeasured; 6]);
 }
 
 #[test]

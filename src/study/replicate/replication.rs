@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::original::{HARD, HardRow, MAIN, SWEEP, t_prime};
 use crate::accel::Query;
-use crate::measure::{AaNoise, Estimate, Rerun, epoch_values, median};
+use crate::measure::{AaNoise, Estimate, Rerun, cut_to_shared_epochs, epoch_values, median};
 use crate::study::epoch::{self, Epoch, PICTURE, Structure, WholeTimes};
 use crate::study::parameters;
 
@@ -204,7 +204,10 @@ impl Replication {
             self.hard.iter().map(|hard| of(hard).iter().map(|&log| vec![log]).collect()).collect()
         };
         let noise = AaNoise::new(&cells(|hard| &hard.log_aa_ratios)).of_mean(self.hard.len());
-        let values = epoch_values(&cells(|hard| &hard.log_ratios));
+        let mut ratios = cells(|hard| &hard.log_ratios);
+        // What is not measured to its end has scenes that lack an epoch.
+        cut_to_shared_epochs(&mut ratios);
+        let values = epoch_values(&ratios);
         self.conclusion = Conclusion {
             scenes: self.hard.iter().map(|hard| hard.scene.clone()).collect(),
             sah_over_median: values.and_then(|values| Some(Rerun::of(&values, noise)?.ratio())),

@@ -43,6 +43,15 @@ fn the_conclusion_is_the_mean_of_the_hard_scenes() {
 }
 
 #[test]
+fn the_conclusion_is_of_the_epochs_that_all_hard_scenes_have() {
+    let mut result = Replication::default();
+    add(&mut result, Replication::add_hard, &epochs("Dragon", true, &[800, 100, 800])[..2]);
+    add(&mut result, Replication::add_hard, &epochs("Lucy", false, &[200, 100, 200])[..1]);
+    let whole = result.conclusion.sah_over_median.unwrap();
+    assert!((whole.estimate - 4.0).abs() < 1e-9 && whole.interval.is_none(), "{whole:?}");
+}
+
+#[test]
 fn what_is_said_of_the_hard_scenes_is_what_was_found() {
     let told = |tree: u64, sah: u64, twin: u64| {
         let mut result = Replication::default();

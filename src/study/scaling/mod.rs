@@ -73,10 +73,11 @@ impl Study for ScalingStudy {
         scenes.extend(meshes);
         let family = move |scene: usize| if scene < spheres { Family::Spheres } else { Family::Meshes };
         let wrap = move |scene, _: &Scene, epoch| Ok(FamilyEpoch { family: family(scene), epoch });
-        let takes_minutes: Vec<bool> = scenes.iter().map(|scene| scene.mesh.len() > LEVEL_8).collect();
+        let epochs = |scene: &Scene| Self::epochs(args.measuring.epochs.into(), scene.mesh.len());
+        let epochs: Vec<usize> = scenes.iter().map(epochs).collect();
         let mut plan = settings.plan_of(scenes, args.measuring.epochs, wrap);
         let all = plan.cases.len();
-        plan.cases.retain(|case| case.epoch < EPOCHS_OF_FINEST || !takes_minutes[case.scene]);
+        plan.cases.retain(|case| case.epoch < epochs[case.scene]);
         if plan.cases.len() < all {
             plan.notes.push(format!(
                 "Meshes of more than {} triangles are measured in {EPOCHS_OF_FINEST} epochs, for their builds take minutes.",
@@ -88,6 +89,10 @@ impl Study for ScalingStudy {
 
     fn epoch(case: &mut FamilyEpoch) -> Option<(&mut Epoch, usize)> {
         Some((&mut case.epoch, case.family as usize))
+    }
+
+    fn epochs(most: usize, triangles: usize) -> usize {
+        if triangles > LEVEL_8 { most.min(EPOCHS_OF_FINEST) } else { most }
     }
 
     fn answer(cases: &[FamilyEpoch], _: &Context<Self>) -> Vec<Growth> {

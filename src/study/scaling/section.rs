@@ -74,11 +74,11 @@ pub fn blocks(growths: &[Growth], command: &str) -> Vec<Block> {
     )];
     for group in growths.chunk_by(|a, b| a.family == b.family && a.workload == b.workload) {
         if group[0].family == Family::Spheres {
-            blocks.push(Block::Figure(figure(group, &TIME, command)));
+            blocks.push(Block::figure(figure(group, &TIME, command)));
             // Builds and memory do not know of rays.
             if group[0].workload == growths[0].workload {
-                blocks.push(Block::Figure(figure(group, &BUILD, command)));
-                blocks.push(Block::Figure(figure(group, &MEMORY, command)));
+                blocks.push(Block::figure(figure(group, &BUILD, command)));
+                blocks.push(Block::figure(figure(group, &MEMORY, command)));
             }
         }
     }

@@ -70,6 +70,10 @@ impl Study for ThreadsStudy {
         (cores() == 1).then_some("one core has no second one that its threads could be compared on")
     }
 
+    fn decided_here(args: &ThreadsArgs) -> Vec<String> {
+        if args.most.is_some() { vec![] } else { vec!["--most".into(), cores().to_string()] }
+    }
+
     fn plan(args: &ThreadsArgs, registry: &Registry) -> anyhow::Result<Plan<ThreadsEpoch>> {
         anyhow::ensure!(args.measuring.threads == 1, "every number of threads is measured: --most says up to which");
         let most = args.most.map_or_else(cores, usize::from);
@@ -92,8 +96,8 @@ impl Study for ThreadsStudy {
                         format!("epoch {} of {}: {}, {threads} threads", epoch + 1, args.measuring.epochs, scene.name);
                     // Each number of threads has first epochs of its own.
                     let scene_number = cases.len() % (scenes.len() * numbers.len());
-                    let process = Some(scene.name.clone());
-                    cases.push(Planned { key, title, scene: scene_number, epoch, work: 1, process });
+                    let loads = scene.name.clone();
+                    cases.push(Planned { key, title, scene: scene_number, epoch, work: 1, loads });
                 }
             }
         }

@@ -29,7 +29,7 @@ pub fn statements(speedups: &[Speedup]) -> Vec<Statement> {
 pub fn blocks(speedups: &[Speedup], command: &str) -> Vec<Block> {
     let mut blocks = vec![];
     for group in groups(speedups) {
-        blocks.push(Block::Figure(figure(&group, command)));
+        blocks.push(Block::figure(figure(&group, command)));
         blocks.push(Block::table(table(&group), command));
     }
     blocks

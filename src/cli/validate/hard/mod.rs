@@ -4,7 +4,6 @@ mod child;
 mod record;
 mod table;
 
-use std::collections::HashSet;
 use std::io;
 use std::path::Path;
 use std::sync::Mutex;
@@ -21,6 +20,7 @@ use crate::output::OutputFile;
 use crate::registry::{Choice, Registry};
 use crate::report::number::plural;
 use crate::report::to_json;
+use crate::report::words::each_once_by;
 use crate::study::Status;
 use crate::study::documented_defect;
 use crate::study::sources;
@@ -37,14 +37,13 @@ const CHILDREN: usize = 2;
 const MOST_RAYS: usize = 10_000;
 
 pub fn run(registry: &Registry, args: &Args, named: &[String], terminal: &Terminal) -> anyhow::Result<Status> {
-    let mut cases = if named.is_empty() {
+    let cases = if named.is_empty() {
         catalogue()
     } else {
         named.iter().map(|name| find_all(name)).collect::<Result<Vec<_>, _>>()?.concat()
     };
     // What is named twice, alone and with its family, counts once.
-    let mut seen = HashSet::new();
-    cases.retain(|case| seen.insert(case.name));
+    let cases = each_once_by(cases, |one, other| one.name == other.name);
     let structures = sources::structures_at(registry, &args.structure, args.quality.as_deref())?;
     let choices = choices(registry, structures, &args.test)?;
     let rays = u32::try_from(args.source().number()?.min(MOST_RAYS))?;
@@ -109,9 +108,7 @@ fn choices(registry: &Registry, structures: Vec<Choice>, tests: &[String]) -> an
         }
     }
     // Tests may be named twice, and a structure over the test that it is named with as well.
-    let mut seen = HashSet::new();
-    choices.retain(|choice| seen.insert(choice.label.clone()));
-    Ok(choices)
+    Ok(each_once_by(choices, |one, other| one.label == other.label))
 }
 
 /// Asks all structures, some at a time, and finds the truth meanwhile.

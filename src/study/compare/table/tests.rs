@@ -15,7 +15,7 @@ fn record(scene: &str, label: &str, workload: &str, mrays_per_s: Option<f64>) ->
         samples_ns: mrays_per_s.map_or(vec![], |speed| vec![5e5 / speed; 10]),
         epochs: 5,
         noise_floor: None,
-        structure_errors: Some(errors),
+        structure_errors: errors,
         ..example_record()
     }
 }
@@ -53,7 +53,7 @@ fn records() -> Vec<Record> {
 #[test]
 fn a_table_of_very_many_triangles_says_how_few_rays_were_checked() {
     let of = |triangles: usize, checked: usize| {
-        let many = |r: Record| Record { triangles, checked_rays: Some(checked), ..r };
+        let many = |r: Record| Record { triangles, checked_rays: checked, ..r };
         let records: Vec<Record> = records().into_iter().map(many).collect();
         let tables = [scene_table(&records, &[]), brief_table(&records, &Reference::of(&records, None), &[])];
         tables.map(|table| table.notes.concat())
@@ -84,7 +84,7 @@ fn ratios_are_geometric_means_against_the_tree_and_the_better_bvh() {
 fn what_is_declined_is_neither_right_nor_wrong() {
     let mut records = records();
     records[3] =
-        Record { mrays_per_s: None, declined: Some("any hit".into()), structure_errors: Some(0), ..records[3].clone() };
+        Record { mrays_per_s: None, declined: Some("any hit".into()), structure_errors: 0, ..records[3].clone() };
     let table = scene_table(&records, &[]);
     assert_eq!(cell(&table, "sah-kd", "random"), "declined");
     assert_eq!(cell(&table, "sah-kd", "x median"), "8.00", "of the workloads that it does not decline");
@@ -98,7 +98,7 @@ fn what_is_declined_is_neither_right_nor_wrong() {
 fn a_wrong_structure_shows_its_errors_and_no_time() {
     let mut records = records();
     records[2].mrays_per_s = None;
-    records[2].structure_errors = Some(3);
+    records[2].structure_errors = 3;
     let table = scene_table(&records, &[]);
     assert_eq!(cell(&table, "sah-kd", "primary"), "3/100 wrong");
     assert_eq!(cell(&table, "sah-kd", "x median"), "");
@@ -128,7 +128,7 @@ fn a_triangle_test_that_misses_what_is_hit_is_named() {
 fn a_documented_defect_of_a_baseline_is_named_and_gets_no_time_either() {
     let mut records = records();
     records[4].mrays_per_s = None;
-    records[4].structure_errors = Some(3);
+    records[4].structure_errors = 3;
     let table = scene_table(&records, &[]);
     assert_eq!(cell(&table, "obvhs-bvh2", "primary"), "3/100 wrong");
     assert_eq!(table.notes.len(), 1);
@@ -256,9 +256,12 @@ fn the_last_line_says_who_won_by_how_much() {
     assert_eq!(winner(&records(), Some("sah-kd")).unwrap().sentence, text);
     // What has no time in a case takes no part, and what is alone has not won.
     let mut some = records();
-    some[3] = Record { mrays_per_s: None, structure_errors: Some(2), ..some[3].clone() };
+    some[3] = Record { mrays_per_s: None, structure_errors: 2, ..some[3].clone() };
     let said = winner(&some, None).unwrap().sentence;
     assert!(said.contains("obvhs-cwbvh answers") && said.ends_with("some of the cases: 1 structure."), "{said}");
     assert!(said.contains("Wrong answers, and so no time: sah-kd (2 of 200 checked rays)."), "{said}");
     assert_eq!(winner(&records()[..2], None), None);
+    let unchecked: Vec<Record> = records().into_iter().map(|r| Record { checked_rays: 0, ..r }).collect();
+    let said = winner(&unchecked, None).unwrap().sentence;
+    assert!(said.contains("; the answers of sah-kd are not checked."), "{said}");
 }

@@ -3,14 +3,16 @@
 use super::{Bounds, Claim, prediction};
 use crate::report::number::figures;
 use crate::report::words::{listed, scene_name};
+use crate::scene::WorkloadKind;
 use crate::study::attribution::{Attribution, CellResult, HARD};
 use crate::study::predictions::{Inputs, Prediction, Verdict};
 
 const COMMAND: &str = "sahara study attribution dragon lucy sponza";
 
-/// The hard scene `name`: the real mesh or the stand-in.
+/// The hard scene `name`, the real mesh or the stand-in, on primary rays.
 fn form<'a>(inputs: &'a Inputs, name: &str, stand_in: bool) -> Option<&'a Attribution> {
-    inputs.attribution.iter().find(|r| r.stand_in == stand_in && r.scene == scene_name(name, stand_in))
+    let mut primary = inputs.attribution.iter().filter(|r| r.workload == WorkloadKind::Primary.name());
+    primary.find(|r| r.stand_in == stand_in && r.scene == scene_name(name, stand_in))
 }
 
 /// Said of scenes of which no real mesh was measured.

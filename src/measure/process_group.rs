@@ -1,0 +1,67 @@
+//! Programs that end with all that they have started.
+//!
+//! On Linux each is the first of a process group of its own, which is ended as a whole: Ctrl-C is told to this process
+//! alone, which ends its programs. Elsewhere a program is ended alone, and is told of Ctrl-C as well.
+
+use std::process::{Child, Command};
+
+#[cfg(target_os = "linux")]
+use nix::{
+    errno::Errno,
+    sys::signal::{Signal, killpg},
+    sys::wait::{Id, WaitPidFlag, WaitStatus, waitid},
+    unistd::Pid,
+};
+
+/// Has the program that `command` starts be the first of a group of its own.
+#[cfg(target_os = "linux")]
+pub fn set_apart(command: &mut Command) {
+    std::os::unix::process::CommandExt::process_group(command, 0);
+}
+
+#[cfg(not(target_os = "linux"))]
+pub fn set_apart(_: &mut Command) {}
+
+/// Whether a program has ended. It is still to be waited for.
+#[cfg(target_os = "linux")]
+pub fn has_ended(child: &mut Child) -> bool {
+    state(child) != Ok(WaitStatus::StillAlive)
+}
+
+#[cfg(not(target_os = "linux"))]
+pub fn has_ended(child: &mut Child) -> bool {
+    !matches!(child.try_wait(), Ok(None))
+}
+
+/// Ends a program that was [set apart](set_apart), and with it all that it has started, unless it has been waited for.
+pub fn end(child: &mut Child) {
+    // Until it has been waited for, its number is that of its own group and of no other.
+    #[cfg(target_os = "linux")]
+    if state(child) != Err(Errno::ECHILD) {
+        end_group(child.id());
+    }
+    let _ = child.kill();
+}
+
+/// Ends the programs that a process has started, each with its group.
+#[cfg(target_os = "linux")]
+pub fn end_started_by(process: u32) {
+    let threads = std::fs::read_dir(format!("/proc/{process}/task")).into_iter().flatten().flatten();
+    let children: String =
+        threads.filter_map(|thread| std::fs::read_to_string(thread.path().join("children")).ok()).collect();
+    children.split_whitespace().filter_map(|number| number.parse::<u32>().ok()).for_each(end_group);
+}
+
+/// Ends the group of a program, and those of the programs that it has started.
+#[cfg(target_os = "linux")]
+fn end_group(first: u32) {
+    end_started_by(first);
+    let _ = killpg(Pid::from_raw(first as i32), Signal::SIGKILL);
+}
+
+/// What has become of a program; an error once it has been waited for.
+#[cfg(target_os = "linux")]
+fn state(child: &Child) -> nix::Result<WaitStatus> {
+    let looks = WaitPidFlag::WEXITED | WaitPidFlag::WNOHANG | WaitPidFlag::WNOWAIT;
+    waitid(Id::Pid(Pid::from_raw(child.id() as i32)), looks)
+}

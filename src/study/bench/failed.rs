@@ -1,0 +1,9 @@
+/// Why the samples of a case mean nothing.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum Failed {
+    /// The structure panicked, or the program that it runs in failed: a clause.
+    #[error("{0}")]
+    Ended(String),
+    #[error("asked the same rays again, it gives other answers: the structure is not pure")]
+    Unsteady,
+}
