@@ -4,6 +4,7 @@ use std::io;
 use std::path::PathBuf;
 use std::time::Instant;
 
+use super::progress::Waiting;
 use super::study::{Common, RUNS, run_as};
 use super::{Session, interrupt};
 use crate::report::Table;
@@ -48,9 +49,10 @@ pub fn run(session: &Session, args: &Args) -> anyhow::Result<Status> {
         Common { dir: Some(args.dir.clone()), fresh: args.fresh, in_process: args.in_process, ..Common::default() };
     if !args.scenes.is_empty() {
         // What is not there is refused before the studies that have scenes of their own are measured.
+        let _waiting = Waiting::show("loads scenes".into(), terminal);
         sources::scenes(&args.scenes)?;
     }
-    let (mut outcome, mut has_failed) = (Status::Right, false);
+    let mut outcome = Status::Right;
     let (mut rows, mut notes) = (vec![], vec![]);
     let studies = suite.studies.in_order_of_measuring();
     for (i, study) in studies.iter().enumerate() {
@@ -74,7 +76,6 @@ pub fn run(session: &Session, args: &Args) -> anyhow::Result<Status> {
             return Ok(Status::Interrupted);
         }
         outcome = outcome.and(found);
-        has_failed |= found == Status::Failed;
         let words = match found {
             Status::Wrong => "wrong answers",
             Status::Failed => "failed",
@@ -88,19 +89,32 @@ pub fn run(session: &Session, args: &Args) -> anyhow::Result<Status> {
     // Without the cases that were measured before.
     let mut table = Table::of_texts(&title, ["study", "took this time", "answers", "journal"], rows);
     table.notes.append(&mut notes);
-    let left = if has_failed { "The same command tries again what failed." } else { "Nothing is left." };
-    table.notes.push(format!("{left} `sahara report {} -o OUT` makes the page.", args.dir.display()));
+    table.notes.push(format!("{} `sahara report {} -o OUT` makes the page.", left(outcome), args.dir.display()));
     terminal.print_table(&table)?;
     Ok(outcome)
 }
 
-/// Whether the next studies would fare no better: what is wrong is the folder of journals, or whoever reads what is printed.
+/// What there is still to be measured; scenes may have failed beside wrong answers, which weigh more.
+fn left(outcome: Status) -> &'static str {
+    match outcome {
+        Status::Failed => "The same command tries again what failed.",
+        Status::Wrong => "The same command tries again what failed, if anything has.",
+        _ => "Nothing is left.",
+    }
+}
+
+/// Whether the next studies would fare no better: nothing can be written into the folder of journals, or nobody reads
+/// what is printed.
 fn ends_all(error: &anyhow::Error) -> bool {
-    error.is::<JournalError>() || error.is::<io::Error>()
+    let of_journal = error.downcast_ref::<JournalError>();
+    error.is::<io::Error>() || matches!(of_journal, Some(JournalError::Write { .. } | JournalError::Place(_)))
 }
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+    use std::path::Path;
+
     use super::*;
     use crate::cli::Suite;
     use crate::cli::terminal::{Colour, Terminal};
@@ -108,14 +122,36 @@ mod tests {
     use crate::study::Studies;
     use crate::study::tests::Tiny;
 
-    #[test]
-    fn a_study_whose_scenes_fail_does_not_keep_the_next_one_from_being_measured() {
-        let folder = tempfile::tempdir().unwrap();
+    /// What becomes of a study whose scenes fail and one that is right.
+    fn found(folder: &Path) -> Status {
         let studies = Studies::empty().with::<Tiny<true>>().with::<Tiny<false>>();
         let suite = Suite { registry: Registry::empty(), studies };
         let session = Session { suite: &suite, terminal: &Terminal::new(Colour::Never, true), processes: None };
-        let args = Args { dir: folder.path().into(), fresh: false, in_process: true, quick: false, scenes: vec![] };
-        assert_eq!(run(&session, &args).unwrap(), Status::Wrong);
-        assert_eq!(std::fs::read_dir(folder.path().join("right")).unwrap().count(), 6);
+        let args = Args { dir: folder.into(), fresh: false, in_process: true, quick: false, scenes: vec![] };
+        run(&session, &args).unwrap()
+    }
+
+    #[track_caller]
+    fn is_measured(folder: &Path) {
+        assert_eq!(fs::read_dir(folder.join("right")).unwrap().count(), 6);
+    }
+
+    #[test]
+    fn a_study_whose_scenes_fail_does_not_keep_the_next_one_from_being_measured() {
+        let folder = tempfile::tempdir().unwrap();
+        let outcome = found(folder.path());
+        assert_eq!(outcome, Status::Wrong);
+        assert!(left(outcome).contains("what failed") && !left(Status::Right).contains("what failed"));
+        is_measured(folder.path());
+    }
+
+    #[test]
+    fn nor_does_a_folder_that_holds_something_else() {
+        let folder = tempfile::tempdir().unwrap();
+        let own = folder.path().join("failing");
+        fs::create_dir(&own).unwrap();
+        fs::write(own.join("foreign.json"), "{}").unwrap();
+        assert_eq!(found(folder.path()), Status::Failed);
+        is_measured(folder.path());
     }
 }

@@ -7,7 +7,7 @@ use clap::error::{ContextKind, ContextValue, ErrorKind};
 
 use super::interrupt;
 use crate::output::OutputError;
-use crate::study::Status;
+use crate::study::{Status, StudyError};
 
 /// One rule for all commands; what a baseline is known to get wrong is no fault of a run.
 pub(crate) const STATUSES: &str = "Exit status:
@@ -38,14 +38,20 @@ pub(super) fn of(found: anyhow::Result<Status>) -> ExitCode {
             Ok(message) => told(message),
             Err(error) => {
                 crate::output::tell(format_args!("error: {error:#}"));
-                ExitCode::from(1)
+                ExitCode::from(of_error(&error))
             }
         },
     }
 }
 
-/// Prints what the command line is told. Help and version are answers, not errors; a reader that has gone away is no error
-/// either.
+/// A wrong answer may be found as an error, where nothing else can be said of a run.
+fn of_error(error: &anyhow::Error) -> u8 {
+    let is_wrong = error.downcast_ref::<StudyError>().is_some_and(StudyError::is_wrong_answer);
+    if is_wrong { 2 } else { 1 }
+}
+
+/// Prints what the command line is told. Help and version are answers, not errors; a reader that has gone away is no
+/// error either.
 pub(super) fn told(message: clap::Error) -> ExitCode {
     let message = advised(message);
     let _ = message.print();
@@ -72,4 +78,16 @@ fn is_broken_pipe(error: &anyhow::Error) -> bool {
         _ => None,
     });
     error.downcast_ref::<io::Error>().or(of_file).is_some_and(|error| error.kind() == io::ErrorKind::BrokenPipe)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_error_that_is_a_wrong_answer_has_the_status_of_wrong_answers() {
+        let told = |wrong_answer| StudyError::Told { sentence: "why".into(), of_one_scene: true, wrong_answer };
+        assert_eq!([true, false].map(|wrong| of_error(&told(wrong).into())), [2, 1]);
+        assert_eq!(of_error(&anyhow::anyhow!("no such file")), 1);
+    }
 }

@@ -1,6 +1,10 @@
 //! Ctrl-C: a run that measures stops, shows and keeps what there is; all else ends at once, as does that run at the second one.
+//! So does everything at SIGTERM: `timeout` and schedulers, which send it, do not wait for what would be shown.
 
 use std::sync::atomic::{AtomicBool, Ordering};
+
+#[cfg(target_os = "linux")]
+use nix::sys::signal::{SigSet, Signal, raise};
 
 /// Exit status of what was interrupted, as shells have it.
 pub const STATUS: u8 = 130;
@@ -9,27 +13,36 @@ pub const STATUS: u8 = 130;
 static LISTENS: AtomicBool = AtomicBool::new(false);
 static ASKED: AtomicBool = AtomicBool::new(false);
 
-/// Waits for Ctrl-C in a thread of its own. To be called before there are others: they must not be interrupted in its place.
+/// Waits for both signals in a thread of its own. To be called before there are others: they must not be interrupted in
+/// its place.
 pub fn watch() {
     #[cfg(target_os = "linux")]
     {
-        use nix::sys::signal::{SigSet, Signal};
-        let mut signals = SigSet::empty();
-        signals.add(Signal::SIGINT);
+        let signals = SigSet::from_iter([Signal::SIGINT, Signal::SIGTERM]);
         if signals.thread_block().is_err() {
             return;
         }
         std::thread::spawn(move || {
-            while signals.wait().is_ok() {
-                if !LISTENS.load(Ordering::SeqCst) || ASKED.swap(true, Ordering::SeqCst) {
-                    crate::measure::process_group::end_started_by(std::process::id());
-                    std::process::exit(STATUS.into());
+            while let Ok(signal) = signals.wait() {
+                let may_stop = signal == Signal::SIGINT && LISTENS.load(Ordering::SeqCst);
+                if !may_stop || ASKED.swap(true, Ordering::SeqCst) {
+                    end_by(signal, signals);
                 }
                 crate::output::tell(format_args!("\nStops; Ctrl-C once more ends at once."));
                 crate::study::process::end();
             }
         });
     }
+}
+
+/// Ends the process with all that it has started, as if nobody had caught the signal: after a program that has, a shell
+/// goes on with the next line of its script.
+#[cfg(target_os = "linux")]
+fn end_by(signal: Signal, caught: SigSet) -> ! {
+    crate::measure::process_group::end_started_by(std::process::id());
+    let _ = caught.thread_unblock().and_then(|()| raise(signal));
+    // It was started with the signal ignored, as a shell starts what is to go on in the background.
+    std::process::exit(STATUS.into());
 }
 
 /// Whether the run is to stop.

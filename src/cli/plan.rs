@@ -2,6 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use clap::error::{ContextKind, ContextValue};
+
 use super::progress::Waiting;
 use super::study::RUNS;
 use super::{Session, chosen, command};
@@ -18,11 +20,13 @@ pub const NAME: &str = "plan";
 /// Options that write what came of a whole study.
 const OUTPUTS: [&str; 4] = ["--export-json", "--export-csv", "--export-markdown", "--plot"];
 
+const NO_SCENE: &str = "--scenes needs a scene: --scenes SCENE..";
+
 /// Print a study as jobs for a cluster: one command a line, each of which measures one case and writes one file
 #[derive(Clone, Debug, clap::Args)]
 pub struct Args {
     /// Studies, or `all`, as `study all` measures them [default: all]
-    #[arg(value_name = "NAME")]
+    #[arg(value_name = "NAME", allow_hyphen_values = true)]
     name: Option<String>,
     /// Folder of journals: each job writes DIR/NAME/CASE.json [default: runs]
     #[arg(long, value_name = "DIR")]
@@ -42,11 +46,17 @@ impl Args {
     /// What is asked for: the names of studies, and the options that are theirs. An option that is given twice is refused as clap refuses
     /// one before `rest`.
     fn split(&self) -> anyhow::Result<(Self, Vec<String>, Vec<String>)> {
-        let name = self.name.clone().unwrap_or_else(|| super::all::NAME.into());
-        let (mut own, mut names, mut options) = (self.clone(), vec![name], vec![]);
-        let mut rest = self.rest.iter().peekable();
+        let (mut own, mut names, mut options) = (self.clone(), vec![], vec![]);
+        // To clap options of the studies behind scenes are scenes, and the first one is a name where there is none.
+        let scenes = own.scenes.iter().take_while(|word| !word.starts_with('-')).count();
+        let behind = own.scenes.split_off(scenes);
+        anyhow::ensure!(scenes > 0 || behind.is_empty(), NO_SCENE);
+        let mut rest = self.name.iter().chain(&self.rest).chain(&behind).peekable();
         while let Some(word) = rest.next_if(|word| !word.starts_with('-')) {
             names.push(word.clone());
+        }
+        if names.is_empty() {
+            names.push(super::all::NAME.into());
         }
         while let Some(word) = rest.next() {
             match word.split_once('=').map_or((word.as_str(), None), |(name, value)| (name, Some(value))) {
@@ -65,7 +75,7 @@ impl Args {
                     while let Some(scene) = rest.next_if(|word| !word.starts_with('-')) {
                         own.scenes.push(scene.clone());
                     }
-                    anyhow::ensure!(own.scenes.len() > before, "--scenes needs a scene: --scenes SCENE..");
+                    anyhow::ensure!(own.scenes.len() > before, NO_SCENE);
                 }
                 _ => options.push(word.clone()),
             }
@@ -95,7 +105,7 @@ pub fn run(session: &Session, args: &Args, level: Option<Level>) -> anyhow::Resu
     let whole = named.len() < names.len();
     let studies = if whole { suite.studies.in_order_of_measuring() } else { named };
     let dir = args.dir.as_deref().unwrap_or(Path::new(RUNS));
-    let (mut lines, mut warnings) = (String::new(), vec![]);
+    let mut commands = vec![];
     // Two jobs of one case would write one file.
     for study in each_once_by(studies, |one, other| one.name() == other.name()) {
         if let Some(why) = study.cannot_be_measured_here().filter(|_| whole) {
@@ -105,11 +115,15 @@ pub fn run(session: &Session, args: &Args, level: Option<Level>) -> anyhow::Resu
         if !args.scenes.is_empty() && !study.names_scenes() {
             terminal.tell(&format!("{}: on scenes of its own, whatever --scenes names", study.name()));
         }
-        // As the job will read it.
-        let mut words = words(study, &args, whole, level, &options);
-        let parsed = command(&suite.studies).try_get_matches_from(&words)?;
+        // As the job will read it. What one study does not take is refused before scenes are loaded for another one.
+        let words = words(study, &args, whole, level, &options);
+        let parsed = command(&suite.studies).try_get_matches_from(&words);
+        let parsed = parsed.map_err(|error| refused(error, study.name(), args.quick || whole))?;
+        commands.push((study, words, study.args(chosen(&parsed)?)?));
+    }
+    let (mut lines, mut warnings) = (String::new(), vec![]);
+    for (study, mut words, own) in commands {
         let waiting = Waiting::show(format!("plans {}", study.name()), terminal);
-        let own = study.args(chosen(&parsed)?)?;
         let plan = study.plan(&*own, &suite.registry)?;
         drop(waiting);
         words.extend(study.decided_here(&*own));
@@ -139,6 +153,18 @@ fn words(study: &dyn AnyStudy, args: &Args, whole: bool, level: Option<Level>, o
     });
     words.extend(options.iter().cloned());
     words
+}
+
+/// What is wrong with the options of a study, with its name: they may be those of many.
+fn refused(mut error: clap::Error, study: &str, is_preset: bool) -> clap::Error {
+    let own = if is_preset { "; --quick and `all` bring options of their own" } else { "" };
+    let mut tips = match error.remove(ContextKind::Suggested) {
+        Some(ContextValue::StyledStrs(tips)) => tips,
+        _ => vec![],
+    };
+    tips.push(format!("these are options of the study {study}{own}").into());
+    error.insert(ContextKind::Suggested, ContextValue::StyledStrs(tips));
+    error
 }
 
 /// A line that a shell reads as the command with a job and a file.

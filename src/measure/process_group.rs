@@ -8,7 +8,7 @@ use std::process::{Child, Command};
 #[cfg(target_os = "linux")]
 use nix::{
     errno::Errno,
-    sys::signal::{Signal, killpg},
+    sys::signal::{Signal, kill, killpg},
     sys::wait::{Id, WaitPidFlag, WaitStatus, waitid},
     unistd::Pid,
 };
@@ -43,7 +43,7 @@ pub fn end(child: &mut Child) {
     let _ = child.kill();
 }
 
-/// Ends the programs that a process has started, each with its group.
+/// Ends the programs that a process has started, each with its group if it leads one.
 #[cfg(target_os = "linux")]
 pub fn end_started_by(process: u32) {
     let threads = std::fs::read_dir(format!("/proc/{process}/task")).into_iter().flatten().flatten();
@@ -52,11 +52,12 @@ pub fn end_started_by(process: u32) {
     children.split_whitespace().filter_map(|number| number.parse::<u32>().ok()).for_each(end_group);
 }
 
-/// Ends the group of a program, and those of the programs that it has started.
+/// Ends a program with its group, if it leads one, and likewise the programs that it has started.
 #[cfg(target_os = "linux")]
 fn end_group(first: u32) {
     end_started_by(first);
-    let _ = killpg(Pid::from_raw(first as i32), Signal::SIGKILL);
+    let first = Pid::from_raw(first as i32);
+    let _ = killpg(first, Signal::SIGKILL).or_else(|_| kill(first, Signal::SIGKILL));
 }
 
 /// What has become of a program; an error once it has been waited for.
@@ -64,4 +65,23 @@ fn end_group(first: u32) {
 fn state(child: &Child) -> nix::Result<WaitStatus> {
     let looks = WaitPidFlag::WEXITED | WaitPidFlag::WNOHANG | WaitPidFlag::WNOWAIT;
     waitid(Id::Pid(Pid::from_raw(child.id() as i32)), looks)
+}
+
+#[cfg(all(test, target_os = "linux"))]
+mod tests {
+    use std::io::{BufRead, BufReader};
+    use std::process::Stdio;
+
+    use super::*;
+
+    #[test]
+    fn a_program_that_leads_no_group_is_ended_as_well() {
+        let mut command = Command::new("sh");
+        command.args(["-c", "sleep 20 & echo; wait $!"]).stdout(Stdio::piped());
+        let mut shell = command.spawn().unwrap();
+        let mut line = String::new();
+        BufReader::new(shell.stdout.take().unwrap()).read_line(&mut line).unwrap();
+        end_started_by(shell.id());
+        assert_eq!(shell.wait().unwrap().code(), Some(128 + Signal::SIGKILL as i32), "what the shell says of it");
+    }
 }

@@ -82,8 +82,10 @@ struct Part<'a> {
 
 enum Holds {
     Export(Box<AnyAnswer>),
-    /// Cases of one build and machine; whether another set of them counts in its place.
-    Cases(Box<Group<Value>>, bool),
+    /// Cases of one build and machine.
+    Cases(Box<Group<Value>>),
+    /// Likewise, where another set of them counts in its place.
+    FewerCases(Box<Group<Value>>),
 }
 
 impl Runs {
@@ -141,9 +143,10 @@ impl Runs {
                 let path = group.files[0].path.parent().unwrap_or(Path::new(".")).into();
                 // The set with the most cases comes last. Of comparisons all machines are shown and of other studies one, of a machine
                 // one build.
-                let is_beside = |more: &Machine| study.name() == CompareStudy::NAME && *more != machines[place];
-                let is_less = machines[place + 1..].iter().any(|more| !is_beside(more));
-                parts.push(Part { modified, path, study, holds: Holds::Cases(Box::new(group), is_less) });
+                let replaces = |more: &Machine| study.name() != CompareStudy::NAME || *more == machines[place];
+                let is_replaced = machines[place + 1..].iter().any(replaces);
+                let holds = if is_replaced { Holds::FewerCases } else { Holds::Cases };
+                parts.push(Part { modified, path, study, holds: holds(Box::new(group)) });
             }
         }
         parts.sort_by(|a, b| (a.modified, &a.path).cmp(&(b.modified, &b.path)));
@@ -174,8 +177,8 @@ impl Runs {
         let Part { path, study, holds, .. } = part;
         match holds {
             Holds::Export(answer) => self.take(&path, study, *answer, None),
-            Holds::Cases(group, true) => self.note(&path, study.name(), &group.provenance.command, LESS),
-            Holds::Cases(group, false) => {
+            Holds::FewerCases(group) => self.note(&path, study.name(), &group.provenance.command, LESS),
+            Holds::Cases(group) => {
                 let Found { answer, notes } = study.read_cases(&group, &self.answers)?;
                 self.take(&path, study, answer, Some(&group.provenance));
                 let again = group.replaced.first().map(|path| {

@@ -294,6 +294,7 @@ fn the_picture_of_a_history_names_commits_and_marks_changes() {
     let points = curves.lines.iter().flat_map(|line| line.points.iter().map(move |point| (&*line.label, point)));
     let marked: Vec<(&str, f64)> = points.filter(|(_, point)| point.is_marked).map(|(label, p)| (label, p.x)).collect();
     assert_eq!(marked, [("sah-kd", 3.0)]);
+    assert!(figure.caption.contains("Rings"), "{}", figure.caption);
 }
 
 #[test]

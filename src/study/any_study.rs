@@ -97,8 +97,8 @@ pub trait AnyStudy: Send + Sync {
     /// # Errors
     /// As that.
     fn plan(&self, args: &dyn Any, registry: &Registry) -> anyhow::Result<Plan<Box<dyn AnyCase>>>;
-    /// [`Study::epochs`].
-    fn epochs(&self, most: usize, triangles: usize) -> usize;
+    /// [`Study::planned_epochs`].
+    fn planned_epochs(&self, most: usize, triangles: usize) -> usize;
     /// How its cases are read.
     fn reader(&self) -> Read<Box<dyn AnyCase>>;
     /// [`Study::answer`].
@@ -208,8 +208,8 @@ impl<S: Study> AnyStudy for Typed<S> {
         Ok(S::plan(own_args::<S>(args), registry)?.map(any_case::of::<S>))
     }
 
-    fn epochs(&self, most: usize, triangles: usize) -> usize {
-        S::epochs(most, triangles)
+    fn planned_epochs(&self, most: usize, triangles: usize) -> usize {
+        S::planned_epochs(most, triangles)
     }
 
     fn reader(&self) -> Read<Box<dyn AnyCase>> {

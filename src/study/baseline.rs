@@ -60,7 +60,12 @@ impl<'a> Run<'a> {
             self.epochs.push(measured);
             screen.done();
         }
-        self.joined().failures.pop().map_or(Ok(()), Err)
+        let mut failures = self.joined().failures;
+        // One of them ends the run, a wrong answer if there is any; the others are told.
+        failures.sort_by_key(StudyError::is_wrong_answer);
+        let last = failures.pop();
+        screen.warn(&failures.iter().map(ToString::to_string).collect::<Vec<_>>());
+        last.map_or(Ok(()), Err)
     }
 
     fn joined(&self) -> Joined<Epoch> {
@@ -134,8 +139,8 @@ pub fn new_baseline_path(folder: &Path, name: &str) -> Result<PathBuf, BaselineE
     Ok(path)
 }
 
-/// Whether a run of `provenance` may take the place of the baseline `name`: one of another machine, which nothing here can measure again, is
-/// kept. What is no baseline may be replaced.
+/// Whether a run of `provenance` may take the place of the baseline `name`: one of another machine, which nothing here
+/// can measure again, is kept. What is no baseline may be replaced.
 ///
 /// # Errors
 /// If there is one of another machine.
@@ -175,8 +180,8 @@ fn known(folder: &Path) -> String {
     if names.is_empty() { "save one with --save-baseline".into() } else { format!("there are: {}", names.join(", ")) }
 }
 
-/// Holds a run against a baseline of the same cases. `refused` are the structures that could not take part: that they are missing is
-/// found, not refused. `looks` as in [`Comparison::new`].
+/// Holds a run against a baseline of the same cases. `refused` are the structures that could not take part: that they
+/// are missing is found, not refused. `looks` as in [`Comparison::new`].
 ///
 /// # Errors
 /// If the two are [unlike], or one has cases that the other has not.
@@ -233,7 +238,8 @@ mod tests {
         let old = [record("a"), record("b")];
         let mut run = Compared { records: vec![record("a")], ..Compared::default() };
         assert!(matches!(against(&old, &run, None, 1), Err(BaselineError::Old(case)) if case.starts_with("b on ")));
-        run.refused.push(Refused { label: "b".into(), scene: record("b").scene, reason: "it panicked".into() });
+        let (scene, reason) = (record("b").scene, "it panicked".into());
+        run.refused.push(Refused { label: "b".into(), scene, reason, wrong: false });
         assert_eq!(outcome(&against(&old, &run, None, 1).unwrap()), Status::Refused);
         assert!(matches!(
             against(&old[..1], &Compared { records: old.to_vec(), ..Compared::default() }, None, 1),

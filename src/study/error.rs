@@ -1,15 +1,13 @@
-use super::bench::failed::Failed;
 use super::journal::JournalError;
 use crate::accel::BuildError;
 use crate::registry::ChoiceError;
+use crate::report::number::plural;
 
 /// Why a study cannot go on.
 #[derive(Debug, thiserror::Error)]
 pub enum StudyError {
     #[error("{structure} cannot be built over {scene}: {cause}")]
     Build { structure: String, scene: String, cause: BuildError },
-    #[error("{structure} on {scene}: {cause}")]
-    Failed { structure: String, scene: String, cause: Failed },
     #[error(
         "{scene}: {structures} structures at once need about {needed:.0} GB, and there are {there:.0} GB of memory: \
          name {}a smaller scene",
@@ -44,9 +42,12 @@ pub enum StudyError {
     Journal(#[from] JournalError),
 }
 
+/// What epochs differ in, where one of them has wrong [answers](StudyError::Apart).
+pub const ANSWERS: &str = "the answers";
+
 /// What to name where so many structures fit into memory, before what else helps.
 fn fewer(most: usize) -> String {
-    if most == 0 { String::new() } else { format!("at most {most} structures with -s, or ") }
+    if most == 0 { String::new() } else { format!("at most {}, or ", plural(most, "structure")) }
 }
 
 impl StudyError {
@@ -68,9 +69,8 @@ impl StudyError {
     pub fn is_wrong_answer(&self) -> bool {
         matches!(
             self,
-            Self::Apart { .. }
+            Self::Apart { what: ANSWERS, .. }
                 | Self::Disagree { .. }
-                | Self::Failed { cause: Failed::Unsteady, .. }
                 | Self::Missing { wrong: true, .. }
                 | Self::Told { wrong_answer: true, .. }
         )

@@ -29,7 +29,8 @@ impl dyn AnyStudy + '_ {
         // As they come from many machines in no order: small scenes first.
         cases.sort_by_key(|(triangles, _)| *triangles);
         let mut cases: Vec<Box<dyn AnyCase>> = cases.into_iter().map(|(_, case)| case).collect();
-        let missing = missing(&mut cases, |case| case.epoch(), |most, triangles| self.epochs(most, triangles));
+        let planned = |most, triangles| self.planned_epochs(most, triangles);
+        let missing = missing(&mut cases, |case| case.epoch(), planned);
         let joined = join(cases, |case| case.epoch(), self.is_whole());
         let failures = joined.failures.iter().map(|failure| format!("{failure}; the scene is left out."));
         // Times of different cases may be of different hosts, which one processor does not make alike.

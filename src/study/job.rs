@@ -33,9 +33,8 @@ impl Job {
     /// # Errors
     /// If there is none.
     pub fn find<'a, C>(&self, plan: &'a Plan<C>) -> Result<&'a Planned, StudyError> {
-        let cause = || {
-            "its scene, or the number of cores, is not what it was when the run was planned: plan it anew".to_owned()
-        };
+        let cause =
+            || "its scene is not what it was when it was planned: plan it anew (Snakemake: remove plan.txt)".to_owned();
         let found = plan.cases.iter().find(|case| case.key == self.key);
         found.ok_or_else(|| StudyError::Job { key: self.key.clone(), cause: cause() })
     }
@@ -67,8 +66,8 @@ impl dyn AnyStudy + '_ {
     /// What a process with a job and a file does: measures the case and writes it, unless it is there.
     ///
     /// # Errors
-    /// As [`Study::plan`](super::Study::plan), and if the file cannot be written or holds anything else, there are fewer cores than
-    /// threads, or nothing can be measured: then it is as it was.
+    /// As [`Study::plan`](super::Study::plan), and if the file cannot be written or holds anything else, there are
+    /// fewer cores than threads, or nothing can be measured: then it is as it was.
     pub fn write_job(
         &self,
         chosen: Chosen,

@@ -1,7 +1,7 @@
 //! Studies: each asks a question, measures cases and answers with tables.
 //!
-//! A study is one file or folder that implements [`Study`], and one line in [`Studies::builtin`]. The command, `study all` and
-//! the page of `sahara report` walk that list.
+//! A study is one file or folder that implements [`Study`], and one line in [`Studies::builtin`]. The command,
+//! `study all` and the page of `sahara report` walk that list.
 
 pub mod accuracy;
 mod answers;
@@ -87,7 +87,8 @@ pub trait Study: 'static {
     const NAME: &'static str;
     /// What it asks, in one sentence.
     const QUESTION: &'static str;
-    /// Whether the tables of a scene do not depend on the other scenes: they are printed as soon as the scene is measured.
+    /// Whether the tables of a scene do not depend on the other scenes: they are printed as soon as the scene is
+    /// measured.
     const SCENE_BY_SCENE: bool = false;
     /// Whether a journal is kept in the folder `runs` where no other is named.
     const KEPT: bool = true;
@@ -95,11 +96,13 @@ pub trait Study: 'static {
     const LAST: bool = false;
     /// Whether a scene is nothing without a time of each of its structures: it is left out then.
     const WHOLE: bool = false;
-    /// Whether it shows a scene with a stand-in beside the same one with its real mesh. Elsewhere the one that was measured last counts.
+    /// Whether it shows a scene with a stand-in beside the same one with its real mesh. Elsewhere the one that was
+    /// measured last counts.
     const BOTH_MESHES: bool = false;
     /// Draws what `--plot` writes, where the answer has a picture.
     const PLOT: Option<fn(&Self::Answer) -> Figure> = None;
-    /// What `study all` measures, in words of the command line: scenes, which others may take the place of, then options.
+    /// What `study all` measures, in words of the command line: scenes, which others may take the place of, then
+    /// options.
     const FULL: &'static str = "";
     /// Likewise `study all --quick`.
     const QUICK: &'static str = "";
@@ -116,12 +119,14 @@ pub trait Study: 'static {
         format!("sahara study {}{}", Self::NAME, if Self::KEPT { "" } else { " --dir runs" })
     }
 
-    /// Why `study all` and its plan leave it out on this machine, in a sentence without the study's name; nothing where they do not.
+    /// Why `study all` and its plan leave it out on this machine, in a sentence without the study's name; nothing where
+    /// they do not.
     fn cannot_be_measured_here() -> Option<&'static str> {
         None
     }
 
-    /// What this machine decides and another one would decide otherwise, in words of the command line: a plan says it to its jobs.
+    /// What this machine decides and another one would decide otherwise, in words of the command line: a plan says it
+    /// to its jobs.
     fn decided_here(_: &Self::Args) -> Vec<String> {
         vec![]
     }
@@ -132,15 +137,16 @@ pub trait Study: 'static {
     /// If the options name what is not there.
     fn plan(args: &Self::Args, registry: &Registry) -> anyhow::Result<Plan<Self::Case>>;
 
-    /// The epoch that a case holds, and the number of its series where a scene has several: without a rule of its own the case itself,
-    /// where that is an epoch. Before there is an answer the epochs of each series are [joined](epoch::join).
+    /// The epoch that a case holds, and the number of its series where a scene has several: without a rule of its own
+    /// the case itself, where that is an epoch. Before there is an answer the epochs of each series are
+    /// [joined](epoch::join).
     fn epoch(case: &mut Self::Case) -> Option<(&mut Epoch, usize)> {
         let case: &mut dyn Any = case;
         case.downcast_mut().map(|epoch| (epoch, 0))
     }
 
     /// Epochs that are planned of a scene of so many triangles, where no scene has more than `most`.
-    fn epochs(most: usize, _: usize) -> usize {
+    fn planned_epochs(most: usize, _triangles: usize) -> usize {
         most
     }
 
@@ -181,12 +187,12 @@ pub trait Study: 'static {
         vec![]
     }
 
-    /// The answer as tables for machines. The first one is written by `--export-csv`. The page shows the study as not measured
-    /// where all of them are empty.
+    /// The answer as tables for machines. The first one is written by `--export-csv`. The page shows the study as not
+    /// measured where all of them are empty.
     fn data(answer: &Self::Answer) -> Vec<Data>;
 
-    /// What was found, in sentences that the data choose and fill in, the most important first. The page, the paper and README print
-    /// them.
+    /// What was found, in sentences that the data choose and fill in, the most important first. The page, the paper and
+    /// README print them.
     fn statements(_: &Self::Answer) -> Vec<Statement> {
         vec![]
     }
@@ -214,8 +220,8 @@ pub trait Study: 'static {
         None
     }
 
-    /// Adds a newer answer to an older one, and tells whether some of the older one is replaced. Without a rule of its own all
-    /// of it is.
+    /// Adds a newer answer to an older one, and tells whether some of the older one is replaced. Without a rule of its
+    /// own all of it is.
     fn merge(old: &mut Self::Answer, new: Self::Answer) -> bool {
         *old = new;
         true
@@ -269,7 +275,8 @@ impl Data {
         Self { name, rows: rows.iter().map(row).collect() }
     }
 
-    /// One row for each item of the lists `inner` of `outer`: these `fields` of what holds the list, then those of the item.
+    /// One row for each item of the lists `inner` of `outer`: these `fields` of what holds the list, then those of the
+    /// item.
     pub fn nested(name: &'static str, outer: &[impl Serialize], fields: &[&str], inner: &str) -> Self {
         let mut rows = vec![];
         for outer in Self::new(name, outer).rows {

@@ -125,11 +125,12 @@ pub fn scene_key(scene: &Scene) -> String {
 /// Digits of the hash of a scene in keys.
 const HASH: usize = 16;
 
-/// The name of the scene and the hash in a key that begins with them, as [`scene_key`] does.
+/// The name of the scene and the hash in a key that begins with them, as [`scene_key`] does. A name may hold what looks
+/// like a hash: the last such word is the hash.
 pub fn scene_of_key(key: &str) -> Option<(&str, &str)> {
     let is_hash = |word: &&str| word.len() == HASH && word.bytes().all(|byte| byte.is_ascii_hexdigit());
     let hash = |at: usize| key[at + 1..].split(' ').next().filter(is_hash);
-    key.match_indices(' ').find_map(|(at, _)| Some((&key[..at], hash(at)?)))
+    key.rmatch_indices(' ').find_map(|(at, _)| Some((&key[..at], hash(at)?)))
 }
 
 /// Notes `of` scenes, each with the name of its scene.
@@ -155,10 +156,12 @@ mod tests {
 
     #[test]
     fn the_scene_of_a_key_is_found_again() {
-        let scene = Scene { name: "my mesh".into(), ..Builtin::find("cube").unwrap().scene(None).unwrap() };
-        let (key, hash) = (scene_key(&scene), scene.hash());
-        let expected = Some(("my mesh", &hash[..16]));
-        assert_eq!((scene_of_key(&key), scene_of_key(&format!("{key} epoch 0"))), (expected, expected));
+        for name in ["my mesh", "scan 0123456789abcdef of it"] {
+            let scene = Scene { name: name.into(), ..Builtin::find("cube").unwrap().scene(None).unwrap() };
+            let (key, hash) = (scene_key(&scene), scene.hash());
+            let expected = Some((name, &hash[..16]));
+            assert_eq!((scene_of_key(&key), scene_of_key(&format!("{key} epoch 0"))), (expected, expected));
+        }
         assert_eq!(scene_of_key("r=10 @1e5"), None);
     }
 }

@@ -9,6 +9,6 @@ pub enum Stage<'a> {
     Check(&'a str),
     /// So many samples of so many are taken.
     Trace(usize, usize),
-    /// All samples are taken. What is done for rays is being counted: nothing is timed any more.
+    /// All samples of the first epoch are taken. What is done for rays is being counted: nothing is timed any more.
     Count,
 }

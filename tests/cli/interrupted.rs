@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::fs;
 use std::io::{BufRead, BufReader, Read};
+use std::os::unix::process::ExitStatusExt;
 use std::path::{Path, PathBuf};
 use std::process::{Child, ChildStdout, Command, Stdio};
 use std::thread;
@@ -133,6 +134,13 @@ fn a_journal_that_was_interrupted_is_only_added_to() {
     assert!(whole.len() == CASES && kept.iter().all(|(path, bytes)| whole.get(path) == Some(bytes)));
 }
 
+/// A process ends at once, as if nobody had caught the signal: a shell ends its script then.
+#[track_caller]
+fn ends_by(signal: Signal, child: &mut Child) {
+    kill(Pid::from_raw(child.id() as i32), signal).unwrap();
+    assert_eq!(child.wait().unwrap().signal(), Some(signal as i32));
+}
+
 #[test]
 fn a_job_ends_at_once_and_leaves_nothing() {
     let folder = tempfile::tempdir().unwrap();
@@ -143,8 +151,7 @@ fn a_job_ends_at_once_and_leaves_nothing() {
     let (mut reader, mut said) = (BufReader::new(child.stderr.take().unwrap()), String::new());
     reader.read_line(&mut said).unwrap();
     assert_eq!(said, "measures attribution, epoch 2 of 2: Sphere\n");
-    kill(Pid::from_raw(child.id() as i32), Signal::SIGINT).unwrap();
-    assert_eq!(child.wait().unwrap().code(), Some(130));
+    ends_by(Signal::SIGINT, &mut child);
     assert_eq!(fs::read_dir(file(&lines[1]).parent().unwrap()).unwrap().count(), 0);
 }
 
@@ -160,11 +167,12 @@ fn what_a_runner_has_started_ends_with_the_run() {
 fn a_runner_that_does_not_answer_ends_with_the_command() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().canonicalize().unwrap();
-    let mut child = compare(&path, &["--runner", "sh -c 'echo here >&2; sleep 600; exit'"]).spawn().unwrap();
-    let mut said = String::new();
-    BufReader::new(child.stderr.take().unwrap()).read_line(&mut said).unwrap();
-    assert_eq!(said, "here\n");
-    kill(Pid::from_raw(child.id() as i32), Signal::SIGINT).unwrap();
-    assert_eq!(child.wait().unwrap().code(), Some(130));
-    is_left(&path);
+    for signal in [Signal::SIGINT, Signal::SIGTERM] {
+        let mut child = compare(&path, &["--runner", "sh -c 'echo here >&2; sleep 600; exit'"]).spawn().unwrap();
+        let mut said = String::new();
+        BufReader::new(child.stderr.take().unwrap()).read_line(&mut said).unwrap();
+        assert_eq!(said, "here\n");
+        ends_by(signal, &mut child);
+        is_left(&path);
+    }
 }

@@ -1,6 +1,7 @@
 //! `study plan`: jobs that need each other in nothing, one file each, and what becomes of them.
 
 use std::fs;
+use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
@@ -122,8 +123,11 @@ fn what_cannot_be_planned_is_one_sentence() {
     refuses_in_a_line(&["study", "plan", "attribution", "costs", "--scenes"], &["--scenes SCENE"]);
     refuses_in_a_line(&["study", "plan", "attribution", "--scenes", "cube", "--dir", "a\tb"], &["tab"]);
     refuses(&["study", "plan", "attribution", "--quick", "--epoch", "3"], &["--epoch"]);
-    // An option that is given twice, wherever it stands.
+    // An option that is given twice, wherever it stands; one of them may be of the preset.
     let twice = "cannot be used multiple times";
+    let preset = "bring options of their own";
+    refuses(&["study", "plan", "attribution", "--quick", "--epochs", "3"], &["--epochs", twice, "attribution", preset]);
+    refuses(&["study", "plan", "--no-such-option", "64"], &["--no-such-option", preset]);
     refuses(&["study", "plan", "counts", "--dir", "a", "--dir", "b"], &["--dir", twice]);
     for line in ["--dir a counts costs --dir=b", "counts costs --dir a --dir b"] {
         let options: Vec<&str> = line.split(' ').collect();
@@ -293,8 +297,10 @@ fn of_two_jobs_at_one_file_one_wins_and_both_are_content() {
     let both = [0, 1].map(|_| job(&lines[0]).spawn().unwrap());
     let both = both.map(|child| child.wait_with_output().unwrap());
     assert!(both.iter().all(|output| output.status.code() == Some(RIGHT)), "{both:?}");
-    let is_first = |output: &&Output| !stderr(output).contains("case");
-    assert!(both.iter().filter(is_first).count() <= 1, "{both:?}");
+    let is_other = |output: &&Output| {
+        ["holds this case already", "its case is kept"].iter().any(|part| stderr(output).contains(part))
+    };
+    assert_eq!(both.iter().filter(is_other).count(), 1, "{both:?}");
     assert_eq!(fs::read_dir(folder.path().join("attribution")).unwrap().count(), 1);
     assert_eq!(json(file(&lines[0]))["study"], "attribution");
 }
@@ -304,7 +310,9 @@ fn a_job_that_is_killed_leaves_no_result() {
     let folder = TempDir::new().unwrap();
     let lines = plan(folder.path(), &[&SMALL[..], &["--scenes", "sphere"]].concat());
     let mut child = job(&lines[0]).spawn().unwrap();
-    std::thread::sleep(std::time::Duration::from_millis(300));
+    let mut said = String::new();
+    BufReader::new(child.stderr.take().unwrap()).read_line(&mut said).unwrap();
+    assert!(said.starts_with("measures "), "{said}");
     child.kill().unwrap();
     child.wait().unwrap();
     assert!(cases(folder.path(), "attribution").is_empty());
@@ -374,6 +382,8 @@ fn a_plan_takes_no_option_that_writes_what_came_of_a_study() {
     for option in [&["--export-json", "x.json"][..], &["--export-csv=x.csv"], &["--plot", "x.svg"]] {
         refuses_in_a_line(&[&["study", "plan"], &SMALL[..], option].concat(), &["--", "once all jobs are done"]);
     }
+    let after_scenes = ["study", "plan", "attribution", "--scenes", "cube", "--plot", "x.svg"];
+    refuses_in_a_line(&after_scenes, &["--plot", "once all jobs are done"]);
     // A job that finds its case measures nothing, whatever is asked.
     refuses_in_a_line(&[&["study", "plan"], &SMALL[..], &["--fresh"]].concat(), &["--fresh", "--dir"]);
 }

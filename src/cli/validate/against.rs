@@ -19,6 +19,10 @@ use crate::validate::{Reference, Validation};
 pub const ASKED: usize = 10_000;
 const TESTS: usize = 1 << 33;
 
+/// Likewise for the rays of a file, as a power of two: more, about two minutes of them, since somebody has asked for
+/// these rays.
+const FILE_TESTS: u32 = 36;
+
 /// Triangle tests after which brute force says how far it has come: a second's, about.
 const TOLD: usize = 1 << 29;
 
@@ -65,30 +69,30 @@ impl Against {
 
     /// How many rays of a scene of so many triangles are asked where nobody says.
     pub fn affordable(&self, triangles: usize) -> usize {
-        self.most(triangles).min(ASKED)
+        self.most(triangles, TESTS).min(ASKED)
     }
 
     /// The rays of a file that are asked, all or some evenly spread, each with what belongs to it; and what is to be said where they are
     /// not all.
     pub fn sample<T: Copy>(&self, recorded: &[T], triangles: usize) -> (Vec<T>, Option<String>) {
-        let asked = spread(recorded, self.most(triangles));
+        let asked = spread(recorded, self.most(triangles, 1 << FILE_TESTS));
         let note = (asked.len() < recorded.len()).then(|| {
             let [some, all] = [asked.len(), recorded.len()].map(|rays| count(rays as u64));
             format!(
-                "{some} of the {all} rays of the file, evenly spread, since brute force would take minutes for all: --against {SAH_TREE} \
-                 asks all"
+                "{some} of the {all} rays of the file, evenly spread, since brute force would make more than 2^{FILE_TESTS} triangle tests for \
+                 all: --against {SAH_TREE} asks all"
             )
         });
         (asked, note)
     }
 
-    /// Rays beyond which brute force, which holds every one against every triangle, would take minutes.
-    fn most(&self, triangles: usize) -> usize {
+    /// Rays for which brute force, which holds every one against every triangle, makes no more than so many tests.
+    fn most(&self, triangles: usize, tests: usize) -> usize {
         let is_brute_force = match self {
             Self::SameTest => true,
             Self::Structure(choice) => choice.entry.name == BRUTE_FORCE,
         };
-        if is_brute_force { (TESTS / triangles.max(1)).max(1) } else { usize::MAX }
+        if is_brute_force { (tests / triangles.max(1)).max(1) } else { usize::MAX }
     }
 
     /// Whether the answers are wrong: with their depths judged strictly where what they are held against was chosen for its answers.
@@ -189,8 +193,8 @@ mod tests {
         for against in [&brute, &exact] {
             assert_eq!(against.sample(&recorded, 12), (recorded.clone(), None));
             let (asked, note) = against.sample(&recorded, 10_000_000);
-            assert!(asked.len() == 858 && asked.is_sorted() && asked[857] > 19_900, "{asked:?}");
-            assert!(note.is_some_and(|note| note.starts_with("858 of the 20,000 rays")));
+            assert!(asked.len() == 6871 && asked.is_sorted() && asked[6870] > 19_900, "{asked:?}");
+            assert!(note.is_some_and(|note| note.starts_with("6,871 of the 20,000 rays") && note.contains("2^36")));
         }
         assert_eq!(tree.sample(&recorded, 10_000_000), (recorded, None));
     }

@@ -118,9 +118,10 @@ fn figure(series: &Series, command: &str) -> Figure {
     let x_names = series.runs.iter().map(|run| short(&run.provenance.commit)).collect();
     let curves = Curves::logarithmic("commit of the run, the oldest first", y_title, lines);
     let curves = Curves { x_scale: Scale::Linear, x_names, ..curves };
+    let rings = if series.changes.is_empty() { "" } else { " Rings: changes that are real." };
     Figure {
         id: format!("history-{}", slug(&series.runs[0].baseline)),
-        caption: format!("{}: speed of each kept run, with its interval. Rings: changes that are real.", name(series)),
+        caption: format!("{}: speed of each kept run, with its interval.{rings}", name(series)),
         alt: format!("Line chart over {}. In the last one: {}.", plural(last + 1, "run"), told.join("; ")),
         command: command.into(),
         art: Art::Chart(Chart::Curves(curves)),

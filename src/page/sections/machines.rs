@@ -39,9 +39,10 @@ pub fn section(runs: &Runs) -> Option<Section> {
     let commands: Vec<String> = commands.collect();
     let command = distinct(commands.iter()).join("\n");
 
-    // As many machines as have something in common: of all of them, one could leave nothing.
+    // Several machines, with as many times beside each other as there can be: of all of them, one could leave nothing.
     let sets = all.iter().rev().map(|&first| sharing(first, &all));
-    let (machines, common) = sets.max_by_key(|(machines, _)| machines.len())?;
+    let (machines, common) =
+        sets.max_by_key(|(machines, common)| (machines.len() > 1, machines.len() * common.len()))?;
     let ranks = machines.iter().map(|one| ranks(&of_cases(one, machines[0], &common)));
     let ranks = ranks.collect::<Option<Vec<Ranks>>>().filter(|ranks| ranks.len() > 1);
     let mut blocks = match ranks {
@@ -85,7 +86,9 @@ fn sharing<'a>(first: &'a OfMachine, all: &[&'a OfMachine]) -> (Vec<&'a OfMachin
     let mut machines = vec![first];
     for (one, own) in others {
         let shared: BTreeSet<Case> = own.intersection(&common).copied().collect();
-        if [first, one].iter().all(|own| ranks(&of_cases(own, first, &shared)).is_some()) {
+        // One that timed a few of the cases would leave only these of all others.
+        let is_enough = 2 * shared.len() >= common.len();
+        if is_enough && [first, one].iter().all(|own| ranks(&of_cases(own, first, &shared)).is_some()) {
             machines.push(one);
             common = shared;
         }

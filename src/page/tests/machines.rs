@@ -159,6 +159,21 @@ fn a_machine_of_other_scenes_is_named_and_the_others_stand_side_by_side() {
 }
 
 #[test]
+fn a_machine_with_a_few_of_the_cases_does_not_keep_the_others_from_being_shown() {
+    let both = |cpu: &str| on(cpu, 1.0, [records_of("Dragon"), records_of("Cube")].concat());
+    let mut few = on("Third", 1.0, records_of("Cube"));
+    let kind = few[0].workload.clone();
+    few.retain(|record| record.workload == kind);
+    let runs = runs_of(&[("a.json", both("One")), ("b.json", both("Other")), ("c.json", few.clone())]);
+    let text = format!("{:?}", section(&runs).unwrap());
+    assert!(text.contains("Over 12 cases") && text.contains("Not beside them"), "{text}");
+    // Beside one machine alone they are better than nothing.
+    let runs = runs_of(&[("a.json", both("One")), ("b.json", few)]);
+    let text = format!("{:?}", section(&runs).unwrap());
+    assert!(text.contains("Over 3 cases") && text.contains("Left out: 9 cases"), "{text}");
+}
+
+#[test]
 fn a_study_of_another_machine_says_so() {
     let files = |cpu: &str| {
         let files = [exported(&on(cpu, 1.0, records_of("Cube"))), accuracy("Cube")].concat();

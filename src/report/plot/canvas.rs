@@ -149,6 +149,11 @@ impl Canvas<'_> {
     pub fn dot(&self, centre: [f64; 2], radius: f64, colour: Colour, filled: bool) {
         let inside = if filled { colour } else { PAPER.light };
         self.area.circle(at(&centre), pixels(radius), inside.filled());
+        self.ring(centre, radius, colour);
+    }
+
+    /// A circle with nothing in it.
+    pub fn ring(&self, centre: [f64; 2], radius: f64, colour: Colour) {
         self.area.circle(at(&centre), pixels(radius), colour.stroke_width(pixels(2.0) as u32));
     }
 

@@ -125,7 +125,10 @@ impl Curves {
         let [x_range, y_range] = self.ranges();
         let trial = Axis::new(self.y_scale, y_range, [height - BOTTOM, TOP]);
         let left = widest(&mut trial.ticks_up().iter().map(|(_, text)| text)) + 12.0;
-        let right = width - if beside { widest(&mut names.iter()) + 20.0 } else { 12.0 };
+        // The last name on the axis stands in the middle below the last value.
+        let last = 0.5 * widest(&mut self.x_names.iter()) + 2.0;
+        let beside_axes = if beside { widest(&mut names.iter()) + 20.0 } else { 12.0 };
+        let right = width - beside_axes.max(last);
         let (x, y) = (Axis::new(self.x_scale, x_range, [left, right]), trial);
 
         canvas.text(&self.y_title, [2.0, 10.0], canvas::SMALL, MIDDLE.light, Side::Left);
@@ -260,7 +263,7 @@ fn draw_line(canvas: &Canvas, line: &Line, colour: Colour, x_names: &[String], x
             canvas.line(&places, colour, 2.0);
         }
         for (_, place) in run.iter().zip(&places).filter(|(point, _)| point.is_marked) {
-            canvas.dot(*place, 7.0, colour, false);
+            canvas.ring(*place, 7.0, colour);
         }
         if line.mark != Mark::Line {
             places.into_iter().for_each(|place| canvas.dot(place, 3.0, colour, true));
@@ -293,7 +296,26 @@ mod tests {
         assert!(plain.contains("\nc0ffe40\n") && !plain.contains("\nc0ffe39\n"), "{plain}");
         assert!(plain.contains("tree at c0ffe39: 2.00"), "{plain}");
         let circles = |svg: &str| svg.matches("<circle").count();
-        assert_eq!(circles(&svg(7)), circles(&plain) + 2, "one that is filled, and its outline");
+        assert_eq!(circles(&svg(7)), circles(&plain) + 1, "its outline alone, which hides nothing");
+    }
+
+    #[test]
+    fn names_on_the_axis_do_not_touch() {
+        let names: Vec<String> = (1..=200).map(|n| format!("c0ff{n:03}")).collect();
+        let points = (1..=200).map(|n| CurvePoint::exact(f64::from(n), 2.0));
+        let curves = Curves::logarithmic("commit", "", vec![Line::new("tree", Mark::Both, points)]);
+        let curves = Curves { x_scale: Scale::Linear, x_names: names.clone(), ..curves };
+        let svg = canvas::svg([360.0, curves.height(360.0)], |canvas| curves.draw(canvas, 360.0));
+        let middle = |name: &String| {
+            let (before, _) = svg.split_once(&format!("\n{name}\n"))?;
+            let (_, text) = before.rsplit_once("<text x=\"")?;
+            text.split('"').next()?.parse::<f64>().ok()
+        };
+        let middles: Vec<f64> = names.iter().filter_map(middle).collect();
+        // Two pixels a unit.
+        let width = 2.0 * canvas::width_of(&names[0], canvas::SMALL);
+        let are_apart = middles.windows(2).all(|pair| pair[1] - pair[0] > width);
+        assert!(middles.len() > 2 && are_apart, "{width}: {middles:?}");
     }
 
     #[test]

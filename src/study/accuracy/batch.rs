@@ -1,10 +1,7 @@
-use std::hint::black_box;
-
 use rayon::prelude::*;
 
 use crate::accel::DynAccel;
 use crate::geometry::Ray;
-use crate::measure::{Clock, spread};
 use crate::oracle::{Oracle, Truth};
 use crate::validate::{DepthRule, ErrorCounts, count_errors};
 
@@ -14,7 +11,7 @@ pub struct Batch {
     truths: Vec<Option<Truth>>,
 }
 
-/// Rays that are judged at least, and those from which the speed of a program is learnt.
+/// Rays that are judged at least.
 const FEWEST: usize = 64;
 
 /// Rays that a thread hands over at once.
@@ -27,16 +24,9 @@ impl Batch {
         Self { rays, truths }
     }
 
-    /// Picoseconds that a ray takes `accel`, by a clock.
-    pub fn picoseconds(&self, accel: &dyn DynAccel, clock: &dyn Clock) -> u64 {
-        let few = spread(&self.rays, FEWEST);
-        let start = clock.now_ns();
-        black_box(accel.closest(&few));
-        (clock.now_ns() - start) * 1000 / few.len().max(1) as u64
-    }
-
-    /// Judges the answers of `accel`, on all threads: to all rays, or where one takes so many picoseconds that all would take longer
-    /// than `budget_ns` to as many as fit, evenly spread. How many that are no clock decides, so that another run judges the same.
+    /// Judges the answers of `accel`, on all threads: to all rays, or where one takes so many picoseconds that all
+    /// would take longer than `budget_ns` to as many as fit, evenly spread. How many that are no clock decides, so that
+    /// another run judges the same.
     pub fn judge(&self, accel: &dyn DynAccel, ps: u64, budget_ns: u64) -> ErrorCounts {
         let all = self.rays.len();
         let affordable = u128::from(budget_ns) * 1000 / u128::from(ps.max(1));

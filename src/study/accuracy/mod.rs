@@ -18,7 +18,7 @@ use super::bench::case::Case;
 use super::bench::failed::Failed;
 use super::bench::ray_cost::picoseconds;
 use super::bench::timing::Timing;
-use super::{PANICKED, Refused, Stage, StudyError, guarded};
+use super::{PANICKED, Refused, Stage, StudyError, documented_defect, guarded};
 use crate::accel::{BuildError, Query};
 use crate::geometry::Ray;
 use crate::measure::{Clock, Plan, Samples, Threads, median, spread};
@@ -57,10 +57,11 @@ pub struct AccuracySettings {
 /// What judging a case may always take.
 const SHORT_JUDGING_NS: u64 = 2_000_000_000;
 
-/// One record for each kind of rays and structure, kind by kind; and the structures that cannot be built or panic, which have none.
+/// One record for each kind of rays and structure, kind by kind; and the structures that cannot be built, panic or
+/// answer the same rays differently, which have none.
 ///
 /// # Errors
-/// If a structure answers the same rays differently, or panics only when it is timed.
+/// If the thread cannot be pinned.
 pub fn accuracy_scene(
     scene: &Scene,
     settings: &AccuracySettings,
@@ -68,7 +69,8 @@ pub fn accuracy_scene(
     progress: &mut dyn FnMut(Stage),
 ) -> Result<(Vec<AccuracyRecord>, Vec<Refused>), StudyError> {
     let threads = Threads::pinned(1).map_err(StudyError::Threads)?;
-    let refusal = |label: &str, reason: String| Refused { label: label.into(), scene: scene.name.clone(), reason };
+    let refusal =
+        |label: &str, reason: String| Refused { label: label.into(), scene: scene.name.clone(), reason, wrong: false };
     let (mut built, mut refused) = (vec![], vec![]);
     for choice in &settings.choices {
         progress(Stage::Build(&choice.label));
@@ -108,11 +110,7 @@ pub fn accuracy_scene(
     for (built, costs) in built.into_iter().zip(costs.chunks(workloads.len().max(1))) {
         progress(Stage::Check(&built.choice.label));
         let accel = built.accel.as_ref();
-        let judge = |(batch, &ps): (&Batch, &u64)| {
-            // What a ray costs a program is not known before it is asked.
-            let ps = if accel.remote().is_some() { batch.picoseconds(accel, clock) } else { ps };
-            batch.judge(accel, ps, budget_ns)
-        };
+        let judge = |(batch, &ps): (&Batch, &u64)| batch.judge(accel, ps, budget_ns);
         match guarded(|| batches.iter().zip(costs).map(judge).collect::<Vec<_>>()) {
             Some(of_structure) => {
                 judged.push(built);
@@ -124,18 +122,28 @@ pub fn accuracy_scene(
     let built = judged;
     let verdicts: Vec<&ErrorCounts> =
         (0..batches.len()).flat_map(|batch| of_structures.iter().map(move |verdicts| &verdicts[batch])).collect();
-    let timed = time(scene, &built, workloads, settings, &threads, clock, progress)?;
+    let timed = time(&built, workloads, settings, &threads, clock, progress);
+
+    // What fails on one kind of rays has no time on any.
+    let failure = |place: usize| timed.iter().skip(place).step_by(built.len()).find_map(|times| times.as_ref().err());
+    let failures: Vec<Option<&Failed>> = (0..built.len()).map(failure).collect();
+    for (Built { choice, .. }, cause) in built.iter().zip(&failures) {
+        let Some(cause) = cause else { continue };
+        let wrong = **cause == Failed::Unsteady && documented_defect(&choice.entry.name).is_none();
+        refused.push(Refused { wrong, ..refusal(&choice.label, cause.to_string()) });
+    }
 
     let hash = scene.hash();
     let mut records = vec![];
-    for (case, (judged, timed)) in verdicts.iter().zip(timed).enumerate() {
-        let (batch, built) = (case / built.len(), &built[case % built.len()]);
+    for (case, (judged, times)) in verdicts.iter().zip(&timed).enumerate() {
+        let (batch, place) = (case / built.len(), case % built.len());
+        let (None, Ok(times)) = (failures[place], times) else { continue };
         let kind = (names[batch].as_str(), batches[batch].rays.len());
-        records.push(record(scene, &hash, built, kind, settings, judged, &timed));
+        records.push(record(scene, &hash, &built[place], kind, settings, judged, times));
     }
     // What is not proven is not credited: an error that was seen once may be less than one that was not seen in fewer
     // rays.
-    for of_kind in records.chunks_mut(built.len().max(1)) {
+    for of_kind in records.chunk_by_mut(AccuracyRecord::is_beside) {
         let points: Vec<(f64, f64)> = of_kind.iter().map(|r| (r.ns_per_ray, r.error_bound)).collect();
         let labels: Vec<String> = of_kind.iter().map(|r| r.label.clone()).collect();
         for (record, dominator) in of_kind.iter_mut().zip(front::dominators(&points)) {
@@ -154,14 +162,13 @@ struct Times {
 
 /// Those of all structures on all workloads, interleaved; in the order of the workloads, structure by structure.
 fn time(
-    scene: &Scene,
     built: &[Built],
     mut workloads: Vec<Workload>,
     settings: &AccuracySettings,
     threads: &Threads,
     clock: &dyn Clock,
     progress: &mut dyn FnMut(Stage),
-) -> Result<Vec<Times>, StudyError> {
+) -> Vec<Result<Times, Failed>> {
     // Besides its samples a workload has lead-ins.
     let of_all = settings.budget_ns / (workloads.len() * (settings.runs + 1)).max(1) as u64;
     let mut cases = Case::all(built.len(), workloads.len());
@@ -186,21 +193,16 @@ fn time(
     let sampled = cases.len() * allotted.allotment.runs;
     let total = sampled + cases.len();
     let taken = timing.take(&allotted, &|_| true, &plan, &mut |taken| progress(Stage::Trace(taken, total)));
-    let failed = |case: &Case, cause: Failed| StudyError::Failed {
-        structure: choices[case.structure].label.clone(),
-        scene: scene.name.clone(),
-        cause,
-    };
-    let samples = cases.iter().zip(taken).map(|(case, samples)| samples.map_err(|cause| failed(case, cause)));
-    let samples: Vec<Samples> = samples.collect::<Result<_, _>>()?;
     let _pin = threads.pin();
     let mut times = vec![];
-    for (case, samples) in cases.iter().zip(samples) {
+    for (case, samples) in cases.iter().zip(taken) {
         progress(Stage::Trace(sampled + times.len(), total));
-        let rays = spread(&workloads[case.workload].rays, samples.rays);
-        times.push(Times { slowest_ns: slowest(built[case.structure].accel.as_ref(), &rays, clock), samples });
+        times.push(samples.map(|samples| {
+            let rays = spread(&workloads[case.workload].rays, samples.rays);
+            Times { slowest_ns: slowest(built[case.structure].accel.as_ref(), &rays, clock), samples }
+        }));
     }
-    Ok(times)
+    times
 }
 
 /// Rays that are timed at least.
@@ -209,8 +211,8 @@ const FEWEST: usize = 256;
 /// Structures that are slower than this times the fastest do not decide how many rays are timed.
 const SLOW: u64 = 30;
 
-/// As many of the rays, evenly spread, as all structures together answer in `budget_ns`, one of which takes them so many picoseconds:
-/// rays differ so much in what they cost that only times on the same ones can be compared.
+/// As many of the rays, evenly spread, as all structures together answer in `budget_ns`, one of which takes them so
+/// many picoseconds: rays differ so much in what they cost that only times on the same ones can be compared.
 fn common(rays: &[Ray], costs: &[u64], budget_ns: u64) -> Vec<Ray> {
     let fastest = costs.iter().copied().min().unwrap_or(1);
     let together: u64 = costs.iter().filter(|&&ps| ps <= SLOW * fastest).sum();

@@ -3,10 +3,15 @@ use crate::measure::SystemClock;
 use crate::registry::Registry;
 use crate::scene::Builtin;
 use crate::study::Study;
+use crate::study::compare::tests::registry;
 use crate::triangle::{Exact, MollerTrumbore, TriangleTest};
 
 fn records(specs: &[&str], kinds: &[RayKind], rays: usize) -> Vec<AccuracyRecord> {
-    let registry = Registry::builtin();
+    judged(&Registry::builtin(), specs, kinds, rays).0
+}
+
+/// The records of the torus, and what is refused.
+fn judged(registry: &Registry, specs: &[&str], kinds: &[RayKind], rays: usize) -> (Vec<AccuracyRecord>, Vec<Refused>) {
     let settings = AccuracySettings {
         choices: specs.iter().map(|spec| registry.choose(spec).unwrap()).collect(),
         kinds: kinds.into(),
@@ -17,7 +22,7 @@ fn records(specs: &[&str], kinds: &[RayKind], rays: usize) -> Vec<AccuracyRecord
         seed: 1,
     };
     let scene = Builtin::find("torus").unwrap().scene(None).unwrap();
-    accuracy_scene(&scene, &settings, &SystemClock::start(), &mut |_| ()).unwrap().0
+    accuracy_scene(&scene, &settings, &SystemClock::start(), &mut |_| ()).unwrap()
 }
 
 #[test]
@@ -55,6 +60,16 @@ fn costs_and_no_clock_decide_how_many_rays_are_judged() {
     // A millisecond, of rays that take nothing to speak of, five microseconds each, or for ever.
     let judged = |ps| batch.judge(accel.as_ref(), ps, 1_000_000).rays;
     assert_eq!([1, 5_000_000, u64::MAX].map(judged), [400, 200, 64]);
+}
+
+#[test]
+fn a_structure_that_changes_its_mind_is_refused_and_the_others_have_their_records() {
+    let specs = ["sah-kd", "flawed:flaw=fickle"];
+    let (records, refused) = judged(&registry(), &specs, &[RayKind::Uniform, RayKind::Vertex], 400);
+    let named: Vec<(&str, &str)> = records.iter().map(|r| (&r.structure[..], &r.rays[..])).collect();
+    assert_eq!(named, [("sah-kd", "uniform"), ("sah-kd", "vertex")]);
+    let [fickle] = &refused[..] else { panic!("{refused:?}") };
+    assert!(fickle.label == specs[1] && fickle.wrong && fickle.reason == Failed::Unsteady.to_string(), "{fickle:?}");
 }
 
 #[test]

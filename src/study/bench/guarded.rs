@@ -17,12 +17,15 @@ pub struct Refused {
     pub scene: String,
     /// A sentence.
     pub reason: String,
+    /// Whether that is for wrong answers.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub wrong: bool,
 }
 
 impl Refused {
     /// As a trouble that a table tells.
     pub fn trouble(&self) -> Trouble {
-        Trouble { structure: self.label.clone(), sentence: String::new(), refused: true, wrong: false }
+        Trouble { structure: self.label.clone(), sentence: String::new(), refused: true, wrong: self.wrong }
     }
 }
 

@@ -35,6 +35,8 @@ pub struct Offer {
 pub struct Pair {
     pub cheap: String,
     pub dear: String,
+    /// Nanoseconds of the build of each, and of a ray.
+    pub costs: [(f64, f64); 2],
     /// Rays after which the dear one is ahead.
     pub rays: Payoff,
     /// The ends of the 95 % interval of that for another run; nothing with a single epoch.
@@ -48,6 +50,26 @@ pub struct Stretch {
     pub structure: String,
     /// From so many rays.
     pub from: f64,
+}
+
+impl Market {
+    /// What the build of a structure and so many rays take, as a multiple of what the quickest takes for the same rays:
+    /// at least 1.
+    pub fn slowdown(&self, structure: &str, rays: f64) -> f64 {
+        self.pairs.iter().filter_map(|pair| pair.slowdown(structure, rays)).fold(1.0, f64::max)
+    }
+}
+
+impl Pair {
+    /// Likewise, as a multiple of what the other one of the pair takes. Nothing of a structure that is none of the two.
+    fn slowdown(&self, structure: &str, rays: f64) -> Option<f64> {
+        let [cheap, dear] = self.costs.map(|(build_ns, ns_per_ray)| build_ns + rays * ns_per_ray);
+        match () {
+            () if structure == self.cheap => Some(cheap / dear),
+            () if structure == self.dear => Some(dear / cheap),
+            () => None,
+        }
+    }
 }
 
 /// Every scene and kind of rays.
@@ -85,15 +107,15 @@ fn market(mut lines: Vec<Line>, twins: &Twins) -> Market {
 
 /// Nothing where the two were not timed on the same rays.
 fn pair(cheap: &Line, dear: &Line, twins: &Twins) -> Option<Pair> {
-    let [cheap, dear] = &[cheap.beside(dear)?, dear.beside(cheap)?];
-    let costs = |line: &Line| (line.build_ns(), line.ns_per_ray());
-    let rays = Payoff::of(costs(cheap), costs(dear));
+    let [cheap, dear] = &[cheap.on_rays_of(dear)?, dear.on_rays_of(cheap)?];
+    let costs = [cheap, dear].map(|line| (line.build_ns(), line.ns_per_ray()));
+    let rays = Payoff::of(costs[0], costs[1]);
     let [low, high] = interval::interval(cheap, dear, rays, twins).map_or([None; 2], |ends| ends.map(Some));
-    Some(Pair { cheap: cheap.structure.clone(), dear: dear.structure.clone(), rays, low, high })
+    Some(Pair { cheap: cheap.structure.clone(), dear: dear.structure.clone(), costs, rays, low, high })
 }
 
-/// The lower envelope of build + rays * time, from the structure `first` on, whose build takes the least, of all `pairs` in the order of
-/// their dear builds.
+/// The lower envelope of build + rays * time, from the structure `first` on, whose build takes the least, of all
+/// `pairs` in the order of their dear builds.
 pub(super) fn best(first: &str, pairs: &[Pair]) -> Vec<Stretch> {
     let mut best = vec![Stretch { structure: first.into(), from: 0.0 }];
     loop {

@@ -16,7 +16,7 @@ pub fn blocks(markets: &[Market], command: &str) -> Vec<Block> {
     markets.sort_by_key(|market| (market.workload != "primary", std::cmp::Reverse(market.triangles)));
     let mut blocks = vec![Block::Text(
         "A better tree takes longer to build. The lines show build and rays together, as a multiple of what the quickest \
-         structure takes for as many rays: where a line touches 1 the structure is the best choice."
+         structure takes for the same rays: where a line touches 1 the structure is the best choice."
             .into(),
     )];
     let one = |market: &Market| [Block::figure(figure(market, command)), Block::table(table(market), command)];
@@ -37,11 +37,9 @@ const TENTHS: std::ops::RangeInclusive<i32> = 20..=90;
 const HIGHEST: f64 = 20.0;
 
 fn figure(market: &Market, command: &str) -> Figure {
-    let total = |offer: &Offer, rays: f64| offer.build_ns + rays * offer.ns_per_ray;
-    let quickest = |rays: f64| market.offers.iter().map(|offer| total(offer, rays)).fold(f64::INFINITY, f64::min);
     let rays: Vec<f64> = TENTHS.map(|tenth| libm::pow(10.0, f64::from(tenth) / 10.0)).collect();
     let line = |offer: &Offer| {
-        let points = rays.iter().map(|&rays| CurvePoint::exact(rays, total(offer, rays) / quickest(rays)));
+        let points = rays.iter().map(|&rays| CurvePoint::exact(rays, market.slowdown(&offer.structure, rays)));
         Line::new(&offer.structure, Mark::Line, points)
     };
     let rows = market.offers.iter().map(|o| [o.structure.clone(), duration(o.build_ns), duration(o.ns_per_ray)]);

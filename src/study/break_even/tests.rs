@@ -64,6 +64,11 @@ fn what_is_timed_on_few_rays_changes_no_pair_but_its_own() {
     // 9,999 nanoseconds of a build, and 1000 - 30 of a ray.
     let of = pair(&markets[0], "brute", "quick");
     assert!(matches!(of.rays, Payoff::Rays(rays) if (rays / 10.3 - 1.0).abs() < 0.02), "{of:?}");
+    // In the end rays alone count: 1000 over 30 nanoseconds, not over the 10 of all rays.
+    let slowdowns = ["brute", "slow", "quick"].map(|structure| markets[0].slowdown(structure, 1e12));
+    for (slowdown, expected) in slowdowns.into_iter().zip([1000.0 / 30.0, 10.0, 1.0]) {
+        assert!((slowdown / expected - 1.0).abs() < 0.02, "{slowdowns:?}");
+    }
 }
 
 #[test]
@@ -86,6 +91,7 @@ fn the_best_changes_only_where_it_is_overtaken() {
         pairs.extend(offers[..i].iter().map(|&(cheap, own)| Pair {
             cheap: cheap.into(),
             dear: dear.into(),
+            costs: [own, costs],
             rays: Payoff::of(own, costs),
             low: None,
             high: None,

@@ -9,7 +9,7 @@ mod section;
 mod study;
 mod table;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 mod tradeoff;
 
 use serde::Serialize;

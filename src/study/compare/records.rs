@@ -29,7 +29,8 @@ fn of_scene(epochs: &[&Epoch], provenance: &Provenance) -> Compared {
         let of_epochs = || epochs.iter().filter_map(|epoch| epoch.structures.get(place));
         if let Some(reason) = of_epochs().find_map(|structure| structure.refused.clone()) {
             let (label, scene) = (first.structures[place].label.clone(), first.scene.clone());
-            compared.refused.push(Refused { label, scene, reason });
+            let wrong = of_epochs().any(|structure| structure.wrong);
+            compared.refused.push(Refused { label, scene, reason, wrong });
             continue;
         }
         let twin = (0..first.structures.len()).find(|&other| twin_of(first, other) == Some(place));

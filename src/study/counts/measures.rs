@@ -99,8 +99,8 @@ pub struct RayMeasures {
     pub empty_leaf_steps_per_ray: Option<f64>,
     /// Tests as a multiple of the fewest possible, which are one for each ray that hits and none for the others.
     pub tests_over_minimum: Option<f64>,
-    /// Branches that the processor predicts wrongly, the one number here that a machine changes; nothing where it does not count
-    /// them.
+    /// Branches that the processor predicts wrongly, the one number here that a machine changes; nothing where it does
+    /// not count them.
     #[serde(default)]
     pub branch_misses_per_ray: Option<f64>,
 }
@@ -136,7 +136,8 @@ pub(super) fn count_scene(
     for choice in settings.of(scene) {
         progress(Stage::Build(&choice.label));
         let mut refuse = |reason: String| {
-            counts.refused.push(Refused { label: choice.label.clone(), scene: scene.name.clone(), reason })
+            let (label, scene) = (choice.label.clone(), scene.name.clone());
+            counts.refused.push(Refused { label, scene, reason, wrong: false });
         };
         let accel = match build(choice) {
             Ok(accel) => accel,

@@ -7,8 +7,9 @@ use crate::measure::{AaNoise, Estimate, Rerun};
 use crate::report::words::distinct;
 use crate::study::epoch::{Epoch, Line, lines, middles, twins};
 
-/// The KD-tree and the BVH of a pair. In the second and third the node, the leaf and the walk are the same and only the way to divide
-/// the triangles differs; the first are the textbook tree and the BVH from outside. All over one triangle test.
+/// The KD-tree and the BVH of a pair. In the second and third the node, the leaf and the walk are the same and only the
+/// way to divide the triangles differs; the first are the textbook tree and the BVH from outside. All over one triangle
+/// test.
 pub const PAIRS: [[&str; 2]; 3] = [
     ["sah-kd:test=moller-trumbore", "obvhs-bvh2"],
     ["sah-kd-wide:test=moller-trumbore", "sah-bvh:test=moller-trumbore"],
@@ -69,6 +70,7 @@ pub fn result(cases: &[MemberEpoch]) -> Vec<Race> {
             let case = cases.iter().find(|case| case.epoch.scene == scene)?;
             let (_, complexity) = case.complexity.iter().find(|(name, _)| name == workload)?;
             let ratios = middles(&kd.log_ratios(bvh)?);
+            let (kd, bvh) = (kd.on_rays_of(bvh)?, bvh.on_rays_of(kd)?);
             Some(Entry { layers: case.layers, complexity: *complexity, kd, bvh, ratios })
         };
         let mut entries: Vec<Entry> = scenes.into_iter().filter_map(entry).filter(|e| e.complexity > 0.0).collect();
@@ -88,11 +90,12 @@ pub fn result(cases: &[MemberEpoch]) -> Vec<Race> {
     races
 }
 
-struct Entry<'a> {
+struct Entry {
     layers: u32,
     complexity: f64,
-    kd: &'a Line,
-    bvh: &'a Line,
+    /// Both on the rays of the one that is timed on fewer.
+    kd: Line,
+    bvh: Line,
     /// ln time of the KD-tree over that of the BVH.
     ratios: Vec<f64>,
 }

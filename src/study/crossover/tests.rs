@@ -6,6 +6,7 @@ use super::*;
 use crate::accel::Accel;
 use crate::brute_force::BruteForce;
 use crate::geometry::{Mesh, Ray};
+use crate::measure::Part;
 use crate::study::epoch::tests::example;
 use crate::triangle::MollerTrumbore;
 
@@ -58,6 +59,25 @@ fn a_crossing_within_the_noise_is_not_named() {
     let races = result(&family(5.0, -0.005, 0.1));
     assert!(races[0].crossings.iter().all(|crossing| !crossing.is_sure()), "{races:?}");
     assert!(!tables(&races)[0].rows[0][4].text.is_empty());
+}
+
+#[test]
+fn a_ratio_and_the_times_beside_it_are_of_the_same_rays() {
+    let mut cases = family(5.0, -0.5, 0.02);
+    for case in &mut cases {
+        let [kd, bvh] = &mut case.epoch.structures[..] else { panic!("a KD-tree and a BVH") };
+        // The KD-tree is timed on ten rays, on which the BVH takes three times as long.
+        let kd = &mut kd.rays[0];
+        kd.rays = 10;
+        kd.ns.iter_mut().for_each(|ns| *ns /= 100);
+        bvh.rays[0].parts = vec![Part { rays: 10, ns: vec![300_000; 3] }];
+    }
+    let races = result(&cases);
+    assert_eq!(races[0].members.len(), 4);
+    for member in &races[0].members {
+        let ratio = member.kd_ns_per_ray / member.bvh_ns_per_ray;
+        assert!((ratio / member.ratio.estimate - 1.0).abs() < 1e-9, "{member:?}");
+    }
 }
 
 #[test]

@@ -1,12 +1,14 @@
 //! Epochs of a scene, measured each by itself, as one measurement: a pure function of what was measured.
 //!
-//! Epoch 0 alone is held against brute force and counted: what it found holds for all of them, and without it there is no answer.
-//! What epochs have in common says that they are of one measurement: the rays, how many of them are timed and the answers to them.
+//! Epoch 0 alone is held against brute force and counted: what it found holds for all of them, and without it there is
+//! no answer. What epochs have in common says that they are of one measurement: the rays, how many of them are timed
+//! and the answers to them.
 
 use super::{Epoch, Rays, Structure};
 use crate::registry::RUNNER;
 use crate::report::words::listed;
 use crate::study::StudyError;
+use crate::study::error::ANSWERS;
 
 /// Cases that answers can be made from, and why others are none of them.
 #[derive(Debug)]
@@ -19,8 +21,9 @@ pub struct Joined<C> {
     pub unchecked: Vec<String>,
 }
 
-/// Joins the epochs of each scene. `epoch` gives the epoch that a case is, and the number of its series where a scene has several;
-/// cases that are none are as they were. With `whole` a scene is left out in which a structure lacks a time.
+/// Joins the epochs of each scene. `epoch` gives the epoch that a case is, and the number of its series where a scene
+/// has several; cases that are none are as they were. With `whole` a scene is left out in which a structure lacks a
+/// time.
 pub fn join<C: Clone>(mut cases: Vec<C>, epoch: fn(&mut C) -> Option<(&mut Epoch, usize)>, whole: bool) -> Joined<C> {
     let mut joined = Joined { cases: vec![], failures: vec![], unchecked: vec![] };
     let mut out = vec![];
@@ -50,8 +53,8 @@ pub fn join<C: Clone>(mut cases: Vec<C>, epoch: fn(&mut C) -> Option<(&mut Epoch
     joined
 }
 
-/// The epochs that are planned and not there, of scenes that are checked, a sentence each. `planned` is told the most epochs that a scene
-/// has, and the triangles of the scene that it is asked about.
+/// The epochs that are planned and not there, of scenes that are checked, a sentence each. `planned` is told the most
+/// epochs that a scene has, and the triangles of the scene that it is asked about.
 pub fn missing<C>(
     cases: &mut [C],
     epoch: fn(&mut C) -> Option<(&mut Epoch, usize)>,
@@ -148,8 +151,11 @@ fn one(epochs: &mut [Epoch]) -> Result<(), StudyError> {
                     refuse(epochs, place, CHANGED);
                     break;
                 }
-                (Some(other), false) => return Err(apart(other, &first.workload, "the answers")),
+                (Some(other), false) => return Err(apart(other, &first.workload, ANSWERS)),
                 (None, _) => {}
+            }
+            if let Some(other) = epochs.iter().find(|epoch| of(epoch).ns.len() != first.ns.len()) {
+                return Err(apart(other, &first.workload, "the number of samples"));
             }
             let Some(other) = epochs.iter().find(|epoch| of(epoch).rays != first.rays) else { continue };
             if !is_program {
@@ -165,7 +171,8 @@ fn one(epochs: &mut [Epoch]) -> Result<(), StudyError> {
     Ok(())
 }
 
-/// Said of a structure of others that answers otherwise once it is built again, as packets do in which other rays travel together.
+/// Said of a structure of others that answers otherwise once it is built again, as packets do in which other rays
+/// travel together.
 const CHANGED: &str = "built again, it gives other answers than before: its times cannot be compared";
 
 /// Said of a program whose epochs have no rays in common.
@@ -228,12 +235,12 @@ mod tests {
     }
 
     /// Why two epochs of which the second is changed so are not joined.
-    fn failure(change: impl Fn(&mut Epoch)) -> String {
+    fn failure(change: impl Fn(&mut Epoch)) -> StudyError {
         let mut epochs = epochs("a", &[0, 1]);
         change(&mut epochs[1]);
-        let Joined { cases, failures, .. } = joined(epochs);
+        let Joined { cases, mut failures, .. } = joined(epochs);
         assert!(cases.is_empty() && failures.len() == 1, "{failures:?}");
-        failures[0].to_string()
+        failures.remove(0)
     }
 
     #[test]
@@ -281,11 +288,18 @@ mod tests {
     #[test]
     fn epochs_that_differ_in_what_they_must_not_are_named() {
         let answers = failure(|epoch| epoch.structures[1].rays[0].checksum = 2);
-        assert!(answers.contains("y on the primary rays of a") && answers.contains("epoch 1"), "{answers}");
-        assert!(answers.contains("the answers"), "{answers}");
-        assert!(failure(|epoch| epoch.structures[1].rays[0].hash = "12".into()).contains("differ in the rays"));
-        assert!(failure(|epoch| epoch.structures[1].rays[0].rays = 250).contains("the number of rays that are timed"));
-        assert!(failure(|epoch| epoch.structures[1].label = "z".into()).contains("the structures"));
+        let sentence = answers.to_string();
+        assert!(sentence.contains("y on the primary rays of a") && sentence.contains("epoch 1"), "{sentence}");
+        assert!(sentence.contains("the answers") && answers.is_wrong_answer(), "{sentence}");
+        // What else may differ is no wrong answer, as where a structure that counts could not be built in one of them.
+        for (other, what) in [
+            (failure(|epoch| epoch.structures[1].rays[0].hash = "12".into()), "differ in the rays"),
+            (failure(|epoch| epoch.structures[1].rays[0].rays = 250), "the number of rays that are timed"),
+            (failure(|epoch| epoch.structures[1].rays[0].ns.truncate(2)), "the number of samples"),
+            (failure(|epoch| epoch.structures[1].label = "z".into()), "the structures"),
+        ] {
+            assert!(other.to_string().contains(what) && !other.is_wrong_answer(), "{other}");
+        }
     }
 
     #[test]

@@ -128,9 +128,9 @@ impl Line {
         libm::exp(centre(&self.build))
     }
 
-    /// This line on no more rays than `other`: two lines are compared on the rays of the one that is timed on fewer. Nothing where
-    /// those were not timed.
-    pub fn beside(&self, other: &Self) -> Option<Self> {
+    /// This line on no more rays than `other`: two lines are compared on the rays of the one that is timed on fewer.
+    /// Nothing where those were not timed.
+    pub fn on_rays_of(&self, other: &Self) -> Option<Self> {
         if self.rays <= other.rays {
             return Some(self.clone());
         }
@@ -138,9 +138,10 @@ impl Line {
         Some(Self { rays: *rays, trace: trace.clone(), ..self.clone() })
     }
 
-    /// ln of this line's time over that of `other` on the same rays, pair by pair. Nothing where they were not measured together.
+    /// ln of this line's time over that of `other` on the same rays, pair by pair. Nothing where they were not measured
+    /// together.
     pub fn log_ratios(&self, other: &Self) -> Option<Vec<Vec<f64>>> {
-        log_ratios(&self.beside(other)?.trace, &other.beside(self)?.trace)
+        log_ratios(&self.on_rays_of(other)?.trace, &other.on_rays_of(self)?.trace)
     }
 }
 

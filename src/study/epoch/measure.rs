@@ -34,10 +34,12 @@ pub fn measure(
         bench.check(progress)?;
     }
     let circumstances = bench.sample(epoch, clock, progress);
-    progress(Stage::Count);
     if epoch == 0 {
+        progress(Stage::Count);
         bench.count();
     }
+    // What takes no part keeps no rays.
+    bench.structures.iter_mut().filter(|one| one.refused.is_some()).for_each(|one| one.rays.clear());
     Ok(Epoch {
         scene: scene.name.clone(),
         scene_hash: scene.hash(),
@@ -142,7 +144,6 @@ impl<'a> Bench<'a> {
             let failure = built.accel.remote().and_then(Remote::failure);
             let Some(checks) = checks.filter(|_| failure.is_none()) else {
                 structure.refused = Some(failure.unwrap_or_else(|| PANICKED.into()));
-                structure.rays.clear();
                 continue;
             };
             for (rays, check) in structure.rays.iter_mut().zip(checks) {
@@ -158,8 +159,8 @@ impl<'a> Bench<'a> {
         Ok(())
     }
 
-    /// Takes the samples of everything that is timed. How much of it is decided by all that is asked for, built or not,
-    /// right or wrong: an epoch in which a program fails, or that checks nothing, decides the same.
+    /// Takes the samples of everything that is timed. How much of it is decided by all that is asked for, right or
+    /// wrong: an epoch in which a program fails, or that checks nothing, decides the same.
     fn sample(&mut self, epoch: usize, clock: &dyn Clock, progress: &mut dyn FnMut(Stage)) -> Circumstances {
         let Settings { structures: choices, asked, runs, budget_ns, slowest, seed, threads, .. } = self.settings;
         let (runs, budget_ns, slowest, most_rays) = (*runs, *budget_ns, *slowest, asked.rays());

@@ -1,9 +1,9 @@
-//! The journal of a study: a folder with one file a case, so that a run that is killed goes on where it stopped, and runs of many
-//! machines add to one journal without talking to each other.
+//! The journal of a study: a folder with one file a case, so that a run that is killed goes on where it stopped, and
+//! runs of many machines add to one journal without talking to each other.
 //!
-//! Each file has the case with its key, settings and provenance. It is written whole, by one writer, and never changed: what begins with
-//! a dot is being written, or was when its writer was killed, and is no case. Anybody may read at any time, and any number of jobs of a
-//! plan may write; of runs that measure all that is missing there is one at a time.
+//! Each file has the case with its key, settings and provenance. It is written whole, by one writer, and never changed:
+//! what begins with a dot is being written, or was when its writer was killed, and is no case. Anybody may read at any
+//! time, and any number of jobs of a plan may write; of runs that measure all that is missing there is one at a time.
 
 mod case_file;
 mod error;
@@ -48,12 +48,12 @@ impl<C: Serialize> Journal<C> {
         Self { folder: None, provenance: header.provenance.clone(), header, read, cases: BTreeMap::new(), _lock: None }
     }
 
-    /// Opens the journal in `folder`, to go on with it; makes the folder where there is none. With `fresh` the cases there are thrown
-    /// away.
+    /// Opens the journal in `folder`, to go on with it; makes the folder where there is none. With `fresh` the cases
+    /// there are thrown away.
     ///
     /// # Errors
-    /// If what is there cannot be read, or is not of this study, of these settings, this build and this machine; or if the folder cannot
-    /// be made.
+    /// If what is there cannot be read, or is not of this study, of these settings, this build and this machine; or if
+    /// the folder cannot be made.
     pub fn open(folder: &Path, header: Header, fresh: bool, read: Read<C>) -> Result<Self, JournalError> {
         let unwritable = |cause| JournalError::Write { path: folder.into(), cause };
         fs::create_dir_all(folder).map_err(unwritable)?;
@@ -79,8 +79,8 @@ impl<C: Serialize> Journal<C> {
         Ok(journal)
     }
 
-    /// As [`open`](Self::open), for a run that measures those of `keys` that are not there. One at a time does so: two would measure the same
-    /// cases, and disturb each other's times.
+    /// As [`open`](Self::open), for a run that measures those of `keys` that are not there. One at a time does so: two
+    /// would measure the same cases, and disturb each other's times.
     ///
     /// # Errors
     /// Likewise, and if something is to be measured or thrown away while another run measures into the folder.
@@ -120,7 +120,8 @@ impl<C: Serialize> Journal<C> {
         keys.into_iter().filter(|key| self.get(key).is_none()).collect()
     }
 
-    /// Keeps a case: when this returns it is on the disk. Where another process has kept it meanwhile, that one's counts.
+    /// Keeps a case: when this returns it is on the disk. Where another process has kept it meanwhile, that one's
+    /// counts.
     ///
     /// # Errors
     /// If it cannot be written, which leaves the journal as it was.
@@ -143,13 +144,19 @@ impl<C: Serialize> Journal<C> {
         Ok(())
     }
 
-    /// Keeps in `folder` what was kept in memory.
+    /// Keeps in `folder` what was kept in memory and is not there: another run of the same cases may have been
+    /// interrupted as well.
     ///
     /// # Errors
     /// As [`open`](Self::open) and [`append`](Self::append).
     pub fn keep(self, folder: &Path) -> Result<(), JournalError> {
-        let mut kept = Self::open(folder, self.header, true, self.read)?;
-        self.cases.into_iter().try_for_each(|(key, case)| kept.append(&key, case))
+        let mut kept = Self::open(folder, self.header, false, self.read)?;
+        for (key, case) in self.cases {
+            if kept.get(&key).is_none() {
+                kept.append(&key, case)?;
+            }
+        }
+        Ok(())
     }
 }
 

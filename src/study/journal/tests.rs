@@ -246,6 +246,13 @@ fn what_was_kept_in_memory_can_be_kept_in_a_folder() {
     journal.append("case 0", case(0)).unwrap();
     journal.keep(&path).unwrap();
     assert_eq!(open(&path).unwrap().get("case 0"), Some(&case(0)));
+    // Another run of the same cases, interrupted later, adds what is not there.
+    let mut other = Journal::in_memory(header(5), read);
+    other.append("case 0", case(9)).unwrap();
+    other.append("case 1", case(1)).unwrap();
+    other.keep(&path).unwrap();
+    let both = open(&path).unwrap();
+    assert_eq!(["case 0", "case 1"].map(|key| both.get(key).cloned()), [0, 1].map(|i| Some(case(i))));
 }
 
 #[test]
@@ -294,14 +301,16 @@ fn of_a_scene_that_has_changed_the_last_version_counts() {
         file("Dragon 00000000000000cc epoch 0", "2026-02"),
         file("Dragon 00000000000000cc epoch 1", "2026-02"),
         file("r=10 @1e5", "2026-01"),
+        // Begun later, and not to be answered yet.
+        file("Dragon 00000000000000dd epoch 1", "2026-04"),
     ];
     let of = |both_meshes: bool| {
         let (kept, notes) = newest(&files, both_meshes);
         let is_kept = |i: &usize| kept.iter().any(|file| file.key == files[*i].key);
         ((0..files.len()).filter(is_kept).collect::<Vec<_>>(), notes.join(" "))
     };
-    assert_eq!(of(false), (vec![1, 4], "Dragon: left out, for the scene has changed since: 3 cases.".into()));
-    assert_eq!(of(true), (vec![0, 1, 4], "Dragon: left out, for the scene has changed since: 2 cases.".into()));
+    assert_eq!(of(false), (vec![1, 4], "Dragon: left out, for another version is shown: 4 cases.".into()));
+    assert_eq!(of(true), (vec![0, 1, 4], "Dragon: left out, for another version is shown: 3 cases.".into()));
 }
 
 #[test]

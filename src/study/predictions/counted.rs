@@ -18,8 +18,8 @@ pub(super) const CROWDED: &str = "Infinitycandy";
 /// The trees whose tests are counted on it: the report's, and a setting of its sweep.
 pub(super) const TREES: [&str; 2] = [REPORT_TREE, "median-kd:leaf=50,threshold=0.7"];
 
-/// The structure that finds where rays of the picture start: over the test in single precision that renderers like the report's
-/// use, and over the default test, which decides rays near edges exactly.
+/// The structure that finds where rays of the picture start: over the test in single precision that renderers like the
+/// report's use, and over the default test, which decides rays near edges exactly.
 const GUIDES: [&str; 2] = ["sah-kd:test=moller-trumbore", SAH_TREE];
 
 /// One scene of the report.
@@ -35,11 +35,6 @@ pub struct PictureCounts {
     pub report_rays: u64,
     /// Triangle tests for all rays with each of the trees compared; on the crowded scene alone.
     pub tests: Vec<u64>,
-}
-
-/// The key of a scene: what is counted on it changes with its meshes and lights.
-pub fn key(scene: &Scene) -> String {
-    format!("{} {}", scene.name, &scene.hash()[..16])
 }
 
 /// Counts one of them.

@@ -3,8 +3,8 @@
 //! Each number in the words of an expectation is a claim of its own, which is confirmed or refuted by its whole
 //! interval, or undecided. What was called open before anything was measured has figures and no verdict.
 //!
-//! The numbers come from the answers of other studies: `attribution`, `scaling`, `crossover`, `replicate` and `compare`.
-//! What takes seconds is counted here: rays, and tests on Infinitycandy.
+//! The numbers come from the answers of other studies: `attribution`, `scaling`, `crossover`, `replicate` and
+//! `compare`. What takes seconds is counted here: rays, and tests on Infinitycandy.
 
 mod claims;
 mod counted;
@@ -19,7 +19,7 @@ use serde::Serialize;
 use super::attribution::{Attribution, AttributionStudy};
 use super::compare::CompareStudy;
 use super::crossover::{CrossoverStudy, Race};
-use super::plan::Measure;
+use super::plan::{Measure, scene_key};
 use super::replicate::original::main_scenes;
 use super::replicate::{self, ReplicateStudy};
 use super::scaling::{Growth, ScalingStudy};
@@ -34,7 +34,7 @@ use crate::scene::{BUILTIN, Builtin, Scene};
 
 pub use claims::result;
 pub use counted::PictureCounts;
-use counted::{key, measure};
+use counted::measure;
 pub use rank::kendall;
 pub use section::{REST_BELOW, sentence};
 pub use table::{table, tally, tone};
@@ -114,7 +114,7 @@ impl Study for PredictionsStudy {
         let scenes: Vec<Scene> =
             sources::wanted(&main_scenes()).map(|name| Builtin::find(name)?.scene(None)).collect::<Result<_, _>>()?;
         let threads = Threads::pinned(1).map_err(anyhow::Error::msg)?;
-        let names: Vec<(String, String)> = scenes.iter().map(|scene| (scene.name.clone(), key(scene))).collect();
+        let names: Vec<(String, String)> = scenes.iter().map(|scene| (scene.name.clone(), scene_key(scene))).collect();
         let (registry, own) = (registry.clone(), threads.clone());
         let measure: Measure<PictureCounts> =
             Box::new(move |case, clock, progress| measure(&registry, &scenes[case.scene], &own, clock, progress));

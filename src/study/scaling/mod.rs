@@ -28,7 +28,8 @@ use table::{exponents, groups, points};
 const STRUCTURES: [&str; 7] =
     ["median-kd", "sah-kd", "sah-kd-wide", "sah-hybrid", "sah-bvh", "obvhs-bvh2", "obvhs-cwbvh"];
 
-/// Epochs of meshes of more than [`LEVEL_8`] triangles, at most: the builds of the finest sphere alone take minutes in each.
+/// Epochs of meshes of more than [`LEVEL_8`] triangles, at most: the builds of the finest sphere alone take minutes in
+/// each.
 const EPOCHS_OF_FINEST: usize = 3;
 
 pub struct ScalingStudy;
@@ -73,7 +74,7 @@ impl Study for ScalingStudy {
         scenes.extend(meshes);
         let family = move |scene: usize| if scene < spheres { Family::Spheres } else { Family::Meshes };
         let wrap = move |scene, _: &Scene, epoch| Ok(FamilyEpoch { family: family(scene), epoch });
-        let epochs = |scene: &Scene| Self::epochs(args.measuring.epochs.into(), scene.mesh.len());
+        let epochs = |scene: &Scene| Self::planned_epochs(args.measuring.epochs.into(), scene.mesh.len());
         let epochs: Vec<usize> = scenes.iter().map(epochs).collect();
         let mut plan = settings.plan_of(scenes, args.measuring.epochs, wrap);
         let all = plan.cases.len();
@@ -91,7 +92,7 @@ impl Study for ScalingStudy {
         Some((&mut case.epoch, case.family as usize))
     }
 
-    fn epochs(most: usize, triangles: usize) -> usize {
+    fn planned_epochs(most: usize, triangles: usize) -> usize {
         if triangles > LEVEL_8 { most.min(EPOCHS_OF_FINEST) } else { most }
     }
 
