@@ -103,11 +103,12 @@ fn left(outcome: Status) -> &'static str {
     }
 }
 
-/// Whether the next studies would fare no better: nothing can be written into the folder of journals, or nobody reads
-/// what is printed.
+/// Whether the next studies would fare no better: nothing can be written into the folder of journals, another run
+/// measures there, beside which none is to be measured, or nobody reads what is printed.
 fn ends_all(error: &anyhow::Error) -> bool {
     let of_journal = error.downcast_ref::<JournalError>();
-    error.is::<io::Error>() || matches!(of_journal, Some(JournalError::Write { .. } | JournalError::Place(_)))
+    let ends = matches!(of_journal, Some(JournalError::Write { .. } | JournalError::Place(_) | JournalError::Busy(_)));
+    ends || error.is::<io::Error>()
 }
 
 #[cfg(test)]

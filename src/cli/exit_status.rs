@@ -32,7 +32,7 @@ pub(super) fn of(found: anyhow::Result<Status>) -> ExitCode {
         Ok(Status::Regression) => ExitCode::from(3),
         Ok(Status::Undecided) => ExitCode::from(4),
         Ok(Status::Refused) => ExitCode::from(5),
-        Ok(Status::Interrupted) => ExitCode::from(interrupt::STATUS),
+        Ok(Status::Interrupted) => interrupt::end(),
         Err(error) if is_broken_pipe(&error) => ExitCode::SUCCESS,
         Err(error) => match error.downcast::<clap::Error>() {
             Ok(message) => told(message),

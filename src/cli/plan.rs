@@ -87,6 +87,9 @@ impl Args {
 pub fn run(session: &Session, args: &Args, level: Option<Level>) -> anyhow::Result<Status> {
     let &Session { suite, terminal, .. } = session;
     let (args, names, options) = args.split()?;
+    if let Some(name) = options.iter().find(|word| suite.studies.find(word).is_some()) {
+        anyhow::bail!("{name} stands behind options: names of studies come first, `sahara study plan {name} ..`");
+    }
     let output = options.iter().find(|word| {
         let name = word.split('=').next().unwrap_or(word);
         OUTPUTS.contains(&name)

@@ -3,12 +3,14 @@
 //! On Linux each is the first of a process group of its own, which is ended as a whole: Ctrl-C is told to this process
 //! alone, which ends its programs. Elsewhere a program is ended alone, and is told of Ctrl-C as well.
 
+#[cfg(target_os = "linux")]
+use std::os::unix::process::CommandExt;
 use std::process::{Child, Command};
 
 #[cfg(target_os = "linux")]
 use nix::{
     errno::Errno,
-    sys::signal::{Signal, kill, killpg},
+    sys::signal::{SigSet, Signal, kill, killpg},
     sys::wait::{Id, WaitPidFlag, WaitStatus, waitid},
     unistd::Pid,
 };
@@ -16,7 +18,10 @@ use nix::{
 /// Has the program that `command` starts be the first of a group of its own.
 #[cfg(target_os = "linux")]
 pub fn set_apart(command: &mut Command) {
-    std::os::unix::process::CommandExt::process_group(command, 0);
+    command.process_group(0);
+    // The signals that this process waits for are blocked in it, and would be in what it starts.
+    // SAFETY: to set the mask of a thread is async-signal-safe, and nothing is allocated.
+    unsafe { command.pre_exec(|| Ok(SigSet::empty().thread_set_mask()?)) };
 }
 
 #[cfg(not(target_os = "linux"))]
@@ -70,14 +75,30 @@ fn state(child: &Child) -> nix::Result<WaitStatus> {
 #[cfg(all(test, target_os = "linux"))]
 mod tests {
     use std::io::{BufRead, BufReader};
+    use std::os::unix::process::ExitStatusExt;
     use std::process::Stdio;
 
     use super::*;
 
     #[test]
+    fn signals_that_are_blocked_here_end_a_program() {
+        let caught = SigSet::from_iter([Signal::SIGTERM]);
+        let start = move || {
+            let mut command = Command::new("sleep");
+            set_apart(command.arg("20"));
+            caught.thread_block().unwrap();
+            command.spawn().unwrap()
+        };
+        let mut program = std::thread::spawn(start).join().unwrap();
+        kill(Pid::from_raw(program.id() as i32), Signal::SIGTERM).unwrap();
+        let status = program.wait().unwrap();
+        assert_eq!(status.signal(), Some(Signal::SIGTERM as i32));
+    }
+
+    #[test]
     fn a_program_that_leads_no_group_is_ended_as_well() {
         let mut command = Command::new("sh");
-        command.args(["-c", "sleep 20 & echo; wait $!"]).stdout(Stdio::piped());
+        command.args(["-c", "sleep 20 & echo; wait $!"]).stdout(Stdio::piped()).stderr(Stdio::null());
         let mut shell = command.spawn().unwrap();
         let mut line = String::new();
         BufReader::new(shell.stdout.take().unwrap()).read_line(&mut line).unwrap();

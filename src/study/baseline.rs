@@ -64,7 +64,7 @@ impl<'a> Run<'a> {
         // One of them ends the run, a wrong answer if there is any; the others are told.
         failures.sort_by_key(StudyError::is_wrong_answer);
         let last = failures.pop();
-        screen.warn(&failures.iter().map(ToString::to_string).collect::<Vec<_>>());
+        failures.iter().for_each(|error| crate::output::tell(format_args!("error: {error}")));
         last.map_or(Ok(()), Err)
     }
 

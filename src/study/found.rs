@@ -14,7 +14,8 @@ pub struct Found {
 }
 
 impl dyn AnyStudy + '_ {
-    /// The answer to cases of one build and machine, of each scene those of its last version.
+    /// The answer to cases of one build and machine, of each scene those of the last version of which there is an
+    /// answer.
     ///
     /// # Errors
     /// If one of them is not of this study.

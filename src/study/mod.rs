@@ -96,8 +96,8 @@ pub trait Study: 'static {
     const LAST: bool = false;
     /// Whether a scene is nothing without a time of each of its structures: it is left out then.
     const WHOLE: bool = false;
-    /// Whether it shows a scene with a stand-in beside the same one with its real mesh. Elsewhere the one that was
-    /// measured last counts.
+    /// Whether it shows a scene with a stand-in beside the same one with its real mesh. Elsewhere the last
+    /// one of which there is an answer counts.
     const BOTH_MESHES: bool = false;
     /// Draws what `--plot` writes, where the answer has a picture.
     const PLOT: Option<fn(&Self::Answer) -> Figure> = None;

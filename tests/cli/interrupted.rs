@@ -48,7 +48,7 @@ fn interrupted(folder: &Path, more: &[&str]) -> String {
     let (first, reader) = first_table(&mut child);
     kill(Pid::from_raw(child.id() as i32), Signal::SIGINT).unwrap();
     let text = first + &rest(reader);
-    assert_eq!(child.wait().unwrap().code(), Some(130), "{text}");
+    assert_eq!(child.wait().unwrap().signal(), Some(Signal::SIGINT as i32), "{text}");
     text
 }
 

@@ -70,6 +70,6 @@ fn figure(market: &Market, command: &str) -> Figure {
                 market.offers.iter().map(line).collect(),
             )
         })),
-        data: Table::of_texts("", ["structure", "build", "time of a ray"], rows.collect()),
+        data: Table::of_texts("", ["structure", "build", "time of a ray, on all rays of its own"], rows.collect()),
     }
 }

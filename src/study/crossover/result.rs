@@ -69,8 +69,8 @@ pub fn result(cases: &[MemberEpoch]) -> Vec<Race> {
             let (kd, bvh) = (find(scene, kd)?, find(scene, bvh)?);
             let case = cases.iter().find(|case| case.epoch.scene == scene)?;
             let (_, complexity) = case.complexity.iter().find(|(name, _)| name == workload)?;
-            let ratios = middles(&kd.log_ratios(bvh)?);
             let (kd, bvh) = (kd.on_rays_of(bvh)?, bvh.on_rays_of(kd)?);
+            let ratios = middles(&kd.log_ratios(&bvh)?);
             Some(Entry { layers: case.layers, complexity: *complexity, kd, bvh, ratios })
         };
         let mut entries: Vec<Entry> = scenes.into_iter().filter_map(entry).filter(|e| e.complexity > 0.0).collect();

@@ -2,7 +2,7 @@
 //!
 //! Epoch 0 alone is held against brute force and counted: what it found holds for all of them, and without it there is
 //! no answer. What epochs have in common says that they are of one measurement: the rays, how many of them are timed
-//! and the answers to them.
+//! and how often, and the answers to them.
 
 use super::{Epoch, Rays, Structure};
 use crate::registry::RUNNER;
