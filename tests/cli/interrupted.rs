@@ -3,13 +3,13 @@
 use std::collections::BTreeMap;
 use std::fs;
 use std::io::{BufRead, BufReader, Read};
-use std::os::unix::process::ExitStatusExt;
+use std::os::unix::process::{CommandExt, ExitStatusExt};
 use std::path::{Path, PathBuf};
 use std::process::{Child, ChildStdout, Command, Stdio};
 use std::thread;
 use std::time::Duration;
 
-use nix::sys::signal::{Signal, kill};
+use nix::sys::signal::{self, SigHandler, Signal, kill};
 use nix::unistd::Pid;
 
 use super::command::{RIGHT, command};
@@ -24,6 +24,20 @@ fn compare(folder: &Path, more: &[&str]) -> Command {
     let mut command = command(&[&small[..], &["--epochs", "8"], more].concat());
     command.current_dir(folder).stdout(Stdio::piped()).stderr(Stdio::piped());
     command
+}
+
+/// Starts a program that meets signals in this way, in whatever way a shell has this one meet them.
+fn spawn(mut command: Command, way: SigHandler) -> Child {
+    // SAFETY: to set what a signal does is async-signal-safe, and nothing is allocated.
+    unsafe {
+        command.pre_exec(move || {
+            for caught in [Signal::SIGINT, Signal::SIGTERM] {
+                signal::signal(caught, way)?;
+            }
+            Ok(())
+        });
+    }
+    command.spawn().unwrap()
 }
 
 /// Reads up to the blank line after the first table.
@@ -44,7 +58,7 @@ fn rest(mut reader: BufReader<ChildStdout>) -> String {
 
 /// Interrupts a run after its first table; all that it says, once it has ended.
 fn interrupted(folder: &Path, more: &[&str]) -> String {
-    let mut child = compare(folder, more).spawn().unwrap();
+    let mut child = spawn(compare(folder, more), SigHandler::SigDfl);
     let (first, reader) = first_table(&mut child);
     kill(Pid::from_raw(child.id() as i32), Signal::SIGINT).unwrap();
     let text = first + &rest(reader);
@@ -147,12 +161,22 @@ fn a_job_ends_at_once_and_leaves_nothing() {
     // Half a minute of samples.
     let long = ["attribution", "--scenes", "sphere", "--runs", "1000", "--budget", "30", "--epochs", "2"];
     let lines = plan(folder.path(), &long);
-    let mut child = job(&lines[1]).spawn().unwrap();
+    let mut child = spawn(job(&lines[1]), SigHandler::SigDfl);
     let (mut reader, mut said) = (BufReader::new(child.stderr.take().unwrap()), String::new());
     reader.read_line(&mut said).unwrap();
     assert_eq!(said, "measures attribution, epoch 2 of 2: Sphere\n");
     ends_by(Signal::SIGINT, &mut child);
     assert_eq!(fs::read_dir(file(&lines[1]).parent().unwrap()).unwrap().count(), 0);
+}
+
+#[test]
+fn what_was_started_to_ignore_ctrl_c_goes_on() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut child = spawn(compare(folder.path(), &[]), SigHandler::SigIgn);
+    let (first, reader) = first_table(&mut child);
+    kill(Pid::from_raw(child.id() as i32), Signal::SIGINT).unwrap();
+    let text = first + &rest(reader);
+    assert!(child.wait().unwrap().code() == Some(RIGHT) && !text.contains("Interrupted"), "{text}");
 }
 
 #[test]
@@ -168,7 +192,8 @@ fn a_runner_that_does_not_answer_ends_with_the_command() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().canonicalize().unwrap();
     for signal in [Signal::SIGINT, Signal::SIGTERM] {
-        let mut child = compare(&path, &["--runner", "sh -c 'echo here >&2; sleep 600; exit'"]).spawn().unwrap();
+        let hangs = ["--runner", "sh -c 'echo here >&2; sleep 600; exit'"];
+        let mut child = spawn(compare(&path, &hangs), SigHandler::SigDfl);
         let mut said = String::new();
         BufReader::new(child.stderr.take().unwrap()).read_line(&mut said).unwrap();
         assert_eq!(said, "here\n");
