@@ -129,7 +129,7 @@ pub fn run(session: &Session, args: &Args, level: Option<Level>) -> anyhow::Resu
         let waiting = Waiting::show(format!("plans {}", study.name()), terminal);
         let plan = study.plan(&*own, &suite.registry)?;
         drop(waiting);
-        words.extend(study.decided_here(&*own));
+        words.extend(plan.decided);
         warnings.extend(plan.warnings);
         for case in &plan.cases {
             let job = serde_json::to_string(&Job::of(study.name(), case)).expect("a job has text keys");

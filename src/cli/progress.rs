@@ -1,8 +1,9 @@
 //! The progress bar: on stderr, drawn only when a study says what it does, which is never inside a timed region.
 
+use std::io::IsTerminal;
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::thread;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 use std::{fmt, io};
 
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
@@ -57,6 +58,9 @@ impl Drop for Waiting {
     }
 }
 
+/// How often a log, which shows no bar, is told how far a run has come.
+const LINE: Duration = Duration::from_secs(5);
+
 /// Steps of the bar for each unit of work.
 const STEPS: u64 = 100;
 
@@ -98,6 +102,8 @@ pub struct Progress {
     done: u64,
     /// Farthest step of this scene: structures are built again between samples.
     step: u64,
+    /// When the last line was written where there is no bar; nothing where there is one, or nothing is to be shown.
+    logged: Option<Instant>,
     /// Warnings that were shown.
     warned: Vec<String>,
     quiet: bool,
@@ -130,6 +136,7 @@ impl Progress {
             work: 0,
             done: 0,
             step: 0,
+            logged: (!terminal.quiet && !io::stderr().is_terminal()).then(Instant::now),
             warned: vec![],
             quiet: terminal.quiet,
         }
@@ -165,9 +172,18 @@ impl Progress {
             Stage::Build(_) | Stage::Check(_) => self.watched(Some(&text)),
             Stage::Rays(_) | Stage::Trace(..) | Stage::Count => self.watched(None),
         }
+        self.log(&text);
         self.bar.set_message(text);
         self.step = self.step.max(step);
         self.bar.set_position(self.done * STEPS + self.work * self.step);
+    }
+
+    fn log(&mut self, text: &str) {
+        if self.logged.is_some_and(|last| last.elapsed() >= LINE) {
+            let percent = 100 * self.bar.position() / self.bar.length().unwrap_or(0).max(1);
+            crate::output::tell(format_args!("{percent} %: {text}"));
+            self.logged = Some(Instant::now());
+        }
     }
 
     fn watched(&mut self, stage: Option<&str>) {

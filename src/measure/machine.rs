@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::fs;
+use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 use std::time::Duration;
 
@@ -22,15 +23,36 @@ pub fn clock_rate(core: usize) -> Option<f64> {
     first_number(&fs::read_to_string(format!("/sys/devices/system/cpu/cpu{core}/cpufreq/scaling_cur_freq")).ok()?)
 }
 
-/// Bytes of memory that programs may use here, those of a container where it has fewer.
+/// Bytes of memory that this process may use: those of its control groups, which containers and jobs of clusters are, where they have fewer
+/// than the machine.
 pub fn memory() -> Option<u64> {
     let machine = || {
         let text = fs::read_to_string("/proc/meminfo").ok()?;
         let kib = first_number(text.lines().find_map(|line| line.strip_prefix("MemTotal:"))?)?;
         Some(kib as u64 * 1024)
     };
-    let container = || fs::read_to_string("/sys/fs/cgroup/memory.max").ok()?.trim().parse().ok();
-    machine().into_iter().chain(container()).min()
+    let groups = limits(&fs::read_to_string("/proc/self/cgroup").unwrap_or_default());
+    // Where there is no limit it says so in a word.
+    let limit = |file: &PathBuf| fs::read_to_string(file).ok()?.trim().parse().ok();
+    machine().into_iter().chain(groups.iter().filter_map(limit)).min()
+}
+
+/// Where the limits of the groups stand that a process is in, and of those around them; `groups` is what the system tells of it. Inside of a
+/// container some of them are not to be seen.
+fn limits(groups: &str) -> Vec<PathBuf> {
+    let files = |line: &str| {
+        let mut fields = line.splitn(3, ':').skip(1);
+        let (controllers, path) = (fields.next()?, fields.next()?);
+        let (root, file) = match controllers {
+            "" => ("/sys/fs/cgroup", "memory.max"),
+            old if old.split(',').any(|name| name == "memory") => ("/sys/fs/cgroup/memory", "memory.limit_in_bytes"),
+            _ => return None,
+        };
+        let group = Path::new(root).join(path.trim_start_matches('/'));
+        let around = group.ancestors().take_while(|folder| folder.starts_with(root));
+        Some(around.map(|folder| folder.join(file)).collect::<Vec<_>>())
+    };
+    groups.lines().filter_map(files).flatten().collect()
 }
 
 /// Of the calling thread so far: how often it had to make way for another.
@@ -107,6 +129,18 @@ mod tests {
         assert_eq!(first_number("0.52 0.58 0.59 1/977 12345\n"), Some(0.52));
         assert_eq!(first_number("2450000\n"), Some(2.45e6));
         assert_eq!(first_number(""), None);
+    }
+
+    #[test]
+    fn limits_of_memory_are_those_of_all_groups_around() {
+        let job = "0::/system.slice/slurmstepd.scope/job_7\n";
+        let files = ["system.slice/slurmstepd.scope/job_7/", "system.slice/slurmstepd.scope/", "system.slice/", ""];
+        assert_eq!(limits(job), files.map(|folder| PathBuf::from(format!("/sys/fs/cgroup/{folder}memory.max"))));
+        let old = "12:cpu,cpuacct:/a\n9:memory:/slurm/job_7\n1:name=systemd:/\n";
+        let files = ["slurm/job_7/", "slurm/", ""];
+        let of = |folder| PathBuf::from(format!("/sys/fs/cgroup/memory/{folder}memory.limit_in_bytes"));
+        assert_eq!(limits(old), files.map(of));
+        assert!(limits("").is_empty() && limits("nonsense\n0::").len() == 1);
     }
 
     #[test]

@@ -82,7 +82,7 @@ mod tests {
 
     #[test]
     fn signals_that_are_blocked_here_end_a_program() {
-        let caught = SigSet::from_iter([Signal::SIGTERM]);
+        let caught = SigSet::from_iter([Signal::SIGUSR1]);
         let start = move || {
             let mut command = Command::new("sleep");
             set_apart(command.arg("20"));
@@ -90,9 +90,9 @@ mod tests {
             command.spawn().unwrap()
         };
         let mut program = std::thread::spawn(start).join().unwrap();
-        kill(Pid::from_raw(program.id() as i32), Signal::SIGTERM).unwrap();
+        kill(Pid::from_raw(program.id() as i32), Signal::SIGUSR1).unwrap();
         let status = program.wait().unwrap();
-        assert_eq!(status.signal(), Some(Signal::SIGTERM as i32));
+        assert_eq!(status.signal(), Some(Signal::SIGUSR1 as i32));
     }
 
     #[test]

@@ -10,6 +10,7 @@ mod latex;
 mod machines;
 mod markdown;
 mod pictures;
+mod planned;
 pub mod results;
 mod run_error;
 mod runs;

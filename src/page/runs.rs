@@ -9,6 +9,7 @@ use serde_json::Value;
 
 use super::content::{Content, content, folder, modified};
 use super::machines::{Machine, OfMachine};
+use super::planned::without_result;
 use super::run_error::RunError;
 use crate::measure::Provenance;
 use crate::report::Record;
@@ -95,7 +96,7 @@ impl Runs {
     /// If there is nothing, a file is torn, foreign or of another version, or cases of a study are of different settings.
     pub fn read(paths: &[PathBuf], studies: &Studies) -> Result<Self, RunError> {
         let mut files: Vec<File> = vec![];
-        let mut history = vec![];
+        let (mut history, mut left) = (vec![], vec![]);
         for path in paths {
             // A file that was named itself, or that of a folder.
             if path.file_name().is_some_and(|name| name == history::FILE) {
@@ -104,6 +105,7 @@ impl Runs {
             }
             if path.is_dir() {
                 history.extend(history::read(&path.join("baselines").join(history::FILE))?);
+                left.extend(without_result(path));
             }
             let is_folder = path.is_dir();
             let found = if is_folder { folder(path, studies)? } else { vec![path.clone()] };
@@ -112,10 +114,13 @@ impl Runs {
             }
             files.extend(found.into_iter().map(|path| File { path, is_named: !is_folder }));
         }
+        // Folders are named in any order, and one may hold a copy of another's.
+        history.sort_by(|a, b| a.provenance.date.cmp(&b.provenance.date));
+        history.dedup();
         files.sort_by(|a, b| a.path.cmp(&b.path));
         files.dedup_by(|a, b| a.path == b.path);
 
-        let mut runs = Self { history, ..Self::default() };
+        let mut runs = Self { history, notes: left, ..Self::default() };
         let mut parts = vec![];
         let mut cases: BTreeMap<&'static str, Vec<CaseFile<Value>>> = BTreeMap::new();
         for file in files {

@@ -1,5 +1,6 @@
 use std::fs;
 use std::path::PathBuf;
+use std::time::{Duration, SystemTime};
 
 use super::{Runs, files, page};
 use crate::report::document::{Art, Document, Section};
@@ -153,10 +154,11 @@ fn a_part_that_is_not_there_is_named_with_its_command() {
 #[test]
 fn the_newest_run_of_a_scene_counts_and_the_older_one_is_said_to_be_replaced() {
     let older = runs_folder(&[("old.json", to_json(&[records_of("Dragon"), records_of("Cube")].concat()))]);
-    std::thread::sleep(std::time::Duration::from_millis(20));
     let mut newer = records_of("Dragon");
     newer.iter_mut().for_each(|record| record.build_ns = 77);
     let newer = runs_folder(&[("new.json", to_json(&newer))]);
+    let file = fs::File::options().append(true).open(newer.path().join("new.json")).unwrap();
+    file.set_modified(SystemTime::now() + Duration::from_secs(60)).unwrap();
     // In whatever order they are named.
     for order in [[&older, &newer], [&newer, &older]] {
         let runs = Runs::read(&order.map(|folder| folder.path().to_path_buf()), &Studies::builtin()).unwrap();

@@ -154,7 +154,8 @@ mod tests {
         for (script, ends_of_itself) in [("wait", false), ("exit", true)] {
             let mut conversation = shell(&format!("read -r line; sleep 60 & echo started; {script}"));
             assert_eq!(conversation.ask("start").unwrap().text, "started");
-            assert_eq!(conversation.end(FAREWELL).is_some(), ends_of_itself, "{script}");
+            let patience = if ends_of_itself { Duration::from_secs(10) } else { FAREWELL };
+            assert_eq!(conversation.end(patience).is_some(), ends_of_itself, "{script}");
             // Its output is closed once nobody has it.
             let next = conversation.lines.recv_timeout(Duration::from_secs(10));
             assert_eq!(next, Err(RecvTimeoutError::Disconnected), "{script}");

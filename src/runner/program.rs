@@ -39,10 +39,12 @@ impl Program {
         [&[file], &self.words[1..]].concat().join(" ")
     }
 
-    /// The first digits of the SHA-256 of its file: another build is another program. Nothing where it is found on the
-    /// search path.
+    /// The first digits of the SHA-256 of its file and of those that its arguments name, a script for an interpreter: another build is
+    /// another program. Nothing where none of them is a file, as where the program is found on the search path.
     pub fn build_id(&self) -> Option<String> {
-        file_id(Path::new(&self.words[0])).ok()
+        let files = self.words.iter().map(Path::new).filter(|word| word.is_file());
+        let ids: Vec<String> = files.filter_map(|file| file_id(file).ok()).collect();
+        (!ids.is_empty()).then(|| ids.join(" "))
     }
 
     /// Starts it, and asks what it can be asked.

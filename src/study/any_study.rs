@@ -90,8 +90,6 @@ pub trait AnyStudy: Send + Sync {
     /// # Errors
     /// If what is chosen is not taken.
     fn args(&self, chosen: Chosen) -> anyhow::Result<Box<dyn Any>>;
-    /// [`Study::decided_here`].
-    fn decided_here(&self, args: &dyn Any) -> Vec<String>;
     /// [`Study::plan`].
     ///
     /// # Errors
@@ -198,10 +196,6 @@ impl<S: Study> AnyStudy for Typed<S> {
 
     fn args(&self, chosen: Chosen) -> anyhow::Result<Box<dyn Any>> {
         Ok(Box::new(args::<S>(chosen)?))
-    }
-
-    fn decided_here(&self, args: &dyn Any) -> Vec<String> {
-        S::decided_here(own_args::<S>(args))
     }
 
     fn plan(&self, args: &dyn Any, registry: &Registry) -> anyhow::Result<Plan<Box<dyn AnyCase>>> {

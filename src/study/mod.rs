@@ -125,12 +125,6 @@ pub trait Study: 'static {
         None
     }
 
-    /// What this machine decides and another one would decide otherwise, in words of the command line: a plan says it
-    /// to its jobs.
-    fn decided_here(_: &Self::Args) -> Vec<String> {
-        vec![]
-    }
-
     /// What is to be measured. No time is spent here, and whatever can be refused is refused.
     ///
     /// # Errors

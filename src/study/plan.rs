@@ -48,6 +48,8 @@ pub struct Plan<C> {
     pub warnings: Vec<String>,
     /// Files that are read, and so are not written.
     pub inputs: Vec<PathBuf>,
+    /// What this machine decided and another one would decide otherwise, in words of the command line: jobs are told.
+    pub decided: Vec<String>,
     pub measure: Measure<C>,
 }
 
@@ -91,6 +93,7 @@ impl<C> Plan<C> {
             notes: vec![],
             warnings: vec![],
             inputs: vec![],
+            decided: vec![],
             measure,
         }
     }
@@ -100,9 +103,9 @@ impl<C> Plan<C> {
     where
         C: 'static,
     {
-        let Self { settings, threads, cases, limit_ns, notes, warnings, inputs, measure } = self;
+        let Self { settings, threads, cases, limit_ns, notes, warnings, inputs, decided, measure } = self;
         let measure: Measure<D> = Box::new(move |case, clock, progress| measure(case, clock, progress).map(of));
-        Plan { settings, threads, cases, limit_ns, notes, warnings, inputs, measure }
+        Plan { settings, threads, cases, limit_ns, notes, warnings, inputs, decided, measure }
     }
 
     /// All epochs of a scene one after the other: its tables are there before the next one begins.

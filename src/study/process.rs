@@ -83,6 +83,9 @@ impl Processes {
         let mut command = Command::new(program::executable());
         command.arg(format!("--{OPTION}={job_text}")).args(&self.args);
         process_group::set_apart(&mut command);
+        // What it leaves there when it is ended goes with the folder.
+        let scratch = tempfile::Builder::new().prefix("sahara-").tempdir().ok();
+        command.envs(scratch.iter().map(|folder| ("TMPDIR", folder.path())));
         let child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn();
         let mut child = child.map_err(|cause| trouble(format!("it cannot be started: {cause}")))?;
         let (told, said) = (child.stdin.take(), child.stdout.take());

@@ -21,7 +21,8 @@ pub fn words(line: &str) -> Vec<&str> {
 /// The command, whatever the environment of the tests is: without real meshes.
 pub fn command(args: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_sahara"));
-    command.args(args).env_remove("SAHARA_DATA").env_remove("NO_COLOR").stdin(Stdio::null());
+    command.args(args).env_remove("SAHARA_DATA").stdin(Stdio::null());
+    ["NO_COLOR", "CLICOLOR_FORCE", "COLUMNS"].iter().for_each(|name| _ = command.env_remove(name));
     command
 }
 

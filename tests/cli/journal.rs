@@ -29,6 +29,7 @@ pub fn answers(runs: &Path, study: &str) -> BTreeMap<String, Value> {
             for rays in structure["rays"].as_array_mut().unwrap() {
                 rays["ns"] = rays["ns"].as_array().unwrap().len().into();
                 rays["details"]["instructions_per_ray"] = Value::Null;
+                rays["details"]["branch_misses_per_ray"] = Value::Null;
                 rays["parts"].as_array_mut().unwrap().iter_mut().for_each(|part| part["ns"] = Value::Null);
             }
         }

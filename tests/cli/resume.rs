@@ -8,9 +8,9 @@ use std::time::{Duration, Instant};
 use super::command::{RIGHT, command, stderr, words};
 use super::journal::{answers, cases};
 
-/// A study of seconds, of three epochs, into the folder `dir`.
+/// A study of seconds, of twelve epochs, into the folder `dir`.
 fn study(dir: &Path) -> Command {
-    let mut command = command(&words("study attribution cube --rays 64 --runs 1 --budget 1 --epochs 3 --quiet --dir"));
+    let mut command = command(&words("study attribution cube --rays 64 --runs 1 --budget 1 --epochs 12 --quiet --dir"));
     command.arg(dir).stdout(Stdio::piped()).stderr(Stdio::piped());
     command
 }
@@ -48,7 +48,7 @@ fn a_killed_study_ends_as_one_that_was_left_alone() {
 
     finish(&killed);
     assert!(before < cases(&killed, "attribution").len());
-    assert_eq!(answers(&alone, "attribution").len(), 3);
+    assert_eq!(answers(&alone, "attribution").len(), 12);
     assert_eq!(answers(&killed, "attribution"), answers(&alone, "attribution"));
 }
 

@@ -100,8 +100,11 @@ fn two_results_are_not_written_to_one_place() {
 fn more_threads_than_the_system_gives_are_refused_before_anything_is_measured() {
     let folder = tempfile::tempdir().unwrap();
     for words in ["study threads cube --most 1024", "study counts cube --threads 1024"] {
-        let script = format!("ulimit -v 1500000; exec {} -q {words}", env!("CARGO_BIN_EXE_sahara"));
+        // Eight and a half gigabytes of addresses, and one for the stack of each thread: what is refused is a stack, which
+        // leaves more than all else asks for. A thread that fails while it starts would end the process.
+        let script = format!("ulimit -v 8300000; exec {} -q {words}", env!("CARGO_BIN_EXE_sahara"));
         let mut command = std::process::Command::new("sh");
+        command.env("RUST_MIN_STACK", "1000000000").env("RAYON_NUM_THREADS", "1").env("MALLOC_ARENA_MAX", "1");
         let output = command.args(["-c", &script]).current_dir(folder.path()).output().unwrap();
         refused_in_a_line(&output, &["error: the system does not give 1024 threads", "ask for fewer"]);
     }

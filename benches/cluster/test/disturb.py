@@ -109,9 +109,14 @@ class Disturbed:
     def duplicated(self):
         """The same job once more at the same time: one result wins, the other job says so and succeeds."""
         job = self.new_job()
-        again = subprocess.run(["sh", "-c", SHELL + self.plan[job.file]], cwd=self.place, check=False)
-        assert again.returncode == 0, f"a second job for {job.file} failed"
-        assert sum(other.is_new for other in self.jobs() if other.file == job.file) == 2, "the two were not at the same time"
+        # Held until the second one has begun, for it may be short.
+        os.kill(job.process, signal.SIGSTOP)
+        again = subprocess.Popen(["sh", "-c", SHELL + self.plan[job.file]], cwd=self.place)
+        both = lambda: sum(other.is_new for other in self.jobs() if other.file == job.file) == 2
+        wait(lambda: both() or again.poll() is not None, "the second job begins")
+        os.kill(job.process, signal.SIGCONT)
+        assert again.wait() == 0, f"a second job for {job.file} failed"
+        assert both(), "the two were not at the same time"
         self.in_vain[job.file] += 1
         return f"measured {job.file} twice at once"
 

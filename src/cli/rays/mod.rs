@@ -109,17 +109,19 @@ fn record(registry: &Registry, args: &Record, terminal: &Terminal) -> anyhow::Re
 
 fn import(args: &Import, terminal: &Terminal) -> anyhow::Result<Status> {
     let output = sources::output(&args.output, args.scene.as_slice(), [args.text.as_path()])?;
+    let waiting = Waiting::show(format!("reads {}", args.text.display()), terminal);
     let text = std::fs::read_to_string(&args.text).with_context(|| format!("cannot read {}", args.text.display()))?;
     let rays = parse(&text).map_err(|problem| anyhow::anyhow!("{}: {problem}", args.text.display()))?;
     let query = if args.any { Query::Any } else { Query::Closest };
     let workload = Workload { name: args.name.clone(), query, rays };
     let file = match &args.scene {
         Some(scene) => {
-            let _waiting = Waiting::show(format!("loads {scene}"), terminal);
+            waiting.says(format!("loads {scene}"));
             RayFile::new(&sources::scene(scene)?, workload)
         }
         None => RayFile { scene: String::new(), scene_hash: None, workload },
     };
+    drop(waiting);
     finish(&file, &output, terminal)
 }
 
@@ -145,7 +147,9 @@ fn finish(file: &RayFile, output: &OutputFile, terminal: &Terminal) -> anyhow::R
 }
 
 fn show(args: &Show, terminal: &Terminal) -> anyhow::Result<Status> {
+    let waiting = Waiting::show(format!("reads {}", args.file.display()), terminal);
     let file = RayFile::read(&args.file)?;
+    drop(waiting);
     if args.text {
         terminal.print(&file.workload.rays.iter().map(|ray| format!("{ray}\n")).collect::<String>())?;
         return Ok(Status::Right);

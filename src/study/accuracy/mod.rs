@@ -17,6 +17,7 @@ use super::bench::built::Built;
 use super::bench::case::Case;
 use super::bench::failed::Failed;
 use super::bench::ray_cost::picoseconds;
+use super::bench::room::fits;
 use super::bench::timing::Timing;
 use super::{PANICKED, Refused, Stage, StudyError, documented_defect, guarded};
 use crate::accel::{BuildError, Query};
@@ -61,13 +62,14 @@ const SHORT_JUDGING_NS: u64 = 2_000_000_000;
 /// answer the same rays differently, which have none.
 ///
 /// # Errors
-/// If the thread cannot be pinned.
+/// If the structures do not [fit] into memory together, or the thread cannot be pinned.
 pub fn accuracy_scene(
     scene: &Scene,
     settings: &AccuracySettings,
     clock: &dyn Clock,
     progress: &mut dyn FnMut(Stage),
 ) -> Result<(Vec<AccuracyRecord>, Vec<Refused>), StudyError> {
+    fits(&settings.choices, scene)?;
     let threads = Threads::pinned(1).map_err(StudyError::Threads)?;
     let refusal =
         |label: &str, reason: String| Refused { label: label.into(), scene: scene.name.clone(), reason, wrong: false };

@@ -28,6 +28,11 @@ pub fn fits(choices: &[Choice], scene: &Scene) -> Result<(), StudyError> {
     })
 }
 
+/// Whether so many structures over so many triangles may be held at once, about.
+pub fn may_fit(structures: usize, triangles: usize) -> bool {
+    fits_into(memory(), structures, triangles).is_ok()
+}
+
 /// More structures than there is memory for.
 #[derive(Debug, PartialEq)]
 struct TooMany {

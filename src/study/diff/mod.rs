@@ -95,7 +95,7 @@ pub struct Wrong {
     pub what: String,
 }
 
-/// How many ratios of one run lie within the intervals of the other.
+/// How many ratios of one run are found again in the other.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Reproduced {
     pub ratios: usize,
@@ -103,6 +103,8 @@ pub struct Reproduced {
     pub old_in_new: usize,
     /// The other way round.
     pub new_in_old: usize,
+    /// Ratios whose change cannot be told from none, by the spread of both runs.
+    pub unchanged: usize,
 }
 
 impl Comparison {
@@ -187,17 +189,20 @@ fn reproduced(old: &[Record], new: &[Record]) -> Reproduced {
             same && (base.label == REPORT_TREE || is_obvhs(&base.structure))
         };
         for base in old.iter().filter(to) {
-            let ratio = |own: &Record, base: &Record, other: &Record, noise: &AaNoise| {
-                let values = epoch_values(&[own.speed_against(base)?])?;
-                let ratio = Rerun::in_epochs(&values, other.epochs, noise.of_ratio())?.ratio();
-                ratio.interval.is_some().then_some(ratio)
+            let values = |own: &Record, base: &Record| epoch_values(&[own.speed_against(base)?]);
+            let values = || Some([values(own, base)?, values(own_new, counterpart(base, new)?)?]);
+            let Some([a, b]) = values() else { continue };
+            let [noise_a, noise_b] = noises.each_ref().map(AaNoise::of_ratio);
+            let ratio = |values: &[f64], epochs: usize, noise| {
+                Rerun::in_epochs(values, epochs, noise).map(|rerun| rerun.ratio()).filter(|ratio| ratio.interval.is_some())
             };
-            let a = ratio(own, base, own_new, &noises[0]);
-            let b = counterpart(base, new).and_then(|base| ratio(own_new, base, own, &noises[1]));
-            let (Some(a), Some(b)) = (a, b) else { continue };
+            let change = Rerun::change(&a, &b, [noise_a, noise_b]).map(|change| change.ratio());
+            let (a, b) = (ratio(&a, b.len(), noise_a), ratio(&b, a.len(), noise_b));
+            let (Some(a), Some(b), Some(change)) = (a, b, change) else { continue };
             found.ratios += 1;
             found.old_in_new += usize::from(b.holds(a.estimate));
             found.new_in_old += usize::from(a.holds(b.estimate));
+            found.unchanged += usize::from(change.holds(1.0));
         }
     }
     found

@@ -76,14 +76,15 @@ fn cells(comparison: &Comparison) -> Table {
         cells.extend(comparison.structures.iter().map(of));
         cells
     });
-    let Reproduced { ratios, old_in_new, new_in_old } = comparison.reproduced;
+    let Reproduced { ratios, old_in_new, new_in_old, unchanged } = comparison.reproduced;
     let share = |n: usize| format!("{n} of {ratios} ({}%)", figures(100.0 * n as f64 / ratios as f64));
     let reproduced = (ratios > 0).then(|| {
         format!(
             "Of the ratios to the report's tree and to obvhs, {} of the old run lie within the new run's intervals, {} of the new within \
-             the old's.",
+             the old's; {} have not changed, by intervals of the change, which know the spread of both.",
             share(old_in_new),
-            share(new_in_old)
+            share(new_in_old),
+            share(unchanged)
         )
     });
     let (rows, notes) = (rows.collect(), reproduced.into_iter().collect());

@@ -184,9 +184,9 @@ fn on_two_machines_ratios_to_obvhs_are_compared_and_nothing_else() {
 fn ratios_are_found_again_or_not() {
     let same = Comparison::new(&run(1.0, 1.0), &run(2.0, 1.0), None, 1).reproduced;
     // In each of two cells: two structures to three bases, less the tree to itself, and the bases among each other.
-    assert_eq!((same.ratios, same.old_in_new, same.new_in_old), (18, 18, 18));
+    assert_eq!((same.ratios, same.old_in_new, same.new_in_old, same.unchanged), (18, 18, 18, 18));
     let other = Comparison::new(&run(1.0, 1.0), &run(1.0, 1.5), None, 1).reproduced;
-    assert_eq!((other.ratios, other.old_in_new), (18, 12), "those of the SAH tree are not");
+    assert_eq!((other.ratios, other.old_in_new, other.unchanged), (18, 12, 12), "those of the SAH tree are not");
 }
 
 #[test]

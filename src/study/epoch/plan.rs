@@ -54,6 +54,7 @@ pub fn plan<C: 'static>(
         notes,
         warnings,
         inputs: vec![],
+        decided: vec![],
         cases,
         measure: Box::new(move |&Planned { scene: number, epoch, .. }, clock, progress| {
             let scene = &scenes[number];

@@ -15,6 +15,16 @@ pub struct Series {
     pub changes: Vec<Step>,
 }
 
+/// Whether a structure was measured on the same rays in both runs, so that its times can be held against each other.
+fn is_comparable(old: &Entry, new: &Entry) -> bool {
+    new.structures.iter().any(|new| before(old, new).is_some())
+}
+
+/// The same structure on the same rays in the run before.
+fn before<'a>(run: &'a Entry, new: &RelativeTime) -> Option<&'a RelativeTime> {
+    run.structures.iter().find(|old| old.label == new.label && old.rays == new.rays)
+}
+
 /// A structure that became faster or slower.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Step {
@@ -35,8 +45,8 @@ fn changes(runs: &[Entry]) -> Vec<Step> {
     let mut found = vec![];
     for (number, pair) in runs.windows(2).enumerate() {
         for new in &pair[1].structures {
-            let old = pair[0].structures.iter().find(|old| old.label == new.label && old.rays == new.rays);
-            let change = old.and_then(|old| Rerun::change(&old.epochs, &new.epochs, [old.noise(), new.noise()]));
+            let change = before(&pair[0], new)
+                .and_then(|old| Rerun::change(&old.epochs, &new.epochs, [old.noise(), new.noise()]));
             found.extend(change.map(|change| Step {
                 structure: new.label.clone(),
                 run: number + 1,
@@ -53,6 +63,11 @@ impl Series {
     /// Labels of the structures, in the order in which they first appear.
     pub fn structures(&self) -> Vec<&str> {
         each_once(self.runs.iter().flat_map(|run| &run.structures).map(|one| one.label.as_str()))
+    }
+
+    /// Whether anything of a run, but for the first, can be held against the one before.
+    pub fn is_compared(&self, run: usize) -> bool {
+        is_comparable(&self.runs[run - 1], &self.runs[run])
     }
 
     /// How many times as fast as the references a structure was in a run.

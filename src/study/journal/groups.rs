@@ -6,12 +6,13 @@ use std::path::PathBuf;
 use super::header::differences;
 use super::{CaseFile, JournalError};
 use crate::measure::Provenance;
+use crate::report::words::distinct;
 use crate::study::grouped::grouped;
 
 /// Cases of one study that one build has measured on one machine.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Group<C> {
-    /// Of the oldest of them.
+    /// Of [all of them](of_all).
     pub provenance: Provenance,
     /// By their keys.
     pub files: Vec<CaseFile<C>>,
@@ -45,11 +46,21 @@ pub fn groups<C>(files: Vec<CaseFile<C>>) -> Result<Vec<Group<C>>, JournalError>
             replaced.extend(is_replaced.then(|| file.path.clone()));
             is_replaced
         });
-        let oldest = files.iter().min_by_key(|file| date(file)).expect("a group has a case");
-        Group { provenance: oldest.header.provenance.clone(), replaced, files }
+        Group { provenance: of_all(&files), replaced, files }
     };
     let of_machines = grouped(files, |one, other| one.header.machine() == other.header.machine());
     let mut groups: Vec<Group<C>> = of_machines.into_iter().map(group).collect();
     groups.sort_by_cached_key(|group| (group.files.len(), group.provenance.date.clone()));
     Ok(groups)
+}
+
+/// That of the oldest, with the hosts of all and the highest load that one of them met.
+fn of_all<C>(files: &[CaseFile<C>]) -> Provenance {
+    let all = || files.iter().map(|file| &file.header.provenance);
+    let oldest = all().min_by_key(|one| &one.date).expect("a group has a case");
+    // A job that follows another one meets the load that that has made.
+    let before = |one: &Provenance| if one.date > oldest.date { one.threads as f64 } else { 0.0 };
+    let loads = all().filter_map(|one| Some((one.load? - before(one)).max(0.0)));
+    let hosts = distinct(all().map(|one| &one.host));
+    Provenance { host: hosts.join(", "), load: loads.max_by(f64::total_cmp), ..oldest.clone() }
 }

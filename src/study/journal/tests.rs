@@ -319,6 +319,7 @@ fn cases_of_builds_and_machines_are_apart_and_those_of_hosts_are_not() {
         let mut header = header(5);
         let p = &mut header.provenance;
         (p.host, p.commit, p.date) = (host.into(), commit.into(), date.into());
+        (p.threads, p.load) = (1, Some(if host == "n3" { 9.0 } else { 0.5 }));
         CaseFile { path: format!("{key}-{host}-{commit}").into(), header, key: key.into(), case: () }
     };
     let files = vec![
@@ -332,7 +333,10 @@ fn cases_of_builds_and_machines_are_apart_and_those_of_hosts_are_not() {
         |group: &Group<()>| -> Vec<String> { group.files.iter().map(|file| file.path.display().to_string()).collect() };
     assert_eq!(found.iter().map(of).collect::<Vec<_>>(), [vec!["a-n1-old"], vec!["a-n3-new", "b-n2-new"]]);
     assert_eq!(found[1].replaced, [PathBuf::from("a-n1-new")]);
-    assert_eq!(found[1].provenance.date, "2026-02");
+    let of_all = &found[1].provenance;
+    assert_eq!((of_all.date.as_str(), of_all.host.as_str()), ("2026-02", "n3, n2"));
+    // Less its predecessor's.
+    assert_eq!((found[0].provenance.load, of_all.load), (Some(0.5), Some(8.0)));
 
     let mut other = files;
     other[1].header.settings.insert("runs".into(), 6.into());

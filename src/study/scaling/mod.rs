@@ -13,6 +13,7 @@ mod table;
 mod tests;
 
 use super::args::{Measuring, Rays, Scenes, Structures, with_twin};
+use super::bench::room::may_fit;
 use super::epoch::Epoch;
 use super::{Context, Data, Plan, Study, sources};
 use crate::registry::Registry;
@@ -22,7 +23,7 @@ use crate::report::{Statement, Table};
 use crate::scene::{Scene, WorkloadKind};
 
 pub use growth::{Family, FamilyEpoch, Growth, LEVEL_8, Point, result};
-pub use spheres::{FINEST, name, sphere};
+pub use spheres::{FINEST, name, sphere, triangles};
 use table::{exponents, groups, points};
 
 const STRUCTURES: [&str; 7] =
@@ -34,14 +35,20 @@ const EPOCHS_OF_FINEST: usize = 3;
 
 pub struct ScalingStudy;
 
+/// The finest level of which `fits` says that its triangles have room; the coarsest where none has.
+fn finest(fits: impl Fn(usize) -> bool) -> u32 {
+    (0..=FINEST).rev().find(|&level| fits(triangles(level))).unwrap_or(0)
+}
+
 #[derive(Clone, Debug, clap::Args)]
 pub struct ScalingArgs {
     // Beside the icospheres.
     #[command(flatten)]
     scenes: Scenes,
-    /// The finest icosphere: 0 has 20 triangles, each next one four times as many, and the last one 16 million
-    #[arg(long, value_name = "LEVEL", default_value_t = FINEST, value_parser = clap::value_parser!(u32).range(0..=i64::from(FINEST)))]
-    finest: u32,
+    /// The finest icosphere: 0 has 20 triangles, each next one four times as many, and the last one, 10, 16 million
+    /// [default: the last one whose trees fit into memory together]
+    #[arg(long, value_name = "LEVEL", value_parser = clap::value_parser!(u32).range(0..=i64::from(FINEST)))]
+    finest: Option<u32>,
     #[command(flatten)]
     structures: Structures,
     #[command(flatten)]
@@ -63,10 +70,11 @@ impl Study for ScalingStudy {
     fn plan(args: &ScalingArgs, registry: &Registry) -> anyhow::Result<Plan<FamilyEpoch>> {
         let structures = with_twin(args.structures.chosen(registry, &STRUCTURES)?);
         let asked = args.rays.asked(&[WorkloadKind::Primary, WorkloadKind::Random]);
+        let finest = args.finest.unwrap_or_else(|| finest(|triangles| may_fit(structures.len(), triangles)));
         let settings = args.measuring.settings(registry, structures, asked)?;
         // Before the spheres, for they may not be there.
         let meshes = args.scenes.read(&["dragon", "lucy", "sponza"])?;
-        let levels: Vec<String> = (0..=args.finest).map(name).collect();
+        let levels: Vec<String> = (0..=finest).map(name).collect();
         // The finest take seconds to make.
         let wanted = sources::wanted(&levels).filter_map(|name| levels.iter().position(|level| level == name));
         let mut scenes: Vec<Scene> = wanted.map(|level| sphere(level as u32)).collect::<Result<_, _>>()?;
@@ -84,6 +92,17 @@ impl Study for ScalingStudy {
                 "Meshes of more than {} triangles are measured in {EPOCHS_OF_FINEST} epochs, for their builds take minutes.",
                 count(LEVEL_8 as u64)
             ));
+        }
+        if args.finest.is_none() {
+            plan.decided = vec!["--finest".into(), finest.to_string()];
+            if finest < FINEST {
+                let note = format!(
+                    "Icospheres of more than {} triangles are left out, for the trees over them do not fit into the memory of this machine \
+                     together.",
+                    count(triangles(finest) as u64)
+                );
+                plan.notes.push(note);
+            }
         }
         Ok(Plan { inputs: args.scenes.files(), ..plan })
     }

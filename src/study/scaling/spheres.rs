@@ -9,6 +9,11 @@ const STEPS: [u32; 11] = [1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 895];
 /// The finest level.
 pub const FINEST: u32 = STEPS.len() as u32 - 1;
 
+/// How many triangles the icosphere of a level has.
+pub fn triangles(level: u32) -> usize {
+    20 * (STEPS[level as usize] as usize).pow(2)
+}
+
 /// What the icosphere of a level is called.
 pub fn name(level: u32) -> String {
     format!("icosphere {level}")

@@ -118,4 +118,12 @@ fn spheres_are_seen_alike() {
     // The names of levels are their numbers; the finest has sixteen million.
     assert_eq!((name(0).as_str(), FINEST), ("icosphere 0", 10));
     assert_eq!(sphere(5).unwrap().mesh.len(), 20 << 10);
+    assert_eq!([3, 5, FINEST].map(triangles), [1280, 20 << 10, 16_020_500]);
+}
+
+#[test]
+fn the_finest_is_the_last_one_that_there_is_room_for() {
+    assert_eq!(finest(|_| true), FINEST);
+    assert_eq!(finest(|triangles| triangles < 16_020_500), FINEST - 1);
+    assert_eq!(finest(|_| false), 0);
 }

@@ -70,10 +70,6 @@ impl Study for ThreadsStudy {
         (cores() == 1).then_some("one core has no second one that its threads could be compared on")
     }
 
-    fn decided_here(args: &ThreadsArgs) -> Vec<String> {
-        if args.most.is_some() { vec![] } else { vec!["--most".into(), cores().to_string()] }
-    }
-
     fn plan(args: &ThreadsArgs, registry: &Registry) -> anyhow::Result<Plan<ThreadsEpoch>> {
         anyhow::ensure!(args.measuring.threads == 1, "every number of threads is measured: --most says up to which");
         let most = args.most.map_or_else(cores, usize::from);
@@ -109,6 +105,7 @@ impl Study for ThreadsStudy {
             notes,
             warnings: vec![],
             inputs: args.scenes.files(),
+            decided: if args.most.is_some() { vec![] } else { vec!["--most".into(), most.to_string()] },
             cases,
             measure: Box::new(move |case, clock, progress| {
                 let (scene, number) = (&scenes[case.scene / numbers.len()], numbers[case.scene % numbers.len()]);

@@ -118,7 +118,8 @@ mod tests {
     fn of(script: &str) -> Result<Answers, Failure> {
         let mut command = Command::new("/bin/sh");
         command.args(["-c", script]);
-        outcome(command, Duration::from_millis(2000)).unwrap()
+        let seconds = if script.contains("sleep") { 2 } else { 60 };
+        outcome(command, Duration::from_secs(seconds)).unwrap()
     }
 
     #[test]
