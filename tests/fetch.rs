@@ -253,8 +253,7 @@ fn a_server_that_stalls_is_left() {
             sha256: hex(&mesh()),
             bytes: Some(100_000),
         };
-        let error =
-            Client::with_patience(Duration::from_secs(2)).fetch(&file, &mut |_| ()).unwrap_err().to_string();
+        let error = Client::with_patience(Duration::from_secs(2)).fetch(&file, &mut |_| ()).unwrap_err().to_string();
         assert!(error.contains(word) && error.contains(&file.url), "{error}");
         assert!(begun.elapsed() < Duration::from_secs(20), "{:?}", begun.elapsed());
     }

@@ -15,7 +15,10 @@ pub fn without_result(folder: &Path) -> Option<String> {
     let missing: Vec<&PathBuf> = results.iter().filter(|result| !result.exists()).collect();
     let first = missing.first()?.display();
     let (jobs, missing) = (plural(results.len(), "job"), missing.len());
-    Some(format!("{missing} of {jobs} of {} have no result, the first of them {first}: the same plan measures them.", path.display()))
+    Some(format!(
+        "{missing} of {jobs} of {} have no result, the first of them {first}: the same plan measures them.",
+        path.display()
+    ))
 }
 
 /// The files of the jobs of a plan, wherever it was made: a folder of a study and in it one of a case.

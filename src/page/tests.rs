@@ -300,6 +300,32 @@ fn the_picture_of_a_history_names_commits_and_marks_changes() {
 }
 
 #[test]
+fn runs_of_several_histories_are_in_order_of_time_and_only_those_of_the_same_rays_are_compared() {
+    let lines = |runs: &[(&str, &str)]| {
+        let line = |(scene, date): &(&str, &str)| {
+            let mut records = records_of(scene);
+            for record in &mut records {
+                record.provenance.date = format!("{date}T00:00:00Z");
+                record.scene_hash = (*scene).into();
+            }
+            serde_json::to_string(&Entry::new("nightly", &records).unwrap()).unwrap() + "\n"
+        };
+        let text: String = runs.iter().map(line).collect();
+        runs_folder(&[(format!("baselines/{}", history::FILE), text.into_bytes())])
+    };
+    let (tenth, second) = (lines(&[("Cube", "2026-03-10")]), lines(&[("Cube", "2026-03-02"), ("Torus", "2026-03-11")]));
+    let paths = [&tenth, &second, &tenth].map(|folder| folder.path().to_path_buf());
+    let of = |paths: &[PathBuf]| Runs::read(paths, &Studies::builtin()).unwrap();
+    let runs = of(&paths);
+    let days: Vec<&str> = runs.history.iter().map(|run| &run.provenance.date[8..10]).collect();
+    assert_eq!(days, ["02", "10", "11"]);
+    assert!(page(&document(&runs, vec![])).contains("of 2026-03-11, is of other scenes or rays than the one before"));
+    let same = lines(&[("Cube", "2026-03-02"), ("Cube", "2026-03-10")]);
+    let text = page(&document(&of(&[same.path().to_path_buf()]), vec![]));
+    assert!(text.contains("of 2026-03-10, is not distinguishable from the one before"));
+}
+
+#[test]
 fn a_scene_that_was_not_checked_is_left_out_and_named() {
     let mut files = attribution_files("Cube");
     files.remove(0);

@@ -17,7 +17,12 @@ fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
 
 /// What `sha256sum -c` says of the files of a folder; nothing where there is no such program.
 fn checked(folder: &Path) -> Option<String> {
-    let output = Command::new("sha256sum").args(["-c", "--strict", "SHA256SUMS"]).env("LC_ALL", "C").current_dir(folder).output().ok()?;
+    let output = Command::new("sha256sum")
+        .args(["-c", "--strict", "SHA256SUMS"])
+        .env("LC_ALL", "C")
+        .current_dir(folder)
+        .output()
+        .ok()?;
     assert!(output.status.success(), "{}{}", stdout(&output), stderr(&output));
     Some(stdout(&output))
 }

@@ -24,7 +24,8 @@ use sahara::triangle::{Exact, MollerTrumbore};
 use sahara::validate::conformance::{Named, Subject, answers, counting, shapes};
 use sahara::validate::degenerate_meshes;
 
-sahara::conformance!(my_grid, Grid<MollerTrumbore>, GridConfig::default(), lowest_id);
+// Few cells: each of two thousand triangles that coincide is in all that it meets.
+sahara::conformance!(my_grid, Grid<MollerTrumbore>, GridConfig { resolution: 4 }, lowest_id);
 sahara::conformance!(my_grid_of_one_cell, Grid<Exact>, GridConfig { resolution: 1 });
 
 fn registry() -> Registry {

@@ -64,7 +64,10 @@ fn sentence(series: &Series) -> String {
     let changed = match (last, of_last.is_empty()) {
         (0, _) => "a second one tells what changed".to_owned(),
         _ if !series.is_compared(last) => {
-            format!("the last one, {}, is of other scenes or rays than the one before: nothing is compared", run(series, last))
+            format!(
+                "the last one, {}, is of other scenes or rays than the one before: nothing is compared",
+                run(series, last)
+            )
         }
         (_, true) => format!("the last one, {}, is not distinguishable from the one before", run(series, last)),
         (_, false) => format!("in the last one, {}, {}", run(series, last), listed(&of_last)),

@@ -194,7 +194,9 @@ fn reproduced(old: &[Record], new: &[Record]) -> Reproduced {
             let Some([a, b]) = values() else { continue };
             let [noise_a, noise_b] = noises.each_ref().map(AaNoise::of_ratio);
             let ratio = |values: &[f64], epochs: usize, noise| {
-                Rerun::in_epochs(values, epochs, noise).map(|rerun| rerun.ratio()).filter(|ratio| ratio.interval.is_some())
+                Rerun::in_epochs(values, epochs, noise)
+                    .map(|rerun| rerun.ratio())
+                    .filter(|ratio| ratio.interval.is_some())
             };
             let change = Rerun::change(&a, &b, [noise_a, noise_b]).map(|change| change.ratio());
             let (a, b) = (ratio(&a, b.len(), noise_a), ratio(&b, a.len(), noise_b));
