@@ -1,8 +1,9 @@
 #!/bin/sh
 # The jobs of a plan as one Slurm job array: task N runs line N of plan.txt.
 #
-#   sahara study plan all --dir runs > plan.txt
-#   sbatch --array="1-$(wc -l < plan.txt)%16" benches/cluster/slurm-array.sh plan.txt
+#   mkdir -p runs
+#   sahara study plan all --dir runs > runs/plan.txt
+#   sbatch --array="1-$(wc -l < runs/plan.txt)%16" benches/cluster/slurm-array.sh runs/plan.txt
 #
 # %16 is how many run at once. The same command again measures what is missing: a job whose file is there ends at once.
 # SAHARA names the program where `sahara` is not on the PATH of the nodes.

@@ -172,10 +172,10 @@ impl Progress {
             Stage::Build(_) | Stage::Check(_) => self.watched(Some(&text)),
             Stage::Rays(_) | Stage::Trace(..) | Stage::Count => self.watched(None),
         }
-        self.log(&text);
-        self.bar.set_message(text);
         self.step = self.step.max(step);
         self.bar.set_position(self.done * STEPS + self.work * self.step);
+        self.log(&text);
+        self.bar.set_message(text);
     }
 
     fn log(&mut self, text: &str) {

@@ -4,6 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::report::number::plural;
+use crate::study::job::OUT;
 
 /// What the plan is called in the folder of its results, if it is kept there.
 const FILE: &str = "plan.txt";
@@ -24,7 +25,10 @@ pub fn without_result(folder: &Path) -> Option<String> {
 /// The files of the jobs of a plan, wherever it was made: a folder of a study and in it one of a case.
 fn results(plan: &str, folder: &Path) -> Vec<PathBuf> {
     let result = |line: &str| {
-        let file = PathBuf::from(shlex::split(line)?.pop()?);
+        let words = shlex::split(line)?;
+        let [.., option, file] = &words[..] else { return None };
+        let file = Path::new(file);
+        (option.strip_prefix("--") == Some(OUT)).then_some(())?;
         Some(folder.join(file.parent()?.file_name()?).join(file.file_name()?))
     };
     plan.lines().filter_map(result).collect()
@@ -39,7 +43,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path();
         assert_eq!(without_result(path), None, "there is no plan");
-        let plan = "sahara study costs 'my mesh.ply' --out 'far away/costs/a.json'\nsahara study costs b --out runs/costs/b.json\n\n";
+        let plan = "sahara study costs 'my mesh.ply' --out 'far away/costs/a.json'\nsahara study costs b --out runs/costs/b.json\n\nsee notes/of/may\n";
         fs::write(path.join(FILE), plan).unwrap();
         fs::create_dir(path.join("costs")).unwrap();
         fs::write(path.join("costs/a.json"), "").unwrap();

@@ -96,31 +96,29 @@ impl Runs {
     /// If there is nothing, a file is torn, foreign or of another version, or cases of a study are of different settings.
     pub fn read(paths: &[PathBuf], studies: &Studies) -> Result<Self, RunError> {
         let mut files: Vec<File> = vec![];
-        let (mut history, mut left) = (vec![], vec![]);
+        let (mut histories, mut left) = (vec![], vec![]);
         for path in paths {
             // A file that was named itself, or that of a folder.
             if path.file_name().is_some_and(|name| name == history::FILE) {
-                history.extend(history::read(path)?);
+                histories.push(history::read(path)?);
                 continue;
             }
             if path.is_dir() {
-                history.extend(history::read(&path.join("baselines").join(history::FILE))?);
+                histories.push(history::read(&path.join("baselines").join(history::FILE))?);
                 left.extend(without_result(path));
             }
             let is_folder = path.is_dir();
             let found = if is_folder { folder(path, studies)? } else { vec![path.clone()] };
-            if found.is_empty() && history.is_empty() {
+            if found.is_empty() && histories.iter().all(Vec::is_empty) {
                 return Err(RunError::Empty { path: path.clone() });
             }
             files.extend(found.into_iter().map(|path| File { path, is_named: !is_folder }));
         }
-        // Folders are named in any order, and one may hold a copy of another's.
-        history.sort_by(|a, b| a.provenance.date.cmp(&b.provenance.date));
-        history.dedup();
+        left.dedup();
         files.sort_by(|a, b| a.path.cmp(&b.path));
         files.dedup_by(|a, b| a.path == b.path);
 
-        let mut runs = Self { history, notes: left, ..Self::default() };
+        let mut runs = Self { history: history::merged(histories), notes: left, ..Self::default() };
         let mut parts = vec![];
         let mut cases: BTreeMap<&'static str, Vec<CaseFile<Value>>> = BTreeMap::new();
         for file in files {

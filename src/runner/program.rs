@@ -39,12 +39,11 @@ impl Program {
         [&[file], &self.words[1..]].concat().join(" ")
     }
 
-    /// The first digits of the SHA-256 of its file and of those that its arguments name, a script for an interpreter: another build is
-    /// another program. Nothing where none of them is a file, as where the program is found on the search path.
+    /// The first digits of the SHA-256 of its file: another build is another program. Of a program on the search path those of the first
+    /// file among its arguments, which is the script of an interpreter; nothing where there is none.
     pub fn build_id(&self) -> Option<String> {
-        let files = self.words.iter().map(Path::new).filter(|word| word.is_file());
-        let ids: Vec<String> = files.filter_map(|file| file_id(file).ok()).collect();
-        (!ids.is_empty()).then(|| ids.join(" "))
+        let file = self.words.iter().map(Path::new).find(|word| word.is_file());
+        file.and_then(|file| file_id(file).ok())
     }
 
     /// Starts it, and asks what it can be asked.

@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
-use super::journal::{self, CaseFile, Header};
+use super::journal::{self, CaseFile, Header, Read};
 use super::{AnyStudy, Chosen, Plan, Planned, Screen, StudyError};
 use crate::measure::{Provenance, SystemClock, quoted};
 use crate::registry::Registry;
@@ -76,10 +76,14 @@ impl dyn AnyStudy + '_ {
         out: &Path,
         screen: &mut dyn Screen,
     ) -> anyhow::Result<Done> {
-        let (plan, read) = (self.plan(&*self.args(chosen)?, registry)?, self.reader());
-        let case = job.find(&plan)?;
+        let read = self.reader();
         // As the run that would have started a process for it.
         let command = command_of_run(std::env::args());
+        if is_repeated(job, out, &command, read) {
+            return Ok(Done::Before);
+        }
+        let plan = self.plan(&*self.args(chosen)?, registry)?;
+        let case = job.find(&plan)?;
         let provenance = Provenance { process_per_epoch: true, command, ..Provenance::of(&plan.threads) };
         let header = Header::new(&job.study, &plan.settings, provenance);
         let there = || CaseFile::there(out, &header, &case.key, read);
@@ -101,6 +105,17 @@ impl dyn AnyStudy + '_ {
         there()?;
         Ok(Done::Meanwhile)
     }
+}
+
+/// Whether this program has done the job before, by the same command on such a machine: that is known without the scene.
+fn is_repeated<C>(job: &Job, out: &Path, command: &str, read: Read<C>) -> bool {
+    let Ok(there) = CaseFile::read(out) else { return false };
+    let (own, other) = (Provenance::capture(1), &there.header.provenance);
+    let is_known = [&own.build, &own.cpu].iter().all(|part| *part != "unknown");
+    let is_same =
+        (&own.build, &own.simd, &own.cpu) == (&other.build, &other.simd, &other.cpu) && command == other.command;
+    let is_of_job = (&job.study, &job.key) == (&there.header.study, &there.key);
+    is_known && is_same && is_of_job && there.read_case(read).is_ok()
 }
 
 /// The command line without the job: the same for all jobs of a run.

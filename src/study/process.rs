@@ -83,9 +83,10 @@ impl Processes {
         let mut command = Command::new(program::executable());
         command.arg(format!("--{OPTION}={job_text}")).args(&self.args);
         process_group::set_apart(&mut command);
-        // What it leaves there when it is ended goes with the folder.
-        let scratch = tempfile::Builder::new().prefix("sahara-").tempdir().ok();
-        command.envs(scratch.iter().map(|folder| ("TMPDIR", folder.path())));
+        // Programs that are timed have files there: what is left when the process is ended goes with the folder.
+        let has_programs = self.args.iter().any(|arg| arg.to_string_lossy().starts_with("--runner"));
+        let scratch = if has_programs { tempfile::Builder::new().prefix("sahara-").tempdir().ok() } else { None };
+        command.envs(scratch.iter().flat_map(|folder| ["TMPDIR", "TMP", "TEMP"].map(|name| (name, folder.path()))));
         let child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn();
         let mut child = child.map_err(|cause| trouble(format!("it cannot be started: {cause}")))?;
         let (told, said) = (child.stdin.take(), child.stdout.take());

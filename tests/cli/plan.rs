@@ -9,7 +9,7 @@ use serde_json::Value;
 use tempfile::TempDir;
 
 use super::command::{
-    RIGHT, command, json, prints, refused_in_a_line, refuses, refuses_in_a_line, sahara, stderr, stdout,
+    RIGHT, SQUARE, command, json, prints, refused_in_a_line, refuses, refuses_in_a_line, sahara, stderr, stdout, write,
 };
 use super::journal::{answers, cases};
 
@@ -291,6 +291,19 @@ fn a_job_measures_once_and_refuses_what_is_not_its_own() {
 }
 
 #[test]
+fn a_job_that_is_repeated_loads_nothing() {
+    let folder = TempDir::new().unwrap();
+    let mesh = write(&folder, "square.obj", SQUARE);
+    let lines = plan(folder.path(), &[&SMALL[..], &["--scenes", &mesh]].concat());
+    done(&lines[0]);
+    fs::remove_file(&mesh).unwrap();
+    let again = run(&lines[0]);
+    assert_eq!(again.status.code(), Some(RIGHT), "{}", stderr(&again));
+    assert!(stderr(&again).contains("nothing is measured"), "{}", stderr(&again));
+    refused_in_a_line(&run(&lines[1]), &[&mesh]);
+}
+
+#[test]
 fn of_two_jobs_at_one_file_one_wins_and_both_are_content() {
     let folder = TempDir::new().unwrap();
     let lines = plan(folder.path(), &[&SMALL[..], &["--scenes", "cube"]].concat());
@@ -348,7 +361,11 @@ fn the_report_keeps_machines_apart_and_names_what_is_missing() {
     let [here, there, page] = ["here", "there", "page"].map(|name| folder.path().join(name));
     let own = ["-s", "sah-kd", "-s", "obvhs-bvh2", "-w", "primary", "--rays", "256", "--epochs", "2", "--budget", "1"];
     let planned = |dir: &Path| plan(dir, &[&["compare", "--scenes", "cube", "torus"][..], &own].concat());
-    planned(&here).iter().for_each(|line| done(line));
+    let lines = planned(&here);
+    lines.iter().for_each(|line| done(line));
+    // A plan that is kept beside the results tells how many there are to be.
+    let never = lines[0].replace("epoch-0", "epoch-9");
+    fs::write(here.join("plan.txt"), [&lines[..], &[never]].concat().join("\n")).unwrap();
     // As another machine would have measured them, but for one.
     fs::create_dir_all(there.join("compare")).unwrap();
     for (i, line) in planned(&here).iter().enumerate().filter(|(i, _)| *i != 2) {
@@ -363,7 +380,9 @@ fn the_report_keeps_machines_apart_and_names_what_is_missing() {
     };
     let output = report(&[&here, &there]);
     assert_eq!(output.status.code(), Some(RIGHT), "{}", stderr(&output));
-    assert!(stdout(&output).contains("compare: ") && stdout(&output).contains("not measured"), "{}", stdout(&output));
+    let told = stdout(&output);
+    assert!(told.contains("compare: ") && told.contains("not measured"), "{told}");
+    assert!(told.contains("1 of 5 jobs of ") && told.contains("epoch-9"), "{told}");
     let html = fs::read_to_string(page.join("index.html")).unwrap();
     assert!(html.contains("Another Processor") && html.contains("M2"), "two machines, side by side");
     let records = fs::read_to_string(page.join("data/records.jsonl")).unwrap();

@@ -28,9 +28,9 @@ pub fn fits(choices: &[Choice], scene: &Scene) -> Result<(), StudyError> {
     })
 }
 
-/// Whether so many structures over so many triangles may be held at once, about.
+/// Whether so many structures over so many triangles surely fit: with the mesh, and what the last one takes on the way.
 pub fn may_fit(structures: usize, triangles: usize) -> bool {
-    fits_into(memory(), structures, triangles).is_ok()
+    fits_into(memory(), structures + 2, triangles).is_ok()
 }
 
 /// More structures than there is memory for.

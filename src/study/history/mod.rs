@@ -5,6 +5,7 @@
 //! [`unlike`](fn@super::diff::unlike) refuses on one machine are different series.
 
 mod file;
+mod merged;
 mod series;
 #[cfg(test)]
 mod tests;
@@ -16,6 +17,7 @@ use crate::measure::Provenance;
 use crate::report::Record;
 
 pub use file::{FILE, HistoryError, add, read};
+pub use merged::merged;
 pub use series::{Series, Step, series};
 
 /// A run that was kept.

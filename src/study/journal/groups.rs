@@ -46,7 +46,8 @@ pub fn groups<C>(files: Vec<CaseFile<C>>) -> Result<Vec<Group<C>>, JournalError>
             replaced.extend(is_replaced.then(|| file.path.clone()));
             is_replaced
         });
-        Group { provenance: of_all(&files), replaced, files }
+        let all: Vec<&Provenance> = files.iter().map(|file| &file.header.provenance).collect();
+        Group { provenance: of_all(&all), replaced, files }
     };
     let of_machines = grouped(files, |one, other| one.header.machine() == other.header.machine());
     let mut groups: Vec<Group<C>> = of_machines.into_iter().map(group).collect();
@@ -54,13 +55,18 @@ pub fn groups<C>(files: Vec<CaseFile<C>>) -> Result<Vec<Group<C>>, JournalError>
     Ok(groups)
 }
 
-/// That of the oldest, with the hosts of all and the highest load that one of them met.
-fn of_all<C>(files: &[CaseFile<C>]) -> Provenance {
-    let all = || files.iter().map(|file| &file.header.provenance);
-    let oldest = all().min_by_key(|one| &one.date).expect("a group has a case");
+/// That of the oldest, with the hosts of all, and the load of the one that met the highest for its cores.
+///
+/// # Panics
+/// If there are none.
+pub(super) fn of_all(all: &[&Provenance]) -> Provenance {
+    let oldest = all.iter().min_by_key(|one| &one.date).expect("a group has a case");
     // A job that follows another one meets the load that that has made.
-    let before = |one: &Provenance| if one.date > oldest.date { one.threads as f64 } else { 0.0 };
-    let loads = all().filter_map(|one| Some((one.load? - before(one)).max(0.0)));
-    let hosts = distinct(all().map(|one| &one.host));
-    Provenance { host: hosts.join(", "), load: loads.max_by(f64::total_cmp), ..oldest.clone() }
+    let follows = |one: &Provenance| all.iter().any(|other| other.host == one.host && other.date < one.date);
+    let made = |one: &Provenance| if follows(one) { one.threads as f64 } else { 0.0 };
+    let load = |one: &&Provenance| Some(((one.load? - made(one)).max(0.0), one.cores));
+    let highest = all.iter().filter_map(load).max_by(|a, b| (a.0 / a.1 as f64).total_cmp(&(b.0 / b.1 as f64)));
+    let cores = highest.map_or(oldest.cores, |(_, cores)| cores);
+    let host = distinct(all.iter().map(|one| &one.host)).join(", ");
+    Provenance { host, cores, load: highest.map(|(load, _)| load), ..(*oldest).clone() }
 }

@@ -23,6 +23,7 @@ use serde::Serialize;
 
 pub use case_file::{CaseFile, Read, SCHEMA, file_name, is_case, place, text, write};
 pub use error::JournalError;
+use groups::of_all;
 pub use groups::{Group, groups};
 pub use header::Header;
 use lock::Lock;
@@ -64,6 +65,7 @@ impl<C: Serialize> Journal<C> {
             return Ok(journal);
         }
         let mut paths: BTreeMap<String, PathBuf> = BTreeMap::new();
+        let mut all = vec![];
         for path in files {
             let file = CaseFile::read(&path)?;
             journal.header.admits(&file.header, &path)?;
@@ -71,10 +73,11 @@ impl<C: Serialize> Journal<C> {
             if let Some(other) = paths.insert(key.clone(), path.clone()) {
                 return Err(JournalError::Twice { paths: [other, path], key });
             }
-            if journal.cases.is_empty() || header.provenance.date < journal.provenance.date {
-                journal.provenance = header.provenance;
-            }
+            all.push(header.provenance);
             journal.cases.insert(key, case);
+        }
+        if !all.is_empty() {
+            journal.provenance = of_all(&all.iter().collect::<Vec<_>>());
         }
         Ok(journal)
     }

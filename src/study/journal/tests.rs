@@ -335,8 +335,13 @@ fn cases_of_builds_and_machines_are_apart_and_those_of_hosts_are_not() {
     assert_eq!(found[1].replaced, [PathBuf::from("a-n1-new")]);
     let of_all = &found[1].provenance;
     assert_eq!((of_all.date.as_str(), of_all.host.as_str()), ("2026-02", "n3, n2"));
-    // Less its predecessor's.
-    assert_eq!((found[0].provenance.load, of_all.load), (Some(0.5), Some(8.0)));
+    assert_eq!((found[0].provenance.load, of_all.load), (Some(0.5), Some(9.0)));
+    // Less what the job before it has made.
+    let after = CaseFile { key: "c".into(), ..file("c", "n3", "new", "2026-05") };
+    let mut before = file("a", "n3", "new", "2026-04");
+    before.header.provenance.load = None;
+    let found = groups(vec![after, before]).unwrap();
+    assert_eq!(found[0].provenance.load, Some(8.0));
 
     let mut other = files;
     other[1].header.settings.insert("runs".into(), 6.into());

@@ -101,6 +101,7 @@ impl Study for ScalingStudy {
                      together.",
                     count(triangles(finest) as u64)
                 );
+                plan.warnings.push(note.clone());
                 plan.notes.push(note);
             }
         }
