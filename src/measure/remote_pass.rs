@@ -27,6 +27,8 @@ pub struct RemotePass<'a> {
     aside: Answers,
     /// Whether the lead-in's answers are answers of the pass as well.
     led_in: bool,
+    /// Whether the rays that are timed have been handed over and asked for.
+    is_warm: bool,
     failure: Failure,
 }
 
@@ -55,6 +57,7 @@ impl<'a> RemotePass<'a> {
             answers: Answers::none(query),
             aside: Answers::none(query),
             led_in: false,
+            is_warm: false,
             failure: Rc::clone(&failure),
         };
         pass.choose(&[0], 0);
@@ -87,6 +90,7 @@ impl Timed for RemotePass<'_> {
         self.answers.resize(batches.iter().map(|batch| batch.count).max().unwrap_or(0));
         self.aside.resize(count);
         self.batches = batches;
+        self.is_warm = false;
     }
 
     fn clear(&mut self) {
@@ -94,6 +98,13 @@ impl Timed for RemotePass<'_> {
     }
 
     fn lead_in(&mut self) {
+        // It reads the rays from a file when it is first asked for them, and begins each tile of a part of them unprepared.
+        if !self.is_warm && !self.has_failed() {
+            for batch in self.batches.iter().rev() {
+                self.answers.first(batch.count).ask(batch.rays.as_ref());
+            }
+            self.is_warm = true;
+        }
         if let Some(batch) = self.lead_in.as_ref().filter(|_| !self.has_failed()) {
             self.aside.first(batch.count).ask(batch.rays.as_ref());
             self.led_in = self.batches[0].count == self.all.len();

@@ -318,7 +318,7 @@ fn runs_of_several_histories_are_in_order_of_time_and_only_those_of_the_same_ray
         lines(&[("Cube", "2026-03-10")]),
         lines(&[("Cube", "2026-03-12"), ("Cube", "2026-03-02"), ("Torus", "2026-03-11")]),
     );
-    let paths = [&tenth, &second, &tenth].map(|folder| folder.path().to_path_buf());
+    let paths = [&tenth, &second, &tenth, &second].map(|folder| folder.path().to_path_buf());
     let of = |paths: &[PathBuf]| Runs::read(paths, &Studies::builtin()).unwrap();
     let runs = of(&paths);
     let days: Vec<&str> = runs.history.iter().map(|run| &run.provenance.date[8..10]).collect();

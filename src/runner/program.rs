@@ -1,5 +1,7 @@
 //! Which program a runner is.
 
+use std::fs::File;
+use std::io::Read;
 use std::path::Path;
 use std::time::Duration;
 
@@ -39,11 +41,14 @@ impl Program {
         [&[file], &self.words[1..]].concat().join(" ")
     }
 
-    /// The first digits of the SHA-256 of its file: another build is another program. Of a program on the search path those of the first
-    /// file among its arguments, which is the script of an interpreter; nothing where there is none.
+    /// The first digits of the SHA-256 of its file, and of the script that an interpreter is given: another build is another program.
+    /// Nothing where it is found on the search path and has no script.
     pub fn build_id(&self) -> Option<String> {
-        let file = self.words.iter().map(Path::new).find(|word| word.is_file());
-        file.and_then(|file| file_id(file).ok())
+        let (program, arguments) = self.words.split_first()?;
+        let script = arguments.iter().find(|word| is_script(Path::new(word)));
+        let ids: Vec<String> =
+            [Some(program), script].into_iter().flatten().filter_map(|file| file_id(Path::new(file)).ok()).collect();
+        (!ids.is_empty()).then(|| ids.join(" "))
     }
 
     /// Starts it, and asks what it can be asked.
@@ -59,5 +64,42 @@ impl Program {
     }
 }
 
+/// Whether a file is one that an interpreter reads, by its name or its first line.
+fn is_script(path: &Path) -> bool {
+    const EXTENSIONS: [&str; 8] = ["jar", "jl", "js", "lua", "pl", "py", "rb", "sh"];
+    let is_named_so =
+        path.extension().and_then(|ending| ending.to_str()).is_some_and(|ending| EXTENSIONS.contains(&ending));
+    let mut first = [0; 2];
+    let mut names_one = || File::open(path).and_then(|mut file| file.read_exact(&mut first)).is_ok() && first == *b"#!";
+    path.is_file() && (is_named_so || names_one())
+}
+
 /// Version of the protocol.
 const VERSION: u32 = 1;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_build_is_the_program_with_its_script_and_no_data() {
+        let folder = tempfile::tempdir().unwrap();
+        let write = |name: &str, text: &str| {
+            std::fs::write(folder.path().join(name), text).unwrap();
+            folder.path().join(name).to_str().unwrap().to_owned()
+        };
+        let [python, script, data] =
+            [("python", "elf"), ("run.py", "1"), ("cache.bin", "2")].map(|(name, text)| write(name, text));
+        let id = |words: &[&str]| {
+            let words = words.iter().map(|word| (*word).to_owned()).collect();
+            Program { command: String::new(), words, limit: Duration::ZERO }.build_id()
+        };
+        let of = |word: &str| id(&[word]).unwrap();
+        assert_eq!(id(&[&python, "-u", &script, &data]).unwrap(), format!("{} {}", of(&python), of(&script)));
+        assert_eq!(id(&[&python, "--cache", &data]).unwrap(), of(&python));
+        assert_eq!(id(&["python", &script]).unwrap(), of(&script));
+        assert_eq!(id(&["no such program", &data]), None);
+        let named = write("run", "#!/usr/bin/env python\n");
+        assert_eq!(id(&["python", &named]).unwrap(), of(&named));
+    }
+}

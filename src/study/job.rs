@@ -115,7 +115,12 @@ fn is_repeated<C>(job: &Job, out: &Path, command: &str, read: Read<C>) -> bool {
     let is_same =
         (&own.build, &own.simd, &own.cpu) == (&other.build, &other.simd, &other.cpu) && command == other.command;
     let is_of_job = (&job.study, &job.key) == (&there.header.study, &there.key);
-    is_known && is_same && is_of_job && there.read_case(read).is_ok()
+    // Programs and files of rays may have changed since.
+    let settings = &there.header.settings;
+    let is_replayed =
+        settings.get("workloads").and_then(|text| text.as_str()).is_some_and(|text| text.starts_with("replayed"));
+    let reads_files = settings.contains_key("runners") || is_replayed;
+    is_known && !reads_files && is_same && is_of_job && there.read_case(read).is_ok()
 }
 
 /// The command line without the job: the same for all jobs of a run.

@@ -87,8 +87,8 @@ impl Study for KdOrBvhStudy {
 
     fn legend(_: &Vec<Scenario>) -> Vec<String> {
         vec![format!(
-            "How many times as fast the KD-tree, {KD_TREE}, is as the BVH, {BVH}, with the interval that holds the ratio of another run \
-             in 95 % of cases; build, memory: the KD-tree's as a multiple of the BVH's."
+            "How many times as fast the KD-tree, {KD_TREE}, is as the BVH, {BVH}, with the interval that holds the ratio of another run, \
+             as little disturbed, in 95 % of cases; build, memory: the KD-tree's as a multiple of the BVH's."
         )]
     }
 

@@ -1,6 +1,7 @@
 //! The structures that others are compared with, where they take part.
 
 use crate::registry::Choice;
+use crate::report::Record;
 use crate::scene::Scene;
 
 /// Every ray against every triangle.
@@ -58,6 +59,11 @@ pub fn documented_defect(structure: &str) -> Option<&'static str> {
         "embree-robust" => Some("Embree loses rays in the plane of a box face and with very short directions"),
         _ => None,
     }
+}
+
+/// Whether a case is of one of the BVHs from outside over their own triangle test, with nothing of ours in it: what all others are related to.
+pub fn is_reference(record: &Record) -> bool {
+    is_obvhs(&record.structure) && !record.label.contains("test=")
 }
 
 /// Whether a structure is one of the BVHs from outside.

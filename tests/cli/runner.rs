@@ -8,7 +8,10 @@ use std::process::Command;
 use serde_json::Value;
 use tempfile::TempDir;
 
-use super::command::{RIGHT, WRONG, path_text, prints, refuses_in_a_line, sahara, stderr, stdout, write};
+use super::command::{
+    RIGHT, WRONG, path_text, prints, refused_in_a_line, refuses_in_a_line, sahara, stderr, stdout, write,
+};
+use super::plan::{job, plan};
 
 const EXAMPLE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/runner/brute_force.cpp");
 
@@ -180,4 +183,19 @@ fn what_is_no_runner_is_refused_before_anything_is_measured() {
     fs::copy(Path::new(&one), &other).unwrap();
     let both = ["compare", "cube", "--runner", &one, "--runner", &other];
     refuses_in_a_line(&both, &["have one name, nothing.sh"]);
+}
+
+#[test]
+fn a_job_that_is_repeated_with_another_build_of_the_program_is_refused() {
+    let folder = TempDir::new().unwrap();
+    let program = nothing(&folder);
+    let own =
+        ["-s", "sah-kd", "-w", "primary", "--rays", "256", "--epochs", "1", "--budget", "1", "--runner", &program];
+    let lines = plan(folder.path(), &[&["compare", "--scenes", "cube"][..], &own].concat());
+    let run = || job(&lines[0]).output().unwrap();
+    assert_eq!(run().status.code(), Some(0));
+    let again = run();
+    assert!(stderr(&again).contains("nothing is measured"), "{}", stderr(&again));
+    write(&folder, "nothing.sh", &(NOTHING.to_owned() + "# rebuilt\n"));
+    refused_in_a_line(&run(), &["runners was "]);
 }

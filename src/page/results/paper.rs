@@ -89,7 +89,7 @@ fn method(runs: &Runs, run: &RunFacts, text: &mut String) {
     paragraph(
         "A run has several epochs, each in a process of its own with structures built anew; within an epoch samples are taken in \
          rounds in random order. A ratio is of times of the same round on the same rays. Its interval holds the same ratio of another \
-         run in 95 % of cases: Student's t over the epochs, twice the variance for the run to come, and what two builds of the same \
+         run, as little disturbed, in 95 % of cases: Student's t over the epochs, twice the variance for the run to come, and what two builds of the same \
          structure differ by (A/A). Where many findings are judged together each interval allows for the others.",
         text,
     );

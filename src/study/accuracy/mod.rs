@@ -62,7 +62,7 @@ const SHORT_JUDGING_NS: u64 = 2_000_000_000;
 /// answer the same rays differently, which have none.
 ///
 /// # Errors
-/// If the structures do not [fit] into memory together, or the thread cannot be pinned.
+/// If the structures do not fit into memory together, or the thread cannot be pinned.
 pub fn accuracy_scene(
     scene: &Scene,
     settings: &AccuracySettings,

@@ -106,7 +106,8 @@ impl Counted {
             Query::Closest => {
                 let mut hits = vec![None; rays.len()];
                 accel.closest_hits_counted(rays, &mut hits, &mut counts);
-                hits.iter().map(|hit| hit.map(|hit| hit.t.to_bits())).collect()
+                // The same distance has one sign at the origin, too.
+                hits.iter().map(|hit| hit.map(|hit| (hit.t + 0.0).to_bits())).collect()
             }
             Query::Any => {
                 let mut hits = vec![false; rays.len()];

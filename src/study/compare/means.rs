@@ -9,7 +9,7 @@ use crate::measure::Estimate;
 use crate::report::number::{count, figures, plural};
 use crate::report::words::{ONE_EPOCH, distinct, each_once, ends, explained, interval, listed};
 use crate::report::{Cell, Record, Table, Tone};
-use crate::study::reference_structures::is_obvhs;
+use crate::study::reference_structures::is_reference;
 use crate::triangle::{Exact, TriangleTest};
 
 /// Speeds over all scenes: one row for each structure; a column for each workload, and one for all of them, against the
@@ -143,7 +143,7 @@ pub fn winner(records: &[Record], reference: Option<&str>) -> Option<Winner> {
     let second = order.get(1)?.0.as_str();
     // Without a reference it is held against the better BVH of obvhs, as in the tables.
     let others = || order.iter().map(|(label, _)| label.as_str());
-    let is_obvhs = |label: &&str| of(label).iter().all(|record| is_obvhs(&record.structure));
+    let is_obvhs = |label: &&str| of(label).into_iter().all(is_reference);
     let obvhs = others().find(is_obvhs).filter(|_| reference.is_none() && !is_obvhs(&best.as_str()));
     let next = next.or(obvhs).unwrap_or(second);
     // The winner is held against all others: by chance one of them would too easily seem slower.
@@ -156,18 +156,19 @@ pub fn winner(records: &[Record], reference: Option<&str>) -> Option<Winner> {
             (1, 1) => String::new(),
             (scenes, kinds) => format!("Over {} and {} of rays, ", plural(scenes, "scene"), plural(kinds, "kind")),
         };
-    // One epoch decides nothing.
-    let decided = by.interval.is_some() && !by.holds(1.0);
-    // Who comes second may be as fast.
-    let level =
-        if second == next { None } else { ratio(best, second).filter(|by| by.interval.is_none() || by.holds(1.0)) };
-    let names = match level {
+    // Who comes after it may be as fast; one epoch decides nothing.
+    let is_level = |by: &Estimate| by.interval.is_some() && by.holds(1.0);
+    let after = others().skip(1).filter(|label| *label != next).filter_map(|label| Some((label, ratio(best, label)?)));
+    let level: Vec<(&str, Estimate)> = after.clone().filter(|(_, by)| is_level(by)).collect();
+    let equals: Vec<&str> =
+        is_level(&by).then_some(next).into_iter().chain(level.iter().map(|(label, _)| *label)).collect();
+    let names = match equals[..] {
         _ if by.interval.is_none() => format!("{best} {ONE_EPOCH}"),
-        Some(_) => format!("{best} or {second}"),
-        None if decided => best.clone(),
-        None => format!("{best} or {next}"),
+        [] => best.clone(),
+        [other] => format!("{best} or {other}"),
+        _ => format!("{best} or {} others", equals.len()),
     };
-    let told = if by.interval.is_some() && by.holds(1.0) {
+    let told = if is_level(&by) {
         format!("{over}{best} and {next} cannot be told apart: {} times as many rays a second", interval(by))
     } else {
         let ends = ends(by);
@@ -191,10 +192,17 @@ pub fn winner(records: &[Record], reference: Option<&str>) -> Option<Winner> {
         0 => String::new(),
         n => format!(" Not ranked, without a time in some of the cases: {}.", plural(n, "structure")),
     };
-    let level = level.map_or(String::new(), |by| match by.interval {
-        Some(_) => format!(" {second} cannot be told apart from it: {}.", interval(by)),
-        None => format!(" Next: {second}, {}.", interval(by)),
-    });
+    let level = match &level[..] {
+        [] => {
+            let next = after.clone().next().filter(|(label, by)| *label == second && by.interval.is_none());
+            next.map_or(String::new(), |(_, by)| format!(" Next: {second}, {}.", interval(by)))
+        }
+        [(label, by)] => format!(" {label} cannot be told apart from it: {}.", interval(*by)),
+        _ => {
+            let all: Vec<String> = level.iter().map(|(label, by)| format!("{label} ({})", interval(*by))).collect();
+            format!(" These cannot be told apart from it: {}.", listed(&all))
+        }
+    };
     Some(Winner { names, sentence: format!("{told}; {checked}.{level}{wrong}{left}") })
 }
 

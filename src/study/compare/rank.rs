@@ -98,6 +98,11 @@ pub fn ranks(records: &[Record]) -> Option<Ranks> {
     Some(Ranks { precise, single, reference, cells: common, all_cells: cells.len() })
 }
 
+/// In how many cells a structure gives wrong answers.
+fn wrong_cells(records: &[Record], label: &str) -> usize {
+    records.iter().filter(|record| record.label == label && record.is_disqualified()).count()
+}
+
 /// The geometric mean of counts, each one more than it is, less one: of small scenes some are 0.
 fn middle(counts: &[f64]) -> Option<f64> {
     let more: Vec<f64> = counts.iter().map(|count| count + 1.0).collect();
@@ -121,10 +126,10 @@ impl Ranks {
             ("Rank in single precision", &self.single),
         ];
         let tables = titled.into_iter().filter(|(_, rank)| !rank.rows.is_empty());
-        tables.map(|(title, rank)| self.table(title, rank, &over)).collect()
+        tables.map(|(title, rank)| self.table(records, title, rank, &over)).collect()
     }
 
-    fn table(&self, title: &str, rank: &Rank, over: &str) -> Table {
+    fn table(&self, records: &[Record], title: &str, rank: &Rank, over: &str) -> Table {
         let known = |x: Option<f64>| x.map(figures).into();
         let best = rank.rows.first().map(|row| row.label.clone());
         let tone = |row: &Ranked| if Some(&row.label) == best.as_ref() { Tone::Best } else { Tone::Plain };
@@ -152,6 +157,16 @@ impl Ranks {
                 self.reference.words()
             ),
         ];
+        notes.extend(rank.rows.iter().filter_map(|row| {
+            let wrong = wrong_cells(records, &row.label);
+            (wrong > 0).then(|| {
+                format!(
+                    "{} gives wrong answers in {}, which the means leave out for all.",
+                    row.label,
+                    plural(wrong, "cell")
+                )
+            })
+        }));
         let left: Vec<String> =
             rank.unranked.iter().map(|(label, n)| format!("{label} ({n} of {} cells)", self.all_cells)).collect();
         if !left.is_empty() {
@@ -177,14 +192,19 @@ impl Ranks {
     }
 
     fn first(&self, records: &[Record], key: &str, words: &str, rank: &Rank) -> Option<Statement> {
-        let first = rank.rows.first()?;
+        // In single precision some answer wrongly by their nature.
+        let is_right = |row: &&Ranked| key == "single" || wrong_cells(records, &row.label) == 0;
+        let rows: Vec<&Ranked> = rank.rows.iter().filter(is_right).collect();
+        let first = *rows.first()?;
         let value = first.speed?;
         // All others are looked at: one of them would too easily seem slower by chance.
-        let looks = rank.rows.len() - 1;
-        let is_level = |row: &&Ranked| {
-            self.ratio(records, &first.label, &row.label).is_some_and(|ratio| ratio.ratio_among(looks).holds(1.0))
+        let looks = rows.len() - 1;
+        let is_level = |row: &&&Ranked| {
+            // Without an interval nothing is decided.
+            let ratio = self.ratio(records, &first.label, &row.label);
+            ratio.is_none_or(|ratio| ratio.interval.is_none() || ratio.ratio_among(looks).holds(1.0))
         };
-        let level: Vec<&str> = rank.rows[1..].iter().filter(is_level).map(|row| row.label.as_str()).collect();
+        let level: Vec<&str> = rows[1..].iter().filter(is_level).map(|row| row.label.as_str()).collect();
         let level = match level.len() {
             0 => String::new(),
             1 => format!("; {} is level with it", level[0]),
@@ -197,7 +217,7 @@ impl Ranks {
             () if value.holds(1.0) => format!("it is level with {reference}, {times} times as many rays a second"),
             () => format!("it answers {times} times as many rays a second as {reference}"),
         };
-        let (all, over) = (plural(rank.rows.len(), "structure"), plural(self.cells.len(), "cell"));
+        let (all, over) = (plural(rows.len(), "structure"), plural(self.cells.len(), "cell"));
         let sentence = format!(
             "Of {all} {words}, {} is the fastest over {over} of scene and kind of rays: {told}{level}.",
             first.label
@@ -279,6 +299,17 @@ mod tests {
         assert!(told[0].contains("answers 2.00") && !told[0].contains("level"), "{told:?}");
         // Of the same keys: packets of the one are not held against single rays of the other.
         assert!(told[2].contains("exact") && told[2].contains("1.25"), "{told:?}");
+        // What errs somewhere is no right one, and the table says so.
+        let mut erring = records.clone();
+        erring.iter_mut().filter(|r| r.label == "fast" && r.scene == "c").for_each(|r| {
+            (r.mrays_per_s, r.structure_errors, r.checked_rays) = (None, 2, 9);
+        });
+        erring.push(record("b", "rare", 1.0));
+        let ranks = super::ranks(&erring).unwrap();
+        let told = ranks.statements(&erring).remove(0).sentence;
+        assert!(!told.contains("fast is the fastest"), "{told}");
+        let notes = ranks.tables(&erring)[0].notes.concat();
+        assert!(notes.contains("fast gives wrong answers in 1 cell, which the means leave out for all."), "{notes}");
         let columns = |records: &[Record]| -> Vec<Vec<String>> {
             super::ranks(records).unwrap().tables(records).into_iter().map(|table| table.columns).collect()
         };

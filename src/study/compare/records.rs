@@ -69,7 +69,9 @@ fn record(
     let samples_ns = samples(rays(epochs, place, kind));
     let trace_ns = median(&samples_ns);
     let timed = trace_ns.is_some();
-    let twin = twin.filter(|_| timed).map(|twin| samples(rays(epochs, twin, kind)));
+    // Of a program each may have been timed on as many rays as its clock allowed.
+    let twin = twin.filter(|&twin| timed && rays(epochs, twin, kind).all(|own| own.rays == first.rays));
+    let twin = twin.map(|twin| samples(rays(epochs, twin, kind)));
     let RayDetails { checked, errors, ref declined, .. } = *of_rays;
     Some(Record {
         schema: Record::SCHEMA,

@@ -4,7 +4,7 @@ use super::cells::speed;
 use crate::measure::{AaNoise, Estimate};
 use crate::report::words::interval;
 use crate::report::{Cell, Record};
-use crate::study::reference_structures::{REPORT_TREE, is_obvhs};
+use crate::study::reference_structures::{REPORT_TREE, is_reference};
 
 /// The other side of a column of ratios.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -25,7 +25,7 @@ impl Reference {
         if records.iter().any(|r| r.label == REPORT_TREE) {
             found.push(Self::Structure(REPORT_TREE.into()));
         }
-        if records.iter().any(|r| is_obvhs(&r.structure)) {
+        if records.iter().any(is_reference) {
             found.push(Self::Obvhs);
         }
         if found.is_empty() {
@@ -56,7 +56,7 @@ impl Reference {
     pub fn rival<'a>(&self, records: &'a [Record], of: &Record) -> Option<&'a Record> {
         let is = |r: &&Record| match self {
             Self::Structure(label) => r.label == *label,
-            Self::Obvhs => is_obvhs(&r.structure),
+            Self::Obvhs => is_reference(r),
         };
         let same = records.iter().filter(|r| r.scene == of.scene && r.workload == of.workload);
         let timed = same.filter(is).filter(|r| r.mrays_per_s.is_some());

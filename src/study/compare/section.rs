@@ -50,7 +50,7 @@ pub fn blocks(records: &[Record], command: &str) -> Vec<Block> {
     let mut blocks = vec![Block::Text(
         "Every structure answers the same rays, in samples that are interleaved in random order; wrong answers get no time. \
          Bars compare with the report's tree on the same scene and the same rays, kind by kind: they are medians of paired \
-         samples, with the interval that holds the ratio of another run in 95 % of cases."
+         samples, with the interval that holds the ratio of another run, as little disturbed, in 95 % of cases."
             .into(),
     )];
     let references = Reference::of(records, None);

@@ -60,7 +60,7 @@ pub fn legend(records: &[Record], references: &[Reference]) -> Vec<String> {
     }
     let intervals = match records.iter().any(|r| r.epochs > 1) {
         true => {
-            ", with the interval that holds the ratio of another run in 95 % of cases; =: not distinguishable from 1"
+            ", with the interval that holds the ratio of another run, as little disturbed, in 95 % of cases; =: not distinguishable from 1"
         }
         false => "",
     };
@@ -123,7 +123,11 @@ pub fn scene_table(records: &[Record], references: &[Reference], refused: &[Refu
             row.extend(references.iter().map(|reference| {
                 let pairs = reference.pairs(records, asked.iter().copied());
                 let whole = pairs.len() == asked.len();
-                cell(if whole { Reference::ratio(&pairs, &noise) } else { None })
+                let mut mean = cell(if whole { Reference::ratio(&pairs, &noise) } else { None });
+                if asked.len() < of.len() && !mean.text.is_empty() {
+                    mean.text += &format!(" ({} of {})", asked.len(), of.len());
+                }
+                mean
             }));
             let checked = of.iter().filter(|r| r.declined.is_none()).map(|r| r.checked_rays).min();
             row.push(checked.map(|n| count(n as u64)).into());

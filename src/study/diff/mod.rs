@@ -23,7 +23,7 @@ mod unlike;
 use serde::Serialize;
 
 use super::compare::twins;
-use super::reference_structures::{REPORT_TREE, documented_defect, is_obvhs};
+use super::reference_structures::{REPORT_TREE, documented_defect, is_reference};
 use crate::measure::{AaNoise, Estimate, Rerun, epoch_values};
 use crate::report::Record;
 
@@ -186,7 +186,7 @@ fn reproduced(old: &[Record], new: &[Record]) -> Reproduced {
     for (own, own_new) in pairs(old, new) {
         let to = |base: &&Record| {
             let same = base.scene == own.scene && base.workload == own.workload && base.label != own.label;
-            same && (base.label == REPORT_TREE || is_obvhs(&base.structure))
+            same && (base.label == REPORT_TREE || is_reference(base))
         };
         for base in old.iter().filter(to) {
             let values = |own: &Record, base: &Record| epoch_values(&[own.speed_against(base)?]);

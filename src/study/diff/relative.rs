@@ -6,7 +6,7 @@ use crate::measure::{AaNoise, Estimate, Rerun, Variance, checksum, cut_to_shared
 use crate::report::Record;
 use crate::report::words::{distinct, each_once};
 use crate::study::compare::twins;
-use crate::study::reference_structures::is_obvhs;
+use crate::study::reference_structures::is_reference;
 
 /// The time of a structure in one run, relative to the references.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -73,7 +73,7 @@ pub(super) fn weighted(noise: &AaNoise, references: usize, cells: usize) -> Vari
 pub(super) fn references(pairs: &[(&Record, &Record)]) -> Vec<String> {
     let is_timed = |(old, new): &&(&Record, &Record)| !old.samples_ns.is_empty() && !new.samples_ns.is_empty();
     let timed = pairs.iter().filter(is_timed).map(|(old, _)| old);
-    distinct(timed.filter(|old| is_obvhs(&old.structure)).map(|old| &old.label))
+    distinct(timed.filter(|old| is_reference(old)).map(|old| &old.label))
 }
 
 /// ln(time of `own` / geometric mean of the references' times) of each round in each epoch; ln of the time itself where

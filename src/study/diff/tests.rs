@@ -43,8 +43,21 @@ fn a_slower_machine_is_no_slower_structure() {
 }
 
 #[test]
+fn what_has_our_triangle_test_is_no_reference() {
+    let with = |ours: f64| {
+        let exact = ["primary", "shadow"].map(|workload| record("obvhs-bvh2:test=exact", workload, 3e6 * ours));
+        [run(1.0, ours), exact.map(|r| Record { structure: "obvhs-bvh2".into(), ..r }).into()].concat()
+    };
+    let comparison = Comparison::new(&with(1.0), &with(1.2), None, 1);
+    assert_eq!(comparison.references, ["obvhs-bvh2", "obvhs-cwbvh"]);
+    let time = change_of(&comparison, "sah-kd").time.unwrap();
+    assert!((time.estimate - 1.2).abs() < 1e-9, "all of our slowdown: {time:?}");
+    assert_eq!(change_of(&comparison, "obvhs-bvh2:test=exact").finding, Finding::Slower);
+}
+
+#[test]
 fn without_references_times_count_as_they_are() {
-    let without = |slow: f64| run(slow, 1.0).into_iter().filter(|r| !is_obvhs(&r.structure)).collect::<Vec<_>>();
+    let without = |slow: f64| run(slow, 1.0).into_iter().filter(|r| !is_reference(r)).collect::<Vec<_>>();
     let comparison = Comparison::new(&without(1.0), &without(1.5), None, 1);
     assert!(comparison.references.is_empty());
     assert!((change_of(&comparison, "sah-kd").time.unwrap().estimate - 1.5).abs() < 1e-9);
@@ -174,7 +187,7 @@ fn on_two_machines_ratios_to_obvhs_are_compared_and_nothing_else() {
     assert!(refused(&elsewhere(&|r| r.provenance.threads = 2)).contains("the number of threads"));
     assert!(refused(&elsewhere(&|r| r.workload_hash = "ff".into())).contains("the primary rays of Cube"));
     assert!(refused(&elsewhere(&|r| r.provenance.obvhs = "0.5.0".into())).contains("the version of obvhs"));
-    let untimed = elsewhere(&|r| r.trace_ns = r.trace_ns.filter(|_| !is_obvhs(&r.structure)));
+    let untimed = elsewhere(&|r| r.trace_ns = r.trace_ns.filter(|_| !is_reference(r)));
     assert!(
         refused(&untimed).contains("the processor is") && refused(&untimed).contains("ratio to a structure of obvhs")
     );

@@ -4,7 +4,7 @@ use serde_json::Value;
 
 use super::{case, counterpart, pairs};
 use crate::report::Record;
-use crate::study::reference_structures::is_obvhs;
+use crate::study::reference_structures::{is_obvhs, is_reference};
 
 /// Why two runs cannot be compared: what differs, in the old run and in the new.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -38,7 +38,7 @@ pub enum Machines {
 /// of a structure; or that they have no case in common.
 pub fn unlike(old: &[Record], new: &[Record], machines: Machines) -> Result<(), Unlike> {
     let is_unit =
-        |(old, new): &(&Record, &Record)| is_obvhs(&old.structure) && old.trace_ns.is_some() && new.trace_ns.is_some();
+        |(old, new): &(&Record, &Record)| is_reference(old) && old.trace_ns.is_some() && new.trace_ns.is_some();
     let has_unit = pairs(old, new).iter().any(is_unit);
     let advice = if machines == Machines::Any { SAME_UNIT } else { SAME_MACHINE };
     let differ = |what: &str, old: &str, new: &str, advice| {

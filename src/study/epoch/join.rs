@@ -38,7 +38,8 @@ pub fn join<C: Clone>(mut cases: Vec<C>, epoch: fn(&mut C) -> Option<(&mut Epoch
             out.extend(places);
             continue;
         }
-        let found = one(&mut own).and_then(|()| if whole { own.iter().try_for_each(Epoch::is_whole) } else { Ok(()) });
+        let agree = |own: &[Epoch]| own.iter().try_for_each(if whole { Epoch::is_whole } else { Epoch::is_unanimous });
+        let found = one(&mut own).and_then(|()| agree(&own));
         if let Err(error) = found {
             joined.failures.push(error);
             out.extend(places);
@@ -223,6 +224,7 @@ fn keep_common_parts(epochs: &mut [Epoch]) {
 #[cfg(test)]
 mod tests {
     use super::super::tests::{example, rays};
+    use super::super::{CaseCounts, StructureDetails};
     use super::*;
     use crate::measure::Part;
 
@@ -273,6 +275,38 @@ mod tests {
         // A study that compares all or nothing leaves the scene out.
         let Joined { cases, failures, .. } = join(given, |epoch| Some((epoch, 0)), true);
         assert!(cases.is_empty() && failures[0].is_wrong_answer(), "{failures:?}");
+    }
+
+    #[test]
+    fn structures_over_one_triangle_test_that_answer_otherwise_are_a_wrong_answer() {
+        let with = |tests: [&str; 2], change: &dyn Fn(&mut Structure)| {
+            let mut given = epochs("a", &[0, 1]);
+            for (structure, test) in given[0].structures.iter_mut().zip(tests) {
+                structure.details = Some(StructureDetails {
+                    config: true.into(),
+                    triangle_test: test.into(),
+                    build_peak_bytes: None,
+                    counts: CaseCounts::default(),
+                });
+            }
+            let other = &mut given[0].structures[1];
+            other.rays[0].counts.as_mut().unwrap().distances = 10;
+            change(other);
+            joined(given).failures
+        };
+        let failures = with(["exact", "exact"], &|_| ());
+        let sentence = failures[0].to_string();
+        assert!(
+            failures[0].is_wrong_answer() && sentence.starts_with("x and y, over the same triangle test"),
+            "{sentence}"
+        );
+        assert!(with(["exact", "moller-trumbore"], &|_| ()).is_empty());
+        let known = |structure: &mut Structure| structure.name = "obvhs-bvh2".into();
+        assert!(with(["exact", "exact"], &known).is_empty(), "it is known to err");
+        let untimed = |structure: &mut Structure| structure.rays[0].untimed = Some("3 wrong answers to 9 rays".into());
+        assert!(with(["exact", "exact"], &untimed).is_empty(), "it has been told already");
+        let fewer = |structure: &mut Structure| structure.rays[0].counts.as_mut().unwrap().rays = 10;
+        assert!(with(["exact", "exact"], &fewer).is_empty(), "of other rays");
     }
 
     #[test]

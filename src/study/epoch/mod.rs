@@ -295,14 +295,35 @@ impl Epoch {
         if self.structures.iter().any(|structure| structure.rays.is_empty()) {
             return Err(StudyError::NoRays { scene: self.title() });
         }
-        for (w, rays) in self.structures.first().iter().flat_map(|first| first.rays.iter().enumerate()) {
-            // Of those counted on as many rays: trees that test many triangles are counted on fewer.
-            let mut seen: Vec<(&Structure, RayCounts)> = vec![];
-            for structure in &self.structures {
-                let Some(counts) = structure.rays[w].counts else { continue };
-                match seen.iter().find(|(_, other)| other.rays == counts.rays) {
-                    None => seen.push((structure, counts)),
-                    Some((one, other)) if other.distances != counts.distances => {
+        self.agree(|_| Some(""))
+    }
+
+    /// That structures over one triangle test give the same answers to the bit, to the rays that they are counted on: many times as many as
+    /// are held against brute force. Those that are known to err, and those that have no time, are not asked.
+    ///
+    /// # Errors
+    /// The first two that do not.
+    pub fn is_unanimous(&self) -> Result<(), StudyError> {
+        self.agree(|structure| {
+            let test = structure.details.as_ref().map(|details| details.triangle_test.as_str());
+            test.filter(|_| !structure.may_err())
+        })
+    }
+
+    /// That all structures of which `group` gives the same text agree.
+    fn agree<'a>(&'a self, group: impl Fn(&'a Structure) -> Option<&'a str>) -> Result<(), StudyError> {
+        let mut seen: Vec<(&Structure, &Rays, &str, RayCounts)> = vec![];
+        let all = self.structures.iter().filter_map(|structure| Some((structure, group(structure)?)));
+        for (structure, own) in all.filter(|(structure, _)| structure.refused.is_none()) {
+            for rays in structure.rays.iter().filter(|rays| rays.untimed.is_none()) {
+                let Some(counts) = rays.counts else { continue };
+                // Of those counted on as many rays: trees that test many triangles are counted on fewer.
+                let is_same = |(_, other, group, known): &&(&Structure, &Rays, &str, RayCounts)| {
+                    *group == own && other.workload == rays.workload && known.rays == counts.rays
+                };
+                match seen.iter().find(is_same) {
+                    None => seen.push((structure, rays, own, counts)),
+                    Some((one, _, _, known)) if known.distances != counts.distances => {
                         let (one, other) = (one.label.clone(), structure.label.clone());
                         let (scene, rays) = (self.title(), rays.workload.clone());
                         return Err(StudyError::Disagree { one, other, scene, rays });

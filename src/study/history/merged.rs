@@ -1,4 +1,5 @@
 use super::Entry;
+use crate::report::words::each_once;
 
 /// The runs of several histories as one, each run once, the oldest first. A commit that was measured again is no newer
 /// for it: what follows a run in its own history follows it here as well.
@@ -18,6 +19,5 @@ pub fn merged(histories: Vec<Vec<Entry>>) -> Vec<Entry> {
     };
     let mut runs: Vec<(String, Entry)> = histories.into_iter().flat_map(dated).collect();
     runs.sort_by(|a, b| a.0.cmp(&b.0));
-    runs.dedup();
-    runs.into_iter().map(|(_, entry)| entry).collect()
+    each_once(runs.into_iter().map(|(_, entry)| entry))
 }

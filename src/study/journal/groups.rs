@@ -12,7 +12,7 @@ use crate::study::grouped::grouped;
 /// Cases of one study that one build has measured on one machine.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Group<C> {
-    /// Of [all of them](of_all).
+    /// Of the oldest of them, with the hosts of all and the highest load that one of them met.
     pub provenance: Provenance,
     /// By their keys.
     pub files: Vec<CaseFile<C>>,

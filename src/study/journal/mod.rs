@@ -105,7 +105,9 @@ impl<C: Serialize> Journal<C> {
         if journal.left(keys).is_empty() {
             return Ok(journal);
         }
-        Ok(Self { _lock: Some(lock.ok_or_else(busy)?), ..journal })
+        // What is measured now is of its moment as well.
+        let provenance = of_all(&[&journal.provenance, &journal.header.provenance]);
+        Ok(Self { _lock: Some(lock.ok_or_else(busy)?), provenance, ..journal })
     }
 
     /// The case `key`, if it has been measured.

@@ -80,7 +80,7 @@ fn interval(x: Option<Estimate>) -> String {
 /// What the columns mean.
 pub const LEGEND: [&str; 2] = [
     "Speed as a multiple of the fastest obvhs on the same rays, over all its presets and both layouts, cell by cell: medians of \
-     paired ratios, with the interval that holds the ratio of another run in 95 % of cases; all: geometric mean.",
+     paired ratios, with the interval that holds the ratio of another run, as little disturbed, in 95 % of cases; all: geometric mean.",
     "build x: build time over that of obvhs-bvh2 with preset very-slow. steps: nodes and leaves entered, tests: triangles \
      tested, for each ray.",
 ];

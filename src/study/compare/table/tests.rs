@@ -87,7 +87,7 @@ fn what_is_declined_is_neither_right_nor_wrong() {
         Record { mrays_per_s: None, declined: Some("any hit".into()), structure_errors: 0, ..records[3].clone() };
     let table = scene_table(&records, &[]);
     assert_eq!(cell(&table, "sah-kd", "random"), "declined");
-    assert_eq!(cell(&table, "sah-kd", "x median"), "8.00", "of the workloads that it does not decline");
+    assert_eq!(cell(&table, "sah-kd", "x median"), "8.00 (1 of 2)", "of the workloads that it does not decline");
     assert_eq!(table.notes, ["sah-kd declines any hit, which random rays need."]);
     let means = mean_table(&records);
     assert_eq!(means.notes[0], "1 case that a structure declines left out.");
@@ -247,6 +247,18 @@ fn the_last_line_says_who_won_by_how_much() {
     assert!(names.contains("sah-kd") && names.contains(" or ") && names.contains("sah-bvh"), "{names}");
     assert!(sentence.contains("times as many rays a second as obvhs-cwbvh ["), "{sentence}");
     assert!(sentence.contains(" cannot be told apart from it: 1.00 ["), "{sentence}");
+    // Also who comes third.
+    let mut three = level.clone();
+    for (i, workload) in ["primary", "random"].into_iter().enumerate() {
+        three.push(Record {
+            samples_ns: samples(-2.0),
+            ..record("A", "sah-hybrid", workload, level[2 + i].mrays_per_s)
+        });
+    }
+    let Winner { names, sentence } = winner(&three, None).unwrap();
+    assert!(names.ends_with(" or 2 others"), "{names}");
+    assert!(["sah-kd", "sah-bvh", "sah-hybrid"].iter().all(|label| sentence.contains(label)), "{sentence}");
+    assert!(sentence.contains(" These cannot be told apart from it: "), "{sentence}");
     // One epoch names who is ahead, and no more.
     let one = |r: Record| Record { epochs: 1, samples_ns: r.samples_ns[..1].to_vec(), ..r };
     let Winner { names, sentence } = winner(&level.into_iter().map(one).collect::<Vec<_>>(), None).unwrap();
