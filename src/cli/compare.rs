@@ -196,7 +196,7 @@ fn gated(session: &Session, gate: &Gate, matches: &ArgMatches) -> anyhow::Result
                     history::add(&past, entry)?;
                     format!("added to {}", past.display())
                 }
-                None => "not added to the history, for no structure of obvhs has a time to relate others to".into(),
+                None => "not added to the history, for no structure of obvhs over its own triangle test has a time to relate others to".into(),
             };
             format!("Kept as baseline {name}: {}; {added}.", file.path().display())
         };

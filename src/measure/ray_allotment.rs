@@ -83,8 +83,8 @@ pub fn level_by_clock(watch: &Stopwatch, case: &mut dyn Timed, from: usize, most
     let rays = u128::from(LONG_PILOT_NS) * 1000 / first;
     let enough = (from..few).rev().find(|&level| rays_at(all, level) as u128 >= rays).unwrap_or(from);
     let ps = if enough < few && rays > rays_at(all, few) as u128 { pace(enough) } else { first };
-    // With its lead-in, and the rays of the next level, which it is asked by themselves.
-    let fits = |level: &usize| rays_at(all, *level) as u128 * ps * 11 / 8 / 1000 <= u128::from(most_ns);
+    // With its lead-in, the rays of the next level, which it is asked by themselves, and once before to be warm.
+    let fits = |level: &usize| rays_at(all, *level) as u128 * ps * 19 / 8 / 1000 <= u128::from(most_ns);
     let last = last_level(all);
     (from..last).find(fits).unwrap_or(last.max(from))
 }

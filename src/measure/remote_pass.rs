@@ -27,7 +27,7 @@ pub struct RemotePass<'a> {
     aside: Answers,
     /// Whether the lead-in's answers are answers of the pass as well.
     led_in: bool,
-    /// Whether the rays that are timed have been handed over and asked for.
+    /// Whether the rays that are timed have been asked for once.
     is_warm: bool,
     failure: Failure,
 }
@@ -98,11 +98,10 @@ impl Timed for RemotePass<'_> {
     }
 
     fn lead_in(&mut self) {
-        // It reads the rays from a file when it is first asked for them, and begins each tile of a part of them unprepared.
+        // The tiles of a part of the rays lie far apart, and the lead-in is near none of them.
         if !self.is_warm && !self.has_failed() {
-            for batch in self.batches.iter().rev() {
-                self.answers.first(batch.count).ask(batch.rays.as_ref());
-            }
+            let batch = &self.batches[0];
+            self.answers.first(batch.count).ask(batch.rays.as_ref());
             self.is_warm = true;
         }
         if let Some(batch) = self.lead_in.as_ref().filter(|_| !self.has_failed()) {

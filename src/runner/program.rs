@@ -41,11 +41,11 @@ impl Program {
         [&[file], &self.words[1..]].concat().join(" ")
     }
 
-    /// The first digits of the SHA-256 of its file, and of the script that an interpreter is given: another build is another program.
-    /// Nothing where it is found on the search path and has no script.
+    /// The first digits of the SHA-256 of its file, and of the script or program that an interpreter or one like `taskset` is given: another
+    /// build is another program. Nothing where it is found on the search path and is given none.
     pub fn build_id(&self) -> Option<String> {
         let (program, arguments) = self.words.split_first()?;
-        let script = arguments.iter().find(|word| is_script(Path::new(word)));
+        let script = arguments.iter().find(|word| is_program(Path::new(word)));
         let ids: Vec<String> =
             [Some(program), script].into_iter().flatten().filter_map(|file| file_id(Path::new(file)).ok()).collect();
         (!ids.is_empty()).then(|| ids.join(" "))
@@ -64,14 +64,17 @@ impl Program {
     }
 }
 
-/// Whether a file is one that an interpreter reads, by its name or its first line.
-fn is_script(path: &Path) -> bool {
-    const EXTENSIONS: [&str; 8] = ["jar", "jl", "js", "lua", "pl", "py", "rb", "sh"];
+/// Whether a file is a program or one that an interpreter reads, by its name or its first bytes.
+fn is_program(path: &Path) -> bool {
+    const EXTENSIONS: [&str; 10] = ["jar", "jl", "js", "lua", "mjs", "pl", "py", "rb", "sh", "ts"];
+    // Of scripts that name their interpreter, and of programs on Linux and on Windows.
+    const BEGINNINGS: [&[u8; 2]; 3] = [b"#!", b"\x7fE", b"MZ"];
     let is_named_so =
         path.extension().and_then(|ending| ending.to_str()).is_some_and(|ending| EXTENSIONS.contains(&ending));
     let mut first = [0; 2];
-    let mut names_one = || File::open(path).and_then(|mut file| file.read_exact(&mut first)).is_ok() && first == *b"#!";
-    path.is_file() && (is_named_so || names_one())
+    let mut begins_so =
+        || File::open(path).and_then(|mut file| file.read_exact(&mut first)).is_ok() && BEGINNINGS.contains(&&first);
+    path.is_file() && (is_named_so || begins_so())
 }
 
 /// Version of the protocol.
@@ -99,6 +102,8 @@ mod tests {
         assert_eq!(id(&[&python, "--cache", &data]).unwrap(), of(&python));
         assert_eq!(id(&["python", &script]).unwrap(), of(&script));
         assert_eq!(id(&["no such program", &data]), None);
+        let bound = write("bvh", "\x7fELF");
+        assert_eq!(id(&["taskset", "-c", "2", &bound, &data]).unwrap(), of(&bound));
         let named = write("run", "#!/usr/bin/env python\n");
         assert_eq!(id(&["python", &named]).unwrap(), of(&named));
     }

@@ -27,6 +27,13 @@ struct Shared {
     /// `M1: AMD EPYC, avx512, 1 thread`, one for each machine.
     legend: Vec<String>,
     ranks: Vec<Ranks>,
+    /// Of each machine the structures that give wrong answers in some case.
+    erring: Vec<Vec<String>>,
+}
+
+/// The structures that give wrong answers in some case.
+fn erring(one: &OfMachine) -> Vec<String> {
+    distinct(one.compared.records.iter().filter(|record| record.is_disqualified()).map(|record| &record.label))
 }
 
 /// Nothing where all was compared on one machine.
@@ -54,7 +61,8 @@ pub fn section(runs: &Runs) -> Option<Section> {
                 plural(common.len(), "case"),
                 left_out(&machines, common.len())
             );
-            Shared { legend, ranks }.blocks(&over, &command)
+            let erring = machines.iter().map(|one| erring(one)).collect();
+            Shared { legend, ranks, erring }.blocks(&over, &command)
         }
         None => vec![Block::Text(format!(
             "These runs compared on {}, with no two structures that two of them have timed on the same rays, so that \
@@ -197,11 +205,18 @@ impl Shared {
         explained(Table { title: kind.title.into(), columns, rows, notes: notes.to_vec() })
     }
 
+    /// Who is first on the machine `i` in a rank: with right answers none that errs.
+    fn first<'a>(&self, i: usize, ranks: &'a Ranks, kind: &Kind) -> Option<&'a Ranked> {
+        let rank = (kind.of)(ranks);
+        let errs = |row: &Ranked| *rank == ranks.precise && self.erring[i].contains(&row.label);
+        rank.rows.iter().find(|row| !errs(row))
+    }
+
     /// Who is first on each machine, and which ratios differ between them.
     fn sentence(&self) -> String {
         let first = |kind: &Kind| {
             let firsts = self.ranks.iter().enumerate();
-            let firsts = firsts.filter_map(|(i, ranks)| Some(((kind.of)(ranks).rows.first()?.label.clone(), name(i))));
+            let firsts = firsts.filter_map(|(i, ranks)| Some((self.first(i, ranks, kind)?.label.clone(), name(i))));
             let firsts: Vec<(String, String)> = firsts.collect();
             let told = distinct(firsts.iter().map(|(label, _)| label)).into_iter().map(|label| {
                 let on: Vec<&String> = firsts.iter().filter(|own| own.0 == label).map(|own| &own.1).collect();

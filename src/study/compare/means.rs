@@ -103,7 +103,7 @@ fn uneven(records: &[Record]) -> Option<String> {
 /// The structure that is the fastest over all cases.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Winner {
-    /// Its label, and that of the next one where the two cannot be told apart; of one epoch, which decides nothing, with a word of that.
+    /// Its label, and that of another one where the two cannot be told apart, or how many there are; of one epoch, which decides nothing, with a word of that.
     pub names: String,
     /// Which one it is, by how much, and how many of its answers were checked.
     pub sentence: String,
@@ -198,6 +198,7 @@ pub fn winner(records: &[Record], reference: Option<&str>) -> Option<Winner> {
             next.map_or(String::new(), |(_, by)| format!(" Next: {second}, {}.", interval(by)))
         }
         [(label, by)] => format!(" {label} cannot be told apart from it: {}.", interval(*by)),
+        more if more.len() > 3 => format!(" {} others cannot be told apart from it.", more.len()),
         _ => {
             let all: Vec<String> = level.iter().map(|(label, by)| format!("{label} ({})", interval(*by))).collect();
             format!(" These cannot be told apart from it: {}.", listed(&all))

@@ -131,7 +131,7 @@ impl Ranks {
 
     fn table(&self, records: &[Record], title: &str, rank: &Rank, over: &str) -> Table {
         let known = |x: Option<f64>| x.map(figures).into();
-        let best = rank.rows.first().map(|row| row.label.clone());
+        let best = self.first_right(records, rank).map(|row| row.label.clone());
         let tone = |row: &Ranked| if Some(&row.label) == best.as_ref() { Tone::Best } else { Tone::Plain };
         let speed = format!("x {}", self.reference.name());
         let table = Table::of(
@@ -175,6 +175,17 @@ impl Ranks {
         explained(table.noted(notes).without_blank_columns())
     }
 
+    /// The rows of a rank without one that gives wrong answers in some cell: in single precision some do by their nature, and stay.
+    fn right<'a>(&self, records: &[Record], rank: &'a Rank) -> Vec<&'a Ranked> {
+        let is_right = |row: &&Ranked| *rank == self.single || wrong_cells(records, &row.label) == 0;
+        rank.rows.iter().filter(is_right).collect()
+    }
+
+    /// The fastest of these.
+    fn first_right<'a>(&self, records: &[Record], rank: &'a Rank) -> Option<&'a Ranked> {
+        self.right(records, rank).first().copied()
+    }
+
     /// The fastest of each rank, and what right answers cost.
     pub fn statements(&self, records: &[Record]) -> Vec<Statement> {
         let ranks = [("right", "with right answers", &self.precise), ("single", "in single precision", &self.single)];
@@ -192,20 +203,18 @@ impl Ranks {
     }
 
     fn first(&self, records: &[Record], key: &str, words: &str, rank: &Rank) -> Option<Statement> {
-        // In single precision some answer wrongly by their nature.
-        let is_right = |row: &&Ranked| key == "single" || wrong_cells(records, &row.label) == 0;
-        let rows: Vec<&Ranked> = rank.rows.iter().filter(is_right).collect();
+        let rows = self.right(records, rank);
         let first = *rows.first()?;
         let value = first.speed?;
         // All others are looked at: one of them would too easily seem slower by chance.
         let looks = rows.len() - 1;
         let is_level = |row: &&&Ranked| {
-            // Without an interval nothing is decided.
-            let ratio = self.ratio(records, &first.label, &row.label);
-            ratio.is_none_or(|ratio| ratio.interval.is_none() || ratio.ratio_among(looks).holds(1.0))
+            self.ratio(records, &first.label, &row.label).is_some_and(|ratio| ratio.ratio_among(looks).holds(1.0))
         };
         let level: Vec<&str> = rows[1..].iter().filter(is_level).map(|row| row.label.as_str()).collect();
+        let is_undecided = rows.iter().any(|row| row.speed.is_some_and(|speed| speed.interval.is_none()));
         let level = match level.len() {
+            _ if is_undecided => "; one epoch decides nothing".into(),
             0 => String::new(),
             1 => format!("; {} is level with it", level[0]),
             2 | 3 => format!("; {} are level with it", listed(&level)),

@@ -25,7 +25,7 @@ fn structures(comparison: &Comparison) -> Table {
         ]
     });
     let by = if comparison.references.is_empty() {
-        "Times are compared as they are, for the runs have no structure of obvhs in common: a machine that was slower counts as a change."
+        "Times are compared as they are, for the runs have no structure of obvhs over its own triangle test in common: a machine that was slower counts as a change."
             .to_owned()
     } else {
         format!("Normalised by {}, measured in the same rounds.", comparison.references.join(" and "))

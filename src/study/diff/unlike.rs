@@ -17,8 +17,7 @@ pub struct Unlike {
 }
 
 const SAME_MACHINE: &str = "measure both on the same machine, with the same options";
-const SAME_UNIT: &str =
-    "on two machines nothing is compared but the ratio to a structure of obvhs that both runs time, which these do not";
+const SAME_UNIT: &str = "on two machines nothing is compared but the ratio to a structure of obvhs over its own triangle test that both runs time, which these do not";
 const SAME_INPUT: &str = "measure the old one again on the same scenes and rays";
 const SAME_BUILD: &str = "build both alike";
 

@@ -278,7 +278,7 @@ mod tests {
     }
 
     #[test]
-    fn structures_over_one_triangle_test_that_answer_otherwise_are_a_wrong_answer() {
+    fn structures_over_the_exact_test_that_answer_otherwise_are_a_wrong_answer() {
         let with = |tests: [&str; 2], change: &dyn Fn(&mut Structure)| {
             let mut given = epochs("a", &[0, 1]);
             for (structure, test) in given[0].structures.iter_mut().zip(tests) {
@@ -301,6 +301,7 @@ mod tests {
             "{sentence}"
         );
         assert!(with(["exact", "moller-trumbore"], &|_| ()).is_empty());
+        assert!(with(["moller-trumbore"; 2], &|_| ()).is_empty(), "it rounds");
         let known = |structure: &mut Structure| structure.name = "obvhs-bvh2".into();
         assert!(with(["exact", "exact"], &known).is_empty(), "it is known to err");
         let untimed = |structure: &mut Structure| structure.rays[0].untimed = Some("3 wrong answers to 9 rays".into());

@@ -25,6 +25,7 @@ use crate::registry::{Choice, RUNNER};
 use crate::report::CaseCounts;
 use crate::report::words::scene_name;
 use crate::scene::Scene;
+use crate::triangle::{Exact, TriangleTest};
 
 pub use asked::{Asked, PICTURE};
 pub use join::{Joined, join, missing};
@@ -298,15 +299,16 @@ impl Epoch {
         self.agree(|_| Some(""))
     }
 
-    /// That structures over one triangle test give the same answers to the bit, to the rays that they are counted on: many times as many as
-    /// are held against brute force. Those that are known to err, and those that have no time, are not asked.
+    /// That structures over the exact triangle test give the same answers to the bit, to the rays that they are counted on: many times as many
+    /// as are held against brute force. Over a test that rounds, an answer outside of a triangle's box is one tree's and not the other's. Those
+    /// that are known to err, and those that have no time, are not asked.
     ///
     /// # Errors
     /// The first two that do not.
     pub fn is_unanimous(&self) -> Result<(), StudyError> {
         self.agree(|structure| {
             let test = structure.details.as_ref().map(|details| details.triangle_test.as_str());
-            test.filter(|_| !structure.may_err())
+            test.filter(|test| *test == Exact::NAME && !structure.may_err())
         })
     }
 

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use super::header::differences;
 use super::{CaseFile, JournalError};
 use crate::measure::Provenance;
-use crate::report::words::distinct;
+use crate::report::words::each_once;
 use crate::study::grouped::grouped;
 
 /// Cases of one study that one build has measured on one machine.
@@ -62,11 +62,12 @@ pub fn groups<C>(files: Vec<CaseFile<C>>) -> Result<Vec<Group<C>>, JournalError>
 pub(super) fn of_all(all: &[&Provenance]) -> Provenance {
     let oldest = all.iter().min_by_key(|one| &one.date).expect("a group has a case");
     // A job that follows another one meets the load that that has made.
-    let follows = |one: &Provenance| all.iter().any(|other| other.host == one.host && other.date < one.date);
+    let is_on = |one: &Provenance, host: &str| one.host.split(", ").any(|own| own == host);
+    let follows = |one: &Provenance| all.iter().any(|other| is_on(other, &one.host) && other.date < one.date);
     let made = |one: &Provenance| if follows(one) { one.threads as f64 } else { 0.0 };
     let load = |one: &&Provenance| Some(((one.load? - made(one)).max(0.0), one.cores));
     let highest = all.iter().filter_map(load).max_by(|a, b| (a.0 / a.1 as f64).total_cmp(&(b.0 / b.1 as f64)));
     let cores = highest.map_or(oldest.cores, |(_, cores)| cores);
-    let host = distinct(all.iter().map(|one| &one.host)).join(", ");
+    let host = each_once(all.iter().flat_map(|one| one.host.split(", "))).join(", ");
     Provenance { host, cores, load: highest.map(|(load, _)| load), ..(*oldest).clone() }
 }

@@ -108,7 +108,7 @@ pub struct Hard {
 pub struct Conclusion {
     /// The scenes of the mean.
     pub scenes: Vec<String>,
-    /// Geometric mean over the scenes of how much faster SAH is, with the interval that holds that of another run in 95 % of cases.
+    /// Geometric mean over the scenes of how much faster SAH is, with the interval that holds that of another run, as little disturbed, in 95 % of cases.
     pub sah_over_median: Option<Estimate>,
 }
 

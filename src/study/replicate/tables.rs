@@ -136,7 +136,7 @@ fn conclusion(result: &Replication) -> Table {
     let title = "The report's conclusion: how much faster is sah-kd than median-kd on the hard scenes?";
     explained(Table::of_texts(title, ["scene", "times faster [95%]"], rows).noted(vec![
         "Times of one round divided, their median in each epoch, geometric mean over the epochs, with the interval that holds that of \
-         another run in 95 % of cases."
+         another run, as little disturbed, in 95 % of cases."
             .into(),
     ]))
 }
