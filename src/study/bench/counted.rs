@@ -17,7 +17,7 @@ pub struct Counted {
     pub rays: usize,
     /// Those that hit.
     pub hits: usize,
-    /// Of the distances of all hits, bit by bit, and of where there is none: the same for all structures of one
+    /// Of the distances of all hits, bit by bit, and of where there is none: the same for all structures over the exact
     /// triangle test.
     pub distances: u64,
     pub counts: Counts,

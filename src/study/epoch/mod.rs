@@ -238,7 +238,7 @@ pub struct RayCounts {
     /// Rays that are counted.
     pub rays: usize,
     pub hits: usize,
-    /// Of the distances of the hits, bit by bit: the same for all structures of one triangle test.
+    /// Of the distances of the hits, bit by bit: the same for all structures over the exact triangle test.
     pub distances: u64,
     /// Triangles tested; nothing where the structure does not tell.
     pub tests: Option<u64>,
