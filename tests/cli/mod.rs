@@ -9,6 +9,7 @@ mod epochs;
 mod input;
 #[cfg(target_os = "linux")]
 mod interrupted;
+mod job;
 mod journal;
 mod large;
 mod plan;

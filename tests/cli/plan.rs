@@ -1,7 +1,6 @@
 //! `study plan`: jobs that need each other in nothing, one file each, and what becomes of them.
 
 use std::fs;
-use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
@@ -9,12 +8,12 @@ use serde_json::Value;
 use tempfile::TempDir;
 
 use super::command::{
-    RIGHT, SQUARE, command, json, prints, refused_in_a_line, refuses, refuses_in_a_line, sahara, stderr, stdout, write,
+    RIGHT, command, json, prints, refused_in_a_line, refuses, refuses_in_a_line, sahara, stderr, stdout,
 };
-use super::journal::{answers, cases};
+use super::journal::answers;
 
 /// A study of seconds.
-const SMALL: [&str; 9] = ["attribution", "--rays", "64", "--runs", "1", "--budget", "1", "--epochs", "2"];
+pub const SMALL: [&str; 9] = ["attribution", "--rays", "64", "--runs", "1", "--budget", "1", "--epochs", "2"];
 const SCENES: [&str; 3] = ["--scenes", "cube", "sphere"];
 
 /// The lines of a plan.
@@ -45,11 +44,11 @@ pub fn job(line: &str) -> Command {
     command
 }
 
-fn run(line: &str) -> Output {
+pub fn run(line: &str) -> Output {
     job(line).output().unwrap()
 }
 
-fn done(line: &str) {
+pub fn done(line: &str) {
     let output = run(line);
     assert_eq!(output.status.code(), Some(RIGHT), "{}", stderr(&output));
     assert!(output.stdout.is_empty() && file(line).is_file());
@@ -159,16 +158,6 @@ fn jobs_of_threads_say_up_to_how_many_whatever_cores_their_machine_has() {
 }
 
 #[test]
-fn a_job_on_fewer_cores_than_threads_measures_nothing() {
-    let folder = TempDir::new().unwrap();
-    let cores = std::thread::available_parallelism().unwrap().get();
-    let threads = (cores + 1).to_string();
-    let lines = plan(folder.path(), &[&SMALL[..], &["--scenes", "cube", "--threads", &threads]].concat());
-    refused_in_a_line(&run(&lines[0]), &["cannot be measured", &format!("{threads} threads share {cores} core")]);
-    assert!(!file(&lines[0]).exists());
-}
-
-#[test]
 fn jobs_in_any_order_are_the_study() {
     let folder = TempDir::new().unwrap();
     let [apart, one] = ["apart", "one"].map(|name| folder.path().join(name));
@@ -217,23 +206,6 @@ fn detailed_studies_and_whole_scenes_are_jobs_as_well() {
 }
 
 #[test]
-fn a_job_loads_its_scene_and_no_other() {
-    let folder = TempDir::new().unwrap();
-    let studies: [(&[&str], [&str; 2]); 4] = [
-        (&["accuracy", "--scenes", "cube", "torus"], ["Cube", "Torus"]),
-        (&["counts", "--scenes", "cube", "torus"], ["Cube", "Torus"]),
-        (&["crossover", "--deepest", "2"], ["1 layer", "4 layers"]),
-        (&["predictions"], ["Cube", "Sphere"]),
-    ];
-    for (args, [own, other]) in studies {
-        let [own_scene, other_scene] = [own, other].map(|name| format!("\"scene\":\"{name}\""));
-        let line = &plan(folder.path(), args)[0];
-        assert!(line.contains(&own_scene), "{line}");
-        refused_in_a_line(&run(&line.replace(&own_scene, &other_scene)), &[own, "plan it anew"]);
-    }
-}
-
-#[test]
 fn predictions_are_jobs_as_well_and_a_report_has_their_verdicts() {
     let folder = TempDir::new().unwrap();
     let [runs, page, export] = ["runs", "page", "export.json"].map(|name| folder.path().join(name));
@@ -262,97 +234,6 @@ fn predictions_are_jobs_as_well_and_a_report_has_their_verdicts() {
     let shown: Vec<String> = rows.lines().map(|row| verdict(&serde_json::from_str(row).unwrap())).collect();
     assert_eq!(shown, answered);
     assert!(shown[..8].iter().all(|verdict| verdict == "confirmed"), "{shown:?}");
-}
-
-#[test]
-fn a_job_measures_once_and_refuses_what_is_not_its_own() {
-    let folder = TempDir::new().unwrap();
-    let lines = plan(folder.path(), &[&SMALL[..], &["--scenes", "cube"]].concat());
-    done(&lines[0]);
-    let path = file(&lines[0]);
-    let before = fs::read(&path).unwrap();
-    let again = run(&lines[0]);
-    assert_eq!(again.status.code(), Some(RIGHT));
-    assert!(stderr(&again).contains("nothing is measured") && stderr(&again).lines().count() == 1);
-    assert_eq!(fs::read(&path).unwrap(), before);
-
-    let refused = |line: &str, part: &str| refused_in_a_line(&run(line), &[part]);
-    refused(&lines[0].replace("--rays 64", "--rays 65"), "rays was 64 and is 65");
-    refused(&lines[1].replace(file(&lines[1]).to_str().unwrap(), path.to_str().unwrap()), "holds the case");
-    assert_eq!(fs::read(&path).unwrap(), before);
-    let mut case = json(&path);
-    case["provenance"]["build"] = "0123".into();
-    fs::write(&path, case.to_string()).unwrap();
-    refused(&lines[0], "build was 0123 and is ");
-    // The study refuses it as well, and the report keeps it apart.
-    let dir = folder.path().to_str().unwrap();
-    let study = [&["study", "attribution", "cube", "--dir", dir], &SMALL[1..]].concat();
-    refuses_in_a_line(&study, &["build was 0123"]);
-}
-
-#[test]
-fn a_job_that_is_repeated_loads_nothing() {
-    let folder = TempDir::new().unwrap();
-    let mesh = write(&folder, "square.obj", SQUARE);
-    let lines = plan(folder.path(), &[&SMALL[..], &["--scenes", &mesh]].concat());
-    done(&lines[0]);
-    fs::remove_file(&mesh).unwrap();
-    let again = run(&lines[0]);
-    assert_eq!(again.status.code(), Some(RIGHT), "{}", stderr(&again));
-    assert!(stderr(&again).contains("nothing is measured"), "{}", stderr(&again));
-    refused_in_a_line(&run(&lines[1]), &[&mesh]);
-}
-
-#[test]
-fn of_two_jobs_at_one_file_one_wins_and_both_are_content() {
-    let folder = TempDir::new().unwrap();
-    let lines = plan(folder.path(), &[&SMALL[..], &["--scenes", "cube"]].concat());
-    let both = [0, 1].map(|_| job(&lines[0]).spawn().unwrap());
-    let both = both.map(|child| child.wait_with_output().unwrap());
-    assert!(both.iter().all(|output| output.status.code() == Some(RIGHT)), "{both:?}");
-    let is_other = |output: &&Output| {
-        ["holds this case already", "its case is kept"].iter().any(|part| stderr(output).contains(part))
-    };
-    assert_eq!(both.iter().filter(is_other).count(), 1, "{both:?}");
-    assert_eq!(fs::read_dir(folder.path().join("attribution")).unwrap().count(), 1);
-    assert_eq!(json(file(&lines[0]))["study"], "attribution");
-}
-
-#[test]
-fn a_job_that_is_killed_leaves_no_result() {
-    let folder = TempDir::new().unwrap();
-    let lines = plan(folder.path(), &[&SMALL[..], &["--scenes", "sphere"]].concat());
-    let mut child = job(&lines[0]).spawn().unwrap();
-    let mut said = String::new();
-    BufReader::new(child.stderr.take().unwrap()).read_line(&mut said).unwrap();
-    assert!(said.starts_with("measures "), "{said}");
-    child.kill().unwrap();
-    child.wait().unwrap();
-    assert!(cases(folder.path(), "attribution").is_empty());
-    done(&lines[0]);
-}
-
-#[test]
-fn what_cannot_be_written_is_one_sentence_and_no_file() {
-    let folder = TempDir::new().unwrap();
-    let lines = plan(&folder.path().join("runs"), &[&SMALL[..], &["--scenes", "cube"]].concat());
-    // A file stands where the folder should be.
-    fs::write(folder.path().join("runs"), "x").unwrap();
-    refused_in_a_line(&run(&lines[0]), &["cannot write", "runs/attribution"]);
-    fs::remove_file(folder.path().join("runs")).unwrap();
-
-    // As on a full disk: the system takes no more than a thousand bytes of a file.
-    #[cfg(target_os = "linux")]
-    {
-        let job = lines[0].strip_prefix("sahara ").unwrap();
-        let shell = format!("trap '' XFSZ; ulimit -f 1; exec \"$0\" --quiet {job}");
-        let mut command = Command::new("sh");
-        command.args(["-c", &shell, env!("CARGO_BIN_EXE_sahara")]).env_remove("SAHARA_DATA");
-        let output = command.stdin(Stdio::null()).output().unwrap();
-        refused_in_a_line(&output, &["cannot write", "give it room"]);
-        assert_eq!(fs::read_dir(folder.path().join("runs/attribution")).unwrap().count(), 0, "nothing is left");
-    }
-    done(&lines[0]);
 }
 
 #[test]

@@ -15,11 +15,6 @@ pub struct Series {
     pub changes: Vec<Step>,
 }
 
-/// Whether a structure was measured on the same rays in both runs, so that its times can be held against each other.
-fn is_comparable(old: &Entry, new: &Entry) -> bool {
-    new.structures.iter().any(|new| before(old, new).is_some())
-}
-
 /// The same structure on the same rays in the run before.
 fn before<'a>(run: &'a Entry, new: &RelativeTime) -> Option<&'a RelativeTime> {
     run.structures.iter().find(|old| old.label == new.label && old.rays == new.rays)
@@ -67,7 +62,7 @@ impl Series {
 
     /// Whether anything of a run, but for the first, can be held against the one before.
     pub fn is_compared(&self, run: usize) -> bool {
-        is_comparable(&self.runs[run - 1], &self.runs[run])
+        self.runs[run].structures.iter().any(|new| before(&self.runs[run - 1], new).is_some())
     }
 
     /// How many times as fast as the references a structure was in a run.
