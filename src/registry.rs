@@ -16,6 +16,7 @@ use crate::accel::{Accel, BuildError};
 use crate::geometry::Mesh;
 use crate::names::suggestion;
 use crate::offered::Offered;
+use crate::scene::Scene;
 use entry::{Build, Built};
 
 pub use choice::{Choice, ChoiceError};
@@ -27,12 +28,46 @@ pub use runners::RUNNER;
 #[derive(Clone)]
 pub struct Registry {
     entries: Vec<Entry>,
+    generators: Vec<Generator>,
+}
+
+/// Makes a scene of the text behind its name: `7` of `icosphere:7`.
+pub type Generate = fn(&str) -> anyhow::Result<Scene>;
+
+/// A maker of scenes.
+#[derive(Clone, Copy)]
+struct Generator {
+    name: &'static str,
+    generate: Generate,
 }
 
 impl Registry {
     /// No structure at all.
     pub fn empty() -> Self {
-        Self { entries: vec![] }
+        Self { entries: vec![], generators: vec![] }
+    }
+
+    /// Adds a generator of scenes, which commands name as `name:parameters`.
+    ///
+    /// # Panics
+    /// If there is one of that name already, or the name is not made of lower-case letters, digits and hyphens.
+    pub fn with_generator(mut self, name: &'static str, generate: Generate) -> Self {
+        let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
+        assert!(!name.is_empty() && name.chars().all(plain), "the name {name:?}");
+        assert!(!self.has_generator(name), "there is already a generator {name:?}");
+        self.generators.push(Generator { name, generate });
+        self
+    }
+
+    /// Whether there is a generator of this name.
+    pub fn has_generator(&self, name: &str) -> bool {
+        self.generators.iter().any(|own| own.name.eq_ignore_ascii_case(name))
+    }
+
+    /// The scene of a generator; nothing where there is no generator of this name.
+    pub fn generated(&self, name: &str, parameters: &str) -> Option<anyhow::Result<Scene>> {
+        let generator = self.generators.iter().find(|own| own.name.eq_ignore_ascii_case(name))?;
+        Some((generator.generate)(parameters))
     }
 
     /// Adds a structure under `name`, with `config` as what a user gets who names no keys.

@@ -2,6 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use anyhow::Context;
+
 use super::terminal::Terminal;
 use crate::fetch::DataFile;
 #[cfg(feature = "fetch")]
@@ -10,7 +12,7 @@ use crate::report::number::bytes;
 use crate::report::words::each_once_by;
 use crate::scene::format::{RealMesh, SceneFile};
 use crate::scene::{BUILTIN, Builtin, real_mesh_folder};
-use crate::study::{Status, sources};
+use crate::study::Status;
 
 #[derive(Debug, clap::Args)]
 pub struct Args {
@@ -64,7 +66,10 @@ fn scenes(named: &[String]) -> anyhow::Result<Vec<SceneFile>> {
     }
     let read = |name: &String| -> anyhow::Result<SceneFile> {
         match Path::new(name).extension() {
-            Some(_) => Ok(SceneFile::parse(&sources::text(Path::new(name))?, name)?),
+            Some(_) => {
+                let text = std::fs::read_to_string(name).with_context(|| format!("cannot read {name}"))?;
+                Ok(SceneFile::parse(&text, name)?)
+            }
             None => Ok(Builtin::find(name)?.file()),
         }
     };

@@ -9,9 +9,9 @@ use crate::golden::{GoldenError, Goldens, SIZE, TRIANGLE_TEST};
 use crate::registry::{Choice, Registry};
 use crate::report::number::count;
 use crate::report::words::each_once_by;
+use crate::request::{BRUTE_FORCE, known_defect};
 use crate::scene::{BUILTIN, Builtin, Scene, View};
 use crate::study::Status;
-use crate::study::{BRUTE_FORCE, documented_defect};
 use crate::validate::{Reference, validate};
 
 #[derive(Debug, clap::Args)]
@@ -64,7 +64,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
                         Ok(()) => right.push(choice.label.as_str()),
                         Err(error @ (GoldenError::Differs { .. } | GoldenError::NotShown { .. })) => {
                             terminal.print(&format!("{error}\n  {}\n", cause(&scene, accel.as_ref())?))?;
-                            if documented_defect(&choice.entry.name).is_none() {
+                            if known_defect(&choice.entry.name).is_none() {
                                 verdict = Status::Wrong;
                             }
                         }

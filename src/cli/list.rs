@@ -63,12 +63,12 @@ fn names(suite: &Suite) -> Table {
         ("triangle tests", tests),
         ("workloads", WorkloadKind::ALL.map(WorkloadKind::name).into()),
         ("views", ViewKind::ALL.map(ViewKind::name).into()),
-        ("studies", suite.studies.iter().map(|study| study.name()).collect()),
+        ("studies", suite.studies.iter().map(|study| study.name).collect()),
     ];
     // Notes are wrapped.
     let notes = lines.into_iter().map(|(what, names): (&str, Vec<&str>)| format!("{what}: {}.", names.join(", ")));
     let more = format!("`sahara list STRUCTURE` says what its keys mean; other lists are: {}.", KINDS.join(", "));
-    Table::new("What there is", [], vec![]).noted(notes.chain([more]).collect())
+    Table { title: "What there is".into(), ..Table::default() }.noted(notes.chain([more]).collect())
 }
 
 fn scenes() -> anyhow::Result<Table> {
@@ -109,7 +109,7 @@ fn structures(registry: &Registry) -> Table {
         let tests: Vec<&str> = entries.iter().map(|entry| entry.triangle_test).collect();
         let (shown, rest) = tests.split_at(tests.len().min(2));
         let more = if rest.is_empty() { String::new() } else { format!(" and {} more", rest.len()) };
-        let absent = if first.absence().is_some() { Cell::from("absent").with(Tone::Wrong) } else { Cell::blank() };
+        let absent = if first.absence().is_some() { Cell::from("absent").with(Tone::Wrong) } else { Cell::empty() };
         let declined = declined(first).join(", ");
         rows.push(vec![name.into(), format!("{}{more}", shown.join(", ")).into(), declined.into(), absent]);
         notes.extend(remarks(first));
@@ -175,6 +175,6 @@ fn workloads() -> Table {
 }
 
 fn studies(suite: &Suite) -> Table {
-    let rows = suite.studies.iter().map(|study| [study.name().to_owned(), study.question().to_owned()]).collect();
+    let rows = suite.studies.iter().map(|study| [study.name.to_owned(), study.question.to_owned()]).collect();
     Table::of_texts("Studies", ["name", "question"], rows)
 }

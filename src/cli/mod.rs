@@ -4,7 +4,6 @@
 
 mod all;
 mod completions;
-mod diff;
 #[cfg(test)]
 mod documented;
 pub(crate) mod exit_status;
@@ -12,11 +11,11 @@ mod fetch;
 mod golden;
 mod interrupt;
 mod list;
+mod moved;
 mod plan;
 mod progress;
 mod rays;
 mod render;
-mod report;
 mod study;
 mod terminal;
 mod validate;
@@ -31,9 +30,9 @@ use crate::measure::{keep_to, program};
 use crate::names::suggestion;
 use crate::registry::Registry;
 use crate::simd::Level;
-use crate::study::job::{self, Done, Job};
-use crate::study::process::Processes;
-use crate::study::{AnyStudy, Chosen, Status, Studies, guarded, sources};
+use crate::study::measure::guarded;
+use crate::study::process::{self, Listened, Processes, Written, build_watch, measure_into};
+use crate::study::{Case, Status, Studies, Study};
 use progress::OnTerminal;
 use terminal::{Colour, Terminal};
 
@@ -67,12 +66,22 @@ struct Global {
     /// Run on these instructions instead of the best ones here: portable, avx2 or avx512, where this build has them; the answers are the same
     #[arg(long, global = true)]
     level: Option<Level>,
-    /// Measure this case of a run, and say it in lines of JSON: how a run starts a process
-    #[arg(long = job::OPTION, global = true, hide = true)]
-    job: Option<Job>,
-    /// Write that case into this file: a line of `study plan`
-    #[arg(long = job::OUT, global = true, hide = true, requires = "job")]
+    /// Measure this case: how a run or a scheduler starts a process
+    #[arg(long = process::CASE, global = true, hide = true, requires = "out", value_parser = read_case)]
+    case: Option<Case>,
+    /// Write that case into this file
+    #[arg(long = process::OUT, global = true, hide = true, requires = "case")]
     out: Option<PathBuf>,
+    /// Say on standard output what is done, and wait for an answer: a run listens
+    #[arg(long = process::LISTEN, global = true, hide = true, requires = "case")]
+    listen: bool,
+    /// Keep to these cores
+    #[arg(long = process::CORES, global = true, hide = true, requires = "case", value_delimiter = ',')]
+    cores: Vec<usize>,
+}
+
+fn read_case(text: &str) -> Result<Case, String> {
+    serde_json::from_str(text).map_err(|cause| format!("it is no case of this version of sahara: {cause}"))
 }
 
 /// What studies are run with.
@@ -93,13 +102,11 @@ impl<'a> Session<'a> {
 #[derive(Debug, Subcommand)]
 enum Command {
     /// Hold two exported runs of `compare` against each other; those of two machines by their ratios to obvhs
-    Diff(diff::Args),
     /// Hold every structure against a reference, hit for hit
     Validate(validate::Args),
     /// Record, import and show files of rays; write rays with exact answers
     Rays(rays::Args),
     /// Write what runs have measured as a page, Markdown and tidy data
-    Report(report::Args),
     /// Answer for one structure and one hard case; what `validate --hard` runs in a process of its own
     #[command(name = validate::CHILD, hide = true)]
     HardAnswer(validate::ChildArgs),
@@ -122,15 +129,6 @@ const REPLICATE: &str = "replicate";
 /// The others, by name.
 const STUDY: &str = "study";
 
-/// Commands that went, and what does their work.
-const OLD: [(&str, &str); 5] = [
-    ("bench", "`sahara compare`"),
-    ("compare-runs", "`sahara diff A.json B.json`"),
-    ("hard", "`sahara validate --hard CASE`"),
-    ("counts", "`sahara compare --wide`"),
-    ("accuracy", "`sahara study accuracy`"),
-];
-
 fn command(studies: &Studies) -> clap::Command {
     let whole = clap::Command::new("sahara").version(env!("CARGO_PKG_VERSION")).max_term_width(100);
     let mut command = Global::augment_args(whole).about(ABOUT).long_about(LONG_ABOUT).after_help(exit_status::STATUSES);
@@ -148,14 +146,14 @@ fn command(studies: &Studies) -> clap::Command {
         .subcommands(studies.iter().map(study::command));
     command = Command::augment_subcommands(command.subcommand(listed));
     let rest = || clap::Arg::new("rest").num_args(0..).trailing_var_arg(true).allow_hyphen_values(true);
-    let old = OLD.map(|(name, _)| clap::Command::new(name).hide(true).disable_help_flag(true).arg(rest()));
+    let old = moved::commands().map(|name| clap::Command::new(name).hide(true).disable_help_flag(true).arg(rest()));
     command.subcommands(old)
 }
 
 /// Runs the command line of this process over structures, with the studies of this crate, or over a whole [`Suite`].
 pub fn main(suite: impl Into<Suite>) -> ExitCode {
     interrupt::watch();
-    run_with(&suite.into(), std::env::args_os(), Some(&Processes::new(std::env::args_os())))
+    run_with(&suite.into(), std::env::args_os(), true)
 }
 
 const PANIC: &str = "the panic above ended the command: if it is a structure's, leave that out, or find the mesh or ray with \
@@ -163,13 +161,14 @@ const PANIC: &str = "the panic above ended the command: if it is a structure's, 
 
 /// Runs `args`, the name of the program first. They need not be those of this program, so all is measured in this process.
 pub fn run(suite: &Suite, args: impl IntoIterator<Item = OsString>) -> ExitCode {
-    run_with(suite, args, None)
+    run_with(suite, args, false)
 }
 
-fn run_with(suite: &Suite, args: impl IntoIterator<Item = OsString>, processes: Option<&Processes>) -> ExitCode {
+fn run_with(suite: &Suite, args: impl IntoIterator<Item = OsString>, starts_processes: bool) -> ExitCode {
     // The date of what is measured is that of its beginning.
     program::started();
-    let parsed = command(&suite.studies).try_get_matches_from(args);
+    let args: Vec<OsString> = args.into_iter().collect();
+    let parsed = command(&suite.studies).try_get_matches_from(&args);
     let parsed = parsed.and_then(|matches| Ok((Global::from_arg_matches(&matches)?, matches)));
     let (global, matches) = match parsed {
         Ok(parsed) => parsed,
@@ -181,52 +180,45 @@ fn run_with(suite: &Suite, args: impl IntoIterator<Item = OsString>, processes: 
     let terminal = Terminal::new(global.color, global.quiet);
     // What `validate --hard` runs in a process of its own tells it of a panic by ending with one.
     let may_panic = matches.subcommand_name() == Some(validate::CHILD);
-    let session = Session { suite, terminal: &terminal, processes };
-    let run = || match &global.job {
-        Some(job) => answer_job(&session, &matches, job, global.out.as_deref()).map(|()| Status::Right),
-        None => dispatch(&session, &matches, &global),
+    let level = global.level.iter().flat_map(|level| ["--level", level.name()]).map(OsString::from);
+    let processes = starts_processes.then(|| Processes { options: level.collect() });
+    let session = Session { suite, terminal: &terminal, processes: processes.as_ref() };
+    let run = || match (&global.case, &global.out) {
+        (Some(case), Some(out)) => measure_case(&session, &global, case, out, args.clone()),
+        _ => dispatch(&session, &matches, &global),
     };
     // A structure of another crate may panic where its command has nothing else to go on with.
     let found = if may_panic { run() } else { guarded(run).unwrap_or_else(|| Err(anyhow::anyhow!(PANIC))) };
     exit_status::of(found)
 }
 
-/// What a process with a job does, on the command line of the run that it is a part of.
-fn answer_job(session: &Session, matches: &ArgMatches, job: &Job, out: Option<&Path>) -> anyhow::Result<()> {
+/// What a process with a case and a file does.
+fn measure_case(
+    session: &Session,
+    global: &Global,
+    case: &Case,
+    out: &Path,
+    args: Vec<OsString>,
+) -> anyhow::Result<Status> {
     let &Session { suite, terminal, .. } = session;
-    sources::load_only(&job.scene);
-    job.cores.iter().for_each(|cores| keep_to(cores));
-    let study = find(suite, &job.study)?;
-    if let Some(out) = out {
-        let done = study.write_job(chosen(matches)?, &suite.registry, job, out, &mut OnTerminal::of_job(terminal))?;
-        match done {
-            Done::Measured => {}
-            Done::Before => {
-                crate::output::tell(format_args!("{} holds this case already: nothing is measured.", out.display()))
-            }
-            Done::Meanwhile => {
-                crate::output::tell(format_args!(
-                    "{} has been written by another job meanwhile: its case is kept.",
-                    out.display()
-                ));
-            }
-        }
-        return Ok(());
+    if !global.cores.is_empty() {
+        keep_to(&global.cores);
     }
-    study.answer_job(chosen(matches)?, &suite.registry, job)
-}
-
-/// Where the options of a study come from on a command line.
-fn chosen(matches: &ArgMatches) -> anyhow::Result<Chosen<'_>> {
-    Ok(match matches.subcommand() {
-        None => Chosen::Defaults,
-        Some((STUDY, matches)) => match matches.subcommand() {
-            Some((all::NAME, matches)) => all::Args::from_arg_matches(matches)?.chosen(),
-            Some((_, matches)) => Chosen::Matches(matches),
-            None => anyhow::bail!("a job is of a study"),
-        },
-        Some((_, matches)) => Chosen::Matches(matches),
-    })
+    let watch = build_watch(case, args);
+    if global.listen {
+        let measured = measure_into(case, out, &suite.registry, &watch, &mut Listened::new());
+        if let Err(error) = measured {
+            process::report_failure(&error)?;
+        }
+        return Ok(Status::Right);
+    }
+    let tell = |what: &str| crate::output::tell(format_args!("{} {what}", out.display()));
+    match measure_into(case, out, &suite.registry, &watch, &mut OnTerminal::of_job(terminal))? {
+        Written::Now => {}
+        Written::Before => tell("holds this case already: nothing is measured."),
+        Written::Meanwhile => tell("has been written by another process meanwhile: its case is kept."),
+    }
+    Ok(Status::Right)
 }
 
 fn dispatch(session: &Session, matches: &ArgMatches, global: &Global) -> anyhow::Result<Status> {
@@ -235,7 +227,7 @@ fn dispatch(session: &Session, matches: &ArgMatches, global: &Global) -> anyhow:
     match matches.subcommand() {
         None => {
             let compare = suite.studies.find(COMPARE).ok_or_else(|| anyhow::anyhow!("name a command: see --help"))?;
-            return study::run_as(session, compare, Chosen::Defaults, &study::Common::default());
+            return study::run_as(session, compare, &compare.defaults(), &study::Common::default());
         }
         Some((COMPARE, matches)) => return study::run(session, find(suite, COMPARE)?, matches),
         Some((STUDY, matches)) => match matches.subcommand() {
@@ -248,14 +240,12 @@ fn dispatch(session: &Session, matches: &ArgMatches, global: &Global) -> anyhow:
         },
         Some((REPLICATE, matches)) => return study::run(session, find(suite, REPLICATE)?, matches),
         Some((name, _)) => {
-            if let Some((_, new)) = OLD.iter().find(|(old, _)| *old == name) {
-                anyhow::bail!("`sahara {name}` is now {new}");
+            if let Some(sentence) = moved::command(name) {
+                anyhow::bail!(sentence);
             }
         }
     }
     match Command::from_arg_matches(matches)? {
-        Command::Diff(args) => diff::run(&args, terminal),
-        Command::Report(args) => report::run(suite, &args, terminal),
         Command::Validate(args) => validate::run(registry, &args, terminal),
         Command::Rays(args) => rays::run(registry, &args, terminal),
         Command::HardAnswer(args) => validate::run_child(registry, &args),
@@ -267,9 +257,12 @@ fn dispatch(session: &Session, matches: &ArgMatches, global: &Global) -> anyhow:
     }
 }
 
-fn find<'a>(suite: &'a Suite, study: &str) -> anyhow::Result<&'a dyn AnyStudy> {
+fn find<'a>(suite: &'a Suite, study: &str) -> anyhow::Result<&'a Study> {
     suite.studies.find(study).ok_or_else(|| {
-        let names: Vec<&str> = suite.studies.iter().map(|study| study.name()).chain([all::NAME, plan::NAME]).collect();
+        if let Some(sentence) = moved::study(study) {
+            return anyhow::anyhow!(sentence);
+        }
+        let names: Vec<&str> = suite.studies.iter().map(|study| study.name).chain([all::NAME, plan::NAME]).collect();
         let suggestion = suggestion(study, names.iter().copied());
         anyhow::anyhow!("there is no study {study:?}{suggestion}; there are: {}", names.join(", "))
     })

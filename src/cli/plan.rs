@@ -6,13 +6,13 @@ use clap::error::{ContextKind, ContextValue};
 
 use super::progress::Waiting;
 use super::study::RUNS;
-use super::{Session, chosen, command};
-use crate::measure::quoted;
+use super::{Session, study as command};
+use crate::measure::{Provenance, Threads, quoted};
 use crate::report::words::{each_once, each_once_by};
 use crate::simd::Level;
-use crate::study::job::{Job, OPTION, OUT};
 use crate::study::journal::file_name;
-use crate::study::{AnyStudy, Effort, Status};
+use crate::study::process::{CASE, OUT};
+use crate::study::{Case, Effort, Status, Study};
 
 /// Name of the command.
 pub const NAME: &str = "plan";
@@ -101,40 +101,37 @@ pub fn run(session: &Session, args: &Args, level: Option<Level>) -> anyhow::Resu
     }
     anyhow::ensure!(
         !options.iter().any(|word| word == "--fresh"),
-        "--fresh empties the folder of a study, and each job measures one case of it: name another folder with --dir, or remove this one"
+        "--fresh is of a whole study, and each job measures one case of it: name another folder with --dir"
     );
     let named = names.iter().filter(|name| *name != super::all::NAME);
-    let named: Vec<&dyn AnyStudy> = named.map(|name| super::find(suite, name)).collect::<anyhow::Result<_>>()?;
+    let named: Vec<&Study> = named.map(|name| super::find(suite, name)).collect::<anyhow::Result<_>>()?;
     let whole = named.len() < names.len();
-    let studies = if whole { suite.studies.in_order_of_measuring() } else { named };
+    let studies = if whole { suite.studies.iter().collect() } else { named };
     let dir = args.dir.as_deref().unwrap_or(Path::new(RUNS));
     let mut commands = vec![];
     // Two jobs of one case would write one file.
-    for study in each_once_by(studies, |one, other| one.name() == other.name()) {
-        if let Some(why) = study.cannot_be_measured_here().filter(|_| whole) {
-            terminal.tell(&format!("{}: no jobs, for {why}", study.name()));
-            continue;
-        }
+    for study in each_once_by(studies, |one, other| one.name == other.name) {
         if !args.scenes.is_empty() && !study.names_scenes() {
-            terminal.tell(&format!("{}: on scenes of its own, whatever --scenes names", study.name()));
+            terminal.tell(&format!("{}: on scenes of its own, whatever --scenes names", study.name));
         }
-        // As the job will read it. What one study does not take is refused before scenes are loaded for another one.
-        let words = words(study, &args, whole, level, &options);
-        let parsed = command(&suite.studies).try_get_matches_from(&words);
-        let parsed = parsed.map_err(|error| refused(error, study.name(), args.quick || whole))?;
-        commands.push((study, words, study.args(chosen(&parsed)?)?));
+        // What one study does not take is refused before scenes are loaded for another one.
+        let words = words(study, &args, whole, &options);
+        let parsed = command::command(study).no_binary_name(true).try_get_matches_from(&words);
+        commands.push((study, words, parsed.map_err(|error| refused(error, study.name, args.quick || whole))?));
     }
     let (mut lines, mut warnings) = (String::new(), vec![]);
-    for (study, mut words, own) in commands {
-        let waiting = Waiting::show(format!("plans {}", study.name()), terminal);
-        let plan = study.plan(&*own, &suite.registry)?;
+    for (study, words, matches) in commands {
+        let waiting = Waiting::show(format!("plans {}", study.name), terminal);
+        let plan = (study.plan)(&matches, &suite.registry)?;
         drop(waiting);
-        words.extend(plan.decided);
         warnings.extend(plan.warnings);
-        for case in &plan.cases {
-            let job = serde_json::to_string(&Job::of(study.name(), case)).expect("a job has text keys");
-            let file = dir.join(study.name()).join(file_name(&case.key));
-            lines += &(line(&words, &job, &file)? + "\n");
+        let own = ["sahara", "study", study.name].into_iter().chain(words.iter().map(String::as_str));
+        let own = own.map(quoted).collect::<Vec<String>>().join(" ");
+        for case in plan.cases {
+            let threads = Threads::unstarted(case.settings.threads);
+            let provenance = Provenance { process_per_epoch: true, ..Provenance::of(&threads) };
+            let file = dir.join(study.name).join(file_name(&case, &provenance) + ".json");
+            lines += &(line(level, &Case { command: own.clone(), ..case }, &file)? + "\n");
         }
     }
     // Several studies may measure one scene.
@@ -143,17 +140,14 @@ pub fn run(session: &Session, args: &Args, level: Option<Level>) -> anyhow::Resu
     Ok(Status::Right)
 }
 
-/// The command of a study.
-fn words(study: &dyn AnyStudy, args: &Args, whole: bool, level: Option<Level>, options: &[String]) -> Vec<String> {
-    let mut words: Vec<String> = vec!["sahara".into()];
-    words.extend(level.iter().flat_map(|level| ["--level", level.name()]).map(String::from));
-    words.extend(["study", study.name()].map(String::from));
-    words.extend(match (args.quick, whole) {
+/// The options of a study.
+fn words(study: &Study, args: &Args, whole: bool, options: &[String]) -> Vec<String> {
+    let mut words = match (args.quick, whole) {
         (true, _) => study.preset(Effort::Quick, &args.scenes),
         (false, true) => study.preset(Effort::Full, &args.scenes),
         (false, false) if study.names_scenes() => args.scenes.clone(),
         (false, false) => vec![],
-    });
+    };
     words.extend(options.iter().cloned());
     words
 }
@@ -170,11 +164,13 @@ fn refused(mut error: clap::Error, study: &str, is_preset: bool) -> clap::Error 
     error
 }
 
-/// A line that a shell reads as the command with a job and a file.
-fn line(words: &[String], job: &str, file: &Path) -> anyhow::Result<String> {
+/// A line that a shell reads as the command with a case and a file.
+fn line(level: Option<Level>, case: &Case, file: &Path) -> anyhow::Result<String> {
     let name = file.to_str().ok_or_else(|| anyhow::anyhow!("{} is no text: name another folder", file.display()))?;
-    let (case, option) = (format!("--{OPTION}={job}"), format!("--{OUT}"));
-    let words = words.iter().map(String::as_str).chain([case.as_str(), &option, name]).map(quoted);
+    let text = serde_json::to_string(case).expect("a case has text keys");
+    let (case, out) = (format!("--{CASE}={text}"), format!("--{OUT}"));
+    let level = level.iter().flat_map(|level| ["--level", level.name()]);
+    let words = ["sahara"].into_iter().chain(level).chain([case.as_str(), &out, name]).map(quoted);
     let line = words.collect::<Vec<String>>().join(" ");
     anyhow::ensure!(
         !line.chars().any(char::is_control),

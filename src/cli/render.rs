@@ -10,9 +10,10 @@ use crate::accel::{DynAccel, Observed};
 use crate::registry::{Choice, Registry};
 use crate::render::{ErrorMap, ViewError, ViewKind, coarse_size, costs, draw, heat_bar, hottest};
 use crate::report::number::count;
+use crate::request::{self, BRUTE_FORCE, SAH_TREE, ViewArgs, is_large};
 use crate::scene::Scene;
-use crate::study::{BRUTE_FORCE, PANICKED, SAH_TREE, guarded, is_large};
-use crate::study::{Status, ViewArgs, sources};
+use crate::study::Status;
+use crate::study::measure::{PANICKED, guarded};
 
 #[derive(Debug, clap::Args)]
 pub struct Args {
@@ -42,11 +43,11 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
         args.hottest.is_none() || args.view == ViewKind::Heat,
         "--hottest is the scale of --view heat: leave it out, or ask for that view"
     );
-    let choice = sources::structure(registry, &args.structure)?;
-    let file = sources::output(&args.output, std::slice::from_ref(&args.scene), None)?;
+    let choice = request::structure(registry, &args.structure)?;
+    let file = request::output(registry, &args.output, std::slice::from_ref(&args.scene), None)?;
     is_png(&args.output)?;
     let waiting = Waiting::show(format!("loads {}", args.scene), terminal);
-    let scene = args.from.of(sources::scene(&args.scene)?)?;
+    let scene = args.from.of(request::scene(registry, &args.scene)?)?;
     let size = scene.size;
 
     waiting.says(format!("{} builds {}", scene.name, choice.label));
@@ -120,7 +121,7 @@ fn own_scale(choice: &Choice, scene: &Scene, accel: &dyn DynAccel) -> anyhow::Re
 fn common_scale(registry: &Registry, scene: &Scene, waiting: &Waiting) -> anyhow::Result<u64> {
     let size = coarse_size(scene);
     let mut scale = 1;
-    for choice in sources::structures(registry, &[])? {
+    for choice in request::structures(registry, &[])? {
         if choice.entry.name != BRUTE_FORCE && choice.entry.observed == Observed::ALL {
             waiting.says(format!("{} builds {} for the scale", scene.name, choice.label));
             scale = scale.max(hottest(&costs(scene, choice.build(&scene.mesh)?.as_ref(), size)?));

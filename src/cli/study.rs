@@ -8,8 +8,8 @@ use super::Session;
 use super::progress::OnTerminal;
 use crate::output::OutputFile;
 use crate::report::plot::Format;
-use crate::report::to_markdown;
-use crate::study::{AnyStudy, Chosen, Measured, Run, Status};
+use crate::report::{Art, Block, Report, csv, markdown};
+use crate::study::{self, Outcome, Run, Status, Study};
 
 /// Where studies keep their journals.
 pub const RUNS: &str = "runs";
@@ -17,18 +17,18 @@ pub const RUNS: &str = "runs";
 /// Options of every study beside its own.
 #[derive(Clone, Debug, Default, clap::Args)]
 pub struct Common {
-    /// The folder of journals: the same command again goes on where the last one stopped [default: runs; there a study of seconds, and
-    /// `compare`, keep only what Ctrl-C has interrupted]
+    /// The folder of journals: the same command again goes on where the last one stopped, and other scenes and settings
+    /// are added [default: runs; there `compare` keeps only what Ctrl-C has interrupted]
     #[arg(long, value_name = "DIR")]
     pub dir: Option<PathBuf>,
-    /// Throw away all that the folder of the study holds, cases of other scenes and settings as well, and start anew
+    /// Measure these cases again; earlier results stay, and the newest count
     #[arg(long)]
     pub fresh: bool,
-    /// Measure all scenes and epochs in one process: quicker, but how it happens to lie in memory is then in none of the
-    /// intervals
+    /// Run everything in one process: faster, but the intervals no longer cover memory-layout effects, and builds have no
+    /// limit
     #[arg(long)]
     pub in_process: bool,
-    /// Write the result as JSON
+    /// Write what was measured as JSON, which `report` and `diff` read
     #[arg(long, value_name = "FILE")]
     pub export_json: Option<PathBuf>,
     /// Write one row per measured thing as CSV
@@ -37,7 +37,7 @@ pub struct Common {
     /// Write the tables as Markdown
     #[arg(long, value_name = "FILE")]
     pub export_markdown: Option<PathBuf>,
-    /// Draw the answer, if the study has a picture of it: error against time of `accuracy`; may be repeated
+    /// Draw the study's first figure; may be repeated
     #[arg(long, value_name = "F.svg|F.png")]
     pub plot: Vec<PathBuf>,
 }
@@ -77,66 +77,74 @@ impl Common {
 }
 
 /// The command of a study.
-pub fn command(study: &dyn AnyStudy) -> clap::Command {
-    let command = Common::augment_args(study.augment(clap::Command::new(study.name())));
+pub fn command(study: &Study) -> clap::Command {
+    let command = Common::augment_args((study.options)().name(study.name));
     // The options come with what they themselves are about.
-    command.about(study.question()).long_about(None)
+    command.about(study.question).long_about(None)
 }
 
 /// Runs a study from its own command line.
-pub fn run(session: &Session, study: &dyn AnyStudy, matches: &ArgMatches) -> anyhow::Result<Status> {
-    run_as(session, study, Chosen::Matches(matches), &Common::from_arg_matches(matches)?)
+pub fn run(session: &Session, study: &Study, matches: &ArgMatches) -> anyhow::Result<Status> {
+    run_as(session, study, matches, &Common::from_arg_matches(matches)?)
 }
 
 /// Runs a study, prints what it says and writes the files.
-pub fn run_as(session: &Session, study: &dyn AnyStudy, chosen: Chosen, common: &Common) -> anyhow::Result<Status> {
+pub fn run_as(session: &Session, study: &Study, matches: &ArgMatches, common: &Common) -> anyhow::Result<Status> {
     let &Session { suite, terminal, .. } = session;
     let folder = common.dir.clone().unwrap_or_else(|| RUNS.into());
     let mut screen = OnTerminal::new(terminal);
+    common.check_places()?;
+    let plan = (study.plan)(matches, &suite.registry)?;
+    let files = common.check(&plan.inputs)?;
     let mut run = Run {
         registry: &suite.registry,
-        others: &|| suite.studies.answers(&folder, study.name()),
         folder: &folder,
-        is_kept: common.dir.is_some() || study.is_kept(),
+        keep_journal: common.dir.is_some().then_some(true),
         fresh: common.fresh,
         processes: session.processes(common),
         screen: &mut screen,
     };
-    // A picture that there is not is refused before the long run.
-    anyhow::ensure!(
-        common.plot.is_empty() || study.has_plot(),
-        "study {} has no picture: leave --plot out",
-        study.name()
-    );
-    common.check_places()?;
-    let mut files = Files::default();
-    let measured = study.run(chosen, &mut run, &mut |inputs| {
-        files = common.check(inputs)?;
-        Ok(())
-    })?;
+    let outcome = study::run(study, matches, &plan, &mut run)?;
     drop(screen);
 
-    let Measured { answer, provenance, tables, mut legend, to_print, to_explain, foot, outcome, failures } = measured;
-    to_print.iter().try_for_each(|table| terminal.print_table(table))?;
-    terminal.print_lines(&to_explain)?;
-    terminal.print_lines(&foot)?;
+    let Outcome { dataset, report, tables, foot, status, failures } = outcome;
+    let printed = tables.iter().try_for_each(|table| terminal.print_table(table));
+    let printed = printed.and_then(|()| terminal.print_lines(&foot));
     failures.iter().for_each(|error| crate::output::tell(format_args!("error: {error}")));
     // Files are written whole, when all is measured.
-    let Some(answer) = answer else { return Ok(outcome) };
-    let answer = answer.as_ref();
-    if let Some(file) = files.json {
-        file.write(&study.json(answer, &provenance))?;
+    if let Some(dataset) = dataset {
+        if let Some(file) = files.json {
+            file.write(&dataset.to_json())?;
+        }
+        if let Some(file) = files.csv {
+            file.write(&csv::table(&report.data))?;
+        }
+        if let Some(file) = files.markdown {
+            file.write(markdown::report(&report, &foot).as_bytes())?;
+        }
+        for (file, format) in files.plots {
+            let chart = first_chart(&report).ok_or_else(|| anyhow::anyhow!("study {} has no picture", study.name))?;
+            let bytes = match format {
+                Format::Svg => chart.svg(WIDTH).into_bytes(),
+                Format::Png => chart.png(WIDTH),
+            };
+            file.write(&bytes)?;
+        }
     }
-    if let Some(file) = files.csv {
-        file.write(&study.csv(answer, &provenance))?;
-    }
-    if let Some(file) = files.markdown {
-        legend.extend(foot);
-        file.write(&to_markdown(&tables, &legend))?;
-    }
-    for (file, format) in files.plots {
-        let plot = study.plot(answer).expect("a study that says so has a picture");
-        file.write(&plot.bytes(format))?;
-    }
-    Ok(outcome)
+    printed?;
+    Ok(status)
+}
+
+/// Width of drawings, in their units.
+const WIDTH: f64 = 900.0;
+
+/// The first drawing of a report.
+fn first_chart(report: &Report) -> Option<&crate::report::plot::Chart> {
+    report.blocks.iter().find_map(|block| match block {
+        Block::Figure(figure) => match &figure.art {
+            Art::Chart(chart) => Some(chart),
+            _ => None,
+        },
+        _ => None,
+    })
 }

@@ -6,7 +6,7 @@ use clap::ValueEnum;
 use comfy_table::Table as Probe;
 
 use crate::output::{stdout_is_taken, tell};
-use crate::report::{Screen, Table, wrapped};
+use crate::report::{Screen, Table, terminal, wrapped};
 
 /// When to use colour.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
@@ -67,8 +67,7 @@ impl Terminal {
 
     /// Prints a table, but for columns in which no row says anything, with a blank line after it.
     pub fn print_table(&self, table: &Table) -> io::Result<()> {
-        let table = table.clone().without_blank_columns();
-        self.print(&(table.to_terminal(self.screen) + "\n"))
+        self.print(&(terminal::table(table, self.screen) + "\n"))
     }
 
     /// Prints lines of text, broken where the screen ends.

@@ -1,6 +1,7 @@
 //! Where a number comes from.
 
 use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
 
 use super::{CpuClock, Threads, machine, program};
 use crate::simd::Level;
@@ -113,6 +114,24 @@ impl Provenance {
         let core = pinned.as_ref().map_or(0, |cores| cores[0]);
         let clock = if CpuClock::of_thread(threads).is_some() { "cpu".into() } else { elapsed() };
         Self { pinned, clock, governor: machine::governor(core), ..Self::capture(threads.count()) }
+    }
+
+    /// What makes a program faster or slower, of all that is known of it. Hosts of one processor are one machine: their
+    /// cases are epochs of one measurement, and samples are paired within one case only.
+    pub fn machine(&self) -> Map<String, Value> {
+        let parts: [(&str, Value); 10] = [
+            ("version", self.version.as_str().into()),
+            ("commit", self.commit.as_str().into()),
+            ("build", self.build.as_str().into()),
+            ("rustc", self.rustc.as_str().into()),
+            ("profile", self.profile.as_str().into()),
+            ("target_features", self.target_features.as_str().into()),
+            ("simd", self.simd.as_str().into()),
+            ("cpu", self.cpu.as_str().into()),
+            ("threads", self.threads.into()),
+            ("process_per_epoch", self.process_per_epoch.into()),
+        ];
+        parts.into_iter().map(|(name, value)| (name.to_owned(), value)).collect()
     }
 
     /// A warning, where there are more threads than processors.

@@ -6,6 +6,7 @@ use crate::bvh8::{Bvh8, Bvh8Config, Partition};
 use crate::external::obvhs::{Native, ObvhsBvh2, ObvhsConfig, ObvhsCwBvh, Over, RtTest};
 use crate::kdtree::{KdConfig, KdTree};
 use crate::offered::Offered;
+use crate::scene::spheres;
 use crate::triangle::{BaldwinWeber, EdgeF64, Exact, MollerTrumbore, MollerTrumboreF64, Plucker, Watertight};
 use crate::validate::Judged;
 
@@ -29,7 +30,7 @@ impl Registry {
             .offering::<ObvhsCwBvh<Over<MollerTrumbore>>>("obvhs-cwbvh", ObvhsConfig::default())
             .offering::<ObvhsCwBvh<Over<Exact>>>("obvhs-cwbvh", ObvhsConfig::default())
             .brute_force::<RtTest>();
-        with_obvhs.with_peers()
+        with_obvhs.with_peers().with_generator("icosphere", spheres::generate)
     }
 
     /// Brute force over the triangle test `T`, which structures over it are held against.

@@ -1,20 +1,21 @@
-//! What a run leaves: records as JSON, CSV and Markdown, tables for people.
+//! What a study says of what was measured: [`Report`], plain data, and its renderers for a terminal, Markdown and CSV.
+//! The page is the fourth.
 #![doc = include_str!("SCHEMA.md")]
 
-pub mod document;
-mod export;
+mod cell;
+pub mod csv;
 pub mod inspector;
+pub mod markdown;
 pub mod number;
 pub mod plot;
-mod record;
-mod statement;
+#[allow(clippy::module_inception)]
+mod report;
 mod table;
+pub mod terminal;
 pub mod words;
 
-pub use export::{Export, to_csv, to_json, to_jsonl, to_tidy_csv};
-pub use record::{CaseCounts, Record};
-pub use statement::Statement;
-pub use table::{Cell, Column, Screen, Table, Tone, escaped, to_markdown, wrapped};
-
-#[cfg(test)]
-pub(crate) use record::{example, example as example_record, timed_example};
+pub use cell::{Cell, Format, Tone, Value};
+pub use report::{Art, Block, Colours, Failure, Figure, Finding, Missing, Outcome, Overlay, Picture, Report, Verdict};
+pub use table::{Column, Table};
+pub use terminal::Screen;
+pub use words::wrapped;

@@ -1,7 +1,7 @@
 //! Words that tables, studies and pages share.
 
-use super::Table;
 use super::number::figures;
+use super::{Cell, Table, Value};
 use crate::measure::{Estimate, Interval};
 
 /// A scene as keys, tables and figures name it: they say where a mesh of our own stands in for a real one.
@@ -48,12 +48,26 @@ pub const ONE_EPOCH: &str = "(one epoch)";
 
 /// The table, with a note on estimates without an interval where it has some.
 pub fn explained(mut table: Table) -> Table {
-    if table.rows.iter().flatten().any(|cell| cell.text.contains(ONE_EPOCH)) {
-        table.notes.push(format!(
-            "{ONE_EPOCH}: one epoch, no interval. What another run finds is told by two epochs or more."
-        ));
+    let has_no_interval = |cell: &Cell| matches!(cell.value, Value::Estimate(x, _) if x.interval.is_none());
+    if table.rows.iter().flatten().any(has_no_interval) {
+        table.notes.push(format!("{ONE_EPOCH}: no interval; use --epochs 2 or more"));
     }
     table
+}
+
+/// The words of `text` in lines of at most `width` characters, or one word.
+pub fn wrapped(text: &str, width: usize) -> Vec<String> {
+    let mut lines: Vec<String> = vec![];
+    for word in text.split_whitespace() {
+        match lines.last_mut() {
+            Some(line) if line.chars().count() + 1 + word.chars().count() <= width => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.to_owned()),
+        }
+    }
+    lines
 }
 
 /// `A`, `A and B`, `A, B and C`.
@@ -151,9 +165,9 @@ mod tests {
         assert_eq!(interval(Estimate::between(-0.5, -0.75, 0.25)), "-0.500 [-0.750, 0.250]");
         assert_eq!(interval(Estimate::exact(2.0)), "2.00");
         assert_eq!(interval(Estimate::alone(2.0)), "2.00 (one epoch)");
-        let table = |x: Estimate| explained(Table { rows: vec![vec![interval(x).into()]], ..Table::default() }).notes;
+        let table = |x: Estimate| explained(Table { rows: vec![vec![x.into()]], ..Table::default() }).notes;
         assert!(table(Estimate::exact(2.0)).is_empty());
-        assert!(table(Estimate::alone(2.0))[0].contains("one epoch, no interval"));
+        assert!(table(Estimate::alone(2.0))[0].contains("no interval"));
         assert_eq!(scene_name("Dragon", true), "Dragon (stand-in)");
     }
 

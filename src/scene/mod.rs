@@ -20,6 +20,7 @@ pub mod offset;
 #[allow(clippy::module_inception)]
 mod scene;
 mod shadow_ray;
+pub mod spheres;
 #[cfg(test)]
 mod tests;
 mod workload;

@@ -1,6 +1,5 @@
 use super::journal::JournalError;
 use crate::accel::BuildError;
-use crate::registry::ChoiceError;
 use crate::report::number::plural;
 
 /// Why a study cannot go on.
@@ -8,6 +7,8 @@ use crate::report::number::plural;
 pub enum StudyError {
     #[error("{structure} cannot be built over {scene}: {cause}")]
     Build { structure: String, scene: String, cause: BuildError },
+    #[error("{reason}")]
+    Skipped { reason: String },
     #[error(
         "{scene}: {structures} structures at once need about {needed:.0} GB, and there are {there:.0} GB of memory: \
          name {}a smaller scene",
@@ -16,28 +17,28 @@ pub enum StudyError {
     Memory { scene: String, structures: usize, needed: f64, there: f64, most: usize },
     #[error("{0}")]
     Threads(String),
-    #[error("the study needs a structure that is not registered as it expects: {0}")]
-    Structure(#[from] ChoiceError),
-    #[error("{trouble} The study compares all of its trees or none.")]
-    Missing { trouble: String, wrong: bool },
+    #[error("{0}")]
+    Rays(String),
+    #[error("{failure} The study compares all of its trees or none.")]
+    Missing { failure: String, wrong: bool },
     #[error(
         "{one} and {other}, over the same triangle test, give different answers to the {rays} rays of {scene}: one is wrong"
     )]
     Disagree { one: String, other: String, scene: String, rays: String },
-    #[error("nothing was measured: these scenes have no rays of the kinds asked for")]
+    #[error("nothing was measured: these scenes have no rays of the workloads named")]
     Nothing,
-    #[error("{scene} has no rays of the kind asked for: leave the scene out, or ask for another kind of rays")]
+    #[error("{scene} has no rays of the workload named: leave the scene out, or name another workload")]
     NoRays { scene: String },
     #[error(
         "{structure} on the {rays} rays of {scene}: epoch 0 and epoch {epoch} differ in {what}, so that their times cannot be compared"
     )]
     Apart { structure: String, scene: String, rays: String, epoch: usize, what: &'static str },
-    #[error("the process that measures {key}: {cause}; with --in-process it is measured in this one, and shows more")]
+    #[error("the process that measures {key}: {cause}; --in-process measures it in this one, and shows more")]
     Process { key: String, cause: String },
-    #[error("the case {key} cannot be measured: {cause}")]
-    Job { key: String, cause: String },
+    #[error("{key} cannot be measured: {cause}")]
+    Case { key: String, cause: String },
     #[error("{sentence}")]
-    Told { sentence: String, of_one_scene: bool, wrong_answer: bool },
+    Reported { sentence: String, of_one_scene: bool, wrong_answer: bool },
     #[error(transparent)]
     Journal(#[from] JournalError),
 }
@@ -59,8 +60,8 @@ impl StudyError {
     /// Whether other scenes can be measured all the same.
     pub fn is_of_one_scene(&self) -> bool {
         match self {
-            Self::Threads(_) | Self::Nothing | Self::Structure(_) | Self::Journal(_) => false,
-            Self::Told { of_one_scene, .. } => *of_one_scene,
+            Self::Threads(_) | Self::Nothing | Self::Journal(_) => false,
+            Self::Reported { of_one_scene, .. } => *of_one_scene,
             _ => true,
         }
     }
@@ -72,7 +73,7 @@ impl StudyError {
             Self::Apart { what: ANSWERS, .. }
                 | Self::Disagree { .. }
                 | Self::Missing { wrong: true, .. }
-                | Self::Told { wrong_answer: true, .. }
+                | Self::Reported { wrong_answer: true, .. }
         )
     }
 }

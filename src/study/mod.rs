@@ -1,274 +1,156 @@
-//! Studies: each asks a question, measures cases and answers with tables.
+//! Studies: each asks a question, plans cases and reports on what was measured.
 //!
-//! A study is one file or folder that implements [`Study`], and one line in [`Studies::builtin`]. The command,
-//! `study all` and the page of `sahara report` walk that list.
+//! A [`Study`] is a value: two functions and their options. Measuring is not its business: [`engine`] measures the cases
+//! of a plan that the journal lacks, one [`Case`] a process, and hands the [`Dataset`] to the study's report.
 
-pub mod accuracy;
-mod answers;
-mod any_case;
-mod any_study;
-pub mod args;
-pub mod attribution;
-mod bench;
-mod chosen;
-pub mod compare;
-pub mod diff;
+pub mod case;
+pub mod claims;
+pub mod dataset;
 mod engine;
 pub mod epoch;
-mod epoch_args;
 mod epoch_medians;
 mod error;
-mod found;
-mod grouped;
-pub mod job;
+mod join;
 pub mod journal;
 mod least_squares;
-mod list;
-pub mod parameters;
+pub mod measure;
+pub mod measurement;
 mod plan;
-pub mod predictions;
 pub mod process;
-mod ray_source;
-mod reference_structures;
-pub mod replicate;
-pub mod scaling;
 mod screen;
-pub mod sources;
 mod stage;
 mod status;
-#[cfg(test)]
-pub(crate) mod tests;
-mod view_args;
+mod whole_times;
 
-use std::any::Any;
+use clap::{ArgMatches, Command};
 
-use serde::Serialize;
-use serde::de::DeserializeOwned;
-use serde_json::Value;
-
-use epoch::Epoch;
-
-use crate::measure::Provenance;
 use crate::registry::Registry;
-use crate::report::document::Block;
-use crate::report::plot::Figure;
-use crate::report::{Export, Statement, Table, to_json};
+use crate::report::Report;
 
-pub use answers::{Answers, AnyAnswer};
-pub use any_case::AnyCase;
-pub use any_study::AnyStudy;
-pub use bench::guarded::{PANICKED, Refused, guarded};
-pub use chosen::Chosen;
-pub use engine::{Measured, Run};
+pub use case::{Case, Check, Settings};
+pub use dataset::{Dataset, Measured, SceneEpochs};
+pub use engine::{Outcome, Run, run};
+pub use epoch::Epoch;
 pub use error::StudyError;
-pub use found::Found;
-pub use list::Studies;
-pub use plan::{Effort, Measure, Plan, Planned, SceneId};
-pub use ray_source::{RaySource, rays_or_all, replayed};
-pub use reference_structures::{BRUTE_FORCE, REPORT_TREE, SAH_TREE, documented_defect, is_large, left_out};
+pub use join::{Joined, join};
+pub use plan::{Plan, PlannedScene};
 pub use screen::Screen;
 pub use stage::Stage;
-pub use status::{Status, Trouble};
-pub use view_args::ViewArgs;
+pub use status::Status;
 
-/// A question, and how it is answered. A type without values: all that a run is told is in [`Study::Args`].
-pub trait Study: 'static {
+/// A question, how it is measured, and what is said of what was measured.
+pub struct Study {
     /// As written on the command line; also the name of its journal.
-    const NAME: &'static str;
-    /// What it asks, in one sentence.
-    const QUESTION: &'static str;
-    /// Whether the tables of a scene do not depend on the other scenes: they are printed as soon as the scene is
-    /// measured.
-    const SCENE_BY_SCENE: bool = false;
-    /// Whether a journal is kept in the folder `runs` where no other is named.
-    const KEPT: bool = true;
-    /// Whether its answer is made from those of the other studies. It is then measured last.
-    const LAST: bool = false;
-    /// Whether a scene is nothing without a time of each of its structures: it is left out then.
-    const WHOLE: bool = false;
-    /// Whether it shows a scene with a stand-in beside the same one with its real mesh. Elsewhere the last
-    /// one of which there is an answer counts.
-    const BOTH_MESHES: bool = false;
-    /// Draws what `--plot` writes, where the answer has a picture.
-    const PLOT: Option<fn(&Self::Answer) -> Figure> = None;
-    /// What `study all` measures, in words of the command line: scenes, which others may take the place of, then
-    /// options.
-    const FULL: &'static str = "";
-    /// Likewise `study all --quick`.
-    const QUICK: &'static str = "";
-
+    pub name: &'static str,
+    /// What it finds out, in one line.
+    pub question: &'static str,
+    /// Arguments of `study all`.
+    pub presets: Presets,
     /// Its options. Scenes are the only ones without a name.
-    type Args: clap::Args;
-    /// What is measured at a time, whatever else is, and kept as one file of the journal.
-    type Case: Clone + Serialize + DeserializeOwned + 'static;
-    /// What all cases come to.
-    type Answer: Serialize + Send + Sync + 'static;
-
-    /// The command that measures it for the page, which reads its journal.
-    fn command() -> String {
-        format!("sahara study {}{}", Self::NAME, if Self::KEPT { "" } else { " --dir runs" })
-    }
-
-    /// Why `study all` and its plan leave it out on this machine, in a sentence without the study's name; nothing where
-    /// they do not.
-    fn cannot_be_measured_here() -> Option<&'static str> {
-        None
-    }
-
+    pub options: fn() -> Command,
     /// What is to be measured. No time is spent here, and whatever can be refused is refused.
+    pub plan: fn(&ArgMatches, &Registry) -> anyhow::Result<Plan>,
+    /// A pure function of what was measured. The options are those of the run, or the defaults where a journal or an
+    /// export is shown.
+    pub report: fn(&Dataset, &ArgMatches) -> Report,
+}
+
+/// What `study all` measures of a study, in words of its command line: scenes, which others may take the place of, then
+/// options.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Presets {
+    pub full: &'static str,
+    /// A few minutes for trying out.
+    pub quick: &'static str,
+}
+
+/// How much `study all` measures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Effort {
+    Full,
+    /// A few minutes for trying out: few scenes, rays and epochs.
+    Quick,
+}
+
+impl Study {
+    /// Its options alone, without the name of a program.
+    fn command(&self) -> Command {
+        (self.options)().no_binary_name(true)
+    }
+
+    /// Its options as these words give them.
     ///
     /// # Errors
-    /// If the options name what is not there.
-    fn plan(args: &Self::Args, registry: &Registry) -> anyhow::Result<Plan<Self::Case>>;
-
-    /// The epoch that a case holds, and the number of its series where a scene has several: without a rule of its own
-    /// the case itself, where that is an epoch. Before there is an answer the epochs of each series are
-    /// [joined](epoch::join).
-    fn epoch(case: &mut Self::Case) -> Option<(&mut Epoch, usize)> {
-        let case: &mut dyn Any = case;
-        case.downcast_mut().map(|epoch| (epoch, 0))
+    /// If they are not those of its command.
+    pub fn matches(&self, words: &[String]) -> Result<ArgMatches, clap::Error> {
+        self.command().try_get_matches_from(words)
     }
 
-    /// Epochs that are planned of a scene of so many triangles, where no scene has more than `most`.
-    fn planned_epochs(most: usize, _triangles: usize) -> usize {
-        most
+    /// Its options by default.
+    ///
+    /// # Panics
+    /// If an option has no default.
+    pub fn defaults(&self) -> ArgMatches {
+        self.matches(&[]).unwrap_or_else(|error| panic!("study {}: {error}", self.name))
     }
 
-    /// The answer: a pure function of what was measured.
-    fn answer(cases: &[Self::Case], context: &Context<Self>) -> Self::Answer;
-
-    /// What is printed.
-    fn tables(answer: &Self::Answer) -> Vec<Table>;
-
-    /// What is printed after the tables of all scenes.
-    fn summary(_: &Self::Answer) -> Vec<Table> {
-        vec![]
+    /// Whether its options name scenes.
+    pub fn names_scenes(&self) -> bool {
+        self.command().get_positionals().next().is_some()
     }
 
-    /// What the columns of the tables mean.
-    fn legend(_: &Self::Answer) -> Vec<String> {
-        vec![]
-    }
-
-    /// What of all this is printed: the page and files have the rest as well.
-    fn printed(answer: &Self::Answer) -> Printed {
-        Printed { tables: Self::tables(answer), summary: Self::summary(answer), legend: Self::legend(answer) }
-    }
-
-    /// What is said last.
-    fn remarks(_: &Self::Answer) -> Vec<String> {
-        vec![]
-    }
-
-    /// The structures that have no time, or whose answers are wrong: without a rule of its own those of the epochs.
-    fn troubles(cases: &[Self::Case]) -> Vec<Trouble> {
-        let mut cases = cases.to_vec();
-        epoch::troubles(cases.iter_mut().filter_map(Self::epoch).map(|(epoch, _)| &*epoch))
-    }
-
-    /// What spoilt the run, and what to do.
-    fn warnings(_: &Self::Answer) -> Vec<String> {
-        vec![]
-    }
-
-    /// The answer as tables for machines. The first one is written by `--export-csv`. The page shows the study as not
-    /// measured where all of them are empty.
-    fn data(answer: &Self::Answer) -> Vec<Data>;
-
-    /// What was found, in sentences that the data choose and fill in, the most important first. The page, the paper and
-    /// README print them.
-    fn statements(_: &Self::Answer) -> Vec<Statement> {
-        vec![]
-    }
-
-    /// What the page shows below the statements; `command` is the one that measured it.
-    fn section(answer: &Self::Answer, command: &str) -> Vec<Block> {
-        let tables = Self::tables(answer).into_iter().chain(Self::summary(answer));
-        let notes = Self::legend(answer).into_iter().map(Block::Note);
-        tables.map(|table| Block::table(table, command)).chain(notes).collect()
-    }
-
-    /// What `--export-json` writes.
-    fn json(answer: &Self::Answer, provenance: &Provenance) -> Vec<u8> {
-        to_json(&Export::new(Self::NAME, provenance, answer))
-    }
-
-    /// What `--export-csv` writes.
-    fn csv(answer: &Self::Answer, provenance: &Provenance) -> Vec<u8> {
-        let rows = Self::data(answer).into_iter().next().map_or(vec![], |data| data.rows);
-        Export::new(Self::NAME, provenance, &rows[..]).to_csv()
-    }
-
-    /// Reads back what [`Study::json`] has written. Nothing if the value is no such thing, or is not read back.
-    fn read(_: &Value) -> Option<serde_json::Result<Self::Answer>> {
-        None
-    }
-
-    /// Adds a newer answer to an older one, and tells whether some of the older one is replaced. Without a rule of its
-    /// own all of it is.
-    fn merge(old: &mut Self::Answer, new: Self::Answer) -> bool {
-        *old = new;
-        true
-    }
-
-    /// The scenes that the page shows pictures of.
-    fn scenes(_: &Self::Answer) -> Vec<SceneId> {
-        vec![]
-    }
-}
-
-/// What is printed of an answer.
-pub struct Printed {
-    /// As [`Study::tables`].
-    pub tables: Vec<Table>,
-    /// As [`Study::summary`].
-    pub summary: Vec<Table>,
-    /// As [`Study::legend`].
-    pub legend: Vec<String>,
-}
-
-/// What an answer is made from besides the cases.
-pub struct Context<'a, S: Study + ?Sized> {
-    /// Of the run that measured the cases.
-    pub provenance: &'a Provenance,
-    /// The answers of the other studies; empty unless the study is [`Study::LAST`].
-    pub others: &'a Answers,
-    /// The options of this run; nothing where a journal is shown.
-    pub args: Option<&'a S::Args>,
-}
-
-impl Answers {
-    /// That of the study `S`, if there is one.
-    pub fn of<S: Study>(&self) -> Option<&S::Answer> {
-        self.get(S::NAME)?.downcast_ref()
-    }
-}
-
-/// A table for machines.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Data {
-    /// Name of its files.
-    pub name: &'static str,
-    pub rows: Vec<Value>,
-}
-
-impl Data {
-    /// One row for each of `rows`.
-    pub fn new(name: &'static str, rows: &[impl Serialize]) -> Self {
-        let row = |row| serde_json::to_value(row).expect("a row has text keys");
-        Self { name, rows: rows.iter().map(row).collect() }
-    }
-
-    /// One row for each item of the lists `inner` of `outer`: these `fields` of what holds the list, then those of the
-    /// item.
-    pub fn nested(name: &'static str, outer: &[impl Serialize], fields: &[&str], inner: &str) -> Self {
-        let mut rows = vec![];
-        for outer in Self::new(name, outer).rows {
-            for item in outer[inner].as_array().into_iter().flatten() {
-                let own = fields.iter().map(|&field| (field.to_owned(), outer[field].clone()));
-                rows.push(own.chain(item.as_object().expect("an item has fields").clone()).collect());
-            }
+    /// What `study all` measures of it, in words of its command line; on these scenes, where there are any.
+    pub fn preset(&self, effort: Effort, scenes: &[String]) -> Vec<String> {
+        let own = match effort {
+            Effort::Full => self.presets.full,
+            Effort::Quick => self.presets.quick,
+        };
+        let own = own.split_whitespace().map(String::from);
+        if scenes.is_empty() || !self.names_scenes() {
+            return own.collect();
         }
-        Self { name, rows }
+        scenes.iter().cloned().chain(own.skip_while(|word| !word.starts_with('-'))).collect()
+    }
+
+    /// The command that measures it into the folder `runs`, which `sahara report` reads.
+    pub fn command_line(&self) -> String {
+        format!("sahara study {} --dir runs", self.name)
+    }
+}
+
+/// Studies, in the order of the page.
+pub struct Studies {
+    list: Vec<Study>,
+}
+
+impl Studies {
+    pub fn empty() -> Self {
+        Self { list: vec![] }
+    }
+
+    /// Those of this crate. A new one is one more line.
+    pub fn builtin() -> Self {
+        Self::empty()
+    }
+
+    /// Adds a study.
+    ///
+    /// # Panics
+    /// If its name is taken, is `all` or `plan`, or holds anything but lower-case letters, digits and hyphens.
+    pub fn with(mut self, study: Study) -> Self {
+        let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
+        let name = study.name;
+        assert!(!name.is_empty() && !["all", "plan"].contains(&name) && name.chars().all(plain), "the name {name:?}");
+        assert!(self.find(name).is_none(), "there is already a study {name:?}");
+        self.list.push(study);
+        self
+    }
+
+    pub fn iter(&self) -> impl Iterator<Item = &Study> {
+        self.list.iter()
+    }
+
+    pub fn find(&self, name: &str) -> Option<&Study> {
+        self.iter().find(|study| study.name == name)
     }
 }

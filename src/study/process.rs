@@ -1,17 +1,17 @@
 //! A case in a process of its own.
 //!
-//! Where the system puts a program, its stack and its heap can change the speed of a structure by some percent, for as long as
-//! the process lives: only samples from several processes say by how much (Mytkowicz et al., Producing Wrong Data Without
-//! Doing Anything Obviously Wrong!, 2009; Kalibera and Jones, Rigorous Benchmarking in Reasonable Time, 2013).
+//! Where the system puts a program, its stack and its heap can change the speed of a structure by some percent, for as
+//! long as the process lives: only samples from several processes say by how much (Mytkowicz et al., Producing Wrong Data
+//! Without Doing Anything Obviously Wrong!, 2009; Kalibera and Jones, Rigorous Benchmarking in Reasonable Time, 2013).
 //!
-//! The process is this program with the same command line and a [`Job`]. On its standard output it says, a marked line of JSON each,
-//! what it does, and at last what it has measured. After each line it waits for one in answer: so the run that listens does nothing
-//! while it times. Other lines are a structure's own, and go to standard error.
-//!
-//! A job on another machine is the same command line with a file beside: it writes the case, and nobody answers it.
+//! The process is this program with a case and a file, `--case JSON --out FILE`: it measures the case and writes the file,
+//! whoever started it, a run or a cluster's scheduler. A run that listens (`--listen`) reads what the process is doing, a
+//! marked line of JSON each, from its standard output. After each line the process waits for one in answer: so the run
+//! does nothing while the process times. Other lines are a structure's own, and go to standard error.
 
 use std::ffi::OsString;
 use std::io::{self, BufRead, BufReader, Write};
+use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError, Weak};
@@ -19,27 +19,32 @@ use std::thread;
 use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
-use serde_json::Value;
 
-use super::job::{Job, OPTION};
-use super::journal::Read;
-use super::{AnyStudy, Chosen, Plan, Stage, StudyError};
-use crate::measure::{SystemClock, process_group, program};
+use super::case::Case;
+use super::journal::CaseFile;
+use super::measure::{BuildWatch, Prepared, measure};
+use super::{Screen, Stage, StudyError};
+use crate::measure::{Provenance, SystemClock, process_group, program};
 use crate::registry::Registry;
+
+/// The options that make a process measure a case.
+pub const CASE: &str = "case";
+pub const OUT: &str = "out";
+pub const LISTEN: &str = "listen";
+pub const CORES: &str = "cores";
 
 /// A line of a process.
 #[derive(Serialize, Deserialize)]
-enum Said {
+enum Message {
     Build(String),
     Rays(String),
     Check(String),
     Trace(usize, usize),
     Count,
-    Measured(Value),
     Failed { sentence: String, of_one_scene: bool, wrong_answer: bool },
 }
 
-impl From<&Stage<'_>> for Said {
+impl From<&Stage<'_>> for Message {
     fn from(stage: &Stage) -> Self {
         match *stage {
             Stage::Build(what) => Self::Build(what.into()),
@@ -52,79 +57,78 @@ impl From<&Stage<'_>> for Said {
 }
 
 /// How processes are started.
+#[derive(Clone, Debug, Default)]
 pub struct Processes {
-    /// The command line of this one, without its name.
-    args: Vec<OsString>,
+    /// Options of this one that each of them gets, such as the level of instructions.
+    pub options: Vec<OsString>,
 }
 
 /// What the lines of a process begin with.
 const MARK: &str = "\u{1e}case ";
 
 impl Processes {
-    /// Of this program, which was started with `args`, its name first.
-    pub fn new(args: impl IntoIterator<Item = OsString>) -> Self {
-        Self { args: args.into_iter().skip(1).collect() }
-    }
-
-    /// Has a process measure a case.
+    /// Has a process measure a case and write the file `out`. Its threads are bound to `cores`, where they are known.
     ///
     /// # Errors
     /// As the measuring of the case, and if the process cannot be started or ends without an answer.
-    pub fn measure<C>(&self, job: &Job, read: Read<C>, progress: &mut dyn FnMut(Stage)) -> Result<C, StudyError> {
-        let value = self.value(job, progress)?;
-        let cause = |cause| format!("it said {:?}: {cause}", value.to_string());
-        read(&value).map_err(|error| StudyError::Process { key: job.key.clone(), cause: cause(error) })
-    }
-
-    /// Likewise, as the process says it.
-    fn value(&self, job: &Job, progress: &mut dyn FnMut(Stage)) -> Result<Value, StudyError> {
-        let trouble = |cause: String| StudyError::Process { key: job.key.clone(), cause };
-        let job_text = serde_json::to_string(job).expect("a job has text keys");
+    pub fn measure(
+        &self,
+        case: &Case,
+        out: &Path,
+        cores: Option<&[usize]>,
+        progress: &mut dyn FnMut(Stage),
+    ) -> Result<(), StudyError> {
+        let failure = |cause: String| StudyError::Process { key: case.key(), cause };
+        let text = serde_json::to_string(case).expect("a case has text keys");
         let mut command = Command::new(program::executable());
-        command.arg(format!("--{OPTION}={job_text}")).args(&self.args);
+        command.args(&self.options).arg(format!("--{CASE}={text}")).arg(format!("--{OUT}")).arg(out);
+        command.arg(format!("--{LISTEN}"));
+        if let Some(cores) = cores {
+            let cores: Vec<String> = cores.iter().map(ToString::to_string).collect();
+            command.arg(format!("--{CORES}={}", cores.join(",")));
+        }
         process_group::set_apart(&mut command);
         // Programs that are timed have files there: what is left when the process is ended goes with the folder.
-        let has_programs = self.args.iter().any(|arg| arg.to_string_lossy().starts_with("--runner"));
+        let has_programs = case.structures.iter().any(|own| own.runner.is_some());
         let scratch = if has_programs { tempfile::Builder::new().prefix("sahara-").tempdir().ok() } else { None };
         command.envs(scratch.iter().flat_map(|folder| ["TMPDIR", "TMP", "TEMP"].map(|name| (name, folder.path()))));
         let child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn();
-        let mut child = child.map_err(|cause| trouble(format!("it cannot be started: {cause}")))?;
-        let (told, said) = (child.stdin.take(), child.stdout.take());
+        let mut child = child.map_err(|cause| failure(format!("it cannot be started: {cause}")))?;
+        let (input, output) = (child.stdin.take(), child.stdout.take());
         let child = Guard::new(child);
-        let mut told = told.expect("it has an input");
-        // A process that has ended already is told by what it has said, or how it ended.
-        let mut tell = |line: &str| {
-            let _ = writeln!(told, "{line}");
-        };
-        for line in BufReader::new(said.expect("it has an output")).split(b'\n') {
-            let line = line.map_err(|cause| trouble(cause.to_string()))?;
+        let mut input = input.expect("it has an input");
+        for line in BufReader::new(output.expect("it has an output")).split(b'\n') {
+            let line = line.map_err(|cause| failure(cause.to_string()))?;
             let line = String::from_utf8_lossy(&line);
-            let Some((own, said)) = line.split_once(MARK) else {
+            let Some((own, message)) = line.split_once(MARK) else {
                 crate::output::tell(&line);
                 continue;
             };
             let _ = write!(io::stderr(), "{own}");
-            match serde_json::from_str(said).map_err(|cause| trouble(format!("it said {said:?}: {cause}")))? {
-                Said::Build(what) => progress(Stage::Build(&what)),
-                Said::Rays(what) => progress(Stage::Rays(&what)),
-                Said::Check(what) => progress(Stage::Check(&what)),
-                Said::Trace(taken, total) => progress(Stage::Trace(taken, total)),
-                Said::Count => progress(Stage::Count),
-                Said::Measured(case) => return Ok(case),
-                Said::Failed { sentence, of_one_scene, wrong_answer } => {
-                    return Err(StudyError::Told { sentence, of_one_scene, wrong_answer });
+            match serde_json::from_str(message).map_err(|cause| failure(format!("it said {message:?}: {cause}")))? {
+                Message::Build(what) => progress(Stage::Build(&what)),
+                Message::Rays(what) => progress(Stage::Rays(&what)),
+                Message::Check(what) => progress(Stage::Check(&what)),
+                Message::Trace(taken, total) => progress(Stage::Trace(taken, total)),
+                Message::Count => progress(Stage::Count),
+                Message::Failed { sentence, of_one_scene, wrong_answer } => {
+                    return Err(StudyError::Reported { sentence, of_one_scene, wrong_answer });
                 }
             }
-            tell("");
+            // A process that has ended already is known by what it has said, or how it ended.
+            let _ = writeln!(input);
         }
         // Others may end it meanwhile.
         let status = loop {
-            if let Some(status) = locked(&child.0).try_wait().map_err(|cause| trouble(cause.to_string()))? {
+            if let Some(status) = locked(&child.0).try_wait().map_err(|cause| failure(cause.to_string()))? {
                 break status;
             }
             thread::sleep(Duration::from_millis(1));
         };
-        Err(trouble(format!("it ended without an answer ({status})")))
+        if status.success() && out.exists() {
+            return Ok(());
+        }
+        Err(failure(format!("it ended without an answer ({status})")))
     }
 }
 
@@ -169,53 +173,99 @@ pub fn end() {
     }
 }
 
-impl dyn AnyStudy + '_ {
-    /// What a process with a job does: measures that one case, and says so on standard output.
-    ///
-    /// # Errors
-    /// If that is closed.
-    pub fn answer_job(&self, chosen: Chosen, registry: &Registry, job: &Job) -> anyhow::Result<()> {
-        Ok(answer(|| self.plan(&*self.args(chosen)?, registry), job)?)
-    }
+/// What a process with a case and a file comes to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Written {
+    Now,
+    /// It had been measured before.
+    Before,
+    /// Another process has measured it meanwhile.
+    Meanwhile,
 }
 
-/// What a process with a job does: measures the case of the plan that `plan` makes, and says so.
+/// Measures a case and writes the file `out`, unless it is there.
 ///
 /// # Errors
-/// If nobody listens; all else is said.
-pub fn answer<C: Serialize>(plan: impl FnOnce() -> anyhow::Result<Plan<C>>, job: &Job) -> io::Result<()> {
-    end_with_parent();
-    let said = match plan() {
-        Ok(plan) => match job.find(&plan) {
-            Ok(case) => {
-                let mut progress = |stage: Stage| {
-                    if say(&Said::from(&stage)).and_then(|()| hear()).is_err() {
-                        // The run is gone, and would be disturbed by this process when it goes on.
-                        std::process::exit(1);
-                    }
-                };
-                match (plan.measure)(case, &SystemClock::start(), &mut progress) {
-                    Ok(case) => Said::Measured(serde_json::to_value(case).expect("a case has text keys")),
-                    Err(error) => failed(&error),
-                }
-            }
-            Err(error) => failed(&error),
-        },
-        Err(error) => Said::Failed { sentence: format!("{error:#}"), of_one_scene: true, wrong_answer: false },
+/// If the file cannot be written or holds anything else, there are fewer cores than threads, or nothing can be measured:
+/// then it is as it was.
+pub fn measure_into(
+    case: &Case,
+    out: &Path,
+    registry: &Registry,
+    watch: &BuildWatch,
+    screen: &mut dyn Screen,
+) -> anyhow::Result<Written> {
+    let there = || -> anyhow::Result<bool> {
+        if !out.exists() {
+            return Ok(false);
+        }
+        let file = CaseFile::read(out)?;
+        anyhow::ensure!(file.case.is_same(case), super::journal::JournalError::Other(out.into()));
+        Ok(true)
     };
-    say(&said)
+    if there()? {
+        return Ok(Written::Before);
+    }
+    let file = CaseFile::place(out)?;
+    let prepared = Prepared::new(case, registry, None)?;
+    let command = case.command.clone();
+    let provenance = Provenance { process_per_epoch: true, command, ..Provenance::of(prepared.threads()) };
+    // A run warns of it. Nobody reads the logs of all jobs, and a file that is there is not measured again.
+    if let Some(cause) = provenance.too_many_threads().filter(|_| !screen.is_watched()) {
+        return Err(StudyError::Case { key: case.key(), cause }.into());
+    }
+    screen.begin(case.work());
+    screen.case(&format!("{}, {}", case.study, case.title()), case.work());
+    let epoch = measure(case, &prepared, &SystemClock::start(), watch, &mut |stage| screen.stage(&stage))?;
+    screen.end();
+    if CaseFile::write(&file, &provenance, case, &epoch)? {
+        return Ok(Written::Now);
+    }
+    there()?;
+    Ok(Written::Meanwhile)
 }
 
-fn failed(error: &StudyError) -> Said {
-    Said::Failed {
-        sentence: error.to_string(),
-        of_one_scene: error.is_of_one_scene(),
-        wrong_answer: error.is_wrong_answer(),
+/// The screen of a process that a run listens to.
+pub struct Listened(());
+
+impl Listened {
+    /// From now on this process ends with the run: one that is killed leaves nothing behind that disturbs the next one.
+    #[allow(clippy::new_without_default)]
+    pub fn new() -> Self {
+        #[cfg(target_os = "linux")]
+        let _ = nix::sys::prctl::set_pdeathsig(nix::sys::signal::Signal::SIGKILL);
+        Self(())
     }
 }
 
-fn say(said: &Said) -> io::Result<()> {
-    let line = serde_json::to_string(said).expect("what is said has text keys");
+impl Screen for Listened {
+    fn stage(&mut self, stage: &Stage) {
+        if say(&Message::from(stage)).and_then(|()| hear()).is_err() {
+            // The run is gone, and would be disturbed by this process when it goes on.
+            std::process::exit(1);
+        }
+    }
+
+    fn is_watched(&self) -> bool {
+        true
+    }
+}
+
+/// Says why nothing was measured.
+///
+/// # Errors
+/// If nobody listens.
+pub fn report_failure(error: &anyhow::Error) -> io::Result<()> {
+    let known = error.downcast_ref::<StudyError>();
+    say(&Message::Failed {
+        sentence: format!("{error:#}"),
+        of_one_scene: known.is_none_or(StudyError::is_of_one_scene),
+        wrong_answer: known.is_some_and(StudyError::is_wrong_answer),
+    })
+}
+
+fn say(message: &Message) -> io::Result<()> {
+    let line = serde_json::to_string(message).expect("a message has text keys");
     let mut out = io::stdout().lock();
     writeln!(out, "{MARK}{line}")?;
     out.flush()
@@ -230,25 +280,55 @@ fn hear() -> io::Result<String> {
     }
 }
 
-/// A run that is killed leaves nothing behind that disturbs the next one.
-fn end_with_parent() {
-    #[cfg(target_os = "linux")]
-    let _ = nix::sys::prctl::set_pdeathsig(nix::sys::signal::Signal::SIGKILL);
+/// Watches the builds of `case`, which a process measures by `args`: where one takes too long, the process starts itself
+/// again without that structure, since a builder cannot be interrupted from within.
+pub fn build_watch(case: &Case, args: Vec<OsString>) -> BuildWatch {
+    let Some(limit) = case.settings.build_limit_s else { return BuildWatch::default() };
+    let case = case.clone();
+    let again = move |structure: usize| {
+        let mut case = case.clone();
+        let reason = format!("its build takes more than {limit} s: --build-limit SECONDS gives it more, none all");
+        case.structures[structure].skipped = Some(reason);
+        let text = serde_json::to_string(&case).expect("a case has text keys");
+        let is_case = |arg: &OsString| arg.to_string_lossy().starts_with(&format!("--{CASE}="));
+        let own =
+            args.iter().skip(1).map(|arg| if is_case(arg) { format!("--{CASE}={text}").into() } else { arg.clone() });
+        let mut command = Command::new(program::executable());
+        command.args(own);
+        replace(command);
+    };
+    BuildWatch::new(Duration::from_secs_f64(limit), Box::new(again))
+}
+
+/// Becomes the program that `command` starts.
+#[cfg(unix)]
+fn replace(mut command: Command) {
+    use std::os::unix::process::CommandExt;
+    let cause = command.exec();
+    crate::output::tell(format_args!("error: this program cannot be started again: {cause}"));
+    std::process::exit(1);
+}
+
+#[cfg(not(unix))]
+fn replace(mut command: Command) {
+    let status = command.status().ok().and_then(|status| status.code());
+    std::process::exit(status.unwrap_or(1));
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::case::tests::example;
     use super::*;
-    use crate::study::epoch::Epoch;
 
     #[test]
     fn a_process_that_ends_without_an_answer_is_one_sentence() {
         // The program of these tests knows no such option.
-        let processes = Processes::new(["tests".into(), "--no-such-option".into()]);
-        let job = Job { study: "compare".into(), scene: "Cube".into(), key: "Cube 0123 epoch 0".into(), cores: None };
-        let error = processes.measure(&job, |value| Epoch::deserialize(value), &mut |_| ()).unwrap_err();
+        let processes = Processes { options: vec!["--no-such-option".into()] };
+        let out = tempfile::tempdir().unwrap();
+        let case = example("Cube", 0, &["sah-kd"]);
+        let error = processes.measure(&case, &out.path().join("a.json"), None, &mut |_| ()).unwrap_err();
         let sentence = error.to_string();
-        assert!(sentence.contains("Cube 0123 epoch 0") && sentence.contains("without an answer"), "{sentence}");
+        assert!(sentence.contains("Cube epoch 0") && sentence.contains("without an answer"), "{sentence}");
         assert!(error.is_of_one_scene() && !error.is_wrong_answer());
     }
 }

@@ -3,27 +3,33 @@ use std::io;
 use super::Stage;
 use crate::report::Table;
 
-/// Shows how far a run has come. It is never called inside a timed region.
+/// Shows how far a run has come. It is never called inside a timed region. By itself it shows nothing.
 pub trait Screen {
     /// So much is to be measured, as a multiple of any unit.
-    fn begin(&mut self, work: u64);
+    fn begin(&mut self, _: u64) {}
     /// The next case is measured, which is so much of it.
-    fn case(&mut self, title: &str, work: u64);
+    fn case(&mut self, _title: &str, _work: u64) {}
     /// What is done for it.
-    fn stage(&mut self, stage: &Stage);
+    fn stage(&mut self, _: &Stage) {}
     /// It is measured.
-    fn done(&mut self);
+    fn done(&mut self) {}
     /// Whether the run is to stop.
-    fn is_interrupted(&self) -> bool;
+    fn is_interrupted(&self) -> bool {
+        false
+    }
     /// Whether somebody watches, who may want a first look at a scene of which not all epochs are measured.
-    fn is_watched(&self) -> bool;
+    fn is_watched(&self) -> bool {
+        false
+    }
     /// Shows what spoils the run, or may not be what was meant.
-    fn warn(&mut self, warnings: &[String]);
+    fn warn(&mut self, _: &[String]) {}
     /// A table of the result.
     ///
     /// # Errors
     /// If it cannot be printed.
-    fn table(&mut self, table: &Table) -> io::Result<()>;
+    fn table(&mut self, _: &Table) -> io::Result<()> {
+        Ok(())
+    }
     /// Nothing more is measured.
-    fn end(&mut self);
+    fn end(&mut self) {}
 }

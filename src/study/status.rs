@@ -2,7 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::documented_defect;
+use crate::report::Failure;
+use crate::request::known_defect;
 
 /// What a command found; its exit status.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -23,25 +24,12 @@ pub enum Status {
     Interrupted,
 }
 
-/// A structure without times, and why.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Trouble {
-    /// Name in the registry.
-    pub structure: String,
-    /// What to print below the tables; empty where a table says it.
-    pub sentence: String,
-    /// Whether it took no part at all.
-    pub refused: bool,
-    /// Whether it gave wrong answers.
-    pub wrong: bool,
-}
-
 impl Status {
-    /// What these make of a run. Wrong answers of a baseline whose defects are documented do not count.
-    pub fn of(troubles: &[Trouble]) -> Self {
-        if troubles.iter().any(|t| t.wrong && documented_defect(&t.structure).is_none()) {
+    /// What these make of a run. Wrong answers of a baseline with known defects do not count.
+    pub fn of(failures: &[Failure]) -> Self {
+        if failures.iter().any(|failure| failure.wrong && known_defect(&failure.structure).is_none()) {
             Self::Wrong
-        } else if troubles.iter().any(|trouble| trouble.refused) {
+        } else if failures.iter().any(|failure| failure.refused) {
             Self::Refused
         } else {
             Self::Right

@@ -50,7 +50,7 @@ pub enum Outcome {
 }
 
 /// Sums over rays. Rates of kinds of rays that fail in different ways must not be added up.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct ErrorCounts {
     /// Rays compared.
     pub rays: u64,

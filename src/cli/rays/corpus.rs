@@ -17,13 +17,14 @@ use crate::exact;
 use crate::geometry::{Mesh, Ray};
 use crate::oracle::Oracle;
 use crate::output::OutputFolder;
+use crate::registry::Registry;
 use crate::report::number::{bytes, count, plural};
 use crate::report::words::{listed, slug};
 use crate::report::{Cell, Table};
+use crate::request::{self, RayKind, STAND_IN};
 use crate::scene::files::{RayFile, TruthFile, mesh_bytes};
 use crate::scene::{BUILTIN, Builtin, Scene, Workload};
-use crate::study::accuracy::RayKind;
-use crate::study::{Status, sources};
+use crate::study::Status;
 
 /// The SHA-256 of `SHA256SUMS` in the corpus of all defaults.
 const CORPUS_SHA256: &str = "80236458bcb0a6bbaadffad14093129fc1b00782e4f0118cc37d15f480bc129d";
@@ -59,18 +60,16 @@ impl Args {
 /// The files of a corpus, by their names.
 type Files = BTreeMap<String, Vec<u8>>;
 
-pub fn run(args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
+pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
     let inputs = args.scenes.iter().filter(|name| Builtin::find(name).is_err()).map(Path::new);
     let folder = OutputFolder::check(&args.output)?.apart_from(inputs)?;
     let all = || BUILTIN.iter().map(|builtin| builtin.name.to_owned()).collect();
     let named = if args.scenes.is_empty() { all() } else { args.scenes.clone() };
 
     let waiting = Waiting::show("loads scenes".into(), terminal);
-    let loaded = named.iter().map(|name| {
-        waiting.says(format!("loads {name}"));
-        load(name)
-    });
-    let scenes = sources::distinct(loaded.collect::<anyhow::Result<_>>()?)?;
+    // Our own meshes are the same everywhere.
+    let own = |name: &String| if Builtin::find(name).is_ok() { format!("{name}:{STAND_IN}") } else { name.clone() };
+    let scenes = request::scenes(registry, &named.iter().map(own).collect::<Vec<String>>())?;
 
     // One scene at a time: an oracle takes much more memory than its scene and files.
     let (mut files, mut rows, mut stand_ins) = (Files::new(), vec![], vec![]);
@@ -115,14 +114,6 @@ fn verdict(args: &Args, digest: &str, terminal: &Terminal) -> anyhow::Result<Sta
     }
     terminal.print(&format!("SHA-256 of {SUMS}: {digest}{said}\n"))?;
     Ok(status)
-}
-
-/// A built-in scene with our own meshes, which are the same everywhere; else what is named.
-fn load(name: &str) -> anyhow::Result<Scene> {
-    match Builtin::find(name) {
-        Ok(builtin) => Ok(builtin.scene(None)?),
-        Err(_) => sources::scene(name),
-    }
 }
 
 /// What a corpus holds of one scene.

@@ -14,10 +14,10 @@ use crate::geometry::Ray;
 use crate::output::OutputFile;
 use crate::registry::Registry;
 use crate::report::number::plural;
+use crate::request::{self, rays_or_all};
 use crate::scene::files::RayFile;
 use crate::scene::{Sampling, Workload, WorkloadKind};
 use crate::study::Status;
-use crate::study::{rays_or_all, sources};
 
 #[derive(Debug, clap::Args)]
 pub struct Args {
@@ -86,17 +86,17 @@ struct Show {
 pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
     match &args.action {
         Action::Record(args) => record(registry, args, terminal),
-        Action::Import(args) => import(args, terminal),
+        Action::Import(args) => import(registry, args, terminal),
         Action::Show(args) => show(args, terminal),
-        Action::Corpus(args) => corpus::run(args, terminal),
+        Action::Corpus(args) => corpus::run(registry, args, terminal),
     }
 }
 
 fn record(registry: &Registry, args: &Record, terminal: &Terminal) -> anyhow::Result<Status> {
-    let output = sources::output(&args.output, std::slice::from_ref(&args.scene), None)?;
+    let output = request::output(registry, &args.output, std::slice::from_ref(&args.scene), None)?;
     let waiting = Waiting::show(format!("loads {}", args.scene), terminal);
-    let scene = sources::scene(&args.scene)?;
-    let guide = sources::guide(registry)?;
+    let scene = request::scene(registry, &args.scene)?;
+    let guide = request::guide(registry)?;
     waiting.says(format!("{} builds {}", scene.name, guide.label));
     let guide = guide.build(&scene.mesh)?;
     waiting.says(format!("{} makes {} rays", scene.name, args.workload.name()));
@@ -107,8 +107,8 @@ fn record(registry: &Registry, args: &Record, terminal: &Terminal) -> anyhow::Re
     finish(&RayFile::new(&scene, workload), &output, terminal)
 }
 
-fn import(args: &Import, terminal: &Terminal) -> anyhow::Result<Status> {
-    let output = sources::output(&args.output, args.scene.as_slice(), [args.text.as_path()])?;
+fn import(registry: &Registry, args: &Import, terminal: &Terminal) -> anyhow::Result<Status> {
+    let output = request::output(registry, &args.output, args.scene.as_slice(), [args.text.as_path()])?;
     let waiting = Waiting::show(format!("reads {}", args.text.display()), terminal);
     let text = std::fs::read_to_string(&args.text).with_context(|| format!("cannot read {}", args.text.display()))?;
     let rays = parse(&text).map_err(|problem| anyhow::anyhow!("{}: {problem}", args.text.display()))?;
@@ -117,7 +117,7 @@ fn import(args: &Import, terminal: &Terminal) -> anyhow::Result<Status> {
     let file = match &args.scene {
         Some(scene) => {
             waiting.says(format!("loads {scene}"));
-            RayFile::new(&sources::scene(scene)?, workload)
+            RayFile::new(&request::scene(registry, scene)?, workload)
         }
         None => RayFile { scene: String::new(), scene_hash: None, workload },
     };

@@ -10,8 +10,8 @@ use crate::geometry::{Hit, Ray};
 use crate::measure::spread;
 use crate::registry::{Choice, Registry};
 use crate::report::number::count;
+use crate::request::{self, BRUTE_FORCE, SAH_TREE};
 use crate::scene::Scene;
-use crate::study::{BRUTE_FORCE, SAH_TREE, sources};
 use crate::triangle::{MollerTrumbore, TriangleTest};
 use crate::validate::{Reference, Validation};
 
@@ -40,7 +40,7 @@ impl Against {
         if name.eq_ignore_ascii_case(BRUTE_FORCE) {
             return Ok(Self::SameTest);
         }
-        Ok(Self::Structure(Box::new(sources::structure(registry, name)?)))
+        Ok(Self::Structure(Box::new(request::structure(registry, name)?)))
     }
 
     /// What a structure with this triangle test is held against.

@@ -14,7 +14,7 @@ pub fn answers(label: &str, accel: &Arc<dyn DynAccel>, rays: &[Ray], mesh: &Mesh
     let row = |(i, ray): (usize, &Ray)| {
         let mut row: Vec<Cell> = vec![label.into(), format!("{} ({ray})", i + 1).into()];
         row.extend(answer(accel, ray, mesh, limit));
-        row.resize(COLUMNS.len(), Cell::blank());
+        row.resize(COLUMNS.len(), Cell::empty());
         row
     };
     rays.iter().enumerate().map(row).collect()
@@ -33,7 +33,7 @@ fn answer(accel: &Arc<dyn DynAccel>, ray: &Ray, mesh: &Mesh, limit: Duration) ->
             let index = hit.prim.index();
             let weights = ((index as usize) < mesh.len()).then(|| barycentrics(ray, mesh.corners(index)));
             let [u, v] =
-                weights.map_or([Cell::blank(), Cell::blank()], |w| [w.y, w.z].map(|x| format!("{x:.9}").into()));
+                weights.map_or([Cell::empty(), Cell::empty()], |w| [w.y, w.z].map(|x| format!("{x:.9}").into()));
             vec![hit.t.to_string().into(), index.to_string().into(), u, v]
         }
     }
@@ -50,5 +50,5 @@ pub fn table(scene: &str, mut rows: Vec<Vec<Cell>>) -> Table {
 }
 
 fn number(row: &[Cell]) -> usize {
-    row[1].text.split(' ').next().and_then(|number| number.parse().ok()).unwrap_or(0)
+    row[1].text().split(' ').next().and_then(|number| number.parse().ok()).unwrap_or(0)
 }

@@ -14,13 +14,15 @@ use crate::cli::terminal::Terminal;
 use crate::geometry::{Hit, Ray};
 use crate::registry::{Choice, Registry};
 use crate::report::number::plural;
+use crate::request;
 use crate::scene::Scene;
 use crate::scene::files::{HitFile, RayFile};
-use crate::study::{Status, sources};
+use crate::study::Status;
 use crate::validate::{validate_answers, validate_any_answers, watched};
 
 /// Writes the answers of one structure.
 pub fn export(
+    registry: &Registry,
     scene: &Scene,
     file: &RayFile,
     structures: &[Choice],
@@ -32,7 +34,7 @@ pub fn export(
     let [choice] = structures else {
         anyhow::bail!("a file holds the answers of one structure: name one with --structure");
     };
-    let output = sources::output(output, &args.scenes, args.source().file())?;
+    let output = request::output(registry, output, &args.scenes, args.source().file())?;
     waiting.says(format!("{} builds {}", scene.name, choice.label));
     let (own, mesh) = (choice.clone(), Arc::clone(&scene.mesh));
     let built = watched(args.build_limit(scene.mesh.len()), move || own.build(&mesh));
@@ -87,7 +89,7 @@ pub fn check(
     let path = args.hits.as_deref().context("the caller has seen it")?;
     anyhow::ensure!(args.test.len() < 2, "answers come from one triangle test: name one");
     let test = args.test.first().map_or("own", String::as_str);
-    sources::known_tests(registry, &args.test)?;
+    request::known_tests(registry, &args.test)?;
     let answers = HitFile::read(path)?;
     let name = path.display().to_string();
     let found = answers.answers(&file.workload).map_err(|problem| anyhow::anyhow!("{name}: {problem}"))?;

@@ -19,11 +19,9 @@ use crate::accel::DynAccel;
 use crate::geometry::{Ray, RayTextError};
 use crate::registry::{Choice, Registry};
 use crate::report::number::plural;
+use crate::request::{self, BRUTE_FORCE, RaySource, Structures, ViewArgs, known_defect, left_out, recorded};
 use crate::scene::{Sampling, Scene, Workload, WorkloadKind};
-use crate::study::args::Structures;
-use crate::study::{BRUTE_FORCE, documented_defect, left_out};
-use crate::study::{RaySource, replayed};
-use crate::study::{Status, ViewArgs, sources};
+use crate::study::Status;
 use crate::validate::{LIMIT, Stratum, Validation, validate_watched, watched};
 
 use against::{ASKED, Against, Known, References};
@@ -42,7 +40,7 @@ pub struct Args {
     #[arg(long, short, value_name = "NAME[:key=value,..]")]
     structure: Vec<String>,
     /// How much time the builds of eight-wide trees may take, where a structure is named without a quality of its own
-    #[arg(long, value_parser = sources::QUALITIES)]
+    #[arg(long, value_parser = request::QUALITIES)]
     quality: Option<String>,
     /// Rays of each scene, shared out among the kinds, or a file of rays to replay; of a file, and of the default, fewer where brute
     /// force would take minutes [default: 10000]
@@ -99,10 +97,10 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     if let Some(cases) = &args.hard {
         return hard::run(registry, args, cases, terminal);
     }
-    let structures = sources::structures_at(registry, &args.structure, args.quality.as_deref())?;
+    let structures = request::structures_at(registry, &args.structure, args.quality.as_deref())?;
     let against = Against::named(registry, &args.against)?;
     let waiting = Waiting::show("loads scenes".into(), terminal);
-    let replay = replayed(&args.source(), &args.scenes)?;
+    let replay = recorded(registry, &args.source(), &args.scenes)?;
     if replay.is_some() {
         args.from.is_unasked()?;
     }
@@ -111,20 +109,20 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
         "the rays are those of the file: leave --adversarial and --seed out"
     );
     if args.hits.is_some() || args.export_hits.is_some() {
-        let (scene, file) = replay.context("answers belong to rays of a file: give one with --rays F.rays")?;
+        let ((_, scene), file) = replay.context("answers belong to rays of a file: give one with --rays F.rays")?;
         return match &args.export_hits {
-            Some(output) => exchange::export(&scene, &file, &structures, args, output, waiting, terminal),
+            Some(output) => exchange::export(registry, &scene, &file, &structures, args, output, waiting, terminal),
             None => exchange::check(registry, args, &scene, &file, &against, waiting, terminal),
         };
     }
     let (scenes, recorded) = match replay {
-        Some((scene, file)) => (vec![scene], Some(file.workload.rays)),
+        Some(((_, scene), file)) => (vec![scene], Some(file.workload.rays)),
         None => {
             // Other rays start wherever the scene is seen from.
             let is_seen = args.ray.is_empty() && !args.adversarial;
             let seen = |scene| if is_seen { args.from.of(scene) } else { Ok(scene) };
-            let scenes = sources::scenes(&args.scenes)?.into_iter().map(seen);
-            (scenes.collect::<anyhow::Result<_>>()?, None)
+            let scenes = request::scenes(registry, &args.scenes)?.into_iter().map(seen);
+            (scenes.collect::<anyhow::Result<Vec<Scene>>>()?, None)
         }
     };
     drop(waiting);
@@ -154,14 +152,14 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
         let asked = Structures { structure: args.structure.clone(), quality: None };
         let mut references = References::new(scene, &against, &rays);
         for choice in &structures {
-            if asked.leaves_out(choice, scene.mesh.len()) {
+            if asked.leaves_out(&choice.entry.name, scene.mesh.len()) {
                 notes.push(left_out(scene));
                 continue;
             }
             let waiting = Waiting::show(String::new(), terminal);
             match check(&mut references, choice, args, &waiting)? {
                 Taken::Compared(accel, found) => {
-                    match documented_defect(&choice.entry.name) {
+                    match known_defect(&choice.entry.name) {
                         _ if !against.refutes(&found) => {}
                         None => verdict = Status::Wrong,
                         Some(defect) => notes.push(format!(
@@ -249,7 +247,7 @@ fn rays(scene: &Scene, registry: &Registry, args: &Args, against: &Against) -> a
         let each = number.number()?.div_ceil(Stratum::ALL.len());
         return Ok(Stratum::ALL.iter().flat_map(|stratum| stratum.rays(&scene.mesh, each, args.seed())).collect());
     }
-    let guide = sources::guide(registry)?.build(&scene.mesh)?;
+    let guide = request::guide(registry)?.build(&scene.mesh)?;
     let limit = number.count().div_ceil(WorkloadKind::ALL.len());
     let sampling = Sampling::some(scene, limit, args.seed());
     let of_kind = |&kind| Workload::new(scene, kind, &sampling, guide.as_ref()).rays;

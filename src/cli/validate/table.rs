@@ -46,7 +46,7 @@ pub const LEGEND: [&str; 4] = [
 
 /// The row of a structure that gave no answers.
 pub fn set_apart(choice: &Choice, why: &str) -> Vec<Cell> {
-    let mut row = vec![Cell::blank(); COLUMNS.len()];
+    let mut row = vec![Cell::empty(); COLUMNS.len()];
     row[0] = choice.label.as_str().into();
     row[1] = choice.triangle_test().into();
     row[2] = Cell::from(why).with(Tone::Wrong);

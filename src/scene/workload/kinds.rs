@@ -5,6 +5,8 @@
 
 use std::str::FromStr;
 
+use serde::{Deserialize, Serialize};
+
 use super::source::Source;
 use super::{bounces, lines, picture, primary};
 use crate::accel::Query;
@@ -14,7 +16,8 @@ use crate::names::{Unknown, find};
 macro_rules! kinds {
     ($($(#[$doc:meta])* $kind:ident, $name:literal, $query:ident, $make:path;)*) => {
         /// Where the rays of a workload come from and go to.
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+        #[serde(rename_all = "kebab-case")]
         pub enum WorkloadKind {
             $($(#[$doc])* $kind),*
         }

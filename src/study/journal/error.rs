@@ -1,9 +1,9 @@
 use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use crate::output::OutputError;
 
-/// Why a journal, or a case of one, cannot be used.
+/// Why a journal, a case of one or an export cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum JournalError {
     #[error("cannot read {}: {cause}: name what a study has written", path.display())]
@@ -22,36 +22,25 @@ pub enum JournalError {
     Place(OutputError),
     #[error("{} is not a case of a study: move it away, or name another place", .0.display())]
     Foreign(PathBuf),
-    #[error("{} is a case of the study {there}, not of {here}: name another place", path.display())]
-    Study { path: PathBuf, there: String, here: String },
-    #[error("{} holds the case {there:?}, not {here:?}: name another place", path.display())]
-    Key { path: PathBuf, there: String, here: String },
-    #[error("{} and {} hold the same case {key:?}: move one of them away", paths[0].display(), paths[1].display())]
-    Twice { paths: [PathBuf; 2], key: String },
     #[error(
-        "{} has version {there} of the form of cases, this sahara writes version {here}: --fresh starts anew, or name another folder \
-         with --dir",
+        "{} holds another case than the one to be measured: name another place with --out",
+        .0.display()
+    )]
+    Other(PathBuf),
+    #[error(
+        "{} has version {there} of the form of cases, this sahara writes version {here}: name another folder, or measure it again",
         path.display()
     )]
     Schema { path: PathBuf, there: u32, here: u32 },
-    #[error(
-        "{} was measured with other settings: {differences}; give the same ones to go on, --fresh to start anew, or another folder \
-         with --dir",
-        path.display()
-    )]
-    Settings { path: PathBuf, differences: String },
-    #[error(
-        "{} was measured by another build or on another machine: {differences}; it is not what this sahara measures: --fresh starts anew, \
-         --dir names another folder, and `sahara report` shows it as it is",
-        path.display()
-    )]
-    Machine { path: PathBuf, differences: String },
-    #[error(
-        "{} and {} are cases of the study {study} with other settings: {differences}; report them apart, or measure one of them anew",
-        paths[0].display(),
-        paths[1].display()
-    )]
-    Conflict { paths: Box<[PathBuf; 2]>, study: String, differences: String },
-    #[error("{} does not read: {problem}; remove it to measure its case again, or --fresh starts anew", path.display())]
+    #[error("{} does not read: {problem}; remove it, and the same command measures its case again", path.display())]
     Damaged { path: PathBuf, problem: String },
+}
+
+impl JournalError {
+    /// What is wrong, without the place in a line that nobody counts.
+    pub fn damaged(path: &Path, cause: &serde_json::Error) -> Self {
+        let text = cause.to_string();
+        let problem = text.split(" at line ").next().unwrap_or(&text).to_owned();
+        Self::Damaged { path: path.into(), problem }
+    }
 }

@@ -19,11 +19,9 @@ use crate::measure::Provenance;
 use crate::output::OutputFile;
 use crate::registry::{Choice, Registry};
 use crate::report::number::plural;
-use crate::report::to_json;
 use crate::report::words::each_once_by;
+use crate::request::{self, known_defect};
 use crate::study::Status;
-use crate::study::documented_defect;
-use crate::study::sources;
 use crate::triangle::{Exact, TriangleTest};
 use crate::validate::hard_cases::{Answers, Court, Failure, HardCase, Score, catalogue, find_all};
 use record::{HardRecord, HardRun};
@@ -44,7 +42,7 @@ pub fn run(registry: &Registry, args: &Args, named: &[String], terminal: &Termin
     };
     // What is named twice, alone and with its family, counts once.
     let cases = each_once_by(cases, |one, other| one.name == other.name);
-    let structures = sources::structures_at(registry, &args.structure, args.quality.as_deref())?;
+    let structures = request::structures_at(registry, &args.structure, args.quality.as_deref())?;
     let choices = choices(registry, structures, &args.test)?;
     let rays = u32::try_from(args.source().number()?.min(MOST_RAYS))?;
     let json = args.export_json.as_deref().map(OutputFile::check).transpose()?;
@@ -72,7 +70,8 @@ pub fn run(registry: &Registry, args: &Args, named: &[String], terminal: &Termin
     if let Some(file) = json {
         // Every structure answers on one thread.
         let provenance = Provenance::capture(1);
-        file.write(&to_json(&HardRun { schema: HardRun::SCHEMA, provenance, results: records }))?;
+        let run = HardRun { schema: HardRun::SCHEMA, provenance, results: records };
+        file.write(&serde_json::to_vec_pretty(&run)?)?;
     }
     let wrong =
         choices.iter().zip(&columns).any(|(choice, column)| column.scores.iter().any(|score| owed(choice, score)));
@@ -87,24 +86,24 @@ fn owed(choice: &Choice, score: &Score) -> bool {
         _ => false,
     };
     let sound = score.is_sound() && !(choice.triangle_test() == Exact::NAME && inexact(score));
-    !sound && documented_defect(&choice.entry.name).is_none()
+    !sound && known_defect(&choice.entry.name).is_none()
 }
 
 /// The structures asked for, each over all the tests asked for that it is offered over; the baselines with defects of their
 /// own, and structures that are offered over none of the tests, stay as they are.
 fn choices(registry: &Registry, structures: Vec<Choice>, tests: &[String]) -> anyhow::Result<Vec<Choice>> {
-    sources::known_tests(registry, tests)?;
+    request::known_tests(registry, tests)?;
     let mut choices: Vec<Choice> = vec![];
     for choice in structures {
         let name = &choice.entry.name;
         let offered: Vec<&String> = tests.iter().filter(|test| registry.find(name, test).is_some()).collect();
-        if offered.is_empty() || documented_defect(name).is_some() || choice.label.contains("test=") {
+        if offered.is_empty() || known_defect(name).is_some() || choice.label.contains("test=") {
             choices.push(choice);
             continue;
         }
         let separator = if choice.label.contains(':') { ',' } else { ':' };
         for test in offered {
-            choices.push(sources::structure(registry, &format!("{}{separator}test={test}", choice.label))?);
+            choices.push(request::structure(registry, &format!("{}{separator}test={test}", choice.label))?);
         }
     }
     // Tests may be named twice, and a structure over the test that it is named with as well.

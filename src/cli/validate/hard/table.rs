@@ -3,7 +3,7 @@
 use crate::registry::Choice;
 use crate::report::number::{count, figures, plural};
 use crate::report::{Cell, Table, Tone};
-use crate::study::documented_defect;
+use crate::request::known_defect;
 use crate::validate::hard_cases::{Content, Failure, HardCase, Property, Rank, RayScore, Score, Totals};
 
 /// One structure in the tables.
@@ -19,7 +19,7 @@ pub struct Column {
 impl Column {
     /// Without scores.
     pub fn of(choice: &Choice) -> Self {
-        let documented = documented_defect(&choice.entry.name).is_some();
+        let documented = known_defect(&choice.entry.name).is_some();
         Self { label: choice.label.clone(), documented, scores: vec![] }
     }
 }
@@ -76,7 +76,7 @@ fn table(cases: &[&HardCase], columns: &[Column], title: &str, cell: fn(&Score) 
             rows.push(std::iter::once(name(case)).chain(cells.into_iter().map(Option::unwrap_or_default)).collect());
         }
     }
-    Table { title: title.into(), columns: head("case", columns), rows, notes: vec![] }
+    Table::new(title, head("case", columns), rows)
 }
 
 fn answers(cases: &[&HardCase], columns: &[Column]) -> Table {
@@ -96,7 +96,7 @@ fn answers(cases: &[&HardCase], columns: &[Column]) -> Table {
             notes.push(format!("{} on {}: {said}", column.label, case.name));
         }
     }
-    Table { title: "Answers".into(), columns: head("case", columns), rows, notes }
+    Table::new("Answers", head("case", columns), rows).noted(notes)
 }
 
 fn answer(score: &Score) -> Cell {
@@ -104,7 +104,7 @@ fn answer(score: &Score) -> Cell {
         Score::Rays(_) if score.is_clean() => return CLEAN.into(),
         Score::Failed(failure @ Failure::Declined(_)) => return failure.name().into(),
         Score::Failed(failure) => return Cell::from(failure.name()).with(Tone::Wrong),
-        Score::Property(_) => return Cell::blank(),
+        Score::Property(_) => return Cell::empty(),
         Score::Rays(score) => score,
     };
     let judged = &score.judged;
@@ -199,12 +199,12 @@ fn totals(cases: &[&HardCase], columns: &[Column]) -> Table {
             }
             row
         })
-        .collect();
+        .collect::<Vec<Vec<Cell>>>();
     let hits = columns.iter().map(|column| of(column, &[Rank::Moderate, Rank::Extreme]).hits).max().unwrap_or(0);
     let notes = vec![format!(
         "(+n): cases without answers, whose rays are in no sum; f: false hits, as a number; E: m, d and f together, in percent of all \
          rays. {} for a structure that answers all.",
         plural(hits as usize, "true hit")
     )];
-    Table { title: "Totals".into(), columns: names, rows, notes }
+    Table::new("Totals", names, rows).noted(notes)
 }

@@ -1,0 +1,249 @@
+//! One cell of a table: a value, and how it stands out. Renderers make words of it.
+
+use super::number::{bytes, count, duration, figures};
+use super::words::written;
+use crate::measure::Estimate;
+
+/// What a cell holds. Unknown is [`Value::Empty`], never 0.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum Value {
+    #[default]
+    Empty,
+    Text(String),
+    /// A whole number: `130,858`.
+    Count(u64),
+    /// A difference: `+2`, `-3`, `0`.
+    Difference(i64),
+    Number(f64, Format),
+    /// A number with its interval.
+    Estimate(Estimate, Format),
+    /// Rays with a wrong answer, of those that were checked.
+    Errors {
+        wrong: u64,
+        of: u64,
+    },
+}
+
+/// How a number is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// Three significant digits.
+    Figures,
+    /// So many decimals.
+    Decimals(u8),
+    /// Of a share: times 100, three significant digits, and ` %`.
+    Percent,
+    /// Nanoseconds as `ns`, `us`, `ms` or `s`.
+    Duration,
+    /// As `B`, `KiB`, `MiB` or `GiB`.
+    Bytes,
+}
+
+/// How a cell stands out. Colour repeats what the text says: without it nothing is lost.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Tone {
+    #[default]
+    Plain,
+    /// The best of its column.
+    Best,
+    /// A wrong answer.
+    Wrong,
+}
+
+/// A value, how it stands out, and what is said beside it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Cell {
+    pub value: Value,
+    pub tone: Tone,
+    /// Measured on a part of the rays: `~` stands before the number.
+    pub sampled: bool,
+    /// Not distinguishable from 1: `=` stands behind the number.
+    pub equal: bool,
+    /// Said behind the value, in parentheses; empty where there is nothing to say.
+    pub note: String,
+}
+
+impl Format {
+    fn write(self, x: f64) -> String {
+        match self {
+            Self::Figures => figures(x),
+            Self::Decimals(n) => format!("{x:.*}", usize::from(n)),
+            Self::Percent if x == 0.0 => "0".into(),
+            Self::Percent => format!("{} %", figures(x * 100.0)),
+            Self::Duration => duration(x),
+            Self::Bytes => bytes(x as usize),
+        }
+    }
+}
+
+impl From<Value> for Cell {
+    fn from(value: Value) -> Self {
+        Self { value, ..Self::default() }
+    }
+}
+
+impl From<String> for Cell {
+    fn from(text: String) -> Self {
+        if text.is_empty() { Self::default() } else { Value::Text(text).into() }
+    }
+}
+
+impl From<&str> for Cell {
+    fn from(text: &str) -> Self {
+        text.to_owned().into()
+    }
+}
+
+impl From<&String> for Cell {
+    fn from(text: &String) -> Self {
+        text.clone().into()
+    }
+}
+
+/// Three significant digits.
+impl From<f64> for Cell {
+    fn from(x: f64) -> Self {
+        Value::Number(x, Format::Figures).into()
+    }
+}
+
+impl From<u64> for Cell {
+    fn from(n: u64) -> Self {
+        Value::Count(n).into()
+    }
+}
+
+impl From<usize> for Cell {
+    fn from(n: usize) -> Self {
+        Value::Count(n as u64).into()
+    }
+}
+
+impl From<bool> for Cell {
+    fn from(yes: bool) -> Self {
+        if yes { "true" } else { "false" }.into()
+    }
+}
+
+/// Three significant digits, with the interval.
+impl From<Estimate> for Cell {
+    fn from(x: Estimate) -> Self {
+        Value::Estimate(x, Format::Figures).into()
+    }
+}
+
+/// What is not known is empty.
+impl<T: Into<Cell>> From<Option<T>> for Cell {
+    fn from(value: Option<T>) -> Self {
+        value.map_or(Self::default(), Into::into)
+    }
+}
+
+impl Cell {
+    /// What is not known.
+    pub fn empty() -> Self {
+        Self::default()
+    }
+
+    pub fn number(x: f64, format: Format) -> Self {
+        Value::Number(x, format).into()
+    }
+
+    pub fn estimate(x: Estimate, format: Format) -> Self {
+        Value::Estimate(x, format).into()
+    }
+
+    /// Nanoseconds.
+    pub fn duration(ns: f64) -> Self {
+        Self::number(ns, Format::Duration)
+    }
+
+    pub fn bytes(bytes: usize) -> Self {
+        Self::number(bytes as f64, Format::Bytes)
+    }
+
+    /// How many times as fast as something else: marked where it is not distinguishable from 1.
+    pub fn ratio(x: Estimate) -> Self {
+        Self { equal: x != Estimate::exact(1.0) && x.holds(1.0), ..x.into() }
+    }
+
+    /// The same cell with this tone.
+    pub fn with(self, tone: Tone) -> Self {
+        Self { tone, ..self }
+    }
+
+    /// The same cell, of a part of the rays where `sampled`.
+    pub fn sampled(self, sampled: bool) -> Self {
+        Self { sampled, ..self }
+    }
+
+    /// The same cell with a note in parentheses.
+    pub fn noted(self, note: impl Into<String>) -> Self {
+        Self { note: note.into(), ..self }
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.value == Value::Empty
+    }
+
+    /// Whether the cell holds words, which stand to the left.
+    pub fn is_text(&self) -> bool {
+        matches!(self.value, Value::Text(_))
+    }
+
+    /// As people read it.
+    pub fn text(&self) -> String {
+        let value = match &self.value {
+            Value::Empty => return String::new(),
+            Value::Text(text) => text.clone(),
+            Value::Count(n) => count(*n),
+            Value::Difference(0) => "0".into(),
+            Value::Difference(n) => format!("{n:+}"),
+            Value::Number(x, format) => format.write(*x),
+            Value::Estimate(x, format) => written(*x, |x| format.write(x)),
+            Value::Errors { wrong, of } => format!("{wrong}/{of} wrong"),
+        };
+        let (before, equal) = (if self.sampled { "~" } else { "" }, if self.equal { " =" } else { "" });
+        let note = if self.note.is_empty() { String::new() } else { format!(" ({})", self.note) };
+        format!("{before}{value}{equal}{note}")
+    }
+
+    /// What rows are sorted by; nothing of words.
+    pub fn sort_key(&self) -> Option<f64> {
+        match self.value {
+            Value::Empty | Value::Text(_) => None,
+            Value::Count(n) => Some(n as f64),
+            Value::Difference(n) => Some(n as f64),
+            Value::Number(x, _) => Some(x),
+            Value::Estimate(x, _) => Some(x.estimate),
+            Value::Errors { wrong, of } => Some(wrong as f64 / of.max(1) as f64),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cells_read_as_people_write_numbers() {
+        let between = Estimate::between(2.0, 0.5, 2.5);
+        for (cell, text) in [
+            (Cell::empty(), ""),
+            (Cell::from(130_858_u64), "130,858"),
+            (Value::Difference(2).into(), "+2"),
+            (Value::Difference(0).into(), "0"),
+            (Cell::from(1.2345).sampled(true), "~1.23"),
+            (Cell::number(0.5, Format::Percent), "50.0 %"),
+            (Cell::duration(2.5e6), "2.50 ms"),
+            (Cell::bytes(1536), "1.50 KiB"),
+            (Cell::ratio(between).noted("2 of 3"), "2.00 [0.500, 2.50] = (2 of 3)"),
+            (Cell::ratio(Estimate::exact(1.0)), "1.00"),
+            (Cell::estimate(Estimate::exact(1.0), Format::Decimals(2)), "1.00"),
+            (Value::Errors { wrong: 3, of: 9 }.into(), "3/9 wrong"),
+        ] {
+            assert_eq!(cell.text(), text);
+        }
+        assert_eq!((Cell::from("a").sort_key(), Cell::ratio(between).sort_key()), (None, Some(2.0)));
+    }
+}

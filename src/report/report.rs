@@ -1,0 +1,270 @@
+//! What a study says of a dataset: plain data, before it has a form.
+
+use std::fmt;
+
+use super::inspector::Inspector;
+use super::plot::Chart;
+use super::{Cell, Table, Tone, Value};
+use crate::measure::Estimate;
+use crate::names::named_enum;
+
+/// What a study says of a dataset. The renderers make a terminal's text, a page, Markdown and CSV of it.
+#[derive(Clone, Debug, Default)]
+pub struct Report {
+    /// What was found, the most important first.
+    pub findings: Vec<Finding>,
+    /// Tables, figures and texts in their order. The terminal prints what is not folded.
+    pub blocks: Vec<Block>,
+    /// Claims that were written before the data, judged.
+    pub verdicts: Vec<Verdict>,
+    /// Structures without times or with wrong answers: they decide the exit status.
+    pub failures: Vec<Failure>,
+    /// What spoilt the run, and what to do.
+    pub warnings: Vec<String>,
+    /// One row for each measured thing, for programs. Empty where nothing was measured.
+    pub data: Table,
+}
+
+/// A number, and the sentence that the data choose and fill in. The page, `papers/RESULTS.md` and README print the
+/// same one; claims and README's marks go by the key.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Finding {
+    /// Letters, digits and hyphens; no two findings of a study share one.
+    pub key: String,
+    /// Ends with a full stop; empty where a number alone is found, which a claim is about.
+    pub sentence: String,
+    /// The number that the sentence is about, where it is about one.
+    pub value: Option<Estimate>,
+}
+
+/// What follows one upon the other in a report.
+#[derive(Clone, Debug)]
+pub enum Block {
+    Text(String),
+    /// What columns mean, small.
+    Note(String),
+    Table(Table),
+    Figure(Box<Figure>),
+    /// What is not there, and how to make it.
+    Missing(Missing),
+    /// Blocks that are opened on demand, below their name.
+    Fold(String, Vec<Block>),
+}
+
+/// One claim that was written before the data, and what the data say.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Verdict {
+    /// Of the prediction that the claim is a part of, from 1.
+    pub prediction: u8,
+    /// What is measured.
+    pub claim: String,
+    /// What was expected of it: `at least 20`.
+    pub expected: String,
+    /// What was measured, with the interval of one among all claims; nothing where it was not.
+    pub value: Option<Estimate>,
+    pub outcome: Outcome,
+}
+
+named_enum! {
+    /// What came of a claim.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Outcome {
+        /// The whole interval is as expected.
+        Confirmed = "confirmed",
+        /// The whole interval is not.
+        Refuted = "refuted",
+        /// The interval reaches across a bound, or is not known.
+        Undecided = "undecided",
+        /// There is nothing to judge by.
+        NotMeasured = "not measured",
+    }
+}
+
+/// A structure without times, or with wrong answers, and why.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Failure {
+    /// Name in the registry.
+    pub structure: String,
+    /// What to print below the tables; empty where a table says it.
+    pub sentence: String,
+    /// Whether the structure has no time at all.
+    pub refused: bool,
+    /// Whether it gave wrong answers.
+    pub wrong: bool,
+}
+
+/// Something to look at, with all that is needed to do without looking.
+#[derive(Clone, Debug)]
+pub struct Figure {
+    /// Letters, digits and hyphens; no two figures share one. The name of its files.
+    pub id: String,
+    /// What it shows, and how to read it.
+    pub caption: String,
+    /// What one sees, for those who do not.
+    pub alt: String,
+    pub art: Art,
+    /// The numbers in it; a table without columns where it has none.
+    pub data: Table,
+}
+
+/// What a figure consists of.
+#[derive(Clone, Debug)]
+pub enum Art {
+    Chart(Chart),
+    Gallery(Vec<Picture>),
+    Overlay(Overlay),
+}
+
+/// Pictures of one size on one scale, side by side, and two of them one upon the other.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Overlay {
+    /// What is seen.
+    pub heading: String,
+    pub pictures: Vec<Picture>,
+    pub colours: Colours,
+    /// What can be asked of single pixels.
+    pub inspector: Option<Box<Inspector>>,
+}
+
+/// What the colours of pictures mean.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Colours {
+    /// A scale.
+    Ramp {
+        /// What it is of.
+        title: String,
+        /// Colours at equal distances, `#RRGGBB`.
+        colours: Vec<String>,
+        /// Places on the scale, 0 to 1, and what is there.
+        ticks: Vec<(f64, String)>,
+    },
+    /// Colours, `#RRGGBB`, with a meaning each.
+    Key(Vec<(String, String)>),
+}
+
+/// A small picture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Picture {
+    pub name: String,
+    /// One line below it.
+    pub note: String,
+    /// What one sees.
+    pub alt: String,
+    /// The bytes of a PNG file.
+    pub png: Vec<u8>,
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+}
+
+/// A part that no run has measured.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Missing {
+    pub what: String,
+    /// The command that measures it.
+    pub command: String,
+}
+
+impl Finding {
+    /// A finding without a number of its own.
+    pub fn new(key: impl Into<String>, sentence: impl Into<String>) -> Self {
+        Self { key: key.into(), sentence: sentence.into(), value: None }
+    }
+
+    /// A number without a sentence.
+    pub fn number(key: impl Into<String>, value: Estimate) -> Self {
+        Self { key: key.into(), sentence: String::new(), value: Some(value) }
+    }
+
+    /// The same finding, about `value`.
+    pub fn of(self, value: Estimate) -> Self {
+        Self { value: Some(value), ..self }
+    }
+}
+
+impl Report {
+    /// The finding of this key.
+    pub fn finding(&self, key: &str) -> Option<&Finding> {
+        self.findings.iter().find(|finding| finding.key == key)
+    }
+
+    /// Sentences of the findings.
+    pub fn sentences(&self) -> impl Iterator<Item = &str> {
+        self.findings.iter().map(|finding| finding.sentence.as_str()).filter(|sentence| !sentence.is_empty())
+    }
+
+    /// The claims as a table; nothing without a claim.
+    pub fn verdict_table(&self) -> Option<Table> {
+        let table = Table::of(
+            "Claims written before the measurement",
+            &self.verdicts,
+            &[
+                ("claim", &|v| format!("{}. {}", v.prediction, v.claim).into()),
+                ("expected", &|v| v.expected.as_str().into()),
+                ("measured", &|v| v.value.into()),
+                ("verdict", &|v| Cell::from(v.outcome.name()).with(v.outcome.tone())),
+            ],
+        );
+        (!self.verdicts.is_empty()).then_some(table)
+    }
+
+    /// Tables that are not folded, in their order.
+    pub fn tables(&self) -> impl Iterator<Item = &Table> {
+        self.blocks.iter().filter_map(|block| if let Block::Table(table) = block { Some(table) } else { None })
+    }
+}
+
+impl Outcome {
+    fn tone(self) -> Tone {
+        match self {
+            Self::Confirmed => Tone::Best,
+            Self::Refuted => Tone::Wrong,
+            Self::Undecided | Self::NotMeasured => Tone::Plain,
+        }
+    }
+}
+
+impl fmt::Display for Missing {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} (`{}`)", self.what, self.command)
+    }
+}
+
+impl Figure {
+    /// The pictures of pixels that it consists of; none in a chart.
+    pub fn pictures(&self) -> &[Picture] {
+        match &self.art {
+            Art::Chart(_) => &[],
+            Art::Gallery(pictures) => pictures,
+            Art::Overlay(overlay) => &overlay.pictures,
+        }
+    }
+
+    /// Where a picture of it is, in the folder of a report.
+    pub fn picture_path(&self, index: usize) -> String {
+        format!("figures/{}-{}.png", self.id, index + 1)
+    }
+}
+
+impl Block {
+    pub fn figure(figure: Figure) -> Self {
+        Self::Figure(Box::new(figure))
+    }
+
+    pub fn missing(what: &str, command: &str) -> Self {
+        Self::Missing(Missing { what: what.into(), command: command.into() })
+    }
+}
+
+impl From<Table> for Block {
+    fn from(table: Table) -> Self {
+        Self::Table(table)
+    }
+}
+
+impl Value {
+    /// Text, or nothing where it is empty.
+    pub fn text(text: impl Into<String>) -> Self {
+        let text = text.into();
+        if text.is_empty() { Self::Empty } else { Self::Text(text) }
+    }
+}

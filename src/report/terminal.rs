@@ -1,0 +1,152 @@
+//! Tables and reports as text for a terminal.
+
+use comfy_table::{Attribute, Cell as Printed, CellAlignment, Color, ContentArrangement, Table as Grid, presets};
+
+use super::{Block, Report, Table, Tone, wrapped};
+
+/// Where a table is printed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Screen {
+    /// Columns; no limit where nobody looks.
+    pub width: Option<u16>,
+    pub colour: bool,
+}
+
+/// Blanks before the first column, and after every one.
+const INDENT: usize = 2;
+const PADDING: usize = 2;
+
+/// What is printed of a report beside the tables of single scenes: the other tables, then the claims.
+pub fn summary_tables(report: &Report) -> Vec<Table> {
+    let shared = report.tables().filter(|table| !table.of_scene).cloned();
+    shared.chain(report.verdict_table()).collect()
+}
+
+/// What columns mean: a sentence below the tables.
+pub fn note(block: &Block) -> Option<String> {
+    if let Block::Note(words) = block { Some(words.clone()) } else { None }
+}
+
+/// The table in lines of at most the screen's width: columns for which there is no room follow below, after the first
+/// column once more.
+pub fn table(table: &Table, screen: Screen) -> String {
+    let table = table.clone().without_empty_columns();
+    let title = if screen.colour { format!("\x1b[1m{}\x1b[0m", table.title) } else { table.title.clone() };
+    let mut text = title + "\n";
+    for columns in blocks(&table, screen.width.map(usize::from)) {
+        for line in grid(&table, &columns, screen).lines() {
+            text.push_str(line.trim_end());
+            text.push('\n');
+        }
+    }
+    for note in &table.notes {
+        for line in wrapped(note, usize::from(screen.width.unwrap_or(120)).saturating_sub(4).max(20)) {
+            text.push_str(&format!("  {line}\n"));
+        }
+    }
+    text
+}
+
+/// The columns in groups that fit side by side, the first column in each.
+fn blocks(table: &Table, width: Option<usize>) -> Vec<Vec<usize>> {
+    let widest = |i: usize| {
+        let cells = table.rows.iter().map(|row| row[i].text().chars().count());
+        cells.chain([table.columns[i].chars().count()]).max().unwrap_or(0) + PADDING
+    };
+    if table.columns.is_empty() {
+        return vec![];
+    }
+    let mut blocks = vec![vec![0]];
+    let mut used = INDENT + widest(0);
+    for column in 1..table.columns.len() {
+        let block = blocks.last_mut().expect("there is a block");
+        if width.is_some_and(|width| block.len() > 1 && used + widest(column) - PADDING > width) {
+            blocks.push(vec![0, column]);
+            used = INDENT + widest(0) + widest(column);
+        } else {
+            block.push(column);
+            used += widest(column);
+        }
+    }
+    blocks
+}
+
+fn grid(table: &Table, columns: &[usize], screen: Screen) -> String {
+    let mut grid = Grid::new();
+    grid.load_preset(presets::NOTHING).set_content_arrangement(ContentArrangement::Disabled);
+    grid.set_header(columns.iter().map(|&i| {
+        let cell = Printed::new(&table.columns[i]);
+        if screen.colour { cell.add_attribute(Attribute::Bold) } else { cell }
+    }));
+    for row in &table.rows {
+        grid.add_row(columns.iter().map(|&i| {
+            let printed = Printed::new(row[i].text());
+            match row[i].tone {
+                Tone::Best if screen.colour => printed.fg(Color::Green),
+                Tone::Wrong if screen.colour => printed.fg(Color::Red),
+                _ => printed,
+            }
+        }));
+    }
+    for (i, column) in grid.column_iter_mut().enumerate() {
+        column.set_padding((if i == 0 { INDENT as u16 } else { 0 }, PADDING as u16));
+        column.set_cell_alignment(if i == 0 { CellAlignment::Left } else { CellAlignment::Right });
+    }
+    if screen.colour {
+        grid.enforce_styling();
+    } else {
+        grid.force_no_tty();
+    }
+    grid.to_string()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::table::tests::example;
+    use super::*;
+
+    #[test]
+    fn without_colour_there_is_no_escape_and_no_line_ends_in_blanks() {
+        let text = table(&example(), Screen { width: None, colour: false });
+        assert!(!text.contains('\x1b'), "{text:?}");
+        assert!(text.lines().all(|line| line == line.trim_end()), "{text:?}");
+        let lines: Vec<&str> = text.lines().collect();
+        assert_eq!(lines[0], "Cube");
+        assert_eq!(lines[1].split_whitespace().collect::<Vec<_>>(), ["structure", "Mrays/s"]);
+        assert_eq!(lines[4], "  a note of some words");
+        // Numbers stand to the right.
+        assert_eq!(lines[1].len(), lines[2].len());
+    }
+
+    #[test]
+    fn colour_says_nothing_new() {
+        let plain = table(&example(), Screen { width: Some(80), colour: false });
+        let loud = table(&example(), Screen { width: Some(80), colour: true });
+        let mut stripped = String::new();
+        let mut rest = loud.as_str();
+        while let Some((before, after)) = rest.split_once('\x1b') {
+            stripped += before;
+            rest = after.split_once('m').unwrap().1;
+        }
+        stripped += rest;
+        let words = |text: &str| text.split_whitespace().map(str::to_owned).collect::<Vec<_>>();
+        assert_ne!(loud, plain);
+        assert_eq!(words(&stripped), words(&plain));
+    }
+
+    #[test]
+    fn a_narrow_screen_is_not_exceeded() {
+        let mut wide = example();
+        wide.columns.extend(["one", "two", "three"].map(String::from));
+        wide.rows.iter_mut().for_each(|row| row.extend([123_456_u64, 1234, 12].map(Into::into)));
+        for width in [26, 40, 80] {
+            let text = table(&wide, Screen { width: Some(width), colour: false });
+            assert!(text.lines().all(|line| line.chars().count() <= width.into()), "{text}");
+            // Nothing is lost, and no cell is torn apart.
+            let cells = ["structure", "3/9 wrong", "123,456", "three", "1,234"];
+            assert!(cells.iter().all(|cell| text.contains(cell)), "{text}");
+        }
+        let narrow = table(&wide, Screen { width: Some(26), colour: false });
+        assert!(narrow.matches("brute|force").count() > 1, "every block begins with the first column: {narrow}");
+    }
+}

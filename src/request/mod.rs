@@ -1,0 +1,20 @@
+//! What several commands ask for: scenes, structures, rays and views, as options and as data that another process reads.
+
+mod measuring;
+mod ray_kind;
+mod rays;
+mod scenes;
+mod structures;
+mod view;
+
+pub use measuring::{Measuring, seconds};
+pub use ray_kind::RayKind;
+pub use rays::{RaySource, Rays, WORKLOADS, WorkloadRequest, each_kind, rays_or_all, recorded};
+pub use scenes::{
+    Meshes, STAND_IN, SceneRequest, Scenes, ScenesAndMeshes, named_notes, output, scene, scene_files, scenes,
+};
+pub use structures::{
+    ALL, BRUTE_FORCE, QUALITIES, REPORT_TREE, RunnerRequest, SAH_TREE, StructureRequest, Structures, TWIN, guide,
+    is_large, is_obvhs, known_defect, known_tests, left_out, specs, structure, structures, structures_at, with_twin,
+};
+pub use view::ViewArgs;

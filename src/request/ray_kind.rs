@@ -1,0 +1,100 @@
+use std::str::FromStr;
+
+use serde::{Deserialize, Serialize};
+
+use crate::geometry::{Mesh, Ray};
+use crate::measure::spread;
+use crate::names::{Unknown, find, named_enum};
+use crate::scene::{Scene, View};
+use crate::validate::Stratum;
+
+named_enum! {
+    /// A kind of rays whose errors are counted together. Kinds are never pooled: each fails in its own way.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+    #[serde(rename_all = "kebab-case")]
+    pub enum RayKind {
+        /// Half from the camera, half random lines through the box ([`Stratum::Random`]): what pictures are made of.
+        Uniform = "uniform",
+        /// Through points of edges ([`Stratum::Edges`]).
+        Edge = "edge",
+        /// Through vertices ([`Stratum::Vertices`]).
+        Vertex = "vertex",
+        /// Along the axes, with coordinates of vertices ([`Stratum::AxisParallel`]).
+        Axis = "axis",
+        /// Nearly in the plane of a triangle ([`Stratum::Grazing`]).
+        Grazing = "grazing",
+        /// With directions 1e-30 to 1e30 long ([`Stratum::Lengths`]).
+        Scale = "scale",
+        /// From 1e3 to 1e6 box sizes away: those of [`Stratum::FarOrigins`] that are not farther. Farther away, one step of
+        /// an `f32` is as large as what there is to be hit, and a traversal that must not lose anything visits nearly
+        /// everything.
+        Offset = "offset",
+        /// From points of triangles ([`Stratum::FromSurface`]), where a test must tell the surface itself from what lies in it.
+        Surface = "surface",
+    }
+}
+
+impl RayKind {
+    /// What the rays are, in a few words.
+    pub fn description(self) -> &'static str {
+        match self {
+            Self::Uniform => "rays of the camera and random lines, half of each",
+            Self::Edge => "rays through points of edges",
+            Self::Vertex => "rays through vertices",
+            Self::Axis => "rays along the axes, with coordinates of vertices",
+            Self::Grazing => "rays nearly in the plane of a triangle",
+            Self::Scale => "rays with directions 1e-30 to 1e30 long",
+            Self::Offset => "rays from 1e3 to 1e6 scene sizes away",
+            Self::Surface => "rays from points of triangles",
+        }
+    }
+
+    /// `count` rays of this kind for `scene`.
+    pub fn rays(self, scene: &Scene, count: usize, seed: u64) -> Vec<Ray> {
+        let stratum = match self {
+            Self::Uniform => Stratum::Random,
+            Self::Edge => Stratum::Edges,
+            Self::Vertex => Stratum::Vertices,
+            Self::Axis => Stratum::AxisParallel,
+            Self::Grazing => Stratum::Grazing,
+            Self::Scale => Stratum::Lengths,
+            Self::Offset => Stratum::FarOrigins,
+            Self::Surface => Stratum::FromSurface,
+        };
+        if self == Self::Offset {
+            return near_enough(&scene.mesh, count, seed);
+        }
+        let mut rays = vec![];
+        if self == Self::Uniform {
+            let pixels = scene.size[0] * scene.size[1];
+            rays = spread(&scene.primary_rays(scene.size, View::CENTRE, 0..pixels), count / 2);
+        }
+        rays.extend(stratum.rays(&scene.mesh, count - rays.len(), seed));
+        rays
+    }
+}
+
+/// The first `count` rays of [`Stratum::FarOrigins`] that start less than 2e6 box sizes away: about two of three do.
+fn near_enough(mesh: &Mesh, count: usize, seed: u64) -> Vec<Ray> {
+    let (centre, reach) = (mesh.bounds().centre(), mesh.bounds().extent().max_element() * 2e6);
+    let mut tried = 2 * count + 64;
+    loop {
+        let mut rays = Stratum::FarOrigins.rays(mesh, tried, seed);
+        rays.retain(|ray| (ray.origin - centre).abs().max_element() < reach);
+        // A mesh of size 0 has no distance to compare with.
+        if rays.len() >= count || tried > 64 * count + 64 {
+            rays.extend(Stratum::FarOrigins.rays(mesh, count.saturating_sub(rays.len()), seed));
+            rays.truncate(count);
+            return rays;
+        }
+        tried *= 2;
+    }
+}
+
+impl FromStr for RayKind {
+    type Err = Unknown;
+
+    fn from_str(name: &str) -> Result<Self, Unknown> {
+        find("kind of rays", Self::ALL, name, Self::name)
+    }
+}

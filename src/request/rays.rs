@@ -1,0 +1,250 @@
+//! The rays of a case: made anew, or recorded in a file.
+
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+
+use serde::{Deserialize, Serialize};
+
+use super::{RayKind, scene};
+use crate::accel::{DynAccel, Query};
+use crate::registry::Registry;
+use crate::report::words::each_once;
+use crate::scene::files::RayFile;
+use crate::scene::{Builtin, Sampling, Scene, Workload, WorkloadKind};
+
+/// The workloads of studies that have no others.
+pub const WORKLOADS: [WorkloadKind; 4] =
+    [WorkloadKind::Primary, WorkloadKind::Shadow, WorkloadKind::Diffuse, WorkloadKind::Random];
+
+/// Pixels of the report's pictures, to each side.
+const PICTURE: [u32; 2] = [512, 512];
+
+/// The workloads of a case. `rays` is how many rays of each are timed at most; nothing where all may be.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "from", rename_all = "kebab-case")]
+pub enum WorkloadRequest {
+    /// The camera, lights and surfaces of the scene.
+    Scene {
+        kinds: Vec<WorkloadKind>,
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        rays: Option<usize>,
+    },
+    /// All rays of the picture that the source report draws, 512 x 512 pixels.
+    Picture,
+    /// The primary rays of that picture alone.
+    PrimaryPicture,
+    /// A file of rays.
+    File {
+        path: PathBuf,
+        /// Of its rays, as [`Workload::hash`].
+        hash: String,
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        rays: Option<usize>,
+    },
+    /// So many rays of each kind that is known to be hard.
+    Hard { kinds: Vec<RayKind>, count: usize },
+}
+
+impl WorkloadRequest {
+    /// The same rays for all structures; those that start on a surface start where `guide` finds it. What a scene has no
+    /// rays of is left out. `progress` is told what is made.
+    ///
+    /// # Errors
+    /// If a file cannot be read, or holds other rays than it did.
+    pub fn workloads(
+        &self,
+        scene: &Scene,
+        seed: u64,
+        guide: &dyn DynAccel,
+        progress: &mut dyn FnMut(&str),
+    ) -> anyhow::Result<Vec<Workload>> {
+        let picture = Sampling { size: PICTURE, ..Sampling::of(scene) };
+        let (kinds, sampling): (&[WorkloadKind], Sampling) = match self {
+            Self::Scene { kinds, .. } => (kinds, Sampling { seed, ..Sampling::of(scene) }),
+            Self::Picture => (&[WorkloadKind::Image, WorkloadKind::ImageShadow], picture),
+            Self::PrimaryPicture => (&[WorkloadKind::Primary], picture),
+            Self::File { path, hash, .. } => {
+                let file = RayFile::read(path)?;
+                anyhow::ensure!(file.workload.hash() == *hash, "{} has changed since it was planned", path.display());
+                return Ok(vec![file.workload]);
+            }
+            Self::Hard { kinds, count } => {
+                let workload = |kind: &RayKind| {
+                    progress(kind.name());
+                    let rays = kind.rays(scene, *count, seed);
+                    Workload { name: kind.name().into(), query: Query::Closest, rays }
+                };
+                return Ok(kinds.iter().map(workload).collect());
+            }
+        };
+        let mut workloads = vec![];
+        for &kind in kinds.iter().filter(|&&kind| kind != WorkloadKind::Mirror || scene.has_mirrors()) {
+            progress(kind.name());
+            workloads.push(Workload::new(scene, kind, &sampling, guide));
+        }
+        workloads.retain(|workload| !workload.rays.is_empty());
+        Ok(workloads)
+    }
+
+    /// Rays of a workload that are timed, at most.
+    pub fn most_rays(&self) -> usize {
+        match self {
+            Self::Scene { rays, .. } | Self::File { rays, .. } => rays.unwrap_or(usize::MAX),
+            Self::Picture | Self::PrimaryPicture | Self::Hard { .. } => usize::MAX,
+        }
+    }
+
+    /// How many workloads there are, at most.
+    pub fn len(&self) -> usize {
+        match self {
+            Self::Scene { kinds, .. } => kinds.len(),
+            Self::Hard { kinds, .. } => kinds.len(),
+            Self::Picture => 2,
+            Self::PrimaryPicture | Self::File { .. } => 1,
+        }
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+}
+
+/// The workloads that are named, each once, else `own`: the same one twice would count twice in every mean.
+pub fn each_kind<K: Copy + PartialEq>(named: &[K], own: &[K]) -> Vec<K> {
+    each_once(if named.is_empty() { own } else { named }.iter().copied())
+}
+
+/// Rays on the command line.
+#[derive(Clone, Debug, clap::Args)]
+pub struct Rays {
+    /// A workload; may be repeated [default: those of the study]
+    #[arg(long, short, value_name = "KIND")]
+    pub workload: Vec<WorkloadKind>,
+    /// Rays of a workload that are timed, at most, in whole tiles of the scene's picture
+    #[arg(long, value_name = "N|all", default_value = "all", value_parser = rays_or_all)]
+    pub rays: usize,
+}
+
+impl Rays {
+    /// The workloads named, else `own`.
+    pub fn request(&self, own: &[WorkloadKind]) -> WorkloadRequest {
+        let rays = Some(self.rays).filter(|&rays| rays < usize::MAX);
+        WorkloadRequest::Scene { kinds: each_kind(&self.workload, own), rays }
+    }
+}
+
+/// What `--rays` takes: how many rays, or a file of rays. A file whose name is a number or `all` is written `./NAME`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum RaySource {
+    /// At most so many; all of them where the number is the largest there is.
+    Count(usize),
+    File(PathBuf),
+}
+
+/// More rays than anybody wants in memory.
+const MOST: usize = 1 << 26;
+
+/// Reads a number of rays, or `all`: the largest number.
+///
+/// # Errors
+/// A sentence, if it is neither.
+pub fn rays_or_all(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        _ if text == "all" => Ok(usize::MAX),
+        Ok(count @ 1..=MOST) => Ok(count),
+        _ => Err(format!("give a number of rays from 1 to {MOST}, or all")),
+    }
+}
+
+impl FromStr for RaySource {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        // A number that is wrong is not taken for a file.
+        let is_number = text.trim_start_matches(['-', '+']).bytes().all(|byte| byte.is_ascii_digit());
+        match rays_or_all(text) {
+            Ok(count) => Ok(Self::Count(count)),
+            Err(sentence) if is_number => Err(format!("{sentence}, or a file of rays")),
+            Err(_) => Ok(Self::File(text.into())),
+        }
+    }
+}
+
+impl RaySource {
+    /// The file that they are replayed from, if they are.
+    pub fn file(&self) -> Option<&Path> {
+        match self {
+            Self::Count(_) => None,
+            Self::File(path) => Some(path),
+        }
+    }
+
+    /// How many rays at most; all where they are replayed.
+    pub fn count(&self) -> usize {
+        match self {
+            Self::Count(count) => *count,
+            Self::File(_) => usize::MAX,
+        }
+    }
+
+    /// As [`count`](Self::count), of rays of which there is no end.
+    ///
+    /// # Errors
+    /// If all are asked for.
+    pub fn number(&self) -> anyhow::Result<usize> {
+        match self {
+            Self::Count(usize::MAX) => anyhow::bail!("there is no end of such rays: give a number of them, not all"),
+            Self::Count(count) => Ok(*count),
+            Self::File(_) => Ok(0),
+        }
+    }
+}
+
+/// The scene and the rays of the file that `source` names; nothing where rays are to be made. The scene is the one
+/// named, which must be the file's, or the file's own if none is; with its word.
+///
+/// # Errors
+/// If the file cannot be used, or its rays are not for that scene.
+pub fn recorded(
+    registry: &Registry,
+    source: &RaySource,
+    named: &[String],
+) -> anyhow::Result<Option<((String, Scene), RayFile)>> {
+    let RaySource::File(path) = source else { return Ok(None) };
+    let file = RayFile::read(path)?;
+    let name = match named {
+        [] if file.scene.is_empty() => {
+            anyhow::bail!("{} holds rays of no scene in particular: name a scene", path.display())
+        }
+        // Names of built-in scenes are names; what else a file says is no path to follow.
+        [] if Builtin::find(&file.scene).is_err() => anyhow::bail!(
+            "{} holds rays of {:?}, which is no built-in scene: name the mesh or scene file that they were recorded for",
+            path.display(),
+            file.scene
+        ),
+        [] => &file.scene,
+        [one] => one,
+        _ => anyhow::bail!("{} holds rays of one scene: name one scene, not {}", path.display(), named.len()),
+    };
+    let scene = scene(registry, name)?;
+    file.check_scene(&scene).map_err(|problem| anyhow::anyhow!("{}: {problem}", path.display()))?;
+    Ok(Some(((name.clone(), scene), file)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_counts_and_the_rest_are_files() {
+        assert_eq!("100".parse(), Ok(RaySource::Count(100)));
+        assert_eq!("a.rays".parse(), Ok(RaySource::File("a.rays".into())));
+        assert_eq!("./100".parse(), Ok(RaySource::File("./100".into())));
+        assert_eq!("all".parse(), Ok(RaySource::Count(usize::MAX)));
+        assert!(rays_or_all("a.rays").is_err());
+        for wrong in ["0", "-5", "99999999999", ""] {
+            assert!(wrong.parse::<RaySource>().is_err(), "{wrong}");
+        }
+    }
+}

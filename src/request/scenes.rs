@@ -1,0 +1,275 @@
+//! Scenes by a word that every process resolves alike: a built-in name, a generator with its parameters, or a file.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::Context;
+use clap::ValueEnum;
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use super::ViewArgs;
+use crate::output::OutputFile;
+use crate::registry::Registry;
+use crate::report::words::listed;
+use crate::scene::{BUILTIN, Builtin, Scene, load, real_mesh_folder};
+
+/// A scene as a case names it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SceneRequest {
+    /// A built-in name, `NAME:stand-in`, a generator as `icosphere:7`, or a file.
+    pub word: String,
+    /// Where it is looked at from.
+    #[serde(default, skip_serializing_if = "ViewArgs::is_default")]
+    pub view: ViewArgs,
+    /// Name of the scene that was loaded.
+    pub name: String,
+    /// First 16 digits of [`Scene::hash`]: what a process loads must have it.
+    pub hash: String,
+    /// Whether a mesh of our own stands in for a real one.
+    pub stand_in: bool,
+    pub triangles: usize,
+}
+
+/// Digits of the hash of a scene in requests and keys.
+const DIGITS: usize = 16;
+
+/// What stands behind the name of a built-in scene, after a colon, to name it with the mesh that stands in for a real one.
+pub const STAND_IN: &str = "stand-in";
+
+impl SceneRequest {
+    /// A request for `scene`, which is what `word` names, seen by `view`.
+    pub fn new(word: &str, view: &ViewArgs, scene: &Scene) -> Self {
+        Self {
+            word: word.into(),
+            view: view.clone(),
+            name: scene.name.clone(),
+            hash: scene.hash()[..DIGITS].into(),
+            stand_in: !scene.stand_ins.is_empty(),
+            triangles: scene.mesh.len(),
+        }
+    }
+
+    /// The scene.
+    ///
+    /// # Errors
+    /// If it is not there, or is another one than it was when it was planned.
+    pub fn load(&self, registry: &Registry) -> anyhow::Result<Scene> {
+        let scene = self.view.of(scene(registry, &self.word)?)?;
+        anyhow::ensure!(
+            scene.hash().starts_with(&self.hash),
+            "the scene {} is not what it was when it was planned: plan it anew (Snakemake: remove plan.txt)",
+            self.word
+        );
+        Ok(scene)
+    }
+}
+
+/// The scenes named, or all built-in ones.
+///
+/// # Errors
+/// If a name is not known, a file cannot be loaded, or two different scenes have one name.
+pub fn scenes(registry: &Registry, named: &[String]) -> anyhow::Result<Vec<Scene>> {
+    Ok(loaded(registry, &words(named))?.into_iter().map(|(_, scene)| scene).collect())
+}
+
+/// The words named, or all built-in ones.
+fn words(named: &[String]) -> Vec<String> {
+    if named.is_empty() { BUILTIN.iter().map(|builtin| builtin.name.into()).collect() } else { named.to_vec() }
+}
+
+/// Each of the scenes once, with its word.
+fn loaded(registry: &Registry, words: &[String]) -> anyhow::Result<Vec<(String, Scene)>> {
+    // Large meshes take seconds to load; the first one that cannot be is named.
+    let load = |word: &String| Ok((word.clone(), scene(registry, word)?));
+    let scenes: Vec<anyhow::Result<(String, Scene)>> = words.par_iter().map(load).collect();
+    distinct(scenes.into_iter().collect::<anyhow::Result<_>>()?)
+}
+
+fn is_scene_file(path: &Path) -> bool {
+    path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"))
+}
+
+fn same_name(one: &Scene, other: &Scene) -> bool {
+    one.name.eq_ignore_ascii_case(&other.name) && one.stand_ins.is_empty() == other.stand_ins.is_empty()
+}
+
+/// Each of the scenes once, however often it is named.
+///
+/// # Errors
+/// If there are two different ones of one name, naming them: no table could tell them apart.
+fn distinct(scenes: Vec<(String, Scene)>) -> anyhow::Result<Vec<(String, Scene)>> {
+    let mut each: Vec<(String, Scene)> = vec![];
+    for (word, scene) in scenes {
+        let Some((_, other)) = each.iter().find(|(_, other)| same_name(other, &scene)) else {
+            each.push((word, scene));
+            continue;
+        };
+        anyhow::ensure!(
+            other.hash() == scene.hash(),
+            "two different scenes are called {}: tables could not tell them apart; rename one",
+            scene.name
+        );
+    }
+    Ok(each)
+}
+
+/// A built-in scene by its name in any case, one of a generator, a scene file, or a scene around a mesh file. What is
+/// neither a known name nor looks like a path is taken for a name.
+///
+/// # Errors
+/// If there is no such scene, or a file cannot be loaded.
+pub fn scene(registry: &Registry, word: &str) -> anyhow::Result<Scene> {
+    let real_meshes = real_mesh_folder();
+    let path = Path::new(word);
+    if let Some((name, parameters)) = word.split_once(':').filter(|_| !path.exists()) {
+        if let (Ok(builtin), STAND_IN) = (Builtin::find(name), parameters) {
+            return Ok(builtin.scene(None)?);
+        }
+        if let Some(scene) = registry.generated(name, parameters) {
+            return scene.with_context(|| format!("{word:?}"));
+        }
+    }
+    match Builtin::find(word) {
+        Ok(builtin) => Ok(builtin.scene(Some(&real_meshes))?),
+        Err(unknown) if path.extension().is_none() && path.components().count() < 2 && !path.exists() => {
+            Err(unknown.into())
+        }
+        Err(_) if is_scene_file(path) => Ok(Scene::read(path, Some(&real_meshes))?),
+        Err(_) => {
+            let stem = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy();
+            Ok(Scene::framed(&stem, load(path)?)?)
+        }
+    }
+}
+
+/// Those of the words that name files.
+pub fn scene_files(registry: &Registry, words: &[String]) -> Vec<PathBuf> {
+    let is_name = |word: &str| {
+        let name = word.split(':').next().unwrap_or(word);
+        Builtin::find(name).is_ok() || registry.has_generator(name)
+    };
+    words.iter().filter(|word| !is_name(word)).map(PathBuf::from).collect()
+}
+
+/// The file `path` for results, which is none of those read: scenes that are files, and `others`.
+///
+/// # Errors
+/// If it cannot be written, or is one of them.
+pub fn output<'a>(
+    registry: &Registry,
+    path: &Path,
+    scenes: &[String],
+    others: impl IntoIterator<Item = &'a Path>,
+) -> anyhow::Result<OutputFile> {
+    let files = scene_files(registry, scenes);
+    Ok(OutputFile::check(path)?.apart_from(files.iter().map(PathBuf::as_path))?.apart_from(others)?)
+}
+
+/// Notes `of` scenes, each with the name of its scene.
+pub fn named_notes<'a>(scenes: impl IntoIterator<Item = &'a Scene>, of: fn(&Scene) -> &Vec<String>) -> Vec<String> {
+    scenes.into_iter().flat_map(|scene| of(scene).iter().map(|note| format!("{}: {note}", scene.name))).collect()
+}
+
+/// Scenes on the command line.
+#[derive(Clone, Debug, Default, clap::Args)]
+pub struct Scenes {
+    /// Built-in scenes, scene files (.toml), mesh files (.obj, .ply, .gltf, .glb) and generated scenes (icosphere:LEVEL)
+    /// [default: those of the study, else all built-in ones]
+    #[arg(value_name = "SCENE|FILE")]
+    pub scenes: Vec<String>,
+}
+
+impl Scenes {
+    /// Those named, else `own`, else all built-in ones, each with its word.
+    ///
+    /// # Errors
+    /// As [`scenes`].
+    pub fn read(&self, registry: &Registry, own: &[&str]) -> anyhow::Result<Vec<(String, Scene)>> {
+        let own: Vec<String> = own.iter().map(|&name| name.into()).collect();
+        loaded(registry, &words(if self.scenes.is_empty() { &own } else { &self.scenes }))
+    }
+}
+
+/// Which meshes the built-in scenes are measured with.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum Meshes {
+    /// Stand-ins, and the real meshes where they have been fetched
+    #[default]
+    Both,
+    /// Real meshes alone: a scene whose mesh has not been fetched is refused
+    Real,
+    /// Stand-ins alone
+    StandIns,
+}
+
+/// Scenes and their meshes.
+#[derive(Clone, Debug, Default, clap::Args)]
+pub struct ScenesAndMeshes {
+    #[command(flatten)]
+    pub named: Scenes,
+    /// Meshes of the built-in scenes
+    #[arg(long, value_name = "WHICH", value_enum, default_value_t)]
+    pub meshes: Meshes,
+}
+
+impl ScenesAndMeshes {
+    /// The scenes named, all built-in ones without a name; of those with a stand-in both forms, if the meshes are to be
+    /// both. Each with its word.
+    ///
+    /// # Errors
+    /// As [`scenes`], and if real meshes are asked for and one is not there.
+    pub fn read(&self, registry: &Registry) -> anyhow::Result<Vec<(String, Scene)>> {
+        let mut forms: Vec<String> = vec![];
+        for word in words(&self.named.scenes) {
+            let builtin = Builtin::find(&word).is_ok();
+            forms.extend((builtin && self.meshes != Meshes::Real).then(|| format!("{word}:{STAND_IN}")));
+            forms.extend((!builtin || self.meshes != Meshes::StandIns).then_some(word));
+        }
+        // Both forms of a scene without a real mesh are one.
+        let scenes = loaded(registry, &forms)?;
+        if let (Meshes::Real, Some(note)) = (self.meshes, self.note(scenes.iter().map(|(_, scene)| scene))) {
+            anyhow::bail!("{note} Without `--meshes real` stand-ins are measured.");
+        }
+        Ok(scenes)
+    }
+
+    /// A note where a real mesh could have been measured and is not there.
+    pub fn note<'a>(&self, read: impl Iterator<Item = &'a Scene> + Clone) -> Option<String> {
+        let alone = |scene: &&Scene| {
+            let is_real = |other: &Scene| other.name == scene.name && other.stand_ins.is_empty();
+            !scene.stand_ins.is_empty() && !read.clone().any(is_real)
+        };
+        let names: Vec<&str> = read.clone().filter(alone).map(|scene| scene.name.as_str()).collect();
+        (!names.is_empty() && self.meshes != Meshes::StandIns).then(|| {
+            format!(
+                "The real meshes of {} are not there: `sahara fetch` gets them, SAHARA_DATA names their folder.",
+                listed(&names)
+            )
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_request_loads_what_was_planned_and_refuses_another_scene() {
+        let registry = Registry::builtin();
+        for word in ["cube", "dragon:stand-in", "icosphere:1"] {
+            let planned = scene(&registry, word).unwrap();
+            let request = SceneRequest::new(word, &ViewArgs::default(), &planned);
+            let text = serde_json::to_string(&request).unwrap();
+            let read: SceneRequest = serde_json::from_str(&text).unwrap();
+            assert_eq!((&read, read.load(&registry).unwrap().hash()), (&request, planned.hash()));
+            let other = SceneRequest { hash: "0".repeat(16), ..request };
+            let refused = other.load(&registry).unwrap_err().to_string();
+            assert!(refused.contains(word) && refused.contains("plan it anew"), "{refused}");
+        }
+        assert!(scene(&registry, "icosphere:99").is_err() && scene(&registry, "icosphere:").is_err());
+        assert_eq!(
+            scene_files(&registry, &["cube".into(), "icosphere:1".into(), "a.ply".into()]),
+            [Path::new("a.ply")]
+        );
+    }
+}

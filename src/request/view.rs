@@ -1,0 +1,199 @@
+//! Where a scene is looked at from: the same options wherever rays start at a camera.
+
+use std::fmt;
+use std::str::FromStr;
+
+use anyhow::Context;
+use glam::Vec3;
+use serde::{Deserialize, Serialize};
+
+use crate::scene::{Camera, Scene};
+
+/// Options that take the place of a scene's own camera and picture.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, clap::Args)]
+pub struct ViewArgs {
+    /// Eye, target and vertical field of view in degrees [default: those of the scene; all of a bare mesh is seen from outside]
+    #[arg(long, value_name = "ex,ey,ez tx,ty,tz [fov]", allow_hyphen_values = true)]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    camera: Option<Look>,
+    /// Look from the middle of the scene's box along its longer side, for rooms and buildings; the light of a bare mesh is there as well
+    #[arg(long, conflicts_with = "camera")]
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    inside: bool,
+    /// Pixels of the picture: primary rays are one for each [default: those of the scene]
+    #[arg(long, value_name = "WxH")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    size: Option<Size>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+struct Size([u32; 2]);
+
+impl FromStr for Size {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let sides = text.split_once('x').and_then(|(w, h)| Some([w.parse().ok()?, h.parse().ok()?]));
+        let admitted = |side: &u32| (1..=16384).contains(side);
+        let sides = sides.filter(|sides: &[u32; 2]| sides.iter().all(admitted));
+        sides.map(Self).ok_or_else(|| "write WIDTHxHEIGHT, both from 1 to 16384, for example 640x480".into())
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
+struct Look {
+    eye: Vec3,
+    target: Vec3,
+    vertical_fov: Option<f32>,
+}
+
+impl fmt::Display for Look {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let point = |at: Vec3| at.to_array().map(|x| x.to_string()).join(",");
+        let fov = self.vertical_fov.map_or(String::new(), |fov| format!(" {fov}"));
+        write!(f, "{} {}{fov}", point(self.eye), point(self.target))
+    }
+}
+
+impl From<Look> for String {
+    fn from(look: Look) -> Self {
+        look.to_string()
+    }
+}
+
+impl TryFrom<String> for Look {
+    type Error = String;
+
+    fn try_from(text: String) -> Result<Self, String> {
+        text.parse()
+    }
+}
+
+impl FromStr for Look {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let refusal = || "write \"ex,ey,ez tx,ty,tz\" and, if you like, a field of view in degrees".to_owned();
+        let numbers = |part: &str| part.split(',').map(|n| n.parse().ok()).collect::<Option<Vec<f32>>>();
+        let parts: Option<Vec<Vec<f32>>> = text.split_whitespace().map(numbers).collect();
+        match parts.ok_or_else(refusal)?.iter().map(Vec::as_slice).collect::<Vec<_>>()[..] {
+            [&[ex, ey, ez], &[tx, ty, tz], ref rest @ ..] if rest.iter().all(|r| r.len() == 1) && rest.len() < 2 => {
+                let vertical_fov = rest.first().map(|fov| fov[0]);
+                Ok(Self { eye: Vec3::new(ex, ey, ez), target: Vec3::new(tx, ty, tz), vertical_fov })
+            }
+            _ => Err(refusal()),
+        }
+    }
+}
+
+impl ViewArgs {
+    /// The scene as it is looked at.
+    ///
+    /// # Errors
+    /// If there is no such view of the scene.
+    pub fn seen(&self, scene: Scene) -> anyhow::Result<Scene> {
+        let mut scene = if self.inside { scene.from_inside().context("--inside")? } else { scene };
+        if let Some(Look { eye, target, vertical_fov }) = self.camera {
+            let vertical_fov = vertical_fov.unwrap_or(scene.camera.vertical_fov());
+            scene.camera = Camera::new(eye, target, scene.camera.up(), vertical_fov).context("--camera")?;
+        }
+        scene.size = self.size.map_or(scene.size, |size| size.0);
+        Ok(scene)
+    }
+
+    /// As [`seen`](Self::seen). A bare mesh that is seen from outside says so.
+    ///
+    /// # Errors
+    /// As [`seen`](Self::seen).
+    pub fn of(&self, scene: Scene) -> anyhow::Result<Scene> {
+        let mut scene = self.seen(scene)?;
+        if scene.is_framed && self.looks_from().is_none() {
+            let note = "seen from outside, all of it: --inside looks from within, --camera from anywhere";
+            scene.notes.push(note.into());
+        }
+        Ok(scene)
+    }
+
+    /// Whether no option was given.
+    pub fn is_default(&self) -> bool {
+        *self == Self::default()
+    }
+
+    /// The option that says from where the scene is seen, if it was given.
+    pub fn looks_from(&self) -> Option<&'static str> {
+        match (self.inside, self.camera) {
+            (true, _) => Some("--inside"),
+            (false, Some(_)) => Some("--camera"),
+            (false, None) => None,
+        }
+    }
+
+    /// The options as a shell reads them; empty without one.
+    pub fn words(&self) -> String {
+        let camera = self.camera.filter(|_| !self.inside).map(|look| format!("--camera '{look}'"));
+        let inside = self.inside.then(|| "--inside".to_owned());
+        let size = self.size.map(|Size([width, height])| format!("--size {width}x{height}"));
+        [camera, inside, size].into_iter().flatten().collect::<Vec<String>>().join(" ")
+    }
+
+    /// Refuses options that rays of a file do not heed.
+    ///
+    /// # Errors
+    /// If there is one.
+    pub fn is_unasked(&self) -> anyhow::Result<()> {
+        let asked = self.looks_from().is_some() || self.size.is_some();
+        anyhow::ensure!(!asked, "the rays are those of the file: leave --camera, --inside and --size out");
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Builtin;
+
+    #[test]
+    fn sizes() {
+        assert_eq!("640x480".parse(), Ok(Size([640, 480])));
+        for wrong in ["640", "0x5", "5x0", "99999x5", "axb", "-1x2", "1x2x3"] {
+            assert!(wrong.parse::<Size>().is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn cameras() {
+        let (eye, target) = (Vec3::new(-1.0, 2.0, 3.5), Vec3::ZERO);
+        assert_eq!("-1,2,3.5 0,0,0".parse(), Ok(Look { eye, target, vertical_fov: None }));
+        assert_eq!("-1,2,3.5 0,0,0 45".parse(), Ok(Look { eye, target, vertical_fov: Some(45.0) }));
+        for wrong in ["", "1,2,3", "1,2 3,4,5", "1,2,3 4,5,6 7 8", "1,2,3 4,5,6 7,8", "a,b,c 1,2,3"] {
+            assert!(wrong.parse::<Look>().is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn a_view_is_written_as_it_is_typed_and_as_data() {
+        let look = Look { eye: Vec3::Z, target: Vec3::new(0.1, 0.0, 0.0), vertical_fov: Some(40.0) };
+        let view = ViewArgs { camera: Some(look), size: Some(Size([64, 32])), ..ViewArgs::default() };
+        assert_eq!(view.words(), "--camera '0,0,1 0.1,0,0 40' --size 64x32");
+        assert_eq!(ViewArgs { inside: true, ..ViewArgs::default() }.words(), "--inside");
+        let text = serde_json::to_string(&view).unwrap();
+        assert_eq!(serde_json::from_str::<ViewArgs>(&text).unwrap(), view);
+        assert_eq!(serde_json::to_string(&ViewArgs::default()).unwrap(), "{}");
+    }
+
+    #[test]
+    fn from_inside_the_eye_is_within_the_box_and_looks_along_it() {
+        let scene = Builtin::find("sponza").unwrap().scene(None).unwrap();
+        let (bounds, lights) = (scene.mesh.bounds(), scene.lights.clone());
+        let inside = ViewArgs { inside: true, size: Some(Size([8, 6])), ..ViewArgs::default() }.of(scene).unwrap();
+        let (eye, view) = (inside.camera.eye(), inside.camera.target() - inside.camera.eye());
+        assert!(bounds.min.cmplt(eye).all() && eye.cmplt(bounds.max).all());
+        let extent = bounds.max - bounds.min;
+        let along = if extent.x >= extent.z { view.x } else { view.z };
+        assert!(along.abs() == view.length() && inside.size == [8, 6]);
+        // A scene has its own lights.
+        assert_eq!(inside.lights.len(), lights.len());
+        assert_eq!(inside.lights[0].position, lights[0].position);
+    }
+}

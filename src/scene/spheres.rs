@@ -1,0 +1,43 @@
+//! One sphere, divided more and more finely: the scenes `icosphere:LEVEL`.
+
+use glam::Vec3;
+
+use super::{Camera, Light, Scene, SceneError, meshes};
+
+/// Steps along an edge of the icosahedron, by level: 20 triangles and four times as many from each level to the next, but for the last
+/// one. That has 16 million, since all structures over 21 million would not fit the memory of many machines.
+const STEPS: [u32; 11] = [1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 895];
+
+/// The finest level.
+pub const FINEST: u32 = STEPS.len() as u32 - 1;
+
+/// How many triangles the icosphere of a level has.
+pub fn triangles(level: u32) -> usize {
+    20 * (STEPS[level as usize] as usize).pow(2)
+}
+
+/// The scene of the level that `parameters` name.
+///
+/// # Errors
+/// If they are no level.
+pub fn generate(parameters: &str) -> anyhow::Result<Scene> {
+    let level = parameters.parse().ok().filter(|level| *level <= FINEST);
+    let level = level.ok_or_else(|| anyhow::anyhow!("give a level from 0 to {FINEST}, such as icosphere:5"))?;
+    Ok(sphere(level)?)
+}
+
+/// The icosphere of a level before the camera and the light of the report's sphere: of all levels the same view.
+///
+/// # Errors
+/// None for the levels there are.
+///
+/// # Panics
+/// If there is no such level.
+fn sphere(level: u32) -> Result<Scene, SceneError> {
+    let name = format!("icosphere {level}");
+    let scene = Scene::framed(&name, meshes::divided_icosphere(STEPS[level as usize]))?;
+    let camera = Camera::new(Vec3::new(0.0, 0.0, 5.0), Vec3::ZERO, Vec3::Y, 60.0)
+        .map_err(|cause| SceneError::Camera { file: name, cause })?;
+    let light = Light { position: Vec3::new(2.0, 5.0, 3.0), colour: Vec3::ONE, linear: 0.0, quadratic: 0.0 };
+    Ok(Scene { camera, lights: vec![light], ..scene })
+}

@@ -1,0 +1,230 @@
+//! What one process measures: one epoch of one scene. Plain data, which any process reads back: no process needs to know
+//! which study it works for.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value, json};
+
+use crate::measure::checksum;
+use crate::report::words::scene_name;
+use crate::request::{SceneRequest, StructureRequest, WorkloadRequest};
+
+/// One epoch of one scene, to be measured.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Case {
+    /// Name of the study that planned it.
+    pub study: String,
+    pub scene: SceneRequest,
+    /// The study's axes as text: `level=7`.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub labels: BTreeMap<String, String>,
+    /// In the order of the tables.
+    pub structures: Vec<StructureRequest>,
+    pub workloads: WorkloadRequest,
+    pub settings: Settings,
+    /// Counted from 0. Only epoch 0 checks answers and counts.
+    pub epoch: usize,
+    /// Epochs that were planned. A run of more of them adds to those that are there.
+    pub epochs: usize,
+    /// The command line that planned it.
+    pub command: String,
+}
+
+/// How a case is measured.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Settings {
+    /// Samples of every pair of structure and workload, at least 1; fewer where there is not time for them all.
+    pub runs: usize,
+    /// What the samples of an epoch of one scene may take together, nanoseconds: slow pairs are timed on fewer rays to
+    /// keep within it. Nothing: all rays are timed.
+    pub budget_ns: Option<u64>,
+    /// A structure that takes more than so many times as long as the median one is timed on fewer rays; nothing where
+    /// none is.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub slowest: Option<f64>,
+    pub check: Check,
+    /// What a build may take, seconds; a structure that takes longer has no times.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub build_limit_s: Option<f64>,
+    /// Specs of structures whose triangle tests are counted over all rays, not over a sample of them.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub whole_counts: Vec<String>,
+    /// Whether the scene counts only with a time of each structure.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub whole: bool,
+    /// The structure that tells where secondary rays start.
+    pub guide: String,
+    /// Of the workloads and of the order of samples.
+    pub seed: u64,
+    /// Threads that build and trace.
+    pub threads: usize,
+}
+
+/// What answers are checked against, in epoch 0.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "against", rename_all = "kebab-case")]
+pub enum Check {
+    /// Brute force over the same triangle test, which makes about so many triangle tests for a workload. Wrong answers
+    /// get no time.
+    BruteForce {
+        tests: usize,
+        /// Nanoseconds that the checks of a scene may take; nothing where they are not bounded by a clock.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        limit_ns: Option<u64>,
+    },
+    /// The exact oracle: error rates are measured beside times.
+    Oracle,
+}
+
+/// Triangle tests that brute force may make for a workload: two tenths of a second, about.
+pub const TESTS: usize = 1 << 27;
+
+impl Default for Check {
+    fn default() -> Self {
+        Self::BruteForce { tests: TESTS, limit_ns: None }
+    }
+}
+
+/// As many triangles take the builds of an epoch a quarter of what all else takes, about.
+const TRIANGLES: u64 = 12_000;
+
+impl Case {
+    /// The scene as keys and tables name it.
+    pub fn scene_title(&self) -> String {
+        scene_name(&self.scene.name, self.scene.stand_in)
+    }
+
+    /// As progress names it.
+    pub fn title(&self) -> String {
+        format!("epoch {} of {}: {}", self.epoch + 1, self.epochs, self.scene_title())
+    }
+
+    /// The scene, its labels and the epoch: the readable part of the name of its file.
+    pub fn key(&self) -> String {
+        let labels: Vec<String> = self.labels.iter().map(|(name, value)| format!("{name}={value}")).collect();
+        let words = [self.scene_title(), labels.join(" "), format!("epoch {}", self.epoch)];
+        words.into_iter().filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" ")
+    }
+
+    /// How long it takes, about, as a multiple of any unit.
+    pub fn work(&self) -> u64 {
+        // The first epoch checks and counts as well.
+        (4 + self.scene.triangles as u64 / TRIANGLES) * if self.epoch == 0 { 2 } else { 1 }
+    }
+
+    /// Whether both are epochs of one measurement: all but the epoch is the same.
+    pub fn is_beside(&self, other: &Self) -> bool {
+        self.identity() == other.identity()
+    }
+
+    /// Whether both are the same epoch of one measurement.
+    pub fn is_same(&self, other: &Self) -> bool {
+        self.epoch == other.epoch && self.is_beside(other)
+    }
+
+    /// Whether both are of one scene, with the same labels.
+    pub fn is_of_scene(&self, other: &Self) -> bool {
+        (&self.scene.hash, self.scene_title(), &self.labels) == (&other.scene.hash, other.scene_title(), &other.labels)
+    }
+
+    /// Everything that its result depends on but the number of the epoch.
+    fn identity(&self) -> Value {
+        let structures: Vec<Value> = self
+            .structures
+            .iter()
+            .map(|own| json!([own.spec, own.role, own.runner.as_ref().map(|runner| &runner.config)]))
+            .collect();
+        json!({
+            "study": self.study,
+            "scene": [self.scene.hash, self.scene_title()],
+            "labels": self.labels,
+            "structures": structures,
+            "settings": self.group(),
+        })
+    }
+
+    /// What all scenes of a comparison share: the settings and the kind of rays.
+    pub fn group(&self) -> Map<String, Value> {
+        let mut map = match serde_json::to_value(&self.settings).expect("settings have text keys") {
+            Value::Object(map) => map,
+            _ => unreachable!("settings are a struct"),
+        };
+        map.remove("whole_counts");
+        let workloads = serde_json::to_value(&self.workloads).expect("a request has text keys");
+        // Scenes of one study may have pictures of their own kind.
+        if !matches!(self.workloads, WorkloadRequest::Picture | WorkloadRequest::PrimaryPicture) {
+            map.insert("workloads".into(), workloads);
+        }
+        map
+    }
+
+    /// Tells cases of other settings apart: with the key it is the name of a file.
+    pub fn digest(&self, machine: &impl Serialize) -> String {
+        let text = serde_json::to_string(&(self.identity(), machine)).expect("a case has text keys");
+        format!("{:08x}", checksum(text.bytes().map(u64::from)) as u32)
+    }
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+
+    /// One epoch of a scene that is not there.
+    pub fn example(scene: &str, epoch: usize, structures: &[&str]) -> Case {
+        Case {
+            study: "compare".into(),
+            scene: SceneRequest {
+                word: scene.into(),
+                view: Default::default(),
+                name: scene.into(),
+                hash: format!("{:0<16}", scene.to_ascii_lowercase()),
+                stand_in: false,
+                triangles: 12,
+            },
+            labels: BTreeMap::new(),
+            structures: structures.iter().map(|&spec| StructureRequest::new(spec, "")).collect(),
+            workloads: WorkloadRequest::Scene { kinds: vec![crate::scene::WorkloadKind::Primary], rays: None },
+            settings: Settings {
+                runs: 3,
+                budget_ns: Some(1_000_000_000),
+                slowest: None,
+                check: Check::default(),
+                build_limit_s: None,
+                whole_counts: vec![],
+                whole: false,
+                guide: "sah-kd".into(),
+                seed: 1,
+                threads: 1,
+            },
+            epoch,
+            epochs: 2,
+            command: "sahara compare".into(),
+        }
+    }
+
+    #[test]
+    fn a_case_reads_back_and_is_told_from_others_by_all_but_the_epochs() {
+        let case = example("Cube", 0, &["sah-kd", "median-kd"]);
+        let text = serde_json::to_string(&case).unwrap();
+        assert_eq!(serde_json::from_str::<Case>(&text).unwrap(), case);
+        let more = Case { epochs: 9, command: "sahara study all".into(), ..case.clone() };
+        assert!(case.is_same(&more) && case.digest(&()) == more.digest(&()) && case.key() == more.key());
+        let next = Case { epoch: 1, ..case.clone() };
+        assert!(case.is_beside(&next) && !case.is_same(&next) && case.key() != next.key());
+        let changes: [fn(&mut Case); 6] = [
+            |case| case.settings.runs = 4,
+            |case| case.structures[0].spec = "sah-bvh".into(),
+            |case| case.structures[1].role = "twin".into(),
+            |case| case.workloads = WorkloadRequest::Picture,
+            |case| drop(case.labels.insert("level".into(), "7".into())),
+            |case| case.study = "scaling".into(),
+        ];
+        for change in changes {
+            let mut other = case.clone();
+            change(&mut other);
+            assert!(!case.is_beside(&other) && case.digest(&()) != other.digest(&()), "{other:?}");
+        }
+        assert_ne!(case.digest(&"this machine"), case.digest(&"another"));
+    }
+}

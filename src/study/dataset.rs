@@ -1,0 +1,105 @@
+//! What one report is made of: the epochs of cases of one group, measured by one build on one machine.
+
+use serde::{Deserialize, Serialize};
+
+use super::case::Case;
+use super::epoch::Epoch;
+use super::journal::JournalError;
+use crate::measure::Provenance;
+use crate::report::Failure;
+use crate::report::words::each_once;
+
+/// A case with what was measured for it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Measured {
+    pub case: Case,
+    pub epoch: Epoch,
+}
+
+/// Cases and epochs of one group, with provenance. `--export-json` writes it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Dataset {
+    /// Version of this form.
+    pub schema: u32,
+    pub provenance: Provenance,
+    pub measured: Vec<Measured>,
+    /// What is missing or left out, a sentence each.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub notes: Vec<String>,
+}
+
+/// All epochs of one scene.
+#[derive(Clone, Debug)]
+pub struct SceneEpochs<'a> {
+    /// That of the first epoch.
+    pub case: &'a Case,
+    /// In their order; at least one.
+    pub epochs: Vec<&'a Epoch>,
+}
+
+impl Dataset {
+    /// Version of the form of datasets and of the files of cases.
+    pub const SCHEMA: u32 = 4;
+
+    pub fn new(provenance: Provenance, measured: Vec<Measured>) -> Self {
+        Self { schema: Self::SCHEMA, provenance, measured, notes: vec![] }
+    }
+
+    /// The name of the study that planned it; nothing of an empty one.
+    pub fn study(&self) -> Option<&str> {
+        Some(self.measured.first()?.case.study.as_str())
+    }
+
+    /// The epochs scene by scene, in the order in which the scenes come first.
+    pub fn scenes(&self) -> Vec<SceneEpochs<'_>> {
+        let mut scenes: Vec<SceneEpochs> = vec![];
+        for Measured { case, epoch } in &self.measured {
+            match scenes.iter_mut().find(|scene| scene.case.is_of_scene(case)) {
+                Some(scene) => scene.epochs.push(epoch),
+                None => scenes.push(SceneEpochs { case, epochs: vec![epoch] }),
+            }
+        }
+        scenes.iter_mut().for_each(|scene| scene.epochs.sort_by_key(|epoch| epoch.epoch));
+        scenes
+    }
+
+    /// The part of it that is of the scene of `case`.
+    pub fn of_scene(&self, case: &Case) -> Self {
+        let own = self.measured.iter().filter(|measured| measured.case.is_of_scene(case));
+        Self { measured: own.cloned().collect(), notes: vec![], ..self.clone() }
+    }
+
+    /// Structures without times, each once.
+    pub fn failures(&self) -> Vec<Failure> {
+        each_once(self.measured.iter().flat_map(|measured| measured.epoch.failures()))
+    }
+
+    /// The commands that measured it.
+    pub fn commands(&self) -> Vec<&str> {
+        each_once(self.measured.iter().map(|measured| measured.case.command.as_str()))
+    }
+
+    /// As JSON.
+    pub fn to_json(&self) -> Vec<u8> {
+        let mut bytes = serde_json::to_vec(self).expect("a dataset has text keys");
+        bytes.push(b'\n');
+        bytes
+    }
+
+    /// Whether this is a dataset, of whatever version.
+    pub fn is_dataset(value: &serde_json::Value) -> bool {
+        ["schema", "provenance", "measured"].iter().all(|field| value.get(field).is_some())
+    }
+
+    /// Reads what [`to_json`](Self::to_json) has written.
+    ///
+    /// # Errors
+    /// If it is none, or of another version.
+    pub fn read(path: &std::path::Path, value: serde_json::Value) -> Result<Self, JournalError> {
+        let there = value.get("schema").and_then(serde_json::Value::as_u64).unwrap_or(0) as u32;
+        if there != Self::SCHEMA {
+            return Err(JournalError::Schema { path: path.into(), there, here: Self::SCHEMA });
+        }
+        serde_json::from_value(value).map_err(|cause| JournalError::damaged(path, &cause))
+    }
+}

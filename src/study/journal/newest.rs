@@ -1,0 +1,127 @@
+//! What a report shows of a journal: of each scene the newest group of its cases.
+
+use std::path::PathBuf;
+
+use serde_json::{Map, Value};
+
+use super::CaseFile;
+use crate::measure::Provenance;
+use crate::report::number::plural;
+use crate::report::words::{each_once, listed};
+use crate::study::dataset::{Dataset, Measured};
+use crate::study::join::{Joined, join};
+
+/// Cases that one build has measured on one machine with the same settings.
+struct Group {
+    study: String,
+    settings: Map<String, Value>,
+    machine: Map<String, Value>,
+    files: Vec<CaseFile>,
+}
+
+impl Group {
+    fn admits(&self, file: &CaseFile) -> bool {
+        self.study == file.case.study && self.settings == file.case.group() && self.machine == file.provenance.machine()
+    }
+
+    /// When the last of its cases of this scene was measured.
+    fn date(&self, title: &str) -> Option<&str> {
+        let own = self.files.iter().filter(|file| file.case.scene_title() == title);
+        own.map(|file| file.provenance.date.as_str()).max()
+    }
+}
+
+/// One dataset for each group of settings, build and machine, the one with the most cases of a study first. A scene is in
+/// the group that measured it last; the notes of a dataset say what else the files hold, what is missing and what does
+/// not join. A case that was measured again counts as it was measured last.
+pub fn datasets(files: Vec<CaseFile>) -> Vec<Dataset> {
+    let mut groups: Vec<Group> = vec![];
+    for file in files {
+        match groups.iter_mut().find(|group| group.admits(&file)) {
+            Some(group) => group.files.push(file),
+            None => {
+                let (study, settings) = (file.case.study.clone(), file.case.group());
+                groups.push(Group { study, settings, machine: file.provenance.machine(), files: vec![file] });
+            }
+        }
+    }
+    let mut datasets: Vec<Dataset> = vec![];
+    for (number, group) in groups.iter().enumerate() {
+        let is_newest = |file: &&CaseFile| {
+            let title = file.case.scene_title();
+            let date = group.date(&title);
+            groups.iter().enumerate().all(|(other, rival)| {
+                rival.study != group.study || other == number || (rival.date(&title), other) < (date, number)
+            })
+        };
+        let (newest, older): (Vec<&CaseFile>, Vec<&CaseFile>) = group.files.iter().partition(is_newest);
+        let mut dataset = dataset(&newest);
+        let older = each_once(older.iter().map(|file| file.case.scene_title()));
+        if !older.is_empty() {
+            dataset.notes.push(format!("other settings, builds or machines measured {} later.", listed(&older)));
+        }
+        if !dataset.measured.is_empty() {
+            datasets.push(dataset);
+        }
+    }
+    datasets.sort_by_key(|dataset| std::cmp::Reverse((dataset.measured.len(), dataset.provenance.date.clone())));
+    datasets
+}
+
+/// The dataset of files of one group, joined.
+fn dataset(files: &[&CaseFile]) -> Dataset {
+    let mut newest: Vec<&CaseFile> = vec![];
+    let mut replaced: Vec<PathBuf> = vec![];
+    for file in files {
+        match newest.iter_mut().find(|own| own.case.is_of_scene(&file.case) && own.case.epoch == file.case.epoch) {
+            Some(own) => {
+                let is_newer = file.provenance.date > own.provenance.date;
+                replaced.push(if is_newer { own.path.clone() } else { file.path.clone() });
+                if is_newer {
+                    *own = file;
+                }
+            }
+            None => newest.push(file),
+        }
+    }
+    // Of one scene all epochs are of one set of structures: that of the newest.
+    let last = |file: &CaseFile| {
+        let own = newest.iter().filter(|other| other.case.is_of_scene(&file.case));
+        own.max_by(|a, b| a.provenance.date.cmp(&b.provenance.date)).is_some_and(|last| last.case.is_beside(&file.case))
+    };
+    let mut kept: Vec<&CaseFile> = newest.iter().copied().filter(|file| last(file)).collect();
+    // They come from many machines in no order: small scenes first.
+    kept.sort_by_key(|file| (file.epoch.triangles, file.case.scene_title(), file.case.epoch));
+    let measured = kept.iter().map(|file| Measured { case: file.case.clone(), epoch: file.epoch.clone() });
+    let Joined { measured, failures, unchecked, missing } = join(measured.collect());
+    let provenances: Vec<&Provenance> = files.iter().map(|file| &file.provenance).collect();
+    let mut dataset = Dataset::new(of_all(&provenances), measured);
+    dataset.notes.extend(failures.iter().map(|failure| format!("{failure}; the scene is left out.")));
+    dataset.notes.extend(unchecked);
+    dataset.notes.extend(missing);
+    if let Some(path) = replaced.first() {
+        let cases = plural(replaced.len(), "case");
+        dataset.notes.push(format!("{cases} measured again since, as in {}.", path.display()));
+    }
+    // Times of different cases may be of different hosts, which one processor does not make alike.
+    let hosts = each_once(files.iter().map(|file| file.provenance.host.as_str()));
+    if hosts.len() > 1 {
+        dataset.notes.push(format!("cases of {}: {}.", plural(hosts.len(), "host"), listed(&hosts)));
+    }
+    dataset
+}
+
+/// That of the oldest, with the hosts of all, and the load of the one that met the highest for its cores; an empty one of
+/// this process where there are none.
+pub fn of_all(all: &[&Provenance]) -> Provenance {
+    let Some(oldest) = all.iter().min_by_key(|one| &one.date) else { return Provenance::capture(1) };
+    // A job that follows another one meets the load that that has made.
+    let is_on = |one: &Provenance, host: &str| one.host.split(", ").any(|own| own == host);
+    let follows = |one: &Provenance| all.iter().any(|other| is_on(other, &one.host) && other.date < one.date);
+    let made = |one: &Provenance| if follows(one) { one.threads as f64 } else { 0.0 };
+    let load = |one: &&Provenance| Some(((one.load? - made(one)).max(0.0), one.cores));
+    let highest = all.iter().filter_map(load).max_by(|a, b| (a.0 / a.1 as f64).total_cmp(&(b.0 / b.1 as f64)));
+    let cores = highest.map_or(oldest.cores, |(_, cores)| cores);
+    let host = each_once(all.iter().flat_map(|one| one.host.split(", "))).join(", ");
+    Provenance { host, cores, load: highest.map(|(load, _)| load), ..(*oldest).clone() }
+}

@@ -1,0 +1,69 @@
+//! What ends a build that takes too long: a builder of another crate cannot be interrupted from within.
+
+use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
+use std::thread;
+use std::time::Duration;
+
+/// Called when a build has taken longer than its limit, with the number of the structure: it starts this process again
+/// without the structure, and does not return.
+pub type OnLimit = Box<dyn Fn(usize) + Send>;
+
+/// Watches builds. Between builds, and where there is no limit, nothing is watched.
+#[derive(Default)]
+pub struct BuildWatch {
+    /// The thread that waits: told the number of each structure that is being built, and when none is.
+    sender: Option<Sender<Option<usize>>>,
+}
+
+impl BuildWatch {
+    /// Calls `on_limit` where a build takes longer than `limit`.
+    pub fn new(limit: Duration, on_limit: OnLimit) -> Self {
+        let (sender, receiver) = channel::<Option<usize>>();
+        thread::spawn(move || {
+            let mut building: Option<usize> = None;
+            loop {
+                let next = match building {
+                    None => receiver.recv().map_err(|_| RecvTimeoutError::Disconnected),
+                    Some(_) => receiver.recv_timeout(limit),
+                };
+                match (next, building) {
+                    (Ok(structure), _) => building = structure,
+                    (Err(RecvTimeoutError::Timeout), Some(structure)) => {
+                        on_limit(structure);
+                        building = None;
+                    }
+                    _ => return,
+                }
+            }
+        });
+        Self { sender: Some(sender) }
+    }
+
+    /// Builds the structure of this number.
+    pub fn during<R>(&self, structure: usize, build: impl FnOnce() -> R) -> R {
+        // The thread listens as long as this lives.
+        let tell = |what| self.sender.iter().for_each(|sender| drop(sender.send(what)));
+        tell(Some(structure));
+        let built = build();
+        tell(None);
+        built
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_build_beyond_its_limit_is_told_once_and_a_short_one_never() {
+        let (sender, told) = channel();
+        let watch =
+            BuildWatch::new(Duration::from_millis(100), Box::new(move |structure| drop(sender.send(structure))));
+        watch.during(3, || ());
+        assert_eq!(watch.during(7, || told.recv_timeout(Duration::from_secs(60))), Ok(7));
+        watch.during(8, || ());
+        drop(watch);
+        assert!(told.recv_timeout(Duration::from_secs(60)).is_err());
+        assert_eq!(BuildWatch::default().during(1, || 5), 5);
+    }
+}

@@ -1,0 +1,156 @@
+//! Are the answers right? Before any time is taken.
+
+use std::collections::BTreeMap;
+
+use super::built::Built;
+use crate::accel::{DynAccel, Query};
+use crate::geometry::{Hit, Ray};
+use crate::measure::{Clock, spread};
+use crate::request::BRUTE_FORCE;
+use crate::scene::{Scene, Workload};
+use crate::study::epoch::Checked;
+use crate::study::{Stage, StudyError};
+use crate::validate::{Reference, Validation, validate_answers, validate_any_answers, validate_known};
+
+/// What of a workload a structure declines, if anything is: then it has no time.
+pub fn declined(accel: &dyn DynAccel, workload: &Workload) -> Option<&'static str> {
+    let can = accel.capabilities();
+    if workload.query == Query::Any && !can.any_hit {
+        return Some("any hit");
+    }
+    workload.rays.iter().find_map(|ray| can.declines(ray))
+}
+
+/// Rays of a batch that are checked, at most, and those that are whatever they take.
+const MOST: usize = 1 << 13;
+const FEWEST: usize = 1 << 6;
+
+/// Rays of a batch that are checked, a number that neither a clock nor the field decides: another run checks the same.
+fn affordable(rays: usize, triangles: usize, tests: usize) -> usize {
+    if rays <= FEWEST {
+        return rays;
+    }
+    let affordable = (tests / triangles.max(1)).clamp(FEWEST, MOST);
+    rays.min(1 << affordable.ilog2())
+}
+
+/// Brute force with a triangle test, and its answers to the rays of each batch that are checked.
+struct Known {
+    reference: Reference,
+    answers: Vec<Vec<Option<Hit>>>,
+}
+
+/// What structures are held against.
+pub struct Checks<'a> {
+    pub scene: &'a Scene,
+    pub workloads: &'a [Workload],
+    /// Triangle tests that brute force may make for a workload, about.
+    pub tests: usize,
+    /// Nanoseconds that all checks may take; nothing where no clock bounds them.
+    pub limit_ns: Option<u64>,
+    pub clock: &'a dyn Clock,
+}
+
+/// Rays that tell how long brute force takes for one.
+const PILOT: usize = 8;
+
+impl Checks<'_> {
+    /// Holds every structure against brute force with its own triangle test, on rays of each workload that are evenly
+    /// spread. One row for each structure, one check for each workload; nothing for a structure that panicked.
+    ///
+    /// # Errors
+    /// If brute force cannot be built.
+    pub fn all<'b>(
+        &self,
+        built: impl IntoIterator<Item = &'b Built>,
+        progress: &mut dyn FnMut(Stage),
+    ) -> Result<Vec<Option<Vec<Checked>>>, StudyError> {
+        let built: Vec<&Built> = built.into_iter().collect();
+        let mut batches: Option<Vec<Vec<Ray>>> = None;
+        let mut all: BTreeMap<&'static str, Known> = BTreeMap::new();
+        let mut checks = vec![];
+        for own in &built {
+            progress(Stage::Check(&own.choice.label));
+            let test = own.choice.triangle_test();
+            if !all.contains_key(test) {
+                let reference = Reference::of_test(test, &self.scene.mesh);
+                let reference = reference.map_err(StudyError::of_build(BRUTE_FORCE, &self.scene.name))?;
+                let batches = batches.get_or_insert_with(|| self.batches(&reference, built.len()));
+                let answers = batches.iter().map(|rays| reference.closest_hits(rays)).collect();
+                all.insert(test, Known { reference, answers });
+            }
+            checks.push(self.of(own, &all[test], batches.as_deref().unwrap_or(&[])));
+        }
+        Ok(checks)
+    }
+
+    /// Rays of each workload that are checked: as many as the triangle tests allow and, where there is a limit, the time
+    /// that brute force takes for a few.
+    fn batches(&self, reference: &Reference, structures: usize) -> Vec<Vec<Ray>> {
+        let rays = |workload: &Workload| {
+            let mut count = affordable(workload.rays.len(), self.scene.mesh.len(), self.tests);
+            if let Some(limit) = self.limit_ns {
+                let start = self.clock.now_ns();
+                reference.closest_hits(&spread(&workload.rays, PILOT));
+                let each = (self.clock.now_ns() - start) / PILOT as u64;
+                let share = limit / (self.workloads.len() * (structures + 1)).max(1) as u64;
+                count = count.min((share / each.max(1)).max(PILOT as u64) as usize);
+            }
+            spread(&workload.rays, count)
+        };
+        self.workloads.iter().map(rays).collect()
+    }
+
+    /// One structure on all workloads; nothing if it panicked.
+    fn of(&self, built: &Built, known: &Known, batches: &[Vec<Ray>]) -> Option<Vec<Checked>> {
+        let Known { reference, answers } = known;
+        // Brute force is held against itself: that it repeats itself is seen on a few rays.
+        let most = if built.choice.entry.name == BRUTE_FORCE { FEWEST } else { MOST };
+        let of_batch = |((rays, answers), workload): ((&Vec<Ray>, &Vec<Option<Hit>>), &Workload)| {
+            let step = rays.len().div_ceil(most).max(1);
+            let rays: Vec<Ray> = rays.iter().copied().step_by(step).collect();
+            let answers: Vec<Option<Hit>> = answers.iter().copied().step_by(step).collect();
+            let accel = built.accel.as_ref();
+            let found = match accel.remote() {
+                Some(_) => validate_remote(accel, reference, &answers, self.scene, &rays, workload.query),
+                None => validate_known(accel, reference, &answers, &self.scene.mesh, &rays),
+            };
+            let errors = found.errors().min(found.rays) as usize;
+            (found.panics == 0).then_some(Checked { rays: found.rays as usize, errors })
+        };
+        batches.iter().zip(answers).zip(self.workloads).map(of_batch).collect()
+    }
+}
+
+/// As [`validate_known`], of a structure of which each question takes time: only what is timed is asked, once.
+fn validate_remote(
+    accel: &dyn DynAccel,
+    reference: &Reference,
+    expected: &[Option<Hit>],
+    scene: &Scene,
+    rays: &[Ray],
+    query: Query,
+) -> Validation {
+    match query {
+        Query::Closest => validate_answers(reference, expected, &scene.mesh, rays, &accel.closest(rays)),
+        Query::Any if !accel.capabilities().any_hit => Validation::default(),
+        Query::Any => validate_any_answers(reference, expected, &scene.mesh, rays, &accel.any(rays)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::case::TESTS;
+
+    #[test]
+    fn all_rays_of_a_small_batch_are_checked_and_a_power_of_two_of_a_large_one() {
+        assert_eq!(affordable(50, 1 << 30, TESTS), 50);
+        assert_eq!(affordable(100, 12, TESTS), 100);
+        assert_eq!(affordable(1 << 18, 12, TESTS), 1 << 13);
+        assert_eq!(affordable(1 << 18, 130_862, TESTS), 1 << 10);
+        assert_eq!(affordable(1 << 18, 30_000_000, TESTS), 1 << 6);
+        assert_eq!(affordable(1 << 18, 0, TESTS), 1 << 13);
+        assert_eq!(affordable(1 << 18, 130_862, TESTS / 8), 1 << 7);
+    }
+}

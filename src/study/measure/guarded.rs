@@ -1,0 +1,74 @@
+//! Structures of others may panic on a ray as on a mesh: one of them must not end a run over many.
+
+use std::panic::{self, AssertUnwindSafe};
+use std::rc::Rc;
+
+use crate::measure::{Failure, Pass, Stopwatch, Timed};
+
+/// Said of a structure whose traversal panicked.
+pub const PANICKED: &str =
+    "its traversal panicked on these rays: leave the structure out, or find the ray with `sahara validate`";
+
+/// The result of asking a structure, or nothing if it panicked.
+pub fn guarded<R>(ask: impl FnOnce() -> R) -> Option<R> {
+    panic::catch_unwind(AssertUnwindSafe(ask)).ok()
+}
+
+/// A pass that survives a panic of its structure: from then on it does nothing and says so.
+pub struct Guarded<'a> {
+    pass: Pass<'a>,
+    levels: usize,
+    failure: Failure,
+}
+
+impl<'a> Guarded<'a> {
+    /// The pass, and that it has panicked, once it has.
+    pub fn new(pass: Pass<'a>) -> (Self, Failure) {
+        let failure = Failure::default();
+        (Self { pass, levels: 1, failure: Rc::clone(&failure) }, failure)
+    }
+
+    fn has_panicked(&self) -> bool {
+        self.failure.borrow().is_some()
+    }
+
+    /// What the pass gives; nothing from its first panic on.
+    fn ask<R>(&mut self, ask: impl FnOnce(&mut Pass<'a>) -> R) -> Option<R> {
+        let given = if self.has_panicked() { None } else { guarded(|| ask(&mut self.pass)) };
+        if given.is_none() {
+            *self.failure.borrow_mut() = Some(PANICKED.into());
+        }
+        given
+    }
+}
+
+impl Timed for Guarded<'_> {
+    fn rays(&self) -> usize {
+        self.pass.rays()
+    }
+
+    fn choose(&mut self, levels: &[usize], epoch: usize) {
+        self.levels = levels.len();
+        self.ask(|pass| pass.choose(levels, epoch));
+    }
+
+    fn clear(&mut self) {
+        self.pass.clear();
+    }
+
+    fn lead_in(&mut self) {
+        self.ask(Pass::lead_in);
+    }
+
+    fn run(&mut self, watch: &Stopwatch) -> Vec<u64> {
+        self.ask(|pass| pass.run(watch)).unwrap_or_else(|| vec![0; self.levels])
+    }
+
+    fn checksum(&self) -> u64 {
+        if self.has_panicked() { 0 } else { self.pass.checksum() }
+    }
+
+    fn contradicts_itself(&self) -> bool {
+        !self.has_panicked() && self.pass.contradicts_itself()
+    }
+}

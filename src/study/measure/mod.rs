@@ -1,0 +1,385 @@
+//! Measuring one epoch of one scene: the only thing that is measured, whichever study asks.
+
+mod build_watch;
+mod built;
+mod check;
+mod counted;
+mod environment;
+mod failed;
+mod guarded;
+mod judge;
+mod pair;
+mod placed;
+mod ray_cost;
+mod room;
+mod slowest;
+mod timing;
+
+use super::case::{Case, Check};
+use super::epoch::{Epoch, RayCounts, Rays, Shape, Structure};
+use super::{Stage, StudyError};
+use crate::accel::{DynAccel, Remote};
+use crate::measure::{Clock, Plan, Threads, spread};
+use crate::oracle::Oracle;
+use crate::registry::{Choice, Registry};
+use crate::scene::{Scene, Workload};
+use built::Built;
+use check::{Checks, declined};
+use counted::{Counted, Events, count_all};
+use failed::Failed;
+use judge::Judge;
+use pair::Pair;
+use placed::Placed;
+use slowest::slowest;
+use timing::Timing;
+
+pub use build_watch::BuildWatch;
+pub use environment::Environment;
+pub use guarded::{PANICKED, guarded};
+pub use room::may_fit;
+
+/// A case with everything that it names: what a process has before it measures.
+pub struct Prepared {
+    pub scene: Scene,
+    /// In the order of the case.
+    choices: Vec<Choice>,
+    guide: Choice,
+    threads: Threads,
+}
+
+impl Prepared {
+    /// Resolves what the case names. `scene` is the scene, where it is loaded already.
+    ///
+    /// # Errors
+    /// If something is not there, or the scene is another one than was planned.
+    pub fn new(case: &Case, registry: &Registry, scene: Option<Scene>) -> anyhow::Result<Self> {
+        let scene = scene.map_or_else(|| case.scene.load(registry), Ok)?;
+        let choices = case.structures.iter().map(|own| own.choose(registry)).collect::<anyhow::Result<_>>()?;
+        let threads = Threads::pinned(case.settings.threads).map_err(StudyError::Threads)?;
+        Ok(Self { scene, choices, guide: registry.choose(&case.settings.guide)?, threads })
+    }
+
+    pub fn threads(&self) -> &Threads {
+        &self.threads
+    }
+}
+
+/// Builds all structures, checks and counts them if this is the first epoch, and takes their samples. No epoch needs
+/// another: what they must have in common is checked when they are [joined](super::join). What cannot be built, panics or
+/// answers the same rays differently is refused, what answers wrongly gets no time; the others go on. `watch` is told
+/// what is being built.
+///
+/// # Errors
+/// If the structures do not fit into memory, or the guide cannot be built.
+pub fn measure(
+    case: &Case,
+    prepared: &Prepared,
+    clock: &dyn Clock,
+    watch: &BuildWatch,
+    progress: &mut dyn FnMut(Stage),
+) -> Result<Epoch, StudyError> {
+    let mut bench = Bench::set_up(case, prepared, clock, watch, progress)?;
+    let is_first = case.epoch == 0;
+    if is_first {
+        match case.settings.check {
+            Check::BruteForce { tests, limit_ns } => bench.check(tests, limit_ns, clock, progress)?,
+            Check::Oracle => bench.judge(progress),
+        }
+    }
+    let environment = bench.sample(clock, progress);
+    if is_first {
+        progress(Stage::Count);
+        bench.count();
+    }
+    // What has no time at all keeps no rays.
+    bench.structures.iter_mut().filter(|one| one.refused.is_some()).for_each(|one| one.rays.clear());
+    let scene = &prepared.scene;
+    Ok(Epoch {
+        scene: scene.name.clone(),
+        scene_hash: scene.hash(),
+        stand_in: !scene.stand_ins.is_empty(),
+        triangles: scene.mesh.len(),
+        degenerate: scene.mesh.degenerate().len(),
+        epoch: case.epoch,
+        environment,
+        structures: bench.structures,
+    })
+}
+
+/// Everything that is timed in an epoch.
+struct Bench<'a> {
+    case: &'a Case,
+    prepared: &'a Prepared,
+    workloads: Vec<Workload>,
+    /// All structures of the case, and what is known of them.
+    structures: Vec<Structure>,
+    /// Each of them, if it could be built.
+    built: Vec<Option<Built>>,
+    /// Where they lie.
+    _placed: Placed,
+}
+
+impl<'a> Bench<'a> {
+    /// Builds the structures and makes the rays.
+    fn set_up(
+        case: &'a Case,
+        prepared: &'a Prepared,
+        clock: &dyn Clock,
+        watch: &BuildWatch,
+        progress: &mut dyn FnMut(Stage),
+    ) -> Result<Self, StudyError> {
+        let Prepared { scene, choices, threads, .. } = prepared;
+        room::fits(choices, scene)?;
+        let seed = case.settings.seed.wrapping_add(case.epoch as u64);
+        let skipped = case.structures.iter().map(|own| own.skipped.clone()).collect();
+        let mut placed = Placed::new(choices, skipped, scene, threads, clock, seed, case.epoch == 0, watch, progress);
+        let mut structures: Vec<Structure> = vec![];
+        let mut built: Vec<Option<Built>> = vec![];
+        for ((choice, request), ready) in choices.iter().zip(&case.structures).zip(placed.built.drain(..)) {
+            let none = Structure {
+                label: choice.label.clone(),
+                role: request.role.clone(),
+                name: choice.entry.name.clone(),
+                config: choice.config.clone(),
+                triangle_test: choice.triangle_test().into(),
+                refused: None,
+                wrong: false,
+                build_ns: 0,
+                build_peak_bytes: None,
+                outside: None,
+                shape: Shape::default(),
+                rays: vec![],
+            };
+            match ready {
+                Ok(one) => {
+                    let accel = one.accel.as_ref();
+                    let shape = Shape { bytes: accel.footprint().total(), ..Shape::from(&accel.shape()) };
+                    let (build_ns, build_peak_bytes) = (one.build_ns, one.peak_bytes);
+                    structures.push(Structure { build_ns, build_peak_bytes, shape, ..none });
+                    built.push(Some(one));
+                }
+                Err(StudyError::Build { cause, .. }) => {
+                    structures.push(Structure { refused: Some(cause.to_string()), ..none });
+                    built.push(None);
+                }
+                Err(StudyError::Skipped { reason }) => {
+                    structures.push(Structure { refused: Some(reason), ..none });
+                    built.push(None);
+                }
+                Err(other) => return Err(other),
+            }
+        }
+
+        // Rays that start on a surface start where the guide finds it.
+        let own;
+        let guide = match built.iter().flatten().find(|built| built.choice.label == prepared.guide.label) {
+            Some(built) => built.accel.as_ref(),
+            None => {
+                own = Built::new(&prepared.guide, scene, threads, clock)?;
+                own.accel.as_ref()
+            }
+        };
+        let mut told = |kind: &str| progress(Stage::Rays(kind));
+        let workloads = case.workloads.workloads(scene, case.settings.seed, guide, &mut told);
+        let workloads = workloads.map_err(|cause| StudyError::Rays(format!("{cause:#}")))?;
+        let hashes: Vec<String> = workloads.iter().map(Workload::hash).collect();
+        for (structure, built) in structures.iter_mut().zip(&built) {
+            let Some(built) = built else { continue };
+            let rays = |(workload, hash): (&Workload, &String)| untimed(built, workload, hash);
+            structure.rays = workloads.iter().zip(&hashes).map(rays).collect();
+        }
+        Ok(Self { case, prepared, workloads, structures, built, _placed: placed })
+    }
+
+    /// Holds all structures against brute force, and says which have no time for it.
+    fn check(
+        &mut self,
+        tests: usize,
+        limit_ns: Option<u64>,
+        clock: &dyn Clock,
+        progress: &mut dyn FnMut(Stage),
+    ) -> Result<(), StudyError> {
+        let checks = Checks { scene: &self.prepared.scene, workloads: &self.workloads, tests, limit_ns, clock };
+        let checks = checks.all(self.built.iter().flatten(), progress)?;
+        let structures = self.structures.iter_mut().zip(&self.built);
+        let structures = structures.filter_map(|(structure, built)| Some((structure, built.as_ref()?)));
+        for ((structure, built), checks) in structures.zip(checks) {
+            let failure = built.accel.remote().and_then(Remote::failure);
+            let Some(checks) = checks.filter(|_| failure.is_none()) else {
+                structure.refused = Some(failure.unwrap_or_else(|| PANICKED.into()));
+                continue;
+            };
+            for (rays, check) in structure.rays.iter_mut().zip(checks) {
+                rays.checked = Some(check);
+                rays.wrong = rays.untimed.is_none() && check.errors > 0;
+                if rays.wrong {
+                    rays.untimed = Some(format!("{} wrong answers to {} rays", check.errors, check.rays));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Counts the errors of all structures against the exact oracle. A structure that declines some of the rays is
+    /// refused: its rate would be of other rays.
+    fn judge(&mut self, progress: &mut dyn FnMut(Stage)) {
+        progress(Stage::Rays("the exact answers to all"));
+        let oracle = Oracle::new(&self.prepared.scene.mesh);
+        let budget_ns = self.case.settings.budget_ns.unwrap_or(u64::MAX / 2);
+        let pairs = Pair::all(self.structures.len(), self.workloads.len());
+        let all: Vec<Option<&Built>> = self.built.iter().map(Option::as_ref).collect();
+        let costs = ray_cost::picoseconds(&pairs, &all, &self.workloads);
+        let judges: Vec<Judge> = self.workloads.iter().map(|workload| Judge::new(&workload.rays, &oracle)).collect();
+        for (place, structure) in self.structures.iter_mut().enumerate() {
+            let Some(built) = &self.built[place] else { continue };
+            if let Some(declined) = structure.rays.iter().find_map(|rays| rays.declined.as_deref()) {
+                structure.refused = Some(crate::accel::BuildError::Declined(declined_word(declined)).to_string());
+                continue;
+            }
+            progress(Stage::Check(&structure.label));
+            let costs = &costs[place * judges.len()..][..judges.len()];
+            let judged = guarded(|| {
+                let judge =
+                    |(judge, &ps): (&Judge, &u64)| judge.errors(built.accel.as_ref(), ps, budget_ns, pairs.len());
+                judges.iter().zip(costs).map(judge).collect::<Vec<_>>()
+            });
+            match judged {
+                Some(judged) => {
+                    structure.rays.iter_mut().zip(judged).for_each(|(rays, errors)| rays.errors = Some(errors));
+                }
+                None => structure.refused = Some(PANICKED.into()),
+            }
+        }
+    }
+
+    /// Takes the samples of everything that is timed. How much of it is decided by all that is asked for, right or
+    /// wrong: an epoch in which a program fails, or that checks nothing, decides the same.
+    fn sample(&mut self, clock: &dyn Clock, progress: &mut dyn FnMut(Stage)) -> Environment {
+        let settings = &self.case.settings;
+        let plan = Plan {
+            runs: settings.runs,
+            budget_ns: settings.budget_ns.unwrap_or(u64::MAX),
+            slowest: settings.slowest.filter(|_| settings.budget_ns.is_some()).unwrap_or(f64::INFINITY),
+            most_rays: self.case.workloads.most_rays(),
+            seed: settings.seed,
+            epoch: self.case.epoch,
+        };
+        let Prepared { choices, threads, .. } = self.prepared;
+        let built: Vec<Option<&Built>> = self.built.iter().map(Option::as_ref).collect();
+        let timing = Timing { choices, built: &built, workloads: &self.workloads, threads, clock };
+        let all = Pair::all(self.structures.len(), self.workloads.len());
+        let allotted = timing.allot(&all, &plan);
+
+        let is_timed = |pair: &Pair| {
+            let structure = &self.structures[pair.structure];
+            structure.refused.is_none() && structure.rays[pair.workload].untimed.is_none()
+        };
+        let pairs: Vec<Pair> = all.into_iter().filter(is_timed).collect();
+        let total = pairs.len() * allotted.allotment.runs;
+        let mut told = |taken| progress(Stage::Trace(taken, total));
+        let _pin = threads.pin();
+        let watch = environment::Watch::start(clock, threads.cores().map_or(0, |cores| cores[0]));
+        let taken = timing.take(&allotted, &is_timed, &plan, &mut told);
+        let environment = watch.end(clock);
+
+        let asks_alone = settings.check == Check::Oracle && self.case.epoch == 0;
+        for (pair, samples) in pairs.iter().zip(taken) {
+            let structure = &mut self.structures[pair.structure];
+            let samples = match samples {
+                Ok(samples) => samples,
+                Err(cause) => {
+                    structure.wrong |= cause == Failed::Unsteady && !structure.may_err();
+                    structure.refused = Some(cause.to_string());
+                    continue;
+                }
+            };
+            structure.outside = built[pair.structure].and_then(|built| built.accel.remote()?.outside());
+            let rays = &mut structure.rays[pair.workload];
+            if let Some(built) = built[pair.structure].filter(|_| asks_alone) {
+                let alone = spread(&self.workloads[pair.workload].rays, samples.rays);
+                rays.slowest_ns = Some(slowest(built.accel.as_ref(), &alone, clock));
+            }
+            (rays.rays, rays.checksum) = (samples.rays, samples.checksum);
+            (rays.ns, rays.parts) = (samples.ns, samples.parts);
+        }
+        environment
+    }
+
+    /// Counts what is done for the rays, also where answers are wrong.
+    fn count(&mut self) {
+        let settings = &self.case.settings;
+        let mut events = (settings.threads == 1).then(Events::of_thread);
+        let mut pairs = Pair::all(self.structures.len(), self.workloads.len());
+        pairs.retain(|pair| {
+            let structure = &self.structures[pair.structure];
+            let counts = |rays: &Rays| rays.untimed.is_none() || rays.wrong;
+            structure.refused.is_none() && structure.rays.get(pair.workload).is_some_and(counts)
+        });
+        for (pair, counted) in pairs.iter().zip(count_all(&pairs, &self.built, &self.workloads)) {
+            let Some(built) = &self.built[pair.structure] else { continue };
+            let (structure, workload) = (&mut self.structures[pair.structure], &self.workloads[pair.workload]);
+            let accel = built.accel.as_ref();
+            match counted {
+                Some(counted) => {
+                    let mut counts = counts(&counted, accel, workload, events.as_mut());
+                    if settings.whole_counts.contains(&self.case.structures[pair.structure].spec) {
+                        let whole = Counted::new(accel, &workload.rays, workload.query);
+                        counts.whole_tests = counted.observed.tests.then_some(whole.counts.tests);
+                    }
+                    structure.rays[pair.workload].counts = Some(counts);
+                }
+                None => structure.refused = Some(PANICKED.into()),
+            }
+            let failure = accel.remote().and_then(Remote::failure);
+            structure.refused = structure.refused.take().or(failure);
+        }
+    }
+}
+
+/// The words of a declined capability, which are known at compile time.
+fn declined_word(word: &str) -> &'static str {
+    ["any hit", "t_min", "t_max"].into_iter().find(|known| *known == word).unwrap_or("these rays")
+}
+
+/// A structure on a workload before it is checked and timed.
+fn untimed(built: &Built, workload: &Workload, hash: &str) -> Rays {
+    let declined = declined(built.accel.as_ref(), workload);
+    Rays {
+        workload: workload.name.clone(),
+        hash: hash.into(),
+        query: workload.query,
+        all: workload.rays.len(),
+        rays: 0,
+        checksum: 0,
+        ns: vec![],
+        parts: vec![],
+        untimed: declined.map(|what| format!("declined: it has no {what}")),
+        wrong: false,
+        declined: declined.map(String::from),
+        checked: None,
+        counts: None,
+        errors: None,
+        slowest_ns: None,
+    }
+}
+
+/// What was counted in a pass that is not timed, and what the processor counts.
+fn counts(counted: &Counted, accel: &dyn DynAccel, workload: &Workload, events: Option<&mut Events>) -> RayCounts {
+    let rays = spread(&workload.rays, counted.rays);
+    let events = events.filter(|_| accel.remote().is_none());
+    let events = events.map(|events| events.per_ray(accel, &rays, workload.query)).unwrap_or_default();
+    let observed = counted.observed;
+    RayCounts {
+        rays: counted.rays,
+        hits: counted.hits,
+        distances: counted.distances,
+        tests: observed.tests.then_some(counted.counts.tests),
+        blocks: observed.tests.then_some(counted.counts.blocks),
+        steps: observed.steps.then_some(counted.counts.steps()),
+        leaves: counted.sees_leaves().then_some(counted.counts.leaves),
+        empty_leaves: counted.sees_leaves().then_some(counted.counts.empty_leaves),
+        whole_tests: None,
+        instructions_per_ray: events.instructions,
+        branch_misses_per_ray: events.branch_misses,
+    }
+}

@@ -1,0 +1,162 @@
+//! Samples of many structures on many workloads: the one place where studies take time.
+
+use super::built::Built;
+use super::failed::Failed;
+use super::guarded::Guarded;
+use super::pair::Pair;
+use super::ray_cost;
+use crate::measure::tiles::{last_level, rays_at};
+use crate::measure::{
+    Allotment, Clock, Cost, CpuClock, Failure, Part, Pass, Plan, RemotePass, Samples, Stopwatch, Threads, Timed, allot,
+    level_by_clock, pilot_level, take,
+};
+use crate::registry::Choice;
+use crate::scene::Workload;
+
+pub struct Timing<'a> {
+    /// The structures asked for.
+    pub choices: &'a [Choice],
+    /// Each of them, if it could be built.
+    pub built: &'a [Option<&'a Built>],
+    /// None of them empty.
+    pub workloads: &'a [Workload],
+    pub threads: &'a Threads,
+    pub clock: &'a dyn Clock,
+}
+
+/// What decides how much of cases is timed, and is the same in every epoch.
+pub struct Allotted {
+    cases: Vec<Pair>,
+    pub allotment: Allotment,
+}
+
+impl Timing<'_> {
+    /// How many rays of each of `cases` are timed, and how often, by what their rays cost. What could not be built and
+    /// what is declined are among them: so an epoch in which a program fails decides the same for the others.
+    pub fn allot(&self, cases: &[Pair], plan: &Plan) -> Allotted {
+        // Twins, structures of one label, take as many rays.
+        let group = |case: &Pair| {
+            let label = |structure: usize| &self.choices[structure].label;
+            let alike =
+                |other: &Pair| other.workload == case.workload && label(other.structure) == label(case.structure);
+            cases.iter().position(alike).expect("it is among them")
+        };
+        let costs = ray_cost::picoseconds(cases, self.built, self.workloads);
+        let cost =
+            |(case, ps): (&Pair, u64)| Cost { rays: self.workloads[case.workload].rays.len(), ps, group: group(case) };
+        let costs: Vec<Cost> = cases.iter().zip(costs).map(cost).collect();
+        Allotted { cases: cases.to_vec(), allotment: allot(&costs, plan) }
+    }
+
+    /// Takes samples of as many rays as are allotted, of those cases that `is_timed` picks, interleaved, on a pinned thread where there
+    /// is one. The samples of any two structures on a workload, or those of a part of them, are of the same rays.
+    ///
+    /// What a ray costs a program is not known: its own clock may allot it fewer rays, in another epoch other ones. So it is timed, and
+    /// with it all others of its workload, on the next level as well: epochs have rays in common then.
+    ///
+    /// # Panics
+    /// If a structure is picked that could not be built.
+    pub fn take(
+        &self,
+        allotted: &Allotted,
+        is_timed: &dyn Fn(&Pair) -> bool,
+        plan: &Plan,
+        progress: &mut dyn FnMut(usize),
+    ) -> Vec<Result<Samples, Failed>> {
+        let Allotted { cases: all, allotment: Allotment { runs, levels, share_ns } } = allotted;
+        let timed: Vec<usize> = (0..all.len()).filter(|&i| is_timed(&all[i])).collect();
+        let pass = |&i: &usize| {
+            let workload = &self.workloads[all[i].workload];
+            let accel = self.built[all[i].structure].expect("what is timed is built").accel.as_ref();
+            if let Some(remote) = accel.remote() {
+                let (pass, failure) = RemotePass::new(accel, remote, &workload.rays, workload.query);
+                return (Box::new(pass) as Box<dyn Timed>, failure);
+            }
+            let (pass, failure) = Guarded::new(Pass::new(accel, &workload.rays, workload.query, self.threads));
+            (Box::new(pass) as Box<dyn Timed>, failure)
+        };
+        let (mut passes, failures): (Vec<_>, Vec<_>) = timed.iter().map(pass).collect();
+        let _pin = self.threads.pin();
+        // What others take of the core is no time of a pass.
+        let own = CpuClock::of_thread(self.threads);
+        let clock = own.as_ref().map_or(self.clock, |clock| clock as &dyn Clock);
+
+        let mut levels = levels.clone();
+        let is_remote = |i: usize| self.built[all[i].structure].is_some_and(|built| built.accel.remote().is_some());
+        for (&i, pass) in timed.iter().zip(&mut passes).filter(|(i, _)| is_remote(**i)) {
+            levels[i] = level_by_clock(&Stopwatch::new(clock), pass.as_mut(), levels[i], *share_ns);
+        }
+        let cases: Vec<Of> = (0..all.len())
+            .map(|i| Of {
+                workload: all[i].workload,
+                all: self.workloads[all[i].workload].rays.len(),
+                level: levels[i],
+                is_remote: is_remote(i),
+            })
+            .collect();
+        let mut samples: Vec<Samples> = timed.iter().map(|&i| none(&cases[i], &cases)).collect();
+        let compared: Vec<usize> = timed.iter().map(|&i| all[i].workload).collect();
+        take(clock, &mut passes, &compared, &Plan { runs: *runs, ..*plan }, &mut samples, progress);
+        let taken = |(samples, failure): (Samples, &Failure)| match failure.borrow().clone() {
+            Some(clause) => Err(Failed::Ended(clause)),
+            None if samples.is_steady => Ok(samples),
+            None => Err(Failed::Unsteady),
+        };
+        samples.into_iter().zip(&failures).map(taken).collect()
+    }
+}
+
+/// What decides on which rays a case is timed.
+struct Of {
+    workload: usize,
+    /// Rays of the workload.
+    all: usize,
+    level: usize,
+    is_remote: bool,
+}
+
+/// The samples of `case` before the first one, of its own rays and those of each slower one of its workload.
+fn none(case: &Of, cases: &[Of]) -> Samples {
+    let own = Samples::none(case.all, case.level);
+    let mut fewer = vec![];
+    for other in cases.iter().filter(|other| other.workload == case.workload) {
+        fewer.push(rays_at(other.all, other.level));
+        if other.is_remote && other.level < last_level(other.all) {
+            fewer.push(rays_at(other.all, other.level + 1));
+        }
+    }
+    fewer.retain(|&rays| rays < own.rays);
+    fewer.sort_unstable_by(|a, b| b.cmp(a));
+    fewer.dedup();
+    // Whatever rays it is timed on, its answers to the same ones are kept.
+    let asked = if case.is_remote { Some(pilot_level(case.all)) } else { own.asked };
+    Samples { asked, parts: fewer.into_iter().map(|rays| Part { rays, ns: vec![] }).collect(), ..own }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The rays of the parts of cases on two workloads.
+    fn parts(cases: &[(usize, usize, bool)]) -> Vec<Vec<usize>> {
+        let of = |&(workload, level, is_remote): &(usize, usize, bool)| Of { workload, all: 65_536, level, is_remote };
+        let cases: Vec<Of> = cases.iter().map(of).collect();
+        cases.iter().map(|case| none(case, &cases).parts.iter().map(|part| part.rays).collect()).collect()
+    }
+
+    #[test]
+    fn every_case_is_timed_on_the_rays_of_each_slower_one_of_its_workload() {
+        let cases = [(0, 2, false), (1, 2, false), (0, 2, false), (1, 5, false), (0, 4, false), (1, 2, false)];
+        assert_eq!(parts(&cases), [vec![256], vec![64], vec![256], vec![], vec![], vec![64]]);
+    }
+
+    #[test]
+    fn a_program_and_all_that_it_is_compared_with_are_timed_on_the_next_level_as_well() {
+        let cases = [(0, 0, false), (0, 1, true), (0, 3, false), (1, 0, false)];
+        assert_eq!(parts(&cases), [vec![16_384, 4096, 1024], vec![4096, 1024], vec![], vec![]]);
+        // At the last level there is no next one.
+        assert_eq!(parts(&[(0, 0, false), (0, 5, true)]), [vec![64], vec![]]);
+        let program = Of { workload: 0, all: 65_536, level: 1, is_remote: true };
+        assert_eq!(none(&program, &[]).asked, Some(5));
+    }
+}

@@ -1,0 +1,347 @@
+//! All epochs of one structure on one workload of one scene: what tables, curves and comparisons of runs are made of.
+
+use serde_json::Value;
+
+use super::dataset::{Dataset, SceneEpochs};
+use super::epoch::{Checked, Rays, Shape, Structure};
+use crate::accel::Query;
+use crate::measure::{AaNoise, Part, log_ratios, median};
+use crate::report::words::scene_name;
+
+/// One structure on one workload of one scene. What is not known is nothing, never 0.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Measurement {
+    pub scene: String,
+    pub scene_hash: String,
+    pub triangles: usize,
+    /// Those of them without area.
+    pub degenerate: usize,
+    /// Whether a mesh of our own stands in for a real one.
+    pub stand_in: bool,
+    /// Name in the registry.
+    pub structure: String,
+    /// The name with the keys that differ from their defaults.
+    pub label: String,
+    /// What the structure stands for in the study.
+    pub role: String,
+    pub config: Value,
+    pub triangle_test: String,
+    pub workload: String,
+    pub query: Query,
+    pub workload_hash: String,
+    /// Rays of the whole workload.
+    pub workload_rays: usize,
+    /// Rays of one timed sample; 0 without a time.
+    pub rays: usize,
+    /// Whether that is a part of the workload.
+    pub sampled: bool,
+    /// The same samples for a part of their rays, as many as a slower structure is timed on.
+    pub parts: Vec<Part>,
+    /// Rays that hits, tests, steps, instructions and branch misses are of.
+    pub counted_rays: usize,
+    pub hits: usize,
+    /// Hash of the answers to the timed rays.
+    pub answers: Option<u64>,
+    /// Nanoseconds of the build, median over the epochs.
+    pub build_ns: u64,
+    /// Every build, one an epoch.
+    pub build_samples_ns: Vec<u64>,
+    pub build_peak_bytes: Option<usize>,
+    /// Median nanoseconds of a sample; nothing without a time.
+    pub trace_ns: Option<f64>,
+    /// How often everything was built anew; each epoch has as many samples as another, one after the other.
+    pub epochs: usize,
+    pub samples_ns: Vec<f64>,
+    /// The samples and builds of the twin, where the structure has one that was timed on as many rays.
+    pub twin_samples_ns: Option<Vec<f64>>,
+    pub twin_builds_ns: Option<Vec<u64>>,
+    pub mrays_per_s: Option<f64>,
+    pub tests_per_ray: Option<f64>,
+    pub steps_per_ray: Option<f64>,
+    pub leaf_steps_per_ray: Option<f64>,
+    pub empty_leaf_steps_per_ray: Option<f64>,
+    pub tests_over_minimum: Option<f64>,
+    pub instructions_per_ray: Option<f64>,
+    pub branch_misses_per_ray: Option<f64>,
+    pub shape: Shape,
+    /// What of these rays the structure declines.
+    pub declined: Option<String>,
+    /// Rays held against brute force over the same triangle test, and those of them with a wrong answer.
+    pub checked_rays: usize,
+    pub structure_errors: usize,
+}
+
+/// A structure that has no times on a scene, and why.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Refused {
+    /// As chosen.
+    pub label: String,
+    /// As tables name it.
+    pub scene: String,
+    /// A sentence without its full stop.
+    pub reason: String,
+    /// Whether that is for wrong answers.
+    pub wrong: bool,
+}
+
+/// Those of all scenes, structure by structure and workload by workload. Twins are part of the structure that they are
+/// the twin of.
+pub fn measurements(dataset: &Dataset) -> Vec<Measurement> {
+    dataset.scenes().iter().flat_map(of_scene).collect()
+}
+
+/// The structures that have no times, each with its scene.
+pub fn refused(dataset: &Dataset) -> Vec<Refused> {
+    let of_scene = |scene: &SceneEpochs| -> Vec<Refused> {
+        let first = scene.epochs[0];
+        let refused = |structure: &Structure| {
+            Some(Refused {
+                label: structure.label.clone(),
+                scene: first.title(),
+                reason: structure.refused.clone()?,
+                wrong: structure.wrong,
+            })
+        };
+        first.structures.iter().filter(|own| !own.is_twin()).filter_map(refused).collect()
+    };
+    dataset.scenes().iter().flat_map(of_scene).collect()
+}
+
+/// Those of one scene.
+pub fn of_scene(scene: &SceneEpochs) -> Vec<Measurement> {
+    let first = scene.epochs[0];
+    let mut all = vec![];
+    for (place, structure) in first.structures.iter().enumerate() {
+        if structure.is_twin() || structure.refused.is_some() {
+            continue;
+        }
+        let twin = first.structures.iter().position(|other| other.is_twin() && other.label == structure.label);
+        all.extend((0..structure.rays.len()).map(|kind| measurement(scene, place, twin, kind)));
+    }
+    all
+}
+
+fn rays<'a>(scene: &'a SceneEpochs, place: usize, kind: usize) -> impl Iterator<Item = &'a Rays> {
+    scene.epochs.iter().filter_map(move |epoch| epoch.structures.get(place)?.rays.get(kind))
+}
+
+/// Every sample of a structure on a workload, nanoseconds.
+pub fn samples(scene: &SceneEpochs, place: usize, kind: usize) -> Vec<f64> {
+    rays(scene, place, kind).flat_map(|rays| &rays.ns).map(|&ns| ns.max(1) as f64).collect()
+}
+
+fn measurement(scene: &SceneEpochs, place: usize, twin: Option<usize>, kind: usize) -> Measurement {
+    let epoch = scene.epochs[0];
+    let structure = &epoch.structures[place];
+    let first = &structure.rays[kind];
+    let builds =
+        |place: usize| -> Vec<u64> { scene.epochs.iter().map(|epoch| epoch.structures[place].build_ns).collect() };
+    let build_samples_ns = builds(place);
+    let as_numbers: Vec<f64> = build_samples_ns.iter().map(|&ns| ns as f64).collect();
+    let samples_ns = samples(scene, place, kind);
+    let trace_ns = median(&samples_ns);
+    let timed = trace_ns.is_some();
+    // Of a program each may have been timed on as many rays as its clock allowed.
+    let twin = twin.filter(|&twin| timed && rays(scene, twin, kind).all(|own| own.rays == first.rays));
+    let twin_samples = twin.map(|twin| samples(scene, twin, kind)).filter(|samples| !samples.is_empty());
+    let counts = first.counts.unwrap_or_default();
+    let per_ray = |n: Option<u64>| Some(n? as f64 / counts.rays.max(1) as f64);
+    let Checked { rays: checked_rays, errors: structure_errors } = first.checked.unwrap_or_default();
+    Measurement {
+        scene: epoch.scene.clone(),
+        scene_hash: epoch.scene_hash.clone(),
+        triangles: epoch.triangles,
+        degenerate: epoch.degenerate,
+        stand_in: epoch.stand_in,
+        structure: structure.name.clone(),
+        label: structure.label.clone(),
+        role: structure.role.clone(),
+        config: structure.config.clone(),
+        triangle_test: structure.triangle_test.clone(),
+        workload: first.workload.clone(),
+        query: first.query,
+        workload_hash: first.hash.clone(),
+        workload_rays: first.all,
+        rays: if timed { first.rays } else { 0 },
+        sampled: !timed || first.rays < first.all,
+        parts: if timed { parts(scene, place, kind) } else { vec![] },
+        counted_rays: counts.rays,
+        hits: counts.hits,
+        answers: timed.then_some(first.checksum),
+        build_ns: median(&as_numbers).expect("every epoch builds") as u64,
+        build_samples_ns,
+        build_peak_bytes: structure.build_peak_bytes,
+        trace_ns,
+        epochs: scene.epochs.len(),
+        samples_ns,
+        twin_builds_ns: twin_samples.as_ref().and(twin).map(builds),
+        twin_samples_ns: twin_samples,
+        mrays_per_s: trace_ns.map(|ns| first.rays as f64 * 1e3 / ns),
+        tests_per_ray: counts.tests_per_ray(),
+        steps_per_ray: counts.steps_per_ray(),
+        leaf_steps_per_ray: per_ray(counts.leaves),
+        empty_leaf_steps_per_ray: per_ray(counts.empty_leaves),
+        tests_over_minimum: counts.tests_over_minimum(),
+        instructions_per_ray: counts.instructions_per_ray,
+        branch_misses_per_ray: counts.branch_misses_per_ray,
+        shape: structure.shape,
+        declined: first.declined.clone(),
+        checked_rays,
+        structure_errors,
+    }
+}
+
+fn parts(scene: &SceneEpochs, place: usize, kind: usize) -> Vec<Part> {
+    let mut all: Vec<Part> = vec![];
+    for part in rays(scene, place, kind).flat_map(|rays| &rays.parts) {
+        match all.iter_mut().find(|other| other.rays == part.rays) {
+            Some(other) => other.ns.extend_from_slice(&part.ns),
+            None => all.push(part.clone()),
+        }
+    }
+    all
+}
+
+/// The A/A noise of times: how the twins' samples relate to those of the structures that they are the twins of.
+pub fn trace_noise(measurements: &[Measurement]) -> AaNoise {
+    AaNoise::new(&measurements.iter().filter_map(Measurement::speed_against_twin).collect::<Vec<_>>())
+}
+
+/// Likewise of builds, a cell for each scene.
+pub fn build_noise(measurements: &[Measurement]) -> AaNoise {
+    let of = |own: &Measurement| {
+        let log = |ns: &u64| libm::log((*ns).max(1) as f64);
+        let twin = own.twin_builds_ns.as_ref()?;
+        Some(own.build_samples_ns.iter().zip(twin).map(|(own, twin)| vec![log(own) - log(twin)]).collect())
+    };
+    let scenes = measurements.chunk_by(|a, b| a.scene_hash == b.scene_hash);
+    AaNoise::new(&scenes.filter_map(|scene| scene.iter().find_map(of)).collect::<Vec<Vec<Vec<f64>>>>())
+}
+
+impl Measurement {
+    /// The scene as tables name it.
+    pub fn scene_title(&self) -> String {
+        scene_name(&self.scene, self.stand_in)
+    }
+
+    /// Whether wrong answers cost it its time.
+    pub fn is_disqualified(&self) -> bool {
+        self.structure_errors > 0
+    }
+
+    /// Nanoseconds of every sample for `rays` rays, which are all of it or a part. Nothing where these were not timed.
+    fn samples_of(&self, rays: usize) -> Option<Vec<f64>> {
+        if rays == self.rays {
+            return Some(self.samples_ns.clone());
+        }
+        let part = self.parts.iter().find(|part| part.rays == rays)?;
+        Some(part.ns.iter().map(|&ns| ns.max(1) as f64).collect())
+    }
+
+    /// Nanoseconds a ray, the median of the samples, over so many rays: all of it or a part. Nothing where these were not
+    /// timed.
+    pub fn ns_per_ray_of(&self, rays: usize) -> Option<f64> {
+        Some(median(&self.samples_of(rays)?)? / rays as f64)
+    }
+
+    /// How many times faster this is than `other`, as logarithms, round by round in each epoch, both on the same rays:
+    /// those of the one that was timed on fewer. Nothing where one has no time, or they were not measured in the same
+    /// rounds.
+    pub fn speed_against(&self, other: &Self) -> Option<Vec<Vec<f64>>> {
+        let alike = self.epochs == other.epochs && self.workload_hash == other.workload_hash;
+        let rays = self.rays.min(other.rays);
+        if alike { self.ratios(&other.samples_of(rays)?, &self.samples_of(rays)?) } else { None }
+    }
+
+    /// How many times faster this is than its twin, likewise. Nothing where it has none.
+    pub fn speed_against_twin(&self) -> Option<Vec<Vec<f64>>> {
+        self.ratios(self.twin_samples_ns.as_ref()?, &self.samples_ns)
+    }
+
+    /// Logarithms of `slow` / `fast`, if they can be samples of the same rounds of these epochs.
+    fn ratios(&self, slow: &[f64], fast: &[f64]) -> Option<Vec<Vec<f64>>> {
+        let whole = !fast.is_empty() && self.epochs > 0 && fast.len().is_multiple_of(self.epochs);
+        let positive = || slow.iter().chain(fast).all(|&time| time > 0.0);
+        (slow.len() == fast.len() && whole && positive()).then(|| log_ratios(slow, fast, self.epochs))
+    }
+
+    /// ln nanoseconds of a ray, epoch by epoch: the median of its rounds. Nothing without a time.
+    pub fn log_paces(&self) -> Option<Vec<f64>> {
+        let rounds = (self.samples_ns.len() / self.epochs.max(1)).max(1);
+        let of_epoch = |ns: &[f64]| median(&ns.iter().map(|&ns| libm::log(ns / self.rays as f64)).collect::<Vec<_>>());
+        (!self.samples_ns.is_empty()).then(|| self.samples_ns.chunks(rounds).filter_map(of_epoch).collect())
+    }
+
+    /// ln nanoseconds of the build, epoch by epoch.
+    pub fn log_builds(&self) -> Vec<f64> {
+        self.build_samples_ns.iter().map(|&ns| libm::log(ns.max(1) as f64)).collect()
+    }
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+    use crate::report::words::bare;
+    use crate::request::is_obvhs;
+    use crate::triangle::{Exact, TriangleTest};
+
+    /// The structure `label` on a workload, as if its samples of 500 rays had been taken in so many epochs.
+    pub fn example(label: &str, workload: &str, samples_ns: &[f64], epochs: usize) -> Measurement {
+        let trace_ns = median(samples_ns);
+        Measurement {
+            scene: "Cube".into(),
+            scene_hash: "00".into(),
+            triangles: 12,
+            degenerate: 0,
+            stand_in: false,
+            structure: bare(label).into(),
+            label: label.into(),
+            role: String::new(),
+            config: serde_json::json!({"leaf": 8, "threshold": 0.7}),
+            triangle_test: if is_obvhs(label) { "native".into() } else { Exact::NAME.into() },
+            workload: workload.into(),
+            query: Query::Closest,
+            workload_hash: "11".into(),
+            workload_rays: 1000,
+            rays: 500,
+            sampled: true,
+            parts: vec![],
+            counted_rays: 1000,
+            hits: 20,
+            answers: Some(1),
+            build_ns: 1500,
+            build_samples_ns: vec![1500; epochs],
+            build_peak_bytes: Some(8192),
+            trace_ns,
+            epochs,
+            samples_ns: samples_ns.into(),
+            twin_samples_ns: None,
+            twin_builds_ns: None,
+            mrays_per_s: trace_ns.map(|ns| 500.0 * 1e3 / ns),
+            tests_per_ray: None,
+            steps_per_ray: Some(1.5),
+            leaf_steps_per_ray: None,
+            empty_leaf_steps_per_ray: None,
+            tests_over_minimum: Some(2.5),
+            instructions_per_ray: None,
+            branch_misses_per_ray: None,
+            shape: Shape { bytes: 4096, leaves: 7, ..Shape::default() },
+            declined: None,
+            checked_rays: 100,
+            structure_errors: 0,
+        }
+    }
+
+    #[test]
+    fn both_sides_of_a_ratio_are_of_the_same_rays() {
+        let part = |rays, ns: [u64; 2]| Part { rays, ns: ns.into() };
+        let whole = Measurement { parts: vec![part(100, [10, 20])], ..example("a", "primary", &[100.0, 200.0], 2) };
+        let few = Measurement { rays: 100, ..example("b", "primary", &[40.0, 40.0], 2) };
+        let logs = whole.speed_against(&few).unwrap();
+        assert_eq!(logs, [vec![libm::log(4.0)], vec![libm::log(2.0)]]);
+        assert_eq!((whole.ns_per_ray_of(100), whole.ns_per_ray_of(7)), (Some(0.15), None));
+        assert_eq!(whole.speed_against(&Measurement { epochs: 1, ..few.clone() }), None);
+        assert_eq!(whole.speed_against(&Measurement { workload_hash: "x".into(), ..few }), None);
+        assert_eq!(whole.log_paces().unwrap(), [libm::log(0.2), libm::log(0.4)]);
+    }
+}
