@@ -35,6 +35,8 @@ pub struct Finding {
     pub sentence: String,
     /// The number that the sentence is about, where it is about one.
     pub value: Option<Estimate>,
+    /// What the answer of a page is called: the label of the fastest structure.
+    pub name: Option<String>,
 }
 
 /// What follows one upon the other in a report.
@@ -167,12 +169,17 @@ pub struct Missing {
 impl Finding {
     /// A finding without a number of its own.
     pub fn new(key: impl Into<String>, sentence: impl Into<String>) -> Self {
-        Self { key: key.into(), sentence: sentence.into(), value: None }
+        Self { key: key.into(), sentence: sentence.into(), value: None, name: None }
+    }
+
+    /// A name that a page's answer goes by, and no sentence.
+    pub fn named(key: impl Into<String>, name: impl Into<String>) -> Self {
+        Self { key: key.into(), sentence: String::new(), value: None, name: Some(name.into()) }
     }
 
     /// A number without a sentence.
     pub fn number(key: impl Into<String>, value: Estimate) -> Self {
-        Self { key: key.into(), sentence: String::new(), value: Some(value) }
+        Self { key: key.into(), sentence: String::new(), value: Some(value), name: None }
     }
 
     /// The same finding, about `value`.

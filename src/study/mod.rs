@@ -5,6 +5,7 @@
 
 pub mod case;
 pub mod claims;
+pub mod compare;
 pub mod dataset;
 mod engine;
 pub mod epoch;
@@ -12,6 +13,7 @@ mod epoch_medians;
 mod error;
 mod join;
 pub mod journal;
+mod kendall;
 mod least_squares;
 pub mod measure;
 pub mod measurement;
@@ -131,6 +133,7 @@ impl Studies {
     /// Those of this crate. A new one is one more line.
     pub fn builtin() -> Self {
         Self::empty()
+            .with(compare::STUDY)
     }
 
     /// Adds a study.

@@ -1,12 +1,15 @@
 //! One rank of all structures, and the counts that explain it.
 
-use super::reference::{Reference, cell};
-use super::{speed, twins};
+use super::reference::{Reference, cell, speed};
 use crate::measure::{Estimate, geometric_mean};
-use crate::report::number::{figures, plural};
-use crate::report::words::{distinct, each_once, explained, interval, listed, scene_name};
-use crate::report::{Record, Statement, Table, Tone};
+use crate::report::number::plural;
+use crate::report::words::{distinct, each_once, explained, interval, listed};
+use crate::report::{Cell, Finding, Table, Tone};
+use crate::study::measurement::{Measurement, trace_noise};
 use crate::triangle::{EdgeF64, Exact, MollerTrumboreF64, TriangleTest};
+
+/// The key of the finding that is a label.
+pub const FASTEST: &str = "fastest";
 
 /// The triangle tests in double precision and beyond. All others round in single precision.
 const PRECISE: [&str; 3] = [Exact::NAME, MollerTrumboreF64::NAME, EdgeF64::NAME];
@@ -46,31 +49,30 @@ pub struct Ranks {
     pub all_cells: usize,
 }
 
-/// The ranks of `records`, relative to the fastest obvhs in each cell, or to the first reference where there is none. Nothing of
-/// fewer than two structures.
-pub fn ranks(records: &[Record]) -> Option<Ranks> {
-    let reference = Reference::of(records, None).pop()?;
-    let all = distinct(records.iter().map(|r| &r.label));
-    let related = records.iter().filter(|r| reference.rival(records, r).is_some());
+/// The ranks of `all`, relative to `reference`. Nothing of fewer than two structures.
+pub fn ranks(all: &[Measurement], reference: Option<&Reference>) -> Option<Ranks> {
+    let reference = reference?.clone();
+    let labels = distinct(all.iter().map(|r| &r.label));
+    let related = all.iter().filter(|r| reference.rival(all, r).is_some());
     let cells = each_once(related.map(|r| (r.scene.clone(), r.workload.clone())));
     let find = |label: &str, (scene, workload): &(String, String)| {
-        let is = |r: &&Record| r.label == label && r.scene == *scene && r.workload == *workload;
-        records.iter().find(is).filter(|r| r.mrays_per_s.is_some())
+        let is = |r: &&Measurement| r.label == label && r.scene == *scene && r.workload == *workload;
+        all.iter().find(is).filter(|r| r.mrays_per_s.is_some())
     };
     let timed = |label: &str| cells.iter().filter(|cell| find(label, cell).is_some()).count();
     let (ranked, unranked): (Vec<&String>, Vec<&String>) =
-        all.iter().partition(|label| 2 * timed(label.as_str()) > cells.len());
+        labels.iter().partition(|label| 2 * timed(label.as_str()) > cells.len());
     let common: Vec<(String, String)> =
         cells.iter().filter(|cell| ranked.iter().all(|label| find(label, cell).is_some())).cloned().collect();
     if ranked.len() < 2 || common.is_empty() {
         return None;
     }
 
-    let noise = twins(records);
+    let noise = trace_noise(all);
     let of = |label: &str| {
-        let own: Vec<&Record> = common.iter().filter_map(|cell| find(label, cell)).collect();
-        let pairs = reference.pairs(records, own.iter().copied());
-        let middle = |value: &dyn Fn(&Record) -> Option<f64>| {
+        let own: Vec<&Measurement> = common.iter().filter_map(|cell| find(label, cell)).collect();
+        let pairs = reference.pairs(all, own.iter().copied());
+        let middle = |value: &dyn Fn(&Measurement) -> Option<f64>| {
             let values: Option<Vec<f64>> = own.iter().map(|r| value(r)).collect();
             middle(&values?)
         };
@@ -81,11 +83,11 @@ pub fn ranks(records: &[Record]) -> Option<Ranks> {
             steps: middle(&|r| r.steps_per_ray),
             instructions: middle(&|r| r.instructions_per_ray),
             branch_misses: middle(&|r| r.branch_misses_per_ray),
-            bytes_per_triangle: middle(&|r| Some(r.bytes as f64 / r.triangles.max(1) as f64)),
+            bytes_per_triangle: middle(&|r| Some(r.shape.bytes as f64 / r.triangles.max(1) as f64)),
         }
     };
     let is_precise =
-        |label: &str| records.iter().any(|r| r.label == label && PRECISE.contains(&r.triangle_test.as_str()));
+        |label: &str| all.iter().any(|r| r.label == label && PRECISE.contains(&r.triangle_test.as_str()));
     let rank = |precise: bool| {
         let mut rows: Vec<Ranked> =
             ranked.iter().filter(|label| is_precise(label) == precise).map(|label| of(label)).collect();
@@ -99,8 +101,8 @@ pub fn ranks(records: &[Record]) -> Option<Ranks> {
 }
 
 /// In how many cells a structure gives wrong answers.
-fn wrong_cells(records: &[Record], label: &str) -> usize {
-    records.iter().filter(|record| record.label == label && record.is_disqualified()).count()
+fn wrong_cells(all: &[Measurement], label: &str) -> usize {
+    all.iter().filter(|record| record.label == label && record.is_disqualified()).count()
 }
 
 /// The geometric mean of counts, each one more than it is, less one: of small scenes some are 0.
@@ -111,12 +113,12 @@ fn middle(counts: &[f64]) -> Option<f64> {
 
 impl Ranks {
     /// A table for each rank that has rows.
-    pub fn tables(&self, records: &[Record]) -> Vec<Table> {
-        let scenes = records.iter().filter(|r| self.cells.iter().any(|(scene, _)| *scene == r.scene));
-        let scenes: Vec<String> = scenes.map(|r| scene_name(&r.scene, r.stand_in)).collect();
+    pub fn tables(&self, all: &[Measurement]) -> Vec<Table> {
+        let scenes = all.iter().filter(|r| self.cells.iter().any(|(scene, _)| *scene == r.scene));
+        let scenes: Vec<String> = scenes.map(Measurement::scene_title).collect();
         let scenes = distinct(scenes.iter());
         let over = format!(
-            "Geometric means over the {} of scene and kind of rays in which every structure of both tables has a time, of {}: {}.",
+            "Geometric means over the {} of scene and workload in which every structure of both tables has a time, of {}: {}.",
             plural(self.cells.len(), "cell"),
             self.all_cells,
             scenes.join(", ")
@@ -126,12 +128,12 @@ impl Ranks {
             ("Rank in single precision", &self.single),
         ];
         let tables = titled.into_iter().filter(|(_, rank)| !rank.rows.is_empty());
-        tables.map(|(title, rank)| self.table(records, title, rank, &over)).collect()
+        tables.map(|(title, rank)| self.table(all, title, rank, &over)).collect()
     }
 
-    fn table(&self, records: &[Record], title: &str, rank: &Rank, over: &str) -> Table {
-        let known = |x: Option<f64>| x.map(figures).into();
-        let best = self.first_right(records, rank).map(|row| row.label.clone());
+    fn table(&self, all: &[Measurement], title: &str, rank: &Rank, over: &str) -> Table {
+        let known = |x: Option<f64>| Cell::from(x);
+        let best = self.first_right(all, rank).map(|row| row.label.clone());
         let tone = |row: &Ranked| if Some(&row.label) == best.as_ref() { Tone::Best } else { Tone::Plain };
         let speed = format!("x {}", self.reference.name());
         let table = Table::of(
@@ -158,7 +160,7 @@ impl Ranks {
             ),
         ];
         notes.extend(rank.rows.iter().filter_map(|row| {
-            let wrong = wrong_cells(records, &row.label);
+            let wrong = wrong_cells(all, &row.label);
             (wrong > 0).then(|| {
                 format!(
                     "{} gives wrong answers in {}, which the means leave out for all.",
@@ -172,47 +174,60 @@ impl Ranks {
         if !left.is_empty() {
             notes.push(format!("Not ranked, without a time in half of the cells or more: {}.", listed(&left)));
         }
-        explained(table.noted(notes).without_blank_columns())
+        explained(table.noted(notes).without_empty_columns())
     }
 
     /// The rows of a rank without one that gives wrong answers in some cell: in single precision some do by their nature, and stay.
-    fn right<'a>(&self, records: &[Record], rank: &'a Rank) -> Vec<&'a Ranked> {
-        let is_right = |row: &&Ranked| *rank == self.single || wrong_cells(records, &row.label) == 0;
+    fn right<'a>(&self, all: &[Measurement], rank: &'a Rank) -> Vec<&'a Ranked> {
+        let is_right = |row: &&Ranked| *rank == self.single || wrong_cells(all, &row.label) == 0;
         rank.rows.iter().filter(is_right).collect()
     }
 
     /// The fastest of these.
-    fn first_right<'a>(&self, records: &[Record], rank: &'a Rank) -> Option<&'a Ranked> {
-        self.right(records, rank).first().copied()
+    fn first_right<'a>(&self, all: &[Measurement], rank: &'a Rank) -> Option<&'a Ranked> {
+        self.right(all, rank).first().copied()
     }
 
     /// The fastest of each rank, and what right answers cost.
-    pub fn statements(&self, records: &[Record]) -> Vec<Statement> {
+    pub fn findings(&self, all: &[Measurement]) -> Vec<Finding> {
         let ranks = [("right", "with right answers", &self.precise), ("single", "in single precision", &self.single)];
-        let firsts = ranks.into_iter().filter_map(|(key, words, rank)| self.first(records, key, words, rank));
-        firsts.chain(self.cost(records)).collect()
+        let firsts = ranks.into_iter().filter_map(|(key, words, rank)| self.first(all, key, words, rank));
+        let mut found: Vec<Finding> = firsts.flatten().collect();
+        // What is right is the fastest, if anything is.
+        let mut fastest = found.extract_if(.., |finding| finding.key == FASTEST).collect::<Vec<Finding>>();
+        found.extend(self.cost(all));
+        fastest.truncate(1);
+        found.extend(fastest);
+        found
     }
 
     /// How many times faster `one` is than `other`, over the common cells.
-    fn ratio(&self, records: &[Record], one: &str, other: &str) -> Option<Estimate> {
+    fn ratio(&self, all: &[Measurement], one: &str, other: &str) -> Option<Estimate> {
         let find = |label: &str, (scene, workload): &(String, String)| {
-            records.iter().find(|r| r.label == label && r.scene == *scene && r.workload == *workload)
+            all.iter().find(|r| r.label == label && r.scene == *scene && r.workload == *workload)
         };
         let pairs: Option<Vec<_>> = self.cells.iter().map(|cell| find(one, cell).zip(find(other, cell))).collect();
-        speed(pairs?, &twins(records))
+        speed(pairs?, &trace_noise(all))
     }
 
-    fn first(&self, records: &[Record], key: &str, words: &str, rank: &Rank) -> Option<Statement> {
-        let rows = self.right(records, rank);
+    /// Who is the fastest of a rank and by how much, and its label alone.
+    fn first(&self, all: &[Measurement], key: &str, words: &str, rank: &Rank) -> Option<[Finding; 2]> {
+        let rows = self.right(all, rank);
         let first = *rows.first()?;
         let value = first.speed?;
         // All others are looked at: one of them would too easily seem slower by chance.
         let looks = rows.len() - 1;
         let is_level = |row: &&&Ranked| {
-            self.ratio(records, &first.label, &row.label).is_some_and(|ratio| ratio.ratio_among(looks).holds(1.0))
+            self.ratio(all, &first.label, &row.label).is_some_and(|ratio| ratio.ratio_among(looks).holds(1.0))
         };
         let level: Vec<&str> = rows[1..].iter().filter(is_level).map(|row| row.label.as_str()).collect();
         let is_undecided = rows.iter().any(|row| row.speed.is_some_and(|speed| speed.interval.is_none()));
+        let names = match level[..] {
+            _ if is_undecided => format!("{} (one epoch)", first.label),
+            [] => first.label.clone(),
+            [other] => format!("{} or {other}", first.label),
+            _ => format!("{} or {} others", first.label, level.len()),
+        };
         let level = match level.len() {
             _ if is_undecided => "; one epoch decides nothing".into(),
             0 => String::new(),
@@ -226,33 +241,33 @@ impl Ranks {
             () if value.holds(1.0) => format!("it is level with {reference}, {times} times as many rays a second"),
             () => format!("it answers {times} times as many rays a second as {reference}"),
         };
-        let (all, over) = (plural(rows.len(), "structure"), plural(self.cells.len(), "cell"));
+        let (ranked, over) = (plural(rows.len(), "structure"), plural(self.cells.len(), "cell"));
         let sentence = format!(
-            "Of {all} {words}, {} is the fastest over {over} of scene and kind of rays: {told}{level}.",
+            "Of {ranked} {words}, {} is the fastest over {over} of scene and kind of rays: {told}{level}.",
             first.label
         );
-        Some(Statement::new(key, sentence).of(value))
+        Some([Finding::new(key, sentence).of(value), Finding::named(FASTEST, names)])
     }
 
     /// Times over the default triangle test as multiples of those in single precision, structure by structure with the same keys.
-    fn cost(&self, records: &[Record]) -> Option<Statement> {
-        let of = |row: &Ranked| records.iter().find(|r| r.label == row.label);
-        let mut costs: Vec<(&Record, Estimate)> = vec![];
+    fn cost(&self, all: &[Measurement]) -> Option<Finding> {
+        let of = |row: &Ranked| all.iter().find(|r| r.label == row.label);
+        let mut costs: Vec<(&Measurement, Estimate)> = vec![];
         for right in self.precise.rows.iter().filter(|row| !row.label.contains(':')).filter_map(of) {
-            let is_same = |r: &&Record| r.structure == right.structure && r.config == right.config;
+            let is_same = |r: &&Measurement| r.structure == right.structure && r.config == right.config;
             let single = self.single.rows.iter().filter_map(of).find(is_same);
-            let cost = single.and_then(|single| self.ratio(records, &single.label, &right.label));
+            let cost = single.and_then(|single| self.ratio(all, &single.label, &right.label));
             costs.extend(cost.map(|cost| (right, cost)));
         }
         costs.sort_by(|a, b| a.1.estimate.total_cmp(&b.1.estimate));
-        let told = |(right, cost): &(&Record, Estimate)| format!("{} ({})", interval(*cost), right.structure);
+        let told = |(right, cost): &(&Measurement, Estimate)| format!("{} ({})", interval(*cost), right.structure);
         let told = match &costs[..] {
             [] => return None,
             [one] => told(one),
             [least, .., most] => format!("{} to {}", told(least), told(most)),
         };
         let test = &costs[0].0.triangle_test;
-        Some(Statement::new(
+        Some(Finding::new(
             "cost",
             format!(
                 "Over the triangle test {test} the same structures take {told} times as long as in single precision."
@@ -261,72 +276,4 @@ impl Ranks {
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::report::timed_example;
 
-    fn record(scene: &str, label: &str, ns: f64) -> Record {
-        let default = if label.starts_with("obvhs") { "native" } else { "exact" };
-        let test = label.split("test=").nth(1).map_or(default, |keys| keys.split(',').next().unwrap());
-        Record {
-            scene: scene.into(),
-            triangle_test: test.into(),
-            config: label.contains("batch=packets").into(),
-            mrays_per_s: Some(1e3 / ns),
-            tests_per_ray: Some(ns),
-            ..timed_example(label, "primary", &[1.0, 1.01, 0.99, 1.02, 1.0].map(|f| f * ns), 5)
-        }
-    }
-
-    #[test]
-    fn structures_are_ranked_over_the_cells_that_all_of_them_have() {
-        let single = ["fast:test=moller-trumbore,batch=packets", "fast:test=moller-trumbore", "obvhs-bvh2"];
-        let times = [("slow", 4.0), ("fast", 1.0), (single[0], 0.4), (single[1], 0.8), (single[2], 2.0)];
-        let mut records: Vec<Record> = vec![];
-        for scene in ["a", "b", "c"] {
-            records.extend(times.map(|(label, ns)| record(scene, label, ns)));
-        }
-        // No time in one of three cells, and one that has hardly any.
-        records[0].mrays_per_s = None;
-        records.push(record("a", "rare", 1.0));
-        let ranks = ranks(&records).unwrap();
-        assert_eq!((ranks.cells.len(), ranks.all_cells), (2, 3));
-        let labels = |rank: &Rank| rank.rows.iter().map(|row| row.label.clone()).collect::<Vec<_>>();
-        assert_eq!(labels(&ranks.precise), ["fast", "slow"]);
-        assert_eq!(labels(&ranks.single), single);
-        assert_eq!(ranks.precise.unranked, [("rare".to_owned(), 1)]);
-        let speed = ranks.precise.rows[0].speed.unwrap();
-        assert!((speed.estimate - 2.0).abs() < 1e-9, "{speed:?}");
-        assert!((ranks.precise.rows[1].tests.unwrap() - 4.0).abs() < 1e-9);
-
-        let told: Vec<String> = ranks.statements(&records).into_iter().map(|statement| statement.sentence).collect();
-        assert!(
-            told[0].starts_with("Of 2 structures with right answers, fast is the fastest over 2 cells"),
-            "{told:?}"
-        );
-        assert!(told[0].contains("answers 2.00") && !told[0].contains("level"), "{told:?}");
-        // Of the same keys: packets of the one are not held against single rays of the other.
-        assert!(told[2].contains("exact") && told[2].contains("1.25"), "{told:?}");
-        // What errs somewhere is no right one, and the table says so.
-        let mut erring = records.clone();
-        erring.iter_mut().filter(|r| r.label == "fast" && r.scene == "c").for_each(|r| {
-            (r.mrays_per_s, r.structure_errors, r.checked_rays) = (None, 2, 9);
-        });
-        erring.push(record("b", "rare", 1.0));
-        let ranks = super::ranks(&erring).unwrap();
-        let told = ranks.statements(&erring).remove(0).sentence;
-        assert!(!told.contains("fast is the fastest"), "{told}");
-        let notes = ranks.tables(&erring)[0].notes.concat();
-        assert!(notes.contains("fast gives wrong answers in 1 cell, which the means leave out for all."), "{notes}");
-        let columns = |records: &[Record]| -> Vec<Vec<String>> {
-            super::ranks(records).unwrap().tables(records).into_iter().map(|table| table.columns).collect()
-        };
-        let shown = ["structure", "x obvhs", "tests", "steps", "bytes a triangle"];
-        assert_eq!(columns(&records), [shown, shown]);
-        records.iter_mut().for_each(|record| record.branch_misses_per_ray = Some(0.5));
-        let shown = ["structure", "x obvhs", "tests", "steps", "branch misses", "bytes a triangle"];
-        assert_eq!(columns(&records), [shown, shown]);
-        assert!(super::ranks(&records[..1]).is_none());
-    }
-}

@@ -1,10 +1,28 @@
-//! What a table relates speeds to.
+//! What a table relates speeds to, and ratios between measurements, with their intervals.
 
-use super::cells::speed;
-use crate::measure::{AaNoise, Estimate};
-use crate::report::words::interval;
-use crate::report::{Cell, Record};
-use crate::study::reference_structures::{REPORT_TREE, is_reference};
+use crate::measure::{AaNoise, Estimate, Rerun, cut_to_shared_epochs, epoch_values};
+use crate::report::Cell;
+use crate::request::{REPORT_TREE, is_obvhs};
+use crate::study::measurement::Measurement;
+
+/// The geometric mean of how many times faster the first of each pair is than the second, with its
+/// [interval](mod@crate::measure::interval), over the epochs that all pairs have. Nothing where one of them has no time,
+/// or their samples are not of the same rounds.
+pub fn speed<'a>(
+    pairs: impl IntoIterator<Item = (&'a Measurement, &'a Measurement)>,
+    noise: &AaNoise,
+) -> Option<Estimate> {
+    let cells: Option<Vec<_>> = pairs.into_iter().map(|(own, other)| own.speed_against(other)).collect();
+    let mut cells = cells?;
+    // Where time ran out, scenes have different numbers of them.
+    cut_to_shared_epochs(&mut cells);
+    Some(Rerun::of(&epoch_values(&cells)?, noise.of_mean(cells.len()))?.ratio())
+}
+
+/// Whether it is of one of the BVHs from outside over their own triangle test, with nothing of ours in it.
+pub fn is_reference(own: &Measurement) -> bool {
+    is_obvhs(&own.structure) && !own.label.contains("test=")
+}
 
 /// The other side of a column of ratios.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -17,19 +35,19 @@ pub enum Reference {
 
 impl Reference {
     /// The one that is `named`; else the report's tree and obvhs, of these what was measured; else the first structure.
-    pub fn of(records: &[Record], named: Option<&str>) -> Vec<Self> {
+    pub fn of(all: &[Measurement], named: Option<&str>) -> Vec<Self> {
         if let Some(label) = named {
             return vec![Self::Structure(label.into())];
         }
         let mut found = vec![];
-        if records.iter().any(|r| r.label == REPORT_TREE) {
+        if all.iter().any(|own| own.label == REPORT_TREE) {
             found.push(Self::Structure(REPORT_TREE.into()));
         }
-        if records.iter().any(is_reference) {
+        if all.iter().any(is_reference) {
             found.push(Self::Obvhs);
         }
         if found.is_empty() {
-            found.extend(records.first().map(|first| Self::Structure(first.label.clone())));
+            found.extend(all.first().map(|first| Self::Structure(first.label.clone())));
         }
         found
     }
@@ -52,30 +70,30 @@ impl Reference {
         }
     }
 
-    /// What the case `of` is related to: the same scene and rays. Nothing where that has no time.
-    pub fn rival<'a>(&self, records: &'a [Record], of: &Record) -> Option<&'a Record> {
-        let is = |r: &&Record| match self {
-            Self::Structure(label) => r.label == *label,
-            Self::Obvhs => is_reference(r),
+    /// What `of` is related to: the same scene and rays. Nothing where that has no time.
+    pub fn rival<'a>(&self, all: &'a [Measurement], of: &Measurement) -> Option<&'a Measurement> {
+        let is = |own: &&Measurement| match self {
+            Self::Structure(label) => own.label == *label,
+            Self::Obvhs => is_reference(own),
         };
-        let same = records.iter().filter(|r| r.scene == of.scene && r.workload == of.workload);
-        let timed = same.filter(is).filter(|r| r.mrays_per_s.is_some());
+        let same = all.iter().filter(|own| own.scene == of.scene && own.workload == of.workload);
+        let timed = same.filter(is).filter(|own| own.mrays_per_s.is_some());
         timed.max_by(|a, b| a.mrays_per_s.partial_cmp(&b.mrays_per_s).expect("numbers"))
     }
 
-    /// The cases `of` with what they are related to: those of which both have a time.
+    /// Each of these with what it is related to: those of which both have a time.
     pub fn pairs<'a>(
         &self,
-        records: &'a [Record],
-        of: impl IntoIterator<Item = &'a Record>,
-    ) -> Vec<(&'a Record, &'a Record)> {
-        let timed = of.into_iter().filter(|r| r.mrays_per_s.is_some());
-        timed.filter_map(|r| Some((r, self.rival(records, r)?))).collect()
+        all: &'a [Measurement],
+        of: impl IntoIterator<Item = &'a Measurement>,
+    ) -> Vec<(&'a Measurement, &'a Measurement)> {
+        let timed = of.into_iter().filter(|own| own.mrays_per_s.is_some());
+        timed.filter_map(|own| Some((own, self.rival(all, own)?))).collect()
     }
 
     /// The geometric mean of how many times faster the first of each pair is; a structure against itself has no
     /// interval. `noise` as in [`speed`].
-    pub fn ratio(pairs: &[(&Record, &Record)], noise: &AaNoise) -> Option<Estimate> {
+    pub fn ratio(pairs: &[(&Measurement, &Measurement)], noise: &AaNoise) -> Option<Estimate> {
         let own = !pairs.is_empty() && pairs.iter().all(|(own, other)| own.label == other.label);
         if own {
             return Some(Estimate::exact(1.0));
@@ -84,9 +102,7 @@ impl Reference {
     }
 }
 
-/// A ratio with its interval, and a sign where it is not distinguishable from 1.
+/// A ratio, marked where it is not distinguishable from 1.
 pub fn cell(ratio: Option<Estimate>) -> Cell {
-    let Some(ratio) = ratio else { return Cell::blank() };
-    let same = ratio != Estimate::exact(1.0) && ratio.holds(1.0);
-    format!("{}{}", interval(ratio), if same { " =" } else { "" }).into()
+    ratio.map_or(Cell::empty(), Cell::ratio)
 }

@@ -1,174 +1,204 @@
-//! Speed of all structures: bars with intervals against the report's tree, tables beside.
+//! What a page shows of a comparison: bars with intervals against the report's tree, tables beside.
 
-use super::{Reference, details_legend, legend, mean_table, ranks, scene_table, speed, tradeoff, twins};
+use std::collections::BTreeMap;
+
+use super::reference::speed;
+use super::table::{legend, refusals, scene_table};
+use super::{Reference, block, by_scene, details, means, nothing_measured, rank, tradeoff};
 use crate::measure::Estimate;
-use crate::report::document::{Art, Block, Figure};
 use crate::report::number::count;
 use crate::report::plot::{Bar, BarGroup, Bars, Chart};
-use crate::report::words::{command_line, distinct, interval, listed, scene_name, slug};
-use crate::report::{Record, Statement, Table};
-use crate::study::{BRUTE_FORCE, REPORT_TREE, documented_defect};
+use crate::report::words::{distinct, each_once, interval, listed, slug};
+use crate::report::{Art, Block, Cell, Figure, Finding, Table};
+use crate::request::{BRUTE_FORCE, REPORT_TREE, SAH_TREE, known_defect};
+use crate::scene::Builtin;
+use crate::study::kendall::{kendall, mean};
+use crate::study::measurement::{Measurement, Refused, trace_noise};
 
-/// The fastest structure of each rank, what right answers cost, and how many answers were checked.
-pub fn statements(records: &[Record]) -> Vec<Statement> {
-    let mut statements = ranks(records).map_or(vec![], |ranks| ranks.statements(records));
-    let is_own = |r: &&Record| r.declined.is_none() && documented_defect(&r.structure).is_none();
-    let own = || records.iter().filter(is_own);
+/// How many answers were checked and how many of them are wrong, and whose.
+pub fn checked(all: &[Measurement]) -> Option<Finding> {
+    let is_own = |r: &&Measurement| r.declined.is_none() && known_defect(&r.structure).is_none();
+    let own = || all.iter().filter(is_own);
     let wrong: usize = own().map(|r| r.structure_errors).sum();
     let rays: usize = own().map(|r| r.checked_rays).sum();
-    if rays > 0 {
-        let wrong = if wrong == 0 { "none".into() } else { count(wrong as u64) };
-        statements.push(Statement::new(
-            "checked",
-            format!(
-                "Of {} answers of structures without documented defects, held against brute force over the same triangle test, \
-                 {wrong} is wrong.",
-                count(rays as u64)
-            ),
-        ));
+    let of = |label: &String| {
+        let own = || all.iter().filter(|r| r.label == *label);
+        let errors: usize = own().map(|r| r.structure_errors).sum();
+        let checked: usize = own().map(|r| r.checked_rays).sum();
+        (errors > 0).then(|| format!("{label} ({} of {} checked rays)", count(errors as u64), count(checked as u64)))
+    };
+    let erring: Vec<String> = distinct(all.iter().map(|r| &r.label)).iter().filter_map(of).collect();
+    let erring =
+        if erring.is_empty() { String::new() } else { format!(" Wrong answers, and so no time: {}.", listed(&erring)) };
+    let wrong = if wrong == 0 { "none".into() } else { count(wrong as u64) };
+    let sentence = format!(
+        "Of {} answers of structures without known defects, held against brute force over the same triangle test, {wrong} is \
+         wrong.{erring}",
+        count(rays as u64)
+    );
+    (rays > 0).then(|| Finding::new("checked", sentence))
+}
+
+/// Kendall's tau of SAH cost and time over couples of different families, the mean of the built-in scenes: nothing was
+/// expected of others.
+pub fn tau(all: &[Measurement]) -> Option<Finding> {
+    let is_asked = |r: &&Measurement| {
+        r.structure != BRUTE_FORCE && r.trace_ns.is_some() && Builtin::find(&r.scene).is_ok()
+    };
+    let timed: Vec<&Measurement> = all.iter().filter(is_asked).collect();
+    // Trees of a scene are the same whatever the rays, and a stand-in is built after the real mesh: taus of one scene are
+    // not independent, and count as their mean.
+    let mut scenes: BTreeMap<&str, Vec<f64>> = BTreeMap::new();
+    for (hash, workload) in each_once(timed.iter().map(|r| (&r.scene_hash, &r.workload))) {
+        let group: Vec<&&Measurement> =
+            timed.iter().filter(|r| (&r.scene_hash, &r.workload) == (hash, workload)).collect();
+        let known = group.iter().filter_map(|r| {
+            Some((family(&r.structure), (r.shape.sah_cost?, r.trace_ns? / r.rays as f64)))
+        });
+        let known: Vec<(&str, (f64, f64))> = known.collect();
+        let pairs: Vec<(f64, f64)> = known.iter().map(|(_, pair)| *pair).collect();
+        if let Some(tau) = kendall(&pairs, |i, j| known[i].0 != known[j].0) {
+            scenes.entry(&group[0].scene).or_default().push(tau);
+        }
     }
-    statements
+    let means: Vec<f64> = scenes.values().map(|taus| taus.iter().sum::<f64>() / taus.len() as f64).collect();
+    Some(Finding::number("tau", mean(&means)?))
+}
+
+/// What a structure has in common with those whose cells and nodes are of the same kind.
+fn family(structure: &str) -> &str {
+    match structure {
+        REPORT_TREE | SAH_TREE => "binary kd-tree",
+        "sah-kd-wide" | "sah-kd-tight" => "wide kd-tree",
+        other => other,
+    }
 }
 
 /// The meshes that the builders and layouts of our trees were tuned on; `papers/TUNING.md` has what was tried.
-const TUNED_ON: [&str; 6] = ["kitchen", "sponza-nave", "dragon-scan", "bunny", "lucy-scan", "engine"];
+const TUNED_ON: [&str; 6] = ["kitchen", "Sponza", "Dragon", "Lucy", "bunny", "engine"];
 
-/// Whom a rank may favour.
+/// Where our figures may be biased.
 pub fn bias() -> String {
     format!(
-        "Builders and layouts of our eight-wide trees were tuned on the meshes {}, and on Dragon and Lucy in other sizes. Neither obvhs \
+        "The builders and layouts of our trees were tuned on {} (papers/TUNING.md has what was tried); neither the defaults of obvhs \
          nor any other peer was tuned by us.",
         listed(&TUNED_ON)
     )
 }
 
-/// Scenes shown at once; the others are folded.
+/// Scenes shown at once on a page; the figures of the others are folded.
 const OPEN: usize = 3;
 
-pub fn blocks(records: &[Record], command: &str) -> Vec<Block> {
-    let scenes = distinct(records.iter().map(|record| &record.scene));
-    let mut blocks = vec![Block::Text(
-        "Every structure answers the same rays, in samples that are interleaved in random order; wrong answers get no time. \
-         Bars compare with the report's tree on the same scene and the same rays, kind by kind: they are medians of paired \
-         samples, with the interval that holds the ratio of another run, as little disturbed, in 95 % of cases."
-            .into(),
-    )];
-    let references = Reference::of(records, None);
-    let ranks = ranks(records).map_or(vec![], |ranks| ranks.tables(records));
-    let is_ranked = !ranks.is_empty();
-    blocks.extend(ranks.into_iter().map(|table| Block::table(table, command)));
-    if is_ranked {
-        blocks.push(Block::Note(format!("We are judges in our own cause. {}", bias())));
+/// All blocks. The terminal prints the tables of scenes, in full where they are `wide`, then the means and the ranks.
+pub fn blocks(all: &[Measurement], refused: &[Refused], references: &[Reference], wide: bool) -> Vec<Block> {
+    let last = &references[references.len().saturating_sub(1)..];
+    let mut blocks = vec![];
+    let titles = each_once(all.iter().map(Measurement::scene_title).chain(refused.iter().map(|own| own.scene.clone())));
+    let mut scenes = by_scene(all);
+    for title in &titles {
+        let own: Vec<Refused> = refused.iter().filter(|own| own.scene == *title).cloned().collect();
+        let scene = scenes.iter().find(|scene| scene[0].scene_title() == *title);
+        blocks.push(block(match scene {
+            Some(scene) if wide => scene_table(scene, references, &own, true),
+            Some(scene) => scene_table(scene, last, &own, false),
+            None => nothing_measured(title, &own),
+        }));
     }
-    let means = mean_table(records, &references);
-    if means.says_something() {
-        blocks.push(Block::table(means, command));
+    if all.is_empty() {
+        blocks.extend(refusals(refused).into_iter().map(Block::Note));
+        return blocks;
     }
-    let of = |scene: &String| records.iter().filter(|r| r.scene == *scene).cloned().collect::<Vec<_>>();
+    let several = scenes.len() > 1;
+    let means = several.then(|| means::mean_table(all, if wide { references } else { last }));
+    blocks.extend(means.filter(Table::says_something).map(block));
+    blocks.extend(legend(all, if wide { references } else { last }).into_iter().map(Block::Note));
+    let columns = || details::legend(&all[0].workload).into_iter().map(Block::Note);
+    if wide {
+        blocks.extend(columns());
+    }
+    blocks.extend(refusals(refused).into_iter().map(Block::Note));
+
+    let ranks = rank::ranks(all, references.last()).map_or(vec![], |ranks| ranks.tables(all));
+    if !ranks.is_empty() {
+        let bias = Block::Note(format!("We are judges in our own cause. {}", bias()));
+        let name = "Ranks over all scenes and workloads".to_owned();
+        blocks.push(Block::Fold(name, ranks.into_iter().map(block).chain([bias]).collect()));
+    }
     // The largest scenes are what the question is about.
-    let mut order: Vec<Vec<Record>> = scenes.iter().map(of).collect();
-    order.sort_by_key(|records| std::cmp::Reverse(records[0].triangles));
-    blocks.extend(tradeoff::figure(&order, &references, command).map(Block::figure));
-    let rest = order.split_off(order.len().min(OPEN));
-    blocks.extend(order.iter().flat_map(|records| of_scene(records)));
-    let legends = details_legend(&records[0].workload).into_iter().chain(legend(records, &references));
-    blocks.extend(legends.map(Block::Note));
+    scenes.sort_by_key(|scene| std::cmp::Reverse(scene[0].triangles));
+    blocks.extend(tradeoff::figure(&scenes, references).map(Block::figure));
+    let rest = scenes.split_off(scenes.len().min(OPEN));
+    blocks.extend(scenes.iter().map(|scene| Block::figure(bars(scene))));
     if !rest.is_empty() {
-        let name = format!("The other {} scenes", rest.len());
-        blocks.push(Block::Fold(name, rest.iter().flat_map(|records| of_scene(records)).collect()));
+        let figures = rest.iter().map(|scene| Block::figure(bars(scene))).collect();
+        blocks.push(Block::Fold(format!("Figures of the other {} scenes", rest.len()), figures));
+    }
+    if !wide {
+        let tables = scenes.iter().chain(&rest).map(|scene| block(scene_table(scene, references, &[], true)));
+        blocks.push(Block::Fold("All columns".into(), tables.chain(columns()).collect()));
     }
     blocks
 }
 
-fn command(records: &[Record]) -> String {
-    let commands = records.iter().map(|r| command_line(&r.provenance.command)).collect::<Vec<_>>();
-    distinct(commands.iter()).join("\n")
-}
-
-fn of_scene(records: &[Record]) -> Vec<Block> {
-    let first = &records[0];
-    let noise = twins(records);
-    let labels = distinct(records.iter().map(|r| &r.label));
+/// Speed as a multiple of the report's tree, kind by kind.
+fn bars(all: &[Measurement]) -> Figure {
+    let noise = trace_noise(all);
+    let labels = distinct(all.iter().map(|r| &r.label));
     let has = |label: &str| labels.iter().any(|l| l == label);
     let baseline = [REPORT_TREE, BRUTE_FORCE].into_iter().find(|label| has(label)).unwrap_or(&labels[0]).to_owned();
     // Where it is the unit itself, brute force is so far away that it hides what lies between the others.
     let labels: Vec<String> =
         labels.into_iter().filter(|label| baseline == BRUTE_FORCE || label != BRUTE_FORCE).collect();
-    let workloads = distinct(records.iter().map(|r| &r.workload));
-    let find =
-        |workload: &String, label: &String| records.iter().find(|r| r.workload == *workload && r.label == *label);
+    let workloads = distinct(all.iter().map(|r| &r.workload));
+    let find = |workload: &String, label: &String| all.iter().find(|r| r.workload == *workload && r.label == *label);
     let bar = |workload: &String, label: &String| {
-        let Some(record) = find(workload, label) else { return Bar::Missing("not measured".into()) };
-        match (record.trace_ns, find(workload, &baseline)) {
-            _ if record.declined.is_some() => Bar::Missing("declined".into()),
-            (None, _) if record.is_disqualified() => Bar::Missing("wrong answers".into()),
+        let Some(own) = find(workload, label) else { return Bar::Missing("not measured".into()) };
+        match (own.trace_ns, find(workload, &baseline)) {
+            _ if own.declined.is_some() => Bar::Missing("declined".into()),
+            (None, _) if own.is_disqualified() => Bar::Missing("wrong answers".into()),
             (Some(_), Some(baseline)) if baseline.trace_ns.is_some() => {
                 // A structure is as fast as itself, without doubt.
-                let own = record.label == baseline.label;
-                let ratio = if own { Some(Estimate::exact(1.0)) } else { speed([(record, baseline)], &noise) };
+                let is_same = own.label == baseline.label;
+                let ratio = if is_same { Some(Estimate::exact(1.0)) } else { speed([(own, baseline)], &noise) };
                 ratio.map_or(Bar::Missing("no pairs".into()), Bar::Of)
             }
             _ => Bar::Missing("not timed".into()),
         }
     };
-    let groups: Vec<BarGroup> = workloads
-        .iter()
-        .map(|workload| BarGroup {
-            title: format!("{workload} rays"),
-            bars: labels.iter().map(|label| bar(workload, label)).collect(),
-        })
-        .collect();
-
-    let name = scene_name(&first.scene, first.stand_in);
-    let data = data(&labels, &groups, &workloads);
-    let figure = Figure {
-        id: format!("speed-{}", slug(&first.scene)),
+    let group = |workload: &String| BarGroup {
+        title: format!("{workload} rays"),
+        bars: labels.iter().map(|label| bar(workload, label)).collect(),
+    };
+    let groups: Vec<BarGroup> = workloads.iter().map(group).collect();
+    let name = all[0].scene_title();
+    Figure {
+        id: format!("speed-{}", slug(&all[0].scene)),
         caption: format!(
-            "{name}, {} triangles: speed as a multiple of {baseline}, longer is faster. Whiskers are 95 % intervals; \
+            "{name}, {} triangles: speed as a multiple of {baseline} on the same rays, longer is faster. Whiskers are 95 % intervals; \
              the axis is logarithmic.",
-            count(first.triangles as u64)
+            count(all[0].triangles as u64)
         ),
         alt: alt(&name, &labels, &groups, &baseline),
-        command: command(records),
+        data: data(&labels, &groups, &workloads),
         art: Art::Chart(Chart::Bars(Bars {
             x_title: format!("times as fast as {baseline}"),
             reference: 1.0,
             labels,
             groups,
         })),
-        data,
-    };
-    vec![
-        Block::figure(figure),
-        Block::table(ratios_first(scene_table(records, &Reference::of(records, None), &[])), &command(records)),
-    ]
-}
-
-/// The table with its ratios behind the names, where a page that is not wide shows them, too.
-fn ratios_first(mut table: Table) -> Table {
-    let mut order: Vec<usize> = (0..table.columns.len()).collect();
-    order.sort_by_key(|&i| (i > 0, !table.columns[i].starts_with("x ")));
-    table.columns = order.iter().map(|&i| table.columns[i].clone()).collect();
-    for row in &mut table.rows {
-        *row = order.iter().map(|&i| row[i].clone()).collect();
     }
-    table
 }
 
 fn data(labels: &[String], groups: &[BarGroup], workloads: &[String]) -> Table {
     let row = |(i, label): (usize, &String)| {
         let cell = |group: &BarGroup| match &group.bars[i] {
-            Bar::Of(value) => interval(*value),
-            Bar::Missing(why) => why.clone(),
+            Bar::Of(value) => Cell::from(*value),
+            Bar::Missing(why) => Cell::from(why),
         };
-        std::iter::once(label.clone()).chain(groups.iter().map(cell)).map(Into::into).collect()
+        std::iter::once(Cell::from(label)).chain(groups.iter().map(cell)).collect()
     };
-    Table {
-        title: String::new(),
-        columns: std::iter::once("structure".to_owned()).chain(workloads.iter().cloned()).collect(),
-        rows: labels.iter().enumerate().map(row).collect(),
-        notes: vec![],
-    }
+    let columns = std::iter::once("structure").chain(workloads.iter().map(String::as_str));
+    Table::new("", columns, labels.iter().enumerate().map(row))
 }
 
 fn alt(name: &str, labels: &[String], groups: &[BarGroup], baseline: &str) -> String {
@@ -180,8 +210,5 @@ fn alt(name: &str, labels: &[String], groups: &[BarGroup], baseline: &str) -> St
         let (value, label) = values.max_by(|a, b| a.0.estimate.total_cmp(&b.0.estimate))?;
         Some(format!("{}: {label}, {}", group.title, interval(*value)))
     });
-    format!(
-        "Bar chart for {name}. Fastest against {baseline} by kind of rays: {}.",
-        best.collect::<Vec<_>>().join("; ")
-    )
+    format!("Bar chart for {name}. Fastest against {baseline} by workload: {}.", best.collect::<Vec<_>>().join("; "))
 }

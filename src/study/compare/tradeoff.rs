@@ -1,17 +1,16 @@
 //! Speed against memory and time of the build.
 
-use super::{Reference, twins};
-use crate::report::document::{Art, Figure};
-use crate::report::number::{bytes, duration, figures};
+use super::Reference;
 use crate::report::plot::{Chart, Scatter, ScatterCase, ScatterPoint};
-use crate::report::words::{distinct, interval, scene_name};
-use crate::report::{Record, Table};
-use crate::study::BRUTE_FORCE;
+use crate::report::words::{distinct, interval};
+use crate::report::{Art, Cell, Figure, Table};
+use crate::request::BRUTE_FORCE;
+use crate::study::measurement::{Measurement, trace_noise};
 
 /// Every scene, in this order, with every kind of rays; nothing where no two structures have a time on the same rays. Brute force,
 /// far away from all others, is left out.
-pub fn figure(scenes: &[Vec<Record>], references: &[Reference], command: &str) -> Option<Figure> {
-    let cases: Vec<ScatterCase> = scenes.iter().flat_map(|records| cases(records, references.first())).collect();
+pub fn figure(scenes: &[Vec<Measurement>], references: &[Reference]) -> Option<Figure> {
+    let cases: Vec<ScatterCase> = scenes.iter().flat_map(|all| cases(all, references.first())).collect();
     let first = cases.first()?;
     let best = |cost: fn(&ScatterPoint) -> f64| {
         let least = first.points.iter().min_by(|a, b| cost(a).total_cmp(&cost(b)));
@@ -37,91 +36,48 @@ pub fn figure(scenes: &[Vec<Record>], references: &[Reference], command: &str) -
             first.scene, first.rays
         ),
         alt,
-        command: command.into(),
         art: Art::Chart(Chart::Scatter(Scatter { cases })),
         data,
     })
 }
 
-fn cases(records: &[Record], reference: Option<&Reference>) -> Vec<ScatterCase> {
-    let noise = twins(records);
+fn cases(all: &[Measurement], reference: Option<&Reference>) -> Vec<ScatterCase> {
+    let noise = trace_noise(all);
     // All on the same rays: as many as the slowest is timed on.
-    let drawn = |workload: &str| -> Vec<&Record> {
-        let is_drawn = |r: &&Record| r.workload == workload && r.structure != BRUTE_FORCE && r.mrays_per_s.is_some();
-        records.iter().filter(is_drawn).collect()
+    let drawn = |workload: &str| -> Vec<&Measurement> {
+        let is_drawn = |r: &&Measurement| r.workload == workload && r.structure != BRUTE_FORCE && r.mrays_per_s.is_some();
+        all.iter().filter(is_drawn).collect()
     };
-    let point = |record: &Record| {
+    let point = |record: &Measurement| {
         let common = drawn(&record.workload).iter().map(|r| r.rays).min()?;
         let ns_per_ray = record.ns_per_ray_of(common)?;
         let ratio = reference.and_then(|reference| {
-            let ratio = Reference::ratio(&reference.pairs(records, [record]), &noise)?;
+            let ratio = Reference::ratio(&reference.pairs(all, [record]), &noise)?;
             Some(format!("{} times as fast as {}", interval(ratio), reference.words()))
         });
         Some(ScatterPoint {
             label: record.label.clone(),
-            bytes: record.bytes.max(1) as f64,
+            bytes: record.shape.bytes.max(1) as f64,
             build_ns: record.build_ns.max(1) as f64,
             ns_per_ray,
             ratio: ratio.unwrap_or_default(),
         })
     };
     let case = |workload: &String| ScatterCase {
-        scene: scene_name(&records[0].scene, records[0].stand_in),
+        scene: all[0].scene_title(),
         rays: workload.clone(),
         points: drawn(workload).into_iter().filter_map(point).collect(),
     };
-    let workloads = distinct(records.iter().map(|r| &r.workload));
+    let workloads = distinct(all.iter().map(|r| &r.workload));
     workloads.iter().map(case).filter(|case| case.points.len() > 1).collect()
 }
 
 fn table(cases: &[ScatterCase]) -> Table {
-    let row = |case: &ScatterCase, point: &ScatterPoint| {
-        let [size, build] = [bytes(point.bytes as usize), duration(point.build_ns)];
-        [case.scene.clone(), case.rays.clone(), point.label.clone(), figures(1e3 / point.ns_per_ray), size, build]
+    let row = |case: &ScatterCase, point: &ScatterPoint| -> Vec<Cell> {
+        let (size, build) = (Cell::bytes(point.bytes as usize), Cell::duration(point.build_ns));
+        let names = [&case.scene, &case.rays, &point.label].map(Cell::from);
+        names.into_iter().chain([Cell::from(1e3 / point.ns_per_ray), size, build]).collect()
     };
     let rows = cases.iter().flat_map(|case| case.points.iter().map(move |point| row(case, point)));
-    Table::of_texts("", ["scene", "rays", "structure", "Mrays/s", "memory", "build"], rows.collect())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::measure::Part;
-    use crate::report::example_record;
-
-    #[test]
-    fn what_has_no_time_or_no_company_is_not_drawn() {
-        let record = |label: &str, workload: &str, speed: Option<f64>| Record {
-            label: label.into(),
-            structure: label.into(),
-            workload: workload.into(),
-            rays: 125,
-            mrays_per_s: speed,
-            samples_ns: speed.map(|speed| 125.0 * 1e3 / speed).into_iter().collect(),
-            ..example_record()
-        };
-        let records = vec![
-            record("brute-force", "primary", Some(0.01)),
-            record("sah-kd", "primary", Some(2.0)),
-            record("sah-bvh", "primary", Some(4.0)),
-            record("wrong", "primary", None),
-            record("sah-kd", "shadow", Some(2.0)),
-        ];
-        let figure = figure(std::slice::from_ref(&records), &[], "sahara compare").unwrap();
-        let Art::Chart(Chart::Scatter(Scatter { cases })) = &figure.art else { panic!("no scatter plot") };
-        assert_eq!(cases.len(), 1, "one structure alone is no comparison");
-        let points: Vec<(&str, f64)> = cases[0].points.iter().map(|p| (p.label.as_str(), p.ns_per_ray)).collect();
-        assert_eq!(points, [("sah-kd", 500.0), ("sah-bvh", 250.0)]);
-        assert!(figure.alt.contains("the fastest is sah-bvh") && figure.data.rows.len() == 2, "{}", figure.alt);
-        assert!(super::figure(&[records[..2].to_vec()], &[], "").is_none());
-
-        // One that is timed on a part of the rays, which take it less than the others, is compared on them.
-        let part = Part { rays: 25, ns: vec![10_000] };
-        let mut records = records;
-        records[1].parts = vec![part.clone()];
-        records[2] = Record { rays: 25, samples_ns: vec![5_000.0], ..records[2].clone() };
-        let drawn = super::figure(std::slice::from_ref(&records), &[], "").unwrap();
-        let Art::Chart(Chart::Scatter(Scatter { cases })) = &drawn.art else { panic!("no scatter plot") };
-        assert_eq!(cases[0].points.iter().map(|p| p.ns_per_ray).collect::<Vec<_>>(), [400.0, 200.0]);
-    }
+    Table::new("", ["scene", "rays", "structure", "Mrays/s", "memory", "build"], rows)
 }

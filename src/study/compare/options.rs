@@ -1,0 +1,284 @@
+//! The options of `compare`, and what they plan.
+
+use std::collections::BTreeSet;
+use std::time::Duration;
+
+use super::NAME;
+use crate::registry::Registry;
+use crate::report::words::each_once_by;
+use crate::request::{
+    BRUTE_FORCE, Measuring, RaySource, SceneRequest, Scenes, StructureRequest, Structures, ViewArgs,
+    WORKLOADS, WorkloadRequest, each_kind, guide, left_out, recorded, scene_files, seconds, structures_at, with_twin,
+};
+use crate::scene::{Scene, WorkloadKind};
+use crate::study::case::TESTS;
+use crate::study::{Check, Plan, PlannedScene, Settings};
+
+#[derive(Clone, Debug, clap::Args)]
+pub struct CompareArgs {
+    #[command(flatten)]
+    pub scenes: Scenes,
+    #[command(flatten)]
+    pub from: ViewArgs,
+    #[command(flatten)]
+    pub structures: Structures,
+    /// A program that runs as a structure and times itself, with its arguments; may be repeated. FORMAT.md of the ray
+    /// files says what it reads and writes
+    #[arg(long, value_name = "COMMAND")]
+    pub runner: Vec<String>,
+    /// Seconds that such a program may take for an answer, a build among them
+    #[arg(long, value_name = "SECONDS", requires = "runner", default_value = "120", value_parser = seconds)]
+    pub runner_limit: f64,
+    /// The structure that speeds are related to; measured even if it is not among those named [default: median-kd and
+    /// the better obvhs BVH; without them the first one]
+    #[arg(long, value_name = "NAME[:key=value,..]")]
+    pub reference: Option<String>,
+    /// A workload; may be repeated [default: primary, shadow, diffuse, random]
+    #[arg(long, short, value_name = "KIND")]
+    pub workload: Vec<WorkloadKind>,
+    /// Rays of a workload that are timed, at most, in whole tiles of the scene's picture; or a file of rays
+    #[arg(long, value_name = "N|all|F.rays", default_value = "all")]
+    pub rays: RaySource,
+    #[command(flatten)]
+    pub measuring: Measuring<4, 1, 2>,
+    /// A coarse answer within seconds: up to three epochs of few rays, without brute-force unless it is named, and no
+    /// further epoch that would take a scene beyond 4 s
+    #[arg(long, conflicts_with_all = ["epochs", "runs", "budget"])]
+    pub quick: bool,
+    /// Seconds that a build may take, or none [default: 60 and 30 more a million triangles; 10 and 10 with --quick; none
+    /// with --budget none]
+    #[arg(long, value_name = "SECONDS|none", value_parser = BuildLimit::parse)]
+    pub build_limit: Option<BuildLimit>,
+    /// Print all columns: builds, memory, the shape of the trees, tests, steps, checks, ratios to both references, and
+    /// after how many rays a build pays off
+    #[arg(long)]
+    pub wide: bool,
+}
+
+/// What a build may take.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum BuildLimit {
+    Seconds(f64),
+    None,
+}
+
+impl BuildLimit {
+    fn parse(text: &str) -> Result<Self, String> {
+        if text == "none" { Ok(Self::None) } else { Ok(Self::Seconds(seconds(text)?)) }
+    }
+}
+
+/// Of a quick run: its epochs and rays, what all epochs of a scene may take, the samples of one of them, and the
+/// triangle tests and the time of all checks together. These are totals, however many structures there are.
+const QUICK_EPOCHS: u16 = 3;
+const QUICK_RAYS: usize = 1 << 14;
+const QUICK: Duration = Duration::from_secs(4);
+const QUICK_SAMPLES_NS: u64 = 250_000_000;
+const QUICK_CHECKS: usize = 1 << 28;
+const QUICK_CHECKS_NS: u64 = 2_000_000_000;
+
+/// Where pairs are compared each on its own rays, a structure that takes more than so many times as long as the median
+/// one is timed on fewer: its ratios hardly gain from more of them, and the run would be about it alone.
+pub const SLOWEST: f64 = 4.0;
+
+/// The structures that are compared beside one of each name where none is named: for users who have slices of rays.
+const PACKETS: &str = "sah-hybrid:batch=packets";
+
+impl CompareArgs {
+    /// The structures, the reference among them.
+    fn chosen(&self, registry: &Registry) -> anyhow::Result<Vec<StructureRequest>> {
+        let mut structures = self.structures.chosen(registry, &[])?;
+        if let Some(packets) = registry.choose(PACKETS).ok().filter(|_| self.structures.structure.is_empty()) {
+            let place = structures.iter().position(|own| own.spec == "sah-hybrid").map_or(structures.len(), |at| at + 1);
+            structures.insert(place, (&packets).into());
+        }
+        let quality = self.structures.quality.as_deref();
+        for command in &self.runner {
+            let runner = StructureRequest::of_runner(command, self.runner_limit)?;
+            if let Some(other) = structures.iter().find(|other| other.spec == runner.spec) {
+                anyhow::ensure!(
+                    other == &runner,
+                    "--runner {command:?} and another one have one name, {}: call a file otherwise",
+                    runner.spec
+                );
+                continue;
+            }
+            structures.push(runner);
+        }
+        if let Some(spec) = &self.reference
+            && structures.iter().all(|own| own.spec != *spec)
+        {
+            let choice = structures_at(registry, std::slice::from_ref(spec), quality)?.remove(0);
+            structures.push((&choice).into());
+        }
+        Ok(each_once_by(structures, |one, other| one.spec == other.spec))
+    }
+
+    /// What is named, the reference among it.
+    fn named(&self) -> Structures {
+        let mut named = self.structures.clone();
+        named.structure.extend(self.reference.clone());
+        named
+    }
+
+    /// The scenes as they are seen, and their rays.
+    fn scenes(&self, registry: &Registry) -> anyhow::Result<(Vec<(String, Scene)>, WorkloadRequest)> {
+        let quick = self.quick.then_some(QUICK_RAYS);
+        if let Some((scene, file)) = recorded(registry, &self.rays, &self.scenes.scenes)? {
+            self.from.is_unasked()?;
+            anyhow::ensure!(self.workload.is_empty(), "the rays are those of the file: leave --workload out");
+            let path = self.rays.file().expect("they are those of a file").to_owned();
+            return Ok((vec![scene], WorkloadRequest::File { path, hash: file.workload.hash(), rays: quick }));
+        }
+        let seen = |(word, scene)| Ok((word, self.from.of(scene)?));
+        let scenes = self.scenes.read(registry, &[])?.into_iter().map(seen);
+        let rays = quick.or(Some(self.rays.count())).filter(|&rays| rays < usize::MAX);
+        let kinds = each_kind(&self.workload, &WORKLOADS);
+        Ok((scenes.collect::<anyhow::Result<_>>()?, WorkloadRequest::Scene { kinds, rays }))
+    }
+
+    /// What a build over so many triangles may take, seconds.
+    fn build_limit_s(&self, triangles: usize) -> Option<f64> {
+        let millions = triangles as f64 * 1e-6;
+        match self.build_limit {
+            Some(BuildLimit::Seconds(seconds)) => Some(seconds),
+            Some(BuildLimit::None) => None,
+            None if self.quick => Some(10.0 + 10.0 * millions),
+            None => self.measuring.budget.ns().map(|_| 60.0 + 30.0 * millions),
+        }
+    }
+
+    fn settings(&self, registry: &Registry, structures: &[StructureRequest], workloads: usize) -> anyhow::Result<Settings> {
+        let budget_ns = if self.quick { Some(QUICK_SAMPLES_NS) } else { self.measuring.budget.ns() };
+        let check = if self.quick {
+            let tests = structures.iter().map(|own| Ok(own.choose(registry)?.triangle_test()));
+            let tests: BTreeSet<&str> = tests.collect::<anyhow::Result<_>>()?;
+            Check::BruteForce {
+                tests: QUICK_CHECKS / (tests.len() * workloads).max(1),
+                limit_ns: Some(QUICK_CHECKS_NS),
+            }
+        } else {
+            Check::BruteForce { tests: TESTS, limit_ns: None }
+        };
+        Ok(Settings {
+            runs: self.measuring.runs.into(),
+            budget_ns,
+            slowest: Some(SLOWEST),
+            check,
+            build_limit_s: None,
+            whole_counts: vec![],
+            whole: false,
+            guide: guide(registry)?.label,
+            seed: self.measuring.seed,
+            threads: self.measuring.threads.into(),
+        })
+    }
+
+    /// Scene by scene, small ones first.
+    ///
+    /// # Errors
+    /// If the options name what is not there.
+    pub fn plan(&self, registry: &Registry) -> anyhow::Result<Plan> {
+        let mut structures = self.chosen(registry)?;
+        let named = self.named();
+        let (mut scenes, workloads) = self.scenes(registry)?;
+        scenes.sort_by_key(|(_, scene)| scene.mesh.len());
+        let is_bounded = self.measuring.budget.ns().is_some() && !self.quick;
+        let mut notes = vec![];
+        if !is_bounded && !named.names_brute_force() {
+            let before = structures.len();
+            structures.retain(|own| own.name() != BRUTE_FORCE);
+            if structures.len() < before && !self.quick {
+                notes.push(format!(
+                    "{BRUTE_FORCE} is left out, which would take hours for all rays: --structure {BRUTE_FORCE} runs it."
+                ));
+            }
+        }
+        let structures = with_twin(structures);
+        let settings = self.settings(registry, &structures, workloads.len())?;
+        let epochs = if self.quick { QUICK_EPOCHS } else { self.measuring.epochs };
+        let planned = |(word, scene): &(String, Scene)| {
+            let triangles = scene.mesh.len();
+            let fits = |own: &&StructureRequest| !named.leaves_out(own.name(), triangles);
+            PlannedScene {
+                request: SceneRequest::new(word, &self.from, scene),
+                structures: structures.iter().filter(fits).cloned().collect(),
+                settings: Settings { build_limit_s: self.build_limit_s(triangles), ..settings.clone() },
+                ..PlannedScene::new(&(word.clone(), scene.clone()), &[], &workloads, &settings, epochs.into())
+            }
+        };
+        let is_large = |scene: &&Scene| structures.iter().any(|own| named.leaves_out(own.name(), scene.mesh.len()));
+        notes.extend(scenes.iter().map(|(_, scene)| scene).filter(is_large).map(left_out));
+        let planned: Vec<PlannedScene> = scenes.iter().map(planned).collect();
+        let mut plan = Plan::by_epoch(NAME, &planned).by_scene().noting(scenes.iter().map(|(_, scene)| scene));
+        plan.inputs = scene_files(registry, &self.scenes.scenes);
+        plan.inputs.extend(self.rays.file().map(Into::into));
+        plan.notes.extend(notes);
+        plan.keep_journal = false;
+        if self.quick {
+            plan.limit = Some(QUICK);
+            plan.notes.push("Coarse: few rays, few checks and up to three epochs. Without --quick it is measured.".into());
+        }
+        Ok(plan)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::{Args as _, FromArgMatches as _};
+
+    use super::*;
+    use crate::request::ALL;
+    use crate::study::Effort;
+    use crate::study::compare::STUDY;
+
+    fn plan(words: &[&str]) -> Plan {
+        let command = CompareArgs::augment_args(clap::Command::new("compare"));
+        let matches = command.get_matches_from([&["compare"], words].concat());
+        CompareArgs::from_arg_matches(&matches).unwrap().plan(&Registry::builtin()).unwrap()
+    }
+
+    fn specs(words: &[&str]) -> Vec<String> {
+        plan(words).cases[0].structures.iter().map(|own| own.spec.clone()).collect()
+    }
+
+    #[test]
+    fn brute_force_is_in_a_quick_run_and_one_without_a_budget_where_it_is_named_alone() {
+        for bounds in [&["cube", "--quick"][..], &["cube", "--budget", "none"]] {
+            let has = |words: &[&str]| specs(&[bounds, words].concat()).contains(&BRUTE_FORCE.into());
+            assert!(!has(&[]) && !has(&["-s", ALL]) && !has(&["-s", "sah-kd"]));
+            assert!(has(&["-s", ALL, "-s", BRUTE_FORCE]) && has(&["-s", "sah-kd", "--reference", BRUTE_FORCE]));
+        }
+        assert!(specs(&["cube"]).contains(&BRUTE_FORCE.into()));
+    }
+
+    #[test]
+    fn packets_stand_beside_single_rays_where_no_structure_is_named() {
+        let all = specs(&["cube"]);
+        let at = all.iter().position(|spec| spec == "sah-hybrid").unwrap();
+        assert_eq!(all[at + 1], PACKETS);
+        assert!(!specs(&["cube", "-s", ALL]).contains(&PACKETS.into()));
+    }
+
+    #[test]
+    fn builds_have_a_limit_unless_all_rays_are_timed() {
+        let limit = |words: &[&str]| plan(&[&["cube", "-s", "sah-kd"], words].concat()).cases[0].settings.build_limit_s;
+        let seconds = |limit: Option<f64>| limit.map(|seconds| seconds as u64);
+        assert_eq!([limit(&[]), limit(&["--quick"])].map(seconds), [Some(60), Some(10)]);
+        assert_eq!([limit(&["--budget", "none"]), limit(&["--build-limit", "none"])], [None, None]);
+        assert_eq!(limit(&["--build-limit", "1.5"]), Some(1.5));
+    }
+
+    #[test]
+    fn study_all_compares_every_structure_with_right_answers_and_in_single_precision() {
+        let registry = Registry::builtin();
+        let matches = STUDY.matches(&STUDY.preset(Effort::Full, &["cube".into()])).unwrap();
+        let plan = (STUDY.plan)(&matches, &registry).unwrap();
+        let labels: Vec<&str> = plan.cases[0].structures.iter().map(|own| own.spec.as_str()).collect();
+        for name in registry.names() {
+            assert!(labels.contains(&name), "{name} is not among {labels:?}");
+        }
+        // With the twin.
+        assert_eq!(labels.len(), registry.names().len() + super::super::FULL.matches("-s ").count());
+    }
+}
