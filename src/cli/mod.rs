@@ -4,6 +4,7 @@
 
 mod all;
 mod completions;
+mod diff;
 #[cfg(test)]
 mod documented;
 pub(crate) mod exit_status;
@@ -101,7 +102,8 @@ impl<'a> Session<'a> {
 // The commands that are no study. No doc comment: clap would take it for what the whole command does.
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Hold two exported runs of `compare` against each other; those of two machines by their ratios to obvhs
+    /// Compare two runs (across machines: by their ratios to obvhs); with a threshold, a gate
+    Diff(diff::Args),
     /// Hold every structure against a reference, hit for hit
     Validate(validate::Args),
     /// Record, import and show files of rays; write rays with exact answers
@@ -246,6 +248,7 @@ fn dispatch(session: &Session, matches: &ArgMatches, global: &Global) -> anyhow:
         }
     }
     match Command::from_arg_matches(matches)? {
+        Command::Diff(args) => diff::run(&args, terminal),
         Command::Validate(args) => validate::run(registry, &args, terminal),
         Command::Rays(args) => rays::run(registry, &args, terminal),
         Command::HardAnswer(args) => validate::run_child(registry, &args),

@@ -33,6 +33,8 @@ pub enum Format {
     Decimals(u8),
     /// Of a share: times 100, three significant digits, and ` %`.
     Percent,
+    /// Of a change: times 100, one decimal, with its sign: `+1.5%`.
+    Change,
     /// Nanoseconds as `ns`, `us`, `ms` or `s`.
     Duration,
     /// As `B`, `KiB`, `MiB` or `GiB`.
@@ -70,6 +72,7 @@ impl Format {
             Self::Decimals(n) => format!("{x:.*}", usize::from(n)),
             Self::Percent if x == 0.0 => "0".into(),
             Self::Percent => format!("{} %", figures(x * 100.0)),
+            Self::Change => format!("{:+.1}%", x * 100.0),
             Self::Duration => duration(x),
             Self::Bytes => bytes(x as usize),
         }

@@ -1,7 +1,7 @@
 //! Runs a study: measures the cases that its journal lacks, one by one, and reports.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use clap::ArgMatches;
 

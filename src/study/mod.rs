@@ -7,6 +7,7 @@ pub mod case;
 pub mod claims;
 pub mod compare;
 pub mod dataset;
+pub mod diff;
 mod engine;
 pub mod epoch;
 mod epoch_medians;
@@ -132,8 +133,7 @@ impl Studies {
 
     /// Those of this crate. A new one is one more line.
     pub fn builtin() -> Self {
-        Self::empty()
-            .with(compare::STUDY)
+        Self::empty().with(compare::STUDY)
     }
 
     /// Adds a study.

@@ -23,7 +23,7 @@ use crate::report::words::each_once;
 use crate::report::{Block, Failure, Report, Table};
 pub use options::CompareArgs;
 pub use rank::ranks;
-pub use reference::Reference;
+pub use reference::{Reference, is_reference};
 pub use section::bias;
 
 const NAME: &str = "compare";
@@ -108,7 +108,8 @@ fn scene_warnings(scene: &SceneEpochs, provenance: &Provenance) -> Vec<String> {
     scene.epochs.iter().for_each(|epoch| epoch.environment.add_to(&mut conditions));
     let mut warnings = conditions.warnings();
     let structures = &scene.epochs[0].structures;
-    let pairs = structures.iter().enumerate().flat_map(|(place, own)| (0..own.rays.len()).map(move |kind| (place, kind)));
+    let pairs =
+        structures.iter().enumerate().flat_map(|(place, own)| (0..own.rays.len()).map(move |kind| (place, kind)));
     let all: Vec<Vec<f64>> = pairs.map(|(place, kind)| samples(scene, place, kind)).collect();
     let all: Vec<&[f64]> = all.iter().map(Vec::as_slice).filter(|samples| !samples.is_empty()).collect();
     warnings.extend(of_samples(&all));

@@ -7,8 +7,8 @@ use super::NAME;
 use crate::registry::Registry;
 use crate::report::words::each_once_by;
 use crate::request::{
-    BRUTE_FORCE, Measuring, RaySource, SceneRequest, Scenes, StructureRequest, Structures, ViewArgs,
-    WORKLOADS, WorkloadRequest, each_kind, guide, left_out, recorded, scene_files, seconds, structures_at, with_twin,
+    BRUTE_FORCE, Measuring, RaySource, SceneRequest, Scenes, StructureRequest, Structures, ViewArgs, WORKLOADS,
+    WorkloadRequest, each_kind, guide, left_out, recorded, scene_files, seconds, structures_at, with_twin,
 };
 use crate::scene::{Scene, WorkloadKind};
 use crate::study::case::TESTS;
@@ -89,7 +89,8 @@ impl CompareArgs {
     fn chosen(&self, registry: &Registry) -> anyhow::Result<Vec<StructureRequest>> {
         let mut structures = self.structures.chosen(registry, &[])?;
         if let Some(packets) = registry.choose(PACKETS).ok().filter(|_| self.structures.structure.is_empty()) {
-            let place = structures.iter().position(|own| own.spec == "sah-hybrid").map_or(structures.len(), |at| at + 1);
+            let place =
+                structures.iter().position(|own| own.spec == "sah-hybrid").map_or(structures.len(), |at| at + 1);
             structures.insert(place, (&packets).into());
         }
         let quality = self.structures.quality.as_deref();
@@ -148,7 +149,12 @@ impl CompareArgs {
         }
     }
 
-    fn settings(&self, registry: &Registry, structures: &[StructureRequest], workloads: usize) -> anyhow::Result<Settings> {
+    fn settings(
+        &self,
+        registry: &Registry,
+        structures: &[StructureRequest],
+        workloads: usize,
+    ) -> anyhow::Result<Settings> {
         let budget_ns = if self.quick { Some(QUICK_SAMPLES_NS) } else { self.measuring.budget.ns() };
         let check = if self.quick {
             let tests = structures.iter().map(|own| Ok(own.choose(registry)?.triangle_test()));
@@ -217,7 +223,8 @@ impl CompareArgs {
         plan.keep_journal = false;
         if self.quick {
             plan.limit = Some(QUICK);
-            plan.notes.push("Coarse: few rays, few checks and up to three epochs. Without --quick it is measured.".into());
+            plan.notes
+                .push("Coarse: few rays, few checks and up to three epochs. Without --quick it is measured.".into());
         }
         Ok(plan)
     }

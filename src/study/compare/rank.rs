@@ -86,8 +86,7 @@ pub fn ranks(all: &[Measurement], reference: Option<&Reference>) -> Option<Ranks
             bytes_per_triangle: middle(&|r| Some(r.shape.bytes as f64 / r.triangles.max(1) as f64)),
         }
     };
-    let is_precise =
-        |label: &str| all.iter().any(|r| r.label == label && PRECISE.contains(&r.triangle_test.as_str()));
+    let is_precise = |label: &str| all.iter().any(|r| r.label == label && PRECISE.contains(&r.triangle_test.as_str()));
     let rank = |precise: bool| {
         let mut rows: Vec<Ranked> =
             ranked.iter().filter(|label| is_precise(label) == precise).map(|label| of(label)).collect();
@@ -275,5 +274,3 @@ impl Ranks {
         ))
     }
 }
-
-

@@ -11,7 +11,7 @@ use crate::report::plot::{Bar, BarGroup, Bars, Chart};
 use crate::report::words::{distinct, each_once, interval, listed, slug};
 use crate::report::{Art, Block, Cell, Figure, Finding, Table};
 use crate::request::{BRUTE_FORCE, REPORT_TREE, SAH_TREE, known_defect};
-use crate::scene::Builtin;
+use crate::scene::{BUILTIN, Builtin};
 use crate::study::kendall::{kendall, mean};
 use crate::study::measurement::{Measurement, Refused, trace_noise};
 
@@ -40,11 +40,14 @@ pub fn checked(all: &[Measurement]) -> Option<Finding> {
 }
 
 /// Kendall's tau of SAH cost and time over couples of different families, the mean of the built-in scenes: nothing was
-/// expected of others.
+/// expected of others. Nothing where one of them is missing.
 pub fn tau(all: &[Measurement]) -> Option<Finding> {
-    let is_asked = |r: &&Measurement| {
-        r.structure != BRUTE_FORCE && r.trace_ns.is_some() && Builtin::find(&r.scene).is_ok()
-    };
+    let has = |name: &str| all.iter().any(|r| r.scene == name);
+    if !BUILTIN.iter().all(|builtin| has(builtin.name)) {
+        return None;
+    }
+    let is_asked =
+        |r: &&Measurement| r.structure != BRUTE_FORCE && r.trace_ns.is_some() && Builtin::find(&r.scene).is_ok();
     let timed: Vec<&Measurement> = all.iter().filter(is_asked).collect();
     // Trees of a scene are the same whatever the rays, and a stand-in is built after the real mesh: taus of one scene are
     // not independent, and count as their mean.
@@ -52,9 +55,8 @@ pub fn tau(all: &[Measurement]) -> Option<Finding> {
     for (hash, workload) in each_once(timed.iter().map(|r| (&r.scene_hash, &r.workload))) {
         let group: Vec<&&Measurement> =
             timed.iter().filter(|r| (&r.scene_hash, &r.workload) == (hash, workload)).collect();
-        let known = group.iter().filter_map(|r| {
-            Some((family(&r.structure), (r.shape.sah_cost?, r.trace_ns? / r.rays as f64)))
-        });
+        let known =
+            group.iter().filter_map(|r| Some((family(&r.structure), (r.shape.sah_cost?, r.trace_ns? / r.rays as f64))));
         let known: Vec<(&str, (f64, f64))> = known.collect();
         let pairs: Vec<(f64, f64)> = known.iter().map(|(_, pair)| *pair).collect();
         if let Some(tau) = kendall(&pairs, |i, j| known[i].0 != known[j].0) {

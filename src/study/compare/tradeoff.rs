@@ -45,7 +45,8 @@ fn cases(all: &[Measurement], reference: Option<&Reference>) -> Vec<ScatterCase>
     let noise = trace_noise(all);
     // All on the same rays: as many as the slowest is timed on.
     let drawn = |workload: &str| -> Vec<&Measurement> {
-        let is_drawn = |r: &&Measurement| r.workload == workload && r.structure != BRUTE_FORCE && r.mrays_per_s.is_some();
+        let is_drawn =
+            |r: &&Measurement| r.workload == workload && r.structure != BRUTE_FORCE && r.mrays_per_s.is_some();
         all.iter().filter(is_drawn).collect()
     };
     let point = |record: &Measurement| {

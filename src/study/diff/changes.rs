@@ -3,20 +3,19 @@
 use super::relative::{references, relative, weighted};
 use super::{Change, Finding};
 use crate::measure::{AaNoise, Estimate, Rerun, cut_to_shared_epochs, epoch_values};
-use crate::report::Record;
 use crate::report::words::each_once;
-use crate::study::compare::twins;
+use crate::study::measurement::{Measurement, trace_noise};
 
 /// Of the structures, of which each is looked at `looks` times, and of their cells.
 pub(super) fn all(
-    old: &[Record],
-    new: &[Record],
-    pairs: &[(&Record, &Record)],
+    old: &[Measurement],
+    new: &[Measurement],
+    pairs: &[(&Measurement, &Measurement)],
     threshold: Option<f64>,
     looks: usize,
 ) -> (Vec<Change>, Vec<Change>) {
     let references = references(pairs);
-    let noises = [old, new].map(twins);
+    let noises = [old, new].map(trace_noise);
     let (mut structures, mut cells): (Vec<Change>, Vec<Change>) = (vec![], vec![]);
     let labels = each_once(pairs.iter().map(|(old, _)| old.label.as_str()));
     let labels: Vec<&str> = labels.into_iter().filter(|label| !references.iter().any(|one| one == label)).collect();
@@ -35,7 +34,7 @@ pub(super) fn all(
             });
             cells.push(Change {
                 structure: label.into(),
-                scene: Some(before.scene.clone()),
+                scene: Some(before.scene_title()),
                 workload: Some(before.workload.clone()),
                 cells: usize::from(time.is_some()),
                 time,

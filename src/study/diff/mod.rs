@@ -1,5 +1,5 @@
 //! What changed between two runs of the same comparison: speed, answers, and whether a ratio of one is found again in
-//! the other. Pure functions of records.
+//! the other. Pure functions of datasets.
 //!
 //! Two runs of different moments on a shared machine cannot be compared by their times. They are compared by their
 //! ratios to references: the structures of obvhs, whose code is the same in both runs and which are measured in the
@@ -22,14 +22,27 @@ mod unlike;
 
 use serde::Serialize;
 
-use super::compare::twins;
-use super::reference_structures::{REPORT_TREE, documented_defect, is_reference};
-use crate::measure::{AaNoise, Estimate, Rerun, epoch_values};
-use crate::report::Record;
+use super::compare::is_reference;
+use super::measurement::{Measurement, measurements, trace_noise};
+use super::{Dataset, Status};
+use crate::measure::{AaNoise, Estimate, Provenance, Rerun, epoch_values};
+use crate::request::{REPORT_TREE, known_defect};
 
-pub use relative::{RelativeTime, relative_times};
 pub use table::tables;
-pub use unlike::{Machines, Unlike, unlike};
+pub use unlike::{Unlike, settings, unlike};
+
+/// One of the two runs.
+#[derive(Clone, Debug)]
+pub struct Side {
+    pub provenance: Provenance,
+    pub all: Vec<Measurement>,
+}
+
+impl Side {
+    pub fn new(dataset: &Dataset) -> Self {
+        Self { provenance: dataset.provenance.clone(), all: measurements(dataset) }
+    }
+}
 
 /// Two runs side by side.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -46,6 +59,8 @@ pub struct Comparison {
     pub cells: Vec<Change>,
     /// Answers that were right, or others, in the old run.
     pub wrong: Vec<Wrong>,
+    /// Settings that differ.
+    pub settings: Vec<String>,
     /// Processor and lanes of the old and of the new run, where they are not the same.
     pub machines: Option<[String; 2]>,
     /// Cases that only one of the runs has.
@@ -111,9 +126,11 @@ impl Comparison {
     /// Compares two runs that are not [unlike]. With a threshold in per cent, regressions of at least as much are
     /// looked for. `looks` is how often the new run is compared at most while it goes on: every look is a chance to be
     /// wrong.
-    pub fn new(old: &[Record], new: &[Record], threshold_percent: Option<f64>, looks: usize) -> Self {
+    pub fn new(old: &Side, new: &Side, threshold_percent: Option<f64>, looks: usize) -> Self {
+        let machines = other_machine(&old.provenance, &new.provenance);
+        let (old, new) = (&old.all[..], &new.all[..]);
         let pairs = pairs(old, new);
-        let only = |own: &[Record], other: &[Record]| -> Vec<String> {
+        let only = |own: &[Measurement], other: &[Measurement]| -> Vec<String> {
             own.iter().filter(|record| counterpart(record, other).is_none()).map(case).collect()
         };
         let threshold = threshold_percent.map(|percent| libm::log1p(percent / 100.0));
@@ -125,46 +142,60 @@ impl Comparison {
             structures,
             cells,
             wrong: pairs.iter().filter_map(|(old, new)| wrong(old, new)).collect(),
-            machines: pairs.iter().find_map(|(old, new)| other_machine(old, new)),
+            settings: vec![],
+            machines,
             only_old: only(old, new),
             only_new: only(new, old),
             reproduced: reproduced(old, new),
         }
     }
 
-    /// Whether a structure regressed.
-    pub fn has(&self, finding: Finding) -> bool {
+    fn has(&self, finding: Finding) -> bool {
         self.structures.iter().any(|change| change.finding == finding)
+    }
+
+    /// What it comes to: wrong answers weigh more than missing ones, those more than slow ones.
+    pub fn status(&self) -> Status {
+        let is_gate = self.threshold_percent.is_some();
+        match () {
+            () if !self.wrong.is_empty() => Status::Wrong,
+            () if is_gate && !self.only_old.is_empty() => Status::Refused,
+            () if self.has(Finding::Regression) => Status::Regression,
+            () if self.has(Finding::Undecided) => Status::Undecided,
+            () if is_gate && self.has(Finding::Unknown) => Status::Undecided,
+            () => Status::Right,
+        }
     }
 }
 
-fn pairs<'a>(old: &'a [Record], new: &'a [Record]) -> Vec<(&'a Record, &'a Record)> {
+fn pairs<'a>(old: &'a [Measurement], new: &'a [Measurement]) -> Vec<(&'a Measurement, &'a Measurement)> {
     old.iter().filter_map(|record| Some((record, counterpart(record, new)?))).collect()
 }
 
-fn counterpart<'a>(record: &Record, others: &'a [Record]) -> Option<&'a Record> {
-    let same = |other: &&Record| {
-        (&other.scene, &other.workload, &other.label) == (&record.scene, &record.workload, &record.label)
+fn counterpart<'a>(record: &Measurement, others: &'a [Measurement]) -> Option<&'a Measurement> {
+    let same = |other: &&Measurement| {
+        (&other.scene, other.stand_in, &other.workload, &other.label, &other.role)
+            == (&record.scene, record.stand_in, &record.workload, &record.label, &record.role)
     };
     others.iter().find(same)
 }
 
-fn other_machine(old: &Record, new: &Record) -> Option<[String; 2]> {
-    let machine = |record: &Record| format!("{} ({})", record.provenance.cpu, record.provenance.simd);
+fn other_machine(old: &Provenance, new: &Provenance) -> Option<[String; 2]> {
+    let machine = |own: &Provenance| format!("{} ({})", own.cpu, own.simd);
     let machines = [old, new].map(machine);
     (machines[0] != machines[1]).then_some(machines)
 }
 
-fn case(record: &Record) -> String {
-    format!("{} on the {} rays of {}", record.label, record.workload, record.scene)
+fn case(record: &Measurement) -> String {
+    format!("{} on the {} rays of {}", record.label, record.workload, record.scene_title())
 }
 
-fn wrong(old: &Record, new: &Record) -> Option<Wrong> {
-    let rate = |r: &Record| r.structure_errors as f64 / r.checked_rays.max(1) as f64;
+fn wrong(old: &Measurement, new: &Measurement) -> Option<Wrong> {
+    let rate = |r: &Measurement| r.structure_errors as f64 / r.checked_rays.max(1) as f64;
     let (errors, checked) = (new.structure_errors, new.checked_rays);
     // How many rays are checked depends on time: what an error was before is no new one if its rate is the same, and
     // what a baseline is documented to get wrong may be met at any time.
-    let known = documented_defect(&new.structure).is_some();
+    let known = known_defect(&new.structure).is_some();
     let more = errors > 0 && !known && (old.structure_errors == 0 || rate(new) > 2.0 * rate(old));
     let what = if more {
         format!("{errors} of {checked} answers are wrong, {} of {} were", old.structure_errors, old.checked_rays)
@@ -180,16 +211,16 @@ fn wrong(old: &Record, new: &Record) -> Option<Wrong> {
 
 /// Holds the ratios of each run against the intervals of the other: of every structure to the report's tree and to the
 /// structures of obvhs, cell by cell, as tables print them.
-fn reproduced(old: &[Record], new: &[Record]) -> Reproduced {
-    let noises = [old, new].map(twins);
+fn reproduced(old: &[Measurement], new: &[Measurement]) -> Reproduced {
+    let noises = [old, new].map(trace_noise);
     let mut found = Reproduced::default();
     for (own, own_new) in pairs(old, new) {
-        let to = |base: &&Record| {
+        let to = |base: &&Measurement| {
             let same = base.scene == own.scene && base.workload == own.workload && base.label != own.label;
             same && (base.label == REPORT_TREE || is_reference(base))
         };
         for base in old.iter().filter(to) {
-            let values = |own: &Record, base: &Record| epoch_values(&[own.speed_against(base)?]);
+            let values = |own: &Measurement, base: &Measurement| epoch_values(&[own.speed_against(base)?]);
             let values = || Some([values(own, base)?, values(own_new, counterpart(base, new)?)?]);
             let Some([a, b]) = values() else { continue };
             let [noise_a, noise_b] = noises.each_ref().map(AaNoise::of_ratio);

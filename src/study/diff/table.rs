@@ -2,8 +2,8 @@
 
 use super::{Change, Comparison, Finding, Reproduced};
 use crate::report::number::{figures, plural};
-use crate::report::words::{each_once, explained, written};
-use crate::report::{Cell, Table, Tone};
+use crate::report::words::{each_once, explained, listed};
+use crate::report::{Cell, Format, Table, Tone};
 
 /// One table of the structures, one of their cells.
 pub fn tables(comparison: &Comparison) -> Vec<Table> {
@@ -15,14 +15,8 @@ fn structures(comparison: &Comparison) -> Table {
         let own = comparison.cells.iter().filter(|cell| cell.structure == change.structure);
         let timed = own.filter_map(|cell| Some((cell, cell.time?.estimate)));
         let worst = timed.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(cell, _)| cell);
-        let worst = worst.map_or(String::new(), |cell| format!("{} {}", percent(cell), place(cell)));
-        vec![
-            change.structure.as_str().into(),
-            percent(change).into(),
-            word(change),
-            change.cells.to_string().into(),
-            worst.into(),
-        ]
+        let worst = worst.map_or(Cell::empty(), |cell| percent(cell).noted(place(cell)));
+        vec![Cell::from(&change.structure), percent(change), word(change), change.cells.into(), worst]
     });
     let by = if comparison.references.is_empty() {
         "Times are compared as they are, for the runs have no structure of obvhs over its own triangle test in common: a machine that was slower counts as a change."
@@ -44,6 +38,9 @@ fn structures(comparison: &Comparison) -> Table {
         let two = if cpu(old) == cpu(new) { "Two sets of lanes" } else { "Two machines" };
         format!("{two}, {old} and {new}: what has changed may be due to them and not to the code.")
     }));
+    if !comparison.settings.is_empty() {
+        notes.push(format!("Settings differ: {}.", listed(&comparison.settings)));
+    }
     notes.push(format!(
         "Each interval allows for {} judged together{}: in 95 % of the cases all of them hold.",
         plural(comparison.structures.len(), "structure"),
@@ -67,9 +64,9 @@ fn cells(comparison: &Comparison) -> Table {
     let rows = places.iter().map(|row| {
         let of = |change: &Change| {
             let own = |cell: &&Change| cell.structure == change.structure && place(cell) == *row;
-            comparison.cells.iter().find(own).map_or(Cell::blank(), |cell| {
+            comparison.cells.iter().find(own).map_or(Cell::empty(), |cell| {
                 let tone = if cell.finding == Finding::Regression { Tone::Wrong } else { Tone::Plain };
-                Cell::from(percent(cell)).with(tone)
+                percent(cell).with(tone)
             })
         };
         let mut cells: Vec<Cell> = vec![row.as_str().into()];
@@ -87,8 +84,7 @@ fn cells(comparison: &Comparison) -> Table {
             share(unchanged)
         )
     });
-    let (rows, notes) = (rows.collect(), reproduced.into_iter().collect());
-    Table { title: "Change of time, cell by cell".into(), columns, rows, notes }
+    Table::new("Change of time, cell by cell", columns, rows).noted(reproduced.into_iter().collect())
 }
 
 fn place(cell: &Change) -> String {
@@ -96,9 +92,8 @@ fn place(cell: &Change) -> String {
     format!("{} {}", text(&cell.scene), text(&cell.workload))
 }
 
-fn percent(change: &Change) -> String {
-    let of = |ratio: f64| format!("{:+.1}%", (ratio - 1.0) * 100.0);
-    change.time.map_or(String::new(), |time| written(time, of))
+fn percent(change: &Change) -> Cell {
+    change.time.map(|time| Cell::estimate(time.map(|ratio| ratio - 1.0), Format::Change)).unwrap_or_default()
 }
 
 fn word(change: &Change) -> Cell {

@@ -42,7 +42,9 @@ impl BuildWatch {
     /// Builds the structure of this number.
     pub fn during<R>(&self, structure: usize, build: impl FnOnce() -> R) -> R {
         // The thread listens as long as this lives.
-        let tell = |what| self.sender.iter().for_each(|sender| drop(sender.send(what)));
+        let tell = |what| {
+            let _ = self.sender.as_ref().map(|sender| sender.send(what));
+        };
         tell(Some(structure));
         let built = build();
         tell(None);
