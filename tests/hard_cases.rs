@@ -4,7 +4,7 @@
 use rayon::prelude::*;
 use sahara::measure::SystemClock;
 use sahara::registry::{Choice, Registry};
-use sahara::study::documented_defect;
+use sahara::request::known_defect;
 use sahara::validate::hard_cases::{Content, Court, HardCase, Rank, Score, ask, catalogue};
 
 /// Rays of a case.
@@ -25,7 +25,7 @@ fn ours() -> Vec<Choice> {
     let mut choices = Registry::builtin().all();
     choices.retain(|choice| {
         let repeats = SAME_WALK.contains(&choice.entry.name.as_str()) && !FEW_TESTS.contains(&choice.triangle_test());
-        !repeats && documented_defect(&choice.entry.name).is_none()
+        !repeats && known_defect(&choice.entry.name).is_none()
     });
     choices
 }

@@ -86,7 +86,7 @@ mod tests {
 
     #[test]
     fn an_error_that_is_a_wrong_answer_has_the_status_of_wrong_answers() {
-        let told = |wrong_answer| StudyError::Told { sentence: "why".into(), of_one_scene: true, wrong_answer };
+        let told = |wrong_answer| StudyError::Reported { sentence: "why".into(), of_one_scene: true, wrong_answer };
         assert_eq!([true, false].map(|wrong| of_error(&told(wrong).into())), [2, 1]);
         assert_eq!(of_error(&anyhow::anyhow!("no such file")), 1);
     }

@@ -80,6 +80,25 @@ pub enum Check {
 /// Triangle tests that brute force may make for a workload: two tenths of a second, about.
 pub const TESTS: usize = 1 << 27;
 
+impl Settings {
+    /// One sample of all rays on one thread, checked against brute force, with secondary rays that start where the
+    /// structure of this spec finds surfaces.
+    pub fn for_guide(guide: impl Into<String>) -> Self {
+        Self {
+            runs: 1,
+            budget_ns: None,
+            slowest: None,
+            check: Check::default(),
+            build_limit_s: None,
+            whole_counts: vec![],
+            whole: false,
+            guide: guide.into(),
+            seed: 1,
+            threads: 1,
+        }
+    }
+}
+
 impl Default for Check {
     fn default() -> Self {
         Self::BruteForce { tests: TESTS, limit_ns: None }
@@ -185,18 +204,7 @@ pub(crate) mod tests {
             labels: BTreeMap::new(),
             structures: structures.iter().map(|&spec| StructureRequest::new(spec, "")).collect(),
             workloads: WorkloadRequest::Scene { kinds: vec![crate::scene::WorkloadKind::Primary], rays: None },
-            settings: Settings {
-                runs: 3,
-                budget_ns: Some(1_000_000_000),
-                slowest: None,
-                check: Check::default(),
-                build_limit_s: None,
-                whole_counts: vec![],
-                whole: false,
-                guide: "sah-kd".into(),
-                seed: 1,
-                threads: 1,
-            },
+            settings: Settings { runs: 3, budget_ns: Some(1_000_000_000), ..Settings::for_guide("sah-kd") },
             epoch,
             epochs: 2,
             command: "sahara compare".into(),

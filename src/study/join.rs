@@ -202,3 +202,6 @@ fn keep_common_parts(epochs: &mut [Epoch]) {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

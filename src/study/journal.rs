@@ -141,3 +141,6 @@ pub fn files(folder: &Path) -> Result<Vec<PathBuf>, JournalError> {
     found.sort();
     Ok(found)
 }
+
+#[cfg(test)]
+mod tests;

@@ -23,6 +23,8 @@ pub mod process;
 mod screen;
 mod stage;
 mod status;
+#[cfg(test)]
+mod tests;
 mod whole_times;
 
 use clap::{ArgMatches, Command};

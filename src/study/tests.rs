@@ -1,110 +1,124 @@
-//! What becomes of a run in which scenes fail.
+//! What becomes of a run in which scenes fail, is interrupted, or lacks an epoch.
 
 use std::io;
 
-use super::epoch::tests::example;
+use clap::Command;
+
+use super::case::tests::example as case;
+use super::epoch::tests::example as epoch;
 use super::*;
-use crate::measure::Threads;
+use crate::measure::Provenance;
+use crate::report::{Block, Report, Table};
 
-/// Two epochs of the scenes a, b and c. With `FAILS` what measures the second of b dies, and that of c has other answers.
-pub struct Tiny<const FAILS: bool>;
+/// Three scenes of two epochs, with a table each and one of all.
+const TINY: Study = Study {
+    name: "tiny",
+    question: "What becomes of a run in which scenes fail?",
+    presets: Presets { full: "", quick: "" },
+    options: || Command::new("tiny"),
+    plan: |_, _| Ok(plan()),
+    report: |dataset, _| {
+        let names: Vec<&str> = dataset.scenes().iter().map(|scene| scene.case.scene.name.as_str()).collect();
+        let titled = |title: String| Table { title, ..Table::default() };
+        let mut blocks: Vec<Block> =
+            names.iter().map(|name| Block::Table(titled((*name).into()).of_one_scene())).collect();
+        blocks.push(Block::Table(titled(format!("mean of {}", names.join(" ")))));
+        Report { blocks, failures: dataset.failures(), ..Report::default() }
+    },
+};
 
-#[derive(clap::Args)]
-pub struct TinyArgs {}
-
-impl<const FAILS: bool> Study for Tiny<FAILS> {
-    const NAME: &'static str = if FAILS { "failing" } else { "right" };
-    const QUESTION: &'static str = "What becomes of a run in which scenes fail?";
-    const SCENE_BY_SCENE: bool = true;
-
-    type Args = TinyArgs;
-    type Case = Epoch;
-    type Answer = Vec<Epoch>;
-
-    fn plan(_: &TinyArgs, _: &Registry) -> anyhow::Result<Plan<Epoch>> {
-        let threads = Threads::new(1).map_err(anyhow::Error::msg)?;
-        let measure: Measure<Epoch> = Box::new(|case, _, _| {
-            let mut epoch = example(&case.title, 10, case.epoch, &[("x", 50, &[1000; 3])]);
-            match case.key.as_str() {
-                "b 1" if FAILS => return Err(StudyError::Process { key: case.key.clone(), cause: "it died".into() }),
-                "c 1" if FAILS => epoch.structures[0].rays[0].checksum = 2,
-                _ => {}
-            }
-            Ok(epoch)
-        });
-        let scenes = ["a", "b", "c"].map(|name| (name.to_owned(), format!("{name} 0")));
-        let mut plan = Plan::of_scenes(&serde_json::Map::new(), threads, scenes, measure);
-        let again = |case: &Planned| Planned { key: format!("{} 1", case.title), epoch: 1, ..case.clone() };
-        let second: Vec<Planned> = plan.cases.iter().map(again).collect();
-        plan.cases.extend(second);
-        Ok(plan)
-    }
-
-    fn answer(cases: &[Epoch], _: &Context<Self>) -> Vec<Epoch> {
-        cases.to_vec()
-    }
-
-    fn tables(answer: &Vec<Epoch>) -> Vec<Table> {
-        epoch::scenes(answer).into_iter().map(|scene| titled(scene[0].scene.clone())).collect()
-    }
-
-    fn summary(answer: &Vec<Epoch>) -> Vec<Table> {
-        let names: Vec<&str> = epoch::scenes(answer).into_iter().map(|scene| scene[0].scene.as_str()).collect();
-        vec![titled(format!("mean of {}", names.join(" ")))]
-    }
-
-    fn data(_: &Vec<Epoch>) -> Vec<Data> {
-        vec![]
-    }
+fn plan() -> Plan {
+    let cases = ["a", "b", "c"].iter().flat_map(|scene| [0, 1].map(|epoch| (scene, epoch)));
+    Plan { cases: cases.map(|(scene, epoch)| case(scene, epoch, &["x"])).collect(), ..Plan::default() }
 }
 
-fn titled(title: String) -> Table {
-    Table { title, ..Table::default() }
+/// Writes what a process would have measured into the journal of the study: all but `without`.
+fn measured(folder: &std::path::Path, without: &[(&str, usize)], change: fn(&Case, &mut Epoch)) {
+    let provenance = Provenance { process_per_epoch: false, ..Provenance::of(&crate::measure::Threads::unstarted(1)) };
+    let journal = journal::Journal::open(&folder.join("tiny"), provenance.clone(), false).unwrap();
+    for case in plan().cases {
+        if without.contains(&(case.scene.name.as_str(), case.epoch)) {
+            continue;
+        }
+        let mut epoch = epoch(&case.scene.name, 10, case.epoch, &[("x", 50, &[1000; 3])]);
+        change(&case, &mut epoch);
+        let file = journal::CaseFile::place(&journal.place(&case)).unwrap();
+        journal::CaseFile::write(&file, &provenance, &case, &epoch).unwrap();
+    }
 }
 
 /// The titles of what is shown while a run goes on.
 #[derive(Default)]
-struct Shown(Vec<String>);
+struct Shown {
+    titles: Vec<String>,
+    is_interrupted: bool,
+}
 
 impl Screen for Shown {
-    fn begin(&mut self, _: u64) {}
-    fn case(&mut self, _: &str, _: u64) {}
-    fn stage(&mut self, _: &Stage) {}
-    fn done(&mut self) {}
     fn is_interrupted(&self) -> bool {
-        false
+        self.is_interrupted
     }
-    fn is_watched(&self) -> bool {
-        false
-    }
-    fn warn(&mut self, _: &[String]) {}
+
     fn table(&mut self, table: &Table) -> io::Result<()> {
-        self.0.push(table.title.clone());
+        self.titles.push(table.title.clone());
         Ok(())
     }
-    fn end(&mut self) {}
+}
+
+fn outcome(folder: &std::path::Path, screen: &mut Shown) -> Outcome {
+    let registry = Registry::builtin();
+    let mut own = Run { registry: &registry, folder, keep_journal: Some(true), fresh: false, processes: None, screen };
+    run(&TINY, &TINY.defaults(), &plan(), &mut own).unwrap()
 }
 
 #[test]
-fn all_scenes_that_fail_are_told_and_cut_no_mean() {
-    let (registry, folder, mut screen) = (Registry::empty(), tempfile::tempdir().unwrap(), Shown::default());
-    let studies = Studies::empty().with::<Tiny<true>>();
-    let mut run = Run {
-        registry: &registry,
-        others: &|| Ok(Answers::default()),
-        folder: folder.path(),
-        is_kept: false,
-        fresh: false,
-        processes: None,
-        screen: &mut screen,
+fn scenes_that_fail_are_told_and_cut_no_mean() {
+    let folder = tempfile::tempdir().unwrap();
+    // The second epoch of c has other answers, and that of b cannot be measured: there is no such scene.
+    let other = |case: &Case, epoch: &mut Epoch| {
+        if (case.scene.name.as_str(), case.epoch) == ("c", 1) {
+            epoch.structures[0].rays[0].checksum = 2;
+        }
     };
-    let study = studies.find("failing").unwrap();
-    let measured = study.run(Chosen::Defaults, &mut run, &mut |_| Ok(())).unwrap();
-    let told: Vec<String> = measured.failures.iter().map(ToString::to_string).collect();
-    assert!(told.len() == 2 && told[0].contains("b 1: it died") && told[1].contains("rays of c: epoch 0"), "{told:?}");
-    assert_eq!(measured.outcome, Status::Wrong, "wrong answers weigh more than a process that died");
+    measured(folder.path(), &[("b", 1)], other);
+    let mut screen = Shown::default();
+    let outcome = outcome(folder.path(), &mut screen);
+    let told: Vec<String> = outcome.failures.iter().map(ToString::to_string).collect();
+    assert!(told.len() == 2 && told[0].contains("b epoch 1") && told[1].contains("rays of c: epoch 0"), "{told:?}");
+    assert_eq!(outcome.status, Status::Wrong, "wrong answers weigh more than what cannot be measured");
     // What there is of b is shown, and is in no mean.
-    assert_eq!(screen.0, ["a", "b (1 of 2 epochs)"]);
-    let titles: Vec<&str> = measured.to_print.iter().map(|table| table.title.as_str()).collect();
-    assert!(titles == ["mean of a"] && measured.answer.is_some(), "{titles:?}");
+    assert_eq!(screen.titles, ["a", "b (1 of 2 epochs)"]);
+    let titles: Vec<&str> = outcome.tables.iter().map(|table| table.title.as_str()).collect();
+    assert!(titles == ["mean of a"] && outcome.dataset.is_some(), "{titles:?}");
+}
+
+#[test]
+fn an_interrupted_run_says_how_far_it_came_and_is_no_dataset() {
+    let folder = tempfile::tempdir().unwrap();
+    measured(folder.path(), &[("b", 1), ("c", 0), ("c", 1)], |_, _| ());
+    let mut screen = Shown { is_interrupted: true, ..Shown::default() };
+    let stopped = outcome(folder.path(), &mut screen);
+    assert!(stopped.dataset.is_none() && stopped.status == Status::Interrupted);
+    assert!(stopped.foot.last().unwrap().starts_with("Interrupted: 3 of 6 cases are measured"), "{:?}", stopped.foot);
+
+    // One that finds everything measured reports it.
+    let folder = tempfile::tempdir().unwrap();
+    measured(folder.path(), &[], |_, _| ());
+    let mut screen = Shown::default();
+    let whole = outcome(folder.path(), &mut screen);
+    assert_eq!((whole.status, whole.dataset.unwrap().measured.len()), (Status::Right, 6));
+    assert_eq!(screen.titles, ["a", "b", "c"]);
+}
+
+#[test]
+fn presets_are_options_of_each_study() {
+    for study in Studies::builtin().iter() {
+        for effort in [Effort::Full, Effort::Quick] {
+            for scenes in [vec![], vec!["a.ply".into()]] {
+                let taken = study.matches(&study.preset(effort, &scenes));
+                assert!(taken.is_ok(), "{}: {:?}", study.name, taken.err());
+            }
+        }
+        study.defaults();
+    }
 }

@@ -1,6 +1,5 @@
 //! The command from outside: exit statuses, messages, files.
 
-mod baselines;
 pub mod command;
 mod commands;
 mod compare;

@@ -13,8 +13,8 @@ use sahara::exact::rational;
 use sahara::geometry::{Hit, Mesh, Ray};
 use sahara::oracle;
 use sahara::registry::Registry;
+use sahara::request::known_defect;
 use sahara::simd::Level;
-use sahara::study::documented_defect;
 use sahara::validate::{Reference, validate};
 
 /// The structures of this crate and their variants, over every triangle test that they are offered with; the eight-wide
@@ -171,7 +171,7 @@ impl Case {
 pub fn left_out() -> Vec<String> {
     let registry = Registry::builtin();
     let names: BTreeSet<&str> = registry.entries().iter().map(|entry| entry.name.as_str()).collect();
-    let ours = names.into_iter().filter(|name| documented_defect(name).is_none());
+    let ours = names.into_iter().filter(|name| known_defect(name).is_none());
     ours.filter(|name| VARIANTS.iter().all(|(known, _)| known != name)).map(String::from).collect()
 }
 

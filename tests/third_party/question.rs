@@ -1,80 +1,57 @@
-// A study of a crate of its own: how many triangles of a scene a structure refers to more than once.
+// A study of a crate of its own, with scenes of its own: how often a structure refers to a triangle of a staircase.
+use sahara::anyhow;
+use sahara::clap::{ArgMatches, Args, Command, FromArgMatches};
+use sahara::glam::Vec3;
 use sahara::registry::Registry;
-use sahara::report::Table;
-use sahara::scene::Scene;
-use sahara::serde::{Deserialize, Serialize};
-use sahara::study::args::{Scenes, Structures};
-use sahara::study::{Context, Data, Measure, Plan, Stage, Study, StudyError};
-use sahara::{anyhow, clap};
+use sahara::report::{Block, Report, Table};
+use sahara::request::{Rays, Structures, scene};
+use sahara::scene::{Model, Scene, WorkloadKind};
+use sahara::study::measurement::{Measurement, measurements};
+use sahara::study::{Dataset, Plan, PlannedScene, Presets, Settings, Study};
+
+/// `staircase:N`: so many steps, of which every second one is wide.
+pub fn staircase(parameters: &str) -> anyhow::Result<Scene> {
+    let steps: u32 = parameters.parse()?;
+    let corner = |i: u32, wide: f32, z: f32| Vec3::new(i as f32 * 0.1 + wide, i as f32 * 0.1, z);
+    let step = |i: u32| [corner(i, 0.0, 0.0), corner(i, (i % 2) as f32, 0.0) + Vec3::X * 0.1, corner(i, 0.0, 1.0)];
+    let positions = (0..steps).flat_map(step).collect();
+    let triangles = (0..steps).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
+    Ok(Scene::framed(&format!("staircase {steps}"), Model { positions, triangles, ..Model::default() })?)
+}
 
 /// The study.
-pub struct DuplicationStudy;
+pub const DUPLICATION: Study = Study {
+    name: "duplication",
+    question: "How often does a structure refer to a triangle?",
+    presets: Presets { full: "-s grid -s sah-bvh", quick: "-s grid --rays 512" },
+    options: || Rays::augment_args(Structures::augment_args(Command::new("duplication"))),
+    plan,
+    report,
+};
 
-/// Its options on the command line.
-#[derive(Clone, Debug, clap::Args)]
-pub struct DuplicationArgs {
-    #[command(flatten)]
-    scenes: Scenes,
-    #[command(flatten)]
-    structures: Structures,
+fn plan(matches: &ArgMatches, registry: &Registry) -> anyhow::Result<Plan> {
+    let structures = Structures::from_arg_matches(matches)?.chosen(registry, &["grid", "sah-kd"])?;
+    let workloads = Rays::from_arg_matches(matches)?.request(&[WorkloadKind::Primary]);
+    let settings = Settings::for_guide("sah-kd");
+    let planned = |steps: u32| {
+        let word = format!("staircase:{steps}");
+        let own = (word.clone(), scene(registry, &word)?);
+        Ok(PlannedScene::new(&own, &structures, &workloads, &settings, 1).labelled("steps", steps.to_string()))
+    };
+    let scenes = [4, 64].into_iter().map(planned).collect::<anyhow::Result<Vec<_>>>()?;
+    Ok(Plan::by_epoch("duplication", &scenes))
 }
 
-/// One structure on one scene.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[serde(crate = "sahara::serde")]
-pub struct Duplication {
-    pub scene: String,
-    pub structure: String,
-    pub references_per_triangle: f64,
-}
-
-impl Study for DuplicationStudy {
-    const NAME: &'static str = "duplication";
-    const QUESTION: &'static str = "How often does a structure refer to a triangle?";
-    const FULL: &'static str = "cube torus";
-    const QUICK: &'static str = "cube torus";
-
-    type Args = DuplicationArgs;
-    type Case = Vec<Duplication>;
-    type Answer = Vec<Duplication>;
-
-    fn plan(args: &DuplicationArgs, registry: &Registry) -> anyhow::Result<Plan<Self::Case>> {
-        let scenes = args.scenes.read(&["cube"])?;
-        let structures = args.structures.chosen(registry, &["grid", "sah-kd"])?;
-        let labels: Vec<String> = structures.iter().map(|choice| choice.label.clone()).collect();
-        let keys: Vec<(String, String)> = scenes.iter().map(|scene| (scene.name.clone(), scene.hash())).collect();
-        let of = move |scene: &Scene, progress: &mut dyn FnMut(Stage)| {
-            let mut found = vec![];
-            for choice in &structures {
-                progress(Stage::Build(&choice.label));
-                let accel = choice.build(&scene.mesh).map_err(|cause| StudyError::Build {
-                    structure: choice.label.clone(),
-                    scene: scene.name.clone(),
-                    cause,
-                })?;
-                let references_per_triangle = accel.shape().references as f64 / scene.mesh.len() as f64;
-                let (scene, structure) = (scene.name.clone(), choice.label.clone());
-                found.push(Duplication { scene, structure, references_per_triangle });
-            }
-            Ok(found)
-        };
-        let measure: Measure<Self::Case> = Box::new(move |case, _, progress| of(&scenes[case.scene], progress));
-        let settings = std::collections::BTreeMap::from([("structures", labels.join(" "))]);
-        let threads = sahara::measure::Threads::new(1).map_err(anyhow::Error::msg)?;
-        Ok(Plan::of_scenes(&settings, threads, keys, measure))
-    }
-
-    fn answer(cases: &[Self::Case], _: &Context<Self>) -> Self::Answer {
-        cases.concat()
-    }
-
-    fn tables(answer: &Self::Answer) -> Vec<Table> {
-        let row = |d: &Duplication| [d.scene.clone(), d.structure.clone(), format!("{:.2}", d.references_per_triangle)];
-        let rows = answer.iter().map(row).collect();
-        vec![Table::of_texts("References for each triangle", ["scene", "structure", "references"], rows)]
-    }
-
-    fn data(answer: &Self::Answer) -> Vec<Data> {
-        vec![Data::new(Self::NAME, answer)]
-    }
+fn report(dataset: &Dataset, _: &ArgMatches) -> Report {
+    let all = measurements(dataset);
+    let data = Table::of(
+        "References for each triangle",
+        all,
+        &[
+            ("scene", &|own: &Measurement| (&own.scene).into()),
+            ("structure", &|own| (&own.label).into()),
+            ("references_per_triangle", &|own| (own.shape.references as f64 / own.triangles as f64).into()),
+        ],
+    );
+    Report { blocks: vec![Block::Table(data.clone())], data, failures: dataset.failures(), ..Report::default() }
 }

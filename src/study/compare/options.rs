@@ -171,12 +171,9 @@ impl CompareArgs {
             budget_ns,
             slowest: Some(SLOWEST),
             check,
-            build_limit_s: None,
-            whole_counts: vec![],
-            whole: false,
-            guide: guide(registry)?.label,
             seed: self.measuring.seed,
             threads: self.measuring.threads.into(),
+            ..Settings::for_guide(guide(registry)?.label)
         })
     }
 

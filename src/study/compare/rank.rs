@@ -274,3 +274,82 @@ impl Ranks {
         ))
     }
 }
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::measurement::tests::example;
+
+    fn record(scene: &str, label: &str, ns: f64) -> Measurement {
+        let default = if label.starts_with("obvhs") { "native" } else { "exact" };
+        let test = label.split("test=").nth(1).map_or(default, |keys| keys.split(',').next().unwrap());
+        Measurement {
+            scene: scene.into(),
+            triangle_test: test.into(),
+            config: label.contains("batch=packets").into(),
+            mrays_per_s: Some(1e3 / ns),
+            tests_per_ray: Some(ns),
+            ..example(label, "primary", &[1.0, 1.01, 0.99, 1.02, 1.0].map(|f| f * ns), 5)
+        }
+    }
+
+    fn reference(all: &[Measurement]) -> Option<Reference> {
+        Reference::of(all, None).pop()
+    }
+
+    #[test]
+    fn structures_are_ranked_over_the_cells_that_all_of_them_have() {
+        let single = ["fast:test=moller-trumbore,batch=packets", "fast:test=moller-trumbore", "obvhs-bvh2"];
+        let times = [("slow", 4.0), ("fast", 1.0), (single[0], 0.4), (single[1], 0.8), (single[2], 2.0)];
+        let mut all: Vec<Measurement> = vec![];
+        for scene in ["a", "b", "c"] {
+            all.extend(times.map(|(label, ns)| record(scene, label, ns)));
+        }
+        // No time in one of three cells, and one that has hardly any.
+        all[0].mrays_per_s = None;
+        all.push(record("a", "rare", 1.0));
+        let ranks = ranks(&all, reference(&all).as_ref()).unwrap();
+        assert_eq!((ranks.cells.len(), ranks.all_cells), (2, 3));
+        let labels = |rank: &Rank| rank.rows.iter().map(|row| row.label.clone()).collect::<Vec<_>>();
+        assert_eq!(labels(&ranks.precise), ["fast", "slow"]);
+        assert_eq!(labels(&ranks.single), single);
+        assert_eq!(ranks.precise.unranked, [("rare".to_owned(), 1)]);
+        let speed = ranks.precise.rows[0].speed.unwrap();
+        assert!((speed.estimate - 2.0).abs() < 1e-9, "{speed:?}");
+        assert!((ranks.precise.rows[1].tests.unwrap() - 4.0).abs() < 1e-9);
+
+        let told: Vec<String> = ranks.findings(&all).into_iter().map(|finding| finding.sentence).collect();
+        assert!(
+            told[0].starts_with("Of 2 structures with right answers, fast is the fastest over 2 cells"),
+            "{told:?}"
+        );
+        assert!(told[0].contains("answers 2.00") && !told[0].contains("level"), "{told:?}");
+        // Of the same keys: packets of the one are not held against single rays of the other.
+        assert_eq!(ranks.findings(&all).last().and_then(|finding| finding.name.clone()).as_deref(), Some("fast"));
+        assert!(told[2].contains("exact") && told[2].contains("1.25"), "{told:?}");
+        // What errs somewhere is no right one, and the table says so.
+        let mut erring = all.clone();
+        erring.iter_mut().filter(|r| r.label == "fast" && r.scene == "c").for_each(|r| {
+            (r.mrays_per_s, r.structure_errors, r.checked_rays) = (None, 2, 9);
+        });
+        erring.push(record("b", "rare", 1.0));
+        let ranks = super::ranks(&erring, reference(&erring).as_ref()).unwrap();
+        let told = ranks.findings(&erring).remove(0).sentence;
+        assert!(!told.contains("fast is the fastest"), "{told}");
+        let notes = ranks.tables(&erring)[0].notes.concat();
+        assert!(notes.contains("fast gives wrong answers in 1 cell, which the means leave out for all."), "{notes}");
+        let columns = |all: &[Measurement]| -> Vec<Vec<String>> {
+            super::ranks(all, reference(all).as_ref())
+                .unwrap()
+                .tables(all)
+                .into_iter()
+                .map(|table| table.columns)
+                .collect()
+        };
+        let shown = ["structure", "x obvhs", "tests", "steps", "bytes a triangle"];
+        assert_eq!(columns(&all), [shown, shown]);
+        all.iter_mut().for_each(|record| record.branch_misses_per_ray = Some(0.5));
+        let shown = ["structure", "x obvhs", "tests", "steps", "branch misses", "bytes a triangle"];
+        assert_eq!(columns(&all), [shown, shown]);
+        assert!(super::ranks(&all[..1], reference(&all[..1]).as_ref()).is_none());
+    }
+}

@@ -191,3 +191,6 @@ fn speed(own: &Measurement, best: f64) -> Cell {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

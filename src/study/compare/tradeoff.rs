@@ -82,3 +82,43 @@ fn table(cases: &[ScatterCase]) -> Table {
     let rows = cases.iter().flat_map(|case| case.points.iter().map(move |point| row(case, point)));
     Table::new("", ["scene", "rays", "structure", "Mrays/s", "memory", "build"], rows)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::measure::Part;
+    use crate::study::measurement::tests::example;
+
+    #[test]
+    fn what_has_no_time_or_no_company_is_not_drawn() {
+        let record = |label: &str, workload: &str, speed: Option<f64>| Measurement {
+            rays: 125,
+            mrays_per_s: speed,
+            samples_ns: speed.map(|speed| 125.0 * 1e3 / speed).into_iter().collect(),
+            ..example(label, workload, &[], 1)
+        };
+        let all = vec![
+            record("brute-force", "primary", Some(0.01)),
+            record("sah-kd", "primary", Some(2.0)),
+            record("sah-bvh", "primary", Some(4.0)),
+            record("wrong", "primary", None),
+            record("sah-kd", "shadow", Some(2.0)),
+        ];
+        let figure = figure(std::slice::from_ref(&all), &[]).unwrap();
+        let Art::Chart(Chart::Scatter(Scatter { cases })) = &figure.art else { panic!("no scatter plot") };
+        assert_eq!(cases.len(), 1, "one structure alone is no comparison");
+        let points: Vec<(&str, f64)> = cases[0].points.iter().map(|p| (p.label.as_str(), p.ns_per_ray)).collect();
+        assert_eq!(points, [("sah-kd", 500.0), ("sah-bvh", 250.0)]);
+        assert!(figure.alt.contains("the fastest is sah-bvh") && figure.data.rows.len() == 2, "{}", figure.alt);
+        assert!(super::figure(&[all[..2].to_vec()], &[]).is_none());
+
+        // One that is timed on a part of the rays, which take it less than the others, is compared on them.
+        let part = Part { rays: 25, ns: vec![10_000] };
+        let mut all = all;
+        all[1].parts = vec![part.clone()];
+        all[2] = Measurement { rays: 25, samples_ns: vec![5_000.0], ..all[2].clone() };
+        let drawn = super::figure(std::slice::from_ref(&all), &[]).unwrap();
+        let Art::Chart(Chart::Scatter(Scatter { cases })) = &drawn.art else { panic!("no scatter plot") };
+        assert_eq!(cases[0].points.iter().map(|p| p.ns_per_ray).collect::<Vec<_>>(), [400.0, 200.0]);
+    }
+}

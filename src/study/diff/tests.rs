@@ -1,1 +1,324 @@
+use super::changes::finding;
+use super::*;
+use crate::measure::Estimate;
+use crate::study::measurement::tests::example;
 
+const EPOCHS: usize = 5;
+
+/// A case with `ns` a sample in every round, but for what an epoch adds.
+fn record(label: &str, workload: &str, ns: f64) -> Measurement {
+    let epoch = |e: usize| 1.0 + 0.002 * (e as f64 - 2.0);
+    let samples_ns: Vec<f64> = (0..EPOCHS).flat_map(|e| [ns * epoch(e); 3]).collect();
+    example(label, workload, &samples_ns, EPOCHS)
+}
+
+fn side(all: Vec<Measurement>) -> Side {
+    Side { provenance: Provenance::capture(1), all }
+}
+
+/// A run in which the machine is `slow` times as slow and the SAH tree takes `sah` times its time.
+fn run(slow: f64, sah: f64) -> Vec<Measurement> {
+    ["primary", "shadow"]
+        .into_iter()
+        .flat_map(|workload| {
+            [
+                record("median-kd", workload, 9e6 * slow),
+                record("sah-kd", workload, 2e6 * slow * sah),
+                record("obvhs-bvh2", workload, 2e6 * slow),
+                record("obvhs-cwbvh", workload, 1e6 * slow),
+            ]
+        })
+        .collect()
+}
+
+fn compare(old: &[Measurement], new: &[Measurement], threshold: Option<f64>, looks: usize) -> Comparison {
+    Comparison::new(&side(old.to_vec()), &side(new.to_vec()), threshold, looks)
+}
+
+fn change_of<'a>(comparison: &'a Comparison, structure: &str) -> &'a Change {
+    comparison.structures.iter().find(|change| change.structure == structure).unwrap()
+}
+
+#[test]
+fn a_slower_machine_is_no_slower_structure() {
+    let comparison = compare(&run(1.0, 1.0), &run(1.5, 1.1), Some(5.0), 1);
+    assert_eq!(comparison.references, ["obvhs-bvh2", "obvhs-cwbvh"]);
+    let (median, sah) = (change_of(&comparison, "median-kd"), change_of(&comparison, "sah-kd"));
+    assert!((sah.time.unwrap().estimate - 1.1).abs() < 1e-9 && sah.cells == 2);
+    assert!((median.time.unwrap().estimate - 1.0).abs() < 1e-9);
+    assert_eq!((sah.finding, median.finding), (Finding::Regression, Finding::NoDifference));
+    assert_eq!((comparison.structures.len(), comparison.cells.len()), (2, 4), "references are not judged");
+    assert!(comparison.wrong.is_empty() && comparison.only_old.is_empty() && comparison.only_new.is_empty());
+}
+
+#[test]
+fn what_has_our_triangle_test_is_no_reference() {
+    let with = |ours: f64| {
+        let exact = ["primary", "shadow"].map(|workload| record("obvhs-bvh2:test=exact", workload, 3e6 * ours));
+        [run(1.0, ours), exact.map(|r| Measurement { structure: "obvhs-bvh2".into(), ..r }).into()].concat()
+    };
+    let comparison = compare(&with(1.0), &with(1.2), None, 1);
+    assert_eq!(comparison.references, ["obvhs-bvh2", "obvhs-cwbvh"]);
+    let time = change_of(&comparison, "sah-kd").time.unwrap();
+    assert!((time.estimate - 1.2).abs() < 1e-9, "all of our slowdown: {time:?}");
+    assert_eq!(change_of(&comparison, "obvhs-bvh2:test=exact").finding, Finding::Slower);
+}
+
+#[test]
+fn without_references_times_count_as_they_are() {
+    let without = |slow: f64| run(slow, 1.0).into_iter().filter(|r| !is_reference(r)).collect::<Vec<_>>();
+    let comparison = compare(&without(1.0), &without(1.5), None, 1);
+    assert!(comparison.references.is_empty());
+    assert!((change_of(&comparison, "sah-kd").time.unwrap().estimate - 1.5).abs() < 1e-9);
+    assert_eq!(change_of(&comparison, "sah-kd").finding, Finding::Slower);
+    assert!(tables(&comparison)[0].notes[0].contains("as they are"));
+}
+
+#[test]
+fn what_an_interval_says() {
+    let interval = |low, high| Some(Estimate::between((low + high) / 2.0, low, high));
+    let limit = Some(libm::log(1.05));
+    let cases = [
+        (interval(1.06, 1.14), limit, Finding::Regression),
+        (interval(1.02, 1.14), limit, Finding::Undecided),
+        (interval(0.90, 1.14), limit, Finding::Undecided),
+        (interval(1.01, 1.04), limit, Finding::Slower),
+        (interval(0.97, 1.04), limit, Finding::NoDifference),
+        (interval(0.90, 0.95), limit, Finding::Faster),
+        (interval(1.06, 1.14), None, Finding::Slower),
+        (interval(0.90, 1.14), None, Finding::NoDifference),
+        (None, limit, Finding::Unknown),
+    ];
+    for (interval, limit, expected) in cases {
+        assert_eq!(finding(interval, limit), expected, "{interval:?}");
+    }
+}
+
+#[test]
+fn answers_that_changed_are_wrong() {
+    let old = run(1.0, 1.0);
+    let with = |change: &dyn Fn(&mut Measurement)| {
+        let mut new = run(1.0, 1.0);
+        change(&mut new[1]);
+        compare(&old, &new, None, 1).wrong
+    };
+    assert!(with(&|_| {}).is_empty());
+    let wrong = with(&|r| r.structure_errors = 3);
+    assert_eq!(wrong.len(), 1);
+    assert_eq!(
+        (&wrong[0].case[..], &wrong[0].what[..]),
+        ("sah-kd on the primary rays of Cube", "3 of 100 answers are wrong, 0 of 100 were")
+    );
+    assert!(with(&|r| r.hits = 19)[0].what.contains("19 of 1000 rays hit, 20 did"));
+    assert!(with(&|r| r.answers = Some(0))[0].what.contains("another t"));
+    // Other rays have other answers, be they timed or counted, and an unknown answer is none.
+    assert!(with(&|r| (r.counted_rays, r.hits) = (500, 9)).is_empty());
+    assert!(with(&|r| (r.rays, r.answers) = (250, Some(0))).is_empty());
+    assert!(with(&|r| r.answers = None).is_empty());
+}
+
+#[test]
+fn known_errors_are_no_new_ones() {
+    let erring = |i: usize, errors, checked| {
+        let mut run = run(1.0, 1.0);
+        (run[i].structure_errors, run[i].checked_rays) = (errors, checked);
+        run
+    };
+    let ours = |errors, checked| erring(1, errors, checked);
+    assert!(compare(&ours(2, 100), &ours(5, 240), None, 1).wrong.is_empty(), "more rays, more errors");
+    assert_eq!(compare(&ours(2, 100), &ours(5, 100), None, 1).wrong.len(), 1);
+    assert!(compare(&erring(2, 0, 100), &erring(2, 5, 100), None, 1).wrong.is_empty(), "obvhs has defects");
+}
+
+type Edit = dyn Fn(&mut Side);
+
+/// A run, edited.
+fn edited(slow: f64, sah: f64, edit: &dyn Fn(&mut Side)) -> Side {
+    let mut side = side(run(slow, sah));
+    edit(&mut side);
+    side
+}
+
+#[test]
+fn runs_that_differ_in_more_than_their_code_are_unlike() {
+    let old = side(run(1.0, 1.0));
+    let with = |edit: &Edit| unlike(&old, &edited(1.0, 1.0, edit), true).map_err(|error| error.to_string());
+    assert_eq!(with(&|_| {}), Ok(()));
+    assert_eq!(with(&|side| side.provenance.commit = "other".into()), Ok(()));
+    assert_eq!(with(&|side| side.provenance.threads = 2), Ok(()), "the heading names it");
+    let refusals: [(&str, &Edit); 10] = [
+        ("the processor", &|side| side.provenance.cpu = "Other".into()),
+        ("the instruction set", &|side| side.provenance.simd = "portable".into()),
+        ("the profile", &|side| side.provenance.profile = "other".into()),
+        ("for the compiler", &|side| side.provenance.target_features = "sse2".into()),
+        ("the version of obvhs", &|side| side.provenance.obvhs = "0.5.0".into()),
+        ("the hash of the scene Cube", &|side| side.all[0].scene_hash = "ff".into()),
+        ("the hash of the primary rays of Cube", &|side| side.all[0].workload_hash = "ff".into()),
+        ("the key threshold of median-kd is 0.7 in the old and 0.8 in the new", &|side| {
+            side.all[0].config = serde_json::json!({ "leaf": 8, "threshold": 0.8 });
+        }),
+        ("the number of timed rays of sah-kd", &|side| side.all[1].rays = 250),
+        ("every case", &|side| side.all.iter_mut().for_each(|own| own.scene = "Sphere".into())),
+    ];
+    for (part, edit) in refusals {
+        let refused = with(edit).unwrap_err();
+        assert!(refused.contains(part), "{part:?} is not in {refused:?}");
+    }
+    // A program of another build is what is to be judged, and without a gate parts of the rays may be compared.
+    let build = |side: &mut Side| side.all[0].config = serde_json::json!({ "leaf": 8, "threshold": 0.7, "build": "x" });
+    assert_eq!(with(&build), Ok(()));
+    assert_eq!(unlike(&old, &edited(1.0, 1.0, &|side| side.all[1].rays = 250), false), Ok(()));
+}
+
+#[test]
+fn on_two_machines_ratios_to_obvhs_are_compared_and_nothing_else() {
+    let elsewhere = |edit: &dyn Fn(&mut Side)| {
+        let mut side = side(run(3.0, 1.1));
+        let p = &mut side.provenance;
+        (p.cpu, p.simd) = ("Other".into(), "avx2".into());
+        (p.target, p.target_features) = ("aarch64".into(), "neon".into());
+        edit(&mut side);
+        side
+    };
+    let (old, new) = (side(run(1.0, 1.0)), elsewhere(&|_| {}));
+    assert_eq!(unlike(&old, &new, false), Ok(()));
+    assert!(unlike(&old, &new, true).is_err(), "a gate wants one machine");
+    let comparison = Comparison::new(&old, &new, None, 1);
+    assert!((change_of(&comparison, "sah-kd").time.unwrap().estimate - 1.1).abs() < 1e-9);
+    let has_note = |comparison: &Comparison, part: &str| tables(comparison)[0].notes.iter().any(|n| n.contains(part));
+    assert!(has_note(&comparison, "Two machines, ") && has_note(&comparison, "Other (avx2)"));
+    assert_eq!(compare(&old.all, &run(3.0, 1.1), None, 1).machines, None);
+    // Another set of lanes on one machine is no other machine.
+    let lanes = edited(1.0, 1.1, &|side| side.provenance.simd = "others".into());
+    assert!(has_note(&Comparison::new(&old, &lanes, None, 1), "Two sets of lanes, "));
+
+    // Other rays are refused there as well, and so are times without a unit.
+    let refused = |edit: &Edit| unlike(&old, &elsewhere(edit), false).unwrap_err().to_string();
+    assert!(refused(&|side| side.all[0].workload_hash = "ff".into()).contains("the primary rays of Cube"));
+    assert!(refused(&|side| side.provenance.obvhs = "0.5.0".into()).contains("the version of obvhs"));
+    let untimed = refused(&|side| {
+        side.all.iter_mut().filter(|own| is_reference(own)).for_each(|own| own.trace_ns = None);
+    });
+    assert!(untimed.contains("the processor is") && untimed.contains("ratios to a structure of obvhs"), "{untimed}");
+}
+
+#[test]
+fn what_weighs_most_decides_and_settings_that_differ_are_named() {
+    let old = [example("a", "primary", &[1e6; 3], 3), example("b", "primary", &[1e6; 3], 3)];
+    let mut new = old.clone();
+    new[0].samples_ns.iter_mut().for_each(|ns| *ns *= 2.0);
+    let mut comparison = compare(&old, &new, Some(5.0), 1);
+    assert_eq!(comparison.status(), Status::Regression);
+    comparison.only_old = vec!["c".into()];
+    assert_eq!(comparison.status(), Status::Refused);
+    comparison.wrong = vec![Wrong { case: "a".into(), what: "lost".into() }];
+    assert_eq!(comparison.status(), Status::Wrong);
+    assert_eq!(compare(&old, &new, None, 1).status(), Status::Right);
+    assert_eq!(compare(&old, &old, Some(5.0), 1).status(), Status::Right);
+    new[0].samples_ns = vec![1e6, 2e6, 4e6];
+    assert_eq!(compare(&old, &new, Some(5.0), 1).status(), Status::Undecided);
+
+    let case = crate::study::case::tests::example("Cube", 0, &["a"]);
+    let mut other = case.clone();
+    other.settings.threads = 2;
+    assert_eq!(settings(&case, &other), ["threads 1 and 2"]);
+    let named = Comparison { settings: settings(&case, &other), ..comparison };
+    assert!(tables(&named)[0].notes.iter().any(|note| note == "Settings differ: threads 1 and 2."));
+}
+
+#[test]
+fn ratios_are_found_again_or_not() {
+    let same = compare(&run(1.0, 1.0), &run(2.0, 1.0), None, 1).reproduced;
+    // In each of two cells: two structures to three bases, less the tree to itself, and the bases among each other.
+    assert_eq!((same.ratios, same.old_in_new, same.new_in_old, same.unchanged), (18, 18, 18, 18));
+    let other = compare(&run(1.0, 1.0), &run(1.0, 1.5), None, 1).reproduced;
+    assert_eq!((other.ratios, other.old_in_new, other.unchanged), (18, 12, 12), "those of the SAH tree are not");
+}
+
+#[test]
+fn cases_of_one_run_alone_are_named() {
+    let (old, mut new) = (run(1.0, 1.0), run(1.0, 1.0));
+    new.remove(1);
+    let comparison = compare(&old, &new, None, 1);
+    assert_eq!(comparison.only_old, ["sah-kd on the primary rays of Cube"]);
+    assert!(comparison.only_new.is_empty());
+    assert!(tables(&comparison)[0].notes.iter().any(|note| note.contains("old run alone")));
+    new = run(1.0, 1.0);
+    (new[1].samples_ns, new[1].trace_ns) = (vec![], None);
+    let comparison = compare(&old, &new, Some(5.0), 1);
+    assert_eq!(change_of(&comparison, "sah-kd").finding, Finding::Unknown);
+}
+
+#[test]
+fn the_aa_noise_of_both_runs_widens_the_interval() {
+    let mut old = run(1.0, 1.0);
+    let width = |old: &[Measurement]| {
+        let time = change_of(&compare(old, &run(1.0, 1.0), None, 1), "sah-kd").time.unwrap();
+        libm::log(time.high().unwrap() / time.low().unwrap())
+    };
+    let before = width(&old);
+    let twin = |ns: &f64, by: f64| ns * libm::exp(by);
+    for (i, by) in [(0, 0.03), (1, -0.03), (4, 0.03), (5, -0.03)] {
+        old[i].twin_samples_ns = Some(old[i].samples_ns.iter().map(|ns| twin(ns, by)).collect());
+    }
+    // One A/A ratio of four has a noise of 0.03, a structure over the mean of two references 3 / 4 of its square; two
+    // cells halve it. Of two structures judged together t is 3.495 with four degrees of freedom, and nothing else
+    // varies.
+    let alone = 2.0 * 3.495 * 0.03 * libm::sqrt(0.75 / 2.0);
+    assert!(before < 1e-9 && (width(&old) / alone - 1.0).abs() < 1e-3, "{before} {} {alone}", width(&old));
+}
+
+/// A run of nothing but noise of a hundredth: `structures` of ours and a reference, in eight epochs.
+fn noise(structures: usize, seed: u64) -> Vec<Measurement> {
+    let mut random = crate::measure::RandomOrder::new(seed);
+    let mut record = |label: &str| {
+        let samples_ns: Vec<f64> = (0..8).map(|_| 1e6 * libm::exp(0.01 * random.normal())).collect();
+        example(label, "primary", &samples_ns, 8)
+    };
+    let mut run: Vec<Measurement> = (0..structures).map(|i| record(&format!("own-{i}"))).collect();
+    run.push(record("obvhs-bvh2"));
+    run
+}
+
+#[test]
+fn twelve_structures_and_several_looks_do_not_make_a_false_alarm() {
+    let alarms = |looks: usize| {
+        let alarm = |seed: &u64| {
+            let (old, new) = (noise(12, 2 * seed), noise(12, 2 * seed + 1));
+            let comparison = compare(&old, &new, Some(1e-6), looks);
+            comparison.has(Finding::Regression) || comparison.has(Finding::Faster)
+        };
+        (0..400).filter(alarm).count() as f64 / 4.0
+    };
+    // Each alone would be wrong in 5 %: of twelve that share a reference about a quarter of all runs.
+    assert!(alarms(1) <= 7.0, "{} %", alarms(1));
+    assert!(alarms(10) <= 2.0, "{} %", alarms(10));
+    let comparison = compare(&noise(12, 1), &noise(12, 2), Some(5.0), 10);
+    let note = tables(&comparison)[0].notes[1].clone();
+    assert!(note.contains("12 structures judged together at up to 10 looks"), "{note}");
+}
+
+#[test]
+fn scenes_with_other_numbers_of_epochs_have_a_mean_over_the_first_of_each() {
+    let two = |seed: u64| -> Vec<Measurement> {
+        let shorter =
+            |r: Measurement| Measurement { scene: "B".into(), epochs: 3, samples_ns: r.samples_ns[..3].to_vec(), ..r };
+        let run = noise(1, seed);
+        run.clone().into_iter().chain(run.into_iter().map(shorter)).collect()
+    };
+    let comparison = compare(&two(1), &two(2), None, 1);
+    let change = change_of(&comparison, "own-0");
+    assert!(change.cells == 2 && change.time.unwrap().interval.is_some(), "{change:?}");
+    assert_ne!(tables(&comparison)[0].rows[0][2].text(), "no time");
+}
+
+#[test]
+fn of_one_epoch_nothing_is_found() {
+    let one = |run: Vec<Measurement>| -> Vec<Measurement> {
+        run.into_iter().map(|r| Measurement { epochs: 1, samples_ns: r.samples_ns[..1].to_vec(), ..r }).collect()
+    };
+    let comparison = compare(&one(run(1.0, 1.0)), &one(run(1.0, 3.0)), Some(5.0), 1);
+    let change = change_of(&comparison, "sah-kd");
+    assert_eq!((change.finding, change.time.unwrap().interval), (Finding::Unknown, None));
+    assert_eq!(tables(&comparison)[0].rows[1][2].text(), "one epoch");
+}

@@ -60,7 +60,7 @@ mod tests {
     fn a_build_beyond_its_limit_is_told_once_and_a_short_one_never() {
         let (sender, told) = channel();
         let watch =
-            BuildWatch::new(Duration::from_millis(100), Box::new(move |structure| drop(sender.send(structure))));
+            BuildWatch::new(Duration::from_millis(100), Box::new(move |structure| sender.send(structure).unwrap()));
         watch.during(3, || ());
         assert_eq!(watch.during(7, || told.recv_timeout(Duration::from_secs(60))), Ok(7));
         watch.during(8, || ());

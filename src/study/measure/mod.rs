@@ -383,3 +383,6 @@ fn counts(counted: &Counted, accel: &dyn DynAccel, workload: &Workload, events: 
         branch_misses_per_ray: events.branch_misses,
     }
 }
+
+#[cfg(test)]
+mod tests;

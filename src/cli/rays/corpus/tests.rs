@@ -9,6 +9,10 @@ use crate::validate::{DepthRule, count_errors};
 
 const DOCUMENT: &str = include_str!("../../../scene/files/FORMAT.md");
 
+fn own(name: &str) -> Scene {
+    Builtin::find(name).unwrap().scene(None).unwrap()
+}
+
 #[test]
 fn the_document_states_the_hash_of_the_corpus() {
     assert!(
@@ -49,7 +53,7 @@ fn the_python_of_the_document_counts_the_errors_that_we_count() {
     };
     let script = write("judge.py", code.as_bytes());
 
-    let scene = load("cornellbox").unwrap();
+    let scene = own("cornellbox");
     let oracle = Oracle::new(&scene.mesh);
     let tree = KdTree::<MollerTrumbore>::build(&scene.mesh, &KdConfig::SAH).unwrap();
     let mut wrong = 0;
@@ -82,7 +86,7 @@ fn the_python_of_the_document_counts_the_errors_that_we_count() {
 
 #[test]
 fn answers_are_those_of_the_oracle() {
-    let scene = load("cube").unwrap();
+    let scene = own("cube");
     let oracle = Oracle::new(&scene.mesh);
     let (mut shared, mut none) = (0, 0);
     for kind in RayKind::ALL {

@@ -1,0 +1,218 @@
+use super::super::means::mean_table as mean_table_of;
+use super::*;
+use crate::study::measurement::tests::example;
+
+fn record(scene: &str, label: &str, workload: &str, mrays_per_s: Option<f64>) -> Measurement {
+    let errors = if mrays_per_s.is_none() { 3 } else { 0 };
+    Measurement {
+        scene: scene.into(),
+        mrays_per_s,
+        trace_ns: mrays_per_s.map(|speed| 5e5 / speed),
+        samples_ns: mrays_per_s.map_or(vec![], |speed| vec![5e5 / speed; 10]),
+        structure_errors: errors,
+        triangle_test: "moller-trumbore".into(),
+        ..example(label, workload, &[], 5)
+    }
+}
+
+fn scene_table(all: &[Measurement], refused: &[Refused]) -> Table {
+    super::scene_table(all, &Reference::of(all, None), refused, true)
+}
+
+fn mean_table(all: &[Measurement]) -> Table {
+    mean_table_of(all, &Reference::of(all, None))
+}
+
+/// What a cell says, without an interval that holds one number alone: its ends may differ in their last bits.
+fn cell(table: &Table, row: &str, column: &str) -> String {
+    let column = table.columns.iter().position(|c| c == column).unwrap_or_else(|| panic!("no column {column}"));
+    let row = table.rows.iter().find(|r| r[0].text() == row).unwrap_or_else(|| panic!("no row {row}"));
+    let text = row[column].text();
+    let figure = text.split(' ').next().unwrap();
+    text.replace(&format!(" [{figure}, {figure}]"), "")
+}
+
+fn cube() -> Vec<Measurement> {
+    vec![
+        record("A", "median-kd", "primary", Some(1.0)),
+        record("A", "median-kd", "random", Some(2.0)),
+        record("A", "sah-kd", "primary", Some(8.0)),
+        record("A", "sah-kd", "random", Some(4.0)),
+        record("A", "obvhs-bvh2", "primary", Some(4.0)),
+        record("A", "obvhs-bvh2", "random", Some(1.0)),
+        record("A", "obvhs-cwbvh", "primary", Some(2.0)),
+        record("A", "obvhs-cwbvh", "random", Some(4.0)),
+    ]
+}
+
+#[test]
+fn a_table_of_very_many_triangles_says_how_few_rays_were_checked() {
+    let of = |triangles: usize, checked: usize| {
+        let many = |r: Measurement| Measurement { triangles, checked_rays: checked, ..r };
+        let all: Vec<Measurement> = cube().into_iter().map(many).collect();
+        let tables = [scene_table(&all, &[]), super::scene_table(&all, &Reference::of(&all, None), &[], false)];
+        tables.map(|table| table.notes.concat())
+    };
+    assert!(of(10_000_000, 64).iter().all(|notes| notes.contains("checked on 64 rays of a kind")));
+    assert!(of(12, 8192).iter().all(|notes| !notes.contains("checked")));
+}
+
+#[test]
+fn ratios_are_geometric_means_against_the_tree_and_the_better_bvh() {
+    let table = scene_table(&cube(), &[]);
+    assert_eq!(cell(&table, "sah-kd", "x median"), "4.00");
+    assert_eq!(cell(&table, "sah-kd", "x obvhs"), "1.41");
+    assert_eq!(cell(&table, "median-kd", "x median"), "1.00");
+    assert_eq!(cell(&table, "sah-kd", "primary"), "~8.00");
+    assert!(!table.columns.iter().any(|column| column == "tests"), "what is unknown of all has no column");
+    assert_eq!(cell(&table, "sah-kd", "sampled"), "50.0 %");
+    assert!(legend(&cube(), &[])[0].contains("~: of a part of the rays"));
+    let whole: Vec<Measurement> = cube().into_iter().map(|record| Measurement { sampled: false, ..record }).collect();
+    assert_eq!(cell(&scene_table(&whole, &[]), "sah-kd", "primary"), "8.00");
+    assert!(!legend(&whole, &[])[0].contains('~'));
+    let one_epoch: Vec<Measurement> = cube().into_iter().map(|record| Measurement { epochs: 1, ..record }).collect();
+    let [told, once] = [&cube(), &one_epoch].map(|all| legend(all, &[])[1].contains("interval"));
+    assert!(told && !once, "one epoch has no interval");
+}
+
+#[test]
+fn what_is_declined_is_neither_right_nor_wrong() {
+    let mut all = cube();
+    all[3] = Measurement { mrays_per_s: None, declined: Some("any hit".into()), structure_errors: 0, ..all[3].clone() };
+    let table = scene_table(&all, &[]);
+    assert_eq!(cell(&table, "sah-kd", "random"), "declined");
+    assert_eq!(cell(&table, "sah-kd", "x median"), "8.00 (1 of 2)", "of the workloads that it does not decline");
+    assert_eq!(table.notes, ["sah-kd declines any hit, which random rays need."]);
+    let means = mean_table(&all);
+    assert_eq!(means.notes[0], "1 case that a structure declines left out.");
+    assert_eq!(cell(&means, "sah-kd", "all x median"), "8.00 (1 of 2)");
+}
+
+#[test]
+fn a_wrong_structure_shows_its_errors_and_no_time() {
+    let mut all = cube();
+    all[2].mrays_per_s = None;
+    all[2].structure_errors = 3;
+    let table = scene_table(&all, &[]);
+    assert_eq!(cell(&table, "sah-kd", "primary"), "3/100 wrong");
+    assert_eq!(cell(&table, "sah-kd", "x median"), "");
+    assert_eq!(cell(&table, "sah-kd", "random"), "~4.00");
+}
+
+#[test]
+fn a_triangle_test_that_misses_what_is_hit_is_named() {
+    let mut all = cube();
+    for record in &mut all {
+        let test = if record.label.starts_with("obvhs") { "rt-triangle" } else { "exact" };
+        record.triangle_test = test.into();
+    }
+    assert!(scene_table(&all, &[]).notes.is_empty());
+    let label = all[4].label.clone();
+    all[4].hits = 0;
+    let notes = scene_table(&all, &[]).notes;
+    assert_eq!((label.as_str(), notes.len()), ("obvhs-bvh2", 1), "{notes:?}");
+    assert!(
+        notes[0].starts_with("By rt-triangle 0 of 1,000 primary rays hit something, by exact arithmetic 20"),
+        "{notes:?}"
+    );
+}
+
+#[test]
+fn a_known_defect_of_a_baseline_is_named_and_gets_no_time_either() {
+    let mut all = cube();
+    all[4].mrays_per_s = None;
+    all[4].structure_errors = 3;
+    let table = scene_table(&all, &[]);
+    assert_eq!(cell(&table, "obvhs-bvh2", "primary"), "3/100 wrong");
+    assert_eq!(table.notes.len(), 1);
+    assert!(table.notes[0].starts_with("obvhs-bvh2 answers 3 of 100 primary rays wrong"), "{:?}", table.notes);
+}
+
+#[test]
+fn means_over_scenes_say_what_they_leave_out() {
+    let mut all = cube();
+    all.push(record("B", "median-kd", "primary", Some(1.0)));
+    all.push(record("B", "sah-kd", "primary", Some(2.0)));
+    all.push(record("B", "obvhs-bvh2", "primary", None));
+    let table = mean_table(&all);
+    assert_eq!(cell(&table, "sah-kd", "primary"), "4.00");
+    assert_eq!(cell(&table, "sah-kd", "random"), "2.00");
+    assert_eq!(cell(&table, "obvhs-bvh2", "primary"), "4.00 (1 of 2)");
+    assert!(table.title.contains("2 scenes"));
+    assert_eq!(table.notes[0], "1 case with wrong answers left out.");
+}
+
+#[test]
+fn what_lies_within_the_noise_is_said_to_be_no_difference() {
+    let mut all = cube();
+    for (i, record) in all.iter_mut().enumerate() {
+        // A twin that is a hundredth slower, and epochs that differ by as much.
+        let samples = vec![1e6, 1.01e6, 1e6, 1.01e6, 1e6];
+        record.twin_samples_ns = (i < 2).then(|| samples.iter().map(|ns| ns * 1.01).collect());
+        (record.samples_ns, record.epochs) = (samples, 5);
+        record.mrays_per_s = Some(1.0);
+    }
+    let table = scene_table(&all, &[]);
+    assert_eq!(cell(&table, "sah-kd", "x obvhs"), "1.00 [0.973, 1.03] =", "the same samples");
+    all[2].samples_ns = vec![1.01e6, 1e6, 1.01e6, 1e6, 1e6];
+    let table = scene_table(&all, &[]);
+    assert!(cell(&table, "sah-kd", "x obvhs").ends_with(" ="), "{table:?}");
+    assert!(table.notes[0].starts_with("A/A noise (median-kd twice): 1.00%; 0 of 2"), "{:?}", table.notes);
+    // A twin that differs from epoch to epoch by more than on the whole.
+    for record in &mut all[..2] {
+        let by = [1.02, 0.98, 1.03, 0.98, 1.0];
+        let twin = record.samples_ns.iter().zip(by).map(|(ns, by)| ns * by);
+        record.twin_samples_ns = Some(twin.collect());
+    }
+    let note = &scene_table(&all, &[]).notes[0];
+    assert!(note.contains("twice): not seen above the scatter of the epochs; 2 of 2"), "{note}");
+}
+
+#[test]
+fn without_the_usual_references_the_first_structure_is_the_reference() {
+    let all = [record("A", "sah-kd", "primary", Some(1.0)), record("A", "sah-bvh", "primary", Some(2.0))];
+    let table = scene_table(&all, &[]);
+    assert!(!table.columns.iter().any(|c| c == "x median" || c == "x obvhs"), "{:?}", table.columns);
+    assert_eq!([cell(&table, "sah-bvh", "x sah-kd"), cell(&table, "sah-kd", "x sah-kd")], ["2.00", "1.00"]);
+    let named = super::scene_table(&all, &Reference::of(&all, Some("sah-bvh")), &[], true);
+    assert_eq!(cell(&named, "sah-kd", "x sah-bvh"), "0.500");
+    assert!(legend(&all, &Reference::of(&all, None)).iter().any(|line| line.starts_with("x sah-kd: ")));
+}
+
+#[test]
+fn a_mean_over_fewer_scenes_names_its_count_and_is_not_ranked() {
+    let mut all = vec![];
+    for (scene, fast) in [("A", Some(9.0)), ("B", None), ("C", Some(9.0))] {
+        all.push(record(scene, "median-kd", "primary", Some(1.0)));
+        all.push(record(scene, "sah-kd", "primary", Some(2.0)));
+        all.push(record(scene, "sah-bvh", "primary", fast));
+    }
+    let table = mean_table(&all);
+    assert_eq!([cell(&table, "sah-kd", "primary"), cell(&table, "sah-bvh", "primary")], ["2.00", "9.00 (2 of 3)"]);
+    assert_eq!(cell(&table, "sah-bvh", "all x median"), "9.00 (2 of 3)");
+    let best = |row: &str| table.rows.iter().find(|r| r[0].text() == row).unwrap()[1].tone;
+    assert_eq!((best("sah-kd"), best("sah-bvh")), (Tone::Best, Tone::Plain));
+    assert!(table.notes.iter().any(|note| note.starts_with("(n of m)")), "{:?}", table.notes);
+    // Where the reference has no time nobody is compared, and nobody lacks anything.
+    all[0].mrays_per_s = None;
+    assert_eq!(cell(&mean_table(&all), "sah-bvh", "primary"), "9.00 (1 of 2)");
+    assert!(!mean_table(&all[..1]).says_something());
+}
+
+#[test]
+fn scenes_with_fewer_epochs_have_means_over_the_first_of_each() {
+    let mut all = cube();
+    for label in ["median-kd", "sah-kd", "obvhs-bvh2"] {
+        let speed = if label == "sah-kd" { 8.0 } else { 1.0 };
+        let samples_ns = vec![5e5 / speed; 2];
+        all.push(Measurement { epochs: 1, samples_ns, ..record("B", label, "primary", Some(speed)) });
+    }
+    let table = mean_table(&all);
+    assert_eq!(cell(&table, "sah-kd", "primary"), "8.00");
+    assert!(
+        table.notes.contains(&"Scenes have 1 to 5 epochs: means over all of them are of the first of each.".into())
+    );
+    assert!(mean_table(&cube()).notes.iter().all(|note| !note.contains("epochs")));
+    let whole: Vec<Measurement> = all.into_iter().filter(|record| record.label != "obvhs-cwbvh").collect();
+    assert!(mean_table(&whole).notes.iter().all(|note| !note.starts_with("(n of m)")), "no row lacks a case");
+}

@@ -1,0 +1,210 @@
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use tempfile::TempDir;
+
+use super::*;
+use crate::study::case::tests::example as case;
+use crate::study::epoch::tests::example as epoch;
+
+fn provenance() -> Provenance {
+    let mut provenance = Provenance::capture(1);
+    provenance.commit = "c0ffee".into();
+    provenance
+}
+
+fn open(path: &Path) -> Result<Journal, JournalError> {
+    Journal::open(path, provenance(), false)
+}
+
+/// Writes an epoch of a scene into the journal, as if it had been measured on this date.
+fn measure(journal: &mut Journal, case: &Case, date: &str) -> PathBuf {
+    let provenance = Provenance { date: date.into(), ..journal.provenance.clone() };
+    let path = journal.place(case);
+    let epoch = epoch(&case.scene.name, 12, case.epoch, &[("x", 50, &[1000; 3])]);
+    let file = CaseFile::place(&path).unwrap();
+    assert!(CaseFile::write(&file, &provenance, case, &epoch).unwrap());
+    journal.add(&path).unwrap();
+    path
+}
+
+/// A journal of `n` epochs of the cube in a folder that is not there before.
+fn journal(folder: &TempDir, n: usize) -> PathBuf {
+    let path = folder.path().join("runs/compare");
+    let mut journal = open(&path).unwrap();
+    (0..n).for_each(|i| drop(measure(&mut journal, &case("Cube", i, &["x"]), "2026-01-01")));
+    path
+}
+
+fn folder() -> TempDir {
+    tempfile::tempdir().unwrap()
+}
+
+fn sentence(error: JournalError, parts: &[&str]) {
+    let text = error.to_string();
+    assert_eq!(text.lines().count(), 1, "{text}");
+    for part in parts {
+        assert!(text.contains(part), "{part:?} is not in {text:?}");
+    }
+}
+
+#[test]
+fn what_was_measured_is_there_when_opened_again_and_what_is_being_written_is_no_case() {
+    let folder = folder();
+    let path = journal(&folder, 3);
+    fs::write(path.join(".sahara-1234.part"), b"{\"schema\":4,\"ca").unwrap();
+    let again = open(&path).unwrap();
+    assert_eq!(files(&path).unwrap().len(), 3, "one file a case");
+    let is_there = |i| again.get(&case("Cube", i, &["x"])).is_some_and(|file| file.case.epoch == i);
+    assert_eq!([0, 1, 2, 3].map(is_there), [true, true, true, false]);
+}
+
+#[test]
+fn cases_of_other_settings_builds_and_machines_lie_side_by_side() {
+    let folder = folder();
+    let path = journal(&folder, 1);
+    let own = case("Cube", 0, &["x"]);
+    let mut slow = own.clone();
+    slow.settings.runs = 9;
+    let mut journal = open(&path).unwrap();
+    assert!(journal.get(&slow).is_none());
+    measure(&mut journal, &slow, "2026-01-02");
+    assert!(journal.get(&own).is_some() && journal.get(&slow).is_some());
+    for change in [|p: &mut Provenance| p.commit = "decade".into(), |p: &mut Provenance| p.cpu = "another".into()] {
+        let mut other = provenance();
+        change(&mut other);
+        let mut journal = Journal::open(&path, other, false).unwrap();
+        assert!(journal.get(&own).is_none(), "another build or machine would measure something else");
+        measure(&mut journal, &own, "2026-01-03");
+    }
+    assert_eq!(files(&path).unwrap().len(), 4, "nothing was thrown away");
+    let host = Provenance { host: "elsewhere".into(), load: Some(9.0), ..provenance() };
+    assert!(Journal::open(&path, host, false).unwrap().get(&own).is_some(), "another host goes on");
+}
+
+#[test]
+fn fresh_measures_again_and_the_newest_counts() {
+    let folder = folder();
+    let path = journal(&folder, 1);
+    let own = case("Cube", 0, &["x"]);
+    let mut fresh = Journal::open(&path, provenance(), true).unwrap();
+    assert!(fresh.get(&own).is_none());
+    let second = measure(&mut fresh, &own, "2026-01-02");
+    assert_eq!(fresh.get(&own).map(|file| &file.path), Some(&second));
+    assert_eq!(open(&path).unwrap().get(&own).map(|file| &file.path), Some(&second), "and so it is for the next run");
+    assert_eq!(files(&path).unwrap().len(), 2);
+}
+
+#[test]
+fn names_of_files_are_plain_and_of_one_case_alone() {
+    let scenes = ["Cube", "cube", "\u{fc}", "", "a b", "a-b", &"long ".repeat(100)];
+    let names = scenes.map(|scene| file_name(&case(scene, 0, &["x"]), &provenance()));
+    assert!(names[0].starts_with("cube-epoch-0-"), "{names:?}");
+    for name in &names {
+        assert!(name.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-'), "{name}");
+        assert!(!name.is_empty() && name.len() < 128, "{name}");
+    }
+    let mut distinct = names.to_vec();
+    distinct.sort();
+    distinct.dedup();
+    assert_eq!(distinct.len(), names.len(), "{names:?}");
+}
+
+#[cfg(unix)]
+#[test]
+fn one_run_at_a_time_measures_and_others_may_look() {
+    let folder = folder();
+    let path = journal(&folder, 2);
+    let cases = [0, 1, 2].map(|i| case("Cube", i, &["x"]));
+    let run = |fresh: bool, cases: &[Case]| Journal::open_to_measure(&path, provenance(), fresh, cases);
+    let mut one = run(false, &cases[1..]).unwrap();
+    sentence(run(false, &cases[1..]).unwrap_err(), &["another run", "runs/compare", "when it has ended", "--dir"]);
+    sentence(run(true, &cases[..2]).unwrap_err(), &["another run"]);
+    // What measures nothing holds up nobody.
+    let look = run(false, &cases[..2]).unwrap();
+    measure(&mut one, &cases[2], "2026-01-02");
+    assert!(look.get(&cases[0]).is_some());
+    drop(one);
+    assert!(run(true, &cases).is_ok());
+}
+
+#[test]
+fn what_is_no_case_or_damaged_is_named_and_left_alone() {
+    let folder = folder();
+    let path = journal(&folder, 1);
+    let file = files(&path).unwrap().remove(0);
+    let text = fs::read_to_string(&file).unwrap();
+    let old = text.replace("\"schema\":4", "\"schema\":3");
+    for (text, parts) in [
+        ("my notes", &["does not read"][..]),
+        ("{\"a\":1}", &["not a case of a study"]),
+        ("[]", &["not a case"]),
+        (&text[..text.len() / 2], &["does not read: EOF", "remove it"]),
+        (&text.replace("\"structures\"", "\"things\""), &["missing field `structures`"]),
+        (&old, &["version 3", "version 4"]),
+    ] {
+        fs::write(&file, text).unwrap();
+        sentence(open(&path).unwrap_err(), parts);
+        assert_eq!(fs::read_to_string(&file).unwrap(), text);
+    }
+    sentence(open(&file).unwrap_err(), &["cannot write", "--dir"]);
+}
+
+#[test]
+fn what_was_interrupted_is_kept_beside_what_is_there() {
+    let folder = folder();
+    let path = journal(&folder, 2);
+    let kept = folder.path().join("unfinished/compare-1");
+    let journal = open(&path).unwrap();
+    journal.keep(&kept).unwrap();
+    journal.keep(&kept).unwrap();
+    assert_eq!(files(&kept).unwrap().len(), 2);
+    assert!(open(&kept).unwrap().get(&case("Cube", 1, &["x"])).is_some());
+}
+
+#[test]
+fn a_report_shows_the_newest_group_of_each_scene_and_says_what_else_there_is() {
+    let folder = folder();
+    let path = journal(&folder, 2);
+    let mut journal = open(&path).unwrap();
+    // A sphere of the same group, and the cube again with other settings, later.
+    measure(&mut journal, &case("Sphere", 0, &["x"]), "2026-01-01");
+    let mut later = case("Cube", 0, &["x", "y"]);
+    later.settings.runs = 9;
+    measure(&mut journal, &later, "2026-02-01");
+    let read = || files(&path).unwrap().iter().map(|path| CaseFile::read(path).unwrap()).collect::<Vec<_>>();
+    let scenes = |dataset: &crate::study::Dataset| -> Vec<String> {
+        dataset.measured.iter().map(|own| format!("{}{}", own.case.scene.name, own.case.settings.runs)).collect()
+    };
+    let found = datasets(read());
+    let mut all: Vec<Vec<String>> = found.iter().map(scenes).collect();
+    all.sort();
+    assert_eq!(all, [vec!["Cube9".to_owned()], vec!["Sphere3".into()]]);
+    let older = found.iter().find(|own| own.measured[0].case.scene.name == "Sphere").unwrap();
+    assert!(older.notes.iter().any(|note| note.contains("Cube")), "{:?}", older.notes);
+
+    // The same case again replaces the older one, and hosts are named.
+    let mut elsewhere = open(&path).unwrap();
+    elsewhere.provenance.host = "n2".into();
+    measure(&mut elsewhere, &later, "2026-03-01");
+    let cube = datasets(read()).into_iter().find(|own| own.measured[0].case.settings.runs == 9).unwrap();
+    let notes = cube.notes.join(" ");
+    assert!(notes.contains("1 case measured again since") && notes.contains("2 hosts"), "{notes}");
+    assert!(notes.contains("epoch 1 is not measured"), "{notes}");
+}
+
+#[test]
+fn provenance_is_of_the_oldest_with_all_hosts_and_the_highest_load_that_no_job_made() {
+    let of = |host: &str, date: &str, load: Option<f64>| Provenance {
+        host: host.into(),
+        date: date.into(),
+        load,
+        threads: 1,
+        ..provenance()
+    };
+    let all = [of("n1", "2026-03", Some(0.5)), of("n2", "2026-02", Some(9.0))];
+    let joined = of_all(&all.iter().collect::<Vec<_>>());
+    assert_eq!((joined.date.as_str(), joined.host.as_str(), joined.load), ("2026-02", "n1, n2", Some(9.0)));
+    let after = [of("n1", "2026-03", None), of("n1", "2026-04", Some(9.0))];
+    assert_eq!(of_all(&after.iter().collect::<Vec<_>>()).load, Some(8.0), "less what the job before it has made");
+}

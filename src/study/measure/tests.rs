@@ -1,0 +1,252 @@
+//! Structures with planted faults, measured.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+
+use serde::{Deserialize, Serialize};
+
+use super::*;
+use crate::accel::{Accel, BuildError, Footprint, Observed, Observer, TreeShape};
+use crate::brute_force::BruteForce;
+use crate::geometry::{Hit, Mesh, Ray};
+use crate::measure::SystemClock;
+use crate::registry::Registry;
+use crate::request::{SceneRequest, StructureRequest, ViewArgs, WorkloadRequest, scene, with_twin};
+use crate::scene::WorkloadKind;
+use crate::study::case::tests::example;
+use crate::study::measurement::{Measurement, measurements, refused};
+use crate::study::{Dataset, Joined, Measured, Status, join};
+use crate::triangle::{MollerTrumbore, TriangleTest};
+
+pub struct Flawed {
+    inner: BruteForce<MollerTrumbore>,
+    flaw: Flaw,
+    queries: AtomicUsize,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Flaw {
+    #[default]
+    None,
+    /// Loses the hits of about every second ray, always the same.
+    Lossy,
+    /// Loses the hit of every 13th query.
+    Fickle,
+    /// Loses all hits once [`HAS_TURNED`] is set.
+    Turning,
+    /// Panics on every ray.
+    Panicking,
+    /// Panics over every mesh with triangles.
+    Unbuildable,
+    /// The same, while [`IS_AWAY`] is set.
+    Away,
+}
+
+static HAS_TURNED: AtomicBool = AtomicBool::new(false);
+static IS_AWAY: AtomicBool = AtomicBool::new(false);
+
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
+pub struct FlawedConfig {
+    flaw: Flaw,
+}
+
+impl Flawed {
+    fn loses(&self, ray: &Ray) -> bool {
+        match self.flaw {
+            Flaw::None | Flaw::Unbuildable | Flaw::Away => false,
+            Flaw::Turning => HAS_TURNED.load(Ordering::Relaxed),
+            Flaw::Panicking => panic!("a traversal panics"),
+            Flaw::Lossy => ray.direction.x.to_bits() & 1 == 0,
+            Flaw::Fickle => self.queries.fetch_add(1, Ordering::Relaxed).is_multiple_of(13),
+        }
+    }
+}
+
+impl Accel for Flawed {
+    type Config = FlawedConfig;
+
+    const TRIANGLE_TEST: &'static str = MollerTrumbore::NAME;
+    const OBSERVED: Observed = Observed::NONE;
+
+    fn build(mesh: &Arc<Mesh>, config: &FlawedConfig) -> Result<Self, BuildError> {
+        let panics = match config.flaw {
+            Flaw::Unbuildable => true,
+            Flaw::Away => IS_AWAY.load(Ordering::Relaxed),
+            _ => false,
+        };
+        assert!(!panics || mesh.is_empty(), "a builder panics");
+        let inner = Accel::build(mesh, &Default::default())?;
+        Ok(Self { inner, flaw: config.flaw, queries: AtomicUsize::new(0) })
+    }
+
+    fn closest_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit> {
+        if self.loses(ray) { None } else { self.inner.closest_hit(ray, observer) }
+    }
+
+    fn any_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> bool {
+        !self.loses(ray) && self.inner.any_hit(ray, observer)
+    }
+
+    fn footprint(&self) -> Footprint {
+        Accel::footprint(&self.inner)
+    }
+
+    fn shape(&self) -> TreeShape {
+        Accel::shape(&self.inner)
+    }
+}
+
+/// The structures of this crate, and `flawed`.
+pub fn registry() -> Registry {
+    Registry::builtin().with::<Flawed>("flawed", FlawedConfig::default())
+}
+
+/// Rays of these kinds in a scene, of which all structures are timed on 1024.
+fn case(word: &str, specs: &[&str], kinds: &[WorkloadKind]) -> Case {
+    let registry = registry();
+    let case = example("", 0, specs);
+    let mut settings = case.settings;
+    (settings.runs, settings.budget_ns, settings.slowest) = (2, Some(60_000_000_000), Some(4.0));
+    settings.check = Check::BruteForce { tests: 1 << 20, limit_ns: None };
+    let scene = scene(&registry, word).unwrap();
+    Case {
+        scene: SceneRequest::new(word, &ViewArgs::default(), &scene),
+        structures: case.structures.iter().map(|own| (&registry.choose(&own.spec).unwrap()).into()).collect(),
+        workloads: WorkloadRequest::Scene { kinds: kinds.into(), rays: Some(1024) },
+        settings,
+        ..case
+    }
+}
+
+fn measured(case: &Case, progress: &mut dyn FnMut(Stage)) -> Result<Measured, StudyError> {
+    let prepared = Prepared::new(case, &registry(), None).unwrap();
+    let epoch = measure(case, &prepared, &SystemClock::start(), &BuildWatch::default(), progress)?;
+    Ok(Measured { case: case.clone(), epoch })
+}
+
+/// Two epochs on the primary and shadow rays of the cube.
+fn run(specs: &[&str]) -> Result<Dataset, StudyError> {
+    // The cube has no mirrors, and so no mirror rays.
+    let case = case("cube", specs, &[WorkloadKind::Primary, WorkloadKind::Mirror, WorkloadKind::Shadow]);
+    let case = Case { structures: with_twin(case.structures.clone()), ..case };
+    let epochs = [0, 1].map(|epoch| measured(&Case { epoch, ..case.clone() }, &mut |_| ()));
+    let mut joined = join(epochs.into_iter().collect::<Result<_, _>>()?);
+    joined.failures.pop().map_or(Ok(()), Err)?;
+    Ok(Dataset::new(crate::measure::Provenance::capture(1), joined.measured))
+}
+
+#[test]
+fn a_right_structure_has_a_time_and_the_hits_of_all_others() {
+    let all = measurements(&run(&["brute-force", "median-kd", "flawed"]).unwrap());
+    let pairs: Vec<(&str, &str)> = all.iter().map(|r| (&r.label[..], &r.workload[..])).collect();
+    let structures = ["brute-force", "median-kd", "flawed"];
+    assert_eq!(pairs, structures.map(|s| [(s, "primary"), (s, "shadow")]).concat());
+    for own in &all {
+        assert_eq!((own.structure_errors, own.samples_ns.len(), own.epochs), (0, 4, 2));
+        assert!(own.trace_ns > Some(0.0) && own.mrays_per_s > Some(0.0));
+        assert!(own.checked_rays > 0 && own.rays <= own.workload_rays);
+    }
+    for workload in ["primary", "shadow"] {
+        let hits: Vec<usize> = all.iter().filter(|r| r.workload == workload).map(|r| r.hits).collect();
+        assert!(hits[0] > 0 && hits.iter().all(|&n| n == hits[0]), "{workload} {hits:?}");
+    }
+    assert_eq!(all[0].tests_per_ray, Some(12.0));
+    assert_eq!(all[4].tests_per_ray, None, "what is not observed is unknown");
+    // The twin is that of the first that is not slow.
+    let twins: Vec<bool> = all.iter().map(|own| own.twin_samples_ns.is_some()).collect();
+    assert_eq!(twins, [false, false, false, false, true, true]);
+}
+
+#[test]
+fn a_wrong_structure_has_errors_and_no_time() {
+    let all = measurements(&run(&["brute-force", "flawed:flaw=lossy"]).unwrap());
+    let (wrong, right): (Vec<&Measurement>, Vec<&Measurement>) = all.iter().partition(|r| r.is_disqualified());
+    assert!(!wrong.is_empty() && wrong.iter().all(|r| r.label == "flawed:flaw=lossy"));
+    assert!(wrong.iter().all(|r| r.trace_ns.is_none() && r.mrays_per_s.is_none() && r.samples_ns.is_empty()));
+    assert!(right.iter().any(|r| r.label == "brute-force" && r.trace_ns.is_some()));
+}
+
+#[test]
+fn a_structure_that_changes_its_mind_is_no_measurement() {
+    match run(&["flawed:flaw=fickle"]) {
+        // Answers of two epochs may differ, or those of two rounds, or the check finds it first.
+        Err(error) => assert!(error.is_wrong_answer(), "{error}"),
+        Ok(dataset) => {
+            let (all, refused) = (measurements(&dataset), refused(&dataset));
+            assert!(all.first().is_none_or(Measurement::is_disqualified), "{all:?}");
+            assert!(!all.is_empty() || refused.iter().any(|refused| refused.wrong), "{refused:?}");
+        }
+    }
+}
+
+#[test]
+fn a_structure_with_other_answers_in_the_next_round_is_refused_and_the_others_go_on() {
+    let case = case("cube", &["sah-kd", "flawed:flaw=turning"], &[WorkloadKind::Primary]);
+    // It turns after the first of two rounds.
+    let Measured { epoch, .. } = measured(&case, &mut |stage| {
+        HAS_TURNED.fetch_or(stage == Stage::Trace(2, 4), Ordering::Relaxed);
+    })
+    .unwrap();
+    let [kd, turning] = &epoch.structures[..] else { panic!("{epoch:?}") };
+    assert_eq!((kd.rays[0].ns.len(), &kd.refused), (2, &None));
+    assert_eq!(turning.refused, Some(Failed::Unsteady.to_string()));
+    assert!(turning.rays.is_empty(), "what is refused keeps no rays");
+    assert_eq!(Status::of(&epoch.failures()), Status::Wrong);
+}
+
+#[test]
+fn what_cannot_be_built_in_one_epoch_costs_nobody_else_a_measurement() {
+    // Brute force is slow beside two others, and hardly slow beside one.
+    let case = case("torus", &["sah-kd", "brute-force", "flawed:flaw=away"], &[WorkloadKind::Primary]);
+    let epochs = [0, 1].map(|epoch| {
+        IS_AWAY.store(epoch == 1, Ordering::Relaxed);
+        measured(&Case { epoch, ..case.clone() }, &mut |_| ()).unwrap()
+    });
+    let Joined { measured, failures, .. } = join(epochs.into());
+    assert!(failures.is_empty() && measured.len() == 2, "{failures:?}");
+    for Measured { epoch, .. } in &measured {
+        let [kd, brute, away] = &epoch.structures[..] else { panic!("{epoch:?}") };
+        assert_eq!([kd, brute, away].map(|structure| structure.refused.is_some()), [false, false, true]);
+        assert!(brute.rays[0].rays < kd.rays[0].rays, "{brute:?} {kd:?}");
+    }
+}
+
+#[test]
+fn what_panics_cannot_be_built_or_is_skipped_is_refused_and_the_others_go_on() {
+    let specs = ["flawed:flaw=panicking", "brute-force", "flawed:flaw=unbuildable", "sah-kd"];
+    let mut case = case("cube", &specs, &[WorkloadKind::Primary]);
+    case.structures[3].skipped = Some("its build takes too long".into());
+    let Measured { epoch, .. } = measured(&case, &mut |_| ()).unwrap();
+    let refused: Vec<bool> = epoch.structures.iter().map(|own| own.refused.is_some()).collect();
+    assert_eq!(refused, [true, false, true, true]);
+    assert_eq!(epoch.structures[3].refused.as_deref(), Some("its build takes too long"));
+    assert!(!epoch.structures[1].rays[0].ns.is_empty());
+}
+
+#[test]
+fn the_oracle_gives_error_rates_beside_times_and_whole_counts_are_of_all_rays() {
+    let mut case = case("cube", &["flawed:flaw=lossy", "sah-kd"], &[WorkloadKind::Primary]);
+    case.settings.check = Check::Oracle;
+    case.settings.whole_counts = vec!["sah-kd".into()];
+    let Measured { epoch, .. } = measured(&case, &mut |_| ()).unwrap();
+    let [lossy, kd] = [0, 1].map(|place| &epoch.structures[place].rays[0]);
+    let errors = |rays: &Rays| rays.errors.clone().unwrap().missed;
+    assert!(errors(lossy) > 0 && !lossy.ns.is_empty(), "wrong answers are timed beside their rate");
+    assert_eq!((errors(kd), kd.slowest_ns.is_some(), kd.checked), (0, true, None));
+    let counts = kd.counts.unwrap();
+    assert!(counts.whole_tests > counts.tests && kd.all > counts.rays, "{counts:?}");
+    assert_eq!(lossy.counts.unwrap().whole_tests, None);
+}
+
+#[test]
+fn a_check_is_bounded_by_a_clock_where_it_is_asked_to_be() {
+    let checked = |limit_ns| {
+        let mut case = case("torus", &["sah-kd"], &[WorkloadKind::Primary]);
+        case.settings.check = Check::BruteForce { tests: 1 << 24, limit_ns };
+        let Measured { epoch, .. } = measured(&case, &mut |_| ()).unwrap();
+        epoch.structures[0].rays[0].checked.unwrap().rays
+    };
+    let (whole, bounded) = (checked(None), checked(Some(1)));
+    assert!(bounded > 0 && bounded < whole / 8, "{bounded} {whole}");
+}
