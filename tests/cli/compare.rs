@@ -6,6 +6,7 @@ use std::process::Stdio;
 
 use sahara::render::Picture;
 
+use super::journal::rows;
 use super::command::{
     RIGHT, SQUARE, command, path_text, prints, refuses, refuses_in_a_line, sahara, small, stderr, stdout, write,
 };
@@ -27,28 +28,26 @@ fn results_go_to_files_that_read_back() {
     let told = stderr(&output);
     assert!(told.lines().all(is_line_of_log), "no bar where nobody looks: {told}");
 
-    let records: Vec<serde_json::Value> = serde_json::from_slice(&fs::read(&json).unwrap()).unwrap();
-    let ours = ["brute-force", "median-kd", "sah-kd", "sah-kd-wide", "sah-kd-tight", "sah-hybrid", "sah-bvh"];
-    let structures = [&ours[..], &["obvhs-bvh2", "obvhs-cwbvh"]].concat();
-    assert_eq!(records.len(), structures.len() * 2);
-    for (i, record) in records.iter().enumerate() {
-        assert_eq!(record["scene"], "Cube");
-        assert_eq!(record["triangles"], 12);
-        assert_eq!(record["stand_in"], false);
-        assert_eq!(record["structure"], structures[i / 2]);
-        assert_eq!(record["query"], ["closest", "any"][i % 2]);
-        assert_eq!(record["structure_errors"], 0, "{record}");
-        assert!(record["trace_ns"].as_f64().unwrap() > 0.0 && record["build_ns"].as_u64().unwrap() > 0, "{record}");
-        assert!(record["provenance"]["command"].as_str().unwrap().contains("--export-json"), "{record}");
+    let rows = rows(&json);
+    let ours = ["brute-force", "median-kd", "sah-kd", "sah-kd-wide", "sah-kd-tight", "sah-hybrid"];
+    let structures = [&ours[..], &["sah-hybrid:batch=packets", "sah-bvh", "obvhs-bvh2", "obvhs-cwbvh"]].concat();
+    assert_eq!(rows.len(), structures.len() * 2);
+    for (i, row) in rows.iter().enumerate() {
+        assert_eq!((&row["scene"], &row["triangles"]), (&"Cube".into(), &12.into()));
+        assert_eq!(row["label"], structures[i / 2]);
+        assert_eq!(row["query"], ["closest", "any"][i % 2]);
+        assert_eq!(row["checked"]["errors"], 0, "{row}");
+        assert!(row["ns"][0].as_u64().unwrap() > 0 && row["build_ns"].as_u64().unwrap() > 0, "{row}");
     }
+    let command = super::command::json(&json)["provenance"]["command"].as_str().unwrap().to_owned();
+    assert!(command.contains("--export-json"), "{command}");
 
     let mut reader = csv::Reader::from_path(&csv).unwrap();
     let names = reader.headers().unwrap().clone();
-    let fields = records[0].as_object().unwrap();
-    // A field of fields has a column for each of them.
-    let column = |name: &str, field: &str| name.strip_prefix(field).is_some_and(|r| r.is_empty() || r.starts_with('.'));
-    assert!(fields.keys().all(|field| names.iter().any(|name| column(name, field))), "{names:?}");
-    assert_eq!(reader.records().map(Result::unwrap).count(), records.len());
+    for name in ["scene", "structure", "label", "workload", "mrays_per_s", "pays_off_after_rays"] {
+        assert!(names.iter().any(|own| own == name), "{names:?}");
+    }
+    assert_eq!(reader.records().map(Result::unwrap).count(), rows.len());
 
     let text = fs::read_to_string(&markdown).unwrap();
     let printed = stdout(&output);
@@ -93,15 +92,13 @@ fn compare_says_who_won_and_relates_to_what_is_asked_for() {
     let said = |args: &[&str]| stdout(&sahara(args)).split_whitespace().collect::<Vec<_>>().join(" ");
     let text = said(&args);
     assert!(text.contains("x sah-kd") && !text.contains("x median"), "{text}");
-    assert!(text.contains(" is wrong in ") && text.ends_with(" checked rays."), "{text}");
-    assert!(text.contains("times as many rays a second as sah-") || text.contains("cannot be told apart"), "{text}");
+    assert!(text.contains("none is wrong.") && text.contains("is the fastest over 2 cells"), "{text}");
     let text = said(&[&args[..], &["--reference", "median-kd:leaf=8"]].concat());
     assert!(text.contains("x median-kd:leaf=8: speed against median-kd:leaf=8"), "{text}");
-    // That sentence is about the reference, whoever has won.
-    let last = text.rsplit("Over 1 scene and 2 kinds of rays, ").next().unwrap();
-    assert!(last.contains("median-kd:leaf=8"), "{last}");
+    let last = text.rsplit("is the fastest over ").next().unwrap();
+    assert!(last.contains("median-kd:leaf=8"), "that sentence is about the reference: {last}");
     let help = stdout(&sahara(&["--help"]));
-    assert!(help.contains("Exit status") && help.contains("documented"), "{help}");
+    assert!(help.contains("Exit status") && help.contains("known defects"), "{help}");
 }
 
 #[test]
@@ -117,18 +114,17 @@ fn tables_fit_80_columns_and_wide_ones_have_the_rest() {
     assert_eq!(names(&brief), "structure primary shadow* diffuse random x obvhs");
     let rows = brief.lines().skip_while(|line| !line.contains("structure")).take(10);
     assert!(rows.clone().all(|row| row.chars().count() <= 80), "{brief}");
-    for column in ["build", "peak", "memory", "tests", "steps", "checked", "sampled", "x median"] {
+    for column in ["build", "memory", "nodes", "refs a triangle", "SAH cost", "tests", "checked", "pays off", "x median"] {
         let text = fs::read_to_string(&markdown).unwrap();
-        assert!(columns(&wide).contains(column) && columns(&text).contains(column), "{column}");
+        assert!(wide.contains(column) && text.contains(column), "{column}: {wide}");
         assert!(!columns(&brief).contains(column) && !brief.contains(&format!("{column}:")), "{brief}");
-        assert!(column == "memory" || wide.contains(column) && text.contains(column), "{wide}");
     }
 }
 
 #[test]
 fn a_quick_comparison_says_that_it_is_coarse() {
     let text = stdout(&sahara(&["compare", "cube", "-s", "sah-kd", "-s", "sah-bvh", "--quick"]));
-    assert!(text.contains("Coarse: ") && text.trim_end().ends_with("checked rays."), "{text}");
+    assert!(text.contains("Coarse: ") && text.contains("none is wrong."), "{text}");
     refuses(&["compare", "cube", "--quick", "--epochs", "9"], &["--quick", "--epochs"]);
 }
 
@@ -155,22 +151,41 @@ fn a_reader_that_goes_away_is_no_error() {
 fn rays_that_no_scene_has_are_no_result() {
     let folder = tempfile::tempdir().unwrap();
     let json = path_text(&folder.path().join("none.json"));
-    let sentence = ["nothing was measured: these scenes have no rays of the kinds asked for"];
+    let sentence = ["nothing was measured: these scenes have no rays of the workloads named"];
     refuses_in_a_line(
         &["compare", "cube", "-w", "mirror", "--quick", "-s", "sah-kd", "--export-json", &json],
         &sentence,
     );
     assert!(!folder.path().join("none.json").exists());
-    let threads = ["study", "threads", "cube", "-w", "mirror", "--most", "2", "--epochs", "1"];
-    refuses_in_a_line(&[&threads[..], &["--dir", &path_text(folder.path())]].concat(), &sentence);
     // A scene that has them is enough.
     prints(&["compare", "cube", "billards", "-w", "mirror", "--quick", "-s", "sah-kd"]);
 }
 
 #[test]
-fn a_kind_of_rays_that_is_named_twice_is_measured_once() {
+fn a_workload_that_is_named_twice_is_measured_once() {
     let text =
-        prints(&["compare", "cube", "-w", "primary", "-w", "primary", "--quick", "-s", "sah-kd", "--export-json", "-"]);
-    let records: serde_json::Value = serde_json::from_str(&text).unwrap();
-    assert_eq!(records.as_array().unwrap().len(), 1, "{text}");
+        prints(&["compare", "cube", "-w", "primary", "-w", "primary", "--quick", "-s", "sah-kd", "--export-csv", "-"]);
+    assert_eq!(text.lines().count(), 2, "{text}");
+}
+
+#[test]
+fn a_build_that_takes_too_long_is_refused_and_the_others_are_measured() {
+    let small = ["compare", "torus", "-w", "primary", "--rays", "256", "--epochs", "2", "--size", "16x16"];
+    let output = sahara(&[&small[..], &["-s", "sah-kd", "-s", "brute-force", "--build-limit", "0.000001"]].concat());
+    let said = stdout(&output);
+    assert_eq!(output.status.code(), Some(5), "{said}");
+    assert!(said.contains("refused") && said.contains("--build-limit"), "{said}");
+}
+
+#[test]
+fn what_went_is_told_where_its_worth_is_now() {
+    for (words, parts) in [
+        (&["study", "counts"][..], &["counts went", "compare --wide"][..]),
+        (&["study", "predictions"], &["predictions went", "study all"]),
+        (&["bench"], &["bench went", "--fail-on-regression"]),
+        (&["compare", "cube", "--save-baseline", "x"], &["--save-baseline went", "--export-json"]),
+        (&["compare", "cube", "--baseline=x"], &["--baseline went", "sahara diff"]),
+    ] {
+        refuses(words, parts);
+    }
 }

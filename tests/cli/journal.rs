@@ -1,4 +1,4 @@
-//! The journals that studies leave.
+//! The journals that studies leave, and what they export.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -13,28 +13,48 @@ pub fn cases(runs: &Path, study: &str) -> Vec<PathBuf> {
     files(&runs.join(study)).unwrap_or_default()
 }
 
-/// What no clock decides, of every case: by its key. A case that is there twice is found out.
+/// What no clock decides, of every case: by scene and epoch. A case that is there twice is found out.
 pub fn answers(runs: &Path, study: &str) -> BTreeMap<String, Value> {
     let mut answers = BTreeMap::new();
     for path in cases(runs, study) {
         let mut file = json(path);
-        let mut case = file["case"].take();
-        if !case["epoch"]["structures"].is_null() {
-            case = case["epoch"].take();
-        }
-        case["circumstances"] = Value::Null;
-        for structure in case["structures"].as_array_mut().unwrap() {
+        let mut epoch = file["epoch"].take();
+        let key = format!("{} {}", epoch["scene"], epoch["epoch"]);
+        epoch["environment"] = Value::Null;
+        for structure in epoch["structures"].as_array_mut().unwrap() {
             structure["build_ns"] = Value::Null;
-            structure["details"]["build_peak_bytes"] = Value::Null;
+            structure["build_peak_bytes"] = Value::Null;
             for rays in structure["rays"].as_array_mut().unwrap() {
                 rays["ns"] = rays["ns"].as_array().unwrap().len().into();
-                rays["details"]["instructions_per_ray"] = Value::Null;
-                rays["details"]["branch_misses_per_ray"] = Value::Null;
+                if let Some(counts) = rays.get_mut("counts") {
+                    counts["instructions_per_ray"] = Value::Null;
+                    counts["branch_misses_per_ray"] = Value::Null;
+                }
                 rays["parts"].as_array_mut().unwrap().iter_mut().for_each(|part| part["ns"] = Value::Null);
             }
         }
-        let key = file["key"].as_str().unwrap().to_owned();
-        assert!(answers.insert(key.clone(), case).is_none(), "{key} is there twice");
+        assert!(answers.insert(key.clone(), epoch).is_none(), "{key} is there twice");
     }
     answers
+}
+
+/// What an export holds of epoch 0: a value for each workload of each structure but twins, with the fields of both.
+pub fn rows(export: impl AsRef<Path>) -> Vec<Value> {
+    let mut rows = vec![];
+    let export = json(export);
+    for measured in export["measured"].as_array().unwrap() {
+        let epoch = &measured["epoch"];
+        for structure in epoch["structures"].as_array().unwrap() {
+            let is_twin = structure["role"] == "twin";
+            for rays in structure["rays"].as_array().unwrap().iter().filter(|_| !is_twin && epoch["epoch"] == 0) {
+                let mut row = structure.as_object().unwrap().clone();
+                row.remove("rays");
+                row.extend(rays.as_object().unwrap().clone());
+                row.insert("scene".into(), epoch["scene"].clone());
+                row.insert("triangles".into(), epoch["triangles"].clone());
+                rows.push(row.into());
+            }
+        }
+    }
+    rows
 }

@@ -2,7 +2,8 @@
 
 use std::fs;
 
-use super::command::{json, path_text, prints, refuses, write};
+use super::command::{path_text, prints, refuses, write};
+use super::journal::rows;
 use crate::conformance::TREES;
 
 /// A scene file with a terrain of so many triangles.
@@ -27,14 +28,13 @@ fn builds_hold_less_than_200_bytes_a_triangle() {
     args.extend(["--export-json", &export]);
     TREES.iter().for_each(|name| args.extend(["-s", name]));
     prints(&args);
-    let records = json(&export);
-    let records = records.as_array().unwrap();
+    let records = rows(&export);
     assert_eq!(records.len(), TREES.len());
-    for record in records {
+    for record in &records {
         assert_eq!(record["triangles"], triangles);
         let peak =
             record["build_peak_bytes"].as_f64().expect("the command counts what it holds") / f64::from(triangles);
-        let finished = record["bytes"].as_f64().unwrap() / f64::from(triangles);
+        let finished = record["shape"]["bytes"].as_f64().unwrap() / f64::from(triangles);
         assert!(finished <= peak && peak < BOUND, "{}: {peak} bytes a triangle", record["structure"]);
     }
 }

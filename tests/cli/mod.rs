@@ -5,6 +5,7 @@ mod commands;
 mod compare;
 mod corpus;
 mod epochs;
+mod gate;
 mod input;
 #[cfg(target_os = "linux")]
 mod interrupted;

@@ -7,64 +7,38 @@ use std::process::Stdio;
 use serde_json::Value;
 use tempfile::TempDir;
 
-use super::command::{command, json, prints, refuses, stderr};
-use super::journal;
+use super::command::{command, json, prints, stderr};
+use super::journal::{answers, cases};
 
 const SMALL: [&str; 13] =
     ["compare", "cube", "torus", "-s", "sah-kd", "-s", "sah-bvh", "-w", "diffuse", "--rays", "256", "--epochs", "2"];
 
-/// What no clock decides, of every record.
-fn answers(text: &[u8]) -> Vec<Value> {
-    let records: Vec<Value> = serde_json::from_slice(text).unwrap();
-    let kept = ["scene", "scene_hash", "label", "workload_hash", "rays", "hits", "answers", "tests_per_ray", "bytes"];
-    records.iter().map(|record| kept.map(|key| record[key].clone()).into_iter().collect()).collect()
-}
-
-#[test]
-fn all_in_one_process_answers_the_same() {
-    let folder = TempDir::new().unwrap();
-    let run = |name: &str, more: &[&str]| {
-        let file = folder.path().join(name);
-        prints(&[&SMALL[..], &["--export-json", file.to_str().unwrap()], more].concat());
-        answers(&std::fs::read(file).unwrap())
-    };
-    let apart = run("apart.json", &[]);
-    assert_eq!(apart.len(), 4);
-    assert_eq!(apart, run("one.json", &["--in-process"]));
-}
-
-/// The cases of a journal, by their keys.
-fn cases(folder: &Path) -> Vec<Value> {
-    let mut cases: Vec<Value> = journal::cases(folder, "compare").iter().map(json).collect();
-    cases.sort_by_key(|case| case["key"].as_str().unwrap().to_owned());
-    cases
-}
-
 /// The numbers of the processes that have measured the cases of a journal.
 fn processes(folder: &Path) -> Vec<u64> {
-    cases(folder).iter().map(|case| case["case"]["circumstances"]["process"].as_u64().unwrap()).collect()
+    let process = |path| json(path)["epoch"]["environment"]["process"].as_u64().unwrap();
+    let mut all: Vec<u64> = cases(folder, "compare").iter().map(process).collect();
+    all.sort_unstable();
+    all.dedup();
+    all
 }
 
 #[test]
-fn each_epoch_of_a_scene_has_a_process_and_journals_do_not_mix() {
+fn each_epoch_of_a_scene_has_a_process_and_one_process_answers_the_same() {
     let folder = TempDir::new().unwrap();
-    let dir = ["--dir", folder.path().to_str().unwrap()];
-    prints(&[&SMALL[..], &dir].concat());
-    let mut apart = processes(folder.path());
-    apart.sort_unstable();
-    apart.dedup();
-    assert_eq!(apart.len(), 4, "two epochs of two scenes");
-    refuses(&[&SMALL[..], &dir, &["--in-process"]].concat(), &["process_per_epoch was true and is false", "--fresh"]);
-
-    prints(&[&SMALL[..], &dir, &["--in-process", "--fresh"]].concat());
-    let one = processes(folder.path());
-    assert!(one.len() == 4 && one.iter().all(|process| *process == one[0]), "{one:?}");
+    let [apart, one] = ["apart", "one"].map(|name| folder.path().join(name));
+    let run = |dir: &Path, more: &[&str]| prints(&[&SMALL[..], &["--dir", dir.to_str().unwrap()], more].concat());
+    run(&apart, &[]);
+    run(&one, &["--in-process"]);
+    assert_eq!((processes(&apart).len(), processes(&one).len()), (4, 1), "two epochs of two scenes");
+    assert_eq!(answers(&apart, "compare"), answers(&one, "compare"));
+    // Both kinds lie side by side.
+    run(&apart, &["--in-process"]);
+    assert_eq!(cases(&apart, "compare").len(), 8);
 }
 
-/// What a process with a job says, given answers.
-fn said(job: &Value) -> Vec<Value> {
-    let job = format!("--case={job}");
-    let mut command = command(&[&SMALL[..], &[&job]].concat());
+/// What a process with a case says to a run that listens, given answers.
+fn said(case: &Value, out: &Path) -> Vec<Value> {
+    let mut command = command(&[&format!("--case={case}"), "--out", out.to_str().unwrap(), "--listen"]);
     let mut child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
     // It may have ended before.
     let _ = child.stdin.take().unwrap().write_all("\n".repeat(10_000).as_bytes());
@@ -76,24 +50,24 @@ fn said(job: &Value) -> Vec<Value> {
 }
 
 #[test]
-fn a_process_measures_its_case_alone() {
+fn a_process_measures_its_case_alone_and_says_what_it_does() {
     let folder = TempDir::new().unwrap();
     prints(&[&SMALL[..], &["--dir", folder.path().to_str().unwrap()]].concat());
-    let cases = cases(folder.path());
-    let [first, .., last] = &cases[..] else { panic!("{cases:?}") };
-    assert_eq!((&first["case"]["scene"], &last["case"]["scene"]), (&"Cube".into(), &"Torus".into()));
-
-    let job = |key: &Value| serde_json::json!({"study": "compare", "scene": "Torus", "key": key});
-    let lines = said(&job(&last["key"]));
-    let measured = &lines.last().unwrap()["Measured"];
-    let answers = |case: &Value| {
-        case["structures"].as_array().unwrap().iter().map(|s| s["rays"][0]["checksum"].clone()).collect::<Vec<_>>()
+    let first = json(&cases(folder.path(), "compare")[0]);
+    let out = folder.path().join("again.json");
+    let lines = said(&first["case"], &out);
+    assert!(lines.iter().any(|line| line["Build"] == "sah-bvh"), "{lines:?}");
+    let checksums = |file: &Value| -> Vec<Value> {
+        let structures = file["epoch"]["structures"].as_array().unwrap();
+        structures.iter().map(|structure| structure["rays"][0]["checksum"].clone()).collect()
     };
-    assert_eq!((&measured["epoch"], answers(measured)), (&1.into(), answers(&last["case"])));
-    assert!(lines.iter().any(|line| line["Build"] == "sah-bvh"), "it says what it does: {lines:?}");
+    assert_eq!(checksums(&json(&out)), checksums(&first));
 
-    // No other scene is loaded.
-    let failed = said(&job(&first["key"]));
-    let sentence = failed[0]["Failed"]["sentence"].as_str().unwrap();
-    assert!(sentence.contains("Cube") && sentence.contains("plan it anew"), "{sentence}");
+    // A scene that has changed is refused, in the words that the run shows.
+    let mut changed = first["case"].clone();
+    changed["scene"]["hash"] = "0123456789abcdef".into();
+    let lines = said(&changed, &folder.path().join("never.json"));
+    let sentence = lines[0]["Failed"]["sentence"].as_str().unwrap();
+    assert!(sentence.contains("cube") && sentence.contains("plan it anew"), "{sentence}");
+    assert!(!folder.path().join("never.json").exists());
 }

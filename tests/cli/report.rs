@@ -41,9 +41,7 @@ fn a_report_is_written_whole_with_pictures_and_again_in_its_place() {
     }
     for file in [
         "report.md",
-        "report.tex",
-        "data/records.csv",
-        "data/records.jsonl",
+        "data/compare.csv",
         "figures/speed-cube.svg",
         "figures/scenes-1.png",
     ] {

@@ -43,7 +43,7 @@ fn a_killed_study_ends_as_one_that_was_left_alone() {
     kill_at(study(&killed).spawn().unwrap(), &killed, 1);
     kill_at(study(&killed).spawn().unwrap(), &killed, 2);
     // As if the power had failed while a case was written.
-    fs::write(killed.join("attribution/.sahara-1234.part"), "{\"schema\":3,\"st").unwrap();
+    fs::write(killed.join("attribution/.sahara-1234.part"), "{\"schema\":4,\"pr").unwrap();
     let before = cases(&killed, "attribution").len();
 
     finish(&killed);

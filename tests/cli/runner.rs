@@ -9,9 +9,8 @@ use serde_json::Value;
 use tempfile::TempDir;
 
 use super::command::{
-    RIGHT, WRONG, path_text, prints, refused_in_a_line, refuses_in_a_line, sahara, stderr, stdout, write,
+    RIGHT, WRONG, path_text, prints, refuses_in_a_line, sahara, stderr, stdout, write,
 };
-use super::plan::{job, plan};
 
 const EXAMPLE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/runner/brute_force.cpp");
 
@@ -35,7 +34,7 @@ const SMALL: [&str; 13] =
 fn records(folder: &TempDir, args: &[&str]) -> (Option<i32>, String, Vec<Value>) {
     let file = path_text(&folder.path().join("r.json"));
     let output = sahara(&[args, &["--export-json", &file]].concat());
-    let records = serde_json::from_slice(&fs::read(file).unwrap()).unwrap();
+    let records = super::journal::rows(file);
     let words = stdout(&output) + &stderr(&output);
     (output.status.code(), words.split_whitespace().collect::<Vec<_>>().join(" "), records)
 }
@@ -52,17 +51,17 @@ fn the_example_of_the_document_is_timed_beside_ours() {
     assert_eq!(status, Some(RIGHT), "{text}");
     assert!(text.contains("brute_force --any-argument (own clock)"), "{text}");
     let (ours, theirs) = records.split_at(records.len() / 2);
-    assert_eq!((theirs.len(), &theirs[0]["structure"]), (2, &"runner".into()), "{text}");
+    assert_eq!((theirs.len(), &theirs[0]["name"]), (2, &"runner".into()), "{text}");
     for (ours, theirs) in ours.iter().zip(theirs) {
-        assert_eq!((&theirs["structure_errors"], &theirs["config"]["clock"]), (&0.into(), &"own".into()), "{theirs}");
-        assert!(theirs["checked_rays"].as_u64() > Some(1000) && theirs["trace_ns"].as_f64() > Some(0.0), "{theirs}");
-        assert!(theirs["bytes"].as_u64() > Some(0) && theirs["tests_per_ray"].is_null(), "{theirs}");
-        for same in ["workload_hash", "epochs", "query"] {
+        assert_eq!((&theirs["checked"]["errors"], &theirs["config"]["clock"]), (&0.into(), &"own".into()), "{theirs}");
+        assert!(theirs["checked"]["rays"].as_u64() > Some(1000) && theirs["ns"][0].as_u64() > Some(0), "{theirs}");
+        assert!(theirs["shape"]["bytes"].as_u64() > Some(0) && theirs["counts"]["tests"].is_null(), "{theirs}");
+        for same in ["hash", "all", "query"] {
             assert_eq!(ours[same], theirs[same]);
         }
         // Their samples are of the same rounds, and hardly any ray hits by one test and not by the other.
-        assert!(theirs["samples_ns"].as_array().unwrap().len() >= 2, "{theirs}");
-        let hits = |record: &Value| record["hits"].as_f64().unwrap();
+        assert!(theirs["ns"].as_array().unwrap().len() == ours["ns"].as_array().unwrap().len(), "{theirs}");
+        let hits = |record: &Value| record["counts"]["hits"].as_f64().unwrap();
         assert!((hits(ours) - hits(theirs)).abs() <= 0.001 * hits(ours), "{ours} {theirs}");
     }
 }
@@ -75,13 +74,13 @@ fn wrong_answers_of_a_program_cost_it_its_time_alone() {
     assert_eq!(status, Some(WRONG), "{text}");
     assert!(text.contains("loses (own clock)") && text.contains(" wrong"), "{text}");
     // Nothing but a cube throws no shadow on it: those rays are answered rightly, and timed.
-    let timed: Vec<bool> = records.iter().map(|record| record["trace_ns"].as_f64() > Some(0.0)).collect();
+    let timed: Vec<bool> = records.iter().map(|record| !record["ns"].as_array().unwrap().is_empty()).collect();
     assert_eq!(timed, [true, true, false, true], "{text}");
-    assert!(records[2]["structure_errors"].as_u64() > Some(0), "{text}");
+    assert!(records[2]["checked"]["errors"].as_u64() > Some(0), "{text}");
 }
 
 /// Says that nothing is hit, and misbehaves as its argument says.
-const NOTHING: &str = r#"#!/bin/sh
+pub const NOTHING: &str = r#"#!/bin/sh
 while read -r word set path; do
     case $word in
     sahara) echo "runner 1 closest" ;;
@@ -144,8 +143,8 @@ fn a_program_that_fails_is_refused_in_a_sentence_and_the_others_go_on() {
         assert!(said.contains(sentence), "{how}: {said}");
     }
     assert_eq!(records.len(), 1, "{text}");
-    assert_eq!((&records[0]["label"], &records[0]["epochs"]), (&"sah-kd".into(), &2.into()));
-    assert!(records[0]["trace_ns"].as_f64() > Some(0.0), "{text}");
+    assert_eq!(records[0]["label"], "sah-kd");
+    assert!(records[0]["ns"][0].as_u64() > Some(0), "{text}");
 }
 
 #[test]
@@ -163,7 +162,7 @@ fn a_clock_that_disagrees_with_ours_is_told_and_what_it_declines_is_not_asked() 
         let (status, text, records) = records(&folder, &args);
         assert_eq!((status, records.len()), (Some(RIGHT), 2), "{text}");
         assert!(text.contains(&format!("nothing.sh {how} (own clock)")) && text.contains(part), "{text}");
-        assert_eq!(records[1]["trace_ns"].is_null(), any.is_some(), "{text}");
+        assert_eq!(records[1]["ns"].as_array().unwrap().is_empty(), any.is_some(), "{text}");
     }
 }
 
@@ -186,16 +185,22 @@ fn what_is_no_runner_is_refused_before_anything_is_measured() {
 }
 
 #[test]
-fn a_job_that_is_repeated_with_another_build_of_the_program_is_refused() {
+fn another_build_of_a_program_is_another_structure() {
     let folder = TempDir::new().unwrap();
     let program = nothing(&folder);
-    let own =
-        ["-s", "sah-kd", "-w", "primary", "--rays", "256", "--epochs", "1", "--budget", "1", "--runner", &program];
-    let lines = plan(folder.path(), &[&["compare", "--scenes", "cube"][..], &own].concat());
-    let run = || job(&lines[0]).output().unwrap();
-    assert_eq!(run().status.code(), Some(0));
-    let again = run();
-    assert!(stderr(&again).contains("nothing is measured"), "{}", stderr(&again));
+    let dir = path_text(&folder.path().join("runs"));
+    let own = ["-s", "sah-kd", "-w", "primary", "--rays", "256", "--epochs", "1", "--budget", "1", "--runner", &program];
+    let run = || prints_whatever(&[&["compare", "cube", "--dir", &dir][..], &own].concat());
+    let cases = || super::journal::cases(Path::new(&dir), "compare").len();
+    run();
+    run();
+    assert_eq!(cases(), 1);
     write(&folder, "nothing.sh", &(NOTHING.to_owned() + "# rebuilt\n"));
-    refused_in_a_line(&run(), &["runners was "]);
+    run();
+    assert_eq!(cases(), 2);
+}
+
+/// What is printed, whatever the status: a program that finds nothing is wrong.
+fn prints_whatever(args: &[&str]) -> String {
+    stdout(&sahara(args))
 }

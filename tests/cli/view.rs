@@ -1,13 +1,12 @@
 //! `--camera`, `--inside` and `--size` mean the same in all commands that look at a scene.
 
-use std::fs;
 use std::path::Path;
 
 use sahara::render::Picture;
 use serde_json::Value;
 use tempfile::TempDir;
 
-use super::command::{path_text, prints, refuses, refuses_in_a_line, sahara, stderr, stdout, write};
+use super::command::{path_text, prints, refuses, refuses_in_a_line, write};
 
 /// The corners of a box that is longer than it is wide.
 fn corners() -> String {
@@ -21,12 +20,6 @@ fn room(folder: &TempDir) -> String {
     write(folder, "room.obj", &(corners() + walls))
 }
 
-/// The same walls with their fronts outside.
-fn block(folder: &TempDir) -> String {
-    let walls = "f 3 4 2 1\nf 6 8 7 5\nf 2 6 5 1\nf 7 8 4 3\nf 5 7 3 1\nf 4 8 6 2\n";
-    write(folder, "block.obj", &(corners() + walls))
-}
-
 const PRIMARY: [&str; 10] = ["-s", "sah-kd", "-w", "primary", "--epochs", "1", "--budget", "1", "--size", "20x10"];
 
 #[test]
@@ -35,9 +28,9 @@ fn a_room_is_seen_from_outside_and_says_so_or_from_inside() {
     let (room, json) = (room(&folder), path_text(&folder.path().join("r.json")));
     let compared = |view: &[&str]| {
         let text = prints(&[&["compare", &room], &PRIMARY[..], &["--export-json", &json], view].concat());
-        let records: Value = serde_json::from_slice(&fs::read(&json).unwrap()).unwrap();
-        let number = |field: &str| records[0][field].as_u64().unwrap();
-        (text.contains("seen from outside"), number("workload_rays"), number("hits"))
+        let row = &super::journal::rows(&json)[0];
+        let number = |value: &Value| value.as_u64().unwrap();
+        (text.contains("seen from outside"), number(&row["all"]), number(&row["counts"]["hits"]))
     };
     let (says, rays, hits) = compared(&[]);
     assert!(says && rays == 200 && hits < 200, "{hits}");
@@ -49,53 +42,19 @@ fn a_room_is_seen_from_outside_and_says_so_or_from_inside() {
 }
 
 #[test]
-fn validate_counts_and_render_look_from_there_as_well() {
+fn validate_and_render_look_from_there_as_well() {
     let folder = TempDir::new().unwrap();
     let (room, picture) = (room(&folder), path_text(&folder.path().join("p.png")));
     let inside = [&room, "-s", "sah-kd", "--inside", "--size", "20x10"];
     let validated = prints(&[&["validate"], &inside[..], &["--rays", "600"]].concat());
     let outside = prints(&["validate", &room, "-s", "sah-kd", "--size", "20x10", "--rays", "600"]);
     assert!(!validated.contains("seen from outside") && outside.contains("seen from outside"), "{outside}");
-    let counted = prints(&[&["study", "counts"], &inside[..], &["-w", "primary"]].concat());
-    assert!(!counted.contains("seen from outside"), "{counted}");
     prints(&[&["render"], &inside[..], &["-o", &picture, "--view", "primitive"]].concat());
     let picture = Picture::read(Path::new(&picture)).unwrap();
     assert_eq!(picture.size(), [20, 10]);
 
     refuses(&["compare", &room, "--inside", "--camera", "0,1,0 0,1,3"], &["--inside", "--camera"]);
-    refuses_in_a_line(&["study", "counts", &room, "--camera", "0,1,0 0,1,0"], &["--camera", "same point"]);
+    refuses_in_a_line(&["compare", &room, "--camera", "0,1,0 0,1,0"], &["--camera", "same point"]);
     let point = write(&folder, "point.obj", "v 1 2 3\nv 1 2 3\nv 1 2 3\nf 1 2 3\n");
     refuses_in_a_line(&["compare", &point, "--inside"], &["--inside", "same point"]);
-}
-
-#[test]
-fn what_looks_like_a_room_is_said_once_before_anything_is_measured() {
-    let folder = TempDir::new().unwrap();
-    let (room, block, dir) = (room(&folder), block(&folder), path_text(folder.path()));
-    let says = "room: it looks like a room or a building (32 of 32 rays from its middle meet a wall), and is seen from outside: ";
-    let small = ["-s", "sah-kd", "-w", "primary", "--rays", "200"];
-    // Two processes of epochs have nothing to add.
-    let [compared, kept] = [["--epochs", "2"].as_slice(), &["--epochs", "2", "--dir", &dir, "--save-baseline", "room"]];
-    for (command, more) in [(&["compare"][..], compared), (&["compare"], kept), (&["study", "counts"], &[])] {
-        let run = |options: &[&str]| {
-            let output = sahara(&[command, options, &small[..], more].concat());
-            let words = stdout(&output).split_whitespace().collect::<Vec<_>>().join(" ");
-            (words, stderr(&output))
-        };
-        let (words, warned) = run(&[&room]);
-        assert!(words.contains(says), "{words}");
-        assert!(warned.starts_with(&format!("warning: {says}")) && warned.matches("it looks").count() == 1, "{warned}");
-        let (words, warned) = run(&[&room, "-q"]);
-        assert!(words.contains(says) && warned.is_empty(), "{warned}");
-        let (words, warned) = run(&[&room, "--inside"]);
-        assert!(!words.contains("it looks") && !warned.contains("it looks"), "{words} {warned}");
-        let (words, warned) = run(&[&block]);
-        assert!(
-            words.contains("block: seen from outside, all of it: --inside") && !warned.contains("it looks"),
-            "{words}"
-        );
-    }
-    // Whoever plans is told as well.
-    let planned = stderr(&sahara(&["study", "plan", "compare", "counts", "--scenes", &room, "--dir", &dir]));
-    assert_eq!((planned.matches(&format!("warning: {says}")).count(), planned.lines().count()), (1, 1), "{planned}");
 }

@@ -22,8 +22,8 @@ pub struct CompareArgs {
     pub from: ViewArgs,
     #[command(flatten)]
     pub structures: Structures,
-    /// A program that runs as a structure and times itself, with its arguments; may be repeated. FORMAT.md of the ray
-    /// files says what it reads and writes
+    /// A program that runs as a structure and times itself, with its arguments; may be repeated; with `-s none` without
+    /// structures of the suite beside it. FORMAT.md of the ray files says what it reads and writes
     #[arg(long, value_name = "COMMAND")]
     pub runner: Vec<String>,
     /// Seconds that such a program may take for an answer, a build among them
@@ -84,10 +84,14 @@ pub const SLOWEST: f64 = 4.0;
 /// The structures that are compared beside one of each name where none is named: for users who have slices of rays.
 const PACKETS: &str = "sah-hybrid:batch=packets";
 
+/// Names no structure of the suite: programs alone are compared.
+const NONE: &str = "none";
+
 impl CompareArgs {
     /// The structures, the reference among them.
     fn chosen(&self, registry: &Registry) -> anyhow::Result<Vec<StructureRequest>> {
-        let mut structures = self.structures.chosen(registry, &[])?;
+        let is_none = matches!(&self.structures.structure[..], [word] if word == NONE) && !self.runner.is_empty();
+        let mut structures = if is_none { vec![] } else { self.structures.chosen(registry, &[])? };
         if let Some(packets) = registry.choose(PACKETS).ok().filter(|_| self.structures.structure.is_empty()) {
             let place =
                 structures.iter().position(|own| own.spec == "sah-hybrid").map_or(structures.len(), |at| at + 1);
