@@ -80,7 +80,7 @@ pub trait Accel: Sized + Send + Sync + 'static {
     /// Whether `ray` hits anything.
     ///
     /// By default whether there is a closest hit; of a structure that declines [`Capabilities::t_max`], whether that
-    /// lies before `t_max`. A structure that leaves it so should decline [`Capabilities::any_hit`], so that nobody
+    /// lies before `t_max`, as far as its rounded `t` tells. A structure that leaves it so should decline [`Capabilities::any_hit`], so that nobody
     /// takes its time for that of an any-hit query.
     #[inline]
     fn any_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> bool {

@@ -15,7 +15,8 @@ use crate::traversal::line::inverses;
 /// 2.1 units of 2^-24, relatively, and three move F by less than 3.1 from 16 units beyond f. So N <= F for the planes of any two axes
 /// where n is not negative, and t_min <= F; and because the last rounding is monotonic, also where the products underflow, the
 /// rounded ones are in that order. Where n is negative, t_min stands for it. `end` is 8 units beyond the last parameter of interest,
-/// which n does not exceed. Infinite crossings (`d` = 0) order correctly, and what has no answer is NaN (see
+/// which n does not exceed; where N overflows, `end` is infinite (see [`Line`](crate::traversal::line::Line)), and so is F. Infinite crossings
+/// (`d` = 0) order correctly, and what has no answer is NaN (see
 /// [`inverses`]), which leaves the interval as it is. Nothing is fused, so that all levels visit the same boxes for the same `end`.
 #[derive(Clone, Copy)]
 pub(super) struct PreparedRay<L> {

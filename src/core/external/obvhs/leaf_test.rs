@@ -24,6 +24,12 @@ pub trait LeafTest: Send + Sync + 'static {
     /// Prepares a ray.
     fn prepare(ray: &Ray) -> Self::Ray;
 
+    /// Where the interval of obvhs' ray ends, for a ray that ends before `t_max`: it takes no hit whose rounded `t` is that.
+    #[inline(always)]
+    fn end(t_max: f32) -> f32 {
+        t_max
+    }
+
     /// The `t` of a hit, infinity for a miss.
     fn test(triangle: &Self::Triangle, ray: &PreparedRay, prepared: &Self::Ray) -> f32;
 }
@@ -43,6 +49,12 @@ impl<T: TriangleTest> LeafTest for Over<T> {
     #[inline(always)]
     fn prepare(ray: &Ray) -> Self::Ray {
         (*ray, T::prepare(ray))
+    }
+
+    /// Behind the last `t`: a test that decides exactly may round one before `t_max` to `t_max`.
+    #[inline(always)]
+    fn end(t_max: f32) -> f32 {
+        T::last(t_max).next_up()
     }
 
     #[inline(always)]
