@@ -22,6 +22,7 @@ impl Planes {
     /// The planes at `min` and `max` and `count` between them; nothing where there is no room.
     pub fn new(axis: usize, (min, max): (f32, f32), count: usize, sample: &Sample) -> Option<Self> {
         let last = count + 1;
+        assert!(last < PLANES, "{count} planes between both ends are too many");
         let mut planes =
             Self { axis, min, scale: last as f32 / (max - min), last, values: [f32::NEG_INFINITY; PLANES] };
         // The second says whether the extent is so large or small that the grid overflows.
@@ -50,7 +51,7 @@ impl Planes {
     #[inline(always)]
     fn cell(&self, x: f32) -> usize {
         let at = ((x - self.min) * self.scale + 0.5).max(0.0).min(self.last as f32);
-        // SAFETY: `at` is a number (`max` turns NaN into 0) from 0 to `last`, which fits an `i32`.
+        // SAFETY: `max` turns NaN into 0, so that `at` is in [0, `last`]; `new` has checked that `last` is below `PLANES`.
         unsafe { at.to_int_unchecked::<i32>() as usize }
     }
 

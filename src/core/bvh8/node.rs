@@ -131,7 +131,7 @@ impl Child {
     /// Eight children as they are in memory.
     #[inline(always)]
     pub fn bits(children: &[Self; WIDTH]) -> &[u32; WIDTH] {
-        // SAFETY: a child is a number, transparently.
+        // SAFETY: `Child` is a transparent `u32`, so that arrays of both have one layout.
         unsafe { &*(&raw const *children).cast() }
     }
 

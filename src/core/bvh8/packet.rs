@@ -55,14 +55,14 @@ impl<T: TriangleTest> Bvh8<T> {
         let (mut child, mut active) = (self.root, u16::MAX);
         loop {
             if let Some((first, count)) = child.blocks() {
-                // SAFETY: leaves name blocks that are there.
+                // SAFETY: a leaf names a range of `blocks` (invariants of `Bvh8`).
                 let blocks = unsafe { self.blocks.get_unchecked(first..first + count) };
                 state.search::<ANY, L>(first, blocks, active, &mut packet);
             } else if active.count_ones() <= FEW {
                 self.one_by_one::<ANY, L>(child, active, &mut packet, &mut state);
             } else {
-                // SAFETY: children name nodes that are there; the depth was checked when the tree was built, so that no
-                // more than seven entries a level are on the stack when eight are written.
+                // SAFETY: a child that is no leaf names one of `nodes`, and a path has at most `DEPTH` of them (invariants
+                // of `Bvh8`). Each node above this one has left at most seven entries, so that eight more fit in `SIZE`.
                 unsafe {
                     let node = self.nodes.get_unchecked(child.index());
                     let met = frustum.meet(node);
@@ -86,7 +86,7 @@ impl<T: TriangleTest> Bvh8<T> {
                     return true;
                 }
                 len -= 1;
-                // SAFETY: what is below the length was written, and names a node.
+                // SAFETY: entries are written before `len` counts them; their parent is the node that they were read from.
                 let (entry, node) = unsafe {
                     let entry = stack.get_unchecked(len).assume_init();
                     (entry, self.nodes.get_unchecked(entry.parent as usize))

@@ -95,7 +95,7 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
     #[inline(always)]
     pub fn single(&mut self, i: usize) -> (&T::Ray, f32, Nearest<T::Depth<'a>>) {
         self.prepare(1 << i);
-        // SAFETY: prepared.
+        // SAFETY: the line above has prepared ray `i`.
         (unsafe { self.prepared(i) }, self.t_min[i], self.nearest.get(i))
     }
 
@@ -188,7 +188,7 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
             while left != 0 {
                 let i = left.trailing_zeros() as usize % RAYS;
                 left &= left - 1;
-                // SAFETY: prepared.
+                // SAFETY: `prepare` above has written the rays of `active`, and `left` has no others.
                 let ray = unsafe { self.prepared[i].assume_init_ref() };
                 let (candidates, first) =
                     T::candidates::<WIDTH, L>(ray, &block.triangles, self.t_min[i], self.nearest.t(i));
@@ -201,9 +201,9 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
             while met != 0 {
                 let i = met.trailing_zeros() as usize % RAYS;
                 met &= met - 1;
-                // SAFETY: written above for this block, as `met` says.
+                // SAFETY: the loop above sets a bit of `met` only after it has written the candidates of that ray.
                 let candidates = unsafe { self.candidates[i].assume_init() };
-                // SAFETY: prepared, as all that take part.
+                // SAFETY: `prepare` above has prepared the rays of `active`, and `met` has no others.
                 unsafe { self.settle(number, block, i, candidates) };
                 if ANY && self.nearest.has_found(i) {
                     searching &= !(1 << i);
@@ -221,7 +221,7 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
     /// Decides about the candidates of ray `i`.
     ///
     /// # Safety
-    /// It is prepared.
+    /// [`prepare`](Self::prepare) has prepared the ray.
     #[inline(always)]
     unsafe fn settle(
         &mut self,
@@ -235,7 +235,7 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
             while candidates != 0 {
                 let lane = candidates.trailing_zeros() as usize % WIDTH;
                 candidates &= candidates - 1;
-                // SAFETY: prepared, as the caller says.
+                // SAFETY: by the contract of this function ray `i` is prepared.
                 let depth = T::decide(unsafe { self.prepared(i) }, &block.triangles, lane, &values);
                 self.nearest.offer(i, depth.expect("the first stage has decided").bound(), block.ids[lane]);
             }
@@ -245,7 +245,7 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
                 let (id, place) = (block.ids[lane], (number * WIDTH + lane) as u32);
                 // A triangle of several leaves is met again.
                 let told = self.nearest.id(i) == id || {
-                    // SAFETY: prepared, as the caller says.
+                    // SAFETY: by the contract of this function ray `i` is prepared.
                     match T::decide_at_once(unsafe { self.prepared(i) }, &block.triangles, lane, &values) {
                         Some(Some(depth)) => self.nearest.offer_between(i, &depth, id, place),
                         Some(None) => true,
@@ -254,7 +254,7 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
                 };
                 if !told {
                     let mut nearest = self.nearest.get(i);
-                    // SAFETY: prepared, as the caller says.
+                    // SAFETY: by the contract of this function ray `i` is prepared.
                     settle(block, unsafe { self.prepared(i) }, candidates, &values, &mut nearest);
                     return self.nearest.set(i, nearest);
                 }
@@ -266,11 +266,11 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
     /// Ray `i` as its test wants it.
     ///
     /// # Safety
-    /// It is prepared.
+    /// [`prepare`](Self::prepare) has prepared the ray.
     #[inline(always)]
     unsafe fn prepared(&self, i: usize) -> &T::Ray {
         debug_assert!(self.ready >> i & 1 == 1);
-        // SAFETY: written when it was prepared.
+        // SAFETY: by the contract of this function `prepare` has written it, and nothing removes it.
         unsafe { self.prepared[i].assume_init_ref() }
     }
 

@@ -71,7 +71,8 @@ impl<L: Lanes<WIDTH>> PreparedRay<L> {
         let planes = (&raw const node.planes).cast::<u8>();
         let (mut enter, mut leave) = (self.t_min, end);
         for axis in 0..3 {
-            // SAFETY: there is a row of planes after each of these many bytes.
+            // SAFETY: `near` and `far` are the offsets that `of` has computed from numbers of `rows`, all below the six rows
+            // of `planes`; a row of floats is aligned as the node is.
             let (near, far) = unsafe { (&*planes.add(self.near[axis]).cast(), &*planes.add(self.far[axis]).cast()) };
             enter = L::load(near).sub(self.origin[axis]).mul(self.inverse[axis]).max(enter);
             leave = L::load(far).sub(self.origin[axis]).mul(self.enlarged[axis]).min(leave);

@@ -7,6 +7,8 @@ use crate::simd::EightLanes;
 
 /// Each node leaves at most seven children behind, and eight are written at once.
 pub(super) const SIZE: usize = DEPTH * (WIDTH - 1) + WIDTH;
+/// The bottom, what all nodes of a path but the last one leave behind, and the eight children of that.
+const _: () = assert!(1 + (DEPTH - 1) * (WIDTH - 1) + WIDTH <= SIZE);
 
 /// Children, the next one on top, and where the ray enters them. Not initialised: that would cost more than a short walk.
 ///
@@ -55,7 +57,8 @@ impl Entries {
     /// `entries` is valid for writes.
     #[inline(always)]
     pub unsafe fn reset(entries: *mut Self) {
-        // SAFETY: as the caller says; no reference is made to what is not initialised.
+        // SAFETY: by the contract of this function the entries may be written; raw pointers do, so that no reference to
+        // memory that is not initialised is made.
         unsafe {
             (&raw mut (*entries).children[0]).write(MaybeUninit::new(Child::BOTTOM));
             (&raw mut (*entries).enters[0]).write(MaybeUninit::new(f32::NEG_INFINITY));
@@ -67,7 +70,8 @@ impl<'a, const ANY: bool> Stack<'a, ANY> {
     /// Those that are left of it.
     ///
     /// # Safety
-    /// `len` is 0, 1 after [`reset`](Entries::reset), or that of a stack for the same query after which nobody wrote to the entries.
+    /// `len` is 0; or 1 after [`reset`](Entries::reset); or the length of an earlier stack of the same `ANY` over these
+    /// entries, if nothing else has written to them since.
     #[inline(always)]
     pub unsafe fn of(entries: &'a mut Entries, len: usize) -> Self {
         Self { entries, len }
@@ -90,7 +94,8 @@ impl<'a, const ANY: bool> Stack<'a, ANY> {
     pub unsafe fn push<L: EightLanes>(&mut self, node: &Node, octant: usize, (enter, leave): (L, L)) -> Option<Child> {
         let children = Child::bits(&node.children);
         let order = node.orders[octant & 7];
-        // SAFETY: `len` is at most 1 + (DEPTH - 1) * (WIDTH - 1), so that eight more fit; a child is a number in memory.
+        // SAFETY: by the contract of this function at most `DEPTH` - 1 nodes have left entries, seven each, above at most one
+        // of `reset`: eight more fit, as the assertion at `SIZE` says. A child is a `u32`, transparently.
         let met = unsafe {
             let chosen = self.entries.children.as_mut_ptr().add(self.len).cast();
             if ANY {
@@ -126,7 +131,7 @@ impl<'a, const ANY: bool> Stack<'a, ANY> {
     #[inline(always)]
     pub unsafe fn push_all<L: EightLanes>(&mut self, node: &Node, octant: usize, (enter, leave): (L, L)) {
         let children = Child::bits(&node.children);
-        // SAFETY: as there.
+        // SAFETY: as in `push`: of the eight entries that a node pushes, the next step takes one off.
         let met = unsafe {
             let chosen = self.entries.children.as_mut_ptr().add(self.len).cast();
             if ANY {
@@ -142,11 +147,12 @@ impl<'a, const ANY: bool> Stack<'a, ANY> {
     /// The next child that the ray enters not after `end`; at last the [`BOTTOM`](Child::BOTTOM).
     ///
     /// # Safety
-    /// The stack was reset, and that has not been returned since.
+    /// The entries were [`reset`](Entries::reset), and the bottom has not been returned since.
     #[inline(always)]
     pub unsafe fn pop_down(&mut self, end: f32) -> Child {
-        // SAFETY: all below the old length was written, and at the bottom is what every ray enters in time; with `ANY` the entries
-        // were not.
+        // SAFETY: by the contract of this function and that of `of`, `reset`, `push` and `push_all` have written the entries
+        // below `len`: of searches for any hit their children alone, and no others are read. The loop ends above the bottom or at
+        // it, for that is entered at minus infinity.
         unsafe {
             self.len -= 1;
             while !ANY && self.entries.enters.get_unchecked(self.len).assume_init() > end {
@@ -161,7 +167,8 @@ impl<'a, const ANY: bool> Stack<'a, ANY> {
     pub fn pop(&mut self, end: f32) -> Option<Child> {
         while self.len > 0 {
             self.len -= 1;
-            // SAFETY: all below the old length was written; with `ANY` the entries were not.
+            // SAFETY: by the contract of `of`, `push` has written the entries below `len`: of searches for any hit their
+            // children alone, and no others are read.
             unsafe {
                 if ANY || self.entries.enters.get_unchecked(self.len).assume_init() <= end {
                     return Some(self.entries.children.get_unchecked(self.len).assume_init());

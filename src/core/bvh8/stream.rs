@@ -54,20 +54,20 @@ impl<'a, L, T: TriangleTest> List<'a, L, T> {
     const EMPTY: Self = Self([std::ptr::null_mut(); SLOTS]);
 
     /// # Safety
-    /// There are less than `SLOTS` before it.
+    /// `i` is below [`SLOTS`].
     #[inline(always)]
     unsafe fn put(&mut self, i: usize, slot: *mut StreamRay<'a, L, T>) {
         debug_assert!(i < SLOTS);
-        // SAFETY: as the caller says.
+        // SAFETY: by the contract of this function `i` is in bounds.
         unsafe { *self.0.get_unchecked_mut(i) = slot };
     }
 
     /// # Safety
-    /// It was put there.
+    /// `i` is below [`SLOTS`].
     #[inline(always)]
     unsafe fn get(&self, i: usize) -> *mut StreamRay<'a, L, T> {
         debug_assert!(i < SLOTS);
-        // SAFETY: as the caller says.
+        // SAFETY: by the contract of this function `i` is in bounds.
         unsafe { *self.0.get_unchecked(i) }
     }
 }
@@ -124,8 +124,9 @@ impl<'a, L: EightLanes, T: TriangleTest> Stream<'a, L, T> {
         let Some((t_min, nearest)) = start::<T>(ray) else { return done(number, None) };
         self.freed -= 1;
         let root = self.tree.root;
-        // SAFETY: the list has the slots that are free. All of a slot is written but the entries of its stack above the bottom. All lists together
-        // are as long as there are slots.
+        // SAFETY: `freed` counts the slots in `free`, all of which `new` has borrowed for the lifetime of the stream, and was
+        // above 0. Every field of the slot is written before the slot is put into a list, but for the entries above the bottom
+        // of its stack, which `left` leaves out. A slot is in one list at a time, so that no list gets longer than `SLOTS`.
         unsafe {
             let slot = self.free.get(self.freed);
             (&raw mut (*slot).prepared_ray).write(PreparedRay::new(ray, &self.tree.bounds, t_min));
@@ -155,8 +156,9 @@ impl<'a, L: EightLanes, T: TriangleTest> Stream<'a, L, T> {
         // Each list is written anew while it is read. A slot is written to both, and counted in one of them.
         let (mut nodes, rays) = (0, self.at_nodes);
         for k in 0..rays {
-            // SAFETY: slots in lists hold rays; children name nodes that are there; the depth was checked when the tree was built;
-            // whose bottom was reached is at no node; no list gets longer than there are slots.
+            // SAFETY: the first `at_nodes` slots of `nodes` were filled by `push`, and each is in one list, so that this is the
+            // only reference to it, and no list gets longer than `SLOTS`. Its child is a node, and a path has at most `DEPTH`
+            // nodes (invariants of `Bvh8`). The bottom of its stack is left, for `Child::BOTTOM` is a leaf.
             unsafe {
                 let slot = self.nodes.get(k);
                 let at = &mut *slot;
@@ -173,7 +175,8 @@ impl<'a, L: EightLanes, T: TriangleTest> Stream<'a, L, T> {
         }
         let (mut leaves, rays) = (0, self.at_leaves + rays - nodes);
         for k in 0..rays {
-            // SAFETY: likewise; leaves name blocks that are there, and whose bottom was reached takes another way.
+            // SAFETY: as above for `leaves`, whose slots are at a leaf: it names a range of `blocks` (invariants of `Bvh8`), or it
+            // is `Child::BOTTOM`, after which the slot is freed and its stack not used again.
             unsafe {
                 let slot = self.leaves.get(k);
                 let at = &mut *slot;

@@ -57,14 +57,14 @@ impl<T: TriangleTest> Bvh8<T> {
         observer: &mut O,
     ) {
         let OnePage(_, entries) = &mut OnePage::new(Entries::new());
-        // SAFETY: none is looked at.
+        // SAFETY: a stack of length 0 has no entries to read; `push` writes entries before it counts them.
         let mut stack = unsafe { Stack::<ANY>::of(entries, 0) };
         let mut end = after(nearest.t);
         loop {
             let next = if let Some((first, count)) = child.blocks() {
-                // SAFETY: leaves name blocks that are there.
+                // SAFETY: a leaf names a range of `blocks` (invariants of `Bvh8`).
                 let blocks = unsafe { self.blocks.get_unchecked(first..first + count) };
-                // Only who counts asks which lanes are in use.
+                // The number of triangles takes a loop over the lanes in use, so only counting observers pay for it.
                 let mut held = u32::MAX;
                 if O::ACTIVE {
                     held = blocks.iter().map(|block| block.len()).sum();
@@ -78,7 +78,8 @@ impl<T: TriangleTest> Bvh8<T> {
                 None
             } else {
                 observer.inner();
-                // SAFETY: children name nodes that are there; the depth was checked when the tree was built.
+                // SAFETY: a child that is no leaf names one of `nodes`, and a path has at most `DEPTH` of them (invariants
+                // of `Bvh8`), each of which this walk pushes once.
                 unsafe {
                     let node = self.nodes.get_unchecked(child.index());
                     stack.push::<L>(node, prepared_ray.octant, prepared_ray.cross(node, L::splat(end)))

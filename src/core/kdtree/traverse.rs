@@ -81,7 +81,7 @@ impl<E: Copy> Stack<E> {
     #[inline(always)]
     fn pop(&mut self) -> Option<E> {
         self.len = self.len.checked_sub(1)?;
-        // SAFETY: all below the old length was written.
+        // SAFETY: `push` writes an entry before it counts it, and this one was below the old length.
         Some(unsafe { self.entries[self.len].assume_init() })
     }
 }

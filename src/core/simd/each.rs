@@ -9,11 +9,11 @@ pub fn indexed<const N: usize, B: Copy>(f: impl Fn(usize) -> B) -> [B; N] {
     for (i, result) in results.iter_mut().enumerate() {
         result.write(f(i));
     }
-    // SAFETY: all were written, and `MaybeUninit<B>` has the layout of `B`.
+    // SAFETY: the loop has written all of them, and `MaybeUninit<B>` has the layout of `B`.
     unsafe { std::ptr::from_ref(&results).cast::<[B; N]>().read() }
 }
 
-/// Likewise `array::map`.
+/// `array::map` that is always inlined.
 #[inline(always)]
 pub fn each<const N: usize, A, B: Copy>(values: &[A; N], f: impl Fn(&A) -> B) -> [B; N] {
     indexed(|i| f(&values[i]))

@@ -185,7 +185,7 @@ mod tests {
                 others[..count].iter().map(|k| k.to_bits()).collect::<Vec<_>>()
             );
 
-            // SAFETY: likewise.
+            // SAFETY: as above.
             let (set, right) = unsafe {
                 let set = L::load(&a).compress(L::load(&b), &values, chosen.as_mut_ptr());
                 (set, Portable::load(&a).compress(Portable::load(&b), &values, expected.as_mut_ptr()))

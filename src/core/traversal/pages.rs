@@ -21,7 +21,7 @@ pub(crate) fn moved<T: Copy>(values: Vec<T>) -> Vec<T> {
 #[inline(always)]
 pub(crate) fn fetch(at: *const u8) {
     #[cfg(target_arch = "x86_64")]
-    // SAFETY: nothing is read, and there is no fault, whatever the address.
+    // SAFETY: a prefetch reads nothing that the program can see, and does not fault at any address; SSE is part of x86-64.
     unsafe {
         use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
         _mm_prefetch::<_MM_HINT_T0>(at.cast());
@@ -33,13 +33,14 @@ pub(crate) fn fetch(at: *const u8) {
 #[cfg(target_os = "linux")]
 fn advise<T>(start: *const T, bytes: usize) {
     use std::ffi::{c_int, c_void};
-    // SAFETY: as the C library of Linux declares it.
+    // SAFETY: the declaration is that of `madvise` in the C library of Linux: a pointer, a `size_t`, an `int`.
     unsafe extern "C" {
         fn madvise(start: *mut c_void, bytes: usize, advice: c_int) -> c_int;
     }
     const MADV_HUGEPAGE: c_int = 14;
     const PAGE: usize = 4096;
-    // SAFETY: the advice changes no values; it is given for whole pages that lie in one allocation.
+    // SAFETY: this advice changes no values; it is given for the whole pages between `start` and `bytes` after it, which the
+    // callers have just allocated.
     unsafe {
         let first = start.addr().next_multiple_of(PAGE);
         let end = (start.addr() + bytes) / PAGE * PAGE;

@@ -68,7 +68,8 @@ impl Place<'_> {
     pub(super) fn coordinates(&self) -> [f32; 9] {
         let lanes = self.coordinates.len() / 9;
         debug_assert!(self.lane < lanes);
-        // SAFETY: there are nine rows of `lanes`, and `place` has checked that the lane is one of them.
+        // SAFETY: `Corners::place`, which makes all of this type, gives nine rows of `lanes` coordinates, and has checked that
+        // the lane is below `lanes`.
         indexed(|row| unsafe { *self.coordinates.get_unchecked(row * lanes + self.lane) })
     }
 

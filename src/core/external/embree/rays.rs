@@ -109,7 +109,8 @@ impl Single {
             instances: [NONE; 2],
             reserve: [0; 3],
         };
-        // SAFETY: the scene is committed; the ray is aligned and as large as any Embree 4 writes.
+        // SAFETY: `Scene::new` has committed the scene; the ray is aligned as Embree asks, and as large as any Embree 4 writes
+        // (asserted at its type).
         unsafe { (scene.api().intersect1)(scene.handle(), (&raw mut asked).cast(), arguments) };
         (asked.geometry != NONE).then_some((asked.ray.t_far, asked.primitive))
     }
@@ -118,7 +119,7 @@ impl Single {
     #[inline(always)]
     pub fn any(&self, scene: &Scene, arguments: &Arguments) -> bool {
         let mut asked = *self;
-        // SAFETY: as above; this query has no hit.
+        // SAFETY: as in `closest`; this query writes no hit.
         unsafe { (scene.api().occluded1)(scene.handle(), (&raw mut asked).cast(), arguments) };
         asked.t_far == f32::NEG_INFINITY
     }
@@ -170,7 +171,8 @@ impl<const LANES: usize> Packet<LANES> {
             instances: [[NONE; LANES]; 2],
         };
         let query = if const { LANES == 8 } { scene.api().intersect8 } else { scene.api().intersect16 };
-        // SAFETY: the scene is committed; mask and packet are aligned and as large as any Embree 4 reads and writes.
+        // SAFETY: `Scene::new` has committed the scene; mask and packet are aligned as Embree asks, and as large as any Embree 4
+        // reads and writes (asserted at their types).
         unsafe { query(self.valid.as_ptr(), scene.handle(), (&raw mut asked).cast(), arguments) };
         let (geometry, t, primitive) = (asked.geometry, asked.rays.t_far, asked.primitive);
         (0..LANES).map(move |lane| (geometry[lane] != NONE).then_some((t[lane], primitive[lane])))
@@ -181,7 +183,7 @@ impl<const LANES: usize> Packet<LANES> {
     pub fn any(&self, scene: &Scene, arguments: &Arguments) -> impl Iterator<Item = bool> + use<LANES> {
         let mut asked = self.rays;
         let query = if const { LANES == 8 } { scene.api().occluded8 } else { scene.api().occluded16 };
-        // SAFETY: as above; this query has no hit.
+        // SAFETY: as in `closest`; this query writes no hit.
         unsafe { query(self.valid.as_ptr(), scene.handle(), (&raw mut asked).cast(), arguments) };
         asked.t_far.into_iter().map(|t| t == f32::NEG_INFINITY)
     }

@@ -61,7 +61,8 @@ impl Tree for CwBvh {
         let mut hit = RayHit::none();
         let mut state = self.new_traversal(ray.direction);
         let mut node;
-        // SAFETY: the walk begins at the root, if there is one, and goes on to children alone, which exist by the caller's word.
+        // SAFETY: the walk begins at the root, if there is one, and goes on to children alone, which exist: `leads_inside`
+        // holds by the contract of this function.
         let tree = unsafe { Unchecked::new(&self.nodes) };
         traverse!(
             tree,
@@ -126,7 +127,7 @@ struct Nodes<'a>(&'a [CwBvhNode]);
 
 impl<'a> Unchecked<'a> {
     /// # Safety
-    /// Only numbers of nodes that exist may be asked for.
+    /// Only numbers of nodes that exist may be looked up.
     unsafe fn new(nodes: &'a [CwBvhNode]) -> Self {
         Self { nodes: Nodes(nodes) }
     }
@@ -138,7 +139,7 @@ impl Index<usize> for Nodes<'_> {
     #[inline(always)]
     fn index(&self, at: usize) -> &CwBvhNode {
         debug_assert!(at < self.0.len());
-        // SAFETY: the word of whom `Unchecked::new` was called by.
+        // SAFETY: by the contract of `Unchecked::new` only numbers of nodes that exist are looked up.
         unsafe { self.0.get_unchecked(at) }
     }
 }

@@ -58,7 +58,7 @@ impl<T: LeafTest> Leaves<T> {
     pub unsafe fn test(&self, prepared: T::Ray) -> impl Fn(&PreparedRay, usize) -> f32 {
         move |ray, index| {
             debug_assert!(index < self.triangles.len());
-            // SAFETY: the caller's word.
+            // SAFETY: by the contract of this function the number is below `len`.
             T::test(unsafe { self.triangles.get_unchecked(index) }, ray, &prepared)
         }
     }

@@ -95,14 +95,14 @@ impl<B: Tree, T: LeafTest> Prepare for Obvhs<B, T> {
 
     #[inline(always)]
     fn closest<O: Observer>(&self, &(ray, prepared): &Self::Ready, observer: &mut O) -> Option<Hit> {
-        // SAFETY: `build` has checked that the tree's links lead inside, and the places in its leaves to triangles.
+        // SAFETY: `build` has asserted `leads_inside`: links lead to nodes, and places in leaves to triangles.
         let found = unsafe { self.tree.walk::<false>(ray, self.leaves.test(prepared), observer) };
         found.map(|hit| self.leaves.hit(hit))
     }
 
     #[inline(always)]
     fn any<O: Observer>(&self, &(ray, prepared): &Self::Ready, observer: &mut O) -> bool {
-        // SAFETY: as above.
+        // SAFETY: as in `closest`.
         unsafe { self.tree.walk::<true>(ray, self.leaves.test(prepared), observer) }.is_some()
     }
 

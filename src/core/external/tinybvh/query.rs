@@ -44,7 +44,7 @@ pub struct Tree {
 
 // SAFETY: the tree owns its nodes and triangles; both queries are `const` in C++, read them and write to the caller's ray alone.
 unsafe impl Send for Tree {}
-// SAFETY: as above.
+// SAFETY: as for `Send`.
 unsafe impl Sync for Tree {}
 
 #[cfg(target_env = "msvc")]
@@ -72,7 +72,7 @@ impl Tree {
     pub fn closest(&self, ray: &Head) -> Option<(f32, u32)> {
         let mut whole = Whole { head: *ray, custom: [0; 8] };
         // SAFETY: the object lives as long as `self`, wherever that is moved: it lies on the heap of C++. The ray is as large and
-        // aligned as its type in C++, and nobody else's.
+        // aligned as its type in C++ (asserted at `Whole`), and nothing else refers to it.
         unsafe { intersect(self.object, &raw mut whole) };
         (whole.head.t < ray.t).then_some((whole.head.t, whole.head.primitive))
     }
@@ -81,7 +81,8 @@ impl Tree {
     #[inline]
     pub fn any(&self, ray: &Head) -> bool {
         let whole = Whole { head: *ray, custom: [0; 8] };
-        // SAFETY: as above; this query writes nothing.
+        // SAFETY: the object lives as long as `self`; the ray is as large and aligned as its type in C++, and this query writes
+        // nothing.
         unsafe { is_occluded(self.object, &raw const whole) }
     }
 }
