@@ -93,7 +93,8 @@ fn hits_near_the_largest_t_are_found() {
     }
 }
 
-/// A small mesh on a large floor: the first cuts in the middle part nothing from it but space and the floor's two triangles.
+/// A small mesh on a large floor: the first cuts in the middle part nothing from it but space and the floor's two
+/// triangles.
 #[test]
 fn the_middle_of_a_cell_finds_a_small_mesh_on_a_large_floor() {
     let mut rng = rand_pcg::Pcg32::seed_from_u64(9);

@@ -5,9 +5,9 @@ use super::{Arithmetic, EightLanes, Lanes};
 
 /// 8 lanes in one AVX register, for machines with AVX2 and FMA; with `MASKS`, for those with AVX-512 VL as well.
 ///
-/// Why the `unsafe` blocks below are sound: the type is private to `simd`, where only [`dispatch`](super::dispatch) names it,
-/// in functions that are compiled for these instructions and are called for a [`Level`](super::Level) that has them alone. Loads
-/// and stores are unaligned, and of arrays as large as a register unless another note says so.
+/// Why the `unsafe` blocks below are sound: the type is private to `simd`, where only [`dispatch`](super::dispatch)
+/// names it, in functions that are compiled for these instructions and are called for a [`Level`](super::Level) that
+/// has them alone. Loads and stores are unaligned, and of arrays as large as a register unless another note says so.
 #[derive(Clone, Copy, Debug)]
 pub struct Avx<const MASKS: bool>(__m256);
 
@@ -162,8 +162,8 @@ impl<const MASKS: bool> EightLanes for Avx<MASKS> {
         keys: *mut f32,
         chosen: *mut u32,
     ) -> u32 {
-        // SAFETY: the machine has the instructions, see `Avx`; by the contract of this function eight floats and eight numbers
-        // may be written.
+        // SAFETY: the machine has the instructions, see `Avx`; by the contract of this function eight floats and eight
+        // numbers may be written.
         unsafe {
             let hit = _mm256_cmp_ps::<_CMP_LE_OQ>(self.0, limit.0);
             let shifts = _mm256_setr_epi32(0, 3, 6, 9, 12, 15, 18, 21);
@@ -186,7 +186,8 @@ impl<const MASKS: bool> EightLanes for Avx<MASKS> {
 
     #[inline(always)]
     unsafe fn compress(self, limit: Self, values: &[u32; 8], chosen: *mut u32) -> u32 {
-        // SAFETY: the machine has the instructions, see `Avx`; by the contract of this function eight numbers may be written.
+        // SAFETY: the machine has the instructions, see `Avx`; by the contract of this function eight numbers may be
+        // written.
         unsafe {
             let set = self.le(limit);
             let values = _mm256_loadu_si256(values.as_ptr().cast());

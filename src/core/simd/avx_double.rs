@@ -2,8 +2,8 @@ use std::arch::x86_64::*;
 
 use super::{Arithmetic, indexed};
 
-/// 8 lanes of `f64` in two AVX registers, for machines with AVX2 and FMA: the double of [`Avx`](super::avx::Avx), made of it and
-/// where it is, so that the machine has the instructions for the reason given there.
+/// 8 lanes of `f64` in two AVX registers, for machines with AVX2 and FMA: the double of [`Avx`](super::avx::Avx), made
+/// of it and where it is, so that the machine has the instructions for the reason given there.
 #[derive(Clone, Copy, Debug)]
 pub struct F64x8(pub(super) [__m256d; 2]);
 

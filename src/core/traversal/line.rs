@@ -1,4 +1,5 @@
-//! A ray as traversals see it: where it crosses axis-aligned planes, with the slack that keeps rounding from losing a hit.
+//! A ray as traversals see it: where it crosses axis-aligned planes, with the slack that keeps rounding from losing a
+//! hit.
 
 use glam::Vec3A;
 
@@ -19,11 +20,11 @@ use crate::simd::{Lanes, each};
 ///
 /// **Ends of the interval.** Let t* be the exact parameter of a hit in [`t_min`, `t_max`). It may lie beyond the last
 /// float before `t_max` and be reported as `t_max`. So the ends that crossings are compared with are `t_min` itself and
-/// [`TriangleTest::last`](crate::triangle::TriangleTest::last), later the bound of the nearest hit: a float that t* does
-/// not exceed where the test is exact, and that the rounded t* does not exceed where the test rounds it to the nearest
-/// float. Then t* exceeds it by 2^-24 of itself at most. A box that contains the hit is entered at an exact parameter e
-/// <= t* and left at f >= t*. The computed entry, moved by `before`, is at least 3.9 * 2^-24 of e before e, hence not
-/// beyond the end; the computed exit, moved by `after`, is not before f, hence not before `t_min`.
+/// [`TriangleTest::last`](crate::triangle::TriangleTest::last), later the bound of the nearest hit: a float that t*
+/// does not exceed where the test is exact, and that the rounded t* does not exceed where the test rounds it to the
+/// nearest float. Then t* exceeds it by 2^-24 of itself at most. A box that contains the hit is entered at an exact
+/// parameter e <= t* and left at f >= t*. The computed entry, moved by `before`, is at least 3.9 * 2^-24 of e before e,
+/// hence not beyond the end; the computed exit, moved by `after`, is not before f, hence not before `t_min`.
 ///
 /// **Overflow.** A crossing from 2.6 * 2^-24 before the largest float on may be computed as infinity, and `before`
 /// leaves that where it is: beyond every finite end, and beyond the computed crossings of planes that the ray meets
@@ -74,8 +75,8 @@ pub(crate) fn lanes_after<L: Lanes<8>>(t: L) -> L {
     t.mul(L::splat(AFTER)).add(L::splat(TINY))
 }
 
-/// 1 / d for each component of the direction, for planes that cut the box `bounds` or are its faces; NaN where a crossing
-/// computed with it has no answer.
+/// 1 / d for each component of the direction, for planes that cut the box `bounds` or are its faces; NaN where a
+/// crossing computed with it has no answer.
 #[inline(always)]
 pub(crate) fn inverses(ray: &Ray, bounds: &Aabb) -> [f32; 3] {
     // All three axes at once: what is done for each ray is much of what a ray costs.
@@ -112,11 +113,11 @@ impl Line {
         self.backward[axis]
     }
 
-    /// The part of [`t0`, `t1`] in the closed box, with slack; nothing if the line surely misses the box. It may begin at
-    /// infinity where a crossing overflows, so `t1` must be an [`open_end`] or moved [`after`].
+    /// The part of [`t0`, `t1`] in the closed box, with slack; nothing if the line surely misses the box. It may begin
+    /// at infinity where a crossing overflows, so `t1` must be an [`open_end`] or moved [`after`].
     ///
-    /// A parallel line inside the slab crosses at -inf and +inf in the order of travel; a parallel line in a face crosses that
-    /// face at NaN, which leaves the interval as it is.
+    /// A parallel line inside the slab crosses at -inf and +inf in the order of travel; a parallel line in a face
+    /// crosses that face at NaN, which leaves the interval as it is.
     #[inline(always)]
     pub fn clip(&self, cell: &Aabb, mut t0: f32, mut t1: f32) -> Option<(f32, f32)> {
         for axis in 0..3 {

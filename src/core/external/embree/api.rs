@@ -9,16 +9,17 @@ use libloading::Library;
 /// Names the library to load.
 pub const VARIABLE: &str = "SAHARA_EMBREE";
 
-/// What the system's search path is asked for.
+/// The names that are looked up in the system's search path.
 const NAMES: [&str; 4] = ["libembree4.so.4", "libembree4.so", "libembree4.4.dylib", "embree4.dll"];
 
 /// An object of Embree.
 pub type Handle = *mut c_void;
 
-/// Told of errors: the pointer handed in, the code, a sentence.
+/// Receives errors: the pointer given with the function, the code, a sentence.
 pub type OnError = unsafe extern "C" fn(*mut c_void, c_int, *const c_char);
 
-/// Told of memory: the pointer handed in, bytes taken or given back, whether it has happened already. May refuse.
+/// Receives changes of memory: the pointer given with the function, bytes taken or given back, whether that has
+/// happened already. May refuse.
 pub type OnMemory = unsafe extern "C" fn(*mut c_void, isize, bool) -> bool;
 
 /// How a query is made: the head of `RTCIntersectArguments` and `RTCOccludedArguments`, which agree, with room for what
@@ -98,8 +99,8 @@ fn load() -> Result<(Library, Api), String> {
     };
     let mut failure = None;
     let library = candidates.iter().find_map(|name| {
-        // SAFETY: loading runs the initialisers of the library. It is the one that the user names, or the system's own Embree:
-        // both are trusted to be what they are named.
+        // SAFETY: loading runs the initialisers of the library. It is the one that the user names, or the system's own
+        // Embree: both are trusted to be what they are named.
         let loaded = unsafe { Library::new(name) };
         loaded.map_err(|error| failure = Some(error)).ok()
     });

@@ -23,8 +23,8 @@ pub struct Scene {
     api: &'static Api,
     device: Handle,
     scene: Handle,
-    /// Embree holds a pointer to it. In an `Arc`, which stays where it is and may be shared: a pointer into a `Box` is no longer
-    /// valid once the box is moved.
+    /// Embree holds a pointer to it. In an `Arc`, which stays where it is and may be shared: a pointer into a `Box` is
+    /// no longer valid once the box is moved.
     monitor: Arc<Monitor>,
 }
 
@@ -56,8 +56,8 @@ impl Scene {
     pub fn new(mesh: &Mesh, ids: &[u32], flags: c_int, quality: c_int, threads: usize) -> Result<Self, BuildError> {
         let api = api().map_err(BuildError::Unavailable)?;
         let options = CString::new(format!("threads={threads},set_affinity=0")).expect("no zero inside");
-        // SAFETY: the calls and their order are those of Embree's manual. The monitor that the functions are given is kept in
-        // `scene`, which releases the device before it drops the monitor, whatever fails.
+        // SAFETY: the calls and their order are those of Embree's manual. The monitor that the functions are given is
+        // kept in `scene`, which releases the device before it drops the monitor, whatever fails.
         unsafe {
             let device = (api.new_device)(options.as_ptr());
             if device.is_null() {
@@ -83,8 +83,8 @@ impl Scene {
     /// Hands over the triangles. Embree pads and aligns the buffers that it makes itself.
     fn attach(&self, mesh: &Mesh, ids: &[u32], quality: c_int) -> Result<(), BuildError> {
         let (api, positions) = (self.api, mesh.positions());
-        // SAFETY: the buffers are not null, and have as many items of 12 bytes as the calls ask for and the loops write; the
-        // geometry is released here and kept alive by the scene.
+        // SAFETY: the buffers are not null, and have as many items of 12 bytes as the calls ask for and the loops
+        // write; the geometry is released here and kept alive by the scene.
         unsafe {
             let geometry = (api.new_geometry)(self.device, TRIANGLES);
             let vertices: *mut Vec3 = (api.new_buffer)(geometry, VERTICES, 0, FLOAT3, 12, positions.len()).cast();

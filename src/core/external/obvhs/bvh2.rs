@@ -42,8 +42,8 @@ impl Tree for Bvh2 {
         })
     }
 
-    /// The walk of obvhs, step by step, without the assertion at every node that its children exist, and with an observer. Gives
-    /// the same hits as its own, which a test holds.
+    /// The walk of obvhs, step by step, without the assertion at every node that its children exist, and with an
+    /// observer. Gives the same hits as its own, which a test holds.
     #[inline(always)]
     unsafe fn walk<const ANY: bool>(
         &self,

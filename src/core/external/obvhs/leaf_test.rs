@@ -8,8 +8,8 @@ use super::RtTest;
 use crate::geometry::Ray;
 use crate::triangle::{Depth, TriangleTest};
 
-/// A triangle test in the form in which obvhs calls it: infinity for a miss, and the beginning of the interval enforced,
-/// which obvhs' own traversals leave to the test.
+/// A triangle test in the form in which obvhs calls it: infinity for a miss, and the beginning of the interval
+/// enforced, which obvhs' own traversals leave to the test.
 pub trait LeafTest: Send + Sync + 'static {
     /// The name of the triangle test.
     const NAME: &'static str;
@@ -24,7 +24,8 @@ pub trait LeafTest: Send + Sync + 'static {
     /// Prepares a ray.
     fn prepare(ray: &Ray) -> Self::Ray;
 
-    /// Where the interval of obvhs' ray ends, for a ray that ends before `t_max`: it takes no hit whose rounded `t` is that.
+    /// Where the interval of obvhs' ray ends, for a ray that ends before `t_max`: it takes no hit whose rounded `t` is
+    /// that.
     #[inline(always)]
     fn end(t_max: f32) -> f32 {
         t_max
