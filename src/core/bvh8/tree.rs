@@ -22,12 +22,11 @@ use crate::triangle::TriangleTest;
 /// Wald, Benthin, Boulos: Getting rid of packets, 2008 (wide nodes for single rays). Ylitie, Karras, Laine: Efficient
 /// incoherent ray traversal on GPUs through compressed wide BVHs, 2017 (the collapse). Stich, Friedrich, Dietrich:
 /// Spatial splits in bounding volume hierarchies, 2009.
-///
-/// # Invariants
-/// The `unsafe` blocks of the walks rely on them. [`Layout`] establishes them, and a tree is never changed: the root
-/// and all children of nodes name nodes in `nodes` or ranges of `blocks`; each node is the child of at most one other;
-/// and no path from the root has more than [`DEPTH`](super::node::DEPTH) nodes, which [`Limits::check`] refuses.
 pub struct Bvh8<T: TriangleTest> {
+    // Invariants, on which the `unsafe` blocks of the traversals rely. `Layout` establishes them, and a tree is never
+    // changed: the root and all children of nodes name nodes in `nodes` or ranges of `blocks`; each node is the child
+    // of at most one other; and no path from the root has more than `DEPTH` nodes, because `Limits::check` refuses
+    // longer ones.
     pub(super) root: Child,
     pub(super) nodes: Vec<Node>,
     pub(super) blocks: Vec<LeafBlock<T, WIDTH>>,

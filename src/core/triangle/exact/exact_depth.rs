@@ -2,8 +2,8 @@ use std::cmp::Ordering;
 
 use glam::Vec3;
 
+use super::bounds_of_hit;
 use super::enclosure::{Bounds, pass_plane, place_closely};
-use super::seen;
 use crate::exact;
 use crate::geometry::Ray;
 use crate::simd::{EightLanes, LaneVec3, indexed};
@@ -42,7 +42,7 @@ impl<'a> ExactDepth<'a> {
 
     /// An upper bound of the exact `t`, in `f64`.
     pub(super) fn latest(&self, ray: &Ray) -> f64 {
-        match seen(ray, self.triangle.corners()) {
+        match bounds_of_hit(ray, self.triangle.corners()) {
             Bounds::Hit { high, .. } => high,
             _ => self.high.into(),
         }
@@ -69,7 +69,7 @@ impl<'a> ExactDepth<'a> {
             _ => None,
         };
         let equal = || meet_at_an_edge(ray, &own, &others).then_some(Ordering::Equal);
-        order(seen)
+        order(bounds_of_hit)
             .or_else(equal)
             .or_else(|| order(place_closely))
             .unwrap_or_else(|| self.exact(ray).cmp(&other.exact(ray)))
@@ -115,7 +115,7 @@ impl Depth for ExactDepth<'_> {
     #[inline(always)]
     fn t(&self, ray: &Ray) -> f32 {
         let corners = self.triangle.corners();
-        match rounded(seen(ray, corners)) {
+        match rounded(bounds_of_hit(ray, corners)) {
             Some(t) => t,
             None => exact_t(ray, corners),
         }
@@ -141,7 +141,7 @@ impl Depth for ExactDepth<'_> {
             for (lane, t) in ts.iter_mut().enumerate().filter(|(lane, _)| undecided >> lane & 1 == 1) {
                 let vector = |first: usize| Vec3::from_array(indexed(|axis| inputs[first + axis][lane]));
                 let (ray, corners) = (Ray::new(vector(ORIGIN), vector(DIRECTION)), [vector(0), vector(3), vector(6)]);
-                *t = rounded(seen(&ray, corners)).unwrap_or_else(|| exact_t(&ray, corners));
+                *t = rounded(bounds_of_hit(&ray, corners)).unwrap_or_else(|| exact_t(&ray, corners));
             }
         }
         ts

@@ -186,7 +186,7 @@ fn in_f64(ray: &Ray, triangle: Place, met: bool) -> Option<(f32, f32)> {
         Bounds::Hit { low, high } if high < start || end <= low => Some(None),
         Bounds::Hit { .. } | Bounds::Unclear => None,
     };
-    let bounds = if met { seen(ray, corners) } else { look(ray, corners) };
+    let bounds = if met { bounds_of_hit(ray, corners) } else { look(ray, corners) };
     let met = matches!(bounds, Bounds::Hit { .. });
     within(bounds)
         .or_else(|| met.then(|| within(place_closely(ray, corners)))?)
@@ -228,7 +228,7 @@ fn runs_along(ray: &Ray, [a, b, c]: &[Vec3; 3]) -> bool {
 
 /// As [`look`], where the line is known to meet the triangle.
 #[inline(always)]
-fn seen(ray: &Ray, corners: [Vec3; 3]) -> Bounds {
+fn bounds_of_hit(ray: &Ray, corners: [Vec3; 3]) -> Bounds {
     let one = LaneVec3::<1, Portable<1>>::splat;
     match place(one(ray.origin), one(ray.direction), each(&corners, |&corner| one(corner))) {
         (0, ..) => Bounds::Unclear,
