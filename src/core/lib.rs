@@ -24,8 +24,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! A program compiles the structures that it names, with its own settings: `codegen-units = 1` in its `[profile.release]` is what they are measured
-//! with.
+//! A program compiles the structures that it names, with its own settings: `codegen-units = 1` in its
+//! `[profile.release]` is what they are measured with.
 
 #![warn(missing_docs)]
 

@@ -2,7 +2,12 @@
 
 use glam::Vec3;
 
+mod rounded_ends;
+
+pub use rounded_ends::{near_the_largest_t, rounded_ends};
+
 use super::Sampler;
+use crate::exact;
 use crate::geometry::{Aabb, Mesh, Ray};
 use crate::names::named_enum;
 use crate::triangle::{MollerTrumbore, scalar_hit};
@@ -43,6 +48,8 @@ named_enum! {
         Windows = "windows",
         /// NaN, infinity, zero directions, empty intervals: nothing may be hit.
         Invalid = "invalid",
+        /// Intervals that end or begin where the exact `t` of a hit is rounded to, half of them near the largest float.
+        RoundedEnds = "rounded-ends",
     }
 }
 
@@ -112,6 +119,7 @@ impl<'a> Generator<'a> {
             }
             Stratum::Windows => self.window(),
             Stratum::Invalid => self.invalid(),
+            Stratum::RoundedEnds => self.rounded_end(),
         }
     }
 
@@ -299,6 +307,20 @@ impl<'a> Generator<'a> {
             _ => ray.t_max = self.sampler.pick(&[f32::NAN, 0.0, -0.0, -1.0, f32::NEG_INFINITY]),
         }
         ray
+    }
+
+    /// From so far away now and then that a direction short enough for the largest `t` is no denormal number.
+    fn rounded_end(&mut self) -> Ray {
+        let [a, b, c] = self.corners();
+        let ([u, v, w], away) = (self.sampler.barycentric(), self.sampler.pick(&[1.0, 30.0, 1e3]));
+        let target = a * u + b * v + c * w;
+        let back = (self.origin() - target) * away;
+        let mut ray = Ray::new(target + back, -back * (0.5 + self.sampler.unit()));
+        let (is_far, end) = (self.sampler.coin(), self.sampler.below(3) / 2);
+        if is_far {
+            ray = exact::hit(&ray, [a, b, c]).map_or(ray, |t| near_the_largest_t(&ray, t.approximate()));
+        }
+        exact::hit(&ray, [a, b, c]).map_or(ray.until(f32::MAX), |t| rounded_ends(&ray, &t)[end])
     }
 }
 

@@ -1,7 +1,7 @@
 //! One case of the fuzzer: a mesh and rays of any floats whatever, and all that must hold for them.
 //!
-//! Shared by `tests/properties.rs`, which draws cases by proptest, and by the fuzz target of this folder, which reads them from
-//! bytes.
+//! Shared by `tests/properties.rs`, which draws cases by proptest, and by the fuzz target of this folder, which reads
+//! them from bytes.
 
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
@@ -15,6 +15,7 @@ use sahara::oracle;
 use sahara::registry::Registry;
 use sahara::request::known_defect;
 use sahara::simd::Level;
+use sahara::validate::adversarial::{near_the_largest_t, rounded_ends};
 use sahara::validate::{Reference, validate};
 
 /// The structures of this crate and their variants, over every triangle test that they are offered with; the eight-wide
@@ -59,8 +60,8 @@ pub struct Case {
 impl Case {
     /// What must hold: a mesh is refused with a sentence or every structure is built over it; no structure over any
     /// triangle test loses or invents a hit against brute force with the same test, or returns a higher number than the
-    /// lowest, and all levels of instructions give the same bits; `exact` gives the mathematical
-    /// answer, by two judges. Nothing panics.
+    /// lowest, also where an interval ends at the float that an exact `t` is rounded to, and all levels of instructions
+    /// give the same bits; `exact` gives the mathematical answer, by two judges. Nothing panics.
     ///
     /// # Errors
     /// What does not hold, with the case.
@@ -73,7 +74,8 @@ impl Case {
         let registry = Registry::builtin();
         let blame = |what: String| format!("{what}\n{self:?}");
 
-        let company = self.in_company();
+        let rays = self.with_rounded_ends(&mesh);
+        let company = in_company(&rays);
         let tests = registry.entries().iter().filter(|e| e.name == "sah-kd").map(|e| e.triangle_test);
         for test in tests {
             let reference = Reference::of_test(test, &mesh).map_err(|e| blame(e.to_string()))?;
@@ -84,7 +86,7 @@ impl Case {
                 let spec = format!("{name}:test={test},{keys}");
                 let choice = registry.choose(&spec).map_err(|e| blame(e.to_string()))?;
                 let accel = choice.build(&mesh).map_err(|e| blame(format!("{spec}: {e}")))?;
-                let rays = if keys.contains("batch") { &company } else { &self.rays };
+                let rays = if keys.contains("batch") { &company } else { &rays };
                 let found = validate(&*accel, &reference, &mesh, rays);
                 if found.errors() + found.higher_ids > 0 {
                     return Err(blame(format!("{spec}: {}", found.worst[0])));
@@ -96,10 +98,10 @@ impl Case {
         // Brute force gives the answers of a test alone.
         let answers = |test: &str| {
             let known = registry.find("brute-force", test).is_some();
-            known.then(|| Reference::of_test(test, &mesh).map(|reference| reference.accel.closest(&self.rays)))
+            known.then(|| Reference::of_test(test, &mesh).map(|reference| reference.accel.closest(&rays)))
         };
         if let Some(exact) = answers("exact") {
-            for (ray, hit) in self.rays.iter().zip(exact.map_err(|e| blame(e.to_string()))?) {
+            for (ray, hit) in rays.iter().zip(exact.map_err(|e| blame(e.to_string()))?) {
                 let truth = oracle::nearest(ray, &mesh).map(|(t, ids)| (t.round(), ids[0]));
                 let found = hit.map(|h| (h.t, h.prim.index()));
                 if found != truth {
@@ -107,7 +109,7 @@ impl Case {
                 }
             }
             // These sums are those of the test itself: rationals are not, but take a hundred times as long.
-            for ray in self.rays.iter().step_by(20) {
+            for ray in rays.iter().step_by(20) {
                 let truth = oracle::nearest(ray, &mesh).map(|(t, ids)| (t.round(), ids[0]));
                 let second = rational::nearest(ray, mesh.solid().map(|id| (id, mesh.corners(id))));
                 if second != truth {
@@ -118,20 +120,15 @@ impl Case {
         Ok(())
     }
 
-    /// The rays as they are, and then those of the two commonest octants in sixteens, so that packets form.
-    fn in_company(&self) -> Vec<Ray> {
-        let octant = |ray: &Ray| ray.direction.to_array().map(f32::is_sign_negative);
-        let mut octants: BTreeMap<[bool; 3], Vec<Ray>> = BTreeMap::new();
-        for ray in &self.rays {
-            octants.entry(octant(ray)).or_default().push(*ray);
-        }
-        let mut crowds: Vec<Vec<Ray>> = octants.into_values().collect();
-        crowds.sort_by_key(|alike| Reverse(alike.len()));
+    /// The rays as they are, and some of those that hit something once more: with intervals that end and begin where
+    /// the exact `t` is rounded to, as they are and near the largest float.
+    fn with_rounded_ends(&self, mesh: &Mesh) -> Vec<Ray> {
+        let nearest = |ray: &Ray| oracle::nearest(ray, mesh).map(|(t, _)| t);
         let mut rays = self.rays.clone();
-        for alike in crowds.iter().take(2) {
-            // A packet begins with a sixteen of the slice.
-            rays.resize(rays.len().next_multiple_of(16), alike[0]);
-            rays.extend(alike.iter().cycle().take(alike.len().next_multiple_of(16)));
+        for (ray, t) in self.rays.iter().filter_map(|ray| Some((ray, nearest(ray)?))).take(SEVERAL) {
+            let far = near_the_largest_t(&Ray::new(ray.origin, ray.direction), t.approximate());
+            rays.extend(rounded_ends(ray, &t));
+            rays.extend(nearest(&far).iter().flat_map(|t| rounded_ends(&far, t)));
         }
         rays
     }
@@ -164,6 +161,27 @@ impl Case {
         }
         Self { positions, triangles, rays }
     }
+}
+
+/// Hits of a case whose rays are asked once more.
+const SEVERAL: usize = 6;
+
+/// The rays as they are, and then those of the two commonest octants in sixteens, so that packets form.
+fn in_company(rays: &[Ray]) -> Vec<Ray> {
+    let octant = |ray: &Ray| ray.direction.to_array().map(f32::is_sign_negative);
+    let mut octants: BTreeMap<[bool; 3], Vec<Ray>> = BTreeMap::new();
+    for ray in rays {
+        octants.entry(octant(ray)).or_default().push(*ray);
+    }
+    let mut crowds: Vec<Vec<Ray>> = octants.into_values().collect();
+    crowds.sort_by_key(|alike| Reverse(alike.len()));
+    let mut rays = rays.to_vec();
+    for alike in crowds.iter().take(2) {
+        // A packet begins with a sixteen of the slice.
+        rays.resize(rays.len().next_multiple_of(16), alike[0]);
+        rays.extend(alike.iter().cycle().take(alike.len().next_multiple_of(16)));
+    }
+    rays
 }
 
 /// Every structure of this crate is among the variants.
@@ -199,8 +217,8 @@ fn same_on_all_levels(accel: &dyn DynAccel, rays: &[Ray]) -> Result<(), String> 
 /// Kinds of floats that break traversals; the number of [`float_of`].
 pub const KINDS: u8 = 7;
 
-/// A float of the kind `kind` below [`KINDS`]: k/8, a zero, a denormal, a power of two, any number of moderate size, any bits at
-/// all, NaN or infinity. `bits` chooses which.
+/// A float of the kind `kind` below [`KINDS`]: k/8, a zero, a denormal, a power of two, any number of moderate size,
+/// any bits at all, NaN or infinity. `bits` chooses which.
 pub fn float_of(kind: u8, bits: u32) -> f32 {
     let signed = |x: f32| if bits >> 31 == 1 { -x } else { x };
     match kind {

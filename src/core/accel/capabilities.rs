@@ -4,18 +4,20 @@ use std::borrow::Cow;
 
 use crate::geometry::{Hit, Ray};
 
-/// What a structure can be asked. What it declines it is not asked: tables show it as declined, neither right nor wrong.
+/// What a structure can be asked. What it declines it is not asked: tables show it as declined, neither right nor
+/// wrong.
 ///
 /// That counts are declined is said by [`Accel::OBSERVED`](super::Accel::OBSERVED), that no triangle test is shared by
 /// [`Accel::TRIANGLE_TEST`](super::Accel::TRIANGLE_TEST).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Capabilities {
-    /// Whether it has an any-hit query of its own. Without one, any hit is answered by the closest hit, so that pictures
-    /// are drawn; it is neither checked nor timed.
+    /// Whether it has an any-hit query of its own. Without one, any hit is answered by the closest hit, so that
+    /// pictures are drawn; it is neither checked nor timed.
     pub any_hit: bool,
     /// Whether it leaves out hits before a `t_min` above 0.
     pub t_min: bool,
-    /// Whether its intervals hold their start: without that, a ray whose nearest hit lies at its `t_min` exactly is not counted.
+    /// Whether its intervals hold their start: without that, a ray whose nearest hit lies at its `t_min` exactly is not
+    /// counted.
     pub closed_start: bool,
     /// Whether it leaves out hits at or beyond a finite `t_max`.
     pub t_max: bool,

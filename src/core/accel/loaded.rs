@@ -1,7 +1,7 @@
 use crate::geometry::Hit;
 
-/// A batch of rays that a structure has taken ([`Accel::load`](super::Accel::load)), to be answered as often as one likes:
-/// what is timed.
+/// A batch of rays that a structure has taken ([`Accel::load`](super::Accel::load)), to be answered as often as one
+/// likes: what is timed.
 ///
 /// Every time the answers are those of the structure's own queries to the same rays, bit for bit.
 pub trait Loaded: Send + Sync {

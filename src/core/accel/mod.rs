@@ -23,5 +23,5 @@ pub use query::Query;
 pub use remote::Remote;
 pub use shape::TreeShape;
 #[cfg(feature = "suite")]
-pub(crate) use traits::AsTheyAre;
+pub(crate) use traits::RayBatch;
 pub use traits::{Accel, BuildError, DynAccel};

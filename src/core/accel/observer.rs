@@ -1,13 +1,14 @@
-//! Watching a traversal at no cost when nobody watches.
+//! Observing a traversal, at no cost without an observer.
 
-/// Told by a traversal what it does. Every method does nothing by default, so that `()` compiles to nothing.
+/// Receives the events of a traversal. Every method does nothing by default, so that `()` compiles to nothing.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` cannot watch a traversal",
     label = "this is no `Observer`",
     note = "pass `&mut ()` to watch nothing, or `&mut Counts::default()` to count steps and tests"
 )]
 pub trait Observer {
-    /// Whether anybody watches. A structure that cannot watch its fast path takes another one when this is true.
+    /// Whether the observer uses events. A structure that cannot report events on its fast path takes another path when
+    /// this is true.
     const ACTIVE: bool = true;
 
     /// An inner node is entered.

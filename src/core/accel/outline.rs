@@ -3,7 +3,8 @@
 use super::TreeShape;
 use crate::geometry::Aabb;
 
-/// A finished tree as plain data, for whoever counts: nodes in depth-first order, every node before its children.
+/// A finished tree as plain data, for measures of its shape: nodes in depth-first order, every node before its
+/// children.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Outline {
     /// Every node before its children.
@@ -40,7 +41,8 @@ pub enum Part<N> {
 }
 
 impl Outline {
-    /// Walks a tree from `root`, if there is one. `open` tells what is at a place, and hands over the triangles of a leaf.
+    /// Walks a tree from `root`, if there is one. `open` returns what is at a place, and appends the triangles of a
+    /// leaf.
     pub fn of<N>(root: Option<(N, Aabb)>, mut open: impl FnMut(N, &Aabb, &mut Vec<u32>) -> Part<N>) -> Self {
         let mut outline = Self::default();
         let mut waiting: Vec<(N, Aabb, usize)> = root.into_iter().map(|(at, bounds)| (at, bounds, 0)).collect();

@@ -18,7 +18,8 @@ pub struct TreeShape {
     /// References in the fullest leaf.
     pub largest_leaf: usize,
     /// Expected cost of a random line through the root box, in triangle tests (MacDonald, Booth 1990), with the same
-    /// constants for every structure: [`TreeShape::INNER_COST`] and [`TreeShape::leaf_cost`]. `None` where it is not defined.
+    /// constants for every structure: [`TreeShape::INNER_COST`] and [`TreeShape::leaf_cost`]. `None` where it is not
+    /// defined.
     pub sah_cost: Option<f64>,
     /// Leaves by their number of references. Empty where it is not known.
     pub leaf_sizes: Histogram,

@@ -34,7 +34,7 @@ pub enum BuildError {
     Panic,
 }
 
-/// An acceleration structure: answers two questions about a ray.
+/// An acceleration structure, with two queries: closest hit and any hit.
 ///
 /// The contract, held by the conformance suite:
 /// 1. `closest_hit` gives the least `t` in [`t_min`, `t_max`) as the structure's triangle test computes it, over all
@@ -53,21 +53,22 @@ pub enum BuildError {
     note = "implement `sahara::accel::Accel` for `{Self}`: the front page of sahara's documentation walks through an example"
 )]
 pub trait Accel: Sized + Send + Sync + 'static {
-    /// Build parameters. Serialisation gives them names: the command line sets them as `key=value`, and records show them.
+    /// Build parameters. Serialisation gives them names: the command line sets them as `key=value`, and records show
+    /// them.
     type Config: Clone + Debug + Default + Serialize + DeserializeOwned + Send + Sync + 'static;
 
-    /// Name of the triangle test whose results the structure returns: those with the same test must agree bit for bit in
-    /// `t`. A structure with a test that nobody shares keeps `"own"`.
+    /// Name of the triangle test whose results the structure returns: those with the same test must agree bit for bit
+    /// in `t`. A structure with a test that nobody shares keeps `"own"`.
     const TRIANGLE_TEST: &'static str = "own";
 
     /// What it does otherwise by design, one clause each, for people to read. What of it changes answers belongs into
     /// [`CAPABILITIES`](Accel::CAPABILITIES): that is not counted as errors; what is a defect belongs into neither.
     const CONVENTIONS: &'static [&'static str] = &[];
 
-    /// What the observer is told.
+    /// The events that the observer receives.
     const OBSERVED: Observed = Observed::ALL;
 
-    /// What the structure can be asked. By default everything.
+    /// What queries the structure supports. By default all.
     const CAPABILITIES: Capabilities = Capabilities::ALL;
 
     /// # Errors
@@ -80,8 +81,8 @@ pub trait Accel: Sized + Send + Sync + 'static {
     /// Whether `ray` hits anything.
     ///
     /// By default whether there is a closest hit; of a structure that declines [`Capabilities::t_max`], whether that
-    /// lies before `t_max`. A structure that leaves it so should decline [`Capabilities::any_hit`], so that nobody
-    /// takes its time for that of an any-hit query.
+    /// lies before `t_max`, as far as its rounded `t` tells. A structure that leaves it so should decline
+    /// [`Capabilities::any_hit`], so that nobody takes its time for that of an any-hit query.
     #[inline]
     fn any_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> bool {
         let may_be_beyond = !Self::CAPABILITIES.t_max;
@@ -112,14 +113,14 @@ pub trait Accel: Sized + Send + Sync + 'static {
         }
     }
 
-    /// Takes a batch of rays, to answer it many times: before the clock starts, so that what is done here is not timed.
+    /// Takes a batch of rays that is traced many times. This is done before the clock starts, so it is not timed.
     ///
-    /// By default the rays stay as they are, and whatever a query prepares of a ray counts as its time: right for every structure
-    /// that is asked with a [`Ray`], as all of this crate are; there is nothing to do then. An adapter to a library with a ray of
-    /// its own converts the rays here, once, so that the library is timed and not the conversion. Only what follows from the
-    /// rays alone may be done here: no walk, no answers.
+    /// By default the rays stay as they are, and whatever a query prepares of a ray counts as its time: right for every
+    /// structure that is asked with a [`Ray`], as all of this crate are; there is nothing to do then. An adapter to a
+    /// library with a ray of its own converts the rays here, once, so that the library is timed and not the conversion.
+    /// Only what follows from the rays alone may be done here: no walk, no answers.
     fn load<'a>(&'a self, rays: Cow<'a, [Ray]>) -> Box<dyn Loaded + 'a> {
-        Box::new(AsTheyAre { accel: self, rays })
+        Box::new(RayBatch { accel: self, rays })
     }
 
     /// Bytes that the finished structure takes.
@@ -128,8 +129,8 @@ pub trait Accel: Sized + Send + Sync + 'static {
     /// What its tree looks like.
     fn shape(&self) -> TreeShape;
 
-    /// The whole tree as plain data, for measures that need more than counts; nothing where it cannot be walked. Takes 64
-    /// bytes a node.
+    /// The whole tree as plain data, for measures that need more than counts; nothing where it cannot be walked. Takes
+    /// 64 bytes a node.
     fn outline(&self) -> Option<Outline> {
         None
     }
@@ -166,7 +167,7 @@ pub trait DynAccel: Send + Sync {
     fn any_hits_counted(&self, rays: &[Ray], hits: &mut [bool], counts: &mut Counts);
     /// As [`Accel::load`].
     fn load<'a>(&'a self, rays: Cow<'a, [Ray]>) -> Box<dyn Loaded + 'a> {
-        Box::new(AsTheyAre { accel: self, rays })
+        Box::new(RayBatch { accel: self, rays })
     }
     /// [`Accel::OBSERVED`].
     fn observed(&self) -> Observed;
@@ -230,13 +231,13 @@ impl<A: Accel> DynAccel for A {
     }
 }
 
-/// Rays as they are: the structure prepares them each time it is asked.
-pub(crate) struct AsTheyAre<'a, A: ?Sized> {
+/// A batch of rays as they are: the structure prepares them in each query.
+pub(crate) struct RayBatch<'a, A: ?Sized> {
     pub accel: &'a A,
     pub rays: Cow<'a, [Ray]>,
 }
 
-impl<A: DynAccel + ?Sized> Loaded for AsTheyAre<'_, A> {
+impl<A: DynAccel + ?Sized> Loaded for RayBatch<'_, A> {
     fn closest_hits(&self, hits: &mut [Option<Hit>]) {
         self.accel.closest_hits(&self.rays, hits);
     }

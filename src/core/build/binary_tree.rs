@@ -1,9 +1,9 @@
-//! What every wide tree is collapsed from: a binary tree of tight boxes, whoever partitioned the triangles.
+//! The binary tree of tight boxes that every wide tree is collapsed from, for all partitions.
 
 use crate::geometry::Aabb;
 
-/// Leaves of a partition and how they were found, depth first: a node, then all below its first child, then all below its second.
-/// So what is below a node is a range, of nodes and of references.
+/// Leaves of a partition and how they were found, depth first: a node, then all below its first child, then all below
+/// its second. So what is below a node is a range, of nodes and of references.
 ///
 /// Without triangles there are no nodes.
 #[derive(Clone, Debug, Default)]

@@ -89,7 +89,8 @@ pub fn holds(bounds: &Aabb, point: DVec3) -> bool {
     bounds.min.as_dvec3().cmple(point).all() && bounds.max.as_dvec3().cmpge(point).all()
 }
 
-/// The boxes and references of all leaves, after checking what holds for every tree: leaves of at most `most` references.
+/// The boxes and references of all leaves, after checking what holds for every tree: leaves of at most `most`
+/// references.
 pub fn leaves(tree: &BinaryTree, most: u32) -> Vec<(Aabb, &[u32])> {
     let mut found = vec![];
     let mut next = 0;

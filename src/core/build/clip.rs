@@ -8,24 +8,25 @@ use crate::geometry::{Aabb, round_down, round_up};
 const CORNERS: usize = 9;
 
 /// By how much a computed corner is off on an axis, as a share of the triangle's largest coordinate on it, at most: one
-/// interpolation a + (b - a) w with w = (s - a) / (b - a) takes five roundings of up to twice that coordinate and one of it,
-/// and at most seven interpolations follow each other: 77 units of 2^-53.
+/// interpolation a + (b - a) w with w = (s - a) / (b - a) takes five roundings of up to twice that coordinate and one
+/// of it, and at most seven interpolations follow each other: 77 units of 2^-53.
 ///
-/// Planes are moved outward by as much. So a point that is kept exactly is kept here too, off by what the corners around it
-/// are off, however flat the angle at which an edge with computed ends crosses the plane.
+/// Planes are moved outward by as much. So a point that is kept exactly is kept here too, off by what the corners
+/// around it are off, however flat the angle at which an edge with computed ends crosses the plane.
 const ERROR: f64 = 128.0 / (1u64 << 53) as f64;
 
-/// A box that contains the part of the triangle `corners` in `cell`, inside `cell` and inside `known`, a box of the part in
-/// some larger cell.
+/// A box that contains the part of the triangle `corners` in `cell`, inside `cell` and inside `known`, a box of the
+/// part in some larger cell.
 ///
 /// Clips in f64 (Sutherland, Hodgman 1974) and rounds outward, so that nothing of the triangle is lost; where rounding
-/// leaves no polygon at all, the answer is `known` cut by the cell: a triangle that reaches into the cell is never dropped.
+/// leaves no polygon at all, the answer is `known` cut by the cell: a triangle that reaches into the cell is never
+/// dropped.
 pub(crate) fn clipped_bounds(corners: [Vec3; 3], cell: &Aabb, known: &Aabb) -> Aabb {
     Polygon::clipped(corners, cell).corner_box().in_cut(known.intersection(*cell))
 }
 
-/// The boxes of both sides of a plane: [`clipped_bounds`] of the parts of `bounds` below and above, where `bounds` is a box
-/// of the part of the triangle in some cell and the plane meets its inside.
+/// The boxes of both sides of a plane: [`clipped_bounds`] of the parts of `bounds` below and above, where `bounds` is a
+/// box of the part of the triangle in some cell and the plane meets its inside.
 pub(crate) fn cut_bounds(corners: [Vec3; 3], bounds: &Aabb, axis: usize, plane: f32) -> (Aabb, Aabb) {
     let polygon = Polygon::clipped(corners, bounds);
     let (below, above) = bounds.cut(axis, plane);
@@ -37,8 +38,8 @@ pub(crate) fn cut_bounds(corners: [Vec3; 3], bounds: &Aabb, axis: usize, plane: 
     (half(below, -1.0), half(above, 1.0))
 }
 
-/// The area of the part of the triangle `corners` in `cell`, its faces included. Off by less than 1e-12 of the square of the triangle's
-/// largest coordinate.
+/// The area of the part of the triangle `corners` in `cell`, its faces included. Off by less than 1e-12 of the square
+/// of the triangle's largest coordinate.
 #[cfg(feature = "suite")]
 pub fn clipped_area(corners: [Vec3; 3], cell: &Aabb) -> f64 {
     let mut polygon = Polygon { slack: DVec3::ZERO, ..Polygon::new(corners) };
@@ -115,8 +116,8 @@ impl Polygon {
         (self.corners, self.len) = (after, len);
     }
 
-    /// Visits the corners of what does not surely lie beyond the plane: keeps points with `side * (p[axis] - plane) >= 0` and some
-    /// slack.
+    /// Visits the corners of what does not surely lie beyond the plane: keeps points with `side * (p[axis] - plane) >=
+    /// 0` and some slack.
     #[inline(always)]
     fn kept(&self, axis: usize, plane: f64, side: f64, mut visit: impl FnMut(DVec3, bool)) {
         let plane = plane - side * self.slack[axis];
@@ -244,8 +245,8 @@ mod tests {
         assert!(clipped.contains(&Aabb::of_points([Vec3::ZERO])), "{clipped:?}");
     }
 
-    /// Planes close to 0 cut triangles with large coordinates, where corners are computed less exactly than the planes are
-    /// apart.
+    /// Planes close to 0 cut triangles with large coordinates, where corners are computed less exactly than the planes
+    /// are apart.
     #[test]
     fn nothing_is_lost_where_edges_almost_lie_in_planes() {
         use std::cmp::Ordering::{Equal, Greater, Less};

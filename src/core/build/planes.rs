@@ -5,8 +5,8 @@ use super::sample::Sample;
 /// At most this many planes, both ends of the range included; a power of two, so that a mask bounds an index.
 pub(crate) const PLANES: usize = 64;
 
-/// Ascending planes: both ends of a range and, in every cell of an even grid between them, the highest edge of a reference, or
-/// the middle of the cell where no edge is.
+/// Ascending planes: both ends of a range and, in every cell of an even grid between them, the highest edge of a
+/// reference, or the middle of the cell where no edge is.
 ///
 /// That a plane is an edge is what keeps walls whole: a plane beside a wall would cut all triangles that end there.
 #[derive(Clone, Copy, Debug)]
@@ -22,6 +22,7 @@ impl Planes {
     /// The planes at `min` and `max` and `count` between them; nothing where there is no room.
     pub fn new(axis: usize, (min, max): (f32, f32), count: usize, sample: &Sample) -> Option<Self> {
         let last = count + 1;
+        assert!(last < PLANES, "{count} planes between both ends are too many");
         let mut planes =
             Self { axis, min, scale: last as f32 / (max - min), last, values: [f32::NEG_INFINITY; PLANES] };
         // The second says whether the extent is so large or small that the grid overflows.
@@ -38,7 +39,8 @@ impl Planes {
         (planes.values[0], planes.values[last]) = (min, max);
         for cell in 1..last {
             if planes.values[cell] == f32::NEG_INFINITY {
-                // Should rounding move the middle to another cell, repeat the last plane: everything in the cell lies above it.
+                // Should rounding move the middle to another cell, repeat the last plane: everything in the cell lies
+                // above it.
                 let middle = min + cell as f32 / planes.scale;
                 planes.values[cell] = if planes.cell(middle) == cell { middle } else { planes.values[cell - 1] };
             }
@@ -50,7 +52,8 @@ impl Planes {
     #[inline(always)]
     fn cell(&self, x: f32) -> usize {
         let at = ((x - self.min) * self.scale + 0.5).max(0.0).min(self.last as f32);
-        // SAFETY: `at` is a number (`max` turns NaN into 0) from 0 to `last`, which fits an `i32`.
+        // SAFETY: `max` turns NaN into 0, so that `at` is in [0, `last`]; `new` has checked that `last` is below
+        // `PLANES`.
         unsafe { at.to_int_unchecked::<i32>() as usize }
     }
 

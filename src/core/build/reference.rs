@@ -10,8 +10,8 @@ pub(crate) const PARALLEL: usize = 4096;
 /// References that one thread works on at a time.
 pub(crate) const CHUNK: usize = 2048;
 
-/// A triangle and the box of the part of it that a node answers for: each corner of the box is one load, with the number of the
-/// triangle beside the lower one.
+/// A triangle and the box of the part of it that a node answers for: each corner of the box is one load, with the
+/// number of the triangle beside the lower one.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(32))]
 pub(crate) struct Reference {
@@ -21,7 +21,8 @@ pub(crate) struct Reference {
 
 impl Reference {
     pub fn new(id: u32, Aabb { min, max }: Aabb) -> Self {
-        // Meshes have fewer than 2^30 triangles, so that the bits of a number are never those of a NaN, which a copy might change.
+        // Meshes have fewer than 2^30 triangles, so that the bits of a number are never those of a NaN, which a copy
+        // might change.
         Self { low: min.extend(f32::from_bits(id)).to_array(), high: max.extend(0.0).to_array() }
     }
 

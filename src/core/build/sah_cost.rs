@@ -5,9 +5,9 @@ use crate::geometry::Aabb;
 /// Triangles that a leaf tests at once.
 pub(crate) const BLOCK: usize = 8;
 
-/// Expected cost of a tree for a random line that meets its box (Goldsmith, Salmon 1987; MacDonald, Booth 1990), with the empty-space
-/// bonus of Wald and Havran (2006). Leaves test a block of triangles at once, so a leaf costs by the block: counting triangles instead gave
-/// trees of the same speed and 40 % more memory.
+/// Expected cost of a tree for a random line that meets its box (Goldsmith, Salmon 1987; MacDonald, Booth 1990), with
+/// the empty-space bonus of Wald and Havran (2006). Leaves test a block of triangles at once, so a leaf costs by the
+/// block: counting triangles instead gave trees of the same speed and 40 % more memory.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CostModel {
     /// Of a step from a node to its children.
@@ -29,7 +29,8 @@ impl CostModel {
         self.block * count.div_ceil(BLOCK) as f64
     }
 
-    /// Of a cell with half area `1 / inverse_area` whose sides, of which half areas and counts are given, become leaves.
+    /// Of a cell with half area `1 / inverse_area` whose sides, of which half areas and counts are given, become
+    /// leaves.
     #[inline(always)]
     pub fn cell_split(
         &self,

@@ -1,6 +1,6 @@
 use super::reference::Reference;
 
-/// Some of the references of a node, evenly spread: where there are thousands, these tell the best split as well as all.
+/// Some of the references of a node, evenly spread: of thousands, a sample finds a split as good as all do.
 #[derive(Clone, Copy)]
 pub(crate) struct Sample<'a> {
     references: &'a [Reference],

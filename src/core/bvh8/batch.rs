@@ -14,8 +14,8 @@ use crate::traversal::leaf::Nearest;
 use crate::traversal::walk::{silent, single};
 use crate::triangle::{Depth, INPUTS, TriangleTest, last_bits};
 
-/// Rays of a slice that are answered before the next ones are looked at: so many that the last ones under way, when no others follow,
-/// are few beside them.
+/// Rays of a slice that are traced before the next window begins: so many that the rays at the end of a window, when
+/// fewer and fewer are under way, hardly count.
 const WINDOW: usize = 4096;
 
 /// Groups of a window, by their numbers in ascending order; the last one may be shorter.
@@ -47,7 +47,7 @@ impl Groups {
         self.numbers[..self.len].iter().map(first).map(move |first| first..rays.min(first + RAYS))
     }
 
-    /// The same, those that follow each other in one.
+    /// The same, with groups that follow each other joined.
     fn runs(&self, rays: usize) -> impl Iterator<Item = Range<usize>> {
         let numbers = &self.numbers[..self.len];
         numbers.chunk_by(|one, next| next - one == 1).map(move |run| {
@@ -56,7 +56,7 @@ impl Groups {
         })
     }
 
-    /// Two halves that are alike, up to four of them: four belong to the one, the next four to the other.
+    /// Two similar halves: four groups belong to the first, the next four to the second, and so on.
     fn halves(&self) -> [Self; 2] {
         let mut halves = [Self::NONE; 2];
         for (place, &number) in self.numbers[..self.len].iter().enumerate() {
@@ -66,37 +66,37 @@ impl Groups {
     }
 }
 
-/// Hits whose `t` are computed together: what the last bit of one takes does not wait for that of the one before.
-struct Together {
-    /// What their `t` are computed from, and which rays and triangles they belong to.
-    inputs: [[f32; TOGETHER]; INPUTS],
-    rays: [usize; TOGETHER],
-    ids: [u32; TOGETHER],
+/// Hits whose `t` are computed together, so that the last bit of one does not wait for that of the one before.
+struct HitBatch {
+    /// The inputs of their `t`, and their rays and triangles.
+    inputs: [[f32; HITS]; INPUTS],
+    rays: [usize; HITS],
+    ids: [u32; HITS],
     len: usize,
 }
 
-const TOGETHER: usize = 8;
+const HITS: usize = 8;
 
-impl Together {
-    const NONE: Self = Self { inputs: [[0.0; TOGETHER]; INPUTS], rays: [0; TOGETHER], ids: [0; TOGETHER], len: 0 };
+impl HitBatch {
+    const NONE: Self = Self { inputs: [[0.0; HITS]; INPUTS], rays: [0; HITS], ids: [0; HITS], len: 0 };
 
-    /// Takes a hit of ray number `i`; whether there are as many as fit, which are to be handed over then.
+    /// Adds a hit of ray number `i`; true if the batch is full, and must be finished.
     ///
-    /// The depth is not kept: it would be copied as a whole where it was just written in pieces, which a processor is slow to do.
+    /// The depth itself is not stored: reading it as a whole right after it was written in pieces stalls the processor.
     #[must_use]
     #[inline(always)]
     fn push<D: Depth>(&mut self, i: usize, ray: &Ray, depth: &D, id: u32) -> bool {
-        debug_assert!(self.len < TOGETHER);
-        let lane = self.len % TOGETHER;
+        debug_assert!(self.len < HITS);
+        let lane = self.len % HITS;
         for (column, input) in self.inputs.iter_mut().zip(depth.inputs(ray)) {
             column[lane] = input;
         }
         (self.rays[lane], self.ids[lane]) = (i, id);
         self.len = lane + 1;
-        self.len == TOGETHER
+        self.len == HITS
     }
 
-    /// Hands over the hits, and holds none any more.
+    /// Hands the hits to `hit` and empties the batch.
     #[inline(always)]
     fn finish<D: Depth>(&mut self, level: Level, mut hit: impl FnMut(usize, Hit)) {
         let len = std::mem::take(&mut self.len);
@@ -126,13 +126,13 @@ impl<const ANY: bool, T: TriangleTest, A, F: Fn(Option<Hit>) -> A> Kernel for In
     fn run<L: EightLanes>(self) {
         let Self { tree, rays, answers, form, level } = self;
         if ANY || !T::Depth::LATE || !L::FAST {
-            // There is nothing to wait for.
+            // Either no `t` is computed late, or eight at once are no faster.
             for (answer, ray) in answers.iter_mut().zip(rays) {
                 *answer = form(silent::<ANY, L, _>(tree, ray));
             }
             return;
         }
-        let mut hits = Together::NONE;
+        let mut hits = HitBatch::NONE;
         let mut answer = |i: usize, hit: Option<Hit>| answers[i] = form(hit);
         for (i, ray) in rays.iter().enumerate() {
             let mut nearest = Nearest::NOTHING;
@@ -150,7 +150,7 @@ impl<const ANY: bool, T: TriangleTest, A, F: Fn(Option<Hit>) -> A> Kernel for In
     }
 }
 
-/// The sixteens of a window that agree; the others are handed back.
+/// Traces the groups of a window that form packets; returns the others.
 struct InPackets<'a, const ANY: bool, T: TriangleTest, A, F> {
     tree: &'a Bvh8<T>,
     rays: &'a [Ray],
@@ -181,8 +181,8 @@ impl<const ANY: bool, T: TriangleTest, A, F: Fn(Option<Hit>) -> A> Kernel for In
     }
 }
 
-/// Some sixteens of a window, several rays under way at once: a kernel of its own, because beside another walk in the same function it is
-/// a third slower.
+/// Traces some groups of a window with several rays under way at once: a kernel of its own, because it is a third
+/// slower beside another traversal in the same function.
 pub(super) struct Interleaved<'a, const ANY: bool, T: TriangleTest, A, F> {
     pub tree: &'a Bvh8<T>,
     pub rays: &'a [Ray],
@@ -198,7 +198,7 @@ impl<const ANY: bool, T: TriangleTest, A, F: Fn(Option<Hit>) -> A> Kernel for In
     fn run<L: EightLanes>(self) {
         let Self { tree, rays, which, answers, form } = self;
         if !L::FAST {
-            // On portable lanes it is not memory that takes the time.
+            // Portable lanes are limited by arithmetic, not by memory.
             for i in which.places(rays.len()).flatten() {
                 answers[i] = form(silent::<ANY, L, _>(tree, &rays[i]));
             }
@@ -210,7 +210,7 @@ impl<const ANY: bool, T: TriangleTest, A, F: Fn(Option<Hit>) -> A> Kernel for In
     }
 }
 
-/// Whether some of the rays are of one octant: most that cannot travel together are soon told so.
+/// Whether four of the rays are of one octant: a quick test that rejects most groups that form no packet.
 #[inline(always)]
 fn alike(rays: &[Ray; RAYS]) -> bool {
     let signs = |i: usize| each(&rays[i].direction.to_array(), |x| x.to_bits());
@@ -219,7 +219,7 @@ fn alike(rays: &[Ray; RAYS]) -> bool {
     (differ(5) | differ(10) | differ(15)) >> 31 == 0
 }
 
-/// Answers `rays` in order, on the level in use.
+/// Traces `rays` on the level in use; hits are in the order of the rays.
 ///
 /// # Panics
 /// If the slices differ in length.
@@ -254,7 +254,7 @@ pub(super) fn answer<const ANY: bool, T: TriangleTest, A, O: Observer>(
     }
 }
 
-/// Answers rays of a window that cannot travel together in the faster one of two ways.
+/// Traces the groups of a window that form no packet in the faster of two ways.
 fn answer_apart<const ANY: bool, T: TriangleTest, A>(
     level: Level,
     tree: &Bvh8<T>,

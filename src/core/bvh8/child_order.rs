@@ -1,11 +1,12 @@
-//! In which order rays visit the children of a node: for the closest hit one order for each octant of directions, decided when the tree is built. The
-//! walk (`stack.rs`) follows it; for any hit it takes the lanes as they are, from the last to the first.
+//! In which order rays visit the children of a node: for the closest hit one order for each octant of directions,
+//! decided when the tree is built. The walk (`stack.rs`) follows it; for any hit it takes the lanes as they are, from
+//! the last to the first.
 
 use super::collapse::Collapse;
 
 impl Collapse<'_> {
-    /// The lanes of the at most `parts` parts of `at` as rays of each octant should visit them, three bits each, the last one lowest;
-    /// and how many bits these are. Takes the lanes in the order in which the parts are gathered.
+    /// The lanes of the at most `parts` parts of `at` as rays of each octant should visit them, three bits each, the
+    /// last one lowest; and how many bits these are. Takes the lanes in the order in which the parts are gathered.
     pub(super) fn orders<'b>(
         &self,
         at: u32,

@@ -9,8 +9,8 @@ use crate::build::sbvh::{self, SbvhConfig, Splits};
 use crate::geometry::Mesh;
 use crate::triangle::TriangleTest;
 
-/// How a [`Bvh8`](super::Bvh8) is built. What differs between `sah-kd-wide`, `sah-kd-tight`, `sah-hybrid` and `sah-bvh` is the
-/// partition alone.
+/// How a [`Bvh8`](super::Bvh8) is built. What differs between `sah-kd-wide`, `sah-kd-tight`, `sah-hybrid` and `sah-bvh`
+/// is the partition alone.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Bvh8Config {
@@ -20,10 +20,11 @@ pub struct Bvh8Config {
     pub quality: Quality,
     /// Cost of testing a block of eight triangles, where visiting a node costs 1. Positive; more gives smaller leaves.
     pub block_cost: f32,
-    /// References a build may make, as a multiple of the triangles, with [`Quality::Fast`] at most 1.75: the guard against inputs
-    /// that explode. At least 1.
+    /// References a build may make, as a multiple of the triangles, with [`Quality::Fast`] at most 1.75: the guard
+    /// against inputs that explode. At least 1.
     pub duplication: f32,
-    /// How the rays of a slice are answered; [`Batch::Single`] over tests that are not [`BATCHED`](TriangleTest::BATCHED).
+    /// How the rays of a slice are answered; [`Batch::Single`] over tests that are not
+    /// [`BATCHED`](TriangleTest::BATCHED).
     pub batch: Batch,
 }
 
@@ -47,8 +48,8 @@ pub enum Partition {
 pub enum Batch {
     /// One after the other.
     Single,
-    /// Sixteen in a row travel together where they share an octant. Of the others eight are under way at a time or one follows the other,
-    /// whichever was faster on the last ones of which both were tried.
+    /// Sixteen in a row travel together where they share an octant. Of the others eight are under way at a time or one
+    /// follows the other, whichever was faster on the last ones of which both were tried.
     Packets,
     /// Eight at a time are under way, also where they agree.
     Interleaved,

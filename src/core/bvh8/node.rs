@@ -5,7 +5,7 @@ use glam::Vec3;
 use crate::accel::BuildError;
 use crate::geometry::Aabb;
 
-/// The deepest tree that a walk can follow, in nodes.
+/// The deepest tree that a traversal can follow, in nodes.
 pub(super) const DEPTH: usize = 100;
 
 /// Children of a node.
@@ -65,8 +65,8 @@ pub(super) struct Node {
     /// By axis, the lower and the upper planes of the boxes.
     pub planes: [[[f32; WIDTH]; 2]; 3],
     pub children: [Child; WIDTH],
-    /// For each octant of directions (bit 0 is set for a negative x), the lanes from the last to the first that such a ray
-    /// should visit: three bits each, the last one lowest. The lanes not in use are the lowest ones, and come last.
+    /// For each octant of directions (bit 0 is set for a negative x), the lanes from the last to the first that such a
+    /// ray should visit: three bits each, the last one lowest. The lanes not in use are the lowest ones, and come last.
     pub orders: [u32; 8],
 }
 
@@ -82,7 +82,7 @@ impl Child {
     const COUNT_BITS: u32 = 4;
     /// Blocks of the largest leaf.
     pub const BLOCKS: usize = (1 << Self::COUNT_BITS) - 1;
-    /// Nodes, and blocks, that can be told apart.
+    /// Nodes, and blocks, that a child can name.
     pub const LARGEST: usize = 1 << (31 - Self::COUNT_BITS);
 
     /// A leaf of nothing.
@@ -131,7 +131,7 @@ impl Child {
     /// Eight children as they are in memory.
     #[inline(always)]
     pub fn bits(children: &[Self; WIDTH]) -> &[u32; WIDTH] {
-        // SAFETY: a child is a number, transparently.
+        // SAFETY: `Child` is a transparent `u32`, so that arrays of both have one layout.
         unsafe { &*(&raw const *children).cast() }
     }
 
@@ -143,7 +143,8 @@ impl Child {
 }
 
 impl Node {
-    /// A node without children: no line meets its boxes, and who looks into them nevertheless finds nothing.
+    /// A node without children. No line meets its boxes; a ray without usable inverses visits them nevertheless, and
+    /// finds empty leaves.
     pub const EMPTY: Self = Self {
         planes: [[[f32::INFINITY; WIDTH], [f32::NEG_INFINITY; WIDTH]]; 3],
         children: [Child::NOTHING; WIDTH],
@@ -182,7 +183,7 @@ mod tests {
         assert_eq!(Child::node(nodes - 1).index(), nodes - 1);
         assert!(!Child::node(nodes - 1).is_leaf());
         assert_eq!(Child::leaf(blocks - 1, Child::BLOCKS).blocks(), Some((blocks - 1, Child::BLOCKS)));
-        // The first block of the next one is not told from the mark of leaves.
+        // The next number would overflow into the mark of leaves.
         assert_eq!((blocks as u32) << Child::COUNT_BITS, Child::LEAF);
     }
 

@@ -1,13 +1,14 @@
 //! A packet of sixteen rays.
 //!
-//! **The same answers as one by one.** A packet visits the children of a node in the order of the octant, which its rays
-//! share, and a ray takes part in a visit just when its own test of the box says so, with its own end. What the packet decides
-//! for all rays at once only leaves out boxes that each of them would leave out (see [`Frustum`]). So every ray goes through all
-//! leaves that it needs, in the same order as alone; where eight at once know less closely where a hit is, perhaps through some behind it as well.
+//! **The same hits as one ray at a time.** A packet visits the children of a node in the order of the octant that its
+//! rays share. A ray participates in a visit if and only if its own box test, with its own end, passes. The test of the
+//! whole packet rejects only boxes that each of its rays rejects (see [`Frustum`]). So every ray visits all leaves that
+//! it visits alone, in the same order, and perhaps some behind its hit, because eight rays at once bound the `t` of a
+//! hit less closely.
 //!
-//! A leaf that nearly all rays come to is searched triangle by triangle, eight rays at once, others ray by ray. A ray of which eight at
-//! once cannot tell whether it meets a triangle, or whether that is the nearest, searches the leaf once more alone. The nearest of the
-//! same hits is the same in either order.
+//! A leaf that nearly all rays visit is searched triangle by triangle, eight rays at once; other leaves are searched
+//! ray by ray. If the test of eight rays cannot decide whether a ray meets a triangle, or which of two hits is nearer,
+//! that ray searches the leaf again alone. The nearest of the same hits does not depend on the order.
 
 use std::mem::MaybeUninit;
 
@@ -22,13 +23,13 @@ use crate::geometry::{Hit, Ray};
 use crate::simd::{EightLanes, Level};
 use crate::triangle::TriangleTest;
 
-/// At most this many rays that are left go on alone.
+/// A packet with at most this many active rays is finished one ray at a time.
 const FEW: u32 = 3;
 
-/// The order of the lanes.
+/// The order 0 to 7, three bits a lane.
 const IN_LANES: u32 = 0o76543210;
 
-/// A child to visit, which box it has, and for which rays.
+/// A child to visit, where its box is stored, and the rays that may visit it.
 #[derive(Clone, Copy)]
 struct Entry {
     child: Child,
@@ -38,7 +39,7 @@ struct Entry {
 }
 
 impl<T: TriangleTest> Bvh8<T> {
-    /// Answers sixteen rays; false if they cannot travel together.
+    /// Traces sixteen rays; false if they cannot form a packet.
     #[inline(always)]
     pub(super) fn intersect_packet<'a, const ANY: bool, L: EightLanes, A>(
         &'a self,
@@ -55,14 +56,15 @@ impl<T: TriangleTest> Bvh8<T> {
         let (mut child, mut active) = (self.root, u16::MAX);
         loop {
             if let Some((first, count)) = child.blocks() {
-                // SAFETY: leaves name blocks that are there.
+                // SAFETY: a leaf names a range of `blocks` (invariants of `Bvh8`).
                 let blocks = unsafe { self.blocks.get_unchecked(first..first + count) };
                 state.search::<ANY, L>(first, blocks, active, &mut packet);
             } else if active.count_ones() <= FEW {
                 self.one_by_one::<ANY, L>(child, active, &mut packet, &mut state);
             } else {
-                // SAFETY: children name nodes that are there; the depth was checked when the tree was built, so that no
-                // more than seven entries a level are on the stack when eight are written.
+                // SAFETY: a child that is no leaf names one of `nodes`, and a path has at most `DEPTH` of them
+                // (invariants of `Bvh8`). Each node above this one has left at most seven entries, so that eight more
+                // fit in `SIZE`.
                 unsafe {
                     let node = self.nodes.get_unchecked(child.index());
                     let met = frustum.meet(node);
@@ -86,7 +88,8 @@ impl<T: TriangleTest> Bvh8<T> {
                     return true;
                 }
                 len -= 1;
-                // SAFETY: what is below the length was written, and names a node.
+                // SAFETY: entries are written before `len` counts them; their parent is the node that they were read
+                // from.
                 let (entry, node) = unsafe {
                     let entry = stack.get_unchecked(len).assume_init();
                     (entry, self.nodes.get_unchecked(entry.parent as usize))
@@ -103,7 +106,7 @@ impl<T: TriangleTest> Bvh8<T> {
         }
     }
 
-    /// Searches what is below `child` for the rays `active`, one after the other.
+    /// Searches the subtree at `child` for the rays `active`, one after the other.
     #[inline(always)]
     fn one_by_one<'a, const ANY: bool, L: EightLanes>(
         &'a self,

@@ -1,9 +1,9 @@
 use super::node::WIDTH;
 use crate::simd::{EightLanes, each};
 use crate::traversal::leaf::{LeafBlock, NONE, Nearest};
-use crate::triangle::{Depth, EightMet, TriangleTest};
+use crate::triangle::{Depth, EightHits, TriangleTest};
 
-/// Rays that travel together.
+/// Rays of a packet.
 pub(super) const RAYS: usize = 16;
 pub(super) const HALVES: usize = RAYS / WIDTH;
 
@@ -12,33 +12,35 @@ pub(super) struct PacketHits<'a, T: TriangleTest> {
     /// The blocks of the tree.
     blocks: &'a [LeafBlock<T, WIDTH>],
     t: [[f32; WIDTH]; HALVES],
-    /// Not behind the hits; infinite where nothing is found.
+    /// Lower bounds of the `t` of the hits; infinite where nothing is found.
     least: [[f32; WIDTH]; HALVES],
     /// [`NONE`] where nothing is found.
     ids: [[u32; WIDTH]; HALVES],
-    /// Which lanes of which blocks they are, unless they were found alone: eight times the number of the block, and the lane.
+    /// Where the triangles hit are stored, unless they were found by single rays: eight times the number of the block,
+    /// plus the lane.
     places: [[u32; WIDTH]; HALVES],
-    /// Of hits that were found alone, by the rays of these bits, and are more than their `t`.
+    /// The hits of the rays in `alone`.
     depths: [Option<T::Depth<'a>>; RAYS],
+    /// The rays whose hit was found by a search of a single ray, as bits.
     alone: u16,
 }
 
-/// Those of one half of the rays, in lanes.
+/// The nearest hits of one half of the rays, in lanes.
 #[derive(Clone, Copy)]
 pub(super) struct HitLanes<L: EightLanes> {
     pub t: L,
     least: L,
     ids: L::Numbers,
     places: L::Numbers,
-    /// The rays that have found something since.
+    /// The rays that have found a nearer hit since the lanes were loaded.
     fresh: L::Mask,
 }
 
 impl<L: EightLanes> HitLanes<L> {
-    /// Takes in the lanes of `active` what triangle `id` at `place` is found to be, where it is nearer, or as near with a lower number. Returns the lanes of
-    /// which that cannot be told, as bits.
+    /// Updates the lanes of `active` with the hits of triangle `id` at `place` that are nearer, or as near with a lower
+    /// number. Returns the lanes where that cannot be decided, as bits.
     #[inline(always)]
-    pub fn offer<T: TriangleTest>(&mut self, active: L::Mask, found: &EightMet<L>, id: u32, place: u32) -> u32 {
+    pub fn offer<T: TriangleTest>(&mut self, active: L::Mask, found: &EightHits<L>, id: u32, place: u32) -> u32 {
         let id = L::splat_number(id);
         let not_above = L::cmp_le_numbers(id, self.ids);
         let met = L::both(found.met, active);
@@ -50,7 +52,7 @@ impl<L: EightLanes> HitLanes<L> {
             return 0;
         }
         let nearer = L::both(met, found.high.cmp_lt(self.least));
-        // A triangle of several leaves is met again.
+        // A triangle may be referenced by several leaves.
         let again = L::both(not_above, L::cmp_le_numbers(self.ids, id));
         let further = L::both(met, self.t.cmp_lt(found.low));
         let known = L::either(L::either(nearer, further), L::either(found.missed, again));
@@ -64,7 +66,7 @@ impl<L: EightLanes> HitLanes<L> {
 }
 
 impl<'a, T: TriangleTest> PacketHits<'a, T> {
-    /// Nothing found yet, each ray up to and with its `last`.
+    /// Nothing found yet; hits of ray `i` must lie at or before `last(i)`.
     #[inline(always)]
     pub fn until(blocks: &'a [LeafBlock<T, WIDTH>], last: impl Fn(usize) -> f32) -> Self {
         let mut hits = Self {
@@ -82,7 +84,7 @@ impl<'a, T: TriangleTest> PacketHits<'a, T> {
         hits
     }
 
-    /// Hits of ray `i` must lie at or before it.
+    /// Hits of ray `i` must lie at or before this `t`.
     #[inline(always)]
     pub fn t(&self, i: usize) -> f32 {
         self.t[i / WIDTH][i % WIDTH]
@@ -94,7 +96,7 @@ impl<'a, T: TriangleTest> PacketHits<'a, T> {
         Nearest { t, hit: (id != NONE).then(|| (self.depth(i), id)) }
     }
 
-    /// Of ray `i`, which has found something.
+    /// The depth of the hit of ray `i`, which must have one.
     #[inline(always)]
     pub fn depth(&self, i: usize) -> T::Depth<'a> {
         let (half, lane) = (i / WIDTH, i % WIDTH);
@@ -119,7 +121,7 @@ impl<'a, T: TriangleTest> PacketHits<'a, T> {
         }
     }
 
-    /// As [`Nearest::offer`], for ray `i` and a hit that is no more than its `t`.
+    /// As [`Nearest::offer`], for ray `i` and a test whose depth is a float.
     #[inline(always)]
     pub fn offer(&mut self, i: usize, t: f32, id: u32) {
         let (own, own_id) = (&mut self.t[i / WIDTH][i % WIDTH], &mut self.ids[i / WIDTH][i % WIDTH]);
@@ -128,7 +130,8 @@ impl<'a, T: TriangleTest> PacketHits<'a, T> {
         }
     }
 
-    /// The same of a hit that is more, in lane and block `place`; false if it cannot be told which one is nearer.
+    /// The same for a test whose depth is more than a float, and a triangle stored at `place`; false if it cannot be
+    /// decided which hit is nearer.
     #[inline(always)]
     pub fn offer_between(&mut self, i: usize, depth: &T::Depth<'_>, id: u32, place: u32) -> bool {
         let (half, lane) = (i / WIDTH, i % WIDTH);
@@ -141,7 +144,7 @@ impl<'a, T: TriangleTest> PacketHits<'a, T> {
         self.t[half][lane] < depth.least()
     }
 
-    /// The triangle that ray `i` has found, or [`NONE`].
+    /// The triangle that ray `i` hits, or [`NONE`].
     #[inline(always)]
     pub fn id(&self, i: usize) -> u32 {
         self.ids[i / WIDTH][i % WIDTH]
@@ -152,7 +155,7 @@ impl<'a, T: TriangleTest> PacketHits<'a, T> {
         self.ids[i / WIDTH][i % WIDTH] != NONE
     }
 
-    /// The rays that have found something, as bits.
+    /// The rays that have a hit, as bits.
     #[inline(always)]
     pub fn found(&self) -> u16 {
         self.ids.as_flattened().iter().enumerate().fold(0, |found, (i, &id)| found | u16::from(id != NONE) << i)

@@ -1,4 +1,4 @@
-//! What sixteen rays that travel together have for themselves, and how they search a leaf.
+//! The state of each ray of a packet, and how a packet searches a leaf.
 
 use std::mem::MaybeUninit;
 
@@ -10,27 +10,27 @@ use crate::simd::{EightLanes, Level, each};
 use crate::traversal::leaf::{LeafBlock, NONE, Nearest, settle};
 use crate::triangle::{BETWEEN_BOUNDS, Depth, ORIGIN, TriangleTest, last_bits};
 
-/// From so many rays on a leaf may be searched triangle by triangle. Of fewer, hardly any finds something, which is soon known ray by
-/// ray; and both halves have some.
+/// With fewer rays a leaf is searched ray by ray: hardly any of them hits something, which that search finds out
+/// sooner. With so many, both halves have some.
 const MANY: u32 = 12;
 
 pub(super) struct PacketState<'a, T: TriangleTest> {
     rays: &'a [Ray; RAYS],
-    /// The rays as their test wants them, from their first leaf on: many never come to one.
+    /// The rays in the form of the triangle test, prepared at their first leaf: many never visit one.
     prepared: [MaybeUninit<T::Ray>; RAYS],
     ready: u16,
     nearest: PacketHits<'a, T>,
     t_min: [f32; RAYS],
-    candidates: [MaybeUninit<Candidates<T>>; RAYS],
-    /// Those that still look for a hit, as bits.
+    candidates: [MaybeUninit<BlockCandidates<T>>; RAYS],
+    /// The rays that still search, as bits.
     unfinished: u16,
 }
 
-/// The lanes of a block that a ray may hit, and what is known of them.
-type Candidates<T> = (u32, <T as TriangleTest>::Values<WIDTH>);
+/// The lanes of a block that a ray may hit, and the values of the first stage.
+type BlockCandidates<T> = (u32, <T as TriangleTest>::Values<WIDTH>);
 
 impl<'a, T: TriangleTest> PacketState<'a, T> {
-    /// They look for triangles of `blocks`, and get their ends in `packet`.
+    /// For rays that search `blocks`; sets the ends of the rays in `packet`.
     #[inline(always)]
     pub fn new<L: EightLanes>(
         rays: &'a [Ray; RAYS],
@@ -55,7 +55,7 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
         self.unfinished
     }
 
-    /// What the rays have found, handed over by number.
+    /// Hands the hit of each ray to `answer`.
     #[allow(clippy::needless_range_loop)] // a lane is a column of many
     #[inline(always)]
     pub fn answer<const ANY: bool, L: EightLanes>(
@@ -77,7 +77,7 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
                 if self.nearest.has_found(i) {
                     found |= 1 << lane;
                     let own = self.nearest.depth(i).inputs(&self.rays[i]);
-                    // All but the ray.
+                    // The columns of the rays are filled already.
                     for column in (0..ORIGIN).chain([BETWEEN_BOUNDS]) {
                         inputs[column][lane] = own[column];
                     }
@@ -91,15 +91,15 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
         }
     }
 
-    /// Ray `i` for a search of its own: as its test wants it, where it starts and what it has found.
+    /// Ray `i` for a search of its own: in the form of the test, its `t_min`, and its nearest hit so far.
     #[inline(always)]
     pub fn single(&mut self, i: usize) -> (&T::Ray, f32, Nearest<T::Depth<'a>>) {
         self.prepare(1 << i);
-        // SAFETY: prepared.
+        // SAFETY: the line above has prepared ray `i`.
         (unsafe { self.prepared(i) }, self.t_min[i], self.nearest.get(i))
     }
 
-    /// Takes what ray `i` has found alone.
+    /// Stores the nearest hit that ray `i` has found in a search of its own.
     #[inline(always)]
     pub fn put_back<const ANY: bool, L: EightLanes>(
         &mut self,
@@ -111,7 +111,7 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
         self.update::<ANY, L>(i, packet);
     }
 
-    /// Searches the blocks of a leaf for the rays `active`, as bits: each finds what it would find alone.
+    /// Searches the blocks of a leaf for the rays `active`, as bits.
     #[inline(always)]
     pub fn search<const ANY: bool, L: EightLanes>(
         &mut self,
@@ -120,7 +120,8 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
         active: u16,
         packet: &mut RayPacket<L>,
     ) {
-        // Ray by ray takes a step for each ray and block, triangle by triangle one for each triangle and half of the rays.
+        // Ray by ray takes a step for each ray and block; triangle by triangle takes one for each triangle and half of
+        // the rays.
         let rays = active.count_ones();
         let triangles = || blocks.iter().map(LeafBlock::len).sum::<u32>();
         let pays = T::EIGHT && rays >= MANY && triangles() * HALVES as u32 <= rays * blocks.len() as u32;
@@ -137,8 +138,8 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
         }
     }
 
-    /// Triangle by triangle, half of the rays at once. No branch depends on which of them meets a triangle: that cannot be predicted. Returns the
-    /// rays that have to look for themselves.
+    /// Triangle by triangle, half of the rays at once. No branch depends on which rays meet a triangle, because such a
+    /// branch cannot be predicted. Returns the rays that must search the leaf alone.
     #[inline(always)]
     fn triangle_by_triangle<L: EightLanes>(
         &mut self,
@@ -170,9 +171,9 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
         left as u16
     }
 
-    /// Ray by ray, the triangles of a block at once. The candidates of all rays come before what is decided about them: whether there
-    /// are any cannot be predicted, and one wrong guess costs as much as the tests of two rays. With `ANY`, rays that have a hit look no
-    /// further.
+    /// Ray by ray, the triangles of a block at once. The first stage runs for all rays before the second stage decides
+    /// about the candidates: whether a ray has any cannot be predicted, and a mispredicted branch costs as much as the
+    /// tests of two rays. With `ANY`, rays that have a hit stop.
     #[inline(always)]
     fn ray_by_ray<const ANY: bool, L: EightLanes>(
         &mut self,
@@ -188,11 +189,11 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
             while left != 0 {
                 let i = left.trailing_zeros() as usize % RAYS;
                 left &= left - 1;
-                // SAFETY: prepared.
+                // SAFETY: `prepare` above has written the rays of `active`, and `left` has no others.
                 let ray = unsafe { self.prepared[i].assume_init_ref() };
                 let (candidates, first) =
                     T::candidates::<WIDTH, L>(ray, &block.triangles, self.t_min[i], self.nearest.t(i));
-                // Values that are there are stored in any case, which needs no guess.
+                // Values that exist anyway are stored without a branch.
                 if T::ONE_STAGE || candidates != 0 {
                     self.candidates[i].write((candidates, T::values(first)));
                 }
@@ -201,9 +202,9 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
             while met != 0 {
                 let i = met.trailing_zeros() as usize % RAYS;
                 met &= met - 1;
-                // SAFETY: written above for this block, as `met` says.
+                // SAFETY: the loop above sets a bit of `met` only after it has written the candidates of that ray.
                 let candidates = unsafe { self.candidates[i].assume_init() };
-                // SAFETY: prepared, as all that take part.
+                // SAFETY: `prepare` above has prepared the rays of `active`, and `met` has no others.
                 unsafe { self.settle(number, block, i, candidates) };
                 if ANY && self.nearest.has_found(i) {
                     searching &= !(1 << i);
@@ -221,21 +222,21 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
     /// Decides about the candidates of ray `i`.
     ///
     /// # Safety
-    /// It is prepared.
+    /// [`prepare`](Self::prepare) has prepared the ray.
     #[inline(always)]
     unsafe fn settle(
         &mut self,
         number: usize,
         block: &'a LeafBlock<T, WIDTH>,
         i: usize,
-        (mut candidates, values): Candidates<T>,
+        (mut candidates, values): BlockCandidates<T>,
     ) {
         if T::ONE_STAGE {
-            // They are hits already: that needs no call.
+            // The candidates are hits already, so no call is needed.
             while candidates != 0 {
                 let lane = candidates.trailing_zeros() as usize % WIDTH;
                 candidates &= candidates - 1;
-                // SAFETY: prepared, as the caller says.
+                // SAFETY: by the contract of this function ray `i` is prepared.
                 let depth = T::decide(unsafe { self.prepared(i) }, &block.triangles, lane, &values);
                 self.nearest.offer(i, depth.expect("the first stage has decided").bound(), block.ids[lane]);
             }
@@ -243,18 +244,18 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
             while candidates != 0 {
                 let lane = candidates.trailing_zeros() as usize % WIDTH;
                 let (id, place) = (block.ids[lane], (number * WIDTH + lane) as u32);
-                // A triangle of several leaves is met again.
-                let told = self.nearest.id(i) == id || {
-                    // SAFETY: prepared, as the caller says.
+                // A triangle may be referenced by several leaves.
+                let decided = self.nearest.id(i) == id || {
+                    // SAFETY: by the contract of this function ray `i` is prepared.
                     match T::decide_at_once(unsafe { self.prepared(i) }, &block.triangles, lane, &values) {
                         Some(Some(depth)) => self.nearest.offer_between(i, &depth, id, place),
                         Some(None) => true,
                         None => false,
                     }
                 };
-                if !told {
+                if !decided {
                     let mut nearest = self.nearest.get(i);
-                    // SAFETY: prepared, as the caller says.
+                    // SAFETY: by the contract of this function ray `i` is prepared.
                     settle(block, unsafe { self.prepared(i) }, candidates, &values, &mut nearest);
                     return self.nearest.set(i, nearest);
                 }
@@ -263,14 +264,14 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
         }
     }
 
-    /// Ray `i` as its test wants it.
+    /// Ray `i` in the form of the triangle test.
     ///
     /// # Safety
-    /// It is prepared.
+    /// [`prepare`](Self::prepare) has prepared the ray.
     #[inline(always)]
     unsafe fn prepared(&self, i: usize) -> &T::Ray {
         debug_assert!(self.ready >> i & 1 == 1);
-        // SAFETY: written when it was prepared.
+        // SAFETY: by the contract of this function `prepare` has written it, and nothing removes it.
         unsafe { self.prepared[i].assume_init_ref() }
     }
 
@@ -286,7 +287,7 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
         }
     }
 
-    /// Takes note of what ray `i` has found.
+    /// Moves the end of ray `i` to its nearest hit; with `ANY`, a hit finishes the ray.
     #[inline(always)]
     fn update<const ANY: bool, L: EightLanes>(&mut self, i: usize, packet: &mut RayPacket<L>) {
         if ANY && self.nearest.has_found(i) {

@@ -1,4 +1,4 @@
-//! A ray as wide nodes see it.
+//! A ray, prepared for the boxes of wide nodes.
 
 use glam::Vec3A;
 
@@ -9,14 +9,16 @@ use crate::traversal::line::inverses;
 
 /// A ray, prepared for the boxes of nodes.
 ///
-/// **No box is lost.** Let the ray be in a closed box at the exact parameter t* in [`t_min`, `end`]. On each axis it crosses the near
-/// plane at n <= t* and the far plane at f >= t*. The near crossing is computed as N = fl(p - o) i, rounded, where i = fl(1 / d); the far one
-/// as F = fl(p - o) g, rounded, where g is i enlarged by 8 units of 2^-23. Two roundings move N away from n by less than
-/// 2.1 units of 2^-24, relatively, and three move F by less than 3.1 from 16 units beyond f. So N <= F for the planes of any two axes
-/// where n is not negative, and t_min <= F; and because the last rounding is monotonic, also where the products underflow, the
-/// rounded ones are in that order. Where n is negative, t_min stands for it. `end` is 8 units beyond the last parameter of interest,
-/// which n does not exceed. Infinite crossings (`d` = 0) order correctly, and what has no answer is NaN (see
-/// [`inverses`]), which leaves the interval as it is. Nothing is fused, so that all levels visit the same boxes for the same `end`.
+/// **No box is lost.** Let the ray be in a closed box at the exact parameter t* in [`t_min`, `end`]. On each axis it
+/// crosses the near plane at n <= t* and the far plane at f >= t*. The near crossing is computed as N = fl(p - o) i,
+/// rounded, where i = fl(1 / d); the far one as F = fl(p - o) g, rounded, where g is i enlarged by 8 units of 2^-23.
+/// Two roundings move N away from n by less than 2.1 units of 2^-24, relatively, and three move F by less than 3.1 from
+/// 16 units beyond f. So N <= F for the planes of any two axes where n is not negative, and t_min <= F; and because the
+/// last rounding is monotonic, also where the products underflow, the rounded ones are in that order. Where n is
+/// negative, t_min stands for it. `end` is 8 units beyond the last parameter of interest, which n does not exceed;
+/// where N overflows, `end` is infinite (see [`Line`](crate::traversal::line::Line)), and so is F. Infinite crossings
+/// (`d` = 0) order correctly, and what has no answer is NaN (see [`inverses`]), which leaves the interval as it is.
+/// Nothing is fused, so that all levels visit the same boxes for the same `end`.
 #[derive(Clone, Copy)]
 pub(super) struct PreparedRay<L> {
     origin: [L; 3],
@@ -30,7 +32,7 @@ pub(super) struct PreparedRay<L> {
     pub octant: usize,
 }
 
-/// How much longer than it is the way to a far plane is taken to be.
+/// The factor by which the crossings of far planes are enlarged.
 pub(super) const ENLARGED: f32 = 1.0 + 8.0 * f32::EPSILON;
 
 /// By axis, which of the six rows of planes are near and which are far for rays of an octant.
@@ -64,13 +66,15 @@ impl<L: Lanes<WIDTH>> PreparedRay<L> {
         }
     }
 
-    /// Where the ray enters and leaves the boxes, both within the interval: it misses those that it leaves before it enters.
+    /// Where the ray enters and leaves the boxes, both within the interval: it misses those that it leaves before it
+    /// enters.
     #[inline(always)]
     pub fn cross(&self, node: &Node, end: L) -> (L, L) {
         let planes = (&raw const node.planes).cast::<u8>();
         let (mut enter, mut leave) = (self.t_min, end);
         for axis in 0..3 {
-            // SAFETY: there is a row of planes after each of these many bytes.
+            // SAFETY: `near` and `far` are the offsets that `of` has computed from numbers of `rows`, all below the six
+            // rows of `planes`; a row of floats is aligned as the node is.
             let (near, far) = unsafe { (&*planes.add(self.near[axis]).cast(), &*planes.add(self.far[axis]).cast()) };
             enter = L::load(near).sub(self.origin[axis]).mul(self.inverse[axis]).max(enter);
             leave = L::load(far).sub(self.origin[axis]).mul(self.enlarged[axis]).min(leave);

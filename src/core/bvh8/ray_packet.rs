@@ -1,4 +1,4 @@
-//! Sixteen rays as the boxes of nodes see them.
+//! Sixteen rays, prepared for the boxes of nodes.
 
 use super::node::{Node, WIDTH};
 use super::packet_hits::{HALVES, RAYS};
@@ -8,10 +8,10 @@ use crate::simd::{EightLanes, LaneVec3, each};
 use crate::traversal::line::{after, lanes_after};
 use crate::triangle::{DIRECTION, EightRays, INPUTS, ORIGIN};
 
-/// A number of each ray.
+/// One number of each ray.
 type Row = [[f32; WIDTH]; HALVES];
 
-/// The rays of a packet: each as its [`PreparedRay`] has it.
+/// The rays of a packet: for each the numbers of its [`PreparedRay`].
 pub(super) struct RayPacket<L> {
     pub origin: [[L; HALVES]; 3],
     direction: [[L; HALVES]; 3],
@@ -26,8 +26,8 @@ pub(super) struct RayPacket<L> {
     pub octant: usize,
 }
 
-/// The eight numbers of eight rays: a row of each. A function, because a closure as large as this is not inlined everywhere, and then
-/// is not compiled for the level.
+/// The eight numbers of eight rays, transposed: a row of each number. A function, because a closure as large as this is
+/// not always inlined, and then is not compiled for the level.
 #[inline(always)]
 fn numbers<L: EightLanes>(rays: &[Ray]) -> [L; 8] {
     let mut rows = [L::zero(); WIDTH];
@@ -46,7 +46,8 @@ fn greatest<L: EightLanes>(lanes: L) -> f32 {
 }
 
 impl<L: EightLanes> RayPacket<L> {
-    /// Without their ends: rays of one octant whose crossings with planes in `bounds` all have a finite answer; nothing if they are not that.
+    /// For rays of one octant without zero components whose inverses are finite and whose differences to planes in
+    /// `bounds` do not overflow; nothing for other rays. The ends are not set yet.
     #[inline(always)]
     pub fn new(rays: &[Ray; RAYS], bounds: &Aabb) -> Option<Self> {
         let (low, high) = rays.split_at(WIDTH);
@@ -55,7 +56,7 @@ impl<L: EightLanes> RayPacket<L> {
         let (origin, direction) = ([row(0), row(1), row(2)], [row(4), row(5), row(6)]);
         let mut octant = 0;
         for (axis, [low, high]) in direction.iter().enumerate() {
-            // Zeros of either sign fail below, where their inverses are asked for.
+            // Zeros of either sign are refused below, because their inverses are infinite.
             match low.lt(L::zero()) | high.lt(L::zero()) << WIDTH {
                 0 => {}
                 0xffff => octant |= 1 << axis,
@@ -67,7 +68,7 @@ impl<L: EightLanes> RayPacket<L> {
         let enlarged = each(&inverse, |halves| each(halves, |i| i.mul(L::splat(ENLARGED))));
         let (t_min, t_max) = (each(&row(3), |t| t.max(L::zero())), row(7));
 
-        // What `Ray::is_valid` and `inverses` ask, and that no inverse, enlarged or not, is infinite or NaN.
+        // The conditions of `Ray::is_valid` and `inverses`, and that no inverse, enlarged or not, is infinite or NaN.
         let abs = |x: L| x.flip_sign(x);
         let mut good = u32::MAX;
         for half in 0..HALVES {
@@ -125,19 +126,19 @@ impl<L: EightLanes> RayPacket<L> {
         row
     }
 
-    /// Ray `i` is of no interest after `t`.
+    /// Sets the end of ray `i`, with slack after `t`.
     #[inline(always)]
     pub fn end(&mut self, i: usize, t: f32) {
         self.ends[i / WIDTH][i % WIDTH] = after(t);
     }
 
-    /// The rays are of no interest after `t`.
+    /// Sets the ends of all rays, with slack after `t`.
     #[inline(always)]
     pub fn end_all(&mut self, t: [L; HALVES]) {
         self.ends = each(&t, |t| lanes_after(*t).store());
     }
 
-    /// What [`Depth::inputs`](crate::triangle::Depth::inputs) says of half of the rays.
+    /// The columns of [`Depth::inputs`](crate::triangle::Depth::inputs) that hold half of the rays.
     #[inline(always)]
     pub fn inputs(&self, half: usize) -> [[f32; WIDTH]; INPUTS] {
         let mut inputs = [[0.0; WIDTH]; INPUTS];

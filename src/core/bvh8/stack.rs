@@ -1,4 +1,4 @@
-//! What a walk has still to visit.
+//! The stack of a traversal.
 
 use std::mem::MaybeUninit;
 
@@ -7,33 +7,38 @@ use crate::simd::EightLanes;
 
 /// Each node leaves at most seven children behind, and eight are written at once.
 pub(super) const SIZE: usize = DEPTH * (WIDTH - 1) + WIDTH;
+/// The bottom, what all nodes of a path but the last one leave behind, and the eight children of that.
+const _: () = assert!(1 + (DEPTH - 1) * (WIDTH - 1) + WIDTH <= SIZE);
 
-/// Children, the next one on top, and where the ray enters them. Not initialised: that would cost more than a short walk.
+/// Children to visit, the next one on top, and where the ray enters them. Not initialised, because that would cost more
+/// than a short traversal.
 ///
-/// Where it lies matters: eight entries are written at once, and a processor is slow to write across the border of two pages. Where the
-/// first few dozen entries of an array, those that most walks use, lie so, walks take 1.25 to 1.4 times as long (Xeon). So a walk of one ray
-/// has its stack in one page, see [`OnePage`]. Of several stacks in use at once each had better begin elsewhere in its page, for
-/// the nearest cache has few places for the same part of many pages.
+/// The address matters: eight entries are written at once, and a store across the border of two pages is slow. If the
+/// first few dozen entries, which most traversals use, cross a border, a traversal takes 1.25 to 1.4 times as long
+/// (Xeon). So the stack of a single ray lies in one page, see [`OnePage`]. Several stacks in use at once should begin
+/// at different offsets in their pages, because the first-level cache has few ways for the same offset in many pages.
 #[repr(C)]
 pub(super) struct Entries {
     children: [MaybeUninit<Child>; SIZE],
     enters: [MaybeUninit<f32>; SIZE],
 }
 
-/// The first `len` of some entries, of a search for any hit or the closest. The length is not beside them, so that it stays in a register.
+/// The first `len` of some entries, for a closest-hit or any-hit query. The length is stored apart, so that it stays in
+/// a register.
 pub(super) struct Stack<'a, const ANY: bool> {
     entries: &'a mut Entries,
     len: usize,
 }
 
-/// What lies in a page of memory, a quarter of it after its beginning: there the compiler keeps what it has no registers for, and a load
-/// waits for a store to the same place of another page. 1.01 times as fast as at the beginning of a page; half a page after it, 1.005 (Xeon).
+/// A value in one page of memory, a quarter of a page after its beginning: the compiler spills registers near the
+/// beginning, and a load waits for a store to the same offset of another page. 1.01 times as fast as at the beginning
+/// of a page; half a page after it, 1.005 (Xeon).
 #[repr(C, align(4096))]
 pub(super) struct OnePage<T>(pub [MaybeUninit<u8>; BEFORE], pub T);
 
 const BEFORE: usize = 1024;
 
-/// Entries of the second array that lie within the page: more than most walks use.
+/// Entries of the second array that lie within the page: more than most traversals use.
 const _: () = assert!((4096 - BEFORE) / size_of::<Child>() - SIZE > 50);
 
 impl<T> OnePage<T> {
@@ -49,13 +54,14 @@ impl Entries {
         Self { children: [const { MaybeUninit::uninit() }; SIZE], enters: [const { MaybeUninit::uninit() }; SIZE] }
     }
 
-    /// Makes the first of them the [`BOTTOM`](Child::BOTTOM).
+    /// Writes [`BOTTOM`](Child::BOTTOM) as the first entry.
     ///
     /// # Safety
     /// `entries` is valid for writes.
     #[inline(always)]
     pub unsafe fn reset(entries: *mut Self) {
-        // SAFETY: as the caller says; no reference is made to what is not initialised.
+        // SAFETY: by the contract of this function the entries may be written; raw pointers do, so that no reference to
+        // memory that is not initialised is made.
         unsafe {
             (&raw mut (*entries).children[0]).write(MaybeUninit::new(Child::BOTTOM));
             (&raw mut (*entries).enters[0]).write(MaybeUninit::new(f32::NEG_INFINITY));
@@ -64,10 +70,11 @@ impl Entries {
 }
 
 impl<'a, const ANY: bool> Stack<'a, ANY> {
-    /// Those that are left of it.
+    /// The stack of the first `len` entries.
     ///
     /// # Safety
-    /// `len` is 0, 1 after [`reset`](Entries::reset), or that of a stack for the same query after which nobody wrote to the entries.
+    /// `len` is 0; or 1 after [`reset`](Entries::reset); or the length of an earlier stack of the same `ANY` over these
+    /// entries, if nothing else has written to them since.
     #[inline(always)]
     pub unsafe fn of(entries: &'a mut Entries, len: usize) -> Self {
         Self { entries, len }
@@ -78,11 +85,11 @@ impl<'a, const ANY: bool> Stack<'a, ANY> {
         self.len
     }
 
-    /// Pushes the children that are met, and returns the first to visit instead of pushing it. With `ANY` in the order of lanes,
-    /// the highest first, else in that of the octant.
+    /// Pushes the children whose boxes are met, but returns the first to visit instead of pushing it. With `ANY` the
+    /// order is that of the lanes, the highest first, else that of the octant.
     ///
-    /// Which child comes first is a branch for each place and no table look-up: a branch is predicted, and the processor goes on in the
-    /// next node while the boxes of this one are still being tested. A look-up has to wait for them.
+    /// The first child is found by a branch for each place, not by a table look-up: a branch is predicted, and the
+    /// processor goes on in the next node while the boxes of this one are still being tested. A look-up waits for them.
     ///
     /// # Safety
     /// Every node on the way here has been pushed once, and there are at most [`DEPTH`].
@@ -90,7 +97,8 @@ impl<'a, const ANY: bool> Stack<'a, ANY> {
     pub unsafe fn push<L: EightLanes>(&mut self, node: &Node, octant: usize, (enter, leave): (L, L)) -> Option<Child> {
         let children = Child::bits(&node.children);
         let order = node.orders[octant & 7];
-        // SAFETY: `len` is at most 1 + (DEPTH - 1) * (WIDTH - 1), so that eight more fit; a child is a number in memory.
+        // SAFETY: by the contract of this function at most `DEPTH` - 1 nodes have left entries, seven each, above at
+        // most one of `reset`: eight more fit, as the assertion at `SIZE` says. A child is a `u32`, transparently.
         let met = unsafe {
             let chosen = self.entries.children.as_mut_ptr().add(self.len).cast();
             if ANY {
@@ -108,25 +116,25 @@ impl<'a, const ANY: bool> Stack<'a, ANY> {
         for place in (0..WIDTH).rev() {
             if met >> place != 0 {
                 self.len += met.count_ones() as usize - 1;
-                // Keeps the compiler from making a look-up of the branches.
+                // Keeps the compiler from turning the branches into a look-up.
                 std::hint::black_box(());
                 let lane = if ANY { place } else { (order >> (3 * place) & 7) as usize };
-                // Reading the child from the node is faster than waiting for what has just been written.
+                // Reading the child from the node is faster than reading back the entry just written.
                 return Some(node.children[lane]);
             }
         }
         None
     }
 
-    /// Pushes the children that are met, in the same order: in words of its own, because what it could share with [`push`](Self::push)
-    /// makes searches for any hit a twentieth slower.
+    /// Pushes all children whose boxes are met, in the same order. It repeats code of [`push`](Self::push), because
+    /// sharing it makes any-hit queries a twentieth slower.
     ///
     /// # Safety
     /// As of [`push`](Self::push).
     #[inline(always)]
     pub unsafe fn push_all<L: EightLanes>(&mut self, node: &Node, octant: usize, (enter, leave): (L, L)) {
         let children = Child::bits(&node.children);
-        // SAFETY: as there.
+        // SAFETY: as in `push`: of the eight entries that a node pushes, the next step takes one off.
         let met = unsafe {
             let chosen = self.entries.children.as_mut_ptr().add(self.len).cast();
             if ANY {
@@ -142,11 +150,12 @@ impl<'a, const ANY: bool> Stack<'a, ANY> {
     /// The next child that the ray enters not after `end`; at last the [`BOTTOM`](Child::BOTTOM).
     ///
     /// # Safety
-    /// The stack was reset, and that has not been returned since.
+    /// The entries were [`reset`](Entries::reset), and the bottom has not been returned since.
     #[inline(always)]
     pub unsafe fn pop_down(&mut self, end: f32) -> Child {
-        // SAFETY: all below the old length was written, and at the bottom is what every ray enters in time; with `ANY` the entries
-        // were not.
+        // SAFETY: by the contract of this function and that of `of`, `reset`, `push` and `push_all` have written the
+        // entries below `len`: of searches for any hit their children alone, and no others are read. The loop ends
+        // above the bottom or at it, for that is entered at minus infinity.
         unsafe {
             self.len -= 1;
             while !ANY && self.entries.enters.get_unchecked(self.len).assume_init() > end {
@@ -161,7 +170,8 @@ impl<'a, const ANY: bool> Stack<'a, ANY> {
     pub fn pop(&mut self, end: f32) -> Option<Child> {
         while self.len > 0 {
             self.len -= 1;
-            // SAFETY: all below the old length was written; with `ANY` the entries were not.
+            // SAFETY: by the contract of `of`, `push` has written the entries below `len`: of searches for any hit
+            // their children alone, and no others are read.
             unsafe {
                 if ANY || self.entries.enters.get_unchecked(self.len).assume_init() <= end {
                     return Some(self.entries.children.get_unchecked(self.len).assume_init());

@@ -1,9 +1,9 @@
-//! Rays one by one, several under way at once.
+//! Interleaved traversal: several single rays are under way at once.
 //!
-//! **The same answers as one after the other.** Each ray has a stack of its own and takes the steps that it takes alone, in the same
-//! order. What differs is what the machine does meanwhile: after a step of one ray the memory for its next one is fetched, and the
-//! others take theirs. Rays at nodes and rays at leaves stand in separate lists, so that no branch depends on which of both comes
-//! next.
+//! **The same hits as one ray after the other.** Each ray has a stack of its own and takes the same steps in the same
+//! order as it does alone. After a step of one ray the memory for its next step is prefetched, and meanwhile the other
+//! rays take theirs. Rays at nodes and rays at leaves are kept in separate lists, so that no branch depends on which of
+//! both comes next.
 
 use std::marker::PhantomData;
 use std::mem::MaybeUninit;
@@ -19,28 +19,28 @@ use crate::traversal::line::after;
 use crate::traversal::pages;
 use crate::triangle::TriangleTest;
 
-/// Rays under way: enough to wait for memory, few enough for the nearest cache.
+/// Rays under way: enough to hide the latency of memory, few enough for the first-level cache.
 const SLOTS: usize = 8;
 
 /// A ray under way.
 struct StreamRay<'a, L, T: TriangleTest> {
     prepared_ray: PreparedRay<L>,
-    asked: &'a Ray,
+    original: &'a Ray,
     ray: T::Ray,
     t_min: f32,
     nearest: Nearest<T::Depth<'a>>,
-    /// It is of no interest after.
+    /// Boxes that the ray enters after this are skipped.
     end: f32,
-    /// Where it is.
+    /// The node or leaf to visit next.
     child: Child,
-    /// Which ray it is.
+    /// The number of the ray in its slice.
     number: usize,
     entries: Entries,
-    /// How many of them are left to visit.
+    /// The length of the stack in `entries`.
     left: usize,
 }
 
-/// Room for rays under way.
+/// Memory for the rays under way.
 pub(super) struct Slots<'a, L, T: TriangleTest>([MaybeUninit<StreamRay<'a, L, T>>; SLOTS]);
 
 impl<L, T: TriangleTest> Slots<'_, L, T> {
@@ -54,35 +54,35 @@ impl<'a, L, T: TriangleTest> List<'a, L, T> {
     const EMPTY: Self = Self([std::ptr::null_mut(); SLOTS]);
 
     /// # Safety
-    /// There are less than `SLOTS` before it.
+    /// `i` is below [`SLOTS`].
     #[inline(always)]
     unsafe fn put(&mut self, i: usize, slot: *mut StreamRay<'a, L, T>) {
         debug_assert!(i < SLOTS);
-        // SAFETY: as the caller says.
+        // SAFETY: by the contract of this function `i` is in bounds.
         unsafe { *self.0.get_unchecked_mut(i) = slot };
     }
 
     /// # Safety
-    /// It was put there.
+    /// `i` is below [`SLOTS`].
     #[inline(always)]
     unsafe fn get(&self, i: usize) -> *mut StreamRay<'a, L, T> {
         debug_assert!(i < SLOTS);
-        // SAFETY: as the caller says.
+        // SAFETY: by the contract of this function `i` is in bounds.
         unsafe { *self.0.get_unchecked(i) }
     }
 }
 
-/// Rays under way through a tree. Each slot is in one of the lists, once.
+/// Rays under way through a tree. Each slot is in exactly one of the lists.
 pub(super) struct Stream<'a, L, T: TriangleTest> {
     tree: &'a Bvh8<T>,
     slots: PhantomData<&'a mut Slots<'a, L, T>>,
-    /// With a ray at a node.
+    /// Slots with a ray at a node.
     nodes: List<'a, L, T>,
-    /// With a ray at a leaf.
+    /// Slots with a ray at a leaf.
     leaves: List<'a, L, T>,
-    /// Without a ray.
+    /// Slots without a ray.
     free: List<'a, L, T>,
-    /// How many each list has.
+    /// The lengths of the three lists.
     at_nodes: usize,
     at_leaves: usize,
     freed: usize,
@@ -99,7 +99,7 @@ impl<'a, L: EightLanes, T: TriangleTest> Stream<'a, L, T> {
         Self { tree, slots: PhantomData, nodes, leaves, free, at_nodes: 0, at_leaves: 0, freed: SLOTS }
     }
 
-    /// Brings rays through, which are handed to `done` by their numbers.
+    /// Traces all of `rays`; `done` receives the number and the hit of each.
     #[inline(always)]
     pub fn run<const ANY: bool>(
         &mut self,
@@ -118,18 +118,20 @@ impl<'a, L: EightLanes, T: TriangleTest> Stream<'a, L, T> {
         }
     }
 
-    /// Sends a ray on its way. There is a free slot.
+    /// Starts a ray. There must be a free slot.
     #[inline(always)]
     fn push(&mut self, number: usize, ray: &'a Ray, done: &mut impl FnMut(usize, Option<Hit>)) {
         let Some((t_min, nearest)) = start::<T>(ray) else { return done(number, None) };
         self.freed -= 1;
         let root = self.tree.root;
-        // SAFETY: the list has the slots that are free. All of a slot is written but the entries of its stack above the bottom. All lists together
-        // are as long as there are slots.
+        // SAFETY: `freed` counts the slots in `free`, all of which `new` has borrowed for the lifetime of the stream,
+        // and was above 0. Every field of the slot is written before the slot is put into a list, but for the entries
+        // above the bottom of its stack, which `left` leaves out. A slot is in one list at a time, so that no list gets
+        // longer than `SLOTS`.
         unsafe {
             let slot = self.free.get(self.freed);
             (&raw mut (*slot).prepared_ray).write(PreparedRay::new(ray, &self.tree.bounds, t_min));
-            (&raw mut (*slot).asked).write(ray);
+            (&raw mut (*slot).original).write(ray);
             (&raw mut (*slot).ray).write(T::prepare(ray));
             (&raw mut (*slot).t_min).write(t_min);
             (&raw mut (*slot).end).write(after(nearest.t));
@@ -152,11 +154,14 @@ impl<'a, L: EightLanes, T: TriangleTest> Stream<'a, L, T> {
     #[inline(always)]
     fn round<const ANY: bool>(&mut self, done: &mut impl FnMut(usize, Option<Hit>)) {
         let tree = self.tree;
-        // Each list is written anew while it is read. A slot is written to both, and counted in one of them.
+        // Each list is rewritten in place while it is read. A slot is written to both lists, and counted in one of
+        // them.
         let (mut nodes, rays) = (0, self.at_nodes);
         for k in 0..rays {
-            // SAFETY: slots in lists hold rays; children name nodes that are there; the depth was checked when the tree was built;
-            // whose bottom was reached is at no node; no list gets longer than there are slots.
+            // SAFETY: the first `at_nodes` slots of `nodes` were filled by `push`, and each is in one list, so that
+            // this is the only reference to it, and no list gets longer than `SLOTS`. Its child is a node, and a path
+            // has at most `DEPTH` nodes (invariants of `Bvh8`). The bottom of its stack is left, for `Child::BOTTOM` is
+            // a leaf.
             unsafe {
                 let slot = self.nodes.get(k);
                 let at = &mut *slot;
@@ -173,7 +178,8 @@ impl<'a, L: EightLanes, T: TriangleTest> Stream<'a, L, T> {
         }
         let (mut leaves, rays) = (0, self.at_leaves + rays - nodes);
         for k in 0..rays {
-            // SAFETY: likewise; leaves name blocks that are there, and whose bottom was reached takes another way.
+            // SAFETY: as above for `leaves`, whose slots are at a leaf: it names a range of `blocks` (invariants of
+            // `Bvh8`), or it is `Child::BOTTOM`, after which the slot is freed and its stack not used again.
             unsafe {
                 let slot = self.leaves.get(k);
                 let at = &mut *slot;
@@ -195,7 +201,7 @@ impl<'a, L: EightLanes, T: TriangleTest> Stream<'a, L, T> {
                         continue;
                     }
                 }
-                done(at.number, at.nearest.answer::<ANY>(at.asked));
+                done(at.number, at.nearest.answer::<ANY>(at.original));
                 self.free.put(self.freed, slot);
                 self.freed += 1;
             }
@@ -205,7 +211,7 @@ impl<'a, L: EightLanes, T: TriangleTest> Stream<'a, L, T> {
 }
 
 impl<T: TriangleTest> Bvh8<T> {
-    /// Asks for the memory of what `child` names: of a leaf, the most of its first block.
+    /// Prefetches the node that `child` names, or most of the first block of the leaf.
     #[inline(always)]
     fn fetch(&self, child: Child) {
         let node = self.nodes.as_ptr().wrapping_add(child.index()).cast::<u8>();

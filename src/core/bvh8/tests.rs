@@ -77,8 +77,8 @@ fn the_unit_of_length_does_not_matter() {
     }
 }
 
-/// A direction may be so short on an axis that its inverse is finite and the enlarged inverse is not. This one passes the first
-/// triangle by less than the test can see.
+/// A direction may be so short on an axis that its inverse is finite and the enlarged inverse is not. This one passes
+/// the first triangle by less than the test can see.
 #[test]
 fn packets_leave_alone_what_their_common_bounds_cannot_tell() {
     let mesh = mesh(200, |i| {
@@ -98,7 +98,8 @@ fn packets_leave_alone_what_their_common_bounds_cannot_tell() {
     }
 }
 
-/// Two triangles of opposite determinants, hit at -0.0 and at 0.0: both as near, so that the lower number wins, with its own zero.
+/// Two triangles of opposite determinants, hit at -0.0 and at 0.0: both as near, so that the lower number wins, with
+/// its own zero.
 #[test]
 fn packets_find_the_zero_of_the_lower_number() {
     let (x, y) = ([Vec3::ZERO, Vec3::X, Vec3::Y], [Vec3::ZERO, Vec3::Y, Vec3::X]);
@@ -172,7 +173,8 @@ fn rays_without_an_inverse_on_any_axis_are_not_through_at_the_first_unused_lane(
     }
 }
 
-/// Groups that agree, sixteens of which each ray goes its own way, and a few rays at the end, in slices of several windows.
+/// Groups that agree, sixteens of which each ray goes its own way, and a few rays at the end, in slices of several
+/// windows.
 #[test]
 fn long_slices_are_answered_as_their_rays_are() {
     let mesh = Arc::new(soup(300, 5));
@@ -227,7 +229,8 @@ fn all_same_bits(one: &[Option<Hit>], other: &[Option<Hit>]) -> bool {
     one.len() == other.len() && one.iter().zip(other).all(same)
 }
 
-/// Slices of all small lengths, in which some rays miss, some begin on a triangle, where only exact arithmetic tells, and many hit.
+/// Slices of all small lengths, in which some rays miss, some begin on a triangle, where only exact arithmetic tells,
+/// and many hit.
 #[test]
 fn short_slices_are_answered_as_their_rays_are_over_the_exact_test() {
     let mesh = Arc::new(soup(300, 6));
@@ -253,8 +256,9 @@ fn short_slices_are_answered_as_their_rays_are_over_the_exact_test() {
     }
 }
 
-/// Sixty-four triangles a few bits apart, some of them the same, in the order of their numbers or not; rays from anywhere, from one of them
-/// and from just beside, over intervals that end there: what `f32` cannot order is what sums of floats say.
+/// Sixty-four triangles a few bits apart, some of them the same, in the order of their numbers or not; rays from
+/// anywhere, from one of them and from just beside, over intervals that end there: what `f32` cannot order is what sums
+/// of floats say.
 #[test]
 fn crowds_of_triangles_are_ordered_exactly() {
     let bits = |i: u32| i.wrapping_mul(0x9e37_79b1).rotate_left(11).wrapping_mul(2_654_435_761);

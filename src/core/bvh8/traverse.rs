@@ -1,12 +1,13 @@
 //! One walk for both queries.
 //!
-//! **No hit is lost.** A triangle that is hit at the exact t* in the interval has a reference in a leaf whose box, and those of
-//! all nodes above it, contain the point hit, because partitions round the boxes of what they cut outward. No such box is lost
-//! (see [`PreparedRay`]) unless a hit with a computed t before t* has been found: then what [`kdtree`](crate::kdtree) says of that case holds here.
+//! **No hit is lost.** A triangle that is hit at the exact t* in the interval has a reference in a leaf whose box, and
+//! those of all nodes above it, contain the point hit, because partitions round the boxes of what they cut outward. No
+//! such box is lost (see [`PreparedRay`]) unless a hit with a computed t before t* has been found: then what
+//! [`kdtree`](crate::kdtree) says of that case holds here.
 //!
-//! The closest hit is searched from front to back, in an order stored for the octant of the direction. For any hit the order is that
-//! of the lanes, the highest first: leaves before nodes and large boxes before small ones, because what is large is what
-//! occludes (Nah, Manocha: SATO: Surface area traversal order for shadow ray tracing, 2014).
+//! The closest hit is searched from front to back, in an order stored for the octant of the direction. For any hit the
+//! order is that of the lanes, the highest first: leaves before nodes and large boxes before small ones, because what
+//! is large is what occludes (Nah, Manocha: SATO: Surface area traversal order for shadow ray tracing, 2014).
 
 use super::node::{Child, WIDTH};
 use super::prepared_ray::PreparedRay;
@@ -57,14 +58,14 @@ impl<T: TriangleTest> Bvh8<T> {
         observer: &mut O,
     ) {
         let OnePage(_, entries) = &mut OnePage::new(Entries::new());
-        // SAFETY: none is looked at.
+        // SAFETY: a stack of length 0 has no entries to read; `push` writes entries before it counts them.
         let mut stack = unsafe { Stack::<ANY>::of(entries, 0) };
         let mut end = after(nearest.t);
         loop {
             let next = if let Some((first, count)) = child.blocks() {
-                // SAFETY: leaves name blocks that are there.
+                // SAFETY: a leaf names a range of `blocks` (invariants of `Bvh8`).
                 let blocks = unsafe { self.blocks.get_unchecked(first..first + count) };
-                // Only who counts asks which lanes are in use.
+                // The number of triangles takes a loop over the lanes in use, so only counting observers pay for it.
                 let mut held = u32::MAX;
                 if O::ACTIVE {
                     held = blocks.iter().map(|block| block.len()).sum();
@@ -78,7 +79,8 @@ impl<T: TriangleTest> Bvh8<T> {
                 None
             } else {
                 observer.inner();
-                // SAFETY: children name nodes that are there; the depth was checked when the tree was built.
+                // SAFETY: a child that is no leaf names one of `nodes`, and a path has at most `DEPTH` of them
+                // (invariants of `Bvh8`), each of which this walk pushes once.
                 unsafe {
                     let node = self.nodes.get_unchecked(child.index());
                     stack.push::<L>(node, prepared_ray.octant, prepared_ray.cross(node, L::splat(end)))

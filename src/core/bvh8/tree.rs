@@ -11,25 +11,29 @@ use crate::triangle::TriangleTest;
 
 /// A tree of nodes of eight tight boxes and leaves of blocks of eight triangles.
 ///
-/// Its configuration says how the triangles are divided: by planes, so that leaves are the tight boxes of disjoint cells; by groups;
-/// or by both. All are collapsed, laid out and searched in the same way. Takes O(n log n) time and memory to build, for a bounded
-/// duplication of references; the tree is the same for every number of threads. Costs 256 bytes a node and, over
-/// Möller-Trumbore, 320 a block. Not for moving geometry: nothing can be updated.
+/// Its configuration says how the triangles are divided: by planes, so that leaves are the tight boxes of disjoint
+/// cells; by groups; or by both. All are collapsed, laid out and searched in the same way. Takes O(n log n) time and
+/// memory to build, for a bounded duplication of references; the tree is the same for every number of threads. Costs
+/// 256 bytes a node and, over Möller-Trumbore, 320 a block. Not for moving geometry: nothing can be updated.
 ///
 /// How constants were chosen, and what was tried and did not pay: `papers/TUNING.md`.
 ///
 /// # References
-/// Wald, Benthin, Boulos: Getting rid of packets, 2008 (wide nodes for single rays). Ylitie, Karras, Laine: Efficient incoherent ray
-/// traversal on GPUs through compressed wide BVHs, 2017 (the collapse). Stich, Friedrich, Dietrich: Spatial splits in bounding
-/// volume hierarchies, 2009.
+/// Wald, Benthin, Boulos: Getting rid of packets, 2008 (wide nodes for single rays). Ylitie, Karras, Laine: Efficient
+/// incoherent ray traversal on GPUs through compressed wide BVHs, 2017 (the collapse). Stich, Friedrich, Dietrich:
+/// Spatial splits in bounding volume hierarchies, 2009.
 pub struct Bvh8<T: TriangleTest> {
+    // Invariants, on which the `unsafe` blocks of the traversals rely. `Layout` establishes them, and a tree is never
+    // changed: the root and all children of nodes name nodes in `nodes` or ranges of `blocks`; each node is the child
+    // of at most one other; and no path from the root has more than `DEPTH` nodes, because `Limits::check` refuses
+    // longer ones.
     pub(super) root: Child,
     pub(super) nodes: Vec<Node>,
     pub(super) blocks: Vec<LeafBlock<T, WIDTH>>,
     pub(super) bounds: Aabb,
     pub(super) batch: Batch,
-    /// Of rays that cannot travel together, for the closest hit and for any: several under way at once, or one after the other. What is learned
-    /// there lies apart from what all threads read.
+    /// How rays that form no packet are traced, for closest-hit and any-hit queries. Boxed, so that writes to it do not
+    /// share a cache line with what all threads read.
     pub(super) apart: Box<[Trial; 2]>,
 }
 

@@ -1,4 +1,5 @@
-//! Which of two ways to answer rays that cannot travel together is faster on this machine, tried now and then on the rays that are asked.
+//! Which of two ways to answer rays that cannot travel together is faster on this machine, tried now and then on the
+//! rays that are asked.
 
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 use std::sync::{Mutex, MutexGuard};
@@ -24,8 +25,9 @@ const LEAD: i32 = 2;
 
 /// How two ways, which give the same answers, have done on the same kind of rays lately.
 ///
-/// Processors differ in how much of what a ray waits for they hide themselves: several rays under way at once are 1.1 to 1.5 times as fast as
-/// one after the other on one, 0.8 to 1.2 times on another (`papers/TUNING.md`); and so do rays.
+/// Processors differ in how much of what a ray waits for they hide themselves: several rays under way at once are 1.1
+/// to 1.5 times as fast as one after the other on one, 0.8 to 1.2 times on another (`papers/TUNING.md`); and so do
+/// rays.
 #[derive(Debug, Default)]
 pub(super) struct Trial {
     in_order: AtomicBool,

@@ -4,14 +4,17 @@ use std::cmp::Ordering;
 
 use smallvec::SmallVec;
 
-/// A number as the exact sum of floats, none of them zero, the least first; zero is the empty sum. Their bits do not overlap nor, since
-/// rounding is to even, touch each other; those of an integer may touch, but the largest term is within 2^-53 of the whole.
+/// A number as the exact sum of floats, none of them zero, the least first; zero is the empty sum. Their bits do not
+/// overlap nor, since rounding is to even, touch each other; those of an integer may touch, but the largest term is
+/// within 2^-53 of the whole.
 ///
-/// Exact as long as nothing overflows or underflows: products of six differences of `f32` numbers do neither, for they are below 2^780 and
-/// multiples of 2^-894. Products rely on the fused multiplication of the machine, or of the C library where it has none.
+/// Exact as long as nothing overflows or underflows: products of six differences of `f32` numbers do neither, for they
+/// are below 2^780 and multiples of 2^-894. Products rely on the fused multiplication of the machine, or of the C
+/// library where it has none.
 ///
 /// # References
-/// Shewchuk: Adaptive precision floating-point arithmetic and fast robust geometric predicates. Discrete & Computational Geometry 18, 1997.
+/// Shewchuk: Adaptive precision floating-point arithmetic and fast robust geometric predicates. Discrete &
+/// Computational Geometry 18, 1997.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Expansion(SmallVec<[f64; 6]>);
 

@@ -1,4 +1,5 @@
-//! Where a line meets a triangle, in integers, where all bits in use lie within forty places: several times as fast as sums of floats.
+//! Where a line meets a triangle, in integers, where all bits in use lie within forty places: several times as fast as
+//! sums of floats.
 
 use std::cmp::Ordering;
 
@@ -9,8 +10,9 @@ use super::expansion::Expansion;
 use crate::geometry::Ray;
 use crate::simd::each;
 
-/// Places from the lowest bit in use to the highest among the numbers of one kind. Then numbers are below 2^40, differences below 2^41,
-/// components of cross products below 2^83, and three products of these with a third number together below 2^126.
+/// Places from the lowest bit in use to the highest among the numbers of one kind. Then numbers are below 2^40,
+/// differences below 2^41, components of cross products below 2^83, and three products of these with a third number
+/// together below 2^126.
 const BITS: i32 = 40;
 
 /// As [`hit`](super::hit), for finite numbers; nothing where they do not fit.

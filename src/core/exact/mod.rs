@@ -20,7 +20,8 @@ pub struct ExactT {
     denominator: Expansion,
 }
 
-/// Where the whole line of `ray` meets the closed triangle, or nothing if it misses or lies in the plane of the triangle.
+/// Where the whole line of `ray` meets the closed triangle, or nothing if it misses or lies in the plane of the
+/// triangle.
 ///
 /// The interval of the ray is not looked at: see [`ExactT::is_within`]. Numbers that are not finite hit nothing.
 /// Costs 50 nanoseconds where all bits in use lie within forty places, else about a microsecond.
@@ -37,8 +38,9 @@ pub fn hit(ray: &Ray, corners: [Vec3; 3]) -> Option<ExactT> {
     integers::hit(ray, corners).unwrap_or_else(|| hit_by_sums(ray, corners))
 }
 
-/// Six times the volume of the tetrahedron of `origin` and a triangle, (a - origin) . (e x f), with a relative error below 2^-49: the numerator of
-/// the `t` at which lines from there meet its plane. Zero if and only if `origin` lies in that plane. For finite numbers.
+/// Six times the volume of the tetrahedron of `origin` and a triangle, (a - origin) . (e x f), with a relative error
+/// below 2^-49: the numerator of the `t` at which lines from there meet its plane. Zero if and only if `origin` lies in
+/// that plane. For finite numbers.
 ///
 /// Costs a quarter of [`hit`].
 pub fn height(origin: Vec3, corners: [Vec3; 3]) -> f64 {
@@ -49,8 +51,8 @@ pub fn height(origin: Vec3, corners: [Vec3; 3]) -> f64 {
     integers::height(origin, corners).unwrap_or_else(of_sums)
 }
 
-/// On which side the line of `ray` passes the line through two points: the sign of direction . ((p - origin) x (q - origin)). Equal where the two
-/// lines meet, or are parallel. For finite numbers.
+/// On which side the line of `ray` passes the line through two points: the sign of direction . ((p - origin) x (q -
+/// origin)). Equal where the two lines meet, or are parallel. For finite numbers.
 ///
 /// Costs a sixth of [`hit`].
 pub fn side(ray: &Ray, edge: [Vec3; 2]) -> Ordering {
@@ -135,8 +137,8 @@ impl ExactT {
         Expansion::minor(&self.numerator, &one, &Expansion::from(t), &self.denominator).sign()
     }
 
-    /// This `t` with a relative error below 2^-50. Neither overflows nor underflows: the numerator and the denominator are below 2^391 and,
-    /// if not zero, at least 2^-447.
+    /// This `t` with a relative error below 2^-50. Neither overflows nor underflows: the numerator and the denominator
+    /// are below 2^391 and, if not zero, at least 2^-447.
     pub fn approximate(&self) -> f64 {
         self.numerator.approximate() / self.denominator.approximate()
     }
@@ -147,8 +149,8 @@ impl ExactT {
             return 0.0;
         }
         let near = self.approximate() as f32;
-        // Rounded twice, it may be the neighbour of the nearest one: look at the middles between them, where `f64` is exact. Infinity
-        // stands for 2^128.
+        // Rounded twice, it may be the neighbour of the nearest one: look at the middles between them, where `f64` is
+        // exact. Infinity stands for 2^128.
         let wide = |x: f32| if x.is_infinite() { f64::from(x.signum()) * 2.0_f64.powi(128) } else { f64::from(x) };
         let middle = |x: f32, y: f32| (wide(x) + wide(y)) / 2.0;
         let is_even = near.to_bits() & 1 == 0;

@@ -1,9 +1,9 @@
-//! [bvh](https://github.com/svenstaro/bvh) 0.13 (crate `bvh`): a binary BVH, one triangle a leaf, split by a binned surface area
-//! heuristic.
+//! [bvh](https://github.com/svenstaro/bvh) 0.13 (crate `bvh`): a binary BVH, one triangle a leaf, split by a binned
+//! surface area heuristic.
 //!
 //! The crate has no nearest hit: it yields candidates, and its caller tests triangles. Two of its walks are offered
-//! ([`Traversal`]), both with early termination. Its ray (unit direction and inverse, by its own constructor) is made before
-//! the clock starts. Its builder gets the threads of the caller.
+//! ([`Traversal`]), both with early termination. Its ray (unit direction and inverse, by its own constructor) is made
+//! before the clock starts. Its builder gets the threads of the caller.
 
 use std::cell::Cell;
 use std::sync::Arc;
@@ -28,12 +28,12 @@ use crate::triangle::decided_at_once::decided_at_once;
 /// The BVH of the crate `bvh` over the triangle test `T`.
 pub struct SvenstaroBvh<T: TriangleTest> {
     tree: Bvh<f32, 3>,
-    shapes: Vec<Boxed>,
+    shapes: Vec<TriangleBox>,
     leaves: Leaves<T>,
     traversal: Traversal,
 }
 
-/// How the crate is asked.
+/// How the crate is used.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SvenstaroBvhConfig {
@@ -53,20 +53,20 @@ pub enum Traversal {
     Nearest,
 }
 
-struct Boxed {
+struct TriangleBox {
     bounds: Aabb<f32, 3>,
     index: u32,
     /// Kept for the crate.
     node: usize,
 }
 
-impl Bounded<f32, 3> for Boxed {
+impl Bounded<f32, 3> for TriangleBox {
     fn aabb(&self) -> Aabb<f32, 3> {
         self.bounds
     }
 }
 
-impl BHShape<f32, 3> for Boxed {
+impl BHShape<f32, 3> for TriangleBox {
     fn set_bh_node_index(&mut self, node: usize) {
         self.node = node;
     }
@@ -77,13 +77,13 @@ impl BHShape<f32, 3> for Boxed {
 }
 
 /// A ray that meets no box behind the nearest hit.
-struct Pruned<'a> {
+struct PrunedRay<'a> {
     ray: &'a PreparedRay<f32, 3>,
     /// Distance of the nearest hit so far.
     limit: Cell<f32>,
 }
 
-impl IntersectsAabb<f32, 3> for Pruned<'_> {
+impl IntersectsAabb<f32, 3> for PrunedRay<'_> {
     #[inline(always)]
     fn intersects_aabb(&self, bounds: &Aabb<f32, 3>) -> bool {
         let limit = self.limit.get();
@@ -134,7 +134,7 @@ impl<T: TriangleTest> Prepare for SvenstaroBvh<T> {
         let limit = |t: f32| t * length * SLACK;
         match self.traversal {
             Traversal::Pruned => {
-                let query = Pruned { ray: walked, limit: Cell::new(limit(nearest.t)) };
+                let query = PrunedRay { ray: walked, limit: Cell::new(limit(nearest.t)) };
                 for shape in self.tree.traverse_iterator(&query, &self.shapes) {
                     observer.test(1);
                     self.leaves.test(shape.index as usize, start, &mut nearest);
@@ -158,7 +158,7 @@ impl<T: TriangleTest> Prepare for SvenstaroBvh<T> {
     fn any<O: Observer>(&self, ready: &Ready<T>, observer: &mut O) -> bool {
         let Ready { walked, length, start } = ready;
         let mut nearest = start.nearest();
-        let query = Pruned { ray: walked, limit: Cell::new(nearest.t * length * SLACK) };
+        let query = PrunedRay { ray: walked, limit: Cell::new(nearest.t * length * SLACK) };
         self.tree.traverse_iterator(&query, &self.shapes).any(|shape| {
             observer.test(1);
             self.leaves.test(shape.index as usize, start, &mut nearest);
@@ -176,12 +176,12 @@ impl<T: TriangleTest> Accel for SvenstaroBvh<T> {
 
     fn build(mesh: &Arc<Mesh>, config: &SvenstaroBvhConfig) -> Result<Self, BuildError> {
         let leaves = Leaves::new(mesh);
-        let boxed = |(index, [min, max]): (usize, [Vec3; 2])| Boxed {
+        let boxed = |(index, [min, max]): (usize, [Vec3; 2])| TriangleBox {
             bounds: Aabb::with_bounds(point(min), point(max)),
             index: index as u32,
             node: 0,
         };
-        let mut shapes: Vec<Boxed> = leaves.boxes(mesh).enumerate().map(boxed).collect();
+        let mut shapes: Vec<TriangleBox> = leaves.boxes(mesh).enumerate().map(boxed).collect();
         let tree = Bvh::build_par(&mut shapes);
         Ok(Self { tree, shapes, leaves, traversal: config.traversal })
     }
@@ -233,8 +233,8 @@ impl<T: TriangleTest> Accel for SvenstaroBvh<T> {
 
 /// The triangle test of the crate: Möller-Trumbore over a unit direction, which culls back faces.
 ///
-/// Wrapped as a test of ours: asked for both windings, `t` divided by the direction's length. It refuses determinants and
-/// distances below the float's epsilon, whatever the scale of the scene.
+/// Wrapped as a test of ours: asked for both windings, `t` divided by the direction's length. It refuses determinants
+/// and distances below the float's epsilon, whatever the scale of the scene.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct SvenstaroTest;
 

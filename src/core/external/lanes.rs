@@ -1,4 +1,4 @@
-//! Triangle tests of other projects, which know no lanes, in blocks.
+//! Blocks of triangles for tests of other projects, which have no lanes.
 
 use std::array;
 

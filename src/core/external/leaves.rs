@@ -4,8 +4,8 @@ use crate::geometry::{Aabb, Mesh, Ray};
 use crate::traversal::leaf::{Nearest, start};
 use crate::triangle::TriangleTest;
 
-/// The triangles with an area, in the order of the mesh, ready for the test `T`: what a peer that knows boxes alone leaves
-/// to its caller.
+/// The triangles with an area, in the order of the mesh, ready for the test `T`: what a peer that knows boxes alone
+/// leaves to its caller.
 pub(super) struct Leaves<T: TriangleTest> {
     triangles: Vec<T::Block<1>>,
     /// The triangle of the mesh for each of them.

@@ -1,9 +1,10 @@
-//! [parry](https://github.com/dimforge/parry) 0.31 (crate `parry3d`): a binary BVH, one triangle a leaf, two children a node.
+//! [parry](https://github.com/dimforge/parry) 0.31 (crate `parry3d`): a binary BVH, one triangle a leaf, two children a
+//! node.
 //!
-//! Its tree takes the test of a leaf as a closure, and walks from near to far with early termination. The closure honours
-//! `t_min`, which parry's own mesh shape does not know; nothing is culled. The ray is two vectors; its inverse direction
-//! the crate computes itself, inside of the timed region: it takes none. It has no query that stops at the first hit: any hit
-//! reports its first hit at minus infinity, so that no box remains in front of it.
+//! Its tree takes the test of a leaf as a closure, and walks from near to far with early termination. The closure
+//! honours `t_min`, which parry's own mesh shape does not know; nothing is culled. The ray is two vectors; its inverse
+//! direction the crate computes itself, inside of the timed region: it takes none. It has no query that stops at the
+//! first hit: any hit reports its first hit at minus infinity, so that no box remains in front of it.
 
 use std::cell::Cell;
 use std::sync::Arc;

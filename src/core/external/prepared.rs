@@ -2,10 +2,10 @@
 
 use std::borrow::Cow;
 
-use crate::accel::{Accel, AsTheyAre, Loaded, Observer};
+use crate::accel::{Accel, Loaded, Observer, RayBatch};
 use crate::geometry::{Hit, Ray};
 
-/// A structure that wants a ray in a form of its own before it is asked.
+/// A structure whose queries take a ray in a form of its own.
 pub(crate) trait Prepare: Accel {
     /// All that can be known of a ray without the tree.
     type Ready: Send + Sync;
@@ -54,25 +54,25 @@ pub(crate) use prepared_queries;
 /// [`Accel::load`] of what is [`Prepare`].
 pub(crate) fn load<'a, S: Prepare>(structure: &'a S, rays: Cow<'a, [Ray]>) -> Box<dyn Loaded + 'a> {
     if structure.prepares_loaded() {
-        Box::new(Prepared::new(structure, &rays))
+        Box::new(PreparedBatch::new(structure, &rays))
     } else {
-        Box::new(AsTheyAre { accel: structure, rays })
+        Box::new(RayBatch { accel: structure, rays })
     }
 }
 
 /// A batch of such rays.
-pub(crate) struct Prepared<'a, S: Prepare> {
+pub(crate) struct PreparedBatch<'a, S: Prepare> {
     structure: &'a S,
     rays: Vec<Option<S::Ready>>,
 }
 
-impl<'a, S: Prepare> Prepared<'a, S> {
+impl<'a, S: Prepare> PreparedBatch<'a, S> {
     pub fn new(structure: &'a S, rays: &[Ray]) -> Self {
         Self { structure, rays: rays.iter().map(|ray| structure.ready(ray)).collect() }
     }
 }
 
-impl<S: Prepare> Loaded for Prepared<'_, S> {
+impl<S: Prepare> Loaded for PreparedBatch<'_, S> {
     fn closest_hits(&self, hits: &mut [Option<Hit>]) {
         assert_eq!(self.rays.len(), hits.len(), "one answer a ray");
         for (ray, hit) in self.rays.iter().zip(hits) {

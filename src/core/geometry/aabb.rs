@@ -75,8 +75,8 @@ impl Aabb {
         }
     }
 
-    /// The parts of the box on both sides of the plane `axis = split`, which both contain the plane. Where the plane misses
-    /// the box, one part is the box and the other is empty.
+    /// The parts of the box on both sides of the plane `axis = split`, which both contain the plane. Where the plane
+    /// misses the box, one part is the box and the other is empty.
     #[inline]
     pub fn cut(&self, axis: usize, split: f32) -> (Self, Self) {
         let (mut below, mut above) = (*self, *self);

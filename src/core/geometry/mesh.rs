@@ -6,7 +6,8 @@ use super::Aabb;
 
 /// A validated set of triangles: every coordinate is finite, every index exists.
 ///
-/// Degenerate triangles (see [`Mesh::is_degenerate`]) stay in it, so that numbers do not shift, but nothing can hit them.
+/// Degenerate triangles (see [`Mesh::is_degenerate`]) stay in it, so that numbers do not shift, but nothing can hit
+/// them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mesh {
     positions: Vec<Vec3>,

@@ -9,8 +9,8 @@ use super::Ray;
 
 /// `ox,oy,oz dx,dy,dz`, followed by ` [t_min,t_max]` unless the ray is the whole half-line.
 ///
-/// Every number is the shortest decimal that reads back to the same float, so that the text gives back the same bits (of a
-/// NaN, only that it is one).
+/// Every number is the shortest decimal that reads back to the same float, so that the text gives back the same bits
+/// (of a NaN, only that it is one).
 impl Display for Ray {
     fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
         let [o, d] = [self.origin, self.direction];

@@ -4,9 +4,9 @@ use glam::{DMat3, DVec3, Vec3};
 
 /// `world = R * S * p + t`, the placement rule of the report's course.
 ///
-/// `R = Rz * Ry * Rx` with `Rx = [1 0 0; 0 c s; 0 -s c]`, `Ry = [c 0 -s; 0 1 0; s 0 c]` and `Rz = [c s 0; -s c 0; 0 0 1]`
-/// (rows): each turns in the opposite sense to the usual right-handed rotation. Sines come from `libm`, everything is
-/// computed in `f64` and rounded once, so that a placed vertex has the same bits on every machine.
+/// `R = Rz * Ry * Rx` with `Rx = [1 0 0; 0 c s; 0 -s c]`, `Ry = [c 0 -s; 0 1 0; s 0 c]` and `Rz = [c s 0; -s c 0; 0 0
+/// 1]` (rows): each turns in the opposite sense to the usual right-handed rotation. Sines come from `libm`, everything
+/// is computed in `f64` and rounded once, so that a placed vertex has the same bits on every machine.
 ///
 /// A mirroring scale keeps the order of the corners, as the course does: the geometric normal then turns over.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,8 +36,8 @@ impl Transform {
 
     /// `R * S * normal` at unit length, or zero where that has none.
     ///
-    /// The course turns normals with the matrix of the points, not with its inverse transpose: under a scale that is not
-    /// uniform they tilt the wrong way. Its scenes scale only flat squares so, whose normals stay right.
+    /// The course turns normals with the matrix of the points, not with its inverse transpose: under a scale that is
+    /// not uniform they tilt the wrong way. Its scenes scale only flat squares so, whose normals stay right.
     pub fn normal(&self, normal: Vec3) -> Vec3 {
         (self.linear * normal.as_dvec3()).normalize_or_zero().as_vec3()
     }

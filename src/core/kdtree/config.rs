@@ -4,8 +4,8 @@ use crate::accel::BuildError;
 use crate::build::cells::{CellConfig, Rules};
 use crate::build::sah_cost::CostModel;
 
-/// How a [`KdTree`](super::KdTree) is built and traversed: `median-kd` and `sah-kd` are two values of it. A value that the others leave
-/// unread is refused.
+/// How a [`KdTree`](super::KdTree) is built and traversed: `median-kd` and `sah-kd` are two values of it. A value that
+/// the others leave unread is refused.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct KdConfig {
@@ -17,12 +17,13 @@ pub struct KdConfig {
     pub stop: Stop,
     /// How rays walk the tree.
     pub traversal: Traversal,
-    /// `L` of [`Stop::Report`] and [`Stop::Leaf`]: a node with fewer triangles is a leaf. At least 1; the report's main table has 100.
+    /// `L` of [`Stop::Report`] and [`Stop::Leaf`]: a node with fewer triangles is a leaf. At least 1; the report's main
+    /// table has 100.
     pub leaf: u32,
     /// Whether a node of exactly `leaf` triangles may still be split; the report leaves it open.
     pub limit: Limit,
-    /// `T` of [`Stop::Report`]: the share of triangles on both sides at which a split is discarded. In (0, 1]; the report's
-    /// main table has 0.7.
+    /// `T` of [`Stop::Report`]: the share of triangles on both sides at which a split is discarded. In (0, 1]; the
+    /// report's main table has 0.7.
     pub threshold: f32,
     /// Whose triangles the threshold is a share of.
     pub count: CountOf,
@@ -38,7 +39,8 @@ pub struct KdConfig {
     pub traversal_cost: f32,
     /// Cost of testing a block of eight triangles. Positive; more gives smaller leaves.
     pub intersection_cost: f32,
-    /// With [`Plane::SahBinned`], nodes of at most this many references try every plane of the surface area heuristic all the same.
+    /// With [`Plane::SahBinned`], nodes of at most this many references try every plane of the surface area heuristic
+    /// all the same.
     pub exact: u32,
     /// Planes that [`Plane::SahBinned`] tries on an axis, in 2..=62.
     pub candidates: u32,
@@ -147,7 +149,8 @@ pub enum Equal {
 pub enum Exit {
     /// When nothing nearer can follow: no hit is lost.
     Nearest,
-    /// At the first leaf with any hit, wherever the hit lies: the literal reading of the report, which shows wrong pixels.
+    /// At the first leaf with any hit, wherever the hit lies: the literal reading of the report, which shows wrong
+    /// pixels.
     FirstLeaf,
 }
 
@@ -207,7 +210,7 @@ impl KdConfig {
         MedianConfig { plane, axis, median, equal, count, costs: self.costs() }
     }
 
-    /// What the search for the cheapest plane asks.
+    /// The settings of the search for the cheapest plane.
     pub(super) fn sah(&self) -> CellConfig {
         let exact = if self.plane == Plane::SahSweep { CellConfig::ALL_PLANES } else { self.exact };
         CellConfig { costs: self.costs(), exact, candidates: self.candidates, sample: self.sample }
@@ -244,8 +247,8 @@ impl KdConfig {
         self.check_unread()
     }
 
-    /// Refuses a key that this combination does not read, unless it is as [`REPORT`](Self::REPORT) or [`SAH`](Self::SAH) has it: another value
-    /// would change nothing.
+    /// Refuses a key that this combination does not read, unless it is as [`REPORT`](Self::REPORT) or
+    /// [`SAH`](Self::SAH) has it: another value would change nothing.
     fn check_unread(&self) -> Result<(), BuildError> {
         let is_median = !matches!(self.plane, Plane::SahBinned | Plane::SahSweep);
         let is_binned = self.plane == Plane::SahBinned;

@@ -9,9 +9,9 @@ use super::*;
 use crate::accel::{Accel, BuildError, Counts};
 use crate::brute_force::BruteForce;
 use crate::build::check::{needles, same_on_threads, straddling_soup, unit};
-use crate::geometry::{Mesh, Ray};
+use crate::geometry::{Hit, Mesh, Ray};
 use crate::traversal::pages;
-use crate::triangle::MollerTrumbore;
+use crate::triangle::{Exact, MollerTrumbore, MollerTrumboreF64, TriangleTest};
 
 type Tree = KdTree<MollerTrumbore>;
 
@@ -59,7 +59,42 @@ fn every_configuration_answers_as_brute_force() {
     }
 }
 
-/// A small mesh on a large floor: the first cuts in the middle part nothing from it but space and the floor's two triangles.
+/// Sheets an ulp apart that are met at `t` near 2^128: some crossings overflow, though what lies there is hit.
+#[test]
+fn hits_near_the_largest_t_are_found() {
+    fn as_brute_force<T: TriangleTest>(mesh: &Arc<Mesh>, rays: &[Ray]) -> Vec<Hit> {
+        let reference = <BruteForce<T> as Accel>::build(mesh, &Default::default()).unwrap();
+        let expected: Vec<Option<Hit>> = rays.iter().map(|ray| reference.closest_hit(ray, &mut ())).collect();
+        for config in configs() {
+            let tree = KdTree::<T>::build(mesh, &config).unwrap();
+            for (ray, &expected) in rays.iter().zip(&expected) {
+                assert_eq!(tree.closest_hit(ray, &mut ()), expected, "{} {config:?} \"{ray}\"", T::NAME);
+                assert_eq!(tree.any_hit(ray, &mut ()), expected.is_some(), "{} {config:?} \"{ray}\"", T::NAME);
+            }
+        }
+        expected.into_iter().flatten().collect()
+    }
+
+    let below = |x: f32, ulps: u32| f32::from_bits(x.to_bits() - ulps);
+    let sheet = |z: f32| [[-1e30, -1e30], [1e30, -1e30], [0.0, 2e30]].map(|[x, y]| Vec3::new(x, y, z));
+    let sheets: Vec<[Vec3; 3]> = (0..24).map(|ulps| sheet(below(2.0_f32.powi(100), ulps))).collect();
+    let mesh = Arc::new(Mesh::from_triangles(&sheets).unwrap());
+    let mut rays = vec![];
+    for ulps in 0..40 {
+        for z in [0.0, -7.555_786_4e22, 3e23] {
+            let ray = Ray::new(Vec3::new(0.4, -0.4, z), Vec3::Z * below(2.0_f32.powi(-28), ulps));
+            for t_max in [f32::INFINITY, f32::MAX, below(f32::MAX, 1), below(f32::MAX, 5)] {
+                rays.extend([0.0, below(f32::MAX, 3), f32::MAX].map(|t_min| Ray { t_min, t_max, ..ray }));
+            }
+        }
+    }
+    for hits in [as_brute_force::<Exact>(&mesh, &rays), as_brute_force::<MollerTrumboreF64>(&mesh, &rays)] {
+        assert!(hits.iter().filter(|hit| hit.t == f32::MAX).count() > 10, "{hits:?}");
+    }
+}
+
+/// A small mesh on a large floor: the first cuts in the middle part nothing from it but space and the floor's two
+/// triangles.
 #[test]
 fn the_middle_of_a_cell_finds_a_small_mesh_on_a_large_floor() {
     let mut rng = rand_pcg::Pcg32::seed_from_u64(9);

@@ -1,13 +1,15 @@
-//! One walk for both queries, in two flavours: plane intervals and child boxes.
+//! One traversal for both queries, in two variants: plane intervals and child boxes.
 //!
-//! **No hit is lost.** Let a triangle be hit at the exact parameter t* in the interval, at the point p. Its references were
-//! clipped outward, so some leaf whose closed cell contains p holds it. Both walks visit every leaf whose closed cell contains a
-//! point of the ray in [t_min, nearest t]: a child is skipped only when its interval, moved outward by more than the rounding
-//! of plane crossings (see [`Line`]), is empty or begins after the nearest hit so far. So the leaf of p is visited, unless a
-//! hit with a computed t before t* has been found. Where t* exceeds a computed t of another triangle, that triangle is the
-//! answer up to the error of the triangle test, which is not the traversal's. With the exact test nothing is computed: nearest t is
-//! a float that is not before the nearest exact hit so far, so that the walk comes to every hit that is nearer or as near, and the
-//! answer is the exact one with the lowest number.
+//! **No hit is lost.** Let a triangle be hit at the exact parameter t* in the interval, at the point p. Its references
+//! were clipped outward, so some leaf whose closed cell contains p holds it. Both walks visit every leaf whose closed
+//! cell contains a point of the ray in [t_min, nearest t]: a child is skipped only when its interval, moved outward by
+//! more than the rounding of plane crossings (see [`Line`]), is empty or begins after the nearest hit so far. Where a
+//! crossing overflows, plane intervals begin at a finite parameter before it, and child boxes are clipped to an
+//! interval without end. So the leaf of p is visited, unless a hit with a computed t before t* has been found. Where t*
+//! exceeds a computed t of another triangle, that triangle is the answer up to the error of the triangle test, which is
+//! not the traversal's. With the exact test nothing is computed: nearest t is a float that is not before the nearest
+//! exact hit so far, so that the walk comes to every hit that is nearer or as near, and the answer is the exact one
+//! with the lowest number.
 
 use std::mem::MaybeUninit;
 
@@ -20,11 +22,11 @@ use crate::build::sah_cost::BLOCK;
 use crate::geometry::{Aabb, Hit, Ray};
 use crate::simd::EightLanes;
 use crate::traversal::leaf::{Mailbox, search, start};
-use crate::traversal::line::{Line, after, before};
+use crate::traversal::line::{Line, after, before, finite_entry, open_end};
 use crate::traversal::walk::Walk;
 use crate::triangle::TriangleTest;
 
-/// A walk leaves at most one node a level behind.
+/// A traversal leaves at most one node a level behind.
 const STACK: usize = 64;
 const _: () = assert!(STACK > DEEPEST as usize);
 
@@ -50,14 +52,14 @@ impl<T: TriangleTest> Walk for KdTree<T> {
 
 /// The leaves that a ray has still to search, in the order in which it meets them.
 ///
-/// Both ways share one search of leaves, which is most of the code of a walk.
+/// Both variants share one search of leaves, which is most of the code of a traversal.
 #[expect(clippy::large_enum_variant, reason = "one for each walk, on the stack, and neither is initialised")]
 enum Leaves {
     Intervals(Stack<(u32, f32, f32)>),
     Boxes(Stack<(u32, Aabb, f32)>),
 }
 
-/// Nodes left behind. Not initialised: that would cost as much as a short walk.
+/// Nodes left behind. Not initialised, because that would cost as much as a short traversal.
 struct Stack<E> {
     entries: [MaybeUninit<E>; STACK],
     len: usize,
@@ -80,7 +82,7 @@ impl<E: Copy> Stack<E> {
     #[inline(always)]
     fn pop(&mut self) -> Option<E> {
         self.len = self.len.checked_sub(1)?;
-        // SAFETY: all below the old length was written.
+        // SAFETY: `push` writes an entry before it counts it, and this one was below the old length.
         Some(unsafe { self.entries[self.len].assume_init() })
     }
 }
@@ -95,7 +97,7 @@ impl Leaves {
                 Self::Intervals(Stack::with((0, t0, t1)))
             }
             Traversal::ChildBoxes => {
-                let (t0, _) = line.clip(&tree.bounds, t_min, t_max)?;
+                let (t0, _) = line.clip(&tree.bounds, t_min, open_end(t_max))?;
                 Self::Boxes(Stack::with((0, tree.bounds, t0)))
             }
         })
@@ -113,7 +115,7 @@ impl Leaves {
     ) -> Option<Node> {
         match self {
             Self::Intervals(stack) => by_intervals(stack, &tree.nodes, line, end, observer),
-            Self::Boxes(stack) => by_boxes(stack, &tree.nodes, line, t_min, end, observer),
+            Self::Boxes(stack) => by_boxes(stack, &tree.nodes, line, t_min, open_end(end), observer),
         }
     }
 }
@@ -128,9 +130,10 @@ fn by_intervals<O: Observer>(
     observer: &mut O,
 ) -> Option<Node> {
     let (mut at, t0, mut t1) = loop {
-        let entry = stack.pop()?;
-        if entry.1 <= end {
-            break entry;
+        let (at, t0, t1) = stack.pop()?;
+        let t0 = finite_entry(t0);
+        if t0 <= end {
+            break (at, t0, t1);
         }
     };
     loop {
@@ -158,7 +161,7 @@ fn by_intervals<O: Observer>(
     }
 }
 
-/// Tests both child boxes of each node.
+/// Tests both child boxes of each node. `end` is an [`open_end`].
 #[inline(always)]
 fn by_boxes<O: Observer>(
     stack: &mut Stack<(u32, Aabb, f32)>,

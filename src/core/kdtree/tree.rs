@@ -17,8 +17,8 @@ use crate::triangle::TriangleTest;
 /// memory for a bounded duplication of references; the tree is the same for every number of threads.
 ///
 /// # References
-/// Wald, Havran: On building fast kd-trees for ray tracing, and on doing that in O(N log N), 2006. Havran: Heuristic Ray Shooting
-/// Algorithms, 2000. Not for moving geometry: nothing can be updated.
+/// Wald, Havran: On building fast kd-trees for ray tracing, and on doing that in O(N log N), 2006. Havran: Heuristic
+/// Ray Shooting Algorithms, 2000. Not for moving geometry: nothing can be updated.
 pub struct KdTree<T: TriangleTest> {
     pub(super) nodes: Vec<Node>,
     pub(super) blocks: Vec<LeafBlock<T, BLOCK>>,

@@ -5,7 +5,9 @@ use super::{Arithmetic, EightLanes, Lanes};
 
 /// 8 lanes in one AVX register, for machines with AVX2 and FMA; with `MASKS`, for those with AVX-512 VL as well.
 ///
-/// Values of this type exist only inside of [`dispatch`](super::dispatch), which has looked for the instructions.
+/// Why the `unsafe` blocks below are sound: the type is private to `simd`, where only [`dispatch`](super::dispatch)
+/// names it, in functions that are compiled for these instructions and are called for a [`Level`](super::Level) that
+/// has them alone. Loads and stores are unaligned, and of arrays as large as a register unless another note says so.
 #[derive(Clone, Copy, Debug)]
 pub struct Avx<const MASKS: bool>(__m256);
 
@@ -14,14 +16,12 @@ macro_rules! lanewise {
     ($($name:ident: $instruction:ident),*) => {$(
         #[inline(always)]
         fn $name(self, other: Self) -> Self {
-            // SAFETY: see above.
+            // SAFETY: the machine has the instruction, see `Avx`.
             Self(unsafe { $instruction(self.0, other.0) })
         }
     )*};
 }
 
-// SAFETY of every block below, and of those of `lanewise`: whoever names this type has seen to it that the instructions exist; loads and stores are
-// unaligned ones, of arrays of exactly the register's size unless another comment says so.
 impl<const MASKS: bool> Arithmetic<8> for Avx<MASKS> {
     type Scalar = f32;
 
@@ -32,14 +32,14 @@ impl<const MASKS: bool> Arithmetic<8> for Avx<MASKS> {
 
     #[inline(always)]
     fn splat(value: f32) -> Self {
-        // SAFETY: see above.
+        // SAFETY: the machine has the instruction, see `Avx`.
         Self(unsafe { _mm256_set1_ps(value) })
     }
 
     #[inline(always)]
     fn store(self) -> [f32; 8] {
         let mut values = [0.0; 8];
-        // SAFETY: see above.
+        // SAFETY: the machine has the instruction, see `Avx`.
         unsafe { _mm256_storeu_ps(values.as_mut_ptr(), self.0) };
         values
     }
@@ -49,31 +49,31 @@ impl<const MASKS: bool> Arithmetic<8> for Avx<MASKS> {
 
     #[inline(always)]
     fn flip_sign(self, other: Self) -> Self {
-        // SAFETY: see above.
+        // SAFETY: the machine has the instruction, see `Avx`.
         Self(unsafe { _mm256_xor_ps(self.0, _mm256_and_ps(other.0, _mm256_set1_ps(-0.0))) })
     }
 
     #[inline(always)]
     fn le(self, other: Self) -> u32 {
-        // SAFETY: see above.
+        // SAFETY: the machine has the instruction, see `Avx`.
         unsafe { _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(self.0, other.0)) as u32 }
     }
 
     #[inline(always)]
     fn lt(self, other: Self) -> u32 {
-        // SAFETY: see above.
+        // SAFETY: the machine has the instruction, see `Avx`.
         unsafe { _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LT_OQ>(self.0, other.0)) as u32 }
     }
 
     #[inline(always)]
     fn mul_add_loosely(self, factor: Self, term: Self) -> Self {
-        // SAFETY: see above.
+        // SAFETY: the machine has the instruction, see `Avx`.
         Self(unsafe { _mm256_fmadd_ps(self.0, factor.0, term.0) })
     }
 
     #[inline(always)]
     fn mul_sub_loosely(self, factor: Self, term: Self) -> Self {
-        // SAFETY: see above.
+        // SAFETY: the machine has the instruction, see `Avx`.
         Self(unsafe { _mm256_fmsub_ps(self.0, factor.0, term.0) })
     }
 }
@@ -83,13 +83,13 @@ impl<const MASKS: bool> Lanes<8> for Avx<MASKS> {
 
     #[inline(always)]
     fn load(values: &[f32; 8]) -> Self {
-        // SAFETY: see above.
+        // SAFETY: the machine has the instruction, see `Avx`.
         Self(unsafe { _mm256_loadu_ps(values.as_ptr()) })
     }
 
     #[inline(always)]
     fn widen(self) -> F64x8 {
-        // SAFETY: see above.
+        // SAFETY: the machine has the instruction, see `Avx`.
         unsafe {
             let halves = [_mm256_castps256_ps128(self.0), _mm256_extractf128_ps::<1>(self.0)];
             F64x8([_mm256_cvtps_pd(halves[0]), _mm256_cvtps_pd(halves[1])])
@@ -98,7 +98,7 @@ impl<const MASKS: bool> Lanes<8> for Avx<MASKS> {
 
     #[inline(always)]
     fn narrow(F64x8([low, high]): F64x8) -> Self {
-        // SAFETY: see above.
+        // SAFETY: the machine has the instruction, see `Avx`.
         Self(unsafe { _mm256_set_m128(_mm256_cvtpd_ps(high), _mm256_cvtpd_ps(low)) })
     }
 }
@@ -130,7 +130,7 @@ impl<const MASKS: bool> EightLanes for Avx<MASKS> {
     /// In three rounds: pairs of rows by 32 bits, pairs of pairs by 64, halves by 128.
     #[inline(always)]
     fn transpose([a, b, c, d, e, f, g, h]: [Self; 8]) -> [Self; 8] {
-        // SAFETY: see above.
+        // SAFETY: the machine has the instruction, see `Avx`.
         unsafe {
             let pairs = |x: Self, y: Self| (_mm256_unpacklo_ps(x.0, y.0), _mm256_unpackhi_ps(x.0, y.0));
             let ((ab0, ab1), (cd0, cd1), (ef0, ef1), (gh0, gh1)) = (pairs(a, b), pairs(c, d), pairs(e, f), pairs(g, h));
@@ -162,7 +162,8 @@ impl<const MASKS: bool> EightLanes for Avx<MASKS> {
         keys: *mut f32,
         chosen: *mut u32,
     ) -> u32 {
-        // SAFETY: the caller lets eight floats and eight numbers be written; the table has a row for every mask.
+        // SAFETY: the machine has the instructions, see `Avx`; by the contract of this function eight floats and eight
+        // numbers may be written.
         unsafe {
             let hit = _mm256_cmp_ps::<_CMP_LE_OQ>(self.0, limit.0);
             let shifts = _mm256_setr_epi32(0, 3, 6, 9, 12, 15, 18, 21);
@@ -185,7 +186,8 @@ impl<const MASKS: bool> EightLanes for Avx<MASKS> {
 
     #[inline(always)]
     unsafe fn compress(self, limit: Self, values: &[u32; 8], chosen: *mut u32) -> u32 {
-        // SAFETY: as above, without the floats.
+        // SAFETY: the machine has the instructions, see `Avx`; by the contract of this function eight numbers may be
+        // written.
         unsafe {
             let set = self.le(limit);
             let values = _mm256_loadu_si256(values.as_ptr().cast());
@@ -201,19 +203,19 @@ impl<const MASKS: bool> EightLanes for Avx<MASKS> {
 
     #[inline(always)]
     fn cmp_le(self, other: Self) -> __m256 {
-        // SAFETY: see above.
+        // SAFETY: the machine has the instruction, see `Avx`.
         unsafe { _mm256_cmp_ps::<_CMP_LE_OQ>(self.0, other.0) }
     }
 
     #[inline(always)]
     fn cmp_lt(self, other: Self) -> __m256 {
-        // SAFETY: see above.
+        // SAFETY: the machine has the instruction, see `Avx`.
         unsafe { _mm256_cmp_ps::<_CMP_LT_OQ>(self.0, other.0) }
     }
 
     #[inline(always)]
     fn mask(bits: u32) -> __m256 {
-        // SAFETY: see above.
+        // SAFETY: the machine has the instruction, see `Avx`.
         unsafe {
             let own = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
             let set = _mm256_and_si256(_mm256_set1_epi32(bits as i32), own);
@@ -223,57 +225,57 @@ impl<const MASKS: bool> EightLanes for Avx<MASKS> {
 
     #[inline(always)]
     fn bits(mask: __m256) -> u32 {
-        // SAFETY: see above.
+        // SAFETY: the machine has the instruction, see `Avx`.
         unsafe { _mm256_movemask_ps(mask) as u32 }
     }
 
     #[inline(always)]
     fn both(one: __m256, other: __m256) -> __m256 {
-        // SAFETY: see above.
+        // SAFETY: the machine has the instruction, see `Avx`.
         unsafe { _mm256_and_ps(one, other) }
     }
 
     #[inline(always)]
     fn either(one: __m256, other: __m256) -> __m256 {
-        // SAFETY: see above.
+        // SAFETY: the machine has the instruction, see `Avx`.
         unsafe { _mm256_or_ps(one, other) }
     }
 
     #[inline(always)]
     fn choose(self, other: Self, mask: __m256) -> Self {
-        // SAFETY: see above.
+        // SAFETY: the machine has the instruction, see `Avx`.
         Self(unsafe { _mm256_blendv_ps(other.0, self.0, mask) })
     }
 
     #[inline(always)]
     fn numbers(numbers: &[u32; 8]) -> __m256i {
-        // SAFETY: see above.
+        // SAFETY: the machine has the instruction, see `Avx`.
         unsafe { _mm256_loadu_si256(numbers.as_ptr().cast()) }
     }
 
     #[inline(always)]
     fn splat_number(number: u32) -> __m256i {
-        // SAFETY: see above.
+        // SAFETY: the machine has the instruction, see `Avx`.
         unsafe { _mm256_set1_epi32(number as i32) }
     }
 
     #[inline(always)]
     fn store_numbers(numbers: __m256i) -> [u32; 8] {
         let mut stored = [0; 8];
-        // SAFETY: see above.
+        // SAFETY: the machine has the instruction, see `Avx`.
         unsafe { _mm256_storeu_si256(stored.as_mut_ptr().cast(), numbers) };
         stored
     }
 
     #[inline(always)]
     fn cmp_le_numbers(one: __m256i, other: __m256i) -> __m256 {
-        // SAFETY: see above.
+        // SAFETY: the machine has the instruction, see `Avx`.
         unsafe { _mm256_castsi256_ps(_mm256_cmpeq_epi32(_mm256_min_epu32(one, other), one)) }
     }
 
     #[inline(always)]
     fn choose_numbers(one: __m256i, other: __m256i, mask: __m256) -> __m256i {
-        // SAFETY: see above.
+        // SAFETY: the machine has the instruction, see `Avx`.
         unsafe { _mm256_blendv_epi8(other, one, _mm256_castps_si256(mask)) }
     }
 }
@@ -281,6 +283,6 @@ impl<const MASKS: bool> EightLanes for Avx<MASKS> {
 /// The numbers of the members of a set, lowest first, then zeros.
 #[inline(always)]
 fn members(set: u32) -> __m256i {
-    // SAFETY: see above; a row of the table has eight bytes, and eight are read.
+    // SAFETY: the machine has the instructions, see `Avx`; a row of the table has the eight bytes that are read.
     unsafe { _mm256_cvtepu8_epi32(_mm_loadl_epi64(MEMBERS[(set & 0xff) as usize].as_ptr().cast())) }
 }

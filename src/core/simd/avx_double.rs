@@ -2,7 +2,8 @@ use std::arch::x86_64::*;
 
 use super::{Arithmetic, indexed};
 
-/// 8 lanes of `f64` in two AVX registers, for machines with AVX2 and FMA.
+/// 8 lanes of `f64` in two AVX registers, for machines with AVX2 and FMA: the double of [`Avx`](super::avx::Avx), made
+/// of it and where it is, so that the machine has the instructions for the reason given there.
 #[derive(Clone, Copy, Debug)]
 pub struct F64x8(pub(super) [__m256d; 2]);
 
@@ -23,14 +24,12 @@ macro_rules! lanewise {
     ($($name:ident: $instruction:ident),*) => {$(
         #[inline(always)]
         fn $name(self, other: Self) -> Self {
-            // SAFETY: see above.
+            // SAFETY: the machine has the instruction, see `Avx`.
             self.zip(other, |a, b| unsafe { $instruction(a, b) })
         }
     )*};
 }
 
-// SAFETY of every block below, and of those of `lanewise`: whoever names this type has seen to it that the instructions exist; stores are unaligned
-// ones, into halves of an array of exactly two registers' size.
 impl Arithmetic<8> for F64x8 {
     type Scalar = f64;
 
@@ -41,14 +40,14 @@ impl Arithmetic<8> for F64x8 {
 
     #[inline(always)]
     fn splat(value: f64) -> Self {
-        // SAFETY: see above.
+        // SAFETY: the machine has the instruction, see `Avx`.
         Self([unsafe { _mm256_set1_pd(value) }; 2])
     }
 
     #[inline(always)]
     fn store(self) -> [f64; 8] {
         let mut values = [0.0; 8];
-        // SAFETY: see above.
+        // SAFETY: the machine has the instruction, see `Avx`; each store fills a half of the array.
         unsafe {
             _mm256_storeu_pd(values.as_mut_ptr(), self.0[0]);
             _mm256_storeu_pd(values.as_mut_ptr().add(4), self.0[1]);
@@ -61,31 +60,31 @@ impl Arithmetic<8> for F64x8 {
 
     #[inline(always)]
     fn flip_sign(self, other: Self) -> Self {
-        // SAFETY: see above.
+        // SAFETY: the machine has the instruction, see `Avx`.
         self.zip(other, |a, b| unsafe { _mm256_xor_pd(a, _mm256_and_pd(b, _mm256_set1_pd(-0.0))) })
     }
 
     #[inline(always)]
     fn le(self, other: Self) -> u32 {
-        // SAFETY: see above.
+        // SAFETY: the machine has the instruction, see `Avx`.
         self.bits(other, |a, b| unsafe { _mm256_movemask_pd(_mm256_cmp_pd::<_CMP_LE_OQ>(a, b)) })
     }
 
     #[inline(always)]
     fn lt(self, other: Self) -> u32 {
-        // SAFETY: see above.
+        // SAFETY: the machine has the instruction, see `Avx`.
         self.bits(other, |a, b| unsafe { _mm256_movemask_pd(_mm256_cmp_pd::<_CMP_LT_OQ>(a, b)) })
     }
 
     #[inline(always)]
     fn mul_add_loosely(self, factor: Self, term: Self) -> Self {
-        // SAFETY: see above.
+        // SAFETY: the machine has the instruction, see `Avx`.
         Self(indexed(|half| unsafe { _mm256_fmadd_pd(self.0[half], factor.0[half], term.0[half]) }))
     }
 
     #[inline(always)]
     fn mul_sub_loosely(self, factor: Self, term: Self) -> Self {
-        // SAFETY: see above.
+        // SAFETY: the machine has the instruction, see `Avx`.
         Self(indexed(|half| unsafe { _mm256_fmsub_pd(self.0[half], factor.0[half], term.0[half]) }))
     }
 }

@@ -1,19 +1,19 @@
 use std::mem::MaybeUninit;
 
-/// `array::from_fn` that is always inlined: a function of the standard library is compiled without the instructions of a
-/// [`Level`](super::Level), and whether it is inlined depends on how the compiler divides a crate; lanes that pass through it take the way
-/// through memory.
+/// `array::from_fn` that is always inlined: a function of the standard library is compiled without the instructions of
+/// a [`Level`](super::Level), and whether it is inlined depends on how the compiler divides a crate; lanes that pass
+/// through it are stored to memory and loaded again.
 #[inline(always)]
 pub fn indexed<const N: usize, B: Copy>(f: impl Fn(usize) -> B) -> [B; N] {
     let mut results = [const { MaybeUninit::uninit() }; N];
     for (i, result) in results.iter_mut().enumerate() {
         result.write(f(i));
     }
-    // SAFETY: all were written, and `MaybeUninit<B>` has the layout of `B`.
+    // SAFETY: the loop has written all of them, and `MaybeUninit<B>` has the layout of `B`.
     unsafe { std::ptr::from_ref(&results).cast::<[B; N]>().read() }
 }
 
-/// Likewise `array::map`.
+/// `array::map` that is always inlined.
 #[inline(always)]
 pub fn each<const N: usize, A, B: Copy>(values: &[A; N], f: impl Fn(&A) -> B) -> [B; N] {
     indexed(|i| f(&values[i]))

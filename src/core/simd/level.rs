@@ -10,8 +10,8 @@ use super::{EightLanes, Portable};
 
 /// A set of instructions that lanes are compiled for. All give the same hits, bit for bit.
 ///
-/// Whoever has a level has the instructions, so that [`dispatch`] needs no check: other crates cannot name those that a
-/// machine may lack, only be given them.
+/// A level is proof that the machine has its instructions, so that [`dispatch`] needs no check: other crates cannot
+/// name a level that a machine may lack, they get it from [`Level::available`], [`Level::current`] or its name.
 ///
 /// ```compile_fail,E0603
 /// let level = sahara_core::simd::Level::Avx512;
@@ -49,8 +49,9 @@ pub trait Kernel {
 static CURRENT: AtomicU8 = AtomicU8::new(UNCHOSEN);
 const UNCHOSEN: u8 = u8::MAX;
 
-/// Whether this build has the level at all. A build for one machine leaves out those that the machine lacks, and those below the
-/// highest that it has, but for the portable one: each is a copy of every search. The feature `all-levels` asks for all.
+/// Whether this build has the level at all. A build for one machine leaves out those that the machine lacks, and those
+/// below the highest that it has, but for the portable one: each is a copy of every search. The feature `all-levels`
+/// asks for all.
 const WITH_AVX2: bool =
     cfg!(all(target_arch = "x86_64", any(feature = "all-levels", not(target_feature = "avx512vl"))));
 const WITH_AVX512: bool = cfg!(all(
@@ -150,10 +151,11 @@ impl FromStr for Level {
 pub fn dispatch<K: Kernel>(level: Level, kernel: K) -> K::Output {
     debug_assert!(level.is_available());
     match level {
-        // SAFETY: the level is available, so the machine has the instructions.
+        // SAFETY: the machine has the instructions: `available` and `choose_highest` give a level after `is_available`
+        // has detected its features, and nothing else makes one but the portable (see `Level`).
         #[cfg(target_arch = "x86_64")]
         Level::Avx2 if WITH_AVX2 => unsafe { avx2(kernel) },
-        // SAFETY: likewise.
+        // SAFETY: as above.
         #[cfg(target_arch = "x86_64")]
         Level::Avx512 if WITH_AVX512 => unsafe { avx512(kernel) },
         _ => kernel.run::<Portable<8>>(),

@@ -14,7 +14,8 @@ pub use level::{Kernel, Level, UnknownLevel, dispatch};
 pub use portable::Portable;
 pub use vector::LaneVec3;
 
-/// `N` lanes of one type of float. Arithmetic is that of IEEE 754, lane by lane and never fused but where a name says so.
+/// `N` lanes of one type of float. Arithmetic is that of IEEE 754, lane by lane and never fused but where a name says
+/// so.
 pub trait Arithmetic<const N: usize>: Copy {
     /// The type of one lane.
     type Scalar: Copy;
@@ -41,11 +42,12 @@ pub trait Arithmetic<const N: usize>: Copy {
     fn flip_sign(self, other: Self) -> Self;
     /// Lanes where `self <= other`, as bits, lane 0 lowest; false where one is NaN.
     fn le(self, other: Self) -> u32;
-    /// Lanes where `self < other`, likewise.
+    /// Lanes where `self < other`, as bits; false where one is NaN.
     fn lt(self, other: Self) -> u32;
-    /// `self * factor + term`, rounded once where the machine does that in one step, else twice: only for what no hit depends on.
+    /// `self * factor + term`, rounded once where the machine does that in one step, else twice: only for what no hit
+    /// depends on.
     fn mul_add_loosely(self, factor: Self, term: Self) -> Self;
-    /// `self * factor - term`, likewise.
+    /// `self * factor - term`, rounded in the same way.
     fn mul_sub_loosely(self, factor: Self, term: Self) -> Self;
 }
 
@@ -72,11 +74,11 @@ pub trait EightLanes: Lanes<8> {
     /// Whether the lanes are instructions of the machine, so that work on many at once pays.
     const FAST: bool;
 
-    /// Takes the lanes where `self <= limit`, in a given order: three bits a lane, the first one lowest. Writes them to `keys` and
-    /// their `values` to `chosen`, and returns which they are: bit `i` stands for the `i`-th in that order.
+    /// Takes the lanes where `self <= limit`, in a given order: three bits a lane, the first one lowest. Writes them to
+    /// `keys` and their `values` to `chosen`, and returns which they are: bit `i` stands for the `i`-th in that order.
     ///
     /// # Safety
-    /// Eight floats and eight numbers may be written, whatever the answer.
+    /// Eight floats may be written to `keys` and eight numbers to `chosen`, however many lanes are taken.
     unsafe fn compress_ordered(
         self,
         limit: Self,
@@ -89,12 +91,12 @@ pub trait EightLanes: Lanes<8> {
     /// As `compress_ordered`, in the order of the lanes and without the keys.
     ///
     /// # Safety
-    /// Eight numbers may be written, whatever the answer.
+    /// Eight numbers may be written to `chosen`, however many lanes are taken.
     unsafe fn compress(self, limit: Self, values: &[u32; 8], chosen: *mut u32) -> u32;
 
     /// Lanes where `self <= other`; no where one is NaN.
     fn cmp_le(self, other: Self) -> Self::Mask;
-    /// Lanes where `self < other`, likewise.
+    /// Lanes where `self < other`; no where one is NaN.
     fn cmp_lt(self, other: Self) -> Self::Mask;
     /// The lanes of the bits that are set, lane 0 lowest.
     fn mask(bits: u32) -> Self::Mask;
@@ -185,7 +187,7 @@ mod tests {
                 others[..count].iter().map(|k| k.to_bits()).collect::<Vec<_>>()
             );
 
-            // SAFETY: likewise.
+            // SAFETY: as above.
             let (set, right) = unsafe {
                 let set = L::load(&a).compress(L::load(&b), &values, chosen.as_mut_ptr());
                 (set, Portable::load(&a).compress(Portable::load(&b), &values, expected.as_mut_ptr()))

@@ -16,16 +16,16 @@ pub(crate) struct Nearest<D> {
 }
 
 impl<D: Depth> Nearest<D> {
-    /// Of a ray that can hit nothing.
+    /// The result for a ray that can hit nothing.
     pub const NOTHING: Self = Self { t: 0.0, hit: None };
 
-    /// Nothing found yet, up to and with `last`.
+    /// Nothing found yet; a hit must lie at or before `last`.
     #[inline(always)]
     pub fn until(last: f32) -> Self {
         Self { t: last, hit: None }
     }
 
-    /// Takes a hit that is nearer, by the order of its test, or as near with a lower number.
+    /// Keeps the hit if it is nearer, by the order of its test, or as near with a lower number.
     #[inline(always)]
     pub fn offer(&mut self, depth: D, id: u32, order: impl FnOnce(&D, &D) -> Ordering) {
         let better = match &self.hit {
@@ -42,7 +42,7 @@ impl<D: Depth> Nearest<D> {
         self.hit.is_some()
     }
 
-    /// The nearest hit of `ray`; with `ANY`, whose `t` nobody asks for, some hit at a `t` near by.
+    /// The nearest hit of `ray`; with `ANY` some hit, whose `t` is only a bound.
     #[inline(always)]
     pub fn answer<const ANY: bool>(&self, ray: &Ray) -> Option<Hit> {
         let (depth, id) = self.hit.as_ref()?;
@@ -50,7 +50,7 @@ impl<D: Depth> Nearest<D> {
     }
 }
 
-/// Stands for no triangle in the lanes left over.
+/// The number in lanes without a triangle.
 pub(crate) const NONE: u32 = u32::MAX;
 
 /// At most `N` triangles, tested at once.
@@ -58,7 +58,7 @@ pub(crate) const NONE: u32 = u32::MAX;
 #[repr(C, align(64))]
 pub(crate) struct LeafBlock<T: TriangleTest, const N: usize> {
     pub triangles: T::Block<N>,
-    /// In the lanes left over [`NONE`].
+    /// [`NONE`] in lanes without a triangle.
     pub ids: [u32; N],
 }
 
@@ -81,20 +81,20 @@ impl<T: TriangleTest, const N: usize> LeafBlock<T, N> {
         self.ids.iter().copied().filter(|&id| id != NONE)
     }
 
-    /// How many there are.
+    /// The number of triangles.
     #[inline(always)]
     pub fn len(&self) -> u32 {
         self.ids.iter().map(|&id| u32::from(id != NONE)).sum()
     }
 
-    /// What blocks take: of each all but the triangles' numbers counts as triangles.
+    /// The bytes of `blocks`: the numbers of the triangles count as references, all else as triangles.
     pub fn footprint(blocks: &[Self]) -> Footprint {
         let references = blocks.len() * size_of::<[u32; N]>();
         Footprint { triangles: size_of_val(blocks) - references, references, ..Footprint::default() }
     }
 }
 
-/// Remembers triangles that a ray has been tested against: a direct-mapped cache of the last triangle for each of eight
+/// Remembers triangles that a ray was tested against: a direct-mapped cache of the last triangle for each of eight
 /// hash values (Havran 2000).
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Mailbox([u32; 8]);
@@ -102,14 +102,14 @@ pub(crate) struct Mailbox([u32; 8]);
 impl Mailbox {
     pub const EMPTY: Self = Self([NONE; 8]);
 
-    /// Whether triangle `id` is remembered; from now on it is.
+    /// Whether triangle `id` was remembered; it is from now on.
     #[inline(always)]
     fn visit(&mut self, id: u32) -> bool {
         std::mem::replace(&mut self.0[(id & 7) as usize], id) == id
     }
 }
 
-/// Searches the `count` triangles in the blocks of one leaf and tells the observer of each block that is tested. With
+/// Searches the `count` triangles in the blocks of one leaf; the observer counts each block that is tested. With
 /// `ANY`, returns at the first block with a hit in the interval.
 #[inline(always)]
 pub(crate) fn search<'a, const ANY: bool, const N: usize, L: Lanes<N>, T: TriangleTest, O: Observer>(
@@ -140,9 +140,10 @@ pub(crate) fn search<'a, const ANY: bool, const N: usize, L: Lanes<N>, T: Triang
     }
 }
 
-/// Decides about the candidates of a block. Rare, and out of line, so that it does not cost the walk its registers.
+/// Decides about the candidates of a block. Rare, so out of line: inlined, it would take registers from the traversal.
 ///
-/// What takes a call is left to [`settle_closely`]: most candidates take none, and then this function saves no register either.
+/// Candidates that need another call are left to [`settle_closely`]. Most need none, and without a call this function
+/// saves no registers.
 #[inline(never)]
 pub(crate) fn settle<'a, const N: usize, T: TriangleTest>(
     block: &'a LeafBlock<T, N>,
@@ -152,10 +153,10 @@ pub(crate) fn settle<'a, const N: usize, T: TriangleTest>(
     nearest: &mut Nearest<T::Depth<'a>>,
 ) {
     while candidates != 0 {
-        // A lane in any case, so that nothing is left to check.
+        // The remainder saves a check of bounds.
         let lane = candidates.trailing_zeros() as usize % N;
         let id = block.ids[lane];
-        // A triangle of several leaves is met again.
+        // A triangle may be referenced by several leaves.
         if nearest.hit.as_ref().is_none_or(|(_, nearest)| *nearest != id) {
             let Some(decided) = T::decide_at_once(ray, &block.triangles, lane, values) else {
                 return settle_closely(block, ray, candidates, values, nearest);
@@ -177,10 +178,10 @@ pub(crate) fn settle<'a, const N: usize, T: TriangleTest>(
     }
 }
 
-/// So many candidates are soon decided one by one.
+/// So few candidates are decided faster one by one.
 const FEW: u32 = 2;
 
-/// The same, whatever it takes.
+/// As [`settle`], with all stages of the test.
 #[inline(never)]
 fn settle_closely<'a, const N: usize, T: TriangleTest>(
     block: &'a LeafBlock<T, N>,
@@ -193,8 +194,8 @@ fn settle_closely<'a, const N: usize, T: TriangleTest>(
     let mut values = values;
     if candidates.count_ones() > FEW {
         let nearest = nearest.hit.as_ref().map(|(depth, _)| depth);
-        if let Some((left, told)) = T::look_closer(ray, &block.triangles, candidates, values, nearest) {
-            (candidates, closer) = (left, told);
+        if let Some((left, refined)) = T::look_closer(ray, &block.triangles, candidates, values, nearest) {
+            (candidates, closer) = (left, refined);
             values = &closer;
         }
     }
@@ -211,11 +212,9 @@ fn settle_closely<'a, const N: usize, T: TriangleTest>(
     }
 }
 
-/// What every query starts with: where its interval begins and the search up to its end, or nothing when the ray can
-/// hit nothing.
+/// The start of every query: `t_min`, and a search up to the end of the interval; nothing if the ray can hit nothing.
 ///
-/// The prepared ray is not among them: handed out of here it would be copied, and the processor waits for what it has
-/// just written.
+/// The prepared ray is not returned: it would be copied right after it was written, which stalls the processor.
 #[inline(always)]
 pub(crate) fn start<'a, T: TriangleTest>(ray: &Ray) -> Option<(f32, Nearest<T::Depth<'a>>)> {
     let (t_min, t_max) = ray.interval();

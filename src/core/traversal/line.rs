@@ -1,4 +1,5 @@
-//! A ray as traversals see it: where it crosses axis-aligned planes, with the slack that keeps rounding from losing a hit.
+//! A ray as traversals see it: where it crosses axis-aligned planes, with the slack that keeps rounding from losing a
+//! hit.
 
 use glam::Vec3A;
 
@@ -16,6 +17,20 @@ use crate::simd::{Lanes, each};
 /// correctly. Three cases have no answer, and all give NaN, which every user reads as "may cross anywhere": the ray
 /// lies in the plane (0 * inf), 1 / d overflows or is too small for full precision, and the difference to some plane
 /// may overflow.
+///
+/// **Ends of the interval.** Let t* be the exact parameter of a hit in [`t_min`, `t_max`). It may lie beyond the last
+/// float before `t_max` and be reported as `t_max`. So the ends that crossings are compared with are `t_min` itself and
+/// [`TriangleTest::last`](crate::triangle::TriangleTest::last), later the bound of the nearest hit: a float that t*
+/// does not exceed where the test is exact, and that the rounded t* does not exceed where the test rounds it to the
+/// nearest float. Then t* exceeds it by 2^-24 of itself at most. A box that contains the hit is entered at an exact
+/// parameter e <= t* and left at f >= t*. The computed entry, moved by `before`, is at least 3.9 * 2^-24 of e before e,
+/// hence not beyond the end; the computed exit, moved by `after`, is not before f, hence not before `t_min`.
+///
+/// **Overflow.** A crossing from 2.6 * 2^-24 before the largest float on may be computed as infinity, and `before`
+/// leaves that where it is: beyond every finite end, and beyond the computed crossings of planes that the ray meets
+/// later. So either an entry is made finite by [`finite_entry`], or the end is made infinite: by [`open_end`], or by
+/// `after`, which does so from 7.5 * 2^-24 before the largest float on. Before an end that stays finite, no box is
+/// entered at an infinite crossing. An infinite exit is right as it is.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Line {
     origin: [f32; 3],
@@ -39,14 +54,29 @@ pub(crate) fn after(t: f32) -> f32 {
     t * AFTER + TINY
 }
 
+/// The largest finite float, moved before: no finite crossing that is moved before lies beyond it.
+const LATEST: f32 = f32::MAX * BEFORE - TINY;
+
+/// A crossing that was moved [`before`], not after the exact parameter also where it overflowed.
+#[inline(always)]
+pub(crate) fn finite_entry(t: f32) -> f32 {
+    if t < LATEST { t } else { LATEST }
+}
+
+/// The end `t` of an interval; infinity where a crossing that is not beyond `t` may overflow.
+#[inline(always)]
+pub(crate) fn open_end(t: f32) -> f32 {
+    if t < LATEST { t } else { f32::INFINITY }
+}
+
 /// [`after`] in every lane.
 #[inline(always)]
 pub(crate) fn lanes_after<L: Lanes<8>>(t: L) -> L {
     t.mul(L::splat(AFTER)).add(L::splat(TINY))
 }
 
-/// 1 / d for each component of the direction, for planes that cut the box `bounds` or are its faces; NaN where a crossing
-/// computed with it has no answer.
+/// 1 / d for each component of the direction, for planes that cut the box `bounds` or are its faces; NaN where a
+/// crossing computed with it has no answer.
 #[inline(always)]
 pub(crate) fn inverses(ray: &Ray, bounds: &Aabb) -> [f32; 3] {
     // All three axes at once: what is done for each ray is much of what a ray costs.
@@ -83,10 +113,11 @@ impl Line {
         self.backward[axis]
     }
 
-    /// The part of [`t0`, `t1`] in the closed box, with slack; nothing if the line surely misses the box.
+    /// The part of [`t0`, `t1`] in the closed box, with slack; nothing if the line surely misses the box. It may begin
+    /// at infinity where a crossing overflows, so `t1` must be an [`open_end`] or moved [`after`].
     ///
-    /// A parallel line inside the slab crosses at -inf and +inf in the order of travel; a parallel line in a face crosses that
-    /// face at NaN, which leaves the interval as it is.
+    /// A parallel line inside the slab crosses at -inf and +inf in the order of travel; a parallel line in a face
+    /// crosses that face at NaN, which leaves the interval as it is.
     #[inline(always)]
     pub fn clip(&self, cell: &Aabb, mut t0: f32, mut t1: f32) -> Option<(f32, f32)> {
         for axis in 0..3 {
@@ -174,6 +205,30 @@ mod tests {
             least = least.min(units(before(t))).min(units(after(t)));
         }
         assert!(least > 2.0 * 3.01, "{least}");
+    }
+
+    /// Crossings around the largest float: entries, exits and ends are on the right side of the exact parameter.
+    #[test]
+    fn crossings_that_overflow_are_on_the_right_side() {
+        let below = |x: f32, ulps: u32| f32::from_bits(x.to_bits() - ulps);
+        let mut infinite = 0;
+        for i in 0..40_000_u32 {
+            let d = below(2.0_f32.powi(-28), i.wrapping_mul(2_654_435_761) >> 12);
+            let exact = f64::from(f32::MAX) * (1.0 - f64::from(i % 100) * 0.1 * 2.0_f64.powi(-24));
+            let origin = 1e29 * (i % 7) as f32;
+            let split = (f64::from(origin) + exact * f64::from(d)) as f32;
+            // A difference of such floats is exact in `f64`.
+            let exact = (f64::from(split) - f64::from(origin)) / f64::from(d);
+            let crossing = (split - origin) * (1.0 / d);
+            infinite += u32::from(crossing == f32::INFINITY);
+            assert!(f64::from(finite_entry(before(crossing))) < exact && f64::from(after(crossing)) > exact);
+            let end = exact as f32;
+            for end in [end, end.next_down()].into_iter().filter(|&end| end < f32::INFINITY) {
+                assert!(before(crossing) <= open_end(end) && before(crossing) <= after(end), "{exact:e} {crossing:e}");
+            }
+        }
+        assert!(infinite > 500, "{infinite}");
+        assert_eq!((before(f32::MAX), open_end(below(LATEST, 1))), (LATEST, below(LATEST, 1)));
     }
 
     #[test]

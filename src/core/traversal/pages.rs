@@ -1,27 +1,28 @@
 //! Memory: large arrays on large pages, and lines fetched ahead.
 
-/// Memory for `len` values that are read at random places, for which the system is asked for huge pages: a walk through a few
-/// megabytes in pages of four kilobytes misses the cache of addresses at nearly every node.
+/// Memory for `len` values that are read at random places, in huge pages if possible: a traversal of a few megabytes in
+/// pages of four kilobytes misses the translation cache at nearly every node.
 ///
-/// Only Linux is asked, and it may decline; the values are the same.
+/// Only Linux is advised so, and may decline; the values are the same.
 pub(crate) fn with_capacity<T>(len: usize) -> Vec<T> {
     let values = Vec::with_capacity(len);
     advise(values.as_ptr(), len * size_of::<T>());
     values
 }
 
-/// The same values in such memory.
+/// Moves `values` to memory of [`with_capacity`].
 pub(crate) fn moved<T: Copy>(values: Vec<T>) -> Vec<T> {
     let mut moved = with_capacity(values.len());
     moved.extend_from_slice(&values);
     moved
 }
 
-/// Asks for the line of the cache at an address, which may be any.
+/// Prefetches the cache line at an address, which may be any.
 #[inline(always)]
 pub(crate) fn fetch(at: *const u8) {
     #[cfg(target_arch = "x86_64")]
-    // SAFETY: nothing is read, and there is no fault, whatever the address.
+    // SAFETY: a prefetch reads nothing that the program can see, and does not fault at any address; SSE is part of
+    // x86-64.
     unsafe {
         use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
         _mm_prefetch::<_MM_HINT_T0>(at.cast());
@@ -33,13 +34,14 @@ pub(crate) fn fetch(at: *const u8) {
 #[cfg(target_os = "linux")]
 fn advise<T>(start: *const T, bytes: usize) {
     use std::ffi::{c_int, c_void};
-    // SAFETY: as the C library of Linux declares it.
+    // SAFETY: the declaration is that of `madvise` in the C library of Linux: a pointer, a `size_t`, an `int`.
     unsafe extern "C" {
         fn madvise(start: *mut c_void, bytes: usize, advice: c_int) -> c_int;
     }
     const MADV_HUGEPAGE: c_int = 14;
     const PAGE: usize = 4096;
-    // SAFETY: the advice changes no values; it is given for whole pages that lie in one allocation.
+    // SAFETY: this advice changes no values; it is given for the whole pages between `start` and `bytes` after it,
+    // which the callers have just allocated.
     unsafe {
         let first = start.addr().next_multiple_of(PAGE);
         let end = (start.addr() + bytes) / PAGE * PAGE;
@@ -52,7 +54,7 @@ fn advise<T>(start: *const T, bytes: usize) {
 #[cfg(not(target_os = "linux"))]
 fn advise<T>(_: *const T, _: usize) {}
 
-/// Whether the system has been asked for large pages for the memory around these values, as it says itself.
+/// Whether the system reports that it was advised to use huge pages for the memory around these values.
 #[cfg(test)]
 pub(crate) fn are_large<T>(values: &[T]) -> bool {
     let at = values.as_ptr().addr() + size_of_val(values) / 2;

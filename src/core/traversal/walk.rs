@@ -24,19 +24,19 @@ impl<const ANY: bool, W: Walk> Kernel for Single<'_, ANY, W> {
     }
 }
 
-/// A walk that nobody watches.
+/// A walk without an observer.
 #[inline(always)]
 pub(crate) fn silent<const ANY: bool, L: EightLanes, W: Walk>(structure: &W, ray: &Ray) -> Option<Hit> {
     if L::FAST {
         structure.walk::<ANY, L, ()>(ray, &mut ())
     } else {
-        // The counting walk is compiled anyway; on portable lanes counting is not what takes the time.
+        // The counting walk is compiled anyway, and on portable lanes counting takes little of the time.
         watched::<ANY, W, Counts>(structure, ray, &mut Counts::default())
     }
 }
 
-/// A walk that somebody watches: on portable lanes, so that counts are the same on every machine, and who counts does not hurry. Out of line, so that
-/// there is one copy of it.
+/// A walk with an observer: on portable lanes, so that counts are the same on every machine; counting need not be fast.
+/// Out of line, so that there is one copy of it.
 #[inline(never)]
 fn watched<const ANY: bool, W: Walk, O: Observer>(structure: &W, ray: &Ray, observer: &mut O) -> Option<Hit> {
     structure.walk::<ANY, Portable<8>, O>(ray, observer)

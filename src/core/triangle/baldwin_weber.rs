@@ -6,16 +6,16 @@ use crate::simd::{LaneVec3, Lanes, indexed};
 
 /// Baldwin-Weber, in `f32`: the ray is taken into the space in which the triangle is the unit one.
 ///
-/// Promises: the least arithmetic of all tests. Does not promise much: the transformation is relative to the world's origin, so
-/// that errors grow with the distance from there (1e3 extents away every other hit is lost); closed meshes may leak at edges.
-/// 48 bytes a triangle.
+/// Promises: the least arithmetic of all tests. Does not promise much: the transformation is relative to the world's
+/// origin, so that errors grow with the distance from there (1e3 extents away every other hit is lost); closed meshes
+/// may leak at edges. 48 bytes a triangle.
 ///
-/// Of the paper's nine numbers and an axis we store all twelve of the matrix, so that lanes need not agree on the axis; they are
-/// computed in `f64` and rounded once.
+/// Of the paper's nine numbers and an axis we store all twelve of the matrix, so that lanes need not agree on the axis;
+/// they are computed in `f64` and rounded once.
 ///
 /// # References
-/// Baldwin, Weber: Fast ray-triangle intersections by coordinate transformation. Journal of Computer Graphics Techniques 5(3),
-/// 2016.
+/// Baldwin, Weber: Fast ray-triangle intersections by coordinate transformation. Journal of Computer Graphics
+/// Techniques 5(3), 2016.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct BaldwinWeber;
 

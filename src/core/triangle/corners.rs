@@ -10,7 +10,7 @@ pub struct Corners<const N: usize>([[[f32; N]; 3]; 3]);
 const _: () = assert!(size_of::<Corners<1>>() == 36);
 
 impl<const N: usize> Corners<N> {
-    /// Lanes left over hold triangles of no extent.
+    /// Unused lanes hold triangles without extent.
     ///
     /// # Panics
     /// If there are more than `N` triangles.
@@ -33,7 +33,7 @@ impl<const N: usize> Corners<N> {
         [LaneVec3::load(a), LaneVec3::load(b), LaneVec3::load(c)]
     }
 
-    /// Those of one triangle in every lane.
+    /// The corners of one triangle in every lane.
     #[inline(always)]
     pub(super) fn splat<const M: usize, L: Lanes<M>>(&self, lane: usize) -> [LaneVec3<M, L>; 3] {
         let [a, b, c] = &self.0;
@@ -55,7 +55,7 @@ impl<const N: usize> Corners<N> {
     }
 }
 
-/// One of the triangles of a block: its corners are read when somebody asks for them.
+/// One triangle of a block, whose corners are only read on demand.
 #[derive(Clone, Copy, Debug)]
 pub struct Place<'a> {
     coordinates: &'a [f32],
@@ -68,7 +68,8 @@ impl Place<'_> {
     pub(super) fn coordinates(&self) -> [f32; 9] {
         let lanes = self.coordinates.len() / 9;
         debug_assert!(self.lane < lanes);
-        // SAFETY: there are nine rows of `lanes`, and `place` has checked that the lane is one of them.
+        // SAFETY: `Corners::place`, which makes all of this type, gives nine rows of `lanes` coordinates, and has
+        // checked that the lane is below `lanes`.
         indexed(|row| unsafe { *self.coordinates.get_unchecked(row * lanes + self.lane) })
     }
 

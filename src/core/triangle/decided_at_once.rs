@@ -1,4 +1,4 @@
-/// What tests have in common whose first stage decides in `f32` where each lane is hit.
+/// The common part of tests whose first stage decides where each lane is hit.
 macro_rules! decided_at_once {
     () => {
         type First<const N: usize, L: $crate::simd::Lanes<N>> = L;
@@ -17,7 +17,7 @@ macro_rules! decided_at_once {
     };
 }
 
-/// What those of them have in common that take rays and corners as they are.
+/// The common part of such tests that take rays and corners as they are.
 macro_rules! decided_on_corners {
     () => {
         type Ray = (glam::Vec3, glam::Vec3);

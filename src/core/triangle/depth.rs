@@ -4,37 +4,40 @@ use std::marker::PhantomData;
 use crate::geometry::Ray;
 use crate::simd::{EightLanes, Kernel, Level, dispatch};
 
-/// How many numbers [`Depth::inputs`] are. First come the coordinates of three corners; where the others begin, the constants beside this one tell.
+/// The number of [`Depth::inputs`]: the coordinates of three corners, and what the constants below name.
 pub const INPUTS: usize = 16;
-/// The first coordinate of the origin among the inputs.
+/// The index of the origin's first coordinate.
 pub const ORIGIN: usize = 9;
-/// That of the direction.
+/// The index of the direction's first coordinate.
 pub const DIRECTION: usize = 12;
-/// How far apart the bounds of the `t` are.
+/// The index of the distance between the bounds of `t`.
 pub const BETWEEN_BOUNDS: usize = 15;
 
-/// Where along a ray a hit is, as exactly as its triangle test knows.
+/// The place of a hit along its ray, as exactly as the triangle test knows it.
 pub trait Depth: Copy {
-    /// The order along the ray; nothing where it takes the ray to tell, see [`TriangleTest::order`](super::TriangleTest::order).
+    /// The order along the ray; nothing where deciding it takes the ray, see
+    /// [`TriangleTest::order`](super::TriangleTest::order).
     fn order(&self, other: &Self) -> Option<Ordering>;
 
-    /// The depth of a hit at `t`, if that is all there is to know of it.
+    /// The depth of a hit at `t`, if `t` alone makes a depth.
     fn of(t: f32) -> Option<Self>;
 
-    /// As reported, of a hit of `ray`: the nearest float.
+    /// The `t` to report for a hit of `ray`: the nearest float.
     fn t(&self, ray: &Ray) -> f32;
 
-    /// Whether `t` takes more than the depth, so that it pays to compute that of eight hits together. A test that says so writes
-    /// [`inputs`](Self::inputs) and [`ts`](Self::ts) as well.
+    /// Whether `t` takes further computation, so that it pays to compute that of eight hits together. Such a depth
+    /// implements [`inputs`](Self::inputs) and [`ts`](Self::ts).
     const LATE: bool = false;
 
-    /// What `ts` takes of a hit of `ray`: the corners of the triangle, the origin, the direction and the distance of its bounds.
+    /// The inputs of `ts` for a hit of `ray`: the corners of the triangle, the origin, the direction and the distance
+    /// between the bounds of `t`.
     #[inline(always)]
     fn inputs(&self, _ray: &Ray) -> [f32; INPUTS] {
         unreachable!("a depth whose `t` is late has inputs")
     }
 
-    /// The same bits as [`t`](Self::t), of those of eight hits that `which` names as bits, from their inputs.
+    /// The same bits as [`t`](Self::t) for up to eight hits, from their inputs; `which` says as bits which lanes hold a
+    /// hit.
     #[inline(always)]
     fn ts<L: EightLanes>(_inputs: &[[f32; 8]; INPUTS], _which: u32) -> [f32; 8] {
         unreachable!("a depth whose `t` is late computes those of eight hits")
@@ -47,13 +50,13 @@ pub trait Depth: Copy {
     fn least(&self) -> f32;
 }
 
-/// As [`Depth::ts`], on a level.
+/// [`Depth::ts`] on a level.
 #[inline(always)]
 pub(crate) fn last_bits<D: Depth>(level: Level, inputs: &[[f32; 8]; INPUTS], which: u32) -> [f32; 8] {
     dispatch(level, LastBits::<D> { inputs, which, depth: PhantomData })
 }
 
-/// The `t` of hits together: a kernel of its own, because it would cost the walk its registers.
+/// [`Depth::ts`] as a kernel of its own: inlined, it would take registers from the traversal.
 struct LastBits<'a, D> {
     inputs: &'a [[f32; 8]; INPUTS],
     which: u32,
@@ -69,7 +72,7 @@ impl<D: Depth> Kernel for LastBits<'_, D> {
     }
 }
 
-/// What an `f32` test computes, which is never NaN.
+/// The depth of the tests that compute `t` as a float, which is never NaN.
 impl Depth for f32 {
     #[inline(always)]
     fn of(t: f32) -> Option<f32> {

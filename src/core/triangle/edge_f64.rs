@@ -1,8 +1,8 @@
 use super::{Corners, TriangleTest};
 use crate::simd::{Arithmetic, LaneVec3, Lanes, each};
 
-/// The edge test of [`Plucker`](super::Plucker) in `f64` over corners in `f32`, widened by its own rounding: scalar triple products for
-/// the sides, `t` from the plane equation relative to the origin, rounded to `f32` at the end.
+/// The edge test of [`Plucker`](super::Plucker) in `f64` over corners in `f32`, widened by its own rounding: scalar
+/// triple products for the sides, `t` from the plane equation relative to the origin, rounded to `f32` at the end.
 ///
 /// Proved, with the size of a vector the sum of the magnitudes of its components, D that of the direction, and det = d
 /// . (e1 x e2): a triangle that is hit is found if |det| >= 2^-48 D |e1| |e2|; of one that is said to be hit the volume
@@ -20,15 +20,15 @@ pub struct EdgeF64;
 
 /// The lanes whose triangle the line does not certainly miss, and where it meets their planes.
 ///
-/// The volume of the direction and two corners p, q is taken as d . (p x (q - p)), so that its error grows with the length of
-/// the edge and not with the distance twice.
+/// The volume of the direction and two corners p, q is taken as d . (p x (q - p)), so that its error grows with the
+/// length of the edge and not with the distance twice.
 ///
-/// **Bounds.** With n = 2^-53, a difference is off by n of itself, a component of a cross product of two of them by 4.1 n of
-/// |x||y'| + |y||x'|, a dot product adds 3 n: d . (p x e) is off by at most 7.1 n 2 |d| |p| |e| in sums of magnitudes, which leave
-/// the rounding of the bound room in 9. What is computed not below the negative bound of 18 is exactly not below -33 n
-/// |d| |p| |e|. The sign of det = d . (e1 x e2) is known where it is computed beyond 18 n |d| |e1| |e2|, so where it
-/// exactly is beyond 26; a . (e1 x e2) is off by 8.1 n |a| |e1| |e2|, and t by less than 14 n |e1| |e2| (|a| + |t| |d|)
-/// / |det|.
+/// **Bounds.** With n = 2^-53, a difference is off by n of itself, a component of a cross product of two of them by 4.1
+/// n of |x||y'| + |y||x'|, a dot product adds 3 n: d . (p x e) is off by at most 7.1 n 2 |d| |p| |e| in sums of
+/// magnitudes, which leave the rounding of the bound room in 9. What is computed not below the negative bound of 18 is
+/// exactly not below -33 n |d| |p| |e|. The sign of det = d . (e1 x e2) is known where it is computed beyond 18 n |d|
+/// |e1| |e2|, so where it exactly is beyond 26; a . (e1 x e2) is off by 8.1 n |a| |e1| |e2|, and t by less than 14 n
+/// |e1| |e2| (|a| + |t| |d|) / |det|.
 #[inline(always)]
 fn solve<const N: usize, L: Arithmetic<N, Scalar = f64>>(
     origin: LaneVec3<N, L>,

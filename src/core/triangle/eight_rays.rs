@@ -3,13 +3,13 @@ use crate::simd::{EightLanes, LaneVec3};
 /// Eight valid rays side by side.
 #[derive(Clone, Copy)]
 pub struct EightRays<L> {
-    /// Where they start.
+    /// Their origins.
     pub origin: LaneVec3<8, L>,
-    /// Where they go.
+    /// Their directions.
     pub direction: LaneVec3<8, L>,
-    /// Where their intervals begin: not negative.
+    /// The beginnings of their intervals, which are not negative.
     pub t_min: L,
-    /// Where they end.
+    /// The ends of their intervals.
     pub t_max: L,
     /// No component of a direction is larger in magnitude.
     pub longest: f32,
@@ -17,15 +17,16 @@ pub struct EightRays<L> {
     pub farthest: f32,
 }
 
-/// What eight rays find of one triangle.
-pub struct EightMet<L: EightLanes> {
-    /// Those that meet it within their intervals.
+/// The hits of eight rays with one triangle.
+pub struct EightHits<L: EightLanes> {
+    /// The rays that meet the triangle within their intervals.
     pub met: L::Mask,
-    /// Those that do not, or not before where they look. Of rays that are in neither nothing is known: they have to ask alone. A test of
-    /// [one stage](super::TriangleTest::ONE_STAGE) knows all that meet it, and leaves this empty.
+    /// The rays that miss it, or meet it beyond their current end. Rays in neither mask are undecided, and must be
+    /// tested alone. A test of [one stage](super::TriangleTest::ONE_STAGE) decides all rays, and leaves this mask
+    /// empty.
     pub missed: L::Mask,
-    /// The `t` of those that meet it is not below this.
+    /// Lower bounds of the `t` of those that meet it.
     pub low: L,
-    /// It is not above this.
+    /// Upper bounds of it.
     pub high: L,
 }

@@ -1,4 +1,5 @@
-//! The first stage of the exact test: rejects nearly all triangles of a block in `f32`, and never one that is hit; and sees most hits.
+//! The first stage of the exact test, in `f32`: it rejects nearly all triangles that are missed, never one that is hit,
+//! and decides most hits.
 
 use glam::{Vec3, Vec3Swizzles as _};
 
@@ -7,7 +8,7 @@ use super::{Corners, EightRays};
 use crate::geometry::Ray;
 use crate::simd::{EightLanes, LaneVec3, Lanes};
 
-/// A ray as the first stage sees it.
+/// A ray, prepared for the first stage.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FilterRay {
     origin: Vec3,
@@ -16,33 +17,34 @@ pub(super) struct FilterRay {
     scaling: Scaling,
 }
 
-/// By how much the directions of rays are scaled: by a power of two, so that the largest component of all is in [1, 2), or below 1 if it is
-/// denormal.
+/// The power of two by which the directions of rays are scaled, so that the largest component of all is in [1, 2), or
+/// below 1 if it is denormal.
 #[derive(Clone, Copy, Debug)]
 struct Scaling {
-    /// The scaled direction is so many times as long as the direction, which is so many times as long as the scaled one.
+    /// The factor and its inverse.
     scale: f32,
     unscaled: f32,
     /// [`TINY`], or infinity if an overflow cannot be ruled out: then nothing is rejected.
     tiny: f32,
 }
 
-/// `N` triangles with what bounds the rounding.
+/// `N` triangles, and bounds of the rounding.
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct FilterBlock<const N: usize> {
     corners: Corners<N>,
-    /// The largest component of the two edges, which bounds the rounding; infinite if an overflow cannot be ruled out, negative in lanes
-    /// left over.
+    /// The largest component of the two edges, which bounds the rounding; infinite if an overflow cannot be ruled out,
+    /// negative in lanes left over.
     extents: [f32; N],
-    /// 10 units of 2^-24 of the largest component of the normal, were the magnitudes of its two products added: bounds the rounding of heights and
-    /// determinants more closely than the extent does, and far more closely where triangles are narrow.
+    /// 10 units of 2^-24 of the largest component of the normal, were the magnitudes of its two products added: bounds
+    /// the rounding of heights and determinants more closely than the extent does, and far more closely where triangles
+    /// are narrow.
     areas: [f32; N],
 }
 
-/// What the first stage has computed of `N` triangles, in the notation of [`survivors`].
+/// The results of the first stage for `N` triangles, in the notation of [`filter_block`].
 #[derive(Clone, Copy, Debug)]
-pub struct Survivors<L> {
+pub struct Candidates<L> {
     /// With the sign of det.
     height: L,
     abs_det: L,
@@ -55,10 +57,11 @@ pub struct Survivors<L> {
     scale: f32,
 }
 
-/// What the first stage knows of the candidates among `N` triangles.
+/// The candidates among `N` triangles that the line certainly meets, and bounds of their `t`.
 #[derive(Clone, Copy, Debug)]
-pub struct Sights<const N: usize> {
-    /// The lanes whose triangle the line certainly meets, at an exact `t` in [`low`, `high`], as bits; of the others nothing is known.
+pub struct CandidateBounds<const N: usize> {
+    /// The lanes whose triangle the line certainly meets, at an exact `t` in [`low`, `high`], as bits; the others are
+    /// undecided.
     pub sure: u32,
     pub low: [f32; N],
     pub high: [f32; N],
@@ -66,24 +69,27 @@ pub struct Sights<const N: usize> {
 
 /// 2^-24, by which a difference, a product and a sum are off, relatively.
 const UNIT: f32 = f32::EPSILON / 2.0;
-/// Twice the 40 units of 2^-24 of the argument at [`survivors`], times 2 for the direction.
+/// Twice the 40 units of 2^-24 of the argument at [`filter_block`], times 2 for the direction.
 const SLACK: f32 = 2.0 * 40.0 * 2.0 * UNIT;
-/// The error of the height, in N |s|, and so many times that, in N, of det: 8.1 and 43 units, of which is said where below.
+/// The error of the height, in N |s|, and so many times that, in N, of det: 8.1 and 43 units, of which is said where
+/// below.
 const HEIGHT: f32 = 10.0 * UNIT;
 const DETERMINANT: f32 = 6.0;
-/// More than all underflows together: each loses at most 2^-150, and those of u, v and det add up to less than
-/// (4 |s| + 12 E + 42) 2^-150, where TINY (1 + |s| + 2 E) is added. Far more, but the least number that is not denormal: for each sum with
-/// one that is, some processors take a hundred cycles.
+/// More than all underflows together: each loses at most 2^-150, and those of u, v and det add up to less than (4 |s| +
+/// 12 E + 42) 2^-150, where TINY (1 + |s| + 2 E) is added. Far more, but the least number that is not denormal: for
+/// each sum with one that is, some processors take a hundred cycles.
 const TINY: f32 = f32::MIN_POSITIVE;
 const _: () = assert!(TINY.is_normal());
-/// Coordinates up to here cannot overflow: with them E is at most 2^41, |s| below 2^43, and no intermediate exceeds 2 E E |s|.
+/// Coordinates up to here cannot overflow: with them E is at most 2^41, |s| below 2^43, and no intermediate exceeds 2 E
+/// E |s|.
 const LARGE: f32 = (1_u64 << 40) as f32;
 
 impl Scaling {
     /// For directions and origins whose components are at most so large.
     #[inline(always)]
     fn new(longest: f32, farthest: f32) -> Self {
-        // Multiply by two to the negative exponent of the largest component: exact, but for components that become denormal.
+        // Multiply by two to the negative exponent of the largest component: exact, but for components that become
+        // denormal.
         let exponent = longest.to_bits() >> 23;
         let scale = match exponent {
             254 => f32::MIN_POSITIVE / 2.0,
@@ -131,19 +137,23 @@ impl<const N: usize> FilterBlock<N> {
     }
 }
 
-impl<L> Survivors<L> {
-    /// What is certain of them, and where they are met.
+impl<L> Candidates<L> {
+    /// The lanes that are certainly met, and the bounds of their `t`.
     #[inline(always)]
-    pub fn sights<const N: usize>(&self) -> Sights<N>
+    pub fn bounds<const N: usize>(&self) -> CandidateBounds<N>
     where
         L: Lanes<N>,
     {
         let ([inside, certain], [low, high]) = self.look();
-        Sights { sure: inside[0].lt(inside[1]) & certain[0].lt(certain[1]), low: low.store(), high: high.store() }
+        CandidateBounds {
+            sure: inside[0].lt(inside[1]) & certain[0].lt(certain[1]),
+            low: low.store(),
+            high: high.store(),
+        }
     }
 
-    /// Two pairs: where the first is below the second in both, the line certainly meets the triangle at an exact `t` between the two bounds that
-    /// come after.
+    /// Two pairs, and two bounds: where the first of a pair is below the second in both pairs, the line certainly meets
+    /// the triangle at an exact `t` between the bounds.
     #[inline(always)]
     pub(super) fn look<const N: usize>(&self) -> ([[L; 2]; 2], [L; 2])
     where
@@ -162,56 +172,63 @@ impl<L> Survivors<L> {
     }
 }
 
-/// The lanes whose triangle the ray may meet at a `t` up to `to`, all of those that it meets there among them; and what is seen of them.
+/// The lanes whose triangle the ray may meet at a `t` up to `to`, among them all that it does meet; and the results of
+/// the first stage.
 ///
-/// **Why none is lost.** Let s = o - a, e and f the edges from a, det = e . (d x f), u = s . (d x f), v = d . (s x e), exact for
-/// the `f32` corners and ray; the line meets the closed triangle if u, v and det - u - v, taken with the sign of det, are not
-/// negative. Let E bound the components of e and f, D = 2 those of d, |s| be the sum of the components of s, w = 2^-24, and
-/// bars mean computed. A difference of inputs is off by w of itself, a product and a sum by w of themselves. The components of d x f
-/// are bounded by 2 D E and off by 3.1 w 2 D E; those of s x e by 2 E |s|, in sum, and off by 4.1 w of that. Hence
-/// u is off by 7.1 w 2 D E |s|, v by 7.1 w 2 D E |s|, and det by 7.1 w 6 D E E. The sum of all three and of the rounding of u + v
-/// and of what is left of det (the sign of its sum with the slack is exact) is within k = 40 w D E (|s| + 2 E), in which more than 6 w D E |s| are left for the rounding of k itself.
+/// **Why none is lost.** Let s = o - a, e and f the edges from a, det = e . (d x f), u = s . (d x f), v = d . (s x e),
+/// exact for the `f32` corners and ray; the line meets the closed triangle if u, v and det - u - v, taken with the sign
+/// of det, are not negative. Let E bound the components of e and f, D = 2 those of d, |s| be the sum of the components
+/// of s, w = 2^-24, and bars mean computed. A difference of inputs is off by w of itself, a product and a sum by w of
+/// themselves. The components of d x f are bounded by 2 D E and off by 3.1 w 2 D E; those of s x e by 2 E |s|, in sum,
+/// and off by 4.1 w of that. Hence u is off by 7.1 w 2 D E |s|, v by 7.1 w 2 D E |s|, and det by 7.1 w 6 D E E. The sum
+/// of all three and of the rounding of u + v and of what is left of det (the sign of its sum with the slack is exact)
+/// is within k = 40 w D E (|s| + 2 E), in which more than 6 w D E |s| are left for the rounding of k itself.
 ///
-/// Where the computed sign of det is right, a hit has u and v not below -k, and u + v not beyond |det| + k. Where it is wrong,
-/// the exact |det| is at most k; then so are |u|, |v| and |u + v| of a hit, and the computed ones are at most 2 k. So rejecting what is
-/// beyond 2 k rejects no hit, and what is inside by more than 2 k is one. Underflow adds less than [`TINY`] (1 + |s| + 2 E); where an
-/// intermediate might overflow the bound is infinite, and comparisons that involve infinity or NaN decide nothing.
+/// Where the computed sign of det is right, a hit has u and v not below -k, and u + v not beyond |det| + k. Where it is
+/// wrong, the exact |det| is at most k; then so are |u|, |v| and |u + v| of a hit, and the computed ones are at most 2
+/// k. So rejecting what is beyond 2 k rejects no hit, and what is inside by more than 2 k is one. Underflow adds less
+/// than [`TINY`] (1 + |s| + 2 E); where an intermediate might overflow the bound is infinite, and comparisons that
+/// involve infinity or NaN decide nothing.
 ///
-/// **Where they are met.** A hit is at t = h / |det|, with h = f . (s x e) taken with the sign of det. Let N bound |e_i f_k| + |e_k f_i|
-/// for each pair of axes: the components of e x f, without what cancels. In the computed h each term s_i e_k f_j is off by 8.1 w of itself, in det
-/// each d_i e_k f_j by 7.1 w, so that h is off by less than 8.1 w N |s| and det by less than 43 w N; both underflow by less than [`TINY`]
-/// (1 + E). With bounds dh and dd of 10 w N |s| and 60 w N, more than both and their own rounding: where |det| is beyond dd its sign is certain,
-/// and a hit with h below -dh lies behind the origin. One at a t of at most T, where T is not below `to` for the scaled direction, has
-/// h - T |det| at most dh + T dd; the computed difference, in which T |det| is at most 6 N T, is off by 7 w N T and w of itself, of which dd has more to
-/// spare. Here the slack 2 k (160 w N or more) stands for dd. Where the computed |det|, d', is beyond 16 dd, and h' is the
-/// computed height, |h/d - h'/d'| <= (dh + |h'/d'| dd) / |d| is at most 16/15 of that with d' in place of d, which 9/8 covers with what rounds in it; the
-/// quotient and the ends of the interval round by less than 8 w of t, and [`TINY`] covers what underflows when t is that of the direction again. Before that
-/// nothing underflows that counts: what is inside by more than 2 k has |s| > 2^-18 E, and a det beyond 16 TINY takes an E above 2^-63, so that the error is
-/// beyond 2^-104.
+/// **Where they are met.** A hit is at t = h / |det|, with h = f . (s x e) taken with the sign of det. Let N bound |e_i
+/// f_k| + |e_k f_i| for each pair of axes: the components of e x f, without what cancels. In the computed h each term
+/// s_i e_k f_j is off by 8.1 w of itself, in det each d_i e_k f_j by 7.1 w, so that h is off by less than 8.1 w N |s|
+/// and det by less than 43 w N; both underflow by less than [`TINY`] (1 + E). With bounds dh and dd of 10 w N |s| and
+/// 60 w N, more than both and their own rounding: where |det| is beyond dd its sign is certain, and a hit with h below
+/// -dh lies behind the origin. One at a t of at most T, where T is not below `to` for the scaled direction, has h - T
+/// |det| at most dh + T dd; the computed difference, in which T |det| is at most 6 N T, is off by 7 w N T and w of
+/// itself, of which dd has more to spare. Here the slack 2 k (160 w N or more) stands for dd. Where the computed |det|,
+/// d', is beyond 16 dd, and h' is the computed height, |h/d - h'/d'| <= (dh + |h'/d'| dd) / |d| is at most 16/15 of
+/// that with d' in place of d, which 9/8 covers with what rounds in it; the quotient and the ends of the interval round
+/// by less than 8 w of t, and [`TINY`] covers what underflows when t is that of the direction again. Before that
+/// nothing underflows that counts: what is inside by more than 2 k has |s| > 2^-18 E, and a det beyond 16 TINY takes an
+/// E above 2^-63, so that the error is beyond 2^-104.
 #[inline(always)]
-pub(super) fn survivors<const N: usize, L: Lanes<N>>(
+pub(super) fn filter_block<const N: usize, L: Lanes<N>>(
     ray: &FilterRay,
     block: &FilterBlock<N>,
     to: f32,
-) -> (u32, Survivors<L>) {
+) -> (u32, Candidates<L>) {
     let last = L::splat((to.max(f32::MIN_POSITIVE) * ray.scaling.unscaled).max(f32::MIN_POSITIVE));
     let (origin, direction) = (LaneVec3::splat(ray.origin), LaneVec3::splat(ray.scaled));
     let (extents, areas) = (L::load(&block.extents), L::load(&block.areas));
-    let (signs, survivors) = survive(origin, direction, ray.scaling, block.corners.load::<L>(), [extents, areas], last);
-    (!signs.lt(L::zero()) & ((1_u64 << N) - 1) as u32, survivors)
+    let (signs, candidates) =
+        filter_lanes(origin, direction, ray.scaling, block.corners.load::<L>(), [extents, areas], last);
+    (!signs.lt(L::zero()) & ((1_u64 << N) - 1) as u32, candidates)
 }
 
-/// As [`survivors`], for eight rays and the triangle in one lane of a block: the rays that do not meet it.
+/// As [`filter_block`], for eight rays and the triangle in one lane of a block: the rays that miss it, and the results.
 ///
-/// All directions are scaled as the longest one is. The argument at [`survivors`] takes of them only that no component is beyond 2, and that what becomes
-/// denormal is off by 2^-150 at most, so it holds for the others too; of much shorter ones less is certain.
+/// All directions are scaled as the longest one is. The argument at [`filter_block`] needs only that no component is
+/// beyond 2, and that a component that becomes denormal is off by 2^-150 at most, so it holds for the other directions
+/// too; of much shorter ones fewer are decided.
 #[inline(always)]
-pub(super) fn survive_eight<const N: usize, L: EightLanes>(
+pub(super) fn filter_eight<const N: usize, L: EightLanes>(
     rays: &EightRays<L>,
     block: &FilterBlock<N>,
     lane: usize,
     to: L,
-) -> (L::Mask, Survivors<L>) {
+) -> (L::Mask, Candidates<L>) {
     let scaling = Scaling::new(rays.longest, rays.farthest);
     let least = L::splat(f32::MIN_POSITIVE);
     let last = to.max(least).mul(L::splat(scaling.unscaled)).max(least);
@@ -219,21 +236,21 @@ pub(super) fn survive_eight<const N: usize, L: EightLanes>(
     let LaneVec3 { x, y, z, .. } = rays.direction;
     let direction = LaneVec3::new(x.mul(scale), y.mul(scale), z.mul(scale));
     let sizes = [L::splat(block.extents[lane]), L::splat(block.areas[lane])];
-    let (signs, survivors) = survive(rays.origin, direction, scaling, block.corners.splat(lane), sizes, last);
-    (signs.cmp_lt(L::zero()), survivors)
+    let (signs, candidates) = filter_lanes(rays.origin, direction, scaling, block.corners.splat(lane), sizes, last);
+    (signs.cmp_lt(L::zero()), candidates)
 }
 
-/// The same of lines and triangles, lane by lane, the latter by their corners, extents and areas: where the first answer is negative, the line does not meet
-/// the triangle at a `t`, for the scaled direction, up to `last`.
+/// The same for lines and triangles, lane by lane, the latter by their corners, extents and areas: where the first
+/// result is negative, the line does not meet the triangle at a `t`, for the scaled direction, up to `last`.
 #[inline(always)]
-fn survive<const N: usize, L: Lanes<N>>(
+fn filter_lanes<const N: usize, L: Lanes<N>>(
     origin: LaneVec3<N, L>,
     direction: LaneVec3<N, L>,
     scaling: Scaling,
     [a, b, c]: [LaneVec3<N, L>; 3],
     [extent, area]: [L; 2],
     last: L,
-) -> (L, Survivors<L>) {
+) -> (L, Candidates<L>) {
     let to_origin = origin - a;
     let (edge1, edge2) = (b - a, c - a);
 
@@ -252,15 +269,16 @@ fn survive<const N: usize, L: Lanes<N>>(
     let least = u.min(v).min(abs_det.sub(u.add(v)));
     let outside = least.add(slack);
 
-    // In any case, also where no lane is left: whether one is cannot be predicted, and one guess a block is enough.
+    // Computed also where no lane is left: that cannot be predicted, and one mispredicted branch a block is enough.
     let height = edge2.dot_loosely(q).flip_sign(det);
     let underflow = extent.mul_add_loosely(tiny, tiny);
     let height_error = area.mul_add_loosely(distance, underflow);
     let behind = slack.sub(abs_det).max(height.add(height_error));
     let beyond = slack.mul_add_loosely(last, height_error).add(last.mul_sub_loosely(abs_det, height));
 
-    // Each is negative where it rejects, or NaN where it cannot tell: then it wins, or another does. The extent of lanes left over is negative.
+    // Each is negative where it rejects and NaN where it cannot decide; the minimum is negative where any rejects. The
+    // extent of unused lanes is negative.
     let signs = beyond.min(behind).min(outside).min(extent);
     let scale = scaling.scale;
-    (signs, Survivors { height, height_error, abs_det, least, slack, area, underflow, scale })
+    (signs, Candidates { height, height_error, abs_det, least, slack, area, underflow, scale })
 }

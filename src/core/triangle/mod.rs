@@ -1,8 +1,8 @@
 //! Triangle tests: common property of all structures, so that hits with the same test are bit-identical.
 //!
 //! To add one: a file here that implements [`TriangleTest`], a word in the list of `offered.rs`, a line in
-//! `Registry::builtin` (which does not compile before the test is in the list of references, `validate/reference.rs`), and one in
-//! `triangle/tests/every.rs`.
+//! `Registry::builtin` (which does not compile before the test is in the list of references, `validate/reference.rs`),
+//! and one in `triangle/tests/every.rs`.
 
 #[macro_use]
 pub(crate) mod decided_at_once;
@@ -30,7 +30,7 @@ pub use corners::Corners;
 pub(crate) use depth::last_bits;
 pub use depth::{BETWEEN_BOUNDS, DIRECTION, Depth, INPUTS, ORIGIN};
 pub use edge_f64::EdgeF64;
-pub use eight_rays::{EightMet, EightRays};
+pub use eight_rays::{EightHits, EightRays};
 pub use exact::Exact;
 pub use moller_trumbore::MollerTrumbore;
 pub use moller_trumbore_f64::MollerTrumboreF64;
@@ -42,8 +42,9 @@ use crate::simd::{EightLanes, Lanes, Portable};
 
 /// A way to decide whether and where a ray meets a triangle.
 ///
-/// A test works in two stages: all lanes of a block at once, then lane by lane what is left. Most tests decide everything in
-/// the first stage. A test is written once, over lanes; one lane is the scalar form. All widths give the same bits.
+/// A test works in two stages: all lanes of a block at once, then lane by lane what is left. Most tests decide
+/// everything in the first stage. A test is written once, over lanes; one lane is the scalar form. All widths give the
+/// same bits.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a triangle test",
     label = "does not implement `sahara::triangle::TriangleTest`",
@@ -53,40 +54,42 @@ pub trait TriangleTest: Send + Sync + 'static {
     /// The name used by the command line and records.
     const NAME: &'static str;
 
-    /// What is prepared once a ray.
+    /// The prepared form of a ray.
     type Ray: Copy + Send + Sync;
 
-    /// `N` triangles, stored as the test wants them.
+    /// `N` triangles in the form of the test.
     type Block<const N: usize>: Copy + Send + Sync;
 
-    /// What the first stage has computed of the lanes of a block.
+    /// The intermediate results of the first stage, in lanes.
     type First<const N: usize, L: Lanes<N>>: Copy;
 
-    /// What it hands to the second one.
+    /// The values that the first stage hands to the second one.
     type Values<const N: usize>: Copy;
 
-    /// Where a hit is, as the test orders hits: `f32` where that is what it computes. It may refer to the block.
+    /// The place of a hit along the ray, by which the test orders hits: `f32` for tests that compute `t` as a float. It
+    /// may refer to the block.
     type Depth<'a>: Depth;
 
     /// Prepares a valid ray.
     fn prepare(ray: &Ray) -> Self::Ray;
 
-    /// The block of at most `N` triangles, given by their corners. The lanes left over hit nothing.
+    /// The block of at most `N` triangles, given by their corners. Unused lanes hit nothing.
     ///
     /// # Panics
     /// If there are more than `N` triangles.
     fn block<const N: usize>(triangles: &[[Vec3; 3]]) -> Self::Block<N>;
 
-    /// The last `t` to look at for a ray that ends before `t_max`: the float before it where hits are ordered as floats.
+    /// The last `t` of a hit for a ray that ends before `t_max`: the float before it where hits are ordered as floats.
     #[inline(always)]
     fn last(t_max: f32) -> f32 {
         t_max.next_down()
     }
 
-    /// The first stage: the lanes that may be hit at a `t` in [`from`, `to`], as bits, and what [`values`](Self::values) needs if there is any
-    /// lane to be decided.
+    /// The first stage: the lanes that may be hit at a `t` in [`from`, `to`], as bits, and the input of
+    /// [`values`](Self::values) if there are any.
     ///
-    /// No closure: it would be inlined or not as the compiler likes, and outside of the walk its arithmetic is calls.
+    /// The results are not a closure: the compiler might not inline it, and then it would not be compiled for the
+    /// level.
     fn candidates<const N: usize, L: Lanes<N>>(
         ray: &Self::Ray,
         block: &Self::Block<N>,
@@ -97,8 +100,8 @@ pub trait TriangleTest: Send + Sync + 'static {
     /// The values for the second stage.
     fn values<const N: usize, L: Lanes<N>>(first: Self::First<N, L>) -> Self::Values<N>;
 
-    /// The second stage: whether a candidate is hit, and where. What lies outside the ray's interval is no hit; what lies beyond the `to` of
-    /// the candidates may be one.
+    /// The second stage: whether a candidate is hit, and where. A `t` outside the interval of the ray is no hit; a `t`
+    /// beyond the `to` of the first stage may be one.
     fn decide<'a, const N: usize>(
         ray: &Self::Ray,
         block: &'a Self::Block<N>,
@@ -106,8 +109,8 @@ pub trait TriangleTest: Send + Sync + 'static {
         values: &Self::Values<N>,
     ) -> Option<Self::Depth<'a>>;
 
-    /// Whether a candidate is hit, as [`decide`](Self::decide) says, where the first stage alone tells: without a call. The values are those of
-    /// [`values`](Self::values), not of a closer look.
+    /// As [`decide`](Self::decide), where the first stage alone decides, and so without a call; nothing elsewhere. The
+    /// values are those of [`values`](Self::values), not of [`look_closer`](Self::look_closer).
     #[inline(always)]
     fn decide_at_once<'a, const N: usize>(
         ray: &Self::Ray,
@@ -118,8 +121,8 @@ pub trait TriangleTest: Send + Sync + 'static {
         Self::ONE_STAGE.then(|| Self::decide(ray, block, lane, values))
     }
 
-    /// A closer look at many candidates at once, where it may tell more: those left of them, and the values for [`decide`](Self::decide).
-    /// What lies beyond `nearest` need not be left.
+    /// Refines many candidates at once, where that pays: the candidates left, and their values for
+    /// [`decide`](Self::decide). Candidates beyond `nearest` may be dropped.
     #[inline(always)]
     fn look_closer<const N: usize>(
         _ray: &Self::Ray,
@@ -131,29 +134,30 @@ pub trait TriangleTest: Send + Sync + 'static {
         None
     }
 
-    /// The order of two hits along their `ray`, the one that they were decided with. Those of one ray are totally ordered.
+    /// The order of two hits along `ray`, which must be the ray of both. It is total.
     #[inline(always)]
     fn order<'a>(ray: &Self::Ray, one: &Self::Depth<'a>, other: &Self::Depth<'a>) -> Ordering {
         one.order(other).unwrap_or_else(|| Self::order_closely(ray, one, other))
     }
 
-    /// The same where [`Depth::order`] cannot tell; a test whose depths cannot must write it.
+    /// The same where [`Depth::order`] returns nothing; a test with such depths must implement it.
     fn order_closely(_ray: &Self::Ray, _one: &Self::Depth<'_>, _other: &Self::Depth<'_>) -> Ordering {
         unreachable!("depths that need the ray to be ordered have an order of their own")
     }
 
-    /// Whether the first stage decides everything: then [`decide`](Self::decide) takes every candidate, and [`Depth::of`] knows each depth.
+    /// Whether the first stage decides everything: then [`decide`](Self::decide) accepts every candidate, and
+    /// [`Depth::of`] makes each depth.
     const ONE_STAGE: bool = false;
 
-    /// Whether structures offer to answer several rays of a slice at once over this test. Each way to do so is compiled for each test that
-    /// says so, and takes longer to compile than all else.
+    /// Whether structures offer to trace several rays of a slice at once over this test. Each way to do so is compiled
+    /// for each such test, which takes longer than compiling all else.
     const BATCHED: bool = false;
 
     /// Whether the test has the form [`meet_eight`](Self::meet_eight).
     const EIGHT: bool = false;
 
-    /// Eight rays and one triangle, the one in `lane` of a block: what those of `active` find of it at a `t` up to `to`, as far as one look tells.
-    /// Nothing if all of them miss it.
+    /// Tests eight rays against the triangle in `lane` of a block: the hits of those of `active` at a `t` up to `to`,
+    /// as far as the first stage decides. Nothing if all of them miss it.
     #[inline(always)]
     fn meet_eight<const N: usize, L: EightLanes>(
         _rays: &EightRays<L>,
@@ -161,11 +165,12 @@ pub trait TriangleTest: Send + Sync + 'static {
         _lane: usize,
         _to: L,
         _active: L::Mask,
-    ) -> Option<EightMet<L>> {
+    ) -> Option<EightHits<L>> {
         unreachable!("a test that has this form writes it")
     }
 
-    /// The depth of a hit that [`meet_eight`](Self::meet_eight) has found between two bounds, where [`Depth::of`] does not know it.
+    /// The depth of a hit of [`meet_eight`](Self::meet_eight) from the bounds of its `t`, where [`Depth::of`] makes
+    /// none.
     #[inline(always)]
     fn depth_between<const N: usize>(_block: &Self::Block<N>, _lane: usize, _low: f32, _high: f32) -> Self::Depth<'_> {
         unreachable!("a depth that takes more than a float is made by its test")

@@ -1,15 +1,15 @@
 use glam::Vec3;
 
-use super::{EightMet, EightRays, TriangleTest};
+use super::{EightHits, EightRays, TriangleTest};
 use crate::geometry::Ray;
 use crate::simd::{EightLanes, LaneVec3, Lanes};
 
 /// Möller-Trumbore in `f32`: no precomputation, two-sided, division only for `t`.
 ///
-/// Promises: every comparison is closed, there is no epsilon, NaN never hits. Does not promise: closed meshes may leak at
-/// edges, because both neighbours round their barycentrics on their own; `t` of a grazing ray may be off by thousands of ulps.
-/// Costs one division for eight tests: per triangle 2.4 ns scalar and 1.0 ns in blocks of eight, on the machine of the README's
-/// table (`cargo bench --bench kernels`).
+/// Promises: every comparison is closed, there is no epsilon, NaN never hits. Does not promise: closed meshes may leak
+/// at edges, because both neighbours round their barycentrics on their own; `t` of a grazing ray may be off by
+/// thousands of ulps. Costs one division for eight tests: per triangle 2.4 ns scalar and 1.0 ns in blocks of eight, on
+/// the machine of the README's table (`cargo bench --bench kernels`).
 ///
 /// # References
 /// Möller, Trumbore: Fast, minimum storage ray/triangle intersection. Journal of Graphics Tools 2(1), 1997.
@@ -109,7 +109,7 @@ impl TriangleTest for MollerTrumbore {
         lane: usize,
         to: L,
         _active: L::Mask,
-    ) -> Option<EightMet<L>> {
+    ) -> Option<EightHits<L>> {
         let to_origin = rays.origin - LaneVec3::splat_lane(&block.corner, lane);
         let edges = [LaneVec3::splat_lane(&block.edge1, lane), LaneVec3::splat_lane(&block.edge2, lane)];
         let Solution { u, v, abs_det, t } = solve(rays.direction, to_origin, edges);
@@ -119,6 +119,6 @@ impl TriangleTest for MollerTrumbore {
         // An overflow may have made t NaN: such a lane hits nothing.
         let within = L::both(rays.t_min.cmp_le(t), t.cmp_le(to));
         let met = L::both(L::both(barycentrics, inside), within);
-        Some(EightMet { met, missed: L::mask(0), low: t, high: t })
+        Some(EightHits { met, missed: L::mask(0), low: t, high: t })
     }
 }

@@ -1,14 +1,14 @@
 use super::{Corners, TriangleTest};
 use crate::simd::{Arithmetic, LaneVec3, Lanes, each};
 
-/// [`MollerTrumbore`](super::MollerTrumbore) in `f64` over corners in `f32`, widened by its own rounding; `t` is rounded to `f32` at
-/// the end.
+/// [`MollerTrumbore`](super::MollerTrumbore) in `f64` over corners in `f32`, widened by its own rounding; `t` is
+/// rounded to `f32` at the end.
 ///
 /// Proved, with D, E and |s| the sums of the magnitudes of the components of the direction, of both edges that leave
 /// the first corner, and of the way from there to the origin, and det = e1 . (d x e2): a triangle that is hit is found
 /// if |det| >= 2^-46 D E E; of one that is said to be hit no barycentric is below -2^-46 D E (|s| + 2 E) / |det|, and
-/// `t` is off by at most 2^-51 E E (|s| + |t| D) / |det|, and half an ulp for rounding it. So a ray through an edge or a
-/// vertex of a closed mesh is lost only where its triangles are needles that it grazes.
+/// `t` is off by at most 2^-51 E E (|s| + |t| D) / |det|, and half an ulp for rounding it. So a ray through an edge or
+/// a vertex of a closed mesh is lost only where its triangles are needles that it grazes.
 ///
 /// These are small for triangles of ordinary shape, and not for needles and slivers: |det| is twice the area times the
 /// sine of the angle to the plane times the length of the direction. Measured on single triangles: a hit 4.5e-11 beside
@@ -24,13 +24,13 @@ pub struct MollerTrumboreF64;
 
 /// The lanes whose triangle the line does not certainly miss, and where it meets their planes.
 ///
-/// **Bounds.** As for the first stage of the exact test (`filter::survivors`), with n = 2^-53 in place of 2^-24: u, v
-/// and det - u - v are off by less than 40 n D E (|s| + 2 E), det by 43 n D E E, where D and E bound the components of
-/// the direction and of the edges, here by sums in place of greatest components. Where det may have either sign there
-/// is no hit: that is if its computed magnitude is at most 80 n D E E, hence never if the exact one is 2^7 n D E E.
-/// What is computed not below the negative slack is exactly not below twice that, 80 n D E (|s| + 2 E). In sums, h = f
-/// . (s x e) is off by 8.1 n |e| |f| |s| <= 2.1 n E E |s| and det by 1.8 n D E E, so that h / det is off by less than 4
-/// n E E (|s| + |t| D) / |det|.
+/// **Bounds.** As for the first stage of the exact test (`filter::filter_block`), with n = 2^-53 in place of 2^-24: u,
+/// v and det - u - v are off by less than 40 n D E (|s| + 2 E), det by 43 n D E E, where D and E bound the components
+/// of the direction and of the edges, here by sums in place of greatest components. Where det may have either sign
+/// there is no hit: that is if its computed magnitude is at most 80 n D E E, hence never if the exact one is 2^7 n D E
+/// E. What is computed not below the negative slack is exactly not below twice that, 80 n D E (|s| + 2 E). In sums, h =
+/// f . (s x e) is off by 8.1 n |e| |f| |s| <= 2.1 n E E |s| and det by 1.8 n D E E, so that h / det is off by less than
+/// 4 n E E (|s| + |t| D) / |det|.
 #[inline(always)]
 fn solve<const N: usize, L: Arithmetic<N, Scalar = f64>>(
     direction: LaneVec3<N, L>,

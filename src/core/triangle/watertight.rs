@@ -7,10 +7,11 @@ use crate::simd::{Lanes, each, indexed};
 /// Watertight, in `f32`: the triangle is sheared so that the ray becomes the third axis, and edges are tested in 2D;
 /// edge values that are exactly zero, very small or very large are computed again in `f64`.
 ///
-/// Promises: a corner is sheared to the same point for every triangle that has it, and the sign of an edge is exact for the
-/// sheared corners, so that no ray passes between the triangles of a closed mesh, edges and vertices included. Does not promise:
-/// the sheared corners are rounded, so that what lies within an ulp beside an edge may go to either side (a lone triangle may be
-/// missed at its rim), and `t` of slivers may be off by thousands of ulps. Costs about as much as Möller-Trumbore.
+/// Promises: a corner is sheared to the same point for every triangle that has it, and the sign of an edge is exact for
+/// the sheared corners, so that no ray passes between the triangles of a closed mesh, edges and vertices included. Does
+/// not promise: the sheared corners are rounded, so that what lies within an ulp beside an edge may go to either side
+/// (a lone triangle may be missed at its rim), and `t` of slivers may be off by thousands of ulps. Costs about as much
+/// as Möller-Trumbore.
 ///
 /// Range: any size of scene in which differences of coordinates do not overflow; below 1e-15 and above 1e6 units the
 /// test is slower. Directions whose largest component is below 3e-39 or above 8e37 and hits beyond t = 3e26 may be
@@ -23,7 +24,7 @@ pub struct Watertight;
 
 /// A ray with its axes named so that it runs along the third.
 #[derive(Clone, Copy, Debug)]
-pub struct Sheared {
+pub struct ShearedRay {
     /// The axes in the order x, y, z of the sheared space.
     axes: [usize; 3],
     /// The origin in that order.
@@ -35,13 +36,13 @@ impl TriangleTest for Watertight {
     const NAME: &'static str = "watertight";
     const BATCHED: bool = true;
 
-    type Ray = Sheared;
+    type Ray = ShearedRay;
     type Block<const N: usize> = Corners<N>;
 
     decided_at_once!();
 
     #[inline(always)]
-    fn prepare(ray: &Ray) -> Sheared {
+    fn prepare(ray: &Ray) -> ShearedRay {
         // The longest component becomes the third; swapping the others keeps the winding where it points backward.
         let z = ray.direction.abs().max_position();
         let (mut x, mut y) = ((z + 1) % 3, (z + 2) % 3);
@@ -49,7 +50,7 @@ impl TriangleTest for Watertight {
             (x, y) = (y, x);
         }
         let along = ray.direction[z];
-        Sheared {
+        ShearedRay {
             axes: [x, y, z],
             origin: each(&[x, y, z], |&axis| ray.origin[axis]),
             shear: [ray.direction[x] / along, ray.direction[y] / along, 1.0 / along],
@@ -61,7 +62,7 @@ impl TriangleTest for Watertight {
     }
 
     #[inline(always)]
-    fn candidates<const N: usize, L: Lanes<N>>(ray: &Sheared, block: &Corners<N>, from: f32, to: f32) -> (u32, L) {
+    fn candidates<const N: usize, L: Lanes<N>>(ray: &ShearedRay, block: &Corners<N>, from: f32, to: f32) -> (u32, L) {
         // Corners as seen from the origin, sheared.
         let [[x, y, z], shear] = each(&[ray.origin, ray.shear], |v| each(v, |&x| L::splat(x)));
         let zs = each(&block.axis::<L>(ray.axes[2]), |corner| corner.sub(z));

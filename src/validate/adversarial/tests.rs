@@ -1,6 +1,7 @@
 use std::collections::HashSet;
 
 use super::*;
+use crate::oracle;
 
 fn pyramid() -> Mesh {
     let points = vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::new(0.3, 0.4, 0.9)];
@@ -45,4 +46,14 @@ fn strata_hold_what_they_promise() {
     assert!(Stratum::FromVertices.rays(&mesh, 200, 3).iter().all(|r| corners.contains(&r.origin)));
     let far = Stratum::FarOrigins.rays(&mesh, 200, 3);
     assert!(far.iter().all(|r| r.origin.length() > 900.0));
+
+    // A hit just before the float at which the interval ends, also where that is the largest one.
+    let before_its_end = |ray: &&Ray| match oracle::nearest(ray, &mesh) {
+        Some((t, _)) => t.round() == ray.t_max,
+        None => false,
+    };
+    let rounded = Stratum::RoundedEnds.rays(&mesh, 400, 3);
+    let found: Vec<&Ray> = rounded.iter().filter(before_its_end).collect();
+    let largest = found.iter().filter(|ray| ray.t_max == f32::MAX).count();
+    assert!(found.len() > 30 && largest > 8, "{} and {largest}", found.len());
 }

@@ -3,9 +3,11 @@
 use glam::Vec3;
 
 use super::case::cases;
-use super::set::{Set, indexed, inside, moved, on_edge, on_surface, ray_to, star};
+use super::set::{Set, indexed, inside, moved, on_edge, on_surface, ray_to, star, triangle};
+use crate::exact;
 use crate::geometry::Ray;
 use crate::validate::Sampler;
+use crate::validate::adversarial::{near_the_largest_t, rounded_ends};
 
 cases! {
     Added 85 "scale_7e-15", Hit => tiny_star,
@@ -23,6 +25,9 @@ cases! {
     Added 89 "depth_on_a_needle", Oracle => depth_on_a_needle,
         "A needle grazed at a sine of 5e-3: t has half of the digits of f64, which a tolerance of 1 % hides.",
         "an independent check: t of a test in f64 115 ulps off";
+    Added 90 "t_rounds_to_t_max", Hit => before_the_end,
+        "The exact t lies before t_max and rounds to it, half of the time near the largest float, where crossings overflow.",
+        "a user's ray: both KD-trees lost a hit just before t_max = 3.4028235e38";
 }
 
 fn tiny_star(count: usize) -> Set {
@@ -62,6 +67,27 @@ fn depth_on_a_needle(count: usize) -> Set {
         [[-405851.38, 785724.8, -466819.28], [405851.56, -785725.3, 466820.28], [365266.44, -707152.8, 420138.3]];
     let first = [[49.000397, -704.82355, 176.40697], [-9731.703, 19450.404, -11313.292]];
     along_edges(corners, first, count, 64, grazing)
+}
+
+fn before_the_end(count: usize) -> Set {
+    let mesh = star();
+    Set::new(mesh.clone(), count, 65, |sampler| {
+        loop {
+            let corners = triangle(&mesh, sampler);
+            let [u, v, w] = sampler.barycentric();
+            let target = corners[0] * u + corners[1] * v + corners[2] * w;
+            let from = target + sampler.direction() * sampler.pick(&[8.0, 64.0, 1024.0]);
+            let mut ray = Ray::new(from, (target - from) * (0.5 + sampler.unit()));
+            if sampler.coin() {
+                ray = exact::hit(&ray, corners).map_or(ray, |t| near_the_largest_t(&ray, t.approximate()));
+            }
+            let t =
+                exact::hit(&ray, corners).filter(|t| t.round().is_finite() && t.compare(t.round()).unwrap().is_lt());
+            if let Some(t) = t {
+                return rounded_ends(&ray, &t)[0];
+            }
+        }
+    })
 }
 
 /// One triangle; origin and direction of the ray that was found first, and others at or beside points of its edges.

@@ -21,12 +21,12 @@ fn sets(count: usize) -> impl Iterator<Item = (&'static HardCase, Expected, Set)
 }
 
 #[test]
-fn there_are_89_numbers_and_every_case_has_a_name_of_its_own() {
+fn there_are_90_numbers_and_every_case_has_a_name_of_its_own() {
     let cases = catalogue();
     let numbers: BTreeSet<u32> = cases.iter().map(|case| case.number).collect();
-    assert!(numbers.into_iter().eq(1..=89));
+    assert!(numbers.into_iter().eq(1..=90));
     // Number 23 stands at two scales.
-    assert_eq!(cases.len(), 90);
+    assert_eq!(cases.len(), 91);
     let names: BTreeSet<&str> = cases.iter().map(|case| case.name).collect();
     assert_eq!(names.len(), cases.len());
     for case in cases {
@@ -73,7 +73,7 @@ fn every_machine_makes_the_same_cases() {
         let number = |x: u32| if f32::from_bits(x).is_nan() { u32::MAX } else { x };
         bits(&set.rays).into_iter().for_each(|x| hasher.update(number(x).to_le_bytes()));
     }
-    assert_eq!(&format!("{:x}", hasher.finalize())[..16], "8dc51079e6486ac8");
+    assert_eq!(&format!("{:x}", hasher.finalize())[..16], "fc041eda6dee462d");
 }
 
 #[test]
@@ -107,7 +107,7 @@ fn what_must_be_hit_is_and_what_must_be_missed_is_not() {
             Expected::Oracle => assert!(hits > 0, "{}: nothing at all is hit", case.name),
         }
     }
-    assert_eq!((hit, missed), (48, 10));
+    assert_eq!((hit, missed), (49, 10));
 }
 
 /// Rationals, which share nothing with oracle and exact test: all triangles of small meshes, of others those that are

@@ -1,5 +1,6 @@
-//! The SAH among a few planes of each axis and for some of the references where a node is large, and among all planes where it is
-//! small: a fraction of the time and memory of keeping all events sorted, for trees that cost nearly the same.
+//! The SAH among a few planes of each axis and for some of the references where a node is large, and among all planes
+//! where it is small: a fraction of the time and memory of keeping all events sorted, for trees that cost nearly the
+//! same.
 
 use super::config::CellConfig;
 use super::grow::{Content, Context, Place};

@@ -17,10 +17,10 @@ impl CellConfig {
     /// Every plane of every node.
     pub const ALL_PLANES: u32 = u32::MAX;
 
-    /// The cells that a wide tree is made of: cheap steps, since three of them are one step of that tree, and all planes only
-    /// where nodes are small or never. In larger nodes the cheapest of all often cuts off empty space, which a tight box does without: by
-    /// the heuristic the finished tree costs 0.94 to 0.98 as much with 8 in place of 65,536 in the highest preset. 24 builds a little
-    /// faster than 8.
+    /// The cells that a wide tree is made of: cheap steps, since three of them are one step of that tree, and all
+    /// planes only where nodes are small or never. In larger nodes the cheapest of all often cuts off empty space,
+    /// which a tight box does without: by the heuristic the finished tree costs 0.94 to 0.98 as much with 8 in place of
+    /// 65,536 in the highest preset. 24 builds a little faster than 8.
     pub fn new(quality: Quality) -> Self {
         let (exact, candidates, sample, step) = match quality {
             Quality::Fast => (0, 12, 512, 1.0),

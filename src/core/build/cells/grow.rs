@@ -81,7 +81,8 @@ pub(crate) trait Tree<C>: Default + Send {
     /// Appends an inner node, whose children are not known yet.
     fn open(&mut self);
 
-    /// The node `inner` is cut; everything below the second child begins with the node `second`, and its last is the last there is.
+    /// The node `inner` is cut; everything below the second child begins with the node `second`, and its last is the
+    /// last there is.
     fn close(&mut self, inner: usize, cut: Cut, second: usize);
 
     /// Adds the nodes of `other` behind these.
@@ -200,15 +201,16 @@ impl Place {
         !discarded && self.affords(below, above)
     }
 
-    /// Whether sides of these sizes are progress, or the lack of it may be had once more: not for the third time in a row.
+    /// Whether sides of these sizes are progress, or the lack of it may be had once more: not for the third time in a
+    /// row.
     pub fn progresses<C>(&self, context: &Context<C>, count: usize, below: usize, above: usize) -> bool {
         context.rules.is_progress(count, below, above) || self.stalled < 2
     }
 }
 
 impl Rules {
-    /// Whether neither side has all triangles of the node. The middle of a cell may also leave all of them in one half, but for
-    /// those that reach into the other: the cell is smaller, and that is what such a rule is after.
+    /// Whether neither side has all triangles of the node. The middle of a cell may also leave all of them in one half,
+    /// but for those that reach into the other: the cell is smaller, and that is what such a rule is after.
     fn is_progress(&self, count: usize, below: usize, above: usize) -> bool {
         let most = if self.one_side_is_progress { below.min(above) } else { below.max(above) };
         most < count

@@ -1,9 +1,9 @@
 //! The exact SAH plane by a sweep over sorted events, kept sorted from the root down: O(n log n) for the whole tree.
 //!
 //! # References
-//! Wald, Havran: On building fast kd-trees for ray tracing, and on doing that in O(N log N). IEEE Symposium on Interactive
-//! Ray Tracing 2006. We depart from the paper in that a triangle in the plane goes to the cheaper side only (the traversal
-//! visits both sides of a plane that it crosses), and in the guard against duplication.
+//! Wald, Havran: On building fast kd-trees for ray tracing, and on doing that in O(N log N). IEEE Symposium on
+//! Interactive Ray Tracing 2006. We depart from the paper in that a triangle in the plane goes to the cheaper side only
+//! (the traversal visits both sides of a plane that it crosses), and in the guard against duplication.
 
 use rayon::prelude::*;
 

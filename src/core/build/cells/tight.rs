@@ -11,12 +11,13 @@ use crate::geometry::{Aabb, Mesh};
 /// References that a leaf may hold; fuller ones are dealt out to several.
 const MOST: usize = 64;
 
-/// Cells that hold something, each as the tight box of what its triangles have in it, and the inner nodes that are still needed.
+/// Cells that hold something, each as the tight box of what its triangles have in it, and the inner nodes that are
+/// still needed.
 #[derive(Default)]
 struct Cells(BinaryTree);
 
-/// The cells of `mesh` that are not empty, as tight boxes, with at most `duplication` references a triangle. The tree does not depend on the
-/// number of threads.
+/// The cells of `mesh` that are not empty, as tight boxes, with at most `duplication` references a triangle. The tree
+/// does not depend on the number of threads.
 pub(crate) fn build(mesh: &Mesh, config: &CellConfig, duplication: f32) -> BinaryTree {
     let context = Context::new(mesh, Rules::sah(duplication), config);
     let Cells(tree) = grow(&context, Binned::all(&context));

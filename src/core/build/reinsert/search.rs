@@ -30,7 +30,8 @@ impl<'a> Search<'a> {
         Self { links, own, own_area, best: 0.0, target: None, open, visits: 0 }.climb(at, parent)
     }
 
-    /// Goes up from `at`; what lies beside the path is searched, knowing what the removal saves on the path up to there.
+    /// Goes up from `at`; what lies beside the path is searched, knowing what the removal saves on the path up to
+    /// there.
     fn climb(mut self, at: u32, parent: u32) -> Option<u32> {
         let links = self.links;
         let mut saved = links[parent].area;

@@ -8,25 +8,25 @@ pub(crate) struct SbvhConfig {
     pub splits: Splits,
     /// Candidate planes and bins of an axis, in 2..=62; more finds cheaper splits and takes longer.
     pub candidates: u32,
-    /// Nodes of at most this many references try every object split; larger ones try `candidates`. The cheapest of all splits is
-    /// not the best for the tree: 64 in place of 16 costs 2 to 8 % more by the heuristic in the end.
+    /// Nodes of at most this many references try every object split; larger ones try `candidates`. The cheapest of all
+    /// splits is not the best for the tree: 64 in place of 16 costs 2 to 8 % more by the heuristic in the end.
     pub exact: u32,
-    /// Nodes of at most this many references see the clipped triangle in every slab of a spatial split; larger ones see its
-    /// box cut by the slab.
+    /// Nodes of at most this many references see the clipped triangle in every slab of a spatial split; larger ones see
+    /// its box cut by the slab.
     pub sliced: u32,
     /// Nodes of at least this many references look closer around the best plane of a spatial split.
     pub refined: u32,
     /// Of larger nodes, only about so many references tell where to split. At least 16.
     pub sample: u32,
-    /// Spatial splits beside object splits are tried where the children of the best object split overlap by more than this
-    /// share of the root's area, in [0, 1]. Stich, Friedrich, Dietrich use 1e-5; more makes fewer references
-    /// and takes less time: 1e-4 in place of the preset's 1e-3 builds 1.2 to 1.3 times as long, for the same speed.
+    /// Spatial splits beside object splits are tried where the children of the best object split overlap by more than
+    /// this share of the root's area, in [0, 1]. Stich, Friedrich, Dietrich use 1e-5; more makes fewer references and
+    /// takes less time: 1e-4 in place of the preset's 1e-3 builds 1.2 to 1.3 times as long, for the same speed.
     pub alpha: f32,
-    /// What the common part of the boxes of an object split costs, beside spatial splits, as a multiple of testing there the triangles of
-    /// the smaller side. At least 0, as in the paper; between 2 and 10 trees are equally fast.
+    /// What the common part of the boxes of an object split costs, beside spatial splits, as a multiple of testing
+    /// there the triangles of the smaller side. At least 0, as in the paper; between 2 and 10 trees are equally fast.
     pub overlap_cost: f32,
-    /// Cost of a step from a node to its two children. Positive; more gives bigger leaves. A step of an 8-wide tree is about
-    /// three of these.
+    /// Cost of a step from a node to its two children. Positive; more gives bigger leaves. A step of an 8-wide tree is
+    /// about three of these.
     pub node_cost: f32,
     /// Cost of testing a block of eight triangles. Positive; more gives smaller leaves.
     pub block_cost: f32,
@@ -56,7 +56,8 @@ impl SbvhConfig {
             Quality::Balanced => (20, 16, 0, 16, 16384),
             Quality::High => (20, 16, 4096, 16, 16384),
         };
-        // What costs time where only planes may split is making references: a fast build makes fewer, and larger leaves.
+        // What costs time where only planes may split is making references: a fast build makes fewer, and larger
+        // leaves.
         let node_cost = match quality {
             Quality::Fast if spatial => 1.5,
             Quality::Fast => 0.4,

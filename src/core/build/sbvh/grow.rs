@@ -36,8 +36,8 @@ enum Split {
 
 /// The tree over the triangles of `mesh` that have an area. It does not depend on the number of threads.
 ///
-/// Takes O(n log n) time and memory: paths have at most 16 + 2 log2 n levels and those of halving a rest, and all leaves
-/// together hold at most `config.duplication` times the triangles.
+/// Takes O(n log n) time and memory: paths have at most 16 + 2 log2 n levels and those of halving a rest, and all
+/// leaves together hold at most `config.duplication` times the triangles.
 pub(crate) fn build(mesh: &Mesh, config: &SbvhConfig) -> BinaryTree {
     growth(mesh, config).tree
 }
@@ -151,10 +151,11 @@ fn cheapest(
     }
 }
 
-/// What an object split of `count` references costs more beside the best spatial one. The heuristic lets every ray visit each box that it
-/// meets; but a ray with a hit in the nearer side need not visit the other, unless the two overlap. So what both have in common costs once
-/// more, by the side with fewer triangles. Not where the plane adds more than a sixteenth of the references, as where shells are nested: those
-/// are then missing below. And not in small nodes, where references that are added fill blocks of their own.
+/// What an object split of `count` references costs more beside the best spatial one. The heuristic lets every ray
+/// visit each box that it meets; but a ray with a hit in the nearer side need not visit the other, unless the two
+/// overlap. So what both have in common costs once more, by the side with fewer triangles. Not where the plane adds
+/// more than a sixteenth of the references, as where shells are nested: those are then missing below. And not in small
+/// nodes, where references that are added fill blocks of their own.
 fn overlap_cost(context: &Context, count: usize, object: &Offer<Split>, spatial: &Offer<Split>) -> f64 {
     if count < 4 * BLOCK || spatial.counts.iter().sum::<usize>() > count + count / 16 {
         return 0.0;

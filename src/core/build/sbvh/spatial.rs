@@ -17,9 +17,10 @@ const SLOTS: usize = 2 * PLANES + 2;
 
 /// What begins and what ends in each slot: how many references, and their whole boxes.
 ///
-/// What lies below a plane is the parts there of all that begins below it. A plane cuts off of a box just what is beyond it, and the box
-/// of all that is cut off so is the box of the whole ones, cut off at the plane: no reference need be looked at for the slots between its ends.
-/// Only sliced triangles grow each bin on their way by their slice there, among what begins in it and among what ends.
+/// What lies below a plane is the parts there of all that begins below it. A plane cuts off of a box just what is
+/// beyond it, and the box of all that is cut off so is the box of the whole ones, cut off at the plane: no reference
+/// need be looked at for the slots between its ends. Only sliced triangles grow each bin on their way by their slice
+/// there, among what begins in it and among what ends.
 pub(super) struct Slots {
     begin: [u32; SLOTS],
     end: [u32; SLOTS],

@@ -9,16 +9,17 @@ use libloading::Library;
 /// Names the library to load.
 pub const VARIABLE: &str = "SAHARA_EMBREE";
 
-/// What the system's search path is asked for.
+/// The names that are looked up in the system's search path.
 const NAMES: [&str; 4] = ["libembree4.so.4", "libembree4.so", "libembree4.4.dylib", "embree4.dll"];
 
 /// An object of Embree.
 pub type Handle = *mut c_void;
 
-/// Told of errors: the pointer handed in, the code, a sentence.
+/// Receives errors: the pointer given with the function, the code, a sentence.
 pub type OnError = unsafe extern "C" fn(*mut c_void, c_int, *const c_char);
 
-/// Told of memory: the pointer handed in, bytes taken or given back, whether it has happened already. May refuse.
+/// Receives changes of memory: the pointer given with the function, bytes taken or given back, whether that has
+/// happened already. May refuse.
 pub type OnMemory = unsafe extern "C" fn(*mut c_void, isize, bool) -> bool;
 
 /// How a query is made: the head of `RTCIntersectArguments` and `RTCOccludedArguments`, which agree, with room for what
@@ -49,7 +50,7 @@ macro_rules! api {
             /// # Safety
             /// `library` must be Embree 4.
             unsafe fn find(library: &Library) -> Result<Self, libloading::Error> {
-                // SAFETY: the types are those of Embree 4's headers, by the caller's word.
+                // SAFETY: by the contract of this function it is Embree 4, and the types are those of its headers.
                 unsafe { Ok(Self { $($field: *library.get(concat!($symbol, "\0").as_bytes())?,)* }) }
             }
         }
@@ -98,7 +99,8 @@ fn load() -> Result<(Library, Api), String> {
     };
     let mut failure = None;
     let library = candidates.iter().find_map(|name| {
-        // SAFETY: the user names the library, or it is the system's; its initialisers are Embree's.
+        // SAFETY: loading runs the initialisers of the library. It is the one that the user names, or the system's own
+        // Embree: both are trusted to be what they are named.
         let loaded = unsafe { Library::new(name) };
         loaded.map_err(|error| failure = Some(error)).ok()
     });
@@ -119,12 +121,12 @@ fn load() -> Result<(Library, Api), String> {
         let place = named.as_ref().map_or(NAMES[0].into(), |path| path.display().to_string());
         format!("{place} is not Embree 4: {what}; set {VARIABLE} to the path of libembree4")
     };
-    // SAFETY: `version` calls nothing that changed its type since Embree 3; only then the rest is trusted.
+    // SAFETY: a library with these symbols is Embree's, and `version` calls only what has kept its type since Embree 3.
     let version = unsafe { version(&library) }.map_err(|error| other(&error.to_string()))?;
     if version / 10_000 != 4 {
         return Err(other(&format!("its version is {}.{}", version / 10_000, version / 100 % 100)));
     }
-    // SAFETY: it says that it is Embree 4.
+    // SAFETY: its version, checked above, says that it is Embree 4.
     let api = unsafe { Api::find(&library) }.map_err(|error| other(&error.to_string()))?;
     Ok((library, api))
 }
@@ -134,7 +136,7 @@ fn load() -> Result<(Library, Api), String> {
 /// # Safety
 /// If `library` has these symbols, they must be Embree's, of version 3 or later.
 unsafe fn version(library: &Library) -> Result<isize, libloading::Error> {
-    // SAFETY: by the caller's word, these types have not changed since.
+    // SAFETY: by the contract of this function the symbols are Embree's, whose types have not changed since version 3.
     unsafe {
         let new_device = library.get::<unsafe extern "C" fn(*const c_char) -> Handle>(b"rtcNewDevice\0")?;
         let property = library.get::<unsafe extern "C" fn(Handle, c_int) -> isize>(b"rtcGetDeviceProperty\0")?;
@@ -157,6 +159,6 @@ pub unsafe fn sentence(text: *const c_char) -> String {
     if text.is_null() {
         return "it gives no reason".into();
     }
-    // SAFETY: by the caller's word.
+    // SAFETY: by the contract of this function it is a string of C, for it is not null.
     unsafe { CStr::from_ptr(text) }.to_string_lossy().into_owned()
 }

@@ -9,8 +9,9 @@ use super::api::{Api, FLOAT3, Handle, INDICES, TRIANGLES, UINT3, VERTICES, api, 
 use crate::accel::BuildError;
 use crate::geometry::Mesh;
 
+/// What Embree reports by itself.
 #[derive(Default)]
-struct Told {
+struct Monitor {
     /// The first error since the last look.
     error: Mutex<Option<String>>,
     /// Bytes that it holds.
@@ -22,31 +23,31 @@ pub struct Scene {
     api: &'static Api,
     device: Handle,
     scene: Handle,
-    /// Embree holds a pointer to it. In an `Arc`, which stays where it is and may be shared: a pointer into a `Box` is no longer
-    /// valid once the box is moved.
-    told: Arc<Told>,
+    /// Embree holds a pointer to it. In an `Arc`, which stays where it is and may be shared: a pointer into a `Box` is
+    /// no longer valid once the box is moved.
+    monitor: Arc<Monitor>,
 }
 
 // SAFETY: Embree's objects may be used and released by any thread, and a committed scene may be asked by many at once.
 unsafe impl Send for Scene {}
-// SAFETY: as above; `Told` is made of atomics and a lock.
+// SAFETY: as for `Send`; `Monitor` is made of an atomic and a lock.
 unsafe impl Sync for Scene {}
 
 /// # Safety
-/// `told` is what was given with this function, and outlives the device; `text` is null or a string of C.
-unsafe extern "C" fn on_error(told: *mut c_void, _: c_int, text: *const c_char) {
-    // SAFETY: as the caller says.
-    let (told, text) = unsafe { (&*told.cast::<Told>(), sentence(text)) };
-    if let Ok(mut error) = told.error.lock() {
+/// `monitor` is what was given with this function, and outlives the device; `text` is null or a string of C.
+unsafe extern "C" fn on_error(monitor: *mut c_void, _: c_int, text: *const c_char) {
+    // SAFETY: by the contract of this function the monitor lives, and `text` is null or a string of C.
+    let (monitor, text) = unsafe { (&*monitor.cast::<Monitor>(), sentence(text)) };
+    if let Ok(mut error) = monitor.error.lock() {
         error.get_or_insert(text);
     }
 }
 
 /// # Safety
-/// `told` is what was given with this function, and outlives the device.
-unsafe extern "C" fn on_memory(told: *mut c_void, bytes: isize, _: bool) -> bool {
-    // SAFETY: as the caller says.
-    unsafe { &*told.cast::<Told>() }.bytes.fetch_add(bytes, Ordering::Relaxed);
+/// `monitor` is what was given with this function, and outlives the device.
+unsafe extern "C" fn on_memory(monitor: *mut c_void, bytes: isize, _: bool) -> bool {
+    // SAFETY: by the contract of this function the monitor lives.
+    unsafe { &*monitor.cast::<Monitor>() }.bytes.fetch_add(bytes, Ordering::Relaxed);
     true
 }
 
@@ -55,19 +56,20 @@ impl Scene {
     pub fn new(mesh: &Mesh, ids: &[u32], flags: c_int, quality: c_int, threads: usize) -> Result<Self, BuildError> {
         let api = api().map_err(BuildError::Unavailable)?;
         let options = CString::new(format!("threads={threads},set_affinity=0")).expect("no zero inside");
-        // SAFETY: the calls and their order are those of Embree's manual; `scene` releases what has been made, whatever fails.
+        // SAFETY: the calls and their order are those of Embree's manual. The monitor that the functions are given is
+        // kept in `scene`, which releases the device before it drops the monitor, whatever fails.
         unsafe {
             let device = (api.new_device)(options.as_ptr());
             if device.is_null() {
                 let code = (api.device_error)(ptr::null_mut());
                 return Err(BuildError::Unavailable(format!("Embree gives no device: error {code}")));
             }
-            let told: Arc<Told> = Arc::default();
-            let listener = Arc::as_ptr(&told).cast_mut().cast();
+            let monitor: Arc<Monitor> = Arc::default();
+            let listener = Arc::as_ptr(&monitor).cast_mut().cast();
             (api.on_error)(device, on_error, listener);
             (api.on_memory)(device, on_memory, listener);
 
-            let scene = Self { api, device, scene: (api.new_scene)(device), told };
+            let scene = Self { api, device, scene: (api.new_scene)(device), monitor };
             (api.set_scene_flags)(scene.scene, flags);
             (api.set_scene_quality)(scene.scene, quality);
             if !ids.is_empty() {
@@ -81,8 +83,8 @@ impl Scene {
     /// Hands over the triangles. Embree pads and aligns the buffers that it makes itself.
     fn attach(&self, mesh: &Mesh, ids: &[u32], quality: c_int) -> Result<(), BuildError> {
         let (api, positions) = (self.api, mesh.positions());
-        // SAFETY: both buffers have the number of items asked for, of 12 bytes each; the geometry is released here and kept
-        // alive by the scene.
+        // SAFETY: the buffers are not null, and have as many items of 12 bytes as the calls ask for and the loops
+        // write; the geometry is released here and kept alive by the scene.
         unsafe {
             let geometry = (api.new_geometry)(self.device, TRIANGLES);
             let vertices: *mut Vec3 = (api.new_buffer)(geometry, VERTICES, 0, FLOAT3, 12, positions.len()).cast();
@@ -104,7 +106,7 @@ impl Scene {
     }
 
     fn refusal(&self) -> Option<BuildError> {
-        let error = self.told.error.lock().ok()?.take()?;
+        let error = self.monitor.error.lock().ok()?.take()?;
         Some(BuildError::Mesh(format!("Embree refuses: {error}")))
     }
 
@@ -122,13 +124,13 @@ impl Scene {
 
     /// All that the device holds: nodes, triangles, buffers.
     pub fn bytes(&self) -> usize {
-        self.told.bytes.load(Ordering::Relaxed).max(0) as usize
+        self.monitor.bytes.load(Ordering::Relaxed).max(0) as usize
     }
 }
 
 impl Drop for Scene {
     fn drop(&mut self) {
-        // SAFETY: both were made by `new` and are released once; what the listener writes to goes after them.
+        // SAFETY: `new` has made both, and they are released here alone; the monitor is dropped after this function.
         unsafe {
             (self.api.release_scene)(self.scene);
             (self.api.release_device)(self.device);

@@ -2,11 +2,12 @@
 //! `SAHARA_EMBREE` or from the system's.
 //!
 //! Its flag ROBUST changes the triangle test with the boxes, and so makes a structure of its own here: `embree` and
-//! `embree-robust`. Its own triangle test is the only one; brute force over it is a scene of one triangle for every triangle
-//! that is asked for ([`alone`]). Rays and packets of eight or sixteen are brought into its form before the clock starts: 48, 384
-//! and 768 bytes, all that it reads. It writes into them the end of the hit, so that they are copied to the stack to be asked,
-//! followed by an empty hit: the cheapest way to ask the same rays again, and what a renderer does that makes rays where it needs
-//! them. It builds on the threads of the caller. What its tree looks like is not known: its shape is that of one leaf.
+//! `embree-robust`. Its own triangle test is the only one; brute force over it is a scene of one triangle for every
+//! triangle that is asked for ([`alone`]). Rays and packets of eight or sixteen are brought into its form before the
+//! clock starts: 48, 384 and 768 bytes, all that it reads. It writes into them the end of the hit, so that they are
+//! copied to the stack to be asked, followed by an empty hit: the cheapest way to ask the same rays again, and what a
+//! renderer does that makes rays where it needs them. It builds on the threads of the caller. What its tree looks like
+//! is not known: its shape is that of one leaf.
 //!
 //! # References
 //! Wald, Woop, Benthin, Johnson, Ernst: Embree: a kernel framework for efficient CPU ray tracing. SIGGRAPH 2014.
@@ -24,7 +25,7 @@ use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
 use crate::accel::{Accel, BuildError, Capabilities, Footprint, Loaded, Observed, Observer, TreeShape};
-use crate::external::prepared::{Prepare, Prepared};
+use crate::external::prepared::{Prepare, PreparedBatch};
 use crate::geometry::{Hit, Mesh, Ray};
 use api::Arguments;
 use device::Scene;
@@ -74,7 +75,7 @@ impl Mode for Robust {
     const CONVENTIONS: &'static [&'static str] = &["counts edges within rounding errors as hit"];
 }
 
-/// How Embree builds and is asked.
+/// How Embree builds and is queried.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct EmbreeConfig {
@@ -82,7 +83,7 @@ pub struct EmbreeConfig {
     pub quality: Quality,
     /// Rays at a time: 1, 8 or 16. Packets as wide as the registers are the fastest: 8 with AVX2, 16 with AVX-512.
     pub packet: Lanes,
-    /// What it is told of the rays of a packet.
+    /// Whether its queries are told that the rays of a packet are coherent.
     pub rays: Rays,
 }
 
@@ -279,13 +280,14 @@ impl<M: Mode> Accel for Embree<M> {
 
     fn load<'a>(&'a self, rays: Cow<'a, [Ray]>) -> Box<dyn Loaded + 'a> {
         match self.packet {
-            Lanes::One => Box::new(Prepared::new(self, &rays)),
+            Lanes::One => Box::new(PreparedBatch::new(self, &rays)),
             Lanes::Eight => self.packets::<8>(&rays),
             Lanes::Sixteen => self.packets::<16>(&rays),
         }
     }
 
-    /// As Embree's own memory monitor counts, buffers of corners included; what is nodes and what triangles is not known.
+    /// As Embree's own memory monitor counts, buffers of corners included; what is nodes and what triangles is not
+    /// known.
     fn footprint(&self) -> Footprint {
         let references = size_of_val(&self.ids[..]);
         Footprint { references, other: self.scene.bytes(), ..Footprint::default() }
@@ -303,7 +305,8 @@ impl<M: Mode> Accel for Embree<M> {
     }
 }
 
-/// One triangle in a scene of its own: what Embree's triangle test says without a walk. Takes a fraction of a millisecond.
+/// One triangle in a scene of its own: what Embree's triangle test says without a walk. Takes a fraction of a
+/// millisecond.
 pub fn alone<M: Mode>(ray: &Ray, corners: [Vec3; 3]) -> Option<f32> {
     let mesh = Arc::new(Mesh::new(corners.into(), vec![[0, 1, 2]]).ok()?);
     let scene = Embree::<M>::build(&mesh, &EmbreeConfig { quality: Quality::Medium, ..Default::default() }).ok()?;

@@ -1,6 +1,6 @@
 //! Rays as Embree takes them, one, eight or sixteen.
 //!
-//! A query reads the ray and writes its end and the hit behind it: a ray that is kept is copied to be asked.
+//! A query reads the ray, and writes the end of its interval and the hit: each query gets a copy of the ray.
 
 use std::ffi::c_int;
 
@@ -26,7 +26,7 @@ pub struct Single {
 
 /// `RTCRayHit`, with room for what later versions of Embree 4 add to its hit.
 #[repr(C, align(16))]
-struct AskedSingle {
+struct SingleQuery {
     ray: Single,
     normal: [f32; 3],
     barycentrics: [f32; 2],
@@ -36,12 +36,12 @@ struct AskedSingle {
     reserve: [u32; 3],
 }
 
-const _: () = assert!(size_of::<Single>() == 48 && size_of::<AskedSingle>() == 96);
+const _: () = assert!(size_of::<Single>() == 48 && size_of::<SingleQuery>() == 96);
 
 /// `RTCRay8` or `RTCRay16`.
 #[repr(C, align(64))]
 #[derive(Clone, Copy)]
-struct Several<const LANES: usize> {
+struct RayLanes<const LANES: usize> {
     origin: [[f32; LANES]; 3],
     t_near: [f32; LANES],
     direction: [[f32; LANES]; 3],
@@ -54,8 +54,8 @@ struct Several<const LANES: usize> {
 
 /// `RTCRayHit8` or `RTCRayHit16`, with the same room.
 #[repr(C, align(64))]
-struct AskedSeveral<const LANES: usize> {
-    rays: Several<LANES>,
+struct PacketQuery<const LANES: usize> {
+    rays: RayLanes<LANES>,
     normal: [[f32; LANES]; 3],
     barycentrics: [[f32; LANES]; 2],
     primitive: [u32; LANES],
@@ -63,15 +63,15 @@ struct AskedSeveral<const LANES: usize> {
     instances: [[u32; LANES]; 2],
 }
 
-const _: () = assert!(size_of::<Several<16>>() == 768 && size_of::<AskedSeveral<16>>() == 1344);
-const _: () = assert!(size_of::<Several<8>>() == 384 && size_of::<AskedSeveral<8>>() >= 672);
+const _: () = assert!(size_of::<RayLanes<16>>() == 768 && size_of::<PacketQuery<16>>() == 1344);
+const _: () = assert!(size_of::<RayLanes<8>>() == 384 && size_of::<PacketQuery<8>>() >= 672);
 
-/// At most `LANES` rays, 8 or 16; those that are not valid are not asked.
+/// At most `LANES` rays, 8 or 16; rays that are not valid are left out of the query.
 #[repr(C, align(64))]
 pub struct Packet<const LANES: usize> {
-    /// -1 for the lanes that are asked.
+    /// -1 for the lanes in use.
     valid: [c_int; LANES],
-    rays: Several<LANES>,
+    rays: RayLanes<LANES>,
 }
 
 /// The last `t` that a ray which ends before `t_max` may have: Embree's end is closed.
@@ -100,7 +100,7 @@ impl Single {
     /// `t` and the number of the triangle that the ray hits first.
     #[inline(always)]
     pub fn closest(&self, scene: &Scene, arguments: &Arguments) -> Option<(f32, u32)> {
-        let mut asked = AskedSingle {
+        let mut query = SingleQuery {
             ray: *self,
             normal: [0.0; 3],
             barycentrics: [0.0; 2],
@@ -109,18 +109,19 @@ impl Single {
             instances: [NONE; 2],
             reserve: [0; 3],
         };
-        // SAFETY: the scene is committed; the ray is aligned and as large as any Embree 4 writes.
-        unsafe { (scene.api().intersect1)(scene.handle(), (&raw mut asked).cast(), arguments) };
-        (asked.geometry != NONE).then_some((asked.ray.t_far, asked.primitive))
+        // SAFETY: `Scene::new` has committed the scene; the ray is aligned as Embree asks, and as large as any Embree 4
+        // writes (asserted at its type).
+        unsafe { (scene.api().intersect1)(scene.handle(), (&raw mut query).cast(), arguments) };
+        (query.geometry != NONE).then_some((query.ray.t_far, query.primitive))
     }
 
     /// Whether the ray hits anything.
     #[inline(always)]
     pub fn any(&self, scene: &Scene, arguments: &Arguments) -> bool {
-        let mut asked = *self;
-        // SAFETY: as above; this query has no hit.
-        unsafe { (scene.api().occluded1)(scene.handle(), (&raw mut asked).cast(), arguments) };
-        asked.t_far == f32::NEG_INFINITY
+        let mut ray = *self;
+        // SAFETY: as in `closest`; this query writes no hit.
+        unsafe { (scene.api().occluded1)(scene.handle(), (&raw mut ray).cast(), arguments) };
+        ray.t_far == f32::NEG_INFINITY
     }
 }
 
@@ -131,7 +132,7 @@ impl<const LANES: usize> Packet<LANES> {
         const { assert!(LANES == 8 || LANES == 16, "there are queries for packets of 8 and of 16") };
         assert!(rays.len() <= LANES, "a packet has {LANES} lanes");
         let mut valid = [0; LANES];
-        let mut packet = Several {
+        let mut packet = RayLanes {
             origin: [[0.0; LANES]; 3],
             t_near: [0.0; LANES],
             direction: [[0.0; LANES]; 3],
@@ -161,7 +162,7 @@ impl<const LANES: usize> Packet<LANES> {
         scene: &Scene,
         arguments: &Arguments,
     ) -> impl Iterator<Item = Option<(f32, u32)>> + use<LANES> {
-        let mut asked = AskedSeveral {
+        let mut query = PacketQuery {
             rays: self.rays,
             normal: [[0.0; LANES]; 3],
             barycentrics: [[0.0; LANES]; 2],
@@ -169,20 +170,21 @@ impl<const LANES: usize> Packet<LANES> {
             geometry: [NONE; LANES],
             instances: [[NONE; LANES]; 2],
         };
-        let query = if const { LANES == 8 } { scene.api().intersect8 } else { scene.api().intersect16 };
-        // SAFETY: the scene is committed; mask and packet are aligned and as large as any Embree 4 reads and writes.
-        unsafe { query(self.valid.as_ptr(), scene.handle(), (&raw mut asked).cast(), arguments) };
-        let (geometry, t, primitive) = (asked.geometry, asked.rays.t_far, asked.primitive);
+        let intersect = if const { LANES == 8 } { scene.api().intersect8 } else { scene.api().intersect16 };
+        // SAFETY: `Scene::new` has committed the scene; mask and packet are aligned as Embree asks, and as large as any
+        // Embree 4 reads and writes (asserted at their types).
+        unsafe { intersect(self.valid.as_ptr(), scene.handle(), (&raw mut query).cast(), arguments) };
+        let (geometry, t, primitive) = (query.geometry, query.rays.t_far, query.primitive);
         (0..LANES).map(move |lane| (geometry[lane] != NONE).then_some((t[lane], primitive[lane])))
     }
 
     /// As [`Single::any`], lane by lane.
     #[inline]
     pub fn any(&self, scene: &Scene, arguments: &Arguments) -> impl Iterator<Item = bool> + use<LANES> {
-        let mut asked = self.rays;
-        let query = if const { LANES == 8 } { scene.api().occluded8 } else { scene.api().occluded16 };
-        // SAFETY: as above; this query has no hit.
-        unsafe { query(self.valid.as_ptr(), scene.handle(), (&raw mut asked).cast(), arguments) };
-        asked.t_far.into_iter().map(|t| t == f32::NEG_INFINITY)
+        let mut rays = self.rays;
+        let occluded = if const { LANES == 8 } { scene.api().occluded8 } else { scene.api().occluded16 };
+        // SAFETY: as in `closest`; this query writes no hit.
+        unsafe { occluded(self.valid.as_ptr(), scene.handle(), (&raw mut rays).cast(), arguments) };
+        rays.t_far.into_iter().map(|t| t == f32::NEG_INFINITY)
     }
 }

@@ -42,8 +42,8 @@ impl Tree for Bvh2 {
         })
     }
 
-    /// The walk of obvhs, step by step, without the assertion at every node that its children exist, and with an observer. Gives
-    /// the same hits as its own, which a test holds.
+    /// The walk of obvhs, step by step, without the assertion at every node that its children exist, and with an
+    /// observer. Gives the same hits as its own, which a test holds.
     #[inline(always)]
     unsafe fn walk<const ANY: bool>(
         &self,
@@ -52,7 +52,7 @@ impl Tree for Bvh2 {
         observer: &mut impl Observer,
     ) -> Option<RayHit> {
         fast_stack!(u32, (96, 192), self.max_depth, stack, {
-            // SAFETY: by the caller's word.
+            // SAFETY: `leads_inside` holds by the contract of this function.
             unsafe { descend::<ANY, _>(&self.nodes, &mut stack, ray, test, observer) }
         })
     }
@@ -106,7 +106,7 @@ unsafe fn descend<const ANY: bool, O: Observer>(
     observer.inner();
     let mut first = root.first_index;
     loop {
-        // SAFETY: the caller's word.
+        // SAFETY: by the contract of this function `first` and the node after it exist, for a node links to them.
         let [mut near, mut far] =
             unsafe { [nodes.get_unchecked(first as usize), nodes.get_unchecked(first as usize + 1)] };
         let (mut near_t, mut far_t) = (near.aabb().intersect_ray(&ray), far.aabb().intersect_ray(&ray));

@@ -33,8 +33,8 @@ impl Tree for CwBvh {
         size_of_val(&self.nodes[..])
     }
 
-    /// As a walk reads the nodes: of a child with triangles the number of the first and a bit for each, of an inner child its place
-    /// among the inner ones.
+    /// As a walk reads the nodes: of a child with triangles the number of the first and a bit for each, of an inner
+    /// child its place among the inner ones.
     fn leads_inside(&self, triangles: usize) -> bool {
         self.nodes.iter().all(|node| {
             (0..8).filter(|&child| !node.is_child_empty(child)).all(|child| {
@@ -49,8 +49,8 @@ impl Tree for CwBvh {
         })
     }
 
-    /// The walk of obvhs through its own macro, as its documentation recommends, over nodes without a check of bounds. A group of
-    /// triangles that a node hands over counts as no node of its own, so only inner nodes are steps.
+    /// The walk of obvhs through its own macro, as its documentation recommends, over nodes without a check of bounds.
+    /// A group of triangles that a node hands over counts as no node of its own, so only inner nodes are steps.
     #[inline(always)]
     unsafe fn walk<const ANY: bool>(
         &self,
@@ -61,8 +61,9 @@ impl Tree for CwBvh {
         let mut hit = RayHit::none();
         let mut state = self.new_traversal(ray.direction);
         let mut node;
-        // SAFETY: the walk begins at the root, if there is one, and goes on to children alone, which exist by the caller's word.
-        let tree = unsafe { Unchecked::new(&self.nodes) };
+        // SAFETY: the walk begins at the root, if there is one, and goes on to children alone, which exist:
+        // `leads_inside` holds by the contract of this function.
+        let tree = unsafe { UncheckedTree::new(&self.nodes) };
         traverse!(
             tree,
             node,
@@ -117,28 +118,28 @@ enum Place {
 }
 
 /// What the macro of obvhs takes for a tree.
-struct Unchecked<'a> {
-    nodes: Nodes<'a>,
+struct UncheckedTree<'a> {
+    nodes: UncheckedNodes<'a>,
 }
 
 /// Nodes that are found without a check of bounds.
-struct Nodes<'a>(&'a [CwBvhNode]);
+struct UncheckedNodes<'a>(&'a [CwBvhNode]);
 
-impl<'a> Unchecked<'a> {
+impl<'a> UncheckedTree<'a> {
     /// # Safety
-    /// Only numbers of nodes that exist may be asked for.
+    /// Only numbers of nodes that exist may be looked up.
     unsafe fn new(nodes: &'a [CwBvhNode]) -> Self {
-        Self { nodes: Nodes(nodes) }
+        Self { nodes: UncheckedNodes(nodes) }
     }
 }
 
-impl Index<usize> for Nodes<'_> {
+impl Index<usize> for UncheckedNodes<'_> {
     type Output = CwBvhNode;
 
     #[inline(always)]
     fn index(&self, at: usize) -> &CwBvhNode {
         debug_assert!(at < self.0.len());
-        // SAFETY: the word of whom `Unchecked::new` was called by.
+        // SAFETY: by the contract of `UncheckedTree::new` only numbers of nodes that exist are looked up.
         unsafe { self.0.get_unchecked(at) }
     }
 }

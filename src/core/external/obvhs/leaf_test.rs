@@ -8,8 +8,8 @@ use super::RtTest;
 use crate::geometry::Ray;
 use crate::triangle::{Depth, TriangleTest};
 
-/// A triangle test in the form in which obvhs calls it: infinity for a miss, and the beginning of the interval enforced,
-/// which obvhs' own traversals leave to the test.
+/// A triangle test in the form in which obvhs calls it: infinity for a miss, and the beginning of the interval
+/// enforced, which obvhs' own traversals leave to the test.
 pub trait LeafTest: Send + Sync + 'static {
     /// The name of the triangle test.
     const NAME: &'static str;
@@ -23,6 +23,13 @@ pub trait LeafTest: Send + Sync + 'static {
 
     /// Prepares a ray.
     fn prepare(ray: &Ray) -> Self::Ray;
+
+    /// Where the interval of obvhs' ray ends, for a ray that ends before `t_max`: it takes no hit whose rounded `t` is
+    /// that.
+    #[inline(always)]
+    fn end(t_max: f32) -> f32 {
+        t_max
+    }
 
     /// The `t` of a hit, infinity for a miss.
     fn test(triangle: &Self::Triangle, ray: &PreparedRay, prepared: &Self::Ray) -> f32;
@@ -43,6 +50,12 @@ impl<T: TriangleTest> LeafTest for Over<T> {
     #[inline(always)]
     fn prepare(ray: &Ray) -> Self::Ray {
         (*ray, T::prepare(ray))
+    }
+
+    /// Behind the last `t`: a test that decides exactly may round one before `t_max` to `t_max`.
+    #[inline(always)]
+    fn end(t_max: f32) -> f32 {
+        T::last(t_max).next_up()
     }
 
     #[inline(always)]

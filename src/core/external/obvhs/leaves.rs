@@ -45,7 +45,7 @@ impl<T: LeafTest> Leaves<T> {
     pub fn start(&self, ray: &Ray) -> Option<(PreparedRay, T::Ray)> {
         let (t_min, t_max) = ray.interval();
         (ray.is_valid() && !self.ids.is_empty()).then(|| {
-            let prepared = PreparedRay::new(ray.origin.into(), ray.direction.into(), t_min, t_max);
+            let prepared = PreparedRay::new(ray.origin.into(), ray.direction.into(), t_min, T::end(t_max));
             (prepared, T::prepare(ray))
         })
     }
@@ -58,7 +58,7 @@ impl<T: LeafTest> Leaves<T> {
     pub unsafe fn test(&self, prepared: T::Ray) -> impl Fn(&PreparedRay, usize) -> f32 {
         move |ray, index| {
             debug_assert!(index < self.triangles.len());
-            // SAFETY: the caller's word.
+            // SAFETY: by the contract of this function the number is below `len`.
             T::test(unsafe { self.triangles.get_unchecked(index) }, ray, &prepared)
         }
     }

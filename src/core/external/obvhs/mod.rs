@@ -1,17 +1,17 @@
 //! The baseline: the BVHs of the crate `obvhs`, adapted without handicap. Nothing else in this crate imports it.
 //!
-//! Each is offered over our triangle tests and over obvhs' own [`RtTest`], which is its fastest form. Triangles are laid out
-//! in the order of the tree once, so that no traversal follows an index; the number of the final hit is mapped back once. The ray
-//! is prepared once with obvhs' own inverse direction, inside of the timed region, as our own structures do; `rays=loaded` prepares it
-//! before the clock starts.
+//! Each is offered over our triangle tests and over obvhs' own [`RtTest`], which is its fastest form. Triangles are
+//! laid out in the order of the tree once, so that no traversal follows an index; the number of the final hit is mapped
+//! back once. The ray is prepared once with obvhs' own inverse direction, inside of the timed region, as our own
+//! structures do; `rays=loaded` prepares it before the clock starts.
 //!
-//! What our own trees get, these get: arrays on large pages, triangles converted on all threads, no check of bounds. The walks are
-//! those of obvhs without its checks: the links that they follow are checked once, when the tree is built. The conversion of the
-//! binary tree to the 8-wide one is obvhs' own, which runs on one thread.
+//! What our own trees get, these get: arrays on large pages, triangles converted on all threads, no check of bounds.
+//! The walks are those of obvhs without its checks: the links that they follow are checked once, when the tree is
+//! built. The conversion of the binary tree to the 8-wide one is obvhs' own, which runs on one thread.
 //!
-//! Known defects of obvhs 0.4.0, which the validation shows and does not hide: `CwBvh` misses every ray with a direction
-//! component of -0.0 and loses hits with t < 1e-4; both lose axis-parallel rays close to a box face, and rays with short
-//! directions; the build takes quadratic time on coincident triangles.
+//! Known defects of obvhs 0.4.0, which the validation shows and does not hide: `CwBvh` misses every ray with a
+//! direction component of -0.0 and loses hits with t < 1e-4; both lose axis-parallel rays close to a box face, and rays
+//! with short directions; the build takes quadratic time on coincident triangles.
 
 mod bvh2;
 mod config;
@@ -56,7 +56,8 @@ fn aabb(bounds: obvhs::aabb::Aabb) -> Aabb {
     Aabb { min: bounds.min.into(), max: bounds.max.into() }
 }
 
-/// What the two trees of obvhs have in common. Tests give `t` of a triangle in the order of the tree, infinity for a miss.
+/// What the two trees of obvhs have in common. Tests give `t` of a triangle in the order of the tree, infinity for a
+/// miss.
 pub trait Tree: Send + Sync + Sized + 'static {
     /// Builds it.
     fn build(triangles: &[Triangle], params: BvhBuildParams) -> Self;
@@ -95,14 +96,14 @@ impl<B: Tree, T: LeafTest> Prepare for Obvhs<B, T> {
 
     #[inline(always)]
     fn closest<O: Observer>(&self, &(ray, prepared): &Self::Ready, observer: &mut O) -> Option<Hit> {
-        // SAFETY: `build` has checked that the tree's links lead inside, and the places in its leaves to triangles.
+        // SAFETY: `build` has asserted `leads_inside`: links lead to nodes, and places in leaves to triangles.
         let found = unsafe { self.tree.walk::<false>(ray, self.leaves.test(prepared), observer) };
         found.map(|hit| self.leaves.hit(hit))
     }
 
     #[inline(always)]
     fn any<O: Observer>(&self, &(ray, prepared): &Self::Ready, observer: &mut O) -> bool {
-        // SAFETY: as above.
+        // SAFETY: as in `closest`.
         unsafe { self.tree.walk::<true>(ray, self.leaves.test(prepared), observer) }.is_some()
     }
 

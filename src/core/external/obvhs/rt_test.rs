@@ -10,9 +10,9 @@ use crate::triangle::decided_at_once::decided_at_once;
 
 /// The triangle test of obvhs: Möller-Trumbore on precomputed edges and normal, 64 bytes a triangle.
 ///
-/// Wrapped as a test of ours, so that brute force over it can be the reference of the BVHs that use it. It tells signs by the
-/// sign bit of rounded quotients, and so misses hits exactly on an edge where a coordinate comes out as -0.0, from the back
-/// and on the third edge also from the front.
+/// Wrapped as a test of ours, so that brute force over it can be the reference of the BVHs that use it. It tells signs
+/// by the sign bit of rounded quotients, and so misses hits exactly on an edge where a coordinate comes out as -0.0,
+/// from the back and on the third edge also from the front.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct RtTest;
 

@@ -7,6 +7,7 @@ use rand_pcg::Pcg32;
 use super::*;
 use crate::build::check::{straddling_soup, unit};
 use crate::traversal::pages;
+use crate::triangle::Exact;
 
 fn soup(triangles: usize) -> Arc<Mesh> {
     Arc::new(straddling_soup(triangles, 3))
@@ -61,6 +62,22 @@ macro_rules! own_walk {
 fn the_walk_of_each_tree_gives_the_hits_of_its_own() {
     same_answers::<Bvh2>(own_walk!());
     same_answers::<CwBvh>(own_walk!());
+}
+
+/// The exact `t` is one third, just before the float that it is rounded to.
+#[test]
+fn a_hit_that_is_rounded_to_the_end_is_found() {
+    fn found<B: Tree>(t_max: f32) -> (Option<Hit>, bool) {
+        let mesh = Arc::new(Mesh::new(vec![Vec3::X, Vec3::Y, Vec3::Z], vec![[0, 1, 2]]).unwrap());
+        let built = Obvhs::<B, Over<Exact>>::build(&mesh, &ObvhsConfig::default()).unwrap();
+        let ray = Ray::new(Vec3::ZERO, Vec3::ONE).until(t_max);
+        (built.closest_hit(&ray, &mut ()), built.any_hit(&ray, &mut ()))
+    }
+    let third: f32 = 1.0 / 3.0;
+    for found in [found::<Bvh2>, found::<CwBvh>] {
+        assert_eq!(found(third), (Some(Hit::new(third, 0)), true));
+        assert_eq!(found(third.next_down()), (None, false));
+    }
 }
 
 fn same_when_loaded<B: Tree>() {

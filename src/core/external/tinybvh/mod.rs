@@ -1,11 +1,12 @@
-//! [tinybvh](https://github.com/jbikker/tinybvh) 1.6.8 by the crate `tinybvh-rs` 0.1: an 8-wide BVH with four triangles a leaf
-//! (`BVH8_CPU`), which is its fastest layout on a processor with AVX2.
+//! [tinybvh](https://github.com/jbikker/tinybvh) 1.6.8 by the crate `tinybvh-rs` 0.1: an 8-wide BVH with four triangles
+//! a leaf (`BVH8_CPU`), which is its fastest layout on a processor with AVX2.
 //!
-//! A C++ compiler builds it, for the instructions of this machine. The crate hands out the closest hit alone, and declares a
-//! ray of 64 bytes where C++ has 128. So only its builders are called through the crate; both queries are called in the library that
-//! it links, by their names there, with a ray of the right size ([`query`]). The ray (unit direction, inverse) is made before
-//! the clock starts; for a closest hit it is copied to the stack, because the hit is written into it. Triangles are copied as
-//! corners of 16 bytes, as it wants them; large scenes it builds on threads of its own.
+//! A C++ compiler builds it, for the instructions of this machine. The crate hands out the closest hit alone, and
+//! declares a ray of 64 bytes where C++ has 128. So only its builders are called through the crate; both queries are
+//! called in the library that it links, by their names there, with a ray of the right size ([`query`]). The ray (unit
+//! direction, inverse) is made before the clock starts; for a closest hit it is copied to the stack, because the hit is
+//! written into it. Triangles are copied as corners of 16 bytes, as it wants them; large scenes it builds on threads of
+//! its own.
 //!
 //! # References
 //! Fuetterling, Lojewski, Pfreundt, Ebert: Accelerated single ray tracing for wide vector units. HPG 2017.
@@ -21,7 +22,7 @@ use tinybvh_rs::{Positions, bvh, bvh8_cpu, mbvh};
 use crate::accel::{Accel, BuildError, Capabilities, Footprint, Observed, Observer, TreeShape};
 use crate::external::prepared::{Prepare, prepared_queries};
 use crate::geometry::{Hit, Mesh, Ray};
-use query::{Head, Tree};
+use query::{RayHead, Tree};
 
 /// The 8-wide BVH of tinybvh.
 pub struct TinyBvh {
@@ -69,7 +70,7 @@ fn inverse(x: f32) -> f32 {
 
 /// A ray as tinybvh wants it, and what gives `t` back.
 pub(crate) struct Ready {
-    ray: Head,
+    ray: RayHead,
     /// Of the direction.
     length: f32,
     t_min: f32,
@@ -85,18 +86,18 @@ impl Prepare for TinyBvh {
         }
         let (t_min, t_max) = ray.interval();
         let length = ray.direction.length();
-        // It knows no beginning: the ray starts where its interval does.
+        // tinybvh has no `t_min`: the ray starts where its interval does.
         let origin = if t_min > 0.0 { ray.at(t_min) } else { ray.origin };
         let unit = ray.direction * (1.0 / length);
         let inverse = Vec3::from_array(unit.to_array().map(inverse));
         let end = ((t_max - t_min) * length).min(FAR);
-        // Its own check ends the process where this sum, so and in this order, is no number; and where the direction or these
-        // products overflow, the empty children of a node are no longer missed, and it reads what is not there.
+        // A check of tinybvh ends the process if this sum, in this order, is NaN. If the direction or these products
+        // overflow, rays no longer miss the empty children of a node, and tinybvh reads outside of its arrays.
         let checked = unit.x + unit.y + unit.z + end + origin.x + origin.y + origin.z;
         if checked.is_nan() || !unit.is_finite() || !(origin * inverse).is_finite() {
             return None;
         }
-        let ray = Head {
+        let ray = RayHead {
             origin: origin.to_array(),
             mask: EVERYTHING,
             direction: unit.to_array(),
@@ -145,8 +146,8 @@ fn built(corners: Positions, quality: Quality) -> Result<(bvh8_cpu::BVH, TreeSha
 /// Nodes that its walk and the conversion to its fastest layout keep on a stack without looking at its end.
 const STACK: usize = 256;
 
-/// The shape, and how many nodes may wait on a stack: in the walk all children but one of every node of a path, and room for
-/// eight; in the conversion two words for each child that is no leaf.
+/// The shape, and how many nodes may wait on a stack: in the walk all children but one of every node of a path, and
+/// room for eight; in the conversion two words for each child that is no leaf.
 fn shape(nodes: &[mbvh::Node]) -> (TreeShape, usize) {
     let (mut shape, mut most) = (TreeShape::default(), 0);
     let mut stack = vec![(0, 0, 0)];

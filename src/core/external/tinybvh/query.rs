@@ -1,8 +1,8 @@
 //! The two queries of `BVH8_CPU`, called in the C++ library that `tinybvh-rs` compiles and links.
 //!
-//! The crate passes a ray of 64 bytes to functions that read 128, and does not pass on `IsOccluded` at all. Both functions are
-//! called here by the names that the C++ compiler gives them (Itanium ABI). What is
-//! relied on, the layout of the ray and of the crate's tree, holds for the version that `Cargo.toml` pins.
+//! The crate passes a ray of 64 bytes to functions that read 128, and does not pass on `IsOccluded` at all. Both
+//! functions are called here by the names that the C++ compiler gives them (Itanium ABI). What is relied on, the layout
+//! of the ray and of the crate's tree, holds for the version that `Cargo.toml` pins.
 
 use std::ffi::c_void;
 use std::mem;
@@ -12,7 +12,7 @@ use tinybvh_rs::bvh8_cpu;
 /// `tinybvh::Ray` up to its 64 bytes of custom data: all that a query reads and writes.
 #[repr(C, align(64))]
 #[derive(Clone, Copy)]
-pub struct Head {
+pub struct RayHead {
     pub origin: [f32; 3],
     pub mask: u32,
     pub direction: [f32; 3],
@@ -28,12 +28,12 @@ pub struct Head {
 
 /// `tinybvh::Ray` as large as C++ has it.
 #[repr(C, align(64))]
-struct Whole {
-    head: Head,
+struct FullRay {
+    head: RayHead,
     custom: [u64; 8],
 }
 
-const _: () = assert!(size_of::<Head>() == 64 && size_of::<Whole>() == 128);
+const _: () = assert!(size_of::<RayHead>() == 64 && size_of::<FullRay>() == 128);
 
 /// A finished tree and the C++ object in it.
 pub struct Tree {
@@ -42,26 +42,29 @@ pub struct Tree {
     object: *const c_void,
 }
 
-// SAFETY: the tree owns its nodes and triangles; both queries are `const` in C++, read them and write to the caller's ray alone.
+// SAFETY: the tree owns its nodes and triangles; both queries are `const` in C++, read them and write to the caller's
+// ray alone.
 unsafe impl Send for Tree {}
-// SAFETY: as above.
+// SAFETY: as for `Send`.
 unsafe impl Sync for Tree {}
 
 #[cfg(target_env = "msvc")]
 compile_error!("peer-tinybvh calls C++ by the names of the Itanium ABI, which Microsoft's compiler does not follow");
 
-// SAFETY: the names hold the types of the arguments, and the results are those of tinybvh in the version that `Cargo.toml` pins.
+// SAFETY: the names hold the types of the arguments, and the results are those of tinybvh in the version that
+// `Cargo.toml` pins.
 unsafe extern "C" {
     #[link_name = "_ZNK7tinybvh8BVH8_CPU9IntersectERNS_3RayE"]
-    fn intersect(tree: *const c_void, ray: *mut Whole) -> i32;
+    fn intersect(tree: *const c_void, ray: *mut FullRay) -> i32;
     #[link_name = "_ZNK7tinybvh8BVH8_CPU10IsOccludedERKNS_3RayE"]
-    fn is_occluded(tree: *const c_void, ray: *const Whole) -> bool;
+    fn is_occluded(tree: *const c_void, ray: *const FullRay) -> bool;
 }
 
 impl Tree {
     pub fn new(owner: bvh8_cpu::BVH) -> Self {
         const { assert!(size_of::<bvh8_cpu::BVH>() == size_of::<*const c_void>()) };
-        // SAFETY: the crate's tree has one field, C++'s `unique_ptr`, which is a pointer; by its size there is nothing else in it.
+        // SAFETY: the crate's tree has one field, C++'s `unique_ptr`, which is a pointer; by its size there is nothing
+        // else in it.
         let object = unsafe { mem::transmute_copy::<bvh8_cpu::BVH, *const c_void>(&owner) };
         assert!(!object.is_null(), "a converted tree has an object");
         Self { _owner: owner, object }
@@ -69,19 +72,20 @@ impl Tree {
 
     /// Distance and triangle of the nearest hit before `ray.t`, in (0, `ray.t`).
     #[inline]
-    pub fn closest(&self, ray: &Head) -> Option<(f32, u32)> {
-        let mut whole = Whole { head: *ray, custom: [0; 8] };
-        // SAFETY: the object lives as long as `self`, wherever that is moved: it lies on the heap of C++. The ray is as large and
-        // aligned as its type in C++, and nobody else's.
+    pub fn closest(&self, ray: &RayHead) -> Option<(f32, u32)> {
+        let mut whole = FullRay { head: *ray, custom: [0; 8] };
+        // SAFETY: the object lives as long as `self`, wherever that is moved: it lies on the heap of C++. The ray is as
+        // large and aligned as its type in C++ (asserted at `FullRay`), and nothing else refers to it.
         unsafe { intersect(self.object, &raw mut whole) };
         (whole.head.t < ray.t).then_some((whole.head.t, whole.head.primitive))
     }
 
     /// Whether anything is hit in (0, `ray.t`). Stops at the first hit.
     #[inline]
-    pub fn any(&self, ray: &Head) -> bool {
-        let whole = Whole { head: *ray, custom: [0; 8] };
-        // SAFETY: as above; this query writes nothing.
+    pub fn any(&self, ray: &RayHead) -> bool {
+        let whole = FullRay { head: *ray, custom: [0; 8] };
+        // SAFETY: the object lives as long as `self`; the ray is as large and aligned as its type in C++, and this
+        // query writes nothing.
         unsafe { is_occluded(self.object, &raw const whole) }
     }
 }

@@ -6,15 +6,15 @@ use crate::exact;
 use crate::geometry::Ray;
 use crate::simd::{Arithmetic, LaneVec3, Lanes, Portable, each};
 
-/// What is certain of a ray and a triangle.
-pub(super) enum Sight {
+/// What `f64` decides about a line and a triangle.
+pub(super) enum Bounds {
     Miss,
     /// The line meets the closed triangle at an exact `t` in [`low`, `high`].
     Hit {
         low: f64,
         high: f64,
     },
-    /// Rounding hides it.
+    /// Undecided, because of rounding.
     Unclear,
 }
 
@@ -23,16 +23,16 @@ const UNIT: f64 = f64::EPSILON / 2.0;
 
 /// Looks at the line of `ray` and a triangle, by Möller-Trumbore.
 ///
-/// **Bounds.** Let s = o - a, e and f the edges from a, u = s . (d x f), v = d . (s x e), det = e . (d x f), h = f . (s x e); the
-/// line meets the closed triangle if u, v, w = det - u - v have no opposite signs and det is not zero, at t = h / det. With
-/// n = 2^-53, E bounding the components of e and f, D those of d, and |s| the sum of those of s: differences of inputs, products and
-/// sums are off by n of themselves, so that the components of d x f are off by 3.1 n 2 D E, the sum of those of s x e by
-/// 4.1 n 2 E |s|, and hence u and v by 7.1 n 2 D E |s|, det by 7.1 n 6 D E E, w by the sum of these and 2 n of its terms,
-/// 9.2 n (4 D E |s| + 6 D E E), and h by 8.1 n 2 E E |s|. The constants below are larger by more than the rounding of the bounds.
-/// `f32` inputs neither overflow nor underflow: products of three differences and a direction are below 2^520 and, if not zero,
-/// at least 2^-596.
+/// **Bounds.** Let s = o - a, e and f the edges from a, u = s . (d x f), v = d . (s x e), det = e . (d x f), h = f . (s
+/// x e); the line meets the closed triangle if u, v, w = det - u - v have no opposite signs and det is not zero, at t =
+/// h / det. With n = 2^-53, E bounding the components of e and f, D those of d, and |s| the sum of those of s:
+/// differences of inputs, products and sums are off by n of themselves, so that the components of d x f are off by 3.1
+/// n 2 D E, the sum of those of s x e by 4.1 n 2 E |s|, and hence u and v by 7.1 n 2 D E |s|, det by 7.1 n 6 D E E, w
+/// by the sum of these and 2 n of its terms, 9.2 n (4 D E |s| + 6 D E E), and h by 8.1 n 2 E E |s|. The constants below
+/// are larger by more than the rounding of the bounds. `f32` inputs neither overflow nor underflow: products of three
+/// differences and a direction are below 2^520 and, if not zero, at least 2^-596.
 #[inline(always)]
-pub(super) fn look(ray: &Ray, corners: [Vec3; 3]) -> Sight {
+pub(super) fn look(ray: &Ray, corners: [Vec3; 3]) -> Bounds {
     let (origin, direction) = (ray.origin.as_dvec3(), ray.direction.as_dvec3());
     let [a, b, c] = each(&corners, |corner| corner.as_dvec3());
     let (to_origin, edge1, edge2) = (origin - a, b - a, c - a);
@@ -48,25 +48,26 @@ pub(super) fn look(ray: &Ray, corners: [Vec3; 3]) -> Sight {
     let above = (u > side_error) | (v > side_error) | (w > third_error);
     let below = (u < -side_error) | (v < -side_error) | (w < -third_error);
     if above & below {
-        return Sight::Miss;
+        return Bounds::Miss;
     }
     let certain = (u.abs() > side_error) & (v.abs() > side_error) & (w.abs() > third_error);
     let det_error = 48.0 * unit * extent;
     if det.abs() < 1024.0 * det_error || det == 0.0 {
-        return Sight::Unclear;
+        return Bounds::Unclear;
     }
     if !certain && passes_by(ray, corners, det, [(u, side_error), (v, side_error), (w, third_error)]) {
-        return Sight::Miss;
+        return Bounds::Miss;
     }
 
     let height_error = 20.0 * UNIT * extent * extent * distance;
     let lane = Portable::<1, f64>::splat;
     let (low, high) = divide(lane(edge2.dot(q)), lane(height_error), lane(det), lane(det_error));
-    Sight::Hit { low: low.store()[0], high: high.store()[0] }
+    Bounds::Hit { low: low.store()[0], high: high.store()[0] }
 }
 
-/// Whether the line passes the triangle by, from det, the sign of which is certain, and u, v and w with their errors, in the notation of [`look`]: whether one of
-/// these has not the sign of det, which is their sum. A ray through an edge is not certain of that edge alone.
+/// Whether the line passes the triangle by, from det, the sign of which is certain, and u, v and w with their errors,
+/// in the notation of [`look`]: whether one of these has not the sign of det, which is their sum. A ray through an edge
+/// is not certain of that edge alone.
 #[cold]
 fn passes_by(ray: &Ray, [a, b, c]: [Vec3; 3], det: f64, sides: [(f64, f64); 3]) -> bool {
     let sign = det.total_cmp(&0.0);
@@ -77,11 +78,11 @@ fn passes_by(ray: &Ray, [a, b, c]: [Vec3; 3], det: f64, sides: [(f64, f64); 3]) 
     })
 }
 
-/// As [`look`], where lines are known to meet their triangles, one in each lane: the lanes where there are bounds of the exact `t`, as
-/// bits, and these. `t` is that of the plane.
+/// As [`look`], where lines are known to meet their triangles, one in each lane: the lanes where there are bounds of
+/// the exact `t`, as bits, and these. `t` is that of the plane.
 ///
-/// **Bounds.** In the notation of [`look`], the components of the normal e x f are off by 4.1 n 2 E E, so that h = s . (e x f) is
-/// off by 8.1 n 2 E E |s|, and det = -d . (e x f) by 7.1 n 6 D E E.
+/// **Bounds.** In the notation of [`look`], the components of the normal e x f are off by 4.1 n 2 E E, so that h = s .
+/// (e x f) is off by 8.1 n 2 E E |s|, and det = -d . (e x f) by 7.1 n 6 D E E.
 #[inline(always)]
 pub(super) fn place<const N: usize, L: Lanes<N>>(
     origin: LaneVec3<N, L>,
@@ -102,12 +103,13 @@ pub(super) fn place<const N: usize, L: Lanes<N>>(
     (times(det_error, 1024.0).le(det.flip_sign(det)), low, high)
 }
 
-/// Bounds of the exact `t` where lines pass the planes of triangles that they are known to meet, from how far apart the bounds are that the filter
-/// has found; everything where they are infinitely far.
+/// Bounds of the exact `t` where lines pass the planes of triangles that they are known to meet, from how far apart the
+/// bounds are that the filter has found; everything where they are infinitely far.
 ///
-/// **Bounds.** What is computed here is off as in the filter, with 2^-53 in place of 2^-24: for the same N, |s| and D the height by less than
-/// 8.1 units of N |s|, the determinant by less than 7.1 of 3 D N, where the filter has taken 10 and 10 of 6 N for the direction that it has scaled. So 2^-29
-/// of half the distance of its bounds covers both, and the other half what it rounds itself; 2^-50 of `t` covers the division and what follows.
+/// **Bounds.** What is computed here is off as in the filter, with 2^-53 in place of 2^-24: for the same N, |s| and D
+/// the height by less than 8.1 units of N |s|, the determinant by less than 7.1 of 3 D N, where the filter has taken 10
+/// and 10 of 6 N for the direction that it has scaled. So 2^-29 of half the distance of its bounds covers both, and the
+/// other half what it rounds itself; 2^-50 of `t` covers the division and what follows.
 #[inline(always)]
 pub(super) fn pass_plane<const N: usize, L: Lanes<N>>(
     origin: LaneVec3<N, L>,
@@ -124,9 +126,9 @@ pub(super) fn pass_plane<const N: usize, L: Lanes<N>>(
     (t.sub(error), t.add(error))
 }
 
-/// As [`place`] of one line and triangle, with the exact height in place of a rounded one: however near to the plane the origin lies, the
-/// bounds are off only as the determinant is, relatively, and in the plane they are zero.
-pub(super) fn place_closely(ray: &Ray, corners: [Vec3; 3]) -> Sight {
+/// As [`place`] of one line and triangle, with the exact height in place of a rounded one: however near to the plane
+/// the origin lies, the bounds are off only as the determinant is, relatively, and in the plane they are zero.
+pub(super) fn place_closely(ray: &Ray, corners: [Vec3; 3]) -> Bounds {
     let direction = ray.direction.as_dvec3();
     let [a, b, c] = each(&corners, |corner| corner.as_dvec3());
     let (edge1, edge2) = (b - a, c - a);
@@ -134,12 +136,12 @@ pub(super) fn place_closely(ray: &Ray, corners: [Vec3; 3]) -> Sight {
     let det = direction.dot(edge1.cross(edge2));
     let det_error = 48.0 * UNIT * extent * extent * direction.abs().max_element();
     if det.abs() < 1024.0 * det_error || det == 0.0 {
-        return Sight::Unclear;
+        return Bounds::Unclear;
     }
     let height = exact::height(ray.origin, corners);
     let lane = Portable::<1, f64>::splat;
     let (low, high) = divide(lane(height), lane(8.0 * f64::EPSILON * height.abs()), lane(det), lane(det_error));
-    Sight::Hit { low: low.store()[0], high: high.store()[0] }
+    Bounds::Hit { low: low.store()[0], high: high.store()[0] }
 }
 
 /// |h/d - h'/d'| <= (dh + |h'/d'| dd) / (|d'| - dd), where dd is at most 2^-10 |d'|; the rest rounds within 2^-50.

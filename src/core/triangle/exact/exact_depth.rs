@@ -2,32 +2,33 @@ use std::cmp::Ordering;
 
 use glam::Vec3;
 
-use super::enclosure::{Sight, pass_plane, place_closely};
-use super::seen;
+use super::bounds_of_hit;
+use super::enclosure::{Bounds, pass_plane, place_closely};
 use crate::exact;
 use crate::geometry::Ray;
 use crate::simd::{EightLanes, LaneVec3, indexed};
 use crate::triangle::corners::Place;
 use crate::triangle::{BETWEEN_BOUNDS, DIRECTION, Depth, INPUTS, ORIGIN};
 
-/// Where a ray meets a triangle, exactly: bounds of its `t` in `f32`, and the triangle, for when these do not tell.
+/// The exact place where a ray meets a triangle: bounds of its `t` in `f32`, and the triangle, for when these do not
+/// decide.
 #[derive(Clone, Copy, Debug)]
 pub struct ExactDepth<'a> {
     low: f32,
     high: f32,
-    /// How far apart the bounds are that the filter gave; infinite where they are not its own.
+    /// The distance between the bounds if the filter gave them; infinite otherwise.
     width: f32,
     triangle: Place<'a>,
 }
 
 impl<'a> ExactDepth<'a> {
-    /// The exact `t` is in [`low`, `high`], as the filter says, and the line of the ray meets the triangle.
+    /// A hit at an exact `t` in [`low`, `high`], by the filter.
     #[inline(always)]
     pub(super) fn new(triangle: Place<'a>, low: f32, high: f32) -> Self {
         Self { low, high, width: high - low, triangle }
     }
 
-    /// The same by a closer look than the filter's, whose bounds do not say what `f64` can tell.
+    /// The same with bounds that are not the filter's, so that their distance says nothing about the error of `f64`.
     #[inline(always)]
     pub(super) fn looked_up(self) -> Self {
         Self { width: f32::INFINITY, ..self }
@@ -39,10 +40,10 @@ impl<'a> ExactDepth<'a> {
         low <= self.high && self.low <= high
     }
 
-    /// What the exact `t` does not exceed, by `f64`.
+    /// An upper bound of the exact `t`, in `f64`.
     pub(super) fn latest(&self, ray: &Ray) -> f64 {
-        match seen(ray, self.triangle.corners()) {
-            Sight::Hit { high, .. } => high,
+        match bounds_of_hit(ray, self.triangle.corners()) {
+            Bounds::Hit { high, .. } => high,
             _ => self.high.into(),
         }
     }
@@ -59,24 +60,24 @@ impl<'a> ExactDepth<'a> {
         if surely_coplanar(&own, &others) {
             return Ordering::Equal;
         }
-        let order = |look: fn(&Ray, [Vec3; 3]) -> Sight| match (look(ray, own), look(ray, others)) {
-            (Sight::Hit { high, .. }, Sight::Hit { low, .. }) if high < low => Some(Ordering::Less),
-            (Sight::Hit { low, .. }, Sight::Hit { high, .. }) if high < low => Some(Ordering::Greater),
-            (Sight::Hit { low, high }, Sight::Hit { low: 0.0, high: 0.0 }) if low == high && high == 0.0 => {
+        let order = |look: fn(&Ray, [Vec3; 3]) -> Bounds| match (look(ray, own), look(ray, others)) {
+            (Bounds::Hit { high, .. }, Bounds::Hit { low, .. }) if high < low => Some(Ordering::Less),
+            (Bounds::Hit { low, .. }, Bounds::Hit { high, .. }) if high < low => Some(Ordering::Greater),
+            (Bounds::Hit { low, high }, Bounds::Hit { low: 0.0, high: 0.0 }) if low == high && high == 0.0 => {
                 Some(Ordering::Equal)
             }
             _ => None,
         };
         let equal = || meet_at_an_edge(ray, &own, &others).then_some(Ordering::Equal);
-        order(seen)
+        order(bounds_of_hit)
             .or_else(equal)
             .or_else(|| order(place_closely))
             .unwrap_or_else(|| self.exact(ray).cmp(&other.exact(ray)))
     }
 }
 
-/// Whether one look tells that two triangles lie in one plane, so that a line meets both at the same `t`: they have the same corners
-/// (one triangle in several leaves, or a sheet with two sides), or lie in the same axis-aligned plane.
+/// A quick test whether two triangles lie in one plane, so that a line meets both at the same `t`: they have the same
+/// corners (one triangle in several leaves, or a sheet with two sides), or lie in the same axis-aligned plane.
 #[inline(always)]
 fn surely_coplanar(a: &[Vec3; 3], b: &[Vec3; 3]) -> bool {
     let first = a[0];
@@ -114,7 +115,7 @@ impl Depth for ExactDepth<'_> {
     #[inline(always)]
     fn t(&self, ray: &Ray) -> f32 {
         let corners = self.triangle.corners();
-        match rounded(seen(ray, corners)) {
+        match rounded(bounds_of_hit(ray, corners)) {
             Some(t) => t,
             None => exact_t(ray, corners),
         }
@@ -135,12 +136,12 @@ impl Depth for ExactDepth<'_> {
         let width = L::load(&inputs[BETWEEN_BOUNDS]);
         let (low, high) = pass_plane::<8, L>(vector(ORIGIN), vector(DIRECTION), corners, width);
         let (low, high) = (L::narrow(low), L::narrow(high));
-        let (untold, mut ts) = (which & !high.le(low), high.store());
-        if untold != 0 {
-            for (lane, t) in ts.iter_mut().enumerate().filter(|(lane, _)| untold >> lane & 1 == 1) {
+        let (undecided, mut ts) = (which & !high.le(low), high.store());
+        if undecided != 0 {
+            for (lane, t) in ts.iter_mut().enumerate().filter(|(lane, _)| undecided >> lane & 1 == 1) {
                 let vector = |first: usize| Vec3::from_array(indexed(|axis| inputs[first + axis][lane]));
                 let (ray, corners) = (Ray::new(vector(ORIGIN), vector(DIRECTION)), [vector(0), vector(3), vector(6)]);
-                *t = rounded(seen(&ray, corners)).unwrap_or_else(|| exact_t(&ray, corners));
+                *t = rounded(bounds_of_hit(&ray, corners)).unwrap_or_else(|| exact_t(&ray, corners));
             }
         }
         ts
@@ -159,15 +160,15 @@ impl Depth for ExactDepth<'_> {
 
 /// The float that all numbers between these bounds round to, if it is one.
 #[inline(always)]
-fn rounded(sight: Sight) -> Option<f32> {
-    match sight {
+fn rounded(bounds: Bounds) -> Option<f32> {
+    match bounds {
         // The upper one: of two zeros it is the positive one.
-        Sight::Hit { low, high } if low as f32 == high as f32 => Some(high as f32),
+        Bounds::Hit { low, high } if low as f32 == high as f32 => Some(high as f32),
         _ => None,
     }
 }
 
-/// Where the line of `ray` meets a triangle that it is known to meet, rounded once, whatever it takes.
+/// Where the line of `ray` meets a triangle that it is known to meet, rounded once, by exact arithmetic if need be.
 #[cold]
 fn exact_t(ray: &Ray, corners: [Vec3; 3]) -> f32 {
     let exact = || exact::hit(ray, corners).expect("a depth is that of a hit").round();

@@ -10,27 +10,29 @@ use glam::Vec3;
 pub use exact_depth::ExactDepth;
 
 use super::corners::Place;
-use super::filter::{FilterBlock, FilterRay, Sights, Survivors, survive_eight, survivors};
-use super::{EightMet, EightRays, TriangleTest};
+use super::filter::{CandidateBounds, Candidates, FilterBlock, FilterRay, filter_block, filter_eight};
+use super::{EightHits, EightRays, TriangleTest};
 use crate::exact;
 use crate::geometry::{Ray, round_down, round_up};
 use crate::simd::{Arithmetic, EightLanes, LaneVec3, Lanes, Portable, each};
-use enclosure::{Sight, look, place, place_closely};
+use enclosure::{Bounds, look, place, place_closely};
 
-/// Exact answers at the price of a filter: what the `f32` stage cannot decide is decided in `f64` with a bound on its error, and what
-/// that cannot decide in integers or exact sums of floats. Each decision is made when it is needed: hits are ordered by bounds of their `t`, which are
-/// narrowed where they overlap, and one `t` a ray is computed to the last bit.
+/// Exact answers at the price of a filter: what the `f32` stage cannot decide is decided in `f64` with a bound on its
+/// error, and what that cannot decide in integers or exact sums of floats. Each decision is made when it is needed:
+/// hits are ordered by bounds of their `t`, which are narrowed where they overlap, and one `t` a ray is computed to the
+/// last bit.
 ///
-/// Promises: a triangle is hit if and only if the ray as given meets the closed triangle as given; hits are ordered by their exact
-/// `t`, at equal `t` by number; the `t` returned is the exact one, correctly rounded (so that one just before an open end `t_max` may be
-/// returned as `t_max`). In a structure that loses nothing the answer to every ray is the mathematical one. Does not promise:
-/// speed where many rays pass exactly through edges or begin in planes of triangles: each such triangle costs 50 nanoseconds, or a
-/// microsecond where the bits of the coordinates lie more than forty places apart. Where the processor has been told to take denormal numbers for
-/// zero, answers may be wrong.
+/// Promises: a triangle is hit if and only if the ray as given meets the closed triangle as given; hits are ordered by
+/// their exact `t`, at equal `t` by number; the `t` returned is the exact one, correctly rounded (so that one just
+/// before an open end `t_max` may be returned as `t_max`). In a structure that loses nothing the answer to every ray is
+/// the mathematical one. Does not promise: speed where many rays pass exactly through edges or begin in planes of
+/// triangles: each such triangle costs 50 nanoseconds, or a microsecond where the bits of the coordinates lie more than
+/// forty places apart. Where the processor has been told to take denormal numbers for zero, answers may be wrong.
 ///
 /// # References
-/// Filters before exact arithmetic: Fortune, Van Wyk: Efficient exact arithmetic for computational geometry. SoCG 1993. Shewchuk:
-/// Adaptive precision floating-point arithmetic and fast robust geometric predicates. Discrete & Computational Geometry 18,
+/// Filters before exact arithmetic: Fortune, Van Wyk: Efficient exact arithmetic for computational geometry. SoCG 1993.
+/// Shewchuk: Adaptive precision floating-point arithmetic and fast robust geometric predicates. Discrete &
+/// Computational Geometry 18,
 /// 1997. The edge test: Segura, Feito, WSCG 2001.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Exact;
@@ -49,8 +51,8 @@ impl TriangleTest for Exact {
 
     type Ray = ExactRay;
     type Block<const N: usize> = FilterBlock<N>;
-    type First<const N: usize, L: Lanes<N>> = Survivors<L>;
-    type Values<const N: usize> = Sights<N>;
+    type First<const N: usize, L: Lanes<N>> = Candidates<L>;
+    type Values<const N: usize> = CandidateBounds<N>;
     type Depth<'a> = ExactDepth<'a>;
 
     #[inline(always)]
@@ -74,13 +76,13 @@ impl TriangleTest for Exact {
         block: &FilterBlock<N>,
         _: f32,
         to: f32,
-    ) -> (u32, Survivors<L>) {
-        survivors::<N, L>(&ray.filter, block, to)
+    ) -> (u32, Candidates<L>) {
+        filter_block::<N, L>(&ray.filter, block, to)
     }
 
     #[inline(always)]
-    fn values<const N: usize, L: Lanes<N>>(first: Survivors<L>) -> Sights<N> {
-        first.sights()
+    fn values<const N: usize, L: Lanes<N>>(first: Candidates<L>) -> CandidateBounds<N> {
+        first.bounds()
     }
 
     #[inline(always)]
@@ -88,13 +90,13 @@ impl TriangleTest for Exact {
         ray: &ExactRay,
         block: &'a FilterBlock<N>,
         lane: usize,
-        sights: &Sights<N>,
+        bounds: &CandidateBounds<N>,
     ) -> Option<ExactDepth<'a>> {
-        if let Some(decided) = Self::decide_at_once(ray, block, lane, sights) {
-            // The bounds may be of a closer look, and would be taken for those of the filter.
+        if let Some(decided) = Self::decide_at_once(ray, block, lane, bounds) {
+            // The bounds may be those of `look_closer`, and would be taken for those of the filter.
             return decided.map(ExactDepth::looked_up);
         }
-        let (low, high) = in_f64(&ray.ray, block.place(lane), sights.sure >> lane & 1 == 1)?;
+        let (low, high) = in_f64(&ray.ray, block.place(lane), bounds.sure >> lane & 1 == 1)?;
         Some(ExactDepth::new(block.place(lane), low, high).looked_up())
     }
 
@@ -103,12 +105,12 @@ impl TriangleTest for Exact {
         ray: &ExactRay,
         block: &'a FilterBlock<N>,
         lane: usize,
-        sights: &Sights<N>,
+        bounds: &CandidateBounds<N>,
     ) -> Option<Option<ExactDepth<'a>>> {
-        if sights.sure >> lane & 1 == 0 {
+        if bounds.sure >> lane & 1 == 0 {
             return None;
         }
-        let (low, high, (start, end)) = (sights.low[lane], sights.high[lane], ray.ray.interval());
+        let (low, high, (start, end)) = (bounds.low[lane], bounds.high[lane], ray.ray.interval());
         if start <= low && high < end {
             Some(Some(ExactDepth::new(block.place(lane), low, high)))
         } else if high < start || end <= low {
@@ -123,16 +125,16 @@ impl TriangleTest for Exact {
         ray: &ExactRay,
         block: &FilterBlock<N>,
         candidates: u32,
-        sights: &Sights<N>,
+        bounds: &CandidateBounds<N>,
         nearest: Option<&ExactDepth>,
-    ) -> Option<(u32, Sights<N>)> {
+    ) -> Option<(u32, CandidateBounds<N>)> {
         let start = ray.ray.interval().0;
         let overlaps =
             |low: f32, high: f32| nearest.is_some_and(|hit| hit.overlaps(low, high)) || low < start && start <= high;
         let unclear = |lane: &usize| {
-            (candidates & sights.sure) >> lane & 1 == 1 && overlaps(sights.low[*lane], sights.high[*lane])
+            (candidates & bounds.sure) >> lane & 1 == 1 && overlaps(bounds.low[*lane], bounds.high[*lane])
         };
-        ((0..N).filter(unclear).count() > 2).then(|| crowd(&ray.ray, block, candidates, sights, nearest))
+        ((0..N).filter(unclear).count() > 2).then(|| crowd(&ray.ray, block, candidates, bounds, nearest))
     }
 
     #[inline(always)]
@@ -142,18 +144,18 @@ impl TriangleTest for Exact {
         lane: usize,
         to: L,
         active: L::Mask,
-    ) -> Option<EightMet<L>> {
-        let (rejected, survivors) = survive_eight(rays, block, lane, to);
-        // That all of them miss is worth a guess, for many triangles of a leaf are missed by all: it saves the bounds.
+    ) -> Option<EightHits<L>> {
+        let (rejected, candidates) = filter_eight(rays, block, lane, to);
+        // A branch, for many triangles of a leaf are missed by all rays: that saves the bounds.
         if L::bits(active) & !L::bits(rejected) == 0 {
             return None;
         }
-        let ([inside, certain], [low, high]) = survivors.look();
+        let ([inside, certain], [low, high]) = candidates.look();
         let sure = L::both(inside[0].cmp_lt(inside[1]), certain[0].cmp_lt(certain[1]));
         let within = L::both(rays.t_min.cmp_le(low), high.cmp_lt(rays.t_max));
         let without = L::either(high.cmp_lt(rays.t_min), rays.t_max.cmp_le(low));
         let missed = L::either(rejected, L::both(sure, without));
-        Some(EightMet { met: L::both(sure, within), missed, low, high })
+        Some(EightHits { met: L::both(sure, within), missed, low, high })
     }
 
     #[inline(always)]
@@ -163,14 +165,14 @@ impl TriangleTest for Exact {
 
     #[inline(always)]
     fn order_closely(ray: &ExactRay, one: &ExactDepth, other: &ExactDepth) -> Ordering {
-        // Copies, so that those that are ordered at once need no place in memory.
+        // Copies, so that depths that are ordered at once need not lie in memory.
         let (one, other) = (*one, *other);
         one.order_closely(&other, &ray.ray)
     }
 }
 
-/// Where the ray meets one triangle of which `f32` could not tell, if it does: bounds of the exact `t`. The line is known to be `met` or
-/// not. Rare, so out of line.
+/// Decides in `f64`, or exactly, a triangle that `f32` could not: bounds of the exact `t` if the ray meets it. If
+/// `met`, the line is known to meet it. Rare, so out of line.
 #[inline(never)]
 fn in_f64(ray: &Ray, triangle: Place, met: bool) -> Option<(f32, f32)> {
     let corners = triangle.corners();
@@ -178,44 +180,47 @@ fn in_f64(ray: &Ray, triangle: Place, met: bool) -> Option<(f32, f32)> {
         return None;
     }
     let (start, end) = (f64::from(ray.interval().0), ray.end());
-    let within = |sight: Sight| match sight {
-        Sight::Miss => Some(None),
-        Sight::Hit { low, high } if start <= low && high < end => Some(Some((round_down(low), round_up(high)))),
-        Sight::Hit { low, high } if high < start || end <= low => Some(None),
-        Sight::Hit { .. } | Sight::Unclear => None,
+    let within = |bounds: Bounds| match bounds {
+        Bounds::Miss => Some(None),
+        Bounds::Hit { low, high } if start <= low && high < end => Some(Some((round_down(low), round_up(high)))),
+        Bounds::Hit { low, high } if high < start || end <= low => Some(None),
+        Bounds::Hit { .. } | Bounds::Unclear => None,
     };
-    let sight = if met { seen(ray, corners) } else { look(ray, corners) };
-    let met = matches!(sight, Sight::Hit { .. });
-    within(sight).or_else(|| met.then(|| within(place_closely(ray, corners)))?).unwrap_or_else(|| exactly(ray, corners))
+    let bounds = if met { bounds_of_hit(ray, corners) } else { look(ray, corners) };
+    let met = matches!(bounds, Bounds::Hit { .. });
+    within(bounds)
+        .or_else(|| met.then(|| within(place_closely(ray, corners)))?)
+        .unwrap_or_else(|| exactly(ray, corners))
 }
 
-/// Many triangles of a block that lie so close together, or so close to the origin, that `f32` cannot tell them apart: those left of the
-/// candidates, and what `f64` tells of them.
+/// Refines in `f64` the candidates of a block of which many are too close together, or too close to the origin, for
+/// `f32`: the candidates left, and their bounds.
 #[inline(never)]
 fn crowd<const N: usize>(
     ray: &Ray,
     block: &FilterBlock<N>,
     mut candidates: u32,
-    sights: &Sights<N>,
+    bounds: &CandidateBounds<N>,
     nearest: Option<&ExactDepth>,
-) -> (u32, Sights<N>) {
+) -> (u32, CandidateBounds<N>) {
     let corners = block.corners().load::<Portable<N>>();
     let (placed, low, high) = place(LaneVec3::splat(ray.origin), LaneVec3::splat(ray.direction), corners);
     let (start, last) = (f64::from(ray.interval().0), nearest.map_or(f64::INFINITY, |hit| hit.latest(ray)));
-    let known = candidates & sights.sure & placed;
+    let known = candidates & bounds.sure & placed;
     let splat = <Portable<N> as Lanes<N>>::Double::splat;
     candidates &= !(known & (high.lt(splat(start)) | splat(last).lt(low)));
-    let (mut sights, mut left) = (*sights, candidates & known);
+    let (mut bounds, mut left) = (*bounds, candidates & known);
     while left != 0 {
         let lane = left.trailing_zeros() as usize % N;
-        // Read where it is needed: most blocks have none left.
-        (sights.low[lane], sights.high[lane]) = (round_down(low.store()[lane]), round_up(high.store()[lane]));
+        // Stored lane by lane: most blocks have none left.
+        (bounds.low[lane], bounds.high[lane]) = (round_down(low.store()[lane]), round_up(high.store()[lane]));
         left &= left - 1;
     }
-    (candidates, sights)
+    (candidates, bounds)
 }
 
-/// Whether one look tells that the ray is parallel to the plane of the triangle, or in it: an axis-aligned one, as grounds and walls are.
+/// A quick test whether the triangle is axis-aligned, as floors and walls are, and the ray parallel to its plane or in
+/// it.
 #[inline(always)]
 fn runs_along(ray: &Ray, [a, b, c]: &[Vec3; 3]) -> bool {
     (a.cmpeq(*b) & a.cmpeq(*c) & ray.direction.cmpeq(Vec3::ZERO)).any()
@@ -223,15 +228,15 @@ fn runs_along(ray: &Ray, [a, b, c]: &[Vec3; 3]) -> bool {
 
 /// As [`look`], where the line is known to meet the triangle.
 #[inline(always)]
-fn seen(ray: &Ray, corners: [Vec3; 3]) -> Sight {
+fn bounds_of_hit(ray: &Ray, corners: [Vec3; 3]) -> Bounds {
     let one = LaneVec3::<1, Portable<1>>::splat;
     match place(one(ray.origin), one(ray.direction), each(&corners, |&corner| one(corner))) {
-        (0, ..) => Sight::Unclear,
-        (_, low, high) => Sight::Hit { low: low.store()[0], high: high.store()[0] },
+        (0, ..) => Bounds::Unclear,
+        (_, low, high) => Bounds::Hit { low: low.store()[0], high: high.store()[0] },
     }
 }
 
-/// The same, whatever it takes.
+/// As [`in_f64`], in exact arithmetic.
 #[cold]
 fn exactly(ray: &Ray, corners: [Vec3; 3]) -> Option<(f32, f32)> {
     let t = exact::hit(ray, corners).filter(|t| t.is_within(ray))?.round();

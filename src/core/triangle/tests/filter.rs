@@ -1,11 +1,12 @@
 //! The first stage of the exact test loses nothing, leaves little, and is sure only of what is so.
 
-use super::super::filter::{FilterBlock, FilterRay, survivors};
+use super::super::filter::{FilterBlock, FilterRay, filter_block};
 use super::*;
 use crate::exact::ExactT;
 use crate::simd::{EightLanes, Kernel, Level, dispatch};
 
-/// What the first stage makes of one triangle, the one in lane 3 of 8: whether it is a candidate, and the bounds of `t` if it is sure of it.
+/// What the first stage makes of one triangle, the one in lane 3 of 8: whether it is a candidate, and the bounds of `t`
+/// if it is sure of it.
 struct Look<'a>(&'a Ray, [Vec3; 3], f32);
 
 impl Kernel for Look<'_> {
@@ -14,14 +15,15 @@ impl Kernel for Look<'_> {
     #[inline(always)]
     fn run<L: EightLanes>(self) -> Self::Output {
         let Look(ray, corners, to) = self;
-        let (candidates, first) = survivors::<8, L>(&FilterRay::new(ray), &FilterBlock::new(&[corners; 4]), to);
+        let (candidates, first) = filter_block::<8, L>(&FilterRay::new(ray), &FilterBlock::new(&[corners; 4]), to);
         assert_eq!(candidates >> 4, 0, "a lane left over is a candidate");
-        let sights = first.sights();
-        (candidates >> 3 & 1 == 1, (sights.sure >> 3 & 1 == 1).then(|| (sights.low[3], sights.high[3])))
+        let bounds = first.bounds();
+        (candidates >> 3 & 1 == 1, (bounds.sure >> 3 & 1 == 1).then(|| (bounds.low[3], bounds.high[3])))
     }
 }
 
-/// Aims at or beside a triangle from a few times its size away, in scenes of sizes whose products neither overflow nor underflow.
+/// Aims at or beside a triangle from a few times its size away, in scenes of sizes whose products neither overflow nor
+/// underflow.
 fn near(rng: &mut Pcg32) -> (Ray, [Vec3; 3]) {
     let scale = libm::exp2f((rng.next_u32() % 80) as f32 - 50.0);
     let corners = triangle(rng, unit).map(|p| p * scale);
