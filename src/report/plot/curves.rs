@@ -1,28 +1,30 @@
-//! Lines with the band of their intervals, each named where it ends.
+//! Lines through points with their intervals.
 
-use super::canvas::{self, Canvas, Side};
-use super::palette::{Colour, FAINT, INK, MIDDLE, colours};
-use super::scale::{Axis, Scale};
+use plotters::chart::ChartContext;
+use plotters::coord::cartesian::Cartesian2d;
+use plotters::coord::combinators::BindKeyPoints;
+use plotters::coord::ranged1d::Ranged;
+use plotters::coord::types::RangedCoordf64;
+use plotters::element::Circle;
+use plotters::prelude::DrawingBackend;
+use plotters::style::Color;
+
+use super::axes::{self, GAP, Labels, axes, height_with_legend, left_of, legend, padded, tick_text};
+use super::canvas::{Canvas, DrawResult, Place, widest};
+use super::palette::{Colour, colours};
 use crate::measure::Estimate;
 use crate::report::number::figures;
 use crate::report::words::interval;
 
-/// Lines over one pair of axes.
+/// Lines over one pair of logarithmic axes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curves {
     pub x_title: String,
     pub y_title: String,
-    pub x_scale: Scale,
-    /// Names of the values 1, 2 and so on, which the axis shows in their place; none where it shows numbers.
+    /// Names of the values 1, 2 and so on, which the axis shows, evenly spaced, in place of numbers; none where it shows
+    /// numbers.
     pub x_names: Vec<String>,
-    pub y_scale: Scale,
     pub lines: Vec<Line>,
-    /// A horizontal line at this height, and what it means: "equal".
-    pub level: Option<(f64, String)>,
-    /// What is higher is beyond the picture.
-    pub highest: Option<f64>,
-    /// A line where both coordinates are the same, and what it means: "as predicted".
-    pub diagonal: Option<String>,
 }
 
 /// A line through points, from left to right.
@@ -33,303 +35,162 @@ pub struct Line {
     /// What stands behind it.
     pub note: String,
     pub points: Vec<CurvePoint>,
-    pub mark: Mark,
 }
 
-/// How points are drawn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Mark {
-    /// A line alone: what is fitted or derived.
-    Line,
-    /// Dots alone: what has no order.
-    Dots,
-    /// Dots that a line joins: what was measured.
-    Both,
-}
-
-impl Line {
-    /// A line with nothing behind its label.
-    pub fn new(label: &str, mark: Mark, points: impl IntoIterator<Item = CurvePoint>) -> Self {
-        Self { label: label.into(), note: String::new(), points: points.into_iter().collect(), mark }
-    }
-
-    fn name(&self) -> String {
-        if self.note.is_empty() { self.label.clone() } else { format!("{} {}", self.label, self.note) }
-    }
-}
-
-/// A point with the interval of its height.
+/// A point. Both coordinates are positive.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CurvePoint {
     pub x: f64,
-    pub y: f64,
-    /// Lower and upper end.
-    pub band: Option<[f64; 2]>,
+    pub y: Estimate,
     /// Whether a ring is about it.
     pub is_marked: bool,
 }
 
 impl CurvePoint {
-    /// A point without an interval.
-    pub fn exact(x: f64, y: f64) -> Self {
-        Self { x, y, band: None, is_marked: false }
-    }
-
-    /// The estimate at `x`, with its interval if it has one.
-    pub fn of(x: f64, y: Estimate) -> Self {
-        let band = y.interval.map(|interval| [interval.low, interval.high]);
-        Self { band, ..Self::exact(x, y.estimate) }
+    pub fn new(x: f64, y: Estimate) -> Self {
+        Self { x, y, is_marked: false }
     }
 }
 
-const LINE: f64 = 19.0;
-const BOTTOM: f64 = 52.0;
-const TOP: f64 = 34.0;
+impl Line {
+    fn name(&self) -> String {
+        if self.note.is_empty() { self.label.clone() } else { format!("{} {}", self.label, self.note) }
+    }
+}
 
 impl Curves {
-    /// Lines over two logarithmic axes.
-    pub fn logarithmic(x_title: &str, y_title: &str, lines: Vec<Line>) -> Self {
-        let (x_title, y_title, scale) = (x_title.into(), y_title.into(), Scale::Log);
-        Self {
-            x_title,
-            y_title,
-            x_scale: scale,
-            x_names: vec![],
-            y_scale: scale,
-            lines,
-            level: None,
-            highest: None,
-            diagonal: None,
-        }
-    }
-
     /// Height of the drawing where it is `width` wide.
-    pub(super) fn height(&self, width: f64) -> f64 {
-        let names = if has_room(width) { 0.0 } else { self.lines.len() as f64 * LINE + 8.0 };
-        self.plot_height(width) + names
+    pub fn height(&self, width: i32) -> i32 {
+        height_with_legend((4 * width / 5).min(860), self.lines.len(), width)
     }
 
-    /// Height of the axes with their titles: names beside them have a line each.
-    fn plot_height(&self, width: f64) -> f64 {
-        let names = self.lines.len() as f64 * LINE + TOP + BOTTOM;
-        if has_room(width) { (0.5 * width).min(430.0).max(names) } else { 0.8 * width }
-    }
-
-    pub(super) fn draw(&self, canvas: &Canvas, width: f64) {
-        let (height, beside) = (self.plot_height(width), has_room(width));
+    pub fn draw<B: DrawingBackend>(&self, canvas: &Canvas<B>) -> DrawResult<B> {
         let labels: Vec<String> = self.lines.iter().map(|line| line.label.clone()).collect();
-        let (names, colours): (Vec<String>, _) = (self.lines.iter().map(Line::name).collect(), colours(&labels));
-        let widest = |names: &mut dyn Iterator<Item = &String>| {
-            names.map(|name| canvas::width_of(name, canvas::SMALL)).fold(0.0, f64::max)
-        };
-        let [x_range, y_range] = self.ranges();
-        let trial = Axis::new(self.y_scale, y_range, [height - BOTTOM, TOP]);
-        let left = widest(&mut trial.ticks_up().iter().map(|(_, text)| text)) + 12.0;
+        let colours = colours(&labels);
+        // Names follow each other like the ends of their lines.
+        let mut order: Vec<usize> = (0..self.lines.len()).collect();
+        let last = |i: usize| self.lines[i].points.last().map_or(0.0, |point| point.y.estimate);
+        order.sort_by(|&a, &b| last(b).total_cmp(&last(a)));
+        let names: Vec<(String, Colour)> = order.into_iter().map(|i| (self.lines[i].name(), colours[i])).collect();
+        let area = legend(&canvas.area, &names)?;
+        let (width, height) = area.dim_in_pixel();
+        let points = || self.lines.iter().flat_map(|line| &line.points);
+        // Intervals may be so wide that nothing else would be seen: they do not make room for themselves.
+        let y_ends = padded(points().map(|point| point.y.estimate), [0.08; 2]);
+        let y = axes::upward(y_ends, height as i32 - GAP - axes::BOTTOM);
         // The last name on the axis stands in the middle below the last value.
-        let last = 0.5 * widest(&mut self.x_names.iter()) + 2.0;
-        let beside_axes = if beside { widest(&mut names.iter()) + 20.0 } else { 12.0 };
-        let right = width - beside_axes.max(last);
-        let (x, y) = (Axis::new(self.x_scale, x_range, [left, right]), trial);
+        let [left, right] = [left_of(&y), GAP.max(widest(self.x_names.last()) / 2)];
+        let text = |x: &f64| self.x_text(*x);
+        let labels = Labels {
+            x_title: &self.x_title,
+            y_title: &self.y_title,
+            x: &text,
+            y: &|y| tick_text(*y),
+            left,
+            top: GAP,
+            right,
+        };
+        let length = width as i32 - left - right;
+        if self.x_names.is_empty() {
+            let x = axes::across(padded(points().map(|point| point.x), [0.02; 2]), length);
+            return self.draw_lines(canvas, &colours, axes(&area, (x, y), &labels)?);
+        }
+        let x: RangedCoordf64 = (0.5..self.x_names.len() as f64 + 0.5).into();
+        let shown = self.named(f64::from(length) / self.x_names.len() as f64);
+        self.draw_lines(canvas, &colours, axes(&area, (x.with_key_points(shown), y), &labels)?)
+    }
 
-        canvas.text(&self.y_title, [2.0, 10.0], canvas::SMALL, MIDDLE.light, Side::Left);
-        for (tick, text) in y.ticks_up() {
-            let at = y.place(tick);
-            canvas.line(&[[left, at], [right, at]], FAINT.light, 1.0);
-            canvas.text(&text, [left - 8.0, at], canvas::SMALL, MIDDLE.light, Side::Right);
-        }
-        let ticks = if self.x_names.is_empty() { x.ticks_across() } else { x.names_across(&self.x_names) };
-        for (tick, text) in ticks {
-            let at = x.place(tick);
-            canvas.line(&[[at, height - BOTTOM], [at, height - BOTTOM + 5.0]], MIDDLE.light, 1.0);
-            canvas.centred(&text, [at, height - BOTTOM + 16.0], canvas::SMALL, MIDDLE.light, width);
-        }
-        canvas.line(&[[left, height - BOTTOM], [right, height - BOTTOM]], MIDDLE.light, 1.0);
-        let below = [(left + right) * 0.5, height - 12.0];
-        canvas.centred(&self.x_title, below, canvas::SMALL, MIDDLE.light, width);
+    /// The values whose names are shown where each takes so many pixels: the last one, and before it at even distances as
+    /// many as fit.
+    fn named(&self, pixels: f64) -> Vec<f64> {
+        let room = f64::from(widest(&self.x_names) + GAP);
+        let step = libm::ceil(room / pixels).max(1.0) as usize;
+        (1..=self.x_names.len()).rev().step_by(step).map(|n| n as f64).collect()
+    }
 
-        if let Some((level, meaning)) = &self.level {
-            let at = y.place(*level);
-            canvas.line(&[[left, at], [right, at]], INK.light, 1.0);
-            canvas.text(meaning, [left + 6.0, at - 10.0], canvas::SMALL, INK.light, Side::Left);
-        }
-        if let Some(meaning) = &self.diagonal {
-            let (from, to) = (x_range[0].max(y_range[0]), x_range[1].min(y_range[1]));
-            let end = [x.place(to), y.place(to)];
-            canvas.line(&[[x.place(from), y.place(from)], end], MIDDLE.light, 1.5);
-            canvas.text(meaning, [end[0] - 10.0, end[1] + 4.0], canvas::SMALL, MIDDLE.light, Side::Right);
-        }
-        for (line, &colour) in self.lines.iter().zip(&colours) {
-            draw_line(canvas, line, colour, &self.x_names, x, y);
-        }
-        if beside {
-            self.names_beside(canvas, &colours, right + 10.0, y, [TOP, height - BOTTOM]);
-        } else {
-            for (i, (name, &colour)) in names.iter().zip(&colours).enumerate() {
-                let at = height + (i as f64 + 0.5) * LINE;
-                canvas.line(&[[left, at], [left + 22.0, at]], colour, 3.0);
-                canvas.text(name, [left + 30.0, at], canvas::SMALL, colour, Side::Left);
+    fn x_text(&self, x: f64) -> String {
+        let name = self.x_names.get((x as usize).saturating_sub(1));
+        name.map_or_else(|| tick_text(x), String::clone)
+    }
+
+    fn draw_lines<B, X, Y>(
+        &self,
+        canvas: &Canvas<B>,
+        colours: &[Colour],
+        chart: ChartContext<B, Cartesian2d<X, Y>>,
+    ) -> DrawResult<B>
+    where
+        B: DrawingBackend,
+        X: Ranged<ValueType = f64>,
+        Y: Ranged<ValueType = f64>,
+    {
+        let (_, range) = chart.plotting_area().get_pixel_range();
+        let range = [range.start, range.end];
+        for (line, &colour) in self.lines.iter().zip(colours) {
+            let place = |x: f64, y: f64| chart.backend_coord(&(x, y));
+            let places: Vec<Place> = line.points.iter().map(|point| place(point.x, point.y.estimate)).collect();
+            canvas.line(&places, colour, 4)?;
+            for (point, &at) in line.points.iter().zip(&places) {
+                if let Some(held) = point.y.interval {
+                    let ends = [held.low, held.high].map(|end| place(point.x, end));
+                    canvas.whisker(ends, colour, range)?;
+                }
+                canvas.area.draw(&Circle::new(at, 6, colour.filled()))?;
+                if point.is_marked {
+                    canvas.area.draw(&Circle::new(at, 14, colour.stroke_width(4)))?;
+                }
+                let x = if self.x_names.is_empty() { figures(point.x) } else { self.x_text(point.x) };
+                canvas.tip_at(at, format!("{} at {x}: {}", line.label, interval(point.y)));
             }
         }
-    }
-
-    /// Names at the heights at which the lines end, moved apart where they would touch.
-    fn names_beside(&self, canvas: &Canvas, colours: &[Colour], x: f64, y: Axis, frame: [f64; 2]) {
-        let mut ends: Vec<(f64, usize)> = self
-            .lines
-            .iter()
-            .enumerate()
-            .filter_map(|(i, line)| Some((y.place(line.points.last()?.y).clamp(frame[0], frame[1]), i)))
-            .collect();
-        ends.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        let heights = apart(&ends.iter().map(|(at, _)| *at).collect::<Vec<_>>(), LINE, frame);
-        for ((_, i), at) in ends.into_iter().zip(heights) {
-            canvas.text(&self.lines[i].name(), [x, at], canvas::SMALL, colours[i], Side::Left);
-        }
-    }
-
-    fn ranges(&self) -> [[f64; 2]; 2] {
-        let points = || self.lines.iter().flat_map(|line| &line.points);
-        let level = self.level.as_ref().map(|(level, _)| *level);
-        let highest = self.highest.unwrap_or(f64::INFINITY);
-        // Bands may be so wide that nothing else would be seen: they do not make room for themselves.
-        let y = padded(self.y_scale, &mut points().map(|p| p.y.min(highest)).chain(level), 0.08);
-        match self.x_names.len() {
-            0 => [padded(self.x_scale, &mut points().map(|p| p.x), 0.02), y],
-            names => [[0.5, names as f64 + 0.5], y],
-        }
-    }
-}
-
-/// Whether names stand at the ends of lines; else they stand below.
-fn has_room(width: f64) -> bool {
-    width >= 560.0
-}
-
-/// The range of values with some room at both ends; from zero where a linear scale comes near it.
-fn padded(scale: Scale, values: &mut dyn Iterator<Item = f64>, room: f64) -> [f64; 2] {
-    let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
-    if low > high {
-        return [1.0, 10.0];
-    }
-    match scale {
-        Scale::Log => {
-            let high = high.max(1.5 * low);
-            let factor = libm::pow(high / low, room);
-            [low / factor, high * factor]
-        }
-        Scale::Linear => {
-            let low = if low > 0.0 && low < 0.5 * high { 0.0 } else { low };
-            let span = if high > low { high - low } else { 1.0 };
-            [if low == 0.0 { 0.0 } else { low - room * span }, high + room * span]
-        }
-    }
-}
-
-/// Sorted places, moved as little as this simple way can so that neighbours are `gap` apart and all within `frame`.
-fn apart(places: &[f64], gap: f64, frame: [f64; 2]) -> Vec<f64> {
-    let mut moved: Vec<f64> = vec![];
-    for &place in places {
-        let least = moved.last().map_or(frame[0], |last| last + gap);
-        moved.push(place.max(least));
-    }
-    let mut limit = frame[1];
-    for place in moved.iter_mut().rev() {
-        *place = place.min(limit);
-        limit = *place - gap;
-    }
-    moved
-}
-
-fn draw_line(canvas: &Canvas, line: &Line, colour: Colour, x_names: &[String], x: Axis, y: Axis) {
-    let bands: Vec<(f64, [f64; 2])> = line.points.iter().filter_map(|p| Some((x.place(p.x), p.band?))).collect();
-    let [bottom, top] = y.places();
-    let within = |value: f64| y.place(value).clamp(top.min(bottom), bottom.max(top));
-    let side = |end: usize| bands.iter().map(|(at, band)| [*at, within(band[end])]).collect::<Vec<_>>();
-    if bands.len() > 1 {
-        canvas.band(&side(0), &side(1), colour);
-    }
-    // Neighbours within the picture are joined.
-    let seen = |p: &CurvePoint| (top.min(bottom) - 0.5..=top.max(bottom) + 0.5).contains(&y.place(p.y));
-    for run in line.points.chunk_by(|a, b| seen(a) == seen(b)).filter(|run| seen(&run[0])) {
-        let places: Vec<[f64; 2]> = run.iter().map(|p| [x.place(p.x), y.place(p.y)]).collect();
-        for (point, place) in run.iter().zip(&places) {
-            let value =
-                point.band.map_or(Estimate::exact(point.y), |[low, high]| Estimate::between(point.y, low, high));
-            let name = x_names.get((point.x as usize).saturating_sub(1));
-            let at = name.map_or_else(|| figures(point.x), String::clone);
-            canvas.tip_at(*place, format!("{} at {at}: {}", line.label, interval(value)));
-        }
-        if line.mark != Mark::Dots {
-            canvas.line(&places, colour, 2.0);
-        }
-        for (_, place) in run.iter().zip(&places).filter(|(point, _)| point.is_marked) {
-            canvas.ring(*place, 7.0, colour);
-        }
-        if line.mark != Mark::Line {
-            places.into_iter().for_each(|place| canvas.dot(place, 3.0, colour, true));
-        }
+        Ok(())
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::report::plot::Chart;
+    use crate::report::plot::canvas::{TEXT, width_of};
 
-    #[test]
-    fn names_are_moved_apart_and_stay_inside() {
-        assert_eq!(apart(&[10.0, 50.0], 20.0, [0.0, 100.0]), [10.0, 50.0]);
-        assert_eq!(apart(&[10.0, 12.0, 14.0], 20.0, [0.0, 100.0]), [10.0, 30.0, 50.0]);
-        assert_eq!(apart(&[95.0, 97.0, 99.0], 20.0, [0.0, 100.0]), [60.0, 80.0, 100.0]);
+    fn history(runs: usize, marked: usize) -> Curves {
+        let point = |n: usize| CurvePoint { is_marked: n == marked, ..CurvePoint::new(n as f64, Estimate::exact(2.0)) };
+        let line = Line { label: "tree".into(), note: String::new(), points: (1..=runs).map(point).collect() };
+        let x_names = (1..=runs).map(|n| format!("c0ff{n:03}")).collect();
+        Curves { x_title: "commit".into(), y_title: "speed".into(), x_names, lines: vec![line] }
     }
 
     #[test]
     fn names_stand_for_numbers_and_rings_about_marked_points() {
-        let names: Vec<String> = (1..=40).map(|n| format!("c0ffe{n:02}")).collect();
-        let svg = |marked: usize| {
-            let point = |n: usize| CurvePoint { is_marked: n == marked, ..CurvePoint::exact(n as f64, 2.0) };
-            let curves = Curves::logarithmic("commit", "", vec![Line::new("tree", Mark::Both, (1..=40).map(point))]);
-            let curves = Curves { x_scale: Scale::Linear, x_names: names.clone(), ..curves };
-            canvas::svg([360.0, curves.height(360.0)], |canvas| curves.draw(canvas, 360.0))
-        };
+        let svg = |marked: usize| Chart::Curves(history(40, marked)).svg(360.0);
         let plain = svg(0);
         // The last one is always there, others where there is room; a pointer is told each.
-        assert!(plain.contains("\nc0ffe40\n") && !plain.contains("\nc0ffe39\n"), "{plain}");
-        assert!(plain.contains("tree at c0ffe39: 2.00"), "{plain}");
+        assert!(plain.contains("\nc0ff040\n") && !plain.contains("\nc0ff039\n"), "{plain}");
+        assert!(plain.contains("tree at c0ff039: 2.00"), "{plain}");
         let circles = |svg: &str| svg.matches("<circle").count();
         assert_eq!(circles(&svg(7)), circles(&plain) + 1, "its outline alone, which hides nothing");
     }
 
     #[test]
     fn names_on_the_axis_do_not_touch() {
-        let names: Vec<String> = (1..=200).map(|n| format!("c0ff{n:03}")).collect();
-        let points = (1..=200).map(|n| CurvePoint::exact(f64::from(n), 2.0));
-        let curves = Curves::logarithmic("commit", "", vec![Line::new("tree", Mark::Both, points)]);
-        let curves = Curves { x_scale: Scale::Linear, x_names: names.clone(), ..curves };
-        let svg = canvas::svg([360.0, curves.height(360.0)], |canvas| curves.draw(canvas, 360.0));
+        let curves = history(200, 0);
+        let svg = Chart::Curves(curves.clone()).svg(360.0);
         let middle = |name: &String| {
             let (before, _) = svg.split_once(&format!("\n{name}\n"))?;
             let (_, text) = before.rsplit_once("<text x=\"")?;
-            text.split('"').next()?.parse::<f64>().ok()
+            text.split('"').next()?.parse::<i32>().ok()
         };
-        let middles: Vec<f64> = names.iter().filter_map(middle).collect();
-        // Two pixels a unit.
-        let width = 2.0 * canvas::width_of(&names[0], canvas::SMALL);
+        let middles: Vec<i32> = curves.x_names.iter().filter_map(middle).collect();
+        let width = width_of(&curves.x_names[0], TEXT);
         let are_apart = middles.windows(2).all(|pair| pair[1] - pair[0] > width);
         assert!(middles.len() > 2 && are_apart, "{width}: {middles:?}");
     }
 
     #[test]
     fn there_is_a_line_for_each_name() {
-        let line = |i: usize| Line::new(&format!("tree {i}"), Mark::Dots, []);
-        let of = |lines: usize| Curves::logarithmic("", "", (0..lines).map(line).collect());
-        assert_eq!(of(3).height(800.0), 400.0);
-        assert!(of(30).height(800.0) - TOP - BOTTOM >= 30.0 * LINE);
-    }
-
-    #[test]
-    fn a_linear_axis_begins_at_zero_where_that_is_near() {
-        assert_eq!(padded(Scale::Linear, &mut [1.0, 10.0].into_iter(), 0.1), [0.0, 11.0]);
-        assert_eq!(padded(Scale::Linear, &mut [9.0, 10.0].into_iter(), 0.1), [8.9, 10.1]);
-        assert_eq!(padded(Scale::Log, &mut std::iter::empty(), 0.1), [1.0, 10.0]);
+        let line = Line { label: "tree".into(), note: String::new(), points: vec![] };
+        let of = |lines: usize| Curves { lines: vec![line.clone(); lines], ..history(1, 0) };
+        assert_eq!(of(3).height(1600), of(1).height(1600));
+        assert!(of(30).height(1600) >= 30 * TEXT && of(3).height(720) >= of(1).height(720) + 2 * TEXT);
     }
 }

@@ -1,0 +1,207 @@
+//! Axes with round numbers, and the names of what is drawn beside or below them.
+
+use plotters::chart::{ChartBuilder, ChartContext, SeriesLabelPosition};
+use plotters::coord::cartesian::Cartesian2d;
+use plotters::coord::combinators::{BindKeyPoints, IntoLogRange, LogCoord, WithKeyPoints};
+use plotters::coord::ranged1d::{DefaultFormatting, Ranged};
+use plotters::element::Circle;
+use plotters::prelude::DrawingBackend;
+use plotters::style::Color;
+
+use super::canvas::{Area, DrawResult, TEXT, text_style, widest, width_of};
+use super::palette::{Colour, FAINT, INK, MIDDLE};
+use crate::report::number::count;
+
+/// A logarithmic axis with numbers at which it is labelled.
+pub type LogAxis = WithKeyPoints<LogCoord<f64>>;
+
+/// Numbers between a power of ten and the next one that an axis names, dense to sparse.
+const FACTORS: [&[f64]; 4] = [&[1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 7.0], &[1.0, 2.0, 5.0], &[1.0, 3.0], &[1.0]];
+
+/// A horizontal logarithmic axis of this length, with as many round numbers as fit beside each other.
+pub fn across(ends: [f64; 2], length: i32) -> LogAxis {
+    log_axis(ends, length, |tick| width_of(&tick_text(tick), TEXT) + 20)
+}
+
+/// A vertical logarithmic axis of this length, with as many round numbers as fit above each other.
+pub fn upward(ends: [f64; 2], length: i32) -> LogAxis {
+    log_axis(ends, length, |_| 48)
+}
+
+/// As many round numbers as fit, each of which takes some `room`.
+fn log_axis([low, high]: [f64; 2], length: i32, room: impl Fn(f64) -> i32) -> LogAxis {
+    let per_decade = f64::from(length) / libm::log10(high / low);
+    let exponents = libm::floor(libm::log10(low)) as i32..=libm::floor(libm::log10(high)) as i32;
+    // All decades with numbers between them, then every second, third and so on without.
+    let between = FACTORS.into_iter().map(|factors| (1, factors));
+    let powers = (2..20).map(|step| (step, FACTORS[3]));
+    let ticks = |(step, factors): (i32, &[f64])| -> Vec<f64> {
+        let exponents = exponents.clone().filter(|exponent| exponent % step == 0);
+        let ticks = exponents.flat_map(|exponent| factors.iter().map(move |factor| factor * power(exponent)));
+        ticks.filter(|tick| (low..=high).contains(tick)).collect()
+    };
+    let fit = |ticks: &Vec<f64>| {
+        ticks.windows(2).all(|pair| {
+            let gap = per_decade * libm::log10(pair[1] / pair[0]);
+            gap >= 0.5 * f64::from(room(pair[0]) + room(pair[1]))
+        })
+    };
+    let ticks = between.chain(powers).map(ticks).find(fit).unwrap_or_default();
+    (low..high).log_scale().with_key_points(ticks)
+}
+
+/// A range of positive values with some room at both ends, at least a factor of two.
+pub fn padded(values: impl Iterator<Item = f64>, [below, above]: [f64; 2]) -> [f64; 2] {
+    let (low, high) = values.fold((f64::INFINITY, 0.0), |(low, high), v| (v.min(low), v.max(high)));
+    if low > high {
+        return [1.0, 10.0];
+    }
+    let high = high.max(2.0 * low);
+    [low / libm::pow(high / low, below), high * libm::pow(high / low, above)]
+}
+
+/// What axes say, and where they stand in their area.
+pub struct Labels<'a> {
+    pub x_title: &'a str,
+    pub y_title: &'a str,
+    /// Texts of values.
+    pub x: &'a dyn Fn(&f64) -> String,
+    pub y: &'a dyn Fn(&f64) -> String,
+    /// Room for the texts at the left, above the axes and at their right.
+    pub left: i32,
+    pub top: i32,
+    pub right: i32,
+}
+
+/// Height of what is below a horizontal axis: with a title, and without.
+pub const BOTTOM: i32 = 96;
+pub const BOTTOM_WITHOUT_TITLE: i32 = 52;
+
+/// Between an axis and what is drawn beside it.
+pub const GAP: i32 = 20;
+
+/// Room at the left for the labels of a vertical axis and for its title.
+pub fn left_of(y: &LogAxis) -> i32 {
+    let texts: Vec<String> = y.bold_points().iter().map(|tick| tick_text(*tick)).collect();
+    widest(&texts) + 2 * GAP + TEXT
+}
+
+/// Two axes in `area`.
+pub fn axes<'a, B, X, Y>(
+    area: &Area<B>,
+    (x, y): (X, Y),
+    labels: &Labels,
+) -> DrawResult<B, ChartContext<'a, B, Cartesian2d<X, Y>>>
+where
+    B: DrawingBackend,
+    X: Ranged<ValueType = f64, FormatOption = DefaultFormatting>,
+    Y: Ranged<ValueType = f64, FormatOption = DefaultFormatting>,
+{
+    let bottom = if labels.x_title.is_empty() { BOTTOM_WITHOUT_TITLE } else { BOTTOM };
+    let mut builder = ChartBuilder::on(area);
+    builder.margin_top(labels.top).margin_right(labels.right);
+    let mut chart = builder.y_label_area_size(labels.left).x_label_area_size(bottom).build_cartesian_2d(x, y)?;
+    let mut mesh = chart.configure_mesh();
+    mesh.bold_line_style(FAINT.light.stroke_width(2)).axis_style(MIDDLE.light.stroke_width(2));
+    mesh.label_style(text_style(TEXT, MIDDLE.light)).set_all_tick_mark_size(6);
+    mesh.x_label_formatter(labels.x).y_label_formatter(labels.y);
+    if !labels.x_title.is_empty() {
+        mesh.x_desc(labels.x_title);
+    }
+    if !labels.y_title.is_empty() {
+        mesh.y_desc(labels.y_title);
+    }
+    mesh.draw()?;
+    Ok(chart)
+}
+
+/// Whether a drawing is so wide that names stand to the right of the axes; else they stand below.
+fn has_room(width: i32) -> bool {
+    width >= 1120
+}
+
+/// Height of a name.
+const LINE: i32 = 40;
+
+/// Height of a drawing whose axes are `axes` high, with so many names.
+pub fn height_with_legend(axes: i32, names: usize, width: i32) -> i32 {
+    let names = names as i32 * LINE + 2 * GAP;
+    if has_room(width) { axes.max(names) } else { axes + names }
+}
+
+/// Draws names with a dot of their colours, to the right of the axes or below them. Gives the area that is left.
+pub fn legend<B: DrawingBackend>(area: &Area<B>, entries: &[(String, Colour)]) -> DrawResult<B, Area<B>> {
+    const DOT: i32 = 8;
+    let (width, height) = area.dim_in_pixel();
+    let (width, height) = (width as i32, height as i32);
+    let (rest, names) = if has_room(width) {
+        area.split_horizontally(width - widest(entries.iter().map(|(name, _)| name)) - 4 * GAP)
+    } else {
+        area.split_vertically(height - entries.len() as i32 * LINE - GAP)
+    };
+    let mut chart = ChartBuilder::on(&names).build_cartesian_2d(0..1, 0..1)?;
+    for (name, colour) in entries {
+        let series = chart.draw_series(std::iter::empty::<Circle<_, i32>>())?;
+        let style = colour.filled();
+        series.label(name).legend(move |(x, y)| Circle::new((x + DOT, y), DOT, style));
+    }
+    let mut names = chart.configure_series_labels();
+    names.position(SeriesLabelPosition::UpperLeft).legend_area_size(2 * GAP).label_font(text_style(TEXT, INK.light));
+    names.draw()?;
+    Ok(rest)
+}
+
+/// A power of ten, as exact as it can be.
+fn power(exponent: i32) -> f64 {
+    format!("1e{exponent}").parse().expect("a number")
+}
+
+/// A round number as an axis says it: `0.001`, `20`, `5,000`, `10⁶`.
+pub fn tick_text(value: f64) -> String {
+    if value >= 1e5 || (value > 0.0 && value < 1e-3) {
+        let exponent = libm::floor(libm::log10(value) + 1e-9) as i32;
+        let mantissa = value / power(exponent);
+        let factor = if (mantissa - 1.0).abs() < 1e-9 { String::new() } else { format!("{}·", tick_text(mantissa)) };
+        return format!("{factor}10{}", superscript(exponent));
+    }
+    if value >= 1000.0 {
+        return count(value.round() as u64);
+    }
+    // Without the last digits, which the product of a round number and a power of ten may have.
+    let rounded: f64 = format!("{value:.6e}").parse().expect("a number");
+    rounded.to_string()
+}
+
+fn superscript(exponent: i32) -> String {
+    const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    let raised = |c: char| c.to_digit(10).map_or('⁻', |digit| DIGITS[digit as usize]);
+    exponent.to_string().chars().map(raised).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_short() {
+        let texts = [0.0, 0.001, 0.5, 20.0, 5000.0, 1e6, 2e6, 1e-5].map(tick_text);
+        assert_eq!(texts, ["0", "0.001", "0.5", "20", "5,000", "10⁶", "2·10⁶", "10⁻⁵"]);
+    }
+
+    #[test]
+    fn ticks_are_round_numbers_on_the_axis_as_many_as_fit() {
+        let ticks = |low, high, length| upward([low, high], length).bold_points().to_vec();
+        assert_eq!(ticks(90.0, 6000.0, 400), [100.0, 200.0, 500.0, 1000.0, 2000.0, 5000.0]);
+        assert_eq!(ticks(140.0, 410.0, 400), [150.0, 200.0, 300.0, 400.0]);
+        assert_eq!(ticks(1e-4, 1.0, 400), [1e-4, 1e-3, 1e-2, 1e-1, 1.0]);
+        // Thinned evenly where they would touch.
+        assert_eq!(ticks(1.0, 1e12, 200), [1.0, 1e4, 1e8, 1e12]);
+    }
+
+    #[test]
+    fn a_range_has_room_and_is_never_empty() {
+        assert_eq!(padded([1.0, 100.0].into_iter(), [0.5, 0.0]), [0.1, 100.0]);
+        assert_eq!(padded([3.0].into_iter(), [0.0, 0.0]), [3.0, 6.0]);
+        assert_eq!(padded(std::iter::empty(), [0.1, 0.1]), [1.0, 10.0]);
+    }
+}
