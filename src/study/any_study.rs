@@ -13,7 +13,7 @@ use super::{Answers, AnyAnswer, Chosen, Context, Data, Effort, Plan, Printed, Sc
 use crate::measure::Provenance;
 use crate::registry::Registry;
 use crate::report::document::Block;
-use crate::report::plot::Figure;
+use crate::report::plot::Chart;
 use crate::report::{Statement, Table};
 
 /// Hands what is made of an answer, a function of [`Study`] each, to another macro.
@@ -76,7 +76,7 @@ pub trait AnyStudy: Send + Sync {
     /// Whether there is a [`Study::PLOT`].
     fn has_plot(&self) -> bool;
     /// [`Study::PLOT`] of an answer.
-    fn plot(&self, answer: &dyn Any) -> Option<Figure>;
+    fn plot(&self, answer: &dyn Any) -> Option<Chart>;
     /// [`Study::cannot_be_measured_here`].
     fn cannot_be_measured_here(&self) -> Option<&'static str>;
     /// Adds the options of the study to a command.
@@ -174,7 +174,7 @@ impl<S: Study> AnyStudy for Typed<S> {
         S::PLOT.is_some()
     }
 
-    fn plot(&self, answer: &dyn Any) -> Option<Figure> {
+    fn plot(&self, answer: &dyn Any) -> Option<Chart> {
         S::PLOT.map(|plot| plot(own::<S>(answer)))
     }
 

@@ -51,7 +51,7 @@ use epoch::Epoch;
 use crate::measure::Provenance;
 use crate::registry::Registry;
 use crate::report::document::Block;
-use crate::report::plot::Figure;
+use crate::report::plot::Chart;
 use crate::report::{Export, Statement, Table, to_json};
 
 pub use answers::{Answers, AnyAnswer};
@@ -90,7 +90,7 @@ pub trait Study: 'static {
     /// one of which there is an answer counts.
     const BOTH_MESHES: bool = false;
     /// Draws what `--plot` writes, where the answer has a picture.
-    const PLOT: Option<fn(&Self::Answer) -> Figure> = None;
+    const PLOT: Option<fn(&Self::Answer) -> Chart> = None;
     /// What `study all` measures, in words of the command line: scenes, which others may take the place of, then
     /// options.
     const FULL: &'static str = "";

@@ -1,5 +1,7 @@
 //! Axes with round numbers, and the names of what is drawn beside or below them.
 
+use std::fmt::Debug;
+
 use plotters::chart::{ChartBuilder, ChartContext, SeriesLabelPosition};
 use plotters::coord::cartesian::Cartesian2d;
 use plotters::coord::combinators::{BindKeyPoints, IntoLogRange, LogCoord, WithKeyPoints};
@@ -60,19 +62,6 @@ pub fn padded(values: impl Iterator<Item = f64>, [below, above]: [f64; 2]) -> [f
     [low / libm::pow(high / low, below), high * libm::pow(high / low, above)]
 }
 
-/// What axes say, and where they stand in their area.
-pub struct Labels<'a> {
-    pub x_title: &'a str,
-    pub y_title: &'a str,
-    /// Texts of values.
-    pub x: &'a dyn Fn(&f64) -> String,
-    pub y: &'a dyn Fn(&f64) -> String,
-    /// Room for the texts at the left, above the axes and at their right.
-    pub left: i32,
-    pub top: i32,
-    pub right: i32,
-}
-
 /// Height of what is below a horizontal axis: with a title, and without.
 pub const BOTTOM: i32 = 96;
 pub const BOTTOM_WITHOUT_TITLE: i32 = 52;
@@ -80,75 +69,90 @@ pub const BOTTOM_WITHOUT_TITLE: i32 = 52;
 /// Between an axis and what is drawn beside it.
 pub const GAP: i32 = 20;
 
-/// Room at the left for the labels of a vertical axis and for its title.
-pub fn left_of(y: &LogAxis) -> i32 {
-    let texts: Vec<String> = y.bold_points().iter().map(|tick| tick_text(*tick)).collect();
-    widest(&texts) + 2 * GAP + TEXT
+/// A pair of axes.
+pub type Axes<'a, B, Y = LogAxis> = ChartContext<'a, B, Cartesian2d<LogAxis, Y>>;
+
+/// What is written on axes, and the room around them: above, to the left and to the right.
+pub struct AxisLabels<'a, V = f64> {
+    pub x_title: &'a str,
+    pub y_title: &'a str,
+    pub y_text: &'a dyn Fn(&V) -> String,
+    pub top: i32,
+    pub left: i32,
+    pub right: i32,
 }
 
 /// Two axes in `area`.
-pub fn axes<'a, B, X, Y>(
+pub fn axes<'a, B, Y>(
     area: &Area<B>,
-    (x, y): (X, Y),
-    labels: &Labels,
-) -> DrawResult<B, ChartContext<'a, B, Cartesian2d<X, Y>>>
+    x: LogAxis,
+    y: Y,
+    labels: &AxisLabels<Y::ValueType>,
+) -> DrawResult<B, Axes<'a, B, Y>>
 where
     B: DrawingBackend,
-    X: Ranged<ValueType = f64, FormatOption = DefaultFormatting>,
-    Y: Ranged<ValueType = f64, FormatOption = DefaultFormatting>,
+    Y: Ranged<ValueType: Debug, FormatOption = DefaultFormatting>,
 {
     let bottom = if labels.x_title.is_empty() { BOTTOM_WITHOUT_TITLE } else { BOTTOM };
     let mut builder = ChartBuilder::on(area);
     builder.margin_top(labels.top).margin_right(labels.right);
     let mut chart = builder.y_label_area_size(labels.left).x_label_area_size(bottom).build_cartesian_2d(x, y)?;
+    let x_text = |x: &f64| tick_text(*x);
     let mut mesh = chart.configure_mesh();
     mesh.bold_line_style(FAINT.light.stroke_width(2)).axis_style(MIDDLE.light.stroke_width(2));
     mesh.label_style(text_style(TEXT, MIDDLE.light)).set_all_tick_mark_size(6);
-    mesh.x_label_formatter(labels.x).y_label_formatter(labels.y);
-    if !labels.x_title.is_empty() {
-        mesh.x_desc(labels.x_title);
-    }
-    if !labels.y_title.is_empty() {
-        mesh.y_desc(labels.y_title);
-    }
-    mesh.draw()?;
+    mesh.x_label_formatter(&x_text).y_label_formatter(labels.y_text);
+    mesh.x_desc(labels.x_title).y_desc(labels.y_title).draw()?;
     Ok(chart)
 }
 
-/// Whether a drawing is so wide that names stand to the right of the axes; else they stand below.
-fn has_room(width: i32) -> bool {
-    width >= 1120
+/// Two logarithmic axes in `area`, with these titles, from the first to the last of these values.
+pub fn log_log<'a, B: DrawingBackend>(
+    area: &Area<B>,
+    top: i32,
+    [x_title, y_title]: [&str; 2],
+    [x_ends, y_ends]: [[f64; 2]; 2],
+) -> DrawResult<B, Axes<'a, B>> {
+    let (width, height) = area.dim_in_pixel();
+    let y = upward(y_ends, height as i32 - top - BOTTOM);
+    let texts: Vec<String> = y.bold_points().iter().map(|tick| tick_text(*tick)).collect();
+    // The title beside the labels is as wide as text is high.
+    let left = widest(&texts) + 2 * GAP + TEXT;
+    let x = across(x_ends, width as i32 - left - GAP);
+    axes(area, x, y, &AxisLabels { x_title, y_title, y_text: &|y| tick_text(*y), top, left, right: GAP })
 }
 
 /// Height of a name.
 const LINE: i32 = 40;
 
-/// Height of a drawing whose axes are `axes` high, with so many names.
-pub fn height_with_legend(axes: i32, names: usize, width: i32) -> i32 {
-    let names = names as i32 * LINE + 2 * GAP;
-    if has_room(width) { axes.max(names) } else { axes + names }
+/// Room that names take beside and below the axes of a drawing `width` wide: one of the two.
+pub fn legend_room(names: &[String], width: i32) -> [i32; 2] {
+    match names.len() {
+        0 => [0, 0],
+        _ if width >= 1120 => [widest(names) + 4 * GAP, 0],
+        lines => [0, lines as i32 * LINE + GAP],
+    }
 }
 
 /// Draws names with a dot of their colours, to the right of the axes or below them. Gives the area that is left.
-pub fn legend<B: DrawingBackend>(area: &Area<B>, entries: &[(String, Colour)]) -> DrawResult<B, Area<B>> {
+pub fn legend<B: DrawingBackend>(area: &Area<B>, names: &[String], colours: &[Colour]) -> DrawResult<B, Area<B>> {
     const DOT: i32 = 8;
     let (width, height) = area.dim_in_pixel();
-    let (width, height) = (width as i32, height as i32);
-    let (rest, names) = if has_room(width) {
-        area.split_horizontally(width - widest(entries.iter().map(|(name, _)| name)) - 4 * GAP)
-    } else {
-        area.split_vertically(height - entries.len() as i32 * LINE - GAP)
+    let (axes, beside) = match legend_room(names, width as i32) {
+        [0, 0] => return Ok(area.clone()),
+        [0, below] => area.split_vertically(height as i32 - below),
+        [right, _] => area.split_horizontally(width as i32 - right),
     };
-    let mut chart = ChartBuilder::on(&names).build_cartesian_2d(0..1, 0..1)?;
-    for (name, colour) in entries {
+    let mut chart = ChartBuilder::on(&beside).build_cartesian_2d(0..1, 0..1)?;
+    for (name, colour) in names.iter().zip(colours) {
         let series = chart.draw_series(std::iter::empty::<Circle<_, i32>>())?;
         let style = colour.filled();
         series.label(name).legend(move |(x, y)| Circle::new((x + DOT, y), DOT, style));
     }
-    let mut names = chart.configure_series_labels();
-    names.position(SeriesLabelPosition::UpperLeft).legend_area_size(2 * GAP).label_font(text_style(TEXT, INK.light));
-    names.draw()?;
-    Ok(rest)
+    let mut legend = chart.configure_series_labels();
+    legend.position(SeriesLabelPosition::UpperLeft).legend_area_size(2 * GAP);
+    legend.label_font(text_style(TEXT, INK.light)).draw()?;
+    Ok(axes)
 }
 
 /// A power of ten, as exact as it can be.

@@ -1,4 +1,4 @@
-//! What all charts draw with: areas of any backend, text in the one font, whiskers, and tips for a pointer.
+//! What all charts draw with: areas of any backend, text in the one font, and tips for a pointer.
 //!
 //! Lengths are pixels, two for each unit of width that a chart is asked for: pictures are sharp where they are shown
 //! smaller.
@@ -13,7 +13,7 @@ use plotters::prelude::DrawingBackend;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{Color, FontStyle, IntoFont, TextStyle, register_font};
 
-use super::palette::{Colour, PAPER};
+use super::palette::Colour;
 
 /// A part of a drawing.
 pub type Area<B> = DrawingArea<B, Shift>;
@@ -42,7 +42,7 @@ pub fn register() {
 
 /// Text of this size and colour.
 pub fn text_style(size: i32, colour: Colour) -> TextStyle<'static> {
-    TextStyle::from((FONT, size).into_font()).color(&colour)
+    TextStyle { color: colour.to_backend_color(), ..(FONT, size).into_font().into() }
 }
 
 /// Width of a line of text; somewhat more than it takes, since the viewer of an SVG has a font of its own.
@@ -113,25 +113,5 @@ impl<B: DrawingBackend> Canvas<B> {
     /// A line `width` wide through `points`.
     pub fn line(&self, points: &[Place], colour: Colour, width: u32) -> DrawResult<B> {
         self.area.draw(&PathElement::new(points, colour.stroke_width(width)))
-    }
-
-    /// An interval as an error bar, upright or level, on a plate of its own so that it is seen on what is below it. Ends
-    /// that are outside of `range`, where the axis begins and ends, have no mark: the interval goes on beyond them.
-    pub fn whisker(&self, ends: [Place; 2], colour: Colour, range: [i32; 2]) -> DrawResult<B> {
-        const MARK: i32 = 8;
-        let is_level = ends[0].1 == ends[1].1;
-        let along = |(x, y): Place| if is_level { x } else { y };
-        let cut = |(x, y): Place| {
-            let at = along((x, y)).clamp(range[0], range[1]);
-            if is_level { (at, y) } else { (x, at) }
-        };
-        let stem = ends.map(cut);
-        self.line(&stem, PAPER.light, 7)?;
-        self.line(&stem, colour, 3)?;
-        for (x, y) in ends.into_iter().filter(|&end| (range[0]..=range[1]).contains(&along(end))) {
-            let [dx, dy] = if is_level { [0, MARK] } else { [MARK, 0] };
-            self.line(&[(x - dx, y - dy), (x + dx, y + dy)], colour, 3)?;
-        }
-        Ok(())
     }
 }

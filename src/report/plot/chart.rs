@@ -7,7 +7,7 @@ use plotters::prelude::{BitMapBackend, DrawingBackend, SVGBackend};
 
 use super::canvas::{Area, Canvas, DrawResult, Tip, register};
 use super::palette::PAPER;
-use super::{Bars, Curves, Scatter, Stack, Tradeoff};
+use super::{Bars, Curves, Scatter, Tradeoff};
 use crate::render::Picture;
 
 /// A chart of any kind.
@@ -15,7 +15,6 @@ use crate::render::Picture;
 pub enum Chart {
     Bars(Bars),
     Curves(Curves),
-    Stack(Stack),
     /// Always as wide as it is, 800: labels stand all over.
     Scatter(Scatter),
     Tradeoff(Tradeoff),
@@ -65,7 +64,6 @@ impl Chart {
         let height = match self {
             Self::Bars(bars) => bars.height(width),
             Self::Curves(curves) => curves.height(width),
-            Self::Stack(stack) => stack.height(width),
             Self::Scatter(scatter) => scatter.height(width),
             Self::Tradeoff(tradeoff) => tradeoff.scatter().height(width),
         };
@@ -78,9 +76,8 @@ impl Chart {
         let width = area.dim_in_pixel().0 as i32;
         let canvas = Canvas::new(area);
         match self {
-            Self::Bars(bars) => bars.draw(&canvas, width)?,
+            Self::Bars(bars) => bars.draw(&canvas)?,
             Self::Curves(curves) => curves.draw(&canvas)?,
-            Self::Stack(stack) => stack.draw(&canvas, width)?,
             Self::Scatter(scatter) => scatter.draw(&canvas, width)?,
             Self::Tradeoff(tradeoff) => tradeoff.scatter().draw(&canvas, width)?,
         }

@@ -1,4 +1,4 @@
-//! Charts as SVG and as PNG, the same picture: bars, curves, stacked factors and scatter plots, of the width that is asked
+//! Charts as SVG and as PNG, the same picture: bars, curves and scatter plots, of the width that is asked
 //! for, so that text keeps its size on a narrow screen.
 
 mod axes;
@@ -8,17 +8,14 @@ mod chart;
 mod curves;
 mod labels;
 pub mod palette;
-mod rows;
 mod scatter;
-mod stack;
 mod tradeoff;
 
 pub use axes::tick_text;
 pub use bars::{Bar, BarGroup, Bars};
 pub use chart::{Chart, Format};
-pub use curves::{CurvePoint, Curves, Line};
+pub use curves::{Curves, Line};
 pub use scatter::{LABELLED, Panel, Point, Scatter};
-pub use stack::{Stack, StackRow};
 pub use tradeoff::{Tradeoff, TradeoffCase, TradeoffPoint};
 
 #[cfg(test)]

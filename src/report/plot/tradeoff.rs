@@ -36,21 +36,20 @@ impl Tradeoff {
             let [a, b] = [a, b].map(|point| [point.bytes, point.ns_per_ray]);
             a != b && a[0] <= b[0] && a[1] <= b[1]
         };
-        let point = |(group, point): (usize, &TradeoffPoint)| Point {
+        let point = |point: &TradeoffPoint| Point {
             x: point.bytes / f64::from(1 << 20),
             y: 1e3 / point.ns_per_ray,
             is_bound: false,
             is_front: !of_case.iter().any(|other| is_better(other, point)),
-            label: String::new(),
-            group,
+            label: point.label.clone(),
+            group: point.label.clone(),
         };
         let panel = Panel {
             title: String::new(),
             x_title: "memory, MiB".into(),
             y_title: "million rays a second".into(),
-            points: of_case.iter().enumerate().map(point).collect(),
+            points: of_case.iter().map(point).collect(),
         };
-        let groups = of_case.iter().map(|point| point.label.clone()).collect();
-        Scatter { panels: vec![panel], groups, notes: vec![] }
+        Scatter { panels: vec![panel], notes: vec![] }
     }
 }

@@ -1,11 +1,9 @@
 use super::{AccuracyRecord, RayKind};
 use crate::report::number::count;
-use crate::report::plot::{Figure, LABELLED, Panel, Point};
-use crate::report::words::each_once;
+use crate::report::plot::{LABELLED, Panel, Point, Scatter};
 
 /// Error against time: one panel for each scene and kind of rays.
-pub fn figure(records: &[AccuracyRecord]) -> Figure {
-    let groups = each_once(records.iter().map(structure));
+pub fn figure(records: &[AccuracyRecord]) -> Scatter {
     let panel = |of_kind: &[AccuracyRecord]| {
         let first = &of_kind[0];
         let stand_in = if first.stand_in { " (stand-in)" } else { "" };
@@ -13,16 +11,16 @@ pub fn figure(records: &[AccuracyRecord]) -> Figure {
         let what = first.rays.parse().map_or("rays of a file", RayKind::description);
         let point = |record: &AccuracyRecord| Point {
             x: record.ns_per_ray,
-            y: record.error_bound,
+            y: 100.0 * record.error_bound,
             is_bound: record.errors() == 0,
             is_front: record.dominated_by.is_none(),
             label: record.triangle_test.clone(),
-            group: groups.iter().position(|group| *group == structure(record)).expect("all are listed"),
+            group: structure(record),
         };
         Panel {
             title: format!("{}{stand_in}: {} {what}", first.scene, count(rays)),
-            x_title: "nanoseconds a ray, one thread".into(),
-            y_title: "wrong answers (missed, invented, or at a wrong depth), at most: 95 % confidence".into(),
+            x_title: "ns per ray, one thread".into(),
+            y_title: "wrong hits, % at most (95 % confidence)".into(),
             points: of_kind.iter().map(point).collect(),
         }
     };
@@ -35,7 +33,7 @@ pub fn figure(records: &[AccuracyRecord]) -> Figure {
     if panels.iter().any(|panel| panel.points.len() > LABELLED) {
         notes.push(format!("Of more than {LABELLED} points those that are filled are labelled."));
     }
-    Figure { panels, groups, notes }
+    Scatter { panels, notes }
 }
 
 fn structure(record: &AccuracyRecord) -> String {

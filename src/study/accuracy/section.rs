@@ -97,7 +97,7 @@ fn one(index: usize, records: &[AccuracyRecord], command: &str) -> Figure {
             front.join("; ")
         ),
         command: command.into(),
-        art: Art::Chart(Chart::Points(figure(records))),
+        art: Art::Chart(Chart::Scatter(figure(records))),
         data: Table::of_texts(
             "",
             ["structure", "triangle test", "ns per ray", "error", "error at most", "on the front"],

@@ -132,8 +132,8 @@ fn of_scene(records: &[Record]) -> Vec<Block> {
         command: command(records),
         art: Art::Chart(Chart::Bars(Bars {
             x_title: format!("times as fast as {baseline}"),
-            reference: 1.0,
             labels,
+            parts: vec![],
             groups,
         })),
         data,
@@ -158,7 +158,7 @@ fn ratios_first(mut table: Table) -> Table {
 fn data(labels: &[String], groups: &[BarGroup], workloads: &[String]) -> Table {
     let row = |(i, label): (usize, &String)| {
         let cell = |group: &BarGroup| match &group.bars[i] {
-            Bar::Of(value) => interval(*value),
+            Bar::Of(value) | Bar::Product(_, value) => interval(*value),
             Bar::Missing(why) => why.clone(),
         };
         std::iter::once(label.clone()).chain(groups.iter().map(cell)).map(Into::into).collect()
@@ -174,7 +174,7 @@ fn data(labels: &[String], groups: &[BarGroup], workloads: &[String]) -> Table {
 fn alt(name: &str, labels: &[String], groups: &[BarGroup], baseline: &str) -> String {
     let best = groups.iter().filter_map(|group| {
         let values = group.bars.iter().zip(labels).filter_map(|(bar, label)| match bar {
-            Bar::Of(value) => Some((value, label)),
+            Bar::Of(value) | Bar::Product(_, value) => Some((value, label)),
             Bar::Missing(_) => None,
         });
         let (value, label) = values.max_by(|a, b| a.0.estimate.total_cmp(&b.0.estimate))?;

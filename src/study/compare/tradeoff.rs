@@ -3,7 +3,7 @@
 use super::{Reference, twins};
 use crate::report::document::{Art, Figure};
 use crate::report::number::{bytes, duration, figures};
-use crate::report::plot::{Chart, Scatter, ScatterCase, ScatterPoint};
+use crate::report::plot::{Chart, Tradeoff, TradeoffCase, TradeoffPoint};
 use crate::report::words::{distinct, interval, scene_name};
 use crate::report::{Record, Table};
 use crate::study::BRUTE_FORCE;
@@ -11,9 +11,9 @@ use crate::study::BRUTE_FORCE;
 /// Every scene, in this order, with every kind of rays; nothing where no two structures have a time on the same rays. Brute force,
 /// far away from all others, is left out.
 pub fn figure(scenes: &[Vec<Record>], references: &[Reference], command: &str) -> Option<Figure> {
-    let cases: Vec<ScatterCase> = scenes.iter().flat_map(|records| cases(records, references.first())).collect();
+    let cases: Vec<TradeoffCase> = scenes.iter().flat_map(|records| cases(records, references.first())).collect();
     let first = cases.first()?;
-    let best = |cost: fn(&ScatterPoint) -> f64| {
+    let best = |cost: fn(&TradeoffPoint) -> f64| {
         let least = first.points.iter().min_by(|a, b| cost(a).total_cmp(&cost(b)));
         least.map_or(String::new(), |point| point.label.clone())
     };
@@ -21,7 +21,7 @@ pub fn figure(scenes: &[Vec<Record>], references: &[Reference], command: &str) -
         "Scatter plot of {} structures on {}, {} rays: the fastest is {}, the smallest {}, the first that is built {}.",
         first.points.len(),
         first.scene,
-        first.rays,
+        first.workload,
         best(|point| point.ns_per_ray),
         best(|point| point.bytes),
         best(|point| point.build_ns)
@@ -31,19 +31,19 @@ pub fn figure(scenes: &[Vec<Record>], references: &[Reference], command: &str) -
         id: "tradeoff".into(),
         caption: format!(
             "{}, {} rays: speed against what it costs; higher is faster, further left is cheaper, and both axes are logarithmic. \
-             On the page any scene and kind of rays can be chosen, and time of the build in place of memory. There the solid line joins \
-             what nothing beats in both; over time of the build a dashed one passes through all that would be done with their build and \
+             The line joins what nothing beats in both. On the page any scene and kind of rays can be chosen, and time of the build in place \
+             of memory; over time of the build a dashed one passes through all that would be done with their build and \
              so many rays as soon as the first. All are medians, on the same rays for all; their intervals are in the tables. Brute force is left out.",
-            first.scene, first.rays
+            first.scene, first.workload
         ),
         alt,
         command: command.into(),
-        art: Art::Chart(Chart::Scatter(Scatter { cases })),
+        art: Art::Chart(Chart::Tradeoff(Tradeoff { cases })),
         data,
     })
 }
 
-fn cases(records: &[Record], reference: Option<&Reference>) -> Vec<ScatterCase> {
+fn cases(records: &[Record], reference: Option<&Reference>) -> Vec<TradeoffCase> {
     let noise = twins(records);
     // All on the same rays: as many as the slowest is timed on.
     let drawn = |workload: &str| -> Vec<&Record> {
@@ -57,7 +57,7 @@ fn cases(records: &[Record], reference: Option<&Reference>) -> Vec<ScatterCase> 
             let ratio = Reference::ratio(&reference.pairs(records, [record]), &noise)?;
             Some(format!("{} times as fast as {}", interval(ratio), reference.words()))
         });
-        Some(ScatterPoint {
+        Some(TradeoffPoint {
             label: record.label.clone(),
             bytes: record.bytes.max(1) as f64,
             build_ns: record.build_ns.max(1) as f64,
@@ -65,19 +65,19 @@ fn cases(records: &[Record], reference: Option<&Reference>) -> Vec<ScatterCase> 
             ratio: ratio.unwrap_or_default(),
         })
     };
-    let case = |workload: &String| ScatterCase {
+    let case = |workload: &String| TradeoffCase {
         scene: scene_name(&records[0].scene, records[0].stand_in),
-        rays: workload.clone(),
+        workload: workload.clone(),
         points: drawn(workload).into_iter().filter_map(point).collect(),
     };
     let workloads = distinct(records.iter().map(|r| &r.workload));
     workloads.iter().map(case).filter(|case| case.points.len() > 1).collect()
 }
 
-fn table(cases: &[ScatterCase]) -> Table {
-    let row = |case: &ScatterCase, point: &ScatterPoint| {
+fn table(cases: &[TradeoffCase]) -> Table {
+    let row = |case: &TradeoffCase, point: &TradeoffPoint| {
         let [size, build] = [bytes(point.bytes as usize), duration(point.build_ns)];
-        [case.scene.clone(), case.rays.clone(), point.label.clone(), figures(1e3 / point.ns_per_ray), size, build]
+        [case.scene.clone(), case.workload.clone(), point.label.clone(), figures(1e3 / point.ns_per_ray), size, build]
     };
     let rows = cases.iter().flat_map(|case| case.points.iter().map(move |point| row(case, point)));
     Table::of_texts("", ["scene", "rays", "structure", "Mrays/s", "memory", "build"], rows.collect())
@@ -108,7 +108,7 @@ mod tests {
             record("sah-kd", "shadow", Some(2.0)),
         ];
         let figure = figure(std::slice::from_ref(&records), &[], "sahara compare").unwrap();
-        let Art::Chart(Chart::Scatter(Scatter { cases })) = &figure.art else { panic!("no scatter plot") };
+        let Art::Chart(Chart::Tradeoff(Tradeoff { cases })) = &figure.art else { panic!("no scatter plot") };
         assert_eq!(cases.len(), 1, "one structure alone is no comparison");
         let points: Vec<(&str, f64)> = cases[0].points.iter().map(|p| (p.label.as_str(), p.ns_per_ray)).collect();
         assert_eq!(points, [("sah-kd", 500.0), ("sah-bvh", 250.0)]);
@@ -121,7 +121,7 @@ mod tests {
         records[1].parts = vec![part.clone()];
         records[2] = Record { rays: 25, samples_ns: vec![5_000.0], ..records[2].clone() };
         let drawn = super::figure(std::slice::from_ref(&records), &[], "").unwrap();
-        let Art::Chart(Chart::Scatter(Scatter { cases })) = &drawn.art else { panic!("no scatter plot") };
+        let Art::Chart(Chart::Tradeoff(Tradeoff { cases })) = &drawn.art else { panic!("no scatter plot") };
         assert_eq!(cases[0].points.iter().map(|p| p.ns_per_ray).collect::<Vec<_>>(), [400.0, 200.0]);
     }
 }
