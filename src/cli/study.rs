@@ -136,7 +136,14 @@ pub fn run_as(session: &Session, study: &dyn AnyStudy, chosen: Chosen, common: &
     }
     for (file, format) in files.plots {
         let plot = study.plot(answer).expect("a study that says so has a picture");
-        file.write(&plot.bytes(format))?;
+        let bytes = match format {
+            Format::Svg => plot.svg(WIDTH).into_bytes(),
+            Format::Png => plot.png(WIDTH),
+        };
+        file.write(&bytes)?;
     }
     Ok(outcome)
 }
+
+/// Width of drawings, in their units.
+const WIDTH: f64 = 900.0;

@@ -22,7 +22,7 @@ const FACTORS: [&[f64]; 4] = [&[1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 7.0], &[1.0, 2.0, 
 
 /// A horizontal logarithmic axis of this length, with as many round numbers as fit beside each other.
 pub fn across(ends: [f64; 2], length: i32) -> LogAxis {
-    log_axis(ends, length, |tick| width_of(&tick_text(tick), TEXT) + 20)
+    log_axis(ends, length, |tick| width_of(&tick_text(tick)) + 20)
 }
 
 /// A vertical logarithmic axis of this length, with as many round numbers as fit above each other.
@@ -72,7 +72,7 @@ pub const GAP: i32 = 20;
 /// A pair of axes.
 pub type Axes<'a, B, Y = LogAxis> = ChartContext<'a, B, Cartesian2d<LogAxis, Y>>;
 
-/// What is written on axes, and the room around them: above, to the left and to the right.
+/// What is written on axes, and the room for it: above, to the left and to the right.
 pub struct AxisLabels<'a, V = f64> {
     pub x_title: &'a str,
     pub y_title: &'a str,
@@ -95,12 +95,13 @@ where
 {
     let bottom = if labels.x_title.is_empty() { BOTTOM_WITHOUT_TITLE } else { BOTTOM };
     let mut builder = ChartBuilder::on(area);
-    builder.margin_top(labels.top).margin_right(labels.right);
+    builder.margin_left(GAP).margin_top(labels.top).margin_right(labels.right);
     let mut chart = builder.y_label_area_size(labels.left).x_label_area_size(bottom).build_cartesian_2d(x, y)?;
     let x_text = |x: &f64| tick_text(*x);
     let mut mesh = chart.configure_mesh();
     mesh.bold_line_style(FAINT.light.stroke_width(2)).axis_style(MIDDLE.light.stroke_width(2));
-    mesh.label_style(text_style(TEXT, MIDDLE.light)).set_all_tick_mark_size(6);
+    mesh.label_style(text_style(INK.light)).axis_desc_style(text_style(MIDDLE.light));
+    mesh.set_all_tick_mark_size(6);
     mesh.x_label_formatter(&x_text).y_label_formatter(labels.y_text);
     mesh.x_desc(labels.x_title).y_desc(labels.y_title).draw()?;
     Ok(chart)
@@ -117,9 +118,14 @@ pub fn log_log<'a, B: DrawingBackend>(
     let y = upward(y_ends, height as i32 - top - BOTTOM);
     let texts: Vec<String> = y.bold_points().iter().map(|tick| tick_text(*tick)).collect();
     // The title beside the labels is as wide as text is high.
-    let left = widest(&texts) + 2 * GAP + TEXT;
-    let x = across(x_ends, width as i32 - left - GAP);
+    let left = widest(&texts) + GAP + TEXT;
+    let x = across(x_ends, width as i32 - left - 2 * GAP);
     axes(area, x, y, &AxisLabels { x_title, y_title, y_text: &|y| tick_text(*y), top, left, right: GAP })
+}
+
+/// Whether a drawing is so wide that there is room beside its axes.
+pub fn is_roomy(width: i32) -> bool {
+    width >= 1120
 }
 
 /// Height of a name.
@@ -129,8 +135,16 @@ const LINE: i32 = 40;
 pub fn legend_room(names: &[String], width: i32) -> [i32; 2] {
     match names.len() {
         0 => [0, 0],
-        _ if width >= 1120 => [widest(names) + 4 * GAP, 0],
+        _ if is_roomy(width) => [widest(names) + 4 * GAP, 0],
         lines => [0, lines as i32 * LINE + GAP],
+    }
+}
+
+/// Height of a drawing with axes of this height and with names.
+pub fn height_with_legend(axes: i32, names: &[String], width: i32) -> i32 {
+    match legend_room(names, width) {
+        [0, below] => axes + below,
+        _ => axes.max(names.len() as i32 * LINE + GAP),
     }
 }
 
@@ -151,7 +165,7 @@ pub fn legend<B: DrawingBackend>(area: &Area<B>, names: &[String], colours: &[Co
     }
     let mut legend = chart.configure_series_labels();
     legend.position(SeriesLabelPosition::UpperLeft).legend_area_size(2 * GAP);
-    legend.label_font(text_style(TEXT, INK.light)).draw()?;
+    legend.label_font(text_style(INK.light)).draw()?;
     Ok(axes)
 }
 
@@ -160,26 +174,17 @@ fn power(exponent: i32) -> f64 {
     format!("1e{exponent}").parse().expect("a number")
 }
 
-/// A round number as an axis says it: `0.001`, `20`, `5,000`, `10⁶`.
+/// A round number as an axis says it: `0.001`, `20`, `5,000`, `1e6`.
 pub fn tick_text(value: f64) -> String {
-    if value >= 1e5 || (value > 0.0 && value < 1e-3) {
-        let exponent = libm::floor(libm::log10(value) + 1e-9) as i32;
-        let mantissa = value / power(exponent);
-        let factor = if (mantissa - 1.0).abs() < 1e-9 { String::new() } else { format!("{}·", tick_text(mantissa)) };
-        return format!("{factor}10{}", superscript(exponent));
-    }
-    if value >= 1000.0 {
-        return count(value.round() as u64);
-    }
     // Without the last digits, which the product of a round number and a power of ten may have.
     let rounded: f64 = format!("{value:.6e}").parse().expect("a number");
-    rounded.to_string()
-}
-
-fn superscript(exponent: i32) -> String {
-    const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
-    let raised = |c: char| c.to_digit(10).map_or('⁻', |digit| DIGITS[digit as usize]);
-    exponent.to_string().chars().map(raised).collect()
+    match rounded {
+        0.0 => "0".into(),
+        large if large >= 1e5 => format!("{large:e}"),
+        small if small < 1e-3 => format!("{small:e}"),
+        thousands if thousands >= 1000.0 => count(thousands.round() as u64),
+        _ => rounded.to_string(),
+    }
 }
 
 #[cfg(test)]
@@ -189,7 +194,7 @@ mod tests {
     #[test]
     fn numbers_are_short() {
         let texts = [0.0, 0.001, 0.5, 20.0, 5000.0, 1e6, 2e6, 1e-5].map(tick_text);
-        assert_eq!(texts, ["0", "0.001", "0.5", "20", "5,000", "10⁶", "2·10⁶", "10⁻⁵"]);
+        assert_eq!(texts, ["0", "0.001", "0.5", "20", "5,000", "1e6", "2e6", "1e-5"]);
     }
 
     #[test]
@@ -199,7 +204,7 @@ mod tests {
         assert_eq!(ticks(140.0, 410.0, 400), [150.0, 200.0, 300.0, 400.0]);
         assert_eq!(ticks(1e-4, 1.0, 400), [1e-4, 1e-3, 1e-2, 1e-1, 1.0]);
         // Thinned evenly where they would touch.
-        assert_eq!(ticks(1.0, 1e12, 200), [1.0, 1e4, 1e8, 1e12]);
+        assert_eq!(ticks(1.0, 1e12, 200), [1.0, 1e3, 1e6, 1e9, 1e12]);
     }
 
     #[test]

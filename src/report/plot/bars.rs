@@ -8,7 +8,7 @@ use plotters::prelude::DrawingBackend;
 use plotters::style::Color;
 use plotters::style::text_anchor::HPos;
 
-use super::axes::{self, Axes, AxisLabels, BOTTOM_WITHOUT_TITLE, GAP, axes, legend, legend_room};
+use super::axes::{self, Axes, AxisLabels, BOTTOM_WITHOUT_TITLE, GAP, axes, height_with_legend, legend, legend_room};
 use super::canvas::{Area, Canvas, DrawResult, Place, TEXT, widest, width_of};
 use super::palette::{Colour, INK, MIDDLE, PAPER, PARTS, colours};
 use crate::measure::Estimate;
@@ -129,8 +129,8 @@ impl Bars {
 
     /// Height of the drawing where it is `width` wide.
     pub fn height(&self, width: i32) -> i32 {
-        let [right, below] = legend_room(&self.parts, width);
-        self.layout(width - right).height + FOOT + below
+        let [right, _] = legend_room(&self.parts, width);
+        height_with_legend(self.layout(width - right).height + FOOT, &self.parts, width)
     }
 
     pub fn draw<B: DrawingBackend>(&self, canvas: &Canvas<B>) -> DrawResult<B> {
@@ -146,7 +146,7 @@ impl Bars {
             self.draw_group(canvas, group, &layout, &cell, left)?;
         }
         // In the middle below all groups, unless it would leave the drawing.
-        let half = width_of(&self.x_title, TEXT) / 2;
+        let half = width_of(&self.x_title) / 2;
         let middle = ((width + layout.left) / 2).min(width - half).max(half);
         canvas.text(&self.x_title, (middle, layout.height + FOOT / 2), MIDDLE.light, HPos::Center)
     }
@@ -159,7 +159,7 @@ impl Bars {
         cell: &Area<B>,
         left: i32,
     ) -> DrawResult<B> {
-        let x = axes::across(self.ends(), cell.dim_in_pixel().0 as i32 - left - NUMBER);
+        let x = axes::across(self.ends(), cell.dim_in_pixel().0 as i32 - GAP - left - NUMBER);
         let rows = 0..self.labels.len();
         let bottom = rows.len() as i32 * layout.step;
         let middles = rows.map(|row| layout.middle(row)).collect();
@@ -210,7 +210,7 @@ impl Bars {
             let text = figures(factor);
             let told = format!("{}, {}: {text} times", self.labels[row], self.parts[part]);
             chart.canvas.tip(min, max, told);
-            if width_of(&text, TEXT) + 16 < max.0 - min.0 {
+            if width_of(&text) + 16 < max.0 - min.0 {
                 let middle = ((min.0 + max.0) / 2, (min.1 + max.1) / 2);
                 chart.canvas.text(&text, middle, on_it, HPos::Center)?;
             }
@@ -262,7 +262,7 @@ impl<B: DrawingBackend> BarChart<'_, B> {
         let number = figures(value.estimate);
         self.canvas.text(&number, (x + 14, y), INK.light, HPos::Left)?;
         let (left, half) = (self.place(x_range.start, middle).0, self.layout.row / 2);
-        self.canvas.tip((left, y - half), (x + 14 + width_of(&number, TEXT), y + half), told);
+        self.canvas.tip((left, y - half), (x + 14 + width_of(&number), y + half), told);
         Ok(())
     }
 

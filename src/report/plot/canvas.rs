@@ -24,8 +24,7 @@ pub type DrawResult<B, T = ()> = Result<T, DrawingAreaErrorKind<<B as DrawingBac
 /// A place in pixels, from the top left corner of the drawing.
 pub type Place = (i32, i32);
 
-/// Sizes of text, from the top of the highest letter to the bottom of the lowest.
-pub const HEAD: i32 = 40;
+/// Size of text, from the top of the highest letter to the bottom of the lowest.
 pub const TEXT: i32 = 32;
 
 /// Name of the font: in an SVG, what the viewer takes for it; elsewhere the font that comes with the program.
@@ -40,21 +39,21 @@ pub fn register() {
     });
 }
 
-/// Text of this size and colour.
-pub fn text_style(size: i32, colour: Colour) -> TextStyle<'static> {
-    TextStyle { color: colour.to_backend_color(), ..(FONT, size).into_font().into() }
+/// Text of this colour.
+pub fn text_style(colour: Colour) -> TextStyle<'static> {
+    TextStyle { color: colour.to_backend_color(), ..(FONT, TEXT).into_font().into() }
 }
 
 /// Width of a line of text; somewhat more than it takes, since the viewer of an SVG has a font of its own.
-pub fn width_of(text: &str, size: i32) -> i32 {
+pub fn width_of(text: &str) -> i32 {
     register();
-    let (width, _) = (FONT, size).into_font().box_size(text).expect("the font is registered");
+    let (width, _) = (FONT, TEXT).into_font().box_size(text).expect("the font is registered");
     (1.06 * f64::from(width)) as i32
 }
 
-/// Width of the widest of these texts, in the usual size.
+/// Width of the widest of these texts.
 pub fn widest<'a>(texts: impl IntoIterator<Item = &'a String>) -> i32 {
-    texts.into_iter().map(|text| width_of(text, TEXT)).max().unwrap_or(0)
+    texts.into_iter().map(|text| width_of(text)).max().unwrap_or(0)
 }
 
 /// A whole drawing.
@@ -107,7 +106,7 @@ impl<B: DrawingBackend> Canvas<B> {
 
     /// A line of text, which begins, has its middle or ends at `place`, at half its height.
     pub fn text(&self, text: &str, place: Place, colour: Colour, side: HPos) -> DrawResult<B> {
-        self.area.draw_text(text, &text_style(TEXT, colour).pos(Pos::new(side, VPos::Center)), place)
+        self.area.draw_text(text, &text_style(colour).pos(Pos::new(side, VPos::Center)), place)
     }
 
     /// A line `width` wide through `points`.

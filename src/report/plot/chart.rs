@@ -20,9 +20,6 @@ pub enum Chart {
     Tradeoff(Tradeoff),
 }
 
-/// Width of a chart in its own units, where nothing else is asked for.
-const WIDTH: f64 = 800.0;
-
 /// A form in which a chart can be had.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
@@ -59,7 +56,7 @@ const DRAWN: &str = "memory takes every stroke, and the font is registered";
 impl Chart {
     /// Width and height in pixels where it is to be `width` wide.
     fn size(&self, width: f64) -> (u32, u32) {
-        let width = if matches!(self, Self::Scatter(_)) { WIDTH } else { width };
+        let width = if matches!(self, Self::Scatter(_)) { 800.0 } else { width };
         let width = (2.0 * width).round() as i32;
         let height = match self {
             Self::Bars(bars) => bars.height(width),
@@ -103,13 +100,5 @@ impl Chart {
         self.draw(area).expect(DRAWN);
         let (colours, _) = bytes.as_chunks::<3>();
         Picture::new([width, height], colours.to_vec()).png()
-    }
-
-    /// The bytes of a file of this form; the same for the same chart.
-    pub fn bytes(&self, format: Format) -> Vec<u8> {
-        match format {
-            Format::Svg => self.svg(WIDTH).into_bytes(),
-            Format::Png => self.png(WIDTH),
-        }
     }
 }

@@ -4,7 +4,7 @@ use plotters::prelude::DrawingBackend;
 use plotters::series::LineSeries;
 use plotters::style::Color;
 
-use super::axes::{GAP, legend, legend_room, log_log, padded};
+use super::axes::{GAP, height_with_legend, legend, log_log, padded};
 use super::canvas::{Canvas, DrawResult};
 use super::palette::{Colour, colours};
 use crate::report::number::figures;
@@ -45,8 +45,7 @@ impl Curves {
 
     /// Height of the drawing where it is `width` wide.
     pub fn height(&self, width: i32) -> i32 {
-        let [_, below] = legend_room(&self.names(), width);
-        (4 * width / 5).min(860) + below
+        height_with_legend((4 * width / 5).min(860), &self.names(), width)
     }
 
     pub fn draw<B: DrawingBackend>(&self, canvas: &Canvas<B>) -> DrawResult<B> {

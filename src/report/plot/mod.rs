@@ -15,7 +15,7 @@ pub use axes::tick_text;
 pub use bars::{Bar, BarGroup, Bars};
 pub use chart::{Chart, Format};
 pub use curves::{Curves, Line};
-pub use scatter::{LABELLED, Panel, Point, Scatter};
+pub use scatter::{LABELLED, Point, Scatter};
 pub use tradeoff::{Tradeoff, TradeoffCase, TradeoffPoint};
 
 #[cfg(test)]

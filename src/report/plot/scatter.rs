@@ -7,24 +7,16 @@ use plotters::prelude::DrawingBackend;
 use plotters::style::Color;
 use plotters::style::text_anchor::HPos;
 
-use super::axes::{GAP, legend, legend_room, log_log, padded};
-use super::canvas::{Area, Canvas, DrawResult, HEAD, Place, TEXT, text_style, width_of};
+use super::axes::{GAP, height_with_legend, is_roomy, legend, log_log, padded};
+use super::canvas::{Canvas, DrawResult, Place, TEXT, width_of};
 use super::labels::{Corners, place};
 use super::palette::{Colour, INK, MIDDLE, PAPER, colours};
 use crate::report::number::figures;
 use crate::report::words::distinct;
 
-/// Panels, one below the other, with one legend.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Scatter {
-    pub panels: Vec<Panel>,
-    /// Lines at the foot.
-    pub notes: Vec<String>,
-}
-
 /// Points over one pair of axes.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Panel {
+pub struct Scatter {
     /// May be empty.
     pub title: String,
     pub x_title: String,
@@ -47,167 +39,132 @@ pub struct Point {
     pub group: String,
 }
 
-/// Points of a panel that are all labelled; where there are more, those of the front alone are.
+/// Points that are all labelled; where there are more, those of the front alone are.
 pub const LABELLED: usize = 20;
-
-/// Height of a panel, where the drawing is not narrow, and of each note.
-const PANEL: i32 = 880;
-const NOTE: i32 = 40;
 
 const RADIUS: i32 = 10;
 
 /// Length of the arrow below a bound.
 const ARROW: i32 = 44;
 
-/// Height of the title of a panel.
-const TITLE: i32 = 64;
+/// Height of the title.
+const TITLE: i32 = 60;
+
+/// A point where it is drawn.
+struct Dot<'a> {
+    point: &'a Point,
+    place: Place,
+    colour: Colour,
+}
 
 impl Scatter {
-    fn points(&self) -> impl Iterator<Item = &Point> {
-        self.panels.iter().flat_map(|panel| &panel.points)
-    }
-
     /// What there are colours for.
     pub fn groups(&self) -> Vec<String> {
-        distinct(self.points().map(|point| &point.group))
+        distinct(self.points.iter().map(|point| &point.group))
     }
 
-    /// Names of the colours; none where labels say the same.
-    fn names(&self) -> Vec<String> {
-        if self.points().all(|point| point.label == point.group) { vec![] } else { self.groups() }
-    }
-
-    fn panels_height(&self, width: i32) -> i32 {
-        self.panels.len() as i32 * PANEL.min(width)
-    }
-
-    /// Height of the drawing without its notes.
-    fn foot(&self, width: i32) -> i32 {
-        let [_, below] = legend_room(&self.names(), width);
-        self.panels_height(width) + below
+    /// Names of the colours; none where there is room for labels that say the same.
+    fn names(&self, width: i32) -> Vec<String> {
+        let is_said = self.points.iter().all(|point| point.label == point.group);
+        if is_said && is_roomy(width) { vec![] } else { self.groups() }
     }
 
     /// Height of the drawing where it is `width` wide.
     pub fn height(&self, width: i32) -> i32 {
-        self.foot(width) + self.notes.len() as i32 * NOTE + GAP
+        height_with_legend(width.min(880), &self.names(width), width)
     }
 
     pub fn draw<B: DrawingBackend>(&self, canvas: &Canvas<B>, width: i32) -> DrawResult<B> {
-        let (groups, foot) = (self.groups(), self.foot(width));
+        let (groups, names) = (self.groups(), self.names(width));
         let colours = colours(&groups);
-        for (row, note) in self.notes.iter().enumerate() {
-            canvas.text(note, (GAP, foot + row as i32 * NOTE + NOTE / 2), INK.light, HPos::Left)?;
-        }
-        let (area, _) = canvas.area.split_vertically(foot);
-        let area = legend(&area, &self.names(), &colours)?;
+        let area = legend(&canvas.area, &names, &colours)?;
+        let top = if self.title.is_empty() { GAP } else { TITLE };
+        canvas.text(&self.title, (GAP, TITLE / 2), INK.light, HPos::Left)?;
+        // Room on the right for a label, below for the arrows of bounds.
+        let x_ends = padded(self.points.iter().map(|point| point.x), [0.1, 0.2]);
+        let y_ends = padded(self.points.iter().map(|point| point.y), [0.15, 0.1]);
+        let axes = log_log(&area, top, [&self.x_title, &self.y_title], [x_ends, y_ends])?;
         let colours: BTreeMap<&str, Colour> = groups.iter().map(String::as_str).zip(colours).collect();
-        for (panel, area) in self.panels.iter().zip(area.split_evenly((self.panels.len(), 1))) {
-            panel.draw(canvas, &area, &colours)?;
+        let dots = self.points.iter().map(|point| {
+            let Point { x, y, group, .. } = point;
+            Dot { point, place: axes.backend_coord(&(*x, *y)), colour: colours[&**group] }
+        });
+        let mut dots: Vec<Dot> = dots.collect();
+        dots.sort_by_key(|dot| !dot.point.is_front);
+
+        let (x, y) = axes.plotting_area().get_pixel_range();
+        let front = front(&dots, x.end);
+        canvas.line(&front, MIDDLE.light, 4)?;
+        let lines = front.windows(2).map(|ends| {
+            let [(left, y), (right, end)] = [ends[0], ends[1]];
+            [(left - 4, y.min(end) - 4), (right + 4, y.max(end) + 4)]
+        });
+        let obstacles: Vec<Corners> = dots.iter().map(Dot::corners).chain(lines).collect();
+        // Among too many points nobody would find what belongs to a label, and what the legend says is said once.
+        let is_shown = |dot: &&Dot| dots.len() <= LABELLED || dot.point.is_front;
+        let is_said = |dot: &&Dot| !names.is_empty() && dot.point.label == dot.point.group;
+        let labelled: Vec<&Dot> = dots.iter().filter(|dot| is_shown(dot) && !is_said(dot)).collect();
+        draw_labels(canvas, &labelled, &obstacles, [(x.start + 12, y.start), (x.end - 4, y.end - 8)])?;
+        // What is on the front is drawn last, so that it is on top.
+        dots.iter().rev().try_for_each(|dot| self.draw_dot(canvas, dot))
+    }
+
+    fn draw_dot<B: DrawingBackend>(&self, canvas: &Canvas<B>, dot: &Dot) -> DrawResult<B> {
+        let Dot { point, place: (x, y), colour } = *dot;
+        if point.is_bound {
+            let (tip, wings) = (y + ARROW, y + ARROW - 14);
+            canvas.line(&[(x, y), (x, wings)], colour, 4)?;
+            canvas.area.draw(&Polygon::new([(x - 9, wings), (x + 9, wings), (x, tip)], colour.filled()))?;
         }
+        let inside = if point.is_front { colour } else { PAPER.light };
+        canvas.area.draw(&Circle::new((x, y), RADIUS, inside.filled()))?;
+        canvas.area.draw(&Circle::new((x, y), RADIUS, colour.stroke_width(4)))?;
+        let bound = if point.is_bound { "at most " } else { "" };
+        let [across, up] = [point.x, point.y].map(figures);
+        canvas.tip_at((x, y), format!("{}: {bound}{up}, {}; {across}, {}", point.label, self.y_title, self.x_title));
         Ok(())
     }
 }
 
-impl Panel {
-    fn draw<B: DrawingBackend>(
-        &self,
-        canvas: &Canvas<B>,
-        area: &Area<B>,
-        colours: &BTreeMap<&str, Colour>,
-    ) -> DrawResult<B> {
-        let top = if self.title.is_empty() { GAP } else { TITLE };
-        area.draw_text(&self.title, &text_style(HEAD, INK.light), (GAP, 8))?;
-        if self.points.is_empty() {
-            let middle = area.get_pixel_range();
-            let middle = ((middle.0.start + middle.0.end) / 2, (middle.1.start + middle.1.end) / 2);
-            return canvas.text("nothing to show", middle, INK.light, HPos::Center);
-        }
-        // Room on the right for a label, below for the arrows of bounds.
-        let x_ends = padded(self.points.iter().map(|point| point.x), [0.1, 0.2]);
-        let y_ends = padded(self.points.iter().map(|point| point.y), [0.15, 0.1]);
-        let axes = log_log(area, top, [&self.x_title, &self.y_title], [x_ends, y_ends])?;
-        let places: Vec<Place> = self.points.iter().map(|point| axes.backend_coord(&(point.x, point.y))).collect();
-        let (x, y) = axes.plotting_area().get_pixel_range();
-        self.draw_front(canvas, &places, x.end)?;
-        self.draw_labels(canvas, colours, &places, [(x.start, y.start), (x.end, y.end)])?;
-        self.draw_points(canvas, colours, &places)
+impl Dot<'_> {
+    /// What no label covers, with its arrow.
+    fn corners(&self) -> Corners {
+        let ((x, y), around) = (self.place, RADIUS + 4);
+        let below = if self.point.is_bound { ARROW + 4 } else { around };
+        [(x - around, y - around), (x + around, y + below)]
     }
+}
 
-    /// The border of what is reached: a stair through the points of the front.
-    fn draw_front<B: DrawingBackend>(&self, canvas: &Canvas<B>, places: &[Place], end: i32) -> DrawResult<B> {
-        let front = self.points.iter().zip(places).filter(|(point, _)| point.is_front);
-        let mut front: Vec<Place> = front.map(|(_, place)| *place).collect();
-        front.sort_unstable();
-        let heights = front.iter().map(|place| place.1);
-        // Each step goes on to the next point, the last one to the end of the axis.
-        let ends = front.iter().map(|place| place.0).skip(1).chain([end]);
-        let steps: Vec<Place> = front.iter().copied().zip(ends.zip(heights)).flat_map(|(a, b)| [a, b]).collect();
-        canvas.line(&steps, MIDDLE.light, 4)
-    }
+/// The border of what is reached: a stair through the points of the front, from which each step goes on to the next point, the
+/// last one to the `end` of the axis.
+fn front(dots: &[Dot], end: i32) -> Vec<Place> {
+    let mut front: Vec<Place> = dots.iter().filter(|dot| dot.point.is_front).map(|dot| dot.place).collect();
+    front.sort_unstable();
+    let ends = front.iter().map(|place| place.0).skip(1).chain([end]);
+    front.iter().zip(ends).flat_map(|(&(x, y), end)| [(x, y), (end, y)]).collect()
+}
 
-    fn draw_points<B: DrawingBackend>(
-        &self,
-        canvas: &Canvas<B>,
-        colours: &BTreeMap<&str, Colour>,
-        places: &[Place],
-    ) -> DrawResult<B> {
-        // What is on the front is drawn last, so that it is on top.
-        for front in [false, true] {
-            for (point, &(x, y)) in self.points.iter().zip(places).filter(|(point, _)| point.is_front == front) {
-                let colour = colours[&*point.group];
-                if point.is_bound {
-                    canvas.line(&[(x, y), (x, y + ARROW - 8)], colour, 4)?;
-                    let (tip, wings) = (y + ARROW, y + ARROW - 14);
-                    canvas.area.draw(&Polygon::new([(x - 9, wings), (x + 9, wings), (x, tip)], colour.filled()))?;
-                }
-                let inside = if front { colour } else { PAPER.light };
-                canvas.area.draw(&Circle::new((x, y), RADIUS, inside.filled()))?;
-                canvas.area.draw(&Circle::new((x, y), RADIUS, colour.stroke_width(4)))?;
-                let bound = if point.is_bound { "at most " } else { "" };
-                let told = [point.x, point.y].map(figures);
-                let told =
-                    format!("{}: {bound}{}, {}; {}, {}", point.label, told[1], self.y_title, told[0], self.x_title);
-                canvas.tip_at((x, y), told);
-            }
+/// Draws the labels of some points, the first of which choose first.
+fn draw_labels<B: DrawingBackend>(
+    canvas: &Canvas<B>,
+    dots: &[&Dot],
+    obstacles: &[Corners],
+    frame: Corners,
+) -> DrawResult<B> {
+    let widths = dots.iter().map(|dot| (dot.place, width_of(&dot.point.label)));
+    let boxes = place(&widths.collect::<Vec<_>>(), TEXT, obstacles, frame);
+    for (dot, [min, max]) in dots.iter().zip(&boxes) {
+        // A label that had to go elsewhere is tied to its point.
+        let (x, y) = dot.place;
+        let end = (x.clamp(min.0, max.0), y.clamp(min.1, max.1));
+        if (end.0 - x).abs().max((end.1 - y).abs()) > 36 {
+            canvas.line(&[(x, y), end], MIDDLE.light, 2)?;
         }
-        Ok(())
     }
-
-    fn draw_labels<B: DrawingBackend>(
-        &self,
-        canvas: &Canvas<B>,
-        colours: &BTreeMap<&str, Colour>,
-        places: &[Place],
-        frame: [Place; 2],
-    ) -> DrawResult<B> {
-        // Those of the front choose first; among too many points nobody would find what belongs to a label.
-        let all = self.points.len() <= LABELLED;
-        let is_labelled = |point: &Point| all || point.is_front;
-        let mut labelled: Vec<(&Point, Place)> = self.points.iter().zip(places.iter().copied()).collect();
-        labelled.retain(|(point, _)| is_labelled(point));
-        labelled.sort_by_key(|(point, _)| !point.is_front);
-        let obstacle = |(point, &(x, y)): (&Point, &Place)| {
-            let around = RADIUS + 4;
-            let below = if point.is_bound { ARROW + 4 } else { around };
-            [(x - around, y - around), (x + around, y + below)]
-        };
-        let obstacles: Vec<Corners> = self.points.iter().zip(places).map(obstacle).collect();
-        let widths: Vec<(Place, i32)> =
-            labelled.iter().map(|(point, place)| (*place, width_of(&point.label, TEXT))).collect();
-        let inner = [(frame[0].0 + 12, frame[0].1), (frame[1].0 - 4, frame[1].1 - 8)];
-        let boxes = place(&widths, TEXT, &obstacles, inner);
-        for ((_, (x, y)), [min, max]) in labelled.iter().zip(&boxes) {
-            // A label that had to go elsewhere is tied to its point.
-            let end = ((*x).clamp(min.0, max.0), (*y).clamp(min.1, max.1));
-            if (end.0 - x).abs().max((end.1 - y).abs()) > 36 {
-                canvas.line(&[(*x, *y), end], MIDDLE.light, 2)?;
-            }
-        }
-        for ((point, _), [min, max]) in labelled.iter().zip(boxes) {
-            // What is under a label must not cross it.
-            canvas.area.draw(&Rectangle::new([min, max], PAPER.light.filled()))?;
-            canvas.text(&point.label, (min.0, (min.1 + max.1) / 2), colours[&*point.group], HPos::Left)?;
-        }
-        Ok(())
+    for (dot, [min, max]) in dots.iter().zip(boxes) {
+        // What is under a label must not cross it.
+        canvas.area.draw(&Rectangle::new([min, max], PAPER.light.filled()))?;
+        canvas.text(&dot.point.label, (min.0, (min.1 + max.1) / 2), dot.colour, HPos::Left)?;
     }
+    Ok(())
 }

@@ -1,6 +1,6 @@
 //! Speed against what it costs: memory or time of the build. A page shows any case, other forms the first one.
 
-use super::scatter::{Panel, Point, Scatter};
+use super::scatter::{Point, Scatter};
 
 /// Several scenes and workloads.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,12 +44,11 @@ impl Tradeoff {
             label: point.label.clone(),
             group: point.label.clone(),
         };
-        let panel = Panel {
+        Scatter {
             title: String::new(),
             x_title: "memory, MiB".into(),
             y_title: "million rays a second".into(),
             points: of_case.iter().map(point).collect(),
-        };
-        Scatter { panels: vec![panel], notes: vec![] }
+        }
     }
 }
