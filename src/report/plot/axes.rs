@@ -180,7 +180,7 @@ pub fn tick_text(value: f64) -> String {
     let rounded: f64 = format!("{value:.6e}").parse().expect("a number");
     match rounded {
         0.0 => "0".into(),
-        large if large >= 1e5 => format!("{large:e}"),
+        large if large >= 1e6 => format!("{large:e}"),
         small if small < 1e-3 => format!("{small:e}"),
         thousands if thousands >= 1000.0 => count(thousands.round() as u64),
         _ => rounded.to_string(),
