@@ -250,8 +250,8 @@ impl<B: DrawingBackend> BarChart<'_, B> {
         Ok(corners)
     }
 
-    /// Draws the interval of a value, `below` the middle of its row, and the number behind it and behind `end`, where the bar
-    /// ends; a pointer at the row is `told` something.
+    /// Draws the interval of a value, `below` the middle of its row, and the number behind it and behind `end`, where
+    /// the bar ends; a pointer at the row is `told` something.
     fn value(&self, row: usize, value: Estimate, end: f64, below: i32, told: String) -> DrawResult<B> {
         let (x_range, middle) = (self.axes.x_range(), self.layout.middle(row));
         let [low, high] = [value.low(), value.high()].map(|end| end.unwrap_or(value.estimate));
@@ -266,8 +266,8 @@ impl<B: DrawingBackend> BarChart<'_, B> {
         Ok(())
     }
 
-    /// An interval as an error bar, on a plate of its own so that it is seen on a bar. An end beyond the axis has no mark: the
-    /// interval goes on.
+    /// An interval as an error bar, on a plate of its own so that it is seen on a bar. An end beyond the axis has no
+    /// mark: the interval goes on.
     fn whisker(&self, ends: [f64; 2], y: i32) -> DrawResult<B> {
         let axis = self.axes.x_range();
         let stem = ends.map(|end| self.place(end.clamp(axis.start, axis.end), y));

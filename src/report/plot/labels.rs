@@ -16,8 +16,8 @@ fn is_inside(a: &Corners, b: &Corners) -> bool {
 /// Between a point and its label.
 const GAP: i32 = 22;
 
-/// Boxes `height` high for labels of these widths, in order, within `frame`: beside the point where that is free, else as near
-/// as possible. They do not meet each other and the obstacles as long as there is another place.
+/// Boxes `height` high for labels of these widths, in order, within `frame`: beside the point where that is free, else
+/// as near as possible. They do not meet each other and the obstacles as long as there is another place.
 pub fn place(points: &[(Place, i32)], height: i32, obstacles: &[Corners], frame: Corners) -> Vec<Corners> {
     let mut taken = obstacles.to_vec();
     for &((x, y), width) in points {

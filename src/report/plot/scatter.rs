@@ -135,8 +135,8 @@ impl Dot<'_> {
     }
 }
 
-/// The border of what is reached: a stair through the points of the front, from which each step goes on to the next point, the
-/// last one to the `end` of the axis.
+/// The border of what is reached: a stair through the points of the front, from which each step goes on to the next
+/// point, the last one to the `end` of the axis.
 fn front(dots: &[Dot], end: i32) -> Vec<Place> {
     let mut front: Vec<Place> = dots.iter().filter(|dot| dot.point.is_front).map(|dot| dot.place).collect();
     front.sort_unstable();
