@@ -4,20 +4,20 @@ use serde_json::{Value, json};
 
 use super::in_script;
 use crate::report::plot::palette::roles_of;
-use crate::report::plot::{Scatter, ScatterCase, ScatterPoint};
+use crate::report::plot::{Tradeoff, TradeoffCase, TradeoffPoint};
 use crate::report::words::distinct;
 
 /// As JSON that may stand in a script element.
-pub fn data(scatter: &Scatter) -> String {
+pub fn data(tradeoff: &Tradeoff) -> String {
     // A structure has one colour in all cases.
-    let all: Vec<String> = scatter.cases.iter().flat_map(|case| &case.points).map(|p| p.label.clone()).collect();
+    let all: Vec<String> = tradeoff.cases.iter().flat_map(|case| &case.points).map(|p| p.label.clone()).collect();
     let labels = distinct(all.iter());
     let roles = roles_of(&labels);
     let colour = |label: &String| {
         let place = labels.iter().position(|other| other == label).expect("all labels are listed");
         format!("--{}", roles[place].name())
     };
-    let point = |p: &ScatterPoint| {
+    let point = |p: &TradeoffPoint| {
         json!({
             "label": p.label,
             // Name of the custom property with its colour.
@@ -28,9 +28,9 @@ pub fn data(scatter: &Scatter) -> String {
             "ratio": p.ratio,
         })
     };
-    let case = |case: &ScatterCase| {
+    let case = |case: &TradeoffCase| {
         let points: Vec<Value> = case.points.iter().map(point).collect();
-        json!({ "scene": case.scene, "rays": case.rays, "points": points })
+        json!({ "scene": case.scene, "rays": case.workload, "points": points })
     };
-    in_script(&scatter.cases.iter().map(case).collect::<Vec<Value>>())
+    in_script(&tradeoff.cases.iter().map(case).collect::<Vec<Value>>())
 }

@@ -111,8 +111,8 @@ fn figure(figure: &Figure) -> Value {
         Art::Chart(chart) => {
             wide = Some(inline(&chart.svg(WIDE)));
             // Points have labels all over: they are as wide as they are, and scroll.
-            narrow = (!matches!(chart, Chart::Points(_))).then(|| inline(&chart.svg(NARROW)));
-            scatter = if let Chart::Scatter(points) = chart { Some(scatter::data(points)) } else { None };
+            narrow = (!matches!(chart, Chart::Scatter(_))).then(|| inline(&chart.svg(NARROW)));
+            scatter = if let Chart::Tradeoff(tradeoff) = chart { Some(scatter::data(tradeoff)) } else { None };
         }
         Art::Gallery(_) => {}
         Art::Overlay(drawn) => laid = Some(overlay(drawn)),

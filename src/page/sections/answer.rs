@@ -5,7 +5,7 @@ use crate::page::runs::Runs;
 use crate::report::Record;
 use crate::report::document::{Answer, Headline};
 use crate::report::number::{figures, plural};
-use crate::report::plot::{Chart, Stack, StackRow};
+use crate::report::plot::{Bar, Bars, Chart};
 use crate::report::words::{distinct, ends, listed, scene_name};
 use crate::study::attribution::{self, AttributionStudy};
 use crate::study::compare::{Winner, speed, twins, winner};
@@ -93,18 +93,17 @@ fn otherwise(runs: &Runs) -> (String, Answer) {
 }
 
 /// How many times faster, scene by scene: in the parts that it is due to where `attribution` tells them, else as a whole.
-fn chart(runs: &Runs, hard: &[Hard]) -> Stack {
+fn chart(runs: &Runs, hard: &[Hard]) -> Bars {
     let attributed = runs.answers.of::<AttributionStudy>().map_or(&[][..], Vec::as_slice);
-    let parts = attribution::stack(&attribution::hard(attributed).into_iter().map(|(_, r)| r).collect::<Vec<_>>());
-    if parts.rows.len() == hard.len() {
+    let parts = attribution::bars(&attribution::hard(attributed).into_iter().map(|(_, r)| r).collect::<Vec<_>>());
+    if parts.labels.len() == hard.len() {
         return parts;
     }
-    let row = |hard: &Hard| StackRow {
-        label: scene_name(&hard.scene, hard.stand_in),
-        factors: vec![hard.ratio.estimate],
-        total: hard.ratio,
+    let row = |hard: &Hard| {
+        let bar = Bar::Product(vec![hard.ratio.estimate], hard.ratio);
+        (scene_name(&hard.scene, hard.stand_in), bar)
     };
-    Stack { parts: vec!["SAH tree".into()], rows: hard.iter().map(row).collect(), ..parts }
+    Bars::of_products(&parts.x_title, vec!["SAH tree".into()], hard.iter().map(row))
 }
 
 /// The question that the runs answer, and the answer, or that there is none yet.
@@ -165,6 +164,6 @@ pub fn answer(runs: &Runs) -> (String, Answer) {
         label: "geometric mean".into(),
     });
     let numbers = numbers.chain(mean).collect();
-    let chart = Some(Chart::Stack(chart(runs, &hard)));
+    let chart = Some(Chart::Bars(chart(runs, &hard)));
     (QUESTION.into(), Answer { banner: banner(runs), verdict, sentences, numbers, chart })
 }

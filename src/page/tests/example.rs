@@ -8,7 +8,7 @@ use crate::measure::Provenance;
 use crate::page::{RunError, Runs, document};
 use crate::report::document::{Art, Block, Colours, Document, Figure, Overlay, Section, Thumbnail};
 use crate::report::inspector::{Answer, InspectedHit, InspectedStructure, Inspector};
-use crate::report::plot::{Chart, Curves, Line, Mark};
+use crate::report::plot::{Chart, Curves, Line};
 use crate::report::{CaseCounts, Record, Table, example_record, to_json};
 use crate::study::epoch::{Epoch, RayDetails, StructureDetails, tests as epoch};
 use crate::study::journal::{self, Header};
@@ -222,7 +222,8 @@ pub fn whole(scene: &str) -> (Document, Runs) {
         },
         inspector: Some(Box::new(inspector(scene))),
     };
-    let curves = Curves::logarithmic("x", "y", vec![Line::new(scene, Mark::Both, [])]);
+    let line = Line { label: scene.into(), note: String::new(), points: vec![] };
+    let curves = Curves { x_title: "x".into(), y_title: "y".into(), lines: vec![line] };
     let pictures = Section {
         id: "pictures",
         title: "Pictures",

@@ -1,9 +1,16 @@
-//! Bars with intervals on one logarithmic axis: how many times faster.
+//! Bars with intervals on one logarithmic axis, from 1 on: how many times faster. A bar may consist of the factors of a
+//! product, whose lengths add up to the whole.
 
-use super::canvas::{self, Canvas, Side};
-use super::labels::BarLabels;
-use super::palette::{FAINT, INK, MIDDLE, colours};
-use super::scale::{Axis, Scale};
+use plotters::coord::combinators::{BindKeyPoints, WithKeyPoints};
+use plotters::coord::types::RangedCoordi32;
+use plotters::element::Rectangle;
+use plotters::prelude::DrawingBackend;
+use plotters::style::Color;
+use plotters::style::text_anchor::HPos;
+
+use super::axes::{self, Axes, AxisLabels, BOTTOM_WITHOUT_TITLE, GAP, axes, height_with_legend, legend, legend_room};
+use super::canvas::{Area, Canvas, DrawResult, Place, TEXT, widest, width_of};
+use super::palette::{Colour, INK, MIDDLE, PAPER, PARTS, colours};
 use crate::measure::Estimate;
 use crate::report::number::figures;
 use crate::report::words::interval;
@@ -13,144 +20,263 @@ use crate::report::words::interval;
 pub struct Bars {
     /// What the axis says.
     pub x_title: String,
-    /// Bars begin here: the value of what others are compared with.
-    pub reference: f64,
     /// Names of the bars of every group; structures have their colours.
     pub labels: Vec<String>,
+    /// Names of the factors that bars consist of; none where they are whole.
+    pub parts: Vec<String>,
     pub groups: Vec<BarGroup>,
 }
 
 /// Bars below one heading.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BarGroup {
+    /// May be empty.
     pub title: String,
     /// One for each label.
     pub bars: Vec<Bar>,
 }
 
-/// One bar.
+/// One bar. All numbers are positive.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Bar {
-    /// Positive, and so are the ends of its interval.
     Of(Estimate),
+    /// One factor for each part, and the whole.
+    Product(Vec<f64>, Estimate),
     /// Why there is none, in a word or two; may be empty.
     Missing(String),
 }
 
-const ROW: f64 = 27.0;
-const BAR: f64 = 15.0;
-const HEAD: f64 = 30.0;
-const FOOT: f64 = 34.0;
+impl Bar {
+    fn value(&self) -> Option<Estimate> {
+        match self {
+            Self::Of(value) | Self::Product(_, value) => Some(*value),
+            Self::Missing(_) => None,
+        }
+    }
+
+    /// Where it begins and ends. Factors below 1 take from the whole: they stand to the left of 1.
+    fn reach(&self) -> [f64; 2] {
+        let mut reach = self.value().map_or([1.0; 2], |value| [value.estimate.min(1.0), value.estimate.max(1.0)]);
+        if let Self::Product(factors, _) = self {
+            let product = |is_taken: fn(&f64) -> bool| factors.iter().copied().filter(is_taken).product::<f64>();
+            reach = [reach[0].min(product(|f| *f < 1.0)), reach[1].max(product(|f| *f > 1.0))];
+        }
+        reach
+    }
+}
+
+/// Height of the title of the axis, below all groups.
+const FOOT: i32 = 48;
 
 /// Least width of a group, without the labels.
-const GROUP: f64 = 190.0;
+const GROUP: i32 = 380;
+
+/// Room for the number at the end of the longest bar.
+const NUMBER: i32 = 124;
+
+/// Where everything is, in a drawing of some width.
+struct Layout {
+    /// Room for labels to the left of the bars; none where each stands above its bar.
+    left: i32,
+    /// Heights of a bar, of its row, and of the row with the label above it.
+    bar: i32,
+    row: i32,
+    step: i32,
+    /// Groups side by side, and the width of each.
+    columns: usize,
+    column: i32,
+    /// Height of the heading of a group, and of a whole group.
+    head: i32,
+    group: i32,
+    /// Height of all groups.
+    height: i32,
+}
+
+impl Layout {
+    /// The middle of a row, from the top of the rows.
+    fn middle(&self, row: usize) -> i32 {
+        (row as i32 + 1) * self.step - self.row / 2
+    }
+}
+
+/// The colour of a part, and of text on it.
+fn part_colours(part: usize) -> [Colour; 2] {
+    let part = part % PARTS.len();
+    [PARTS[part].light, if part == PARTS.len() - 1 { INK.light } else { PAPER.light }]
+}
 
 impl Bars {
+    /// Bars of products with factors of these names, below no heading.
+    pub fn of_products(x_title: &str, parts: Vec<String>, rows: impl IntoIterator<Item = (String, Bar)>) -> Self {
+        let (labels, bars) = rows.into_iter().unzip();
+        let group = BarGroup { title: String::new(), bars };
+        Self { x_title: x_title.into(), labels, parts, groups: vec![group] }
+    }
+
+    fn layout(&self, width: i32) -> Layout {
+        let beside = widest(&self.labels) + GAP;
+        // Labels stand above the bars where beside them they would leave the bars less than half of the width.
+        let left = if beside > width / 2 { 0 } else { beside };
+        let [row, bar] = if self.parts.is_empty() { [54, 30] } else { [88, 48] };
+        let step = if left == 0 { row + TEXT + 2 } else { row };
+        let most = if left == 0 { 1 } else { self.groups.len().max(1) };
+        let columns = (((width - left) / GROUP) as usize).clamp(1, most);
+        let head = if self.groups.iter().all(|group| group.title.is_empty()) { GAP } else { 52 };
+        let group = head + self.labels.len() as i32 * step + BOTTOM_WITHOUT_TITLE;
+        let height = self.groups.len().div_ceil(columns) as i32 * group;
+        Layout { left, bar, row, step, columns, column: (width - left) / columns as i32, head, group, height }
+    }
+
     /// Height of the drawing where it is `width` wide.
-    pub(super) fn height(&self, width: f64) -> f64 {
-        self.groups.len().div_ceil(self.columns(width)).max(1) as f64 * self.line(width) + 24.0
+    pub fn height(&self, width: i32) -> i32 {
+        let [right, _] = legend_room(&self.parts, width);
+        height_with_legend(self.layout(width - right).height + FOOT, &self.parts, width)
     }
 
-    /// Height of the groups that stand side by side.
-    fn line(&self, width: f64) -> f64 {
-        HEAD + self.labels.len() as f64 * self.row(width) + FOOT
-    }
-
-    /// Height of a bar with what is above it.
-    fn row(&self, width: f64) -> f64 {
-        ROW + BarLabels::of(&self.labels, width).height()
-    }
-
-    /// Groups side by side.
-    fn columns(&self, width: f64) -> usize {
-        match BarLabels::of(&self.labels, width) {
-            BarLabels::Above => 1,
-            BarLabels::Beside(column) => (((width - column) / GROUP) as usize).clamp(1, self.groups.len().max(1)),
+    pub fn draw<B: DrawingBackend>(&self, canvas: &Canvas<B>) -> DrawResult<B> {
+        let part_colours: Vec<Colour> = (0..self.parts.len()).map(|part| part_colours(part)[0]).collect();
+        let area = legend(&canvas.area, &self.parts, &part_colours)?;
+        let width = area.dim_in_pixel().0 as i32;
+        let layout = self.layout(width);
+        let across: Vec<i32> = (1..layout.columns as i32).map(|i| layout.left + i * layout.column).collect();
+        let down: Vec<i32> = (1..=layout.height / layout.group).map(|i| i * layout.group).collect();
+        for (i, (group, cell)) in self.groups.iter().zip(area.split_by_breakpoints(across, down)).enumerate() {
+            // Labels stand to the left of the first of the groups that are side by side.
+            let left = if i % layout.columns == 0 { layout.left } else { 0 };
+            self.draw_group(canvas, group, &layout, &cell, left)?;
         }
+        // In the middle below all groups, unless it would leave the drawing.
+        let half = width_of(&self.x_title) / 2;
+        let middle = ((width + layout.left) / 2).min(width - half).max(half);
+        canvas.text(&self.x_title, (middle, layout.height + FOOT / 2), MIDDLE.light, HPos::Center)
     }
 
-    pub(super) fn draw(&self, canvas: &Canvas, width: f64) {
-        let (columns, line, height) = (self.columns(width), self.line(width), self.row(width));
-        let labels = BarLabels::of(&self.labels, width);
-        let left = labels.left();
-        let column = (width - left) / columns as f64;
+    fn draw_group<B: DrawingBackend>(
+        &self,
+        canvas: &Canvas<B>,
+        group: &BarGroup,
+        layout: &Layout,
+        cell: &Area<B>,
+        left: i32,
+    ) -> DrawResult<B> {
+        let x = axes::across(self.ends(), cell.dim_in_pixel().0 as i32 - GAP - left - NUMBER);
+        let rows = 0..self.labels.len();
+        let bottom = rows.len() as i32 * layout.step;
+        let middles = rows.map(|row| layout.middle(row)).collect();
+        let y = (bottom..0).with_key_points(middles);
+        let y_text = |middle: &i32| self.labels[(middle / layout.step) as usize].clone();
+        let top = layout.head;
+        let labels = AxisLabels { x_title: "", y_title: "", y_text: &y_text, top, left, right: NUMBER };
+        let chart = BarChart { canvas, layout, axes: axes(cell, x, y, &labels)? };
+        let start = chart.axes.x_range().start;
+        canvas.text(&group.title, chart.place(start, -top / 2), INK.light, HPos::Left)?;
+        canvas.line(&[chart.place(1.0, 0), chart.place(1.0, bottom)], MIDDLE.light, 3)?;
         let colours = colours(&self.labels);
-        let ends = self.ends();
-        for (i, group) in self.groups.iter().enumerate() {
-            let x = left + (i % columns) as f64 * column;
-            let top = (i / columns) as f64 * line;
-            // Room for the number at the end of the longest bar.
-            let axis = Axis::new(Scale::Log, ends, [x, x + column - 62.0]);
-            canvas.text(&group.title, [x, top + 12.0], canvas::BODY, INK.light, Side::Left);
-            let (above, below) = (top + HEAD - 4.0, top + line - FOOT);
-            upright_ticks(canvas, axis, [above, below]);
-            let zero = axis.place(self.reference);
-            for (row, bar) in group.bars.iter().enumerate() {
-                let y = top + HEAD + (row + 1) as f64 * height - ROW / 2.0;
-                if labels == BarLabels::Above {
-                    canvas.text(&self.labels[row], [x, y - ROW / 2.0 - 3.0], canvas::BODY, INK.light, Side::Left);
-                } else if i % columns == 0 {
-                    canvas.text(&self.labels[row], [left - 12.0, y], canvas::BODY, INK.light, Side::Right);
+        for (row, bar) in group.bars.iter().enumerate() {
+            let label = &self.labels[row];
+            if layout.left == 0 {
+                let place = chart.place(start, layout.middle(row) - layout.row / 2 - 6);
+                canvas.text(label, place, INK.light, HPos::Left)?;
+            }
+            match bar {
+                Bar::Missing(why) => {
+                    let (x, y) = chart.place(1.0, layout.middle(row));
+                    canvas.text(why, (x + 12, y), MIDDLE.light, HPos::Left)?;
                 }
-                match bar {
-                    Bar::Missing(why) => canvas.text(why, [zero + 6.0, y], canvas::SMALL, MIDDLE.light, Side::Left),
-                    Bar::Of(value) => {
-                        let at = axis.place(value.estimate);
-                        canvas.rect([zero.min(at), y - BAR / 2.0], [zero.max(at), y + BAR / 2.0], colours[row]);
-                        let end = zero.max(at).max(whisker(canvas, *value, axis, y)) + 7.0;
-                        canvas.text(&figures(value.estimate), [end, y], canvas::SMALL, INK.light, Side::Left);
-                        let told = format!("{}, {}: {}", self.labels[row], group.title, interval(*value));
-                        canvas.tip([x, y - ROW / 2.0], [x + column - 4.0, y + ROW / 2.0], told);
-                    }
+                Bar::Of(value) => {
+                    chart.bar(row, [1.0, value.estimate], colours[row])?;
+                    let title = &group.title;
+                    chart.value(row, *value, bar.reach()[1], 0, format!("{label}, {title}: {}", interval(*value)))?;
+                }
+                Bar::Product(factors, whole) => {
+                    let told = format!("{label}, the whole: {} times", interval(*whole));
+                    // The whole below its parts, which it must equal within its interval.
+                    chart.value(row, *whole, bar.reach()[1], layout.bar / 2 + 10, told)?;
+                    self.draw_factors(&chart, row, factors)?;
                 }
             }
-            canvas.line(&[[zero, above], [zero, below]], MIDDLE.light, 1.5);
         }
-        let middle = left + (width - left) * 0.5;
-        let bottom = self.groups.len().div_ceil(columns) as f64 * line + 4.0;
-        canvas.centred(&self.x_title, [middle, bottom], canvas::SMALL, MIDDLE.light, width);
+        Ok(())
     }
 
-    /// Ends of the axis, the reference between them.
+    fn draw_factors<B: DrawingBackend>(&self, chart: &BarChart<B>, row: usize, factors: &[f64]) -> DrawResult<B> {
+        let (mut up, mut down) = (1.0, 1.0);
+        for (part, &factor) in factors.iter().enumerate() {
+            let side = if factor >= 1.0 { &mut up } else { &mut down };
+            let ends = [*side, *side * factor];
+            *side = ends[1];
+            let [colour, on_it] = part_colours(part);
+            let [min, max] = chart.bar(row, ends, colour)?;
+            let text = figures(factor);
+            let told = format!("{}, {}: {text} times", self.labels[row], self.parts[part]);
+            chart.canvas.tip(min, max, told);
+            if width_of(&text) + 16 < max.0 - min.0 {
+                let middle = ((min.0 + max.0) / 2, (min.1 + max.1) / 2);
+                chart.canvas.text(&text, middle, on_it, HPos::Center)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Ends of the axis. They hold the intervals as well, unless these are so wide that nothing else would be seen.
     fn ends(&self) -> [f64; 2] {
-        let bars = self.groups.iter().flat_map(|group| &group.bars);
-        let values = || bars.clone().filter_map(|bar| if let Bar::Of(value) = bar { Some(*value) } else { None });
-        let estimates = values().map(|value| value.estimate);
-        let [low, high] = estimates.fold([self.reference; 2], |[low, high], v| [low.min(v), high.max(v)]);
-        with_intervals([low, high.max(1.5 * low)], values())
+        let bars = || self.groups.iter().flat_map(|group| &group.bars);
+        let reach = bars().map(Bar::reach);
+        let [low, high] = reach.fold([1.0f64, 1.5f64], |a, b| [a[0].min(b[0]), a[1].max(b[1])]);
+        let room = libm::sqrt(high / low).max(1.5);
+        let intervals = bars().filter_map(|bar| bar.value()?.interval);
+        let held = intervals.fold([low, high], |[low, high], i| [low.min(i.low), high.max(i.high)]);
+        [held[0].max(low / room), held[1].min(high * room)]
     }
 }
 
-/// A line from top to bottom for each tick of a horizontal axis, with its text below.
-pub(super) fn upright_ticks(canvas: &Canvas, axis: Axis, [top, bottom]: [f64; 2]) {
-    for (tick, text) in axis.ticks_across() {
-        let at = axis.place(tick);
-        canvas.line(&[[at, top], [at, bottom]], FAINT.light, 1.0);
-        canvas.text(&text, [at, bottom + 12.0], canvas::SMALL, MIDDLE.light, Side::Centre);
-    }
+/// The axes of a group. Their vertical values are pixels from the top of the rows.
+struct BarChart<'a, B: DrawingBackend> {
+    canvas: &'a Canvas<B>,
+    layout: &'a Layout,
+    axes: Axes<'a, B, WithKeyPoints<RangedCoordi32>>,
 }
 
-/// Ends of an axis that hold the intervals as well, unless these are so wide that nothing else would be seen.
-pub(super) fn with_intervals([low, high]: [f64; 2], values: impl Iterator<Item = Estimate>) -> [f64; 2] {
-    let room = libm::sqrt(high / low).max(1.5);
-    let intervals = values.filter_map(|value| value.interval);
-    let held = intervals.fold([low, high], |[low, high], i| [low.min(i.low), high.max(i.high)]);
-    [held[0].max(low / room), held[1].min(high * room)]
-}
-
-/// An interval: a line with an end at either side, on a plate of its own so that it is seen on the bar. Without an end where
-/// it goes on beyond the axis, and nothing where it is not known. Gives the place where it stops.
-pub(super) fn whisker(canvas: &Canvas, value: Estimate, axis: Axis, y: f64) -> f64 {
-    let Some(interval) = value.interval else { return axis.place(value.estimate) };
-    let places = [interval.low, interval.high].map(|value| axis.place(value));
-    let [from, to] = places.map(|place| place.clamp(axis.places()[0], axis.places()[1]));
-    for (colour, width) in [(super::palette::PAPER.light, 3.5), (INK.light, 1.5)] {
-        canvas.line(&[[from, y], [to, y]], colour, width);
+impl<B: DrawingBackend> BarChart<'_, B> {
+    fn place(&self, x: f64, y: i32) -> Place {
+        self.axes.backend_coord(&(x, y))
     }
-    for (end, place) in [from, to].into_iter().zip(places) {
-        if end == place {
-            canvas.line(&[[end, y - 4.0], [end, y + 4.0]], INK.light, 1.5);
+
+    /// Draws a bar between two values. Gives its corners.
+    fn bar(&self, row: usize, [from, to]: [f64; 2], colour: Colour) -> DrawResult<B, [Place; 2]> {
+        let (middle, half) = (self.layout.middle(row), self.layout.bar / 2);
+        let corners = [self.place(from.min(to), middle - half), self.place(from.max(to), middle + half)];
+        self.canvas.area.draw(&Rectangle::new(corners, colour.filled()))?;
+        Ok(corners)
+    }
+
+    /// Draws the interval of a value, `below` the middle of its row, and the number behind it and behind `end`, where
+    /// the bar ends; a pointer at the row is `told` something.
+    fn value(&self, row: usize, value: Estimate, end: f64, below: i32, told: String) -> DrawResult<B> {
+        let (x_range, middle) = (self.axes.x_range(), self.layout.middle(row));
+        let [low, high] = [value.low(), value.high()].map(|end| end.unwrap_or(value.estimate));
+        if value.interval.is_some() {
+            self.whisker([low, high], middle + below)?;
         }
+        let (x, y) = self.place(end.max(high).min(x_range.end), middle);
+        let number = figures(value.estimate);
+        self.canvas.text(&number, (x + 14, y), INK.light, HPos::Left)?;
+        let (left, half) = (self.place(x_range.start, middle).0, self.layout.row / 2);
+        self.canvas.tip((left, y - half), (x + 14 + width_of(&number), y + half), told);
+        Ok(())
     }
-    to
+
+    /// An interval as an error bar, on a plate of its own so that it is seen on a bar. An end beyond the axis has no
+    /// mark: the interval goes on.
+    fn whisker(&self, ends: [f64; 2], y: i32) -> DrawResult<B> {
+        let axis = self.axes.x_range();
+        let stem = ends.map(|end| self.place(end.clamp(axis.start, axis.end), y));
+        self.canvas.line(&stem, PAPER.light, 7)?;
+        self.canvas.line(&stem, INK.light, 3)?;
+        for end in ends.into_iter().filter(|end| (axis.start..=axis.end).contains(end)) {
+            let (x, y) = self.place(end, y);
+            self.canvas.line(&[(x, y - 8), (x, y + 8)], INK.light, 3)?;
+        }
+        Ok(())
+    }
 }

@@ -1,54 +1,104 @@
-//! All kinds of plots behind one name.
+//! All kinds of charts behind one name, as SVG and as PNG.
 
-use super::canvas::{self, Canvas, WIDTH};
-use super::{Bars, Curves, Figure, Scatter, Stack};
+use std::path::Path;
 
-/// A plot of any kind.
+use plotters::drawing::IntoDrawingArea;
+use plotters::prelude::{BitMapBackend, DrawingBackend, SVGBackend};
+
+use super::canvas::{Area, Canvas, DrawResult, Tip, register};
+use super::palette::PAPER;
+use super::{Bars, Curves, Scatter, Tradeoff};
+use crate::render::Picture;
+
+/// A chart of any kind.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Chart {
     Bars(Bars),
     Curves(Curves),
-    Stack(Stack),
+    /// Always as wide as it is, 800: labels stand all over.
     Scatter(Scatter),
-    /// Points with labels; always as wide as it is, 800.
-    Points(Figure),
+    Tradeoff(Tradeoff),
 }
 
-impl Chart {
-    /// The width it has where it is to be `width` wide.
-    fn width(&self, width: f64) -> f64 {
-        if matches!(self, Self::Points(_)) { WIDTH } else { width }
-    }
+/// A form in which a chart can be had.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    Svg,
+    Png,
+}
 
-    fn height(&self, width: f64) -> f64 {
-        match self {
+/// What the ending of a file name does not tell.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("cannot plot to {0}: name a file that ends in .svg or .png")]
+pub struct UnknownFormat(String);
+
+impl Format {
+    /// The form that the ending of a file name asks for.
+    ///
+    /// # Errors
+    /// If it is neither `.svg` nor `.png`. Standard output, `-`, gets SVG.
+    pub fn of(path: &Path) -> Result<Self, UnknownFormat> {
+        if path == Path::new(crate::output::STDOUT) {
+            return Ok(Self::Svg);
+        }
+        let ending = path.extension().map(|ending| ending.to_ascii_lowercase());
+        match ending.as_deref().and_then(|ending| ending.to_str()) {
+            Some("svg") => Ok(Self::Svg),
+            Some("png") => Ok(Self::Png),
+            _ => Err(UnknownFormat(path.display().to_string())),
+        }
+    }
+}
+
+/// Memory takes every stroke, and the font is there: nothing can fail.
+const DRAWN: &str = "memory takes every stroke, and the font is registered";
+
+impl Chart {
+    /// Width and height in pixels where it is to be `width` wide.
+    fn size(&self, width: f64) -> (u32, u32) {
+        let width = if matches!(self, Self::Scatter(_)) { 800.0 } else { width };
+        let width = (2.0 * width).round() as i32;
+        let height = match self {
             Self::Bars(bars) => bars.height(width),
             Self::Curves(curves) => curves.height(width),
-            Self::Stack(stack) => stack.height(width),
-            Self::Scatter(scatter) => scatter.curves().height(width),
-            Self::Points(figure) => figure.height(),
-        }
+            Self::Scatter(scatter) => scatter.height(width),
+            Self::Tradeoff(tradeoff) => tradeoff.scatter().height(width),
+        };
+        (width as u32, height as u32)
     }
 
-    fn draw(&self, canvas: &Canvas, width: f64) {
+    fn draw<B: DrawingBackend>(&self, area: Area<B>) -> DrawResult<B, Vec<Tip>> {
+        register();
+        area.fill(&PAPER.light)?;
+        let width = area.dim_in_pixel().0 as i32;
+        let canvas = Canvas::new(area);
         match self {
-            Self::Bars(bars) => bars.draw(canvas, width),
-            Self::Curves(curves) => curves.draw(canvas, width),
-            Self::Stack(stack) => stack.draw(canvas, width),
-            Self::Scatter(scatter) => scatter.curves().draw(canvas, width),
-            Self::Points(figure) => figure.draw(canvas),
+            Self::Bars(bars) => bars.draw(&canvas)?,
+            Self::Curves(curves) => curves.draw(&canvas)?,
+            Self::Scatter(scatter) => scatter.draw(&canvas, width)?,
+            Self::Tradeoff(tradeoff) => tradeoff.scatter().draw(&canvas, width)?,
         }
+        canvas.area.present()?;
+        Ok(canvas.into_tips())
     }
 
     /// The text of an SVG file, `width` units wide if it can be; a unit is half as long as one of the file's view box.
     pub fn svg(&self, width: f64) -> String {
-        let width = self.width(width);
-        canvas::svg([width, self.height(width)], |canvas| self.draw(canvas, width))
+        let mut text = String::new();
+        let area = SVGBackend::with_string(&mut text, self.size(width)).into_drawing_area();
+        let tips = self.draw(area).expect(DRAWN);
+        let end = text.rfind("</svg>").unwrap_or(text.len());
+        text.insert_str(end, &tips.iter().map(Tip::svg).collect::<String>());
+        text
     }
 
     /// The bytes of a PNG file of two pixels a unit.
     pub fn png(&self, width: f64) -> Vec<u8> {
-        let width = self.width(width);
-        canvas::png([width, self.height(width)], |canvas| self.draw(canvas, width))
+        let (width, height) = self.size(width);
+        let mut bytes = vec![255; width as usize * height as usize * 3];
+        let area = BitMapBackend::with_buffer(&mut bytes, (width, height)).into_drawing_area();
+        self.draw(area).expect(DRAWN);
+        let (colours, _) = bytes.as_chunks::<3>();
+        Picture::new([width, height], colours.to_vec()).png()
     }
 }

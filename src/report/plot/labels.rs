@@ -1,138 +1,58 @@
-//! Where labels go, so that none covers another or a point.
+//! Where labels of points go, so that none covers another or a point; plotters does not place any.
 
-use super::canvas;
+use super::canvas::Place;
 
-/// A box by its top left and bottom right corner.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Rect {
-    pub min: [f64; 2],
-    pub max: [f64; 2],
+/// The top left and the bottom right corner of a box.
+pub type Corners = [Place; 2];
+
+fn meet(a: &Corners, b: &Corners) -> bool {
+    a[0].0 < b[1].0 && b[0].0 < a[1].0 && a[0].1 < b[1].1 && b[0].1 < a[1].1
 }
 
-impl Rect {
-    pub fn around(centre: [f64; 2], half: [f64; 2]) -> Self {
-        Self { min: [centre[0] - half[0], centre[1] - half[1]], max: [centre[0] + half[0], centre[1] + half[1]] }
-    }
-
-    /// The area that two boxes share.
-    pub fn overlap(&self, other: &Self) -> f64 {
-        let side = |i: usize| (self.max[i].min(other.max[i]) - self.min[i].max(other.min[i])).max(0.0);
-        side(0) * side(1)
-    }
-
-    fn is_inside(&self, other: &Self) -> bool {
-        (0..2).all(|i| other.min[i] <= self.min[i] && self.max[i] <= other.max[i])
-    }
-
-    /// How far a point is from the box.
-    pub fn distance(&self, point: [f64; 2]) -> f64 {
-        let gap = |i: usize| (self.min[i] - point[i]).max(point[i] - self.max[i]).max(0.0);
-        libm::hypot(gap(0), gap(1))
-    }
+fn is_inside(a: &Corners, b: &Corners) -> bool {
+    a[0].0 >= b[0].0 && a[0].1 >= b[0].1 && a[1].0 <= b[1].0 && a[1].1 <= b[1].1
 }
 
 /// Between a point and its label.
-const GAP: f64 = 11.0;
+const GAP: i32 = 22;
 
-/// A place for the label of each point, in order, within `frame`: beside the point where that is free, else as near as
-/// possible. `obstacles` are never covered while there is another place. Labels are `sizes`, width and height, large.
-pub fn place(points: &[[f64; 2]], sizes: &[[f64; 2]], obstacles: &[Rect], frame: Rect) -> Vec<Rect> {
-    let mut placed: Vec<Rect> = vec![];
-    for (&point, &[width, height]) in points.iter().zip(sizes) {
-        let covered = |rect: &Rect| obstacles.iter().chain(&placed).map(|other| rect.overlap(other)).sum::<f64>();
-        let half = [width * 0.5, height * 0.5];
-        // To the right, to the left, above and below, then ever higher and lower, by half lines.
-        let steps = (0..40).flat_map(|i| [-0.5 * f64::from(i), 0.5 * f64::from(i)]);
-        let beside = steps.flat_map(|step| {
-            let [x, y] = [point[0], point[1] + step * height];
-            let shift = GAP + half[0];
-            [[x + shift, y], [x - shift, y], [x + shift + 30.0, y], [x - shift - 30.0, y], [x, y]]
-        });
-        let candidates: Vec<Rect> = beside
-            .map(|centre| Rect::around(centre, half))
-            .filter(|rect| rect.is_inside(&frame) && rect.distance(point) > 0.999 * GAP)
-            .collect();
-        // A label that covers something is worse than one that is anywhere else.
-        let cost = |rect: &Rect| (covered(rect), rect.distance(point));
-        let best = candidates.into_iter().min_by(|a, b| {
-            let ((a_covered, a_far), (b_covered, b_far)) = (cost(a), cost(b));
-            a_covered.total_cmp(&b_covered).then(a_far.total_cmp(&b_far))
-        });
-        placed.push(best.unwrap_or(Rect::around(point, half)));
+/// Boxes `height` high for labels of these widths, in order, within `frame`: beside the point where that is free, else
+/// as near as possible. They do not meet each other and the obstacles as long as there is another place.
+pub fn place(points: &[(Place, i32)], height: i32, obstacles: &[Corners], frame: Corners) -> Vec<Corners> {
+    let mut taken = obstacles.to_vec();
+    for &((x, y), width) in points {
+        // To the right and to the left, then ever higher and lower, by half lines; further away as well.
+        let steps = (0..40).flat_map(|i| [-i, i]).map(|i| i * height / 2);
+        let lefts = [x + GAP, x - GAP - width, x + GAP + 60, x - GAP - 60 - width, x - width / 2];
+        let corners = |left: i32, step: i32| [(left, y + step - height / 2), (left + width, y + step + height / 2)];
+        let mut places = steps.flat_map(|step| lefts.map(|left| corners(left, step)));
+        let is_free = |place: &Corners| is_inside(place, &frame) && !taken.iter().any(|other| meet(place, other));
+        let free = places.find(is_free).unwrap_or(corners(lefts[0], 0));
+        taken.push(free);
     }
-    placed
-}
-
-/// Where the entries of a legend stand, each a mark and a name of these widths: as many in a line as there is room for, lines `height`
-/// apart, from the middle of the first one on.
-pub fn legend(widths: impl IntoIterator<Item = f64>, gap: f64, width: f64, height: f64) -> Vec<[f64; 2]> {
-    let (mut x, mut y) = (0.0, height * 0.5);
-    let place = |length: f64| {
-        if x > 0.0 && x + length > width {
-            (x, y) = (0.0, y + height);
-        }
-        let place = [x, y];
-        x += length + gap;
-        place
-    };
-    widths.into_iter().map(place).collect()
-}
-
-/// Where the labels of bars stand.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum BarLabels {
-    /// To the left of their bars, in a column of this width.
-    Beside(f64),
-    /// Each above its bar.
-    Above,
-}
-
-impl BarLabels {
-    /// Those of a drawing `width` wide: above the bars where beside them they would leave the bars less than half of it.
-    pub fn of<'a>(labels: impl IntoIterator<Item = &'a String>, width: f64) -> Self {
-        let widths = labels.into_iter().map(|label| canvas::width_of(label, canvas::BODY));
-        let column = widths.fold(0.0, f64::max) + 12.0;
-        if column > width / 2.0 { Self::Above } else { Self::Beside(column) }
-    }
-
-    /// Where the bars begin.
-    pub fn left(self) -> f64 {
-        match self {
-            Self::Beside(column) => column,
-            Self::Above => 0.0,
-        }
-    }
-
-    /// What a label adds to the height of its bar.
-    pub fn height(self) -> f64 {
-        match self {
-            Self::Beside(_) => 0.0,
-            Self::Above => 17.0,
-        }
-    }
+    taken.split_off(obstacles.len())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    const FRAME: Rect = Rect { min: [0.0, 0.0], max: [800.0, 400.0] };
+    const FRAME: Corners = [(0, 0), (1600, 800)];
 
     #[test]
     fn a_lone_label_is_to_the_right_of_its_point_or_where_there_is_room() {
-        let size = [60.0, 10.0];
-        assert_eq!(place(&[[100.0, 50.0]], &[size], &[], FRAME)[0].min, [100.0 + GAP, 45.0]);
-        assert_eq!(place(&[[790.0, 50.0]], &[size], &[], FRAME)[0].max, [790.0 - GAP, 55.0]);
+        assert_eq!(place(&[((200, 100), 120)], 20, &[], FRAME)[0][0], (200 + GAP, 90));
+        assert_eq!(place(&[((1580, 100), 120)], 20, &[], FRAME)[0][1], (1580 - GAP, 110));
     }
 
     #[test]
     fn labels_of_points_in_a_heap_do_not_cover_each_other() {
-        let points: Vec<[f64; 2]> = (0..24).map(|i| [400.0 + f64::from(i % 5), 200.0 + f64::from(i / 5)]).collect();
-        let obstacles: Vec<Rect> = points.iter().map(|&p| Rect::around(p, [6.0, 6.0])).collect();
-        let placed = place(&points, &[[120.0, 15.0]; 24], &obstacles, FRAME);
-        for (i, rect) in placed.iter().enumerate() {
-            assert!(rect.is_inside(&FRAME));
-            assert!(placed[..i].iter().chain(&obstacles).all(|other| rect.overlap(other) == 0.0), "{i}: {rect:?}");
+        let points: Vec<(Place, i32)> = (0..24).map(|i| ((800 + 2 * (i % 5), 400 + 2 * (i / 5)), 240)).collect();
+        let obstacles: Vec<Corners> = points.iter().map(|&((x, y), _)| [(x - 12, y - 12), (x + 12, y + 12)]).collect();
+        let placed = place(&points, 30, &obstacles, FRAME);
+        for (i, label) in placed.iter().enumerate() {
+            assert!(is_inside(label, &FRAME));
+            assert!(placed[..i].iter().chain(&obstacles).all(|other| !meet(label, other)), "{i}: {label:?}");
         }
     }
 }

@@ -23,8 +23,8 @@ const fn role(name: &'static str, light: [u8; 3], dark: [u8; 3]) -> Role {
     Role { name, shade: 0, light: RGBColor(light[0], light[1], light[2]), dark: RGBColor(dark[0], dark[1], dark[2]) }
 }
 
-/// How far shades are from their colour, in percent of the way to black on white paper and to white on dark paper: the contrast
-/// to the paper only grows.
+/// How far shades are from their colour, in percent of the way to black on white paper and to white on dark paper: the
+/// contrast to the paper only grows.
 const SHADES: [u16; 4] = [24, 42, 58, 72];
 
 impl Role {
@@ -50,8 +50,8 @@ pub const INK: Role = role("ink", [34, 38, 43], [226, 228, 231]);
 pub const MIDDLE: Role = role("middle", [100, 106, 114], [157, 164, 173]);
 pub const FAINT: Role = role("faint", [222, 225, 229], [52, 57, 64]);
 
-/// Colours of series, told apart by colour-blind eyes as far as the first ten can be (after Okabe, Ito: Color universal design,
-/// 2008), dark or light enough for text.
+/// Colours of series, told apart by colour-blind eyes as far as the first ten can be (after Okabe, Ito: Color universal
+/// design, 2008), dark or light enough for text.
 pub const SERIES: [Role; 24] = [
     role("s0", [106, 110, 116], [160, 166, 174]),
     role("s1", [184, 74, 0], [255, 150, 84]),
@@ -115,9 +115,9 @@ pub fn colours(labels: &[String]) -> Vec<Colour> {
     roles_of(labels).into_iter().map(|role| role.light).collect()
 }
 
-/// A colour for each label. The bare name of a structure has the colour of its structure, in every chart; with keys it has a shade
-/// of that. Other names have one of the other colours, and their variants shades of it. What has no fixed colour is told by its
-/// text: it is the same in another chart, but where two texts of one chart meet.
+/// A colour for each label. The bare name of a structure has the colour of its structure, in every chart; with keys it
+/// has a shade of that. Other names have one of the other colours, and their variants shades of it. What has no fixed
+/// colour is told by its text: it is the same in another chart, but where two texts of one chart meet.
 pub fn roles_of(labels: &[String]) -> Vec<Role> {
     let names: Vec<&str> = labels.iter().map(|label| bare(label)).collect();
     let own = |name: &str| STRUCTURES.iter().position(|structure| *structure == name);
@@ -134,8 +134,8 @@ pub fn roles_of(labels: &[String]) -> Vec<Role> {
     labels.iter().zip(names.iter().copied()).map(role).collect()
 }
 
-/// For each of `texts` a number below `n`, all different as long as there are enough: the one that the text decides, or the next
-/// that is free. The order of the texts does not matter.
+/// For each of `texts` a number below `n`, all different as long as there are enough: the one that the text decides, or
+/// the next that is free. The order of the texts does not matter.
 fn spread<'a>(texts: impl Iterator<Item = &'a str>, n: usize) -> BTreeMap<&'a str, usize> {
     let mut given: BTreeMap<&str, usize> = BTreeMap::new();
     for text in texts.collect::<BTreeSet<_>>() {

@@ -1,42 +1,170 @@
-//! Speed against what it costs: memory or time of the build. A page shows any case, other forms the first one.
+//! Points on two logarithmic axes, with the border that nothing passes.
 
-use super::curves::{CurvePoint, Curves, Line, Mark};
+use std::collections::BTreeMap;
 
-/// Several scenes and kinds of rays.
+use plotters::element::{Circle, Polygon, Rectangle};
+use plotters::prelude::DrawingBackend;
+use plotters::style::Color;
+use plotters::style::text_anchor::HPos;
+
+use super::axes::{GAP, height_with_legend, is_roomy, legend, log_log, padded};
+use super::canvas::{Canvas, DrawResult, Place, TEXT, width_of};
+use super::labels::{Corners, place};
+use super::palette::{Colour, INK, MIDDLE, PAPER, colours};
+use crate::report::number::figures;
+use crate::report::words::distinct;
+
+/// Points over one pair of axes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scatter {
-    pub cases: Vec<ScatterCase>,
+    /// May be empty.
+    pub title: String,
+    pub x_title: String,
+    pub y_title: String,
+    pub points: Vec<Point>,
 }
 
-/// The structures with a time on one kind of rays of one scene.
+/// A point. Both coordinates are positive and finite.
 #[derive(Clone, Debug, PartialEq)]
-pub struct ScatterCase {
-    pub scene: String,
-    /// The kind of rays.
-    pub rays: String,
-    pub points: Vec<ScatterPoint>,
-}
-
-/// A structure. All numbers are positive.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ScatterPoint {
-    /// Structures have their colours.
+pub struct Point {
+    pub x: f64,
+    pub y: f64,
+    /// Whether nothing but an upper bound is known of `y`: then an arrow points down from it.
+    pub is_bound: bool,
+    /// Whether no other point is better in both: these are filled, and a line joins them.
+    pub is_front: bool,
+    /// Stands beside the point.
     pub label: String,
-    pub bytes: f64,
-    pub build_ns: f64,
-    pub ns_per_ray: f64,
-    /// How its speed is to that of another one, in words.
-    pub ratio: String,
+    /// What its colour means; structures have their colours.
+    pub group: String,
+}
+
+/// Points that are all labelled; where there are more, those of the front alone are.
+pub const LABELLED: usize = 20;
+
+const RADIUS: i32 = 10;
+
+/// Length of the arrow below a bound.
+const ARROW: i32 = 44;
+
+/// Height of the title.
+const TITLE: i32 = 60;
+
+/// A point where it is drawn.
+struct Dot<'a> {
+    point: &'a Point,
+    place: Place,
+    colour: Colour,
 }
 
 impl Scatter {
-    /// The first case over memory.
-    pub(super) fn curves(&self) -> Curves {
-        let dot = |point: &ScatterPoint| {
-            let dot = CurvePoint::exact(point.bytes / f64::from(1 << 20), 1e3 / point.ns_per_ray);
-            Line::new(&point.label, Mark::Dots, [dot])
-        };
-        let points = self.cases.first().map_or(&[][..], |case| &case.points);
-        Curves::logarithmic("memory, MiB", "million rays a second", points.iter().map(dot).collect())
+    /// What there are colours for.
+    pub fn groups(&self) -> Vec<String> {
+        distinct(self.points.iter().map(|point| &point.group))
     }
+
+    /// Names of the colours; none where there is room for labels that say the same.
+    fn names(&self, width: i32) -> Vec<String> {
+        let is_said = self.points.iter().all(|point| point.label == point.group);
+        if is_said && is_roomy(width) { vec![] } else { self.groups() }
+    }
+
+    /// Height of the drawing where it is `width` wide.
+    pub fn height(&self, width: i32) -> i32 {
+        height_with_legend(width.min(880), &self.names(width), width)
+    }
+
+    pub fn draw<B: DrawingBackend>(&self, canvas: &Canvas<B>, width: i32) -> DrawResult<B> {
+        let (groups, names) = (self.groups(), self.names(width));
+        let colours = colours(&groups);
+        let area = legend(&canvas.area, &names, &colours)?;
+        let top = if self.title.is_empty() { GAP } else { TITLE };
+        canvas.text(&self.title, (GAP, TITLE / 2), INK.light, HPos::Left)?;
+        // Room on the right for a label, below for the arrows of bounds.
+        let x_ends = padded(self.points.iter().map(|point| point.x), [0.1, 0.2]);
+        let y_ends = padded(self.points.iter().map(|point| point.y), [0.15, 0.1]);
+        let axes = log_log(&area, top, [&self.x_title, &self.y_title], [x_ends, y_ends])?;
+        let colours: BTreeMap<&str, Colour> = groups.iter().map(String::as_str).zip(colours).collect();
+        let dots = self.points.iter().map(|point| {
+            let Point { x, y, group, .. } = point;
+            Dot { point, place: axes.backend_coord(&(*x, *y)), colour: colours[&**group] }
+        });
+        let mut dots: Vec<Dot> = dots.collect();
+        dots.sort_by_key(|dot| !dot.point.is_front);
+
+        let (x, y) = axes.plotting_area().get_pixel_range();
+        let front = front(&dots, x.end);
+        canvas.line(&front, MIDDLE.light, 4)?;
+        let lines = front.windows(2).map(|ends| {
+            let [(left, y), (right, end)] = [ends[0], ends[1]];
+            [(left - 4, y.min(end) - 4), (right + 4, y.max(end) + 4)]
+        });
+        let obstacles: Vec<Corners> = dots.iter().map(Dot::corners).chain(lines).collect();
+        // Among too many points nobody would find what belongs to a label, and what the legend says is said once.
+        let is_shown = |dot: &&Dot| dots.len() <= LABELLED || dot.point.is_front;
+        let is_said = |dot: &&Dot| !names.is_empty() && dot.point.label == dot.point.group;
+        let labelled: Vec<&Dot> = dots.iter().filter(|dot| is_shown(dot) && !is_said(dot)).collect();
+        draw_labels(canvas, &labelled, &obstacles, [(x.start + 12, y.start), (x.end - 4, y.end - 8)])?;
+        // What is on the front is drawn last, so that it is on top.
+        dots.iter().rev().try_for_each(|dot| self.draw_dot(canvas, dot))
+    }
+
+    fn draw_dot<B: DrawingBackend>(&self, canvas: &Canvas<B>, dot: &Dot) -> DrawResult<B> {
+        let Dot { point, place: (x, y), colour } = *dot;
+        if point.is_bound {
+            let (tip, wings) = (y + ARROW, y + ARROW - 14);
+            canvas.line(&[(x, y), (x, wings)], colour, 4)?;
+            canvas.area.draw(&Polygon::new([(x - 9, wings), (x + 9, wings), (x, tip)], colour.filled()))?;
+        }
+        let inside = if point.is_front { colour } else { PAPER.light };
+        canvas.area.draw(&Circle::new((x, y), RADIUS, inside.filled()))?;
+        canvas.area.draw(&Circle::new((x, y), RADIUS, colour.stroke_width(4)))?;
+        let bound = if point.is_bound { "at most " } else { "" };
+        let [across, up] = [point.x, point.y].map(figures);
+        canvas.tip_at((x, y), format!("{}: {bound}{up}, {}; {across}, {}", point.label, self.y_title, self.x_title));
+        Ok(())
+    }
+}
+
+impl Dot<'_> {
+    /// What no label covers, with its arrow.
+    fn corners(&self) -> Corners {
+        let ((x, y), around) = (self.place, RADIUS + 4);
+        let below = if self.point.is_bound { ARROW + 4 } else { around };
+        [(x - around, y - around), (x + around, y + below)]
+    }
+}
+
+/// The border of what is reached: a stair through the points of the front, from which each step goes on to the next
+/// point, the last one to the `end` of the axis.
+fn front(dots: &[Dot], end: i32) -> Vec<Place> {
+    let mut front: Vec<Place> = dots.iter().filter(|dot| dot.point.is_front).map(|dot| dot.place).collect();
+    front.sort_unstable();
+    let ends = front.iter().map(|place| place.0).skip(1).chain([end]);
+    front.iter().zip(ends).flat_map(|(&(x, y), end)| [(x, y), (end, y)]).collect()
+}
+
+/// Draws the labels of some points, the first of which choose first.
+fn draw_labels<B: DrawingBackend>(
+    canvas: &Canvas<B>,
+    dots: &[&Dot],
+    obstacles: &[Corners],
+    frame: Corners,
+) -> DrawResult<B> {
+    let widths = dots.iter().map(|dot| (dot.place, width_of(&dot.point.label)));
+    let boxes = place(&widths.collect::<Vec<_>>(), TEXT, obstacles, frame);
+    for (dot, [min, max]) in dots.iter().zip(&boxes) {
+        // A label that had to go elsewhere is tied to its point.
+        let (x, y) = dot.place;
+        let end = (x.clamp(min.0, max.0), y.clamp(min.1, max.1));
+        if (end.0 - x).abs().max((end.1 - y).abs()) > 36 {
+            canvas.line(&[(x, y), end], MIDDLE.light, 2)?;
+        }
+    }
+    for (dot, [min, max]) in dots.iter().zip(boxes) {
+        // What is under a label must not cross it.
+        canvas.area.draw(&Rectangle::new([min, max], PAPER.light.filled()))?;
+        canvas.text(&dot.point.label, (min.0, (min.1 + max.1) / 2), dot.colour, HPos::Left)?;
+    }
+    Ok(())
 }

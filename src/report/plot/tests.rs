@@ -4,48 +4,88 @@ use super::*;
 use crate::measure::Estimate;
 use crate::render::Picture;
 
-fn figure() -> Figure {
+fn scatter() -> Scatter {
     let point = |(x, y, label): (f64, f64, &str)| Point {
         x,
         y,
         is_bound: label == "exact",
         is_front: label != "slow",
         label: label.into(),
-        group: 0,
+        group: "tree".into(),
     };
-    Figure {
-        panels: vec![Panel {
-            title: "uniform rays".into(),
-            x_title: "ns per ray".into(),
-            y_title: "error".into(),
-            points: [(200.0, 0.02, "fast"), (250.0, 3e-5, "exact"), (4000.0, 0.02, "slow")].map(point).into(),
-        }],
-        groups: vec!["tree".into()],
-        notes: vec!["a note".into()],
+    Scatter {
+        title: "uniform rays".into(),
+        x_title: "ns per ray".into(),
+        y_title: "error".into(),
+        points: [(200.0, 0.02, "fast"), (250.0, 3e-5, "exact"), (4000.0, 0.02, "slow")].map(point).into(),
     }
 }
 
 #[test]
 fn both_forms_hold_the_picture() {
-    let svg = String::from_utf8(figure().bytes(Format::Svg)).unwrap();
-    for text in ["uniform rays", "ns per ray", "error", "fast", "exact", "slow", "tree", "a note", "0.001 %", "10 %"] {
+    let chart = Chart::Scatter(scatter());
+    let svg = chart.svg(900.0);
+    for text in ["uniform rays", "ns per ray", "error", "fast", "exact", "slow", "tree", "0.001", "1,000"] {
         assert!(svg.contains(&format!("\n{text}\n")), "{text} is not in {svg}");
     }
-    let png = figure().bytes(Format::Png);
+    let png = chart.png(360.0);
     let picture = Picture::from_png(&png).unwrap();
     assert_eq!(picture.size()[0], 1600);
     // The colour of the only group is there, and text is not pale boxes: dark pixels are many.
     let colour = palette::colours(&["tree".to_owned()])[0];
     assert!(picture.pixels().contains(&[colour.0, colour.1, colour.2]));
     assert!(picture.pixels().iter().filter(|p| p.iter().all(|&c| c < 90)).count() > 2000);
-    assert_eq!(png, figure().bytes(Format::Png));
+    assert_eq!((chart.svg(900.0), chart.png(360.0)), (svg, png));
 }
 
 #[test]
-fn a_figure_without_points_says_so() {
-    let mut empty = figure();
-    empty.panels[0].points.clear();
-    assert!(String::from_utf8(empty.bytes(Format::Svg)).unwrap().contains("nothing to show"));
+fn charts_without_anything_to_show_have_their_axes() {
+    let scatter = Scatter { points: vec![], ..scatter() };
+    let curves = Curves { x_title: "n".into(), y_title: "ns".into(), lines: vec![] };
+    let bars = Bars { x_title: "times".into(), labels: vec![], parts: vec![], groups: vec![] };
+    for (chart, title) in
+        [(Chart::Scatter(scatter), "error"), (Chart::Curves(curves), "ns"), (Chart::Bars(bars), "times")]
+    {
+        assert!([360.0, 900.0].iter().all(|width| chart.svg(*width).contains(&format!("\n{title}\n"))), "{title}");
+    }
+}
+
+#[test]
+fn the_front_of_a_tradeoff_is_what_nothing_beats_in_both_and_names_are_said_once() {
+    let point = |(label, bytes, ns_per_ray): (&str, f64, f64)| TradeoffPoint {
+        label: label.into(),
+        bytes,
+        build_ns: 1.0,
+        ns_per_ray,
+        ratio: String::new(),
+    };
+    let points = [("small", 1e6, 500.0), ("fast", 2e6, 100.0), ("neither", 3e6, 200.0)].map(point);
+    let case = TradeoffCase { scene: "Cube".into(), workload: "primary".into(), points: points.into() };
+    let tradeoff = Tradeoff { cases: vec![case] };
+    let scatter = tradeoff.scatter();
+    assert_eq!(scatter.points.iter().map(|point| point.is_front).collect::<Vec<_>>(), [true, true, false]);
+    for width in [360.0, 900.0] {
+        assert_eq!(Chart::Tradeoff(tradeoff.clone()).svg(width).matches("\nneither\n").count(), 1, "{width}");
+    }
+}
+
+fn height(chart: &Chart, width: f64) -> f64 {
+    let svg = chart.svg(width);
+    let (_, rest) = svg.split_once("height=\"").unwrap();
+    rest.split_once('"').unwrap().0.parse::<f64>().unwrap()
+}
+
+#[test]
+fn there_is_room_for_the_name_of_each_line_which_stand_as_the_lines_end() {
+    let line = |i: usize| Line { label: format!("tree {i}"), note: "n^1".into(), points: vec![(1.0, (i + 1) as f64)] };
+    let of = |lines: usize| {
+        Chart::Curves(Curves { x_title: "x".into(), y_title: "y".into(), lines: (0..lines).map(line).collect() })
+    };
+    assert_eq!(height(&of(3), 900.0), height(&of(1), 900.0));
+    assert!(height(&of(3), 360.0) > height(&of(1), 360.0));
+    assert!(height(&of(30), 900.0) > 30.0 * 32.0);
+    let svg = of(3).svg(900.0);
+    assert!(svg.find("tree 2 n^1").unwrap() < svg.find("tree 0 n^1").unwrap());
 }
 
 #[test]
@@ -64,26 +104,16 @@ fn long_names_leave_bars_their_room() {
     let value = Estimate::between(2.0, 1.8, 2.2);
     let bars = |labels: Vec<String>| {
         let bars = labels.iter().map(|_| Bar::Of(value)).collect();
-        Chart::Bars(Bars {
-            x_title: "times".into(),
-            reference: 1.0,
-            labels,
-            groups: vec![BarGroup { title: "rays".into(), bars }],
-        })
+        let groups = vec![BarGroup { title: "rays".into(), bars }];
+        Chart::Bars(Bars { x_title: "times".into(), labels, parts: vec![], groups })
     };
-    let stack = |label: String| {
-        let rows = vec![StackRow { label, factors: vec![2.0], total: value }];
-        Chart::Stack(Stack { x_title: "times".into(), parts: vec!["plane".into()], rows })
+    let products = |label: String| {
+        Chart::Bars(Bars::of_products("times", vec!["plane".into()], [(label, Bar::Product(vec![2.0], value))]))
     };
     // On a narrow screen names stand above their bars, which makes the drawing higher.
     for (short, long) in
-        [(bars(vec!["a".into(); 2]), bars(vec![long.clone(); 2])), (stack("a".into()), stack(long.clone()))]
+        [(bars(vec!["a".into(); 2]), bars(vec![long.clone(); 2])), (products("a".into()), products(long.clone()))]
     {
-        let height = |chart: &Chart, width: f64| {
-            let svg = chart.svg(width);
-            let (_, rest) = svg.split_once("height=\"").unwrap();
-            rest.split_once('"').unwrap().0.parse::<f64>().unwrap()
-        };
         assert!(height(&long, 360.0) > height(&short, 360.0));
         assert_eq!(height(&long, 1600.0), height(&short, 1600.0));
         assert!(long.svg(360.0).contains("packets"));

@@ -3,7 +3,7 @@
 use super::{AccuracyRecord, figure, legend, table};
 use crate::report::document::{Art, Block, Figure};
 use crate::report::number::{count, figures};
-use crate::report::plot::Chart;
+use crate::report::plot::{Chart, LABELLED};
 use crate::report::words::{distinct, listed, scene_name, slug};
 use crate::report::{Statement, Table};
 use crate::study::documented_defect;
@@ -72,6 +72,11 @@ fn one(index: usize, records: &[AccuracyRecord], command: &str) -> Figure {
             )
         })
         .collect();
+    let few = if records.len() > LABELLED {
+        format!(" Of more than {LABELLED} points those that are filled are labelled.")
+    } else {
+        String::new()
+    };
     let rows = records.iter().map(|r| {
         [
             r.label.clone(),
@@ -85,8 +90,9 @@ fn one(index: usize, records: &[AccuracyRecord], command: &str) -> Figure {
     Figure {
         id: format!("accuracy-{}-{}-{index}", slug(&first.scene), slug(&first.rays)),
         caption: format!(
-            "{name}, {} rays: share of wrong answers against time. Lower and further left is better; both axes are \
-             logarithmic.",
+            "{name}, {} rays: share of wrong hits against time. Lower and further left is better; both axes are logarithmic. \
+             Labels name the triangle test, colours the structure. Filled: nothing is faster and less wrong. Arrow: not one \
+             wrong hit was seen in n rays; the dot is the upper bound with 95 % confidence, about 3/n.{few}",
             first.rays
         ),
         alt: format!(
@@ -97,7 +103,7 @@ fn one(index: usize, records: &[AccuracyRecord], command: &str) -> Figure {
             front.join("; ")
         ),
         command: command.into(),
-        art: Art::Chart(Chart::Points(figure(records))),
+        art: Art::Chart(Chart::Scatter(figure(records))),
         data: Table::of_texts(
             "",
             ["structure", "triangle test", "ns per ray", "error", "error at most", "on the front"],

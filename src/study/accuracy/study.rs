@@ -9,7 +9,7 @@ use crate::measure::Threads;
 use crate::registry::{Choice, Registry};
 use crate::report::document::Block;
 use crate::report::number::count;
-use crate::report::plot::Figure;
+use crate::report::plot::Chart;
 use crate::report::words::each_once_by;
 use crate::report::{Statement, Table};
 use crate::scene::Scene;
@@ -71,7 +71,10 @@ impl Study for AccuracyStudy {
     const QUESTION: &'static str =
         "What does being right cost: how wrong and how fast is every structure over every triangle test?";
     const SCENE_BY_SCENE: bool = true;
-    const PLOT: Option<fn(&Self::Answer) -> Figure> = Some(|answer| figure(answer));
+    const PLOT: Option<fn(&Self::Answer) -> Chart> = Some(|answer| {
+        let first = answer.chunk_by(AccuracyRecord::is_beside).next().expect("an answer has records");
+        Chart::Scatter(figure(first))
+    });
     const FULL: &'static str = "dragon cornellbox -w uniform -w vertex -w grazing";
     const QUICK: &'static str = "cube -w vertex --rays 500 --runs 2 --budget 1";
 

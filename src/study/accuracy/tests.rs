@@ -80,9 +80,9 @@ fn tables_and_pictures_name_every_case() {
     assert_eq!((tables.len(), tables[0].rows.len(), tables[0].notes.len()), (1, 3, 0));
     assert!(tables[0].rows.iter().all(|row| row.len() == tables[0].columns.len()));
     let figure = figure(&records);
-    assert_eq!(figure.groups, ["sah-kd", "brute-force", "sah-kd:mailbox=true"]);
-    assert_eq!(figure.panels[0].points.len(), 3);
-    assert!(figure.panels[0].points[0].is_bound);
+    assert_eq!(figure.groups(), ["sah-kd", "brute-force", "sah-kd:mailbox=true"]);
+    assert_eq!(figure.points.len(), 3);
+    assert!(figure.points[0].is_bound);
 }
 
 #[test]

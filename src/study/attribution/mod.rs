@@ -24,7 +24,7 @@ use crate::scene::WorkloadKind;
 use design::Treatment;
 
 pub use result::{Attribution, CellResult, Effect, Part, Row, Split, Term, result, rows};
-pub use section::{HARD, hard, sentences, stack};
+pub use section::{HARD, bars, hard, sentences};
 pub use table::{headlines, tables};
 
 /// The cells of the design in their order, then the twins of the report's tree and of the SAH tree, over one triangle test.

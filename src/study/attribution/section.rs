@@ -6,7 +6,7 @@ use crate::report::{Statement, Table};
 use super::design::Factor;
 use super::{Attribution, headlines, tables};
 use crate::report::number::figures;
-use crate::report::plot::{Chart, Stack, StackRow};
+use crate::report::plot::{Bar, Bars, Chart};
 use crate::report::words::{interval, listed, scene_name};
 
 const PARTS: [Factor; 3] = [Factor::Stop, Factor::Plane, Factor::Traversal];
@@ -89,17 +89,13 @@ pub fn blocks(results: &[Attribution], command: &str) -> Vec<Block> {
 }
 
 /// The speedup of each scene as a product.
-pub fn stack(results: &[Attribution]) -> Stack {
-    let row = |r: &Attribution| StackRow {
-        label: r.scene.clone(),
-        factors: PARTS.map(|factor| r.time.parts[factor as usize].times.estimate).into(),
-        total: r.time.whole,
+pub fn bars(results: &[Attribution]) -> Bars {
+    let row = |r: &Attribution| {
+        let factors = PARTS.map(|factor| r.time.parts[factor as usize].times.estimate);
+        (r.scene.clone(), Bar::Product(factors.into(), r.time.whole))
     };
-    Stack {
-        x_title: "times as fast as the report's tree".into(),
-        parts: PARTS.map(|factor| factor.name().to_owned()).into(),
-        rows: results.iter().map(row).collect(),
-    }
+    let parts = PARTS.map(|factor| factor.name().to_owned());
+    Bars::of_products("times as fast as the report's tree", parts.into(), results.iter().map(row))
 }
 
 fn figure(results: &[Attribution], command: &str) -> Figure {
@@ -120,7 +116,7 @@ fn figure(results: &[Attribution], command: &str) -> Figure {
             .into(),
         alt: format!("Stacked bar chart. {}.", told.collect::<Vec<_>>().join("; ")),
         command: command.into(),
-        art: Art::Chart(Chart::Stack(stack(results))),
+        art: Art::Chart(Chart::Bars(bars(results))),
         data: Table::of_texts("", ["scene", "whole", "stop rule", "plane", "traversal"], data.collect()),
     }
 }

@@ -184,8 +184,8 @@ fn bars(all: &[Measurement]) -> Figure {
         data: data(&labels, &groups, &workloads),
         art: Art::Chart(Chart::Bars(Bars {
             x_title: format!("times as fast as {baseline}"),
-            reference: 1.0,
             labels,
+            parts: vec![],
             groups,
         })),
     }
@@ -194,7 +194,7 @@ fn bars(all: &[Measurement]) -> Figure {
 fn data(labels: &[String], groups: &[BarGroup], workloads: &[String]) -> Table {
     let row = |(i, label): (usize, &String)| {
         let cell = |group: &BarGroup| match &group.bars[i] {
-            Bar::Of(value) => Cell::from(*value),
+            Bar::Of(value) | Bar::Product(_, value) => Cell::from(*value),
             Bar::Missing(why) => Cell::from(why),
         };
         std::iter::once(Cell::from(label)).chain(groups.iter().map(cell)).collect()
@@ -206,7 +206,7 @@ fn data(labels: &[String], groups: &[BarGroup], workloads: &[String]) -> Table {
 fn alt(name: &str, labels: &[String], groups: &[BarGroup], baseline: &str) -> String {
     let best = groups.iter().filter_map(|group| {
         let values = group.bars.iter().zip(labels).filter_map(|(bar, label)| match bar {
-            Bar::Of(value) => Some((value, label)),
+            Bar::Of(value) | Bar::Product(_, value) => Some((value, label)),
             Bar::Missing(_) => None,
         });
         let (value, label) = values.max_by(|a, b| a.0.estimate.total_cmp(&b.0.estimate))?;

@@ -1,7 +1,7 @@
 //! Speed against memory and time of the build.
 
 use super::Reference;
-use crate::report::plot::{Chart, Scatter, ScatterCase, ScatterPoint};
+use crate::report::plot::{Chart, Tradeoff, TradeoffCase, TradeoffPoint};
 use crate::report::words::{distinct, interval};
 use crate::report::{Art, Cell, Figure, Table};
 use crate::request::BRUTE_FORCE;
@@ -10,9 +10,9 @@ use crate::study::measurement::{Measurement, trace_noise};
 /// Every scene, in this order, with every kind of rays; nothing where no two structures have a time on the same rays. Brute force,
 /// far away from all others, is left out.
 pub fn figure(scenes: &[Vec<Measurement>], references: &[Reference]) -> Option<Figure> {
-    let cases: Vec<ScatterCase> = scenes.iter().flat_map(|all| cases(all, references.first())).collect();
+    let cases: Vec<TradeoffCase> = scenes.iter().flat_map(|all| cases(all, references.first())).collect();
     let first = cases.first()?;
-    let best = |cost: fn(&ScatterPoint) -> f64| {
+    let best = |cost: fn(&TradeoffPoint) -> f64| {
         let least = first.points.iter().min_by(|a, b| cost(a).total_cmp(&cost(b)));
         least.map_or(String::new(), |point| point.label.clone())
     };
@@ -20,7 +20,7 @@ pub fn figure(scenes: &[Vec<Measurement>], references: &[Reference]) -> Option<F
         "Scatter plot of {} structures on {}, {} rays: the fastest is {}, the smallest {}, the first that is built {}.",
         first.points.len(),
         first.scene,
-        first.rays,
+        first.workload,
         best(|point| point.ns_per_ray),
         best(|point| point.bytes),
         best(|point| point.build_ns)
@@ -33,15 +33,15 @@ pub fn figure(scenes: &[Vec<Measurement>], references: &[Reference]) -> Option<F
              On the page any scene and kind of rays can be chosen, and time of the build in place of memory. There the solid line joins \
              what nothing beats in both; over time of the build a dashed one passes through all that would be done with their build and \
              so many rays as soon as the first. All are medians, on the same rays for all; their intervals are in the tables. Brute force is left out.",
-            first.scene, first.rays
+            first.scene, first.workload
         ),
         alt,
-        art: Art::Chart(Chart::Scatter(Scatter { cases })),
+        art: Art::Chart(Chart::Tradeoff(Tradeoff { cases })),
         data,
     })
 }
 
-fn cases(all: &[Measurement], reference: Option<&Reference>) -> Vec<ScatterCase> {
+fn cases(all: &[Measurement], reference: Option<&Reference>) -> Vec<TradeoffCase> {
     let noise = trace_noise(all);
     // All on the same rays: as many as the slowest is timed on.
     let drawn = |workload: &str| -> Vec<&Measurement> {
@@ -56,7 +56,7 @@ fn cases(all: &[Measurement], reference: Option<&Reference>) -> Vec<ScatterCase>
             let ratio = Reference::ratio(&reference.pairs(all, [record]), &noise)?;
             Some(format!("{} times as fast as {}", interval(ratio), reference.words()))
         });
-        Some(ScatterPoint {
+        Some(TradeoffPoint {
             label: record.label.clone(),
             bytes: record.shape.bytes.max(1) as f64,
             build_ns: record.build_ns.max(1) as f64,
@@ -64,19 +64,19 @@ fn cases(all: &[Measurement], reference: Option<&Reference>) -> Vec<ScatterCase>
             ratio: ratio.unwrap_or_default(),
         })
     };
-    let case = |workload: &String| ScatterCase {
+    let case = |workload: &String| TradeoffCase {
         scene: all[0].scene_title(),
-        rays: workload.clone(),
+        workload: workload.clone(),
         points: drawn(workload).into_iter().filter_map(point).collect(),
     };
     let workloads = distinct(all.iter().map(|r| &r.workload));
     workloads.iter().map(case).filter(|case| case.points.len() > 1).collect()
 }
 
-fn table(cases: &[ScatterCase]) -> Table {
-    let row = |case: &ScatterCase, point: &ScatterPoint| -> Vec<Cell> {
+fn table(cases: &[TradeoffCase]) -> Table {
+    let row = |case: &TradeoffCase, point: &TradeoffPoint| -> Vec<Cell> {
         let (size, build) = (Cell::bytes(point.bytes as usize), Cell::duration(point.build_ns));
-        let names = [&case.scene, &case.rays, &point.label].map(Cell::from);
+        let names = [&case.scene, &case.workload, &point.label].map(Cell::from);
         names.into_iter().chain([Cell::from(1e3 / point.ns_per_ray), size, build]).collect()
     };
     let rows = cases.iter().flat_map(|case| case.points.iter().map(move |point| row(case, point)));
@@ -105,7 +105,7 @@ mod tests {
             record("sah-kd", "shadow", Some(2.0)),
         ];
         let figure = figure(std::slice::from_ref(&all), &[]).unwrap();
-        let Art::Chart(Chart::Scatter(Scatter { cases })) = &figure.art else { panic!("no scatter plot") };
+        let Art::Chart(Chart::Tradeoff(Tradeoff { cases })) = &figure.art else { panic!("no scatter plot") };
         assert_eq!(cases.len(), 1, "one structure alone is no comparison");
         let points: Vec<(&str, f64)> = cases[0].points.iter().map(|p| (p.label.as_str(), p.ns_per_ray)).collect();
         assert_eq!(points, [("sah-kd", 500.0), ("sah-bvh", 250.0)]);
@@ -118,7 +118,7 @@ mod tests {
         all[1].parts = vec![part.clone()];
         all[2] = Measurement { rays: 25, samples_ns: vec![5_000.0], ..all[2].clone() };
         let drawn = super::figure(std::slice::from_ref(&all), &[]).unwrap();
-        let Art::Chart(Chart::Scatter(Scatter { cases })) = &drawn.art else { panic!("no scatter plot") };
+        let Art::Chart(Chart::Tradeoff(Tradeoff { cases })) = &drawn.art else { panic!("no scatter plot") };
         assert_eq!(cases[0].points.iter().map(|p| p.ns_per_ray).collect::<Vec<_>>(), [400.0, 200.0]);
     }
 }

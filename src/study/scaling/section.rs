@@ -5,7 +5,7 @@ use super::{Family, Growth, Point};
 use crate::measure::Estimate;
 use crate::report::document::{Art, Block, Figure};
 use crate::report::number::{count, figures};
-use crate::report::plot::{Chart, CurvePoint, Curves, Line, Mark};
+use crate::report::plot::{Chart, Curves, Line};
 use crate::report::words::{listed, slug, written};
 use crate::report::{Statement, Table};
 use crate::study::{REPORT_TREE, SAH_TREE};
@@ -92,10 +92,10 @@ pub fn blocks(growths: &[Growth], command: &str) -> Vec<Block> {
 fn figure(group: &[Growth], quantity: &Quantity, command: &str) -> Figure {
     let first = &group[0];
     let line = |growth: &Growth| {
-        let point = |point: &Point| CurvePoint::exact(point.triangles as f64, (quantity.value)(point));
+        let point = |point: &Point| (point.triangles as f64, (quantity.value)(point));
         let power = (quantity.power)(growth).map(|power| format!("n^{:.2}", power.estimate));
         let note = power.unwrap_or_default();
-        Line { note, ..Line::new(&growth.structure, Mark::Both, growth.points.iter().map(point)) }
+        Line { label: growth.structure.clone(), note, points: growth.points.iter().map(point).collect() }
     };
     let rows = group.iter().flat_map(|growth| {
         growth.points.iter().map(|p| [growth.structure.clone(), p.triangles.to_string(), figures((quantity.value)(p))])
@@ -115,11 +115,11 @@ fn figure(group: &[Growth], quantity: &Quantity, command: &str) -> Figure {
         ),
         alt: format!("Line chart over the number of triangles. {}.", told.join("; ")),
         command: command.into(),
-        art: Art::Chart(Chart::Curves(Curves::logarithmic(
-            "triangles",
-            quantity.y_title,
-            group.iter().map(line).collect(),
-        ))),
+        art: Art::Chart(Chart::Curves(Curves {
+            x_title: "triangles".into(),
+            y_title: quantity.y_title.into(),
+            lines: group.iter().map(line).collect(),
+        })),
         data: Table::of_texts("", ["structure", "triangles", quantity.y_title], rows.collect()),
     }
 }

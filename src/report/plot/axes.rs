@@ -1,0 +1,216 @@
+//! Axes with round numbers, and the names of what is drawn beside or below them.
+
+use std::fmt::Debug;
+
+use plotters::chart::{ChartBuilder, ChartContext, SeriesLabelPosition};
+use plotters::coord::cartesian::Cartesian2d;
+use plotters::coord::combinators::{BindKeyPoints, IntoLogRange, LogCoord, WithKeyPoints};
+use plotters::coord::ranged1d::{DefaultFormatting, Ranged};
+use plotters::element::Circle;
+use plotters::prelude::DrawingBackend;
+use plotters::style::Color;
+
+use super::canvas::{Area, DrawResult, TEXT, text_style, widest, width_of};
+use super::palette::{Colour, FAINT, INK, MIDDLE};
+use crate::report::number::count;
+
+/// A logarithmic axis with numbers at which it is labelled.
+pub type LogAxis = WithKeyPoints<LogCoord<f64>>;
+
+/// Numbers between a power of ten and the next one that an axis names, dense to sparse.
+const FACTORS: [&[f64]; 4] = [&[1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 7.0], &[1.0, 2.0, 5.0], &[1.0, 3.0], &[1.0]];
+
+/// A horizontal logarithmic axis of this length, with as many round numbers as fit beside each other.
+pub fn across(ends: [f64; 2], length: i32) -> LogAxis {
+    log_axis(ends, length, |tick| width_of(&tick_text(tick)) + 20)
+}
+
+/// A vertical logarithmic axis of this length, with as many round numbers as fit above each other.
+pub fn upward(ends: [f64; 2], length: i32) -> LogAxis {
+    log_axis(ends, length, |_| 48)
+}
+
+/// As many round numbers as fit, each of which takes some `room`.
+fn log_axis([low, high]: [f64; 2], length: i32, room: impl Fn(f64) -> i32) -> LogAxis {
+    let per_decade = f64::from(length) / libm::log10(high / low);
+    let exponents = libm::floor(libm::log10(low)) as i32..=libm::floor(libm::log10(high)) as i32;
+    // All decades with numbers between them, then every second, third and so on without.
+    let between = FACTORS.into_iter().map(|factors| (1, factors));
+    let powers = (2..20).map(|step| (step, FACTORS[3]));
+    let ticks = |(step, factors): (i32, &[f64])| -> Vec<f64> {
+        let exponents = exponents.clone().filter(|exponent| exponent % step == 0);
+        let ticks = exponents.flat_map(|exponent| factors.iter().map(move |factor| factor * power(exponent)));
+        ticks.filter(|tick| (low..=high).contains(tick)).collect()
+    };
+    let fit = |ticks: &Vec<f64>| {
+        ticks.windows(2).all(|pair| {
+            let gap = per_decade * libm::log10(pair[1] / pair[0]);
+            gap >= 0.5 * f64::from(room(pair[0]) + room(pair[1]))
+        })
+    };
+    let ticks = between.chain(powers).map(ticks).find(fit).unwrap_or_default();
+    (low..high).log_scale().with_key_points(ticks)
+}
+
+/// A range of positive values with some room at both ends, at least a factor of two.
+pub fn padded(values: impl Iterator<Item = f64>, [below, above]: [f64; 2]) -> [f64; 2] {
+    let (low, high) = values.fold((f64::INFINITY, 0.0), |(low, high), v| (v.min(low), v.max(high)));
+    if low > high {
+        return [1.0, 10.0];
+    }
+    let high = high.max(2.0 * low);
+    [low / libm::pow(high / low, below), high * libm::pow(high / low, above)]
+}
+
+/// Height of what is below a horizontal axis: with a title, and without.
+pub const BOTTOM: i32 = 96;
+pub const BOTTOM_WITHOUT_TITLE: i32 = 52;
+
+/// Between an axis and what is drawn beside it.
+pub const GAP: i32 = 20;
+
+/// A pair of axes.
+pub type Axes<'a, B, Y = LogAxis> = ChartContext<'a, B, Cartesian2d<LogAxis, Y>>;
+
+/// What is written on axes, and the room for it: above, to the left and to the right.
+pub struct AxisLabels<'a, V = f64> {
+    pub x_title: &'a str,
+    pub y_title: &'a str,
+    pub y_text: &'a dyn Fn(&V) -> String,
+    pub top: i32,
+    pub left: i32,
+    pub right: i32,
+}
+
+/// Two axes in `area`.
+pub fn axes<'a, B, Y>(
+    area: &Area<B>,
+    x: LogAxis,
+    y: Y,
+    labels: &AxisLabels<Y::ValueType>,
+) -> DrawResult<B, Axes<'a, B, Y>>
+where
+    B: DrawingBackend,
+    Y: Ranged<ValueType: Debug, FormatOption = DefaultFormatting>,
+{
+    let bottom = if labels.x_title.is_empty() { BOTTOM_WITHOUT_TITLE } else { BOTTOM };
+    let mut builder = ChartBuilder::on(area);
+    builder.margin_left(GAP).margin_top(labels.top).margin_right(labels.right);
+    let mut chart = builder.y_label_area_size(labels.left).x_label_area_size(bottom).build_cartesian_2d(x, y)?;
+    let x_text = |x: &f64| tick_text(*x);
+    let mut mesh = chart.configure_mesh();
+    mesh.bold_line_style(FAINT.light.stroke_width(2)).axis_style(MIDDLE.light.stroke_width(2));
+    mesh.label_style(text_style(INK.light)).axis_desc_style(text_style(MIDDLE.light));
+    mesh.set_all_tick_mark_size(6);
+    mesh.x_label_formatter(&x_text).y_label_formatter(labels.y_text);
+    mesh.x_desc(labels.x_title).y_desc(labels.y_title).draw()?;
+    Ok(chart)
+}
+
+/// Two logarithmic axes in `area`, with these titles, from the first to the last of these values.
+pub fn log_log<'a, B: DrawingBackend>(
+    area: &Area<B>,
+    top: i32,
+    [x_title, y_title]: [&str; 2],
+    [x_ends, y_ends]: [[f64; 2]; 2],
+) -> DrawResult<B, Axes<'a, B>> {
+    let (width, height) = area.dim_in_pixel();
+    let y = upward(y_ends, height as i32 - top - BOTTOM);
+    let texts: Vec<String> = y.bold_points().iter().map(|tick| tick_text(*tick)).collect();
+    // The title beside the labels is as wide as text is high.
+    let left = widest(&texts) + GAP + TEXT;
+    let x = across(x_ends, width as i32 - left - 2 * GAP);
+    axes(area, x, y, &AxisLabels { x_title, y_title, y_text: &|y| tick_text(*y), top, left, right: GAP })
+}
+
+/// Whether a drawing is so wide that there is room beside its axes.
+pub fn is_roomy(width: i32) -> bool {
+    width >= 1120
+}
+
+/// Height of a name.
+const LINE: i32 = 40;
+
+/// Room that names take beside and below the axes of a drawing `width` wide: one of the two.
+pub fn legend_room(names: &[String], width: i32) -> [i32; 2] {
+    match names.len() {
+        0 => [0, 0],
+        _ if is_roomy(width) => [widest(names) + 4 * GAP, 0],
+        lines => [0, lines as i32 * LINE + GAP],
+    }
+}
+
+/// Height of a drawing with axes of this height and with names.
+pub fn height_with_legend(axes: i32, names: &[String], width: i32) -> i32 {
+    match legend_room(names, width) {
+        [0, below] => axes + below,
+        _ => axes.max(names.len() as i32 * LINE + GAP),
+    }
+}
+
+/// Draws names with a dot of their colours, to the right of the axes or below them. Gives the area that is left.
+pub fn legend<B: DrawingBackend>(area: &Area<B>, names: &[String], colours: &[Colour]) -> DrawResult<B, Area<B>> {
+    const DOT: i32 = 8;
+    let (width, height) = area.dim_in_pixel();
+    let (axes, beside) = match legend_room(names, width as i32) {
+        [0, 0] => return Ok(area.clone()),
+        [0, below] => area.split_vertically(height as i32 - below),
+        [right, _] => area.split_horizontally(width as i32 - right),
+    };
+    let mut chart = ChartBuilder::on(&beside).build_cartesian_2d(0..1, 0..1)?;
+    for (name, colour) in names.iter().zip(colours) {
+        let series = chart.draw_series(std::iter::empty::<Circle<_, i32>>())?;
+        let style = colour.filled();
+        series.label(name).legend(move |(x, y)| Circle::new((x + DOT, y), DOT, style));
+    }
+    let mut legend = chart.configure_series_labels();
+    legend.position(SeriesLabelPosition::UpperLeft).legend_area_size(2 * GAP);
+    legend.label_font(text_style(INK.light)).draw()?;
+    Ok(axes)
+}
+
+/// A power of ten, as exact as it can be.
+fn power(exponent: i32) -> f64 {
+    format!("1e{exponent}").parse().expect("a number")
+}
+
+/// A round number as an axis says it: `0.001`, `20`, `5,000`, `1e6`.
+pub fn tick_text(value: f64) -> String {
+    // Without the last digits, which the product of a round number and a power of ten may have.
+    let rounded: f64 = format!("{value:.6e}").parse().expect("a number");
+    match rounded {
+        0.0 => "0".into(),
+        large if large >= 1e6 => format!("{large:e}"),
+        small if small < 1e-3 => format!("{small:e}"),
+        thousands if thousands >= 1000.0 => count(thousands.round() as u64),
+        _ => rounded.to_string(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_short() {
+        let texts = [0.0, 0.001, 0.5, 20.0, 5000.0, 1e6, 2e6, 1e-5].map(tick_text);
+        assert_eq!(texts, ["0", "0.001", "0.5", "20", "5,000", "1e6", "2e6", "1e-5"]);
+    }
+
+    #[test]
+    fn ticks_are_round_numbers_on_the_axis_as_many_as_fit() {
+        let ticks = |low, high, length| upward([low, high], length).bold_points().to_vec();
+        assert_eq!(ticks(90.0, 6000.0, 400), [100.0, 200.0, 500.0, 1000.0, 2000.0, 5000.0]);
+        assert_eq!(ticks(140.0, 410.0, 400), [150.0, 200.0, 300.0, 400.0]);
+        assert_eq!(ticks(1e-4, 1.0, 400), [1e-4, 1e-3, 1e-2, 1e-1, 1.0]);
+        // Thinned evenly where they would touch.
+        assert_eq!(ticks(1.0, 1e12, 200), [1.0, 1e3, 1e6, 1e9, 1e12]);
+    }
+
+    #[test]
+    fn a_range_has_room_and_is_never_empty() {
+        assert_eq!(padded([1.0, 100.0].into_iter(), [0.5, 0.0]), [0.1, 100.0]);
+        assert_eq!(padded([3.0].into_iter(), [0.0, 0.0]), [3.0, 6.0]);
+        assert_eq!(padded(std::iter::empty(), [0.1, 0.1]), [1.0, 10.0]);
+    }
+}

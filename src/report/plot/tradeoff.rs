@@ -1,0 +1,54 @@
+//! Speed against what it costs: memory or time of the build. A page shows any case, other forms the first one.
+
+use super::scatter::{Point, Scatter};
+
+/// Several scenes and workloads.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tradeoff {
+    pub cases: Vec<TradeoffCase>,
+}
+
+/// The structures with a time on one workload of one scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TradeoffCase {
+    pub scene: String,
+    pub workload: String,
+    pub points: Vec<TradeoffPoint>,
+}
+
+/// A structure. All numbers are positive.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TradeoffPoint {
+    /// Structures have their colours.
+    pub label: String,
+    pub bytes: f64,
+    pub build_ns: f64,
+    pub ns_per_ray: f64,
+    /// How its speed is to that of another one, in words.
+    pub ratio: String,
+}
+
+impl Tradeoff {
+    /// The first case over memory.
+    pub fn scatter(&self) -> Scatter {
+        let of_case = self.cases.first().map_or(&[][..], |case| &case.points);
+        let is_better = |a: &TradeoffPoint, b: &TradeoffPoint| {
+            let [a, b] = [a, b].map(|point| [point.bytes, point.ns_per_ray]);
+            a != b && a[0] <= b[0] && a[1] <= b[1]
+        };
+        let point = |point: &TradeoffPoint| Point {
+            x: point.bytes / f64::from(1 << 20),
+            y: 1e3 / point.ns_per_ray,
+            is_bound: false,
+            is_front: !of_case.iter().any(|other| is_better(other, point)),
+            label: point.label.clone(),
+            group: point.label.clone(),
+        };
+        Scatter {
+            title: String::new(),
+            x_title: "memory, MiB".into(),
+            y_title: "million rays a second".into(),
+            points: of_case.iter().map(point).collect(),
+        }
+    }
+}
