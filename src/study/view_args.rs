@@ -6,7 +6,7 @@ use anyhow::Context;
 use glam::Vec3;
 
 use super::sources;
-use crate::scene::{Camera, Enclosure, Scene};
+use crate::scene::{Camera, Scene};
 
 /// Options that take the place of a scene's own camera and picture.
 #[derive(Clone, Debug, Default, clap::Args)]
@@ -75,28 +75,14 @@ impl ViewArgs {
         Ok(scene)
     }
 
-    /// As [`seen`](Self::seen). A bare mesh that is seen from outside says so, and warns if it looks like a room.
+    /// As [`seen`](Self::seen), with a note on a bare mesh that is seen from outside.
     ///
     /// # Errors
     /// As [`seen`](Self::seen).
     pub fn of(&self, scene: Scene) -> anyhow::Result<Scene> {
         let mut scene = self.seen(scene)?;
-        // What a run is told once its processes need not find out again.
-        if !scene.is_framed || self.looks_from().is_some() || sources::is_process_of_run() {
-            return Ok(scene);
-        }
-        match Enclosure::of(&scene.mesh).filter(Enclosure::is_room) {
-            Some(Enclosure { rays, walls }) => {
-                let note = format!(
-                    "it looks like a room or a building ({walls} of {rays} rays from its middle meet a wall), and is seen from outside: \
-                     --inside measures within, --camera from anywhere"
-                );
-                scene.warnings.push(note.clone());
-                scene.notes.push(note);
-            }
-            None => scene
-                .notes
-                .push("seen from outside, all of it: --inside looks from within, --camera from anywhere".into()),
+        if scene.is_framed && self.looks_from().is_none() && !sources::is_process_of_run() {
+            scene.notes.push("seen from outside, all of it: --inside looks from within, --camera from anywhere".into());
         }
         Ok(scene)
     }

@@ -7,24 +7,14 @@ use sahara::render::Picture;
 use serde_json::Value;
 use tempfile::TempDir;
 
-use super::command::{path_text, prints, refuses, refuses_in_a_line, sahara, stderr, stdout, write};
+use super::command::{path_text, prints, refuses, refuses_in_a_line, write};
 
-/// The corners of a box that is longer than it is wide.
-fn corners() -> String {
-    let corner = |i: usize| format!("v {} {} {}\n", [-1, 1][i & 1], [0, 2][i >> 1 & 1], [-3, 3][i >> 2]);
-    (0..8).map(corner).collect()
-}
-
-/// A closed room.
+/// A closed box that is longer than it is wide, with its fronts inside.
 fn room(folder: &TempDir) -> String {
+    let corner = |i: usize| format!("v {} {} {}\n", [-1, 1][i & 1], [0, 2][i >> 1 & 1], [-3, 3][i >> 2]);
+    let corners: String = (0..8).map(corner).collect();
     let walls = "f 1 2 4 3\nf 5 7 8 6\nf 1 5 6 2\nf 3 4 8 7\nf 1 3 7 5\nf 2 6 8 4\n";
-    write(folder, "room.obj", &(corners() + walls))
-}
-
-/// The same walls with their fronts outside.
-fn block(folder: &TempDir) -> String {
-    let walls = "f 3 4 2 1\nf 6 8 7 5\nf 2 6 5 1\nf 7 8 4 3\nf 5 7 3 1\nf 4 8 6 2\n";
-    write(folder, "block.obj", &(corners() + walls))
+    write(folder, "room.obj", &(corners + walls))
 }
 
 const PRIMARY: [&str; 10] = ["-s", "sah-kd", "-w", "primary", "--epochs", "1", "--budget", "1", "--size", "20x10"];
@@ -66,36 +56,4 @@ fn validate_counts_and_render_look_from_there_as_well() {
     refuses_in_a_line(&["study", "counts", &room, "--camera", "0,1,0 0,1,0"], &["--camera", "same point"]);
     let point = write(&folder, "point.obj", "v 1 2 3\nv 1 2 3\nv 1 2 3\nf 1 2 3\n");
     refuses_in_a_line(&["compare", &point, "--inside"], &["--inside", "same point"]);
-}
-
-#[test]
-fn what_looks_like_a_room_is_said_once_before_anything_is_measured() {
-    let folder = TempDir::new().unwrap();
-    let (room, block, dir) = (room(&folder), block(&folder), path_text(folder.path()));
-    let says = "room: it looks like a room or a building (32 of 32 rays from its middle meet a wall), and is seen from outside: ";
-    let small = ["-s", "sah-kd", "-w", "primary", "--rays", "200"];
-    // Two processes of epochs have nothing to add.
-    let [compared, kept] = [["--epochs", "2"].as_slice(), &["--epochs", "2", "--dir", &dir, "--save-baseline", "room"]];
-    for (command, more) in [(&["compare"][..], compared), (&["compare"], kept), (&["study", "counts"], &[])] {
-        let run = |options: &[&str]| {
-            let output = sahara(&[command, options, &small[..], more].concat());
-            let words = stdout(&output).split_whitespace().collect::<Vec<_>>().join(" ");
-            (words, stderr(&output))
-        };
-        let (words, warned) = run(&[&room]);
-        assert!(words.contains(says), "{words}");
-        assert!(warned.starts_with(&format!("warning: {says}")) && warned.matches("it looks").count() == 1, "{warned}");
-        let (words, warned) = run(&[&room, "-q"]);
-        assert!(words.contains(says) && warned.is_empty(), "{warned}");
-        let (words, warned) = run(&[&room, "--inside"]);
-        assert!(!words.contains("it looks") && !warned.contains("it looks"), "{words} {warned}");
-        let (words, warned) = run(&[&block]);
-        assert!(
-            words.contains("block: seen from outside, all of it: --inside") && !warned.contains("it looks"),
-            "{words}"
-        );
-    }
-    // Whoever plans is told as well.
-    let planned = stderr(&sahara(&["study", "plan", "compare", "counts", "--scenes", &room, "--dir", &dir]));
-    assert_eq!((planned.matches(&format!("warning: {says}")).count(), planned.lines().count()), (1, 1), "{planned}");
 }
