@@ -154,7 +154,7 @@ fn a_clock_that_disagrees_with_ours_is_told_and_what_it_declines_is_not_asked() 
     let program = nothing(&folder);
     let rays = path_text(&folder.path().join("away.rays"));
     let text = write(&folder, "away.txt", &"9,9,9 0,0,1\n".repeat(100));
-    for (how, any, part) in [("liar", None, "times as long as it says"), ("honest", Some("--any"), "declines any hit")]
+    for (how, any, part) in [("liar", None, "times as long as it reports"), ("honest", Some("--any"), "declines any hit")]
     {
         let import = ["rays", "import", &text, "-o", &rays, "--scene", "cube"];
         prints(&import.into_iter().chain(any).collect::<Vec<_>>());
