@@ -3,7 +3,6 @@
 //! Results go to stdout, progress and errors to stderr. `sahara --help` lists the exit statuses of all commands.
 
 mod all;
-mod compare;
 mod completions;
 mod diff;
 #[cfg(test)]
@@ -99,7 +98,7 @@ enum Command {
     Validate(validate::Args),
     /// Record, import and show files of rays; write rays with exact answers
     Rays(rays::Args),
-    /// Write what runs have measured as a page, Markdown, LaTeX and tidy data
+    /// Write what runs have measured as a page, Markdown and tidy data
     Report(report::Args),
     /// Answer for one structure and one hard case; what `validate --hard` runs in a process of its own
     #[command(name = validate::CHILD, hide = true)]
@@ -125,17 +124,17 @@ const STUDY: &str = "study";
 
 /// Commands that went, and what does their work.
 const OLD: [(&str, &str); 5] = [
-    ("bench", "`sahara compare --save-baseline NAME` and `sahara compare --baseline NAME`"),
+    ("bench", "`sahara compare`"),
     ("compare-runs", "`sahara diff A.json B.json`"),
     ("hard", "`sahara validate --hard CASE`"),
-    ("counts", "`sahara study counts`"),
+    ("counts", "`sahara compare --wide`"),
     ("accuracy", "`sahara study accuracy`"),
 ];
 
 fn command(studies: &Studies) -> clap::Command {
     let whole = clap::Command::new("sahara").version(env!("CARGO_PKG_VERSION")).max_term_width(100);
     let mut command = Global::augment_args(whole).about(ABOUT).long_about(LONG_ABOUT).after_help(exit_status::STATUSES);
-    command = command.subcommands(studies.find(COMPARE).map(compare::command));
+    command = command.subcommands(studies.find(COMPARE).map(study::command));
     command = command.subcommands(studies.find(REPLICATE).map(study::command));
     let all = clap::Command::new(all::NAME);
     let listed = clap::Command::new(STUDY)
@@ -214,9 +213,6 @@ fn answer_job(session: &Session, matches: &ArgMatches, job: &Job, out: Option<&P
         }
         return Ok(());
     }
-    if let Some((COMPARE, matches)) = matches.subcommand() {
-        return compare::answer_job(suite, matches, job);
-    }
     study.answer_job(chosen(matches)?, &suite.registry, job)
 }
 
@@ -241,7 +237,7 @@ fn dispatch(session: &Session, matches: &ArgMatches, global: &Global) -> anyhow:
             let compare = suite.studies.find(COMPARE).ok_or_else(|| anyhow::anyhow!("name a command: see --help"))?;
             return study::run_as(session, compare, Chosen::Defaults, &study::Common::default());
         }
-        Some((COMPARE, matches)) => return compare::run(session, matches),
+        Some((COMPARE, matches)) => return study::run(session, find(suite, COMPARE)?, matches),
         Some((STUDY, matches)) => match matches.subcommand() {
             Some((all::NAME, matches)) => return all::run(session, &all::Args::from_arg_matches(matches)?),
             Some((plan::NAME, matches)) => {

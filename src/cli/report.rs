@@ -17,7 +17,7 @@ pub struct Args {
     /// Files of `--export-json`, and folders of them and of journals, of however many machines [default: runs]
     #[arg(value_name = "RUN")]
     runs: Vec<PathBuf>,
-    /// Folder for the page, Markdown, LaTeX, figures and data; an older report there is replaced
+    /// Folder for the page, Markdown, figures and data; an older report there is replaced
     #[arg(long, short, value_name = "DIR", required_unless_present = "results")]
     output: Option<PathBuf>,
     /// Write the findings of one run as a short paper into this folder, RESULTS.md, its figures and results.json, and fill in

@@ -1,7 +1,6 @@
 //! All files of a report.
 
 use super::html::page;
-use super::latex::latex;
 use super::markdown::markdown;
 use super::runs::Runs;
 use crate::report::document::{Art, Document, Figure};
@@ -16,7 +15,6 @@ pub fn files(document: &Document, runs: &Runs, studies: &Studies) -> Vec<(String
     let mut files = vec![
         ("index.html".to_owned(), page(document).into_bytes()),
         ("report.md".into(), markdown(document).into_bytes()),
-        ("report.tex".into(), latex(document).into_bytes()),
     ];
     for figure in document.figures() {
         files.extend(of_figure(figure));

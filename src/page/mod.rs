@@ -1,4 +1,4 @@
-//! `report`: what runs have measured as a page, Markdown, LaTeX and tidy data.
+//! `report`: what runs have measured as a page, Markdown and tidy data.
 //!
 //! Runs become a document of text, tables and figures by pure functions; every form is written from that. What no run
 //! has measured is named with its command.
@@ -6,7 +6,6 @@
 mod content;
 mod files;
 mod html;
-mod latex;
 mod machines;
 mod markdown;
 mod pictures;

@@ -1,7 +1,6 @@
 use std::io;
 use std::path::PathBuf;
 
-use crate::study::history::HistoryError;
 use crate::study::journal::JournalError;
 
 /// Why runs cannot be read.
@@ -19,8 +18,6 @@ pub enum RunError {
     Unknown { path: PathBuf, study: String },
     #[error(transparent)]
     Journal(#[from] JournalError),
-    #[error(transparent)]
-    History(#[from] HistoryError),
     #[error("there is no run in {}: `sahara study all` makes a whole one, `sahara compare --export-json {}/compare.json` a small one",
         path.display(), path.display())]
     Empty { path: PathBuf },

@@ -16,7 +16,6 @@ use crate::report::Record;
 use crate::report::number::plural;
 use crate::report::words::{command_line, distinct};
 use crate::study::compare::{CompareStudy, Compared};
-use crate::study::history::{self, Entry};
 use crate::study::journal::{CaseFile, Group, groups};
 use crate::study::{Answers, AnyAnswer, AnyStudy, Found, SceneId, Studies, Study};
 
@@ -38,8 +37,6 @@ pub struct Runs {
     commands: BTreeMap<&'static str, Vec<String>>,
     /// Where the numbers come from, one for each command.
     pub provenances: Vec<Provenance>,
-    /// Runs that were kept as baselines, the oldest first.
-    pub history: Vec<Entry>,
 }
 
 /// A file that was read, or a folder of cases.
@@ -96,20 +93,14 @@ impl Runs {
     /// If there is nothing, a file is torn, foreign or of another version, or cases of a study are of different settings.
     pub fn read(paths: &[PathBuf], studies: &Studies) -> Result<Self, RunError> {
         let mut files: Vec<File> = vec![];
-        let (mut histories, mut left) = (vec![], vec![]);
+        let mut left = vec![];
         for path in paths {
-            // A file that was named itself, or that of a folder.
-            if path.file_name().is_some_and(|name| name == history::FILE) {
-                histories.push(history::read(path)?);
-                continue;
-            }
             if path.is_dir() {
-                histories.push(history::read(&path.join("baselines").join(history::FILE))?);
                 left.extend(without_result(path));
             }
             let is_folder = path.is_dir();
             let found = if is_folder { folder(path, studies)? } else { vec![path.clone()] };
-            if found.is_empty() && histories.iter().all(Vec::is_empty) {
+            if found.is_empty() {
                 return Err(RunError::Empty { path: path.clone() });
             }
             files.extend(found.into_iter().map(|path| File { path, is_named: !is_folder }));
@@ -118,7 +109,7 @@ impl Runs {
         files.sort_by(|a, b| a.path.cmp(&b.path));
         files.dedup_by(|a, b| a.path == b.path);
 
-        let mut runs = Self { history: history::merged(histories), notes: left, ..Self::default() };
+        let mut runs = Self { notes: left, ..Self::default() };
         let mut parts = vec![];
         let mut cases: BTreeMap<&'static str, Vec<CaseFile<Value>>> = BTreeMap::new();
         for file in files {
@@ -153,7 +144,7 @@ impl Runs {
             }
         }
         parts.sort_by(|a, b| (a.modified, &a.path).cmp(&(b.modified, &b.path)));
-        if let (true, Some(path)) = (parts.is_empty() && runs.history.is_empty(), paths.first()) {
+        if let (true, Some(path)) = (parts.is_empty(), paths.first()) {
             return Err(RunError::Empty { path: path.clone() });
         }
         // What is made from the others comes after them.

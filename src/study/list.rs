@@ -6,8 +6,7 @@ use std::path::Path;
 use super::any_study::Typed;
 use super::journal::{self, CaseFile, JournalError};
 use super::{
-    Answers, AnyStudy, Found, Study, accuracy, attribution, break_even, compare, costs, counts, crossover, kd_or_bvh,
-    parameters, partitions, predictions, replicate, scaling, self_intersection, threads,
+    Answers, AnyStudy, Found, Study, accuracy, attribution, compare, parameters, predictions, replicate, scaling,
 };
 
 /// Studies, in the order of the page.
@@ -27,16 +26,8 @@ impl Studies {
             .with::<attribution::AttributionStudy>()
             .with::<compare::CompareStudy>()
             .with::<scaling::ScalingStudy>()
-            .with::<threads::ThreadsStudy>()
-            .with::<break_even::BreakEvenStudy>()
-            .with::<crossover::CrossoverStudy>()
-            .with::<kd_or_bvh::KdOrBvhStudy>()
-            .with::<costs::CostsStudy>()
             .with::<parameters::ParametersStudy>()
             .with::<accuracy::AccuracyStudy>()
-            .with::<partitions::PartitionsStudy>()
-            .with::<counts::CountsStudy>()
-            .with::<self_intersection::SelfIntersectionStudy>()
             .with::<replicate::ReplicateStudy>()
     }
 
@@ -118,10 +109,8 @@ mod tests {
         for (name, defaults) in [
             ("compare", ["4", "1", "2"]),
             ("attribution", ["8", "3", "5"]),
-            ("partitions", ["3", "5", "40"]),
             ("replicate", ["8", "3", "5"]),
             ("scaling", ["8", "3", "5"]),
-            ("threads", ["3", "3", "4"]),
         ] {
             let command = studies.find(name).expect("it is built in").augment(Command::new(name));
             let default =

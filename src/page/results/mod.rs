@@ -22,7 +22,6 @@ use crate::report::words::{command_line, distinct};
 use crate::report::{Record, Statement, Table, to_json};
 use crate::scene::{Builtin, WorkloadKind};
 use crate::study::compare::{CompareStudy, ranks};
-use crate::study::partitions::{PartitionsStudy, all_scenes};
 use crate::study::{Studies, Study};
 
 /// The command that makes all of it.
@@ -229,7 +228,6 @@ fn statements(document: &Document, runs: &Runs, studies: &Studies, run: &RunFact
     };
     let ranked = ranks(runs.records()).map_or(vec![], |ranks| ranks.tables(runs.records()));
     add_table(CompareStudy::NAME, "rank", ranked.into_iter().next());
-    add_table(PartitionsStudy::NAME, "all", runs.answers.of::<PartitionsStudy>().and_then(all_scenes));
     all
 }
 

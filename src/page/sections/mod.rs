@@ -1,14 +1,11 @@
 //! The whole page: a section for each study, in the order of the list, and what frames them.
 
 mod answer;
-mod history;
-mod machines;
 mod provenance;
 
 use super::runs::Runs;
 use crate::report::document::{Block, Document, Section};
-use crate::study::compare::CompareStudy;
-use crate::study::{Studies, Study};
+use crate::study::Studies;
 
 /// The whole report; `pictures` are the sections that are drawn and not measured. Studies whose answers have no data are named at
 /// the end, with the commands that measure them.
@@ -28,14 +25,10 @@ pub fn document(runs: &Runs, studies: &Studies, pictures: Vec<Section>) -> Docum
                 });
                 let blocks = found.chain(elsewhere).chain(study.section(answer, &runs.command(study))).collect();
                 sections.push(Section { id: study.name(), title: study.question(), blocks });
-                if study.name() == CompareStudy::NAME {
-                    sections.extend(machines::section(runs));
-                }
             }
             None => missing.push(Block::missing(study.question(), &study.command())),
         }
     }
-    sections.extend(history::section(runs));
     let mut document = Document { title, answer, sections };
     let mut known = vec![];
     document.sections.iter_mut().for_each(|section| name_apart(&mut section.blocks, &mut known));

@@ -18,7 +18,6 @@ use serde::Serialize;
 
 use super::attribution::{Attribution, AttributionStudy};
 use super::compare::CompareStudy;
-use super::crossover::{CrossoverStudy, Race};
 use super::plan::{Measure, scene_key};
 use super::replicate::original::main_scenes;
 use super::replicate::{self, ReplicateStudy};
@@ -48,7 +47,6 @@ pub struct Inputs {
     pub replicated: Vec<Main>,
     pub attribution: Vec<Attribution>,
     pub scaling: Vec<Growth>,
-    pub crossover: Vec<Race>,
     pub compare: Vec<Record>,
 }
 
@@ -77,7 +75,6 @@ impl Inputs {
             replicated: replicated.unwrap_or_default(),
             attribution: others.of::<AttributionStudy>().cloned().unwrap_or_default(),
             scaling: others.of::<ScalingStudy>().cloned().unwrap_or_default(),
-            crossover: others.of::<CrossoverStudy>().cloned().unwrap_or_default(),
             compare: others.of::<CompareStudy>().map_or(vec![], |compared| of_builtin(&compared.records)),
         }
     }

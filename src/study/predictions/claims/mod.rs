@@ -1,8 +1,7 @@
-//! The eight expectations. Pure functions of what was measured.
+//! The seven expectations. Pure functions of what was measured.
 
 mod brute_force;
 mod crowded;
-mod depth;
 mod growth;
 mod ranking;
 mod rays;
@@ -20,7 +19,6 @@ pub fn result(inputs: &Inputs) -> Vec<Prediction> {
         speedup::speedup(inputs),
         speedup::architecture(inputs),
         ranking::ranking(inputs),
-        depth::depth(inputs),
     ]
 }
 
