@@ -39,15 +39,12 @@ impl Scene {
         hash.vectors(&[camera.eye(), camera.target(), camera.up(), *background]);
         hash.floats(&[camera.vertical_fov()]);
         hash.words([*recursion_limit, u32::from(*shadow_terminator_fix), size[0], size[1]]);
-        let (way, length) = match *offset {
-            Offset::None => (0, 0.0),
-            Offset::Normal(distance) => (1, distance),
-            Offset::TMin(t) => (2, t),
+        // The codes are part of every recorded hash: they are never changed and never given to another offset.
+        let (code, length) = match *offset {
             Offset::Direction(distance) => (3, distance),
-            Offset::WachterBinder => (4, 0.0),
             Offset::ErrorBounded => (5, 0.0),
         };
-        hash.words([way]);
+        hash.words([code]);
         hash.floats(&[length]);
         hexadecimal(&hash.0.into_inner().expect(SUMMED).finalize())
     }
