@@ -1,7 +1,7 @@
 //! Files and folders written whole or not at all.
 //!
-//! Contents are first written beside their place under a temporary name and then moved there: a reader never sees half of
-//! them, and what was there before stays when something fails.
+//! Contents are first written beside their place under a temporary name and then moved there: a reader never sees half
+//! of them, and what was there before stays when something fails.
 
 mod file;
 mod folder;
@@ -34,9 +34,11 @@ pub enum OutputError {
     File(PathBuf),
     #[error("cannot write {}: it is one of the files to read: name another one", .0.display())]
     Input(PathBuf),
-    #[error("cannot replace {}: {}, one of the files to read, is in it: name another folder", path.display(), input.display())]
+    #[error("cannot replace {}: {}, one of the files to read, is in it: name another folder",
+        path.display(), input.display())]
     InputInside { path: PathBuf, input: PathBuf },
-    #[error("{} contains {other}, which sahara has not written there: name another folder, or empty it", path.display())]
+    #[error("{} contains {other}, which sahara has not written there: name another folder, or empty it",
+        path.display())]
     Foreign { path: PathBuf, other: String },
     #[error("cannot write two results to {}: name another file for one of them", .0.display())]
     Same(PathBuf),

@@ -37,7 +37,10 @@ impl Conditions {
         });
         let load = self.load.filter(|&load| load > 0.5 * cores as f64).map(|load| {
             let noun = if cores == 1 { "core" } else { "cores" };
-            format!("the load average was {load:.1} on {cores} {noun} before the run: end other programs; until then trust ratios, not times")
+            format!(
+                "the load average was {load:.1} on {cores} {noun} before the run: end other programs; until then trust \
+                 ratios, not times"
+            )
         });
         let governor = (self.governor.as_deref() == Some("powersave")).then(|| {
             "the clock rate is governed by powersave: `cpupower frequency-set -g performance` makes times steadier"
@@ -45,11 +48,17 @@ impl Conditions {
         });
         let clock = self.clock_rates.filter(|(before, after)| *after < CLOCK_FALL * before).map(|(before, after)| {
             let [before, after] = [before, after].map(|khz| khz * 1e-6);
-            format!("the clock rate fell from {before:.2} to {after:.2} GHz: the processor throttles; let it cool, or run fewer threads")
+            format!(
+                "the clock rate fell from {before:.2} to {after:.2} GHz: the processor throttles; let it cool, or run fewer \
+                 threads"
+            )
         });
         let is_often = |&n: &u64| n as f64 > INTERRUPTIONS * seconds.max(1.0);
         let interruptions = self.interruptions.filter(is_often).map(|n| {
-            format!("the measuring thread was interrupted {n} times in {seconds:.0} s: another program wants its core; end it, or repeat the run")
+            format!(
+                "the measuring thread was interrupted {n} times in {seconds:.0} s: another program wants its core; end it, or \
+                 repeat the run"
+            )
         });
         let is_changed = !matches!(denormals, "kept" | "unknown");
         let denormals = is_changed.then(|| {
@@ -64,8 +73,8 @@ impl Conditions {
 /// The elapsed time that is plausible, as a multiple of the time that a program reports itself.
 const OWN_CLOCK: std::ops::RangeInclusive<f64> = 0.95..=1.25;
 
-/// A sentence about the own clock of the structure `label`, where it and ours disagree: `outside` is the ratio of ours to
-/// its own.
+/// A sentence about the own clock of the structure `label`, where it and ours disagree: `outside` is the ratio of ours
+/// to its own.
 pub fn of_own_clock(label: &str, outside: f64) -> Option<String> {
     let why = if outside < 1.0 {
         "its times are not in seconds, or add up those of several threads: report the elapsed time"
@@ -90,13 +99,16 @@ pub fn of_samples(cases: &[&[f64]]) -> Vec<String> {
     let all: usize = cases.iter().map(|case| case.len()).sum();
     let outliers: usize = cases.iter().map(|case| outliers(case)).sum();
     let many = (outliers as f64 > OUTLIERS * all as f64).then(|| {
-        format!("{outliers} of {all} samples are outliers: something interrupts the run; repeat it on a quieter machine, or with more --runs")
+        format!(
+            "{outliers} of {all} samples are outliers: something interrupts the run; repeat it on a quieter machine, or with \
+             more --runs"
+        )
     });
     let trend = trend(cases).filter(|&ratio| ratio > TREND).map(|ratio| {
         let percent = (ratio - 1.0) * 100.0;
         format!(
-            "all cases grew slower, by {percent:.0} % over the run: the processor throttles or others load it; ratios are paired within \
-             rounds and suffer less than times"
+            "all cases grew slower, by {percent:.0} % over the run: the processor throttles or others load it; ratios are \
+             paired within rounds and suffer less than times"
         )
     });
     [many, trend].into_iter().flatten().collect()
@@ -108,12 +120,14 @@ fn outliers(samples: &[f64]) -> usize {
     let Some(middle) = median(&logs) else { return 0 };
     let distances: Vec<f64> = logs.iter().map(|log| libm::fabs(log - middle)).collect();
     let spread = median(&distances).expect("as many as samples");
-    // The factor makes the median distance of normal noise its standard deviation. Clocks have steps: half a percent is none.
+    // The factor makes the median distance of normal noise its standard deviation. Clocks have steps: half a percent is
+    // none.
     distances.iter().filter(|&&d| 0.6745 * d > OUTLIER * spread.max(0.005)).count()
 }
 
-/// By how much the cases together grew slower from the first round to the last, as a ratio, where that is no accident: by the
-/// test of Mann ("Nonparametric tests against trend", 1945) at three standard deviations, and the slope of Theil and Sen (1968).
+/// By how much the cases together grew slower from the first round to the last, as a ratio, where that is no accident:
+/// by the test of Mann ("Nonparametric tests against trend", 1945) at three standard deviations, and the slope of Theil
+/// and Sen (1968).
 fn trend(cases: &[&[f64]]) -> Option<f64> {
     let rounds = cases.iter().map(|case| case.len()).min()?;
     if rounds < 3 {

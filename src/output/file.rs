@@ -10,8 +10,8 @@ use super::{OutputError, TO_STDOUT, folder_of, target, temporary};
 /// The file name that stands for standard output.
 pub const STDOUT: &str = "-";
 
-/// A file that results will go to, or standard output where it is called [`STDOUT`]. What is not a regular file (a pipe,
-/// `/dev/stdout`) is written to directly.
+/// A file that results will go to, or standard output where it is called [`STDOUT`]. What is not a regular file (a
+/// pipe, `/dev/stdout`) is written to directly.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct OutputFile {
     path: PathBuf,
@@ -109,8 +109,8 @@ impl OutputFile {
         fs::metadata(&self.path).is_ok_and(|there| !there.is_file())
     }
 
-    /// The one path that a regular file has, whether it exists yet or not. Standard output, pipes and terminals have none:
-    /// they can be read from and written to more than once.
+    /// The one path that a regular file has, whether it exists yet or not. Standard output, pipes and terminals have
+    /// none: they can be read from and written to more than once.
     fn identity(&self) -> Option<PathBuf> {
         if self.is_stdout() || self.is_special() {
             return None;

@@ -16,8 +16,8 @@ pub struct OutputFolder {
 }
 
 impl OutputFolder {
-    /// Checks that `path` may be written: it does not exist, is empty or holds only what was written there before. Leaves
-    /// nothing behind.
+    /// Checks that `path` may be written: it does not exist, is empty or holds only what was written there before.
+    /// Leaves nothing behind.
     ///
     /// # Errors
     /// If it is a file, holds anything else, or its parent takes no folder.

@@ -1,10 +1,10 @@
-//! What mesh generators and file loaders hand over.
+//! The output of mesh generators and file loaders.
 
 use glam::Vec3;
 
 use super::Material;
 
-/// Triangles with what shading needs of them, in model space and not yet validated.
+/// Triangles with normals and materials, in model space and not yet validated.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Model {
     pub positions: Vec<Vec3>,
@@ -18,7 +18,7 @@ pub struct Model {
     pub materials: Vec<Material>,
     /// One number into `materials` a triangle, or empty when all triangles have the first.
     pub material_of: Vec<u32>,
-    /// What was left out of a file or replaced when the model was made, a sentence each.
+    /// Sentences about parts of a file that were left out or replaced.
     pub notes: Vec<String>,
 }
 

@@ -35,7 +35,7 @@ impl CornerNormals {
         (corners != Self::FLAT).then(|| corners.map(|i| self.normals[i as usize]))
     }
 
-    /// Everything that it consists of: the normals, and three numbers into them a triangle.
+    /// The normals, and three indices into them per triangle.
     pub fn parts(&self) -> (&[Vec3], &[[u32; 3]]) {
         (&self.normals, &self.indices)
     }

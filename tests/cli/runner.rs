@@ -129,7 +129,7 @@ fn a_program_that_fails_is_refused_in_a_sentence_and_the_others_go_on() {
         ("backwards", "it answers \"passed -1\""),
         ("chatters", "\"that was quick\""),
         ("floods", "\"that was much\""),
-        ("few", "its hits are not to be had: "),
+        ("few", "its hits cannot be read: "),
     ];
     let commands: Vec<String> = failures.iter().map(|(how, _)| format!("{program} {how}")).collect();
     let runners: Vec<&str> = commands.iter().flat_map(|command| ["--runner", command]).collect();

@@ -231,7 +231,8 @@ fn slopes_and_shares_are_held_by_the_jackknife() {
     }
     for placement in [0.0, 0.04, 0.1] {
         let machine = Machine { placement, ..Machine::default() };
-        // The share of the first in the squares of two effects: about a half, and both are as large as ten standard errors.
+        // The share of the first in the squares of two effects: about a half, and both are as large as ten standard
+        // errors.
         let share = |effects: &[f64]| effects[0] * effects[0] / (effects[0] * effects[0] + effects[1] * effects[1]);
         let run = |random: &mut RandomOrder| {
             jackknifed(&[[1.5, 1.0], [1.0, 1.3]].map(|times| machine.values(1, times, random)), share)
@@ -275,7 +276,8 @@ fn half_widths_are_those_of_students_t() {
         let expected = 2.776 * deviation * libm::sqrt(1.0 / 5.0 + 1.0 / epochs as f64);
         expect(half(Rerun::in_epochs(&spread, epochs, Variance::NONE)), expected);
     }
-    // A change is as sure as both runs: eight degrees of freedom, four where one does not spread, and the noise of both.
+    // A change is as sure as both runs: eight degrees of freedom, four where one does not spread, and the noise of
+    // both.
     let change = |old: &[f64], new: &[f64], noise| Rerun::change(old, new, [noise; 2]);
     let noise = Variance { square: 1e-4, freedom: 1e9 };
     expect(half(change(&spread, &spread.map(|x| x + 0.1), Variance::NONE)), 2.306 * deviation * libm::sqrt(2.0 / 5.0));

@@ -56,10 +56,10 @@ fn a_pass_that_answers_nothing_is_unsteady() {
     }
 }
 
-/// A structure that takes as many nanoseconds for a ray, on a clock of its own, as the ray's origin says.
+/// A structure with its own clock. Each ray takes as many nanoseconds as its origin says.
 struct Slow<'a>(&'a AtomicU64, Box<dyn DynAccel>);
 
-/// The clock, the number of rays, and what they take.
+/// The clock, the number of rays, and the time that they take.
 struct Taken<'a>(&'a AtomicU64, usize, u64);
 
 struct Now<'a>(&'a AtomicU64);
@@ -78,7 +78,7 @@ impl Loaded for Taken<'_> {
     }
 
     fn any_hits(&self, _: &mut [bool]) {
-        unreachable!("closest hits are asked for")
+        unreachable!("only closest hits are queried")
     }
 }
 

@@ -14,7 +14,7 @@ impl Clock for Rc<MockClock> {
     }
 }
 
-/// A case that takes `ns` a ray on the mock clock and writes its name into a log.
+/// A case that takes `ns` per ray on the mock clock and logs its name.
 struct Mock {
     clock: Rc<MockClock>,
     log: Rc<RefCell<Vec<(char, usize)>>>,
@@ -24,9 +24,9 @@ struct Mock {
     chosen: Vec<usize>,
     epoch: usize,
     answer: u64,
-    /// What it answers; to the tiles of another epoch it answers something else.
+    /// Its checksum, which differs for the tiles of another epoch.
     right: u64,
-    /// Changes its answer in this pass.
+    /// The pass in which its checksum changes.
     fickle_at: usize,
     passes: usize,
 }
@@ -116,8 +116,9 @@ fn only_the_pass_is_timed_in_rounds_of_changing_order() {
 }
 
 #[test]
-fn other_answers_to_the_same_rays_are_no_measurement_and_the_others_go_on() {
-    // The second of five samples, or its lead-in; where a part of the rays is timed, the second look at some of them.
+fn a_case_with_changing_results_is_not_steady_and_the_others_go_on() {
+    // The second of five samples, or its lead-in; where only a part of the rays is timed, the second pass over some of
+    // them.
     for (runs, most_rays, fickle_at) in [(5, usize::MAX, 2), (5, 16, 4), (1, 16, 2)] {
         let bench = Bench::default();
         let fickle = Mock { fickle_at, ..bench.mock('a', 10, 64) };
@@ -125,8 +126,8 @@ fn other_answers_to_the_same_rays_are_no_measurement_and_the_others_go_on() {
         let samples = bench.take(&mut cases, &Plan { runs, most_rays, ..PLAN });
         assert!(!samples[0].is_steady && samples[1].is_steady, "{runs} {most_rays}");
         assert_eq!(samples[1].ns.len(), runs);
-        let asked = bench.log.borrow().iter().filter(|(name, _)| *name == 'a').count();
-        assert_eq!(asked, fickle_at, "it is asked no more");
+        let passes = bench.log.borrow().iter().filter(|(name, _)| *name == 'a').count();
+        assert_eq!(passes, fickle_at, "it is not run again");
     }
 }
 
@@ -142,7 +143,7 @@ fn parts_are_timed_along() {
 }
 
 #[test]
-fn another_epoch_has_the_checksum_of_the_first_unless_it_answers_otherwise() {
+fn another_epoch_has_the_checksum_of_the_first_unless_its_results_differ() {
     for (whole, rays, asked) in [(1000, 1000, None), (65_536, 16_384, Some(3))] {
         let bench = Bench::default();
         let checksum = |right: u64, epoch: usize| {
@@ -158,7 +159,7 @@ fn another_epoch_has_the_checksum_of_the_first_unless_it_answers_otherwise() {
 #[test]
 fn a_case_of_unknown_cost_takes_as_many_rays_as_its_clock_says_that_it_can() {
     let bench = Bench::default();
-    // 65,536 rays of 100 ns take 15.6 ms with what is asked beside them.
+    // 65,536 rays of 100 ns take 15.6 ms, with their lead-ins and warm-up.
     let cases = [
         (100, 0, 16_000_000, 65_536),
         (100, 0, 15_000_000, 16_384),

@@ -23,7 +23,7 @@ fn recorded(kind: WorkloadKind) -> (Scene, RayFile) {
 }
 
 #[test]
-fn what_is_replayed_is_what_was_recorded_and_is_answered_the_same() {
+fn replayed_rays_are_the_recorded_ones_and_have_the_same_hits() {
     let directory = tempfile::tempdir().unwrap();
     for kind in WorkloadKind::ALL {
         let (scene, file) = recorded(kind);
@@ -46,7 +46,7 @@ fn what_is_replayed_is_what_was_recorded_and_is_answered_the_same() {
 }
 
 #[test]
-fn what_is_damaged_is_refused_in_a_sentence() {
+fn damaged_files_are_refused_with_a_sentence() {
     let (_, file) = recorded(WorkloadKind::Diffuse);
     let whole = file.to_bytes();
     let refusal = |bytes: &[u8]| RayFile::from_bytes(bytes).unwrap_err();
@@ -76,7 +76,7 @@ fn what_is_damaged_is_refused_in_a_sentence() {
     assert!(refusal(&bad.to_bytes()).contains("no ray"));
 }
 
-/// A head that speaks of no rays and of no names, cut at every length: the first item would begin at byte 96.
+/// A header without rays and names, cut at every length: the first item would begin at byte 96.
 #[test]
 fn every_length_is_refused_in_a_sentence() {
     let (_, file) = recorded(WorkloadKind::Primary);
@@ -99,7 +99,7 @@ fn every_length_is_refused_in_a_sentence() {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn a_file_without_an_end_is_refused_at_its_beginning() {
+fn an_endless_file_is_refused_by_its_first_bytes() {
     for refusal in
         [RayFile::read(Path::new("/dev/zero")).unwrap_err(), HitFile::read(Path::new("/dev/zero")).unwrap_err()]
     {
@@ -108,7 +108,7 @@ fn a_file_without_an_end_is_refused_at_its_beginning() {
 }
 
 #[test]
-fn rays_and_answers_of_another_scene_are_refused() {
+fn rays_and_hits_of_another_scene_are_refused() {
     let (scene, file) = recorded(WorkloadKind::Primary);
     let other = Builtin::find("cube").unwrap().scene(None).unwrap();
     let refusal = file.check_scene(&other).unwrap_err();
@@ -129,7 +129,7 @@ fn rays_and_answers_of_another_scene_are_refused() {
     drop(scene);
 }
 
-/// The reader of the document, run as it stands there.
+/// Runs the Python program of the document.
 #[test]
 fn the_python_of_the_document_reads_our_rays_and_writes_hits_that_we_read() {
     if Command::new("python3").arg("--version").output().is_err() {

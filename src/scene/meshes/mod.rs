@@ -1,4 +1,4 @@
-//! Meshes made by our own code, each the same bit for bit on every machine.
+//! Mesh generators; their meshes are the same bit for bit on every machine.
 
 mod catmull_clark;
 mod coincident;
@@ -39,7 +39,7 @@ pub use terrain::Terrain;
 pub use torus::torus;
 pub use uv_sphere::uv_sphere;
 
-/// A mesh generator and the name that scene files call it by.
+/// A mesh generator and its name in scene files.
 pub struct Generator {
     pub name: &'static str,
     pub make: fn() -> Model,

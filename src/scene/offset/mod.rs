@@ -11,12 +11,12 @@ use crate::geometry::Ray;
 
 /// How the origins of secondary rays are offset.
 ///
-/// The point of a hit is rounded, so it lies a little before or behind the surface: half of the rays that start at it hit
-/// their own surface again (acne). An origin that is offset too far passes through what the ray should hit (leak).
+/// The point of a hit is rounded, so it lies a little before or behind the surface: half of the rays that start at it
+/// hit their own surface again (acne). An origin that is offset too far passes through what the ray should hit (leak).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Offset {
-    /// By this distance along the direction, rays from the eye included: the source report's course does it, with 0.01. A
-    /// grazing ray leaves the surface slowly and may hit it again.
+    /// By this distance along the direction, rays from the eye included: the source report's course does it, with 0.01.
+    /// A grazing ray leaves the surface slowly and may hit it again.
     Direction(f32),
     /// By the error bound of the point: [`error_bounded`], right at every scale and place.
     ErrorBounded,
