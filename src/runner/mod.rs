@@ -48,12 +48,12 @@ impl Runner {
         let path = folder.path().join("scene.ply");
         write_mesh(mesh, &path).map_err(|cause| format!("cannot write {}: {cause}", path.display()))?;
         let (request, form) = (format!("scene {}", path.display()), "built SECONDS BYTES");
-        let answer = session.request(&request)?.text;
+        let reply = session.request(&request)?.text;
         let read = || {
-            let (seconds, bytes) = answer.strip_prefix("built ")?.split_once(' ')?;
+            let (seconds, bytes) = reply.strip_prefix("built ")?.split_once(' ')?;
             Some((nanoseconds(seconds)?, bytes.parse().ok()?))
         };
-        let (build_ns, bytes) = read().ok_or_else(|| unexpected(&request, &answer, form))?;
+        let (build_ns, bytes) = read().ok_or_else(|| unexpected(&request, &reply, form))?;
         let _ = std::fs::remove_file(path);
         let state = State::new(session);
         Ok(Self { state: Mutex::new(state), folder, capabilities, build_ns, bytes, triangles: mesh.len() })

@@ -56,11 +56,11 @@ impl Program {
     pub(super) fn start(&self, threads: usize) -> Result<(Session, Capabilities), String> {
         let mut session = Session::start(&self.words, threads, self.limit)?;
         let request = format!("sahara {VERSION} {threads}");
-        let answer = session.request(&request)?.text;
-        match answer.strip_prefix(&format!("runner {VERSION} ")) {
+        let reply = session.request(&request)?.text;
+        match reply.strip_prefix(&format!("runner {VERSION} ")) {
             Some("closest any") => Ok((session, Capabilities::ALL)),
             Some("closest") => Ok((session, Capabilities { any_hit: false, ..Capabilities::ALL })),
-            _ => Err(unexpected(&request, &answer, "runner 1 closest any")),
+            _ => Err(unexpected(&request, &reply, "runner 1 closest any")),
         }
     }
 }

@@ -75,25 +75,25 @@ impl<'a> RaySet<'a> {
         };
 
         let request = format!("pass {}", self.number);
-        let answer = state.session.request(&request)?;
-        let ns = answer.text.strip_prefix("passed ").and_then(nanoseconds);
+        let reply = state.session.request(&request)?;
+        let ns = reply.text.strip_prefix("passed ").and_then(nanoseconds);
         let ns = ns.ok_or_else(|| {
-            format!("{}; SECONDS are finite and not negative", unexpected(&request, &answer.text, "passed SECONDS"))
+            format!("{}; SECONDS are finite and not negative", unexpected(&request, &reply.text, "passed SECONDS"))
         })?;
         self.own_ns.store(ns, Ordering::Relaxed);
-        if answer.ns > LONG_NS {
-            state.outside.push(answer.ns as f64 / ns.max(1) as f64);
+        if reply.ns > LONG_NS {
+            state.outside.push(reply.ns as f64 / ns.max(1) as f64);
         }
 
         let path = self.folder.join(format!("{}.hits", self.number));
         let request = format!("hits {} {}", self.number, path.display());
-        let (answer, form) = (state.session.request(&request)?.text, format!("written {}", self.rays.len()));
-        if answer != form {
-            return Err(unexpected(&request, &answer, &form));
+        let (reply, form) = (state.session.request(&request)?.text, format!("written {}", self.rays.len()));
+        if reply != form {
+            return Err(unexpected(&request, &reply, &form));
         }
         let file = HitFile::read(&path).map_err(|error| format!("its hits cannot be read: {error}"))?;
         let _ = std::fs::remove_file(&path);
-        let hits = file.answers_to(&id).map_err(|problem| format!("its hits do not fit the rays: {problem}"))?;
+        let hits = file.hits_of_rays(&id).map_err(|problem| format!("its hits do not fit the rays: {problem}"))?;
         Ok(hits.to_vec())
     }
 
@@ -106,9 +106,9 @@ impl<'a> RaySet<'a> {
         let written = OutputFile::check(&path).map_err(Into::into).and_then(|output| file.write(&output));
         written.map_err(|error| error.to_string())?;
         let request = format!("rays {} {}", self.number, path.display());
-        let (answer, form) = (state.session.request(&request)?.text, format!("loaded {}", self.rays.len()));
+        let (reply, form) = (state.session.request(&request)?.text, format!("loaded {}", self.rays.len()));
         let _ = std::fs::remove_file(path);
-        if answer == form { Ok(id) } else { Err(unexpected(&request, &answer, &form)) }
+        if reply == form { Ok(id) } else { Err(unexpected(&request, &reply, &form)) }
     }
 }
 
@@ -128,7 +128,7 @@ impl Loaded for RaySet<'_> {
 
     fn any_hits(&self, hits: &mut [bool]) {
         match self.hits(Query::Any) {
-            Some(answers) => hits.iter_mut().zip(answers).for_each(|(hit, answer)| *hit = answer.is_some()),
+            Some(all) => hits.iter_mut().zip(all).for_each(|(hit, found)| *hit = found.is_some()),
             None => hits.fill(false),
         }
     }

@@ -1,18 +1,18 @@
-//! Runs of a machine that is simulated, so that what an interval claims can be counted.
+//! Simulated runs, to count how often intervals contain what they should.
 
 use super::*;
 use crate::measure::{AaNoise, RandomOrder};
 
 const EPOCHS: usize = 5;
 
-/// A machine with everything that makes times hard to compare. All its parts are standard deviations of ln time.
+/// A machine with all effects that make times hard to compare. `placement` and `run` are standard deviations of ln time.
 #[derive(Clone, Copy, Debug)]
 struct Machine {
-    /// What the placement of an epoch does to a structure.
+    /// The effect of an epoch's memory layout on a structure.
     placement: f64,
-    /// What a run does to a structure in one cell, the same in all its epochs.
+    /// The effect of a run on a structure in one cell, the same in all epochs.
     run: f64,
-    /// The most that an interruption adds: five standard deviations of other samples where nothing else is said.
+    /// The most that an interruption adds; by default five standard deviations of other samples.
     tail: f64,
     epochs: usize,
     rounds: usize,
@@ -68,7 +68,7 @@ fn log_differences(one: &[Vec<f64>], other: &[Vec<f64>]) -> Vec<Vec<f64>> {
     one.iter().zip(other).map(of_epoch).collect()
 }
 
-/// Machines of every kind: with and without placement luck, one round and three.
+/// Machines of every kind: with and without placement effects, one round and three.
 fn machines() -> impl Iterator<Item = Machine> {
     let of = |rounds: usize| [0.0, 0.01, 0.04].map(|placement| Machine { placement, rounds, ..Machine::default() });
     [1, 3].into_iter().flat_map(of)
@@ -109,19 +109,19 @@ fn the_estimate_of_a_second_run_lies_within_the_interval_of_the_first() {
 }
 
 #[test]
-fn rounds_filter_interruptions_and_without_them_long_ones_are_not_held() {
+fn several_rounds_filter_interruptions_and_one_does_not() {
     let of = |rounds: usize, tail: f64| {
         let machine = Machine { rounds, tail, ..Machine::default() };
         held(PAIRS, |random| mean_of(&[machine.ratio([3.0, 1.0], random)], Variance::NONE))
     };
     as_promised(of(3, 0.1), "three rounds, interruptions of ten standard deviations");
-    // A sample in eight that takes a third longer: rare in five samples, and ruinous where it comes.
+    // One sample in eight takes up to a third longer: rare in five samples, but large.
     let (one, five) = (of(1, 0.3), of(5, 0.3));
     assert!(one < 90.0 && five > one + 4.0, "{one:.1} % of one round, {five:.1} % of five");
 }
 
 #[test]
-fn so_do_the_estimate_of_a_longer_run_and_a_change() {
+fn so_do_the_estimates_of_longer_runs_and_changes() {
     let machine = Machine { placement: 0.02, ..Machine::default() };
     let longer = share_held(PAIRS, |random| {
         let (first, second) = (machine.values(1, [3.0, 1.0], random), machine.values(4, [3.0, 1.0], random));
@@ -141,7 +141,7 @@ fn so_do_the_estimate_of_a_longer_run_and_a_change() {
     assert!(confidence < 90.0, "{confidence:.1} %");
 }
 
-/// One run of two structures and, of the first, a twin, in so many cells: the ratios, and the A/A noise.
+/// One run of two structures and a second build of the first, in so many cells: the ratios and the A/A noise.
 fn with_twins(machine: Machine, cells: usize, random: &mut RandomOrder) -> (Vec<Vec<Vec<f64>>>, AaNoise) {
     let [mut ratios, mut twins] = [vec![], vec![]];
     for _ in 0..cells {
@@ -153,8 +153,8 @@ fn with_twins(machine: Machine, cells: usize, random: &mut RandomOrder) -> (Vec<
 }
 
 #[test]
-fn differences_between_whole_runs_are_held_with_the_aa_noise_and_not_without() {
-    // The standard error of a ratio is about 0.01 here: run luck of none of it, as much, and three times as much.
+fn effects_of_whole_runs_are_covered_with_the_aa_noise_and_not_without() {
+    // The standard error of a ratio is about 0.01 here: run effects add nothing, as much, and three times as much.
     for (run, cells) in [(0.0, 1), (0.007, 1), (0.0, 4), (0.0, 8), (0.007, 8), (0.02, 12)] {
         let machine = Machine { run, ..Machine::default() };
         let share = |noise: &dyn Fn(&AaNoise) -> Variance, all: bool| {
@@ -165,12 +165,15 @@ fn differences_between_whole_runs_are_held_with_the_aa_noise_and_not_without() {
         };
         let of_one = share(&AaNoise::of_ratio, false);
         if (run, cells) == (0.007, 1) {
-            // A single A/A ratio does not tell how large a run's luck is: it is held a little too rarely.
+            // A single A/A ratio is not enough to estimate the effects of runs: coverage is a little too low.
             assert!((91.0..=97.0).contains(&of_one), "{of_one:.1} %");
             continue;
         }
-        as_promised(of_one, &format!("single cells, run luck {run}, {cells} A/A ratios"));
-        as_promised(share(&|twins| twins.of_mean(cells), true), &format!("means, run luck {run}, {cells} A/A ratios"));
+        as_promised(of_one, &format!("single cells, run effects {run}, {cells} A/A ratios"));
+        as_promised(
+            share(&|twins| twins.of_mean(cells), true),
+            &format!("means, run effects {run}, {cells} A/A ratios"),
+        );
         if run > 0.01 {
             let without = share(&|_| Variance::NONE, false);
             assert!(without < 75.0, "{without:.1} % without the A/A noise");
@@ -186,14 +189,14 @@ fn more_cells_do_not_make_the_aa_noise_larger() {
         let squares = (0..200).map(|_| with_twins(machine, cells, &mut random).1.log().unwrap());
         libm::sqrt(squares.map(|log| log * log).sum::<f64>() / 200.0)
     };
-    // Two builds of the same: the luck of a run twice.
+    // Two builds of the same structure: the effect of a run counts twice.
     let expected = 0.01 * libm::sqrt(2.0);
     for cells in [8, 32] {
         assert!((noise(cells) / expected - 1.0).abs() < 0.12, "{cells} cells: {}", noise(cells));
     }
 }
 
-/// Values of the epochs of six meshes whose triangles grow by four: each with its own luck.
+/// Values of the epochs of six meshes whose triangles grow by a factor of four, each with effects of its own.
 fn meshes(machine: Machine, random: &mut RandomOrder) -> Vec<Vec<f64>> {
     let times: Vec<f64> = (0..6).map(|i| libm::pow(4.0, 0.2 * f64::from(i))).collect();
     machine.cell(&times, random).iter().map(|logs| epoch_values(std::slice::from_ref(logs)).unwrap()).collect()
@@ -215,7 +218,7 @@ fn jackknifed(parts: &[Vec<f64>], figure: impl Fn(&[f64]) -> f64) -> Rerun {
 }
 
 #[test]
-fn slopes_and_shares_are_held_by_the_jackknife() {
+fn the_jackknife_covers_slopes_and_shares() {
     for machine in machines() {
         let run = |random: &mut RandomOrder| {
             let meshes = meshes(machine, random);
@@ -242,7 +245,7 @@ fn slopes_and_shares_are_held_by_the_jackknife() {
 }
 
 #[test]
-fn all_of_many_hold_together_when_each_allows_for_the_others() {
+fn bonferroni_intervals_hold_together() {
     let machine = Machine::default();
     const LOOKS: usize = 20;
     let all = |looks: usize| {
@@ -288,8 +291,8 @@ fn half_widths_are_those_of_students_t() {
 }
 
 #[test]
-fn cells_of_one_epoch_share_its_luck() {
-    // Both cells are moved by the same epochs: the mean is as uncertain as either.
+fn cells_of_one_epoch_share_its_placement() {
+    // The same epochs move both cells: their mean is as uncertain as either.
     let cell = |by: f64| -> Vec<Vec<f64>> { (0..EPOCHS).map(|e| vec![by + 0.01 * e as f64; 3]).collect() };
     let one = mean_of(&[cell(0.0)], Variance::NONE).ratio();
     let two = mean_of(&[cell(0.0), cell(1.0)], Variance::NONE).ratio();
@@ -308,7 +311,7 @@ fn of_one_epoch_there_is_an_estimate_and_no_interval() {
     assert_eq!(epoch_values(&[vec![vec![]]]), None);
     assert_eq!(Rerun::change(&[], &[0.0; 5], [Variance::NONE; 2]), None);
     assert_eq!(Rerun::change(&[0.0], &[0.0; 5], [Variance::NONE; 2]).unwrap().plain(), Estimate::alone(0.0));
-    // What cannot be made without an epoch has no interval.
+    // A figure that needs all epochs has no interval.
     let fragile = |kept: &[usize]| (kept.len() == 3).then_some(1.0);
     assert_eq!(Rerun::jackknife(3, Variance::NONE, fragile).unwrap().plain(), Estimate::alone(1.0));
 }

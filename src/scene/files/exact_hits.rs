@@ -30,8 +30,8 @@ impl ExactHitFile {
     pub fn to_bytes(&self) -> Vec<u8> {
         let header = FileHeader { query: Query::Closest, count: self.hits.len() as u64, hash: self.hash };
         let mut bytes = header_bytes(&header, MAGIC);
-        for answer in &self.hits {
-            let (t, ids) = answer.as_ref().map_or((0.0, &[][..]), |(t, ids)| (*t, ids));
+        for hit in &self.hits {
+            let (t, ids) = hit.as_ref().map_or((0.0, &[][..]), |(t, ids)| (*t, ids));
             bytes.extend(t.to_bits().to_le_bytes());
             bytes.extend((ids.len() as u32).to_le_bytes());
             ids.iter().for_each(|id| bytes.extend(id.to_le_bytes()));

@@ -46,7 +46,7 @@ impl HitFile {
     /// # Panics
     /// If there are more or fewer hits than rays.
     pub fn new(workload: &Workload, hits: Vec<Option<Hit>>) -> Self {
-        assert_eq!(workload.rays.len(), hits.len(), "one answer a ray");
+        assert_eq!(workload.rays.len(), hits.len(), "one hit per ray");
         Self { query: workload.query, hash: rays_hash(&workload.bytes()), hits }
     }
 
@@ -66,18 +66,18 @@ impl HitFile {
     ///
     /// # Errors
     /// If they are the hits of other rays or of another query.
-    pub fn answers(&self, workload: &Workload) -> Result<&[Option<Hit>], String> {
-        self.answers_to(&RaysId::of(workload))
+    pub fn hits_of(&self, workload: &Workload) -> Result<&[Option<Hit>], String> {
+        self.hits_of_rays(&RaysId::of(workload))
     }
 
-    /// As [`HitFile::answers`], for rays that are known by their hash.
+    /// As [`HitFile::hits_of`], for rays that are known by their hash.
     ///
     /// # Errors
-    /// As [`HitFile::answers`].
-    pub fn answers_to(&self, rays: &RaysId) -> Result<&[Option<Hit>], String> {
+    /// As [`HitFile::hits_of`].
+    pub fn hits_of_rays(&self, rays: &RaysId) -> Result<&[Option<Hit>], String> {
         if self.hash != rays.hash || self.hits.len() != rays.count {
             return Err(format!(
-                "these are {} answers to rays with the hash {}, not to the {} rays with the hash {}",
+                "these are the hits of {} rays with the hash {}, not of the {} rays with the hash {}",
                 self.hits.len(),
                 hexadecimal(&self.hash),
                 rays.count,
@@ -86,7 +86,7 @@ impl HitFile {
         }
         if self.query != rays.query {
             let (theirs, ours) = (self.query.name(), rays.query.name());
-            return Err(format!("these are answers to the query {theirs:?}, and the rays ask {ours:?}"));
+            return Err(format!("these are hits of the query {theirs:?}, and that of the rays is {ours:?}"));
         }
         Ok(&self.hits)
     }
