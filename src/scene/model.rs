@@ -11,18 +11,18 @@ pub struct Model {
     pub triangles: Vec<[u32; 3]>,
     /// Corner normals, of any length; empty when the model is flat-shaded.
     pub normals: Vec<Vec3>,
-    /// Three normal numbers a triangle, or empty when there are no normals. A triangle of a partly smooth model that
+    /// Three normal indices per triangle, or empty if there are no normals. A triangle of a partly smooth model that
     /// has no normals of its own holds [`Model::FLAT`] three times.
     pub normal_indices: Vec<[u32; 3]>,
     /// Materials that the model itself names; a scene may replace them by name.
     pub materials: Vec<Material>,
-    /// One number into `materials` a triangle, or empty when all triangles have the first.
+    /// One index into `materials` per triangle, or empty if all triangles have the first.
     pub material_of: Vec<u32>,
     /// Sentences about parts of a file that were left out or replaced.
     pub notes: Vec<String>,
 }
 
 impl Model {
-    /// The normal number of a triangle that has no normals.
+    /// The normal index of a triangle without normals.
     pub const FLAT: u32 = u32::MAX;
 }

@@ -15,10 +15,10 @@ use crate::geometry::{Hit, Mesh, PrimId, Ray};
 pub struct Scene {
     pub name: String,
     pub mesh: Arc<Mesh>,
-    /// None when every triangle is flat.
+    /// None if all triangles are flat.
     pub normals: Option<CornerNormals>,
     pub materials: Vec<Material>,
-    /// One number into `materials` a triangle.
+    /// One index into `materials` per triangle.
     pub material_of: Vec<u32>,
     pub lights: Vec<Light>,
     pub camera: Camera,

@@ -5,7 +5,8 @@ use crate::measure::{AaNoise, RandomOrder};
 
 const EPOCHS: usize = 5;
 
-/// A machine with all effects that make times hard to compare. `placement` and `run` are standard deviations of ln time.
+/// A machine with all effects that make times hard to compare. `placement` and `run` are standard deviations of ln
+/// time.
 #[derive(Clone, Copy, Debug)]
 struct Machine {
     /// The effect of an epoch's memory layout on a structure.

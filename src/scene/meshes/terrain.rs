@@ -30,14 +30,14 @@ fn one() -> u32 {
 }
 
 impl Terrain {
-    /// The mesh of so many takes some gigabytes.
+    /// The most triangles; such a mesh takes some gigabytes.
     pub const MOST: usize = 1 << 27;
 
     pub fn model(self) -> Model {
         let cells = self.triangles.div_ceil(2);
         let columns = cells.isqrt() + usize::from(cells.isqrt() * cells.isqrt() < cells);
         let rows = cells.div_ceil(columns.max(1));
-        // Hills that are narrower than two cells would be noise from vertex to vertex.
+        // Hills narrower than two cells would be noise between neighbouring vertices.
         let octaves = (0..).take_while(|&k| HILLS * (1 << k) as f32 <= columns as f32 / 2.0).count().max(1) as u32;
         let across = columns + 1;
         let vertex = |i: usize| {
