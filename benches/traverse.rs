@@ -62,7 +62,7 @@ fn slices(criterion: &mut Criterion) {
     for name in ["dragon", "lucy"] {
         let scene = common::scene(name);
         let workloads = workloads(&scene);
-        for batch in ["single", "packets", "interleaved"] {
+        for batch in ["single", "packets"] {
             let spec = format!("sah-hybrid:test=moller-trumbore,batch={batch}");
             let choice = Registry::builtin().choose(&spec).expect("registered names");
             let accel = choice.build(&scene.mesh).expect("a valid mesh builds");

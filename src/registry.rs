@@ -17,7 +17,7 @@ use crate::geometry::Mesh;
 use crate::names::suggestion;
 use crate::offered::Offered;
 use crate::scene::Scene;
-use entry::{Build, Built};
+use entry::{Build, BuildResult};
 
 pub use choice::{Choice, ChoiceError};
 pub use entry::Entry;
@@ -42,7 +42,7 @@ struct Generator {
 }
 
 impl Registry {
-    /// No structure at all.
+    /// A registry without structures.
     pub fn empty() -> Self {
         Self { entries: vec![], generators: vec![] }
     }
@@ -70,21 +70,26 @@ impl Registry {
         Some((generator.generate)(parameters))
     }
 
-    /// Adds a structure under `name`, with `config` as what a user gets who names no keys.
+    /// Adds a structure under `name`, with the default configuration `config`.
     ///
     /// # Panics
-    /// If `name` is `all` or holds a character that the command line gives a meaning (`:`, `,`, `=` or white space), if the name
-    /// is taken for the same triangle test, or if `config` does not serialise to a map of keys.
+    /// If `name` is `all` or contains a character with a meaning on the command line (`:`, `,`, `=` or white space), if
+    /// the name is taken for the same triangle test, or if `config` does not serialise to a map of keys.
     pub fn with<A: Accel>(self, name: &str, config: A::Config) -> Self {
         self.entered::<A>(name, config, |mesh, config| Ok(Box::new(A::build(mesh, config)?)))
     }
 
-    /// As [`with`](Self::with), for what is compiled elsewhere.
+    /// As [`with`](Self::with), for structures that are compiled elsewhere.
     fn offering<A: Offered>(self, name: &str, config: A::Config) -> Self {
         self.entered::<A>(name, config, A::boxed)
     }
 
-    fn entered<A: Accel>(mut self, name: &str, config: A::Config, build: fn(&Arc<Mesh>, &A::Config) -> Built) -> Self {
+    fn entered<A: Accel>(
+        mut self,
+        name: &str,
+        config: A::Config,
+        build: fn(&Arc<Mesh>, &A::Config) -> BuildResult,
+    ) -> Self {
         assert!(
             !name.is_empty() && name != "all" && !name.contains([':', ',', '=', ' ', '\t', '\n']),
             "the name {name:?} must not be \"all\" nor hold ':', ',', '=' or white space"
@@ -98,7 +103,7 @@ impl Registry {
         };
         let build: Build = Arc::new(move |mesh, config| {
             let config = parse::<A>(config).map_err(BuildError::Config)?;
-            // Builders of other crates may panic on a mesh that they did not expect; one structure must not end a run.
+            // Builders of other crates may panic on an unexpected mesh; one structure must not end a run.
             panic::catch_unwind(AssertUnwindSafe(|| build(mesh, &config))).unwrap_or(Err(BuildError::Panic))
         });
         self.entries.push(Entry {
@@ -124,8 +129,8 @@ impl Registry {
         self.entries.iter().find(|e| e.name == name && e.triangle_test == test)
     }
 
-    /// Reads `NAME` or `NAME:key=value,..`. The key `test` chooses the triangle test; without it the first entry of that
-    /// name is taken.
+    /// Reads `NAME` or `NAME:key=value,..`. The key `test` chooses the triangle test; without it the first entry of
+    /// that name is taken.
     ///
     /// # Errors
     /// If the name, a key or the test is unknown, listing those there are; or if a value does not fit.
@@ -192,7 +197,7 @@ mod tests {
     use super::entry::empty;
     use super::*;
 
-    /// Cannot do with the empty mesh, by a panic or by a sentence.
+    /// Rejects the empty mesh with a panic or with an error.
     struct NeedsTriangles<const PANICS: bool>;
 
     impl<const PANICS: bool> Accel for NeedsTriangles<PANICS> {
@@ -224,7 +229,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_do_with_the_empty_mesh_is_chosen_all_the_same() {
+    fn structures_that_reject_the_empty_mesh_can_be_chosen() {
         let registry = Registry::builtin().with::<NeedsTriangles<true>>("a", ()).with::<NeedsTriangles<false>>("b", ());
         assert_eq!(registry.all().len(), registry.entries().len());
         for name in ["a", "b"] {
@@ -232,6 +237,14 @@ mod tests {
             assert!(choice.build(&Arc::new(empty())).is_err());
             assert!(choice.entry.absence().is_none());
         }
+    }
+
+    #[test]
+    fn a_removed_value_names_its_replacement() {
+        let error = Registry::builtin().choose("sah-bvh:batch=interleaved").map(|choice| choice.label).unwrap_err();
+        let sentence = "sah-bvh no longer takes batch=interleaved: use batch=packets, which interleaves the rays that do \
+                        not form a packet";
+        assert_eq!(error.to_string(), sentence);
     }
 
     #[test]

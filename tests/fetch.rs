@@ -10,7 +10,7 @@ use std::sync::{Arc, Mutex};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use sahara::fetch::{Client, DataFile, FetchError, Fetched};
+use sahara::fetch::{Client, DataFile, FetchError, FetchOutcome};
 use sha2::{Digest, Sha256};
 use tempfile::TempDir;
 
@@ -109,7 +109,7 @@ fn answer(own: &str, path: &str, range: Option<usize>) -> Vec<u8> {
     }
 }
 
-fn fetch(file: &DataFile) -> Result<Fetched, FetchError> {
+fn fetch(file: &DataFile) -> Result<FetchOutcome, FetchError> {
     Client::default().fetch(file, &mut |_| ())
 }
 
@@ -137,10 +137,10 @@ fn a_file_is_fetched_once_and_whole() {
     let mut last = 0;
     let fetched = Client::default().fetch(&file, &mut |got| last = got).unwrap();
     let bytes = mesh().len() as u64;
-    assert_eq!((fetched, last), (Fetched::Downloaded { bytes, resumed: 0 }, bytes));
+    assert_eq!((fetched, last), (FetchOutcome::Downloaded { bytes, resumed: 0 }, bytes));
     assert_eq!(fs::read(&file.path).unwrap(), mesh());
     holds(&file, &["mesh.obj"]);
-    assert_eq!(fetch(&file).unwrap(), Fetched::AlreadyThere);
+    assert_eq!(fetch(&file).unwrap(), FetchOutcome::AlreadyThere);
     assert_eq!(server.asked().len(), 2, "a redirect and the file, and then nothing");
 }
 
@@ -154,7 +154,7 @@ fn what_is_cut_off_is_kept_and_gone_on_with() {
     let there = fs::metadata(file.part()).unwrap().len();
     assert!(there > 0 && there < mesh().len() as u64, "{there}");
     let bytes = mesh().len() as u64;
-    assert_eq!(fetch(&file).unwrap(), Fetched::Downloaded { bytes, resumed: there });
+    assert_eq!(fetch(&file).unwrap(), FetchOutcome::Downloaded { bytes, resumed: there });
     assert_eq!(server.asked()[1], ("/cut".into(), Some(there as usize)));
     holds(&file, &["mesh.obj"]);
 }
@@ -167,7 +167,7 @@ fn a_part_that_is_of_no_use_is_begun_anew() {
         let (folder, server) = (tempfile::tempdir().unwrap(), Server::start(answer));
         let file = server.file(&folder, path);
         put(&file.part(), part);
-        assert_eq!(fetch(&file).unwrap(), Fetched::Downloaded { bytes: mesh().len() as u64, resumed: 0 }, "{path}");
+        assert_eq!(fetch(&file).unwrap(), FetchOutcome::Downloaded { bytes: mesh().len() as u64, resumed: 0 }, "{path}");
         assert_eq!(fs::read(&file.path).unwrap(), mesh(), "{path}");
     }
     // Finished but not moved: nothing is asked for.
@@ -180,7 +180,7 @@ fn a_part_that_is_of_no_use_is_begun_anew() {
     let other = server.file(&tempfile::tempdir().unwrap(), "/mesh.obj");
     put(&other.part(), b"other");
     assert!(matches!(fetch(&other).unwrap_err(), FetchError::Hash { .. }));
-    assert_eq!(fetch(&other).unwrap(), Fetched::Downloaded { bytes: mesh().len() as u64, resumed: 0 });
+    assert_eq!(fetch(&other).unwrap(), FetchOutcome::Downloaded { bytes: mesh().len() as u64, resumed: 0 });
 }
 
 #[test]

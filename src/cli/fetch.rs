@@ -7,7 +7,7 @@ use anyhow::Context;
 use super::terminal::Terminal;
 use crate::fetch::DataFile;
 #[cfg(feature = "fetch")]
-use crate::fetch::{Client, Fetched};
+use crate::fetch::{Client, FetchOutcome};
 use crate::report::number::bytes;
 use crate::report::words::each_once_by;
 use crate::scene::format::{RealMesh, SceneFile};
@@ -89,9 +89,11 @@ fn fetch(real: &RealMesh, folder: &Path, terminal: &Terminal) -> anyhow::Result<
     let fetched = Client::default().fetch(&file, &mut |got| bar.set_position(got));
     bar.finish_and_clear();
     let what = match fetched? {
-        Fetched::AlreadyThere => "is there".to_owned(),
-        Fetched::Downloaded { bytes: n, resumed: 0 } => format!("fetched, {}, SHA-256 verified", bytes(n as usize)),
-        Fetched::Downloaded { bytes: n, resumed } => {
+        FetchOutcome::AlreadyThere => "is there".to_owned(),
+        FetchOutcome::Downloaded { bytes: n, resumed: 0 } => {
+            format!("fetched, {}, SHA-256 verified", bytes(n as usize))
+        }
+        FetchOutcome::Downloaded { bytes: n, resumed } => {
             let (whole, before) = (bytes(n as usize), bytes(resumed as usize));
             format!("fetched, {whole}, {before} of them before, SHA-256 verified")
         }

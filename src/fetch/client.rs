@@ -4,9 +4,9 @@ use std::fs::{self, OpenOptions};
 use std::io::{self, Read, Write};
 use std::time::{Duration, Instant};
 
-use super::{DataFile, FetchError, Fetched};
+use super::{DataFile, FetchError, FetchOutcome};
 
-/// Downloads files. Gives up on a server that does not answer, or sends next to nothing for a while.
+/// Downloads files. Gives up on a server that does not respond or stalls.
 pub struct Client {
     agent: ureq::Agent,
     patience: Duration,
@@ -15,10 +15,10 @@ pub struct Client {
 /// Redirects that are followed: repositories need one or two.
 const REDIRECTS: u32 = 5;
 
-/// How long a connection, an answer or the next bytes may take.
+/// The time limit for a connection, a response or the next bytes.
 const PATIENCE: Duration = Duration::from_secs(60);
 
-/// A server that sends fewer bytes within the patience has stalled.
+/// A server that sends fewer bytes within the time limit has stalled.
 const LEAST_PROGRESS: u64 = 16 << 10;
 
 /// The size limit of a file whose scene file gives no size.
@@ -31,7 +31,7 @@ impl Default for Client {
 }
 
 impl Client {
-    /// A client that waits `patience` for a connection, for an answer and for bytes; the default is a minute.
+    /// A client with the time limit `patience` for a connection, a response and bytes; the default is a minute.
     pub fn with_patience(patience: Duration) -> Self {
         let config = ureq::Agent::config_builder()
             .max_redirects(REDIRECTS)
@@ -50,11 +50,11 @@ impl Client {
     /// called with the number of bytes so far.
     ///
     /// # Errors
-    /// If the file exists with other contents, or the server does not send it or sends something else. A part from
-    /// which the download can resume is kept.
-    pub fn fetch(&self, file: &DataFile, progress: &mut dyn FnMut(u64)) -> Result<Fetched, FetchError> {
+    /// If the file exists with other contents, or the server does not send it or sends other contents. A partial
+    /// download is kept, so that it can be resumed.
+    pub fn fetch(&self, file: &DataFile, progress: &mut dyn FnMut(u64)) -> Result<FetchOutcome, FetchError> {
         if file.is_there()? {
-            return Ok(Fetched::AlreadyThere);
+            return Ok(FetchOutcome::AlreadyThere);
         }
         if let Some(folder) = file.path.parent() {
             fs::create_dir_all(folder).map_err(|cause| FetchError::Write { path: folder.into(), cause })?;
@@ -66,10 +66,10 @@ impl Client {
         }
         let bytes = fs::metadata(file.part()).map_or(0, |part| part.len());
         file.finish()?;
-        Ok(Fetched::Downloaded { bytes, resumed })
+        Ok(FetchOutcome::Downloaded { bytes, resumed })
     }
 
-    /// Downloads from byte `from` on, or all if the server has no ranges. Returns where it began.
+    /// Downloads from byte `from` on, or all if the server does not support ranges. Returns the first byte.
     fn download(&self, file: &DataFile, from: u64, progress: &mut dyn FnMut(u64)) -> Result<u64, FetchError> {
         let connection = |cause: ureq::Error| FetchError::Connection { url: file.url.clone(), cause: sentence(&cause) };
         let mut request = self.agent.get(&file.url);
@@ -83,7 +83,7 @@ impl Client {
         let start = match response.status().as_u16() {
             200 => 0,
             206 if begins == Some(from) => from,
-            // The part is of another file, or longer than the file: start again.
+            // The partial download belongs to another file or is too long: start again.
             206 | 416 if from > 0 => return self.download(file, 0, progress),
             status => return Err(FetchError::Status { url: file.url.clone(), status }),
         };
@@ -103,7 +103,8 @@ impl Client {
         }
     }
 
-    /// Appends the body to the first `start` bytes of the part. Returns the number of bytes when the body ends.
+    /// Appends the body to the first `start` bytes of the partial download. Returns the number of bytes at the end of
+    /// the body.
     fn append(
         &self,
         file: &DataFile,
@@ -126,7 +127,7 @@ impl Client {
                 Ok(n) => n,
                 Err(cause) if cause.kind() == io::ErrorKind::Interrupted => continue,
                 Err(cause) if is_timeout(&cause) => return Err(stalled(got)),
-                // A body that breaks off is one that ends too early.
+                // A broken connection counts as an early end of the body.
                 Err(cause) if got == start => {
                     return Err(FetchError::Connection { url: file.url.clone(), cause: cause.to_string() });
                 }

@@ -7,16 +7,16 @@ use sha2::{Digest, Sha256};
 use super::FetchError;
 use crate::scene::format::RealMesh;
 
-/// A file of the folder of real meshes: its place, and its expected contents.
+/// A file of the folder of real meshes: its path and its expected contents.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DataFile {
-    /// What can be downloaded.
+    /// Where it can be downloaded.
     pub url: String,
     /// The finished file.
     pub path: PathBuf,
     /// SHA-256 in hexadecimal.
     pub sha256: String,
-    /// Its size, where the scene file gives it.
+    /// Its size, if the scene file gives it.
     pub bytes: Option<u64>,
 }
 
@@ -41,16 +41,16 @@ impl DataFile {
         }
     }
 
-    /// The partial download: beside its place, so that it can be moved there in one step.
+    /// The partial download: in the same folder, so that it can be moved to its path in one step.
     pub fn part(&self) -> PathBuf {
         let name = self.path.file_name().unwrap_or_default().to_string_lossy();
         self.path.with_file_name(format!(".{name}.part"))
     }
 
-    /// Whether the file is there with the right contents.
+    /// Whether the file exists with the expected contents.
     ///
     /// # Errors
-    /// If it is there with others, or cannot be read.
+    /// If it exists with other contents, or cannot be read.
     pub fn is_there(&self) -> Result<bool, FetchError> {
         if !self.path.exists() {
             return Ok(false);
@@ -62,7 +62,7 @@ impl DataFile {
         }
     }
 
-    /// Moves the finished part to its place if its hash is right; otherwise removes it.
+    /// Moves the finished download to its path if its hash is right; otherwise removes it.
     ///
     /// # Errors
     /// If the hash does not fit, or the system refuses.

@@ -1,8 +1,7 @@
 //! Downloads of real meshes: resumable, verified, whole or not at all.
 //!
-//! Behind the feature `fetch`, which is on by default and brings an HTTP client with TLS of its own: no library of the
-//! system, no certificates of the system. Without the feature everything else works, and `sahara fetch` says what to
-//! download by hand.
+//! The feature `fetch` is on by default. It brings an HTTP client with its own TLS and certificates, and uses none of
+//! the system's. Without the feature everything else works, and `sahara fetch` lists what to download by hand.
 
 #[cfg(feature = "fetch")]
 mod client;
@@ -17,14 +16,14 @@ pub use data_file::DataFile;
 
 /// The result of a download.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Fetched {
-    /// The file was there, with the right contents.
+pub enum FetchOutcome {
+    /// The file exists already, with the expected contents.
     AlreadyThere,
-    /// The file was downloaded, except the first `resumed` bytes, which an earlier download left.
+    /// The file was downloaded, except its first `resumed` bytes, which come from an earlier download.
     Downloaded { bytes: u64, resumed: u64 },
 }
 
-/// Why a file was not fetched. A part from which the download can resume is kept.
+/// Why a file was not fetched. A partial download is kept, so that it can be resumed.
 #[derive(Debug, thiserror::Error)]
 pub enum FetchError {
     #[error("{file} cannot be fetched: its scene file gives no sha256 to verify it by{}", unpack.as_ref().map_or(String::new(), |how| format!("; download {url} yourself, then {how}, into {}", folder.display())))]

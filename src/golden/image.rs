@@ -8,16 +8,16 @@ use crate::render::Picture;
 /// When a picture is accepted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Match {
-    /// Every byte is the same, as it must be with a deterministic renderer.
+    /// All bytes are equal, as with a deterministic renderer.
     Exact,
-    /// No channel of a pixel differs by more than this, of 255: other machines may round otherwise.
+    /// No channel of a pixel differs by more than this, of 255: other machines may round differently.
     Within(u8),
 }
 
-/// Set to `update`, this environment variable makes [`assert_image`] write golden images in place of comparing.
+/// The environment variable that makes [`assert_image`] write golden images instead of comparing, if it is `update`.
 pub const UPDATE: &str = "SAHARA_GOLDEN";
 
-/// Where the pictures of failures go, from the current directory; that of a test is the folder of its crate.
+/// The folder for the pictures of failures, relative to the current directory, which is the crate's folder in tests.
 const OUT: &str = "out/golden";
 
 /// Compares `actual` with the golden image `path`, a PNG file; for tests.
@@ -34,7 +34,7 @@ const OUT: &str = "out/golden";
 /// # drawn.write(&golden).unwrap();
 /// assert_image(&golden, &drawn, Match::Exact);
 ///
-/// // Another machine rounds one pixel otherwise: that is not the same, but near.
+/// // Another machine rounds one pixel differently: not equal, but near.
 /// let mut pixels = drawn.pixels().to_vec();
 /// pixels[100][0] += 1;
 /// let rounded = Picture::new([64, 64], pixels);
@@ -43,9 +43,8 @@ const OUT: &str = "out/golden";
 /// ```
 ///
 /// # Panics
-/// If the picture is not accepted, is of another size, or there is no golden image. What was drawn and what was
-/// expected are then in `out/golden`, by the golden image's file name, and so is the difference of pictures of one
-/// size.
+/// If the picture is not accepted, has another size, or there is no golden image. Then `out/golden` holds the actual
+/// and the expected picture under the golden image's file name, and their difference if they are of one size.
 #[track_caller]
 pub fn assert_image(path: impl AsRef<Path>, actual: &Picture, how: Match) {
     let path = path.as_ref();

@@ -1,5 +1,5 @@
-//! Golden images: what each built-in scene must look like with every structure, byte for byte; and, for the tests of
-//! other crates, [`assert_image`].
+//! Golden images: each built-in scene must look the same with every structure, byte for byte. [`assert_image`] is for
+//! the tests of other crates.
 
 mod image;
 
@@ -12,14 +12,14 @@ use crate::triangle::{Exact, TriangleTest};
 
 pub use image::{Match, UPDATE, assert_image, check_image};
 
-/// Where golden images are kept, and where the pictures of a failure go.
+/// The folders of golden images and of the pictures of failures.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Goldens {
     scenes: PathBuf,
     out: PathBuf,
 }
 
-/// Golden images are drawn with this triangle test, so that they show what is there, and nothing that rounding adds.
+/// The triangle test that golden images are rendered with: an exact one, so that they show no rounding errors.
 pub const TRIANGLE_TEST: &str = Exact::NAME;
 
 /// Width and height of a golden image.
@@ -58,7 +58,8 @@ impl Goldens {
         Self { scenes: scenes.into(), out: out.into() }
     }
 
-    /// Those of this project, whatever the current directory; failures go to `out/golden` in the current directory.
+    /// The golden images of this project, whatever the current directory; pictures of failures go to `out/golden` in
+    /// the current directory.
     pub fn builtin() -> Self {
         Self::new(concat!(env!("CARGO_MANIFEST_DIR"), "/scenes"), "out/golden")
     }
@@ -68,14 +69,14 @@ impl Goldens {
         self.scenes.join(scene.name.to_lowercase()).join("golden.png")
     }
 
-    /// Compares the shaded view of `scene`, answered by `accel`, with its golden image. `structure` names the pictures
-    /// of a failure.
+    /// Compares the shaded view of `scene`, traced by `accel`, with its golden image. `structure` names the pictures of
+    /// a failure.
     ///
-    /// The scene must be the built-in one with its own meshes, never with the real ones that some machine may have.
+    /// The scene must be the built-in one with generated meshes, not with the real meshes that a machine may have.
     ///
     /// # Errors
-    /// If a pixel differs, then `actual`, `expected` and `difference` are written; if the golden image is missing or
-    /// broken.
+    /// If the golden image is missing or broken, or a pixel differs. Then `actual`, `expected` and `difference` are
+    /// written.
     pub fn check(&self, scene: &Scene, structure: &str, accel: &dyn DynAccel) -> Result<(), GoldenError> {
         let golden = Golden {
             path: &self.path(scene),
@@ -132,7 +133,7 @@ impl Golden<'_> {
                 _ => return Ok(()),
             }
         };
-        // The refusal stays the reason when its pictures cannot be written.
+        // The difference stays the reason if its pictures cannot be written.
         match leave(&shown, actual, &expected) {
             Ok(()) => Err(refusal),
             Err(cause) => Err(GoldenError::NotShown { refusal: Box::new(refusal), cause: Box::new(cause) }),
@@ -187,7 +188,7 @@ mod tests {
         assert!(!goldens.update(&scene, &all).unwrap(), "the same picture is not written again");
         goldens.check(&scene, "brute-force", &all).unwrap();
 
-        // Another background changes every pixel that misses, the first of all among them.
+        // Another background changes every pixel that misses, including the first.
         scene.background.x += 0.5;
         let error = goldens.check(&scene, "sah-kd:leaf=1", &tree).unwrap_err();
         let GoldenError::Differs { difference, shown, .. } = &error else { panic!("{error}") };

@@ -1,4 +1,4 @@
-//! What two builds of the same structure differ by.
+//! How much two builds of the same structure differ.
 
 use super::estimate::Estimate;
 use super::interval::{Rerun, epoch_values};
@@ -8,12 +8,12 @@ use super::variance::{Variance, mean};
 /// Buytaert, Eeckhout, "Statistically rigorous Java performance evaluation", 2007, on comparing alternatives; the twin
 /// is a control).
 ///
-/// What their spread over the epochs explains, every interval holds anyway. What they differ from 1 by beyond that, a
-/// whole run has and its epochs do not show: the **A/A noise**, the root of the mean square of their logarithms less
-/// the sampling variance. More cells make it better known and not larger.
+/// Every interval already includes their spread over the epochs. If they differ from 1 by more than that, whole runs
+/// differ by an effect that epochs do not show: the **A/A noise**, the root of the mean square of their logarithms
+/// minus the sampling variance. More cells estimate it better; they do not make it larger.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AaNoise {
-    /// One for each cell, with its interval, in which no A/A noise is joined.
+    /// One for each cell, with its interval without A/A noise.
     pub ratios: Vec<Estimate>,
     /// Variance of the logarithm of an A/A ratio from run to run beyond that from epoch to epoch, and how well it is
     /// known.
@@ -38,8 +38,8 @@ impl AaNoise {
         if squares.is_empty() {
             return Self::default();
         }
-        // As many degrees as there are ratios, and no fewer than their epochs have: by itself the luck of a single
-        // ratio would make intervals wider tenfold. The tests count what that costs.
+        // As many degrees of freedom as there are ratios, but no fewer than their epochs have: with a single degree of
+        // freedom one ratio would widen intervals tenfold. The tests count what this approximation costs.
         let epochs = cells.iter().map(Vec::len).max().unwrap_or(0);
         let freedom = squares.len().max(epochs.saturating_sub(1)).max(1) as f64;
         Self { ratios, noise: Variance { square: mean(&squares).max(0.0), freedom } }
@@ -56,7 +56,7 @@ impl AaNoise {
         self.weighted(&[1.0, -1.0])
     }
 
-    /// What it adds to the mean of the logarithms of `cells` ratios: the luck of each cell is its own.
+    /// What it adds to the mean of the logarithms of `cells` ratios: the cells vary independently.
     pub fn of_mean(&self, cells: usize) -> Variance {
         self.of_ratio().times(1.0 / libm::sqrt(cells.max(1) as f64))
     }

@@ -1,4 +1,4 @@
-//! The distribution that Student's t and the binomial distribution are made of.
+//! The beta distribution, from which Student's t and the binomial distribution follow.
 
 /// The regularised incomplete beta function I_x(a, b): the probability that a beta variable with these parameters, both
 /// positive, is at most `x`, in [0, 1]. Its error is about 1e-14 for parameters up to a thousand, and grows with them
@@ -14,7 +14,7 @@ pub fn incomplete_beta(x: f64, a: f64, b: f64) -> f64 {
     if x >= 1.0 {
         return 1.0;
     }
-    // The fraction converges fast below the mean; above it the other tail is taken.
+    // The fraction converges fast below the mean; above it, compute the other tail.
     if x < (a + 1.0) / (a + b + 2.0) { lower_tail(x, a, b) } else { 1.0 - lower_tail(1.0 - x, b, a) }
 }
 
@@ -24,7 +24,7 @@ fn lower_tail(x: f64, a: f64, b: f64) -> f64 {
     (front * fraction(x, a, b)).clamp(0.0, 1.0)
 }
 
-/// The terms converge after about the root of the larger parameter.
+/// The terms converge after about as many as the square root of the larger parameter.
 const MOST_TERMS: usize = 1_000_000;
 
 fn fraction(x: f64, a: f64, b: f64) -> f64 {
@@ -51,10 +51,10 @@ fn fraction(x: f64, a: f64, b: f64) -> f64 {
     value
 }
 
-/// The `x` of which I_x(a, b) is `probability`.
+/// The `x` at which I_x(a, b) is `probability`.
 pub fn beta_quantile(probability: f64, a: f64, b: f64) -> f64 {
     let (mut low, mut high) = (0.0, 1.0);
-    // By halves, first of the exponent, so that quantiles near 0 are as exact as others.
+    // Bisect, first in the exponent, so that quantiles near 0 have the same relative precision.
     while high > 1e-300 && incomplete_beta(high * 0.5, a, b) > probability {
         high *= 0.5;
     }

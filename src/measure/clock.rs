@@ -13,11 +13,11 @@ pub trait Clock {
 /// Times pieces of work, without what reading the clock takes.
 pub struct Stopwatch<'a> {
     clock: &'a dyn Clock,
-    /// Between two readings with nothing between them.
+    /// The cost of a reading.
     reading_ns: u64,
 }
 
-/// Readings from which it is learnt what one takes: the least counts.
+/// Readings that find the cost of one reading, their minimum.
 const READINGS: usize = 256;
 
 impl<'a> Stopwatch<'a> {
@@ -56,8 +56,8 @@ impl Clock for SystemClock {
     }
 }
 
-/// Processor time: it stands still while another program has the core, or the host of a virtual machine. For work on
-/// one thread it is the elapsed time of a machine of one's own.
+/// Processor time: it stops while another program, or the host of a virtual machine, has the core. For work on one
+/// thread it is the time that would elapse on an idle machine.
 pub struct CpuClock(Id);
 
 #[cfg(target_os = "linux")]
@@ -66,8 +66,8 @@ type Id = nix::time::ClockId;
 type Id = std::convert::Infallible;
 
 impl CpuClock {
-    /// Of the calling thread, for passes. Nothing for several threads, or where the system has no such clock: then time
-    /// that elapses has to do.
+    /// The clock of the calling thread, for passes. None for several threads, or where the system has no such clock:
+    /// then use the elapsed time.
     pub fn of_thread(threads: &Threads) -> Option<Self> {
         #[cfg(target_os = "linux")]
         let id = Some(Id::CLOCK_THREAD_CPUTIME_ID);
@@ -76,8 +76,8 @@ impl CpuClock {
         Self::of(threads, id)
     }
 
-    /// Of the whole process, for builds: some builders have threads of their own, whose work is work. Nothing where
-    /// [`CpuClock::of_thread`] is.
+    /// The clock of the whole process, for builds: some builders start threads of their own, whose work counts. None
+    /// where [`CpuClock::of_thread`] is none.
     pub fn of_process(threads: &Threads) -> Option<Self> {
         #[cfg(target_os = "linux")]
         let id = Some(Id::CLOCK_PROCESS_CPUTIME_ID);

@@ -1,11 +1,11 @@
-//! A number that was measured, and how far another run may find it elsewhere.
+//! A measured number with its interval.
 
 use serde::{Deserialize, Serialize};
 
 use super::student::{LEVEL, factor, two_sided};
 use super::variance::Variance;
 
-/// An estimate with its 95 % [interval](mod@super::interval). Of a single epoch there is an estimate and no interval.
+/// An estimate with its 95 % [interval](mod@super::interval); none for a single epoch.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(from = "Flat", into = "Flat")]
 pub struct Estimate {
@@ -18,12 +18,12 @@ pub struct Estimate {
 pub struct Interval {
     pub low: f64,
     pub high: f64,
-    /// Degrees of freedom of Student's t in it; infinite where nothing varies. They tell how much wider it is where
-    /// many are looked at.
+    /// Degrees of freedom of Student's t; infinite where nothing varies. They determine how much wider the interval is
+    /// where many are judged together.
     pub freedom: f64,
 }
 
-/// As files hold it: one object, with the ends and the degrees of freedom `null` where they are not known.
+/// The form in files: one object, with `null` for an unknown end or unknown degrees of freedom.
 #[derive(Serialize, Deserialize)]
 struct Flat {
     estimate: f64,
@@ -57,12 +57,12 @@ impl Estimate {
         Self { estimate, interval: None }
     }
 
-    /// Of what does not vary, as a count.
+    /// A number that does not vary, such as a count.
     pub fn exact(estimate: f64) -> Self {
         Self::between(estimate, estimate, estimate)
     }
 
-    /// With the ends of its interval, whose freedom is unlimited.
+    /// An estimate between two ends, with infinite degrees of freedom.
     pub fn between(estimate: f64, low: f64, high: f64) -> Self {
         Self { estimate, interval: Some(Interval { low, high, freedom: f64::INFINITY }) }
     }
@@ -87,19 +87,19 @@ impl Estimate {
         self.high().is_some_and(|high| high < bound)
     }
 
-    /// Whether the interval is known and holds `value`.
+    /// Whether the interval is known and contains `value`.
     pub fn holds(&self, value: f64) -> bool {
         self.interval.is_some_and(|interval| (interval.low..=interval.high).contains(&value))
     }
 
-    /// Of what grows with it, as `of` says.
+    /// The estimate of an increasing function of the number.
     pub fn map(self, of: impl Fn(f64) -> f64) -> Self {
         let ends = |Interval { low, high, freedom }: Interval| Interval { low: of(low), high: of(high), freedom };
         Self { estimate: of(self.estimate), interval: self.interval.map(ends) }
     }
 
-    /// As one of `looks` that are judged together: all of their intervals hold with 95 % (Bonferroni). The interval
-    /// grows about the estimate, on either side by the same share of what it was.
+    /// The estimate as one of `looks` that are judged together: with 95 % probability all of their intervals hold
+    /// (Bonferroni). Both sides of the interval grow by the same factor.
     pub fn among(self, looks: usize) -> Self {
         let grown = |Interval { low, high, freedom }: Interval| {
             let by = wider(freedom, looks);
@@ -109,12 +109,12 @@ impl Estimate {
         Self { interval: self.interval.map(grown), ..self }
     }
 
-    /// As [`among`](Self::among), of a positive ratio: it grows in logarithms.
+    /// As [`among`](Self::among) for a positive ratio, whose interval grows in logarithms.
     pub fn ratio_among(self, looks: usize) -> Self {
         self.map(libm::log).among(looks).map(libm::exp)
     }
 
-    /// The quotient of two positive estimates that err independently: the squares of their relative errors add up.
+    /// The quotient of two positive estimates with independent errors: the squares of their relative errors add up.
     pub fn over(self, other: Self) -> Self {
         let log = libm::log(self.estimate / other.estimate);
         let part = |x: Self| {
@@ -130,8 +130,7 @@ impl Estimate {
         Self { estimate: libm::exp(log), interval }
     }
 
-    /// The chance that an interval of a ratio would have to leave to its outside to reach just to 1. Nothing without an
-    /// interval.
+    /// The two-sided p-value of a ratio of 1: the level at which its interval just reaches 1. None without an interval.
     pub fn chance_of_one(&self) -> Option<f64> {
         let Interval { low, high, freedom } = self.interval?;
         let distance = libm::log(self.estimate);
@@ -144,7 +143,7 @@ impl Estimate {
     }
 }
 
-/// How much wider an interval is that is one of `looks`.
+/// How much wider an interval is as one of `looks`.
 fn wider(freedom: f64, looks: usize) -> f64 {
     if looks < 2 { 1.0 } else { factor(freedom, LEVEL / looks as f64) / factor(freedom, LEVEL) }
 }

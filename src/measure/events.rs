@@ -1,6 +1,7 @@
-//! Events that the processor counts: instructions, which unlike time neither load nor clock rates change, and branch misses.
+//! Events that the processor counts: instructions, which unlike times depend neither on load nor on clock rates, and
+//! branch misses.
 
-/// The processor's counter of one kind of events in user space, of the calling thread.
+/// The processor's counter of one kind of event, in user space and for the calling thread.
 pub struct EventCounter {
     #[cfg(target_os = "linux")]
     counter: perf_event::Counter,
@@ -8,12 +9,12 @@ pub struct EventCounter {
 
 #[cfg(target_os = "linux")]
 impl EventCounter {
-    /// Nothing where processor or kernel give none: virtual machines often have no counter, and kernels may forbid it.
+    /// None where processor or kernel provide no counter: virtual machines often have none, and kernels may forbid it.
     pub fn instructions() -> Option<Self> {
         Self::of(perf_event::events::Hardware::INSTRUCTIONS)
     }
 
-    /// Branches that the processor predicted wrongly. Nothing likewise.
+    /// Branches that the processor predicted wrongly. None as above.
     pub fn branch_misses() -> Option<Self> {
         Self::of(perf_event::events::Hardware::BRANCH_MISSES)
     }
@@ -24,13 +25,13 @@ impl EventCounter {
         Some(Self { counter: counter.build().ok()? })
     }
 
-    /// Events of `work` on this thread; nothing if the counter did not run all the time.
+    /// Events of `work` on this thread; none if the counter did not run all the time.
     pub fn count(&mut self, work: impl FnOnce()) -> Option<u64> {
         self.counter.reset().ok()?;
         self.counter.enable().ok()?;
         work();
         self.counter.disable().ok()?;
-        // A pinned counter that had to make way for another cannot be read.
+        // A pinned counter that lost its hardware to another one cannot be read.
         self.counter.read().ok().filter(|&count| count > 0)
     }
 }
@@ -60,7 +61,7 @@ mod tests {
     fn more_work_is_more_instructions_where_they_are_counted() {
         let Some(mut counter) = EventCounter::instructions() else { return };
         let work = |n: u64| move || (0..n).for_each(|i| _ = black_box(i));
-        // It may be there and never have its turn.
+        // The counter may exist and never be scheduled.
         if counter.count(work(1000)).is_none() {
             return;
         }
@@ -69,7 +70,7 @@ mod tests {
     }
 
     #[test]
-    fn branches_that_nothing_foretells_are_missed_where_they_are_counted() {
+    fn unpredictable_branches_are_missed_where_misses_are_counted() {
         let Some(mut counter) = EventCounter::branch_misses() else { return };
         let mut of = |random: bool| {
             let mut state = 1u64;

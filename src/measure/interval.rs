@@ -1,44 +1,44 @@
-//! The one interval: how far the same figure of another run may lie. Every table, study and page has its intervals from
-//! here.
+//! Prediction intervals: how far the same figure of another run may lie. All tables, studies and pages use these.
 //!
 //! **The question.** A plain 95 % interval of a mean holds the true mean in 95 % of runs, but the *estimate of a second
-//! run* only in about 83 %, for that errs as well (Cumming, Williams, Fidler, "Replication and researchers'
-//! understanding of confidence intervals and standard error bars", 2004). What is printed here is a prediction interval
-//! for the estimate of another run of the same plan: it holds that estimate in 95 % of cases.
+//! run* only in about 83 %, because that estimate varies as well (Cumming, Williams, Fidler, "Replication and
+//! researchers' understanding of confidence intervals and standard error bars", 2004). The intervals here are
+//! prediction intervals for the estimate of another run of the same plan: they contain that estimate in 95 % of cases.
 //!
-//! **The model.** In epoch e, a process of its own, all structures are built anew; in round r of it every case is timed once, in random order, structure by structure for one kind of rays after the other.
-//! For two cases let y = ln(time of one / time of the other) in the same round: what slows the machine for a while
-//! slows both and cancels. Then y = theta + p(e) + n(e, r), where p is the luck of placement, the same for a whole
-//! epoch, since address space, stack and heap are those of the process (Kalibera, Jones, "Rigorous benchmarking in reasonable time", 2013; Mytkowicz, Diwan, Hauswirth, Sweeney,
-//! "Producing wrong data without doing anything obviously wrong", 2009), and n the noise of a sample, with heavy tails.
+//! **The model.** Each epoch e is a process of its own that builds all structures anew. In each round r of an epoch
+//! every case is timed once: workloads in random order, and the structures of a workload in random order. For two cases
+//! let y = ln(time of one / time of the other) in the same round: a slow phase of the machine slows both and cancels.
+//! Then y = theta + p(e) + n(e, r). The placement effect p is the same for a whole epoch, because a process has one
+//! layout of address space, stack and heap (Kalibera, Jones, "Rigorous benchmarking in reasonable time", 2013;
+//! Mytkowicz, Diwan, Hauswirth, Sweeney, "Producing wrong data without doing anything obviously wrong", 2009). The
+//! noise n of a sample has heavy tails.
 //!
-//! **The estimate.** z(e) is the median of y over the rounds of an epoch, which heavy tails hardly move; the estimate
-//! is exp(mean of z). Over several cells (scenes, kinds of rays) z(e) is the mean of their medians: cells that were
-//! measured in the same epoch share its luck, and the spread of z holds that without a word about correlations.
+//! **The estimate.** z(e) is the median of y over the rounds of an epoch, because heavy tails hardly move a median; the
+//! estimate is exp(mean of z). Over several cells (scenes, workloads) z(e) is the mean of their medians: cells of the
+//! same epoch share its placement effect, and the spread of z includes it without a model of their correlations.
 //!
 //! **The interval.** With E epochs the variance of an estimate is s^2 / E, where s^2 is the sample variance of z, which
-//! holds placement and noise both. Another run errs as much again, independently, so the difference of the two
-//! estimates has variance 2 s^2 / E, and with s from E epochs it follows Student's t with E - 1 degrees of freedom: the
+//! includes placement and noise. Another run varies as much, independently, so the difference of the two estimates has
+//! variance 2 s^2 / E, and with s from E epochs it follows Student's t with E - 1 degrees of freedom: the
 //! half-width is t(E - 1) s sqrt(2 / E) (Hahn, Meeker, Escobar, "Statistical intervals", 2nd edition 2017, chapter 4:
 //! prediction of the mean of a future sample). For another run of E' epochs 2 / E is 1 / E + 1 / E'.
 //!
-//! **The A/A noise.** What differs between two runs but not between two epochs of one no spread of z can show. The A/A
-//! ratios show a part of it, the [A/A noise](super::AaNoise): its variance is added once for either run, and the
-//! degrees of freedom are those of the sum (Satterthwaite, 1946).
+//! **The A/A noise.** Effects that differ between two runs, but not between the epochs of one run, do not show in the
+//! spread of z. The A/A ratios show a part of them, the [A/A noise](super::AaNoise): its variance is added once for
+//! each run, and the degrees of freedom are those of the sum (Satterthwaite, 1946).
 //!
 //! **Figures that are not means** (shares, slopes, ranks) are [jackknifed](Rerun::jackknife) over the epochs:
 //! pseudo-values take the place of z(e), and for a figure that is linear in the logarithms they are z(e).
 //!
-//! **One epoch** says nothing of placement: there is an estimate and no interval.
+//! **One epoch** says nothing about placement: it gives an estimate and no interval.
 //!
-//! **Many looks.** Where m findings are judged together each has the interval of the level 1 - 0.05 / m
-//! ([`Estimate::among`], Bonferroni): in 95 % of the cases all of them hold.
+//! **Multiple comparisons.** Where m findings are judged together, each has the interval of the level 1 - 0.05 / m
+//! ([`Estimate::among`], Bonferroni): in 95 % of cases all of them hold.
 //!
-//! The tests simulate thousands of pairs of runs with placement luck, heavy tails, drift and A/A noise, and count how
-//! often the second estimate lies within the first interval: 95 % within 2, for a single cell, for many, for shares and
-//! for slopes. What they do not hold: where one sample in eight is interrupted for a third of its time and nothing
-//! filters that, five epochs of one round hold 86 %; and a single A/A ratio tells too little of runs whose luck is
-//! larger than all else.
+//! The tests simulate thousands of pairs of runs with placement effects, heavy tails, drift and A/A noise, and count
+//! how often the second estimate lies within the first interval: in 93 to 97 % of pairs, for one cell, many cells,
+//! shares and slopes. Known limits: if one sample in eight is interrupted for a third of its time, five epochs of one
+//! round contain only 86 %; and a single A/A ratio is not enough where the effects of whole runs dominate.
 
 use super::estimate::{Estimate, Interval};
 use super::student::{LEVEL, factor};
@@ -58,8 +58,8 @@ pub fn log_ratios(numerator: &[f64], denominator: &[f64], epochs: usize) -> Vec<
     logs.chunks((logs.len() / epochs).max(1)).map(<[f64]>::to_vec).collect()
 }
 
-/// Leaves of all cells the first epochs alone, as many as each of them has: a mean over cells has no others. Which they are does not depend
-/// on what was measured in them, so the mean is none the worse.
+/// Cuts all cells to the number of epochs that each of them has, because a mean over cells needs the same epochs of
+/// all. The first epochs stay, whatever was measured in them, so the mean is not biased.
 pub fn cut_to_shared_epochs(cells: &mut [Vec<Vec<f64>>]) {
     let fewest = cells.iter().map(Vec::len).min().unwrap_or(0);
     cells.iter_mut().for_each(|cell| cell.truncate(fewest));
@@ -80,11 +80,11 @@ pub fn epoch_values(cells: &[Vec<Vec<f64>>]) -> Option<Vec<f64>> {
     (0..epochs).map(of).collect::<Option<Vec<f64>>>().filter(|values| !values.is_empty())
 }
 
-/// A figure of a run, and what that of another run differs from it by.
+/// A figure of a run, and how much the same figure of another run varies around it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rerun {
     centre: f64,
-    /// Of the difference; nothing with a single epoch.
+    /// The variance of the difference; none with a single epoch.
     variance: Option<Variance>,
 }
 
@@ -106,8 +106,8 @@ impl Rerun {
         Some(Self { centre: mean(values), variance })
     }
 
-    /// The difference of two runs of different moments, `new` less `old`: both err, and both have been seen. `noises`
-    /// are what the A/A noise adds to each. Without a variance where one of them has a single epoch.
+    /// The difference of two runs that have both been measured, `new` minus `old`. `noises` are what the A/A noise adds
+    /// to each. Without a variance where one of them has a single epoch.
     pub fn change(old: &[f64], new: &[f64], noises: [Variance; 2]) -> Option<Self> {
         if old.is_empty() || new.is_empty() {
             return None;

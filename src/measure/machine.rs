@@ -1,4 +1,4 @@
-//! What the system tells of the machine: load, clock rates, how floats are rounded. What it does not tell is nothing.
+//! What the system reports about the machine: load, clock rates, rounding of floats. What it does not report is `None`.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -6,13 +6,13 @@ use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 use std::time::Duration;
 
-/// Mean number of programs that wanted to run during the last minute, when it was first asked for: later the own load is in it.
+/// The load average of the last minute at the first call: later it includes the load of this process.
 pub fn load_at_start() -> Option<f64> {
     static LOAD: OnceLock<Option<f64>> = OnceLock::new();
     *LOAD.get_or_init(|| first_number(&fs::read_to_string("/proc/loadavg").ok()?))
 }
 
-/// How the system chooses clock rates, as it calls it.
+/// The name of the policy by which the system chooses clock rates.
 pub fn governor(core: usize) -> Option<String> {
     let path = format!("/sys/devices/system/cpu/cpu{core}/cpufreq/scaling_governor");
     Some(fs::read_to_string(path).ok()?.trim().to_owned())
@@ -23,8 +23,8 @@ pub fn clock_rate(core: usize) -> Option<f64> {
     first_number(&fs::read_to_string(format!("/sys/devices/system/cpu/cpu{core}/cpufreq/scaling_cur_freq")).ok()?)
 }
 
-/// Bytes of memory that this process may use: those of its control groups, which containers and jobs of clusters are, where they have fewer
-/// than the machine.
+/// Bytes of memory that this process may use: those of the machine, or fewer where its control groups (containers, jobs
+/// of a cluster) limit it.
 pub fn memory() -> Option<u64> {
     let machine = || {
         let text = fs::read_to_string("/proc/meminfo").ok()?;
@@ -32,13 +32,13 @@ pub fn memory() -> Option<u64> {
         Some(kib as u64 * 1024)
     };
     let groups = limits(&fs::read_to_string("/proc/self/cgroup").unwrap_or_default());
-    // Where there is no limit it says so in a word.
+    // Without a limit the file holds a word instead of a number.
     let limit = |file: &PathBuf| fs::read_to_string(file).ok()?.trim().parse().ok();
     machine().into_iter().chain(groups.iter().filter_map(limit)).min()
 }
 
-/// Where the limits of the groups stand that a process is in, and of those around them; `groups` is what the system tells of it. Inside of a
-/// container some of them are not to be seen.
+/// The files with the memory limits of a process's control groups and of the groups around them; `groups` is the
+/// content of `/proc/self/cgroup`. Inside a container some of these files do not exist.
 fn limits(groups: &str) -> Vec<PathBuf> {
     let files = |line: &str| {
         let mut fields = line.splitn(3, ':').skip(1);
@@ -55,7 +55,7 @@ fn limits(groups: &str) -> Vec<PathBuf> {
     groups.lines().filter_map(files).flatten().collect()
 }
 
-/// Of the calling thread so far: how often it had to make way for another.
+/// How often the system has taken the core from the calling thread so far (involuntary context switches).
 #[cfg(target_os = "linux")]
 pub fn interruptions() -> Option<u64> {
     use nix::sys::resource::{UsageWho, getrusage};
@@ -89,11 +89,11 @@ fn first_number(text: &str) -> Option<f64> {
     text.split_whitespace().next()?.parse().ok()
 }
 
-/// The control word of floating-point arithmetic, where there is one, without the flags of what has happened so far.
+/// The control word of floating-point arithmetic (MXCSR), where there is one, without its sticky exception flags.
 #[cfg(target_arch = "x86_64")]
 pub fn mxcsr() -> Option<u32> {
     let mut word = 0_u32;
-    // SAFETY: the instruction, which every such processor has, stores four bytes at the address.
+    // SAFETY: `stmxcsr` is part of SSE, which every x86-64 processor has. It writes four bytes, and `word` is a `u32`.
     unsafe { std::arch::asm!("stmxcsr [{}]", in(reg) &raw mut word, options(nostack, preserves_flags)) };
     Some(word & !0x3f)
 }
@@ -103,7 +103,7 @@ pub fn mxcsr() -> Option<u32> {
     None
 }
 
-/// What the control word makes of numbers below the normal ones, and of rounding.
+/// What the control word does with denormal numbers.
 pub fn denormals(mxcsr: Option<u32>) -> &'static str {
     let Some(word) = mxcsr else { return "unknown" };
     match (word & 1 << 15 != 0, word & 1 << 6 != 0) {
@@ -149,7 +149,7 @@ mod tests {
         assert_eq!(denormals(Some(0x9f80)), "results flushed to zero");
         assert_eq!(denormals(Some(0x9fc0)), "operands taken for zero, results flushed to zero");
         assert_eq!(denormals(None), "unknown");
-        // Nothing in this crate may flush: answers would differ between machines.
+        // Nothing in this crate may flush denormals: hits would differ between machines.
         assert!(matches!(denormals(mxcsr()), "kept" | "unknown"));
     }
 }

@@ -1,11 +1,12 @@
-//! The most memory that a piece of work holds at once.
+//! The peak memory of a piece of work.
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicBool, AtomicIsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-/// The system's allocator, which counts while [`peak_bytes`] runs, and otherwise costs a load of a flag. A program installs it with
-/// `#[global_allocator]`, as the command `sahara` does; in others peaks are unknown. Memory that C or C++ code allocates is not seen.
+/// The system's allocator with a counter that runs during [`peak_bytes`]; at other times it costs the load of a flag. A
+/// program installs it with `#[global_allocator]`, as the command `sahara` does; without it peaks are unknown.
+/// Allocations of C and C++ code are not counted.
 pub struct CountingAllocator;
 
 static COUNTS: AtomicBool = AtomicBool::new(false);
@@ -22,38 +23,40 @@ impl CountingAllocator {
     }
 }
 
-// SAFETY: every call goes to the system's allocator as it is.
+// SAFETY: every method passes its arguments unchanged to `System`, which fulfils the contract of `GlobalAlloc`;
+// counting neither allocates nor panics.
 unsafe impl GlobalAlloc for CountingAllocator {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         Self::add(layout.size() as isize);
-        // SAFETY: the caller's promises are those of the system's allocator.
+        // SAFETY: the caller fulfils the contract of `GlobalAlloc::alloc`, and `System::alloc` has the same one.
         unsafe { System.alloc(layout) }
     }
 
     unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
         Self::add(-(layout.size() as isize));
-        // SAFETY: as above.
+        // SAFETY: as in `alloc`; `pointer` comes from `System`, since all methods here allocate with it.
         unsafe { System.dealloc(pointer, layout) }
     }
 
     unsafe fn alloc_zeroed(&self, layout: Layout) -> *mut u8 {
         Self::add(layout.size() as isize);
-        // SAFETY: as above.
+        // SAFETY: as in `alloc`.
         unsafe { System.alloc_zeroed(layout) }
     }
 
     unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
         Self::add(size as isize - layout.size() as isize);
-        // SAFETY: as above.
+        // SAFETY: as in `dealloc`.
         unsafe { System.realloc(pointer, layout, size) }
     }
 }
 
-/// What `work` gives, and the most bytes that it held at once beyond what was held before, on all threads: nothing where the
-/// [`CountingAllocator`] is not installed. One call at a time; others wait. Each allocation costs two atomic operations more.
+/// Runs `work`; returns its result and the most bytes that were allocated at once on all threads, beyond those
+/// allocated before. The bytes are unknown where the [`CountingAllocator`] is not installed. One call runs at a time;
+/// others wait. Each allocation costs two more atomic operations.
 pub fn peak_bytes<R>(work: impl FnOnce() -> R) -> (R, Option<usize>) {
     static ONE: Mutex<()> = Mutex::new(());
-    /// Counts no longer, even after a panic.
+    /// Stops the counter when it is dropped, also after a panic.
     struct Counting;
     impl Drop for Counting {
         fn drop(&mut self) {
@@ -66,7 +69,7 @@ pub fn peak_bytes<R>(work: impl FnOnce() -> R) -> (R, Option<usize>) {
     PEAK.store(0, Ordering::Relaxed);
     COUNTS.store(true, Ordering::Relaxed);
     let counting = Counting;
-    // A probe: it is seen if the allocator is installed.
+    // Probe whether the allocator is installed: then this allocation is counted.
     drop(std::hint::black_box(Box::new(0_u64)));
     let installed = PEAK.load(Ordering::Relaxed) > 0;
     let result = work();
@@ -81,10 +84,11 @@ mod tests {
 
     #[test]
     fn the_peak_is_the_most_at_once() {
-        // This program does not install the allocator: call it by hand.
+        // The test program does not install the allocator: call it directly.
         let of = |bytes| Layout::from_size_align(bytes, 8).unwrap();
         let (counted, peak) = peak_bytes(|| {
-            // SAFETY: every block is given back with the layout that it has then.
+            // SAFETY: no layout has size 0, no pointer is dereferenced, and every block is freed with its current
+            // layout.
             unsafe {
                 let (a, b) = (CountingAllocator.alloc(of(1000)), CountingAllocator.alloc_zeroed(of(500)));
                 CountingAllocator.dealloc(a, of(1000));

@@ -1,8 +1,7 @@
-//! Measuring: a clock, samples in random order whose answers are checked, what is printed of them, where they come from.
+//! Measuring: clocks, samples in random order with checked results, estimates with intervals, provenance.
 
 mod aa_noise;
 pub mod advice;
-mod answers;
 mod beta;
 mod clock;
 mod estimate;
@@ -16,6 +15,7 @@ mod pin;
 pub mod process_group;
 pub mod program;
 mod provenance;
+mod query_results;
 mod ray_allotment;
 mod remote_pass;
 mod samples;
@@ -26,7 +26,6 @@ pub mod tiles;
 mod variance;
 
 pub use aa_noise::AaNoise;
-pub use answers::checksum;
 pub use beta::beta_quantile;
 pub use clock::{Clock, CpuClock, Stopwatch, SystemClock};
 pub use estimate::{Estimate, Interval};
@@ -37,6 +36,7 @@ pub use order::RandomOrder;
 pub use pass::{Pass, spread};
 pub use pin::{Pin, keep_to, on_all_cores};
 pub use provenance::{Provenance, quoted};
+pub use query_results::checksum;
 pub use ray_allotment::{Allotment, Cost, allot, level_by_clock, pilot_level};
 pub use remote_pass::{Failure, RemotePass};
 pub use samples::{Part, Plan, Samples, Timed, take};

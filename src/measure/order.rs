@@ -13,7 +13,7 @@ impl RandomOrder {
         Self { generator: Pcg64Mcg::seed_from_u64(seed) }
     }
 
-    /// A number from 0 to `n`, `n` excluded; every one as likely, but for a bias below `n` / 2^64.
+    /// A uniform number below `n`, with a bias below `n` / 2^64.
     ///
     /// # Panics
     /// If `n` is 0.
@@ -31,8 +31,8 @@ impl RandomOrder {
         order
     }
 
-    /// Numbers of the `groups`, one for each member, shuffled so that the members of a group follow each other: the groups are in
-    /// random order, and so are the members of each.
+    /// Numbers of the `groups`, one for each member, shuffled so that the members of a group follow each other: the
+    /// groups are in random order, and so are the members of each.
     pub fn shuffled_by_group(&mut self, groups: &[usize]) -> Vec<usize> {
         let ranks = self.shuffled(groups.iter().max().map_or(0, |last| last + 1));
         let mut order = self.shuffled(groups.len());

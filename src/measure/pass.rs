@@ -1,4 +1,4 @@
-//! One structure answering one workload, as a renderer would have it answered.
+//! One structure that traces one workload, as a renderer would use it.
 
 use std::borrow::Cow;
 use std::ops::Range;
@@ -6,40 +6,40 @@ use std::time::{Duration, Instant};
 
 use rayon::prelude::*;
 
-use super::answers::{Answers, Slots};
+use super::query_results::{QueryResults, ResultSlots};
 use super::tiles::{TILE, tiles};
 use super::{RandomOrder, Stopwatch, Threads, Timed};
 use crate::accel::{DynAccel, Loaded, Query};
 use crate::geometry::Ray;
 
-/// Neighbouring rays that are handed over together, [`TILE`] at most.
+/// Neighbouring rays that are traced in one call, at most [`TILE`].
 struct Piece<'a> {
     rays: Box<dyn Loaded + 'a>,
     count: usize,
-    /// The levels, by their place among those chosen, whose time this counts for: a bit each. None for a lead-in.
+    /// The levels that the time of this piece counts for, one bit for each chosen level. None for a lead-in.
     levels: u32,
 }
 
-fn ask_all(slots: Slots, pieces: &[Piece]) {
+fn query_all(slots: ResultSlots, pieces: &[Piece]) {
     pieces.iter().fold(slots, |slots, piece| {
         let (own, rest) = slots.split(piece.count);
-        own.ask(piece.rays.as_ref());
+        own.query(piece.rays.as_ref());
         rest
     });
 }
 
-fn share(slots: Slots, pieces: &[&Piece], threads: &Threads) {
+fn share(slots: ResultSlots, pieces: &[&Piece], threads: &Threads) {
     let mut work = Vec::with_capacity(pieces.len());
     pieces.iter().fold(slots, |slots, &piece| {
         let (own, rest) = slots.split(piece.count);
         work.push((piece, own));
         rest
     });
-    threads.install(|| work.into_par_iter().for_each(|(piece, slots)| slots.ask(piece.rays.as_ref())));
+    threads.install(|| work.into_par_iter().for_each(|(piece, slots)| slots.query(piece.rays.as_ref())));
 }
 
-/// `count` of `all`, in order: one from each of `count` parts of equal length, at a seeded random place in it, so that the
-/// rows and columns of an image are not favoured. All when there are not more. For checks and counts; what is timed are [`tiles`].
+/// `count` of `all`, in order: one from each of `count` parts of equal length, at a seeded random position, so that no
+/// rows and columns of an image are preferred. All if there are not more. For checks and counts; [`tiles`] are timed.
 pub fn spread<T: Copy>(all: &[T], count: usize) -> Vec<T> {
     if count >= all.len() {
         return all.to_vec();
@@ -51,10 +51,10 @@ pub fn spread<T: Copy>(all: &[T], count: usize) -> Vec<T> {
 
 /// A structure, a workload and a query: what is timed.
 ///
-/// One thread takes the rays piece by piece in the order of the workload. Every pass begins with a lead-in that is not
-/// timed, over other rays of the kind where there are any: caches and predictors are then in the state that this
-/// structure leaves them in, and not in that of the structure that was timed before. Where the pass goes over tiles
-/// that are apart, each tile has a short lead-in as well.
+/// One thread traces the rays piece by piece in the order of the workload. Every pass begins with a lead-in that is not
+/// timed, over other rays of the workload if there are any. It leaves caches and branch predictors in the state of this
+/// structure, not in that of the structure timed before. Where tiles do not adjoin, each tile has a short lead-in as
+/// well.
 pub struct Pass<'a> {
     accel: &'a dyn DynAccel,
     threads: &'a Threads,
@@ -62,26 +62,25 @@ pub struct Pass<'a> {
     lead_in: Vec<Piece<'a>>,
     pieces: Vec<Piece<'a>>,
     levels: usize,
-    answers: Answers,
-    /// Of the lead-ins.
-    aside: Answers,
-    /// Where a pass takes all rays: how many of the last of them the lead-in takes as well, and a sum of their answers.
-    led_in: Option<(usize, u64)>,
-    /// Picoseconds that a ray of the lead-in took; without one there is none before tiles either.
+    results: QueryResults,
+    lead_in_results: QueryResults,
+    /// If a pass traces all rays: how many of the last ones the lead-in traces too, and the checksum of their results.
+    lead_in_checksum: Option<(usize, u64)>,
+    /// Picoseconds per ray of the lead-in; if there was none, tiles have no lead-in either.
     lead_in_ps: u128,
-    /// What `clear` fills in changes each time: a pass that leaves an answer as it was cannot give the same sum twice.
+    /// `clear` alternates between two fillings, so that a pass that leaves a result untouched cannot give the same
+    /// checksum twice.
     filled: bool,
 }
 
-/// The share of a workload that a lead-in before a pass has.
+/// The lead-in of a pass has one in so many rays of the workload.
 const LEAD_IN_SHARE: usize = 8;
 
-/// A lead-in before tiles ends early when it has taken so long: structures that are slow need fewer rays to fill the
-/// caches.
+/// A lead-in before tiles ends after this time: slow structures need fewer rays to fill the caches.
 const LEAD_IN: Duration = Duration::from_millis(10);
 
-/// What the lead-in before a tile may take, of as many rays as a whole tile has: longer than it takes to fetch what the
-/// tile needs into the caches, so that a structure which is slower than that does with fewer.
+/// The time for the lead-in before a tile, which has at most the rays of a tile. It is longer than the caches take to
+/// load the tile's data, so slower structures use fewer rays.
 const TILE_LEAD_IN_NS: u128 = 200_000;
 
 impl<'a> Pass<'a> {
@@ -91,7 +90,7 @@ impl<'a> Pass<'a> {
     /// If there are no rays.
     pub fn new(accel: &'a dyn DynAccel, rays: &'a [Ray], query: Query, threads: &'a Threads) -> Self {
         assert!(!rays.is_empty(), "a pass has rays");
-        let (answers, aside) = (Answers::none(query), Answers::none(query));
+        let (results, lead_in_results) = (QueryResults::empty(query), QueryResults::empty(query));
         let (lead_in, pieces) = (vec![], vec![]);
         let mut pass = Self {
             accel,
@@ -100,9 +99,9 @@ impl<'a> Pass<'a> {
             lead_in,
             pieces,
             levels: 0,
-            answers,
-            aside,
-            led_in: None,
+            results,
+            lead_in_results,
+            lead_in_checksum: None,
             lead_in_ps: u128::MAX,
             filled: false,
         };
@@ -114,8 +113,8 @@ impl<'a> Pass<'a> {
         Piece { rays: self.accel.load(Cow::Borrowed(&self.all[first..first + count])), count, levels }
     }
 
-    /// Neighbours up to `end`, the last of the workload before its first; in pieces that get smaller towards the end,
-    /// so that some can be left out.
+    /// The neighbours before `end`, or the last rays of the workload if there are too few; in pieces that shrink
+    /// towards the end, so that some can be left out.
     fn before(&self, end: usize) -> impl Iterator<Item = Piece<'a>> {
         let count = TILE.min(self.all.len());
         let mut rest = if end < count { self.all.len() - count..self.all.len() } else { end - count..end };
@@ -128,9 +127,9 @@ impl<'a> Pass<'a> {
 
     /// Rays of the last pass that hit something.
     pub fn hits(&self) -> usize {
-        match &self.answers {
-            Answers::Closest(hits) => hits.iter().flatten().count(),
-            Answers::Any(hits) => hits.iter().filter(|hit| **hit).count(),
+        match &self.results {
+            QueryResults::Closest(hits) => hits.iter().flatten().count(),
+            QueryResults::Any(hits) => hits.iter().filter(|hit| **hit).count(),
         }
     }
 }
@@ -145,7 +144,7 @@ impl Timed for Pass<'_> {
         let own = &tiles_of[0];
         let timed: usize = own.iter().map(ExactSizeIterator::len).sum();
 
-        // Where one of the other levels begins or ends within a tile, a piece ends.
+        // Cut pieces where another level begins or ends within a tile.
         let mut pieces = vec![];
         let mut end = None;
         for tile in own {
@@ -166,7 +165,7 @@ impl Timed for Pass<'_> {
             }
         }
 
-        // Before tiles the pieces begin small, so that a slow structure can stop.
+        // Before tiles the first pieces are small, so that a slow structure can stop early.
         let lead_in = self.all.len() / LEAD_IN_SHARE;
         let mut first = self.all.len() - lead_in;
         let mut size = if levels[0] == 0 { TILE } else { 1 };
@@ -177,48 +176,49 @@ impl Timed for Pass<'_> {
             (first, size) = (first + count, TILE.min(2 * size));
         }
         (self.pieces, self.levels) = (pieces, levels.len());
-        self.answers.resize(timed);
-        self.aside.resize(lead_in.max(TILE));
+        self.results.resize(timed);
+        self.lead_in_results.resize(lead_in.max(TILE));
     }
 
     fn clear(&mut self) {
         self.filled = !self.filled;
-        self.answers.fill(self.filled);
-        self.aside.fill(self.filled);
-        (self.led_in, self.lead_in_ps) = (None, u128::MAX);
+        self.results.fill(self.filled);
+        self.lead_in_results.fill(self.filled);
+        (self.lead_in_checksum, self.lead_in_ps) = (None, u128::MAX);
     }
 
     fn lead_in(&mut self) {
         let start = Instant::now();
         let mut count = self.lead_in.iter().map(|piece| piece.count).sum();
         if self.threads.count() > 1 {
-            share(self.aside.first(count), &self.lead_in.iter().collect::<Vec<_>>(), self.threads);
+            share(self.lead_in_results.first(count), &self.lead_in.iter().collect::<Vec<_>>(), self.threads);
         } else {
-            let is_whole = self.answers.len() == self.all.len();
+            let is_whole = self.results.len() == self.all.len();
             let pieces = self.lead_in.iter().take_while(|_| is_whole || start.elapsed() < LEAD_IN);
             count = pieces.fold(0, |done, piece| {
-                self.aside.first(done + piece.count).split(done).1.ask(piece.rays.as_ref());
+                self.lead_in_results.first(done + piece.count).split(done).1.query(piece.rays.as_ref());
                 done + piece.count
             });
         }
         self.lead_in_ps = start.elapsed().as_nanos() * 1000 / count.max(1) as u128;
-        self.led_in = (self.answers.len() == self.all.len()).then(|| (count, self.aside.checksum(0..count)));
+        self.lead_in_checksum =
+            (self.results.len() == self.all.len()).then(|| (count, self.lead_in_results.checksum(0..count)));
     }
 
     fn run(&mut self, watch: &Stopwatch) -> Vec<u64> {
         let mut ns = vec![0; self.levels];
         if self.threads.count() > 1 {
-            // Threads share the rays of a level, so each level is timed apart; all rays come last, and their answers
-            // stay.
+            // Threads share the rays of a level, so each level is timed separately. The first level goes last, so that
+            // its results stay.
             for level in (0..self.levels).rev() {
                 let of_level = |piece: &&Piece| piece.levels >> level & 1 == 1;
                 let pieces: Vec<&Piece> = self.pieces.iter().filter(of_level).collect();
-                let slots = self.answers.first(pieces.iter().map(|piece| piece.count).sum());
+                let slots = self.results.first(pieces.iter().map(|piece| piece.count).sum());
                 ns[level] = watch.time(|| share(slots, &pieces, self.threads));
             }
             return ns;
         }
-        let mut rest = self.answers.first(self.answers.len());
+        let mut rest = self.results.first(self.results.len());
         for run in self.pieces.chunk_by(|one, other| one.levels == other.levels) {
             if run[0].levels == 0 {
                 let affordable = TILE_LEAD_IN_NS * 1000 / self.lead_in_ps.max(1);
@@ -229,25 +229,25 @@ impl Timed for Pass<'_> {
                 {
                     (rays, run) = (rays - first.count, rest);
                 }
-                ask_all(self.aside.first(rays), run);
+                query_all(self.lead_in_results.first(rays), run);
                 continue;
             }
             let count = run.iter().map(|piece| piece.count).sum();
             let (own, others) = rest.split(count);
             rest = others;
-            let took = watch.time(|| ask_all(own, run));
+            let took = watch.time(|| query_all(own, run));
             (0..self.levels).filter(|level| run[0].levels >> level & 1 == 1).for_each(|level| ns[level] += took);
         }
         ns
     }
 
     fn checksum(&self) -> u64 {
-        self.answers.checksum(0..self.answers.len())
+        self.results.checksum(0..self.results.len())
     }
 
     fn contradicts_itself(&self) -> bool {
-        let all = self.answers.len();
-        self.led_in.is_some_and(|(count, checksum)| checksum != self.answers.checksum(all - count..all))
+        let all = self.results.len();
+        self.lead_in_checksum.is_some_and(|(count, checksum)| checksum != self.results.checksum(all - count..all))
     }
 }
 

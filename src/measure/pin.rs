@@ -1,4 +1,4 @@
-//! One thread, one core: a thread that moves leaves its caches behind.
+//! Binds threads to cores, so that they keep their caches.
 
 use std::sync::OnceLock;
 
@@ -10,17 +10,18 @@ use nix::{
 
 use super::machine;
 
-/// The thread that calls, as the system numbers it; the first one of a process has the number of the process.
+/// The number that stands for the calling thread in system calls. The first thread of a process has the number of the
+/// process.
 const THIS_THREAD: u32 = 0;
 
-/// Binds the calling thread to a core until it is dropped; then the thread may run where it might before.
+/// Binds the calling thread to a core until it is dropped; then the thread may run on the cores that it had before.
 #[derive(Debug)]
 pub struct Pin {
     before: Vec<usize>,
 }
 
 impl Pin {
-    /// Binds the calling thread to `core`; nothing where the system does not allow it.
+    /// Binds the calling thread to `core`; none where the system does not allow it.
     pub fn to(core: usize) -> Option<Self> {
         let before = allowed(THIS_THREAD)?;
         bind(&[core]).then_some(Self { before })
@@ -29,24 +30,25 @@ impl Pin {
 
 impl Drop for Pin {
     fn drop(&mut self) {
-        // It was allowed before; where it no longer is, the thread stays where it is.
+        // If the system no longer allows these cores, the thread stays where it is.
         bind(&self.before);
     }
 }
 
-/// The cores that the run has chosen which this process is a part of.
-static CHOSEN: OnceLock<Vec<usize>> = OnceLock::new();
+/// The cores that the run has chosen for all of its processes.
+static CORES: OnceLock<Vec<usize>> = OnceLock::new();
 
-/// From now on as many threads as there are `cores` get these, instead of those that are idle at the moment.
+/// From now on `cores.len()` threads get these cores, instead of the cores that are idle at the moment.
 pub fn keep_to(cores: &[usize]) {
-    CHOSEN.get_or_init(|| cores.into());
+    CORES.get_or_init(|| cores.into());
 }
 
-/// The cores for `threads` threads: those [kept to](keep_to), or those that have been the most idle during the last tenth of a second, of those the highest, for
-/// interrupts go to the lowest. Nothing where threads cannot be bound, or there are fewer cores than threads.
+/// The cores for `threads` threads: those given to [`keep_to`], or those that were the most idle during a tenth of a
+/// second; among equals the highest, since interrupts go to the lowest. None where threads cannot be bound, or there
+/// are fewer cores than threads.
 pub fn choose(threads: usize) -> Option<Vec<usize>> {
     let mut cores = allowed(THIS_THREAD)?;
-    if let Some(chosen) = CHOSEN.get().filter(|chosen| chosen.len() == threads) {
+    if let Some(chosen) = CORES.get().filter(|chosen| chosen.len() == threads) {
         return chosen.iter().all(|core| cores.contains(core)).then(|| chosen.clone());
     }
     if cores.len() < threads {
@@ -60,8 +62,8 @@ pub fn choose(threads: usize) -> Option<Vec<usize>> {
     Some(cores)
 }
 
-/// Does `work`, which starts a program, where that may use all cores that the first thread of this process may: a program
-/// gets those of the thread that starts it.
+/// Runs `work`, which starts a program, so that the program may use all cores of this process's first thread: a program
+/// inherits the cores of the thread that starts it.
 pub fn on_all_cores<R>(work: impl FnOnce() -> R) -> R {
     let _pin = allowed(std::process::id()).zip(allowed(THIS_THREAD)).map(|(all, before)| {
         bind(&all);
@@ -113,7 +115,7 @@ mod tests {
     #[test]
     fn a_bound_thread_starts_programs_that_are_not() {
         let before = allowed(THIS_THREAD).unwrap();
-        // The first thread of the tests is bound to nothing.
+        // The first thread of the test program is not bound.
         let first = allowed(std::process::id()).unwrap();
         let pin = Pin::to(before[0]).unwrap();
         assert_eq!(on_all_cores(|| allowed(THIS_THREAD).unwrap()), first);

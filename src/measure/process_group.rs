@@ -1,7 +1,7 @@
-//! Programs that end with all that they have started.
+//! Ends programs together with all programs that they have started.
 //!
-//! On Linux each is the first of a process group of its own, which is ended as a whole: Ctrl-C is told to this process
-//! alone, which ends its programs. Elsewhere a program is ended alone, and is told of Ctrl-C as well.
+//! On Linux each program leads its own process group, and the whole group is killed. Only this process receives Ctrl-C;
+//! it ends its programs. On other systems a program is killed alone, and receives Ctrl-C as well.
 
 #[cfg(target_os = "linux")]
 use std::os::unix::process::CommandExt;
@@ -15,19 +15,20 @@ use nix::{
     unistd::Pid,
 };
 
-/// Has the program that `command` starts be the first of a group of its own.
+/// Makes the program that `command` starts the leader of its own process group.
 #[cfg(target_os = "linux")]
 pub fn set_apart(command: &mut Command) {
     command.process_group(0);
-    // The signals that this process waits for are blocked in it, and would be in what it starts.
-    // SAFETY: to set the mask of a thread is async-signal-safe, and nothing is allocated.
+    // This process blocks the signals that it waits for, and a program inherits the mask: unblock them. SAFETY: between
+    // fork and exec only async-signal-safe calls are sound. The closure makes one, `pthread_sigmask`, and allocates
+    // nothing: the error that it returns is a number.
     unsafe { command.pre_exec(|| Ok(SigSet::empty().thread_set_mask()?)) };
 }
 
 #[cfg(not(target_os = "linux"))]
 pub fn set_apart(_: &mut Command) {}
 
-/// Whether a program has ended. It is still to be waited for.
+/// Whether a program has ended; it must still be waited for.
 #[cfg(target_os = "linux")]
 pub fn has_ended(child: &mut Child) -> bool {
     state(child) != Ok(WaitStatus::StillAlive)
@@ -38,9 +39,9 @@ pub fn has_ended(child: &mut Child) -> bool {
     !matches!(child.try_wait(), Ok(None))
 }
 
-/// Ends a program that was [set apart](set_apart), and with it all that it has started, unless it has been waited for.
+/// Kills a program that was [set apart](set_apart) and all that it has started, unless it has been waited for.
 pub fn end(child: &mut Child) {
-    // Until it has been waited for, its number is that of its own group and of no other.
+    // Until it has been waited for, its number cannot be given to another group.
     #[cfg(target_os = "linux")]
     if state(child) != Err(Errno::ECHILD) {
         end_group(child.id());
@@ -48,7 +49,7 @@ pub fn end(child: &mut Child) {
     let _ = child.kill();
 }
 
-/// Ends the programs that a process has started, each with its group if it leads one.
+/// Kills the programs that a process has started, each with its group if it leads one.
 #[cfg(target_os = "linux")]
 pub fn end_started_by(process: u32) {
     let threads = std::fs::read_dir(format!("/proc/{process}/task")).into_iter().flatten().flatten();
@@ -57,7 +58,7 @@ pub fn end_started_by(process: u32) {
     children.split_whitespace().filter_map(|number| number.parse::<u32>().ok()).for_each(end_group);
 }
 
-/// Ends a program with its group, if it leads one, and likewise the programs that it has started.
+/// Kills a program, with its group if it leads one, and the programs that it has started.
 #[cfg(target_os = "linux")]
 fn end_group(first: u32) {
     end_started_by(first);
@@ -65,7 +66,7 @@ fn end_group(first: u32) {
     let _ = killpg(first, Signal::SIGKILL).or_else(|_| kill(first, Signal::SIGKILL));
 }
 
-/// What has become of a program; an error once it has been waited for.
+/// The state of a program; an error once it has been waited for.
 #[cfg(target_os = "linux")]
 fn state(child: &Child) -> nix::Result<WaitStatus> {
     let looks = WaitPidFlag::WEXITED | WaitPidFlag::WNOHANG | WaitPidFlag::WNOWAIT;

@@ -1,4 +1,4 @@
-//! The program that runs: which one it is, and when it began.
+//! The running program: its identity, and when it began.
 
 use std::fs::File;
 use std::io;
@@ -8,14 +8,14 @@ use std::time::{SystemTime, UNIX_EPOCH};
 
 use sha2::{Digest, Sha256};
 
-/// The first 16 digits of the SHA-256 of the file that was started; `unknown` where it cannot be read. A change of the sources,
-/// of the compiler or of its flags is another program, whether it was committed or not.
+/// The first 16 digits of the SHA-256 of the file that was started; `unknown` where it cannot be read. Another source,
+/// compiler or flag gives another program, committed or not.
 pub fn build() -> &'static str {
     static BUILD: OnceLock<String> = OnceLock::new();
     BUILD.get_or_init(|| file_id(&executable()).unwrap_or_else(|_| "unknown".into()))
 }
 
-/// The file that was started: started again, it is the same program. Linux keeps it at this place even if another one has taken its name since.
+/// The file that was started. Linux keeps it at this path even if another file has taken its name since.
 pub fn executable() -> PathBuf {
     let kept = Path::new("/proc/self/exe");
     if kept.exists() { kept.into() } else { std::env::current_exe().unwrap_or_default() }
@@ -31,17 +31,17 @@ pub fn file_id(path: &Path) -> io::Result<String> {
     Ok(hasher.finalize()[..8].iter().map(|byte| format!("{byte:02x}")).collect())
 }
 
-/// When this was first asked, in UTC: `2026-03-01T12:30:59Z`.
+/// The time of the first call, in UTC: `2026-03-01T12:30:59Z`.
 pub fn started() -> &'static str {
     static STARTED: OnceLock<String> = OnceLock::new();
     let now = || SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs());
     STARTED.get_or_init(|| utc(now()))
 }
 
-/// So many seconds after the beginning of 1970, in the calendar of today.
+/// The date that lies so many seconds after the beginning of 1970.
 fn utc(seconds: u64) -> String {
     let (days, second) = (seconds / 86400, seconds % 86400);
-    // Years begin in March, so that a leap day is the last one, and are counted in eras of 400, which are all alike
+    // Count years from March, so that a leap day is the last day of a year, in eras of 400 years of equal length
     // (Howard Hinnant: chrono-compatible low-level date algorithms, 2021).
     let shifted = days + 719_468;
     let (era, day_of_era) = (shifted / 146_097, shifted % 146_097);

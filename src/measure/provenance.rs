@@ -1,4 +1,4 @@
-//! Where a number comes from.
+//! Where a measurement comes from.
 
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
@@ -6,7 +6,7 @@ use serde_json::{Map, Value};
 use super::{CpuClock, Threads, machine, program};
 use crate::simd::Level;
 
-/// What must be known to judge a measurement, and to repeat it.
+/// The facts that one needs to judge a measurement, and to repeat it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Provenance {
     /// The command line.
@@ -15,7 +15,7 @@ pub struct Provenance {
     pub version: String,
     /// Commit that was built, `+changes` when the sources differed from it; `unknown` outside git.
     pub commit: String,
-    /// The first digits of the SHA-256 of the program that ran: two programs with the same ones are the same. `unknown` where the
+    /// The first digits of the SHA-256 of the program that ran; equal digits mean the same program. `unknown` where the
     /// system does not let the program read itself.
     #[serde(default = "unknown")]
     pub build: String,
@@ -32,10 +32,10 @@ pub struct Provenance {
     pub target_features: String,
     /// Instruction set of our own lanes.
     pub simd: String,
-    /// Name of the computer; `unknown` where the system does not tell.
+    /// Name of the computer; `unknown` where the system does not report it.
     #[serde(default = "unknown")]
     pub host: String,
-    /// Name of the processor; `unknown` where the system does not tell.
+    /// Name of the processor; `unknown` where the system does not report it.
     pub cpu: String,
     /// Processors that the system offers to this process.
     pub cores: usize,
@@ -46,24 +46,24 @@ pub struct Provenance {
     /// Version of obvhs, whose structures are the references of comparisons between runs.
     #[serde(default = "unknown")]
     pub obvhs: String,
-    /// What samples are measured by: `cpu`, the time that the thread had a processor for, or `elapsed`.
+    /// The clock of samples: `cpu` for processor time of the thread, or `elapsed`.
     #[serde(default = "elapsed")]
     pub clock: String,
-    /// The core of each thread; nothing where threads were not bound to cores.
+    /// The core of each thread; none where threads were not bound.
     pub pinned: Option<Vec<usize>>,
     /// Whether each timed epoch of a scene was measured in a process of its own.
     #[serde(default)]
     pub process_per_epoch: bool,
     /// Control word of floating-point arithmetic, where the processor has one.
     pub mxcsr: Option<u32>,
-    /// What it makes of numbers below the normal ones; `kept` is right.
+    /// What it does with denormal numbers; `kept` is right.
     #[serde(default = "unknown")]
     pub denormals: String,
-    /// How the system chooses clock rates, in its own word.
+    /// The name of the policy by which the system chooses clock rates.
     pub governor: Option<String>,
     /// Load average of the last minute before the run.
     pub load: Option<f64>,
-    /// What spoilt the run, one sentence each.
+    /// Warnings about the run, one sentence each.
     #[serde(default)]
     pub warnings: Vec<String>,
 }
@@ -134,7 +134,7 @@ impl Provenance {
         parts.into_iter().map(|(name, value)| (name.to_owned(), value)).collect()
     }
 
-    /// A warning, where there are more threads than processors.
+    /// A warning if there are more threads than processors.
     pub fn too_many_threads(&self) -> Option<String> {
         let Self { threads, cores, .. } = self;
         (threads > cores).then(|| {
@@ -157,7 +157,7 @@ impl Provenance {
     }
 }
 
-/// An argument as a shell would read it back.
+/// An argument, quoted for a shell.
 pub fn quoted(arg: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "-_./:=,+@%".contains(c);
     if !arg.is_empty() && arg.chars().all(plain) { arg.into() } else { format!("'{}'", arg.replace('\'', "'\\''")) }

@@ -1,4 +1,4 @@
-//! How many rays of each case are timed, and how often: decided before any sample, from what a ray costs.
+//! How many rays of each case are timed, and how often. It is decided before any sample, from the cost per ray.
 
 use super::tiles::{last_level, level_within, rays_at};
 use super::{Plan, Stopwatch, Timed, median};
@@ -8,29 +8,30 @@ use super::{Plan, Stopwatch, Timed, median};
 pub struct Cost {
     /// Rays of its workload, at least 1.
     pub rays: usize,
-    /// Picoseconds that one of them takes, about.
+    /// Picoseconds per ray, about.
     pub ps: u64,
-    /// A number for each set of cases that take as many rays.
+    /// Cases with the same number are timed on the same number of rays.
     pub group: usize,
 }
 
-/// What cases may take.
+/// The rays and samples of all cases.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Allotment {
     /// Samples of every case.
     pub runs: usize,
     /// The [level](super::tiles) of each case.
     pub levels: Vec<usize>,
-    /// Nanoseconds that a sample of a case may take of which the cost is not known.
+    /// Nanoseconds for a sample of a case with an unknown cost.
     pub share_ns: u64,
 }
 
-/// Finds how many rays of each case and how many samples fit the budget: another epoch, on whatever machine, finds the same.
+/// Finds how many rays of each case and how many samples fit the budget. It depends on its arguments only, so all
+/// epochs agree, on any machine.
 pub fn allot(cases: &[Cost], plan: &Plan) -> Allotment {
     let mut levels: Vec<usize> = cases.iter().map(|case| level_within(case.rays, plan.most_rays)).collect();
     let cost = |case: usize, level: usize| {
         let Cost { rays, ps, .. } = cases[case];
-        // A lead-in is an eighth more.
+        // The lead-in adds an eighth.
         (rays_at(rays, level) as u128 * u128::from(ps) * 9 / 8 / 1000) as u64
     };
 
@@ -57,18 +58,19 @@ pub fn allot(cases: &[Cost], plan: &Plan) -> Allotment {
     Allotment { runs, levels, share_ns }
 }
 
-/// The first pass of a case takes so many rays at least, to find out how slow it is.
+/// The least rays of the first pass of a case, which finds out how slow it is.
 const PILOT: usize = 64;
 
-/// A pass that takes so long says enough of the speed.
+/// A pass of this length measures the speed well enough.
 const LONG_PILOT_NS: u64 = 5_000_000;
 
-/// The level at which a few rays of so many are asked, at least 64 where there are as many.
+/// The level of the first pass: it has at least 64 rays, or all if there are fewer.
 pub fn pilot_level(rays: usize) -> usize {
     (0..=last_level(rays)).rev().find(|&level| rays_at(rays, level) >= PILOT).unwrap_or(0)
 }
 
-/// The first level from `from` on at which a sample of a case whose cost is not known takes `most_ns` at most, by a clock.
+/// The first level from `from` on at which a sample of `case`, whose cost is unknown, takes at most `most_ns`; it is
+/// measured.
 pub fn level_by_clock(watch: &Stopwatch, case: &mut dyn Timed, from: usize, most_ns: u64) -> usize {
     let all = case.rays();
     let mut pace = |level: usize| {
@@ -77,13 +79,13 @@ pub fn level_by_clock(watch: &Stopwatch, case: &mut dyn Timed, from: usize, most
         let ns = case.run(watch)[0].max(1);
         (u128::from(ns) * 1000 / rays_at(all, level) as u128).max(1)
     };
-    // A pass over few rays, and one that is long enough to tell.
+    // Time a pass over few rays, and one that is long enough for a good estimate.
     let few = pilot_level(all).max(from);
     let first = pace(few);
     let rays = u128::from(LONG_PILOT_NS) * 1000 / first;
     let enough = (from..few).rev().find(|&level| rays_at(all, level) as u128 >= rays).unwrap_or(from);
     let ps = if enough < few && rays > rays_at(all, few) as u128 { pace(enough) } else { first };
-    // With its lead-in, the rays of the next level, which it is asked by themselves, and once before to be warm.
+    // A sample traces its lead-in and the rays of the next level as well, and all rays once before to warm up.
     let fits = |level: &usize| rays_at(all, *level) as u128 * ps * 19 / 8 / 1000 <= u128::from(most_ns);
     let last = last_level(all);
     (from..last).find(fits).unwrap_or(last.max(from))
@@ -107,17 +109,17 @@ mod tests {
     #[test]
     fn the_slow_do_with_fewer_rays_then_all_with_fewer_samples_and_then_with_fewer_rays() {
         let of = |budget_ns| rays(&cases(&[10, 15, 10_000]), &Plan { budget_ns, ..PLAN });
-        // All rays of the two fast ones take 1.84 ms with their lead-ins, those of the slow one 737 ms, and 2.88 ms where it takes no
-        // more than eight times as long as the middle one.
+        // All rays of the two fast ones take 1.84 ms with their lead-ins, those of the slow one 737 ms, and 2.88 ms
+        // where it takes no more than eight times as long as the middle one.
         assert_eq!(of(4_000_000_000), (5, vec![65_536, 65_536, 256]));
         assert_eq!(of(24_000_000), (5, vec![65_536, 65_536, 256]));
         assert_eq!(of(12_000_000), (2, vec![65_536, 65_536, 256]));
         assert_eq!(of(2_700_000), (1, vec![65_536, 65_536, 64]));
         assert_eq!(of(1_000_000), (1, vec![16_384, 4096, 64]));
-        // Where no case is too slow, samples are left out first, and then all rays are spared.
+        // Without a limit for slow cases, samples are left out first and all rays stay.
         let patient = Plan { slowest: f64::INFINITY, budget_ns: 1_000_000_000, ..PLAN };
         assert_eq!(rays(&cases(&[10, 15, 10_000]), &patient), (1, vec![65_536; 3]));
-        // There is always a ray.
+        // At least one ray is always left.
         assert_eq!(of(1), (1, vec![rays_at(65_536, last_level(65_536)); 3]));
         assert!(allot(&[], &PLAN).levels.is_empty());
     }

@@ -1,4 +1,4 @@
-//! Taking samples of many cases, interleaved.
+//! Takes samples of many cases, interleaved.
 
 use super::tiles::{last_level, level_of, rays_at};
 use super::{Clock, RandomOrder, Stopwatch};
@@ -8,40 +8,38 @@ pub trait Timed {
     /// Rays of the workload, at least 1.
     fn rays(&self) -> usize;
 
-    /// From now on a pass takes the rays of the first of `levels`; those of the others are a part of them and are timed
-    /// along. Which rays these are, [`tiles`](super::tiles::tiles) says. Not timed.
+    /// Sets the rays of later passes: those of the first of `levels`. The rays of the other levels are a part of them
+    /// and are timed in the same pass. [`tiles`](super::tiles::tiles) says which rays these are. Not timed.
     fn choose(&mut self, levels: &[usize], epoch: usize);
 
-    /// Forgets all answers, so that a pass which does nothing is found out. Called before every pass. Not timed.
+    /// Overwrites all results, so that a pass that does nothing is detected. Called before every pass. Not timed.
     fn clear(&mut self);
 
-    /// Brings caches and predictors into the state that the case leaves them in. Called before a pass whose time is kept.
-    /// Not timed.
+    /// Warms caches and branch predictors for this case. Called before a pass whose time is kept. Not timed.
     fn lead_in(&mut self);
 
     /// One pass: nanoseconds of each level chosen.
     fn run(&mut self, watch: &Stopwatch) -> Vec<u64>;
 
-    /// A number made of all answers of the pass. Not timed.
+    /// A checksum of all results of the pass. Not timed.
     fn checksum(&self) -> u64;
 
-    /// Whether the pass answered otherwise than its lead-in, to the same rays. Not timed.
+    /// Whether the pass and its lead-in gave the same rays different results. Not timed.
     fn contradicts_itself(&self) -> bool;
 }
 
 /// How samples are taken.
 #[derive(Clone, Copy, Debug)]
 pub struct Plan {
-    /// Samples of every case in an epoch, at least 1; at most, where there is not time for them all.
+    /// Samples per case and epoch, at least 1; fewer if the budget runs out.
     pub runs: usize,
-    /// What the samples of all cases in an epoch may take together, nanoseconds. Where it is not enough, there are
-    /// fewer samples, and where one of each case is too much, cases are timed on a part of their rays, the slowest
-    /// first.
+    /// Time for the samples of all cases in an epoch, nanoseconds. If it is too short, fewer samples are taken; if it
+    /// is too short for one sample of each case, cases are timed on a part of their rays, the slowest first.
     pub budget_ns: u64,
-    /// A case that takes more than so many times as long as the median case is timed on fewer rays, whatever the
-    /// budget; infinite where none is.
+    /// A case that takes more than this multiple of the median case is timed on fewer rays, whatever the budget;
+    /// infinite to set no limit.
     pub slowest: f64,
-    /// Rays of a sample, at most.
+    /// The most rays of a sample.
     pub most_rays: usize,
     /// Seed of the order.
     pub seed: u64,
@@ -52,17 +50,18 @@ pub struct Plan {
 /// The samples of one case.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Samples {
-    /// Rays of a sample: fewer than the case has when it was slow.
+    /// Rays of a sample: fewer than the case has if it is slow.
     pub rays: usize,
-    /// The level of the rays of the first epoch whose answers are kept, if they are not those of the samples.
+    /// The level of the rays that [`checksum`](Self::checksum) covers, where they are not the rays of the samples. They
+    /// are those of the first epoch.
     pub asked: Option<usize>,
-    /// Of the answers to these rays: another epoch gives the same.
+    /// The checksum of the results; it is the same in all epochs.
     pub checksum: u64,
     /// Nanoseconds of each sample, in the order of the rounds: those of two cases with the same index are a pair.
     pub ns: Vec<u64>,
-    /// The same samples, for a part of their rays: as many as a slower case with the same rays is timed on.
+    /// The same samples for a part of their rays, to compare with slower cases that are timed on that part only.
     pub parts: Vec<Part>,
-    /// Whether the same rays had the same answers every time: a sample without an answer is not a measurement.
+    /// Whether the same rays had the same results every time.
     pub is_steady: bool,
 }
 
@@ -70,15 +69,15 @@ pub struct Samples {
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Part {
-    /// Rays of it.
+    /// Rays of the part.
     pub rays: usize,
-    /// Nanoseconds that they took of each sample.
+    /// Nanoseconds of the part in each sample.
     pub ns: Vec<u64>,
 }
 
 impl Samples {
-    /// Of a case with `all` rays that is timed at `level`, before the first one is taken. Each epoch has tiles of its own: a sixteenth
-    /// of those of the first tells whether answers are the same.
+    /// No samples yet of a case with `all` rays that is timed at `level`. Each epoch draws its own tiles, so their
+    /// results cannot be compared between epochs: a sixteenth of the tiles of the first epoch is traced for that.
     pub fn none(all: usize, level: usize) -> Self {
         let asked = (level > 0).then(|| (level + 2).min(last_level(all)));
         Self { rays: rays_at(all, level), asked, checksum: 0, ns: vec![], parts: vec![], is_steady: true }
@@ -90,13 +89,14 @@ impl Samples {
     }
 }
 
-/// An epoch: adds `plan.runs` samples of every case, in each round every case once, in random order, those that are
-/// compared one after the other: what disturbs them lasts, and is in all of them. `compared` has a number for each
-/// case, the same for those that are compared. `samples` say on how many rays. A case that is not steady is asked no
-/// more. `progress` is told the number of samples taken, those left out included, between them.
+/// Takes the samples of one epoch: `plan.runs` of every case, each case once per round, in random order.
+///
+/// Cases with the same number in `compared` are compared with each other and follow one another within a round, so that
+/// a disturbance of some length hits all of them. `samples` say how many rays each case is timed on. A case that is not
+/// steady is not run again. `progress` receives the number of samples so far, including those left out.
 ///
 /// # Panics
-/// If there are not as many samples or numbers as cases, or the samples are of numbers of rays that are no level's.
+/// If `samples` or `compared` differ in length from `cases`, or a number of rays is that of no level.
 pub fn take(
     clock: &dyn Clock,
     cases: &mut [Box<dyn Timed + '_>],
@@ -109,18 +109,18 @@ pub fn take(
     let watch = Stopwatch::new(clock);
     let mut levels_of = vec![];
     for (case, samples) in cases.iter_mut().zip(samples.iter_mut()) {
-        let level_of = |rays: usize| level_of(case.rays(), rays).expect("a part is as large as a level");
+        let level_of = |rays: usize| level_of(case.rays(), rays).expect("a part has the rays of a level");
         let mut levels = vec![level_of(samples.rays)];
         levels.extend(samples.parts.iter().map(|part| level_of(part.rays)));
         if let Some(level) = samples.asked {
-            samples.checksum = ask_some(&watch, case.as_mut(), level);
-            samples.is_steady = plan.epoch > 0 || samples.checksum == ask_some(&watch, case.as_mut(), level);
+            samples.checksum = checksum_at(&watch, case.as_mut(), level);
+            samples.is_steady = plan.epoch > 0 || samples.checksum == checksum_at(&watch, case.as_mut(), level);
         }
         levels_of.push(levels);
     }
     cases.iter_mut().zip(&levels_of).for_each(|(case, levels)| case.choose(levels, plan.epoch));
 
-    // Every epoch has an order of its own.
+    // Every epoch has its own order.
     let mut order = RandomOrder::new(plan.seed.wrapping_add(plan.epoch as u64));
     let mut checksums = vec![None; cases.len()];
     let mut taken = 0;
@@ -146,7 +146,7 @@ pub fn take(
 }
 
 /// The checksum of the rays that `case` is timed on in the first epoch at `level`.
-fn ask_some(watch: &Stopwatch, case: &mut dyn Timed, level: usize) -> u64 {
+fn checksum_at(watch: &Stopwatch, case: &mut dyn Timed, level: usize) -> u64 {
     case.choose(&[level], 0);
     case.clear();
     case.run(watch);

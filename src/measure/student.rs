@@ -1,21 +1,22 @@
-//! Student's t: how wide an interval must be, and how likely chance alone is, for one difference and for many.
+//! Student's t distribution: the width of intervals and the significance of one difference or of many.
 
 use std::cell::Cell;
 
 use super::beta::incomplete_beta;
 
-/// The chance that is left to the outside of an interval, of one alone or of all that are looked at together: 5 %.
+/// The probability that an interval does not contain the value, for one interval or for all that are judged together: 5
+/// %.
 pub const LEVEL: f64 = 0.05;
 
-/// The factor that makes a standard error with `freedom` degrees of freedom half an interval that leaves `level` to its
-/// outside (Student, "The probable error of a mean", 1908).
+/// The half-width of an interval that misses with probability `level`, in standard errors with `freedom` degrees of
+/// freedom (Student, "The probable error of a mean", 1908).
 ///
 /// # Panics
 /// If `freedom` is less than 1, or `level` does not lie between 0 and 1.
 pub fn factor(freedom: f64, level: f64) -> f64 {
     assert!(freedom >= 1.0, "an interval needs a degree of freedom");
     assert!(0.0 < level && level < 1.0, "an interval leaves a chance to its outside");
-    // Tables ask for the same one again and again.
+    // Tables use the same factor again and again.
     thread_local! {
         static LAST: Cell<(f64, f64, f64)> = const { Cell::new((0.0, 0.0, 0.0)) };
     }
@@ -28,9 +29,9 @@ pub fn factor(freedom: f64, level: f64) -> f64 {
     factor
 }
 
-/// The t that leaves `level` to its outside.
+/// The t that is exceeded in magnitude with probability `level`.
 fn quantile(freedom: f64, level: f64) -> f64 {
-    // Newton's method on logarithms: there the tail is concave, so that after the first step no step goes too far.
+    // Newton's method on logarithms: the tail is concave there, so no step after the first overshoots.
     let mut log_t = 0.0;
     for _ in 0..100 {
         let t = libm::exp(log_t);
@@ -49,7 +50,7 @@ fn quantile(freedom: f64, level: f64) -> f64 {
     libm::exp(log_t)
 }
 
-/// Beyond so many degrees of freedom t is a normal variable.
+/// With more degrees of freedom t is treated as a normal variable.
 const NORMAL: f64 = 1e9;
 
 fn density(t: f64, freedom: f64) -> f64 {
@@ -74,8 +75,8 @@ pub fn two_sided(t: f64, freedom: f64) -> f64 {
     incomplete_beta(freedom / (freedom + t * t), freedom / 2.0, 0.5)
 }
 
-/// Which of many probabilities are too small for chance, when the chance of even one false claim among all may be
-/// `level` (Holm, "A simple sequentially rejective multiple test procedure", 1979).
+/// Which of many p-values are significant, if the probability of even one false claim among all may be `level` (Holm,
+/// "A simple sequentially rejective multiple test procedure", 1979).
 pub fn holm(probabilities: &[f64], level: f64) -> Vec<bool> {
     let mut order: Vec<usize> = (0..probabilities.len()).collect();
     order.sort_by(|&a, &b| probabilities[a].total_cmp(&probabilities[b]));

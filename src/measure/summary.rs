@@ -1,6 +1,6 @@
-//! What is printed of many samples. Pure functions.
+//! Summaries of many samples. Pure functions.
 
-/// The middle of `values`, the mean of the middle two when their number is even; nothing of nothing.
+/// The median of `values`, the mean of the middle two if their number is even; none if there are no values.
 ///
 /// # Panics
 /// If a value is NaN.
@@ -15,7 +15,7 @@ pub fn median(values: &[f64]) -> Option<f64> {
     }
 }
 
-/// The geometric mean of positive `values`; nothing of nothing.
+/// The geometric mean of positive `values`; none if there are no values.
 ///
 /// # Panics
 /// If a value is not positive.

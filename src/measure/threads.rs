@@ -5,18 +5,18 @@ use std::sync::{Arc, OnceLock};
 use super::machine;
 use super::pin::{self, Pin};
 
-/// The threads that build and trace; a clone is the same threads.
+/// The threads that build and trace; clones share them.
 #[derive(Clone)]
 pub struct Threads {
     /// Empty until they start.
     pool: Arc<OnceLock<rayon::ThreadPool>>,
     count: usize,
-    /// The core of each, where they are bound.
+    /// The core of each thread, if they are bound.
     cores: Option<Vec<usize>>,
 }
 
 impl Threads {
-    /// Threads that run where the system likes.
+    /// Threads that run on any core.
     ///
     /// # Errors
     /// If the system does not give that many threads.
@@ -24,7 +24,7 @@ impl Threads {
         Self::on(count, None).started()
     }
 
-    /// Threads each of which is bound to a core of its own, where the system allows that and has as many: to measure.
+    /// Threads for measurements: each is bound to its own core where the system allows it and has enough cores.
     ///
     /// # Errors
     /// As [`Threads::new`].
@@ -32,14 +32,14 @@ impl Threads {
         Self::unstarted(count).started()
     }
 
-    /// As [`Threads::pinned`], but they start with their first work: where they may have none, for their start is time of the process
-    /// in which another thread is timed.
+    /// As [`Threads::pinned`], but the threads start with their first work. Where they may have none, their start would
+    /// only disturb the thread that is timed.
     pub fn unstarted(count: usize) -> Self {
         Self::on(count, pin::choose(count))
     }
 
     fn on(count: usize, cores: Option<Vec<usize>>) -> Self {
-        // What the load was before these threads made some.
+        // Read the load before these threads add to it.
         machine::load_at_start();
         Self { pool: Arc::default(), count, cores }
     }
@@ -62,7 +62,8 @@ impl Threads {
         })
     }
 
-    /// Starts as many threads and ends them again, unless these have started: to find out before the long run.
+    /// Checks before a long run whether the system gives this many threads: starts and ends them, unless they run
+    /// already.
     ///
     /// # Errors
     /// As [`Threads::new`].
@@ -75,12 +76,13 @@ impl Threads {
         self.pool.get().is_some()
     }
 
-    /// The core of each thread; nothing where they are not bound.
+    /// The core of each thread; none if they are not bound.
     pub fn cores(&self) -> Option<&[usize]> {
         self.cores.as_deref()
     }
 
-    /// Binds the calling thread, which traces when there is but one, until the guard is dropped. Nothing if these threads are not bound.
+    /// Binds the calling thread until the guard is dropped; with one thread it is the caller that traces. None if these
+    /// threads are not bound.
     pub fn pin(&self) -> Option<Pin> {
         if self.count == 1 { Pin::to(*self.cores.as_ref()?.first()?) } else { None }
     }
@@ -89,7 +91,7 @@ impl Threads {
         self.count
     }
 
-    /// Runs `work` on these threads: all parallel iterators in it stay on them.
+    /// Runs `work` on these threads, with all parallel iterators in it.
     ///
     /// # Panics
     /// If they are [unstarted](Self::unstarted) and the system does not give that many.

@@ -1,21 +1,21 @@
-//! Which rays of a workload are timed where there is no time for all of them.
+//! Which rays of a workload are timed if there is no time for all of them.
 //!
 //! A workload goes through its picture block by block ([`crate::scene::WorkloadKind`]), so that a tile of neighbouring
-//! rays is a block of pixels. A smaller sample is made of whole tiles that are spread over the workload, never of
-//! picked rays, whose caches would be colder than those of a picture. Each epoch draws tiles of its own: how much the
-//! tiles differ from the picture is then part of the spread between epochs, and so of every interval.
+//! rays is a block of pixels. A smaller sample consists of whole tiles that are spread over the workload, not of single
+//! rays, whose caches would be colder than those of a picture. Each epoch draws its own tiles: how much the tiles
+//! differ from the picture is then part of the spread between epochs, and so of every interval.
 //!
-//! Levels are nested: what is timed at a level is a part of what is timed at the level before it, about a quarter. So a
-//! structure that is timed on all rays is timed, on the way, on the rays of one that is not.
+//! Levels are nested: the rays of a level are about a quarter of the rays of the level before it. So a structure that
+//! is timed on all rays is also timed on the rays of a structure that is not.
 
 use std::ops::Range;
 
 use super::RandomOrder;
 
-/// Rays of a tile of the first levels: a block of 32 by 32 pixels.
+/// Rays of a tile at the first levels: a block of 32 by 32 pixels.
 pub const TILE: usize = 1024;
 
-/// A level has at least so many tiles, if the one before it has; tiles shrink instead.
+/// A level has at least so many tiles if the one before it has; smaller levels have smaller tiles instead.
 const FEWEST: usize = 64;
 
 /// The parts of `rays` rays that are timed at `level` in `epoch`, in order, none of them empty. At level 0 they are all
@@ -24,7 +24,7 @@ pub fn tiles(rays: usize, level: usize, epoch: usize) -> Vec<Range<usize>> {
     if level == 0 {
         return (0..rays).step_by(TILE).map(|first| first..(first + TILE).min(rays)).collect();
     }
-    // Whole tiles only: a level has as many rays in every epoch.
+    // Only whole tiles, so that a level has the same number of rays in every epoch.
     let mut tiles: Vec<Range<usize>> = match rays / TILE {
         0 => std::iter::once(0..rays).collect(),
         whole => (0..whole).map(|i| i * TILE..(i + 1) * TILE).collect(),
@@ -61,7 +61,7 @@ pub fn level_within(rays: usize, most: usize) -> usize {
     (0..last_level(rays)).find(|&level| rays_at(rays, level) <= most).unwrap_or(last_level(rays))
 }
 
-/// The level at which `part` of `rays` rays are timed; nothing where there is none.
+/// The level at which `part` of `rays` rays are timed; none if there is no such level.
 pub fn level_of(rays: usize, part: usize) -> Option<usize> {
     let level = level_within(rays, part);
     (rays_at(rays, level) == part).then_some(level)

@@ -1,4 +1,4 @@
-//! Variances that add up.
+//! Variances, and how they add up.
 
 /// A variance, and how well it is known.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -10,24 +10,24 @@ pub struct Variance {
 }
 
 impl Variance {
-    /// Of what does not vary.
+    /// The variance of a constant.
     pub const NONE: Self = Self { square: 0.0, freedom: f64::INFINITY };
 
-    /// That of the mean of `values`; nothing of fewer than two.
+    /// The variance of the mean of `values`; none of fewer than two.
     pub fn of_mean(values: &[f64]) -> Option<Self> {
         let (n, centre) = (values.len() as f64, mean(values));
         let squares: f64 = values.iter().map(|v| (v - centre) * (v - centre)).sum();
         (values.len() > 1).then(|| Self { square: squares / (n - 1.0) / n, freedom: n - 1.0 })
     }
 
-    /// Of `factor` times what varies so.
+    /// The variance of `factor` times the quantity.
     pub fn times(self, factor: f64) -> Self {
         Self { square: self.square * factor * factor, ..self }
     }
 
-    /// Of a sum of independent parts, with the degrees of freedom that fit it best (Satterthwaite, "An approximate
-    /// distribution of estimates of variance components", 1946; of two, Welch, "The generalization of Student's problem
-    /// when several different population variances are involved", 1947).
+    /// The variance of a sum of independent parts, with the best-fitting degrees of freedom (Satterthwaite, "An
+    /// approximate distribution of estimates of variance components", 1946; of two, Welch, "The generalization of
+    /// Student's problem when several different population variances are involved", 1947).
     pub fn sum(parts: &[Self]) -> Self {
         let square: f64 = parts.iter().map(|part| part.square).sum();
         let spread: f64 = parts.iter().map(|part| part.square * part.square / part.freedom).sum();
@@ -54,7 +54,7 @@ mod tests {
     #[test]
     fn parts_add_up_and_the_less_known_one_weighs() {
         let part = |square, freedom| Variance { square, freedom };
-        // As many of both: the degrees add up; of one alone its own are left.
+        // Equal parts: the degrees of freedom add up. A single part keeps its own.
         assert_eq!(Variance::sum(&[part(1.0, 4.0), part(1.0, 4.0)]), part(2.0, 8.0));
         assert_eq!(Variance::sum(&[part(1.0, 4.0), Variance::NONE]), part(1.0, 4.0));
         assert_eq!(Variance::sum(&[part(0.0, 4.0), part(0.0, 8.0)]), part(0.0, 4.0));

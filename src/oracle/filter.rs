@@ -32,7 +32,7 @@ const BOUND: f64 = 16.0 / (1u64 << 53) as f64;
 /// 8 u, relative: more than four roundings can do.
 const OUTWARD: f64 = 8.0 / (1u64 << 53) as f64;
 
-/// What is proven about a ray and a triangle.
+/// What the filter proves about a ray and a triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Proof {
     Missed,
@@ -49,28 +49,30 @@ pub struct Span {
 }
 
 impl Span {
-    /// From ends that are off by at most four roundings each, relative to themselves.
+    /// A span around computed ends whose relative error is at most four roundings.
     pub fn outward(low: f64, high: f64) -> Self {
         Self { low: low - low.abs() * OUTWARD, high: high + high.abs() * OUTWARD }
     }
 
-    /// The `f32` nearest to the `t` inside, if all numbers of the span have the same: rounding is monotonic.
+    /// The `f32` nearest to the `t` inside, if all numbers of the span round to it. Rounding is monotonic, so the ends
+    /// decide.
     pub fn rounded(self) -> Option<f32> {
         let (low, high) = (self.low as f32, self.high as f32);
-        // Zero is positive, as where exact parameters are rounded.
+        // Make zero positive, as the rounding of exact `t` does.
         (low == high).then_some(low + 0.0)
     }
 }
 
+/// A triple product and a bound of its error.
 #[derive(Clone, Copy)]
-struct Estimate {
+struct TripleProduct {
     value: f64,
     error: f64,
 }
 
-impl Estimate {
+impl TripleProduct {
     /// `x . (y z)`: see the proof above.
-    fn triple(x: DVec3, y: DVec3, z: DVec3) -> Self {
+    fn of(x: DVec3, y: DVec3, z: DVec3) -> Self {
         let value = x.x * (y.y * z.z - y.z * z.y) + x.y * (y.z * z.x - y.x * z.z) + x.z * (y.x * z.y - y.y * z.x);
         let (x, y, z) = (x.abs(), y.abs(), z.abs());
         let size = x.x * (y.y * z.z + y.z * z.y) + x.y * (y.z * z.x + y.x * z.z) + x.z * (y.x * z.y + y.y * z.x);
@@ -101,30 +103,31 @@ pub fn classify(ray: &Ray, corners: [Vec3; 3]) -> Proof {
     let corners = corners.map(|p| p.as_dvec3());
     let [a, b, c] = corners.map(|p| p - origin);
 
-    let sides = [(c, b), (a, c), (b, a)].map(|(p, q)| Estimate::triple(direction, p, q));
+    let sides = [(c, b), (a, c), (b, a)].map(|(p, q)| TripleProduct::of(direction, p, q));
     if sides.iter().any(|s| s.is_positive()) && sides.iter().any(|s| s.is_negative()) {
         return Proof::Missed;
     }
     let known = sides.iter().all(|s| s.is_known());
 
-    // The edges are taken of the corners themselves: each component is then one rounding away from the true one.
+    // Compute the edges from the corners themselves, so that each component has one rounding.
     let (e1, e2) = (corners[1] - corners[0], corners[2] - corners[0]);
-    let whole = Estimate::triple(direction, e1, e2);
+    let whole = TripleProduct::of(direction, e1, e2);
     if whole.is_zero() {
         return Proof::Missed;
     }
     if !known || !whole.is_known() {
         return Proof::Undecided;
     }
-    Proof::Hit(quotient(Estimate::triple(a, e1, e2), whole))
+    Proof::Hit(quotient(TripleProduct::of(a, e1, e2), whole))
 }
 
 /// Encloses `numerator / denominator`, whose denominator is known not to be 0.
-fn quotient(numerator: Estimate, denominator: Estimate) -> Span {
+fn quotient(numerator: TripleProduct, denominator: TripleProduct) -> Span {
     let sign = denominator.value.signum();
-    let (value, denominator) = (numerator.value * sign, Estimate { value: denominator.value * sign, ..denominator });
-    // Each of these is one rounding away from what it should be, each quotient one more: together three. None is 0
-    // unless it should be: they are multiples of 2^-700.
+    let (value, denominator) =
+        (numerator.value * sign, TripleProduct { value: denominator.value * sign, ..denominator });
+    // Each of these has one rounding, and each quotient one more: three together. None underflows to 0: they are
+    // multiples of 2^-700.
     let (top_low, top_high) = (value - numerator.error, value + numerator.error);
     let (small, large) = (denominator.value - denominator.error, denominator.value + denominator.error);
     let low = top_low / if top_low < 0.0 { small } else { large };
@@ -138,14 +141,15 @@ mod tests {
     use crate::exact;
     use crate::oracle::tests::Numbers;
 
-    /// Checks what the filter proves with exact sums; returns whether it is a hit, or none if nothing is proven.
+    /// Checks the proof of the filter against exact sums; returns whether there is a hit, or none if the filter is
+    /// undecided.
     fn is_confirmed(ray: &Ray, corners: [Vec3; 3]) -> Option<bool> {
         let truth = exact::hit(ray, corners);
         match classify(ray, corners) {
             Proof::Missed => assert_eq!(truth, None, "{ray:?} {corners:?}"),
             Proof::Hit(span) => {
-                let t = truth.as_ref().expect("the filter has proven it");
-                // The approximation is two roundings better than the span is wide.
+                let t = truth.as_ref().expect("the filter has proved it");
+                // The approximation has two roundings fewer than the span allows.
                 let near = Span::outward(t.approximate(), t.approximate());
                 assert!(span.low <= near.high && near.low <= span.high, "{span:?} {near:?}");
                 assert!(span.rounded().is_none_or(|rounded| rounded == t.round()), "{span:?} {t:?}");
@@ -156,7 +160,7 @@ mod tests {
     }
 
     #[test]
-    fn what_the_filter_proves_is_so() {
+    fn proofs_of_the_filter_are_right() {
         let mut hits = 0;
         for (kind, mut numbers) in Numbers::all().enumerate() {
             let mut decided = 0;
@@ -167,12 +171,12 @@ mod tests {
                 decided += u32::from(verdict.is_some());
                 hits += u32::from(verdict == Some(true));
             }
-            assert!(decided > 1500, "the numbers of kind {kind} leave nearly everything undecided: {decided}");
+            assert!(decided > 1500, "the numbers of kind {kind} leave nearly all undecided: {decided}");
         }
         assert!(hits > 1500, "{hits}");
     }
 
-    /// Rays at a corner or along an edge: what cannot be decided must not be guessed.
+    /// Rays at a corner or along an edge: the filter must not guess.
     #[test]
     fn rays_at_edges_are_decided_right_or_not_at_all() {
         let mut undecided = 0;

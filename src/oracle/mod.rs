@@ -1,10 +1,10 @@
-//! Exact answers for whole rays, to check the answers of structures with; never timed.
+//! Exact hits of rays, to check the hits of structures; never timed.
 //!
 //! [`Oracle`] is fast; [`nearest`] is its brute-force reference, which tests every triangle exactly.
 
 mod filter;
 mod naive;
-mod query;
+mod nearest_search;
 mod tree;
 mod truth;
 
@@ -15,12 +15,12 @@ use crate::geometry::{Mesh, Ray};
 pub use naive::nearest;
 pub use truth::Truth;
 
-/// Answers rays over one mesh exactly: some microseconds a ray.
+/// Finds the exact hits of rays in one mesh, in some microseconds per ray.
 ///
-/// It has three stages: a tree of boxes that loses no hit; `f64` arithmetic with a proven error bound; and, for what
-/// that cannot decide, exact sums of floats ([`exact`](crate::exact)). It shares no code with the structures and triangle tests
-/// that it checks, except those sums with [`Exact`](crate::triangle::Exact). Tests compare both with
-/// [`rational`](crate::exact::rational).
+/// It has three stages: a tree of boxes that loses no hit, `f64` arithmetic with a proven error bound, and exact sums
+/// of floats ([`exact`](crate::exact)) where that bound does not decide. It shares these sums with the triangle test
+/// [`Exact`](crate::triangle::Exact), and no other code with the structures and tests that it checks. The tests compare
+/// both with [`rational`](crate::exact::rational).
 pub struct Oracle {
     mesh: Arc<Mesh>,
     tree: tree::Tree,
@@ -40,9 +40,9 @@ impl Oracle {
         if !ray.is_valid() {
             return None;
         }
-        let mut query = query::Query::new(ray, &self.mesh);
-        self.tree.visit(ray, &mut query);
-        query.truth()
+        let mut search = nearest_search::NearestSearch::new(ray, &self.mesh);
+        self.tree.visit(ray, &mut search);
+        search.truth()
     }
 }
 

@@ -65,7 +65,7 @@ impl Numbers {
     }
 }
 
-/// Both say the same about `ray`; returns whether it hits.
+/// Checks that both oracles agree about `ray`; returns whether it hits.
 fn agree(oracle: &Oracle, ray: &Ray, mesh: &Mesh) -> bool {
     let (fast, slow) = (oracle.nearest(ray), nearest(ray, mesh));
     if let (Some(fast), Some((t, _))) = (&fast, &slow) {
@@ -76,7 +76,7 @@ fn agree(oracle: &Oracle, ray: &Ray, mesh: &Mesh) -> bool {
 }
 
 #[test]
-fn the_fast_oracle_says_what_the_slow_one_says() {
+fn the_fast_oracle_agrees_with_the_slow_one() {
     for (kind, mut numbers) in Numbers::all().enumerate() {
         let positions: Vec<Vec3> = (0..90).map(|_| numbers.point()).collect();
         let triangles = (0..60).map(|i| [i, (i * 7 + 1) % 90, (i * 5 + 2) % 90]).collect();
@@ -96,9 +96,10 @@ fn the_fast_oracle_says_what_the_slow_one_says() {
     }
 }
 
-/// Oracle, slow twin and the exact test decide by the same exact sums; rationals have nothing in common with them.
+/// The fast and the slow oracle and the exact test use the same exact sums; the rational arithmetic shares nothing with
+/// them.
 #[test]
-fn a_second_judge_says_the_same() {
+fn rational_arithmetic_agrees() {
     let mut hits = 0;
     for mut numbers in Numbers::all() {
         let positions: Vec<Vec3> = (0..30).map(|_| numbers.point()).collect();
@@ -158,7 +159,7 @@ fn no_ray_leaves_a_closed_mesh_and_none_outside_enters() {
 }
 
 #[test]
-fn all_triangles_at_the_nearest_t_are_named() {
+fn all_triangles_at_the_nearest_t_are_listed() {
     let points = vec![
         Vec3::ZERO,
         Vec3::X,

@@ -12,7 +12,7 @@
 //! 2^-149, where nothing overflows or underflows. They are moved outward by four times what these two roundings can do.
 //! So the interval of a node, the intersection of the three slabs and of `[t_min, bound]`, contains `t` whenever `bound
 //! >= t`. A node is passed over only if its interval is empty: if nothing in it is hit in the interval of the ray, or
-//! only behind the bound, which never is less than the exact `t` of some hit that has been found.
+//! only behind the bound, which is never less than the exact `t` of a hit that has been found.
 
 use super::filter::Span;
 use crate::geometry::{Aabb, Mesh, Ray};
@@ -27,10 +27,10 @@ pub struct Tree {
 
 struct Node {
     bounds: Aabb,
-    content: Content,
+    kind: NodeKind,
 }
 
-enum Content {
+enum NodeKind {
     /// The first child is the next node.
     Inner {
         second: u32,
@@ -66,25 +66,25 @@ impl Tree {
     fn grow(&mut self, boxes: &mut [(u32, Aabb)]) {
         let bounds = boxes.iter().fold(Aabb::EMPTY, |sum, (_, b)| sum.union(*b));
         let index = self.nodes.len();
-        let leaf = Content::Leaf { first: self.ids.len() as u32, count: boxes.len() as u32 };
-        self.nodes.push(Node { bounds, content: leaf });
+        let leaf = NodeKind::Leaf { first: self.ids.len() as u32, count: boxes.len() as u32 };
+        self.nodes.push(Node { bounds, kind: leaf });
         if boxes.len() <= LEAF {
             self.ids.extend(boxes.iter().map(|(id, _)| *id));
             return;
         }
-        // Object median along the axis on which the centres spread most; any split gives the same answers.
+        // Object median along the axis with the widest spread of centres. Any split gives the same hits.
         let middle = |b: &Aabb| b.min * 0.5 + b.max * 0.5;
         let axis = Aabb::of_points(boxes.iter().map(|(_, b)| middle(b))).longest_axis();
         let half = boxes.len() / 2;
         boxes.select_nth_unstable_by(half, |(_, a), (_, b)| middle(a)[axis].total_cmp(&middle(b)[axis]));
         let (first, second) = boxes.split_at_mut(half);
         self.grow(first);
-        self.nodes[index].content = Content::Inner { second: self.nodes.len() as u32 };
+        self.nodes[index].kind = NodeKind::Inner { second: self.nodes.len() as u32 };
         self.grow(second);
     }
 
-    /// Shows `visitor` every triangle that `ray`, which must be valid, hits in its interval up to the visitor's bound,
-    /// and others.
+    /// Calls `visitor` for every triangle that `ray` hits in its interval up to the visitor's bound, and for some that
+    /// it misses. `ray` must be valid.
     pub fn visit(&self, ray: &Ray, visitor: &mut impl Visitor) {
         let enter = |index: u32, bound: f64| Some((index, near(ray, &self.nodes.get(index as usize)?.bounds, bound)?));
         let mut stack = [(0, 0.0); STACK];
@@ -101,13 +101,13 @@ impl Tree {
             if near > visitor.bound() {
                 continue;
             }
-            match self.nodes[index as usize].content {
-                Content::Leaf { first, count } => {
+            match self.nodes[index as usize].kind {
+                NodeKind::Leaf { first, count } => {
                     for id in &self.ids[first as usize..][..count as usize] {
                         visitor.triangle(*id);
                     }
                 }
-                Content::Inner { second } => {
+                NodeKind::Inner { second } => {
                     let bound = visitor.bound();
                     next = match (enter(index + 1, bound), enter(second, bound)) {
                         (Some(a), Some(b)) => {
@@ -124,7 +124,7 @@ impl Tree {
     }
 }
 
-/// A lower bound of the `t` in [`t_min`, `bound`] at which `ray` is in the box; nothing if it provably never is.
+/// A lower bound of the `t` in [`t_min`, `bound`] at which `ray` is in the box; none if it provably never is.
 fn near(ray: &Ray, bounds: &Aabb, bound: f64) -> Option<f64> {
     let (mut near, mut far) = (f64::from(ray.interval().0), bound);
     let Ray { origin, direction, .. } = ray;

@@ -3,7 +3,7 @@ use crate::exact::ExactT;
 /// The exact nearest hit of a ray.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Truth {
-    /// The exact distance.
+    /// The exact `t`.
     pub t: ExactT,
     /// The numbers of all triangles that are hit there, ascending; at least one.
     pub ids: Vec<u32>,

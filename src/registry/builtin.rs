@@ -13,7 +13,7 @@ use crate::validate::Judged;
 impl Registry {
     /// The structures of this crate.
     pub fn builtin() -> Self {
-        // The default comes first: the one that is right on every ray.
+        // The default comes first: the exact test.
         let ours = Self::empty()
             .over::<Exact>()
             .over::<MollerTrumbore>()
@@ -33,7 +33,7 @@ impl Registry {
         with_obvhs.with_peers().with_generator("icosphere", spheres::generate)
     }
 
-    /// Brute force over the triangle test `T`, which structures over it are held against.
+    /// Brute force over the triangle test `T`, the reference for structures over it.
     pub(super) fn brute_force<T: Judged>(self) -> Self
     where
         BruteForce<T>: Offered<Config = BruteForceConfig>,

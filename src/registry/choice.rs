@@ -8,7 +8,7 @@ use crate::geometry::Mesh;
 use crate::names::suggestion;
 use crate::validate::conformance::Subject;
 
-/// A structure that a run has chosen: what is built, and the name to print.
+/// A structure with its configuration and the name to print.
 #[derive(Clone)]
 pub struct Choice {
     pub entry: Entry,
@@ -18,7 +18,7 @@ pub struct Choice {
     pub label: String,
 }
 
-/// Why a choice of structure is refused.
+/// Why a choice of structure is rejected.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ChoiceError {
     #[error("there is no structure {name:?}{suggestion}; there are: {known}")]
@@ -31,9 +31,15 @@ pub enum ChoiceError {
     Form { spec: String, part: String },
     #[error("{name} does not take {given} ({reason}){suggestion}; allowed: {values}")]
     Value { name: String, given: String, reason: String, suggestion: String, values: String },
+    #[error("{name} no longer takes {given}: use {instead}")]
+    Removed { name: String, given: String, instead: &'static str },
     #[error("{name} cannot be configured so: {reason}")]
     Config { name: String, reason: String },
 }
+
+/// Values that keys took in earlier versions, and what to use now.
+const REMOVED: [(&str, &str, &str); 1] =
+    [("batch", "interleaved", "batch=packets, which interleaves the rays that do not form a packet")];
 
 impl Choice {
     /// `entry` with values of some keys; `name_test` where its name alone would be that of another entry.
@@ -60,10 +66,14 @@ impl Choice {
             }
             let value = serde_json::from_str(text).unwrap_or_else(|_| Value::String(text.into()));
             entry.takes(key, &value).map_err(|reason| {
+                let (name, given) = (entry.name.clone(), format!("{key}={text}"));
+                if let Some(&(.., instead)) = REMOVED.iter().find(|removed| (removed.0, removed.1) == (key, text)) {
+                    return ChoiceError::Removed { name, given, instead };
+                }
                 let values = entry.values(key);
                 ChoiceError::Value {
-                    name: entry.name.clone(),
-                    given: format!("{key}={text}"),
+                    name,
+                    given,
                     reason: reason.split(", expected").next().unwrap_or_default().into(),
                     suggestion: suggestion(text, values.split(", ")),
                     values,
@@ -78,25 +88,25 @@ impl Choice {
         let choice = Self { entry: entry.clone(), config, label };
         match choice.build(&Arc::new(empty())) {
             Err(BuildError::Config(reason)) => Err(ChoiceError::Config { name: entry.name.clone(), reason }),
-            // What is absent, or cannot do with the empty mesh, is refused when it is built over a mesh: it must not end a run
-            // over many.
+            // A structure that is absent, or rejects the empty mesh, is rejected when it is built over a mesh: it must
+            // not end a run over many structures.
             _ => Ok(choice),
         }
     }
 
     /// # Errors
-    /// If the structure does not admit the mesh.
+    /// If the structure rejects the mesh.
     pub fn build(&self, mesh: &Arc<Mesh>) -> Result<Box<dyn DynAccel>, BuildError> {
         (self.entry.build)(mesh, &self.config)
     }
 
-    /// The structure as the functions of [`crate::validate::conformance`] take it.
+    /// The structure for the functions of [`crate::validate::conformance`].
     pub fn subject(&self) -> Subject {
         let own = self.clone();
         Subject::new(&self.label, self.triangle_test(), move |mesh| own.build(mesh))
     }
 
-    /// The triangle test whose answers this structure gives.
+    /// The triangle test that decides this structure's hits.
     pub fn triangle_test(&self) -> &'static str {
         self.entry.triangle_test
     }

@@ -8,7 +8,7 @@ use crate::geometry::Mesh;
 /// One structure over one triangle test, with its default configuration.
 #[derive(Clone)]
 pub struct Entry {
-    /// As written on the command line; entries of one structure over several tests share it.
+    /// The name on the command line; entries of one structure over several tests share it.
     pub name: String,
     /// [`Accel::TRIANGLE_TEST`](crate::accel::Accel::TRIANGLE_TEST).
     pub triangle_test: &'static str,
@@ -19,14 +19,14 @@ pub struct Entry {
     /// [`Accel::CAPABILITIES`](crate::accel::Accel::CAPABILITIES).
     pub capabilities: Capabilities,
     pub(super) config: Value,
-    /// Whether a configuration can be read, before it is known whether its values go together.
+    /// Checks whether a configuration can be parsed; its values may still contradict each other.
     pub(super) read: fn(&Value) -> Result<(), String>,
     pub(super) build: Build,
 }
 
-pub(super) type Built = Result<Box<dyn DynAccel>, BuildError>;
+pub(super) type BuildResult = Result<Box<dyn DynAccel>, BuildError>;
 /// Builds over a mesh with a configuration by key.
-pub(super) type Build = Arc<dyn Fn(&Arc<Mesh>, &Value) -> Built + Send + Sync>;
+pub(super) type Build = Arc<dyn Fn(&Arc<Mesh>, &Value) -> BuildResult + Send + Sync>;
 
 impl Entry {
     /// The default configuration, by key.
@@ -34,7 +34,7 @@ impl Entry {
         &self.config
     }
 
-    /// Why the structure cannot take part on this system; nothing if it can.
+    /// Why the structure cannot run on this system; none if it can.
     pub fn absence(&self) -> Option<String> {
         match (self.build)(&Arc::new(empty()), &self.config) {
             Err(BuildError::Unavailable(sentence)) => Some(sentence),
@@ -42,7 +42,7 @@ impl Entry {
         }
     }
 
-    /// Whether a key can have a value, whatever the others have; the error is the reader's.
+    /// Whether a key accepts a value, whatever the other values are; the error is the parser's.
     pub(super) fn takes(&self, key: &str, value: &Value) -> Result<(), String> {
         let mut config = self.config.clone();
         config[key] = value.clone();
@@ -50,7 +50,7 @@ impl Entry {
     }
 }
 
-/// What shows whether a configuration is accepted.
+/// The mesh on which a configuration is tried.
 pub(super) fn empty() -> Mesh {
     Mesh::new(vec![], vec![]).expect("the empty mesh is valid")
 }

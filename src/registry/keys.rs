@@ -1,4 +1,4 @@
-//! What the keys of structures mean, for people.
+//! The meanings of the keys of structures.
 
 use serde_json::Value;
 
@@ -8,14 +8,14 @@ use super::Entry;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Key {
     pub name: String,
-    /// Empty where it is not known, as for structures of other crates.
+    /// Empty for structures of other crates.
     pub meaning: &'static str,
-    /// What it takes.
+    /// The values that it accepts.
     pub values: String,
     pub default: String,
 }
 
-/// Keys of the structures of this crate and of obvhs; a name means the same in all of them.
+/// The keys of the structures of this crate and of obvhs; a key means the same in all of them.
 const MEANINGS: [(&str, &str); 24] = [
     ("plane", "where a node is split"),
     ("axis", "the axis of a median"),
@@ -56,7 +56,7 @@ impl Entry {
         self.config().as_object().into_iter().flatten().map(key).collect()
     }
 
-    /// What a key takes: its words as the configuration itself lists them where they are refused.
+    /// The values that a key accepts; words come from the parser's error message for a wrong one.
     pub(super) fn values(&self, key: &str) -> String {
         match &self.config()[key] {
             Value::Bool(_) => "true, false".into(),
@@ -72,7 +72,7 @@ impl Entry {
     }
 }
 
-/// A value as one would type it: numbers in single precision are not spelt out in double precision.
+/// A value as typed: `f32` numbers without the digits of their `f64` form.
 fn shown(value: &Value) -> String {
     match value {
         Value::String(text) => text.clone(),

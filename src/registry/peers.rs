@@ -1,10 +1,10 @@
-//! The structures of other projects, as far as their features are on.
+//! The structures of other projects whose features are enabled.
 
 use super::Registry;
 
 impl Registry {
-    /// Each over its own triangle test first, then over those of ours that it takes.
-    // Without features nothing stands between.
+    /// Each over its own triangle test first, then over ours that it supports.
+    // Without any feature nothing is added.
     #[allow(clippy::let_and_return)]
     pub(super) fn with_peers(self) -> Self {
         let this = self;

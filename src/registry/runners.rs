@@ -1,4 +1,4 @@
-//! Programs that take part as structures.
+//! Programs of other languages as structures.
 
 use std::sync::Arc;
 
@@ -8,11 +8,11 @@ use super::{Choice, Entry};
 use crate::accel::{Capabilities, DynAccel, Observed};
 use crate::runner::{Program, Runner};
 
-/// What all of them are called; each has its command as configuration.
+/// The name of all runners; each has its command as configuration.
 pub const RUNNER: &str = "runner";
 
 impl Choice {
-    /// The structure that `program` is. Its label says whose clock times it.
+    /// The structure that `program` implements. Its label says whose clock times it.
     pub fn of_program(program: Program) -> Self {
         let label = format!("{} (own clock)", program.name());
         let config = json!({ "command": program.command(), "build": program.build_id(), "clock": "own" });

@@ -9,7 +9,7 @@ use crate::oracle::{Oracle, Truth};
 use crate::scene::{Scene, View};
 use crate::validate::{DepthRule, Outcome, outcome};
 
-/// The primary rays of a picture, row by row, with their exact answers: of the scene, for all structures.
+/// The primary rays of a picture, row by row, with their exact hits. One serves all structures.
 pub struct ExactPicture {
     pub size: [u32; 2],
     pub rays: Vec<Ray>,
@@ -17,7 +17,7 @@ pub struct ExactPicture {
 }
 
 impl ExactPicture {
-    /// Costs some microseconds a pixel.
+    /// Takes some microseconds per pixel.
     pub fn new(scene: &Scene, size: [u32; 2]) -> Self {
         let oracle = Oracle::new(&scene.mesh);
         let rays = scene.primary_rays(size, View::CENTRE, 0..size[0] * size[1]);
@@ -25,7 +25,7 @@ impl ExactPicture {
         Self { size, rays, truths }
     }
 
-    /// What became of a pixel with this answer, by the strict depth rule.
+    /// The outcome of a pixel with this hit, by the strict depth rule.
     pub fn outcome(&self, pixel: usize, hit: Option<Hit>) -> Outcome {
         outcome(self.truths[pixel].as_ref(), hit, DepthRule::STRICT)
     }
@@ -37,8 +37,8 @@ pub struct ErrorMap {
     pixels: Vec<(Outcome, Option<Hit>)>,
 }
 
-/// Outcomes that the map paints in a colour of their own, with its name: four that colour-blind people tell apart too
-/// (Okabe, Ito: Color universal design, 2008). All others are grey.
+/// The outcomes with a colour of their own, which colour-blind people can distinguish (Okabe, Ito: Color universal
+/// design, 2008). All others are grey.
 const PAINTED: [(Outcome, &str, &str, [u8; 3]); 4] = [
     (Outcome::Missed, "missed", "vermilion", [213, 94, 0]),
     (Outcome::FalseHit, "false hit", "yellow", [240, 228, 66]),
@@ -46,29 +46,29 @@ const PAINTED: [(Outcome, &str, &str, [u8; 3]); 4] = [
     (Outcome::WrongPrimitive, "wrong primitive at the right depth", "pink", [204, 121, 167]),
 ];
 
-/// What an outcome that is painted as an error is called; nothing of the others.
+/// The name of an outcome that is painted as an error; none for the others.
 pub fn error_name(outcome: Outcome) -> Option<&'static str> {
     PAINTED.iter().find(|(painted, ..)| *painted == outcome).map(|(_, name, ..)| *name)
 }
 
-/// The brightest grey of a right answer: errors must be brighter.
+/// The brightest grey of a right hit: errors must be brighter.
 const BRIGHTEST: f32 = 90.0;
 
 impl ErrorMap {
-    /// Checks the answers of `accel` to the primary rays of `scene`, with the strict depth rule.
+    /// Checks the hits of `accel` for the primary rays of `scene`, by the strict depth rule.
     pub fn new(scene: &Scene, accel: &dyn DynAccel, size: [u32; 2]) -> Self {
         let exact = ExactPicture::new(scene, size);
         Self::of(&exact, accel.closest_by_chunks(&exact.rays, 1024))
     }
 
-    /// Checks answers, one for each pixel.
+    /// Checks hits, one for each pixel.
     ///
     /// # Panics
-    /// If there are not as many.
+    /// If there are more or fewer hits than pixels.
     pub fn of(exact: &ExactPicture, hits: impl IntoIterator<Item = Option<Hit>>) -> Self {
         let check = |(pixel, hit)| (exact.outcome(pixel, hit), hit);
         let pixels: Vec<_> = hits.into_iter().enumerate().map(check).collect();
-        assert_eq!(pixels.len(), exact.rays.len(), "one answer a pixel");
+        assert_eq!(pixels.len(), exact.rays.len(), "one hit per pixel");
         Self { size: exact.size, pixels }
     }
 
@@ -82,7 +82,7 @@ impl ErrorMap {
         self.pixels.iter().filter(|(other, _)| *other == outcome).count()
     }
 
-    /// What the colours mean, with the number of pixels of each.
+    /// The meaning of each colour, with its number of pixels.
     pub fn legend(&self) -> String {
         let painted = PAINTED.map(|(outcome, name, colour, _)| format!("{name} {} ({colour})", self.count(outcome)));
         let right = self.count(Outcome::Right) + self.count(Outcome::Nothing);
@@ -92,12 +92,12 @@ impl ErrorMap {
         )
     }
 
-    /// The colours of errors: what they mean, how many pixels have them, red, green and blue.
+    /// The errors: their name, number of pixels and colour (red, green, blue).
     pub fn colours(&self) -> [(&'static str, usize, [u8; 3]); 4] {
         PAINTED.map(|(outcome, name, _, colour)| (name, self.count(outcome), colour))
     }
 
-    /// Errors in colours, enlarged; right answers as a dim depth.
+    /// Errors in colours, enlarged, over a dim depth view of right hits.
     pub fn picture(&self) -> Picture {
         let right = |(outcome, hit): &(Outcome, Option<Hit>)| hit.filter(|_| *outcome == Outcome::Right);
         let nearest = self.pixels.iter().filter_map(right).fold(f32::INFINITY, |near, hit| near.min(hit.t));
@@ -105,12 +105,13 @@ impl ErrorMap {
             if let Some((_, _, _, colour)) = PAINTED.iter().find(|(outcome, ..)| *outcome == pixel.0) {
                 return *colour;
             }
-            // What is far keeps a third of the light, so that it differs from a miss.
+            // Far hits keep a third of the light, so that they differ from misses.
             let light = |hit: Hit| 1.0 / 3.0 + 2.0 / 3.0 * if hit.t > nearest { nearest / hit.t } else { 1.0 };
             [pixel.1.map_or(0, |hit| (BRIGHTEST * light(hit)) as u8); 3]
         };
         let mut colours: Vec<[u8; 3]> = self.pixels.iter().map(colour).collect();
-        // One pixel of a large picture is not seen: an error is three wide and high, and hides no other error.
+        // A single pixel is too small to see in a large picture: draw errors three pixels wide and high, but hide no
+        // other error.
         let [width, height] = self.size.map(i64::from);
         for error in self.errors() {
             let (x, y) = (error as i64 % width, error as i64 / width);
@@ -138,7 +139,7 @@ mod tests {
     use crate::triangle::Exact;
 
     #[test]
-    fn exact_answers_are_all_grey() {
+    fn exact_hits_are_all_grey() {
         let scene = Builtin::find("cube").unwrap().scene(None).unwrap();
         let tree = KdTree::<Exact>::build(&scene.mesh, &KdConfig::SAH).unwrap();
         let map = ErrorMap::new(&scene, &tree, [48, 48]);
@@ -155,7 +156,7 @@ mod tests {
         let size = [24, 24];
         let hits = ErrorMap::new(&scene, &tree, size).count(Outcome::Right);
 
-        // The answers are for one mesh, the truth is for another.
+        // The hits are those of one mesh, the exact hits those of another.
         let empty = Arc::new(Mesh::new(vec![], vec![]).unwrap());
         let nothing = KdTree::<Exact>::build(&empty, &KdConfig::SAH).unwrap();
         let missed = ErrorMap::new(&scene, &nothing, size);

@@ -7,10 +7,10 @@ use crate::accel::DynAccel;
 use crate::geometry::{Hit, Ray};
 use crate::scene::{Light, Material, Scene, Surface, View};
 
-/// How many rays of each kind an image takes.
+/// The numbers of rays of each kind in an image.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct RayCounts {
-    /// Closest hit, one a pixel.
+    /// Closest hit, one per pixel.
     pub primary: u64,
     /// Closest hit, one for each hit of a mirror material above the recursion limit.
     pub mirror: u64,
@@ -27,11 +27,11 @@ impl RayCounts {
 /// Pixels in a batch of rays. The image does not depend on it.
 const CHUNK: u32 = 4096;
 
-/// Renders `scene` with the rays answered by `accel`, which must be built over the scene's mesh.
+/// Renders `scene` with rays traced by `accel`, which must be built over the scene's mesh.
 ///
 /// The colours are linear RGB, row by row, the top row first.
 ///
-/// All rays of one kind and level of a few thousand pixels go out as one batch; chunks of pixels run in parallel, and
+/// The rays of one kind and level of a few thousand pixels are traced as one batch. Chunks of pixels run in parallel;
 /// the image does not depend on the number of threads.
 pub fn render(scene: &Scene, accel: &dyn DynAccel, size: [u32; 2]) -> (Vec<Vec3>, RayCounts) {
     let pixels = size[0] * size[1];
@@ -55,10 +55,10 @@ pub fn render(scene: &Scene, accel: &dyn DynAccel, size: [u32; 2]) -> (Vec<Vec3>
 }
 
 #[derive(Default)]
-struct Level {
+struct MirrorLevel {
     /// The colour of each ray without its mirror ray.
     colours: Vec<Vec3>,
-    /// For each mirror ray that leaves this level, the ray it comes from and its weight.
+    /// For each mirror ray of the next level, the index of its parent ray and its weight.
     mirrors: Vec<(usize, f32)>,
 }
 
@@ -95,12 +95,12 @@ fn shade_level(
     rays: &[Ray],
     follow: bool,
     counts: &mut RayCounts,
-) -> (Level, Vec<Ray>) {
+) -> (MirrorLevel, Vec<Ray>) {
     let hits = accel.closest(rays);
     let surfaces: Vec<(usize, Hit, Surface)> =
         hits.iter().enumerate().filter_map(|(i, hit)| hit.map(|hit| (i, hit, scene.surface(&rays[i], hit)))).collect();
 
-    // One shadow ray a hit and light.
+    // One shadow ray per hit and light.
     let shadow_rays: Vec<Ray> = surfaces
         .iter()
         .flat_map(|(_, hit, surface)| scene.lights.iter().map(|light| scene.shadow_ray(hit.prim, surface, light)))
@@ -108,7 +108,7 @@ fn shade_level(
     let hidden = accel.any(&shadow_rays);
     counts.shadow += shadow_rays.len() as u64;
 
-    let mut level = Level { colours: vec![scene.background; rays.len()], mirrors: vec![] };
+    let mut level = MirrorLevel { colours: vec![scene.background; rays.len()], mirrors: vec![] };
     let mut mirrored = vec![];
     for (n, (i, hit, surface)) in surfaces.iter().enumerate() {
         let material = scene.material(hit.prim);
@@ -133,7 +133,7 @@ fn reflected(material: &Material, surface: &Surface, light: &Light, eye: Vec3) -
     let distance = to_light.length();
     let to_light = to_light / distance;
     let facing = normal.dot(to_light);
-    // A light in the surface point itself makes this NaN, and gives nothing.
+    // A light at the surface point itself makes this NaN, and gives no light.
     if facing.is_nan() || facing <= 0.0 {
         return Vec3::ZERO;
     }

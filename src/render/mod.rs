@@ -1,4 +1,4 @@
-//! Pictures: shading as the report's course does it, and views that show what a structure does.
+//! Pictures: the shading of the report's course, and views of a structure's work.
 
 mod colour_map;
 mod error_map;

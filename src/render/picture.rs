@@ -1,4 +1,4 @@
-//! Pictures of 8 bits a channel: written, read, compared.
+//! Pictures of 8 bits per channel: written, read, compared.
 
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
@@ -29,7 +29,7 @@ pub enum PictureError {
     Write(#[from] OutputError),
 }
 
-/// In what two pictures of one size differ.
+/// The difference of two pictures of one size.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Difference {
     /// How many pixels differ, at least 1.
@@ -48,8 +48,8 @@ impl Picture {
         Self { size, pixels }
     }
 
-    /// The picture of linear RGB colours: each channel times 255, rounded to the nearest; what is below 0 or above 1 is
-    /// clamped, what is not a number is 0. Without a gamma curve, as the course.
+    /// The picture of linear RGB colours: each channel times 255, rounded to the nearest; values
+    /// below 0 or above 1 are clamped, NaN becomes 0. There is no gamma curve, as in the course.
     ///
     /// # Panics
     /// As [`Picture::new`].
@@ -136,7 +136,7 @@ impl Picture {
         Ok(OutputFile::check(path)?.write(&self.png())?)
     }
 
-    /// In what the pictures differ, or none when they are equal.
+    /// The difference of the pictures, or none if they are equal.
     ///
     /// # Panics
     /// If they differ in size.
@@ -230,7 +230,7 @@ mod tests {
     }
 
     #[test]
-    fn a_difference_tells_where_and_how_much() {
+    fn a_difference_has_its_place_and_size() {
         let mut other = gradient();
         assert_eq!(gradient().difference(&other), None);
         other.pixels[7][1] += 1;

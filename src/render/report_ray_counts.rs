@@ -12,9 +12,9 @@ struct Known {
     mirror: u64,
     shadow: u64,
     report: u64,
-    /// How far the total may be from the report's.
+    /// The largest accepted difference of the total from the report's.
     within: u64,
-    /// How far mirror and shadow rays may be from the recount.
+    /// The largest accepted difference of mirror and shadow rays from the recount.
     recount: u64,
 }
 
@@ -35,7 +35,7 @@ const KNOWN: &[Known] = &[
     Known { scene: "Metallic", mirror: 60_264, shadow: 495_048, report: 817_456, within: 0, recount: 0 },
 ];
 
-/// With the exact triangle test, so that no rounding influences the counts.
+/// Uses the exact triangle test, so that no rounding influences the counts.
 #[test]
 fn rays_are_as_many_as_in_the_report() {
     let mut wrong = vec![];

@@ -1,4 +1,4 @@
-//! Views: what a picture shows of a scene, or of the work of a structure.
+//! Views of a scene, or of the work of a structure.
 
 use std::str::FromStr;
 
@@ -15,12 +15,12 @@ named_enum! {
     pub enum ViewKind {
         /// The course's shading.
         Shaded = "shaded",
-        /// Reciprocal distance of the hit, from white for the nearest in the picture to dark for the farthest; nothing is
-        /// black.
+        /// Reciprocal distance of the hit, from white for the nearest in the picture to dark for the farthest; misses
+        /// are black.
         Depth = "depth",
-        /// Shading normal, its x, y, z from -1..1 to red, green, blue; nothing is black.
+        /// Shading normal, its x, y, z from -1..1 to red, green, blue; misses are black.
         Normal = "normal",
-        /// A colour of its own for each primitive, the same in every picture; nothing is black.
+        /// A colour of its own for each primitive, the same in every picture; misses are black.
         Primitive = "primitive",
         /// Tests and steps of the closest-hit query, from black to pale yellow, see [`costs`].
         Heat = "heat",
@@ -42,10 +42,10 @@ impl FromStr for ViewKind {
     }
 }
 
-/// Draws a view of `scene` of `size` pixels with the rays answered by `accel`, built over the scene's mesh.
+/// Draws a view of `scene` of `size` pixels with rays traced by `accel`, built over the scene's mesh.
 ///
-/// `hottest` is the number of tests and steps that the heat view shows brightest: give one number to all structures
-/// that are to be compared, for example the [`hottest`] of all. The other views do not look at it.
+/// `hottest` is the number of tests and steps that the heat view shows brightest. To compare structures, use the same
+/// number for all, for example the [`hottest`] of all. The other views ignore it.
 ///
 /// # Errors
 /// The heat of a structure that does not report tests and steps.
@@ -82,8 +82,7 @@ pub fn costs(scene: &Scene, accel: &dyn DynAccel, size: [u32; 2]) -> Result<Vec<
     Ok(Work::of(accel, &primary(scene, size)).iter().map(Work::cost).collect())
 }
 
-/// The cost that all but one in two hundred pixels stay below, at least 1: a scale for the heat view that a few extreme
-/// pixels do not darken.
+/// The 99.5th percentile of the costs, at least 1: a scale for the heat view that a few extreme pixels do not darken.
 pub fn hottest(costs: &[u64]) -> u64 {
     let mut sorted = costs.to_vec();
     sorted.sort_unstable();
@@ -98,7 +97,8 @@ pub fn size_of(scene: &Scene, longest: u32) -> [u32; 2] {
     [width, height].map(|side| (u64::from(side) * u64::from(longest) / u64::from(most)).max(1) as u32)
 }
 
-/// Width and height of the pictures of the page, whose pixels also tell the scale of heat: one scale for both.
+/// Width and height of the pictures of the page. They also determine the scale of the heat view, so that all pictures
+/// share it.
 pub fn coarse_size(scene: &Scene) -> [u32; 2] {
     size_of(scene, 320)
 }
@@ -122,8 +122,8 @@ fn depth(scene: &Scene, accel: &dyn DynAccel, size: [u32; 2]) -> Picture {
     let seen = hits.iter().filter_map(|(_, hit)| hit.map(|hit| hit.t));
     let (near, far) = seen.fold((f32::INFINITY, 0.0f32), |(near, far), t| (near.min(t), far.max(t)));
 
-    // Reciprocals leave contrast to what is near where a floor runs to the horizon. The farthest hit stays brighter
-    // than a miss.
+    // Reciprocals keep the contrast of near surfaces where a floor extends to the horizon. The farthest hit stays
+    // brighter than a miss.
     let near = near.max(far * 1e-3);
     let brightness = |t: f32| {
         let share = (near / t.max(near) - near / far) / (1.0 - near / far);
@@ -132,7 +132,7 @@ fn depth(scene: &Scene, accel: &dyn DynAccel, size: [u32; 2]) -> Picture {
     from_hits(size, &hits, |_, hit| [quantised(brightness(hit.t)); 3])
 }
 
-/// A colour that no other primitive below 2^24 - 1 has, and not black: the steps of an odd constant go through all
+/// A colour other than black that is unique among primitives below 2^24 - 1: multiples of an odd constant visit all
 /// colours.
 fn identity(index: u32) -> [u8; 3] {
     let [_, red, green, blue] = ((index.wrapping_add(1)).wrapping_mul(0x9E_37_79) & 0xFF_FF_FF).to_be_bytes();

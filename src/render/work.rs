@@ -1,4 +1,4 @@
-//! What a structure does for single rays.
+//! The work of a structure for single rays.
 
 use rayon::prelude::*;
 
@@ -8,13 +8,13 @@ use crate::geometry::{Hit, Ray};
 /// The closest-hit query of one ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Work {
-    /// What was done, as far as the structure tells.
+    /// The counts that the structure reports.
     pub counts: Counts,
     pub hit: Option<Hit>,
 }
 
 impl Work {
-    /// That of `accel` for each of `rays`, which are asked one by one.
+    /// The work of `accel` for each of `rays`, traced one by one.
     pub fn of(accel: &dyn DynAccel, rays: &[Ray]) -> Vec<Self> {
         let work = |ray: &Ray| {
             let (mut hit, mut counts) = ([None], Counts::default());
@@ -24,7 +24,7 @@ impl Work {
         rays.par_iter().map(work).collect()
     }
 
-    /// Triangle tests and steps: what heat shows.
+    /// Triangle tests plus traversal steps: the cost that the heat view shows.
     pub fn cost(&self) -> u64 {
         self.counts.tests + self.counts.steps()
     }

@@ -102,7 +102,7 @@ impl ViewArgs {
         Ok(scene)
     }
 
-    /// As [`seen`](Self::seen). A bare mesh that is seen from outside says so.
+    /// As [`seen`](Self::seen), with a note on a bare mesh that is seen from outside.
     ///
     /// # Errors
     /// As [`seen`](Self::seen).

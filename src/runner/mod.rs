@@ -1,9 +1,9 @@
-//! Structures in other languages: programs that build, answer and time themselves. What is said between them and this
-//! one stands in [`crate::scene::files`].
+//! Structures in other languages: programs that build, trace and time themselves. [`crate::scene::files`] documents the
+//! protocol.
 
-mod conversation;
 mod program;
 mod ray_set;
+mod session;
 #[cfg(test)]
 mod tests;
 
@@ -12,8 +12,8 @@ use std::sync::Mutex;
 
 use tempfile::TempDir;
 
-use self::conversation::{misfit, nanoseconds};
 use self::ray_set::{RaySet, State, locked};
+use self::session::{nanoseconds, unexpected};
 use crate::accel::{BuildError, Capabilities, Counts, DynAccel, Footprint, Loaded, Observed, Remote, TreeShape};
 use crate::geometry::{Hit, Mesh, Ray};
 use crate::measure::median;
@@ -24,7 +24,7 @@ pub use program::Program;
 /// A structure that a [`Program`] has built.
 pub struct Runner {
     state: Mutex<State>,
-    /// Of the files that both read and write.
+    /// The folder of the files for the exchange.
     folder: TempDir,
     capabilities: Capabilities,
     build_ns: u64,
@@ -33,29 +33,29 @@ pub struct Runner {
 }
 
 impl Runner {
-    /// Starts the program and has it build over `mesh`.
+    /// Starts the program, which builds over `mesh`.
     ///
     /// # Errors
-    /// If it cannot be started, does not keep to the protocol, or says why it cannot.
+    /// If it cannot be started, breaks the protocol or reports an error.
     pub fn build(program: &Program, mesh: &Mesh) -> Result<Self, BuildError> {
         Self::begin(program, mesh).map_err(BuildError::Remote)
     }
 
     fn begin(program: &Program, mesh: &Mesh) -> Result<Self, String> {
-        let (mut conversation, capabilities) = program.start(rayon::current_num_threads())?;
+        let (mut session, capabilities) = program.start(rayon::current_num_threads())?;
         let folder = tempfile::Builder::new().prefix("sahara-runner-").tempdir();
-        let folder = folder.map_err(|cause| format!("no folder for its files can be made: {cause}"))?;
+        let folder = folder.map_err(|cause| format!("cannot create a folder for its files: {cause}"))?;
         let path = folder.path().join("scene.ply");
         write_mesh(mesh, &path).map_err(|cause| format!("cannot write {}: {cause}", path.display()))?;
         let (request, form) = (format!("scene {}", path.display()), "built SECONDS BYTES");
-        let answer = conversation.ask(&request)?.text;
+        let reply = session.request(&request)?.text;
         let read = || {
-            let (seconds, bytes) = answer.strip_prefix("built ")?.split_once(' ')?;
+            let (seconds, bytes) = reply.strip_prefix("built ")?.split_once(' ')?;
             Some((nanoseconds(seconds)?, bytes.parse().ok()?))
         };
-        let (build_ns, bytes) = read().ok_or_else(|| misfit(&request, &answer, form))?;
+        let (build_ns, bytes) = read().ok_or_else(|| unexpected(&request, &reply, form))?;
         let _ = std::fs::remove_file(path);
-        let state = State::new(conversation);
+        let state = State::new(session);
         Ok(Self { state: Mutex::new(state), folder, capabilities, build_ns, bytes, triangles: mesh.len() })
     }
 }
@@ -107,7 +107,7 @@ impl DynAccel for Runner {
         Footprint { other: self.bytes, ..Footprint::default() }
     }
 
-    /// Nothing is known of it: it is one leaf.
+    /// The shape is unknown: one leaf stands for it.
     fn shape(&self) -> TreeShape {
         TreeShape { leaves: 1, references: self.triangles, largest_leaf: self.triangles, ..TreeShape::default() }
     }

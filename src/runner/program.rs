@@ -1,15 +1,15 @@
-//! Which program a runner is.
+//! The program of a runner.
 
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 use std::time::Duration;
 
-use super::conversation::{Conversation, misfit};
+use super::session::{Session, unexpected};
 use crate::accel::Capabilities;
 use crate::measure::program::file_id;
 
-/// A program that speaks the protocol, and how long it may take for an answer.
+/// A program that implements the protocol, with the time limit for its replies.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Program {
     command: String,
@@ -19,10 +19,10 @@ pub struct Program {
 }
 
 impl Program {
-    /// Starts the program once, to see that it is one.
+    /// Checks the program by starting it once.
     ///
     /// # Errors
-    /// A sentence, if the command is none, cannot be started or does not speak the protocol.
+    /// A sentence, if the command is empty, cannot be started or does not implement the protocol.
     pub fn new(command: &str, limit: Duration) -> Result<Self, String> {
         let words = shlex::split(command).filter(|words| !words.is_empty());
         let words = words.ok_or("a runner is a program and its arguments, in quotes where they hold spaces")?;
@@ -30,7 +30,7 @@ impl Program {
         program.start(1).map(|_| program)
     }
 
-    /// As it was typed.
+    /// The command as typed.
     pub fn command(&self) -> &str {
         &self.command
     }
@@ -41,8 +41,9 @@ impl Program {
         [&[file], &self.words[1..]].concat().join(" ")
     }
 
-    /// The first digits of the SHA-256 of its file, and of the script or program that an interpreter or one like `taskset` is given: another
-    /// build is another program. Nothing where it is found on the search path and is given none.
+    /// Identifies the build: the first digits of the SHA-256 of its file, and of the script or program among its
+    /// arguments, which an interpreter or a wrapper like `taskset` runs. None if it is found on the search path and has
+    /// no such argument.
     pub fn build_id(&self) -> Option<String> {
         let (program, arguments) = self.words.split_first()?;
         let script = arguments.iter().find(|word| is_program(Path::new(word)));
@@ -51,23 +52,23 @@ impl Program {
         (!ids.is_empty()).then(|| ids.join(" "))
     }
 
-    /// Starts it, and asks what it can be asked.
-    pub(super) fn start(&self, threads: usize) -> Result<(Conversation, Capabilities), String> {
-        let mut conversation = Conversation::start(&self.words, threads, self.limit)?;
+    /// Starts the program and learns which queries it supports.
+    pub(super) fn start(&self, threads: usize) -> Result<(Session, Capabilities), String> {
+        let mut session = Session::start(&self.words, threads, self.limit)?;
         let request = format!("sahara {VERSION} {threads}");
-        let answer = conversation.ask(&request)?.text;
-        match answer.strip_prefix(&format!("runner {VERSION} ")) {
-            Some("closest any") => Ok((conversation, Capabilities::ALL)),
-            Some("closest") => Ok((conversation, Capabilities { any_hit: false, ..Capabilities::ALL })),
-            _ => Err(misfit(&request, &answer, "runner 1 closest any")),
+        let reply = session.request(&request)?.text;
+        match reply.strip_prefix(&format!("runner {VERSION} ")) {
+            Some("closest any") => Ok((session, Capabilities::ALL)),
+            Some("closest") => Ok((session, Capabilities { any_hit: false, ..Capabilities::ALL })),
+            _ => Err(unexpected(&request, &reply, "runner 1 closest any")),
         }
     }
 }
 
-/// Whether a file is a program or one that an interpreter reads, by its name or its first bytes.
+/// Whether a file is a program or a script, by its extension or its first bytes.
 fn is_program(path: &Path) -> bool {
     const EXTENSIONS: [&str; 10] = ["jar", "jl", "js", "lua", "mjs", "pl", "py", "rb", "sh", "ts"];
-    // Of scripts that name their interpreter, and of programs on Linux and on Windows.
+    // Scripts that name their interpreter, programs of Linux and of Windows.
     const BEGINNINGS: [&[u8; 2]; 3] = [b"#!", b"\x7fE", b"MZ"];
     let is_named_so =
         path.extension().and_then(|ending| ending.to_str()).is_some_and(|ending| EXTENSIONS.contains(&ending));

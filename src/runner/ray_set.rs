@@ -1,34 +1,34 @@
-//! Rays that a runner has been handed.
+//! A set of rays in a runner.
 
 use std::borrow::Cow;
 use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use super::conversation::{Conversation, misfit, nanoseconds};
+use super::session::{Session, nanoseconds, unexpected};
 use crate::accel::{Loaded, Query};
 use crate::geometry::{Hit, Ray};
 use crate::output::OutputFile;
 use crate::scene::Workload;
 use crate::scene::files::{HitFile, RayFile, RaysId};
 
-/// What changes from answer to answer.
+/// The running program and what it has reported so far.
 pub(super) struct State {
-    conversation: Conversation,
-    /// Why nothing more is asked.
+    session: Session,
+    /// Why the runner has failed, once it has; it receives no more requests then.
     pub failure: Option<String>,
-    /// Which numbers of sets of rays are taken.
+    /// The numbers of sets that are in use.
     taken: Vec<bool>,
-    /// Of each pass, how long it took as seen from outside, as a multiple of what it said.
+    /// For each pass, the elapsed time as a multiple of the time that the runner reported.
     pub outside: Vec<f64>,
 }
 
-/// A pass that took less tells nothing of clocks: the question and the answer take time as well.
-const TELLING_NS: u64 = 1_000_000;
+/// In a shorter pass the request and the reply take a notable part of the elapsed time, so clocks cannot be compared.
+const LONG_NS: u64 = 1_000_000;
 
 impl State {
-    pub fn new(conversation: Conversation) -> Self {
-        Self { conversation, failure: None, taken: vec![], outside: vec![] }
+    pub fn new(session: Session) -> Self {
+        Self { session, failure: None, taken: vec![], outside: vec![] }
     }
 }
 
@@ -36,15 +36,15 @@ pub(super) fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// A set of rays, by its number.
+/// A numbered set of rays.
 pub(super) struct RaySet<'a> {
     state: &'a Mutex<State>,
-    /// Of the files that both read and write.
+    /// The folder of the files for the exchange.
     folder: &'a Path,
     number: usize,
     rays: Cow<'a, [Ray]>,
-    /// What the runner was told; nothing before the first question.
-    told: Mutex<Option<RaysId>>,
+    /// The rays that the runner has loaded; none before the first query.
+    loaded: Mutex<Option<RaysId>>,
     own_ns: AtomicU64,
 }
 
@@ -54,51 +54,51 @@ impl<'a> RaySet<'a> {
         let number = taken.iter().position(|taken| !taken).unwrap_or(taken.len());
         taken.resize(taken.len().max(number + 1), false);
         taken[number] = true;
-        Self { state, folder, number, rays, told: Mutex::new(None), own_ns: AtomicU64::new(0) }
+        Self { state, folder, number, rays, loaded: Mutex::new(None), own_ns: AtomicU64::new(0) }
     }
 
-    /// The answers to all rays; nothing once the runner has failed.
-    fn answers(&self, query: Query) -> Option<Vec<Option<Hit>>> {
+    /// The hits of all rays; none once the runner has failed.
+    fn hits(&self, query: Query) -> Option<Vec<Option<Hit>>> {
         let state = &mut *locked(self.state);
         if state.failure.is_some() || self.rays.is_empty() {
             return None;
         }
-        let answers = self.ask(state, query);
-        answers.map_err(|sentence| state.failure = Some(sentence)).ok()
+        let hits = self.pass(state, query);
+        hits.map_err(|sentence| state.failure = Some(sentence)).ok()
     }
 
-    fn ask(&self, state: &mut State, query: Query) -> Result<Vec<Option<Hit>>, String> {
-        let told = &mut *locked(&self.told);
-        let id = match told.filter(|told| told.query == query) {
+    fn pass(&self, state: &mut State, query: Query) -> Result<Vec<Option<Hit>>, String> {
+        let loaded = &mut *locked(&self.loaded);
+        let id = match loaded.filter(|rays| rays.query == query) {
             Some(id) => id,
-            None => *told.insert(self.hand_over(state, query)?),
+            None => *loaded.insert(self.send(state, query)?),
         };
 
         let request = format!("pass {}", self.number);
-        let answer = state.conversation.ask(&request)?;
-        let ns = answer.text.strip_prefix("passed ").and_then(nanoseconds);
+        let reply = state.session.request(&request)?;
+        let ns = reply.text.strip_prefix("passed ").and_then(nanoseconds);
         let ns = ns.ok_or_else(|| {
-            format!("{}; SECONDS are finite and not negative", misfit(&request, &answer.text, "passed SECONDS"))
+            format!("{}; SECONDS are finite and not negative", unexpected(&request, &reply.text, "passed SECONDS"))
         })?;
         self.own_ns.store(ns, Ordering::Relaxed);
-        if answer.ns > TELLING_NS {
-            state.outside.push(answer.ns as f64 / ns.max(1) as f64);
+        if reply.ns > LONG_NS {
+            state.outside.push(reply.ns as f64 / ns.max(1) as f64);
         }
 
         let path = self.folder.join(format!("{}.hits", self.number));
         let request = format!("hits {} {}", self.number, path.display());
-        let (answer, form) = (state.conversation.ask(&request)?.text, format!("written {}", self.rays.len()));
-        if answer != form {
-            return Err(misfit(&request, &answer, &form));
+        let (reply, form) = (state.session.request(&request)?.text, format!("written {}", self.rays.len()));
+        if reply != form {
+            return Err(unexpected(&request, &reply, &form));
         }
-        let file = HitFile::read(&path).map_err(|error| format!("its hits are not to be had: {error}"))?;
+        let file = HitFile::read(&path).map_err(|error| format!("its hits cannot be read: {error}"))?;
         let _ = std::fs::remove_file(&path);
-        let hits = file.answers_to(&id).map_err(|problem| format!("its hits are no answer: {problem}"))?;
+        let hits = file.hits_of_rays(&id).map_err(|problem| format!("its hits do not fit the rays: {problem}"))?;
         Ok(hits.to_vec())
     }
 
-    /// Tells the runner which rays, and what is asked of them.
-    fn hand_over(&self, state: &mut State, query: Query) -> Result<RaysId, String> {
+    /// Has the runner load the rays for a query.
+    fn send(&self, state: &mut State, query: Query) -> Result<RaysId, String> {
         let workload = Workload { name: query.name().into(), query, rays: self.rays.to_vec() };
         let id = RaysId::of(&workload);
         let path = self.folder.join(format!("{}.rays", self.number));
@@ -106,9 +106,9 @@ impl<'a> RaySet<'a> {
         let written = OutputFile::check(&path).map_err(Into::into).and_then(|output| file.write(&output));
         written.map_err(|error| error.to_string())?;
         let request = format!("rays {} {}", self.number, path.display());
-        let (answer, form) = (state.conversation.ask(&request)?.text, format!("loaded {}", self.rays.len()));
+        let (reply, form) = (state.session.request(&request)?.text, format!("loaded {}", self.rays.len()));
         let _ = std::fs::remove_file(path);
-        if answer == form { Ok(id) } else { Err(misfit(&request, &answer, &form)) }
+        if reply == form { Ok(id) } else { Err(unexpected(&request, &reply, &form)) }
     }
 }
 
@@ -120,15 +120,15 @@ impl Drop for RaySet<'_> {
 
 impl Loaded for RaySet<'_> {
     fn closest_hits(&self, hits: &mut [Option<Hit>]) {
-        match self.answers(Query::Closest) {
-            Some(answers) => hits.copy_from_slice(&answers),
+        match self.hits(Query::Closest) {
+            Some(found) => hits.copy_from_slice(&found),
             None => hits.fill(None),
         }
     }
 
     fn any_hits(&self, hits: &mut [bool]) {
-        match self.answers(Query::Any) {
-            Some(answers) => hits.iter_mut().zip(answers).for_each(|(hit, answer)| *hit = answer.is_some()),
+        match self.hits(Query::Any) {
+            Some(all) => hits.iter_mut().zip(all).for_each(|(hit, found)| *hit = found.is_some()),
             None => hits.fill(false),
         }
     }

@@ -1,4 +1,4 @@
-//! From a scene file to a scene.
+//! Makes a scene from a scene file.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -8,13 +8,13 @@ use super::{Camera, CornerNormals, Light, Material, Model, Offset, Scene, SceneE
 use crate::geometry::{Mesh, Transform};
 use crate::names::suggestion;
 
-/// Where a scene file came from, and where to look for other files.
+/// The origin of a scene file, and where to look for other files.
 pub(super) struct Origin<'a> {
-    /// For messages.
+    /// The name for messages.
     pub file: &'a str,
-    /// Paths in the file count from here; none in a built-in scene.
+    /// The folder that paths in the file are relative to; none for a built-in scene.
     pub folder: Option<&'a Path>,
-    /// The folder of real meshes; none to use stand-ins in any case.
+    /// The folder of real meshes; none to use stand-ins always.
     pub real_meshes: Option<&'a Path>,
 }
 
@@ -24,7 +24,7 @@ impl Origin<'_> {
     }
 }
 
-/// Loads or generates all meshes, places them and checks the whole.
+/// Loads or generates all meshes, places them and checks the scene.
 pub(super) fn assemble(file: &SceneFile, origin: &Origin) -> Result<Scene, SceneError> {
     let mut parts = Parts::new(file);
     for (i, object) in file.objects.iter().enumerate() {
@@ -75,7 +75,7 @@ struct Parts {
     material_of: Vec<u32>,
     stand_ins: Vec<String>,
     notes: Vec<String>,
-    /// Whether a real mesh is where a stand-in would be.
+    /// Whether a real mesh replaces a stand-in.
     replaced: bool,
 }
 
@@ -104,7 +104,7 @@ impl Parts {
 
         let first = self.normals.len();
         self.normals.extend(model.normals.iter().map(|&n| placement.normal(n)));
-        // Where no mesh has normals there is nothing to say of each triangle.
+        // If no mesh has normals, triangles need no normal indices.
         if !model.normal_indices.is_empty() {
             let flat = |n: &[u32; 3]| n.contains(&Model::FLAT);
             let placed = |n| if flat(n) { CornerNormals::FLAT } else { shifted(n, first) };
@@ -116,7 +116,7 @@ impl Parts {
         self.paint(object, &model, key, origin)
     }
 
-    /// The mesh to use, and where it stands.
+    /// The mesh to use, and its placement.
     fn choose(&mut self, object: &ObjectFile, key: &str, origin: &Origin) -> Result<(Model, Transform), SceneError> {
         if let (Some(real), Some(folder)) = (&object.real, origin.real_meshes) {
             let path = folder.join(&real.file);
@@ -175,7 +175,7 @@ impl Parts {
     }
 
     fn paint(&mut self, object: &ObjectFile, model: &Model, key: &str, origin: &Origin) -> Result<(), SceneError> {
-        // The file's materials come first, sorted by name, and its check has seen that each name is there.
+        // The file's materials come first, sorted by name; parsing has checked that each name exists.
         let number = |materials: &[Material], name: &str| {
             materials.iter().position(|m| m.name == name).expect("the file names its materials") as u32
         };
@@ -213,7 +213,7 @@ impl Parts {
     }
 }
 
-/// Puts `more` behind `all`; without a copy where it is the first.
+/// Appends `more` to `all`, without a copy if `all` is empty.
 fn append<T>(all: &mut Vec<T>, mut more: Vec<T>) {
     if all.is_empty() {
         *all = more;

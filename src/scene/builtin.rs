@@ -54,7 +54,7 @@ impl Builtin {
     /// The scene called `name`, in any case.
     ///
     /// # Errors
-    /// [`SceneError::Unknown`], which says what may have been meant and lists all.
+    /// [`SceneError::Unknown`], which suggests a name and lists all.
     pub fn find(name: &str) -> Result<&'static Self, SceneError> {
         named(BUILTIN, name, |builtin| builtin.name).ok_or_else(|| {
             let all = || BUILTIN.iter().map(|builtin| builtin.name);
@@ -71,7 +71,7 @@ impl Builtin {
         SceneFile::parse(self.text, self.name).expect("a test reads all built-in scenes")
     }
 
-    /// Makes the scene, with the real meshes that the folder `real_meshes` holds; without a folder always with its own.
+    /// Makes the scene with the real meshes in the folder `real_meshes`; without a folder, with generated ones.
     ///
     /// # Errors
     /// A file of `real_meshes` that cannot be loaded.
@@ -84,8 +84,8 @@ impl Scene {
     /// The scene in a scene file; `real_meshes` as in [`Builtin::scene`].
     ///
     /// # Errors
-    /// A file that cannot be read, a key or value that it should not have, a mesh that cannot be loaded, a real mesh
-    /// that is not there and has no stand-in.
+    /// A file that cannot be read, an invalid key or value, a mesh that cannot be loaded, or a missing real mesh
+    /// without a stand-in.
     pub fn read(path: &Path, real_meshes: Option<&Path>) -> Result<Self, SceneError> {
         let text =
             std::fs::read_to_string(path).map_err(|cause| SceneError::Unreadable { file: path.into(), cause })?;

@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3, Vec2, Vec3};
 
 use crate::geometry::Ray;
 
-/// A pinhole camera with square pixels, checked when made.
+/// A pinhole camera with square pixels; its constructor checks it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
     eye: Vec3,
@@ -13,7 +13,7 @@ pub struct Camera {
     vertical_fov: f32,
 }
 
-/// Why [`Camera::new`] refuses its input.
+/// Why [`Camera::new`] rejects its input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum CameraError {
     #[error("the camera's eye, target and up must be finite numbers")]
@@ -30,7 +30,7 @@ impl Camera {
     /// A camera at `eye` that looks at `target`; `vertical_fov` is the full vertical angle in degrees.
     ///
     /// # Errors
-    /// When these do not make a view: see [`CameraError`].
+    /// If these do not make a view: see [`CameraError`].
     pub fn new(eye: Vec3, target: Vec3, up: Vec3, vertical_fov: f32) -> Result<Self, CameraError> {
         if !(eye.is_finite() && target.is_finite() && up.is_finite()) {
             return Err(CameraError::NotFinite);
@@ -63,7 +63,7 @@ impl Camera {
         self.vertical_fov
     }
 
-    /// What the camera sees on an image of `[width, height]` pixels.
+    /// The view of the camera on an image of `[width, height]` pixels.
     pub fn view(&self, size: [u32; 2]) -> View {
         let eye = self.eye.as_dvec3();
         let forward = (self.target.as_dvec3() - eye).normalize();
@@ -90,7 +90,7 @@ pub struct View {
 }
 
 impl View {
-    /// The middle of a pixel.
+    /// The centre of a pixel.
     pub const CENTRE: Vec2 = Vec2::splat(0.5);
 
     /// The ray from the eye through the point `offset` of pixel (`x`, `y`), with a direction of unit length.

@@ -7,7 +7,7 @@ use glam::Vec3;
 use super::{CameraError, LoadError};
 use crate::geometry::MeshError;
 
-/// What is wrong with a scene, in one line: the file, the key in it, the problem and what to do.
+/// An error of a scene in one line: the file, the key in it, the problem and a remedy.
 #[derive(Debug, thiserror::Error)]
 pub enum SceneError {
     #[error("{}: the scene cannot be read ({cause}): check that it exists and may be opened", file.display())]

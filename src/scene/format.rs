@@ -8,14 +8,14 @@ use super::SceneError;
 use crate::scene::Material;
 use crate::scene::meshes::Terrain;
 
-/// A scene file as it is written; [`SceneFile::parse`] checks its values, [`super::Scene::read`] makes the scene.
+/// The contents of a scene file. [`SceneFile::parse`] checks its values, [`super::Scene::read`] makes the scene.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SceneFile {
     pub name: String,
-    /// Where the scene comes from; for readers.
+    /// The source of the scene, for readers.
     pub source: Option<String>,
-    /// How many triangles the scene has with its own meshes; checked when present.
+    /// The number of triangles of the scene with generated meshes; checked if present.
     pub triangles: Option<usize>,
     /// Width and height of the image, 1 to 16384.
     #[serde(default = "default_size")]
@@ -94,14 +94,14 @@ impl MaterialFile {
     }
 }
 
-/// A mesh and where it stands.
+/// A mesh and its placement.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ObjectFile {
-    /// The name of a generator ([`super::meshes::GENERATORS`]), or a path relative to the scene file; none where only
-    /// `real` will do, or where there is a `terrain`.
+    /// The name of a generator ([`super::meshes::GENERATORS`]), or a path relative to the scene file; none if there is
+    /// only `real`, or a `terrain`.
     pub mesh: Option<String>,
-    /// Ground that is made in place of a mesh.
+    /// Generated ground instead of a mesh.
     pub terrain: Option<Terrain>,
     /// The material of the whole mesh. Without `material` and `materials` the mesh keeps its own, or is grey.
     pub material: Option<String>,
@@ -114,19 +114,19 @@ pub struct ObjectFile {
     pub sca: [f32; 3],
     #[serde(default)]
     pub tra: [f32; 3],
-    /// What the mesh stands in for, if it does.
+    /// The mesh that this one stands in for, if any.
     pub stands_in_for: Option<String>,
-    /// The mesh file to use instead when it is there, or the only one.
+    /// The mesh file to use instead if it exists, or the only mesh.
     pub real: Option<RealMesh>,
 }
 
-/// A mesh file that is not part of the project, how to get it and where it stands.
+/// A mesh file that is not part of the project, how to get it and its placement.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RealMesh {
     /// Name in the folder of real meshes.
     pub file: String,
-    /// What can be downloaded: the file itself, or an archive that `unpack` tells how to treat.
+    /// Where to download the file, or an archive that `unpack` explains how to unpack.
     pub url: String,
     pub unpack: Option<String>,
     pub licence: String,
@@ -134,7 +134,7 @@ pub struct RealMesh {
     /// Of the file, in hexadecimal; absent where the file has to be unpacked.
     pub sha256: Option<String>,
     pub bytes: Option<u64>,
-    /// How many triangles the mesh that the source report used had, if it stands for one.
+    /// The number of triangles of the source report's mesh, if it replaces one.
     pub reported_triangles: Option<usize>,
     /// With `sca` and `tra` the placement, in place of that of a stand-in.
     #[serde(default)]
@@ -184,7 +184,7 @@ impl SceneFile {
     }
 
     fn check(&self) -> Result<(), (String, String)> {
-        // It stands in tables, lines of plans and titles of files.
+        // The name is printed in tables and plans and is part of file names.
         let is_word = !self.name.trim().is_empty() && !self.name.contains(char::is_control);
         demand(is_word, "name", "give a name, in one line and without control characters")?;
         let in_size = self.size.iter().all(|n| (1..=16384).contains(n));
@@ -269,7 +269,7 @@ mod tests {
         part.lines().filter_map(|line| line.strip_prefix("| `")?.split_once('`').map(|(key, _)| key)).collect()
     }
 
-    /// Keys that the parser knows where `table` begins a table, from what it says of one that it does not know.
+    /// The keys that the parser accepts in a table, taken from its error for an unknown key.
     fn known(table: &str) -> Vec<String> {
         let error = SceneFile::parse(&format!("{table}nobodys_key = 1\n"), "x").unwrap_err().to_string();
         let (_, list) = error.split_once("expected ").unwrap_or_else(|| panic!("{error}"));

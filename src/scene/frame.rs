@@ -1,4 +1,4 @@
-//! A scene around a bare mesh.
+//! Makes a scene around a bare mesh.
 
 use std::sync::Arc;
 
@@ -10,22 +10,23 @@ use crate::geometry::{Aabb, Mesh, Transform};
 /// Degrees.
 const VERTICAL_FOV: f32 = 40.0;
 
-/// Degrees, in a room.
+/// Degrees, for a camera inside.
 const INSIDE_FOV: f32 = 75.0;
 
-/// From the mesh to the camera: from the right, a little above.
+/// The direction from the mesh to the camera: to the right and a little up.
 const TOWARDS_CAMERA: DVec3 = DVec3::new(0.5, 0.35, 1.0);
 
-/// How much of the image's width or height the box of the mesh may fill.
+/// The share of the image's width or height that the box of the mesh may fill.
 const FILLED: f64 = 0.95;
 
 impl Scene {
-    /// A scene around `model`, called `name`: y is up, the camera sees the whole box, one light, own materials or grey.
+    /// A scene around `model`, called `name`: y is up, the camera sees the whole box, there is one light, and the
+    /// materials are the model's own or grey.
     ///
-    /// Without the terminator fix, which depends on the unit of length.
+    /// It has no shadow terminator fix, which would depend on the unit of length.
     ///
     /// # Errors
-    /// When the model is no mesh, or is so large or so far away that no camera can be placed before it.
+    /// If the model is no valid mesh, or so large or so far away that `f32` has no place for the camera.
     pub fn framed(name: &str, model: Model) -> Result<Self, SceneError> {
         let mesh = Mesh::new(model.positions, model.triangles)
             .map_err(|cause| SceneError::Mesh { file: name.into(), cause })?;
@@ -63,11 +64,11 @@ impl Scene {
         })
     }
 
-    /// The same scene seen from the middle of its box, along the longest side that is not up; the light that was placed around a bare
-    /// mesh comes in as well.
+    /// The same scene seen from the middle of its box, along its longer horizontal side. The light of a bare mesh moves
+    /// inside as well.
     ///
     /// # Errors
-    /// If the mesh has no such side, or is so large or far away that there is no such camera.
+    /// If the mesh has no extent along that side, or is so large or far away that `f32` has no place for the camera.
     pub fn from_inside(mut self) -> Result<Self, CameraError> {
         let bounds = if self.mesh.is_empty() { return Err(CameraError::NoDirection) } else { self.mesh.bounds() };
         let (min, max) = (bounds.min.as_dvec3(), bounds.max.as_dvec3());
@@ -85,8 +86,8 @@ impl Scene {
     }
 }
 
-/// A camera that sees all eight corners of `bounds`, and a light beside and above it; nothing where `f32` has no such
-/// places.
+/// A camera that sees all eight corners of `bounds`, and a light beside and above it; none if `f32` has no place for
+/// them.
 fn place(bounds: Aabb) -> Option<(Camera, Light)> {
     let (min, max) = (bounds.min.as_dvec3(), bounds.max.as_dvec3());
     let centre = (min + max) / 2.0;

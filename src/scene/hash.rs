@@ -1,4 +1,4 @@
-//! What a scene is, as one number: times, counts and pictures of two scenes can be compared only if it is the same.
+//! The identity of a scene as a hash: times, counts and pictures are comparable only between equal hashes.
 
 use std::io::{BufWriter, Write};
 
@@ -8,11 +8,11 @@ use sha2::{Digest, Sha256};
 use super::{Offset, Scene};
 
 impl Scene {
-    /// SHA-256, in hexadecimal, of everything that rays, answers or pictures depend on: vertices, triangles, corner
+    /// SHA-256, in hexadecimal, of everything that rays, hits or pictures depend on: vertices, triangles, corner
     /// normals, materials, lights, camera, background, depth of recursion, how rays leave surfaces, size of the image.
-    /// Names, notes and whether a mesh is a stand-in are left out.
+    /// Names, notes and the list of stand-ins are left out.
     pub fn hash(&self) -> String {
-        // Every field of the scene is named, so that a new one is not forgotten here.
+        // Name every field of the scene, so that the compiler reports a new one here.
         let Self { mesh, normals, materials, material_of, lights, camera, background, .. } = self;
         let Self { recursion_limit, shadow_terminator_fix, offset, size, .. } = self;
         let Self { name: _, is_framed: _, stand_ins: _, notes: _, warnings: _, .. } = self;
@@ -39,21 +39,18 @@ impl Scene {
         hash.vectors(&[camera.eye(), camera.target(), camera.up(), *background]);
         hash.floats(&[camera.vertical_fov()]);
         hash.words([*recursion_limit, u32::from(*shadow_terminator_fix), size[0], size[1]]);
-        let (way, length) = match *offset {
-            Offset::None => (0, 0.0),
-            Offset::Normal(distance) => (1, distance),
-            Offset::TMin(t) => (2, t),
+        // The codes are part of every recorded hash: they are never changed and never given to another offset.
+        let (code, length) = match *offset {
             Offset::Direction(distance) => (3, distance),
-            Offset::WachterBinder => (4, 0.0),
             Offset::ErrorBounded => (5, 0.0),
         };
-        hash.words([way]);
+        hash.words([code]);
         hash.floats(&[length]);
         hexadecimal(&hash.0.into_inner().expect(SUMMED).finalize())
     }
 }
 
-/// Buffered: handing over a word at a time takes longer than the sum itself.
+/// Buffered, because single words take longer to pass on than to hash.
 struct Hash(BufWriter<Sha256>);
 
 const SUMMED: &str = "a sum takes all bytes";
@@ -67,7 +64,7 @@ impl Hash {
         self.words(floats.iter().map(|float| float.to_bits()));
     }
 
-    /// How many follow: two lists are not one longer one.
+    /// The length of a list, so that two lists differ from one concatenated list.
     fn count(&mut self, n: usize) {
         self.0.write_all(&(n as u64).to_le_bytes()).expect(SUMMED);
     }
@@ -83,7 +80,7 @@ impl Hash {
     }
 }
 
-/// Two digits a byte.
+/// Two digits per byte.
 pub(crate) fn hexadecimal(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }

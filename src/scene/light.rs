@@ -15,7 +15,7 @@ pub struct Light {
 }
 
 impl Light {
-    /// The colour that arrives at `distance` when nothing is in the way.
+    /// The colour that arrives at `distance` without an occluder.
     pub fn at(&self, distance: f32) -> Vec3 {
         self.colour / (self.quadratic * distance * distance + self.linear * distance + 1.0)
     }

@@ -2,11 +2,12 @@
 
 use glam::Vec3;
 
-/// Phong-style material: what the report's scenes need and no more. Colours are linear RGB, components from 0 to 1.
+/// A Phong-style material with the parameters that the report's scenes need. Colours are linear RGB, components from 0
+/// to 1.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Material {
     pub name: String,
-    /// `Ka`: share of the diffuse colour that is there without any light.
+    /// `Ka`: share of the diffuse colour without any light.
     pub ambient: Vec3,
     /// `Kd`: Lambert reflection.
     pub diffuse: Vec3,
@@ -19,7 +20,7 @@ pub struct Material {
 }
 
 impl Material {
-    /// A plain light grey, for meshes that come without materials.
+    /// Light grey, for meshes without materials.
     pub fn named(name: impl Into<String>) -> Self {
         Self {
             name: name.into(),

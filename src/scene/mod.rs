@@ -3,7 +3,6 @@
 mod assemble;
 mod builtin;
 mod camera;
-mod enclosure;
 mod error;
 pub mod files;
 pub mod format;
@@ -27,7 +26,6 @@ mod workload;
 
 pub use builtin::{BUILTIN, Builtin, Difficulty, real_mesh_folder};
 pub use camera::{Camera, CameraError, View};
-pub use enclosure::Enclosure;
 pub use error::SceneError;
 pub use light::Light;
 pub use load::{LoadError, load};

@@ -1,28 +1,28 @@
-//! What mesh generators and file loaders hand over.
+//! The output of mesh generators and file loaders.
 
 use glam::Vec3;
 
 use super::Material;
 
-/// Triangles with what shading needs of them, in model space and not yet validated.
+/// Triangles with normals and materials, in model space and not yet validated.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Model {
     pub positions: Vec<Vec3>,
     pub triangles: Vec<[u32; 3]>,
     /// Corner normals, of any length; empty when the model is flat-shaded.
     pub normals: Vec<Vec3>,
-    /// Three normal numbers a triangle, or empty when there are no normals. A triangle of a partly smooth model that
+    /// Three normal indices per triangle, or empty if there are no normals. A triangle of a partly smooth model that
     /// has no normals of its own holds [`Model::FLAT`] three times.
     pub normal_indices: Vec<[u32; 3]>,
     /// Materials that the model itself names; a scene may replace them by name.
     pub materials: Vec<Material>,
-    /// One number into `materials` a triangle, or empty when all triangles have the first.
+    /// One index into `materials` per triangle, or empty if all triangles have the first.
     pub material_of: Vec<u32>,
-    /// What was left out of a file or replaced when the model was made, a sentence each.
+    /// Sentences about parts of a file that were left out or replaced.
     pub notes: Vec<String>,
 }
 
 impl Model {
-    /// The normal number of a triangle that has no normals.
+    /// The normal index of a triangle without normals.
     pub const FLAT: u32 = u32::MAX;
 }

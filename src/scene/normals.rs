@@ -4,7 +4,7 @@ use glam::Vec3;
 
 use super::Model;
 
-/// Unit normals in world space, three a triangle; a triangle may be flat, that is have none.
+/// Unit normals in world space, three per triangle, or none for a flat triangle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CornerNormals {
     normals: Vec<Vec3>,
@@ -15,7 +15,8 @@ impl CornerNormals {
     /// The entry of a triangle without corner normals.
     pub const FLAT: [u32; 3] = [Model::FLAT; 3];
 
-    /// Normals and three numbers into them a triangle. A triangle with a normal of length zero becomes flat.
+    /// Makes them from normals and three indices into these per triangle. A triangle with a normal of length zero
+    /// becomes flat.
     ///
     /// # Panics
     /// If an entry other than [`CornerNormals::FLAT`] names a normal that does not exist.
@@ -28,14 +29,14 @@ impl CornerNormals {
         Self { normals, indices }
     }
 
-    /// The three normals of triangle `index`, or none when it is flat.
+    /// The three normals of triangle `index`, or none if it is flat.
     #[inline]
     pub fn corners(&self, index: u32) -> Option<[Vec3; 3]> {
         let corners = self.indices[index as usize];
         (corners != Self::FLAT).then(|| corners.map(|i| self.normals[i as usize]))
     }
 
-    /// Everything that it consists of: the normals, and three numbers into them a triangle.
+    /// The normals, and three indices into them per triangle.
     pub fn parts(&self) -> (&[Vec3], &[[u32; 3]]) {
         (&self.normals, &self.indices)
     }

@@ -8,17 +8,17 @@ use super::offset::{Offset, SurfacePoint, barycentrics};
 use super::{Camera, CornerNormals, Light, Material};
 use crate::geometry::{Hit, Mesh, PrimId, Ray};
 
-/// Everything in world space: what structures are built over, what is seen of it and from where.
+/// A mesh in world space with normals, materials, lights and a camera.
 ///
-/// Each object's vertices follow those of the one before, in the order of the scene file; so do its triangles.
+/// Vertices and triangles of the objects follow each other in the order of the scene file.
 #[derive(Clone, Debug)]
 pub struct Scene {
     pub name: String,
     pub mesh: Arc<Mesh>,
-    /// None when every triangle is flat.
+    /// None if all triangles are flat.
     pub normals: Option<CornerNormals>,
     pub materials: Vec<Material>,
-    /// One number into `materials` a triangle.
+    /// One index into `materials` per triangle.
     pub material_of: Vec<u32>,
     pub lights: Vec<Light>,
     pub camera: Camera,
@@ -29,25 +29,25 @@ pub struct Scene {
     /// Whether shadow rays of smooth triangles start off the surface, at `point + normal * area^0.05`, as the course
     /// does against dark facets near the shadow boundary. Default true.
     pub shadow_terminator_fix: bool,
-    /// How rays leave surfaces: error-bounded, but in a scene that says otherwise.
+    /// How rays leave surfaces: error-bounded, unless the scene file sets a `ray_offset`.
     pub offset: Offset,
-    /// Width and height of the image that the scene asks for.
+    /// Width and height of the image.
     pub size: [u32; 2],
     /// Whether camera and light were placed around a bare mesh.
     pub is_framed: bool,
-    /// Meshes that stand in for a real one which is not there.
+    /// Generated meshes that replace a missing real mesh.
     pub stand_ins: Vec<String>,
-    /// What a reader of results should know of the scene, one sentence each.
+    /// Notes for readers of results, one sentence each.
     pub notes: Vec<String>,
-    /// Of the notes those that a reader should know before anything is measured.
+    /// The notes that are printed before anything is measured.
     pub warnings: Vec<String>,
 }
 
-/// What shading needs to know about a hit.
+/// The surface at a hit, for shading.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Surface {
-    /// Where rays leave from: see [`SurfacePoint::on_triangle`]; in a scene with the course's offset its position is
-    /// `origin + t * direction`, as there.
+    /// The point from which rays leave: see [`SurfacePoint::on_triangle`]; in a scene with the course's offset its
+    /// position is `origin + t * direction`, as in the course.
     pub point: SurfacePoint,
     /// Unit normal interpolated between the corners; the geometric normal on a flat triangle.
     pub shading_normal: Vec3,

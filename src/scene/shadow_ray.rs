@@ -1,14 +1,14 @@
-//! Where shadow rays start and end.
+//! Origins and ends of shadow rays.
 
 use super::{Light, Scene, Surface};
 use crate::geometry::{PrimId, Ray};
 
 impl Scene {
-    /// The any-hit ray that asks whether `light` is hidden from the surface of `prim`.
+    /// The any-hit ray that finds out whether `light` is hidden from the surface of `prim`.
     ///
-    /// It starts on the surface, or off it by [`Scene::shadow_terminator_fix`], and is moved by [`Scene::offset`]. It
-    /// ends at the distance of the light from the surface point: an occluder a little beyond the light counts, as in
-    /// the course. It is cast whether or not the light lies behind the surface.
+    /// It starts on the surface, or off it by [`Scene::shadow_terminator_fix`], and is offset by [`Scene::offset`]. Its
+    /// length is the distance of the light from the surface point, so that an occluder a little beyond the light
+    /// counts, as in the course. Lights behind the surface have shadow rays too.
     pub fn shadow_ray(&self, prim: PrimId, surface: &Surface, light: &Light) -> Ray {
         let mut start = surface.point;
         if surface.smooth && self.shadow_terminator_fix {

@@ -1,4 +1,4 @@
-//! Scene files, placement, framing and what a scene tells of a hit.
+//! Tests of scene files, placement, framing and surfaces.
 
 use std::fs;
 
@@ -68,7 +68,7 @@ fn a_plain_file_gets_the_defaults() {
 }
 
 #[test]
-fn errors_name_file_place_and_remedy() {
+fn errors_name_the_file_the_location_and_a_remedy() {
     let changed = |from: &str, to: &str| message(&PLAIN.replace(from, to));
     let starts = |text: String, start: &str| assert!(text.starts_with(start), "{text}");
     starts(changed("name = \"Test\"", "nmae = \"Test\""), "test.toml, line 2: unknown field `nmae`, expected one of");

@@ -128,7 +128,7 @@ fn a_program_that_fails_is_refused_in_a_sentence_and_the_others_go_on() {
         ("backwards", "it answers \"passed -1\""),
         ("chatters", "\"that was quick\""),
         ("floods", "\"that was much\""),
-        ("few", "its hits are not to be had: "),
+        ("few", "its hits cannot be read: "),
     ];
     let commands: Vec<String> = failures.iter().map(|(how, _)| format!("{program} {how}")).collect();
     let runners: Vec<&str> = commands.iter().flat_map(|command| ["--runner", command]).collect();
@@ -153,7 +153,7 @@ fn a_clock_that_disagrees_with_ours_is_told_and_what_it_declines_is_not_asked() 
     let program = nothing(&folder);
     let rays = path_text(&folder.path().join("away.rays"));
     let text = write(&folder, "away.txt", &"9,9,9 0,0,1\n".repeat(100));
-    for (how, any, part) in [("liar", None, "times as long as it says"), ("honest", Some("--any"), "declines any hit")]
+    for (how, any, part) in [("liar", None, "times as long as it reports"), ("honest", Some("--any"), "declines any hit")]
     {
         let import = ["rays", "import", &text, "-o", &rays, "--scene", "cube"];
         prints(&import.into_iter().chain(any).collect::<Vec<_>>());

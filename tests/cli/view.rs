@@ -8,16 +8,12 @@ use tempfile::TempDir;
 
 use super::command::{path_text, prints, refuses, refuses_in_a_line, write};
 
-/// The corners of a box that is longer than it is wide.
-fn corners() -> String {
-    let corner = |i: usize| format!("v {} {} {}\n", [-1, 1][i & 1], [0, 2][i >> 1 & 1], [-3, 3][i >> 2]);
-    (0..8).map(corner).collect()
-}
-
-/// A closed room.
+/// A closed box that is longer than it is wide, with its fronts inside.
 fn room(folder: &TempDir) -> String {
+    let corner = |i: usize| format!("v {} {} {}\n", [-1, 1][i & 1], [0, 2][i >> 1 & 1], [-3, 3][i >> 2]);
+    let corners: String = (0..8).map(corner).collect();
     let walls = "f 1 2 4 3\nf 5 7 8 6\nf 1 5 6 2\nf 3 4 8 7\nf 1 3 7 5\nf 2 6 8 4\n";
-    write(folder, "room.obj", &(corners() + walls))
+    write(folder, "room.obj", &(corners + walls))
 }
 
 const PRIMARY: [&str; 10] = ["-s", "sah-kd", "-w", "primary", "--epochs", "1", "--budget", "1", "--size", "20x10"];

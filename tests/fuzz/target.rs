@@ -20,7 +20,7 @@ use sahara::validate::{Reference, validate};
 
 /// The structures of this crate and their variants, over every triangle test that they are offered with; the eight-wide
 /// trees with every way to answer slices. Small leaves, so that small meshes make deep trees.
-const VARIANTS: [(&str, &str); 20] = [
+const VARIANTS: [(&str, &str); 17] = [
     ("brute-force", ""),
     ("median-kd", ""),
     ("median-kd", "leaf=1,threshold=1"),
@@ -31,16 +31,13 @@ const VARIANTS: [(&str, &str); 20] = [
     ("sah-kd", "intersection_cost=50,plane=vertex-median"),
     ("sah-kd-wide", "block_cost=0.01"),
     ("sah-kd-wide", "block_cost=50,batch=packets"),
-    ("sah-kd-wide", "block_cost=50,batch=interleaved"),
     ("sah-kd-tight", "block_cost=50"),
     ("sah-kd-tight", "block_cost=0.01,batch=packets"),
-    ("sah-kd-tight", "block_cost=50,batch=interleaved"),
     ("sah-hybrid", "block_cost=50"),
     ("sah-hybrid", "block_cost=50,batch=packets"),
-    ("sah-hybrid", "block_cost=0.01,batch=interleaved"),
+    ("sah-hybrid", "block_cost=0.01,batch=packets"),
     ("sah-bvh", "block_cost=50"),
     ("sah-bvh", "block_cost=50,batch=packets"),
-    ("sah-bvh", "block_cost=50,batch=interleaved"),
 ];
 
 /// The tests over which several rays of a slice may be answered at once.

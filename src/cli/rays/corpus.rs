@@ -1,5 +1,5 @@
-//! `rays corpus`: meshes, rays of all kinds and their exact answers, so that anyone can count wrong answers without this
-//! program.
+//! `rays corpus`: meshes, rays of all kinds and their exact answers, so that anyone can count wrong answers without
+//! this program.
 
 #[cfg(test)]
 mod tests;
@@ -22,7 +22,7 @@ use crate::report::number::{bytes, count, plural};
 use crate::report::words::{listed, slug};
 use crate::report::{Cell, Table};
 use crate::request::{self, RayKind, STAND_IN};
-use crate::scene::files::{RayFile, TruthFile, mesh_bytes};
+use crate::scene::files::{ExactHitFile, RayFile, mesh_bytes};
 use crate::scene::{BUILTIN, Builtin, Scene, Workload};
 use crate::study::Status;
 
@@ -143,8 +143,8 @@ fn part(scene: &Scene, args: &Args, waiting: &Waiting) -> anyhow::Result<Part> {
         let (file, truth) = answered(scene, kind, args.rays as usize, args.seed, &oracle).map_err(|problem| {
             anyhow::anyhow!("no {name} rays can be made for {}: {problem}: scale the mesh", scene.name)
         })?;
-        part.rays += truth.answers.len();
-        part.hits += truth.answers.iter().flatten().count();
+        part.rays += truth.hits.len();
+        part.hits += truth.hits.iter().flatten().count();
         part.files.insert(format!("{stem}-{name}.rays"), file.to_bytes());
         part.files.insert(format!("{stem}-{name}.truth"), truth.to_bytes());
     }
@@ -158,12 +158,12 @@ fn answered(
     count: usize,
     seed: u64,
     oracle: &Oracle,
-) -> Result<(RayFile, TruthFile), String> {
+) -> Result<(RayFile, ExactHitFile), String> {
     let workload = Workload { name: kind.name().into(), query: Query::Closest, rays: kind.rays(scene, count, seed) };
     RayFile::check(&workload.rays)?;
     RayFile::check_names(&scene.name, &workload.name)?;
     let answers = workload.rays.par_iter().map(|ray| exact_answer(oracle, &scene.mesh, ray)).collect();
-    let truth = TruthFile::new(&workload, answers);
+    let truth = ExactHitFile::new(&workload, answers);
     Ok((RayFile { scene: scene.name.clone(), scene_hash: None, workload }, truth))
 }
 

@@ -92,7 +92,7 @@ pub fn check(
     request::known_tests(registry, &args.test)?;
     let answers = HitFile::read(path)?;
     let name = path.display().to_string();
-    let found = answers.answers(&file.workload).map_err(|problem| anyhow::anyhow!("{name}: {problem}"))?;
+    let found = answers.hits_of(&file.workload).map_err(|problem| anyhow::anyhow!("{name}: {problem}"))?;
     let recorded: Vec<(Ray, Option<Hit>)> = file.workload.rays.iter().copied().zip(found.iter().copied()).collect();
     let (asked, some) = against.sample(&recorded, scene.mesh.len());
     let (rays, found): (Vec<Ray>, Vec<Option<Hit>>) = asked.into_iter().unzip();

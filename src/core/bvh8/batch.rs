@@ -30,6 +30,7 @@ impl Groups {
     const NONE: Self = Self { numbers: [0; WINDOW / RAYS], len: 0 };
 
     /// All of a window of `rays` rays.
+    #[cfg(test)]
     pub fn all(rays: usize) -> Self {
         Self { numbers: std::array::from_fn(|i| i as u8), len: rays.div_ceil(RAYS) }
     }
@@ -243,13 +244,8 @@ pub(super) fn answer<const ANY: bool, T: TriangleTest, A, O: Observer>(
         }
         for (rays, answers) in rays.chunks(WINDOW).zip(answers.chunks_mut(WINDOW)) {
             let form = &form;
-            if tree.batch == Batch::Interleaved {
-                let which = &Groups::all(rays.len());
-                dispatch(level, Interleaved::<ANY, T, A, _> { tree, rays, which, answers, form });
-            } else {
-                let which = dispatch(level, InPackets::<ANY, T, A, _> { tree, rays, answers, form, level });
-                answer_apart::<ANY, T, A>(level, tree, rays, &which, answers, form);
-            }
+            let which = dispatch(level, InPackets::<ANY, T, A, _> { tree, rays, answers, form, level });
+            answer_apart::<ANY, T, A>(level, tree, rays, &which, answers, form);
         }
     }
 }

@@ -51,8 +51,6 @@ pub enum Batch {
     /// Sixteen in a row travel together where they share an octant. Of the others eight are under way at a time or one
     /// follows the other, whichever was faster on the last ones of which both were tried.
     Packets,
-    /// Eight at a time are under way, also where they agree.
-    Interleaved,
 }
 
 impl Bvh8Config {

@@ -36,7 +36,7 @@ fn rays_that_miss_a_root_of_several_blocks_test_no_triangle() {
     let apart = soup(12, 3);
     for mesh in [coincident, apart].map(Arc::new) {
         for partition in ALL {
-            for batch in [Batch::Single, Batch::Packets, Batch::Interleaved] {
+            for batch in [Batch::Single, Batch::Packets] {
                 let tree = Tree::build(&mesh, &Bvh8Config { batch, ..Bvh8Config::new(partition) }).unwrap();
                 let bounds = mesh.bounds();
                 let beside = Ray::new(bounds.max + bounds.max.abs(), Vec3::ONE);
@@ -201,7 +201,7 @@ fn answers_of_long_slices<T: TriangleTest>(mesh: &Arc<Mesh>, rays: &[Ray]) {
     let met = |of: &dyn Fn(usize) -> bool| (0..rays.len()).filter(|&i| of(i) && alone[i].is_some()).count();
     assert!(met(&|i| i / 16 % 3 == 0) > 2000 && met(&|i| i / 16 % 3 != 0) > 4000, "nearly all hit something");
     let decided = [Way::Interleaved, Way::InOrder].map(|way| (Batch::Packets, Some(way)));
-    let undecided = [Batch::Single, Batch::Packets, Batch::Interleaved].map(|batch| (batch, None));
+    let undecided = [Batch::Single, Batch::Packets].map(|batch| (batch, None));
     for (batch, winner) in undecided.into_iter().chain(decided) {
         let mut tree = Bvh8::<T>::build(mesh, &Bvh8Config { batch, ..Bvh8Config::default() }).unwrap();
         if let Some(winner) = winner {
@@ -296,10 +296,8 @@ fn crowds_of_triangles_are_ordered_exactly() {
 #[test]
 fn several_rays_at_once_are_refused_over_tests_that_they_are_not_compiled_for() {
     let mesh = Arc::new(soup(3, 1));
-    for batch in [Batch::Packets, Batch::Interleaved] {
-        let refused = Bvh8::<Plucker>::build(&mesh, &Bvh8Config { batch, ..Bvh8Config::default() });
-        assert!(matches!(refused, Err(BuildError::Config(_))), "{batch:?}");
-    }
+    let refused = Bvh8::<Plucker>::build(&mesh, &Bvh8Config { batch: Batch::Packets, ..Bvh8Config::default() });
+    assert!(matches!(refused, Err(BuildError::Config(_))));
 }
 
 /// With limits that a small mesh reaches: what is built is what they are told of.

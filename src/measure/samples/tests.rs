@@ -1,99 +1,90 @@
 use std::cell::{Cell, RefCell};
-use std::rc::Rc;
 
 use super::*;
 use crate::measure::level_by_clock;
 use crate::measure::tiles::level_within;
 
+/// A mock clock, and the cases in the order of their passes.
 #[derive(Default)]
-struct MockClock(Cell<u64>);
+struct Bench {
+    now: Cell<u64>,
+    log: RefCell<Vec<char>>,
+}
 
-impl Clock for Rc<MockClock> {
+impl Clock for Bench {
     fn now_ns(&self) -> u64 {
-        self.0.get()
+        self.now.get()
     }
 }
 
-/// A case that takes `ns` a ray on the mock clock and writes its name into a log.
-struct Mock {
-    clock: Rc<MockClock>,
-    log: Rc<RefCell<Vec<(char, usize)>>>,
+/// A case that takes `ns` per ray on the mock clock.
+struct Mock<'a> {
+    bench: &'a Bench,
     name: char,
     ns: u64,
-    whole: usize,
+    all: usize,
     chosen: Vec<usize>,
     epoch: usize,
-    answer: u64,
-    /// What it answers; to the tiles of another epoch it answers something else.
+    checksum: u64,
+    /// The checksum of the first epoch.
     right: u64,
-    /// Changes its answer in this pass.
+    /// The pass in which the checksum changes.
     fickle_at: usize,
     passes: usize,
 }
 
-impl Timed for Mock {
+impl Timed for Mock<'_> {
     fn rays(&self) -> usize {
-        self.whole
+        self.all
     }
 
     fn choose(&mut self, levels: &[usize], epoch: usize) {
-        self.chosen = levels.iter().map(|&level| rays_at(self.whole, level)).collect();
+        self.chosen = levels.iter().map(|&level| rays_at(self.all, level)).collect();
         self.epoch = if levels[0] == 0 { 0 } else { epoch };
     }
 
     fn clear(&mut self) {
-        self.answer = 0;
+        self.checksum = 0;
     }
 
     fn lead_in(&mut self) {
         // Time that must not be counted.
-        self.clock.0.set(self.clock.0.get() + 1_000_000);
+        self.bench.now.update(|ns| ns + 1_000_000);
     }
 
     fn run(&mut self, watch: &Stopwatch) -> Vec<u64> {
         self.passes += 1;
-        self.log.borrow_mut().push((self.name, self.chosen[0]));
-        self.answer = if self.passes == self.fickle_at { 1 } else { self.right + 100 * self.epoch as u64 };
-        let of_level = |&rays: &usize| watch.time(|| self.clock.0.set(self.clock.0.get() + self.ns * rays as u64));
+        self.bench.log.borrow_mut().push(self.name);
+        self.checksum = if self.passes == self.fickle_at { 1 } else { self.right + 100 * self.epoch as u64 };
+        let of_level = |&rays: &usize| watch.time(|| self.bench.now.update(|ns| ns + self.ns * rays as u64));
         self.chosen.iter().map(of_level).collect()
     }
 
     fn checksum(&self) -> u64 {
-        self.answer
+        self.checksum
     }
 
     fn contradicts_itself(&self) -> bool {
-        self.answer == 1
+        self.checksum == 1
     }
-}
-
-struct Bench {
-    clock: Rc<MockClock>,
-    log: Rc<RefCell<Vec<(char, usize)>>>,
 }
 
 impl Bench {
-    fn new() -> Self {
-        Self { clock: Rc::default(), log: Rc::default() }
+    fn mock(&self, name: char, ns: u64, all: usize) -> Mock<'_> {
+        Mock { bench: self, name, ns, all, chosen: vec![all], epoch: 0, checksum: 0, right: 7, fickle_at: 0, passes: 0 }
     }
 
-    fn mock(&self, name: char, ns: u64, whole: usize) -> Mock {
-        let (clock, log) = (self.clock.clone(), self.log.clone());
-        let chosen = vec![whole];
-        Mock { clock, log, name, ns, whole, chosen, epoch: 0, answer: 0, right: 7, fickle_at: 0, passes: 0 }
-    }
-
-    fn case(&self, name: char, ns: u64, all: usize) -> Box<dyn Timed> {
+    fn case(&self, name: char, ns: u64, all: usize) -> Box<dyn Timed + '_> {
         Box::new(self.mock(name, ns, all))
     }
 
     /// Samples of as many rays as the plan allows.
-    fn take(&self, cases: &mut [Box<dyn Timed>], plan: &Plan) -> Vec<Samples> {
+    fn take<'a>(&'a self, cases: &mut [Box<dyn Timed + 'a>], plan: &Plan) -> Vec<Samples> {
         let none = |rays: usize| Samples::none(rays, level_within(rays, plan.most_rays));
         let mut samples: Vec<Samples> = cases.iter().map(|case| none(case.rays())).collect();
-        let mut told = vec![];
-        take(&self.clock, cases, &vec![0; cases.len()], plan, &mut samples, &mut |n| told.push(n));
-        assert_eq!(told, (1..=plan.runs * cases.len()).collect::<Vec<_>>());
+        let mut progress = vec![];
+        take(self, cases, &vec![0; cases.len()], plan, &mut samples, &mut |n| progress.push(n));
+        assert_eq!(progress, (1..=plan.runs * cases.len()).collect::<Vec<_>>());
         samples
     }
 }
@@ -101,22 +92,15 @@ impl Bench {
 const PLAN: Plan = Plan { runs: 5, budget_ns: 1_000_000, slowest: 8.0, most_rays: usize::MAX, seed: 3, epoch: 0 };
 
 #[test]
-fn only_the_pass_is_timed_and_every_case_has_all_its_samples() {
-    let bench = Bench::new();
-    let mut cases = [bench.case('a', 10, 1000), bench.case('b', 20, 1000)];
-    let samples = bench.take(&mut cases, &PLAN);
-    let taken = |ns| Samples { checksum: 7, ns: vec![ns; 5], ..Samples::none(1000, 0) };
-    assert_eq!(samples, [taken(10_000), taken(20_000)]);
-    assert_eq!(samples[1].ns_per_ray(), [20.0; 5]);
-}
-
-#[test]
-fn rounds_are_interleaved_in_changing_order() {
-    let bench = Bench::new();
-    let mut cases = ['a', 'b', 'c'].map(|name| bench.case(name, 10, 64));
-    bench.take(&mut cases, &Plan { runs: 12, ..PLAN });
-    let log: Vec<char> = bench.log.borrow().iter().map(|(name, _)| *name).collect();
-    let rounds: Vec<&[char]> = log[log.len() - 36..].chunks(3).collect();
+fn only_the_pass_is_timed_in_rounds_of_changing_order() {
+    let bench = Bench::default();
+    let mut cases = [('a', 10), ('b', 20), ('c', 30)].map(|(name, ns)| bench.case(name, ns, 1000));
+    let samples = bench.take(&mut cases, &Plan { runs: 12, ..PLAN });
+    let taken = |ns| Samples { checksum: 7, ns: vec![ns; 12], ..Samples::none(1000, 0) };
+    assert_eq!(samples, [10_000, 20_000, 30_000].map(taken));
+    assert_eq!(samples[1].ns_per_ray(), [20.0; 12]);
+    let log = bench.log.borrow();
+    let rounds: Vec<&[char]> = log.chunks(3).collect();
     for round in &rounds {
         let mut names = round.to_vec();
         names.sort_unstable();
@@ -126,37 +110,38 @@ fn rounds_are_interleaved_in_changing_order() {
 }
 
 #[test]
-fn other_answers_to_the_same_rays_are_no_measurement_and_the_others_go_on() {
-    // The second of five samples, or its lead-in; where a part of the rays is timed, the second look at some of them.
+fn a_case_with_changing_results_is_not_steady_and_the_others_go_on() {
+    // The second of five samples, or its lead-in; where only a part of the rays is timed, the second pass over some of
+    // them.
     for (runs, most_rays, fickle_at) in [(5, usize::MAX, 2), (5, 16, 4), (1, 16, 2)] {
-        let bench = Bench::new();
+        let bench = Bench::default();
         let fickle = Mock { fickle_at, ..bench.mock('a', 10, 64) };
-        let mut cases: [Box<dyn Timed>; 2] = [Box::new(fickle), bench.case('b', 10, 64)];
+        let mut cases: [Box<dyn Timed + '_>; 2] = [Box::new(fickle), bench.case('b', 10, 64)];
         let samples = bench.take(&mut cases, &Plan { runs, most_rays, ..PLAN });
         assert!(!samples[0].is_steady && samples[1].is_steady, "{runs} {most_rays}");
         assert_eq!(samples[1].ns.len(), runs);
-        let asked = bench.log.borrow().iter().filter(|(name, _)| *name == 'a').count();
-        assert_eq!(asked, fickle_at, "it is asked no more");
+        let passes = bench.log.borrow().iter().filter(|&&name| name == 'a').count();
+        assert_eq!(passes, fickle_at, "it is not run again");
     }
 }
 
 #[test]
 fn parts_are_timed_along() {
-    let bench = Bench::new();
+    let bench = Bench::default();
     let mut samples = [Samples::none(65_536, 0)];
     samples[0].parts = [1024, 64].map(|rays| Part { rays, ns: vec![] }).into();
     let mut cases = [bench.case('a', 10, 65_536)];
-    take(&bench.clock, &mut cases, &[0], &Plan { runs: 2, ..PLAN }, &mut samples, &mut |_| {});
+    take(&bench, &mut cases, &[0], &Plan { runs: 2, ..PLAN }, &mut samples, &mut |_| {});
     assert_eq!(samples[0].ns, [655_360; 2]);
     assert_eq!(samples[0].parts, [(1024, 10_240), (64, 640)].map(|(rays, ns)| Part { rays, ns: vec![ns; 2] }));
 }
 
 #[test]
-fn another_epoch_has_the_checksum_of_the_first_unless_it_answers_otherwise() {
+fn another_epoch_has_the_checksum_of_the_first_unless_its_results_differ() {
     for (whole, rays, asked) in [(1000, 1000, None), (65_536, 16_384, Some(3))] {
-        let bench = Bench::new();
+        let bench = Bench::default();
         let checksum = |right: u64, epoch: usize| {
-            let mut cases: [Box<dyn Timed>; 1] = [Box::new(Mock { right, ..bench.mock('a', 10, whole) })];
+            let mut cases: [Box<dyn Timed + '_>; 1] = [Box::new(Mock { right, ..bench.mock('a', 10, whole) })];
             let samples = bench.take(&mut cases, &Plan { most_rays: 16_384, epoch, ..PLAN });
             assert_eq!((samples[0].rays, samples[0].asked, samples[0].ns.len()), (rays, asked, 5));
             samples[0].checksum
@@ -167,15 +152,17 @@ fn another_epoch_has_the_checksum_of_the_first_unless_it_answers_otherwise() {
 
 #[test]
 fn a_case_of_unknown_cost_takes_as_many_rays_as_its_clock_says_that_it_can() {
-    let bench = Bench::new();
-    let level = |ns: u64, from: usize, most_ns: u64| {
-        let watch = Stopwatch::new(&bench.clock);
-        rays_at(65_536, level_by_clock(&watch, &mut bench.mock('a', ns, 65_536), from, most_ns))
-    };
-    // 65,536 rays of 100 ns take 15.6 ms with what is asked beside them.
-    assert_eq!(level(100, 0, 16_000_000), 65_536);
-    assert_eq!(level(100, 0, 15_000_000), 16_384);
-    assert_eq!(level(100, 2, 15_000_000), 4096);
-    assert_eq!(level(100_000, 0, 15_000_000), 64);
-    assert_eq!(level(100_000_000, 0, 15_000_000), 64);
+    let bench = Bench::default();
+    // 65,536 rays of 100 ns take 15.6 ms, with their lead-ins and warm-up.
+    let cases = [
+        (100, 0, 16_000_000, 65_536),
+        (100, 0, 15_000_000, 16_384),
+        (100, 2, 15_000_000, 4096),
+        (100_000, 0, 15_000_000, 64),
+        (100_000_000, 0, 15_000_000, 64),
+    ];
+    for (ns, from, most_ns, rays) in cases {
+        let level = level_by_clock(&Stopwatch::new(&bench), &mut bench.mock('a', ns, 65_536), from, most_ns);
+        assert_eq!(rays_at(65_536, level), rays, "{ns} ns from {from} within {most_ns}");
+    }
 }

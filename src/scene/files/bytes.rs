@@ -1,27 +1,27 @@
-//! What the files of rays and of answers share: the first 32 bytes, and reading numbers without running over the end.
+//! The common parts of files of rays and of hits: the header of 32 bytes, and checked reading of numbers.
 
 use sha2::{Digest, Sha256};
 
 use crate::accel::Query;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Head {
+pub(super) struct FileHeader {
     pub query: Query,
     pub count: u64,
     pub hash: [u8; 8],
 }
 
-pub(super) const HEAD: usize = 32;
+pub(super) const HEADER_BYTES: usize = 32;
 
 const VERSION: u32 = 1;
 
-/// Takes the head off `bytes`, which must begin with `magic` and are a file of `what`.
-pub(super) fn head(bytes: &[u8], magic: &[u8; 8], what: &str) -> Result<Head, String> {
+/// Reads the header of a file of `what`, which must begin with `magic`.
+pub(super) fn header(bytes: &[u8], magic: &[u8; 8], what: &str) -> Result<FileHeader, String> {
     if bytes.len() < 8 || bytes[..8] != magic[..] {
         return Err(format!("this is no file of {what}: it does not begin with {:?}", String::from_utf8_lossy(magic)));
     }
-    if bytes.len() < HEAD {
-        return Err(format!("the file is cut short: {} bytes, fewer than its head has", bytes.len()));
+    if bytes.len() < HEADER_BYTES {
+        return Err(format!("the file is cut short: {} bytes, fewer than its header has", bytes.len()));
     }
     let (version, query) = (number(bytes, 8), number(bytes, 12));
     if version != VERSION {
@@ -35,24 +35,24 @@ pub(super) fn head(bytes: &[u8], magic: &[u8; 8], what: &str) -> Result<Head, St
         other => return Err(format!("the query {other} is not known: 0 is the closest hit, 1 any hit")),
     };
     let eight = |at: usize| -> [u8; 8] { bytes[at..at + 8].try_into().expect("eight bytes") };
-    Ok(Head { query, count: u64::from_le_bytes(eight(16)), hash: eight(24) })
+    Ok(FileHeader { query, count: u64::from_le_bytes(eight(16)), hash: eight(24) })
 }
 
-pub(super) fn head_bytes(head: &Head, magic: &[u8; 8]) -> Vec<u8> {
+pub(super) fn header_bytes(header: &FileHeader, magic: &[u8; 8]) -> Vec<u8> {
     let mut bytes = magic.to_vec();
     bytes.extend(VERSION.to_le_bytes());
-    bytes.extend(u32::from(head.query == Query::Any).to_le_bytes());
-    bytes.extend(head.count.to_le_bytes());
-    bytes.extend(head.hash);
+    bytes.extend(u32::from(header.query == Query::Any).to_le_bytes());
+    bytes.extend(header.count.to_le_bytes());
+    bytes.extend(header.hash);
     bytes
 }
 
-/// By which files name rays: the first bytes of the SHA-256 of [`Workload::bytes`](crate::scene::Workload::bytes).
+/// Identifies rays in files: the first bytes of the SHA-256 of [`Workload::bytes`](crate::scene::Workload::bytes).
 pub(super) fn rays_hash(rays: &[u8]) -> [u8; 8] {
     Sha256::digest(rays)[..8].try_into().expect("eight bytes")
 }
 
-/// The `u32` at `at`, which lies within.
+/// The `u32` at `at`, which must lie within.
 pub(super) fn number(bytes: &[u8], at: usize) -> u32 {
     u32::from_le_bytes(bytes[at..at + 4].try_into().expect("four bytes"))
 }
@@ -67,9 +67,9 @@ pub(super) fn body(bytes: &[u8], at: usize, count: u64, size: u64) -> Result<&[u
     };
     let found = body.len() as u64;
     match count.checked_mul(size) {
-        Some(owed) if owed == found => Ok(body),
-        Some(owed) if owed < found => {
-            Err(format!("{} bytes follow after the last of {count}: it was changed", found - owed))
+        Some(expected) if expected == found => Ok(body),
+        Some(expected) if expected < found => {
+            Err(format!("{} bytes follow after the last of {count}: it was changed", found - expected))
         }
         _ => Err(format!("the file is cut short: it should hold {count}, and holds {}", found / size)),
     }

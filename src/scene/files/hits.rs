@@ -1,8 +1,8 @@
-//! Files of answers.
+//! Files of hits.
 
 use std::path::Path;
 
-use super::bytes::{HEAD, Head, body, head, head_bytes, number, rays_hash};
+use super::bytes::{FileHeader, HEADER_BYTES, body, header, header_bytes, number, rays_hash};
 use super::{FileError, read};
 use crate::accel::Query;
 use crate::geometry::Hit;
@@ -10,26 +10,26 @@ use crate::output::OutputFile;
 use crate::scene::Workload;
 use crate::scene::hash::hexadecimal;
 
-/// Answers to the rays of a file, in their order.
+/// The hits of the rays of a file, in their order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HitFile {
-    /// What was asked.
+    /// The query of the rays.
     pub query: Query,
     hash: [u8; 8],
     hits: Vec<Option<Hit>>,
 }
 
-/// What the head of a file of rays says of them.
+/// The identity of rays: what the header of their file says about them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RaysId {
-    /// What they ask.
+    /// Their query.
     pub query: Query,
     hash: [u8; 8],
     count: usize,
 }
 
 impl RaysId {
-    /// That of the rays of a workload.
+    /// The identity of the rays of a workload.
     pub fn of(workload: &Workload) -> Self {
         Self { query: workload.query, hash: rays_hash(&workload.bytes()), count: workload.rays.len() }
     }
@@ -41,17 +41,17 @@ const MAGIC: &[u8; 8] = b"SAHAHITS";
 const NOTHING: u32 = u32::MAX;
 
 impl HitFile {
-    /// The answers to all rays of `workload`.
+    /// The hits of all rays of `workload`.
     ///
     /// # Panics
-    /// If there are not as many answers as rays.
+    /// If there are more or fewer hits than rays.
     pub fn new(workload: &Workload, hits: Vec<Option<Hit>>) -> Self {
-        assert_eq!(workload.rays.len(), hits.len(), "one answer a ray");
+        assert_eq!(workload.rays.len(), hits.len(), "one hit per ray");
         Self { query: workload.query, hash: rays_hash(&workload.bytes()), hits }
     }
 
     /// # Errors
-    /// If the file cannot be read, is no file of hits or is not whole.
+    /// If the file cannot be read, is no file of hits or is truncated.
     pub fn read(path: &Path) -> Result<Self, FileError> {
         read(path, MAGIC, Self::from_bytes)
     }
@@ -62,22 +62,22 @@ impl HitFile {
         Ok(file.write(&self.to_bytes())?)
     }
 
-    /// The answers, if they are those to `workload`.
+    /// The hits, if they are those of `workload`.
     ///
     /// # Errors
-    /// If they answer other rays or another question.
-    pub fn answers(&self, workload: &Workload) -> Result<&[Option<Hit>], String> {
-        self.answers_to(&RaysId::of(workload))
+    /// If they are the hits of other rays or of another query.
+    pub fn hits_of(&self, workload: &Workload) -> Result<&[Option<Hit>], String> {
+        self.hits_of_rays(&RaysId::of(workload))
     }
 
-    /// Likewise, of rays that are known by their hash.
+    /// As [`HitFile::hits_of`], for rays that are known by their hash.
     ///
     /// # Errors
-    /// As [`HitFile::answers`].
-    pub fn answers_to(&self, rays: &RaysId) -> Result<&[Option<Hit>], String> {
+    /// As [`HitFile::hits_of`].
+    pub fn hits_of_rays(&self, rays: &RaysId) -> Result<&[Option<Hit>], String> {
         if self.hash != rays.hash || self.hits.len() != rays.count {
             return Err(format!(
-                "these are {} answers to rays with the hash {}, not to the {} rays with the hash {}",
+                "these are the hits of {} rays with the hash {}, not of the {} rays with the hash {}",
                 self.hits.len(),
                 hexadecimal(&self.hash),
                 rays.count,
@@ -86,20 +86,21 @@ impl HitFile {
         }
         if self.query != rays.query {
             let (theirs, ours) = (self.query.name(), rays.query.name());
-            return Err(format!("these are answers to the query {theirs:?}, and the rays ask {ours:?}"));
+            return Err(format!("these are hits of the query {theirs:?}, and that of the rays is {ours:?}"));
         }
         Ok(&self.hits)
     }
 
     pub(super) fn to_bytes(&self) -> Vec<u8> {
-        let mut bytes = head_bytes(&Head { query: self.query, count: self.hits.len() as u64, hash: self.hash }, MAGIC);
+        let mut bytes =
+            header_bytes(&FileHeader { query: self.query, count: self.hits.len() as u64, hash: self.hash }, MAGIC);
         bytes.extend(hits_to_bytes(&self.hits));
         bytes
     }
 
     pub(super) fn from_bytes(bytes: &[u8]) -> Result<Self, String> {
-        let Head { query, count, hash } = head(bytes, MAGIC, "hits")?;
-        Ok(Self { query, hash, hits: hits_from_bytes(body(bytes, HEAD, count, 8)?) })
+        let FileHeader { query, count, hash } = header(bytes, MAGIC, "hits")?;
+        Ok(Self { query, hash, hits: hits_from_bytes(body(bytes, HEADER_BYTES, count, 8)?) })
     }
 }
 
@@ -109,7 +110,7 @@ pub(crate) fn hits_to_bytes(hits: &[Option<Hit>]) -> Vec<u8> {
     hits.iter().flat_map(numbers).flat_map(u32::to_le_bytes).collect()
 }
 
-/// The hits that [`hits_to_bytes`] makes these bytes of.
+/// The inverse of [`hits_to_bytes`].
 pub(crate) fn hits_from_bytes(bytes: &[u8]) -> Vec<Option<Hit>> {
     let hit = |bytes: &[u8]| match number(bytes, 4) {
         NOTHING => None,

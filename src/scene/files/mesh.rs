@@ -6,8 +6,7 @@ use std::path::Path;
 
 use crate::geometry::Mesh;
 
-/// Writes all triangles of `mesh` as a PLY file in the one form that the document describes: the triangle that is number
-/// n here is face n there.
+/// Writes all triangles of `mesh` as a PLY file in the form that the document describes. Triangle n becomes face n.
 ///
 /// # Errors
 /// If the file cannot be written.
@@ -17,7 +16,7 @@ pub fn write_mesh(mesh: &Mesh, path: &Path) -> io::Result<()> {
     file.flush()
 }
 
-/// The bytes of that file.
+/// The bytes of the file that [`write_mesh`] writes.
 pub fn mesh_bytes(mesh: &Mesh) -> Vec<u8> {
     let mut bytes = vec![];
     write_to(mesh, &mut bytes).expect("memory takes everything");

@@ -1,12 +1,12 @@
 #![doc = include_str!("FORMAT.md")]
 
 mod bytes;
+mod exact_hits;
 mod hits;
 mod mesh;
 mod rays;
 #[cfg(test)]
 mod tests;
-mod truth;
 
 use std::fs::File;
 use std::io::Read;
@@ -14,13 +14,13 @@ use std::path::{Path, PathBuf};
 
 use crate::output::OutputError;
 
+pub use exact_hits::ExactHitFile;
 pub use hits::{HitFile, RaysId};
 pub(crate) use hits::{hits_from_bytes, hits_to_bytes};
 pub use mesh::{mesh_bytes, write_mesh};
 pub use rays::RayFile;
-pub use truth::TruthFile;
 
-/// Why a file of rays or answers cannot be used.
+/// Why a file of rays or hits cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum FileError {
     #[error("cannot read {}: {cause}: check that it exists and may be read", path.display())]
@@ -31,8 +31,7 @@ pub enum FileError {
     Write(#[from] OutputError),
 }
 
-/// What `parse` makes of the bytes of a file; of one that does not begin with `magic` it gets the beginning only, for
-/// the file may be large or without an end.
+/// Parses a file. If it does not begin with `magic`, only its first bytes are read, because it may be large or endless.
 fn read<F>(path: &Path, magic: &[u8; 8], parse: fn(&[u8]) -> Result<F, String>) -> Result<F, FileError> {
     let bytes = || {
         let (mut file, mut bytes) = (File::open(path)?, vec![]);

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use glam::Vec3;
 
-use super::bytes::{HEAD, Head, body, head, head_bytes, number, rays_hash};
+use super::bytes::{FileHeader, HEADER_BYTES, body, header, header_bytes, number, rays_hash};
 use super::{FileError, read};
 use crate::geometry::Ray;
 use crate::output::OutputFile;
@@ -16,7 +16,7 @@ use crate::scene::{Scene, Workload};
 pub struct RayFile {
     /// Name of the scene; may be empty.
     pub scene: String,
-    /// [`Scene::hash`], in hexadecimal; nothing for rays of no scene in particular.
+    /// [`Scene::hash`], in hexadecimal; none for rays without a scene.
     pub scene_hash: Option<String>,
     /// The rays, their kind and query.
     pub workload: Workload,
@@ -33,7 +33,7 @@ impl RayFile {
     }
 
     /// # Errors
-    /// If the file cannot be read, is no ray file, is not whole, or holds a ray that is none.
+    /// If the file cannot be read, is no ray file, is truncated, or holds an invalid ray.
     pub fn read(path: &Path) -> Result<Self, FileError> {
         read(path, MAGIC, Self::from_bytes)
     }
@@ -44,10 +44,11 @@ impl RayFile {
         Ok(file.write(&self.to_bytes())?)
     }
 
-    /// Whether `rays` can be kept in a file.
+    /// Checks whether `rays` can be stored in a file.
     ///
     /// # Errors
-    /// If there is none, or one is not made of finite numbers, by its place, counted from 1; `t_max` may be infinite.
+    /// If there are no rays, or one contains a number that is not finite (named by its position, counted from 1);
+    /// `t_max` may be infinite.
     pub fn check(rays: &[Ray]) -> Result<(), String> {
         let bad = |ray: &Ray| {
             let finite = ray.origin.is_finite() && ray.direction.is_finite();
@@ -60,7 +61,7 @@ impl RayFile {
         }
     }
 
-    /// Whether a file can name its scene and kind of rays so.
+    /// Checks the names of the scene and of the workload.
     ///
     /// # Errors
     /// If a name holds a control character, which would garble tables.
@@ -91,21 +92,21 @@ impl RayFile {
     pub fn to_bytes(&self) -> Vec<u8> {
         let Workload { name, query, rays } = &self.workload;
         let body = self.workload.bytes();
-        let head = Head { query: *query, count: rays.len() as u64, hash: rays_hash(&body) };
-        let mut bytes = head_bytes(&head, MAGIC);
+        let header = FileHeader { query: *query, count: rays.len() as u64, hash: rays_hash(&body) };
+        let mut bytes = header_bytes(&header, MAGIC);
         bytes.extend(self.scene_hash.as_deref().map_or([0; 32], unhex));
         bytes.extend((self.scene.len() as u32).to_le_bytes());
         bytes.extend((name.len() as u32).to_le_bytes());
         bytes.extend(self.scene.as_bytes());
         bytes.extend(name.as_bytes());
-        bytes.resize(bytes.len().next_multiple_of(HEAD), 0);
+        bytes.resize(bytes.len().next_multiple_of(HEADER_BYTES), 0);
         bytes.extend(body);
         bytes
     }
 
     pub(super) fn from_bytes(bytes: &[u8]) -> Result<Self, String> {
-        let Head { query, count, hash } = head(bytes, MAGIC, "rays")?;
-        let short = || "the file is cut short within its head".to_owned();
+        let FileHeader { query, count, hash } = header(bytes, MAGIC, "rays")?;
+        let short = || "the file is cut short within its header".to_owned();
         if bytes.len() < NAMES {
             return Err(short());
         }
@@ -114,20 +115,20 @@ impl RayFile {
         let scene = rest.get(..lengths[0]).ok_or_else(short)?;
         let name = rest[lengths[0]..].get(..lengths[1]).ok_or_else(short)?;
         let text = |bytes: &[u8]| {
-            String::from_utf8(bytes.to_vec()).map_err(|_| "a name in the head is no UTF-8: it was changed".to_owned())
+            String::from_utf8(bytes.to_vec()).map_err(|_| "a name in the header is no UTF-8: it was changed".to_owned())
         };
         let (scene, name) = (text(scene)?, text(name)?);
         Self::check_names(&scene, &name)?;
 
-        let start = (NAMES + lengths[0] + lengths[1]).next_multiple_of(HEAD);
+        let start = (NAMES + lengths[0] + lengths[1]).next_multiple_of(HEADER_BYTES);
         let body = body(bytes, start, count, 32)?;
         if rays_hash(body) != hash {
-            return Err("the rays do not have the hash that the head says: the file was changed".into());
+            return Err("the rays do not have the hash that the header says: the file was changed".into());
         }
         let rays: Vec<Ray> = body.chunks_exact(32).map(ray).collect();
         Self::check(&rays)?;
-        let known = bytes[HEAD..HEAD + 32].iter().any(|&byte| byte != 0);
-        let scene_hash = known.then(|| hexadecimal(&bytes[HEAD..HEAD + 32]));
+        let known = bytes[HEADER_BYTES..HEADER_BYTES + 32].iter().any(|&byte| byte != 0);
+        let scene_hash = known.then(|| hexadecimal(&bytes[HEADER_BYTES..HEADER_BYTES + 32]));
         Ok(Self { scene, scene_hash, workload: Workload { name, query, rays } })
     }
 }

@@ -23,7 +23,7 @@ fn recorded(kind: WorkloadKind) -> (Scene, RayFile) {
 }
 
 #[test]
-fn what_is_replayed_is_what_was_recorded_and_is_answered_the_same() {
+fn replayed_rays_are_the_recorded_ones_and_have_the_same_hits() {
     let directory = tempfile::tempdir().unwrap();
     for kind in WorkloadKind::ALL {
         let (scene, file) = recorded(kind);
@@ -37,16 +37,16 @@ fn what_is_replayed_is_what_was_recorded_and_is_answered_the_same() {
             continue;
         }
 
-        let answers = |workload: &Workload| HitFile::new(workload, tree(&scene).closest(&workload.rays));
-        let (first, again) = (answers(&file.workload), answers(&back.workload));
+        let hits = |workload: &Workload| HitFile::new(workload, tree(&scene).closest(&workload.rays));
+        let (first, again) = (hits(&file.workload), hits(&back.workload));
         assert_eq!(first, again);
         assert_eq!(HitFile::from_bytes(&first.to_bytes()).unwrap(), first);
-        assert_eq!(first.answers(&back.workload).unwrap().len(), back.workload.rays.len());
+        assert_eq!(first.hits_of(&back.workload).unwrap().len(), back.workload.rays.len());
     }
 }
 
 #[test]
-fn what_is_damaged_is_refused_in_a_sentence() {
+fn damaged_files_are_refused_with_a_sentence() {
     let (_, file) = recorded(WorkloadKind::Diffuse);
     let whole = file.to_bytes();
     let refusal = |bytes: &[u8]| RayFile::from_bytes(bytes).unwrap_err();
@@ -76,7 +76,7 @@ fn what_is_damaged_is_refused_in_a_sentence() {
     assert!(refusal(&bad.to_bytes()).contains("no ray"));
 }
 
-/// A head that speaks of no rays and of no names, cut at every length: the first item would begin at byte 96.
+/// A header without rays and names, cut at every length: the first item would begin at byte 96.
 #[test]
 fn every_length_is_refused_in_a_sentence() {
     let (_, file) = recorded(WorkloadKind::Primary);
@@ -99,7 +99,7 @@ fn every_length_is_refused_in_a_sentence() {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn a_file_without_an_end_is_refused_at_its_beginning() {
+fn an_endless_file_is_refused_by_its_first_bytes() {
     for refusal in
         [RayFile::read(Path::new("/dev/zero")).unwrap_err(), HitFile::read(Path::new("/dev/zero")).unwrap_err()]
     {
@@ -108,7 +108,7 @@ fn a_file_without_an_end_is_refused_at_its_beginning() {
 }
 
 #[test]
-fn rays_and_answers_of_another_scene_are_refused() {
+fn rays_and_hits_of_another_scene_are_refused() {
     let (scene, file) = recorded(WorkloadKind::Primary);
     let other = Builtin::find("cube").unwrap().scene(None).unwrap();
     let refusal = file.check_scene(&other).unwrap_err();
@@ -120,16 +120,16 @@ fn rays_and_answers_of_another_scene_are_refused() {
     let hits = HitFile::new(&file.workload, vec![Some(Hit::new(1.5, 7)); file.workload.rays.len()]);
     let mut turned = file.workload.clone();
     turned.rays[0] = Ray::new(turned.rays[0].origin, -turned.rays[0].direction);
-    assert!(hits.answers(&turned).unwrap_err().contains("hash"));
+    assert!(hits.hits_of(&turned).unwrap_err().contains("hash"));
     let any = Workload { query: Query::Any, ..file.workload.clone() };
-    assert!(hits.answers(&any).unwrap_err().contains("\"any\""));
+    assert!(hits.hits_of(&any).unwrap_err().contains("\"any\""));
     let cut = HitFile::from_bytes(&hits.to_bytes()[..100]).unwrap_err();
     assert!(cut.contains("cut short"), "{cut}");
     assert!(HitFile::from_bytes(&file.to_bytes()).unwrap_err().contains("SAHAHITS"));
     drop(scene);
 }
 
-/// The reader of the document, run as it stands there.
+/// Runs the Python program of the document.
 #[test]
 fn the_python_of_the_document_reads_our_rays_and_writes_hits_that_we_read() {
     if Command::new("python3").arg("--version").output().is_err() {
@@ -145,9 +145,9 @@ fn the_python_of_the_document_reads_our_rays_and_writes_hits_that_we_read() {
     let (_, file) = recorded(WorkloadKind::Shadow);
     let (rays, hits) = (directory.path().join("f.rays"), directory.path().join("f.hits"));
     file.write(&OutputFile::check(&rays).unwrap()).unwrap();
-    let answer = "\nwrite_hits(sys.argv[2], query, digest, [(r[7], i) if i % 2 else (0.0, 0xFFFFFFFF) for i, r in enumerate(rays)])\n";
+    let call = "\nwrite_hits(sys.argv[2], query, digest, [(r[7], i) if i % 2 else (0.0, 0xFFFFFFFF) for i, r in enumerate(rays)])\n";
     let script = directory.path().join("read.py");
-    std::fs::write(&script, code.to_owned() + answer).unwrap();
+    std::fs::write(&script, code.to_owned() + call).unwrap();
     let output = Command::new("python3").arg(&script).args([&rays, &hits]).output().unwrap();
     let printed = String::from_utf8_lossy(&output.stdout);
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
@@ -155,8 +155,8 @@ fn the_python_of_the_document_reads_our_rays_and_writes_hits_that_we_read() {
     assert!(printed.starts_with(&expected), "{printed}");
 
     let back = HitFile::read(&hits).unwrap();
-    let answers = back.answers(&file.workload).unwrap();
-    for (i, (ray, answer)) in file.workload.rays.iter().zip(answers).enumerate() {
-        assert_eq!(*answer, (i % 2 == 1).then(|| Hit::new(ray.t_max, i as u32)));
+    let hits = back.hits_of(&file.workload).unwrap();
+    for (i, (ray, hit)) in file.workload.rays.iter().zip(hits).enumerate() {
+        assert_eq!(*hit, (i % 2 == 1).then(|| Hit::new(ray.t_max, i as u32)));
     }
 }

@@ -5,34 +5,34 @@ use std::path::PathBuf;
 
 use crate::geometry::MeshError;
 
-/// What is wrong with a mesh file, in one line: the file, the place in it, the problem and what to do.
+/// An error of a mesh file in one line: the file, the location in it, the problem and a remedy.
 #[derive(Debug, thiserror::Error)]
 pub enum LoadError {
-    #[error("{}: the name does not tell a known format: give an .obj, .ply, .gltf or .glb file", file.display())]
+    #[error("{}: its extension is not that of a known format: give an .obj, .ply, .gltf or .glb file", file.display())]
     UnknownFormat { file: PathBuf },
     #[error("{}: this is a folder: give a mesh file in it, .obj, .ply, .gltf or .glb, or a scene file, .toml", file.display())]
     Folder { file: PathBuf },
     #[error("{}: the file cannot be read ({cause}): check that it exists and may be opened", file.display())]
     Unreadable { file: PathBuf, cause: std::io::Error },
-    #[error("{}{place}: {problem}", file.display())]
-    Malformed { file: PathBuf, place: Place, problem: String },
+    #[error("{}{location}: {problem}", file.display())]
+    Malformed { file: PathBuf, location: Location, problem: String },
     /// The arrays of the file are no mesh; numbers count from 0.
     #[error("{}: {cause}", file.display())]
     Mesh { file: PathBuf, cause: MeshError },
 }
 
-/// Where in a file a problem is.
+/// The location of a problem in a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Place {
+pub enum Location {
     /// The file as a whole.
     File,
     /// A line, counted from 1.
     Line(usize),
-    /// A part by the name its format gives it, such as `accessor 3`, counted from 0.
+    /// A part by its name in the format, such as `accessor 3`, counted from 0.
     Part(String),
 }
 
-impl fmt::Display for Place {
+impl fmt::Display for Location {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::File => Ok(()),
@@ -42,28 +42,28 @@ impl fmt::Display for Place {
     }
 }
 
-/// A problem found by one of the readers, which do not know the name of their file.
+/// A problem found by a reader, which does not know the name of its file.
 #[derive(Debug)]
 pub(super) struct Fault {
-    pub place: Place,
+    pub location: Location,
     pub problem: String,
 }
 
 impl Fault {
     pub fn file(problem: impl Into<String>) -> Self {
-        Self { place: Place::File, problem: problem.into() }
+        Self { location: Location::File, problem: problem.into() }
     }
 
     pub fn line(line: usize, problem: impl Into<String>) -> Self {
-        Self { place: Place::Line(line), problem: problem.into() }
+        Self { location: Location::Line(line), problem: problem.into() }
     }
 
     pub fn part(part: impl Into<String>, problem: impl Into<String>) -> Self {
-        Self { place: Place::Part(part.into()), problem: problem.into() }
+        Self { location: Location::Part(part.into()), problem: problem.into() }
     }
 }
 
-/// A piece of a file as it may stand in a one-line message: escaped, and cut after 60 characters.
+/// A piece of a file for a one-line message: escaped, and cut after 60 characters.
 pub(super) fn quoted(text: impl AsRef<[u8]>) -> String {
     const LONGEST: usize = 60;
     let text = text.as_ref().trim_ascii();
@@ -74,7 +74,7 @@ pub(super) fn quoted(text: impl AsRef<[u8]>) -> String {
     format!("`{escaped}{more}`")
 }
 
-/// The whole message of a library, in one line.
+/// The message of a library, in one line.
 pub(super) fn message(error: impl fmt::Display) -> String {
     error.to_string().split_whitespace().collect::<Vec<_>>().join(" ")
 }

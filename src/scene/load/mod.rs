@@ -19,18 +19,18 @@ use self::error::Fault;
 use super::Model;
 use crate::geometry::Mesh;
 
-pub use error::{LoadError, Place};
+pub use error::{LoadError, Location};
 
-/// Reads a mesh file; the end of its name (in any case) tells the format: `.obj`, `.ply`, `.gltf` or `.glb`.
+/// Reads a mesh file. Its extension, in any case, determines the format: `.obj`, `.ply`, `.gltf` or `.glb`.
 ///
-/// Polygons are split into triangles, glTF node graphs are expanded, textures are left out. What was left out or
-/// replaced stands in [`Model::notes`]. The model has at least one material and one triangle, and [`Mesh::new`] takes
-/// its arrays.
+/// Polygons are split into triangles, glTF node graphs are expanded, textures are ignored. [`Model::notes`] lists what
+/// was left out or replaced. The model has at least one material and one triangle, and [`Mesh::new`] accepts its
+/// arrays.
 ///
-/// Other files that the file names are read where their path leads below its folder; a symbolic link there may lead
-/// anywhere. A file is checked before memory is taken for what is in it, and it cannot ask for much more than it holds:
-/// a glTF file shows at most 2^24 triangles and vertices more than its files have bytes, its text describes at most
-/// 2^16 objects and one for each 48 bytes, and a face of a PLY file has at most 2^20 corners.
+/// Files that the file refers to are read if their path stays below its folder; a symbolic link there may lead
+/// anywhere. A file is checked before memory is allocated for its contents, and the memory is limited by its size: a
+/// glTF file has at most 2^24 triangles and vertices more than its files have bytes, its text at most 2^16 objects and
+/// one for each 48 bytes, and a face of a PLY file at most 2^20 corners.
 ///
 /// # Errors
 /// A file that cannot be read or breaks its format, a vertex that is not finite, an index out of range, no triangles.
@@ -50,7 +50,7 @@ pub fn load(path: &Path) -> Result<Model, LoadError> {
     let folder = path.parent().unwrap_or(Path::new(""));
     let mut model = read(bytes, folder).map_err(|fault| LoadError::Malformed {
         file: path.into(),
-        place: fault.place,
+        location: fault.location,
         problem: fault.problem,
     })?;
     Mesh::check(&model.positions, &model.triangles).map_err(|cause| LoadError::Mesh { file: path.into(), cause })?;
@@ -58,7 +58,7 @@ pub fn load(path: &Path) -> Result<Model, LoadError> {
     Ok(model)
 }
 
-/// The path of the file `name` in `folder` or below it; none where it leads out.
+/// The path of the file `name` in `folder` or below it; none if it leads out of it.
 fn below(folder: &Path, name: &str) -> Option<PathBuf> {
     let mut depth = 0_usize;
     for component in Path::new(name).components() {
@@ -72,7 +72,7 @@ fn below(folder: &Path, name: &str) -> Option<PathBuf> {
     Some(folder.join(name))
 }
 
-/// Whole files only: a pipe or a device might never end.
+/// Reads regular files only: a pipe or a device might never end.
 fn read_file(path: &Path) -> io::Result<Vec<u8>> {
     if !fs::metadata(path)?.is_file() {
         return Err(io::Error::new(io::ErrorKind::InvalidInput, "it is not a regular file"));
@@ -80,7 +80,7 @@ fn read_file(path: &Path) -> io::Result<Vec<u8>> {
     fs::read(path)
 }
 
-/// Shading divides by the length of a normal: a triangle with a normal of no length is shaded flat instead.
+/// Makes triangles flat that have a normal of length zero, because shading divides by the length of a normal.
 fn flatten_bad_normals(model: &mut Model) {
     let usable = |n: u32| {
         n == Model::FLAT || model.normals.get(n as usize).is_some_and(|n| n.is_finite() && n.length_squared() > 0.0)

@@ -12,7 +12,7 @@ use super::text::{after_keyword, lines, number, plain, words};
 use super::{below, read_file};
 use crate::scene::Material;
 
-/// More libraries than any exporter writes; others are not read.
+/// The most libraries that are read, more than any exporter writes.
 const MOST_LIBRARIES: usize = 64;
 
 #[derive(Default)]
@@ -30,8 +30,8 @@ impl Libraries {
         }
     }
 
-    /// Reads the materials that are keys of `used`, each library once. What cannot be read is a note and not an error,
-    /// for the mesh is whole without it. Of two materials with one name the later counts.
+    /// Reads the materials that are keys of `used`, each library once. A library that cannot be read gives a note and
+    /// not an error, because the mesh is complete without it. Of two materials with one name the later counts.
     pub fn read(&self, used: &HashMap<String, u32>, folder: &Path, notes: &mut Notes) -> HashMap<String, Material> {
         let mut reader = Reader { known: HashMap::new(), used, textured: HashSet::new() };
         let mut files: Vec<PathBuf> = Vec::new();
@@ -43,7 +43,7 @@ impl Libraries {
                     continue;
                 }
             };
-            // One file may have several names.
+            // The same file may have several names.
             let file = fs::canonicalize(&path).unwrap_or_else(|_| path.clone());
             if files.contains(&file) {
                 continue;
@@ -70,7 +70,7 @@ impl Libraries {
     }
 }
 
-/// A line may name several files, or one with blanks in its name: the latter if there is one.
+/// The files that a line names: one file whose name contains spaces, if it exists, otherwise several.
 fn paths(line: &str, folder: &Path) -> Vec<Result<PathBuf, String>> {
     let path = |name: &str| {
         let outside =
@@ -96,7 +96,7 @@ impl Reader<'_> {
             Ok(text) => text,
             Err(fault) => return notes.add(format!("{}: {}", path.display(), fault.problem)),
         };
-        // The material of the lines to come; none where nothing uses it.
+        // The current material; none if no face uses it.
         let mut current: Option<String> = None;
         for (number, line) in lines(text) {
             if self.line(line, &mut current).is_err() {
@@ -105,12 +105,12 @@ impl Reader<'_> {
         }
     }
 
-    /// Reads a line; what says nothing of interest is passed over, and wrong numbers are an error.
+    /// Reads a line. Unused statements are skipped; wrong numbers are an error.
     fn line(&mut self, line: &[u8], current: &mut Option<String>) -> Result<(), ()> {
         let mut words = words(line);
         let Some(keyword) = words.next() else { return Ok(()) };
         if keyword == b"newmtl" {
-            // No name is a name as well: `usemtl` alone uses it.
+            // The empty name is valid: `usemtl` alone refers to it.
             let name = after_keyword(line);
             *current = self.used.contains_key(&name).then_some(name);
             if let Some(name) = current {

@@ -1,16 +1,16 @@
-//! What was left out of a file.
+//! Notes about the parts of a file that were left out.
 
-/// Sentences, each once, and not more than a reader takes in.
+/// Sentences without repetition, limited in number.
 #[derive(Debug, Default)]
 pub(super) struct Notes {
     kept: Vec<String>,
     more: usize,
 }
 
-/// More of them are only counted.
+/// The most sentences; further ones are only counted.
 const MOST: usize = 12;
 
-/// What [`Notes::count`] says of faces that make no triangle.
+/// The sentence of [`Notes::count`] about faces that make no triangle.
 pub(super) const SMALL_FACES: [&str; 2] =
     ["face with fewer than three corners is left out", "faces with fewer than three corners are left out"];
 
@@ -24,7 +24,7 @@ impl Notes {
         }
     }
 
-    /// Where there is something to count: a sentence about one or many, which stands for all and is never left out.
+    /// Adds a sentence about a count, unless it is 0; it stands for all occurrences and is never left out.
     pub fn count(&mut self, count: usize, [one, many]: [&str; 2]) {
         let what = if count == 1 { one } else { many };
         if count > 0 {

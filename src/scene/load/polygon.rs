@@ -1,26 +1,26 @@
-//! Polygons to triangles.
+//! Splits polygons into triangles.
 
 use glam::{DVec3, Vec3};
 use robust::{Coord, orient2d};
 
 use super::notes::Notes;
 
-/// Ear clipping takes time in the square of the corners: up to so many pairs of corners are looked at in a file, those of polygons with
-/// up to so many corners not counted. What is beyond and not convex becomes a fan.
+/// Ear clipping takes time quadratic in the corners. A file may use up to so many pairs of corners, not counting
+/// polygons of up to so many corners; concave polygons beyond that become fans.
 const MOST_PAIRS: usize = 1 << 27;
 const SMALL: usize = 64;
 
-/// A polygon with a corner farther than this from its plane, relative to its extent, is noted as bent.
+/// A polygon is reported as bent if a corner is farther than this from its plane, relative to its extent.
 const BENT: f64 = 0.01;
 
 type Point = Coord<f64>;
 
-/// Splits polygons into triangles, two fewer than there are corners, and counts those that are no simple flat polygons.
+/// Splits polygons into triangles, two fewer than corners, and counts polygons that are not simple and flat.
 ///
-/// A convex polygon becomes the fan around its first corner, another one is split by ear clipping. Both look at it
-/// along the axis in which its normal is longest, where the signs of areas are exact. There, every triangle that ear
-/// clipping makes has the orientation of the polygon or no area, so that together they cover the polygon and nothing
-/// else.
+/// A convex polygon becomes the fan around its first corner; a concave one is split by ear clipping. Both project the
+/// polygon along the axis of its largest normal component, where the signs of areas are exact. In that projection every
+/// triangle of ear clipping has the orientation of the polygon or no area, so that together they cover exactly the
+/// polygon.
 ///
 /// # References
 /// G. H. Meisters, "Polygons have ears", 1975. J. R. Shewchuk, "Adaptive precision floating-point arithmetic and fast
@@ -36,7 +36,7 @@ pub(super) struct Splitter {
 }
 
 impl Splitter {
-    /// The triangles of a polygon, by the numbers of its corners; none of one with fewer than three.
+    /// The triangles of a polygon, as indices of its corners; none for fewer than three corners.
     pub fn split(&mut self, corners: &[Vec3]) -> &[[usize; 3]] {
         self.triangles.clear();
         if corners.len() < 4 || !self.split_other(corners) {
@@ -46,7 +46,7 @@ impl Splitter {
         &self.triangles
     }
 
-    /// One note for each kind of polygon that has no right triangles, or was not looked at.
+    /// One note for each kind of polygon that has no correct triangulation or was not examined.
     pub fn note(&self, notes: &mut Notes) {
         for (count, what) in [
             (
@@ -62,13 +62,13 @@ impl Splitter {
         }
     }
 
-    /// Whether a fan is not what is wanted and `triangles` hold something better.
+    /// Whether `triangles` hold a better triangulation than a fan.
     fn split_other(&mut self, corners: &[Vec3]) -> bool {
         let normal = newell(corners);
         let Some(axis) =
             (0..3).filter(|&i| normal[i] != 0.0).max_by(|&i, &j| normal[i].abs().total_cmp(&normal[j].abs()))
         else {
-            // No area: all corners on a line, or loops that cancel each other.
+            // No area: all corners lie on a line, or loops cancel each other.
             self.crossing += usize::from((0..3).any(|axis| !is_line(&project(corners, axis, false))));
             return false;
         };
@@ -98,7 +98,7 @@ fn newell(corners: &[Vec3]) -> DVec3 {
     (2..corners.len()).map(|i| from_first(i - 1).cross(from_first(i))).sum()
 }
 
-/// The polygon seen along an axis, or against it.
+/// The polygon projected along an axis, or against it.
 fn project(corners: &[Vec3], axis: usize, against: bool) -> Vec<Point> {
     let (right, up) = ((axis + 1) % 3, (axis + 2) % 3);
     let (right, up) = if against { (up, right) } else { (right, up) };
@@ -150,14 +150,14 @@ fn is_bent(corners: &[Vec3], normal: DVec3) -> bool {
     corners.iter().any(|p| (p.as_dvec3() - first).dot(normal).abs() > BENT * extent)
 }
 
-/// Cuts ears off a counterclockwise polygon until a triangle is left. Whether that could be done.
+/// Clips ears off a counterclockwise polygon until a triangle is left. Returns whether that was possible.
 fn clip(points: &[Point], triangles: &mut Vec<[usize; 3]>) -> bool {
     let mut ring: Vec<usize> = (0..points.len()).collect();
     let mut ears: Vec<bool> = (0..ring.len()).map(|i| is_ear(points, &ring, i)).collect();
     while ring.len() > 3 {
         let n = ring.len();
         let around = |i: usize| [ring[(i + n - 1) % n], ring[i], ring[(i + 1) % n]];
-        // A corner without area, as two equal ones make, goes only when nothing else can.
+        // Clip corners without area, such as repeated ones, only if no other ear is left.
         let flat = |i: &usize| orient2d_of(points, around(*i)) == 0.0;
         let Some(ear) = ears.iter().position(|&ear| ear).or_else(|| (0..n).find(flat)) else { return false };
         triangles.push(around(ear));
@@ -236,7 +236,7 @@ mod tests {
             .chain((0..30).rev().map(|i| (i as f32 * 0.5, 1.5 + i as f32 * 0.2)))
             .map(|(angle, r)| [r * angle.cos(), r * angle.sin()])
             .collect();
-        // A square with a hole, which a double edge joins to its outline.
+        // A square with a hole that a double edge connects to the outline.
         let hole = polygon(&[
             [0.0, 0.0],
             [4.0, 0.0],
@@ -278,7 +278,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_simple_polygon_is_noted() {
+    fn polygons_that_are_not_simple_are_reported() {
         let noted = |corners: &[Vec3]| {
             let mut splitter = Splitter::default();
             assert_eq!(splitter.split(corners).len(), corners.len() - 2);
@@ -291,7 +291,7 @@ mod tests {
         let mut arrow = polygon(&[[0.0, 0.0], [2.0, -1.0], [0.5, 0.0], [2.0, 1.0]]);
         arrow[2].z = 0.5;
         assert!(noted(&arrow).contains("neither convex nor flat"));
-        // So many pairs of corners are looked at in one polygon, or in all of them together; small ones are not counted.
+        // The limit of pairs of corners is for one polygon or for all together; small polygons do not count.
         let saw = |teeth: usize| {
             let middle = [teeth as f32 / 2.0, -9.0];
             polygon(&(0..teeth).map(|i| [i as f32, (i % 2) as f32]).chain([middle]).collect::<Vec<_>>())
@@ -305,7 +305,7 @@ mod tests {
     }
 
     #[test]
-    fn exactness_decides_where_rounding_would_not() {
+    fn exact_signs_decide_where_rounding_fails() {
         // The last corner lies an ulp beside the line through its neighbours: inside the polygon, and then outside.
         let [a, b, c] = [[0.1, 0.1], [0.7, -1.0], [0.7, 0.7]];
         for (d, is_fan) in [([0.3, 0.3_f32.next_down()], false), ([0.3, 0.3_f32.next_up()], true)] {

@@ -2,12 +2,12 @@
 
 use super::error::Fault;
 
-/// The text without the mark that some editors put before UTF-8.
+/// The text without a UTF-8 byte order mark.
 pub(super) fn plain(bytes: &[u8]) -> Result<&[u8], Fault> {
     match bytes {
         [0xef, 0xbb, 0xbf, text @ ..] => Ok(text),
         [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => Err(wide()),
-        // With the mark or a first ASCII character, either end first.
+        // UTF-16, recognised by its mark or by a first ASCII character, in either byte order.
         [0, 0, 0xfe, 0xff, ..] | [0, 0, 0, 1..=0x7f, ..] | [1..=0x7f, 0, 0, 0, ..] => Err(wide()),
         [0, a, 0, b, ..] | [a, 0, b, 0, ..] if *a != 0 && *b != 0 => Err(wide()),
         _ => Ok(bytes),
@@ -60,7 +60,7 @@ mod tests {
     }
 
     #[test]
-    fn wide_text_is_refused_and_a_mark_is_not_read() {
+    fn wide_text_is_refused_and_a_byte_order_mark_is_skipped() {
         assert_eq!(plain(b"\xef\xbb\xbfv 0").unwrap(), b"v 0");
         for wide in [
             &b"\xff\xfev\0 \0"[..],

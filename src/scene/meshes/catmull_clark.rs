@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use glam::DVec3;
 
-/// What a vertex needs to know of its surroundings.
+/// The neighbourhood of a vertex.
 #[derive(Clone, Copy, Default)]
 struct Around {
     faces: f64,
@@ -23,8 +23,8 @@ struct Edge {
 
 /// Splits every polygon of a surface into as many quadrilaterals as it has corners, and smooths.
 ///
-/// The new points are the old vertices, moved, then one a edge, then one a face. Boundary edges are split in the middle
-/// and boundary vertices follow the cubic B-spline of the boundary.
+/// The new points are the moved old vertices, then one point per edge, then one per face. Boundary edges are split in
+/// the middle and boundary vertices follow the cubic B-spline of the boundary.
 ///
 /// # References
 /// Catmull, Clark: Recursively generated B-spline surfaces on arbitrary topological meshes (1978).
@@ -48,7 +48,7 @@ pub fn subdivide(points: &[DVec3], faces: &[Vec<u32>]) -> (Vec<DVec3>, Vec<[u32;
         }
     }
 
-    // Gather what surrounds each vertex.
+    // Gather the neighbourhood of each vertex.
     let mut around = vec![Around::default(); points.len()];
     for (face, &face_point) in faces.iter().zip(&face_points) {
         for &corner in face {

@@ -1,13 +1,14 @@
-//! Surfaces that coincide, as models from drawing programs have them: where several triangles are hit at the same or nearly the same `t`,
-//! a test that is right must decide between them, and one that rounds need not notice.
+//! Coincident surfaces, as in models from drawing programs: several triangles are hit at the same or nearly the same
+//! `t`. An exact triangle test must order them; one that rounds may not notice.
 
 use glam::Vec3;
 
 use super::{cube, flat, net, noise};
 use crate::scene::Model;
 
-/// Two cities on one ground: the square with corners (+-1, 0, +-1), divided by one into 32 x 32 cells and by the other into 31 x 31, with
-/// 144 houses each. Floors of houses lie in the ground, and houses stand in each other: 7,426 triangles.
+/// Two cities on one ground: the square with corners (+-1, 0, +-1), divided by one into 32 x 32 cells and by the other
+/// into 31 x 31, with 144 houses each. Floors of houses lie in the ground, and houses stand in each other: 7,426
+/// triangles.
 pub fn two_cities() -> Model {
     const BLOCKS: i32 = 12;
     let city = |cells: u32, salt: u32, shift: f32| {
@@ -23,13 +24,15 @@ pub fn two_cities() -> Model {
     joined(city(32, 1, 0.0).chain(city(31, 2, 0.03)))
 }
 
-/// 10 x 10 x 10 closed cubes side by side: every face between two of them is there twice, looking both ways: 12,000 triangles.
+/// 10 x 10 x 10 closed cubes side by side: every face between two of them is there twice, looking both ways: 12,000
+/// triangles.
 pub fn shared_faces() -> Model {
     let cube = |i: u32| boxed(Vec3::new((i % 10) as f32, (i / 10 % 10) as f32, (i / 100) as f32), Vec3::splat(0.5));
     joined((0..1000).map(cube))
 }
 
-/// A floor of 40 x 40 slabs side by side, the tops in one plane, on two triangles in the plane of all undersides: 19,202 triangles.
+/// A floor of 40 x 40 slabs side by side, the tops in one plane, on two triangles in the plane of all undersides:
+/// 19,202 triangles.
 pub fn tiled_floor() -> Model {
     const SIDE: u32 = 40;
     let (half, thick) = (1.0 / SIDE as f32, 0.01);
@@ -52,7 +55,7 @@ pub fn fan(segments: u32) -> Model {
     )
 }
 
-/// One triangle 5,000 times, each coordinate where it belongs or one step of an `f32` beside it.
+/// 5,000 copies of one triangle, each coordinate exact or off by one `f32` step.
 pub fn near_duplicates() -> Model {
     const CORNERS: [Vec3; 3] = [Vec3::new(-1.1, -0.7, 0.3), Vec3::new(1.3, -0.9, -0.4), Vec3::new(0.1, 1.2, 0.2)];
     joined((0..5000).map(|copy| {
@@ -67,8 +70,8 @@ pub fn near_duplicates() -> Model {
     }))
 }
 
-/// 283 cubes about the origin, each a fiftieth larger than the one before: whatever enters the largest may meet them all, and no plane
-/// separates any two: 3,396 triangles.
+/// 283 cubes around the origin, each larger than the one before by a fiftieth, 3,396 triangles. A ray into the largest
+/// may hit them all, and no plane separates any two.
 pub fn growing_shells() -> Model {
     let sides = std::iter::successors(Some(1.0_f32), |side| Some(side * 1.02));
     joined(sides.take(283).map(|side| boxed(Vec3::ZERO, Vec3::splat(side))))

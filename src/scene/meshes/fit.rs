@@ -19,7 +19,7 @@ pub fn fit(model: &mut Model, bounds: Aabb) {
     model.normal_indices = model.triangles.clone();
 }
 
-/// Where `p` goes when the box from `low` to `high` is mapped onto `bounds`.
+/// The image of `p` under the map of the box from `low` to `high` onto `bounds`.
 pub fn map_box(p: DVec3, [low, high]: [DVec3; 2], bounds: Aabb) -> DVec3 {
     let share = (p - low) / (high - low);
     bounds.min.as_dvec3() * (1.0 - share) + bounds.max.as_dvec3() * share

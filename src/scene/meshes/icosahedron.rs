@@ -37,8 +37,8 @@ pub(super) fn sides() -> Vec<[u32; 3]> {
 
 /// The icosahedron of radius 1 with poles on the y axis, flat: 20 triangles.
 ///
-/// Each carries its normal, as in the course's file: that of the corners once they are placed and rounded tilts a
-/// little, and after eight mirrors another ray or two meets an edge.
+/// Each triangle has its own normal, as in the course's file. A normal computed from the placed and rounded corners
+/// differs a little, and after eight mirrors a ray or two more would hit an edge.
 pub fn icosahedron() -> Model {
     let points = corners();
     let normal = |triangle: &[u32; 3]| {

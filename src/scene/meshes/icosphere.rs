@@ -10,7 +10,7 @@ use crate::scene::Model;
 /// The [`divided_icosphere`] with edges in `2^subdivisions` parts: `20 * 4^subdivisions` triangles.
 ///
 /// # Panics
-/// Above 12 subdivisions, where a mesh holds no more triangles.
+/// Above 12 subdivisions, which exceed the triangles of a mesh.
 pub fn icosphere(subdivisions: u32) -> Model {
     assert!(subdivisions <= 12, "an icosphere has at most 12 subdivisions, not {subdivisions}");
     divided_icosphere(1 << subdivisions)
@@ -18,12 +18,12 @@ pub fn icosphere(subdivisions: u32) -> Model {
 
 /// A closed, smooth sphere of radius 1: `20 * steps^2` triangles, `10 * steps^2 + 2` vertices.
 ///
-/// Each side of the icosahedron is cut into a flat, even net of so many steps along each edge, whose points are then moved out to the sphere: so the
-/// course's sphere was made, as the silhouette of the report's scene shows. (Halving the edges and moving out after
-/// each halving gives another sphere.)
+/// Each side of the icosahedron is cut into a flat, even net of so many steps along each edge, whose points are then
+/// projected onto the sphere. The silhouette of the report's scene shows that the course's sphere was made like this.
+/// (Halving the edges and projecting after each halving gives another sphere.)
 ///
 /// # Panics
-/// Without a step, and above 4096 steps, where a mesh holds no more triangles.
+/// If `steps` is 0 or above 4096, which exceeds the triangles of a mesh.
 pub fn divided_icosphere(steps: u32) -> Model {
     assert!((1..=4096).contains(&steps), "an icosphere has 1 to 4096 steps, not {steps}");
     let mut net = Net { points: icosahedron::corners(), rows: HashMap::new(), steps };

@@ -1,4 +1,4 @@
-//! Meshes made by our own code, each the same bit for bit on every machine.
+//! Mesh generators; their meshes are the same bit for bit on every machine.
 
 mod catmull_clark;
 mod coincident;
@@ -13,7 +13,6 @@ mod normals;
 mod patches;
 mod plane;
 mod sdf;
-mod sheets;
 mod sponza;
 mod teapot;
 mod terrain;
@@ -34,14 +33,13 @@ pub use icosahedron::{icosahedron, inside_out_icosahedron};
 pub use icosphere::{divided_icosphere, icosphere};
 pub use lucy::lucy;
 pub use plane::{cornellbox, cube, plane_y};
-pub use sheets::{SHEET_SIDE, sheets};
 pub use sponza::sponza;
 pub use teapot::teapot;
 pub use terrain::Terrain;
 pub use torus::torus;
 pub use uv_sphere::uv_sphere;
 
-/// A mesh generator and the name that scene files call it by.
+/// A mesh generator and its name in scene files.
 pub struct Generator {
     pub name: &'static str,
     pub make: fn() -> Model,

@@ -1,4 +1,4 @@
-//! Noise without a generator's state: a number for every place, the same on every machine.
+//! Stateless noise: a number for every position, the same on every machine.
 
 use glam::{IVec3, Vec3};
 

@@ -5,8 +5,8 @@ use glam::{DVec3, Vec3};
 /// Steps of a component: the program that wrote those files kept normals as 16-bit integers.
 const STEPS: f64 = 32767.0;
 
-/// One normal a vertex, as the course's mesh files have them: the normals of its triangles, weighted by their angles
-/// there, in steps of 1/32767 (towards zero), then written with six decimals. Triangles without area count nothing.
+/// One normal per vertex, as in the course's mesh files: the normals of its triangles, weighted by their angles
+/// there, in steps of 1/32767 (towards zero), then written with six decimals. Triangles without area have no weight.
 ///
 /// The course's teapot file shows these steps. They matter: mirror rays follow the normals, and with exact ones the
 /// report's ray counts are missed by up to 140.
@@ -27,7 +27,7 @@ pub(super) fn of_the_course(points: &[DVec3], triangles: &[[u32; 3]]) -> Vec<Vec
     sums.into_iter().map(written).collect()
 }
 
-/// One unit normal a vertex: the normals of its triangles, weighted by their areas; up where these cancel.
+/// One unit normal per vertex: the mean normal of its triangles, weighted by area; up if they cancel.
 pub(super) fn by_area(positions: &[Vec3], triangles: &[[u32; 3]]) -> Vec<Vec3> {
     let mut normals = vec![Vec3::ZERO; positions.len()];
     for triangle in triangles {

@@ -48,7 +48,7 @@ fn published() -> (Vec<[usize; 16]>, Vec<DVec3>) {
     (patches, points)
 }
 
-/// The grids of all patches as one surface a shell. At the poles, where a side of a patch is one point, faces are
+/// The grids of all patches as one surface per shell. At the poles, where a side of a patch is one point, faces are
 /// triangles.
 fn welded_patches() -> (Vec<DVec3>, Vec<Vec<u32>>) {
     let (patches, mut controls) = published();
@@ -119,7 +119,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn no_square_is_cut_by_the_chance_of_rounding() {
+    fn no_diagonal_depends_on_rounding() {
         let (points, faces) = welded_patches();
         let (points, quads) = catmull_clark::subdivide(&points, &faces);
         assert_eq!((faces.len(), quads.len()), (512, 2016));
@@ -132,7 +132,7 @@ mod tests {
     }
 
     #[test]
-    fn the_published_data_is_whole() {
+    fn the_published_data_is_complete() {
         let (patches, points) = published();
         assert_eq!((patches.len(), points.len()), (32, 306));
         let mut used = vec![false; points.len()];
@@ -142,9 +142,9 @@ mod tests {
         assert_eq!(unused, [205, 206, 216, 223]);
     }
 
-    /// The course's file may not be part of the project: this runs where somebody has put it.
+    /// The course's file may not be distributed: this test runs only where the file exists.
     #[test]
-    fn every_vertex_triangle_and_normal_is_the_report_s() {
+    fn vertices_triangles_and_normals_are_those_of_the_report() {
         let path = crate::scene::real_mesh_folder().join("teapot_4032.obj");
         if !path.is_file() {
             eprintln!("skipped: there is no {}", path.display());

@@ -13,8 +13,9 @@ const HEIGHT: f32 = 0.2;
 /// Hills of the first octave from one side to the other.
 const HILLS: f32 = 4.0;
 
-/// Ground over the square with corners (+-1, +-1) of x and z, looking up, in rows of square cells, the last row as far as the triangles
-/// reach. The same `seed` is the same ground, however finely it is divided; cells are the size of the finest hills.
+/// Ground over the square with corners (+-1, +-1) of x and z, looking up, in rows of square cells, the last row as far
+/// as the triangles reach. The same `seed` is the same ground, however finely it is divided; cells are the size of the
+/// finest hills.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Terrain {
@@ -29,14 +30,14 @@ fn one() -> u32 {
 }
 
 impl Terrain {
-    /// The mesh of so many takes some gigabytes.
+    /// The most triangles; such a mesh takes some gigabytes.
     pub const MOST: usize = 1 << 27;
 
     pub fn model(self) -> Model {
         let cells = self.triangles.div_ceil(2);
         let columns = cells.isqrt() + usize::from(cells.isqrt() * cells.isqrt() < cells);
         let rows = cells.div_ceil(columns.max(1));
-        // Hills that are narrower than two cells would be noise from vertex to vertex.
+        // Hills narrower than two cells would be noise between neighbouring vertices.
         let octaves = (0..).take_while(|&k| HILLS * (1 << k) as f32 <= columns as f32 / 2.0).count().max(1) as u32;
         let across = columns + 1;
         let vertex = |i: usize| {
@@ -93,7 +94,7 @@ mod tests {
     }
 
     #[test]
-    fn the_same_seed_is_the_same_ground_and_another_one_is_not() {
+    fn equal_seeds_make_equal_grounds_and_others_do_not() {
         let heights = |seed| terrain(5000, seed).positions.iter().map(|p| p.y).collect::<Vec<f32>>();
         assert_eq!(heights(1), heights(1));
         assert_ne!(heights(1), heights(2));
@@ -104,7 +105,7 @@ mod tests {
                 assert!(one.x == other.x && one.z == other.z);
                 (one.y - other.y).abs()
             });
-        // What the finer one adds are lower hills.
+        // The finer ground adds lower hills only.
         assert!(apart.fold(0.0, f32::max) < HEIGHT / 4.0);
         assert!(
             fine.positions.iter().any(|p| p.y > HEIGHT / 2.0) && fine.positions.iter().any(|p| p.y < -HEIGHT / 2.0)

@@ -1,4 +1,4 @@
-//! What is known of each mesh, checked.
+//! Checks each mesh against known facts.
 
 use std::collections::{HashMap, HashSet};
 
@@ -9,8 +9,8 @@ use super::*;
 use crate::geometry::{Aabb, Mesh};
 use crate::scene::hash::hexadecimal;
 
-/// Edges with one triangle, and edges with more than two, once triangles with two equal corners are left out and
-/// corners in the same point are taken as one.
+/// The numbers of edges with one triangle and of edges with more than two, without triangles that repeat a corner and
+/// with corners at the same point merged.
 fn loose_and_crowded_edges(mesh: &Mesh) -> (usize, usize) {
     let mut edges: HashMap<_, u32> = HashMap::new();
     for triangle in mesh.solid() {
@@ -23,7 +23,7 @@ fn loose_and_crowded_edges(mesh: &Mesh) -> (usize, usize) {
     (count(|n| n == 1), count(|n| n > 2))
 }
 
-/// Pieces that share no vertex.
+/// The number of connected pieces.
 fn pieces(model: &Model) -> usize {
     sdf::pieces(model.positions.len(), &model.triangles).into_iter().collect::<HashSet<_>>().len()
 }
@@ -52,7 +52,7 @@ struct Known {
     triangles: usize,
     degenerate: usize,
     pieces: usize,
-    /// Loose and crowded ones.
+    /// The numbers of edges with one triangle and with more than two.
     edges: (usize, usize),
     bounds: Aabb,
     fingerprint: &'static str,
@@ -107,7 +107,7 @@ fn assert_normals(name: &str, model: &Model) {
 }
 
 #[test]
-fn each_mesh_is_what_it_is_known_to_be() {
+fn every_mesh_has_its_known_properties() {
     assert_eq!(GENERATORS.iter().map(|g| g.name).collect::<Vec<_>>(), KNOWN.iter().map(|k| k.name).collect::<Vec<_>>());
     for known in KNOWN {
         let (name, model) = (known.name, by_name(known.name).unwrap());
@@ -124,7 +124,7 @@ fn each_mesh_is_what_it_is_known_to_be() {
 }
 
 #[test]
-fn areas_and_volumes_are_the_polyhedra_s() {
+fn areas_and_volumes_are_those_of_the_polyhedra() {
     let mesh = |name: &str| by_name(name).map(|m| Mesh::new(m.positions, m.triangles).unwrap()).unwrap();
     let close = |value: f64, wanted: f64| assert!((value / wanted - 1.0).abs() < 1e-6, "{value} is not {wanted}");
     close(area(&mesh("cube")), 24.0);

@@ -9,7 +9,7 @@ use crate::scene::Model;
 /// triangles, of which `2 * segments` have no area.
 ///
 /// Each pole is `segments` vertices in one point, and the outermost bands are quadrilaterals like the others: half of
-/// each is degenerate. That is how the course's sphere is.
+/// each is degenerate, as in the course's sphere.
 ///
 /// # Panics
 /// Below 3 segments or 2 bands.

@@ -1,25 +1,23 @@
-//! Moves the origin along the normal by the error bound of the point.
+//! Moves the origin of a ray along the normal by the error bound of its point.
 //!
-//! Promises, for a point from [`SurfacePoint::on_triangle`] at any scale and place: the origin lies on the side of the
-//! triangle's plane that the ray leaves to, so that exactly the triangle is not met again; and no farther from it than
-//! some ten units in the last place of the largest coordinate of its corners, so that nothing else is passed. Does not
-//! promise: another surface that is nearer than that may be passed.
+//! Guaranteed, for a point from [`SurfacePoint::on_triangle`] at any scale and place: the origin lies on the side of
+//! the triangle's plane to which the ray leaves, so that the ray does not hit the triangle again; and at a distance of
+//! at most about ten units in the last place of the largest coordinate of its corners. The ray passes through another
+//! surface that is nearer than that.
 //!
 //! # References
-//! Pharr, Jakob, Humphreys: Physically Based Rendering, 4th edition, 2023, section 6.8.6. We depart in two points, for
-//! the sake of triangles in a plane of zero coordinates and of coordinates so small that the error vanishes: every
-//! coordinate in which the normal has a part is moved on by one float, whether or not the offset has left something
-//! there; and `t = 0` is excluded.
+//! Pharr, Jakob, Humphreys: Physically Based Rendering, 4th edition, 2023, section 6.8.6. We depart in two points,
+//! because of triangles with a coordinate of zero and of coordinates so small that the error bound underflows: every
+//! coordinate in which the normal is not zero moves by at least one float, and `t = 0` is excluded.
 
 use glam::Vec3;
 
 use super::SurfacePoint;
 
-/// The least positive number.
+/// The least positive number: it excludes `t = 0`.
 pub const T_MIN: f32 = f32::from_bits(1);
 
-/// The box of the error around the point, seen along the normal, is left behind; then one float more, against the
-/// rounding of this sum.
+/// Moves by the extent of the error box along the normal, then by one more float against the rounding of this sum.
 pub fn origin(start: &SurfacePoint, direction: Vec3) -> Vec3 {
     let normal = start.towards(direction);
     let moved = start.position + normal * normal.abs().dot(start.error);

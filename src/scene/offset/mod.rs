@@ -2,7 +2,6 @@
 
 pub mod error_bounded;
 mod surface_point;
-pub mod wachter_binder;
 
 use glam::Vec3;
 
@@ -10,54 +9,31 @@ pub use surface_point::{SurfacePoint, barycentrics};
 
 use crate::geometry::Ray;
 
-/// A way to start secondary rays. `sahara study self-intersection` measures them against each other.
+/// How the origins of secondary rays are offset.
 ///
-/// A ray that starts on a surface as computed starts, exactly, before or behind it: half of all rays meet their own
-/// surface again (acne). A start that is moved too far passes through what it should meet (leak).
+/// The point of a hit is rounded, so it lies a little before or behind the surface: half of the rays that start at it
+/// hit their own surface again (acne). An origin that is offset too far passes through what the ray should hit (leak).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Offset {
-    /// At the point as computed. Promises nothing; costs nothing.
-    None,
-    /// Moved by this distance along the normal, to the side that the ray leaves to: right for one scale only.
-    Normal(f32),
-    /// At the point as computed, but without hits before this `t`; directions have unit length, so that it is a length
-    /// of the scene too. A grazing ray leaves the surface slowly, and meets it again behind `t`.
-    TMin(f32),
-    /// Moved by this distance along the direction, rays from the eye included: the source report's course, with 0.01.
-    /// As [`Offset::TMin`].
+    /// By this distance along the direction, rays from the eye included: the source report's course does it, with 0.01.
+    /// A grazing ray leaves the surface slowly and may hit it again.
     Direction(f32),
-    /// Moved by some units in the last place along the normal: [`wachter_binder`].
-    WachterBinder,
-    /// Moved by the error bound of the point: [`error_bounded`]. The only one that is right at every scale and place.
+    /// By the error bound of the point: [`error_bounded`], right at every scale and place.
     ErrorBounded,
 }
 
 impl Offset {
-    /// As written in tables and records.
-    pub fn name(self) -> String {
-        match self {
-            Self::None => "none".into(),
-            Self::Normal(distance) => format!("normal {distance:e}"),
-            Self::TMin(t) => format!("t_min {t:e}"),
-            Self::Direction(distance) => format!("direction {distance:e}"),
-            Self::WachterBinder => "waechter-binder".into(),
-            Self::ErrorBounded => "error-bounded".into(),
-        }
-    }
-
     /// The ray that leaves `start` in `direction`, which is brought to unit length.
     ///
     /// It starts on the side of the triangle that it leaves to. Costs a few additions and multiplications.
     pub fn leave(self, start: &SurfacePoint, direction: Vec3) -> Ray {
-        let from = |origin: Vec3| Ray::new(origin, unit(direction));
         match self {
-            Self::None => from(start.position),
-            Self::Normal(distance) => from(start.position + start.towards(direction) * distance),
-            Self::TMin(t_min) => Ray { t_min, ..from(start.position) },
             Self::Direction(distance) => moved_along(start.position, direction, distance),
-            Self::WachterBinder => from(wachter_binder::origin(start, direction)),
-            // What touches the start itself is the surface that the ray leaves.
-            Self::ErrorBounded => Ray { t_min: error_bounded::T_MIN, ..from(error_bounded::origin(start, direction)) },
+            // A hit at the origin itself is one of the surface that the ray leaves.
+            Self::ErrorBounded => {
+                let origin = error_bounded::origin(start, direction);
+                Ray { t_min: error_bounded::T_MIN, ..Ray::new(origin, unit(direction)) }
+            }
         }
     }
 
@@ -65,7 +41,7 @@ impl Offset {
     pub fn leave_free(self, origin: Vec3, direction: Vec3) -> Ray {
         match self {
             Self::Direction(distance) => moved_along(origin, direction, distance),
-            _ => Ray::new(origin, unit(direction)),
+            Self::ErrorBounded => Ray::new(origin, unit(direction)),
         }
     }
 }

@@ -7,7 +7,7 @@ use crate::geometry::Ray;
 pub struct SurfacePoint {
     /// The point as computed.
     pub position: Vec3,
-    /// How far a point made from barycentrics may be from the triangle, along each axis. Not negative.
+    /// A bound of the distance between a point from barycentrics and the triangle, along each axis. Not negative.
     pub error: Vec3,
     /// Unit normal of the triangle, either way; zero on a degenerate one.
     pub normal: Vec3,
@@ -20,14 +20,14 @@ const GAMMA_7: f32 = {
 };
 
 impl SurfacePoint {
-    /// The point of the triangle with these weights of its corners, whose sum is 1 and which are brought into [0, 1].
+    /// The point of the triangle with these weights of its corners. Their sum is 1; they are clamped to [0, 1].
     ///
-    /// The point is a mean of the corners: however wrong the weights are, it lies in the triangle but for the rounding
-    /// of this mean. `origin + t * direction` instead is as wrong as `t`, however far the ray has come.
+    /// The point is a weighted mean of the corners: even with wrong weights it lies in the triangle, up to the rounding
+    /// of the mean. The error of `origin + t * direction` grows with the length of the ray instead.
     ///
-    /// `error` is that of pbrt, gamma(7) times the sum of the magnitudes of what is added: enough for weights and a sum
-    /// in `f32`. This sum is made in `f64` and rounded once; what is left over is for triangle tests that round
-    /// distances from the start.
+    /// `error` is the bound of pbrt, gamma(7) times the sum of the magnitudes of the terms: enough for weights and a
+    /// sum in `f32`. Here the sum is computed in `f64` and rounded once; the rest of the bound is a margin for triangle
+    /// tests that round distances from the start.
     ///
     /// # References
     /// Pharr, Jakob, Humphreys: Physically Based Rendering, 4th edition, 2023, section 6.8.
@@ -41,14 +41,14 @@ impl SurfacePoint {
         Self { position: point.as_vec3(), error: magnitude.as_vec3() * GAMMA_7, normal: normal.as_vec3() }
     }
 
-    /// The normal, turned to the side that a ray in `direction` leaves to.
+    /// The normal on the side to which a ray in `direction` leaves.
     pub(super) fn towards(&self, direction: Vec3) -> Vec3 {
         if self.normal.as_dvec3().dot(direction.as_dvec3()) < 0.0 { -self.normal } else { self.normal }
     }
 }
 
-/// Weights of the corners where the line of the ray meets their plane, by Cramer's rule in `f64`; equal ones when it
-/// runs in the plane. Outside of [0, 1] where it passes the triangle by.
+/// The barycentric weights of the point where the line of the ray meets the plane of the corners, by Cramer's rule in
+/// `f64`; equal weights if the line lies in the plane. Some are outside of [0, 1] if it misses the triangle.
 pub fn barycentrics(ray: &Ray, corners: [Vec3; 3]) -> DVec3 {
     let [a, b, c] = corners.map(Vec3::as_dvec3);
     let (origin, direction) = (ray.origin.as_dvec3(), ray.direction.as_dvec3());

@@ -1,4 +1,4 @@
-//! Rays that start where primary rays end.
+//! Rays that start at primary hits.
 
 use glam::Vec3;
 
@@ -8,7 +8,7 @@ use crate::accel::DynAccel;
 use crate::geometry::{Hit, Ray};
 use crate::scene::{Scene, Surface};
 
-/// Rays that a thread hands over at once; the hits do not depend on it.
+/// The batch size of a thread; the hits do not depend on it.
 const CHUNK: usize = 4096;
 
 /// A ray and what it hits.
@@ -20,7 +20,7 @@ pub struct SurfaceHit {
     pub surface: Surface,
 }
 
-/// The rays of `rays` that hit, in order, with what they hit.
+/// The rays that hit something, in order, with their hits.
 pub fn surface_hits(scene: &Scene, rays: &[Ray], accel: &dyn DynAccel) -> Vec<SurfaceHit> {
     let hits = rays.iter().zip(accel.closest_by_chunks(rays, CHUNK)).enumerate();
     hits.filter_map(|(number, (&ray, hit))| {
@@ -43,12 +43,12 @@ pub fn mirror(source: &mut Source) -> Vec<Ray> {
     primary_hits(source).iter().map(|hit| source.scene.mirror_ray(&hit.ray, &hit.surface)).collect()
 }
 
-/// One ray a hit, cosine-distributed about the shading normal on the side that the ray came from.
+/// One ray per hit, cosine-distributed about the shading normal on the side of the incoming ray.
 pub fn diffuse(source: &mut Source) -> Vec<Ray> {
     let hits = primary_hits(source);
     let mut direction = |ray: &Ray, normal: Vec3| loop {
         let normal = if normal.dot(ray.direction) > 0.0 { -normal } else { normal }.as_dvec3();
-        // A unit vector plus a point of the unit sphere is distributed by the cosine.
+        // A unit vector plus a uniform point of the unit sphere is cosine-distributed.
         let sum = normal + source.sampler.direction();
         if sum.length_squared() > 1e-12 {
             break sum.normalize().as_vec3();

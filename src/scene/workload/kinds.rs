@@ -1,7 +1,7 @@
-//! The kinds of rays.
+//! The kinds of workloads.
 //!
-//! To add one, write the function that makes its rays and add its line to the table below: names, the command line,
-//! completions and `sahara list` follow from that.
+//! To add one, write the function that makes its rays and add a line to the table below. Names, the command line,
+//! completions and `sahara list` follow from it.
 
 use std::str::FromStr;
 
@@ -15,7 +15,7 @@ use crate::names::{Unknown, find};
 
 macro_rules! kinds {
     ($($(#[$doc:meta])* $kind:ident, $name:literal, $query:ident, $make:path;)*) => {
-        /// Where the rays of a workload come from and go to.
+        /// The kind of a workload: where its rays start and where they go.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
         #[serde(rename_all = "kebab-case")]
         pub enum WorkloadKind {
@@ -25,14 +25,14 @@ macro_rules! kinds {
         impl WorkloadKind {
             pub const ALL: [Self; [$($name),*].len()] = [$(Self::$kind),*];
 
-            /// As written on the command line and in records.
+            /// The name on the command line and in records.
             pub fn name(self) -> &'static str {
                 match self {
                     $(Self::$kind => $name),*
                 }
             }
 
-            /// The question that these rays ask.
+            /// The query of these rays.
             pub fn query(self) -> Query {
                 match self {
                     $(Self::$kind => Query::$query),*
@@ -49,15 +49,14 @@ macro_rules! kinds {
 }
 
 kinds! {
-    /// From the eye through the middle of each pixel, in tiles of four by four pixels, those in blocks of 32 by
-    /// 32; so are all that follow from these.
+    /// From the eye through the middle of each pixel, in tiles of four by four pixels within blocks of 32 by 32.
+    /// Secondary rays are in the same order.
     Primary, "primary", Closest, primary::centres;
-    /// From the eye through the top left corner of each pixel: on the tidy meshes of tests these meet edges and
-    /// vertices.
+    /// From the eye through the top left corner of each pixel: on regular meshes they hit edges and vertices.
     Corners, "corners", Closest, primary::corners;
     /// From each primary hit to each light, one light after the other, any hit.
     Shadow, "shadow", Any, bounces::shadow;
-    /// From each primary hit, mirrored about the shading normal, whatever the material.
+    /// From each primary hit, reflected about the shading normal, whatever the material.
     Mirror, "mirror", Closest, bounces::mirror;
     /// From each primary hit in a random direction, cosine-distributed about the shading normal.
     Diffuse, "diffuse", Closest, bounces::diffuse;
@@ -69,7 +68,7 @@ kinds! {
     Axis, "axis", Closest, lines::axis;
     /// The closest-hit rays of the whole picture: each pixel's primary ray and then its mirror rays.
     Image, "image", Closest, picture::closest;
-    /// The any-hit rays of the whole picture, in the order of the hits that cast them.
+    /// The any-hit rays of the whole picture, in the order of the hits that they start from.
     ImageShadow, "image-shadow", Any, picture::shadow;
 }
 

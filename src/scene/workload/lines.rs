@@ -1,4 +1,4 @@
-//! Rays that only know the scene's box.
+//! Rays that depend only on the scene's box.
 
 use glam::{DVec3, Vec3};
 
@@ -18,10 +18,10 @@ pub fn random(source: &mut Source) -> Vec<Ray> {
     (0..source.sampling.pixels()).map(|_| ray()).collect()
 }
 
-/// About as many rays as pixels along the axes: a square lattice of lines for each axis and way.
+/// About as many rays along the axes as pixels: a square lattice of lines for each axis and direction.
 ///
-/// Lines are spread evenly over the box, in the middle of their cells; every fourth has the coordinate of a vertex in
-/// place of that, so that rays run through vertices, along edges and in the planes of triangles.
+/// Lines pass through the middle of the lattice cells. Every fourth has the coordinate of a vertex instead, so that
+/// rays pass through vertices, along edges and in the planes of triangles.
 pub fn axis(source: &mut Source) -> Vec<Ray> {
     let scene = source.scene;
     let Some((centre, radius)) = sphere(scene) else { return vec![] };

@@ -1,4 +1,4 @@
-//! Workloads: rays of one kind for a scene.
+//! Workloads: sets of rays of one kind for a scene.
 
 mod bounces;
 mod kinds;
@@ -22,12 +22,13 @@ use crate::geometry::Ray;
 pub use kinds::WorkloadKind;
 pub use source::Sampling;
 
-/// Rays of one kind for a scene: the same bits on every machine and with every structure of the same triangle test.
+/// Rays of one kind for a scene, with the same bits on every machine and with every structure over the same triangle
+/// test.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Workload {
-    /// [`WorkloadKind::name`], or what a file calls its rays.
+    /// [`WorkloadKind::name`], or the name in a file of rays.
     pub name: String,
-    /// What is asked.
+    /// The query of all rays.
     pub query: Query,
     pub rays: Vec<Ray>,
 }
@@ -35,8 +36,8 @@ pub struct Workload {
 impl Workload {
     /// Makes the rays. `accel`, built over the scene's mesh, finds the hits that secondary rays start from.
     ///
-    /// A workload is empty where the scene has no such rays: no shadow rays without lights, none from hits when nothing
-    /// is seen, none at all about an empty mesh.
+    /// A workload is empty if the scene has no such rays: no shadow rays without lights, no secondary rays without
+    /// primary hits, no rays at all for an empty mesh.
     pub fn new(scene: &Scene, kind: WorkloadKind, sampling: &Sampling, accel: &dyn DynAccel) -> Self {
         let mut source = Source { scene, sampling, accel, sampler: Sampler::new(kind.name(), sampling.seed) };
         let rays = kind.rays(&mut source);

@@ -1,4 +1,4 @@
-//! Rays from the eye, in the order in which renderers take pixels.
+//! Rays from the eye, in the order in which renderers traverse pixels.
 
 use glam::{UVec2, Vec2};
 
@@ -21,13 +21,13 @@ pub fn by_row(source: &Source, offset: Vec2) -> Vec<Ray> {
     source.scene.primary_rays(source.sampling.size, offset, 0..source.sampling.pixels())
 }
 
-/// Pixels on a side of a tile, and of the blocks of tiles that renderers hand out to their threads.
+/// Side of a tile in pixels, and side of the blocks of tiles that renderers distribute over their threads.
 const TILE: u32 = 4;
 const BLOCK: u32 = 32;
 
-/// The pixels of a picture, given row by row, block by block of 32 by 32 pixels and in it tile by tile of four by four:
-/// what is near in the slice is near in the picture, as renderers take rays, and a structure that takes several at once
-/// can show what that gives. Blocks and tiles at the right and lower border may be smaller.
+/// Reorders the pixels of a picture from rows into blocks of 32 by 32 pixels, and within a block into tiles of four by
+/// four. Rays that are near in the slice are then near in the picture, as in renderers, and structures can trace
+/// packets. Blocks and tiles at the right and lower border may be smaller.
 fn in_tiles<T: Copy>(pixels: &[T], [width, height]: [u32; 2]) -> Vec<T> {
     assert_eq!(pixels.len(), width as usize * height as usize, "a picture has all its pixels");
     let corners = |from: UVec2, to: UVec2, side: u32| {
@@ -52,7 +52,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_pixel_comes_once_and_tiles_and_blocks_come_whole() {
+    fn every_pixel_comes_once_and_tiles_and_blocks_are_contiguous() {
         for size in [[8, 8], [10, 6], [2, 2], [4, 9], [70, 33], [32, 64]] {
             let pixels: Vec<u32> = (0..size[0] * size[1]).collect();
             let ordered = in_tiles(&pixels, size);

@@ -2,11 +2,11 @@ use glam::DVec3;
 use rand_core::{RngCore, SeedableRng};
 use rand_pcg::Pcg32;
 
-/// Seeded random directions: the same bits on every machine.
+/// Seeded random directions, with the same bits on every machine.
 pub struct Sampler(Pcg32);
 
 impl Sampler {
-    /// Random numbers for the workload `name`; those of two names have nothing in common.
+    /// The random numbers of the workload `name`, independent of those of other names.
     pub fn new(name: &str, seed: u64) -> Self {
         let mixed = name.bytes().fold(seed, |mixed, byte| mixed.wrapping_mul(0x0100_0000_01b3) ^ u64::from(byte));
         Self(Pcg32::seed_from_u64(mixed))
@@ -16,7 +16,7 @@ impl Sampler {
         f64::from(self.0.next_u32()) / f64::from(1u32 << 31) - 1.0
     }
 
-    /// A uniform direction of unit length: a point of the ball, found by rejection, made longer.
+    /// A uniform direction of unit length: a point of the ball by rejection sampling, normalised.
     pub fn direction(&mut self) -> DVec3 {
         loop {
             let point = DVec3::new(self.signed(), self.signed(), self.signed());

@@ -1,27 +1,27 @@
-//! What the rays of a workload are made from.
+//! The input from which the rays of a workload are made.
 
 use super::sampler::Sampler;
 use crate::accel::DynAccel;
 use crate::scene::Scene;
 
-/// How many rays a workload gets, and its random numbers.
+/// The number of rays of a workload, and its random numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sampling {
-    /// Width and height of the picture whose hits secondary rays start from; random and lattice rays are as many as it
-    /// has pixels.
+    /// Width and height of the picture whose hits secondary rays start from; there are as many random and lattice rays
+    /// as pixels.
     pub size: [u32; 2],
-    /// No more rays than this, spread evenly over the workload.
+    /// The most rays; they are spread evenly over the workload.
     pub limit: usize,
     pub seed: u64,
 }
 
 impl Sampling {
-    /// All rays of the picture that the scene asks for.
+    /// All rays of the scene's picture.
     pub fn of(scene: &Scene) -> Self {
         Self { size: scene.size, limit: usize::MAX, seed: 0 }
     }
 
-    /// At most `limit` of them, picked at equal distances: to check answers, not to take times.
+    /// At most `limit` of them at equal distances: to check hits, not to measure times.
     pub fn some(scene: &Scene, limit: usize, seed: u64) -> Self {
         Self { limit, seed, ..Self::of(scene) }
     }
@@ -33,10 +33,10 @@ impl Sampling {
 
 pub(super) struct Source<'a> {
     pub scene: &'a Scene,
-    /// How many rays; [`Sampling::limit`] is applied to what the function returns.
+    /// The number of rays; [`Sampling::limit`] is applied to the rays that a kind's function returns.
     pub sampling: &'a Sampling,
-    /// Finds the hits that secondary rays start from.
+    /// The structure that finds the hits from which secondary rays start.
     pub accel: &'a dyn DynAccel,
-    /// Random numbers of the kind's own.
+    /// The random numbers of this kind of workload.
     pub sampler: Sampler,
 }

@@ -9,7 +9,7 @@ use crate::kdtree::{KdConfig, KdTree};
 use crate::scene::{Camera, Light, Material, Model, Offset, meshes};
 use crate::triangle::MollerTrumbore;
 
-/// A mirror floor and a ceiling that the eye looks at from between, with two lights.
+/// A mirror floor and a ceiling with the eye and two lights between them.
 fn room() -> Scene {
     let square = |y: f32| [[-4.0, y, -4.0], [-4.0, y, 4.0], [4.0, y, 4.0], [4.0, y, -4.0]].map(Vec3::from_array);
     let model = Model {
@@ -61,7 +61,7 @@ fn the_seed_changes_the_random_kinds_and_no_others() {
 }
 
 #[test]
-fn secondary_rays_are_as_many_as_hits_and_lights_say() {
+fn the_number_of_secondary_rays_follows_from_hits_and_lights() {
     let scene = room();
     let primary = workload(&scene, WorkloadKind::Primary);
     let surface_hits = bounces::surface_hits(&scene, &primary.rays, &tree(&scene));
@@ -72,7 +72,7 @@ fn secondary_rays_are_as_many_as_hits_and_lights_say() {
     assert_eq!(count(WorkloadKind::Shadow), 2 * hits);
     assert_eq!([WorkloadKind::Mirror, WorkloadKind::Diffuse, WorkloadKind::Ambient].map(count), [hits; 3]);
     assert_eq!(count(WorkloadKind::Axis), 6 * 8 * 8);
-    // The floor mirrors up, to the ceiling or out of the room: no ray meets a mirror twice.
+    // The floor reflects rays to the ceiling or out of the scene: no ray hits a mirror twice.
     assert_eq!(count(WorkloadKind::Image), 24 * 16 + floor);
 }
 
@@ -87,7 +87,7 @@ fn bounces_leave_on_the_side_they_came_from() {
 }
 
 #[test]
-fn bounces_off_a_framed_convex_mesh_meet_nothing_at_any_size_and_place() {
+fn bounces_off_a_framed_convex_mesh_hit_nothing_at_any_size_and_place() {
     let hidden = |offset: Option<Offset>, radius: f32, centre: f32| {
         let mut model = meshes::icosphere(2);
         model.positions.iter_mut().for_each(|p| *p = *p * radius + centre);
@@ -101,12 +101,12 @@ fn bounces_off_a_framed_convex_mesh_meet_nothing_at_any_size_and_place() {
     for (radius, centre) in [(1.0, 0.0), (1e-6, 0.0), (1e6, 0.0), (1.0, 1e3), (10.0, 1e5)] {
         assert_eq!(hidden(None, radius, centre), 0, "r = {radius} at {centre}");
     }
-    // Half of the bounces that start at the point as computed meet their own triangle.
-    assert!(hidden(Some(Offset::None), 10.0, 1e5) > 300);
+    // Half of the bounces that start at the point as computed hit their own triangle.
+    assert!(hidden(Some(Offset::Direction(0.0)), 10.0, 1e5) > 300);
 }
 
 #[test]
-fn the_axis_lattice_meets_coordinates_of_vertices() {
+fn the_axis_lattice_contains_coordinates_of_vertices() {
     let scene = room();
     let vertices: Vec<f32> = scene.mesh.positions().iter().map(|p| p.x).collect();
     let rays = workload(&scene, WorkloadKind::Axis).rays;
@@ -115,7 +115,7 @@ fn the_axis_lattice_meets_coordinates_of_vertices() {
 }
 
 #[test]
-fn a_limit_takes_rays_at_equal_distances() {
+fn a_limit_picks_rays_at_equal_distances() {
     let scene = room();
     let all = workload(&scene, WorkloadKind::Primary);
     let sampling = Sampling { limit: 96, ..Sampling::of(&scene) };

@@ -91,7 +91,7 @@ fn answers_are_those_of_the_oracle() {
     let (mut shared, mut none) = (0, 0);
     for kind in RayKind::ALL {
         let (rays, truth) = answered(&scene, kind, 200, 1, &oracle).unwrap();
-        for (ray, answer) in rays.workload.rays.iter().zip(&truth.answers) {
+        for (ray, answer) in rays.workload.rays.iter().zip(&truth.hits) {
             let Some((t, ids)) = answer else {
                 none += 1;
                 continue;

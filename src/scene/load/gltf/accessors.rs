@@ -13,7 +13,7 @@ use crate::scene::load::error::{Fault, quoted};
 const F32: u32 = 5126;
 const UNSIGNED: [u32; 3] = [5121, 5123, 5125];
 
-/// Accessors by their numbers. What is asked of one is remembered: many primitives may share it.
+/// Accessors by their numbers. The results of checks are cached, because many primitives may share an accessor.
 pub(super) struct Accessors<'a> {
     document: &'a Document,
     buffers: &'a [Bytes],
@@ -51,7 +51,7 @@ impl<'a> Accessors<'a> {
         self.check_type(number, "VEC3", &[F32], "VEC3 of f32")
     }
 
-    /// Checks an accessor of positions; gives the least and the greatest coordinates.
+    /// Checks an accessor of positions; returns its least and its greatest coordinates.
     pub fn check_positions(&self, number: usize) -> Result<[DVec3; 2], Fault> {
         if let Some(known) = self.boxes.borrow().get(&number) {
             return Ok(*known);
@@ -68,7 +68,7 @@ impl<'a> Accessors<'a> {
         Ok(bounds)
     }
 
-    /// Checks an accessor of indices, unsigned integers of any width; gives the place of the highest, and it.
+    /// Checks an accessor of indices, unsigned integers of any width; returns the position and value of the highest.
     pub fn check_indices(&self, number: usize) -> Result<Option<(usize, u32)>, Fault> {
         if let Some(known) = self.highest.borrow().get(&number) {
             return Ok(*known);
@@ -101,7 +101,8 @@ impl<'a> Accessors<'a> {
         self.elements(number).into_iter().flatten().map(integer)
     }
 
-    /// The bytes of each element, if all lie within their views and buffers and the numbers of sparse elements ascend.
+    /// The bytes of each element, if all lie within their buffer views and buffers and the indices of sparse elements
+    /// ascend.
     fn elements(&self, number: usize) -> Result<impl Iterator<Item = &'a [u8]> + use<'a>, Fault> {
         let accessor = &self.document.accessors[number];
         let size = bytes(accessor.component_type) * if accessor.dimensions == "VEC3" { 3 } else { 1 };
@@ -114,12 +115,12 @@ impl<'a> Accessors<'a> {
         }))
     }
 
-    /// The elements before the sparse ones replace some; none where all are zero.
+    /// The elements before sparse ones replace some of them; none if all are zero.
     fn base(&self, accessor: &Accessor, size: usize) -> Result<Option<Elements<'a>>, String> {
         match accessor.buffer_view {
             _ if accessor.count == 0 => Ok(None),
             Some(view) => self.view(view, accessor.byte_offset, accessor.count, size).map(Some),
-            // No honest file has more of them than bytes.
+            // A valid file cannot have more elements than bytes.
             None if accessor.count > self.buffers.iter().map(|data| data.len()).sum() => {
                 Err(format!("it declares {} elements without data", accessor.count))
             }

@@ -20,11 +20,11 @@ pub(super) fn size(buffers: &[Bytes]) -> usize {
     distinct.iter().map(|data| data.len()).sum()
 }
 
-/// Reads what the buffers name, each file once. What is embedded is taken out of the document.
+/// Reads the files of the buffers, each once, and takes embedded data out of the document.
 pub(super) fn read(list: &mut [Buffer], mut chunk: Option<Vec<u8>>, folder: &Path) -> Result<Vec<Bytes>, Fault> {
     let fault = |number: usize| move |problem: String| Fault::part(format!("buffer {number}"), problem);
     let mut files: Vec<Option<PathBuf>> = vec![None; list.len()];
-    // Of a file, no more is read than the longest buffer in it.
+    // Read no more of a file than its longest buffer needs.
     let mut longest: HashMap<PathBuf, u64> = HashMap::new();
     for (number, buffer) in list.iter().enumerate() {
         if let Some(uri) = buffer.uri.as_deref().filter(|uri| !uri.starts_with("data:")) {
@@ -81,7 +81,7 @@ fn read_start(path: &Path, length: u64) -> Result<Bytes, String> {
     Ok(Rc::new(data))
 }
 
-/// The file that a URI names, which is below this one's folder, by the one path that all its names lead to.
+/// The canonical path of the file that a URI names; the file must be below this one's folder.
 fn file(uri: &str, folder: &Path) -> Result<PathBuf, String> {
     if uri.is_empty() {
         return Err("its URI is empty: name the file of the buffer".into());

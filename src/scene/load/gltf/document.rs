@@ -20,7 +20,7 @@ pub(super) struct Document {
     #[serde(default)]
     pub buffers: Vec<Buffer>,
     #[serde(default)]
-    pub buffer_views: Vec<View>,
+    pub buffer_views: Vec<BufferView>,
     #[serde(default)]
     pub accessors: Vec<Accessor>,
     #[serde(default)]
@@ -43,7 +43,7 @@ pub(super) struct Buffer {
 
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
-pub(super) struct View {
+pub(super) struct BufferView {
     pub buffer: usize,
     #[serde(default)]
     pub byte_offset: usize,
@@ -77,7 +77,7 @@ pub(super) struct SparseData {
     pub buffer_view: usize,
     #[serde(default)]
     pub byte_offset: usize,
-    /// None for values, whose type is that of the accessor.
+    /// None for values: their type is that of the accessor.
     pub component_type: Option<u32>,
 }
 
@@ -155,7 +155,7 @@ impl Material {
 }
 
 impl Document {
-    /// Whether the document can be read, and all its indices name something.
+    /// Checks that the document is supported, and that all its indices are in range.
     pub fn check(&self) -> Result<(), Fault> {
         if !self.extensions_required.is_empty() {
             let names: Vec<_> = self.extensions_required.iter().map(quoted).collect();

@@ -5,7 +5,7 @@ use glam::{DMat4, DQuat, DVec3};
 use super::document::{Document, Node};
 use crate::scene::load::error::Fault;
 
-/// Deeper graphs are taken for mistakes.
+/// Deeper graphs are rejected.
 const DEEPEST: usize = 1024;
 
 pub(super) struct Placement {
@@ -18,8 +18,8 @@ pub(super) struct Placement {
 /// visits a node before its children.
 ///
 /// # Errors
-/// A graph that is not a forest: a node with two parents, a cycle, a scene that shows a node twice or names one that is no root; or one that is
-/// deeper than 1024 nodes.
+/// A graph that is not a forest: a node with two parents, a cycle, a scene that shows a node twice or names one that is
+/// no root; or a graph deeper than 1024 nodes.
 pub(super) fn placements(document: &Document) -> Result<Vec<Placement>, Fault> {
     let nodes = &document.nodes;
     let mut parent: Vec<Option<usize>> = vec![None; nodes.len()];
@@ -90,7 +90,7 @@ fn local(node: &Node) -> DMat4 {
         return DMat4::from_cols_array(&matrix.map(f64::from));
     }
     let vector = |v: Option<[f32; 3]>, default| v.map_or(default, |v| DVec3::from(v.map(f64::from)));
-    // A unit quaternion in f32 is none in f64.
+    // A unit quaternion in f32 is not of unit length in f64.
     let rotation = node.rotation.map_or(DQuat::IDENTITY, |r| DQuat::from_array(r.map(f64::from)));
     let length = rotation.length();
     let rotation = if length > 0.0 && length.is_finite() { rotation / length } else { DQuat::IDENTITY };

@@ -1,4 +1,4 @@
-//! glTF 2.0, as text with its buffers apart or as one binary file.
+//! glTF 2.0, as text with separate buffers or as one binary file.
 
 mod accessors;
 mod buffers;
@@ -20,15 +20,15 @@ use super::error::Fault;
 use super::notes::Notes;
 use crate::scene::{Material, Model};
 
-/// Nodes may show this many triangles, and vertices, more than the files have bytes. Without nodes that share a mesh
-/// they cannot show more than bytes.
+/// A scene may have this many triangles, and vertices, more than its files have bytes. Without shared meshes it cannot
+/// have more than there are bytes.
 const MOST_REPEATED: usize = 1 << 24;
 
 /// Reads a glTF file and expands its node graph: every mesh once for each node that shows it.
 ///
-/// Transforms are multiplied in f64 and rounded once, when they meet the vertices. Triangles of mirrored nodes are
-/// turned round, so that they face the side that they face in the file. Points, lines, textures, skins and morph
-/// targets are left out. Nothing is read before everything that is shown has been checked and counted.
+/// Transforms are multiplied in f64 and rounded once, when they are applied to vertices. Triangles of mirrored nodes
+/// are reversed, so that they keep their front side. Points, lines, textures, skins and morph targets are left out.
+/// Everything visible is checked and counted before anything is read.
 pub(super) fn read(bytes: Vec<u8>, folder: &Path) -> Result<Model, Fault> {
     let (mut document, chunk) = text::parse(&bytes)?;
     let (size, chunk) = (bytes.len(), chunk.map(<[u8]>::to_vec));
@@ -53,7 +53,7 @@ pub(super) fn read(bytes: Vec<u8>, folder: &Path) -> Result<Model, Fault> {
         add(&mut model, placement, shape, &accessors);
     }
 
-    // Drop what says nothing.
+    // Drop redundant data.
     if model.normals.is_empty() {
         model.normal_indices = Vec::new();
     }
@@ -93,7 +93,7 @@ pub(super) fn read(bytes: Vec<u8>, folder: &Path) -> Result<Model, Fault> {
     Ok(model)
 }
 
-/// Whether all vertices are finite where a node places them.
+/// Checks that all vertices are finite after the transform of a node.
 fn check_place(placement: &Placement, shape: &Shape, accessors: &Accessors) -> Result<(), Fault> {
     let place = |p: DVec3| placement.transform.transform_point3(p).as_vec3();
     let Some(bounds) = shape.bounds else { return Ok(()) };
@@ -117,7 +117,7 @@ fn check_place(placement: &Placement, shape: &Shape, accessors: &Accessors) -> R
     Ok(())
 }
 
-/// A small file can show a large mesh very often: takes the memory for all of it before anything is expanded.
+/// Allocates the memory for the whole scene before anything is expanded: a small file can show a large mesh very often.
 fn reserve(
     model: &mut Model,
     shapes: impl Iterator<Item = [usize; 3]>,
@@ -201,14 +201,14 @@ fn add(model: &mut Model, placement: &Placement, shape: &Shape, accessors: &Acce
     }
 }
 
-/// The inverse transpose but for a positive factor: the cofactors, which also exist when there is no inverse.
+/// The inverse transpose up to a positive factor: the cofactor matrix, which exists even without an inverse.
 fn normal_matrix(linear: DMat3) -> DMat3 {
     let DMat3 { x_axis: x, y_axis: y, z_axis: z } = linear;
     let sign = if linear.determinant() < 0.0 { -1.0 } else { 1.0 };
     DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y)) * sign
 }
 
-/// The base colour is taken for the diffuse one; metals and roughness have no place in the course's shading.
+/// Uses the base colour as diffuse colour; the course's shading has no metals and no roughness.
 fn material((number, read): (usize, &document::Material)) -> Material {
     let name = read.name.clone().unwrap_or_else(|| format!("material {number}"));
     let [r, g, b, _] = read.pbr_metallic_roughness.base_color_factor.unwrap_or([1.0; 4]);

@@ -8,13 +8,13 @@ use crate::scene::load::error::Fault;
 
 pub(super) const NO_MATERIAL: u32 = u32::MAX;
 
-/// Triangles and what they share, checked and not yet read: primitives often use one accessor together.
+/// The accessors of a mesh, checked but not yet read. Its primitives often share accessors.
 #[derive(Default)]
 pub(super) struct Shape {
-    /// Numbers of accessors.
+    /// Indices of accessors.
     pub positions: Vec<usize>,
     pub normals: Vec<usize>,
-    pub parts: Vec<Part>,
+    pub parts: Vec<TriangleAccessors>,
     /// The box of all positions.
     pub bounds: Option<[DVec3; 2]>,
     /// Primitives that are points or lines, or have no positions.
@@ -23,21 +23,21 @@ pub(super) struct Shape {
     pub morphed: usize,
 }
 
-pub(super) struct Part {
-    /// Number of its list of positions.
+pub(super) struct TriangleAccessors {
+    /// Index into [`Shape::positions`].
     pub positions: usize,
-    /// Number of its list of normals, which is as long as that of its positions.
+    /// Index into [`Shape::normals`]; that accessor is as long as the positions.
     pub normals: Option<usize>,
-    /// The accessor of its corners, by the numbers of vertices; none where these are the vertices in their order.
+    /// The accessor of vertex indices; none if the corners are the vertices in order.
     corners: Option<usize>,
-    /// How many corners.
+    /// The number of corners.
     count: usize,
     mode: u32,
     pub material: u32,
 }
 
 impl Shape {
-    /// Checks what shows of the mesh with this number.
+    /// Checks the triangles of a mesh and their accessors.
     pub fn check(number: usize, mesh: &Mesh, accessors: &Accessors) -> Result<Self, Fault> {
         let mut shape = Self::default();
         for (i, primitive) in mesh.primitives.iter().enumerate() {
@@ -77,20 +77,20 @@ impl Shape {
             }
             shape.morphed += usize::from(!primitive.targets.is_empty());
             let material = primitive.material.map_or(NO_MATERIAL, |material| material as u32);
-            shape.parts.push(Part { positions, normals, corners, count, mode: primitive.mode, material });
+            shape.parts.push(TriangleAccessors { positions, normals, corners, count, mode: primitive.mode, material });
         }
         Ok(shape)
     }
 
-    /// Numbers of vertices, normals and triangles.
+    /// The numbers of vertices, normals and triangles.
     pub fn sizes(&self, accessors: &Accessors) -> [usize; 3] {
         let total = |list: &[usize]| list.iter().map(|&n| accessors.count(n)).fold(0, usize::saturating_add);
-        let triangles = self.parts.iter().map(Part::triangles).fold(0, usize::saturating_add);
+        let triangles = self.parts.iter().map(TriangleAccessors::triangles).fold(0, usize::saturating_add);
         [total(&self.positions), total(&self.normals), triangles]
     }
 }
 
-/// The place of an accessor in a list, to which it is added if it is not there.
+/// The index of an accessor in a list; adds it if it is missing.
 fn place(list: &mut Vec<usize>, accessor: usize) -> usize {
     list.iter().position(|&other| other == accessor).unwrap_or_else(|| {
         list.push(accessor);
@@ -98,12 +98,12 @@ fn place(list: &mut Vec<usize>, accessor: usize) -> usize {
     })
 }
 
-impl Part {
+impl TriangleAccessors {
     fn triangles(&self) -> usize {
         if self.mode == TRIANGLES { self.count / 3 } else { self.count.saturating_sub(2) }
     }
 
-    /// Hands over all triangles by their vertices.
+    /// Calls `take` with the vertex indices of each triangle.
     pub fn for_each(&self, accessors: &Accessors, mut take: impl FnMut([u32; 3])) {
         let corners: Box<dyn Iterator<Item = u32>> = match self.corners {
             Some(accessor) => Box::new(accessors.indices(accessor)),

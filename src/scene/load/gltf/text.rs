@@ -6,13 +6,13 @@ use super::document::Document;
 use crate::scene::load::error::{Fault, message, quoted};
 use crate::scene::load::text::plain;
 
-/// A document takes some hundred bytes for each object in its text, which may be as short as `{}`.
+/// The most objects in a small document: each takes some hundred bytes of memory, and may be as short as `{}`.
 const MOST_OBJECTS: usize = 1 << 16;
 
-/// Bytes of the file that allow for one more object.
+/// So many bytes of the file allow for one more object.
 const BYTES_AN_OBJECT: usize = 48;
 
-/// Entries of lists and objects that each object allows for.
+/// The most entries of lists and objects, per object.
 const ENTRIES_AN_OBJECT: usize = 12;
 
 /// The document in a file, and the binary chunk, if there is one.
@@ -25,7 +25,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<(Document, Option<&[u8]>), Fault> {
     Ok((document, chunk))
 }
 
-/// The part of a document that is alike in all versions.
+/// The part of a document that all versions share.
 #[derive(Deserialize)]
 struct Versioned {
     asset: Asset,
@@ -38,7 +38,7 @@ struct Asset {
     min_version: Option<String>,
 }
 
-/// Other versions have objects where this one has lists: what they say of that would mislead.
+/// Checks the version first: other versions have objects instead of lists, and the parser's error would mislead.
 fn check_version(text: &[u8]) -> Result<(), Fault> {
     let Ok(Versioned { asset }) = serde_json::from_slice(text) else { return Ok(()) };
     let is_read = |version: &str| version.split('.').next() == Some("2");
@@ -78,7 +78,7 @@ fn chunks(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), Fault> {
     Ok((text, chunk(&mut rest, b"BIN\0")))
 }
 
-/// Takes the next chunk off `rest`, if it is of this kind and whole.
+/// Takes the next chunk off `rest`, if it is complete and of this kind.
 fn chunk<'a>(rest: &mut &'a [u8], kind: &[u8; 4]) -> Option<&'a [u8]> {
     let length = u32::from_le_bytes(rest.get(..4)?.try_into().ok()?) as usize;
     let (data, after) = rest.get(8..)?.split_at_checked(length).filter(|_| rest[4..8] == *kind)?;
@@ -86,7 +86,7 @@ fn chunk<'a>(rest: &mut &'a [u8], kind: &[u8; 4]) -> Option<&'a [u8]> {
     Some(data)
 }
 
-/// Whether memory can be taken for a document of this text in a file of so many bytes.
+/// Checks the number of objects in a document against the size of its file.
 fn check_text(text: &[u8], bytes: usize) -> Result<(), Fault> {
     let (mut objects, mut entries, mut in_string, mut is_escaped) = (0_usize, 0_usize, false, false);
     for &byte in text {

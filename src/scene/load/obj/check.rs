@@ -1,4 +1,4 @@
-//! Whether a text is an OBJ file, and how much there is in it.
+//! Checks an OBJ file, and counts its elements.
 
 use super::line::{Line, corners, statements, vector};
 use crate::scene::Model;
@@ -16,16 +16,16 @@ pub(super) struct Check {
     shapes: usize,
     skipped: usize,
     unknown: usize,
-    /// The line of the first unknown keyword, and what it says.
+    /// The first unknown statement, with its line.
     first_unknown: Option<(usize, String)>,
-    /// The highest index that a face uses, counted from 1, and its line. Indices may point forward, so the end of the
-    /// file judges it.
+    /// The highest index of a face, counted from 1, and its line. Indices may refer to later vertices, so it is checked
+    /// at the end of the file.
     highest_vertex: (u32, usize),
     highest_normal: (u32, usize),
 }
 
 impl Check {
-    /// Goes through the whole text and keeps numbers only.
+    /// Reads the whole text and keeps counts only.
     pub fn over(text: &[u8]) -> Result<Self, Fault> {
         let mut check = Self::default();
         for (number, line) in statements(text) {

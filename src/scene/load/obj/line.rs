@@ -8,10 +8,10 @@ use crate::scene::Model;
 use crate::scene::load::error::quoted;
 use crate::scene::load::text::{after_keyword, lines, number, words};
 
-/// What the format knows to show beside faces: points, lines, curves and surfaces.
+/// Statements for visible elements other than faces: points, lines, curves and surfaces.
 const SHAPES: &str = "p l curv curv2 surf bsp bzp cdc cdp";
 
-/// What it knows beside that and what is read: texture coordinates, groups, parameters, and how all is displayed.
+/// Other statements of the format that are skipped: texture coordinates, groups, parameters, display attributes.
 const SKIPPED: &str = "vt vp g o s cstype deg bmat step parm trim hole scrv sp end con mg bevel c_interp d_interp lod \
     maplib usemap shadow_obj trace_obj ctech stech call csh res fo cg texid smooth";
 
@@ -41,20 +41,20 @@ fn continued(line: &[u8]) -> Option<&[u8]> {
     (!has_comment).then_some(head)
 }
 
-/// What a statement says; the words are those after the keyword.
+/// A statement; the words are those after the keyword.
 pub(super) enum Line<W> {
     Vertex(W),
     Normal(W),
     Face(W),
     Material(String),
     Library(String),
-    /// A shape that is left out: see [`SHAPES`].
+    /// An element that is left out: see [`SHAPES`].
     Shape,
-    /// Something that is not needed: see [`SKIPPED`].
+    /// A statement that is not needed: see [`SKIPPED`].
     Skipped,
     /// Nothing, or a comment.
     Empty,
-    /// Nothing that the format knows, quoted.
+    /// An unknown statement, quoted.
     Unknown(String),
 }
 
@@ -89,8 +89,8 @@ pub(super) fn vector<'a>(mut words: impl Iterator<Item = &'a [u8]>) -> Result<Ve
     Ok(Vec3::new(next()?, next()?, next()?))
 }
 
-/// The corners of a face behind the given numbers of vertices and normals: vertex number and normal number or
-/// [`Model::FLAT`], counted from 0. They may be larger than those of the file.
+/// The corners of a face that follows the given numbers of vertices and normals: vertex and normal index, or
+/// [`Model::FLAT`], counted from 0. They may exceed those of the file.
 pub(super) fn corners<'a>(
     words: impl Iterator<Item = &'a [u8]>,
     vertices: usize,

@@ -1,10 +1,10 @@
 //! Wavefront OBJ.
 //!
-//! The geometry is read here and not by tobj, which renumbers the vertices of every group, drops those without a face,
-//! makes up normals for corners that have none and names no line in its errors. A test compares the two.
+//! tobj is not used, because it renumbers the vertices of every group, drops vertices without a face, invents normals
+//! for corners without any, and gives no line numbers in its errors. A test compares the geometry of both.
 //!
-//! A file is gone through more than once: first nothing is kept and everything is checked, so that a file that is
-//! refused takes no memory but its own; then vertices are read, then faces, whose corners may follow them.
+//! A file is read in three passes. The first checks everything and keeps nothing, so that a rejected file takes no
+//! memory beyond its own bytes. The second reads vertices, the third faces, which may refer to later vertices.
 
 mod check;
 mod line;
@@ -82,7 +82,7 @@ struct Faces {
     /// Material names in the order of their first use, and the same by name.
     used: Vec<String>,
     number_of: HashMap<String, u32>,
-    /// The name of the material of the faces to come, and its number once a face has it.
+    /// The current material name, and its number once a face uses it.
     current: Option<String>,
     material: Option<u32>,
     libraries: Libraries,

@@ -1,7 +1,6 @@
 //! The rows of a PLY file.
 //!
-//! No memory is taken for rows and list entries that the header or a list only claims: both numbers are first compared
-//! with the bytes that are there.
+//! The numbers of rows and of list entries are compared with the bytes of the file before memory is allocated for them.
 
 use super::header::{Element, Encoding, Header};
 use super::value::Kind;
@@ -22,15 +21,15 @@ impl<'a> Body<'a> {
         Self { rest, encoding: header.encoding, line_end: header.line_end }
     }
 
-    /// Reads all rows of the next element. `take` gets the number of each row and the values of the `wanted`
-    /// properties: none of a property that the element does not have, one of a number, all entries of a list.
+    /// Reads all rows of the next element. `take` receives the number of each row and the values of the `wanted`
+    /// properties: one for a number, all entries for a list, none if the element does not have the property.
     pub fn rows(
         &mut self,
         element: &Element,
         wanted: &[&str],
         mut take: impl FnMut(usize, &[Vec<f64>]) -> Result<(), Fault>,
     ) -> Result<(), Fault> {
-        // The last line of a text may have no end.
+        // The last line may lack its line break.
         if element.count.saturating_mul(self.least_row_bytes(element)) > self.rest.len() + 1 {
             let problem = format!(
                 "the header declares {} rows, but the {} bytes left cannot hold them: the file is truncated or wrong",
@@ -55,7 +54,7 @@ impl<'a> Body<'a> {
         Ok(())
     }
 
-    /// After the last row there may be blanks and padding only.
+    /// Checks that only white space and padding follow the last row.
     pub fn end(&self) -> Result<(), Fault> {
         if self.rest.iter().all(|b| b.is_ascii_whitespace() || *b == 0) {
             return Ok(());
@@ -64,7 +63,7 @@ impl<'a> Body<'a> {
         Err(Fault::file(problem))
     }
 
-    /// Hands over all values of the next row with the number of their property.
+    /// Passes on all values of the next row with the number of their property.
     fn row(&mut self, element: &Element, take: impl FnMut(usize, f64)) -> Result<(), String> {
         if self.encoding != Some(Encoding::Ascii) {
             return values(element, |kind| self.value(kind), take);
@@ -116,7 +115,7 @@ impl<'a> Body<'a> {
     }
 }
 
-/// Takes the values of a row from `next`, and hands each over with the number of its property.
+/// Reads the values of a row from `next`, and passes each on with the number of its property.
 fn values(
     element: &Element,
     mut next: impl FnMut(Kind) -> Result<f64, String>,

@@ -1,4 +1,4 @@
-//! The header of a PLY file: which elements it has, and what a row of each holds.
+//! The header of a PLY file: its elements and their properties.
 
 use std::collections::HashSet;
 
@@ -6,10 +6,10 @@ use super::value::Kind;
 use crate::scene::load::error::{Fault, quoted};
 use crate::scene::load::text::plain;
 
-/// Both names are in use for the corners of a face.
+/// The two names in use for the corners of a face.
 pub(super) const CORNERS: [&str; 2] = ["vertex_indices", "vertex_index"];
 
-/// Counts of more digits cannot be true.
+/// Counts with more digits are rejected.
 const LONGEST_NUMBER: usize = 15;
 
 const LONGEST_HEADER: usize = 1 << 20;
@@ -42,17 +42,17 @@ impl Element {
 }
 
 pub(super) struct Header {
-    /// None only before its line has been read.
+    /// None until its line has been read.
     pub encoding: Option<Encoding>,
     /// The byte that ends a line.
     pub line_end: u8,
     pub elements: Vec<Element>,
-    /// Names of elements, and of properties behind that of their element.
+    /// The names of elements, and of properties after that of their element.
     seen: HashSet<String>,
 }
 
 impl Header {
-    /// Reads the header and checks that it declares a mesh; returns the bytes after it too.
+    /// Reads the header and checks that it declares a mesh. Also returns the bytes that follow.
     pub fn read(bytes: &[u8]) -> Result<(Self, &[u8]), Fault> {
         let bytes = plain(bytes)?;
         let line_end = match bytes {
@@ -118,7 +118,7 @@ impl Header {
         if length.is_some_and(|length| !length.is_integer()) {
             return Err("the length of a list must be an integer".into());
         }
-        // A text may state any length, whatever the width of its type.
+        // In text a length may exceed the width of its type.
         let length = length.map(|length| if self.encoding == Some(Encoding::Ascii) { Kind::F64 } else { length });
         let element = self.elements.last_mut().ok_or("it precedes all elements of the PLY header")?;
         if !self.seen.insert(format!("{} {name}", element.name)) {
@@ -128,7 +128,7 @@ impl Header {
         Ok(())
     }
 
-    /// Whether the header declares a mesh: vertices with positions and faces with corners.
+    /// Checks that the header declares a mesh: vertices with positions and faces with corners.
     fn check(&self) -> Result<(), Fault> {
         if self.encoding.is_none() {
             return Err(Fault::file("the PLY header has no line `format`: the file is damaged"));

@@ -18,21 +18,21 @@ const VECTORS: [&str; 6] = ["x", "y", "z", "nx", "ny", "nz"];
 
 /// Reads a PLY file: the positions and, if there are any, normals of its vertices, and the triangles of its faces.
 ///
-/// All rows are gone through twice: first nothing is kept and everything is checked, so that a file that is refused
-/// takes no memory but its own.
+/// All rows are read twice: the first pass checks everything and keeps nothing, so that a rejected file takes no memory
+/// beyond its own bytes.
 pub(super) fn read(bytes: &[u8]) -> Result<Model, Fault> {
     let (header, rest) = Header::read(bytes)?;
     let Some((vertex, face)) = header.element("vertex").zip(header.element("face")) else {
         return Err(Fault::file("the PLY header declares no mesh"));
     };
-    let found = check(&header, vertex.count, Body::new(&header, rest))?;
+    let checked = check(&header, vertex.count, Body::new(&header, rest))?;
 
     let smooth = VECTORS.iter().all(|name| vertex.property(name).is_some());
     let mut model = Model { materials: vec![Material::named("default")], ..Model::default() };
     model.positions.reserve_exact(vertex.count);
     model.normals.reserve_exact(if smooth { vertex.count } else { 0 });
-    model.triangles.reserve_exact(found.triangles);
-    let Found { mut vertices, mut faces, .. } = found;
+    model.triangles.reserve_exact(checked.triangles);
+    let CheckedBody { mut vertices, mut faces, .. } = checked;
     vertices.rows(vertex, &VECTORS, |_, values| {
         model.positions.push(vector(&values[..3]));
         if smooth {
@@ -54,14 +54,15 @@ pub(super) fn read(bytes: &[u8]) -> Result<Model, Fault> {
     }
 
     let mut notes = Notes::default();
-    notes.count(found.small_faces, SMALL_FACES);
+    notes.count(checked.small_faces, SMALL_FACES);
     splitter.note(&mut notes);
     model.notes = notes.into_vec();
     Ok(model)
 }
 
-struct Found<'a> {
-    /// The body from the first vertex on, and from the first face on.
+/// The rows of vertices and faces, once all of them have been checked.
+struct CheckedBody<'a> {
+    /// The body from the first vertex on, and the body from the first face on.
     vertices: Body<'a>,
     faces: Body<'a>,
     triangles: usize,
@@ -69,14 +70,14 @@ struct Found<'a> {
     small_faces: usize,
 }
 
-/// Whether all rows are what the header declares and make a mesh.
-fn check<'a>(header: &Header, vertices: usize, mut body: Body<'a>) -> Result<Found<'a>, Fault> {
-    let mut found = Found { vertices: body.clone(), faces: body.clone(), triangles: 0, small_faces: 0 };
+/// Checks that all rows fit the header and make a mesh.
+fn check<'a>(header: &Header, vertices: usize, mut body: Body<'a>) -> Result<CheckedBody<'a>, Fault> {
+    let mut checked = CheckedBody { vertices: body.clone(), faces: body.clone(), triangles: 0, small_faces: 0 };
     let mut faces = 0;
     for element in &header.elements {
         match element.name.as_str() {
             "vertex" => {
-                found.vertices = body.clone();
+                checked.vertices = body.clone();
                 body.rows(element, &VECTORS, |number, values| {
                     let [x, y, z] = vector(&values[..3]).to_array();
                     if [x, y, z].iter().all(|coordinate| coordinate.is_finite()) {
@@ -87,15 +88,15 @@ fn check<'a>(header: &Header, vertices: usize, mut body: Body<'a>) -> Result<Fou
                 })?;
             }
             "face" => {
-                (found.faces, faces) = (body.clone(), element.count);
+                (checked.faces, faces) = (body.clone(), element.count);
                 body.rows(element, &CORNERS, |number, lists| {
                     let corners = corners(lists);
                     if let Some(corner) = corners.iter().find(|&&c| c < 0.0 || c >= vertices as f64) {
                         let problem = format!("its corner {corner} is none of the {vertices} vertices");
                         return Err(Fault::part(format!("face {number}"), problem));
                     }
-                    found.small_faces += usize::from(corners.len() < 3);
-                    found.triangles += corners.len().saturating_sub(2);
+                    checked.small_faces += usize::from(corners.len() < 3);
+                    checked.triangles += corners.len().saturating_sub(2);
                     Ok(())
                 })?;
             }
@@ -103,12 +104,12 @@ fn check<'a>(header: &Header, vertices: usize, mut body: Body<'a>) -> Result<Fou
         }
     }
     body.end()?;
-    if found.triangles == 0 {
+    if checked.triangles == 0 {
         let problem =
             format!("it holds no triangles: {vertices} vertices, {faces} faces with fewer than three corners");
         return Err(Fault::part("element face", problem));
     }
-    Ok(found)
+    Ok(checked)
 }
 
 /// The first number of each column, zero where there is none.
@@ -116,7 +117,7 @@ fn vector(columns: &[Vec<f64>]) -> Vec3 {
     Vec3::from_array(std::array::from_fn(|axis| columns[axis].first().map_or(0.0, |&value| value as f32)))
 }
 
-/// The list of corners, under whichever of its names it stands.
+/// The list of corners, under either of its names.
 fn corners(lists: &[Vec<f64>]) -> &[f64] {
     lists.iter().find(|list| !list.is_empty()).map_or(&[], |list| list)
 }

@@ -9,7 +9,7 @@ macro_rules! kinds {
         }
 
         impl Kind {
-            /// By either of its names.
+            /// The type with this name; each has two.
             pub fn named(name: &str) -> Option<Self> {
                 match name {
                     $($name | $other_name => Some(Self::$kind),)*
@@ -23,14 +23,14 @@ macro_rules! kinds {
                 }
             }
 
-            /// The value that a word of a text is.
+            /// The value of a word of text.
             pub fn parse(self, word: &str) -> Option<f64> {
                 match self {
                     $(Self::$kind => word.parse::<$type>().ok().map(f64::from),)*
                 }
             }
 
-            /// The value of as many bytes, least significant first, as the type has.
+            /// The value of the bytes of a number, least significant first.
             pub fn decode(self, bytes: &[u8]) -> f64 {
                 match self {
                     $(Self::$kind => bytes.try_into().map_or(f64::NAN, |bytes| <$type>::from_le_bytes(bytes).into()),)*

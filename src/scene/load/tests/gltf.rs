@@ -139,7 +139,7 @@ fn strips_and_fans_and_what_is_no_triangle() {
 }
 
 #[test]
-fn textures_and_morph_targets_are_told() {
+fn textures_and_morph_targets_are_reported() {
     let materials = json!([
         {"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}},
         {"normalTexture": {"index": 0}}

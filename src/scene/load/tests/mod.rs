@@ -21,7 +21,7 @@ fn load_files(files: &[(&str, &[u8])]) -> Result<Model, LoadError> {
     load(&folder.path().join(files[0].0))
 }
 
-/// The message of a file that must be refused, without the name of the folder; it has to be one line.
+/// The error of a file that must be rejected, without the name of the folder; it must be one line.
 fn refusal(name: &str, bytes: &[u8]) -> String {
     let message = load_files(&[(name, bytes)]).expect_err("this file must be refused").to_string();
     assert!(!message.contains('\n'), "{message:?}");
@@ -39,13 +39,13 @@ fn corners(model: &Model) -> Vec<[Vec3; 3]> {
     model.triangles.iter().map(|t| t.map(|i| model.positions[i as usize])).collect()
 }
 
-/// The normals that the faces have by their winding, not normalised.
+/// The normals of the faces by their winding, not normalised.
 fn face_normals(model: &Model) -> Vec<Vec3> {
     corners(model).iter().map(|[a, b, c]| (b - a).cross(c - a)).collect()
 }
 
 #[test]
-fn the_ending_tells_the_format_in_any_case() {
+fn the_extension_determines_the_format_in_any_case() {
     let file = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
     assert_eq!(load_files(&[("A.OBJ", file)]).unwrap().triangles, [[0, 1, 2]]);
     for name in ["mesh.stl", "mesh", "obj"] {
@@ -55,7 +55,7 @@ fn the_ending_tells_the_format_in_any_case() {
 }
 
 #[test]
-fn what_is_no_file_is_refused() {
+fn paths_that_are_no_files_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     fs::create_dir(folder.path().join("folder.obj")).unwrap();
     let error = |name: &str| load(&folder.path().join(name)).unwrap_err();

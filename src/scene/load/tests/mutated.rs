@@ -1,4 +1,4 @@
-//! Damaged files: whatever stands in them, the answer is a model or one line.
+//! Damaged files: whatever they contain, the result is a model or an error of one line.
 
 use proptest::prelude::*;
 use proptest::sample::Index;
@@ -13,7 +13,7 @@ const OBJ: &str = "mtllib a.mtl\no a\nv 0 0 0\nv 1 0 0\nv 1 1 0 1\nv 0 1 -0.5e0\
 const MTL: &str =
     "newmtl red\nKa 0.1 0 0\nKd 1 0 0\nKs 0.5 0.5 0.5\nNs 20\nmap_Kd red.png\nillum 2\nnewmtl blue\nKd 0 0 1\n";
 
-/// What a file is damaged with: bytes at random, and words that readers are known to stumble over.
+/// What a file is damaged with: random bytes, and words that parsers are known to mishandle.
 fn patch() -> impl Strategy<Value = Vec<u8>> {
     const WORDS: &[&str] = &[
         "",
@@ -46,7 +46,7 @@ fn patch() -> impl Strategy<Value = Vec<u8>> {
     ]
 }
 
-/// Cut from `cut` on, then some places overwritten (`true`) or filled with more bytes than there were.
+/// Truncates the file, then overwrites bytes (`true`) or inserts some.
 type Damage = (Option<Index>, Vec<(Index, bool, Vec<u8>)>);
 
 fn damage() -> impl Strategy<Value = Damage> {

@@ -35,7 +35,7 @@ fn corners_have_normals_or_the_face_is_flat() {
     let model = obj(&format!("{SQUARE}vt 0 0\nvn 0 0 1\nvn 0 1 0\nf 1//1 2//2 3//-1\nf 1/1/1 2/1/1 3/1\nf 1 2 3\n"));
     assert_eq!(model.normal_indices, [[0, 1, 1], [Model::FLAT; 3], [Model::FLAT; 3]]);
     assert_eq!(model.normals, [Vec3::Z, Vec3::Y]);
-    // Normals of no length are found and told.
+    // Normals of length zero are reported.
     let model =
         obj(&format!("{SQUARE}vn 0 0 0\nvn nan 0 1\nvn 0 0 2\nf 1//1 2//3 3//3\nf 1//2 2//3 3//3\nf 1//3 2//3 3//3\n"));
     assert_eq!(model.normal_indices, [[Model::FLAT; 3], [Model::FLAT; 3], [2; 3]]);
@@ -84,7 +84,7 @@ fn a_library_is_read_once_and_notes_are_few() {
     let model = load_files(&[("a.obj", format!("mtllib a.mtl\n{triangle}").as_bytes()), twice]).unwrap();
     assert_eq!(model.materials, [Material { diffuse: Vec3::Y, ..Material::named("a") }]);
     assert!(model.notes.is_empty(), "{:?}", model.notes);
-    // What stands for many is told behind whatever else there is.
+    // Notes that stand for many occurrences follow all others.
     let textured = lines(20, "Kd #x\n") + "map_Kd a.png\n";
     let textured = ("a.mtl", [&b"newmtl a\n"[..], textured.as_bytes()].concat());
     let text = format!("mtllib a.mtl\n{triangle}");
@@ -109,7 +109,7 @@ fn marks_line_ends_and_comments_do_not_hide_vertices() {
 }
 
 #[test]
-fn shapes_beside_faces_are_told_and_a_material_without_a_name_is_one() {
+fn elements_other_than_faces_are_reported_and_a_material_may_have_no_name() {
     let model = obj(&format!("{SQUARE}l 1 2\np 1\nf 1 2 3\ncurv 0 1 1 2\no name\n"));
     assert_eq!(model.notes, ["3 points, lines, curves or surfaces are left out"]);
     let library = ("a.mtl", &b"newmtl red\nKd 1 0 0\nnewmtl\nKd 0 1 0\n"[..]);
@@ -120,7 +120,7 @@ fn shapes_beside_faces_are_told_and_a_material_without_a_name_is_one() {
 }
 
 #[test]
-fn lines_without_a_known_keyword_are_told() {
+fn lines_without_a_known_keyword_are_reported() {
     let model = obj(&format!("{SQUARE}vertex 1 2 3\nfoo\nf 1 2 3\nvt 0 0\ncstype bezier\n"));
     assert_eq!(model.notes, ["2 lines without a keyword of OBJ are passed over, the first is line 6: `vertex 1 2 3`"]);
     let html = b"\n<!DOCTYPE html>\n<p>404</p>\n";

@@ -96,7 +96,7 @@ fn binary_of_both_orders_and_all_integers() {
 fn every_truncation_is_refused() {
     let text = ASCII.trim_end();
     for (file, data) in [(text.as_bytes().to_vec(), text.len() - 2), (binary(false, "uchar", "int"), usize::MAX)] {
-        // Without its last digit a text may still be a text.
+        // A text without its last digit may still be valid.
         for end in 0..file.len().min(data) {
             assert_refused("a.ply", &file[..end], &["a.ply"]);
         }
@@ -141,7 +141,7 @@ fn malformed_files_are_refused_by_name_and_number() {
         assert!(ASCII.contains(from), "{from}");
         assert_refused("a.ply", ASCII.replacen(from, to, 1).as_bytes(), &words);
     }
-    // The header lies about nothing, but the bodies do: a list of 4 thousand million, one of -1, a NaN.
+    // The headers are right and the bodies are not: a list of 4 thousand million entries, one of -1, a NaN.
     let mut file = binary(false, "uint", "int");
     let first_list = file.len() - 36;
     file[first_list..first_list + 4].fill(0xff);

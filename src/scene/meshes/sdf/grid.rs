@@ -51,7 +51,7 @@ impl Grid {
         self.origin + Vec3::new(x as f32, y as f32, z as f32) * self.step
     }
 
-    /// The primitives that matter near `p`.
+    /// The primitives that can affect the surface near `p`.
     pub fn active(&self, p: Vec3) -> &Active {
         let at = ((p - self.origin) / self.step).max(Vec3::ZERO).as_uvec3().to_array();
         let [x, y, z] = [0, 1, 2].map(|i| (at[i] as usize / BLOCK).min(self.blocks[i] - 1));
@@ -91,7 +91,7 @@ impl Grid {
         (0..nz - 1).into_par_iter().map(layer).flatten_iter().collect()
     }
 
-    /// Fills corners until the surface passes every cell in one piece, so that one vertex a cell gives a closed
+    /// Fills corners until the surface passes every cell in one piece, so that one vertex per cell gives a closed
     /// two-manifold. Only ever turns outside into inside, so it ends.
     pub fn simplify(&mut self) {
         let simple: Vec<bool> = (0..=255).map(|mask| connected(mask) && connected(!mask)).collect();
@@ -135,7 +135,7 @@ fn fill_block(sdf: &Sdf, origin: Vec3, step: f32, block: [usize; 3], size: [usiz
     active
 }
 
-/// Whether the corners in `mask` hang together along the edges of a cube.
+/// Whether the corners in `mask` are connected along the edges of a cube.
 fn connected(mask: u8) -> bool {
     let mut reached = mask & mask.wrapping_neg();
     loop {

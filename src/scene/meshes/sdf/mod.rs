@@ -17,10 +17,10 @@ pub use split::split_to;
 #[cfg(test)]
 pub use surface_nets::pieces;
 
-/// A number for every point.
+/// A function of position.
 type Field = Box<dyn Fn(Vec3) -> f32 + Send + Sync>;
 
-/// Farther than anything is from anything.
+/// A distance larger than any in a solid.
 const FAR: f32 = 1e9;
 
 struct Primitive {
@@ -73,7 +73,7 @@ pub struct Sdf {
     highest: f32,
 }
 
-/// The primitives that matter near some place, as (group, primitive), ascending.
+/// The primitives that can affect the surface near some place, as (group, primitive), ascending.
 type Active = Vec<(u16, u16)>;
 
 impl Sdf {
@@ -130,7 +130,7 @@ impl Sdf {
             let Blend { smoothing, subtract, displacement } = group.blend;
             let sign = if subtract { -1.0 } else { 1.0 };
 
-            // What is farther than this changes nothing.
+            // A group farther than this does not change the surface.
             let mut near = FAR;
             let mut bound = sign * distance + smoothing;
             for &(_, j) in members {

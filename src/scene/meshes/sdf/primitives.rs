@@ -4,7 +4,7 @@ use glam::Vec3;
 
 use super::Sdf;
 
-/// A place with three axes: `right`, `up` and `ahead`, of unit length and at right angles.
+/// A coordinate frame: `right`, `up` and `ahead`, of unit length and at right angles.
 #[derive(Clone, Copy, Debug)]
 pub struct Frame {
     pub origin: Vec3,
@@ -23,12 +23,12 @@ impl Frame {
         Self { origin, right, up: ahead.cross(right), ahead }
     }
 
-    /// From local (right, up, ahead) to the outside.
+    /// From local (right, up, ahead) to world coordinates.
     pub fn at(&self, x: f32, y: f32, z: f32) -> Vec3 {
         self.origin + (self.right * x + self.up * y + self.ahead * z)
     }
 
-    /// From the outside to local (right, up, ahead).
+    /// From world coordinates to local (right, up, ahead).
     pub fn local(&self, p: Vec3) -> Vec3 {
         let q = p - self.origin;
         Vec3::new(q.dot(self.right), q.dot(self.up), q.dot(self.ahead))

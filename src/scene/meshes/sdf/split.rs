@@ -4,10 +4,11 @@ use crate::scene::Model;
 
 /// Splits the longest edges at their middles until there are exactly `count` triangles.
 ///
-/// A split adds two triangles, so `count` must be even and at least what is there. Ties go to the edge found first.
+/// A split adds two triangles, so `count` must be even and not below the present number. Among equal edges the first
+/// one is split.
 ///
 /// # Panics
-/// When the mesh has more than `count` triangles, or an odd number of them is missing.
+/// If the mesh has more than `count` triangles, or the difference is odd.
 pub fn split_to(model: &mut Model, count: usize) {
     loop {
         let have = model.triangles.len();
@@ -21,7 +22,7 @@ pub fn split_to(model: &mut Model, count: usize) {
 
 /// Splits at most `limit` edges, the longest first, no two of them in one triangle.
 fn split_longest(model: &mut Model, limit: usize) {
-    // Both triangles of every edge: sorting brings the two halves together.
+    // Find both triangles of every edge: sorting puts the two half-edges next to each other.
     let mut halves = Vec::with_capacity(3 * model.triangles.len());
     for (t, triangle) in model.triangles.iter().enumerate() {
         for i in 0..3 {

@@ -1,4 +1,4 @@
-//! Files that are refused, each with the part of it that is at fault.
+//! Files that are rejected, each with the faulty part.
 
 use serde_json::{Value, json};
 
@@ -6,7 +6,7 @@ use super::super::{assert_refused, load_files};
 use super::{binary, changed, data, document, gltf, loaded, refused};
 
 #[test]
-fn what_shows_nothing_says_why() {
+fn files_that_show_nothing_are_refused_with_a_reason() {
     let plain = |changes: &[(&str, Value)], word: &str| refused(changes, &["no triangles", word]);
     plain(&[("/scenes/0/nodes", json!([]))], "scene 0, its default, has no nodes");
     plain(&[("/nodes/0", json!({"name": "empty"}))], "no node of scene 0, its default, has a mesh");
@@ -42,7 +42,7 @@ fn what_shows_nothing_says_why() {
 }
 
 #[test]
-fn other_versions_are_told_before_their_forms() {
+fn an_unsupported_version_is_reported_before_its_syntax() {
     for (asset, words) in [
         (json!({"version": "1.0"}), "it is glTF `1.0`: convert it"),
         (json!({"version": "3.0"}), "it is glTF `3.0`"),

@@ -1,4 +1,4 @@
-//! A program that answers lines with lines.
+//! A program that answers each line of input with a line of output.
 
 use std::io::{BufRead, BufReader, Read, Write};
 use std::process::{Child, ChildStdin, Command, ExitStatus, Stdio};
@@ -8,38 +8,38 @@ use std::time::{Duration, Instant};
 
 use crate::measure::{on_all_cores, process_group};
 
-/// A program that is asked line by line, and may take so long for each answer.
-pub(super) struct Conversation {
+/// A running program, with a time limit for each reply.
+pub(super) struct Session {
     child: Child,
-    /// Nothing once it was told that there is no more.
+    /// None once it has been closed.
     input: Option<ChildStdin>,
     lines: Receiver<Vec<u8>>,
     limit: Duration,
 }
 
-/// A line, and how long it took, as seen from outside.
-pub(super) struct Answer {
+/// A line, and the elapsed time until it came.
+pub(super) struct Reply {
     pub text: String,
     pub ns: u64,
 }
 
-/// The longest answer; what is longer is cut.
+/// The bytes of the longest reply; a longer one is cut.
 const LONGEST: u64 = 4096;
 
-/// What a program may take to end, and how often it is looked at.
-const FAREWELL: Duration = Duration::from_millis(500);
-const PAUSE: Duration = Duration::from_millis(1);
+/// How long a program may take to end, and how often that is checked.
+const GRACE_PERIOD: Duration = Duration::from_millis(500);
+const POLL_INTERVAL: Duration = Duration::from_millis(1);
 
-impl Conversation {
-    /// Starts `words`, the program first. On several threads it may use all cores that this process may.
+impl Session {
+    /// Starts the program `words[0]` with its arguments. With several threads it may use all cores of this process.
     pub fn start(words: &[String], threads: usize, limit: Duration) -> Result<Self, String> {
         let mut command = Command::new(&words[0]);
         command.args(&words[1..]).stdin(Stdio::piped()).stdout(Stdio::piped());
         process_group::set_apart(&mut command);
         let child = if threads > 1 { on_all_cores(|| command.spawn()) } else { command.spawn() };
         let mut child = child.map_err(|cause| format!("it cannot be started: {cause}"))?;
-        let (input, output) = (child.stdin.take(), child.stdout.take().expect("it has an output"));
-        // More than was asked for stays in the pipe and stops the program: it costs no memory, and no time of others.
+        let (input, output) = (child.stdin.take(), child.stdout.take().expect("its output is a pipe"));
+        // Unrequested output fills the pipe and blocks the program: it takes no memory here.
         let (sender, lines) = sync_channel(1);
         thread::spawn(move || {
             let mut output = BufReader::new(output);
@@ -54,25 +54,25 @@ impl Conversation {
         Ok(Self { child, input, lines, limit })
     }
 
-    /// The answer to a line.
+    /// The reply to a line.
     ///
     /// # Errors
-    /// A clause, if the program has ended, does not answer in time, answers before it is asked or says what is wrong. It is
-    /// ended then.
-    pub fn ask(&mut self, request: &str) -> Result<Answer, String> {
-        let answer = self.answer(request);
-        if answer.is_err() {
+    /// A clause, if the program has ended, does not reply in time, writes a line before the request or reports an
+    /// error. Then it is killed.
+    pub fn request(&mut self, request: &str) -> Result<Reply, String> {
+        let reply = self.exchange(request);
+        if reply.is_err() {
             self.end(Duration::ZERO);
         }
-        answer
+        reply
     }
 
-    fn answer(&mut self, request: &str) -> Result<Answer, String> {
+    fn exchange(&mut self, request: &str) -> Result<Reply, String> {
         if let Ok(line) = self.lines.try_recv() {
-            return Err(format!("it says {:?} before it is asked {request:?}", text(&line)));
+            return Err(format!("it says {:?} before the request {request:?}", text(&line)));
         }
         let start = Instant::now();
-        // Of a program that has ended the next line is missing.
+        // If the program has ended, this write may fail; the missing reply is reported below.
         if let Some(input) = &mut self.input {
             let _ = writeln!(input, "{request}");
         }
@@ -83,7 +83,7 @@ impl Conversation {
                 return Err(format!("it does not answer {request:?} within {limit} s: --runner-limit gives it longer"));
             }
             Err(RecvTimeoutError::Disconnected) => {
-                let how = self.end(FAREWELL).map_or("it closed its output".into(), |status| status.to_string());
+                let how = self.end(GRACE_PERIOD).map_or("it closed its output".into(), |status| status.to_string());
                 return Err(format!("it ends instead of answering {request:?} ({how})"));
             }
         };
@@ -91,18 +91,18 @@ impl Conversation {
         let text = text(&line);
         match text.strip_prefix("error ") {
             Some(sentence) => Err(format!("it says: {sentence}")),
-            None => Ok(Answer { text, ns }),
+            None => Ok(Reply { text, ns }),
         }
     }
 
-    /// Tells it that there is no more, waits so long, and ends it with all that it has started; how it ended, if it did
-    /// of itself.
+    /// Closes its input, waits up to `patience`, and kills it with all that it has started. Its exit status, if it
+    /// ended by itself.
     fn end(&mut self, patience: Duration) -> Option<ExitStatus> {
         self.input = None;
         let start = Instant::now();
         let mut has_ended = process_group::has_ended(&mut self.child);
         while !has_ended && start.elapsed() < patience {
-            thread::sleep(PAUSE);
+            thread::sleep(POLL_INTERVAL);
             has_ended = process_group::has_ended(&mut self.child);
         }
         process_group::end(&mut self.child);
@@ -110,24 +110,24 @@ impl Conversation {
     }
 }
 
-impl Drop for Conversation {
+impl Drop for Session {
     fn drop(&mut self) {
-        self.end(FAREWELL);
+        self.end(GRACE_PERIOD);
     }
 }
 
-/// A line without its end, and without what would garble a terminal.
+/// A line without its line break, and without characters that would garble a terminal.
 fn text(line: &[u8]) -> String {
     let text = String::from_utf8_lossy(line);
     text.trim_end_matches(['\r', '\n']).chars().map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect()
 }
 
-/// Said of an answer that does not have the form that it should have.
-pub(super) fn misfit(request: &str, answer: &str, form: &str) -> String {
-    format!("it answers {answer:?} to {request:?}, not {form:?}: its messages belong on standard error")
+/// The error for a reply of another form than `form`.
+pub(super) fn unexpected(request: &str, reply: &str, form: &str) -> String {
+    format!("it answers {reply:?} to {request:?}, not {form:?}: its messages belong on standard error")
 }
 
-/// Nanoseconds from seconds as a runner says them: a number that is finite and not negative.
+/// Nanoseconds from the seconds that a runner reports, a number that is finite and not negative.
 pub(super) fn nanoseconds(seconds: &str) -> Option<u64> {
     let seconds: f64 = seconds.parse().ok()?;
     (0.0..1e9).contains(&seconds).then_some((seconds * 1e9) as u64)
@@ -137,27 +137,27 @@ pub(super) fn nanoseconds(seconds: &str) -> Option<u64> {
 mod tests {
     use super::*;
 
-    fn shell(script: &str) -> Conversation {
+    fn shell(script: &str) -> Session {
         let words = ["sh", "-c", script].map(String::from);
-        Conversation::start(&words, 1, Duration::from_secs(10)).unwrap()
+        Session::start(&words, 1, Duration::from_secs(10)).unwrap()
     }
 
     #[test]
-    fn a_program_that_says_more_than_it_is_asked_is_stopped() {
-        let mut conversation = shell("head -c 1000000 /dev/zero");
-        assert_eq!(conversation.end(FAREWELL), None, "it has said all of it");
+    fn a_program_that_writes_without_a_request_is_blocked() {
+        let mut session = shell("head -c 1000000 /dev/zero");
+        assert_eq!(session.end(GRACE_PERIOD), None, "it has written all of it");
     }
 
     #[cfg(target_os = "linux")]
     #[test]
-    fn what_a_program_has_started_ends_with_it() {
+    fn programs_that_a_program_has_started_end_with_it() {
         for (script, ends_of_itself) in [("wait", false), ("exit", true)] {
-            let mut conversation = shell(&format!("read -r line; sleep 60 & echo started; {script}"));
-            assert_eq!(conversation.ask("start").unwrap().text, "started");
-            let patience = if ends_of_itself { Duration::from_secs(10) } else { FAREWELL };
-            assert_eq!(conversation.end(patience).is_some(), ends_of_itself, "{script}");
-            // Its output is closed once nobody has it.
-            let next = conversation.lines.recv_timeout(Duration::from_secs(10));
+            let mut session = shell(&format!("read -r line; sleep 60 & echo started; {script}"));
+            assert_eq!(session.request("start").unwrap().text, "started");
+            let patience = if ends_of_itself { Duration::from_secs(10) } else { GRACE_PERIOD };
+            assert_eq!(session.end(patience).is_some(), ends_of_itself, "{script}");
+            // The output is closed once no process has it open.
+            let next = session.lines.recv_timeout(Duration::from_secs(10));
             assert_eq!(next, Err(RecvTimeoutError::Disconnected), "{script}");
         }
     }

@@ -9,24 +9,24 @@ use crate::exact::{self, ExactT};
 use crate::geometry::{Mesh, Ray};
 
 /// The search for the nearest hit of one ray.
-pub struct Query<'a> {
+pub struct NearestSearch<'a> {
     ray: &'a Ray,
     mesh: &'a Mesh,
     /// The end of the ray's interval.
     t_max: f64,
-    nearest: Option<Found>,
+    nearest: Option<NearestHit>,
 }
 
-/// A hit within the interval of the ray, and all others at the same `t`.
-struct Found {
+/// The nearest hit so far, with all triangles that are hit at the same `t`.
+struct NearestHit {
     corners: [Vec3; 3],
     span: Span,
-    /// The exact distance, once it has been needed.
+    /// The exact `t`; computed when it is needed.
     t: Option<ExactT>,
     ids: Vec<u32>,
 }
 
-impl<'a> Query<'a> {
+impl<'a> NearestSearch<'a> {
     /// `ray` must be valid.
     pub fn new(ray: &'a Ray, mesh: &'a Mesh) -> Self {
         Self { ray, mesh, t_max: ray.end(), nearest: None }
@@ -41,8 +41,8 @@ impl<'a> Query<'a> {
         Some(Truth { t, ids: found.ids, rounded })
     }
 
-    /// Triangle `id`, if it is hit within the interval of the ray.
-    fn find(&self, id: u32) -> Option<Found> {
+    /// The hit of triangle `id`, if it lies within the interval of the ray.
+    fn find(&self, id: u32) -> Option<NearestHit> {
         let corners = self.mesh.corners(id);
         let (span, t) = match classify(self.ray, corners) {
             Proof::Missed => return None,
@@ -57,7 +57,7 @@ impl<'a> Query<'a> {
         if span.high < t_min || t_max <= span.low {
             return None;
         }
-        let mut found = Found { corners, span, t, ids: vec![id] };
+        let mut found = NearestHit { corners, span, t, ids: vec![id] };
         if span.low < t_min || t_max <= span.high {
             found.compute_t(self.ray);
             return found.t.as_ref().is_some_and(|t| t.is_within(self.ray)).then_some(found);
@@ -66,9 +66,9 @@ impl<'a> Query<'a> {
     }
 }
 
-impl Visitor for Query<'_> {
+impl Visitor for NearestSearch<'_> {
     fn triangle(&mut self, id: u32) {
-        // A duplicate of the nearest triangle is hit at the same distance.
+        // A triangle with the corners of the nearest one is hit at the same `t`.
         if let Some(nearest) = self.nearest.as_mut().filter(|n| n.corners == self.mesh.corners(id)) {
             nearest.ids.push(id);
             return;
@@ -87,16 +87,16 @@ impl Visitor for Query<'_> {
     }
 }
 
-impl Found {
+impl NearestHit {
     /// Computes `t` exactly, if that has not been done.
     fn compute_t(&mut self, ray: &Ray) {
         if self.t.is_none() {
             self.t = exact::hit(ray, self.corners);
-            debug_assert!(self.t.is_some(), "the filter has proven this hit");
+            debug_assert!(self.t.is_some(), "the filter has proved this hit");
         }
     }
 
-    /// The exact order of two hits of one ray: by the spans, and exactly where these overlap.
+    /// The exact order of two hits of one ray: by their spans where these are disjoint, otherwise by exact `t`.
     fn compare(&mut self, other: &mut Self, ray: &Ray) -> Ordering {
         if self.span.high < other.span.low {
             return Ordering::Less;

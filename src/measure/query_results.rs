@@ -1,22 +1,22 @@
-//! The answers to rays, of either query.
+//! The results of a batch of rays, for either query.
 
 use std::ops::Range;
 
 use crate::accel::{Loaded, Query};
 use crate::geometry::{Hit, PrimId};
 
-pub(super) enum Answers {
+pub(super) enum QueryResults {
     Closest(Vec<Option<Hit>>),
     Any(Vec<bool>),
 }
 
-pub(super) enum Slots<'a> {
+pub(super) enum ResultSlots<'a> {
     Closest(&'a mut [Option<Hit>]),
     Any(&'a mut [bool]),
 }
 
-impl Answers {
-    pub fn none(query: Query) -> Self {
+impl QueryResults {
+    pub fn empty(query: Query) -> Self {
         match query {
             Query::Closest => Self::Closest(vec![]),
             Query::Any => Self::Any(vec![]),
@@ -30,7 +30,7 @@ impl Answers {
         }
     }
 
-    /// Answers that no structure gives, or `otherwise` none.
+    /// Overwrites all results: with hits that no structure returns if `otherwise`, else with misses.
     pub fn fill(&mut self, otherwise: bool) {
         let nowhere = Hit { t: f32::NAN, prim: PrimId::new(0) };
         match self {
@@ -39,10 +39,10 @@ impl Answers {
         }
     }
 
-    pub fn first(&mut self, count: usize) -> Slots<'_> {
+    pub fn first(&mut self, count: usize) -> ResultSlots<'_> {
         match self {
-            Self::Closest(hits) => Slots::Closest(&mut hits[..count]),
-            Self::Any(hits) => Slots::Any(&mut hits[..count]),
+            Self::Closest(hits) => ResultSlots::Closest(&mut hits[..count]),
+            Self::Any(hits) => ResultSlots::Any(&mut hits[..count]),
         }
     }
 
@@ -62,7 +62,7 @@ impl Answers {
     }
 }
 
-impl<'a> Slots<'a> {
+impl<'a> ResultSlots<'a> {
     pub fn split(self, count: usize) -> (Self, Self) {
         match self {
             Self::Closest(hits) => {
@@ -76,8 +76,8 @@ impl<'a> Slots<'a> {
         }
     }
 
-    /// Asks a batch, as many rays as there are slots.
-    pub fn ask(self, rays: &dyn Loaded) {
+    /// Traces a batch with as many rays as there are slots.
+    pub fn query(self, rays: &dyn Loaded) {
         match self {
             Self::Closest(hits) => rays.closest_hits(hits),
             Self::Any(hits) => rays.any_hits(hits),
@@ -85,7 +85,7 @@ impl<'a> Slots<'a> {
     }
 }
 
-/// FNV-1a over numbers (Fowler, Noll, Vo).
+/// The FNV-1a hash of numbers (Fowler, Noll, Vo).
 pub fn checksum(numbers: impl Iterator<Item = u64>) -> u64 {
     numbers.fold(0xcbf2_9ce4_8422_2325, |sum, number| (sum ^ number).wrapping_mul(0x0000_0100_0000_01b3))
 }
