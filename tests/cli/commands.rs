@@ -46,9 +46,9 @@ fn what_is_not_known_is_refused_with_what_is() {
     refuses(&["compare", "cube", "--threads", "0"], &["0"]);
     refuses(&["compare", "cube", "--quality", "best"], &["best", "fast", "balanced", "high"]);
     refuses(&["frobnicate"], &["frobnicate"]);
-    refuses_in_a_line(&["study", "foo"], &["foo", "counts", "attribution", "crossover", "plan"]);
+    refuses_in_a_line(&["study", "foo"], &["foo", "compare", "attribution", "plan"]);
     refuses_in_a_line(&["study", "atribution", "cube"], &["did you mean attribution?"]);
-    refuses_in_a_line(&["diff", "no/a.json", "no/b.json"], &["no/a.json", "compare --export-json"]);
+    refuses_in_a_line(&["diff", "no/a.json", "no/b.json"], &["no/a.json", "--export-json"]);
     refuses(&["render", "cube"], &["--output"]);
     refuses(&["render", "cube", "-o", "x.png", "--view", "pretty"], &["pretty", "shaded", "heat"]);
     refuses(&["render", "cube", "-o", "x.png", "--view", "heta"], &["did you mean heat?"]);
@@ -108,7 +108,7 @@ fn what_cannot_be_written_is_refused_before_the_long_run() {
         refuses_in_a_line(&["compare", flag, &missing], &["no/r.json"]);
     }
     refuses_in_a_line(&["compare", "--export-json", &path_text(directory.path())], &["directory"]);
-    refuses_in_a_line(&["study", "counts", "cube", "--export-json", &missing], &["no/r.json"]);
+    refuses_in_a_line(&["study", "attribution", "cube", "--export-json", &missing], &["no/r.json"]);
     refuses_in_a_line(&["render", "cube", "-o", &missing], &["no/r.json"]);
 }
 
@@ -116,7 +116,7 @@ fn what_cannot_be_written_is_refused_before_the_long_run() {
 fn lists_and_completions_name_everything() {
     let list = prints(&["list"]);
     for name in
-        ["Cube", "Sponza", "teapot", "median-kd", "image-shadow", "heat", "moller-trumbore", "rt-triangle", "crossover"]
+        ["Cube", "Sponza", "teapot", "median-kd", "image-shadow", "heat", "moller-trumbore", "rt-triangle", "attribution"]
     {
         assert!(list.contains(name), "{name} is not in {list}");
     }
@@ -147,12 +147,17 @@ fn lists_and_completions_name_everything() {
 #[test]
 fn old_names_are_answered_with_the_new_ones() {
     for (old, new) in [
-        ("bench", "--save-baseline"),
-        ("hard", "validate --hard"),
-        ("compare-runs", "diff"),
-        ("counts", "study counts"),
+        (&["bench"][..], "--fail-on-regression"),
+        (&["hard", "cube"], "validate --hard"),
+        (&["compare-runs", "a", "b"], "diff"),
+        (&["counts", "cube"], "compare --wide"),
+        (&["study", "crossover"], "sahara compare"),
+        (&["study", "partitions", "cube", "--quick"], "sah-kd-tight"),
+        (&["study", "plan", "threads"], "--threads"),
+        (&["compare", "cube", "--save-baseline", "main"], "sahara diff"),
+        (&["compare", "cube", "--baseline=main"], "sahara diff"),
     ] {
-        refuses_in_a_line(&[old, "cube", "--budget", "1"], &[old, new]);
+        refuses_in_a_line(old, &[new]);
     }
     refuses_in_a_line(&["accuracy", "--help"], &["`sahara study accuracy`"]);
 }
@@ -175,8 +180,8 @@ fn a_minus_stands_for_standard_output() {
     assert_eq!(picture.status.code(), Some(RIGHT));
     assert!(picture.stdout.starts_with(b"\x89PNG") && stderr(&picture).contains("shaded view of Cube"));
     let json = sahara(&[&small("cube")[..], &["-s", "sah-kd", "-s", "sah-bvh", "--export-json", "-"]].concat());
-    let records: serde_json::Value = serde_json::from_slice(&json.stdout).expect("JSON and nothing else");
-    assert_eq!(records.as_array().unwrap().len(), 4);
+    let dataset: serde_json::Value = serde_json::from_slice(&json.stdout).expect("JSON and nothing else");
+    assert_eq!(dataset["measured"][0]["epoch"]["structures"].as_array().unwrap().len(), 2, "{dataset}");
     assert!(stderr(&json).contains("Cube: 12 triangles"));
     assert!(!Path::new("-").exists(), "a file of that name was made");
 }
