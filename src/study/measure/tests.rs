@@ -11,7 +11,7 @@ use crate::brute_force::BruteForce;
 use crate::geometry::{Hit, Mesh, Ray};
 use crate::measure::SystemClock;
 use crate::registry::Registry;
-use crate::request::{SceneRequest, StructureRequest, ViewArgs, WorkloadRequest, scene, with_twin};
+use crate::request::{SceneRequest, ViewArgs, WorkloadRequest, scene, with_twin};
 use crate::scene::WorkloadKind;
 use crate::study::case::tests::example;
 use crate::study::measurement::{Measurement, measurements, refused};
