@@ -26,9 +26,8 @@ pub(super) struct Answer {
 /// The longest answer; what is longer is cut.
 const LONGEST: u64 = 4096;
 
-/// What a program may take to end, and how often it is looked at.
+/// What a program may take to end.
 const FAREWELL: Duration = Duration::from_millis(500);
-const PAUSE: Duration = Duration::from_millis(1);
 
 impl Conversation {
     /// Starts `words`, the program first. On several threads it may use all cores that this process may.
@@ -99,12 +98,7 @@ impl Conversation {
     /// of itself.
     fn end(&mut self, patience: Duration) -> Option<ExitStatus> {
         self.input = None;
-        let start = Instant::now();
-        let mut has_ended = process_group::has_ended(&mut self.child);
-        while !has_ended && start.elapsed() < patience {
-            thread::sleep(PAUSE);
-            has_ended = process_group::has_ended(&mut self.child);
-        }
+        let has_ended = process_group::ends_within(&mut self.child, patience);
         process_group::end(&mut self.child);
         self.child.wait().ok().filter(|_| has_ended)
     }
