@@ -101,24 +101,18 @@ impl Property {
 macro_rules! cases {
     ($($rank:ident $number:literal $name:literal, $expected:ident $(($of:literal))? $(x $rays:literal)? => $make:expr,
         $reason:literal, $source:expr;)*) => {
-        pub(super) const CASES: &[$crate::validate::hard_cases::HardCase] = &[$($crate::validate::hard_cases::HardCase {
+        pub(super) const CASES: &[HardCase] = &[$(HardCase {
             number: $number,
             name: $name,
-            rank: $crate::validate::hard_cases::Rank::$rank,
+            rank: Rank::$rank,
             content: cases!(@content $expected $(($of))?, [$($rays,)? 10_000][0], $make),
             reason: $reason,
             source: $source,
         }),*];
     };
-    (@content Property, $rays:expr, $check:expr) => {
-        $crate::validate::hard_cases::Content::Property($check)
-    };
+    (@content Property, $rays:expr, $check:expr) => { Content::Property($check) };
     (@content $expected:ident $(($of:literal))?, $rays:expr, $make:expr) => {
-        $crate::validate::hard_cases::Content::Rays {
-            rays: $rays,
-            expected: $crate::validate::hard_cases::Expected::$expected $(($of))?,
-            make: $make,
-        }
+        Content::Rays { rays: $rays, expected: Expected::$expected $(($of))?, make: $make }
     };
 }
 pub(super) use cases;

@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use super::case::cases;
+use super::case::{Content, Expected, HardCase, Rank, cases};
 use super::meshes::*;
 use super::metamorphic::metamorphic;
 use super::properties::*;

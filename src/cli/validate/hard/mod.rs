@@ -20,11 +20,9 @@ use crate::registry::{Choice, Registry};
 use crate::report::number::plural;
 use crate::report::to_json;
 use crate::report::words::each_once_by;
-use crate::study::Status;
-use crate::study::documented_defect;
-use crate::study::sources;
+use crate::study::{Status, documented_defect, sources};
 use crate::triangle::{Exact, TriangleTest};
-use crate::validate::hard_cases::{Answers, CaseTruth, Failure, HardCase, Score, catalogue, find_all};
+use crate::validate::hard_cases::{Answers, CaseTruth, Content, Failure, HardCase, Score, catalogue, find_all};
 use record::{HardRecord, HardRun};
 use table::{Column, LEGEND, tables};
 
@@ -71,9 +69,9 @@ pub fn run(registry: &Registry, args: &Args, named: &[String], terminal: &Termin
         let provenance = Provenance::capture(1);
         file.write(&to_json(&HardRun { schema: HardRun::SCHEMA, provenance, results: records }))?;
     }
-    let mut scores =
-        choices.iter().zip(&columns).flat_map(|(choice, column)| column.scores.iter().map(move |s| (choice, s)));
-    Ok(if scores.any(|(choice, score)| is_wrong(choice, score)) { Status::Wrong } else { Status::Right })
+    let mut all = choices.iter().zip(&columns);
+    let wrong = all.any(|(choice, column)| column.scores.iter().any(|score| is_wrong(choice, score)));
+    Ok(if wrong { Status::Wrong } else { Status::Right })
 }
 
 /// Whether a score changes the exit status: structure errors and failures do, and inexact hits of the exact test; known
@@ -140,7 +138,10 @@ fn scores(case: &HardCase, choices: &[Choice], rays: u32, limit: Duration) -> an
 /// The cases, and why systems fail on them.
 pub fn described() -> Vec<String> {
     let lines = |case: &&HardCase| {
-        let what = case.set(MOST_RAYS).map_or("a property".into(), |set| plural(set.rays.len(), "ray"));
+        let what = match case.content {
+            Content::Rays { rays, .. } => plural(rays, "ray"),
+            Content::Property(_) => "a property".into(),
+        };
         [format!("{} {}: {what}", case.number, case.name), format!("   {} ({})", case.reason, case.source)]
     };
     catalogue().iter().flat_map(lines).collect()
