@@ -7,7 +7,7 @@ use crate::external::obvhs::{Native, ObvhsBvh2, ObvhsConfig, ObvhsCwBvh, Over, R
 use crate::kdtree::{KdConfig, KdTree};
 use crate::offered::Offered;
 use crate::triangle::{BaldwinWeber, EdgeF64, Exact, MollerTrumbore, MollerTrumboreF64, Plucker, Watertight};
-use crate::validate::Judged;
+use crate::validate::HasReference;
 
 impl Registry {
     /// The structures of this crate.
@@ -33,7 +33,7 @@ impl Registry {
     }
 
     /// Brute force over the triangle test `T`, which structures over it are held against.
-    pub(super) fn brute_force<T: Judged>(self) -> Self
+    pub(super) fn brute_force<T: HasReference>(self) -> Self
     where
         BruteForce<T>: Offered<Config = BruteForceConfig>,
     {
@@ -41,7 +41,7 @@ impl Registry {
     }
 
     /// The structures of this crate over the triangle test `T`.
-    fn over<T: Judged>(self) -> Self
+    fn over<T: HasReference>(self) -> Self
     where
         BruteForce<T>: Offered<Config = BruteForceConfig>,
         KdTree<T>: Offered<Config = KdConfig>,
