@@ -5,9 +5,9 @@ use std::sync::Arc;
 
 use sahara::geometry::{Mesh, Ray};
 use sahara::oracle;
-use sahara::registry::Registry;
-use sahara::validate::conformance::findings;
-use sahara::validate::{Kind, Reference, Stratum, degenerate_meshes, validate};
+use sahara::registry::{Choice, Registry};
+use sahara::validate::conformance::{Named, findings};
+use sahara::validate::{Kind, Reference, Stratum, Validation, degenerate_meshes, validate};
 
 use crate::conformance::TREES;
 
@@ -15,15 +15,15 @@ const BVH2: [&str; 2] = ["obvhs-bvh2", "obvhs-bvh2:test=moller-trumbore"];
 const CWBVH: [&str; 2] = ["obvhs-cwbvh", "obvhs-cwbvh:test=moller-trumbore"];
 const BOTH: [&str; 4] = [BVH2[0], BVH2[1], CWBVH[0], CWBVH[1]];
 
-/// One ray that a structure answers wrongly whatever its triangle test.
-struct Finding {
-    name: &'static str,
-    /// Why, as its source shows.
-    cause: &'static str,
-    structures: &'static [&'static str],
-    mesh: &'static str,
-    ray: &'static str,
-    kind: Kind,
+/// One ray that some structures get wrong whatever their triangle test.
+pub struct Finding {
+    pub name: &'static str,
+    /// Why, as their sources show.
+    pub cause: &'static str,
+    pub structures: &'static [&'static str],
+    pub mesh: &'static str,
+    pub ray: &'static str,
+    pub kind: Kind,
 }
 
 const FINDINGS: [Finding; 6] = [
@@ -82,24 +82,30 @@ pub fn mesh(name: &str) -> Arc<Mesh> {
     degenerate_meshes().into_iter().find(|(known, _)| known == name).expect("a mesh of the suite").1
 }
 
+/// One ray over a degenerate mesh, compared with brute force.
+pub fn compared(choice: &Choice, mesh_name: &str, ray: &str) -> Validation {
+    let mesh = mesh(mesh_name);
+    let reference = Reference::of_test(choice.triangle_test(), &mesh).unwrap();
+    validate(&*choice.build(&mesh).unwrap(), &reference, &mesh, &[ray.parse().unwrap()])
+}
+
+impl Finding {
+    /// Fails unless the ray is wrong, in its way, on just the structures that are named.
+    #[track_caller]
+    pub fn assert_on(&self, choice: &Choice, spec: &str) {
+        let found = compared(choice, self.mesh, self.ray);
+        let expected = self.structures.contains(&spec).then_some(self.kind);
+        assert!(found.hits == 1 || expected.is_none(), "{}: the ray hits by {}", self.name, choice.triangle_test());
+        assert_eq!(found.worst_error().map(|worst| worst.kind), expected, "{}, {}: {spec}", self.name, self.cause);
+    }
+}
+
 #[test]
 fn each_finding_is_still_there_and_ours_find_the_hit() {
     let registry = Registry::builtin();
     for finding in FINDINGS {
-        let (mesh, ray): (_, Ray) = (mesh(finding.mesh), finding.ray.parse().unwrap());
-        let kind = |spec: &str| {
-            let choice = registry.choose(spec).unwrap();
-            let reference = Reference::of_test(choice.triangle_test(), &mesh).unwrap();
-            let v = validate(&*choice.build(&mesh).unwrap(), &reference, &mesh, &[ray]);
-            assert_eq!(v.hits, 1, "{}: the ray hits by {} itself", finding.name, choice.triangle_test());
-            v.worst_error().map(|w| w.kind)
-        };
-        for spec in BOTH {
-            let expected = finding.structures.contains(&spec).then_some(finding.kind);
-            assert_eq!(kind(spec), expected, "{}, {}: {spec}", finding.name, finding.cause);
-        }
-        for spec in TREES {
-            assert_eq!(kind(spec), None, "{}: {spec}", finding.name);
+        for spec in BOTH.iter().chain(&TREES) {
+            finding.assert_on(&registry.choose(spec).unwrap(), spec);
         }
     }
 }
@@ -112,22 +118,30 @@ const CLEAN_BVH2: [Stratum; 1] = [Stratum::NearSurface];
 #[test]
 fn rays_without_a_named_cause_are_answered_rightly() {
     let registry = Registry::builtin();
-    // Directions as short as the one mesh is small, and boxes of all sizes in the other, spoil every kind of ray.
-    let mut meshes = degenerate_meshes();
-    meshes.retain(|(name, _)| name != "soup times 2^-30" && name != "exponential sequence");
     for spec in BOTH {
-        let choice = registry.choose(spec).unwrap();
-        let all = findings(&choice.subject(), &meshes, 200).unwrap();
-        for stratum in Stratum::ALL {
+        for (stratum, wrong) in wrong_by_stratum(&registry.choose(spec).unwrap(), &meshes()) {
             let clean = CLEAN.contains(&stratum) || BVH2.contains(&spec) && CLEAN_BVH2.contains(&stratum);
-            let wrong: Vec<String> = all
-                .iter()
-                .filter(|f| f.stratum == stratum && f.validation.errors() > 0)
-                .map(|f| f.line(spec))
-                .collect();
             assert_eq!(wrong.is_empty(), clean, "{spec}, {}: {wrong:#?}", stratum.name());
         }
     }
+}
+
+/// The degenerate meshes, but for two that spoil every kind of ray: directions are as short as the one is small, and the
+/// other has boxes of all sizes.
+pub fn meshes() -> Vec<Named> {
+    let mut meshes = degenerate_meshes();
+    meshes.retain(|(name, _)| name != "soup times 2^-30" && name != "exponential sequence");
+    meshes
+}
+
+/// What a structure gets wrong of each kind of ray, a line per mesh.
+pub fn wrong_by_stratum(choice: &Choice, meshes: &[Named]) -> Vec<(Stratum, Vec<String>)> {
+    let all = findings(&choice.subject(), meshes, 200).unwrap();
+    let of_stratum = |stratum| {
+        let wrong = all.iter().filter(|f| f.stratum == stratum && f.validation.errors() > 0);
+        (stratum, wrong.map(|f| f.line(&choice.label)).collect())
+    };
+    Stratum::ALL.into_iter().map(of_stratum).collect()
 }
 
 /// An error of the triangle test, which brute force shares and no structure can repair: coordinates are quotients, so that

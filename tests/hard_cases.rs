@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use sahara::measure::SystemClock;
 use sahara::registry::{Choice, Registry};
 use sahara::request::known_defect;
-use sahara::validate::hard_cases::{Content, Court, HardCase, Rank, Score, ask, catalogue};
+use sahara::validate::hard_cases::{CaseTruth, Content, HardCase, Rank, Score, catalogue, run};
 
 /// Rays of a case.
 const RAYS: usize = 200;
@@ -31,15 +31,15 @@ fn ours() -> Vec<Choice> {
 }
 
 /// What is wrong with the structures on one case, one line each.
-fn faults(case: &HardCase, choices: &[Choice]) -> Vec<String> {
+fn faults<'a>(case: &HardCase, choices: impl IntoIterator<Item = &'a Choice>) -> Vec<String> {
     let rays = if LABORIOUS.contains(&case.name) { FEW } else { RAYS };
     let ranked = matches!(case.rank, Rank::Moderate | Rank::Extreme);
-    let mut court = Court::new(case, rays);
+    let mut truth = CaseTruth::new(case, rays);
     let mut faults = vec![];
     for choice in choices {
-        let fault = match ask(case, &choice.subject(), rays, &SystemClock::start()) {
+        let fault = match run(case, &choice.subject(), rays, &SystemClock::start()) {
             Err(error) => Some(error.to_string()),
-            Ok(answers) => match court.score(choice.triangle_test(), answers).unwrap() {
+            Ok(answers) => match truth.score(choice.triangle_test(), answers).unwrap() {
                 Score::Rays(score) => {
                     let lost = score.structure_errors != Some(0) || score.contradictions > 0;
                     let inexact = choice.triangle_test() == "exact" && score.inexact > 0;
@@ -56,19 +56,38 @@ fn faults(case: &HardCase, choices: &[Choice]) -> Vec<String> {
     faults
 }
 
+/// The `index`th of `cases` cases runs on the structures for which `is_run` holds, of `index` and the structure's own.
 #[track_caller]
-fn none_of(cases: Vec<&HardCase>) {
+fn none_of(cases: Vec<&HardCase>, is_run: fn(usize, usize) -> bool) {
     let choices = ours();
-    let faults: Vec<String> = cases.into_par_iter().flat_map_iter(|case| faults(case, &choices)).collect();
+    let of_case = |(index, case): (usize, &HardCase)| {
+        let sample = choices.iter().enumerate().filter(move |(i, _)| is_run(index, *i));
+        faults(case, sample.map(|(_, choice)| choice))
+    };
+    let faults: Vec<String> = cases.into_par_iter().enumerate().flat_map_iter(of_case).collect();
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
+fn cases(of_rays: bool) -> Vec<&'static HardCase> {
+    catalogue().into_iter().filter(|case| matches!(case.content, Content::Rays { .. }) == of_rays).collect()
+}
+
+/// Diagonals of the table of all: every case with some structures, every structure with some cases.
+const STEP: usize = 9;
+
 #[test]
+fn our_structures_lose_no_hit_on_a_sample_of_cases_and_tests() {
+    assert!(ours().len() >= STEP && cases(true).len() >= STEP);
+    none_of(cases(true), |case, choice| case % STEP == choice % STEP);
+}
+
+#[test]
+#[ignore = "every case with every structure and test takes half a minute"]
 fn our_structures_lose_no_hit_on_any_case_with_any_test() {
-    none_of(catalogue().into_iter().filter(|case| matches!(case.content, Content::Rays { .. })).collect());
+    none_of(cases(true), |_, _| true);
 }
 
 #[test]
 fn our_structures_have_every_property_with_any_test() {
-    none_of(catalogue().into_iter().filter(|case| matches!(case.content, Content::Property(_))).collect());
+    none_of(cases(false), |_, _| true);
 }

@@ -1,59 +1,66 @@
-//! All levels of instructions give the same answers, bit for bit, and count the same steps.
+//! All levels of instructions return the same hits, bit for bit, and count the same steps; so do rays that travel in packets,
+//! or several at a time, on every level.
 //!
-//! In a process of its own, because the level is that of the process.
+//! Each test runs in a process of its own, because the level is that of the process.
 
 use std::io::Write;
 use std::sync::Arc;
 
+use glam::Vec3;
+use rand_core::{RngCore, SeedableRng};
+use rand_pcg::Pcg32;
 use sahara::accel::{Counts, DynAccel};
 use sahara::geometry::{Hit, Mesh, Ray};
 use sahara::registry::Registry;
-use sahara::scene::Builtin;
+use sahara::scene::{Builtin, Sampling, Scene, Workload, WorkloadKind};
 use sahara::simd::Level;
 use sahara::validate::{Stratum, degenerate_meshes};
 
 use crate::alone::alone;
 
-/// Everything that a structure says of some rays.
-#[derive(PartialEq, Debug)]
-struct Said {
-    closest: Vec<Option<(u32, u32)>>,
-    any: Vec<bool>,
-    counts: [Counts; 2],
+/// Of a ray: bits of `t` and number of the primitive of its closest hit, and whether it hits anything.
+type Answer = (Option<(u32, u32)>, bool);
+
+fn answers(closest: Vec<Option<Hit>>, any: Vec<bool>) -> Vec<Answer> {
+    let bits = |hit: Hit| (hit.t.to_bits(), hit.prim.index());
+    closest.into_iter().map(|hit| hit.map(bits)).zip(any).collect()
 }
 
-fn bits(hits: &[Option<Hit>]) -> Vec<Option<(u32, u32)>> {
-    hits.iter().map(|hit| hit.map(|hit| (hit.t.to_bits(), hit.prim.index()))).collect()
+fn traced(accel: &dyn DynAccel, rays: &[Ray]) -> Vec<Answer> {
+    answers(accel.closest(rays), accel.any(rays))
 }
 
-fn ask(accel: &dyn DynAccel, rays: &[Ray]) -> Said {
+fn counted(accel: &dyn DynAccel, rays: &[Ray]) -> (Vec<Answer>, [Counts; 2]) {
     let (mut closest, mut any) = (vec![None; rays.len()], vec![false; rays.len()]);
     let mut counts = [Counts::default(); 2];
     accel.closest_hits_counted(rays, &mut closest, &mut counts[0]);
     accel.any_hits_counted(rays, &mut any, &mut counts[1]);
-    assert_eq!(
-        (bits(&accel.closest(rays)), accel.any(rays)),
-        (bits(&closest), any.clone()),
-        "counting changes an answer"
-    );
-    Said { closest: bits(&closest), any, counts }
+    let answers = answers(closest, any);
+    assert_eq!(traced(accel, rays), answers, "counting changes a hit");
+    (answers, counts)
+}
+
+fn scene(name: &str) -> Scene {
+    Builtin::find(name).unwrap().scene(None).unwrap()
+}
+
+#[track_caller]
+fn assert_many(hits: usize) {
+    assert!(hits > 20_000, "too few hits to prove anything: {hits}");
 }
 
 #[test]
-fn all_levels_say_the_same() {
-    if !alone("levels::all_levels_say_the_same") {
+fn all_levels_return_the_same() {
+    if !alone("levels::all_levels_return_the_same") {
         return;
     }
     let mut meshes: Vec<(String, Arc<Mesh>)> = degenerate_meshes();
-    for name in ["teapot", "cornellbox"] {
-        meshes.push((name.into(), Builtin::find(name).unwrap().scene(None).unwrap().mesh));
-    }
+    meshes.extend(["teapot", "cornellbox"].map(|name| (name.into(), scene(name).mesh)));
     let registry = Registry::builtin();
     let levels = Level::available();
-    if levels.len() == 1 {
+    if let [level] = &levels[..] {
         // A pass would prove nothing: say so where it is read, for the output of a test that passes is not shown.
-        let note =
-            format!("\nwarning: this machine or build has only the level {}: levels are not compared\n", levels[0]);
+        let note = format!("\nwarning: this machine or build has only the level {level}: levels are not compared\n");
         std::io::stderr().write_all(note.as_bytes()).expect("a sentence is written");
     }
     let mut hits = 0;
@@ -61,16 +68,110 @@ fn all_levels_say_the_same() {
         for (name, mesh) in &meshes {
             let rays: Vec<Ray> = Stratum::ALL.into_iter().flat_map(|stratum| stratum.rays(mesh, 8, 7)).collect();
             let accel = choice.build(mesh).unwrap();
-            let said = levels.iter().map(|level| {
+            levels[0].choose();
+            let first = counted(&*accel, &rays);
+            for level in &levels[1..] {
                 level.choose();
-                ask(&*accel, &rays)
-            });
-            let said: Vec<Said> = said.collect();
-            for (level, other) in levels.iter().zip(&said) {
-                assert_eq!(&said[0], other, "{} on {name}: {} and {level} differ", choice.label, levels[0]);
+                let other = counted(&*accel, &rays);
+                assert_eq!(first, other, "{} on {name}: {} and {level} differ", choice.label, levels[0]);
             }
-            hits += said[0].any.iter().filter(|&&hit| hit).count();
+            hits += first.0.iter().filter(|(_, any)| *any).count();
         }
     }
-    assert!(hits > 20_000, "too few hits to prove anything: {hits}");
+    assert_many(hits);
+}
+
+/// Adversarial rays, in such an order that packets of one octant come about, and the same in the order they were made.
+fn bundles(mesh: &Mesh) -> Vec<Ray> {
+    let mixed: Vec<Ray> = Stratum::ALL.into_iter().flat_map(|stratum| stratum.rays(mesh, 16, 5)).collect();
+    let mut sorted = mixed.clone();
+    sorted.sort_by_key(|ray| ray.direction.to_array().map(f32::is_sign_negative));
+    // Rays that differ by little, with ends that cut through the scene.
+    let neighbours = mixed.iter().step_by(5).flat_map(|ray| {
+        let step = |i: u32| {
+            let direction = ray.direction * (1.0 + i as f32 * 1e-3);
+            let end = if i < 5 { 1.0 + i as f32 * 0.1 } else { f32::INFINITY };
+            Ray { direction, t_min: if i > 12 { 0.25 } else { 0.0 }, ..*ray }.until(end)
+        };
+        (0..16).map(step)
+    });
+    let near: Vec<Ray> = neighbours.collect();
+    // The same with directions of very different lengths: what is certain of the longest is not of the others.
+    let unequal = near.iter().enumerate().map(|(i, ray)| {
+        let longer = (3.0 * (i % 16) as f32).exp2();
+        Ray { direction: ray.direction / longer, t_min: ray.t_min * longer, ..*ray }.until(ray.t_max * longer)
+    });
+    let unequal: Vec<Ray> = unequal.collect();
+    [mixed, sorted, near, unequal].concat()
+}
+
+/// Triangles on a coarse grid, so that many are hit at once, at 0 and -0, on edges, and by rays that lie in them.
+fn coarse() -> Arc<Mesh> {
+    let mut random = Pcg32::seed_from_u64(8);
+    let mut corner = || Vec3::from_array(std::array::from_fn(|_| (random.next_u32() % 4) as f32 - 1.0));
+    let positions = (0..3 * 300).map(|_| corner()).collect();
+    Arc::new(Mesh::new(positions, (0..300).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect()).unwrap())
+}
+
+/// Sixteen rays at a time from a point of the grid, in directions of one octant; some end at a point of the grid.
+fn from_the_grid() -> Vec<Ray> {
+    let mut random = Pcg32::seed_from_u64(9);
+    let mut rays = vec![];
+    for _ in 0..1_000 {
+        let mut some = |n: u32| (random.next_u32() % n) as f32;
+        let origin = Vec3::new(some(4) - 1.0, some(4) - 1.0, some(4) - 1.0);
+        let signs = [(); 3].map(|()| 2.0 * some(2) - 1.0);
+        for _ in 0..16 {
+            let ray = Ray::new(origin, Vec3::from_array(signs.map(|sign| sign * (1.0 + some(3)))));
+            rays.push(if some(3) == 0.0 { ray.until(1.0 + some(2)) } else { ray });
+        }
+    }
+    rays
+}
+
+#[test]
+fn packets_and_interleaved_rays_return_what_single_rays_do() {
+    if !alone("levels::packets_and_interleaved_rays_return_what_single_rays_do") {
+        return;
+    }
+    let registry = Registry::builtin();
+    let with_bundles = |(name, mesh): (String, Arc<Mesh>)| (name, bundles(&mesh), mesh);
+    let mut cases: Vec<(String, Vec<Ray>, Arc<Mesh>)> = degenerate_meshes().into_iter().map(with_bundles).collect();
+    cases.push(("a coarse grid".into(), from_the_grid(), coarse()));
+    for scene in ["teapot", "cornellbox", "dragon"].map(scene) {
+        let reference = registry.choose("sah-kd").unwrap().build(&scene.mesh).unwrap();
+        let sampling = Sampling::some(&scene, 1_000, 3);
+        let mut rays = bundles(&scene.mesh);
+        for kind in [WorkloadKind::Primary, WorkloadKind::Shadow, WorkloadKind::Diffuse] {
+            rays.extend(Workload::new(&scene, kind, &sampling, &*reference).rays);
+        }
+        cases.push((scene.name, rays, scene.mesh));
+    }
+
+    let mut hits = 0;
+    for structure in [
+        "sah-kd-wide:test=moller-trumbore",
+        "sah-kd-tight:test=exact",
+        "sah-hybrid:test=moller-trumbore",
+        "sah-hybrid:test=exact",
+        "sah-bvh:test=watertight",
+    ] {
+        let build = |spec: &str, mesh| registry.choose(spec).unwrap().build(mesh).unwrap();
+        for (name, rays, mesh) in &cases {
+            let single = traced(&*build(structure, mesh), rays);
+            for batch in ["packets", "interleaved"] {
+                let together = build(&format!("{structure},batch={batch}"), mesh);
+                for level in Level::available() {
+                    level.choose();
+                    let found = traced(&*together, rays);
+                    if let Some(i) = (0..rays.len()).find(|&i| found[i] != single[i]) {
+                        let (ray, found, single) = (rays[i], found[i], single[i]);
+                        panic!("{structure}, {batch}, {level}, on {name}: {ray:?} gives {found:?}, alone {single:?}");
+                    }
+                }
+            }
+            hits += single.iter().filter(|(_, any)| *any).count();
+        }
+    }
+    assert_many(hits);
 }

@@ -16,7 +16,6 @@ mod hostile_files;
 mod layers;
 mod levels;
 mod oracle;
-mod packets;
 mod peers;
 mod properties;
 mod real_meshes;

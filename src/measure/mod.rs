@@ -20,6 +20,7 @@ mod ray_allotment;
 mod remote_pass;
 mod samples;
 mod student;
+pub mod subprocess;
 mod summary;
 mod threads;
 pub mod tiles;

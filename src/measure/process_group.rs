@@ -6,6 +6,8 @@
 #[cfg(target_os = "linux")]
 use std::os::unix::process::CommandExt;
 use std::process::{Child, Command};
+use std::thread;
+use std::time::{Duration, Instant};
 
 #[cfg(target_os = "linux")]
 use nix::{
@@ -30,16 +32,37 @@ pub fn set_apart(_: &mut Command) {}
 
 /// Whether a program has ended; it must still be waited for.
 #[cfg(target_os = "linux")]
-pub fn has_ended(child: &mut Child) -> bool {
+fn has_ended(child: &mut Child) -> bool {
     state(child) != Ok(WaitStatus::StillAlive)
 }
 
 #[cfg(not(target_os = "linux"))]
-pub fn has_ended(child: &mut Child) -> bool {
+fn has_ended(child: &mut Child) -> bool {
     !matches!(child.try_wait(), Ok(None))
 }
 
-/// Kills a program that was [set apart](set_apart) and all that it has started, unless it has been waited for.
+/// How often a program is looked at.
+const PAUSE: Duration = Duration::from_millis(1);
+
+/// Whether a program ends within `limit`. It is still to be waited for.
+pub fn ends_within(child: &mut Child, limit: Duration) -> bool {
+    let start = Instant::now();
+    while !has_ended(child) {
+        if start.elapsed() >= limit {
+            return false;
+        }
+        thread::sleep(PAUSE);
+    }
+    true
+}
+
+/// Has this process end with the thread that started it: a run that is killed leaves nothing behind that disturbs the next.
+pub fn end_with_parent() {
+    #[cfg(target_os = "linux")]
+    let _ = nix::sys::prctl::set_pdeathsig(Signal::SIGKILL);
+}
+
+/// Ends a program that was [set apart](set_apart), and with it all that it has started, unless it has been waited for.
 pub fn end(child: &mut Child) {
     // Until it has been waited for, its number cannot be given to another group.
     #[cfg(target_os = "linux")]

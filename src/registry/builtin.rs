@@ -8,7 +8,7 @@ use crate::kdtree::{KdConfig, KdTree};
 use crate::offered::Offered;
 use crate::scene::spheres;
 use crate::triangle::{BaldwinWeber, EdgeF64, Exact, MollerTrumbore, MollerTrumboreF64, Plucker, Watertight};
-use crate::validate::Judged;
+use crate::validate::HasReference;
 
 impl Registry {
     /// The structures of this crate.
@@ -34,7 +34,7 @@ impl Registry {
     }
 
     /// Brute force over the triangle test `T`, the reference for structures over it.
-    pub(super) fn brute_force<T: Judged>(self) -> Self
+    pub(super) fn brute_force<T: HasReference>(self) -> Self
     where
         BruteForce<T>: Offered<Config = BruteForceConfig>,
     {
@@ -42,7 +42,7 @@ impl Registry {
     }
 
     /// The structures of this crate over the triangle test `T`.
-    fn over<T: Judged>(self) -> Self
+    fn over<T: HasReference>(self) -> Self
     where
         BruteForce<T>: Offered<Config = BruteForceConfig>,
         KdTree<T>: Offered<Config = KdConfig>,

@@ -26,9 +26,8 @@ pub(super) struct Reply {
 /// The bytes of the longest reply; a longer one is cut.
 const LONGEST: u64 = 4096;
 
-/// How long a program may take to end, and how often that is checked.
+/// What a program may take to end.
 const GRACE_PERIOD: Duration = Duration::from_millis(500);
-const POLL_INTERVAL: Duration = Duration::from_millis(1);
 
 impl Session {
     /// Starts the program `words[0]` with its arguments. With several threads it may use all cores of this process.
@@ -99,12 +98,7 @@ impl Session {
     /// ended by itself.
     fn end(&mut self, patience: Duration) -> Option<ExitStatus> {
         self.input = None;
-        let start = Instant::now();
-        let mut has_ended = process_group::has_ended(&mut self.child);
-        while !has_ended && start.elapsed() < patience {
-            thread::sleep(POLL_INTERVAL);
-            has_ended = process_group::has_ended(&mut self.child);
-        }
+        let has_ended = process_group::ends_within(&mut self.child, patience);
         process_group::end(&mut self.child);
         self.child.wait().ok().filter(|_| has_ended)
     }

@@ -1,4 +1,4 @@
-//! Who is to blame for a difference.
+//! Whether the structure, its triangle test or the reference causes a difference.
 
 use std::cmp::Ordering;
 
@@ -9,13 +9,13 @@ use crate::geometry::{Hit, Mesh, PrimId, Ray};
 /// How far from the box of a primitive a hit on it may be, relatively: what float tests round.
 const OUTSIDE: f64 = 1e-3;
 
-/// What is to be said of a difference.
+/// The verdict on a difference.
 pub(super) struct Blame {
     pub kind: Kind,
     pub sentence: String,
 }
 
-/// Judges the answer `found` where the reference answers `expected`; nothing if they agree.
+/// Judges the hit `found` where the reference has `expected`; nothing if they agree.
 pub(super) fn blame(
     reference: &Reference,
     mesh: &Mesh,
@@ -66,7 +66,7 @@ fn own_test(own: ScalarTest, mesh: &Mesh, ray: &Ray, expected: Option<Hit>, foun
     }
 }
 
-/// Relative distance of two answers.
+/// Relative distance of two hits.
 pub(super) fn gap(expected: Option<Hit>, found: Option<Hit>) -> f64 {
     match (expected, found) {
         (Some(e), Some(f)) => (f64::from(e.t) - f64::from(f.t)).abs() / f64::from(e.t.abs().max(f32::MIN_POSITIVE)),
@@ -74,7 +74,7 @@ pub(super) fn gap(expected: Option<Hit>, found: Option<Hit>) -> f64 {
     }
 }
 
-/// Both owe each other the same bits, and the reference has tested every triangle.
+/// Both must return the same bits, and the reference has tested every triangle.
 fn same_test(test: ScalarTest, mesh: &Mesh, ray: &Ray, expected: Option<Hit>, found: Option<Hit>) -> Blame {
     // A hit must be one that the test gives at that primitive.
     if let Some(f) = found {
@@ -124,17 +124,17 @@ fn lost(mesh: &Mesh, ray: &Ray, expected: Hit, found: Option<Hit>) -> Blame {
     }
 }
 
-/// The same computed `t` at two primitives. The lower number is owed if the walk had to come to it.
+/// The same computed `t` at two primitives. The lower number must win if the traversal had to come to it.
 fn tie(mesh: &Mesh, ray: &Ray, expected: Hit, found: Hit) -> Blame {
-    let owed = true_hit(mesh, ray, expected).filter(|t| t.compare(found.t).is_some_and(Ordering::is_le));
-    if owed.is_some() && expected.prim.index() < found.prim.index() {
+    let lower = true_hit(mesh, ray, expected).filter(|t| t.compare(found.t).is_some_and(Ordering::is_le));
+    if lower.is_some() && expected.prim.index() < found.prim.index() {
         return verdict(Kind::HigherId, format!("exactly, {:?} is hit too, no later", expected.prim));
     }
     verdict(Kind::Tie, "both primitives have this computed t".into())
 }
 
-/// Whether the primitive of a hit reaches where the hit is, give or take what float tests round: a neighbour across an edge
-/// does, a wrong number hardly ever.
+/// Whether the point of a hit lies in the box of its primitive, up to what float tests round. That of a neighbour across an
+/// edge does, that of a wrong number hardly ever.
 fn may_be_at(mesh: &Mesh, ray: &Ray, hit: Hit) -> bool {
     if hit.prim.index() as usize >= mesh.len() {
         return false;
@@ -148,7 +148,7 @@ fn may_be_at(mesh: &Mesh, ray: &Ray, hit: Hit) -> bool {
     })
 }
 
-/// Two answers that agree but for their depth: which of them is off?
+/// Two hits that agree but for their depth: the exact answer tells which of them is off.
 fn strict(mesh: &Mesh, ray: &Ray, expected: Hit, found: Hit) -> Blame {
     let Some((t, prim)) = nearest(mesh, ray, Some(expected), Some(found)) else {
         return verdict(Kind::TriangleTest, "exactly, neither is a hit in the interval".into());

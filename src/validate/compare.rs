@@ -6,32 +6,32 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use super::asked::{Asked, Call, message};
 use super::blame::{Blame, blame, gap};
+use super::query_clock::{Call, QueryClock, message};
 use super::{Kind, Reference, Validation, WorstRay};
 use crate::accel::DynAccel;
 use crate::geometry::{Hit, Mesh, Ray};
 use crate::oracle::Oracle;
 
-/// Rays a batch: part of the result's definition, so that no thread count changes it.
+/// Rays per batch: part of the result's definition, so that no thread count changes it.
 pub(super) const BATCH: usize = 256;
 
-/// Holds `subject` against `reference` on every ray: the closest hit, that any hit agrees with it, and that asking again
-/// for one ray alone gives the same answer; batches are loaded ([`Accel::load`](crate::accel::Accel::load)), as they are timed.
+/// Compares `subject` with `reference` on every ray: the closest hit is the same, any hit agrees with it, and the ray alone
+/// has the same hit as in a batch; batches are loaded ([`Accel::load`](crate::accel::Accel::load)), as they are timed.
 ///
 /// `mesh` is the one that both were built from. Rays that the structure declines are left out and counted. A panic is caught
 /// and ends its batch; against endless loops see [`validate_watched`](super::validate_watched). Runs on all threads of the
 /// pool; the result does not depend on how many.
-/// Costs two closest and two any-hit queries of `subject` a ray, one closest hit of `reference`, and some microseconds a
+/// Costs two closest and two any-hit queries of `subject` per ray, one closest hit of `reference`, and some microseconds per
 /// ray on which they differ.
 pub fn validate(subject: &dyn DynAccel, reference: &Reference, mesh: &Mesh, rays: &[Ray]) -> Validation {
     validate_known(subject, reference, &reference.closest_hits(rays), mesh, rays)
 }
 
-/// As [`validate`], with `expected` the answers of `reference` to `rays`: for several structures it is asked once.
+/// As [`validate`], with `expected` the hits of `reference` for `rays`: for several structures they are found once.
 ///
 /// # Panics
-/// If there are not as many answers as rays.
+/// If there is not one hit per ray.
 pub fn validate_known(
     subject: &dyn DynAccel,
     reference: &Reference,
@@ -41,24 +41,24 @@ pub fn validate_known(
 ) -> Validation {
     let (admitted, expected) = admitted(subject, rays, expected);
     let batches = admitted.par_chunks(BATCH).zip(expected.par_chunks(BATCH));
-    let of_batch = |(rays, expected)| validate_batch(subject, reference, expected, mesh, rays, &Asked::default());
+    let of_batch = |(rays, expected)| validate_batch(subject, reference, expected, mesh, rays, &QueryClock::default());
     let batches: Vec<Validation> = batches.map(of_batch).collect();
     Validation::of_batches(rays.len() - admitted.len(), batches)
 }
 
-/// The rays that `subject` does not decline, and what is expected of them.
+/// The rays that `subject` does not decline, and the hits of the reference for them.
 pub(super) fn admitted(subject: &dyn DynAccel, rays: &[Ray], expected: &[Option<Hit>]) -> (Vec<Ray>, Vec<Option<Hit>>) {
-    assert_eq!(rays.len(), expected.len(), "one answer a ray");
+    assert_eq!(rays.len(), expected.len(), "one hit per ray");
     let can = subject.capabilities();
     let known = rays.iter().copied().zip(expected.iter().copied());
     known.filter(|(ray, _)| can.declines(ray).is_none()).unzip()
 }
 
-/// Holds closest hits that were found elsewhere against `expected`, the answers of `reference`: as [`validate`], without what
-/// only asking can tell.
+/// Compares closest hits that were found elsewhere with `expected`, the hits of `reference`: as [`validate`], without what
+/// needs queries.
 ///
 /// # Panics
-/// If there are not as many answers as rays.
+/// If there is not one hit per ray.
 pub fn validate_answers(
     reference: &Reference,
     expected: &[Option<Hit>],
@@ -66,7 +66,7 @@ pub fn validate_answers(
     rays: &[Ray],
     found: &[Option<Hit>],
 ) -> Validation {
-    assert!(rays.len() == found.len() && rays.len() == expected.len(), "one answer a ray");
+    assert!(rays.len() == found.len() && rays.len() == expected.len(), "one hit per ray");
     let batches = rays.par_chunks(BATCH).zip(found.par_chunks(BATCH)).zip(expected.par_chunks(BATCH));
     let batches: Vec<Validation> = batches
         .map(|((rays, found), expected)| {
@@ -82,12 +82,12 @@ pub fn validate_answers(
     Validation::of_batches(0, batches)
 }
 
-/// Holds answers to the any-hit query that were found elsewhere against `expected`, the closest hits of `reference`,
-/// with the exact oracle as judge where they differ. Where the triangle test is shared, a hit that the reference does
-/// not have is invented, whatever is exactly so.
+/// Compares results of the any-hit query that were found elsewhere with `expected`, the closest hits of `reference`; the
+/// exact oracle judges where they differ. Where the triangle test is shared, a hit that the reference does not have is
+/// invented, whatever is exactly so.
 ///
 /// # Panics
-/// If there are not as many answers as rays.
+/// If there is not one result per ray.
 pub fn validate_any_answers(
     reference: &Reference,
     expected: &[Option<Hit>],
@@ -95,7 +95,7 @@ pub fn validate_any_answers(
     rays: &[Ray],
     found: &[bool],
 ) -> Validation {
-    assert!(rays.len() == found.len() && rays.len() == expected.len(), "one answer a ray");
+    assert!(rays.len() == found.len() && rays.len() == expected.len(), "one hit per ray");
     let hits = expected.iter().flatten().count() as u64;
     let mut sums = Validation { rays: rays.len() as u64, hits, ..Validation::default() };
     let shares_test = reference.test.is_some();
@@ -124,28 +124,28 @@ pub fn validate_any_answers(
     sums
 }
 
-/// One batch; `asked` shows to another thread what the structure is being asked.
+/// Compares one batch; `clock` shows the running query to another thread.
 pub(super) fn validate_batch(
     subject: &dyn DynAccel,
     reference: &Reference,
     expected: &[Option<Hit>],
     mesh: &Mesh,
     rays: &[Ray],
-    asked: &Asked,
+    clock: &QueryClock,
 ) -> Validation {
     let mut sums = Validation { rays: rays.len() as u64, ..Validation::default() };
 
-    // Ask each ray alone, and only then the batch: what panics or hangs does so at a ray that can be named.
+    // Trace each ray alone, and only then the batch: what panics or hangs does so at a ray that can be named.
     let mut alone = Vec::with_capacity(rays.len());
     for (index, ray) in rays.iter().enumerate() {
-        match ask(asked, Call::Ray(index), || answer(subject, ray)) {
-            Ok(answer) => alone.push(answer),
+        match caught(clock, Call::Ray(index), || traced_alone(subject, ray)) {
+            Ok(hits) => alone.push(hits),
             Err(message) => return sums.ended(expected[index], rays, Call::Ray(index), Kind::Panicked, message),
         }
     }
     // In the form in which it is timed.
-    let (found, any) = match ask(asked, Call::Batch, || loaded_answers(subject, rays)) {
-        Ok(answers) => answers,
+    let (found, any) = match caught(clock, Call::Batch, || traced_loaded(subject, rays)) {
+        Ok(hits) => hits,
         Err(message) => return sums.ended(expected[0], rays, Call::Batch, Kind::Panicked, message),
     };
 
@@ -163,11 +163,11 @@ pub(super) fn validate_batch(
             sums.worst.push(WorstRay { index, ray: *ray, expected, found, kind, verdict, gap: gap(expected, found) });
         };
 
-        // Of an answer that is not always the same nothing more can be said.
+        // Nothing more can be said of a hit that is not always the same.
         let (again, any_again) = alone[index];
         if !same(again, found) || checks_any && any_again != any {
             let alone = again.map_or("nothing".to_owned(), |hit| format!("t = {:?} at {:?}", hit.t, hit.prim));
-            note(Kind::Unrepeatable, format!("asked alone, closest hit says {alone}, any hit {any_again}"));
+            note(Kind::Unrepeatable, format!("alone, closest hit says {alone}, any hit {any_again}"));
             sums.unrepeatable += 1;
             continue;
         }
@@ -182,12 +182,12 @@ pub(super) fn validate_batch(
     sums
 }
 
-/// Prefilled with an answer that nobody gives: a structure must write every slot.
+/// A hit that no structure returns: a structure must overwrite it in every slot.
 fn unwritten() -> Option<Hit> {
     Some(Hit::new(f32::NEG_INFINITY, u32::MAX - 1))
 }
 
-fn answer(subject: &dyn DynAccel, ray: &Ray) -> (Option<Hit>, bool) {
+fn traced_alone(subject: &dyn DynAccel, ray: &Ray) -> (Option<Hit>, bool) {
     let mut found = [unwritten()];
     subject.closest_hits(&[*ray], &mut found);
     let mut any = [found[0].is_none()];
@@ -195,7 +195,7 @@ fn answer(subject: &dyn DynAccel, ray: &Ray) -> (Option<Hit>, bool) {
     (found[0], any[0])
 }
 
-fn loaded_answers(subject: &dyn DynAccel, rays: &[Ray]) -> (Vec<Option<Hit>>, Vec<bool>) {
+fn traced_loaded(subject: &dyn DynAccel, rays: &[Ray]) -> (Vec<Option<Hit>>, Vec<bool>) {
     let loaded = subject.load(Cow::Borrowed(rays));
     let mut found = vec![unwritten(); rays.len()];
     loaded.closest_hits(&mut found);
@@ -204,11 +204,12 @@ fn loaded_answers(subject: &dyn DynAccel, rays: &[Ray]) -> (Vec<Option<Hit>>, Ve
     (found, any)
 }
 
-fn ask<R>(asked: &Asked, call: Call, question: impl FnOnce() -> R) -> Result<R, String> {
-    asked.begin(call);
-    let answer = catch_unwind(AssertUnwindSafe(question));
-    asked.end();
-    answer.map_err(|payload| message(payload.as_ref()))
+/// What a query returns, or the message of its panic.
+fn caught<R>(clock: &QueryClock, call: Call, query: impl FnOnce() -> R) -> Result<R, String> {
+    clock.begin(call);
+    let result = catch_unwind(AssertUnwindSafe(query));
+    clock.end();
+    result.map_err(|payload| message(payload.as_ref()))
 }
 
 fn tally(

@@ -1,4 +1,4 @@
-//! Error rates: answers against the truth, whatever structure or triangle test they come from.
+//! Error rates: hits compared with the truth, whatever structure or triangle test they come from.
 
 use super::Rate;
 use crate::geometry::Hit;
@@ -31,7 +31,7 @@ impl DepthRule {
     }
 }
 
-/// What became of one ray.
+/// The outcome of one ray.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Outcome {
     /// Nothing is hit, and nothing was found.
@@ -49,7 +49,7 @@ pub enum Outcome {
     WrongPrimitive,
 }
 
-/// Sums over rays. Rates of kinds of rays that fail in different ways must not be added up.
+/// Sums over rays. Rates of workloads that fail in different ways must not be added up.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct ErrorCounts {
     /// Rays compared.
@@ -58,9 +58,9 @@ pub struct ErrorCounts {
     pub hits: u64,
     /// Hits that were not found.
     pub missed: u64,
-    /// Hits that are none.
+    /// Hits where exactly there is none.
     pub false_hits: u64,
-    /// Hits at a wrong depth, by the rule asked for.
+    /// Hits at a wrong depth, by the given rule.
     pub wrong_depth: u64,
     /// Hits at a primitive that is not among the nearest, their depth right or wrong.
     pub wrong_primitive: u64,
@@ -92,7 +92,7 @@ impl ErrorCounts {
         self.missed + self.false_hits + self.wrong_depth
     }
 
-    /// Wrong answers among all rays.
+    /// Wrong hits among all rays.
     pub fn error(&self) -> Rate {
         Rate { events: self.errors(), of: self.rays }
     }
@@ -113,12 +113,12 @@ impl ErrorCounts {
     }
 }
 
-/// Counts the wrong answers to some rays.
+/// Counts the wrong hits of some rays.
 ///
 /// # Panics
-/// If there are not as many answers as truths.
+/// If there are not as many hits as truths.
 pub fn count_errors(truths: &[Option<Truth>], answers: &[Option<Hit>], rule: DepthRule) -> ErrorCounts {
-    assert_eq!(truths.len(), answers.len(), "one answer a ray");
+    assert_eq!(truths.len(), answers.len(), "one hit per ray");
     let mut counts = ErrorCounts { rays: truths.len() as u64, ..ErrorCounts::default() };
     let mut ulps = vec![];
     for (truth, answer) in truths.iter().zip(answers) {
@@ -141,7 +141,7 @@ pub fn count_errors(truths: &[Option<Truth>], answers: &[Option<Hit>], rule: Dep
     counts
 }
 
-/// What became of a ray with this answer.
+/// The outcome of a ray with this hit.
 pub fn outcome(truth: Option<&Truth>, answer: Option<Hit>, rule: DepthRule) -> Outcome {
     match (truth, answer) {
         (None, None) => Outcome::Nothing,

@@ -1,4 +1,4 @@
-//! What a structure is held against.
+//! The reference that a structure is compared with.
 
 use std::sync::Arc;
 
@@ -22,22 +22,22 @@ use crate::triangle::{
 /// One triangle, tested alone: `t` where the ray hits it within its interval.
 pub type ScalarTest = fn(&Ray, [Vec3; 3]) -> Option<f32>;
 
-/// A triangle test that has a reference of its own. Without one, a structure would be compared with Möller-Trumbore. The registry offers brute
-/// force, and all of this crate's structures, over such tests alone.
-pub(crate) trait Judged: TriangleTest {}
+/// A triangle test that has a reference of its own. Without one, a structure would be compared with Möller-Trumbore. The
+/// registry offers brute force, and all of this crate's structures, only over such tests.
+pub(crate) trait HasReference: TriangleTest {}
 
 type OfMesh = fn(&Arc<Mesh>) -> Result<Reference, BuildError>;
 
-macro_rules! judged {
+macro_rules! references {
     ($($(#[$feature:meta])? $test:ty),* $(,)?) => {
-        $($(#[$feature])? impl Judged for $test {})*
+        $($(#[$feature])? impl HasReference for $test {})*
 
         /// The reference of each test, by its name.
-        const JUDGED: &[(&str, OfMesh)] = &[$($(#[$feature])? (<$test>::NAME, Reference::brute_force::<$test>)),*];
+        const REFERENCES: &[(&str, OfMesh)] = &[$($(#[$feature])? (<$test>::NAME, Reference::brute_force::<$test>)),*];
     };
 }
 
-judged!(
+references!(
     Exact,
     MollerTrumbore,
     Watertight,
@@ -52,35 +52,35 @@ judged!(
     ParryTest,
 );
 
-/// Rays that a thread asks at a time: few, since brute force takes milliseconds for each.
+/// Rays that a thread takes at a time: few, since brute force takes milliseconds for each.
 const BATCH: usize = 32;
 
-/// The answers that a structure's own are compared with, and how strictly.
+/// What the hits of a structure are compared with, and how strictly.
 pub struct Reference {
-    /// Answers for all rays.
+    /// Returns the hits.
     pub accel: Box<dyn DynAccel>,
-    /// The triangle test that the structure and the reference share: they owe each other the same bits, and the reference
-    /// has tested every triangle. `None` when the tests differ, or when the reference may itself have lost hits.
+    /// The triangle test that the structure and the reference share: their hits must be the same bits, and the reference has
+    /// tested every triangle. `None` when the tests differ, or when the reference may itself have lost hits.
     pub test: Option<ScalarTest>,
-    /// The structure's own triangle test, where it is known but too slow to be run over all triangles: asked about the
-    /// triangles in dispute, it tells what the structure lost from what its test did not find.
+    /// The structure's own triangle test, where it is known but too slow to be run over all triangles. Run on the triangles
+    /// in dispute, it tells what the structure lost from what its test did not find.
     pub disputed: Option<ScalarTest>,
 }
 
 impl Reference {
-    /// Brute force with the triangle test named `test` ([`TRIANGLE_TEST`](crate::accel::Accel::TRIANGLE_TEST)); for a test that this crate does not
-    /// have, brute force with Möller-Trumbore, which shares nothing; for one that it has only as a scene of one triangle,
-    /// brute force with `exact`, and that test in disputes.
+    /// Brute force with the triangle test named `test` ([`TRIANGLE_TEST`](crate::accel::Accel::TRIANGLE_TEST)); for a test
+    /// that this crate does not have, brute force with Möller-Trumbore, which shares nothing; for one that it has only as a
+    /// scene of one triangle, brute force with `exact`, and that test in disputes.
     ///
     /// # Errors
-    /// If the mesh is refused.
+    /// If it cannot be built over the mesh.
     pub fn of_test(test: &str, mesh: &Arc<Mesh>) -> Result<Self, BuildError> {
         match test {
             #[cfg(feature = "peer-embree")]
             <embree::Fast as embree::Mode>::TEST => Self::in_disputes(embree::alone::<embree::Fast>, mesh),
             #[cfg(feature = "peer-embree")]
             <embree::Robust as embree::Mode>::TEST => Self::in_disputes(embree::alone::<embree::Robust>, mesh),
-            test => match JUDGED.iter().find(|(name, _)| *name == test) {
+            test => match REFERENCES.iter().find(|(name, _)| *name == test) {
                 Some((_, reference)) => reference(mesh),
                 None => Ok(Self { test: None, ..Self::brute_force::<MollerTrumbore>(mesh)? }),
             },
@@ -90,7 +90,7 @@ impl Reference {
     /// Brute force with a triangle test that the structure shares.
     ///
     /// # Errors
-    /// If the mesh is refused.
+    /// If it cannot be built over the mesh.
     pub(super) fn brute_force<T: TriangleTest>(mesh: &Arc<Mesh>) -> Result<Self, BuildError>
     where
         BruteForce<T>: Offered<Config = BruteForceConfig>,
@@ -114,7 +114,7 @@ impl Reference {
         self.test.is_some() || self.disputed.is_some()
     }
 
-    /// Any other structure: it may have lost hits, so that the exact oracle decides wherever the answers differ.
+    /// Any other structure: it may have lost hits, so the exact oracle decides wherever the hits differ.
     pub fn structure(accel: Box<dyn DynAccel>) -> Self {
         Self { accel, test: None, disputed: None }
     }

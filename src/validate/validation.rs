@@ -2,7 +2,7 @@
 
 use std::fmt::{Display, Formatter};
 
-use super::asked::Call;
+use super::query_clock::Call;
 use crate::geometry::{Hit, Ray};
 use crate::names::named_enum;
 
@@ -11,33 +11,32 @@ use crate::names::named_enum;
 pub struct Validation {
     /// Rays compared; where a panic or an endless loop ended a batch, all of the batch.
     pub rays: u64,
-    /// Rays that the structure declines ([`Capabilities`](crate::accel::Capabilities)): it was not asked.
+    /// Rays that the structure declines ([`Capabilities`](crate::accel::Capabilities)): they were not traced.
     pub declined: u64,
     /// Rays that hit something by the reference.
     pub hits: u64,
     /// Rays with another `t` than the reference, bit for bit, or with a hit where it has none or the reverse. Where the
-    /// triangle tests differ: rays on which the two differ by more than both tests round, each is blamed on one of them.
+    /// triangle tests differ: rays on which the two differ by more than both tests round; one of the two is wrong.
     pub differing: u64,
     /// Hits lost or invented by the structure; zero in a correct one.
     pub structure_errors: u64,
-    /// Differences that the triangle test is to blame for: its hit exactly is none, or exactly is not the nearer one.
+    /// Differences that the triangle test causes: its hit exactly is none, or exactly is not the nearer one.
     pub test_errors: u64,
-    /// Differences that the reference is to blame for, which has another triangle test: the answer is right.
+    /// Differences that the reference causes, which has another triangle test: the hit is right.
     pub reference_errors: u64,
-    /// Wrong answers of a structure whose triangle test the reference does not share; of depths those that are wrong by
+    /// Wrong hits of a structure whose triangle test the reference does not share; of depths those that are wrong by
     /// [`DepthRule::COARSE`](super::DepthRule::COARSE).
     pub answer_errors: u64,
-    /// Depths that such a structure's answers have wrong by [`DepthRule::STRICT`](super::DepthRule::STRICT) alone: what
-    /// tests in `f32` round, mostly, so that no structure is to blame; for an answer that is to be exact they are
-    /// errors.
+    /// Depths of such a structure that are wrong by [`DepthRule::STRICT`](super::DepthRule::STRICT) alone. Mostly they are
+    /// what tests in `f32` round, and not the structure's fault; for hits that must be exact they are errors.
     pub depth_errors: u64,
     /// Rays for which any hit and closest hit contradict each other.
     pub any_hit_errors: u64,
-    /// Rays answered otherwise when asked again, in a batch instead of alone; of such an answer nothing more is said.
+    /// Rays whose hit in a batch differs from that alone; nothing more is said of such a hit.
     pub unrepeatable: u64,
     /// Batches that a panic of the structure ended.
     pub panics: u64,
-    /// Batches that the structure did not answer in time: 1 ends the comparison.
+    /// Batches that took too long: 1 ends the comparison.
     pub hangs: u64,
     /// Rays with the `t` of the reference at another primitive that also has it: not an error.
     pub ties: u64,
@@ -54,28 +53,28 @@ pub struct WorstRay {
     /// Position among the rays compared.
     pub index: u64,
     pub ray: Ray,
-    /// The answer of the reference.
+    /// The hit of the reference.
     pub expected: Option<Hit>,
-    /// The answer of the structure.
+    /// The hit of the structure.
     pub found: Option<Hit>,
     pub kind: Kind,
-    /// What is exactly so, in one sentence.
+    /// The exact truth, in one sentence.
     pub verdict: String,
     /// Relative distance of the two `t`; infinite for a hit against a miss.
     pub gap: f64,
 }
 
 named_enum! {
-    /// How an answer differs, the worst first.
+    /// How a hit differs, the worst first.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
     pub enum Kind {
-        /// The structure does not answer in time.
+        /// A query does not return in time.
         Hangs = "hangs",
         /// The structure panics.
         Panicked = "panics",
         /// A true hit, and the structure returns none.
         Lost = "lost",
-        /// A true hit, and the structure returns one behind it, or one that is none.
+        /// A true hit, and the structure returns one behind it, or one that exactly is none.
         NearerLost = "nearer-lost",
         /// A hit that the triangle test over all triangles does not give.
         Invented = "invented",
@@ -85,13 +84,13 @@ named_enum! {
         WrongPrimitive = "wrong-primitive",
         /// Any hit contradicts closest hit.
         AnyHitDisagrees = "any-hit-disagrees",
-        /// Asked again, the structure answers otherwise.
+        /// In a batch the ray has another hit than alone.
         Unrepeatable = "unrepeatable",
         /// Right but for a `t` that is off by more than the strict rule of depth allows, and by less than the coarse one.
         Depth = "depth",
-        /// The triangle test's own error; the structure is not to blame.
+        /// An error of the triangle test, not of the structure.
         TriangleTest = "triangle-test",
-        /// The reference, which has another triangle test, is wrong; the answer is right.
+        /// The reference, which has another triangle test, is wrong; the hit is right.
         Reference = "reference",
         /// The same `t` at a higher number than the lowest that is hit there: wrong only where the lowest is promised.
         HigherId = "higher-id",
@@ -101,7 +100,7 @@ named_enum! {
 }
 
 impl Kind {
-    /// Whether the structure's answer is wrong.
+    /// Whether the structure's hit is wrong.
     pub fn is_error(self) -> bool {
         self < Self::Depth
     }
@@ -111,8 +110,7 @@ impl Validation {
     /// How many rays are kept.
     pub const WORST: usize = 10;
 
-    /// Wrong answers of all kinds, depths judged coarsely; 0 in a correct structure that shares its test with the
-    /// reference.
+    /// Wrong hits of all kinds, depths judged coarsely; 0 in a correct structure that shares its test with the reference.
     pub fn errors(&self) -> u64 {
         self.structure_errors + self.answer_errors + self.any_hit_errors + self.unrepeatable + self.panics + self.hangs
     }
@@ -122,12 +120,12 @@ impl Validation {
         self.errors() + self.depth_errors
     }
 
-    /// The worst ray whose answer is wrong.
+    /// The worst ray whose hit is wrong.
     pub fn worst_error(&self) -> Option<&WorstRay> {
         self.worst.first().filter(|w| w.kind.is_error())
     }
 
-    /// A whole of which `declined` rays were not asked, and the others in these batches.
+    /// All rays: `declined` of them were not traced, the others in these batches.
     pub(super) fn of_batches(declined: usize, batches: impl IntoIterator<Item = Self>) -> Self {
         let mut whole = Self { declined: declined as u64, ..Self::default() };
         batches.into_iter().for_each(|batch| whole.append(batch));
@@ -177,8 +175,8 @@ impl Validation {
         self.worst.push(ray);
     }
 
-    /// The sums of a batch that `kind`, a panic or an endless loop, has ended at a ray, or at the first of a whole batch,
-    /// where the reference answers `expected`.
+    /// The sums of a batch that `kind`, a panic or an endless loop, has ended at a ray, or at the first of a whole batch, where
+    /// the reference returns `expected`.
     pub(super) fn ended(mut self, expected: Option<Hit>, rays: &[Ray], call: Call, kind: Kind, why: String) -> Self {
         let (index, verdict) = match call {
             Call::Ray(index) => (index, why),

@@ -12,7 +12,7 @@ fn validation_tells_right_from_wrong() {
     let ray = ["validate", "cube", "--ray", "0.5,0.25,5 -0,0,-1", "-s"];
     // A documented defect of a baseline is shown and named, and changes no status, here as in every command.
     let printed = prints(&[&ray[..], &["obvhs-cwbvh"]].concat());
-    assert!(printed.contains("obvhs-cwbvh: its documented defects, which do not change the exit status"), "{printed}");
+    assert!(printed.contains("obvhs-cwbvh: its known defects, which do not change the exit status"), "{printed}");
     assert!(printed.contains("0.5,0.25,5.0 -0.0,0.0,-1.0"), "the ray can be asked again: {printed}");
     // What each structure answers is printed, right or wrong: the cube's front face is at z = 1.
     let both = stdout(&sahara(&[&ray[..], &["sah-kd", "-s", "obvhs-cwbvh"]].concat()));

@@ -1,4 +1,4 @@
-//! What structures answer to rays that are asked one by one.
+//! What each structure returns for rays that are given one by one.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -9,7 +9,7 @@ use crate::report::{Cell, Table, Tone};
 use crate::scene::offset::barycentrics;
 use crate::validate::watched;
 
-/// One row for each ray: number of the ray, t, triangle, and where on it.
+/// One row per ray: number of the ray, t, triangle, and where on it.
 pub fn answers(label: &str, accel: &Arc<dyn DynAccel>, rays: &[Ray], mesh: &Mesh, limit: Duration) -> Vec<Vec<Cell>> {
     let row = |(i, ray): (usize, &Ray)| {
         let mut row: Vec<Cell> = vec![label.into(), format!("{} ({ray})", i + 1).into()];
@@ -24,16 +24,14 @@ fn answer(accel: &Arc<dyn DynAccel>, ray: &Ray, mesh: &Mesh, limit: Duration) ->
     if let Some(what) = accel.capabilities().declines(ray) {
         return vec![format!("declines {what}").into()];
     }
-    let (asked, own) = (Arc::clone(accel), *ray);
-    let found = watched(limit, move || asked.closest(&[own])[0]);
-    match found {
+    let (own, ray) = (Arc::clone(accel), *ray);
+    match watched(limit, move || own.closest(&[ray])[0]) {
         Err(_) => vec![Cell::from("no answer").with(Tone::Wrong)],
         Ok(None) => vec!["no hit".into()],
         Ok(Some(hit)) => {
             let index = hit.prim.index();
-            let weights = ((index as usize) < mesh.len()).then(|| barycentrics(ray, mesh.corners(index)));
-            let [u, v] =
-                weights.map_or([Cell::empty(), Cell::empty()], |w| [w.y, w.z].map(|x| format!("{x:.9}").into()));
+            let weights = ((index as usize) < mesh.len()).then(|| barycentrics(&ray, mesh.corners(index)));
+            let [u, v] = [weights.map(|w| w.y), weights.map(|w| w.z)].map(|x| x.map(|x| format!("{x:.9}")).into());
             vec![hit.t.to_string().into(), index.to_string().into(), u, v]
         }
     }
@@ -41,14 +39,11 @@ fn answer(accel: &Arc<dyn DynAccel>, ray: &Ray, mesh: &Mesh, limit: Duration) ->
 
 const COLUMNS: [&str; 6] = ["structure", "ray", "t", "triangle", "u", "v"];
 
-/// The rows as a table.
-pub fn table(scene: &str, mut rows: Vec<Vec<Cell>>) -> Table {
-    // Ray by ray, in the order of the structures.
-    rows.sort_by_key(|row| number(row));
-    let note = "u, v: weights of the second and third corner of the triangle where the ray meets its plane, in f64. Triangles count from 0.";
+/// The rows of all structures as a table, ray by ray.
+pub fn table(scene: &str, of_structures: &[Vec<Vec<Cell>>]) -> Table {
+    let rays = of_structures.first().map_or(0, Vec::len);
+    let rows = (0..rays).flat_map(|ray| of_structures.iter().map(move |rows| rows[ray].clone()));
+    let note = "u, v: weights of the second and third corner of the triangle where the ray meets its plane, in f64. \
+                Triangles count from 0.";
     Table::new(format!("{scene}: answers"), COLUMNS, rows).noted(vec![note.into()])
-}
-
-fn number(row: &[Cell]) -> usize {
-    row[1].text().split(' ').next().and_then(|number| number.parse().ok()).unwrap_or(0)
 }

@@ -2,7 +2,6 @@
 
 use std::fmt;
 
-use crate::cli::terminal::Terminal;
 use crate::geometry::Ray;
 use crate::registry::Choice;
 use crate::report::number::{count, plural};
@@ -10,18 +9,17 @@ use crate::report::{Cell, Table, Tone};
 use crate::scene::Scene;
 use crate::validate::Validation;
 
-pub fn print(
+pub fn scene_table(
     scene: &Scene,
     rays: &[Ray],
-    against: &dyn fmt::Display,
+    reference: &dyn fmt::Display,
     rows: Vec<Vec<Cell>>,
     notes: Vec<String>,
-    terminal: &Terminal,
-) -> anyhow::Result<()> {
+) -> Table {
     let stand_in = if scene.stand_ins.is_empty() { "" } else { ", stand-in" };
     let (triangles, rays) = (plural(scene.mesh.len(), "triangle"), plural(rays.len(), "ray"));
-    let title = format!("{}: {triangles}{stand_in}; {rays} against {against}", scene.name);
-    Ok(terminal.print_table(&Table::new(title, COLUMNS, rows).noted(notes))?)
+    let title = format!("{}: {triangles}{stand_in}; {rays} against {reference}", scene.name);
+    Table::new(title, COLUMNS, rows).noted(notes)
 }
 
 const COLUMNS: [&str; 8] =
@@ -35,17 +33,19 @@ pub fn note_on_reference(name: &str, found: &Validation) -> Option<String> {
 
 /// What the columns mean.
 pub const LEGEND: [&str; 4] = [
-    "hits: rays that hit something by the reference. structure errors: hits lost or invented although the structure's own triangle test, run over all triangles, says \
-     otherwise, contradictions, panics and questions without an end; none in a correct structure. answer errors: wrong answers where the reference has another triangle test.",
+    "hits: rays that hit something by the reference. structure errors: hits lost or invented although the structure's own \
+     triangle test, run over all triangles, says otherwise, contradictions, panics and queries that never return; none in a \
+     correct structure. answer errors: wrong hits where the reference has another triangle test.",
     "A depth is wrong if it is off by more than 4 ulps and more than 1e-6. coarse: the answer errors that remain if up to 1 %, \
      or 0.1 % on another triangle, is allowed; the others are common where tests in f32 meet grazing rays, and without \
-     --against they do not decide about the exit status.",
-    "test errors: those that the triangle test is to blame for, not the structure. ties: as near a hit on another triangle; no error.",
-    "To ask a ray again: sahara validate SCENE --structure NAME --ray \"ox,oy,oz dx,dy,dz\"",
+     --against they do not change the exit status.",
+    "test errors: those that the triangle test causes, not the structure. ties: hits on another triangle at the same depth; no \
+     errors.",
+    "To trace a ray again: sahara validate SCENE --structure NAME --ray \"ox,oy,oz dx,dy,dz\"",
 ];
 
-/// The row of a structure that gave no answers.
-pub fn set_apart(choice: &Choice, why: &str) -> Vec<Cell> {
+/// The row of a structure without hits.
+pub fn failure_row(choice: &Choice, why: &str) -> Vec<Cell> {
     let mut row = vec![Cell::empty(); COLUMNS.len()];
     row[0] = choice.label.as_str().into();
     row[1] = choice.triangle_test().into();

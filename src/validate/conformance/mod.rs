@@ -1,4 +1,4 @@
-//! What every structure must pass: functions that return what they found, and a macro that makes tests of them.
+//! The tests that every structure must pass: functions that return what they found, and a macro that makes tests of them.
 
 mod soundness;
 
@@ -19,7 +19,7 @@ pub struct Subject {
     pub triangle_test: &'static str,
     /// Whether it promises the lowest number among primitives at equal `t`.
     pub lowest_id: bool,
-    /// How long it may take for a build or a question before it counts as hanging.
+    /// How long a build or a query may take before it counts as hanging.
     pub limit: Duration,
     /// Builds it.
     pub build: Build,
@@ -61,7 +61,7 @@ impl Subject {
         Self { lowest_id: true, ..self }
     }
 
-    /// Builds, watched.
+    /// Builds within the limit.
     fn built(&self, name: &str, mesh: &Arc<Mesh>) -> Result<Arc<dyn DynAccel>, String> {
         let (build, own) = (Arc::clone(&self.build), Arc::clone(mesh));
         let refusal = |why: String| format!("{} does not build over {name:?}: {why}", self.name);
@@ -70,7 +70,7 @@ impl Subject {
     }
 }
 
-/// Compares `count` rays of every stratum on every mesh, and hides nothing; a structure that hangs is asked nothing more.
+/// Compares `count` rays of every stratum on every mesh, and hides nothing; after a hang it runs no further query.
 ///
 /// # Errors
 /// If a mesh does not build.
@@ -94,11 +94,11 @@ pub fn findings(subject: &Subject, meshes: &[Named], count: usize) -> Result<Vec
     Ok(findings)
 }
 
-/// The answers are right: no structure error on any mesh and stratum, any hit agrees with closest hit, asking again gives
-/// the same, nothing panics or hangs, and where it is promised the lowest primitive wins. What is declined is not asked.
+/// The hits are right: no structure error on any mesh and stratum, any hit agrees with closest hit, single rays with batches,
+/// nothing panics or hangs, and where it is promised the lowest primitive wins. Declined rays are not traced.
 ///
-/// A structure whose triangle test this crate does not have is held to right answers on random rays alone: elsewhere its
-/// test may be to blame.
+/// A structure whose triangle test this crate does not have must be right on random rays only: elsewhere its test may be the
+/// cause.
 ///
 /// # Errors
 /// One line for each mesh and stratum that fails, with the worst ray.
@@ -110,16 +110,16 @@ pub fn answers(subject: &Subject, meshes: &[Named], count: usize) -> Result<(), 
         v.errors() - v.answer_errors + blamed + ids > 0
     };
     let findings = findings(subject, meshes, count)?;
-    let asked: u64 = findings.iter().map(|f| f.validation.rays).sum();
-    if asked == 0 && findings.iter().any(|f| f.validation.declined > 0) {
-        return Err(format!("{} declines every ray: there is nothing to hold it to", subject.name));
+    let traced: u64 = findings.iter().map(|f| f.validation.rays).sum();
+    if traced == 0 && findings.iter().any(|f| f.validation.declined > 0) {
+        return Err(format!("{} declines every ray: there is nothing to compare", subject.name));
     }
     let lines = findings.iter().filter(|f| wrong(f)).map(|f| f.line(&subject.name));
     outcome(lines.collect())
 }
 
 impl Finding {
-    /// What failed, and the worst ray in the form in which it can be asked again.
+    /// What failed, and the worst ray in the form in which it can be traced again.
     pub fn line(&self, subject: &str) -> String {
         let v = &self.validation;
         let worst = v.worst.first().map_or("no ray".into(), ToString::to_string);

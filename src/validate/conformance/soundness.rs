@@ -7,10 +7,10 @@ use std::time::Duration;
 use super::{Named, SEED, Subject, outcome};
 use crate::accel::{Counts, DynAccel};
 use crate::geometry::{Hit, Ray};
-use crate::validate::{Ended, Stratum, watched};
+use crate::validate::{Stratum, WatchError, watched};
 
-/// Answers with and without counting, and to loaded rays.
-struct Asked {
+/// Hits with and without counting, and of loaded rays.
+struct Traced {
     plain: Vec<Option<Hit>>,
     loaded: Vec<Option<Hit>>,
     counted: Vec<Option<Hit>>,
@@ -21,8 +21,8 @@ struct Asked {
     any_counts: Counts,
 }
 
-/// Asks everything, watched; any hit only where it is offered.
-fn ask(accel: &Arc<dyn DynAccel>, rays: &[Ray], limit: Duration) -> Result<Asked, Ended> {
+/// Runs every query within a limit; any hit only where it is offered.
+fn trace(accel: &Arc<dyn DynAccel>, rays: &[Ray], limit: Duration) -> Result<Traced, WatchError> {
     let (accel, rays) = (Arc::clone(accel), rays.to_vec());
     watched(limit, move || {
         let (none, no) = (vec![None; rays.len()], vec![false; rays.len()]);
@@ -36,17 +36,17 @@ fn ask(accel: &Arc<dyn DynAccel>, rays: &[Ray], limit: Duration) -> Result<Asked
         if accel.capabilities().any_hit {
             accel.any_hits(&rays, &mut any);
             kept.any_hits(&mut any_loaded);
-            // Asked again after both: what is loaded stays as it is.
+            // Again after both: what is loaded stays as it is.
             kept.closest_hits(&mut loaded);
             accel.any_hits_counted(&rays, &mut any_counted, &mut any_counts);
         }
         drop(kept);
-        Asked { plain, loaded, counted, counts, any, any_loaded, any_counted, any_counts }
+        Traced { plain, loaded, counted, counts, any, any_loaded, any_counted, any_counts }
     })
 }
 
-/// Watching changes nothing: with counts, the hits are the same, at the same primitive where the lowest is promised; what is
-/// declared unobserved stays zero. Nor does loading: such rays are answered bit for bit as others are.
+/// Counting changes nothing: the hits are the same, at the same primitive where the lowest is promised; what is declared
+/// unobserved stays zero. Nor does loading: such rays have the hits of others, bit for bit.
 ///
 /// # Errors
 /// One line for each mesh that fails.
@@ -59,35 +59,35 @@ pub fn counting(subject: &Subject, meshes: &[Named], count: usize) -> Result<(),
             let rays = stratum.rays(mesh, count, SEED);
             let rays = accel.capabilities().admitted(&rays);
             let place = format!("{} on {name:?}, {} rays", subject.name, stratum.name());
-            let asked = match ask(&accel, &rays, subject.limit) {
-                Ok(asked) => asked,
+            let traced = match trace(&accel, &rays, subject.limit) {
+                Ok(traced) => traced,
                 Err(ended) => {
                     // One of the rays may do it alone.
-                    let alone = rays.iter().find(|ray| ask(&accel, &[**ray], subject.limit).is_err());
+                    let alone = rays.iter().find(|ray| trace(&accel, &[**ray], subject.limit).is_err());
                     let which = alone.map_or("all of them".into(), |ray| format!("ray \"{ray}\""));
-                    return Err(format!("{place}: asked with counts for {which}, {ended}"));
+                    return Err(format!("{place}: queried with counts for {which}, {ended}"));
                 }
             };
 
             // Which of several primitives at one `t` is free, unless the lowest is promised.
             let number = |h: Hit| if subject.lowest_id { h.prim.index() } else { 0 };
             let answer = |hit: Option<Hit>| hit.map(|h| (h.t, number(h)));
-            let differ = asked.plain.iter().zip(&asked.counted).position(|(a, b)| answer(*a) != answer(*b));
-            let differ = differ.or_else(|| asked.any.iter().zip(&asked.any_counted).position(|(a, b)| a != b));
+            let differ = traced.plain.iter().zip(&traced.counted).position(|(a, b)| answer(*a) != answer(*b));
+            let differ = differ.or_else(|| traced.any.iter().zip(&traced.any_counted).position(|(a, b)| a != b));
             if let Some(i) = differ {
                 lines.push(format!("{place}: counting changes the answer of ray \"{}\"", rays[i]));
             }
 
             let bits = |hit: Option<Hit>| hit.map(|h| (h.t.to_bits(), h.prim));
-            let differ = asked.plain.iter().zip(&asked.loaded).position(|(a, b)| bits(*a) != bits(*b));
-            let differ = differ.or_else(|| asked.any.iter().zip(&asked.any_loaded).position(|(a, b)| a != b));
+            let differ = traced.plain.iter().zip(&traced.loaded).position(|(a, b)| bits(*a) != bits(*b));
+            let differ = differ.or_else(|| traced.any.iter().zip(&traced.any_loaded).position(|(a, b)| a != b));
             if let Some(i) = differ {
                 lines.push(format!("{place}: loading changes the answer of ray \"{}\"", rays[i]));
             }
 
-            let hit = asked.plain.iter().any(Option::is_some);
-            let mut all = vec![("closest", asked.counts)];
-            all.extend(asks_any.then_some(("any", asked.any_counts)));
+            let hit = traced.plain.iter().any(Option::is_some);
+            let mut all = vec![("closest", traced.counts)];
+            all.extend(asks_any.then_some(("any", traced.any_counts)));
             for (which, c) in all {
                 if !observed.steps && c.steps() > 0 || !observed.tests && c.tests > 0 {
                     lines.push(format!("{place}: {which} hit counts what it declares unobserved: {c:?}"));
@@ -114,7 +114,7 @@ pub fn shapes(subject: &Subject, meshes: &[Named]) -> Result<(), String> {
         let accel = subject.built(name, mesh)?;
         let own = Arc::clone(&accel);
         let numbers = watched(subject.limit, move || (own.shape(), own.footprint()));
-        let ended = |ended| format!("{} on {name:?}: asked for its shape, {ended}", subject.name);
+        let ended = |ended| format!("{} on {name:?}: its shape: {ended}", subject.name);
         let ((shape, footprint), solid) = (numbers.map_err(ended)?, mesh.solid().count());
         let wrong = [
             (shape.references < solid, "fewer references than triangles that have an area"),

@@ -1,4 +1,4 @@
-//! A case, and how it is written in the catalogue: number and name, what is asked, why, and who says so.
+//! A case, and how it is written in the catalogue.
 
 use super::set::Set;
 use crate::validate::conformance::Subject;
@@ -23,7 +23,8 @@ pub struct HardCase {
 /// The survey measured 71 cases and ranked 59: not the empty scene, vertices that are not finite, the ends of intervals, origins
 /// on a surface, and the six kinds of invalid rays. Of the 59, ten are extreme: scales of 1e-20 and less and of 1e15 and
 /// more, directions of such lengths (from 1e-20 and 1e15 on), and origins 1e8 away.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Rank {
     /// Valid input of sizes that a careful user may have: in the totals of both 59 and 49 cases.
     Moderate,
@@ -36,31 +37,31 @@ pub enum Rank {
 }
 
 impl HardCase {
-    /// How many rays it asks where at most `most` are wanted; nothing for a property. Makes them.
-    pub fn rays(&self, most: usize) -> Option<usize> {
+    /// Mesh and rays, at most so many; nothing for a property.
+    pub fn set(&self, most: usize) -> Option<Set> {
         match self.content {
-            Content::Rays { rays, make, .. } => Some(make(rays.min(most)).rays.len()),
+            Content::Rays { rays, make, .. } => Some(make(rays.min(most))),
             Content::Property(_) => None,
         }
     }
 }
 
-/// What a case asks.
+/// What a case checks.
 #[derive(Clone, Copy)]
 pub enum Content {
     /// The closest hits of rays over one mesh.
     Rays {
-        /// So many rays unless the user wants fewer.
+        /// Number of rays unless the user wants fewer.
         rays: usize,
         expected: Expected,
         /// Mesh and rays, the same bits on every machine. Fewer rays are the first of more.
         make: fn(usize) -> Set,
     },
-    /// Something that answers must have in common, or why it cannot be asked.
+    /// Something that hits must have in common, or why it cannot be checked.
     Property(fn(&Subject, usize) -> Result<Property, String>),
 }
 
-/// The right answers to the rays of a case, as far as they are known without looking.
+/// The right hits, as far as they are known without the oracle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Expected {
     /// Every ray hits something.
@@ -73,7 +74,7 @@ pub enum Expected {
     SameAs(&'static str),
 }
 
-/// What a property found.
+/// What the check of a property found.
 #[derive(Clone, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct Property {
     /// Comparisons made.
@@ -85,7 +86,7 @@ pub struct Property {
 }
 
 impl Property {
-    /// Adds a comparison; `sentence` is asked for the first failure only.
+    /// Adds a comparison; `sentence` is called for the first failure only.
     pub(super) fn note(&mut self, holds: bool, sentence: impl FnOnce() -> String) {
         self.checked += 1;
         self.broken += u64::from(!holds);
@@ -93,37 +94,25 @@ impl Property {
             self.example = Some(sentence());
         }
     }
-
-    pub(super) fn append(&mut self, other: Self) {
-        self.checked += other.checked;
-        self.broken += other.broken;
-        self.example = self.example.take().or(other.example);
-    }
 }
 
-/// The table of a family, `CASES`. A row is rank, number and name; what its rays owe, how many they are unless 10,000, and how
-/// mesh and rays are made, or the property that is checked; why systems fail here, in a sentence; who says so.
+/// The table of the cases, `CASES`. A row is rank, number and name; the expected hits, the number of rays unless it is
+/// 10,000, and what makes mesh and rays, or the property that is checked; why systems fail here, in a sentence; who says so.
 macro_rules! cases {
-    ($($rank:ident $number:literal $name:literal, $owed:ident $(($of:literal))? $(x $rays:literal)? => $make:expr,
+    ($($rank:ident $number:literal $name:literal, $expected:ident $(($of:literal))? $(x $rays:literal)? => $make:expr,
         $reason:literal, $source:expr;)*) => {
-        pub(super) const CASES: &[$crate::validate::hard_cases::HardCase] = &[$($crate::validate::hard_cases::HardCase {
+        pub(super) const CASES: &[HardCase] = &[$(HardCase {
             number: $number,
             name: $name,
-            rank: $crate::validate::hard_cases::Rank::$rank,
-            content: cases!(@content $owed $(($of))?, [$($rays,)? 10_000][0], $make),
+            rank: Rank::$rank,
+            content: cases!(@content $expected $(($of))?, [$($rays,)? 10_000][0], $make),
             reason: $reason,
             source: $source,
         }),*];
     };
-    (@content Property, $rays:expr, $check:expr) => {
-        $crate::validate::hard_cases::Content::Property($check)
-    };
-    (@content $owed:ident $(($of:literal))?, $rays:expr, $make:expr) => {
-        $crate::validate::hard_cases::Content::Rays {
-            rays: $rays,
-            expected: $crate::validate::hard_cases::Expected::$owed $(($of))?,
-            make: $make,
-        }
+    (@content Property, $rays:expr, $check:expr) => { Content::Property($check) };
+    (@content $expected:ident $(($of:literal))?, $rays:expr, $make:expr) => {
+        Content::Rays { rays: $rays, expected: Expected::$expected $(($of))?, make: $make }
     };
 }
 pub(super) use cases;

@@ -1,49 +1,47 @@
-//! What the answers of a structure must have in common, whatever they are.
+//! What the hits of a structure must have in common, whatever they are.
 
 use std::sync::Arc;
 
-use super::case::{Property, cases};
-use super::metamorphic::metamorphic;
-use super::set::star;
-use super::subject::{built, shared};
+use super::case::Property;
+use super::meshes::star;
 use crate::accel::DynAccel;
 use crate::geometry::{Mesh, Ray};
 use crate::validate::conformance::Subject;
 use crate::validate::degenerate::{exponential, huge_and_small, needles, soup};
 use crate::validate::{Reference, Sampler, Stratum, Validation, validate};
 
-cases! {
-    Added 73 "continuation", Property => continuation,
-        "Going on behind each hit must visit all crossings of a ray, each once.",
-        "Embree, verify.cpp, sphere_filter_multi_hit";
-    Added 74 "parity", Property => parity,
-        "A ray from outside crosses a closed surface an even number of times.",
-        "survey: tests of volumes and of points in solids rest on it";
-    Added 75 "metamorphic", Property => metamorphic,
-        "Reordered, mirrored and doubled scenes have the same t; so have turned, moved and cut ones where answers are exact.",
-        "survey: finds what a comparison with one's own test cannot";
-    Added 76 "any_equals_closest", Property => |subject, rays| {
-        validated(subject, &[star(), soup(500, 1)], rays, |v| (v.any_hit_errors, "any hit contradicts closest hit"))
-    },
-        "Any hit has a loop of its own in most systems, and its own mistakes.",
-        "pbrt-v4: a second copy of the loop";
-    Added 77 "batch_equals_single", Property => |subject, rays| {
-        validated(subject, &[star(), soup(500, 1)], rays, |v| (v.unrepeatable, "asked alone, the answer is another"))
-    },
-        "Packets and batches must answer as single rays do.",
-        "Embree, verify.cpp: the same tests for every packet size";
-    Added 81 "sizes_0_to_40", Property => |subject, rays| {
-        let meshes: Vec<Arc<Mesh>> = (0..=40).map(|n| soup(n, 100 + n as u64)).collect();
-        validated(subject, &meshes, rays, |v| (v.errors(), "an answer is wrong"))
-    },
-        "No, one, two, three triangles and all sizes of a leaf: where blocks and nodes are partly filled.",
-        "survey";
-    Added 84 "limits", Property => limits,
-        "Numbers of nodes and references must stay bounded where triangles cannot be separated, before memory ends.",
-        "pbrt-v4, kd-tree: depth 8 + 1.3 log2 N and bad refines; Embree, regression with failing allocations";
+/// Rays of one property, divided among strata and meshes.
+pub(super) fn shared(rays: usize, among: usize) -> usize {
+    rays.div_ceil(among).max(4)
 }
 
-/// Holds all strata on some meshes against brute force, and counts one kind of error.
+/// Builds, or says that it cannot be built.
+pub(super) fn built(subject: &Subject, mesh: &Arc<Mesh>) -> Result<Box<dyn DynAccel>, String> {
+    (subject.build)(mesh).map_err(|error| format!("{} does not build: {error}", subject.name))
+}
+
+/// The structure and brute force with its triangle test.
+fn with_reference(subject: &Subject, mesh: &Arc<Mesh>) -> Result<(Box<dyn DynAccel>, Reference), String> {
+    let reference = Reference::of_test(subject.triangle_test, mesh).map_err(|error| error.to_string());
+    Ok((built(subject, mesh)?, reference?))
+}
+
+pub(super) fn any_equals_closest(subject: &Subject, rays: usize) -> Result<Property, String> {
+    let errors = |found: &Validation| (found.any_hit_errors, "any hit contradicts closest hit");
+    validated(subject, &[star(), soup(500, 1)], rays, errors)
+}
+
+pub(super) fn batch_equals_single(subject: &Subject, rays: usize) -> Result<Property, String> {
+    let errors = |found: &Validation| (found.unrepeatable, "the hit of the ray alone is another");
+    validated(subject, &[star(), soup(500, 1)], rays, errors)
+}
+
+pub(super) fn sizes(subject: &Subject, rays: usize) -> Result<Property, String> {
+    let meshes: Vec<Arc<Mesh>> = (0..=40).map(|n| soup(n, 100 + n as u64)).collect();
+    validated(subject, &meshes, rays, |found| (found.errors(), "a hit is wrong"))
+}
+
+/// Compares all strata on some meshes with brute force, and counts one kind of error.
 fn validated(
     subject: &Subject,
     meshes: &[Arc<Mesh>],
@@ -53,15 +51,16 @@ fn validated(
     let mut property = Property::default();
     let each = shared(rays, meshes.len() * Stratum::ALL.len());
     for mesh in meshes {
-        let (accel, reference) = both(subject, mesh)?;
+        let (accel, reference) = with_reference(subject, mesh)?;
         for stratum in Stratum::ALL {
             let validation = validate(&*accel, &reference, mesh, &stratum.rays(mesh, each, 76));
             let (broken, what) = errors(&validation);
-            let example = (broken > 0).then(|| {
+            property.checked += validation.rays;
+            property.broken += broken;
+            if broken > 0 && property.example.is_none() {
                 let worst = validation.worst_error().map_or(String::new(), |worst| format!(": {worst}"));
-                format!("{} triangles, {}: {what}{worst}", mesh.len(), stratum.name())
-            });
-            property.append(Property { checked: validation.rays, broken, example });
+                property.example = Some(format!("{} triangles, {}: {what}{worst}", mesh.len(), stratum.name()));
+            }
         }
     }
     Ok(property)
@@ -91,16 +90,10 @@ fn through_star(count: usize, seed: u64) -> Vec<Ray> {
     (0..count).map(ray).collect()
 }
 
-/// The structure and brute force with its triangle test.
-fn both(subject: &Subject, mesh: &Arc<Mesh>) -> Result<(Box<dyn DynAccel>, Reference), String> {
-    let reference = Reference::of_test(subject.triangle_test, mesh).map_err(|error| error.to_string());
-    Ok((built(subject, mesh)?, reference?))
-}
-
-/// Each continued ray is held against brute force, which says where to go on.
-fn continuation(subject: &Subject, rays: usize) -> Result<Property, String> {
+/// Compares each continued ray with brute force, which says where to go on.
+pub(super) fn continuation(subject: &Subject, rays: usize) -> Result<Property, String> {
     let mesh = star();
-    let (accel, reference) = both(subject, &mesh)?;
+    let (accel, reference) = with_reference(subject, &mesh)?;
     let through = through_star(shared(rays, 10), 73);
     let steps: Vec<Ray> = through.into_iter().flat_map(|ray| continued(&*reference.accel, ray)).collect();
     let found = validate(&*accel, &reference, &mesh, &steps);
@@ -109,9 +102,8 @@ fn continuation(subject: &Subject, rays: usize) -> Result<Property, String> {
 }
 
 /// Where brute force with the same test counts an odd number too, the test is to blame.
-fn parity(subject: &Subject, rays: usize) -> Result<Property, String> {
-    let mesh = star();
-    let (accel, reference) = both(subject, &mesh)?;
+pub(super) fn parity(subject: &Subject, rays: usize) -> Result<Property, String> {
+    let (accel, reference) = with_reference(subject, &star())?;
     let mut property = Property::default();
     for ray in through_star(shared(rays, 10), 74) {
         let crossings = |accel: &dyn DynAccel| continued(accel, ray).len() - 1;
@@ -122,22 +114,18 @@ fn parity(subject: &Subject, rays: usize) -> Result<Property, String> {
     Ok(property)
 }
 
-/// References a triangle from which on a tree has lost control, whatever it is built over.
+/// References per triangle from which on a tree has lost control, whatever it is built over.
 const REFERENCES: usize = 64;
 /// Edges from root to leaf likewise.
 const DEPTH: usize = 1024;
 
-fn limits(subject: &Subject, _rays: usize) -> Result<Property, String> {
+pub(super) fn limits(subject: &Subject, _rays: usize) -> Result<Property, String> {
     let mut property = Property::default();
     let meshes = [("needles", needles(2200)), ("a sequence", exponential(300)), ("a huge triangle", huge_and_small())];
     for (name, mesh) in meshes {
-        let shape = built(subject, &mesh)?.shape();
-        property.note(shape.references <= REFERENCES * mesh.len(), || {
-            format!(
-                "{} references to {} triangles over {name}: at most {REFERENCES} each",
-                shape.references,
-                mesh.len()
-            )
+        let (shape, triangles) = (built(subject, &mesh)?.shape(), mesh.len());
+        property.note(shape.references <= REFERENCES * triangles, || {
+            format!("{} references to {triangles} triangles over {name}: at most {REFERENCES} each", shape.references)
         });
         property.note(shape.depth <= DEPTH, || format!("{} levels over {name}: at most {DEPTH}", shape.depth));
     }

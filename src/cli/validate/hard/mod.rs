@@ -5,7 +5,6 @@ mod record;
 mod table;
 
 use std::io;
-use std::path::Path;
 use std::sync::Mutex;
 use std::thread;
 use std::time::Duration;
@@ -23,11 +22,11 @@ use crate::report::words::each_once_by;
 use crate::request::{self, known_defect};
 use crate::study::Status;
 use crate::triangle::{Exact, TriangleTest};
-use crate::validate::hard_cases::{Answers, Court, Failure, HardCase, Score, catalogue, find_all};
+use crate::validate::hard_cases::{Answers, CaseTruth, Content, Failure, HardCase, Score, catalogue, find_all};
 use record::{HardRecord, HardRun};
-use table::{Column, legend, tables};
+use table::{Column, LEGEND, tables};
 
-pub use child::{Args as ChildArgs, COMMAND as CHILD, run as run_child};
+pub use child::{Args as ChildArgs, COMMAND as CHILD, run_child};
 
 const CHILDREN: usize = 2;
 
@@ -40,21 +39,19 @@ pub fn run(registry: &Registry, args: &Args, named: &[String], terminal: &Termin
     } else {
         named.iter().map(|name| find_all(name)).collect::<Result<Vec<_>, _>>()?.concat()
     };
-    // What is named twice, alone and with its family, counts once.
+    // A case that is named twice, by its name and by its number, counts once.
     let cases = each_once_by(cases, |one, other| one.name == other.name);
     let structures = request::structures_at(registry, &args.structure, args.quality.as_deref())?;
     let choices = choices(registry, structures, &args.test)?;
     let rays = u32::try_from(args.source().number()?.min(MOST_RAYS))?;
     let json = args.export_json.as_deref().map(OutputFile::check).transpose()?;
-    let program = std::env::current_exe()
-        .context("this program cannot find itself to ask structures in a process of their own")?;
 
     let mut columns: Vec<Column> = choices.iter().map(Column::of).collect();
     let mut progress = Progress::over(cases.len() as u64, terminal);
     let mut records = vec![];
     for case in &cases {
         progress.scene(case.name, 1);
-        let scores = scores(&program, case, &choices, rays, args.limit())?;
+        let scores = scores(case, &choices, rays, args.limit())?;
         for ((choice, column), score) in choices.iter().zip(&mut columns).zip(scores) {
             records.push(HardRecord::new(case, choice, &score));
             column.scores.push(score);
@@ -66,31 +63,27 @@ pub fn run(registry: &Registry, args: &Args, named: &[String], terminal: &Termin
     for table in tables(&cases, &columns) {
         terminal.print_table(&table)?;
     }
-    terminal.print_lines(&legend())?;
+    terminal.print_lines(&LEGEND.map(String::from))?;
     if let Some(file) = json {
-        // Every structure answers on one thread.
+        // Every structure traces on one thread.
         let provenance = Provenance::capture(1);
         let run = HardRun { schema: HardRun::SCHEMA, provenance, results: records };
         file.write(&serde_json::to_vec_pretty(&run)?)?;
     }
-    let wrong =
-        choices.iter().zip(&columns).any(|(choice, column)| column.scores.iter().any(|score| owed(choice, score)));
+    let mut all = choices.iter().zip(&columns);
+    let wrong = all.any(|(choice, column)| column.scores.iter().any(|score| is_wrong(choice, score)));
     Ok(if wrong { Status::Wrong } else { Status::Right })
 }
 
-/// Whether a structure owes a better answer: all but the baselines with their documented defects owe one, without structure
-/// errors; those over the exact test owe the truth.
-fn owed(choice: &Choice, score: &Score) -> bool {
-    let inexact = |score: &Score| match score {
-        Score::Rays(rays) => rays.inexact > 0,
-        _ => false,
-    };
-    let sound = score.is_sound() && !(choice.triangle_test() == Exact::NAME && inexact(score));
-    !sound && known_defect(&choice.entry.name).is_none()
+/// Whether a score changes the exit status: structure errors and failures do, and inexact hits of the exact test; known
+/// defects of the baselines do not.
+fn is_wrong(choice: &Choice, score: &Score) -> bool {
+    let is_inexact = choice.triangle_test() == Exact::NAME && score.rays().is_some_and(|rays| rays.inexact > 0);
+    (!score.is_sound() || is_inexact) && known_defect(&choice.entry.name).is_none()
 }
 
-/// The structures asked for, each over all the tests asked for that it is offered over; the baselines with defects of their
-/// own, and structures that are offered over none of the tests, stay as they are.
+/// Each of the structures over all of the tests that it is offered over. Structures that are offered over none of them, that
+/// have known defects or that name a test themselves stay as they are.
 fn choices(registry: &Registry, structures: Vec<Choice>, tests: &[String]) -> anyhow::Result<Vec<Choice>> {
     request::known_tests(registry, tests)?;
     let mut choices: Vec<Choice> = vec![];
@@ -110,39 +103,33 @@ fn choices(registry: &Registry, structures: Vec<Choice>, tests: &[String]) -> an
     Ok(each_once_by(choices, |one, other| one.label == other.label))
 }
 
-/// Asks all structures, some at a time, and finds the truth meanwhile.
-fn scores(
-    program: &Path,
-    case: &HardCase,
-    choices: &[Choice],
-    rays: u32,
-    limit: Duration,
-) -> anyhow::Result<Vec<Score>> {
+/// Runs a case on all structures, some at a time, and finds the truth meanwhile.
+fn scores(case: &HardCase, choices: &[Choice], rays: u32, limit: Duration) -> anyhow::Result<Vec<Score>> {
     let waiting = Mutex::new(choices.iter().enumerate());
     let worker = || -> io::Result<Vec<(usize, Result<Answers, Failure>)>> {
         let mut done = vec![];
         loop {
             let next = waiting.lock().expect("no worker panics").next();
             let Some((index, choice)) = next else { return Ok(done) };
-            done.push((index, child::answers(program, case, choice, rays, limit)?));
+            done.push((index, child::answers(case, choice, rays, limit)?));
         }
     };
-    let (mut court, mut answers) = thread::scope(|scope| -> anyhow::Result<_> {
+    let (mut truth, mut answers) = thread::scope(|scope| -> anyhow::Result<_> {
         let workers: Vec<_> = (0..CHILDREN).map(|_| scope.spawn(worker)).collect();
-        let court = Court::new(case, rays as usize);
+        let truth = CaseTruth::new(case, rays as usize);
         let mut answers = vec![];
         for worker in workers {
             let done = worker.join().expect("a worker only waits");
-            answers.extend(done.context("no process can be started to ask a structure")?);
+            answers.extend(done.context("no process can be started for a structure")?);
         }
-        Ok((court, answers))
+        Ok((truth, answers))
     })?;
 
     answers.sort_by_key(|(index, _)| *index);
     let mut scores = vec![];
     for (index, answers) in answers {
         scores.push(match answers {
-            Ok(answers) => court.score(choices[index].triangle_test(), answers)?,
+            Ok(answers) => truth.score(choices[index].triangle_test(), answers)?,
             Err(failure) => Score::Failed(failure),
         });
     }
@@ -152,7 +139,10 @@ fn scores(
 /// The cases, and why systems fail on them.
 pub fn described() -> Vec<String> {
     let lines = |case: &&HardCase| {
-        let what = case.rays(MOST_RAYS).map_or("a property".into(), |rays| plural(rays, "ray"));
+        let what = match case.content {
+            Content::Rays { rays, .. } => plural(rays, "ray"),
+            Content::Property(_) => "a property".into(),
+        };
         [format!("{} {}: {what}", case.number, case.name), format!("   {} ({})", case.reason, case.source)]
     };
     catalogue().iter().flat_map(lines).collect()

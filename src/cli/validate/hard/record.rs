@@ -13,7 +13,7 @@ pub struct HardRun {
     /// Of this form.
     pub schema: u32,
     pub provenance: Provenance,
-    /// HardCase by case, structure by structure.
+    /// Case by case, structure by structure.
     pub results: Vec<HardRecord>,
 }
 
@@ -22,8 +22,7 @@ pub struct HardRun {
 pub struct HardRecord {
     pub number: u32,
     pub case: &'static str,
-    /// `moderate`, `extreme`, `unranked` or `added`.
-    pub rank: &'static str,
+    pub rank: Rank,
     pub structure: String,
     pub label: String,
     pub triangle_test: String,
@@ -56,20 +55,12 @@ impl HardRun {
 
 impl HardRecord {
     pub fn new(case: &HardCase, choice: &Choice, score: &Score) -> Self {
-        let rays = match score {
-            Score::Rays(rays) => Some(rays),
-            _ => None,
-        };
+        let rays = score.rays();
         let judged = rays.map(|rays| &rays.judged);
         Self {
             number: case.number,
             case: case.name,
-            rank: match case.rank {
-                Rank::Moderate => "moderate",
-                Rank::Extreme => "extreme",
-                Rank::Unranked => "unranked",
-                Rank::Added => "added",
-            },
+            rank: case.rank,
             structure: choice.entry.name.clone(),
             label: choice.label.clone(),
             triangle_test: choice.triangle_test().into(),

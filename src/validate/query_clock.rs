@@ -1,16 +1,17 @@
-//! What a thread is asking a structure, seen from another thread.
+//! Which query a thread runs and since when, as seen from another thread.
 
 use std::any::Any;
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
+/// The message of a panic.
 pub(super) fn message(payload: &(dyn Any + Send)) -> String {
     let text = payload.downcast_ref::<&str>().map(|text| (*text).to_owned());
     let text = text.or_else(|| payload.downcast_ref::<String>().cloned());
     format!("it says {:?}", text.unwrap_or_else(|| "nothing".into()))
 }
 
-/// What a thread is asking a structure.
+/// A query of a structure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Call {
     /// One ray of a batch, alone.
@@ -19,11 +20,11 @@ pub(super) enum Call {
     Batch,
 }
 
-/// What a thread is asking a structure, and since when, seen from another thread.
+/// Which query a thread runs and since when, as seen from another thread.
 #[derive(Default)]
-pub(super) struct Asked(Mutex<Option<(Call, Instant)>>);
+pub(super) struct QueryClock(Mutex<Option<(Call, Instant)>>);
 
-impl Asked {
+impl QueryClock {
     pub fn begin(&self, call: Call) {
         self.set(Some((call, Instant::now())));
     }
@@ -36,7 +37,7 @@ impl Asked {
         *self.0.lock().expect("nobody panics while holding it") = state;
     }
 
-    /// The call that has taken longer than `limit`.
+    /// The query that has taken longer than `limit`.
     pub fn overdue(&self, limit: Duration) -> Option<Call> {
         let (call, since) = (*self.0.lock().expect("nobody panics while holding it"))?;
         (since.elapsed() > limit).then_some(call)

@@ -1,4 +1,4 @@
-//! Structures that may never answer, asked on threads that are watched.
+//! Queries that may never return, on threads with a time limit.
 //!
 //! A thread cannot be ended from outside: one that hangs is left behind, and ends with the process.
 
@@ -10,21 +10,21 @@ use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::thread;
 use std::time::Duration;
 
-use super::asked::{Asked, Call, message};
 use super::compare::{BATCH, admitted, validate_batch};
+use super::query_clock::{Call, QueryClock, message};
 use super::{Kind, Reference, Validation};
 use crate::accel::DynAccel;
 use crate::geometry::{Hit, Mesh, Ray};
 
-/// How long a structure may take for its build, or for 256 rays, where nobody says otherwise: far longer than any that ends.
+/// Default time limit of a build, or of 256 rays: far longer than any of them takes that returns at all.
 pub const LIMIT: Duration = Duration::from_secs(120);
 
 const PAUSE: Duration = Duration::from_millis(20);
 
 /// Why work on a watched thread has no result.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum Ended {
-    /// It was given up.
+pub enum WatchError {
+    /// It took longer than the limit.
     #[error("it hangs: no answer within {0:?}")]
     Hangs(Duration),
     /// It panicked.
@@ -36,7 +36,7 @@ pub enum Ended {
 ///
 /// # Errors
 /// If the work panics, or takes longer; then its thread is left behind.
-pub fn watched<R: Send + 'static>(limit: Duration, work: impl FnOnce() -> R + Send + 'static) -> Result<R, Ended> {
+pub fn watched<R: Send + 'static>(limit: Duration, work: impl FnOnce() -> R + Send + 'static) -> Result<R, WatchError> {
     let (sender, receiver) = channel();
     thread::spawn(move || {
         let result = catch_unwind(AssertUnwindSafe(work)).map_err(|payload| message(payload.as_ref()));
@@ -44,43 +44,43 @@ pub fn watched<R: Send + 'static>(limit: Duration, work: impl FnOnce() -> R + Se
         let _ = sender.send(result);
     });
     match receiver.recv_timeout(limit) {
-        Ok(result) => result.map_err(Ended::Panicked),
-        Err(_) => Err(Ended::Hangs(limit)),
+        Ok(result) => result.map_err(WatchError::Panicked),
+        Err(_) => Err(WatchError::Hangs(limit)),
     }
 }
 
-/// The rays to compare, shared by threads that take batches in order.
-struct Job {
+/// A comparison, shared by threads that take its batches in order.
+struct Comparison {
     subject: Arc<dyn DynAccel>,
     reference: Arc<Reference>,
     mesh: Arc<Mesh>,
     rays: Vec<Ray>,
-    /// What the reference answers.
+    /// The hits of the reference.
     expected: Vec<Option<Hit>>,
     next: AtomicUsize,
 }
 
-/// A thread's place: the batch that it works on, and what it asks.
+/// The batch that a thread compares, and its query.
 #[derive(Default)]
-struct Place {
+struct ThreadState {
     batch: AtomicUsize,
-    asked: Asked,
+    clock: QueryClock,
 }
 
-impl Job {
-    /// Rays, and what is expected of them.
+impl Comparison {
+    /// Rays, and the hits of the reference.
     fn batch(&self, number: usize) -> Option<(&[Ray], &[Option<Hit>])> {
         self.rays.chunks(BATCH).zip(self.expected.chunks(BATCH)).nth(number)
     }
 
-    fn run(&self, number: usize, asked: &Asked) -> Option<Validation> {
+    fn run(&self, number: usize, clock: &QueryClock) -> Option<Validation> {
         let (rays, expected) = self.batch(number)?;
-        Some(validate_batch(self.subject.as_ref(), &self.reference, expected, &self.mesh, rays, asked))
+        Some(validate_batch(self.subject.as_ref(), &self.reference, expected, &self.mesh, rays, clock))
     }
 }
 
-/// As [`validate`](super::validate), but a structure that takes longer than `limit` for one question, a ray or 256 of them,
-/// is given up: the ray is named, and what was compared until then stands. `expected` are the answers of `reference` to `rays`.
+/// As [`validate`](super::validate), but the comparison ends when the structure takes longer than `limit` for one ray, or for
+/// 256 of them: the ray is named, and what was compared until then stands. `expected` are the hits of `reference` for `rays`.
 ///
 /// Runs on as many threads of its own as the machine has processors. One that hangs is left behind.
 pub fn validate_watched(
@@ -93,7 +93,7 @@ pub fn validate_watched(
 ) -> Validation {
     let (admitted, expected) = admitted(subject.as_ref(), rays, expected);
     let declined = rays.len() - admitted.len();
-    let job = Arc::new(Job {
+    let comparison = Arc::new(Comparison {
         subject: Arc::clone(subject),
         reference: Arc::clone(reference),
         mesh: Arc::clone(mesh),
@@ -102,18 +102,18 @@ pub fn validate_watched(
         next: AtomicUsize::new(0),
     });
 
-    let count = thread::available_parallelism().map_or(1, usize::from).min(job.rays.len().div_ceil(BATCH));
+    let count = thread::available_parallelism().map_or(1, usize::from).min(comparison.rays.len().div_ceil(BATCH));
     let (sender, receiver) = channel();
-    let places: Vec<Arc<Place>> = (0..count).map(|_| Arc::default()).collect();
-    let threads: Vec<_> = places
+    let states: Vec<Arc<ThreadState>> = (0..count).map(|_| Arc::default()).collect();
+    let threads: Vec<_> = states
         .iter()
-        .map(|place| {
-            let (job, place, sender) = (Arc::clone(&job), Arc::clone(place), sender.clone());
+        .map(|state| {
+            let (comparison, state, sender) = (Arc::clone(&comparison), Arc::clone(state), sender.clone());
             thread::spawn(move || {
                 loop {
-                    let number = job.next.fetch_add(1, Ordering::Relaxed);
-                    place.batch.store(number, Ordering::Relaxed);
-                    let Some(done) = job.run(number, &place.asked) else { return };
+                    let number = comparison.next.fetch_add(1, Ordering::Relaxed);
+                    state.batch.store(number, Ordering::Relaxed);
+                    let Some(done) = comparison.run(number, &state.clock) else { return };
                     if sender.send((number, done)).is_err() {
                         return;
                     }
@@ -130,10 +130,13 @@ pub fn validate_watched(
             Err(RecvTimeoutError::Disconnected) => break,
             Err(RecvTimeoutError::Timeout) => {}
         }
-        let overdue = |place: &Arc<Place>| Some((place.batch.load(Ordering::Relaxed), place.asked.overdue(limit)?));
+        let overdue = |state: &Arc<ThreadState>| {
+            let call = state.clock.overdue(limit)?;
+            Some((state.batch.load(Ordering::Relaxed), call))
+        };
         // Batches are taken in order: of several that hang the first is named.
-        if let Some((number, call)) = places.iter().filter_map(overdue).min_by_key(|(number, _)| *number) {
-            let (rays, expected) = job.batch(number).expect("it is being asked");
+        if let Some((number, call)) = states.iter().filter_map(overdue).min_by_key(|(number, _)| *number) {
+            let (rays, expected) = comparison.batch(number).expect("a thread compares it");
             let sums = Validation { rays: rays.len() as u64, ..Validation::default() };
             let why = format!("no answer within {limit:?}");
             let first = if let Call::Ray(index) = call { index } else { 0 };
@@ -142,7 +145,7 @@ pub fn validate_watched(
         }
     }
     for thread in threads {
-        // What a structure panics with was caught: this is a fault of ours.
+        // A panic of the structure was caught: this one is a fault of ours.
         thread.join().unwrap_or_else(|fault| resume_unwind(fault));
     }
     Validation::of_batches(declined, batches.into_values())

@@ -1,0 +1,94 @@
+//! Hits in files: those of one structure are written for others, those of others are compared with the reference.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use anyhow::Context;
+
+use super::Run;
+use super::reference::closest_hits;
+use super::table::{note_on_reference, row, scene_table};
+use crate::accel::{DynAccel, Query};
+use crate::cli::progress::Waiting;
+use crate::geometry::{Hit, Ray};
+use crate::report::number::plural;
+use crate::scene::Scene;
+use crate::scene::files::{HitFile, RayFile};
+use crate::request;
+use crate::study::Status;
+use crate::validate::{validate_answers, validate_any_answers, watched};
+
+/// Rays that are traced at a time, under one limit.
+const BATCH: usize = 256;
+
+impl Run<'_> {
+    /// Writes the hits of one structure.
+    pub fn export_hits(&self, scene: &Scene, file: &RayFile, to: &Path, waiting: Waiting) -> anyhow::Result<Status> {
+        let (args, workload) = (self.args, &file.workload);
+        let [choice] = &self.structures[..] else {
+            anyhow::bail!("a file holds the answers of one structure: name one with --structure");
+        };
+        let output = request::output(self.registry, to, &args.scenes, args.source().file())?;
+        let label = &choice.label;
+        let accel = args.build(choice, scene, &waiting).with_context(|| format!("the builder of {label}"))?;
+        let can = accel.capabilities();
+        let declined = workload.rays.iter().find_map(|ray| can.declines(ray));
+        if let Some(what) = declined.or((workload.query == Query::Any && !can.any_hit).then_some("any hit")) {
+            anyhow::bail!("{label} declines {what}, which these rays need");
+        }
+        let rays = workload.rays.len();
+        waiting.says(format!("{}: {label} traces {}", scene.name, plural(rays, "ray")));
+        let mut hits = vec![];
+        for batch in workload.rays.chunks(BATCH) {
+            let (accel, query, batch) = (Arc::clone(&accel), workload.query, batch.to_vec());
+            let traced = watched(args.limit(), move || traced(accel.as_ref(), query, &batch));
+            let advice = || format!("{label}: find the ray by the same command without --export-hits");
+            hits.extend(traced.with_context(advice)?);
+        }
+        HitFile::new(workload, hits).write(&output)?;
+        drop(waiting);
+        let (path, answers, hash) = (output.path().display(), plural(rays, "answer"), workload.hash());
+        self.terminal.print(&format!("{path}: {answers} of {label} to the rays {hash}\n"))?;
+        Ok(Status::Right)
+    }
+
+    /// Compares the hits of the file of --hits with the reference.
+    pub fn check_hits(&self, scene: &Scene, file: &RayFile, waiting: Waiting) -> anyhow::Result<Status> {
+        let (args, choice) = (self.args, &self.reference);
+        let path = args.hits.as_deref().context("the caller has seen it")?;
+        anyhow::ensure!(args.test.len() < 2, "answers come from one triangle test: name one");
+        let test = args.test.first().map_or("own", String::as_str);
+        request::known_tests(self.registry, &args.test)?;
+        let hit_file = HitFile::read(path)?;
+        let name = path.display().to_string();
+        let hits = hit_file.hits_of(&file.workload).map_err(|problem| anyhow::anyhow!("{name}: {problem}"))?;
+        let recorded: Vec<(Ray, Option<Hit>)> = file.workload.rays.iter().copied().zip(hits.iter().copied()).collect();
+        let (sample, note) = choice.sample(&recorded, scene.mesh.len());
+        let (rays, hits): (Vec<Ray>, Vec<Option<Hit>>) = sample.into_iter().unzip();
+        let reference = choice.build(scene, test)?;
+        let reference_name = choice.name_for_file(&reference, test);
+        let expected = closest_hits(&reference, scene, &rays, &reference_name, &waiting);
+        let found = match hit_file.query {
+            Query::Closest => validate_answers(&reference, &expected, &scene.mesh, &rays, &hits),
+            Query::Any => {
+                let any: Vec<bool> = hits.iter().map(Option::is_some).collect();
+                validate_any_answers(&reference, &expected, &scene.mesh, &rays, &any)
+            }
+        };
+        drop(waiting);
+        let mut notes = scene.notes.clone();
+        notes.extend(note);
+        notes.extend(found.worst.iter().map(|worst| format!("{name}: {worst}")));
+        notes.extend(note_on_reference(&name, &found));
+        let rows = vec![row(&name, test, &found)];
+        self.terminal.print_table(&scene_table(scene, &rays, &reference_name, rows, notes))?;
+        Ok(if choice.refutes(&found) { Status::Wrong } else { Status::Right })
+    }
+}
+
+fn traced(accel: &dyn DynAccel, query: Query, rays: &[Ray]) -> Vec<Option<Hit>> {
+    match query {
+        Query::Closest => accel.closest(rays),
+        Query::Any => accel.any(rays).into_iter().map(|any| any.then(|| Hit::new(0.0, 0))).collect(),
+    }
+}

@@ -1,0 +1,200 @@
+//! The reference that hits are compared with.
+
+use std::collections::BTreeMap;
+use std::fmt;
+use std::sync::Arc;
+
+use anyhow::Context;
+
+use crate::cli::progress::Waiting;
+use crate::geometry::{Hit, Ray};
+use crate::measure::spread;
+use crate::registry::{Choice, Registry};
+use crate::report::number::count;
+use crate::scene::Scene;
+use crate::request::{self, BRUTE_FORCE, SAH_TREE};
+use crate::triangle::{MollerTrumbore, TriangleTest};
+use crate::validate::{Reference, Validation};
+
+/// Default number of rays of a scene, and how many triangle tests brute force may run for them with each triangle test.
+pub const DEFAULT_RAYS: usize = 10_000;
+const TESTS: usize = 1 << 33;
+
+/// Likewise for the rays of a file, as a power of two: more, about two minutes of them, since the user wants these rays.
+const FILE_TESTS: u32 = 36;
+
+/// Triangle tests after which brute force reports its progress: about a second.
+const PROGRESS_TESTS: usize = 1 << 29;
+
+/// Which reference hits are compared with.
+pub enum ReferenceChoice {
+    /// Brute force with the triangle test of each structure.
+    SameTest,
+    /// A structure that was chosen for its hits; brute force with a test of its own is one of them.
+    Structure(Box<Choice>),
+}
+
+impl ReferenceChoice {
+    /// What --against names: brute force by its bare name shares each structure's test.
+    pub fn named(registry: &Registry, name: &str) -> anyhow::Result<Self> {
+        if name.eq_ignore_ascii_case(BRUTE_FORCE) {
+            return Ok(Self::SameTest);
+        }
+        Ok(Self::Structure(Box::new(request::structure(registry, name)?)))
+    }
+
+    /// The reference for a structure with this triangle test.
+    pub fn build(&self, scene: &Scene, test: &str) -> anyhow::Result<Reference> {
+        match self {
+            Self::SameTest => Ok(Reference::of_test(test, &scene.mesh)?),
+            Self::Structure(choice) => {
+                let built = choice.build(&scene.mesh);
+                let failure = || format!("{} cannot be built over {}", choice.label, scene.name);
+                Ok(Reference::structure(built.with_context(failure)?))
+            }
+        }
+    }
+
+    /// `reference` in words, for hits from a file that this triangle test found.
+    pub fn name_for_file(&self, reference: &Reference, test: &str) -> String {
+        match self {
+            Self::SameTest if reference.knows_structure_errors() => format!("brute force with {test}"),
+            Self::SameTest => {
+                let other = MollerTrumbore::NAME;
+                format!("brute force with {other}, where they differ judged by exact arithmetic")
+            }
+            Self::Structure(_) => self.to_string(),
+        }
+    }
+
+    /// How many rays of a scene of so many triangles are traced by default.
+    pub fn affordable(&self, triangles: usize) -> usize {
+        self.most(triangles, TESTS).min(DEFAULT_RAYS)
+    }
+
+    /// The rays of a file that are traced, all or some evenly spread, each with what belongs to it; and a note if these are
+    /// not all.
+    pub fn sample<T: Copy>(&self, recorded: &[T], triangles: usize) -> (Vec<T>, Option<String>) {
+        let sample = spread(recorded, self.most(triangles, 1 << FILE_TESTS));
+        let note = (sample.len() < recorded.len()).then(|| {
+            let [some, all] = [sample.len(), recorded.len()].map(|rays| count(rays as u64));
+            format!(
+                "{some} of the {all} rays of the file, evenly spread, since brute force would run more than \
+                 2^{FILE_TESTS} triangle tests for all: --against {SAH_TREE} traces all"
+            )
+        });
+        (sample, note)
+    }
+
+    /// Rays for which brute force, which tests every triangle, runs no more than so many tests.
+    fn most(&self, triangles: usize, tests: usize) -> usize {
+        let is_brute_force = match self {
+            Self::SameTest => true,
+            Self::Structure(choice) => choice.entry.name == BRUTE_FORCE,
+        };
+        if is_brute_force { (tests / triangles.max(1)).max(1) } else { usize::MAX }
+    }
+
+    /// Whether hits are wrong. Their depths are judged strictly where the reference was chosen for its hits.
+    pub fn refutes(&self, found: &Validation) -> bool {
+        let errors = match self {
+            Self::SameTest => found.errors(),
+            Self::Structure(_) => found.strict_errors(),
+        };
+        errors > 0
+    }
+}
+
+impl fmt::Display for ReferenceChoice {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::SameTest => write!(f, "brute force with the same triangle test"),
+            Self::Structure(choice) => write!(f, "{} over {}", choice.label, choice.triangle_test()),
+        }
+    }
+}
+
+/// A reference and its hits for the rays of a scene.
+pub type ReferenceHits = (Arc<Reference>, Vec<Option<Hit>>);
+
+/// The references of one scene, each built and traced once.
+pub struct References<'a> {
+    pub scene: &'a Scene,
+    pub rays: &'a [Ray],
+    pub choice: &'a ReferenceChoice,
+    /// By the triangle test that each is for; a structure chosen for its hits is for all.
+    pub known: BTreeMap<Option<&'static str>, ReferenceHits>,
+}
+
+impl References<'_> {
+    /// The one for a triangle test.
+    pub fn get(&mut self, test: &'static str, waiting: &Waiting) -> anyhow::Result<&ReferenceHits> {
+        let key = matches!(self.choice, ReferenceChoice::SameTest).then_some(test);
+        if !self.known.contains_key(&key) {
+            let reference = self.choice.build(self.scene, test)?;
+            let over = key.map(|test| format!(" ({test})")).unwrap_or_default();
+            let name = format!("{}{over}", self.choice);
+            let hits = closest_hits(&reference, self.scene, self.rays, &name, waiting);
+            self.known.insert(key, (Arc::new(reference), hits));
+        }
+        Ok(&self.known[&key])
+    }
+}
+
+/// The hits of a reference, `name` in words, for rays of a scene.
+pub fn closest_hits(
+    reference: &Reference,
+    scene: &Scene,
+    rays: &[Ray],
+    name: &str,
+    waiting: &Waiting,
+) -> Vec<Option<Hit>> {
+    let mut hits = Vec::with_capacity(rays.len());
+    for some in rays.chunks((PROGRESS_TESTS / scene.mesh.len().max(1)).max(1)) {
+        waiting.says(format!("{}: {name} traces {} of {} rays", scene.name, hits.len(), rays.len()));
+        hits.extend(reference.closest_hits(some));
+    }
+    hits
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cli::terminal::{Colour, Terminal};
+    use crate::scene::Builtin;
+
+    fn choices<const N: usize>(names: [&str; N]) -> [ReferenceChoice; N] {
+        let registry = Registry::builtin();
+        names.map(|name| ReferenceChoice::named(&registry, name).unwrap())
+    }
+
+    #[test]
+    fn brute_force_traces_fewer_rays_where_all_would_take_minutes() {
+        let [brute, exact, tree] = choices([BRUTE_FORCE, "brute-force:test=exact", "sah-kd"]);
+        let rays = [0, 12, 800_000, 10_000_000].map(|triangles| brute.affordable(triangles));
+        assert_eq!(rays, [DEFAULT_RAYS, DEFAULT_RAYS, DEFAULT_RAYS, 858]);
+        assert_eq!((tree.affordable(10_000_000), brute.affordable(usize::MAX)), (DEFAULT_RAYS, 1));
+
+        let recorded: Vec<usize> = (0..20_000).collect();
+        for brute in [&brute, &exact] {
+            assert_eq!(brute.sample(&recorded, 12), (recorded.clone(), None));
+            let (sample, note) = brute.sample(&recorded, 10_000_000);
+            assert!(sample.len() == 6871 && sample.is_sorted() && sample[6870] > 19_900, "{sample:?}");
+            assert!(note.is_some_and(|note| note.starts_with("6,871 of the 20,000 rays") && note.contains("2^36")));
+        }
+        assert_eq!(tree.sample(&recorded, 10_000_000), (recorded, None));
+    }
+
+    #[test]
+    fn one_structure_for_all_tests_is_built_and_traced_once() {
+        let scene = Builtin::find("cube").unwrap().scene(None).unwrap();
+        let waiting = Waiting::show(String::new(), &Terminal::new(Colour::Never, true));
+        for (choice, is_shared) in choices([BRUTE_FORCE, "sah-kd"]).iter().zip([false, true]) {
+            let mut references = References { scene: &scene, rays: &[], choice, known: BTreeMap::new() };
+            let [one, other, again] =
+                ["exact", "watertight", "exact"].map(|test| Arc::clone(&references.get(test, &waiting).unwrap().0));
+            assert!(Arc::ptr_eq(&one, &again));
+            assert_eq!(Arc::ptr_eq(&one, &other), is_shared, "{choice}");
+        }
+    }
+}

@@ -1,0 +1,119 @@
+//! Structures over one scene, compared with the reference.
+
+use std::collections::BTreeMap;
+
+use super::answers::{answers, table};
+use super::reference::{DEFAULT_RAYS, References};
+use super::table::{failure_row, note_on_reference, row, scene_table};
+use super::{BuildFailure, Run};
+use crate::cli::progress::Waiting;
+use crate::geometry::Ray;
+use crate::registry::Choice;
+use crate::report::number::plural;
+use crate::scene::{Sampling, Scene, Workload, WorkloadKind};
+use crate::request::{self, RaySource, Structures, known_defect, left_out};
+use crate::study::Status;
+use crate::validate::{Stratum, Validation, validate_watched};
+
+impl Run<'_> {
+    /// Compares all structures with the reference, on recorded rays or others, and prints the table.
+    pub fn validate(&self, scene: &Scene, recorded: Option<&[Ray]>) -> anyhow::Result<Status> {
+        let Self { args, terminal, .. } = self;
+        let triangles = scene.mesh.len();
+        let mut notes = scene.notes.clone();
+        let rays = self.rays(scene, recorded, &mut notes)?;
+        let named = Structures { structure: args.structure.clone(), quality: None };
+        let mut references = References { scene, rays: &rays, choice: &self.reference, known: BTreeMap::new() };
+        let (mut status, mut rows, mut of_structures, mut hits) = (Status::Right, vec![], vec![], vec![]);
+        for choice in &self.structures {
+            if named.leaves_out(&choice.entry.name, triangles) {
+                notes.push(left_out(scene));
+                continue;
+            }
+            let waiting = Waiting::show(String::new(), terminal);
+            let (reference, expected) = references.get(choice.triangle_test(), &waiting)?;
+            match args.build(choice, scene, &waiting) {
+                Ok(accel) => {
+                    waiting.says(format!("{} checks {}", scene.name, choice.label));
+                    let found = validate_watched(&accel, reference, expected, &scene.mesh, &rays, args.limit());
+                    if !args.ray.is_empty() {
+                        of_structures.push(answers(&choice.label, &accel, &rays, &scene.mesh, args.limit()));
+                    }
+                    status = status.and(self.status(choice, &found, &mut notes));
+                    rows.push(row(&choice.label, choice.triangle_test(), &found));
+                    hits.push(found.hits);
+                }
+                Err(failure) => {
+                    let (own, word) = match failure {
+                        BuildFailure::Hangs(_) => (Status::Wrong, "hangs"),
+                        BuildFailure::Refused(_) => (Status::Refused, "refused"),
+                    };
+                    status = status.and(own);
+                    rows.push(failure_row(choice, word));
+                    notes.push(format!("{}: {failure}", choice.label));
+                }
+            }
+        }
+        if args.ray.is_empty() && !hits.is_empty() && hits.iter().all(|&hits| hits == 0) {
+            notes.push("No ray hits anything by the reference: no hit could be lost, and this shows little.".into());
+        }
+        terminal.print_table(&scene_table(scene, &rays, &self.reference, rows, notes))?;
+        if !args.ray.is_empty() {
+            terminal.print_table(&table(&scene.name, &of_structures))?;
+        }
+        Ok(status)
+    }
+
+    /// What a comparison means for the run; adds what is to be said of it.
+    fn status(&self, choice: &Choice, found: &Validation, notes: &mut Vec<String>) -> Status {
+        let label = &choice.label;
+        let defect = known_defect(&choice.entry.name).filter(|_| self.reference.refutes(found));
+        notes.extend(
+            defect.map(|defect| format!("{label}: its known defects, which do not change the exit status: {defect}")),
+        );
+        notes.extend(declined(choice, found));
+        notes.extend(found.worst.iter().map(|worst| format!("{label}: {worst}")));
+        notes.extend(note_on_reference(label, found));
+        if self.reference.refutes(found) && defect.is_none() { Status::Wrong } else { Status::Right }
+    }
+
+    /// Recorded or given rays, or else rays of every workload or stratum, of each the same number.
+    fn rays(&self, scene: &Scene, recorded: Option<&[Ray]>, notes: &mut Vec<String>) -> anyhow::Result<Vec<Ray>> {
+        let Self { registry, args, reference, terminal, .. } = self;
+        if let Some(recorded) = recorded {
+            let (sample, note) = reference.sample(recorded, scene.mesh.len());
+            notes.extend(note);
+            return Ok(sample);
+        }
+        if !args.ray.is_empty() {
+            return Ok(args.ray.clone());
+        }
+        let _waiting = Waiting::show(format!("{} makes rays", scene.name), terminal);
+        let affordable = reference.affordable(scene.mesh.len());
+        if args.rays.is_none() && affordable < DEFAULT_RAYS {
+            notes.push(format!(
+                "about {affordable} rays, since brute force would take minutes for {DEFAULT_RAYS}: --rays sets the number"
+            ));
+        }
+        let number = args.rays.clone().unwrap_or(RaySource::Count(affordable));
+        if args.adversarial {
+            let each = number.number()?.div_ceil(Stratum::ALL.len());
+            return Ok(Stratum::ALL.iter().flat_map(|stratum| stratum.rays(&scene.mesh, each, args.seed())).collect());
+        }
+        let tracer = request::guide(registry)?.build(&scene.mesh)?;
+        let limit = number.count().div_ceil(WorkloadKind::ALL.len());
+        let sampling = Sampling::some(scene, limit, args.seed());
+        let of_kind = |&kind| Workload::new(scene, kind, &sampling, tracer.as_ref()).rays;
+        Ok(WorkloadKind::ALL.iter().flat_map(of_kind).collect())
+    }
+}
+
+/// What a structure does not support.
+fn declined(choice: &Choice, found: &Validation) -> Option<String> {
+    let what = choice.entry.capabilities.declined();
+    let rays = match found.declined {
+        0 => String::new(),
+        n => format!(": {} not traced", plural(n as usize, "ray")),
+    };
+    (!what.is_empty()).then(|| format!("{} declines {}{rays}", choice.label, what.join(", ")))
+}
