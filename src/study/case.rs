@@ -7,8 +7,9 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
 use crate::measure::checksum;
+use crate::registry::Registry;
 use crate::report::words::scene_name;
-use crate::request::{SceneRequest, StructureRequest, WorkloadRequest};
+use crate::request::{Measuring, SceneRequest, StructureRequest, WorkloadRequest, guide};
 
 /// One epoch of one scene, to be measured.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -102,6 +103,34 @@ impl Settings {
 impl Default for Check {
     fn default() -> Self {
         Self::BruteForce { tests: TESTS, limit_ns: None }
+    }
+}
+
+/// Where pairs are compared each on its own rays, a structure that takes more than so many times as long as the median one
+/// is timed on fewer: its ratios hardly gain from more of them, and the run would be about it alone.
+pub const SLOWEST: f64 = 4.0;
+
+impl Settings {
+    /// Those of the options, with answers checked against brute force.
+    ///
+    /// # Errors
+    /// If the registry is empty.
+    pub fn new<const EPOCHS: u16, const RUNS: u16, const BUDGET: u32>(
+        measuring: &Measuring<EPOCHS, RUNS, BUDGET>,
+        registry: &Registry,
+    ) -> anyhow::Result<Self> {
+        Ok(Self {
+            runs: measuring.runs.into(),
+            budget_ns: measuring.budget.ns(),
+            slowest: None,
+            check: Check::default(),
+            build_limit_s: None,
+            whole_counts: vec![],
+            whole: false,
+            guide: guide(registry)?.label,
+            seed: measuring.seed,
+            threads: measuring.threads.into(),
+        })
     }
 }
 

@@ -3,6 +3,8 @@
 //! A [`Study`] is a value: two functions and their options. Measuring is not its business: [`engine`] measures the cases
 //! of a plan that the journal lacks, one [`Case`] a process, and hands the [`Dataset`] to the study's report.
 
+pub mod accuracy;
+pub mod attribution;
 pub mod case;
 pub mod claims;
 pub mod compare;
@@ -14,12 +16,13 @@ mod epoch_medians;
 mod error;
 mod join;
 pub mod journal;
-mod kendall;
 mod least_squares;
 pub mod measure;
 pub mod measurement;
 mod plan;
 pub mod process;
+pub mod replicate;
+pub mod scaling;
 mod screen;
 mod stage;
 mod status;
@@ -135,7 +138,12 @@ impl Studies {
 
     /// Those of this crate. A new one is one more line.
     pub fn builtin() -> Self {
-        Self::empty().with(compare::STUDY)
+        Self::empty()
+            .with(attribution::STUDY)
+            .with(compare::STUDY)
+            .with(scaling::STUDY)
+            .with(accuracy::STUDY)
+            .with(replicate::STUDY)
     }
 
     /// Adds a study.
@@ -145,7 +153,10 @@ impl Studies {
     pub fn with(mut self, study: Study) -> Self {
         let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
         let name = study.name;
-        assert!(!name.is_empty() && !["all", "plan"].contains(&name) && name.chars().all(plain), "the name {name:?}");
+        assert!(
+            !name.is_empty() && !["all", "plan"].contains(&name) && name.chars().all(plain),
+            "the name {name:?}"
+        );
         assert!(self.find(name).is_none(), "there is already a study {name:?}");
         self.list.push(study);
         self

@@ -15,41 +15,31 @@ named_enum! {
     }
 }
 
-/// One value of a factor.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Level {
-    /// As tables and journals print it.
-    pub name: &'static str,
-    /// Keys of the structure.
-    pub keys: &'static str,
-}
-
-const fn level(name: &'static str, keys: &'static str) -> Level {
-    Level { name, keys }
-}
+/// One value of a factor: its name, as tables and journals print it, and the keys of the structure.
+pub type Level = (&'static str, &'static str);
 
 /// Where a node is split: the report's rule first, the surface area heuristic over all planes last.
 const PLANES: [Level; 6] = [
-    level("vertex median cyclic", "plane=vertex-median,axis=cyclic"),
-    level("vertex median longest", "plane=vertex-median,axis=longest"),
-    level("spatial median longest", "plane=spatial-median,axis=longest"),
-    level("centroid median longest", "plane=centroid-median,axis=longest"),
-    level("SAH binned", "plane=sah-binned"),
-    level("SAH exact", "plane=sah-sweep"),
+    ("vertex median cyclic", "plane=vertex-median,axis=cyclic"),
+    ("vertex median longest", "plane=vertex-median,axis=longest"),
+    ("spatial median longest", "plane=spatial-median,axis=longest"),
+    ("centroid median longest", "plane=centroid-median,axis=longest"),
+    ("SAH binned", "plane=sah-binned"),
+    ("SAH exact", "plane=sah-sweep"),
 ];
 
 /// When a node stays a leaf: the report's rule, then "at most eight triangles", then the surface area heuristic.
 const STOPS: [Level; 3] = [
-    level("report", "stop=report,leaf=100,threshold=0.7,limit=below"),
-    level("leaf 8", "stop=leaf,leaf=8,limit=at-most"),
-    level("SAH", "stop=sah"),
+    ("report", "stop=report,leaf=100,threshold=0.7,limit=below"),
+    ("leaf 8", "stop=leaf,leaf=8,limit=at-most"),
+    ("SAH", "stop=sah"),
 ];
 
 /// How rays walk: the report's way, then the usual one.
 const TRAVERSALS: [Level; 2] =
-    [level("child boxes", "traversal=child-boxes"), level("plane intervals", "traversal=plane-intervals")];
+    [("child boxes", "traversal=child-boxes"), ("plane intervals", "traversal=plane-intervals")];
 
-/// What all cells share. The rules of the report take no notice of the costs; the guard against inputs that explode is the one of
+/// What all cells share. The rules of the report ignore the costs; the guard against inputs that explode is the one of
 /// `sah-kd`.
 const COMMON: &str = "traversal_cost=1.0,intersection_cost=0.7,empty_bonus=0.2,duplication=8.0";
 
@@ -63,6 +53,9 @@ impl Factor {
         }
     }
 }
+
+/// Trees that are built a second time, for the A/A noise.
+pub const TWINS: [Treatment; 2] = [Treatment::REPORT, Treatment::SAH];
 
 /// Cells of the design.
 pub const CELLS: usize = PLANES.len() * STOPS.len() * TRAVERSALS.len();
@@ -97,6 +90,16 @@ impl Treatment {
         self.0[factor as usize]
     }
 
+    /// Names of its levels.
+    pub fn names(self) -> [&'static str; 3] {
+        Factor::ALL.map(|factor| factor.levels()[self.level(factor)].0)
+    }
+
+    /// What its tree stands for in the study: `SAH exact / SAH / plane intervals`.
+    pub fn role(self) -> String {
+        self.names().join(" / ")
+    }
+
     /// The report's tree with the factors of `switched` (bits in the order of [`Factor::ALL`]) as in the SAH tree.
     pub fn corner(switched: usize) -> Self {
         Self(std::array::from_fn(|f| if switched >> f & 1 == 1 { Self::SAH.0[f] } else { Self::REPORT.0[f] }))
@@ -104,7 +107,7 @@ impl Treatment {
 
     /// The structure, as the command line takes it, over the triangle test `test`.
     pub fn spec(self, test: &str) -> String {
-        let keys: Vec<&str> = Factor::ALL.iter().map(|&factor| factor.levels()[self.level(factor)].keys).collect();
+        let keys: Vec<&str> = Factor::ALL.iter().map(|&factor| factor.levels()[self.level(factor)].1).collect();
         format!("median-kd:test={test},{},{COMMON}", keys.join(","))
     }
 }
@@ -124,6 +127,7 @@ mod tests {
         }
         assert_eq!((Treatment::corner(0), Treatment::corner(7)), (Treatment::REPORT, Treatment::SAH));
         assert_eq!(Treatment::corner(0b010), Treatment([0, STOPS.len() - 1, 0]));
+        assert_eq!(Treatment::SAH.role(), "SAH exact / SAH / plane intervals");
     }
 
     #[test]

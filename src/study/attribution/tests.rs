@@ -1,10 +1,12 @@
-//! From journals whose truth is known to the answer.
+//! From datasets whose truth is known to the answer.
 
-use super::design::{CELLS, Factor, Treatment};
+use super::design::{CELLS, Factor};
+use super::result::{Attribution, results};
 use super::*;
-use crate::measure::RandomOrder;
-use crate::study::epoch::tests;
-use crate::study::epoch::{Epoch, RayCounts, Shape};
+use crate::measure::{Provenance, RandomOrder, Threads};
+use crate::study::Measured;
+use crate::study::case::tests::example as case;
+use crate::study::epoch::{Epoch, RayCounts, Shape, tests};
 
 /// How many times faster each factor makes the tree, and what the plane gives more once the stop rule is the SAH's.
 const STOP: f64 = 8.0;
@@ -21,108 +23,151 @@ fn factor(cell: Treatment) -> f64 {
     times * if plane == 5 && stop == 2 { TOGETHER } else { 1.0 }
 }
 
-/// A scene of `epochs` epochs; times vary by up to `noise` with the epoch, and whole rounds by a third.
-pub fn cases(epochs: usize, noise: f64) -> Vec<Epoch> {
+/// `epochs` epochs of the stand-in of a scene; times vary by up to `noise` with the epoch, and whole rounds by a third.
+fn measured(scene: &str, epochs: usize, noise: f64) -> Vec<Measured> {
     let mut random = RandomOrder::new(3);
-    let cells: Vec<Treatment> = Treatment::all().into_iter().chain([Treatment::REPORT, Treatment::SAH]).collect();
+    let cells: Vec<Treatment> = Treatment::all().into_iter().chain(TWINS).collect();
     let mut uniform = move || random.below(1 << 20) as f64 / f64::from(1 << 20);
     let mut of = |number: usize| {
         let slow: Vec<f64> = (0..3).map(|_| 1.0 + uniform() / 3.0).collect();
         let labels: Vec<String> = cells.iter().map(|cell| cell.spec("exact")).collect();
         let structures: Vec<(&str, u64, &[u64])> = labels.iter().map(|label| (&label[..], 1000, &[][..])).collect();
-        let mut epoch = Epoch { stand_in: true, ..tests::example("Dragon", 100, number, &structures) };
+        let mut epoch = Epoch { stand_in: true, ..tests::example(scene, 100, number, &structures) };
         for (tree, &cell) in epoch.structures.iter_mut().zip(&cells) {
             let placed = 1.0 + noise * (uniform() - 0.5);
-            tree.shape = Shape { references: 300, sah_cost: Some(20.0 / factor(cell)), ..tree.shape.clone() };
+            if !tree.is_twin() {
+                tree.role = cell.role();
+            }
+            tree.shape = Shape { references: 300, sah_cost: Some(20.0 / factor(cell)), ..tree.shape };
             let rays = &mut tree.rays[0];
             rays.ns = slow.iter().map(|slow| (4e8 / factor(cell) * placed * slow) as u64).collect();
             let tests = Some((24_000_000.0 / factor(cell)) as u64);
             let counts = rays.counts.filter(|_| number == 0);
             rays.counts = counts.map(|counts| RayCounts { tests, steps: Some(5000), ..counts });
         }
-        epoch
+        let mut case = case(scene, number, &[]);
+        case.scene.stand_in = true;
+        Measured { case, epoch }
     };
     (0..epochs).map(&mut of).collect()
 }
 
-fn one(cases: &[Epoch]) -> Attribution {
-    let mut results = result(cases);
-    assert_eq!(results.len(), 1);
-    results.remove(0)
+/// The same of a real mesh.
+fn real(measured: Vec<Measured>) -> impl Iterator<Item = Measured> {
+    measured.into_iter().map(|mut own| {
+        own.case.scene.stand_in = false;
+        own.epoch.stand_in = false;
+        own
+    })
 }
 
-/// The result of a scene without noise.
-pub(in crate::study) fn example() -> Attribution {
-    one(&cases(3, 0.0))
+fn dataset(measured: Vec<Measured>) -> Dataset {
+    Dataset::new(Provenance::of(&Threads::unstarted(1)), measured)
+}
+
+fn report(measured: Vec<Measured>) -> Report {
+    super::report(&dataset(measured), &STUDY.defaults())
+}
+
+/// What `of` says of the only scene.
+fn of_one<T>(measured: Vec<Measured>, of: impl Fn(&Attribution) -> T) -> T {
+    let dataset = dataset(measured);
+    let results = results(&dataset);
+    assert_eq!(results.len(), 1);
+    of(&results[0])
 }
 
 #[test]
 fn the_split_is_the_one_put_in_and_multiplies_to_the_whole() {
     for epochs in [2, 5] {
-        let result = one(&cases(epochs, 0.02));
-        let whole = STOP * PLANE * TRAVERSAL * TOGETHER;
-        assert!(result.time.whole.holds(whole), "{:?}", result.time.whole);
+        let time = of_one(measured("Dragon", epochs, 0.02), Attribution::time);
+        assert!(time.whole.holds(STOP * PLANE * TRAVERSAL * TOGETHER), "{:?}", time.whole);
         let half = libm::sqrt(TOGETHER);
-        for (part, truth) in result.time.parts.iter().zip([PLANE * half, STOP * half, TRAVERSAL]) {
-            assert!(part.times.holds(truth), "{} of {epochs} epochs: {part:?}", part.factor);
+        let mut product = 1.0;
+        for (factor, truth) in Factor::ALL.into_iter().zip([PLANE * half, STOP * half, TRAVERSAL]) {
+            let part = time.part(factor);
+            assert!(part.times.holds(truth), "{} of {epochs} epochs: {part:?}", factor.name());
             assert!(part.least <= part.times.estimate && part.times.estimate <= part.most);
+            product *= part.times.estimate;
         }
-        let product: f64 = result.time.parts.iter().map(|part| part.times.estimate).product();
-        assert!((product / result.time.whole.estimate - 1.0).abs() < 1e-12);
+        assert!((product / time.whole.estimate - 1.0).abs() < 1e-12);
     }
 }
 
 #[test]
 fn without_noise_every_figure_is_exact() {
-    let result = one(&cases(3, 0.0));
-    let close = |a: f64, b: f64| assert!((a / b - 1.0).abs() < 1e-5, "{a} {b}");
-    close(result.time.whole.estimate, 30.0);
-    close(result.tests.whole.estimate, 30.0);
-    close(result.steps.whole.estimate, 1.0);
-    let stop = &result.time.parts[Factor::Stop as usize];
-    close(stop.least, STOP);
-    close(stop.most, STOP * TOGETHER);
-    close(result.plane_alone.estimate, PLANE);
-    close(result.cells[CELLS - 1].speedup.estimate, 30.0);
-    close(result.cells[0].tests_per_ray, 24_000.0);
-    close(result.cells[0].duplication, 3.0);
-    assert!(result.aa_noise < 1.0 + 1e-5);
-    let shares: f64 = result.terms.iter().map(|term| term.time.estimate).sum();
-    close(shares, 1.0);
-    // No factor but plane and stop rule work together.
-    close(1.0 + result.terms[5].time.estimate, 1.0);
-    assert!(result.terms[3].time.estimate > 1e-3);
+    of_one(measured("Dragon", 3, 0.0), |r| {
+        let (tests, steps) = (r.counted(RayCounts::tests_per_ray), r.counted(RayCounts::steps_per_ray));
+        let stop = r.time().part(Factor::Stop);
+        for (found, truth) in [
+            (r.time().whole.estimate, 30.0),
+            (tests.whole.estimate, 30.0),
+            (steps.whole.estimate, 1.0),
+            (stop.least, STOP),
+            (stop.most, STOP * TOGETHER),
+            (r.plane_alone().estimate, PLANE),
+            (r.counts(Treatment::REPORT).tests_per_ray().unwrap(), 24_000.0),
+            (libm::exp(r.noise.log().unwrap()), 1.0),
+        ] {
+            assert!((found / truth - 1.0).abs() < 1e-5, "{found} {truth}");
+        }
+    });
 }
 
 #[test]
 fn intervals_are_as_wide_as_the_noise() {
     let width = |noise: f64| {
-        let whole = one(&cases(5, noise)).time.whole;
+        let whole = of_one(measured("Dragon", 5, noise), Attribution::time).whole;
         whole.high().unwrap() / whole.low().unwrap()
     };
     assert!(width(0.1) > width(0.01) && width(0.01) > 1.0 && width(0.1) < 1.4, "{} {}", width(0.1), width(0.01));
 }
 
 #[test]
-fn the_sentence_names_the_parts_and_the_stand_in() {
-    let result = one(&cases(3, 0.0));
-    let table = headlines(std::slice::from_ref(&result));
-    let sentence = table.notes.last().unwrap();
-    let parts = ["30.0-fold speedup on Dragon (stand-in)", "stop rule gives 11.3", "plane 2.12", "traversal 1.25"];
-    assert!(parts.iter().all(|part| sentence.contains(part)), "{sentence}");
-    assert!(sentence.contains("8.00 to 16.0"), "{sentence}");
-    let tables = tables(&result);
-    assert!(tables.iter().all(|table| table.rows.iter().all(|row| row.len() == table.columns.len())));
-    assert_eq!(tables[0].rows.len(), CELLS);
-    assert_eq!(rows(&[result]).len(), CELLS);
+fn the_sentences_name_the_parts_and_the_stand_in() {
+    let own = report(measured("Dragon", 3, 0.0));
+    let sentence = |key| &own.finding(key).unwrap().sentence;
+    let split = "Of the 30.0-fold speedup on Dragon (stand-in), the stop rule gives 11.3, the plane 2.12, the traversal \
+                 1.25; by the order of switching 8.00 to 16.0, 1.50 to 3.00 and 1.25 to 1.25.";
+    assert_eq!(sentence("split-dragon"), split);
+    let parts = "On Dragon (stand-in) most of the speedup is due to the stop rule: it gives 11.3 [11.3, 11.3] times; the \
+                 plane 2.12 [2.12, 2.12] times and the traversal 1.25 [1.25, 1.25] times.";
+    assert_eq!(sentence("parts"), parts);
+    assert_eq!((own.data.rows.len(), own.tables().count()), (CELLS, 1));
+    assert!(own.finding("gain-dragon").is_none() && report(vec![]).blocks.is_empty());
 }
 
 #[test]
-fn real_meshes_and_stand_ins_are_apart_and_a_scene_without_its_first_epoch_is_left_out() {
-    let mut both = cases(2, 0.0);
-    let real = |epoch: &Epoch| Epoch { stand_in: false, scene_hash: "22".into(), ..epoch.clone() };
-    both.extend(cases(2, 0.0).iter().map(real));
-    let names: Vec<String> = result(&both).into_iter().map(|result| result.scene).collect();
-    assert_eq!(names, ["Dragon (stand-in)", "Dragon"]);
-    assert!(result(&both[1..2]).is_empty() && result(&[]).is_empty());
+fn claims_are_judged_by_real_meshes_where_they_are_there() {
+    let mut all = measured("Dragon", 3, 0.01);
+    all.extend(measured("Sponza", 3, 0.01));
+    let value = |report: &Report, key: &str| report.finding(key).and_then(|finding| finding.value);
+    let stand_ins = report(all.clone());
+    assert!(value(&stand_ins, "gain-dragon").unwrap().holds(1.0) && value(&stand_ins, "gain-lucy").is_none());
+    assert!((value(&stand_ins, "tau").unwrap().estimate - 1.0).abs() < 0.2);
+    let outcomes: Vec<_> = stand_ins.verdicts.iter().map(|verdict| verdict.outcome.name()).collect();
+    assert_eq!(outcomes[..4], ["confirmed", "confirmed", "not measured", "not measured"]);
+    // A real mesh of one scene alone is not held against a stand-in.
+    all.extend(real(measured("Dragon", 3, 0.01)));
+    let both = report(all.clone());
+    let headlines = both.tables().next().unwrap();
+    let scenes: Vec<String> = headlines.rows.iter().map(|row| row[0].text()).collect();
+    assert_eq!(scenes, ["Dragon (stand-in)", "Dragon", "Sponza (stand-in)"]);
+    assert!(both.finding("split-dragon").unwrap().sentence.contains("speedup on Dragon,"));
+    assert_eq!(value(&both, "gain-dragon").unwrap().estimate, value(&stand_ins, "gain-dragon").unwrap().estimate);
+    // Without its first epoch a scene has no counts, and is left out.
+    assert!(results(&dataset(all[1..2].to_vec())).is_empty());
+}
+
+#[test]
+fn a_plan_has_a_role_for_every_cell_and_a_twin_of_both_ends() {
+    let words = ["torus", "--epochs", "2", "--test", "moller-trumbore"].map(String::from);
+    let plan = (STUDY.plan)(&STUDY.matches(&words).unwrap(), &Registry::builtin()).unwrap();
+    let case = &plan.cases[0];
+    assert!(plan.cases.len() == 2 && case.settings.whole && case.structures.len() == CELLS + 2);
+    let roles: Vec<&str> = case.structures.iter().map(|structure| structure.role.as_str()).collect();
+    assert_eq!([roles[CELLS - 1], roles[CELLS], roles[CELLS + 1]], ["SAH exact / SAH / plane intervals", TWIN, TWIN]);
+    assert!(case.structures.iter().all(|structure| structure.spec.contains("moller-trumbore")));
+    let words = ["--test", "nonsense"].map(String::from);
+    assert!((STUDY.plan)(&STUDY.matches(&words).unwrap(), &Registry::builtin()).is_err());
 }

@@ -1,41 +1,30 @@
 //! Powers of the number of triangles, fitted to what was measured.
 
-use serde::{Deserialize, Serialize};
-
 use crate::measure::{AaNoise, Estimate, Rerun, Variance};
-use crate::names::named_enum;
 use crate::report::words::each_once;
-use crate::study::epoch::{Epoch, Line, Twins, lines, middles, twins};
+use crate::study::Dataset;
 use crate::study::least_squares;
+use crate::study::measurement::{Measurement, build_noise, measurements, of_scene, trace_noise};
 
-named_enum! {
-    /// What grows.
-    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-    #[serde(rename_all = "kebab-case")]
-    pub enum Family {
-        /// One sphere, divided more and more finely.
-        Spheres = "icospheres",
-        /// Different meshes.
-        Meshes = "meshes",
-    }
-}
+/// Labels of a case: what its mesh belongs to, and the level of an icosphere.
+pub const FAMILY: &str = "family";
+pub const LEVEL: &str = "level";
 
-/// One epoch of one mesh.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct FamilyEpoch {
-    pub family: Family,
-    pub epoch: Epoch,
-}
+/// One sphere, divided more and more finely.
+pub const SPHERES: &str = "icospheres";
+
+/// Different meshes.
+pub const MESHES: &str = "meshes";
 
 /// Triangles of the icosphere of level 8.
 pub const LEVEL_8: usize = 20 << 16;
 
-/// How one structure grows on one family and one kind of rays.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+/// How one structure grows on one family and one workload.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Growth {
-    pub family: Family,
+    pub family: &'static str,
     /// As chosen.
-    pub structure: String,
+    pub label: String,
     pub workload: String,
     /// From the fewest triangles to the most.
     pub points: Vec<Point>,
@@ -57,86 +46,92 @@ pub struct Growth {
     pub steps: Option<Estimate>,
 }
 
-/// One structure on one mesh.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+/// One structure on one mesh. Times are geometric means over the epochs.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Point {
-    pub scene: String,
-    pub triangles: usize,
-    /// Whether it takes part in the fit: the structure has more than one leaf.
-    pub fitted: bool,
-    pub leaves: usize,
+    pub measurement: Measurement,
     pub ns_per_ray: f64,
     pub build_ns: f64,
-    pub bytes_per_triangle: f64,
-    pub tests_per_ray: Option<f64>,
-    pub steps_per_ray: Option<f64>,
+}
+
+impl Point {
+    /// Nothing where there is no time.
+    fn new(measurement: Measurement) -> Option<Self> {
+        let mean = |logs: Vec<f64>| libm::exp(logs.iter().sum::<f64>() / logs.len() as f64);
+        let (ns_per_ray, build_ns) = (mean(measurement.log_paces()?), mean(measurement.log_builds()));
+        Some(Self { measurement, ns_per_ray, build_ns })
+    }
+
+    pub fn triangles(&self) -> usize {
+        self.measurement.triangles
+    }
+
+    /// Whether it takes part in the fit: the structure has more than one leaf.
+    pub fn is_fitted(&self) -> bool {
+        self.measurement.shape.leaves > 1
+    }
+
+    pub fn bytes_per_triangle(&self) -> f64 {
+        self.measurement.shape.bytes as f64 / self.triangles() as f64
+    }
 }
 
 /// The growth of every structure. The intervals hold what another run finds of these meshes; how well a power describes
 /// them is told by their scatter about it.
-pub fn result(cases: &[FamilyEpoch]) -> Vec<Growth> {
-    let twins = twins(cases.iter().map(|case| &case.epoch));
+pub fn growths(dataset: &Dataset) -> Vec<Growth> {
+    let all = measurements(dataset);
+    let noise = Noise { trace: trace_noise(&all), build: build_noise(&all) };
+    let workloads = each_once(all.iter().map(|own| &own.workload));
+    let labels = each_once(all.iter().map(|own| &own.label));
     let mut growths = vec![];
-    for family in [Family::Spheres, Family::Meshes] {
-        let of_family = cases.iter().filter(|case| case.family == family).map(|case| &case.epoch);
-        let mut all = lines(of_family);
-        all.sort_by_key(|line| line.triangles);
-        let mut kinds = each_once(all.iter().map(|line| (line.workload.as_str(), line.structure.as_str())));
-        // Kind of rays by kind of rays, structures in the order in which they were asked.
-        let order: Vec<&str> = cases.iter().flat_map(|case| &case.epoch.structures).map(|s| s.label.as_str()).collect();
-        kinds.sort_by_key(|&(workload, structure)| {
-            let first = all.iter().position(|line| line.workload == workload);
-            (first, order.iter().position(|&label| label == structure))
-        });
-        for (workload, structure) in kinds {
-            let own: Vec<&Line> =
-                all.iter().filter(|line| line.workload == workload && line.structure == structure).collect();
-            growths.push(growth(family, &own, &twins));
+    for family in [SPHERES, MESHES] {
+        let scenes = dataset.scenes();
+        let own = scenes.iter().filter(|scene| scene.case.labels.get(FAMILY).is_some_and(|own| own == family));
+        let mut points: Vec<Point> = own.flat_map(of_scene).filter_map(Point::new).collect();
+        points.sort_by_key(Point::triangles);
+        for workload in &workloads {
+            for label in &labels {
+                let is =
+                    |point: &&Point| (&point.measurement.workload, &point.measurement.label) == (*workload, *label);
+                let own: Vec<Point> = points.iter().filter(is).cloned().collect();
+                growths.extend((!own.is_empty()).then(|| growth(family, own, &noise)));
+            }
         }
     }
     growths
 }
 
-/// That of the lines of one structure and one kind of rays, from the fewest triangles to the most.
-fn growth(family: Family, lines: &[&Line], twins: &Twins) -> Growth {
-    let fitted: Vec<&Line> = lines.iter().copied().filter(|line| line.leaves > 1).collect();
-    let coarser: Vec<&Line> = fitted.iter().copied().filter(|line| line.triangles <= LEVEL_8).collect();
-    let measured = |lines: &[&Line], logs: fn(&Line) -> &[Vec<f64>], noise: &AaNoise| {
-        power(lines, &|line| Some(middles(logs(line))), |weights| noise.weighted(weights)).map(|rerun| rerun.plain())
-    };
-    // Counts and bytes do not vary.
-    let counted = |value: &dyn Fn(&Line) -> Option<f64>| {
-        let log = |line: &Line| value(line).filter(|&x| x > 0.0).map(|x| vec![libm::log(x)]);
-        power(&fitted, &log, |_| Variance::NONE).map(|rerun| Estimate::exact(rerun.plain().estimate))
-    };
-    let points: Vec<(f64, f64)> =
-        fitted.iter().map(|line| (libm::log(line.triangles as f64), libm::log(line.ns_per_ray()))).collect();
-    Growth {
-        family,
-        structure: lines[0].structure.clone(),
-        workload: lines[0].workload.clone(),
-        points: lines.iter().map(|line| point(line)).collect(),
-        time: measured(&fitted, |line| &line.trace, &twins.trace),
-        time_to_level_8: measured(&coarser, |line| &line.trace, &twins.trace),
-        scatter: least_squares::scatter(&points),
-        build: measured(&fitted, |line| &line.build, &twins.build),
-        bytes: counted(&|line| Some(line.bytes as f64)),
-        tests: counted(&|line| line.tests),
-        steps: counted(&|line| line.steps),
-    }
+struct Noise {
+    trace: AaNoise,
+    build: AaNoise,
 }
 
-fn point(line: &Line) -> Point {
-    Point {
-        scene: line.scene.clone(),
-        triangles: line.triangles,
-        fitted: line.leaves > 1,
-        leaves: line.leaves,
-        ns_per_ray: line.ns_per_ray(),
-        build_ns: line.build_ns(),
-        bytes_per_triangle: line.bytes as f64 / line.triangles as f64,
-        tests_per_ray: line.tests,
-        steps_per_ray: line.steps,
+/// That of the points of one structure and one workload, from the fewest triangles to the most.
+fn growth(family: &'static str, points: Vec<Point>, noise: &Noise) -> Growth {
+    let fitted: Vec<&Point> = points.iter().filter(|point| point.is_fitted()).collect();
+    let coarser: Vec<&Point> = fitted.iter().copied().filter(|point| point.triangles() <= LEVEL_8).collect();
+    let measured = |points: &[&Point], logs: fn(&Measurement) -> Option<Vec<f64>>, noise: &AaNoise| {
+        power(points, &logs, |weights| noise.weighted(weights)).map(|rerun| rerun.plain())
+    };
+    // Counts and bytes do not vary.
+    let counted = |value: fn(&Measurement) -> Option<f64>| {
+        let log = |own: &Measurement| value(own).filter(|&x| x > 0.0).map(|x| vec![libm::log(x)]);
+        power(&fitted, &log, |_| Variance::NONE).map(|rerun| Estimate::exact(rerun.plain().estimate))
+    };
+    let logs: Vec<(f64, f64)> =
+        fitted.iter().map(|point| (libm::log(point.triangles() as f64), libm::log(point.ns_per_ray))).collect();
+    Growth {
+        family,
+        label: points[0].measurement.label.clone(),
+        workload: points[0].measurement.workload.clone(),
+        time: measured(&fitted, Measurement::log_paces, &noise.trace),
+        time_to_level_8: measured(&coarser, Measurement::log_paces, &noise.trace),
+        scatter: least_squares::scatter(&logs),
+        build: measured(&fitted, |own| Some(own.log_builds()), &noise.build),
+        bytes: counted(|own| Some(own.shape.bytes as f64)),
+        tests: counted(|own| own.tests_per_ray),
+        steps: counted(|own| own.steps_per_ray),
+        points,
     }
 }
 
@@ -144,12 +139,12 @@ fn point(line: &Line) -> Point {
 /// A/A noise adds to a sum of them with these weights. Nothing where it is not known of every mesh, or of fewer than
 /// three.
 fn power(
-    lines: &[&Line],
-    value: &dyn Fn(&Line) -> Option<Vec<f64>>,
+    points: &[&Point],
+    value: &dyn Fn(&Measurement) -> Option<Vec<f64>>,
     noise: impl Fn(&[f64]) -> Variance,
 ) -> Option<Rerun> {
-    let values: Vec<Vec<f64>> = lines.iter().map(|line| value(line)).collect::<Option<_>>()?;
-    let places: Vec<f64> = lines.iter().map(|line| libm::log(line.triangles as f64)).collect();
+    let values: Vec<Vec<f64>> = points.iter().map(|point| value(&point.measurement)).collect::<Option<_>>()?;
+    let places: Vec<f64> = points.iter().map(|point| libm::log(point.triangles() as f64)).collect();
     let weights = least_squares::slope_weights(&places).filter(|weights| weights.len() > 2)?;
     // Meshes are measured in the same epochs; of one that has more of them those that all have count.
     let epochs = values.iter().map(Vec::len).min()?;

@@ -1,30 +1,38 @@
 //! `scaling`: how do time, build and memory grow with the number of triangles?
 //!
-//! Icospheres of 20 to 16 million triangles, seen alike, so that nothing changes but how finely one surface is
-//! divided; and the meshes that are named, which differ in more than their number of triangles, so that their exponent
-//! says less. Powers are fitted to medians on logarithms, over the meshes on which the structure has more than one
-//! leaf: a single leaf is brute force.
+//! Icospheres of 20 to 16 million triangles, seen alike, so that nothing changes but how finely one surface is divided;
+//! and the meshes that are named, which differ in more than their number of triangles, so that their exponent says less.
+//! Powers are fitted to medians on logarithms, over the meshes on which the structure has more than one leaf: a single
+//! leaf is brute force.
 
 mod growth;
 mod section;
-mod spheres;
-mod table;
 #[cfg(test)]
 mod tests;
 
-use super::args::{Measuring, Rays, Scenes, Structures, with_twin};
-use super::bench::room::may_fit;
-use super::epoch::Epoch;
-use super::{Context, Data, Plan, Study, sources};
-use crate::registry::Registry;
-use crate::report::document::Block;
-use crate::report::number::count;
-use crate::report::{Statement, Table};
-use crate::scene::{Scene, WorkloadKind};
+use clap::{ArgMatches, Args as _, Command, FromArgMatches};
 
-pub use growth::{Family, FamilyEpoch, Growth, LEVEL_8, Point, result};
-pub use spheres::{FINEST, name, sphere, triangles};
-use table::{exponents, groups, points};
+use super::case::SLOWEST;
+use super::measure::may_fit;
+use super::{Dataset, Plan, PlannedScene, Presets, Settings, Study, claims};
+use crate::registry::Registry;
+use crate::report::Report;
+use crate::report::number::count;
+use crate::request::{Measuring, Rays, Scenes, Structures, scene_files, with_twin};
+use crate::scene::spheres::{FINEST, triangles};
+use crate::scene::{Scene, WorkloadKind};
+use growth::{FAMILY, LEVEL, LEVEL_8, MESHES, SPHERES, growths};
+
+const NAME: &str = "scaling";
+
+pub const STUDY: Study = Study {
+    name: NAME,
+    question: "How do time, build and memory grow with the number of triangles?",
+    presets: Presets { full: "", quick: "torus --finest 4 --rays 1024 --epochs 2 --runs 2 --budget 1" },
+    options: || ScalingArgs::augment_args(Command::new(NAME)),
+    plan,
+    report,
+};
 
 const STRUCTURES: [&str; 7] =
     ["median-kd", "sah-kd", "sah-kd-wide", "sah-hybrid", "sah-bvh", "obvhs-bvh2", "obvhs-cwbvh"];
@@ -33,15 +41,8 @@ const STRUCTURES: [&str; 7] =
 /// each.
 const EPOCHS_OF_FINEST: usize = 3;
 
-pub struct ScalingStudy;
-
-/// The finest level of which `fits` says that its triangles have room; the coarsest where none has.
-fn finest(fits: impl Fn(usize) -> bool) -> u32 {
-    (0..=FINEST).rev().find(|&level| fits(triangles(level))).unwrap_or(0)
-}
-
 #[derive(Clone, Debug, clap::Args)]
-pub struct ScalingArgs {
+struct ScalingArgs {
     // Beside the icospheres.
     #[command(flatten)]
     scenes: Scenes,
@@ -58,81 +59,62 @@ pub struct ScalingArgs {
     measuring: Measuring<8, 3, 5>,
 }
 
-impl Study for ScalingStudy {
-    const NAME: &'static str = "scaling";
-    const QUESTION: &'static str = "How do time, build and memory grow with the number of triangles?";
-    const QUICK: &'static str = "torus --finest 4 --rays 1024 --epochs 2 --runs 2 --budget 1";
+/// The finest level of which `fits` says that its triangles have room; the coarsest where none has.
+fn finest(fits: impl Fn(usize) -> bool) -> u32 {
+    (0..=FINEST).rev().find(|&level| fits(triangles(level))).unwrap_or(0)
+}
 
-    type Args = ScalingArgs;
-    type Case = FamilyEpoch;
-    type Answer = Vec<Growth>;
+fn plan(matches: &ArgMatches, registry: &Registry) -> anyhow::Result<Plan> {
+    let args = ScalingArgs::from_arg_matches(matches)?;
+    let structures = with_twin(args.structures.chosen(registry, &STRUCTURES)?);
+    let workloads = args.rays.request(&[WorkloadKind::Primary, WorkloadKind::Random]);
+    let settings = Settings { slowest: Some(SLOWEST), ..Settings::new(&args.measuring, registry)? };
+    // Before the spheres, for they may not be there.
+    let meshes = args.scenes.read(registry, &["dragon", "lucy", "sponza"])?;
+    let finest = args.finest.unwrap_or_else(|| finest(|triangles| may_fit(structures.len(), triangles)));
+    let spheres = Scenes { scenes: (0..=finest).map(|level| format!("icosphere:{level}")).collect() };
+    let spheres = spheres.read(registry, &[])?;
 
-    fn plan(args: &ScalingArgs, registry: &Registry) -> anyhow::Result<Plan<FamilyEpoch>> {
-        let structures = with_twin(args.structures.chosen(registry, &STRUCTURES)?);
-        let asked = args.rays.asked(&[WorkloadKind::Primary, WorkloadKind::Random]);
-        let finest = args.finest.unwrap_or_else(|| finest(|triangles| may_fit(structures.len(), triangles)));
-        let settings = args.measuring.settings(registry, structures, asked)?;
-        // Before the spheres, for they may not be there.
-        let meshes = args.scenes.read(&["dragon", "lucy", "sponza"])?;
-        let levels: Vec<String> = (0..=finest).map(name).collect();
-        // The finest take seconds to make.
-        let wanted = sources::wanted(&levels).filter_map(|name| levels.iter().position(|level| level == name));
-        let mut scenes: Vec<Scene> = wanted.map(|level| sphere(level as u32)).collect::<Result<_, _>>()?;
-        let spheres = scenes.len();
-        scenes.extend(meshes);
-        let family = move |scene: usize| if scene < spheres { Family::Spheres } else { Family::Meshes };
-        let wrap = move |scene, _: &Scene, epoch| Ok(FamilyEpoch { family: family(scene), epoch });
-        let epochs = |scene: &Scene| Self::planned_epochs(args.measuring.epochs.into(), scene.mesh.len());
-        let epochs: Vec<usize> = scenes.iter().map(epochs).collect();
-        let mut plan = settings.plan_of(scenes, args.measuring.epochs, wrap);
-        let all = plan.cases.len();
-        plan.cases.retain(|case| case.epoch < epochs[case.scene]);
-        if plan.cases.len() < all {
-            plan.notes.push(format!(
-                "Meshes of more than {} triangles are measured in {EPOCHS_OF_FINEST} epochs, for their builds take minutes.",
-                count(LEVEL_8 as u64)
-            ));
-        }
-        if args.finest.is_none() {
-            plan.decided = vec!["--finest".into(), finest.to_string()];
-            if finest < FINEST {
-                let note = format!(
-                    "Icospheres of more than {} triangles are left out, for the trees over them do not fit into the memory of this machine \
-                     together.",
-                    count(triangles(finest) as u64)
-                );
-                plan.warnings.push(note.clone());
-                plan.notes.push(note);
-            }
-        }
-        Ok(Plan { inputs: args.scenes.files(), ..plan })
+    let epochs = usize::from(args.measuring.epochs);
+    let few = epochs.min(EPOCHS_OF_FINEST);
+    let planned = |own: &(String, Scene), family: &str| {
+        let epochs = if own.1.mesh.len() > LEVEL_8 { few } else { epochs };
+        PlannedScene::new(own, &structures, &workloads, &settings, epochs).labelled(FAMILY, family)
+    };
+    let levels = spheres.iter().zip(0..=finest);
+    let mut all: Vec<PlannedScene> =
+        levels.map(|(own, level)| planned(own, SPHERES).labelled(LEVEL, level.to_string())).collect();
+    all.extend(meshes.iter().map(|own| planned(own, MESHES)));
+    let scenes = spheres.iter().chain(&meshes).map(|(_, scene)| scene);
+    let mut plan = Plan::by_epoch(NAME, &all).noting(scenes);
+
+    if all.iter().any(|planned| planned.epochs < epochs) {
+        plan.notes.push(format!(
+            "Meshes of more than {} triangles are measured in {few} epochs, for their builds take minutes.",
+            count(LEVEL_8 as u64)
+        ));
     }
-
-    fn epoch(case: &mut FamilyEpoch) -> Option<(&mut Epoch, usize)> {
-        Some((&mut case.epoch, case.family as usize))
+    if args.finest.is_none() && finest < FINEST {
+        let note = format!(
+            "Icospheres of more than {} triangles are left out: the trees over them do not fit into the memory of this \
+             machine together.",
+            count(triangles(finest) as u64)
+        );
+        plan.warnings.push(note.clone());
+        plan.notes.push(note);
     }
+    Ok(Plan { inputs: scene_files(registry, &args.scenes.scenes), ..plan })
+}
 
-    fn planned_epochs(most: usize, triangles: usize) -> usize {
-        if triangles > LEVEL_8 { most.min(EPOCHS_OF_FINEST) } else { most }
-    }
-
-    fn answer(cases: &[FamilyEpoch], _: &Context<Self>) -> Vec<Growth> {
-        result(cases)
-    }
-
-    fn tables(answer: &Vec<Growth>) -> Vec<Table> {
-        groups(answer).iter().flat_map(|group| [exponents(group), points(group)]).collect()
-    }
-
-    fn data(answer: &Vec<Growth>) -> Vec<Data> {
-        vec![Data::nested(Self::NAME, answer, &["family", "structure", "workload"], "points")]
-    }
-
-    fn statements(answer: &Vec<Growth>) -> Vec<Statement> {
-        section::statements(answer)
-    }
-
-    fn section(answer: &Vec<Growth>, command: &str) -> Vec<Block> {
-        section::blocks(answer, command)
+fn report(dataset: &Dataset, _: &ArgMatches) -> Report {
+    let growths = growths(dataset);
+    let findings = section::findings(&growths);
+    Report {
+        verdicts: claims::judge(NAME, &findings),
+        findings,
+        blocks: section::blocks(&growths),
+        failures: dataset.failures(),
+        data: section::data(&growths),
+        ..Report::default()
     }
 }

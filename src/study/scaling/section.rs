@@ -1,14 +1,13 @@
-//! How time, build and memory grow with the number of triangles.
+//! How time, build and memory grow with the number of triangles: sentences, charts and tables.
 
-use super::table::{exponents, groups, points};
-use super::{Family, Growth, Point};
+use super::growth::{Growth, LEVEL_8, MESHES, Point, SPHERES};
 use crate::measure::Estimate;
-use crate::report::document::{Art, Block, Figure};
-use crate::report::number::{count, figures};
-use crate::report::plot::{Chart, Curves, Line};
-use crate::report::words::{listed, slug, written};
-use crate::report::{Statement, Table};
-use crate::study::{REPORT_TREE, SAH_TREE};
+use crate::report::number::count;
+use crate::report::plot::{Chart, CurvePoint, Curves, Line, Mark};
+use crate::report::words::{explained, listed, slug, written};
+use crate::report::{Art, Block, Cell, Figure, Finding, Format, Table};
+use crate::request::{REPORT_TREE, SAH_TREE};
+use crate::scene::WorkloadKind;
 
 struct Quantity {
     id: &'static str,
@@ -20,7 +19,7 @@ struct Quantity {
 
 const TIME: Quantity = Quantity {
     id: "time",
-    words: "time of a ray",
+    words: "Time of a ray",
     y_title: "nanoseconds a ray",
     value: |point| point.ns_per_ray,
     power: |growth| growth.time,
@@ -28,7 +27,7 @@ const TIME: Quantity = Quantity {
 
 const BUILD: Quantity = Quantity {
     id: "build",
-    words: "time of the build",
+    words: "Time of the build",
     y_title: "milliseconds of the build",
     value: |point| point.build_ns * 1e-6,
     power: |growth| growth.build,
@@ -36,95 +35,182 @@ const BUILD: Quantity = Quantity {
 
 const MEMORY: Quantity = Quantity {
     id: "memory",
-    words: "memory",
+    words: "Memory",
     y_title: "bytes a triangle",
-    value: |point| point.bytes_per_triangle,
+    value: Point::bytes_per_triangle,
     power: |growth| growth.bytes,
 };
 
 /// How the time of a primary ray grows on the spheres with the report's tree and with the SAH tree.
-pub fn statements(growths: &[Growth]) -> Vec<Statement> {
-    let of = |name: &str| {
-        let is = |g: &&Growth| g.family == Family::Spheres && g.workload == "primary" && g.structure == name;
-        let growth = growths.iter().find(is)?;
-        Some((growth, growth.time?))
+pub fn findings(growths: &[Growth]) -> Vec<Finding> {
+    let of = |label: &str| {
+        let primary = WorkloadKind::Primary.name();
+        growths.iter().find(|g| g.family == SPHERES && g.workload == primary && g.label == label)
     };
-    let found: Vec<(&Growth, Estimate)> = [REPORT_TREE, SAH_TREE].into_iter().filter_map(of).collect();
-    let powers = found.iter().map(|(growth, time)| {
-        let fitted = || growth.points.iter().filter(|p| p.fitted).map(|p| p.triangles as u64);
-        let over = fitted()
-            .min()
-            .zip(fitted().max())
-            .map_or(String::new(), |(from, to)| format!(" from {} to {} triangles", count(from), count(to)));
-        format!("n^{}{over} with {}", written(*time, |x| format!("{x:.2}")), growth.structure)
-    });
-    let powers: Vec<String> = powers.collect();
-    let Some((_, first)) = found.first() else { return vec![] };
+    let both = [("growth-report", of(REPORT_TREE)), ("growth-sah", of(SAH_TREE))];
+    let words = |growth: &Growth| {
+        let over = match ends(growth) {
+            Some((from, to)) => format!(" from {} to {} triangles", count(from as u64), count(to as u64)),
+            None => String::new(),
+        };
+        let power = written(growth.time?, |x| format!("{x:.2}"));
+        Some(format!("n^{power}{over} with {}", growth.label))
+    };
+    let powers: Vec<String> = both.iter().filter_map(|(_, growth)| words((*growth)?)).collect();
     let sentence = format!("On one sphere of n triangles the time of a primary ray grows like {}.", listed(&powers));
-    vec![Statement::new("spheres", sentence).of(*first)]
+    let first = both.iter().find_map(|(_, growth)| growth.as_ref()?.time);
+    let mut findings: Vec<Finding> =
+        first.map(|power| Finding::new("spheres", sentence).of(power)).into_iter().collect();
+    // Claims are about spheres up to level 8: coarser ones alone judge none.
+    let claimed = both.iter().filter_map(|(key, growth)| {
+        let growth = growth.filter(|growth| growth.points.iter().any(|point| point.triangles() >= LEVEL_8))?;
+        Some(Finding::number(*key, growth.time_to_level_8?))
+    });
+    findings.extend(claimed);
+    findings
 }
 
-pub fn blocks(growths: &[Growth], command: &str) -> Vec<Block> {
+/// The fewest and the most triangles of the meshes of the fit.
+fn ends(growth: &Growth) -> Option<(usize, usize)> {
+    let mut fitted = growth.points.iter().filter(|point| point.is_fitted()).map(Point::triangles);
+    let first = fitted.next()?;
+    Some((first, fitted.next_back().unwrap_or(first)))
+}
+
+pub fn blocks(growths: &[Growth]) -> Vec<Block> {
+    let groups: Vec<&[Growth]> = growths.chunk_by(|a, b| a.family == b.family && a.workload == b.workload).collect();
+    let Some(first) = groups.first() else { return vec![] };
     let mut blocks = vec![Block::Text(
         "If a query were logarithmic in the number of triangles n, its power of n would be near 0; a power of 1 means that \
          twice the triangles take twice the time. One sphere, divided more and more finely and seen alike, asks this \
-         without anything else that changes; different meshes differ in more than their size. What more threads give is the \
-         question of `sahara study threads`."
+         without anything else that changes; different meshes differ in more than their size."
             .into(),
     )];
-    for group in growths.chunk_by(|a, b| a.family == b.family && a.workload == b.workload) {
-        if group[0].family == Family::Spheres {
-            blocks.push(Block::figure(figure(group, &TIME, command)));
-            // Builds and memory do not know of rays.
-            if group[0].workload == growths[0].workload {
-                blocks.push(Block::figure(figure(group, &BUILD, command)));
-                blocks.push(Block::figure(figure(group, &MEMORY, command)));
-            }
-        }
-    }
-    let groups = groups(growths);
-    blocks.extend(groups.iter().map(|group| Block::table(exponents(group), command)));
-    let points = groups.iter().map(|group| Block::table(points(group), command)).collect();
+    let spheres = groups.iter().filter(|group| group[0].family == SPHERES);
+    blocks.extend(spheres.clone().map(|group| Block::figure(figure(group, &TIME))));
+    // Builds and memory do not know of rays.
+    let quantities = if first[0].family == MESHES { &[][..] } else { &[BUILD, MEMORY] };
+    blocks.extend(quantities.iter().map(|quantity| Block::figure(figure(first, quantity))));
+    blocks.extend(groups.iter().map(|group| exponents(group).into()));
+    let points = groups.iter().map(|group| points(group).into()).collect();
     blocks.push(Block::Fold("All points".into(), points));
     blocks
 }
 
-fn figure(group: &[Growth], quantity: &Quantity, command: &str) -> Figure {
+fn figure(group: &[Growth], quantity: &Quantity) -> Figure {
     let first = &group[0];
     let line = |growth: &Growth| {
-        let point = |point: &Point| (point.triangles as f64, (quantity.value)(point));
+        let point = |point: &Point| CurvePoint::exact(point.triangles() as f64, (quantity.value)(point));
         let power = (quantity.power)(growth).map(|power| format!("n^{:.2}", power.estimate));
         let note = power.unwrap_or_default();
-        Line { label: growth.structure.clone(), note, points: growth.points.iter().map(point).collect() }
+        Line { note, ..Line::new(&growth.label, Mark::Both, growth.points.iter().map(point)) }
     };
-    let rows = group.iter().flat_map(|growth| {
-        growth.points.iter().map(|p| [growth.structure.clone(), p.triangles.to_string(), figures((quantity.value)(p))])
-    });
     let told = group.iter().filter_map(|growth| {
         let power = (quantity.power)(growth)?;
-        Some(format!("{}: power {}", growth.structure, written(power, |x| format!("{x:.2}"))))
+        Some(format!("{}: power {}", growth.label, written(power, |x| format!("{x:.2}"))))
     });
     let told: Vec<String> = told.collect();
     let rays = if quantity.id == TIME.id { format!(" {} rays;", first.workload) } else { String::new() };
+    let lines = group.iter().map(line).collect();
     Figure {
-        id: format!("scaling-{}-{}-{}", quantity.id, slug(first.family.name()), slug(&first.workload)),
+        id: format!("scaling-{}-{}-{}", quantity.id, slug(first.family), slug(&first.workload)),
         caption: format!(
-            "{}, {};{rays} both axes are logarithmic, so that a power of n is a straight line. Its exponent stands behind the name.",
-            capital(quantity.words),
-            first.family.name(),
+            "{}, {};{rays} both axes are logarithmic, so that a power of n is a straight line. Its exponent stands behind \
+             the name.",
+            quantity.words, first.family,
         ),
         alt: format!("Line chart over the number of triangles. {}.", told.join("; ")),
-        command: command.into(),
-        art: Art::Chart(Chart::Curves(Curves {
-            x_title: "triangles".into(),
-            y_title: quantity.y_title.into(),
-            lines: group.iter().map(line).collect(),
-        })),
-        data: Table::of_texts("", ["structure", "triangles", quantity.y_title], rows.collect()),
+        art: Art::Chart(Chart::Curves(Curves::logarithmic("triangles", quantity.y_title, lines))),
+        data: Table::of(
+            "",
+            all_points(group),
+            &[
+                ("structure", &|(growth, _)| growth.label.as_str().into()),
+                ("triangles", &|(_, point)| point.triangles().into()),
+                (quantity.y_title, &|(_, point)| (quantity.value)(point).into()),
+            ],
+        ),
     }
 }
 
-fn capital(words: &str) -> String {
-    let mut letters = words.chars();
-    letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
+/// Every point with its structure and family.
+fn all_points(growths: &[Growth]) -> impl Iterator<Item = (&Growth, &Point)> {
+    growths.iter().flat_map(|growth| growth.points.iter().map(move |point| (growth, point)))
+}
+
+fn title(group: &[Growth], what: &str) -> String {
+    format!("{}, {} rays: {what}", group[0].family, group[0].workload)
+}
+
+fn exponents(group: &[Growth]) -> Table {
+    let power = |x: Option<Estimate>| Cell::from(x.map(|x| Cell::estimate(x, Format::Decimals(2))));
+    let over = |growth: &Growth| {
+        let fitted = growth.points.iter().filter(|point| point.is_fitted()).count();
+        let ends = ends(growth).map(|(from, to)| format!(": {} to {}", count(from as u64), count(to as u64)));
+        format!("{fitted}{}", ends.unwrap_or_default())
+    };
+    let table = Table::of(
+        title(group, "powers of the number of triangles"),
+        group,
+        &[
+            ("structure", &|growth| growth.label.as_str().into()),
+            ("time a ray", &|growth| power(growth.time)),
+            ("+-", &|growth| growth.scatter.map(|half| Cell::number(half, Format::Decimals(2))).into()),
+            ("build", &|growth| power(growth.build)),
+            ("memory", &|growth| power(growth.bytes)),
+            ("tests", &|growth| power(growth.tests)),
+            ("steps", &|growth| power(growth.steps)),
+            ("meshes: triangles", &|growth| over(growth).into()),
+        ],
+    );
+    let note = "Least squares on logarithms over the meshes on which the structure has more than one leaf, with 95 % \
+                intervals for another run on these meshes; counts and memory do not vary. +-: half of the 95 % interval of \
+                the power of time by the scatter of the meshes about it.";
+    explained(table.noted(vec![note.into()]))
+}
+
+fn points(group: &[Growth]) -> Table {
+    let name = |growth: &Growth, point: &Point| {
+        let cell = Cell::from(&growth.label);
+        if point.is_fitted() { cell } else { cell.noted("one leaf") }
+    };
+    Table::of(
+        title(group, "what was measured"),
+        all_points(group),
+        &[
+            ("structure", &|(growth, point)| name(growth, point)),
+            ("mesh", &|(_, point)| point.measurement.scene_title().into()),
+            ("triangles", &|(_, point)| point.triangles().into()),
+            ("time a ray", &|(_, point)| Cell::duration(point.ns_per_ray)),
+            ("tests", &|(_, point)| point.measurement.tests_per_ray.into()),
+            ("steps", &|(_, point)| point.measurement.steps_per_ray.into()),
+            ("build", &|(_, point)| Cell::duration(point.build_ns)),
+            ("memory a triangle", &|(_, point)| Cell::bytes(point.bytes_per_triangle() as usize)),
+        ],
+    )
+}
+
+/// One row for each structure on each mesh and workload.
+pub fn data(growths: &[Growth]) -> Table {
+    Table::of(
+        "",
+        all_points(growths),
+        &[
+            ("family", &|(growth, _)| growth.family.into()),
+            ("scene", &|(_, point)| point.measurement.scene.as_str().into()),
+            ("triangles", &|(_, point)| point.triangles().into()),
+            ("stand_in", &|(_, point)| point.measurement.stand_in.into()),
+            ("structure", &|(_, point)| point.measurement.structure.as_str().into()),
+            ("label", &|(growth, _)| growth.label.as_str().into()),
+            ("workload", &|(growth, _)| growth.workload.as_str().into()),
+            ("fitted", &|(_, point)| point.is_fitted().into()),
+            ("mrays_per_s", &|(_, point)| (1e3 / point.ns_per_ray).into()),
+            ("ns_per_ray", &|(_, point)| point.ns_per_ray.into()),
+            ("tests_per_ray", &|(_, point)| point.measurement.tests_per_ray.into()),
+            ("steps_per_ray", &|(_, point)| point.measurement.steps_per_ray.into()),
+            ("build_ns", &|(_, point)| point.build_ns.into()),
+            ("bytes", &|(_, point)| point.measurement.shape.bytes.into()),
+            ("leaves", &|(_, point)| point.measurement.shape.leaves.into()),
+        ],
+    )
 }
