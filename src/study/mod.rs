@@ -3,6 +3,7 @@
 //! A [`Study`] is a value: two functions and their options. Measuring is not its business: [`engine`] measures the cases
 //! of a plan that the journal lacks, one [`Case`] a process, and hands the [`Dataset`] to the study's report.
 
+pub mod accuracy;
 pub mod case;
 pub mod claims;
 pub mod dataset;
@@ -12,11 +13,13 @@ mod epoch_medians;
 mod error;
 mod join;
 pub mod journal;
+mod kendall;
 mod least_squares;
 pub mod measure;
 pub mod measurement;
 mod plan;
 pub mod process;
+pub mod replicate;
 mod screen;
 mod stage;
 mod status;
@@ -130,7 +133,7 @@ impl Studies {
 
     /// Those of this crate. A new one is one more line.
     pub fn builtin() -> Self {
-        Self::empty()
+        Self::empty().with(accuracy::STUDY).with(replicate::STUDY)
     }
 
     /// Adds a study.

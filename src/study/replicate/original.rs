@@ -1,5 +1,7 @@
 //! The numbers that the report prints, as facts: its machine, its code, single runs.
 
+use crate::request::REPORT_TREE;
+
 /// A row of the report's tables of easy and normal scenes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MainRow {
@@ -38,11 +40,6 @@ pub const MAIN: [MainRow; 9] = [
     main_row("Metallic", 7682, 817_456, 45.084, 956.553, 21.217),
     main_row("Starters", 4480, 776_648, 47.746, 440.416, 9.224),
 ];
-
-/// Their names.
-pub fn main_scenes() -> Vec<&'static str> {
-    MAIN.iter().map(|row| row.scene).collect()
-}
 
 /// A row of the report's table of hard scenes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -86,8 +83,32 @@ pub const SWEEP: [SweepRow; 6] = [
     sweep(150, 0.9, [0.522, 1.3248, 2.697, 7.637, 101.9409, 52.054, 61.10, 61.996, 61.777]),
 ];
 
+/// The setting of the main table.
+pub const DEFAULT: SweepRow = SWEEP[4];
+
+/// The scene in which all triangles crowd in one place, and the setting that was expected to make more tests there than
+/// brute force.
+pub const CROWDED: (&str, SweepRow) = ("Infinitycandy", SWEEP[2]);
+
 const fn sweep(leaf: u32, threshold: f32, seconds: [f64; 9]) -> SweepRow {
     SweepRow { leaf, threshold, seconds }
+}
+
+impl SweepRow {
+    /// `100 / 0.7`: what tables and roles call it.
+    pub fn role(&self) -> String {
+        format!("{} / {}", self.leaf, self.threshold)
+    }
+
+    /// The report's seconds on this scene of [`MAIN`].
+    pub fn of(&self, scene: &str) -> Option<f64> {
+        MAIN.iter().position(|row| row.scene == scene).map(|place| self.seconds[place])
+    }
+
+    /// The structure.
+    pub fn spec(&self) -> String {
+        format!("{REPORT_TREE}:leaf={},threshold={}", self.leaf, self.threshold)
+    }
 }
 
 /// `t'` = seconds / (rays x triangles).

@@ -1,245 +1,188 @@
 //! The report's tables with our figures in them.
 
-use serde::Serialize;
-
-use super::original::{HARD, HardRow, MAIN, SWEEP, t_prime};
+use super::original::{CROWDED, DEFAULT, HARD, HardRow, MAIN, MainRow, SWEEP, t_prime};
+use super::{BRUTE, SAH, TREE};
 use crate::accel::Query;
 use crate::measure::{AaNoise, Estimate, Rerun, cut_to_shared_epochs, epoch_values, median};
-use crate::study::epoch::{self, Epoch, PICTURE, Structure, WholeTimes};
-use crate::study::parameters;
+use crate::request::TWIN;
+use crate::study::whole_times::WholeTimes;
+use crate::study::{Dataset, Epoch};
 
-/// The report's three tables, ours beside its own, and its conclusion.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+/// The scenes of the report, ours beside its own, and its conclusion.
+#[derive(Debug, Default)]
 pub struct Replication {
-    /// Scenes in which a mesh of our own stands in for a real one.
-    pub stand_ins: Vec<String>,
-    pub rays: Vec<Rays>,
     pub main: Vec<Main>,
-    pub parameters: Vec<Setting>,
     pub hard: Vec<Hard>,
-    pub conclusion: Conclusion,
+    /// How many times faster the SAH tree is on the hard scenes: the geometric mean over them.
+    pub faster: Option<Estimate>,
 }
 
-/// Rays of a 512 x 512 picture.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Rays {
-    pub scene: String,
+/// What is measured on every scene.
+#[derive(Debug)]
+pub struct Replicated {
+    pub name: String,
+    /// As tables name it.
+    pub title: String,
+    pub triangles: usize,
+    /// Rays of a 512 x 512 picture.
     pub primary: u64,
     pub mirror: u64,
     pub shadow: u64,
-    /// Of these three; on the hard scenes the report counts primary rays alone, and so does this.
-    pub total: u64,
-    /// The report's total.
-    pub report: u64,
+    /// With the report's tree.
+    pub tree: Seconds,
+    pub sah: Seconds,
 }
 
 /// Seconds of a picture.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug)]
 pub struct Seconds {
     /// Geometric mean over the epochs.
     pub seconds: f64,
     /// `t'`: seconds / (rays x triangles).
     pub t_prime: Estimate,
     /// Whether a part of the rays was timed and stands for all.
-    pub extrapolated: bool,
+    pub sampled: bool,
 }
 
 /// An easy or normal scene.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Debug)]
 pub struct Main {
-    pub scene: String,
-    pub triangles: usize,
-    pub rays: u64,
-    /// With the report's tree.
-    pub tree: Seconds,
+    pub scene: Replicated,
     /// Every ray against every triangle: "unoptimised".
     pub brute_force: Seconds,
     /// Seconds without the tree / seconds with it.
     pub improvement: Estimate,
-    /// With the SAH tree.
-    pub sah: Seconds,
-    pub report_tree_s: f64,
-    pub report_brute_force_s: f64,
-    pub report_tree_t_prime: f64,
-    pub report_brute_force_t_prime: f64,
-    /// As printed.
-    pub report_improvement: f64,
-}
-
-/// The report's tree with one pair of parameters on one scene.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Setting {
-    pub scene: String,
-    /// L.
-    pub leaf: u32,
-    /// T.
-    pub threshold: f32,
-    pub seconds: f64,
-    pub extrapolated: bool,
-    pub report_s: f64,
+    /// With the settings of [`SWEEP`].
+    pub sweep: Vec<Seconds>,
+    /// Triangle tests for each ray and triangle, with the setting of the main table and with that of [`CROWDED`]; nothing
+    /// where they are not counted.
+    pub tests: [Option<f64>; 2],
+    pub report: &'static MainRow,
 }
 
 /// A hard scene, primary rays.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Debug)]
 pub struct Hard {
-    pub scene: String,
-    pub triangles: usize,
-    pub rays: u64,
-    pub stand_in: bool,
-    /// With the report's tree.
-    pub tree: Seconds,
-    /// Construction of the report's tree, seconds.
+    pub scene: Replicated,
+    /// Seconds that builds take.
     pub tree_build_s: f64,
-    pub sah: Seconds,
     pub sah_build_s: f64,
-    /// Seconds with the report's tree / seconds with the SAH tree: how much faster SAH is.
-    pub sah_over_median: Estimate,
-    /// Its logarithm in each epoch.
-    pub log_ratios: Vec<f64>,
-    /// The logarithm of the time of the report's tree over that of its twin in each epoch.
-    pub log_aa_ratios: Vec<f64>,
-    pub report_tree_s: f64,
-    pub report_tree_build_s: f64,
-    pub report_tree_t_prime: f64,
+    /// Seconds with the report's tree / seconds with the SAH tree: how many times faster SAH is.
+    pub faster: Estimate,
+    /// Its logarithm in each epoch, and that of the time of the report's tree over that of its twin.
+    log_ratios: Vec<Vec<f64>>,
+    log_aa_ratios: Vec<Vec<f64>>,
+    pub report: &'static HardRow,
 }
-
-/// The claim that the report ends with: for the hard scenes a SAH tree would have been much faster.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub struct Conclusion {
-    /// The scenes of the mean.
-    pub scenes: Vec<String>,
-    /// Geometric mean over the scenes of how much faster SAH is, with the interval that holds that of another run, as little disturbed, in 95 % of cases.
-    pub sah_over_median: Option<Estimate>,
-}
-
-/// Where structures stand among those of an easy or normal scene: before the sweep of [`parameters::structures`].
-const BRUTE: usize = 0;
-const SAH: usize = 1;
-const FIRST_SETTING: usize = 2;
 
 impl Replication {
-    /// From the epochs of all scenes.
-    pub fn of(cases: &[Epoch]) -> Self {
-        let mut replication = Self::default();
-        for epochs in epoch::scenes(cases) {
-            replication.add_main(&epochs);
-            replication.add_hard(&epochs);
+    /// From the epochs of all scenes. Those that are not the report's say nothing.
+    pub fn of(dataset: &Dataset) -> Self {
+        let (mut main, mut hard) = (vec![], vec![]);
+        for scene in dataset.scenes() {
+            let (epochs, name) = (&scene.epochs[..], scene.epochs[0].scene.as_str());
+            main.extend(MAIN.iter().find(|row| row.scene == name).map(|row| Main::of(epochs, row)));
+            hard.extend(HARD.iter().find(|row| row.scene == name).map(|row| Hard::of(epochs, row)));
         }
-        replication
+        Self { faster: mean(&hard), main, hard }
     }
 
-    /// Adds an easy or normal scene of the report; nothing of another one.
-    pub(super) fn add_main(&mut self, epochs: &[&Epoch]) {
-        let first = epochs[0];
-        let Some(index) = MAIN.iter().position(|row| row.scene == first.scene) else { return };
-        let row = &MAIN[index];
-        let rays = self.add_rays(first, row.rays);
-        let setting = |row: usize| FIRST_SETTING + row;
-        let (tree, twin) = (setting(parameters::default_row()), setting(SWEEP.len()));
+    /// Whether all easy and normal scenes are measured.
+    pub fn has_all_main(&self) -> bool {
+        MAIN.iter().all(|row| self.main.iter().any(|main| main.scene.name == row.scene))
+    }
 
-        let times = WholeTimes::new(epochs.iter().copied());
-        let noise = AaNoise::new(&[times.cell(tree, twin)]);
-        let seconds = |structure: usize| Seconds::of(&times, first, structure, rays, &noise);
-        self.main.push(Main {
-            scene: first.scene.clone(),
-            triangles: first.triangles,
-            rays,
-            tree: seconds(tree),
+    /// All scenes with the report's count of rays, in its order.
+    pub fn scenes(&self) -> impl Iterator<Item = (&Replicated, u64)> {
+        let main = self.main.iter().map(|main| (&main.scene, main.report.rays));
+        main.chain(self.hard.iter().map(|hard| (&hard.scene, hard.report.rays)))
+    }
+}
+
+impl Main {
+    fn of(epochs: &[&Epoch], report: &'static MainRow) -> Self {
+        let (times, tree) = (WholeTimes::new(epochs), DEFAULT.role());
+        let noise = AaNoise::new(&[times.log_ratios(&tree, TWIN)]);
+        let seconds = |role: &str| Seconds::of(&times, epochs[0], role, &noise);
+        Self {
+            scene: Replicated::of(epochs[0], seconds(&tree), seconds(SAH)),
             brute_force: seconds(BRUTE),
-            improvement: times.ratio(BRUTE, tree, &noise),
-            sah: seconds(SAH),
-            report_tree_s: row.tree_s,
-            report_brute_force_s: row.brute_s,
-            report_tree_t_prime: t_prime(row.tree_s, row.rays, row.triangles),
-            report_brute_force_t_prime: t_prime(row.brute_s, row.rays, row.triangles),
-            report_improvement: row.improvement,
-        });
-        for (i, sweep) in SWEEP.iter().enumerate() {
-            let Seconds { seconds, extrapolated, .. } = seconds(setting(i));
-            self.parameters.push(Setting {
-                scene: first.scene.clone(),
-                leaf: sweep.leaf,
-                threshold: sweep.threshold,
-                seconds,
-                extrapolated,
-                report_s: sweep.seconds[index],
-            });
+            improvement: times.ratio(BRUTE, &tree, &noise),
+            sweep: SWEEP.iter().map(|row| seconds(&row.role())).collect(),
+            tests: [DEFAULT, CROWDED.1].map(|row| tests(epochs[0], &row.role())),
+            report,
         }
     }
+}
 
-    /// Adds a hard scene of the report, likewise: its tree, the SAH tree, and its tree once more.
-    pub(super) fn add_hard(&mut self, epochs: &[&Epoch]) {
-        const TREE: usize = 0;
-        const TWIN: usize = 2;
-        let first = epochs[0];
-        let Some(row): Option<&HardRow> = HARD.iter().find(|row| row.scene == first.scene) else { return };
-        let rays = self.add_rays(first, row.rays);
-
-        let times = WholeTimes::new(epochs.iter().copied());
-        let noise = AaNoise::new(&[times.cell(TREE, TWIN)]);
-        let seconds = |structure: usize| Seconds::of(&times, first, structure, rays, &noise);
-        let build_s = |structure: usize| {
-            let builds: Vec<f64> = epochs.iter().map(|epoch| epoch.structures[structure].build_ns as f64).collect();
-            median(&builds).expect("there is an epoch") * 1e-9
+impl Hard {
+    fn of(epochs: &[&Epoch], report: &'static HardRow) -> Self {
+        let times = WholeTimes::new(epochs);
+        let log_aa_ratios = times.log_ratios(TREE, TWIN);
+        let noise = AaNoise::new(std::slice::from_ref(&log_aa_ratios));
+        let seconds = |role: &str| Seconds::of(&times, epochs[0], role, &noise);
+        let build_s = |role: &str| {
+            let builds = epochs.iter().filter_map(|epoch| epoch.in_role(role)).map(|own| own.build_ns as f64);
+            median(&builds.collect::<Vec<_>>()).expect("every epoch builds") * 1e-9
         };
-        self.hard.push(Hard {
-            scene: first.scene.clone(),
-            triangles: first.triangles,
-            rays,
-            stand_in: first.stand_in,
-            tree: seconds(TREE),
+        Self {
+            scene: Replicated::of(epochs[0], seconds(TREE), seconds(SAH)),
             tree_build_s: build_s(TREE),
-            sah: seconds(SAH),
             sah_build_s: build_s(SAH),
-            sah_over_median: times.ratio(TREE, SAH, &noise),
+            faster: times.ratio(TREE, SAH, &noise),
             log_ratios: times.log_ratios(TREE, SAH),
-            log_aa_ratios: times.log_ratios(TREE, TWIN),
-            report_tree_s: row.tree_s,
-            report_tree_build_s: row.build_s,
-            report_tree_t_prime: t_prime(row.tree_s, row.rays, row.triangles),
-        });
-
-        // The claim is about all hard scenes: say so far as they are measured.
-        let cells = |of: fn(&Hard) -> &[f64]| -> Vec<Vec<Vec<f64>>> {
-            self.hard.iter().map(|hard| of(hard).iter().map(|&log| vec![log]).collect()).collect()
-        };
-        let noise = AaNoise::new(&cells(|hard| &hard.log_aa_ratios)).of_mean(self.hard.len());
-        let mut ratios = cells(|hard| &hard.log_ratios);
-        // What is not measured to its end has scenes that lack an epoch.
-        cut_to_shared_epochs(&mut ratios);
-        let values = epoch_values(&ratios);
-        self.conclusion = Conclusion {
-            scenes: self.hard.iter().map(|hard| hard.scene.clone()).collect(),
-            sah_over_median: values.and_then(|values| Some(Rerun::of(&values, noise)?.ratio())),
-        };
-    }
-
-    /// Adds the rays of a picture; `report` is the report's total. Gives ours.
-    fn add_rays(&mut self, epoch: &Epoch, report: u64) -> u64 {
-        if epoch.stand_in {
-            self.stand_ins.push(epoch.scene.clone());
+            log_aa_ratios,
+            report,
         }
-        let asked = |query: Query| -> u64 {
-            let rays = epoch.structures[0].rays.iter().filter(|rays| rays.query == query);
-            rays.map(|rays| rays.all as u64).sum()
-        };
-        let (closest, shadow) = (asked(Query::Closest), asked(Query::Any));
-        let primary = closest.min(u64::from(PICTURE[0]) * u64::from(PICTURE[1]));
-        let (scene, mirror, total) = (epoch.scene.clone(), closest - primary, closest + shadow);
-        self.rays.push(Rays { scene, primary, mirror, shadow, total, report });
-        total
     }
+}
+
+/// How many times faster the SAH tree is, so far as hard scenes are measured: the claim is about all of them.
+fn mean(hard: &[Hard]) -> Option<Estimate> {
+    let cells = |of: fn(&Hard) -> &Vec<Vec<f64>>| hard.iter().map(|own| of(own).clone()).collect::<Vec<_>>();
+    let noise = AaNoise::new(&cells(|hard| &hard.log_aa_ratios)).of_mean(hard.len());
+    let mut ratios = cells(|hard| &hard.log_ratios);
+    // What is not measured to its end has scenes that lack an epoch.
+    cut_to_shared_epochs(&mut ratios);
+    Some(Rerun::of(&epoch_values(&ratios)?, noise)?.ratio())
+}
+
+impl Replicated {
+    fn of(epoch: &Epoch, tree: Seconds, sah: Seconds) -> Self {
+        let [closest, shadow] = [Query::Closest, Query::Any].map(|query| rays(epoch, Some(query)));
+        let primary = closest.min(PIXELS);
+        let (name, title, triangles) = (epoch.scene.clone(), epoch.title(), epoch.triangles);
+        Self { name, title, triangles, primary, mirror: closest - primary, shadow, tree, sah }
+    }
+
+    pub fn total(&self) -> u64 {
+        self.primary + self.mirror + self.shadow
+    }
+}
+
+/// Pixels of the report's pictures, each with one primary ray.
+const PIXELS: u64 = 512 * 512;
+
+/// Rays of the picture that ask `query`, or all of them.
+fn rays(epoch: &Epoch, query: Option<Query>) -> u64 {
+    let all = epoch.structures.first().into_iter().flat_map(|structure| &structure.rays);
+    all.filter(|rays| query.is_none_or(|query| rays.query == query)).map(|rays| rays.all as u64).sum()
+}
+
+/// Triangle tests for each ray and triangle.
+fn tests(epoch: &Epoch, role: &str) -> Option<f64> {
+    let counted = epoch.in_role(role)?.rays.iter().map(|rays| rays.counts?.whole_tests);
+    Some(counted.sum::<Option<u64>>()? as f64 / (rays(epoch, None) as f64 * epoch.triangles as f64))
 }
 
 impl Seconds {
-    fn of(times: &WholeTimes, first: &Epoch, structure: usize, rays: u64, noise: &AaNoise) -> Self {
-        let seconds = times.seconds(structure, noise);
-        let t_prime = |seconds: f64| t_prime(seconds, rays, first.triangles);
-        let Structure { rays: timed, .. } = &first.structures[structure];
+    fn of(times: &WholeTimes, first: &Epoch, role: &str, noise: &AaNoise) -> Self {
+        let (seconds, all) = (times.seconds(role, noise), rays(first, None));
+        let timed = first.in_role(role).into_iter().flat_map(|structure| &structure.rays);
         Self {
             seconds: seconds.estimate,
-            t_prime: seconds.map(t_prime),
-            extrapolated: timed.iter().any(|rays| rays.rays < rays.all),
+            t_prime: seconds.map(|seconds| t_prime(seconds, all, first.triangles)),
+            sampled: timed.into_iter().any(|rays| rays.rays < rays.all),
         }
     }
 }

@@ -1,150 +1,187 @@
-//! The study as tables for people.
+//! The study as tables.
 
-use super::original::SWEEP;
-use super::{Replication, Seconds};
-use crate::report::number::{count, figures};
-use crate::report::words::{explained, interval, scene_name};
-use crate::report::{Cell, Table};
+use super::findings::order;
+use super::original::{MainRow, SWEEP, t_prime};
+use super::replication::{Hard, Main, Replicated, Replication, Seconds};
+use crate::report::words::explained;
+use crate::report::{Cell, Table, Value};
+
+const SAMPLED: &str = "~ a part of the rays was timed and stands for all.";
 
 /// The tables in the order of the report, then its conclusion.
-pub fn tables(result: &Replication) -> Vec<Table> {
-    let mut tables = vec![rays(result)];
-    if !result.main.is_empty() {
-        tables.extend([seconds(result), t_primes(result), parameters(result)]);
+pub fn tables(answer: &Replication) -> Vec<Table> {
+    let mut tables = vec![];
+    if !answer.main.is_empty() || !answer.hard.is_empty() {
+        tables.push(rays(answer));
     }
-    if !result.hard.is_empty() {
-        tables.extend([hard(result), conclusion(result)]);
+    if !answer.main.is_empty() {
+        tables.extend([seconds(answer), t_primes(answer), settings(answer)]);
+    }
+    if !answer.hard.is_empty() {
+        tables.extend([hard(answer), conclusion(answer)]);
     }
     tables
 }
 
-fn rays(result: &Replication) -> Table {
-    let difference = |r: &super::Rays| match r.total as i64 - r.report as i64 {
-        0 => "0".into(),
-        difference => format!("{difference:+}"),
-    };
+fn rays(answer: &Replication) -> Table {
     Table::of(
         "Rays of a 512 x 512 picture",
-        &result.rays,
+        answer.scenes(),
         &[
-            ("scene", &|r| r.scene.as_str().into()),
-            ("primary", &|r| count(r.primary).into()),
-            ("mirror", &|r| count(r.mirror).into()),
-            ("shadow", &|r| count(r.shadow).into()),
-            ("total", &|r| count(r.total).into()),
-            ("report", &|r| count(r.report).into()),
-            ("difference", &|r| difference(r).into()),
+            ("scene", &|(scene, _)| scene.title.as_str().into()),
+            ("primary", &|(scene, _)| scene.primary.into()),
+            ("mirror", &|(scene, _)| scene.mirror.into()),
+            ("shadow", &|(scene, _)| scene.shadow.into()),
+            ("total", &|(scene, _)| scene.total().into()),
+            ("report", &|(_, report)| (*report).into()),
+            ("difference", &|(scene, report)| Value::Difference(scene.total() as i64 - *report as i64).into()),
         ],
     )
     .noted(vec![
         "Hard scenes: primary rays alone, as in the report. Starters has creatures of our own, and so its own rays."
             .into(),
+        "Secondary rays start where a triangle test in single precision finds a hit, as in the report's program."
+            .into(),
     ])
 }
 
-fn seconds(result: &Replication) -> Table {
+fn seconds(answer: &Replication) -> Table {
     let table = Table::of(
         "Seconds of all rays, construction left out",
-        &result.main,
+        &answer.main,
         &[
-            ("scene", &|m| m.scene.as_str().into()),
-            ("triangles", &|m| count(m.triangles as u64).into()),
-            ("median-kd", &|m| marked(&m.tree).into()),
-            ("report", &|m| figures(m.report_tree_s).into()),
-            ("brute-force", &|m| marked(&m.brute_force).into()),
-            ("report", &|m| figures(m.report_brute_force_s).into()),
-            ("improvement [95%]", &|m| interval(m.improvement).into()),
-            ("report", &|m| figures(m.report_improvement).into()),
-            ("sah-kd", &|m| marked(&m.sah).into()),
+            ("scene", &|m| m.scene.title.as_str().into()),
+            ("triangles", &|m| m.scene.triangles.into()),
+            ("median-kd", &|m| m.scene.tree.cell()),
+            ("report", &|m| m.report.tree_s.into()),
+            ("brute-force", &|m| m.brute_force.cell()),
+            ("report", &|m| m.report.brute_s.into()),
+            ("improvement [95%]", &|m| m.improvement.into()),
+            ("report", &|m| m.report.improvement.into()),
+            ("sah-kd", &|m| m.scene.sah.cell()),
         ],
     );
-    explained(
-        table.noted(vec![
-            "improvement: brute-force / median-kd. ~ a part of the rays was timed and stands for all.".into(),
-        ]),
-    )
+    let mut notes = vec![format!("improvement: brute-force / median-kd. {SAMPLED}")];
+    notes.extend(order(answer).and_then(|(_, reversed)| reversed));
+    explained(table.noted(notes))
 }
 
-fn t_primes(result: &Replication) -> Table {
+fn t_primes(answer: &Replication) -> Table {
     Table::of(
         "t' = seconds / (rays x triangles)",
-        &result.main,
+        &answer.main,
         &[
-            ("scene", &|m| m.scene.as_str().into()),
-            ("median-kd", &|m| figures(m.tree.t_prime.estimate).into()),
-            ("report", &|m| figures(m.report_tree_t_prime).into()),
-            ("brute-force", &|m| figures(m.brute_force.t_prime.estimate).into()),
-            ("report", &|m| figures(m.report_brute_force_t_prime).into()),
-            ("sah-kd", &|m| figures(m.sah.t_prime.estimate).into()),
+            ("scene", &|m| m.scene.title.as_str().into()),
+            ("median-kd", &|m| m.scene.tree.t_prime.estimate.into()),
+            ("report", &|m| of_report(m.report, m.report.tree_s).into()),
+            ("brute-force", &|m| m.brute_force.t_prime.estimate.into()),
+            ("report", &|m| of_report(m.report, m.report.brute_s).into()),
+            ("sah-kd", &|m| m.scene.sah.t_prime.estimate.into()),
         ],
     )
 }
 
-fn parameters(result: &Replication) -> Table {
-    let scenes: Vec<&str> = result.main.iter().map(|m| m.scene.as_str()).collect();
-    let mut columns = vec!["L / T".to_owned()];
-    columns.extend(scenes.iter().map(|s| (*s).to_owned()));
-    let mut rows = vec![];
-    for setting in &SWEEP {
-        let name = format!("{} / {}", setting.leaf, setting.threshold);
-        let of = |scene: &str| {
-            let same =
-                |s: &&super::Setting| s.scene == scene && s.leaf == setting.leaf && s.threshold == setting.threshold;
-            result.parameters.iter().find(same)
-        };
-        let ours = |scene: &&str| of(scene).map(|s| figures_marked(s.seconds, s.extrapolated)).into();
-        let theirs = |scene: &&str| of(scene).map(|s| figures(s.report_s)).into();
-        rows.push(std::iter::once(Cell::from(name)).chain(scenes.iter().map(ours)).collect());
-        rows.push(std::iter::once(Cell::from("  report")).chain(scenes.iter().map(theirs)).collect());
-    }
-    Table {
-        title: "Seconds of median-kd with other parameters".into(),
-        columns,
-        rows,
-        notes: vec![
-            "L: leaf limit; T: match threshold. Its columns Teapot and Torus, swapped in print, stand right.".into(),
-        ],
-    }
+fn of_report(row: &MainRow, seconds: f64) -> f64 {
+    t_prime(seconds, row.rays, row.triangles)
 }
 
-fn hard(result: &Replication) -> Table {
+fn settings(answer: &Replication) -> Table {
+    let columns = ["L / T"].into_iter().chain(answer.main.iter().map(|main| main.scene.title.as_str()));
+    let mut rows = vec![];
+    for (i, setting) in SWEEP.iter().enumerate() {
+        let ours = answer.main.iter().map(|main| main.sweep[i].cell());
+        let theirs = answer.main.iter().map(|main| setting.of(main.report.scene).into());
+        rows.push(std::iter::once(Cell::from(setting.role())).chain(ours).collect());
+        rows.push(std::iter::once(Cell::from("  report")).chain(theirs).collect());
+    }
+    Table::new("Seconds of median-kd with other settings", columns, rows).noted(vec![
+        "L: leaf limit; T: match threshold. The report's columns Teapot and Torus, swapped in print, stand right."
+            .into(),
+    ])
+}
+
+fn hard(answer: &Replication) -> Table {
     Table::of(
         "Hard scenes: seconds of the primary rays, and of the construction",
-        &result.hard,
+        &answer.hard,
         &[
-            ("scene", &|h| scene_name(&h.scene, h.stand_in).into()),
-            ("triangles", &|h| count(h.triangles as u64).into()),
-            ("median-kd", &|h| marked(&h.tree).into()),
-            ("report", &|h| figures(h.report_tree_s).into()),
-            ("t'", &|h| figures(h.tree.t_prime.estimate).into()),
-            ("report", &|h| figures(h.report_tree_t_prime).into()),
-            ("build", &|h| figures(h.tree_build_s).into()),
-            ("report", &|h| figures(h.report_tree_build_s).into()),
-            ("sah-kd", &|h| marked(&h.sah).into()),
-            ("build", &|h| figures(h.sah_build_s).into()),
+            ("scene", &|h| h.scene.title.as_str().into()),
+            ("triangles", &|h| h.scene.triangles.into()),
+            ("median-kd", &|h| h.scene.tree.cell()),
+            ("report", &|h| h.report.tree_s.into()),
+            ("t'", &|h| h.scene.tree.t_prime.estimate.into()),
+            ("report", &|h| t_prime(h.report.tree_s, h.report.rays, h.report.triangles).into()),
+            ("build", &|h| h.tree_build_s.into()),
+            ("report", &|h| h.report.build_s.into()),
+            ("sah-kd", &|h| h.scene.sah.cell()),
+            ("build", &|h| h.sah_build_s.into()),
         ],
     )
-    .noted(vec!["~ a part of the rays was timed and stands for all.".into()])
+    .noted(vec![SAMPLED.into()])
 }
 
-fn conclusion(result: &Replication) -> Table {
-    let mut rows: Vec<[String; 2]> =
-        result.hard.iter().map(|h| [h.scene.clone(), interval(h.sah_over_median)]).collect();
-    if let Some(mean) = &result.conclusion.sah_over_median {
-        rows.push([format!("geometric mean of {}", result.conclusion.scenes.join(", ")), interval(*mean)]);
-    }
+fn conclusion(answer: &Replication) -> Table {
+    let row = |name: String, faster| vec![Cell::from(name), Cell::from(faster)];
+    let mut rows: Vec<Vec<Cell>> = answer.hard.iter().map(|h| row(h.scene.title.clone(), Some(h.faster))).collect();
+    let names: Vec<&str> = answer.hard.iter().map(|hard| hard.scene.title.as_str()).collect();
+    rows.push(row(format!("geometric mean of {}", names.join(", ")), answer.faster));
     let title = "The report's conclusion: how much faster is sah-kd than median-kd on the hard scenes?";
-    explained(Table::of_texts(title, ["scene", "times faster [95%]"], rows).noted(vec![
-        "Times of one round divided, their median in each epoch, geometric mean over the epochs, with the interval that holds that of \
-         another run, as little disturbed, in 95 % of cases."
+    explained(Table::new(title, ["scene", "times faster [95%]"], rows).noted(vec![
+        "Times of one round divided, their median in each epoch, geometric mean over the epochs, with the interval that \
+         holds that of another run, as little disturbed, in 95 % of cases."
             .into(),
     ]))
 }
 
-fn marked(seconds: &Seconds) -> String {
-    figures_marked(seconds.seconds, seconds.extrapolated)
+/// One row for each scene.
+pub fn data(answer: &Replication) -> Table {
+    type Row<'a> = (&'a Replicated, u64, Option<&'a Main>, Option<&'a Hard>);
+    let main = answer.main.iter().map(|own| (&own.scene, own.report.rays, Some(own), None));
+    let hard = answer.hard.iter().map(|own| (&own.scene, own.report.rays, None, Some(own)));
+    let mut table = Table::of(
+        "",
+        main.chain(hard),
+        &[
+            ("scene", &|(scene, ..): &Row| scene.title.as_str().into()),
+            ("triangles", &|(scene, ..)| scene.triangles.into()),
+            ("primary", &|(scene, ..)| scene.primary.into()),
+            ("mirror", &|(scene, ..)| scene.mirror.into()),
+            ("shadow", &|(scene, ..)| scene.shadow.into()),
+            ("total", &|(scene, ..)| scene.total().into()),
+            ("report", &|(_, report, ..)| (*report).into()),
+            ("tree_seconds", &|(scene, ..)| scene.tree.seconds.into()),
+            ("tree_t_prime", &|(scene, ..)| scene.tree.t_prime.into()),
+            ("tree_sampled", &|(scene, ..)| scene.tree.sampled.into()),
+            ("sah_seconds", &|(scene, ..)| scene.sah.seconds.into()),
+            ("sah_t_prime", &|(scene, ..)| scene.sah.t_prime.into()),
+            ("sah_sampled", &|(scene, ..)| scene.sah.sampled.into()),
+            ("brute_force_seconds", &|(_, _, main, _)| main.map(|main| main.brute_force.seconds).into()),
+            ("brute_force_t_prime", &|(_, _, main, _)| main.map(|main| main.brute_force.t_prime).into()),
+            ("brute_force_sampled", &|(_, _, main, _)| main.map(|main| main.brute_force.sampled).into()),
+            ("improvement", &|(_, _, main, _)| main.map(|main| main.improvement).into()),
+            ("tests_per_ray_and_triangle", &|(_, _, main, _)| main.and_then(|main| main.tests[0]).into()),
+            ("tree_build_s", &|(.., hard)| hard.map(|hard| hard.tree_build_s).into()),
+            ("sah_build_s", &|(.., hard)| hard.map(|hard| hard.sah_build_s).into()),
+            ("times_faster", &|(.., hard)| hard.map(|hard| hard.faster).into()),
+            ("report_tree_s", &|(_, _, main, hard)| {
+                main.map(|main| main.report.tree_s).or(hard.map(|hard| hard.report.tree_s)).into()
+            }),
+            ("report_brute_force_s", &|(_, _, main, _)| main.map(|main| main.report.brute_s).into()),
+            ("report_improvement", &|(_, _, main, _)| main.map(|main| main.report.improvement).into()),
+            ("report_build_s", &|(.., hard)| hard.map(|hard| hard.report.build_s).into()),
+        ],
+    );
+    for (i, setting) in SWEEP.iter().enumerate() {
+        table.columns.push(format!("seconds_{}_{}", setting.leaf, setting.threshold));
+        let seconds =
+            answer.main.iter().map(|main| Some(main.sweep[i].seconds)).chain(answer.hard.iter().map(|_| None));
+        table.rows.iter_mut().zip(seconds).for_each(|(row, seconds)| row.push(seconds.into()));
+    }
+    table
 }
 
-fn figures_marked(seconds: f64, extrapolated: bool) -> String {
-    format!("{}{}", if extrapolated { "~" } else { "" }, figures(seconds))
+impl Seconds {
+    fn cell(&self) -> Cell {
+        Cell::from(self.seconds).sampled(self.sampled)
+    }
 }

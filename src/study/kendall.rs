@@ -1,0 +1,110 @@
+//! Do two measures put things in the same order?
+
+use super::claims::CLAIMS;
+use crate::measure::{Estimate, Rerun, Variance};
+
+/// Kendall's tau-b of pairs `(x, y)` (Kendall, "The treatment of ties in ranking problems", 1945): 1 for the same
+/// order, -1 for the opposite one. Only couples for which `compared` says so take part. Nothing where none differs in
+/// both.
+pub(crate) fn kendall(pairs: &[(f64, f64)], compared: impl Fn(usize, usize) -> bool) -> Option<f64> {
+    let (mut same, mut x_differ, mut y_differ) = (0.0, 0.0, 0.0);
+    for i in 0..pairs.len() {
+        for j in (0..i).filter(|&j| compared(i, j)) {
+            let sign = |d: f64| f64::from(i8::from(d > 0.0) - i8::from(d < 0.0));
+            let (x, y): (f64, f64) = (sign(pairs[i].0 - pairs[j].0), sign(pairs[i].1 - pairs[j].1));
+            same += x * y;
+            x_differ += x * x;
+            y_differ += y * y;
+        }
+    }
+    (x_differ > 0.0 && y_differ > 0.0).then(|| same / libm::sqrt(x_differ * y_differ))
+}
+
+/// How well estimates have the order that is expected of them.
+pub(crate) struct Order {
+    /// Kendall's tau; at the ends of its interval all couples whose order is not sure are in it, or against it.
+    pub tau: Estimate,
+    /// The couples that surely have the other order: numbers of that which was expected to be larger, and of the
+    /// smaller one.
+    pub reversed: Vec<[usize; 2]>,
+}
+
+impl Order {
+    /// Of positive estimates with their ranks, the largest expected first; those of one rank are not compared. What
+    /// each couple shows allows for all couples and for `looks` as many.
+    pub fn of(ranked: &[(Estimate, usize)], looks: usize) -> Self {
+        let couples: Vec<[usize; 2]> = (0..ranked.len())
+            .flat_map(|i| (0..ranked.len()).map(move |j| [i, j]))
+            .filter(|&[i, j]| ranked[i].1 < ranked[j].1)
+            .collect();
+        let looks = looks * couples.len();
+        let quotients: Vec<Estimate> =
+            couples.iter().map(|&[i, j]| ranked[i].0.over(ranked[j].0).ratio_among(looks)).collect();
+        let all = couples.len().max(1) as f64;
+        let share = |of: &dyn Fn(&Estimate) -> bool| quotients.iter().filter(|q| of(q)).count() as f64 / all;
+        let (sure, reversed) = (share(&|q| q.is_above(1.0)), share(&|q| q.is_below(1.0)));
+        let estimate = 2.0 * share(&|q| q.estimate > 1.0) - 1.0;
+        let known = quotients.iter().all(|q| q.interval.is_some());
+        let tau = if known {
+            Estimate::between(estimate, 2.0 * sure - 1.0, 1.0 - 2.0 * reversed)
+        } else {
+            Estimate::alone(estimate)
+        };
+        let reversed = couples.iter().zip(&quotients).filter(|(_, q)| q.is_below(1.0)).map(|(couple, _)| *couple);
+        Self { tau, reversed: reversed.collect() }
+    }
+}
+
+/// The mean of the taus of several scenes, with the interval of one among all claims for as many other scenes, cut to
+/// what a tau can be.
+pub(crate) fn mean(taus: &[f64]) -> Option<Estimate> {
+    let mean = Rerun::of(taus, Variance::NONE)?.plain().among(CLAIMS);
+    Some(mean.map(|tau| tau.clamp(-1.0, 1.0)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tau_is_the_share_of_couples_in_order() {
+        let all = |_: usize, _: usize| true;
+        assert_eq!(kendall(&[(1.0, 10.0), (2.0, 20.0), (3.0, 30.0)], all), Some(1.0));
+        assert_eq!(kendall(&[(1.0, 30.0), (2.0, 20.0), (3.0, 10.0)], all), Some(-1.0));
+        // Five couples of six in order.
+        let one_off = [(1.0, 1.0), (2.0, 3.0), (3.0, 2.0), (4.0, 4.0)];
+        assert!((kendall(&one_off, all).unwrap() - 4.0 / 6.0).abs() < 1e-12);
+        assert_eq!(kendall(&[(1.0, 1.0), (1.0, 2.0)], all), None);
+        assert_eq!(kendall(&one_off, |i, j| (i, j) == (2, 1)), Some(-1.0));
+    }
+
+    #[test]
+    fn a_mean_of_one_says_nothing_of_others() {
+        assert_eq!(mean(&[0.5]), Some(Estimate::alone(0.5)));
+        let four = mean(&[0.5, 0.6, 0.6, 0.7]).unwrap();
+        assert!((four.estimate - 0.6).abs() < 1e-12 && four.holds(0.3) && !four.holds(0.0), "{four:?}");
+        assert_eq!(mean(&[-1.0, 1.0]).unwrap().low(), Some(-1.0));
+        assert_eq!(mean(&[]), None);
+    }
+
+    #[test]
+    fn an_order_is_as_sure_as_its_couples() {
+        let of = |estimates: [f64; 4]| {
+            let ranked = estimates.map(|x| Estimate::between(x, x / 1.1, x * 1.1));
+            Order::of(&[(ranked[0], 0), (ranked[1], 0), (ranked[2], 1), (ranked[3], 2)], 1)
+        };
+        // The first two are not compared: five couples.
+        let right = of([8.0, 9.0, 4.0, 2.0]);
+        assert_eq!(right.tau, Estimate::exact(1.0));
+        // One surely against it.
+        let one_off = of([8.0, 9.0, 2.0, 4.0]);
+        assert_eq!(one_off.reversed, [[2, 3]]);
+        assert!((one_off.tau.estimate - 0.6).abs() < 1e-12 && (one_off.tau.high().unwrap() - 0.6).abs() < 1e-12);
+        // One that may be either.
+        let open = of([8.0, 9.0, 2.02, 2.0]);
+        assert_eq!((open.tau.estimate, open.tau.high()), (1.0, Some(1.0)));
+        assert!((open.tau.low().unwrap() - 0.6).abs() < 1e-12 && open.reversed.is_empty());
+        let alone = Order::of(&[(Estimate::alone(2.0), 0), (Estimate::alone(1.0), 1)], 1);
+        assert_eq!(alone.tau, Estimate::alone(1.0));
+    }
+}
