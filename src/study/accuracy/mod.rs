@@ -162,7 +162,7 @@ fn report(dataset: &Dataset, _: &ArgMatches) -> Report {
     for (i, of_kind) in all.iter().enumerate() {
         blocks.extend([Block::figure(figure::figure(i, of_kind)), Block::Table(table::table(of_kind))]);
     }
-    blocks.extend(table::legend().into_iter().filter(|_| !all.is_empty()).map(Block::Note));
+    blocks.extend(table::LEGEND.iter().filter(|_| !all.is_empty()).map(|words| Block::Note((*words).into())));
     Report {
         findings: all.iter().filter_map(findings::finding).collect(),
         blocks,

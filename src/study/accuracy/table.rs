@@ -3,7 +3,7 @@
 use super::judged::{Judged, JudgedRays};
 use crate::report::number::count;
 use crate::report::{Cell, Format, Table, Tone};
-use crate::validate::{Rate, Ulps};
+use crate::validate::Ulps;
 
 /// That of one scene and kind of rays.
 pub fn table(of_kind: &JudgedRays) -> Table {
@@ -58,20 +58,16 @@ fn ulps(own: &Judged, value: fn(&Ulps) -> f64) -> Cell {
 }
 
 /// What the columns mean.
-pub fn legend() -> Vec<String> {
-    [
-        "slowest: nanoseconds that the slowest of the rays takes when it is asked alone, with what asking takes.",
-        "error: share of rays with a wrong answer by exact arithmetic: missed, false hits, or a depth that is off by more \
-         than 4 units in the last place and more than 1e-6; at most: its upper bound with 95 % confidence by Clopper and \
-         Pearson (no error in n rays: about 3/n).",
-        "primitive: hits at a triangle that is not the nearest, by whatever little; not part of the error. ulps: error of t \
-         where the triangle is right; at most 0.5 is correctly rounded.",
-        "dominated by: at most as slow and at most as wrong, and better in one of the two; blank on the front. Kinds of rays \
-         are never added up.",
-    ]
-    .map(String::from)
-    .into()
-}
+pub const LEGEND: [&str; 4] = [
+    "slowest: nanoseconds that the slowest of the rays takes when it is asked alone, with what asking takes.",
+    "error: share of rays with a wrong answer by exact arithmetic: missed, false hits, or a depth that is off by more \
+     than 4 units in the last place and more than 1e-6; at most: its upper bound with 95 % confidence by Clopper and \
+     Pearson (no error in n rays: about 3/n).",
+    "primitive: hits at a triangle that is not the nearest, by whatever little; not part of the error. ulps: error of t \
+     where the triangle is right; at most 0.5 is correctly rounded.",
+    "dominated by: at most as slow and at most as wrong, and better in one of the two; blank on the front. Kinds of rays \
+     are never added up.",
+];
 
 /// One row for each structure and kind of rays.
 pub fn data(all: &[JudgedRays]) -> Table {
@@ -98,12 +94,6 @@ pub fn data(all: &[JudgedRays]) -> Table {
             ("wrong_primitive", &|(_, own)| own.errors.wrong_primitive.into()),
             ("error", &|(_, own)| own.error.into()),
             ("error_bound", &|(_, own)| own.error_bound.into()),
-            ("miss_rate", &|(_, own)| own.errors.miss_rate().share().into()),
-            ("miss_rate_bound", &|(_, own)| bound(own.errors.miss_rate())),
-            ("false_hit_rate", &|(_, own)| own.errors.false_hit_rate().share().into()),
-            ("false_hit_rate_bound", &|(_, own)| bound(own.errors.false_hit_rate())),
-            ("wrong_depth_rate", &|(_, own)| own.errors.wrong_depth_rate().share().into()),
-            ("wrong_depth_rate_bound", &|(_, own)| bound(own.errors.wrong_depth_rate())),
             ("ulps_median", &|(_, own)| ulps(own, |ulps| ulps.median)),
             ("ulps_p99", &|(_, own)| ulps(own, |ulps| ulps.p99)),
             ("ulps_max", &|(_, own)| ulps(own, |ulps| ulps.max)),
@@ -114,8 +104,4 @@ pub fn data(all: &[JudgedRays]) -> Table {
             ("dominated_by", &|(_, own)| own.dominated_by.into()),
         ],
     )
-}
-
-fn bound(rate: Rate) -> Cell {
-    rate.bound().into()
 }

@@ -1,7 +1,8 @@
 //! What is found again of the report.
 
-use super::original::{CROWDED, MAIN};
-use super::replication::{Main, Replication};
+use super::BRUTE;
+use super::original::{CROWDED, DEFAULT, MAIN};
+use super::replication::{Replicated, mean};
 use crate::measure::Estimate;
 use crate::report::Finding;
 use crate::report::number::{count, plural};
@@ -10,38 +11,36 @@ use crate::study::claims::CLAIMS;
 use crate::study::kendall::Order;
 
 /// How much faster the SAH tree is, whether the rays are the report's, and the numbers that claims are about.
-pub fn findings(answer: &Replication) -> Vec<Finding> {
-    let mut findings: Vec<Finding> = [hard(answer), rays(answer)].into_iter().flatten().collect();
-    let number = |key: &str, scene: &str, value| Finding::number(format!("{key}-{}", slug(scene)), value);
-    findings.extend(answer.hard.iter().map(|hard| number("hard", &hard.scene.name, hard.faster)));
-    let own = answer.main.iter().filter(|main| main.scene.name != OWN);
-    findings.extend(own.map(|main| {
-        let difference = main.scene.total() as f64 - main.report.rays as f64;
-        number("rays", &main.scene.name, Estimate::exact(difference))
-    }));
-    findings.extend(t_prime(answer).map(|factor| Finding::number("t-prime", factor)));
-    findings.extend(order(answer).map(|(order, _)| Finding::number("order", order.tau)));
-    let crowded = answer.main.iter().find(|main| main.scene.name == CROWDED.0);
-    for (key, tests) in ["crowded", "crowded-50"].into_iter().zip(crowded.map(|main| main.tests).unwrap_or_default()) {
+pub fn findings(main: &[Replicated], hard: &[Replicated]) -> Vec<Finding> {
+    let mut findings: Vec<Finding> = [faster(hard), rays(main)].into_iter().flatten().collect();
+    let number =
+        |key: &str, own: &Replicated, value| Finding::number(format!("{key}-{}", slug(own.report.scene)), value);
+    findings.extend(hard.iter().map(|own| number("hard", own, own.faster)));
+    let difference = |own: &Replicated| Estimate::exact(own.total() as f64 - own.report.rays as f64);
+    let theirs = main.iter().filter(|own| own.report.scene != OWN);
+    findings.extend(theirs.map(|own| number("rays", own, difference(own))));
+    findings.extend(t_prime(main).map(|factor| Finding::number("t-prime", factor)));
+    findings.extend(order(main).map(|(order, _)| Finding::number("order", order.tau)));
+    let crowded = main.iter().find(|own| own.report.scene == CROWDED.0);
+    for (key, setting) in [("crowded", DEFAULT), ("crowded-50", CROWDED.1)] {
+        let tests = crowded.and_then(|own| own.times(&setting.role())?.tests);
         findings.extend(tests.map(|tests| Finding::number(key, Estimate::exact(tests))));
     }
     findings
 }
 
-fn hard(answer: &Replication) -> Option<Finding> {
-    let of = |hard: &super::replication::Hard| format!("{} {} times", hard.scene.title, interval(hard.faster));
-    let scenes: Vec<String> = answer.hard.iter().map(of).collect();
-    let mean = answer.faster?;
+fn faster(hard: &[Replicated]) -> Option<Finding> {
+    let scenes = hard.iter().map(|own| format!("{} {} times", own.title, interval(own.faster)));
+    let scenes: Vec<String> = scenes.collect();
+    let mean = mean(hard)?;
     let told = match () {
         () if mean.is_above(1.0) => "are faster with the SAH tree than with",
         () if mean.holds(1.0) => "cannot be told to be faster or slower with the SAH tree than with",
         () => "are slower with the SAH tree than with",
     };
-    let sentence = format!(
-        "Primary rays {told} the report's tree, by this much: {}; geometric mean {}.",
-        listed(&scenes),
-        interval(mean)
-    );
+    let (scenes, mean_text) = (listed(&scenes), interval(mean));
+    let sentence =
+        format!("Primary rays {told} the report's tree, by this much: {scenes}; geometric mean {mean_text}.");
     Some(Finding::new("hard", sentence).of(mean))
 }
 
@@ -51,54 +50,46 @@ const CLOSE: u64 = 2;
 /// Its creatures must not be copied: its rays are our own.
 const OWN: &str = "Starters";
 
-fn rays(answer: &Replication) -> Option<Finding> {
-    let off = |main: &&Main| main.scene.total().abs_diff(main.report.rays);
-    let far = answer.main.iter().filter(|main| off(main) > CLOSE);
-    let told = |main: &Main| format!("{} is {} of {} off", main.scene.name, count(off(&main)), count(main.report.rays));
-    let far: Vec<String> = far.map(told).collect();
-    let all = answer.main.len();
+fn rays(main: &[Replicated]) -> Option<Finding> {
+    let off = |own: &Replicated| own.total().abs_diff(own.report.rays);
+    let told = |own: &Replicated| format!("{} is {} of {} off", own.title, count(off(own)), count(own.report.rays));
+    let far: Vec<String> = main.iter().filter(|own| off(own) > CLOSE).map(told).collect();
     let exceptions = if far.is_empty() { String::new() } else { format!("; {}", listed(&far)) };
-    let sentence = format!(
-        "The report's ray counts are found again to within {CLOSE} rays in {} of {}{exceptions}.",
-        all - far.len(),
-        plural(all, "scene")
-    );
-    (all > 0).then(|| Finding::new("rays", sentence))
+    let (close, all) = (main.len() - far.len(), plural(main.len(), "scene"));
+    let sentence =
+        format!("The report's ray counts are found again to within {CLOSE} rays in {close} of {all}{exceptions}.");
+    (!main.is_empty()).then(|| Finding::new("rays", sentence))
 }
 
 /// The largest `t'` of brute force over the smallest, of all scenes.
-fn t_prime(answer: &Replication) -> Option<Estimate> {
-    let of = |main: &Main| main.brute_force.t_prime;
-    let by_size = |one: &&Main, other: &&Main| of(one).estimate.total_cmp(&of(other).estimate);
-    let (most, least) = (answer.main.iter().max_by(by_size)?, answer.main.iter().min_by(by_size)?);
-    answer.has_all_main().then(|| of(most).over(of(least)))
+fn t_prime(main: &[Replicated]) -> Option<Estimate> {
+    let all: Vec<Estimate> = main.iter().filter_map(|own| Some(own.times(BRUTE)?.t_prime)).collect();
+    let by_size = |one: &&Estimate, other: &&Estimate| one.estimate.total_cmp(&other.estimate);
+    let (most, least) = (all.iter().max_by(by_size)?, all.iter().min_by(by_size)?);
+    (all.len() == MAIN.len()).then(|| most.over(*least))
 }
 
-/// The scenes by falling improvement, as expected; those on one line are expected alike.
-const ORDER: [&[&str]; 8] = [
-    &["Torus", "Sphere"],
-    &["Teapot"],
-    &["Metallic"],
-    &["Cornellbox"],
-    &["Starters"],
-    &["Billards"],
-    &["Infinitycandy"],
-    &["Cube"],
+/// The scenes by falling improvement, as expected, with their ranks.
+const ORDER: [(&str, usize); MAIN.len()] = [
+    ("Torus", 0),
+    ("Sphere", 0),
+    ("Teapot", 1),
+    ("Metallic", 2),
+    ("Cornellbox", 3),
+    ("Starters", 4),
+    ("Billards", 5),
+    ("Infinitycandy", 6),
+    ("Cube", 7),
 ];
 
 /// How well the improvements have the order that was expected of them, and what surely has not: about all scenes.
-pub fn order(answer: &Replication) -> Option<(Order, Option<String>)> {
-    let mut expected: Vec<(&Main, usize)> = vec![];
-    for (rank, names) in ORDER.iter().enumerate() {
-        expected.extend(
-            names.iter().filter_map(|name| Some((answer.main.iter().find(|main| main.scene.name == *name)?, rank))),
-        );
-    }
-    let ranked: Vec<(Estimate, usize)> = expected.iter().map(|(main, rank)| (main.improvement, *rank)).collect();
-    let order = Order::of(&ranked, CLAIMS);
-    let name = |place: usize| &expected[place].0.scene.name;
-    let reversed = order.reversed.iter().map(|&[more, less]| format!("{} gains less than {}", name(more), name(less)));
+pub fn order(main: &[Replicated]) -> Option<(Order, Option<String>)> {
+    let improvement = |name: &str| main.iter().find(|own| own.report.scene == name)?.improvement;
+    let ranked = ORDER.iter().map(|&(name, rank)| Some((improvement(name)?, rank)));
+    let order = Order::of(&ranked.collect::<Option<Vec<_>>>()?, CLAIMS);
+    let reversed =
+        order.reversed.iter().map(|&[more, less]| format!("{} gains less than {}", ORDER[more].0, ORDER[less].0));
     let reversed: Vec<String> = reversed.collect();
     let told = (!reversed.is_empty()).then(|| format!("Surely not in the order expected: {}.", listed(&reversed)));
-    (expected.len() == MAIN.len()).then_some((order, told))
+    Some((order, told))
 }

@@ -19,7 +19,7 @@ use crate::request::{BRUTE_FORCE, Measuring, REPORT_TREE, SAH_TREE, Scenes, Stru
 use crate::scene::Scene;
 use findings::findings;
 use original::{CROWDED, DEFAULT, HARD, MAIN, SWEEP};
-use replication::Replication;
+use replication::replicated;
 
 pub const STUDY: Study = Study {
     name: "replicate",
@@ -92,16 +92,16 @@ fn plan(matches: &ArgMatches, registry: &Registry) -> anyhow::Result<Plan> {
 }
 
 fn report(dataset: &Dataset, _: &ArgMatches) -> Report {
-    let replication = Replication::of(dataset);
+    let [main, hard] = [&MAIN[..], &HARD].map(|rows| replicated(dataset, rows));
     let text = "Rays, seconds and settings as in the source report, ours beside its own. Seconds are of different machines \
                 and code: compare their ratios.";
-    let tables = tables::tables(&replication).into_iter().map(Block::Table);
-    let findings = findings(&replication);
+    let tables = tables::tables(&main, &hard).into_iter().map(Block::Table);
+    let findings = findings(&main, &hard);
     Report {
         blocks: std::iter::once(Block::Text(text.into())).chain(tables).collect(),
         verdicts: claims::judge(STUDY.name, &findings),
         failures: dataset.failures(),
-        data: tables::data(&replication),
+        data: tables::data(main.iter().chain(&hard)),
         findings,
         ..Report::default()
     }

@@ -59,10 +59,10 @@ fn the_conclusion_is_the_mean_of_the_hard_scenes() {
     }
     assert!(report.finding("hard").unwrap().sentence.contains("Dragon 8.00 times and Lucy 2.00 times; geometric mean"));
     // 1000 and 500 rays at 0.8 microseconds.
-    let dragon = &Replication::of(&dataset(scenes())).hard[0];
-    let tree = dragon.scene.tree;
+    let dragon = &replicated(&dataset(scenes()), &HARD)[0];
+    let tree = dragon.tree().unwrap();
     assert!((tree.seconds - 1.2e-3).abs() < 1e-9 && (tree.t_prime.estimate - 8e-9).abs() < 1e-15, "{tree:?}");
-    assert!((dragon.tree_build_s - 2.0).abs() < 1e-12);
+    assert!((tree.build_s - 2.0).abs() < 1e-12);
     assert!(report.tables().chain([&report.data]).all(|t| t.rows.iter().all(|row| row.len() == t.columns.len())));
     assert!(of(vec![]).blocks.len() == 1 && of(vec![]).findings.is_empty(), "nothing is measured");
 
@@ -96,10 +96,12 @@ fn what_is_said_of_the_hard_scenes_is_what_was_found() {
 #[test]
 fn an_easy_scene_has_its_improvement_its_sweep_and_its_rays() {
     let scenes = || vec![main("Torus", 3)];
-    let torus = &Replication::of(&dataset(scenes())).main[0];
-    assert!((torus.improvement.estimate - 3.0).abs() < 1e-9 && torus.improvement.is_above(2.9));
-    assert!((torus.sweep[0].seconds / torus.scene.tree.seconds - 110.0 / 300.0).abs() < 1e-9);
-    assert_eq!((torus.scene.total(), torus.scene.shadow, torus.scene.mirror), (1500, 500, 0));
+    let torus = &replicated(&dataset(scenes()), &MAIN)[0];
+    let improvement = torus.improvement.unwrap();
+    assert!((improvement.estimate - 3.0).abs() < 1e-9 && improvement.is_above(2.9));
+    let seconds = |role: &str| torus.times(role).unwrap().seconds;
+    assert!((seconds("25 / 0.4") / seconds("100 / 0.7") - 110.0 / 300.0).abs() < 1e-9);
+    assert_eq!((torus.total(), torus.shadow, torus.mirror), (1500, 500, 0));
     let report = of(scenes());
     assert_eq!(value(&report, "rays-torus"), Some(Estimate::exact(1500.0 - 309_289.0)));
     assert!(report.tables().chain([&report.data]).all(|t| t.rows.iter().all(|row| row.len() == t.columns.len())));
