@@ -1,3 +1,4 @@
+use super::judged::Judged;
 use super::*;
 use crate::measure::{Provenance, SystemClock};
 use crate::report::Art;
@@ -117,7 +118,7 @@ fn brute_force_is_left_out_of_large_meshes_unless_it_is_named() {
         ("cube", [true].as_slice(), 0),
         ("cube cornellbox -t exact", &[true, false], 1),
         ("cornellbox -s brute-force", &[true], 0),
-        ("cornellbox -s sah-kd:leaf=4", &[false], 0),
+        ("cornellbox -s sah-kd:mailbox=true", &[false], 0),
     ] {
         let plan = planned(words).unwrap();
         let has_brute = |case: &crate::study::Case| case.structures.iter().any(|own| own.name() == BRUTE_FORCE);

@@ -18,7 +18,7 @@ use crate::report::{Block, Report};
 use crate::request::{BRUTE_FORCE, Measuring, REPORT_TREE, SAH_TREE, Scenes, StructureRequest, TWIN, WorkloadRequest};
 use crate::scene::Scene;
 use findings::findings;
-use original::{CROWDED, DEFAULT, HARD, MAIN, SWEEP};
+use original::{CROWDED, DEFAULT, HARD, MAIN, Row, SWEEP};
 use replication::replicated;
 
 pub const STUDY: Study = Study {
@@ -53,14 +53,6 @@ fn options() -> Command {
 
 fn plan(matches: &ArgMatches, registry: &Registry) -> anyhow::Result<Plan> {
     let ReplicateArgs { measuring } = ReplicateArgs::from_arg_matches(matches)?;
-    let label = |spec: &str| Ok::<_, anyhow::Error>(registry.choose(spec)?.label);
-    let structure = |spec: &str, role: &str| Ok::<_, anyhow::Error>(StructureRequest::new(label(spec)?, role));
-    let mut main = vec![structure(BRUTE_FORCE, BRUTE)?, structure(SAH_TREE, SAH)?];
-    for row in &SWEEP {
-        main.push(structure(&row.spec(), &row.role())?);
-    }
-    main.push(structure(&DEFAULT.spec(), TWIN)?);
-    let hard = [structure(REPORT_TREE, TREE)?, structure(SAH_TREE, SAH)?, structure(REPORT_TREE, TWIN)?];
     let settings = Settings {
         runs: measuring.runs.into(),
         budget_ns: measuring.budget.ns(),
@@ -69,26 +61,36 @@ fn plan(matches: &ArgMatches, registry: &Registry) -> anyhow::Result<Plan> {
         build_limit_s: None,
         whole_counts: vec![],
         whole: true,
-        guide: label(GUIDE)?,
+        guide: registry.choose(GUIDE)?.label,
         seed: measuring.seed,
         threads: measuring.threads.into(),
     };
-    let counted =
-        Settings { whole_counts: vec![label(&DEFAULT.spec())?, label(&CROWDED.1.spec())?], ..settings.clone() };
-
-    let names: Vec<&str> = MAIN.iter().map(|row| row.scene).chain(HARD.iter().map(|row| row.scene)).collect();
-    let scenes = Scenes::default().read(registry, &names)?;
-    let planned = |own: &(String, Scene)| {
-        let epochs = measuring.epochs.into();
-        let settings = if own.1.name == CROWDED.0 { &counted } else { &settings };
-        if HARD.iter().any(|row| row.scene == own.1.name) {
-            PlannedScene::new(own, &hard, &WorkloadRequest::PrimaryPicture, settings, epochs).labelled("table", "hard")
-        } else {
-            PlannedScene::new(own, &main, &WorkloadRequest::Picture, settings, epochs).labelled("table", "main")
-        }
+    let rows: Vec<&Row> = MAIN.iter().chain(&HARD).collect();
+    let scenes = Scenes::default().read(registry, &rows.iter().map(|row| row.scene).collect::<Vec<_>>())?;
+    let planned = |(own, row): (&(String, Scene), &&Row)| {
+        let (workloads, table) =
+            if row.is_hard() { (WorkloadRequest::PrimaryPicture, "hard") } else { (WorkloadRequest::Picture, "main") };
+        let settings = Settings { whole_counts: whole_counts(row), ..settings.clone() };
+        let structures = structures(registry, row)?;
+        let planned = PlannedScene::new(own, &structures, &workloads, &settings, measuring.epochs.into());
+        anyhow::Ok(planned.labelled("table", table))
     };
-    let planned: Vec<PlannedScene> = scenes.iter().map(planned).collect();
+    let planned = scenes.iter().zip(&rows).map(planned).collect::<anyhow::Result<Vec<_>>>()?;
     Ok(Plan::by_epoch(STUDY.name, &planned).noting(scenes.iter().map(|(_, scene)| scene)))
+}
+
+/// The structures of a scene, in their roles.
+fn structures(registry: &Registry, row: &Row) -> anyhow::Result<Vec<StructureRequest>> {
+    let first = if row.is_hard() { (REPORT_TREE, TREE) } else { (BRUTE_FORCE, BRUTE) };
+    let mut roles = [first, (SAH_TREE, SAH)].map(|(spec, role)| (spec.to_owned(), role.to_owned())).to_vec();
+    roles.extend(SWEEP.iter().filter(|_| !row.is_hard()).map(|setting| (setting.spec(), setting.role())));
+    roles.push((DEFAULT.spec(), TWIN.into()));
+    roles.into_iter().map(|(spec, role)| Ok(StructureRequest::new(registry.choose(&spec)?.label, role))).collect()
+}
+
+/// What is counted over all rays of a scene.
+fn whole_counts(row: &Row) -> Vec<String> {
+    if row.scene == CROWDED.0 { [DEFAULT, CROWDED.1].map(|setting| setting.spec()).into() } else { vec![] }
 }
 
 fn report(dataset: &Dataset, _: &ArgMatches) -> Report {

@@ -70,7 +70,7 @@ pub const SWEEP: [SweepRow; 6] = [
     sweep(150, 0.9, [0.522, 1.3248, 2.697, 7.637, 101.9409, 52.054, 61.10, 61.996, 61.777]),
 ];
 
-/// The setting of the main table.
+/// The setting of the main table, and of the structure where no other one is named.
 pub const DEFAULT: SweepRow = SWEEP[4];
 
 /// The scene in which all triangles crowd in one place, and the setting that was expected to make more tests there than
@@ -92,13 +92,20 @@ impl SweepRow {
         MAIN.iter().position(|row| row.scene == scene).map(|place| self.seconds[place])
     }
 
-    /// The structure.
+    /// The structure, as the registry labels it.
     pub fn spec(&self) -> String {
+        if *self == DEFAULT {
+            return REPORT_TREE.into();
+        }
         format!("{REPORT_TREE}:leaf={},threshold={}", self.leaf, self.threshold)
     }
 }
 
 impl Row {
+    pub fn is_hard(&self) -> bool {
+        self.build_s.is_some()
+    }
+
     /// `t'` of so many of the report's seconds.
     pub fn t_prime(&self, seconds: f64) -> f64 {
         t_prime(seconds, self.rays, self.triangles)

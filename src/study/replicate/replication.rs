@@ -71,8 +71,8 @@ const PIXELS: u64 = 512 * 512;
 
 impl Replicated {
     fn of(epochs: &[&Epoch], report: &'static Row) -> Self {
-        let (first, is_main) = (epochs[0], report.brute_s.is_some());
-        let tree = if is_main { DEFAULT.role() } else { TREE.into() };
+        let first = epochs[0];
+        let tree = if report.is_hard() { TREE.into() } else { DEFAULT.role() };
         let all = WholeTimes::new(epochs);
         let log_aa_ratios = all.log_ratios(&tree, TWIN);
         let noise = AaNoise::new(std::slice::from_ref(&log_aa_ratios));
@@ -89,7 +89,7 @@ impl Replicated {
             mirror: closest - primary,
             shadow,
             times,
-            improvement: is_main.then(|| all.ratio(BRUTE, &tree, &noise)),
+            improvement: (!report.is_hard()).then(|| all.ratio(BRUTE, &tree, &noise)),
             faster: all.ratio(&tree, SAH, &noise),
             log_ratios: all.log_ratios(&tree, SAH),
             log_aa_ratios,

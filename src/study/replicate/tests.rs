@@ -138,25 +138,17 @@ fn claims_about_all_scenes_are_judged_with_all_scenes() {
 }
 
 #[test]
-fn every_scene_of_the_report_is_planned_with_its_twin_and_its_counts() {
+fn every_scene_has_a_twin_and_what_is_counted_is_named_as_its_structures_are() {
     let registry = Registry::builtin();
-    let plan = plan(&STUDY.matches(&["--epochs".into(), "2".into()]).unwrap(), &registry).unwrap();
-    assert_eq!(plan.cases.len(), 2 * (MAIN.len() + HARD.len()));
-    for case in &plan.cases {
-        let spec = |role: &str| &case.structures.iter().find(|own| own.role == role).unwrap().spec;
-        let (role, table) = if HARD.iter().any(|row| row.scene == case.scene.name) {
-            (TREE.to_owned(), "hard")
-        } else {
-            assert_eq!(case.structures.len(), 3 + SWEEP.len());
-            (DEFAULT.role(), "main")
-        };
-        assert_eq!((spec(TWIN), spec(&role), spec(SAH)), (&REPORT_TREE.into(), &REPORT_TREE.into(), &SAH_TREE.into()));
-        assert_eq!(case.labels["table"], table);
-        // What is counted is named as the structures are.
-        let is_crowded = case.scene.name == CROWDED.0;
-        assert_eq!(case.settings.whole_counts.len(), if is_crowded { 2 } else { 0 });
-        if is_crowded {
-            assert_eq!(&case.settings.whole_counts, &[spec("100 / 0.7").clone(), spec("50 / 0.7").clone()]);
-        }
+    for row in MAIN.iter().chain(&HARD) {
+        let structures = structures(&registry, row).unwrap();
+        assert_eq!(structures.len(), if row.is_hard() { 3 } else { 3 + SWEEP.len() });
+        let spec = |role: &str| structures.iter().find(|own| own.role == role).unwrap().spec.as_str();
+        let tree = if row.is_hard() { TREE.to_owned() } else { DEFAULT.role() };
+        assert_eq!([spec(TWIN), spec(&tree), spec(SAH)], [REPORT_TREE, REPORT_TREE, SAH_TREE]);
+        let counted = whole_counts(row);
+        assert_eq!(counted.len(), if row.scene == "Infinitycandy" { 2 } else { 0 });
+        assert!(counted.iter().zip(["100 / 0.7", "50 / 0.7"]).all(|(counted, role)| counted == spec(role)));
     }
+    assert_eq!(registry.choose(GUIDE).unwrap().label, GUIDE);
 }
