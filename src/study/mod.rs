@@ -16,6 +16,7 @@ mod epoch_medians;
 mod error;
 mod join;
 pub mod journal;
+mod kendall;
 mod least_squares;
 pub mod measure;
 pub mod measurement;

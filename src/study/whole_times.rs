@@ -1,27 +1,30 @@
 //! Times for all rays of a scene together.
 
 use super::epoch::{Epoch, Rays, Structure};
+use super::epoch_medians::{epoch_medians, ratio, values};
 use crate::measure::{AaNoise, Estimate};
-use crate::study::epoch_medians::{epoch_medians, ratio, values};
 
-/// How long the structures of an epoch take for all their rays, whatever part of them was timed: the rays of every kind
-/// at the pace of those that were.
-#[derive(Clone, Debug, PartialEq)]
-pub struct WholeTimes {
-    /// Of each epoch, its structures.
-    epochs: Vec<Vec<Structure>>,
+/// How long the structures of a scene take for all their rays, whatever part of them was timed: the rays of every kind at
+/// the pace of those that were. Structures are named by their roles.
+pub struct WholeTimes<'a> {
+    /// Of one scene, in which every structure is timed; at least one.
+    epochs: &'a [&'a Epoch],
 }
 
-impl WholeTimes {
+impl<'a> WholeTimes<'a> {
     /// Of the epochs of one scene, in which every structure is timed.
-    pub fn new<'a>(epochs: impl IntoIterator<Item = &'a Epoch>) -> Self {
-        Self { epochs: epochs.into_iter().map(|epoch| epoch.structures.clone()).collect() }
+    pub fn new(epochs: &'a [&'a Epoch]) -> Self {
+        Self { epochs }
     }
 
-    /// ln of seconds of the structures with these numbers, on the rays that all of them were timed on, of each epoch.
-    fn epoch_medians(&self, structures: &[usize]) -> Vec<Vec<f64>> {
-        let of_epoch = |all: &Vec<Structure>| {
-            let chosen: Vec<&Structure> = structures.iter().map(|&number| &all[number]).collect();
+    /// ln of seconds of the structures in these roles, on the rays that all of them were timed on, of each epoch.
+    ///
+    /// # Panics
+    /// If no structure has such a role.
+    fn epoch_medians(&self, roles: &[&str]) -> Vec<Vec<f64>> {
+        let of_epoch = |epoch: &&Epoch| {
+            let in_role = |role: &&str| epoch.in_role(role).unwrap_or_else(|| panic!("no structure is {role:?}"));
+            let chosen: Vec<&Structure> = roles.iter().map(in_role).collect();
             chosen.iter().map(|structure| seconds(structure, &chosen)).collect()
         };
         epoch_medians(self.epochs.iter().map(of_epoch).collect())
@@ -30,26 +33,26 @@ impl WholeTimes {
     /// Seconds: the geometric mean over the epochs, with its interval.
     ///
     /// # Panics
-    /// If there is no epoch.
-    pub fn seconds(&self, structure: usize, noise: &AaNoise) -> Estimate {
-        ratio(&self.epoch_medians(&[structure]), |logs| logs[0], noise.weighted(&[1.0]))
+    /// If there is no epoch, or no structure in this role.
+    pub fn seconds(&self, role: &str, noise: &AaNoise) -> Estimate {
+        ratio(&self.epoch_medians(&[role]), |logs| logs[0], noise.weighted(&[1.0]))
     }
 
-    /// ln of the time of `one` over that of `other`, in each epoch.
-    pub fn log_ratios(&self, one: usize, other: usize) -> Vec<f64> {
-        values(&self.epoch_medians(&[one, other]), |logs| logs[0] - logs[1])
-    }
-
-    /// The same as a cell of [`epoch_values`](crate::measure::epoch_values).
-    pub fn cell(&self, one: usize, other: usize) -> Vec<Vec<f64>> {
-        self.log_ratios(one, other).into_iter().map(|log| vec![log]).collect()
+    /// ln of the time of `one` over that of `other` in each epoch, as a cell of
+    /// [`epoch_values`](crate::measure::epoch_values).
+    ///
+    /// # Panics
+    /// As [`seconds`](Self::seconds).
+    pub fn log_ratios(&self, one: &str, other: &str) -> Vec<Vec<f64>> {
+        let logs = values(&self.epoch_medians(&[one, other]), |logs| logs[0] - logs[1]);
+        logs.into_iter().map(|log| vec![log]).collect()
     }
 
     /// The time of `one` over that of `other`, with its interval.
     ///
     /// # Panics
-    /// If there is no epoch.
-    pub fn ratio(&self, one: usize, other: usize, noise: &AaNoise) -> Estimate {
+    /// As [`seconds`](Self::seconds).
+    pub fn ratio(&self, one: &str, other: &str, noise: &AaNoise) -> Estimate {
         ratio(&self.epoch_medians(&[one, other]), |logs| logs[0] - logs[1], noise.of_ratio())
     }
 }

@@ -11,7 +11,6 @@ pub const RIGHT: i32 = 0;
 pub const USAGE: i32 = 1;
 pub const WRONG: i32 = 2;
 pub const REGRESSION: i32 = 3;
-pub const NOISE: i32 = 4;
 
 /// The words of a command line in which nothing is quoted.
 pub fn words(line: &str) -> Vec<&str> {

@@ -1,269 +1,190 @@
-//! `accuracy`: how wrong, how fast. Every structure over every triangle test answers the same rays; the exact oracle
-//! judges, one thread is timed.
+//! `accuracy`: how wrong, how fast. Every structure over every triangle test answers the same rays; the exact oracle judges,
+//! one thread is timed.
 
-mod batch;
 mod figure;
+mod findings;
 mod front;
-mod kind;
-mod record;
-mod section;
-mod slowest;
-mod study;
+mod judged;
 mod table;
 #[cfg(test)]
 mod tests;
 
-use super::bench::built::Built;
-use super::bench::case::Case;
-use super::bench::failed::Failed;
-use super::bench::ray_cost::picoseconds;
-use super::bench::room::fits;
-use super::bench::timing::Timing;
-use super::{PANICKED, Refused, Stage, StudyError, documented_defect, guarded};
-use crate::accel::{BuildError, Query};
-use crate::geometry::Ray;
-use crate::measure::{Clock, Plan, Samples, Threads, median, spread};
-use crate::oracle::Oracle;
-use crate::registry::Choice;
-use crate::scene::{Scene, Workload};
-use crate::validate::{ErrorCounts, Rate};
+use anyhow::Context as _;
+use clap::{ArgMatches, Args as _, Command, FromArgMatches as _};
 
-use batch::Batch;
-use slowest::slowest;
+use super::{Check, Dataset, Plan, PlannedScene, Presets, Settings, Study};
+use crate::registry::Registry;
+use crate::report::number::count;
+use crate::report::words::each_once_by;
+use crate::report::{Block, Failure, Report};
+use crate::request::{
+    BRUTE_FORCE, RayKind, RaySource, Scenes, StructureRequest, WorkloadRequest, each_kind, guide, known_defect,
+    known_tests, recorded, scene_files, seconds, specs, structure,
+};
+use crate::scene::Scene;
+use crate::triangle::{Exact, TriangleTest};
+use judged::{JudgedRays, judged};
 
-pub use figure::figure;
-pub use kind::RayKind;
-pub use record::AccuracyRecord;
-pub use study::AccuracyStudy;
-pub use table::{legend, table};
+pub const STUDY: Study = Study {
+    name: "accuracy",
+    question: "What does being right cost: error rates and speed of every structure over every triangle test",
+    presets: Presets {
+        full: "dragon cornellbox -w uniform -w vertex -w grazing",
+        quick: "cube -w vertex --rays 500 --runs 2 --budget 1",
+    },
+    options,
+    plan,
+    report,
+};
 
-/// What is measured, and for how long.
-pub struct AccuracySettings {
-    /// Structures over triangle tests, in the order of the tables.
-    pub choices: Vec<Choice>,
-    pub kinds: Vec<RayKind>,
-    /// Rays made before, in place of those kinds where there are any.
-    pub replayed: Option<Workload>,
-    /// Rays of each kind.
-    pub rays: usize,
-    /// Samples of every case.
-    pub runs: usize,
-    /// What a scene may take for samples, nanoseconds, and again half as much for the judging of what is slow: slow
-    /// cases run on a part of the rays to keep within it.
-    pub budget_ns: u64,
-    /// Seed of the rays and of the order of samples.
-    pub seed: u64,
+#[derive(Clone, Debug, clap::Args)]
+struct AccuracyArgs {
+    #[command(flatten)]
+    scenes: Scenes,
+    /// A structure, over every triangle test unless it names one; may be repeated [default: all; brute-force only on
+    /// meshes of at most 5,000 triangles]
+    #[arg(long, short, value_name = "NAME[:key=value,..]")]
+    structure: Vec<String>,
+    /// A triangle test; may be repeated [default: all]
+    #[arg(long, short, value_name = "NAME")]
+    test: Vec<String>,
+    /// A kind of rays: uniform, edge, vertex, axis, grazing, scale, offset or surface; may be repeated [default: all]
+    #[arg(long, short, value_name = "KIND")]
+    workload: Vec<RayKind>,
+    /// Rays of each kind: without an error among n, the error is below about 3/n with 95 % confidence; or a file of rays
+    /// to replay, in place of kinds
+    #[arg(long, value_name = "N|F.rays", default_value = "20000")]
+    rays: RaySource,
+    /// Samples of every structure on every kind of rays
+    #[arg(long, value_name = "N", default_value_t = 7, value_parser = clap::value_parser!(u16).range(1..))]
+    runs: u16,
+    /// Seconds that the samples of a scene may take: what is slow is timed on fewer rays to keep within them
+    #[arg(long, value_name = "SECONDS", default_value = "40", value_parser = seconds)]
+    budget: f64,
+    /// Seed of the rays and of the order of samples
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
 }
 
-/// What judging a case may always take.
-const SHORT_JUDGING_NS: u64 = 2_000_000_000;
+/// Brute force takes part in meshes up to this size, unless structures are named.
+const SMALL: usize = 5000;
 
-/// One record for each kind of rays and structure, kind by kind; and the structures that cannot be built, panic or
-/// answer the same rays differently, which have none.
-///
-/// # Errors
-/// If the structures do not fit into memory together, or the thread cannot be pinned.
-pub fn accuracy_scene(
-    scene: &Scene,
-    settings: &AccuracySettings,
-    clock: &dyn Clock,
-    progress: &mut dyn FnMut(Stage),
-) -> Result<(Vec<AccuracyRecord>, Vec<Refused>), StudyError> {
-    fits(&settings.choices, scene)?;
-    let threads = Threads::pinned(1).map_err(StudyError::Threads)?;
-    let refusal =
-        |label: &str, reason: String| Refused { label: label.into(), scene: scene.name.clone(), reason, wrong: false };
-    let (mut built, mut refused) = (vec![], vec![]);
-    for choice in &settings.choices {
-        progress(Stage::Build(&choice.label));
-        match Built::new(choice, scene, &threads, clock) {
-            Ok(structure) => built.push(structure),
-            Err(StudyError::Build { structure, cause, .. }) => refused.push(refusal(&structure, cause.to_string())),
-            Err(other) => return Err(other),
+/// A structure that takes more than so many times as long as the median one is timed on fewer rays.
+const SLOWEST: f64 = 30.0;
+
+fn options() -> Command {
+    AccuracyArgs::augment_args(Command::new(STUDY.name))
+}
+
+fn plan(matches: &ArgMatches, registry: &Registry) -> anyhow::Result<Plan> {
+    let args = AccuracyArgs::from_arg_matches(matches)?;
+    let structures = structures(registry, &args.structure, &args.test)?;
+    let (scenes, workloads) = match (recorded(registry, &args.rays, &args.scenes.scenes)?, args.rays.file()) {
+        (Some((scene, file)), Some(path)) => {
+            anyhow::ensure!(args.workload.is_empty(), "the rays are those of the file: leave --workload out");
+            (vec![scene], WorkloadRequest::File { path: path.into(), hash: file.workload.hash(), rays: None })
         }
+        _ => {
+            let (kinds, count) = (each_kind(&args.workload, &RayKind::ALL), args.rays.number()?);
+            (args.scenes.read(registry, &[])?, WorkloadRequest::Hard { kinds, count })
+        }
+    };
+    let settings = Settings {
+        runs: args.runs.into(),
+        budget_ns: Some((args.budget * 1e9) as u64),
+        slowest: Some(SLOWEST),
+        check: Check::Oracle,
+        build_limit_s: None,
+        whole_counts: vec![],
+        whole: false,
+        guide: guide(registry)?.label,
+        seed: args.seed,
+        threads: 1,
+    };
+
+    let leaves_out = |own: &(String, Scene)| args.structure.is_empty() && own.1.mesh.len() > SMALL;
+    let is_left_out = |structure: &StructureRequest| structure.name() == BRUTE_FORCE;
+    let planned = |own: &(String, Scene)| {
+        let mut structures = structures.clone();
+        structures.retain(|structure| !leaves_out(own) || !is_left_out(structure));
+        PlannedScene::new(own, &structures, &workloads, &settings, 1)
+    };
+    let planned: Vec<PlannedScene> = scenes.iter().map(planned).collect();
+    let mut plan = Plan::by_epoch(STUDY.name, &planned).by_scene().noting(scenes.iter().map(|(_, scene)| scene));
+    if scenes.iter().any(leaves_out) && structures.iter().any(is_left_out) {
+        plan.notes.push(format!(
+            "{BRUTE_FORCE} is left out of meshes with more than {} triangles: --structure {BRUTE_FORCE} runs it, on a part \
+             of the rays.",
+            count(SMALL as u64)
+        ));
     }
+    plan.inputs = scene_files(registry, &args.scenes.scenes);
+    plan.inputs.extend(args.rays.file().map(Into::into));
+    Ok(plan)
+}
 
-    progress(Stage::Rays("the truth about all"));
-    let oracle = Oracle::new(&scene.mesh);
-    let of_kind = |kind: &RayKind| (kind.name().to_owned(), kind.rays(scene, settings.rays, settings.seed));
-    let made: Vec<(String, Vec<Ray>)> = match &settings.replayed {
-        Some(replayed) => vec![(replayed.name.clone(), replayed.rays.clone())],
-        None => settings.kinds.iter().map(of_kind).collect(),
-    };
-    let (names, rays): (Vec<String>, Vec<Vec<Ray>>) = made.into_iter().unzip();
-    let batches: Vec<Batch> = rays.into_iter().map(|rays| Batch::new(rays, &oracle)).collect();
-    let batch = |(name, batch): (&String, &Batch)| Workload {
-        name: name.clone(),
-        query: Query::Closest,
-        rays: batch.rays.clone(),
-    };
-    let workloads: Vec<Workload> = names.iter().zip(&batches).map(batch).collect();
-    built.retain(|built| {
-        let can = built.accel.capabilities();
-        let declined = batches.iter().flat_map(|batch| &batch.rays).find_map(|ray| can.declines(ray));
-        refused.extend(declined.map(|what| refusal(&built.choice.label, BuildError::Declined(what).to_string())));
-        declined.is_none()
-    });
-
-    let cases = Case::all(built.len(), workloads.len());
-    let costs = picoseconds(&cases, &built.iter().map(Some).collect::<Vec<_>>(), &workloads);
-    let budget_ns = (settings.budget_ns / 2 / cases.len().max(1) as u64).max(SHORT_JUDGING_NS);
-    let (mut judged, mut of_structures) = (vec![], vec![]);
-    for (built, costs) in built.into_iter().zip(costs.chunks(workloads.len().max(1))) {
-        progress(Stage::Check(&built.choice.label));
-        let accel = built.accel.as_ref();
-        let judge = |(batch, &ps): (&Batch, &u64)| batch.judge(accel, ps, budget_ns);
-        match guarded(|| batches.iter().zip(costs).map(judge).collect::<Vec<_>>()) {
-            Some(of_structure) => {
-                judged.push(built);
-                of_structures.push(of_structure);
+/// Every structure over every triangle test that it is offered with and that is asked for.
+fn structures(registry: &Registry, named: &[String], tests: &[String]) -> anyhow::Result<Vec<StructureRequest>> {
+    known_tests(registry, tests)?;
+    let mut chosen: Vec<StructureRequest> = vec![];
+    for spec in specs(registry, named) {
+        let choice = structure(registry, &spec)?;
+        let keys = spec.split_once(':').map_or("", |(_, keys)| keys);
+        let names_test = keys.split(',').any(|key| key.starts_with("test="));
+        for entry in registry.entries().iter().filter(|entry| entry.name == choice.entry.name) {
+            let asked = !names_test || entry.triangle_test == choice.triangle_test();
+            if !asked || !tests.is_empty() && !tests.iter().any(|test| test.eq_ignore_ascii_case(entry.triangle_test)) {
+                continue;
             }
-            None => refused.push(refusal(&built.choice.label, PANICKED.into())),
+            let with_test = match (names_test, keys) {
+                (true, _) => spec.clone(),
+                (false, "") => format!("{}:test={}", entry.name, entry.triangle_test),
+                (false, keys) => format!("{}:{keys},test={}", entry.name, entry.triangle_test),
+            };
+            chosen.push((&structure(registry, &with_test)?).into());
         }
     }
-    let built = judged;
-    let verdicts: Vec<&ErrorCounts> =
-        (0..batches.len()).flat_map(|batch| of_structures.iter().map(move |verdicts| &verdicts[batch])).collect();
-    let timed = time(&built, workloads, settings, &threads, clock, progress);
+    let chosen = each_once_by(chosen, |one, other| one.spec == other.spec);
+    chosen.first().context("none of the structures is offered over the triangle tests asked for: see `sahara list`")?;
+    Ok(chosen)
+}
 
-    // What fails on one kind of rays has no time on any.
-    let failure = |place: usize| timed.iter().skip(place).step_by(built.len()).find_map(|times| times.as_ref().err());
-    let failures: Vec<Option<&Failed>> = (0..built.len()).map(failure).collect();
-    for (Built { choice, .. }, cause) in built.iter().zip(&failures) {
-        let Some(cause) = cause else { continue };
-        let wrong = **cause == Failed::Unsteady && documented_defect(&choice.entry.name).is_none();
-        refused.push(Refused { wrong, ..refusal(&choice.label, cause.to_string()) });
+fn report(dataset: &Dataset, _: &ArgMatches) -> Report {
+    let all = judged(dataset);
+    let mut blocks = vec![];
+    if !all.is_empty() {
+        blocks.push(Block::Text(
+            "Exact arithmetic decides for every ray what it truly meets. Kinds of rays are never added up: each fails in its \
+             own way. On the front are those that nothing beats in both speed and error."
+                .into(),
+        ));
     }
+    for (i, of_kind) in all.iter().enumerate() {
+        blocks.extend([Block::figure(figure::figure(i, of_kind)), Block::Table(table::table(of_kind))]);
+    }
+    blocks.extend(table::LEGEND.iter().filter(|_| !all.is_empty()).map(|words| Block::Note((*words).into())));
+    Report {
+        findings: all.iter().filter_map(findings::finding).collect(),
+        blocks,
+        failures: failures(dataset, &all),
+        data: table::data(&all),
+        ..Report::default()
+    }
+}
 
-    let hash = scene.hash();
-    let mut records = vec![];
-    for (case, (judged, times)) in verdicts.iter().zip(&timed).enumerate() {
-        let (batch, place) = (case / built.len(), case % built.len());
-        let (None, Ok(times)) = (failures[place], times) else { continue };
-        let kind = (names[batch].as_str(), batches[batch].rays.len());
-        records.push(record(scene, &hash, &built[place], kind, settings, judged, times));
-    }
-    // What is not proven is not credited: an error that was seen once may be less than one that was not seen in fewer
-    // rays.
-    for of_kind in records.chunk_by_mut(AccuracyRecord::is_beside) {
-        let points: Vec<(f64, f64)> = of_kind.iter().map(|r| (r.ns_per_ray, r.error_bound)).collect();
-        let labels: Vec<String> = of_kind.iter().map(|r| r.label.clone()).collect();
-        for (record, dominator) in of_kind.iter_mut().zip(front::dominators(&points)) {
-            record.dominated_by = dominator.map(|i| labels[i].clone());
+/// Structures without times, and those that owe the truth and err: one test alone promises it, and only in a structure
+/// that loses nothing.
+fn failures(dataset: &Dataset, all: &[JudgedRays]) -> Vec<Failure> {
+    let mut failures = vec![];
+    for judged in all.iter().flat_map(|of_kind| &of_kind.structures) {
+        let own = judged.structure;
+        let owes = own.triangle_test == Exact::NAME && known_defect(&own.name).is_none();
+        if owes && judged.errors.errors() + judged.errors.wrong_primitive > 0 {
+            // The tables say it.
+            failures.push(Failure { structure: own.name.clone(), wrong: true, ..Failure::default() });
         }
     }
-    Ok((records, refused))
-}
-
-/// How long a case takes.
-struct Times {
-    samples: Samples,
-    /// The longest that a single ray takes, nanoseconds.
-    slowest_ns: u64,
-}
-
-/// Those of all structures on all workloads, interleaved; in the order of the workloads, structure by structure.
-fn time(
-    built: &[Built],
-    mut workloads: Vec<Workload>,
-    settings: &AccuracySettings,
-    threads: &Threads,
-    clock: &dyn Clock,
-    progress: &mut dyn FnMut(Stage),
-) -> Vec<Result<Times, Failed>> {
-    // Besides its samples a workload has lead-ins.
-    let of_all = settings.budget_ns / (workloads.len() * (settings.runs + 1)).max(1) as u64;
-    let mut cases = Case::all(built.len(), workloads.len());
-    cases.sort_by_key(|case| case.workload);
-    let choices: Vec<Choice> = built.iter().map(|built| built.choice.clone()).collect();
-    let all: Vec<Option<&Built>> = built.iter().map(Some).collect();
-    let costs = picoseconds(&cases, &all, &workloads);
-    for (workload, costs) in workloads.iter_mut().zip(costs.chunks(built.len().max(1))) {
-        workload.rays = common(&workload.rays, costs, of_all);
-    }
-    let plan = Plan {
-        runs: settings.runs,
-        budget_ns: settings.budget_ns,
-        slowest: f64::INFINITY,
-        most_rays: usize::MAX,
-        seed: settings.seed,
-        epoch: 0,
-    };
-    let timing = Timing { choices: &choices, built: &all, workloads: &workloads, threads, clock };
-    let allotted = timing.allot(&cases, &plan);
-    // After its samples every case is asked single rays.
-    let sampled = cases.len() * allotted.allotment.runs;
-    let total = sampled + cases.len();
-    let taken = timing.take(&allotted, &|_| true, &plan, &mut |taken| progress(Stage::Trace(taken, total)));
-    let _pin = threads.pin();
-    let mut times = vec![];
-    for (case, samples) in cases.iter().zip(taken) {
-        progress(Stage::Trace(sampled + times.len(), total));
-        times.push(samples.map(|samples| {
-            let rays = spread(&workloads[case.workload].rays, samples.rays);
-            Times { slowest_ns: slowest(built[case.structure].accel.as_ref(), &rays, clock), samples }
-        }));
-    }
-    times
-}
-
-/// Rays that are timed at least.
-const FEWEST: usize = 256;
-
-/// Structures that are slower than this times the fastest do not decide how many rays are timed.
-const SLOW: u64 = 30;
-
-/// As many of the rays, evenly spread, as all structures together answer in `budget_ns`, one of which takes them so
-/// many picoseconds: rays differ so much in what they cost that only times on the same ones can be compared.
-fn common(rays: &[Ray], costs: &[u64], budget_ns: u64) -> Vec<Ray> {
-    let fastest = costs.iter().copied().min().unwrap_or(1);
-    let together: u64 = costs.iter().filter(|&&ps| ps <= SLOW * fastest).sum();
-    let count = u128::from(budget_ns) * 1000 / u128::from(together.max(1));
-    let fewest = FEWEST.min(rays.len()) as u128;
-    spread(rays, count.clamp(fewest, rays.len() as u128) as usize)
-}
-
-fn record(
-    scene: &Scene,
-    hash: &str,
-    built: &Built,
-    (kind, rays): (&str, usize),
-    settings: &AccuracySettings,
-    judged: &ErrorCounts,
-    Times { samples, slowest_ns }: &Times,
-) -> AccuracyRecord {
-    let both = |rate: Rate| Some([rate.share()?, rate.bound()?]);
-    let [error, error_bound] = both(judged.error()).expect("some rays are judged");
-    AccuracyRecord {
-        schema: AccuracyRecord::SCHEMA,
-        scene: scene.name.clone(),
-        scene_hash: hash.into(),
-        triangles: scene.mesh.len(),
-        stand_in: !scene.stand_ins.is_empty(),
-        structure: built.choice.entry.name.clone(),
-        label: built.choice.label.clone(),
-        config: built.choice.config.clone(),
-        triangle_test: built.choice.triangle_test().into(),
-        rays: kind.into(),
-        seed: settings.seed,
-        judged: judged.rays,
-        sampled: judged.rays < rays as u64,
-        hits: judged.hits,
-        missed: judged.missed,
-        false_hits: judged.false_hits,
-        wrong_depth: judged.wrong_depth,
-        wrong_primitive: judged.wrong_primitive,
-        error,
-        error_bound,
-        miss_rate: both(judged.miss_rate()),
-        false_hit_rate: both(judged.false_hit_rate()),
-        wrong_depth_rate: both(judged.wrong_depth_rate()),
-        ulps: judged.ulps,
-        ns_per_ray: median(&samples.ns_per_ray()).expect("there is a sample"),
-        slowest_ns: Some(*slowest_ns),
-        timed: samples.rays,
-        runs: samples.ns.len(),
-        dominated_by: None,
-        provenance: None,
-    }
+    failures.dedup();
+    failures.extend(dataset.failures());
+    failures
 }

@@ -1,77 +1,107 @@
-use super::{AccuracyRecord, RayKind};
-use crate::report::number::{count, figures};
-use crate::report::{Cell, Table, Tone};
+//! The study as tables.
+
+use super::judged::{Judged, JudgedRays};
+use crate::report::number::count;
+use crate::report::{Cell, Format, Table, Tone};
 use crate::validate::Ulps;
 
 /// That of one scene and kind of rays.
-pub fn table(records: &[AccuracyRecord]) -> Table {
-    let first = &records[0];
-    let stand_in = if first.stand_in { ", stand-in" } else { "" };
-    let what = first.rays.parse().map_or("rays of a file", RayKind::description);
-    let rays = records.iter().map(|record| record.judged).max().unwrap_or(0);
+pub fn table(of_kind: &JudgedRays) -> Table {
+    let JudgedRays { epoch, kind, structures, .. } = of_kind;
     let title = format!(
-        "{}: {} triangles{stand_in}; {}: {} {what}, {} hit",
-        first.scene,
-        count(first.triangles as u64),
-        first.rays,
-        count(rays),
-        count(records.iter().map(|record| record.hits).max().unwrap_or(0)),
+        "{}: {} triangles{}; {kind}: {} {}, {} hit",
+        epoch.scene,
+        count(epoch.triangles as u64),
+        if epoch.stand_in { ", stand-in" } else { "" },
+        count(of_kind.most(|own| own.errors.rays)),
+        of_kind.description(),
+        count(of_kind.most(|own| own.errors.hits)),
     );
     let mut notes = vec![];
-    for record in records.iter().filter(|record| record.sampled) {
-        notes.push(format!("{}: judged on {} of the rays", record.label, count(record.judged)));
+    for own in structures.iter().filter(|own| own.is_sampled()) {
+        notes.push(format!("{}: judged on {} of the rays", own.structure.label, count(own.errors.rays)));
     }
-    let timed = records.iter().map(|record| record.timed).max().unwrap_or(0);
-    for record in records.iter().filter(|record| record.timed < timed) {
-        let [own, others] = [record.timed, timed].map(|n| count(n as u64));
-        notes.push(format!("{}: timed on {own} of the {others} rays that the others are timed on", record.label));
+    let timed = of_kind.most(|own| own.rays.rays as u64);
+    for own in structures.iter().filter(|own| (own.rays.rays as u64) < timed) {
+        let [few, all] = [own.rays.rays as u64, timed].map(count);
+        notes.push(format!("{}: timed on {few} of the {all} rays that the others are timed on", own.structure.label));
     }
-    Table { notes, ..cells(title, records) }
+    cells(title, structures).noted(notes).of_one_scene()
 }
 
-fn cells(title: String, records: &[AccuracyRecord]) -> Table {
-    let tone = |r: &AccuracyRecord| if r.dominated_by.is_none() { Tone::Best } else { Tone::Plain };
-    let errors = |n: u64| Cell::from(count(n)).with(if n > 0 { Tone::Wrong } else { Tone::Plain });
-    let ulps =
-        |r: &AccuracyRecord, value: fn(&Ulps) -> f64| Cell::from(r.ulps.as_ref().map(|ulps| figures(value(ulps))));
+fn cells(title: String, structures: &[Judged]) -> Table {
+    let tone = |own: &Judged| if own.dominated_by.is_none() { Tone::Best } else { Tone::Plain };
+    let errors = |n: u64| Cell::from(n).with(if n > 0 { Tone::Wrong } else { Tone::Plain });
     Table::of(
         title,
-        records,
+        structures,
         &[
-            ("structure", &|r| r.label.as_str().into()),
-            ("ns/ray", &|r| Cell::from(figures(r.ns_per_ray)).with(tone(r))),
-            ("slowest", &|r| r.slowest_ns.map(|ns| figures(ns as f64)).into()),
-            ("error", &|r| Cell::from(percent(r.error)).with(tone(r))),
-            ("at most", &|r| percent(r.error_bound).into()),
-            ("missed", &|r| errors(r.missed)),
-            ("false", &|r| errors(r.false_hits)),
-            ("depth", &|r| errors(r.wrong_depth)),
-            ("primitive", &|r| count(r.wrong_primitive).into()),
-            ("ulps: median", &|r| ulps(r, |ulps| ulps.median)),
-            ("99 %", &|r| ulps(r, |ulps| ulps.p99)),
-            ("max", &|r| ulps(r, |ulps| ulps.max)),
-            ("dominated by", &|r| r.dominated_by.as_deref().into()),
+            ("structure", &|own| own.structure.label.as_str().into()),
+            ("ns/ray", &|own| Cell::from(own.ns_per_ray).with(tone(own))),
+            ("slowest", &|own| own.rays.slowest_ns.map(|ns| ns as f64).into()),
+            ("error", &|own| Cell::number(own.error, Format::Percent).with(tone(own))),
+            ("at most", &|own| Cell::number(own.error_bound, Format::Percent)),
+            ("missed", &|own| errors(own.errors.missed)),
+            ("false", &|own| errors(own.errors.false_hits)),
+            ("depth", &|own| errors(own.errors.wrong_depth)),
+            ("primitive", &|own| own.errors.wrong_primitive.into()),
+            ("ulps: median", &|own| ulps(own, |ulps| ulps.median)),
+            ("99 %", &|own| ulps(own, |ulps| ulps.p99)),
+            ("max", &|own| ulps(own, |ulps| ulps.max)),
+            ("dominated by", &|own| own.dominated_by.into()),
         ],
     )
 }
 
-/// A share as people read it.
-pub fn percent(share: f64) -> String {
-    if share == 0.0 { "0".into() } else { format!("{} %", figures(share * 100.0)) }
+fn ulps(own: &Judged, value: fn(&Ulps) -> f64) -> Cell {
+    own.errors.ulps.as_ref().map(value).into()
 }
 
 /// What the columns mean.
-pub fn legend() -> Vec<String> {
-    [
-        "slowest: nanoseconds that the slowest of the rays takes when it is asked alone, with what asking takes.",
-        "error: share of rays with a wrong answer by exact arithmetic: missed, false hits, or a depth that is off by more than 4 \
-         units in the last place and more than 1e-6; at most: its upper bound with 95 % confidence by Clopper \
-         and Pearson (no error in n rays: about 3/n).",
-        "primitive: hits at a triangle that is not the nearest, by whatever little; not part of the error. ulps: error of t where \
-         the triangle is right; at most 0.5 is correctly rounded.",
-        "dominated by: at most as slow and at most as wrong, and better in one of the two; blank on the front. Kinds of rays are \
-         never added up.",
-    ]
-    .map(String::from)
-    .into()
+pub const LEGEND: [&str; 4] = [
+    "slowest: nanoseconds that the slowest of the rays takes when it is asked alone, with what asking takes.",
+    "error: share of rays with a wrong answer by exact arithmetic: missed, false hits, or a depth that is off by more \
+     than 4 units in the last place and more than 1e-6; at most: its upper bound with 95 % confidence by Clopper and \
+     Pearson (no error in n rays: about 3/n).",
+    "primitive: hits at a triangle that is not the nearest, by whatever little; not part of the error. ulps: error of t \
+     where the triangle is right; at most 0.5 is correctly rounded.",
+    "dominated by: at most as slow and at most as wrong, and better in one of the two; blank on the front. Kinds of rays \
+     are never added up.",
+];
+
+/// One row for each structure and kind of rays.
+pub fn data(all: &[JudgedRays]) -> Table {
+    let rows = all.iter().flat_map(|of_kind| of_kind.structures.iter().map(move |own| (of_kind, own)));
+    type Row<'a> = (&'a JudgedRays<'a>, &'a Judged<'a>);
+    Table::of(
+        "",
+        rows,
+        &[
+            ("scene", &|(of_kind, _): &Row| of_kind.epoch.title().into()),
+            ("scene_hash", &|(of_kind, _)| of_kind.epoch.scene_hash.as_str().into()),
+            ("triangles", &|(of_kind, _)| of_kind.epoch.triangles.into()),
+            ("structure", &|(_, own)| own.structure.name.as_str().into()),
+            ("label", &|(_, own)| own.structure.label.as_str().into()),
+            ("triangle_test", &|(_, own)| own.structure.triangle_test.as_str().into()),
+            ("rays", &|(of_kind, _)| of_kind.kind.into()),
+            ("seed", &|(of_kind, _)| of_kind.case.settings.seed.into()),
+            ("judged", &|(_, own)| own.errors.rays.into()),
+            ("sampled", &|(_, own)| own.is_sampled().into()),
+            ("hits", &|(_, own)| own.errors.hits.into()),
+            ("missed", &|(_, own)| own.errors.missed.into()),
+            ("false_hits", &|(_, own)| own.errors.false_hits.into()),
+            ("wrong_depth", &|(_, own)| own.errors.wrong_depth.into()),
+            ("wrong_primitive", &|(_, own)| own.errors.wrong_primitive.into()),
+            ("error", &|(_, own)| own.error.into()),
+            ("error_bound", &|(_, own)| own.error_bound.into()),
+            ("ulps_median", &|(_, own)| ulps(own, |ulps| ulps.median)),
+            ("ulps_p99", &|(_, own)| ulps(own, |ulps| ulps.p99)),
+            ("ulps_max", &|(_, own)| ulps(own, |ulps| ulps.max)),
+            ("ns_per_ray", &|(_, own)| own.ns_per_ray.into()),
+            ("slowest_ns", &|(_, own)| own.rays.slowest_ns.into()),
+            ("timed", &|(_, own)| own.rays.rays.into()),
+            ("runs", &|(_, own)| own.rays.ns.len().into()),
+            ("dominated_by", &|(_, own)| own.dominated_by.into()),
+        ],
+    )
 }

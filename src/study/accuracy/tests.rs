@@ -1,96 +1,135 @@
+use super::judged::Judged;
 use super::*;
-use crate::measure::SystemClock;
-use crate::registry::Registry;
-use crate::scene::Builtin;
-use crate::study::Study;
-use crate::study::compare::tests::registry;
-use crate::triangle::{Exact, MollerTrumbore, TriangleTest};
+use crate::measure::{Provenance, SystemClock};
+use crate::report::Art;
+use crate::report::plot::Chart;
+use crate::study::Measured;
+use crate::study::measure::{BuildWatch, Prepared, measure};
+use crate::triangle::MollerTrumbore;
 
-fn records(specs: &[&str], kinds: &[RayKind], rays: usize) -> Vec<AccuracyRecord> {
-    judged(&Registry::builtin(), specs, kinds, rays).0
+fn planned(words: &str) -> anyhow::Result<Plan> {
+    let words: Vec<String> = words.split_whitespace().map(String::from).collect();
+    plan(&STUDY.matches(&words).unwrap(), &Registry::builtin())
 }
 
-/// The records of the torus, and what is refused.
-fn judged(registry: &Registry, specs: &[&str], kinds: &[RayKind], rays: usize) -> (Vec<AccuracyRecord>, Vec<Refused>) {
-    let settings = AccuracySettings {
-        choices: specs.iter().map(|spec| registry.choose(spec).unwrap()).collect(),
-        kinds: kinds.into(),
-        replayed: None,
-        rays,
-        runs: 2,
-        budget_ns: 2_000_000_000,
-        seed: 1,
-    };
-    let scene = Builtin::find("torus").unwrap().scene(None).unwrap();
-    accuracy_scene(&scene, &settings, &SystemClock::start(), &mut |_| ()).unwrap()
+/// What a run with these options measures.
+fn measured(words: &str) -> Dataset {
+    let measured = planned(words).unwrap().cases.into_iter().map(|case| {
+        let prepared = Prepared::new(&case, &Registry::builtin(), None).unwrap();
+        let epoch = measure(&case, &prepared, &SystemClock::start(), &BuildWatch::default(), &mut |_| ()).unwrap();
+        Measured { case, epoch }
+    });
+    Dataset::new(Provenance::capture(1), measured.collect())
 }
+
+/// Rays, hits, missed, false hits, wrong depths and wrong primitives over the exact test and over one that rounds.
+const KNOWN: [(&str, [[u64; 6]; 2]); 2] = [
+    ("edge", [[400, 396, 0, 0, 0, 0], [400, 396, 1, 3, 18, 57]]),
+    ("grazing", [[400, 351, 0, 0, 0, 0], [400, 351, 7, 4, 129, 8]]),
+];
 
 #[test]
 fn exact_is_right_and_single_precision_is_not() {
-    let records =
-        records(&["sah-kd:test=exact", "sah-kd:test=moller-trumbore"], &[RayKind::Edge, RayKind::Grazing], 400);
-    assert_eq!(records.len(), 4);
-    for record in &records {
-        assert!(record.hits > 50 && record.ns_per_ray > 0.0, "{record:?}");
-        assert_eq!((record.judged, record.sampled), (400, false));
-        match record.triangle_test.as_str() {
-            Exact::NAME => {
-                assert_eq!((record.errors(), record.wrong_primitive), (0, 0), "{record:?}");
-                assert!(record.ulps.unwrap().max <= 0.5);
-                assert_eq!(record.error, 0.0);
-                // 400 rays without an error: 1 - 0.05^(1 / 400).
-                assert!((record.error_bound - 0.007461).abs() < 1e-6, "{}", record.error_bound);
-            }
-            MollerTrumbore::NAME => {
-                assert!(record.errors() > 0, "{record:?}");
-                assert!(record.error < record.error_bound, "{record:?}");
-            }
-            other => panic!("{other}"),
+    let dataset =
+        measured("torus -w edge -w grazing -s sah-kd -t exact -t moller-trumbore --rays 400 --runs 2 --budget 2");
+    let all = judged(&dataset);
+    let counted = |own: &Judged| {
+        let errors = own.errors;
+        [errors.rays, errors.hits, errors.missed, errors.false_hits, errors.wrong_depth, errors.wrong_primitive]
+    };
+    // The same rays are judged for the same options, whatever the machine.
+    for (of_kind, (kind, expected)) in all.iter().zip(KNOWN) {
+        assert_eq!(of_kind.kind, kind);
+        for (own, expected) in of_kind.structures.iter().zip(expected) {
+            assert_eq!(counted(own), expected, "{kind} {}", own.structure.label);
+            assert!(own.ns_per_ray > 0.0 && own.rays.slowest_ns > Some(0) && !own.is_sampled());
         }
+        let [exact, rounds] = &of_kind.structures[..] else { panic!("two structures") };
+        assert_eq!(
+            [&exact.structure.triangle_test, &rounds.structure.triangle_test],
+            [Exact::NAME, MollerTrumbore::NAME]
+        );
+        assert!(exact.errors.ulps.unwrap().max <= 0.5 && rounds.error < rounds.error_bound);
+        // 400 rays without an error: 1 - 0.05^(1 / 400).
+        assert!((exact.error_bound - 0.007461).abs() < 1e-6, "{}", exact.error_bound);
+        // Whatever the times are: nothing else is as right.
+        assert!(exact.dominated_by.is_none());
     }
-    // Whatever the times are: the exact one cannot be dominated, since nothing else is as right.
-    assert!(records.iter().step_by(2).all(|record| record.dominated_by.is_none()));
+    assert_eq!(all.len(), KNOWN.len());
+
+    let report = report(&dataset, &STUDY.defaults());
+    assert!(report.failures.is_empty());
+    let keys: Vec<&str> = report.findings.iter().map(|finding| finding.key.as_str()).collect();
+    assert_eq!(keys, ["torus-edge", "torus-grazing"]);
+    let told = "Torus, edge rays: our structures are right in all of 400 rays over exact; wrong over moller-trumbore";
+    assert!(report.findings[0].sentence.starts_with(told), "{}", report.findings[0].sentence);
+    assert!(report.tables().all(|table| table.of_scene && table.rows.len() == 2 && table.notes.is_empty()));
+    assert_eq!((report.tables().count(), report.data.rows.len()), (2, 4));
+    assert!(report.tables().chain([&report.data]).all(|t| t.rows.iter().all(|row| row.len() == t.columns.len())));
 }
 
 #[test]
-fn costs_and_no_clock_decide_how_many_rays_are_judged() {
-    let scene = Builtin::find("torus").unwrap().scene(None).unwrap();
-    let accel = Registry::builtin().choose("sah-kd").unwrap().build(&scene.mesh).unwrap();
-    let batch = Batch::new(RayKind::Uniform.rays(&scene, 400, 1), &Oracle::new(&scene.mesh));
-    // A millisecond, of rays that take nothing to speak of, five microseconds each, or for ever.
-    let judged = |ps| batch.judge(accel.as_ref(), ps, 1_000_000).rays;
-    assert_eq!([1, 5_000_000, u64::MAX].map(judged), [400, 200, 64]);
+fn what_is_refused_or_owes_the_truth_and_errs_fails() {
+    let dataset =
+        measured("cube -w vertex -s sah-kd:mailbox=true -s brute-force -t exact --rays 100 --runs 2 --budget 1");
+    let changes: [(fn(&mut Measured), &[(&str, bool)]); 4] = [
+        (|_| (), &[]),
+        (|own| own.epoch.structures[0].rays[0].errors.as_mut().unwrap().missed = 1, &[("", true)]),
+        // A defect that is known, and a test that promises nothing.
+        (
+            |own| {
+                own.epoch.structures[0].name = "bvh".into();
+                own.epoch.structures[1].triangle_test = MollerTrumbore::NAME.into();
+                let rays = own.epoch.structures.iter_mut().map(|own| &mut own.rays[0]);
+                rays.for_each(|rays| rays.errors.as_mut().unwrap().missed = 1);
+            },
+            &[],
+        ),
+        (
+            |own| {
+                own.epoch.structures[1].refused = Some("it panicked".into());
+                own.epoch.structures[1].rays.clear();
+            },
+            &[("brute-force on Cube is refused: it panicked.", false)],
+        ),
+    ];
+    for (change, expected) in changes {
+        let mut changed = dataset.clone();
+        change(&mut changed.measured[0]);
+        let report = report(&changed, &STUDY.defaults());
+        let failures: Vec<(&str, bool)> =
+            report.failures.iter().map(|own| (own.sentence.as_str(), own.wrong)).collect();
+        assert_eq!(failures, expected);
+    }
+    let figures = report(&dataset, &STUDY.defaults()).blocks.into_iter().filter_map(|block| match block {
+        Block::Figure(figure) => Some(figure),
+        _ => None,
+    });
+    let figure = figures.last().unwrap();
+    let Art::Chart(Chart::Scatter(scatter)) = &figure.art else { panic!("{:?}", figure.art) };
+    assert_eq!(figure.id, "accuracy-cube-vertex-0");
+    assert_eq!(scatter.groups(), ["sah-kd:mailbox=true", "brute-force"]);
+    assert!(scatter.points.iter().all(|point| point.is_bound));
 }
 
 #[test]
-fn a_structure_that_changes_its_mind_is_refused_and_the_others_have_their_records() {
-    let specs = ["sah-kd", "flawed:flaw=fickle"];
-    let (records, refused) = judged(&registry(), &specs, &[RayKind::Uniform, RayKind::Vertex], 400);
-    let named: Vec<(&str, &str)> = records.iter().map(|r| (&r.structure[..], &r.rays[..])).collect();
-    assert_eq!(named, [("sah-kd", "uniform"), ("sah-kd", "vertex")]);
-    let [fickle] = &refused[..] else { panic!("{refused:?}") };
-    assert!(fickle.label == specs[1] && fickle.wrong && fickle.reason == Failed::Unsteady.to_string(), "{fickle:?}");
-}
-
-#[test]
-fn tables_and_pictures_name_every_case() {
-    let specs = ["sah-kd:test=exact", "brute-force", "sah-kd:mailbox=true,test=exact"];
-    let records = records(&specs, &[RayKind::Uniform], 100);
-    let tables = AccuracyStudy::tables(&records);
-    assert_eq!((tables.len(), tables[0].rows.len(), tables[0].notes.len()), (1, 3, 0));
-    assert!(tables[0].rows.iter().all(|row| row.len() == tables[0].columns.len()));
-    let figure = figure(&records);
-    assert_eq!(figure.groups(), ["sah-kd", "brute-force", "sah-kd:mailbox=true"]);
-    assert_eq!(figure.points.len(), 3);
-    assert!(figure.points[0].is_bound);
-}
-
-#[test]
-fn kinds_of_rays_are_the_same_again() {
-    let scene = Builtin::find("cube").unwrap().scene(None).unwrap();
-    for kind in RayKind::ALL {
-        let rays = kind.rays(&scene, 31, 5);
-        assert_eq!(rays.len(), 31);
-        assert_eq!(rays, kind.rays(&scene, 31, 5));
+fn brute_force_is_left_out_of_large_meshes_unless_it_is_named() {
+    for (words, takes_part, notes) in [
+        ("cube", [true].as_slice(), 0),
+        ("cube cornellbox -t exact", &[true, false], 1),
+        ("cornellbox -s brute-force", &[true], 0),
+        ("cornellbox -s sah-kd:mailbox=true", &[false], 0),
+    ] {
+        let plan = planned(words).unwrap();
+        let has_brute = |case: &crate::study::Case| case.structures.iter().any(|own| own.name() == BRUTE_FORCE);
+        assert_eq!(plan.cases.iter().map(has_brute).collect::<Vec<_>>(), takes_part, "{words}");
+        assert_eq!(plan.notes.len(), notes, "{words}");
+        // Each structure over each test, once.
+        let labels = plan.cases[0].structures.iter().map(|own| own.spec.clone());
+        let labels: std::collections::BTreeSet<String> = labels.collect();
+        assert_eq!(labels.len(), plan.cases[0].structures.len(), "{words}");
+    }
+    for words in ["cube -t woop", "cube -s sah-kd -t native", "cube --rays all"] {
+        assert!(planned(words).is_err(), "{words}");
     }
 }

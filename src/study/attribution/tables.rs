@@ -5,7 +5,7 @@ use super::effects;
 use super::findings::{HARD, PARTS, range};
 use super::result::{Attribution, Split};
 use crate::report::number::{count, figures};
-use crate::report::plot::{Chart, Stack, StackRow};
+use crate::report::plot::{Bar, Bars, Chart};
 use crate::report::words::explained;
 use crate::report::{Art, Block, Cell, Figure, Table};
 use crate::study::epoch::RayCounts;
@@ -35,29 +35,25 @@ pub fn blocks(results: &[Attribution]) -> Vec<Block> {
 
 /// The speedup of each scene as a product.
 fn figure(results: &[&Attribution]) -> Figure {
-    let row = |r: &&Attribution| {
-        let time = r.time();
-        let factors = PARTS.map(|factor| time.part(factor).times.estimate).into();
-        StackRow { label: r.first().title(), factors, total: time.whole }
+    let parts = |r: &Attribution| PARTS.map(|factor| r.time().part(factor).times.estimate);
+    let bar = |r: &&Attribution| (r.first().title(), Bar::Product(parts(r).into(), r.time().whole));
+    let told = |r: &&Attribution| {
+        let own = PARTS.iter().zip(parts(r)).map(|(part, x)| format!("{} {}", part.name(), figures(x)));
+        let own: Vec<String> = own.collect();
+        format!("{}: {} times faster, {}", r.first().title(), figures(r.time().whole.estimate), own.join(", "))
     };
-    let told = |StackRow { label, factors, total }: &StackRow| {
-        let parts: Vec<String> =
-            PARTS.iter().zip(factors).map(|(part, x)| format!("{} {}", part.name(), figures(*x))).collect();
-        format!("{label}: {} times faster, {}", figures(total.estimate), parts.join(", "))
-    };
-    let rows: Vec<StackRow> = results.iter().map(row).collect();
     Figure {
         id: "attribution".into(),
         caption: "How many times faster the SAH tree is than the report's, and the factors whose product that is. The \
                   axis is logarithmic: lengths add up to the whole. Factors below 1 stand to the left. The line below a \
                   bar is the 95 % interval of the whole."
             .into(),
-        alt: format!("Stacked bar chart. {}.", rows.iter().map(told).collect::<Vec<_>>().join("; ")),
-        art: Art::Chart(Chart::Stack(Stack {
-            x_title: "times as fast as the report's tree".into(),
-            parts: PARTS.map(|factor| factor.name().to_owned()).into(),
-            rows,
-        })),
+        alt: format!("Stacked bar chart. {}.", results.iter().map(told).collect::<Vec<_>>().join("; ")),
+        art: Art::Chart(Chart::Bars(Bars::of_products(
+            "times as fast as the report's tree",
+            PARTS.map(|factor| factor.name().to_owned()).into(),
+            results.iter().map(bar),
+        ))),
         data: headlines(results),
     }
 }

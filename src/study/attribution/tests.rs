@@ -80,7 +80,7 @@ fn of_one<T>(measured: Vec<Measured>, of: impl Fn(&Attribution) -> T) -> T {
 #[test]
 fn the_split_is_the_one_put_in_and_multiplies_to_the_whole() {
     for epochs in [2, 5] {
-        let time = of_one(measured("Dragon", epochs, 0.02), Attribution::time);
+        let time = of_one(measured("Dragon", epochs, 0.02), |result| result.time());
         assert!(time.whole.holds(STOP * PLANE * TRAVERSAL * TOGETHER), "{:?}", time.whole);
         let half = libm::sqrt(TOGETHER);
         let mut product = 1.0;
@@ -117,7 +117,7 @@ fn without_noise_every_figure_is_exact() {
 #[test]
 fn intervals_are_as_wide_as_the_noise() {
     let width = |noise: f64| {
-        let whole = of_one(measured("Dragon", 5, noise), Attribution::time).whole;
+        let whole = of_one(measured("Dragon", 5, noise), |result| result.time()).whole;
         whole.high().unwrap() / whole.low().unwrap()
     };
     assert!(width(0.1) > width(0.01) && width(0.01) > 1.0 && width(0.1) < 1.4, "{} {}", width(0.1), width(0.01));

@@ -44,3 +44,24 @@ impl<'a> Judge<'a> {
         count_errors(&truths, &answers, DepthRule::STRICT)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::registry::Registry;
+    use crate::request::RayKind;
+    use crate::scene::Builtin;
+
+    #[test]
+    fn costs_and_no_clock_decide_how_many_rays_are_judged() {
+        let scene = Builtin::find("torus").unwrap().scene(None).unwrap();
+        let accel = Registry::builtin().choose("sah-kd").unwrap().build(&scene.mesh).unwrap();
+        let rays = RayKind::Uniform.rays(&scene, 400, 1);
+        assert_eq!(rays, RayKind::Uniform.rays(&scene, 400, 1));
+        let judge = Judge::new(&rays, &Oracle::new(&scene.mesh));
+        let judged = |ps, budget_ns, pairs| judge.errors(accel.as_ref(), ps, budget_ns, pairs).rays;
+        // Two seconds, of rays that take nothing to speak of, ten milliseconds each, or for ever; then a share of more.
+        assert_eq!([1, 10_000_000_000, u64::MAX].map(|ps| judged(ps, 0, 1)), [400, 200, 64]);
+        assert_eq!([1, 2, 9].map(|pairs| judged(10_000_000_000, 6_000_000_000, pairs)), [300, 200, 200]);
+    }
+}

@@ -3,93 +3,108 @@
 //! The report times all rays of a picture, construction left out, on a machine of its own: seconds can be compared with its
 //! seconds only in their ratios. `t'` is seconds / (rays x triangles).
 
-pub(in crate::study) mod original;
+mod findings;
+mod original;
 mod replication;
-mod statements;
 mod tables;
 #[cfg(test)]
 mod tests;
 
-use super::args::Measuring;
-use super::epoch::{self, Asked, Epoch, Settings};
-use super::{BRUTE_FORCE, Context, Data, Plan, REPORT_TREE, SAH_TREE, SceneId, Study, parameters, sources};
-use crate::registry::Registry;
-use crate::report::document::Block;
-use crate::report::{Statement, Table};
-use crate::scene::Scene;
-use original::{HARD, main_scenes};
-pub use replication::{Conclusion, Hard, Main, Rays, Replication, Seconds, Setting};
-use statements::statements;
-pub use tables::tables;
+use clap::{ArgMatches, Args as _, Command, FromArgMatches as _};
 
-pub struct ReplicateStudy;
+use super::{Check, Dataset, Plan, PlannedScene, Presets, Settings, Study, claims};
+use crate::registry::Registry;
+use crate::report::{Block, Report};
+use crate::request::{BRUTE_FORCE, Measuring, REPORT_TREE, SAH_TREE, Scenes, StructureRequest, TWIN, WorkloadRequest};
+use crate::scene::Scene;
+use findings::findings;
+use original::{CROWDED, DEFAULT, HARD, MAIN, Row, SWEEP};
+use replication::replicated;
+
+pub const STUDY: Study = Study {
+    name: "replicate",
+    question: "Reproduce the source report's tables and test its conclusion",
+    presets: Presets { full: "", quick: "--epochs 2 --runs 2 --budget 1" },
+    options,
+    plan,
+    report,
+};
 
 #[derive(Clone, Debug, clap::Args)]
-pub struct ReplicateArgs {
+struct ReplicateArgs {
     // Claims are judged by these numbers, all of them together: few epochs leave what is sure to luck.
     #[command(flatten)]
     measuring: Measuring<8, 3, 5>,
 }
 
-impl Study for ReplicateStudy {
-    const NAME: &'static str = "replicate";
-    const QUESTION: &'static str = "Are the source report's tables found again, and is its conclusion true?";
-    const WHOLE: bool = true;
-    const QUICK: &'static str = "--epochs 2 --runs 2 --budget 1";
+/// Roles of structures. The settings of the sweep have [roles](original::SweepRow::role) of their own.
+const BRUTE: &str = "brute force";
+const SAH: &str = "sah";
+/// The report's tree on a hard scene.
+const TREE: &str = "tree";
 
-    type Args = ReplicateArgs;
-    type Case = Epoch;
-    type Answer = Replication;
+/// Tells where secondary rays start: over a triangle test in single precision, as the report's program has one. The exact
+/// test decides edges otherwise, and with them a few rays.
+const GUIDE: &str = "sah-kd:test=moller-trumbore";
 
-    fn command() -> String {
-        "sahara replicate".into()
-    }
+fn options() -> Command {
+    ReplicateArgs::augment_args(Command::new(STUDY.name))
+}
 
-    fn plan(args: &ReplicateArgs, registry: &Registry) -> anyhow::Result<Plan<Epoch>> {
-        let choose = |specs: &[&str]| specs.iter().map(|spec| registry.choose(spec)).collect::<Result<Vec<_>, _>>();
-        let mut sweep = choose(&[BRUTE_FORCE, SAH_TREE])?;
-        sweep.extend(parameters::structures(registry)?);
-        let hard = choose(&[REPORT_TREE, SAH_TREE, REPORT_TREE])?;
-        let settings = [(sweep, Asked::Picture), (hard, Asked::PrimaryPicture)]
-            .map(|(structures, asked)| args.measuring.settings(registry, structures, asked))
-            .into_iter()
-            .collect::<anyhow::Result<Vec<Settings>>>()?;
-        let names: Vec<&str> = main_scenes().into_iter().chain(HARD.iter().map(|row| row.scene)).collect();
-        let scenes =
-            sources::wanted(&names).map(|name| sources::scene(name)).collect::<anyhow::Result<Vec<Scene>>>()?;
-        let is_hard = |scene: &Scene| usize::from(HARD.iter().any(|row| row.scene == scene.name));
-        Ok(epoch::plan(settings, is_hard, scenes, args.measuring.epochs, |_, _, epoch| Ok(epoch)))
-    }
+fn plan(matches: &ArgMatches, registry: &Registry) -> anyhow::Result<Plan> {
+    let ReplicateArgs { measuring } = ReplicateArgs::from_arg_matches(matches)?;
+    let settings = Settings {
+        runs: measuring.runs.into(),
+        budget_ns: measuring.budget.ns(),
+        slowest: None,
+        check: Check::default(),
+        build_limit_s: None,
+        whole_counts: vec![],
+        whole: true,
+        guide: registry.choose(GUIDE)?.label,
+        seed: measuring.seed,
+        threads: measuring.threads.into(),
+    };
+    let rows: Vec<&Row> = MAIN.iter().chain(&HARD).collect();
+    let scenes = Scenes::default().read(registry, &rows.iter().map(|row| row.scene).collect::<Vec<_>>())?;
+    let planned = |(own, row): (&(String, Scene), &&Row)| {
+        let (workloads, table) =
+            if row.is_hard() { (WorkloadRequest::PrimaryPicture, "hard") } else { (WorkloadRequest::Picture, "main") };
+        let settings = Settings { whole_counts: whole_counts(row), ..settings.clone() };
+        let structures = structures(registry, row)?;
+        let planned = PlannedScene::new(own, &structures, &workloads, &settings, measuring.epochs.into());
+        anyhow::Ok(planned.labelled("table", table))
+    };
+    let planned = scenes.iter().zip(&rows).map(planned).collect::<anyhow::Result<Vec<_>>>()?;
+    Ok(Plan::by_epoch(STUDY.name, &planned).noting(scenes.iter().map(|(_, scene)| scene)))
+}
 
-    fn answer(cases: &[Epoch], _: &Context<Self>) -> Replication {
-        Replication::of(cases)
-    }
+/// The structures of a scene, in their roles.
+fn structures(registry: &Registry, row: &Row) -> anyhow::Result<Vec<StructureRequest>> {
+    let first = if row.is_hard() { (REPORT_TREE, TREE) } else { (BRUTE_FORCE, BRUTE) };
+    let mut roles = [first, (SAH_TREE, SAH)].map(|(spec, role)| (spec.to_owned(), role.to_owned())).to_vec();
+    roles.extend(SWEEP.iter().filter(|_| !row.is_hard()).map(|setting| (setting.spec(), setting.role())));
+    roles.push((DEFAULT.spec(), TWIN.into()));
+    roles.into_iter().map(|(spec, role)| Ok(StructureRequest::new(registry.choose(&spec)?.label, role))).collect()
+}
 
-    fn tables(answer: &Replication) -> Vec<Table> {
-        tables(answer)
-    }
+/// What is counted over all rays of a scene.
+fn whole_counts(row: &Row) -> Vec<String> {
+    if row.scene == CROWDED.0 { [DEFAULT, CROWDED.1].map(|setting| setting.spec()).into() } else { vec![] }
+}
 
-    fn data(answer: &Replication) -> Vec<Data> {
-        vec![
-            Data::new("main", &answer.main),
-            Data::new("rays", &answer.rays),
-            Data::new("settings", &answer.parameters),
-            Data::new("hard", &answer.hard),
-        ]
-    }
-
-    fn statements(answer: &Replication) -> Vec<Statement> {
-        statements(answer)
-    }
-
-    fn section(answer: &Replication, command: &str) -> Vec<Block> {
-        let text = "Rays, seconds and parameters as in the source report, ours beside its own. Seconds are of different machines \
-                    and code: compare their ratios.";
-        let tables = tables(answer).into_iter().map(|table| Block::table(table, command));
-        std::iter::once(Block::Text(text.into())).chain(tables).collect()
-    }
-
-    fn scenes(answer: &Replication) -> Vec<SceneId> {
-        answer.rays.iter().map(|rays| SceneId { name: rays.scene.clone(), hash: None }).collect()
+fn report(dataset: &Dataset, _: &ArgMatches) -> Report {
+    let [main, hard] = [&MAIN[..], &HARD].map(|rows| replicated(dataset, rows));
+    let text = "Rays, seconds and settings as in the source report, ours beside its own. Seconds are of different machines \
+                and code: compare their ratios.";
+    let tables = tables::tables(&main, &hard).into_iter().map(Block::Table);
+    let findings = findings(&main, &hard);
+    Report {
+        blocks: std::iter::once(Block::Text(text.into())).chain(tables).collect(),
+        verdicts: claims::judge(STUDY.name, &findings),
+        failures: dataset.failures(),
+        data: tables::data(main.iter().chain(&hard)),
+        findings,
+        ..Report::default()
     }
 }

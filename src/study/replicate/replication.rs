@@ -1,245 +1,133 @@
 //! The report's tables with our figures in them.
 
-use serde::Serialize;
-
-use super::original::{HARD, HardRow, MAIN, SWEEP, t_prime};
+use super::original::{DEFAULT, Row, t_prime};
+use super::{BRUTE, SAH, TREE};
 use crate::accel::Query;
 use crate::measure::{AaNoise, Estimate, Rerun, cut_to_shared_epochs, epoch_values, median};
-use crate::study::epoch::{self, Epoch, PICTURE, Structure, WholeTimes};
-use crate::study::parameters;
+use crate::request::TWIN;
+use crate::study::epoch::Structure;
+use crate::study::whole_times::WholeTimes;
+use crate::study::{Dataset, Epoch};
 
-/// The report's three tables, ours beside its own, and its conclusion.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub struct Replication {
-    /// Scenes in which a mesh of our own stands in for a real one.
-    pub stand_ins: Vec<String>,
-    pub rays: Vec<Rays>,
-    pub main: Vec<Main>,
-    pub parameters: Vec<Setting>,
-    pub hard: Vec<Hard>,
-    pub conclusion: Conclusion,
-}
-
-/// Rays of a 512 x 512 picture.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Rays {
-    pub scene: String,
+/// A scene of the report, ours beside its own.
+#[derive(Debug)]
+pub struct Replicated {
+    pub report: &'static Row,
+    /// As tables name it.
+    pub title: String,
+    pub triangles: usize,
+    /// Rays of a 512 x 512 picture.
     pub primary: u64,
     pub mirror: u64,
     pub shadow: u64,
-    /// Of these three; on the hard scenes the report counts primary rays alone, and so does this.
-    pub total: u64,
-    /// The report's total.
-    pub report: u64,
+    /// The role of the report's tree.
+    tree: String,
+    /// Of each role but the twin's.
+    times: Vec<(String, Times)>,
+    /// Seconds with every ray against every triangle / seconds with the report's tree; nothing on hard scenes.
+    pub improvement: Option<Estimate>,
+    /// Seconds with the report's tree / seconds with the SAH tree: how many times faster SAH is.
+    pub faster: Estimate,
+    /// Its logarithm in each epoch, and that of the time of the report's tree over that of its twin.
+    log_ratios: Vec<Vec<f64>>,
+    log_aa_ratios: Vec<Vec<f64>>,
 }
 
-/// Seconds of a picture.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Seconds {
+/// How long a structure takes for a picture.
+#[derive(Clone, Copy, Debug)]
+pub struct Times {
     /// Geometric mean over the epochs.
     pub seconds: f64,
     /// `t'`: seconds / (rays x triangles).
     pub t_prime: Estimate,
     /// Whether a part of the rays was timed and stands for all.
-    pub extrapolated: bool,
+    pub sampled: bool,
+    /// Seconds of the build, median over the epochs.
+    pub build_s: f64,
+    /// Triangle tests for each ray and triangle; nothing where they are not counted.
+    pub tests: Option<f64>,
 }
 
-/// An easy or normal scene.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Main {
-    pub scene: String,
-    pub triangles: usize,
-    pub rays: u64,
-    /// With the report's tree.
-    pub tree: Seconds,
-    /// Every ray against every triangle: "unoptimised".
-    pub brute_force: Seconds,
-    /// Seconds without the tree / seconds with it.
-    pub improvement: Estimate,
-    /// With the SAH tree.
-    pub sah: Seconds,
-    pub report_tree_s: f64,
-    pub report_brute_force_s: f64,
-    pub report_tree_t_prime: f64,
-    pub report_brute_force_t_prime: f64,
-    /// As printed.
-    pub report_improvement: f64,
+/// The measured scenes of the report, in the order of `rows`.
+pub fn replicated(dataset: &Dataset, rows: &'static [Row]) -> Vec<Replicated> {
+    let scenes = dataset.scenes();
+    let of =
+        |row: &'static Row| scenes.iter().filter(|own| own.epochs[0].scene == row.scene).map(move |own| (own, row));
+    rows.iter().flat_map(of).map(|(own, row)| Replicated::of(&own.epochs, row)).collect()
 }
 
-/// The report's tree with one pair of parameters on one scene.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Setting {
-    pub scene: String,
-    /// L.
-    pub leaf: u32,
-    /// T.
-    pub threshold: f32,
-    pub seconds: f64,
-    pub extrapolated: bool,
-    pub report_s: f64,
+/// How many times faster the SAH tree is: the geometric mean over the hard scenes, so far as they are measured.
+pub fn mean(hard: &[Replicated]) -> Option<Estimate> {
+    let cells = |of: fn(&Replicated) -> &Vec<Vec<f64>>| hard.iter().map(|own| of(own).clone()).collect::<Vec<_>>();
+    let noise = AaNoise::new(&cells(|own| &own.log_aa_ratios)).of_mean(hard.len());
+    let mut ratios = cells(|own| &own.log_ratios);
+    // What is not measured to its end has scenes that lack an epoch.
+    cut_to_shared_epochs(&mut ratios);
+    Some(Rerun::of(&epoch_values(&ratios)?, noise)?.ratio())
 }
 
-/// A hard scene, primary rays.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Hard {
-    pub scene: String,
-    pub triangles: usize,
-    pub rays: u64,
-    pub stand_in: bool,
-    /// With the report's tree.
-    pub tree: Seconds,
-    /// Construction of the report's tree, seconds.
-    pub tree_build_s: f64,
-    pub sah: Seconds,
-    pub sah_build_s: f64,
-    /// Seconds with the report's tree / seconds with the SAH tree: how much faster SAH is.
-    pub sah_over_median: Estimate,
-    /// Its logarithm in each epoch.
-    pub log_ratios: Vec<f64>,
-    /// The logarithm of the time of the report's tree over that of its twin in each epoch.
-    pub log_aa_ratios: Vec<f64>,
-    pub report_tree_s: f64,
-    pub report_tree_build_s: f64,
-    pub report_tree_t_prime: f64,
-}
+/// Pixels of the report's pictures, each with one primary ray.
+const PIXELS: u64 = 512 * 512;
 
-/// The claim that the report ends with: for the hard scenes a SAH tree would have been much faster.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub struct Conclusion {
-    /// The scenes of the mean.
-    pub scenes: Vec<String>,
-    /// Geometric mean over the scenes of how much faster SAH is, with the interval that holds that of another run, as little disturbed, in 95 % of cases.
-    pub sah_over_median: Option<Estimate>,
-}
-
-/// Where structures stand among those of an easy or normal scene: before the sweep of [`parameters::structures`].
-const BRUTE: usize = 0;
-const SAH: usize = 1;
-const FIRST_SETTING: usize = 2;
-
-impl Replication {
-    /// From the epochs of all scenes.
-    pub fn of(cases: &[Epoch]) -> Self {
-        let mut replication = Self::default();
-        for epochs in epoch::scenes(cases) {
-            replication.add_main(&epochs);
-            replication.add_hard(&epochs);
-        }
-        replication
-    }
-
-    /// Adds an easy or normal scene of the report; nothing of another one.
-    pub(super) fn add_main(&mut self, epochs: &[&Epoch]) {
+impl Replicated {
+    fn of(epochs: &[&Epoch], report: &'static Row) -> Self {
         let first = epochs[0];
-        let Some(index) = MAIN.iter().position(|row| row.scene == first.scene) else { return };
-        let row = &MAIN[index];
-        let rays = self.add_rays(first, row.rays);
-        let setting = |row: usize| FIRST_SETTING + row;
-        let (tree, twin) = (setting(parameters::default_row()), setting(SWEEP.len()));
-
-        let times = WholeTimes::new(epochs.iter().copied());
-        let noise = AaNoise::new(&[times.cell(tree, twin)]);
-        let seconds = |structure: usize| Seconds::of(&times, first, structure, rays, &noise);
-        self.main.push(Main {
-            scene: first.scene.clone(),
+        let tree = if report.is_hard() { TREE.into() } else { DEFAULT.role() };
+        let all = WholeTimes::new(epochs);
+        let log_aa_ratios = all.log_ratios(&tree, TWIN);
+        let noise = AaNoise::new(std::slice::from_ref(&log_aa_ratios));
+        let of = |structure: &Structure| Times::of(structure, epochs, all.seconds(&structure.role, &noise));
+        let structures = first.structures.iter().filter(|structure| !structure.is_twin());
+        let times: Vec<(String, Times)> = structures.map(|own| (own.role.clone(), of(own))).collect();
+        let [closest, shadow] = [Query::Closest, Query::Any].map(|query| rays(&first.structures[0], &[query]));
+        let primary = closest.min(PIXELS);
+        Self {
+            report,
+            title: first.title(),
             triangles: first.triangles,
-            rays,
-            tree: seconds(tree),
-            brute_force: seconds(BRUTE),
-            improvement: times.ratio(BRUTE, tree, &noise),
-            sah: seconds(SAH),
-            report_tree_s: row.tree_s,
-            report_brute_force_s: row.brute_s,
-            report_tree_t_prime: t_prime(row.tree_s, row.rays, row.triangles),
-            report_brute_force_t_prime: t_prime(row.brute_s, row.rays, row.triangles),
-            report_improvement: row.improvement,
-        });
-        for (i, sweep) in SWEEP.iter().enumerate() {
-            let Seconds { seconds, extrapolated, .. } = seconds(setting(i));
-            self.parameters.push(Setting {
-                scene: first.scene.clone(),
-                leaf: sweep.leaf,
-                threshold: sweep.threshold,
-                seconds,
-                extrapolated,
-                report_s: sweep.seconds[index],
-            });
+            primary,
+            mirror: closest - primary,
+            shadow,
+            times,
+            improvement: (!report.is_hard()).then(|| all.ratio(BRUTE, &tree, &noise)),
+            faster: all.ratio(&tree, SAH, &noise),
+            log_ratios: all.log_ratios(&tree, SAH),
+            log_aa_ratios,
+            tree,
         }
     }
 
-    /// Adds a hard scene of the report, likewise: its tree, the SAH tree, and its tree once more.
-    pub(super) fn add_hard(&mut self, epochs: &[&Epoch]) {
-        const TREE: usize = 0;
-        const TWIN: usize = 2;
-        let first = epochs[0];
-        let Some(row): Option<&HardRow> = HARD.iter().find(|row| row.scene == first.scene) else { return };
-        let rays = self.add_rays(first, row.rays);
-
-        let times = WholeTimes::new(epochs.iter().copied());
-        let noise = AaNoise::new(&[times.cell(TREE, TWIN)]);
-        let seconds = |structure: usize| Seconds::of(&times, first, structure, rays, &noise);
-        let build_s = |structure: usize| {
-            let builds: Vec<f64> = epochs.iter().map(|epoch| epoch.structures[structure].build_ns as f64).collect();
-            median(&builds).expect("there is an epoch") * 1e-9
-        };
-        self.hard.push(Hard {
-            scene: first.scene.clone(),
-            triangles: first.triangles,
-            rays,
-            stand_in: first.stand_in,
-            tree: seconds(TREE),
-            tree_build_s: build_s(TREE),
-            sah: seconds(SAH),
-            sah_build_s: build_s(SAH),
-            sah_over_median: times.ratio(TREE, SAH, &noise),
-            log_ratios: times.log_ratios(TREE, SAH),
-            log_aa_ratios: times.log_ratios(TREE, TWIN),
-            report_tree_s: row.tree_s,
-            report_tree_build_s: row.build_s,
-            report_tree_t_prime: t_prime(row.tree_s, row.rays, row.triangles),
-        });
-
-        // The claim is about all hard scenes: say so far as they are measured.
-        let cells = |of: fn(&Hard) -> &[f64]| -> Vec<Vec<Vec<f64>>> {
-            self.hard.iter().map(|hard| of(hard).iter().map(|&log| vec![log]).collect()).collect()
-        };
-        let noise = AaNoise::new(&cells(|hard| &hard.log_aa_ratios)).of_mean(self.hard.len());
-        let mut ratios = cells(|hard| &hard.log_ratios);
-        // What is not measured to its end has scenes that lack an epoch.
-        cut_to_shared_epochs(&mut ratios);
-        let values = epoch_values(&ratios);
-        self.conclusion = Conclusion {
-            scenes: self.hard.iter().map(|hard| hard.scene.clone()).collect(),
-            sah_over_median: values.and_then(|values| Some(Rerun::of(&values, noise)?.ratio())),
-        };
+    pub fn total(&self) -> u64 {
+        self.primary + self.mirror + self.shadow
     }
 
-    /// Adds the rays of a picture; `report` is the report's total. Gives ours.
-    fn add_rays(&mut self, epoch: &Epoch, report: u64) -> u64 {
-        if epoch.stand_in {
-            self.stand_ins.push(epoch.scene.clone());
-        }
-        let asked = |query: Query| -> u64 {
-            let rays = epoch.structures[0].rays.iter().filter(|rays| rays.query == query);
-            rays.map(|rays| rays.all as u64).sum()
-        };
-        let (closest, shadow) = (asked(Query::Closest), asked(Query::Any));
-        let primary = closest.min(u64::from(PICTURE[0]) * u64::from(PICTURE[1]));
-        let (scene, mirror, total) = (epoch.scene.clone(), closest - primary, closest + shadow);
-        self.rays.push(Rays { scene, primary, mirror, shadow, total, report });
-        total
+    /// With the report's tree.
+    pub fn tree(&self) -> Option<&Times> {
+        self.times(&self.tree)
+    }
+
+    /// Of the structure in this role.
+    pub fn times(&self, role: &str) -> Option<&Times> {
+        self.times.iter().find(|(own, _)| own == role).map(|(_, times)| times)
     }
 }
 
-impl Seconds {
-    fn of(times: &WholeTimes, first: &Epoch, structure: usize, rays: u64, noise: &AaNoise) -> Self {
-        let seconds = times.seconds(structure, noise);
-        let t_prime = |seconds: f64| t_prime(seconds, rays, first.triangles);
-        let Structure { rays: timed, .. } = &first.structures[structure];
+/// Rays of the picture that ask one of the `queries`.
+fn rays(structure: &Structure, queries: &[Query]) -> u64 {
+    structure.rays.iter().filter(|rays| queries.contains(&rays.query)).map(|rays| rays.all as u64).sum()
+}
+
+impl Times {
+    fn of(structure: &Structure, epochs: &[&Epoch], seconds: Estimate) -> Self {
+        let (all, triangles) = (rays(structure, &[Query::Closest, Query::Any]), epochs[0].triangles);
+        let builds = epochs.iter().filter_map(|epoch| epoch.in_role(&structure.role)).map(|own| own.build_ns as f64);
+        let tests = structure.rays.iter().map(|rays| rays.counts?.whole_tests).sum::<Option<u64>>();
         Self {
             seconds: seconds.estimate,
-            t_prime: seconds.map(t_prime),
-            extrapolated: timed.iter().any(|rays| rays.rays < rays.all),
+            t_prime: seconds.map(|seconds| t_prime(seconds, all, triangles)),
+            sampled: structure.rays.iter().any(|rays| rays.rays < rays.all),
+            build_s: median(&builds.collect::<Vec<_>>()).expect("every epoch builds") * 1e-9,
+            tests: tests.map(|tests| tests as f64 / (all as f64 * triangles as f64)),
         }
     }
 }

@@ -1,150 +1,173 @@
-//! The study as tables for people.
+//! The study as tables.
 
+use super::findings::order;
 use super::original::SWEEP;
-use super::{Replication, Seconds};
-use crate::report::number::{count, figures};
-use crate::report::words::{explained, interval, scene_name};
-use crate::report::{Cell, Table};
+use super::replication::{Replicated, Times, mean};
+use super::{BRUTE, SAH};
+use crate::report::words::explained;
+use crate::report::{Cell, Table, Value};
+
+const SAMPLED: &str = "~ a part of the rays was timed and stands for all.";
 
 /// The tables in the order of the report, then its conclusion.
-pub fn tables(result: &Replication) -> Vec<Table> {
-    let mut tables = vec![rays(result)];
-    if !result.main.is_empty() {
-        tables.extend([seconds(result), t_primes(result), parameters(result)]);
-    }
-    if !result.hard.is_empty() {
-        tables.extend([hard(result), conclusion(result)]);
-    }
-    tables
+pub fn tables(main: &[Replicated], hard: &[Replicated]) -> Vec<Table> {
+    let all =
+        [rays(main.iter().chain(hard)), seconds(main), t_primes(main), settings(main), on_hard(hard), conclusion(hard)];
+    all.into_iter().filter(Table::says_something).collect()
 }
 
-fn rays(result: &Replication) -> Table {
-    let difference = |r: &super::Rays| match r.total as i64 - r.report as i64 {
-        0 => "0".into(),
-        difference => format!("{difference:+}"),
-    };
+fn rays<'a>(all: impl Iterator<Item = &'a Replicated>) -> Table {
+    let difference = |own: &Replicated| Value::Difference(own.total() as i64 - own.report.rays as i64);
     Table::of(
         "Rays of a 512 x 512 picture",
-        &result.rays,
+        all,
         &[
-            ("scene", &|r| r.scene.as_str().into()),
-            ("primary", &|r| count(r.primary).into()),
-            ("mirror", &|r| count(r.mirror).into()),
-            ("shadow", &|r| count(r.shadow).into()),
-            ("total", &|r| count(r.total).into()),
-            ("report", &|r| count(r.report).into()),
-            ("difference", &|r| difference(r).into()),
+            ("scene", &|own: &&Replicated| own.title.as_str().into()),
+            ("primary", &|own| own.primary.into()),
+            ("mirror", &|own| own.mirror.into()),
+            ("shadow", &|own| own.shadow.into()),
+            ("total", &|own| own.total().into()),
+            ("report", &|own| own.report.rays.into()),
+            ("difference", &|own| difference(own).into()),
         ],
     )
     .noted(vec![
         "Hard scenes: primary rays alone, as in the report. Starters has creatures of our own, and so its own rays."
             .into(),
+        "Secondary rays start where a triangle test in single precision finds a hit, as in the report's program."
+            .into(),
     ])
 }
 
-fn seconds(result: &Replication) -> Table {
+/// Seconds, marked where a part of the rays stands for all.
+fn cell(times: Option<&Times>) -> Cell {
+    times.map(|times| Cell::from(times.seconds).sampled(times.sampled)).into()
+}
+
+fn t_prime(times: Option<&Times>) -> Cell {
+    times.map(|times| times.t_prime.estimate).into()
+}
+
+fn seconds(main: &[Replicated]) -> Table {
     let table = Table::of(
         "Seconds of all rays, construction left out",
-        &result.main,
+        main,
         &[
-            ("scene", &|m| m.scene.as_str().into()),
-            ("triangles", &|m| count(m.triangles as u64).into()),
-            ("median-kd", &|m| marked(&m.tree).into()),
-            ("report", &|m| figures(m.report_tree_s).into()),
-            ("brute-force", &|m| marked(&m.brute_force).into()),
-            ("report", &|m| figures(m.report_brute_force_s).into()),
-            ("improvement [95%]", &|m| interval(m.improvement).into()),
-            ("report", &|m| figures(m.report_improvement).into()),
-            ("sah-kd", &|m| marked(&m.sah).into()),
+            ("scene", &|own| own.title.as_str().into()),
+            ("triangles", &|own| own.triangles.into()),
+            ("median-kd", &|own| cell(own.tree())),
+            ("report", &|own| own.report.tree_s.into()),
+            ("brute-force", &|own| cell(own.times(BRUTE))),
+            ("report", &|own| own.report.brute_s.into()),
+            ("improvement [95%]", &|own| own.improvement.into()),
+            ("report", &|own| own.report.improvement.into()),
+            ("sah-kd", &|own| cell(own.times(SAH))),
         ],
     );
-    explained(
-        table.noted(vec![
-            "improvement: brute-force / median-kd. ~ a part of the rays was timed and stands for all.".into(),
-        ]),
-    )
+    let mut notes = vec![format!("improvement: brute-force / median-kd. {SAMPLED}")];
+    notes.extend(order(main).and_then(|(_, reversed)| reversed));
+    explained(table.noted(notes))
 }
 
-fn t_primes(result: &Replication) -> Table {
+fn t_primes(main: &[Replicated]) -> Table {
     Table::of(
         "t' = seconds / (rays x triangles)",
-        &result.main,
+        main,
         &[
-            ("scene", &|m| m.scene.as_str().into()),
-            ("median-kd", &|m| figures(m.tree.t_prime.estimate).into()),
-            ("report", &|m| figures(m.report_tree_t_prime).into()),
-            ("brute-force", &|m| figures(m.brute_force.t_prime.estimate).into()),
-            ("report", &|m| figures(m.report_brute_force_t_prime).into()),
-            ("sah-kd", &|m| figures(m.sah.t_prime.estimate).into()),
+            ("scene", &|own| own.title.as_str().into()),
+            ("median-kd", &|own| t_prime(own.tree())),
+            ("report", &|own| own.report.t_prime(own.report.tree_s).into()),
+            ("brute-force", &|own| t_prime(own.times(BRUTE))),
+            ("report", &|own| own.report.brute_s.map(|seconds| own.report.t_prime(seconds)).into()),
+            ("sah-kd", &|own| t_prime(own.times(SAH))),
         ],
     )
 }
 
-fn parameters(result: &Replication) -> Table {
-    let scenes: Vec<&str> = result.main.iter().map(|m| m.scene.as_str()).collect();
-    let mut columns = vec!["L / T".to_owned()];
-    columns.extend(scenes.iter().map(|s| (*s).to_owned()));
+fn settings(main: &[Replicated]) -> Table {
+    let columns = ["L / T"].into_iter().chain(main.iter().map(|own| own.title.as_str()));
     let mut rows = vec![];
     for setting in &SWEEP {
-        let name = format!("{} / {}", setting.leaf, setting.threshold);
-        let of = |scene: &str| {
-            let same =
-                |s: &&super::Setting| s.scene == scene && s.leaf == setting.leaf && s.threshold == setting.threshold;
-            result.parameters.iter().find(same)
-        };
-        let ours = |scene: &&str| of(scene).map(|s| figures_marked(s.seconds, s.extrapolated)).into();
-        let theirs = |scene: &&str| of(scene).map(|s| figures(s.report_s)).into();
-        rows.push(std::iter::once(Cell::from(name)).chain(scenes.iter().map(ours)).collect());
-        rows.push(std::iter::once(Cell::from("  report")).chain(scenes.iter().map(theirs)).collect());
+        let ours = main.iter().map(|own| cell(own.times(&setting.role())));
+        let theirs = main.iter().map(|own| setting.of(own.report.scene).into());
+        rows.push(std::iter::once(Cell::from(setting.role())).chain(ours).collect());
+        rows.push(std::iter::once(Cell::from("  report")).chain(theirs).collect());
     }
-    Table {
-        title: "Seconds of median-kd with other parameters".into(),
-        columns,
-        rows,
-        notes: vec![
-            "L: leaf limit; T: match threshold. Its columns Teapot and Torus, swapped in print, stand right.".into(),
-        ],
-    }
+    Table::new("Seconds of median-kd with other settings", columns, rows).noted(vec![
+        "L: leaf limit; T: match threshold. The report's columns Teapot and Torus, swapped in print, stand right."
+            .into(),
+    ])
 }
 
-fn hard(result: &Replication) -> Table {
+fn on_hard(hard: &[Replicated]) -> Table {
+    let build = |times: Option<&Times>| Cell::from(times.map(|times| times.build_s));
     Table::of(
         "Hard scenes: seconds of the primary rays, and of the construction",
-        &result.hard,
+        hard,
         &[
-            ("scene", &|h| scene_name(&h.scene, h.stand_in).into()),
-            ("triangles", &|h| count(h.triangles as u64).into()),
-            ("median-kd", &|h| marked(&h.tree).into()),
-            ("report", &|h| figures(h.report_tree_s).into()),
-            ("t'", &|h| figures(h.tree.t_prime.estimate).into()),
-            ("report", &|h| figures(h.report_tree_t_prime).into()),
-            ("build", &|h| figures(h.tree_build_s).into()),
-            ("report", &|h| figures(h.report_tree_build_s).into()),
-            ("sah-kd", &|h| marked(&h.sah).into()),
-            ("build", &|h| figures(h.sah_build_s).into()),
+            ("scene", &|own| own.title.as_str().into()),
+            ("triangles", &|own| own.triangles.into()),
+            ("median-kd", &|own| cell(own.tree())),
+            ("report", &|own| own.report.tree_s.into()),
+            ("t'", &|own| t_prime(own.tree())),
+            ("report", &|own| own.report.t_prime(own.report.tree_s).into()),
+            ("build", &|own| build(own.tree())),
+            ("report", &|own| own.report.build_s.into()),
+            ("sah-kd", &|own| cell(own.times(SAH))),
+            ("build", &|own| build(own.times(SAH))),
         ],
     )
-    .noted(vec!["~ a part of the rays was timed and stands for all.".into()])
+    .noted(vec![SAMPLED.into()])
 }
 
-fn conclusion(result: &Replication) -> Table {
-    let mut rows: Vec<[String; 2]> =
-        result.hard.iter().map(|h| [h.scene.clone(), interval(h.sah_over_median)]).collect();
-    if let Some(mean) = &result.conclusion.sah_over_median {
-        rows.push([format!("geometric mean of {}", result.conclusion.scenes.join(", ")), interval(*mean)]);
-    }
+fn conclusion(hard: &[Replicated]) -> Table {
+    let mut rows: Vec<Vec<Cell>> = hard.iter().map(|own| vec![own.title.as_str().into(), own.faster.into()]).collect();
+    let names: Vec<&str> = hard.iter().map(|own| own.title.as_str()).collect();
+    rows.extend(mean(hard).map(|mean| vec![format!("geometric mean of {}", names.join(", ")).into(), mean.into()]));
     let title = "The report's conclusion: how much faster is sah-kd than median-kd on the hard scenes?";
-    explained(Table::of_texts(title, ["scene", "times faster [95%]"], rows).noted(vec![
-        "Times of one round divided, their median in each epoch, geometric mean over the epochs, with the interval that holds that of \
-         another run, as little disturbed, in 95 % of cases."
+    explained(Table::new(title, ["scene", "times faster [95%]"], rows).noted(vec![
+        "Times of one round divided, their median in each epoch, geometric mean over the epochs, with the interval that \
+         holds that of another run, as little disturbed, in 95 % of cases."
             .into(),
     ]))
 }
 
-fn marked(seconds: &Seconds) -> String {
-    figures_marked(seconds.seconds, seconds.extrapolated)
-}
-
-fn figures_marked(seconds: f64, extrapolated: bool) -> String {
-    format!("{}{}", if extrapolated { "~" } else { "" }, figures(seconds))
+/// One row for each scene.
+pub fn data<'a>(all: impl Iterator<Item = &'a Replicated> + Clone) -> Table {
+    let mut table = Table::of(
+        "",
+        all.clone(),
+        &[
+            ("scene", &|own: &&Replicated| own.title.as_str().into()),
+            ("triangles", &|own| own.triangles.into()),
+            ("primary", &|own| own.primary.into()),
+            ("mirror", &|own| own.mirror.into()),
+            ("shadow", &|own| own.shadow.into()),
+            ("total", &|own| own.total().into()),
+            ("report", &|own| own.report.rays.into()),
+            ("improvement", &|own| own.improvement.into()),
+            ("sah_over_median", &|own| own.faster.into()),
+            ("report_tree_s", &|own| own.report.tree_s.into()),
+            ("report_brute_force_s", &|own| own.report.brute_s.into()),
+            ("report_improvement", &|own| own.report.improvement.into()),
+            ("report_tree_build_s", &|own| own.report.build_s.into()),
+        ],
+    );
+    let mut add = |name: String, of: &dyn Fn(&Replicated) -> Cell| {
+        table.columns.push(name);
+        table.rows.iter_mut().zip(all.clone()).for_each(|(row, own)| row.push(of(own)));
+    };
+    for setting in &SWEEP {
+        let seconds = |own: &Replicated| own.times(&setting.role()).map(|times| times.seconds).into();
+        add(format!("seconds_{}_{}", setting.leaf, setting.threshold), &seconds);
+    }
+    let of: [(&str, fn(&Replicated) -> Option<&Times>); 3] =
+        [("tree", Replicated::tree), ("brute_force", |own| own.times(BRUTE)), ("sah", |own| own.times(SAH))];
+    for (name, of) in of {
+        add(format!("{name}_seconds"), &|own| of(own).map(|times| times.seconds).into());
+        add(format!("{name}_t_prime"), &|own| of(own).map(|times| times.t_prime).into());
+        add(format!("{name}_sampled"), &|own| of(own).map(|times| times.sampled).into());
+        add(format!("{name}_build_s"), &|own| of(own).map(|times| times.build_s).into());
+    }
+    table
 }

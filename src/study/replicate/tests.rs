@@ -1,91 +1,154 @@
-//! Tables from epochs whose truth is known.
+//! Tables and findings from epochs whose truth is known.
 
-use super::original::SWEEP;
 use super::*;
 use crate::accel::Query;
-use crate::study::epoch::Rays as Timed;
+use crate::measure::{Estimate, Provenance};
+use crate::study::epoch::Rays;
 use crate::study::epoch::tests::{example, rays};
+use crate::study::{Measured, case};
 
-/// Three epochs of a scene whose structures take these nanoseconds for each of 1000 rays, in rounds of which one is slow.
-fn epochs(scene: &str, stand_in: bool, times: &[u64]) -> Vec<Epoch> {
+/// Epochs of a scene of 100 triangles whose structures in these roles take so many nanoseconds for each of 1000 closest-hit
+/// rays and of 500 shadow rays, in rounds of which one is slow.
+fn scene(name: &str, epochs: usize, roles: &[(&str, u64)]) -> Vec<Measured> {
     let one = |number: usize| {
-        let ns: Vec<Vec<u64>> = times.iter().map(|t| [1000, 1300, 1000].map(|round| round * t).into()).collect();
-        let labels: Vec<String> = (0..times.len()).map(|i| format!("tree {i}")).collect();
+        let ns: Vec<Vec<u64>> = roles.iter().map(|(_, t)| [1000, 1300, 1000].map(|round| round * t).into()).collect();
         let structures: Vec<(&str, u64, &[u64])> =
-            labels.iter().zip(&ns).map(|(label, ns)| (label.as_str(), 2_000_000_000, &ns[..])).collect();
-        let mut epoch = example(scene, 100, number, &structures);
-        for (structure, ns) in epoch.structures.iter_mut().zip(&ns) {
-            let shadow = Timed { query: Query::Any, all: 500, ns: ns.clone(), ..rays("image-shadow") };
-            structure.rays.push(shadow);
+            roles.iter().zip(&ns).map(|((role, _), ns)| (*role, 2_000_000_000, &ns[..])).collect();
+        let mut epoch = example(name, 100, number, &structures);
+        for ((structure, (role, _)), ns) in epoch.structures.iter_mut().zip(roles).zip(&ns) {
+            structure.role = (*role).into();
+            structure.rays.push(Rays { query: Query::Any, all: 500, ns: ns.clone(), ..rays("image-shadow") });
         }
-        Epoch { stand_in, ..epoch }
+        Measured { case: case::tests::example(name, number, &[]), epoch }
     };
-    (0..3).map(one).collect()
+    (0..epochs).map(one).collect()
 }
 
-fn add(result: &mut Replication, add: fn(&mut Replication, &[&Epoch]), epochs: &[Epoch]) {
-    add(result, &epochs.iter().collect::<Vec<_>>());
+/// A hard scene with the times of the report's tree, the SAH tree and the twin.
+fn hard(name: &str, epochs: usize, [tree, sah, twin]: [u64; 3]) -> Vec<Measured> {
+    scene(name, epochs, &[(TREE, tree), (SAH, sah), (TWIN, twin)])
+}
+
+/// An easy scene in which brute force takes so many times as long as the report's tree.
+fn main(name: &str, improvement: u64) -> Vec<Measured> {
+    let roles: Vec<String> = SWEEP.iter().map(|row| row.role()).collect();
+    let mut times = vec![(BRUTE, 300 * improvement), (SAH, 10)];
+    times.extend(roles.iter().map(String::as_str).zip([110, 120, 130, 140, 300, 150]));
+    times.push((TWIN, 300));
+    scene(name, 3, &times)
+}
+
+fn dataset(scenes: Vec<Vec<Measured>>) -> Dataset {
+    Dataset::new(Provenance::capture(1), scenes.concat())
+}
+
+fn of(scenes: Vec<Vec<Measured>>) -> Report {
+    report(&dataset(scenes), &STUDY.defaults())
+}
+
+fn value(report: &Report, key: &str) -> Option<Estimate> {
+    report.finding(key)?.value
 }
 
 #[test]
 fn the_conclusion_is_the_mean_of_the_hard_scenes() {
-    let mut result = Replication::default();
-    add(&mut result, Replication::add_hard, &epochs("Dragon", true, &[800, 100, 800]));
-    add(&mut result, Replication::add_hard, &epochs("Lucy", false, &[200, 100, 200]));
-    let whole = result.conclusion.sah_over_median.unwrap();
-    assert!((whole.estimate - 4.0).abs() < 1e-9 && (result.hard[0].sah_over_median.estimate - 8.0).abs() < 1e-9);
-    assert_eq!((result.conclusion.scenes.len(), result.stand_ins.join(" ")), (2, "Dragon".into()));
+    let scenes = || vec![hard("Dragon", 3, [800, 100, 800]), hard("Lucy", 3, [200, 100, 200])];
+    let report = of(scenes());
+    for (key, times) in [("hard", 4.0), ("hard-dragon", 8.0), ("hard-lucy", 2.0)] {
+        assert!((value(&report, key).unwrap().estimate - times).abs() < 1e-9, "{key}");
+    }
+    assert!(report.finding("hard").unwrap().sentence.contains("Dragon 8.00 times and Lucy 2.00 times; geometric mean"));
     // 1000 and 500 rays at 0.8 microseconds.
-    let tree = &result.hard[0].tree;
+    let dragon = &replicated(&dataset(scenes()), &HARD)[0];
+    let tree = dragon.tree().unwrap();
     assert!((tree.seconds - 1.2e-3).abs() < 1e-9 && (tree.t_prime.estimate - 8e-9).abs() < 1e-15, "{tree:?}");
-    assert!((result.hard[0].tree_build_s - 2.0).abs() < 1e-12);
-    assert!(tables(&result).iter().all(|t| t.rows.iter().all(|row| row.len() == t.columns.len())));
-}
+    assert!((tree.build_s - 2.0).abs() < 1e-12);
+    assert!(report.tables().chain([&report.data]).all(|t| t.rows.iter().all(|row| row.len() == t.columns.len())));
+    assert!(of(vec![]).blocks.len() == 1 && of(vec![]).findings.is_empty(), "nothing is measured");
 
-#[test]
-fn the_conclusion_is_of_the_epochs_that_all_hard_scenes_have() {
-    let mut result = Replication::default();
-    add(&mut result, Replication::add_hard, &epochs("Dragon", true, &[800, 100, 800])[..2]);
-    add(&mut result, Replication::add_hard, &epochs("Lucy", false, &[200, 100, 200])[..1]);
-    let whole = result.conclusion.sah_over_median.unwrap();
-    assert!((whole.estimate - 4.0).abs() < 1e-9 && whole.interval.is_none(), "{whole:?}");
+    // It is of the epochs that all hard scenes have.
+    let cut = of(vec![hard("Dragon", 2, [800, 100, 800]), hard("Lucy", 1, [200, 100, 200])]);
+    let mean = value(&cut, "hard").unwrap();
+    assert!((mean.estimate - 4.0).abs() < 1e-9 && mean.interval.is_none(), "{mean:?}");
 }
 
 #[test]
 fn what_is_said_of_the_hard_scenes_is_what_was_found() {
-    let told = |tree: u64, sah: u64, twin: u64| {
-        let mut result = Replication::default();
-        add(&mut result, Replication::add_hard, &epochs("Dragon", false, &[tree, sah, twin]));
-        super::statements::statements(&result).remove(0).sentence
+    for (times, told) in [
+        ([800, 100, 800], "Primary rays are faster with"),
+        ([100, 800, 100], "Primary rays are slower with"),
+        ([101, 100, 180], "Primary rays cannot be told"),
+    ] {
+        let report = of(vec![hard("Dragon", 3, times)]);
+        let sentence = report.sentences().next().unwrap();
+        assert!(sentence.starts_with(told), "{sentence}");
+    }
+    // Twins that cannot be told apart widen the interval: both runs have the noise of one A/A ratio in three epochs, and t
+    // is 4.303.
+    let width = |twin: u64| {
+        let faster = value(&of(vec![hard("Sponza", 3, [800, 100, twin])]), "hard-sponza").unwrap();
+        libm::log(faster.high().unwrap() / faster.low().unwrap())
     };
-    assert!(told(800, 100, 800).starts_with("Primary rays are faster with"), "{}", told(800, 100, 800));
-    assert!(told(100, 800, 100).starts_with("Primary rays are slower with"), "{}", told(100, 800, 100));
-    assert!(told(101, 100, 180).contains("cannot be told"), "{}", told(101, 100, 180));
-}
-
-#[test]
-fn a_tree_that_twins_cannot_tell_apart_has_a_wider_interval() {
-    let ratio = |twin: u64| {
-        let mut result = Replication::default();
-        add(&mut result, Replication::add_hard, &epochs("Sponza", false, &[800, 100, twin]));
-        let whole = result.hard[0].sah_over_median;
-        whole.high().unwrap() / whole.low().unwrap()
-    };
-    // Both runs have the noise of one A/A ratio in three epochs: t is 4.303.
     let expected = 2.0 * 4.3027 * libm::sqrt(2.0) * libm::log(1.05);
-    assert!(ratio(800) < 1.0 + 1e-9 && (libm::log(ratio(840)) / expected - 1.0).abs() < 1e-4, "{}", ratio(840));
+    assert!(width(800) < 1e-9 && (width(840) / expected - 1.0).abs() < 1e-4, "{}", width(840));
 }
 
 #[test]
-fn an_easy_scene_has_its_improvement_and_its_sweep() {
-    let mut result = Replication::default();
-    let mut times = vec![900, 10];
-    times.extend([110, 120, 130, 140, 300, 150, 300]);
-    add(&mut result, Replication::add_main, &epochs("Torus", false, &times));
-    let main = &result.main[0];
-    assert!((main.improvement.estimate - 3.0).abs() < 1e-9 && main.improvement.is_above(2.9));
-    assert_eq!(result.parameters.len(), SWEEP.len());
-    assert!((result.parameters[0].seconds / main.tree.seconds - 110.0 / 300.0).abs() < 1e-9);
-    assert_eq!((result.rays[0].total, result.rays[0].shadow, result.rays[0].mirror), (1500, 500, 0));
-    assert!(tables(&result).iter().all(|t| t.rows.iter().all(|row| row.len() == t.columns.len())));
+fn an_easy_scene_has_its_improvement_its_sweep_and_its_rays() {
+    let scenes = || vec![main("Torus", 3)];
+    let torus = &replicated(&dataset(scenes()), &MAIN)[0];
+    let improvement = torus.improvement.unwrap();
+    assert!((improvement.estimate - 3.0).abs() < 1e-9 && improvement.is_above(2.9));
+    let seconds = |role: &str| torus.times(role).unwrap().seconds;
+    assert!((seconds("25 / 0.4") / seconds("100 / 0.7") - 110.0 / 300.0).abs() < 1e-9);
+    assert_eq!((torus.total(), torus.shadow, torus.mirror), (1500, 500, 0));
+    let report = of(scenes());
+    assert_eq!(value(&report, "rays-torus"), Some(Estimate::exact(1500.0 - 309_289.0)));
+    assert!(report.tables().chain([&report.data]).all(|t| t.rows.iter().all(|row| row.len() == t.columns.len())));
+    assert_eq!(report.verdicts.iter().filter(|verdict| verdict.value.is_some()).count(), 1);
+    assert!(
+        [value(&report, "t-prime"), value(&report, "order")].iter().all(Option::is_none),
+        "they are about all scenes"
+    );
+}
+
+#[test]
+fn claims_about_all_scenes_are_judged_with_all_scenes() {
+    // As expected, but for Cube, which gains more than Infinitycandy and all others.
+    let gains = [90, 50, 60, 40, 3, 9, 2, 20, 6];
+    let mut scenes: Vec<Vec<Measured>> = MAIN.iter().zip(gains).map(|(row, gain)| main(row.scene, gain)).collect();
+    for Measured { epoch, .. } in &mut scenes[6] {
+        for (role, tests) in [("100 / 0.7", 75_000), ("50 / 0.7", 180_000)] {
+            let own = epoch.structures.iter_mut().find(|own| own.role == role).unwrap();
+            own.rays.iter_mut().for_each(|rays| rays.counts.as_mut().unwrap().whole_tests = Some(tests));
+        }
+    }
+    let report = of(scenes);
+    // Two workloads, 1500 rays and 100 triangles.
+    let exact = |x: f64| Some(Estimate::exact(x));
+    assert_eq!((value(&report, "crowded"), value(&report, "crowded-50")), (exact(1.0), exact(2.4)));
+    assert!((value(&report, "t-prime").unwrap().estimate - 45.0).abs() < 1e-9);
+    // Of 35 couples, the eight with Cube are against the order.
+    let order = value(&report, "order").unwrap();
+    assert!((order.estimate - (1.0 - 16.0 / 35.0)).abs() < 1e-12, "{order:?}");
+    let told = report.tables().flat_map(|table| &table.notes).find(|note| note.starts_with("Surely")).unwrap();
+    assert!(told.contains("Infinitycandy gains less than Cube"), "{told}");
+    assert_eq!(report.verdicts.len(), 12);
+    assert!(report.verdicts.iter().all(|verdict| verdict.value.is_some()));
+}
+
+#[test]
+fn every_scene_has_a_twin_and_what_is_counted_is_named_as_its_structures_are() {
+    let registry = Registry::builtin();
+    for row in MAIN.iter().chain(&HARD) {
+        let structures = structures(&registry, row).unwrap();
+        assert_eq!(structures.len(), if row.is_hard() { 3 } else { 3 + SWEEP.len() });
+        let spec = |role: &str| structures.iter().find(|own| own.role == role).unwrap().spec.as_str();
+        let tree = if row.is_hard() { TREE.to_owned() } else { DEFAULT.role() };
+        assert_eq!([spec(TWIN), spec(&tree), spec(SAH)], [REPORT_TREE, REPORT_TREE, SAH_TREE]);
+        let counted = whole_counts(row);
+        assert_eq!(counted.len(), if row.scene == "Infinitycandy" { 2 } else { 0 });
+        assert!(counted.iter().zip(["100 / 0.7", "50 / 0.7"]).all(|(counted, role)| counted == spec(role)));
+    }
+    assert_eq!(registry.choose(GUIDE).unwrap().label, GUIDE);
 }

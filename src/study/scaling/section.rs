@@ -3,7 +3,7 @@
 use super::growth::{Growth, LEVEL_8, MESHES, Point, SPHERES};
 use crate::measure::Estimate;
 use crate::report::number::count;
-use crate::report::plot::{Chart, CurvePoint, Curves, Line, Mark};
+use crate::report::plot::{Chart, Curves, Line};
 use crate::report::words::{explained, listed, slug, written};
 use crate::report::{Art, Block, Cell, Figure, Finding, Format, Table};
 use crate::request::{REPORT_TREE, SAH_TREE};
@@ -100,10 +100,10 @@ pub fn blocks(growths: &[Growth]) -> Vec<Block> {
 fn figure(group: &[Growth], quantity: &Quantity) -> Figure {
     let first = &group[0];
     let line = |growth: &Growth| {
-        let point = |point: &Point| CurvePoint::exact(point.triangles() as f64, (quantity.value)(point));
+        let point = |point: &Point| (point.triangles() as f64, (quantity.value)(point));
         let power = (quantity.power)(growth).map(|power| format!("n^{:.2}", power.estimate));
         let note = power.unwrap_or_default();
-        Line { note, ..Line::new(&growth.label, Mark::Both, growth.points.iter().map(point)) }
+        Line { label: growth.label.clone(), note, points: growth.points.iter().map(point).collect() }
     };
     let told = group.iter().filter_map(|growth| {
         let power = (quantity.power)(growth)?;
@@ -120,7 +120,7 @@ fn figure(group: &[Growth], quantity: &Quantity) -> Figure {
             quantity.words, first.family,
         ),
         alt: format!("Line chart over the number of triangles. {}.", told.join("; ")),
-        art: Art::Chart(Chart::Curves(Curves::logarithmic("triangles", quantity.y_title, lines))),
+        art: Art::Chart(Chart::Curves(Curves { x_title: "triangles".into(), y_title: quantity.y_title.into(), lines })),
         data: Table::of(
             "",
             all_points(group),

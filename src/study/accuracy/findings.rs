@@ -1,0 +1,38 @@
+//! Over which triangle tests our structures are right, and over which they are wrong.
+
+use super::judged::{Judged, JudgedRays};
+use crate::report::Finding;
+use crate::report::number::{count, figures};
+use crate::report::words::{distinct, listed, slug};
+use crate::request::known_defect;
+
+/// That of one scene and kind of rays; nothing where none of the structures is ours.
+pub fn finding(of_kind: &JudgedRays) -> Option<Finding> {
+    let own: Vec<&Judged> =
+        of_kind.structures.iter().filter(|judged| known_defect(&judged.structure.name).is_none()).collect();
+    let (mut right, mut wrong) = (vec![], vec![]);
+    for test in distinct(own.iter().map(|judged| &judged.structure.triangle_test)) {
+        let of_test = || own.iter().filter(|judged| judged.structure.triangle_test == test).map(|judged| judged.error);
+        let (least, most) = (of_test().fold(f64::INFINITY, f64::min), of_test().fold(0.0, f64::max));
+        let [from, to] = [least, most].map(|error| figures(100.0 * error));
+        match most {
+            0.0 => right.push(test),
+            _ if from != to => wrong.push(format!("{test} {from} to {to} %")),
+            _ => wrong.push(format!("{test} {to} %")),
+        }
+    }
+    let rays = count(own.iter().map(|judged| judged.errors.rays).max()?);
+    let right = match &right[..] {
+        [] => format!("over no triangle test are all answers right in {rays} rays"),
+        tests => format!("right in all of {rays} rays over {}", listed(tests)),
+    };
+    let wrong = if wrong.is_empty() { String::new() } else { format!("; wrong over {}", listed(&wrong)) };
+    let without = own.iter().filter(|judged| judged.errors.errors() == 0);
+    let fastest = without.min_by(|one, other| one.ns_per_ray.total_cmp(&other.ns_per_ray));
+    let fastest = fastest.map_or(String::new(), |judged| {
+        format!("; the fastest of ours without an error is {}", judged.structure.label)
+    });
+    let (scene, kind) = (of_kind.epoch.title(), of_kind.kind);
+    let key = slug(&format!("{} {kind}", of_kind.epoch.scene));
+    Some(Finding::new(key, format!("{scene}, {kind} rays: our structures are {right}{wrong}{fastest}.")))
+}

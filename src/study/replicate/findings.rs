@@ -1,0 +1,95 @@
+//! What is found again of the report.
+
+use super::BRUTE;
+use super::original::{CROWDED, DEFAULT, MAIN};
+use super::replication::{Replicated, mean};
+use crate::measure::Estimate;
+use crate::report::Finding;
+use crate::report::number::{count, plural};
+use crate::report::words::{interval, listed, slug};
+use crate::study::claims::CLAIMS;
+use crate::study::kendall::Order;
+
+/// How much faster the SAH tree is, whether the rays are the report's, and the numbers that claims are about.
+pub fn findings(main: &[Replicated], hard: &[Replicated]) -> Vec<Finding> {
+    let mut findings: Vec<Finding> = [faster(hard), rays(main)].into_iter().flatten().collect();
+    let number =
+        |key: &str, own: &Replicated, value| Finding::number(format!("{key}-{}", slug(own.report.scene)), value);
+    findings.extend(hard.iter().map(|own| number("hard", own, own.faster)));
+    let difference = |own: &Replicated| Estimate::exact(own.total() as f64 - own.report.rays as f64);
+    let theirs = main.iter().filter(|own| own.report.scene != OWN);
+    findings.extend(theirs.map(|own| number("rays", own, difference(own))));
+    findings.extend(t_prime(main).map(|factor| Finding::number("t-prime", factor)));
+    findings.extend(order(main).map(|(order, _)| Finding::number("order", order.tau)));
+    let crowded = main.iter().find(|own| own.report.scene == CROWDED.0);
+    for (key, setting) in [("crowded", DEFAULT), ("crowded-50", CROWDED.1)] {
+        let tests = crowded.and_then(|own| own.times(&setting.role())?.tests);
+        findings.extend(tests.map(|tests| Finding::number(key, Estimate::exact(tests))));
+    }
+    findings
+}
+
+fn faster(hard: &[Replicated]) -> Option<Finding> {
+    let scenes = hard.iter().map(|own| format!("{} {} times", own.title, interval(own.faster)));
+    let scenes: Vec<String> = scenes.collect();
+    let mean = mean(hard)?;
+    let told = match () {
+        () if mean.is_above(1.0) => "are faster with the SAH tree than with",
+        () if mean.holds(1.0) => "cannot be told to be faster or slower with the SAH tree than with",
+        () => "are slower with the SAH tree than with",
+    };
+    let (scenes, mean_text) = (listed(&scenes), interval(mean));
+    let sentence =
+        format!("Primary rays {told} the report's tree, by this much: {scenes}; geometric mean {mean_text}.");
+    Some(Finding::new("hard", sentence).of(mean))
+}
+
+/// So many rays may be decided otherwise at edges.
+const CLOSE: u64 = 2;
+
+/// Its creatures must not be copied: its rays are our own.
+const OWN: &str = "Starters";
+
+fn rays(main: &[Replicated]) -> Option<Finding> {
+    let off = |own: &Replicated| own.total().abs_diff(own.report.rays);
+    let told = |own: &Replicated| format!("{} is {} of {} off", own.title, count(off(own)), count(own.report.rays));
+    let far: Vec<String> = main.iter().filter(|own| off(own) > CLOSE).map(told).collect();
+    let exceptions = if far.is_empty() { String::new() } else { format!("; {}", listed(&far)) };
+    let (close, all) = (main.len() - far.len(), plural(main.len(), "scene"));
+    let sentence =
+        format!("The report's ray counts are found again to within {CLOSE} rays in {close} of {all}{exceptions}.");
+    (!main.is_empty()).then(|| Finding::new("rays", sentence))
+}
+
+/// The largest `t'` of brute force over the smallest, of all scenes.
+fn t_prime(main: &[Replicated]) -> Option<Estimate> {
+    let all: Vec<Estimate> = main.iter().filter_map(|own| Some(own.times(BRUTE)?.t_prime)).collect();
+    let by_size = |one: &&Estimate, other: &&Estimate| one.estimate.total_cmp(&other.estimate);
+    let (most, least) = (all.iter().max_by(by_size)?, all.iter().min_by(by_size)?);
+    (all.len() == MAIN.len()).then(|| most.over(*least))
+}
+
+/// The scenes by falling improvement, as expected, with their ranks.
+const ORDER: [(&str, usize); MAIN.len()] = [
+    ("Torus", 0),
+    ("Sphere", 0),
+    ("Teapot", 1),
+    ("Metallic", 2),
+    ("Cornellbox", 3),
+    ("Starters", 4),
+    ("Billards", 5),
+    ("Infinitycandy", 6),
+    ("Cube", 7),
+];
+
+/// How well the improvements have the order that was expected of them, and what surely has not: about all scenes.
+pub fn order(main: &[Replicated]) -> Option<(Order, Option<String>)> {
+    let improvement = |name: &str| main.iter().find(|own| own.report.scene == name)?.improvement;
+    let ranked = ORDER.iter().map(|&(name, rank)| Some((improvement(name)?, rank)));
+    let order = Order::of(&ranked.collect::<Option<Vec<_>>>()?, CLAIMS);
+    let reversed =
+        order.reversed.iter().map(|&[more, less]| format!("{} gains less than {}", ORDER[more].0, ORDER[less].0));
+    let reversed: Vec<String> = reversed.collect();
+    let told = (!reversed.is_empty()).then(|| format!("Surely not in the order expected: {}.", listed(&reversed)));
+    Some((order, told))
+}
