@@ -154,10 +154,7 @@ impl Studies {
     pub fn with(mut self, study: Study) -> Self {
         let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
         let name = study.name;
-        assert!(
-            !name.is_empty() && !["all", "plan"].contains(&name) && name.chars().all(plain),
-            "the name {name:?}"
-        );
+        assert!(!name.is_empty() && !["all", "plan"].contains(&name) && name.chars().all(plain), "the name {name:?}");
         assert!(self.find(name).is_none(), "there is already a study {name:?}");
         self.list.push(study);
         self

@@ -115,9 +115,17 @@ fn what_cannot_be_written_is_refused_before_the_long_run() {
 #[test]
 fn lists_and_completions_name_everything() {
     let list = prints(&["list"]);
-    for name in
-        ["Cube", "Sponza", "teapot", "median-kd", "image-shadow", "heat", "moller-trumbore", "rt-triangle", "attribution"]
-    {
+    for name in [
+        "Cube",
+        "Sponza",
+        "teapot",
+        "median-kd",
+        "image-shadow",
+        "heat",
+        "moller-trumbore",
+        "rt-triangle",
+        "attribution",
+    ] {
         assert!(list.contains(name), "{name} is not in {list}");
     }
     assert!(list.lines().count() < 24, "it fits a screen: {list}");

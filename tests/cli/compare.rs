@@ -6,10 +6,10 @@ use std::process::Stdio;
 
 use sahara::render::Picture;
 
-use super::journal::rows;
 use super::command::{
     RIGHT, SQUARE, command, path_text, prints, refuses, refuses_in_a_line, sahara, small, stderr, stdout, write,
 };
+use super::journal::rows;
 
 /// A warning or, where a run takes long, how far it has come.
 fn is_line_of_log(line: &str) -> bool {
@@ -114,7 +114,9 @@ fn tables_fit_80_columns_and_wide_ones_have_the_rest() {
     assert_eq!(names(&brief), "structure primary shadow* diffuse random x obvhs");
     let rows = brief.lines().skip_while(|line| !line.contains("structure")).take(10);
     assert!(rows.clone().all(|row| row.chars().count() <= 80), "{brief}");
-    for column in ["build", "memory", "nodes", "refs a triangle", "SAH cost", "tests", "checked", "pays off", "x median"] {
+    for column in
+        ["build", "memory", "nodes", "refs a triangle", "SAH cost", "tests", "checked", "pays off", "x median"]
+    {
         let text = fs::read_to_string(&markdown).unwrap();
         assert!(wide.contains(column) && text.contains(column), "{column}: {wide}");
         assert!(!columns(&brief).contains(column) && !brief.contains(&format!("{column}:")), "{brief}");

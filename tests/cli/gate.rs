@@ -34,7 +34,8 @@ fn gate(base: [f64; 2], branch: [f64; 2]) -> (Output, usize) {
         fs::set_permissions(&path, fs::Permissions::from_mode(0o755)).unwrap();
         path
     };
-    let (text, rays) = (write(&folder, "away.txt", &"9,9,9 0,0,1\n".repeat(64)), path_text(&folder.path().join("away.rays")));
+    let (text, rays) =
+        (write(&folder, "away.txt", &"9,9,9 0,0,1\n".repeat(64)), path_text(&folder.path().join("away.rays")));
     prints(&["rays", "import", &text, "-o", &rays, "--scene", "cube"]);
     // Each epoch is a process that starts the runner and its twin: every other two starts have the same seconds.
     let starts = "n=$(cat \"$STARTS\" 2>/dev/null || echo 0); echo $((n + 1)) > \"$STARTS\"\n\

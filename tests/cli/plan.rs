@@ -6,9 +6,7 @@ use std::process::{Command, Output, Stdio};
 
 use tempfile::TempDir;
 
-use super::command::{
-    RIGHT, command, json, prints, refuses, refuses_in_a_line, sahara, stderr, stdout,
-};
+use super::command::{RIGHT, command, json, prints, refuses, refuses_in_a_line, sahara, stderr, stdout};
 use super::journal::answers;
 
 /// A study of seconds.

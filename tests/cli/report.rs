@@ -39,12 +39,7 @@ fn a_report_is_written_whole_with_pictures_and_again_in_its_place() {
     {
         assert!(page.contains(part), "{part}");
     }
-    for file in [
-        "report.md",
-        "data/compare.csv",
-        "figures/speed-cube.svg",
-        "figures/scenes-1.png",
-    ] {
+    for file in ["report.md", "data/compare.csv", "figures/speed-cube.svg", "figures/scenes-1.png"] {
         assert!(output.join(file).is_file(), "{file}");
     }
     assert_eq!(fs::read_dir(place.path()).unwrap().count(), 1, "nothing is left beside it");

@@ -8,9 +8,7 @@ use std::process::Command;
 use serde_json::Value;
 use tempfile::TempDir;
 
-use super::command::{
-    RIGHT, WRONG, path_text, prints, refuses_in_a_line, sahara, stderr, stdout, write,
-};
+use super::command::{RIGHT, WRONG, path_text, prints, refuses_in_a_line, sahara, stderr, stdout, write};
 
 const EXAMPLE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/runner/brute_force.cpp");
 
@@ -153,7 +151,8 @@ fn a_clock_that_disagrees_with_ours_is_told_and_what_it_declines_is_not_asked() 
     let program = nothing(&folder);
     let rays = path_text(&folder.path().join("away.rays"));
     let text = write(&folder, "away.txt", &"9,9,9 0,0,1\n".repeat(100));
-    for (how, any, part) in [("liar", None, "times as long as it reports"), ("honest", Some("--any"), "declines any hit")]
+    for (how, any, part) in
+        [("liar", None, "times as long as it reports"), ("honest", Some("--any"), "declines any hit")]
     {
         let import = ["rays", "import", &text, "-o", &rays, "--scene", "cube"];
         prints(&import.into_iter().chain(any).collect::<Vec<_>>());
@@ -189,7 +188,8 @@ fn another_build_of_a_program_is_another_structure() {
     let folder = TempDir::new().unwrap();
     let program = nothing(&folder);
     let dir = path_text(&folder.path().join("runs"));
-    let own = ["-s", "sah-kd", "-w", "primary", "--rays", "256", "--epochs", "1", "--budget", "1", "--runner", &program];
+    let own =
+        ["-s", "sah-kd", "-w", "primary", "--rays", "256", "--epochs", "1", "--budget", "1", "--runner", &program];
     let run = || prints_whatever(&[&["compare", "cube", "--dir", &dir][..], &own].concat());
     let cases = || super::journal::cases(Path::new(&dir), "compare").len();
     run();

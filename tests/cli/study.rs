@@ -6,10 +6,10 @@ use std::path::Path;
 use sahara::render::Picture;
 use serde_json::Value;
 
-use super::journal;
 use super::command::{
     command, json, path_text, prints, refused_in_a_line, refuses_in_a_line, sahara, small, stderr, words,
 };
+use super::journal;
 
 #[test]
 fn accuracy_prints_exports_and_draws_what_it_finds() {
@@ -30,7 +30,10 @@ fn accuracy_prints_exports_and_draws_what_it_finds() {
     assert_eq!(rows.len(), 4, "{rows:?}");
     let wrong = |row: &Value| ["missed", "false_hits", "wrong_depth"].map(|kind| row["errors"][kind].as_u64().unwrap());
     let exact = || rows.iter().filter(|row| row["triangle_test"] == "exact");
-    assert!(exact().count() == 2 && exact().all(|row| wrong(row) == [0; 3] && row["errors"]["rays"] == 300), "{rows:?}");
+    assert!(
+        exact().count() == 2 && exact().all(|row| wrong(row) == [0; 3] && row["errors"]["rays"] == 300),
+        "{rows:?}"
+    );
     // A process has measured them, and the whole names the run.
     let provenance = &json(&export)["provenance"];
     assert_eq!(provenance["process_per_epoch"], true);

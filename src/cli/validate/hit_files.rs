@@ -12,9 +12,9 @@ use crate::accel::{DynAccel, Query};
 use crate::cli::progress::Waiting;
 use crate::geometry::{Hit, Ray};
 use crate::report::number::plural;
+use crate::request;
 use crate::scene::Scene;
 use crate::scene::files::{HitFile, RayFile};
-use crate::request;
 use crate::study::Status;
 use crate::validate::{validate_answers, validate_any_answers, watched};
 

@@ -19,8 +19,8 @@ use super::terminal::Terminal;
 use crate::accel::{BuildError, DynAccel};
 use crate::geometry::{Ray, RayTextError};
 use crate::registry::{Choice, Registry};
-use crate::scene::Scene;
 use crate::request::{self, BRUTE_FORCE, RaySource, ViewArgs, recorded};
+use crate::scene::Scene;
 use crate::study::Status;
 use crate::validate::{LIMIT, watched};
 

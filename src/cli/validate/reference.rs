@@ -11,8 +11,8 @@ use crate::geometry::{Hit, Ray};
 use crate::measure::spread;
 use crate::registry::{Choice, Registry};
 use crate::report::number::count;
-use crate::scene::Scene;
 use crate::request::{self, BRUTE_FORCE, SAH_TREE};
+use crate::scene::Scene;
 use crate::triangle::{MollerTrumbore, TriangleTest};
 use crate::validate::{Reference, Validation};
 

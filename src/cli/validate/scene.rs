@@ -10,8 +10,8 @@ use crate::cli::progress::Waiting;
 use crate::geometry::Ray;
 use crate::registry::Choice;
 use crate::report::number::plural;
-use crate::scene::{Sampling, Scene, Workload, WorkloadKind};
 use crate::request::{self, RaySource, Structures, known_defect, left_out};
+use crate::scene::{Sampling, Scene, Workload, WorkloadKind};
 use crate::study::Status;
 use crate::validate::{Stratum, Validation, validate_watched};
 
