@@ -157,7 +157,8 @@ pub fn scene_titles(dataset: &Dataset) -> Vec<String> {
 /// In one line what was measured and is not shown.
 pub fn also_measured(dataset: &Dataset) -> String {
     let Provenance { cpu, commit, date, .. } = &dataset.provenance;
-    let commands: Vec<String> = dataset.commands().into_iter().map(|line| format!("`{}`", command_line(line))).collect();
+    let commands: Vec<String> =
+        dataset.commands().into_iter().map(|line| format!("`{}`", command_line(line))).collect();
     let (scenes, day) = (listed(&scene_titles(dataset)), date.split('T').next().unwrap_or(date));
     format!("Also measured, and not shown: {scenes} on {cpu}, commit {commit}, {day} ({}).", listed(&commands))
 }
@@ -214,7 +215,10 @@ fn folder(path: &Path, studies: &Studies) -> Result<Vec<PathBuf>, RunError> {
 fn each_measured_once(cases: Vec<CaseFile>) -> Vec<CaseFile> {
     let mut kept: Vec<CaseFile> = vec![];
     for file in cases {
-        if !kept.iter().any(|own| own.epoch == file.epoch && own.case == file.case) {
+        let is_same = |own: &CaseFile| {
+            own.epoch == file.epoch && own.case == file.case && own.provenance.machine() == file.provenance.machine()
+        };
+        if !kept.iter().any(is_same) {
             kept.push(file);
         }
     }

@@ -39,14 +39,7 @@ fn a_report_is_written_whole_with_pictures_and_again_in_its_place() {
     {
         assert!(page.contains(part), "{part}");
     }
-    for file in [
-        "report.md",
-        "report.tex",
-        "data/records.csv",
-        "data/records.jsonl",
-        "figures/speed-cube.svg",
-        "figures/scenes-1.png",
-    ] {
+    for file in ["report.md", "data/compare.csv", "figures/speed-cube.svg", "figures/scenes-1.png"] {
         assert!(output.join(file).is_file(), "{file}");
     }
     assert_eq!(fs::read_dir(place.path()).unwrap().count(), 1, "nothing is left beside it");
@@ -105,7 +98,10 @@ fn results_are_written_with_the_numbers_of_the_readme_beside_them() {
     let filled = fs::read_to_string(&readme).unwrap();
     // Lines are wrapped anywhere.
     let words = filled.split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(words.contains("held against brute force") && words.contains("(`sahara replicate`)"), "{filled}");
+    assert!(
+        words.contains("held against brute force") && words.contains("(`sahara study replicate --dir runs`)"),
+        "{filled}"
+    );
     let paper = fs::read_to_string(papers.join("RESULTS.md")).unwrap();
     assert!(paper.starts_with("# Results\n") && paper.contains("Not measured in this run: "), "{paper}");
     assert!(!paper.contains(text(runs.path())), "no path of this machine");

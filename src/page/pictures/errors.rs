@@ -1,14 +1,14 @@
 //! Where answers are wrong, pixel by pixel, by exact arithmetic.
 
-use super::inspect::{inspector, most_rays};
 use super::camera_rays::{CameraRays, StructureWork};
+use super::inspect::{inspector, most_rays};
 use super::{hex, introduced};
 use crate::page::document::Section;
 use crate::render::ErrorMap;
-use crate::report::{Art, Block, Colours, Figure, Overlay, Picture, Table};
 use crate::report::inspector::Inspector;
 use crate::report::number::{count, plural};
 use crate::report::words::{listed, slug};
+use crate::report::{Art, Block, Colours, Figure, Overlay, Picture, Table};
 
 pub const TITLE: &str = "Where are answers wrong?";
 

@@ -1,17 +1,17 @@
 //! Heat maps: the work of every structure, pixel by pixel.
 
-use super::inspect::{inspector, most_rays};
 use super::camera_rays::{CameraRays, StructureWork};
+use super::inspect::{inspector, most_rays};
 use super::{hex, introduced};
 use crate::accel::Observed;
 use crate::page::document::Section;
-use crate::render::{Work, heat_colour, hottest};
 use crate::render;
-use crate::report::{Art, Block, Colours, Figure, Overlay, Picture, Table};
+use crate::render::{Work, heat_colour, hottest};
 use crate::report::inspector::Inspector;
 use crate::report::number::{count, figures};
 use crate::report::plot::tick_text;
 use crate::report::words::slug;
+use crate::report::{Art, Block, Colours, Figure, Overlay, Picture, Table};
 
 pub const TITLE: &str = "Where is the work?";
 

@@ -106,7 +106,10 @@ mod tests {
         assert!(cube.contains("rendered by sahara with the source report's cameras") && !cube.contains("--"), "{cube}");
         assert_eq!(caption("cube:stand-in", "Cube", "{}"), cube);
         let mine = caption("mine.ply", "mine", "{}");
-        assert!(mine.contains("the built-in ones with the source report's") && mine.contains("whole in view"), "{mine}");
+        assert!(
+            mine.contains("the built-in ones with the source report's") && mine.contains("whole in view"),
+            "{mine}"
+        );
         let inside = caption("mine.ply", "mine", r#"{"inside":true}"#);
         assert!(inside.ends_with("whole in view; mine is seen from within (--inside)."), "{inside}");
         let looked = caption("cube", "Cube", r#"{"camera":"0,0,9 0,0,0"}"#);

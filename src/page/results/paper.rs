@@ -33,7 +33,8 @@ pub fn text(document: &Document, runs: &Runs, run: &RunFacts) -> String {
         ("compiler", paragraph(&compiler)),
         ("results", results(document, runs)),
     ];
-    let fill = |text: String, (name, value): &(&str, String)| text.replace(&format!("{{{{{name}}}}}"), value.trim_end());
+    let fill =
+        |text: String, (name, value): &(&str, String)| text.replace(&format!("{{{{{name}}}}}"), value.trim_end());
     filled.iter().fold(FRAME.to_owned(), fill)
 }
 

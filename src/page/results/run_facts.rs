@@ -60,7 +60,9 @@ impl RunFacts {
         let days = if first == last { first.clone() } else { format!("{first} to {last}") };
         let threads = if self.threads > 1 { "one thread where no other number is named" } else { "one thread" };
         let Self { version, commit, cpu, simd, .. } = self;
-        format!("All numbers are of one run of sahara {version}, commit {commit}, on {threads} ({cpu}, {simd}), {days}.")
+        format!(
+            "All numbers are of one run of sahara {version}, commit {commit}, on {threads} ({cpu}, {simd}), {days}."
+        )
     }
 }
 

@@ -56,7 +56,8 @@ fn hard(runs: &Runs) -> Option<(Vec<Hard>, Option<Estimate>, String)> {
     }
     let (_, hard) = of(ATTRIBUTION, "whole")?;
     let times: Vec<String> = hard.iter().map(|own| format!("{} times on {}", interval(own.ratio), own.title)).collect();
-    let sentence = format!("The SAH tree traces the same primary rays faster than the report's tree: {}.", listed(&times));
+    let sentence =
+        format!("The SAH tree traces the same primary rays faster than the report's tree: {}.", listed(&times));
     Some((hard, None, sentence))
 }
 
@@ -136,8 +137,7 @@ fn chart(runs: &Runs, hard: &[Hard]) -> Stack {
     if let Some(stack) = parts.filter(has_all) {
         return stack.clone();
     }
-    let row =
-        |own: &Hard| StackRow { label: own.title.clone(), factors: vec![own.ratio.estimate], total: own.ratio };
+    let row = |own: &Hard| StackRow { label: own.title.clone(), factors: vec![own.ratio.estimate], total: own.ratio };
     Stack {
         x_title: "times as fast as the report's tree".into(),
         parts: vec!["SAH tree".into()],
@@ -159,8 +159,8 @@ fn otherwise(runs: &Runs) -> (String, Answer) {
             answer.sentences.extend(sentence("right").or_else(|| sentence("single")).map(|found| ended(&found)));
         }
     }
-    answer.sentences.push(
-        "The source report's question is not measured by these runs: `sahara replicate` measures it.".into(),
-    );
+    answer
+        .sentences
+        .push("The source report's question is not measured by these runs: `sahara replicate` measures it.".into());
     (title, answer)
 }
