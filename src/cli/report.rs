@@ -20,8 +20,8 @@ pub struct Args {
     /// Folder for the page, Markdown, figures and data; an older report there is replaced
     #[arg(long, short, value_name = "DIR", required_unless_present = "results")]
     output: Option<PathBuf>,
-    /// Write the findings of one run as a short paper into this folder, RESULTS.md, its figures and results.json, and fill
-    /// in the numbers of the README.md beside the folder, where that has marks for them
+    /// Write the findings of one run as a short paper into this folder, RESULTS.md, its figures and results.json, and
+    /// fill in the numbers of the README.md beside the folder, where that has marks for them
     #[arg(long, value_name = "DIR", num_args = 0..=1, require_equals = true, default_missing_value = "papers")]
     results: Option<PathBuf>,
     /// Leave out what must be drawn first: pictures of the scenes, heat maps and wrong answers

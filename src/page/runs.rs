@@ -51,8 +51,8 @@ pub struct Source {
 pub const NO_RUN: &str = "no run: left out";
 
 impl<'a> Runs<'a> {
-    /// Reads files, and of folders all `.json` files and those of journals in them. An export counts as the cases that it
-    /// holds; of each scene the cases that were measured last count.
+    /// Reads files, and of folders all `.json` files and those of journals in them. An export counts as the cases that
+    /// it holds; of each scene the cases that were measured last count.
     ///
     /// # Errors
     /// If there is nothing, or a file is torn, foreign or of another version.

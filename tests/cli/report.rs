@@ -92,7 +92,8 @@ fn results_are_written_with_the_numbers_of_the_readme_beside_them() {
     refuses_in_a_line(&["report", text(runs.path()), &results], &["no folder", "papers"]);
 
     fs::create_dir(&papers).unwrap();
-    let marked = "# Mine\n\nIt is: <!-- sahara: compare.checked -->?<!-- / --> And: <!-- sahara: replicate.hard -->?<!-- / -->\n";
+    let marked = "# Mine\n\nIt is: <!-- sahara: compare.checked -->?<!-- / --> \
+                  And: <!-- sahara: replicate.hard -->?<!-- / -->\n";
     fs::write(&readme, marked).unwrap();
     prints(&["report", text(runs.path()), &results]);
     let filled = fs::read_to_string(&readme).unwrap();

@@ -12,8 +12,8 @@ use crate::study::measure::guarded;
 /// The study that compares all structures.
 const COMPARE: &str = "compare";
 
-/// A picture of a scene, traced by exact arithmetic and by every structure of the comparison but brute force, whose work
-/// would darken that of all others.
+/// A picture of a scene, traced by exact arithmetic and by every structure of the comparison but brute force, whose
+/// work would darken that of all others.
 pub struct CameraRays<'a> {
     pub loaded: &'a LoadedScene,
     /// The scene as figures name it.

@@ -56,8 +56,8 @@ fn figure(camera: &CameraRays, wrong: &[(&StructureWork, ErrorMap)], right: &[&s
     Figure {
         id: format!("errors-{}", slug(&camera.loaded.scene.name)),
         caption: format!(
-            "{}: answers to {rays} that exact arithmetic finds wrong, drawn three pixels wide; right ones are grey, brighter where \
-             nearer.{right}",
+            "{}: answers to {rays} that exact arithmetic finds wrong, drawn three pixels wide; right ones are grey, \
+             brighter where nearer.{right}",
             camera.name
         ),
         alt: String::new(),

@@ -56,9 +56,9 @@ pub fn block(camera: &CameraRays) -> Option<(Block, String)> {
     let figure = Figure {
         id: format!("heat-{}", slug(&camera.loaded.scene.name)),
         caption: format!(
-            "{name}: triangle tests and steps of each camera ray, all structures on one logarithmic scale from 0 to {}, which \
-             all but one in two hundred pixels stay below. Brute force, which tests every triangle for every ray, would \
-             darken all of them and is left out.",
+            "{name}: triangle tests and steps of each camera ray, all structures on one logarithmic scale from 0 to \
+             {}, which all but one in two hundred pixels stay below. Brute force, which tests every triangle for every \
+             ray, would darken all of them and is left out.",
             count(scale)
         ),
         alt: String::new(),

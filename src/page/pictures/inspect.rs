@@ -18,7 +18,8 @@ pub fn most_rays(structures: usize) -> usize {
     NUMBERS / (structures + OF_RAY)
 }
 
-/// Everything about `pixels`, which are numbers of pixels in ascending order. `which` says in a sentence which ones they are.
+/// Everything about `pixels`, which are numbers of pixels in ascending order. `which` says in a sentence which ones
+/// they are.
 pub fn inspector(camera: &CameraRays, pixels: Vec<usize>, which: String) -> Inspector {
     let options: Vec<String> = camera.structures.iter().map(|s| format!("-s {}", s.label)).collect();
     let answers: Vec<Vec<Answer>> = pixels.iter().map(|&pixel| answers(camera, pixel)).collect();

@@ -1,4 +1,5 @@
-//! Pictures of the scenes, of the work that structures do on them and of their wrong answers: drawn when the report is made.
+//! Pictures of the scenes, of the work that structures do on them and of their wrong answers: drawn when the report is
+//! made.
 
 mod camera_rays;
 mod errors;
@@ -71,11 +72,13 @@ pub fn draw(runs: &Runs, registry: &Registry, progress: &mut dyn FnMut(String)) 
     ]
 }
 
-/// What is said of scenes with so many triangles that it would take minutes to build all structures again for a picture.
+/// What is said of scenes with so many triangles that it would take minutes to build all structures again for a
+/// picture.
 fn without(too_large: &[&LoadedScene], view: &str) -> Vec<Block> {
     let block = |own: &&LoadedScene| {
         let what = format!(
-            "A picture of the {view} view of {}: to build all structures again among so many triangles would take minutes",
+            "A picture of the {view} view of {}: to build all structures again among so many triangles would take \
+             minutes",
             own.scene.name
         );
         Block::missing(&what, &format!("sahara render {} --view {view} --structure NAME -o NAME.png", own.words()))

@@ -52,8 +52,8 @@ fn caption(loaded: &[LoadedScene]) -> String {
     let cameras = if all_builtin {
         "with the source report's cameras, lights and materials"
     } else {
-        "the built-in ones with the source report's cameras, lights and materials, those of scene files with their own, \
-         and meshes with a camera that has them whole in view"
+        "the built-in ones with the source report's cameras, lights and materials, those of scene files with their \
+         own, and meshes with a camera that has them whole in view"
     };
     let asked = loaded.iter().filter_map(|own| {
         let view = own.request.view.looks_from()?;

@@ -1,7 +1,7 @@
 //! `report --results`: the findings as a short paper, the numbers that README prints, and the file that holds them.
 //!
-//! All three are made from one run. The data file has every sentence with a number in it, by its key, and the digests of the
-//! other files: whoever changes a number by hand, or forgets a file, is told by a test.
+//! All three are made from one run. The data file has every sentence with a number in it, by its key, and the digests
+//! of the other files: whoever changes a number by hand, or forgets a file, is told by a test.
 
 mod counts;
 mod marks;
@@ -62,8 +62,8 @@ pub struct ResultsData {
     pub run: RunFacts,
     /// By key: the name of the study or part, a full stop, and the key of the finding.
     pub statements: BTreeMap<String, Statement>,
-    /// The triangle test of each structure that is compared, by its label: after a change of a default the numbers are of
-    /// another.
+    /// The triangle test of each structure that is compared, by its label: after a change of a default the numbers are
+    /// of another.
     pub tests: BTreeMap<String, String>,
     /// What structures count for primary rays, by scene and label. No machine changes it: it tells whether trees and
     /// searches are still those of the run.
@@ -84,8 +84,8 @@ pub struct Statement {
 #[derive(Debug, thiserror::Error)]
 pub enum ResultsError {
     #[error(
-        "these runs are of more than one {what} ({values}): results are of one run; measure all of it anew into a folder of \
-         its own"
+        "these runs are of more than one {what} ({values}): results are of one run; measure all of it anew into a \
+         folder of its own"
     )]
     Mixed { what: &'static str, values: String },
     #[error("README.md: {0}")]
@@ -133,7 +133,8 @@ impl Results {
         Ok(Self { data, paper, figures })
     }
 
-    /// The text of README with what it marks filled in. What it marks and no run has measured says so, here and in the data.
+    /// The text of README with what it marks filled in. What it marks and no run has measured says so, here and in the
+    /// data.
     ///
     /// # Errors
     /// If a mark is not closed, or names no statement.

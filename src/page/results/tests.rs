@@ -96,7 +96,8 @@ fn trees_and_searches_are_those_of_the_data_file() {
             assert_eq!(
                 recounted(&scene, label, rays),
                 *known,
-                "{label} on {name}: the numbers are of other trees or searches, those of commit {}; `{COMMAND}` makes them anew",
+                "{label} on {name}: the numbers are of other trees or searches, those of commit {}; `{COMMAND}` \
+                 makes them anew",
                 data.run.commit
             );
         }
@@ -189,7 +190,8 @@ fn readme_is_short() {
 
 #[test]
 fn marked_places_are_filled_in_and_wrapped() {
-    let text = "# A\n\n- **Fast.** <!-- sahara: a.b -->old\nold<!-- / --> and more.\n- Next\n\n<!-- sahara: t -->x<!-- / -->\n";
+    let text = "# A\n\n- **Fast.** <!-- sahara: a.b -->old\nold<!-- / --> and more.\n- Next\n\n\
+                <!-- sahara: t -->x<!-- / -->\n";
     assert_eq!(marked(text).unwrap()[0], ("a.b".to_owned(), "old old".to_owned()));
     let long = "word ".repeat(30);
     let filled = fill(text, |key| Some(if key == "t" { "| a |\n| - |".into() } else { long.trim().into() })).unwrap();

@@ -43,7 +43,8 @@ fn of_findings(run: &StudyRun, prefix: &str) -> Vec<Hard> {
     SCENES.into_iter().filter_map(hard).collect()
 }
 
-/// The hard scenes, their mean and a sentence on them: from `replicate`, or else from `attribution`, which tells no mean.
+/// The hard scenes, their mean and a sentence on them: from `replicate`, or else from `attribution`, which tells no
+/// mean.
 fn hard(runs: &Runs) -> Option<(Vec<Hard>, Option<Estimate>, String)> {
     let of = |study: &str, prefix: &str| {
         let run = runs.of(study)?;
@@ -123,7 +124,8 @@ fn verdict(hard: &[Hard], mean: Option<Estimate>) -> String {
     format!("{verdict}, on {}", listed(&titles))
 }
 
-/// How many times faster, scene by scene: in the parts that it is due to where `attribution` tells them, else as a whole.
+/// How many times faster, scene by scene: in the parts that it is due to where `attribution` tells them, else as a
+/// whole.
 fn chart(runs: &Runs, hard: &[Hard]) -> Stack {
     let blocks = runs.of(ATTRIBUTION).map_or(&[][..], |run| &run.report.blocks);
     let parts = blocks.iter().find_map(|block| match block {
